@@ -41,6 +41,8 @@ pub struct Station {
     /// [`HorizonMask::parse`] reads: one point a line.
     #[serde(skip_serializing_if = "Option::is_none", serialize_with = "mask_as_text")]
     pub horizon_mask: Option<HorizonMask>,
+    /// Elevation from which a pass counts, degrees 0 to 90: that of AOS and LOS.
+    pub aos_elevation_deg: f64,
     /// The elevation floor of the pass list, degrees 0 to 89.
     pub elevation_floor_deg: f64,
     /// Catalog numbers of the satellites in the pass list.
@@ -66,6 +68,10 @@ fn mask_as_text<S: Serializer>(mask: &Option<HorizonMask>, out: S) -> Result<S::
 }
 
 impl Station {
+    pub fn aos_elevation(&self) -> Angle {
+        Angle::from_degrees(self.aos_elevation_deg)
+    }
+
     pub fn elevation_floor(&self) -> Angle {
         Angle::from_degrees(self.elevation_floor_deg)
     }
@@ -78,6 +84,7 @@ impl Default for Station {
             name: "Station".to_owned(),
             site: Site::default(),
             horizon_mask: None,
+            aos_elevation_deg: 5.0,
             elevation_floor_deg: 10.0,
             favourites: vec![
                 43013, // NOAA 20

@@ -166,7 +166,8 @@ impl Engine {
     fn follow_pass(&mut self, index: usize, pass: PassKey) {
         // A pass that has ended since the request is not replaced by another.
         let Some(predicted) = self.pass(pass) else { return };
-        let follow = predicted.follow(self.station.elevation_floor());
+        let Some(antenna) = self.antennas.get(index) else { return };
+        let follow = predicted.follow(&antenna.shown.config, self.station.elevation_floor());
         self.send(index, driver::Command::ProgramTrack(Box::new(follow)));
     }
 

@@ -18,6 +18,9 @@ pub struct Sample {
     pub direction: AzEl,
 }
 
+/// A pass that begins at the minimum elevation itself is above it.
+const SAME_DEG: f64 = 0.01;
+
 /// Travel and rate of a mount, and the beam it has to keep on a satellite.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct MountLimits {
@@ -28,6 +31,8 @@ pub struct MountLimits {
     pub half_beam: Angle,
     /// `false` for a rotator of azimuth alone.
     pub has_elevation: bool,
+    /// The antenna does not point below it.
+    pub min_elevation: Angle,
 }
 
 /// How much of a pass an antenna can track.
@@ -44,6 +49,8 @@ pub enum Trackability {
     },
     /// None of it.
     Nothing,
+    /// The pass stays below the minimum elevation of the antenna.
+    TooLow,
 }
 
 /// Where an antenna loses a satellite.
@@ -59,9 +66,16 @@ pub enum Loss {
     OutOfReach,
 }
 
-/// Trackability of the pass along `samples`, which are a few seconds apart, oldest first. The
-/// antenna waits at the first of them.
+/// Trackability of the pass along `samples`, which are a few seconds apart, oldest first. It
+/// is judged by the part above the antenna's own minimum elevation; the antenna waits where
+/// that begins.
 pub fn trackability(samples: &[Sample], limits: MountLimits) -> Trackability {
+    let is_high = |sample: &Sample| {
+        sample.direction.elevation_deg() > limits.min_elevation.degrees() - SAME_DEG
+    };
+    let (first, last) = (samples.iter().position(is_high), samples.iter().rposition(is_high));
+    let (Some(first), Some(last)) = (first, last) else { return Trackability::TooLow };
+    let samples = samples.get(first..=last).unwrap_or_default();
     match limits.mount {
         Mount::Xy { .. } => xy::trackability(samples, limits),
         Mount::AzEl { .. } => az_el::trackability(samples, limits),

@@ -46,6 +46,7 @@ pub fn from_toml(mut table: Table, specs: &[&'static ControllerSpec]) -> (Statio
         name: fields.text("name", &default.name),
         site: fields.site(),
         horizon_mask: fields.horizon_mask(),
+        aos_elevation_deg: default.aos_elevation_deg,
         elevation_floor_deg: fields.number(
             "elevation_floor_deg",
             &ranges::ELEVATION_FLOOR_DEG,
@@ -57,6 +58,13 @@ pub fn from_toml(mut table: Table, specs: &[&'static ControllerSpec]) -> (Statio
         sun_avoidance: fields.sun_avoidance(),
         antennas: fields.antennas(specs),
     };
+    // Before a station had its own, its first antenna set it.
+    let of_first = station.antennas.first().map(|antenna| antenna.limits.minimum_elevation_deg);
+    station.aos_elevation_deg = fields.number(
+        "aos_elevation_deg",
+        &ranges::ELEVATION_DEG,
+        of_first.unwrap_or(default.aos_elevation_deg),
+    );
     // Keep-outs name antennas.
     station.keep_outs = fields.keep_outs(&station.antennas);
     fields.name_the_unknown();

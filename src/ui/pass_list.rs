@@ -49,6 +49,8 @@ pub struct PassRow<'a> {
     pub los_azimuth_deg: f64,
     /// Trackability; `None` while unknown.
     pub verdict: Option<Verdict<'a>>,
+    /// Seconds above the horizon mask; `None` where it cuts nothing off.
+    pub clear_s: Option<f64>,
     /// The path over the sky, oldest first.
     pub path: &'a [Sample],
 }
@@ -64,6 +66,13 @@ pub enum Verdict<'a> {
         seconds: f64,
         /// Place where the loss begins.
         at: Loss,
+    },
+    /// The mount tracks the whole pass, but the horizon mask blocks the beam.
+    Blocked {
+        /// Blocked time.
+        seconds: f64,
+        /// No part is clear of it.
+        is_whole: bool,
     },
     /// The mount can follow, but the unit would miss according to its own settings.
     Misses,
@@ -97,6 +106,10 @@ impl<'a> Verdict<'a> {
     fn sentence(self) -> Cow<'a, str> {
         match self {
             Self::Trackable => "Trackable".into(),
+            Self::Blocked { is_whole: true, .. } => "Never clear of the mask".into(),
+            Self::Blocked { seconds, .. } => {
+                format!("Blocked by the mask for {}", format::duration(seconds)).into()
+            }
             Self::Misses => "The unit would miss".into(),
             Self::NotPossible(sentence) => sentence.into(),
             Self::InMaintenance => "In maintenance".into(),
@@ -122,6 +135,8 @@ pub struct PassListModel<'a> {
     pub scope: Scope,
     /// Span of the list.
     pub span_h: u32,
+    /// Elevation of AOS and LOS.
+    pub aos_elevation_deg: f64,
     /// The elevation floor.
     pub floor_deg: f64,
     /// State of the search for the list.

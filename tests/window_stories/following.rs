@@ -153,8 +153,8 @@ fn the_selected_pass_and_the_later_ones_are_followed() {
     let of = |number: u32| passes.iter().filter(move |predicted| predicted.number() == number);
     let rises_again = |predicted: &&PredictedPass| of(predicted.number()).count() > 1;
     let first = passes.iter().find(rises_again).unwrap();
-    let floor = model.station.elevation_floor();
-    let follow = first.follow(floor);
+    let (antenna, floor) = (&model.antennas[0].config, model.station.elevation_floor());
+    let follow = first.follow(antenna, floor);
     assert_eq!(follow.target.catalog_number(), Some(first.number()));
     let listed: Vec<_> = of(first.number()).collect();
     assert!(follow.passes.len() > listed.len(), "a week ahead, whatever is listed");
@@ -164,7 +164,7 @@ fn the_selected_pass_and_the_later_ones_are_followed() {
     }
 
     let fixed = passes.iter().find(|predicted| predicted.is_always_up()).unwrap();
-    assert_eq!(fixed.follow(floor).passes, []);
+    assert_eq!(fixed.follow(antenna, floor).passes, []);
 }
 
 /// Commands after choosing this entry of the menu beside Track.

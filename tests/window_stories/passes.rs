@@ -213,7 +213,7 @@ fn the_span_cuts_the_list_and_leaves_strip_and_next_pass_alone() {
     let (all, listed) = (model.pass_lists.favourites.passes.len(), model.upcoming().len());
     assert!(0 < listed && listed < all);
     let mut window = rig::window(LARGE, model);
-    window.get_by_label(&format!("Next passes, {listed}"));
+    window.get_by_label(&format!("Next passes, {listed} · AOS at 5°"));
     Arc::make_mut(&mut window.state_mut().model.pass_lists.favourites.passes).clear();
     settle(&mut window);
     assert!(says(&window, "No pass in the next 6 h. Choose a lower elevation."));

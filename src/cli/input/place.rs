@@ -7,7 +7,6 @@ use anyhow::{Context as _, anyhow, bail};
 use super::InputOptions;
 use crate::{
     astro::{Angle, Site},
-    engine::passes::Observer,
     makes,
     station::{self, NoteReason, Station},
 };
@@ -45,9 +44,7 @@ impl InputOptions {
         )?;
         Ok(Place {
             site,
-            aos_elevation: station
-                .as_ref()
-                .map_or(Angle::ZERO, |station| Observer::of(station).aos_elevation),
+            aos_elevation: station.as_ref().map_or(Angle::ZERO, Station::aos_elevation),
             floor: station.as_ref().map_or(Angle::ZERO, Station::elevation_floor),
             name: station.map(|station| station.name),
         })

@@ -7,9 +7,9 @@ use jiff::Timestamp;
 
 use super::PassKey;
 use crate::{
-    astro::{Angle, Site, time::add_seconds},
+    astro::{Angle, HorizonMask, Site, time::add_seconds},
     orbit::{Elements, Pass, PassSearch, Propagator, passes},
-    plan::{MountLimits, ProgramTrack, Sample, Target, Trackability, trackability},
+    plan::{MountLimits, ProgramTrack, Sample, Target, Trackability, clear_time_s, trackability},
     station::{Antenna, Station},
 };
 
@@ -42,19 +42,17 @@ pub struct Observer {
     pub site: Site,
     /// Elevation of AOS and LOS.
     pub aos_elevation: Angle,
+    pub horizon_mask: Option<HorizonMask>,
     /// Mount limits of the antennas, in their order.
     pub antennas: Vec<MountLimits>,
 }
 
 impl Observer {
-    /// The observer of a station; its first antenna sets the horizon.
     pub fn of(station: &Station) -> Self {
-        let antenna = station.antennas.first();
         Self {
             site: station.site,
-            aos_elevation: Angle::from_degrees(
-                antenna.map_or(0.0, |antenna| antenna.limits.minimum_elevation_deg),
-            ),
+            aos_elevation: station.aos_elevation(),
+            horizon_mask: station.horizon_mask.clone(),
             antennas: station.antennas.iter().map(mount_limits).collect(),
         }
     }
@@ -73,6 +71,8 @@ pub struct PredictedPass {
 #[derive(Debug, Clone)]
 struct Outline {
     path: Vec<Sample>,
+    /// Seconds above the horizon mask; `None` where it cuts nothing off.
+    clear_s: Option<f64>,
     /// By the index of the antenna.
     trackability: Vec<Trackability>,
     track: OnceLock<Vec<Sample>>,
@@ -88,27 +88,32 @@ impl PredictedPass {
         (self.number(), self.pass.aos.time)
     }
 
-    /// The program track for this pass and, in the next days, later passes of its satellite
-    /// that reach `floor`.
-    pub fn follow(&self, floor: Angle) -> ProgramTrack {
-        let mut los = self.pass.los.time;
-        // The end of the search has cut this pass: look for its true LOS.
-        let from = if self.pass.ends_after { self.pass.tca.time } else { los };
-        let search = PassSearch {
-            aos_elevation: self.observer.aos_elevation,
+    /// The program track of an antenna for this pass and, in the next days, later passes of
+    /// its satellite that reach `floor`: each from AOS, or from where it rises above the
+    /// antenna's own minimum elevation.
+    pub fn follow(&self, antenna: &Antenna, floor: Angle) -> ProgramTrack {
+        let lowest_deg = antenna.limits.minimum_elevation_deg;
+        let aos_elevation =
+            Angle::from_degrees(self.observer.aos_elevation.degrees().max(lowest_deg));
+        let search = |from, floor| PassSearch {
+            aos_elevation,
             floor,
             ..PassSearch::new(self.observer.site, from, add_seconds(from, LATER_S))
         };
+        let found = |search| passes(&self.satellite.propagator, &search, &|| false);
         let mut spans = Vec::new();
         if !self.is_always_up() {
-            let found = passes(&self.satellite.propagator, &search, &|| false);
-            if let Some(whole) = found.first().filter(|_| self.pass.ends_after)
-                && whole.starts_before
-            {
-                los = whole.los.time;
-            }
-            let later = found.iter().filter(|pass| !pass.starts_before);
-            spans.push((self.pass.aos.time, los));
+            // The end of the search may have cut this pass: it goes on to its true LOS.
+            let until = if self.pass.ends_after { None } else { Some(self.pass.los.time) };
+            let of_this = found(search(self.pass.aos.time, aos_elevation));
+            let of_this = of_this.iter().take_while(|stay| match until {
+                Some(until) => stay.aos.time < until,
+                None => stay.starts_before || stay.aos.time <= self.pass.tca.time,
+            });
+            spans.extend(of_this.map(|stay| (stay.aos.time, stay.los.time)));
+            let from = spans.last().map_or(self.pass.los.time, |(_, los)| *los);
+            let later = found(search(from, floor));
+            let later = later.iter().filter(|pass| !pass.starts_before);
             spans.extend(later.map(|pass| (pass.aos.time, pass.los.time)));
         }
         let elements = Box::new(self.satellite.elements.clone());
@@ -142,6 +147,11 @@ impl PredictedPass {
         &self.outline().path
     }
 
+    /// Seconds above the horizon mask; `None` where it cuts nothing off.
+    pub fn clear_s(&self) -> Option<f64> {
+        self.outline().clear_s
+    }
+
     /// Trackability of the pass with this antenna; `None` without one.
     pub fn trackability(&self, antenna: usize) -> Option<Trackability> {
         self.outline().trackability.get(antenna).copied()
@@ -151,7 +161,10 @@ impl PredictedPass {
         self.outline.get_or_init(|| {
             let track = self.sampled();
             let antennas = self.observer.antennas.iter();
+            let mask = self.observer.horizon_mask.as_ref();
+            let clear_s = mask.map(|mask| clear_time_s(&track, mask));
             Box::new(Outline {
+                clear_s: clear_s.filter(|clear_s| *clear_s < self.pass.duration_s() - 1.0),
                 trackability: antennas.map(|limits| trackability(&track, *limits)).collect(),
                 path: thinned(&track),
                 track: OnceLock::new(),
@@ -179,6 +192,7 @@ fn mount_limits(antenna: &Antenna) -> MountLimits {
         maximum_rate_deg_s: antenna.limits.maximum_rate_deg_s,
         half_beam: Angle::from_degrees(antenna.beam_width_deg / 2.0),
         has_elevation: antenna.connection.variant().capabilities.has_elevation(),
+        min_elevation: Angle::from_degrees(antenna.limits.minimum_elevation_deg),
     }
 }
 
@@ -223,6 +237,47 @@ mod tests {
                 assert_eq!(predicted.trackability(index), Some(trackability(track, *limits)));
             }
         }
+    }
+
+    #[test]
+    fn aos_is_that_of_the_site_and_each_antenna_is_judged_by_its_own_minimum() {
+        let elements = bundled().unwrap().get(25_544).unwrap().clone();
+        let propagator = Propagator::new(&elements).unwrap();
+        let from: Timestamp = "2026-08-12T00:00:00Z".parse().unwrap();
+        let mut station = Station { aos_elevation_deg: 2.0, ..demo() };
+        for (antenna, lowest_deg) in station.antennas.iter_mut().zip([30.0, 60.0, 0.0]) {
+            antenna.limits.minimum_elevation_deg = lowest_deg;
+            antenna.mount = Antenna::genius("", "").mount;
+        }
+        let observer = Arc::new(Observer::of(&station));
+        let search = PassSearch {
+            aos_elevation: observer.aos_elevation,
+            ..PassSearch::new(station.site, from, add_seconds(from, 86_400.0))
+        };
+        let elevation_at = |time| {
+            let look = propagator.look_from(station.site, time).unwrap();
+            look.direction.elevation_deg()
+        };
+        let between = |pass: &Pass| (40.0..55.0).contains(&pass.max_elevation().degrees());
+        let pass = passes(&propagator, &search, &|| false).into_iter().find(between).unwrap();
+        assert!((elevation_at(pass.aos.time) - 2.0).abs() < 0.01);
+        let satellite = Arc::new(ListedSatellite { elements, propagator: propagator.clone() });
+        let predicted = PredictedPass::new(satellite, pass, observer);
+        assert_eq!(predicted.trackability(1), Some(Trackability::TooLow));
+        assert_ne!(predicted.trackability(0), Some(Trackability::TooLow));
+        for (antenna, lowest_deg) in station.antennas.iter().zip([30.0, 60.0, 2.0]) {
+            let track = predicted.follow(antenna, Angle::from_degrees(10.0));
+            for (aos, los) in &track.passes {
+                assert!((elevation_at(*aos) - lowest_deg).abs() < 0.01, "{lowest_deg}");
+                assert!((elevation_at(*los) - lowest_deg).abs() < 0.01, "{lowest_deg}");
+            }
+            let is_this = track.passes.first().is_some_and(|(aos, _)| *aos < pass.los.time);
+            assert_eq!(is_this, lowest_deg < 60.0);
+        }
+    }
+
+    fn demo() -> Station {
+        Station::demo(&DemoAddresses::default())
     }
 
     #[test]

@@ -52,6 +52,21 @@ fn a_station_comes_back_as_it_was_saved() {
 }
 
 #[test]
+fn a_station_without_an_aos_elevation_keeps_that_of_its_first_antenna() {
+    let antenna = "[[antenna]]\n[antenna.connection]\ncontroller = 'satrak'\naddress = 'h:1'\n\
+                   [antenna.limits]\nminimum_elevation_deg = 12.5\n";
+    for (text, wanted_deg) in [
+        (antenna.to_owned(), 12.5),
+        (format!("aos_elevation_deg = 3\n{antenna}"), 3.0),
+        ("name = 'No antenna'".to_owned(), Station::default().aos_elevation_deg),
+    ] {
+        let (_folder, path) = written(&text);
+        let station = load(&path).unwrap().station;
+        assert!((station.aos_elevation_deg - wanted_deg).abs() < 1e-9, "{text}");
+    }
+}
+
+#[test]
 fn a_bad_field_costs_only_itself() {
     let (_folder, path) = written(
         "name = 'Here'\nelevation_floor_deg = 'ten'\nelevtion = 3\n\
@@ -247,7 +262,7 @@ fn a_serial_port_is_for_an_rc2000c_alone() {
 
 /// Station file with antennas of every make. It must stay readable for ever.
 const WRITTEN: &str = include_str!("station.toml");
-/// The same station from before antennas had ids.
+/// The same station from before antennas had ids and stations an AOS elevation.
 const BEFORE_IDS: &str = include_str!("station-before-ids.toml");
 
 #[test]

@@ -98,6 +98,7 @@ mod tests {
             },
             maximum_rate_deg_s,
             half_beam: Angle::from_degrees(1.0),
+            min_elevation: Angle::ZERO,
             has_elevation: true,
         }
     }

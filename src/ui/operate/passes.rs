@@ -64,6 +64,7 @@ pub(super) fn list(
         selected: selected_key(model),
         scope: model.list.scope,
         span_h: model.list.span_h(),
+        aos_elevation_deg: model.station.aos_elevation_deg,
         floor_deg: model.station.elevation_floor_deg,
         work,
         made: listing.made_at.map(|at| (listing.satellites.len(), at)),
@@ -83,9 +84,18 @@ pub(in crate::ui) fn pass_row<'a>(model: &Model, predicted: &'a PredictedPass) -
     let verdict = trackability.map(|trackability| match trackability {
         _ if in_maintenance => Verdict::InMaintenance,
         Trackability::Whole | Trackability::Loses { .. } if misses => Verdict::Misses,
-        Trackability::Whole => Verdict::Trackable,
+        Trackability::Whole => match predicted.clear_s() {
+            Some(clear_s) => Verdict::Blocked {
+                seconds: pass.duration_s() - clear_s,
+                is_whole: clear_s <= 0.0,
+            },
+            None => Verdict::Trackable,
+        },
         Trackability::Loses { seconds, at } => Verdict::Loses { seconds, at },
         Trackability::Nothing => Verdict::NotPossible("Not possible: the mount cannot follow"),
+        Trackability::TooLow => {
+            Verdict::NotPossible("Not possible: below the antenna's minimum elevation")
+        }
     });
     PassRow {
         key: predicted.key(),
@@ -98,6 +108,7 @@ pub(in crate::ui) fn pass_row<'a>(model: &Model, predicted: &'a PredictedPass) -
         aos_azimuth_deg: pass.aos.direction.azimuth_deg(),
         los_azimuth_deg: pass.los.direction.azimuth_deg(),
         verdict,
+        clear_s: predicted.clear_s(),
         path: predicted.path(),
     }
 }
@@ -209,7 +220,7 @@ pub(super) fn timeline(
             los: predicted.pass.los.time,
             max_elevation_deg: predicted.pass.max_elevation().degrees(),
             loses: matches!(of(predicted), Some(Trackability::Loses { .. })),
-            possible: of(predicted) != Some(Trackability::Nothing),
+            possible: !matches!(of(predicted), Some(Trackability::Nothing | Trackability::TooLow)),
         })
         .collect();
     let lane = model.antenna().map_or("Passes", |antenna| antenna.config.name.as_str());

@@ -49,6 +49,9 @@ pub(super) fn show(
     let title = paint::text(ui, at, Align2::LEFT_CENTER, "Next passes", text::small_strong(), t.t1);
     let floor = floors(ui, first, model, commands);
     let count = format::number(model.rows as f64, 0);
+    let decimals = usize::from(model.aos_elevation_deg.fract() != 0.0);
+    let aos = format::degrees(model.aos_elevation_deg, decimals);
+    let count = format!("{count} · AOS at {aos}");
     let left = first.with_min_x(title.right() + GAP).with_max_x(floor.left() - GAP / 2.0);
     let count_place = paint::text_in(ui, left, Align2::LEFT_CENTER, &count, text::small(), t.t3);
     paint::name_text(ui, "title", title | count_place, &format!("Next passes, {count}"));

@@ -19,11 +19,6 @@ pub(super) enum Phase {
 }
 
 impl Phase {
-    /// Returns `true` if the satellite is up now and the pass has a LOS.
-    pub(super) fn is_in_progress(self) -> bool {
-        matches!(self, Self::InProgress | Self::NoLos)
-    }
-
     pub(super) fn of(row: &PassRow<'_>, now: Timestamp) -> Self {
         if row.starts_before && row.ends_after {
             Self::AllTheTime
@@ -73,9 +68,14 @@ pub(super) fn azimuths(row: &PassRow<'_>) -> String {
     format!("{from} → {to}")
 }
 
-/// Duration of the pass, with ">" if one end is outside the list. Empty if both are.
+/// Duration of the pass, with ">" if one end is outside the list and behind the time clear of
+/// the mask where that is shorter. Empty if both ends are outside.
 pub(super) fn duration(row: &PassRow<'_>) -> String {
     let known = format::duration(seconds_between(row.aos, row.los));
+    let known = match row.clear_s {
+        Some(clear_s) => format!("clear {} of {known}", format::duration(clear_s)),
+        None => known,
+    };
     match (row.starts_before, row.ends_after) {
         (false, false) => known,
         (true, true) => String::new(),
@@ -128,6 +128,7 @@ mod tests {
             aos_azimuth_deg: 249.0,
             los_azimuth_deg: 46.0,
             verdict: Some(Verdict::Loses { seconds: 11.4, at: Loss::Keyhole(Angle::ZERO) }),
+            clear_s: None,
             path: &[],
         }
     }
@@ -150,6 +151,18 @@ mod tests {
     }
 
     #[test]
+    fn the_mask_moves_no_time_and_is_told_beside_the_duration() {
+        let cut = PassRow {
+            clear_s: Some(283.0),
+            verdict: Some(Verdict::Blocked { seconds: 317.0, is_whole: false }),
+            ..row(false, false)
+        };
+        assert_eq!(duration(&cut), "clear 4:43 of 10:00");
+        assert_eq!(aos_time(&cut), aos_time(&row(false, false)));
+        assert!(spoken_at(&cut, -60.0).ends_with("Blocked by the mask for 5:17"));
+    }
+
+    #[test]
     fn an_end_outside_the_list_is_not_invented() {
         let early = row(true, false);
         assert_eq!(azimuths(&early), "… → 046°");
@@ -168,7 +181,7 @@ mod tests {
             assert!(spoken_at(&row, seconds).starts_with("ISS, up all the time, max 52°"));
         }
         assert_eq!(azimuths(&row) + &duration(&row) + &aos_time(&row), "");
-        assert!(!Phase::of(&row, AOS).is_in_progress());
+        assert_eq!(Phase::of(&row, AOS), Phase::AllTheTime);
     }
 
     #[test]

@@ -27,8 +27,6 @@ const GAP: f32 = 12.0;
 const LINES: [f32; 3] = [20.0, 38.5, 56.0];
 /// Distance from the maximum elevation to the azimuths.
 const AZIMUTHS: f32 = 62.0;
-/// Width kept for the duration.
-const DURATION: f32 = 80.0;
 /// Gap between columns.
 const COLUMN_GAP: f32 = 8.0;
 /// Thickness of the bar of the selected row and of the progress line.
@@ -47,7 +45,7 @@ pub(super) struct Look {
 pub(super) fn paint(ui: &Ui, rect: Rect, row: &PassRow<'_>, now: Timestamp, look: Look) -> bool {
     let t = theme::tokens(ui);
     let phase = Phase::of(row, now);
-    ground(ui, rect, phase, look, t);
+    ground(ui, rect, look, t);
     let mut left = rect.left() + PADDING;
     if look.thumbnail {
         let at =
@@ -75,8 +73,8 @@ pub(super) fn paint(ui: &Ui, rect: Rect, row: &PassRow<'_>, now: Timestamp, look
     name_cut || verdict_cut
 }
 
-fn ground(ui: &Ui, rect: Rect, phase: Phase, look: Look, t: &Tokens) {
-    let fill = match (look.selected || phase.is_in_progress(), look.hovered) {
+fn ground(ui: &Ui, rect: Rect, look: Look, t: &Tokens) {
+    let fill = match (look.selected, look.hovered) {
         (true, _) => t.bgsel,
         (false, true) => t.bg3,
         (false, false) => Color32::TRANSPARENT,
@@ -119,10 +117,11 @@ fn shape_line(ui: &Ui, rect: Rect, row: &PassRow<'_>, t: &Tokens) {
     let maximum = format!("max {}", format::degrees(row.max_elevation_deg, 0));
     let room = rect.with_max_x(rect.left() + AZIMUTHS);
     paint::text_in(ui, room, Align2::LEFT_CENTER, &maximum, small(), t.t2);
-    let room = rect.with_min_x(room.right()).with_max_x(rect.right() - DURATION - COLUMN_GAP);
+    let duration = phase::duration(row);
+    let at = rect.right_center();
+    let duration = paint::text(ui, at, Align2::RIGHT_CENTER, duration, small(), t.t2);
+    let room = rect.with_min_x(room.right()).with_max_x(duration.left() - COLUMN_GAP);
     paint::text_in(ui, room, Align2::LEFT_CENTER, &phase::azimuths(row), small(), t.t2);
-    let room = rect.with_min_x(rect.right() - DURATION);
-    paint::text_in(ui, room, Align2::RIGHT_CENTER, &phase::duration(row), small(), t.t2);
 }
 
 /// Paints verdict and time of AOS. Returns `true` if the verdict was cut.
@@ -138,7 +137,9 @@ fn verdict_line(ui: &Ui, rect: Rect, row: &PassRow<'_>, t: &Tokens) -> bool {
 pub(super) fn verdict_in(ui: &Ui, rect: Rect, verdict: Verdict<'_>, t: &Tokens) -> bool {
     let (icon, mark, colour) = match verdict {
         Verdict::Trackable => (Icon::Check, t.ok, t.t2),
-        Verdict::Loses { .. } | Verdict::Misses => (Icon::Warning, t.warn, t.warn),
+        Verdict::Loses { .. } | Verdict::Blocked { .. } | Verdict::Misses => {
+            (Icon::Warning, t.warn, t.warn)
+        }
         Verdict::NotPossible(_) => (Icon::Cross, t.bad, t.bad),
         Verdict::InMaintenance => (Icon::Lock, t.warn, t.warn),
     };

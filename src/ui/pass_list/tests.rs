@@ -79,6 +79,7 @@ fn pass(index: usize, path: &[Sample]) -> PassRow<'_> {
             2 => Some(Verdict::NotPossible("Not possible: below the travel")),
             _ => None,
         },
+        clear_s: None,
         path,
     }
 }
@@ -103,6 +104,7 @@ fn window(desk: Desk) -> Harness<'static, Desk> {
             rows: desk.rows,
             row: &row,
             place: &|key| (0..rows).find(|index| key_of(index + gone) == key),
+            aos_elevation_deg: 5.0,
             scope: desk.scope,
             span_h: desk.span_h,
             work: desk.work,
@@ -288,7 +290,7 @@ fn the_choices_in_the_head_never_touch() {
         let desk = Desk { scope: Scope::All, thumbnails, ..Desk::with(98_765) };
         let window = window(desk);
         let place = |name| window.get_by_label(name).rect();
-        let count = place("Next passes, 98\u{2009}765");
+        let count = place("Next passes, 98\u{2009}765 · AOS at 5°");
         assert!(count.right() < place("Lowest maximum elevation: max ≥ 10°").left());
         assert!(place("All").right() < place("Filter the list").left());
         assert!(place("Filter the list").right() < place("How far ahead: 48 h").left());
@@ -306,7 +308,7 @@ fn an_empty_list_says_so() {
 fn only_rows_in_view_are_asked_for() {
     let mut window = window(Desk::with(1000));
     window.run();
-    window.get_by_label("Next passes, 1000");
+    window.get_by_label("Next passes, 1000 · AOS at 5°");
     assert!(window.state().highest.get() < 12, "{}", window.state().highest.get());
     assert!(window.get_all_by_role(Role::ListBoxOption).count() < 12);
 }

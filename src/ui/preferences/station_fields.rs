@@ -17,6 +17,7 @@ pub(super) struct Ground {
     latitude_deg: f64,
     longitude_deg: f64,
     altitude_m: f64,
+    aos_elevation_deg: f64,
     elevation_floor_deg: f64,
     favourites: Vec<u32>,
     on_close: Option<OnClose>,
@@ -30,6 +31,7 @@ impl Ground {
             latitude_deg: rounded(site.latitude().degrees()),
             longitude_deg: rounded(site.longitude().degrees()),
             altitude_m: site.altitude_m(),
+            aos_elevation_deg: station.aos_elevation_deg,
             elevation_floor_deg: station.elevation_floor_deg,
             favourites: station.favourites.clone(),
             on_close: station.on_close,
@@ -42,6 +44,7 @@ impl Ground {
             site: Site::new(self.latitude_deg, self.longitude_deg, self.altitude_m).ok()?,
             name: self.name,
             horizon_mask: None,
+            aos_elevation_deg: self.aos_elevation_deg,
             elevation_floor_deg: self.elevation_floor_deg,
             favourites: self.favourites,
             on_close: self.on_close,
@@ -68,6 +71,14 @@ pub(super) fn all() -> Vec<Placed<Ground>> {
             Some(&mut ground.longitude_deg)
         }),
         Of::number("Altitude", -1000.0..=10_000.0, "m", |ground| Some(&mut ground.altitude_m)),
+        Of::number("AOS elevation", ranges::ELEVATION_DEG, "°", |ground| {
+            Some(&mut ground.aos_elevation_deg)
+        })
+        .noted(|_| {
+            let words = "A pass begins and ends there. The mask and an antenna's own minimum \
+                         elevation cut it further.";
+            Some(words.to_owned())
+        }),
         Of::number("Elevation floor", ranges::ELEVATION_FLOOR_DEG, "°", |ground| {
             Some(&mut ground.elevation_floor_deg)
         }),
