@@ -5,6 +5,7 @@ mod antenna;
 mod connection;
 mod controller_spec;
 mod file;
+mod frequency;
 mod keep_out;
 mod lock_outs;
 mod mount;
@@ -19,6 +20,7 @@ pub use connection::Connection;
 pub(crate) use connection::check_address;
 pub use controller_spec::{ControllerSpec, Link, Usual};
 pub use file::{LoadError, Loaded, SaveError, load, save, settings_path};
+pub use frequency::Frequency;
 pub use keep_out::{Entered, KeepOut, SunAvoidance};
 pub use lock_outs::{LOCK_OUTS_FILE, LockOut, LockOuts};
 pub use mount::Mount;
@@ -47,6 +49,9 @@ pub struct Station {
     pub elevation_floor_deg: f64,
     /// Catalog numbers of the satellites in the pass list.
     pub favourites: Vec<u32>,
+    /// Frequencies of satellites, of which each may have several.
+    #[serde(rename = "frequency", skip_serializing_if = "Vec::is_empty")]
+    pub frequencies: Vec<Frequency>,
     /// Action on the antennas when the program ends; `None` asks the operator.
     #[serde(rename = "close", skip_serializing_if = "Option::is_none")]
     pub on_close: Option<OnClose>,
@@ -104,6 +109,7 @@ impl Default for Station {
                 27424, // Aqua
                 44334, // Eutelsat 7C
             ],
+            frequencies: Vec::new(),
             on_close: None,
             keep_outs: Vec::new(),
             sun_avoidance: None,

@@ -97,6 +97,7 @@ fn commands_of_antennas() -> Vec<driver::Command> {
         C::WriteSettings(change),
         C::LockOut(lock_out),
         C::Unlock,
+        C::TakeOver,
         C::Ask("STATUS?".into()),
     ];
     for command in &all {
@@ -112,6 +113,7 @@ fn commands_of_antennas() -> Vec<driver::Command> {
             | C::Step { .. }
             | C::Position { .. }
             | C::Track(_)
+            | C::TakeOver
             | C::ProgramTrack(_)
             | C::ProgramTrackIntoSun(_)
             | C::Resume

@@ -373,6 +373,7 @@ impl Session {
             lock_out: self.gate.lock_out().cloned(),
             locking: self.is_being_locked_out(),
             stop: self.stop.shown(now.steady),
+            runs_out: self.stop.is_under_way(),
             unguarded: self.guard.is_missing,
             inside: self.inside(now),
             sun_lifted: self.activity.program().is_some() && self.gate.lifts_sun(),

@@ -47,6 +47,8 @@ pub struct Snapshot {
     pub locking: bool,
     /// The stop button.
     pub stop: StopState,
+    /// A motion that this program has ended is not known to have come to rest.
+    pub runs_out: bool,
     /// No dead-man could be had for the last motion by hand that needed one.
     pub unguarded: bool,
     /// It is where it must not point.
@@ -83,6 +85,7 @@ impl Snapshot {
             lock_out: None,
             locking: false,
             stop: StopState::Ready,
+            runs_out: false,
             unguarded: false,
             inside: None,
             sun_lifted: false,

@@ -19,7 +19,7 @@ use crate::{
     astro::{Angle, AzEl, Site, time::seconds_between},
     clock::Instant,
     device::{Measured, Phase, Variant, panel::Act, settings::Group},
-    driver::{Event, Intent, Snapshot, StopState},
+    driver::{Event, Intent, LinkState, Snapshot, StopState},
     plan::{Sample, TrackPhase, on_board::KnownOrbit},
     station::{Antenna, AntennaId, ControllerSpec},
 };
@@ -240,6 +240,32 @@ impl AntennaModel {
         })
     }
 
+    /// Returns `true` if the unit tracks, or is about to, by a program that this console has
+    /// not started or taken over.
+    pub fn tracks_unasked(&self) -> bool {
+        self.is_live() && self.is_program_on() && self.snapshot.intent != Intent::Track
+    }
+
+    /// Name of the target that is tracked, or about to be; `None` where nothing is, or the
+    /// unit does not name it.
+    pub fn tracked_name(&self) -> Option<&str> {
+        let snapshot = &self.snapshot;
+        if self.follows() {
+            return snapshot.program_track.as_ref().map(|view| view.name.as_str());
+        }
+        let on_board = snapshot.state.on_board.satellite.as_ref().map(|held| held.name.as_str());
+        if self.is_program_on() {
+            return on_board;
+        }
+        let target = snapshot.target.as_ref().map(|target| target.name.as_str());
+        target.filter(|_| snapshot.intent == Intent::Track)
+    }
+
+    fn is_program_on(&self) -> bool {
+        let program = self.snapshot.state.program;
+        program.is_some_and(|it| it.enabled && it.phase != Phase::Completed)
+    }
+
     /// Returns `true` while a target is tracked, on board or by this program.
     pub fn tracks(&self) -> bool {
         let snapshot = &self.snapshot;
@@ -273,9 +299,15 @@ impl AntennaModel {
         })
     }
 
-    /// Error of the last measurement against the prediction for its time.
+    /// Returns `true` while the unit answers in time. Else what was measured is old.
+    pub fn is_live(&self) -> bool {
+        matches!(self.snapshot.link, LinkState::Up { .. })
+    }
+
+    /// Error of the last measurement against the prediction for its time; `None` while that
+    /// measurement is old.
     pub fn error(&self) -> Option<ErrorSample> {
-        let prediction = self.prediction?;
+        let prediction = self.prediction.filter(|_| self.is_live())?;
         let measured = self.snapshot.state.measured?;
         let pointing = measured.pointing;
         let azimuth = (pointing.azimuth? - prediction.direction.azimuth).wrapped_180();

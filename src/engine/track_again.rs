@@ -134,6 +134,7 @@ fn chooses_something_else(command: &driver::Command) -> bool {
             | driver::Command::MoveAway
             | driver::Command::ProgramTrackIntoSun(_)
             | driver::Command::Track(_)
+            | driver::Command::TakeOver
             | driver::Command::Park
             | driver::Command::Resume
             | driver::Command::Act(_)

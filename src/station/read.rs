@@ -9,7 +9,7 @@ use std::ops::RangeInclusive;
 use serde::{Deserialize, Serialize};
 use toml::{Table, Value};
 
-use super::{Antenna, AntennaId, ControllerSpec, OnClose, Station, ranges};
+use super::{Antenna, AntennaId, ControllerSpec, Frequency, OnClose, Station, ranges};
 use crate::astro::{HorizonMask, Site};
 
 /// An entry of the file that was not taken over as it stands.
@@ -53,6 +53,7 @@ pub fn from_toml(mut table: Table, specs: &[&'static ControllerSpec]) -> (Statio
             10.0,
         ),
         favourites: fields.favourites(default.favourites),
+        frequencies: fields.frequencies(),
         on_close: fields.on_close(),
         keep_outs: Vec::new(),
         sun_avoidance: fields.sun_avoidance(),
@@ -146,6 +147,50 @@ impl Fields<'_> {
             self.invalid("favourites", error.message());
             default
         })
+    }
+
+    fn frequencies(&mut self) -> Vec<Frequency> {
+        let tables = match self.table.remove("frequency") {
+            None => return Vec::new(),
+            Some(Value::Array(tables)) => tables,
+            Some(_) => {
+                self.invalid("frequency", "must be a list of tables");
+                return Vec::new();
+            }
+        };
+        let mut frequencies = Vec::new();
+        for (index, value) in tables.into_iter().enumerate() {
+            let place = format!("frequency[{index}]");
+            let Value::Table(mut table) = value else {
+                self.invalid(&place, "must be a table");
+                continue;
+            };
+            let path = format!("{place}.");
+            let mut fields = Fields { table: &mut table, path, notes: Vec::new() };
+            frequencies.extend(fields.frequency());
+            fields.name_the_unknown();
+            self.notes.append(&mut fields.notes);
+        }
+        frequencies
+    }
+
+    /// Reads a frequency. Satellite and MHz are required; they have no default.
+    fn frequency(&mut self) -> Option<Frequency> {
+        let name = match self.table.remove("name") {
+            Some(Value::String(name)) => name,
+            None => String::new(),
+            Some(_) => {
+                self.invalid("name", "must be a text");
+                String::new()
+            }
+        };
+        let mhz = self.number("mhz", &ranges::FREQUENCY_MHZ, 0.0);
+        let number = self.table.remove("satellite").and_then(|number| number.as_integer());
+        let Some(satellite) = number.and_then(|number| u32::try_from(number).ok()) else {
+            self.invalid("satellite", "must be a catalogue number");
+            return None;
+        };
+        (mhz > 0.0).then_some(Frequency { satellite, mhz, name })
     }
 
     fn antennas(&mut self, specs: &[&'static ControllerSpec]) -> Vec<Antenna> {

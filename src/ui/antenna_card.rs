@@ -1,6 +1,5 @@
 //! The card of the selected antenna: its activity, its position and its controls.
 
-mod again;
 mod drive;
 mod faults;
 mod follow;
@@ -9,6 +8,7 @@ mod holds;
 mod lock_out;
 mod lower;
 mod more;
+mod offer;
 mod others;
 mod readings;
 mod released;
@@ -23,7 +23,7 @@ use super::{
     icons::Icon,
     text, theme,
     widgets::{
-        axes_table::{self, AxisRow, WantedColumn},
+        axes_table::{self, AxesTable},
         beam_bar::{self, BeamModel},
         button,
         go_to::Target,
@@ -46,6 +46,7 @@ pub use holds::WayOutModel;
 pub use lock_out::LockOutModel;
 pub use more::MoreModel;
 use more::MoreState;
+pub use offer::Offer;
 pub use others::OtherAntenna;
 pub use track::{TrackModel, TrackState};
 
@@ -64,13 +65,8 @@ pub struct CardModel<'a> {
     /// The state sentence.
     pub sentence: Sentence<'a>,
     /// The target tracked until STOP, offered to be tracked again.
-    pub track_again: Option<&'a str>,
-    /// Content of the second column of the axes table.
-    pub wanted: WantedColumn,
-    /// Decimals of commanded and measured angles, at most two.
-    pub decimals: usize,
-    /// The axes in which the unit takes commands.
-    pub axes: &'a [AxisRow<'a>],
+    pub offer: Option<Offer<'a>>,
+    pub axes: AxesTable<'a>,
     /// Pointing error and beam; none if the antenna has no demanded direction.
     pub beam: Option<BeamModel>,
     /// The axes of the mount; empty for a unit that does not report them.
@@ -191,6 +187,8 @@ pub enum CardAction {
     TrackSelected,
     /// Track again the target whose tracking STOP ended.
     TrackAgain,
+    /// Take over what the unit tracks by itself.
+    TakeOver,
     /// Track the selected satellite although the unit would miss it.
     TrackAnyway,
     /// Program-track this target.
@@ -260,10 +258,10 @@ fn fill(
     header::show(ui, &mut at, &model.header, rect, short, actions);
 
     at.skip(if short { 10.0 } else { 12.0 });
-    let foot = if model.track_again.is_some() { again::HEIGHT } else { 0.0 };
+    let foot = if model.offer.is_some() { offer::HEIGHT } else { 0.0 };
     let block = sentence::show(ui, at.at(), at.width(), foot, &model.sentence);
-    if let Some(name) = model.track_again {
-        again::show(ui, block, name, actions);
+    if let Some(offer) = model.offer {
+        offer::show(ui, block, offer, actions);
     }
     at.y = block.bottom() + if short { 6.0 } else { 10.0 };
     if let Some(lock_out) = &model.lock_out {
@@ -274,8 +272,8 @@ fn fill(
         released::show(ui, &mut at, &model.header, actions);
     }
 
-    let table = at.take(axes_table::height(model.axes.len()));
-    axes_table::show(ui, table, model.wanted, model.decimals, model.axes);
+    let table = at.take(axes_table::height(model.axes.axes.len()));
+    axes_table::show(ui, table, &model.axes);
     if let Some(beam) = &model.beam {
         beam_bar::show(ui, at.take(beam_bar::HEIGHT), beam);
     }

@@ -155,6 +155,13 @@ pub fn time_z(at: Timestamp) -> String {
     format!("{}Z", time(at))
 }
 
+/// UTC as hh:mm:ssZ, with its day before it where that is not the day of `now`.
+pub fn moment(at: Timestamp, now: Timestamp) -> String {
+    let [at, now] = [at, now].map(|time| time.to_zoned(TimeZone::UTC));
+    let day = if at.date() == now.date() { "" } else { "%-d %b " };
+    at.strftime(&format!("{day}%H:%M:%SZ")).to_string()
+}
+
 /// UTC as hh:mm.
 pub fn hours_minutes(at: Timestamp) -> String {
     at.to_zoned(TimeZone::UTC).strftime("%H:%M").to_string()

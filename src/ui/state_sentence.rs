@@ -153,7 +153,7 @@ fn program(model: &Model, antenna: &AntennaModel) -> Option<Spoken> {
             Some(match starts {
                 Some(start) => spoken.plain(format!(
                     ". Its tracking starts at {} in {}.",
-                    format::time_z(start),
+                    format::moment(start, model.now),
                     format::time_left(seconds_between(model.now, start))
                 )),
                 None => spoken.plain(". Its tracking window is not open."),
@@ -191,7 +191,8 @@ fn tracking(model: &Model, antenna: &AntennaModel, name: &str) -> Spoken {
     let off_deg = error.off_beam.degrees();
     let after = match antenna.snapshot.state.on_board.window {
         Some((_, stop)) if stop > model.now => {
-            format!(" At LOS {} it stops and holds.", format::time_z(stop))
+            let what = if sets(model, antenna) { "At LOS" } else { "It does not set; at" };
+            format!(" {what} {} it stops and holds.", format::moment(stop, model.now))
         }
         _ => String::new(),
     };
@@ -205,6 +206,14 @@ fn tracking(model: &Model, antenna: &AntennaModel, name: &str) -> Spoken {
         format::degrees(off_deg, 2),
         format::degrees(antenna.config.beam_width_deg, 2)
     ))
+}
+
+/// Returns `false` if the tracked satellite is known to stay up within the list.
+fn sets(model: &Model, antenna: &AntennaModel) -> bool {
+    let Some(number) = antenna.tracked_number() else { return true };
+    let lists = [&model.pass_lists.favourites, &model.pass_lists.all];
+    let mut listed = lists.into_iter().flat_map(|list| list.passes.iter());
+    !listed.any(|it| it.number() == number && it.in_progress(model.now) && it.pass.ends_after)
 }
 
 fn by_hand(antenna: &AntennaModel) -> Option<Spoken> {
@@ -249,6 +258,12 @@ fn jogging(antenna: &AntennaModel, axis: &str, rate_deg_s: f64) -> String {
 
 fn standing(model: &Model, antenna: &AntennaModel) -> Spoken {
     let state = &antenna.snapshot.state;
+    if antenna.snapshot.runs_out {
+        return Spoken::new(SentenceKind::Holding).plain(format!(
+            "Coming to rest{}: this console has ended the motion.",
+            place(antenna)
+        ));
+    }
     if state.measured.is_some_and(|measured| measured.moving()) {
         return Spoken::new(SentenceKind::Caution)
             .plain("Moving, not by this console. Somebody else drives it, or a motion runs out.");

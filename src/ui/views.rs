@@ -16,6 +16,7 @@ use super::{
     map::{self, MapLayers},
     operate, preferences, rail,
     rail::RailEntry,
+    second_step,
     sky_plot::Layers,
     timeline::Zoom,
     top_bar,
@@ -146,6 +147,10 @@ impl Views {
         if let Some(question) = self.antennas.ask_before_leaving(model, before, commands) {
             self.question = Some(question);
             // Enter answers the question, rather than ending the typing behind it.
+            ui.memory_mut(egui::Memory::stop_text_input);
+        }
+        if let Some(question) = second_step::ask(model, before, commands) {
+            self.question = Some(question);
             ui.memory_mut(egui::Memory::stop_text_input);
         }
         let answered = commands.len();

@@ -3,7 +3,7 @@
 use azel::{
     astro::{Angle, AzEl, time},
     device::{Phase, TrackTarget, settings::Value},
-    driver::{Command, Event, Refusal},
+    driver::{Command, Event, Intent, Refusal},
     orbit::{PassSearch, Propagator, passes},
     plan::{
         Bounds, OnBoardPass, Supervision,
@@ -332,6 +332,48 @@ async fn what_the_unit_tracks_unasked_is_watched_like_what_it_was_asked_to() {
     rig.until("watched again", 2, |shown| shown.on_board.is_some()).await;
     by_another(&rig, "TRACK=,0").await;
     rig.until("over", 5, |shown| shown.on_board.is_none()).await;
+}
+
+#[tokio::test(start_paused = true)]
+async fn what_the_unit_tracks_unasked_is_taken_over_without_a_motion() {
+    let mut rig = read().await;
+    rig.send(Command::TakeOver);
+    rig.seconds(1.0).await;
+    assert_eq!(rig.events(), [Event::NotSent(Refusal::PassUnknown)], "nothing is tracked");
+    chosen_by_another(&mut rig, &iss()).await;
+    by_another(&rig, "TRACK=,1").await;
+    rig.until_event(5, |event| *event == Event::StartedByItself).await;
+    rig.until("it is watched", 2, |shown| shown.on_board.is_some()).await;
+    let orders = |rig: &Rig| {
+        let received = rig.control.received();
+        received.into_iter().filter(|(_, frame)| !frame.contains('?')).count()
+    };
+    let before = orders(&rig);
+    rig.send(Command::TakeOver);
+    rig.until("it is ours", 2, |shown| shown.intent == Intent::Track).await;
+    assert_eq!(rig.shown().target.as_ref().map(|target| target.catalog_number), Some(25_544));
+    rig.seconds(30.0).await;
+    assert_eq!(orders(&rig), before, "nothing was sent but questions");
+    assert!(rig.control.state().is_tracking && rig.shown().on_board.is_some());
+    rig.send(Command::Manual);
+    rig.until("ended like any other track", 5, |_| true).await;
+    rig.seconds(3.0).await;
+    assert!(!rig.control.state().is_tracking);
+}
+
+#[tokio::test(start_paused = true)]
+async fn a_track_that_misses_is_not_taken_over() {
+    let mut rig = read().await;
+    stand_elsewhere(&mut rig).await;
+    general(&mut rig, "minimum_elevation_deg", Value::Decimal(5.0)).await;
+    chosen_by_another(&mut rig, &iss()).await;
+    by_another(&rig, "TRACK=,1").await;
+    rig.until("it is watched", 10, |shown| shown.on_board.is_some()).await;
+    rig.events();
+    rig.send(Command::TakeOver);
+    rig.until_event(5, |event| matches!(event, Event::WouldMiss { .. })).await;
+    assert_ne!(rig.shown().intent, Intent::Track);
+    assert!(rig.shown().on_board.is_some(), "it is watched on");
 }
 
 #[tokio::test(start_paused = true)]

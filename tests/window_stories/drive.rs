@@ -77,7 +77,8 @@ fn m_asks_while_tracking_and_only_then() {
         let mut window = rig::window(size, rig::model(states::tracking(0.0)));
         window.key_press(Key::M);
         assert_eq!(asked(&mut window), []);
-        window.get_by_label("End tracking and move by hand?");
+        window.get_by_label_contains("Satrak tracks NOAA 20 until");
+        window.get_by_label_contains("Moving by hand ends that.");
         window.key_press(Key::Enter);
         assert_eq!(asked(&mut window), [antenna(Command::Manual)]);
     }
@@ -147,7 +148,7 @@ fn g_chooses_position_and_asks_while_tracking() {
         let mut window = rig::window(size, rig::model(states::tracking(0.0)));
         window.key_press(Key::G);
         assert_eq!(asked(&mut window), []);
-        window.get_by_label("End tracking and go to a direction?");
+        window.get_by_label_contains("Position ends that.");
         window.key_press(Key::Enter);
         assert_eq!(asked(&mut window), [antenna(Command::Hold)]);
     }

@@ -7,10 +7,12 @@ use azel::{
     station::AntennaId,
 };
 
+use egui::Key;
+
 use crate::window_stories::{
     rig::{self, LARGE, SIZES, Window, asked},
     settings::{group, settles},
-    settings_desk::{apply, change, desk, hold, press, read, says, state_of, texts},
+    settings_desk::{apply, change, desk, press, read, says, state_of, texts},
     states,
 };
 
@@ -28,10 +30,12 @@ fn the_window_of_the_selected_pass_is_filled_in_to_be_applied() {
 }
 
 #[test]
-fn automatic_tracking_is_switched_on_by_holding_and_off_at_once() {
+fn automatic_tracking_is_switched_on_after_a_question_and_off_at_once() {
     for size in SIZES {
         let mut window = desk(size, read());
-        hold(&mut window, "Hold 1 s to switch on");
+        press(&mut window, "Switch on…");
+        assert_eq!(asked(&mut window), []);
+        window.key_press(Key::Enter);
         let asked_for = |on| UiCommand::antenna(AntennaId(1), Command::AutoTrack(on));
         assert_eq!(asked(&mut window), [asked_for(true)]);
         for (auto, wanted) in [(Some(true), "On"), (None, "Not told")] {

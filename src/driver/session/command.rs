@@ -60,6 +60,9 @@ pub enum Command {
     },
     /// Let the device track a pass by itself.
     Track(Box<OnBoardPass>),
+    /// Take over what the unit tracks by itself, without a motion: its satellite is known
+    /// here, and it points there.
+    TakeOver,
     /// Follow a target position by position, also where the device could track by
     /// itself.
     ProgramTrack(Box<ProgramTrack>),
@@ -141,6 +144,7 @@ impl Session {
                 self.go_to(motion, Intent::Park, now);
             }
             Command::Track(pass) => self.track(*pass, now),
+            Command::TakeOver => self.take_over(now),
             Command::ProgramTrack(follow) => self.follow_as_agreed(*follow, false, now),
             Command::ProgramTrackIntoSun(follow) => self.follow_as_agreed(*follow, true, now),
             Command::AutoTrack(true) => {
@@ -234,6 +238,26 @@ impl Session {
         }
         self.unasked = None;
         let stage = OnBoardStage::LoadQueued;
+        self.activity = Activity::OnBoardTrack(Box::new(OnBoardTrack { target, watch, stage }));
+    }
+
+    fn take_over(&mut self, now: Moment) {
+        let is_on = self.gate.state().program.is_some_and(|program| program.enabled);
+        let Some(watch) = self.unasked.take().filter(|_| is_on) else {
+            return self.tell(Event::NotSent(Refusal::PassUnknown));
+        };
+        let checked = match watch.would_miss() {
+            None => self.gate.check_pass(watch.judge(), now).map_err(Event::NotSent),
+            Some(event) => Err(event),
+        };
+        if let Err(event) = checked {
+            self.unasked = Some(watch);
+            return self.tell(event);
+        }
+        let target = watch.judge().pass().target.clone();
+        self.key = JogKey::Up;
+        let stage = OnBoardStage::Tracking;
+        self.tell(Event::Tracking(target.clone()));
         self.activity = Activity::OnBoardTrack(Box::new(OnBoardTrack { target, watch, stage }));
     }
 

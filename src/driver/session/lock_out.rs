@@ -116,6 +116,7 @@ impl Session {
             | Command::ProgramTrackIntoSun(_)
             | Command::MoveAway
             | Command::Park
+            | Command::TakeOver
             | Command::AutoTrack(_) => true,
             // With a link the gate refuses these.
             Command::Act(_) | Command::ActUnseen(_) => !self.contact.link.is_open(),

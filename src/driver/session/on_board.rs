@@ -48,6 +48,10 @@ impl Watch {
         }
     }
 
+    pub(super) fn judge(&self) -> &Arc<Judge> {
+        &self.judge
+    }
+
     pub(super) fn view(&self) -> OnBoardView {
         OnBoardView { found: Arc::clone(&self.found), missing: self.missing }
     }
@@ -70,12 +74,14 @@ impl Watch {
 
     /// Why the unit is not to be started on the pass.
     fn objection(&self) -> Option<Event> {
-        let pass = self.judge.pass();
-        let is_refused = !self.found.is_within_beam && !pass.is_agreed;
-        is_refused.then(|| Event::WouldMiss {
-            name: pass.target.name.clone(),
-            found: Arc::clone(&self.found),
-        })
+        self.would_miss().filter(|_| !self.judge.pass().is_agreed)
+    }
+
+    /// That the unit would not point at the satellite, or does not.
+    pub(super) fn would_miss(&self) -> Option<Event> {
+        let name = self.judge.pass().target.name.clone();
+        let missed = (!self.found.is_within_beam).then(|| Arc::clone(&self.found));
+        missed.map(|found| Event::WouldMiss { name, found })
     }
 }
 

@@ -2,6 +2,7 @@ use super::*;
 use crate::{
     device::{JogSpeeds, panel::Check},
     ui::widgets::{
+        axes_table::{AxisRow, WantedColumn},
         jog_pad::{JogDirection, JogKeys},
         link_chip::LinkGlyph,
         sentence::{SentenceKind, Span},
@@ -51,29 +52,33 @@ fn model() -> CardModel<'static> {
             status: LinkStatus::Connected,
         },
         sentence: Sentence { kind: SentenceKind::Tracking, spans: &SPANS },
-        wanted: WantedColumn::Command,
-        decimals: 2,
-        axes: &[
-            AxisRow {
-                name: "Az",
-                wanted_deg: Some(185.55),
-                actual_deg: Some(185.51),
-                error_deg: Some(-0.04),
-                rate_deg_s: Some(0.14),
-            },
-            AxisRow {
-                name: "El",
-                wanted_deg: None,
-                actual_deg: None,
-                error_deg: None,
-                rate_deg_s: None,
-            },
-        ],
+        axes: AxesTable {
+            wanted: WantedColumn::Command,
+            decimals: 2,
+            age: None,
+            axes: &[
+                AxisRow {
+                    name: "Az",
+                    wanted_deg: Some(185.55),
+                    actual_deg: Some(185.51),
+                    error_deg: Some(-0.04),
+                    rate_deg_s: Some(0.14),
+                },
+                AxisRow {
+                    name: "El",
+                    wanted_deg: None,
+                    actual_deg: None,
+                    error_deg: None,
+                    rate_deg_s: None,
+                },
+            ],
+        },
         beam: Some(BeamModel { error_deg: Some(0.04), half_beam_deg: 0.44 }),
         travel: &TRAVEL,
         modes: ModeModel {
             offered: &mode_selector::ALL,
             current: Some(Intent::Track),
+            is_foreign: false,
             pending: None,
         },
         track: Some(TrackModel {
@@ -85,6 +90,7 @@ fn model() -> CardModel<'static> {
             misses: None,
             note: None,
             auto_track: Some(true),
+            ends: None,
             follow: None,
         }),
         drive: DriveModel {
@@ -111,7 +117,7 @@ fn model() -> CardModel<'static> {
         asks_standing: None,
         asks_unseen: None,
         way_out: None,
-        track_again: None,
+        offer: None,
         others: &[],
     }
 }
@@ -262,7 +268,7 @@ fn track_and_auto_track_are_one_click() {
     window.get_by_label("The unit holds: NOAA 20");
     window.get_by_role_and_label(Role::Button, "Track METEOR-M2 4").click();
     window.run();
-    window.get_by_role_and_label(Role::Button, "Auto-track off").click();
+    window.get_by_role_and_label(Role::Button, "Auto-track: switch off").click();
     window.run();
     let wanted = [CardAction::TrackSelected, CardAction::SetAutoTrack(false)];
     assert_eq!(window.state().actions, wanted);

@@ -39,6 +39,8 @@ pub struct TrackModel<'a> {
     pub note: Option<&'a str>,
     /// The unit starts passes by itself; none if it cannot.
     pub auto_track: Option<bool>,
+    /// Target of the track that parking would end.
+    pub ends: Option<&'a str>,
     /// Other targets for program track, if any.
     pub follow: Option<FollowModel<'a>>,
 }
@@ -76,7 +78,7 @@ pub(super) fn row(
     at.skip(8.0);
     let mut row = at.take(button::HEIGHT);
     if let Some(question) = state.question(model) {
-        return question_row(ui, row, question, state, actions);
+        return question_row(ui, row, question, model.ends, state, actions);
     }
     if let Some(follow) = model.follow.as_ref().filter(|_| model.refusal.is_none()) {
         let key = row.with_min_x(row.right() - follow::WIDTH);
@@ -141,6 +143,7 @@ fn question_row(
     ui: &Ui,
     row: Rect,
     question: Question,
+    ends: Option<&str>,
     state: &mut TrackState,
     actions: &mut Vec<CardAction>,
 ) {
@@ -148,10 +151,14 @@ fn question_row(
         Question::Park => ("Hold 1 s to park", CardAction::SetMode(Intent::Park)),
         Question::Sun => ("Hold 1 s to follow the Sun", CardAction::Follow(FollowChoice::IntoSun)),
     };
+    let words = match ends {
+        Some(name) => format!("{words}, ends {name}"),
+        None => words.to_owned(),
+    };
     let cancel = Button::quiet("Cancel");
     let split = row.right() - cancel.width(ui);
     let hold = row.with_max_x(split - 8.0);
-    if hold_button::show(ui, hold, words, &mut state.hold) {
+    if hold_button::show(ui, hold, &words, &mut state.hold) {
         actions.push(action);
         *state = TrackState::default();
     }
@@ -219,17 +226,17 @@ fn caution_row(ui: &Ui, at: &mut Cursor, salt: &str, words: &str) {
 
 fn auto_track_row(ui: &Ui, row: Rect, on: bool, actions: &mut Vec<CardAction>) {
     let t = theme::tokens(ui);
-    let (state, word) = if on {
-        ("Auto-track is on", "Auto-track off")
-    } else {
-        ("Auto-track is off", "Auto-track on")
-    };
+    let (state, word) =
+        if on { ("Auto-track: on", "Switch off") } else { ("Auto-track: off", "Switch on…") };
     paint::text(ui, row.left_center(), Align2::LEFT_CENTER, state, text::small(), t.t2);
     let button = Button::normal(word);
     let place = row.with_min_x(row.right() - button.width(ui));
     let said = Rect::from_min_max(row.min, pos2(place.left() - 8.0, row.bottom()));
     paint::name_text(ui, "auto-track state", said, state);
-    if button.show(ui, "auto-track", place).clicked() {
+    let response = button.show(ui, "auto-track", place);
+    let said = format!("Auto-track: {}", if on { "switch off" } else { "switch on" });
+    response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Button, true, &said));
+    if response.clicked() {
         actions.push(CardAction::SetAutoTrack(!on));
     }
 }

@@ -20,7 +20,7 @@ use crate::{
     device::settings::{Access, Change, Group, Guard, Hindrance, Values},
     driver::Command,
     model::UiCommand,
-    ui::{copies::Taken, format, source_test::SourceTestState, widgets::hold_button::HoldState},
+    ui::{copies::Taken, format, source_test::SourceTestState},
 };
 
 /// Time within which the session shows a change that it was given.
@@ -36,7 +36,6 @@ pub(super) struct Form {
     pub(super) report: Report,
     /// Source of elements on display; `None` for the one in use.
     pub(super) tab: Option<&'static str>,
-    pub(super) auto_hold: HoldState,
     /// Time of the request for automatic tracking.
     pub(super) auto_asked: Option<Timestamp>,
     /// Show the password that is being typed.

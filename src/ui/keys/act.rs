@@ -74,7 +74,7 @@ impl Act {
                 commands.extend(model.next_pass().map(|next| UiCommand::SelectPass(next.key())));
             }
             Self::Drawer => desk.operate.drawer_open = !desk.operate.drawer_open,
-            Self::Track => *desk.question = ask_to_track(model),
+            Self::Track => *desk.question = ask_to_track(model, commands),
             Self::GoTo => go_to(model, desk, commands),
             Self::Manual => manual(model, desk, commands),
             Self::Rate(by) => {
@@ -112,40 +112,35 @@ impl Act {
 
 fn manual(model: &Model, desk: &mut Desk<'_>, commands: &mut Vec<UiCommand>) {
     let Some(antenna) = model.antenna() else { return };
-    let manual = UiCommand::antenna(antenna.id(), driver::Command::Manual);
-    if antenna.tracks() {
-        *desk.question = Some(Question {
-            text: "End tracking and move by hand?".to_owned(),
-            yes: "Manual",
-            command: manual,
-        });
-    } else {
-        commands.push(manual);
+    commands.push(UiCommand::antenna(antenna.id(), driver::Command::Manual));
+    if antenna.tracked_name().is_none() {
         desk.operate.card.drive.focus_pad();
     }
 }
 
 /// Focuses the go-to fields. They are open in Position only, which is selected first if
-/// nothing is running.
+/// another mode is on.
 fn go_to(model: &Model, desk: &mut Desk<'_>, commands: &mut Vec<UiCommand>) {
     let Some(antenna) = model.antenna().filter(|of| of.snapshot.link.is_open()) else { return };
-    let hold = UiCommand::antenna(antenna.id(), driver::Command::Hold);
+    let is_tracked = antenna.tracked_name().is_some();
     let intent = antenna.snapshot.intent;
-    // A slip of the finger must not end on-board track either.
-    if antenna.tracks() || intent == Intent::Track {
-        let text = "End tracking and go to a direction?".to_owned();
-        *desk.question = Some(Question { text, yes: "Position", command: hold });
-        return;
+    if is_tracked || matches!(intent, Intent::Standby | Intent::Track) {
+        commands.push(UiCommand::antenna(antenna.id(), driver::Command::Hold));
     }
-    if intent == Intent::Standby {
-        commands.push(hold);
+    if !is_tracked {
+        desk.operate.card.drive.go_to.focus();
     }
-    desk.operate.card.drive.go_to.focus();
 }
 
-fn ask_to_track(model: &Model) -> Option<Question> {
-    let antenna = model.antenna()?;
-    let predicted = model.selected_pass()?;
+/// Asks before it tracks; what that ends is asked by the second step.
+fn ask_to_track(model: &Model, commands: &mut Vec<UiCommand>) -> Option<Question> {
+    let (antenna, predicted) = (model.antenna()?, model.selected_pass()?);
+    let track = UiCommand::track_selected(model)?;
+    let is_other = antenna.tracked_number() != Some(predicted.number());
+    if is_other && antenna.tracked_name().is_some() {
+        commands.push(track);
+        return None;
+    }
     Some(Question {
         text: format!(
             "Track {} with {}? The antenna moves.",
@@ -153,6 +148,6 @@ fn ask_to_track(model: &Model) -> Option<Question> {
             antenna.config.name
         ),
         yes: "Track",
-        command: UiCommand::track_selected(model)?,
+        command: track,
     })
 }

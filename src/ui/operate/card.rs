@@ -9,7 +9,7 @@ use egui::{Align2, Rect, Ui};
 use self::{asked::Desk, locks::Locks};
 use super::antenna_card::{
     self, CardAction, CardModel, CardState, DriveModel, FaultsModel, FollowModel, HeaderModel,
-    LinkStatus, LockOutModel, MoreModel, OtherAntenna, TrackModel, WayOutModel,
+    LinkStatus, LockOutModel, MoreModel, Offer, OtherAntenna, TrackModel, WayOutModel,
 };
 use crate::{
     astro::Angle,
@@ -26,7 +26,7 @@ use crate::{
         state_sentence::{short, state_sentence},
         text, theme,
         widgets::{
-            axes_table::WantedColumn,
+            axes_table::{AxesTable, WantedColumn},
             beam_bar::BeamModel,
             button::Button,
             go_to::Target,
@@ -54,6 +54,10 @@ pub(super) fn show(
     let measured = snapshot.state.measured;
     let second_line = second_line(antenna);
     let table = axes::table(antenna);
+    let age = measured.filter(|_| !antenna.is_live()).map(|measured| {
+        let age = model.steady.saturating_duration_since(measured.received);
+        format::age(age.as_secs_f64())
+    });
     let wanted = if snapshot.aim.is_none() && antenna.prediction.is_some() {
         WantedColumn::Predicted
     } else {
@@ -68,7 +72,8 @@ pub(super) fn show(
     let jog_note = axes::unseen(antenna);
     let travel = axes::travel(antenna);
     let modes = modes(can);
-    let mode = snapshot.intent;
+    let is_foreign = antenna.tracks_unasked();
+    let mode = if is_foreign { Intent::Track } else { snapshot.intent };
     let commanded = [0, 1].map(|index| table.get(index).and_then(|row: &axes::Row| row.wanted_deg));
     let [misses, note] = on_board(model, antenna);
     let asks_unseen = antenna.asks_unseen.as_ref().and_then(|act| make.action(act.action));
@@ -90,10 +95,9 @@ pub(super) fn show(
                 in_maintenance: snapshot.lock_out.is_some(),
             },
             sentence: *sentence,
-            track_again: antenna.track_again.as_ref().map(|again| short(&again.name)),
-            wanted,
-            decimals,
-            axes: &table,
+            offer: offer(antenna),
+
+            axes: AxesTable { wanted, decimals, age: age.as_deref(), axes: &table },
             // Kept also without a prediction: the keys below must not jump.
             beam: Some(BeamModel {
                 error_deg: antenna.error().map(|error| error.off_beam.degrees()),
@@ -103,6 +107,7 @@ pub(super) fn show(
             modes: ModeModel {
                 offered: &modes,
                 current: (!snapshot.pending && snapshot.link != LinkState::Off).then_some(mode),
+                is_foreign,
                 pending: snapshot.pending.then_some(mode),
             },
             track: modes.contains(&Intent::Track).then(|| TrackModel {
@@ -162,6 +167,15 @@ pub(super) fn none(ui: &mut Ui, rect: Rect, model: &Model, commands: &mut Vec<Ui
     if button.show(ui, "set up antenna", place).clicked() {
         commands.push(UiCommand::Show(View::Preferences));
     }
+}
+
+/// The line below the sentence: a track to take up again, or to take over.
+fn offer(antenna: &AntennaModel) -> Option<Offer<'_>> {
+    let again = antenna.track_again.as_ref().map(|again| Offer::TrackAgain(short(&again.name)));
+    let name = antenna.tracked_name().filter(|_| antenna.tracks_unasked());
+    // Where the elements are not known here, there is nothing to watch it by.
+    let taken = name.filter(|_| antenna.snapshot.on_board.is_some());
+    again.or(taken.map(|name| Offer::TakeOver(short(name))))
 }
 
 fn second_line(antenna: &AntennaModel) -> String {
@@ -255,6 +269,7 @@ fn track<'a>(
         held: held.map(short),
         selected: selected.map(|predicted| predicted.satellite.short_name()),
         tracks_selected,
+        ends: antenna.tracked_name().map(short),
         refusal: locks.track,
         misses: None,
         note: None,

@@ -85,10 +85,9 @@ pub(in crate::ui) fn pass_row<'a>(model: &Model, predicted: &'a PredictedPass) -
         _ if in_maintenance => Verdict::InMaintenance,
         Trackability::Whole | Trackability::Loses { .. } if misses => Verdict::Misses,
         Trackability::Whole => match predicted.clear_s() {
-            Some(clear_s) => Verdict::Blocked {
-                seconds: pass.duration_s() - clear_s,
-                is_whole: clear_s <= 0.0,
-            },
+            Some(clear_s) => {
+                Verdict::Blocked { seconds: pass.duration_s() - clear_s, is_whole: clear_s <= 0.0 }
+            }
             None => Verdict::Trackable,
         },
         Trackability::Loses { seconds, at } => Verdict::Loses { seconds, at },
@@ -164,7 +163,7 @@ pub(super) fn header(ui: &mut Ui, rect: Rect, model: &Model, small: bool) -> boo
 
 /// The second line of the header, most important first: the end is cut in a small window.
 fn second_line(model: &Model, predicted: &PredictedPass, age_s: f64) -> String {
-    let mask = model.sky.mask_cut.cut().map(clear_of_mask);
+    let mask = model.sky.mask_cut.cut().map(|stretches| clear_of_mask(stretches, model.now));
     let elements = Some(format!("elements {} old", format::age(age_s)));
     let order = if age_s > words::OLD_ELEMENTS_S { [elements, mask] } else { [mask, elements] };
     let mut parts: Vec<String> = order.into_iter().flatten().collect();
@@ -187,13 +186,13 @@ fn second_line(model: &Model, predicted: &PredictedPass, age_s: f64) -> String {
 }
 
 /// The times in which a pass is clear of the horizon mask.
-fn clear_of_mask(stretches: &[Pass]) -> String {
+fn clear_of_mask(stretches: &[Pass], now: Timestamp) -> String {
     let (Some(first), Some(last)) = (stretches.first(), stretches.last()) else {
         return "never clear of the mask".to_owned();
     };
     let parts =
         if stretches.len() > 1 { format!(" in {} parts", stretches.len()) } else { String::new() };
-    let (from, to) = (format::time_z(first.aos.time), format::time_z(last.los.time));
+    let [from, to] = [first.aos.time, last.los.time].map(|time| format::moment(time, now));
     format!("clear of the mask{parts} {from} to {to}")
 }
 

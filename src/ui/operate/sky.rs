@@ -19,8 +19,6 @@ use crate::{
     },
 };
 
-/// Carrier for the shown Doppler shift.
-const CARRIER_HZ: f64 = 437.0e6;
 /// Minimum height of a plot for the full readout.
 const FULL_READOUT_FROM: f32 = 520.0;
 /// Span of the errors in the beam view.
@@ -112,12 +110,16 @@ fn readout(model: &Model, full: bool) -> Vec<(&'static str, String)> {
     let motion = [
         ("Range", format!("{} km", format::number(look.range_km, 0))),
         ("Rate", format!("{} km/s", format::signed(look.range_rate_km_s, 2))),
-        (
-            "Doppler",
-            format!("{} kHz\nat 437 MHz", format::signed(look.doppler_hz(CARRIER_HZ) / 1e3, 2)),
-        ),
     ];
-    direction.into_iter().chain(motion.into_iter().filter(|_| full)).collect()
+    let number = model.selected_pass().map(PredictedPass::number);
+    let carriers = model.station.frequencies.iter().filter(|of| Some(of.satellite) == number);
+    let doppler = carriers.map(|of| {
+        let shift_khz = look.doppler_hz(of.mhz * 1e6) / 1e3;
+        let carrier = format!("{} {} MHz", of.name, of.mhz);
+        ("Doppler", format!("{} kHz\n{}", format::signed(shift_khz, 2), carrier.trim()))
+    });
+    let further = motion.into_iter().chain(doppler).filter(|_| full);
+    direction.into_iter().chain(further).collect()
 }
 
 /// The commanded direction: from the operator or from program track.

@@ -84,9 +84,9 @@ pub(super) fn duration(row: &PassRow<'_>) -> String {
 }
 
 /// Time of AOS; a dash if it lies before the list, empty if LOS also lies after the list.
-pub(super) fn aos_time(row: &PassRow<'_>) -> String {
+pub(super) fn aos_time(row: &PassRow<'_>, now: Timestamp) -> String {
     match (row.starts_before, row.ends_after) {
-        (false, _) => format::time_z(row.aos),
+        (false, _) => format::moment(row.aos, now),
         (true, false) => "–".to_owned(),
         (true, true) => String::new(),
     }
@@ -158,15 +158,22 @@ mod tests {
             ..row(false, false)
         };
         assert_eq!(duration(&cut), "clear 4:43 of 10:00");
-        assert_eq!(aos_time(&cut), aos_time(&row(false, false)));
+        assert_eq!(aos_time(&cut, AOS), aos_time(&row(false, false), AOS));
         assert!(spoken_at(&cut, -60.0).ends_with("Blocked by the mask for 5:17"));
+    }
+
+    #[test]
+    fn a_time_that_is_not_today_carries_its_day() {
+        let row = row(false, false);
+        assert_eq!(aos_time(&row, add_seconds(AOS, 86_399.0)), "00:00:00Z");
+        assert_eq!(aos_time(&row, add_seconds(AOS, -1.0)), "1 Jan 00:00:00Z");
     }
 
     #[test]
     fn an_end_outside_the_list_is_not_invented() {
         let early = row(true, false);
         assert_eq!(azimuths(&early), "… → 046°");
-        assert_eq!((duration(&early).as_str(), aos_time(&early).as_str()), ("> 10:00", "–"));
+        assert_eq!((duration(&early).as_str(), aos_time(&early, AOS).as_str()), ("> 10:00", "–"));
         assert_eq!(progress(&early, Phase::of(&early, AOS), AOS), None);
         let late = row(false, true);
         assert_eq!(azimuths(&late), "249° → …");
@@ -180,7 +187,7 @@ mod tests {
         for seconds in [-10.0, 300.0, 700.0] {
             assert!(spoken_at(&row, seconds).starts_with("ISS, up all the time, max 52°"));
         }
-        assert_eq!(azimuths(&row) + &duration(&row) + &aos_time(&row), "");
+        assert_eq!(azimuths(&row) + &duration(&row) + &aos_time(&row, AOS), "");
         assert_eq!(Phase::of(&row, AOS), Phase::AllTheTime);
     }
 

@@ -59,7 +59,7 @@ pub(super) fn paint(ui: &Ui, rect: Rect, row: &PassRow<'_>, now: Timestamp, look
     });
     let name_cut = name_line(ui, first, row, phase, now, t);
     shape_line(ui, second, row, t);
-    let verdict_cut = verdict_line(ui, third, row, t);
+    let verdict_cut = verdict_line(ui, third, row, now, t);
     if let Some(done) = phase::progress(row, phase, now) {
         let track = rect.with_min_y(rect.bottom() - BAR);
         ui.painter().rect_filled(track, 0.0, t.line);
@@ -125,9 +125,9 @@ fn shape_line(ui: &Ui, rect: Rect, row: &PassRow<'_>, t: &Tokens) {
 }
 
 /// Paints verdict and time of AOS. Returns `true` if the verdict was cut.
-fn verdict_line(ui: &Ui, rect: Rect, row: &PassRow<'_>, t: &Tokens) -> bool {
+fn verdict_line(ui: &Ui, rect: Rect, row: &PassRow<'_>, now: Timestamp, t: &Tokens) -> bool {
     let at = rect.right_center();
-    let time = phase::aos_time(row);
+    let time = phase::aos_time(row, now);
     let time = paint::text(ui, at, Align2::RIGHT_CENTER, time, text::small(), t.t3);
     let Some(verdict) = row.verdict else { return false };
     verdict_in(ui, rect.with_max_x(time.left() - COLUMN_GAP), verdict, t)

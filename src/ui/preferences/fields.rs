@@ -19,14 +19,25 @@ type Get<T> = Box<dyn Fn(&mut T) -> Option<Value>>;
 type Put<T> = Box<dyn Fn(&mut T, Value) -> Result<(), String>>;
 type Note<T> = Box<dyn Fn(&T) -> Option<String>>;
 
+/// How a text is edited.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum TextShape {
+    Line,
+    /// One text, wrapped to be seen whole.
+    Wrapped,
+    /// Many lines. The hint stands there while they are empty.
+    Lines {
+        hint: &'static str,
+    },
+}
+
 /// Description of one line of a form.
 pub(super) struct Description<T> {
     pub(super) label: Cow<'static, str>,
     pub(super) kind: Kind,
     /// Unit of measure, shown behind the field.
     pub(super) unit: &'static str,
-    /// The text is wrapped, to show all of it.
-    pub(super) is_wrapped: bool,
+    pub(super) shape: TextShape,
     get: Get<T>,
     put: Put<T>,
     is_used: fn(&T) -> bool,
@@ -46,7 +57,7 @@ impl<T> Description<T> {
             label: label.into(),
             kind,
             unit: "",
-            is_wrapped: false,
+            shape: TextShape::Line,
             get: Box::new(get),
             put: Box::new(put),
             is_used: |_| true,
@@ -119,7 +130,11 @@ impl<T> Description<T> {
     }
 
     pub(super) fn wrapped(self) -> Self {
-        Self { is_wrapped: true, ..self }
+        Self { shape: TextShape::Wrapped, ..self }
+    }
+
+    pub(super) fn of_lines(self, hint: &'static str) -> Self {
+        Self { shape: TextShape::Lines { hint }, ..self }
     }
 
     /// Hides and ignores the field unless `is_used` holds.

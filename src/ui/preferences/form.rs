@@ -7,7 +7,7 @@ use egui::{
 
 use super::{
     draft::Draft,
-    fields::{Field, Standing},
+    fields::{Field, Standing, TextShape},
 };
 use crate::{
     device::settings::Kind,
@@ -186,11 +186,14 @@ fn edit<T>(ui: &mut Ui, group: &str, field: &mut Field<T>, border: Option<Color3
         Kind::Integer { .. } | Kind::Decimal { .. } | Kind::Number { .. } | Kind::Place { .. } => {
             TextEdit::singleline(text).desired_width(NUMBER)
         }
-        _ if field.description.is_wrapped => TextEdit::multiline(text)
-            .return_key(None)
-            .desired_rows(1)
-            .desired_width(ui.available_width().min(COLUMN - LABEL - 48.0)),
-        _ => TextEdit::singleline(text).desired_width(WORDS),
+        _ => match field.description.shape {
+            TextShape::Line => TextEdit::singleline(text).desired_width(WORDS),
+            TextShape::Wrapped => TextEdit::multiline(text)
+                .return_key(None)
+                .desired_rows(1)
+                .desired_width(ui.available_width().min(COLUMN - LABEL - 48.0)),
+            TextShape::Lines { hint } => return lines(ui, (group, label), text, hint, border),
+        },
     };
     ui.add(edit.id_salt((group, label)))
 }

@@ -7,7 +7,7 @@ use super::{
 use crate::{
     astro::Site,
     device::settings::{Kind, Value},
-    station::{Antenna, OnClose, Station, ranges},
+    station::{Antenna, Frequency, OnClose, Station, ranges},
 };
 
 /// A station without its antennas, with a site that may be invalid.
@@ -20,6 +20,7 @@ pub(super) struct Ground {
     aos_elevation_deg: f64,
     elevation_floor_deg: f64,
     favourites: Vec<u32>,
+    frequencies: Vec<Frequency>,
     on_close: Option<OnClose>,
 }
 
@@ -34,6 +35,7 @@ impl Ground {
             aos_elevation_deg: station.aos_elevation_deg,
             elevation_floor_deg: station.elevation_floor_deg,
             favourites: station.favourites.clone(),
+            frequencies: station.frequencies.clone(),
             on_close: station.on_close,
         }
     }
@@ -47,6 +49,7 @@ impl Ground {
             aos_elevation_deg: self.aos_elevation_deg,
             elevation_floor_deg: self.elevation_floor_deg,
             favourites: self.favourites,
+            frequencies: self.frequencies,
             on_close: self.on_close,
             keep_outs: Vec::new(),
             sun_avoidance: None,
@@ -89,6 +92,20 @@ pub(super) fn all() -> Vec<Placed<Ground>> {
             put_favourites,
         )
         .wrapped(),
+        Of::new(
+            "Frequencies",
+            Kind::Text(|text| Frequency::read_list(text).map(drop)),
+            |ground| Some(Value::Text(Frequency::list_text(&ground.frequencies))),
+            |ground, value| {
+                if let Value::Text(text) = value {
+                    ground.frequencies =
+                        Frequency::read_list(&text).map_err(|why| why.to_string())?;
+                }
+                Ok(())
+            },
+        )
+        .of_lines("number MHz name, one a line")
+        .noted(|_| Some("For the Doppler shift; a satellite may have several.".to_owned())),
         Of::choice(
             "When the window closes",
             &[(0, "Ask"), (1, "Stop and hold"), (2, "Park first"), (3, "Let finish")],

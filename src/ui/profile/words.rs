@@ -60,11 +60,11 @@ pub(super) fn sentence(axis: &TimeAxis, model: &ProfileModel<'_>) -> String {
     let mut sentence = format!(
         "{} profile: {begin} {}{}, TCA {} at elevation {}, {end} {}{}.",
         model.name,
-        format::time_z(axis.start()),
+        format::moment(axis.start(), model.now),
         azimuth(model.track.first()),
-        format::time_z(model.tca.time),
+        format::moment(model.tca.time, model.now),
         format::degrees(model.tca.direction.elevation_deg(), 1),
-        format::time_z(axis.end()),
+        format::moment(axis.end(), model.now),
         azimuth(model.track.last()),
     );
     let last = model.errors.iter().rev().find(|(time, error_deg)| {

@@ -70,7 +70,7 @@ pub(super) fn events_and_antenna(
         }
     };
     for event in events {
-        let time = format::time_z(event.sample.time);
+        let time = format::moment(event.sample.time, scene.now);
         note(event.word, event.sample.direction, &format!("{} {time}", event.word));
     }
     if let Some(commanded) = scene.commanded {

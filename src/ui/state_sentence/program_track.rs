@@ -24,7 +24,7 @@ pub(super) fn sentence(model: &Model, antenna: &AntennaModel) -> Option<Spoken> 
             };
             spoken.bold(name).plain(format!(
                 ", which rises at {} in {}.",
-                format::time_z(aos),
+                format::moment(aos, model.now),
                 format::time_left(seconds_between(model.now, aos))
             ))
         }

@@ -5,6 +5,7 @@ use egui::{Align2, FontId, Rect, Ui, pos2, vec2};
 use super::paint;
 use crate::ui::{
     format,
+    icons::{self, Icon},
     text::{self, Weight},
     theme,
     tokens::Tokens,
@@ -16,6 +17,8 @@ const HEAD_HEIGHT: f32 = 18.0;
 const ROW_HEIGHT: f32 = 26.0;
 /// Right ends of the columns as parts of the width: command, actual, error, rate.
 const COLUMNS: [f32; 4] = [0.325, 0.55, 0.77, 1.0];
+/// Index of the column of measured values.
+const ACTUAL: usize = 1;
 
 /// Content of the second column.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -55,41 +58,49 @@ pub struct AxisRow<'a> {
     pub rate_deg_s: Option<f64>,
 }
 
+/// The axes of an antenna.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct AxesTable<'a> {
+    pub wanted: WantedColumn,
+    /// Decimals of measured and commanded values; predicted ones have two.
+    pub decimals: usize,
+    /// Age of the measured values while the unit does not answer in time, such as `4.9 s`.
+    pub age: Option<&'a str>,
+    pub axes: &'a [AxisRow<'a>],
+}
+
 /// Height of the table for a number of axes.
 pub fn height(axes: usize) -> f32 {
     HEAD_HEIGHT + ROW_HEIGHT * axes as f32
 }
 
-/// Shows the table in `rect`. Measured and commanded values have `decimals` decimals,
-/// predicted values two. Every column keeps its place, also when it is empty.
-pub fn show(ui: &Ui, rect: Rect, wanted: WantedColumn, decimals: usize, axes: &[AxisRow<'_>]) {
+/// Shows the table in `rect`. Every column keeps its place, also when it is empty. Old
+/// measured values have a hollow ring before them.
+pub fn show(ui: &Ui, rect: Rect, table: &AxesTable<'_>) {
     let t = theme::tokens(ui);
-    let wanted_word = wanted.word();
+    let wanted_word = table.wanted.word();
+    let actual_word = match table.age {
+        Some(age) => format!("{age} old °"),
+        None => "Actual °".to_owned(),
+    };
     let y = rect.top() + HEAD_HEIGHT / 2.0;
     let head = |x: f32, anchor: Align2, word: &str| {
         paint::text(ui, pos2(x, y), anchor, word, text::caption(), t.t3);
     };
     head(rect.left(), Align2::LEFT_CENTER, "Axis");
-    let heads =
-        [format!("{wanted_word} °"), "Actual °".into(), "Error °".into(), "Rate °/s".into()];
+    let heads = [format!("{wanted_word} °"), actual_word, "Error °".into(), "Rate °/s".into()];
     for (part, word) in COLUMNS.iter().zip(heads) {
         head(rect.left() + part * rect.width(), Align2::RIGHT_CENTER, &word);
     }
-    for (index, axis) in axes.iter().enumerate() {
+    for (index, axis) in table.axes.iter().enumerate() {
         let top = rect.top() + HEAD_HEIGHT + ROW_HEIGHT * index as f32;
         let row = Rect::from_min_size(pos2(rect.left(), top), vec2(rect.width(), ROW_HEIGHT));
-        show_row(ui, row, wanted, decimals, axis, t);
+        show_row(ui, row, table, axis, t);
     }
 }
 
-fn show_row(
-    ui: &Ui,
-    row: Rect,
-    wanted: WantedColumn,
-    decimals: usize,
-    axis: &AxisRow<'_>,
-    t: &Tokens,
-) {
+fn show_row(ui: &Ui, row: Rect, table: &AxesTable<'_>, axis: &AxisRow<'_>, t: &Tokens) {
+    let &AxesTable { wanted, decimals, age, .. } = table;
     let y = row.center().y;
     let strong = text::sized(15.0, Weight::SemiBold);
     paint::text(ui, pos2(row.left(), y), Align2::LEFT_CENTER, axis.name, strong.clone(), t.t1);
@@ -104,16 +115,25 @@ fn show_row(
         signed(axis.error_deg, wanted_decimals),
         signed(axis.rate_deg_s, 2),
     ];
+    let is_old = age.is_some() && axis.actual_deg.is_some();
+    let actual_look = if is_old { (text::axis(), t.t3) } else { (strong, t.t1) };
     let looks: [(FontId, _); 4] =
-        [(text::axis(), wanted_colour), (strong, t.t1), (text::axis(), t.t1), (text::axis(), t.t2)];
-    for ((part, words), (font, colour)) in COLUMNS.iter().zip(&texts).zip(looks) {
+        [(text::axis(), wanted_colour), actual_look, (text::axis(), t.t1), (text::axis(), t.t2)];
+    for (index, ((part, words), (font, colour))) in
+        COLUMNS.iter().zip(&texts).zip(looks).enumerate()
+    {
         let at = pos2(row.left() + part * row.width(), y);
-        paint::text(ui, at, Align2::RIGHT_CENTER, words, font, colour);
+        let place = paint::text(ui, at, Align2::RIGHT_CENTER, words, font, colour);
+        if is_old && index == ACTUAL {
+            let ring = paint::square(pos2(place.left() - 8.0, y), 9.0);
+            icons::paint(ui.painter(), ring, Icon::OpenRing, t.t3);
+        }
     }
     let spoken = texts.map(|words| if words == UNKNOWN { "not known".to_owned() } else { words });
     let [wanted_text, actual, error, rate] = spoken;
+    let old = age.filter(|_| is_old).map(|age| format!(", {age} old")).unwrap_or_default();
     let name = format!(
-        "{}: {} {wanted_text}, actual {actual}, error {error}, rate {rate}",
+        "{}: {} {wanted_text}, actual {actual}{old}, error {error}, rate {rate}",
         axis.name,
         wanted.word()
     );
@@ -154,9 +174,21 @@ mod tests {
                 ..AxisRow::default()
             }];
             let rect = Rect::from_min_size(pos2(10.0, 10.0), vec2(312.0, height(1)));
-            show(ui, rect, WantedColumn::Predicted, 2, &axes);
+            let table =
+                AxesTable { wanted: WantedColumn::Predicted, decimals: 2, age: None, axes: &axes };
+            show(ui, rect, &table);
         });
         window.get_by_label("Az: Predicted not known, actual 185.51, error −0.04, rate not known");
+        let window = testing::window([400.0, 200.0], (), |ui, ()| {
+            let axes = [AxisRow { name: "Az", actual_deg: Some(185.51), ..AxisRow::default() }];
+            let rect = Rect::from_min_size(pos2(10.0, 10.0), vec2(312.0, height(1)));
+            let table =
+                AxesTable { decimals: 2, age: Some("4.9 s"), axes: &axes, ..AxesTable::default() };
+            show(ui, rect, &table);
+        });
+        window.get_by_label(
+            "Az: Command not known, actual 185.51, 4.9 s old, error not known, rate not known",
+        );
     }
 
     #[test]
@@ -174,7 +206,8 @@ mod tests {
                     rate_deg_s: Some(-0.25),
                 }];
                 let rect = Rect::from_min_size(pos2(10.0, 10.0), vec2(312.0, height(1)));
-                show(ui, rect, *wanted, 0, &axes);
+                let table = AxesTable { wanted: *wanted, axes: &axes, ..AxesTable::default() };
+                show(ui, rect, &table);
             });
             window.get_by_label(said);
         }

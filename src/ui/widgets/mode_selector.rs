@@ -23,8 +23,10 @@ fn word(mode: Intent) -> &'static str {
 pub struct ModeModel<'a> {
     /// The modes that the controller offers; the others are left out.
     pub offered: &'a [Intent],
-    /// The mode that the unit reports.
+    /// The mode that the antenna is in.
     pub current: Option<Intent>,
+    /// The antenna is in it, but not by this console.
+    pub is_foreign: bool,
     /// The requested mode, until the unit reports it.
     pub pending: Option<Intent>,
 }
@@ -38,7 +40,7 @@ pub fn show(ui: &Ui, rect: Rect, model: &ModeModel<'_>) -> Option<Intent> {
             let state = if model.pending == Some(*mode) {
                 Segment::Pending
             } else if model.current == Some(*mode) {
-                Segment::Chosen
+                if model.is_foreign { Segment::Foreign } else { Segment::Chosen }
             } else {
                 Segment::Free
             };
@@ -63,6 +65,7 @@ mod tests {
             let model = ModeModel {
                 offered: &[Intent::Manual, Intent::Position, Intent::Track],
                 current: Some(Intent::Track),
+                is_foreign: false,
                 pending: Some(Intent::Manual),
             };
             *clicked = show(ui, rect, &model).or(*clicked);

@@ -13,6 +13,8 @@ pub enum Segment {
     Free,
     /// Is in force.
     Chosen,
+    /// Is in force, but not by this console: dashed.
+    Foreign,
     /// Requested, but not confirmed yet.
     Pending,
 }
@@ -41,8 +43,11 @@ pub fn show(
         let cell = Rect::from_min_max(pos2(x, rect.top()), pos2(right, rect.bottom()));
         let id = ui.make_persistent_id((salt, *word));
         let response = ui.interact(cell, id, egui::Sense::click());
-        let chosen = *state == Segment::Chosen;
-        response.widget_info(|| WidgetInfo::selected(Role::RadioButton, true, chosen, word));
+        let chosen = matches!(state, Segment::Chosen | Segment::Foreign);
+        let is_foreign = *state == Segment::Foreign;
+        let said =
+            if is_foreign { format!("{word}, not by this console") } else { (*word).to_owned() };
+        response.widget_info(|| WidgetInfo::selected(Role::RadioButton, true, chosen, &said));
         let radius = corners(index, segments.len());
         let colour = match state {
             Segment::Chosen => {
@@ -71,6 +76,11 @@ pub fn show(
         if state == Segment::Pending {
             let stroke = Stroke::new(2.0, t.cmd);
             ui.painter().rect_stroke(response.rect, radius, stroke, StrokeKind::Inside);
+        }
+        if state == Segment::Foreign {
+            let inside = response.rect.shrink(1.0);
+            paint::dashed_border(ui, inside, f32::from(RADIUS), Stroke::new(2.0, t.sat));
+            response.clone().on_hover_text("Not by this console");
         }
         paint::focus_ring(ui, &response, RADIUS);
     }

@@ -42,6 +42,7 @@ impl Desk<'_> {
             CardAction::SetMode(Intent::Track) | CardAction::TrackSelected => {
                 return self.commands.extend(UiCommand::track_selected(self.model));
             }
+            CardAction::TakeOver => Command::TakeOver,
             CardAction::TrackAgain => {
                 let again = self.antenna.track_again.as_ref();
                 return self

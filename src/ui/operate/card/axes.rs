@@ -22,8 +22,9 @@ pub(super) fn table(antenna: &AntennaModel) -> Vec<Row> {
     let snapshot = &antenna.snapshot;
     let actual = snapshot.state.measured.map(|measured| measured.pointing);
     let wanted = snapshot.aim.or(antenna.prediction.map(|prediction| prediction.direction.into()));
-    let rates = antenna.rates_deg_s;
-    let error = wanted.zip(actual).map(|(wanted, actual)| {
+    let is_live = antenna.is_live();
+    let rates = antenna.rates_deg_s.filter(|_| is_live);
+    let error = wanted.zip(actual).filter(|_| is_live).map(|(wanted, actual)| {
         let off = |actual: Option<Angle>, wanted: Option<Angle>| {
             Some((actual? - wanted?).wrapped_180().degrees())
         };

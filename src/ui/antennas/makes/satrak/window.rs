@@ -20,7 +20,7 @@ use crate::{
         text, theme,
         widgets::{
             button::{Button, SMALL_HEIGHT},
-            hold_button, paint,
+            paint,
         },
         words,
     },
@@ -36,8 +36,7 @@ pub(super) fn show(ui: &mut Ui, unit: &Unit<'_>, form: &mut Form, commands: &mut
     take_from_pass(ui, unit, form);
 }
 
-/// Switch for automatic tracking. The operator must hold it, for the antenna may start by
-/// itself.
+/// Switch for automatic tracking. It asks first, for the antenna may start by itself.
 fn automatic(ui: &mut Ui, unit: &Unit<'_>, form: &mut Form, commands: &mut Vec<UiCommand>) {
     let t = theme::tokens(ui);
     let at = Columns::of(row::take(ui));
@@ -60,11 +59,13 @@ fn automatic(ui: &mut Ui, unit: &Unit<'_>, form: &mut Form, commands: &mut Vec<U
         if button.show(ui, "auto off", place).clicked() {
             commands.push(send(false));
         }
-    } else if auto.is_some()
-        && hold_button::show(ui, place, "Hold 1 s to switch on", &mut form.auto_hold)
-    {
-        form.auto_asked = Some(unit.model.now);
-        commands.push(send(true));
+    } else if auto.is_some() {
+        let button = Button::normal("Switch on…");
+        let place = place.with_max_x(place.left() + button.width(ui));
+        if button.show(ui, "auto on", place).clicked() {
+            form.auto_asked = Some(unit.model.now);
+            commands.push(send(true));
+        }
     }
     let note = match auto {
         Some(Some(true)) => "On: the antenna starts by itself when the window begins.",

@@ -1,0 +1,64 @@
+//! Frequencies of satellites, for their Doppler shift.
+
+use serde::Serialize;
+
+use super::ranges;
+use crate::device::settings::{Unfit, number};
+
+/// A carrier of a satellite.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Frequency {
+    /// Catalog number of the satellite.
+    pub satellite: u32,
+    pub mhz: f64,
+    /// Name of the carrier, such as `HRD`; may be empty.
+    pub name: String,
+}
+
+impl Frequency {
+    /// Frequencies as the operator types them: one a line, a catalogue number, MHz and a name.
+    pub fn list_text(list: &[Self]) -> String {
+        let line = |of: &Self| format!("{} {} {}", of.satellite, of.mhz, of.name);
+        list.iter().map(|of| line(of).trim_end().to_owned()).collect::<Vec<_>>().join("\n")
+    }
+
+    /// Reads what [`Self::list_text`] writes.
+    pub fn read_list(text: &str) -> Result<Vec<Self>, Unfit> {
+        let lines = text.lines().enumerate().filter(|(_, line)| !line.trim().is_empty());
+        let read = lines.map(|(index, line)| {
+            Self::read_line(line).ok_or_else(|| {
+                Unfit::Text(format!(
+                    "line {} must be a catalogue number, MHz and a name, such as 25544 145.8 Voice",
+                    index + 1
+                ))
+            })
+        });
+        read.collect()
+    }
+
+    fn read_line(line: &str) -> Option<Self> {
+        let (satellite, rest) = line.trim().split_once(char::is_whitespace)?;
+        let rest = rest.trim();
+        let (mhz, name) = rest.split_once(char::is_whitespace).unwrap_or((rest, ""));
+        let mhz = number(mhz).filter(|mhz| ranges::FREQUENCY_MHZ.contains(mhz))?;
+        Some(Self { satellite: satellite.parse().ok()?, mhz, name: name.trim().to_owned() })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_is_written_is_read_back_and_a_wrong_line_is_named() {
+        let of = |satellite, mhz, name: &str| Frequency { satellite, mhz, name: name.to_owned() };
+        let list =
+            vec![of(25_544, 145.8, "Voice"), of(43_013, 7812.0, "HRD, X band"), of(1, 1.5, "")];
+        assert_eq!(Frequency::read_list(&Frequency::list_text(&list)), Ok(list));
+        assert_eq!(Frequency::read_list("\n 25544\t145,8 \n"), Ok(vec![of(25_544, 145.8, "")]));
+        for (text, line) in [("x 145.8", 1), ("25544 145.8\n25544", 2), ("25544 -3", 1)] {
+            let why = Frequency::read_list(text).unwrap_err().to_string();
+            assert!(why.starts_with(&format!("line {line} ")), "{text}: {why}");
+        }
+    }
+}

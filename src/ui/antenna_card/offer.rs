@@ -1,0 +1,57 @@
+//! The line below the sentence that offers to track again after STOP, or to take over what
+//! the unit tracks by itself.
+
+use egui::{Align2, Rect, Ui, vec2};
+
+use super::CardAction;
+use crate::ui::{
+    text, theme,
+    widgets::{
+        button::{self, Button},
+        paint,
+    },
+};
+
+/// A track that one click takes up, by the name of its target.
+#[derive(Debug, Clone, Copy)]
+pub enum Offer<'a> {
+    /// It was tracked until STOP.
+    TrackAgain(&'a str),
+    /// The unit tracks it by itself.
+    TakeOver(&'a str),
+}
+
+/// Height of the line, with the space above it.
+pub(super) const HEIGHT: f32 = button::SMALL_HEIGHT + 6.0;
+
+/// Shows the line in the lowest part of `block`.
+pub(super) fn show(ui: &Ui, block: Rect, offer: Offer<'_>, actions: &mut Vec<CardAction>) {
+    let t = theme::tokens(ui);
+    let inside = block.shrink2(vec2(12.0, 6.0));
+    let inside = inside.with_min_x(block.left() + if block.width() < 300.0 { 13.0 } else { 15.0 });
+    let row = inside.with_min_y(inside.bottom() - button::SMALL_HEIGHT);
+    let (words, key_words, said, action) = match offer {
+        Offer::TrackAgain(name) => (
+            format!("Was tracking {name}."),
+            "Track again",
+            format!("Track {name} again"),
+            CardAction::TrackAgain,
+        ),
+        Offer::TakeOver(name) => (
+            "Not by this console.".to_owned(),
+            "Take over",
+            format!("Take over the track of {name}"),
+            CardAction::TakeOver,
+        ),
+    };
+    let button = Button::normal(key_words);
+    let key = row.with_min_x(row.right() - button.width(ui));
+    let room = row.with_max_x(key.left() - 8.0);
+    paint::text_in(ui, room, Align2::LEFT_CENTER, &words, text::body(), t.t2);
+    paint::name_text(ui, "offered track", room, &words).on_hover_text(&words);
+    let response = button.show(ui, "take the offer", key);
+    response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Button, true, &said));
+    if response.clicked() {
+        actions.push(action);
+    }
+}

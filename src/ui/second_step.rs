@@ -1,0 +1,101 @@
+//! The second step before a command that ends a track, or that lets a unit start by itself: a
+//! question that names what ends. It stands behind all views, so that mouse, key and screen
+//! reader meet the same one. Standby and STOP never take it.
+
+use super::{confirm::Question, format, state_sentence::short};
+use crate::{
+    astro::time::seconds_between,
+    driver,
+    engine::{self, antenna::AntennaModel, passes::PassKey},
+    model::{Model, UiCommand},
+};
+
+/// Takes the first of the `commands` from the index `from` on that needs a second step out
+/// of them; returns its question.
+pub(super) fn ask(model: &Model, from: usize, commands: &mut Vec<UiCommand>) -> Option<Question> {
+    let found = commands.iter().enumerate().skip(from);
+    let mut found = found.filter_map(|(index, command)| Some((index, question(model, command)?)));
+    let (index, question) = found.next()?;
+    commands.remove(index);
+    Some(question)
+}
+
+/// The question before `command`; `None` if it needs none.
+fn question(model: &Model, command: &UiCommand) -> Option<Question> {
+    let UiCommand::Station(station) = command else { return None };
+    let antenna = model.antenna_of(station.antenna()?)?;
+    let name = &antenna.config.name;
+    if let engine::Command::Antenna(_, driver::Command::AutoTrack(true)) = station {
+        let ends = match antenna.tracked_name() {
+            Some(tracked) => format!(" It tracks {} now.", short(tracked)),
+            None => String::new(),
+        };
+        return Some(Question {
+            text: format!(
+                "{name} starts the next pass by itself, even if this computer is off.{ends}"
+            ),
+            yes: "Switch auto-track on",
+            command: command.clone(),
+        });
+    }
+    let (what, yes) = what(model, antenna, station)?;
+    let tracked = antenna.tracked_name().map(short)?;
+    let until = end(model, antenna)
+        .map(|los| format!(" until {}", format::moment(los, model.now)))
+        .unwrap_or_default();
+    let text = format!("{name} tracks {tracked}{until}. {what} ends that.");
+    Some(Question { text, yes, command: command.clone() })
+}
+
+/// What a command that would end a track leads to, and the words of its button.
+fn what(
+    model: &Model,
+    antenna: &AntennaModel,
+    command: &engine::Command,
+) -> Option<(String, &'static str)> {
+    let by_hand = |words: &str, yes| Some((words.to_owned(), yes));
+    match command {
+        engine::Command::Antenna(_, command) => match command {
+            driver::Command::Manual => by_hand("Moving by hand", "Manual"),
+            driver::Command::Hold => by_hand("Position", "Position"),
+            driver::Command::Position { .. } => by_hand("Going to a direction", "Go"),
+            driver::Command::ProgramTrack(track) | driver::Command::ProgramTrackIntoSun(track) => {
+                Some((format!("Tracking {}", short(&track.target.name())), "Track"))
+            }
+            _ => None,
+        },
+        engine::Command::Track { pass, .. } | engine::Command::ProgramTrackPass { pass, .. } => {
+            let (number, _) = *pass;
+            let is_other = antenna.tracked_number() != Some(number);
+            is_other.then(|| (tracking(model, *pass), "Track"))
+        }
+        _ => None,
+    }
+}
+
+/// The track of a pass in words, with the time that the antenna would wait for it.
+fn tracking(model: &Model, pass: PassKey) -> String {
+    let (_, aos) = pass;
+    let listed = model.pass_lists.find(pass);
+    let name = listed.map_or("the other pass", |listed| listed.satellite.short_name());
+    let wait_s = seconds_between(model.now, aos);
+    if wait_s > 0.0 {
+        format!("Tracking {name}, which rises in {},", format::time_left(wait_s))
+    } else {
+        format!("Tracking {name}")
+    }
+}
+
+/// When the present track would end.
+fn end(model: &Model, antenna: &AntennaModel) -> Option<jiff::Timestamp> {
+    let snapshot = &antenna.snapshot;
+    let window = snapshot.state.on_board.window.filter(|_| !antenna.follows());
+    let los = window.map(|(_, stop)| stop).or_else(|| {
+        let number = antenna.tracked_number()?;
+        let listed = model.pass_lists.favourites.upcoming(model.now);
+        let under_way =
+            |number| listed.iter().find(|it| it.number() == number && it.in_progress(model.now));
+        under_way(number).filter(|it| !it.pass.ends_after).map(|it| it.pass.los.time)
+    });
+    los.filter(|los| *los > model.now)
+}
