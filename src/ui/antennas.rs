@@ -33,7 +33,6 @@ use self::{
     unlock_dialog::{Answer, UnlockDialog},
 };
 use super::{
-    confirm::Question,
     copies::{self, CompareState},
     text, theme,
     widgets::{
@@ -72,35 +71,6 @@ impl AntennasState {
         let units = (0..model.antennas.len()).filter_map(|index| Unit::of(model, index));
         let edited = |unit: Unit<'_>| Some(self.forms.get(unit.name())?.count_all(&unit).edited);
         units.filter_map(edited).sum()
-    }
-
-    /// Question to ask before one of the commands from index `from` on leaves edits behind.
-    /// The edits are kept.
-    pub fn ask_before_leaving(
-        &self,
-        model: &Model,
-        from: usize,
-        commands: &mut Vec<UiCommand>,
-    ) -> Option<Question> {
-        if model.view != View::Antennas {
-            return None;
-        }
-        let unit = Unit::of(model, model.selected_antenna)?;
-        let edited = self.forms.get(unit.name())?.count_all(&unit).edited;
-        let leaves = |command: &UiCommand| match command {
-            UiCommand::Show(view) => *view != View::Antennas,
-            UiCommand::SelectAntenna(index) => *index != model.selected_antenna,
-            _ => false,
-        };
-        let place = commands.iter().skip(from).position(leaves).filter(|_| edited > 0)?;
-        let command = commands.remove(from + place);
-        let changes = if edited == 1 { "change is" } else { "changes are" };
-        let text = format!(
-            "{edited} {changes} not on {} yet. They are kept here until they are applied or \
-             reverted. Leave?",
-            unit.name()
-        );
-        Some(Question { text, yes: "Leave", command })
     }
 }
 

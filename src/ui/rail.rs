@@ -26,6 +26,8 @@ pub struct RailEntry<'a> {
     pub word: &'a str,
     /// The view is shown now.
     pub active: bool,
+    /// Number of typed values in it that are not applied.
+    pub edits: usize,
 }
 
 /// The width for a window of this width.
@@ -62,7 +64,7 @@ pub struct FootClicks {
 
 /// Shows a view at the foot of the rail in `rect`, and the button for the list of keys below it.
 pub fn show_foot(ui: &mut Ui, rect: Rect, view: &RailEntry<'_>) -> FootClicks {
-    let keys = RailEntry { icon: Icon::Question, word: "Keys", active: false };
+    let keys = RailEntry { icon: Icon::Question, word: "Keys", active: false, edits: 0 };
     let keys_top = rect.bottom() - EDGE - cell_height(rect);
     let view_top = keys_top - GAP - cell_height(rect);
     let builder = UiBuilder::new().id_salt("rail foot").max_rect(rect);
@@ -87,9 +89,14 @@ fn cell(ui: &Ui, rect: Rect, top: f32, entry: &RailEntry<'_>, role: Role) -> Res
     let cell = Rect::from_min_size(pos2(rect.left() + 4.0, top), size);
     let id = ui.make_persistent_id(("view", entry.word));
     let mut response = ui.interact(cell, id, Sense::click());
+    let name = match entry.edits {
+        0 => entry.word.to_owned(),
+        1 => format!("{}, 1 edit", entry.word),
+        edits => format!("{}, {edits} edits", entry.word),
+    };
     response.widget_info(|| match role {
-        Role::Tab => WidgetInfo::selected(role, true, entry.active, entry.word),
-        _ => WidgetInfo::labeled(role, true, entry.word),
+        Role::Tab => WidgetInfo::selected(role, true, entry.active, &name),
+        _ => WidgetInfo::labeled(role, true, &name),
     });
     let colour = if entry.active { t.sat } else { t.t2 };
     if entry.active {
@@ -103,12 +110,20 @@ fn cell(ui: &Ui, rect: Rect, top: f32, entry: &RailEntry<'_>, role: Role) -> Res
     }
     if is_small(rect) {
         icons::paint(ui.painter(), paint::square(cell.center(), 20.0), entry.icon, colour);
-        response = response.on_hover_text(entry.word);
+        response = response.on_hover_text(&name);
     } else {
         let at = cell.center() - vec2(0.0, 9.0);
         icons::paint(ui.painter(), paint::square(at, 20.0), entry.icon, colour);
         let word = cell.with_min_y(cell.bottom() - 27.0).expand2(vec2(3.0, 0.0));
         paint::text_in(ui, word, Align2::CENTER_CENTER, entry.word, text::caption(), colour);
+    }
+    if entry.edits > 0 {
+        let words = entry.edits.to_string();
+        let half = paint::text_width(ui, &words, text::caption()) / 2.0 + 4.0;
+        let at = pos2(cell.right() - half - 2.0, cell.top() + 10.0);
+        let badge = Rect::from_center_size(at, vec2(2.0 * half, 16.0));
+        ui.painter().rect_filled(badge, 8.0, t.sat);
+        paint::text(ui, at, Align2::CENTER_CENTER, words, text::caption(), t.onsat);
     }
     paint::focus_ring(ui, &response, 6);
     response
@@ -127,12 +142,12 @@ mod tests {
                 let size = vec2(width(ui.ctx().content_rect().width()), 592.0);
                 let rect = Rect::from_min_size(pos2(0.0, 48.0), size);
                 let entries = [
-                    RailEntry { icon: Icon::CrossHair, word: "Operate", active: true },
-                    RailEntry { icon: Icon::Sliders, word: "Preferences", active: false },
+                    RailEntry { icon: Icon::CrossHair, word: "Operate", active: true, edits: 0 },
+                    RailEntry { icon: Icon::Sliders, word: "Preferences", active: false, edits: 2 },
                 ];
                 *chosen = show(ui, rect, &entries).or(*chosen);
             });
-            window.get_by_role_and_label(Role::Tab, "Preferences").click();
+            window.get_by_role_and_label(Role::Tab, "Preferences, 2 edits").click();
             window.run();
             assert_eq!(*window.state(), Some(1), "{window_width}");
         }

@@ -111,7 +111,7 @@ impl Views {
             body = body.with_min_y(strip.bottom());
         }
         let side = body.with_max_x(body.left() + rail::width(window.width()));
-        self.keys_open |= show_rail(ui, side, model, commands);
+        self.keys_open |= show_rail(ui, side, model, self.antennas.edited(model), commands);
         let rest = Rect::from_min_max(pos2(side.right(), body.top()), body.max);
         match model.view {
             View::Operate => {
@@ -144,13 +144,9 @@ impl Views {
                 preferences::show(ui, rest, model, &mut self.preferences, commands);
             }
         }
-        if let Some(question) = self.antennas.ask_before_leaving(model, before, commands) {
-            self.question = Some(question);
-            // Enter answers the question, rather than ending the typing behind it.
-            ui.memory_mut(egui::Memory::stop_text_input);
-        }
         if let Some(question) = second_step::ask(model, before, commands) {
             self.question = Some(question);
+            // Enter answers the question, rather than ending the typing behind it.
             ui.memory_mut(egui::Memory::stop_text_input);
         }
         let answered = commands.len();
@@ -241,8 +237,15 @@ fn show_upload(
     });
 }
 
-/// Shows the rail; returns `true` when the list of keys is to open.
-fn show_rail(ui: &mut Ui, rect: Rect, model: &Model, commands: &mut Vec<UiCommand>) -> bool {
+/// Shows the rail; returns `true` when the list of keys is to open. `edits`: typed values of
+/// the Antennas view that are not on their units.
+fn show_rail(
+    ui: &mut Ui,
+    rect: Rect,
+    model: &Model,
+    edits: usize,
+    commands: &mut Vec<UiCommand>,
+) -> bool {
     let views = [
         (View::Operate, Icon::CrossHair, "Operate"),
         (View::Elements, Icon::Orbit, "Elements"),
@@ -250,7 +253,12 @@ fn show_rail(ui: &mut Ui, rect: Rect, model: &Model, commands: &mut Vec<UiComman
         (View::Console, Icon::Prompt, "Console"),
         (View::Map, Icon::Globe, "Map"),
     ];
-    let entry = |view, icon, word| RailEntry { icon, word, active: view == model.view };
+    let entry = |view, icon, word| RailEntry {
+        icon,
+        word,
+        active: view == model.view,
+        edits: if view == View::Antennas { edits } else { 0 },
+    };
     let entries = views.map(|(view, icon, word)| entry(view, icon, word));
     if let Some((view, ..)) = rail::show(ui, rect, &entries).and_then(|index| views.get(index)) {
         commands.push(UiCommand::Show(*view));

@@ -184,7 +184,7 @@ fn a_typed_source_is_added_once_it_is_right_and_stays_typed_until_it_is_there() 
         settle(&mut window);
         write(&mut window, "Name", "own");
         write(&mut window, "Path", "own.tle");
-        assert!(says(&window, "Not to be added yet: the path does not start at the root."));
+        assert!(says(&window, "Cannot be added: the path does not start at the root."));
         write(&mut window, "Path", "/var/elements/own.tle");
         window.get_by_role_and_label(Role::Button, "Add source").scroll_to_me();
         settle(&mut window);
@@ -210,7 +210,7 @@ fn a_group_of_celestrak_is_filled_in_and_a_plain_address_is_refused() {
         assert!(is_disabled(&window, "CelesTrak weather"), "it is there");
         write(&mut window, "Name", "x");
         write(&mut window, "Address", "http://celestrak.org/x");
-        assert!(says(&window, "Not to be added yet: the address is not a plain https address."));
+        assert!(says(&window, "Cannot be added: the address is not a plain https address."));
         click(&mut window, "CelesTrak stations");
         window.get_by_role_and_label(Role::Button, "Add source").scroll_to_me();
         settle(&mut window);

@@ -95,7 +95,7 @@ pub(super) fn show(
             }
             let typed = !state.name.is_empty() || !state.place.is_empty();
             if let (true, Err(problem)) = (typed, checked) {
-                let words = format!("Not to be added yet: {problem}.");
+                let words = format!("Cannot be added: {problem}.");
                 ui.label(RichText::new(words).font(text::body()).color(t.warn));
             }
         });

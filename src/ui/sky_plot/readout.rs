@@ -104,7 +104,7 @@ mod tests {
             ("El", "−36.49°".to_owned()),
             ("Range", "41 586 km".to_owned()),
             ("Rate", "−7.61 km/s".to_owned()),
-            ("Doppler", "+10.92 kHz\nHRD 437 MHz".to_owned()),
+            ("Doppler", "+10.92 kHz\n437 MHz".to_owned()),
         ]
     }
 
