@@ -1,6 +1,6 @@
-//! One antenna's session: keeps its link, asks its controller, carries out the
-//! intent and stops what has to be stopped. It lives on the driver's thread
-//! and needs neither window nor frames.
+//! The session of one antenna: keeps its link, polls its controller, carries out the intent
+//! and stops what has to be stopped. It lives on the driver's thread and needs neither window
+//! nor frames.
 
 mod activity;
 mod clocks;
@@ -65,11 +65,11 @@ use stop::Stop;
 use supervise::Doubt;
 use wanted::Wanted;
 
-/// The far ends of the channels to the station. They outlive a session that
-/// breaks down: the next one takes them over.
+/// The session's ends of the channels to the station. A session that breaks down leaves them
+/// to the next one.
 #[derive(Clone)]
 pub struct Wires {
-    /// One session at a time reads them.
+    /// Locked by the running session.
     commands: Arc<AsyncMutex<mpsc::Receiver<Numbered>>>,
     stopper: Stopper,
     before_sleep: Option<Arc<AsyncMutex<mpsc::Receiver<Awake>>>>,
@@ -78,12 +78,11 @@ pub struct Wires {
     wake: Wake,
     wire_log: WireLog,
     orbit: Orbits,
-    /// The bounds of the antenna.
     bounds: watch::Receiver<Bounds>,
 }
 
 impl Wires {
-    /// The far and the near ends for one antenna.
+    /// Creates both ends of one antenna's channels.
     pub(super) fn new(
         antenna: &Antenna,
         bounds: Bounds,
@@ -127,7 +126,7 @@ impl Wires {
         (wires, handle)
     }
 
-    /// The near end of an antenna that no session drives: nothing is taken.
+    /// The handle of an antenna that no session drives: it takes nothing.
     pub(super) fn closed(antenna: &Antenna, now: Instant) -> AntennaHandle {
         let bounds = Bounds::of_antenna(antenna);
         let (wires, handle) = Self::new(antenna, bounds, now, Arc::new(|| {}), &Orders::default());
@@ -136,18 +135,18 @@ impl Wires {
         handle
     }
 
-    /// Told before this computer sleeps.
+    /// With a channel that tells before this computer sleeps.
     pub(super) fn hearing(mut self, before_sleep: mpsc::Receiver<Awake>) -> Self {
         self.before_sleep = Some(Arc::new(AsyncMutex::new(before_sleep)));
         self
     }
 
-    /// Puts STOP before the next word.
+    /// Sends a STOP ahead of the next command.
     pub(super) fn stop(&self) {
         self.stopper.stop();
     }
 
-    /// Tells the station.
+    /// Sends an event to the station.
     pub(super) fn tell(&self, event: Event) {
         if let Err(error) = self.events.try_send(event) {
             tracing::warn!(%error, "nobody reads the events; one was dropped");
@@ -160,7 +159,7 @@ impl Wires {
     }
 }
 
-/// What a new session wants of the link, and how that is shown.
+/// Whether a new session wants a link, and the link state to show first.
 fn first_link(antenna: &Antenna, since: Instant) -> (Wanted, LinkState) {
     if antenna.connection.variant().capabilities.waits_for_word {
         return (Wanted::No, LinkState::Off);
@@ -168,68 +167,66 @@ fn first_link(antenna: &Antenna, since: Instant) -> (Wanted, LinkState) {
     (Wanted::Yes, LinkState::Connecting { since })
 }
 
-/// The antenna by its settings.
+/// The antenna's settings.
 struct Setup {
     park: Pointing,
-    /// How it follows.
     manner: Manner,
-    /// The bounds of a pass that the unit tracks by itself.
+    /// Limits by which a pass that the unit tracks by itself is judged.
     ability: Ability,
-    /// When it follows on by itself.
+    /// When program track resumes without a question.
     rule: ResumeRule,
     figures: Figures,
-    /// The response when somebody else drives it into what is forbidden.
+    /// Response to somebody else driving the antenna into a keep-out or near the Sun.
     monitor: Monitor,
 }
 
-/// The link, and what is remembered across the time without one.
+/// State of the link, and what is remembered while there is none.
 struct Contact {
     wanted: Wanted,
     link: LinkState,
     silence: Silence,
-    /// The clocks when they were compared last.
+    /// The clocks at the last comparison.
     clocks: Option<Clocks>,
-    /// The time that the computer has slept since the link was up last.
+    /// How long the computer has slept since the link was last up.
     slept: Duration,
-    /// Where the antenna was seen last on the link before.
+    /// Last position measured over the previous link.
     left_at: Option<Pointing>,
-    /// Its unit at that time.
+    /// What the unit looked like then.
     left_as: Likeness,
-    /// When the link went away while it had been up before.
+    /// When a link that had been up was lost.
     away_since: Option<Instant>,
-    /// The loss of the link was told.
+    /// The operator has been told of the lost link.
     loss_is_told: bool,
-    /// The unit was not read yet on this link.
+    /// The unit has not been read on this link yet.
     unread: bool,
-    /// The unit's own program was on when it was last read.
+    /// The unit's own program was on at the last reading.
     program_was_on: bool,
 }
 
-/// The STOP that is owed to the unit, also by and to other sessions and runs.
+/// The STOP that is owed to the unit, also by other sessions and earlier runs.
 struct Owed {
     unit: Unit,
     debts: Debts,
-    /// Tells this session from others of the same unit.
+    /// Tells the sessions of one unit apart.
     number: u64,
-    /// Since when it is kept that the unit was moved and is not proved to stand.
+    /// Since when a record is kept that the unit was moved and has not been proved to stand.
     kept_unproved: Option<Instant>,
     marking: Marking,
-    /// An earlier run may have left it moving, since then, and the operator is asked.
+    /// An earlier run may have left the unit moving, since then; the operator is being asked.
     left_moving: Option<Timestamp>,
 }
 
-/// The comparisons of one look with the next.
+/// What each look is compared with.
 #[derive(Default)]
 struct Seen {
     watch: Watch,
     place: inside::Place,
     overrun: Overrun,
     rest: Rest,
-    /// When the look came in by which the rest was watched last.
+    /// When the last position that was judged came in.
     looked: Option<Instant>,
 }
 
-/// One antenna's session.
 pub struct Session {
     name: String,
     variant: &'static Variant,
@@ -242,28 +239,28 @@ pub struct Session {
     owed: Owed,
     seen: Seen,
     activity: Activity,
-    /// The watch over what the unit tracks without having been asked from here.
+    /// Watch over a track that nobody asked for from here.
     unasked: Option<on_board::Watch>,
     key: JogKey,
     guard: Guard,
-    /// Puts off the sleep of this computer until nothing is out that only STOP ends.
+    /// Delays the computer's sleep while a motion is out that only STOP ends.
     awake: Option<Awake>,
-    /// An action of its make was asked for from here, and standstill is not proved
+    /// An action of the make was requested from here, and standstill has not been proved
     /// since.
     acts: bool,
-    /// A step that is not known to be over.
+    /// A step that may not be over yet.
     stepping: Option<Stepping>,
     stop: Stop,
-    /// How far a lock-out is.
+    /// Progress of a lock-out.
     locking: Option<Locking>,
     /// A motion whose answer was lost.
     doubt: Option<Doubt>,
-    /// Bytes of a halt, written before anything else.
+    /// Bytes of a halt, to be written before anything else.
     stop_bytes: Vec<u8>,
 }
 
 impl Session {
-    /// A session of `antenna` and the handle to it. Nothing happens before
+    /// Creates a session of `antenna`, and the handle to it. Nothing happens before
     /// [`Self::run`].
     pub fn new(
         controller: Box<dyn Moves>,
@@ -278,7 +275,7 @@ impl Session {
         (Self::over(controller, antenna, dial, clock, wires, Debts::default()), handle)
     }
 
-    /// A session of `antenna` that reads and writes `wires`, and owes in `debts`.
+    /// Creates a session of `antenna` on these channels, which records owed STOPs in `debts`.
     pub(super) fn over(
         controller: Box<dyn Moves>,
         antenna: &Antenna,
@@ -346,7 +343,7 @@ impl Session {
         }
     }
 
-    /// Starts `program` as the dead-man of motions by hand.
+    /// With `program` as the dead-man of motions by hand.
     #[must_use]
     pub fn guarded_by(self, program: PathBuf) -> Self {
         Self { guard: Guard::new(Some(program)), ..self }
@@ -357,7 +354,7 @@ impl Session {
         self.wires.tell(event);
     }
 
-    /// Puts out a new snapshot when anything in it has changed.
+    /// Publishes a snapshot if anything in it has changed.
     fn publish(&mut self, now: Moment) {
         self.keep_unproved();
         let snapshot = Snapshot {
@@ -398,7 +395,7 @@ impl Session {
         }
     }
 
-    /// Hands what went over the link to the log.
+    /// Passes what went over the link on to the wire log.
     fn record(&mut self) {
         let mut is_awaited = false;
         while let Some(line) = self.gate.device().next_wire_line() {
@@ -413,20 +410,20 @@ impl Session {
         self.clock.now()
     }
 
-    /// How old the last measured position is.
+    /// Age of the last measured position.
     fn position_age(&self, now: Moment) -> Option<Duration> {
         let measured = self.gate.state().measured?;
         Some(now.steady.saturating_duration_since(measured.asked))
     }
 
-    /// Whether the antenna turns, whatever else does.
+    /// Returns `true` if the antenna turns; what else the unit moves does not count.
     fn turns(&self) -> bool {
         let count = self.variant.capabilities.axis_count();
         let axes = self.gate.state().measured.into_iter().flat_map(|measured| measured.axes);
         axes.take(count).any(|axis| axis.motion != AxisMotion::Still)
     }
 
-    /// Whether the antenna moves, or was sent or queued what may make it move.
+    /// Returns `true` if the antenna moves, or a motion has been sent or queued.
     fn may_move(&mut self) -> bool {
         self.turns()
             || self.gate.state().program.is_some_and(|program| program.enabled)
@@ -437,7 +434,7 @@ impl Session {
             || self.gate.device().motion_under_way()
     }
 
-    /// Whether the device was last seen moving anything or about to.
+    /// Returns `true` if the unit was last seen moving anything, or about to.
     fn active(&self) -> bool {
         let state = self.gate.state();
         state.measured.is_some_and(|measured| measured.moving())

@@ -1,4 +1,4 @@
-//! What an antenna is wanted to do, and how far that is.
+//! What an antenna is doing for the operator, and how far it has got.
 
 use super::{on_board::Watch, program_track::Tracking};
 use crate::{
@@ -7,69 +7,60 @@ use crate::{
     driver::Intent,
 };
 
-/// One at a time: whatever begins another one ends the one before.
+/// One at a time: starting another ends the present one.
 pub(super) enum Activity {
-    /// Nothing is to move.
     Standby,
-    /// Jogs and steps by hand.
     Manual,
-    /// Stays where it is, ready for a direction; after program track with what was
-    /// tracked.
+    /// Stands, ready for a direction. After program track it keeps what was tracked.
     Hold(Option<Box<Tracking>>),
-    /// Goes to a direction, and stays there.
+    /// Goes to a direction and stays there.
     GoTo(GoTo),
-    /// The unit tracks a pass by itself.
     OnBoardTrack(Box<OnBoardTrack>),
-    /// Azel commands position by position.
+    /// Azel commands one position after another.
     ProgramTrack(Box<Tracking>),
 }
 
-/// A go-to or the way to park.
 pub(super) struct GoTo {
     pub(super) parks: bool,
     pub(super) aim: Option<Pointing>,
     pub(super) stage: GoToStage,
 }
 
-/// How far a go-to is.
 #[derive(Clone, Copy)]
 pub(super) enum GoToStage {
-    /// Is sent as soon as the antenna stands.
+    /// Will be sent as soon as the antenna stands.
     Queued { motion: Motion, leg: Option<Leg> },
-    /// On its way; `since` is when it was sent or seen to turn last.
+    /// Under way; `since` is when it was sent, or last seen to turn.
     UnderWay { since: Instant, leg: Option<Leg> },
-    /// It has arrived, or ended short.
+    /// Has arrived, or ended short.
     Over,
 }
 
 /// The first of two motions to a position, one axis after the other.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Leg {
-    /// Where it ends.
     pub(super) aim: Pointing,
-    /// The motion after it.
     pub(super) then: Motion,
 }
 
-/// A pass that the unit is to track by itself.
 pub(super) struct OnBoardTrack {
     pub(super) target: TrackTarget,
     pub(super) watch: Watch,
     pub(super) stage: OnBoardStage,
 }
 
-/// How far the start of the unit's own program is.
+/// Progress towards the start of the unit's own program.
 #[derive(Clone, Copy)]
 pub(super) enum OnBoardStage {
-    /// The target goes to the unit as soon as the antenna stands.
+    /// The target will be sent to the unit as soon as the antenna stands.
     LoadQueued,
-    /// The target is on its way to the unit.
+    /// The target is being sent to the unit and read back.
     Loading { since: Instant },
-    /// The unit holds the target; its program is started as soon as the antenna stands.
+    /// The unit holds the target; its program will be started as soon as the antenna stands.
     StartQueued,
-    /// Its program was started, and was not seen to run yet.
+    /// Its program was started, but has not been seen running yet.
     Starting { since: Instant },
-    /// The unit was seen tracking.
+    /// The unit has been seen tracking.
     Tracking,
 }
 
@@ -90,7 +81,7 @@ impl Activity {
         }
     }
 
-    /// Whether the antenna was not seen to do it yet.
+    /// Returns `true` until the antenna has been seen doing it.
     pub(super) fn is_pending(&self) -> bool {
         match self {
             Self::GoTo(go_to) => !matches!(go_to.stage, GoToStage::Over),
@@ -99,12 +90,12 @@ impl Activity {
         }
     }
 
-    /// Whether it moves the antenna, or may at any time.
+    /// Returns `true` if it moves the antenna, or may do so at any time.
     pub(super) fn may_move(&self) -> bool {
         self.is_pending() || self.intent() == Intent::Track
     }
 
-    /// The direction that it leads to, where it is one that stays.
+    /// The direction it leads to, if that direction is fixed.
     pub(super) fn aim(&self) -> Option<Pointing> {
         match self {
             Self::GoTo(go_to) => go_to.aim,
@@ -141,7 +132,7 @@ impl Activity {
         }
     }
 
-    /// The program track that runs, or whose last pass is over.
+    /// The program track that is running, or whose last pass is over.
     pub(super) fn last_program(&self) -> Option<&Tracking> {
         match self {
             Self::ProgramTrack(following) | Self::Hold(Some(following)) => Some(following),
@@ -156,7 +147,7 @@ impl Activity {
         }
     }
 
-    /// A halt that was not pressed leaves the mode, and nothing of what ran in it.
+    /// After a halt that nobody pressed: the mode stays, and whatever ran in it ends.
     pub(super) fn halt(&mut self) {
         *self = match self {
             Self::Manual => Self::Manual,
@@ -165,7 +156,7 @@ impl Activity {
         };
     }
 
-    /// What waits for standstill; it counts as sent `now`.
+    /// Takes what waits for standstill; it counts as sent `now`.
     pub(super) fn take_queued(&mut self, now: Instant) -> Option<Queued> {
         match self {
             Self::GoTo(go_to) => {
@@ -198,8 +189,8 @@ impl Activity {
         }
     }
 
-    /// The link is lost: nothing that waits is sent on the next one, but its outcome is
-    /// still told.
+    /// After a lost link: what waits is not sent on the next link, but its outcome is still
+    /// reported.
     pub(super) fn drop_queued(&mut self, now: Instant) {
         self.take_queued(now);
     }

@@ -1,4 +1,4 @@
-//! Sees when the clock of this computer is set and when the computer has slept.
+//! Notices that the computer's clock was set, or that the computer has slept.
 
 use std::time::Duration;
 
@@ -9,12 +9,11 @@ use crate::{
     driver::{LinkLoss, Safety, before_sleep::Awake},
 };
 
-/// A clock that is kept right moves by less from one look to the next, seconds.
+/// Largest change between two looks of a clock that is kept right, seconds.
 const STEP_S: f64 = 0.5;
-/// A shorter sleep is none.
+/// A shorter sleep is ignored.
 const NAP: Duration = Duration::from_secs(1);
 
-/// The clocks at the last look.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Clocks {
     at: Moment,
@@ -22,7 +21,7 @@ pub(super) struct Clocks {
 }
 
 impl Session {
-    /// Ends what is moved by hand: while the computer sleeps nothing would.
+    /// Ends motions by hand: during the sleep nothing would.
     pub(super) fn before_sleep(&mut self, awake: Awake, now: Moment) {
         if let Some(jog) = self.key.held() {
             let rates_deg_s = jog.rates_deg_s;
@@ -41,8 +40,8 @@ impl Session {
         }
     }
 
-    /// Compares the clocks with each other. After a sleep the link is opened anew:
-    /// what was measured before looks fresh, because the steady clock stood.
+    /// Compares the clocks with each other. After a sleep the link is opened anew: old
+    /// positions look fresh, because the steady clock stood still.
     pub(super) fn watch_clocks(&mut self, now: Moment) -> Option<LinkLoss> {
         let look = Clocks { at: now, asleep: self.clock.asleep() };
         let before = self.contact.clocks.replace(look)?;

@@ -1,4 +1,4 @@
-//! What the operator can ask of an antenna, and what the session makes of it.
+//! The operator's commands to an antenna, and how the session carries them out.
 
 use serde::{Deserialize, Serialize};
 use smol_str::SmolStr;
@@ -23,89 +23,82 @@ use crate::{
     station::LockOut,
 };
 
-/// What the operator can ask of an antenna. STOP is no command: it goes past
-/// this queue.
+/// A command to an antenna. STOP is not one: it bypasses this queue.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub enum Command {
-    /// Nothing is to move: ends whatever runs.
+    /// End whatever runs; nothing is to move.
     Standby,
-    /// By hand: ends tracking.
+    /// Jog and step by hand; ends tracking.
     Manual,
-    /// Stay where it is, ready to be sent to a direction: ends tracking.
+    /// Stay here, ready to be sent to a direction; ends tracking.
     Hold,
-    /// A jog key is down. To be repeated at least every 300 ms.
+    /// A jog key is held. Repeated at least every 300 ms.
     Jog {
         /// Signed rates of the two axes, degrees a second.
         rates_deg_s: [f64; 2],
     },
-    /// The jog key is up.
+    /// The jog key was released.
     EndJog,
-    /// For a minute, move by hand although no dead-man can be had.
+    /// For a minute, allow motions by hand without a dead-man.
     AllowUnguarded,
-    /// For a minute, move by hand out of where the antenna must not point.
+    /// For a minute, allow motions by hand out of a forbidden direction.
     AllowWayOut,
-    /// Go to the nearest direction that stays clear of the Sun.
+    /// Go to the nearest direction clear of the Sun.
     MoveAway,
-    /// One step of the two axes.
+    /// Turn each axis by one step.
     Step {
         /// Signed, degrees.
         steps_deg: [f64; 2],
     },
-    /// To a direction of the sky.
+    /// Go to a direction of the sky.
     Position {
         /// `None` leaves it as it is.
         azimuth: Option<Angle>,
         /// `None` leaves it as it is.
         elevation: Option<Angle>,
     },
-    /// Let the device track a pass by itself.
+    /// Let the unit track a pass on board.
     Track(Box<OnBoardPass>),
-    /// Take over what the unit tracks by itself, without a motion: its satellite is known
-    /// here, and it points there.
+    /// Take over the track that the unit runs by itself, without a motion. Its satellite must
+    /// be known here, and the unit must point at it.
     TakeOver,
-    /// Follow a target position by position, also where the device could track by
-    /// itself.
+    /// Program track, also with a unit that could track on board.
     ProgramTrack(Box<ProgramTrack>),
-    /// Follow a target that leads to the Sun, by the operator's word: the avoidance of
-    /// it is lifted for that alone.
+    /// Program track of a target that leads to the Sun: the operator lifts the Sun avoidance
+    /// for this track alone.
     ProgramTrackIntoSun(Box<ProgramTrack>),
-    /// Follow on, where that waits for the operator's word.
+    /// Resume a program track that waits for the operator.
     Resume,
     /// The operator has seen that the antenna stands: no STOP is owed any more.
     SeenStanding,
-    /// To the park position.
     Park,
-    /// Open the link, and keep it.
+    /// Open the link, and keep it open.
     Connect,
-    /// Close the link, and leave the device to others. A motion of its own goes
-    /// on.
+    /// Close the link and leave the unit to others. A motion of its own goes on.
     Disconnect,
-    /// Do what only this make of controller can do.
+    /// An action that only this make has.
     Act(Act),
-    /// The same, where the gate does not know where it leads and the operator answers
-    /// for that.
+    /// An action whose lead the gate does not know, on the operator's responsibility.
     ActUnseen(Act),
-    /// The device may start to follow by itself.
+    /// Switch the unit's automatic start of tracking on or off.
     AutoTrack(bool),
-    /// Read the group of settings with this key anew.
+    /// Read the settings group with this key anew.
     ReadGroup(#[serde(deserialize_with = "name::one")] Name),
-    /// Put new values of a group of settings on the device. The outcome stands
-    /// in the snapshot.
+    /// Write new values of a settings group. The outcome appears in the snapshot.
     WriteSettings(Change),
-    /// Lock the unit out for maintenance: from now on nothing but questions and STOP
-    /// goes to it. What moves is stopped first.
+    /// Lock the unit out for maintenance: it gets only questions and STOP from now on. A
+    /// motion is stopped first.
     LockOut(LockOut),
     /// The maintenance is over.
     Unlock,
-    /// Ask the device something; the answer is in the log of the link.
+    /// Send a question to the unit; the answer appears in the wire log.
     Ask(SmolStr),
 }
 
 impl Session {
     pub(super) fn carry_out(&mut self, command: Command, now: Moment) {
-        // A hold is renewed many times a second; not worth a line each. Settings
-        // are logged where they are made, without their values, and a target by its
-        // name.
+        // A jog is renewed many times a second and not logged. Settings are logged where they
+        // are written, without their values; a target by its name.
         let quiet = matches!(
             command,
             Command::Jog { .. }
@@ -159,10 +152,10 @@ impl Session {
             Command::Act(act) => self.act(act, false, now),
             Command::ActUnseen(act) => self.act(act, true, now),
             Command::Connect => self.contact.wanted = Wanted::Yes,
-            // The loop's.
+            // Handled by the loop.
             Command::Disconnect => {}
         }
-        // The act comes first: nothing of it waits for its line.
+        // Carried out first, so that the action does not wait for its log line.
         if let Some(command) = line {
             tracing::info!(antenna = self.name, ?command, "command");
         }
@@ -182,7 +175,7 @@ impl Session {
 
     /// Ends what runs, for an activity in which nothing moves by itself.
     fn leave_for(&mut self, activity: Activity, now: Moment) {
-        // In Standby nothing of the device is to move.
+        // In Standby the unit must not move by itself either.
         let is_standby = matches!(activity, Activity::Standby);
         if self.may_move() || (is_standby && self.active()) {
             self.halt_quietly(now);
@@ -191,7 +184,7 @@ impl Session {
         self.activity = activity;
     }
 
-    /// Whether the motion went through the gate; if not, the reason was told.
+    /// Sends a motion through the gate. Returns `false` after reporting why it was refused.
     pub(super) fn start(&mut self, motion: Motion, now: Moment) -> bool {
         let (intent, stopping) = (self.activity.intent(), self.stop.is_under_way());
         match self.gate.start(motion, intent, stopping, now) {
@@ -206,7 +199,7 @@ impl Session {
         }
     }
 
-    /// Checked before anything that runs is ended for it.
+    /// Checks the motion before it ends anything for it.
     pub(super) fn go_to(&mut self, motion: Motion, intent: Intent, now: Moment) {
         let checked = self.gate.nearest(motion).and_then(|motion| {
             let route = self.gate.route(motion, intent, now)?;
@@ -279,15 +272,15 @@ impl Session {
         }
     }
 
-    /// The intent cannot be had, or is over: back to Standby, with the reason.
-    /// A halt makes sure that nothing of it is left.
+    /// The intent cannot be carried out, or is over: back to Standby, with the reason. A halt
+    /// ends what may be left of it.
     pub(super) fn give_up(&mut self, reason: Event, now: Moment) {
         self.activity = Activity::Standby;
         self.halt_quietly(now);
         self.tell(reason);
     }
 
-    /// A command while there is no link.
+    /// Carries out a command while there is no link.
     pub(super) fn carry_out_offline(&mut self, command: Command, now: Moment) {
         if self.lock_out_forbids(&command) {
             return;
@@ -296,13 +289,13 @@ impl Session {
             Command::WriteSettings(change) => {
                 self.gate.device().refuse_change(change, WriteError::NoLink, now);
             }
-            // A group is read when the link is back and somebody looks; that
-            // nothing can be asked is told by the link itself.
+            // A group is read once the link is back and somebody looks. The link itself shows
+            // that nothing can be asked.
             Command::ReadGroup(_) | Command::Ask(_) => {}
             Command::Connect => self.contact.wanted = Wanted::Yes,
             Command::LockOut(lock_out) => self.lock_out(lock_out, now),
             Command::Unlock => self.unlock(),
-            // Told by the link itself; the keys are locked anyway.
+            // The link shows it; the keys are locked anyway.
             Command::Jog { rates_deg_s } => self.key = JogKey::Spent(rates_deg_s),
             Command::EndJog => self.key = JogKey::Up,
             Command::AllowUnguarded => self.allow_unguarded(now),
@@ -311,7 +304,7 @@ impl Session {
             Command::Resume => self.resume(),
             Command::Standby => self.activity = Activity::Standby,
             _ => {
-                // Whoever wants something else does not want this to go on.
+                // An operator who wants something else does not want this to go on.
                 if self.activity.program().is_some() {
                     self.activity = Activity::Standby;
                 }

@@ -1,4 +1,4 @@
-//! What stands between a motion by hand and a process that dies: the dead-man.
+//! The dead-man: stops a motion by hand if this process dies.
 
 use std::{io, path::PathBuf, time::Duration};
 
@@ -12,31 +12,32 @@ use crate::{
     },
 };
 
-/// For how long the operator's word stands in for a dead-man.
+/// How long the operator's permission stands in for a dead-man.
 const ALLOWED: Duration = Duration::from_mins(1);
 
-/// The dead-man of one antenna.
 #[derive(Debug)]
 pub(super) struct Guard {
-    /// What is started as the child.
+    /// Program of the child process.
     program: Option<PathBuf>,
     line: Line,
     armed: Option<DeadMan>,
-    /// No child could be had when one was needed last.
+    /// No child could be had the last time one was needed.
     pub(super) is_missing: bool,
-    /// Until then the operator lets it move by hand without one.
+    /// Until then the operator allows motions by hand without one.
     allowed_until: Option<Instant>,
 }
 
-/// The open link, as far as a child can write to it.
+/// The link, as a child can write to it.
 #[derive(Debug)]
 enum Line {
-    /// There is none.
     Closed,
     /// Its far end lives in this process and ends with it.
     InProcess,
-    /// A handle for the child, and STOP as it leaves the last layer of the link.
-    Open { link: Duplicate, stop: Vec<u8> },
+    /// A handle for the child, and the STOP bytes as they leave the lowest layer of the link.
+    Open {
+        link: Duplicate,
+        stop: Vec<u8>,
+    },
     /// No handle can be had.
     Unavailable,
 }
@@ -47,7 +48,7 @@ impl Guard {
         Self { program, line, armed, is_missing: false, allowed_until: None }
     }
 
-    /// A link is open; `stop` is STOP as the controller writes it.
+    /// A link is open; `stop` holds the controller's STOP bytes.
     pub(super) fn link_up(&mut self, stream: &dyn Stream, stop: &[u8]) {
         self.line = match stream.duplicate() {
             Ok(None) => Line::InProcess,
@@ -56,8 +57,7 @@ impl Guard {
         };
     }
 
-    /// The link is let go of: the child first, since its handle would keep the
-    /// connection open.
+    /// The link is let go: first the child, whose handle would keep the connection open.
     pub(super) fn link_down(&mut self) {
         self.disarm();
         self.line = Line::Closed;
@@ -92,7 +92,7 @@ fn copy(link: &Duplicate) -> io::Result<Duplicate> {
 }
 
 impl Session {
-    /// Sees to a dead-man before metal moves that only a STOP would end.
+    /// Arms the dead-man before a motion that only a STOP would end.
     pub(super) fn arm_dead_man(&mut self, now: Moment) -> Result<(), Refusal> {
         if self.variant.capabilities.ends_jogs || self.guard.armed.is_some() {
             return Ok(());
@@ -105,13 +105,13 @@ impl Session {
         if is_allowed { Ok(()) } else { Err(Refusal::Unguarded) }
     }
 
-    /// The operator lets it move by hand without a dead-man, for a minute.
+    /// The operator allows motions by hand without a dead-man, for a minute.
     pub(super) fn allow_unguarded(&mut self, now: Moment) {
         self.guard.allowed_until = Some(now.steady + ALLOWED);
     }
 
-    /// Beats while the lease holds or a halt is under way, and ends the child
-    /// when nothing is out any more.
+    /// Beats while the lease holds or a halt is under way, and ends the child when nothing can
+    /// move any more.
     pub(super) fn beat(&mut self, now: Moment) {
         let Some(dead_man) = &mut self.guard.armed else { return };
         if self.key.held().is_none() && !self.stop.is_under_way() {
@@ -125,11 +125,10 @@ impl Session {
         }
     }
 
-    /// When the next beat is due.
     pub(super) fn beat_due(&self) -> Option<Instant> {
         self.guard.armed.as_ref().map(DeadMan::due)
     }
 }
 
-// A beat may be late by what a turn of the loop takes.
+// A beat may be late by one turn of the loop.
 const _: () = assert!(BEAT.as_millis() * 3 < 400);

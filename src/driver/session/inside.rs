@@ -1,5 +1,5 @@
-//! An antenna that is where it must not point: how it gets out of there, and how it
-//! gets to point at the Sun where that is meant.
+//! An antenna in a forbidden direction: its way out, and the way to the Sun when that is
+//! meant.
 
 use std::time::Duration;
 
@@ -12,12 +12,12 @@ use crate::{
     plan::{Barrier, Bounds, ProgramTrack},
 };
 
-/// For so long the operator's word lets it out.
+/// How long the operator's permission lets it out.
 const ALLOWED: Duration = Duration::from_mins(1);
-/// So many ways to a refuge are tried.
+/// Maximum number of ways to a refuge that are tried.
 const MAX_REFUGES: usize = 64;
 
-/// What the antenna is inside of, by the last look.
+/// The barrier that the antenna is inside of, by the last position.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub(super) struct Place {
     looked: Option<Instant>,
@@ -25,7 +25,7 @@ pub(super) struct Place {
 }
 
 impl Session {
-    /// Looks what the antenna is inside of. The word that lets it out ends outside.
+    /// Finds the barrier that the antenna is inside of. The permission to leave ends outside.
     pub(super) fn watch_place(&mut self, now: Moment) {
         let Some(look) = self.gate.state().measured else { return };
         if self.seen.place.looked.replace(look.received) == Some(look.received) {
@@ -38,15 +38,15 @@ impl Session {
         }
     }
 
-    /// What it is inside of, as it is shown.
+    /// For the snapshot.
     pub(super) fn inside(&self, now: Moment) -> Option<Inside> {
         let barrier = self.seen.place.barrier.clone()?;
         Some(Inside { barrier, may_leave: self.gate.lets_out(now) })
     }
 
-    /// What it keeps within by what is wanted of it now.
+    /// The bounds that apply to the present activity.
     pub(super) fn bounds_now(&self) -> &Bounds {
-        // Only what this program follows may lead to the Sun.
+        // Only program track may lead to the Sun.
         let intent =
             if self.activity.program().is_some() { Intent::Track } else { Intent::Standby };
         self.gate.bounds_in(intent)
@@ -57,12 +57,12 @@ impl Session {
         Some(self.gate.bounds().direction(self.gate.axes_deg()?))
     }
 
-    /// The operator lets it be moved out by hand, for a minute.
+    /// The operator allows it to be moved out by hand, for a minute.
     pub(super) fn allow_way_out(&mut self, now: Moment) {
         self.gate.let_out(Some(now.steady + ALLOWED));
     }
 
-    /// Takes up a target. Only by the operator's word it may lead to the Sun.
+    /// Begins program track. It may lead to the Sun only where the operator has said so.
     pub(super) fn follow_as_agreed(
         &mut self,
         follow: ProgramTrack,
@@ -71,13 +71,13 @@ impl Session {
     ) {
         let before = self.gate.lift_sun(leads_to_sun);
         if !self.follow(follow, now) {
-            // What is followed already goes on as it was agreed.
+            // The present track goes on as it was agreed.
             self.gate.lift_sun(before);
         }
     }
 
-    /// Away from the Sun, the shortest way that stays clear of it for its time ahead;
-    /// to the park position where that is nearer.
+    /// Moves away from the Sun the shortest way that stays clear of it for its time ahead, or
+    /// to the park position if that is nearer.
     pub(super) fn move_away(&mut self, now: Moment) {
         let has_elevation = self.variant.capabilities.has_elevation();
         let to = |direction: AzEl| Motion::Position {
@@ -88,13 +88,13 @@ impl Session {
             return self.tell(Event::NotSent(Refusal::PositionUnknown));
         };
         let bounds = self.gate.bounds();
-        // Whether it gets there, and on a way without a corner.
+        // The direction must be reached, and on a way without a corner.
         let way = |direction: AzEl, intent: Intent| {
             let motion = self.gate.nearest(to(direction));
             let route = motion.and_then(|motion| self.gate.route(motion, intent, now)).ok()?;
             Some((direction, route.then.is_none()))
         };
-        // Without an elevation axis it gets to its own elevation alone.
+        // Without an elevation axis it reaches only its own elevation.
         let is_reached =
             |at: &AzEl| has_elevation || (at.elevation - here.elevation).degrees().abs() < 1e-6;
         let refuges = bounds.refuges(here, now.utc).filter(is_reached).take(MAX_REFUGES);

@@ -1,4 +1,4 @@
-//! The loop of a session: dial, talk, lose, dial again.
+//! The loop of a session: dial, talk, lose the link, dial again.
 
 use std::{io, time::Duration};
 
@@ -15,9 +15,9 @@ use crate::{
     plan::Bounds,
 };
 
-/// A connection that does not come up in this time is given up.
+/// Time limit for a connection to come up.
 pub(super) const CONNECT: Duration = Duration::from_secs(3);
-/// A link that does not take a few bytes in this time is broken.
+/// Time limit for a link to take a few bytes.
 pub(super) const WRITE: Duration = Duration::from_secs(1);
 /// Waits between attempts; the last one repeats.
 const BACK_OFF: [Duration; 5] = [
@@ -28,23 +28,22 @@ const BACK_OFF: [Duration; 5] = [
     Duration::from_secs(8),
 ];
 
-/// While a stop is owed, the unit is tried again this often.
+/// Interval between attempts while a STOP is owed.
 pub(super) const STOP_RETRY: Duration = Duration::from_millis(250);
-/// The shortest sleep of the loop.
 pub(super) const MIN_WAIT: Duration = Duration::from_millis(2);
 
-/// What ended a stretch of waiting or talking.
+/// What ended a wait.
 pub(super) enum Input {
     Bytes(usize),
     Lost(LinkLoss),
     Command(Command),
-    /// Other bounds hold for the antenna from now on.
+    /// New bounds of the antenna.
     Bounds(Box<Bounds>),
     Stop,
     /// This computer is about to sleep.
     Sleep(Awake),
     Time,
-    /// The window is gone: the session ends.
+    /// The station is gone: the session ends.
     Over,
 }
 
@@ -64,7 +63,7 @@ impl Session {
                     continue;
                 }
             }
-            // Over, or let go of: in that case the next word is waited for.
+            // The session is over, or the unit was let go: then it waits for the next command.
             if self.contact.wanted != Wanted::No {
                 break;
             }
@@ -78,8 +77,8 @@ impl Session {
         self.publish(now);
     }
 
-    /// Why the link is lost again; `None` when the session is to end or the link
-    /// is not wanted any more.
+    /// Returns why the link was lost; `None` to end the session, or if no link is wanted any
+    /// more.
     async fn connect_and_talk(&mut self, attempt: &mut usize) -> Option<LinkLoss> {
         let stream = match self.connect().await {
             Ok(Some(stream)) => stream,
@@ -90,7 +89,7 @@ impl Session {
         let end = self.talk(stream).await;
         if self.gate.state().traffic.replies > replies_before {
             *attempt = 0;
-            // A link on which nothing was ever said is no new one.
+            // A link that never carried a reply does not count as a new one.
             self.contact.loss_is_told = false;
         }
         self.remember_likeness();
@@ -101,7 +100,7 @@ impl Session {
         end
     }
 
-    /// Dials; `None` when the session is to end.
+    /// Returns `None` to end the session.
     async fn connect(&mut self) -> Result<Option<Box<dyn Stream>>, LinkLoss> {
         let now = self.now();
         self.publish(now);
@@ -127,7 +126,7 @@ impl Session {
         }
     }
 
-    /// Waits between two attempts; `None` when the session is to end.
+    /// Waits between two attempts; returns `None` to end the session.
     async fn pause(&mut self, loss: LinkLoss, wait: Duration) -> Option<()> {
         let now = self.now();
         self.tell_silence_of_lost_link();
@@ -142,7 +141,7 @@ impl Session {
         self.lose(loss, retry_at);
         loop {
             let now = self.now();
-            // A stop cannot wait for a polite interval.
+            // A STOP cannot wait for a polite interval.
             if self.stop.is_under_way() && retry_at > now.steady + STOP_RETRY {
                 retry_at = now.steady + STOP_RETRY;
                 if let LinkState::Lost { retry_at: shown, .. } = &mut self.contact.link {
@@ -169,7 +168,7 @@ impl Session {
         }
     }
 
-    /// `false` when the session is to end or to let go of the device.
+    /// Returns `false` to close the session or disconnect.
     fn take_offline(&mut self, turn: Input) -> bool {
         let now = self.now();
         match turn {
@@ -182,7 +181,7 @@ impl Session {
             Input::Bytes(_) | Input::Lost(_) | Input::Time => {}
         }
         self.let_sleep();
-        // The link was wanted for a stop alone, and none is owed any more.
+        // The link was wanted for a STOP only, and none is owed any more.
         if self.contact.wanted == Wanted::ForStop && self.disconnect_after_stop() {
             return false;
         }
@@ -190,15 +189,16 @@ impl Session {
         true
     }
 
-    /// What was asked for before a stop is void, whoever it came from.
+    /// Commands given before a STOP are void, whoever gave them.
     pub(super) fn stop_and_void(&mut self, now: Moment) {
         self.wires.stopper.forget();
         self.halt(now);
     }
 
-    /// Talks until the link is lost; `None` when the session is to end.
+    /// Talks until the link is lost; returns `None` to end the session.
     async fn talk(&mut self, stream: Box<dyn Stream>) -> Option<LinkLoss> {
-        // For the dead-man. With the link coming up the controller forgets that it was asked.
+        // STOP bytes for the dead-man. When the link comes up the controller forgets this
+        // request.
         let now = self.now();
         let stop = self.gate.device().halt(Extent::Everything, now);
         self.guard.link_up(&*stream, &stop);
@@ -240,8 +240,8 @@ impl Session {
                 return None;
             }
             self.publish(now);
-            // What the last look has brought about goes out without a wait. A
-            // controller that is due for ever must not keep out the next word.
+            // The effects of the last bytes go out without a wait. A controller that is always
+            // due must not keep out the next command.
             hurries = !hurries && self.gate.device().due(now) <= now.steady;
             if hurries || !self.stop_bytes.is_empty() {
                 continue;
@@ -281,7 +281,7 @@ impl Session {
         }
     }
 
-    /// Halts first, then whatever the controller wants to send.
+    /// Sends halts first, then whatever the controller has to send.
     pub(super) async fn send(
         &mut self,
         writer: &mut WriteHalf<Box<dyn Stream>>,
@@ -315,7 +315,7 @@ impl Session {
             .chain([due])
             .min();
         let clock = self.clock.clone();
-        // A deadline that brings about nothing must not spin.
+        // A deadline without effect must not spin.
         let until = until.unwrap_or(due).max(now.steady + MIN_WAIT);
         tokio::select! {
             biased;
@@ -330,7 +330,7 @@ impl Session {
     }
 }
 
-/// The next word from the window, a stop before anything else.
+/// The next input, a STOP before anything else.
 pub(super) async fn next_input(wires: &mut Wires) -> Input {
     tokio::select! {
         biased;
@@ -352,14 +352,13 @@ async fn next_sleep(before_sleep: Option<&AsyncMutex<mpsc::Receiver<Awake>>>) ->
 
 async fn next_bounds(bounds: &mut watch::Receiver<Bounds>) -> Bounds {
     if bounds.changed().await.is_err() {
-        // The end comes as the end of the commands.
+        // The end shows as the end of the commands.
         std::future::pending::<()>().await;
     }
     bounds.borrow_and_update().clone()
 }
 
-/// `None` when the station is gone: what was asked for just before the end is not
-/// begun any more.
+/// Returns `None` when the station is gone: commands given just before the end are not begun.
 async fn next_command(
     commands: &AsyncMutex<mpsc::Receiver<Numbered>>,
     stopper: &Stopper,
@@ -370,7 +369,7 @@ async fn next_command(
         if commands.is_closed() {
             return None;
         }
-        // A lock-out forbids; a stop does not take that back.
+        // A lock-out forbids; a STOP does not take that back.
         if matches!(command, Command::LockOut(_)) || !stopper.is_void(number) {
             return Some(command);
         }
@@ -396,7 +395,7 @@ async fn write(
     }
 }
 
-/// What the operating system says, without its number.
+/// The operating system's message, without its number.
 fn in_words(error: &io::Error) -> String {
     let text = error.to_string();
     let words = text.split(" (os error").next().unwrap_or_default();

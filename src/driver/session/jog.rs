@@ -1,4 +1,4 @@
-//! The lease of a jog: it lives only while the window renews it.
+//! The lease of a jog: a jog lives only while the window renews it.
 
 use std::time::Duration;
 
@@ -9,26 +9,26 @@ use crate::{
     driver::Safety,
 };
 
-/// A hold that was not renewed for this long is over.
+/// A jog that was not renewed for this long is over.
 pub const LEASE: Duration = Duration::from_millis(300);
 /// A jog needs a position younger than this.
 const FRESH: Duration = Duration::from_secs(1);
 
-/// A motor takes no longer to begin to turn.
+/// Longest time that a motor takes to start turning.
 const EFFECT: Duration = Duration::from_millis(1500);
 
-/// A jog key that is held.
+/// A held jog key.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Jog {
     /// Signed rates of the two axes, degrees a second.
     pub(super) rates_deg_s: [f64; 2],
-    /// When the hold ends unless renewed.
+    /// When the jog ends unless renewed.
     pub(super) until: Instant,
     /// The motion went through the gate.
     pub(super) started: bool,
-    /// The gate said no, and the operator was told.
+    /// The gate refused it, and the operator was told.
     pub(super) refused: bool,
-    /// The look before it began, until it is seen to turn the antenna.
+    /// The position before it began, until the antenna is seen to turn.
     pub(super) unseen: Option<Measured>,
 }
 
@@ -39,15 +39,13 @@ impl Jog {
     }
 }
 
-/// The jog keys of the operator.
+/// The operator's jog keys.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) enum JogKey {
-    /// None is held.
     Up,
-    /// One is held.
     Down(Jog),
-    /// The hold of these rates ended before its key came up: it needs a new press, or
-    /// the same key could move metal again after a freeze of the window.
+    /// A jog with these rates ended before its key came up. It needs a new press, or the same
+    /// key could move the antenna again after the window has frozen.
     Spent([f64; 2]),
 }
 
@@ -71,14 +69,14 @@ impl JogKey {
         self.held().filter(|jog| jog.started)
     }
 
-    /// Ends a hold whose key is still down.
+    /// Ends a jog whose key is still down.
     pub(super) fn spend(&mut self) {
         if let Self::Down(jog) = self {
             *self = Self::Spent(jog.rates_deg_s);
         }
     }
 
-    /// Ends a hold; the same key may begin another.
+    /// Ends a jog; the same key may begin another.
     pub(super) fn end(&mut self) {
         if let Self::Down(_) = self {
             *self = Self::Up;
@@ -87,7 +85,7 @@ impl JogKey {
 }
 
 impl Session {
-    /// The key is down. Called again and again while it stays down.
+    /// The key is down; called repeatedly while it stays down.
     pub(super) fn hold_jog(&mut self, rates_deg_s: [f64; 2], now: Moment) {
         let until = now.steady + LEASE;
         match &mut self.key {
@@ -110,7 +108,6 @@ impl Session {
         self.start_jog(now);
     }
 
-    /// The key is up.
     pub(super) fn release_jog(&mut self, now: Moment) {
         if self.key.started().is_some() {
             self.halt_quietly(now);
@@ -142,7 +139,7 @@ impl Session {
                 jog.unseen = before;
                 self.stop.forget();
             }
-            // A key that stays down tries again, but the reason is told once.
+            // A key that stays down tries again, but the reason is reported once.
             Err(refusal) => {
                 if !std::mem::replace(&mut jog.refused, true) {
                     self.tell(Event::NotSent(refusal));
@@ -151,13 +148,13 @@ impl Session {
         }
     }
 
-    /// Tells of a jog that the unit took and that turns nothing.
+    /// Reports a jog that the unit accepted and that turns nothing.
     fn watch_effect(&mut self) {
         let Some(jog) = self.key.held_mut() else { return };
         let Some((before, look)) = jog.unseen.zip(self.gate.state().measured) else { return };
         let turned = self.setup.figures.turned(&before, &look).is_some();
         let waited = look.asked.saturating_duration_since(before.asked);
-        // The slowest jog must have had the time to show.
+        // Even the slowest jog must have had time to show.
         let rate_deg_s = jog.rates_deg_s.into_iter().map(f64::abs).fold(0.0, f64::max);
         let expected_deg = rate_deg_s * waited.saturating_sub(EFFECT).as_secs_f64();
         let is_due = expected_deg > 4.0 * self.setup.figures.tolerance_deg();
@@ -170,7 +167,7 @@ impl Session {
         }
     }
 
-    /// Ends a jog that is no longer renewed, or that moves blindly.
+    /// Ends a jog that is no longer renewed, or whose position is too old.
     pub(super) fn watch_jog(&mut self, now: Moment) {
         self.watch_effect();
         let Some(jog) = self.key.held() else { return };
@@ -188,7 +185,7 @@ impl Session {
         } else if self.position_age(now).is_none_or(|age| age >= FRESH) {
             Some(Event::JogPositionOld)
         } else {
-            // What was free when it began may have become a limit or a fault.
+            // What was allowed when it began may have become a limit or a fault.
             let intent = self.activity.intent();
             self.gate.check(jog.motion(), intent, now).err().map(Event::NotSent)
         };
@@ -201,13 +198,13 @@ impl Session {
     }
 }
 
-/// Whether two holds turn the same axes the same way, at whatever rates.
+/// Returns `true` if two jogs turn the same axes the same way, at whatever rates.
 fn is_same_way(a: [f64; 2], b: [f64; 2]) -> bool {
     let way = |rate: f64| rate.partial_cmp(&0.0);
     a.map(way) == b.map(way)
 }
 
-/// A held key repeats the very same numbers.
+/// A held key repeats exactly the same numbers.
 fn same(a: [f64; 2], b: [f64; 2]) -> bool {
     a.map(f64::to_bits) == b.map(f64::to_bits)
 }

@@ -1,5 +1,5 @@
-//! Whether a unit that was out of sight answers as before: it may have been
-//! exchanged, set anew or lost its memory meanwhile.
+//! Compares a unit that was out of reach with what it was before: meanwhile it may have been
+//! replaced, set anew or have lost its memory.
 
 use std::time::Duration;
 
@@ -10,13 +10,13 @@ use crate::{
     driver::Unlike,
 };
 
-/// So long a unit may take to tell again what it told before.
+/// How long a unit may take to report again what it reported before.
 const READ_AGAIN: Duration = Duration::from_secs(15);
 
-/// Both ends of an axis, degrees; `None` where the unit tells none.
+/// Both ends of an axis, degrees; `None` where the unit does not report them.
 type Ends = Option<(f64, f64)>;
 
-/// What a unit tells of itself, as far as it does.
+/// What a unit reports of itself, as far as it does.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub(super) struct Likeness {
     identity: Option<String>,
@@ -25,11 +25,11 @@ pub(super) struct Likeness {
     travel_deg: [Ends; 2],
 }
 
-/// A unit that is compared before a target is followed on.
+/// A unit that must be compared before a target is tracked on.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Recheck {
     pub(super) since: Instant,
-    /// For how long it was out of sight.
+    /// How long it was out of reach.
     pub(super) lost: Duration,
 }
 
@@ -43,7 +43,7 @@ impl Likeness {
         }
     }
 
-    /// How `now` differs; what was not told before cannot.
+    /// How `now` differs. What was not known before cannot differ.
     fn differs(&self, now: &Self) -> Option<Unlike> {
         let moved = |(before, now): (Place, Place)| {
             let step_deg = before.step_deg + 1e-9;
@@ -66,7 +66,7 @@ impl Likeness {
         }
     }
 
-    /// Whether `now` tells all that was told before.
+    /// Returns `true` if `now` has everything that was known before.
     fn is_told(&self, now: &Self) -> bool {
         let has = |before: bool, now: bool| !before || now;
         has(self.identity.is_some(), now.identity.is_some())
@@ -81,16 +81,16 @@ impl Likeness {
 }
 
 impl Session {
-    /// The link goes: keeps what the unit was like, unless it is still compared with
-    /// what it was like before.
+    /// The link goes: remembers what the unit was like, unless a comparison with an earlier
+    /// state is still pending.
     pub(super) fn remember_likeness(&mut self) {
         if !self.contact.unread && self.activity.program().is_none_or(|it| it.recheck.is_none()) {
             self.contact.left_as = Likeness::of(self.gate.state());
         }
     }
 
-    /// Lets a target be followed on once the unit has told that it is as before, and
-    /// asks the operator where it is not.
+    /// Lets a track resume once the unit has proved to be as before; otherwise asks the
+    /// operator.
     pub(super) fn watch_likeness(&mut self, now: Moment) {
         let Some(following) = self.activity.program_mut() else { return };
         let Some(Recheck { since, lost }) = following.recheck.filter(|_| !self.contact.unread)

@@ -1,5 +1,4 @@
-//! Whether the unit still answers: the state of the link by the age of its last
-//! good reply.
+//! The state of the link, by the age of the last good reply.
 
 use std::time::Duration;
 
@@ -10,7 +9,7 @@ use crate::{
 };
 
 impl Session {
-    /// The link is gone; it is tried again at `retry_at`.
+    /// The link is gone; the next attempt is at `retry_at`.
     pub(super) fn lose(&mut self, reason: LinkLoss, retry_at: Instant) {
         let now = self.now();
         let last_reply = self.gate.state().traffic.last_reply;
@@ -52,7 +51,7 @@ impl Session {
         None
     }
 
-    /// When the age of the last reply means something new.
+    /// When the age of the last reply changes the state of the link.
     pub(super) fn link_due(&mut self) -> Option<Instant> {
         let state = self.gate.state();
         let last = state.traffic.last_reply.max(state.link_since)?;

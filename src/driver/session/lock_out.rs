@@ -1,30 +1,30 @@
-//! A unit that is worked on: nothing but questions and STOP goes to it, whoever
-//! asks. Before that it is stopped, and kept from starting by itself.
+//! A locked-out unit: it gets only questions and STOP, whoever asks. Before that it is stopped
+//! and kept from starting by itself.
 
 use std::{sync::Arc, time::Duration};
 
 use super::{Command, Event, Session, activity::Activity, wanted::Wanted};
 use crate::{clock::Instant, clock::Moment, driver::Refusal, station::LockOut};
 
-/// So long it may take until auto-track is read back as off.
+/// Time limit until auto-track is read back as off.
 const READ_BACK: Duration = Duration::from_secs(10);
 
-/// How far a lock-out is.
+/// Progress of a lock-out.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Locking {
     since: Instant,
     /// Auto-track was switched off on this link.
     is_asked: bool,
-    /// The device was read as one that does not start by itself.
+    /// The unit was read as one that does not start by itself.
     is_proved: bool,
-    /// It was so once: whoever works on it may switch it on since.
+    /// That was so once: since then the person who works on it may have switched it on.
     was_proved: bool,
-    /// It was told that this cannot be read back.
+    /// The operator was told that it cannot be read back.
     is_told: bool,
 }
 
 impl Session {
-    /// The same session, of a unit that may be locked out from the beginning.
+    /// With a unit that may be locked out from the beginning.
     #[must_use]
     pub fn locked_out(mut self, lock_out: Option<LockOut>) -> Self {
         if let Some(lock_out) = lock_out {
@@ -39,7 +39,7 @@ impl Session {
         self
     }
 
-    /// Locks the unit out. What moves is stopped first.
+    /// Locks the unit out. A motion is stopped first.
     pub(super) fn lock_out(&mut self, lock_out: LockOut, now: Moment) {
         if self.gate.lock_out().is_some() {
             self.gate.set_lock_out(Some(lock_out));
@@ -61,8 +61,8 @@ impl Session {
         }
     }
 
-    /// Where a question takes the panel of the unit from who works on it, nothing but
-    /// STOP is said to it from now on.
+    /// Where a question would take the panel of the unit from the person who works on it, only
+    /// STOP is sent from now on.
     fn leave_panel(&mut self) {
         if self.variant.capabilities.waits_for_word && self.contact.wanted == Wanted::Yes {
             self.contact.wanted = Wanted::ForStop;
@@ -93,9 +93,8 @@ impl Session {
         self.locking.is_some() && self.stop.is_under_way()
     }
 
-    /// Whether the command ends here, because the unit is locked out. A jog and what
-    /// only this make can do are refused by the gate, settings by the controller,
-    /// each where its refusal is shown.
+    /// Returns `true` if the lock-out forbids the command. Jogs and actions of the make are
+    /// refused by the gate, settings by the controller, each where its refusal is shown.
     pub(super) fn lock_out_forbids(&mut self, command: &Command) -> bool {
         let Some(lock_out) = self.gate.lock_out() else { return false };
         if *command == Command::Connect {
@@ -142,8 +141,8 @@ impl Session {
         is_refused
     }
 
-    /// Keeps the device from starting by itself, and looks whether it is so. It is
-    /// asked once on each link, and not again after it was seen.
+    /// Keeps the unit from starting by itself and checks it: once on each link, and not again
+    /// after it was proved.
     pub(super) fn watch_lock_out(&mut self, now: Moment) {
         let Some(locking) = &mut self.locking else { return };
         if !self.variant.capabilities.has_program {

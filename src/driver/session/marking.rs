@@ -1,5 +1,5 @@
-//! The mark on disk that an antenna is moved by hand: should this program end
-//! before it is proved to stand, the next start sends STOP first.
+//! The record on disk that an antenna is moved by hand: if this program ends before standstill
+//! is proved, the next start sends STOP first.
 
 use std::{io, time::Duration};
 
@@ -8,30 +8,32 @@ use tokio::task::{JoinHandle, spawn_blocking};
 use super::{Event, Session};
 use crate::{astro::time::seconds_between, clock::Instant, clock::Moment, driver::Safety};
 
-/// A disk that takes longer must not keep the operator from moving the antenna.
+/// A slower disk must not keep the operator from moving the antenna.
 const MAX: Duration = Duration::from_millis(300);
-/// How often it is looked whether the mark is on the disk.
+/// Interval at which the write is checked.
 const LOOK: Duration = Duration::from_millis(2);
-/// A mark that is older asks: much may have been done at the antenna since.
+/// Above this age the operator is asked: much may have been done at the antenna since.
 const OLD_S: f64 = 600.0;
 
-/// The mark of one antenna.
+/// The record of one antenna.
 #[derive(Debug)]
 pub(super) enum Marking {
-    /// None is needed.
     None,
-    /// It is on its way to the disk.
-    Writing { since: Instant, writing: JoinHandle<io::Result<()>> },
-    /// It is on the disk.
+    /// Being written.
+    Writing {
+        since: Instant,
+        writing: JoinHandle<io::Result<()>>,
+    },
+    /// On the disk.
     Marked,
-    /// It could not be written; that was told.
+    /// Could not be written, and the operator was told.
     Failed,
-    /// It is on its way off the disk.
+    /// Being removed.
     Removing(JoinHandle<()>),
 }
 
 impl Session {
-    /// Whether the mark is on the disk, or cannot be had; begins to write it.
+    /// Returns `true` if the record is on the disk or cannot be had; begins to write it.
     pub(super) fn is_marked(&mut self, now: Moment) -> bool {
         if self.variant.capabilities.ends_jogs || !self.owed.debts.has_marks() {
             return true;
@@ -60,7 +62,7 @@ impl Session {
                 };
                 let (debts, unit) = (self.owed.debts.clone(), self.owed.unit.clone());
                 let writing = tokio::spawn(async move {
-                    // One after the other, or the older removal takes the newer mark.
+                    // One after the other, or the older removal would remove the newer record.
                     if let Some(before) = before {
                         before.await.ok();
                     }
@@ -73,7 +75,7 @@ impl Session {
         }
     }
 
-    /// When it is looked again whether the mark is on the disk.
+    /// When to check again whether the record is on the disk.
     pub(super) fn marking_due(&self, now: Instant) -> Option<Instant> {
         matches!(self.owed.marking, Marking::Writing { .. }).then_some(now + LOOK)
     }
@@ -100,8 +102,8 @@ impl Session {
         }));
     }
 
-    /// Looks whether an earlier run has left the unit moving. STOP is then the
-    /// first word to it, unless that is for the operator to decide.
+    /// Checks whether an earlier run left the unit moving. STOP is then sent first, unless the
+    /// operator must decide.
     pub(super) async fn look_for_mark(&mut self) {
         if !self.owed.debts.has_marks() {
             return;
@@ -121,7 +123,7 @@ impl Session {
         self.tell(Event::Safety(Safety::LeftMoving { since, asks }));
     }
 
-    /// Marks on disk that a stop is owed, for a program that ends before it is paid.
+    /// Records on disk that a STOP is owed, for a program that ends before it is proved.
     pub(super) async fn mark_debt(&mut self) {
         let (debts, unit, since) =
             (self.owed.debts.clone(), self.owed.unit.clone(), self.now().utc);
@@ -134,7 +136,7 @@ impl Session {
     }
 }
 
-/// The outcome of a task that is known to have ended.
+/// The outcome of a task that has ended.
 fn take_now(ended: &mut JoinHandle<io::Result<()>>) -> Option<io::Result<()>> {
     use std::{
         future::Future as _,

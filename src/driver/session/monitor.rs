@@ -1,5 +1,4 @@
-//! Holds what is measured against what the antenna must keep within, whoever
-//! drives it.
+//! Compares measured positions with the bounds of the antenna, whoever drives it.
 
 use std::{collections::VecDeque, time::Duration};
 
@@ -16,29 +15,28 @@ use crate::{
     station::Monitor,
 };
 
-/// Rates are taken between looks that are no further apart.
+/// Rates are taken between positions no further apart than this.
 const SPAN: Duration = Duration::from_secs(5);
-/// An antenna that dips below its minimum elevation by no more, beside what it may
-/// miss a position by, is left alone: a program ends there, and readings are
-/// rounded.
+/// An antenna that dips below its minimum elevation by no more than this, beyond its pointing
+/// tolerance, is left alone: a program ends there, and readings are rounded.
 const DIP_DEG: f64 = 0.5;
-/// Rates below are those of a standing antenna, degrees a second.
+/// Lower rates are those of a standing antenna, degrees a second.
 const SLOWEST_DEG_S: f64 = 0.02;
-/// A way out that is shorter than the noise of the readings is none, degrees.
+/// A shorter way out is lost in the noise of the readings, degrees.
 const NOISE_DEG: f64 = 0.02;
 
-/// What was seen last, and what was told about it.
+/// What was measured and reported last.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub(super) struct Watch {
     last: Option<Measured>,
-    /// How fast the axes turned between the last two looks, degrees a second.
+    /// Rates of the axes between the last two positions, degrees a second.
     rates_deg_s: [f64; 2],
-    /// The barriers that were told and not left since.
+    /// Barriers that were reported and have not been left since.
     told: Vec<Barrier>,
 }
 
 impl Session {
-    /// Looks whether the antenna enters, or is inside, what is forbidden.
+    /// Checks whether the antenna enters, or is inside, a forbidden zone.
     pub(super) fn watch_bounds(&mut self, now: Moment) {
         let Some(look) = self.gate.state().measured else { return };
         let before = self.seen.watch.last.replace(look);
@@ -47,7 +45,7 @@ impl Session {
         }
         let Some(axes_deg) = self.gate.axes_deg() else { return };
         let [first, second] = before.map_or([0.0; 2], |before| rates_deg_s(&before, &look));
-        // A second axis without the elevation is none of the antenna's.
+        // A second axis other than elevation does not belong to the antenna.
         let rates = [first, if self.variant.capabilities.has_elevation() { second } else { 0.0 }];
         self.seen.watch.rates_deg_s = rates;
         let is_moving = rates.iter().any(|rate| rate.abs() > SLOWEST_DEG_S);
@@ -58,7 +56,7 @@ impl Session {
             .map(|axes_deg| bounds.clearances(self.gate.bounds().direction(axes_deg)));
         let ways_deg = [axes_deg, ahead_deg].map(|axes_deg| bounds.way_out_deg(axes_deg));
         for (here, there) in here.into_iter().zip(there) {
-            // Where no axis gets out by itself, the depth of each barrier counts.
+            // Where no axis leads out by itself, the depth inside each barrier counts.
             let deeper_deg = match ways_deg {
                 [Some(here_deg), Some(there_deg)] => there_deg - here_deg,
                 _ => here.angle.degrees() - there.angle.degrees(),
@@ -83,8 +81,7 @@ impl Session {
             (here.angle.degrees() + dip_deg, there.angle.degrees() + dip_deg);
         let driver = self.mover();
         let is_inside = here_deg < 0.0;
-        // A program slows down where its pass begins; the readings tell whether it
-        // does.
+        // A program slows down where its pass begins; the readings show whether it does.
         let ends_there = driver == Mover::Program && here.barrier == Barrier::MinimumElevation;
         let enters = is_moving && !is_inside && there_deg < 0.0 && !ends_there;
         let goes_deeper = is_inside && goes_deeper;
@@ -93,7 +90,7 @@ impl Session {
             self.seen.watch.told.retain(|barrier| *barrier != here.barrier);
             return;
         }
-        // Its own motions are stopped in any case: the gate has let them through.
+        // Motions from here are stopped in any case: the gate has let them through.
         let stops = (enters || goes_deeper)
             && !here.warns_only
             && (driver == Mover::Azel || self.setup.monitor == Monitor::Stop);
@@ -128,10 +125,9 @@ impl Session {
     }
 }
 
-/// How fast the axes turn, degrees a second; zero between looks that cannot be
-/// compared.
+/// Rates of the axes, degrees a second; zero between positions that cannot be compared.
 fn rates_deg_s(before: &Measured, after: &Measured) -> [f64; 2] {
-    // A question that was repeated may have been measured at any time since.
+    // The reply to a repeated question may have been measured at any time since the first.
     let asked = after.asked.saturating_duration_since(before.asked);
     let span = asked.max(after.received.saturating_duration_since(before.received));
     if span.is_zero() || span > SPAN {
@@ -146,21 +142,21 @@ fn rates_deg_s(before: &Measured, after: &Measured) -> [f64; 2] {
     rates
 }
 
-/// How long the axes run on after a STOP, as it was measured.
+/// Measured overrun: how long the axes turn on after a STOP.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub(super) struct Overrun {
-    /// The look before the STOP, the rate then, and when STOP went out.
+    /// The position before the STOP, the rate then, and when STOP went out.
     before: Option<(Measured, [f64; 2], Instant)>,
     /// The last ones, seconds.
     seen_s: VecDeque<f64>,
-    /// How many were seen in all.
+    /// Number of STOPs measured in all.
     stops: u32,
 }
 
-/// So many STOPs have to be seen before they replace the usual figure.
+/// Number of STOPs that replace the default.
 const ENOUGH: usize = StoppingWay::ENOUGH as usize;
-/// A overrun is taken from jogs at this share of the fastest rate or more. That of a
-/// slower one is too short to be told from the noise of the readings.
+/// Overrun is learned from jogs at this share of the fastest rate or more. That of slower ones
+/// is lost in the noise of the readings.
 const TELLING_SHARE: f64 = 0.5;
 
 impl Overrun {
@@ -169,10 +165,9 @@ impl Overrun {
         self.before = before.map(|(look, rates)| (look, rates, now));
     }
 
-    /// The axes stand: how long they ran on at most in the last STOPs, seconds,
-    /// once enough were seen. It counts as that from the fastest rate, in the time that
-    /// they would turn on at it: drives that brake evenly run on for longer the faster
-    /// they are.
+    /// The axes stand. Returns the longest overrun of the last STOPs, seconds, once enough
+    /// were measured. It counts as that from the fastest rate, because drives that brake
+    /// evenly turn on for longer the faster they are.
     pub(super) fn end(&mut self, rest: &Measured, fastest_deg_s: f64) -> Option<f64> {
         let (before, rates, stop) = self.before.take()?;
         let to_stop_s = stop.saturating_duration_since(before.asked).as_secs_f64();
@@ -208,7 +203,7 @@ impl Session {
         self.key.started().map(|_| self.seen.watch.rates_deg_s)
     }
 
-    /// How long the axes run on after a STOP, as far as that is known.
+    /// The overrun, as far as it is known.
     pub(super) fn stopping_way(&self) -> StoppingWay {
         let Overrun { stops, seen_s, .. } = &self.seen.overrun;
         StoppingWay {
@@ -218,7 +213,7 @@ impl Session {
         }
     }
 
-    /// Learns how long the axes ran on.
+    /// Learns from a STOP that has ended.
     pub(super) fn end_overrun(&mut self) {
         let Some(rest) = self.gate.state().measured else { return };
         let fastest_deg_s = self.setup.manner.fastest_deg_s();

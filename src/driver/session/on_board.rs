@@ -1,5 +1,5 @@
-//! Watches over a pass that the unit tracks by itself: before it starts, by what
-//! the unit tells of itself, and while it runs, by where it points.
+//! Watches an on-board track: before it starts by what the unit reports, and while it runs by
+//! where it points.
 
 use std::{sync::Arc, time::Duration};
 
@@ -12,25 +12,24 @@ use crate::{
     plan::{OnBoardPass, Supervision, on_board::Judge},
 };
 
-/// An antenna that was on its satellite may be off it for so long.
+/// How long an antenna that was on its satellite may be off it.
 const OFF_FOR: Duration = Duration::from_secs(10);
-/// A unit's clock is told with the delay of the link: a smaller change is none,
+/// The unit's clock is reported with the delay of the link: smaller differences are ignored,
 /// seconds.
 const SAME_CLOCK_S: f64 = 0.2;
 
-/// A pass that the unit tracks, or is about to.
 pub(super) struct Watch {
     judge: Arc<Judge>,
     found: Arc<Supervision>,
     found_by: OnBoard,
-    /// The target was put on the unit.
+    /// The unit holds the target.
     holds_target: bool,
-    /// When the position came in that was compared last.
+    /// When the position that was compared last came in.
     compared: Option<Instant>,
     was_on_target: bool,
-    /// Since when it is off, and how long it may be.
+    /// Since when it is off target, and how long it may be.
     off_since: Option<(Instant, Duration)>,
-    /// How far it is off, once that has lasted too long.
+    /// The angle off target, once that has lasted too long.
     missing: Option<Angle>,
 }
 
@@ -56,7 +55,7 @@ impl Watch {
         OnBoardView { found: Arc::clone(&self.found), missing: self.missing }
     }
 
-    /// Judges anew where the unit tells something else.
+    /// Judges again if the unit reports something else.
     fn judge_again(&mut self, unit: &OnBoard, holds_target: bool) {
         let same_clock = match (unit.clock, self.found_by.clock) {
             (Some(now), Some(then)) => (now.ahead_s - then.ahead_s).abs() < SAME_CLOCK_S,
@@ -72,12 +71,12 @@ impl Watch {
         self.found_by = unit.clone();
     }
 
-    /// Why the unit is not to be started on the pass.
+    /// The reason not to start the unit on the pass.
     fn objection(&self) -> Option<Event> {
         self.would_miss().filter(|_| !self.judge.pass().is_agreed)
     }
 
-    /// That the unit would not point at the satellite, or does not.
+    /// The event for a unit that would not point, or does not point, at the satellite.
     pub(super) fn would_miss(&self) -> Option<Event> {
         let name = self.judge.pass().target.name.clone();
         let missed = (!self.found.is_within_beam).then(|| Arc::clone(&self.found));
@@ -86,7 +85,7 @@ impl Watch {
 }
 
 impl Session {
-    /// Whether the unit may be started on `pass`; if not, what is to be told.
+    /// Checks a pass before the unit is started on it. The error is the event to report.
     pub(super) fn examine_pass(&mut self, pass: OnBoardPass, now: Moment) -> Result<Watch, Event> {
         let name = pass.target.name.clone();
         let judge = Judge::new(pass, self.setup.ability)
@@ -99,7 +98,7 @@ impl Session {
         Ok(watch)
     }
 
-    /// What speaks against the pass now that the unit holds it and was read again.
+    /// The objection to the pass now that the unit holds it and has been read again.
     pub(super) fn objection_to_pass(&mut self) -> Option<Event> {
         let watch = &mut self.activity.on_board_mut()?.watch;
         watch.judge_again(&self.gate.state().on_board, true);
@@ -130,13 +129,12 @@ impl Session {
         )
     }
 
-    /// The watch over what the unit tracks, asked or unasked.
+    /// The watch over the on-board track, whoever asked for it.
     pub(super) fn on_board_watch(&self) -> Option<&Watch> {
         self.activity.on_board().map(|track| &track.watch).or(self.unasked.as_ref())
     }
 
-    /// Takes up or ends the watch over what the unit tracks without having been asked
-    /// from here.
+    /// Begins or ends the watch over a track that nobody asked for from here.
     fn watch_unasked(&mut self) {
         let state = self.gate.state();
         let is_on = !self.contact.unread && state.program.is_some_and(|program| program.enabled);
@@ -153,12 +151,12 @@ impl Session {
         if self.unasked.as_ref().is_some_and(|watch| *watch.judge.pass() == pass) {
             return;
         }
-        // Elements that describe no orbit tell of no place to compare with.
+        // Elements that describe no orbit give no direction to compare with.
         let judge = Judge::new(pass, self.setup.ability).ok();
         self.unasked = judge.map(|judge| Watch::new(Arc::new(judge), &state.on_board));
     }
 
-    /// Looks whether the unit is where it should be.
+    /// Checks whether the unit points where it should.
     pub(super) fn watch_on_board(&mut self, now: Moment) {
         if self.activity.on_board().is_none() {
             self.watch_unasked();

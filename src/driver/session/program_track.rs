@@ -1,6 +1,5 @@
-//! Following a target position by position, on the session's own clock. It goes
-//! on while a link is lost and comes back, and ends with anything else that the
-//! operator wants.
+//! Program track: sends one position after another on the session's own clock. It survives a
+//! lost link, and ends with any other command of the operator.
 
 mod tracking;
 
@@ -21,17 +20,17 @@ use crate::{
     station::{AfterPass, Antenna, Resume},
 };
 
-/// So many commands in a row may stay without an answer and without effect.
+/// Maximum number of commands in a row without an answer and without effect.
 const MAX_LOST: u32 = 3;
 
-/// Where a barrier is in the way the next look comes no sooner.
+/// Interval between looks while a barrier is in the way.
 const BLOCKED: Duration = Duration::from_secs(2);
 
-/// When a target is followed on by itself after the antenna was out of sight.
+/// When program track resumes by itself after the antenna was out of reach.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct ResumeRule {
     resume: Resume,
-    /// After a shorter time it goes on in any case.
+    /// After a shorter time it resumes in any case.
     after: Duration,
     half_beam: Angle,
 }
@@ -47,8 +46,8 @@ impl ResumeRule {
 }
 
 impl Session {
-    /// Takes up a target. What moves for another reason is stopped first.
-    /// Returns whether it was taken up; if not, the reason was told.
+    /// Begins program track of a target. Other motions are stopped first. Returns `false`
+    /// after reporting why it was refused.
     pub(super) fn follow(&mut self, follow: ProgramTrack, now: Moment) -> bool {
         let name = follow.target.name().into_owned();
         tracing::info!(antenna = self.name, name, passes = follow.passes.len(), "follow");
@@ -63,7 +62,7 @@ impl Session {
             let bounds = self.gate.bounds_in(Intent::Track).clone();
             Planner::new(follow, drives, following, bounds).map_err(TrackProblem::Orbit)
         };
-        // Checked before anything that runs is ended for it.
+        // Checked before it ends anything.
         let checked = planned.and_then(|planner| self.check_first(planner, now));
         let planner = match checked {
             Ok(planner) => planner,
@@ -72,7 +71,7 @@ impl Session {
                 return false;
             }
         };
-        // From one target to another there is no need to stop.
+        // From one target to another no stop is needed.
         if self.activity.last_program().is_none() && self.may_move() {
             self.halt_quietly(now);
         }
@@ -82,7 +81,7 @@ impl Session {
         true
     }
 
-    /// Whether the first position may be sent.
+    /// Checks whether the first position may be sent.
     fn check_first(&self, mut planner: Planner, now: Moment) -> Result<Planner, TrackProblem> {
         let axes = self.gate.state().measured.map(|measured| measured.axes);
         let position_deg = |axis: usize| axes.and_then(|axes| axes.get(axis)?.angle_deg);
@@ -101,14 +100,14 @@ impl Session {
         }
     }
 
-    /// Whether the target is up and the antenna is kept on it.
+    /// Returns `true` while the target is up and tracked.
     pub(super) fn follows_now(&self) -> bool {
         self.activity
             .program()
             .is_some_and(|it| it.phase == TrackPhase::Tracking && !it.awaits_word)
     }
 
-    /// When the antenna is looked at next by the clock.
+    /// When the clock calls for the next look.
     pub(super) fn follow_due(&self) -> Option<Instant> {
         let following = self.activity.program()?;
         (!following.is_held_up).then_some(following.next_look)
@@ -120,7 +119,7 @@ impl Session {
         let Some(following) = self.activity.program_mut() else { return };
         if let Some(measured) = measured {
             following.compare(measured);
-            // Known also for the next target.
+            // Known for the next target, too.
             self.setup.manner.drives.rates_deg_s = following.planner.rates_deg_s();
         }
         let phase = following.planner.follow().phase(now.utc);
@@ -134,7 +133,7 @@ impl Session {
         let Some(following) = self.activity.program_mut() else { return };
         let name = following.name();
         let before = std::mem::replace(&mut following.phase, phase);
-        // No answer was no for the pass that is over.
+        // No answer means no for the pass that is over.
         following.awaits_word &= before != TrackPhase::Tracking;
         let mut over = None;
         if before == TrackPhase::Tracking {
@@ -165,7 +164,7 @@ impl Session {
         }
     }
 
-    /// Sends the next position when it is time for it.
+    /// Sends the next position when it is due.
     fn look(&mut self, now: Moment) {
         let is_busy = self.stop.is_under_way()
             || self.doubt.is_some()
@@ -205,7 +204,7 @@ impl Session {
                 let aim = self.gate.aim(&route.first);
                 self.stop.forget();
                 let Some(following) = self.activity.program_mut() else { return };
-                // A leg round a corner is looked at again, until the way is free.
+                // The leg round a corner is looked at again until the way is free.
                 if route.then.is_none() {
                     following.planner.sent(next);
                 }
@@ -213,19 +212,20 @@ impl Session {
                 following.stats.commands += 1;
                 following.commanded = aim;
                 following.barrier_is_told &= route.then.is_some();
-                // What is up is compared with itself, not with the last step.
+                // During the pass the target is compared with itself, not with the last
+                // position.
                 following.aim = aim.filter(|_| following.phase != TrackPhase::Tracking);
             }
-            // It waits at the edge, and goes on where the way is free again.
+            // It waits at the edge, and goes on once the way is free.
             Err(Refusal::Forbidden { barrier, at }) => {
                 let Some(following) = self.activity.program_mut() else { return };
-                // To look for a way takes time that other antennas need too.
+                // Looking for a way takes time that other antennas need, too.
                 following.next_look = following.next_look.max(now.steady + BLOCKED);
                 if !std::mem::replace(&mut following.barrier_is_told, true) {
                     self.tell(Event::NotSent(Refusal::Forbidden { barrier, at }));
                 }
             }
-            // What is not known yet will be.
+            // It will be known later.
             Err(
                 Refusal::PositionUnknown
                 | Refusal::PositionOld(_)
@@ -241,8 +241,7 @@ impl Session {
         self.give_up(Event::CannotProgramTrack(name, problem), now);
     }
 
-    /// A position was not answered and has had no effect: `true` when another may
-    /// be sent, for where the target is by then.
+    /// A position was not answered and had no effect. Returns `true` if another may be sent.
     pub(super) fn may_send_another(&mut self) -> bool {
         let Some(following) = self.activity.last_program_mut() else { return false };
         following.lost += 1;
@@ -250,14 +249,14 @@ impl Session {
         following.lost < MAX_LOST
     }
 
-    /// A position was taken by the device.
+    /// The unit accepted a position.
     pub(super) fn position_taken(&mut self) {
         if let Some(following) = self.activity.last_program_mut() {
             following.lost = 0;
         }
     }
 
-    /// Other bounds hold for the antenna from now on.
+    /// New bounds of the antenna.
     pub(super) fn keep_within(&mut self, bounds: Bounds) {
         self.gate.keep_within(bounds);
         if let Some(following) = self.activity.program_mut() {
@@ -265,13 +264,13 @@ impl Session {
         }
     }
 
-    /// The device was read anew after it was out of sight for `lost`: what it was told
-    /// on another link may be gone, and somebody may have gone to the antenna.
+    /// The unit was read anew after it was out of reach for `lost`: commands from the earlier
+    /// link may be lost, and somebody may have gone to the antenna.
     pub(super) fn follow_on(&mut self, lost: Duration, at: Pointing, now: Moment) {
         let Some(following) = self.activity.program_mut() else { return };
         following.planner.forget_sent();
         following.sent = None;
-        // A unit that was to be compared still is.
+        // A comparison that is pending stays pending.
         let unchecked = following.recheck.take().map(|recheck| recheck.lost);
         if lost <= self.setup.rule.after && unchecked.is_none() {
             return;
@@ -304,7 +303,7 @@ impl Session {
         self.tell(Event::Safety(Safety::AsksToResume { name, lost, unlike }));
     }
 
-    /// Stops the antenna and keeps its target until the operator's word.
+    /// Stops the antenna and keeps its target until the operator decides.
     pub(super) fn suspend_following(&mut self, lost: Duration, now: Moment) {
         if self.activity.program().is_none() {
             return;

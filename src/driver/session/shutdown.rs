@@ -1,4 +1,4 @@
-//! The end of a session: what may move is stopped first.
+//! The end of a session: motions are stopped first.
 
 use std::time::Duration;
 
@@ -13,12 +13,12 @@ use crate::{
     driver::{LinkState, Stream},
 };
 
-/// How long the end of a session waits for standstill, beside what its proof takes.
+/// Time limit for standstill at the end of a session, in addition to what its proof takes.
 const STANDSTILL_WITHIN: Duration = Duration::from_millis(1500);
 
 impl Session {
-    /// The last words of a session: a jog must not outlive it. Stays until
-    /// standstill is proved or it has taken too long.
+    /// Ends a session: a jog must not outlive it. Waits until standstill is proved, or the
+    /// time limit.
     pub(super) async fn shut_down(
         &mut self,
         reader: &mut ReadHalf<Box<dyn Stream>>,
@@ -61,19 +61,19 @@ impl Session {
         if self.stop.is_under_way() {
             tracing::error!(antenna = self.name, "standstill was not proved at the end");
         }
-        // The socket is closed in order, so that the last bytes are not cut off.
+        // Closed in order, so that the last bytes are not cut off.
         let _ = clock.timeout(WRITE, writer.shutdown()).await;
     }
 
-    /// When the goodbye has something to send or to look at.
+    /// When there is something to send or to check.
     fn next_look(&mut self, until: Instant) -> Instant {
         let now = self.now();
         let due = self.gate.device().due(now).max(now.steady + MIN_WAIT);
         until.min(self.halt_due().map_or(due, |halt| halt.min(due)))
     }
 
-    /// The window has let go of this antenna while a stop is owed to its unit: it
-    /// is tried until it is proved, or another session of the unit sees to it.
+    /// The station has let go of this antenna while a STOP is owed to its unit: tries until it
+    /// is proved, or another session of the unit takes it over.
     pub(super) async fn pay_owed_stop(&mut self) {
         let now = self.now();
         self.halt_quietly(now);

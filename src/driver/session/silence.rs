@@ -1,8 +1,7 @@
-//! A unit that no longer answers while metal moves on this program's word.
+//! A unit that stops answering while Azel has metal moving.
 //!
-//! One reply that is lost or late is no silence: while something moves, the
-//! controllers ask again at once, and the unit is silent when that is not answered
-//! either.
+//! A single lost or late reply is not silence: during a motion the controllers ask again at
+//! once, and only a second missing reply counts.
 
 use std::time::Duration;
 
@@ -12,19 +11,18 @@ use crate::{
     driver::{LinkState, Safety},
 };
 
-/// The operator is told this long after the first reply that is missing at the
-/// latest.
+/// The operator is told at the latest this long after the first missing reply.
 const TOLD_WITHIN: Duration = Duration::from_secs(1);
 
-/// What was written since the unit was heard last.
+/// What was written since the unit last answered.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub(super) struct Silence {
     replies: u64,
     first: Option<Instant>,
     second: Option<Instant>,
-    /// Metal moves on this program's word.
+    /// Azel has metal moving.
     is_watched: bool,
-    /// The operator was told, and no reply has come since.
+    /// The operator has been told, and no reply has come since.
     is_told: bool,
 }
 
@@ -43,7 +41,7 @@ impl Silence {
         }
     }
 
-    /// What was asked before anything moved is missing from now on only.
+    /// Questions asked before the motion count as missing only from now on.
     fn watch(&mut self, is_watched: bool, now: Instant) {
         if is_watched && !self.is_watched {
             self.first = self.first.map(|_| now);
@@ -52,7 +50,7 @@ impl Silence {
         self.is_watched = is_watched;
     }
 
-    /// When nothing that was asked has been answered in its time.
+    /// When to report silence if nothing that was asked is answered.
     fn due(&self, prompt: Duration) -> Option<Instant> {
         let first = self.first?;
         let latest = first + prompt + TOLD_WITHIN;
@@ -62,14 +60,13 @@ impl Silence {
 }
 
 impl Session {
-    /// Bytes went to the unit.
     pub(super) fn wrote(&mut self, now: Moment) {
         self.contact.silence.heard(self.gate.state().traffic.replies);
         self.contact.silence.wrote(now.steady);
     }
 
-    /// Whether metal moves on this program's word, as far as is known: it may until STOP is
-    /// proved, though the last look shows it at rest.
+    /// Returns `true` while metal moves on Azel's command as far as is known: until STOP is
+    /// proved it may, even if the last position shows it at rest.
     fn is_in_motion(&mut self) -> bool {
         self.is_unproved()
             && (self.follows_now()
@@ -82,7 +79,7 @@ impl Session {
                 || self.gate.device().motion_under_way())
     }
 
-    /// Tells of a unit that does not answer while it moves; once, until it does.
+    /// Reports a unit that does not answer while it moves, once until it answers.
     pub(super) fn watch_silence(&mut self, now: Moment) {
         self.contact.silence.heard(self.gate.state().traffic.replies);
         let is_watched = self.is_in_motion();
@@ -93,14 +90,14 @@ impl Session {
         }
     }
 
-    /// The link is gone in the middle of a motion.
+    /// The link was lost in the middle of a motion.
     pub(super) fn tell_silence_of_lost_link(&mut self) {
         if self.is_in_motion() {
             self.tell_silence();
         }
     }
 
-    /// The operator has looked at it, or leaves it to others.
+    /// The operator has looked at the antenna, or leaves it to others.
     pub(super) fn forget_silence(&mut self) {
         self.contact.silence.is_told = false;
     }
@@ -111,12 +108,12 @@ impl Session {
         }
     }
 
-    /// The operator was told that it does not answer, and it has not answered since.
+    /// Returns `true` if silence was reported and no reply has come since.
     pub(super) fn is_silent(&self) -> bool {
         self.contact.silence.is_told
     }
 
-    /// When a silence is to be told.
+    /// When silence must be reported.
     pub(super) fn silence_due(&mut self) -> Option<Instant> {
         let prompt = self.gate.device().prompt();
         let is_open = matches!(self.contact.link, LinkState::Up { .. } | LinkState::Stale { .. });

@@ -7,19 +7,19 @@ use crate::{
     device::{Capabilities, Measured},
 };
 
-/// How two looks at a standing antenna compare.
+/// When two positions count as the same.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Figures {
-    /// Angles of a standing axis differ by no more, degrees.
+    /// Largest difference between two angles of a standing axis, degrees.
     tolerance_deg: f64,
-    /// The slowest motion of the unit shows within this time.
+    /// Time in which the unit's slowest motion shows.
     gap: Duration,
-    /// How many axes belong to the antenna.
+    /// Number of axes that belong to the antenna.
     axes: usize,
 }
 
 impl Figures {
-    /// `sway_deg` is how far the antenna may sway while it stands.
+    /// `sway_deg`: how far the antenna may sway while it stands.
     pub(super) fn of(can: Capabilities, sway_deg: f64) -> Self {
         let tolerance_deg = can.standstill.resolution_deg / 2.0 + sway_deg;
         // Each look may be rounded by half a step.
@@ -29,18 +29,18 @@ impl Figures {
         Self { tolerance_deg, gap, axes: can.axis_count() }
     }
 
-    /// The time between two looks that prove standstill.
+    /// Time between two positions that prove standstill.
     pub(super) fn gap(self) -> Duration {
         self.gap
     }
 
-    /// By how much angles of a standing axis may differ, degrees.
+    /// Largest difference between two angles of a standing axis, degrees.
     pub(super) fn tolerance_deg(self) -> f64 {
         self.tolerance_deg
     }
 
-    /// The axis that has turned most between two looks, and by how much, degrees,
-    /// where it is more than a standing one may.
+    /// The axis that has turned most between two positions, and by how many degrees. `None` if
+    /// none has turned by more than a standing axis may.
     pub(super) fn turned(self, before: &Measured, after: &Measured) -> Option<(usize, f64)> {
         let pairs = before.axes.iter().zip(&after.axes).take(self.axes).enumerate();
         pairs
@@ -51,7 +51,7 @@ impl Figures {
             .max_by(|(_, a), (_, b)| a.abs().total_cmp(&b.abs()))
     }
 
-    /// The first axis that tells no angle in either look.
+    /// The first axis without an angle in one of the positions.
     fn blind_axis(self, before: &Measured, after: &Measured) -> Option<usize> {
         let pairs = before.axes.iter().zip(&after.axes).take(self.axes);
         pairs.into_iter().position(|(a, b)| a.angle_deg.is_none() || b.angle_deg.is_none())
@@ -63,35 +63,34 @@ fn wrapped_deg(angle_deg: f64) -> f64 {
     (angle_deg + 180.0).rem_euclid(360.0) - 180.0
 }
 
-/// What standstill was proved by.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Proof {
-    /// Two looks agree.
+    /// Two positions agree.
     Angles,
-    /// This axis tells no angle; its flags say that it stands.
+    /// This axis has no angle; its flags say that it stands.
     Flags { axis: usize },
 }
 
-/// Compares the looks since a halt.
+/// The positions measured since a halt.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub(super) struct Looks {
     first: Option<Measured>,
-    /// The first look for which the next one was asked for already.
+    /// The first position for which the next one has been requested.
     asked_after: Option<Instant>,
 }
 
 impl Looks {
-    /// When a look that agrees with the first one proves standstill.
+    /// When a position that agrees with the first one proves standstill.
     pub(super) fn next(&self, figures: Figures) -> Option<Instant> {
         self.first.map(|first| first.asked + figures.gap)
     }
 
-    /// Whether the next look was not asked for yet.
+    /// Returns `true` while the next position has not been requested.
     pub(super) fn awaits_look(&self) -> bool {
         self.first.map(|first| first.asked) != self.asked_after
     }
 
-    /// Whether the next look is to be asked for now; says so once.
+    /// Returns `true`, once, when the next position must be requested.
     pub(super) fn is_due(&mut self, figures: Figures, now: Instant) -> bool {
         let is_due = self.awaits_look() && self.next(figures).is_some_and(|at| now >= at);
         if is_due {
@@ -100,8 +99,8 @@ impl Looks {
         is_due
     }
 
-    /// Takes a look that was asked for after the halt. `is_at_rest` is what the
-    /// flags of the unit say of all that it moves.
+    /// Takes a position that was asked for after the halt. `is_at_rest`: the unit's flags for
+    /// everything it moves.
     pub(super) fn take(
         &mut self,
         look: Measured,
@@ -131,17 +130,17 @@ impl Looks {
 /// Watches an antenna whose flags say that it stands.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub(super) struct Rest {
-    /// Since when the flags say so, and the first look that counts.
+    /// Since when the flags say so, and the first position that counts.
     since: Option<(Instant, Option<Measured>)>,
     told: bool,
 }
 
 impl Rest {
-    /// Axes run out for so long after their flags have come to rest.
+    /// How long axes may run on after their flags have come to rest.
     const RUN_OUT: Duration = Duration::from_secs(3);
 
-    /// Takes a look. The axis that turns although the flags say that it stands,
-    /// and by how much, degrees; once for each rest.
+    /// Takes a position. Returns the axis that turns although the flags say that it stands,
+    /// and by how many degrees; once for each rest.
     pub(super) fn take(
         &mut self,
         look: Measured,

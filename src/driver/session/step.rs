@@ -1,9 +1,8 @@
-//! One step at a time: the next is judged by a position that shows the last.
+//! One step at a time: the gate judges the next one by a position that shows the last.
 
 use super::{Event, Session};
 use crate::{clock::Instant, clock::Moment, device::Motion, driver::Refusal};
 
-/// A step that was sent.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Stepping {
     /// Signed amounts of the two axes, degrees.
@@ -12,7 +11,7 @@ pub(super) struct Stepping {
 }
 
 impl Session {
-    /// Steps, unless the antenna moves or the last step may still begin to.
+    /// Refused while the antenna moves, or the last step may still begin to.
     pub(super) fn step(&mut self, steps_deg: [f64; 2], now: Moment) {
         let [x_deg, y_deg] = steps_deg;
         let motion = Motion::Step { x_deg, y_deg };

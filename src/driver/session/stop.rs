@@ -1,4 +1,4 @@
-//! A halt from the first byte to proved standstill.
+//! A halt, from its first byte to proved standstill.
 
 use std::time::Duration;
 
@@ -13,37 +13,35 @@ use crate::{
     driver::{Safety, StopState},
 };
 
-/// A stop that is not proved after this long is told as such.
+/// A halt that is not proved by then is reported.
 const PROOF: Duration = Duration::from_secs(3);
-/// Where the proof itself takes long, it may take this much longer.
+/// Additional time where the proof itself takes long.
 const BEYOND_PROOF: Duration = Duration::from_secs(1);
-/// For how long the button shows that all is stopped.
+/// How long the STOP button shows that everything has stopped.
 const SHOWN: Duration = Duration::from_secs(10);
 
-/// A halt under way.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Halting {
     since: Instant,
-    /// The looks that were asked for since it was sent.
+    /// The positions asked for since it was sent.
     looks: Looks,
-    /// When it went out first.
     sent_at: Instant,
-    /// A stop is harmless, so it is sent again until it is proved.
+    /// When to send it again; a repeated STOP is harmless.
     again_at: Instant,
-    /// The operator pressed STOP, rather than let go of a key.
+    /// The operator pressed STOP; otherwise it ends a motion.
     pressed: bool,
-    /// It was told that standstill is not proved.
+    /// The operator was told that standstill is not proved.
     told: bool,
 }
 
-/// STOP of an antenna, whether it was pressed or ends a motion.
+/// STOP of an antenna, pressed or at the end of a motion.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) enum Stop {
-    /// None is under way.
+    /// No halt is under way.
     Ready,
-    /// It was sent, and standstill is not proved.
+    /// Sent, and standstill is not proved.
     UnderWay(Box<Halting>),
-    /// Standstill was proved then, after it was pressed.
+    /// Standstill was proved at this time, after a pressed STOP.
     Proved { at: Instant },
 }
 
@@ -59,7 +57,6 @@ impl Stop {
         }
     }
 
-    /// The state of the stop button.
     pub(super) fn shown(&self, now: Instant) -> StopState {
         match self {
             Self::UnderWay(halting) if halting.told => {
@@ -75,7 +72,7 @@ impl Stop {
         }
     }
 
-    /// A motion begins: an earlier standstill counts no more.
+    /// A motion begins: the earlier proof no longer counts.
     pub(super) fn forget(&mut self) {
         if let Self::Proved { .. } = self {
             *self = Self::Ready;
@@ -91,7 +88,7 @@ impl Session {
         self.begin_halt(true, now);
     }
 
-    /// Stops the motion without leaving the intent, as at the end of a jog.
+    /// Stops the motion without leaving the mode, as at the end of a jog.
     pub(super) fn halt_quietly(&mut self, now: Moment) {
         self.begin_halt(false, now);
     }
@@ -112,7 +109,7 @@ impl Session {
         self.owed.debts.owe(&self.owed.unit);
         let again_at = now.steady + self.gate.device().halt_patience();
         match &mut self.stop {
-            // Pressing again does not put off the word that standstill is not proved.
+            // Pressing again does not delay the report that standstill is not proved.
             Stop::UnderWay(halting) => {
                 halting.again_at = again_at;
                 halting.pressed |= pressed;
@@ -130,14 +127,15 @@ impl Session {
         }
     }
 
-    /// Looks whether the antenna stands, and keeps at it while it does not.
+    /// Checks whether the antenna stands, and repeats the halt while it does not.
     pub(super) fn watch_halt(&mut self, now: Moment) {
         let figures = self.setup.figures;
         let proof_after = PROOF.max(figures.gap() + BEYOND_PROOF);
         let is_at_rest = self.is_at_rest();
         let Stop::UnderWay(halting) = &mut self.stop else { return };
         let state = self.gate.state();
-        // A halt that is not the operator's leaves alone what else turns.
+        // A halt that the operator did not press leaves other things that the unit turns
+        // alone.
         let is_at_rest = is_at_rest && !(halting.pressed && state.turns_besides);
         let look = state.measured.filter(|measured| measured.asked >= halting.sent_at);
         let proof =
@@ -147,10 +145,10 @@ impl Session {
         }
         let unproved = now.steady.saturating_duration_since(halting.since) >= proof_after;
         let newly_unproved = unproved && !std::mem::replace(&mut halting.told, unproved);
-        // While looks agree, another STOP would tell the unit nothing.
+        // While positions agree, another STOP would tell the unit nothing.
         let again = now.steady >= halting.again_at && halting.looks.next(figures).is_none();
         let looks_again = halting.looks.is_due(figures, now.steady);
-        // Without a link the first thing sent on the next one is the halt.
+        // Without a link, the halt is the first thing sent on the next one.
         if again && self.contact.link.is_open() {
             halting.again_at = now.steady + self.gate.device().halt_patience();
             self.stop_bytes = self.gate.device().halt(Extent::Everything, now);
@@ -194,14 +192,14 @@ impl Session {
         self.prove_still();
     }
 
-    /// Whether the flags of the unit say that both axes are at rest.
+    /// Returns `true` if the unit's flags say that both axes are at rest.
     fn is_at_rest(&self) -> bool {
         let state = self.gate.state();
         state.measured.is_some_and(|measured| !measured.moving())
             && state.program.is_none_or(|program| !program.enabled)
     }
 
-    /// Tells of an antenna that turns although its unit says that it stands.
+    /// Reports an antenna that turns although its unit says that it stands.
     pub(super) fn watch_rest(&mut self) {
         let is_at_rest =
             self.is_at_rest() && self.stop.halting().is_none_or(|halting| halting.told);
@@ -217,7 +215,7 @@ impl Session {
         }
     }
 
-    /// When a halt has to be looked at again.
+    /// When the halt must be looked at again.
     pub(super) fn halt_due(&self) -> Option<Instant> {
         let proof_after = PROOF.max(self.setup.figures.gap() + BEYOND_PROOF);
         if let Some(halting) = self.stop.halting() {
@@ -235,7 +233,7 @@ impl Session {
         }
     }
 
-    /// The outline of the button fades after a while.
+    /// The outline of the STOP button fades after a while.
     pub(super) fn forget_old_stop(&mut self, now: Moment) {
         if matches!(self.stop, Stop::Proved { at } if now.steady.saturating_duration_since(at) >= SHOWN)
         {

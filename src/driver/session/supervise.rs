@@ -1,5 +1,5 @@
-//! Watches over the intent: what the device answered, whether it does what was
-//! wanted, and when it ends.
+//! Supervises the intent: the unit's answers, whether it does what was requested, and when
+//! that ends.
 
 use std::time::Duration;
 
@@ -13,14 +13,13 @@ use crate::{
     driver::{Found, Intent},
 };
 
-/// A command that the device took must show in its state within this.
+/// Time within which an accepted command must show in the unit's state.
 const EFFECT: Duration = Duration::from_secs(5);
-/// For tracking there are several steps to it.
+/// The same for tracking, which takes several steps.
 const TRACK_EFFECT: Duration = Duration::from_secs(15);
 /// An axis that has turned by less may not have been moved at all, degrees.
 const TURNED_DEG: f64 = 0.05;
 
-/// A motion or action whose answer was lost.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Doubt {
     asked: Asked,
@@ -30,7 +29,7 @@ pub(super) struct Doubt {
 }
 
 impl Session {
-    /// Looks at everything once. Called after every byte, command and timer.
+    /// Looks at everything once; called after every byte, command and timer.
     pub(super) fn supervise(&mut self, now: Moment) {
         while let Some(event) = self.gate.device().next_event() {
             self.take(event, now);
@@ -60,7 +59,7 @@ impl Session {
         self.watch_silence(now);
     }
 
-    /// When [`Self::supervise`] is to be called at the latest.
+    /// The latest time for the next call of [`Self::supervise`].
     pub(super) fn supervise_due(&self) -> Option<Instant> {
         let jog = self.key.held().map(|jog| jog.until);
         // A motion to a position is judged whenever a state comes in.
@@ -85,7 +84,7 @@ impl Session {
         match event {
             ControllerEvent::Prepared(target) => self.loaded(&target, now),
             ControllerEvent::NotPrepared(target, reason) => {
-                // A target that was given up since then needs no word.
+                // A target given up since then needs no report.
                 if self.activity.on_board().is_some_and(|track| track.target == target) {
                     self.give_up(Event::CannotTrack(target, reason), now);
                 }
@@ -106,7 +105,7 @@ impl Session {
         }
     }
 
-    /// The unit holds the target: its program is started on it.
+    /// The unit holds the target: starts its program on it.
     fn loaded(&mut self, target: &TrackTarget, now: Moment) {
         let awaits_it = |track: &OnBoardTrack| {
             track.target == *target && matches!(track.stage, OnBoardStage::Loading { .. })
@@ -122,14 +121,15 @@ impl Session {
         }
     }
 
-    /// Ends what was wanted of a motion or action that does not come about.
+    /// Ends the activity of a motion or action that does not come about.
     fn forget(&mut self, asked: Asked, event: Event, now: Moment) {
         let motion = match asked {
             Asked::Motion(motion) => motion,
             Asked::Action(_) => return self.tell(event),
         };
         match motion {
-            // It belongs to what is wanted no more, but its halt ends that as well.
+            // The jog belongs to a mode that has been left, but its halt ends the new one as
+            // well.
             Motion::Jog { .. } if self.activity.intent() == Intent::Track => {
                 self.give_up(event, now);
             }
@@ -146,15 +146,15 @@ impl Session {
         }
     }
 
-    /// A command without an answer may have come through all the same: the
-    /// state that was asked for afterwards decides.
+    /// A command without an answer may have reached the unit all the same: a state asked for
+    /// afterwards decides.
     fn resolve_doubt(&mut self, now: Moment) {
         let Some(Doubt { asked, since, before_deg }) = self.doubt else { return };
         if self.gate.state().measured.is_none_or(|measured| measured.asked <= since) {
             return;
         }
         self.doubt = None;
-        // A short one may be over before it was in doubt.
+        // A short motion may be over before it was in doubt.
         let turned = before_deg.zip(self.gate.axes_deg()).is_some_and(|(before, after)| {
             before.iter().zip(after).any(|(before, after)| (after - before).abs() > TURNED_DEG)
         });
@@ -163,7 +163,7 @@ impl Session {
         }
     }
 
-    /// Says what the device was found doing when the link came up.
+    /// Reports what the unit was found doing when the link came up.
     fn report_found(&mut self, now: Moment) {
         let state = self.gate.state();
         let Some(measured) = state.measured else { return };
@@ -195,7 +195,7 @@ impl Session {
                 track.stage = OnBoardStage::Tracking;
             }
             Activity::OnBoardTrack(_) => self.activity = Activity::Standby,
-            // It is watched on; its outcome is still to be told.
+            // It is watched further; its outcome is still to be reported.
             Activity::GoTo(GoTo { stage: GoToStage::UnderWay { since, .. }, .. }) => {
                 *since = now.steady;
             }
@@ -210,7 +210,7 @@ impl Session {
         self.tell(event);
     }
 
-    /// A device that starts to track by itself surprises whoever stands beside it.
+    /// A unit that starts to track by itself surprises anyone standing beside it.
     fn watch_program(&mut self) {
         let Some(program) = self.gate.state().program.filter(|_| !self.contact.unread) else {
             return;
@@ -228,7 +228,7 @@ impl Session {
         let aim = leg.map(|leg| leg.aim).or(go_to.aim);
         let (Some(aim), Some(measured)) = (aim, self.gate.state().measured) else { return };
         if measured.asked <= since || turns {
-            // Under way: the clock for the first effect starts anew.
+            // Still under way: the time limit for its first effect starts anew.
             if turns {
                 go_to.stage = GoToStage::UnderWay { since: now.steady, leg };
             }
@@ -259,8 +259,8 @@ impl Session {
         let completed = program.phase == Phase::Completed;
         let ended = !program.enabled || completed;
         match track.stage {
-            // The halt that goes with it switches off a program that is over but still
-            // on, and could start again.
+            // The halt also switches off a program that is over but still on, and could start
+            // again.
             OnBoardStage::Tracking if ended => {
                 self.give_up(Event::TrackingEnded { completed }, now);
             }

@@ -14,15 +14,13 @@ use crate::{
     station::{Antenna, Station},
 };
 
-/// When it begins.
 pub(in crate::driver) const START: Timestamp = Timestamp::UNIX_EPOCH;
 
 pub(in crate::driver) fn antenna() -> Antenna {
     Antenna::satrak("Dish", "in memory")
 }
 
-/// The unit, and the near end of a running session over what `wired` makes of its
-/// wires.
+/// Starts a session over the stream that `wired` wraps; returns the unit and the handle.
 pub(in crate::driver) fn start(
     debts: Debts,
     wired: impl FnOnce(Wires) -> Wires,

@@ -1,21 +1,21 @@
-//! Whether an antenna that was moved from here is known to stand since.
+//! Whether an antenna that was moved from here is known to stand.
 
 use std::time::Duration;
 
 use super::Session;
 
-/// Metal that does not move so long after a motion was sent does not begin to
-/// any more.
+/// An antenna that has not moved this long after a motion was sent no longer will.
 const SETTLED: Duration = Duration::from_secs(5);
 
 impl Session {
-    /// It was moved from here, or a stop is owed, and standstill is not proved.
+    /// Returns `true` if it was moved from here, or a STOP is owed, and standstill has not
+    /// been proved since.
     pub(super) fn is_unproved(&self) -> bool {
         self.gate.unproved_since().is_some() || self.stop.is_under_way()
     }
 
-    /// Keeps it for the next session of the unit too, whose antenna may be changed in
-    /// the settings meanwhile.
+    /// Keeps a record for the unit's next session, whose antenna may have other settings by
+    /// then.
     pub(super) fn keep_unproved(&mut self) {
         let since = self.gate.unproved_since();
         if since != self.owed.kept_unproved {
@@ -24,7 +24,7 @@ impl Session {
         }
     }
 
-    /// A halt is over: nothing moves. A unit that may start by itself is not done.
+    /// A halt is over and nothing moves. A unit that may start by itself is not done.
     pub(super) fn prove_still(&mut self) {
         self.acts = false;
         if !self.may_start_by_itself() {
@@ -32,7 +32,7 @@ impl Session {
         }
     }
 
-    /// Looks whether a motion that nobody stopped is over.
+    /// Checks whether a motion that nobody stopped is over.
     pub(super) fn watch_standstill(&mut self) {
         let Some(since) = self.gate.unproved_since() else { return };
         let state = self.gate.state();

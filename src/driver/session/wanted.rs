@@ -1,4 +1,4 @@
-//! A device that is left to others, and taken again on the operator's word.
+//! Leaves a unit to others, and takes it back when the operator says so.
 
 use super::{
     Event, Session,
@@ -7,20 +7,16 @@ use super::{
 };
 use crate::driver::{LinkState, Refusal};
 
-/// What a link is wanted for.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Wanted {
-    /// The device is left to others.
     No,
-    /// For a stop alone: it is let go again once standstill is proved.
+    /// For a STOP only: the unit is let go again once standstill is proved.
     ForStop,
-    /// For everything.
     Yes,
 }
 
 impl Session {
-    /// Waits for the operator to want a link; `false` when the session is to end.
-    /// A stop wants one: it is its first word.
+    /// Waits until the operator or a STOP wants a link; returns `false` to end the session.
     pub(super) async fn wait_until_wanted(&mut self) -> bool {
         self.contact.link = LinkState::Off;
         self.contact.away_since = None;
@@ -39,7 +35,7 @@ impl Session {
                     () = clock.sleep_until(due.max(now.steady + MIN_WAIT)) => Input::Time,
                 },
             };
-            // The word may have come hours later.
+            // The command may have come hours later.
             let now = self.now();
             match turn {
                 Input::Over => return false,
@@ -56,8 +52,7 @@ impl Session {
         true
     }
 
-    /// The operator leaves the device to others. What is owed to safety comes
-    /// first.
+    /// Leaves the unit to others, after what safety requires.
     pub(super) fn disconnect(&mut self) -> bool {
         if self.stop.is_under_way() {
             self.tell(Event::NotSent(Refusal::Stopping));
@@ -74,7 +69,7 @@ impl Session {
         true
     }
 
-    /// The stop for which the link was opened is proved.
+    /// The STOP that the link was opened for is proved.
     pub(super) fn disconnect_after_stop(&mut self) -> bool {
         !self.stop.is_under_way() && self.disconnect()
     }

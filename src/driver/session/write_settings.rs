@@ -1,11 +1,11 @@
-//! Changes of settings on their way to the gate.
+//! Passes changes of settings to the gate.
 
 use super::{Event, Session};
 use crate::{clock::Moment, device::settings::Change};
 
 impl Session {
-    /// Puts `change` on the device; why it is not sent stands among the outcomes of
-    /// the settings too.
+    /// Writes `change`. If it is not sent, the reason also appears among the outcomes of the
+    /// settings.
     pub(super) fn write_settings(&mut self, change: Change, now: Moment) {
         let (may_move, stopping) = (self.may_move(), self.stop.is_under_way());
         if let Err(refusal) = self.gate.write_settings(change, may_move, stopping, now) {

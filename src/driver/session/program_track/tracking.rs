@@ -1,4 +1,4 @@
-//! A target that is followed, and how well.
+//! A target of program track, and how well it is tracked.
 
 use std::time::Duration;
 
@@ -13,7 +13,7 @@ use crate::{
     station::{self, Antenna},
 };
 
-/// How an antenna follows.
+/// Settings of program track.
 #[derive(Debug, Clone, Copy)]
 pub(in crate::driver::session) struct Manner {
     pub(super) drives: Drives,
@@ -33,41 +33,40 @@ impl Manner {
         Self { drives, following: antenna.follow }
     }
 
-    /// What the operator allows, degrees a second.
+    /// The operator's limit, degrees a second.
     pub(in crate::driver::session) fn fastest_deg_s(&self) -> f64 {
         self.drives.limits.maximum_rate_deg_s
     }
 }
 
-/// A target that is followed.
 pub(in crate::driver::session) struct Tracking {
     pub(super) planner: Planner,
     pub(super) phase: TrackPhase,
     pub(super) stats: TrackStats,
     pub(super) next_look: Instant,
-    /// The look is due, but something else has to end first, which brings it.
+    /// A position is due, but something else must end first, which then brings it.
     pub(super) is_held_up: bool,
     /// When the last command went to the gate.
     pub(super) sent: Option<Instant>,
-    /// Commands in a row that were lost.
+    /// Number of commands in a row that were lost.
     pub(super) lost: u32,
-    /// When the position came in that was compared last.
+    /// When the position that was compared last came in.
     compared: Option<Instant>,
     pub(super) predicted: Option<Sample>,
-    /// It waits for the operator's word.
+    /// Waits for the operator.
     pub(super) awaits_word: bool,
-    /// The unit is still to tell that it is as before.
+    /// The unit must still prove to be as before.
     pub(in crate::driver::session) recheck: Option<Recheck>,
-    /// That a barrier is in the way was told.
+    /// The barrier in the way was reported.
     pub(super) barrier_is_told: bool,
-    /// Where the last position leads.
+    /// Where the last command leads.
     pub(super) commanded: Option<Pointing>,
-    /// The same, as long as the target is not up.
+    /// The same, while the target is not up.
     pub(in crate::driver::session) aim: Option<Pointing>,
 }
 
 impl Tracking {
-    /// Nothing was sent yet; it is looked at now.
+    /// Nothing has been sent yet; the first look is due now.
     pub(super) fn new(planner: Planner, phase: TrackPhase, now: Instant) -> Self {
         Self {
             planner,
@@ -105,7 +104,7 @@ impl Tracking {
         self.planner.follow().target.name().into_owned()
     }
 
-    /// How well the antenna points and how fast it turns, once for each measurement.
+    /// Takes the pointing error and the rates of a measurement, once each.
     pub(super) fn compare(&mut self, measured: Measured) {
         if self.compared.replace(measured.received) == Some(measured.received) {
             return;
@@ -122,7 +121,7 @@ impl Tracking {
         }
     }
 
-    /// The axes, as far as they show what the last command has brought about.
+    /// The axes, as far as they show the effect of the last command.
     pub(super) fn axes(&self, measured: Measured, latency: Duration) -> [AxisNow; 2] {
         let shows_it = self.sent.is_none_or(|sent| measured.asked >= sent + latency);
         measured.axes.map(|axis| AxisNow {
