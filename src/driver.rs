@@ -1,6 +1,5 @@
-//! Runs the antennas: links, sessions, intents and the gate, on a thread of
-//! its own. The station sends commands and reads snapshots; it never waits, and
-//! nothing here waits for it.
+//! Runs the antennas: links, sessions, intents and the gate, on a thread of its own. The
+//! station sends commands and reads snapshots; neither side waits for the other.
 
 mod before_sleep;
 pub mod dead_man;
@@ -53,20 +52,20 @@ use crate::{
     station::{Antenna, Link, LockOut},
 };
 
-/// How many commands may wait. The station sends at most a few at a time.
+/// Maximum number of waiting commands. The station sends at most a few at a time.
 const COMMANDS: usize = 64;
-/// How many events may wait. When nobody reads, the oldest alarms matter most,
-/// so further ones are dropped and counted in the log.
+/// Maximum number of waiting events. When nobody reads, the oldest alarms matter most: further
+/// ones are dropped and counted in the log.
 const EVENTS: usize = 256;
-/// How long the end of the program waits for the last STOP: as long as a session
-/// tries to reach a unit once more and to see it stand.
+/// How long the end of the program waits for the last STOP: as long as a session tries to
+/// reach a unit once more and to see it stand.
 const FAREWELL: Duration = Duration::from_secs(6);
 
-/// The longest rest of a session that breaks down again and again.
+/// Longest pause of a session that breaks down repeatedly.
 const MAX_REST: Duration = Duration::from_secs(5);
 
-/// The near end of one antenna's session. Dropping it ends the session, which
-/// ends a jog with a stop first.
+/// The station's end of one antenna's session. Dropping it ends the session, which stops a jog
+/// first.
 pub struct AntennaHandle {
     commands: mpsc::Sender<Numbered>,
     stopper: Stopper,
@@ -77,121 +76,116 @@ pub struct AntennaHandle {
     bounds: watch::Sender<Bounds>,
 }
 
-/// Numbers what is asked for, over all antennas of a station.
+/// Numbers the requests to all antennas of a station.
 #[derive(Debug, Clone, Default)]
 pub struct Orders(Arc<AtomicU64>);
 
 impl Orders {
-    /// The number of what is asked for now.
+    /// The number of a request made now.
     pub fn next(&self) -> u64 {
         self.0.fetch_add(1, Ordering::SeqCst) + 1
     }
 }
 
-/// A command on its way to a session, with its number among all that was asked for.
+/// A command on its way to a session, with its number among all requests.
 struct Numbered {
     command: Command,
     number: u64,
 }
 
-/// Stops an antenna past every queue; it outlives the session.
+/// Stops an antenna past every queue; outlives the session.
 #[derive(Clone)]
 pub struct Stopper {
     stop: Arc<Notify>,
-    /// What was asked for up to this number is void, wherever it still waits.
+    /// Requests up to this number are void, wherever they still wait.
     void: Arc<AtomicU64>,
     orders: Orders,
     snapshots: watch::Receiver<Arc<Snapshot>>,
 }
 
 impl Stopper {
-    /// Stops the antenna: never refused.
     pub fn stop(&self) {
         self.forget();
         self.stop.notify_one();
     }
 
-    /// What was asked for until now is void, wherever it still waits.
+    /// Voids all requests made until now, wherever they still wait.
     pub fn forget(&self) {
         self.void.fetch_max(self.orders.next(), Ordering::SeqCst);
     }
 
-    /// Whether what was asked for with this number is void.
+    /// Returns `true` if the request with this number is void.
     pub fn is_void(&self, number: u64) -> bool {
         number <= self.void.load(Ordering::SeqCst)
     }
 
-    /// Whether the antenna is to track, or tracks from here.
+    /// Returns `true` if the antenna tracks from here, or is about to.
     pub fn tracks(&self) -> bool {
         self.snapshots.borrow().intent == Intent::Track
     }
 
-    /// Whether a STOP of the whole station is for this antenna too.
+    /// Returns `true` if a STOP of the whole station includes this antenna.
     pub fn is_wanted(&self) -> bool {
         self.snapshots.borrow().wants_stop()
     }
 }
 
-/// The orbit of the satellite that the unit holds. It outlives a session that breaks
-/// down, and is no command: a queue that is full does not hold it up.
+/// The orbit of the satellite that the unit holds. It outlives a session that breaks down, and
+/// bypasses the queue of commands, which may be full.
 type Orbits = Arc<watch::Sender<Option<Arc<KnownOrbit>>>>;
 
 impl AntennaHandle {
-    /// Stops the antenna: past every queue, never refused.
     pub fn stop(&self) {
         self.stopper.stop();
     }
 
-    /// What stops the antenna from anywhere.
+    /// Stops the antenna from anywhere.
     pub fn stopper(&self) -> Stopper {
         self.stopper.clone()
     }
 
-    /// Numbers what is asked for.
     pub fn orders(&self) -> &Orders {
         &self.orders
     }
 
-    /// Hands over a command. It comes back when the session is too busy to take
-    /// it, which must be told to the operator.
+    /// Sends a command. It comes back if the session is too busy to take it, and the operator
+    /// must then be told.
     pub fn send(&self, command: Command) -> Result<(), Command> {
         self.send_as(command, self.orders.next())
     }
 
-    /// The same of a command that was asked for earlier and got this number then: a
-    /// STOP that came in between voids it.
+    /// Sends a command that was requested earlier, with the number it got then: a STOP in
+    /// between voids it.
     pub fn send_as(&self, command: Command, number: u64) -> Result<(), Command> {
         let numbered = Numbered { command, number };
         self.commands.try_send(numbered).map_err(|error| error.into_inner().command)
     }
 
-    /// The newest snapshot.
     pub fn snapshot(&self) -> Arc<Snapshot> {
         Arc::clone(&self.stopper.snapshots.borrow())
     }
 
-    /// What went over the link.
     pub fn wire(&self) -> &WireLog {
         &self.wire
     }
 
-    /// Other bounds hold for the antenna from now on.
+    /// Replaces the bounds of the antenna.
     pub fn keep_within(&self, bounds: Bounds) {
         self.bounds.send_replace(bounds);
     }
 
-    /// Tells by which orbit to judge what the unit does by itself.
+    /// The orbit by which to judge what the unit does by itself.
     pub fn know_orbit(&self, orbit: Option<Arc<KnownOrbit>>) {
         self.orbit.send_replace(orbit);
     }
 
-    /// The oldest event that was not read yet.
+    /// The oldest unread event.
     pub fn next_event(&mut self) -> Option<Event> {
         self.events.try_recv().ok()
     }
 }
 
-/// Waits until the operating system tells the program to end.
+/// Waits until the operating system asks the program to end.
 pub async fn told_to_end() -> io::Result<()> {
     #[cfg(unix)]
     {
@@ -208,23 +202,21 @@ pub async fn told_to_end() -> io::Result<()> {
     tokio::signal::ctrl_c().await
 }
 
-/// What sessions take from outside: their clocks and their links.
+/// What sessions take from outside: clock and links.
 #[derive(Clone)]
 pub struct Outside {
-    /// Of the sessions and of whoever runs them.
+    /// Used by the sessions and the code that runs them.
     pub clock: Clock,
-    /// Opens the links of an antenna.
     pub dial: Arc<dyn Fn(&Antenna) -> Dial + Send + Sync>,
 }
 
 impl From<Clock> for Outside {
-    /// Real links.
+    /// With real links.
     fn from(clock: Clock) -> Self {
         Self { clock, dial: Arc::new(dial) }
     }
 }
 
-/// The thread of the sessions.
 pub struct Driver {
     runtime: tokio::runtime::Handle,
     end: Option<tokio::sync::oneshot::Sender<()>>,
@@ -241,7 +233,7 @@ pub struct Driver {
 }
 
 impl Driver {
-    /// Starts the thread. `wake` is called from it after every change.
+    /// Starts the thread. It calls `wake` after every change.
     pub fn start(outside: impl Into<Outside>, wake: Wake) -> io::Result<Self> {
         let runtime = tokio::runtime::Builder::new_current_thread().enable_all().build()?;
         let handle = runtime.handle().clone();
@@ -256,12 +248,12 @@ impl Driver {
         before_sleep::watch(before_sleep.clone(), handle.clone())?;
         thread::Builder::new().name("azel-driver".to_owned()).spawn(move || {
             runtime.block_on(async {
-                // An error means that the near end is gone, which says the same.
+                // An error means that the driver is gone, which says the same.
                 let _ = told_to_end.await;
                 running.close();
                 let _ = tokio::time::timeout(FAREWELL, running.wait()).await;
             });
-            // Nobody may be waiting any more.
+            // Perhaps nobody waits any more.
             let _ = tell_ended.send(());
         })?;
         Ok(Self {
@@ -280,35 +272,34 @@ impl Driver {
         })
     }
 
-    /// Starts `program` as the dead-man of motions by hand: this program, which
-    /// knows [`dead_man::SUBCOMMAND`].
+    /// With `program` as the dead-man of motions by hand: this program, which knows
+    /// [`dead_man::SUBCOMMAND`].
     #[must_use]
     pub fn guarded_by(mut self, program: Option<PathBuf>) -> Self {
         self.dead_man = program;
         self
     }
 
-    /// Keeps marks of motions by hand in `folder`, so that the next start knows of
-    /// them.
+    /// With records of motions by hand in `folder`, for the next start.
     #[must_use]
     pub fn marking_in(mut self, folder: Option<PathBuf>) -> Self {
         self.debts = Debts::marked_in(folder);
         self
     }
 
-    /// For how long the thread has not responded, from half a second on: what is
-    /// sent meanwhile, STOP too, is not carried out. `wake` is called when it
-    /// stands, each second while it does, and when it runs again.
+    /// How long the thread has not responded, from half a second on; meanwhile nothing is
+    /// carried out, STOP included. `wake` is called when the thread hangs, each second while
+    /// it does, and when it runs again.
     pub fn stood_for(&self) -> Option<Duration> {
         self.pulse.stood_for()
     }
 
-    /// Where other work on the driver's thread is spawned.
+    /// The runtime of the driver's thread, for other work.
     pub fn runtime(&self) -> &tokio::runtime::Handle {
         &self.runtime
     }
 
-    /// Starts the session of one antenna, whose unit may be locked out. `until_the_end` is
+    /// Starts the session of an antenna, whose unit may be locked out. `until_the_end` is
     /// dropped when the session has ended.
     pub fn open(
         &self,
@@ -346,23 +337,22 @@ impl Driver {
         handle
     }
 
-    /// An antenna that is driven from elsewhere: it has no session, and takes nothing.
+    /// The handle of an antenna that is driven from elsewhere: it has no session and takes
+    /// nothing.
     pub fn leave_alone(antenna: &Antenna) -> AntennaHandle {
         Wires::closed(antenna, Instant::now())
     }
 
-    /// Numbers what is asked for of all its antennas.
+    /// Numbers the requests to all its antennas.
     pub fn orders(&self) -> &Orders {
         &self.orders
     }
 
-    /// The STOPs that are owed.
     pub fn debts(&self) -> &Debts {
         &self.debts
     }
 }
 
-/// Opens the links of `antenna`.
 fn dial(antenna: &Antenna) -> Dial {
     let connection = &antenna.connection;
     match connection.spec().link {
@@ -371,21 +361,21 @@ fn dial(antenna: &Antenna) -> Dial {
     }
 }
 
-/// Runs a session, and another one where it breaks down: the antenna may move
-/// unwatched, so STOP is the first word of the next.
+/// Runs a session, and a new one if it breaks down: the antenna may be moving unwatched, so
+/// the new one sends STOP first.
 async fn keep_alive(open: impl Fn() -> Session, wires: Wires) {
     let mut broke = 0_u32;
     while caught(Box::pin(async { Box::pin(open().run()).await })).await.is_none() {
         wires.stop();
         wires.tell(Event::Safety(Safety::SessionBroke));
-        // The first restart waits for nothing; one that breaks again and again must
-        // not keep the other sessions from running.
+        // The first restart waits for nothing. A session that breaks again and again must not
+        // keep the others from running.
         tokio::time::sleep(MAX_REST.min(Duration::from_millis(200) * broke)).await;
         broke = broke.saturating_add(1);
     }
 }
 
-/// The outcome of `work`; `None` when it panicked.
+/// Returns `None` if `work` panicked.
 async fn caught<F: Future>(mut work: Pin<Box<F>>) -> Option<F::Output> {
     poll_fn(move |context| {
         let polled = panic::catch_unwind(AssertUnwindSafe(|| work.as_mut().poll(context)));
@@ -394,7 +384,7 @@ async fn caught<F: Future>(mut work: Pin<Box<F>>) -> Option<F::Output> {
     .await
 }
 
-/// Waits, within reason, until every session has said its last STOP.
+/// Waits, within limits, until every session has sent its last STOP.
 impl Drop for Driver {
     fn drop(&mut self) {
         drop(self.end.take());

@@ -1,5 +1,5 @@
-//! Stops what would not end by itself before this computer sleeps: while it sleeps
-//! nothing sends STOP, and a jog key that is held stays down.
+//! Stops what would not end by itself before this computer sleeps: while it sleeps nothing
+//! sends STOP, and a held jog key stays down.
 
 use std::{
     convert::Infallible,
@@ -9,26 +9,25 @@ use std::{
 
 use tokio::sync::mpsc;
 
-/// How long a sleep is put off at most. `logind` waits for 5 s unless it is set
-/// otherwise (`InhibitDelayMaxSec`, logind.conf(5)).
+/// Longest delay of a sleep. `logind` waits for 5 s unless set otherwise
+/// (`InhibitDelayMaxSec`, logind.conf(5)).
 const MAX: Duration = Duration::from_secs(3);
 
-/// A bus that was lost is looked for again after this long.
+/// Interval between attempts to reach a lost bus.
 #[cfg(target_os = "linux")]
 const AGAIN: Duration = Duration::from_secs(30);
 
-/// Is kept by a session until nothing runs that it alone would end.
+/// Held by a session while a motion runs that only the session would end.
 #[derive(Debug)]
 pub(super) struct Awake(
     #[expect(dead_code, reason = "dropping it says all")] mpsc::Sender<Infallible>,
 );
 
-/// The sessions that are told.
 #[derive(Debug, Clone, Default)]
 pub(super) struct BeforeSleep(Arc<Mutex<Vec<mpsc::Sender<Awake>>>>);
 
 impl BeforeSleep {
-    /// Where a new session hears of it.
+    /// A channel for a new session.
     pub(super) fn hear(&self) -> mpsc::Receiver<Awake> {
         let (tell, hear) = mpsc::channel(1);
         let mut sessions = self.0.lock().unwrap_or_else(PoisonError::into_inner);
@@ -37,12 +36,12 @@ impl BeforeSleep {
         hear
     }
 
-    /// Tells all sessions, and waits within reason until nothing runs any more that
-    /// they alone would end.
+    /// Tells all sessions, and waits within limits until no motion runs any more that only
+    /// they would end.
     pub(super) async fn all_quiet(&self) {
         let (awake, mut all_quiet) = mpsc::channel(1);
         for session in &*self.0.lock().unwrap_or_else(PoisonError::into_inner) {
-            // A session that has not read the last one yet ends its motion for that.
+            // A session that has not read the last message yet ends its motion for that one.
             let _ = session.try_send(Awake(awake.clone()));
         }
         drop(awake);
@@ -74,15 +73,14 @@ pub(super) fn watch(sessions: BeforeSleep, runtime: tokio::runtime::Handle) -> s
     Ok(())
 }
 
-/// Nobody tells on this operating system.
+/// Nothing tells of sleeps on this operating system.
 #[cfg(not(target_os = "linux"))]
 pub(super) fn watch(_: BeforeSleep, _: tokio::runtime::Handle) -> std::io::Result<()> {
     Ok(())
 }
 
-/// `systemd-logind` tells when the computer is about to sleep, and waits for those
-/// who hold a lock of the kind "delay" (`org.freedesktop.login1(5)`, systemd's
-/// "Inhibitor Locks").
+/// `systemd-logind` tells when the computer is about to sleep, and waits for the holders of a
+/// lock of the kind "delay" (`org.freedesktop.login1(5)`, systemd's "Inhibitor Locks").
 #[cfg(target_os = "linux")]
 mod logind {
     use zbus::{
@@ -110,7 +108,7 @@ mod logind {
                 before();
                 lock = None;
             } else if lock.is_none() {
-                // Without one the next sleep is not put off, but is still told of.
+                // Without a lock the next sleep is not delayed, but is still announced.
                 lock = delay(&manager).inspect_err(|error| tracing::warn!(%error, "no lock")).ok();
             }
         }

@@ -1,9 +1,8 @@
 //! The dead-man: a small process beside this one that stops a unit when this
 //! process no longer can.
 //!
-//! It is started for one spell of motion by hand that would not end by itself,
-//! holds a duplicate of the open link, and expects a beat from the session's own
-//! loop. Without one it writes STOP.
+//! It is started for one motion by hand that would not end by itself, holds a duplicate of the
+//! open link, and expects a beat from the session's own loop. Without one it writes STOP.
 
 #[cfg(unix)]
 mod child;
@@ -17,7 +16,7 @@ pub use child::watch_over;
 #[cfg(unix)]
 pub(super) use parent::DeadMan;
 
-/// Name of the subcommand that runs the child; its argument is STOP in
+/// Name of the subcommand that runs the child; its argument holds the STOP bytes in
 /// hexadecimal digits.
 pub const SUBCOMMAND: &str = "dead-man";
 /// Without a beat for this long the child stops the unit.
@@ -30,11 +29,11 @@ pub(super) const BEAT: Duration = Duration::from_millis(100);
 mod word {
     /// The session is alive and its lease holds.
     pub(super) const BEAT: u8 = b'.';
-    /// Nothing is out any more: end without a STOP.
+    /// The motion is over: end without a STOP.
     pub(super) const END: u8 = b'e';
 }
 
-/// Where there are no handles to give away: [`DeadMan::arm`] always fails.
+/// For systems without handles to give away: [`DeadMan::arm`] always fails.
 #[cfg(not(unix))]
 #[derive(Debug)]
 pub(super) struct DeadMan(std::convert::Infallible);

@@ -1,6 +1,6 @@
-//! STOPs that are owed. A debt belongs to a unit, not to a row of the settings: it
-//! outlives the session, the name and the address of its antenna, and as a mark
-//! on disk this program.
+//! STOPs that are owed. A debt belongs to a unit, not to a row of the settings: it outlives
+//! the session, the name and the address of its antenna and, as a record on disk, this
+//! program.
 
 use std::{
     collections::{BTreeMap, BTreeSet},
@@ -16,17 +16,15 @@ use tokio::sync::Notify;
 
 use crate::{clock::Instant, station::Antenna, whole_file};
 
-/// A unit, by what does not change with the operator's words for it.
+/// A unit, by what does not change when the operator renames its antenna.
 #[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 pub struct Unit {
     /// Key of its make, as in the station file.
     pub make: String,
-    /// Where it answers.
     pub address: String,
 }
 
 impl Unit {
-    /// The unit of `antenna`.
     pub fn of(antenna: &Antenna) -> Self {
         Self {
             make: antenna.connection.spec().key.to_owned(),
@@ -34,7 +32,7 @@ impl Unit {
         }
     }
 
-    /// Name of its mark: readable, and no two units share one.
+    /// Name of its record: readable, and unique to the unit.
     fn file_name(&self) -> String {
         let plain = |letter: char| if letter.is_ascii_alphanumeric() { letter } else { '-' };
         let readable: String = self.address.chars().map(plain).take(40).collect();
@@ -44,37 +42,36 @@ impl Unit {
     }
 }
 
-/// What a mark on disk says.
+/// Content of a record on disk.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 struct Mark {
     #[serde(flatten)]
     unit: Unit,
-    /// When the spell of motion by hand began.
+    /// When the motion by hand began.
     since: Timestamp,
 }
 
 /// All debts of this program. Clones share them.
 #[derive(Debug, Clone, Default)]
 pub struct Debts {
-    /// Where the marks are; `None` for none.
+    /// Folder of the records; `None` for none.
     folder: Option<Arc<Path>>,
     ledger: Arc<Mutex<Ledger>>,
 }
 
-/// Who is there, and what is owed.
 #[derive(Debug, Default)]
 struct Ledger {
-    /// The number of the newest session.
+    /// Number of the newest session.
     newest: u64,
     /// The newest session of each unit, and its STOP.
     sessions: BTreeMap<Unit, (u64, Arc<Notify>)>,
     owed: BTreeSet<Unit>,
-    /// Units that were moved from here since then, and are not known to stand since.
+    /// Units that were moved from here since then and are not known to stand.
     unproved: BTreeMap<Unit, Instant>,
 }
 
 impl Debts {
-    /// Debts with marks in `folder`.
+    /// With records in `folder`.
     pub fn marked_in(folder: Option<PathBuf>) -> Self {
         Self { folder: folder.map(Arc::from), ledger: Arc::default() }
     }
@@ -84,8 +81,8 @@ impl Debts {
         self.ledger.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// A session of `unit` begins; it is stopped by `stop`, at once if a STOP is
-    /// owed. Returns its number.
+    /// A session of `unit` begins; `stop` stops it, at once if a STOP is owed. Returns its
+    /// number.
     pub(super) fn begin(&self, unit: &Unit, stop: Arc<Notify>) -> u64 {
         let mut ledger = self.ledger();
         ledger.newest += 1;
@@ -97,7 +94,6 @@ impl Debts {
         number
     }
 
-    /// A STOP is owed to `unit`.
     pub(super) fn owe(&self, unit: &Unit) {
         self.ledger().owed.insert(unit.clone());
     }
@@ -107,8 +103,8 @@ impl Debts {
         self.ledger().owed.remove(unit);
     }
 
-    /// Hands the debt of `session` to a newer session of the same unit, if there
-    /// is one.
+    /// Hands the debt of `session` to a newer session of the same unit; returns `false` if
+    /// there is none.
     pub(super) fn hand_over(&self, unit: &Unit, session: u64) -> bool {
         let ledger = self.ledger();
         let newer = ledger.sessions.get(unit).filter(|(number, _)| *number > session);
@@ -118,8 +114,8 @@ impl Debts {
         newer.is_some()
     }
 
-    /// Keeps since when `unit` was moved without proof that it stands; `session` is the
-    /// one that says so, and an older one is not heard.
+    /// Records since when `unit` was moved without proof that it stands. An older `session`
+    /// than the newest is ignored.
     pub(super) fn keep_unproved(&self, unit: &Unit, session: u64, since: Option<Instant>) {
         let mut ledger = self.ledger();
         if ledger.sessions.get(unit).is_none_or(|(newest, _)| *newest != session) {
@@ -136,7 +132,6 @@ impl Debts {
         self.ledger().unproved.get(unit).copied()
     }
 
-    /// Whether a STOP is owed to `unit`.
     pub fn owes(&self, unit: &Unit) -> bool {
         self.ledger().owed.contains(unit)
     }
@@ -146,12 +141,12 @@ impl Debts {
         self.ledger().owed.iter().cloned().collect()
     }
 
-    /// Whether there is a place for marks.
+    /// Returns `true` if there is a folder for records.
     pub(super) fn has_marks(&self) -> bool {
         self.folder.is_some()
     }
 
-    /// Marks on disk that `unit` is moved by hand. Blocks until it is on the disk.
+    /// Records on disk that `unit` is moved by hand. Blocks until it is on the disk.
     pub(super) fn mark(&self, unit: &Unit, since: Timestamp) -> std::io::Result<()> {
         let Some(folder) = &self.folder else { return Ok(()) };
         let text =
@@ -159,15 +154,14 @@ impl Debts {
         whole_file::replace(&folder.join(unit.file_name()), text.as_bytes())
     }
 
-    /// Takes the mark of `unit` away.
     pub(super) fn unmark(&self, unit: &Unit) {
         let Some(folder) = &self.folder else { return };
-        // Where there is none, nothing has to go; one that stays costs a STOP.
+        // A missing file needs no removal; one that stays costs a STOP.
         fs::remove_file(folder.join(unit.file_name())).ok();
     }
 
-    /// Since when the mark of an earlier run says that `unit` may move. A mark
-    /// that cannot be read says so since the beginning of time.
+    /// Since when `unit` may be moving, by the record of an earlier run. An unreadable record
+    /// counts from the beginning of time.
     pub(super) fn marked(&self, unit: &Unit) -> Option<Timestamp> {
         let path = self.folder.as_ref()?.join(unit.file_name());
         match fs::read_to_string(path) {

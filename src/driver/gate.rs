@@ -1,9 +1,8 @@
-//! The one checker that every motion passes.
+//! The gate: the one check that every motion passes.
 //!
-//! Invariant: the gate owns the controller and hands out only its
-//! [`Device`] side, so no other code can start a motion. A new rule is one more
-//! entry of [`RULES`], and one more case of the table that proves that it is
-//! needed (`tests/each_rule.rs`).
+//! Invariant: the gate owns the controller and hands out only its [`Device`] side, so no other
+//! code can start a motion. A new rule is one more entry of [`RULES`], and one more case of
+//! the table that proves it necessary (`tests/each_rule.rs`).
 
 mod program;
 mod refusal;
@@ -30,19 +29,18 @@ pub use refusal::Refusal;
 use rules::{Check, RULES, Rule};
 use word::Word;
 
-/// From one side of the zenith to the other.
 const HALF_TURN: Angle = Angle::from_degrees(180.0);
 
-/// What the rules look at beside the motion itself.
+/// What the rules see besides the motion.
 struct Situation<'a> {
     gate: &'a Gate,
     state: &'a AntennaState,
     can: Capabilities,
     intent: Intent,
     stopping: bool,
-    /// The antenna was told to move, whatever it does.
+    /// A motion was requested, whatever the antenna does.
     may_move: bool,
-    /// The operator answers for an action whose end nobody knows here.
+    /// The operator takes responsibility for an action whose end is unknown here.
     is_agreed: bool,
     limits: MotionLimits,
     mount: Mount,
@@ -53,7 +51,6 @@ struct Situation<'a> {
     now: Moment,
 }
 
-/// The checker and the controller behind it.
 pub(super) struct Gate {
     controller: Box<dyn Moves>,
     variant: &'static Variant,
@@ -61,27 +58,26 @@ pub(super) struct Gate {
     limits: MotionLimits,
     mount: Mount,
     bounds: Bounds,
-    /// For how long the axes run on at their rate after a STOP, seconds.
+    /// Overrun: how long the axes turn on at their rate after a STOP, seconds.
     overrun_s: f64,
-    /// Where the last motion to a position ends, degrees as the mount counts; `None`
-    /// after any other motion.
+    /// End of the last motion to a position, degrees as the mount counts; `None` after any
+    /// other motion.
     to_deg: Option<[f64; 2]>,
-    /// Where the axes stood when the last motion passed, degrees as the mount counts.
+    /// Angles of the axes when the last motion passed, degrees as the mount counts.
     started_from_deg: Option<[f64; 2]>,
-    /// Nothing but questions and halts goes to the unit.
+    /// Only questions and halts go to the unit.
     lock_out: Option<LockOut>,
     /// When the last motion passed that is not known to be over.
     unproved_since: Option<Instant>,
-    /// The pass that the device's own program is started on.
+    /// The pass on which the unit's own program is started.
     program: Option<Arc<Judge>>,
-    /// What the device would follow by itself.
+    /// What the unit would track by itself.
     held: Held,
-    /// What the operator has answered for.
+    /// The operator's permissions.
     word: Word,
 }
 
 impl Gate {
-    /// The gate before the controller of `antenna`.
     pub(super) fn new(controller: Box<dyn Moves>, antenna: &Antenna, bounds: Bounds) -> Self {
         let variant = antenna.connection.variant();
         Self {
@@ -102,7 +98,7 @@ impl Gate {
         }
     }
 
-    /// The same gate without the rule of this name.
+    /// Without the rule of this name.
     #[cfg(test)]
     fn without(mut self, name: &str) -> Self {
         let before = self.rules.len();
@@ -111,12 +107,11 @@ impl Gate {
         self
     }
 
-    /// The lock-out of the unit.
     pub(super) fn lock_out(&self) -> Option<&LockOut> {
         self.lock_out.as_ref()
     }
 
-    /// Locks the unit out, or no longer.
+    /// `None` ends the lock-out.
     pub(super) fn set_lock_out(&mut self, lock_out: Option<LockOut>) {
         self.controller.lock_changes(lock_out.is_some());
         self.lock_out = lock_out;
@@ -127,49 +122,46 @@ impl Gate {
         self.unproved_since
     }
 
-    /// Another session has moved it then, and did not prove that it stands.
+    /// Another session moved the antenna at this time and did not prove that it stands.
     pub(super) fn was_moved(&mut self, since: Option<Instant>) {
         self.unproved_since = since;
     }
 
-    /// Standstill is proved.
     pub(super) fn proved_still(&mut self) {
         self.unproved_since = None;
     }
 
-    /// Where the axes stood when the last motion passed, degrees as the mount counts.
+    /// Angles of the axes when the last motion passed, degrees as the mount counts.
     pub(super) fn started_from_deg(&self) -> Option<[f64; 2]> {
         self.started_from_deg
     }
 
-    /// Where the axes were measured last, degrees as the mount counts.
+    /// Last measured angles of the axes, degrees as the mount counts.
     pub(super) fn axes_deg(&self) -> Option<[f64; 2]> {
         self.state().measured?.axes_deg(self.variant.capabilities.has_elevation())
     }
 
-    /// What the antenna must keep within.
     pub(super) fn bounds(&self) -> &Bounds {
         &self.bounds
     }
 
-    /// Other keep-outs hold from now on.
     pub(super) fn keep_within(&mut self, bounds: Bounds) {
         self.bounds = bounds;
         self.lift_sun(self.lifts_sun());
     }
 
-    /// For how long the axes run on at their rate after a STOP, seconds.
+    /// Overrun: how long the axes turn on at their rate after a STOP, seconds.
     pub(super) fn overrun_s(&self) -> f64 {
         self.overrun_s
     }
 
-    /// The axes were measured to run on for this long after a STOP, seconds.
+    /// Sets a measured overrun, seconds.
     pub(super) fn set_overrun(&mut self, overrun_s: f64) {
         self.overrun_s = overrun_s;
     }
 
-    /// How far ahead of the last position a motion is judged, seconds: the age of
-    /// the position, the time to the next one and its way here, and the overrun.
+    /// How far ahead of the last position a motion is judged, seconds: the age of the
+    /// position, the time until the next one arrives, and the overrun.
     pub(super) fn ahead_s(&self, now: Moment) -> f64 {
         let Some(measured) = self.state().measured else { return self.overrun_s };
         let age = now.steady.saturating_duration_since(measured.asked);
@@ -177,22 +169,21 @@ impl Gate {
         (age + reply + self.controller.poll_period()).as_secs_f64() + self.overrun_s
     }
 
-    /// The harmless side of the controller.
+    /// The side of the controller that cannot start a motion.
     pub(super) fn device(&mut self) -> &mut dyn Device {
         &mut *self.controller
     }
 
-    /// What is known of the antenna.
     pub(super) fn state(&self) -> &AntennaState {
         self.controller.state()
     }
 
-    /// Whether `motion` could start were the antenna at rest.
+    /// Checks whether `motion` could start if the antenna were at rest.
     pub(super) fn check(&self, motion: Motion, intent: Intent, now: Moment) -> Result<(), Refusal> {
         self.examine(motion.into(), intent, false, now)
     }
 
-    /// Starts `motion`, or says why not. This is the only way to move metal.
+    /// Starts `motion`, or returns the reason not to. This is the only way to move an antenna.
     pub(super) fn start(
         &mut self,
         motion: Motion,
@@ -250,8 +241,8 @@ impl Gate {
         }
     }
 
-    /// Does what only this make can do, or says why not. `is_agreed` says that the
-    /// operator answers for one that leads nobody here knows where.
+    /// Carries out an action of the make, or returns the reason not to. `is_agreed`: the
+    /// operator takes responsibility for one whose lead is unknown here.
     pub(super) fn act(
         &mut self,
         act: Act,
@@ -280,9 +271,9 @@ impl Gate {
         Ok(action)
     }
 
-    /// The motion to a direction of the sky, as the axes count: the azimuth axis
-    /// goes to the nearest of its positions. Where one angle is to stay, axes that
-    /// are flipped stay so. An error beyond it, where there is no sky.
+    /// The motion to a direction of the sky as the axes count: the azimuth axis goes to its
+    /// nearest position. Where one angle stays, flipped axes stay flipped. An error beyond the
+    /// axis, where there is no sky.
     pub(super) fn nearest(&self, motion: Motion) -> Result<Motion, Refusal> {
         let Motion::Position { azimuth, elevation } = motion else { return Ok(motion) };
         if let Some(asked_deg) = elevation.map(Angle::degrees).filter(|deg| *deg > 90.0 + 1e-9) {
@@ -297,7 +288,7 @@ impl Gate {
         })
     }
 
-    /// An azimuth beyond the sky that the axis has is meant as the axis counts.
+    /// An azimuth outside one turn that the axis has is meant as the axis counts.
     fn nearest_azimuth(&self, azimuth: Angle, is_flipped: bool) -> Angle {
         let [(from_deg, to_deg), _] = self.mount.travel_deg();
         let asked_deg = azimuth.degrees();
@@ -310,7 +301,7 @@ impl Gate {
         self.mount.axis_azimuth(side, near_deg)
     }
 
-    /// Where a motion to a position would end, as the device is told it.
+    /// The end of a motion to a position, as it is sent to the unit.
     pub(super) fn aim(&self, motion: &Motion) -> Option<Pointing> {
         let motion = self.controller.as_told(*motion);
         let Motion::Position { azimuth, elevation } = motion else { return None };
@@ -330,14 +321,14 @@ impl Gate {
         Some(Pointing::of_axes(azimuth, elevation))
     }
 
-    /// Where the elevation axis was measured, degrees; `None` without one.
+    /// Measured angle of the elevation axis, degrees; `None` without one.
     fn elevation_axis_deg(&self) -> Option<f64> {
         let is_one =
             matches!(self.mount, Mount::AzEl { .. }) && self.variant.capabilities.has_elevation();
         self.state().measured.filter(|_| is_one)?.axes[1].angle_deg
     }
 
-    /// An axis at its upper limit may tell no angle.
+    /// An axis at its upper limit may have no angle.
     fn is_flipped(&self) -> bool {
         let at_upper_end = || {
             let axis = self.state().measured.map(|measured| measured.axes[1]);

@@ -1,9 +1,7 @@
-//! What the operator wants of an antenna.
-
 use serde::{Deserialize, Serialize};
 
-/// What the operator wants of an antenna. A state of the driver: it holds with
-/// or without a window.
+/// What the operator wants of an antenna. A state of the driver: it holds with or without a
+/// window.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 pub enum Intent {
     /// Nothing is to move.
@@ -13,7 +11,7 @@ pub enum Intent {
     Manual,
     /// Go to a direction and stay there.
     Position,
-    /// Follow a satellite.
+    /// Track a target.
     Track,
     /// Go to the park position and stay there.
     Park,

@@ -15,17 +15,16 @@ use crate::station::check_address;
 /// A second handle of an open link, for the dead-man.
 #[cfg(unix)]
 pub(super) type Duplicate = std::os::fd::OwnedFd;
-/// No other process can be given a handle here.
+/// Handles cannot be given to other processes here.
 #[cfg(not(unix))]
 pub(super) type Duplicate = std::convert::Infallible;
 
-/// An open link.
 pub trait Stream: AsyncRead + AsyncWrite + Send + Unpin {
-    /// Another handle of the same connection, which another process can write to.
-    /// `None` where the far end lives in this process and ends with it.
+    /// Another handle of the same connection, for another process to write to. `None` where
+    /// the far end lives in this process and ends with it.
     fn duplicate(&self) -> io::Result<Option<Duplicate>>;
 
-    /// `bytes` as they leave the last layer of the link, parity included.
+    /// `bytes` as they leave the lowest layer of the link, parity included.
     fn on_wire(&self, bytes: &[u8]) -> Vec<u8> {
         bytes.to_vec()
     }
@@ -38,7 +37,6 @@ impl Stream for DuplexStream {
     }
 }
 
-/// Duplicates the handle of `link`.
 #[cfg(unix)]
 fn duplicate_of(link: &impl std::os::fd::AsFd) -> io::Result<Option<Duplicate>> {
     link.as_fd().try_clone_to_owned().map(Some)
@@ -49,13 +47,13 @@ fn duplicate_of<T>(_: &T) -> io::Result<Option<Duplicate>> {
     Err(io::ErrorKind::Unsupported.into())
 }
 
-/// Opens the link, as often as asked.
+/// Opens a link, any number of times.
 pub type Dial =
     Box<dyn FnMut() -> Pin<Box<dyn Future<Output = io::Result<Box<dyn Stream>>> + Send>> + Send>;
 
-/// Opens a serial line of seven bits and even parity: where `address` is a host
-/// and a port through the serial server there, else as a serial port of this
-/// computer at `baud` bits a second. Bytes of seven bits go in and come out.
+/// Opens a serial line of seven bits and even parity: through a serial server if `address` is
+/// a host and a port, otherwise as a serial port of this computer at `baud` bits a second.
+/// Callers read and write bytes of seven bits.
 pub fn dial_line(address: &str, baud: u32) -> Dial {
     if check_address(address).is_ok() {
         tcp::dial_line_server(address.to_owned())

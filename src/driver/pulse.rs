@@ -1,4 +1,4 @@
-//! Whether the driver's thread runs, told by a thread that does not depend on it.
+//! Notices when the driver's thread hangs, from a thread that does not depend on it.
 
 use std::{
     io,
@@ -13,24 +13,24 @@ use std::{
 
 use super::Wake;
 
-/// How often the driver tells that it runs, and the watchdog looks.
+/// Interval of the driver's beats and of the watchdog's looks.
 pub(super) const PERIOD: Duration = Duration::from_millis(100);
-/// A driver without a beat for this long stands.
+/// A driver without a beat for this long hangs.
 const STANDS_AFTER: Duration = Duration::from_millis(500);
-/// A watchdog that looks later than this was held up itself: by a suspended or
-/// overloaded computer, which holds up the driver as well.
+/// A watchdog that looks later than this was held up itself, by a suspended or overloaded
+/// computer, which holds up the driver as well.
 const LATE: Duration = Duration::from_millis(400);
-/// How often the window is told of a driver that goes on standing.
+/// Interval between reminders while the driver hangs.
 const REMIND: Duration = Duration::from_secs(1);
 
-/// The beats of the driver's thread, and what the watchdog makes of them.
+/// The beats of the driver's thread, and the watchdog's findings.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Pulse(Arc<Shared>);
 
 #[derive(Debug, Default)]
 struct Shared {
     beats: AtomicU64,
-    /// Milliseconds, 0 while it runs.
+    /// Milliseconds; 0 while it runs.
     stood_ms: AtomicU64,
 }
 
@@ -44,15 +44,14 @@ impl Pulse {
         }
     }
 
-    /// For how long the driver has not run, from half a second on.
+    /// How long the driver has not run, from half a second on.
     pub(super) fn stood_for(&self) -> Option<Duration> {
         let ms = self.0.stood_ms.load(Ordering::Relaxed);
         (ms > 0).then(|| Duration::from_millis(ms))
     }
 
-    /// Starts the thread that looks after the beats. It ends when what is
-    /// returned is dropped; `wake` is called when the driver stands, and when it
-    /// runs again.
+    /// Starts the watchdog thread. It ends when the returned sender is dropped. `wake` is
+    /// called when the driver hangs, and when it runs again.
     pub(super) fn watch(&self, wake: Wake) -> io::Result<mpsc::SyncSender<()>> {
         let (near_end, end) = mpsc::sync_channel(1);
         let pulse = self.clone();
@@ -86,11 +85,11 @@ impl Pulse {
     }
 }
 
-/// Tells a driver that stands from one that runs.
+/// Tells a driver that hangs from one that runs.
 #[derive(Debug)]
 struct Watchdog {
     beats: u64,
-    /// When they were seen to change last.
+    /// When the beats were seen to change last.
     since: Instant,
     looked: Instant,
 }
@@ -100,7 +99,7 @@ impl Watchdog {
         Self { beats: 0, since: now, looked: now }
     }
 
-    /// For how long the driver has stood at `now`, with so many `beats` till then.
+    /// How long the driver has hung at `now`, after this number of `beats`.
     fn look(&mut self, beats: u64, now: Instant) -> Option<Duration> {
         let was_held_up = now.saturating_duration_since(self.looked) >= LATE;
         self.looked = now;

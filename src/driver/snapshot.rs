@@ -1,4 +1,4 @@
-//! What a session tells the rest of the program: snapshots and events.
+//! Snapshots and events: what a session shows of an antenna.
 
 use std::{sync::Arc, time::Duration};
 
@@ -21,56 +21,47 @@ use crate::{
 /// One antenna at one instant. Replaced as a whole, never changed in place.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Snapshot {
-    /// The link.
     pub link: LinkState,
-    /// It has moved on this program's word when it answered last, and does not answer.
+    /// It was moving on Azel's command at its last answer, and does not answer.
     pub silent: bool,
-    /// What the operator wants.
     pub intent: Intent,
-    /// The intent is asked for but not yet proved by the device.
+    /// The intent is requested, but not yet proved by the unit.
     pub pending: bool,
-    /// Where a motion to a position ends.
+    /// End of a motion to a position.
     pub aim: Option<Pointing>,
-    /// What is to be tracked.
+    /// Target of an on-board track.
     pub target: Option<TrackTarget>,
-    /// How the unit tracks it by itself.
+    /// The on-board track, as it is supervised.
     pub on_board: Option<OnBoardView>,
-    /// What this program follows with it, position by position.
     pub program_track: Option<TrackView>,
-    /// It was moved from here, or a stop is owed, and standstill is not proved
-    /// since.
+    /// It was moved from here, or a STOP is owed, and standstill has not been proved since.
     pub unproved: bool,
-    /// The unit is locked out for maintenance.
     pub lock_out: Option<LockOut>,
-    /// It is being locked out: that it stands and does not start by itself is not
-    /// read back yet.
+    /// A lock-out has begun, but standstill and auto-track off have not been read back yet.
     pub locking: bool,
-    /// The stop button.
     pub stop: StopState,
-    /// A motion that this program has ended is not known to have come to rest.
+    /// A motion that Azel has ended is not known to have come to rest.
     pub runs_out: bool,
     /// No dead-man could be had for the last motion by hand that needed one.
     pub unguarded: bool,
-    /// It is where it must not point.
+    /// It is inside a barrier.
     pub inside: Option<Inside>,
-    /// What is followed may lead to the Sun, by the operator's word.
+    /// By the operator's permission, program track may lead to the Sun.
     pub sun_lifted: bool,
     /// An earlier run may have left it moving, since then: the operator is asked.
     pub left_moving: Option<Timestamp>,
-    /// Signed rates of a jog that is held, degrees a second.
+    /// Signed rates of a held jog, degrees a second.
     pub jog: Option<[f64; 2]>,
-    /// How long it runs on after a STOP.
     pub stopping_way: StoppingWay,
-    /// Signed amounts of a step that is not known to be over, degrees.
+    /// Signed amounts of a step that may not be over, degrees.
     pub step: Option<[f64; 2]>,
-    /// What the device reported.
     pub state: AntennaState,
-    /// The time between two questions at present.
+    /// Present time between two questions.
     pub poll_period: Duration,
 }
 
 impl Snapshot {
-    /// What there is to show before the session runs.
+    /// The snapshot before the session runs.
     pub fn before_anything(link: LinkState) -> Self {
         Self {
             link,
@@ -100,16 +91,16 @@ impl Snapshot {
 }
 
 impl Snapshot {
-    /// Whether a STOP of the whole station is for this antenna too. A unit to which
-    /// nobody wants a link and that was not moved from here is left to whoever
-    /// stands in front of it.
+    /// Returns `true` if a STOP of the whole station includes this antenna. A unit to which
+    /// nobody wants a link and that was not moved from here is left to the person in front of
+    /// it.
     pub fn wants_stop(&self) -> bool {
         let owed = matches!(self.stop, StopState::Stopping { .. } | StopState::NotConfirmed { .. });
         self.link != LinkState::Off || self.unproved || owed
     }
 
-    /// Why the gate would refuse a setting that decides where the antenna points,
-    /// at `now`.
+    /// The reason why the gate would refuse, at `now`, a setting that decides where the
+    /// antenna points.
     pub fn hindrance(&self, can: Capabilities, now: Instant) -> Option<Hindrance> {
         if matches!(self.stop, StopState::Stopping { .. } | StopState::NotConfirmed { .. }) {
             return Some(Hindrance::Stopping);
@@ -122,8 +113,8 @@ impl Snapshot {
         Hindrance::of(&self.state, can, now).or(told.then_some(Hindrance::Moves))
     }
 
-    /// Whether nothing but ages and counters differ. The window shows those
-    /// with the next tick of its clock; a frame of their own is not worth it.
+    /// Returns `true` if only ages and counters differ. The window shows those with its next
+    /// second; they are not worth a frame.
     pub fn shows_the_same(&self, newer: &Self) -> bool {
         let standing = |snapshot: &Self| {
             snapshot
@@ -153,8 +144,8 @@ impl Snapshot {
     }
 }
 
-/// Whether the same is known of the settings, and the same is being done. What
-/// the device reports anew of its own accord is shown with the next tick.
+/// Returns `true` if the known settings and the present writes are the same. What the unit
+/// reports anew by itself shows with the window's next second.
 fn same_settings(old: &Held, new: &Held) -> bool {
     let shown = |state: &GroupState| {
         (state.held.is_some(), state.failure.clone(), state.step, state.written.clone())
@@ -162,247 +153,198 @@ fn same_settings(old: &Held, new: &Held) -> bool {
     old.len() == new.len() && old.values().map(shown).eq(new.values().map(shown))
 }
 
-/// How long the axes run on at their rate after a STOP.
+/// Overrun: how long the axes turn on at their rate after a STOP.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 pub struct StoppingWay {
-    /// That is reckoned with, seconds.
+    /// The figure in use, seconds.
     pub overrun_s: f64,
-    /// In so many STOPs it was seen.
+    /// Number of STOPs it was measured in.
     pub stops: u32,
-    /// It was measured; until then it is the figure of the make.
+    /// It was measured; otherwise it is the default of the make.
     pub is_learned: bool,
 }
 
 impl StoppingWay {
-    /// So many STOPs have to be seen before they replace the figure of the make.
+    /// Number of STOPs that replace the default.
     pub const ENOUGH: u32 = 3;
 }
 
-/// What an antenna is inside of that is forbidden.
+/// The barrier that an antenna is inside of.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Inside {
-    /// What it is.
     pub barrier: Barrier,
-    /// By the operator's word it may be moved out by hand now.
+    /// By the operator's permission it may be moved out by hand now.
     pub may_leave: bool,
 }
 
-/// What the unit tracks by itself, and how well.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct OnBoardView {
-    /// How it will follow by what it tells of itself.
+    /// How the unit will track, by what it reports.
     pub found: Arc<Supervision>,
-    /// How far it is off the satellite, where that has lasted longer than turning to
-    /// it explains.
+    /// Angle off the satellite, where it has lasted longer than a slew explains.
     pub missing: Option<Angle>,
 }
 
-/// What is followed position by position, and how well.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct TrackView {
-    /// Of the target.
+    /// Name of the target.
     pub name: String,
-    /// Of a satellite, up to nine digits.
+    /// Catalog number of a satellite, up to nine digits.
     pub catalog_number: Option<u32>,
-    /// Where it is in its passes.
     pub phase: TrackPhase,
-    /// How well it is followed, and the number of commands.
+    /// Pointing errors, and the number of commands.
     pub stats: TrackStats,
-    /// It waits for the operator's word, because the antenna was out of sight.
+    /// The antenna was out of reach: it waits for the operator.
     pub awaits_word: bool,
-    /// When it is looked at next whether the antenna is where it should be.
+    /// When the next position is due.
     pub next_look: Option<Instant>,
-    /// Where the antenna was sent last; `None` before the first position.
+    /// The last commanded position; `None` before the first.
     pub commanded: Option<Pointing>,
-    /// Where the target stood when the antenna was measured last; `None` unless
-    /// it is followed right now.
+    /// Direction of the target at the time of the last measurement; `None` unless it is
+    /// tracked right now.
     pub predicted: Option<Sample>,
 }
 
-/// The link to a controller.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub enum LinkState {
-    /// Nobody wants one: the operator has not connected or has disconnected, or
-    /// the session has ended.
+    /// Nobody wants one: the operator has not connected, has disconnected, or the session has
+    /// ended.
     Off,
-    /// Trying, for the first time since the start.
-    Connecting {
-        /// Since when.
-        since: Instant,
-    },
+    /// Dialling for the first time since the start.
+    Connecting { since: Instant },
     /// Open, with good replies.
-    Up {
-        /// Since when.
-        since: Instant,
-    },
+    Up { since: Instant },
     /// Open, but the last good reply is older than two poll periods.
-    Stale {
-        /// When the last good reply came.
-        last_reply: Instant,
-    },
-    /// Gone, or silent for too long. It is tried again by itself.
+    Stale { last_reply: Instant },
+    /// Gone, or silent for too long. It is dialled again automatically.
     Lost {
-        /// When the last good reply came, or the link went.
+        /// When the last good reply came, or the link was lost.
         since: Instant,
-        /// Why.
         reason: LinkLoss,
-        /// When it is tried again.
         retry_at: Instant,
     },
 }
 
 impl LinkState {
-    /// Whether bytes can be sent.
+    /// Returns `true` if bytes can be sent.
     pub fn is_open(&self) -> bool {
         matches!(self, Self::Up { .. } | Self::Stale { .. })
     }
 }
 
-/// Why a link is lost.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub enum LinkLoss {
-    /// The other end is not there or does not want us; in the words of the
-    /// operating system.
+    /// The other end is absent or refuses, in the words of the operating system.
     Refused(String),
-    /// No connection in time.
     ConnectTimeout,
-    /// The other end closed it.
     Closed,
-    /// It broke; in the words of the operating system.
+    /// Broken, in the words of the operating system.
     Broken(String),
     /// Open, but no reply.
     Silent,
-    /// The computer slept: it is opened anew.
+    /// The computer slept: the link is opened anew.
     Slept,
-    /// Open, but no reply that can be read.
+    /// Open, but no readable reply.
     Unreadable,
-    /// Open, but to another device, or to one that wants to be told a code.
+    /// Open, but to another device, or to one that asks for a code.
     OtherDevice,
 }
 
-/// The stop button of one antenna.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub enum StopState {
-    /// Nothing was asked.
+    /// Nothing was requested.
     Ready,
-    /// Sent, or to be sent first thing when the link is back.
-    Stopping {
-        /// When it was pressed.
-        since: Instant,
-    },
-    /// The device reports standstill.
-    Stopped {
-        /// When it did.
-        at: Instant,
-    },
-    /// No standstill within three seconds.
-    NotConfirmed {
-        /// When it was pressed.
-        since: Instant,
-    },
+    /// Sent, or to be sent first when the link is back.
+    Stopping { since: Instant },
+    /// The unit is proved to stand.
+    Stopped { at: Instant },
+    /// Standstill was not proved within three seconds.
+    NotConfirmed { since: Instant },
 }
 
-/// Something that happened, for the event line and the alarm list.
+/// For the event line and the alarm list.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub enum Event {
-    /// The link went.
     LinkLost(LinkLoss),
-    /// The link came for the first time, and the device was read.
+    /// The link came up for the first time, and the unit was read.
     Connected(Found),
-    /// The device has begun to track without having been asked to.
+    /// The unit has begun to track without being asked.
     StartedByItself,
-    /// The link is back, and the device was read.
+    /// The link is back, and the unit was read.
     Back {
         /// How long it was silent.
         after: Duration,
-        /// What the device was found doing.
         found: Found,
     },
-    /// The gate did not let it through.
+    /// The gate refused it.
     NotSent(Refusal),
-    /// The device said no; its code as it came.
+    /// The unit refused it, with this code as received.
     Refused(Asked, String),
     /// No answer to a motion, which is not sent again.
     Unanswered(Asked),
-    /// A satellite cannot be tracked.
     CannotTrack(TrackTarget, PrepareError),
-    /// By what the device tells of itself it would miss the satellite of this name.
+    /// By what the unit reports, it would miss the satellite of this name.
     WouldMiss {
-        /// Name of the satellite.
         name: String,
-        /// By how much and why.
         found: Arc<Supervision>,
     },
-    /// The device tracks.
     Tracking(TrackTarget),
-    /// The device has ended tracking by itself.
     TrackingEnded {
         /// At the end of the pass, not before.
         completed: bool,
     },
     /// The antenna goes to where this target will rise, and waits there.
     Awaits {
-        /// Name of the target.
         name: String,
-        /// When it rises.
         aos: Timestamp,
     },
-    /// The antenna follows the target of this name, position by position.
     ProgramTracks(String),
     /// The last pass of a target is over.
     ProgramTrackOver {
-        /// Name of the target.
         name: String,
-        /// How well it was followed.
         stats: TrackStats,
     },
-    /// The target of this name cannot be followed, or no further.
+    /// Program track of this target cannot begin, or cannot go on.
     CannotProgramTrack(String, TrackProblem),
-    /// A motion to a position has arrived.
     Arrived(Pointing),
     /// A motion to a position ended elsewhere.
     EndedShort {
-        /// Where it should have gone.
         aim: Pointing,
-        /// Where it is.
         at: Pointing,
     },
-    /// The window did not renew a jog; it was stopped.
+    /// The window did not renew a jog, which was stopped.
     JogLeaseOver,
-    /// A jog was ended because the position grew too old.
+    /// A jog was ended because its position grew too old.
     JogPositionOld,
-    /// A matter of safety.
     Safety(Safety),
-    /// The antenna stands still after a stop.
+    /// Standstill is proved after a STOP.
     Stopped,
-    /// It still moves three seconds after a stop.
+    /// The antenna still moves three seconds after a STOP.
     StopNotConfirmed,
-    /// The device refused a stop; its code as it came.
+    /// The unit refused a STOP, with this code as received.
     StopRefused(String),
-    /// The antenna is stopped, but the device may start to track by itself.
+    /// The antenna is stopped, but the unit may start to track by itself.
     AutoTrackStillOn,
-    /// The device did not switch its auto-track off.
+    /// The unit did not switch auto-track off.
     AutoStaysOn,
-    /// The unit is locked out, and that its auto-track is off cannot be read back.
+    /// The unit is locked out, but auto-track off cannot be read back.
     LockOutUnproved,
 }
 
-/// Why a target cannot be followed, or no further.
 #[derive(Debug, Clone, PartialEq, thiserror::Error, Serialize, Deserialize)]
 pub enum TrackProblem {
-    /// It does not rise any more in the time that was looked at.
+    /// It does not rise in the time that was searched.
     #[error("there is no pass to come")]
     NoPass,
     /// Its elements describe no orbit, or it has come down.
     #[error(transparent)]
     Orbit(#[from] PropagationError),
-    /// The gate does not let the antenna go where it has to.
     #[error(transparent)]
     Refused(#[from] Refusal),
 }
 
 impl TrackProblem {
-    /// Where the antenna must not point, where that is why.
+    /// The barrier that is the reason, if one is.
     pub fn barrier(&self) -> Option<&Barrier> {
         match self {
             Self::Refused(refusal) => refusal.barrier(),
@@ -411,13 +353,11 @@ impl TrackProblem {
     }
 }
 
-/// What a device was found doing when its link came back.
+/// What a unit was doing when its link came back.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Found {
-    /// It tracks.
     Tracking,
-    /// It moves, and not by its tracking program.
+    /// It moves, but not by its tracking program.
     Moving,
-    /// It stands still.
     Still,
 }

@@ -1,13 +1,12 @@
-//! Whether a time service keeps the clock of this computer right.
+//! Whether a time service keeps the computer's clock right.
 
 use serde::{Deserialize, Serialize};
 
-/// How the clock of this computer is kept.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 pub enum TimeSync {
     /// A time service has set it and keeps it.
     Synchronised,
-    /// Nobody keeps it, or its service has lost its sources.
+    /// No service keeps it, or the service has lost its sources.
     NotSynchronised,
     /// The operating system does not tell.
     #[default]
@@ -23,14 +22,14 @@ pub fn time_sync() -> TimeSync {
     })
 }
 
-/// Nobody is asked on this operating system.
+/// Nothing can be asked on this operating system.
 #[cfg(not(target_os = "linux"))]
 pub fn time_sync() -> TimeSync {
     TimeSync::NotKnown
 }
 
-/// `systemd-timedated` reads the state of the kernel's clock, whichever service
-/// keeps it: systemd's own, chrony or ntpd (`org.freedesktop.timedate1(5)`).
+/// `systemd-timedated` reads the state of the kernel's clock, whichever service keeps it:
+/// systemd's own, chrony or ntpd (`org.freedesktop.timedate1(5)`).
 #[cfg(target_os = "linux")]
 mod systemd {
     use std::time::Duration;
@@ -84,7 +83,6 @@ mod systemd {
         #[zbus::interface(name = "org.example.another")]
         impl AnotherService {}
 
-        /// What a bus with this service answers.
         fn asked(service: impl Interface) -> Result<TimeSync> {
             let (near, far) = UnixStream::pair()?;
             let serve = move || {

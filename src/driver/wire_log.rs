@@ -1,6 +1,5 @@
-//! The last lines that went over one antenna's link. The session writes, the
-//! window reads what is new to it; neither waits for longer than it takes to
-//! move a few pointers.
+//! The last lines of one antenna's link. The session writes and the window reads what is new
+//! to it; neither waits for longer than it takes to move a few pointers.
 
 use std::{
     collections::VecDeque,
@@ -11,19 +10,18 @@ use serde::{Deserialize, Serialize};
 
 use crate::device::WireLine;
 
-/// How many lines are kept.
+/// Maximum number of lines kept.
 pub const MAX_LINES: usize = 20_000;
-/// How many bytes all lines together have at most.
+/// Maximum size of all lines together, bytes.
 const MAX_BYTES: usize = 4 * 1024 * 1024;
-/// How many lines are read at once, so that the lock is short.
+/// Maximum number of lines read at once, to keep the lock short.
 const MAX_READ: usize = 1000;
 
-/// A line with its place in the log. Numbers count from 0 and leave none out.
+/// A line with its place in the log. Numbers count from 0 without gaps.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Recorded {
     /// Its place among all lines since the start.
     pub number: u64,
-    /// The line.
     pub line: WireLine,
 }
 
@@ -41,8 +39,8 @@ struct Ring {
 }
 
 impl WireLog {
-    /// Adds a line; the oldest go when there are too many. True when somebody
-    /// waits for it.
+    /// Adds a line; the oldest go when there are too many. Returns `true` if somebody waits
+    /// for it.
     pub fn push(&self, line: WireLine) -> bool {
         let mut ring = self.ring();
         ring.bytes += line.bytes.len();
@@ -56,8 +54,8 @@ impl WireLog {
         std::mem::take(&mut ring.is_watched)
     }
 
-    /// The lines from `number` on, oldest first, at most 1,000; empty when
-    /// there are no newer ones.
+    /// The lines from `number` on, oldest first, at most 1,000; empty when there are no newer
+    /// ones.
     pub fn read_from(&self, number: u64) -> Vec<Arc<Recorded>> {
         let mut ring = self.ring();
         let first = ring.next - ring.lines.len() as u64;
@@ -67,18 +65,18 @@ impl WireLog {
         lines
     }
 
-    /// The number that the next line will have.
+    /// The number of the next line.
     pub fn next_number(&self) -> u64 {
         self.ring().next
     }
 
-    /// Whether both are the log of the same session.
+    /// Returns `true` if both are the log of the same session.
     pub fn is_same(&self, other: &Self) -> bool {
         Arc::ptr_eq(&self.0, &other.0)
     }
 
     fn ring(&self) -> MutexGuard<'_, Ring> {
-        // A line is whole or not there, whoever broke off.
+        // A line is whole or absent, whichever thread broke off.
         self.0.lock().unwrap_or_else(PoisonError::into_inner)
     }
 }

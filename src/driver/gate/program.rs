@@ -1,33 +1,30 @@
-//! What a device that tracks by itself may be started on.
+//! Checks what a unit that tracks by itself may be started on.
 
 use std::sync::Arc;
 
 use super::{Gate, Refusal};
 use crate::{clock::Moment, device::Motion, driver::Intent, plan::on_board::Judge};
 
-/// What a device would follow by itself.
+/// What a unit would track by itself.
 #[derive(Debug, Clone)]
 pub(in crate::driver) enum Held {
-    /// It was not read yet.
+    /// Not read yet.
     Unread,
     /// Nothing: it holds no satellite, or its window is over.
     Nothing,
-    /// This, from now on.
+    /// This pass, from now on.
     Pass(Arc<Judge>),
-    /// A satellite whose orbit is not known here.
-    Unknown {
-        /// Its name.
-        name: String,
-    },
+    /// A satellite whose orbit is unknown here.
+    Unknown { name: String },
 }
 
 impl Gate {
-    /// What [`Motion::EnableAuto`] is checked by from here on.
+    /// Sets what [`Motion::EnableAuto`] is checked against.
     pub(in crate::driver) fn will_hold(&mut self, held: Held) {
         self.held = held;
     }
 
-    /// Whether the device may follow by itself what it holds.
+    /// Checks whether the unit may track by itself what it holds.
     pub(super) fn held_is_clear(&self, now: Moment) -> Result<(), Refusal> {
         match &self.held {
             Held::Nothing => Ok(()),
@@ -37,8 +34,8 @@ impl Gate {
         }
     }
 
-    /// Whether the device may track the pass of `judge` by itself. If so, that pass
-    /// is what [`Motion::StartProgram`] is checked by from here on.
+    /// Checks whether the unit may track this pass by itself. If so, [`Motion::StartProgram`]
+    /// is checked against it from now on.
     pub(in crate::driver) fn check_pass(
         &mut self,
         judge: &Arc<Judge>,
@@ -52,9 +49,9 @@ impl Gate {
         checked
     }
 
-    /// Whether the whole way of the device's program, by what the device tells of
-    /// itself now, is where the antenna may point.
-    /// So is all that its axes can sweep on the way to where the pass begins.
+    /// Checks whether the whole way of the unit's program, by what the unit reports now, keeps
+    /// to the bounds; also everything that its axes can sweep on the way to the start of the
+    /// pass.
     pub(super) fn program_is_clear(&self, now: Moment) -> Result<(), Refusal> {
         self.path_is_clear(self.program.as_ref().ok_or(Refusal::PassUnknown)?, now)
     }

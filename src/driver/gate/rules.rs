@@ -1,4 +1,4 @@
-//! The rules of the gate, each one reason to refuse.
+//! The rules of the gate. Each is one reason to refuse.
 
 use std::time::Duration;
 
@@ -16,35 +16,30 @@ use crate::{
 
 /// A jog or step needs a position younger than this.
 const FRESH: Duration = Duration::from_secs(1);
-/// Anything else needs a position younger than this.
+/// Other motions need a position younger than this.
 const RECENT: Duration = Duration::from_secs(5);
 
-/// One reason to refuse.
 #[derive(Clone, Copy)]
 pub(super) struct Rule {
-    /// Unlike that of any other rule.
+    /// Unique.
     pub(super) name: &'static str,
     pub(super) check: Check,
 }
 
-/// What a rule is about.
 #[derive(Clone, Copy)]
 pub(super) enum Check {
-    /// Any motion, and any action that moves.
+    /// Any motion, and any action that moves the antenna.
     Moving(fn(&Asked, &Situation<'_>) -> Result<(), Refusal>),
-    /// Any motion.
     Motion(fn(&Motion, &Situation<'_>) -> Result<(), Refusal>),
-    /// An action.
     Act(fn(&Act, &Situation<'_>) -> Result<(), Refusal>),
-    /// An action that moves, after the rules of motions.
+    /// An action that moves the antenna, after the rules of motions.
     MovingAct(fn(&Act, &Situation<'_>) -> Result<(), Refusal>),
-    /// Any setting.
     AnySetting(fn(&Situation<'_>) -> Result<(), Refusal>),
     /// A setting that decides where the antenna points.
     Setting(fn(&Situation<'_>) -> Option<Hindrance>),
 }
 
-/// A list of rules, each with the name of its function.
+/// A list of rules, each named after its function.
 macro_rules! rules {
     ($($kind:ident($check:ident),)*) => {
         &[$(Rule { name: stringify!($check), check: Check::$kind($check) },)*]
@@ -156,7 +151,7 @@ fn no_fault_forbids_it(_: &Asked, situation: &Situation<'_>) -> Result<(), Refus
     }
 }
 
-/// A limit blocks one direction only: the way out of it stays free.
+/// A limit blocks one direction only: the way out stays free.
 fn no_limit_switch_in_that_direction(
     motion: &Motion,
     situation: &Situation<'_>,
@@ -198,8 +193,8 @@ fn within_rates_and_steps(motion: &Motion, situation: &Situation<'_>) -> Result<
     Ok(())
 }
 
-/// Nobody would see where an axis without a known angle turns to, and nothing
-/// would end it when the link goes.
+/// Nobody would see where an axis without a known angle turns, and nothing would end its
+/// motion if the link were lost.
 fn no_blind_jog(motion: &Motion, situation: &Situation<'_>) -> Result<(), Refusal> {
     let (Motion::Jog { x_deg_s: x, y_deg_s: y } | Motion::Step { x_deg: x, y_deg: y }) = *motion
     else {
@@ -217,7 +212,7 @@ fn no_blind_jog(motion: &Motion, situation: &Situation<'_>) -> Result<(), Refusa
 /// By hand the axes stay within their travel; the way back into it is free.
 fn within_travel(motion: &Motion, situation: &Situation<'_>) -> Result<(), Refusal> {
     let ahead_deg = match *motion {
-        // As far as it gets before the next position is looked at.
+        // As far as it gets before the next position is judged.
         Motion::Jog { x_deg_s, y_deg_s } => {
             situation.turning([x_deg_s, y_deg_s]).map(|rate| rate * situation.ahead_s)
         }
@@ -244,9 +239,9 @@ fn within_reach(motion: &Motion, situation: &Situation<'_>) -> Result<(), Refusa
     let lowest_deg = situation.limits.minimum_elevation_deg;
     if let Some(asked) = elevation {
         let is_over = situation.mount.can_flip() && asked.degrees() > 90.0;
-        // Over the zenith it is the direction on the other side that counts.
+        // Over the zenith the direction on the other side counts.
         let asked_deg = if is_over { 180.0 - asked.degrees() } else { asked.degrees() };
-        // Angles come from decimal degrees: allow for the rounding.
+        // Angles come from decimal degrees: allow for rounding.
         if asked_deg < lowest_deg - 1e-9 || asked_deg > 90.0 + 1e-9 {
             return Err(Refusal::Elevation { asked_deg, lowest_deg });
         }
@@ -261,7 +256,7 @@ fn within_reach(motion: &Motion, situation: &Situation<'_>) -> Result<(), Refusa
             // The controller counts 90 at the zenith.
             [axes.lower, axes.upper].map(|angle| Some(angle.degrees() + 90.0))
         }
-        // An axis that is left as it is does not move.
+        // An axis without a new angle does not move.
         Mount::AzEl { .. } => [azimuth, elevation].map(|angle| angle.map(Angle::degrees)),
     };
     let ends = situation.mount.travel_deg().into_iter().zip(situation.can.axes);
@@ -274,7 +269,7 @@ fn within_reach(motion: &Motion, situation: &Situation<'_>) -> Result<(), Refusa
     Ok(())
 }
 
-/// Judged as the device is told it, which may round.
+/// Judged as it is sent to the unit, which may round.
 fn way_is_clear(motion: &Motion, situation: &Situation<'_>) -> Result<(), Refusal> {
     way::is_clear(&situation.gate.controller.as_told(*motion), situation)
 }
@@ -298,12 +293,12 @@ fn controller_agrees(asked: &Asked, situation: &Situation<'_>) -> Result<(), Ref
     objection.map_or(Ok(()), |why| Err(Refusal::Controller(why)))
 }
 
-/// What moves nothing may still get in the way of hands.
+/// Even an action without motion may endanger hands.
 fn no_action_while_locked_out(_: &Act, situation: &Situation<'_>) -> Result<(), Refusal> {
     situation.lock_out.map_or(Ok(()), |lock_out| Err(lock_out.into()))
 }
 
-/// No word of the operator helps here: nobody knows.
+/// No permission helps here: nobody knows.
 fn the_end_of_the_action_can_be_known(act: &Act, situation: &Situation<'_>) -> Result<(), Refusal> {
     match situation.gate.controller.lead_of(act) {
         Lead::Unknown(why) => Err(Refusal::Controller(why)),
@@ -324,7 +319,7 @@ fn the_operator_answers_for_an_unseen_end(
     }
 }
 
-/// Nobody would stop it before what is forbidden.
+/// Nobody would stop it before a barrier.
 fn an_unseen_way_is_watched(act: &Act, situation: &Situation<'_>) -> Result<(), Refusal> {
     let is_unseen = matches!(situation.gate.controller.lead_of(act), Lead::Unseen(_));
     if !is_unseen || !situation.bounds.forbid_anything() {

@@ -1,5 +1,4 @@
-//! Settings that decide where the antenna points, and targets, on their way to
-//! the controller.
+//! Settings that decide where the antenna points, and targets, on their way to the controller.
 
 use super::{Check, Gate, Refusal, Situation};
 use crate::{
@@ -12,10 +11,10 @@ use crate::{
 };
 
 impl Gate {
-    /// Puts a change of settings on the device, or says why not: what decides where
-    /// the antenna points waits until it stands and would not start by itself. A
-    /// refusal stands among the outcomes of the settings too. `may_move` says that
-    /// the antenna was told to move, whatever it does.
+    /// Writes a change of settings to the unit, or returns the reason not to: a setting that
+    /// decides where the antenna points waits until it stands and would not start by itself. A
+    /// refusal also appears among the outcomes of the settings. `may_move`: a motion was
+    /// requested, whatever the antenna does.
     pub(in crate::driver) fn write_settings(
         &mut self,
         change: Change,
@@ -51,8 +50,8 @@ impl Gate {
         Err(Refusal::Setting { field: field.label, why })
     }
 
-    /// Puts a target on the device, or says why not: where auto-track is on the
-    /// antenna may start by it.
+    /// Puts a target on the unit, or returns the reason not to: with auto-track on, the
+    /// antenna may start on it.
     pub(in crate::driver) fn prepare(
         &mut self,
         target: TrackTarget,

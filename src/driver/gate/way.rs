@@ -1,4 +1,4 @@
-//! The way that a motion takes, held against what the antenna must keep within.
+//! Checks the way of a motion against the bounds of the antenna.
 
 use super::{Angle, Gate, Intent, Moment, Motion, Mount, Refusal, Situation, Sweep};
 use crate::{
@@ -13,29 +13,28 @@ use crate::{
     },
 };
 
-/// Out of what is forbidden an antenna goes by hand alone, with this share of the
-/// fastest rate at most, or at the slowest speed that the controller has.
+/// An antenna leaves a barrier only by hand, at no more than this share of the fastest rate,
+/// or at the controller's slowest speed.
 const OUT_SHARE: f64 = 0.25;
-/// A way out has to gain at least this much over what it is judged ahead, and may lose
-/// no more than this on the way, degrees.
+/// Minimum gain of a way out over the time for which it is judged ahead, and maximum loss on
+/// the way, degrees.
 const OUT_GAIN_DEG: f64 = 1e-6;
-/// A way out is looked at as often as this, lest it leads in deeper between its ends:
-/// degrees of the axis that turns further.
+/// Distance between the places at which a way out is checked, lest it leads in deeper between
+/// its ends: degrees of the axis that turns further.
 const LOOK_OUT_DEG: f64 = 0.5;
 
-/// Between two places of a detour that are tried as the next position, degrees.
+/// Distance between two places of a detour that are tried as the next position, degrees.
 const DETOUR_STEP_DEG: f64 = 4.0;
 
-/// How a motion to a position gets there.
+/// The way of a motion to a position.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(in crate::driver) struct Route {
-    /// What is sent first.
     pub(in crate::driver) first: Motion,
-    /// What is sent once that has arrived, where the way goes round a corner.
+    /// The motion after the first has arrived, where the way goes round a corner.
     pub(in crate::driver) then: Option<Motion>,
 }
 
-/// Refuses what may lead into a barrier.
+/// Refuses a motion that may lead into a barrier.
 pub(super) fn is_clear(motion: &Motion, situation: &Situation<'_>) -> Result<(), Refusal> {
     if let Motion::Position { azimuth, elevation } = *motion {
         return to_position(azimuth, elevation, situation);
@@ -48,13 +47,12 @@ pub(super) fn is_clear(motion: &Motion, situation: &Situation<'_>) -> Result<(),
             by_hand(axes_deg, ahead_deg, Some(rates), situation)
         }
         Motion::Step { x_deg, y_deg } => by_hand(axes_deg, [x_deg, y_deg], None, situation),
-        // The way of the unit's own program is judged by itself.
+        // The way of the unit's own program is judged elsewhere.
         Motion::Position { .. } | Motion::StartProgram | Motion::EnableAuto => Ok(()),
     }
 }
 
-/// An axis that tells no angle, such as one at its limit, may come from anywhere in
-/// its travel.
+/// An axis without an angle, such as one at its limit, may come from anywhere in its travel.
 fn to_position(
     azimuth: Option<Angle>,
     elevation: Option<Angle>,
@@ -79,7 +77,7 @@ fn to_position(
     let reach = |(from, to): (f64, f64), end: f64| (from.min(end), to.max(end));
     let second = if situation.can.has_elevation() { reach(second, to_deg[1]) } else { (0.0, 90.0) };
     let sweep = Sweep([reach(first, to_deg[0]), second]);
-    // Its end is judged by its reach; where it begins may be below the floor.
+    // The end is judged by its reach; the start may be below the floor.
     blocked(sweep, to_deg, &situation.bounds_now().above_the_floor())
 }
 
@@ -88,8 +86,8 @@ impl Situation<'_> {
         self.bounds.at(self.now.utc)
     }
 
-    /// The rates at which the axes really turn in a jog: a controller that jogs at
-    /// named speeds has no others.
+    /// The rates at which the axes really turn in a jog: a controller with named speeds has no
+    /// others.
     pub(super) fn turning(&self, asked_deg_s: [f64; 2]) -> [f64; 2] {
         let fastest_deg_s = self.limits.maximum_rate_deg_s;
         asked_deg_s.map(|rate| {
@@ -100,8 +98,8 @@ impl Situation<'_> {
     }
 }
 
-/// Out of the surroundings of the Sun the operator sends an antenna by a go-to that
-/// leads no nearer to it and ends outside. `None` where it does not begin in there.
+/// The operator may leave the surroundings of the Sun by a go-to that comes no nearer to it
+/// and ends outside. `None` where the motion does not start there.
 fn away_from_the_sun(
     sweep: Sweep,
     from_deg: [f64; 2],
@@ -142,7 +140,7 @@ fn by_hand(
     for look in 1..=looks {
         let to_deg = at(f64::from(look) / f64::from(looks));
         let there = Depth::of(&bounds_now, to_deg);
-        // On the way it may lead along an edge, or past where the way out is shorter.
+        // On the way it may lead along an edge, or past a point where the way out is shorter.
         let gain_deg = if look == looks { OUT_GAIN_DEG } else { -OUT_GAIN_DEG };
         let enters_again = was_out && !there.is_out();
         was_out = there.is_out();
@@ -166,11 +164,10 @@ fn by_hand(
     Err(Refusal::Inside(inside.barrier.clone()))
 }
 
-/// How deep axes stand in what is forbidden.
+/// How deep the axes stand inside barriers.
 #[allow(clippy::struct_field_names, reason = "names tell their units")]
 struct Depth {
-    /// How far it is to where they may point, degrees; `None` where no axis gets out by
-    /// itself.
+    /// Distance to an allowed position, degrees; `None` where no axis gets out by itself.
     way_out_deg: Option<f64>,
     /// Below the minimum elevation, degrees.
     below_deg: f64,
@@ -188,7 +185,7 @@ impl Depth {
         self.way_out_deg.is_some_and(|deg| deg <= 0.0)
     }
 
-    /// Whether it is less deep there by `gain_deg`, or outside of everything, and no
+    /// Returns `true` if `there` is less deep by `gain_deg`, or outside of everything, and no
     /// lower below the minimum elevation.
     fn is_left_for(&self, there: &Self, gain_deg: f64) -> bool {
         if there.below_deg > self.below_deg + OUT_GAIN_DEG {
@@ -197,8 +194,8 @@ impl Depth {
         match (self.way_out_deg, there.way_out_deg) {
             (Some(here), Some(there)) => there < here - gain_deg || (here <= 0.0 && there <= 0.0),
             (Some(_), None) => false,
-            // No axis gets out by itself: the edge of what is deepest has to come nearer,
-            // and no other goes further away.
+            // No axis gets out by itself: the edge of the deepest barrier must come nearer,
+            // and no other may go further away.
             (None, _) => {
                 let deepest = |depths: &[f64]| depths.iter().copied().fold(0.0, f64::max);
                 let mut each = self.inside_deg.iter().zip(&there.inside_deg);
@@ -209,7 +206,7 @@ impl Depth {
     }
 }
 
-/// Where the axes stand, as the mount counts.
+/// Angles of the axes, as the mount counts.
 pub(super) fn axes(situation: &Situation<'_>) -> Option<[f64; 2]> {
     situation.state.measured?.axes_deg(situation.can.has_elevation())
 }
@@ -226,7 +223,7 @@ fn blocked(sweep: Sweep, from_deg: [f64; 2], bounds: &BoundsAt<'_>) -> Result<()
         .map_or(Ok(()), |(barrier, at)| Err(Refusal::Forbidden { barrier, at }))
 }
 
-/// The axes at the end of a motion to a position, degrees as the mount counts.
+/// Angles of the axes at the end of a motion to a position, degrees as the mount counts.
 fn target(
     azimuth: Option<Angle>,
     elevation: Option<Angle>,
@@ -254,8 +251,8 @@ fn crossed(direction: AzEl, lower_axis_azimuth_deg: f64) -> [f64; 2] {
 }
 
 impl Gate {
-    /// How `motion` gets to its position: at once, or with one axis after the other
-    /// where both together may sweep through what is forbidden.
+    /// The way of `motion` to its position: direct, or one axis after the other where both
+    /// together may sweep through a barrier.
     pub(in crate::driver) fn route(
         &self,
         motion: Motion,
@@ -282,7 +279,7 @@ impl Gate {
         if intent != Intent::Track {
             return Err(refusal);
         }
-        // Positions that follow each other may make any way.
+        // A sequence of positions may follow any way.
         let detour = detour::between(bounds, &self.axis_limits(), from_deg, to_deg, now.utc);
         let places_deg = detour::in_steps(&detour.unwrap_or_default(), DETOUR_STEP_DEG);
         let farthest = places_deg.into_iter().rev().map(|place| self.to_axes(place));
@@ -300,7 +297,7 @@ impl Gate {
         AxisLimits::new(travel_deg, [self.limits.maximum_rate_deg_s; 2], rests_within_deg)
     }
 
-    /// Where axes will stand that would turn by `ahead_deg`: an axis on its way to a
+    /// Where the axes will stand after turning by `ahead_deg`; an axis on its way to a
     /// position ends there.
     pub(in crate::driver) fn ahead_of(&self, axes_deg: [f64; 2], ahead_deg: [f64; 2]) -> [f64; 2] {
         let mut reached = [axes_deg[0] + ahead_deg[0], axes_deg[1] + ahead_deg[1]];
@@ -312,7 +309,7 @@ impl Gate {
             if passes {
                 *reached = to_deg;
             } else if (from_deg - to_deg).abs() <= overrun_deg {
-                // It runs out around the place where it was sent.
+                // It runs out around the position that it was sent to.
                 *reached = from_deg;
             }
         }
@@ -329,7 +326,6 @@ impl Gate {
         Some((from_deg, target(azimuth, elevation, from_deg, &situation)?))
     }
 
-    /// The motion that brings the axes there.
     fn to_axes(&self, axes_deg: [f64; 2]) -> Motion {
         let [azimuth, elevation] = match self.mount {
             Mount::AzEl { .. } => axes_deg.map(Angle::from_degrees),
@@ -341,8 +337,8 @@ impl Gate {
         Motion::Position { azimuth: Some(azimuth), elevation: Some(elevation) }
     }
 
-    /// Refuses a way to `to` that the unit takes by itself, at rates of its own. It
-    /// keeps to a minimum elevation of its own.
+    /// Refuses a way to `to` that the unit takes by itself, at its own rates. The unit keeps
+    /// to its own minimum elevation.
     pub(super) fn slew_is_clear(&self, to: AzEl, now: Moment) -> Result<(), Refusal> {
         let situation = self.situation(Intent::Track, false, now);
         let Some(from_deg) = axes(&situation) else { return Ok(()) };
@@ -352,8 +348,8 @@ impl Gate {
         blocked(sweep, from_deg, &self.bounds.at(now.utc).above_the_floor())
     }
 
-    /// Where an action leads, as a motion to a position; `None` where it leads
-    /// nowhere, or nobody knows.
+    /// The lead of an action as a motion to a position; `None` where it leads nowhere or is
+    /// unknown.
     pub(super) fn motion_of(&self, act: &Act) -> Option<Motion> {
         let Lead::To(to_deg) = self.controller.lead_of(act) else { return None };
         if let Mount::AzEl { .. } = self.mount {
@@ -366,7 +362,7 @@ impl Gate {
         Some(self.to_axes([first.or(angle_deg(0))?, second.or(angle_deg(1))?]))
     }
 
-    /// The axes at the end of an action, as far as it is known.
+    /// Angles of the axes at the end of an action, as far as they are known.
     pub(super) fn end_of(&self, act: &Act) -> Option<[f64; 2]> {
         let Lead::To([first, second]) = self.controller.lead_of(act) else { return None };
         Some([first?, second?])

@@ -15,24 +15,24 @@ use tokio::io::{AsyncRead, AsyncWrite, ReadBuf};
 use super::{Duplicate, Stream};
 use crate::protocol::Parity;
 
-/// Longer writes go out in pieces of this.
+/// Longer writes are split into pieces of this size.
 const PIECE: usize = 64;
-/// What was learned, in rising order; nothing is 0.
+/// What was learned, in rising order; 0 means nothing.
 const SILENT: u8 = 1;
 const FITS: u8 = 2;
 const IS_WRONG: u8 = 3;
 
-/// Whether what came over a link fits the way in which it was read.
+/// Whether the bytes of a link fit the way in which they were read.
 #[derive(Debug, Default)]
 pub(super) struct Heard(AtomicU8);
 
 impl Heard {
-    /// The link is open: from now on silence tells something too.
+    /// The link is open: from now on silence tells something, too.
     pub(super) fn opened(&self) {
         self.learn(SILENT);
     }
 
-    /// Nothing speaks against reading the next link likewise.
+    /// Returns `true` unless something speaks against reading the next link in the same way.
     pub(super) fn fits(&self) -> bool {
         !matches!(self.0.load(Ordering::Relaxed), SILENT | IS_WRONG)
     }
@@ -43,13 +43,13 @@ impl Heard {
         }
     }
 
-    /// What was wrong once is wrong.
+    /// A mistake found once stays found.
     fn learn(&self, finding: u8) {
         self.0.fetch_max(finding, Ordering::Relaxed);
     }
 }
 
-/// Puts the parity on what goes out and takes it off what comes in.
+/// Adds the parity to outgoing bytes and removes it from incoming ones.
 #[derive(Debug)]
 pub(super) struct WithParity<S> {
     stream: S,

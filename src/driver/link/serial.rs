@@ -8,20 +8,18 @@ use super::{Dial, Duplicate, Stream, parity::WithParity};
 use crate::protocol::Parity;
 
 impl Stream for SerialPort {
-    /// The library hands out no handle. The one make on a serial line ends its
-    /// jogs by itself.
+    /// The library gives no handle. The one make on a serial line ends its jogs by itself.
     fn duplicate(&self) -> io::Result<Option<Duplicate>> {
         Err(io::ErrorKind::Unsupported.into())
     }
 }
 
-/// Opens the serial port `name` at `baud` bits a second, with seven bits and
-/// even parity.
+/// Opens the serial port `name` at `baud` bits a second, with seven bits and even parity.
 pub(super) fn dial_serial(name: String, baud: u32) -> Dial {
     Box::new(move || {
         let name = name.clone();
         Box::pin(async move {
-            // Some drivers wait for their device while they open it.
+            // Some drivers wait for their hardware while they open it.
             let opened = tokio::task::spawn_blocking(move || open(name.trim(), baud)).await;
             let (port, parity) = opened.map_err(io::Error::other)?.map_err(in_words)?;
             Ok(Box::new(WithParity::new(port, parity, Arc::default())) as Box<dyn Stream>)
@@ -29,8 +27,8 @@ pub(super) fn dial_serial(name: String, baud: u32) -> Dial {
     })
 }
 
-/// A port that knows no parity, such as a pseudo-terminal, gets eight bits, and
-/// this end makes the parity.
+/// A port without parity, such as a pseudo-terminal, is opened with eight bits, and this end
+/// adds the parity.
 fn open(name: &str, baud: u32) -> io::Result<(SerialPort, Parity)> {
     let mut port = SerialPort::open(name, |settings| raw(settings, baud))?;
     let mut settings = port.get_configuration()?;
@@ -42,13 +40,13 @@ fn open(name: &str, baud: u32) -> io::Result<(SerialPort, Parity)> {
         port.set_configuration(&raw(settings, baud)?)?;
         Parity::Software
     };
-    // What came before belongs to nobody. A port that cannot forget it sends
-    // bytes that make no frame.
+    // Bytes received earlier belong to nobody. A port that cannot discard them delivers bytes
+    // that make no frame.
     port.discard_buffers().ok();
     Ok((port, parity))
 }
 
-/// Eight bits, no parity, nothing done to the bytes.
+/// Eight bits, no parity, bytes unchanged.
 fn raw(mut settings: Settings, baud: u32) -> io::Result<Settings> {
     settings.set_raw();
     settings.set_baud_rate(baud)?;
@@ -59,7 +57,7 @@ fn raw(mut settings: Settings, baud: u32) -> io::Result<Settings> {
     Ok(settings)
 }
 
-/// What is wrong with the port, where the system's words do not help.
+/// The error in plain words where those of the system do not help.
 fn in_words(error: io::Error) -> io::Error {
     let words = match error.kind() {
         io::ErrorKind::NotFound => "no such serial port",

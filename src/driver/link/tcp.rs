@@ -26,10 +26,10 @@ pub fn dial_tcp(address: String) -> Dial {
 
 /// Opens links to the serial server at `address`.
 ///
-/// A server that is set to seven bits and even parity makes the parity; one that
-/// is set to eight bits hands it on, and this end has to make it. A wrong guess
-/// shows by a unit that stays silent or that sends the eighth bit. So a link over
-/// which nothing came that fits is followed by one with the other guess.
+/// A server set to seven bits and even parity adds the parity; one set to eight bits passes
+/// bytes on, and this end must add it. A wrong guess shows in a unit that stays silent or
+/// sends the eighth bit. After a link on which nothing fitted, the next one uses the other
+/// guess.
 pub(super) fn dial_line_server(address: String) -> Dial {
     let mut parity = Parity::Port;
     let mut heard: Option<Arc<Heard>> = None;
