@@ -1,8 +1,8 @@
-//! Behaviour of each make of controller without I/O: what to ask next, what a
-//! reply means, and how its state maps to the one that all antennas share. Time
-//! comes in as an argument.
+//! The behaviour of each make of controller, without I/O: the next question, the meaning of a
+//! reply, and the mapping of its state to the one that all antennas share. Time comes in as an
+//! argument.
 //!
-//! Each make is one folder. What they have in common is [`crate::device`].
+//! Each make is one folder. [`crate::device`] is what they have in common.
 //!
 //! Invariant: nothing here opens a link.
 

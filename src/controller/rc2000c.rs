@@ -1,8 +1,8 @@
-//! Behaviour of an RC2000C: one command on the line at a time, replies matched by
-//! their code, halts past everything else.
+//! Behaviour of an RC2000C: one command on the line at a time, replies matched by their code,
+//! halts ahead of everything else.
 //!
-//! An acknowledgement says that a command was understood. What became of it is
-//! seen in a status that was asked for later.
+//! An acknowledgement says that a command was understood. Its effect shows in a status that
+//! was asked for later.
 
 mod actions;
 mod axes;
@@ -37,10 +37,9 @@ pub use spec::{AZIMUTH_POINTS, BAUD, BUS_ADDRESS, Calibration, ELEVATION_POINTS,
 
 /// How long the unit jogs after each command: its own timer is the dead-man.
 const JOG: Duration = Duration::from_millis(600);
-/// A jog that is held is renewed this often.
+/// Interval at which a held jog is renewed.
 const RENEWAL: Duration = Duration::from_millis(300);
 
-/// An RC2000C, seen from the near end of its link.
 #[derive(Debug)]
 pub struct Rc2000c {
     rates: PollRates,
@@ -52,48 +51,47 @@ pub struct Rc2000c {
     decoder: Decoder,
     state: AntennaState,
     status: Option<Status>,
-    /// What earlier ones were, to see what moves.
+    /// Earlier statuses, to see what moves.
     past: Past,
-    /// It is to be asked which device it is.
+    /// The unit must be asked for its type.
     wants_device: bool,
-    /// The operator wants to know the status.
+    /// The operator has asked for the status.
     is_status_asked: bool,
-    /// The last status was asked for by the operator.
+    /// The operator asked for the status under way.
     is_poll_by_hand: bool,
-    /// The operator wants to know the type of the unit.
+    /// The operator has asked for the type of the unit.
     is_device_asked: bool,
     device: Option<DeviceType>,
-    /// The configuration of the unit takes no commands.
+    /// The unit's configuration takes no commands.
     is_offline: bool,
     names: Names,
     /// When the next status is due; `None` without a link.
     poll_at: Option<Instant>,
-    /// Nothing but a halt goes out before this.
+    /// Until then only a halt may go out.
     quiet_until: Option<Instant>,
     outstanding: Option<Outstanding>,
-    /// When the first status was asked for that has not come.
+    /// When the first of the missing statuses was asked for.
     missing_since: Option<Moment>,
-    /// Metal moves on this program's word.
+    /// Azel has the antenna moving.
     is_watched: bool,
-    /// A halt that was sent past everything and not answered yet.
+    /// A halt sent past the queue and not answered yet.
     halt: Option<Outstanding>,
-    /// What was asked for and not sent yet.
+    /// Requests not sent yet.
     orders: VecDeque<Order>,
     jog: Option<HeldJog>,
-    /// A stop was pressed while the polarization may be under way.
+    /// STOP was pressed while the polarization may be turning.
     holds_polarization: bool,
     events: VecDeque<ControllerEvent>,
-    /// Bytes that came in and are not told yet, and when the last of them came.
+    /// Received bytes that are not recorded yet, and when the last of them came.
     heard: Vec<u8>,
     heard_at: Option<Instant>,
     wire: WireQueue,
 }
 
-/// A command that is sent once.
 #[derive(Debug, Clone, Copy)]
 struct Order {
     request: Request,
-    /// What it was asked as; `None` for a part of a halt.
+    /// The request it belongs to; `None` for a part of a halt.
     asked: Option<Asked>,
 }
 
@@ -106,7 +104,6 @@ struct HeldJog {
     sent: Option<Instant>,
 }
 
-/// Keys of the questions.
 const STATUS: &str = "STATUS";
 const DEVICE_TYPE: &str = "DEVICE TYPE";
 
@@ -123,8 +120,7 @@ fn questions(address: Address) -> [Question; 2] {
 }
 
 impl Rc2000c {
-    /// The unit that turns `antenna`, as the settings of its connection say.
-    /// Silent until the link is up.
+    /// The unit of `antenna`, by the settings of its connection. Silent until the link is up.
     pub fn of(antenna: &Antenna) -> Self {
         let connection = &antenna.connection;
         let bus_address = u8::try_from(connection.whole(&BUS_ADDRESS)).ok();

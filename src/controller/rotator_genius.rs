@@ -1,7 +1,8 @@
-//! Behaviour of a Rotator Genius: one request outstanding, replies matched by
-//! their own words, STOP past everything else.
+//! Behaviour of a Rotator Genius: one request outstanding, replies matched by their words,
+//! STOP ahead of everything else.
 //!
-//! A device turns two rotators and has one STOP for both. What they turn is said
+//! One unit turns two rotators and has one STOP for both. The station says what they turn:
+//! both angles of one antenna, or its azimuth and something else.
 //! by the station: both angles of one antenna, or its azimuth and something else.
 
 mod actions;
@@ -32,30 +33,29 @@ pub use settings::GROUPS;
 pub use spec::{ALONE, PAIR, ROTATORS, Rotators, SPEC};
 use turning::Turning;
 
-/// No answer within this is none.
+/// Time limit for an answer.
 const REPLY: Duration = Duration::from_secs(1);
-/// While a rescue is armed, nothing but STOP ends a motion: an answer that takes
-/// longer than this is missing.
+/// While a rescue is armed, only STOP ends a motion: an answer that takes longer than this is
+/// missing.
 const RESCUE_REPLY: Duration = Duration::from_millis(400);
-/// While a rescue is armed, the device is asked this often at least.
+/// Longest interval between questions while a rescue is armed.
 const RESCUE_POLL: Duration = Duration::from_millis(250);
-/// After a question had to be repeated, the answers to both may come. Nothing is
-/// asked until the surplus one must have come.
+/// After a repeated question both answers may come. Nothing is asked until the surplus one
+/// must have come.
 const DRAIN: Duration = Duration::from_millis(1100);
-/// After this long without a byte, what is unfinished stays unfinished.
+/// After this long without a byte, an unfinished reply is given up.
 const QUIET: Duration = Duration::from_millis(250);
-/// Without any good reply for this long, the link is given up.
+/// After this long without a good reply, the link is given up.
 const PATIENCE: Duration = Duration::from_secs(8);
 
-/// A Rotator Genius, seen from the near end of its link.
 #[derive(Debug)]
 pub struct Genius {
     rates: PollRates,
     rotators: Rotators,
     decoder: Decoder,
-    /// What the decoder has not finished with, for the log of the link.
+    /// Bytes that the decoder has not finished with, for the wire log.
     unfinished: VecDeque<u8>,
-    /// When what is unfinished is given up.
+    /// When unfinished bytes are given up.
     quiet_at: Option<Instant>,
     state: AntennaState,
     /// The last one on this link.
@@ -65,17 +65,17 @@ pub struct Genius {
     /// When the status is asked for next; `None` without a link.
     next_poll: Option<Instant>,
     outstanding: Option<Outstanding>,
-    /// When the first status was asked for that has not come.
+    /// When the first of the missing statuses was asked for.
     missing_since: Option<Instant>,
     drain_until: Option<Instant>,
-    /// Metal moves on this program's word.
+    /// Azel has the antenna moving.
     is_watched: bool,
-    /// Until when an answer is expected to each STOP that was sent.
+    /// For each STOP sent, until when an answer is expected.
     halts: VecDeque<Instant>,
     orders: VecDeque<Order>,
     /// To be armed with the next look at the clock.
     is_rescue_wanted: bool,
-    /// The operator wants to know the status.
+    /// The operator has asked for the status.
     is_asked: bool,
     rescue_until: Option<Instant>,
     changes: ChangeQueue,
@@ -83,7 +83,6 @@ pub struct Genius {
     wire: WireQueue,
 }
 
-/// Key of the only question.
 const STATUS: &str = "STATUS";
 
 fn questions() -> [Question; 1] {
@@ -95,8 +94,7 @@ fn questions() -> [Question; 1] {
 }
 
 impl Genius {
-    /// A device that is asked at `rates` and whose rotators turn what `rotators`
-    /// says. Silent until the link is up.
+    /// A unit polled at `rates`, silent until the link is up.
     pub fn new(rates: PollRates, rotators: Rotators) -> Self {
         Self {
             rates,
@@ -131,9 +129,9 @@ impl Genius {
         !self.orders.is_empty() || self.outstanding.as_ref().is_some_and(Outstanding::is_motion)
     }
 
-    /// What is to be sent next, the most urgent first.
+    /// The next request, the most urgent first.
     fn next_request(&mut self, now: Moment) -> Option<(Request, Purpose)> {
-        // However fast wishes come, the position must not grow old.
+        // However fast requests come, the position must not grow old.
         let is_overdue =
             self.next_poll.is_some_and(|due| due + self.rates.period(true) <= now.steady);
         if !is_overdue && let Some(Order { request, asked }) = self.orders.pop_front() {
@@ -158,7 +156,7 @@ impl Genius {
         self.rescue_until.is_some_and(|until| now < until)
     }
 
-    /// Without waiting for the next question.
+    /// Returns `true` if something can be sent before the next poll.
     fn has_something_to_send(&self) -> bool {
         !self.orders.is_empty()
             || self.is_rescue_wanted
@@ -166,7 +164,7 @@ impl Genius {
             || !self.changes.is_empty()
     }
 
-    /// The next status tells what a command has brought about.
+    /// Asks for the status that shows the effect of a command.
     fn look_soon(&mut self, now: Moment) {
         if let Some(due) = &mut self.next_poll {
             *due = now.steady.min(*due);

@@ -1,5 +1,5 @@
-//! Behaviour of a Satrak: one request outstanding, matched by its word, halts
-//! past everything else.
+//! Behaviour of a Satrak: one request outstanding, replies matched by their word, halts ahead
+//! of everything else.
 
 mod changes;
 mod checks;
@@ -38,17 +38,14 @@ use prepare::Preparation;
 use reported::Reported;
 use schedule::Schedule;
 
-/// No answer within this is none.
+/// Time limit for an answer.
 const REPLY: Duration = Duration::from_secs(2);
-/// No answer to a setting within this is none, where the unit has to fetch or
-/// read a file for it.
+/// Time limit for the answer to a setting for which the unit must fetch or read a file.
 const SLOW_REPLY: Duration = Duration::from_secs(15);
-/// After a question had to be repeated, the answers to both may come. Nothing
-/// is asked until the surplus one must have come, or every later answer would
-/// be taken for the one after it.
+/// After a repeated question both answers may come. Nothing is asked until the surplus one
+/// must have come, or every later answer would be taken for the one after it.
 const DRAIN: Duration = Duration::from_secs(1);
 
-/// A Satrak, seen from the near end of its link.
 #[derive(Debug)]
 pub struct Satrak {
     rates: PollRates,
@@ -59,34 +56,33 @@ pub struct Satrak {
     schedule: Option<Schedule>,
     outstanding: Option<Outstanding>,
     drain_until: Option<Instant>,
-    /// Asks for the position while something else waits for its reply.
+    /// Asks for the position while another request waits for its reply.
     probe: Option<Outstanding>,
-    /// When the first status was asked for that has not come.
+    /// When the first of the missing statuses was asked for.
     missing_since: Option<Moment>,
-    /// Metal moves on this program's word.
+    /// Azel has the antenna moving.
     is_watched: bool,
-    /// When tracking or auto-track was last switched on by us.
+    /// When Azel last switched tracking or auto-track on.
     program_switched_on: Option<Instant>,
-    /// Halts that were sent past the queue and not answered yet.
+    /// Halts sent past the queue and not answered yet.
     halts: VecDeque<(Halt, Instant)>,
     motions: VecDeque<Motion>,
     calm: VecDeque<Halt>,
     preparation: Option<Preparation>,
-    /// Questions that the operator wants answered.
+    /// Questions of the operator.
     wanted: VecDeque<Query>,
     changes: ChangeQueue,
     /// A setting that takes the unit long; other questions go on meanwhile.
     slow: Option<Outstanding>,
     events: VecDeque<ControllerEvent>,
     wire: WireQueue,
-    /// Something with a header has come over this link.
+    /// A frame has come over this link.
     has_heard_frame: bool,
 }
 
 impl Satrak {
-    /// A unit that is asked at `rates`. Satellites are chosen from
-    /// `element_file` on the unit; empty for the file that it uses already.
-    /// Silent until the link is up.
+    /// A unit polled at `rates`, silent until the link is up. Satellites are chosen from
+    /// `element_file` on the unit; if that is empty, from the file in use.
     pub fn new(rates: PollRates, element_file: String) -> Self {
         Self {
             rates,
@@ -128,8 +124,8 @@ impl Satrak {
         !self.motions.is_empty() || self.outstanding.as_ref().is_some_and(Outstanding::is_motion)
     }
 
-    /// The tracking program is on, or may be: nothing was read since it was
-    /// switched on.
+    /// Returns `true` if the tracking program is on, or may be because nothing was read since
+    /// it was switched on.
     fn program_may_run(&self) -> bool {
         let switched_on = self
             .program_switched_on
@@ -137,7 +133,7 @@ impl Satrak {
         switched_on || self.state.program.is_none_or(|program| program.enabled)
     }
 
-    /// What is to be sent next, the most urgent first.
+    /// The next request, the most urgent first.
     fn next_request(&mut self, now: Moment) -> Option<(Request, Purpose)> {
         if let Some(motion) = self.motions.pop_front() {
             if matches!(motion, Motion::StartProgram | Motion::EnableAuto) {
@@ -180,14 +176,14 @@ impl Satrak {
         }
     }
 
-    /// The operator wants this answered; once is enough.
+    /// Queues a question of the operator, once.
     fn want(&mut self, query: Query) {
         if self.schedule.is_some() && !self.wanted.contains(&query) {
             self.wanted.push_back(query);
         }
     }
 
-    /// The next status tells what a command has brought about.
+    /// Asks for the status that shows the effect of a command.
     fn look_soon(&mut self, now: Moment) {
         if let Some(schedule) = &mut self.schedule {
             schedule.hurry(Query::Status, now.steady);

@@ -1,4 +1,4 @@
-//! What only an RC2000C can do, and the commands that do it.
+//! The actions that only an RC2000C has, and their commands.
 
 use super::{Order, Rc2000c, refusal::is_tracking};
 use crate::{
@@ -117,8 +117,8 @@ const fn moving(key: &'static str, label: &'static str, about: &'static str) -> 
     Action { moves: true, ..still(key, label, about) }
 }
 
-/// An alarm forbids motion, so clearing it cannot count as one; a stop goes first
-/// instead, lest something that is pending goes on.
+/// An alarm forbids motion, so clearing it cannot count as one. A stop goes first, lest
+/// something pending goes on.
 const fn resetting(key: &'static str, label: &'static str) -> Action {
     Action {
         question: Some("The drive takes power again. Is its cause mended, and nobody near?"),
@@ -132,7 +132,6 @@ fn check_name(typed: &str) -> Result<(), Unfit> {
 }
 
 impl Rc2000c {
-    /// Queues what the action asks for, or says why it cannot be.
     pub(super) fn act_on(&mut self, act: &Act) {
         let asked = Asked::Action(act.action);
         if self.motion_under_way() {
@@ -184,9 +183,8 @@ impl Rc2000c {
         }
     }
 
-    /// Where an action leads the axes.
     pub(super) fn lead(&self, act: &Act) -> Lead {
-        // What cannot be sent leads nowhere; why it is not sent is told with it.
+        // An action that cannot be sent leads nowhere; the reason is reported when it is sent.
         if self.request_of(act).is_err() {
             return Lead::Nowhere;
         }
@@ -231,7 +229,7 @@ impl Rc2000c {
         Ok([integer(act, &AZ_COUNTS)?, integer(act, &EL_COUNTS)?])
     }
 
-    /// A move would take the antenna out of the hands of the unit.
+    /// A move would take the antenna out of the unit's own tracking.
     fn check_track(&self, act: &Act) -> Result<(), String> {
         let is_told = END_TRACK.of(&act.values) == Some(true);
         if is_told || !self.status.as_ref().is_some_and(is_tracking) {

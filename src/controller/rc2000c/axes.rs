@@ -1,4 +1,4 @@
-//! The two axes: from a status to angles, and from angles to counts and jogs.
+//! The two axes: angles from a status, and counts and jogs from angles.
 
 use super::Calibration;
 use crate::{
@@ -8,12 +8,12 @@ use crate::{
     station::Mount,
 };
 
-/// An axis that stands may read one step more or less.
+/// A standing axis may read one step more or less.
 const UNSTEADY: u16 = 1;
-/// The number of the drive for an auto move, which tells no way.
+/// Drive number of an auto move, which shows no direction.
 const AUTO_MOVE: i64 = 7;
 
-/// What the counts of both axes mean.
+/// Conversion of the counts of both axes.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Axes {
     lines: [Option<CountLine>; 2],
@@ -29,8 +29,8 @@ impl Axes {
         self.lines.iter().all(Option::is_some)
     }
 
-    /// Azimuth and elevation in `status`. What `before` showed elsewhere moves,
-    /// for an axis that runs out is not told as moving.
+    /// Azimuth and elevation in `status`. An axis whose position differs from `before` is
+    /// moving: the unit does not report one that runs out.
     pub(super) fn read(&self, status: &Status, before: Option<&Status>) -> [Axis; 2] {
         let both = |status: &Status| [status.azimuth, status.elevation];
         let before = before.map(both);
@@ -58,9 +58,9 @@ impl Axes {
         ]
     }
 
-    /// Where the antenna points with its axes there. On a mount that does not flip, an
-    /// elevation a little beyond 90 degrees is the noise of its sensor. An axis at its
-    /// limit tells no angle, but the side on which a flipped antenna points.
+    /// The direction of the antenna with these axes. On a mount that does not flip, an
+    /// elevation a little beyond 90 degrees is noise of the sensor. An axis at its limit
+    /// reports no angle, but the side on which a flipped antenna points.
     pub(super) fn pointing(axes: [Axis; 2], mount: &Mount) -> Pointing {
         let [azimuth, elevation] = axes.map(|axis| axis.angle_deg.map(Angle::from_degrees));
         let azimuth = azimuth.map(Angle::wrapped_360);
@@ -79,7 +79,7 @@ impl Axes {
         }
     }
 
-    /// Which way to jog, that the angle of one axis grows or falls.
+    /// The direction of a jog that makes the angle of one axis grow or fall.
     pub(super) fn direction(&self, x_deg_s: f64, y_deg_s: f64) -> Direction {
         let [azimuth, elevation] = self.lines;
         let grows = |rate: f64, line: Option<CountLine>| {
@@ -93,8 +93,8 @@ impl Axes {
         }
     }
 
-    /// The move to a direction. Both axes always go along: one that is to stay is
-    /// sent to the counts where it stands.
+    /// The move to a direction. Both axes always move: one that should stay is sent to its
+    /// present counts.
     pub(super) fn auto_move(
         &self,
         azimuth: Option<Angle>,
@@ -120,15 +120,15 @@ impl Axes {
         Ok(AutoMove::position(az_counts, el_counts))
     }
 
-    /// Where the axes stand at these counts, degrees as the mount counts; `None`
-    /// unless both are calibrated.
+    /// The angles of the axes at these counts, degrees as the mount counts; `None` unless both
+    /// are calibrated.
     pub(super) fn degrees(&self, counts: [u16; 2]) -> Option<[Option<f64>; 2]> {
         let [azimuth, elevation] = self.lines;
         Some([Some(azimuth?.degrees(counts[0])), Some(elevation?.degrees(counts[1]))])
     }
 }
 
-/// Counts need a calibration; a shown angle stands for itself.
+/// Counts need a calibration; a displayed angle does not.
 fn angle_deg(position: Position, line: Option<CountLine>) -> Option<f64> {
     match position {
         Position::Counts(counts) => Some(line?.degrees(counts)),

@@ -1,11 +1,10 @@
-//! The alarms of the unit and what to do about each.
+//! The alarms of the unit, and advice for each.
 
 use crate::{
     device::panel::{Check, CheckState},
     protocol::rc2000c::{Alarm, AxisDrive, DeviceType, MountKind, Status, Submode},
 };
 
-/// What is to be watched.
 pub(super) fn checks(
     status: Option<&Status>,
     device: Option<DeviceType>,
@@ -31,7 +30,7 @@ pub(super) fn checks(
     checks
 }
 
-/// Whether the unit reports something with which nothing may be moved.
+/// Returns `true` if the unit reports something with which nothing may be moved.
 pub(super) fn forbids_motion(status: &Status) -> bool {
     let drives = [
         drive("Azimuth drive", status.azimuth_drive),
@@ -40,7 +39,7 @@ pub(super) fn forbids_motion(status: &Status) -> bool {
     drives.into_iter().chain(alarm(status.alarm)).any(|check| check.forbids_motion())
 }
 
-/// Whether the unit loses where it stands, or where it may go.
+/// Returns `true` if the unit no longer knows its position or limits.
 fn locks_motion(alarm: Alarm) -> bool {
     matches!(
         alarm,
@@ -149,8 +148,8 @@ fn tracking(submode: Submode) -> Option<Check> {
     Some(Check::new("TRACK", CheckState::Fault, advice))
 }
 
-/// A relative of the RC2000C numbers its alarms otherwise, and the axes of a
-/// polar mount are no azimuth and elevation.
+/// A relative of the RC2000C numbers its alarms differently, and the axes of a polar mount are
+/// not azimuth and elevation.
 fn kind(device: DeviceType) -> Option<Check> {
     let advice = match device.mount {
         MountKind::ElevationOverAzimuth | MountKind::AzimuthOverElevation => return None,

@@ -1,4 +1,4 @@
-//! What the driver asks of an RC2000C.
+//! [`Device`] and [`Moves`] of an RC2000C.
 
 use std::time::Duration;
 
@@ -158,12 +158,12 @@ impl Device for Rc2000c {
 }
 
 impl Rc2000c {
-    /// Nothing is waited for.
+    /// Returns `true` if no reply is expected.
     fn is_free(&self) -> bool {
         self.outstanding.is_none() && self.halt.is_none()
     }
 
-    /// When a frame that came in part will not go on.
+    /// When an unfinished frame is given up.
     fn silent_at(&self) -> Option<Instant> {
         self.heard_at.map(|at| at + self.line.silence())
     }
@@ -193,7 +193,7 @@ impl Moves for Rc2000c {
     }
 
     fn start(&mut self, motion: Motion) {
-        // A newer wish replaces one that has not gone out yet.
+        // A newer request replaces one that has not gone out yet.
         self.orders.clear();
         match motion {
             Motion::Jog { x_deg_s, y_deg_s } if x_deg_s == 0.0 || y_deg_s == 0.0 => {

@@ -1,4 +1,4 @@
-//! One command and its reply: matching, time-outs, what the reply brings about.
+//! One command and its reply: matching, time-outs, effects.
 
 use super::{Order, Rc2000c, axes::Axes, checks, line::GAP, line::Line, readings, refusal};
 use crate::{
@@ -11,26 +11,25 @@ use crate::{
     },
 };
 
-/// A question is asked at most so often; anything else once.
+/// Maximum number of times a question is asked; other commands are sent once.
 const MAX_TRIES: u8 = 3;
 const REMOTE_DISABLED: &str = "remote mode is disabled on the unit";
 
-/// Why a command was sent.
+/// Reason for a command.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum Purpose {
-    /// The status was due.
+    /// A poll that was due.
     Poll,
-    /// Something is to be known.
+    /// Another question.
     Question,
-    /// The operator asked for it, or nobody did: a part of a halt.
+    /// A request of the operator; `None` for a part of a halt.
     Order(Option<Asked>),
-    /// A halt past everything.
+    /// A halt ahead of everything.
     Halt,
-    /// A halt has overtaken it: whatever comes is of no interest.
+    /// Overtaken by a halt: its reply does not matter.
     Disowned,
 }
 
-/// A command that waits for its reply.
 #[derive(Debug)]
 pub(super) struct Outstanding {
     request: Request,
@@ -51,7 +50,6 @@ impl Outstanding {
         matches!(self.purpose, Purpose::Order(_))
     }
 
-    /// A halt came after it.
     pub(super) fn disown(&mut self) {
         if self.is_order() {
             self.purpose = Purpose::Disowned;
@@ -70,7 +68,7 @@ impl Outstanding {
 }
 
 impl Rc2000c {
-    /// Takes one frame of the stream.
+    /// Takes a frame of the stream.
     pub(super) fn take_frame(&mut self, frame: Result<Frame, FrameError>, now: Moment) {
         let frame = match frame {
             Ok(frame) => frame,
@@ -83,7 +81,7 @@ impl Rc2000c {
         self.record_frame(&frame, now);
         match Reply::parse(&frame) {
             Ok(reply) => self.match_reply(&reply, now),
-            // Adapters of such lines send back what they hear.
+            // Adapters for such lines send back what they hear.
             Err(ReplyError::Echo { .. }) => self.state.traffic.odd += 1,
             Err(error) => {
                 self.state.traffic.unreadable += 1;
@@ -104,8 +102,8 @@ impl Rc2000c {
         };
         self.state.traffic.replies += 1;
         self.state.traffic.last_reply = Some(now.steady);
-        // The answers to all that was asked may come: each is waited for, or the
-        // next question would be taken for answered by an older state.
+        // All outstanding answers may come. Each is waited for, or the next question would be
+        // taken for answered by an older state.
         if answered.purpose == Purpose::Poll {
             self.missing_since = None;
         }
@@ -147,7 +145,7 @@ impl Rc2000c {
     }
 
     fn take_status(&mut self, status: Status, answered: &Outstanding, now: Moment) {
-        // A unit that was not allowed to answer is asked who it is once it is.
+        // A unit that was not allowed to answer is asked for its type once it is.
         self.wants_device |= std::mem::take(&mut self.is_offline) && self.device.is_none();
         let axes = self.axes.read(&status, self.past.before(now.steady));
         self.past.push(status, now.steady);
@@ -169,12 +167,12 @@ impl Rc2000c {
         });
         self.state.turns_besides = status.polarization_motion != PolarizationMotion::Still;
         self.hold_polarization(&status);
-        // From question to question, so that a slow line does not make it slower.
+        // From question to question, so that a slow line is not made slower.
         self.poll_at = Some(answered.clock.sent.steady + self.rates.period(self.moving()));
     }
 
-    /// A stop of the axes leaves the polarization turning. It is sent to where it
-    /// is; a jog of it ends by itself.
+    /// A stop of the axes leaves the polarization turning. It is sent to its present position;
+    /// a jog of it ends by itself.
     fn hold_polarization(&mut self, status: &Status) {
         if !std::mem::take(&mut self.holds_polarization) {
             return;
@@ -188,7 +186,7 @@ impl Rc2000c {
         }
     }
 
-    /// The unit said no.
+    /// The unit refused.
     fn fail(&mut self, answered: &Outstanding, reason: String, now: Moment) {
         self.end_jog(answered, |asked| ControllerEvent::Refused(asked, reason.clone()));
         match answered.purpose {
@@ -214,8 +212,8 @@ impl Rc2000c {
         }
     }
 
-    /// Nothing renews the jog any more: the timer of the unit ends it. It is told
-    /// where the command that failed was not the jog itself.
+    /// Nothing renews the jog any more: the unit's timer ends it. Reported unless the failed
+    /// command was the jog itself.
     fn end_jog(&mut self, failed: &Outstanding, tell: impl FnOnce(Asked) -> ControllerEvent) {
         let is_told =
             matches!(failed.purpose, Purpose::Order(Some(Asked::Motion(Motion::Jog { .. }))));
@@ -223,8 +221,8 @@ impl Rc2000c {
         self.events.extend(ended.map(|jog| tell(jog.motion.into())));
     }
 
-    /// What was not answered in time. A question is repeated; anything else
-    /// never: the next status tells whether it came through.
+    /// Handles a missing reply. A question is repeated; other commands never, because the next
+    /// status shows whether they arrived.
     pub(super) fn expire(&mut self, now: Moment) -> Option<Vec<u8>> {
         if let Some(late) = self.halt.take_if(|halt| now.steady >= halt.clock.deadline()) {
             self.miss(&late, false, now);
@@ -271,7 +269,7 @@ impl Rc2000c {
         }
     }
 
-    /// A status may be answered by what an earlier question has brought about.
+    /// A status may answer an earlier question.
     pub(super) fn outstanding_of(
         &self,
         request: Request,

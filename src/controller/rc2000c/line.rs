@@ -1,5 +1,5 @@
-//! The times of the line. The vendor names none but the speed; these are on the
-//! safe side.
+//! Timing of the line. The vendor documents only the speed; the other figures are on the safe
+//! side.
 
 use std::time::Duration;
 
@@ -10,16 +10,15 @@ use crate::{
 
 /// Start, seven data bits, parity, stop.
 const BITS_PER_CHARACTER: u32 = 10;
-/// What the unit may take on top of the time that the characters need.
+/// Time that the unit may need in addition to that of the characters.
 const LATENCY: Duration = Duration::from_secs(1);
-/// Between a reply and the next command.
+/// Gap between a reply and the next command.
 pub(super) const GAP: Duration = Duration::from_millis(50);
-/// A frame whose next character does not come in this time, or in the time of
-/// twenty characters, does not go on.
+/// A frame whose next character does not come within this time, or within the time of twenty
+/// characters, is given up.
 const SILENCE: Duration = Duration::from_millis(100);
 const SILENT_CHARACTERS: u32 = 20;
 
-/// A line at its speed.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Line {
     character: Duration,
@@ -31,37 +30,37 @@ impl Line {
         Self { character: Duration::from_secs(BITS_PER_CHARACTER.into()) / baud.max(1) }
     }
 
-    /// How long the reply to `request` may take.
+    /// Longest time for the reply to `request`.
     pub(super) fn reply_wait(self, request: &Request) -> Duration {
         LATENCY + self.exchange_of(request)
     }
 
-    /// The same while metal moves.
+    /// The same while the antenna moves.
     pub(super) fn prompt(self, request: &Request) -> Duration {
         PROMPT + self.exchange_of(request)
     }
 
-    /// How long any reply takes at most while all is well.
+    /// Longest time for any reply in normal operation.
     pub(super) fn longest_prompt(self) -> Duration {
         PROMPT + self.exchange()
     }
 
-    /// How long any reply may take.
+    /// Longest time for any reply.
     pub(super) fn longest_wait(self) -> Duration {
         LATENCY + self.exchange()
     }
 
-    /// How long a halt and the question after it take with their replies.
+    /// Time for a halt, the question after it, and their replies.
     pub(super) fn halt_wait(self) -> Duration {
         LATENCY.max((self.exchange() + GAP) * 2)
     }
 
-    /// A command and its reply on the wire.
+    /// Time of a command and its reply on the wire.
     fn exchange_of(self, request: &Request) -> Duration {
         self.time_of(request.to_bytes(Address::FACTORY).len() + request.command().reply_bytes())
     }
 
-    /// The longest command and the longest reply on the wire.
+    /// Time of the longest command and the longest reply on the wire.
     fn exchange(self) -> Duration {
         self.time_of(MAX_COMMAND_BYTES + MAX_FRAME_BYTES)
     }
@@ -70,7 +69,7 @@ impl Line {
         self.character * u32::try_from(characters).unwrap_or(u32::MAX)
     }
 
-    /// After this long without a character nothing of a frame is to come.
+    /// After this long without a character, no more of a frame will come.
     pub(super) fn silence(self) -> Duration {
         SILENCE.max(self.character * SILENT_CHARACTERS)
     }

@@ -1,11 +1,11 @@
-//! What a frame says, in words for the log of the link.
+//! Meaning of a frame, for the wire log.
 
 use crate::{
     device::{Meaning, panel::Tone},
     protocol::rc2000c::{Address, Decoder, Frame, Motion, Query, Reply, Request, Setting},
 };
 
-/// What the unit at `address` is asked with the bytes of a command.
+/// Meaning of a command to the unit at `address`.
 pub(super) fn of_sent(bytes: &[u8], address: Address) -> Option<Meaning> {
     let mut decoder = Decoder::new(address);
     decoder.push(bytes);
@@ -26,7 +26,7 @@ pub(super) fn of_sent(bytes: &[u8], address: Address) -> Option<Meaning> {
     }))
 }
 
-/// What is answered with a frame.
+/// Meaning of a reply.
 pub(super) fn of_reply(frame: &Frame) -> Option<Meaning> {
     let (tone, text) = match Reply::parse(frame).ok()? {
         Reply::DeviceType(_) => (Tone::Plain, "Type of the unit"),

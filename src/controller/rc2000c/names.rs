@@ -2,16 +2,16 @@
 
 use crate::protocol::rc2000c::{NameEntry, NameIndex, SatelliteName};
 
-/// The list as far as it was read on this link.
+/// The list, as far as it was read on this link.
 #[derive(Debug, Default)]
 pub(super) struct Names {
     read: Vec<SatelliteName>,
-    /// How many there are, once an entry or a refusal has told.
+    /// Number of entries, once an entry or a refusal has shown it.
     count: Option<u8>,
 }
 
 impl Names {
-    /// The entry to ask for next; `None` when all were read.
+    /// The next entry to ask for; `None` when all were read.
     pub(super) fn next(&self) -> Option<NameIndex> {
         if self.is_complete() {
             return None;
@@ -19,8 +19,7 @@ impl Names {
         NameIndex::new(u8::try_from(self.read.len() + 1).ok()?).ok()
     }
 
-    /// Takes an entry. A unit that names another than the next one has no list
-    /// that can be read.
+    /// Takes an entry. A unit that answers with another entry has no list that can be read.
     pub(super) fn take(&mut self, entry: &NameEntry) {
         if self.next().is_some_and(|next| next.number() == entry.index) {
             self.read.push(entry.name);
@@ -30,7 +29,7 @@ impl Names {
         }
     }
 
-    /// There are no more: the unit says so, or does not answer.
+    /// The list ends here: the unit says so, or does not answer.
     pub(super) fn end(&mut self) {
         self.count = u8::try_from(self.read.len()).ok();
     }
@@ -43,8 +42,7 @@ impl Names {
         &self.read
     }
 
-    /// The stored name that the operator means: the case of its letters and
-    /// blanks around it do not matter.
+    /// The stored name that the operator means, regardless of case and surrounding blanks.
     pub(super) fn find(&self, typed: &str) -> Option<SatelliteName> {
         let is_meant =
             |name: &&SatelliteName| name.as_str().trim().eq_ignore_ascii_case(typed.trim());

@@ -1,29 +1,28 @@
-//! What the unit told a moment ago: an axis that runs out after a stop, or away
-//! without a command, shows by its number alone.
+//! The last statuses: an axis that runs out after a stop, or moves without a command, shows
+//! only by its numbers.
 
 use std::{collections::VecDeque, time::Duration};
 
 use crate::{clock::Instant, protocol::rc2000c::Status};
 
-/// In this time even the slowest axis shows another number. Replies to commands
-/// may follow one another much faster.
+/// Time in which even the slowest axis shows another number. Replies to commands may follow
+/// one another much faster.
 const LONG_ENOUGH: Duration = Duration::from_millis(250);
 
-/// The last statuses and when they came in, oldest first.
+/// The last statuses with their times, oldest first.
 #[derive(Debug, Default)]
 pub(super) struct Past(VecDeque<(Instant, Status)>);
 
 impl Past {
     pub(super) fn push(&mut self, status: Status, now: Instant) {
-        // The second one is old enough, so nobody looks at the first any more.
+        // The second one is old enough, so nobody needs the first any more.
         while self.0.get(1).is_some_and(|(at, _)| is_old(*at, now)) {
             self.0.pop_front();
         }
         self.0.push_back((now, status));
     }
 
-    /// The newest status that is old enough to compare with; the oldest one where
-    /// none is.
+    /// The newest status that is old enough to compare with, or else the oldest.
     pub(super) fn before(&self, now: Instant) -> Option<&Status> {
         let old = self.0.iter().rev().find(|(at, _)| is_old(*at, now));
         old.or(self.0.front()).map(|(_, status)| status)

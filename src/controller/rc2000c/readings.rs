@@ -1,4 +1,4 @@
-//! What the front panel shows, line by line.
+//! The readings of the front panel, line by line.
 
 use super::{checks, names::Names};
 use crate::{
@@ -10,7 +10,7 @@ use crate::{
     },
 };
 
-/// The highest level of the receiver.
+/// Maximum level of the receiver.
 const MAX_AGC: f64 = 1023.0;
 
 pub(super) fn readings(status: &Status, device: Option<DeviceType>, names: &Names) -> Vec<Reading> {

@@ -1,4 +1,4 @@
-//! Tells what goes over the link, frame by frame.
+//! Records the link, frame by frame.
 
 use super::{Rc2000c, exchange::Purpose, meaning};
 use crate::{
@@ -7,11 +7,10 @@ use crate::{
     protocol::rc2000c::{Command, Frame, FrameError, MAX_FRAME_BYTES},
 };
 
-/// Heard bytes without a frame are told in lines of this.
+/// Bytes without a frame are recorded in lines of this length.
 const MAX_NOISE: usize = 4 * MAX_FRAME_BYTES;
 
 impl Rc2000c {
-    /// A command that was written.
     pub(super) fn record_sent(&mut self, bytes: &[u8], now: Moment) {
         let is_status = bytes.get(2) == Some(&Command::Status.code());
         let sent = self.outstanding.as_ref();
@@ -23,20 +22,20 @@ impl Rc2000c {
         self.wire.push(WireLine { meaning, is_poll, ..line });
     }
 
-    /// Bytes that came in and are not read yet.
+    /// Records bytes that were received and are not read yet.
     pub(super) fn hear(&mut self, bytes: &[u8], now: Moment) {
         self.heard_at = Some(now.steady);
         self.heard.extend_from_slice(bytes);
     }
 
-    /// Noise without an end is told in pieces.
+    /// Cuts endless noise into pieces.
     pub(super) fn limit_noise(&mut self, now: Moment) {
         if self.heard.len() > MAX_NOISE {
             self.record_noise(Finding::NoHeader, now);
         }
     }
 
-    /// A frame was read; what stands before it in the stream was none.
+    /// Records a frame; the bytes before it in the stream were none.
     pub(super) fn record_frame(&mut self, frame: &Frame, now: Moment) {
         let bytes = frame.to_bytes();
         let place = self.heard.windows(bytes.len()).position(|window| window == bytes);
@@ -56,7 +55,7 @@ impl Rc2000c {
         self.wire.push(WireLine { meaning, reply_after, is_poll, ..line });
     }
 
-    /// What began like a frame was none.
+    /// Records bytes that began like a frame.
     pub(super) fn record_broken(&mut self, error: FrameError, now: Moment) {
         let finding = match error {
             FrameError::BadChecksum { received, computed } => {
@@ -69,7 +68,7 @@ impl Rc2000c {
         self.record_noise(finding, now);
     }
 
-    /// The line is quiet: what was heard and read as no frame is told as such.
+    /// Records bytes that made no frame, once the line is quiet.
     pub(super) fn record_noise(&mut self, finding: Finding, now: Moment) {
         let noise = std::mem::take(&mut self.heard);
         if !noise.is_empty() {

@@ -1,5 +1,5 @@
-//! Why the unit has refused a command. It does not say; what is known of it and
-//! the causes that its manual names make a sentence.
+//! Why the unit has refused a command. It does not say; its known state and the causes in its
+//! manual make a sentence.
 
 use crate::protocol::rc2000c::{
     AutoMove, DriveReset, Motion, PolarizationDevice, PolarizationMove, Position, Request, Setting,
@@ -37,7 +37,7 @@ pub(super) fn likely_reason(request: &Request, status: Option<&Status>) -> Strin
     reason.to_owned()
 }
 
-/// The track mode is on. What is unknown counts as on.
+/// Returns `true` if the track mode is on. Unknown counts as on.
 pub(super) fn is_tracking(status: &Status) -> bool {
     status.track.is_some_and(|track| track.submode.is_active())
 }

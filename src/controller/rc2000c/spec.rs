@@ -15,7 +15,7 @@ use crate::{
 const SLOW: JogSpeed = JogSpeed { name: "Slow", share: 0.25 };
 pub(super) const FAST: JogSpeed = JogSpeed { name: "Fast", share: 1.0 };
 
-/// An RC2000C in the station: on the bus address of the factory, not calibrated.
+/// On the factory's bus address, not calibrated.
 pub static SPEC: ControllerSpec = ControllerSpec {
     key: "rc2000c",
     name: "Research Concepts RC2000C",
@@ -54,7 +54,7 @@ pub static SPEC: ControllerSpec = ControllerSpec {
     open: |antenna| Box::new(Rc2000c::of(antenna)),
 };
 
-/// All units of this make can do the same.
+/// All units of this make have the same abilities.
 pub static VARIANT: Variant = Variant {
     capabilities: Capabilities {
         axes: ["Az", "El"],
@@ -76,8 +76,8 @@ pub static VARIANT: Variant = Variant {
     actions: actions::ACTIONS,
 };
 
-/// Bits a second of the line. A serial server is set to it by its own means; here
-/// it tells how long replies take.
+/// Bits a second of the line. A serial server has its own setting; then the value only tells
+/// how long replies take.
 pub static BAUD: Setting =
     Setting::new(Field::edit(Key::choice("baud", BAUDS), "Line speed, baud"), || {
         Value::Choice(9600)
@@ -86,16 +86,15 @@ pub static BAUD: Setting =
 const BAUDS: &[(i64, &str)] =
     &[(300, "300"), (600, "600"), (1200, "1200"), (2400, "2400"), (4800, "4800"), (9600, "9600")];
 
-/// Its address on the bus.
+/// Address of the unit on the bus.
 pub static BUS_ADDRESS: Setting =
     Setting::new(Field::edit(Key::integer("bus_address", 49, 111), "Bus address"), || {
         Value::Integer(50)
     });
 
-/// What its counts mean.
 const CALIBRATION: Table = Table { key: "calibration", title: "Calibration" };
 
-/// What the counts of the azimuth mean.
+/// Measured points of the azimuth.
 pub static AZIMUTH_POINTS: Setting =
     Setting::new(Field::edit(Key::points("azimuth"), "Azimuth counts"), || {
         Value::Points(Vec::new())
@@ -103,7 +102,7 @@ pub static AZIMUTH_POINTS: Setting =
     .in_table(CALIBRATION)
     .noted(not_calibrated);
 
-/// What the counts of the elevation mean.
+/// Measured points of the elevation.
 pub static ELEVATION_POINTS: Setting =
     Setting::new(Field::edit(Key::points("elevation"), "Elevation counts"), || {
         Value::Points(Vec::new())
@@ -116,19 +115,17 @@ fn not_calibrated(value: &Value) -> Option<&'static str> {
     is_empty.then_some("Not calibrated: the antenna is shown in counts and goes to no angle.")
 }
 
-/// What the counts of both position sensors mean: points that the operator has
-/// measured. Between and beyond them a straight line is laid. Two points or more
-/// of each, or none while it is not calibrated.
+/// Conversion of the counts of both position sensors: points that the operator has measured,
+/// with a straight line between and beyond them. Two points or more of each, or none while it
+/// is not calibrated.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Calibration {
-    /// Of the azimuth.
     pub azimuth: Vec<CountPoint>,
-    /// Of the elevation.
     pub elevation: Vec<CountPoint>,
 }
 
 impl Calibration {
-    /// That of an RC2000C at the other end of `connection`.
+    /// That of an RC2000C with this connection.
     pub fn of(connection: &Connection) -> Self {
         Self {
             azimuth: connection.points(&AZIMUTH_POINTS).to_vec(),
@@ -136,7 +133,7 @@ impl Calibration {
         }
     }
 
-    /// Puts it into the settings of `connection`, or says why it cannot be.
+    /// Puts it into the settings of `connection`. The error says why it does not fit.
     pub fn put_into(self, connection: &mut Connection) -> Result<(), Unfit> {
         connection.put(&AZIMUTH_POINTS, self.azimuth)?;
         connection.put(&ELEVATION_POINTS, self.elevation)
@@ -144,8 +141,8 @@ impl Calibration {
 }
 
 impl Antenna {
-    /// An RC2000C at `address` on the bus address of the factory, not calibrated,
-    /// with the usual figures.
+    /// An RC2000C at `address` on the factory's bus address, not calibrated, with default
+    /// figures.
     pub fn rc2000c(name: &str, address: &str) -> Self {
         SPEC.antenna(name, address)
     }

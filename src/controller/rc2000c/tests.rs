@@ -19,7 +19,7 @@ struct Bench {
 }
 
 impl Bench {
-    /// Asked who it is, not answered yet.
+    /// Asked for its type, not answered yet.
     fn new() -> Self {
         let antenna = Antenna::rc2000c("Dish", "/dev/ttyUSB0");
         let unit = Rc2000c::of(&antenna);
@@ -60,7 +60,6 @@ impl Bench {
     }
 }
 
-/// An idle status in reply to the command with this code.
 fn idle_reply_to(code: u8) -> Vec<u8> {
     let mut bytes = IDLE.to_vec();
     bytes.pop();

@@ -1,4 +1,4 @@
-//! What only a Rotator Genius can do.
+//! The actions that only a Rotator Genius has.
 
 use std::time::Duration;
 
@@ -12,9 +12,9 @@ pub const OTHER: &str = "other";
 /// Key of the action that allows a jog outside the limits.
 pub const RESCUE: &str = "rescue";
 
-/// Where [`OTHER`] leads, whole degrees.
+/// Heading for [`OTHER`], whole degrees.
 pub(super) const DIRECTION: Key<i64> = Key::integer("direction_deg", 0, 360);
-/// For how long a rescue stays armed, unless the operator's STOP comes first.
+/// How long a rescue stays armed, unless the operator's STOP comes first.
 pub(super) const ARMED: Duration = Duration::from_mins(1);
 
 pub(super) const SEND_OTHER: Action = Action {

@@ -1,5 +1,4 @@
-//! Puts a configuration on the device and proves it: looks, sends once, reads
-//! back.
+//! Writes a configuration and proves it: reads, sends once, reads back.
 
 use super::{
     Genius,
@@ -12,16 +11,14 @@ use crate::{
     protocol::rotator_genius::Request,
 };
 
-/// What is to be done for a change now.
+/// The next step of a change.
 enum Next {
-    /// This is to be sent.
     Send(Request),
-    /// It is over.
     Over(Result<(), WriteError>),
 }
 
 impl Genius {
-    /// The next request of the changes, of which those that have none are over.
+    /// The next request of the changes; ends those that have none.
     pub(super) fn write_request(&mut self, now: Moment) -> Option<(Request, Purpose)> {
         loop {
             self.changes.begin(&mut self.state, now);
@@ -39,7 +36,7 @@ impl Genius {
         match settings_write.step() {
             Step::Look | Step::ReadBack => Next::Send(Request::Read),
             Step::Done => Next::Over(settings_write.result()),
-            // A device that is configured lets go of what it turns.
+            // A unit that is being configured lets go of what it turns.
             Step::Send if self.moving() || self.motion_waits() => {
                 Next::Over(Err(WriteError::Moving))
             }
@@ -56,7 +53,7 @@ impl Genius {
         }
     }
 
-    /// A status has come that a change waits for.
+    /// Takes a status that a change waits for.
     pub(super) fn change_read(&mut self, now: Moment) {
         let Some(status) = &self.status else { return };
         self.changes.advance(&mut self.state, now, |settings_write| {
@@ -76,7 +73,7 @@ impl Genius {
         });
     }
 
-    /// The device has answered the command of a change.
+    /// The unit has answered the command of a change.
     pub(super) fn change_judged(&mut self, is_accepted: bool, now: Moment) {
         self.changes.advance(&mut self.state, now, |settings_write| {
             if is_accepted {
@@ -87,7 +84,7 @@ impl Genius {
         });
     }
 
-    /// The device has not answered.
+    /// The unit has not answered.
     pub(super) fn change_unanswered(&mut self, now: Moment) {
         self.changes.advance(&mut self.state, now, SettingsWrite::unanswered);
     }

@@ -1,4 +1,4 @@
-//! What the driver asks of a Rotator Genius.
+//! [`Device`] and [`Moves`] of a Rotator Genius.
 
 use std::time::Duration;
 
@@ -144,7 +144,7 @@ impl Device for Genius {
 }
 
 impl Moves for Genius {
-    /// What it can do beyond turns a rotator that is not this antenna's.
+    /// Its other actions turn a rotator that is not this antenna's.
     fn lead_of(&self, _: &Act) -> Lead {
         Lead::Nowhere
     }
@@ -166,7 +166,7 @@ impl Moves for Genius {
     }
 
     fn start(&mut self, motion: Motion) {
-        // A newer wish replaces what has not gone out yet.
+        // A newer request replaces one that has not gone out yet.
         self.orders.retain(|order| matches!(order.asked, Asked::Action(_)));
         match self.orders_for(motion) {
             Ok(orders) => self.orders.extend(orders),

@@ -1,4 +1,4 @@
-//! One request and its reply: matching, time-outs, what the reply brings about.
+//! One request and its reply: matching, time-outs, effects.
 
 use super::{DRAIN, Genius, QUIET, REPLY, RESCUE_REPLY};
 use crate::{
@@ -10,25 +10,24 @@ use crate::{
     },
 };
 
-/// So many bytes are looked at in one piece: less than the decoder can hold.
+/// Bytes are decoded in pieces of this size: less than the decoder can hold.
 const PIECE: usize = 1024;
 
-/// Why a request was sent.
+/// Reason for a request.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum Purpose {
-    /// It was due.
+    /// A poll that was due.
     Poll,
-    /// The operator wants to know.
+    /// A question of the operator.
     Asked,
-    /// Metal is to move.
+    /// Starts a motion.
     Motion(Asked),
     /// A step of changing the configuration.
     WriteSettings,
-    /// A halt has overtaken it: whatever comes is of no interest.
+    /// Overtaken by a halt: its reply does not matter.
     Disowned,
 }
 
-/// The one request that waits for its reply.
 #[derive(Debug)]
 pub(super) struct Outstanding {
     request: Request,
@@ -54,7 +53,7 @@ impl Outstanding {
         self.request == Request::Read
     }
 
-    /// It is asked again and again by itself.
+    /// Returns `true` for a poll.
     pub(super) fn is_poll(&self) -> bool {
         self.purpose == Purpose::Poll
     }
@@ -63,14 +62,14 @@ impl Outstanding {
         self.clock.sent.steady
     }
 
-    /// A halt came after it. Reading moves nothing.
+    /// A halt has overtaken it. Reading moves nothing.
     pub(super) fn disown(&mut self) {
         if self.is_motion() {
             self.purpose = Purpose::Disowned;
         }
     }
 
-    /// Whether it is acknowledged by `to`, which never names the rotator.
+    /// Returns `true` if `to` acknowledges it; acknowledgements never name the rotator.
     pub(super) fn is_acknowledged_by(&self, to: Acknowledgement) -> bool {
         match (&self.request, to) {
             (
@@ -97,7 +96,7 @@ impl Genius {
         for piece in bytes.chunks(PIECE) {
             self.decoder.push(piece);
             self.unfinished.extend(piece);
-            // Taken out one by one, because each one may change what is expected.
+            // One by one, because each may change what is expected next.
             while let Some(received) = self.decoder.next() {
                 self.take(received, now);
             }
@@ -105,7 +104,7 @@ impl Genius {
         self.quiet_at = (!self.unfinished.is_empty()).then(|| now.steady + QUIET);
     }
 
-    /// Nothing has come for a while: what is unfinished stays so.
+    /// Nothing has come for a while: gives up an unfinished reply.
     pub(super) fn end_unfinished(&mut self, now: Moment) {
         if self.quiet_at.take_if(|quiet_at| now.steady >= *quiet_at).is_some() {
             for received in self.decoder.idle() {
@@ -205,13 +204,13 @@ impl Genius {
         }
     }
 
-    /// Half of a motion is none.
+    /// Drops the rest of a motion: half of one is useless.
     fn forget_orders(&mut self, asked: Asked) {
         self.orders.retain(|order| order.asked != asked);
     }
 
-    /// A status is asked for again; anything else never: the status tells whether
-    /// it came through. Gives what must be sent at once.
+    /// A status is asked for again; other requests never, because the status shows whether
+    /// they arrived. Returns the bytes to send at once.
     pub(super) fn expire(&mut self, now: Moment) -> Option<Vec<u8>> {
         let is_late = self.outstanding.as_ref().is_some_and(|it| now.steady >= self.deadline(it));
         let late = self.outstanding.take_if(|_| is_late)?;
@@ -229,7 +228,7 @@ impl Genius {
             Purpose::Poll | Purpose::Asked | Purpose::Disowned => {}
         }
         self.look_soon(now);
-        // Outside the limits a motion goes on for ever when the link is gone.
+        // Outside the limits a motion would go on for ever after the link is gone.
         let is_blind_rescue = self.is_rescue_armed(now.steady) && self.moving();
         is_blind_rescue.then(|| self.stop_both(now))
     }
@@ -240,7 +239,6 @@ impl Genius {
         if is_hurried { sent.deadline().min(sent.sent() + PROMPT) } else { sent.deadline() }
     }
 
-    /// The bytes that stop both rotators.
     pub(super) fn stop_both(&mut self, now: Moment) -> Vec<u8> {
         self.orders.clear();
         if let Some(outstanding) = &mut self.outstanding {

@@ -1,4 +1,4 @@
-//! From a motion to what the device is told, and what speaks against it.
+//! The commands of a motion, and the objections to it.
 
 use super::{
     Genius,
@@ -18,7 +18,7 @@ use crate::{
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Order {
     pub(super) request: unit::Motion,
-    /// Whose part it is.
+    /// The request it is a part of.
     pub(super) asked: Asked,
 }
 
@@ -39,7 +39,7 @@ impl Genius {
         self.status.as_ref().map(|status| Roles::of(self.rotators, status))
     }
 
-    /// Why `asked` must not be sent, as far as this device is special.
+    /// The make's own reason not to send `asked`.
     pub(super) fn objection_to(&self, asked: &Asked, now: Moment) -> Option<&'static str> {
         let Some(status) = &self.status else { return Some(NOT_READ) };
         let Roles { axes: [first, second], is_clear, is_pair } = Roles::of(self.rotators, status);
@@ -77,7 +77,7 @@ impl Genius {
         }
     }
 
-    /// As last seen, or as a command that is on its way may bring about.
+    /// As last seen, or as a command under way may change it.
     fn turns(&self, number: RotatorNumber) -> bool {
         let of_axis = self.roles().zip(self.state.measured).and_then(|(roles, measured)| {
             let mut axes = roles.axes.into_iter().zip(measured.axes);
@@ -87,7 +87,7 @@ impl Genius {
         waits || of_axis.is_some_and(|motion| motion != AxisMotion::Still)
     }
 
-    /// The commands that `motion` is made of; an error says why there are none.
+    /// The commands of `motion`, or the reason why there are none.
     pub(super) fn orders_for(&self, motion: Motion) -> Result<Vec<Order>, &'static str> {
         let Roles { axes: [first, second], is_pair, .. } = self.roles().ok_or(NOT_READ)?;
         let requests = match motion {
@@ -113,7 +113,6 @@ impl Genius {
         Ok(requests.into_iter().map(|request| Order { request, asked: motion.into() }).collect())
     }
 
-    /// The command that an action is made of.
     pub(super) fn order_for(&self, act: &Act) -> Result<Order, &'static str> {
         let degrees = DIRECTION.of(&act.values).and_then(|degrees| u16::try_from(degrees).ok());
         let target = degrees.and_then(|degrees| WholeDegrees::new(degrees).ok()).ok_or(BEYOND)?;
@@ -122,7 +121,7 @@ impl Genius {
         Ok(Order { request, asked: Asked::Action(act.action) })
     }
 
-    /// What an `F` means, as far as the last status tells: the device never says.
+    /// Meaning of an `F`, as far as the last status shows: the unit never says.
     pub(super) fn refusal(&self, request: unit::Motion) -> String {
         let Some(status) = &self.status else { return "F".to_owned() };
         let number = rotator_of(request);
@@ -157,29 +156,29 @@ fn without_position(rotator: &Rotator) -> Option<&'static str> {
     }
 }
 
-/// A position as it is sent; any other motion as it is.
+/// A position as it is sent; any other motion unchanged.
 pub(super) fn in_whole_degrees(motion: Motion) -> Motion {
     let Motion::Position { azimuth, elevation } = motion else { return motion };
     let whole = |degrees: WholeDegrees| Angle::from_degrees(f64::from(degrees.degrees()));
     Motion::Position {
-        // One that cannot be sent is refused with what was asked for.
+        // One that cannot be sent is refused with the requested values.
         azimuth: azimuth.map(|azimuth| whole_azimuth(azimuth).map_or(azimuth, whole)),
         elevation: elevation.map(|elevation| whole(whole_elevation(elevation))),
     }
 }
 
-/// The nearest whole degree. 360 is sent only when it was asked for as such: on a
-/// mount with its stop in the north it may be a whole turn away from 359.6.
+/// The nearest whole degree. 360 is sent only if it was requested as such: on a mount with its
+/// stop in the north it may be a whole turn away from 359.6.
 fn whole_azimuth(azimuth: Angle) -> Option<WholeDegrees> {
     let degrees = azimuth.degrees();
-    // Angles come from decimal degrees: allow for the rounding.
+    // Angles come from decimal degrees: allow for rounding.
     let degrees = if (-1e-9..0.0).contains(&degrees) { 0.0 } else { degrees };
     let nearest = WholeDegrees::nearest(degrees).ok()?;
     let is_rounded_to_north = nearest == WholeDegrees::MAX && degrees < 360.0 - 1e-9;
     Some(if is_rounded_to_north { WholeDegrees::saturating(359) } else { nearest })
 }
 
-/// The nearest whole degree from the horizon over the zenith to the horizon.
+/// The nearest whole degree from horizon to horizon over the zenith.
 fn whole_elevation(elevation: Angle) -> WholeDegrees {
     WholeDegrees::saturating(elevation.degrees().clamp(0.0, 180.0).round() as u16)
 }

@@ -1,4 +1,4 @@
-//! What a Rotator Genius tells beyond where the antenna points.
+//! What a Rotator Genius reports besides the direction of the antenna.
 
 use std::time::Duration;
 
@@ -10,7 +10,6 @@ use crate::{
     },
 };
 
-/// Names of the checks of a rotator.
 struct Names {
     sensor: &'static str,
     limits: &'static str,
@@ -21,7 +20,7 @@ const NAMES: [Names; 2] = [
     Names { sensor: "Sensor of rotator 2", limits: "Limits of rotator 2" },
 ];
 
-/// The faults and warnings of the rotators that turn this antenna.
+/// Faults and warnings of the rotators that turn this antenna.
 pub(super) fn checks(status: &Status, roles: Roles) -> Vec<Check> {
     let kinds = Check::new(
         "Kinds of the rotators",
@@ -67,7 +66,7 @@ pub(super) fn checks(status: &Status, roles: Roles) -> Vec<Check> {
     [kinds, panic].into_iter().chain(of_rotators).collect()
 }
 
-/// Everything else, rotator by rotator.
+/// The other readings, rotator by rotator.
 pub(super) fn readings(
     status: &Status,
     roles: Roles,
@@ -102,7 +101,7 @@ fn of_rotator(status: &Status, roles: Roles, number: RotatorNumber) -> Vec<Readi
     let name = if rotator.name.is_empty() { "no name" } else { &rotator.name };
     let heading = match &rotator.position {
         Ok(angle) => Reading::new(label("Heading"), format!("{angle}°{}", turning(rotator.moving))),
-        // The usual case of a unit with one rotator.
+        // Usual for a unit with one rotator.
         Err(problem) => {
             let tone = if roles.is_ours(number) { Tone::Bad } else { Tone::Plain };
             Reading::new(label("Heading"), problem.to_string()).in_tone(tone)
@@ -148,7 +147,7 @@ fn degrees(angle: Option<WholeDegrees>) -> String {
     angle.map_or("?".to_owned(), |angle| format!("{angle}°"))
 }
 
-/// How much of the way from its start to its target a rotator has gone, 0 to 1.
+/// The part of the way to its target that a rotator has gone, 0 to 1.
 fn progress(rotator: &Rotator) -> Option<f64> {
     let degrees = |angle: WholeDegrees| f64::from(angle.degrees());
     let (start, target) = (degrees(rotator.start?), degrees(rotator.target?));
@@ -161,8 +160,7 @@ fn progress(rotator: &Rotator) -> Option<f64> {
     if whole == 0.0 {
         return Some(1.0);
     }
-    // More than the whole way is either a little past the target or a little
-    // before the start.
+    // More than the whole way is either a little past the target or a little before the start.
     let is_before = part > whole + (360.0 - whole) / 2.0;
     Some(if is_before { 0.0 } else { (part / whole).min(1.0) })
 }

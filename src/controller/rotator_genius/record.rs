@@ -1,5 +1,4 @@
-//! Tells what goes over the link: commands and replies as the decoder cuts them,
-//! each with what it says.
+//! Records the link: commands and replies as the decoder cuts them, each with its meaning.
 
 use super::{Genius, REPLY, exchange::Outstanding};
 use crate::{
@@ -9,7 +8,6 @@ use crate::{
 };
 
 impl Genius {
-    /// A command that was written.
     pub(super) fn record_sent(&mut self, bytes: &[u8], now: Moment) {
         let meaning = Request::parse(bytes).ok().map(|request| {
             Meaning::plain(match request {
@@ -27,7 +25,7 @@ impl Genius {
         self.wire.push(WireLine { meaning, is_poll, ..line(Direction::Sent, bytes, now) });
     }
 
-    /// Something that came in and has not been acted upon yet.
+    /// Records something that was received and not acted upon yet.
     pub(super) fn record_received(&mut self, received: &Received, now: Moment) {
         let asked = |is_it: &dyn Fn(&Outstanding) -> bool| {
             self.outstanding.as_ref().filter(|sent| is_it(sent)).map(Outstanding::sent)
@@ -64,7 +62,7 @@ impl Genius {
         self.wire.push(WireLine { meaning, reply_after, is_poll, ..line });
     }
 
-    /// What is left of a reply when its link is gone.
+    /// Records the rest of a reply whose link is gone.
     pub(super) fn record_unfinished(&mut self, now: Moment) {
         let bytes: Vec<u8> = self.unfinished.drain(..).collect();
         if !bytes.is_empty() {

@@ -3,23 +3,21 @@
 use super::Rotators;
 use crate::protocol::rotator_genius::{Rotator, RotatorKind, RotatorNumber, Status, WholeDegrees};
 
-/// Just below a whole turn, degrees: an azimuth that is not told as 360.
+/// Just below a whole turn, degrees: for an azimuth that is not reported as 360.
 const BELOW_TURN_DEG: f64 = 359.999;
 
-/// What the two rotators are for the antenna.
+/// Roles of the two rotators.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) struct Roles {
-    /// The rotators of the two axes.
     pub(super) axes: [RotatorNumber; 2],
-    /// The second axis is the elevation.
     pub(super) is_pair: bool,
-    /// The kinds that the device reports fit the antenna. Otherwise no reading
-    /// can be told to be its azimuth or elevation.
+    /// The kinds that the unit reports fit the antenna. Otherwise no reading can be taken for
+    /// its azimuth or elevation.
     pub(super) is_clear: bool,
 }
 
 impl Roles {
-    /// With a pair, the kinds decide, whatever their numbers.
+    /// With a pair, the kinds decide, whatever the numbers.
     pub(super) fn of(rotators: Rotators, status: &Status) -> Self {
         let [one, two] = status.rotators.each_ref().map(|rotator| rotator.kind);
         let (first, second) = (RotatorNumber::One, RotatorNumber::Two);
@@ -42,7 +40,7 @@ impl Roles {
         }
     }
 
-    /// Whether the rotator turns this antenna.
+    /// Returns `true` if the rotator turns this antenna.
     pub(super) fn is_ours(self, number: RotatorNumber) -> bool {
         self.is_pair || self.axes.first() == Some(&number)
     }
@@ -59,8 +57,8 @@ impl Roles {
         })
     }
 
-    /// Where a rotator stands as its axis counts, degrees. An elevation a little
-    /// below the horizon is reported as almost a whole turn.
+    /// Position of a rotator as its axis counts, degrees. An elevation a little below the
+    /// horizon is reported as almost a whole turn.
     pub(super) fn axis_deg(rotator: &Rotator) -> Option<f64> {
         rotator.position.ok().map(|position| axis_deg(rotator.kind, position))
     }
@@ -72,16 +70,15 @@ fn axis_deg(kind: RotatorKind, position: WholeDegrees) -> f64 {
     if is_below { angle_deg - 360.0 } else { angle_deg }
 }
 
-/// Which way round the arc between its limits runs is not sure, so no more is
-/// told of an azimuth than whether it has a place for 360 beside that for 0.
+/// The direction of the arc between its limits is uncertain. So the only information about an
+/// azimuth is whether it has a place for 360 beside that for 0.
 fn highest_azimuth_deg(rotator: &Rotator) -> f64 {
     let highest = WholeDegrees::MAX;
     let is_end = [rotator.limit_cw, rotator.limit_ccw].contains(&Some(highest));
     if is_end { f64::from(highest.degrees()) } else { BELOW_TURN_DEG }
 }
 
-/// An elevation never goes round by more than half a turn, whichever limit is
-/// which.
+/// An elevation never turns by more than half a turn, whichever limit is which.
 fn elevation_ends_deg(rotator: &Rotator) -> Option<(f64, f64)> {
     let [one, other] = [rotator.limit_cw?, rotator.limit_ccw?];
     let [one_deg, other_deg] = [one, other].map(|limit| axis_deg(rotator.kind, limit));
@@ -93,7 +90,7 @@ mod tests {
     use super::*;
     use crate::protocol::rotator_genius::{Decoder, Received, Reply};
 
-    /// Of two rotators with these limits, clockwise and counter-clockwise.
+    /// For two rotators with these limits, clockwise and counter-clockwise.
     fn travel_deg(azimuth: [u16; 2], elevation: [u16; 2]) -> [Option<(f64, f64)>; 2] {
         let rotator = |[cw, ccw]: [u16; 2], kind| format!("  0{cw:3}{ccw:3}{kind}0   0999999\0");
         let mut decoder = Decoder::new();

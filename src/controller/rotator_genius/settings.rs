@@ -1,9 +1,9 @@
-//! What the device remembers of its rotators (section 1.1 of its document), one
+//! The configuration of the rotators that the unit stores (section 1.1 of its document), one
 //! group for each.
 //!
-//! A configuration always goes out as a whole, and the device does not report all
-//! of it: the stop offset is never read, and has nothing to do with the "Offset"
-//! of a status. A status has names of 12 characters, a configuration of 10.
+//! A configuration always goes out as a whole, and the unit does not report all of it: the
+//! stop offset is never read, and has nothing to do with the "Offset" of a status. A status
+//! has names of 12 characters, a configuration of 10.
 
 use crate::{
     device::settings::{Field, Group, Key, Unfit, Values, WriteError},
@@ -39,10 +39,8 @@ static ROTATOR_1: Group =
 static ROTATOR_2: Group =
     Group { key: "rotator_2", title: "Rotator 2", fields: &fields(), is_service: true };
 
-/// The groups of both rotators.
 pub static GROUPS: &[&Group] = &[&ROTATOR_1, &ROTATOR_2];
 
-/// The group of a rotator.
 pub(super) fn group_of(number: RotatorNumber) -> &'static Group {
     match number {
         RotatorNumber::One => &ROTATOR_1,
@@ -50,7 +48,6 @@ pub(super) fn group_of(number: RotatorNumber) -> &'static Group {
     }
 }
 
-/// The rotator of the group with this key.
 pub(super) fn rotator_of(key: &str) -> Option<RotatorNumber> {
     RotatorNumber::ALL.into_iter().find(|number| group_of(*number).key == key)
 }
@@ -59,7 +56,7 @@ fn check_name(text: &str) -> Result<(), Unfit> {
     RotatorName::new(text).map(drop).map_err(|problem| Unfit::Text(problem.to_string()))
 }
 
-/// What a status tells of the configuration of a rotator.
+/// The configuration of a rotator, as far as a status reports it.
 pub(super) fn values(status: &Status, number: RotatorNumber) -> Values {
     let Rotator { limit_cw, limit_ccw, kind, name, .. } = status.rotator(number);
     let limits = [(LIMIT_CW, limit_cw), (LIMIT_CCW, limit_ccw)].into_iter();
@@ -96,8 +93,7 @@ pub(super) fn configuration(
         .map_err(|error| cannot(STOP_OFFSET.name, error.to_string()))
 }
 
-/// The fields in which `held` is not what `sent` says. All are sent, so all are
-/// looked at.
+/// The fields in which `held` differs from `sent`. All are sent, so all are compared.
 pub(super) fn differing(group: &Group, sent: &Values, held: &Values) -> Vec<&'static str> {
     let differs = |field: &&Field| match (sent.get(field.key), held.get(field.key)) {
         (Some(sent), Some(held)) => !field.kind.same(sent, held),

@@ -12,11 +12,9 @@ use crate::{
     },
 };
 
-/// The one speed of its rotators.
 const SPEEDS: JogSpeeds = JogSpeeds::Named(&[JogSpeed { name: "Turn", share: 1.0 }]);
 
-/// A Rotator Genius in the station, which turns azimuth and elevation unless
-/// [`ROTATORS`] says something else.
+/// Turns azimuth and elevation unless [`ROTATORS`] says otherwise.
 pub static SPEC: ControllerSpec = ControllerSpec {
     key: "genius",
     name: "4O3A Rotator Genius",
@@ -28,7 +26,7 @@ pub static SPEC: ControllerSpec = ControllerSpec {
             azimuth_from_deg: 0.0,
             azimuth_to_deg: 360.0,
             elevation_from_deg: 0.0,
-            // Over the zenith only where the operator says that it may.
+            // Over the zenith only if the operator allows it.
             elevation_to_deg: 90.0,
         },
         beam_width_deg: 20.0,
@@ -59,7 +57,7 @@ pub static SPEC: ControllerSpec = ControllerSpec {
     open: |antenna| Box::new(Genius::new(antenna.poll, Rotators::of(&antenna.connection))),
 };
 
-/// A Rotator Genius whose rotators turn azimuth and elevation of one antenna.
+/// Both rotators turn the same antenna.
 pub static PAIR: Variant = Variant {
     capabilities: Capabilities {
         axes: ["Az", "El"],
@@ -81,8 +79,7 @@ pub static PAIR: Variant = Variant {
     actions: &[actions::ARM_RESCUE],
 };
 
-/// A Rotator Genius of which one rotator turns the azimuth of the antenna and
-/// the other something else.
+/// One rotator turns the azimuth of the antenna, the other something else.
 pub static ALONE: Variant = Variant {
     capabilities: Capabilities {
         axes: ["Az", "Other"],
@@ -93,7 +90,7 @@ pub static ALONE: Variant = Variant {
     actions: &[actions::SEND_OTHER, actions::ARM_RESCUE],
 };
 
-/// What the two rotators turn: a value of [`Rotators`].
+/// A value of [`Rotators`].
 pub static ROTATORS: Setting = Setting::new(
     Field::edit(
         Key::word(
@@ -117,19 +114,15 @@ const PAIR_WORD: &str = "pair";
 const FIRST_WORD: &str = "first";
 const SECOND_WORD: &str = "second";
 
-/// What the two rotators of a Rotator Genius turn.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Rotators {
-    /// One the azimuth and one the elevation of the same antenna.
     Pair,
-    /// The first one turns the antenna, the second something else.
     First,
-    /// The second one turns the antenna, the first something else.
     Second,
 }
 
 impl Rotators {
-    /// Those of a Genius at the other end of `connection`.
+    /// Those of a Genius with this connection.
     pub fn of(connection: &Connection) -> Self {
         match connection.text(&ROTATORS) {
             FIRST_WORD => Self::First,
@@ -150,8 +143,7 @@ impl From<Rotators> for Value {
 }
 
 impl Antenna {
-    /// A Rotator Genius at `address` that turns azimuth and elevation, with the
-    /// usual figures.
+    /// A Rotator Genius at `address` that turns azimuth and elevation, with default figures.
     pub fn genius(name: &str, address: &str) -> Self {
         SPEC.antenna(name, address)
     }

@@ -1,4 +1,4 @@
-//! From a status to the state that all antennas share.
+//! Maps a status to the state that all antennas share.
 
 use super::{Genius, panel, roles::Roles, settings};
 use crate::{
@@ -9,8 +9,8 @@ use crate::{
 };
 
 impl Genius {
-    /// Takes what the device tells. `asked` is when the question went out that it
-    /// answers, `sent` when the last one did.
+    /// Takes a status. `asked`: when the question went out that it answers; `sent`: when the
+    /// last one did.
     pub(super) fn take_status(
         &mut self,
         status: Status,
@@ -26,8 +26,8 @@ impl Genius {
             Axis {
                 angle_deg: Roles::axis_deg(rotator).filter(|_| is_told),
                 motion: number.of_mut(&mut self.turning).look(rotator, now.steady),
-                // The device tells that a rotator is outside, not on which side. It
-                // must not bar the way back.
+                // The unit reports that a rotator is outside its limits, not on which side. It
+                // must not block the way back.
                 plus_limit: false,
                 minus_limit: false,
             }
@@ -57,7 +57,7 @@ impl Genius {
     }
 }
 
-/// Where the antenna points, as far as its axes tell.
+/// The direction of the antenna, as far as its axes report it.
 fn pointing([first, second]: [Axis; 2], is_pair: bool) -> Pointing {
     let angle = |axis: Axis| axis.angle_deg.map(Angle::from_degrees);
     Pointing::of_axes(angle(first), angle(second).filter(|_| is_pair))

@@ -1,4 +1,4 @@
-//! The changes of settings, and what their answers bring about.
+//! Changes of settings, and the effects of their answers.
 
 use super::{
     Satrak,
@@ -20,8 +20,8 @@ impl Satrak {
         Doing { moves, tracks, is_auto }
     }
 
-    /// What is to be done for the change under way; `None` while there is none, or while the
-    /// unit still works on a setting.
+    /// The next step of the present change; `None` while there is none, or while the unit
+    /// still works on a setting.
     fn next_of_change(&self, now: Moment) -> Option<Next> {
         let settings_write = self.changes.under_way().filter(|_| self.slow.is_none())?;
         Some(match Plan::of(settings_write.group.key) {
@@ -30,8 +30,8 @@ impl Satrak {
         })
     }
 
-    /// The next request of the change under way. It is over when there is none
-    /// and nothing to wait for.
+    /// The next request of the present change. The change is over when there is no request and
+    /// nothing to wait for.
     pub(super) fn write_request(&mut self, now: Moment) -> Option<Request> {
         match self.next_of_change(now)? {
             Next::Send(Request::Setting(_)) if self.changes.are_locked() => {
@@ -47,7 +47,7 @@ impl Satrak {
         }
     }
 
-    /// When [`Self::write_request`] is worth a call.
+    /// When to call [`Self::write_request`] again.
     pub(super) fn write_due(&self, now: Moment) -> Option<Instant> {
         if self.slow.is_some() || self.changes.is_empty() {
             return None;

@@ -7,12 +7,11 @@ use crate::{
     protocol::satrak::{FaultKind, FaultState, Faults},
 };
 
-/// The names of the checks that are bad where the unit does not find a satellite in
-/// its file.
+/// Names of the checks that are bad when the unit does not find a satellite in its file.
 pub(super) const FILE_CHECKS: [&str; 2] =
     [name(FaultKind::TleMissing), name(FaultKind::SatelliteMissing)];
 
-/// The checks in the order of the document; of a unit that has not told any as well.
+/// The checks in the order of the document, also for a unit that has not reported any.
 pub fn checks(faults: Option<&Faults>) -> Vec<Check> {
     let check = |kind: FaultKind| {
         let told = faults.and_then(|faults| faults.state(kind));
@@ -33,7 +32,6 @@ pub fn checks(faults: Option<&Faults>) -> Vec<Check> {
     FaultKind::ALL.into_iter().map(check).collect()
 }
 
-/// What is checked.
 const fn name(kind: FaultKind) -> &'static str {
     match kind {
         FaultKind::InternalLink => "Internal link",
@@ -51,7 +49,7 @@ const fn name(kind: FaultKind) -> &'static str {
     }
 }
 
-/// What is good, or not, with it.
+/// Meaning of the check.
 fn about(kind: FaultKind) -> &'static str {
     match kind {
         FaultKind::InternalLink => "between control and drive unit",
@@ -67,7 +65,7 @@ fn about(kind: FaultKind) -> &'static str {
     }
 }
 
-/// What to do when it is not good.
+/// Advice for a bad result.
 fn advice(kind: FaultKind) -> &'static str {
     match kind {
         FaultKind::InternalLink => {

@@ -1,4 +1,4 @@
-//! What the driver asks of a Satrak.
+//! [`Device`] and [`Moves`] of a Satrak.
 
 use std::time::Duration;
 
@@ -25,7 +25,7 @@ impl Device for Satrak {
         self.state.identity = None;
         // What was wrong then may be mended.
         (self.state.checks, self.state.checked_at) = (checks(None).into(), None);
-        // What the unit goes by may be another since the last link.
+        // The unit may use other data than on the last link.
         let unit = &mut self.reported;
         (unit.clock, unit.gps, unit.gps_settings) = (None, None, None);
         (unit.settings, unit.satellite, unit.window) = (None, None, None);
@@ -61,7 +61,7 @@ impl Device for Satrak {
 
     fn receive(&mut self, bytes: &[u8], now: Moment) {
         self.decoder.push(bytes);
-        // Taken out one by one, because each one may change what is expected.
+        // One by one, because each may change what is expected next.
         while let Some(line) = self.decoder.next_line() {
             self.record_received(&line, now);
             self.take_line(line.frame, now);
@@ -117,8 +117,8 @@ impl Device for Satrak {
             outstanding.disown();
         }
         self.halts.retain(|(_, until)| *until > now.steady);
-        // STOP alone may leave the tracking switched on, and the antenna starts
-        // again by itself.
+        // STOP alone may leave the tracking switched on, and the antenna would start again by
+        // itself.
         let halts = [Halt::Stop].into_iter().chain(program.then_some(Halt::TrackOff));
         let until = now.steady + REPLY;
         self.halts.extend(halts.clone().map(|halt| (halt, until)));
@@ -171,7 +171,7 @@ impl Device for Satrak {
     }
 
     fn patience(&self) -> Duration {
-        // One question and its repetition, on top of the wait for it.
+        // A question and its repetition, on top of the wait for it.
         self.poll_period() + REPLY * 2 + DRAIN
     }
 
@@ -186,7 +186,7 @@ impl Moves for Satrak {
     }
 
     fn prepare(&mut self, target: TrackTarget) {
-        // An answer to a step of the former preparation must not move this one.
+        // An answer to a step of the former preparation must not advance this one.
         if let Some(outstanding) = &mut self.outstanding {
             outstanding.disown();
         }
@@ -201,7 +201,7 @@ impl Moves for Satrak {
     }
 
     fn start(&mut self, motion: Motion) {
-        // A newer wish replaces one that has not gone out yet.
+        // A newer request replaces one that has not gone out yet.
         self.motions.clear();
         self.motions.push_back(motion);
     }

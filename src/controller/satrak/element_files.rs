@@ -1,4 +1,4 @@
-//! How a Satrak is given files of elements.
+//! How files of elements reach a Satrak.
 
 use super::{
     ELEMENT_FILE,
@@ -10,7 +10,7 @@ use crate::{
     protocol::satrak::TextValue,
 };
 
-/// As its protocol document says, section 23 and the chapter on its server.
+/// By its protocol document, section 23 and the chapter on its server.
 pub static ELEMENT_FILES: ElementFiles = ElementFiles {
     folder: "/svs/satrak/tle",
     factory_user: "sftpsatr",

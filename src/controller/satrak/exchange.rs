@@ -1,4 +1,4 @@
-//! One request and its reply: matching, time-outs, what the reply brings about.
+//! One request and its reply: matching, time-outs, effects.
 
 use super::{DRAIN, REPLY, SLOW_REPLY, Satrak, prepare::Outcome, state::DECIMAL_COMMAS};
 use crate::{
@@ -12,26 +12,25 @@ use crate::{
     },
 };
 
-/// Why a request was sent.
+/// Reason for a request.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum Purpose {
-    /// It was due.
+    /// A poll that was due.
     Poll(Query),
-    /// The operator wants to know.
+    /// A question of the operator.
     Asked(Query),
     /// A step of putting a target on the unit.
     Prepare,
     /// A step of changing a group of settings.
     WriteSettings,
-    /// Metal is to move.
+    /// Starts a motion.
     Motion(Motion),
-    /// A program is to be switched off, without hurry.
+    /// Switches a program off, without hurry.
     Calm(Halt),
-    /// A halt has overtaken it: whatever comes is of no interest.
+    /// Overtaken by a halt: its reply does not matter.
     Disowned,
 }
 
-/// The one request that waits for its reply.
 #[derive(Debug)]
 pub(super) struct Outstanding {
     request: Request,
@@ -48,12 +47,13 @@ impl Outstanding {
         self.clock.deadline()
     }
 
-    /// When its reply is missing while metal moves.
+    /// When its reply is missing while the antenna moves.
     fn prompt_deadline(&self) -> Instant {
         self.clock.sent.steady + PROMPT
     }
 
-    /// A setting for which the unit may fetch or read a file before it answers.
+    /// Returns `true` for a setting that may make the unit fetch or read a file before it
+    /// answers.
     fn is_slow(&self) -> bool {
         let word = self.request.word();
         self.request.verb() == Verb::Set
@@ -73,14 +73,14 @@ impl Outstanding {
         matches!(self.purpose, Purpose::Motion(_))
     }
 
-    /// A halt or a newer wish came after it. Settings move nothing.
+    /// A halt or a newer request has overtaken it. Settings move nothing.
     pub(super) fn disown(&mut self) {
         if !matches!(self.purpose, Purpose::Poll(_) | Purpose::Asked(_) | Purpose::WriteSettings) {
             self.purpose = Purpose::Disowned;
         }
     }
 
-    /// It is asked again and again, and not for the second time in a row.
+    /// Returns `true` for a poll that is not the repetition of one.
     pub(super) fn is_usual_poll(&self) -> bool {
         !self.clock.is_repeated() && matches!(self.purpose, Purpose::Poll(_))
     }
@@ -96,7 +96,7 @@ impl Outstanding {
 }
 
 impl Satrak {
-    /// Takes one line of the stream.
+    /// Takes a line of the stream.
     pub(super) fn take_line(&mut self, line: Result<Frame, FrameError>, now: Moment) {
         let frame = match line {
             Ok(frame) => frame,
@@ -226,7 +226,7 @@ impl Satrak {
     fn poll_failed(&mut self, query: Query, failure: ReadFailure, now: Moment) {
         self.take_read_failure(query, failure);
         if query == Query::Faults && self.state.motion_lock.is_none() {
-            // A unit that cannot name its faults still says that there are some.
+            // A unit that cannot name its faults still reports that it has some.
             self.state.motion_lock = Some(self.reported.fault_flag);
         }
         let period = self.rates.period(self.moving());
@@ -267,7 +267,7 @@ impl Satrak {
         }
     }
 
-    /// A setting that took the unit too long.
+    /// Ends a setting that took the unit too long.
     pub(super) fn expire_slow(&mut self, now: Moment) {
         if let Some(late) = self.slow.take_if(|slow| now.steady >= slow.deadline()) {
             self.state.traffic.unanswered += 1;
@@ -276,8 +276,8 @@ impl Satrak {
         }
     }
 
-    /// A question is repeated once; anything else never: the state tells
-    /// whether it came through.
+    /// A question is repeated once; other requests never, because the state shows whether they
+    /// arrived.
     pub(super) fn expire(&mut self, now: Moment) -> Option<Vec<u8>> {
         let is_late = |sent: &mut Outstanding| now.steady >= sent.prompt_deadline();
         if let Some(late) = self.probe.take_if(is_late) {
@@ -312,7 +312,7 @@ impl Satrak {
         }
     }
 
-    /// A status may be answered by what an earlier question has brought about.
+    /// A status may answer an earlier question.
     pub(super) fn outstanding_of(
         &self,
         request: Request,
@@ -326,8 +326,7 @@ impl Satrak {
         outstanding
     }
 
-    /// While metal moves, a reply that takes its time keeps nobody from asking where it
-    /// is.
+    /// During a motion a slow reply must not delay the next position question.
     pub(super) fn begin_probe(&mut self, now: Moment) -> Option<Vec<u8>> {
         let waits = self.probe_due().is_some_and(|at| now.steady >= at);
         let drains = self.drain_until.is_some_and(|until| now.steady < until);
@@ -350,7 +349,7 @@ impl Satrak {
         if self.is_watched && sent.is_status() { sent.prompt_deadline() } else { sent.deadline() }
     }
 
-    /// Nothing else is to be asked before the reply to what was sent.
+    /// Nothing else may be asked before the reply to the present request.
     pub(super) fn is_waiting(&self) -> bool {
         self.outstanding.is_some() || self.probe.is_some()
     }
@@ -384,9 +383,8 @@ impl Satrak {
     }
 }
 
-/// The unit's form of a motion.
 pub(super) fn unit_motion(motion: Motion) -> Result<unit::Motion, ValueError> {
-    // The unit reports hundredths; more digits only hide what was asked for.
+    // The unit reports hundredths; more digits would only hide what was requested.
     let hundredths = |angle: Angle| (angle.degrees() * 100.0).round() / 100.0;
     Ok(match motion {
         Motion::Jog { x_deg_s, y_deg_s } => unit::Motion::Move(Move::new(x_deg_s, y_deg_s)?),

@@ -1,4 +1,4 @@
-//! From what a Satrak reports to what any device that tracks by itself goes by.
+//! Maps a Satrak's reports to what all units that track on board have in common.
 
 use super::reported::Reported;
 use crate::{
@@ -6,11 +6,11 @@ use crate::{
     protocol::satrak::Position,
 };
 
-/// Places are told with two decimals.
+/// Places are reported with two decimals.
 const STEP_DEG: f64 = 0.01;
 
 impl Reported {
-    /// What the unit goes by when it tracks.
+    /// The data by which the unit tracks.
     pub(super) fn on_board(&self) -> OnBoard {
         let offsets = self.settings.as_ref().map(|settings| Offsets {
             time_s: settings.time_offset_ms as f64 / 1000.0,
@@ -38,8 +38,8 @@ impl Reported {
         }
     }
 
-    /// The place that the unit uses: the one it was given, or that of its receiver.
-    /// What it uses without a fix is not documented.
+    /// The place in use: the configured one, or that of the GPS receiver. The document does
+    /// not say what the unit uses without a fix.
     fn place(&self) -> Option<Position> {
         let settings = self.gps_settings?;
         if settings.automatic {

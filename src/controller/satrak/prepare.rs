@@ -1,4 +1,4 @@
-//! Puts a target on the unit, step by step, each one read back.
+//! Puts a target on the unit step by step, reading each one back.
 
 use crate::{
     device::{PrepareError, TrackTarget},
@@ -8,31 +8,28 @@ use crate::{
     },
 };
 
-/// A target on its way to the unit.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Preparation {
     pub(super) target: TrackTarget,
     step: Step,
-    /// The satellite that the unit named last in answer to this.
+    /// The satellite in the unit's last answer.
     held: Option<Satellite>,
 }
 
-/// What is to be sent next.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Step {
-    /// Which file and satellite does the unit use now?
+    /// Asks for the file and satellite in use.
     AskSatellite,
     SetSatellite,
     ReadSatellite,
-    /// Why did it not take the satellite?
+    /// Asks why it did not take the satellite.
     AskFaults,
     SetWindow,
     ReadWindow,
 }
 
-/// How a step ended.
+/// Outcome of a step.
 pub(super) enum Outcome {
-    /// The next step is to be sent.
     Onward,
     /// The unit holds the target.
     Done,
@@ -43,8 +40,8 @@ impl Preparation {
         Self { target, step: Step::AskSatellite, held: None }
     }
 
-    /// The request of the present step. Satellites are chosen from
-    /// `element_file`; empty for the file that the unit uses already.
+    /// The request of the present step. Satellites are chosen from `element_file`, or from the
+    /// file in use if that is empty.
     pub(super) fn request(&self, element_file: &str) -> Result<Request, PrepareError> {
         Ok(match self.step {
             Step::AskSatellite | Step::ReadSatellite => Request::Query(Query::Satellite),
@@ -65,8 +62,8 @@ impl Preparation {
                     file: text("element file", file)?,
                     name: text("satellite name", &self.target.name)?,
                     period: u16::try_from(held.period).unwrap_or(1),
-                    // The unit must not swing over to another satellite before
-                    // the gate has said so.
+                    // The unit must not swing over to another satellite before the gate allows
+                    // it.
                     continue_tracking: false,
                 }))
             }
@@ -78,15 +75,15 @@ impl Preparation {
             .map_err(|error| PrepareError::CannotBeSent(error.to_string()))
     }
 
-    /// Whether the unit said on this very way that it holds the target.
+    /// Returns `true` if the unit has confirmed the target in this preparation.
     fn holds_target(&self) -> bool {
         self.held.as_ref().is_some_and(|held| {
             held.catalog_number == self.target.catalog_number && held.name == self.target.name
         })
     }
 
-    /// The present step was answered. Only what is said in answer counts: what
-    /// was read before may be about another satellite.
+    /// Takes an answer to the present step. Only answers count: earlier readings may be about
+    /// another satellite.
     pub(super) fn answered(&mut self, reply: &Reply) -> Result<Outcome, PrepareError> {
         self.step = match (self.step, reply) {
             (Step::AskSatellite, Reply::Satellite(held)) => {
@@ -96,7 +93,7 @@ impl Preparation {
             (Step::SetSatellite, Reply::Done) => Step::ReadSatellite,
             (Step::ReadSatellite, Reply::Satellite(held)) => {
                 self.held = Some(held.clone());
-                // The name may be right and the elements missing all the same.
+                // The name may be right although the elements are missing.
                 Step::AskFaults
             }
             (Step::AskFaults, Reply::Faults(faults)) => {
@@ -122,7 +119,7 @@ impl Preparation {
                 }
                 return Ok(Outcome::Done);
             }
-            // Matched by its word, so the answer to something else cannot come.
+            // Replies are matched by their word, so no other answer can come here.
             _ => return Err(PrepareError::Unanswered),
         };
         Ok(Outcome::Onward)

@@ -1,5 +1,4 @@
-//! Tells what goes over the link: lines as the decoder cuts them, each with
-//! what it answers.
+//! Records the link: lines as the decoder cuts them, each with what it answers.
 
 use std::time::Duration;
 
@@ -11,7 +10,7 @@ use crate::{
 };
 
 impl Satrak {
-    /// Frames that were written; several may stand in `bytes`.
+    /// Records written frames; `bytes` may hold several.
     pub(super) fn record_sent(&mut self, bytes: &[u8], now: Moment) {
         let mut decoder = Decoder::new();
         decoder.push(bytes);
@@ -30,7 +29,7 @@ impl Satrak {
         }
     }
 
-    /// A line that came in and has not been acted upon yet.
+    /// Records a line that was received and not acted upon yet.
     pub(super) fn record_received(&mut self, line: &Line, now: Moment) {
         let shown = line.without_secrets(!self.has_heard_frame);
         self.has_heard_frame |= !matches!(line.frame, Err(FrameError::NoHeader { .. }));
@@ -45,14 +44,14 @@ impl Satrak {
         });
     }
 
-    /// What is left of a line when its link is gone.
+    /// Records the rest of a line whose link is gone.
     pub(super) fn record_unfinished(&mut self, now: Moment) {
         if let Some(line) = self.decoder.take_unfinished() {
             self.record_received(&line, now);
         }
     }
 
-    /// Whether the line is a question that comes by itself, or its answer.
+    /// Returns `true` for a poll or its answer.
     fn polls(&self, line: &Line) -> bool {
         let Some(command) = command(line) else { return false };
         let outstanding = self.outstanding.as_ref();
@@ -79,13 +78,13 @@ fn command(line: &Line) -> Option<(Word, Verb)> {
     line.frame.as_ref().ok()?.command()
 }
 
-/// A received line of which no bytes are shown.
+/// A received line whose bytes are not shown.
 fn blank(line: &Line, now: Moment) -> WireLine {
     let length = line.length();
     WireLine { length, ..WireLine::new(Direction::Received, &[], finding(line), now.utc) }
 }
 
-/// What is said of a good line, by the bytes that are kept: secrets are not among them.
+/// Meaning of a good line, by the bytes that are kept; secrets are not among them.
 fn said(line: &Line, direction: Direction, shown: &[u8]) -> Option<Meaning> {
     line.frame.is_ok().then(|| words::meaning(direction, shown))
 }

@@ -1,28 +1,23 @@
-//! What the unit reported of itself.
+//! The unit's last reports.
 
 use crate::{
     device::UnitClock,
     protocol::satrak::{GpsData, GpsSettings, Satellite, Settings, StartStopTime},
 };
 
-/// Each part as last read. `None` means not read.
+/// Each part as last read; `None` if not read.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub(super) struct Reported {
     /// A fault or warning exists.
     pub(super) fault_flag: bool,
-    /// The unit's clock.
     pub(super) clock: Option<UnitClock>,
-    /// The GPS receiver.
     pub(super) gps: Option<GpsData>,
-    /// Whether the unit uses the place of its receiver.
+    /// Says whether the unit uses the place of its receiver.
     pub(super) gps_settings: Option<GpsSettings>,
-    /// The general settings.
     pub(super) settings: Option<Settings>,
-    /// The satellite that the unit holds.
     pub(super) satellite: Option<Satellite>,
-    /// The satellite was read after the window was seen to change: its highest
-    /// elevation is that of this window.
+    /// The satellite was read after the window had changed, so its maximum elevation belongs
+    /// to that window.
     pub(super) height_is_of_window: bool,
-    /// When it tracks.
     pub(super) window: Option<StartStopTime>,
 }

@@ -1,10 +1,10 @@
-//! Which question is due when.
+//! Decides which question is due when.
 
 use std::time::Duration;
 
 use crate::{clock::Instant, protocol::satrak::Query};
 
-/// Slower questions that are asked again and again, and how often.
+/// Slower polls and their intervals.
 const SLOW: [(Query, Duration); 7] = [
     (Query::Faults, Duration::from_secs(30)),
     (Query::Clock, Duration::from_secs(10)),
@@ -14,27 +14,27 @@ const SLOW: [(Query, Duration); 7] = [
     (Query::Settings, Duration::from_secs(30)),
     (Query::GpsSettings, Duration::from_secs(30)),
 ];
-/// While the fault flag is set, the list is read this often.
+/// Interval for the list of faults while the fault flag is set.
 const FAULTS_WHILE_SET: Duration = Duration::from_secs(5);
-/// A unit that does not know a question is not bothered with it too often.
+/// Interval for a question that the unit does not know.
 const UNKNOWN: Duration = Duration::from_mins(5);
 
-/// The questions with the time at which each is due.
+/// The questions, each with the time at which it is due.
 #[derive(Debug)]
 pub(super) struct Schedule {
     due: Vec<(Query, Instant)>,
 }
 
 impl Schedule {
-    /// Everything is due at once, in the order in which a new link is probed.
+    /// All questions, due at once, in the order in which a new link is probed.
     pub(super) fn new(now: Instant) -> Self {
         let probe = [Query::Version, Query::Status];
         let due = probe.into_iter().chain(SLOW.map(|(query, _)| query));
         Self { due: due.map(|query| (query, now)).collect() }
     }
 
-    /// The question that has been due for the longest; once a new link is probed the
-    /// position comes before all others.
+    /// The question that has been due longest. Once a new link has been probed, the position
+    /// comes before all others.
     pub(super) fn next(&self, now: Instant) -> Option<Query> {
         let is_probed = self.due.iter().all(|(query, due)| *query != Query::Version || *due > now);
         let is_due = |(query, due): &(Query, Instant)| *query == Query::Status && *due <= now;
@@ -45,23 +45,21 @@ impl Schedule {
         (*due <= now).then_some(*query)
     }
 
-    /// When the next question is due.
     pub(super) fn due(&self) -> Option<Instant> {
         self.due.iter().map(|(_, due)| *due).min()
     }
 
-    /// The question is to be asked next, before all others, also those that
-    /// have been due for longer.
+    /// Asks the question before all others, even those that have been due longer.
     pub(super) fn hurry(&mut self, query: Query, now: Instant) {
         let first = self.due().map_or(now, |due| due.min(now));
         if let Some(place) = self.due.iter().position(|(known, _)| *known == query) {
-            // Of those that are due at the same time the foremost comes first.
+            // Of those due at the same time, the foremost comes first.
             self.due.remove(place);
             self.due.insert(0, (query, first));
         }
     }
 
-    /// The question was asked and answered, or given up.
+    /// The question was answered or given up.
     pub(super) fn done(&mut self, query: Query, now: Instant, status: Duration, fault: bool) {
         let wait = match query {
             Query::Status => status,

@@ -1,5 +1,5 @@
-//! The settings of a Satrak: one description of all its groups, and the way
-//! between their values and the words of the protocol.
+//! The settings of a Satrak: one description of all its groups, with the conversion between
+//! their values and the protocol.
 
 #[cfg(test)]
 mod copy_tests;
@@ -29,7 +29,7 @@ pub(super) use times::ahead;
 pub use times::{AHEAD_S, CLOCK, FROM_GPS, FROM_THIS_PC, SET_FROM, START, STOP, WINDOW};
 pub(super) use wish::Wish;
 
-/// All groups of a unit, in the order of the forms, and how each is read and written.
+/// All groups in the order of the forms, with how each is read and written.
 static PLANS: [Plan; 13] = [
     Plan::reported(&GENERAL, Query::Settings, general::values).written(general::write),
     Plan::reported(&GPS, Query::GpsSettings, place::values).written(place::write),
@@ -66,11 +66,11 @@ static PLANS: [Plan; 13] = [
     Plan::reported(&IMAGE, Query::ImageStatus, service::image).written(service::write_image),
 ];
 
-/// A new source may be without the satellite, and switches the mode of reading.
+/// A new source may lack the satellite, and switches the reading mode.
 const SOURCE: &[Query] = &[Query::Faults, Query::Settings];
 
 /// The groups of [`PLANS`].
-// A place beyond the end does not compile here, and `get` would have to be unwrapped.
+// An index past the end does not compile here, and `get` would need an unwrap.
 #[allow(clippy::indexing_slicing)]
 pub static GROUPS: &[&Group] = &{
     let mut groups = [PLANS[0].group; PLANS.len()];
@@ -82,22 +82,20 @@ pub static GROUPS: &[&Group] = &{
     groups
 };
 
-/// How a group is read and written.
 pub(super) struct Plan {
     pub(super) group: &'static Group,
-    /// Asks for it.
     pub(super) query: Query,
-    /// Its values in the answer; `None` of any other reply.
+    /// Its values in a reply; `None` for any other reply.
     pub(super) values: fn(&Reply) -> Option<Values>,
-    /// Makes the command that changes it; `None` for what is only reported.
+    /// The command that changes it; `None` for a group that is only reported.
     pub(super) write: Option<Write>,
-    /// What else a change may have changed, or may prove wrong.
+    /// Other groups that a change may affect.
     pub(super) also: &'static [Query],
-    /// What the read-back proves wrong.
+    /// The fields that the read-back proves wrong.
     pub(super) differing: Differing,
     /// What the faults say about it.
     pub(super) judge: Judge,
-    /// The clock is told whole seconds, and not while the unit tracks by it.
+    /// The clock is set in whole seconds, and not while the unit tracks by it.
     pub(super) is_clock: bool,
 }
 
@@ -117,23 +115,21 @@ impl Plan {
         Self { write: Some(write), ..self }
     }
 
-    /// The plan of the group with this key.
     pub(super) fn of(key: &str) -> Option<&'static Self> {
         PLANS.iter().find(|plan| plan.group.key == key)
     }
 }
 
-/// The group that `query` asks for.
 pub(super) fn group_of(query: Query) -> Option<&'static Group> {
     PLANS.iter().find(|plan| plan.query == query).map(|plan| plan.group)
 }
 
-/// The group that a reply tells of, with its values.
+/// The group of a reply, with its values.
 pub(super) fn values_of(reply: &Reply) -> Option<(&'static Group, Values)> {
     PLANS.iter().find_map(|plan| Some((plan.group, (plan.values)(reply)?)))
 }
 
-/// A text that stands between commas.
+/// A text between commas.
 fn text(text: &str) -> Result<(), Unfit> {
     TextValue::new("", text).map(drop).map_err(unfit)
 }

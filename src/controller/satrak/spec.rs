@@ -12,7 +12,7 @@ use crate::{
     },
 };
 
-/// A Satrak in the station, with the factory figures of its document.
+/// With the factory figures of its document.
 pub static SPEC: ControllerSpec = ControllerSpec {
     key: "satrak",
     name: "SVS Satrak",
@@ -53,7 +53,7 @@ pub static SPEC: ControllerSpec = ControllerSpec {
     },
 };
 
-/// All units of this make can do the same.
+/// All units of this make have the same abilities.
 pub static VARIANT: Variant = Variant {
     capabilities: Capabilities {
         axes: ["X", "Y"],
@@ -67,8 +67,8 @@ pub static VARIANT: Variant = Variant {
         steps: true,
         ends_jogs: false,
         waits_for_word: false,
-        // Tenths of a degree. What is slower than half a degree a second, such as
-        // tracking, shows later, while the antenna is watched at rest.
+        // Tenths of a degree. A motion slower than half a degree a second, such as tracking,
+        // shows later, while the antenna is watched at rest.
         standstill: Standstill { resolution_deg: 0.1, slowest_deg_s: 0.5, overrun_s: 0.4 },
         stop_note: None,
     },
@@ -76,15 +76,14 @@ pub static VARIANT: Variant = Variant {
     actions: &[],
 };
 
-/// The element file on the unit from which satellites are chosen; empty for the
-/// one that the unit uses already.
+/// The element file on the unit from which satellites are chosen; empty for the file in use.
 pub static ELEMENT_FILE: Setting = Setting::new(
     Field::edit(Key::text("element_file", |_| Ok(())), "Element file on the unit"),
     || Value::Text(String::new()),
 );
 
 impl Antenna {
-    /// A Satrak at `address` with the usual figures.
+    /// A Satrak at `address` with default figures.
     pub fn satrak(name: &str, address: &str) -> Self {
         SPEC.antenna(name, address)
     }

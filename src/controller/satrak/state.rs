@@ -1,4 +1,4 @@
-//! From what a Satrak reports to the state that all antennas share.
+//! Maps a Satrak's reports to the state that all antennas share.
 
 use jiff::Timestamp;
 
@@ -16,11 +16,11 @@ use crate::{
     protocol::satrak::{AxisMotion as UnitMotion, Query, Reply, Status, TrackState},
 };
 
-/// Why a state cannot be read whose numbers fall apart at their commas.
+/// The reason for an unreadable state whose numbers break at decimal commas.
 pub(super) const DECIMAL_COMMAS: &str = "The unit seems to write decimal commas. Set it to points.";
 
 impl Satrak {
-    /// Takes over what a reply says. `asked` is when the question went out.
+    /// Takes a reply. `asked`: when the question went out.
     pub(super) fn take_report(&mut self, reply: Reply, asked: Moment, now: Moment) {
         let way = now.steady.saturating_duration_since(asked.steady) / 2;
         let measured_at = now.utc.checked_sub(way).unwrap_or(now.utc);
@@ -58,7 +58,7 @@ impl Satrak {
                 unit.satellite = Some(satellite);
                 unit.height_is_of_window = unit.window.is_some();
             }
-            // Only among the settings.
+            // These appear only among the settings.
             _ => {}
         }
         self.state.on_board = self.reported.on_board();
@@ -74,7 +74,7 @@ impl Satrak {
         state.failure = None;
     }
 
-    /// A question was refused or not answered; what was read before stays.
+    /// A question was refused or not answered; earlier readings stay.
     pub(super) fn take_read_failure(&mut self, query: Query, failure: ReadFailure) {
         if let Some(group) = group_of(query) {
             self.state.group(group.key).failure = Some(failure);
@@ -106,7 +106,7 @@ impl Satrak {
             auto: status.auto_track,
         });
         if status.fault && !self.reported.fault_flag {
-            // Which fault it is comes with the next answer.
+            // The next answer names the fault.
             self.state.motion_lock = None;
         }
         self.reported.fault_flag = status.fault;

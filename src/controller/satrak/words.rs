@@ -1,4 +1,4 @@
-//! What lines of the link say, and what can be asked by hand.
+//! Meaning of lines on the link, and the questions that can be asked by hand.
 
 use std::borrow::Cow;
 
@@ -11,7 +11,6 @@ use crate::{
     },
 };
 
-/// What can be asked.
 pub(super) fn questions() -> Vec<Question> {
     let question = |(query, word): (Query, Word)| Question {
         key: format!("{word}?").into(),
@@ -23,13 +22,12 @@ pub(super) fn questions() -> Vec<Question> {
     Query::ALL.into_iter().map(question).collect()
 }
 
-/// The query with this key.
 pub(super) fn query(key: &str) -> Option<Query> {
     let word = Word::from_name(key.strip_suffix('?')?)?;
     Query::ALL.into_iter().find(|(_, known)| *known == word).map(|(query, _)| query)
 }
 
-/// Why what was typed in capitals is not sent.
+/// Why a typed word, in capitals, is not sent.
 pub(super) fn why_no_question(text: &str) -> String {
     if text.contains(['$', '*']) {
         return "Type the word alone: header and checksum are added here.".to_owned();
@@ -47,7 +45,7 @@ pub(super) fn why_no_question(text: &str) -> String {
     }
 }
 
-/// Why a word that is not asked is not sent from here.
+/// Why a word of the protocol is not sent from here.
 const fn refusal(word: Word) -> &'static str {
     match word {
         Word::Stop => "STOP has its own button and key, which wait for nothing.",
@@ -71,7 +69,7 @@ const fn refusal(word: Word) -> &'static str {
     }
 }
 
-/// What a good line of these bytes says.
+/// Meaning of a good line with these bytes.
 pub fn meaning(direction: Direction, bytes: &[u8]) -> Meaning {
     let said = frame(bytes).map(|frame| match direction {
         Direction::Sent => unit::Meaning::of_request(&frame),

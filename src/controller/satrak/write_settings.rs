@@ -1,6 +1,5 @@
-//! Puts a group of settings on the unit and proves it: looks whether the unit
-//! still holds what the operator saw, sends, reads back, and asks what the unit
-//! makes of it.
+//! Writes a group of settings and proves it: checks that the unit still holds what the
+//! operator saw, sends, reads back, and asks the unit for faults.
 
 use super::settings::{Plan, Proof, Wish};
 use crate::{
@@ -9,33 +8,29 @@ use crate::{
     protocol::satrak::{Faults, Reply, Request},
 };
 
-/// A clock is set within this after a full second, nanoseconds.
+/// A clock is set no later than this after a full second, nanoseconds.
 const FULL_SECOND_NS: i32 = 60_000_000;
 
-/// What is to be done for a change now.
+/// The next step of a change.
 pub(super) enum Next {
-    /// This is to be sent.
     Send(Request),
-    /// Nothing before this time.
+    /// Wait until then.
     At(crate::clock::Instant),
-    /// It is over.
     Over(Result<(), WriteError>),
 }
 
-/// What the unit does while a change is to be sent.
+/// What the unit is doing while a change waits.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Doing {
     /// An axis turns, or the program that turns it is on.
     pub(super) moves: bool,
-    /// Its program is on.
     pub(super) tracks: bool,
-    /// Its program starts by itself.
     pub(super) is_auto: bool,
 }
 
 impl Doing {
-    /// Why a setting that decides where the antenna points is not sent. The gate
-    /// has let it through; what has begun since then comes first.
+    /// The reason not to send a setting that decides where the antenna points. The gate has
+    /// let it through, but something may have begun since.
     fn hindrance(self) -> Option<Hindrance> {
         match self {
             Self { tracks: true, .. } => Some(Hindrance::Tracks),
@@ -47,7 +42,7 @@ impl Doing {
 }
 
 impl Plan {
-    /// What is to be done now for a change of this group.
+    /// The next step of a change of this group.
     pub(super) fn next(&self, settings_write: &SettingsWrite, doing: Doing, now: Moment) -> Next {
         match settings_write.step() {
             Step::Look | Step::ReadBack => Next::Send(Request::Query(self.query)),
@@ -85,7 +80,7 @@ impl Plan {
         }
     }
 
-    /// The present step of a change of this group was answered. An error ends it at once.
+    /// The present step was answered. An error ends the change at once.
     pub(super) fn answered(
         &self,
         settings_write: &mut SettingsWrite,
@@ -110,7 +105,7 @@ impl Plan {
         Ok(())
     }
 
-    /// What the faults say about values that the unit holds.
+    /// What the faults say about the values that the unit holds.
     fn judged(&self, faults: Faults) -> Result<(), WriteError> {
         let objection = (self.judge)(faults);
         objection.map_or(Ok(()), |why| Err(WriteError::Useless(why.to_owned())))

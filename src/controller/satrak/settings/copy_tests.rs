@@ -1,4 +1,4 @@
-//! A copy and the unit that it is of.
+//! A copy of settings, and the unit it was made of.
 
 use super::GROUPS;
 use crate::device::settings::{

@@ -1,5 +1,4 @@
-//! General settings (sections 12 and 13). No ranges are documented: these are
-//! what makes sense.
+//! General settings (sections 12 and 13). No ranges are documented: these are sensible ones.
 
 use super::wish::{Wish, cannot};
 use crate::{
@@ -99,7 +98,7 @@ pub(super) fn values(reply: &Reply) -> Option<Values> {
     ]))
 }
 
-/// Only what changes is sent; for the rest stands the sign that keeps it.
+/// Sends only the changed values; a sign keeps each of the others.
 pub(super) fn write(wish: &Wish<'_>) -> Result<Setting, WriteError> {
     let new = wish.new;
     let change = SettingsChange {

@@ -1,4 +1,4 @@
-//! Where the unit believes to be (sections 16, 21 and 22).
+//! GPS settings: the location that the unit uses (sections 16, 21 and 22).
 
 use jiff::Timestamp;
 
@@ -66,8 +66,8 @@ fn place(position: Option<Position>) -> Values {
     ])
 }
 
-/// All three always go out: whether the place is needed on automatic is not
-/// documented.
+/// All three always go out: the document does not say whether the place is needed on
+/// automatic.
 pub(super) fn write(wish: &Wish<'_>) -> Result<Setting, WriteError> {
     let position = Position::new(wish.get(&LATITUDE_DEG)?, wish.get(&LONGITUDE_DEG)?)
         .map_err(cannot(LATITUDE_DEG.name))?;

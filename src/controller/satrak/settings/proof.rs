@@ -1,31 +1,29 @@
-//! What a read-back proves.
+//! Comparison of a read-back with a change.
 
 use crate::{
     device::settings::{Access, Field, Group, Value, Values},
     protocol::satrak::Faults,
 };
 
-/// What a group was read back with after a change.
+/// A group, as it was read back after a change.
 pub(in crate::controller::satrak) struct Proof<'a> {
-    /// The group.
     pub(in crate::controller::satrak) group: &'static Group,
-    /// What was asked for.
+    /// Requested values.
     pub(in crate::controller::satrak) new: &'a Values,
-    /// What the unit holds.
+    /// Values that the unit holds.
     pub(in crate::controller::satrak) held: &'a Values,
-    /// How far the unit's clock is ahead of ours, seconds.
+    /// How far the unit's clock is ahead of the computer's, seconds.
     pub(in crate::controller::satrak) ahead_s: Option<f64>,
 }
 
-/// The keys of the fields that do not hold what was asked for.
+/// Returns the keys of the fields that do not hold the requested value.
 pub(in crate::controller::satrak) type Differing = fn(&Proof<'_>) -> Vec<&'static str>;
 
-/// Why the unit cannot work with what it holds, in words.
+/// Returns why the unit cannot work with what it holds.
 pub(in crate::controller::satrak) type Judge = fn(Faults) -> Option<&'static str>;
 
 impl Proof<'_> {
-    /// The keys of the fields for which `is_held` says no to the new and the
-    /// held value.
+    /// The keys of the fields for which `is_held` is `false` of the new and the held value.
     pub(super) fn differing(
         &self,
         is_held: impl Fn(&Field, &Value, &Value) -> bool,
@@ -39,12 +37,12 @@ impl Proof<'_> {
     }
 }
 
-/// The new values are the held ones.
+/// The held values must equal the new ones.
 pub(super) fn plain(proof: &Proof<'_>) -> Vec<&'static str> {
     proof.differing(|field, new, held| field.kind.same(new, held))
 }
 
-/// Nothing is known that would speak against it.
+/// No fault speaks against it.
 pub(super) fn no_objection(_: Faults) -> Option<&'static str> {
     None
 }

@@ -1,4 +1,4 @@
-//! What the unit only reports (sections 1 and 17).
+//! Groups that the unit only reports (sections 1 and 17).
 
 use jiff::Timestamp;
 

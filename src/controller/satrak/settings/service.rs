@@ -107,8 +107,7 @@ pub(super) fn write_image(wish: &Wish<'_>) -> Result<Setting, WriteError> {
     Ok(Setting::LoadImage(wish.text(&FILE)?))
 }
 
-/// Where the references are taken from the present position, nobody knows them
-/// before.
+/// Where the references are taken from the present position, they are not known before.
 pub(super) fn angles_differing(proof: &Proof<'_>) -> Vec<&'static str> {
     let takes_present = REFERENCE.of(proof.new) == Some(PRESENT);
     proof.differing(|field, new, held| {

@@ -1,4 +1,4 @@
-//! The satellite and where its elements come from (sections 23 to 28).
+//! The satellite and the source of its elements (sections 23 to 28).
 
 use super::{
     proof::Proof,
@@ -17,9 +17,9 @@ const ON_ERROR: Key<i64> = Key::choice("on_error", &[(0, "Stop tracking"), (1, "
 pub const CONTINUE_TRACKING: Key<bool> = Key::flag("continue_tracking");
 const PERIOD_DAYS: Key<i64> = Key::integer("period_days", 0, 365);
 
-/// Of the group [`FILE`], and of [`FTP`].
+/// In the groups [`FILE`] and [`FTP`].
 pub const FILE_NAME: Key<String> = Key::text("file", text);
-/// Of the group [`FILE`].
+/// In the group [`FILE`].
 pub const SATELLITE_NAME: Key<String> = Key::text("name", text);
 pub const PERIOD: Key<i64> = Key::integer("period", 0, 365);
 pub const CATALOG_NUMBER: Key<i64> = Key::integer("catalog_number", 0, 999_999_999);
@@ -31,7 +31,7 @@ pub const ADDRESS: Key<String> = Key::text("address", text);
 pub const USER: Key<String> = Key::text("user", text);
 pub const PASSWORD: Key<Secret> = Key::password("password", password);
 pub const PORT: Key<i64> = Key::integer("port", 1, 65_535);
-/// Of the group [`FTP`].
+/// In the group [`FTP`].
 pub const SATELLITE: Key<String> = Key::text("satellite", text);
 
 const fn continue_tracking() -> Field {
@@ -169,7 +169,7 @@ pub(super) fn web_differing(proof: &Proof<'_>) -> Vec<&'static str> {
     })
 }
 
-/// A unit takes any name and says afterwards that it does not find it.
+/// The unit takes any name, and reports afterwards that it does not find it.
 pub(super) fn judge_file(faults: Faults) -> Option<&'static str> {
     let is_active = |kind| faults.active().any(|active| active == kind);
     if is_active(FaultKind::TleMissing) {

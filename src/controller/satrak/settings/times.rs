@@ -17,8 +17,8 @@ use crate::{
 
 /// No pass of a satellite that moves is longer, seconds.
 const LONGEST_S: i64 = 86_400;
-/// The clock of the unit is right within this, seconds: the command has no
-/// parts of a second, and the answer takes its way.
+/// Accuracy of the unit's clock, seconds: the command has no parts of a second, and the answer
+/// takes its way.
 const CLOCK_RIGHT_S: f64 = 2.0;
 
 pub const START: Key<Timestamp> = Key::time("start");
@@ -37,7 +37,7 @@ pub static WINDOW: Group = Group {
     ],
 };
 
-/// Where the unit's clock is set from.
+/// Source of the unit's clock.
 pub const FROM_THIS_PC: i64 = 0;
 /// See [`FROM_THIS_PC`].
 pub const FROM_GPS: i64 = 1;
@@ -63,13 +63,13 @@ pub(super) fn window(reply: &Reply) -> Option<Values> {
     Some(Values::from([START.with(window.start), STOP.with(window.stop)]))
 }
 
-/// How far the clock is ahead is not among them: it is known when the reply is taken over.
+/// How far the clock is ahead is not among them: that is known when the reply is taken over.
 pub(super) fn clock(reply: &Reply) -> Option<Values> {
     let Reply::Clock(clock) = reply else { return None };
     Some(Values::from([TIME.with(clock.time)]))
 }
 
-/// How far the unit's clock is ahead of ours, as it is shown.
+/// How far the unit's clock is ahead of the computer's, as it is shown.
 pub(in crate::controller::satrak) fn ahead(clock: &UnitClock) -> (&'static str, Value) {
     AHEAD_S.with((clock.ahead_s * 10.0).round() / 10.0)
 }
@@ -89,8 +89,8 @@ pub(super) fn write_window(wish: &Wish<'_>) -> Result<Setting, WriteError> {
     TrackWindow::new(start, stop).map(Setting::StartStopTime).map_err(cannot(STOP.name))
 }
 
-/// Sent just after a full second of our clock, for the command has no parts
-/// of a second.
+/// Sent just after a full second of the computer's clock, because the command has no parts of
+/// a second.
 pub(super) fn write_clock(wish: &Wish<'_>) -> Result<Setting, WriteError> {
     if wish.get(&SET_FROM).unwrap_or(FROM_THIS_PC) == FROM_GPS {
         return Ok(Setting::RtcReupdate);
@@ -99,7 +99,7 @@ pub(super) fn write_clock(wish: &Wish<'_>) -> Result<Setting, WriteError> {
     ClockTime::new(nearest).map(Setting::Time).map_err(cannot(SET_FROM.name))
 }
 
-/// GPS knows better than this computer what time it is.
+/// GPS knows the time better than this computer.
 pub(super) fn clock_differing(proof: &Proof<'_>) -> Vec<&'static str> {
     let from_gps = SET_FROM.of(proof.new) == Some(FROM_GPS);
     let is_right = proof.ahead_s.is_some_and(|ahead_s| ahead_s.abs() <= CLOCK_RIGHT_S);

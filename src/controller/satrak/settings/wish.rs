@@ -1,4 +1,4 @@
-//! What a command is made from: the changes over what the unit holds.
+//! The values that a command is made from: changes over what the unit holds.
 
 use jiff::Timestamp;
 
@@ -8,13 +8,11 @@ use crate::{
     protocol::satrak::{TextValue, ValueError},
 };
 
-/// The new values of a group over those that the unit holds.
 pub(in crate::controller::satrak) struct Wish<'a> {
-    /// What is to be changed.
     pub(in crate::controller::satrak) new: &'a Values,
-    /// What the unit holds.
+    /// Values that the unit holds.
     pub(in crate::controller::satrak) held: &'a Values,
-    /// Our UTC.
+    /// The computer's UTC.
     pub(in crate::controller::satrak) utc: Timestamp,
 }
 
@@ -23,7 +21,7 @@ impl Wish<'_> {
         key.of(self.new).or_else(|| key.of(self.held))
     }
 
-    /// A flag, off where nothing is said.
+    /// A flag; off if it is unknown.
     pub(super) fn is_on(&self, key: &Key<bool>) -> bool {
         self.find(key) == Some(true)
     }
@@ -42,7 +40,7 @@ impl Wish<'_> {
     }
 }
 
-/// What becomes of an error of the field `key`.
+/// Maps an error of the field `key`.
 pub(super) fn cannot(field: &'static str) -> impl Fn(ValueError) -> WriteError {
     move |error| WriteError::CannotBeSent { field, reason: unfit(error) }
 }
