@@ -19,6 +19,8 @@ use crate::{
 
 /// So near to the right edge names stand at the left of their marks, points.
 const FLIP: f32 = 110.0;
+/// A mark so near to the edge still has its name, points.
+const EDGE: f32 = 4.0;
 /// The selected name and that of the station stand even where they cover something.
 const ALWAYS: f32 = 1.0;
 /// A name with more of it covered is left out, 0 to 1.
@@ -56,7 +58,7 @@ pub(super) fn add(
         add_one(labels, Key::Selected(of.number()), &lines, mark, 10.0, ALWAYS);
     }
     let lines = [(model.station.name.as_str(), text::small_strong(), t.t1)];
-    if labels.bounds().contains(home) {
+    if labels.bounds().expand(EDGE).contains(home) {
         labels.add(&Label {
             key: Key::Station,
             lines: &lines,
@@ -95,7 +97,7 @@ fn add_one(
     tolerance: f32,
 ) {
     let bounds = labels.bounds();
-    if !bounds.contains(mark) {
+    if !bounds.expand(EDGE).contains(mark) {
         return;
     }
     let mut order = Side::ORDER;
