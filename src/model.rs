@@ -229,7 +229,7 @@ impl Model {
         let stands = |kind: &AlarmKind| matches!(kind, AlarmKind::StationStands(_));
         match stood {
             Some(stood) => self.alarms.raise(None, AlarmKind::StationStands(stood), self.now),
-            None => self.alarms.clear(None, stands),
+            None => self.alarms.clear(None, self.now, stands),
         }
     }
 

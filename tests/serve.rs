@@ -17,7 +17,7 @@ use azel::{
     cli::serve::{Ended, Wake, until_the_end},
     clock::Clock,
     controller::satrak::ELEMENT_FILE,
-    driver::{self, Event, Refusal},
+    driver::{self, Event, LinkLoss, Refusal},
     engine::{
         Client, Command, Handle, Settings, Snapshot,
         alarms::{Alarm, AlarmKind},
@@ -276,6 +276,29 @@ fn one_that_does_not_answer_any_more_is_named() {
 }
 
 #[test]
+fn the_alarms_of_an_antenna_go_when_it_gets_another_unit() {
+    let units = Units::start(|_| {});
+    let (running, _end, _woken) = units.open();
+    let client = running.client();
+    wait_for("the dish", || is_measured(client, "Dish"));
+    units.dish.set_fault(satrak::Fault::Silence, true);
+    let of_the_old = |told: &Snapshot| {
+        let lost = AlarmKind::LinkLost(LinkLoss::Silent);
+        told.alarms.list().iter().any(|alarm| alarm.kind == lost)
+    };
+    wait_for("the alarm", || of_the_old(&client.snapshot()).then_some(()));
+    let mut station = Station::clone(&client.snapshot().station);
+    for antenna in station.antennas.iter_mut().filter(|antenna| antenna.name == "Dish") {
+        // Nobody listens there.
+        antenna.connection.address = "127.0.0.1:9".to_owned();
+    }
+    let wanted = station.clone();
+    client.send(Command::SaveStation(Box::new(station))).unwrap();
+    wait_for("the other unit", || (*client.snapshot().station == wanted).then_some(()));
+    assert!(!of_the_old(&client.snapshot()));
+}
+
+#[test]
 fn a_second_one_drives_nothing_until_the_first_has_ended() {
     let units = Units::start(|_| {});
     let (first, _end, _woken) = units.open();
@@ -289,7 +312,7 @@ fn a_second_one_drives_nothing_until_the_first_has_ended() {
     assert_eq!(mast.moves, None);
     let told = client.snapshot();
     let says_so = |alarm: &Alarm| {
-        !alarm.cleared
+        !alarm.is_over()
             && alarm.antenna.is_none()
             && matches!(alarm.kind, AlarmKind::StationElsewhere(_))
     };
@@ -314,7 +337,7 @@ fn a_second_one_drives_nothing_until_the_first_has_ended() {
     wait_for("it takes over", || is_measured(client, "Mast"));
     let told = client.snapshot();
     let is_over =
-        |alarm: &Alarm| alarm.cleared || !matches!(alarm.kind, AlarmKind::StationElsewhere(_));
+        |alarm: &Alarm| alarm.is_over() || !matches!(alarm.kind, AlarmKind::StationElsewhere(_));
     assert!(told.alarms.list().iter().all(is_over));
 }
 

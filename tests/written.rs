@@ -10,6 +10,7 @@ use azel::{
     driver,
     engine::{
         Attention, Command, Event,
+        alarms::ShelveTime,
         closing::CloseHow,
         passes::{ListChoice, Scope},
         source_tests::{SourceOrder, TestAsk, TestedSource},
@@ -190,6 +191,9 @@ fn what_is_asked_of_a_station_comes_back() {
         Command::RefreshSources { names: vec!["weather".to_owned()], forced: true },
         Command::OpenedAlarms,
         Command::AcknowledgeAlarm(u64::MAX),
+        Command::AcknowledgeAlarms { newest: u64::MAX },
+        Command::ShelveAlarm { id: 7, time: ShelveTime::OneHour },
+        Command::UnshelveAlarm(7),
         Command::SaveSettings(ANTENNA),
         Command::CompareSettings(ANTENNA),
         Command::ReadCopy { antenna: ANTENNA, path: "/a b".into() },

@@ -250,7 +250,7 @@ impl Reporter {
 
     fn tell_alarms(&mut self, station: &Snapshot, tell: &mut dyn FnMut(&Told)) {
         let mut standing = BTreeSet::new();
-        for alarm in station.alarms.list().iter().filter(|alarm| !alarm.cleared) {
+        for alarm in station.alarms.list().iter().filter(|alarm| !alarm.is_over()) {
             standing.insert(alarm.id);
             if self.alarms.contains_key(&alarm.id) {
                 continue;

@@ -1,175 +1,119 @@
 //! Alarms: events and states that the operator must not miss.
 
+mod kind;
+mod order;
+#[cfg(test)]
+mod tests;
+
 use std::{sync::Arc, time::Duration};
 
-use jiff::Timestamp;
+use jiff::{Timestamp, tz::TimeZone};
 use serde::{Deserialize, Serialize};
 
-use super::claim::HeldBy;
-use crate::{
-    astro::Angle,
-    device::{
-        Asked, PrepareError, TrackTarget,
-        panel::{Check, CheckState},
-    },
-    driver::{Event, Found, LinkLoss, Safety, TrackProblem, Unit},
-    name::{self, Name},
-    plan::on_board::Ranked,
-    station::{AntennaId, Note, NoteReason},
+use self::kind::{explains, replaces, same_matter};
+pub use self::{
+    kind::{AlarmKind, Priority, Work, alarm_of, is_over},
+    order::Placed,
 };
+use crate::station::AntennaId;
 
-/// Maximum number of alarms. Beyond it the oldest go, seen ones first.
-const MAX: usize = 100;
+/// Maximum number of rows. Beyond it the oldest go: first those that are over and seen, then
+/// seen ones.
+const MAX: usize = 200;
 
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-pub enum Priority {
-    /// Something will go wrong or was not done.
-    Caution,
-    /// Something is wrong now.
-    Warning,
+/// State of an alarm in its life.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum AlarmState {
+    /// Its reason stands, and it was not acknowledged.
+    New,
+    /// Its reason is over, and it was not acknowledged.
+    NewAndOver { since: Timestamp },
+    /// Its reason stands; it was acknowledged.
+    Seen,
+    /// Its reason is over, and it was acknowledged.
+    Over { since: Timestamp },
+    /// It is quiet until then, whether its reason stands or comes again.
+    Shelved { until: Timestamp },
 }
 
-/// Kind of an alarm. The view puts it into words.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub enum AlarmKind {
-    /// No link to the antenna.
-    LinkLost(LinkLoss),
-    /// The antenna still moves three seconds after STOP.
-    StopNotConfirmed,
-    /// The unit refused STOP, with this code.
-    StopRefused(String),
-    /// A jog was stopped because the window or the station was too busy to renew it.
-    JogLeaseOver,
-    /// A jog was stopped because the position grew too old.
-    JogPositionOld,
-    /// The antenna has stopped, but the unit may start by itself.
-    AutoTrackStillOn,
-    /// The unit did not switch auto-track off.
-    AutoStaysOn,
-    /// The unit is locked out, but no read-back proves that it does not start by itself.
-    LockOutUnproved,
-    /// The list of locked-out units could not be read or written; in words.
-    LockOuts(String),
-    /// The unit refused a request, with this code.
-    Refused(Asked, String),
-    /// The unit did not answer a request.
-    Unanswered(Asked),
-    /// The satellite cannot be tracked on board.
-    CannotTrack(TrackTarget, PrepareError),
-    /// Program track of this target cannot begin, or cannot go on.
-    CannotProgramTrack(String, TrackProblem),
-    /// The unit tracks on board, and not where the satellite is.
-    OffTarget {
-        /// Error when it was noticed.
-        off: Angle,
-        /// The likeliest cause.
-        cause: Option<Ranked>,
-    },
-    /// By the unit's own settings it would miss a pass; with the likeliest cause.
-    UnitDiffers(Ranked),
-    /// The unit tracks on board, but its target direction is unknown here.
-    NotCompared {
-        /// Name of the satellite that the unit reports, without known elements; `None`
-        /// where it reports none.
-        satellite: Option<String>,
-    },
-    /// Tracking ended before LOS.
-    TrackingEnded,
-    /// A motion ended short of its target.
-    EndedShort,
-    /// The unit tracks without a request from this console.
-    StartedByItself,
-    /// The unit moves without a request from this console.
-    MovesByItself,
-    Safety(Safety),
-    /// A STOP is owed to a unit that belongs to no antenna of the station.
-    Owed(Unit),
-    /// The thread that talks to the antennas has not responded for this long.
-    DriverStands(Duration),
-    /// The station's thread has published nothing new for this long; the displayed state is
-    /// as old.
-    StationStands(Duration),
-    /// Another Azel of this machine has this station open: nothing can be driven from here.
-    StationElsewhere(HeldBy),
-    /// Another Azel of this machine drives this unit.
-    UnitElsewhere(HeldBy),
-    /// The Azel that drives an antenna did not confirm STOP.
-    StopNotElsewhere,
-    /// A background job of the program broke off.
-    BrokeOff(Work),
-    /// The source of elements with this name is not read: its last reading ended the
-    /// program.
-    SourceSetAside(String),
-    /// The program was too busy to take a request.
-    NotTaken,
-    /// A fault or warning that the unit names itself.
-    Check(Check),
-    /// The unit's clock is this far ahead of ours, seconds.
-    ClockOff(f64),
-    /// The unit's clock was never set.
-    ClockNotSet,
-    /// The position of the unit cannot be read, for this reason.
-    Unreadable(#[serde(deserialize_with = "name::one")] Name),
-    /// An entry of the station file was not taken over.
-    Setting(Note),
-    /// Settings could not be read, written or sent; in words.
-    Settings(String),
-    /// The elements could not be read; in words.
-    Elements(String),
-}
-
-/// Background work that can break off.
+/// How long an alarm is shelved.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
-pub enum Work {
-    Elements,
-    Passes,
+pub enum ShelveTime {
+    TenMinutes,
+    OneHour,
+    EightHours,
 }
 
-/// One entry of the alarm list.
+impl ShelveTime {
+    pub const ALL: [Self; 3] = [Self::TenMinutes, Self::OneHour, Self::EightHours];
+
+    pub fn duration(self) -> Duration {
+        let minutes = match self {
+            Self::TenMinutes => 10,
+            Self::OneHour => 60,
+            Self::EightHours => 480,
+        };
+        Duration::from_secs(60 * minutes)
+    }
+}
+
+/// One row of the alarm list: one matter of one antenna, however often it came today.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Alarm {
-    /// Unique in this station.
+    /// Unique in this station. A matter that comes again has a new one, so that nobody
+    /// acknowledges what he has not seen.
     pub id: u64,
     /// `None` where it concerns no single antenna.
     pub antenna: Option<AntennaId>,
     pub kind: AlarmKind,
-    pub time: Timestamp,
+    /// When it came first.
+    pub raised: Timestamp,
+    /// When it came last; the same as `raised` where it came once.
+    pub last: Timestamp,
+    /// How often it came.
+    pub count: u32,
     /// The operator has acknowledged the alarm.
     pub seen: bool,
-    /// The reason of the alarm is over.
-    pub cleared: bool,
+    /// When its reason was over; `None` while it stands.
+    pub over_since: Option<Timestamp>,
+    /// Quiet until then.
+    pub shelved_until: Option<Timestamp>,
 }
 
 impl Alarm {
     pub fn priority(&self) -> Priority {
-        match &self.kind {
-            AlarmKind::LinkLost(_)
-            | AlarmKind::StopNotConfirmed
-            | AlarmKind::StopRefused(_)
-            | AlarmKind::Safety(_)
-            | AlarmKind::Owed(_)
-            | AlarmKind::DriverStands(_)
-            | AlarmKind::StationStands(_)
-            | AlarmKind::StationElsewhere(_)
-            | AlarmKind::UnitElsewhere(_)
-            | AlarmKind::StopNotElsewhere
-            | AlarmKind::LockOutUnproved
-            | AlarmKind::LockOuts(_)
-            | AlarmKind::StartedByItself
-            | AlarmKind::MovesByItself
-            | AlarmKind::Unreadable(_)
-            | AlarmKind::JogPositionOld
-            | AlarmKind::OffTarget { .. }
-            | AlarmKind::Check(Check { state: CheckState::Fault, .. }) => Priority::Warning,
-            AlarmKind::Setting(Note { reason: NoteReason::DoesNotHold { .. }, .. }) => {
-                Priority::Warning
-            }
-            _ => Priority::Caution,
+        self.kind.priority()
+    }
+
+    /// Returns `true` once the reason of the alarm is over.
+    pub fn is_over(&self) -> bool {
+        self.over_since.is_some()
+    }
+
+    pub fn state(&self) -> AlarmState {
+        match (self.shelved_until, self.over_since, self.seen) {
+            (Some(until), ..) => AlarmState::Shelved { until },
+            (None, None, false) => AlarmState::New,
+            (None, Some(since), false) => AlarmState::NewAndOver { since },
+            (None, None, true) => AlarmState::Seen,
+            (None, Some(since), true) => AlarmState::Over { since },
+        }
+    }
+
+    fn is_done(&self) -> bool {
+        matches!(self.state(), AlarmState::Over { .. })
+    }
+
+    fn acknowledge(&mut self, now: Timestamp) {
+        self.seen = true;
+        if self.kind.is_momentary() {
+            self.over_since.get_or_insert(now);
         }
     }
 }
 
-/// All alarms, the newest last. Clones share the list.
+/// The alarms of the station: those that stand, those that nobody has seen, and those of this
+/// day (UTC) that are over. The newest is the last. Clones share the list.
 #[derive(Debug, Clone, Default, Serialize, Deserialize)]
 pub struct Alarms {
     list: Arc<Vec<Alarm>>,
@@ -185,10 +129,11 @@ impl Alarms {
     }
 
     /// Adds an alarm, unless the same one or one that explains it stands already. It
-    /// replaces alarms that it makes obsolete.
-    pub fn raise(&mut self, antenna: Option<AntennaId>, kind: AlarmKind, time: Timestamp) {
+    /// replaces alarms that it makes obsolete, and counts in the row of the same matter.
+    pub fn raise(&mut self, antenna: Option<AntennaId>, kind: AlarmKind, now: Timestamp) {
+        let is_same = |alarm: &Alarm| alarm.antenna == antenna && same_matter(&alarm.kind, &kind);
         if let AlarmKind::DriverStands(_) | AlarmKind::StationStands(_) = kind {
-            let same = |alarm: &Alarm| !alarm.cleared && same_matter(&alarm.kind, &kind);
+            let same = |alarm: &Alarm| !alarm.is_over() && is_same(alarm);
             // The duration grows while the alarm stands.
             if let Some(place) = self.list.iter().position(same) {
                 if let Some(standing) = Arc::make_mut(&mut self.list).get_mut(place) {
@@ -197,28 +142,39 @@ impl Alarms {
                 return;
             }
         }
-        let standing = self.list.iter().any(|alarm| {
-            !alarm.cleared
-                && alarm.antenna == antenna
-                && (same_matter(&alarm.kind, &kind) || explains(&alarm.kind, &kind))
+        let is_known = self.list.iter().any(|alarm| {
+            let same = is_same(alarm) && !kind.is_momentary();
+            let explained = alarm.antenna == antenna && explains(&alarm.kind, &kind);
+            !alarm.is_over() && (same || explained)
         });
-        if standing {
+        if is_known {
             return;
         }
+        let place = self.list.iter().position(is_same);
         let list = Arc::make_mut(&mut self.list);
+        let before = place.map(|place| list.remove(place));
         list.retain(|alarm| {
-            alarm.cleared || alarm.antenna != antenna || !replaces(&kind, &alarm.kind)
+            alarm.is_over() || alarm.antenna != antenna || !replaces(&kind, &alarm.kind)
         });
-        if list.len() >= MAX {
-            let oldest = list.iter().position(|alarm| alarm.seen).unwrap_or(0);
-            list.remove(oldest);
-        }
-        list.push(Alarm { id: self.next_id, antenna, kind, time, seen: false, cleared: false });
+        make_room(list);
+        let id = self.next_id;
         self.next_id += 1;
-        self.unopened = true;
+        let shelved_until = before.as_ref().and_then(|before| before.shelved_until);
+        list.push(Alarm {
+            id,
+            antenna,
+            kind,
+            raised: before.as_ref().map_or(now, |before| before.raised),
+            last: now,
+            count: before.map_or(1, |before| before.count.saturating_add(1)),
+            seen: shelved_until.is_some(),
+            over_since: None,
+            shelved_until,
+        });
+        self.unopened |= shelved_until.is_none();
     }
 
-    /// Removes alarms of antennas that the station no longer has.
+    /// Removes the alarms of antennas that are not among `antennas`.
     pub fn keep_only(&mut self, antennas: &[AntennaId]) {
         let is_known = |alarm: &Alarm| alarm.antenna.is_none_or(|id| antennas.contains(&id));
         if !self.list.iter().all(is_known) {
@@ -226,255 +182,98 @@ impl Alarms {
         }
     }
 
-    /// Clears the alarms of `antenna` for which `is_over` returns `true`.
-    pub fn clear(&mut self, antenna: Option<AntennaId>, is_over: impl Fn(&AlarmKind) -> bool) {
-        let ends =
-            |alarm: &Alarm| alarm.antenna == antenna && !alarm.cleared && is_over(&alarm.kind);
-        if !self.list.iter().any(ends) {
-            return;
-        }
-        let list = Arc::make_mut(&mut self.list);
-        for alarm in list.iter_mut().filter(|alarm| ends(alarm)) {
-            alarm.cleared = true;
-        }
-        // Alarms that are over and seen need not stay.
-        list.retain(|alarm| !(alarm.cleared && alarm.seen));
+    /// Ends the alarms of `antenna` for which `is_over` returns `true`.
+    pub fn clear(
+        &mut self,
+        antenna: Option<AntennaId>,
+        now: Timestamp,
+        is_over: impl Fn(&AlarmKind) -> bool,
+    ) {
+        self.change(
+            |alarm| alarm.antenna == antenna && !alarm.is_over() && is_over(&alarm.kind),
+            |alarm| alarm.over_since = Some(now),
+        );
     }
 
-    /// Marks an alarm as seen by the operator.
-    pub fn acknowledge(&mut self, id: u64) {
-        let list = Arc::make_mut(&mut self.list);
-        for alarm in list.iter_mut() {
-            if alarm.id == id {
+    /// Marks an alarm as seen by the operator. One about a moment is over with that.
+    pub fn acknowledge(&mut self, id: u64, now: Timestamp) {
+        self.change(|alarm| alarm.id == id && !alarm.seen, |alarm| alarm.acknowledge(now));
+    }
+
+    /// Marks all alarms as seen that came no later than the one with this id: one that comes
+    /// while the operator acknowledges stays new.
+    pub fn acknowledge_all(&mut self, newest: u64, now: Timestamp) {
+        self.change(|alarm| alarm.id <= newest && !alarm.seen, |alarm| alarm.acknowledge(now));
+    }
+
+    /// Keeps an alarm quiet for a time, and what comes of the same matter meanwhile. Alarms of
+    /// the first rank are not shelved.
+    pub fn shelve(&mut self, id: u64, time: ShelveTime, now: Timestamp) {
+        self.change(
+            |alarm| alarm.id == id && alarm.priority() < Priority::First,
+            |alarm| {
                 alarm.seen = true;
+                alarm.shelved_until = now.checked_add(time.duration()).ok();
+            },
+        );
+    }
+
+    /// Takes an alarm back from the shelf. It is seen, as before.
+    pub fn unshelve(&mut self, id: u64) {
+        self.change(
+            |alarm| alarm.id == id && alarm.shelved_until.is_some(),
+            |alarm| alarm.shelved_until = None,
+        );
+    }
+
+    /// Takes alarms back whose time on the shelf is up, as new where they stand, and forgets
+    /// those that were over before this day (UTC).
+    pub fn pass_time(&mut self, now: Timestamp) {
+        let is_up = |alarm: &Alarm| alarm.shelved_until.is_some_and(|until| until <= now);
+        let stands = |alarm: &Alarm| is_up(alarm) && !alarm.is_over() && !alarm.kind.is_momentary();
+        self.unopened |= self.list.iter().any(stands);
+        self.change(stands, |alarm| alarm.seen = false);
+        self.change(is_up, |alarm| {
+            alarm.shelved_until = None;
+            if alarm.seen {
+                alarm.over_since.get_or_insert(now);
             }
+        });
+        let day = |at: Timestamp| at.to_zoned(TimeZone::UTC).date();
+        let today = day(now);
+        let is_old = |alarm: &Alarm| {
+            alarm.is_done() && alarm.over_since.is_some_and(|since| day(since) < today)
+        };
+        if self.list.iter().any(is_old) {
+            Arc::make_mut(&mut self.list).retain(|alarm| !is_old(alarm));
         }
-        list.retain(|alarm| !(alarm.seen && (alarm.cleared || alarm.kind.is_momentary())));
     }
 
     /// Id of the newest unseen alarm.
     pub fn newest_unseen(&self) -> Option<u64> {
         self.list.iter().rev().find(|alarm| !alarm.seen).map(|alarm| alarm.id)
     }
-}
 
-impl AlarmKind {
-    /// Returns `true` for an alarm about a moment rather than about a lasting state.
-    fn is_momentary(&self) -> bool {
-        !matches!(
-            self,
-            Self::LinkLost(_)
-                | Self::StopNotConfirmed
-                | Self::Safety(Safety::LeftMoving { asks: true, .. } | Safety::SilentInMotion)
-                | Self::Owed(_)
-                | Self::DriverStands(_)
-                | Self::StationStands(_)
-                | Self::StationElsewhere(_)
-                | Self::UnitElsewhere(_)
-                | Self::BrokeOff(_)
-                | Self::SourceSetAside(_)
-                | Self::LockOutUnproved
-                | Self::LockOuts(_)
-                | Self::Check(_)
-                | Self::ClockOff(_)
-                | Self::OffTarget { .. }
-                | Self::UnitDiffers(_)
-                | Self::NotCompared { .. }
-                | Self::ClockNotSet
-                | Self::Unreadable(_)
-                | Self::Setting(_)
-                | Self::Settings(_)
-                | Self::Elements(_)
-        )
-    }
-}
-
-/// Compares two alarms, ignoring figures that change while the matter stays.
-fn same_matter(a: &AlarmKind, b: &AlarmKind) -> bool {
-    match (a, b) {
-        (AlarmKind::ClockOff(_), AlarmKind::ClockOff(_))
-        | (AlarmKind::LinkLost(_), AlarmKind::LinkLost(_))
-        | (AlarmKind::DriverStands(_), AlarmKind::DriverStands(_))
-        | (AlarmKind::StationStands(_), AlarmKind::StationStands(_))
-        | (AlarmKind::StationElsewhere(_), AlarmKind::StationElsewhere(_))
-        | (AlarmKind::UnitElsewhere(_), AlarmKind::UnitElsewhere(_))
-        | (AlarmKind::OffTarget { .. }, AlarmKind::OffTarget { .. }) => true,
-        (AlarmKind::Check(a), AlarmKind::Check(b)) => a.name == b.name && a.state == b.state,
-        (AlarmKind::UnitDiffers(a), AlarmKind::UnitDiffers(b)) => {
-            std::mem::discriminant(&a.cause) == std::mem::discriminant(&b.cause)
-        }
-        _ => a == b,
-    }
-}
-
-/// Returns `true` if `cause` says all that `effect` says, and why.
-fn explains(cause: &AlarmKind, effect: &AlarmKind) -> bool {
-    matches!(
-        (cause, effect),
-        (AlarmKind::Unreadable(_), AlarmKind::LinkLost(LinkLoss::Unreadable))
-            | (AlarmKind::Safety(Safety::SilentInMotion), AlarmKind::LinkLost(_))
-    )
-}
-
-/// Returns `true` if `news` says more than `standing`: a unit whose position cannot be read
-/// does answer, and a silent one that moves matters more than its link.
-fn replaces(news: &AlarmKind, standing: &AlarmKind) -> bool {
-    matches!(
-        (news, standing),
-        (
-            AlarmKind::Unreadable(_) | AlarmKind::Safety(Safety::SilentInMotion),
-            AlarmKind::LinkLost(_)
-        )
-    )
-}
-
-/// Returns `true` if the check behind an alarm is over by now: it is gone, or has another
-/// state. A unit that does not report it may still have the fault.
-pub fn is_over(raised: &Check, now: &[Check]) -> bool {
-    let same = now.iter().find(|check| check.name == raised.name);
-    same.is_none_or(|check| check.state != raised.state && check.state != CheckState::Unknown)
-}
-
-/// The alarm that an event calls for, if any.
-pub fn alarm_of(event: &Event) -> Option<AlarmKind> {
-    Some(match event.clone() {
-        Event::LinkLost(loss) => AlarmKind::LinkLost(loss),
-        Event::StopNotConfirmed => AlarmKind::StopNotConfirmed,
-        Event::StopRefused(code) => AlarmKind::StopRefused(code),
-        // `StoppedByFlags` is shown where the motion was asked for; many antennas have such
-        // an axis. The other two stand for as long as the snapshot says so.
-        Event::Safety(matter)
-            if !matches!(
-                matter,
-                Safety::StoppedByFlags { .. }
-                    | Safety::LeftMoving { asks: true, .. }
-                    | Safety::SilentInMotion
-            ) =>
-        {
-            AlarmKind::Safety(matter)
-        }
-        Event::JogLeaseOver => AlarmKind::JogLeaseOver,
-        Event::JogPositionOld => AlarmKind::JogPositionOld,
-        Event::AutoTrackStillOn => AlarmKind::AutoTrackStillOn,
-        Event::AutoStaysOn => AlarmKind::AutoStaysOn,
-        Event::LockOutUnproved => AlarmKind::LockOutUnproved,
-        Event::Refused(asked, code) => AlarmKind::Refused(asked, code),
-        Event::Unanswered(asked) => AlarmKind::Unanswered(asked),
-        Event::CannotTrack(target, reason) => AlarmKind::CannotTrack(target, reason),
-        Event::CannotProgramTrack(name, problem) => AlarmKind::CannotProgramTrack(name, problem),
-        Event::TrackingEnded { completed: false } => AlarmKind::TrackingEnded,
-        Event::EndedShort { .. } => AlarmKind::EndedShort,
-        Event::StartedByItself | Event::Connected(Found::Tracking) => AlarmKind::StartedByItself,
-        Event::Connected(Found::Moving) => AlarmKind::MovesByItself,
-        Event::TrackingEnded { completed: true }
-        | Event::Connected(Found::Still)
-        | Event::Back { .. }
-        | Event::NotSent(_)
-        | Event::Safety(_)
-        | Event::WouldMiss { .. }
-        | Event::Tracking(_)
-        | Event::Awaits { .. }
-        | Event::ProgramTracks(_)
-        | Event::ProgramTrackOver { .. }
-        | Event::Arrived(_)
-        | Event::Stopped => return None,
-    })
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    const COMMAS: AlarmKind = AlarmKind::Unreadable("Decimal commas.");
-
-    fn time() -> Timestamp {
-        "2026-08-12T00:00:00Z".parse().unwrap()
-    }
-
-    #[test]
-    fn the_same_matter_stands_once_and_comes_again_after_it_was_over() {
-        let mut alarms = Alarms::default();
-        alarms.raise(Some(AntennaId::FIRST), AlarmKind::ClockOff(1.5), time());
-        alarms.raise(Some(AntennaId::FIRST), AlarmKind::ClockOff(1.6), time());
-        alarms.raise(Some(AntennaId(2)), AlarmKind::ClockOff(1.6), time());
-        assert_eq!(alarms.list().len(), 2);
-        alarms.clear(Some(AntennaId::FIRST), |kind| matches!(kind, AlarmKind::ClockOff(_)));
-        alarms.raise(Some(AntennaId::FIRST), AlarmKind::ClockOff(2.0), time());
-        assert_eq!(alarms.list().len(), 3);
-    }
-
-    #[test]
-    fn a_driver_that_goes_on_standing_is_one_alarm_whose_figure_grows() {
-        let mut alarms = Alarms::default();
-        for seconds in 1..4 {
-            alarms.raise(None, AlarmKind::DriverStands(Duration::from_secs(seconds)), time());
-        }
-        let kinds: Vec<&AlarmKind> = alarms.list().iter().map(|alarm| &alarm.kind).collect();
-        assert_eq!(kinds, [&AlarmKind::DriverStands(Duration::from_secs(3))]);
-    }
-
-    #[test]
-    fn an_alarm_stays_until_it_is_seen_and_over() {
-        let mut alarms = Alarms::default();
-        alarms.raise(None, AlarmKind::StopNotConfirmed, time());
-        let id = alarms.newest_unseen().unwrap();
-        alarms.acknowledge(id);
-        assert_eq!(alarms.list().len(), 1, "still moving");
-        alarms.clear(None, |_| true);
-        assert_eq!(alarms.list(), []);
-        alarms.raise(None, AlarmKind::AutoTrackStillOn, time());
-        alarms.acknowledge(alarms.newest_unseen().unwrap());
-        assert_eq!(alarms.list(), [], "a moment is over when seen");
-    }
-
-    #[test]
-    fn a_unit_that_writes_decimal_commas_raises_one_alarm() {
-        let unreadable = AlarmKind::LinkLost(LinkLoss::Unreadable);
-        let orders = [
-            [unreadable.clone(), COMMAS],
-            [AlarmKind::LinkLost(LinkLoss::Silent), COMMAS],
-            [COMMAS, unreadable.clone()],
-        ];
-        for order in orders {
-            let mut alarms = Alarms::default();
-            for kind in order {
-                alarms.raise(Some(AntennaId::FIRST), kind, time());
-            }
-            let kinds: Vec<&AlarmKind> = alarms.list().iter().map(|alarm| &alarm.kind).collect();
-            assert_eq!(kinds, [&COMMAS]);
-            alarms.raise(Some(AntennaId(2)), unreadable.clone(), time());
-            alarms.raise(Some(AntennaId::FIRST), AlarmKind::LinkLost(LinkLoss::Closed), time());
-            assert_eq!(alarms.list().len(), 3, "another antenna, another loss");
+    /// Changes the alarms for which `wanted` returns `true`. The list stays shared if there
+    /// are none.
+    fn change(&mut self, wanted: impl Fn(&Alarm) -> bool, change: impl Fn(&mut Alarm)) {
+        if self.list.iter().any(&wanted) {
+            let list = Arc::make_mut(&mut self.list);
+            list.iter_mut().filter(|alarm| wanted(alarm)).for_each(change);
         }
     }
+}
 
-    #[test]
-    fn a_check_is_over_when_it_is_told_to_be_good_or_worse() {
-        let check = |name, state| Check::new(name, state, "Look at it.");
-        let raised = check("Drive", CheckState::Caution);
-        assert!(!is_over(&raised, std::slice::from_ref(&raised)));
-        assert!(!is_over(&raised, &[check("Drive", CheckState::Unknown)]));
-        assert!(is_over(&raised, &[check("Drive", CheckState::Good)]));
-        assert!(is_over(&raised, &[check("Drive", CheckState::Fault)]));
-        assert!(is_over(&raised, &[check("Clock", CheckState::Caution)]));
+/// Removes the row that is missed least, where the list is full.
+fn make_room(list: &mut Vec<Alarm>) {
+    if list.len() < MAX {
+        return;
     }
-
-    #[test]
-    fn a_check_that_is_told_in_other_words_is_the_same_matter() {
-        let check = Check::new("X position sensor", CheckState::Fault, "Look at it.");
-        let told = Check { told: "Not connected".into(), ..check.clone() };
-        let mut alarms = Alarms::default();
-        alarms.raise(Some(AntennaId::FIRST), AlarmKind::Check(check), time());
-        alarms.raise(Some(AntennaId::FIRST), AlarmKind::Check(told), time());
-        assert_eq!(alarms.list().len(), 1);
-    }
-
-    #[test]
-    fn the_list_is_bounded() {
-        let mut alarms = Alarms::default();
-        for number in 0..1000_u32 {
-            alarms.raise(None, AlarmKind::Settings(number.to_string()), time());
-        }
-        assert_eq!(alarms.list().len(), MAX);
-    }
+    let oldest = list
+        .iter()
+        .position(Alarm::is_done)
+        .or_else(|| list.iter().position(|alarm| alarm.seen))
+        .or_else(|| list.iter().position(|alarm| alarm.priority() < Priority::First))
+        .unwrap_or(0);
+    list.remove(oldest);
 }

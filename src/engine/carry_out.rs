@@ -71,7 +71,12 @@ impl Engine {
                 self.begin_elements(Task { list: None, ask: names, forced });
             }
             Command::OpenedAlarms => self.alarms.unopened = false,
-            Command::AcknowledgeAlarm(id) => self.alarms.acknowledge(id),
+            Command::AcknowledgeAlarm(id) => self.alarms.acknowledge(id, self.now),
+            Command::AcknowledgeAlarms { newest } => {
+                self.alarms.acknowledge_all(newest, self.now);
+            }
+            Command::ShelveAlarm { id, time } => self.alarms.shelve(id, time, self.now),
+            Command::UnshelveAlarm(id) => self.alarms.unshelve(id),
             Command::SaveStation(station) => self.save_station(*station),
             Command::TestSource(ask) => self.source_desk.ask(ask, &mut self.source_tests),
             Command::Upload(ask) => self.ask_about_upload(ask),
@@ -141,7 +146,7 @@ impl Engine {
             // The operator vouches for standstill, whatever the unit reports.
             driver::Command::SeenStanding => {
                 let alarms = &mut self.alarms;
-                alarms.clear(of, |kind| *kind == AlarmKind::StopNotConfirmed);
+                alarms.clear(of, self.now, |kind| *kind == AlarmKind::StopNotConfirmed);
             }
             _ => {}
         }
@@ -232,7 +237,7 @@ impl Engine {
         };
         match saved {
             Ok(()) => {
-                self.alarms.clear(None, |kind| {
+                self.alarms.clear(None, self.now, |kind| {
                     matches!(kind, AlarmKind::Settings(_) | AlarmKind::Setting(_))
                 });
                 let demo = self.demo.take();
@@ -249,7 +254,7 @@ impl Engine {
                     // The demonstration goes on by itself.
                     self.station_claim = StationClaim::None;
                     let is_told = |kind: &AlarmKind| matches!(kind, AlarmKind::StationElsewhere(_));
-                    self.alarms.clear(None, is_told);
+                    self.alarms.clear(None, self.now, is_told);
                 }
                 tracing::error!("{text}");
                 self.tell(Event::Saved(Err(text.clone())));

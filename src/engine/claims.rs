@@ -54,7 +54,8 @@ impl Engine {
                     self.tell_unclaimed(what, &error);
                 }
                 self.station_claim = StationClaim::Ours { _claim: claim };
-                self.alarms.clear(None, |kind| matches!(kind, AlarmKind::StationElsewhere(_)));
+                self.alarms
+                    .clear(None, self.now, |kind| matches!(kind, AlarmKind::StationElsewhere(_)));
             }
             Err(Unclaimed::Held(by)) => {
                 self.alarms.raise(None, AlarmKind::StationElsewhere(by.clone()), self.now);
@@ -146,7 +147,7 @@ impl Engine {
             if let Some(antenna) = self.antennas.get_mut(index) {
                 *antenna = opened;
             }
-            self.alarms.clear(of, |kind| matches!(kind, AlarmKind::UnitElsewhere(_)));
+            self.alarms.clear(of, self.now, |kind| matches!(kind, AlarmKind::UnitElsewhere(_)));
             self.publish();
         }
     }

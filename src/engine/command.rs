@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use serde::{Deserialize, Serialize};
 
 use super::{
+    alarms::ShelveTime,
     closing::CloseHow,
     passes::{ListChoice, PassKey, Scope},
     source_tests::TestAsk,
@@ -60,6 +61,17 @@ pub enum Command {
     OpenedAlarms,
     /// The operator has seen this alarm.
     AcknowledgeAlarm(u64),
+    /// The operator has seen all alarms up to the one with this id.
+    AcknowledgeAlarms {
+        newest: u64,
+    },
+    /// Keep this alarm quiet for a time; refused for the first rank.
+    ShelveAlarm {
+        id: u64,
+        time: ShelveTime,
+    },
+    /// Take this alarm back from the shelf.
+    UnshelveAlarm(u64),
     /// Save the settings that were read from this antenna's unit.
     SaveSettings(AntennaId),
     /// Compare the settings of this antenna's unit with a file.

@@ -66,7 +66,7 @@ impl Engine {
             None => Err("this user has no folder for settings".to_owned()),
         };
         let now = self.now;
-        self.alarms.clear(None, |kind| matches!(kind, AlarmKind::LockOuts(_)));
+        self.alarms.clear(None, self.now, |kind| matches!(kind, AlarmKind::LockOuts(_)));
         if let Err(why) = saved {
             tracing::error!("{why}");
             let text = format!("what is locked out is not kept for the next start: {why}");

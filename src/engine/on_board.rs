@@ -172,17 +172,17 @@ impl Engine {
         });
         match missed {
             Some(kind) => alarms.raise(of, kind, now),
-            None => alarms.clear(of, |kind| matches!(kind, AlarmKind::OffTarget { .. })),
+            None => alarms.clear(of, now, |kind| matches!(kind, AlarmKind::OffTarget { .. })),
         }
         let differs = antenna.misses().and_then(|found| found.causes.first().cloned());
         match differs {
             Some(cause) => alarms.raise(of, AlarmKind::UnitDiffers(cause), now),
-            None => alarms.clear(of, |kind| matches!(kind, AlarmKind::UnitDiffers(_))),
+            None => alarms.clear(of, now, |kind| matches!(kind, AlarmKind::UnitDiffers(_))),
         }
         let is_loading = matches!(self.catalog, CatalogState::Loading);
         match antenna.not_compared().filter(|_| !is_loading) {
             Some(kind) => alarms.raise(of, kind, now),
-            None => alarms.clear(of, |kind| matches!(kind, AlarmKind::NotCompared { .. })),
+            None => alarms.clear(of, now, |kind| matches!(kind, AlarmKind::NotCompared { .. })),
         }
     }
 }

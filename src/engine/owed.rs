@@ -20,7 +20,11 @@ pub(super) fn strangers<'a>(
 
 /// Raises an alarm for each of `strangers`, and clears those whose STOP is paid.
 pub(super) fn tell(alarms: &mut Alarms, strangers: Vec<Unit>, now: Timestamp) {
-    alarms.clear(None, |kind| matches!(kind, AlarmKind::Owed(unit) if !strangers.contains(unit)));
+    alarms.clear(
+        None,
+        now,
+        |kind| matches!(kind, AlarmKind::Owed(unit) if !strangers.contains(unit)),
+    );
     for unit in strangers {
         alarms.raise(None, AlarmKind::Owed(unit), now);
     }
@@ -32,7 +36,7 @@ mod tests {
     use crate::ui::words;
 
     fn standing(alarms: &Alarms) -> Vec<String> {
-        let list = alarms.list().iter().filter(|alarm| !alarm.cleared);
+        let list = alarms.list().iter().filter(|alarm| !alarm.is_over());
         list.map(|alarm| words::alarm(&alarm.kind, "")).collect()
     }
 

@@ -36,6 +36,7 @@ impl Engine {
         let antennas = self.antennas.iter().map(|antenna| &antenna.shown.config);
         let strangers = owed::strangers(self.driver.debts().units(), antennas);
         owed::tell(&mut self.alarms, strangers, self.now);
+        self.alarms.pass_time(self.now);
         self.forget_tracks();
         self.watch_closing();
         self.poll_uploads();
@@ -51,7 +52,7 @@ impl Engine {
         if self.searches.broke_off() {
             self.alarms.raise(None, kind, self.now);
         } else {
-            self.alarms.clear(None, |known| *known == kind);
+            self.alarms.clear(None, self.now, |known| *known == kind);
         }
     }
 
@@ -61,7 +62,8 @@ impl Engine {
                 self.alarms.raise(None, AlarmKind::DriverStands(stood), self.now);
             }
             None => {
-                self.alarms.clear(None, |kind| matches!(kind, AlarmKind::DriverStands(_)));
+                self.alarms
+                    .clear(None, self.now, |kind| matches!(kind, AlarmKind::DriverStands(_)));
             }
         }
     }
@@ -81,7 +83,7 @@ impl Engine {
             return;
         };
         self.elements_broke_off = false;
-        alarms.clear(None, |kind| {
+        alarms.clear(None, now, |kind| {
             matches!(
                 kind,
                 AlarmKind::Elements(_)
@@ -148,10 +150,10 @@ impl Engine {
         let antenna = Some(id);
         match &event {
             Event::Back { .. } | Event::Connected(_) => {
-                self.alarms.clear(antenna, |kind| matches!(kind, AlarmKind::LinkLost(_)));
+                self.alarms.clear(antenna, self.now, |kind| matches!(kind, AlarmKind::LinkLost(_)));
             }
             Event::Stopped => {
-                self.alarms.clear(antenna, |kind| *kind == AlarmKind::StopNotConfirmed);
+                self.alarms.clear(antenna, self.now, |kind| *kind == AlarmKind::StopNotConfirmed);
             }
             _ => {}
         }
@@ -185,14 +187,14 @@ impl Engine {
         if snapshot.stop == StopState::Ready
             && snapshot.state.measured.is_some_and(|measured| !measured.moving())
         {
-            alarms.clear(of, |kind| *kind == AlarmKind::StopNotConfirmed);
+            alarms.clear(of, now, |kind| *kind == AlarmKind::StopNotConfirmed);
         }
         match snapshot.left_moving {
             Some(since) => {
                 let matter = Safety::LeftMoving { since, asks: true };
                 alarms.raise(of, AlarmKind::Safety(matter), now);
             }
-            None => alarms.clear(of, |kind| {
+            None => alarms.clear(of, now, |kind| {
                 matches!(kind, AlarmKind::Safety(Safety::LeftMoving { asks: true, .. }))
             }),
         }
@@ -200,37 +202,43 @@ impl Engine {
         if snapshot.silent {
             alarms.raise(of, silent, now);
         } else {
-            alarms.clear(of, |kind| *kind == silent);
+            alarms.clear(of, now, |kind| *kind == silent);
         }
         if !snapshot.locking {
-            alarms.clear(of, |kind| *kind == AlarmKind::LockOutUnproved);
+            alarms.clear(of, now, |kind| *kind == AlarmKind::LockOutUnproved);
         }
         let checks = &snapshot.state.checks;
         if snapshot.link == LinkState::Off {
             // No such alarms are wanted while the unit is left to others.
-            alarms.clear(of, |kind| matches!(kind, AlarmKind::LinkLost(_) | AlarmKind::Check(_)));
+            alarms.clear(of, now, |kind| {
+                matches!(kind, AlarmKind::LinkLost(_) | AlarmKind::Check(_))
+            });
         } else {
             for check in checks.iter() {
                 if matches!(check.state, CheckState::Caution | CheckState::Fault) {
                     alarms.raise(of, AlarmKind::Check(check.clone()), now);
                 }
             }
-            alarms.clear(of, |kind| matches!(kind, AlarmKind::Check(old) if is_over(old, checks)));
+            alarms.clear(
+                of,
+                now,
+                |kind| matches!(kind, AlarmKind::Check(old) if is_over(old, checks)),
+            );
         }
         if let Some(why) = snapshot.state.unreadable {
             alarms.raise(of, AlarmKind::Unreadable(why), now);
         } else {
-            alarms.clear(of, |kind| matches!(kind, AlarmKind::Unreadable(_)));
+            alarms.clear(of, now, |kind| matches!(kind, AlarmKind::Unreadable(_)));
         }
         if let Some(clock) = snapshot.state.on_board.clock {
             let off = clock.is_set && clock.ahead_s.abs() > CLOCK_OFF_S;
             if off {
                 alarms.raise(of, AlarmKind::ClockOff(clock.ahead_s), now);
             } else {
-                alarms.clear(of, |kind| matches!(kind, AlarmKind::ClockOff(_)));
+                alarms.clear(of, now, |kind| matches!(kind, AlarmKind::ClockOff(_)));
             }
             if clock.is_set {
-                alarms.clear(of, |kind| *kind == AlarmKind::ClockNotSet);
+                alarms.clear(of, now, |kind| *kind == AlarmKind::ClockNotSet);
             } else {
                 alarms.raise(of, AlarmKind::ClockNotSet, now);
             }

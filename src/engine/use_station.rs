@@ -54,6 +54,14 @@ impl Engine {
     pub(super) fn use_station(&mut self, station: Station) {
         self.keep_locked_out(&station.antennas);
         let mut before = std::mem::take(&mut self.antennas);
+        // The alarms of a unit end with it; a STOP that it is owed is an alarm of its own.
+        let is_same = |new: &&station::Antenna| {
+            let known = before.iter().find(|antenna| antenna.shown.id() == new.id);
+            known.is_some_and(|known| Unit::of(&known.shown.config) == Unit::of(new))
+        };
+        let same: Vec<AntennaId> =
+            station.antennas.iter().filter(is_same).map(|antenna| antenna.id).collect();
+        self.alarms.keep_only(&same);
         // The antenna may be the same one at a new address: then both units are owed a
         // STOP.
         let debts = self.driver.debts().clone();
@@ -82,8 +90,6 @@ impl Engine {
             self.antennas.push(antenna);
         }
         self.station = Arc::new(station);
-        let ids: Vec<AntennaId> = self.antennas.iter().map(|of| of.shown.id()).collect();
-        self.alarms.keep_only(&ids);
         // From now on STOP reaches the new sessions.
         self.publish();
     }

@@ -7,7 +7,7 @@ use super::{
     format, state_sentence, top_bar,
     top_bar::{ClockHealth, ClockModel, ClockMood, TopBarModel},
     widgets::{
-        alarm_list::{AlarmModel, AlarmRow, AlarmState},
+        alarm_list::{AlarmModel, AlarmRow, Section},
         link_chip::{ChipModel, LinkGlyph},
         stop_button::StopLook,
     },
@@ -16,9 +16,13 @@ use super::{
 use crate::{
     device::Phase,
     driver::{LinkState, StopState, TimeSync},
-    engine::{alarms::AlarmKind, antenna::AntennaModel},
+    engine::{
+        alarms::{Alarm, AlarmKind, Placed},
+        antenna::AntennaModel,
+    },
     model::{Model, UiCommand},
     plan::Barrier,
+    station::AntennaId,
 };
 
 pub fn show(ui: &mut Ui, rect: Rect, model: &Model, commands: &mut Vec<UiCommand>) {
@@ -45,40 +49,8 @@ pub fn show(ui: &mut Ui, rect: Rect, model: &Model, commands: &mut Vec<UiCommand
         })
         .collect();
 
-    let texts: Vec<(String, String)> = model
-        .alarms
-        .list()
-        .iter()
-        .map(|alarm| {
-            let antenna = alarm.antenna.and_then(|id| model.antenna_of(id));
-            let name = antenna.map_or("Azel", |antenna| antenna.config.name.as_str());
-            let reason = barrier_of(&alarm.kind).map(|of| words::reason(of, &model.station));
-            let text = words::alarm(&alarm.kind, name) + &reason.unwrap_or_default();
-            (text, format::time_z(alarm.time))
-        })
-        .collect();
-    let rows: Vec<AlarmRow<'_>> = model
-        .alarms
-        .list()
-        .iter()
-        .zip(&texts)
-        .rev()
-        .map(|(alarm, (text, time))| AlarmRow {
-            id: alarm.id,
-            priority: alarm.priority(),
-            state: match (alarm.cleared, alarm.seen) {
-                (true, true) => AlarmState::Cleared,
-                (_, false) => AlarmState::New,
-                (false, true) => AlarmState::Seen,
-            },
-            text,
-            time,
-            moves_away: alarm.antenna.filter(|id| {
-                let antenna = model.antenna_of(*id);
-                !alarm.cleared && antenna.is_some_and(|of| is_left_to_the_sun(&alarm.kind, of))
-            }),
-        })
-        .collect();
+    let told: Vec<ToldAlarm<'_>> = told_alarms(model);
+    let rows: Vec<AlarmRow<'_>> = told.iter().map(ToldAlarm::row).collect();
 
     let unproved = unproved_stop(model);
     let left_out = left_out_of_stop(model);
@@ -99,6 +71,59 @@ pub fn show(ui: &mut Ui, rect: Rect, model: &Model, commands: &mut Vec<UiCommand
         stop_left_out: &left_out,
     };
     commands.extend(top_bar::show(ui, rect, &bar));
+}
+
+/// An alarm in words.
+struct ToldAlarm<'a> {
+    alarm: &'a Alarm,
+    /// It follows from an alarm above it.
+    follows: bool,
+    text: String,
+    time: String,
+    state: String,
+    moves_away: Option<AntennaId>,
+}
+
+impl ToldAlarm<'_> {
+    fn row(&self) -> AlarmRow<'_> {
+        AlarmRow {
+            id: self.alarm.id,
+            priority: self.alarm.priority(),
+            state: self.alarm.state(),
+            follows: self.follows,
+            text: &self.text,
+            time: &self.time,
+            state_words: &self.state,
+            moves_away: self.moves_away,
+        }
+    }
+}
+
+/// The alarms in the order of the list: those that stand or are new, the shelved ones, and those
+/// that are over and seen.
+fn told_alarms(model: &Model) -> Vec<ToldAlarm<'_>> {
+    let mut placed = model.alarms.in_order();
+    placed.sort_by_key(|placed| Section::of(placed.alarm.state()));
+    let section_of = |id: u64| {
+        let alarm = placed.iter().find(|placed| placed.alarm.id == id);
+        alarm.map(|placed| Section::of(placed.alarm.state()))
+    };
+    let tell = |Placed { alarm, follows }| {
+        let antenna = alarm.antenna.and_then(|id| model.antenna_of(id));
+        let name = antenna.map_or("Azel", |antenna| antenna.config.name.as_str());
+        let reason = barrier_of(&alarm.kind).map(|of| words::reason(of, &model.station));
+        ToldAlarm {
+            alarm,
+            follows: follows.and_then(section_of) == Some(Section::of(alarm.state())),
+            text: words::alarm(&alarm.kind, name) + &reason.unwrap_or_default(),
+            time: words::alarm_times(alarm, model.now),
+            state: words::alarm_state(alarm.state(), model.now),
+            moves_away: alarm.antenna.filter(|_| {
+                !alarm.is_over() && antenna.is_some_and(|of| is_left_to_the_sun(&alarm.kind, of))
+            }),
+        }
+    };
+    placed.iter().copied().map(tell).collect()
 }
 
 /// The barrier that an alarm is about.

@@ -62,6 +62,8 @@ pub enum Icon {
     Pencil,
     /// Shows what is hidden.
     Eye,
+    /// Put off until a time.
+    Clock,
 }
 
 /// Paints an icon in one colour, scaled so that its grid fills `rect`.
@@ -80,7 +82,7 @@ mod tests {
     use super::*;
     use egui::{Sense, vec2};
 
-    const ALL: [Icon; 26] = [
+    const ALL: [Icon; 27] = [
         Icon::Octagon,
         Icon::Bell,
         Icon::Warning,
@@ -107,6 +109,7 @@ mod tests {
         Icon::Search,
         Icon::Pencil,
         Icon::Eye,
+        Icon::Clock,
     ];
 
     #[test]

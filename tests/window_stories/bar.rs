@@ -6,13 +6,14 @@ use azel::{
     device::{Asked, Motion},
     driver::{Intent, LinkLoss, LinkState, Snapshot, StopState},
     engine,
-    engine::alarms::{AlarmKind, Work},
+    engine::alarms::{AlarmKind, ShelveTime, Work},
     model::{ThemeName, UiCommand},
     station::{AntennaId, Note, NoteReason},
-    ui::{theme, words},
+    ui::{format, theme, words},
 };
 use egui::{Key, Modifiers, Role};
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
+use jiff::ToSpan as _;
 
 use crate::window_stories::{
     rig::{self, SIZES, Window, asked, says, settle},
@@ -27,8 +28,15 @@ fn carry_out(window: &mut Window) -> Vec<UiCommand> {
         match command {
             UiCommand::Station(engine::Command::OpenedAlarms) => model.alarms.unopened = false,
             UiCommand::Station(engine::Command::AcknowledgeAlarm(id)) => {
-                model.alarms.acknowledge(*id);
+                model.alarms.acknowledge(*id, rig::now());
             }
+            UiCommand::Station(engine::Command::AcknowledgeAlarms { newest }) => {
+                model.alarms.acknowledge_all(*newest, model.now);
+            }
+            UiCommand::Station(engine::Command::ShelveAlarm { id, time }) => {
+                model.alarms.shelve(*id, *time, model.now);
+            }
+            UiCommand::Station(engine::Command::UnshelveAlarm(id)) => model.alarms.unshelve(*id),
             other => panic!("{other:?}"),
         }
     }
@@ -102,9 +110,78 @@ fn an_alarm_is_opened_acknowledged_and_stays_until_it_is_over() {
         );
         window.get_by_label(&format!("{text}, 11:15:30Z, seen"));
         window.get_by_label("2 alarms, 1 new");
-        window.state_mut().model.alarms.clear(Some(AntennaId::FIRST), |_| true);
+        window.state_mut().model.alarms.clear(Some(AntennaId::FIRST), rig::now(), |_| true);
         settle(&mut window);
-        assert!(!says(&window, &text));
+        window.get_by_label(&format!("{text}, 11:15:30Z, over since 11:15:30Z"));
+        window.get_by_label("1 alarm, 1 new");
+    }
+}
+
+#[test]
+fn an_alarm_that_is_over_and_new_says_so_with_its_times_and_repeats() {
+    for size in SIZES {
+        let mut model = rig::model(states::holding());
+        let (now, kind) = (model.now, AlarmKind::LinkLost(LinkLoss::Closed));
+        let of = Some(AntennaId::FIRST);
+        for minutes in [-1441_i64, -2] {
+            let at = now + minutes.minutes();
+            model.alarms.raise(of, kind.clone(), at);
+            model.alarms.clear(of, at + 15.seconds(), |_| true);
+        }
+        let text = words::alarm(&kind, "Satrak");
+        let mut window = rig::window(size, model);
+        window.get_by_label("1 alarm, 1 new").click();
+        carry_out(&mut window);
+        let first = format::moment(now - 1441_i64.minutes(), now);
+        window.get_by_label(&format!(
+            "{text}, {first}, 2 times, last 11:13:30Z, new, over since 11:13:45Z"
+        ));
+    }
+}
+
+#[test]
+fn all_alarms_are_acknowledged_at_once() {
+    for size in SIZES {
+        let mut model = rig::model(states::holding());
+        for kind in [AlarmKind::ClockNotSet, AlarmKind::AutoStaysOn] {
+            model.alarms.raise(Some(AntennaId::FIRST), kind, model.now);
+        }
+        let mut window = rig::window(size, model);
+        window.get_by_label("2 alarms, 2 new").click();
+        carry_out(&mut window);
+        window.get_by_label("Acknowledge all").click();
+        let wanted = engine::Command::AcknowledgeAlarms { newest: 1 };
+        assert_eq!(carry_out(&mut window), [UiCommand::Station(wanted)]);
+        window.get_by_label("1 alarm, seen");
+        assert!(!says(&window, "Acknowledge"));
+    }
+}
+
+#[test]
+fn a_seen_alarm_is_shelved_and_taken_back_but_none_of_the_first_rank() {
+    for size in SIZES {
+        let mut model = rig::model(states::holding());
+        let of = Some(AntennaId::FIRST);
+        for kind in [AlarmKind::ClockNotSet, AlarmKind::StopNotConfirmed] {
+            model.alarms.raise(of, kind, model.now);
+        }
+        model.alarms.acknowledge_all(1, model.now);
+        let text = words::alarm(&AlarmKind::ClockNotSet, "Satrak");
+        let mut window = rig::window(size, model);
+        window.get_by_label("2 alarms, seen").click();
+        carry_out(&mut window);
+        assert_eq!(window.get_all_by_label_contains("Shelve: ").count(), 1);
+        window.get_by_label(&format!("Shelve: {text}")).click();
+        assert_eq!(carry_out(&mut window), []);
+        window.get_by_label(&format!("Shelve for 1 h: {text}")).click();
+        let wanted = engine::Command::ShelveAlarm { id: 0, time: ShelveTime::OneHour };
+        assert_eq!(carry_out(&mut window), [UiCommand::Station(wanted)]);
+        window.get_by_label("1 alarm, seen");
+        window.get_by_label(&format!("{text}, 11:15:30Z, shelved to 12:15:30Z"));
+        window.get_by_label(&format!("Take back: {text}")).click();
+        let wanted = engine::Command::UnshelveAlarm(0);
+        assert_eq!(carry_out(&mut window), [UiCommand::Station(wanted)]);
+        window.get_by_label(&format!("{text}, 11:15:30Z, seen"));
     }
 }
 

@@ -164,7 +164,7 @@ fn what_the_unit_tracks_that_the_station_has_no_elements_of_is_an_alarm() {
     let not_compared = AlarmKind::NotCompared { satellite: Some("HOMEMADE".to_owned()) };
     let stands = |model: &Model, is_over: bool| {
         let mut alarms = model.alarms.list().iter();
-        alarms.any(|alarm| alarm.kind == not_compared && alarm.cleared == is_over)
+        alarms.any(|alarm| alarm.kind == not_compared && alarm.is_over() == is_over)
     };
     step_until(&mut window, "it is told", |model| stands(model, false));
     let said = words::alarm(&not_compared, "Satrak");

@@ -56,7 +56,7 @@ fn menus_close_by_a_click_outside_and_by_their_own_key() {
 #[test]
 fn popups_close_by_a_click_outside_and_by_a_close_key() {
     for size in SIZES {
-        for (key, inside) in [("alarm", "No alarms since"), ("Layers", "Sun and Moon")] {
+        for (key, inside) in [("alarm", "No alarms today"), ("Layers", "Sun and Moon")] {
             for by_key in [false, true] {
                 let mut window = rig::window(size, rig::model(states::holding()));
                 open(&mut window, key);

@@ -230,7 +230,7 @@ fn a_station_that_shows_nothing_new_says_so() {
     let mut model = rig::model(states::holding());
     model.watch_station(Some(Duration::from_secs(3)));
     let text = |model: &Model| {
-        let alarms = model.alarms.list().iter().filter(|alarm| !alarm.cleared);
+        let alarms = model.alarms.list().iter().filter(|alarm| !alarm.is_over());
         alarms.map(|alarm| words::alarm(&alarm.kind, "Azel")).collect::<Vec<_>>()
     };
     let told = text(&model);

@@ -55,6 +55,10 @@ pub(super) fn draw(pen: &Pen<'_>, icon: Icon) {
             pen.outline(&ellipse((10.0, 10.0), 8.2, 3.6, -30.0));
             pen.disc((16.0, 5.2), 1.6);
         }
+        Icon::Clock => {
+            pen.ring((10.0, 10.0), 7.5);
+            pen.line(&[(10.0, 5.5), (10.0, 10.0), (13.5, 12.0)]);
+        }
         Icon::Search => {
             pen.ring((8.5, 8.5), 5.5);
             pen.line(&[(12.6, 12.6), (17.5, 17.5)]);

@@ -1,12 +1,11 @@
 use super::*;
 use crate::{
-    engine::{self, alarms::Priority},
-    model::{ThemeName, View},
-    ui::widgets::{
-        alarm_list::{AlarmRow, AlarmState},
-        link_chip::LinkGlyph,
-        testing,
+    engine::{
+        self,
+        alarms::{AlarmState, Priority},
     },
+    model::{ThemeName, View},
+    ui::widgets::{alarm_list::AlarmRow, link_chip::LinkGlyph, testing},
 };
 use egui::{Modal, Role};
 use egui_kittest::{Harness, kittest::Queryable as _};
@@ -16,6 +15,8 @@ const ALARM: AlarmRow<'_> = AlarmRow {
     id: 3,
     priority: Priority::Warning,
     state: AlarmState::New,
+    follows: false,
+    state_words: "new",
     text: "RC2000C does not reply",
     time: "11:05:58Z",
 };

@@ -1,10 +1,12 @@
 //! The alarm button of the top bar and the list that it opens.
 
-use std::{sync::Arc, time::Duration};
+mod row;
+
+use std::time::Duration;
 
 use egui::{
-    Align2, Color32, Galley, Popup, PopupCloseBehavior, Rect, Response, Role, Sense, Stroke,
-    StrokeKind, Ui, ViewportId, WidgetInfo, pos2, vec2,
+    Align2, Popup, PopupCloseBehavior, Rect, Response, Role, Sense, Stroke, StrokeKind, Ui,
+    ViewportId, WidgetInfo, pos2, vec2,
 };
 
 use super::{
@@ -12,43 +14,53 @@ use super::{
     close_key, paint,
 };
 use crate::{
-    driver::Command,
-    engine::{self, alarms::Priority},
+    engine::{
+        self,
+        alarms::{AlarmState, Priority},
+    },
     model::UiCommand,
     station::AntennaId,
     ui::{
         icons::{self, Icon},
         text::{self, Weight},
         theme,
-        tokens::Tokens,
     },
 };
 
 const RADIUS: u8 = 6;
 const LIST_WIDTH: f32 = 360.0;
-/// Height of a row with one line of text; more lines make it higher.
-const ROW_HEIGHT: f32 = 52.0;
-/// Gap between the text and its time.
-const TIME_GAP: f32 = 1.0;
-/// Height of the line with the time.
-const TIME_HEIGHT: f32 = 16.0;
-/// Width of a button.
-const BUTTON: f32 = 100.0;
-/// Room for the mark at the left of the text.
-const TEXT_LEFT: f32 = 32.0;
-/// Padding above the text and below the time.
-const ROW_PADDING: f32 = 9.0;
+/// Height of the line with the button for all alarms, and of a heading.
+const HEADER_HEIGHT: f32 = 30.0;
+const ALL_BUTTON: f32 = 140.0;
 /// The bell goes on and off once a second until the list was opened.
 const HALF_BLINK_S: f64 = 0.5;
 
-/// State of an alarm in its life cycle.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum AlarmState {
-    New,
-    /// Acknowledged, but the cause persists.
-    Seen,
-    /// The cause is gone.
-    Cleared,
+/// Part of the list.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Section {
+    /// Stands, or was not acknowledged.
+    Open,
+    Shelved,
+    /// Over and seen.
+    Over,
+}
+
+impl Section {
+    pub fn of(state: AlarmState) -> Self {
+        match state {
+            AlarmState::New | AlarmState::NewAndOver { .. } | AlarmState::Seen => Self::Open,
+            AlarmState::Shelved { .. } => Self::Shelved,
+            AlarmState::Over { .. } => Self::Over,
+        }
+    }
+
+    fn heading(self) -> Option<&'static str> {
+        match self {
+            Self::Open => None,
+            Self::Shelved => Some("Shelved"),
+            Self::Over => Some("Over today (UTC)"),
+        }
+    }
 }
 
 #[derive(Debug, Clone, Copy)]
@@ -57,32 +69,41 @@ pub struct AlarmRow<'a> {
     pub id: u64,
     pub priority: Priority,
     pub state: AlarmState,
+    /// It follows from an alarm above it.
+    pub follows: bool,
     pub text: &'a str,
-    /// Time of the alarm, formatted.
+    /// Times of the alarm and how often it came, formatted.
     pub time: &'a str,
-    /// Index of the antenna that the alarm offers to move away from its position.
+    pub state_words: &'a str,
+    /// The antenna that the alarm offers to move away from its position.
     pub moves_away: Option<AntennaId>,
+}
+
+impl AlarmRow<'_> {
+    fn is_new(&self) -> bool {
+        matches!(self.state, AlarmState::New | AlarmState::NewAndOver { .. })
+    }
+
+    fn can_be_shelved(&self) -> bool {
+        self.state == AlarmState::Seen && self.priority < Priority::First
+    }
 }
 
 #[derive(Debug, Clone, Copy, Default)]
 pub struct AlarmModel<'a> {
-    /// Newest first.
+    /// In the order of the list, section by section.
     pub rows: &'a [AlarmRow<'a>],
     /// An alarm is newer than the last opening of the list; the bell blinks.
     pub unopened: bool,
 }
 
 impl AlarmModel<'_> {
-    fn count(&self, wanted: impl Fn(AlarmState) -> bool) -> usize {
-        self.rows.iter().filter(|row| wanted(row.state)).count()
-    }
-
     fn active(&self) -> usize {
-        self.count(|state| matches!(state, AlarmState::New | AlarmState::Seen))
+        self.rows.iter().filter(|row| Section::of(row.state) == Section::Open).count()
     }
 
     fn unacknowledged(&self) -> usize {
-        self.count(|state| state == AlarmState::New)
+        self.rows.iter().filter(|row| row.is_new()).count()
     }
 }
 
@@ -161,105 +182,48 @@ fn bell_is_lit(ui: &Ui, blinking: bool) -> bool {
 }
 
 fn list(ui: &mut Ui, model: &AlarmModel<'_>, commands: &mut Vec<UiCommand>) {
-    let t = theme::tokens(ui);
     ui.spacing_mut().item_spacing.y = 0.0;
     if model.rows.is_empty() {
-        ui.label("No alarms since the program was started.");
+        ui.label("No alarms today.");
         return;
     }
-    egui::ScrollArea::vertical().max_height(8.0 * ROW_HEIGHT).show(ui, |ui| {
-        for (index, row) in model.rows.iter().enumerate() {
-            let words = words_of(ui, row);
-            let wanted = words.size().y + TIME_GAP + TIME_HEIGHT + 2.0 * ROW_PADDING;
-            let size = vec2(LIST_WIDTH, wanted.max(row_height(row)));
-            let (rect, _) = ui.allocate_exact_size(size, Sense::hover());
-            if index > 0 {
-                ui.painter().hline(rect.x_range(), rect.top(), (1.0, t.line));
+    if model.unacknowledged() > 1 {
+        let (rect, _) = ui.allocate_exact_size(vec2(LIST_WIDTH, HEADER_HEIGHT), Sense::hover());
+        let size = vec2(ALL_BUTTON, SMALL_HEIGHT);
+        let at = Rect::from_min_size(pos2(rect.right() - size.x, rect.top()), size);
+        if Button::normal("Acknowledge all").show(ui, "acknowledge all", at).clicked()
+            && let Some(newest) = model.rows.iter().map(|row| row.id).max()
+        {
+            commands.push(UiCommand::Station(engine::Command::AcknowledgeAlarms { newest }));
+        }
+    }
+    egui::ScrollArea::vertical().max_height(8.0 * row::HEIGHT).show(ui, |ui| {
+        let mut section = Section::Open;
+        for (index, alarm) in model.rows.iter().enumerate() {
+            let now = Section::of(alarm.state);
+            if std::mem::replace(&mut section, now) != now {
+                heading(ui, now);
+            } else if index > 0 {
+                let line = ui.available_rect_before_wrap();
+                let t = theme::tokens(ui);
+                ui.painter().hline(
+                    line.left()..=line.left() + LIST_WIDTH,
+                    line.top(),
+                    (1.0, t.line),
+                );
             }
-            list_row(ui, rect, row, words, commands);
+            row::show(ui, alarm, commands);
         }
     });
 }
 
-fn words_of(ui: &Ui, row: &AlarmRow<'_>) -> Arc<Galley> {
-    let t = theme::tokens(ui);
-    let (weight, ink) = match row.state {
-        AlarmState::New => (Weight::SemiBold, t.t1),
-        _ => (Weight::Regular, t.t2),
-    };
-    let width = LIST_WIDTH - TEXT_LEFT - right_of_text(row);
-    ui.painter().layout(row.text.to_owned(), text::sized(13.0, weight), ink, width)
-}
-
-/// Room at the right for the button or the state.
-fn right_of_text(row: &AlarmRow<'_>) -> f32 {
-    match row.state {
-        _ if row.moves_away.is_some() => BUTTON + 4.0,
-        AlarmState::New => BUTTON + 4.0,
-        AlarmState::Seen | AlarmState::Cleared => 60.0,
-    }
-}
-
-/// Minimum height of a row with two buttons, one above the other.
-fn row_height(row: &AlarmRow<'_>) -> f32 {
-    if row.moves_away.is_some() { 2.0 * SMALL_HEIGHT + 3.0 * ROW_PADDING } else { ROW_HEIGHT }
-}
-
-fn list_row(
-    ui: &Ui,
-    rect: Rect,
-    row: &AlarmRow<'_>,
-    galley: Arc<Galley>,
-    commands: &mut Vec<UiCommand>,
-) {
-    let t = theme::tokens(ui);
-    let (icon, colour) = mark(row, t);
-    let glyph = paint::square(pos2(rect.left() + 12.0, rect.center().y), 18.0);
-    icons::paint(ui.painter(), glyph, icon, colour);
-    let new = row.state == AlarmState::New;
-    let right = right_of_text(row);
-    let room = rect.with_min_x(rect.left() + TEXT_LEFT).with_max_x(rect.right() - right);
-    let height = galley.size().y + TIME_GAP + TIME_HEIGHT;
-    let top = pos2(room.left(), room.center().y - height / 2.0);
-    let time = pos2(top.x, top.y + galley.size().y + TIME_GAP);
-    ui.painter().galley(top, galley, t.t1);
-    paint::text(ui, time, Align2::LEFT_TOP, row.time, text::small(), t.t3);
-    let words = match row.state {
-        AlarmState::New => "new".to_owned(),
-        AlarmState::Seen => "seen".to_owned(),
-        AlarmState::Cleared => "cleared".to_owned(),
-    };
-    let name = format!("{}, {}, {words}", row.text, row.time);
-    paint::name_text(ui, ("alarm", row.id), room, &name);
-    let mut centre = rect.center().y;
-    let button = |centre: f32, words: &'static str, salt: &'static str| {
-        let min = pos2(rect.right() - BUTTON, centre - SMALL_HEIGHT / 2.0);
-        let at = Rect::from_min_size(min, vec2(BUTTON, SMALL_HEIGHT));
-        let pressed = Button::normal(words).show(ui, (salt, row.id), at);
-        pressed.accessible_name(format!("{words}: {}", row.text)).clicked()
-    };
-    if let Some(antenna) = row.moves_away {
-        let apart = f32::midpoint(SMALL_HEIGHT, ROW_PADDING);
-        if button(centre - apart, "Move away", "move away") {
-            commands.push(UiCommand::antenna(antenna, Command::MoveAway));
-        }
-        centre += apart;
-    }
-    if new {
-        if button(centre, "Acknowledge", "acknowledge") {
-            commands.push(UiCommand::Station(engine::Command::AcknowledgeAlarm(row.id)));
-        }
-        return;
-    }
-    let at = pos2(rect.right() - 4.0, centre);
-    paint::text(ui, at, Align2::RIGHT_CENTER, words, text::small(), t.t2);
-}
-
-fn mark(row: &AlarmRow<'_>, t: &Tokens) -> (Icon, Color32) {
-    match (row.state, row.priority) {
-        (AlarmState::Cleared, _) => (Icon::Check, t.t3),
-        (_, Priority::Warning) => (Icon::Octagon, t.bad),
-        (_, Priority::Caution) => (Icon::Warning, t.warn),
+fn heading(ui: &mut Ui, section: Section) {
+    if let Some(words) = section.heading() {
+        let t = theme::tokens(ui);
+        let (rect, _) = ui.allocate_exact_size(vec2(LIST_WIDTH, HEADER_HEIGHT), Sense::hover());
+        let strong = text::sized(12.0, Weight::SemiBold);
+        paint::text(ui, rect.left_center(), Align2::LEFT_CENTER, words, strong, t.t2);
+        ui.painter().hline(rect.x_range(), rect.bottom(), (1.0, t.line));
     }
 }
 
@@ -274,6 +238,8 @@ mod tests {
             id: 7,
             priority: Priority::Warning,
             state: AlarmState::New,
+            follows: false,
+            state_words: "new",
             text: "RC2000C does not reply",
             time: "11:05:58Z",
             moves_away: None,
@@ -282,6 +248,8 @@ mod tests {
             id: 5,
             priority: Priority::Caution,
             state: AlarmState::Seen,
+            follows: false,
+            state_words: "seen",
             text: "METEOR-M2 3 elements are 9 days old",
             time: "10:41:10Z",
             moves_away: None,
@@ -306,7 +274,7 @@ mod tests {
         let long = "Satrak seems to write decimal commas. Its position cannot be read. Set it \
                     to points, in its own settings.";
         let (one, more) = (row_height(ROWS[0].text), row_height(long));
-        assert!((one - ROW_HEIGHT).abs() < 0.5, "{one}");
+        assert!((one - row::HEIGHT).abs() < 0.5, "{one}");
         assert!(more > one + 2.0 * 15.0, "{more}");
     }
 

@@ -1,11 +1,35 @@
 //! Sentences of the alarm list.
 
+use jiff::Timestamp;
+
 use crate::{
     driver::LinkLoss,
-    engine::alarms::{AlarmKind, Work},
+    engine::alarms::{Alarm, AlarmKind, AlarmState, Work},
     station::NoteReason,
     ui::format,
 };
+
+/// When an alarm came, and how often.
+pub fn alarm_times(alarm: &Alarm, now: Timestamp) -> String {
+    let first = format::moment(alarm.raised, now);
+    match alarm.count {
+        0 | 1 => first,
+        count => format!("{first}, {count} times, last {}", format::moment(alarm.last, now)),
+    }
+}
+
+/// The state of an alarm in words.
+pub fn alarm_state(state: AlarmState, now: Timestamp) -> String {
+    match state {
+        AlarmState::New => "new".to_owned(),
+        AlarmState::NewAndOver { since } => {
+            format!("new, over since {}", format::moment(since, now))
+        }
+        AlarmState::Seen => "seen".to_owned(),
+        AlarmState::Over { since } => format!("over since {}", format::moment(since, now)),
+        AlarmState::Shelved { until } => format!("shelved to {}", format::moment(until, now)),
+    }
+}
 
 /// An alarm in words. `antenna` is the name of its antenna, if it has one.
 // One arm a kind.

@@ -1,0 +1,280 @@
+//! The kinds of alarms, how they rank, and which of them say the same.
+
+use std::time::Duration;
+
+use serde::{Deserialize, Serialize};
+
+use crate::{
+    astro::Angle,
+    device::{
+        Asked, PrepareError, TrackTarget,
+        panel::{Check, CheckState},
+    },
+    driver::{Event, Found, LinkLoss, Safety, TrackProblem, Unit},
+    engine::claim::HeldBy,
+    name::{self, Name},
+    plan::on_board::Ranked,
+    station::{Note, NoteReason},
+};
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Priority {
+    /// Something will go wrong or was not done.
+    Caution,
+    /// Something is wrong now.
+    Warning,
+    /// An antenna moves, may move or points where it must not, and is not known to obey. Nothing
+    /// silences it: it cannot be shelved, and no setting keeps it quiet.
+    First,
+}
+
+/// Kind of an alarm. The view puts it into words.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub enum AlarmKind {
+    /// No link to the antenna.
+    LinkLost(LinkLoss),
+    /// The antenna still moves three seconds after STOP.
+    StopNotConfirmed,
+    /// The unit refused STOP, with this code.
+    StopRefused(String),
+    /// A jog was stopped because the window or the station was too busy to renew it.
+    JogLeaseOver,
+    /// A jog was stopped because the position grew too old.
+    JogPositionOld,
+    /// The antenna has stopped, but the unit may start by itself.
+    AutoTrackStillOn,
+    /// The unit did not switch auto-track off.
+    AutoStaysOn,
+    /// The unit is locked out, but no read-back proves that it does not start by itself.
+    LockOutUnproved,
+    /// The list of locked-out units could not be read or written; in words.
+    LockOuts(String),
+    /// The unit refused a request, with this code.
+    Refused(Asked, String),
+    /// The unit did not answer a request.
+    Unanswered(Asked),
+    /// The satellite cannot be tracked on board.
+    CannotTrack(TrackTarget, PrepareError),
+    /// Program track of this target cannot begin, or cannot go on.
+    CannotProgramTrack(String, TrackProblem),
+    /// The unit tracks on board, and not where the satellite is.
+    OffTarget {
+        /// Error when it was noticed.
+        off: Angle,
+        /// The likeliest cause.
+        cause: Option<Ranked>,
+    },
+    /// By the unit's own settings it would miss a pass; with the likeliest cause.
+    UnitDiffers(Ranked),
+    /// The unit tracks on board, but its target direction is unknown here.
+    NotCompared {
+        /// Name of the satellite that the unit reports, without known elements; `None`
+        /// where it reports none.
+        satellite: Option<String>,
+    },
+    /// Tracking ended before LOS.
+    TrackingEnded,
+    /// A motion ended short of its target.
+    EndedShort,
+    /// The unit tracks without a request from this console.
+    StartedByItself,
+    /// The unit moves without a request from this console.
+    MovesByItself,
+    Safety(Safety),
+    /// A STOP is owed to a unit that belongs to no antenna of the station.
+    Owed(Unit),
+    /// The thread that talks to the antennas has not responded for this long.
+    DriverStands(Duration),
+    /// The station's thread has published nothing new for this long; the displayed state is
+    /// as old.
+    StationStands(Duration),
+    /// Another Azel of this machine has this station open: nothing can be driven from here.
+    StationElsewhere(HeldBy),
+    /// Another Azel of this machine drives this unit.
+    UnitElsewhere(HeldBy),
+    /// The Azel that drives an antenna did not confirm STOP.
+    StopNotElsewhere,
+    /// A background job of the program broke off.
+    BrokeOff(Work),
+    /// The source of elements with this name is not read: its last reading ended the
+    /// program.
+    SourceSetAside(String),
+    /// The program was too busy to take a request.
+    NotTaken,
+    /// A fault or warning that the unit names itself.
+    Check(Check),
+    /// The unit's clock is this far ahead of ours, seconds.
+    ClockOff(f64),
+    /// The unit's clock was never set.
+    ClockNotSet,
+    /// The position of the unit cannot be read, for this reason.
+    Unreadable(#[serde(deserialize_with = "name::one")] Name),
+    /// An entry of the station file was not taken over.
+    Setting(Note),
+    /// Settings could not be read, written or sent; in words.
+    Settings(String),
+    /// The elements could not be read; in words.
+    Elements(String),
+}
+
+/// Background work that can break off.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+pub enum Work {
+    Elements,
+    Passes,
+}
+
+impl AlarmKind {
+    pub fn priority(&self) -> Priority {
+        match self {
+            Self::StopNotConfirmed
+            | Self::StopRefused(_)
+            | Self::StopNotElsewhere
+            | Self::Owed(_)
+            | Self::DriverStands(_)
+            | Self::MovesByItself
+            | Self::LockOutUnproved
+            | Self::Safety(
+                Safety::DeadManFired
+                | Safety::LeftMoving { .. }
+                | Safety::SilentInMotion
+                | Safety::FlagsContradict { .. }
+                | Safety::Forbidden { .. },
+            )
+            | Self::Setting(Note { reason: NoteReason::DoesNotHold { .. }, .. }) => Priority::First,
+            Self::LinkLost(_)
+            | Self::Safety(_)
+            | Self::StationStands(_)
+            | Self::StationElsewhere(_)
+            | Self::UnitElsewhere(_)
+            | Self::LockOuts(_)
+            | Self::StartedByItself
+            | Self::Unreadable(_)
+            | Self::JogPositionOld
+            | Self::OffTarget { .. }
+            | Self::Check(Check { state: CheckState::Fault, .. }) => Priority::Warning,
+            _ => Priority::Caution,
+        }
+    }
+
+    /// Returns `true` for an alarm about a moment rather than about a lasting state.
+    pub(super) fn is_momentary(&self) -> bool {
+        !matches!(
+            self,
+            Self::LinkLost(_)
+                | Self::StopNotConfirmed
+                | Self::Safety(Safety::LeftMoving { asks: true, .. } | Safety::SilentInMotion)
+                | Self::Owed(_)
+                | Self::DriverStands(_)
+                | Self::StationStands(_)
+                | Self::StationElsewhere(_)
+                | Self::UnitElsewhere(_)
+                | Self::BrokeOff(_)
+                | Self::SourceSetAside(_)
+                | Self::LockOutUnproved
+                | Self::LockOuts(_)
+                | Self::Check(_)
+                | Self::ClockOff(_)
+                | Self::OffTarget { .. }
+                | Self::UnitDiffers(_)
+                | Self::NotCompared { .. }
+                | Self::ClockNotSet
+                | Self::Unreadable(_)
+                | Self::Setting(_)
+                | Self::Settings(_)
+                | Self::Elements(_)
+        )
+    }
+}
+
+/// Compares two alarms, ignoring figures that change while the matter stays.
+pub(super) fn same_matter(a: &AlarmKind, b: &AlarmKind) -> bool {
+    match (a, b) {
+        (AlarmKind::ClockOff(_), AlarmKind::ClockOff(_))
+        | (AlarmKind::LinkLost(_), AlarmKind::LinkLost(_))
+        | (AlarmKind::DriverStands(_), AlarmKind::DriverStands(_))
+        | (AlarmKind::StationStands(_), AlarmKind::StationStands(_))
+        | (AlarmKind::StationElsewhere(_), AlarmKind::StationElsewhere(_))
+        | (AlarmKind::UnitElsewhere(_), AlarmKind::UnitElsewhere(_))
+        | (AlarmKind::OffTarget { .. }, AlarmKind::OffTarget { .. }) => true,
+        (AlarmKind::Check(a), AlarmKind::Check(b)) => a.name == b.name && a.state == b.state,
+        (AlarmKind::UnitDiffers(a), AlarmKind::UnitDiffers(b)) => {
+            std::mem::discriminant(&a.cause) == std::mem::discriminant(&b.cause)
+        }
+        _ => a == b,
+    }
+}
+
+/// Returns `true` if `cause` says all that `effect` says, and why.
+pub(super) fn explains(cause: &AlarmKind, effect: &AlarmKind) -> bool {
+    matches!(
+        (cause, effect),
+        (AlarmKind::Unreadable(_), AlarmKind::LinkLost(LinkLoss::Unreadable))
+            | (AlarmKind::Safety(Safety::SilentInMotion), AlarmKind::LinkLost(_))
+    )
+}
+
+/// Returns `true` if `news` says more than `standing`: a unit whose position cannot be read
+/// does answer, and a silent one that moves matters more than its link.
+pub(super) fn replaces(news: &AlarmKind, standing: &AlarmKind) -> bool {
+    matches!(
+        (news, standing),
+        (
+            AlarmKind::Unreadable(_) | AlarmKind::Safety(Safety::SilentInMotion),
+            AlarmKind::LinkLost(_)
+        )
+    )
+}
+
+/// Returns `true` if the check behind an alarm is over by now: it is gone, or has another
+/// state. A unit that does not report it may still have the fault.
+pub fn is_over(raised: &Check, now: &[Check]) -> bool {
+    let same = now.iter().find(|check| check.name == raised.name);
+    same.is_none_or(|check| check.state != raised.state && check.state != CheckState::Unknown)
+}
+
+/// The alarm that an event calls for, if any.
+pub fn alarm_of(event: &Event) -> Option<AlarmKind> {
+    Some(match event.clone() {
+        Event::LinkLost(loss) => AlarmKind::LinkLost(loss),
+        Event::StopNotConfirmed => AlarmKind::StopNotConfirmed,
+        Event::StopRefused(code) => AlarmKind::StopRefused(code),
+        // `StoppedByFlags` is shown where the motion was asked for; many antennas have such
+        // an axis. The other two stand for as long as the snapshot says so.
+        Event::Safety(matter)
+            if !matches!(
+                matter,
+                Safety::StoppedByFlags { .. }
+                    | Safety::LeftMoving { asks: true, .. }
+                    | Safety::SilentInMotion
+            ) =>
+        {
+            AlarmKind::Safety(matter)
+        }
+        Event::JogLeaseOver => AlarmKind::JogLeaseOver,
+        Event::JogPositionOld => AlarmKind::JogPositionOld,
+        Event::AutoTrackStillOn => AlarmKind::AutoTrackStillOn,
+        Event::AutoStaysOn => AlarmKind::AutoStaysOn,
+        Event::LockOutUnproved => AlarmKind::LockOutUnproved,
+        Event::Refused(asked, code) => AlarmKind::Refused(asked, code),
+        Event::Unanswered(asked) => AlarmKind::Unanswered(asked),
+        Event::CannotTrack(target, reason) => AlarmKind::CannotTrack(target, reason),
+        Event::CannotProgramTrack(name, problem) => AlarmKind::CannotProgramTrack(name, problem),
+        Event::TrackingEnded { completed: false } => AlarmKind::TrackingEnded,
+        Event::EndedShort { .. } => AlarmKind::EndedShort,
+        Event::StartedByItself | Event::Connected(Found::Tracking) => AlarmKind::StartedByItself,
+        Event::Connected(Found::Moving) => AlarmKind::MovesByItself,
+        Event::TrackingEnded { completed: true }
+        | Event::Connected(Found::Still)
+        | Event::Back { .. }
+        | Event::NotSent(_)
+        | Event::Safety(_)
+        | Event::WouldMiss { .. }
+        | Event::Tracking(_)
+        | Event::Awaits { .. }
+        | Event::ProgramTracks(_)
+        | Event::ProgramTrackOver { .. }
+        | Event::Arrived(_)
+        | Event::Stopped => return None,
+    })
+}

@@ -1,0 +1,106 @@
+//! The order of the alarms on screen: the first cause first.
+
+use std::cmp::Reverse;
+
+use super::{Alarm, AlarmKind, Alarms};
+use crate::driver::Safety;
+
+/// An alarm in its place in the list.
+#[derive(Debug, Clone, Copy)]
+pub struct Placed<'a> {
+    pub alarm: &'a Alarm,
+    /// Id of the alarm above it from which it follows.
+    pub follows: Option<u64>,
+}
+
+impl Alarms {
+    /// The alarms as an operator reads them. Those that stand or are new come before those that
+    /// are over and seen. Higher ranks come first, then newer ones; but an alarm that follows
+    /// from another comes directly behind it, in the order in which they came, and lifts it to
+    /// its own rank. One follows from another that stood when it came, and whose kind explains
+    /// its kind; from the first, if there are several or they follow from each other.
+    pub fn in_order(&self) -> Vec<Placed<'_>> {
+        let cause_of = |effect: &Alarm| {
+            let causes = self.list.iter().filter(|cause| is_cause(cause, effect));
+            causes.min_by_key(|cause| (cause.last, cause.id))
+        };
+        // A cause comes before its effect, so that the chain ends.
+        let first_cause =
+            |effect| std::iter::successors(cause_of(effect), |of| cause_of(of)).last();
+        let place = |alarm| Placed { alarm, follows: first_cause(alarm).map(|cause| cause.id) };
+        let all: Vec<Placed<'_>> = self.list.iter().map(place).collect();
+        let mut groups: Vec<Vec<Placed<'_>>> = Vec::new();
+        for first in all.iter().filter(|placed| placed.follows.is_none()) {
+            let mut group = vec![*first];
+            let id = first.alarm.id;
+            group.extend(all.iter().filter(|placed| placed.follows == Some(id)));
+            groups.push(group);
+        }
+        groups.sort_by_key(|group| {
+            let open = || group.iter().filter(|placed| !placed.alarm.is_done());
+            let rank = open().map(|placed| placed.alarm.priority()).max();
+            Reverse((rank, group.first().map(|placed| placed.alarm.id)))
+        });
+        groups.concat()
+    }
+}
+
+/// Returns `true` if `effect` came while `cause` stood, and from it.
+fn is_cause(cause: &Alarm, effect: &Alarm) -> bool {
+    let is_before = (cause.last, cause.id) < (effect.last, effect.id);
+    let stood = cause.over_since.is_none_or(|since| since >= effect.last);
+    let is_there = cause.antenna.is_none() || cause.antenna == effect.antenna;
+    // What is done does not hold down what is still to be seen.
+    let is_open = !cause.is_done() || effect.is_done();
+    is_before
+        && stood
+        && is_there
+        && is_open
+        && cause.shelved_until.is_none()
+        && effect.shelved_until.is_none()
+        && entails(&cause.kind, &effect.kind)
+}
+
+/// Returns `true` if an alarm of the kind `effect` comes of one of the kind `cause`.
+fn entails(cause: &AlarmKind, effect: &AlarmKind) -> bool {
+    use AlarmKind as K;
+    match cause {
+        // Nothing is sent and nothing is read.
+        K::DriverStands(_) => {
+            is_of_silence(effect) || matches!(effect, K::LinkLost(_) | K::NotTaken)
+        }
+        K::LinkLost(_) | K::Unreadable(_) | K::Safety(Safety::SilentInMotion) => {
+            is_of_silence(effect)
+        }
+        K::Check(_) => matches!(
+            effect,
+            K::Refused(..)
+                | K::Unanswered(_)
+                | K::EndedShort
+                | K::TrackingEnded
+                | K::OffTarget { .. }
+        ),
+        K::ClockOff(_) | K::ClockNotSet => {
+            matches!(effect, K::OffTarget { .. } | K::UnitDiffers(_))
+        }
+        _ => false,
+    }
+}
+
+/// Returns `true` for what follows where an antenna is not heard.
+fn is_of_silence(effect: &AlarmKind) -> bool {
+    use AlarmKind as K;
+    matches!(
+        effect,
+        K::StopNotConfirmed
+            | K::JogLeaseOver
+            | K::JogPositionOld
+            | K::LockOutUnproved
+            | K::Unanswered(_)
+            | K::CannotProgramTrack(..)
+            | K::TrackingEnded
+            | K::EndedShort
+            | K::NotCompared { .. }
+            | K::Safety(Safety::DeadManFired | Safety::AsksToResume { .. })
+    )
+}

@@ -1,0 +1,168 @@
+//! One row of the alarm list.
+
+use std::sync::Arc;
+
+use egui::{Color32, Galley, Id, Rect, Sense, Ui, pos2, vec2};
+
+use super::{AlarmRow, LIST_WIDTH};
+use crate::{
+    driver::Command,
+    engine::{
+        self,
+        alarms::{AlarmState, Priority, ShelveTime},
+    },
+    model::UiCommand,
+    ui::{
+        icons::{self, Icon},
+        text::{self, Weight},
+        theme,
+        tokens::Tokens,
+        widgets::{
+            button::{Button, SMALL_HEIGHT},
+            paint,
+        },
+    },
+};
+
+/// Height of a row with one line of text and one button; more of them make it higher.
+pub(super) const HEIGHT: f32 = 52.0;
+/// Gap between the text and its times, and between two buttons.
+const GAP: f32 = 1.0;
+const BUTTON_GAP: f32 = 6.0;
+const BUTTON: f32 = 100.0;
+/// Room for the mark at the left of the text.
+const TEXT_LEFT: f32 = 32.0;
+/// Further room at the left of what follows from another alarm.
+const INDENT: f32 = 16.0;
+/// Padding above the text and below the times.
+const PADDING: f32 = 9.0;
+
+/// A button of a row.
+struct RowButton {
+    words: &'static str,
+    command: Option<UiCommand>,
+}
+
+/// Shows a row, and below it the choice of times while it is being shelved.
+pub(super) fn show(ui: &mut Ui, row: &AlarmRow<'_>, commands: &mut Vec<UiCommand>) {
+    let t = theme::tokens(ui);
+    let indent = if row.follows { INDENT } else { 0.0 };
+    let width = LIST_WIDTH - TEXT_LEFT - indent - BUTTON - 8.0;
+    let (weight, ink) =
+        if row.is_new() { (Weight::SemiBold, t.t1) } else { (Weight::Regular, t.t2) };
+    let lay = |words: String, font, ink| ui.painter().layout(words, font, ink, width);
+    let words = lay(row.text.to_owned(), text::sized(13.0, weight), ink);
+    let times = lay(format!("{}, {}", row.time, row.state_words), text::small(), t.t3);
+    let buttons = buttons(row);
+    let count = buttons.len() as f32;
+    let of_buttons = count * (SMALL_HEIGHT + BUTTON_GAP) - BUTTON_GAP;
+    let of_text = words.size().y + GAP + times.size().y;
+    let wanted = of_text.max(of_buttons) + 2.0 * PADDING;
+    let size = vec2(LIST_WIDTH, wanted.max(HEIGHT));
+    let (rect, _) = ui.allocate_exact_size(size, Sense::hover());
+    mark(ui, rect.translate(vec2(indent, 0.0)), row, t);
+    let room = Rect::from_min_size(
+        pos2(rect.left() + TEXT_LEFT + indent, rect.top()),
+        vec2(width, rect.height()),
+    );
+    tell(ui, row, room, [words, times], of_text);
+    let shelving = Id::unique("the alarm being shelved");
+    let being: Option<u64> = ui.data(|data| data.get_temp(shelving));
+    let mut top = rect.center().y - of_buttons / 2.0;
+    for button in buttons {
+        let at = Rect::from_min_size(pos2(rect.right() - BUTTON, top), vec2(BUTTON, SMALL_HEIGHT));
+        top += SMALL_HEIGHT + BUTTON_GAP;
+        let pressed = Button::normal(button.words).show(ui, (button.words, row.id), at);
+        if pressed.accessible_name(format!("{}: {}", button.words, row.text)).clicked() {
+            match button.command {
+                Some(command) => commands.push(command),
+                None if being == Some(row.id) => ui.data_mut(|data| data.remove::<u64>(shelving)),
+                None => ui.data_mut(|data| {
+                    data.insert_temp(shelving, row.id);
+                }),
+            }
+        }
+    }
+    if being == Some(row.id) && row.can_be_shelved() && choose_time(ui, row, commands) {
+        ui.data_mut(|data| data.remove::<u64>(shelving));
+    }
+}
+
+fn tell(ui: &Ui, row: &AlarmRow<'_>, room: Rect, galleys: [Arc<Galley>; 2], height: f32) {
+    let t = theme::tokens(ui);
+    let [words, times] = galleys;
+    let top = pos2(room.left(), room.center().y - height / 2.0);
+    let below = pos2(top.x, top.y + words.size().y + GAP);
+    ui.painter().galley(top, words, t.t1);
+    ui.painter().galley(below, times, t.t3);
+    let follows = if row.follows { ", follows from the one above" } else { "" };
+    let name = format!("{}, {}, {}{follows}", row.text, row.time, row.state_words);
+    paint::name_text(ui, ("alarm", row.id), room, &name);
+}
+
+fn buttons(row: &AlarmRow<'_>) -> Vec<RowButton> {
+    let station = |command| Some(UiCommand::Station(command));
+    let mut buttons = Vec::new();
+    if let Some(antenna) = row.moves_away {
+        let command = Some(UiCommand::antenna(antenna, Command::MoveAway));
+        buttons.push(RowButton { words: "Move away", command });
+    }
+    if row.is_new() {
+        let command = station(engine::Command::AcknowledgeAlarm(row.id));
+        buttons.push(RowButton { words: "Acknowledge", command });
+    }
+    if let AlarmState::Shelved { .. } = row.state {
+        let command = station(engine::Command::UnshelveAlarm(row.id));
+        buttons.push(RowButton { words: "Take back", command });
+    }
+    if row.can_be_shelved() {
+        buttons.push(RowButton { words: "Shelve", command: None });
+    }
+    buttons
+}
+
+/// Shows the times for which an alarm can be shelved. Returns `true` once one was chosen.
+fn choose_time(ui: &mut Ui, row: &AlarmRow<'_>, commands: &mut Vec<UiCommand>) -> bool {
+    let (rect, _) =
+        ui.allocate_exact_size(vec2(LIST_WIDTH, SMALL_HEIGHT + PADDING), Sense::hover());
+    let width = (LIST_WIDTH - TEXT_LEFT - 2.0 * BUTTON_GAP) / 3.0;
+    let mut is_chosen = false;
+    let mut left = rect.left() + TEXT_LEFT;
+    for time in ShelveTime::ALL {
+        let words = match time {
+            ShelveTime::TenMinutes => "10 min",
+            ShelveTime::OneHour => "1 h",
+            ShelveTime::EightHours => "8 h",
+        };
+        let at = Rect::from_min_size(pos2(left, rect.top()), vec2(width, SMALL_HEIGHT));
+        left += width + BUTTON_GAP;
+        let pressed = Button::normal(words).show(ui, (words, row.id), at);
+        if pressed.accessible_name(format!("Shelve for {words}: {}", row.text)).clicked() {
+            let shelve = engine::Command::ShelveAlarm { id: row.id, time };
+            commands.push(UiCommand::Station(shelve));
+            is_chosen = true;
+        }
+    }
+    is_chosen
+}
+
+/// Paints the mark of a row. Its outline tells whether the reason stands, the dot beside it that
+/// nobody has acknowledged it.
+fn mark(ui: &Ui, rect: Rect, row: &AlarmRow<'_>, t: &Tokens) {
+    let (icon, colour) = icon(row, t);
+    let centre = pos2(rect.left() + 14.0, rect.center().y);
+    icons::paint(ui.painter(), paint::square(centre, 18.0), icon, colour);
+    if row.is_new() {
+        ui.painter().circle_filled(pos2(rect.left(), centre.y), 2.5, t.warn);
+    }
+}
+
+fn icon(row: &AlarmRow<'_>, t: &Tokens) -> (Icon, Color32) {
+    match (row.state, row.priority) {
+        (AlarmState::Shelved { .. }, _) => (Icon::Clock, t.t2),
+        (AlarmState::NewAndOver { .. }, _) => (Icon::Check, t.warn),
+        (AlarmState::Over { .. }, _) => (Icon::Check, t.t3),
+        (_, Priority::First | Priority::Warning) => (Icon::Octagon, t.bad),
+        (_, Priority::Caution) => (Icon::Warning, t.warn),
+    }
+}
