@@ -38,6 +38,33 @@ pub(crate) fn write(window: &mut Window, field: &str, words: &str) {
     settle(window);
 }
 
+#[test]
+fn tab_into_a_field_selects_its_value_and_a_click_does_not() {
+    let mut window = form(rig::LARGE);
+    let field = |window: &Window| {
+        let field = window.get_by_role_and_label(Role::TextInput, "Latitude");
+        field.value().unwrap_or_default()
+    };
+    let names = window.get_all_by_role_and_label(Role::TextInput, "Name");
+    names.into_iter().next().unwrap().focus();
+    settle(&mut window);
+    window.key_press(Key::Tab);
+    settle(&mut window);
+    window.event(Event::Text("52.5".to_owned()));
+    settle(&mut window);
+    assert_eq!(field(&window), "52.5", "typed over the old value");
+    let place = window.get_by_role_and_label(Role::TextInput, "Latitude").rect().right_center();
+    let place = place - egui::vec2(8.0, 0.0);
+    window.get_by_role_and_label(Role::TextInput, "Longitude, east").focus();
+    settle(&mut window);
+    window.drag_at(place);
+    window.drop_at(place);
+    settle(&mut window);
+    window.event(Event::Text("1".to_owned()));
+    settle(&mut window);
+    assert_eq!(field(&window), "52.51", "set into it");
+}
+
 fn is_disabled(window: &Window, button: &str) -> bool {
     window.get_by_role_and_label(Role::Button, button).accesskit_node().is_disabled()
 }

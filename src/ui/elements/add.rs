@@ -10,7 +10,10 @@ use crate::{
     library::check_source,
     model::UiCommand,
     orbit::{Source, SourcePlace},
-    ui::{text, theme, widgets::card},
+    ui::{
+        text, theme,
+        widgets::{card, input::select_when_tabbed},
+    },
 };
 
 const MAX: f32 = 720.0;
@@ -133,6 +136,7 @@ fn field(ui: &mut Ui, (label, hint): (&str, &str), width: f32, typed: &mut Strin
         let hint = RichText::new(hint).color(t.t3);
         let width = width.min(ui.available_width() - 16.0);
         let edit = TextEdit::singleline(typed).id_salt(label).hint_text(hint).desired_width(width);
-        ui.add(edit).labelled_by(label_id);
+        let response = ui.add(edit).labelled_by(label_id);
+        select_when_tabbed(ui, &response, typed);
     });
 }

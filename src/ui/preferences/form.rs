@@ -18,6 +18,7 @@ use crate::{
         widgets::{
             button::RADIUS,
             card as card_frame,
+            input::select_when_tabbed,
             segmented::{self, Segment},
         },
         words,
@@ -195,7 +196,9 @@ fn edit<T>(ui: &mut Ui, group: &str, field: &mut Field<T>, border: Option<Color3
             TextShape::Lines { hint } => return lines(ui, (group, label), text, hint, border),
         },
     };
-    ui.add(edit.id_salt((group, label)))
+    let response = ui.add(edit.id_salt((group, label)));
+    select_when_tabbed(ui, &response, &field.text);
+    response
 }
 
 /// A text field of many lines, scrolled within one border.

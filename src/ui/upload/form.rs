@@ -10,7 +10,10 @@ use crate::{
     orbit::Catalog,
     station::Antenna,
     transfer::{FileName, FileNameError, Peer, TleFile},
-    ui::{text, theme, widgets::card},
+    ui::{
+        text, theme,
+        widgets::{card, input::select_when_tabbed},
+    },
 };
 
 const LABEL: f32 = 72.0;
@@ -193,7 +196,8 @@ pub(super) fn field(ui: &mut Ui, (label, hint): (&str, &str), typed: &mut String
         let hint = RichText::new(hint).color(t.t3);
         let width = ui.available_width().min(MAX);
         let edit = TextEdit::singleline(typed).id_salt(label).hint_text(hint).desired_width(width);
-        ui.add(edit).labelled_by(label_id);
+        let response = ui.add(edit).labelled_by(label_id);
+        select_when_tabbed(ui, &response, typed);
     });
 }
 

@@ -2,6 +2,7 @@
 
 use egui::{Align2, Frame, Id, Margin, Rect, Response, RichText, Stroke, TextEdit, Ui};
 
+use super::input::select_when_tabbed;
 use crate::ui::{text, theme};
 
 /// Corner radius of a field.
@@ -43,6 +44,8 @@ impl AngleField<'_> {
             .char_limit(16)
             .min_size(rect.size())
             .desired_width(rect.width());
-        ui.place(rect, edit).accessible_name(self.name)
+        let response = ui.place(rect, edit).accessible_name(self.name);
+        select_when_tabbed(ui, &response, typed);
+        response
     }
 }

@@ -1,8 +1,8 @@
 //! Input fields for settings.
 
 use egui::{
-    Align2, Color32, Frame, Margin, Popup, Rect, Role, Stroke, StrokeKind, TextEdit, Ui, pos2,
-    text_edit::TextEditState, vec2,
+    Align2, Color32, Frame, Margin, Popup, Rect, Response, Role, Stroke, StrokeKind, TextEdit, Ui,
+    pos2, text::CCursorRange, text_edit::TextEditState, vec2,
 };
 
 use super::paint;
@@ -61,6 +61,7 @@ impl Input<'_> {
             .min_size(self.rect.size())
             .desired_width(self.rect.width());
         let response = ui.place(self.rect, edit).accessible_name(self.name);
+        select_when_tabbed(ui, &response, typed);
         if is_password {
             forget_typing(ui, response.id);
         }
@@ -102,6 +103,17 @@ impl Input<'_> {
         let name = format!("{}: {words}", self.name);
         paint::name_text(ui, ("inert", self.name), self.rect, &name);
     }
+}
+
+/// Selects all of a field that got the focus by a key, so that typing replaces its value.
+pub fn select_when_tabbed(ui: &Ui, response: &Response, typed: &str) {
+    let by_pointer = ui.input(|input| input.pointer.any_down() || input.pointer.any_released());
+    if !response.gained_focus() || by_pointer {
+        return;
+    }
+    let mut state = TextEditState::load(ui.ctx(), response.id).unwrap_or_default();
+    state.cursor.set_char_range(Some(CCursorRange::select_all_str(typed)));
+    state.store(ui.ctx(), response.id);
 }
 
 /// Clears the undo history: otherwise Ctrl Z would bring back a password that was sent
