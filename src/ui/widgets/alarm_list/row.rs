@@ -30,8 +30,10 @@ pub(super) const HEIGHT: f32 = 52.0;
 const GAP: f32 = 1.0;
 const BUTTON_GAP: f32 = 6.0;
 const BUTTON: f32 = 100.0;
+/// Room at the right for the scroll bar.
+const RIGHT: f32 = 8.0;
 /// Room for the mark at the left of the text.
-const TEXT_LEFT: f32 = 32.0;
+const TEXT_LEFT: f32 = 34.0;
 /// Further room at the left of what follows from another alarm.
 const INDENT: f32 = 16.0;
 /// Padding above the text and below the times.
@@ -47,7 +49,7 @@ struct RowButton {
 pub(super) fn show(ui: &mut Ui, row: &AlarmRow<'_>, commands: &mut Vec<UiCommand>) {
     let t = theme::tokens(ui);
     let indent = if row.follows { INDENT } else { 0.0 };
-    let width = LIST_WIDTH - TEXT_LEFT - indent - BUTTON - 8.0;
+    let width = LIST_WIDTH - TEXT_LEFT - indent - BUTTON - RIGHT - 8.0;
     let (weight, ink) =
         if row.is_new() { (Weight::SemiBold, t.t1) } else { (Weight::Regular, t.t2) };
     let lay = |words: String, font, ink| ui.painter().layout(words, font, ink, width);
@@ -70,7 +72,10 @@ pub(super) fn show(ui: &mut Ui, row: &AlarmRow<'_>, commands: &mut Vec<UiCommand
     let being: Option<u64> = ui.data(|data| data.get_temp(shelving));
     let mut top = rect.center().y - of_buttons / 2.0;
     for button in buttons {
-        let at = Rect::from_min_size(pos2(rect.right() - BUTTON, top), vec2(BUTTON, SMALL_HEIGHT));
+        let at = Rect::from_min_size(
+            pos2(rect.right() - RIGHT - BUTTON, top),
+            vec2(BUTTON, SMALL_HEIGHT),
+        );
         top += SMALL_HEIGHT + BUTTON_GAP;
         let pressed = Button::normal(button.words).show(ui, (button.words, row.id), at);
         if pressed.accessible_name(format!("{}: {}", button.words, row.text)).clicked() {
@@ -125,7 +130,7 @@ fn buttons(row: &AlarmRow<'_>) -> Vec<RowButton> {
 fn choose_time(ui: &mut Ui, row: &AlarmRow<'_>, commands: &mut Vec<UiCommand>) -> bool {
     let (rect, _) =
         ui.allocate_exact_size(vec2(LIST_WIDTH, SMALL_HEIGHT + PADDING), Sense::hover());
-    let width = (LIST_WIDTH - TEXT_LEFT - 2.0 * BUTTON_GAP) / 3.0;
+    let width = (LIST_WIDTH - TEXT_LEFT - RIGHT - 2.0 * BUTTON_GAP) / 3.0;
     let mut is_chosen = false;
     let mut left = rect.left() + TEXT_LEFT;
     for time in ShelveTime::ALL {
@@ -150,10 +155,10 @@ fn choose_time(ui: &mut Ui, row: &AlarmRow<'_>, commands: &mut Vec<UiCommand>) -
 /// nobody has acknowledged it.
 fn mark(ui: &Ui, rect: Rect, row: &AlarmRow<'_>, t: &Tokens) {
     let (icon, colour) = icon(row, t);
-    let centre = pos2(rect.left() + 14.0, rect.center().y);
+    let centre = pos2(rect.left() + 17.0, rect.center().y);
     icons::paint(ui.painter(), paint::square(centre, 18.0), icon, colour);
     if row.is_new() {
-        ui.painter().circle_filled(pos2(rect.left(), centre.y), 2.5, t.warn);
+        ui.painter().circle_filled(pos2(rect.left() + 3.0, centre.y), 2.5, t.warn);
     }
 }
 
