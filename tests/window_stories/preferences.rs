@@ -166,6 +166,24 @@ fn an_antenna_is_added_and_removed() {
 }
 
 #[test]
+fn a_removal_is_undone_in_place_and_a_double_click_removes_nothing() {
+    for size in SIZES {
+        let mut window = form(size);
+        window.get_by_role_and_label(Role::Button, "Remove antenna 1").scroll_to_me();
+        settle(&mut window);
+        let place = window.get_by_role_and_label(Role::Button, "Remove antenna 1").rect().center();
+        for (said, is_removed) in [("Undo: keep antenna 1", true), ("Remove antenna 1", false)] {
+            window.drag_at(place);
+            window.drop_at(place);
+            settle(&mut window);
+            assert!(window.get_by_role_and_label(Role::Button, said).rect().contains(place));
+            assert_eq!(window.query_by_label_contains("removed when saved").is_some(), is_removed);
+        }
+        assert!(is_disabled(&window, "Save and use"), "nothing is edited");
+    }
+}
+
+#[test]
 fn it_says_what_came_of_saving() {
     for size in SIZES {
         let mut window = form(size);

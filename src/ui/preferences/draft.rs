@@ -1,6 +1,8 @@
 //! Draft of the station: a typing error loses nothing, and nothing is used before all of
 //! it is right.
 
+use std::collections::BTreeSet;
+
 use super::{
     antenna_fields,
     fields::{Standing, Typed},
@@ -16,6 +18,8 @@ use crate::station::{Antenna, AntennaId, ControllerSpec, Station};
 pub(super) struct Draft {
     pub(super) ground: Typed<Ground>,
     pub(super) antennas: Vec<Typed<Antenna>>,
+    /// Indices of antennas that saving removes; until then each can be taken back.
+    removed: BTreeSet<usize>,
     pub(super) skies: Skies,
 }
 
@@ -24,6 +28,7 @@ impl Draft {
         Self {
             ground: Typed::of(Ground::of(station), station_fields::all()),
             antennas: station.antennas.iter().cloned().map(typed).collect(),
+            removed: BTreeSet::new(),
             skies: Skies::of(station),
         }
     }
@@ -40,9 +45,25 @@ impl Draft {
         self.antennas.push(typed(Antenna { id, ..spec.antenna(&name, spec.default_address) }));
     }
 
+    pub(super) fn is_removed(&self, index: usize) -> bool {
+        self.removed.contains(&index)
+    }
+
+    /// Removes an antenna, or takes its removal back.
+    pub(super) fn toggle_removed(&mut self, index: usize) {
+        if !self.removed.remove(&index) {
+            self.removed.insert(index);
+        }
+    }
+
+    /// The antennas that stay, by their indices.
+    fn kept(&self) -> impl Iterator<Item = (usize, &Typed<Antenna>)> {
+        self.antennas.iter().enumerate().filter(|(index, _)| !self.is_removed(*index))
+    }
+
     /// Names of the antennas before anything was typed.
     pub(super) fn antenna_names(&self) -> Vec<String> {
-        self.antennas.iter().map(|antenna| antenna.before().name.clone()).collect()
+        self.kept().map(|(_, antenna)| antenna.before().name.clone()).collect()
     }
 
     /// Standings of the fields of the site.
@@ -65,27 +86,26 @@ impl Draft {
     /// Another antenna with the same name.
     fn twin(&self, index: usize) -> Option<usize> {
         let own = name(self.antennas.get(index)?);
-        self.antennas
-            .iter()
-            .enumerate()
-            .position(|(other, antenna)| other != index && Antenna::same_name(&name(antenna), &own))
+        let mut kept = self.kept();
+        let is_twin = |(other, antenna): &(usize, &Typed<Antenna>)| {
+            *other != index && Antenna::same_name(&name(antenna), &own)
+        };
+        kept.find(is_twin).map(|(other, _)| other)
     }
 
     /// The station, if every field is right.
     pub(super) fn read(&self) -> Option<Station> {
         let is_right = |standings: &[Standing]| standings.iter().all(|of| of.problem.is_none());
         let (ground, standings) = self.ground.read();
-        let all = 0..self.antennas.len();
-        if !is_right(&standings) || !all.into_iter().all(|of| is_right(&self.antenna_standings(of)))
-        {
+        let mut kept = self.kept().map(|(index, _)| index);
+        if !is_right(&standings) || !kept.all(|of| is_right(&self.antenna_standings(of))) {
             return None;
         }
         let mut station =
-            ground.with(self.antennas.iter().map(|antenna| antenna.read().0).collect())?;
+            ground.with(self.kept().map(|(_, antenna)| antenna.read().0).collect())?;
         let renamed: Vec<(String, String)> = self
-            .antennas
-            .iter()
-            .map(|antenna| (antenna.before().name.clone(), name(antenna).trim().to_owned()))
+            .kept()
+            .map(|(_, antenna)| (antenna.before().name.clone(), name(antenna).trim().to_owned()))
             .collect();
         self.skies.put_into(&mut station, &renamed)?;
         Some(station)
@@ -141,6 +161,20 @@ mod tests {
         let specs: Vec<&ControllerSpec> =
             station.antennas.iter().map(|of| of.connection.spec()).collect();
         assert_eq!(specs, [makes::SPECS, makes::SPECS].concat());
+    }
+
+    #[test]
+    fn a_removed_antenna_is_left_out_and_can_be_taken_back() {
+        let mut draft = Draft::of(&station());
+        let whole = draft.read().unwrap();
+        "nowhere".clone_into(write(&mut draft.antennas[1], "Address of the Genius"));
+        draft.toggle_removed(1);
+        let without = draft.read().unwrap();
+        assert_eq!(without.antennas.len(), whole.antennas.len() - 1);
+        assert!(without.antennas.iter().all(|of| of.name != whole.antennas[1].name));
+        draft.toggle_removed(1);
+        assert_eq!(draft.read(), None, "what was typed is still there");
+        assert_eq!(write(&mut draft.antennas[1], "Address of the Genius"), "nowhere");
     }
 
     #[test]

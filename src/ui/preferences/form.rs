@@ -70,26 +70,33 @@ fn site(ui: &mut Ui, draft: &mut Draft) {
 }
 
 fn antennas(ui: &mut Ui, model: &Model, draft: &mut Draft) {
-    let mut removed = None;
+    let mut toggled = None;
     for index in 0..draft.antennas.len() {
+        let is_removed = draft.is_removed(index);
         let standings = draft.antenna_standings(index);
         let Some(antenna) = draft.antennas.get_mut(index) else { continue };
         let make = antenna.before().connection.spec().name;
-        card(ui, &format!("Antenna {}: {make}", index + 1), |ui| {
-            fields(ui, &format!("antenna {index}"), &mut antenna.fields, &standings);
+        let number = index + 1;
+        let note = if is_removed { ", removed when saved" } else { "" };
+        card(ui, &format!("Antenna {number}: {make}{note}"), |ui| {
+            ui.add_enabled_ui(!is_removed, |ui| {
+                fields(ui, &format!("antenna {index}"), &mut antenna.fields, &standings);
+            });
             let before = antenna.before();
             if let Some(known) = model.antennas.iter().find(|of| of.config == *before) {
                 let words = words::stopping_way(known.snapshot.stopping_way);
                 measured(ui, "Way after STOP", &words);
             }
             ui.add_space(4.0);
-            if ui.button(format!("Remove antenna {}", index + 1)).clicked() {
-                removed = Some(index);
+            // The card keeps its height: nothing else moves under the pointer.
+            let word = if is_removed { "Undo: keep" } else { "Remove" };
+            if ui.button(format!("{word} antenna {number}")).clicked() {
+                toggled = Some(index);
             }
         });
     }
-    if let Some(index) = removed {
-        draft.antennas.remove(index);
+    if let Some(index) = toggled {
+        draft.toggle_removed(index);
     }
     card(ui, "One more antenna", |ui| {
         ui.horizontal_wrapped(|ui| {
