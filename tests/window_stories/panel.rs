@@ -209,7 +209,7 @@ fn an_axis_of_more_than_a_turn_takes_what_lies_beyond_it() {
             elevation: Some(Angle::from_degrees(42.0)),
         };
         assert_eq!(asked(&mut window), [antenna(wanted)]);
-        type_into(&mut window, AZIMUTH, "0");
+        type_into(&mut window, AZIMUTH, "4000");
         window.get_by_role_and_label(Role::Button, "Go to").click();
         assert_eq!(asked(&mut window), []);
         assert!(says(&window, "Azimuth 4000 is outside 0° to 450°."));
