@@ -1,4 +1,4 @@
-//! Angles, time, frames and the geometry of mounts. Knows no other layer.
+//! Angles, time, frames and the geometry of mounts. Independent of all other layers.
 
 mod angle;
 mod azel;

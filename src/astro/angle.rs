@@ -4,12 +4,11 @@ use std::ops::{Add, Mul, Neg, Sub};
 
 use serde::{Deserialize, Serialize};
 
-/// A plane angle, held and written down in radians. Never wrapped unless asked to.
+/// A plane angle, stored and serialised in radians. Wrapped only on request.
 #[derive(Debug, Clone, Copy, PartialEq, PartialOrd, Default, Serialize, Deserialize)]
 pub struct Angle(f64);
 
 impl Angle {
-    /// No angle.
     pub const ZERO: Self = Self(0.0);
 
     pub const fn from_radians(radians: f64) -> Self {
@@ -28,7 +27,7 @@ impl Angle {
         self.0.to_degrees()
     }
 
-    /// The same direction from 0 up to, not including, 360 degrees.
+    /// The same direction in the range from 0 up to, not including, 360 degrees.
     #[must_use]
     pub fn wrapped_360(self) -> Self {
         let turned = self.0.rem_euclid(std::f64::consts::TAU);
@@ -36,20 +35,18 @@ impl Angle {
         Self(if turned >= std::f64::consts::TAU { 0.0 } else { turned })
     }
 
-    /// The same direction from -180 up to, not including, 180 degrees.
+    /// The same direction in the range from -180 up to, not including, 180 degrees.
     #[must_use]
     pub fn wrapped_180(self) -> Self {
         let half = std::f64::consts::PI;
         Self(Self(self.0 + half).wrapped_360().0 - half)
     }
 
-    /// The magnitude.
     #[must_use]
     pub fn abs(self) -> Self {
         Self(self.0.abs())
     }
 
-    /// Returns `true` if the value is neither infinite nor not-a-number.
     pub fn is_finite(self) -> bool {
         self.0.is_finite()
     }

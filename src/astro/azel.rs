@@ -5,15 +5,14 @@ use serde::{Deserialize, Serialize};
 
 use super::Angle;
 
-/// Straight up.
 const ZENITH: Angle = Angle::from_degrees(90.0);
 
-/// A direction: azimuth from true north over east, elevation from the horizon.
+/// A direction: azimuth from true north through east, elevation from the horizon.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct AzEl {
-    /// From true north over east.
+    /// From true north through east.
     pub azimuth: Angle,
-    /// From the geometric horizon up.
+    /// Upwards from the geometric horizon.
     pub elevation: Angle,
 }
 
@@ -25,14 +24,14 @@ impl AzEl {
         }
     }
 
-    /// Where axes of elevation over azimuth point that stand there: beyond 90
-    /// degrees the elevation axis points over the zenith to the other side.
+    /// The direction in which an elevation-over-azimuth mount points at these axis positions: an
+    /// elevation beyond 90 degrees points over the zenith to the opposite side.
     pub fn of_axes(azimuth: Angle, elevation: Angle) -> Self {
         let axes = Self { azimuth: azimuth.wrapped_360(), elevation };
         if elevation > ZENITH { axes.flipped() } else { axes }
     }
 
-    /// The other position of such axes that points to the same direction.
+    /// The other pair of axis positions that points in the same direction.
     #[must_use]
     pub fn flipped(self) -> Self {
         let half_turn = Angle::from_degrees(180.0);
@@ -42,12 +41,11 @@ impl AzEl {
         }
     }
 
-    /// Azimuth in degrees, 0 up to 360.
+    /// From 0 up to, not including, 360 degrees.
     pub fn azimuth_deg(self) -> f64 {
         self.azimuth.wrapped_360().degrees()
     }
 
-    /// Elevation in degrees.
     pub fn elevation_deg(self) -> f64 {
         self.elevation.degrees()
     }
@@ -59,8 +57,8 @@ impl AzEl {
         DVec3::new(cos_el * sin_az, cos_el * cos_az, sin_el)
     }
 
-    /// The direction of a vector (east, north, up) of any length but zero.
-    /// Straight up has azimuth 0.
+    /// The direction of an (east, north, up) vector of any length but zero. Straight up
+    /// has azimuth 0.
     pub fn from_enu(enu: DVec3) -> Self {
         let horizontal = enu.x.hypot(enu.y);
         let azimuth = if horizontal == 0.0 { 0.0 } else { enu.x.atan2(enu.y) };
@@ -70,8 +68,8 @@ impl AzEl {
         }
     }
 
-    /// The direction that is `distance_deg` away, on the great circle that leaves at
-    /// `bearing_deg`: 0 towards the zenith, 90 clockwise.
+    /// The direction `distance_deg` away along the great circle that leaves at `bearing_deg`, where
+    /// 0 is towards the zenith and 90 is clockwise.
     #[must_use]
     pub fn towards(self, bearing_deg: f64, distance_deg: f64) -> Self {
         let (sin_az, cos_az) = self.azimuth.radians().sin_cos();
@@ -86,7 +84,7 @@ impl AzEl {
     /// The angle between two directions, 0 to 180 degrees.
     pub fn separation(self, other: Self) -> Angle {
         let (a, b) = (self.to_enu(), other.to_enu());
-        // Better than the arc cosine near zero, where a beam is judged.
+        // The arc cosine is less precise near zero, where a beam is judged.
         Angle::from_radians(a.cross(b).length().atan2(a.dot(b)))
     }
 }

@@ -1,9 +1,8 @@
 //! Frames: TEME, Earth-fixed (ECEF) and the site's east, north, up (ENU).
 //!
-//! TEME is turned into the Earth-fixed frame by Greenwich mean sidereal time
-//! alone, with UT1 taken as UTC and no polar motion. What is left out: UT1-UTC
-//! stays below 0.9 s, which is 0.004 degrees of Earth rotation, and polar
-//! motion stays below 0.6 arc seconds, which is 0.000 2 degrees.
+//! TEME is turned into the Earth-fixed frame by Greenwich mean sidereal time alone, with UT1 taken
+//! as UTC and no polar motion. This neglects UT1-UTC, which stays below 0.9 s or 0.004 degrees of
+//! Earth rotation, and polar motion, which stays below 0.6 arc seconds or 0.000 2 degrees.
 
 use glam::{DMat3, DVec3};
 use jiff::Timestamp;
@@ -12,15 +11,12 @@ use super::{Angle, GroundPoint, Site, time};
 
 /// Equatorial radius of the WGS84 ellipsoid in km.
 pub const WGS84_RADIUS_KM: f64 = 6_378.137;
-/// Flattening of the WGS84 ellipsoid.
 pub const WGS84_FLATTENING: f64 = 1.0 / 298.257_223_563;
 /// Mean radius of the WGS84 ellipsoid in km.
 pub const MEAN_RADIUS_KM: f64 = 6_371.009;
-/// Rotation of the Earth against TEME in rad/s: the rate of mean sidereal time
-/// (IAU 1982).
+/// Rotation rate of the Earth relative to TEME in rad/s: the rate of mean sidereal time (IAU 1982).
 pub const EARTH_RATE_RAD_S: f64 = 7.292_115_855_3e-5;
 
-/// The Earth-fixed position of `site` in km.
 pub fn site_ecef_km(site: Site) -> DVec3 {
     let (sin_lat, cos_lat) = site.latitude().radians().sin_cos();
     let (sin_lon, cos_lon) = site.longitude().radians().sin_cos();
@@ -35,10 +31,10 @@ pub fn site_ecef_km(site: Site) -> DVec3 {
     )
 }
 
-/// The point of the ground below an Earth-fixed position outside of the Earth's core, and the height
+/// The point of the ground below an Earth-fixed position outside the Earth's core, and the height
 /// above the ellipsoid in km.
 ///
-/// Source: Vallado, "Fundamentals of Astrodynamics", the iteration on the latitude; within a
+/// Source: Vallado, "Fundamentals of Astrodynamics", the iteration on the latitude; accurate to a
 /// millimetre after five steps.
 pub fn geodetic(position_ecef_km: DVec3) -> (GroundPoint, f64) {
     let e2 = WGS84_FLATTENING * (2.0 - WGS84_FLATTENING);
@@ -57,7 +53,7 @@ pub fn geodetic(position_ecef_km: DVec3) -> (GroundPoint, f64) {
     (GroundPoint::new(Angle::from_radians(latitude), longitude), height_km)
 }
 
-/// The rotation that takes Earth-fixed vectors to east, north, up at `site`.
+/// The rotation from Earth-fixed vectors to east, north, up at `site`.
 pub fn ecef_to_enu(site: Site) -> DMat3 {
     let (sin_lat, cos_lat) = site.latitude().radians().sin_cos();
     let (sin_lon, cos_lon) = site.longitude().radians().sin_cos();
@@ -67,13 +63,12 @@ pub fn ecef_to_enu(site: Site) -> DMat3 {
     DMat3::from_cols(east, north, up).transpose()
 }
 
-/// The rotation that takes TEME vectors to Earth-fixed ones at `at`.
 pub fn teme_to_ecef(at: Timestamp) -> DMat3 {
     DMat3::from_rotation_z(-time::gmst(at).radians())
 }
 
-/// The Earth-fixed velocity, in km/s, of a body at `position_ecef_km` whose
-/// inertial velocity, turned into the Earth-fixed axes, is `velocity_km_s`.
+/// The Earth-fixed velocity in km/s of a body at `position_ecef_km`. `velocity_km_s` is its
+/// inertial velocity, turned into the Earth-fixed axes.
 pub fn velocity_over_ground_km_s(position_ecef_km: DVec3, velocity_km_s: DVec3) -> DVec3 {
     velocity_km_s - DVec3::new(0.0, 0.0, EARTH_RATE_RAD_S).cross(position_ecef_km)
 }

@@ -1,15 +1,15 @@
 //! Points of the ground and circles around them, by geodetic latitude and longitude.
 //!
-//! A point stands for its vertical, a unit vector, so that distances are angles between
-//! verticals and everything is exact that looks at the horizon: day and night, for one.
+//! A point stands for its vertical, a unit vector. Distances are therefore angles between
+//! verticals, and whatever depends on the horizon, such as day and night, is exact.
 
 use glam::DVec3;
 
 use super::{Angle, frames::MEAN_RADIUS_KM};
 
-/// Steps from the northernmost to the southernmost point of a cap.
+/// Steps from the northernmost to the southernmost point of the edge of a cap.
 const STEPS: u16 = 90;
-/// A centre nearer to a pole than this has no longitude, degrees.
+/// Largest latitude of a cap's centre in degrees: any nearer to a pole, its longitude is undefined.
 const POLE_DEG: f64 = 90.0 - 1e-6;
 
 const HALF_TURN: Angle = Angle::from_degrees(180.0);
@@ -19,7 +19,7 @@ const HALF_TURN: Angle = Angle::from_degrees(180.0);
 pub struct GroundPoint {
     /// North positive.
     pub latitude: Angle,
-    /// East positive, -180 to below 180 degrees.
+    /// East positive, from -180 to below 180 degrees.
     pub longitude: Angle,
 }
 
@@ -48,7 +48,6 @@ impl GroundPoint {
         DVec3::new(cos_lat * cos_lon, cos_lat * sin_lon, sin_lat)
     }
 
-    /// The point on the other side of the Earth.
     #[must_use]
     pub fn antipode(self) -> Self {
         Self::new(-self.latitude, self.longitude + HALF_TURN)
@@ -60,7 +59,8 @@ impl GroundPoint {
         Angle::from_radians(a.cross(b).length().atan2(a.dot(b)))
     }
 
-    /// The direction of the great circle to `other`, from north over east, 0 to 360 degrees.
+    /// The initial direction of the great circle to `other`, from north through east, 0
+    /// to 360 degrees.
     pub fn bearing(self, other: Self) -> Angle {
         let (sin_from, cos_from) = self.latitude.radians().sin_cos();
         let (sin_to, cos_to) = other.latitude.radians().sin_cos();
@@ -70,7 +70,8 @@ impl GroundPoint {
     }
 }
 
-/// The ground within some distance of a point, less than a quarter of the Earth's circumference.
+/// The ground within a given distance of a point. The distance is less than a quarter of the
+/// Earth's circumference.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Cap {
     pub centre: GroundPoint,
@@ -78,13 +79,12 @@ pub struct Cap {
     pub radius: Angle,
 }
 
-/// The part of one parallel that lies in a cap: the same distance to either side of its centre's
-/// meridian.
+/// The part of one parallel that lies in a cap. It extends equally far to both sides of the
+/// centre's meridian.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct CapRow {
     pub latitude: Angle,
-    /// Difference in longitude between the centre and either end; 180 degrees for the whole
-    /// parallel.
+    /// Difference in longitude between the centre and either end; 180 degrees for a whole parallel.
     pub half_width: Angle,
 }
 
@@ -98,9 +98,9 @@ impl Cap {
         self.centre.distance(point) <= self.radius
     }
 
-    /// The edge from its northernmost to its southernmost point, with what lies between its two
-    /// sides. Around a pole the edge begins or ends where the two sides meet on the other
-    /// side of the pole, with a half width of 180 degrees.
+    /// The edge from its northernmost to its southernmost point, each row spanning from one side to
+    /// the other. If the cap contains a pole, the edge begins or ends where its two sides meet
+    /// beyond the pole, with a half width of 180 degrees.
     pub fn edge(&self) -> Vec<CapRow> {
         let centre_deg = self.centre.latitude.degrees().clamp(-POLE_DEG, POLE_DEG);
         let (sin_centre, cos_centre) = centre_deg.to_radians().sin_cos();
@@ -120,7 +120,7 @@ impl Cap {
         (0..=STEPS).map(row).collect()
     }
 
-    /// The whole cap from north to south: its edge, with the pole that lies in it.
+    /// The whole cap from north to south: its edge and, if the cap contains one, the pole.
     pub fn rows(&self) -> Vec<CapRow> {
         let mut rows = self.edge();
         let pole = |latitude_deg: f64| CapRow {
@@ -147,7 +147,6 @@ mod tests {
         Cap { centre, radius: Angle::from_degrees(radius_deg) }
     }
 
-    /// Both ends of a row.
     fn ends(cap: &Cap, row: &CapRow) -> [GroundPoint; 2] {
         [row.half_width, -row.half_width]
             .map(|aside| GroundPoint::new(row.latitude, cap.centre.longitude + aside))
@@ -176,7 +175,7 @@ mod tests {
             let off = istanbul.bearing(to) - Angle::from_degrees(wanted_deg);
             assert!(off.wrapped_180().degrees().abs() < 0.01, "{latitude} {longitude}");
         }
-        // Across the date line the short way is east.
+        // Across the date line, the shorter way is east.
         let fiji = GroundPoint::from_degrees(0.0, 179.0);
         let samoa = GroundPoint::from_degrees(0.0, -172.0);
         assert!((fiji.bearing(samoa).degrees() - 90.0).abs() < 1e-9);
@@ -208,7 +207,7 @@ mod tests {
         assert!(!fiji.contains(GroundPoint::from_degrees(-17.0, -150.0)));
         let rows = fiji.rows();
         assert_eq!(rows.len(), fiji.edge().len(), "no pole");
-        // The middle of it, at about its own latitude, is some 21 degrees of longitude wide.
+        // The middle of the cap, at about its own latitude, is some 21 degrees of longitude wide.
         let widest = rows.iter().map(|row| row.half_width.degrees()).fold(0.0, f64::max);
         assert!((widest - 20.95).abs() < 0.1, "{widest}");
         assert!((rows[0].latitude.degrees() - 3.0).abs() < 1e-9);

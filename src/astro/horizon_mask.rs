@@ -1,5 +1,5 @@
-//! The horizon mask of a site: the elevation below which hills, walls and
-//! trees block the sky, by azimuth.
+//! The horizon mask of a site: the elevation, by azimuth, below which hills, walls and trees
+//! block the sky.
 
 mod import;
 
@@ -11,66 +11,59 @@ pub use import::{MaskForm, MaskImportError};
 
 use super::Angle;
 
-/// Points of one mask, at most: one every twentieth of a degree.
+/// Maximum number of points in a mask: one every twentieth of a degree.
 pub const MAX_MASK_POINTS: usize = 7200;
 
 const TURN_DEG: f64 = 360.0;
 
-/// Elevation by azimuth: straight lines between the points, and around north
-/// from the last point to the first. A single point makes a level horizon.
+/// Elevation by azimuth, with straight lines between the points and, across north, from the last
+/// point to the first. A single point makes a level horizon.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(try_from = "Vec<(f64, f64)>", into = "Vec<(f64, f64)>")]
 pub struct HorizonMask {
-    /// Azimuth from 0 to below 360, rising, and elevation, in degrees.
+    /// Azimuth from 0 to below 360, ascending, and elevation, in degrees.
     points: Vec<(f64, f64)>,
 }
 
-/// The reason why points are not a mask.
+/// The reason why points do not make a mask.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
 pub enum MaskError {
-    /// No point at all.
     #[error("the mask has no points")]
     Empty,
-    /// More than [`MAX_MASK_POINTS`].
     #[error("the mask has more than {MAX_MASK_POINTS} points")]
     TooManyPoints,
-    /// Not on the compass.
     #[error("azimuth {0} is not between 0 and 360 degrees")]
     Azimuth(f64),
-    /// Beyond the zenith or the nadir.
     #[error("elevation {0} is not between -90 and 90 degrees")]
     Elevation(f64),
-    /// Two points in one direction.
     #[error("azimuth {0} is given twice")]
     Duplicate(f64),
 }
 
-/// The reason why a text is not a mask.
+/// The reason why a text does not hold a mask.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum MaskTextError {
-    /// A line does not hold two numbers.
     #[error("line {line} does not hold an azimuth and an elevation")]
     Format {
         /// Counted from 1.
         line: usize,
     },
-    /// A line holds a point that does not fit.
+    /// A line holds a point that is refused.
     #[error("line {line}: {reason}")]
     Point {
         /// Counted from 1.
         line: usize,
-        /// What is wrong with it.
         reason: MaskError,
     },
-    /// The lines together are no mask.
+    /// Each line is valid, but together they do not make a mask.
     #[error(transparent)]
     Mask(#[from] MaskError),
 }
 
 impl HorizonMask {
-    /// A mask through points of azimuth (0 to 360) and elevation (-90 to 90) in
-    /// degrees, in any order. No azimuth may come twice; 0 and 360 are the same
-    /// one, and both may be given when their elevations are equal.
+    /// Builds a mask from points of azimuth (0 to 360) and elevation (-90 to 90) in degrees, in any
+    /// order. No azimuth may occur twice; 0 and 360 are the same azimuth, but both may be given if
+    /// their elevations are equal.
     pub fn from_degrees(points: impl IntoIterator<Item = (f64, f64)>) -> Result<Self, MaskError> {
         let mut builder = Builder::default();
         for (azimuth_deg, elevation_deg) in points {
@@ -79,9 +72,9 @@ impl HorizonMask {
         builder.finish().map_err(|(_, reason)| reason)
     }
 
-    /// Reads a text with one point a line: azimuth and elevation in degrees,
-    /// parted by blanks, tabs, a comma or a semicolon. What follows a `#` is a
-    /// comment; empty lines count for nothing; the order is free.
+    /// Reads a text with one point per line: azimuth and elevation in degrees, separated by
+    /// spaces, tabs, a comma or a semicolon. A `#` starts a comment, empty lines are ignored, and
+    /// the order is free.
     pub fn parse(text: &str) -> Result<Self, MaskTextError> {
         let at_line = |(line, reason)| match reason {
             MaskError::Empty => MaskTextError::Mask(reason),
@@ -115,36 +108,35 @@ impl HorizonMask {
         Angle::from_degrees(from_el + share * (to_el - from_el))
     }
 
-    /// The points: azimuth from 0 to below 360, rising, and elevation, in degrees.
+    /// Azimuth from 0 to below 360, ascending, and elevation, in degrees.
     pub fn points_deg(&self) -> &[(f64, f64)] {
         &self.points
     }
 
-    /// The least elevation of all azimuths.
     pub fn lowest(&self) -> Angle {
         let lowest_deg = self.points.iter().map(|(_, el)| *el).fold(90.0, f64::min);
         Angle::from_degrees(lowest_deg)
     }
 
-    /// The greatest elevation of all azimuths.
     pub fn highest(&self) -> Angle {
         let highest_deg = self.points.iter().map(|(_, el)| *el).fold(-90.0, f64::max);
         Angle::from_degrees(highest_deg)
     }
 }
 
-/// The two numbers of a line without its comment.
+/// Reads the two numbers of a line whose comment is already removed.
 fn numbers(content: &str) -> Option<(f64, f64)> {
     let separated = |c: char| c.is_whitespace() || c == ',' || c == ';';
     let (azimuth, rest) = content.split_once(separated)?;
-    // One mark, with blanks around it: `1,,2` lacks a number in the middle.
+    // Only one separator mark is allowed, with spaces around it: `1,,2` lacks a number
+    // in the middle.
     let rest = rest.trim_start();
     let marked = content.get(azimuth.len()..)?.starts_with([',', ';']);
     let elevation = if marked { rest } else { rest.strip_prefix([',', ';']).unwrap_or(rest) };
     Some((azimuth.parse().ok()?, elevation.trim_start().parse().ok()?))
 }
 
-/// Takes points one by one, each with the line it stands in.
+/// Collects points one by one, each with its line number.
 #[derive(Default)]
 struct Builder {
     points: Vec<(usize, f64, f64)>,
@@ -157,7 +149,7 @@ impl Builder {
         azimuth_deg: f64,
         elevation_deg: f64,
     ) -> Result<(), (usize, MaskError)> {
-        // Written so that NaN falls out as well.
+        // Written so that NaN is refused too.
         if !(0.0..=TURN_DEG).contains(&azimuth_deg) {
             return Err((line, MaskError::Azimuth(azimuth_deg)));
         }
@@ -172,10 +164,10 @@ impl Builder {
     }
 
     fn finish(mut self) -> Result<HorizonMask, (usize, MaskError)> {
-        // The sort is stable: of two equal azimuths the later line is the second.
+        // The sort is stable: of two equal azimuths, the one from the later line comes second.
         self.points.sort_by(|a, b| a.1.total_cmp(&b.1));
         for (a, b) in self.points.iter().zip(self.points.iter().skip(1)) {
-            // Not by order: -0 comes before 0 and is the same.
+            // Compared by value: the sort puts -0 before 0, but they are the same azimuth.
             if a.1 - b.1 == 0.0 {
                 return Err((b.0, MaskError::Duplicate(b.1)));
             }
@@ -208,7 +200,7 @@ impl From<HorizonMask> for Vec<(f64, f64)> {
     }
 }
 
-/// The text that [`HorizonMask::parse`] reads, without loss.
+/// Writes the text that [`HorizonMask::parse`] reads, without loss.
 impl fmt::Display for HorizonMask {
     fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
         writeln!(out, "# azimuth elevation, degrees")?;

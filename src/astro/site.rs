@@ -1,10 +1,10 @@
-//! A place on the ground.
+//! A location on the ground.
 
 use serde::{Deserialize, Serialize};
 
 use super::{Angle, GroundPoint};
 
-/// A place on or near the ground, geodetic on WGS84.
+/// A location on or near the ground, geodetic on WGS84.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(try_from = "SiteFields", into = "SiteFields")]
 pub struct Site {
@@ -13,16 +13,14 @@ pub struct Site {
     altitude_m: f64,
 }
 
-/// The reason why a place is not a site.
+/// The reason why coordinates do not make a site.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
 pub enum SiteError {
-    /// Not within the poles.
     #[error("latitude {0} is not between -90 and 90 degrees")]
     Latitude(f64),
-    /// Not within a turn.
     #[error("longitude {0} is not between -180 and 360 degrees")]
     Longitude(f64),
-    /// Neither the Dead Sea nor a mountain.
+    /// The range covers the Dead Sea and every mountain.
     #[error("altitude {0} is not between -1000 and 10000 m")]
     Altitude(f64),
 }
@@ -39,7 +37,7 @@ impl Site {
     /// (-180 to 360, east positive) and `altitude_m` above the WGS84
     /// ellipsoid (-1000 to 10000).
     pub fn new(latitude_deg: f64, longitude_deg: f64, altitude_m: f64) -> Result<Self, SiteError> {
-        // Written so that NaN falls out as well.
+        // Written so that NaN is refused too.
         if !(-90.0..=90.0).contains(&latitude_deg) {
             return Err(SiteError::Latitude(latitude_deg));
         }
@@ -64,7 +62,7 @@ impl Site {
         Angle::from_degrees(self.longitude_deg)
     }
 
-    /// The site on the map.
+    /// The site without its altitude.
     pub fn point(self) -> GroundPoint {
         GroundPoint::new(self.latitude(), self.longitude())
     }

@@ -1,28 +1,28 @@
 //! Directions to the Sun and the Moon, from short series.
 //!
-//! Sun: "Astronomical Almanac", section C, low precision formulas (0.01 degrees
-//! from 1950 to 2050). Moon: Montenbruck and Gill, "Satellite Orbits", section
-//! 3.3.2 (some arc minutes). The series give the mean equinox of date, which is
-//! within 0.005 degrees of TEME. No refraction.
+//! Sun: "Astronomical Almanac", section C, low precision formulas (0.01 degrees from 1950 to
+//! 2050). Moon: Montenbruck and Gill, "Satellite Orbits", section 3.3.2 (some arc minutes). The
+//! series refer to the mean equinox of date, which is within 0.005 degrees of TEME. Refraction
+//! is not included.
 
 use glam::{DMat3, DVec3};
 use jiff::Timestamp;
 
 use super::{Angle, AzEl, Cap, GroundPoint, Site, frames, time};
 
-/// Terrestrial Time minus UTC since 2017. The Moon moves 0.01 degrees in it.
+/// Terrestrial Time minus UTC since 2017. The Moon moves 0.01 degrees in that time.
 const TT_MINUS_UTC_S: f64 = 69.184;
-/// Elevation of the centre of the Sun at sunrise and sunset: its radius and the refraction
-/// together, below the horizon.
+/// Elevation of the Sun's centre at sunrise and sunset: below the horizon by the Sun's radius and
+/// the refraction together.
 pub const RISE_DEG: f64 = -0.833;
 const ASTRONOMICAL_UNIT_KM: f64 = 149_597_870.7;
 
-/// Where the Sun stands over `site`, geometric.
+/// Geometric direction of the Sun, seen from `site`.
 pub fn sun(site: Site, at: Timestamp) -> AzEl {
     seen_from(site, at, sun_teme_km(at))
 }
 
-/// Where the Moon stands over `site`, geometric, with its parallax.
+/// Geometric direction of the Moon, seen from `site`, with parallax.
 pub fn moon(site: Site, at: Timestamp) -> AzEl {
     seen_from(site, at, moon_teme_km(at))
 }
@@ -32,12 +32,12 @@ pub fn sun_direction_teme(at: Timestamp) -> DVec3 {
     sun_teme_km(at).normalize()
 }
 
-/// The point of the ground that has the Sun in its zenith.
+/// The point of the ground at which the Sun is in the zenith.
 pub fn subsolar_point(at: Timestamp) -> GroundPoint {
     GroundPoint::below(frames::teme_to_ecef(at) * sun_teme_km(at))
 }
 
-/// The part of the ground that has night: the Sun is below [`RISE_DEG`].
+/// The part of the ground where it is night: the Sun is below [`RISE_DEG`].
 pub fn night(at: Timestamp) -> Cap {
     let radius = Angle::from_degrees(90.0 + RISE_DEG);
     Cap { centre: subsolar_point(at).antipode(), radius }
@@ -60,8 +60,8 @@ fn sun_teme_km(at: Timestamp) -> DVec3 {
 fn moon_teme_km(at: Timestamp) -> DVec3 {
     let days = days_tt(at);
     let centuries = days / 36_525.0;
-    // The letters of the book: anomalies of Moon and Sun, distance from the
-    // node, elongation from the Sun.
+    // Symbols as in the book: anomalies of Moon and Sun, distance from the node,
+    // elongation from the Sun.
     let mean_longitude = (218.316_17 + 481_267.880_88 * centuries).to_radians();
     let l = (134.962_92 + 477_198.867_53 * centuries).to_radians();
     let ls = (357.525_43 + 35_999.049_44 * centuries).to_radians();
@@ -102,13 +102,12 @@ fn moon_teme_km(at: Timestamp) -> DVec3 {
     equatorial(days, mean_longitude + in_longitude, latitude) * distance_km
 }
 
-/// Days of Terrestrial Time since 2000-01-01T12:00.
+/// Days since 2000-01-01T12:00 in Terrestrial Time.
 fn days_tt(at: Timestamp) -> f64 {
     time::days_since_j2000(at) + TT_MINUS_UTC_S / time::DAY_S
 }
 
-/// Unit vector along the equator of date from ecliptic longitude and latitude
-/// in radians.
+/// Unit vector in the equatorial frame of date, from ecliptic longitude and latitude in radians.
 fn equatorial(days: f64, longitude: f64, latitude: f64) -> DVec3 {
     let obliquity = (23.439_291 - 3.563e-7 * days).to_radians();
     let (sin_lon, cos_lon) = longitude.sin_cos();
@@ -120,9 +119,8 @@ fn equatorial(days: f64, longitude: f64, latitude: f64) -> DVec3 {
 mod tests {
     use super::*;
 
-    /// Site (latitude, longitude, altitude), time, then azimuth and elevation
-    /// of the Sun and of the Moon, from astropy 8.0.2 (`get_body` seen from the
-    /// site, no pressure, built-in ephemeris).
+    /// Site (latitude, longitude, altitude), time, then azimuth and elevation of the Sun and of the
+    /// Moon, from astropy 8.0.2 (`get_body` seen from the site, no pressure, built-in ephemeris).
     type Row = ((f64, f64, f64), &'static str, (f64, f64), (f64, f64));
 
     const ISTANBUL: (f64, f64, f64) = (41.02, 29.17, 100.0);
@@ -184,14 +182,15 @@ mod tests {
 
     #[test]
     fn at_the_equinox_the_night_is_bounded_by_two_meridians() {
-        // The equinox of March 2026 is at 14:46 UTC; apparent noon in Greenwich that day at 12:07.
+        // The equinox of March 2026 is at 14:46 UTC; apparent noon in Greenwich is at
+        // 12:07 on that day.
         let at: Timestamp = "2026-03-20T14:46:00Z".parse().unwrap();
         let below = subsolar_point(at);
         assert!(below.latitude.degrees().abs() < 0.01, "{below:?}");
         assert!((below.longitude.degrees() + 39.7).abs() < 0.2, "{below:?}");
         for row in night(at).edge() {
             if row.latitude.degrees().abs() < 60.0 {
-                // 0.833 degrees of night are lost, on a parallel the more the further north.
+                // The night loses 0.833 degrees, and more on a parallel further north.
                 let lost_deg = 90.0 - row.half_width.degrees();
                 assert!((0.8..1.8).contains(&lost_deg), "{row:?}");
             }

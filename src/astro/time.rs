@@ -1,5 +1,5 @@
-//! Julian dates and sidereal time. All times are UTC; UT1 is taken as UTC,
-//! which turns the sky by at most 0.9 s or 0.004 degrees.
+//! Julian dates and sidereal time. All times are UTC; taking UT1 as UTC turns the sky by at most
+//! 0.9 s or 0.004 degrees.
 
 use jiff::Timestamp;
 
@@ -9,18 +9,16 @@ use super::Angle;
 const UNIX_EPOCH_JD: f64 = 2_440_587.5;
 /// Julian date of 2000-01-01T12:00Z.
 const J2000_JD: f64 = 2_451_545.0;
-/// More seconds than the calendar has.
+/// More seconds than the calendar spans.
 const FARTHEST_S: f64 = 1e12;
-/// Seconds of a day.
 pub const DAY_S: f64 = 86_400.0;
 
-/// Seconds from `from` to `to`, negative when `to` is earlier. Exact to the
-/// nanosecond within decades.
+/// Seconds from `from` to `to`, negative if `to` is earlier. Exact to the nanosecond over decades.
 pub fn seconds_between(from: Timestamp, to: Timestamp) -> f64 {
     to.duration_since(from).as_secs_f64()
 }
 
-/// `time` moved by `seconds`; stays where it is when that leaves the calendar.
+/// `time` plus `seconds`; unchanged if the result would leave the calendar.
 pub fn add_seconds(time: Timestamp, seconds: f64) -> Timestamp {
     let moved = seconds + f64::from(time.subsec_nanosecond()) * 1e-9;
     if moved.is_nan() || moved.abs() > FARTHEST_S {
@@ -40,13 +38,13 @@ pub fn days_since_j2000(time: Timestamp) -> f64 {
 
 /// Greenwich mean sidereal time (IAU 1982), 0 to 360 degrees.
 ///
-/// Source: Vallado, "Fundamentals of Astrodynamics", the form that SGP4's TEME
-/// frame is defined with.
+/// Source: Vallado, "Fundamentals of Astrodynamics", the form by which SGP4's TEME
+/// frame is defined.
 pub fn gmst(time: Timestamp) -> Angle {
     let days = days_since_j2000(time);
     let centuries = days / 36_525.0;
-    // The whole days carry no sidereal rotation that matters: take them out
-    // first, so that the fast term keeps its digits.
+    // Each whole day adds a whole turn to the fast term, so whole days are removed first to keep
+    // the term's precision.
     let turn_of_day = (days + 0.5).rem_euclid(1.0);
     let slow_s = 67_310.548_41
         + (8_640_184.812_866 + (0.093_104 - 6.2e-6 * centuries) * centuries) * centuries;

@@ -1,23 +1,21 @@
-//! Geometry of a mount with two crossed axes, the lower one horizontal.
+//! Geometry of a mount with two crossed axes, of which the lower one is horizontal.
 //!
-//! The lower axis is fixed to the ground and points to the azimuth
-//! `lower_axis_azimuth`; the keyholes lie on the horizon at its two ends. Both
-//! axis angles are zero at the zenith. Formulas: Pisgah Astronomical Research
-//! Institute's `xymount` (lower axis north-south), turned by the azimuth of
-//! the lower axis.
+//! The lower axis is fixed to the ground and points to the azimuth `lower_axis_azimuth`; the
+//! keyholes lie on the horizon at its two ends. Both axis angles are zero at the zenith. Formulas:
+//! Pisgah Astronomical Research Institute's `xymount` (lower axis north-south), turned by the
+//! azimuth of the lower axis.
 
 use super::{Angle, AzEl};
 
 /// Angles of the two axes, zero at the zenith.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct AxisAngles {
-    /// Turn about the lower axis.
+    /// Rotation about the lower axis.
     pub lower: Angle,
-    /// Turn about the upper axis.
+    /// Rotation about the upper axis.
     pub upper: Angle,
 }
 
-/// The axis angles that point the mount at `direction`.
 pub fn axes_from_azel(direction: AzEl, lower_axis_azimuth: Angle) -> AxisAngles {
     let turned =
         AzEl { azimuth: direction.azimuth - lower_axis_azimuth, elevation: direction.elevation };
@@ -28,7 +26,6 @@ pub fn axes_from_azel(direction: AzEl, lower_axis_azimuth: Angle) -> AxisAngles 
     }
 }
 
-/// The direction in which the mount points at `axes`.
 pub fn azel_from_axes(axes: AxisAngles, lower_axis_azimuth: Angle) -> AzEl {
     let (sin_l, cos_l) = axes.lower.radians().sin_cos();
     let (sin_p, cos_p) = axes.upper.radians().sin_cos();
@@ -43,7 +40,7 @@ pub fn azel_from_axes(axes: AxisAngles, lower_axis_azimuth: Angle) -> AzEl {
 mod tests {
     use super::*;
 
-    /// Az, El, then lower and upper angle with the lower axis north-south and
+    /// Azimuth, elevation, then the lower and upper angles with the lower axis north-south and
     /// east-west, as computed independently.
     const TABLE: [(f64, f64, f64, f64, f64, f64); 7] = [
         (0.0, 45.0, 0.0, 45.0, 45.0, 0.0),
@@ -62,8 +59,8 @@ mod tests {
             let north = axes_from_azel(direction, Angle::ZERO);
             assert!((north.lower.degrees() - ns_lower).abs() < 0.006, "{az} {el}");
             assert!((north.upper.degrees() - ns_upper).abs() < 0.006, "{az} {el}");
-            // The lower axis to the east turns the other way about than the
-            // table's, which counts north positive.
+            // A lower axis that points east turns in the opposite sense to the table's, which
+            // counts north as positive.
             let east = axes_from_azel(direction, Angle::from_degrees(90.0));
             assert!((east.lower.degrees() + ew_lower).abs() < 0.006, "{az} {el}");
             assert!((east.upper.degrees() - ew_upper).abs() < 0.006, "{az} {el}");

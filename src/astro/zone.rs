@@ -8,73 +8,60 @@ use glam::DVec3;
 use self::edge::Edge;
 use super::{Angle, AzEl};
 
-/// Corners of one zone, at least.
 pub const MIN_CORNERS: usize = 3;
-/// Corners of one zone, at most.
 pub const MAX_CORNERS: usize = 100;
 
-/// Two directions closer than this are one, radians.
+/// Directions closer together than this count as the same, radians.
 const SAME: f64 = 1e-9;
 
-/// A polygon on the sphere of directions. An edge between corners of equal
-/// elevation is an arc of that elevation, from one azimuth to the other as they
-/// are counted; any other edge is the shorter great circle. Inside is the side
-/// without the nadir.
+/// A polygon on the sphere of directions. An edge between corners of equal elevation is an arc of
+/// that elevation that spans the azimuths as given; any other edge is the shorter great circle. The
+/// inside is the side that does not contain the nadir.
 ///
-/// Azimuths go on through north: from 350 to 370 degrees an edge is 20 degrees
-/// long, from 350 to 10 degrees it goes back by 340. A last corner that is the
-/// first one counted a turn on closes the polygon: 0, 120, 240, 360 degrees at one
-/// elevation make a cap around the zenith.
+/// Azimuths may continue past north: from 350 to 370 degrees an edge is 20 degrees long, from 350
+/// to 10 degrees it goes back by 340. A last corner that is the first corner plus a turn closes the
+/// polygon: 0, 120, 240, 360 degrees at one elevation make a cap around the zenith.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Zone {
     corners: Vec<AzEl>,
     edges: Vec<Edge>,
 }
 
-/// Why corners are no zone. Corners and edges are counted from 1; edge 1 leads
+/// The reason why corners do not make a zone. Corners and edges are counted from 1; edge 1 leads
 /// from corner 1 to corner 2, the last edge back to corner 1.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
 pub enum ZoneError {
-    /// Fewer than [`MIN_CORNERS`].
     #[error("a zone needs at least {MIN_CORNERS} corners")]
     TooFewCorners,
-    /// More than [`MAX_CORNERS`].
     #[error("a zone has at most {MAX_CORNERS} corners")]
     TooManyCorners,
-    /// Infinite or not a number.
+    /// Infinite or NaN.
     #[error("the azimuth of corner {corner} is not a number")]
     Azimuth { corner: usize },
-    /// Beyond the zenith or the nadir, or not a number.
+    /// Beyond the zenith or the nadir, or NaN.
     #[error("the elevation of corner {corner} is not between -90 and 90 degrees")]
     Elevation { corner: usize },
-    /// Both ends of an edge are one direction.
     #[error("edge {edge} has no length: its two corners are the same direction")]
     NoLength { edge: usize },
-    /// An arc of constant elevation of more than 360 degrees.
+    /// An arc of constant elevation that spans more than 360 degrees.
     #[error("edge {edge} turns by more than 360 degrees")]
     MoreThanATurn { edge: usize },
-    /// Many great circles join opposite directions.
+    /// Infinitely many great circles join opposite directions.
     #[error("edge {edge} joins opposite directions: a corner between them is needed")]
     Opposite { edge: usize },
-    /// The side of the zone cannot be told.
+    /// The inside is the side without the nadir, so it is undefined here.
     #[error("edge {edge} passes through the nadir")]
     Nadir { edge: usize },
-    /// Two edges have a point in common that is no corner of both.
+    /// Two edges share a point that is not a corner of both.
     #[error("edges {first} and {second} cross or touch each other")]
-    Crossing {
-        /// The number of one.
-        first: usize,
-        /// The number of the other.
-        second: usize,
-    },
-    /// All corners lie on one line.
+    Crossing { first: usize, second: usize },
     #[error("the corners lie on one line: the zone has no area")]
     NoArea,
 }
 
 impl Zone {
-    /// A zone of 3 to 100 corners, elevation -90 to 90 degrees, in the order of its
-    /// edges. The edge from the last corner to the first closes it.
+    /// A zone of 3 to 100 corners with elevations of -90 to 90 degrees, in the order of its edges.
+    /// The edge from the last corner to the first closes the zone.
     pub fn new(corners: Vec<AzEl>) -> Result<Self, ZoneError> {
         if corners.len() < MIN_CORNERS {
             return Err(ZoneError::TooFewCorners);
@@ -86,7 +73,7 @@ impl Zone {
             if !at.azimuth.is_finite() {
                 return Err(ZoneError::Azimuth { corner });
             }
-            // Written so that NaN falls out as well.
+            // Written so that NaN is refused too.
             if !(-90.0..=90.0).contains(&at.elevation_deg()) {
                 return Err(ZoneError::Elevation { corner });
             }
@@ -103,13 +90,13 @@ impl Zone {
         Ok(Self { corners, edges })
     }
 
-    /// The corners as they were given.
+    /// The corners as given.
     pub fn corners(&self) -> &[AzEl] {
         &self.corners
     }
 
-    /// The angle from `direction` to the nearest edge: positive outside, negative
-    /// inside. Two directions differ in it by no more than the angle between them.
+    /// The angle from `direction` to the nearest edge: positive outside, negative inside. The
+    /// clearances of two directions differ by no more than the angle between the directions.
     pub fn clearance(&self, direction: AzEl) -> Angle {
         let at = direction.to_enu();
         let elevation = at.z.atan2(at.x.hypot(at.y));
@@ -120,24 +107,24 @@ impl Zone {
             nearest = nearest.min(edge.chord_squared(at, azimuth, elevation));
             crossed += edge.crossings_below(at, azimuth, elevation);
         }
-        // The chord keeps its digits near zero, where the cosine loses them.
+        // The chord stays precise near zero, where the cosine does not.
         let distance = 2.0 * (nearest.sqrt() / 2.0).min(1.0).asin();
         let is_inside = crossed % 2 != 0;
         Angle::from_radians(if is_inside { -distance } else { distance })
     }
 
-    /// Points along the edges, each corner and between them no more than `step`
-    /// apart (0.01 degrees at least), from the first corner once around to the
-    /// first again. Azimuths are from 0 to 360 degrees.
+    /// Points along the edges, including each corner, no more than `step` (at least 0.01
+    /// degrees) apart, from the first corner all the way around and back to it. Azimuths are
+    /// from 0 to 360 degrees.
     pub fn edges_sampled(&self, step: Angle) -> impl Iterator<Item = AzEl> + '_ {
         let step = step.radians().max(0.01_f64.to_radians());
         let first = self.corners.first().map(|first| AzEl::from_enu(first.to_enu()));
         self.edges.iter().flat_map(move |edge| edge.points(step)).chain(first)
     }
 
-    /// Points around the zone at the distance `margin`, with about `step` (0.01
-    /// degrees at least) between them, in the order of the edges: all directions
-    /// with this clearance where the zone is simple. Empty where there is no margin.
+    /// Points around the zone at the distance `margin`, about `step` (at least 0.01 degrees) apart,
+    /// in the order of the edges. Around a simple zone they cover all directions with this
+    /// clearance. Empty without a margin.
     pub fn margin_sampled(&self, margin: Angle, step: Angle) -> Vec<AzEl> {
         let step = step.radians().max(0.01_f64.to_radians());
         if margin.radians() <= 0.0 {
@@ -159,13 +146,13 @@ impl Zone {
                 Some(away_from(edge.at(share), away, margin.radians()))
             }));
         }
-        // What lies too near belongs to the inside of a bend.
+        // Points that are too near come from the inside of a bend.
         let least = margin.radians() - 1e-6;
         let points = points.into_iter().map(AzEl::from_enu);
         points.filter(|point| self.clearance(*point).radians() >= least).collect()
     }
 
-    /// The direction away from the zone, across an edge at `share` of its way.
+    /// The direction away from the zone, perpendicular to `edge` at `share` of its length.
     fn outward(&self, edge: &Edge, share: f64) -> Option<DVec3> {
         let at = edge.at(share);
         let across = edge.across(share);
@@ -176,8 +163,8 @@ impl Zone {
         })
     }
 
-    /// The middle of the edge from corner `index` (from 0) to the next one; `None`
-    /// where there is no such edge. Its azimuth is counted on from the corner's.
+    /// The middle of the edge from corner `index` (from 0) to the next one; `None` if there is no
+    /// such edge. Its azimuth continues from the corner's without wrapping.
     pub fn middle_of_edge(&self, index: usize) -> Option<AzEl> {
         let (edge, from) = (self.edges.get(index)?, self.corners.get(index)?);
         let middle = AzEl::from_enu(edge.at(0.5));
@@ -190,18 +177,18 @@ impl Zone {
     }
 }
 
-/// Returns `true` if `b` is the direction of `a`, counted one turn or more on or back.
+/// Returns `true` if `a` and `b` are the same direction with azimuths one or more turns apart.
 fn is_a_turn_on(a: AzEl, b: AzEl) -> bool {
     let is_counted_on = (a.azimuth - b.azimuth).abs().degrees() > 180.0;
     is_counted_on && is_same(a.to_enu(), b.to_enu())
 }
 
-/// The point at the angle `by` from `at` towards `away`, which is across.
+/// The point at the angle `by` from `at` in the direction `away`, which is perpendicular to `at`.
 fn away_from(at: DVec3, away: DVec3, by: f64) -> DVec3 {
     at * by.cos() + away * by.sin()
 }
 
-/// Points around a corner from one direction across to another.
+/// Points at the angle `by` around the corner `at`, from one perpendicular direction to another.
 fn fan(at: DVec3, from: DVec3, to: DVec3, by: f64, step: f64) -> Vec<DVec3> {
     let angle = from.cross(to).length().atan2(from.dot(to));
     let parts = (angle * by / step).ceil().max(1.0) as u32;

@@ -1,8 +1,8 @@
-//! Horizon masks as other programs write them.
+//! Imports horizon masks written by other programs.
 
 use super::{Builder, HorizonMask, MaskError};
 
-/// Names of the column of the azimuth, the surest first. Lower case.
+/// Names of the azimuth column in lower case, the most certain first.
 const AZIMUTH: [&str; 8] = [
     "azimuth",
     "az",
@@ -13,8 +13,8 @@ const AZIMUTH: [&str; 8] = [
     "direction",
     "horizontal angle",
 ];
-/// Names of the column of the elevation, the surest first: a file of a phone may
-/// have the altitude of the place beside the angle.
+/// Names of the elevation column in lower case, the most certain first: a file from a phone may
+/// hold the altitude of the place beside the angle.
 const ELEVATION: [&str; 11] = [
     "elevation angle",
     "vertical angle",
@@ -28,59 +28,54 @@ const ELEVATION: [&str; 11] = [
     "altitude",
     "alt",
 ];
-/// Sections of a file of keys and values that hold a mask. Lower case.
+/// Sections that hold a mask in a file of keys and values, in lower case.
 const SECTIONS: [&str; 3] = ["horizon", "horizon mask", "mask"];
 
-/// A form in which a mask was found.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum MaskForm {
-    /// Two numbers a line, without names.
+    /// Two numbers per line, without names.
     Points,
     /// A table whose first line names its columns.
     Table,
-    /// Lines of `azimuth = elevation`, perhaps in a section, as in the station
-    /// files of other programs.
+    /// Lines of `azimuth = elevation`, optionally in a section, as in the station files of
+    /// other programs.
     Keys,
 }
 
-/// The reason why a text is not a mask in any known form.
+/// The reason why a text does not hold a mask in any known form.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum MaskImportError {
-    /// The table has no such column.
     #[error("line {line} names no column for the {column}")]
     Column {
-        /// Where the columns are named, counted from 1.
+        /// The line that names the columns, counted from 1.
         line: usize,
         /// "azimuth" or "elevation".
         column: &'static str,
     },
-    /// The file has sections, and none is of a horizon.
+    /// The file has sections, but none for a horizon.
     #[error("the file has no section [horizon]")]
     NoSection,
-    /// A line does not hold the two numbers.
     #[error("line {line} does not hold an azimuth and an elevation in degrees")]
     Format {
         /// Counted from 1.
         line: usize,
     },
-    /// A line holds a point that does not fit.
+    /// A line holds a point that is refused.
     #[error("line {line}: {reason}")]
     Point {
         /// Counted from 1.
         line: usize,
-        /// What is wrong with it.
         reason: MaskError,
     },
-    /// There is no point.
     #[error("there is no azimuth and elevation in it")]
     Empty,
 }
 
 impl HorizonMask {
-    /// Reads a mask in any known form, recognised by its content: two numbers a
-    /// line; a table of commas, semicolons or tabs whose first line names the
-    /// columns; or lines of `azimuth = elevation`. A line that holds a point that
-    /// cannot be used is an error, so that none gets lost.
+    /// Reads a mask in any known form, recognised by its content: two numbers per line; a table
+    /// separated by commas, semicolons or tabs whose first line names the columns; or lines of
+    /// `azimuth = elevation`. A line with an unusable point is an error, so that no point is
+    /// lost silently.
     pub fn import(text: &str) -> Result<(Self, MaskForm), MaskImportError> {
         let lines: Vec<(usize, &str)> = (1..)
             .zip(text.trim_start_matches('\u{feff}').lines())
@@ -106,8 +101,8 @@ impl HorizonMask {
         Ok((builder.finish().map_err(at_line)?, form))
     }
 
-    /// A table that other programs read: commas, and a first line that names the
-    /// columns. [`HorizonMask::import`] reads it without loss.
+    /// A table for other programs: separated by commas, with a first line that names the columns.
+    /// [`HorizonMask::import`] reads it without loss.
     pub fn to_csv(&self) -> String {
         let lines = self.points.iter().map(|(azimuth, elevation)| format!("{azimuth},{elevation}"));
         std::iter::once("azimuth_deg,elevation_deg".to_owned())
@@ -123,7 +118,8 @@ fn is_comment(line: &str) -> bool {
     line.starts_with('#') || line.starts_with("//")
 }
 
-/// Numbers alone. Decimal commas where blanks or semicolons part the numbers.
+/// Reads lines of two numbers. Decimal commas are allowed if spaces, tabs or semicolons
+/// separate the numbers.
 fn plain(lines: &[(usize, &str)]) -> Result<Vec<Point>, MaskImportError> {
     let point = |&(line, text): &(usize, &str)| {
         let text = text.split('#').next().unwrap_or_default().trim();
@@ -141,7 +137,7 @@ fn plain(lines: &[(usize, &str)]) -> Result<Vec<Point>, MaskImportError> {
     lines.iter().map(point).collect()
 }
 
-/// A table with a head.
+/// Reads a table with a header line.
 fn table(lines: &[(usize, &str)]) -> Result<Vec<Point>, MaskImportError> {
     let Some(((line, head), rows)) = lines.split_first() else { return Ok(Vec::new()) };
     let separator = [';', '\t', ','].into_iter().find(|mark| head.contains(*mark)).unwrap_or(',');
@@ -158,15 +154,14 @@ fn table(lines: &[(usize, &str)]) -> Result<Vec<Point>, MaskImportError> {
         let (Some(azimuth_deg), Some(elevation_deg)) = (cell(azimuth), cell(elevation)) else {
             return Err(MaskImportError::Format { line });
         };
-        // Some count west of north negative.
+        // Some programs count azimuths west of north as negative.
         let is_west = (-180.0..0.0).contains(&azimuth_deg);
         Ok((line, if is_west { azimuth_deg + 360.0 } else { azimuth_deg }, elevation_deg))
     };
     rows.iter().map(point).collect()
 }
 
-/// Keys and values: those of a section for the horizon, or all where there are no
-/// sections.
+/// Reads keys and values: those of the sections for the horizon, or all if there are no sections.
 fn keys(lines: &[(usize, &str)]) -> Result<Vec<Point>, MaskImportError> {
     let has_sections = lines.iter().any(|(_, line)| line.starts_with('['));
     let (mut is_inside, mut was_inside) = (!has_sections, !has_sections);
@@ -201,8 +196,7 @@ fn cells(line: &str, separator: char) -> Vec<String> {
     cells
 }
 
-/// The name of a column without its unit: `Azimuth (deg)` and `azimuth_deg` are
-/// both "azimuth".
+/// The name of a column without its unit: `Azimuth (deg)` and `azimuth_deg` both become "azimuth".
 fn plain_name(name: &str) -> String {
     let name = name.split(['(', '[', '°']).next().unwrap_or_default();
     let name = name.replace('_', " ").to_lowercase();
@@ -211,7 +205,7 @@ fn plain_name(name: &str) -> String {
     bare.unwrap_or(name).trim().to_owned()
 }
 
-/// A number, perhaps with a decimal comma, another minus or a degree sign.
+/// Reads a number that may have a decimal comma, a typographic minus or a degree sign.
 fn number(text: &str) -> Option<f64> {
     let text = text.trim().trim_end_matches('°').trim_end();
     text.replace(',', ".").replace('−', "-").parse().ok()

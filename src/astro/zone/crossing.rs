@@ -1,4 +1,4 @@
-//! Whether the edges of a zone cross each other.
+//! Checks whether the edges of a zone cross each other.
 
 use std::f64::consts::TAU;
 
@@ -10,7 +10,7 @@ use super::{
     is_same,
 };
 
-/// Refuses edges that have more in common than the corners between them.
+/// Refuses edges that share more than the corners between them.
 pub(super) fn check(edges: &[Edge]) -> Result<(), ZoneError> {
     let numbered = || (1_usize..).zip(edges);
     for (first, one) in numbered() {
@@ -36,12 +36,13 @@ pub(super) fn check(edges: &[Edge]) -> Result<(), ZoneError> {
     Ok(())
 }
 
-/// Where edges meet at a small angle, the point is less certain than a corner.
+/// Compares with a wider tolerance than for corners: the point where edges meet at a small angle
+/// is less certain.
 fn is_near(a: DVec3, b: DVec3) -> bool {
     a.distance_squared(b) < (1e3 * SAME).powi(2)
 }
 
-/// Points that both edges have; of a common stretch its ends and its middle.
+/// Points that both edges share; for a shared stretch, its ends and its middle.
 fn common_points(one: &Edge, other: &Edge) -> [Option<DVec3>; 4] {
     use Shape::{Arc, GreatCircle};
     match (one.shape, other.shape) {
@@ -63,8 +64,8 @@ fn common_points(one: &Edge, other: &Edge) -> [Option<DVec3>; 4] {
     }
 }
 
-/// Of edges on one circle: every end that lies within the other edge, and the
-/// middle of an edge whose ends are both ends of the other.
+/// For edges on one circle: every end that lies inside the other edge, and the middle of an edge
+/// whose ends are both ends of the other.
 fn common_stretch(one: &Edge, other: &Edge) -> [Option<DVec3>; 4] {
     let within = |edge: &Edge, point: DVec3| {
         Some(point).filter(|point| {
@@ -80,7 +81,7 @@ fn common_stretch(one: &Edge, other: &Edge) -> [Option<DVec3>; 4] {
     if ends.iter().any(Option::is_some) {
         return ends;
     }
-    // Without an end of one inside the other they are the same stretch, touch at
+    // If no end of one lies inside the other, the edges are the same stretch, touch at
     // corners, or are apart.
     let touching = [one.from, one.to]
         .map(|end| Some(end).filter(|end| is_same(*end, other.from) || is_same(*end, other.to)));
@@ -95,7 +96,7 @@ fn at_elevation(circle: &Edge, normal: DVec3, arc: &Edge, elevation: f64) -> [Op
     } else {
         f64::NAN
     };
-    // Where the circle only just reaches the elevation, rounding must not lose it.
+    // Rounding must not lose a circle that only just reaches the elevation.
     if sin.is_nan() || sin.abs() > 1.0 + SAME * SAME {
         return [None; 4];
     }
@@ -109,7 +110,8 @@ fn at_elevation(circle: &Edge, normal: DVec3, arc: &Edge, elevation: f64) -> [Op
     [at(cos), at(-cos), None, None]
 }
 
-/// Returns `true` if a point of the circle of `edge` lies between its ends, both included.
+/// Returns `true` if `point`, which is on the circle of `edge`, lies between its ends,
+/// both included.
 fn is_on(edge: &Edge, point: DVec3) -> bool {
     is_same(point, edge.from)
         || is_same(point, edge.to)

@@ -7,14 +7,13 @@ use glam::DVec3;
 use super::{SAME, ZoneError, is_same};
 use crate::astro::{Angle, AzEl};
 
-/// From corner to corner.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Edge {
     pub(super) from: DVec3,
     pub(super) to: DVec3,
     from_azimuth: f64,
     to_azimuth: f64,
-    /// By how much the azimuth turns on the way, radians, signed.
+    /// Change of azimuth from one end to the other, radians, signed.
     turn: f64,
     pub(super) shape: Shape,
 }
@@ -23,7 +22,7 @@ pub(super) struct Edge {
 pub(super) enum Shape {
     /// The shorter great circle; `normal` is of length 1.
     GreatCircle { normal: DVec3 },
-    /// Of constant elevation, radians.
+    /// An arc of constant elevation, radians.
     Arc { elevation: f64 },
 }
 
@@ -66,18 +65,18 @@ impl Edge {
         Ok(circle)
     }
 
-    /// By how much the azimuth turns on an arc of constant elevation, radians.
+    /// Change of azimuth along an arc of constant elevation, radians; `None` for a great circle.
     pub(super) fn turn(&self) -> Option<f64> {
         matches!(self.shape, Shape::Arc { .. }).then_some(self.turn)
     }
 
-    /// The square of the straight distance from the direction `at` to the nearest
+    /// The square of the straight-line distance from the direction `at` to the nearest
     /// point of the edge.
     pub(super) fn chord_squared(&self, at: DVec3, azimuth: f64, elevation: f64) -> f64 {
         let beside = match self.shape {
             Shape::GreatCircle { normal } if self.spans(at, normal) => {
                 let off_squared = normal.dot(at).powi(2).min(1.0);
-                // The chord of the angle whose sine is known.
+                // The squared chord of an angle, from the square of its sine.
                 2.0 * off_squared / (1.0 + (1.0 - off_squared).sqrt())
             }
             Shape::Arc { elevation: level } if self.turns_past(azimuth) => {
@@ -88,8 +87,7 @@ impl Edge {
         beside.min(at.distance_squared(self.from)).min(at.distance_squared(self.to))
     }
 
-    /// Returns `true` if the point of the great circle that is nearest to `at` lies between
-    /// the ends.
+    /// Returns `true` if the point of the great circle nearest to `at` lies between the ends.
     pub(super) fn spans(&self, at: DVec3, normal: DVec3) -> bool {
         normal.cross(self.from).dot(at) >= 0.0 && self.to.cross(normal).dot(at) >= 0.0
     }
@@ -100,11 +98,11 @@ impl Edge {
         (azimuth - start).rem_euclid(TAU) <= self.turn.abs()
     }
 
-    /// How often the edge crosses the vertical line from the direction `at` down to
-    /// the nadir; backwards counts negative.
+    /// How often the edge crosses the vertical line from the direction `at` down to the nadir;
+    /// crossings in the opposite sense count as negative.
     pub(super) fn crossings_below(&self, at: DVec3, azimuth: f64, elevation: f64) -> i64 {
-        // The place of a corner beside the line is computed in the same way for both
-        // of its edges, so that a line through a corner is crossed once or not at all.
+        // The position of a corner relative to the line is computed in the same way for both of its
+        // edges, so that a line through a corner is crossed once or not at all.
         let beside = |corner: f64| (corner - azimuth).rem_euclid(TAU);
         let (from, to) = (beside(self.from_azimuth), beside(self.to_azimuth));
         let crossings = ((from + self.turn - to) / TAU).round() as i64;
@@ -126,7 +124,7 @@ impl Edge {
         if is_below { crossings } else { 0 }
     }
 
-    /// The point at `share` (0 to 1) of the way.
+    /// The point at `share` (0 to 1) of the length.
     pub(super) fn at(&self, share: f64) -> DVec3 {
         match self.shape {
             Shape::GreatCircle { normal } => {
@@ -141,7 +139,7 @@ impl Edge {
         }
     }
 
-    /// The direction across the edge at `share` of the way, of length 1.
+    /// The direction perpendicular to the edge at `share` of its length, a unit vector.
     pub(super) fn across(&self, share: f64) -> DVec3 {
         match self.shape {
             Shape::GreatCircle { normal } => normal,
@@ -153,7 +151,7 @@ impl Edge {
         }
     }
 
-    /// Along the edge, radians.
+    /// In radians.
     pub(super) fn length(&self) -> f64 {
         match self.shape {
             Shape::GreatCircle { .. } => {
@@ -163,7 +161,7 @@ impl Edge {
         }
     }
 
-    /// Points from the start on, no more than `step` apart, without the end.
+    /// Points from the start onwards, no more than `step` (radians) apart, without the end.
     pub(super) fn points(self, step: f64) -> impl Iterator<Item = AzEl> {
         let count = (self.length() / step).ceil().max(1.0) as u32;
         (0..count).map(move |index| AzEl::from_enu(self.at(f64::from(index) / f64::from(count))))

@@ -43,7 +43,7 @@ fn a_box_on_the_horizon_is_measured_from_its_nearest_edge() {
 
 #[test]
 fn an_edge_of_equal_elevations_is_an_arc_and_any_other_a_great_circle() {
-    // The great circle between these corners would rise to 40.9 degrees at 50.
+    // The great circle between these corners would rise to 40.9 degrees at azimuth 50.
     let arc = zone(&[(0.0, 0.0), (0.0, 30.0), (100.0, 30.0), (100.0, 0.0)]).unwrap();
     expect(&arc, &[(50.0, 30.0, 0.0), (50.0, 35.0, 5.0)]);
     let circle = zone(&[(0.0, 0.0), (0.0, 30.0), (100.0, 30.001), (100.0, 0.0)]).unwrap();
@@ -119,12 +119,12 @@ fn what_is_no_zone_is_refused_with_its_reason() {
         (&[(0.0, 60.0), (120.0, 60.0), (240.0, 60.0)], E::NoArea),
         (&[(0.0, 9.0), (0.0, 40.0), (0.0, 20.0)], E::NoArea),
         (&[(0.0, 9.0), (40.0, 19.0), (360.0, 9.0)], E::NoArea),
-        // A band with a seam.
+        // A full band with a seam.
         (
             &[(0.0, 0.0), (360.0, 0.0), (360.0, 9.0), (0.0, 9.0)],
             E::Crossing { first: 2, second: 4 },
         ),
-        // The arc at 20 degrees lies under the great circle that leaves from it.
+        // The arc at 20 degrees lies below the great circle that starts at its end.
         (
             &[(0.0, 10.0), (0.0, 20.0), (100.0, 20.0), (100.0, 21.0), (5.0, 15.0)],
             E::Crossing { first: 2, second: 4 },
@@ -198,8 +198,8 @@ fn frame(middle: AzEl) -> (DVec3, DVec3) {
     (up, up.cross(middle.to_enu()))
 }
 
-/// Even-odd in the plane that touches the sphere at `middle`, where great circles
-/// are straight.
+/// Even-odd rule in the plane that touches the sphere at `middle`, where great
+/// circles are straight.
 fn is_inside_in_the_plane(middle: AzEl, corners: &[AzEl], at: AzEl) -> bool {
     let (up, east) = frame(middle);
     let ahead = middle.to_enu();
@@ -226,7 +226,7 @@ fn any_direction() -> impl Strategy<Value = AzEl> {
         .prop_map(|(azimuth, sin)| AzEl::from_degrees(azimuth, sin.asin().to_degrees()))
 }
 
-/// A box whose corners are counted in whole degrees, as operators type them.
+/// A box whose corners are whole degrees, as operators type them.
 fn any_box() -> impl Strategy<Value = (i32, i32, i32, i32)> {
     (-20..380_i32, 1..360_i32, -10..80_i32, 1..100_i32)
         .prop_map(|(from, turn, low, high)| (from, from + turn, low, (low + high).min(90)))
@@ -239,7 +239,8 @@ proptest! {
         bearing in 0.0..7.0_f64,
     ) {
         let built = Zone::new(corners.clone());
-        // Bearings more than half a turn apart make edges that pass the middle.
+        // Corners whose bearings are more than half a turn apart have an edge that
+        // passes the middle.
         prop_assume!(built.is_ok());
         let zone = built.unwrap();
         for at in [at, beside(middle, bearing, close.to_radians())] {
@@ -267,7 +268,7 @@ proptest! {
         prop_assume!(high > low);
         let corners = [(from, low), (from, high), (to, high), (to, low)];
         let built = zone(&corners);
-        // A box that reaches the zenith has two corners in one direction.
+        // A box that reaches the zenith has two corners in the same direction.
         prop_assume!(high < 90.0 || built.is_ok());
         let zone = built.unwrap();
         let near = (from + share_a * (to - from), low + share_b * (high - low));
