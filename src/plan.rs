@@ -1,5 +1,5 @@
-//! What a mount can follow, how it follows it, and lists of passes for others to
-//! read. Pure functions over passes.
+//! What a mount can follow and how it follows it, and lists of passes for other programs and people
+//! to read. Pure functions over passes.
 
 mod az_el;
 mod azimuth_wrap;

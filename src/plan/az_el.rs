@@ -1,9 +1,9 @@
-//! Elevation over azimuth: where both axes have to stand along a pass. They never
-//! turn faster than they can, so overhead the azimuth sets out early, and where it
-//! is not right the elevation makes the best of it.
+//! Elevation over azimuth: where both axes have to stand along a pass. Neither axis exceeds its
+//! rate, so overhead the azimuth sets out early, and while it is off the elevation keeps the error
+//! as small as possible.
 //!
-//! An elevation axis that travels over the zenith reaches every direction in two
-//! ways, plain and flipped. All flips of a pass are tried, and the best is taken.
+//! An elevation axis that travels over the zenith reaches every direction in two ways, plain and
+//! flipped. All flips of a pass are tried, and the best is taken.
 
 mod flip;
 mod seen;
@@ -17,26 +17,25 @@ use crate::astro::{Angle, AzEl};
 pub(super) use flip::{Choice, Flip};
 use seen::Seen;
 
-/// A flip other than the preferred one has to point better by this, degrees: it is not
-/// worth moving the elevation over the zenith for less.
+/// Smallest improvement in pointing, degrees, for which a flip other than the preferred one is
+/// taken: it is not worth moving the elevation over the zenith for less.
 const WORTH_DEG: f64 = 0.1;
 
-/// The two axes.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct AzElAxes {
     /// Ends of the azimuth axis, degrees.
     pub(super) azimuth_deg: (f64, f64),
-    /// Ends of the elevation axis as far as it may be used, degrees, beyond 90
-    /// over the zenith; `None` where only the azimuth turns.
+    /// Usable ends of the elevation axis, degrees, beyond 90 over the zenith; `None` if only the
+    /// azimuth turns.
     pub(super) elevation_deg: Option<(f64, f64)>,
-    /// How fast each axis turns, degrees a second.
+    /// Rate of each axis, degrees per second.
     pub(super) rates_deg_s: [f64; 2],
 }
 
 /// Where both axes stand, and how long before a pass.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub(super) struct Start {
-    /// Degrees as the mount counts; `None` when it is not known.
+    /// Degrees as the mount counts; `None` if unknown.
     pub(super) axes_deg: [Option<f64>; 2],
     /// Seconds.
     pub(super) lead_s: f64,
@@ -46,15 +45,15 @@ pub(super) struct Start {
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Planned {
     pub(super) flip: Flip,
-    /// Degrees as the mount counts, one for each sample.
+    /// Degrees as the mount counts, one per sample.
     pub(super) axes_deg: [Vec<f64>; 2],
-    /// The samples at which the azimuth axis slews round, because it is at an end.
+    /// The samples at which the azimuth axis slews a whole turn, because it is at an end.
     pub(super) slews: Vec<usize>,
 }
 
 impl AzElAxes {
-    /// The positions along `samples`, `step_s` seconds apart, with the flip of the least
-    /// error from where the axes stand now; `prefer` when no other is better.
+    /// The positions along `samples`, `step_s` seconds apart, with the flip that has the smallest
+    /// error from where the axes stand now; `prefer` if no other is better.
     pub(super) fn best(
         &self,
         samples: &[Sample],
@@ -78,7 +77,7 @@ impl AzElAxes {
         best
     }
 
-    /// The flips, other than none, that the axes can make along `samples`.
+    /// The flips other than [`Flip::None`] that the axes can make along `samples`.
     pub(super) fn others(&self, samples: &[Sample]) -> impl Iterator<Item = Flip> + use<> {
         let can_flip = self.elevation_deg.is_some_and(|(_, highest_deg)| highest_deg > 90.0);
         let is_high = samples.iter().any(|sample| seen::is_overhead(sample.direction));
@@ -86,9 +85,9 @@ impl AzElAxes {
         std::iter::once(Flip::Whole).chain(over).filter(move |_| can_flip)
     }
 
-    /// The positions with this `flip` along `samples`, `step_s` seconds apart. The azimuth
-    /// axis begins on the wrap that lasts longest, of several the nearest. Where a
-    /// direction is out of travel, the axes wait as near to it as they can.
+    /// The positions with this `flip` along `samples`, `step_s` seconds apart. The azimuth axis
+    /// begins on the wrap that lasts longest, or on the nearest of several. Where a direction is
+    /// out of travel, the axes wait as near to it as they can.
     pub(super) fn along(
         &self,
         samples: &[Sample],
@@ -108,8 +107,8 @@ impl AzElAxes {
         let cost = |index: usize, azimuth_deg: f64| {
             seen.get(index).map_or(0.0, |seen| seen.azimuth_cost(azimuth_deg))
         };
-        // First as if the axis had no ends, so that a turn of the sky which it does
-        // not make in time takes it to none.
+        // First computed as if the axis had no ends, so that a turn of the sky that the axis does
+        // not make in time does not take it to an end.
         let free = rate_limited(&flip::azimuths_deg(samples, &flipped), azimuth_max_deg, cost);
         let [azimuth_now_deg, _] = start.axes_deg;
         let wrap = AzimuthRange::new(self.azimuth_deg).map_or_else(
@@ -134,8 +133,8 @@ impl AzElAxes {
         Planned { flip, axes_deg: [azimuths, elevations], slews: wrap.slews }
     }
 
-    /// The root of the mean square error along `samples` of axes that set out from
-    /// `start`, degrees. What is below the reach of the antenna does not count.
+    /// The root mean square error along `samples` of axes that set out from `start`, degrees.
+    /// Samples below the reach of the antenna do not count.
     fn error_deg(&self, samples: &[Sample], step_s: f64, start: Start, planned: &Planned) -> f64 {
         let [azimuths, elevations] = &planned.axes_deg;
         let mut axes_deg = start.axes_deg;
@@ -159,7 +158,7 @@ impl AzElAxes {
         (sum_deg2 / f64::from(count.max(1))).sqrt()
     }
 
-    /// How far the axes point beside `direction`.
+    /// The angle by which the axes point away from `direction`.
     pub(super) fn off(&self, direction: AzEl, [azimuth_deg, elevation_deg]: [f64; 2]) -> Angle {
         if self.elevation_deg.is_some() {
             direction.separation(AzEl::from_degrees(azimuth_deg, elevation_deg))

@@ -1,13 +1,10 @@
-//! The way of an azimuth axis through a pass: an axis with ends cannot follow
-//! every turn of the sky, so the turn on which it starts decides whether it has
-//! to slew all the way round in the middle.
+//! The motion of an azimuth axis through a pass. An axis with ends cannot follow every turn of the
+//! sky, so the turn on which it starts decides whether it has to slew a whole turn in the middle.
 
-/// A full turn, degrees.
 const TURN_DEG: f64 = 360.0;
 
-/// The ends of an azimuth axis, in degrees from north over east as the axis
-/// counts: 0 to 360 for most, 0 to 450 or -180 to 540 for others, or less than a
-/// turn.
+/// The ends of an azimuth axis, in degrees from north through east as the axis counts: 0 to 360 for
+/// most, 0 to 450 or -180 to 540 for others, or less than a turn.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct AzimuthRange {
     from_deg: f64,
@@ -15,8 +12,8 @@ pub(super) struct AzimuthRange {
 }
 
 impl AzimuthRange {
-    /// An axis from `from_deg` to `to_deg`; `None` where nothing lies between them,
-    /// or they are no numbers.
+    /// An axis from `from_deg` to `to_deg`; `None` if there is nothing between them or if they
+    /// are not numbers.
     pub(super) fn new((from_deg, to_deg): (f64, f64)) -> Option<Self> {
         let is_one = from_deg.is_finite() && to_deg > from_deg && to_deg.is_finite();
         is_one.then_some(Self { from_deg, to_deg })
@@ -26,7 +23,7 @@ impl AzimuthRange {
         (self.from_deg..=self.to_deg).contains(&axis_deg)
     }
 
-    /// All positions of the axis that point to `azimuth_deg`, from the lowest on.
+    /// All positions of the axis that point to `azimuth_deg`, in ascending order.
     fn positions(self, azimuth_deg: f64) -> impl Iterator<Item = f64> {
         let lowest = self.from_deg + (azimuth_deg - self.from_deg).rem_euclid(TURN_DEG);
         let turns = (0..).map(move |turn: u32| lowest + TURN_DEG * f64::from(turn));
@@ -45,17 +42,18 @@ impl AzimuthRange {
 /// The positions of an azimuth axis along a pass.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub(super) struct AzimuthWrap {
-    /// Degrees as the axis counts, one for each azimuth.
+    /// Degrees as the axis counts, one per azimuth.
     pub(super) positions_deg: Vec<f64>,
-    /// Indices of the positions that the axis reaches by a whole turn, because it is at an end.
+    /// Indices of the positions that the axis reaches by slewing a whole turn, because
+    /// it is at an end.
     pub(super) slews: Vec<usize>,
 }
 
 impl AzimuthWrap {
-    /// The positions along `azimuths_deg`, which are unwrapped and a few degrees
-    /// apart, with the fewest slews by a whole turn. `axis_now_deg` is where the axis
-    /// stands: of two wraps with as many slews, the one that begins nearer is taken. Where
-    /// no position of the axis points to an azimuth, the axis waits at the nearer end.
+    /// The positions along `azimuths_deg`, which are unwrapped and a few degrees apart, with the
+    /// fewest slews of a whole turn. `axis_now_deg` is where the axis stands: of two wraps with the
+    /// same number of slews, the one that begins nearer is taken. Where no position of the axis
+    /// points to an azimuth, the axis waits at the nearer end.
     pub(super) fn along(
         azimuths_deg: &[f64],
         range: AzimuthRange,
@@ -113,7 +111,7 @@ mod tests {
         AzimuthWrap::along(azimuths_deg, AzimuthRange::new(ends_deg).unwrap(), now)
     }
 
-    /// Degrees from `from` to `to`, both among them.
+    /// Degrees from `from` to `to`, both included.
     fn sweep(from: i32, to: i32) -> Vec<f64> {
         let step = if from < to { 1 } else { -1 };
         (0..=(to - from).abs()).map(|count| f64::from(from + step * count)).collect()
@@ -137,7 +135,7 @@ mod tests {
 
     #[test]
     fn the_turn_that_lasts_is_taken_even_when_it_begins_further_away() {
-        // From 80 down through north to 300: begun at 440, it needs no slew.
+        // From 80 down through north to 300: beginning at 440, the axis needs no slew.
         let wrap = wrap(&sweep(80, -60), OVERLAP, Some(75.0));
         assert_eq!(start(&wrap), Some(440.0));
         assert!(wrap.slews.is_empty());

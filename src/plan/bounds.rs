@@ -1,9 +1,8 @@
 //! The bounds of an antenna: minimum elevation, keep-outs and the Sun.
 //!
-//! Each barrier has a *clearance* from a direction: the angle to its edge, negative
-//! inside. The clearance changes by no more than the direction does, so one look at the
-//! middle of a range of axis angles judges all of the range, or says which halves to
-//! look at.
+//! A direction has a *clearance* from each barrier: the angle to its edge, negative inside. The
+//! clearance changes by no more than the direction does, so checking the middle of a range of axis
+//! angles either settles the whole range or shows that its halves have to be checked.
 
 mod sun;
 mod way_out;
@@ -18,16 +17,16 @@ use crate::{
     station::{Antenna, Entered, KeepOut, Mount, Station, SunAvoidance},
 };
 
-/// How far a way may go beyond an edge, degrees; the margins of keep-outs and of the Sun are
-/// wider by as much.
+/// How far a motion may go beyond an edge, degrees; the margins of keep-outs and of the Sun are
+/// widened by the same angle.
 const FINEST_DEG: f64 = 0.05;
 
 /// One of the bounds: minimum elevation, a keep-out or the Sun.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Barrier {
-    /// Below its minimum elevation.
+    /// The minimum elevation of the antenna.
     MinimumElevation,
-    /// A keep-out, by its name.
+    /// A keep-out, by name.
     KeepOut(SmolStr),
     /// The surroundings of the Sun.
     Sun,
@@ -36,7 +35,6 @@ pub enum Barrier {
 /// A barrier and the clearance of a direction from it.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Clearance {
-    /// The nearest barrier.
     pub barrier: Barrier,
     /// Negative inside.
     pub angle: Angle,
@@ -50,7 +48,7 @@ pub struct Clearance {
 pub struct Sweep(pub [(f64, f64); 2]);
 
 impl Sweep {
-    /// The ranges that two axes sweep on the way between two places.
+    /// The ranges that both axes sweep between two positions.
     pub fn between(from_deg: [f64; 2], to_deg: [f64; 2]) -> Self {
         let [(a, b), (c, d)] = [(from_deg[0], to_deg[0]), (from_deg[1], to_deg[1])];
         Self([(a.min(b), a.max(b)), (c.min(d), c.max(d))])
@@ -60,12 +58,12 @@ impl Sweep {
         self.0.map(|(from, to)| f64::midpoint(from, to))
     }
 
-    /// Largest distance of a direction of the sweep from that of its middle, degrees.
+    /// Largest angle between a direction of the sweep and the direction of its middle, degrees.
     fn radius_deg(self) -> f64 {
         self.0.iter().map(|(from, to)| (to - from) / 2.0).sum()
     }
 
-    /// Both halves along its longer side.
+    /// The sweep, cut in half across its longer side.
     fn halves(self) -> [Self; 2] {
         let [(a, b), (c, d)] = self.0;
         if b - a >= d - c {
@@ -84,15 +82,14 @@ pub struct Bounds {
     site: Site,
     mount: Mount,
     has_elevation: bool,
-    /// `None` where it has no elevation axis.
+    /// `None` for an antenna without an elevation axis.
     minimum_elevation: Option<Angle>,
-    /// The keep-outs of the antenna, with the whole margin of each.
+    /// The keep-outs of the antenna, each with its whole margin.
     keep_outs: Vec<(KeepOut, Angle)>,
     sun: Option<SunAvoidance>,
 }
 
 impl Bounds {
-    /// The bounds of `antenna` at `station`.
     pub fn of(station: &Station, antenna: &Antenna) -> Self {
         let finest = Angle::from_degrees(FINEST_DEG);
         let half_beam = antenna.beam_width() * 0.5;
@@ -111,7 +108,7 @@ impl Bounds {
         }
     }
 
-    /// The bounds of an antenna without a station: its minimum elevation alone.
+    /// The bounds of an antenna without a station: only its minimum elevation.
     pub fn of_antenna(antenna: &Antenna) -> Self {
         Self::of(&Station::default(), antenna)
     }
@@ -120,7 +117,7 @@ impl Bounds {
         self.mount
     }
 
-    /// The direction of axes at `axes_deg`, as the mount counts.
+    /// The direction in which the axes point at `axes_deg`, degrees as the mount counts.
     pub fn direction(&self, axes_deg: [f64; 2]) -> AzEl {
         let [first, second] = axes_deg.map(Angle::from_degrees);
         match self.mount {
@@ -133,24 +130,23 @@ impl Bounds {
         }
     }
 
-    /// The bounds at a time.
     pub fn at(&self, utc: Timestamp) -> BoundsAt<'_> {
         let suns = self.suns(utc).into_iter().map(AzEl::to_enu).collect();
         BoundsAt { bounds: self, minimum_elevation: self.minimum_elevation, suns }
     }
 
-    /// Returns `true` if any keep-out or the Sun is refused.
+    /// Returns `true` if any keep-out or the Sun refuses motion.
     pub fn forbid_anything(&self) -> bool {
         self.sun.is_some() || self.keep_outs.iter().any(|(zone, _)| zone.entered != Entered::Warn)
     }
 
-    /// Returns `true` if ways lead round any keep-out.
+    /// Returns `true` if any keep-out is to be gone round.
     pub(super) fn has_way_round(&self) -> bool {
         self.keep_outs.iter().any(|(zone, _)| zone.entered == Entered::GoRound)
     }
 
-    /// Returns `true` if `direction` is in a keep-out that ways lead round, or less than `room_deg`
-    /// outside its margin.
+    /// Returns `true` if `direction` is in a keep-out that is to be gone round, or less than
+    /// `room_deg` outside its margin.
     pub(super) fn is_gone_round(&self, direction: AzEl, room_deg: f64) -> bool {
         let room = Angle::from_degrees(room_deg);
         let mut rounded = self.keep_outs.iter().filter(|(it, _)| it.entered == Entered::GoRound);
@@ -158,12 +154,12 @@ impl Bounds {
     }
 }
 
-/// [`Bounds`] at one time, with the Sun worked out for many looks.
+/// [`Bounds`] at one time, with the Sun computed once for many checks.
 #[derive(Debug, Clone)]
 pub struct BoundsAt<'a> {
     bounds: &'a Bounds,
     minimum_elevation: Option<Angle>,
-    /// Unit vectors to the Sun, from the time itself to the end of the time ahead.
+    /// Unit vectors to the Sun, from this time to the end of the time ahead.
     suns: Vec<DVec3>,
 }
 
@@ -179,7 +175,7 @@ impl BoundsAt<'_> {
         .collect()
     }
 
-    /// The nearest barrier that refuses; `None` without any.
+    /// The nearest barrier that refuses motion; `None` if there is none.
     pub fn nearest(&self, direction: AzEl) -> Option<Clearance> {
         let (barrier, angle) = self.nearest_of(direction)?;
         Some(Clearance { barrier: barrier.clone_of(), angle, warns_only: false })
@@ -192,7 +188,7 @@ impl BoundsAt<'_> {
             .min_by(|a, b| a.1.degrees().total_cmp(&b.1.degrees()))
     }
 
-    /// The keep-out or the surroundings of the Sun that a direction is in.
+    /// The keep-out or the surroundings of the Sun that `direction` is in.
     pub fn forbids(&self, direction: AzEl) -> Option<Barrier> {
         let entered = self.each(direction).filter(|(barrier, angle, warns_only)| {
             !warns_only && *angle < Angle::ZERO && !matches!(barrier, Named::MinimumElevation)
@@ -201,7 +197,7 @@ impl BoundsAt<'_> {
         deepest.map(|(barrier, ..)| barrier.clone_of())
     }
 
-    /// The same without the minimum elevation, for a unit that keeps to its own.
+    /// The same bounds without the minimum elevation, for a unit that enforces its own.
     #[must_use]
     pub fn above_the_floor(self) -> Self {
         Self { minimum_elevation: None, ..self }
@@ -222,8 +218,8 @@ impl BoundsAt<'_> {
         rest
     }
 
-    /// The first barrier that the axes may enter within `sweep`, and a direction in it. From
-    /// below the minimum elevation nothing may lead lower.
+    /// The first barrier that the axes may enter within `sweep`, and a direction inside it. From
+    /// below the minimum elevation, no motion may lead lower.
     pub fn blocks(&self, sweep: Sweep, start_deg: [f64; 2]) -> Option<(Barrier, AzEl)> {
         let start = self.bounds.direction(start_deg);
         if self.minimum_elevation.is_some_and(|minimum| start.elevation < minimum) {
@@ -239,7 +235,7 @@ impl BoundsAt<'_> {
             let direction = self.bounds.direction(sweep.middle());
             let radius_deg = sweep.radius_deg();
             let (barrier, angle) = self.nearest_of(direction)?;
-            // What lies on the edge is free, also where it is a whole side of the sweep.
+            // Positions on the edge are free, even where the edge is a whole side of the sweep.
             let clear_deg = angle.degrees() + FINEST_DEG;
             if clear_deg >= radius_deg {
                 continue;
@@ -252,8 +248,8 @@ impl BoundsAt<'_> {
         None
     }
 
-    /// Whether `direction` is `room_deg` outside everything that refuses. No room is needed
-    /// above the minimum elevation.
+    /// Returns `true` if `direction` is `room_deg` outside every barrier that refuses motion. The
+    /// minimum elevation needs no room.
     pub(super) fn has_room(&self, direction: AzEl, room_deg: f64) -> bool {
         self.each(direction).all(|(barrier, angle, warns_only)| {
             let room_deg = match barrier {
@@ -280,7 +276,7 @@ impl BoundsAt<'_> {
         let at = direction.to_enu();
         let chord_squared =
             self.suns.iter().map(|sun| sun.distance_squared(at)).fold(4.0, f64::min);
-        // The chord keeps its digits near zero, where the cosine loses them.
+        // The chord stays precise near zero, where the cosine does not.
         let separation = Angle::from_radians(2.0 * (chord_squared.sqrt() / 2.0).asin());
         let radius = Angle::from_degrees(sun::around_each_deg(sun));
         Some((Named::Sun, separation - radius, false))
@@ -375,7 +371,7 @@ mod tests {
     }
 
     proptest! {
-        /// What is called free has no blocked direction in it.
+        /// A sweep that counts as free contains no blocked direction.
         #[test]
         fn a_free_sweep_is_free_everywhere(
             az in 0.0..360.0, el in 5.0..90.0, daz in 0.0..90.0, del in 0.0..40.0,

@@ -3,8 +3,8 @@
 use super::Sample;
 use crate::astro::{HorizonMask, time::seconds_between};
 
-/// Seconds for which the track along `samples`, which are a few seconds apart and oldest
-/// first, is above `mask`. Between two samples the clearance is taken as a straight line.
+/// Seconds for which the track along `samples` (a few seconds apart, oldest first) is above `mask`.
+/// The clearance is interpolated linearly between two samples.
 pub fn clear_time_s(samples: &[Sample], mask: &HorizonMask) -> f64 {
     let clearance_deg = |sample: &Sample| {
         (sample.direction.elevation - mask.elevation_at(sample.direction.azimuth)).degrees()

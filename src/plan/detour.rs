@@ -1,4 +1,4 @@
-//! Detours: ways of both axes round the barriers of an antenna.
+//! Detours: routes of both axes round the barriers of an antenna.
 
 use std::{
     cmp::Reverse,
@@ -11,13 +11,14 @@ use super::bounds::{Bounds, BoundsAt};
 
 /// Grid spacing of the search, degrees.
 const CELL_DEG: f64 = 1.0;
-/// Distance of a way from all margins, degrees: more than half of the way to the neighbour
-/// across a corner, so that the way is outside between them too.
+/// Distance of a route from all margins, degrees: more than half the distance to a diagonal
+/// neighbour on the grid, so that the route is also outside between the two.
 const ROOM_DEG: f64 = 0.75;
-/// Most places that a search looks at: some hundredths of a second over zones of many corners.
+/// Maximum number of positions that a search examines: some hundredths of a second for zones
+/// with many corners.
 const MAX_PLACES: usize = 20_000;
-/// Cost of a degree of turn, microseconds: of two ways that take equally long, the straighter
-/// one is taken.
+/// Cost of a degree of turn, microseconds: of two routes that take equally long, the
+/// straighter one is taken.
 const STRAIGHT: f64 = 1000.0;
 
 /// Travel and rates of two axes.
@@ -25,9 +26,9 @@ const STRAIGHT: f64 = 1000.0;
 pub(crate) struct AxisLimits {
     /// Ends of both axes, degrees as the mount counts.
     pub(crate) travel_deg: [(f64, f64); 2],
-    /// Degrees a second.
+    /// Degrees per second.
     pub(crate) rates_deg_s: [f64; 2],
-    /// Distance of the way from all margins, degrees.
+    /// Distance of the route from all margins, degrees.
     pub(crate) room_deg: f64,
 }
 
@@ -46,21 +47,21 @@ impl AxisLimits {
         both.all(|((from, to), at)| (from..=to).contains(&at))
     }
 
-    /// Time that both axes take together, seconds.
+    /// Time until both axes, which move together, have arrived, seconds.
     pub(crate) fn seconds(&self, from_deg: [f64; 2], to_deg: [f64; 2]) -> f64 {
         let each = from_deg.into_iter().zip(to_deg).zip(self.rates_deg_s);
         each.map(|((from, to), rate)| (to - from).abs() / rate).fold(0.0, f64::max)
     }
 }
 
-/// A place of the grid, relative to the start.
+/// A position on the grid, relative to the start.
 type Cell = (i32, i32);
 
 const NEIGHBOURS: [Cell; 8] =
     [(1, 0), (-1, 0), (0, 1), (0, -1), (1, 1), (1, -1), (-1, 1), (-1, -1)];
 
-/// The quickest way of the axes between two places that stays outside all barriers at `at`,
-/// ends included. `None` without any, or where an end is not outside.
+/// The quickest route of the axes between two positions that stays outside all barriers at `at`,
+/// ends included. `None` if there is no such route, or if an end is not outside.
 pub(crate) fn between(
     bounds: &Bounds,
     limits: &AxisLimits,
@@ -73,8 +74,8 @@ pub(crate) fn between(
     Some(search.pulled_straight(&way))
 }
 
-/// The way through `turns_deg` in steps of at most `step_deg` on either axis; without its
-/// start.
+/// The positions of the route through `turns_deg` in steps of at most `step_deg` on either axis,
+/// without its start.
 pub(crate) fn in_steps(turns_deg: &[[f64; 2]], step_deg: f64) -> Vec<[f64; 2]> {
     let mut places = Vec::new();
     for pair in turns_deg.windows(2) {
@@ -107,7 +108,7 @@ impl Search<'_> {
         self.limits.holds(axes_deg) && self.now.has_room(self.bounds.direction(axes_deg), room_deg)
     }
 
-    /// Microseconds: integers have an order.
+    /// In microseconds, because integers are ordered.
     fn cost(&self, from_deg: [f64; 2], to_deg: [f64; 2]) -> u64 {
         let straight_deg = (to_deg[0] - from_deg[0]).hypot(to_deg[1] - from_deg[1]);
         (self.limits.seconds(from_deg, to_deg) * 1e6 + straight_deg * STRAIGHT) as u64
@@ -121,7 +122,7 @@ impl Search<'_> {
             return None;
         }
         let mut open = BinaryHeap::new();
-        // Cost and predecessor of each place; `None` for a place that is not free.
+        // Cost and predecessor of each position; `None` for a position that is not free.
         let mut known: HashMap<Cell, Option<(u64, Cell)>> = HashMap::new();
         known.insert((0, 0), Some((0, (0, 0))));
         open.push((Reverse(self.cost(self.from_deg, self.to_deg)), (0, 0)));
@@ -166,7 +167,7 @@ impl Search<'_> {
         way
     }
 
-    /// Keeps the places where the way turns.
+    /// Keeps only the positions at which the route turns.
     fn pulled_straight(&self, way: &[[f64; 2]]) -> Vec<[f64; 2]> {
         let (Some(first), Some(last)) = (way.first(), way.last()) else { return Vec::new() };
         let mut turns = vec![*first];
@@ -252,7 +253,7 @@ mod tests {
         let highest_deg = way.iter().map(|axes| axes[1]).fold(0.0, f64::max);
         assert!((40.0..55.0).contains(&highest_deg), "{way:?}");
         let seconds: f64 = way.windows(2).map(|pair| limits().seconds(pair[0], pair[1])).sum();
-        // The azimuth alone takes 15 s, and the elevation has time to go up meanwhile.
+        // The azimuth alone takes 15 s, in which the elevation has time to go up.
         assert!((15.0..22.0).contains(&seconds), "{seconds} {way:?}");
     }
 
@@ -267,7 +268,7 @@ mod tests {
     fn a_wall_up_to_the_zenith_is_gone_round_the_other_way_or_not_at_all() {
         let wall = bounds(vec![mast(89.0)], None);
         let way = between(&wall, &limits(), [80.0, 20.0], [140.0, 20.0], noon());
-        // The axis ends in the north.
+        // The azimuth axis ends in the north.
         assert_eq!(way, None);
         let over = AxisLimits::new([(-300.0, 360.0), (0.0, 90.0)], [4.0, 4.0], 0.0);
         let way = between(&wall, &over, [80.0, 20.0], [140.0 - 360.0, 20.0], noon()).unwrap();

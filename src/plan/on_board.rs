@@ -1,5 +1,5 @@
-//! Judges the on-board track of a pass: where the antenna will point by what the unit reports
-//! of itself, how far that is from the satellite, and why. Pure functions; the reports come in.
+//! Judges the on-board track of a pass: where the antenna will point according to what the unit
+//! reports, how far that is from the satellite, and why. Pure functions; the reports are arguments.
 
 mod cause;
 mod clear;
@@ -20,10 +20,10 @@ use crate::{
 };
 use path::{Unit, spread};
 
-/// A pass for a unit to track by itself.
+/// A pass that a unit tracks by itself.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct OnBoardPass {
-    /// The target that is sent to the unit.
+    /// The target sent to the unit.
     pub target: TrackTarget,
     /// The best known orbit.
     pub elements: Elements,
@@ -40,8 +40,8 @@ pub struct KnownOrbit {
 }
 
 impl KnownOrbit {
-    /// The track of a unit that reports `told`, in its own window; `None` where the unit holds
-    /// another satellite, or reports no window.
+    /// The pass that a unit with the report `told` tracks, in its own window; `None` if the unit
+    /// holds another satellite or reports no window.
     pub fn pass_of(&self, told: &OnBoard) -> Option<OnBoardPass> {
         let held = told.satellite.as_ref()?;
         let (from, until) = told.window?;
@@ -60,16 +60,15 @@ impl KnownOrbit {
     }
 }
 
-/// The abilities and limits of an antenna that tracks by itself.
+/// The abilities and limits of an antenna whose unit tracks by itself.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Ability {
     /// Arrangement and travel of the axes.
     pub mount: Mount,
-    /// Minimum elevation.
     pub minimum_elevation: Angle,
     /// Half the beam width.
     pub half_beam: Angle,
-    /// Maximum rate of the axes, degrees a second.
+    /// Maximum rate of the axes, degrees per second.
     pub maximum_rate_deg_s: f64,
 }
 
@@ -87,27 +86,26 @@ impl Ability {
 /// The judgement of an on-board track.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Supervision {
-    /// The largest error.
     pub worst: Error,
     /// The largest error is within the beam.
     pub is_within_beam: bool,
-    /// Causes, the likeliest first.
+    /// Causes, the most likely first.
     pub causes: Vec<Ranked>,
-    /// Values that the unit does not report, or was not asked for yet.
+    /// Values that the unit does not report, or has not been asked for yet.
     pub unknown: Vec<Unknown>,
-    /// The minimum elevation of the unit, where it is below that of the station.
+    /// The minimum elevation of the unit, if it is below that of the station.
     pub lower_minimum_deg: Option<f64>,
 }
 
 /// A pointing error and its time.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Error {
-    /// Angle between beam axis and satellite.
+    /// Angle between the beam axis and the satellite.
     pub off: Angle,
     pub at: Timestamp,
 }
 
-/// A pass, prepared for many comparisons with a unit.
+/// A pass, prepared for repeated comparison with a unit.
 #[derive(Debug, Clone)]
 pub struct Judge {
     pass: OnBoardPass,
@@ -118,7 +116,7 @@ pub struct Judge {
 }
 
 impl Judge {
-    /// Fails where the elements describe no orbit.
+    /// Fails if the elements do not describe an orbit.
     pub fn new(pass: OnBoardPass, ability: Ability) -> Result<Self, PropagationError> {
         let propagator = Propagator::new(&pass.elements)?;
         let truth = spread(pass.target.from, pass.target.until)
@@ -139,8 +137,8 @@ impl Judge {
         Some(self.propagator.look_from(self.pass.site, at).ok()?.direction)
     }
 
-    /// Judges a unit that reports `unit`. `holds_target` says that the target was put on it:
-    /// what it held before says nothing.
+    /// Judges a unit by its report `unit`. `holds_target` says that the target was sent to the
+    /// unit: the satellite that it held before means nothing.
     pub fn supervise(&self, unit: &OnBoard, holds_target: bool) -> Supervision {
         let all = Unit::of(unit, self);
         let worst = all.either_way().map(|unit| self.worst(&unit)).reduce(worse);
@@ -158,20 +156,20 @@ impl Judge {
         }
     }
 
-    /// Checks the real track against the limits of the antenna; the error is the first place
-    /// where it goes wrong.
+    /// Checks the real track against the limits of the antenna. The error is the first
+    /// position outside them.
     pub fn is_clear(&self, unit: &OnBoard, bounds: &Bounds) -> Result<(), Trespass> {
         let unit = Unit::of(unit, self);
         unit.either_way().try_for_each(|unit| path_is_clear(self.path(unit), &self.ability, bounds))
     }
 
-    /// Where the unit will wait for the window.
+    /// The direction in which the unit will wait for the window.
     pub fn start(&self, unit: &OnBoard) -> Option<AzEl> {
         self.path(Unit::of(unit, self)).next().map(|first| first.direction)
     }
 
-    /// The real track by what the unit reports: at most a second or half a degree between
-    /// samples, from where the unit waits to where it ends.
+    /// The real track according to the report of the unit, from where the unit waits to where it
+    /// ends: samples are at most a second or half a degree apart.
     fn path<'a>(&'a self, unit: Unit<'a>) -> impl Iterator<Item = Sample> + 'a {
         path::samples(unit, (self.pass.target.from, self.pass.target.until))
     }
@@ -190,7 +188,6 @@ impl Judge {
         elevations.map(|direction| direction.elevation).reduce(|a, b| if b > a { b } else { a })
     }
 
-    /// Whether the window is long enough for more than one look.
     fn span_s(&self) -> f64 {
         seconds_between(self.pass.target.from, self.pass.target.until)
     }

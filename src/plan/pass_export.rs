@@ -1,4 +1,5 @@
-//! Lists of passes as table, CSV, JSON and iCalendar, and of look angles as the first three.
+//! Writes lists of passes as a table, CSV, JSON or iCalendar, and look angles in the
+//! first three forms.
 
 mod calendar;
 mod csv;
@@ -26,12 +27,12 @@ use crate::{
 /// Below this elevation of the Sun a sunlit satellite can be seen from the ground, degrees.
 const DARK_SUN_DEG: f64 = -6.0;
 
-/// A satellite, ready to be computed with and to be written.
+/// A satellite, ready for computation and for export.
 #[derive(Debug, Clone)]
 pub struct Satellite {
     pub elements: Elements,
     pub propagator: Propagator,
-    /// Epoch in RFC 3339, made once for all rows.
+    /// Epoch in RFC 3339, formatted once for all rows.
     epoch: String,
 }
 
@@ -47,7 +48,7 @@ impl Satellite {
         rounded(self.elements.age_s(time) / time::DAY_S, 1e4)
     }
 
-    /// The satellite as it is seen at `at`; `None` where it has come down.
+    /// The satellite as seen at `at`; `None` once it has decayed.
     fn seen(&self, site: Site, at: Timestamp, carrier_hz: Option<f64>) -> Option<Seen> {
         let state = self.propagator.state_at(at).ok()?;
         let look = state.look_from(site, at);
@@ -68,7 +69,7 @@ impl Borrow<Propagator> for Satellite {
     }
 }
 
-/// A satellite as it is seen at one instant, rounded as it is written.
+/// A satellite as seen at one instant, with values rounded for export.
 #[derive(Debug, Clone, Copy)]
 struct Seen {
     azimuth_deg: f64,
@@ -79,16 +80,16 @@ struct Seen {
     is_sunlit: bool,
 }
 
-/// The passes that are asked for.
+/// A search for passes, and the mask that cuts them.
 #[derive(Debug, Clone)]
 pub struct PassQuery {
     pub search: PassSearch,
-    /// Each stretch of a pass that clears it counts as a pass.
+    /// Each stretch of a pass above the mask counts as a pass.
     pub mask: Option<HorizonMask>,
 }
 
 impl PassQuery {
-    /// The parts of `pass` that are asked for.
+    /// The parts of `pass` that belong to the query.
     pub fn parts(&self, propagator: &Propagator, pass: Pass) -> Vec<Pass> {
         let Some(mask) = &self.mask else { return vec![pass] };
         let mut stretches = clear_stretches(propagator, self.search.site, mask, &pass);
@@ -96,7 +97,7 @@ impl PassQuery {
         stretches
     }
 
-    /// The same passes of one satellite, in another window.
+    /// The passes of one satellite that belong to the query, in another window.
     fn passes_between(&self, propagator: &Propagator, from: Timestamp, to: Timestamp) -> Vec<Pass> {
         let search = PassSearch { from, to, ..self.search };
         let found = passes(propagator, &search, &|| false);
@@ -104,7 +105,6 @@ impl PassQuery {
     }
 }
 
-/// A pass and its satellite.
 #[derive(Debug, Clone, Copy)]
 pub struct ExportedPass<'a> {
     pub satellite: &'a Satellite,
@@ -118,7 +118,7 @@ pub struct PassList<'a> {
     pub query: &'a PassQuery,
     /// Name of the site, for calendars.
     pub place: Option<&'a str>,
-    /// Frequency whose Doppler shift is written.
+    /// Frequency for which the Doppler shift is written.
     pub carrier_hz: Option<f64>,
     /// Time stamp of the events of a calendar.
     pub now: Timestamp,
@@ -156,7 +156,7 @@ impl PassList<'_> {
         row.satellite.seen(self.site(), at, self.carrier_hz)
     }
 
-    /// True where the sky of the site is dark enough to see a satellite in sunlight.
+    /// Returns `true` if the sky over the site is dark enough to see a satellite in sunlight.
     fn is_dark(&self, at: Timestamp) -> bool {
         sun_moon::sun(self.site(), at).elevation_deg() < DARK_SUN_DEG
     }
@@ -174,19 +174,19 @@ fn civil(time: Timestamp, format: &str) -> String {
     rounded.to_zoned(TimeZone::UTC).strftime(format).to_string()
 }
 
-/// An azimuth that never shows as 360.0.
+/// An azimuth that is never written as 360.0.
 fn turn(azimuth_deg: f64) -> f64 {
     if azimuth_deg >= 359.95 { 0.0 } else { azimuth_deg }
 }
 
-/// A number of degrees without the noise behind the sixth decimal.
+/// An angle in degrees without the noise beyond the sixth decimal.
 fn degrees(value: f64) -> f64 {
     rounded(value, 1e6)
 }
 
-/// To the nearest of so many parts of one.
+/// Rounds to the nearest multiple of one divided by `parts`.
 fn rounded(value: f64, parts: f64) -> f64 {
-    // Adding zero makes the zero of a small negative number positive.
+    // Adding zero makes a negative zero positive.
     (value * parts).round() / parts + 0.0
 }
 

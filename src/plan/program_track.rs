@@ -1,5 +1,5 @@
-//! Program track: the positions to command so that the pointing error is least and the drives
-//! are spared. Pure functions; positions and time come in.
+//! Program track: the positions to command so that the pointing error is least and the drives are
+//! spared. Pure functions; positions and time are arguments.
 
 mod axis;
 mod drives;
@@ -21,19 +21,18 @@ pub use target::{Course, Target};
 
 use crate::astro::Site;
 
-/// A target, its site and its passes.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct ProgramTrack {
     pub target: Target,
     pub site: Site,
-    /// AOS and LOS of its passes, in order; empty for a target that is always up.
+    /// AOS and LOS of the passes of the target, in order; empty for a target that is always up.
     pub passes: Vec<(Timestamp, Timestamp)>,
 }
 
 /// The phase of a target in its passes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub enum TrackPhase {
-    /// Before a pass: the antenna goes to its start and waits.
+    /// Before a pass: the antenna goes to the start of the pass and waits.
     Waiting { aos: Timestamp },
     /// During a pass.
     Tracking,

@@ -1,18 +1,18 @@
-//! Positions of an axis of limited rate along a course that may be faster, as at the
-//! zenith or where the axis has to slew a whole turn. The axis sets out early and
-//! arrives late, so that the pointing error is least.
+//! Positions of a rate-limited axis along a course that may be faster, as at the zenith or where
+//! the axis has to slew a whole turn. The axis sets out early and arrives late, so that the
+//! pointing error is least.
 
 mod cheapest;
 
 use std::ops::Range;
 
-/// An axis whose two bounds differ by less keeps up; an axis that turns by less in an
+/// An axis whose two bounds differ by less than this keeps up; an axis that turns by less in an
 /// interval does not turn at all. Degrees.
 const SAME_DEG: f64 = 1e-6;
 
-/// Positions along `wanted` (at equal intervals, degrees) that never differ by more than
-/// `max_deg` from one interval to the next. Where the course is slow enough they are the
-/// course itself; elsewhere they minimise the sum of `cost(interval, position)`.
+/// Positions along `wanted` (degrees at equal intervals) that never differ by more than `max_deg`
+/// from one interval to the next. Where the course is slow enough, they are the course itself;
+/// elsewhere they minimise the sum of `cost(interval, position)`.
 pub(super) fn rate_limited(
     wanted: &[f64],
     max_deg: f64,
@@ -27,7 +27,7 @@ pub(super) fn rate_limited(
         let mut place = at(&bounds.low, slew.start.saturating_sub(1));
         let rough = cheapest::between(&bounds, &slew, place, max_deg, &cost);
         for (index, rough_deg) in slew.zip(rough.places_deg) {
-            // As near as the grid is coarse, the course itself is better.
+            // Within a cell of the grid, the course itself is better.
             let course = at(wanted, index);
             let is_near = (course - rough_deg).abs() <= rough.cell_deg;
             let way_deg = if is_near { course - place } else { rough_deg - place };
@@ -41,8 +41,8 @@ pub(super) fn rate_limited(
     way
 }
 
-/// The lowest and the highest way of an axis that keeps to its rate and touches
-/// the course where it can. They are the same where the course is slow enough.
+/// The lowest and the highest path of an axis that keeps to its rate and touches the course where
+/// it can. The two are the same where the course is slow enough.
 struct Envelope {
     low: Vec<f64>,
     high: Vec<f64>,
@@ -71,7 +71,7 @@ impl Envelope {
     }
 }
 
-/// The highest way that is nowhere above the course.
+/// The highest path of the axis that is nowhere above the course.
 fn lowest(wanted: &[f64], max_deg: f64) -> Vec<f64> {
     let mut way = wanted.to_vec();
     let mut before = f64::INFINITY;
@@ -99,7 +99,7 @@ mod tests {
         way.windows(2).map(|two| (two[1] - two[0]).abs()).fold(0.0, f64::max)
     }
 
-    /// Along `wanted`, where an error counts as much as `weight` says.
+    /// Positions along `wanted`, with errors weighted by `weight`.
     fn weighted(wanted: &[f64], weight: &[f64], max_deg: f64) -> Vec<f64> {
         let cost =
             |at: usize, place: f64| weight[at] * (1.0 - (place - wanted[at]).to_radians().cos());
@@ -111,7 +111,7 @@ mod tests {
         way.iter().zip(wanted).map(off).zip(weight).map(|(off, weight)| off * weight).sum()
     }
 
-    /// Where an axis would be that goes after the course as fast as it can.
+    /// Positions of an axis that chases the course as fast as it can.
     fn chased(wanted: &[f64], max_deg: f64) -> Vec<f64> {
         let mut place = wanted[0];
         let step = |wanted: &f64| {
@@ -121,8 +121,7 @@ mod tests {
         wanted.iter().map(step).collect()
     }
 
-    /// Azimuth and weight of a pass straight over the zenith but for `off_deg`,
-    /// a second apart.
+    /// Azimuth and weight of a pass that misses the zenith by `off_deg`, a second apart.
     fn overhead(off_deg: f64) -> (Vec<f64>, Vec<f64>) {
         let along = (-300..=300).map(|second| f64::from(second) * 0.6);
         let place = |along: f64| along.atan2(off_deg).to_degrees();
@@ -148,8 +147,8 @@ mod tests {
 
     #[test]
     fn a_course_that_jumps_back_is_crossed_on_the_way() {
-        // As an azimuth that changes to the other side at the zenith: 2 degrees an
-        // interval, of which the axis makes half.
+        // Like an azimuth that changes sides at the zenith: 2 degrees per interval, of which the
+        // axis makes half.
         let wanted: Vec<f64> = (-50..50)
             .map(|at| {
                 let side = if at < 0 { 0.0 } else { -180.0 };
@@ -170,7 +169,7 @@ mod tests {
         for max_deg in [2.0, 6.0] {
             let way = weighted(&wanted, &weight, max_deg);
             assert!(fastest(&way) <= max_deg + 1e-9);
-            // Half of it is done at the zenith.
+            // Half of the turn is done at the zenith.
             assert!(way[300].abs() < max_deg, "{}", way[300]);
             let (best, after) =
                 (cost(&way, &wanted, &weight), cost(&chased(&wanted, max_deg), &wanted, &weight));

@@ -18,27 +18,26 @@ pub struct Sample {
     pub direction: AzEl,
 }
 
-/// A pass that begins at the minimum elevation itself is above it.
+/// Tolerance in degrees: a pass that begins exactly at the minimum elevation counts as above it.
 const SAME_DEG: f64 = 0.01;
 
-/// Travel and rate of a mount, and the beam it has to keep on a satellite.
+/// Travel and rate of a mount, and the beam that it has to keep on a satellite.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct MountLimits {
     pub mount: Mount,
-    /// Fastest rate of an axis, degrees a second.
+    /// Maximum rate of an axis, degrees per second.
     pub maximum_rate_deg_s: f64,
     /// Half the beam width.
     pub half_beam: Angle,
-    /// `false` for a rotator of azimuth alone.
+    /// `false` for a rotator of azimuth only.
     pub has_elevation: bool,
-    /// The antenna does not point below it.
+    /// The antenna does not point below this elevation.
     pub min_elevation: Angle,
 }
 
 /// How much of a pass an antenna can track.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Trackability {
-    /// All of it.
     Whole,
     /// All but some seconds.
     Loses {
@@ -47,7 +46,6 @@ pub enum Trackability {
         /// Where the loss begins.
         at: Loss,
     },
-    /// None of it.
     Nothing,
     /// The pass stays below the minimum elevation of the antenna.
     TooLow,
@@ -58,7 +56,7 @@ pub enum Trackability {
 pub enum Loss {
     /// Near an end of the lower axis of an X/Y mount, at this azimuth.
     Keyhole(Angle),
-    /// So high that the azimuth axis would have to turn too fast.
+    /// So high that the azimuth axis would have to turn faster than it can.
     Overhead,
     /// At an end of the azimuth axis, which has to slew a whole turn.
     Slew,
@@ -66,9 +64,9 @@ pub enum Loss {
     OutOfReach,
 }
 
-/// Trackability of the pass along `samples`, which are a few seconds apart, oldest first. It
-/// is judged by the part above the antenna's own minimum elevation; the antenna waits where
-/// that begins.
+/// Trackability of the pass along `samples`, which are a few seconds apart, oldest first.
+/// Only the part above the antenna's own minimum elevation is judged; the antenna waits where
+/// that part begins.
 pub fn trackability(samples: &[Sample], limits: MountLimits) -> Trackability {
     let is_high = |sample: &Sample| {
         sample.direction.elevation_deg() > limits.min_elevation.degrees() - SAME_DEG

@@ -1,16 +1,16 @@
-//! Flip: an elevation axis that travels over the zenith points to every direction in two
-//! ways, plain (up to 90 degrees) and flipped (beyond, with the azimuth half a turn away).
+//! Flip: an elevation axis that travels over the zenith points in every direction in two ways,
+//! plain (up to 90 degrees) and flipped (beyond, with the azimuth half a turn away).
 
 use crate::{astro::Angle, plan::Sample};
 
 /// When the axes are flipped along a pass.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(in crate::plan) enum Flip {
-    /// Never: the elevation stays up to 90 degrees.
+    /// Never: the elevation stays at or below 90 degrees.
     None,
     /// Throughout.
     Whole,
-    /// From the highest point of the pass on: the elevation goes on over the zenith.
+    /// From the highest point of the pass onwards: the elevation continues over the zenith.
     FromTop,
     /// Until the highest point of the pass: the elevation comes back over the zenith.
     UntilTop,
@@ -19,14 +19,14 @@ pub(in crate::plan) enum Flip {
 /// How free the choice of a flip is.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(in crate::plan) enum Choice {
-    /// This one unless another is clearly better.
+    /// This flip unless another is clearly better.
     Prefer(Flip),
-    /// This one.
+    /// Only this flip.
     Keep(Flip),
 }
 
 impl Flip {
-    /// For each sample, whether the axes are flipped.
+    /// For each sample, whether the axes are flipped there.
     pub(super) fn flipped(self, samples: &[Sample]) -> Vec<bool> {
         let elevation = |(_, sample): &(usize, &Sample)| sample.direction.elevation_deg();
         let highest =
@@ -35,7 +35,7 @@ impl Flip {
         let is_flipped = |index: usize| match self {
             Self::None => false,
             Self::Whole => true,
-            // A pass that is highest where the samples begin has changed already.
+            // If the pass is highest at the first sample, the axes have already changed over.
             Self::FromTop => index > top || top == 0,
             Self::UntilTop => index <= top && top > 0,
         };
@@ -43,8 +43,8 @@ impl Flip {
     }
 }
 
-/// Where the azimuth axis points to the samples, degrees without jumps: each one
-/// the short way from the one before.
+/// Positions at which the azimuth axis points to the samples, degrees without jumps: each is the
+/// short way from the one before.
 pub(super) fn azimuths_deg(samples: &[Sample], flipped: &[bool]) -> Vec<f64> {
     let mut before: Option<Angle> = None;
     let azimuth = |(sample, is_flipped): (&Sample, &bool)| {

@@ -1,8 +1,8 @@
 use super::*;
 use crate::astro::time::add_seconds;
 
-/// A pass in a straight line over the ground, 7.5 km/s fast and 800 km high, that
-/// comes as near to the site as `km` and flies towards `towards_deg`; every second.
+/// A pass in a straight line over the ground at 7.5 km/s and a height of 800 km, which comes within
+/// `km` of the site and flies towards `towards_deg`; one sample per second.
 fn pass(km: f64, towards_deg: f64) -> Vec<Sample> {
     let sample = |second: i32| {
         let along = 7.5 * f64::from(second);
@@ -26,7 +26,7 @@ fn waiting() -> Start {
     Start { axes_deg: [Some(100.0), Some(0.0)], lead_s: 3600.0 }
 }
 
-/// The way that is taken, and its root of the mean square error, degrees.
+/// The flip that is taken, and its root mean square error in degrees.
 fn best(samples: &[Sample], axes: AzElAxes, start: Start) -> (Flip, f64) {
     let planned = axes.best(samples, 1.0, start, Flip::None);
     (planned.flip, axes.error_deg(samples, 1.0, start, &planned))
@@ -93,7 +93,7 @@ fn in_the_middle_of_a_pass_the_axes_stay_on_their_side() {
     let usual = pass(600.0, 120.0);
     let (flip, _) = best(late, axes(360.0, 180.0, 4.0), start([over_there, 180.0 - elevation_deg]));
     assert_eq!(flip, Flip::Whole);
-    // Plain is as good in the end, but it takes a minute to get there.
+    // Plain is as good in the end, but the axes need a minute to get there.
     let late = &usual[600..];
     let first = late[0].direction;
     let flipped = [(first.azimuth_deg() + 180.0).rem_euclid(360.0), 180.0 - first.elevation_deg()];

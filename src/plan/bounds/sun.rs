@@ -1,19 +1,20 @@
-//! The surroundings of the Sun, now and in the time ahead.
+//! The surroundings of the Sun, now and during the time ahead.
 
 use jiff::{SignedDuration, Timestamp};
 
 use super::{AzEl, Bounds, BoundsAt, FINEST_DEG, SunAvoidance};
 use crate::astro::sun_moon;
 
-/// Shortest interval between two places of the Sun, seconds: the Sun moves a tenth of a degree.
+/// Shortest interval between two positions of the Sun, seconds: the Sun moves a tenth of
+/// a degree in it.
 const SUN_STEP_S: f64 = 24.0;
-/// Most places of the Sun for any time ahead.
+/// Maximum number of positions of the Sun for any time ahead.
 const MAX_SUNS: f64 = 40.0;
-/// Fastest motion of the Sun, degrees a second.
+/// Fastest motion of the Sun, degrees per second.
 const SUN_DEG_S: f64 = 360.0 / 86_164.0;
-/// Distance between the rings on which a refuge from the Sun is searched, degrees.
+/// Distance between the rings that are searched for a refuge from the Sun, degrees.
 const RING_DEG: f64 = 0.5;
-/// Directions of each ring.
+/// Number of directions on each ring.
 const BEARINGS: u32 = 24;
 /// Radius of the largest ring, beyond the motion of the Sun, degrees.
 const BEYOND_DEG: f64 = 30.0;
@@ -25,8 +26,8 @@ impl Bounds {
         Self { sun: None, ..self.clone() }
     }
 
-    /// The bounds for a way out of the surroundings of the Sun, no nearer to the Sun than
-    /// `start`; `None` where `start` is outside.
+    /// The bounds for a way out of the surroundings of the Sun that leads no nearer to the Sun than
+    /// `start`; `None` if `start` is outside.
     pub fn away_from_the_sun(&self, start: AzEl, at: Timestamp) -> Option<Self> {
         let sun = self.sun?;
         let separations = self.suns(at).into_iter().map(|sun| start.separation(sun).degrees());
@@ -36,7 +37,8 @@ impl Bounds {
         is_inside.then(|| Self { sun: Some(SunAvoidance { radius_deg, ..sun }), ..self.clone() })
     }
 
-    /// Returns `true` if `direction` is clear of all barriers, and of the Sun for its time ahead.
+    /// Returns `true` if `direction` is clear of all barriers, and of the Sun throughout
+    /// the time ahead.
     pub fn stays_clear(&self, direction: AzEl, at: Timestamp) -> bool {
         self.now_and_later(at).iter().all(|bounds| bounds.has_room(direction, 0.0))
     }
@@ -59,7 +61,7 @@ impl Bounds {
         around.filter(move |direction| all.iter().all(|bounds| bounds.has_room(*direction, 0.0)))
     }
 
-    /// Directions of the Sun from `at` until the end of the time ahead.
+    /// Directions of the Sun from `at` to the end of the time ahead.
     pub(super) fn suns(&self, at: Timestamp) -> Vec<AzEl> {
         let Some(sun) = self.sun else { return Vec::new() };
         let step_s = sun_step_s(sun);
@@ -79,8 +81,8 @@ fn sun_step_s(sun: SunAvoidance) -> f64 {
     SUN_STEP_S.max(sun.ahead_min * 60.0 / MAX_SUNS)
 }
 
-/// Radius around each place of the Sun, degrees: wide enough to miss nothing between two of
-/// them.
+/// Radius around each position of the Sun, degrees: wide enough to leave no gap
+/// between two of them.
 pub(super) fn around_each_deg(sun: SunAvoidance) -> f64 {
     let half_deg = sun_step_s(sun) * SUN_DEG_S / 2.0;
     sun.radius_deg.hypot(half_deg) + FINEST_DEG

@@ -1,28 +1,29 @@
-//! The way out of what is forbidden.
+//! The way out of the barriers that an antenna is inside of.
 //!
-//! The nearest edge is no way out where the floor, the end of the travel or another
-//! barrier lies behind it. So depth is measured along what an axis can really do:
-//! turn one way until the antenna points where it may.
+//! The nearest edge is not a way out if the minimum elevation, the end of the travel or another
+//! barrier lies behind it. Depth is therefore measured along what an axis can really do: turn one
+//! way until the antenna points in an allowed direction.
 
 use super::{AzEl, Bounds, BoundsAt, Named};
 use crate::station::Mount;
 
-/// Finest step along a way, degrees.
+/// Finest step along a turn, degrees.
 const STEP_DEG: f64 = 0.1;
 /// Accuracy of an edge, degrees.
 const EDGE_DEG: f64 = 1e-9;
-/// Widest gap that is no way out, degrees of the axis: what is judged ahead never gets into it.
+/// Widest gap that does not count as a way out, degrees of the axis: a motion that is judged ahead
+/// never gets into it.
 const GAP_DEG: f64 = 1.0;
-/// Stretch over which the speed of an axis in the sky is measured, degrees.
+/// Turn over which the speed of an axis across the sky is measured, degrees.
 const STRETCH_DEG: f64 = 0.01;
 /// Largest turn of an axis to get out, degrees.
 const FURTHEST_DEG: f64 = 360.0;
 
-/// A place on the way.
+/// A position along a turn.
 enum Spot {
     /// Outside all barriers.
     Free,
-    /// Inside; no edge or other barrier is within this, degrees.
+    /// Inside a barrier. No edge and no other barrier is nearer than this, degrees.
     Inside(f64),
     /// Inside a barrier that the axes were not in at the start.
     Barred,
@@ -30,14 +31,14 @@ enum Spot {
 
 impl BoundsAt<'_> {
     /// The shortest turn of one axis that leads out, within its travel and through no other
-    /// barrier; degrees of the sky, zero outside all barriers. `None` without any.
+    /// barrier, in degrees of the sky; zero outside all barriers. `None` if there is no such turn.
     pub fn way_out_deg(&self, axes_deg: [f64; 2]) -> Option<f64> {
         let left = self.entered(self.bounds.direction(axes_deg));
         if !left.contains(&true) {
             return Some(0.0);
         }
         let mut shortest_deg = None;
-        // The azimuth, which may turn the furthest, comes last.
+        // The azimuth may turn the furthest, so it comes last.
         for (axis, way) in [(1, 1.0), (1, -1.0), (0, 1.0), (0, -1.0)] {
             if axis == 1 && !self.bounds.has_elevation {
                 continue;
@@ -53,8 +54,8 @@ impl BoundsAt<'_> {
         shortest_deg
     }
 
-    /// Depth below the minimum elevation, and inside each other barrier to its nearest edge;
-    /// degrees, zero outside.
+    /// Depth below the minimum elevation, and depth inside each other barrier to its nearest edge,
+    /// degrees; zero outside.
     pub fn depths_deg(&self, axes_deg: [f64; 2]) -> (f64, Vec<f64>) {
         let (mut below_deg, mut inside_deg) = (0.0, Vec::new());
         let each = self.each(self.bounds.direction(axes_deg));
@@ -69,7 +70,7 @@ impl BoundsAt<'_> {
         (below_deg, inside_deg)
     }
 
-    /// The barriers that a direction is in, in their order.
+    /// For each barrier, in order, whether `direction` is inside it.
     fn entered(&self, direction: AzEl) -> Vec<bool> {
         let each = self.each(direction);
         each.map(|(_, angle, warns_only)| !warns_only && angle.degrees() < 0.0).collect()
@@ -105,7 +106,7 @@ impl BoundsAt<'_> {
                 continue;
             }
             if *is_left {
-                // The edge of a barrier that the way does not leave is never reached.
+                // A turn that keeps the elevation never reaches the edge of the minimum elevation.
                 let deep_deg = if is_level { f64::INFINITY } else { -clear_deg };
                 deepest_deg = f64::max(deepest_deg, deep_deg);
             } else if clear_deg < 0.0 {
@@ -118,16 +119,16 @@ impl BoundsAt<'_> {
     }
 }
 
-/// A turn of one axis, one way.
+/// A turn of one axis in one direction.
 struct Turn {
-    /// Start of the turn.
+    /// Positions of the axes at the start of the turn.
     axes_deg: [f64; 2],
     axis: usize,
     /// 1 or -1.
     way: f64,
-    /// Largest turn within the travel; an axis beyond its other end may come back.
+    /// Largest turn within the travel; an axis beyond its opposite end may come back.
     end_deg: f64,
-    /// Degrees of the sky for each degree of the axis, the same all the way round.
+    /// Degrees of the sky per degree of the axis, constant throughout the turn.
     speed: f64,
     keeps_elevation: bool,
 }
@@ -138,7 +139,7 @@ impl Turn {
         if axis == 0 { [first + by_deg, second] } else { [first, second + by_deg] }
     }
 
-    /// Turn after which `place` is free, degrees; `max_deg` at most.
+    /// Turn after which `place` is free, at most `max_deg`, degrees.
     fn out_deg(&self, max_deg: f64, mut place: impl FnMut(f64) -> Spot) -> Option<f64> {
         let last_deg = self.end_deg.min(max_deg);
         let (mut inside_deg, mut turn_deg) = (0.0, 0.0);
@@ -151,7 +152,7 @@ impl Turn {
                     // The edge may lie just before the end of the travel.
                     turn_deg = f64::min(turn_deg + step_deg, last_deg);
                 }
-                // The edge may lie just before another barrier, too.
+                // The edge may also lie just before another barrier.
                 beyond @ (Spot::Free | Spot::Barred) => {
                     let (mut beyond, mut beyond_deg) = (beyond, turn_deg);
                     while beyond_deg - inside_deg > EDGE_DEG {
@@ -256,7 +257,7 @@ mod tests {
         assert_eq!(way_out_deg([90.0, 30.0]), Some(0.0));
     }
 
-    /// A jog is judged while it is held: each look at it costs.
+    /// A jog is judged repeatedly while it is held, so each look at a direction costs time.
     #[test]
     fn a_way_along_the_floor_is_found_in_few_looks() {
         for axes_deg in [[130.0, 5.0], [130.0, 5.01], [130.0, 4.99]] {

@@ -11,19 +11,19 @@ use crate::{
     device::{Offsets, OnBoard, Place, UnitClock},
 };
 
-/// Smallest error worth naming, degrees.
+/// Smallest error that is listed as a cause, degrees.
 const WORTH_NAMING_DEG: f64 = 0.02;
-/// Largest difference of the maximum elevation that says nothing, degrees: the unit reports it
+/// Largest difference in maximum elevation that is ignored, degrees: the unit reports the elevation
 /// roughly, and the window is not the whole pass.
 const HIGHEST_ROUGH_DEG: f64 = 3.0;
 
 /// A cause of the error.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub enum Cause {
-    /// The unit believes to be at another place.
+    /// The unit uses another location.
     Place {
         place: Place,
-        /// How far from the station.
+        /// Distance from the station.
         away_km: f64,
     },
     /// The clock of the unit is ahead of UTC.
@@ -40,52 +40,49 @@ pub enum Cause {
     AzimuthOffset(f64),
     /// Offset of the elevation, degrees.
     ElevationOffset(f64),
-    /// The north of the unit is not that of the station.
+    /// The north of the unit differs from that of the station.
     NorthOffset {
-        /// As the unit reports it, degrees.
+        /// As reported by the unit, degrees.
         offset_deg: f64,
-        /// Difference from that of the station, degrees.
+        /// Difference from the north of the station, degrees.
         off_deg: f64,
     },
     /// The minimum elevation of the unit is above that of the pass.
     MinimumElevation(f64),
     /// The unit holds another satellite.
     OtherSatellite {
-        /// Catalog number; 0 for none.
+        /// 0 for none.
         catalog_number: u32,
         name: String,
     },
-    /// The unit predicts another maximum elevation: the elements differ.
+    /// The unit predicts another maximum elevation, so its elements differ.
     Elements {
-        /// Maximum elevation as the unit reports it, degrees.
+        /// Maximum elevation reported by the unit, degrees.
         told_deg: f64,
-        /// Maximum elevation by its place and the best known elements, degrees.
+        /// Maximum elevation computed from the location of the unit and the best known
+        /// elements, degrees.
         expected_deg: f64,
     },
 }
 
-/// A cause with the error that it alone makes.
+/// A cause with the error that it makes alone.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Ranked {
     pub cause: Cause,
-    /// The largest error by this cause alone; `None` where unknown.
+    /// The largest error that this cause makes alone; `None` if unknown.
     pub off: Option<Angle>,
 }
 
 /// A value that a unit does not report.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Unknown {
-    /// Its place.
     Place,
-    /// Its clock.
     Clock,
-    /// Its offsets.
     Offsets,
-    /// The age of its elements, which no unit reports.
+    /// The age of the elements, which no unit reports.
     Elements,
 }
 
-/// The values that are missing in `told`.
 pub(super) fn unknown(told: &OnBoard) -> Vec<Unknown> {
     let open = [
         (told.place.is_none(), Unknown::Place),
@@ -96,7 +93,7 @@ pub(super) fn unknown(told: &OnBoard) -> Vec<Unknown> {
     open.into_iter().filter_map(|(is_open, what)| is_open.then_some(what)).collect()
 }
 
-/// All causes: first those of unknown error, then by error, the largest first.
+/// All causes: first those whose error is unknown, then the others, the largest error first.
 pub(super) fn ranked(judge: &Judge, told: &OnBoard, holds_target: bool) -> Vec<Ranked> {
     let right = Unit::right(judge);
     let alone = |unit: Unit<'_>| {

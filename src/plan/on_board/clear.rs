@@ -10,8 +10,8 @@ use crate::{
     station::Mount,
 };
 
-/// Clock, place and whole seconds of a unit move its path by about this much, degrees: a path
-/// that goes less far beyond a bound runs along it.
+/// The clock, location and whole seconds of a unit shift its path by about this much, degrees: a
+/// path that exceeds a bound by less counts as running along it.
 const ALONG_DEG: f64 = 0.5;
 
 /// The first place where a path leaves the limits.
@@ -25,11 +25,8 @@ pub struct Trespass {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub enum OffLimits {
     /// Below the minimum elevation, degrees.
-    Elevation {
-        /// The minimum.
-        lowest_deg: f64,
-    },
-    /// Beyond the travel of its axes.
+    Elevation { lowest_deg: f64 },
+    /// Beyond the travel of the axes.
     Travel,
     /// Inside a keep-out or the surroundings of the Sun.
     Forbidden(Barrier),
@@ -60,7 +57,7 @@ fn off_limits(direction: AzEl, ability: &Ability) -> Option<OffLimits> {
 fn is_within_travel(direction: AzEl, mount: Mount) -> bool {
     let Mount::Xy { lower_axis_azimuth_deg, .. } = mount else { return mount.reaches(direction) };
     let axes = xy_mount::axes_from_azel(direction, Angle::from_degrees(lower_axis_azimuth_deg));
-    // The controller counts 90 at the zenith.
+    // The controller counts 90 degrees at the zenith.
     let axes_deg = [axes.lower, axes.upper].map(|axis| axis.degrees() + 90.0);
     axes_deg.into_iter().zip(mount.travel_deg()).all(|(axis_deg, (from_deg, to_deg))| {
         (from_deg - ALONG_DEG..=to_deg + ALONG_DEG).contains(&axis_deg)

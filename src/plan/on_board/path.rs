@@ -14,11 +14,11 @@ use crate::{
     station::Mount,
 };
 
-/// Samples of the error of a pass.
+/// Maximum number of steps in which the error of a pass is sampled.
 const LOOKS: f64 = 240.0;
-/// Longest time between two samples of a path, seconds,
+/// Longest time between two samples of a path that are more than [`STEP_DEG`] apart, seconds.
 const STEP_S: f64 = 1.0;
-/// or the largest angle between them, degrees.
+/// Largest angle between two samples of a path that are more than [`STEP_S`] apart, degrees.
 const STEP_DEG: f64 = 0.5;
 /// Longest step for a target that hardly moves, seconds.
 const LONGEST_STEP_S: f64 = 60.0;
@@ -39,7 +39,7 @@ pub(super) struct Unit<'a> {
     pub(super) site: Site,
     pub(super) ahead_s: f64,
     pub(super) offsets: Offsets,
-    /// The azimuth that the unit reports less the real one.
+    /// The azimuth that the unit reports minus the real one.
     pub(super) turned: Angle,
 }
 
@@ -57,7 +57,7 @@ impl<'a> Unit<'a> {
         }
     }
 
-    /// A unit that reports `told`; a value that it does not report is right.
+    /// A unit with the report `told`. Values that it does not report are taken as right.
     pub(super) fn of(told: &OnBoard, judge: &'a Judge) -> Self {
         let right = Self::right(judge);
         let offsets = told.offsets.unwrap_or(right.offsets);
@@ -70,15 +70,16 @@ impl<'a> Unit<'a> {
         }
     }
 
-    /// Both signs of the time offset, since it is not known which way the unit applies it.
+    /// The unit with either sign of the time offset, since it is not known which way the
+    /// unit applies it.
     pub(super) fn either_way(self) -> impl Iterator<Item = Self> {
         let behind = Offsets { time_s: -self.offsets.time_s, ..self.offsets };
         let other = (self.offsets.time_s != 0.0).then_some(Self { offsets: behind, ..self });
         std::iter::once(self).chain(other)
     }
 
-    /// Direction of the satellite as the unit computes it at `at` by our clock; before and
-    /// after its window, that of the ends.
+    /// Direction of the satellite as the unit computes it at `at` by Azel's clock. Outside its
+    /// window, the direction at the nearer end of the window.
     pub(super) fn computed(&self, at: Timestamp) -> Option<AzEl> {
         let (start, stop) = self.window;
         let own = add_seconds(at, self.ahead_s).clamp(start, stop.max(start));
@@ -86,7 +87,7 @@ impl<'a> Unit<'a> {
         Some(self.propagator.look_from(self.site, shifted).ok()?.direction)
     }
 
-    /// Real direction of the antenna at `at` by our clock.
+    /// Real direction of the antenna at `at` by Azel's clock.
     pub(super) fn direction(&self, at: Timestamp) -> Option<AzEl> {
         let AzEl { azimuth, elevation } = self.computed(at)?;
         let lowest = Angle::from_degrees(self.offsets.minimum_elevation_deg);
@@ -100,8 +101,8 @@ impl<'a> Unit<'a> {
     }
 }
 
-/// The place that a unit reports, at our altitude. A place that equals ours to its resolution
-/// is ours.
+/// The location that a unit reports, at the altitude of `ours`. A location that equals `ours` to
+/// its resolution is `ours`.
 pub(super) fn site(told: &OnBoard, ours: Site) -> Option<Site> {
     let place = told.place?;
     let away_deg = [
@@ -114,7 +115,7 @@ pub(super) fn site(told: &OnBoard, ours: Site) -> Option<Site> {
     Site::new(place.latitude_deg, place.longitude_deg, ours.altitude_m()).ok()
 }
 
-/// Turn of the azimuth by a north offset against the station: its zero is that of the mount,
+/// Error of the azimuth that a north offset makes. The zero of the offset is that of the mount,
 /// which the station may know as the azimuth of the lower axis.
 pub(super) fn turned(north_deg: f64, mount: Mount) -> Angle {
     let told = Angle::from_degrees(north_deg).wrapped_180();

@@ -22,7 +22,7 @@ fn pass() -> Pass {
     *PASS
 }
 
-/// A high pass from 10 degrees to 10 degrees.
+/// A high pass that begins and ends at 10 degrees.
 fn find_pass() -> Pass {
     let from: Timestamp = "2026-08-12T00:00:00Z".parse().unwrap();
     let aos_elevation = Angle::from_degrees(10.0);
@@ -71,8 +71,8 @@ fn with(change: impl FnOnce(&mut Offsets)) -> OnBoard {
     unit
 }
 
-/// The greatest separation from the satellite over the pass, every second, of an
-/// antenna that points to `at` a time.
+/// The largest separation from the satellite over the pass, checked every second, of an antenna
+/// that points in the direction that `at` gives for a time.
 fn worst_deg(at: impl Fn(Timestamp) -> AzEl) -> f64 {
     let seconds = pass().duration_s() as u32;
     (0..=seconds)
@@ -88,7 +88,7 @@ fn look(from: Site, at: Timestamp) -> AzEl {
     PROPAGATOR.look_from(from, at).unwrap().direction
 }
 
-/// The only cause, whose error is the whole one.
+/// The only cause and its error, which must be the whole error.
 fn only(unit: &OnBoard) -> (Cause, f64) {
     let found = judge().supervise(unit, true);
     let [Ranked { cause, off: Some(off) }] = &found.causes[..] else { panic!("{found:#?}") };
@@ -100,7 +100,7 @@ fn assert_near(found: f64, expected: f64) {
     assert!((found - expected).abs() < 0.02 * expected.max(1.0), "{found}, expected {expected}");
 }
 
-/// Nothing is forbidden at the site.
+/// Bounds that forbid nothing at the site.
 fn open_sky() -> crate::plan::Bounds {
     crate::plan::Bounds::of_antenna(&Antenna::satrak("Dish", ""))
 }
@@ -111,7 +111,7 @@ fn a_unit_that_goes_by_the_same_follows() {
     assert!(found.is_within_beam && found.worst.off.degrees() < 1e-9, "{found:#?}");
     assert_eq!((found.causes, found.unknown), (vec![], vec![Unknown::Elements]));
     assert_eq!(found.lower_minimum_deg, None);
-    // Its place is told in hundredths.
+    // The unit reports its location in hundredths of a degree.
     let rounded = Place { latitude_deg: 41.01, longitude_deg: 29.18, step_deg: 0.01 };
     let found = judge().supervise(&OnBoard { place: Some(rounded), ..right() }, true);
     assert_eq!(found.causes, []);
@@ -127,7 +127,7 @@ fn a_place_elsewhere_is_told_with_its_distance() {
     let [Ranked { cause, off: Some(off) }] = &found.causes[..] else { panic!("{found:#?}") };
     assert_eq!(*cause, Cause::Place { place, away_km: away });
     assert_near(off.degrees(), worst_deg(|at| look(there, at)));
-    // The unit does not point below its 5 degrees.
+    // The unit does not point below its minimum elevation of 5 degrees.
     let least = Angle::from_degrees(5.0);
     let clamped = worst_deg(|at| {
         let AzEl { azimuth, elevation } = look(there, at);
@@ -152,7 +152,8 @@ fn a_clock_ahead_and_a_time_offset_are_so_much_along_the_track() {
 
 #[test]
 fn offsets_turn_the_beam_by_hand_computed_angles() {
-    // A turn of the azimuth by a at elevation e is 2 asin(cos e sin(a/2)); lowest 10.
+    // Turning the azimuth by a at elevation e moves the beam by 2 asin(cos e sin(a/2)); the lowest
+    // elevation is 10 degrees.
     let across = |azimuth_deg: f64| {
         let half = (azimuth_deg / 2.0).to_radians().sin();
         (2.0 * (10.0_f64.to_radians().cos() * half).asin()).to_degrees()
@@ -253,7 +254,7 @@ fn a_path_below_the_limit_or_beyond_the_travel_says_where_first() {
     let low = judge_above(45.0).is_clear(&right(), &open_sky()).unwrap_err();
     assert_eq!(low.limit, OffLimits::Elevation { lowest_deg: 45.0 });
     assert_eq!(low.at, pass().aos.time);
-    // With an offset that sinks it, the end of the pass is as low as its beginning.
+    // With an offset that lowers the path, the end of the pass is as low as its beginning.
     let sunk = judge_above(10.0).is_clear(
         &with(|offsets| {
             offsets.elevation_deg = -3.0;
@@ -262,7 +263,7 @@ fn a_path_below_the_limit_or_beyond_the_travel_says_where_first() {
         &open_sky(),
     );
     assert!(matches!(sunk.unwrap_err().limit, OffLimits::Elevation { .. }));
-    // Late by its time offset, whichever way it counts.
+    // Late by the time offset, whichever way the unit applies it.
     let late = with(|offsets| {
         (offsets.time_s, offsets.minimum_elevation_deg) = (120.0, 0.0);
     });

@@ -27,7 +27,7 @@ fn event(list: &PassList<'_>, row: &ExportedPass<'_>, id: &str, location: &str) 
     let maximum_deg = pass.max_elevation().degrees();
     let azimuth = |point: PassPoint| point.direction.azimuth_deg();
     let start = second(pass.aos.time);
-    // RFC 5545, 3.8.2.2: later than the start.
+    // RFC 5545, 3.8.2.2: the end is later than the start.
     let end = second(pass.los.time).max(start + SignedDuration::from_secs(1));
     let mut event = Event::new();
     event.uid(id);

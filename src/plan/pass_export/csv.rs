@@ -4,7 +4,7 @@ use std::io::{self, Write};
 
 use super::{ExportedPass, PassList, Seen, degrees, rfc3339};
 
-/// Columns are added at the end, so that programs that count them stay right.
+/// New columns are added at the end, so that programs that count columns keep working.
 const HEADER: [&str; 20] = [
     "catalog_number",
     "name",
@@ -63,7 +63,8 @@ pub(super) fn write(out: &mut impl Write, list: &PassList<'_>) -> io::Result<()>
     table.flush()
 }
 
-/// An error of the output as it was: its kind tells a reader that has stopped from a full disk.
+/// The original error of the output: its kind distinguishes a reader that has stopped
+/// from a full disk.
 pub(super) fn io_error(error: csv::Error) -> io::Error {
     match error.into_kind() {
         csv::ErrorKind::Io(error) => error,
@@ -71,12 +72,12 @@ pub(super) fn io_error(error: csv::Error) -> io::Error {
     }
 }
 
-/// Empty where there is nothing.
+/// An empty text for `None`.
 pub(super) fn text_of<T: ToString>(value: Option<T>) -> String {
     value.map_or_else(String::new, |value| value.to_string())
 }
 
-/// Text that no spreadsheet takes for a formula: names come from files of others.
+/// Text that no spreadsheet takes for a formula: names come from files that others wrote.
 ///
 /// Source: OWASP, "CSV Injection".
 fn plain(text: &str) -> String {
@@ -136,7 +137,7 @@ mod tests {
         );
         let shifts: Vec<f64> =
             row.trim_end().rsplit(',').take(3).map(|text| text.parse().unwrap()).collect();
-        // 8 km/s.
+        // The shift at 8 km/s.
         assert!(shifts.iter().all(|shift| shift.abs() < 3_900.0), "{row}");
     }
 
@@ -152,7 +153,7 @@ mod tests {
             }
         }
         let (elements, pass) = example();
-        // More than the writer holds back.
+        // More than the writer buffers.
         let passes = vec![pass; 1000];
         let error = write_to(&mut Closed, PassFormat::Csv, elements, &passes, None).unwrap_err();
         assert_eq!(error.kind(), io::ErrorKind::BrokenPipe);

@@ -1,10 +1,10 @@
-//! Identities of passes in a calendar: they stay when the elements are renewed, the window moves
-//! or the site is measured anew, so that a second import replaces the events of the first.
+//! Identities of passes in a calendar. They stay the same when the elements are renewed, the window
+//! moves or the site is measured again, so that a second import replaces the events of the first.
 //!
-//! Time is cut into slots, and a pass is named by the slot of its TCA. A slot is as long as a
-//! power of two of seconds, below the time between two passes: a period that is a little
-//! different gives the same slots, and a TCA that is a little different lies in the same slot but
-//! where it is next to the border of two.
+//! Time is divided into slots, and a pass is named by the slot of its TCA. The length of a slot in
+//! seconds is a power of two, less than the time between two passes: a slightly different period
+//! gives the same slots, and a slightly different TCA lies in the same slot unless it is next to
+//! the border of two.
 
 use std::collections::BTreeMap;
 
@@ -16,19 +16,19 @@ use crate::{
     orbit::{Elements, Pass},
 };
 
-/// Length of a slot as a share of the time between two passes, at most.
+/// Maximum length of a slot as a share of the time between two passes.
 const SLOT_SHARE: f64 = 0.9;
-/// A longer stay above the horizon, in revolutions, has no TCA that would stay.
+/// A pass of more revolutions than this has no TCA that would stay the same.
 const LONGEST_PASS: f64 = 2.0;
-/// Keeps the borders of cells off round coordinates.
+/// Keeps the borders of cells away from round coordinates.
 const CELL_OFFSET_DEG: f64 = 0.317;
-/// Nearer to a pole a metre is too much of a longitude.
+/// Nearer to a pole than this, a metre is too large a part of a degree of longitude.
 const POLAR_LATITUDE_DEG: f64 = 89.0;
 
-/// The identity of each of `rows`, which are in the order of their AOS. No two are the same.
+/// The identity of each of `rows`, which are ordered by AOS. All identities are different.
 pub(super) fn event_ids(rows: &[ExportedPass<'_>], query: &PassQuery) -> Vec<String> {
     let cell = cell(query.search.site);
-    // By satellite and slot, how many there were.
+    // Number of earlier passes by satellite and slot.
     let mut before: BTreeMap<(u32, Option<i64>), usize> = BTreeMap::new();
     let id = |ExportedPass { satellite, pass }: &ExportedPass<'_>| {
         let number = satellite.elements.catalog_number();
@@ -45,7 +45,8 @@ pub(super) fn event_ids(rows: &[ExportedPass<'_>], query: &PassQuery) -> Vec<Str
     rows.iter().map(id).collect()
 }
 
-/// A number for the square degree of a site: two stations have their passes in one calendar.
+/// A number for the square degree of a site, since two stations may have their passes
+/// in one calendar.
 fn cell(site: Site) -> u32 {
     let (latitude_deg, longitude_deg) = (site.latitude().degrees(), site.longitude().degrees());
     let row = (latitude_deg + 90.0 + CELL_OFFSET_DEG) as u32;
@@ -54,25 +55,24 @@ fn cell(site: Site) -> u32 {
     row * 360 + column as u32
 }
 
-/// The slots of a satellite.
 struct Slots {
-    /// A slot has 2 to this power seconds.
+    /// The length of a slot is 2 to this power seconds.
     exponent: u32,
     longest_pass_s: f64,
 }
 
-/// The place of a pass among the slots.
+/// The position of a pass among the slots.
 struct Found {
-    /// `None` for what stays above the horizon.
+    /// `None` for a satellite that stays above the horizon.
     slot: Option<i64>,
-    /// Passes before it in this slot that are known of.
+    /// Number of known passes before this one in the same slot.
     order: usize,
 }
 
 impl Slots {
     fn of(elements: &Elements) -> Self {
         let period_s = elements.period_s();
-        // A slow satellite rises once in a turn of the Earth.
+        // A slow satellite rises once per rotation of the Earth.
         let between_s = SLOT_SHARE * period_s.min(time::DAY_S);
         let exponent = between_s.log2().max(0.0) as u32;
         Self { exponent, longest_pass_s: LONGEST_PASS * period_s }
@@ -86,8 +86,8 @@ impl Slots {
         Timestamp::from_second(slot << self.exponent).unwrap_or(Timestamp::MIN)
     }
 
-    /// Finds the slot of `pass`. What a window that starts at `from` cuts off, of the pass or
-    /// of its slot, is looked for `again`.
+    /// Finds the slot of `pass`. If the window that starts at `from` cuts off a part of the pass or
+    /// of its slot, `again` searches a wider window.
     fn find(
         &self,
         pass: &Pass,

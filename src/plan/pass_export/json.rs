@@ -72,12 +72,12 @@ impl<'a> Row<'a> {
     }
 }
 
-/// One object a line, so that the list can be compared and cut by lines too.
+/// Writes one object per line, so that the list can also be compared and cut by lines.
 pub(super) fn write(out: &mut impl Write, list: &PassList<'_>) -> io::Result<()> {
     write_lines(out, list.rows.iter().map(|row| Row::new(list, row)))
 }
 
-/// A list of `rows`, one a line.
+/// Writes a list of `rows`, one per line.
 pub(super) fn write_lines(
     out: &mut impl Write,
     rows: impl Iterator<Item = impl Serialize>,
@@ -97,7 +97,7 @@ mod tests {
     use super::super::testing::{example, written, written_with};
     use crate::plan::pass_export::PassFormat;
 
-    /// True where all of `part` stands in `whole` as it is.
+    /// Returns `true` if `whole` contains all of `part` unchanged.
     fn holds(whole: &Value, part: &Value) -> bool {
         match (whole, part) {
             (Value::Object(whole), Value::Object(part)) => part

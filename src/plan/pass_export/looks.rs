@@ -1,4 +1,4 @@
-//! Look angles of one satellite, one row an instant.
+//! Look angles of one satellite, one row per instant.
 
 use std::io::{self, Write};
 
@@ -35,7 +35,7 @@ pub struct LookList<'a> {
     /// Number of rows; the first is at `from`.
     pub count: u32,
     pub step_s: f64,
-    /// Frequency whose Doppler shift is written.
+    /// Frequency for which the Doppler shift is written.
     pub carrier_hz: Option<f64>,
 }
 
@@ -51,7 +51,7 @@ struct Row {
 }
 
 impl LookList<'_> {
-    /// Writes the list, which ends where the object has come down. All times are UTC.
+    /// Writes the list, which ends where the object decays. All times are UTC.
     pub fn write(&self, out: &mut impl Write, format: LookFormat) -> io::Result<()> {
         match format {
             LookFormat::Table => self.write_table(out),
@@ -69,7 +69,7 @@ impl LookList<'_> {
     }
 
     fn write_table(&self, out: &mut impl Write) -> io::Result<()> {
-        // Steps of parts of a second show them.
+        // Times show fractions of a second if the step has them.
         let is_fine = self.step_s.fract() > 0.0;
         let head = if is_fine { "UTC                    " } else { "UTC                " };
         write!(out, "{head}     az     el    range km      km/s")?;

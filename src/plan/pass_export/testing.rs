@@ -1,4 +1,4 @@
-//! One pass to write, for the tests of all forms.
+//! One pass for the tests of all forms.
 
 use std::io::{self, Write};
 
@@ -10,7 +10,7 @@ use crate::{
     orbit::{Elements, Pass, PassPoint, PassSearch, read_elements},
 };
 
-/// A satellite whose name holds all that has to be quoted somewhere, and a pass.
+/// A satellite whose name contains everything that some form has to quote, and a pass.
 pub(super) fn example() -> (Elements, Pass) {
     let text = serde_json::json!({
         "OBJECT_NAME": "ISS, (ZARYA); \"1\"", "OBJECT_ID": "1998-067A", "NORAD_CAT_ID": 25_544,

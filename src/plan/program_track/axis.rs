@@ -5,15 +5,15 @@ use crate::{clock::Instant, station::TrackSettings};
 
 /// Iterations on the time of arrival.
 const ROUNDS: usize = 4;
-/// Tolerance for angles that were decimal degrees.
+/// Tolerance for angles that are given in decimal degrees.
 const ROUNDING_DEG: f64 = 1e-9;
-/// The farthest that any drive stops short of its goal, degrees.
+/// Farthest that any drive stops short of its goal, degrees.
 const MAX_IGNORED_DEG: f64 = 10.0;
 
 /// A measured axis.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct AxisNow {
-    /// As the mount counts, degrees; `None` when it is not known.
+    /// Degrees as the mount counts; `None` if unknown.
     pub position_deg: Option<f64>,
     /// At rest since the last command.
     pub stands: bool,
@@ -28,7 +28,7 @@ impl AxisNow {
 /// The last command of an axis.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub(super) struct Told {
-    /// Degrees; `None` when it is not known.
+    /// Degrees; `None` if unknown.
     to_deg: Option<f64>,
     /// Where the axis stood before the command, degrees.
     from_deg: Option<f64>,
@@ -38,7 +38,7 @@ pub(super) struct Told {
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Wish {
     position_deg: f64,
-    /// Without a command, the error would exceed the allowed one.
+    /// Without a command, the error would exceed the allowed error.
     pub(super) is_due: bool,
 }
 
@@ -50,9 +50,9 @@ pub(super) struct Axis {
     pub(super) drives: Drives,
     following: TrackSettings,
     pub(super) told: Told,
-    /// The longest way for which the axis did not set out, degrees.
+    /// The longest distance for which the axis did not set out, degrees.
     ignored_deg: f64,
-    /// How far the axis went for the shortest way that it sets out for, degrees.
+    /// How far the axis went for the shortest distance for which it sets out, degrees.
     min_run_deg: Option<f64>,
     slew_rate: SlewRate,
 }
@@ -70,14 +70,14 @@ impl Axis {
         }
     }
 
-    /// Takes a measured position. Returns the full rate of the axis, degrees a second, when the
+    /// Takes a measured position. Returns the full rate of the axis, degrees per second, if the
     /// position ends a long slew.
     pub(super) fn watch(&mut self, at: Instant, position_deg: Option<f64>) -> Option<f64> {
         self.slew_rate.take(at, position_deg, self.told.to_deg)
     }
 
-    /// Learns the shortest way for which the axis sets out: a drive that stops some degrees
-    /// early and lets the axis coast does not start at all for such a way.
+    /// Learns the shortest distance for which the axis sets out: a drive that stops some degrees
+    /// early and lets the axis coast does not start at all for a distance as short as that.
     pub(super) fn learn(&mut self, now: AxisNow) {
         let Some(at_deg) = now.rest_deg() else { return };
         let Some((from_deg, to_deg)) = self.told.from_deg.take().zip(self.told.to_deg) else {
@@ -105,8 +105,8 @@ impl Axis {
         let mut position_deg = 0.0;
         let mut from_s = begins_s;
         for _ in 0..ROUNDS {
-            // The axis turns first and then stands: its mean error over the period is least for
-            // the position of the target in the middle of both.
+            // The axis turns first and then stands. Its mean error over the period is least if it
+            // goes to where the target is in the middle of the two.
             let middle_s = begins_s + way_s.max(f64::midpoint(period_s, way_s));
             from_s = middle_s - period_s / 2.0;
             // A slew is one command.
@@ -120,7 +120,7 @@ impl Axis {
             way_s = way_deg / self.rate_deg_s();
         }
         let (least, most) = path.span_deg(self.index, from_s, from_s + period_s);
-        // A rest near the commanded position is within the rounding of the sensor.
+        // A rest position near the commanded one is within the rounding of the sensor.
         let (rest_deg, told_deg) = (now.rest_deg(), self.told.to_deg);
         let rounding_deg = (self.following.dead_band_deg / 2.0).max(self.half_step_deg());
         let elsewhere = |at_deg: &f64| {
@@ -147,7 +147,7 @@ impl Axis {
         if wish.is_due || !self.drives.takes_single_axes() {
             return Some(wish.position_deg);
         }
-        // An axis at its position is spared; one that is under way goes on.
+        // An axis at its position is spared; one that is moving continues.
         if now.stands { None } else { self.told.to_deg.or(Some(wish.position_deg)) }
     }
 
@@ -157,14 +157,14 @@ impl Axis {
         position_deg.map_or(self.told, told)
     }
 
-    /// The error at which the axis is commanded again, degrees. The command leads the target by
-    /// as much, so that the error is the same on either side.
+    /// The error at which the axis is commanded again, degrees. The command leads the target by as
+    /// much, so that the error is the same on both sides.
     fn band_deg(&self) -> f64 {
         let run_deg = self.min_run_deg.unwrap_or_else(|| self.min_way_deg());
         self.following.dead_band_deg.max(run_deg / 2.0).max(self.half_step_deg())
     }
 
-    /// The shortest way that a command may ask for.
+    /// The shortest distance that a command may ask for.
     fn min_way_deg(&self) -> f64 {
         self.ignored_deg + self.drives.step_deg
     }
@@ -178,8 +178,7 @@ impl Axis {
         self.drives.step_deg / 2.0
     }
 
-    /// The nearest position to `wanted_deg` that can be commanded and for which the axis sets
-    /// out.
+    /// The position nearest to `wanted_deg` that can be commanded and for which the axis sets out.
     fn far_enough_deg(&self, wanted_deg: f64, now: AxisNow) -> f64 {
         let near_deg = self.drives.tellable_deg(self.index, wanted_deg);
         let Some(at_deg) = now.rest_deg() else { return near_deg };

@@ -1,5 +1,5 @@
-//! The two drives of an antenna: the positions that point to a direction, and how they are
-//! commanded.
+//! The two drives of an antenna: the positions that point in a direction, and how they
+//! are commanded.
 
 use crate::{
     astro::{
@@ -23,21 +23,21 @@ const ZENITH_DEG: f64 = 90.0;
 pub struct Drives {
     pub mount: Mount,
     pub limits: MotionLimits,
-    /// Rate of each axis, degrees a second: the allowed one, until it is measured.
+    /// Rate of each axis, degrees per second: the allowed rate until the real one is measured.
     pub rates_deg_s: [f64; 2],
-    /// Step of the positions, degrees; 0 for any.
+    /// Step between the positions that can be commanded, degrees; 0 if all positions can.
     pub step_deg: f64,
-    /// Largest difference between the commanded position and the rest, degrees.
+    /// Largest difference between the commanded position and the position at rest, degrees.
     pub arrives_within_deg: f64,
-    /// `false` for a rotator of azimuth alone.
+    /// `false` for a rotator of azimuth only.
     pub has_elevation: bool,
 }
 
 /// A position to command.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SetPoint {
-    /// Position of an azimuth axis, which may lie beyond a turn; `None` leaves the axis where
-    /// it stands.
+    /// Position of an azimuth axis, which may exceed a full turn; `None` leaves the axis
+    /// where it stands.
     pub azimuth: Option<Angle>,
     /// Position of an elevation axis, beyond 90 degrees when flipped; `None` leaves the axis
     /// where it stands.
@@ -45,9 +45,9 @@ pub struct SetPoint {
 }
 
 impl Drives {
-    /// The positions of both axes along `samples`, which are `step_s` seconds apart, with the
-    /// flip of `choice` where the mount has elevation over azimuth. Where a direction is out of
-    /// travel, the axes wait as near to it as they can.
+    /// The positions of both axes along `samples`, which are `step_s` seconds apart, with the flip
+    /// of `choice` on an elevation-over-azimuth mount. Where a direction is out of travel, the axes
+    /// wait as near to it as they can.
     pub(super) fn along(
         &self,
         samples: &[Sample],
@@ -68,7 +68,6 @@ impl Drives {
         }
     }
 
-    /// The positions of an X/Y mount.
     fn along_crossed(&self, samples: &[Sample], step_s: f64, lower_axis: Angle) -> Planned {
         let (lowest_deg, highest_deg) = self.elevations_deg();
         let axes = samples.iter().map(|Sample { direction, .. }| {
@@ -100,7 +99,7 @@ impl Drives {
         }
     }
 
-    /// The nearest position that can be commanded to an axis, 0 or 1.
+    /// The position nearest to `position_deg` that can be commanded to an axis, 0 or 1.
     pub(super) fn tellable_deg(&self, axis: usize, position_deg: f64) -> f64 {
         let (from_deg, to_deg) =
             self.mount.travel_deg().get(axis).copied().unwrap_or((f64::MIN, f64::MAX));
@@ -108,7 +107,7 @@ impl Drives {
             (Mount::AzEl { .. }, 1) => self.elevations_deg(),
             _ => (from_deg, to_deg),
         };
-        // An X/Y mount takes a direction, in which no axis has a step.
+        // An X/Y mount is commanded by direction, in which no axis has a step.
         if self.step_deg <= 0.0 || matches!(self.mount, Mount::Xy { .. }) {
             return position_deg.clamp(from_deg, to_deg);
         }
@@ -160,8 +159,8 @@ impl Drives {
         !self.has_elevation || direction.elevation_deg() >= self.elevations_deg().0
     }
 
-    /// Ends of the elevation axis above the minimum elevation, on both sides of the zenith
-    /// where the mount can flip.
+    /// Ends of the elevation axis above the minimum elevation, on both sides of the zenith if the
+    /// mount can flip.
     fn elevations_deg(&self) -> (f64, f64) {
         let floor_deg = self.limits.minimum_elevation_deg;
         let (lowest_deg, highest_deg) = match self.mount {
@@ -231,7 +230,7 @@ mod tests {
         }
     }
 
-    /// Its elevation travels over the zenith.
+    /// An antenna whose elevation travels over the zenith.
     fn tipping() -> Antenna {
         let mut antenna = Antenna::genius("", "");
         if let Mount::AzEl { elevation_to_deg, .. } = &mut antenna.mount {

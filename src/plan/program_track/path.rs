@@ -13,30 +13,30 @@ use crate::{
 
 /// Shortest interval between two points of a path, seconds.
 const MIN_STEP_S: f64 = 0.5;
-/// Most points of a path.
+/// Maximum number of points of a path.
 const MAX_POINTS: f64 = 2400.0;
-/// A path still holds when the rate of an axis differs by less than this share.
+/// A path still holds if the rate of an axis differs by less than this share.
 const SAME_RATE: f64 = 0.02;
 /// An axis that turns faster than this share of its rate is slewing.
 const FULL_RATE: f64 = 0.999;
 
-/// Positions of both axes at equal intervals, never faster than the axes turn. Before the
-/// beginning and after the end the axes stand.
+/// Positions of both axes at equal intervals, never faster than the axes turn. The axes stand
+/// before the beginning and after the end.
 #[derive(Debug, Clone)]
 pub(super) struct Path {
     from: Timestamp,
     to: Timestamp,
     step_s: f64,
-    /// Turn of each axis in a step at full rate, degrees.
+    /// Turn of each axis in one step at full rate, degrees.
     max_deg: [f64; 2],
     axes: [Vec<f64>; 2],
     flip: Flip,
 }
 
 impl Path {
-    /// The path along `course` from `from` to `to` of [`Drives::along`], with detours round the
-    /// keep-outs of `bounds`. Ends early where the target decays; `None` if it has decayed
-    /// already.
+    /// The path of [`Drives::along`] along `course` between `from` and `to`, with detours round
+    /// the keep-outs of `bounds`. The path ends early if the target decays; `None` if it has
+    /// decayed already.
     pub(super) fn along(
         course: &Course,
         drives: &Drives,
@@ -81,20 +81,20 @@ impl Path {
         self.flip
     }
 
-    /// Seconds from the beginning of the path.
+    /// Seconds from the beginning of the path to `at`.
     pub(super) fn seconds(&self, at: Timestamp) -> f64 {
         seconds_between(self.from, at)
     }
 
-    /// The lowest and highest position of an axis between two times, in seconds from the
-    /// beginning, the earlier first.
+    /// The lowest and highest position of an axis between two times, which are in seconds from the
+    /// beginning of the path, the earlier first.
     pub(super) fn span_deg(&self, axis: usize, from_s: f64, to_s: f64) -> (f64, f64) {
         let [start, end] = [from_s, to_s].map(|at_s| self.position_deg(axis, at_s));
         let between = self.between(axis, from_s, to_s);
         between.fold((start.min(end), start.max(end)), widened)
     }
 
-    /// The same, continued for as long as the span stays within `within_deg`.
+    /// Like [`Path::span_deg`], but continued for as long as the span stays within `within_deg`.
     pub(super) fn longest_span_deg(
         &self,
         axis: usize,
@@ -113,7 +113,7 @@ impl Path {
         span
     }
 
-    /// The end of the slew that an axis is making; `None` when it is not slewing.
+    /// The end of the slew that an axis is making; `None` if it is not slewing.
     pub(super) fn slew_end_deg(&self, axis: usize, at_s: f64) -> Option<f64> {
         let (first, max_deg) = (self.index(at_s), self.max_deg.get(axis)?);
         let rest = self.axes.get(axis)?.get(first..)?;
@@ -148,7 +148,7 @@ impl Path {
         points.get(first as usize..after as usize).unwrap_or_default().iter().copied()
     }
 
-    /// The point at or before this time.
+    /// The point at or before `at_s`.
     fn index(&self, at_s: f64) -> usize {
         let last = self.axes[0].len().saturating_sub(1);
         ((at_s / self.step_s).floor().max(0.0) as usize).min(last)
@@ -163,8 +163,8 @@ fn widened((least, most): (f64, f64), at: f64) -> (f64, f64) {
 mod tests {
     use super::*;
 
-    /// Rises by a degree a second for ten seconds, then slews down at 5 degrees
-    /// a second for four.
+    /// Rises by a degree per second for ten seconds, then slews down at 5 degrees per
+    /// second for four.
     fn path() -> Path {
         let up = (0..=20).map(|step| f64::from(step) * 0.5);
         let down = (1..=8).map(|step| 10.0 - 2.5 * f64::from(step));

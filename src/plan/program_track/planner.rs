@@ -25,7 +25,7 @@ use crate::{
 
 /// Longest time that a path covers, seconds.
 const PATH_S: f64 = 3.0 * 3600.0;
-/// A path is extended this long before its end, beyond the look-ahead of a command, seconds.
+/// Time before its end at which a path is extended, beyond the look-ahead of a command, seconds.
 const MARGIN_S: f64 = 60.0;
 
 /// The next command.
@@ -51,7 +51,7 @@ pub struct Planner {
 }
 
 impl Planner {
-    /// Fails where the elements describe no orbit. Paths lead round the keep-outs of `bounds`.
+    /// Fails if the elements do not describe an orbit. Paths lead round the keep-outs of `bounds`.
     pub fn new(
         follow: ProgramTrack,
         drives: Drives,
@@ -63,7 +63,6 @@ impl Planner {
         Ok(Self { follow, course, drives, following, bounds, path: None, is_stale: false, axes })
     }
 
-    /// Replaces the bounds.
     pub fn keep_within(&mut self, bounds: Bounds) {
         if bounds != self.bounds {
             self.bounds = bounds;
@@ -81,9 +80,8 @@ impl Planner {
         self.course.direction(at).filter(|direction| self.drives.may_reach(*direction))
     }
 
-    /// The command at `now` that makes the antenna right at the next look; `None` while the
-    /// last command, or the present position, is good enough. Fails once the target has
-    /// decayed.
+    /// The command at `now` with which the antenna points right at the next look; `None` while the
+    /// last command or the present position is good enough. Fails once the target has decayed.
     pub fn look(
         &mut self,
         now: Timestamp,
@@ -114,9 +112,8 @@ impl Planner {
         }))
     }
 
-    /// Takes measured positions, degrees as the mount counts, and learns the rates of the axes
-    /// from long slews. The clock is the steady one, since UTC may be corrected in the middle
-    /// of a slew.
+    /// Takes measured positions, degrees as the mount counts, and learns the rates of the axes from
+    /// long slews. `at` is of the steady clock, since UTC may be corrected in the middle of a slew.
     pub fn watch(&mut self, at: Instant, positions_deg: [Option<f64>; 2]) {
         let each = self.axes.iter_mut().zip(positions_deg).zip(&mut self.drives.rates_deg_s);
         for ((axis, position_deg), rate_deg_s) in each {
@@ -130,7 +127,7 @@ impl Planner {
         }
     }
 
-    /// Rates of the axes as far as known, degrees a second.
+    /// Rates of the axes as far as known, degrees per second.
     pub fn rates_deg_s(&self) -> [f64; 2] {
         self.drives.rates_deg_s
     }
@@ -142,7 +139,7 @@ impl Planner {
         }
     }
 
-    /// Forgets the last command, of which nobody knows whether it holds.
+    /// Forgets the last command, since it is unknown whether it still holds.
     pub fn forget_sent(&mut self) {
         for axis in &mut self.axes {
             axis.told = Told::default();
@@ -154,7 +151,7 @@ impl Planner {
         !self.is_stale && self.path.as_ref().is_some_and(is_for) && self.reaches_on(now)
     }
 
-    /// Returns `true` if the path goes on for long enough.
+    /// Returns `true` if the path extends far enough ahead.
     fn reaches_on(&self, now: Timestamp) -> bool {
         let Some((path, ends)) = &self.path else { return false };
         let ahead_s = self.following.latency_s + self.following.period().as_secs_f64() + MARGIN_S;
@@ -162,9 +159,9 @@ impl Planner {
         now < *ends && !is_short
     }
 
-    /// A path that is planned anew for other rates keeps its flip once the pass has begun.
-    /// Before, another flip is taken only when it is clearly better, so that the antenna does
-    /// not go to and fro.
+    /// A path that is planned again for other rates keeps its flip once the pass has begun.
+    /// Before, another flip is taken only if it is clearly better, so that the antenna does not go
+    /// back and forth.
     fn choice(&self, now: Timestamp) -> Choice {
         match self.path.as_ref().filter(|_| self.reaches_on(now)) {
             Some((path, _)) if path.seconds(now) >= 0.0 => Choice::Keep(path.flip()),

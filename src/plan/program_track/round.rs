@@ -1,9 +1,8 @@
-//! Paths with detours round the keep-outs that are gone round.
+//! Paths with detours round the keep-outs that are to be gone round.
 //!
-//! The path is one line. Where the target is behind an edge of a keep-out, the line
-//! follows the margin. The position of the antenna on the line at each time minimises
-//! the pointing error, and never moves faster than the axes turn. The axes set out
-//! early on a long detour, and come in late.
+//! The path is one line. Where the target is behind an edge of a keep-out, the line follows the
+//! margin. The position of the antenna on the line at each time minimises the pointing error and
+//! never moves faster than the axes turn. On a long detour, the axes set out early and arrive late.
 
 use crate::{
     astro::AzEl,
@@ -15,14 +14,15 @@ use crate::{
     },
 };
 
-/// Share of their rate at which the axes turn along a detour: faster than that counts as a
-/// slew, which is one command.
+/// Share of their rate at which the axes turn along a detour: anything faster counts as a slew,
+/// which is one command.
 const SHARE_OF_RATE: f64 = 0.95;
 /// Longest distance between two points of a detour, degrees.
 const STEP_DEG: f64 = 0.5;
 
 /// The positions of both axes along `samples`, `step_s` seconds apart, with detours round the
-/// keep-outs; `axes_deg` are the positions without. A stretch with no detour stays as it is.
+/// keep-outs. `axes_deg` are the positions without detours; a stretch that has no detour
+/// stays as it is.
 pub(super) fn round(
     axes_deg: [Vec<f64>; 2],
     samples: &[Sample],
@@ -41,7 +41,7 @@ pub(super) fn round(
     let mut line = Line { points: Vec::new(), limits, max_s: step_s * SHARE_OF_RATE };
     let mut wanted_s = Vec::with_capacity(samples.len());
     if let (Some(true), [Some(first), Some(second)]) = (is_behind.first(), start.axes_deg) {
-        // In the middle of a detour already; before a pass the axes wait at its end.
+        // The axes may already be in the middle of a detour; before a pass they wait at its end.
         let stands = [first, second];
         let is_outside = !bounds.is_gone_round(bounds.direction(stands), 0.0);
         if start.lead_s <= 0.0 && is_outside {
@@ -92,7 +92,7 @@ pub(super) fn round(
 
 /// The path as a line, measured in seconds at full rate.
 struct Line {
-    /// Seconds from the start, and degrees as the mount counts.
+    /// Seconds from the start, and positions in degrees as the mount counts.
     points: Vec<(f64, [f64; 2])>,
     limits: AxisLimits,
     /// Longest stretch between two samples, seconds.
@@ -120,13 +120,13 @@ impl Line {
         self.points.push((before_s + way_s, to_deg));
     }
 
-    /// Extends the line to a place that the axes can reach in time.
+    /// Extends the line to a position that the axes can reach in time.
     fn go_to(&mut self, to_deg: [f64; 2]) {
         self.add(to_deg, self.max_s);
     }
 
-    /// Extends the line along a detour. Returns, for each of `targets`, the nearest point of
-    /// the line, never going back.
+    /// Extends the line along a detour. Returns the nearest point of the line to each of `targets`,
+    /// never going back.
     fn detour(&mut self, turns_deg: &[[f64; 2]], targets: &[Sample], bounds: &Bounds) -> Vec<f64> {
         let mut first = self.points.len().saturating_sub(1);
         let from_deg = self.end_deg().or(turns_deg.first().copied());

@@ -1,15 +1,15 @@
-//! The real rate of an axis, measured in long slews.
+//! The real rate of an axis, measured during long slews.
 
 use crate::{clock::Instant, station::ranges};
 
-/// An axis may be slower this near to the start and the end of a slew, degrees.
+/// Distance from the start and the end of a slew within which an axis may be slower, degrees.
 const RAMP_DEG: f64 = 5.0;
-/// Shortest way for a rate, so that the rounding of a sensor to whole degrees counts for
-/// little, degrees.
+/// Shortest distance that gives a rate, degrees: long enough for the rounding of a sensor to whole
+/// degrees to matter little.
 const MIN_WAY_DEG: f64 = 20.0;
-/// Fewest positions for a rate.
+/// Minimum number of positions that give a rate.
 const MIN_READINGS: usize = 8;
-/// Most positions that are kept, for an axis that never arrives.
+/// Maximum number of positions that are kept, for an axis that never arrives.
 const MAX_READINGS: usize = 4096;
 
 /// Measures the slew that is under way.
@@ -27,8 +27,8 @@ struct Slew {
 }
 
 impl SlewRate {
-    /// Takes the position of the axis at `at` on its way to `to_deg`, degrees as the mount
-    /// counts. Returns the full rate, degrees a second, when a long slew has just ended.
+    /// Takes the position of the axis at `at` on its way to `to_deg`, degrees as the mount counts.
+    /// Returns the full rate, degrees per second, if a long slew has just ended.
     pub(super) fn take(
         &mut self,
         at: Instant,
@@ -65,8 +65,8 @@ impl Slew {
         rate_deg_s
     }
 
-    /// The mean over the middle half of the rates over a quarter of the way each, which leaves
-    /// out late positions and moments of standstill.
+    /// The mean of the middle half of the rates, each of which is taken over a quarter of the way.
+    /// This leaves out late positions and moments of standstill.
     fn rate_deg_s(&self) -> Option<f64> {
         let (_, first_deg) = self.readings.first()?;
         let (_, last_deg) = self.readings.last()?;
@@ -93,8 +93,8 @@ mod tests {
 
     use super::*;
 
-    /// What is learned of an axis that turns from 10 to `to_deg` at `rate_deg_s`,
-    /// is measured `each_s` and shown as `seen` makes of second and position.
+    /// The rate learned from an axis that turns from 10 to `to_deg` at `rate_deg_s`. Its position
+    /// is measured every `each_s` and reported as `seen` makes it from the second and the position.
     fn learned(
         to_deg: f64,
         rate_deg_s: f64,
@@ -107,7 +107,7 @@ mod tests {
         let readings = ((way_deg.abs() / rate_deg_s + 5.0) / each_s) as u32;
         let found = (0..readings).filter_map(|reading| {
             let second = f64::from(reading) * each_s;
-            // It sets out after a second.
+            // The axis sets out after a second.
             let turned_deg = (rate_deg_s * (second - 1.0).max(0.0)).min(way_deg.abs());
             let position_deg = seen(second, 10.0 + turned_deg.copysign(way_deg));
             rate.take(

@@ -1,4 +1,4 @@
-//! Targets and where they stand.
+//! Targets and their directions.
 
 use std::borrow::Cow;
 
@@ -10,17 +10,14 @@ use crate::{
     orbit::{Elements, PropagationError, Propagator},
 };
 
-/// A target to track.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub enum Target {
     /// A satellite, by its elements.
     Satellite(Box<Elements>),
     /// The Sun, as a source of known noise.
     Sun,
-    /// The Moon.
     Moon,
-    /// A direction that does not move, such as a geostationary satellite or a
-    /// mast.
+    /// A direction that does not move, such as that of a geostationary satellite or a mast.
     Fixed(AzEl),
 }
 
@@ -34,7 +31,7 @@ impl Target {
         }
     }
 
-    /// Up to nine digits; `None` for what is no satellite.
+    /// Up to nine digits; `None` if the target is not a satellite.
     pub fn catalog_number(&self) -> Option<u32> {
         match self {
             Self::Satellite(elements) => Some(elements.catalog_number()),
@@ -43,7 +40,7 @@ impl Target {
     }
 }
 
-/// A target seen from a site, prepared for many looks.
+/// A target seen from a site, prepared for repeated evaluation.
 #[derive(Debug, Clone)]
 pub struct Course {
     site: Site,
@@ -59,7 +56,7 @@ enum Body {
 }
 
 impl Course {
-    /// Fails where the elements of `target` describe no orbit.
+    /// Fails if the elements of `target` do not describe an orbit.
     pub fn new(target: &Target, site: Site) -> Result<Self, PropagationError> {
         let body = match target {
             Target::Satellite(elements) => Body::Satellite(Box::new(Propagator::new(elements)?)),

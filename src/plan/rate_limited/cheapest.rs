@@ -1,18 +1,18 @@
-//! The cheapest way of an axis between two bounds, by dynamic programming on a grid of
+//! The cheapest path of an axis between two bounds, by dynamic programming on a grid of
 //! positions and times.
 
 use std::ops::Range;
 
 use super::{Envelope, at};
 
-/// Most positions of the grid.
+/// Maximum number of positions of the grid.
 const MAX_PLACES: f64 = 240.0;
-/// Grid positions that the axis turns by from one time to the next at full rate.
+/// Grid positions by which the axis turns from one time to the next at full rate.
 const FULL: usize = 2;
-/// Cost of turning by a grid position, so that the axis does not turn for nothing.
+/// Cost of turning by one grid position, so that the axis does not turn needlessly.
 const TURN_COST: f64 = 1e-9;
 
-/// A way on the grid.
+/// A path on the grid.
 pub(super) struct Rough {
     /// Positions, one for each interval of the slew, degrees.
     pub(super) places_deg: Vec<f64>,
@@ -20,8 +20,8 @@ pub(super) struct Rough {
     pub(super) cell_deg: f64,
 }
 
-/// The cheapest way through `slew` of an axis that stands at `before_deg` one
-/// interval before it and turns by `max_deg` in an interval at most.
+/// The cheapest path through `slew` of an axis that stands at `before_deg` one interval before the
+/// slew and turns by at most `max_deg` per interval.
 pub(super) fn between(
     bounds: &Envelope,
     slew: &Range<usize>,
@@ -44,7 +44,7 @@ pub(super) fn between(
     if let Some(start) = sums.get_mut(below) {
         *start = 0.0;
     }
-    // The best predecessor of each position, time by time.
+    // The best predecessor of each position, one list per time.
     let mut came: Vec<Vec<usize>> = Vec::new();
     let looks = slew.len().div_ceil(stride);
     for look in 1..=looks {

@@ -1,5 +1,5 @@
-//! Trackability by elevation over azimuth: all of the sky, but the azimuth axis has to hurry
-//! overhead and to slew a whole turn at its ends, unless the mount can flip.
+//! Trackability by elevation over azimuth: the mount reaches all of the sky, but the azimuth axis
+//! has to turn fast overhead and to slew a whole turn at its ends, unless the mount can flip.
 
 use super::{Loss, MountLimits, Sample, Trackability};
 use crate::{
@@ -7,7 +7,7 @@ use crate::{
     plan::az_el::{AzElAxes, Flip, Planned, Start},
 };
 
-/// Elevation from which a loss counts as one overhead, degrees.
+/// Elevation from which a loss counts as overhead, degrees.
 const OVERHEAD_FROM_DEG: f64 = 60.0;
 /// The longest slew of an axis, degrees.
 const TURN_DEG: f64 = 360.0;
@@ -72,8 +72,8 @@ mod tests {
         station::Mount,
     };
 
-    /// A pass in a straight line over the ground that comes as near to the site
-    /// as `km`, 7.5 km/s fast and 800 km high, flying towards `azimuth_deg`.
+    /// A pass in a straight line over the ground that comes within `km` of the site, at 7.5 km/s
+    /// and a height of 800 km, flying towards `azimuth_deg`.
     fn pass(km: f64, azimuth_deg: f64) -> Vec<Sample> {
         (-250..=250)
             .map(|second| {

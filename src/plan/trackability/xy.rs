@@ -1,4 +1,4 @@
-//! Trackability by an X/Y mount: all of the sky but two keyholes at the ends of the lower axis.
+//! Trackability by an X/Y mount: all of the sky except two keyholes at the ends of the lower axis.
 
 use super::{Loss, MountLimits, Sample, Trackability};
 use crate::{
@@ -13,7 +13,7 @@ pub(super) fn trackability(samples: &[Sample], limits: MountLimits) -> Trackabil
     let lower_axis = Angle::from_degrees(lower_axis_azimuth_deg);
     let axes = |sample: &Sample| {
         let axes = xy_mount::axes_from_azel(sample.direction, lower_axis);
-        // The travel counts as the controller does: 90 at the zenith.
+        // The travel is in degrees as the controller counts: 90 at the zenith.
         [axes.lower.degrees() + 90.0, axes.upper.degrees() + 90.0]
     };
     let mut lost_s = 0.0;
@@ -63,8 +63,8 @@ mod tests {
         }
     }
 
-    /// A pass in a straight line over the ground, `km` beside the site, from
-    /// north to south at 7.5 km/s and 800 km height.
+    /// A pass in a straight line over the ground, `km` beside the site, from north to south at 7.5
+    /// km/s and a height of 800 km.
     fn pass(km: f64, azimuth_turn_deg: f64) -> Vec<Sample> {
         let start: Timestamp = "2026-08-12T00:00:00Z".parse().unwrap();
         (-250..=250)

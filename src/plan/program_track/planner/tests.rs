@@ -9,11 +9,11 @@ use crate::{
     station::{AfterPass, Antenna, Entered, KeepOut, MotionLimits, Mount, Station},
 };
 
-/// How finely the metal is simulated, seconds.
+/// Time step of the simulated axes, seconds.
 const TICK_S: f64 = 0.05;
 const TICK: Duration = Duration::from_millis(50);
 
-/// Two axes that go to where they were told, at their rate and after a while.
+/// Two axes that go to the commanded position at their rate, after a latency.
 #[derive(Clone)]
 struct Metal {
     axes_deg: [f64; 2],
@@ -21,7 +21,7 @@ struct Metal {
     orders: VecDeque<(f64, [Option<f64>; 2])>,
     rate_deg_s: f64,
     latency_s: f64,
-    /// An axis does not set out for a way as short as this, degrees.
+    /// An axis does not set out for a distance as short as this, degrees.
     ignored_deg: f64,
 }
 
@@ -88,7 +88,7 @@ fn following(period_s: f64, dead_band_deg: f64) -> TrackSettings {
     TrackSettings { period_s, dead_band_deg, latency_s: 0.5, after: AfterPass::Hold }
 }
 
-/// The first pass of a satellite in three days for which this holds.
+/// The first pass of a satellite in three days for which `is_it` holds.
 fn pass_where(is_it: impl Fn(&Propagator, &Pass) -> bool) -> (Target, Pass) {
     let catalog = bundled().unwrap();
     for number in [43013, 25544, 37849, 25994, 27424, 49260] {
@@ -135,7 +135,7 @@ fn metal(drives: Drives, following: TrackSettings) -> Metal {
     }
 }
 
-/// Nothing is in the way.
+/// Bounds with nothing in the way.
 fn free() -> Bounds {
     let mut antenna = Antenna::rc2000c("", "");
     antenna.limits.minimum_elevation_deg = 0.0;
@@ -155,7 +155,7 @@ fn run_on(
     run_planner(planner, pass, following, metal, |_, _| {})
 }
 
-/// `look` is shown where the axes are at each time.
+/// Calls `look` with the positions of the axes at each time.
 fn run_planner(
     mut planner: Planner,
     pass: &Pass,
@@ -219,7 +219,7 @@ fn whole_degrees_are_followed_to_their_rounding() {
     let (target, pass) = pass_where(|_, pass| (35.0..50.0).contains(&max_deg(pass)));
     let run = run(target, &pass, azel((0.0, 360.0), 4.0, 1.0), following(1.0, 0.5));
     let (rms, worst, _) = shown("usual, whole degrees", run.stats);
-    // The roundings of two axes, each up to half a degree.
+    // The rounding of two axes, each up to half a degree.
     assert!(rms < 0.5 && worst < 1.0, "{rms} {worst}");
 }
 
@@ -326,12 +326,12 @@ fn a_planner_keeps_the_side_for_the_pass() {
         next.set_point.elevation.unwrap().degrees()
     };
     assert!(elevation_deg(add_seconds(pass.aos.time, 1.0)) > 90.0);
-    // For what is left, plain would be as good, and another path is due.
+    // For the rest of the pass, plain would be as good, and another path is due.
     assert!(elevation_deg(add_seconds(pass.los.time, -10.0)) > 90.0);
 }
 
-/// A keep-out to be gone round, from the ground to `above_deg` over where the pass
-/// is halfway and as far to both sides.
+/// A keep-out to be gone round, from the ground to `around_deg` above the middle of the pass, and
+/// `around_deg` to both sides of it.
 fn mast(target: &Target, pass: &Pass, around_deg: f64) -> (Bounds, KeepOut) {
     let course = Course::new(target, site()).unwrap();
     let halfway = course.direction(add_seconds(pass.aos.time, pass.duration_s() / 2.0)).unwrap();
@@ -376,7 +376,7 @@ fn a_mast_in_the_middle_of_a_pass_is_gone_round_along_its_margin() {
             let off_deg = target.separation(at).degrees();
             if mast.zone.clearance(target) < Angle::from_degrees(8.0) {
                 behind_s += TICK_S;
-                // Its margin, half a beam and the room are not more than four degrees.
+                // The margin, half a beam and the room add up to no more than four degrees.
                 worst_deg = worst_deg.max(off_deg);
             } else if rate_deg_s > 2.0 {
                 assert!(off_deg < 1.5 + step_deg, "{off_deg} {now}");
