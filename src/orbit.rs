@@ -1,4 +1,4 @@
-//! Elements, propagation, look angles, passes. Pure functions; the clock comes in.
+//! Elements, propagation, look angles, passes. Pure functions; the time is an argument.
 
 mod bundled;
 mod catalog;

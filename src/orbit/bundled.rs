@@ -1,22 +1,20 @@
-//! The elements that come with the program.
+//! The elements bundled with the program.
 
 use std::io::Read;
 
 use super::{Catalog, Refusal, read_elements};
 
-/// What the source of the bundled elements is called.
+/// Name of the source of the bundled elements.
 pub const BUNDLED_SOURCE: &str = "bundled, 2026-08-11";
 
 /// Compressed TLE text, see `assets/elements/README.md`.
 const COMPRESSED: &[u8] = include_bytes!("../../assets/elements/active_2026-08-11.tle.gz");
 
-/// Why the bundled elements cannot be used.
+/// The reason why the bundled elements cannot be used.
 #[derive(Debug, thiserror::Error)]
 pub enum BundledError {
-    /// The data does not unpack to text.
     #[error("the bundled elements do not unpack: {0}")]
     Unpack(#[from] std::io::Error),
-    /// An object of the data was refused.
     #[error("{} of the bundled elements cannot be read", .0.len())]
     Refused(Vec<Refusal>),
 }
@@ -26,7 +24,7 @@ pub fn bundled() -> Result<Catalog, BundledError> {
     let mut text = String::new();
     flate2::read::GzDecoder::new(COMPRESSED).read_to_string(&mut text)?;
     let report = read_elements(&text);
-    // Two and a half megabytes that the merge need not stand beside.
+    // Frees two and a half megabytes before the merge.
     drop(text);
     let mut catalog = Catalog::default();
     let summary = catalog.merge(report, BUNDLED_SOURCE);

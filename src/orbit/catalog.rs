@@ -1,4 +1,4 @@
-//! The catalog: all elements that the operator has, the newest of every object.
+//! The catalog: all elements that the operator has, with the newest set of every object.
 
 use std::{cmp::Ordering, ops::Range};
 
@@ -9,7 +9,7 @@ use super::{Elements, Note, Nothing, ReadReport, Refusal};
 
 #[derive(Debug, Clone, Default)]
 pub struct Catalog {
-    /// By number: a sorted list takes half the memory of a map.
+    /// By catalog number: a sorted list takes half the memory of a map.
     entries: Vec<Elements>,
     groups: Vec<Group>,
 }
@@ -22,30 +22,30 @@ struct Group {
     members: Vec<u32>,
 }
 
-/// The changes of a merge.
+/// What a merge changed.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 pub struct MergeSummary {
-    /// Objects the catalog did not have.
+    /// Objects that are new to the catalog.
     pub added: usize,
     /// Objects that got a newer epoch.
     pub updated: usize,
-    /// Sets of the same epoch as the known one.
+    /// Sets with the same epoch as the known set.
     pub known: usize,
-    /// Sets older than the known one, left out.
+    /// Sets older than the known set, left out.
     pub older: usize,
     /// Objects that could not be read.
     pub refused: Vec<Refusal>,
-    /// Refused beyond those listed.
+    /// Number of refused objects beyond those listed.
     pub refused_unlisted: usize,
     /// Oddities of sets that were accepted.
     pub notes: Vec<Note>,
-    /// Why there was nothing to merge, where there was nothing.
+    /// Why there was nothing to merge, if there was nothing.
     pub nothing: Option<Nothing>,
 }
 
 impl Catalog {
     /// Adds the elements of `source`. The newest epoch of an object wins, whatever the order of
-    /// merging. A set without a name leaves the known name.
+    /// merging. A set without a name keeps the known name.
     pub fn merge(&mut self, report: ReadReport, source: &str) -> MergeSummary {
         let mut summary = MergeSummary {
             refused: report.refused,
@@ -68,7 +68,7 @@ impl Catalog {
                 None => self.entries.push(elements),
             }
         }
-        // Stable, so that sets of one object stay in the order of the text.
+        // The sort is stable, so that sets of one object stay in the order of the text.
         self.entries.sort_by_key(Elements::catalog_number);
         self.entries.dedup_by(|later, held| {
             let is_same = later.catalog_number() == held.catalog_number();
@@ -86,7 +86,7 @@ impl Catalog {
         summary
     }
 
-    /// Index of the group called `name`, which is added when it is new.
+    /// Index of the group called `name`, which is added if it is new.
     fn group(&mut self, name: &str) -> u32 {
         let place = self.groups.iter().position(|group| group.name == name).unwrap_or_else(|| {
             self.groups.push(Group { name: name.to_owned(), members: Vec::new() });
@@ -100,13 +100,12 @@ impl Catalog {
         self.entries.get(self.entries.binary_search_by_key(&catalog_number, of).ok()?)
     }
 
-    /// The sources, each with the number of its objects, in the order of
-    /// merging.
+    /// The sources in the order of merging, each with the number of its objects.
     pub fn groups(&self) -> impl Iterator<Item = (&str, usize)> {
         self.groups.iter().map(|group| (group.name.as_str(), group.members.len()))
     }
 
-    /// All sources that hold an object, whichever has the newest set.
+    /// All sources that hold an object, whichever of them has the newest set.
     pub fn groups_of(&self, catalog_number: u32) -> impl Iterator<Item = &str> {
         self.groups
             .iter()
@@ -114,8 +113,7 @@ impl Catalog {
             .map(|group| group.name.as_str())
     }
 
-    /// The elements of all objects that the source `group` holds, by catalog
-    /// number.
+    /// The elements of all objects that the source `group` holds, in order of catalog number.
     pub fn in_group(&self, group: &str) -> impl Iterator<Item = &Elements> {
         self.groups
             .iter()
@@ -124,23 +122,23 @@ impl Catalog {
             .filter_map(|number| self.get(*number))
     }
 
-    /// At most `limit` objects whose number starts with `text` or whose name
-    /// holds it in any case, by name, then by number. An empty text finds all.
+    /// At most `limit` objects whose number starts with `text` or whose name contains it in any
+    /// case, sorted by name, then by number. An empty text finds all objects.
     pub fn search(&self, text: &str, limit: usize) -> Vec<&Elements> {
         search(self.iter(), text, limit)
     }
 
-    /// The same search among the objects of one source.
+    /// Like [`Self::search`], among the objects of one source.
     pub fn search_group(&self, group: &str, text: &str, limit: usize) -> Vec<&Elements> {
         search(self.in_group(group), text, limit)
     }
 
-    /// All elements by catalog number.
+    /// All elements, in order of catalog number.
     pub fn iter(&self) -> impl Iterator<Item = &Elements> {
         self.entries.iter()
     }
 
-    /// Some of them, by their places in that order.
+    /// The elements at `places` in the order of [`Self::iter`].
     pub fn range(&self, places: Range<usize>) -> impl Iterator<Item = &Elements> {
         self.entries.iter().take(places.end).skip(places.start)
     }

@@ -11,23 +11,21 @@ use crate::{
     name::{self, Name},
 };
 
-/// Seconds of a sidereal day.
 const SIDEREAL_DAY_S: f64 = 86_164.090_5;
 
 /// One orbit: SGP4 mean elements with the name and number of their object.
 ///
-/// Values of this type can be handed to the propagator: all numbers are
-/// finite, the eccentricity lies in `0.0..1.0`, the mean motion is positive,
-/// the inclination lies from 0 to 180 degrees, other angles within one turn
-/// either way, B* within 10 either way, the epoch within [`EPOCH_YEARS`], and
-/// SGP4 finds the object above the ground at its epoch. A value takes 152 bytes and, while its texts have 23
-/// bytes at most, nothing on the heap.
+/// Values of this type can be handed to the propagator: all numbers are finite, the eccentricity
+/// lies in `0.0..1.0`, the mean motion is positive, the inclination lies from 0 to 180 degrees,
+/// other angles within one turn either way, B* within 10 either way, the epoch within
+/// [`EPOCH_YEARS`], and SGP4 finds the object above the ground at its epoch. A value takes 152
+/// bytes, and nothing on the heap if each of its texts has at most 23 bytes.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(remote = "Self")]
 pub struct Elements {
-    /// Empty when the source gave none.
+    /// Empty if the source gave none.
     pub(super) name: SmolStr,
-    /// Such as `1998-067A`; empty when the source gave none.
+    /// Such as `1998-067A`; empty if the source gave none.
     pub(super) international_designator: SmolStr,
     pub(super) catalog_number: u32,
     /// Whole microseconds.
@@ -62,33 +60,30 @@ pub(super) enum Classification {
     Secret,
 }
 
-/// The calendar years an epoch may lie in: from the first satellite on, those
-/// that two digits can tell.
+/// Calendar years that an epoch may lie in: from the first satellite onwards, the years that two
+/// digits can express.
 pub const EPOCH_YEARS: std::ops::RangeInclusive<i16> = 1957..=2056;
 
 /// Nine digits.
 const MAX_CATALOG_NUMBER: u32 = 999_999_999;
 
-/// Why numbers are no orbit.
+/// The reason why numbers do not make an orbit.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error, Serialize, Deserialize)]
 pub enum ElementsError {
-    /// Made for another theory than SGP4 (4 is SGP4-XP).
+    /// Made for a theory other than SGP4 (4 is SGP4-XP).
     #[error("ephemeris type {0} is not SGP4")]
     EphemerisType(u8),
-    /// More than nine digits.
     #[error("catalogue number {0} has more than nine digits")]
     CatalogNumber(u64),
-    /// A number is infinite or not a number.
+    /// A number is infinite or NaN.
     #[error("a number is not finite")]
     NotFinite,
-    /// No ellipse.
     #[error("eccentricity {0} is not from 0 to below 1")]
     Eccentricity(f64),
-    /// No revolution.
     #[error("mean motion {0} is not positive")]
     MeanMotion(f64),
-    /// An angle or B* that no orbit has. Beyond one turn the fraction of a degree
-    /// is soon rounding noise, and so are the passes.
+    /// An angle or B* that no orbit has. Beyond one turn, the fraction of a degree soon becomes
+    /// rounding noise, and so do the passes.
     #[error("{name} {value:?} is not from {least} to {most}")]
     OutOfRange {
         #[serde(deserialize_with = "name::one")]
@@ -98,7 +93,6 @@ pub enum ElementsError {
         least: f64,
         most: f64,
     },
-    /// Outside [`EPOCH_YEARS`].
     #[error("epoch {0} is not from {first} to {last}", first = EPOCH_YEARS.start(), last = EPOCH_YEARS.end())]
     Epoch(civil::DateTime),
     /// Below the ground at the epoch, or SGP4 cannot start at all.
@@ -107,7 +101,7 @@ pub enum ElementsError {
 }
 
 impl Classification {
-    /// Classification by the letter of a source; other letters and none are unclassified.
+    /// The classification for the letter of a source; unclassified for other letters and for none.
     pub(super) fn from_letter(letter: &str) -> Self {
         match letter {
             "C" => Self::Classified,
@@ -116,7 +110,7 @@ impl Classification {
         }
     }
 
-    /// The letter that all forms use.
+    /// The letter that all forms use for this classification.
     pub(super) fn letter(self) -> char {
         match self {
             Self::Unclassified => 'U',
@@ -138,7 +132,7 @@ impl<'de> Deserialize<'de> for Elements {
     }
 }
 
-/// The catalog number that a source wrote, if it has nine digits at most.
+/// The catalog number that a source wrote, if it has at most nine digits.
 pub(super) fn catalog_number(number: u64) -> Result<u32, ElementsError> {
     u32::try_from(number)
         .ok()
@@ -147,7 +141,7 @@ pub(super) fn catalog_number(number: u64) -> Result<u32, ElementsError> {
 }
 
 impl Elements {
-    /// Checks what a reader found.
+    /// Checks the values that a reader found.
     pub(super) fn checked(mut self) -> Result<Self, ElementsError> {
         // 2 and 3 are old marks for SGP4 and SDP4; all sources now write 0.
         if !matches!(self.ephemeris_type, 0 | 2 | 3) {
@@ -178,21 +172,22 @@ impl Elements {
             ("right ascension of the node", self.node_deg, -360.0, 360.0),
             ("argument of perigee", self.perigee_deg, -360.0, 360.0),
             ("mean anomaly", self.mean_anomaly_deg, -360.0, 360.0),
-            // Real sets of manoeuvring objects come to 3.6.
+            // Real sets of manoeuvring objects reach 3.6.
             ("B*", self.bstar, -10.0, 10.0),
         ] {
             if !(least..=most).contains(&value) {
                 return Err(ElementsError::OutOfRange { name, value, least, most });
             }
         }
-        // A TLE's fraction of a day leaves noise below what an OMM writes.
-        // Without it both forms of one set have the same epoch.
+        // The fraction of a day in a TLE leaves noise below the digits that an OMM writes. Without
+        // the noise, both forms of one set have the same epoch.
         let as_written = self.epoch.to_zoned(TimeZone::UTC).datetime();
         self.epoch = self
             .epoch
             .round(jiff::Unit::Microsecond)
             .ok()
-            // The library computes with unsigned years, so years before 1 would end it.
+            // The library computes with unsigned years, so that a year before 1 would
+            // end the program.
             .filter(|epoch| EPOCH_YEARS.contains(&epoch.to_zoned(TimeZone::UTC).year()))
             .ok_or(ElementsError::Epoch(as_written))?;
         Propagator::new(&self)
@@ -201,12 +196,12 @@ impl Elements {
         Ok(self)
     }
 
-    /// Empty when the source gave none.
+    /// Empty if the source gave none.
     pub fn name(&self) -> &str {
         &self.name
     }
 
-    /// The name, or the catalog number where there is none.
+    /// The name, or the catalog number if there is no name.
     pub fn label(&self) -> String {
         if self.name.is_empty() { self.catalog_number.to_string() } else { self.name.to_string() }
     }
@@ -216,7 +211,7 @@ impl Elements {
         self.catalog_number
     }
 
-    /// The international designator, such as `1998-067A`.
+    /// Such as `1998-067A`.
     pub fn international_designator(&self) -> Option<&str> {
         Some(self.international_designator.as_str()).filter(|text| !text.is_empty())
     }
@@ -245,18 +240,18 @@ impl Elements {
         time::DAY_S / self.mean_motion_rev_day
     }
 
-    /// Age at `now` in seconds, negative while the epoch lies ahead.
+    /// Age at `now` in seconds, negative before the epoch.
     pub fn age_s(&self, now: Timestamp) -> f64 {
         time::seconds_between(self.epoch, now)
     }
 
-    /// Returns `true` if the satellite keeps its place in the sky: the period within 2 %
-    /// of a sidereal day and a near-circular orbit, whatever its inclination.
+    /// Returns `true` if the satellite keeps its place in the sky: its period is within 2 % of a
+    /// sidereal day and its orbit is near-circular, whatever its inclination.
     pub fn is_geosynchronous(&self) -> bool {
         (self.period_s() / SIDEREAL_DAY_S - 1.0).abs() < 0.02 && self.eccentricity() < 0.1
     }
 
-    /// Takes name and designator from `other` where this set has none.
+    /// Takes the name and designator from `other` if this set has none.
     pub(super) fn take_name(&mut self, other: &Self) {
         for (own, other) in [
             (&mut self.name, &other.name),
@@ -268,7 +263,7 @@ impl Elements {
         }
     }
 
-    /// The elements as the SGP4 library takes them, without name and designator.
+    /// The elements in the form of the SGP4 library, without name and designator.
     pub(super) fn sgp4(&self) -> sgp4::Elements {
         sgp4::Elements {
             object_name: None,

@@ -29,8 +29,9 @@ impl State {
 }
 
 impl SubPoint {
-    /// The ground from which the satellite is seen at `elevation` (0 to 90 degrees) or higher, on
-    /// a sphere: the flattening of the Earth moves its edge by up to a third of a degree.
+    /// The ground from which the satellite is seen at `elevation` (0 to 90 degrees) or
+    /// higher, on a sphere: the flattening of the Earth moves the edge of this ground by up
+    /// to a third of a degree.
     pub fn footprint(&self, elevation: Angle) -> Cap {
         let cos_nadir = MEAN_RADIUS_KM * elevation.radians().cos();
         let from_centre_km = MEAN_RADIUS_KM + self.height_km.max(0.0);
@@ -40,8 +41,8 @@ impl SubPoint {
 }
 
 impl Propagator {
-    /// The ground track from `from` on, `count` points `step_s` seconds apart; it ends early
-    /// where the orbit does.
+    /// The ground track from `from` onwards: `count` points, `step_s` seconds apart. It ends early
+    /// if the orbit does.
     pub fn ground_track(&self, from: Timestamp, step_s: f64, count: u32) -> Vec<TrackPoint> {
         let times = (0..count).map(|step| add_seconds(from, f64::from(step) * step_s));
         let point = |time| {
@@ -70,7 +71,7 @@ mod tests {
     #[test]
     fn a_satellite_is_in_the_zenith_of_the_point_below_it() {
         let at: Timestamp = AT.parse().unwrap();
-        // Low, half a day, geosynchronous.
+        // Orbits that are low, of half a day and geosynchronous.
         for number in [25_544, 43_013, 24_876, 54_743] {
             let propagator = propagator(number);
             let below = propagator.state_at(at).unwrap().sub_point(at);
@@ -97,7 +98,7 @@ mod tests {
                 }
             }
         }
-        // 826 km: 2570 km around at 5 degrees.
+        // A height of 826 km gives a radius of 2570 km at 5 degrees.
         let below = SubPoint { point: GroundPoint::from_degrees(0.0, 0.0), height_km: 826.0 };
         let wide_km = below.footprint(Angle::from_degrees(5.0)).radius_km();
         assert!((wide_km - 2_570.0).abs() < 30.0, "{wide_km}");
@@ -113,7 +114,7 @@ mod tests {
             let below = noaa_20.state_at(point.time).unwrap().sub_point(point.time);
             assert_eq!(below.point, point.point);
         }
-        // 98.7 degrees of inclination.
+        // The inclination is 98.7 degrees.
         let north = track.iter().map(|of| of.point.latitude.degrees()).fold(-90.0, f64::max);
         assert!((north - 81.4).abs() < 0.4, "{north}");
         let end: Timestamp = "2200-01-01T00:00:00Z".parse().unwrap();

@@ -1,7 +1,7 @@
 //! Look angles: direction, range and range rate of a satellite from a site.
 //!
-//! The direction is geometric, in the frame of [`frames`]. What that leaves out,
-//! as an angle and as the median shift of AOS of low satellites:
+//! The direction is geometric, in the frame of [`frames`]. The table lists what is neglected, as an
+//! angle and as the median shift of AOS of low satellites:
 //!
 //! | left out | direction | AOS |
 //! |---|---|---|
@@ -10,7 +10,7 @@
 //! | light time | 0.002 degrees | 0.01 s |
 //! | polar motion | 0.000 2 degrees | 0.003 s |
 //!
-//! With the UT1 - UTC of 2026, some hundredths of a second, AOS is right to 2 ms.
+//! With the UT1 - UTC of 2026, some hundredths of a second, AOS is accurate to 2 ms.
 
 use jiff::Timestamp;
 
@@ -30,7 +30,7 @@ pub struct LookAngles {
 }
 
 impl LookAngles {
-    /// Doppler shift of a carrier of `carrier_hz` that the satellite sends, Hz: positive when
+    /// Doppler shift in Hz of a carrier of `carrier_hz` that the satellite sends: positive when
     /// approaching. First order in v/c.
     pub fn doppler_hz(self, carrier_hz: f64) -> f64 {
         -self.range_rate_km_s / LIGHT_KM_S * carrier_hz
@@ -76,7 +76,7 @@ mod tests {
             let change_km = look(0.5).unwrap().range_km - look(-0.5).unwrap().range_km;
             let now = look(0.0).unwrap();
             assert!((change_km - now.range_rate_km_s).abs() < 5e-4, "{change_km} {now:?}");
-            // 7 km/s shift 145.8 MHz by 3.4 kHz; coming closer raises it.
+            // 7 km/s shifts 145.8 MHz by 3.4 kHz; an approach raises the frequency.
             let expected_hz = -change_km / 299_792.458 * 145.8e6;
             assert!((now.doppler_hz(145.8e6) - expected_hz).abs() < 0.5);
         }

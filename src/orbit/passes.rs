@@ -1,7 +1,7 @@
-//! Passes: when a satellite stands above the AOS elevation of a site.
+//! Passes: the times in which a satellite is above the AOS elevation of a site.
 //!
-//! AOS and LOS are found by [`near_circular`] (`search.rs`, `edges`) for near-circular orbits
-//! and by [`sampled`] (`reach`) for all others; both end in `LocalSeries::crossing`.
+//! AOS and LOS are found by [`near_circular`] (`search.rs`, `edges`) for near-circular orbits and
+//! by [`sampled`] (`reach`) for all others; both end in `LocalSeries::crossing`.
 
 mod geosynchronous;
 mod local_series;
@@ -27,49 +27,45 @@ use self::{near_circular::NearCircular, track::Track, window::Window};
 use super::Propagator;
 use crate::astro::{Angle, AzEl, Site, time};
 
-/// Satellites that one thread takes at a time.
+/// Number of satellites that one thread takes at a time.
 const BATCH: usize = 64;
 
 /// Time and direction of one point of a pass.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct PassPoint {
-    /// When, UTC.
+    /// In UTC.
     pub time: Timestamp,
-    /// Where in the sky.
     pub direction: AzEl,
 }
 
 /// One stay above the horizon within a window.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Pass {
-    /// Acquisition of signal: where the satellite comes up, or the start of the window.
+    /// Acquisition of signal: where the satellite rises, or the start of the window.
     pub aos: PassPoint,
     /// The greatest elevation from AOS to LOS.
     pub tca: PassPoint,
-    /// Loss of signal: where the satellite goes down, or the end of the window.
+    /// Loss of signal: where the satellite sets, or the end of the window.
     pub los: PassPoint,
-    /// The satellite stands above the horizon when the window starts.
+    /// The satellite is above the horizon when the window starts.
     pub starts_before: bool,
-    /// The satellite stands above the horizon when the window, or its orbit, ends.
+    /// The satellite is above the horizon when the window, or its orbit, ends.
     pub ends_after: bool,
 }
 
 impl Pass {
-    /// The greatest elevation from AOS to LOS.
     pub fn max_elevation(&self) -> Angle {
         self.tca.direction.elevation
     }
 
-    /// From AOS to LOS in seconds.
     pub fn duration_s(&self) -> f64 {
         time::seconds_between(self.aos.time, self.los.time)
     }
 }
 
-/// What passes are asked for.
+/// The parameters of a search for passes.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PassSearch {
-    /// Over which place.
     pub site: Site,
     /// Start of the window.
     pub from: Timestamp,
@@ -77,8 +73,8 @@ pub struct PassSearch {
     pub to: Timestamp,
     /// Elevation of AOS and LOS, -90 to 90 degrees.
     pub aos_elevation: Angle,
-    /// Passes whose greatest elevation within the window stays below this are
-    /// left out. The higher it is, the less there is to compute.
+    /// Passes whose greatest elevation within the window stays below this are left out. A higher
+    /// floor takes less computation.
     pub floor: Angle,
 }
 
@@ -89,12 +85,12 @@ impl PassSearch {
     }
 }
 
-/// All passes of a satellite, in order: the longest stretches in which the
-/// elevation is that of AOS or more, cut at the window and marked where they
-/// are. AOS and LOS are exact to a millisecond.
+/// All passes of a satellite, in order: the longest stretches in which the elevation is that
+/// of AOS or more, cut at the window and marked where they are cut. AOS and LOS are exact to
+/// a millisecond.
 ///
-/// The search ends quietly where the object decays. Once `cancelled` says so it
-/// ends too; the passes found until then are returned.
+/// The search ends without an error if the object decays. It also ends once `cancelled` returns
+/// `true`; the passes found until then are returned.
 pub fn passes(
     propagator: &Propagator,
     search: &PassSearch,
@@ -103,7 +99,7 @@ pub fn passes(
     passes_and_effort(propagator, search, cancelled).0
 }
 
-/// The same, and how many states of the satellite it took.
+/// Like [`passes`], with the number of states of the satellite that were computed.
 pub fn passes_and_effort(
     propagator: &Propagator,
     search: &PassSearch,
@@ -114,12 +110,12 @@ pub fn passes_and_effort(
     (found.into_iter().map(|(_, pass)| pass).collect(), effort)
 }
 
-/// The passes of many satellites: each with the index of its satellite, in the
-/// order of the satellites and of time.
+/// The passes of many satellites, each with the index of its satellite, ordered by
+/// satellite, then by time.
 ///
-/// The work is shared by the threads of the rayon pool it is called in.
-/// `progress` is told now and then how many satellites are done. Once
-/// `cancelled` says so the search ends; what was found until then is returned.
+/// The work is shared by the threads of the rayon pool in which this is called. `progress` is
+/// called now and then with the number of satellites that are done. Once `cancelled` returns
+/// `true`, the search ends; the passes found until then are returned.
 pub fn passes_of_all<P: Borrow<Propagator> + Sync>(
     propagators: &[P],
     search: &PassSearch,
@@ -136,13 +132,13 @@ pub fn passes_of_all<P: Borrow<Propagator> + Sync>(
         let batches = propagators.par_chunks(BATCH).enumerate();
         batches.map(|(batch, propagators)| of_batch(&window, batch, propagators)).collect()
     };
-    // Left in batches: to copy them into one list takes a tenth of the time again.
+    // Left in batches: copying them into one list would take another tenth of the time.
     let batches: Vec<Vec<(usize, Pass)>> = Window::new(search).map_or_else(Vec::new, of_all);
     batches.into_iter().flatten()
 }
 
-/// The passes of a few satellites, of which the first has the index `first`, and
-/// how many states they took.
+/// The passes of a few satellites, of which the first has the index `first`, and the number of
+/// states computed.
 fn passes_in<P: Borrow<Propagator>>(
     window: &Window,
     propagators: &[P],
@@ -190,7 +186,7 @@ mod tests {
         Propagator::new(bundled().unwrap().get(number).unwrap()).unwrap()
     }
 
-    /// Passes over Istanbul in `hours` from the start.
+    /// Passes over Istanbul in the first `hours` from the start.
     fn search(propagator: &Propagator, hours: f64, aos_deg: f64) -> Vec<Pass> {
         let to = time::add_seconds(start(), hours * 3600.0);
         let aos_elevation = Angle::from_degrees(aos_deg);
@@ -251,10 +247,10 @@ mod tests {
         let pole = Site::new(90.0, 0.0, 0.0).unwrap();
         let found = passes(&propagator, &PassSearch::new(pole, elements.epoch(), to), &|| false);
         let end = time::add_seconds(elements.epoch(), 420.0 * 60.0);
-        // One pass a revolution of 87 minutes, the first 20 minutes after the epoch.
+        // One pass per revolution of 87 minutes, the first 20 minutes after the epoch.
         assert_eq!(found.len(), 5);
         assert!(found.iter().all(|pass| pass.los.time < end));
-        // The mathematics goes on and brings it up again.
+        // The equations continue and bring the object up again.
         for days in [1.0, 3.0, 9.0] {
             let from = time::add_seconds(elements.epoch(), days * time::DAY_S);
             let later = PassSearch::new(pole, from, time::add_seconds(from, 10.0 * time::DAY_S));
@@ -266,14 +262,14 @@ mod tests {
     #[test]
     fn what_has_come_down_before_the_window_has_no_pass() {
         // Near-earth orbits that drag brings down within weeks, and two of twelve hours whose
-        // perigee lies in the air.
+        // perigee is in the atmosphere.
         let numbers = [43_881, 46_582, 48_924, 49_176, 52_445, 53_500, 57_956, 26_410, 26_464];
         for number in numbers {
             let propagator = propagator(number);
             for days in [60.0, 100.0, 140.0] {
                 let at =
                     |hours: f64| time::add_seconds(start(), days * time::DAY_S + hours * 3600.0);
-                // In the steps of one who only asks for states.
+                // In the steps of a caller that only asks for states.
                 let mut before = (0..)
                     .map(|step| time::add_seconds(propagator.epoch(), f64::from(step) * 600.0));
                 let is_down = before

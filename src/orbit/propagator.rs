@@ -1,4 +1,4 @@
-//! SGP4 and SDP4: where a satellite is at a time.
+//! SGP4 and SDP4: the state of a satellite at a time.
 
 mod near_circular;
 mod secular;
@@ -14,21 +14,21 @@ pub(super) use self::secular::{Plane, Secular, expand};
 use super::Elements;
 use crate::astro::time;
 
-/// Equatorial radius in WGS72, the constants SGP4 is defined with, in km.
+/// Equatorial radius in WGS72, the constants with which SGP4 is defined, in km.
 pub(super) const WGS72_RADIUS_KM: f64 = 6_378.135;
-/// Further from its epoch a set says nothing, and the resonance integrator,
-/// which walks there in half days, would take seconds for a far century.
+/// Further than this from its epoch, a set says nothing, and the resonance integrator, which
+/// advances in half days, would take seconds for a far century.
 const FARTHEST_DAYS: f64 = 36_525.0;
-/// SGP4's velocity is not quite the change of its position: higher powers of the
-/// flattening are left out, the more the more eccentric the orbit is, and the
-/// drag. Measured over the bundled catalog, in km/s.
+/// SGP4's velocity is not quite the rate of change of its position. It neglects the drag and higher
+/// powers of the flattening, which matter more for more eccentric orbits. Measured over the bundled
+/// catalog, in km/s.
 const DRIFT_KM_S: f64 = 3e-5;
 const ECCENTRIC_DRIFT_KM_S: f64 = 0.01;
 
-/// A deep-space orbit comes down within weeks only from a perigee below this height, in km.
+/// A deep-space orbit decays within weeks only from a perigee below this height, in km.
 const LOW_PERIGEE_KM: f64 = 120.0;
-/// The first state that is missing is looked for in these steps, a sixteenth of a low
-/// revolution, and for ten weeks: a near-earth orbit that touches the air is down in days.
+/// The first missing state is searched for in these steps, a sixteenth of a low revolution, and
+/// over ten weeks: a near-earth orbit that touches the atmosphere decays in days.
 const DOWN_STEP_MIN: f64 = 5.0;
 const MAX_DOWN_LOOKS: u32 = 20_000;
 
@@ -41,16 +41,15 @@ pub struct State {
     pub velocity_km_s: DVec3,
 }
 
-/// Why there is no state.
+/// The reason why there is no state.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error, Serialize, Deserialize)]
 pub enum PropagationError {
     /// SGP4 cannot start from these elements.
     #[error("the elements describe no orbit")]
     Elements,
-    /// The orbit has met the ground, or its mathematics has ended.
+    /// The orbit has met the ground, or SGP4 has no solution any more.
     #[error("the object has decayed")]
     Decayed,
-    /// More than a century from the epoch.
     #[error("the time is more than a century from the epoch")]
     TooFarFromEpoch,
 }
@@ -62,21 +61,21 @@ pub struct Propagator {
     epoch: Timestamp,
     secular: Option<Secular>,
     drift_km_s: f64,
-    /// From then on the orbit may have met the ground, minutes after the epoch.
+    /// The orbit may have met the ground from this time on, minutes after the epoch.
     low_after_min: f64,
-    /// When it has, minutes after the epoch. Looked for by the first question that is later
-    /// than `low_after_min`.
+    /// The time at which it has met the ground, minutes after the epoch. Computed on the first
+    /// request for a state later than `low_after_min`.
     down_min: OnceLock<f64>,
 }
 
-/// Where the integration of a resonant orbit has come to, so that the next state
-/// need not start from the epoch. Other orbits leave it untouched.
+/// How far the integration of a resonant orbit has come, so that the next state need not start from
+/// the epoch. Other orbits leave it untouched.
 #[derive(Clone, Copy, Default)]
 pub(super) struct Resumable(Option<sgp4::ResonanceState>);
 
 impl Propagator {
-    /// Prepares the propagation of `elements` (WGS72, AFSPC sidereal time: what
-    /// the elements were fitted with).
+    /// Prepares the propagation of `elements` with WGS72 and AFSPC sidereal time, with which the
+    /// elements were fitted.
     pub fn new(elements: &Elements) -> Result<Self, PropagationError> {
         let numbers = elements.sgp4();
         let constants = sgp4::Constants::from_elements_afspc_compatibility_mode(&numbers)
@@ -86,7 +85,7 @@ impl Propagator {
         let drift_km_s = DRIFT_KM_S + ECCENTRIC_DRIFT_KM_S * eccentricity;
         let low_after_min = match &secular {
             Some(secular) => secular.low_after_min(),
-            // Drag that brings such an orbit down needs a perigee in the air.
+            // Drag brings such an orbit down only if its perigee is in the atmosphere.
             None if lowest_km(&numbers) < LOW_PERIGEE_KM => 0.0,
             None => f64::INFINITY,
         };
@@ -104,21 +103,20 @@ impl Propagator {
         self.epoch
     }
 
-    /// How the orbit moves in the long run; `None` for deep space.
+    /// The long-term motion of the orbit; `None` for deep space.
     pub(super) fn secular(&self) -> Option<&Secular> {
         self.secular.as_ref()
     }
 
-    /// How far the velocities may be from the change of the positions, so many
-    /// seconds after the epoch.
+    /// Largest difference between the velocities and the rate of change of the positions,
+    /// `since_epoch_s` seconds after the epoch.
     pub(super) fn drift_km_s(&self, since_epoch_s: f64) -> f64 {
         let drag = |secular: &Secular| secular.drag_drift_km_s(since_epoch_s / 60.0);
         self.drift_km_s + self.secular.as_ref().map_or(0.0, drag)
     }
 
-    /// The state `since_epoch_s` seconds after the epoch, in TEME. A series of
-    /// calls with one `resumable` is fast where it leads away from the epoch,
-    /// and right in any order.
+    /// The state `since_epoch_s` seconds after the epoch, in TEME. A series of calls with one
+    /// `resumable` is fast if it leads away from the epoch, and correct in any order.
     pub(super) fn state_after(
         &self,
         since_epoch_s: f64,
@@ -136,13 +134,14 @@ impl Propagator {
         self.sgp4_state(since_epoch_min, resumable)
     }
 
-    /// Returns `true` if the orbit may have met the ground by then.
+    /// Returns `true` if the orbit may have met the ground by this time.
     pub(super) fn may_be_down_at(&self, since_epoch_s: f64) -> bool {
         since_epoch_s > self.low_after_min * 60.0
     }
 
-    /// When SGP4 first brings the object down: later its mathematics goes on below the ground
-    /// and may bring it up again. Infinity where it does not in the time that is looked at.
+    /// Minutes after the epoch at which SGP4 first brings the object down. Later, its equations
+    /// continue below the ground and may bring the object up again. Infinity if the object does not
+    /// come down in the time that is searched.
     fn find_down_min(&self) -> f64 {
         let mut resumable = Resumable::default();
         (1..=MAX_DOWN_LOOKS)
@@ -151,14 +150,13 @@ impl Propagator {
             .unwrap_or(f64::INFINITY)
     }
 
-    /// The state by SGP4, whatever became of the object before.
+    /// The state by SGP4, whether or not the object has decayed before.
     fn sgp4_state(
         &self,
         since_epoch_min: f64,
         resumable: &mut Resumable,
     ) -> Result<State, PropagationError> {
-        // The library ends the program when the time goes back towards or over
-        // the epoch.
+        // The library ends the program when the time goes back towards or across the epoch.
         let resumed = resumable.0.take().filter(|state| {
             let reached_min = state.t();
             reached_min * since_epoch_min > 0.0 && since_epoch_min.abs() >= reached_min.abs()
@@ -200,7 +198,7 @@ mod tests {
     #[test]
     fn any_time_gives_a_state_or_a_reason() {
         let catalog = bundled().unwrap();
-        // Low, half a day, geosynchronous, far and eccentric.
+        // Orbits that are low, of half a day, geosynchronous, and far and eccentric.
         let propagators: Vec<Propagator> = [25_544, 24_876, 54_743, 25_867]
             .map(|number| Propagator::new(catalog.get(number).unwrap()).unwrap())
             .into();
@@ -237,7 +235,7 @@ mod tests {
                 let moved_km = state(0.5).position_km - state(-0.5).position_km;
                 let drift_km_s = (moved_km - state(0.0).velocity_km_s).length();
                 let said_km_s = propagator.drift_km_s(at_s);
-                // One set in five hundred has a faster drift than is said.
+                // One set in five hundred drifts faster than `said_km_s`.
                 assert!(drift_km_s < 2.5 * said_km_s, "{elements:?}: {drift_km_s} {said_km_s}");
             }
         }

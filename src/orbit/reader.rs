@@ -1,9 +1,7 @@
-//! Reads elements from text: TLE, or OMM in JSON, XML, KVN or CSV, whatever the
-//! text holds.
+//! Reads elements from text, which may hold TLE, or OMM in JSON, XML, KVN or CSV.
 //!
-//! Every object is read by itself. One that cannot be read is listed with its
-//! place and the reason, and costs no other object. Time and memory grow with
-//! the length of the text and no faster.
+//! Every object is read by itself. One that cannot be read is listed with its place and the reason,
+//! and does not affect the others. Time and memory grow no faster than the length of the text.
 
 mod numbers;
 mod omm;
@@ -18,9 +16,9 @@ use self::omm::{csv, json, kvn, xml};
 pub use self::report::{Note, NoteKind, Nothing, ReadReport, Refusal, RefusalReason};
 pub(super) use self::{numbers::ALPHA_5, tle::checksum};
 
-/// Reads all elements of `text`: TLE with two or three lines a set (Alpha-5
-/// numbers too), or OMM in JSON, XML, KVN or CSV, as `CelesTrak` and
-/// Space-Track write them. Never fails as a whole and never panics.
+/// Reads all elements of `text`: TLE with two or three lines per set (including Alpha-5 numbers),
+/// or OMM in JSON, XML, KVN or CSV, as written by `CelesTrak` and Space-Track. Never fails as a
+/// whole and never panics.
 pub fn read_elements(text: &str) -> ReadReport {
     let text = text.trim_start_matches('\u{feff}');
     let mut report = match form(text) {
@@ -36,7 +34,7 @@ pub fn read_elements(text: &str) -> ReadReport {
     report
 }
 
-/// Why there is nothing in `text`.
+/// The reason why there is nothing in `text`.
 fn nothing_in(text: &str) -> Nothing {
     let text = text.trim();
     let start: String = text.chars().take(15).collect::<String>().to_ascii_lowercase();
@@ -51,9 +49,9 @@ fn nothing_in(text: &str) -> Nothing {
     }
 }
 
-/// Reads all elements of a file as it is on disk or came over a wire. Bytes
-/// that are no UTF-8 are replaced; UTF-16 is read where its mark says so, as
-/// some shells write it. What is compressed by gzip is unpacked.
+/// Reads all elements of a file as stored on disk or received. Bytes that are not UTF-8
+/// are replaced; UTF-16, which some shells write, is read if the byte order mark says so.
+/// Gzip is unpacked.
 pub fn read_element_bytes(bytes: &[u8]) -> ReadReport {
     let unpacked;
     let bytes = if bytes.starts_with(GZIP) {
@@ -73,7 +71,7 @@ fn of_nothing(nothing: Nothing) -> ReadReport {
     ReadReport { nothing: Some(nothing), ..ReadReport::default() }
 }
 
-/// All files of a gzip; `None` where it is damaged or unpacks to too much.
+/// All files of a gzip; `None` if it is damaged or unpacks to too much.
 fn unpack(bytes: &[u8]) -> Option<Vec<u8>> {
     let mut unpacked = Vec::new();
     let mut packed = flate2::read::MultiGzDecoder::new(bytes).take(MAX_UNPACKED + 1);
@@ -94,11 +92,11 @@ fn decoded(bytes: &[u8]) -> Cow<'_, str> {
     Cow::Owned(letters.collect())
 }
 
-/// How a gzip starts.
+/// First bytes of a gzip.
 const GZIP: &[u8] = &[0x1f, 0x8b];
-/// The whole catalog as XML has 30 MB.
+/// Maximum size of an unpacked text, bytes; the whole catalog as XML has 30 MB.
 const MAX_UNPACKED: u64 = 1 << 28;
-/// How zip, bzip2, xz and zstd start.
+/// First bytes of zip, bzip2, xz and zstd.
 const PACKED: [&[u8]; 4] = [b"PK\x03\x04", b"BZh", b"\xfd7zXZ", &[0x28, 0xb5, 0x2f, 0xfd]];
 
 /// How elements are written.
@@ -110,9 +108,9 @@ enum Form {
     Tle,
 }
 
-/// The form of `text`, from its first line that is no remark.
+/// The form of `text`, from its first line that is not a remark.
 fn form(text: &str) -> Form {
-    // Two signs, because a name may start with any one of them.
+    // Two characters, because a name may start with any one of them.
     let mut signs = text.chars().filter(|sign| !sign.is_whitespace());
     if matches!(
         (signs.next(), signs.next()),
@@ -125,7 +123,7 @@ fn form(text: &str) -> Form {
         .map(str::trim)
         .find(|line| !line.is_empty() && !line.starts_with('#') && !kvn::is_comment(line))
         .unwrap_or_default();
-    // A page around a list of TLE starts with a tag too, but with another one.
+    // A web page around a list of TLE also starts with a tag, but with a different one.
     if first.starts_with("<?xml") || xml::is_first(first) {
         Form::Xml
     } else if kvn::is_first(first) {
@@ -137,11 +135,11 @@ fn form(text: &str) -> Form {
     }
 }
 
-/// A text of a source on one line: without blanks around it, and with blanks
-/// for the characters that no screen and no form can show.
+/// A text of a source on one line: trimmed, and with blanks in place of the characters that no
+/// screen and no form can show.
 fn clean(text: &str) -> SmolStr {
-    // A form may lose the mark of the byte order, which is no control character; nor are those
-    // that turn the order of what follows.
+    // A form may lose the byte order mark. Neither that mark nor the characters that reverse the
+    // order of the text after them are control characters.
     let is_unseen = |letter: char| {
         let turns = matches!(letter, '\u{200e}' | '\u{200f}' | '\u{202a}'..='\u{202e}' | '\u{2066}'..='\u{2069}');
         letter.is_control() || letter == '\u{feff}' || turns

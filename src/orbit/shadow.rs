@@ -7,9 +7,9 @@ use crate::astro::{frames, sun_moon};
 
 /// Returns `true` if a satellite in `state` (TEME, valid at `at`) is in sunlight.
 ///
-/// The shadow is a cylinder as wide as the equator. At its border half of the
-/// Sun's disc is hidden: the middle of the penumbra, which a low satellite
-/// crosses in about 8 s. Flattening and refraction are left out.
+/// The shadow is a cylinder as wide as the equator. At its edge, half of the Sun's disc is hidden:
+/// the middle of the penumbra, which a low satellite crosses in about 8 s. Flattening and
+/// refraction are neglected.
 pub fn is_sunlit(state: &State, at: Timestamp) -> bool {
     let sun = sun_moon::sun_direction_teme(at);
     let along_km = state.position_km.dot(sun);

@@ -1,9 +1,8 @@
 //! One number or eight at once.
 //!
-//! The passes of a satellite are worked eight at a time: a processor takes two
-//! or more numbers through one operation as fast as one, and has something to
-//! do while others wait for the result of the step before. What serves both is
-//! written once, for any [`Number`].
+//! Passes are computed for eight satellites at a time: a processor takes two or more numbers
+//! through one operation as fast as one, and has something to do while others wait for the result
+//! of the previous step. Code that serves both is written once, for any [`Number`].
 
 mod trig;
 mod vector;
@@ -19,7 +18,7 @@ pub(super) type Lanes = f64x8;
 /// Number of lanes.
 pub(super) const LANES: usize = 8;
 
-/// From here on a number of this type has no digits after the point.
+/// From here on, a number of this type has no digits after the point.
 const WHOLE_ABOVE: f64 = 6_755_399_441_055_744.0;
 
 /// A real number, or several side by side.
@@ -36,7 +35,7 @@ pub(super) trait Number:
     + Mul<f64, Output = Self>
     + Div<f64, Output = Self>
 {
-    /// Yes or no, for every lane.
+    /// A yes or no for every lane.
     type Answer: BitAnd<Output = Self::Answer> + BitOr<Output = Self::Answer>;
     /// This value in every lane.
     fn of(value: f64) -> Self;
@@ -46,16 +45,16 @@ pub(super) trait Number:
     fn nearest(self) -> Self {
         self + WHOLE_ABOVE - WHOLE_ABOVE
     }
-    /// Within 1e-13, for angles up to a thousand; beyond, within what is left of the
-    /// angle's digits.
+    /// Accurate to 1e-13 for angles up to a thousand; beyond that, as accurate as the remaining
+    /// digits of the angle.
     fn sin_cos(self) -> (Self, Self) {
         trig::sin_cos(self)
     }
-    /// The angle of the direction (`x`, `self`), -pi to pi, within 5e-11.
+    /// The angle of the direction (`x`, `self`), -pi to pi, accurate to 5e-11.
     fn atan2(self, x: Self) -> Self;
     /// The nearest number from `low` to `high`.
     fn within(self, low: f64, high: f64) -> Self;
-    /// Compares each lane with `than`: true where it is less, false for NaN.
+    /// Compares each lane with `than`: true if it is less, false for NaN.
     fn is_less(self, than: Self) -> Self::Answer;
     /// Returns `true` if any lane is at least `limit`; NaN is not.
     fn any_reaches(self, limit: f64) -> bool;
@@ -111,8 +110,7 @@ impl Number for Lanes {
     }
 }
 
-/// The polynomial's value, constant term first. Its coefficients may differ from
-/// lane to lane.
+/// The value of a polynomial, constant term first. Its coefficients may differ from lane to lane.
 pub(super) fn series<N, C, const COUNT: usize>(polynomial: &[C; COUNT], at: N) -> N
 where
     N: Number + Add<C, Output = N>,
@@ -123,7 +121,7 @@ where
     })
 }
 
-/// Puts a number into a lane; nothing beyond the last.
+/// Puts a number into a lane; has no effect beyond the last lane.
 pub(super) fn set(numbers: &mut Lanes, lane: usize, number: f64) {
     if let Some(place) = numbers.as_mut_array().get_mut(lane) {
         *place = number;
@@ -141,7 +139,7 @@ pub(super) fn set_all<const COUNT: usize>(
     }
 }
 
-/// The number of one lane; not a number beyond the last.
+/// The number in one lane; NaN beyond the last lane.
 pub(super) fn lane_of(numbers: &Lanes, lane: usize) -> f64 {
     numbers.as_array().get(lane).copied().unwrap_or(f64::NAN)
 }

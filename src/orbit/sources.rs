@@ -8,12 +8,11 @@ use serde::{Deserialize, Serialize};
 use super::{MergeSummary, Nothing};
 use crate::astro::time;
 
-/// A server is asked for one source at most once in this time, unless the
-/// operator wants it. `CelesTrak` makes its elements anew every two hours and
-/// shuts out who asks for them more often.
+/// A server is asked for one source at most once in this time, unless the operator requests it.
+/// `CelesTrak` renews its elements every two hours and blocks clients that ask more often.
 pub const FETCH_PAUSE: SignedDuration = SignedDuration::from_hours(2);
 
-/// A source of elements; also the group of its objects.
+/// A source of elements, which is also the group of its objects.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Source {
     pub name: String,
@@ -27,45 +26,45 @@ pub struct Source {
 pub enum SourcePlace {
     /// A file of elements in any form.
     File(PathBuf),
-    /// All files of elements in a folder, without the folders in it.
+    /// All files of elements in a folder, without its subfolders.
     Folder(PathBuf),
     /// An `https` address that answers with elements in any form.
     Web(String),
 }
 
 impl Source {
-    /// A group of `CelesTrak`, such as `active` or `weather`, as OMM: a TLE
-    /// carries no object that was cataloged after July 2026.
+    /// A group of `CelesTrak`, such as `active` or `weather`, as OMM: a TLE carries no object that
+    /// was cataloged after July 2026.
     pub fn celestrak(group: &str) -> Self {
         let url = format!("https://celestrak.org/NORAD/elements/gp.php?GROUP={group}&FORMAT=json");
         Self { name: group.to_owned(), place: SourcePlace::Web(url) }
     }
 }
 
-/// Returns `true` if a server may be asked at `now` that was last asked at
-/// `last_attempt`, whatever its answer was. `forced`: the operator wants it.
+/// Returns `true` if a server that was last asked at `last_attempt` may be asked at `now`, whatever
+/// its answer was. `forced` says that the operator wants it.
 pub fn may_fetch(last_attempt: Option<Timestamp>, now: Timestamp, forced: bool) -> bool {
-    // A clock that was set back must not shut the source off.
+    // A clock that was set back must not block the source.
     forced || last_attempt.is_none_or(|last| last > now || now.duration_since(last) >= FETCH_PAUSE)
 }
 
-/// Why a server gave no new elements. What was held stays.
+/// The reason why a server gave no new elements. The elements that are held stay.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum FetchProblem {
-    /// Not an `https` address, or one with a user name in it.
+    /// Not an `https` address, or one that contains a user name.
     #[error("the address is not a plain https address")]
     Address,
-    /// Another answer than 200 and 304; the server is not asked again soon.
+    /// An answer other than 200 and 304; the server is not asked again soon.
     #[error("the server answered {0}")]
     Answer(u16),
-    /// No whole answer.
+    /// No complete answer.
     #[error("no answer: {0}")]
     Unreachable(String),
-    /// The server could not prove who it is; nothing was asked of it.
+    /// The server could not prove its identity; no request was sent.
     #[error("the server's certificate is not trusted: {0}")]
     Certificate(String),
-    /// More than the limit, bytes.
+    /// The answer is larger than this limit in bytes.
     #[error("the answer is larger than {0} bytes")]
     TooLarge(u64),
     /// Nothing in the answer could be read.
@@ -74,10 +73,9 @@ pub enum FetchProblem {
     /// Nothing in the answer looks like elements.
     #[error("the answer holds no elements, {0}")]
     Nothing(Nothing),
-    /// All that came is older than what is held.
     #[error("the answer is older than what is held")]
     Older,
-    /// The answer could not be put on disk.
+    /// The answer could not be written to disk.
     #[error("the answer could not be kept: {0}")]
     Disk(String),
 }
@@ -86,18 +84,18 @@ pub enum FetchProblem {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct SourceReport {
     pub source: String,
-    /// Its files: one, or all of a folder; none when nothing was fetched yet.
+    /// The files of the source: one, or all of a folder; none if nothing has been fetched yet.
     pub files: Vec<FileReport>,
-    /// When its elements were last known to be current: a file's time of
-    /// change, or the last time a server sent or confirmed them.
+    /// When the elements were last known to be current: the modification time of a file, or the
+    /// last time that a server sent or confirmed them.
     pub as_of: Option<Timestamp>,
-    /// The newest epoch in it.
+    /// The newest epoch in the source.
     pub newest_epoch: Option<Timestamp>,
     /// The reason why the last request brought no new elements.
     pub fetch_problem: Option<FetchProblem>,
-    /// When the server may be asked again without force, where one is asked.
+    /// When the server may be asked again without force, if the source is a server.
     pub next_fetch: Option<Timestamp>,
-    /// It was not read, because the program ended while it was read the last time.
+    /// The source was not read, because the program ended while reading it the last time.
     pub is_set_aside: bool,
 }
 
@@ -106,9 +104,9 @@ pub struct SourceReport {
 pub struct FileReport {
     pub path: PathBuf,
     pub objects: usize,
-    /// Changes in the catalog, and refusals.
+    /// Changes in the catalog and refusals.
     pub merge: MergeSummary,
-    /// Why it could not be read at all, in the words of the operating system.
+    /// Why the file could not be read at all, in the words of the operating system.
     pub problem: Option<String>,
 }
 
@@ -122,7 +120,7 @@ impl SourceReport {
         merges.map(|merge| merge.refused.len() + merge.refused_unlisted).sum()
     }
 
-    /// Age of what is held at `now`, in seconds.
+    /// Age of the held elements at `now`, in seconds.
     pub fn age_s(&self, now: Timestamp) -> Option<f64> {
         self.as_of.map(|as_of| time::seconds_between(as_of, now))
     }

@@ -1,5 +1,5 @@
-//! Satellites that keep their place over the ground: most of them a site either
-//! always sees or never.
+//! Satellites that keep their place over the ground. A site sees most of them either
+//! always or never.
 
 use std::f64::consts::PI;
 
@@ -11,21 +11,21 @@ use crate::{
 
 use super::local_series::GRAVITY_KM3_S2;
 
-/// How much faster or slower than the Earth the satellite may turn, as a share.
+/// Largest difference between the rate of the satellite and that of the Earth, as a share.
 const MAX_DRIFT: f64 = 0.05;
 const MAX_ECCENTRICITY: f64 = 0.2;
-/// Longer windows are searched: the pull of Sun, Moon and the equator's bulge
-/// changes the orbit too much.
+/// Longer windows are searched: the pull of the Sun, the Moon and the equator's bulge changes the
+/// orbit too much.
 const LONGEST_WINDOW_S: f64 = 14.0 * 86_400.0;
-/// What those do in the longest window, in radians.
+/// Effect of these pulls in the longest window, in radians.
 const MARGIN: f64 = 0.02;
 
 /// Returns `true` if the satellite stays below the horizon for the whole window.
 ///
-/// With the inclination i, the eccentricity e and the mean motion n of the state
-/// in the middle of the window of length T, the point below the satellite goes
-/// no further from where it is then than 2 i + 4.2 e + |n - earth rate| T / 2:
-/// twice the figure of eight, twice the equation of centre, and the drift.
+/// Let i be the inclination, e the eccentricity and n the mean motion of the state in the middle of
+/// the window, and T the length of the window. The point below the satellite then stays within 2 i
+/// + 4.2 e + |n - earth rate| T / 2 of where it is in the middle: twice the figure of eight, twice
+/// the equation of centre, and the drift.
 pub(super) fn never_rises(track: &Track<'_>) -> bool {
     let window = track.window;
     if track.propagator.secular().is_some() || window.length_s > LONGEST_WINDOW_S {
@@ -39,7 +39,7 @@ pub(super) fn never_rises(track: &Track<'_>) -> bool {
     let eccentricity =
         (v.cross(momentum) * (1.0 / GRAVITY_KM3_S2) - r * (1.0 / radius_km)).length();
     let drift = (GRAVITY_KM3_S2 / axis_km.powi(3)).sqrt() - EARTH_RATE_RAD_S;
-    // Written so that NaN falls out as well.
+    // Written so that NaN is refused too.
     if !(drift.abs() < MAX_DRIFT * EARTH_RATE_RAD_S && eccentricity < MAX_ECCENTRICITY) {
         return false;
     }

@@ -1,17 +1,16 @@
-//! The way of a satellite across the sky around one instant, from one state.
+//! The motion of a satellite across the sky around one instant, from one state.
 //!
-//! Seen from the site, in axes that turn with the Earth, the satellite moves by
-//! gravity (the Earth's mass and its flattening J2) and the two apparent
-//! accelerations of a turning frame. With the position q, the velocity v, the
-//! acceleration a and its change j known at one instant,
+//! Seen from the site, in axes that turn with the Earth, the satellite moves by gravity (the
+//! Earth's mass and its flattening J2) and the two apparent accelerations of a turning frame. With
+//! the position q, the velocity v, the acceleration a and its change j known at one instant,
 //!
 //! q(tau) = q + v tau + a tau²/2 + j tau³/6
 //!
-//! is right to centimetres for half a minute: the first term left out is about
-//! n⁴ r tau⁴/24, with n the angular speed and r the distance from the centre.
+//! is accurate to centimetres for half a minute: the first term that is left out is about n⁴ r
+//! tau⁴/24, with n the angular speed and r the distance from the centre.
 //!
-//! Height here always means the sine of the elevation. It is smooth even where
-//! a satellite passes the zenith and its azimuth jumps.
+//! Height here always means the sine of the elevation. It is smooth even where a satellite passes
+//! the zenith and its azimuth jumps.
 
 use super::window::Window;
 use crate::{
@@ -22,7 +21,7 @@ use crate::{
     },
 };
 
-/// Gravity of the Earth in WGS72, km³/s².
+/// Gravitational parameter of the Earth in WGS72, km³/s².
 pub(super) const GRAVITY_KM3_S2: f64 = 398_600.8;
 /// Flattening of the gravity field in WGS72.
 const J2: f64 = 0.001_082_616;
@@ -30,18 +29,18 @@ const J2: f64 = 0.001_082_616;
 /// Newton's method for an extreme squares its error: after a step this small,
 /// in seconds, the next one would be below a tenth of a millisecond.
 const LAST_STEP_S: f64 = 0.1;
-/// Halley's method for a crossing cubes the share of the rate that a step
-/// changes: after a share this small less than a tenth of a millisecond is left.
+/// Halley's method for a crossing cubes the share of the rate that a step changes: after a share
+/// this small, less than a tenth of a millisecond is left.
 const LAST_SHARE: f64 = 8e-3;
-/// More steps than this are needed where there is nothing to be found.
+/// More steps than this are needed only where there is nothing to be found.
 const MAX_STEPS: usize = 8;
 
-/// Vectors east, north, up from the site, in km and seconds.
+/// Vectors are east, north, up from the site, in km and seconds.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct LocalSeries<N = f64> {
-    /// The instant the series is made for.
+    /// The instant for which the series is made.
     pub(super) at_s: N,
-    /// What it is made from.
+    /// The state from which the series is made.
     pub(super) state: EarthFixed<N>,
     pub(super) position: Vector<N>,
     pub(super) velocity: Vector<N>,
@@ -49,15 +48,15 @@ pub(super) struct LocalSeries<N = f64> {
     jerk: Vector<N>,
 }
 
-/// A state in Earth-fixed axes of its instant.
+/// A state in the Earth-fixed axes of its instant.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct EarthFixed<N = f64> {
     pub(super) position_km: Vector<N>,
-    /// The inertial one.
+    /// The inertial velocity.
     pub(super) velocity_km_s: Vector<N>,
 }
 
-/// Sine of the elevation with its first and second derivative by time.
+/// Sine of the elevation with its first and second derivative with respect to time.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Height<N = f64> {
     pub(super) sine: N,
@@ -65,12 +64,12 @@ pub(super) struct Height<N = f64> {
     pub(super) curve: N,
 }
 
-/// Which way the height turns.
+/// The sense in which the height turns.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Bend {
-    /// Up, then down.
+    /// First up, then down.
     Crest,
-    /// Down, then up.
+    /// First down, then up.
     Trough,
 }
 
@@ -83,7 +82,7 @@ impl Bend {
     }
 }
 
-/// Where the satellite is at one instant, seen from the site.
+/// Where the satellite is at one instant, as seen from the site.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct LocalState<N = f64> {
     pub(super) at_s: N,
@@ -96,12 +95,12 @@ pub(super) struct LocalState<N = f64> {
 }
 
 impl<N: Number> LocalState<N> {
-    /// How fast the satellite moves across the sky, in radians per second.
+    /// Angular speed of the satellite across the sky, in radians per second.
     pub(super) fn angular_rate(&self) -> N {
         self.enu_km.cross(self.velocity).length() / self.enu_km.length_squared()
     }
 
-    /// Whether the height turns here, this way.
+    /// Whether the height turns here in the sense of `bend`.
     pub(super) fn turns(&self, bend: Bend) -> N::Answer {
         let Height { rate, curve, .. } = self.height;
         bend.fits(curve) & rate.abs().is_less(curve.abs() * LAST_STEP_S)
@@ -112,8 +111,8 @@ impl<N: Number> LocalState<N> {
         (self.height.sine - sine).abs().is_less(self.height.rate.abs() * 1e-3)
     }
 
-    /// A little later: less than [`LAST_STEP_S`], or as little of the way to an
-    /// extreme.
+    /// The state after a small `step_s`: less than [`LAST_STEP_S`], or less than [`LAST_SHARE`] of
+    /// the time to an extreme.
     fn moved(self, step_s: N) -> Self {
         let Height { sine, rate, curve } = self.height;
         let height = Height {
@@ -127,7 +126,8 @@ impl<N: Number> LocalState<N> {
 }
 
 impl<N: Number> Height<N> {
-    /// Of a satellite at `q`, so far away, with velocity `v` and acceleration `a`.
+    /// The height of a satellite at `q`, at the distance `range`, with velocity `v` and
+    /// acceleration `a`.
     pub(super) fn new(q: Vector<N>, range: N, v: Vector<N>, a: Vector<N>) -> Self {
         let inverse_range = N::of(1.0) / range;
         let range_rate = q.dot(v) * inverse_range;
@@ -157,7 +157,7 @@ impl<N: Number> LocalSeries<N> {
         }
     }
 
-    /// The same with the speed that leads to a second series.
+    /// The same series, with the velocity that leads to a second series.
     pub(super) fn mended(&self, second: &Self) -> Self {
         let span_s = second.at_s - self.at_s;
         let missed_km = second.position - self.place(span_s).enu_km;
@@ -165,7 +165,7 @@ impl<N: Number> LocalSeries<N> {
         Self { velocity: self.velocity + missed_km * per_second, ..*self }
     }
 
-    /// The place `tau` seconds after the series' instant.
+    /// The place `tau` seconds after the instant of the series.
     pub(super) fn place(&self, tau: N) -> LocalState<N> {
         let half = tau * 0.5;
         let acceleration = self.acceleration + self.jerk * tau;
@@ -177,9 +177,8 @@ impl<N: Number> LocalSeries<N> {
         LocalState { at_s: self.at_s + tau, enu_km, velocity, acceleration, range_km, height }
     }
 
-    /// Where the height is greatest or least, by Newton's method from the
-    /// series' instant. Where that does not settle, the place is not one of
-    /// [`LocalState::turns`].
+    /// Where the height is greatest or least, by Newton's method from the instant of the series. If
+    /// the method does not converge, [`LocalState::turns`] does not hold for the place.
     pub(super) fn turning(&self) -> LocalState<N> {
         let mut place = self.place(N::of(0.0));
         for _ in 0..MAX_STEPS {
@@ -192,8 +191,8 @@ impl<N: Number> LocalSeries<N> {
         place
     }
 
-    /// Where the height is `sine`, by Halley's method from `tau`. Where that does
-    /// not settle, the place is not one of [`LocalState::crosses`].
+    /// Where the height is `sine`, by Halley's method from `tau`. If the method does not converge,
+    /// [`LocalState::crosses`] does not hold for the place.
     pub(super) fn crossing(&self, sine: f64, tau: N) -> LocalState<N> {
         let mut place = self.place(tau);
         for _ in 0..MAX_STEPS {
@@ -211,8 +210,8 @@ impl<N: Number> LocalSeries<N> {
 }
 
 impl LocalSeries {
-    /// Where the height is greatest or least; `None` when that is more than
-    /// `max_s` away or the height bends the other way.
+    /// Where the height is greatest or least; `None` if that is more than `max_s` away or if the
+    /// height bends the other way.
     pub(super) fn extreme(&self, bend: Bend, max_s: f64) -> Option<LocalState> {
         let place = self.turning();
         let is_near = (place.at_s - self.at_s).abs() <= max_s;
@@ -258,9 +257,8 @@ fn turned<N: Number>(v: Vector<N>) -> Vector<N> {
     Vector::new(v.y * EARTH_RATE_RAD_S, v.x * -EARTH_RATE_RAD_S, N::of(0.0))
 }
 
-/// The acceleration by the Earth's mass and flattening at `r`, and its change
-/// for a body that moves with `v`; the change is that of the mass alone, which
-/// is a thousand times more.
+/// The acceleration due to the Earth's mass and flattening at `r`, and its change for a body that
+/// moves with `v`. The change is that of the mass alone, which is a thousand times larger.
 fn gravity<N: Number>(r: Vector<N>, v: Vector<N>) -> (Vector<N>, Vector<N>) {
     let inverse2 = N::of(1.0) / r.length_squared();
     let mass = inverse2 * inverse2.sqrt() * -GRAVITY_KM3_S2;

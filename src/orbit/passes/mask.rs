@@ -1,10 +1,9 @@
-//! The parts of a pass that clear the horizon mask of the site.
+//! The parts of a pass above the horizon mask of the site.
 //!
-//! The clearance, elevation less mask, is followed along the pass. High above
-//! the whole mask, or far below it, it cannot change its sign before the
-//! satellite has moved on by as much; near it the steps are small. The mask is
-//! straight between its points, so every point that the azimuth passes is looked
-//! at as well: no wall is too narrow to be seen.
+//! The clearance, elevation minus mask, is followed along the pass. High above the whole mask, or
+//! far below it, the clearance cannot change its sign before the satellite has moved by as much;
+//! near the mask, the steps are small. The mask is straight between its points, so every point that
+//! the azimuth passes is also examined, and no wall is too narrow to be seen.
 
 use super::{
     Pass, PassSearch,
@@ -18,24 +17,24 @@ use crate::{
     orbit::Propagator,
 };
 
-/// Steps near the mask and at most, in radians across the sky.
+/// Smallest step, near the mask, and largest step, in radians across the sky.
 const FINE_STEP: f64 = 0.002_5;
 const COARSE_STEP: f64 = 0.09;
-/// Azimuth between two looks, in radians: few enough for its sense to be clear.
+/// Largest change of azimuth between two looks, in radians: small enough for its sense to be clear.
 const MAX_TURN: f64 = 0.09;
-/// No step is longer than this, in seconds.
+/// Longest step, in seconds.
 const LONGEST_STEP_S: f64 = 300.0;
-/// Crossings, and the times at which the azimuth passes a point, are found as
-/// exactly as this, in seconds.
+/// Accuracy with which crossings, and the times at which the azimuth passes a point, are
+/// found, in seconds.
 const TOLERANCE_S: f64 = 2e-4;
-/// Level with the mask counts as clear: AOS over a level mask, with its rounding,
-/// in radians.
+/// Tolerance in radians, so that level with the mask counts as clear: AOS over a level mask is
+/// level with it, but for rounding.
 const LEVEL: f64 = 1e-7;
 
-/// The stretches of `pass` in which the satellite stands above `mask`, in order.
+/// The stretches of `pass` in which the satellite is above `mask`, in order.
 ///
-/// AOS and LOS are where the mask is crossed, exact to a millisecond, or those of
-/// the pass; only there are the marks of the pass kept.
+/// AOS and LOS are where the mask is crossed, exact to a millisecond, or those of the pass; only
+/// the latter keep the marks of the pass.
 pub fn clear_stretches(
     propagator: &Propagator,
     site: Site,
@@ -72,7 +71,7 @@ impl Look {
         self.clearance >= -LEVEL
     }
 
-    /// Azimuth from here to `azimuth`, the shorter way around.
+    /// The shorter turn from here to `azimuth`.
     fn turn_to(&self, azimuth: f64) -> f64 {
         Angle::from_radians(azimuth - self.azimuth).wrapped_180().radians()
     }
@@ -81,7 +80,7 @@ impl Look {
 struct Follower<'a> {
     track: &'a Track<'a>,
     mask: &'a HorizonMask,
-    /// Azimuths of the points of the mask, rising.
+    /// Azimuths of the points of the mask, ascending.
     points: Vec<f64>,
     lowest: f64,
     highest: f64,
@@ -118,7 +117,7 @@ impl Follower<'_> {
         (step / here.place.angular_rate()).min(LONGEST_STEP_S)
     }
 
-    /// From one look to the next, by way of every point of the mask between.
+    /// Moves from one look to the next, via every point of the mask between them.
     fn step(&self, from: Look, to: Look, stretches: &mut Stretches<'_>) {
         let beyond = |look: &Look| {
             if look.elevation > self.highest + LEVEL {
@@ -127,7 +126,7 @@ impl Follower<'_> {
                 -i32::from(look.elevation < self.lowest - LEVEL)
             }
         };
-        // Wholly above or wholly below the mask it does not matter which way.
+        // Wholly above or wholly below the mask, the path does not matter.
         if beyond(&from) * beyond(&to) == 1 {
             stretches.pass_by(from.place, to.place);
             return;
@@ -151,7 +150,7 @@ impl Follower<'_> {
         self.cross(last, to, stretches);
     }
 
-    /// Azimuths of the points from `start` on for `turn`, in that order.
+    /// Azimuths of the points that a turn by `turn` from `start` passes, in that order.
     fn points_between(&self, start: f64, turn: f64) -> impl Iterator<Item = f64> {
         let (low, length) = (start + turn.min(0.0), turn.abs());
         let first = Angle::from_radians(low).wrapped_360().radians();
@@ -172,12 +171,12 @@ impl Follower<'_> {
         between.into_iter()
     }
 
-    /// The look at which the azimuth is `azimuth`, between two others.
+    /// The look between two others at which the azimuth is `azimuth`.
     fn look_at_azimuth(&self, from: Look, to: Look, azimuth: f64) -> Option<Look> {
         self.settle(from, to, |look| look.turn_to(azimuth)).map(|(_, look)| look)
     }
 
-    /// Notes where the clearance changes its sign between two looks.
+    /// Records where the clearance changes its sign between two looks.
     fn cross(&self, from: Look, to: Look, stretches: &mut Stretches<'_>) {
         if from.is_clear() == to.is_clear() {
             stretches.pass_by(from.place, to.place);
@@ -192,8 +191,8 @@ impl Follower<'_> {
         }
     }
 
-    /// The last look before and the first after `value` changes its sign, as
-    /// close together as the tolerance; by Illinois' false position.
+    /// The last look before and the first look after `value` changes its sign, as close together as
+    /// the tolerance; by the Illinois method of false position.
     fn settle(&self, from: Look, to: Look, value: impl Fn(&Look) -> f64) -> Option<(Look, Look)> {
         let (mut a, mut b) = ((from, value(&from)), (to, value(&to)));
         if (a.1 > 0.0) == (b.1 > 0.0) {
@@ -204,9 +203,9 @@ impl Follower<'_> {
             if b_s - a_s <= TOLERANCE_S {
                 break;
             }
-            // A halving now and then bounds the effort whatever the curve.
+            // An occasional halving bounds the effort, whatever the curve.
             let share = if round % 4 == 3 { 0.5 } else { a.1 / (a.1 - b.1) };
-            // Never on an end, so that both ends close in.
+            // Never at an end, so that both ends close in.
             let margin_s = (0.4 * TOLERANCE_S).min(0.25 * (b_s - a_s));
             let at_s = (a_s + share * (b_s - a_s)).clamp(a_s + margin_s, b_s - margin_s);
             let middle = self.look(at_s)?;
@@ -221,7 +220,7 @@ impl Follower<'_> {
     }
 }
 
-/// Puts the stretches together.
+/// Assembles the stretches.
 struct Stretches<'a> {
     pass: &'a Pass,
     track: &'a Track<'a>,
@@ -229,11 +228,11 @@ struct Stretches<'a> {
     found: Vec<Pass>,
 }
 
-/// A stretch whose end is not found yet.
+/// A stretch whose end has not been found yet.
 struct Open {
     aos: LocalState,
     highest: LocalState,
-    /// The step to the highest look took this long, in seconds.
+    /// Duration of the step to the highest look, in seconds.
     around_s: f64,
     starts_before: bool,
 }
@@ -268,7 +267,7 @@ impl Stretches<'_> {
         let [aos, los] = ends;
         let sightings = [aos, &tca, los].map(Sighting::new);
         let mut stretch = self.track.pass(sightings.each_ref(), [open.starts_before, ends_after]);
-        // What is the pass's own stays as it is, to the last digit.
+        // Points of the pass itself stay as they are, to the last digit.
         let (from_s, end_s) = (aos.at_s, self.track.window.length_s);
         if from_s <= 0.0 {
             stretch.aos = self.pass.aos;

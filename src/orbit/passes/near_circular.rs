@@ -1,12 +1,10 @@
-//! Passes of near-circular near-earth orbits: geometry gives the times of the passes,
-//! with no search.
+//! Passes of near-circular near-earth orbits, whose times follow from geometry without a search.
 //!
-//! [`Arcs`] tells when the site is near enough to the orbit plane. Within an arc,
-//! let u be the angle of the satellite in the plane, from the ascending node,
-//! and alpha the same angle of the site. Satellites of these orbits go around
-//! at least six times a day, so u - alpha only grows; whenever it is a whole
-//! number of turns, the satellite goes by, and there is at most one pass about
-//! each such instant. The exact state there tells whether there is one.
+//! [`Arcs`] tells when the site is near enough to the orbit plane. Within an arc, let u be the
+//! angle of the satellite in the plane, from the ascending node, and alpha the same angle of the
+//! site. Satellites on these orbits make at least six revolutions a day, so u - alpha only grows.
+//! Whenever it is a whole number of turns, the satellite goes by, and there is at most one pass
+//! around each such instant. The exact state at that instant tells whether there is one.
 
 mod arcs;
 mod batch;
@@ -21,31 +19,31 @@ use crate::{
     orbit::propagator::{Plane, Secular, WGS72_RADIUS_KM, expand},
 };
 
-/// The mean distance may change by this share within a window; more is a decay.
+/// Largest share by which the mean distance may change within a window; more is a decay.
 const MAX_SHRINKING: f64 = 0.05;
-/// Sites further than this from below the satellite, in radians, see it for so
-/// long that the counting of passes by turns ends.
+/// Sites further than this from the point below the satellite, in radians, see the satellite for so
+/// long that its passes cannot be counted by turns.
 const FARTHEST_REACH: f64 = 1.3;
-/// The waves that are left out, the difference between geodetic and geocentric
-/// zenith included, move a satellite by less than this, in radians.
+/// The neglected waves, including the difference between geodetic and geocentric zenith, move a
+/// satellite by less than this, in radians.
 const MARGIN: f64 = 0.012;
-/// The waves in the distance that are left out, in km.
+/// The neglected waves in the distance, in km.
 const RADIUS_MARGIN_KM: f64 = 15.0;
 
 /// The track of a satellite on a near-circular orbit.
 pub(super) struct NearCircular<'a> {
-    /// Its place among the satellites of the search.
+    /// Index among the satellites of the search.
     pub(super) index: usize,
     pub(super) track: &'a Track<'a>,
     pub(super) secular: &'a Secular,
     arcs: Arcs,
-    /// How far outside the window a pass may have its middle and still reach in.
+    /// How far outside the window the middle of a pass may be if the pass still reaches into it.
     pub(super) half_pass_s: f64,
 }
 
 impl<'a> NearCircular<'a> {
-    /// `None` when the orbit, or what it becomes within the window, is not near-circular
-    /// and near-earth, or when the horizon lies too low.
+    /// `None` if the orbit, or what it becomes within the window, is not near-circular and
+    /// near-earth, or if the horizon is too low.
     pub(super) fn new(index: usize, track: &'a Track<'a>) -> Option<Self> {
         let window = track.window;
         let secular = track.propagator.secular()?;
@@ -66,7 +64,7 @@ impl<'a> NearCircular<'a> {
             highest = highest.max(axis * (1.0 + eccentricity + wave));
         }
         let farthest_km = highest * WGS72_RADIUS_KM + RADIUS_MARGIN_KM;
-        // Angular speed at its least.
+        // The lowest angular speed.
         let rate_rad_s = 0.95 * secular.plane.argument[1] / 60.0;
         let turning = EARTH_RATE_RAD_S / rate_rad_s;
         let reach = |elevation: f64| {
@@ -89,7 +87,7 @@ impl<'a> NearCircular<'a> {
         })
     }
 
-    /// The times in which the site is near enough to the plane, in pieces.
+    /// The intervals in which the site is near enough to the plane, in pieces.
     pub(super) fn pieces(&self) -> impl Iterator<Item = (f64, f64)> {
         let end_s = self.track.window.length_s + self.half_pass_s;
         let beta_at = |at_s: f64| {
@@ -100,12 +98,12 @@ impl<'a> NearCircular<'a> {
         let (first, rate) = beta_at(-self.half_pass_s);
         let time_of = move |beta: f64| {
             let guess_s = (beta - first) / rate - self.half_pass_s;
-            // The node does not move quite evenly: one step of Newton's method.
+            // The node does not move quite evenly, so one step of Newton's method follows.
             let (there, rate_there) = beta_at(guess_s);
             guess_s + (beta - there) / rate_there
         };
-        // Two arcs of at most four pieces each in every turn of the Earth, and no
-        // fewer seconds to a turn than to three quarters of a day.
+        // There are two arcs of at most four pieces each in every turn of the Earth, and a turn
+        // takes at least three quarters of a day.
         let turns = (end_s + self.half_pass_s) / (0.75 * time::DAY_S) + 3.0;
         self.arcs
             .from(first)
@@ -116,7 +114,7 @@ impl<'a> NearCircular<'a> {
             .take_while(move |(start_s, _)| *start_s < end_s)
     }
 
-    /// From node to node, on the average.
+    /// Mean rate from node to node.
     pub(super) fn rate_rad_s(&self) -> f64 {
         self.secular.plane.argument[1] / 60.0
     }

@@ -1,12 +1,11 @@
-//! Passes of every other orbit: far, eccentric or about to decay.
+//! Passes of all other orbits: far, eccentric or about to decay.
 //!
-//! Exact states are taken along the orbit, closer where it runs faster. Between
-//! two of them each coordinate of the satellite, seen from the turning site, is
-//! the polynomial of fifth degree that has their positions, velocities and
-//! accelerations. Looked at six times a step, it shows where the height (the
-//! sine of the elevation) turns. Extremes that matter are put right by exact
-//! states, and between two neighbouring extremes the height passes the horizon
-//! once or not at all.
+//! Exact states are taken along the orbit, closer together where the satellite is faster. Between
+//! two of them, each coordinate of the satellite, seen from the turning site, is the polynomial of
+//! fifth degree that has their positions, velocities and accelerations. Evaluated six times a step,
+//! the polynomial shows where the height (the sine of the elevation) turns. Extremes that matter
+//! are corrected by exact states, and between two neighbouring extremes the height crosses the
+//! horizon once or not at all.
 
 use super::{
     Pass,
@@ -16,18 +15,18 @@ use super::{
 };
 use crate::{astro::frames::EARTH_RATE_RAD_S, orbit::simd::Vector};
 
-/// Step in units of sqrt(r³/mu), the time a circular orbit needs for a radian.
+/// Step in units of sqrt(r³/mu), the time in which a circular orbit advances by a radian.
 const STEP: f64 = 1.1;
-/// No orbit above the ground needs a shorter step, in seconds: without a least one
-/// a state near the centre of the Earth would be followed for ever.
+/// No orbit above the ground needs a shorter step, in seconds. Without a minimum, a state near the
+/// centre of the Earth would be followed for ever.
 const MIN_STEP_S: f64 = 60.0;
 /// Looks per step.
 const LOOKS: u32 = 6;
-/// Heights of the polynomial are nearer to the truth than this.
+/// Heights of the polynomial differ from the true ones by less than this.
 const HEIGHT_MARGIN: f64 = 0.02;
-/// Where a satellite has no state, the next is tried so much later, in seconds.
+/// Where a satellite has no state, the next one is tried this much later, in seconds.
 const GAP_STEP_S: f64 = 60.0;
-/// The last state of an orbit is found as exactly as this, in seconds.
+/// Accuracy with which the last state of an orbit is found, in seconds.
 const END_TOLERANCE_S: f64 = 1e-3;
 
 /// Adds all passes of the window, in order.
@@ -49,12 +48,12 @@ pub(super) fn passes(track: &Track<'_>, cancelled: &dyn Fn() -> bool, found: &mu
     }
 }
 
-/// Puts passes together from the extremes of the height, in the order of time.
+/// Assembles passes from the extremes of the height, in order of time.
 struct Finder<'a> {
     track: &'a Track<'a>,
     /// The last extreme, or the start.
     last: Option<Extreme>,
-    /// Where the polynomial has passed the horizon since.
+    /// Where the polynomial has crossed the horizon since then.
     guess_s: Option<f64>,
     open: Option<Open>,
     found: &'a mut Vec<Pass>,
@@ -66,7 +65,7 @@ struct Extreme {
     is_up: bool,
 }
 
-/// A pass whose end is not found yet.
+/// A pass whose end has not been found yet.
 struct Open {
     aos: LocalState,
     highest: LocalState,
@@ -74,8 +73,8 @@ struct Open {
 }
 
 impl Finder<'_> {
-    /// Follows the satellite from `first` to the end of the window or of its
-    /// states, and says when that is.
+    /// Follows the satellite from `first` to the end of the window or of its states, and returns
+    /// the time of that end.
     fn stretch(&mut self, first: &LocalSeries, cancelled: &dyn Fn() -> bool) -> f64 {
         let end_s = self.track.window.length_s;
         self.begin(first.place(0.0));
@@ -96,7 +95,7 @@ impl Finder<'_> {
         here.at_s
     }
 
-    /// The last state between a good one and a time without.
+    /// The last state between a time with a state and a time without one.
     fn last_state(&self, good: LocalSeries, bad_s: f64) -> LocalSeries {
         let (mut good, mut bad_s) = (good, bad_s);
         while bad_s - good.at_s > END_TOLERANCE_S {
@@ -126,7 +125,7 @@ impl Finder<'_> {
         let mut a = curve.look(0.0);
         for index in 1..=LOOKS {
             let b = curve.look(f64::from(index) / f64::from(LOOKS));
-            // Two extremes close together show where the rate is least.
+            // Two extremes close together show at the minimum of the rate between them.
             let hidden = (a.height.rate > 0.0) == (b.height.rate > 0.0)
                 && a.height.rate * a.height.curve < 0.0
                 && b.height.rate * b.height.curve > 0.0;
@@ -160,7 +159,7 @@ impl Finder<'_> {
         }
     }
 
-    /// Takes in an extreme of the polynomial.
+    /// Processes an extreme of the polynomial.
     fn turn(&mut self, look: Look, bend: Bend) {
         let spare = look.height.sine - self.track.window.sin_aos_elevation;
         let is_far = spare.abs() > HEIGHT_MARGIN;
@@ -187,7 +186,7 @@ impl Finder<'_> {
         }
     }
 
-    /// Goes on to the next extreme, over the horizon if it lies in between.
+    /// Advances to the next extreme, across the horizon if that lies in between.
     fn reach(&mut self, next: Extreme) {
         let guess_s = self.guess_s.take();
         let Some(last) = self.last.replace(next).filter(|last| last.is_up != next.is_up) else {
@@ -229,8 +228,8 @@ fn step_s(series: &LocalSeries) -> f64 {
     let at_radius =
         |radius_km: f64| (STEP * (radius_km.powi(3) / GRAVITY_KM3_S2).sqrt()).max(MIN_STEP_S);
     let level = at_radius(radius_km);
-    // On the way down the orbit gets faster within the step: its time is that
-    // of the lower place half a step on.
+    // On the way down, the satellite gets faster within the step, so the step is that of the lower
+    // place half a step later.
     let lower_km = radius_km + (0.5 * level * r.dot(v) / radius_km).min(0.0);
     let inverse_axis = 2.0 / radius_km - v.length_squared() / GRAVITY_KM3_S2;
     let parameter_km = r.cross(v).length_squared() / GRAVITY_KM3_S2;
@@ -246,7 +245,7 @@ struct Quintic {
     coefficients: [Vector<f64>; 6],
 }
 
-/// The height the polynomial has at one instant.
+/// The height of the polynomial at one instant.
 #[derive(Clone, Copy)]
 struct Look {
     share: f64,
@@ -262,7 +261,7 @@ impl Quintic {
         let (v0, v1) = (from.velocity * span_s, to.velocity * span_s);
         let half_square = 0.5 * span_s * span_s;
         let (a0, a1) = (from.acceleration * half_square, to.acceleration * half_square);
-        // What the end has beyond the parabola of the start.
+        // The difference between the end and the parabola of the start.
         let position = to.position - (from.position + v0 + a0);
         let velocity = v1 - (v0 + a0 * 2.0);
         let acceleration = a1 - a0;
@@ -277,7 +276,7 @@ impl Quintic {
         Self { from_s: from.at_s, span_s, coefficients }
     }
 
-    /// At a `share` of the step, 0 to 1.
+    /// The look at a `share` of the step, 0 to 1.
     fn look(&self, share: f64) -> Look {
         let zero = [Vector::new(0.0, 0.0, 0.0); 3];
         let [q, v, a] = self.coefficients.iter().rev().fold(zero, |[q, v, a], coefficient| {
@@ -298,7 +297,7 @@ impl Quintic {
         let mut middle = a;
         for round in 0..8 {
             let secant = a.height.rate / (a.height.rate - b.height.rate);
-            // Halving at times, so that neither end stays where it is.
+            // An occasional halving, so that neither end stays where it is.
             let part = if round % 3 == 2 { 0.5 } else { secant };
             middle = self.look(a.share + part * (b.share - a.share));
             if (middle.height.rate > 0.0) == (a.height.rate > 0.0) {
@@ -320,8 +319,8 @@ mod tests {
         orbit::{PassSearch, Propagator, passes, read_elements},
     };
 
-    /// Orbits whose perigee flies by closer over a site than their states are apart, and the
-    /// passes there: the greatest elevation is that of states a tenth of a second apart.
+    /// Orbits whose perigee passes a site more closely than their states are apart, and the passes
+    /// there. The greatest elevation is that of states a tenth of a second apart.
     #[test]
     fn the_greatest_elevation_of_a_close_fly_by_is_exact() {
         let epoch: Timestamp = "2026-08-12T00:00:00Z".parse().unwrap();
@@ -343,7 +342,7 @@ mod tests {
             }]);
             let elements = read_elements(&text.to_string()).elements.remove(0);
             let propagator = Propagator::new(&elements).unwrap();
-            // Perigee comes when 30 degrees of mean anomaly have gone by.
+            // Perigee comes after 30 degrees of mean anomaly.
             let perigee = time::add_seconds(epoch, elements.period_s() / 12.0);
             let below = |offset_s: f64| {
                 let at = time::add_seconds(perigee, offset_s);
@@ -367,7 +366,7 @@ mod tests {
             nearest_km = looks.iter().map(|look| look.range_km).fold(nearest_km, f64::min);
             let said =
                 found.iter().map(|pass| pass.max_elevation().degrees()).fold(f64::MIN, f64::max);
-            // A tenth of a second off the crest a satellite at 100 km has moved by 0.4 degrees,
+            // A tenth of a second from the crest, a satellite at 100 km has moved by 0.4 degrees,
             // and is below the crest by the square of that.
             assert!(said > highest - 2e-5 && said < highest + 0.5, "{said} {highest} {text}");
         }

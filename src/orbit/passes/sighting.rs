@@ -1,4 +1,4 @@
-//! Time and direction of a satellite as the site sees it.
+//! Time and direction of a satellite as seen from the site.
 
 use std::f64::consts::TAU;
 
@@ -8,7 +8,6 @@ use crate::{
     orbit::simd::{Lanes, Number, Vector, lane_of},
 };
 
-/// Time and direction of a satellite.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Sighting<N = f64> {
     pub(super) at_s: N,
@@ -24,7 +23,7 @@ impl<N: Number> Sighting<N> {
         Self { elevation, ..Self::at_elevation(place, 0.0) }
     }
 
-    /// Of a place at this elevation.
+    /// The sighting of a place whose elevation is known.
     pub(super) fn at_elevation(place: &LocalState<N>, elevation: f64) -> Self {
         let Vector { x, y, .. } = place.enu_km;
         Self { at_s: place.at_s, azimuth: x.atan2(y), elevation: N::of(elevation) }
@@ -49,7 +48,7 @@ impl Window {
         self.point_of(&Sighting::new(place))
     }
 
-    /// A sighting in the calendar.
+    /// The sighting in calendar time.
     pub(super) fn point_of(&self, sighting: &Sighting) -> PassPoint {
         let Sighting { at_s, azimuth, elevation } = *sighting;
         let azimuth = if azimuth < 0.0 { azimuth + TAU } else { azimuth };

@@ -1,4 +1,4 @@
-//! One satellite over one site: exact states turned into what the site sees.
+//! One satellite over one site: exact states converted to what the site sees.
 
 use std::cell::Cell;
 
@@ -19,27 +19,26 @@ use crate::{
     },
 };
 
-/// A series made from one state is used this far from it, in seconds.
+/// Longest time from its state for which a series is used, in seconds.
 pub(super) const LONGEST_STEP_S: f64 = 30.0;
-/// AOS and LOS are found as exactly as this, in seconds.
+/// Accuracy of AOS and LOS, in seconds.
 const TIME_TOLERANCE_S: f64 = 5e-4;
-/// The greatest elevation is found as exactly as this, in radians, and its time
-/// as this, in seconds.
+/// Accuracy of the greatest elevation, in radians, and of its time, in seconds.
 const CREST_TOLERANCE: f64 = 3e-7;
 const CREST_TIME_TOLERANCE_S: f64 = 8e-3;
-/// Distance of the second state where one does not show the speed well enough.
+/// Distance in seconds of the second state, which is used where one state does not show the
+/// speed well enough.
 const MENDING_STEP_S: f64 = 15.0;
 
 /// How far a series made from a state can be trusted.
 #[derive(Default)]
 pub(super) struct Exactness<N = f64> {
-    /// SGP4's velocity is the change of its position only within this.
+    /// Largest difference between SGP4's velocity and the rate of change of its position.
     pub(super) drift_km_s: N,
 }
 
 impl<N: Number> Exactness<N> {
-    /// Whether an extreme `tau` seconds from the state it follows from is as
-    /// exact as is asked for.
+    /// Whether an extreme `tau` seconds from the state it follows from is as exact as required.
     pub(super) fn is_crest(&self, tau: N, place: &LocalState<N>) -> N::Answer {
         let (tau, range_km) = (tau.abs(), place.range_km);
         tau.is_less(N::of(LONGEST_STEP_S))
@@ -47,8 +46,8 @@ impl<N: Number> Exactness<N> {
             & self.drift_km_s.is_less(place.height.curve.abs() * range_km * CREST_TIME_TOLERANCE_S)
     }
 
-    /// Whether a place `tau` seconds from the state it follows from is where the
-    /// height passes `sine`, as exactly as is asked for.
+    /// Whether a place `tau` seconds from the state it follows from is where the height passes
+    /// `sine`, as exactly as required.
     pub(super) fn is_crossing(&self, sine: f64, tau: N, place: &LocalState<N>) -> N::Answer {
         let tau = tau.abs();
         let rise_km_s = place.height.rate.abs() * place.range_km;
@@ -59,11 +58,11 @@ impl<N: Number> Exactness<N> {
     }
 }
 
-/// A satellite as the site of a window sees it.
+/// A satellite as seen from the site of a window.
 pub(super) struct Track<'a> {
     pub(super) window: &'a Window,
     pub(super) propagator: &'a Propagator,
-    /// From the epoch of the elements to the start of the window.
+    /// Time from the epoch of the elements to the start of the window.
     pub(super) start_since_epoch_s: f64,
     pub(super) exactness: Exactness,
     resumable: Cell<Resumable>,
@@ -88,17 +87,17 @@ impl<'a> Track<'a> {
         }
     }
 
-    /// How many states were computed.
+    /// Number of states computed.
     pub(super) fn propagations(&self) -> u64 {
         self.propagations.get()
     }
 
-    /// Adds to the states that were computed.
+    /// Adds to the number of states computed.
     pub(super) fn count(&self, states: usize) {
         self.propagations.set(self.propagations.get() + states as u64);
     }
 
-    /// The series around an exact state; `None` where there is none.
+    /// The series around an exact state; `None` if there is no state.
     pub(super) fn series(&self, at_s: f64) -> Option<LocalSeries> {
         self.count(1);
         let mut resumable = self.resumable.take();
@@ -118,8 +117,8 @@ impl<'a> Track<'a> {
         }
     }
 
-    /// Returns `true` if the object has come down by `at_s`, later than its epoch: SGP4
-    /// goes on below the ground and may bring it up again.
+    /// Returns `true` if the object has decayed by `at_s`, after its epoch. SGP4 continues below
+    /// the ground and may bring the object up again.
     pub(super) fn has_decayed_at(&self, at_s: f64) -> bool {
         let since_epoch_s = self.start_since_epoch_s + at_s;
         let state = self.propagator.state_after(since_epoch_s, &mut Resumable::default());
@@ -131,10 +130,9 @@ impl<'a> Track<'a> {
         Some(self.series(at_s)?.place(0.0))
     }
 
-    /// The greatest or least height near `guess_s`, and the series it was taken
-    /// from. Newton's method goes as far as it has to, with a new state where
-    /// the last one is too far; `None` when it does not settle within `max_s`
-    /// of the guess.
+    /// The greatest or least height near `guess_s`, and the series from which it was taken.
+    /// Newton's method goes as far as it has to, with a new state where the last one is too far
+    /// away; `None` if it does not converge within `max_s` of the guess.
     pub(super) fn extreme(
         &self,
         guess_s: f64,
@@ -144,7 +142,7 @@ impl<'a> Track<'a> {
         self.extreme_from(self.series(guess_s)?, max_s, bend)
     }
 
-    /// The same from a series that is there already.
+    /// Like [`Self::extreme`], from an existing series.
     pub(super) fn extreme_from(
         &self,
         series: LocalSeries,
@@ -170,8 +168,8 @@ impl<'a> Track<'a> {
         None
     }
 
-    /// The extreme within `max_s` of the guess by halving, for a satellite that goes by so near
-    /// that the method of Newton does not settle; `None` where the height does not turn there.
+    /// The extreme within `max_s` of the guess, by halving, for a satellite that passes so close
+    /// that Newton's method does not converge; `None` if the height does not turn there.
     pub(super) fn extreme_by_halves(
         &self,
         guess_s: f64,
@@ -195,7 +193,7 @@ impl<'a> Track<'a> {
         self.place(f64::midpoint(before_s, after_s))
     }
 
-    /// The extreme near a series, with the speed that a second state shows.
+    /// The extreme near a series, with the speed that follows from a second state.
     fn mended(&self, series: &LocalSeries, bend: Bend) -> Option<(LocalSeries, LocalState)> {
         let second = self.series(series.at_s + MENDING_STEP_S)?;
         let series = series.mended(&second);
@@ -203,9 +201,8 @@ impl<'a> Track<'a> {
         Some((series, place))
     }
 
-    /// Where the height passes the horizon between `below_s`, where it is less,
-    /// and `above_s`, where it is more; from `guess_s` in between. `None` only
-    /// where there are no states.
+    /// Where the height crosses the horizon between `below_s`, where it is less, and `above_s`,
+    /// where it is more, starting from `guess_s` in between. `None` only if there are no states.
     pub(super) fn crossing(&self, below_s: f64, guess_s: f64, above_s: f64) -> Option<LocalState> {
         let sine = self.window.sin_aos_elevation;
         let (mut below_s, mut above_s) = (below_s, above_s);
@@ -213,7 +210,7 @@ impl<'a> Track<'a> {
         for round in 0.. {
             let width_s = (above_s - below_s).abs();
             let inside = |at_s: f64| (at_s - below_s) * (at_s - above_s) < 0.0;
-            // Where the method does not settle, halving does.
+            // Where the method does not converge, halving does.
             if round > 6 || !inside(at_s) {
                 at_s = f64::midpoint(below_s, above_s);
             }
@@ -238,8 +235,8 @@ impl<'a> Track<'a> {
         None
     }
 
-    /// The part within the window of a pass that rises, culminates and sets at
-    /// these places; `None` when that is nothing or stays below the floor.
+    /// The part within the window of a pass that rises, culminates and sets at these places; `None`
+    /// if there is no such part or if it stays below the floor.
     pub(super) fn cut(
         &self,
         aos: &LocalState,

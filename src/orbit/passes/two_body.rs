@@ -1,15 +1,14 @@
-//! About when a satellite comes up and goes down, from its state in between.
+//! Approximate times at which a satellite rises and sets, from its state in between.
 //!
-//! For the minutes of a pass a satellite keeps nearly to the ellipse of its
-//! state. With E the change of the eccentric anomaly since that state (at
-//! distance r0, semi-major axis a, mean motion n, sigma = r·v / sqrt(mu a)),
+//! For the minutes of a pass, a satellite stays close to the ellipse of its state. With E the
+//! change of the eccentric anomaly since that state (at distance r0, semi-major axis a, mean motion
+//! n, sigma = r·v / sqrt(mu a)),
 //!
 //! n tau = E - (1 - r0/a) sin E + sigma (1 - cos E)
 //!
-//! so the time follows from E without solving an equation. How far the satellite
-//! stands above the horizon is nearly a cosine of E around the crest. AOS and
-//! LOS found this way are off by a second or two, hardly ever by ten; one exact
-//! state puts that right.
+//! so the time follows from E without solving an equation. How far the satellite is above the
+//! horizon is nearly a cosine of E around the crest. AOS and LOS found in this way are off by a
+//! second or two, hardly ever by ten; one exact state corrects that.
 
 use super::{
     local_series::{GRAVITY_KM3_S2, LocalSeries, LocalState},
@@ -19,17 +18,17 @@ use crate::orbit::simd::Number;
 
 /// The ellipse of a state near a crest.
 pub(super) struct TwoBody<N> {
-    /// The letters of the formula: 1/n, sigma and 1 - r0/a.
+    /// Symbols of the formula: 1/n, sigma and 1 - r0/a.
     period: N,
     sigma: N,
     narrow: N,
-    /// E at the crest, and from there to the horizon on both sides.
+    /// E at the crest, and from there to the horizon on either side.
     crest: N,
     half: N,
 }
 
 impl<N: Number> TwoBody<N> {
-    /// From the series whose crest is at `crest`.
+    /// The ellipse of a series whose crest is at `crest`.
     pub(super) fn new(window: &Window, series: &LocalSeries<N>, crest: &LocalState<N>) -> Self {
         let (r, v) = (series.state.position_km, series.state.velocity_km_s);
         let inverse_r0 = N::of(1.0) / r.length();
@@ -42,7 +41,7 @@ impl<N: Number> TwoBody<N> {
             / crest.range_km;
         let above_km = (crest.height.sine - window.sin_aos_elevation) * crest.range_km;
         let falling_km_s2 = range_curve * window.sin_aos_elevation - series.acceleration.z;
-        // The angle whose cosine is less than 1 by this share.
+        // The angle whose cosine is less than 1 by `share`.
         let share = above_km * rad_s * rad_s / falling_km_s2;
         let half = (share * 2.0).sqrt() * (share * (share * 0.03 + 1.0 / 12.0) + 1.0);
         Self {
@@ -54,9 +53,8 @@ impl<N: Number> TwoBody<N> {
         }
     }
 
-    /// When, in seconds from the state, the satellite passes the horizon:
-    /// before the crest for a `side` of -1, after it for 1. Not a number when
-    /// the ellipse does not say.
+    /// Time, in seconds from the state, at which the satellite crosses the horizon: before the
+    /// crest for a `side` of -1, after it for 1. NaN if the ellipse does not tell.
     pub(super) fn crossing_tau(&self, side: f64) -> N {
         let e = self.crest + self.half * side;
         let (sin_e, cos_e) = e.sin_cos();

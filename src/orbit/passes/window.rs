@@ -1,8 +1,7 @@
-//! What all satellites of one search share: the site, the span of time and the
-//! elevations asked for.
+//! What all satellites of one search share: the site, the span of time and the elevations.
 //!
-//! Inside the search a time is a number of seconds from the start of the span:
-//! calendar arithmetic is left to the two ends.
+//! Inside the search, a time is a number of seconds from the start of the span; calendar arithmetic
+//! is done only at the two ends.
 
 use std::f64::consts::FRAC_PI_2;
 
@@ -15,40 +14,40 @@ use crate::{
     orbit::simd::{Number, Vector},
 };
 
-/// A site and a span of time, made ready for computing.
+/// A site and a span of time, prepared for computation.
 #[derive(Debug, Clone)]
 pub(super) struct Window {
     pub(super) from: Timestamp,
     pub(super) length_s: f64,
     /// Greenwich sidereal time at the start, radians.
     sidereal: f64,
-    /// The site, geocentric: longitude, sine and cosine of the latitude, and
-    /// the distance from the centre of the Earth.
+    /// The geocentric site: longitude, sine and cosine of the latitude, and the distance from the
+    /// centre of the Earth.
     pub(super) longitude: f64,
     pub(super) sin_latitude: f64,
     pub(super) cos_latitude: f64,
     pub(super) radius_km: f64,
     /// The site in Earth-fixed axes.
     pub(super) site_ecef_km: DVec3,
-    /// The directions east, north and up, and where the site itself lies along
-    /// them from the centre of the Earth.
+    /// The directions east, north and up, and the position of the site along them from the
+    /// centre of the Earth.
     axes: [DVec3; 3],
     site_enu_km: DVec3,
     /// Elevation of AOS and LOS, and its sine.
     pub(super) aos_elevation: f64,
     pub(super) sin_aos_elevation: f64,
-    /// A pass has to reach this elevation; never below the horizon's.
+    /// Elevation that a pass has to reach; never below that of the horizon.
     pub(super) floor: f64,
     pub(super) sin_floor: f64,
 }
 
 impl Window {
-    /// `None` when the span is empty or no elevation can be reached.
+    /// `None` if the span is empty or no elevation can be reached.
     pub(super) fn new(search: &PassSearch) -> Option<Self> {
         let length_s = time::seconds_between(search.from, search.to);
         let aos_elevation = search.aos_elevation.radians();
         let floor = search.floor.radians().max(aos_elevation);
-        // Written so that NaN falls out as well.
+        // Written so that NaN is refused too.
         if !(length_s > 0.0 && aos_elevation >= -FRAC_PI_2 && floor <= FRAC_PI_2) {
             return None;
         }
@@ -78,7 +77,7 @@ impl Window {
         at_s * frames::EARTH_RATE_RAD_S + self.sidereal
     }
 
-    /// Earth-fixed axes turned to east, north, up.
+    /// Turns a vector from Earth-fixed axes to east, north, up.
     pub(super) fn to_enu<N: Number>(&self, ecef: Vector<N>) -> Vector<N> {
         let [east, north, up] = self.axes;
         Vector::new(ecef.dot(east.into()), ecef.dot(north.into()), ecef.dot(up.into()))

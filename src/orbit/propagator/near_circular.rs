@@ -1,20 +1,19 @@
 //! States of near-circular near-earth orbits, one or several at once.
 //!
-//! The same theory as the library's, written so that one sine and cosine does
-//! for each angle: what the short waves add to an angle is small, and turning a
-//! sine and cosine by a small angle takes a few multiplications. Over the
-//! whole bundled catalog the positions agree within 2e-8 km.
+//! The theory is that of the library, written so that each angle needs only one sine and cosine:
+//! what the short waves add to an angle is small, and turning a sine and cosine by a small angle
+//! takes a few multiplications. Over the whole bundled catalog, the positions agree within 2e-8 km.
 //!
-//! Source: Hoots and Roehrich, "Spacetrack Report No. 3", section 6, and
-//! Vallado et al., "Revisiting Spacetrack Report #3" (AIAA 2006-6753). Lengths
-//! in Earth radii and times in minutes, as there.
+//! Source: Hoots and Roehrich, "Spacetrack Report No. 3", section 6, and Vallado et al.,
+//! "Revisiting Spacetrack Report #3" (AIAA 2006-6753). Lengths are in Earth radii and times in
+//! minutes, as there.
 
 use sgp4::WGS72;
 
 use super::secular::Secular;
 use crate::orbit::simd::{Number, Vector, series};
 
-/// The theory does without rounder orbits than this.
+/// Smallest eccentricity in the theory; rounder orbits get this one.
 const MIN_ECCENTRICITY: f64 = 1e-6;
 
 /// Position in km and inertial velocity in km/s.
@@ -47,7 +46,7 @@ fn motion<N: Number>(secular: &Secular<N>, minutes: N, turn: N) -> Motion<N> {
         - (sin_shifted - wave_at_epoch) * wave)
         .within(MIN_ECCENTRICITY, 1.0);
 
-    // The eccentricity vector, toward the node and across, with the long waves.
+    // The eccentricity vector, towards the node and across, with the long waves.
     let (sin_perigee, cos_perigee) = (series(&plane.perigee, minutes) - shift).sin_cos();
     let by_parameter = N::of(1.0) / (axis * (-(eccentricity * eccentricity) + 1.0));
     let along = eccentricity * cos_perigee;
@@ -67,7 +66,7 @@ fn motion<N: Number>(secular: &Secular<N>, minutes: N, turn: N) -> Motion<N> {
     let sin_true = ratio * (sine - across - along * middle);
     let cos_true = ratio * (cosine - along + across * middle);
 
-    // The short waves, twice a revolution.
+    // The short waves, which come twice a revolution.
     let sin_double = sin_true * cos_true * 2.0;
     let cos_double = -(sin_true * sin_true * 2.0) + 1.0;
     let by_parameter = N::of(1.0) / parameter;
@@ -83,7 +82,7 @@ fn motion<N: Number>(secular: &Secular<N>, minutes: N, turn: N) -> Motion<N> {
         series(&plane.node, minutes) - turn + second * sin_double * plane.cos_inclination * 1.5;
     let (sin_node, cos_node) = node.sin_cos();
 
-    // Radians per time unit of the theory, in which gravity is 1.
+    // Radians per unit of time of the theory, in which gravity is 1.
     let rate = N::of(1.0) / (axis * root_axis);
     let outward = root_axis * crossing * by_radius - rate * first * sin_double * waves.square;
     let around = parameter.sqrt() * by_radius
@@ -103,11 +102,11 @@ fn motion<N: Number>(secular: &Secular<N>, minutes: N, turn: N) -> Motion<N> {
     (up * (distance * WGS72.ae), velocity)
 }
 
-/// Sine and cosine of the eccentric anomaly counted from the node: the solution
-/// of E = mean + along sin E - across cos E.
+/// Sine and cosine of the eccentric anomaly counted from the node: the solution of E = mean + along
+/// sin E - across cos E.
 ///
-/// From E = mean, a step of Halley's method and one of Newton's leave less than
-/// 1e-12 for the eccentricities in question.
+/// From E = mean, one step of Halley's method and one of Newton's leave less than 1e-12 for the
+/// eccentricities in question.
 fn eccentric_angle<N: Number>(mean: N, along: N, across: N) -> (N, N) {
     let (sine, cosine) = mean.sin_cos();
     let missing = along * sine - across * cosine;
@@ -120,7 +119,7 @@ fn eccentric_angle<N: Number>(mean: N, along: N, across: N) -> (N, N) {
     (sine - sine * half + cosine * rest, cosine - cosine * half - sine * rest)
 }
 
-/// Sine and cosine of an angle that is larger by `turn`, at most 0.06 radians.
+/// Sine and cosine of an angle that is increased by `turn`, at most 0.06 radians.
 fn turned<N: Number>(sine: N, cosine: N, turn: N) -> (N, N) {
     let square = turn * turn;
     let sin_turn = turn

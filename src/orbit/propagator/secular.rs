@@ -1,13 +1,11 @@
-//! The slow motion of a near-earth orbit, as SGP4 has it.
+//! The slow motion of a near-earth orbit in SGP4.
 //!
-//! SGP4 first moves the mean elements by polynomials in the time since the
-//! epoch (the Earth's flattening turns node and perigee, the drag shrinks the
-//! orbit) and then adds short waves. The polynomials alone tell where in the
-//! sky to search, at a hundredth of the cost of a state.
+//! SGP4 first moves the mean elements by polynomials of the time since the epoch (the Earth's
+//! flattening turns node and perigee, the drag shrinks the orbit) and then adds short waves. The
+//! polynomials alone tell where in the sky to search, at a hundredth of the cost of a state.
 //!
-//! Source: Hoots and Roehrich, "Spacetrack Report No. 3", section 6, from which
-//! the letters of the coefficients are taken; WGS72. Time in minutes and length
-//! in Earth radii, as there.
+//! Source: Hoots and Roehrich, "Spacetrack Report No. 3", section 6, from which the symbols of the
+//! coefficients are taken; WGS72. Times are in minutes and lengths in Earth radii, as there.
 
 use std::f64::consts::TAU;
 
@@ -16,24 +14,24 @@ use sgp4::WGS72;
 use super::waves::{DragWave, Waves};
 use crate::orbit::simd::{Lanes, series, set, set_all};
 
-/// Orbits with this period in minutes or a longer one follow other rules.
+/// Orbits with this period in minutes or a longer one follow other equations.
 const DEEP_SPACE_PERIOD_MIN: f64 = 225.0;
-/// The states of orbits with a smaller eccentricity than this are worked eight at a time.
+/// The states of orbits with a smaller eccentricity than this are computed eight at a time.
 const MAX_ECCENTRICITY: f64 = 0.05;
 /// Orbits that come lower than this, in Earth radii, are about to decay.
 const LOWEST_PERIGEE: f64 = 1.012;
-/// Stronger waves of the eccentricity are those of an orbit about to decay.
+/// Orbits with larger waves of the eccentricity are about to decay.
 const MAX_WAVE: f64 = 0.005;
-/// The waves of perigee and anomaly need an orbit that is not rounder than this.
+/// The waves of perigee and anomaly need an eccentricity above this.
 const MIN_ECCENTRICITY: f64 = 1e-4;
-/// An hour: as finely as it is known when an orbit is low.
+/// An hour: the accuracy with which the time when an orbit gets low is known.
 const FIRST_LOOK_MIN: f64 = 60.0;
 const CENTURY_MIN: f64 = 36_525.0 * 1440.0;
-/// Perigees below this height, in Earth radii, get the shorter polynomials.
+/// Orbits with a perigee below this height, in Earth radii, get the shorter polynomials.
 const LOW_PERIGEE: f64 = 220.0 / 6_378.135;
 
-/// The slow motion of an orbit, or of several side by side. Polynomials of the
-/// minutes since the epoch, constant term first.
+/// The slow motion of an orbit, or of several side by side, as polynomials of the minutes since the
+/// epoch, constant term first.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub(in crate::orbit) struct Secular<N = f64> {
     pub(in crate::orbit) plane: Plane<N>,
@@ -43,7 +41,7 @@ pub(in crate::orbit) struct Secular<N = f64> {
     pub(super) waves: Waves<N>,
 }
 
-/// The plane of the orbit, and where in it the satellite is on the average.
+/// The plane of the orbit, and the mean position of the satellite in it.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub(in crate::orbit) struct Plane<N = f64> {
     pub(in crate::orbit) sin_inclination: N,
@@ -74,23 +72,22 @@ impl Secular {
             .then(|| Self::of_near_earth(&orbit, elements.drag_term))
     }
 
-    /// Semi-major axis in Earth radii, and eccentricity, so many minutes after
-    /// the epoch.
+    /// Semi-major axis in Earth radii, and eccentricity, `minutes` after the epoch.
     pub(in crate::orbit) fn size(&self, minutes: f64) -> (f64, f64) {
         let root_axis = series(&self.root_axis, minutes);
         (root_axis * root_axis, series(&self.plane.eccentricity, minutes))
     }
 
-    /// From when on, in minutes after the epoch, the orbit may come as low as one that is about
-    /// to decay; infinity where it does not for a century.
+    /// Minutes after the epoch from which the orbit may come as low as one that is about to decay;
+    /// infinity if it does not for a century.
     pub(super) fn low_after_min(&self) -> f64 {
         let is_low = |minutes: f64| {
             let root_axis = series(&self.root_axis, minutes);
-            // As eccentric as it has been until then.
+            // The largest eccentricity that the orbit has had until then.
             let eccentricity =
                 series(&self.plane.eccentricity, minutes).max(self.plane.eccentricity[0]);
             let lowest = root_axis * root_axis * (1.0 - eccentricity - self.eccentricity_wave());
-            // Below zero the polynomial has passed the centre of the Earth.
+            // Below zero, the polynomial has passed the centre of the Earth.
             root_axis <= 0.0 || lowest < LOWEST_PERIGEE
         };
         let mut high = 0.0;
@@ -113,35 +110,34 @@ impl Secular {
         high
     }
 
-    /// The eccentricity swings around its polynomial by this much, once a
-    /// revolution.
+    /// How far the eccentricity swings around its polynomial, once a revolution.
     pub(in crate::orbit) fn eccentricity_wave(&self) -> f64 {
         self.drag_wave.eccentricity[0].abs()
     }
 
-    /// Returns `true` if [`Self::motion`] holds so many minutes after the epoch.
+    /// Returns `true` if [`Self::motion`] is valid `minutes` after the epoch.
     pub(in crate::orbit) fn is_near_circular_at(&self, minutes: f64) -> bool {
         let (axis, eccentricity) = self.size(minutes);
         let wave = self.eccentricity_wave();
-        // Written so that NaN falls out as well.
+        // Written so that NaN is refused too.
         eccentricity < MAX_ECCENTRICITY
             && eccentricity - wave > 0.0
             && wave < MAX_WAVE
             && axis * (1.0 - eccentricity - wave) > LOWEST_PERIGEE
     }
 
-    /// How fast, in km/s, the drag carries the satellite off the way that
-    /// SGP4's velocities point so many minutes after the epoch: they are those
-    /// of an orbit that keeps its size and shape.
+    /// How fast, in km/s, the drag carries the satellite away from where SGP4's velocities
+    /// point, `minutes` after the epoch: they are the velocities of an orbit that keeps its
+    /// size and shape.
     pub(super) fn drag_drift_km_s(&self, minutes: f64) -> f64 {
         let [root_axis, shrinking, _] = expand(&self.root_axis, minutes);
         let [_, rate, _] = expand(&self.plane.argument, minutes);
         let axis = root_axis * root_axis;
         let inward = 4.0 * (root_axis * shrinking).abs();
-        // The angle grows by powers of the time, the speed follows from the size.
+        // The angle grows by powers of the time; the speed follows from the size.
         let speed_up = WGS72.ke * (root_axis.powi(-3) - self.root_axis[0].powi(-3));
         let ahead = axis * (rate - self.plane.argument[1] - speed_up).abs();
-        // Once a revolution the drag changes the shape and turns it back.
+        // Once a revolution, the drag changes the shape and changes it back.
         let DragWave { eta, angle, eccentricity, .. } = &self.drag_wave;
         let swing =
             eccentricity[0].abs() + 3.0 * (self.plane.eccentricity[0] * eta * angle[0]).abs();
@@ -156,7 +152,7 @@ impl Secular {
         let theta2 = cos_inclination.powi(2);
         let precession = Precession::new(orbit, axis);
 
-        // The density function: its parameters depend on the perigee height.
+        // The density function, whose parameters depend on the height of the perigee.
         let perigee_km = WGS72.ae * (axis * (1.0 - e) - 1.0);
         let s_km = if perigee_km < 98.0 { 20.0 } else { (perigee_km - 78.0).min(78.0) };
         let s = 1.0 + s_km / WGS72.ae;
@@ -266,7 +262,7 @@ impl Plane<Lanes> {
     }
 }
 
-/// D2, D3 and D4: the higher powers of the shrinking.
+/// D2, D3 and D4: the coefficients of the higher powers of the shrinking.
 fn shrinking(c1: f64, axis: f64, xi: f64, s: f64) -> [f64; 3] {
     let d2 = 4.0 * axis * xi * c1 * c1;
     let third = d2 * xi * c1 / 3.0;
@@ -275,13 +271,13 @@ fn shrinking(c1: f64, axis: f64, xi: f64, s: f64) -> [f64; 3] {
     [d2, d3, d4]
 }
 
-/// What the flattening does to the angles, in radians per minute.
+/// Effect of the flattening on the angles, in radians per minute.
 struct Precession {
-    /// Three halves of J2 n / p², which the rest is made of.
+    /// Three halves of J2 n / p², a factor of the other terms.
     first: f64,
     node: f64,
     perigee: f64,
-    /// With the mean motion itself.
+    /// Includes the mean motion itself.
     anomaly: f64,
 }
 
@@ -312,7 +308,7 @@ impl Precession {
     }
 }
 
-/// A polynomial's value and its first and half its second derivative at `t`.
+/// The value of a polynomial at `t`, its first derivative and half its second derivative.
 pub(in crate::orbit) fn expand<const N: usize>(polynomial: &[f64; N], t: f64) -> [f64; 3] {
     let start = [0.0; 3];
     polynomial.iter().rev().fold(start, |[value, slope, half_curve], coefficient| {

@@ -1,5 +1,5 @@
-//! The coefficients of SGP4's periodic terms: those of the gravity field, and those of
-//! the drag once a revolution.
+//! The coefficients of SGP4's periodic terms: those of the gravity field, and those of the drag,
+//! which come once a revolution.
 
 use sgp4::WGS72;
 
@@ -12,8 +12,8 @@ pub(super) struct Waves<N = f64> {
     pub(super) square: N,
     pub(super) seven: N,
     pub(super) three: N,
-    /// The odd part of the gravity field: what it adds to the eccentricity
-    /// vector, and to the mean angle.
+    /// The odd part of the gravity field: what it adds to the eccentricity vector and to
+    /// the mean angle.
     pub(super) odd_vector: N,
     pub(super) odd_angle: N,
 }
@@ -22,7 +22,7 @@ impl Waves {
     pub(super) fn new(sin_inclination: f64, cos_inclination: f64) -> Self {
         let square = cos_inclination * cos_inclination;
         let odd = -0.5 * (WGS72.j3 / WGS72.j2) * sin_inclination;
-        // An orbit against the Earth's turn in the equator would divide by nothing.
+        // An equatorial orbit against the rotation of the Earth would divide by zero.
         let with_turn =
             if (1.0 + cos_inclination).abs() > 1.5e-12 { 1.0 + cos_inclination } else { 1.5e-12 };
         Self {

@@ -1,8 +1,8 @@
-//! Numbers that more than one form writes.
+//! Numbers that occur in more than one form.
 
-/// The catalog number that `text` writes: digits, or Alpha-5, where a letter
-/// stands for the first two digits of six: `A0001` is 100001, `Z9999` 339999.
-/// The letters I and O are left out, because they look like digits.
+/// The catalog number in `text`: digits, or Alpha-5, in which a letter stands for the first two
+/// digits of six: `A0001` is 100001, `Z9999` is 339999. The letters I and O are left out, because
+/// they look like digits.
 ///
 /// Source: Space-Track, "Alpha-5".
 pub(super) fn catalog_number(text: &str) -> Option<u64> {
@@ -15,10 +15,10 @@ pub(super) fn catalog_number(text: &str) -> Option<u64> {
     Some(leading * 10_000 + digits(rest)?)
 }
 
-/// The letters of Alpha-5, from 10 on.
+/// The letters of Alpha-5, which stand for the numbers from 10 on.
 pub(in crate::orbit) const ALPHA_5: &str = "ABCDEFGHJKLMNPQRSTUVWXYZ";
 
-/// A number written with digits alone: no sign.
+/// A number written only with digits, without a sign.
 pub(super) fn digits(text: &str) -> Option<u64> {
     Some(text).filter(|text| text.bytes().all(|byte| byte.is_ascii_digit()))?.parse().ok()
 }

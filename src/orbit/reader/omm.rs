@@ -1,10 +1,10 @@
 //! OMM: one object as named fields, in JSON, XML, KVN or CSV.
 //!
-//! Every form fills a [`Message`]; what its fields mean is decided here once.
+//! Every form fills a [`Message`]; the meaning of its fields is decided here, once.
 //!
-//! Source: CCSDS 502.0-B "Orbit Data Messages", with the fields `CelesTrak` and
-//! Space-Track write. Space-Track writes numbers as strings; some sources end
-//! the epoch with `Z` and leave out the ephemeris type and the classification.
+//! Source: CCSDS 502.0-B "Orbit Data Messages", with the fields that `CelesTrak` and Space-Track
+//! write. Space-Track writes numbers as strings; some sources end the epoch with `Z` and omit the
+//! ephemeris type and the classification.
 
 pub(super) mod csv;
 pub(super) mod json;
@@ -21,7 +21,7 @@ use crate::orbit::{
     elements::{Classification, ElementsError, catalog_number},
 };
 
-/// The fields that are read. All others are passed over.
+/// The fields that are read. All others are ignored.
 const FIELDS: [&str; 21] = [
     "OBJECT_NAME",
     "OBJECT_ID",
@@ -46,7 +46,7 @@ const FIELDS: [&str; 21] = [
     "TIME_SYSTEM",
 ];
 
-/// A field that is read: its place in [`FIELDS`].
+/// A field that is read: its index in [`FIELDS`].
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 struct Field(usize);
 
@@ -56,7 +56,7 @@ impl Field {
         FIELDS.iter().position(|known| known.eq_ignore_ascii_case(name)).map(Self)
     }
 
-    /// Returns `true` if it holds text that is taken as it is.
+    /// Returns `true` if the field holds text that is taken as it is.
     fn is_text(self) -> bool {
         FIELDS.get(self.0).is_some_and(|name| name.starts_with("OBJECT_"))
     }
@@ -65,22 +65,21 @@ impl Field {
 /// The value of a field.
 #[derive(Debug, Clone, PartialEq)]
 enum Value<'a> {
-    /// Text, which may write a number.
+    /// Text, which may contain a number.
     Text(Cow<'a, str>),
-    /// A number.
     Number(f64),
-    /// Something no field can hold.
+    /// Something that no field can hold.
     Other,
 }
 
-/// The fields of one message, those with a value.
+/// The fields of one message that have a value.
 #[derive(Debug, Default)]
 struct Message<'a> {
     values: [Option<Value<'a>>; FIELDS.len()],
 }
 
 impl<'a> Message<'a> {
-    /// Sets a field. Empty text is no value.
+    /// Sets a field. Empty text does not count as a value.
     fn set(&mut self, field: Field, value: Value<'a>) {
         if let Value::Text(text) = &value
             && text.trim().is_empty()
@@ -100,7 +99,7 @@ impl<'a> Message<'a> {
         self.values.iter().all(Option::is_none)
     }
 
-    /// Adds the elements of the message to `report`; nothing for an empty message.
+    /// Adds the elements of the message to `report`; adds nothing for an empty message.
     fn finish(&self, line: usize, report: &mut ReadReport) {
         if self.is_empty() {
             return;
@@ -111,7 +110,7 @@ impl<'a> Message<'a> {
         }
     }
 
-    /// The name of the object, or its number, to name a refused one.
+    /// The name of the object, or its number, by which a refusal names it.
     fn object(&self) -> Option<String> {
         let field = |name| match self.value(name)? {
             Value::Text(text) => Some(text.trim().to_owned()),
@@ -150,8 +149,8 @@ impl<'a> Message<'a> {
         Ok(elements.checked()?)
     }
 
-    /// Whether the numbers are for SGP4 as it is used here, as far as the
-    /// message says. Numbers of another theory or frame would be km off.
+    /// Checks whether the numbers are for SGP4 as it is used here, as far as the message says.
+    /// Numbers of another theory or frame would be off by kilometres.
     fn is_sgp4(&self) -> Result<(), RefusalReason> {
         let fits = |name, fit: fn(&str) -> bool| match self.text(name) {
             Some(text) if !fit(text) => Err(RefusalReason::Field(name)),
@@ -198,7 +197,7 @@ impl<'a> Message<'a> {
         whole.map(Some).ok_or(RefusalReason::Field(name))
     }
 
-    /// A whole number, 0 when absent.
+    /// A whole number, 0 if absent.
     fn count<T: TryFrom<u64>>(&self, name: &'static str) -> Result<T, RefusalReason> {
         let count = self.read(name, numbers::digits)?.unwrap_or(0);
         T::try_from(count).map_err(|_| RefusalReason::Field(name))
@@ -218,10 +217,10 @@ impl<'a> Message<'a> {
         self.decimal(name)?.ok_or(RefusalReason::MissingField(name))
     }
 
-    /// The epoch, which is UTC whether it says so or not.
+    /// The epoch, which is UTC whether or not the text says so.
     fn epoch(&self) -> Result<Timestamp, RefusalReason> {
         let text = self.text("EPOCH").ok_or(RefusalReason::MissingField("EPOCH"))?;
-        // The parser of civil times passes over an offset and a zone.
+        // The parser of civil times ignores an offset and a zone.
         let time = text.split_once(['T', 't', ' ']).map_or("", |(_, time)| time);
         if time.contains('[') {
             return Err(RefusalReason::Field("EPOCH"));
@@ -237,7 +236,7 @@ impl<'a> Message<'a> {
     }
 }
 
-/// The other date of CCSDS: `2026-223T01:21:00`.
+/// The other date format of CCSDS: `2026-223T01:21:00`.
 fn by_day_of_year(text: &str) -> Option<civil::DateTime> {
     let (date, time) = text.split_once('T')?;
     let (year, day) = date.split_once('-')?;

@@ -8,10 +8,10 @@ use crate::{
     orbit::{Elements, elements::ElementsError},
 };
 
-/// Most refusals and notes that are listed one by one. A text that is all wrong says the same
-/// thing over and over, and must not fill the memory with it.
+/// Maximum number of refusals and of notes that are listed one by one. A text that is wrong
+/// throughout repeats the same thing, and must not fill the memory with it.
 const MAX_LISTED: usize = 100_000;
-/// Characters of a name that are kept to name a refused object.
+/// Maximum length of the name of a refused object, in characters.
 const MAX_OBJECT_CHARS: usize = 60;
 
 /// The result of reading a text.
@@ -21,18 +21,18 @@ pub struct ReadReport {
     pub elements: Vec<Elements>,
     /// Refused objects in the order of the text, the first 100,000.
     pub refused: Vec<Refusal>,
-    /// Refused beyond those listed.
+    /// Number of refused objects beyond those listed.
     pub refused_unlisted: usize,
     /// Oddities of accepted objects, the first 100,000.
     pub notes: Vec<Note>,
-    /// Why there are neither elements nor refusals, where there are none.
+    /// Why there are neither elements nor refusals, if there are none.
     pub nothing: Option<Nothing>,
 }
 
 /// A refused object.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Refusal {
-    /// The line of the text where the object starts, from 1.
+    /// The line of the text on which the object starts, from 1.
     pub line: usize,
     /// Its name or catalog number, as far as they could be read.
     pub object: Option<String>,
@@ -42,7 +42,7 @@ pub struct Refusal {
 /// An oddity of an accepted object.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Note {
-    /// The line of the text where the object starts, from 1.
+    /// The line of the text on which the object starts, from 1.
     pub line: usize,
     /// Its name or catalog number.
     pub object: Option<String>,
@@ -52,7 +52,7 @@ pub struct Note {
 /// Oddities of objects that are still accepted.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error, Serialize, Deserialize)]
 pub enum NoteKind {
-    /// Nothing guards the line of a TLE against wrong characters.
+    /// Nothing protects the line of a TLE against wrong characters.
     #[error("line {line} has no checksum")]
     BlankChecksum {
         /// The line of the set, 1 or 2.
@@ -62,10 +62,10 @@ pub enum NoteKind {
 
 #[derive(Debug, Clone, PartialEq, thiserror::Error, Serialize, Deserialize)]
 pub enum RefusalReason {
-    /// A TLE line 1 without its line 2, or the other way about.
+    /// A TLE line 1 without its line 2, or line 2 without line 1.
     #[error("line {missing} of the element set is missing")]
     MissingLine {
-        /// The line that is missing, 1 or 2.
+        /// 1 or 2.
         missing: u8,
     },
     /// A TLE line ends before its checksum.
@@ -73,10 +73,9 @@ pub enum RefusalReason {
     TooShort {
         /// The line of the set, 1 or 2.
         line: u8,
-        /// How many columns it has.
         columns: usize,
     },
-    /// A TLE line holds letters no TLE has.
+    /// A TLE line holds characters that no TLE has.
     #[error("line {line} holds characters outside ASCII")]
     NotAscii {
         /// The line of the set, 1 or 2.
@@ -88,64 +87,64 @@ pub enum RefusalReason {
         /// The line of the set, 1 or 2.
         line: u8,
     },
-    /// Column 69 of a TLE line does not agree with the line.
+    /// Column 69 of a TLE line does not match the line.
     #[error("the checksum of line {line} is {found}, the line gives {expected}")]
     Checksum {
         /// The line of the set, 1 or 2.
         line: u8,
-        /// What column 69 says.
+        /// The digit in column 69.
         found: u8,
-        /// What the columns before it add up to.
+        /// The checksum of the columns before it.
         expected: u8,
     },
-    /// A column between two fields of a TLE line is not blank: something is
-    /// missing before it, or is too much.
+    /// A column between two fields of a TLE line is not blank: before it, something is missing
+    /// or superfluous.
     #[error("column {column} of line {line} is not blank")]
     Shifted {
         /// The line of the set, 1 or 2.
         line: u8,
-        /// The column, from 1.
+        /// Counted from 1.
         column: usize,
     },
     /// The two lines of a TLE carry different catalog numbers.
     #[error("the two lines are of different objects")]
     TwoObjects,
-    /// A field is missing; the name is the one of the OMM.
+    /// A field is missing, given by its name in an OMM.
     #[error("{0} is missing")]
     MissingField(#[serde(deserialize_with = "name::one")] Name),
-    /// A field does not hold what belongs there; the name is the one of the OMM.
+    /// A field does not hold what belongs there; the name is that in an OMM.
     #[error("{0} cannot be read")]
     Field(#[serde(deserialize_with = "name::one")] Name),
-    /// What stands between the braces is no JSON.
+    /// The text between the braces is not JSON.
     #[error("no JSON")]
     Json,
-    /// An entry of a JSON list is no object.
+    /// An entry of a JSON list is not an object.
     #[error("not an object")]
     NotAnObject,
-    /// A message is no XML.
+    /// A message is not XML.
     #[error("no XML")]
     Xml,
-    /// A row of a CSV has not as many fields as its header.
+    /// A row of a CSV does not have as many fields as its header.
     #[error("the row has {found} of {expected} fields")]
     FieldCount { found: usize, expected: usize },
-    /// The numbers are no orbit.
+    /// The numbers do not make an orbit.
     #[error(transparent)]
     Orbit(#[from] ElementsError),
-    /// A list of JSON ends without its bracket: what came after is missing.
+    /// A list of JSON ends without its bracket, so the rest is missing.
     #[error("the list breaks off here")]
     BreaksOff,
 }
 
-/// Why a text holds nothing: no object that could be read, and none that could not.
+/// The reason why a text holds nothing: no object that could be read, and none that was refused.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Nothing {
     #[error("it is empty")]
     Empty,
-    /// A server's page about an error, or the page around a list.
+    /// A server's error page, or the web page around a list.
     #[error("it is a web page")]
     WebPage,
-    /// The answer of `CelesTrak` to a query that finds no object.
+    /// The answer of `CelesTrak` to a query that matches no object.
     #[error("it says \"No GP data found\"")]
     NoGpData,
     /// Zip, bzip2, xz, zstd.
@@ -158,7 +157,6 @@ pub enum Nothing {
 }
 
 impl ReadReport {
-    /// Refuses an object.
     pub(super) fn refuse(&mut self, line: usize, object: Option<&str>, reason: RefusalReason) {
         if self.refused.len() < MAX_LISTED {
             self.refused.push(Refusal { line, object: object.map(shortened), reason });

@@ -1,4 +1,4 @@
-//! TLE: two lines of 69 columns, perhaps a line with the name before them.
+//! TLE: two lines of 69 columns, which a line with the name may precede.
 
 mod columns;
 
@@ -7,7 +7,7 @@ use self::columns::{Columns, elements};
 use super::{ReadReport, RefusalReason, report::NoteKind};
 use crate::orbit::Elements;
 
-/// A line with its place in the text, from 1.
+/// A line with its number in the text, from 1.
 #[derive(Clone, Copy)]
 struct Line<'a> {
     place: usize,
@@ -17,7 +17,7 @@ struct Line<'a> {
 impl Line<'_> {
     /// Returns `true` if the line looks like line `number` of a set.
     fn is_numbered(self, number: char) -> bool {
-        // A name may start with a digit too, but it has 24 columns at most.
+        // A name may also start with a digit, but it has at most 24 columns.
         let mut letters = self.text.chars();
         letters.next() == Some(number)
             && matches!(letters.next(), Some(' ' | '\t'))
@@ -34,7 +34,7 @@ pub(super) fn read(text: &str) -> ReadReport {
         .map(|(index, text)| Line { place: index + 1, text: text.trim() })
         .filter(|line| !line.text.is_empty() && !line.text.starts_with('#'))
         .peekable();
-    // Only the last line before a set can be its name; all else is remarks.
+    // Only the last line before a set can be its name; all other lines are remarks.
     let mut name = "";
     while let Some(line) = lines.next() {
         let refused = if line.is_numbered('1') {
@@ -45,7 +45,7 @@ pub(super) fn read(text: &str) -> ReadReport {
         } else if line.is_numbered('2') {
             Some(RefusalReason::MissingLine { missing: 1 })
         } else {
-            // Space-Track starts name lines with a line number too.
+            // Space-Track also starts name lines with a line number.
             name = line.text.strip_prefix("0 ").unwrap_or(line.text).trim();
             continue;
         };
@@ -57,7 +57,7 @@ pub(super) fn read(text: &str) -> ReadReport {
     report
 }
 
-/// What to call a set: its name, else its number as it is written.
+/// The name by which a refusal calls a set: its name, or else its number as written.
 fn object<'a>(name: &'a str, line: &'a str) -> Option<&'a str> {
     let number = || line.get(2..7).map(str::trim);
     Some(name).filter(|name| !name.is_empty()).or_else(number).filter(|text| !text.is_empty())
@@ -90,7 +90,7 @@ mod tests {
     const LINE_1: &str = "1 25544U 98067A   08264.51782528 -.00002182  00000-0 -11606-4 0  2927";
     const LINE_2: &str = "2 25544  51.6416 247.4627 0006703 130.5360 325.0288 15.72125391563537";
 
-    /// `line` with `text` from `column` (from 1) on and the checksum put right.
+    /// `line` with `text` written from `column` (from 1) on and the checksum corrected.
     fn with(line: &str, column: usize, text: &str) -> String {
         let mut line = line.to_owned();
         line.replace_range(column - 1..column - 1 + text.len(), text);
@@ -102,7 +102,7 @@ mod tests {
         line
     }
 
-    /// Why the only set of `text` is refused.
+    /// The reason why the only set of `text` is refused.
     fn refusal(text: &str) -> RefusalReason {
         let report = read(text);
         assert_eq!((report.elements.len(), report.refused.len()), (0, 1), "{report:?}");

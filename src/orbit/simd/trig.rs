@@ -1,25 +1,24 @@
-//! Sine, cosine and the angle of a direction, several at once. No branches, so
-//! that all lanes go one way.
+//! Sine, cosine and the angle of a direction, several at once. There are no branches, so that all
+//! lanes take the same path.
 
 use std::f64::consts::{FRAC_PI_2, FRAC_PI_4, PI, TAU};
 
 use super::{Lanes, Number, series};
 
-/// A turn in two parts, of which the first has few enough digits to be taken
-/// many times without rounding.
+/// A turn in two parts, of which the first has so few digits that multiples of it are not rounded.
 const TURN_HIGH: f64 = 4.0 * 1.570_796_326_734_125_6;
 const TURN_LOW: f64 = 4.0 * 6.077_100_506_506_192e-11;
-/// One over the tangent of a sixteenth of a turn.
+/// The reciprocal of the tangent of a sixteenth of a turn.
 const STEEP: f64 = 1.0 + std::f64::consts::SQRT_2;
 
-/// Sine and cosine from those of the quarter of the angle, for which the power
-/// series are short, doubled twice.
+/// Sine and cosine from those of a quarter of the angle, for which the power series are short,
+/// doubled twice.
 pub(super) fn sin_cos<N: Number>(angle: N) -> (N, N) {
     let turns = (angle * (1.0 / TAU)).nearest();
     let quarter = (angle - turns * TURN_HIGH - turns * TURN_LOW) * 0.25;
     let square = quarter * quarter;
     let sine = quarter + quarter * square * series(&SINE, square);
-    // 1 - cosine keeps the digits that doubling would lose.
+    // 1 - cosine keeps the digits that the doubling would lose.
     let less = square * (square * series(&COSINE, square) + 0.5);
     let double_sine = sine * (-less + 1.0) * 2.0;
     let double_less = sine * sine * 2.0;
@@ -28,13 +27,13 @@ pub(super) fn sin_cos<N: Number>(angle: N) -> (N, N) {
     (sine, cosine)
 }
 
-/// The angle from the nearest of the axes and the lines midway between them,
-/// which is at most a sixteenth of a turn, and that of the axis or line.
+/// The angle from the nearest axis or line midway between two axes, which is at most a sixteenth of
+/// a turn, plus the angle of that axis or line.
 pub(super) fn atan2(y: Lanes, x: Lanes) -> Lanes {
     let (width, height) = (x.abs(), y.abs());
     let is_upright = width.simd_lt(height);
     let less = is_upright.select(width, height);
-    // Added so that no direction at all has the angle 0.
+    // Added so that the zero vector has the angle 0.
     let more = is_upright.select(height, width) + f64::MIN_POSITIVE;
     let is_midway = more.simd_lt(less * STEEP);
     let tangent = is_midway.select(less - more, less) / is_midway.select(less + more, more);
@@ -46,9 +45,8 @@ pub(super) fn atan2(y: Lanes, x: Lanes) -> Lanes {
     y.simd_lt(Lanes::ZERO).select(-angle, angle)
 }
 
-/// The polynomials that meet (sin x / x - 1) / x² and ((1 - cos x) / x² - 1/2) / x²,
-/// by powers of x², at the Chebyshev nodes from 0 to an eighth of a turn: within
-/// 2e-14.
+/// Polynomials that interpolate (sin x / x - 1) / x² and ((1 - cos x) / x² - 1/2) / x², by powers
+/// of x², at the Chebyshev nodes from 0 to an eighth of a turn; accurate to 2e-14.
 const SINE: [f64; 5] = [
     -0.166_666_666_666_638_86,
     0.008_333_333_331_079_223,
@@ -64,8 +62,8 @@ const COSINE: [f64; 5] = [
     -2.070_060_048_343_311_8e-9,
 ];
 
-/// The polynomial that meets (arctan x / x - 1) / x², by powers of x², at the
-/// Chebyshev nodes from 0 to the tangent of a sixteenth of a turn: within 4e-11.
+/// Polynomial that interpolates (arctan x / x - 1) / x², by powers of x², at the Chebyshev nodes
+/// from 0 to the tangent of a sixteenth of a turn; accurate to 4e-11.
 const TANGENT: [f64; 6] = [
     -0.333_333_332_792_548,
     0.199_999_772_586_883_86,

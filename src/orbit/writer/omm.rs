@@ -1,4 +1,4 @@
-//! OMM with the fields and the order of `CelesTrak`.
+//! OMM with the fields of `CelesTrak`, in its order.
 
 use std::io::{self, Write};
 
@@ -55,7 +55,7 @@ impl<'a> From<&'a Elements> for Message<'a> {
     }
 }
 
-/// Writes a JSON list, one message a line. Fails only as `out` fails.
+/// Writes a JSON list, one message per line. Fails only if `out` fails.
 pub fn write_omm_json<'a>(
     elements: impl IntoIterator<Item = &'a Elements>,
     mut out: impl Write,
@@ -66,13 +66,13 @@ pub fn write_omm_json<'a>(
         serde_json::to_writer(&mut out, &Message::from(elements))?;
         before = ",\n";
     }
-    // A list of nothing still opens.
+    // An empty list still needs its opening bracket.
     let end = if before == "[\n" { "[]\n" } else { "\n]\n" };
     out.write_all(end.as_bytes())
 }
 
-/// Writes a header and one row a message; nothing at all when there are none.
-/// Fails only as `out` fails.
+/// Writes a header and one row per message; nothing at all if there are no messages. Fails only
+/// if `out` fails.
 pub fn write_omm_csv<'a>(
     elements: impl IntoIterator<Item = &'a Elements>,
     out: impl Write,

@@ -1,7 +1,6 @@
-//! TLE, as far as its columns go.
+//! TLE, as far as its columns allow.
 //!
-//! Source: `CelesTrak`, "NORAD Two-Line Element Set Format"; Space-Track,
-//! "Alpha-5".
+//! Source: `CelesTrak`, "NORAD Two-Line Element Set Format"; Space-Track, "Alpha-5".
 
 use std::io::{self, Write};
 
@@ -12,45 +11,41 @@ use crate::orbit::{
     reader::{ALPHA_5, checksum},
 };
 
-/// Columns of a name line.
+/// Number of columns of a name line.
 const NAME_COLUMNS: usize = 24;
 /// The last digit of the epoch, 1e-8 days, in microseconds.
 const EPOCH_STEP_US: i64 = 864;
 const STEPS_A_DAY: i64 = 100_000_000;
-/// The years that two digits tell apart.
+/// The years that two digits can express.
 const YEARS: std::ops::RangeInclusive<i16> = 1957..=2056;
 
 /// One object that no TLE can carry.
 #[derive(Debug, Clone, PartialEq)]
 pub struct TleRefusal {
-    /// The object.
     pub catalog_number: u32,
-    /// Why.
     pub reason: TleRefusalReason,
 }
 
-/// Why a TLE cannot carry an object.
+/// The reason why a TLE cannot carry an object.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
 pub enum TleRefusalReason {
     /// Alpha-5 ends at 339999.
     #[error("a TLE carries catalogue numbers up to 339999")]
     CatalogNumber,
-    /// Two digits tell the years from 1957 to 2056.
+    /// Two digits express the years from 1957 to 2056.
     #[error("a TLE carries epochs from 1957 to 2056")]
     Epoch,
-    /// A number is too large or too small for its columns; the name is the
-    /// field's name in an OMM.
+    /// A number, given by its name in an OMM, is too large or too small for its columns.
     #[error("{0} does not fit into the columns of a TLE")]
     Columns(&'static str),
 }
 
-/// Writes all of `elements` that a TLE can carry, each with its name before the
-/// two lines when it has one, and hands back the others. Fails only as `out`
-/// fails.
+/// Writes all of `elements` that a TLE can carry, each with its name before the two lines if it has
+/// one, and returns the others. Fails only if `out` fails.
 ///
-/// A name is cut after 24 columns and has `?` for what is not ASCII. A
-/// designator that is none is left blank, and the element set and revolution
-/// numbers keep their last four and five digits: neither says where the object is.
+/// A name is cut after 24 columns and has `?` in place of what is not ASCII. A designator in
+/// another form is left blank, and the element set and revolution numbers keep their last four and
+/// five digits: neither says where the object is.
 pub fn write_tle<'a>(
     elements: impl IntoIterator<Item = &'a Elements>,
     mut out: impl Write,
@@ -76,7 +71,7 @@ fn name_line(name: &str) -> String {
     let letters = name.chars().map(|letter| if letter.is_ascii() { letter } else { '?' });
     let name: String = letters.take(NAME_COLUMNS).collect();
     let name = name.trim_end();
-    // Such names would be read as a remark or another form, or lose their start.
+    // Such names would be read as a remark or as another form, or would lose their start.
     let is_odd =
         !name.starts_with(|letter: char| letter.is_ascii_alphanumeric()) || name.contains('=');
     if is_odd || name.starts_with("0 ") { format!("0 {name}") } else { name.into() }
@@ -111,7 +106,7 @@ pub fn tle_lines(elements: &Elements) -> Result<[String; 2], TleRefusalReason> {
     Ok([first, second].map(|line| format!("{line}{}", checksum(line.as_bytes()))))
 }
 
-/// Five columns: digits, or a letter for the first two of six.
+/// Five columns: digits, or a letter for the first two digits of six.
 fn number(number: u32) -> Result<String, TleRefusalReason> {
     let (leading, rest) = (number / 10_000, number % 10_000);
     if leading < 10 {
@@ -121,7 +116,7 @@ fn number(number: u32) -> Result<String, TleRefusalReason> {
     Ok(format!("{}{rest:04}", letter.ok_or(TleRefusalReason::CatalogNumber)?))
 }
 
-/// `98067A` for `1998-067A`; `None` when it has another form.
+/// `98067A` for `1998-067A`; `None` for any other form.
 fn designator(text: &str) -> Option<String> {
     let (year, piece) = text.split_once('-')?;
     let fits = piece.len() <= 6 && piece.bytes().all(|byte| byte.is_ascii_graphic());
@@ -129,9 +124,9 @@ fn designator(text: &str) -> Option<String> {
     Some(format!("{:02}{piece}", year % 100))
 }
 
-/// 14 columns: two digits of the year, the day of the year from 1 on.
+/// 14 columns: two digits of the year, then the day of the year from 1 on.
 fn epoch(epoch: Timestamp) -> Result<String, TleRefusalReason> {
-    // Every day begins on a whole step, so rounding first settles the year.
+    // Every day begins on a whole step, so that rounding first determines the year.
     let steps = (epoch.as_microsecond() + EPOCH_STEP_US / 2).div_euclid(EPOCH_STEP_US);
     let of_day = steps.rem_euclid(STEPS_A_DAY);
     let date = Timestamp::from_microsecond(steps * EPOCH_STEP_US)
@@ -157,7 +152,7 @@ fn assumed_point(number: f64) -> Option<String> {
     let (digits, exponent) = match exponent {
         _ if number == 0.0 => ("00000".to_owned(), 0),
         -9..=9 => (digits.replace('.', ""), exponent),
-        // Too small for five digits: as many as there are.
+        // Too small for five digits: as many as remain.
         ..-9 => (format!("{:05.0}", number.abs() * 1e14), -9),
         _ => return None,
     };
@@ -173,13 +168,13 @@ fn degrees(angle_deg: f64) -> Option<String> {
     Some(format!("{angle_deg:8.4}")).filter(|text| text.len() == 8)
 }
 
-/// Eight columns, for an angle that may be turned around the circle.
+/// Eight columns, for an angle that may be wrapped to one turn.
 fn turned(angle_deg: f64) -> Option<String> {
     let is_plain = (0.0..=360.0).contains(&angle_deg);
     degrees(if is_plain { angle_deg } else { angle_deg.rem_euclid(360.0) })
 }
 
-/// Seven digits after a point that is not written.
+/// Seven digits after an implied point.
 fn eccentricity(eccentricity: f64) -> Option<String> {
     format!("{eccentricity:.7}").strip_prefix("0.").map(str::to_owned)
 }

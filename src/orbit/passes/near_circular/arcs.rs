@@ -1,24 +1,23 @@
 //! When the turning Earth brings a site near the plane of an orbit.
 //!
-//! Let beta be the angle, along the equator, from the ascending node of the
-//! orbit to the site; it grows by one turn in about a sidereal day. With the
-//! geocentric latitude phi of the site and the inclination i, the sine of the
-//! angle d from the orbit plane to the site is
+//! Let beta be the angle, along the equator, from the ascending node of the orbit to the site; it
+//! grows by one turn in about a sidereal day. With the geocentric latitude phi of the site and the
+//! inclination i, the sine of the angle d from the orbit plane to the site is
 //!
 //! sin d = sin phi cos i - cos phi sin i sin beta
 //!
-//! Whatever flies in the plane can be seen only while |d| is at most the reach
-//! rho: the angle, at the centre of the Earth, between the site and a satellite
-//! that just comes up. That holds on no arc of beta, on one, on two, or always.
+//! A satellite in the plane can be seen only while |d| is at most the reach rho: the angle, at the
+//! centre of the Earth, between the site and a satellite that is just rising. This holds on no arc
+//! of beta, on one, on two, or always.
 
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
-/// Arcs longer than this are given in pieces, so that what moves slowly can be
-/// taken as linear in each: six hours.
+/// Arcs longer than this, six hours, are given in pieces, so that slow motions can be taken as
+/// linear in each piece.
 const LONGEST_RAD: f64 = FRAC_PI_2;
 
-/// Start and end of each arc of beta within a turn, in radians, in order. The
-/// starts lie from -pi/2 to 3 pi/2; pieces of one arc touch.
+/// Start and end of each arc of beta within a turn, in radians, in order. The starts lie from -pi/2
+/// to 3 pi/2; pieces of one arc touch.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Arcs {
     arcs: [(f64, f64); 2],
@@ -26,13 +25,11 @@ pub(super) struct Arcs {
 }
 
 impl Arcs {
-    /// Where `|middle - width sin(beta)| <= sin(reach)`: `middle` is sin phi
-    /// cos i and `width`, which is not negative, cos phi sin i; `reach` lies
-    /// between 0 and a right angle.
+    /// The arcs in which `|middle - width sin(beta)| <= sin(reach)`. `middle` is sin phi cos i;
+    /// `width` is cos phi sin i, which is not negative; `reach` lies between 0 and a right angle.
     pub(super) fn new(middle: f64, width: f64, reach: f64) -> Self {
         let half = reach.sin();
-        // Not divided by the width, which is 0 at the poles and for an orbit
-        // along the equator.
+        // Not divided by the width, which is 0 at the poles and for an equatorial orbit.
         let (low, high) = (middle - half, middle + half);
         let angle = |sine: f64| (sine / width).asin();
         let (arcs, count) = match (low <= -width, high >= width) {
@@ -45,7 +42,7 @@ impl Arcs {
         Self { arcs, count }
     }
 
-    /// All pieces from `from` on, without end: turn after turn.
+    /// All pieces from `from` onwards, turn after turn, without end.
     pub(super) fn from(self, from: f64) -> impl Iterator<Item = (f64, f64)> {
         let first_turn = ((from - FRAC_PI_2) / TAU).floor() - 1.0;
         let turns = (0..).map(move |turn: u32| TAU * (first_turn + f64::from(turn)));

@@ -1,4 +1,4 @@
-//! A batch of satellites, each at an instant of its own, one a lane.
+//! A batch of satellites, each at an instant of its own, one per lane.
 
 use super::NearCircular;
 use crate::orbit::{
@@ -18,7 +18,7 @@ pub(super) struct SatelliteAt<'a> {
     pub(super) at_s: f64,
 }
 
-/// Up to [`LANES`] satellites, as the computation needs them.
+/// Up to [`LANES`] satellites, in the form that the computation needs.
 #[derive(Default)]
 pub(super) struct Batch {
     pub(super) secular: Secular<Lanes>,
@@ -28,8 +28,8 @@ pub(super) struct Batch {
 }
 
 impl Batch {
-    /// Loads up to [`LANES`] satellites and returns their instants; the last one fills the
-    /// rest.
+    /// Loads up to [`LANES`] satellites and returns their instants. The last satellite fills the
+    /// remaining lanes.
     pub(super) fn take(&mut self, satellites: &[SatelliteAt<'_>]) -> Lanes {
         for (lane, SatelliteAt { satellite, .. }) in in_lanes(satellites) {
             self.secular.set(lane, satellite.secular);
@@ -39,7 +39,7 @@ impl Batch {
         self.instants(satellites)
     }
 
-    /// Loads the orbit planes only.
+    /// Loads only the orbit planes.
     pub(super) fn take_planes(&mut self, satellites: &[SatelliteAt<'_>]) -> Lanes {
         for (lane, SatelliteAt { satellite, .. }) in in_lanes(satellites) {
             self.secular.plane.set(lane, &satellite.secular.plane);
@@ -61,7 +61,7 @@ impl Batch {
         (at_s + self.start_since_epoch_s) * (1.0 / 60.0)
     }
 
-    /// The series around exact states. Whoever uses them
+    /// The series around exact states. The caller
     /// [counts](crate::orbit::passes::track::Track::count) them.
     pub(super) fn series(&self, window: &Window, at_s: Lanes) -> LocalSeries<Lanes> {
         let turn = window.sidereal_at(at_s);

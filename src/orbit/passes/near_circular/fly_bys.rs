@@ -1,11 +1,10 @@
 //! When a satellite goes by a site that is near its orbit plane.
 //!
-//! With the angle u of the satellite in the plane and alpha of the site, both
-//! from the ascending node, that is where x = u - alpha is a whole number of
-//! turns. The greatest elevation comes where x is not quite 0, because the site
-//! moves across the plane as well: with the angle d of the site from the plane,
-//! the angle between site and satellite has the cosine cos d cos x, which is
-//! greatest where x' sin x cos d = -d' sin d cos x.
+//! With the angle u of the satellite in the plane and alpha of the site, both from the ascending
+//! node, that is where x = u - alpha is a whole number of turns. The elevation is greatest where x
+//! is not quite 0, because the site also moves across the plane. With the angle d of the site from
+//! the plane, the cosine of the angle between site and satellite is cos d cos x, which is greatest
+//! where x' sin x cos d = -d' sin d cos x.
 
 use std::{f64::consts::TAU, ptr};
 
@@ -22,33 +21,31 @@ use crate::{
     },
 };
 
-/// Newton's method squares its error: after a step this small, in radians, what
-/// is left is some seconds of the satellite's way.
+/// Newton's method squares its error: after a step this small, in radians, the remaining error is
+/// some seconds of the satellite's motion.
 const LAST_STEP_RAD: f64 = 0.15;
 const MAX_STEPS: usize = 4;
-/// Touching pieces both look this share of a revolution beyond, and what both
+/// Touching pieces both extend beyond their ends by this share of a revolution; a fly-by that both
 /// find is taken once.
 const OVERLAP: f64 = 0.02;
-/// More revolutions than in the longest piece, a quarter of a day, of the lowest
-/// orbit: what counts more is no orbit, and must not decide how much memory is
-/// taken.
+/// More revolutions than the lowest orbit makes in the longest piece, a quarter of a day. What
+/// makes more is not an orbit, and must not determine how much memory is taken.
 const MAX_IN_PIECE: u32 = 8;
-/// Satellites come again after more than this share of a revolution.
+/// A satellite returns after more than this share of a revolution.
 const MIN_GAP: f64 = 0.3;
 
-/// Satellite and site in the plane of the orbit, in radians from the ascending
-/// node.
+/// Satellite and site in the plane of the orbit, in radians from the ascending node.
 struct InPlane {
-    /// From 0 on at the epoch, less the lead at which the elevation is greatest.
+    /// Counted from 0 at the epoch, minus the lead at which the elevation is greatest.
     satellite: Lanes,
-    /// -pi to pi.
+    /// From -pi to pi.
     site: Lanes,
-    /// Change of the difference per second.
+    /// Change of the difference between the two, per second.
     rate: Lanes,
 }
 
-/// About when satellites go by near the window: one satellite after the other,
-/// each in order. Where pieces touch, one fly-by may be guessed twice.
+/// Approximate times at which satellites go by near the window, ordered by satellite, then by time.
+/// Where pieces touch, one fly-by may be guessed twice.
 pub(super) fn guesses<'a>(
     window: &Window,
     satellites: impl Iterator<Item = &'a NearCircular<'a>>,
@@ -75,14 +72,14 @@ pub(super) fn guesses<'a>(
 }
 
 impl SatelliteAt<'_> {
-    /// Returns `true` if this is the fly-by that was found before it.
+    /// Returns `true` if this is the same fly-by as `before`.
     pub(super) fn is_same(&self, before: &Self) -> bool {
         ptr::eq(self.satellite, before.satellite)
             && (self.at_s - before.at_s) * self.satellite.rate_rad_s() < MIN_GAP * TAU
     }
 }
 
-/// Guesses from the starts and ends of pieces: x grows steadily from end to end.
+/// Guesses fly-bys from the starts and ends of pieces: x grows steadily from start to end.
 fn guess<'a>(ends: &[SatelliteAt<'a>], in_plane: &InPlane, guesses: &mut Vec<SatelliteAt<'a>>) {
     let (satellite, site) = (in_plane.satellite.as_array(), in_plane.site.as_array());
     for ((ends, satellite), site) in
@@ -91,8 +88,8 @@ fn guess<'a>(ends: &[SatelliteAt<'a>], in_plane: &InPlane, guesses: &mut Vec<Sat
         let ([start, end], [from, to], [site_from, site_to]) = (ends, satellite, site) else {
             return;
         };
-        // A piece is a quarter of a turn of the Earth or less: the site goes
-        // less than half a turn.
+        // A piece is at most a quarter of a turn of the Earth, so the site moves by less
+        // than half a turn.
         let growth = to - from - wrapped(site_to - site_from);
         let first = from - site_from;
         let turn = (first / TAU).ceil();
@@ -105,7 +102,7 @@ fn guess<'a>(ends: &[SatelliteAt<'a>], in_plane: &InPlane, guesses: &mut Vec<Sat
 }
 
 impl Batch {
-    /// The instants of the fly-bys, to some seconds, by Newton's method.
+    /// The instants of the fly-bys, accurate to some seconds, by Newton's method.
     pub(super) fn refined(&self, window: &Window, guesses_s: Lanes) -> Lanes {
         let mut at_s = guesses_s;
         for _ in 0..MAX_STEPS {
@@ -129,8 +126,7 @@ impl Batch {
         let (sin_beta, cos_beta) = Number::sin_cos(beta);
         let beta_rate = node[1] * (-1.0 / 60.0) + EARTH_RATE_RAD_S;
 
-        // The site in the axes of the plane: to the node, across it, and along
-        // the normal.
+        // The site in the axes of the plane: towards the node, across it, and along the normal.
         let along = cos_beta * cos_latitude;
         let across = sin_beta * cos_inclination * cos_latitude + sin_inclination * sin_latitude;
         let normal = cos_inclination * sin_latitude - sin_beta * sin_inclination * cos_latitude;
@@ -159,7 +155,7 @@ impl Batch {
     }
 }
 
-/// The angle less whole turns, -pi to pi.
+/// The angle minus whole turns, -pi to pi.
 fn wrapped<N: Number>(angle: N) -> N {
     angle - (angle * (1.0 / TAU)).nearest() * TAU
 }

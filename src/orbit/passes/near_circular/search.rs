@@ -1,9 +1,9 @@
 //! The passes of near-circular orbits, eight satellites at a time.
 //!
-//! All go the same way: an exact state near the middle, the crest from its
-//! series, AOS and LOS guessed from the ellipse of that state, an exact state at
-//! each and the crossing from its series. The few that do not settle this way
-//! are taken up one by one by [`Track`](crate::orbit::passes::track::Track).
+//! All satellites take the same steps: an exact state near the middle, the crest from its series,
+//! AOS and LOS guessed from the ellipse of that state, an exact state at each of the two and the
+//! crossing from its series. The few that do not converge in this way are handled one by one by
+//! [`Track`](crate::orbit::passes::track::Track).
 
 use std::iter;
 
@@ -23,23 +23,23 @@ use crate::orbit::{
     simd::{LANES, Lanes, Number, holds_in, lane_of},
 };
 
-/// AOS and LOS are looked for within this many half passes of the crest.
+/// AOS and LOS are searched for within this many half passes of the crest.
 const MAX_HALF_PASSES: f64 = 1.1;
 
-/// The AOS of every lane, or the LOS.
+/// The AOS of every lane, or the LOS of every lane.
 struct Edges {
-    /// Before the crests for -1, after them for 1.
+    /// -1 before the crests, 1 after them.
     side: f64,
-    /// From the states near the crests to where the ellipses have them.
+    /// Time from the states near the crests to the edges of the ellipses.
     guess_tau: Lanes,
-    /// Where one step from the exact states there led, and whether that is it.
+    /// The result of one step from the exact states at the guesses, and whether it has converged.
     places: LocalState<Lanes>,
     are_settled: Lanes,
     sightings: Sighting<Lanes>,
 }
 
-/// The passes of near-circular orbits, cut to the window, each with the index of
-/// its satellite: one satellite after the other, each in order.
+/// The passes of near-circular orbits, cut to the window, each with the index of its satellite,
+/// ordered by satellite, then by time.
 pub(in crate::orbit::passes) fn passes<'a>(
     window: &Window,
     satellites: impl Iterator<Item = &'a NearCircular<'a>>,
@@ -64,8 +64,8 @@ pub(in crate::orbit::passes) fn passes<'a>(
     found
 }
 
-/// Adds the passes with their middles near these fly-bys, one a lane; `last` came
-/// before them.
+/// Adds the passes whose middles are near these fly-bys, one per lane; `last` is the
+/// fly-by before them.
 fn passes_at(
     window: &Window,
     batch: &Batch,
@@ -142,8 +142,7 @@ fn is_beside<N: Number>(
     N::of(0.0).is_less(from_crest_s) & from_crest_s.is_less(half_pass_s * MAX_HALF_PASSES)
 }
 
-/// The pass of one lane by itself, of which the crest and the edges may have
-/// settled.
+/// The pass of one lane by itself. Its crest and edges may have converged already.
 fn alone(
     satellite: &NearCircular<'_>,
     series: &LocalSeries<Lanes>,

@@ -7,24 +7,24 @@ use csv_core::{ReadRecordResult, Reader};
 use super::{Field, Message, Value};
 use crate::orbit::reader::{ReadReport, RefusalReason};
 
-/// Fields of a row that are looked at; real ones have some forty. A line without
-/// an end must not take many times its length of memory.
+/// Maximum number of fields of a row that are read; real rows have some forty. A line without an
+/// end must not take many times its length in memory.
 const MAX_FIELDS: usize = 1000;
-/// Names of fields that a header holds at least: more than the name of an object
-/// has room for, and than the texts of a row are.
+/// Minimum number of field names in a header: more than the name of an object has room for, and
+/// more than there are texts in a row.
 const MIN_NAMES: usize = 4;
 
-/// Returns `true` if `line` is such a header.
+/// Returns `true` if `line` is a header.
 pub(in crate::orbit::reader) fn is_header(line: &str) -> bool {
     let mut row = Row::new();
     row.split(line);
     row.is_header()
 }
 
-/// Reads all rows of `text`. A header may come again: files are put together.
+/// Reads all rows of `text`. A header may occur again, since files are concatenated.
 ///
-/// Every line is taken by itself, because no field of an OMM spans lines: a
-/// quotation mark too much costs one row and not the rest of the text.
+/// Every line is read by itself, because no field of an OMM spans lines: a stray quotation mark
+/// costs one row and not the rest of the text.
 pub(in crate::orbit::reader) fn read(text: &str) -> ReadReport {
     let mut report = ReadReport::default();
     let mut row = Row::new();
@@ -60,7 +60,7 @@ pub(in crate::orbit::reader) fn read(text: &str) -> ReadReport {
 struct Row {
     reader: Reader,
     text: Vec<u8>,
-    /// Where each field ends in `text`.
+    /// End of each field in `text`.
     ends: Vec<usize>,
     len: usize,
 }
@@ -72,8 +72,8 @@ impl Row {
     }
 
     fn split(&mut self, line: &str) {
-        // No field grows when its quotation marks go. One place more says that
-        // nothing was full.
+        // Removing quotation marks makes no field longer. One byte more shows that the
+        // buffer was not full.
         self.text.resize(line.len() + 1, 0);
         self.reader.reset();
         let (mut read, mut written) = (0, 0);

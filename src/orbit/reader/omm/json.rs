@@ -13,7 +13,7 @@ use crate::orbit::reader::{ReadReport, RefusalReason};
 /// Reads all objects of `text`.
 pub(in crate::orbit::reader) fn read(text: &str) -> ReadReport {
     let mut report = ReadReport::default();
-    // An object around the list, as some servers put it.
+    // Some servers put an object around the list.
     let mut is_wrapped = false;
     let (mut last, mut is_sound) = (1, true);
     for Part { line, text } in parts(text) {
@@ -37,14 +37,14 @@ pub(in crate::orbit::reader) fn read(text: &str) -> ReadReport {
             Err(reason) => report.refuse(line, message.object().as_deref(), reason),
         }
     }
-    // What broke off within an object is refused already.
+    // An object that breaks off has been refused already.
     if is_sound && text.trim_start().starts_with('[') && !text.trim_end().ends_with(']') {
         report.refuse(last, None, RefusalReason::BreaksOff);
     }
     report
 }
 
-/// Puts a JSON object into a message, as far as it goes.
+/// Fills a message from a JSON object, as far as it can be read.
 struct Fill<'m, 'a>(&'m mut Message<'a>);
 
 impl<'de> DeserializeSeed<'de> for Fill<'_, 'de> {
@@ -73,7 +73,7 @@ impl<'de> Visitor<'de> for Fill<'_, 'de> {
     }
 }
 
-/// Reads a key; `None` when nothing asks for its field.
+/// Reads a key; `None` if no field has this name.
 struct KeySeed;
 
 impl<'de> DeserializeSeed<'de> for KeySeed {
@@ -160,7 +160,7 @@ mod tests {
     use super::*;
     use crate::orbit::{ElementsError, reader::Refusal};
 
-    /// A message as `CelesTrak` writes it, with a number no TLE can carry.
+    /// A message as `CelesTrak` writes it, with a number that no TLE can carry.
     fn celestrak() -> Json {
         json!({
             "OBJECT_NAME": "NEW OBJECT", "OBJECT_ID": "2026-150A",
@@ -173,7 +173,7 @@ mod tests {
         })
     }
 
-    /// The message with one field changed; null takes it away.
+    /// The message with one field changed; null removes the field.
     fn with(key: &str, value: Json) -> Json {
         let mut message = celestrak();
         let fields = message.as_object_mut().unwrap();

@@ -1,14 +1,14 @@
-//! OMM as lines of `KEY = value`: one message, or several after each other.
+//! OMM as lines of `KEY = value`: one message, or several in succession.
 
 use std::borrow::Cow;
 
 use super::{Field, Message, Value};
 use crate::orbit::reader::ReadReport;
 
-/// Starts every message; a source that leaves it out is read as well.
+/// Starts every message; a source that omits it is also read.
 const START: &str = "CCSDS_OMM_VERS";
 
-/// Returns `true` if `line` may be the first of such a text.
+/// Returns `true` if `line` may be the first line of a KVN text.
 pub(in crate::orbit::reader) fn is_first(line: &str) -> bool {
     line.split_once('=').is_some_and(|(key, _)| {
         let key = key.trim();
@@ -18,7 +18,7 @@ pub(in crate::orbit::reader) fn is_first(line: &str) -> bool {
     })
 }
 
-/// Returns `true` if `line` says nothing of an object.
+/// Returns `true` if `line` says nothing about an object.
 pub(in crate::orbit::reader) fn is_comment(line: &str) -> bool {
     line.split_whitespace().next() == Some("COMMENT")
 }
@@ -32,7 +32,7 @@ pub(in crate::orbit::reader) fn read(text: &str) -> ReadReport {
             continue;
         };
         let field = Field::named(key.trim());
-        // A field that comes again belongs to the next object.
+        // A field that occurs again belongs to the next object.
         if key.trim().eq_ignore_ascii_case(START) || field.is_some_and(|field| message.has(field)) {
             std::mem::take(&mut message).finish(start, &mut report);
         }
@@ -47,8 +47,7 @@ pub(in crate::orbit::reader) fn read(text: &str) -> ReadReport {
     report
 }
 
-/// Takes the unit from the end of a number, such as `51.6 [deg]`. Names keep
-/// their brackets.
+/// Removes the unit from the end of a number, such as `51.6 [deg]`. Names keep their brackets.
 fn without_unit(field: Field, value: &str) -> &str {
     match value.strip_suffix(']').and_then(|value| value.rsplit_once('[')) {
         Some((number, _)) if !field.is_text() => number.trim_end(),
@@ -115,7 +114,7 @@ USER_DEFINED_EARTH_MODEL = WGS-72
         assert_eq!(numbers, [25_730, 100_001, 7]);
         let lines = MESSAGE.lines().count();
         assert_eq!(report.refused.len(), 1);
-        // The first line that says something of the object.
+        // The first line that says something about the object.
         assert_eq!(report.refused[0].line, 2 * lines + 6);
         assert!(matches!(report.refused[0].reason, RefusalReason::Orbit(_)));
     }

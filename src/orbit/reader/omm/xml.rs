@@ -7,17 +7,17 @@ use quick_xml::{Reader, escape::resolve_predefined_entity, events::Event};
 use super::{Field, Message, Value};
 use crate::orbit::reader::{ReadReport, RefusalReason};
 
-/// Bytes that are looked at to find the name of a tag and its prefix.
+/// Maximum number of bytes examined to find the name of a tag and its prefix.
 const MAX_NAME: usize = 40;
 
-/// Returns `true` if `line` opens a message or an NDM, with a prefix or without.
+/// Returns `true` if `line` opens a message or an NDM, with or without a prefix.
 pub(in crate::orbit::reader) fn is_first(line: &str) -> bool {
     line.starts_with('<') && [*b"omm", *b"ndm"].iter().any(|tag| is_start(line, 0, *tag))
 }
 
 /// Reads all messages of `text`.
 ///
-/// Every message is cut out first and taken by itself: a bad one costs no other.
+/// Every message is cut out first and read by itself, so that a bad one does not affect the others.
 pub(in crate::orbit::reader) fn read(text: &str) -> ReadReport {
     let mut report = ReadReport::default();
     for (line, text) in messages(text) {
@@ -30,8 +30,8 @@ pub(in crate::orbit::reader) fn read(text: &str) -> ReadReport {
     report
 }
 
-/// The messages of `text`: each from its start tag to the next one, with the
-/// line it starts on.
+/// The messages of `text`, each from its start tag to the next one, with the line on
+/// which it starts.
 fn messages(text: &str) -> impl Iterator<Item = (usize, &str)> {
     let mut tags =
         text.match_indices('<').map(|(at, _)| at).filter(|at| is_start(text, *at, *b"omm"));
@@ -46,9 +46,9 @@ fn messages(text: &str) -> impl Iterator<Item = (usize, &str)> {
     })
 }
 
-/// Returns `true` if the tag at `at` is a start tag called `called`, with a prefix or without.
+/// Returns `true` if the tag at `at` is a start tag called `called`, with or without a prefix.
 fn is_start(text: &str, at: usize, called: [u8; 3]) -> bool {
-    // A tag that never ends must not be searched through again for every `<` in it.
+    // A tag that never ends must not be searched again for every `<` in it.
     let bytes = text.as_bytes().get(at + 1..).unwrap_or_default();
     let bytes = bytes.get(..MAX_NAME).unwrap_or(bytes);
     let end = bytes
@@ -62,7 +62,7 @@ fn is_start(text: &str, at: usize, called: [u8; 3]) -> bool {
     name.rsplit(|byte| *byte == b':').next().is_some_and(|name| name.eq_ignore_ascii_case(&called))
 }
 
-/// Takes the fields of one message; `None` when it is no sound XML to its end.
+/// Reads the fields of one message; `None` if the message is not valid XML to its end.
 fn fill<'a>(message: &mut Message<'a>, text: &'a str) -> Option<()> {
     let mut reader = Reader::from_str(text);
     reader.config_mut().allow_dangling_amp = true;
@@ -74,7 +74,7 @@ fn fill<'a>(message: &mut Message<'a>, text: &'a str) -> Option<()> {
                 field = str::from_utf8(tag.local_name().into_inner()).ok().and_then(Field::named);
                 value = Cow::Borrowed("");
             }
-            // Most fields are one piece of text, which need not be copied.
+            // Most fields are one piece of text, which does not have to be copied.
             Event::Text(text) if value.is_empty() => value = text.decode().ok()?,
             Event::Text(text) => value.to_mut().push_str(&text.decode().ok()?),
             Event::CData(text) => value.to_mut().push_str(&text.decode().ok()?),
@@ -101,7 +101,7 @@ mod tests {
     use super::*;
     use crate::orbit::{Elements, reader::Refusal};
 
-    /// A message with the object's name and number and anything in its data.
+    /// A message with the name and number of the object, and `more` in its data.
     fn message(name: &str, number: u32, more: &str) -> String {
         format!(
             "<omm id=\"CCSDS_OMM_VERS\" version=\"2.0\">\n<header><CREATION_DATE/>\

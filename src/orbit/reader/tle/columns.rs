@@ -13,17 +13,17 @@ use crate::orbit::{
     elements::{Classification, catalog_number},
 };
 
-/// Columns of a line; what follows them is not part of the set.
+/// Number of columns of a line; what follows them is not part of the set.
 const COLUMNS: usize = 69;
-/// Columns of line 1 and 2 that are always blank.
+/// Columns of lines 1 and 2 that are always blank.
 const BLANK: [&[usize]; 2] = [&[2, 9, 18, 33, 44, 53, 62, 64], &[2, 8, 17, 26, 34, 43, 52]];
-/// The last digit of a TLE's epoch, 1e-8 days, in microseconds.
+/// The last digit of the epoch of a TLE, 1e-8 days, in microseconds.
 const EPOCH_STEP_US: i64 = 864;
 
-/// One line of a set, sure to be ASCII and to agree with its checksum.
+/// One line of a set, known to be ASCII and to match its checksum.
 pub(super) struct Columns {
     bytes: [u8; COLUMNS],
-    /// Whether column 69 holds a digit.
+    /// Column 69 holds a digit.
     pub(super) has_checksum: bool,
 }
 
@@ -62,7 +62,7 @@ impl Columns {
         Ok(Self { bytes, has_checksum })
     }
 
-    /// The text in `columns` without the blanks around it.
+    /// The text in `columns`, trimmed.
     fn text(&self, columns: RangeInclusive<usize>) -> &str {
         self.bytes
             .get(columns.start() - 1..*columns.end())
@@ -71,7 +71,7 @@ impl Columns {
             .trim()
     }
 
-    /// A number; `None` where the columns are blank.
+    /// A number; `None` if the columns are blank.
     fn number<T: FromStr>(
         &self,
         columns: RangeInclusive<usize>,
@@ -100,11 +100,11 @@ impl Columns {
         let sign = self.text(start..=start);
         let digits = self.zero_filled(start + 1..=start + 5);
         let exponent: i8 = self.needed(start + 6..=start + 7, field)?;
-        // Read as one decimal number, so that it is the same as the OMM's.
+        // Parsed as one decimal number, so that it equals that of an OMM.
         format!("{sign}0.{digits}e{exponent}").parse().map_err(|_| RefusalReason::Field(field))
     }
 
-    /// The digits in `columns`; old sets leave zeros blank.
+    /// The digits in `columns`; old sets leave leading zeros blank.
     fn zero_filled(&self, columns: RangeInclusive<usize>) -> String {
         let width = columns.end() - columns.start() + 1;
         format!("{:0>width$}", self.text(columns))
@@ -141,8 +141,8 @@ impl Columns {
     }
 }
 
-/// The checksum of the columns before it: the sum of all digits, where a minus
-/// counts one, modulo 10.
+/// The checksum of the columns before it: the sum of all digits modulo 10, in which a minus
+/// counts as one.
 pub(in crate::orbit) fn checksum(content: &[u8]) -> u8 {
     let sum: u32 = content
         .iter()

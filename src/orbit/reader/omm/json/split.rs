@@ -1,4 +1,4 @@
-//! Cuts a JSON list into its entries, so that a bad one costs no other.
+//! Splits a JSON list into its entries, so that a bad entry does not affect the others.
 
 use std::collections::BTreeMap;
 
@@ -7,17 +7,18 @@ use serde_json::Deserializer;
 
 use crate::orbit::reader::omm::Field;
 
-/// One entry, which need not be sound JSON.
+/// One entry, which may not be valid JSON.
 #[derive(Debug, PartialEq)]
 pub(super) struct Part<'a> {
-    /// The line of the text where it starts, from 1.
+    /// The line of the text on which the entry starts, from 1.
     pub(super) line: usize,
-    /// From its first to its last character. Starts with `{` when it is an object.
+    /// From the first to the last character of the entry. Starts with `{` if the
+    /// entry is an object.
     pub(super) text: &'a str,
 }
 
-/// The objects of `text`, and what else stands between them. Looks at every
-/// byte a fixed number of times.
+/// The objects of `text`, and whatever else stands between them. Every byte is examined a fixed
+/// number of times.
 pub(super) fn parts(text: &str) -> impl Iterator<Item = Part<'_>> {
     let between = |letter: char| letter.is_whitespace() || matches!(letter, ',' | '[' | ']' | '}');
     let (mut rest, mut line) = (text, 1);
@@ -43,10 +44,10 @@ fn newlines(text: &str) -> usize {
 
 /// The length of the object that `text` starts with.
 ///
-/// An object that does not end where it should must not swallow the ones after
-/// it. So it also ends where another one starts: at a brace that is no value of
-/// a key, or at one in what looks like a string when a key follows. A string
-/// ends with its line, because JSON has no line breaks in strings.
+/// An object that does not end where it should must not swallow the objects after it. It therefore
+/// also ends where another object starts: at a brace that is not the value of a key, or at a brace
+/// in what looks like a string if a key follows. A string ends with its line, because JSON has no
+/// line breaks in strings.
 fn object_end(text: &str) -> usize {
     let bytes = text.as_bytes();
     let (mut depth, mut in_string, mut escaped) = (0_usize, false, false);
@@ -81,8 +82,8 @@ fn object_end(text: &str) -> usize {
     text.len()
 }
 
-/// The length of the message that `text` starts with, where it is sound JSON: a list within it
-/// may hold objects too. `None` for an object around a list of messages.
+/// The length of the message that `text` starts with if the message is valid JSON, since a list
+/// within it may also hold objects. `None` for an object around a list of messages.
 #[allow(clippy::zero_sized_map_values, reason = "only the keys are looked at")]
 fn sound_end(text: &str) -> Option<usize> {
     let mut objects = Deserializer::from_str(text).into_iter::<BTreeMap<String, IgnoredAny>>();
