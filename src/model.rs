@@ -6,7 +6,6 @@ pub mod daylight;
 pub mod effects;
 pub mod globe;
 mod line;
-pub mod mask_cut;
 mod theme_name;
 
 use std::{path::PathBuf, sync::Arc, time::Duration};
@@ -20,7 +19,7 @@ pub use self::{
     line::{Line, Piece, pieces},
     theme_name::ThemeName,
 };
-use self::{daylight::SunSpan, effects::Effects, globe::Globe, mask_cut::MaskCut};
+use self::{daylight::SunSpan, effects::Effects, globe::Globe};
 use crate::{
     astro::{AzEl, HorizonMask, MaskForm, Site, sun_moon},
     clock::Instant,
@@ -128,8 +127,6 @@ pub struct Sky {
     pub satellites: Vec<Seen>,
     /// The satellite of the selected pass, above the horizon or not.
     pub selected: Option<Selected>,
-    /// The stretches of the selected pass above the horizon mask.
-    pub mask_cut: MaskCut,
     pub sun: Option<AzEl>,
     pub moon: Option<AzEl>,
     /// Day and night from shortly before now for the next hours.
@@ -241,8 +238,6 @@ impl Model {
             self.globe = globe;
         }
         let (site, now) = (self.station.site, self.now);
-        let pass = self.selected.and_then(|key| self.pass_lists.find(key));
-        self.sky.mask_cut.refresh(pass, site, self.station.horizon_mask.as_ref());
         let selected = self.selected_pass().map(|predicted| Arc::clone(&predicted.satellite));
         self.sky.refresh(&self.pass_lists.favourites.satellites, selected.as_deref(), site, now);
     }

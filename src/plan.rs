@@ -4,7 +4,6 @@
 mod az_el;
 mod azimuth_wrap;
 pub mod bounds;
-mod clear_time;
 pub(crate) mod detour;
 pub mod on_board;
 pub mod pass_export;
@@ -13,7 +12,6 @@ mod rate_limited;
 mod trackability;
 
 pub use bounds::{Barrier, Bounds, BoundsAt, Clearance, Sweep};
-pub use clear_time::clear_time_s;
 pub use on_board::{OnBoardPass, Supervision};
 pub use program_track::{ProgramTrack, Target, TrackPhase, TrackStats};
 pub use trackability::{Loss, MountLimits, Sample, Trackability, trackability};

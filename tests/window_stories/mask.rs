@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use azel::{
     astro::{HorizonMask, time::add_seconds},
-    model::View,
+    model::{Model, View},
 };
 use egui::Role;
 use egui_kittest::kittest::Queryable as _;
@@ -30,8 +30,17 @@ fn page(size: [f32; 2]) -> Window {
 fn with_mask(size: [f32; 2], text: &str) -> Window {
     let mut model = rig::model(states::holding());
     Arc::make_mut(&mut model.station).horizon_mask = Some(HorizonMask::parse(text).unwrap());
-    model.refresh_sky();
+    select_next(&mut model);
     rig::window(size, model)
+}
+
+/// Selects the next pass of NOAA 20 as this station sees it.
+fn select_next(model: &mut Model) {
+    let satellite = Arc::clone(model.pass_lists.satellite(rig::NOAA_20).unwrap());
+    let pass = rig::predicted_passes(&satellite, &model.station, model.now).remove(0);
+    model.selected = Some(pass.key());
+    model.pass_lists.favourites.passes = vec![pass].into();
+    model.refresh_sky();
 }
 
 #[test]
@@ -98,10 +107,6 @@ fn old_elements_come_before_the_mask() {
     let mut model = rig::model(states::holding());
     Arc::make_mut(&mut model.station).horizon_mask = HorizonMask::parse("0 20").ok();
     model.now = add_seconds(model.now, 9.0 * 86_400.0);
-    let satellite = Arc::clone(model.pass_lists.satellite(rig::NOAA_20).unwrap());
-    let pass = rig::predicted_passes(&satellite, model.now).remove(0);
-    model.selected = Some(pass.key());
-    model.pass_lists.favourites.passes = vec![pass].into();
-    model.refresh_sky();
+    select_next(&mut model);
     rig::window(LARGE, model).get_by_label_contains("Elements 10 d old · clear of the mask ");
 }

@@ -66,8 +66,10 @@ fn orbits() -> &'static Orbits {
         let catalog = Arc::new(bundled().unwrap());
         let satellites: Vec<Arc<ListedSatellite>> =
             FOLLOWED.map(|number| Arc::new(followed(&catalog, number))).into();
-        let mut passes: Vec<PredictedPass> =
-            satellites.iter().flat_map(|satellite| predicted_passes(satellite, now())).collect();
+        let mut passes: Vec<PredictedPass> = satellites
+            .iter()
+            .flat_map(|satellite| predicted_passes(satellite, &station(), now()))
+            .collect();
         passes.sort_by_key(|predicted| predicted.pass.aos.time);
         // Shared by all stories, together with their drawings.
         for predicted in &passes {
@@ -86,10 +88,10 @@ fn followed(catalog: &Catalog, number: u32) -> ListedSatellite {
 /// Passes of the 12 h after `now`, with the one under way.
 pub(crate) fn predicted_passes(
     satellite: &Arc<ListedSatellite>,
+    station: &Station,
     now: Timestamp,
 ) -> Vec<PredictedPass> {
-    let station = station();
-    let observer = Arc::new(Observer::of(&station));
+    let observer = Arc::new(Observer::of(station));
     let (from, to) = (add_seconds(now, -3600.0), add_seconds(now, 12.0 * 3600.0));
     let search = PassSearch {
         aos_elevation: observer.aos_elevation,

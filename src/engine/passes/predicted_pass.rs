@@ -8,8 +8,8 @@ use jiff::Timestamp;
 use super::PassKey;
 use crate::{
     astro::{Angle, HorizonMask, Site, time::add_seconds},
-    orbit::{Elements, Pass, PassSearch, Propagator, passes},
-    plan::{MountLimits, ProgramTrack, Sample, Target, Trackability, clear_time_s, trackability},
+    orbit::{Elements, Pass, PassSearch, Propagator, clear_stretches, passes},
+    plan::{MountLimits, ProgramTrack, Sample, Target, Trackability, trackability},
     station::{Antenna, Station},
 };
 
@@ -71,8 +71,8 @@ pub struct PredictedPass {
 #[derive(Debug, Clone)]
 struct Outline {
     path: Vec<Sample>,
-    /// Seconds above the horizon mask; `None` where it cuts nothing off.
-    clear_s: Option<f64>,
+    /// The stretches above the horizon mask, in order; `None` where it cuts nothing off.
+    clear: Option<Vec<Pass>>,
     /// By the index of the antenna.
     trackability: Vec<Trackability>,
     track: OnceLock<Vec<Sample>>,
@@ -147,9 +147,15 @@ impl PredictedPass {
         &self.outline().path
     }
 
+    /// The stretches above the horizon mask, in order: empty if it hides the whole pass,
+    /// `None` if it cuts nothing off.
+    pub fn clear(&self) -> Option<&[Pass]> {
+        self.outline().clear.as_deref()
+    }
+
     /// Seconds above the horizon mask; `None` where it cuts nothing off.
     pub fn clear_s(&self) -> Option<f64> {
-        self.outline().clear_s
+        Some(self.clear()?.iter().map(Pass::duration_s).sum())
     }
 
     /// Trackability of the pass with this antenna; `None` without one.
@@ -161,15 +167,22 @@ impl PredictedPass {
         self.outline.get_or_init(|| {
             let track = self.sampled();
             let antennas = self.observer.antennas.iter();
-            let mask = self.observer.horizon_mask.as_ref();
-            let clear_s = mask.map(|mask| clear_time_s(&track, mask));
             Box::new(Outline {
-                clear_s: clear_s.filter(|clear_s| *clear_s < self.pass.duration_s() - 1.0),
+                clear: self.cut_by_mask(),
                 trackability: antennas.map(|limits| trackability(&track, *limits)).collect(),
                 path: thinned(&track),
                 track: OnceLock::new(),
             })
         })
+    }
+
+    fn cut_by_mask(&self) -> Option<Vec<Pass>> {
+        let (site, pass) = (self.observer.site, &self.pass);
+        let mask = self.observer.horizon_mask.as_ref()?;
+        let clear = clear_stretches(&self.satellite.propagator, site, mask, pass);
+        let is_whole = matches!(clear[..], [only]
+            if only.aos.time == pass.aos.time && only.los.time == pass.los.time);
+        (!is_whole).then_some(clear)
     }
 
     fn sampled(&self) -> Vec<Sample> {
@@ -274,6 +287,38 @@ mod tests {
             let is_this = track.passes.first().is_some_and(|(aos, _)| *aos < pass.los.time);
             assert_eq!(is_this, lowest_deg < 60.0);
         }
+    }
+
+    #[test]
+    fn the_mask_moves_no_end_of_a_pass_and_tells_what_it_leaves() {
+        let elements = bundled().unwrap().get(25_544).unwrap().clone();
+        let propagator = Propagator::new(&elements).unwrap();
+        let from: Timestamp = "2026-08-12T00:00:00Z".parse().unwrap();
+        let mask = HorizonMask::from_degrees([(0.0, 3.0), (120.0, 25.0), (240.0, 12.0)]).unwrap();
+        let station = Station { horizon_mask: Some(mask.clone()), ..demo() };
+        let observer = Arc::new(Observer::of(&station));
+        let search = PassSearch {
+            aos_elevation: observer.aos_elevation,
+            ..PassSearch::new(station.site, from, add_seconds(from, 3.0 * 86_400.0))
+        };
+        let found = passes(&propagator, &search, &|| false);
+        let satellite = Arc::new(ListedSatellite { elements, propagator });
+        let (mut cut, mut hidden) = (0, 0);
+        for pass in found {
+            let predicted = PredictedPass::new(Arc::clone(&satellite), pass, Arc::clone(&observer));
+            assert_eq!((predicted.pass.aos, predicted.pass.los), (pass.aos, pass.los));
+            let is_clear = |sample: &&Sample| {
+                sample.direction.elevation > mask.elevation_at(sample.direction.azimuth)
+            };
+            let track = predicted.track();
+            let step_s = pass.duration_s() / (track.len() - 1) as f64;
+            let clear_s = track.iter().filter(is_clear).count() as f64 * step_s;
+            let told_s = predicted.clear_s().unwrap_or(pass.duration_s());
+            assert!((told_s - clear_s).abs() < 3.0 * step_s, "{told_s} {clear_s}");
+            cut += usize::from(predicted.clear().is_some());
+            hidden += usize::from(predicted.clear().is_some_and(<[Pass]>::is_empty));
+        }
+        assert!(cut > hidden && hidden > 0, "{cut} {hidden}");
     }
 
     fn demo() -> Station {

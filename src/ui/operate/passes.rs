@@ -151,7 +151,7 @@ pub(super) fn header(ui: &mut Ui, rect: Rect, model: &Model, small: bool) -> boo
             detail: detail.trim(),
             second_line: &second_line(model, predicted, age_s),
             second_line_warns: age_s > words::OLD_ELEMENTS_S
-                || model.sky.mask_cut.cut().is_some_and(<[Pass]>::is_empty),
+                || predicted.clear().is_some_and(<[Pass]>::is_empty),
             tca_countdown: &tca,
             event,
             countdown: &countdown,
@@ -163,7 +163,7 @@ pub(super) fn header(ui: &mut Ui, rect: Rect, model: &Model, small: bool) -> boo
 
 /// The second line of the header, most important first: the end is cut in a small window.
 fn second_line(model: &Model, predicted: &PredictedPass, age_s: f64) -> String {
-    let mask = model.sky.mask_cut.cut().map(|stretches| clear_of_mask(stretches, model.now));
+    let mask = predicted.clear().map(|stretches| clear_of_mask(stretches, model.now));
     let elements = Some(format!("elements {} old", format::age(age_s)));
     let order = if age_s > words::OLD_ELEMENTS_S { [elements, mask] } else { [mask, elements] };
     let mut parts: Vec<String> = order.into_iter().flatten().collect();
