@@ -1,7 +1,7 @@
 //! The interface between a controller of any make and the rest of the program: its state,
 //! its settings and its commands.
 //!
-//! Invariant: a [`Moves`] can start motion, so only the driver's gate holds one; everyone
+//! Invariant: a [`Controller`] can start motion, so only the driver's gate holds one; everyone
 //! else sees its [`Device`] side.
 
 mod calibration;
@@ -80,9 +80,9 @@ pub enum Motion {
 /// A request to move; events report its outcome.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub enum Asked {
-    /// By [`Moves::start`].
+    /// By [`Controller::start`].
     Motion(Motion),
-    /// By [`Moves::act`]: one of [`Variant::actions`], by its key.
+    /// By [`Controller::act`]: one of [`Variant::actions`], by its key.
     Action(#[serde(deserialize_with = "name::one")] Name),
 }
 
@@ -225,7 +225,7 @@ pub trait Device: Send {
     }
 
     /// Asks for the position at once. For makes whose [`Self::poll_period`] can be long.
-    fn look(&mut self, _now: Moment) {}
+    fn ask_position(&mut self, _now: Moment) {}
 
     /// While `is_watched`, this program has the antenna moving: a position that does not
     /// arrive within [`Self::prompt`] is asked for again at once, and a slower reply holds
@@ -262,7 +262,7 @@ pub trait Device: Send {
     fn motion_under_way(&self) -> bool;
 
     /// The motion as the unit takes it, such as rounded to whole degrees.
-    fn as_told(&self, motion: Motion) -> Motion {
+    fn as_sent(&self, motion: Motion) -> Motion {
         motion
     }
 
@@ -287,7 +287,7 @@ pub trait Device: Send {
 
 /// The side of a controller that can move the antenna or decide where it goes. Only the
 /// gate holds it.
-pub trait Moves: Device {
+pub trait Controller: Device {
     /// A reason of this make not to start `asked` or let it go on. The gate calls it after
     /// its own rules, and again while a jog runs.
     fn objection(&self, _asked: &Asked, _now: Moment) -> Option<&'static str> {

@@ -148,8 +148,8 @@ struct Engine {
     /// The last reading of the elements broke off.
     elements_broke_off: bool,
     copy_work: CopyWork,
-    upload_desk: uploads::Desk,
-    source_desk: source_tests::Desk,
+    upload_runner: uploads::Runner,
+    source_test_runner: source_tests::Runner,
     lock_outs: LockOuts,
     claims: Option<Claims>,
     /// Where this station takes STOP from other programs, once it has claimed the station
@@ -219,9 +219,10 @@ impl Engine {
         let elements_job =
             sources::start(&places, Task::default(), clock.utc(), Arc::clone(&wake))?;
         let upload_places = settings.upload_places.clone().or_else(uploads::Places::of_this_user);
-        let upload_desk =
-            uploads::Desk::new(upload_places.clone(), clock.clone(), Arc::clone(&wake));
-        let source_desk = source_tests::Desk::new(upload_places, clock.clone(), Arc::clone(&wake));
+        let upload_runner =
+            uploads::Runner::new(upload_places.clone(), clock.clone(), Arc::clone(&wake));
+        let source_test_runner =
+            source_tests::Runner::new(upload_places, clock.clone(), Arc::clone(&wake));
         let now = clock.now();
         let snapshot = Arc::new(Snapshot::before_anything(now));
         let published = Published { snapshot, ends: Arc::new([]) };
@@ -262,8 +263,8 @@ impl Engine {
             places,
             elements_job: Some(elements_job),
             elements_broke_off: false,
-            upload_desk,
-            source_desk,
+            upload_runner,
+            source_test_runner,
             lock_outs: LockOuts::default(),
             claims: None,
             socket: None,

@@ -1,4 +1,5 @@
-//! Lists of all makes, to which a new one is added. The demo station is built from them.
+//! Lists of all makes, to which a new one is added. The demo station, with one unit of each,
+//! is written out in `demo.rs`.
 
 mod demo;
 

@@ -4,7 +4,7 @@
 //! default and run by name where those are installed.
 
 mod deaths;
-mod desk;
 mod processes;
+mod screen;
 mod stories;
 mod unit;

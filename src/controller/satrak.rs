@@ -12,10 +12,10 @@ mod record;
 mod reported;
 mod schedule;
 pub mod settings;
+mod settings_plan;
 mod spec;
 mod state;
 mod words;
-mod write_settings;
 
 use std::{collections::VecDeque, time::Duration};
 

@@ -18,7 +18,7 @@ use crate::{
     astro::Angle,
     clock::{Instant, Moment},
     device::{
-        AntennaState, Asked, Capabilities, Device, Motion, Moves, Pointing, Variant, aimed,
+        AntennaState, Asked, Capabilities, Controller, Device, Motion, Pointing, Variant, aimed,
         panel::{Act, Action},
     },
     plan::{Bounds, Sweep, on_board::Judge},
@@ -52,7 +52,7 @@ struct Situation<'a> {
 }
 
 pub(super) struct Gate {
-    controller: Box<dyn Moves>,
+    controller: Box<dyn Controller>,
     variant: &'static Variant,
     rules: Vec<Rule>,
     limits: MotionLimits,
@@ -78,7 +78,7 @@ pub(super) struct Gate {
 }
 
 impl Gate {
-    pub(super) fn new(controller: Box<dyn Moves>, antenna: &Antenna, bounds: Bounds) -> Self {
+    pub(super) fn new(controller: Box<dyn Controller>, antenna: &Antenna, bounds: Bounds) -> Self {
         let variant = antenna.connection.variant();
         Self {
             controller,
@@ -303,7 +303,7 @@ impl Gate {
 
     /// The end of a motion to a position, as it is sent to the unit.
     pub(super) fn aim(&self, motion: &Motion) -> Option<Pointing> {
-        let motion = self.controller.as_told(*motion);
+        let motion = self.controller.as_sent(*motion);
         let Motion::Position { azimuth, elevation } = motion else { return None };
         let measured = self.state().measured;
         if !self.mount.can_flip() {

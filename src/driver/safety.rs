@@ -107,5 +107,5 @@ pub enum Mover {
 pub enum Response {
     Stopped,
     /// The operator was told; STOP is not wanted there, or would keep the antenna inside.
-    Told,
+    Reported,
 }

@@ -45,7 +45,7 @@ use super::{
 };
 use crate::{
     clock::{Instant, Moment},
-    device::{AxisMotion, Moves, Pointing, Variant},
+    device::{AxisMotion, Controller, Pointing, Variant},
     plan::{Bounds, on_board::Ability},
     station::{Antenna, Monitor},
 };
@@ -57,7 +57,7 @@ use likeness::Likeness;
 use lock_out::Locking;
 use marking::Marking;
 use monitor::{Overrun, Watch};
-use program_track::{Manner, ResumeRule, Tracking};
+use program_track::{ResumeRule, TrackConfig, Tracking};
 use silence::Silence;
 use standstill::{Figures, Rest};
 use step::Stepping;
@@ -170,7 +170,7 @@ fn first_link(antenna: &Antenna, since: Instant) -> (Wanted, LinkState) {
 /// The antenna's settings.
 struct Setup {
     park: Pointing,
-    manner: Manner,
+    track_config: TrackConfig,
     /// Limits by which a pass that the unit tracks by itself is judged.
     ability: Ability,
     /// When program track resumes without a question.
@@ -263,7 +263,7 @@ impl Session {
     /// Creates a session of `antenna`, and the handle to it. Nothing happens before
     /// [`Self::run`].
     pub fn new(
-        controller: Box<dyn Moves>,
+        controller: Box<dyn Controller>,
         antenna: &Antenna,
         dial: Dial,
         clock: Clock,
@@ -277,7 +277,7 @@ impl Session {
 
     /// Creates a session of `antenna` on these channels, which records owed STOPs in `debts`.
     pub(super) fn over(
-        controller: Box<dyn Moves>,
+        controller: Box<dyn Controller>,
         antenna: &Antenna,
         dial: Dial,
         clock: Clock,
@@ -297,7 +297,7 @@ impl Session {
             variant,
             setup: Setup {
                 park: antenna.park_direction().into(),
-                manner: Manner::of(antenna, can),
+                track_config: TrackConfig::of(antenna, can),
                 ability: Ability::of(antenna),
                 rule: ResumeRule::of(antenna),
                 figures: Figures::of(can, antenna.sway_deg),

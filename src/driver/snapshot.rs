@@ -136,7 +136,7 @@ impl Snapshot {
         newer.state.held = Arc::clone(&self.state.held);
         newer.state.on_board.clock = self.state.on_board.clock;
         if let (Some(old), Some(new)) = (&self.program_track, &mut newer.program_track) {
-            new.next_look = old.next_look;
+            new.next_update = old.next_update;
             new.stats = old.stats;
             new.predicted = old.predicted;
         }
@@ -195,9 +195,9 @@ pub struct TrackView {
     /// Pointing errors, and the number of commands.
     pub stats: TrackStats,
     /// The antenna was out of reach: it waits for the operator.
-    pub awaits_word: bool,
+    pub awaits_operator: bool,
     /// When the next position is due.
-    pub next_look: Option<Instant>,
+    pub next_update: Option<Instant>,
     /// The last commanded position; `None` before the first.
     pub commanded: Option<Pointing>,
     /// Direction of the target at the time of the last measurement; `None` unless it is

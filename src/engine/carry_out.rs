@@ -78,7 +78,7 @@ impl Engine {
             Command::ShelveAlarm { id, time } => self.alarms.shelve(id, time, self.now),
             Command::UnshelveAlarm(id) => self.alarms.unshelve(id),
             Command::SaveStation(station) => self.save_station(*station),
-            Command::TestSource(ask) => self.source_desk.ask(ask, &mut self.source_tests),
+            Command::TestSource(ask) => self.source_test_runner.ask(ask, &mut self.source_tests),
             Command::Upload(ask) => self.ask_about_upload(ask),
             Command::CloseAfter(how) => self.close_after(how),
             Command::StayOpen => self.closing = None,

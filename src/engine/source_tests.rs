@@ -1,12 +1,12 @@
 //! "Test from here": fetches, on this computer, the source that a unit shall use, and looks
 //! at it as the unit will. One test at a time.
 
-mod desk;
+mod runner;
 
 use jiff::Timestamp;
 use serde::{Deserialize, Serialize};
 
-pub(super) use desk::Desk;
+pub(super) use runner::Runner;
 
 use super::host_keys::DoubtfulKey;
 use crate::secret::Secret;

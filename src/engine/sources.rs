@@ -157,7 +157,7 @@ mod tests {
 
     const ISS: u32 = 25_544;
 
-    /// Epoch of the ISS in [`Desk::newer_file`].
+    /// Epoch of the ISS in [`Fixture::newer_file`].
     fn own_epoch() -> Timestamp {
         "2026-08-12T10:00:00Z".parse().unwrap()
     }
@@ -166,12 +166,12 @@ mod tests {
         catalog.get(ISS).unwrap().epoch()
     }
 
-    struct Desk {
+    struct Fixture {
         folder: tempfile::TempDir,
         places: Places,
     }
 
-    impl Desk {
+    impl Fixture {
         fn new() -> Self {
             let folder = tempfile::tempdir().unwrap();
             let station = folder.path().join("config/station.toml");
@@ -199,38 +199,38 @@ mod tests {
 
     #[test]
     fn without_sources_the_bundled_elements_are_there_and_nothing_is_written() {
-        let desk = Desk::new();
-        let outcome = desk.run(&Task::default());
+        let fixture = Fixture::new();
+        let outcome = fixture.run(&Task::default());
         assert!(iss_epoch(&outcome.catalog) < own_epoch());
         assert!(outcome.bundled_problem.is_none() && outcome.sources.problem.is_none());
-        assert_eq!(fs::read_dir(desk.folder.path()).unwrap().count(), 0);
+        assert_eq!(fs::read_dir(fixture.folder.path()).unwrap().count(), 0);
     }
 
     #[test]
     fn an_added_source_is_kept_and_its_newer_elements_win() {
-        let desk = Desk::new();
-        let list = Some(vec![desk.newer_file()]);
-        let first = desk.run(&Task { list, ask: vec!["own".to_owned()], forced: false });
-        for outcome in [first, desk.run(&Task::default())] {
+        let fixture = Fixture::new();
+        let list = Some(vec![fixture.newer_file()]);
+        let first = fixture.run(&Task { list, ask: vec!["own".to_owned()], forced: false });
+        for outcome in [first, fixture.run(&Task::default())] {
             assert_eq!(iss_epoch(&outcome.catalog), own_epoch());
             assert_eq!(outcome.catalog.len(), 16_089);
             assert_eq!(outcome.sources.reports[0].objects(), 1);
             assert!(outcome.sources.is_free());
         }
-        let gone = desk.run(&Task { list: Some(Vec::new()), ..Task::default() });
+        let gone = fixture.run(&Task { list: Some(Vec::new()), ..Task::default() });
         assert!(iss_epoch(&gone.catalog) < own_epoch());
         assert!(gone.sources.list.is_empty());
     }
 
     #[test]
     fn a_source_that_is_not_there_says_so_and_costs_only_itself() {
-        let desk = Desk::new();
+        let fixture = Fixture::new();
         let missing = Source {
             name: "missing".to_owned(),
             place: SourcePlace::File("/no/such/file.tle".into()),
         };
-        let list = Some(vec![missing, desk.newer_file()]);
-        let outcome = desk.run(&Task { list, ..Task::default() });
+        let list = Some(vec![missing, fixture.newer_file()]);
+        let outcome = fixture.run(&Task { list, ..Task::default() });
         assert!(outcome.sources.reports[0].files[0].problem.is_some());
         assert_eq!(outcome.sources.reports[1].objects(), 1);
         assert_eq!(outcome.catalog.len(), 16_089);
@@ -238,41 +238,41 @@ mod tests {
 
     #[test]
     fn a_source_whose_reading_ended_the_program_is_read_when_it_is_asked_for() {
-        let desk = Desk::new();
-        let own = desk.newer_file();
-        desk.run(&Task { list: Some(vec![own.clone()]), ..Task::default() });
-        let marker = desk.folder.path().join("data/unfinished.toml");
+        let fixture = Fixture::new();
+        let own = fixture.newer_file();
+        fixture.run(&Task { list: Some(vec![own.clone()]), ..Task::default() });
+        let marker = fixture.folder.path().join("data/unfinished.toml");
         assert!(!marker.exists(), "the reading came to its end");
         // The state that a program leaves if it ends at this point.
         fs::write(&marker, toml::to_string(&serde_json::json!({ "source": [own] })).unwrap())
             .unwrap();
         for _ in 0..2 {
-            let outcome = desk.run(&Task::default());
+            let outcome = fixture.run(&Task::default());
             assert!(outcome.sources.reports[0].is_set_aside);
             assert!(iss_epoch(&outcome.catalog) < own_epoch());
         }
-        let outcome = desk.run(&Task { ask: vec!["own".to_owned()], ..Task::default() });
+        let outcome = fixture.run(&Task { ask: vec!["own".to_owned()], ..Task::default() });
         assert!(!outcome.sources.reports[0].is_set_aside && !marker.exists());
         assert_eq!(iss_epoch(&outcome.catalog), own_epoch());
     }
 
     #[test]
     fn a_list_that_cannot_be_read_takes_no_change() {
-        let desk = Desk::new();
-        fs::create_dir_all(desk.folder.path().join("config")).unwrap();
-        fs::write(desk.folder.path().join("config/sources.toml"), "source = 7").unwrap();
-        let outcome = desk.run(&Task::default());
+        let fixture = Fixture::new();
+        fs::create_dir_all(fixture.folder.path().join("config")).unwrap();
+        fs::write(fixture.folder.path().join("config/sources.toml"), "source = 7").unwrap();
+        let outcome = fixture.run(&Task::default());
         assert!(outcome.sources.is_locked && outcome.sources.problem.is_some());
         assert_eq!(outcome.catalog.len(), 16_089);
     }
 
     #[test]
     fn a_list_that_cannot_be_kept_leaves_the_one_on_disk() {
-        let desk = Desk::new();
-        let own = desk.newer_file();
+        let fixture = Fixture::new();
+        let own = fixture.newer_file();
         // A file is where the folder should be.
-        fs::write(desk.folder.path().join("config"), "").unwrap();
-        let outcome = desk.run(&Task { list: Some(vec![own]), ..Task::default() });
+        fs::write(fixture.folder.path().join("config"), "").unwrap();
+        let outcome = fixture.run(&Task { list: Some(vec![own]), ..Task::default() });
         assert!(outcome.sources.problem.is_some() && outcome.sources.list.is_empty());
     }
 

@@ -65,7 +65,7 @@ impl Engine {
 
     /// Records a STOP that has gone to the sessions.
     pub(super) fn note_stop(&mut self, stopped: &Stopped) {
-        self.upload_desk.stopped();
+        self.upload_runner.stopped();
         self.stop_elsewhere(&stopped.elsewhere);
         self.drop_waiting_settings();
         // STOP while the antennas are parked for the end: the operator is needed here.

@@ -40,7 +40,7 @@ impl Engine {
         self.forget_tracks();
         self.watch_closing();
         self.poll_uploads();
-        self.source_desk.poll(&mut self.source_tests);
+        self.source_test_runner.poll(&mut self.source_tests);
     }
 
     fn look_for_passes(&mut self) {

@@ -6,11 +6,11 @@
 //! in the displayed state.
 
 mod choice;
-mod desk;
 mod errand;
 mod flow;
 mod order;
 mod places;
+mod runner;
 mod select;
 mod sessions;
 
@@ -18,9 +18,9 @@ use jiff::Timestamp;
 use serde::{Deserialize, Serialize};
 
 pub use choice::{Chosen, ChosenObject};
-pub(super) use desk::{Desk, Told};
 pub use order::{Cargo, Order};
 pub use places::Places;
+pub(super) use runner::{Runner, SessionRequest};
 pub use select::Busy;
 pub(super) use select::UnitNow;
 

@@ -9,7 +9,7 @@ use super::{
 };
 use crate::{
     astro::{Angle, AzEl},
-    device::Moves,
+    device::Controller,
 };
 
 /// Permanent id of an antenna in the station file: it stays when the name or address
@@ -121,7 +121,7 @@ impl PollRates {
 
 impl Antenna {
     /// Creates the controller; it is silent until its link is up.
-    pub fn controller(&self) -> Box<dyn Moves> {
+    pub fn controller(&self) -> Box<dyn Controller> {
         (self.connection.spec().open)(self)
     }
 

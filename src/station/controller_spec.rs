@@ -8,7 +8,7 @@ use super::{
     MotionLimits, Mount, PollRates, Resume, Setting, TrackSettings,
     connection::{check_address, check_line},
 };
-use crate::device::{ElementFiles, Explained, Moves, Variant, WireLine};
+use crate::device::{Controller, ElementFiles, Explained, Variant, WireLine};
 
 /// A make of controller. Everything that an antenna of it needs follows from
 /// here, but for its simulator, which is no part of a station.
@@ -43,7 +43,7 @@ pub struct ControllerSpec {
     pub variant: fn(&Connection) -> &'static Variant,
     /// The controller of an antenna whose connection is of this make. Silent until
     /// its link is up.
-    pub open: fn(&Antenna) -> Box<dyn Moves>,
+    pub open: fn(&Antenna) -> Box<dyn Controller>,
 }
 
 /// Over what a controller is reached.

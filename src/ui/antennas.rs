@@ -25,7 +25,7 @@ use std::collections::BTreeMap;
 use egui::{Align2, Rect, ScrollArea, Ui, UiBuilder, vec2};
 
 use self::{
-    cards::Desk,
+    cards::CardEffects,
     form::Form,
     section::Section,
     unit::Unit,
@@ -108,8 +108,9 @@ pub fn show(
             let inner = ui.available_rect_before_wrap();
             let room = inner.shrink2(vec2(PADDING, 0.0)).with_min_y(inner.top() + PADDING);
             ui.scope_builder(UiBuilder::new().max_rect(room), |ui| {
-                let mut desk = Desk { commands: &mut *commands, unlock: &mut wants_unlock };
-                cards::show(ui, &unit, form, &mut state.scroll_to, &mut desk);
+                let mut effects =
+                    CardEffects { commands: &mut *commands, unlock: &mut wants_unlock };
+                cards::show(ui, &unit, form, &mut state.scroll_to, &mut effects);
             });
         });
     });

@@ -199,7 +199,7 @@ pub const ALL: [Binding; 26] = [
 ];
 
 /// State that the keys change, apart from the model.
-pub struct Desk<'a> {
+pub struct KeyTargets<'a> {
     /// The open question.
     pub question: &'a mut Option<Question>,
     pub operate: &'a mut OperateState,
@@ -211,9 +211,9 @@ pub struct Desk<'a> {
 }
 
 /// Handles the keys of this frame.
-pub fn take(ui: &Ui, model: &Model, desk: &mut Desk<'_>, commands: &mut Vec<UiCommand>) {
+pub fn take(ui: &Ui, model: &Model, targets: &mut KeyTargets<'_>, commands: &mut Vec<UiCommand>) {
     // A typed letter is no shortcut, and a dialog has keys of its own.
-    let typing = ui.text_edit_focused() || desk.question.is_some() || *desk.list_open;
+    let typing = ui.text_edit_focused() || targets.question.is_some() || *targets.list_open;
     let works = |place| match place {
         KeyScope::Everywhere => true,
         KeyScope::Views => !typing,
@@ -226,7 +226,7 @@ pub fn take(ui: &Ui, model: &Model, desk: &mut Desk<'_>, commands: &mut Vec<UiCo
             if act.is_possible(ui, model)
                 && ui.input_mut(|input| input.consume_key(binding.modifiers, *key))
             {
-                act.carry_out(ui, model, desk, commands);
+                act.carry_out(ui, model, targets, commands);
             }
         }
     }

@@ -12,7 +12,7 @@ use super::{
     dialogs::closing::{self, ClosingDialog},
     elements,
     icons::Icon,
-    keys::{self, Desk},
+    keys::{self, KeyTargets},
     map::{self, MapLayers},
     operate, preferences, rail,
     rail::RailEntry,
@@ -91,7 +91,7 @@ impl Views {
         let (window, before) = (ui.max_rect(), commands.len());
         let top = window.with_max_y(window.top() + top_bar::height(window.height()));
         bar::show(ui, top, model, commands);
-        let mut desk = Desk {
+        let mut targets = KeyTargets {
             question: &mut self.question,
             operate: &mut self.operate,
             elements: &mut self.elements,
@@ -99,7 +99,7 @@ impl Views {
             map: &mut self.map,
             list_open: &mut self.keys_open,
         };
-        keys::take(ui, model, &mut desk, commands);
+        keys::take(ui, model, &mut targets, commands);
 
         self.antennas.watch(model);
         let mut body = window.with_min_y(top.bottom());

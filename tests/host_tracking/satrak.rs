@@ -73,7 +73,7 @@ async fn a_pass_is_waited_for_followed_and_held_at_its_end() {
     rig.until_utc(scene.pass.tca.time).await;
     let view = rig.shown().program_track.clone().unwrap();
     assert_eq!(view.phase, TrackPhase::Tracking);
-    assert!(view.predicted.is_some() && view.next_look.is_some());
+    assert!(view.predicted.is_some() && view.next_update.is_some());
     assert_eq!(rig.events(), [Event::ProgramTracks(name)]);
 
     let stats = rig.until_over().await;
@@ -161,7 +161,7 @@ async fn after_a_long_outage_it_asks_and_goes_on_at_the_operators_word() {
     rig.until_event(20, asks).await;
     rig.seconds(20.0).await;
     assert_eq!(gotos(&control), sent, "nothing moves without a word");
-    assert!(rig.shown().program_track.as_ref().unwrap().awaits_word);
+    assert!(rig.shown().program_track.as_ref().unwrap().awaits_operator);
     rig.send(Command::Resume);
     rig.seconds(20.0).await;
     assert_eq!(rig.phase(), Some(TrackPhase::Tracking));

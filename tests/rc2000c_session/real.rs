@@ -22,12 +22,12 @@ fn options() -> Options {
     Options { latency: Duration::ZERO, baud: 1_000_000, ..Options::default() }
 }
 
-struct Desk {
+struct Fixture {
     handle: AntennaHandle,
     events: Vec<Event>,
 }
 
-impl Desk {
+impl Fixture {
     fn at(address: &str) -> Self {
         let (session, handle) = session(
             &antenna(),
@@ -60,7 +60,7 @@ impl Desk {
     }
 
     async fn until_event(&mut self, event: Event) {
-        self.until(&format!("{event:?}"), |desk| desk.events.contains(&event)).await;
+        self.until(&format!("{event:?}"), |fixture| fixture.events.contains(&event)).await;
         self.events.clear();
     }
 
@@ -68,8 +68,8 @@ impl Desk {
     async fn tour(&mut self, control: &Control) {
         self.send(Command::Connect);
         self.until_event(Event::Connected(Found::Still)).await;
-        self.until("the list", |desk| {
-            reading(&desk.handle.snapshot(), "Stored satellites")
+        self.until("the list", |fixture| {
+            reading(&fixture.handle.snapshot(), "Stored satellites")
                 .is_some_and(|text| text.ends_with("ANIK E2"))
         })
         .await;
@@ -97,7 +97,7 @@ impl Desk {
         assert!(!self.events.iter().any(failed), "{:?}", self.events);
         assert_eq!(self.handle.snapshot().state.traffic.damaged, 0);
         self.send(Command::Disconnect);
-        self.until("off", |desk| desk.handle.snapshot().link == LinkState::Off).await;
+        self.until("off", |fixture| fixture.handle.snapshot().link == LinkState::Off).await;
     }
 }
 
@@ -107,7 +107,7 @@ async fn over_a_serial_server() {
     let address = simulator.local_addr().unwrap().to_string();
     let control = simulator.control();
     tokio::spawn(simulator.run());
-    Desk::at(&address).tour(&control).await;
+    Fixture::at(&address).tour(&control).await;
 }
 
 #[tokio::test]
@@ -116,11 +116,11 @@ async fn a_serial_server_with_eight_bits_is_understood_at_the_second_try() {
     let simulator = Simulator::bind(([127, 0, 0, 1], 0).into(), &options).await.unwrap();
     let address = simulator.local_addr().unwrap().to_string();
     tokio::spawn(simulator.run());
-    let mut desk = Desk::at(&address);
-    desk.send(Command::Connect);
-    desk.until_event(Event::LinkLost(LinkLoss::Silent)).await;
-    desk.until_event(Event::Connected(Found::Still)).await;
-    let traffic = desk.handle.snapshot().state.traffic;
+    let mut fixture = Fixture::at(&address);
+    fixture.send(Command::Connect);
+    fixture.until_event(Event::LinkLost(LinkLoss::Silent)).await;
+    fixture.until_event(Event::Connected(Found::Still)).await;
+    let traffic = fixture.handle.snapshot().state.traffic;
     assert_eq!((traffic.damaged, traffic.odd), (0, 0));
 }
 
@@ -137,19 +137,21 @@ async fn over_a_serial_port() {
     let path = simulator.path().to_str().unwrap().to_owned();
     let control = simulator.control();
     let server = tokio::spawn(simulator.run());
-    let mut desk = Desk::at(&path);
-    desk.tour(&control).await;
+    let mut fixture = Fixture::at(&path);
+    fixture.tour(&control).await;
     // Connect again, and then the cable is pulled.
-    desk.send(Command::Connect);
-    desk.until_event(Event::Connected(Found::Still)).await;
+    fixture.send(Command::Connect);
+    fixture.until_event(Event::Connected(Found::Still)).await;
     server.abort();
-    desk.until("lost", |desk| matches!(desk.handle.snapshot().link, LinkState::Lost { .. })).await;
+    fixture
+        .until("lost", |fixture| matches!(fixture.handle.snapshot().link, LinkState::Lost { .. }))
+        .await;
 }
 
 #[tokio::test]
 async fn a_port_that_is_not_there_is_told_in_words() {
-    let mut desk = Desk::at("/dev/no-such-port-as-this");
-    desk.send(Command::Connect);
+    let mut fixture = Fixture::at("/dev/no-such-port-as-this");
+    fixture.send(Command::Connect);
     let reason = LinkLoss::Refused("no such serial port".to_owned());
-    desk.until_event(Event::LinkLost(reason)).await;
+    fixture.until_event(Event::LinkLost(reason)).await;
 }

@@ -39,7 +39,7 @@ const NOAA_20: u32 = 43_013;
 const PATIENCE: Duration = Duration::from_mins(1);
 
 /// A unit with files and a protocol, and a window on it.
-struct Desk {
+struct Fixture {
     window: Harness<'static, App>,
     files: Unit,
     control: Control,
@@ -48,7 +48,7 @@ struct Desk {
     _end: oneshot::Sender<()>,
 }
 
-impl Desk {
+impl Fixture {
     fn new(files: Unit, favourites: Vec<u32>) -> Self {
         let folder = tempfile::tempdir().unwrap();
         let (address, control, end) = simulate(&files);
@@ -74,32 +74,32 @@ impl Desk {
         let window = Harness::builder()
             .with_size([1440.0, 3200.0])
             .build_eframe(move |cc| App::new(&cc.egui_ctx, &settings, Clock::system()).unwrap());
-        let mut desk = Self { window, files, control, keyring, folder, _end: end };
-        desk.until("the unit is heard and the elements are read", |model| {
+        let mut fixture = Self { window, files, control, keyring, folder, _end: end };
+        fixture.until("the unit is heard and the elements are read", |model| {
             matches!(model.catalog, CatalogState::Ready(_))
                 && model.antenna().is_some_and(|antenna| {
                     antenna.snapshot.state.measured.is_some()
                         && antenna.snapshot.state.checked_at.is_some()
                 })
         });
-        desk
+        fixture
     }
 
-    /// A desk with the upload part open, and everything typed but the password.
+    /// A fixture with the upload part open, and everything typed but the password.
     fn typed(files: Unit) -> Self {
         Self::with(files, vec![ISS, NOAA_20])
     }
 
     fn with(files: Unit, favourites: Vec<u32>) -> Self {
         let address = files.address();
-        let mut desk = Self::new(files, favourites);
-        desk.window.key_press_modifiers(Modifiers::COMMAND, Key::Num3);
-        desk.window.run_steps(3);
-        desk.click("Upload to unit…");
-        desk.write("Port", &address.port().to_string());
-        desk.write("Folder", desk.files.folder().to_str().unwrap().to_owned().as_str());
-        desk.write("User", &desk.files.user.name.clone());
-        desk
+        let mut fixture = Self::new(files, favourites);
+        fixture.window.key_press_modifiers(Modifiers::COMMAND, Key::Num3);
+        fixture.window.run_steps(3);
+        fixture.click("Upload to unit…");
+        fixture.write("Port", &address.port().to_string());
+        fixture.write("Folder", fixture.files.folder().to_str().unwrap().to_owned().as_str());
+        fixture.write("User", &fixture.files.user.name.clone());
+        fixture
     }
 
     fn write(&mut self, field: &str, words: &str) {
@@ -213,36 +213,38 @@ fn simulate(files: &Unit) -> (String, Control, oneshot::Sender<()>) {
 #[ignore = "needs sshd and root"]
 fn from_the_first_click_to_the_unit_s_own_word_and_back() {
     let log = log();
-    let mut desk = Desk::typed(Unit::unpinned("ed25519", "internal-sftp"));
-    desk.click("Upload and prove");
-    desk.until("the host key is asked about", |model| {
+    let mut fixture = Fixture::typed(Unit::unpinned("ed25519", "internal-sftp"));
+    fixture.click("Upload and prove");
+    fixture.until("the host key is asked about", |model| {
         matches!(model.uploads.stage, Stage::AsksAboutHostKey(_))
     });
-    assert!(desk.says(&desk.files.fingerprint()), "as ssh-keygen shows it");
-    desk.click("It is the right key");
-    desk.log_in(WRONG);
-    desk.until("it is refused", |model| {
+    assert!(fixture.says(&fixture.files.fingerprint()), "as ssh-keygen shows it");
+    fixture.click("It is the right key");
+    fixture.log_in(WRONG);
+    fixture.until("it is refused", |model| {
         matches!(&model.uploads.stage, Stage::AsksForSecret(wanted) if wanted.refused.is_some())
     });
-    desk.window.get_by_role(Role::CheckBox).click();
-    desk.window.run_steps(2);
-    desk.window.get_by_role(Role::PasswordInput).focus();
-    desk.log_in(PASSWORD);
-    desk.assert_proved();
-    let first = desk.files.files();
+    fixture.window.get_by_role(Role::CheckBox).click();
+    fixture.window.run_steps(2);
+    fixture.window.get_by_role(Role::PasswordInput).focus();
+    fixture.log_in(PASSWORD);
+    fixture.assert_proved();
+    let first = fixture.files.files();
     assert!(first.len() == 1 && first[0].1 != OLD);
-    assert_eq!(desk.sent(), [format!("SATELLITE=,{FILE},ISS (ZARYA),1,0")]);
-    let account =
-        Account { user: desk.files.user.name.clone(), address: desk.files.address().to_string() };
-    desk.until("the password is kept", |_| true);
-    assert!(desk.keyring.get(&account).unwrap().is_some());
+    assert_eq!(fixture.sent(), [format!("SATELLITE=,{FILE},ISS (ZARYA),1,0")]);
+    let account = Account {
+        user: fixture.files.user.name.clone(),
+        address: fixture.files.address().to_string(),
+    };
+    fixture.until("the password is kept", |_| true);
+    assert!(fixture.keyring.get(&account).unwrap().is_some());
 
     // Another file, without a question, and the first one back.
-    desk.click("Leave out ISS (ZARYA)");
-    desk.click("Upload and prove");
-    desk.assert_proved();
-    assert_ne!(desk.files.files(), first);
-    let put_back = desk
+    fixture.click("Leave out ISS (ZARYA)");
+    fixture.click("Upload and prove");
+    fixture.assert_proved();
+    assert_ne!(fixture.files.files(), first);
+    let put_back = fixture
         .window
         .get_all_by_role(Role::Button)
         .filter_map(|node| {
@@ -252,15 +254,15 @@ fn from_the_first_click_to_the_unit_s_own_word_and_back() {
         .filter(|label| label.starts_with("Put back the file") && label.contains("sent from here"))
         .nth(1)
         .unwrap();
-    desk.click(&put_back);
-    desk.click("Put back (Enter)");
-    desk.assert_proved();
-    assert!(desk.says("Rolled back and proved"));
-    assert_eq!(desk.files.files(), first);
-    assert_eq!(desk.sent().len(), 3);
-    desk.assert_silent();
-    let mut written = all_bytes(desk.folder.path());
-    written.extend(all_bytes(&desk.files.home.path().join("console")));
+    fixture.click(&put_back);
+    fixture.click("Put back (Enter)");
+    fixture.assert_proved();
+    assert!(fixture.says("Rolled back and proved"));
+    assert_eq!(fixture.files.files(), first);
+    assert_eq!(fixture.sent().len(), 3);
+    fixture.assert_silent();
+    let mut written = all_bytes(fixture.folder.path());
+    written.extend(all_bytes(&fixture.files.home.path().join("console")));
     written.extend_from_slice(&log.0.lock().unwrap());
     let written = String::from_utf8_lossy(&written);
     assert!(written.contains("ssh-ed25519") && written.contains("uploaded and proved"));
@@ -270,41 +272,41 @@ fn from_the_first_click_to_the_unit_s_own_word_and_back() {
 #[test]
 #[ignore = "needs sshd and root"]
 fn a_changed_host_key_is_refused_and_forgotten_only_on_purpose() {
-    let mut desk = Desk::typed(Unit::new());
-    let before = desk.files.fingerprint();
-    desk.files.make_host_key("ed25519");
-    desk.click("Upload and prove");
-    assert!(desk.failure().changed_key.is_some());
-    assert!(desk.says(&before) && desk.says(&desk.files.fingerprint()));
-    desk.files.assert_as_before();
-    desk.click("Forget the known key…");
-    desk.click("Forget it (Enter)");
-    desk.until("the new key is asked about", |model| {
+    let mut fixture = Fixture::typed(Unit::new());
+    let before = fixture.files.fingerprint();
+    fixture.files.make_host_key("ed25519");
+    fixture.click("Upload and prove");
+    assert!(fixture.failure().changed_key.is_some());
+    assert!(fixture.says(&before) && fixture.says(&fixture.files.fingerprint()));
+    fixture.files.assert_as_before();
+    fixture.click("Forget the known key…");
+    fixture.click("Forget it (Enter)");
+    fixture.until("the new key is asked about", |model| {
         matches!(model.uploads.stage, Stage::AsksAboutHostKey(_))
     });
-    desk.click("It is the right key");
-    desk.log_in(PASSWORD);
-    desk.assert_proved();
+    fixture.click("It is the right key");
+    fixture.log_in(PASSWORD);
+    fixture.assert_proved();
 }
 
 #[test]
 #[ignore = "needs sshd and root"]
 fn what_goes_wrong_on_the_way_is_told_and_typing_stays() {
     use std::os::unix::fs::PermissionsExt as _;
-    let mut desk = Desk::typed(Unit::new());
-    desk.click("Upload and prove");
-    fs::set_permissions(desk.files.folder(), fs::Permissions::from_mode(0o555)).unwrap();
-    desk.log_in(PASSWORD);
-    let failure = desk.failure();
+    let mut fixture = Fixture::typed(Unit::new());
+    fixture.click("Upload and prove");
+    fs::set_permissions(fixture.files.folder(), fs::Permissions::from_mode(0o555)).unwrap();
+    fixture.log_in(PASSWORD);
+    let failure = fixture.failure();
     assert!(failure.text.contains("no right"), "{}", failure.text);
-    desk.files.assert_as_before();
-    assert!(desk.sent().is_empty(), "the unit was told nothing");
-    let user = desk.window.get_by_role_and_label(Role::TextInput, "User").value();
-    assert_eq!(user.as_deref(), Some(desk.files.user.name.as_str()));
+    fixture.files.assert_as_before();
+    assert!(fixture.sent().is_empty(), "the unit was told nothing");
+    let user = fixture.window.get_by_role_and_label(Role::TextInput, "User").value();
+    assert_eq!(user.as_deref(), Some(fixture.files.user.name.as_str()));
     // The password is asked for once a session: now the upload goes through by itself.
-    fs::set_permissions(desk.files.folder(), fs::Permissions::from_mode(0o755)).unwrap();
-    desk.click("Upload and prove");
-    desk.assert_proved();
+    fs::set_permissions(fixture.files.folder(), fs::Permissions::from_mode(0o755)).unwrap();
+    fixture.click("Upload and prove");
+    fixture.assert_proved();
 }
 
 #[test]
@@ -312,19 +314,19 @@ fn what_goes_wrong_on_the_way_is_told_and_typing_stays() {
 fn a_link_that_is_cut_or_stalls_ends_in_an_error_with_the_old_file_there() {
     for then in [Then::Cut, Then::Stall] {
         let many = elements(60).objects().iter().map(|object| object.catalog_number).collect();
-        let mut desk = Desk::with(Unit::new(), many);
-        let link = Narrow::new(desk.files.address(), 9000, then);
-        desk.files.pin_at(link.address());
-        desk.write("Port", &link.address().port().to_string());
+        let mut fixture = Fixture::with(Unit::new(), many);
+        let link = Narrow::new(fixture.files.address(), 9000, then);
+        fixture.files.pin_at(link.address());
+        fixture.write("Port", &link.address().port().to_string());
         let account =
-            Account { user: desk.files.user.name.clone(), address: link.address().to_string() };
-        desk.keyring.set(&account, &SecretString::from(PASSWORD)).unwrap();
-        desk.click("Upload and prove");
-        let failure = desk.failure();
+            Account { user: fixture.files.user.name.clone(), address: link.address().to_string() };
+        fixture.keyring.set(&account, &SecretString::from(PASSWORD)).unwrap();
+        fixture.click("Upload and prove");
+        let failure = fixture.failure();
         assert!(!failure.is_cancel && failure.text.contains("check the link"), "{}", failure.text);
-        let old = desk.files.files().into_iter().find(|(name, _)| name == FILE);
+        let old = fixture.files.files().into_iter().find(|(name, _)| name == FILE);
         assert_eq!(old.unwrap().1, OLD);
-        assert!(desk.sent().is_empty());
+        assert!(fixture.sent().is_empty());
     }
 }
 
@@ -332,16 +334,16 @@ fn a_link_that_is_cut_or_stalls_ends_in_an_error_with_the_old_file_there() {
 #[ignore = "needs sshd and root"]
 fn a_unit_that_does_not_see_the_file_is_no_success() {
     // The unit reads another folder than the one written to.
-    let mut desk = Desk::typed(Unit::new());
-    let other = desk.files.home.path().join("other");
+    let mut fixture = Fixture::typed(Unit::new());
+    let other = fixture.files.home.path().join("other");
     fs::create_dir(&other).unwrap();
-    desk.files.user.own(&other);
-    desk.write("Folder", other.to_str().unwrap());
-    desk.click("Upload and prove");
-    desk.log_in(PASSWORD);
-    let failure = desk.failure();
+    fixture.files.user.own(&other);
+    fixture.write("Folder", other.to_str().unwrap());
+    fixture.click("Upload and prove");
+    fixture.log_in(PASSWORD);
+    let failure = fixture.failure();
     assert!(failure.uploaded.is_some(), "{failure:?}");
-    assert!(desk.says("Not in use: The unit"), "{}", failure.text);
+    assert!(fixture.says("Not in use: The unit"), "{}", failure.text);
 }
 
 /// Log of all threads.

@@ -14,8 +14,8 @@ use std::{
 };
 
 use super::{
-    desk::{Running, Screen, wait_for},
     processes::{self, Process},
+    screen::{Running, Screen, wait_for},
     unit::Unit,
 };
 

@@ -1,6 +1,6 @@
 //! Acts of an operator, and their required results.
 
-use super::desk::{Satrak, Screen, wait_for};
+use super::screen::{Satrak, Screen, wait_for};
 
 /// Switches to Manual and holds the key X+ until the unit was told to move. Repeats the
 /// clicks, for one before the window shows the key does nothing.

@@ -16,7 +16,7 @@ use azel::{
 use jiff::Timestamp;
 use tokio::{net::TcpListener, runtime::Runtime};
 
-use super::desk::wait_for;
+use super::screen::wait_for;
 
 /// Payload that a held X+ key sends.
 const MOVE: &str = "MOVE=,0.5,0";

@@ -18,7 +18,7 @@ use crate::window_stories::{
     makes,
     preferences::write,
     rig::{self, LARGE, NOAA_20, SIZES, Window},
-    settings_desk::{press, says},
+    settings_rig::{press, says},
     states,
     unit::{RealWindow, Unit, clock_from, open, step_until, wait_until},
 };

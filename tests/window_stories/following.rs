@@ -32,8 +32,8 @@ fn following(phase: TrackPhase, off_deg: f64, motion: AxisMotion) -> Model {
         catalog_number: Some(rig::NOAA_20),
         phase,
         stats: TrackStats::default(),
-        awaits_word: false,
-        next_look: None,
+        awaits_operator: false,
+        next_update: None,
         commanded: is_up.then_some(WANTED.into()),
         predicted: is_up.then_some(predicted),
     };

@@ -17,7 +17,7 @@ use egui_kittest::kittest::Queryable as _;
 
 use crate::window_stories::{
     rig::{self, LARGE, SIZES, Window, asked, says},
-    settings_desk::hold,
+    settings_rig::hold,
     states,
 };
 
@@ -152,7 +152,7 @@ fn an_alarm_about_the_sun_offers_to_move_away_in_one_step() {
     let told = Safety::Forbidden {
         barrier: Barrier::Sun,
         driver: Mover::Somebody,
-        response: Response::Told,
+        response: Response::Reported,
     };
     for size in SIZES {
         let alarmed = |snapshot: Snapshot| {

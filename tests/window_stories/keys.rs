@@ -14,7 +14,7 @@ use crate::window_stories::{
 };
 
 /// A window in which every key has something to do.
-fn desk(size: [f32; 2]) -> Window {
+fn opened(size: [f32; 2]) -> Window {
     let mut model = rig::model(states::manual());
     for name in ["Mast", "Roof", "Field"] {
         let mut config = model.station.antennas[0].clone();
@@ -49,7 +49,7 @@ fn line(binding: &Binding) -> String {
 fn every_key_of_the_list_does_something() {
     for binding in ALL.iter().filter(|binding| binding.place != KeyScope::Focus) {
         for key in binding.keys() {
-            let mut window = desk(SMALL);
+            let mut window = opened(SMALL);
             if binding.place == KeyScope::Map {
                 window.state_mut().model.view = View::Map;
                 window.state_mut().model.refresh_sky();
@@ -94,7 +94,7 @@ fn is_open(window: &Window) -> bool {
 #[test]
 fn the_question_mark_opens_the_whole_list_and_it_closes_in_every_way() {
     for size in SIZES {
-        let mut window = desk(size);
+        let mut window = opened(size);
         for close in ["Esc", "?", "Close", "outside"] {
             assert!(!is_open(&window), "{close}");
             window.key_press(Key::Questionmark);
@@ -124,7 +124,7 @@ fn the_question_mark_opens_the_whole_list_and_it_closes_in_every_way() {
 #[test]
 fn while_the_list_is_open_only_stop_works_below_it() {
     for size in SIZES {
-        let mut window = desk(size);
+        let mut window = opened(size);
         window.key_press(Key::Questionmark);
         settle(&mut window);
         for key in [Key::T, Key::M, Key::N, Key::A, Key::ArrowDown] {
@@ -139,7 +139,7 @@ fn while_the_list_is_open_only_stop_works_below_it() {
 #[test]
 fn a_question_mark_that_is_typed_opens_nothing() {
     for size in SIZES {
-        let mut window = desk(size);
+        let mut window = opened(size);
         window.get_by_label("Go to azimuth, degrees").focus();
         settle(&mut window);
         window.key_press(Key::Questionmark);

@@ -17,7 +17,7 @@ use egui_kittest::{
 use crate::window_stories::{
     makes,
     rig::{self, SIZES, Window, asked, settle},
-    settings_desk::{hold, press},
+    settings_rig::{hold, press},
     states,
     unit::{RealWindow, Unit, clock_from, open, step_until},
 };

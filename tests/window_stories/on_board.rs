@@ -29,7 +29,7 @@ use jiff::{Timestamp, tz::TimeZone};
 use crate::window_stories::{
     rig::{self, LARGE, asked},
     settings::settles,
-    settings_desk::{apply, desk, hold, press, read, says, state_of, texts},
+    settings_rig::{apply, hold, opened, press, read, says, state_of, texts},
     states,
     unit::{Unit, clock_from, open, step_until},
 };
@@ -89,7 +89,7 @@ fn a_unit_that_is_a_little_off_or_points_lower_is_told_of() {
 
 #[test]
 fn the_minimum_of_the_station_is_filled_in_to_be_applied() {
-    let mut window = desk(LARGE, read());
+    let mut window = opened(LARGE, read());
     press(&mut window, "Take 5.0° from the station");
     assert_eq!(asked(&mut window), [], "filled in, not sent");
     assert_eq!(state_of(&window, "Minimum elevation"), "Edited");

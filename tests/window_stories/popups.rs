@@ -6,7 +6,7 @@ use egui_kittest::kittest::{NodeT as _, Queryable as _};
 
 use crate::window_stories::{
     rig::{self, SIZES, Window, asked, settle},
-    settings_desk::press,
+    settings_rig::press,
     states,
 };
 

@@ -10,7 +10,7 @@ use egui_kittest::kittest::Queryable as _;
 use crate::window_stories::{
     preferences::{form, saved, write},
     rig::{self, SIZES, Window, asked, says, settle},
-    settings_desk::press,
+    settings_rig::press,
     states,
 };
 

@@ -15,8 +15,8 @@ use egui_kittest::kittest::{NodeT as _, Queryable as _};
 use crate::window_stories::{
     makes,
     rig::{self, LARGE, SIZES, Window, asked, settle},
-    settings_desk::{
-        ON_UNIT, apply, change, choose, desk, hold, press, read, says, state_of, texts, write,
+    settings_rig::{
+        ON_UNIT, apply, change, choose, hold, opened, press, read, says, state_of, texts, write,
     },
     states,
 };
@@ -57,7 +57,7 @@ fn the_view_opens_from_rail_and_key_and_leads_to_the_preferences() {
         assert_eq!(asked(&mut window), [UiCommand::Show(View::Antennas)]);
         window.key_press_modifiers(Modifiers::COMMAND, Key::Num4);
         assert_eq!(asked(&mut window), [UiCommand::Show(View::Antennas)]);
-        let mut window = desk(size, read());
+        let mut window = opened(size, read());
         press(&mut window, "Mount, limits and connection");
         assert_eq!(asked(&mut window), [UiCommand::Show(View::Preferences)]);
     }
@@ -70,7 +70,7 @@ fn what_is_not_read_is_asked_for_once_and_shown_as_a_dash() {
         *group(&mut snapshot, key) = GroupState::default();
     }
     group(&mut snapshot, "web").failure = Some(ReadFailure::Refused("1".to_owned()));
-    let mut window = desk(LARGE, snapshot);
+    let mut window = opened(LARGE, snapshot);
     let read = |key| UiCommand::antenna(AntennaId(1), Command::ReadGroup(key));
     assert_eq!(asked(&mut window), [read("general"), read("web")]);
     assert_eq!(asked(&mut window), []);
@@ -89,7 +89,7 @@ fn what_is_not_read_is_asked_for_once_and_shown_as_a_dash() {
 #[test]
 fn a_wrong_value_is_refused_at_its_field_and_the_typing_stays() {
     for size in SIZES {
-        let mut window = desk(size, read());
+        let mut window = opened(size, read());
         for (typed, why) in [
             ("91", "Minimum elevation must be a number from 0 to 90°."),
             ("x", "Minimum elevation must be a number from 0 to 90°."),
@@ -119,7 +119,7 @@ fn apply_waits_with_a_setting_that_points_until_the_antenna_may_be_pointed() {
         let mut snapshot = read();
         let program = snapshot.state.program.as_mut().unwrap();
         (program.enabled, program.auto) = (is_on, auto);
-        let mut window = desk(LARGE, snapshot);
+        let mut window = opened(LARGE, snapshot);
         choose(&mut window, "SSPA auto rule", "Both");
         assert!(!says(&window, why), "the transmitter points nowhere");
         write(&mut window, "Elevation offset", "10");
@@ -143,7 +143,7 @@ fn apply_waits_with_a_setting_that_points_until_the_antenna_may_be_pointed() {
 #[test]
 fn apply_sends_what_was_changed_with_what_was_seen_and_proves_it() {
     for size in SIZES {
-        let mut window = desk(size, read());
+        let mut window = opened(size, read());
         write(&mut window, "Minimum elevation", "5");
         write(&mut window, "Latitude", "41.02N");
         write(&mut window, "North offset", "3,00");
@@ -187,7 +187,7 @@ fn apply_sends_what_was_changed_with_what_was_seen_and_proves_it() {
 #[test]
 fn a_value_that_radiates_is_confirmed_by_holding() {
     for size in SIZES {
-        let mut window = desk(size, read());
+        let mut window = opened(size, read());
         choose(&mut window, "Transmitter (SSPA)", "Auto");
         assert_eq!(state_of(&window, "Transmitter (SSPA)"), "Confirm first");
         assert!(says(&window, "1 change not sent, 1 needs confirmation"));
@@ -204,7 +204,7 @@ fn a_value_that_radiates_is_confirmed_by_holding() {
 #[test]
 fn revert_drops_the_edits_and_sends_nothing() {
     for size in SIZES {
-        let mut window = desk(size, read());
+        let mut window = opened(size, read());
         write(&mut window, "Minimum elevation", "5");
         write(&mut window, "Latitude", "1N");
         assert!(says(&window, "General: 1 edited") && says(&window, "GPS: 1 edited"));
@@ -248,7 +248,7 @@ fn leaving_with_edits_asks_nothing_and_keeps_them_counted_on_the_rail() {
 #[test]
 fn without_a_link_the_old_values_stand_hollow_and_the_edits_stay() {
     for size in SIZES {
-        let mut window = desk(size, read());
+        let mut window = opened(size, read());
         write(&mut window, "Minimum elevation", "5");
         change(&mut window, 0, |snapshot| {
             let now = azel::clock::Instant::now();
@@ -267,7 +267,7 @@ fn without_a_link_the_old_values_stand_hollow_and_the_edits_stay() {
 #[test]
 fn no_text_ever_has_a_password() {
     for size in SIZES {
-        let mut window = desk(size, read());
+        let mut window = opened(size, read());
         window.get_by_role_and_label(Role::RadioButton, "FTP").click_accesskit();
         settle(&mut window);
         assert!(says(&window, "Password, on the unit: hidden"));
@@ -292,7 +292,7 @@ fn no_text_ever_has_a_password() {
 fn a_password_that_was_sent_or_dropped_does_not_come_back_by_undo() {
     for size in SIZES {
         for is_sent in [true, false] {
-            let mut window = desk(size, read());
+            let mut window = opened(size, read());
             window.get_by_role_and_label(Role::RadioButton, "FTP").click_accesskit();
             settle(&mut window);
             write(&mut window, "Password", "swordfish");
@@ -322,7 +322,7 @@ fn a_password_that_was_sent_or_dropped_does_not_come_back_by_undo() {
 #[test]
 fn a_section_of_the_list_is_brought_into_view() {
     for size in SIZES {
-        let mut window = desk(size, read());
+        let mut window = opened(size, read());
         press(&mut window, "Service");
         settle(&mut window);
         let title = window.get_by_role_and_label(Role::Label, "Service").rect();
@@ -332,7 +332,7 @@ fn a_section_of_the_list_is_brought_into_view() {
 
 #[test]
 fn esc_while_typing_sends_nothing_and_keeps_the_typing() {
-    let mut window = desk(LARGE, read());
+    let mut window = opened(LARGE, read());
     write(&mut window, "Minimum elevation", "5");
     window.key_press(Key::Escape);
     assert_eq!(asked(&mut window), []);
@@ -346,7 +346,7 @@ fn esc_while_typing_sends_nothing_and_keeps_the_typing() {
 #[test]
 fn every_field_has_a_name_and_the_bar_is_whole() {
     for size in SIZES {
-        let window = desk(size, read());
+        let window = opened(size, read());
         let apply = window.get_by_role_and_label(Role::Button, "Apply (Ctrl Enter)").rect();
         assert!(apply.right() <= size[0] && apply.bottom() <= size[1], "{apply:?}");
         for role in [Role::TextInput, Role::ComboBox] {

@@ -12,13 +12,13 @@ use egui::Key;
 use crate::window_stories::{
     rig::{self, LARGE, SIZES, Window, asked},
     settings::{group, settles},
-    settings_desk::{apply, change, desk, press, read, says, state_of, texts},
+    settings_rig::{apply, change, opened, press, read, says, state_of, texts},
     states,
 };
 
 #[test]
 fn the_window_of_the_selected_pass_is_filled_in_to_be_applied() {
-    let mut window = desk(LARGE, read());
+    let mut window = opened(LARGE, read());
     press(&mut window, "Take from pass");
     assert_eq!(asked(&mut window), [], "filled in, not sent");
     assert_eq!(state_of(&window, "Stop"), "Edited");
@@ -32,7 +32,7 @@ fn the_window_of_the_selected_pass_is_filled_in_to_be_applied() {
 #[test]
 fn automatic_tracking_is_switched_on_after_a_question_and_off_at_once() {
     for size in SIZES {
-        let mut window = desk(size, read());
+        let mut window = opened(size, read());
         press(&mut window, "Switch on…");
         assert_eq!(asked(&mut window), []);
         window.key_press(Key::Enter);
@@ -57,7 +57,7 @@ fn the_clock_is_not_set_while_the_unit_tracks() {
     let mut snapshot = states::tracking(0.0);
     snapshot.state.link_since = read().state.link_since;
     snapshot.state.held = read().state.held;
-    let mut window = desk(LARGE, snapshot);
+    let mut window = opened(LARGE, snapshot);
     assert!(says(&window, "Not while the unit tracks."));
     press(&mut window, "Set from this PC");
     assert_eq!(asked(&mut window), []);
@@ -72,7 +72,7 @@ fn the_clock_is_not_set_while_the_unit_tracks() {
 #[test]
 fn a_place_far_from_the_site_is_a_warning() {
     let mut snapshot = read();
-    let mut window = desk(LARGE, snapshot.clone());
+    let mut window = opened(LARGE, snapshot.clone());
     assert!(!says(&window, "Distance to site: Differs"));
     let values = &mut group(&mut snapshot, "gps").held.as_mut().unwrap().values;
     values.insert("latitude_deg", Value::Decimal(41.5));
@@ -84,7 +84,7 @@ fn a_place_far_from_the_site_is_a_warning() {
 fn faults_stand_with_what_to_do() {
     let mut snapshot = read();
     states::report(&mut snapshot, &[2, 10], rig::now());
-    let window = desk(LARGE, snapshot);
+    let window = opened(LARGE, snapshot);
     assert!(says(&window, "Faults, read 11:15:30Z"));
     assert_eq!(state_of_check(&window, "Age of the elements"), "Caution");
     assert_eq!(state_of_check(&window, "X position sensor"), "Fault");

@@ -7,7 +7,7 @@ use egui::Role;
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
 
 use crate::window_stories::{
-    settings_desk::{apply, press, says, state_of, write},
+    settings_rig::{apply, press, says, state_of, write},
     settings_unit::{Scene, ask},
     unit::{step_until, wait_until},
 };

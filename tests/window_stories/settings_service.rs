@@ -11,8 +11,8 @@ use egui_kittest::kittest::{NodeT as _, Queryable as _};
 
 use crate::window_stories::{
     rig::{self, LARGE, SIZES, Window, asked, settle},
-    settings_desk::{
-        apply, change, choose, desk, hold, press, read, says, state_of, unlock, write,
+    settings_rig::{
+        apply, change, choose, hold, opened, press, read, says, state_of, unlock, write,
     },
     states,
 };
@@ -20,7 +20,7 @@ use crate::window_stories::{
 const STATION: &str = "Şile 1";
 
 fn open(size: [f32; 2]) -> Window {
-    let mut window = desk(size, read());
+    let mut window = opened(size, read());
     unlock(&mut window, STATION);
     assert!(says(&window, "Open, locks in 10:00"));
     window
@@ -34,7 +34,7 @@ fn is_locked(window: &Window) -> bool {
 #[test]
 fn it_opens_by_the_name_of_the_station_while_the_antenna_stands() {
     for size in SIZES {
-        let mut window = desk(size, read());
+        let mut window = opened(size, read());
         assert!(is_locked(&window));
         press(&mut window, "Unlock");
         window.get_by_role_and_label(Role::TextInput, "Name of the station").focus();
@@ -53,7 +53,7 @@ fn it_opens_by_the_name_of_the_station_while_the_antenna_stands() {
     }
     let mut snapshot = read();
     snapshot.state.measured = states::moving().state.measured;
-    let mut window = desk(LARGE, snapshot);
+    let mut window = opened(LARGE, snapshot);
     press(&mut window, "Unlock");
     assert!(says(&window, "The antenna has to stand, and tracking has to be off."));
 }
@@ -122,7 +122,7 @@ fn it_locks_by_itself() {
 
 #[test]
 fn the_transmitter_is_switched_on_unlocked_and_confirmed() {
-    let mut window = desk(LARGE, read());
+    let mut window = opened(LARGE, read());
     choose(&mut window, "Transmitter (SSPA)", "On");
     assert_eq!(state_of(&window, "Transmitter (SSPA)"), "Service locked");
     assert!(says(&window, "1 change not sent, 1 locked by Service"));

@@ -13,8 +13,8 @@ use egui_kittest::kittest::{NodeT as _, Queryable as _};
 use tokio::io::{AsyncBufReadExt as _, AsyncWriteExt as _, BufReader};
 
 use crate::window_stories::{
-    settings_desk::{apply, choose, press, says, state_of, unlock, write},
     settings_forms::{ANGLES, FILE, FTP, GENERAL, GPS, IMAGE, REDUCTION, Story, WEB, WINDOW},
+    settings_rig::{apply, choose, press, says, state_of, unlock, write},
     unit::{RealWindow, Unit, clock_from, open, step_until},
 };
 

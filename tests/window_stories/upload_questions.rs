@@ -11,7 +11,7 @@ use azel::{
 use egui::{Event, Key, Role};
 use egui_kittest::kittest::Queryable as _;
 
-use crate::window_stories::upload_desk::{
+use crate::window_stories::upload_rig::{
     SECRET, WIDTHS, Window, asked, at, click, is_disabled, part, says, settle, uploaded, working,
 };
 

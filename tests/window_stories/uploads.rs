@@ -15,7 +15,7 @@ use egui_kittest::kittest::{NodeT as _, Queryable as _};
 use crate::window_stories::{
     rig::{self, NOAA_20},
     states,
-    upload_desk::{
+    upload_rig::{
         FILE, ISS, WIDTHS, asked, at, begun, click, failed, is_disabled, kept_entry, part, peer,
         says, settle, typed, uploaded, working, write,
     },

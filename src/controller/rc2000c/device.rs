@@ -1,4 +1,4 @@
-//! [`Device`] and [`Moves`] of an RC2000C.
+//! [`Device`] and [`Controller`] of an RC2000C.
 
 use std::time::Duration;
 
@@ -10,7 +10,7 @@ use super::{
 use crate::{
     clock::{Instant, Moment},
     device::{
-        AntennaState, ControllerEvent, Device, Extent, Finding, Motion, Moves, PrepareError,
+        AntennaState, Controller, ControllerEvent, Device, Extent, Finding, Motion, PrepareError,
         TrackTarget, WireLine,
         panel::{Act, Lead},
     },
@@ -117,7 +117,7 @@ impl Device for Rc2000c {
         self.line.halt_wait()
     }
 
-    fn look(&mut self, now: Moment) {
+    fn ask_position(&mut self, now: Moment) {
         self.look_soon(now);
     }
 
@@ -182,7 +182,7 @@ impl Rc2000c {
     }
 }
 
-impl Moves for Rc2000c {
+impl Controller for Rc2000c {
     fn lead_of(&self, act: &Act) -> Lead {
         self.lead(act)
     }

@@ -4,7 +4,7 @@ use jiff::Timestamp;
 
 use super::{axes::tests::IDLE, *};
 use crate::{
-    device::{Device, Extent, Moves},
+    device::{Controller, Device, Extent},
     protocol::rc2000c::checksum,
 };
 

@@ -1,4 +1,4 @@
-//! [`Device`] and [`Moves`] of a Rotator Genius.
+//! [`Device`] and [`Controller`] of a Rotator Genius.
 
 use std::time::Duration;
 
@@ -11,7 +11,7 @@ use super::{
 use crate::{
     clock::{Instant, Moment},
     device::{
-        AntennaState, Asked, ControllerEvent, Device, Extent, Motion, Moves, PrepareError,
+        AntennaState, Asked, Controller, ControllerEvent, Device, Extent, Motion, PrepareError,
         TrackTarget, WireLine,
         panel::{Act, Lead},
         settings::{Change, WriteError},
@@ -98,7 +98,7 @@ impl Device for Genius {
         self.is_rescue_wanted = false;
     }
 
-    fn look(&mut self, now: Moment) {
+    fn ask_position(&mut self, now: Moment) {
         self.look_soon(now);
     }
 
@@ -122,7 +122,7 @@ impl Device for Genius {
         self.motion_waits()
     }
 
-    fn as_told(&self, motion: Motion) -> Motion {
+    fn as_sent(&self, motion: Motion) -> Motion {
         in_whole_degrees(motion)
     }
 
@@ -143,7 +143,7 @@ impl Device for Genius {
     }
 }
 
-impl Moves for Genius {
+impl Controller for Genius {
     /// Its other actions turn a rotator that is not this antenna's.
     fn lead_of(&self, _: &Act) -> Lead {
         Lead::Nowhere

@@ -7,7 +7,7 @@ use super::*;
 use crate::{
     astro::Angle,
     device::{
-        Device, Extent, Motion, Moves,
+        Controller, Device, Extent, Motion,
         panel::Act,
         settings::{Change, Value, Values},
     },

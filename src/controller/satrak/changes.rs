@@ -3,7 +3,7 @@
 use super::{
     Satrak,
     settings::Plan,
-    write_settings::{Doing, Next},
+    settings_plan::{Doing, Next},
 };
 use crate::{
     clock::{Instant, Moment},

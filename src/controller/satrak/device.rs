@@ -1,4 +1,4 @@
-//! [`Device`] and [`Moves`] of a Satrak.
+//! [`Device`] and [`Controller`] of a Satrak.
 
 use std::time::Duration;
 
@@ -9,8 +9,8 @@ use super::{
 use crate::{
     clock::{Instant, Moment},
     device::{
-        AntennaState, ControllerEvent, Device, Extent, Motion, Moves, PrepareError, TrackTarget,
-        WireLine,
+        AntennaState, Controller, ControllerEvent, Device, Extent, Motion, PrepareError,
+        TrackTarget, WireLine,
         panel::{Act, Lead},
         settings::{Change, WriteError},
     },
@@ -126,7 +126,7 @@ impl Device for Satrak {
         halts.flat_map(|halt| Request::Halt(halt).to_bytes()).collect()
     }
 
-    fn look(&mut self, now: Moment) {
+    fn ask_position(&mut self, now: Moment) {
         self.look_soon(now);
     }
 
@@ -180,7 +180,7 @@ impl Device for Satrak {
     }
 }
 
-impl Moves for Satrak {
+impl Controller for Satrak {
     fn lead_of(&self, _: &Act) -> Lead {
         Lead::Nowhere
     }

@@ -11,13 +11,13 @@ use crate::{
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Preparation {
     pub(super) target: TrackTarget,
-    step: Step,
+    step: PrepareStep,
     /// The satellite in the unit's last answer.
     held: Option<Satellite>,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Step {
+enum PrepareStep {
     /// Asks for the file and satellite in use.
     AskSatellite,
     SetSatellite,
@@ -37,18 +37,20 @@ pub(super) enum Outcome {
 
 impl Preparation {
     pub(super) fn new(target: TrackTarget) -> Self {
-        Self { target, step: Step::AskSatellite, held: None }
+        Self { target, step: PrepareStep::AskSatellite, held: None }
     }
 
     /// The request of the present step. Satellites are chosen from `element_file`, or from the
     /// file in use if that is empty.
     pub(super) fn request(&self, element_file: &str) -> Result<Request, PrepareError> {
         Ok(match self.step {
-            Step::AskSatellite | Step::ReadSatellite => Request::Query(Query::Satellite),
-            Step::AskFaults => Request::Query(Query::Faults),
-            Step::ReadWindow => Request::Query(Query::StartStopTime),
-            Step::SetWindow => Request::Setting(Setting::StartStopTime(self.window()?)),
-            Step::SetSatellite => {
+            PrepareStep::AskSatellite | PrepareStep::ReadSatellite => {
+                Request::Query(Query::Satellite)
+            }
+            PrepareStep::AskFaults => Request::Query(Query::Faults),
+            PrepareStep::ReadWindow => Request::Query(Query::StartStopTime),
+            PrepareStep::SetWindow => Request::Setting(Setting::StartStopTime(self.window()?)),
+            PrepareStep::SetSatellite => {
                 let held = self.held.as_ref().ok_or(PrepareError::Unanswered)?;
                 let file = if element_file.is_empty() { &held.file } else { element_file };
                 if file.is_empty() {
@@ -86,17 +88,17 @@ impl Preparation {
     /// another satellite.
     pub(super) fn answered(&mut self, reply: &Reply) -> Result<Outcome, PrepareError> {
         self.step = match (self.step, reply) {
-            (Step::AskSatellite, Reply::Satellite(held)) => {
+            (PrepareStep::AskSatellite, Reply::Satellite(held)) => {
                 self.held = Some(held.clone());
-                if self.holds_target() { Step::SetWindow } else { Step::SetSatellite }
+                if self.holds_target() { PrepareStep::SetWindow } else { PrepareStep::SetSatellite }
             }
-            (Step::SetSatellite, Reply::Done) => Step::ReadSatellite,
-            (Step::ReadSatellite, Reply::Satellite(held)) => {
+            (PrepareStep::SetSatellite, Reply::Done) => PrepareStep::ReadSatellite,
+            (PrepareStep::ReadSatellite, Reply::Satellite(held)) => {
                 self.held = Some(held.clone());
                 // The name may be right although the elements are missing.
-                Step::AskFaults
+                PrepareStep::AskFaults
             }
-            (Step::AskFaults, Reply::Faults(faults)) => {
+            (PrepareStep::AskFaults, Reply::Faults(faults)) => {
                 let missing = [FaultKind::TleMissing, FaultKind::SatelliteMissing];
                 let held = self.held.clone();
                 if faults.active().any(|kind| missing.contains(&kind)) {
@@ -107,10 +109,10 @@ impl Preparation {
                     let held = held.map(|held| held.name).unwrap_or_default();
                     return Err(PrepareError::Differs { held });
                 }
-                Step::SetWindow
+                PrepareStep::SetWindow
             }
-            (Step::SetWindow, Reply::Done) => Step::ReadWindow,
-            (Step::ReadWindow, Reply::StartStopTime(read)) => {
+            (PrepareStep::SetWindow, Reply::Done) => PrepareStep::ReadWindow,
+            (PrepareStep::ReadWindow, Reply::StartStopTime(read)) => {
                 let sent = self.window()?;
                 if read.start != sent.start() || read.stop != sent.stop() {
                     return Err(PrepareError::Differs {

@@ -3,6 +3,7 @@
 
 #[cfg(test)]
 mod copy_tests;
+mod desired;
 mod general;
 mod place;
 mod proof;
@@ -10,12 +11,12 @@ mod report;
 mod service;
 mod source;
 mod times;
-mod wish;
 
 use crate::{
     device::settings::{Group, Unfit, Values, WriteError},
     protocol::satrak::{Query, Reply, Setting, TextValue, UrlValue, ValueError},
 };
+pub(super) use desired::Desired;
 pub use general::{GENERAL, MINIMUM_ELEVATION_DEG, TLE_SOURCE};
 pub use place::{GPS, IS_AUTOMATIC, IS_VALID, LATITUDE_DEG, LONGITUDE_DEG, RECEIVER};
 pub(super) use proof::{Differing, Judge, Proof};
@@ -27,7 +28,6 @@ pub use source::{
 };
 pub(super) use times::ahead;
 pub use times::{AHEAD_S, CLOCK, FROM_GPS, FROM_THIS_PC, SET_FROM, START, STOP, WINDOW};
-pub(super) use wish::Wish;
 
 /// All groups in the order of the forms, with how each is read and written.
 static PLANS: [Plan; 13] = [
@@ -99,7 +99,7 @@ pub(super) struct Plan {
     pub(super) is_clock: bool,
 }
 
-pub(super) type Write = fn(&Wish<'_>) -> Result<Setting, WriteError>;
+pub(super) type Write = fn(&Desired<'_>) -> Result<Setting, WriteError>;
 
 impl Plan {
     const fn reported(

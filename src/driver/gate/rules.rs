@@ -271,7 +271,7 @@ fn within_reach(motion: &Motion, situation: &Situation<'_>) -> Result<(), Refusa
 
 /// Judged as it is sent to the unit, which may round.
 fn way_is_clear(motion: &Motion, situation: &Situation<'_>) -> Result<(), Refusal> {
-    way::is_clear(&situation.gate.controller.as_told(*motion), situation)
+    way::is_clear(&situation.gate.controller.as_sent(*motion), situation)
 }
 
 fn program_is_clear(motion: &Motion, situation: &Situation<'_>) -> Result<(), Refusal> {

@@ -73,7 +73,7 @@ impl Device for Metal {
     }
 }
 
-impl Moves for Metal {
+impl Controller for Metal {
     fn objection(&self, _: &Asked, _: Moment) -> Option<&'static str> {
         self.objection
     }

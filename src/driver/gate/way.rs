@@ -318,7 +318,7 @@ impl Gate {
 
     /// The axes before and after a motion to a position.
     pub(super) fn ends(&self, motion: Motion, now: Moment) -> Option<([f64; 2], [f64; 2])> {
-        let Motion::Position { azimuth, elevation } = self.controller.as_told(motion) else {
+        let Motion::Position { azimuth, elevation } = self.controller.as_sent(motion) else {
             return None;
         };
         let situation = self.situation(Intent::Position, false, now);

@@ -99,7 +99,7 @@ impl Activity {
     pub(super) fn aim(&self) -> Option<Pointing> {
         match self {
             Self::GoTo(go_to) => go_to.aim,
-            Self::ProgramTrack(following) => following.aim,
+            Self::ProgramTrack(track) => track.aim,
             _ => None,
         }
     }
@@ -120,14 +120,14 @@ impl Activity {
 
     pub(super) fn program(&self) -> Option<&Tracking> {
         match self {
-            Self::ProgramTrack(following) => Some(following),
+            Self::ProgramTrack(track) => Some(track),
             _ => None,
         }
     }
 
     pub(super) fn program_mut(&mut self) -> Option<&mut Tracking> {
         match self {
-            Self::ProgramTrack(following) => Some(following),
+            Self::ProgramTrack(track) => Some(track),
             _ => None,
         }
     }
@@ -135,14 +135,14 @@ impl Activity {
     /// The program track that is running, or whose last pass is over.
     pub(super) fn last_program(&self) -> Option<&Tracking> {
         match self {
-            Self::ProgramTrack(following) | Self::Hold(Some(following)) => Some(following),
+            Self::ProgramTrack(track) | Self::Hold(Some(track)) => Some(track),
             _ => None,
         }
     }
 
     pub(super) fn last_program_mut(&mut self) -> Option<&mut Tracking> {
         match self {
-            Self::ProgramTrack(following) | Self::Hold(Some(following)) => Some(following),
+            Self::ProgramTrack(track) | Self::Hold(Some(track)) => Some(track),
             _ => None,
         }
     }

@@ -92,23 +92,22 @@ impl Session {
     /// Lets a track resume once the unit has proved to be as before; otherwise asks the
     /// operator.
     pub(super) fn watch_likeness(&mut self, now: Moment) {
-        let Some(following) = self.activity.program_mut() else { return };
-        let Some(Recheck { since, lost }) = following.recheck.filter(|_| !self.contact.unread)
-        else {
+        let Some(track) = self.activity.program_mut() else { return };
+        let Some(Recheck { since, lost }) = track.recheck.filter(|_| !self.contact.unread) else {
             return;
         };
         let told = Likeness::of(self.gate.state());
         let is_late = now.steady.saturating_duration_since(since) >= READ_AGAIN;
         let unlike = match self.contact.left_as.differs(&told) {
             None if self.contact.left_as.is_told(&told) => {
-                following.recheck = None;
+                track.recheck = None;
                 return;
             }
             None if is_late => Unlike::Unread,
             None => return,
             Some(unlike) => unlike,
         };
-        following.recheck = None;
+        track.recheck = None;
         self.await_word(lost, Some(unlike));
     }
 }

@@ -103,7 +103,7 @@ impl Session {
         if !is_told {
             self.seen.watch.told.push(here.barrier.clone());
         }
-        let response = if stops { Response::Stopped } else { Response::Told };
+        let response = if stops { Response::Stopped } else { Response::Reported };
         self.tell(Event::Safety(Safety::Forbidden { barrier: here.barrier, driver, response }));
     }
 
@@ -216,7 +216,7 @@ impl Session {
     /// Learns from a STOP that has ended.
     pub(super) fn end_overrun(&mut self) {
         let Some(rest) = self.gate.state().measured else { return };
-        let fastest_deg_s = self.setup.manner.fastest_deg_s();
+        let fastest_deg_s = self.setup.track_config.fastest_deg_s();
         if let Some(overrun_s) = self.seen.overrun.end(&rest, fastest_deg_s) {
             self.gate.set_overrun(overrun_s);
         }

@@ -5,7 +5,7 @@ mod tracking;
 
 use std::time::Duration;
 
-pub(super) use tracking::{Manner, Tracking};
+pub(super) use tracking::{TrackConfig, Tracking};
 
 use super::{Command, Event, Session, activity::Activity, likeness::Recheck};
 use crate::{
@@ -51,16 +51,16 @@ impl Session {
     pub(super) fn follow(&mut self, follow: ProgramTrack, now: Moment) -> bool {
         let name = follow.target.name().into_owned();
         tracing::info!(antenna = self.name, name, passes = follow.passes.len(), "follow");
-        let Manner { mut drives, following } = self.setup.manner;
+        let TrackConfig { mut drives, settings } = self.setup.track_config;
         drives.mount = drives.mount.within(self.gate.state().travel_deg);
         let follow =
-            if following.after == AfterPass::Next { follow } else { follow.one_pass(now.utc) };
+            if settings.after == AfterPass::Next { follow } else { follow.one_pass(now.utc) };
         let phase = follow.phase(now.utc);
         let planned = if phase == TrackPhase::Over {
             Err(TrackProblem::NoPass)
         } else {
             let bounds = self.gate.bounds_in(Intent::Track).clone();
-            Planner::new(follow, drives, following, bounds).map_err(TrackProblem::Orbit)
+            Planner::new(follow, drives, settings, bounds).map_err(TrackProblem::Orbit)
         };
         // Checked before it ends anything.
         let checked = planned.and_then(|planner| self.check_first(planner, now));
@@ -75,8 +75,8 @@ impl Session {
         if self.activity.last_program().is_none() && self.may_move() {
             self.halt_quietly(now);
         }
-        let following = Tracking::new(planner, phase, now.steady);
-        self.activity = Activity::ProgramTrack(Box::new(following));
+        let track = Tracking::new(planner, phase, now.steady);
+        self.activity = Activity::ProgramTrack(Box::new(track));
         self.tell_phase(phase, name);
         true
     }
@@ -86,7 +86,7 @@ impl Session {
         let axes = self.gate.state().measured.map(|measured| measured.axes);
         let position_deg = |axis: usize| axes.and_then(|axes| axes.get(axis)?.angle_deg);
         let axes = [0, 1].map(|axis| AxisNow { position_deg: position_deg(axis), stands: false });
-        if let Some(next) = planner.look(now.utc, axes)? {
+        if let Some(next) = planner.update(now.utc, axes)? {
             self.gate.route(motion(next), Intent::Track, now)?;
         }
         Ok(planner)
@@ -104,45 +104,45 @@ impl Session {
     pub(super) fn follows_now(&self) -> bool {
         self.activity
             .program()
-            .is_some_and(|it| it.phase == TrackPhase::Tracking && !it.awaits_word)
+            .is_some_and(|it| it.phase == TrackPhase::Tracking && !it.awaits_operator)
     }
 
     /// When the clock calls for the next look.
     pub(super) fn follow_due(&self) -> Option<Instant> {
-        let following = self.activity.program()?;
-        (!following.is_held_up).then_some(following.next_look)
+        let track = self.activity.program()?;
+        (!track.is_held_up).then_some(track.next_update)
     }
 
     /// Keeps the antenna on its target.
     pub(super) fn watch_follow(&mut self, now: Moment) {
         let measured = self.gate.state().measured;
-        let Some(following) = self.activity.program_mut() else { return };
+        let Some(track) = self.activity.program_mut() else { return };
         if let Some(measured) = measured {
-            following.compare(measured);
+            track.compare(measured);
             // Known for the next target, too.
-            self.setup.manner.drives.rates_deg_s = following.planner.rates_deg_s();
+            self.setup.track_config.drives.rates_deg_s = track.planner.rates_deg_s();
         }
-        let phase = following.planner.follow().phase(now.utc);
-        if phase != following.phase {
+        let phase = track.planner.follow().phase(now.utc);
+        if phase != track.phase {
             self.enter_phase(phase, now);
         }
-        self.look(now);
+        self.update_program(now);
     }
 
     fn enter_phase(&mut self, phase: TrackPhase, now: Moment) {
-        let Some(following) = self.activity.program_mut() else { return };
-        let name = following.name();
-        let before = std::mem::replace(&mut following.phase, phase);
+        let Some(track) = self.activity.program_mut() else { return };
+        let name = track.name();
+        let before = std::mem::replace(&mut track.phase, phase);
         // No answer means no for the pass that is over.
-        following.awaits_word &= before != TrackPhase::Tracking;
+        track.awaits_operator &= before != TrackPhase::Tracking;
         let mut over = None;
         if before == TrackPhase::Tracking {
-            following.predicted = None;
-            let stats = std::mem::take(&mut following.stats);
+            track.predicted = None;
+            let stats = std::mem::take(&mut track.stats);
             over = Some(Event::ProgramTrackOver { name: name.clone(), stats });
         }
         if phase == TrackPhase::Tracking {
-            following.aim = None;
+            track.aim = None;
         }
         if let Some(event) = over {
             self.tell(event);
@@ -156,36 +156,36 @@ impl Session {
     /// The last pass is over.
     fn end_program(&mut self, now: Moment) {
         self.activity = match std::mem::replace(&mut self.activity, Activity::Standby) {
-            Activity::ProgramTrack(following) => Activity::Hold(Some(following)),
+            Activity::ProgramTrack(track) => Activity::Hold(Some(track)),
             activity => activity,
         };
-        if self.setup.manner.following.after == AfterPass::Park {
+        if self.setup.track_config.settings.after == AfterPass::Park {
             self.carry_out(Command::Park, now);
         }
     }
 
     /// Sends the next position when it is due.
-    fn look(&mut self, now: Moment) {
+    fn update_program(&mut self, now: Moment) {
         let is_busy = self.stop.is_under_way()
             || self.doubt.is_some()
             || self.contact.unread
             || self.gate.device().motion_under_way();
         let measured = self.gate.state().measured.filter(|_| !is_busy);
-        let Some(following) = self.activity.program_mut() else { return };
-        if now.steady < following.next_look {
+        let Some(track) = self.activity.program_mut() else { return };
+        if now.steady < track.next_update {
             return;
         }
-        if following.awaits_word || following.recheck.is_some() {
-            following.next_look = now.steady + self.setup.manner.following.period();
+        if track.awaits_operator || track.recheck.is_some() {
+            track.next_update = now.steady + self.setup.track_config.settings.period();
             return;
         }
-        following.is_held_up = measured.is_none();
+        track.is_held_up = measured.is_none();
         let Some(measured) = measured else { return };
-        let Manner { following: settings, .. } = self.setup.manner;
-        following.next_look = now.steady + settings.period();
+        let TrackConfig { settings, .. } = self.setup.track_config;
+        track.next_update = now.steady + settings.period();
         let latency = Duration::try_from_secs_f64(settings.latency_s).unwrap_or_default();
-        let axes = following.axes(measured, latency);
-        match following.planner.look(now.utc, axes) {
+        let axes = track.axes(measured, latency);
+        match track.planner.update(now.utc, axes) {
             Ok(None) => {}
             Ok(Some(next)) => self.send_next(next, now),
             Err(error) => self.end_follow(TrackProblem::Orbit(error), now),
@@ -203,25 +203,25 @@ impl Session {
             Ok(route) => {
                 let aim = self.gate.aim(&route.first);
                 self.stop.forget();
-                let Some(following) = self.activity.program_mut() else { return };
+                let Some(track) = self.activity.program_mut() else { return };
                 // The leg round a corner is looked at again until the way is free.
                 if route.then.is_none() {
-                    following.planner.sent(next);
+                    track.planner.sent(next);
                 }
-                following.sent = Some(now.steady);
-                following.stats.commands += 1;
-                following.commanded = aim;
-                following.barrier_is_told &= route.then.is_some();
+                track.sent = Some(now.steady);
+                track.stats.commands += 1;
+                track.commanded = aim;
+                track.barrier_is_told &= route.then.is_some();
                 // During the pass the target is compared with itself, not with the last
                 // position.
-                following.aim = aim.filter(|_| following.phase != TrackPhase::Tracking);
+                track.aim = aim.filter(|_| track.phase != TrackPhase::Tracking);
             }
             // It waits at the edge, and goes on once the way is free.
             Err(Refusal::Forbidden { barrier, at }) => {
-                let Some(following) = self.activity.program_mut() else { return };
+                let Some(track) = self.activity.program_mut() else { return };
                 // Looking for a way takes time that other antennas need, too.
-                following.next_look = following.next_look.max(now.steady + BLOCKED);
-                if !std::mem::replace(&mut following.barrier_is_told, true) {
+                track.next_update = track.next_update.max(now.steady + BLOCKED);
+                if !std::mem::replace(&mut track.barrier_is_told, true) {
                     self.tell(Event::NotSent(Refusal::Forbidden { barrier, at }));
                 }
             }
@@ -243,41 +243,41 @@ impl Session {
 
     /// A position was not answered and had no effect. Returns `true` if another may be sent.
     pub(super) fn may_send_another(&mut self) -> bool {
-        let Some(following) = self.activity.last_program_mut() else { return false };
-        following.lost += 1;
-        following.planner.forget_sent();
-        following.lost < MAX_LOST
+        let Some(track) = self.activity.last_program_mut() else { return false };
+        track.lost += 1;
+        track.planner.forget_sent();
+        track.lost < MAX_LOST
     }
 
     /// The unit accepted a position.
     pub(super) fn position_taken(&mut self) {
-        if let Some(following) = self.activity.last_program_mut() {
-            following.lost = 0;
+        if let Some(track) = self.activity.last_program_mut() {
+            track.lost = 0;
         }
     }
 
     /// New bounds of the antenna.
     pub(super) fn keep_within(&mut self, bounds: Bounds) {
         self.gate.keep_within(bounds);
-        if let Some(following) = self.activity.program_mut() {
-            following.planner.keep_within(self.gate.bounds_in(Intent::Track).clone());
+        if let Some(track) = self.activity.program_mut() {
+            track.planner.keep_within(self.gate.bounds_in(Intent::Track).clone());
         }
     }
 
     /// The unit was read anew after it was out of reach for `lost`: commands from the earlier
     /// link may be lost, and somebody may have gone to the antenna.
     pub(super) fn follow_on(&mut self, lost: Duration, at: Pointing, now: Moment) {
-        let Some(following) = self.activity.program_mut() else { return };
-        following.planner.forget_sent();
-        following.sent = None;
+        let Some(track) = self.activity.program_mut() else { return };
+        track.planner.forget_sent();
+        track.sent = None;
         // A comparison that is pending stays pending.
-        let unchecked = following.recheck.take().map(|recheck| recheck.lost);
+        let unchecked = track.recheck.take().map(|recheck| recheck.lost);
         if lost <= self.setup.rule.after && unchecked.is_none() {
             return;
         }
         let lost = lost + unchecked.unwrap_or_default();
         // Where it was sent, or where it was left, within what it coasts.
-        let places = following.commanded.into_iter().chain(self.contact.left_at);
+        let places = track.commanded.into_iter().chain(self.contact.left_at);
         let is_where_it_was = places.into_iter().any(|place| {
             place
                 .separation(at)
@@ -286,20 +286,20 @@ impl Session {
         if self.setup.rule.resume == Resume::Ask || !is_where_it_was {
             return self.await_word(lost, None);
         }
-        if let Some(following) = self.activity.program_mut() {
-            following.recheck = Some(Recheck { since: now.steady, lost });
+        if let Some(track) = self.activity.program_mut() {
+            track.recheck = Some(Recheck { since: now.steady, lost });
         }
     }
 
     fn overrun(&self) -> Angle {
-        let rate_deg_s = self.setup.manner.drives.rates_deg_s.into_iter().fold(0.0, f64::max);
+        let rate_deg_s = self.setup.track_config.drives.rates_deg_s.into_iter().fold(0.0, f64::max);
         Angle::from_degrees(rate_deg_s * self.variant.capabilities.standstill.overrun_s)
     }
 
     pub(super) fn await_word(&mut self, lost: Duration, unlike: Option<Unlike>) {
-        let Some(following) = self.activity.program_mut() else { return };
-        following.awaits_word = true;
-        let name = following.name();
+        let Some(track) = self.activity.program_mut() else { return };
+        track.awaits_operator = true;
+        let name = track.name();
         self.tell(Event::Safety(Safety::AsksToResume { name, lost, unlike }));
     }
 
@@ -319,10 +319,10 @@ impl Session {
 
     /// The operator lets it go on.
     pub(super) fn resume(&mut self) {
-        if let Some(following) = self.activity.program_mut() {
-            following.awaits_word = false;
-            following.recheck = None;
-            following.planner.forget_sent();
+        if let Some(track) = self.activity.program_mut() {
+            track.awaits_operator = false;
+            track.recheck = None;
+            track.planner.forget_sent();
         }
     }
 }

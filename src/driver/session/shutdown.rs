@@ -52,7 +52,7 @@ impl Session {
                     }
                     _ => break,
                 },
-                () = clock.sleep_until(self.next_look(until)) => {
+                () = clock.sleep_until(self.next_update(until)) => {
                     let now = self.now();
                     self.watch_halt(now);
                 }
@@ -66,7 +66,7 @@ impl Session {
     }
 
     /// When there is something to send or to check.
-    fn next_look(&mut self, until: Instant) -> Instant {
+    fn next_update(&mut self, until: Instant) -> Instant {
         let now = self.now();
         let due = self.gate.device().due(now).max(now.steady + MIN_WAIT);
         until.min(self.halt_due().map_or(due, |halt| halt.min(due)))

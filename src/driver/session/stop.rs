@@ -154,7 +154,7 @@ impl Session {
             self.stop_bytes = self.gate.device().halt(Extent::Everything, now);
         }
         if looks_again {
-            self.gate.device().look(now);
+            self.gate.device().ask_position(now);
         }
         if newly_unproved {
             self.tell(Event::StopNotConfirmed);

@@ -151,7 +151,7 @@ fn the_first_rank_is_never_shelved() {
         AlarmKind::Safety(Safety::Forbidden {
             barrier: Barrier::Sun,
             driver: Mover::Somebody,
-            response: Response::Told,
+            response: Response::Reported,
         }),
     ] {
         let mut alarms = Alarms::default();

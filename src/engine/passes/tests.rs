@@ -18,7 +18,7 @@ fn now() -> Timestamp {
 }
 
 /// Lists of a station with one favourite, from a small catalog.
-struct Desk {
+struct Fixture {
     searches: Searches,
     pass_lists: PassLists,
     catalog: Arc<Catalog>,
@@ -29,7 +29,7 @@ struct Desk {
     woken: Receiver<()>,
 }
 
-impl Desk {
+impl Fixture {
     fn new() -> Self {
         let (send, woken) = mpsc::sync_channel(1000);
         let bundled = bundled().unwrap();
@@ -80,132 +80,134 @@ impl Desk {
 
 #[test]
 fn all_satellites_are_listed_and_found_and_the_followed_ones_stay_apart() {
-    let mut desk = Desk::new();
-    desk.finish();
-    let followed = &desk.pass_lists.favourites.passes;
+    let mut fixture = Fixture::new();
+    fixture.finish();
+    let followed = &fixture.pass_lists.favourites.passes;
     assert!(!followed.is_empty() && followed.iter().all(|pass| pass.number() == NOAA_20));
-    let iss: Vec<_> = desk.all().passes.iter().filter(|pass| pass.number() == ISS).collect();
+    let iss: Vec<_> = fixture.all().passes.iter().filter(|pass| pass.number() == ISS).collect();
     assert!(!iss.is_empty());
     let key = iss[0].key();
-    assert_eq!(desk.pass_lists.find(key).map(PredictedPass::key), Some(key));
+    assert_eq!(fixture.pass_lists.find(key).map(PredictedPass::key), Some(key));
     let shifted = (key.0, add_seconds(key.1, 2.0));
-    assert_eq!(desk.pass_lists.find(shifted).map(PredictedPass::key), Some(key));
-    assert!(desk.pass_lists.find((key.0, add_seconds(key.1, 600.0))).is_none());
+    assert_eq!(fixture.pass_lists.find(shifted).map(PredictedPass::key), Some(key));
+    assert!(fixture.pass_lists.find((key.0, add_seconds(key.1, 600.0))).is_none());
     // A pass that never sets is found, whenever it began in an older list.
     let always = (METEOSAT_12, add_seconds(now(), -100_000.0));
-    assert!(desk.pass_lists.find(always).is_some());
-    assert!(desk.pass_lists.satellite(ISS).is_some() && desk.pass_lists.satellite(7).is_none());
+    assert!(fixture.pass_lists.find(always).is_some());
+    assert!(
+        fixture.pass_lists.satellite(ISS).is_some() && fixture.pass_lists.satellite(7).is_none()
+    );
 }
 
 #[test]
 fn what_never_sets_stands_behind_the_passes_of_all_satellites() {
-    let mut desk = Desk::new();
-    desk.finish();
-    let passes = &desk.all().passes;
+    let mut fixture = Fixture::new();
+    fixture.finish();
+    let passes = &fixture.all().passes;
     assert!(passes.len() > 1 && passes[passes.len() - 1].number() == METEOSAT_12);
     assert!(passes[..passes.len() - 1].is_sorted_by_key(|pass| pass.pass.aos.time));
 }
 
 #[test]
 fn another_floor_span_or_site_searches_again_and_keeps_what_is_prepared() {
-    let mut desk = Desk::new();
-    desk.finish();
-    let prepared = Arc::clone(&desk.all().satellites[0]);
-    let changes: [fn(&mut Desk); 3] = [
-        |desk| desk.station.elevation_floor_deg = 30.0,
-        |desk| desk.choice.set_span_h(48),
-        |desk| desk.station.site = Site::new(60.0, 10.0, 0.0).unwrap(),
+    let mut fixture = Fixture::new();
+    fixture.finish();
+    let prepared = Arc::clone(&fixture.all().satellites[0]);
+    let changes: [fn(&mut Fixture); 3] = [
+        |fixture| fixture.station.elevation_floor_deg = 30.0,
+        |fixture| fixture.choice.set_span_h(48),
+        |fixture| fixture.station.site = Site::new(60.0, 10.0, 0.0).unwrap(),
     ];
     for change in changes {
-        let (revision, before) = (desk.all().revision, desk.all().passes.len());
-        change(&mut desk);
-        desk.refresh();
-        assert!(matches!(desk.all().work, Work::UnderWay { .. }));
-        assert_eq!(desk.all().passes.len(), before, "the old list stays");
-        desk.finish();
-        assert!(desk.all().revision > revision);
-        assert!(Arc::ptr_eq(&prepared, &desk.all().satellites[0]));
+        let (revision, before) = (fixture.all().revision, fixture.all().passes.len());
+        change(&mut fixture);
+        fixture.refresh();
+        assert!(matches!(fixture.all().work, Work::UnderWay { .. }));
+        assert_eq!(fixture.all().passes.len(), before, "the old list stays");
+        fixture.finish();
+        assert!(fixture.all().revision > revision);
+        assert!(Arc::ptr_eq(&prepared, &fixture.all().satellites[0]));
     }
-    assert!(desk.all().passes.iter().all(|pass| pass.pass.max_elevation().degrees() >= 30.0));
+    assert!(fixture.all().passes.iter().all(|pass| pass.pass.max_elevation().degrees() >= 30.0));
 }
 
 #[test]
 fn new_elements_are_prepared_and_searched() {
-    let mut desk = Desk::new();
-    desk.finish();
-    let prepared = Arc::clone(&desk.all().satellites[0]);
-    desk.catalog = Arc::new(Catalog::clone(&desk.catalog));
-    desk.finish();
-    assert!(!Arc::ptr_eq(&prepared, &desk.all().satellites[0]));
+    let mut fixture = Fixture::new();
+    fixture.finish();
+    let prepared = Arc::clone(&fixture.all().satellites[0]);
+    fixture.catalog = Arc::new(Catalog::clone(&fixture.catalog));
+    fixture.finish();
+    assert!(!Arc::ptr_eq(&prepared, &fixture.all().satellites[0]));
 }
 
 #[test]
 fn a_cancelled_search_stays_cancelled_until_something_else_is_asked_for() {
-    let mut desk = Desk::new();
-    desk.finish();
-    let before = desk.all().passes.len();
+    let mut fixture = Fixture::new();
+    fixture.finish();
+    let before = fixture.all().passes.len();
     for resume in [true, false] {
-        desk.choice.set_span_h(if resume { 12 } else { 24 });
-        desk.refresh();
-        desk.searches.of_mut(Scope::All).cancel();
-        desk.now = add_seconds(desk.now, 1.0);
-        desk.refresh();
-        assert_eq!(desk.all().work, Work::Cancelled);
-        assert!(desk.all().passes.len() >= before.min(1), "the old list stays");
+        fixture.choice.set_span_h(if resume { 12 } else { 24 });
+        fixture.refresh();
+        fixture.searches.of_mut(Scope::All).cancel();
+        fixture.now = add_seconds(fixture.now, 1.0);
+        fixture.refresh();
+        assert_eq!(fixture.all().work, Work::Cancelled);
+        assert!(fixture.all().passes.len() >= before.min(1), "the old list stays");
         if resume {
-            desk.searches.of_mut(Scope::All).resume();
+            fixture.searches.of_mut(Scope::All).resume();
         } else {
-            desk.station.elevation_floor_deg = 20.0;
+            fixture.station.elevation_floor_deg = 20.0;
         }
-        desk.refresh();
-        assert!(matches!(desk.all().work, Work::UnderWay { .. }), "{resume}");
-        desk.finish();
-        assert_eq!(desk.all().work, Work::Nothing);
+        fixture.refresh();
+        assert!(matches!(fixture.all().work, Work::UnderWay { .. }), "{resume}");
+        fixture.finish();
+        assert_eq!(fixture.all().work, Work::Nothing);
     }
 }
 
 #[test]
 fn what_was_cancelled_is_forgotten_where_the_list_is_right_again() {
-    let mut desk = Desk::new();
-    desk.finish();
-    desk.choice.set_span_h(24);
-    desk.refresh();
-    desk.searches.of_mut(Scope::All).cancel();
-    desk.choice.set_span_h(6);
-    desk.refresh();
-    assert_eq!(desk.all().work, Work::Nothing);
+    let mut fixture = Fixture::new();
+    fixture.finish();
+    fixture.choice.set_span_h(24);
+    fixture.refresh();
+    fixture.searches.of_mut(Scope::All).cancel();
+    fixture.choice.set_span_h(6);
+    fixture.refresh();
+    assert_eq!(fixture.all().work, Work::Nothing);
 }
 
 #[test]
 fn what_is_over_leaves_the_list_and_an_old_list_is_made_anew() {
-    let mut desk = Desk::new();
-    desk.choice.scope = Scope::Favourites;
-    desk.finish();
-    let first = desk.pass_lists.favourites.passes[0].clone();
-    desk.now = first.pass.los.time.max(add_seconds(now(), 601.0));
-    desk.refresh();
-    let favourites = &desk.pass_lists.favourites;
-    assert!(favourites.upcoming(desk.now).iter().all(|pass| pass.key() != first.key()));
+    let mut fixture = Fixture::new();
+    fixture.choice.scope = Scope::Favourites;
+    fixture.finish();
+    let first = fixture.pass_lists.favourites.passes[0].clone();
+    fixture.now = first.pass.los.time.max(add_seconds(now(), 601.0));
+    fixture.refresh();
+    let favourites = &fixture.pass_lists.favourites;
+    assert!(favourites.upcoming(fixture.now).iter().all(|pass| pass.key() != first.key()));
     assert!(matches!(favourites.work, Work::UnderWay { .. }), "it is old");
 }
 
 #[test]
 fn the_list_of_another_place_is_not_kept_behind_the_favourites() {
-    let mut desk = Desk::new();
-    desk.finish();
-    desk.choice.scope = Scope::Favourites;
-    desk.finish();
-    assert!(!desk.all().passes.is_empty(), "what was selected in it stays");
-    desk.station.site = Site::new(60.0, 10.0, 0.0).unwrap();
-    desk.finish();
-    assert!(desk.all().passes.is_empty());
+    let mut fixture = Fixture::new();
+    fixture.finish();
+    fixture.choice.scope = Scope::Favourites;
+    fixture.finish();
+    assert!(!fixture.all().passes.is_empty(), "what was selected in it stays");
+    fixture.station.site = Site::new(60.0, 10.0, 0.0).unwrap();
+    fixture.finish();
+    assert!(fixture.all().passes.is_empty());
 }
 
 #[test]
 fn a_shorter_span_shows_the_beginning_of_the_list() {
-    let mut desk = Desk::new();
-    desk.finish();
-    let favourites = &desk.pass_lists.favourites;
+    let mut fixture = Fixture::new();
+    fixture.finish();
+    let favourites = &fixture.pass_lists.favourites;
     let (short, long) = (favourites.within(now(), 6), favourites.within(now(), 48));
     assert!(short.len() < long.len() && long.len() == favourites.passes.len());
     let end = add_seconds(now(), 6.0 * 3600.0);

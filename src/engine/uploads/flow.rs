@@ -1,5 +1,5 @@
 //! State machine of an order, from the operator's request to the unit's report. It has no
-//! threads and no clock; the desk carries out the steps that it returns.
+//! threads and no clock; the runner carries out the steps that it returns.
 
 use jiff::Timestamp;
 

@@ -1,6 +1,6 @@
 //! Connects uploads with the sessions of the antennas.
 
-use super::{Ask, Told, UnitNow};
+use super::{Ask, SessionRequest, UnitNow};
 use crate::{
     driver::Command,
     engine::{Antenna, Engine},
@@ -11,15 +11,15 @@ impl Engine {
         let (antennas, now, steady) = (&self.antennas, self.now, self.steady);
         let find = |name: &str| antennas.iter().find(|one| one.shown.config.name == name);
         let unit_of = |name: &str| UnitNow::of(find(name).map(|one| &one.shown), now, steady);
-        let told = self.upload_desk.ask(ask, unit_of, &mut self.uploads);
-        self.tell_unit(told);
+        let request = self.upload_runner.ask(ask, unit_of, &mut self.uploads);
+        self.tell_unit(request);
     }
 
     pub(in crate::engine) fn poll_uploads(&mut self) {
         let antenna = self.upload_antenna().map(|antenna| &antenna.shown);
         let unit = UnitNow::of(antenna, self.now, self.steady);
-        let told = self.upload_desk.poll(&unit, self.steady, &mut self.uploads);
-        self.tell_unit(told);
+        let request = self.upload_runner.poll(&unit, self.steady, &mut self.uploads);
+        self.tell_unit(request);
     }
 
     fn upload_antenna(&self) -> Option<&Antenna> {
@@ -27,21 +27,21 @@ impl Engine {
         self.antennas.iter().find(|antenna| antenna.shown.config.name == *name)
     }
 
-    fn tell_unit(&mut self, told: Option<Told>) {
-        let Some(told) = told else { return };
+    fn tell_unit(&mut self, request: Option<SessionRequest>) {
+        let Some(request) = request else { return };
         let Some(antenna) = self.upload_antenna() else {
             let text = "the antenna is not in the station any more".to_owned();
-            return self.upload_desk.not_selected(text, &mut self.uploads);
+            return self.upload_runner.not_selected(text, &mut self.uploads);
         };
-        let commands = match told {
-            Told::Rest => vec![Command::Standby, Command::AutoTrack(false)],
-            Told::Use(selection) => vec![selection.command()],
+        let commands = match request {
+            SessionRequest::Rest => vec![Command::Standby, Command::AutoTrack(false)],
+            SessionRequest::Use(selection) => vec![selection.command()],
         };
         let number = self.asked.unwrap_or_else(|| self.driver.orders().next());
         let mut commands = commands.into_iter();
         if commands.any(|command| antenna.handle.send_as(command, number).is_err()) {
             let text = "the session of the antenna is too busy to take it".to_owned();
-            self.upload_desk.not_selected(text, &mut self.uploads);
+            self.upload_runner.not_selected(text, &mut self.uploads);
         }
     }
 }

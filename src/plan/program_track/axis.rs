@@ -27,7 +27,7 @@ impl AxisNow {
 
 /// The last command of an axis.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub(super) struct Told {
+pub(super) struct LastCommand {
     /// Degrees; `None` if unknown.
     to_deg: Option<f64>,
     /// Where the axis stood before the command, degrees.
@@ -36,7 +36,7 @@ pub(super) struct Told {
 
 /// Where an axis should go.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Wish {
+pub(super) struct Demand {
     position_deg: f64,
     /// Without a command, the error would exceed the allowed error.
     pub(super) is_due: bool,
@@ -48,8 +48,8 @@ pub(super) struct Axis {
     /// 0 or 1.
     index: usize,
     pub(super) drives: Drives,
-    following: TrackSettings,
-    pub(super) told: Told,
+    settings: TrackSettings,
+    pub(super) last_command: LastCommand,
     /// The longest distance for which the axis did not set out, degrees.
     ignored_deg: f64,
     /// How far the axis went for the shortest distance for which it sets out, degrees.
@@ -58,12 +58,12 @@ pub(super) struct Axis {
 }
 
 impl Axis {
-    pub(super) fn new(index: usize, drives: Drives, following: TrackSettings) -> Self {
+    pub(super) fn new(index: usize, drives: Drives, settings: TrackSettings) -> Self {
         Self {
             index,
             drives,
-            following,
-            told: Told::default(),
+            settings,
+            last_command: LastCommand::default(),
             ignored_deg: 0.0,
             min_run_deg: None,
             slew_rate: SlewRate::default(),
@@ -73,14 +73,16 @@ impl Axis {
     /// Takes a measured position. Returns the full rate of the axis, degrees per second, if the
     /// position ends a long slew.
     pub(super) fn watch(&mut self, at: Instant, position_deg: Option<f64>) -> Option<f64> {
-        self.slew_rate.take(at, position_deg, self.told.to_deg)
+        self.slew_rate.take(at, position_deg, self.last_command.to_deg)
     }
 
     /// Learns the shortest distance for which the axis sets out: a drive that stops some degrees
     /// early and lets the axis coast does not start at all for a distance as short as that.
     pub(super) fn learn(&mut self, now: AxisNow) {
         let Some(at_deg) = now.rest_deg() else { return };
-        let Some((from_deg, to_deg)) = self.told.from_deg.take().zip(self.told.to_deg) else {
+        let Some((from_deg, to_deg)) =
+            self.last_command.from_deg.take().zip(self.last_command.to_deg)
+        else {
             return;
         };
         let way_deg = (to_deg - from_deg).abs();
@@ -91,15 +93,15 @@ impl Axis {
             }
         } else if way_deg <= MAX_IGNORED_DEG {
             self.ignored_deg = self.ignored_deg.max(way_deg);
-            self.told.to_deg = Some(from_deg);
+            self.last_command.to_deg = Some(from_deg);
             self.min_run_deg = None;
         }
     }
 
     /// Where the axis should go, and whether it needs a command now.
-    pub(super) fn wish(&self, path: &Path, now_s: f64, now: AxisNow) -> Wish {
-        let period_s = self.following.period().as_secs_f64();
-        let begins_s = now_s + self.following.latency_s;
+    pub(super) fn demand(&self, path: &Path, now_s: f64, now: AxisNow) -> Demand {
+        let period_s = self.settings.period().as_secs_f64();
+        let begins_s = now_s + self.settings.latency_s;
         let lead_deg = self.band_deg() - self.half_step_deg();
         let mut way_s = 0.0_f64;
         let mut position_deg = 0.0;
@@ -121,20 +123,22 @@ impl Axis {
         }
         let (least, most) = path.span_deg(self.index, from_s, from_s + period_s);
         // A rest position near the commanded one is within the rounding of the sensor.
-        let (rest_deg, told_deg) = (now.rest_deg(), self.told.to_deg);
-        let rounding_deg = (self.following.dead_band_deg / 2.0).max(self.half_step_deg());
+        let (rest_deg, commanded_deg) = (now.rest_deg(), self.last_command.to_deg);
+        let rounding_deg = (self.settings.dead_band_deg / 2.0).max(self.half_step_deg());
         let elsewhere = |at_deg: &f64| {
-            told_deg.is_none_or(|told_deg| (at_deg - told_deg).abs() > rounding_deg + ROUNDING_DEG)
+            commanded_deg.is_none_or(|commanded_deg| {
+                (at_deg - commanded_deg).abs() > rounding_deg + ROUNDING_DEG
+            })
         };
-        let stays_deg = rest_deg.filter(elsewhere).or(told_deg);
+        let stays_deg = rest_deg.filter(elsewhere).or(commanded_deg);
         let is_off =
             stays_deg.is_none_or(|at_deg| self.is_off(at_deg, least) || self.is_off(at_deg, most));
         // The same command is not repeated to an axis that rests elsewhere.
-        let is_new = told_deg.is_none_or(|told_deg| {
-            let change_deg = (position_deg - told_deg).abs();
+        let is_new = commanded_deg.is_none_or(|commanded_deg| {
+            let change_deg = (position_deg - commanded_deg).abs();
             change_deg > ROUNDING_DEG && change_deg > lead_deg - ROUNDING_DEG
         });
-        Wish { position_deg, is_due: is_off && is_new }
+        Demand { position_deg, is_due: is_off && is_new }
     }
 
     fn is_off(&self, a_deg: f64, b_deg: f64) -> bool {
@@ -143,25 +147,25 @@ impl Axis {
 
     /// The command for this axis when at least one axis needs one; `None` leaves the axis
     /// alone.
-    pub(super) fn command(&self, wish: Wish, now: AxisNow) -> Option<f64> {
-        if wish.is_due || !self.drives.takes_single_axes() {
-            return Some(wish.position_deg);
+    pub(super) fn command(&self, demand: Demand, now: AxisNow) -> Option<f64> {
+        if demand.is_due || !self.drives.takes_single_axes() {
+            return Some(demand.position_deg);
         }
         // An axis at its position is spared; one that is moving continues.
-        if now.stands { None } else { self.told.to_deg.or(Some(wish.position_deg)) }
+        if now.stands { None } else { self.last_command.to_deg.or(Some(demand.position_deg)) }
     }
 
     /// The state of the axis once it is commanded to `position_deg`.
-    pub(super) fn told(&self, position_deg: Option<f64>, now: AxisNow) -> Told {
-        let told = |to_deg| Told { to_deg: Some(to_deg), from_deg: now.rest_deg() };
-        position_deg.map_or(self.told, told)
+    pub(super) fn commanded(&self, position_deg: Option<f64>, now: AxisNow) -> LastCommand {
+        let told = |to_deg| LastCommand { to_deg: Some(to_deg), from_deg: now.rest_deg() };
+        position_deg.map_or(self.last_command, told)
     }
 
     /// The error at which the axis is commanded again, degrees. The command leads the target by as
     /// much, so that the error is the same on both sides.
     fn band_deg(&self) -> f64 {
         let run_deg = self.min_run_deg.unwrap_or_else(|| self.min_way_deg());
-        self.following.dead_band_deg.max(run_deg / 2.0).max(self.half_step_deg())
+        self.settings.dead_band_deg.max(run_deg / 2.0).max(self.half_step_deg())
     }
 
     /// The shortest distance that a command may ask for.

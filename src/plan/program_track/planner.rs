@@ -4,7 +4,7 @@ use jiff::Timestamp;
 
 use super::{
     ProgramTrack,
-    axis::{Axis, AxisNow, Told},
+    axis::{Axis, AxisNow, LastCommand},
     drives::{Drives, SetPoint},
     path::Path,
     target::Course,
@@ -32,7 +32,7 @@ const MARGIN_S: f64 = 60.0;
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Next {
     pub set_point: SetPoint,
-    told: [Told; 2],
+    last_command: [LastCommand; 2],
 }
 
 /// Plans the commands for one target.
@@ -41,7 +41,7 @@ pub struct Planner {
     follow: ProgramTrack,
     course: Course,
     drives: Drives,
-    following: TrackSettings,
+    settings: TrackSettings,
     bounds: Bounds,
     /// The path, and the end of its pass.
     path: Option<(Path, Timestamp)>,
@@ -55,12 +55,12 @@ impl Planner {
     pub fn new(
         follow: ProgramTrack,
         drives: Drives,
-        following: TrackSettings,
+        settings: TrackSettings,
         bounds: Bounds,
     ) -> Result<Self, PropagationError> {
         let course = Course::new(&follow.target, follow.site)?;
-        let axes = [0, 1].map(|index| Axis::new(index, drives, following));
-        Ok(Self { follow, course, drives, following, bounds, path: None, is_stale: false, axes })
+        let axes = [0, 1].map(|index| Axis::new(index, drives, settings));
+        Ok(Self { follow, course, drives, settings, bounds, path: None, is_stale: false, axes })
     }
 
     pub fn keep_within(&mut self, bounds: Bounds) {
@@ -82,7 +82,7 @@ impl Planner {
 
     /// The command at `now` with which the antenna points right at the next look; `None` while the
     /// last command or the present position is good enough. Fails once the target has decayed.
-    pub fn look(
+    pub fn update(
         &mut self,
         now: Timestamp,
         axes: [AxisNow; 2],
@@ -98,17 +98,20 @@ impl Planner {
         let [first, second] = &mut self.axes;
         first.learn(first_now);
         second.learn(second_now);
-        let first_wish = first.wish(path, now_s, first_now);
-        let second_wish = second.wish(path, now_s, second_now);
-        let second_is_due = second_wish.is_due && self.drives.has_elevation;
-        if !first_wish.is_due && !second_is_due {
+        let first_demand = first.demand(path, now_s, first_now);
+        let second_demand = second.demand(path, now_s, second_now);
+        let second_is_due = second_demand.is_due && self.drives.has_elevation;
+        if !first_demand.is_due && !second_is_due {
             return Ok(None);
         }
-        let first_deg = first.command(first_wish, first_now);
-        let second_deg = second.command(second_wish, second_now);
+        let first_deg = first.command(first_demand, first_now);
+        let second_deg = second.command(second_demand, second_now);
         Ok(Some(Next {
             set_point: self.drives.set_point([first_deg, second_deg]),
-            told: [first.told(first_deg, first_now), second.told(second_deg, second_now)],
+            last_command: [
+                first.commanded(first_deg, first_now),
+                second.commanded(second_deg, second_now),
+            ],
         }))
     }
 
@@ -134,15 +137,15 @@ impl Planner {
 
     /// Notes that `next` was sent.
     pub fn sent(&mut self, next: Next) {
-        for (axis, told) in self.axes.iter_mut().zip(next.told) {
-            axis.told = told;
+        for (axis, told) in self.axes.iter_mut().zip(next.last_command) {
+            axis.last_command = told;
         }
     }
 
     /// Forgets the last command, since it is unknown whether it still holds.
     pub fn forget_sent(&mut self) {
         for axis in &mut self.axes {
-            axis.told = Told::default();
+            axis.last_command = LastCommand::default();
         }
     }
 
@@ -154,7 +157,7 @@ impl Planner {
     /// Returns `true` if the path extends far enough ahead.
     fn reaches_on(&self, now: Timestamp) -> bool {
         let Some((path, ends)) = &self.path else { return false };
-        let ahead_s = self.following.latency_s + self.following.period().as_secs_f64() + MARGIN_S;
+        let ahead_s = self.settings.latency_s + self.settings.period().as_secs_f64() + MARGIN_S;
         let is_short = path.to() < *ends && seconds_between(now, path.to()) < ahead_s;
         now < *ends && !is_short
     }

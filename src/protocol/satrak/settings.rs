@@ -116,7 +116,7 @@ impl Settings {
     }
 }
 
-/// A wish to change settings; `None` keeps a value. Meanings as in [`Settings`].
+/// A change to change settings; `None` keeps a value. Meanings as in [`Settings`].
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct SettingsChange {
     pub rtc_from_gps: Option<bool>,
@@ -142,23 +142,23 @@ const MAX_OFFSET_DEG: f64 = 10.0;
 const MAX_NORTH_OFFSET_DEG: f64 = 360.0;
 
 impl SettingsRequest {
-    /// Checks a wish against Azel's own ranges: angle offsets within 10 degrees, times within
+    /// Checks a change against Azel's own ranges: angle offsets within 10 degrees, times within
     /// an hour, elevations 0 to 90, north offset within a turn; rounds angles to a thousandth.
-    /// A wish that changes nothing is refused.
-    pub fn new(wish: &SettingsChange) -> Result<Self, ValueError> {
-        if *wish == SettingsChange::default() {
+    /// A change that changes nothing is refused.
+    pub fn new(change: &SettingsChange) -> Result<Self, ValueError> {
+        if *change == SettingsChange::default() {
             return Err(ValueError::NoChange);
         }
-        if let Some(ms) = wish.time_offset_ms {
+        if let Some(ms) = change.time_offset_ms {
             checked("time offset in ms", ms as f64, -MAX_TIME_MS, MAX_TIME_MS)?;
         }
-        if let Some(ms) = wish.lead_ms {
+        if let Some(ms) = change.lead_ms {
             checked("lead time in ms", ms as f64, 0.0, MAX_TIME_MS)?;
         }
         for (what, unknown) in [
-            ("position base", wish.position_base.map(|base| (base.code(), 1))),
-            ("power amplifier", wish.sspa.map(|mode| (mode.code(), 2))),
-            ("power amplifier rule", wish.sspa_auto.map(|rule| (rule.code(), 3))),
+            ("position base", change.position_base.map(|base| (base.code(), 1))),
+            ("power amplifier", change.sspa.map(|mode| (mode.code(), 2))),
+            ("power amplifier rule", change.sspa_auto.map(|rule| (rule.code(), 3))),
         ] {
             if let Some((code, last)) = unknown
                 && !(0..=last).contains(&code)
@@ -172,22 +172,22 @@ impl SettingsRequest {
         let offset = MAX_OFFSET_DEG;
         let north = MAX_NORTH_OFFSET_DEG;
         Ok(Self(SettingsChange {
-            az_offset_deg: angle("azimuth offset", wish.az_offset_deg, -offset, offset)?,
-            el_offset_deg: angle("elevation offset", wish.el_offset_deg, -offset, offset)?,
+            az_offset_deg: angle("azimuth offset", change.az_offset_deg, -offset, offset)?,
+            el_offset_deg: angle("elevation offset", change.el_offset_deg, -offset, offset)?,
             minimum_elevation_deg: angle(
                 "minimum elevation",
-                wish.minimum_elevation_deg,
+                change.minimum_elevation_deg,
                 0.0,
                 90.0,
             )?,
-            north_offset_deg: angle("north offset", wish.north_offset_deg, -north, north)?,
+            north_offset_deg: angle("north offset", change.north_offset_deg, -north, north)?,
             elevation_threshold_deg: angle(
                 "elevation threshold",
-                wish.elevation_threshold_deg,
+                change.elevation_threshold_deg,
                 0.0,
                 90.0,
             )?,
-            ..*wish
+            ..*change
         }))
     }
 
@@ -228,8 +228,8 @@ mod tests {
         let payload = "SETTINGS?,1,100,1.0,2.0,60000,1,3.0,6.0,1,1,2,2.5";
         let now = Settings::read(Fields::of(&Frame::from_payload(payload))).unwrap();
         assert_eq!((now.tle_mode, now.elevation_threshold_deg), (TleMode::Ftp, 2.5));
-        let wish = SettingsChange { elevation_threshold_deg: Some(4.0), ..Default::default() };
-        let request = SettingsRequest::new(&wish).unwrap();
+        let change = SettingsChange { elevation_threshold_deg: Some(4.0), ..Default::default() };
+        let request = SettingsRequest::new(&change).unwrap();
         assert_eq!(request.values().last().map(String::as_str), Some("4.0"));
         assert_eq!(request.values().len(), 11);
         let then = now.after(request.change());
@@ -246,8 +246,8 @@ mod tests {
             SettingsChange { az_offset_deg: Some(f64::NAN), ..Default::default() },
             SettingsChange { minimum_elevation_deg: Some(-1.0), ..Default::default() },
         ];
-        for wish in refused {
-            assert!(SettingsRequest::new(&wish).is_err(), "{wish:?}");
+        for change in refused {
+            assert!(SettingsRequest::new(&change).is_err(), "{change:?}");
         }
     }
 }

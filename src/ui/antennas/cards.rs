@@ -27,7 +27,7 @@ const PADDING: i8 = 12;
 const WIDEST: f32 = 760.0;
 
 /// Actions of a card other than editing its fields.
-pub(super) struct Desk<'a> {
+pub(super) struct CardEffects<'a> {
     pub(super) commands: &'a mut Vec<UiCommand>,
     /// Set to open the dialog that unlocks the service functions.
     pub(super) unlock: &'a mut bool,
@@ -39,7 +39,7 @@ pub(super) fn show(
     unit: &Unit<'_>,
     form: &mut Form,
     scroll_to: &mut Option<Section>,
-    desk: &mut Desk<'_>,
+    effects: &mut CardEffects<'_>,
 ) {
     let room = ui.available_width();
     let all = Section::of(&unit.antenna.config.connection);
@@ -49,7 +49,7 @@ pub(super) fn show(
     let least = row::MIN_WIDTH + 2.0 * f32::from(PADDING) + 2.0;
     let half = (room - GAP) / 2.0;
     if half < least {
-        column(ui, room.min(WIDEST), unit, form, &all, (&mut *scroll_to, desk));
+        column(ui, room.min(WIDEST), unit, form, &all, (&mut *scroll_to, effects));
         return;
     }
     let (left, right) = columns(&all);
@@ -59,7 +59,7 @@ pub(super) fn show(
             let size = vec2(half.min(WIDEST), 0.0);
             ui.allocate_ui_with_layout(size, Layout::top_down(Align::Min), |ui| {
                 ui.spacing_mut().item_spacing.x = 8.0;
-                column(ui, size.x, unit, form, sections, (&mut *scroll_to, &mut *desk));
+                column(ui, size.x, unit, form, sections, (&mut *scroll_to, &mut *effects));
             });
         }
     });
@@ -82,11 +82,11 @@ fn column(
     unit: &Unit<'_>,
     form: &mut Form,
     sections: &[Section],
-    (scroll_to, desk): (&mut Option<Section>, &mut Desk<'_>),
+    (scroll_to, effects): (&mut Option<Section>, &mut CardEffects<'_>),
 ) {
     ui.spacing_mut().item_spacing.y = 0.0;
     for section in sections {
-        let card = card(ui, width, |ui| fill(ui, unit, form, section, desk));
+        let card = card(ui, width, |ui| fill(ui, unit, form, section, effects));
         if *scroll_to == Some(*section) {
             ui.scroll_to_rect_animation(card, Some(Align::TOP), ScrollAnimation::none());
             *scroll_to = None;
@@ -109,13 +109,19 @@ fn card(ui: &mut Ui, width: f32, content: impl FnOnce(&mut Ui)) -> egui::Rect {
     shown.response.rect
 }
 
-fn fill(ui: &mut Ui, unit: &Unit<'_>, form: &mut Form, section: &Section, desk: &mut Desk<'_>) {
+fn fill(
+    ui: &mut Ui,
+    unit: &Unit<'_>,
+    form: &mut Form,
+    section: &Section,
+    effects: &mut CardEffects<'_>,
+) {
     // There may be several service cards.
     ui.push_id(section.title, |ui| {
         if !section.is_service {
             title(ui, section.title);
         }
-        (section.content)(ui, unit, form, section, desk);
+        (section.content)(ui, unit, form, section, effects);
     });
 }
 

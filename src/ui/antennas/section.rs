@@ -3,7 +3,7 @@
 use egui::Ui;
 
 use super::{
-    cards::{Desk, fields, service},
+    cards::{CardEffects, fields, service},
     form::Form,
     makes, row,
     unit::Unit,
@@ -11,7 +11,7 @@ use super::{
 use crate::{device::settings::Group, station::Connection};
 
 /// Draws the content of a card.
-pub(super) type Content = fn(&mut Ui, &Unit<'_>, &mut Form, &Section, &mut Desk<'_>);
+pub(super) type Content = fn(&mut Ui, &Unit<'_>, &mut Form, &Section, &mut CardEffects<'_>);
 
 /// A card of the view.
 #[derive(Debug, Clone, Copy)]
@@ -53,7 +53,13 @@ impl Section {
     }
 }
 
-fn all_fields(ui: &mut Ui, unit: &Unit<'_>, form: &mut Form, section: &Section, _: &mut Desk<'_>) {
+fn all_fields(
+    ui: &mut Ui,
+    unit: &Unit<'_>,
+    form: &mut Form,
+    section: &Section,
+    _: &mut CardEffects<'_>,
+) {
     row::head(ui);
     for key in section.keys {
         fields(ui, unit, form, key, |_| true);

@@ -2,7 +2,7 @@
 
 use egui::{FocusDirection, Ui};
 
-use super::Desk;
+use super::KeyTargets;
 use crate::{
     driver::{self, Intent},
     engine::{self, antenna::AntennaModel},
@@ -59,7 +59,7 @@ impl Act {
         self,
         ui: &Ui,
         model: &Model,
-        desk: &mut Desk<'_>,
+        targets: &mut KeyTargets<'_>,
         commands: &mut Vec<UiCommand>,
     ) {
         match self {
@@ -68,59 +68,59 @@ impl Act {
             Self::SelectAntenna(index) => commands.push(UiCommand::SelectAntenna(index)),
             Self::MoveInList(down) => {
                 ui.memory_mut(|memory| memory.move_focus(FocusDirection::None));
-                commands.extend(desk.operate.neighbour(model, down).map(UiCommand::SelectPass));
+                commands.extend(targets.operate.neighbour(model, down).map(UiCommand::SelectPass));
             }
             Self::NextPass => {
                 commands.extend(model.next_pass().map(|next| UiCommand::SelectPass(next.key())));
             }
-            Self::Drawer => desk.operate.drawer_open = !desk.operate.drawer_open,
-            Self::Track => *desk.question = ask_to_track(model, commands),
-            Self::GoTo => go_to(model, desk, commands),
-            Self::Manual => manual(model, desk, commands),
+            Self::Drawer => targets.operate.drawer_open = !targets.operate.drawer_open,
+            Self::Track => *targets.question = ask_to_track(model, commands),
+            Self::GoTo => go_to(model, targets, commands),
+            Self::Manual => manual(model, targets, commands),
             Self::Rate(by) => {
                 let manual = |of: &&AntennaModel| of.snapshot.intent == Intent::Manual;
                 if let Some(antenna) = model.antenna().filter(manual) {
                     let speeds = antenna.variant().capabilities.jog;
                     let max_deg_s = antenna.config.limits.maximum_rate_deg_s;
-                    desk.operate.card.drive.change_rate(by, speeds, max_deg_s);
+                    targets.operate.card.drive.change_rate(by, speeds, max_deg_s);
                 }
             }
-            Self::Zoom(closer) => desk.operate.zoom.change(closer),
-            Self::UsualZoom => desk.operate.zoom.reset(),
+            Self::Zoom(closer) => targets.operate.zoom.change(closer),
+            Self::UsualZoom => targets.operate.zoom.reset(),
             Self::Nearest(towards) => {
                 ui.memory_mut(|memory| memory.move_focus(FocusDirection::None));
-                let nearest = desk.map.nearest(model, towards);
+                let nearest = targets.map.nearest(model, towards);
                 commands.extend(nearest.map(UiCommand::SelectSatellite));
             }
-            Self::MapZoom(is_closer) => desk.map.change_zoom(is_closer),
-            Self::WholeMap => desk.map.reset_zoom(),
-            Self::MapLayers => desk.map.toggle_layers(),
+            Self::MapZoom(is_closer) => targets.map.change_zoom(is_closer),
+            Self::WholeMap => targets.map.reset_zoom(),
+            Self::MapLayers => targets.map.toggle_layers(),
             Self::Search => match model.view {
-                View::Elements => desk.elements.focus_search(),
-                View::Console => desk.console.focus_filter(),
-                _ => desk.operate.filter_list(),
+                View::Elements => targets.elements.focus_search(),
+                View::Console => targets.console.focus_filter(),
+                _ => targets.operate.filter_list(),
             },
             Self::Acknowledge => {
                 let seen = model.alarms.newest_unseen().map(engine::Command::AcknowledgeAlarm);
                 commands.extend(seen.map(UiCommand::Station));
             }
             Self::NextTheme => commands.push(UiCommand::SetTheme(theme::name(ui).next())),
-            Self::List => *desk.list_open = true,
+            Self::List => *targets.list_open = true,
         }
     }
 }
 
-fn manual(model: &Model, desk: &mut Desk<'_>, commands: &mut Vec<UiCommand>) {
+fn manual(model: &Model, targets: &mut KeyTargets<'_>, commands: &mut Vec<UiCommand>) {
     let Some(antenna) = model.antenna() else { return };
     commands.push(UiCommand::antenna(antenna.id(), driver::Command::Manual));
     if antenna.tracked_name().is_none() {
-        desk.operate.card.drive.focus_pad();
+        targets.operate.card.drive.focus_pad();
     }
 }
 
 /// Focuses the go-to fields. They are open in Position only, which is selected first if
 /// another mode is on.
-fn go_to(model: &Model, desk: &mut Desk<'_>, commands: &mut Vec<UiCommand>) {
+fn go_to(model: &Model, targets: &mut KeyTargets<'_>, commands: &mut Vec<UiCommand>) {
     let Some(antenna) = model.antenna().filter(|of| of.snapshot.link.is_open()) else { return };
     let is_tracked = antenna.tracked_name().is_some();
     let intent = antenna.snapshot.intent;
@@ -128,7 +128,7 @@ fn go_to(model: &Model, desk: &mut Desk<'_>, commands: &mut Vec<UiCommand>) {
         commands.push(UiCommand::antenna(antenna.id(), driver::Command::Hold));
     }
     if !is_tracked {
-        desk.operate.card.drive.go_to.focus();
+        targets.operate.card.drive.go_to.focus();
     }
 }
 

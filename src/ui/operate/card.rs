@@ -6,7 +6,7 @@ mod locks;
 
 use egui::{Align2, Rect, Ui};
 
-use self::{asked::Desk, locks::Locks};
+use self::{asked::CardHandler, locks::Locks};
 use super::antenna_card::{
     self, CardAction, CardModel, CardState, DriveModel, FaultsModel, FollowModel, HeaderModel,
     LinkStatus, LockOutModel, MoreModel, Offer, OtherAntenna, TrackModel, WayOutModel,
@@ -138,12 +138,12 @@ pub(super) fn show(
                 .map(|(words, is_allowed)| WayOutModel { words, is_allowed: *is_allowed }),
             others: &others,
         };
-        let mut desk = Desk { model, antenna, question, commands };
+        let mut handler = CardHandler { model, antenna, question, commands };
         for action in antenna_card::show(ui, rect, &card, state) {
             if action == CardAction::Maintenance {
                 state.maintenance = Some(MaintenanceDialog::default());
             } else {
-                desk.take(action);
+                handler.take(action);
             }
         }
     });

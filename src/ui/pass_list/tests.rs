@@ -22,7 +22,7 @@ fn now() -> Timestamp {
 }
 
 /// State of the test window, kept from frame to frame.
-struct Desk {
+struct Fixture {
     rows: usize,
     /// Number of passes that are over and gone.
     gone: usize,
@@ -39,7 +39,7 @@ struct Desk {
     highest: Rc<Cell<usize>>,
 }
 
-impl Desk {
+impl Fixture {
     fn with(rows: usize) -> Self {
         Self {
             rows,
@@ -84,52 +84,54 @@ fn pass(index: usize, path: &[Sample]) -> PassRow<'_> {
     }
 }
 
-fn window(desk: Desk) -> Harness<'static, Desk> {
-    let width = if desk.thumbnails { 320.0 } else { 264.0 };
+fn window(fixture: Fixture) -> Harness<'static, Fixture> {
+    let width = if fixture.thumbnails { 320.0 } else { 264.0 };
     let path: Vec<Sample> = (0..=40)
         .map(|step| Sample {
             time: now(),
             direction: AzEl::from_degrees(f64::from(step) * 4.0, f64::from(step.min(40 - step))),
         })
         .collect();
-    testing::window([width, 636.0], desk, move |ui, desk| {
-        let highest = Rc::clone(&desk.highest);
-        let (rows, gone) = (desk.rows, desk.gone);
+    testing::window([width, 636.0], fixture, move |ui, fixture| {
+        let highest = Rc::clone(&fixture.highest);
+        let (rows, gone) = (fixture.rows, fixture.gone);
         let row = |index: usize| {
             highest.set(highest.get().max(index));
             Some(pass(index + gone, &path))
         };
         let model = PassListModel {
             now: now(),
-            rows: desk.rows,
+            rows: fixture.rows,
             row: &row,
             place: &|key| (0..rows).find(|index| key_of(index + gone) == key),
             aos_elevation_deg: 5.0,
-            scope: desk.scope,
-            span_h: desk.span_h,
-            work: desk.work,
-            made: desk.made,
-            selected: desk.selected,
-            floor_deg: desk.floor_deg,
-            thumbnails: desk.thumbnails,
+            scope: fixture.scope,
+            span_h: fixture.span_h,
+            work: fixture.work,
+            made: fixture.made,
+            selected: fixture.selected,
+            floor_deg: fixture.floor_deg,
+            thumbnails: fixture.thumbnails,
             empty: "No pass above 10° in the next 48 hours.",
         };
         let rect = Rect::from_min_size(egui::Pos2::ZERO, vec2(width, 636.0));
-        for action in show(ui, rect, &model, &mut desk.state) {
+        for action in show(ui, rect, &model, &mut fixture.state) {
             match action {
-                UiCommand::SelectPass(key) => desk.selected = Some(key),
+                UiCommand::SelectPass(key) => fixture.selected = Some(key),
                 UiCommand::Station(engine::Command::SetElevationFloor(floor_deg)) => {
-                    desk.floor_deg = floor_deg;
+                    fixture.floor_deg = floor_deg;
                 }
-                UiCommand::SetScope(scope) => desk.scope = scope,
-                UiCommand::SetSpan(span_h) => desk.span_h = span_h,
-                UiCommand::Station(engine::Command::CancelSearch(_)) => desk.work = Work::Cancelled,
+                UiCommand::SetScope(scope) => fixture.scope = scope,
+                UiCommand::SetSpan(span_h) => fixture.span_h = span_h,
+                UiCommand::Station(engine::Command::CancelSearch(_)) => {
+                    fixture.work = Work::Cancelled;
+                }
                 UiCommand::Station(engine::Command::ResumeSearch(_)) => {
-                    desk.work = Work::UnderWay { done: 0, of: 0 }
+                    fixture.work = Work::UnderWay { done: 0, of: 0 }
                 }
                 other => panic!("{other:?}"),
             }
-            desk.actions.push(action);
+            fixture.actions.push(action);
         }
     })
 }
@@ -140,7 +142,7 @@ fn key_of(index: usize) -> PassKey {
 
 #[test]
 fn a_row_says_what_it_shows_and_a_click_selects_it() {
-    let mut window = window(Desk::with(8));
+    let mut window = window(Fixture::with(8));
     window.get_by_label("NOAA 20, LOS T−08:33, max 69°, Trackable");
     let second = "METEOR-M2 4, AOS T−25:41, max 69°, Loses 12 s at keyhole N";
     window.get_by_role_and_label(Role::ListBoxOption, second).click();
@@ -154,7 +156,7 @@ fn a_row_says_what_it_shows_and_a_click_selects_it() {
 
 #[test]
 fn keys_move_the_selection_and_keep_it_in_view() {
-    let mut window = window(Desk::with(40));
+    let mut window = window(Fixture::with(40));
     window.get_by_label_contains("NOAA 20").focus();
     window.run();
     window.key_press(Key::Enter);
@@ -178,7 +180,7 @@ fn keys_move_the_selection_and_keep_it_in_view() {
 
 #[test]
 fn tab_walks_from_the_drop_down_to_the_rows() {
-    let mut window = window(Desk::with(8));
+    let mut window = window(Fixture::with(8));
     for _ in 0..6 {
         window.key_press(Key::Tab);
         window.run();
@@ -188,7 +190,7 @@ fn tab_walks_from_the_drop_down_to_the_rows() {
 
 #[test]
 fn another_floor_is_chosen_from_the_drop_down() {
-    let mut window = window(Desk::with(8));
+    let mut window = window(Fixture::with(8));
     window.get_by_role_and_label(Role::ComboBox, "Lowest maximum elevation: max ≥ 10°").click();
     window.run();
     window.get_by_label("max ≥ 30°").click();
@@ -203,7 +205,7 @@ fn another_floor_is_chosen_from_the_drop_down() {
 #[test]
 fn satellites_and_span_are_chosen_above_the_list() {
     for thumbnails in [true, false] {
-        let mut window = window(Desk { thumbnails, ..Desk::with(8) });
+        let mut window = window(Fixture { thumbnails, ..Fixture::with(8) });
         window.get_by_role_and_label(Role::RadioButton, "All").click();
         window.run();
         window.get_by_role_and_label(Role::ComboBox, "How far ahead: 48 h").click();
@@ -221,7 +223,7 @@ fn satellites_and_span_are_chosen_above_the_list() {
 #[test]
 fn a_search_tells_how_far_it_is_and_can_be_cancelled_and_begun_again() {
     let work = Work::UnderWay { done: 4022, of: 16_089 };
-    let mut window = window(Desk { scope: Scope::All, work, ..Desk::with(8) });
+    let mut window = window(Fixture { scope: Scope::All, work, ..Fixture::with(8) });
     window.get_by_label("Searched 4022 of 16\u{2009}089");
     let bar = window.get_by_role(Role::ProgressIndicator);
     assert_eq!(bar.accesskit_node().numeric_value(), Some(25.0));
@@ -243,7 +245,7 @@ fn a_search_tells_how_far_it_is_and_can_be_cancelled_and_begun_again() {
 
 #[test]
 fn of_a_list_that_is_made_it_says_of_what_and_when() {
-    let mut window = window(Desk { scope: Scope::All, ..Desk::with(8) });
+    let mut window = window(Fixture { scope: Scope::All, ..Fixture::with(8) });
     window.get_by_label("16\u{2009}089 satellites at 11:06");
     window.state_mut().scope = Scope::Favourites;
     window.run();
@@ -252,10 +254,10 @@ fn of_a_list_that_is_made_it_says_of_what_and_when() {
 
 #[test]
 fn what_is_read_stays_where_it_is_when_passes_above_end() {
-    let mut window = window(Desk::with(1000));
+    let mut window = window(Fixture::with(1000));
     window.state_mut().selected = Some(key_of(500));
     window.run();
-    let place = |window: &Harness<'_, Desk>| {
+    let place = |window: &Harness<'_, Fixture>| {
         let selected =
             |node: &egui_kittest::Node<'_>| node.accesskit_node().is_selected() == Some(true);
         let rows = window.get_all_by_role(Role::ListBoxOption);
@@ -270,7 +272,7 @@ fn what_is_read_stays_where_it_is_when_passes_above_end() {
 #[test]
 fn a_filter_is_opened_typed_and_closed() {
     for thumbnails in [true, false] {
-        let mut window = window(Desk { thumbnails, ..Desk::with(8) });
+        let mut window = window(Fixture { thumbnails, ..Fixture::with(8) });
         assert!(window.query_by_role(Role::TextInput).is_none());
         window.get_by_role_and_label(Role::Button, "Filter the list").click();
         window.run();
@@ -287,8 +289,8 @@ fn a_filter_is_opened_typed_and_closed() {
 #[test]
 fn the_choices_in_the_head_never_touch() {
     for thumbnails in [true, false] {
-        let desk = Desk { scope: Scope::All, thumbnails, ..Desk::with(98_765) };
-        let window = window(desk);
+        let fixture = Fixture { scope: Scope::All, thumbnails, ..Fixture::with(98_765) };
+        let window = window(fixture);
         let place = |name| window.get_by_label(name).rect();
         let count = place("Next passes, 98\u{2009}765 · AOS at 5°");
         assert!(count.right() < place("Lowest maximum elevation: max ≥ 10°").left());
@@ -299,14 +301,14 @@ fn the_choices_in_the_head_never_touch() {
 
 #[test]
 fn an_empty_list_says_so() {
-    let window = window(Desk::with(0));
+    let window = window(Fixture::with(0));
     window.get_by_label("No pass above 10° in the next 48 hours.");
     assert!(window.query_by_role(Role::ListBoxOption).is_none());
 }
 
 #[test]
 fn only_rows_in_view_are_asked_for() {
-    let mut window = window(Desk::with(1000));
+    let mut window = window(Fixture::with(1000));
     window.run();
     window.get_by_label("Next passes, 1000 · AOS at 5°");
     assert!(window.state().highest.get() < 12, "{}", window.state().highest.get());
@@ -316,7 +318,7 @@ fn only_rows_in_view_are_asked_for() {
 #[test]
 fn a_long_name_leaves_the_countdown_alone() {
     for thumbnails in [true, false] {
-        let mut window = window(Desk { thumbnails, ..Desk::with(4) });
+        let mut window = window(Fixture { thumbnails, ..Fixture::with(4) });
         window.run();
         let row = window.get_by_label_contains(LONG).rect();
         let texts = painted_texts(&window, row);
@@ -328,7 +330,7 @@ fn a_long_name_leaves_the_countdown_alone() {
 }
 
 /// The texts painted with their middle in `rect`, and where.
-fn painted_texts(window: &Harness<'_, Desk>, rect: Rect) -> Vec<(String, Rect)> {
+fn painted_texts(window: &Harness<'_, Fixture>, rect: Rect) -> Vec<(String, Rect)> {
     let texts = window.output().shapes.iter().filter_map(|clipped| match &clipped.shape {
         egui::Shape::Text(text) => {
             let place = text.galley.rect.translate(text.pos.to_vec2());

@@ -165,7 +165,7 @@ pub fn safety(matter: &Safety, antenna: &str) -> String {
                 Response::Stopped => {
                     format!("{antenna} was stopped before it went {into}; {driver}.")
                 }
-                Response::Told => format!("{antenna} is {}; {driver}.", inside(barrier)),
+                Response::Reported => format!("{antenna} is {}; {driver}.", inside(barrier)),
             }
         }
         Safety::ClockStepped { by_s } => format!(

@@ -13,8 +13,8 @@ use azel::{
     clock::{Instant, Moment},
     controller::satrak,
     device::{
-        AntennaState, Axis, AxisMotion, Capabilities, ControllerEvent, Device, Extent, JogSpeeds,
-        Measured, Motion, Moves, SecondAxis, Standstill, Variant,
+        AntennaState, Axis, AxisMotion, Capabilities, Controller, ControllerEvent, Device, Extent,
+        JogSpeeds, Measured, Motion, SecondAxis, Standstill, Variant,
         settings::{Field, Key},
     },
     station::{Connection, ControllerSpec, Link, Setting, Table, Usual},
@@ -187,7 +187,7 @@ impl Device for Lever {
     }
 }
 
-impl Moves for Lever {
+impl Controller for Lever {
     fn start(&mut self, motion: Motion) {
         let stays_deg = self.state.measured.map(|measured| measured.axes.map(|it| it.angle_deg));
         if let (Motion::Position { azimuth, elevation }, Some([az_deg, el_deg])) =

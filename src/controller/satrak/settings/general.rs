@@ -1,6 +1,6 @@
 //! General settings (sections 12 and 13). No ranges are documented: these are sensible ones.
 
-use super::wish::{Wish, cannot};
+use super::desired::{Desired, cannot};
 use crate::{
     device::settings::{Field, Group, Guard, Key, Value, Values, WriteError},
     protocol::satrak::{
@@ -99,8 +99,8 @@ pub(super) fn values(reply: &Reply) -> Option<Values> {
 }
 
 /// Sends only the changed values; a sign keeps each of the others.
-pub(super) fn write(wish: &Wish<'_>) -> Result<Setting, WriteError> {
-    let new = wish.new;
+pub(super) fn write(desired: &Desired<'_>) -> Result<Setting, WriteError> {
+    let new = desired.new;
     let change = SettingsChange {
         rtc_from_gps: CLOCK_FROM_GPS.of(new),
         time_offset_ms: TIME_OFFSET_MS.of(new),

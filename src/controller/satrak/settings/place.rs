@@ -2,7 +2,7 @@
 
 use jiff::Timestamp;
 
-use super::wish::{Wish, cannot};
+use super::desired::{Desired, cannot};
 use crate::{
     device::settings::{Field, Group, Key, Values, WriteError},
     protocol::satrak::{GpsSettingsChange, Position, Reply, Setting},
@@ -68,9 +68,9 @@ fn place(position: Option<Position>) -> Values {
 
 /// All three always go out: the document does not say whether the place is needed on
 /// automatic.
-pub(super) fn write(wish: &Wish<'_>) -> Result<Setting, WriteError> {
-    let position = Position::new(wish.get(&LATITUDE_DEG)?, wish.get(&LONGITUDE_DEG)?)
+pub(super) fn write(desired: &Desired<'_>) -> Result<Setting, WriteError> {
+    let position = Position::new(desired.get(&LATITUDE_DEG)?, desired.get(&LONGITUDE_DEG)?)
         .map_err(cannot(LATITUDE_DEG.name))?;
-    let automatic = wish.is_on(&IS_AUTOMATIC);
+    let automatic = desired.is_on(&IS_AUTOMATIC);
     Ok(Setting::GpsSettings(GpsSettingsChange { automatic, position }))
 }

@@ -2,9 +2,9 @@
 //! to 32).
 
 use super::{
+    desired::{Desired, cannot},
     proof::Proof,
     text,
-    wish::{Wish, cannot},
 };
 use crate::{
     device::settings::{Field, Group, Key, Kind, Values, WriteError},
@@ -83,28 +83,28 @@ pub(super) fn image(reply: &Reply) -> Option<Values> {
     Some(Values::from([STATUS.with(status.raw.clone())]))
 }
 
-pub(super) fn write_angles(wish: &Wish<'_>) -> Result<Setting, WriteError> {
-    let angles =
-        SensorAngles::new(wish.get(&X_DEG)?, wish.get(&Y_DEG)?).map_err(cannot(X_DEG.name))?;
-    let change = if wish.get(&REFERENCE).unwrap_or(GIVEN) == PRESENT {
+pub(super) fn write_angles(desired: &Desired<'_>) -> Result<Setting, WriteError> {
+    let angles = SensorAngles::new(desired.get(&X_DEG)?, desired.get(&Y_DEG)?)
+        .map_err(cannot(X_DEG.name))?;
+    let change = if desired.get(&REFERENCE).unwrap_or(GIVEN) == PRESENT {
         AngleChange::PresentPosition(angles)
     } else {
         AngleChange::Given {
-            x_sensor: wish.whole(&X_SENSOR)?,
-            y_sensor: wish.whole(&Y_SENSOR)?,
+            x_sensor: desired.whole(&X_SENSOR)?,
+            y_sensor: desired.whole(&Y_SENSOR)?,
             angles,
         }
     };
     Ok(Setting::AngleSettings(change))
 }
 
-pub(super) fn write_reduction(wish: &Wish<'_>) -> Result<Setting, WriteError> {
-    let reduction = Reduction::new(wish.get(&X_RATIO)?, wish.get(&Y_RATIO)?);
+pub(super) fn write_reduction(desired: &Desired<'_>) -> Result<Setting, WriteError> {
+    let reduction = Reduction::new(desired.get(&X_RATIO)?, desired.get(&Y_RATIO)?);
     reduction.map(Setting::Reduction).map_err(cannot(X_RATIO.name))
 }
 
-pub(super) fn write_image(wish: &Wish<'_>) -> Result<Setting, WriteError> {
-    Ok(Setting::LoadImage(wish.text(&FILE)?))
+pub(super) fn write_image(desired: &Desired<'_>) -> Result<Setting, WriteError> {
+    Ok(Setting::LoadImage(desired.text(&FILE)?))
 }
 
 /// Where the references are taken from the present position, they are not known before.

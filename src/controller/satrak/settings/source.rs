@@ -1,9 +1,9 @@
 //! The satellite and the source of its elements (sections 23 to 28).
 
 use super::{
+    desired::{Desired, cannot},
     proof::Proof,
     text, url,
-    wish::{Wish, cannot},
 };
 use crate::{
     device::settings::{Field, Group, Key, Secret, Unfit, Value, Values, WriteError},
@@ -125,37 +125,37 @@ pub(super) fn ftp(reply: &Reply) -> Option<Values> {
     ]))
 }
 
-pub(super) fn write_file(wish: &Wish<'_>) -> Result<Setting, WriteError> {
+pub(super) fn write_file(desired: &Desired<'_>) -> Result<Setting, WriteError> {
     Ok(Setting::Satellite(SatelliteChoice {
-        file: wish.text(&FILE_NAME)?,
-        name: wish.text(&SATELLITE_NAME)?,
-        period: wish.whole(&PERIOD)?,
-        continue_tracking: wish.is_on(&CONTINUE_TRACKING),
+        file: desired.text(&FILE_NAME)?,
+        name: desired.text(&SATELLITE_NAME)?,
+        period: desired.whole(&PERIOD)?,
+        continue_tracking: desired.is_on(&CONTINUE_TRACKING),
     }))
 }
 
-pub(super) fn write_web(wish: &Wish<'_>) -> Result<Setting, WriteError> {
+pub(super) fn write_web(desired: &Desired<'_>) -> Result<Setting, WriteError> {
     Ok(Setting::SatelliteHttp(HttpTle {
-        url: UrlValue::new(&wish.get(&URL)?).map_err(cannot(URL.name))?,
-        period_days: wish.whole(&PERIOD_DAYS)?,
-        continue_on_error: wish.get(&ON_ERROR)? == 1,
-        continue_tracking: wish.is_on(&CONTINUE_TRACKING),
+        url: UrlValue::new(&desired.get(&URL)?).map_err(cannot(URL.name))?,
+        period_days: desired.whole(&PERIOD_DAYS)?,
+        continue_on_error: desired.get(&ON_ERROR)? == 1,
+        continue_tracking: desired.is_on(&CONTINUE_TRACKING),
     }))
 }
 
-pub(super) fn write_ftp(wish: &Wish<'_>) -> Result<Setting, WriteError> {
-    let password = wish.get(&PASSWORD)?;
+pub(super) fn write_ftp(desired: &Desired<'_>) -> Result<Setting, WriteError> {
+    let password = desired.get(&PASSWORD)?;
     Ok(Setting::SatelliteFtp(FtpTle {
-        address: wish.text(&ADDRESS)?,
-        user: wish.text(&USER)?,
+        address: desired.text(&ADDRESS)?,
+        user: desired.text(&USER)?,
         password: Password::new(password.reveal()).map_err(cannot(PASSWORD.name))?,
-        port: wish.whole(&PORT)?,
+        port: desired.whole(&PORT)?,
         selection: Some(TleSelection {
-            file: wish.text(&FILE_NAME)?,
-            satellite: wish.text(&SATELLITE)?,
+            file: desired.text(&FILE_NAME)?,
+            satellite: desired.text(&SATELLITE)?,
         }),
-        period_days: wish.whole(&PERIOD_DAYS)?,
-        continue_on_error: wish.get(&ON_ERROR)? == 1,
+        period_days: desired.whole(&PERIOD_DAYS)?,
+        continue_on_error: desired.get(&ON_ERROR)? == 1,
     }))
 }
 
@@ -197,8 +197,8 @@ mod tests {
             ("on_error", Value::Choice(1)),
         ];
         let new = [("port", Value::Integer(22))].into();
-        let wish = Wish { new: &new, held: &held.into(), utc: jiff::Timestamp::UNIX_EPOCH };
-        let sent = Request::Setting(write_ftp(&wish).unwrap()).to_bytes();
+        let desired = Desired { new: &new, held: &held.into(), utc: jiff::Timestamp::UNIX_EPOCH };
+        let sent = Request::Setting(write_ftp(&desired).unwrap()).to_bytes();
         let documented: &[u8] = b"$SATELLITE_FTP=,10.0.1.2,username,password,22,iridium.txt,\
             IRIDIUM 70 [+],1,1*32\r\n";
         assert_eq!(sent, documented);

@@ -3,8 +3,8 @@
 use jiff::Timestamp;
 
 use super::{
+    desired::{Desired, cannot},
     proof::Proof,
-    wish::{Wish, cannot},
 };
 use crate::{
     astro::time::add_seconds,
@@ -74,13 +74,13 @@ pub(in crate::controller::satrak) fn ahead(clock: &UnitClock) -> (&'static str, 
     AHEAD_S.with((clock.ahead_s * 10.0).round() / 10.0)
 }
 
-pub(super) fn write_window(wish: &Wish<'_>) -> Result<Setting, WriteError> {
+pub(super) fn write_window(desired: &Desired<'_>) -> Result<Setting, WriteError> {
     let refuse = |reason: &str| {
         let reason = Unfit::Text(reason.to_owned());
         Err(WriteError::CannotBeSent { field: STOP.name, reason })
     };
-    let (start, stop) = (wish.get(&START)?, wish.get(&STOP)?);
-    if stop <= wish.utc {
+    let (start, stop) = (desired.get(&START)?, desired.get(&STOP)?);
+    if stop <= desired.utc {
         return refuse("is over already");
     }
     if stop.as_second() - start.as_second() > LONGEST_S {
@@ -91,11 +91,11 @@ pub(super) fn write_window(wish: &Wish<'_>) -> Result<Setting, WriteError> {
 
 /// Sent just after a full second of the computer's clock, because the command has no parts of
 /// a second.
-pub(super) fn write_clock(wish: &Wish<'_>) -> Result<Setting, WriteError> {
-    if wish.get(&SET_FROM).unwrap_or(FROM_THIS_PC) == FROM_GPS {
+pub(super) fn write_clock(desired: &Desired<'_>) -> Result<Setting, WriteError> {
+    if desired.get(&SET_FROM).unwrap_or(FROM_THIS_PC) == FROM_GPS {
         return Ok(Setting::RtcReupdate);
     }
-    let nearest = add_seconds(wish.utc, 0.5);
+    let nearest = add_seconds(desired.utc, 0.5);
     ClockTime::new(nearest).map(Setting::Time).map_err(cannot(SET_FROM.name))
 }
 

@@ -15,12 +15,12 @@ use crate::{
 
 /// Settings of program track.
 #[derive(Debug, Clone, Copy)]
-pub(in crate::driver::session) struct Manner {
+pub(in crate::driver::session) struct TrackConfig {
     pub(super) drives: Drives,
-    pub(super) following: station::TrackSettings,
+    pub(super) settings: station::TrackSettings,
 }
 
-impl Manner {
+impl TrackConfig {
     pub(in crate::driver::session) fn of(antenna: &Antenna, can: Capabilities) -> Self {
         let drives = Drives {
             mount: antenna.mount,
@@ -30,7 +30,7 @@ impl Manner {
             arrives_within_deg: can.arrives_within_deg,
             has_elevation: can.has_elevation(),
         };
-        Self { drives, following: antenna.follow }
+        Self { drives, settings: antenna.follow }
     }
 
     /// The operator's limit, degrees a second.
@@ -43,7 +43,7 @@ pub(in crate::driver::session) struct Tracking {
     pub(super) planner: Planner,
     pub(super) phase: TrackPhase,
     pub(super) stats: TrackStats,
-    pub(super) next_look: Instant,
+    pub(super) next_update: Instant,
     /// A position is due, but something else must end first, which then brings it.
     pub(super) is_held_up: bool,
     /// When the last command went to the gate.
@@ -54,7 +54,7 @@ pub(in crate::driver::session) struct Tracking {
     compared: Option<Instant>,
     pub(super) predicted: Option<Sample>,
     /// Waits for the operator.
-    pub(super) awaits_word: bool,
+    pub(super) awaits_operator: bool,
     /// The unit must still prove to be as before.
     pub(in crate::driver::session) recheck: Option<Recheck>,
     /// The barrier in the way was reported.
@@ -72,13 +72,13 @@ impl Tracking {
             planner,
             phase,
             stats: TrackStats::default(),
-            next_look: now,
+            next_update: now,
             is_held_up: false,
             sent: None,
             lost: 0,
             compared: None,
             predicted: None,
-            awaits_word: false,
+            awaits_operator: false,
             recheck: None,
             barrier_is_told: false,
             commanded: None,
@@ -93,8 +93,8 @@ impl Tracking {
             catalog_number: target.catalog_number(),
             phase: self.phase,
             stats: self.stats,
-            awaits_word: self.awaits_word,
-            next_look: (self.phase != TrackPhase::Over).then_some(self.next_look),
+            awaits_operator: self.awaits_operator,
+            next_update: (self.phase != TrackPhase::Over).then_some(self.next_update),
             commanded: self.commanded,
             predicted: self.predicted,
         }

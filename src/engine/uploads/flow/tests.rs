@@ -57,13 +57,13 @@ fn report(outcome: Outcome) -> Report {
 
 /// An order, and its displayed state.
 #[derive(Default)]
-struct Desk {
+struct Fixture {
     flow: Flow,
     shown: Uploads,
     unit: UnitNow,
 }
 
-impl Desk {
+impl Fixture {
     fn begin(&mut self) -> Option<Next> {
         self.flow.begin(order(), &self.unit, &mut self.shown)
     }
@@ -100,111 +100,114 @@ fn selection(next: Option<Next>) -> Selection {
 
 #[test]
 fn green_comes_after_the_unit_has_named_the_satellite_and_not_before() {
-    let mut desk = Desk::default();
-    assert_runs(desk.begin());
-    assert!(matches!(desk.shown.stage, Stage::Working { .. }));
-    assert!(desk.begin().is_none(), "one at a time");
-    let selection = selection(desk.reported(Outcome::Uploaded(uploaded())));
+    let mut fixture = Fixture::default();
+    assert_runs(fixture.begin());
+    assert!(matches!(fixture.shown.stage, Stage::Working { .. }));
+    assert!(fixture.begin().is_none(), "one at a time");
+    let selection = selection(fixture.reported(Outcome::Uploaded(uploaded())));
     assert_eq!(
         (selection.file.as_str(), selection.satellite.catalog_number),
         ("active.txt", NOAA_20)
     );
-    assert!(matches!(desk.shown.stage, Stage::Selecting(_)));
-    desk.flow.selected(Ok(()), now(), &mut desk.shown);
-    let Stage::Proved(proved) = &desk.shown.stage else { panic!("{:?}", desk.shown.stage) };
+    assert!(matches!(fixture.shown.stage, Stage::Selecting(_)));
+    fixture.flow.selected(Ok(()), now(), &mut fixture.shown);
+    let Stage::Proved(proved) = &fixture.shown.stage else { panic!("{:?}", fixture.shown.stage) };
     assert_eq!(proved.satellite.catalog_number, NOAA_20);
     assert_eq!(proved.uploaded, *uploaded());
 }
 
 #[test]
 fn a_unit_that_does_not_find_the_satellite_is_no_success() {
-    let mut desk = Desk::default();
-    desk.begin();
-    desk.reported(Outcome::Uploaded(uploaded()));
-    desk.flow.selected(Err("satellite not found".to_owned()), now(), &mut desk.shown);
-    let failure = desk.failure();
+    let mut fixture = Fixture::default();
+    fixture.begin();
+    fixture.reported(Outcome::Uploaded(uploaded()));
+    fixture.flow.selected(Err("satellite not found".to_owned()), now(), &mut fixture.shown);
+    let failure = fixture.failure();
     assert_eq!(failure.text, "satellite not found");
     assert_eq!(failure.uploaded, Some(uploaded()));
-    assert_runs(desk.begin());
+    assert_runs(fixture.begin());
 }
 
 #[test]
 fn a_unit_that_tracks_is_left_alone_until_the_operator_agrees() {
-    let mut desk = Desk::default();
-    desk.unit.busy = Some(Busy::Tracks);
-    assert!(desk.begin().is_none());
-    assert_eq!(desk.shown.stage, Stage::AsksAboutTracking(Busy::Tracks));
-    assert!(!desk.flow.cancel(&mut desk.shown));
-    assert!(desk.failure().is_cancel);
+    let mut fixture = Fixture::default();
+    fixture.unit.busy = Some(Busy::Tracks);
+    assert!(fixture.begin().is_none());
+    assert_eq!(fixture.shown.stage, Stage::AsksAboutTracking(Busy::Tracks));
+    assert!(!fixture.flow.cancel(&mut fixture.shown));
+    assert!(fixture.failure().is_cancel);
 
-    desk.begin();
-    assert_runs(desk.flow.agree(&desk.unit, &mut desk.shown));
-    desk.assert_rests_before_it_is_told(|desk| desk.reported(Outcome::Uploaded(uploaded())));
+    fixture.begin();
+    assert_runs(fixture.flow.agree(&fixture.unit, &mut fixture.shown));
+    fixture
+        .assert_rests_before_it_is_told(|fixture| fixture.reported(Outcome::Uploaded(uploaded())));
 }
 
 #[test]
 fn tracking_that_began_meanwhile_or_a_stop_asks_again() {
-    let mut desk = Desk::default();
-    desk.begin();
-    desk.unit.busy = Some(Busy::MayTrack);
-    assert!(desk.reported(Outcome::Uploaded(uploaded())).is_none());
-    assert_eq!(desk.shown.stage, Stage::AsksAboutTracking(Busy::MayTrack));
-    desk.assert_rests_before_it_is_told(|desk| desk.flow.agree(&desk.unit, &mut desk.shown));
-    desk.unit.busy = Some(Busy::MayTrack);
-    desk.flow.selected(Ok(()), now(), &mut desk.shown);
+    let mut fixture = Fixture::default();
+    fixture.begin();
+    fixture.unit.busy = Some(Busy::MayTrack);
+    assert!(fixture.reported(Outcome::Uploaded(uploaded())).is_none());
+    assert_eq!(fixture.shown.stage, Stage::AsksAboutTracking(Busy::MayTrack));
+    fixture.assert_rests_before_it_is_told(|fixture| {
+        fixture.flow.agree(&fixture.unit, &mut fixture.shown)
+    });
+    fixture.unit.busy = Some(Busy::MayTrack);
+    fixture.flow.selected(Ok(()), now(), &mut fixture.shown);
 
-    desk.begin();
-    assert_runs(desk.flow.agree(&desk.unit, &mut desk.shown));
-    desk.flow.stopped();
-    assert!(desk.reported(Outcome::Uploaded(uploaded())).is_none());
-    assert!(matches!(desk.shown.stage, Stage::AsksAboutTracking(_)));
-    desk.flow.cancel(&mut desk.shown);
-    assert_eq!(desk.failure().uploaded, Some(uploaded()), "the file is there all the same");
+    fixture.begin();
+    assert_runs(fixture.flow.agree(&fixture.unit, &mut fixture.shown));
+    fixture.flow.stopped();
+    assert!(fixture.reported(Outcome::Uploaded(uploaded())).is_none());
+    assert!(matches!(fixture.shown.stage, Stage::AsksAboutTracking(_)));
+    fixture.flow.cancel(&mut fixture.shown);
+    assert_eq!(fixture.failure().uploaded, Some(uploaded()), "the file is there all the same");
 }
 
 #[test]
 fn a_password_is_asked_for_and_asked_again_when_it_is_wrong() {
-    let mut desk = Desk::default();
-    assert_eq!(assert_runs(desk.begin()).secret, None);
-    desk.reported(Outcome::Secret { refused: None });
-    let Stage::AsksForSecret(wanted) = &desk.shown.stage else { panic!() };
+    let mut fixture = Fixture::default();
+    assert_eq!(assert_runs(fixture.begin()).secret, None);
+    fixture.reported(Outcome::Secret { refused: None });
+    let Stage::AsksForSecret(wanted) = &fixture.shown.stage else { panic!() };
     assert_eq!((wanted.user.as_str(), wanted.address.as_str()), ("op", "192.168.10.21:22"));
     let wrong = Secret::new("tr0ub4dor");
-    let errand = assert_runs(desk.flow.type_secret(wrong.clone(), true, &mut desk.shown));
+    let errand = assert_runs(fixture.flow.type_secret(wrong.clone(), true, &mut fixture.shown));
     assert_eq!(errand.secret, Some(wrong));
-    desk.reported(Outcome::Secret { refused: Some("log-in refused".to_owned()) });
-    let Stage::AsksForSecret(wanted) = &desk.shown.stage else { panic!() };
+    fixture.reported(Outcome::Secret { refused: Some("log-in refused".to_owned()) });
+    let Stage::AsksForSecret(wanted) = &fixture.shown.stage else { panic!() };
     assert_eq!(wanted.refused.as_deref(), Some("log-in refused"));
-    assert!(!format!("{:?}", desk.shown).contains("tr0ub4dor"));
+    assert!(!format!("{:?}", fixture.shown).contains("tr0ub4dor"));
     let right = Secret::new("hunter2");
-    assert_runs(desk.flow.type_secret(right.clone(), true, &mut desk.shown));
-    assert_eq!(desk.flow.secret_to_keep(), Some(right));
-    assert_eq!(desk.flow.secret_to_keep(), None, "kept once");
-    desk.reported(Outcome::Secret { refused: None });
-    desk.flow.cancel(&mut desk.shown);
-    assert!(desk.failure().is_cancel);
+    assert_runs(fixture.flow.type_secret(right.clone(), true, &mut fixture.shown));
+    assert_eq!(fixture.flow.secret_to_keep(), Some(right));
+    assert_eq!(fixture.flow.secret_to_keep(), None, "kept once");
+    fixture.reported(Outcome::Secret { refused: None });
+    fixture.flow.cancel(&mut fixture.shown);
+    assert!(fixture.failure().is_cancel);
 }
 
 #[test]
 fn a_missing_keyring_is_remembered_while_the_password_is_typed_again() {
-    let mut desk = Desk::default();
-    desk.begin();
+    let mut fixture = Fixture::default();
+    fixture.begin();
     let keyring_problem = Some("no keyring".to_owned());
     let first = Report { keyring_problem, ..report(Outcome::Secret { refused: None }) };
-    desk.flow.reported(first, &desk.unit, &mut desk.shown);
-    desk.flow.type_secret(Secret::new("tr0ub4dor"), false, &mut desk.shown);
-    desk.reported(Outcome::Secret { refused: Some("log-in refused".to_owned()) });
-    let Stage::AsksForSecret(wanted) = &desk.shown.stage else { panic!() };
+    fixture.flow.reported(first, &fixture.unit, &mut fixture.shown);
+    fixture.flow.type_secret(Secret::new("tr0ub4dor"), false, &mut fixture.shown);
+    fixture.reported(Outcome::Secret { refused: Some("log-in refused".to_owned()) });
+    let Stage::AsksForSecret(wanted) = &fixture.shown.stage else { panic!() };
     assert_eq!(wanted.keyring_problem.as_deref(), Some("no keyring"));
 }
 
 #[test]
 fn a_secret_without_a_tick_is_not_kept() {
-    let mut desk = Desk::default();
-    desk.begin();
-    desk.reported(Outcome::Secret { refused: None });
-    desk.flow.type_secret(Secret::new("hunter2"), false, &mut desk.shown);
-    assert_eq!(desk.flow.secret_to_keep(), None);
+    let mut fixture = Fixture::default();
+    fixture.begin();
+    fixture.reported(Outcome::Secret { refused: None });
+    fixture.flow.type_secret(Secret::new("hunter2"), false, &mut fixture.shown);
+    assert_eq!(fixture.flow.secret_to_keep(), None);
 }
 
 fn offered() -> Box<OfferedKey> {
@@ -213,78 +216,78 @@ fn offered() -> Box<OfferedKey> {
 
 #[test]
 fn a_new_host_key_is_the_operator_s_to_trust() {
-    let mut desk = Desk::default();
-    desk.begin();
-    desk.reported(Outcome::HostKey(ConnectError::UnknownHostKey(offered())));
-    let Stage::AsksAboutHostKey(key) = &desk.shown.stage else { panic!() };
+    let mut fixture = Fixture::default();
+    fixture.begin();
+    fixture.reported(Outcome::HostKey(ConnectError::UnknownHostKey(offered())));
+    let Stage::AsksAboutHostKey(key) = &fixture.shown.stage else { panic!() };
     assert!(key.fingerprint.starts_with("SHA256:") && !key.is_changed());
-    let Some(Next::Decide(Decision::Trust(key))) = desk.flow.trust(&mut desk.shown) else {
+    let Some(Next::Decide(Decision::Trust(key))) = fixture.flow.trust(&mut fixture.shown) else {
         panic!()
     };
     assert_eq!(key, offered());
-    assert_runs(desk.flow.decided(Ok(()), &mut desk.shown));
+    assert_runs(fixture.flow.decided(Ok(()), &mut fixture.shown));
 
-    desk.reported(Outcome::HostKey(ConnectError::UnknownHostKey(offered())));
-    desk.flow.cancel(&mut desk.shown);
-    assert!(desk.failure().is_cancel && desk.flow.trust(&mut desk.shown).is_none());
+    fixture.reported(Outcome::HostKey(ConnectError::UnknownHostKey(offered())));
+    fixture.flow.cancel(&mut fixture.shown);
+    assert!(fixture.failure().is_cancel && fixture.flow.trust(&mut fixture.shown).is_none());
 }
 
 #[test]
 fn a_changed_host_key_is_refused_until_the_old_one_is_forgotten() {
-    let mut desk = Desk::default();
-    desk.begin();
+    let mut fixture = Fixture::default();
+    fixture.begin();
     let pinned = vec!["SHA256:old".to_owned()];
-    desk.reported(Outcome::HostKey(ConnectError::HostKeyChanged { pinned, offered: offered() }));
-    let failure = desk.failure();
+    fixture.reported(Outcome::HostKey(ConnectError::HostKeyChanged { pinned, offered: offered() }));
+    let failure = fixture.failure();
     assert!(failure.text.contains("SHA256:old"), "{}", failure.text);
     assert!(failure.changed_key.as_ref().unwrap().is_changed());
-    assert!(desk.flow.trust(&mut desk.shown).is_none(), "there is no way past it");
-    let next = desk.flow.forget_host(&mut desk.shown);
+    assert!(fixture.flow.trust(&mut fixture.shown).is_none(), "there is no way past it");
+    let next = fixture.flow.forget_host(&mut fixture.shown);
     assert!(matches!(next, Some(Next::Decide(Decision::Forget(host))) if host == peer()));
-    assert_runs(desk.flow.decided(Ok(()), &mut desk.shown));
+    assert_runs(fixture.flow.decided(Ok(()), &mut fixture.shown));
     // Without such a refusal there are no keys to forget.
-    assert!(desk.flow.forget_host(&mut desk.shown).is_none());
+    assert!(fixture.flow.forget_host(&mut fixture.shown).is_none());
 }
 
 #[test]
 fn known_hosts_that_cannot_be_written_end_it() {
-    let mut desk = Desk::default();
-    desk.begin();
-    desk.reported(Outcome::HostKey(ConnectError::UnknownHostKey(offered())));
-    desk.flow.trust(&mut desk.shown);
-    assert!(desk.flow.decided(Err("disk".to_owned()), &mut desk.shown).is_none());
-    assert_eq!(desk.failure().text, "disk");
+    let mut fixture = Fixture::default();
+    fixture.begin();
+    fixture.reported(Outcome::HostKey(ConnectError::UnknownHostKey(offered())));
+    fixture.flow.trust(&mut fixture.shown);
+    assert!(fixture.flow.decided(Err("disk".to_owned()), &mut fixture.shown).is_none());
+    assert_eq!(fixture.failure().text, "disk");
 }
 
 #[test]
 fn a_cancel_is_told_until_the_file_takes_its_place() {
-    let mut desk = Desk::default();
-    desk.begin();
+    let mut fixture = Fixture::default();
+    fixture.begin();
     let at = |step| Stage::Working {
         progress: Some(Progress { step, done_bytes: 0, file_bytes: 9 }),
         is_cancelled: false,
     };
-    desk.shown.stage = at(UploadStep::Replace);
-    assert!(!desk.flow.cancel(&mut desk.shown));
-    desk.shown.stage = at(UploadStep::Write);
-    assert!(desk.flow.cancel(&mut desk.shown));
-    assert!(!desk.flow.cancel(&mut desk.shown), "once is enough");
-    desk.reported(Outcome::Cancelled("the unit has its old file".to_owned()));
-    assert!(desk.failure().is_cancel && desk.failure().text.contains("old file"));
+    fixture.shown.stage = at(UploadStep::Replace);
+    assert!(!fixture.flow.cancel(&mut fixture.shown));
+    fixture.shown.stage = at(UploadStep::Write);
+    assert!(fixture.flow.cancel(&mut fixture.shown));
+    assert!(!fixture.flow.cancel(&mut fixture.shown), "once is enough");
+    fixture.reported(Outcome::Cancelled("the unit has its old file".to_owned()));
+    assert!(fixture.failure().is_cancel && fixture.failure().text.contains("old file"));
 }
 
 #[test]
 fn the_factory_s_password_is_warned_about_once() {
-    let mut desk = Desk::default();
-    desk.begin();
+    let mut fixture = Fixture::default();
+    fixture.begin();
     for _ in 0..2 {
         let outcome = Outcome::Failed("full".to_owned());
         let report = Report { is_factory: true, ..report(outcome) };
-        desk.flow.reported(report, &desk.unit, &mut desk.shown);
+        fixture.flow.reported(report, &fixture.unit, &mut fixture.shown);
     }
-    assert_eq!(desk.shown.warnings, [Warning::FactoryPassword]);
-    desk.begin();
-    assert!(desk.shown.warnings.is_empty());
+    assert_eq!(fixture.shown.warnings, [Warning::FactoryPassword]);
+    fixture.begin();
+    assert!(fixture.shown.warnings.is_empty());
 }
 
 #[test]
@@ -298,19 +301,19 @@ fn a_roll_back_takes_the_satellite_that_the_unit_holds_or_the_first() {
         origin: Origin::Found,
     };
     for (held, picked) in [(Some(NOAA_20), NOAA_20), (Some(7), ISS), (None, ISS)] {
-        let mut desk = Desk::default();
-        desk.unit.held = held;
+        let mut fixture = Fixture::default();
+        fixture.unit.held = held;
         let back = Order { cargo: Cargo::Kept(kept.clone()), satellite: None, ..order() };
-        assert_runs(desk.flow.begin(back, &desk.unit, &mut desk.shown));
-        assert!(desk.shown.is_roll_back);
-        let selection = selection(desk.reported(Outcome::Uploaded(uploaded())));
+        assert_runs(fixture.flow.begin(back, &fixture.unit, &mut fixture.shown));
+        assert!(fixture.shown.is_roll_back);
+        let selection = selection(fixture.reported(Outcome::Uploaded(uploaded())));
         assert_eq!(selection.satellite.catalog_number, picked);
     }
-    let mut desk = Desk::default();
-    desk.begin();
+    let mut fixture = Fixture::default();
+    fixture.begin();
     let empty = Box::new(Uploaded { objects: Vec::<FileObject>::new(), ..*uploaded() });
-    assert!(desk.reported(Outcome::Uploaded(empty)).is_none());
-    assert!(desk.failure().uploaded.is_some());
+    assert!(fixture.reported(Outcome::Uploaded(empty)).is_none());
+    assert!(fixture.failure().uploaded.is_some());
 }
 
 #[test]

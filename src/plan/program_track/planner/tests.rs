@@ -84,7 +84,7 @@ fn azel(range_deg: (f64, f64), rate_deg_s: f64, step_deg: f64) -> Drives {
     }
 }
 
-fn following(period_s: f64, dead_band_deg: f64) -> TrackSettings {
+fn settings(period_s: f64, dead_band_deg: f64) -> TrackSettings {
     TrackSettings { period_s, dead_band_deg, latency_s: 0.5, after: AfterPass::Hold }
 }
 
@@ -119,18 +119,18 @@ fn max_deg(pass: &Pass) -> f64 {
     pass.max_elevation().degrees()
 }
 
-fn run(target: Target, pass: &Pass, drives: Drives, following: TrackSettings) -> Run {
-    run_on(target, pass, drives, following, &metal(drives, following))
+fn run(target: Target, pass: &Pass, drives: Drives, settings: TrackSettings) -> Run {
+    run_on(target, pass, drives, settings, &metal(drives, settings))
 }
 
-fn metal(drives: Drives, following: TrackSettings) -> Metal {
+fn metal(drives: Drives, settings: TrackSettings) -> Metal {
     let [rate_deg_s, _] = drives.rates_deg_s;
     Metal {
         axes_deg: [180.0, 45.0],
         goals_deg: [180.0, 45.0],
         orders: VecDeque::new(),
         rate_deg_s,
-        latency_s: following.latency_s,
+        latency_s: settings.latency_s,
         ignored_deg: 0.0,
     }
 }
@@ -146,20 +146,20 @@ fn run_on(
     target: Target,
     pass: &Pass,
     drives: Drives,
-    following: TrackSettings,
+    settings: TrackSettings,
     metal: &Metal,
 ) -> Run {
     let passes = vec![(pass.aos.time, pass.los.time)];
     let follow = ProgramTrack { target, site: site(), passes };
-    let planner = Planner::new(follow, drives, following, free()).unwrap();
-    run_planner(planner, pass, following, metal, |_, _| {})
+    let planner = Planner::new(follow, drives, settings, free()).unwrap();
+    run_planner(planner, pass, settings, metal, |_, _| {})
 }
 
 /// Calls `look` with the positions of the axes at each time.
 fn run_planner(
     mut planner: Planner,
     pass: &Pass,
-    following: TrackSettings,
+    settings: TrackSettings,
     metal: &Metal,
     mut look: impl FnMut(Timestamp, [f64; 2]),
 ) -> Run {
@@ -176,8 +176,8 @@ fn run_planner(
             planner.watch(started + TICK * tick, metal.axes_deg.map(Some));
         }
         if now_s >= next_look_s {
-            next_look_s += following.period_s;
-            if let Some(next) = planner.look(now, metal.now()).unwrap() {
+            next_look_s += settings.period_s;
+            if let Some(next) = planner.update(now, metal.now()).unwrap() {
                 planner.sent(next);
                 metal.tell(now_s, next.set_point);
                 run.stats.commands += 1;
@@ -208,7 +208,7 @@ fn a_usual_pass_is_followed_within_the_dead_band() {
     let (target, pass) = pass_where(|_, pass| (35.0..50.0).contains(&max_deg(pass)));
     let drives = azel((0.0, 360.0), 4.0, 0.0);
     for (dead_band_deg, most) in [(0.0, 0.06), (0.2, 0.2), (1.0, 0.9)] {
-        let run = run(target.clone(), &pass, drives, following(1.0, dead_band_deg));
+        let run = run(target.clone(), &pass, drives, settings(1.0, dead_band_deg));
         let (rms, ..) = shown(&format!("usual, dead band {dead_band_deg}"), run.stats);
         assert!(rms < most, "{rms}");
     }
@@ -217,7 +217,7 @@ fn a_usual_pass_is_followed_within_the_dead_band() {
 #[test]
 fn whole_degrees_are_followed_to_their_rounding() {
     let (target, pass) = pass_where(|_, pass| (35.0..50.0).contains(&max_deg(pass)));
-    let run = run(target, &pass, azel((0.0, 360.0), 4.0, 1.0), following(1.0, 0.5));
+    let run = run(target, &pass, azel((0.0, 360.0), 4.0, 1.0), settings(1.0, 0.5));
     let (rms, worst, _) = shown("usual, whole degrees", run.stats);
     // The rounding of two axes, each up to half a degree.
     assert!(rms < 0.5 && worst < 1.0, "{rms} {worst}");
@@ -227,9 +227,9 @@ fn whole_degrees_are_followed_to_their_rounding() {
 fn a_drive_that_ignores_short_ways_is_found_out() {
     let (target, pass) = pass_where(|_, pass| (35.0..50.0).contains(&max_deg(pass)));
     let drives = azel((0.0, 360.0), 4.0, 1.0);
-    let following = following(1.0, 0.5);
-    let metal = Metal { ignored_deg: 2.0, ..metal(drives, following) };
-    let run = run_on(target, &pass, drives, following, &metal);
+    let settings = settings(1.0, 0.5);
+    let metal = Metal { ignored_deg: 2.0, ..metal(drives, settings) };
+    let run = run_on(target, &pass, drives, settings, &metal);
     let (rms, worst, _) = shown("usual, whole degrees, more than 2 at once", run.stats);
     assert!(rms < 1.2 && worst < 3.5, "{rms} {worst}");
 }
@@ -239,8 +239,8 @@ fn through_north_an_overlap_needs_no_slew() {
     let (target, pass) = pass_where(|propagator, pass| {
         max_deg(pass) > 20.0 && max_deg(pass) < 60.0 && goes_through_north(propagator, pass)
     });
-    let plain = run(target.clone(), &pass, azel((0.0, 360.0), 4.0, 0.0), following(1.0, 0.2));
-    let overlap = run(target, &pass, azel((0.0, 450.0), 4.0, 0.0), following(1.0, 0.2));
+    let plain = run(target.clone(), &pass, azel((0.0, 360.0), 4.0, 0.0), settings(1.0, 0.2));
+    let overlap = run(target, &pass, azel((0.0, 450.0), 4.0, 0.0), settings(1.0, 0.2));
     let (_, lost, _) = shown("north, 0 to 360", plain.stats);
     let (rms, kept, _) = shown("north, 0 to 450", overlap.stats);
     assert!(lost > 45.0 && kept < 0.5 && rms < 0.2, "{lost} {kept} {rms}");
@@ -254,7 +254,7 @@ fn near_the_zenith_the_axis_turns_early_and_catches_up() {
     let (target, pass) = pass_where(|_, pass| (87.5..88.5).contains(&max_deg(pass)));
     for rate_deg_s in [2.0, 6.0] {
         let drives = azel((0.0, 360.0), rate_deg_s, 0.0);
-        let run = run(target.clone(), &pass, drives, following(1.0, 0.2));
+        let run = run(target.clone(), &pass, drives, settings(1.0, 0.2));
         let (rms, worst, _) = shown(&format!("zenith at {rate_deg_s} degrees a second"), run.stats);
         assert!(rms < 20.0 / rate_deg_s && worst < 60.0 / rate_deg_s, "{rms} {worst}");
     }
@@ -272,7 +272,7 @@ fn over_the_zenith_a_pass_through_north_needs_no_slew() {
     let (target, pass) = pass_where(|propagator, pass| {
         max_deg(pass) > 20.0 && max_deg(pass) < 60.0 && goes_through_north(propagator, pass)
     });
-    let run = run(target, &pass, over(azel((0.0, 360.0), 4.0, 0.0)), following(1.0, 0.2));
+    let run = run(target, &pass, over(azel((0.0, 360.0), 4.0, 0.0)), settings(1.0, 0.2));
     let (rms, worst, _) = shown("north, 0 to 360 and 180", run.stats);
     assert!(worst < 0.5 && rms < 0.2, "{rms} {worst}");
 }
@@ -282,7 +282,7 @@ fn over_the_zenith_no_pass_needs_a_fast_axis() {
     let (target, pass) = pass_where(|_, pass| (87.5..88.5).contains(&max_deg(pass)));
     for rate_deg_s in [2.0, 6.0] {
         let drives = over(azel((0.0, 360.0), rate_deg_s, 0.0));
-        let run = run(target.clone(), &pass, drives, following(1.0, 0.2));
+        let run = run(target.clone(), &pass, drives, settings(1.0, 0.2));
         let (rms, worst, _) = shown(&format!("zenith at {rate_deg_s} and to 180"), run.stats);
         assert!(rms < 0.5 && worst < 2.3, "{rms} {worst}");
     }
@@ -291,19 +291,19 @@ fn over_the_zenith_no_pass_needs_a_fast_axis() {
 #[test]
 fn a_rate_is_learned_on_the_way_to_a_pass() {
     let (target, pass) = pass_where(|_, pass| (87.5..88.5).contains(&max_deg(pass)));
-    let following = following(1.0, 0.2);
+    let settings = settings(1.0, 0.2);
     for mount in
         [azel, |range_deg, rate_deg_s, step_deg| over(azel(range_deg, rate_deg_s, step_deg))]
     {
         let right = mount((0.0, 360.0), 4.0, 0.0);
         let (known_deg, ..) =
-            shown("rate as set", run(target.clone(), &pass, right, following).stats);
+            shown("rate as set", run(target.clone(), &pass, right, settings).stats);
         for share in [0.5, 2.0] {
             let wrong = mount((0.0, 360.0), 4.0 * share, 0.0);
-            let mut metal = metal(right, following);
+            let mut metal = metal(right, settings);
             metal.axes_deg[0] = (pass.aos.direction.azimuth_deg() + 120.0).rem_euclid(360.0);
             metal.goals_deg = metal.axes_deg;
-            let run = run_on(target.clone(), &pass, wrong, following, &metal);
+            let run = run_on(target.clone(), &pass, wrong, settings, &metal);
             let (rms, ..) = shown(&format!("{share} of the rate set"), run.stats);
             assert!(rms < known_deg + 0.1, "{rms} {known_deg}");
         }
@@ -318,10 +318,10 @@ fn a_planner_keeps_the_side_for_the_pass() {
     let follow =
         ProgramTrack { target, site: site(), passes: vec![(pass.aos.time, pass.los.time)] };
     let drives = over(azel((0.0, 360.0), 4.0, 0.0));
-    let mut planner = Planner::new(follow, drives, following(1.0, 0.2), free()).unwrap();
+    let mut planner = Planner::new(follow, drives, settings(1.0, 0.2), free()).unwrap();
     let axes = [20.0, 10.0].map(|at| AxisNow { position_deg: Some(at), stands: true });
     let mut elevation_deg = |at: Timestamp| {
-        let next = planner.look(at, axes).unwrap().unwrap();
+        let next = planner.update(at, axes).unwrap().unwrap();
         planner.drives.rates_deg_s[0] *= 2.0;
         next.set_point.elevation.unwrap().degrees()
     };
@@ -361,12 +361,12 @@ fn a_mast_in_the_middle_of_a_pass_is_gone_round_along_its_margin() {
         let (bounds, mast) = mast(&target, &pass, 8.0);
         let course = Course::new(&target, site()).unwrap();
         let drives = azel((-180.0, 540.0), rate_deg_s, step_deg);
-        let following = following(0.5, 0.2);
+        let settings = settings(0.5, 0.2);
         let follow =
             ProgramTrack { target, site: site(), passes: vec![(pass.aos.time, pass.los.time)] };
-        let planner = Planner::new(follow, drives, following, bounds.clone()).unwrap();
+        let planner = Planner::new(follow, drives, settings, bounds.clone()).unwrap();
         let (mut nearest_deg, mut behind_s, mut worst_deg) = (f64::MAX, 0.0, 0.0_f64);
-        run_planner(planner, &pass, following, &metal(drives, following), |now, axes_deg| {
+        run_planner(planner, &pass, settings, &metal(drives, settings), |now, axes_deg| {
             let at = bounds.direction(axes_deg);
             if now < pass.aos.time {
                 return;
@@ -401,12 +401,12 @@ fn what_sets_behind_a_mast_is_waited_for_at_its_edge() {
     antenna.limits.minimum_elevation_deg = 0.0;
     let bounds = Bounds::of(&station, &antenna);
     let drives = azel((-180.0, 540.0), 6.0, 0.0);
-    let following = following(0.5, 0.2);
+    let settings = settings(0.5, 0.2);
     let follow =
         ProgramTrack { target, site: site(), passes: vec![(pass.aos.time, pass.los.time)] };
-    let planner = Planner::new(follow, drives, following, bounds.clone()).unwrap();
+    let planner = Planner::new(follow, drives, settings, bounds.clone()).unwrap();
     let mut last_deg = f64::MAX;
-    run_planner(planner, &pass, following, &metal(drives, following), |now, axes_deg| {
+    run_planner(planner, &pass, settings, &metal(drives, settings), |now, axes_deg| {
         if now >= pass.aos.time {
             let clear = bounds.at(now).nearest(bounds.direction(axes_deg)).unwrap();
             last_deg = bounds.direction(axes_deg).separation(pass.los.direction).degrees();

@@ -2,7 +2,7 @@
 
 use egui::{Align2, Sense, Ui, vec2};
 
-use super::{Desk, fields, subtitle};
+use super::{CardEffects, fields, subtitle};
 use crate::ui::{
     antennas::{form::Form, row, section::Section, unit::Unit},
     format,
@@ -22,7 +22,7 @@ pub(in crate::ui::antennas) fn show(
     unit: &Unit<'_>,
     form: &mut Form,
     section: &Section,
-    desk: &mut Desk<'_>,
+    effects: &mut CardEffects<'_>,
 ) {
     let t = theme::tokens(ui);
     let (rect, _) = ui.allocate_exact_size(vec2(ui.available_width(), 24.0), Sense::hover());
@@ -46,7 +46,7 @@ pub(in crate::ui::antennas) fn show(
         paint::name_text(ui, "countdown", room, &left);
     }
     if button.show(ui, "unlock", place).clicked() && form.unlock.take().is_none() {
-        *desk.unlock = true;
+        *effects.unlock = true;
     }
     ui.add_space(4.0);
     row::note(ui, None, ABOUT, t.t2);

@@ -49,7 +49,7 @@ static SECTIONS: [Section; 7] = [
         keys: &[WINDOW.key],
         is_service: false,
         column: Some(Column::Left),
-        content: |ui, unit, form, _, desk| window::show(ui, unit, form, desk.commands),
+        content: |ui, unit, form, _, effects| window::show(ui, unit, form, effects.commands),
     },
     Section {
         title: "Satellite and TLE",
@@ -57,14 +57,14 @@ static SECTIONS: [Section; 7] = [
         is_service: false,
         column: Some(Column::Right),
         // The upload of elements to the unit has its place below this card.
-        content: |ui, unit, form, _, desk| satellite::show(ui, unit, form, desk),
+        content: |ui, unit, form, _, effects| satellite::show(ui, unit, form, effects),
     },
     Section {
         title: "Clock",
         keys: &[CLOCK.key],
         is_service: false,
         column: Some(Column::Right),
-        content: |ui, unit, form, _, desk| clock::show(ui, unit, form, desk.commands),
+        content: |ui, unit, form, _, effects| clock::show(ui, unit, form, effects.commands),
     },
     Section {
         title: "Versions and faults",

@@ -15,14 +15,14 @@ use crate::{
 };
 
 /// Turns actions of the card into commands.
-pub(super) struct Desk<'a> {
+pub(super) struct CardHandler<'a> {
     pub(super) model: &'a Model,
     pub(super) antenna: &'a AntennaModel,
     pub(super) question: &'a mut Option<Question>,
     pub(super) commands: &'a mut Vec<UiCommand>,
 }
 
-impl Desk<'_> {
+impl CardHandler<'_> {
     pub(super) fn take(&mut self, action: CardAction) {
         let command = match action {
             CardAction::Connect => Command::Connect,

@@ -2,7 +2,7 @@
 
 use egui::{Rect, Sense, Ui, vec2};
 
-use crate::ui::antennas::cards::{Desk, fields};
+use crate::ui::antennas::cards::{CardEffects, fields};
 use crate::{
     controller::satrak::settings::{
         ADDRESS, FILE, FILE_NAME, FTP, GENERAL, PASSWORD, PORT, SATELLITE, TLE_SOURCE, URL, USER,
@@ -31,7 +31,7 @@ use crate::{
 static SOURCES: [&Group; 3] = [&FILE, &WEB, &FTP];
 const TABS: f32 = 216.0;
 
-pub(super) fn show(ui: &mut Ui, unit: &Unit<'_>, form: &mut Form, desk: &mut Desk<'_>) {
+pub(super) fn show(ui: &mut Ui, unit: &Unit<'_>, form: &mut Form, effects: &mut CardEffects<'_>) {
     let used = used(unit);
     let shown = form.tab.or(used).unwrap_or(FILE.key);
     if let Some(tab) = tabs(ui, unit, form, used, shown) {
@@ -45,9 +45,9 @@ pub(super) fn show(ui: &mut Ui, unit: &Unit<'_>, form: &mut Form, desk: &mut Des
         row::note(ui, Some(Icon::Info), words, t.t2);
     }
     if let Some(group) = source(shown).filter(|_| used != Some(shown)) {
-        use_it(ui, unit, form, group, desk);
+        use_it(ui, unit, form, group, effects);
     }
-    test_from_here(ui, unit, form, shown, desk);
+    test_from_here(ui, unit, form, shown, effects);
 }
 
 /// Test fetch of the source as typed.
@@ -56,7 +56,7 @@ fn test_from_here(
     unit: &Unit<'_>,
     form: &mut Form,
     shown: &'static str,
-    desk: &mut Desk<'_>,
+    effects: &mut CardEffects<'_>,
 ) {
     let (Some(group), Some(held)) = (source(shown), unit.values(shown)) else { return };
     let draft = form.draft(shown);
@@ -85,7 +85,7 @@ fn test_from_here(
         return;
     };
     ui.add_space(8.0);
-    let (model, commands) = (unit.model, &mut *desk.commands);
+    let (model, commands) = (unit.model, &mut *effects.commands);
     ui.scope(|ui| {
         ui.spacing_mut().item_spacing.y = 6.0;
         source_test::show(ui, model, unit.index, typed, &mut form.source_test, commands);
@@ -151,7 +151,7 @@ fn use_it(
     unit: &Unit<'_>,
     form: &mut Form,
     group: &'static Group,
-    desk: &mut Desk<'_>,
+    effects: &mut CardEffects<'_>,
 ) {
     let t = theme::tokens(ui);
     let (rect, _) = ui.allocate_exact_size(vec2(ui.available_width(), 32.0), Sense::hover());
@@ -172,7 +172,7 @@ fn use_it(
     let place = rect.with_max_x(rect.left() + button.width(ui)).with_min_y(rect.top() + 6.0);
     if button.show(ui, "use source", place).clicked() {
         form.begin_report();
-        form.send(unit, group, values, desk.commands);
+        form.send(unit, group, values, effects.commands);
     }
     let room = place.with_min_x(place.right() + 8.0).with_max_x(rect.right());
     let said = refusal.unwrap_or("Sets it as it is, which makes it the source.");

@@ -1,7 +1,7 @@
 //! Writes a group of settings and proves it: checks that the unit still holds what the
 //! operator saw, sends, reads back, and asks the unit for faults.
 
-use super::settings::{Plan, Proof, Wish};
+use super::settings::{Desired, Plan, Proof};
 use crate::{
     clock::Moment,
     device::settings::{Hindrance, ReadFailure, SettingsWrite, Step, WriteError},
@@ -69,12 +69,12 @@ impl Plan {
             }
         }
         let Some(write) = self.write else { return Next::Over(Err(WriteError::NoSuchSetting)) };
-        let wish = Wish {
+        let desired = Desired {
             new: &settings_write.change.values,
             held: settings_write.before(),
             utc: now.utc,
         };
-        match write(&wish) {
+        match write(&desired) {
             Ok(setting) => Next::Send(Request::Setting(setting)),
             Err(error) => Next::Over(Err(error)),
         }

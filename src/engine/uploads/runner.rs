@@ -20,7 +20,7 @@ use crate::{
 const SELECTING: Duration = Duration::from_secs(90);
 
 /// A request to the session of an antenna.
-pub(in crate::engine) enum Told {
+pub(in crate::engine) enum SessionRequest {
     /// End tracking, and switch auto-track off.
     Rest,
     /// Use a file.
@@ -28,7 +28,7 @@ pub(in crate::engine) enum Told {
 }
 
 /// Carries out orders, one at a time.
-pub(in crate::engine) struct Desk {
+pub(in crate::engine) struct Runner {
     places: Option<Places>,
     clock: Clock,
     wake: Wake,
@@ -40,7 +40,7 @@ pub(in crate::engine) struct Desk {
     selecting_since: Option<Instant>,
 }
 
-impl Desk {
+impl Runner {
     pub(in crate::engine) fn new(places: Option<Places>, clock: Clock, wake: Wake) -> Self {
         Self {
             places,
@@ -62,7 +62,7 @@ impl Desk {
         ask: Ask,
         unit_of: impl Fn(&str) -> UnitNow,
         shown: &mut Uploads,
-    ) -> Option<Told> {
+    ) -> Option<SessionRequest> {
         let next = match ask {
             Ask::Begin(order) => {
                 let unit = unit_of(&order.antenna);
@@ -106,7 +106,7 @@ impl Desk {
         unit: &UnitNow,
         steady: Instant,
         shown: &mut Uploads,
-    ) -> Option<Told> {
+    ) -> Option<SessionRequest> {
         match Job::take(&mut self.listing) {
             Some(Ok(kept)) => shown.kept = kept,
             Some(Err(broke_off)) => shown.kept.list = Some(Err(broke_off.to_string())),
@@ -165,7 +165,7 @@ impl Desk {
         self.flow.selected(Err(text), self.clock.utc(), shown);
     }
 
-    fn carry_out(&mut self, next: Option<Next>, shown: &mut Uploads) -> Option<Told> {
+    fn carry_out(&mut self, next: Option<Next>, shown: &mut Uploads) -> Option<SessionRequest> {
         let next = next?;
         let Some(places) = &self.places else {
             let text = "this user has no folder for data".to_owned();
@@ -173,8 +173,8 @@ impl Desk {
         };
         let wake = Arc::clone(&self.wake);
         let started = match next {
-            Next::Rest => return Some(Told::Rest),
-            Next::Select(selection) => return Some(Told::Use(selection)),
+            Next::Rest => return Some(SessionRequest::Rest),
+            Next::Select(selection) => return Some(SessionRequest::Use(selection)),
             Next::Run(errand) => errand::start(*errand, places, &self.clock, wake)
                 .map(|transfer| self.transfer = Some(transfer)),
             Next::Decide(decision) => host_keys::decide(&places.known_hosts, decision, wake)
@@ -186,7 +186,7 @@ impl Desk {
         }
     }
 
-    fn end_early(&mut self, text: String, shown: &mut Uploads) -> Option<Told> {
+    fn end_early(&mut self, text: String, shown: &mut Uploads) -> Option<SessionRequest> {
         let unit = UnitNow::default();
         // There is no next step after a failure.
         let _ = self.flow.reported(Report::failed(text), &unit, shown);

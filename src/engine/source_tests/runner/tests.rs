@@ -15,8 +15,8 @@ use crate::{
 
 const NOAA_20: u32 = 43_013;
 
-/// A desk, its displayed state, and a channel that receives its wakes.
-fn desk(folder: &tempfile::TempDir) -> (Desk, SourceTests, mpsc::Receiver<()>) {
+/// A runner, its displayed state, and a channel that receives its wakes.
+fn runner(folder: &tempfile::TempDir) -> (Runner, SourceTests, mpsc::Receiver<()>) {
     let places = Places {
         known_hosts: KnownHosts::new(folder.path().join("known_hosts")),
         kept: KeptFiles::new(folder.path().join("uploads")),
@@ -29,7 +29,7 @@ fn desk(folder: &tempfile::TempDir) -> (Desk, SourceTests, mpsc::Receiver<()>) {
         // Several wakes count as one.
         let _ = send.try_send(());
     });
-    (Desk::new(Some(places), Clock::system(), wake), SourceTests::default(), woken)
+    (Runner::new(Some(places), Clock::system(), wake), SourceTests::default(), woken)
 }
 
 fn begin(url: String, satellite: &str) -> TestAsk {
@@ -52,23 +52,23 @@ fn serve(body: Vec<u8>) -> String {
     url
 }
 
-fn wait(desk: &mut Desk, shown: &mut SourceTests, woken: &mpsc::Receiver<()>) {
+fn wait(runner: &mut Runner, shown: &mut SourceTests, woken: &mpsc::Receiver<()>) {
     while shown.stage == TestStage::Working {
         woken.recv_timeout(Duration::from_secs(20)).unwrap();
-        desk.poll(shown);
+        runner.poll(shown);
     }
 }
 
 #[test]
 fn a_source_is_seen_as_the_unit_will_see_it() {
     let folder = tempfile::tempdir().unwrap();
-    let (mut desk, mut shown, woken) = desk(&folder);
+    let (mut runner, mut shown, woken) = runner(&folder);
     let mut body = Vec::new();
     let catalog = bundled().unwrap();
     write_tle(catalog.get(NOAA_20), &mut body).unwrap();
-    desk.ask(begin(serve(body), "NOAA 20 (JPSS-1)"), &mut shown);
+    runner.ask(begin(serve(body), "NOAA 20 (JPSS-1)"), &mut shown);
     assert_eq!(shown.stage, TestStage::Working);
-    wait(&mut desk, &mut shown, &woken);
+    wait(&mut runner, &mut shown, &woken);
     let TestStage::Seen { view, .. } = &shown.stage else { panic!("{:?}", shown.stage) };
     assert!(matches!(&view.satellite, Seen::Found(object) if object.catalog_number == NOAA_20));
 }
@@ -76,11 +76,11 @@ fn a_source_is_seen_as_the_unit_will_see_it() {
 #[test]
 fn what_is_wrong_with_a_source_is_told() {
     let folder = tempfile::tempdir().unwrap();
-    let (mut desk, mut shown, woken) = desk(&folder);
-    desk.ask(begin("gopher://x".to_owned(), "A"), &mut shown);
-    wait(&mut desk, &mut shown, &woken);
+    let (mut runner, mut shown, woken) = runner(&folder);
+    runner.ask(begin("gopher://x".to_owned(), "A"), &mut shown);
+    wait(&mut runner, &mut shown, &woken);
     assert!(matches!(&shown.stage, TestStage::Failed { text, .. } if text.contains("https")));
-    let mut homeless = Desk { places: None, ..desk };
+    let mut homeless = Runner { places: None, ..runner };
     homeless.ask(begin("http://127.0.0.1/".to_owned(), "A"), &mut shown);
     assert!(matches!(&shown.stage, TestStage::Failed { text, .. } if text.contains("no folder")));
 }
@@ -88,13 +88,13 @@ fn what_is_wrong_with_a_source_is_told() {
 #[test]
 fn a_test_can_be_cancelled_and_only_one_runs() {
     let folder = tempfile::tempdir().unwrap();
-    let (mut desk, mut shown, woken) = desk(&folder);
+    let (mut runner, mut shown, woken) = runner(&folder);
     let silent = TcpListener::bind("127.0.0.1:0").unwrap();
     let url = format!("http://{}/", silent.local_addr().unwrap());
-    desk.ask(begin(url, "A"), &mut shown);
-    desk.ask(begin("http://127.0.0.1/other".to_owned(), "B"), &mut shown);
+    runner.ask(begin(url, "A"), &mut shown);
+    runner.ask(begin("http://127.0.0.1/other".to_owned(), "B"), &mut shown);
     assert_eq!(shown.order.as_ref().unwrap().satellite, "A");
-    desk.ask(TestAsk::Cancel, &mut shown);
-    wait(&mut desk, &mut shown, &woken);
+    runner.ask(TestAsk::Cancel, &mut shown);
+    wait(&mut runner, &mut shown, &woken);
     assert!(matches!(&shown.stage, TestStage::Failed { text, .. } if text.contains("cancelled")));
 }

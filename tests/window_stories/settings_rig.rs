@@ -59,7 +59,7 @@ pub(crate) fn read() -> Snapshot {
 }
 
 /// The Antennas view on a unit in this state.
-pub(crate) fn desk(size: [f32; 2], snapshot: Snapshot) -> Window {
+pub(crate) fn opened(size: [f32; 2], snapshot: Snapshot) -> Window {
     let mut model = rig::model(snapshot);
     model.view = View::Antennas;
     rig::window(size, model)

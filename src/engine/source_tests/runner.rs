@@ -14,7 +14,7 @@ use crate::{
 };
 
 /// Runs tests, one at a time.
-pub(in crate::engine) struct Desk {
+pub(in crate::engine) struct Runner {
     places: Option<Places>,
     clock: Clock,
     wake: Wake,
@@ -23,7 +23,7 @@ pub(in crate::engine) struct Desk {
     deciding: Option<Job<Result<(), String>>>,
 }
 
-impl Desk {
+impl Runner {
     pub(in crate::engine) fn new(places: Option<Places>, clock: Clock, wake: Wake) -> Self {
         Self { places, clock, wake, offered: None, transfer: None, deciding: None }
     }

@@ -8,7 +8,7 @@ use crate::{
     protocol::satrak::{TextValue, ValueError},
 };
 
-pub(in crate::controller::satrak) struct Wish<'a> {
+pub(in crate::controller::satrak) struct Desired<'a> {
     pub(in crate::controller::satrak) new: &'a Values,
     /// Values that the unit holds.
     pub(in crate::controller::satrak) held: &'a Values,
@@ -16,7 +16,7 @@ pub(in crate::controller::satrak) struct Wish<'a> {
     pub(in crate::controller::satrak) utc: Timestamp,
 }
 
-impl Wish<'_> {
+impl Desired<'_> {
     fn find<T>(&self, key: &Key<T>) -> Option<T> {
         key.of(self.new).or_else(|| key.of(self.held))
     }
