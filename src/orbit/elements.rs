@@ -51,7 +51,6 @@ pub struct Elements {
     pub(super) classification: Classification,
 }
 
-/// Classification of a set.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 pub(super) enum Classification {
     #[default]
@@ -64,7 +63,6 @@ pub(super) enum Classification {
 /// digits can express.
 pub const EPOCH_YEARS: std::ops::RangeInclusive<i16> = 1957..=2056;
 
-/// Nine digits.
 const MAX_CATALOG_NUMBER: u32 = 999_999_999;
 
 /// The reason why numbers do not make an orbit.
@@ -235,7 +233,6 @@ impl Elements {
         self.eccentricity
     }
 
-    /// Time of one revolution in seconds.
     pub fn period_s(&self) -> f64 {
         time::DAY_S / self.mean_motion_rev_day
     }

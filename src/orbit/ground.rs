@@ -13,7 +13,6 @@ pub struct SubPoint {
     pub height_km: f64,
 }
 
-/// A point of a ground track.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct TrackPoint {
     pub time: Timestamp,

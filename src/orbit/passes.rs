@@ -30,7 +30,6 @@ use crate::astro::{Angle, AzEl, Site, time};
 /// Number of satellites that one thread takes at a time.
 const BATCH: usize = 64;
 
-/// Time and direction of one point of a pass.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct PassPoint {
     /// In UTC.
@@ -38,7 +37,7 @@ pub struct PassPoint {
     pub direction: AzEl,
 }
 
-/// One stay above the horizon within a window.
+/// One period above the horizon within a window.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Pass {
     /// Acquisition of signal: where the satellite rises, or the start of the window.

@@ -108,8 +108,8 @@ impl Propagator {
         self.secular.as_ref()
     }
 
-    /// Largest difference between the velocities and the rate of change of the positions,
-    /// `since_epoch_s` seconds after the epoch.
+    /// How far the velocities may differ from the rate of change of the positions, `since_epoch_s`
+    /// seconds after the epoch.
     pub(super) fn drift_km_s(&self, since_epoch_s: f64) -> f64 {
         let drag = |secular: &Secular| secular.drag_drift_km_s(since_epoch_s / 60.0);
         self.drift_km_s + self.secular.as_ref().map_or(0.0, drag)

@@ -99,7 +99,6 @@ const MAX_UNPACKED: u64 = 1 << 28;
 /// First bytes of zip, bzip2, xz and zstd.
 const PACKED: [&[u8]; 4] = [b"PK\x03\x04", b"BZh", b"\xfd7zXZ", &[0x28, 0xb5, 0x2f, 0xfd]];
 
-/// How elements are written.
 enum Form {
     Json,
     Xml,

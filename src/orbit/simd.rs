@@ -15,7 +15,6 @@ pub(super) use self::vector::Vector;
 
 /// Numbers that go through the same operations.
 pub(super) type Lanes = f64x8;
-/// Number of lanes.
 pub(super) const LANES: usize = 8;
 
 /// From here on, a number of this type has no digits after the point.

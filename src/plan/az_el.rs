@@ -37,7 +37,6 @@ pub(super) struct AzElAxes {
 pub(super) struct Start {
     /// Degrees as the mount counts; `None` if unknown.
     pub(super) axes_deg: [Option<f64>; 2],
-    /// Seconds.
     pub(super) lead_s: f64,
 }
 

@@ -111,7 +111,7 @@ pub struct ExportedPass<'a> {
     pub pass: &'a Pass,
 }
 
-/// Passes to write, in their order.
+/// Passes to write, in this order.
 #[derive(Debug, Clone, Copy)]
 pub struct PassList<'a> {
     pub rows: &'a [ExportedPass<'a>],

@@ -14,7 +14,7 @@ const AZIMUTH: [&str; 8] = [
     "horizontal angle",
 ];
 /// Names of the elevation column in lower case, the most certain first: a file from a phone may
-/// hold the altitude of the place beside the angle.
+/// hold the altitude of the location as well as the angle.
 const ELEVATION: [&str; 11] = [
     "elevation angle",
     "vertical angle",

@@ -23,9 +23,12 @@ const MARGIN: f64 = 0.02;
 /// Returns `true` if the satellite stays below the horizon for the whole window.
 ///
 /// Let i be the inclination, e the eccentricity and n the mean motion of the state in the middle of
-/// the window, and T the length of the window. The point below the satellite then stays within 2 i
-/// + 4.2 e + |n - earth rate| T / 2 of where it is in the middle: twice the figure of eight, twice
-/// the equation of centre, and the drift.
+/// the window, and T the length of the window. The point below the satellite then stays within
+///
+/// 2 i + 4.2 e + |n - earth rate| T / 2
+///
+/// of where it is at that instant: twice the figure of eight, twice the equation of centre,
+/// and the drift.
 pub(super) fn never_rises(track: &Track<'_>) -> bool {
     let window = track.window;
     if track.propagator.secular().is_some() || window.length_s > LONGEST_WINDOW_S {

@@ -6,8 +6,8 @@
 //!
 //! q(tau) = q + v tau + a tau²/2 + j tau³/6
 //!
-//! is accurate to centimetres for half a minute: the first term that is left out is about n⁴ r
-//! tau⁴/24, with n the angular speed and r the distance from the centre.
+//! is accurate to centimetres for half a minute: the first term that is left out is about
+//! n⁴ r tau⁴/24, with n the angular speed and r the distance from the centre.
 //!
 //! Height here always means the sine of the elevation. It is smooth even where a satellite passes
 //! the zenith and its azimuth jumps.
@@ -220,7 +220,6 @@ impl LocalSeries {
 }
 
 impl LocalSeries<Lanes> {
-    /// The series of one lane.
     pub(super) fn lane(&self, lane: usize) -> LocalSeries {
         LocalSeries {
             at_s: lane_of(&self.at_s, lane),
@@ -237,7 +236,6 @@ impl LocalSeries<Lanes> {
 }
 
 impl LocalState<Lanes> {
-    /// The place of one lane.
     pub(super) fn lane(&self, lane: usize) -> LocalState {
         let Height { sine, rate, curve } = &self.height;
         let of = |numbers| lane_of(numbers, lane);

@@ -31,7 +31,6 @@ impl<N: Number> Sighting<N> {
 }
 
 impl Sighting<Lanes> {
-    /// The sighting of one lane.
     pub(super) fn lane(&self, lane: usize) -> Sighting {
         let of = |numbers| lane_of(numbers, lane);
         Sighting {

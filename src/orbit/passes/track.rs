@@ -33,7 +33,7 @@ const MENDING_STEP_S: f64 = 15.0;
 /// How far a series made from a state can be trusted.
 #[derive(Default)]
 pub(super) struct Exactness<N = f64> {
-    /// Largest difference between SGP4's velocity and the rate of change of its position.
+    /// How far SGP4's velocity may differ from the rate of change of its position.
     pub(super) drift_km_s: N,
 }
 

@@ -62,7 +62,6 @@ impl Field {
     }
 }
 
-/// The value of a field.
 #[derive(Debug, Clone, PartialEq)]
 enum Value<'a> {
     /// Text, which may contain a number.

@@ -14,7 +14,6 @@ const MAX_LISTED: usize = 100_000;
 /// Maximum length of the name of a refused object, in characters.
 const MAX_OBJECT_CHARS: usize = 60;
 
-/// The result of reading a text.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct ReadReport {
     /// The objects that were read, in the order of the text.
@@ -165,7 +164,6 @@ impl ReadReport {
         }
     }
 
-    /// Notes an oddity of an accepted object.
     pub(super) fn note(&mut self, line: usize, object: Option<&str>, kind: NoteKind) {
         if self.notes.len() < MAX_LISTED {
             self.notes.push(Note { line, object: object.map(shortened), kind });

@@ -1,4 +1,4 @@
-//! TLE: two lines of 69 columns, which a line with the name may precede.
+//! TLE: two lines of 69 columns, optionally preceded by a line with the name.
 
 mod columns;
 
@@ -25,7 +25,6 @@ impl Line<'_> {
     }
 }
 
-/// Reads all sets of `text`.
 pub(super) fn read(text: &str) -> ReadReport {
     let mut report = ReadReport::default();
     let mut lines = text
@@ -63,7 +62,6 @@ fn object<'a>(name: &'a str, line: &'a str) -> Option<&'a str> {
     Some(name).filter(|name| !name.is_empty()).or_else(number).filter(|text| !text.is_empty())
 }
 
-/// Reads one set.
 fn set(
     name: &str,
     first: Line<'_>,

@@ -41,7 +41,6 @@ impl<N: Number> Vector<N> {
 }
 
 impl Vector<Lanes> {
-    /// The vector of one lane.
     pub(in crate::orbit) fn lane(&self, lane: usize) -> Vector<f64> {
         let [x, y, z] = [&self.x, &self.y, &self.z].map(|numbers| lane_of(numbers, lane));
         Vector { x, y, z }

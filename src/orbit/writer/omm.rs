@@ -7,7 +7,6 @@ use serde::Serialize;
 
 use crate::orbit::Elements;
 
-/// One message.
 #[derive(Serialize)]
 #[serde(rename_all = "SCREAMING_SNAKE_CASE")]
 struct Message<'a> {

@@ -17,7 +17,6 @@ const WORTH_NAMING_DEG: f64 = 0.02;
 /// roughly, and the window is not the whole pass.
 const HIGHEST_ROUGH_DEG: f64 = 3.0;
 
-/// A cause of the error.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub enum Cause {
     /// The unit uses another location.
@@ -27,15 +26,9 @@ pub enum Cause {
         away_km: f64,
     },
     /// The clock of the unit is ahead of UTC.
-    Clock {
-        /// Seconds.
-        ahead_s: f64,
-    },
+    Clock { ahead_s: f64 },
     /// The unit shifts the track in time.
-    TimeOffset {
-        /// Seconds.
-        offset_s: f64,
-    },
+    TimeOffset { offset_s: f64 },
     /// Offset of the azimuth, degrees.
     AzimuthOffset(f64),
     /// Offset of the elevation, degrees.

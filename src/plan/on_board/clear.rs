@@ -14,7 +14,7 @@ use crate::{
 /// path that exceeds a bound by less counts as running along it.
 const ALONG_DEG: f64 = 0.5;
 
-/// The first place where a path leaves the limits.
+/// The first position at which a path leaves the limits.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Trespass {
     pub at: Timestamp,

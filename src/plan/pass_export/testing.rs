@@ -40,7 +40,7 @@ pub(super) fn written(format: PassFormat, elements: Elements, passes: &[Pass]) -
     written_with(format, elements, passes, None)
 }
 
-/// The same, with the Doppler shift of a carrier.
+/// Like [`written`], with the Doppler shift of a carrier.
 pub(super) fn written_with(
     format: PassFormat,
     elements: Elements,

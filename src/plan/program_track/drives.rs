@@ -15,7 +15,6 @@ use crate::{
     station::{MotionLimits, Mount},
 };
 
-/// Highest elevation of the sky, degrees.
 const ZENITH_DEG: f64 = 90.0;
 
 /// The abilities of the drives for position commands.
@@ -33,7 +32,6 @@ pub struct Drives {
     pub has_elevation: bool,
 }
 
-/// A position to command.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SetPoint {
     /// Position of an azimuth axis, which may exceed a full turn; `None` leaves the axis

@@ -28,7 +28,6 @@ const PATH_S: f64 = 3.0 * 3600.0;
 /// Time before its end at which a path is extended, beyond the look-ahead of a command, seconds.
 const MARGIN_S: f64 = 60.0;
 
-/// The next command.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Next {
     pub set_point: SetPoint,
@@ -80,7 +79,7 @@ impl Planner {
         self.course.direction(at).filter(|direction| self.drives.may_reach(*direction))
     }
 
-    /// The command at `now` with which the antenna points right at the next look; `None` while the
+    /// The command at `now` that has the antenna on the target by the next look; `None` while the
     /// last command or the present position is good enough. Fails once the target has decayed.
     pub fn update(
         &mut self,

@@ -11,7 +11,6 @@ use crate::orbit::{
     simd::{LANES, Lanes, set},
 };
 
-/// A satellite at an instant.
 #[derive(Clone, Copy)]
 pub(super) struct SatelliteAt<'a> {
     pub(super) satellite: &'a NearCircular<'a>,

@@ -10,8 +10,8 @@ use crate::orbit::reader::{ReadReport, RefusalReason};
 /// Maximum number of fields of a row that are read; real rows have some forty. A line without an
 /// end must not take many times its length in memory.
 const MAX_FIELDS: usize = 1000;
-/// Minimum number of field names in a header: more than the name of an object has room for, and
-/// more than there are texts in a row.
+/// Minimum number of field names in a header: more than fit into the name of an object, and more
+/// than a row has text fields.
 const MIN_NAMES: usize = 4;
 
 /// Returns `true` if `line` is a header.

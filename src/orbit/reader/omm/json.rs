@@ -10,7 +10,6 @@ use self::split::{Part, parts};
 use super::{Field, Message, Value};
 use crate::orbit::reader::{ReadReport, RefusalReason};
 
-/// Reads all objects of `text`.
 pub(in crate::orbit::reader) fn read(text: &str) -> ReadReport {
     let mut report = ReadReport::default();
     // Some servers put an object around the list.

@@ -23,7 +23,6 @@ pub(in crate::orbit::reader) fn is_comment(line: &str) -> bool {
     line.split_whitespace().next() == Some("COMMENT")
 }
 
-/// Reads all messages of `text`.
 pub(in crate::orbit::reader) fn read(text: &str) -> ReadReport {
     let mut report = ReadReport::default();
     let (mut message, mut start) = (Message::default(), 1);

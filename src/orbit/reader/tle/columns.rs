@@ -36,7 +36,8 @@ impl Columns {
             return Err(RefusalReason::TooShort { line, columns: given.len() });
         }
         for (column, byte) in bytes.iter_mut().zip(given) {
-            // A tab stands for the one blank it replaced, or the columns after it are wrong.
+            // A tab is read as one blank; if it replaced more than one, the columns
+            // after it are wrong.
             *column = if *byte == b'\t' { b' ' } else { *byte };
         }
         if !bytes.is_ascii() {
@@ -160,7 +161,6 @@ fn full_year(two_digits: u8) -> i16 {
     i16::from(two_digits) + if two_digits < 57 { 2000 } else { 1900 }
 }
 
-/// The elements of a set.
 pub(super) fn elements(
     name: &str,
     [first, second]: &[Columns; 2],
