@@ -15,9 +15,11 @@ mod demo;
 mod handle;
 pub mod host_keys;
 mod lock_outs;
+pub mod notices;
 pub mod on_board;
 mod owed;
 pub mod passes;
+pub mod reminders;
 pub mod signals;
 mod snapshot;
 #[cfg(unix)]
@@ -52,6 +54,7 @@ use self::{
     demo::Demo,
     handle::{AntennaEnds, Published, Request},
     passes::{PassLists, Searches},
+    reminders::Reminder,
     source_tests::SourceTests,
     sources::{Outcome, Places, SourceWork, Sources, Task},
     uploads::Uploads,
@@ -130,6 +133,7 @@ struct Engine {
     attention: Attention,
     searches: Searches,
     pass_lists: PassLists,
+    reminders: Vec<Reminder>,
     uploads: Uploads,
     source_tests: SourceTests,
     alarms: Alarms,
@@ -248,6 +252,7 @@ impl Engine {
             attention: Attention::default(),
             searches: Searches::default(),
             pass_lists: PassLists::default(),
+            reminders: Vec::new(),
             uploads: Uploads::default(),
             source_tests: SourceTests::default(),
             alarms: Alarms::default(),
@@ -391,6 +396,7 @@ impl Engine {
             sources: shared(&self.sources, &last.sources),
             antennas: self.antennas.iter().map(|antenna| antenna.shown.clone()).collect(),
             pass_lists: self.pass_lists.clone(),
+            reminders: shared(&self.reminders, &last.reminders),
             uploads: shared(&self.uploads, &last.uploads),
             source_tests: shared(&self.source_tests, &last.source_tests),
             alarms: self.alarms.clone(),

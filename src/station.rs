@@ -9,6 +9,7 @@ mod frequency;
 mod keep_out;
 mod lock_outs;
 mod mount;
+mod notices;
 pub mod ranges;
 mod read;
 mod setting;
@@ -24,6 +25,7 @@ pub use frequency::Frequency;
 pub use keep_out::{Entered, KeepOut, SunAvoidance};
 pub use lock_outs::{LOCK_OUTS_FILE, LockOut, LockOuts};
 pub use mount::Mount;
+pub use notices::{Notices, QuietHours};
 pub use read::{Note, NoteReason, from_toml};
 pub use setting::{Setting, Table};
 pub use track_settings::{AfterPass, TrackSettings};
@@ -52,6 +54,9 @@ pub struct Station {
     /// Frequencies of satellites, of which each may have several.
     #[serde(rename = "frequency", skip_serializing_if = "Vec::is_empty")]
     pub frequencies: Vec<Frequency>,
+    /// Alarms and reminders that the desktop shows and sounds.
+    #[serde(skip_serializing_if = "Notices::is_default")]
+    pub notices: Notices,
     /// Action on the antennas when the program ends; `None` asks the operator.
     #[serde(rename = "close", skip_serializing_if = "Option::is_none")]
     pub on_close: Option<OnClose>,
@@ -110,6 +115,7 @@ impl Default for Station {
                 44334, // Eutelsat 7C
             ],
             frequencies: Vec::new(),
+            notices: Notices::default(),
             on_close: None,
             keep_outs: Vec::new(),
             sun_avoidance: None,

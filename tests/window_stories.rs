@@ -19,6 +19,7 @@ mod maintenance;
 mod makes;
 mod map;
 mod mask;
+mod notices;
 mod on_board;
 mod panel;
 mod panel_layout;

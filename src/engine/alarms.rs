@@ -63,6 +63,8 @@ pub struct Alarm {
     /// Unique in this station. A matter that comes again has a new one, so that nobody
     /// acknowledges what he has not seen.
     pub id: u64,
+    /// The id with which the matter came first: that of its row, however often it comes again.
+    pub row: u64,
     /// `None` where it concerns no single antenna.
     pub antenna: Option<AntennaId>,
     pub kind: AlarmKind,
@@ -162,6 +164,7 @@ impl Alarms {
         let shelved_until = before.as_ref().and_then(|before| before.shelved_until);
         list.push(Alarm {
             id,
+            row: before.as_ref().map_or(id, |before| before.row),
             antenna,
             kind,
             raised: before.as_ref().map_or(now, |before| before.raised),

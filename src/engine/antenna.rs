@@ -232,6 +232,18 @@ impl AntennaModel {
             .flatten()
     }
 
+    /// Returns `true` if the antenna tracks this satellite, or is on its way to a pass of it.
+    pub fn takes(&self, catalog_number: u32) -> bool {
+        let is_done = !self.follows()
+            && self
+                .snapshot
+                .state
+                .program
+                .is_some_and(|program| program.enabled && program.phase == Phase::Completed);
+        let is_its = self.tracked_number() == Some(catalog_number);
+        self.snapshot.link.is_open() && is_its && !is_done
+    }
+
     /// Returns `true` if the unit should point at its target now: not before its tracking
     /// window opens, and not when the pass is over.
     fn is_on_course(&self) -> bool {

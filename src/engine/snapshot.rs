@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 
 use super::{
     alarms::Alarms, antenna::AntennaModel, closing::Closing, copies::Copies, passes::PassLists,
-    source_tests::SourceTests, sources::Sources, uploads::Uploads, written,
+    reminders::Reminder, source_tests::SourceTests, sources::Sources, uploads::Uploads, written,
 };
 use crate::{clock::Moment, driver::TimeSync, orbit::Catalog, station::Station};
 
@@ -41,6 +41,8 @@ pub struct Snapshot {
     /// The antennas of the station, in its order.
     pub antennas: Vec<AntennaModel>,
     pub pass_lists: PassLists,
+    /// Reminders of passes that are not over.
+    pub reminders: Arc<Vec<Reminder>>,
     pub uploads: Arc<Uploads>,
     /// Tests, from here, of the sources that units use.
     pub source_tests: Arc<SourceTests>,
@@ -64,6 +66,7 @@ impl Snapshot {
             sources: Arc::default(),
             antennas: Vec::new(),
             pass_lists: PassLists::default(),
+            reminders: Arc::default(),
             uploads: Arc::default(),
             source_tests: Arc::default(),
             alarms: Alarms::default(),

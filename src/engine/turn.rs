@@ -36,6 +36,7 @@ impl Engine {
         let antennas = self.antennas.iter().map(|antenna| &antenna.shown.config);
         let strangers = owed::strangers(self.driver.debts().units(), antennas);
         owed::tell(&mut self.alarms, strangers, self.now);
+        self.remind();
         self.alarms.pass_time(self.now);
         self.forget_tracks();
         self.watch_closing();

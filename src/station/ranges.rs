@@ -28,6 +28,8 @@ pub const LATENCY_S: RangeInclusive<f64> = 0.0..=60.0;
 pub const MARGIN_DEG: RangeInclusive<f64> = 0.0..=30.0;
 /// Elevation of a corner of a keep-out, degrees.
 pub const CORNER_ELEVATION_DEG: RangeInclusive<f64> = -90.0..=90.0;
+/// Time from a reminder to AOS, minutes.
+pub const REMINDER_MIN: RangeInclusive<f64> = 1.0..=60.0;
 /// Frequency of a carrier, MHz.
 pub const FREQUENCY_MHZ: RangeInclusive<f64> = 0.1..=300_000.0;
 /// Smallest angle between the Sun and the direction of an antenna, degrees.

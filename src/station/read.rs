@@ -3,10 +3,11 @@
 
 mod antenna;
 mod keep_out;
+mod notices;
 
 use std::ops::RangeInclusive;
 
-use serde::{Deserialize, Serialize};
+use serde::{Deserialize, Serialize, de::DeserializeOwned};
 use toml::{Table, Value};
 
 use super::{Antenna, AntennaId, ControllerSpec, Frequency, OnClose, Station, ranges};
@@ -52,8 +53,9 @@ pub fn from_toml(mut table: Table, specs: &[&'static ControllerSpec]) -> (Statio
             &ranges::ELEVATION_FLOOR_DEG,
             10.0,
         ),
-        favourites: fields.favourites(default.favourites),
+        favourites: fields.catalog_numbers("favourites", default.favourites),
         frequencies: fields.frequencies(),
+        notices: fields.notices(),
         on_close: fields.on_close(),
         keep_outs: Vec::new(),
         sun_avoidance: fields.sun_avoidance(),
@@ -141,10 +143,10 @@ impl Fields<'_> {
         self.one_of("close", &known, None)
     }
 
-    fn favourites(&mut self, default: Vec<u32>) -> Vec<u32> {
-        let Some(value) = self.table.remove("favourites") else { return default };
+    fn catalog_numbers<T: DeserializeOwned>(&mut self, key: &str, default: T) -> T {
+        let Some(value) = self.table.remove(key) else { return default };
         value.try_into().unwrap_or_else(|error: toml::de::Error| {
-            self.invalid("favourites", error.message());
+            self.invalid(key, error.message());
             default
         })
     }

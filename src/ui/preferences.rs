@@ -6,6 +6,7 @@ mod draft;
 mod fields;
 mod form;
 mod horizon;
+mod notices;
 mod station_fields;
 
 use egui::{
@@ -63,11 +64,16 @@ enum Section {
     Station,
     /// Obstructions of the sky, and zones that antennas must not point at.
     Horizon,
+    /// Notifications, sounds and reminders.
+    Notices,
 }
 
 impl Section {
-    const ALL: [(&'static str, Self); 2] =
-        [("Station and antennas", Self::Station), ("Horizon and keep-outs", Self::Horizon)];
+    const ALL: [(&'static str, Self); 3] = [
+        ("Station and antennas", Self::Station),
+        ("Horizon and keep-outs", Self::Horizon),
+        ("Alarms and sounds", Self::Notices),
+    ];
 }
 
 impl PreferencesState {
@@ -132,17 +138,12 @@ pub fn show(
     let page = sections(ui, body, state);
     let antennas = draft.antenna_names();
     match state.section {
-        Section::Station => {
-            let inner = page.shrink2(vec2(PADDING, 0.0)).with_min_y(page.top() + PADDING);
-            let builder = UiBuilder::new().id_salt("preferences").max_rect(inner);
-            ui.scope_builder(builder, |ui| {
-                ui.set_clip_rect(page);
-                ui.label(RichText::new("Station settings").font(text::title()));
-                ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
-                    form::show(ui, model, &mut draft, page.width() >= TWO_COLUMNS_FROM);
-                });
-            });
-        }
+        Section::Station => cards(ui, page, "Station settings", |ui, two_columns| {
+            form::show(ui, model, &mut draft, two_columns);
+        }),
+        Section::Notices => cards(ui, page, "Alarms and sounds", |ui, two_columns| {
+            notices::show(ui, model, &mut draft, two_columns);
+        }),
         Section::Horizon => {
             let (skies, horizon) = (&mut draft.skies, &mut state.horizon);
             horizon::show(ui, page, model, (&station, &antennas), skies, horizon, commands);
@@ -191,6 +192,19 @@ pub fn show(
     }
 }
 
+/// Shows a page of cards, in two columns if there is room.
+fn cards(ui: &mut Ui, page: Rect, title: &str, content: impl FnOnce(&mut Ui, bool)) {
+    let inner = page.shrink2(vec2(PADDING, 0.0)).with_min_y(page.top() + PADDING);
+    let builder = UiBuilder::new().id_salt(title).max_rect(inner);
+    ui.scope_builder(builder, |ui| {
+        ui.set_clip_rect(page);
+        ui.label(RichText::new(title).font(text::title()));
+        ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
+            content(ui, page.width() >= TWO_COLUMNS_FROM);
+        });
+    });
+}
+
 /// Shows the pages at the left, or above if there is no room. Returns the remaining space.
 fn sections(ui: &Ui, body: Rect, state: &mut PreferencesState) -> Rect {
     let t = theme::tokens(ui);
@@ -201,7 +215,7 @@ fn sections(ui: &Ui, body: Rect, state: &mut PreferencesState) -> Rect {
             (word, if of == state.section { Segment::Chosen } else { Segment::Free })
         });
         let place = strip.shrink2(vec2(PADDING, 6.0));
-        let place = place.with_max_x(place.left() + 360.0);
+        let place = place.with_max_x(place.left() + 180.0 * Section::ALL.len() as f32);
         let clicked = segmented::show(ui, "preferences page", place, "Page", &segments);
         if let Some((_, section)) = clicked.and_then(|index| Section::ALL.get(index)) {
             state.section = *section;

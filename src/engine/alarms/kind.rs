@@ -11,7 +11,7 @@ use crate::{
         panel::{Check, CheckState},
     },
     driver::{Event, Found, LinkLoss, Safety, TrackProblem, Unit},
-    engine::claim::HeldBy,
+    engine::{claim::HeldBy, passes::PassKey},
     name::{self, Name},
     plan::on_board::Ranked,
     station::{Note, NoteReason},
@@ -76,6 +76,12 @@ pub enum AlarmKind {
     TrackingEnded,
     /// A motion ended short of its target.
     EndedShort,
+    /// No antenna is on its way to a pass that the operator wanted to be reminded of.
+    NoAntennaFor {
+        pass: PassKey,
+        /// Short name of the satellite.
+        name: String,
+    },
     /// The unit tracks without a request from this console.
     StartedByItself,
     /// The unit moves without a request from this console.
@@ -178,6 +184,7 @@ impl AlarmKind {
                 | Self::OffTarget { .. }
                 | Self::UnitDiffers(_)
                 | Self::NotCompared { .. }
+                | Self::NoAntennaFor { .. }
                 | Self::ClockNotSet
                 | Self::Unreadable(_)
                 | Self::Setting(_)

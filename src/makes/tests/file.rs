@@ -15,7 +15,8 @@ use crate::{
     device::{CountPoint, settings::Value},
     station::{
         self, AfterPass, Antenna, AntennaId, Entered, KeepOut, LoadError, Loaded, Monitor, Mount,
-        Note, NoteReason, OnClose, Resume, SaveError, Station, SunAvoidance, TrackSettings, save,
+        Note, NoteReason, Notices, OnClose, QuietHours, Resume, SaveError, Station, SunAvoidance,
+        TrackSettings, save,
     },
 };
 
@@ -49,6 +50,45 @@ fn a_station_comes_back_as_it_was_saved() {
     assert_eq!(loaded.station, station);
     save(&Station::default(), &path).unwrap();
     assert_eq!(load(&path.with_extension("toml.old")).unwrap().station, station);
+}
+
+#[test]
+fn notices_come_back_as_they_were_saved_and_older_files_have_their_defaults() {
+    let (_folder, path) = written("name = 'Old'");
+    let old = load(&path).unwrap();
+    assert_eq!((old.station.notices, old.notes), (Notices::default(), Vec::new()));
+    let notices = Notices {
+        notifications: false,
+        sounds: false,
+        quiet: Some(QuietHours::USUAL),
+        reminder_min: 7.5,
+        reminders: [25_544, 43_013].into(),
+    };
+    let station = Station { notices, ..Station::default() };
+    save(&station, &path).unwrap();
+    let loaded = load(&path).unwrap();
+    assert_eq!((loaded.station, loaded.notes), (station, Vec::new()));
+    assert!(fs::read_to_string(&path).unwrap().contains("from = \"22:00\""));
+}
+
+#[test]
+fn wrong_notices_are_named_and_make_nothing_quiet() {
+    for (text, place) in [
+        ("sounds = 'off'", "notices.sounds"),
+        ("notifications = 0", "notices.notifications"),
+        ("reminder_min = 0.5", "notices.reminder_min"),
+        ("reminders = ['ISS']", "notices.reminders"),
+        ("sound = false", "notices.sound"),
+        ("quiet = { from = '22:00', to = '22:00' }", "notices.quiet"),
+        ("quiet = { from = '22:00', to = '26:00' }", "notices.quiet.to"),
+        ("quiet = { from = 22, to = '06:00' }", "notices.quiet.from"),
+        ("quiet = true", "notices.quiet"),
+    ] {
+        let (_folder, path) = written(&format!("[notices]\n{text}\n"));
+        let Loaded { station, notes } = load(&path).unwrap();
+        assert_eq!(station.notices, Notices::default(), "{text}");
+        assert_eq!(notes.first().map(|note| &*note.place), Some(place), "{notes:?}");
+    }
 }
 
 #[test]

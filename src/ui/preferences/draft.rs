@@ -7,6 +7,7 @@ use super::{
     antenna_fields,
     fields::{Standing, Typed},
     horizon::draft::Skies,
+    notices::NoticesDraft,
     station_fields::{self, Ground},
 };
 use jiff::Timestamp;
@@ -20,6 +21,7 @@ pub(super) struct Draft {
     pub(super) antennas: Vec<Typed<Antenna>>,
     /// Indices of antennas that saving removes; until then each can be taken back.
     removed: BTreeSet<usize>,
+    pub(super) notices: NoticesDraft,
     pub(super) skies: Skies,
 }
 
@@ -29,6 +31,7 @@ impl Draft {
             ground: Typed::of(Ground::of(station), station_fields::all()),
             antennas: station.antennas.iter().cloned().map(typed).collect(),
             removed: BTreeSet::new(),
+            notices: NoticesDraft::of(&station.notices),
             skies: Skies::of(station),
         }
     }
@@ -107,6 +110,7 @@ impl Draft {
             .kept()
             .map(|(_, antenna)| (antenna.before().name.clone(), name(antenna).trim().to_owned()))
             .collect();
+        station.notices = self.notices.read()?;
         self.skies.put_into(&mut station, &renamed)?;
         Some(station)
     }

@@ -42,23 +42,35 @@ const COLUMN: f32 = 560.0;
 
 /// Shows all fields, in two columns if there is room.
 pub(super) fn show(ui: &mut Ui, model: &Model, draft: &mut Draft, two_columns: bool) {
+    columns(ui, two_columns, draft, site, |ui, draft| antennas(ui, model, draft));
+}
+
+/// Shows two parts of a form side by side, or below each other.
+pub(super) fn columns<T>(
+    ui: &mut Ui,
+    two_columns: bool,
+    draft: &mut T,
+    first: impl FnOnce(&mut Ui, &mut T),
+    second: impl FnOnce(&mut Ui, &mut T),
+) {
     if !two_columns {
-        site(ui, draft);
-        antennas(ui, model, draft);
+        first(ui, draft);
+        second(ui, draft);
         return;
     }
     let width = COLUMN.min((ui.available_width() - GAP) / 2.0);
     ui.horizontal_top(|ui| {
         ui.spacing_mut().item_spacing.x = GAP;
-        let column = |ui: &mut Ui, fill: &mut dyn FnMut(&mut Ui)| {
-            ui.allocate_ui_with_layout(vec2(width, 0.0), Layout::top_down(Align::Min), |ui| {
-                ui.spacing_mut().item_spacing.x = 8.0;
-                ui.set_width(width);
-                fill(ui);
-            });
-        };
-        column(ui, &mut |ui| site(ui, draft));
-        column(ui, &mut |ui| antennas(ui, model, draft));
+        column(ui, width, |ui| first(ui, draft));
+        column(ui, width, |ui| second(ui, draft));
+    });
+}
+
+fn column(ui: &mut Ui, width: f32, fill: impl FnOnce(&mut Ui)) {
+    ui.allocate_ui_with_layout(vec2(width, 0.0), Layout::top_down(Align::Min), |ui| {
+        ui.spacing_mut().item_spacing.x = 8.0;
+        ui.set_width(width);
+        fill(ui);
     });
 }
 
@@ -109,7 +121,7 @@ fn antennas(ui: &mut Ui, model: &Model, draft: &mut Draft) {
     });
 }
 
-fn card(ui: &mut Ui, title: &str, content: impl FnOnce(&mut Ui)) {
+pub(super) fn card(ui: &mut Ui, title: &str, content: impl FnOnce(&mut Ui)) {
     card_frame::show(ui, COLUMN, |ui| {
         ui.label(RichText::new(title).font(text::value()));
         content(ui);
@@ -134,7 +146,7 @@ fn measured(ui: &mut Ui, label: &str, words: &str) {
     });
 }
 
-fn fields<T>(ui: &mut Ui, group: &str, fields: &mut [Field<T>], standings: &[Standing]) {
+pub(super) fn fields<T>(ui: &mut Ui, group: &str, fields: &mut [Field<T>], standings: &[Standing]) {
     let t = theme::tokens(ui);
     let mut section = "";
     for (field, standing) in fields.iter_mut().zip(standings).filter(|(_, of)| of.is_used) {

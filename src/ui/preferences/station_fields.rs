@@ -7,7 +7,7 @@ use super::{
 use crate::{
     astro::Site,
     device::settings::{Kind, Value},
-    station::{Antenna, Frequency, OnClose, Station, ranges},
+    station::{Antenna, Frequency, Notices, OnClose, Station, ranges},
 };
 
 /// A station without its antennas, with a site that may be invalid.
@@ -40,7 +40,11 @@ impl Ground {
         }
     }
 
-    /// The station with these antennas, without the contents of the horizon page.
+    pub(super) fn favourites(&self) -> &[u32] {
+        &self.favourites
+    }
+
+    /// The station with these antennas, without the contents of the other pages.
     pub(super) fn with(self, antennas: Vec<Antenna>) -> Option<Station> {
         Some(Station {
             site: Site::new(self.latitude_deg, self.longitude_deg, self.altitude_m).ok()?,
@@ -50,6 +54,7 @@ impl Ground {
             elevation_floor_deg: self.elevation_floor_deg,
             favourites: self.favourites,
             frequencies: self.frequencies,
+            notices: Notices::default(),
             on_close: self.on_close,
             keep_outs: Vec::new(),
             sun_avoidance: None,

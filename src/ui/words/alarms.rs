@@ -117,6 +117,11 @@ pub fn alarm(kind: &AlarmKind, antenna: &str) -> String {
             "{antenna} tracks by its own program and does not tell what. Azel cannot tell \
              whether it is on its satellite; its limits and keep-outs are watched."
         ),
+        AlarmKind::NoAntennaFor { pass: (_, aos), name } => format!(
+            "No antenna is on its way to {name}, AOS {}. Select the pass and track it, or stop a \
+             track that is worth less.",
+            format::time_z(*aos)
+        ),
         AlarmKind::TrackingEnded => format!("{antenna} ended tracking before LOS."),
         AlarmKind::EndedShort => format!("{antenna} stopped before it reached its target."),
         AlarmKind::StartedByItself => {

@@ -1,0 +1,80 @@
+//! What of the alarms and reminders is told through the desktop, and how. Everything is told
+//! once, and nothing keeps an alarm of the first rank quiet.
+
+#[cfg(test)]
+mod tests;
+
+use std::{cmp::Reverse, collections::BTreeSet};
+
+use jiff::tz::TimeZone;
+
+use super::{
+    Snapshot,
+    alarms::{Alarm, Priority},
+    passes::PassKey,
+    reminders::Reminder,
+};
+use crate::station::QuietHours;
+
+/// An alarm or reminder to be told.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Notice {
+    pub about: About,
+    /// The desktop shows it.
+    pub is_shown: bool,
+    pub is_sounded: bool,
+}
+
+#[derive(Debug, Clone, PartialEq)]
+pub enum About {
+    Alarm(Alarm),
+    Reminder(Reminder),
+}
+
+impl About {
+    pub fn is_of_first_rank(&self) -> bool {
+        matches!(self, Self::Alarm(alarm) if alarm.priority() == Priority::First)
+    }
+}
+
+/// Knows what was told.
+#[derive(Debug, Default)]
+pub struct Teller {
+    /// Ids of the alarms that were new when it last looked.
+    new: BTreeSet<u64>,
+    /// Passes of the reminders that were there then.
+    reminded: Vec<PassKey>,
+}
+
+impl Teller {
+    /// Alarms that became new and reminders that came since the last look, alarms of the first rank
+    /// first. Quiet hours go by the clock of `zone`.
+    pub fn look(&mut self, station: &Snapshot, zone: &TimeZone) -> Vec<Notice> {
+        let new = |alarm: &&Alarm| !alarm.seen;
+        let alarms = station.alarms.list().iter().filter(new);
+        let untold = alarms.clone().filter(|alarm| !self.new.contains(&alarm.id));
+        let untold = untold.map(|alarm| About::Alarm(alarm.clone()));
+        let reminders = station.reminders.iter().filter(|reminder| {
+            reminder.aos() > station.at.utc && !self.reminded.contains(&reminder.pass)
+        });
+        let about = untold.chain(reminders.cloned().map(About::Reminder));
+        let notices = &station.station.notices;
+        let is_quiet =
+            notices.quiet.is_some_and(|hours: QuietHours| hours.contain(station.at.utc, zone));
+        let mut told: Vec<Notice> = about
+            .map(|about| {
+                let is_told = |wanted: bool| about.is_of_first_rank() || wanted && !is_quiet;
+                Notice {
+                    is_shown: is_told(notices.notifications),
+                    is_sounded: is_told(notices.sounds),
+                    about,
+                }
+            })
+            .filter(|notice| notice.is_shown || notice.is_sounded)
+            .collect();
+        told.sort_by_key(|notice| Reverse(notice.about.is_of_first_rank()));
+        self.new = alarms.map(|alarm| alarm.id).collect();
+        self.reminded = station.reminders.iter().map(|reminder| reminder.pass).collect();
+        told
+    }
+}

@@ -1,0 +1,316 @@
+use std::{sync::Arc, time::Duration};
+
+use jiff::{Timestamp, ToSpan as _, tz};
+
+use super::*;
+use crate::{
+    astro::Angle,
+    clock::{Instant, Moment},
+    device::{
+        Asked, PrepareError, TrackTarget,
+        panel::{Check, CheckState},
+    },
+    driver::{LinkLoss, Mover, Response, Safety, TrackProblem, Unit},
+    engine::{
+        alarms::{AlarmKind, Alarms, ShelveTime, Work},
+        claim::HeldBy,
+    },
+    plan::{
+        Barrier,
+        on_board::{Cause, Ranked},
+    },
+    station::{Antenna, AntennaId, Note, NoteReason, Notices, Station},
+};
+
+const OF: Option<AntennaId> = Some(AntennaId::FIRST);
+const LOST: AlarmKind = AlarmKind::LinkLost(LinkLoss::Silent);
+const STOP: AlarmKind = AlarmKind::StopNotConfirmed;
+
+/// Eleven in the evening.
+fn time() -> Timestamp {
+    "2026-08-12T20:00:00Z".parse().unwrap()
+}
+
+fn istanbul() -> TimeZone {
+    TimeZone::fixed(tz::offset(3))
+}
+
+/// What is told of these alarms by a station with these settings.
+fn look(teller: &mut Teller, alarms: &Alarms, notices: &Notices) -> Vec<Notice> {
+    let at = Moment { utc: time(), steady: Instant::now() };
+    let station = Station { notices: notices.clone(), ..Station::default() };
+    let snapshot = Snapshot {
+        station: Arc::new(station),
+        alarms: alarms.clone(),
+        ..Snapshot::before_anything(at)
+    };
+    teller.look(&snapshot, &istanbul())
+}
+
+fn rows(told: &[Notice]) -> Vec<u64> {
+    let row = |notice: &Notice| match &notice.about {
+        About::Alarm(alarm) => alarm.row,
+        About::Reminder(_) => panic!("no reminder was due"),
+    };
+    told.iter().map(row).collect()
+}
+
+#[test]
+fn an_alarm_is_told_once_and_again_in_its_row_when_it_comes_again() {
+    let (mut teller, mut alarms, notices) =
+        (Teller::default(), Alarms::default(), Notices::default());
+    alarms.raise(OF, LOST, time());
+    let told = look(&mut teller, &alarms, &notices);
+    assert_eq!(rows(&told), [0]);
+    assert!(told[0].is_shown && told[0].is_sounded);
+    alarms.raise(OF, LOST, time());
+    assert_eq!(look(&mut teller, &alarms, &notices), []);
+    alarms.raise(None, AlarmKind::NotTaken, time());
+    assert_eq!(rows(&look(&mut teller, &alarms, &notices)), [1]);
+    alarms.clear(OF, time(), |_| true);
+    assert_eq!(look(&mut teller, &alarms, &notices), []);
+    alarms.raise(OF, LOST, time());
+    let again = look(&mut teller, &alarms, &notices);
+    assert_eq!(rows(&again), [0], "in the place of the first");
+    let About::Alarm(alarm) = &again[0].about else { panic!("{again:?}") };
+    assert_eq!((alarm.id, alarm.count), (2, 2));
+}
+
+#[test]
+fn the_shelf_is_silent_until_its_time_is_up() {
+    let (mut teller, mut alarms, notices) =
+        (Teller::default(), Alarms::default(), Notices::default());
+    alarms.raise(OF, LOST, time());
+    look(&mut teller, &alarms, &notices);
+    alarms.shelve(0, ShelveTime::TenMinutes, time());
+    alarms.clear(OF, time(), |_| true);
+    alarms.raise(OF, LOST, time());
+    assert_eq!(look(&mut teller, &alarms, &notices), []);
+    alarms.pass_time(time() + 10.minutes());
+    assert_eq!(rows(&look(&mut teller, &alarms, &notices)), [0]);
+}
+
+#[test]
+fn what_an_operator_has_seen_first_is_not_told() {
+    let (mut teller, mut alarms) = (Teller::default(), Alarms::default());
+    alarms.raise(OF, LOST, time());
+    alarms.acknowledge(0, time());
+    assert_eq!(look(&mut teller, &alarms, &Notices::default()), []);
+}
+
+#[test]
+fn each_outlet_has_its_setting_and_quiet_hours_hold_for_both() {
+    let mut alarms = Alarms::default();
+    alarms.raise(OF, LOST, time());
+    let told = |notifications, sounds, quiet| {
+        let notices = Notices { notifications, sounds, quiet, ..Notices::default() };
+        let told = look(&mut Teller::default(), &alarms, &notices);
+        told.first().map(|notice| (notice.is_shown, notice.is_sounded))
+    };
+    assert_eq!(told(true, false, None), Some((true, false)));
+    assert_eq!(told(false, true, None), Some((false, true)));
+    assert_eq!(told(false, false, None), None);
+    assert_eq!(told(true, true, Some(QuietHours::USUAL)), None, "23:00 local, 20:00 UTC");
+    let QuietHours { from, to } = QuietHours::USUAL;
+    let by_day = QuietHours { from: to, to: from };
+    assert_eq!(told(true, true, Some(by_day)), Some((true, true)));
+}
+
+#[test]
+fn what_was_quiet_is_not_told_afterwards() {
+    let (mut teller, mut alarms) = (Teller::default(), Alarms::default());
+    alarms.raise(OF, LOST, time());
+    let quiet = Notices { quiet: Some(QuietHours::USUAL), ..Notices::default() };
+    assert_eq!(look(&mut teller, &alarms, &quiet), []);
+    assert_eq!(look(&mut teller, &alarms, &Notices::default()), []);
+}
+
+#[test]
+fn a_reminder_is_told_once_before_aos() {
+    let reminder = Reminder {
+        pass: (25_544, time() + 5.minutes()),
+        name: "ISS".to_owned(),
+        los: time() + 15.minutes(),
+        max_elevation: Angle::from_degrees(54.0),
+        can_track: vec![AntennaId::FIRST],
+    };
+    let mut alarms = Alarms::default();
+    alarms.raise(OF, STOP, time());
+    let look = |teller: &mut Teller, utc, station: &Arc<Station>| {
+        let at = Moment { utc, steady: Instant::now() };
+        let snapshot = Snapshot {
+            reminders: Arc::new(vec![reminder.clone()]),
+            alarms: alarms.clone(),
+            station: Arc::clone(station),
+            ..Snapshot::before_anything(at)
+        };
+        teller.look(&snapshot, &istanbul())
+    };
+    let mut teller = Teller::default();
+    let station = Arc::default();
+    let told = look(&mut teller, time(), &station);
+    assert!(told[0].about.is_of_first_rank() && told.len() == 2, "{told:?}");
+    assert_eq!(told[1].about, About::Reminder(reminder.clone()));
+    assert_eq!(look(&mut teller, time(), &station), []);
+    let late = look(&mut Teller::default(), time() + 5.minutes(), &station);
+    assert_eq!(late.len(), 1, "not after AOS: {late:?}");
+    let notices = Notices { quiet: Some(QuietHours::USUAL), ..Notices::default() };
+    let quiet = Arc::new(Station { notices, ..Station::default() });
+    assert_eq!(look(&mut Teller::default(), time(), &quiet).len(), 1, "the alarm alone");
+}
+
+#[test]
+fn nothing_silences_the_first_rank() {
+    let silent = Notices {
+        notifications: false,
+        sounds: false,
+        quiet: Some(QuietHours::USUAL),
+        ..Notices::default()
+    };
+    let mut first = 0;
+    for kind in every_kind() {
+        let mut alarms = Alarms::default();
+        alarms.raise(OF, kind.clone(), time());
+        alarms.shelve(0, ShelveTime::EightHours, time());
+        let told = look(&mut Teller::default(), &alarms, &silent);
+        let is_told = told.iter().any(|notice| notice.is_shown && notice.is_sounded);
+        assert_eq!(is_told, kind.priority() == Priority::First, "{kind:?}");
+        first += usize::from(is_told);
+    }
+    assert_eq!(first, 13);
+}
+
+/// Each kind, and each matter of safety: a new one does not compile before it is listed here.
+fn every_kind() -> Vec<AlarmKind> {
+    use AlarmKind as K;
+    let ranked = || Ranked { cause: Cause::AzimuthOffset(1.0), off: None };
+    let target =
+        TrackTarget { catalog_number: 25_544, name: "ISS".to_owned(), from: time(), until: time() };
+    let text = || "text".to_owned();
+    let note = |reason| Note { place: text(), reason };
+    let mut all = vec![
+        LOST,
+        STOP,
+        K::StopRefused(text()),
+        K::JogLeaseOver,
+        K::JogPositionOld,
+        K::AutoTrackStillOn,
+        K::AutoStaysOn,
+        K::LockOutUnproved,
+        K::LockOuts(text()),
+        K::Refused(Asked::Action("park"), text()),
+        K::Unanswered(Asked::Action("park")),
+        K::CannotTrack(target, PrepareError::CannotBeSent(text())),
+        K::CannotProgramTrack(text(), TrackProblem::NoPass),
+        K::OffTarget { off: Angle::from_degrees(1.0), cause: None },
+        K::UnitDiffers(ranked()),
+        K::NotCompared { satellite: None },
+        K::NoAntennaFor { pass: (25_544, time()), name: text() },
+        K::TrackingEnded,
+        K::EndedShort,
+        K::StartedByItself,
+        K::MovesByItself,
+        K::Owed(Unit::of(&Antenna::satrak("Dish", "10.0.0.5:4001"))),
+        K::DriverStands(Duration::from_secs(3)),
+        K::StationStands(Duration::from_secs(3)),
+        K::StationElsewhere(HeldBy(None)),
+        K::UnitElsewhere(HeldBy(None)),
+        K::StopNotElsewhere,
+        K::BrokeOff(Work::Passes),
+        K::SourceSetAside(text()),
+        K::NotTaken,
+        K::Check(Check::new("Drive", CheckState::Fault, "Look at it.")),
+        K::Check(Check::new("Drive", CheckState::Caution, "Look at it.")),
+        K::ClockOff(1.5),
+        K::ClockNotSet,
+        K::Unreadable("Decimal commas."),
+        K::Setting(note(NoteReason::Unknown)),
+        K::Setting(note(NoteReason::DoesNotHold { name: text(), why: text() })),
+        K::Settings(text()),
+        K::Elements(text()),
+    ];
+    all.extend(every_matter_of_safety().into_iter().map(K::Safety));
+    for kind in &all {
+        match kind {
+            K::LinkLost(_)
+            | K::StopNotConfirmed
+            | K::StopRefused(_)
+            | K::JogLeaseOver
+            | K::JogPositionOld
+            | K::AutoTrackStillOn
+            | K::AutoStaysOn
+            | K::LockOutUnproved
+            | K::LockOuts(_)
+            | K::Refused(..)
+            | K::Unanswered(_)
+            | K::CannotTrack(..)
+            | K::CannotProgramTrack(..)
+            | K::OffTarget { .. }
+            | K::UnitDiffers(_)
+            | K::NotCompared { .. }
+            | K::NoAntennaFor { .. }
+            | K::TrackingEnded
+            | K::EndedShort
+            | K::StartedByItself
+            | K::MovesByItself
+            | K::Safety(_)
+            | K::Owed(_)
+            | K::DriverStands(_)
+            | K::StationStands(_)
+            | K::StationElsewhere(_)
+            | K::UnitElsewhere(_)
+            | K::StopNotElsewhere
+            | K::BrokeOff(_)
+            | K::SourceSetAside(_)
+            | K::NotTaken
+            | K::Check(_)
+            | K::ClockOff(_)
+            | K::ClockNotSet
+            | K::Unreadable(_)
+            | K::Setting(_)
+            | K::Settings(_)
+            | K::Elements(_) => {}
+        }
+    }
+    all
+}
+
+fn every_matter_of_safety() -> Vec<Safety> {
+    let all = vec![
+        Safety::DeadManFired,
+        Safety::LeftMoving { since: time(), asks: true },
+        Safety::NoMark,
+        Safety::SessionBroke,
+        Safety::StoppedByFlags { axis: "X" },
+        Safety::FlagsContradict { axis: "X", turned_deg: 2.0 },
+        Safety::SilentInMotion,
+        Safety::JogWithoutEffect,
+        Safety::ClockStepped { by_s: 2.0 },
+        Safety::EndedForSleep,
+        Safety::Slept { lasted: Duration::from_mins(1) },
+        Safety::AsksToResume { name: "ISS".to_owned(), lost: Duration::from_mins(1), unlike: None },
+        Safety::Forbidden {
+            barrier: Barrier::Sun,
+            driver: Mover::Somebody,
+            response: Response::Told,
+        },
+    ];
+    for matter in &all {
+        match matter {
+            Safety::DeadManFired
+            | Safety::LeftMoving { .. }
+            | Safety::NoMark
+            | Safety::SessionBroke
+            | Safety::StoppedByFlags { .. }
+            | Safety::FlagsContradict { .. }
+            | Safety::SilentInMotion
+            | Safety::JogWithoutEffect
+            | Safety::ClockStepped { .. }
+            | Safety::EndedForSleep
+            | Safety::Slept { .. }
+            | Safety::AsksToResume { .. }
+            | Safety::Forbidden { .. } => {}
+        }
+    }
+    all
+}

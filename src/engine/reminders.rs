@@ -1,0 +1,220 @@
+//! Reminders of the passes of marked favourites, and an alarm where no antenna takes such a pass.
+
+use std::time::Duration;
+
+use jiff::Timestamp;
+use serde::{Deserialize, Serialize};
+
+use super::{
+    Engine, StationClaim,
+    alarms::{AlarmKind, Alarms},
+    passes::{PassKey, PassList, PredictedPass},
+};
+use crate::{
+    astro::{Angle, time::seconds_between},
+    plan::Trackability,
+    station::{AntennaId, Station},
+};
+
+/// Time before AOS at which an antenna should be on its way.
+const ON_ITS_WAY: Duration = Duration::from_secs(30);
+
+/// A reminder of a pass. It comes some minutes before AOS and lasts until LOS.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Reminder {
+    /// The pass, as it was listed when the reminder came.
+    pub pass: PassKey,
+    /// Short name of the satellite.
+    pub name: String,
+    pub los: Timestamp,
+    pub max_elevation: Angle,
+    /// The antennas that can track the pass or a part of it.
+    pub can_track: Vec<AntennaId>,
+}
+
+impl Reminder {
+    pub fn aos(&self) -> Timestamp {
+        self.pass.1
+    }
+}
+
+impl Engine {
+    /// Brings the reminders and their alarms up to date.
+    pub(super) fn remind(&mut self) {
+        // Another Azel that has this station reminds.
+        if matches!(self.station_claim, StationClaim::Theirs(_)) {
+            self.reminders.clear();
+        } else {
+            let passes = &self.pass_lists.favourites;
+            refresh(&mut self.reminders, &self.station, passes, self.now);
+        }
+        let takes = |number| self.antennas.iter().any(|antenna| antenna.shown.takes(number));
+        watch(&mut self.alarms, &self.reminders, takes, self.now);
+    }
+}
+
+/// Adds the reminders that are due, and drops those of passes that are over.
+fn refresh(known: &mut Vec<Reminder>, station: &Station, passes: &PassList, now: Timestamp) {
+    let notices = &station.notices;
+    let is_marked =
+        |number: u32| station.favourites.contains(&number) && notices.reminders.contains(&number);
+    known.retain(|reminder| reminder.los > now && is_marked(reminder.pass.0));
+    let before_s = notices.reminder_min * 60.0;
+    for predicted in passes.upcoming(now).iter() {
+        let (number, aos) = predicted.key();
+        let until_s = seconds_between(now, aos);
+        let is_due = 0.0 < until_s && until_s <= before_s;
+        // A new list may have the pass at a slightly different time.
+        let is_it = |reminder: &Reminder| reminder.pass.0 == number && aos < reminder.los;
+        if is_due && is_marked(number) && !known.iter().any(is_it) {
+            known.push(reminder(predicted, station));
+        }
+    }
+}
+
+fn reminder(predicted: &PredictedPass, station: &Station) -> Reminder {
+    let can_track = station.antennas.iter().enumerate().filter(|(index, _)| {
+        let trackability = predicted.trackability(*index);
+        matches!(trackability, Some(Trackability::Whole | Trackability::Loses { .. }))
+    });
+    Reminder {
+        pass: predicted.key(),
+        name: predicted.satellite.short_name().to_owned(),
+        los: predicted.pass.los.time,
+        max_elevation: predicted.pass.max_elevation(),
+        can_track: can_track.map(|(_, antenna)| antenna.id).collect(),
+    }
+}
+
+/// Raises an alarm shortly before AOS while no antenna takes the pass. It lasts until one does, or
+/// until LOS.
+fn watch(alarms: &mut Alarms, reminders: &[Reminder], takes: impl Fn(u32) -> bool, now: Timestamp) {
+    alarms.clear(None, now, |kind| match kind {
+        AlarmKind::NoAntennaFor { pass, .. } => {
+            takes(pass.0) || !reminders.iter().any(|reminder| reminder.pass == *pass)
+        }
+        _ => false,
+    });
+    for Reminder { pass, name, .. } in reminders {
+        let until_s = seconds_between(now, pass.1);
+        let is_close = 0.0 < until_s && until_s <= ON_ITS_WAY.as_secs_f64();
+        if is_close && !takes(pass.0) {
+            let kind = AlarmKind::NoAntennaFor { pass: *pass, name: name.clone() };
+            alarms.raise(None, kind, now);
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::sync::Arc;
+
+    use jiff::ToSpan as _;
+
+    use super::*;
+    use crate::{
+        engine::passes::{ListedSatellite, Observer},
+        makes::DemoAddresses,
+        orbit::{PassSearch, Propagator, bundled, passes},
+        station::Notices,
+    };
+
+    const ISS: u32 = 25_544;
+
+    /// The demo station with a mark at the ISS, and the passes of half a day.
+    fn desk() -> (Station, PassList) {
+        let notices = Notices { reminders: [ISS].into(), ..Notices::default() };
+        let station = Station { notices, ..Station::demo(&DemoAddresses::default()) };
+        let elements = bundled().unwrap().get(ISS).unwrap().clone();
+        let propagator = Propagator::new(&elements).unwrap();
+        let from: Timestamp = "2026-08-12T00:00:00Z".parse().unwrap();
+        let observer = Arc::new(Observer::of(&station));
+        let search = PassSearch {
+            aos_elevation: observer.aos_elevation,
+            ..PassSearch::new(station.site, from, from + 12.hours())
+        };
+        let found = passes(&propagator, &search, &|| false);
+        let satellite = Arc::new(ListedSatellite { elements, propagator });
+        let predicted = found
+            .into_iter()
+            .map(|pass| PredictedPass::new(Arc::clone(&satellite), pass, Arc::clone(&observer)));
+        let passes = Arc::new(predicted.collect());
+        (station, PassList { passes, ..PassList::default() })
+    }
+
+    #[test]
+    fn a_marked_favourite_is_reminded_of_in_time_once_a_pass() {
+        let (mut station, list) = desk();
+        let first = &list.passes[0];
+        let (aos, los) = (first.pass.aos.time, first.pass.los.time);
+        let mut known = Vec::new();
+        let mut at = |station: &Station, list: &PassList, now| {
+            refresh(&mut known, station, list, now);
+            known.iter().map(Reminder::aos).collect::<Vec<_>>()
+        };
+        assert_eq!(at(&station, &list, aos - 301.seconds()), []);
+        assert_eq!(at(&station, &list, aos - 300.seconds()), [aos]);
+        // The next search finds the pass a little later.
+        let mut pass = first.pass;
+        pass.aos.time += 2.seconds();
+        let observer = Arc::new(Observer::of(&station));
+        let again = PredictedPass::new(Arc::clone(&first.satellite), pass, observer);
+        let renewed = PassList { passes: Arc::new(vec![again]), ..PassList::default() };
+        assert_eq!(at(&station, &renewed, aos - 60.seconds()), [aos]);
+        assert_eq!(at(&station, &list, los - 1.second()), [aos]);
+        assert_eq!(at(&station, &list, los), []);
+
+        station.notices.reminder_min = 20.0;
+        let next = list.passes[1].pass.aos.time;
+        assert_eq!(at(&station, &list, next - 20.minutes()), [next]);
+        station.notices.reminders.clear();
+        assert_eq!(at(&station, &list, next - 19.minutes()), []);
+        station.notices.reminders.insert(ISS);
+        station.favourites.clear();
+        assert_eq!(at(&station, &list, next - 18.minutes()), []);
+    }
+
+    #[test]
+    fn a_pass_that_no_antenna_takes_is_an_alarm_until_one_does_or_until_los() {
+        let (station, list) = desk();
+        let aos = list.passes[0].pass.aos.time;
+        let mut known = Vec::new();
+        let mut alarms = Alarms::default();
+        let mut standing = |now, takes: bool| {
+            refresh(&mut known, &station, &list, now);
+            watch(&mut alarms, &known, |number| takes && number == ISS, now);
+            let stands = |alarm: &&crate::engine::alarms::Alarm| !alarm.is_over();
+            alarms.list().iter().filter(stands).count()
+        };
+        assert_eq!(standing(aos - 31.seconds(), false), 0);
+        assert_eq!(standing(aos - 30.seconds(), false), 1);
+        assert_eq!(standing(aos - 20.seconds(), true), 0);
+        // Given up again before it began.
+        assert_eq!(standing(aos - 10.seconds(), false), 1);
+        assert_eq!(standing(aos + 1.minute(), false), 1);
+        assert_eq!(standing(aos + 2.minutes(), true), 0);
+        assert_eq!(standing(aos + 3.minutes(), false), 0, "what STOP ends during the pass is none");
+
+        let (aos, los) = (list.passes[1].pass.aos.time, list.passes[1].pass.los.time);
+        standing(aos - 5.minutes(), true);
+        assert_eq!(standing(aos - 30.seconds(), true), 0);
+        assert_eq!(standing(aos - 5.seconds(), false), 1);
+        assert_eq!(standing(los - 1.second(), false), 1);
+        assert_eq!(standing(los, false), 0);
+    }
+
+    #[test]
+    fn a_reminder_names_the_antennas_that_can_track_the_pass() {
+        let (mut station, list) = desk();
+        let found = reminder(&list.passes[0], &station);
+        let able = |index| {
+            let of = list.passes[0].trackability(index);
+            matches!(of, Some(Trackability::Whole | Trackability::Loses { .. }))
+        };
+        let antennas = station.antennas.iter().enumerate().filter(|(index, _)| able(*index));
+        assert_eq!(found.can_track, antennas.map(|(_, of)| of.id).collect::<Vec<_>>());
+        assert!(!found.can_track.is_empty() && found.name == "ISS");
+        station.antennas.clear();
+        assert_eq!(reminder(&list.passes[0], &station).can_track, []);
+    }
+}

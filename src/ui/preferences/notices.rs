@@ -1,0 +1,221 @@
+//! The page of what is told through the desktop: notifications, sounds, quiet hours and
+//! reminders.
+
+use std::collections::BTreeSet;
+
+use egui::{Label, RichText, Ui};
+use jiff::civil::Time;
+
+use super::{
+    draft::Draft,
+    fields::{Description, Placed, Typed},
+    form::{card, columns, fields},
+};
+use crate::{
+    device::settings::{Kind, Unfit, Value},
+    engine::CatalogState,
+    model::Model,
+    orbit::Elements,
+    station::{Notices, QuietHours, ranges},
+    ui::{format, text, theme},
+};
+
+/// Draft of the notices.
+#[derive(PartialEq)]
+pub(super) struct NoticesDraft {
+    telling: Typed<Telling>,
+    reminding: Typed<Reminding>,
+    reminders: BTreeSet<u32>,
+}
+
+/// How alarms and reminders are told, with hours that wait while none are quiet.
+#[derive(Debug, Clone, PartialEq)]
+struct Telling {
+    notifications: bool,
+    sounds: bool,
+    is_quiet: bool,
+    hours: QuietHours,
+}
+
+#[derive(Debug, Clone, PartialEq)]
+struct Reminding {
+    before_min: f64,
+}
+
+impl NoticesDraft {
+    pub(super) fn of(notices: &Notices) -> Self {
+        let telling = Telling {
+            notifications: notices.notifications,
+            sounds: notices.sounds,
+            is_quiet: notices.quiet.is_some(),
+            hours: notices.quiet.unwrap_or(QuietHours::USUAL),
+        };
+        let reminding = Reminding { before_min: notices.reminder_min };
+        Self {
+            telling: Typed::of(telling, telling_fields()),
+            reminding: Typed::of(reminding, reminding_fields()),
+            reminders: notices.reminders.clone(),
+        }
+    }
+
+    /// The notices, if every field is right.
+    pub(super) fn read(&self) -> Option<Notices> {
+        let (telling, first) = self.telling.read();
+        let (reminding, second) = self.reminding.read();
+        let is_right = first.iter().chain(&second).all(|standing| standing.problem.is_none());
+        is_right.then(|| Notices {
+            notifications: telling.notifications,
+            sounds: telling.sounds,
+            quiet: telling.is_quiet.then_some(telling.hours),
+            reminder_min: reminding.before_min,
+            reminders: self.reminders.clone(),
+        })
+    }
+}
+
+fn telling_fields() -> Vec<Placed<Telling>> {
+    let fields = [
+        flag("Notifications", |telling| &mut telling.notifications)
+            .noted(|_| Some("The desktop shows new alarms and reminders.".to_owned())),
+        flag("Sounds", |telling| &mut telling.sounds)
+            .noted(|_| Some("New alarms sound in two tones, reminders in others.".to_owned())),
+        flag("Quiet hours", |telling| &mut telling.is_quiet).noted(|_| {
+            let words = "No notifications and no sounds then. What is shown in the window stays.";
+            Some(words.to_owned())
+        }),
+        time("Quiet from", |hours| &mut hours.from),
+        time("Quiet to", |hours| &mut hours.to)
+            .checked(|telling| {
+                let QuietHours { from, to } = telling.hours;
+                if from == to { Err("must be another time than Quiet from") } else { Ok(()) }
+            })
+            .noted(|_| Some("By the local time of this computer.".to_owned())),
+    ];
+    fields.into_iter().map(|field| ("", field)).collect()
+}
+
+fn reminding_fields() -> Vec<Placed<Reminding>> {
+    let before = Description::number("Remind before AOS", ranges::REMINDER_MIN, "min", |of| {
+        let Reminding { before_min } = of;
+        Some(before_min)
+    });
+    vec![("", before)]
+}
+
+fn flag(label: &'static str, place: fn(&mut Telling) -> &mut bool) -> Description<Telling> {
+    Description::new(
+        label,
+        Kind::Flag,
+        move |telling| Some(Value::Flag(*place(telling))),
+        move |telling, value| {
+            if let Value::Flag(on) = value {
+                *place(telling) = on;
+            }
+            Ok(())
+        },
+    )
+}
+
+fn time(label: &'static str, place: fn(&mut QuietHours) -> &mut Time) -> Description<Telling> {
+    const NO_TIME: &str = "must be a time of the day such as 22:00";
+    let check = |text: &str| match QuietHours::read_time(text) {
+        Some(_) => Ok(()),
+        None => Err(Unfit::Text(NO_TIME.to_owned())),
+    };
+    Description::new(
+        label,
+        Kind::Text(check),
+        move |telling: &mut Telling| {
+            Some(Value::Text(QuietHours::time_text(*place(&mut telling.hours))))
+        },
+        move |telling, value| {
+            if let Value::Text(text) = value {
+                *place(&mut telling.hours) = QuietHours::read_time(&text).ok_or(NO_TIME)?;
+            }
+            Ok(())
+        },
+    )
+    .when(|telling| telling.is_quiet)
+}
+
+pub(super) fn show(ui: &mut Ui, model: &Model, draft: &mut Draft, two_columns: bool) {
+    columns(ui, two_columns, draft, telling, |ui, draft| reminders(ui, model, draft));
+}
+
+fn telling(ui: &mut Ui, draft: &mut Draft) {
+    card(ui, "Notifications and sounds", |ui| {
+        let telling = &mut draft.notices.telling;
+        let standings = telling.read().1;
+        fields(ui, "telling", &mut telling.fields, &standings);
+    });
+    card(ui, "Never silenced", |ui| {
+        note(
+            ui,
+            "Alarms of the first rank are shown and sounded at any hour, whatever is set here: a \
+             STOP that is not proved or is owed, an antenna where it must not point, a dead-man \
+             that stopped an antenna, a unit that moves against its word.",
+        );
+    });
+}
+
+fn reminders(ui: &mut Ui, model: &Model, draft: &mut Draft) {
+    let (ground, _) = draft.ground.read();
+    let notices = &mut draft.notices;
+    card(ui, "Reminders", |ui| {
+        let standings = notices.reminding.read().1;
+        fields(ui, "reminding", &mut notices.reminding.fields, &standings);
+        note(
+            ui,
+            "For the passes of the favourites marked here. Where no antenna tracks such a \
+             satellite 30 s before its AOS, an alarm says so.",
+        );
+        ui.add_space(4.0);
+        for number in ground.favourites() {
+            let mut is_marked = notices.reminders.contains(number);
+            ui.horizontal(|ui| {
+                let name = name(model, *number);
+                if ui.checkbox(&mut is_marked, name).changed() {
+                    if is_marked {
+                        notices.reminders.insert(*number);
+                    } else {
+                        notices.reminders.remove(number);
+                    }
+                }
+                note(ui, &next_aos(model, *number));
+            });
+        }
+        if ground.favourites().is_empty() {
+            note(ui, "There are no favourites. Add satellites on the page of the station.");
+        }
+    });
+}
+
+fn name(model: &Model, number: u32) -> String {
+    let elements = match &model.catalog {
+        CatalogState::Ready(catalog) => catalog.get(number),
+        CatalogState::Loading | CatalogState::Failed => None,
+    };
+    match elements.map(Elements::name) {
+        Some(name) if !name.is_empty() => format!("{name}, {number}"),
+        _ => number.to_string(),
+    }
+}
+
+/// The next AOS of a favourite.
+fn next_aos(model: &Model, number: u32) -> String {
+    let passes = model.pass_lists.favourites.upcoming(model.now);
+    let mut of_this = passes.iter().filter(|predicted| predicted.number() == number).peekable();
+    if of_this.peek().is_some_and(|predicted| predicted.is_always_up()) {
+        return "always up, has no AOS".to_owned();
+    }
+    let next = of_this.find(|predicted| predicted.pass.aos.time > model.now);
+    next.map_or_else(
+        || "no pass is listed".to_owned(),
+        |predicted| format!("next AOS {}", format::moment(predicted.pass.aos.time, model.now)),
+    )
+}
+
+fn note(ui: &mut Ui, words: &str) {
+    let t = theme::tokens(ui);
+    ui.add(Label::new(RichText::new(words).font(text::small()).color(t.t3)).wrap());
+}
