@@ -292,7 +292,7 @@ fn every_matter_of_safety() -> Vec<Safety> {
         Safety::Forbidden {
             barrier: Barrier::Sun,
             driver: Mover::Somebody,
-            response: Response::Told,
+            response: Response::Reported,
         },
     ];
     for matter in &all {
