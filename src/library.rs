@@ -26,7 +26,7 @@ pub use self::{
     list::{SourceProblem, SourcesError, check_source, load_sources, save_sources},
 };
 use self::{
-    fetch::{Answer, fetch, host},
+    fetch::{ServerAnswer, fetch, host},
     index::{Index, Record},
     unfinished::Unfinished,
 };
@@ -208,11 +208,11 @@ impl Library {
         let held = disk::read(&path, self.limits.bytes).ok();
         let known = held.as_ref().map(|_| &record);
         match fetch(url, known, self.limits, &self.authorities)? {
-            Answer::NotModified => {
+            ServerAnswer::NotModified => {
                 self.index.entry(url, name, now).confirmed_at = Some(now);
                 Ok(false)
             }
-            Answer::New { body, etag, last_modified } => {
+            ServerAnswer::New { body, etag, last_modified } => {
                 let newest = newest_epoch(&body)?;
                 if held
                     .is_some_and(|held| newest_epoch(&held.bytes).is_ok_and(|held| held > newest))

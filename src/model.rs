@@ -16,7 +16,7 @@ use jiff::Timestamp;
 pub(crate) use self::line::testing;
 pub use self::{
     command::UiCommand,
-    line::{Line, Piece, pieces},
+    line::{ConsoleLine, Piece, pieces},
     theme_name::ThemeName,
 };
 use self::{daylight::SunSpan, effects::Effects, globe::Globe};

@@ -27,7 +27,7 @@ pub use fetch::{
 };
 pub use folder::FolderError;
 pub use hash::{FileHash, NoHash};
-pub use host_key::{KnownHosts, KnownHostsError, OfferedKey, Verdict};
+pub use host_key::{KeyVerdict, KnownHosts, KnownHostsError, OfferedKey};
 pub use kept::{KeptError, KeptFile, KeptFiles, Origin};
 pub use keyring::{Account, Keyring, KeyringError, MemoryKeyring, SystemKeyring};
 pub use limits::{Interruption, Limits};

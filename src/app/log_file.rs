@@ -5,7 +5,7 @@ use std::{path::PathBuf, sync::Arc};
 use jiff::Timestamp;
 
 use super::App;
-use crate::{job::Job, model::Line, whole_file};
+use crate::{job::Job, model::ConsoleLine, whole_file};
 
 /// Writes logs into one folder, one after the other.
 #[derive(Default)]
@@ -23,7 +23,7 @@ impl LogWork {
 
 impl App {
     /// Begins to write `lines`, or reports why it cannot.
-    pub(super) fn save_log(&mut self, lines: Vec<Arc<Line>>) {
+    pub(super) fn save_log(&mut self, lines: Vec<Arc<ConsoleLine>>) {
         if self.log_work.job.is_some() {
             return self.views.log_saved(Err("the last file is still being written".to_owned()));
         }
@@ -53,7 +53,7 @@ impl App {
     }
 }
 
-fn text(lines: &[Arc<Line>], now: Timestamp) -> String {
+fn text(lines: &[Arc<ConsoleLine>], now: Timestamp) -> String {
     let saved = now.strftime("%FT%TZ");
     let mut text = format!(
         "# Azel console, saved {saved}, {} lines, times in UTC\n\

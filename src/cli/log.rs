@@ -180,9 +180,9 @@ fn standard<T: Write + Send + 'static>(stream: T) -> io::Result<T> {
 }
 
 /// A complete line from the subscriber.
-pub struct Line<'a>(&'a Queue);
+pub struct LineWriter<'a>(&'a Queue);
 
-impl Write for Line<'_> {
+impl Write for LineWriter<'_> {
     fn write(&mut self, line: &[u8]) -> io::Result<usize> {
         self.0.push(line);
         Ok(line.len())
@@ -194,10 +194,10 @@ impl Write for Line<'_> {
 }
 
 impl<'a> MakeWriter<'a> for Log {
-    type Writer = Line<'a>;
+    type Writer = LineWriter<'a>;
 
-    fn make_writer(&'a self) -> Line<'a> {
-        Line(&self.lines.queue)
+    fn make_writer(&'a self) -> LineWriter<'a> {
+        LineWriter(&self.lines.queue)
     }
 }
 

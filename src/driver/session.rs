@@ -218,7 +218,7 @@ struct Owed {
 
 /// What each look is compared with.
 #[derive(Default)]
-struct Seen {
+struct LastSeen {
     watch: Watch,
     place: inside::Place,
     overrun: Overrun,
@@ -237,7 +237,7 @@ pub struct Session {
     wires: Wires,
     contact: Contact,
     owed: Owed,
-    seen: Seen,
+    seen: LastSeen,
     activity: Activity,
     /// Watch over a track that nobody asked for from here.
     unasked: Option<on_board::Watch>,
@@ -327,7 +327,7 @@ impl Session {
                 marking: Marking::None,
                 left_moving: None,
             },
-            seen: Seen::default(),
+            seen: LastSeen::default(),
             gate,
             activity: Activity::Standby,
             unasked: None,

@@ -28,7 +28,7 @@ impl Default for Limits {
 }
 
 /// Answer of a server.
-pub(super) enum Answer {
+pub(super) enum ServerAnswer {
     /// The server has nothing newer.
     NotModified,
     /// New content, with its validators for the next request.
@@ -48,7 +48,7 @@ pub(super) fn fetch(
     known: Option<&Record>,
     limits: Limits,
     authorities: &RootCerts,
-) -> Result<Answer, FetchProblem> {
+) -> Result<ServerAnswer, FetchProblem> {
     let is_local = check(url)?;
     let mut config = Agent::config_builder()
         .https_only(!is_local)
@@ -73,7 +73,7 @@ pub(super) fn fetch(
     let response = request.call().map_err(|error| unanswered(&error))?;
     match response.status().as_u16() {
         200 => {}
-        304 if known.is_some() => return Ok(Answer::NotModified),
+        304 if known.is_some() => return Ok(ServerAnswer::NotModified),
         status => return Err(FetchProblem::Answer(status)),
     }
     let mark = |name| {
@@ -89,7 +89,7 @@ pub(super) fn fetch(
                 _ => FetchProblem::Unreachable(error.to_string()),
             },
         )?;
-    Ok(Answer::New { body, etag, last_modified })
+    Ok(ServerAnswer::New { body, etag, last_modified })
 }
 
 /// Reason why there is no answer.

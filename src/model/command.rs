@@ -2,7 +2,7 @@
 
 use std::{path::PathBuf, sync::Arc};
 
-use super::{Line, Model, ThemeName, View, effects};
+use super::{ConsoleLine, Model, ThemeName, View, effects};
 use crate::{
     astro::HorizonMask,
     driver,
@@ -35,7 +35,7 @@ pub enum UiCommand {
     Show(View),
     SetTheme(ThemeName),
     /// Write these lines of the console to a file.
-    SaveLog(Vec<Arc<Line>>),
+    SaveLog(Vec<Arc<ConsoleLine>>),
     /// Work out the effects of keep-outs on the passes to come.
     ShowEffects(Box<effects::Question>),
     /// Read a horizon mask from this file into the form.

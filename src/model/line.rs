@@ -11,7 +11,7 @@ use crate::{
 
 /// One line of the log.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Line {
+pub struct ConsoleLine {
     /// Number among the lines of all antennas.
     pub position: u64,
     pub antenna: Arc<str>,
@@ -20,7 +20,7 @@ pub struct Line {
     pub meaning: Meaning,
 }
 
-impl Line {
+impl ConsoleLine {
     /// The line at `position` of all lines of all antennas.
     pub fn new(position: u64, antenna: Arc<str>, recorded: Arc<Recorded>) -> Self {
         let raw = pieces(&recorded.line.bytes).into_iter().fold(String::new(), |raw, piece| {
@@ -158,8 +158,12 @@ pub(crate) mod testing {
         }
     }
 
-    pub(crate) fn line(position: u64, wire: WireLine) -> Line {
-        Line::new(position, "Satrak".into(), Arc::new(Recorded { number: position, line: wire }))
+    pub(crate) fn line(position: u64, wire: WireLine) -> ConsoleLine {
+        ConsoleLine::new(
+            position,
+            "Satrak".into(),
+            Arc::new(Recorded { number: position, line: wire }),
+        )
     }
 }
 

@@ -18,7 +18,7 @@ use crate::{
     plan::{Bounds, Sample},
     station::{Antenna, Mount},
 };
-use path::{Unit, spread};
+use path::{UnitPath, spread};
 
 /// A pass that a unit tracks by itself.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -140,7 +140,7 @@ impl Judge {
     /// Judges a unit by its report `unit`. `holds_target` says that the target was sent to the
     /// unit: the satellite that it held before means nothing.
     pub fn supervise(&self, unit: &OnBoard, holds_target: bool) -> Supervision {
-        let all = Unit::of(unit, self);
+        let all = UnitPath::of(unit, self);
         let worst = all.either_way().map(|unit| self.worst(&unit)).reduce(worse);
         let worst = worst.unwrap_or(Error { off: Angle::ZERO, at: self.pass.target.from });
         let lowest_deg = self.ability.minimum_elevation.degrees();
@@ -159,22 +159,22 @@ impl Judge {
     /// Checks the real track against the limits of the antenna. The error is the first
     /// position outside them.
     pub fn is_clear(&self, unit: &OnBoard, bounds: &Bounds) -> Result<(), Trespass> {
-        let unit = Unit::of(unit, self);
+        let unit = UnitPath::of(unit, self);
         unit.either_way().try_for_each(|unit| path_is_clear(self.path(unit), &self.ability, bounds))
     }
 
     /// The direction in which the unit will wait for the window.
     pub fn start(&self, unit: &OnBoard) -> Option<AzEl> {
-        self.path(Unit::of(unit, self)).next().map(|first| first.direction)
+        self.path(UnitPath::of(unit, self)).next().map(|first| first.direction)
     }
 
     /// The real track according to the report of the unit, from where the unit waits to where it
     /// ends: samples are at most a second or half a degree apart.
-    fn path<'a>(&'a self, unit: Unit<'a>) -> impl Iterator<Item = Sample> + 'a {
+    fn path<'a>(&'a self, unit: UnitPath<'a>) -> impl Iterator<Item = Sample> + 'a {
         path::samples(unit, (self.pass.target.from, self.pass.target.until))
     }
 
-    fn worst(&self, unit: &Unit<'_>) -> Error {
+    fn worst(&self, unit: &UnitPath<'_>) -> Error {
         let errors = self.truth.iter().filter_map(|truth| {
             let off = unit.direction(truth.time)?.separation(truth.direction);
             Some(Error { off, at: truth.time })
@@ -183,7 +183,7 @@ impl Judge {
     }
 
     /// The maximum elevation that the unit will compute for the window.
-    fn highest(&self, unit: &Unit<'_>) -> Option<Angle> {
+    fn highest(&self, unit: &UnitPath<'_>) -> Option<Angle> {
         let elevations = self.truth.iter().filter_map(|at| unit.computed(at.time));
         elevations.map(|direction| direction.elevation).reduce(|a, b| if b > a { b } else { a })
     }

@@ -27,12 +27,12 @@ pub struct LockOut {
 
 /// The unit at an address, whatever the name of its antenna.
 #[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
-struct Unit {
+struct UnitKey {
     make: String,
     address: String,
 }
 
-impl Unit {
+impl UnitKey {
     fn of(connection: &Connection) -> Self {
         let address = connection.address.trim().to_lowercase();
         Self { make: connection.spec().key.to_owned(), address }
@@ -42,7 +42,7 @@ impl Unit {
 /// All locked-out units.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub struct LockOuts {
-    units: BTreeMap<Unit, LockOut>,
+    units: BTreeMap<UnitKey, LockOut>,
     /// Lock-out of all other units, because the file could not be read.
     others: Option<LockOut>,
 }
@@ -52,12 +52,12 @@ pub struct LockOuts {
 struct File {
     version: i64,
     #[serde(default, rename = "lock_out")]
-    lock_outs: Vec<Line>,
+    lock_outs: Vec<Entry>,
 }
 
 #[derive(Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-struct Line {
+struct Entry {
     make: String,
     address: String,
     by: String,
@@ -88,21 +88,21 @@ impl LockOuts {
         }
     }
 
-    fn parse(text: &str) -> Result<BTreeMap<Unit, LockOut>, String> {
+    fn parse(text: &str) -> Result<BTreeMap<UnitKey, LockOut>, String> {
         let file: File = toml::from_str(text).map_err(|error| error.message().to_owned())?;
         if file.version != VERSION {
             return Err(format!("it has version {}, this program knows {VERSION}", file.version));
         }
-        let unit = |line: Line| {
-            let Line { make, address, by, reason, since } = line;
-            (Unit { make, address }, LockOut { by, reason, since })
+        let unit = |line: Entry| {
+            let Entry { make, address, by, reason, since } = line;
+            (UnitKey { make, address }, LockOut { by, reason, since })
         };
         Ok(file.lock_outs.into_iter().map(unit).collect())
     }
 
     /// The lock-out of the unit at `connection`.
     pub fn of(&self, connection: &Connection) -> Option<&LockOut> {
-        self.units.get(&Unit::of(connection)).or(self.others.as_ref())
+        self.units.get(&UnitKey::of(connection)).or(self.others.as_ref())
     }
 
     /// Sets or removes the lock-out of the unit at `connection`. If the file could not be
@@ -115,10 +115,10 @@ impl LockOuts {
     ) {
         if let Some(others) = self.others.take() {
             for connection in station {
-                self.units.entry(Unit::of(connection)).or_insert_with(|| others.clone());
+                self.units.entry(UnitKey::of(connection)).or_insert_with(|| others.clone());
             }
         }
-        let unit = Unit::of(connection);
+        let unit = UnitKey::of(connection);
         match lock_out {
             Some(lock_out) => drop(self.units.insert(unit, lock_out)),
             None => drop(self.units.remove(&unit)),
@@ -131,11 +131,11 @@ impl LockOuts {
     pub fn stay_with_antennas(&mut self, before: &[Antenna], after: &[Antenna]) -> bool {
         let known = self.units.len();
         for old in before {
-            let Some(lock_out) = self.units.get(&Unit::of(&old.connection)).cloned() else {
+            let Some(lock_out) = self.units.get(&UnitKey::of(&old.connection)).cloned() else {
                 continue;
             };
             if let Some(antenna) = after.iter().find(|antenna| antenna.id == old.id) {
-                self.units.entry(Unit::of(&antenna.connection)).or_insert(lock_out);
+                self.units.entry(UnitKey::of(&antenna.connection)).or_insert(lock_out);
             }
         }
         self.units.len() > known
@@ -143,10 +143,10 @@ impl LockOuts {
 
     /// Replaces the file at `path` as a whole and keeps the previous one.
     pub fn save(&self, path: &Path) -> Result<(), SaveError> {
-        let line = |(unit, lock_out): (&Unit, &LockOut)| {
-            let (Unit { make, address }, LockOut { by, reason, since }) =
+        let line = |(unit, lock_out): (&UnitKey, &LockOut)| {
+            let (UnitKey { make, address }, LockOut { by, reason, since }) =
                 (unit.clone(), lock_out.clone());
-            Line { make, address, by, reason, since }
+            Entry { make, address, by, reason, since }
         };
         let lock_outs = self.units.iter().map(line).collect();
         let text = toml::to_string_pretty(&File { version: VERSION, lock_outs })?;
@@ -176,7 +176,7 @@ mod tests {
     fn a_lock_out_is_of_the_unit_and_not_of_the_name_of_its_antenna() {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join(LOCK_OUTS_FILE);
-        let dish = Antenna::satrak("Dish", "Unit.local:4001").connection;
+        let dish = Antenna::satrak("Dish", "UnitKey.local:4001").connection;
         let renamed = Antenna::satrak("North dish", "unit.local:4001").connection;
         let other = Antenna::satrak("Dish", "unit.local:4002").connection;
         let make = Antenna::genius("Dish", "unit.local:4001").connection;

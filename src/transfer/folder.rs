@@ -4,7 +4,7 @@ use std::time::Duration;
 
 /// Content and rights of a file in a folder.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub(super) struct Found {
+pub(super) struct FolderFile {
     pub(super) bytes: Vec<u8>,
     /// Access rights, if the host reports them.
     pub(super) mode: Option<u32>,
@@ -16,7 +16,8 @@ pub(super) type Tell<'a> = &'a mut dyn FnMut(u64);
 /// A folder on another computer. Every call ends within its time limit.
 pub(super) trait Folder {
     /// Reads the file `name`, if there is one.
-    async fn read(&mut self, name: &str, tell: Tell<'_>) -> Result<Option<Found>, FolderError>;
+    async fn read(&mut self, name: &str, tell: Tell<'_>)
+    -> Result<Option<FolderFile>, FolderError>;
 
     /// Writes the file `name`, which must not exist, and syncs it to the disk. Sets its mode
     /// to `mode` if that is given.

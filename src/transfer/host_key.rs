@@ -56,7 +56,7 @@ impl OfferedKey {
 
 /// Verdict of the file about a key.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub enum Verdict {
+pub enum KeyVerdict {
     Pinned,
     /// The host is unknown: the operator must look at the key.
     Unknown,
@@ -112,20 +112,20 @@ impl KnownHosts {
     }
 
     /// Compares `offered` with the file.
-    pub fn check(&self, offered: &OfferedKey) -> Result<Verdict, KnownHostsError> {
+    pub fn check(&self, offered: &OfferedKey) -> Result<KeyVerdict, KnownHostsError> {
         let entries = self.entries(&offered.address())?;
         let is_same = |entry: &Entry| entry.public_key().key_data() == offered.key.key_data();
         if entries.iter().any(|entry| entry.marker() == Some(&Marker::Revoked) && is_same(entry)) {
-            return Ok(Verdict::Revoked);
+            return Ok(KeyVerdict::Revoked);
         }
         let pinned: Vec<_> = entries.iter().filter(|entry| entry.marker().is_none()).collect();
         Ok(if pinned.is_empty() {
-            Verdict::Unknown
+            KeyVerdict::Unknown
         } else if pinned.iter().any(|entry| is_same(entry)) {
-            Verdict::Pinned
+            KeyVerdict::Pinned
         } else {
             let pinned = pinned.iter().map(|entry| fingerprint(entry.public_key())).collect();
-            Verdict::Changed { pinned }
+            KeyVerdict::Changed { pinned }
         })
     }
 

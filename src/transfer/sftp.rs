@@ -9,7 +9,7 @@ use russh_sftp::{
 
 use super::{
     FolderError, Limits,
-    folder::{Folder, Found, Tell},
+    folder::{Folder, FolderFile, Tell},
     ssh::Ssh,
 };
 
@@ -148,7 +148,11 @@ impl SftpFolder {
 }
 
 impl Folder for SftpFolder {
-    async fn read(&mut self, name: &str, tell: Tell<'_>) -> Result<Option<Found>, FolderError> {
+    async fn read(
+        &mut self,
+        name: &str,
+        tell: Tell<'_>,
+    ) -> Result<Option<FolderFile>, FolderError> {
         let path = self.path(name);
         let none = FileAttributes::empty();
         let handle = match self.ask(self.sftp.open(path.as_str(), OpenFlags::READ, none)).await {
@@ -164,7 +168,7 @@ impl Folder for SftpFolder {
         let bytes = self.whole(self.read_all(&handle, tell)).await?;
         let attributes = self.ask(self.sftp.fstat(handle.as_str())).await?.attrs;
         self.ask(self.sftp.close(handle)).await?;
-        Ok(Some(Found { bytes, mode: attributes.permissions.map(|mode| mode & RIGHTS) }))
+        Ok(Some(FolderFile { bytes, mode: attributes.permissions.map(|mode| mode & RIGHTS) }))
     }
 
     async fn write_new(

@@ -12,8 +12,8 @@ use tokio::net::TcpStream;
 use tokio_util::sync::CancellationToken;
 
 use super::{
-    ConnectError, ConnectStep, Interruption, KeyFileProblem, KnownHosts, Limits, Login, OfferedKey,
-    Peer, Proof, SftpFolder, Verdict, limits::within,
+    ConnectError, ConnectStep, Interruption, KeyFileProblem, KeyVerdict, KnownHosts, Limits, Login,
+    OfferedKey, Peer, Proof, SftpFolder, limits::within,
 };
 
 /// An SSH connection after log-in. Dropping it ends it.
@@ -204,10 +204,10 @@ impl client::Handler for Judge {
         let offered = Box::new(OfferedKey::new(&self.peer.host, self.peer.port, key.clone()));
         let verdict = self.known.check(&offered).map_err(|error| Refused::Key(error.into()))?;
         Err(Refused::Key(match verdict {
-            Verdict::Pinned => return Ok(true),
-            Verdict::Unknown => ConnectError::UnknownHostKey(offered),
-            Verdict::Changed { pinned } => ConnectError::HostKeyChanged { pinned, offered },
-            Verdict::Revoked => ConnectError::HostKeyRevoked(offered),
+            KeyVerdict::Pinned => return Ok(true),
+            KeyVerdict::Unknown => ConnectError::UnknownHostKey(offered),
+            KeyVerdict::Changed { pinned } => ConnectError::HostKeyChanged { pinned, offered },
+            KeyVerdict::Revoked => ConnectError::HostKeyRevoked(offered),
         }))
     }
 }

@@ -28,9 +28,9 @@ use self::{
     cards::CardEffects,
     form::Form,
     section::Section,
-    unit::Unit,
+    unit::ShownUnit,
     unlock::Unlock,
-    unlock_dialog::{Answer, UnlockDialog},
+    unlock_dialog::{UnlockAnswer, UnlockDialog},
 };
 use super::{
     copies::{self, CompareState},
@@ -59,7 +59,7 @@ impl AntennasState {
     /// service functions when they may no longer be open.
     pub fn watch(&mut self, model: &Model) {
         for index in 0..model.antennas.len() {
-            let Some(unit) = Unit::of(model, index) else { continue };
+            let Some(unit) = ShownUnit::of(model, index) else { continue };
             let Some(form) = self.forms.get_mut(unit.name()) else { continue };
             form.take_outcomes(&unit);
             form.unlock = form.unlock.filter(|unlock| unlock.holds(&unit));
@@ -68,8 +68,9 @@ impl AntennasState {
 
     /// Number of typed values that are not on their unit.
     pub fn edited(&self, model: &Model) -> usize {
-        let units = (0..model.antennas.len()).filter_map(|index| Unit::of(model, index));
-        let edited = |unit: Unit<'_>| Some(self.forms.get(unit.name())?.count_all(&unit).edited);
+        let units = (0..model.antennas.len()).filter_map(|index| ShownUnit::of(model, index));
+        let edited =
+            |unit: ShownUnit<'_>| Some(self.forms.get(unit.name())?.count_all(&unit).edited);
         units.filter_map(edited).sum()
     }
 }
@@ -85,7 +86,7 @@ pub fn show(
     let t = theme::tokens(ui);
     ui.painter().rect_filled(rect, 0.0, t.bg0);
     let (side, body) = rect.split_left_right_at_x(rect.left() + list::WIDTH);
-    let Some(mut unit) = Unit::of(model, model.selected_antenna) else {
+    let Some(mut unit) = ShownUnit::of(model, model.selected_antenna) else {
         list::show(ui, side, model, None, commands);
         return none(ui, body, commands);
     };
@@ -125,10 +126,10 @@ pub fn show(
         state.unlock = Some(UnlockDialog::default());
     }
     let answer = state.unlock.as_mut().map(|dialog| dialog.show(ui, &unit));
-    if answer == Some(Answer::Unlock) {
+    if answer == Some(UnlockAnswer::Unlock) {
         form.unlock = Some(Unlock::new(&unit));
     }
-    state.unlock.take_if(|_| answer != Some(Answer::Open) && answer.is_some());
+    state.unlock.take_if(|_| answer != Some(UnlockAnswer::Open) && answer.is_some());
 }
 
 /// Shows that there is no antenna.

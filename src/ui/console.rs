@@ -17,7 +17,7 @@ use std::{path::PathBuf, sync::Arc, time::Duration};
 use egui::{Rect, Ui, ViewportId};
 
 use super::theme;
-use crate::model::{Line, Model, UiCommand};
+use crate::model::{ConsoleLine, Model, UiCommand};
 use log::{Filter, Log};
 use selection::Selection;
 
@@ -53,7 +53,7 @@ impl ConsoleState {
         self.saved = Some(result);
     }
 
-    fn selected(&self) -> Option<&Arc<Line>> {
+    fn selected(&self) -> Option<&Arc<ConsoleLine>> {
         self.log.line(self.selection.cursor()?)
     }
 

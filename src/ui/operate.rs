@@ -44,7 +44,7 @@ pub struct OperateState {
     /// The sky plot.
     pub sky: SkyPlotState,
     passes: PassListState,
-    found: filter::Found,
+    found: filter::FoundPasses,
     /// Index of the antenna whose card was shown last.
     shown_antenna: Option<AntennaId>,
 }

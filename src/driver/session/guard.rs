@@ -19,7 +19,7 @@ const ALLOWED: Duration = Duration::from_mins(1);
 pub(super) struct Guard {
     /// Program of the child process.
     program: Option<PathBuf>,
-    line: Line,
+    line: GuardedLink,
     armed: Option<DeadMan>,
     /// No child could be had the last time one was needed.
     pub(super) is_missing: bool,
@@ -29,7 +29,7 @@ pub(super) struct Guard {
 
 /// The link, as a child can write to it.
 #[derive(Debug)]
-enum Line {
+enum GuardedLink {
     Closed,
     /// Its far end lives in this process and ends with it.
     InProcess,
@@ -44,23 +44,23 @@ enum Line {
 
 impl Guard {
     pub(super) fn new(program: Option<PathBuf>) -> Self {
-        let (line, armed) = (Line::Closed, None);
+        let (line, armed) = (GuardedLink::Closed, None);
         Self { program, line, armed, is_missing: false, allowed_until: None }
     }
 
     /// A link is open; `stop` holds the controller's STOP bytes.
     pub(super) fn link_up(&mut self, stream: &dyn Stream, stop: &[u8]) {
         self.line = match stream.duplicate() {
-            Ok(None) => Line::InProcess,
-            Ok(Some(link)) => Line::Open { link, stop: stream.on_wire(stop) },
-            Err(_) => Line::Unavailable,
+            Ok(None) => GuardedLink::InProcess,
+            Ok(Some(link)) => GuardedLink::Open { link, stop: stream.on_wire(stop) },
+            Err(_) => GuardedLink::Unavailable,
         };
     }
 
     /// The link is let go: first the child, whose handle would keep the connection open.
     pub(super) fn link_down(&mut self) {
         self.disarm();
-        self.line = Line::Closed;
+        self.line = GuardedLink::Closed;
     }
 
     fn disarm(&mut self) {
@@ -71,9 +71,11 @@ impl Guard {
 
     fn arm(&mut self, now: Instant) -> io::Result<()> {
         let (link, stop) = match &self.line {
-            Line::InProcess => return Ok(()),
-            Line::Open { link, stop } => (copy(link)?, stop),
-            Line::Closed | Line::Unavailable => return Err(io::ErrorKind::Unsupported.into()),
+            GuardedLink::InProcess => return Ok(()),
+            GuardedLink::Open { link, stop } => (copy(link)?, stop),
+            GuardedLink::Closed | GuardedLink::Unavailable => {
+                return Err(io::ErrorKind::Unsupported.into());
+            }
         };
         let program = self.program.as_deref().ok_or(io::ErrorKind::NotFound)?;
         self.armed = Some(DeadMan::arm(program, link, stop, now)?);

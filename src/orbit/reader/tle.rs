@@ -9,12 +9,12 @@ use crate::orbit::Elements;
 
 /// A line with its number in the text, from 1.
 #[derive(Clone, Copy)]
-struct Line<'a> {
+struct TleLine<'a> {
     place: usize,
     text: &'a str,
 }
 
-impl Line<'_> {
+impl TleLine<'_> {
     /// Returns `true` if the line looks like line `number` of a set.
     fn is_numbered(self, number: char) -> bool {
         // A name may also start with a digit, but it has at most 24 columns.
@@ -30,7 +30,7 @@ pub(super) fn read(text: &str) -> ReadReport {
     let mut lines = text
         .lines()
         .enumerate()
-        .map(|(index, text)| Line { place: index + 1, text: text.trim() })
+        .map(|(index, text)| TleLine { place: index + 1, text: text.trim() })
         .filter(|line| !line.text.is_empty() && !line.text.starts_with('#'))
         .peekable();
     // Only the last line before a set can be its name; all other lines are remarks.
@@ -64,8 +64,8 @@ fn object<'a>(name: &'a str, line: &'a str) -> Option<&'a str> {
 
 fn set(
     name: &str,
-    first: Line<'_>,
-    second: Line<'_>,
+    first: TleLine<'_>,
+    second: TleLine<'_>,
     report: &mut ReadReport,
 ) -> Result<(), RefusalReason> {
     let lines = [Columns::new(1, first.text)?, Columns::new(2, second.text)?];

@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use super::{
     Judge,
-    path::{Unit, site, turned},
+    path::{UnitPath, site, turned},
 };
 use crate::{
     astro::{Angle, frames},
@@ -88,13 +88,13 @@ pub(super) fn unknown(told: &OnBoard) -> Vec<Unknown> {
 
 /// All causes: first those whose error is unknown, then the others, the largest error first.
 pub(super) fn ranked(judge: &Judge, told: &OnBoard, holds_target: bool) -> Vec<Ranked> {
-    let right = Unit::right(judge);
-    let alone = |unit: Unit<'_>| {
+    let right = UnitPath::right(judge);
+    let alone = |unit: UnitPath<'_>| {
         let errors = unit.either_way().map(|unit| judge.worst(&unit).off);
         errors.fold(Angle::ZERO, |worst, off| if off > worst { off } else { worst })
     };
     let mut ranked = Vec::new();
-    let mut add = |cause, unit: Unit<'_>| {
+    let mut add = |cause, unit: UnitPath<'_>| {
         let off = alone(unit);
         if off.degrees() >= WORTH_NAMING_DEG {
             ranked.push(Ranked { cause, off: Some(off) });
@@ -105,13 +105,13 @@ pub(super) fn ranked(judge: &Judge, told: &OnBoard, holds_target: bool) -> Vec<R
         && site != ours
     {
         let away_km = frames::site_ecef_km(site).distance(frames::site_ecef_km(ours));
-        add(Cause::Place { place, away_km }, Unit { site, ..right });
+        add(Cause::Place { place, away_km }, UnitPath { site, ..right });
     }
     if let Some(UnitClock { ahead_s, .. }) = told.clock {
-        add(Cause::Clock { ahead_s }, Unit { ahead_s, ..right });
+        add(Cause::Clock { ahead_s }, UnitPath { ahead_s, ..right });
     }
     if let Some(offsets) = told.offsets {
-        let with = |offsets| Unit { offsets, ..right };
+        let with = |offsets| UnitPath { offsets, ..right };
         let none = right.offsets;
         let Offsets { time_s, azimuth_deg, elevation_deg, .. } = offsets;
         add(Cause::TimeOffset { offset_s: time_s }, with(Offsets { time_s, ..none }));
@@ -122,7 +122,7 @@ pub(super) fn ranked(judge: &Judge, told: &OnBoard, holds_target: bool) -> Vec<R
         add(Cause::MinimumElevation(minimum_elevation_deg), raised);
         let turned = turned(offsets.north_deg, judge.ability.mount);
         let (offset_deg, off_deg) = (offsets.north_deg, turned.degrees());
-        add(Cause::NorthOffset { offset_deg, off_deg }, Unit { turned, ..right });
+        add(Cause::NorthOffset { offset_deg, off_deg }, UnitPath { turned, ..right });
     }
     if holds_target {
         ranked.extend(satellite(judge, told));
@@ -146,7 +146,7 @@ fn satellite(judge: &Judge, told: &OnBoard) -> Option<Ranked> {
     let (start, stop) = told.window?;
     let is_this = start.as_second() == target.from.as_second()
         && stop.as_second() == target.until.as_second();
-    let unit = Unit { site: site(told, judge.pass.site)?, ..Unit::right(judge) };
+    let unit = UnitPath { site: site(told, judge.pass.site)?, ..UnitPath::right(judge) };
     let expected_deg = judge.highest(&unit).filter(|_| is_this && judge.span_s() > 0.0)?.degrees();
     let differs_deg = (told_deg - expected_deg).abs();
     (differs_deg > HIGHEST_ROUGH_DEG).then_some(Ranked {

@@ -33,7 +33,7 @@ pub(super) fn spread(from: Timestamp, to: Timestamp) -> impl Iterator<Item = Tim
 
 /// The data by which a unit tracks.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Unit<'a> {
+pub(super) struct UnitPath<'a> {
     pub(super) propagator: &'a Propagator,
     pub(super) window: (Timestamp, Timestamp),
     pub(super) site: Site,
@@ -43,7 +43,7 @@ pub(super) struct Unit<'a> {
     pub(super) turned: Angle,
 }
 
-impl<'a> Unit<'a> {
+impl<'a> UnitPath<'a> {
     /// A unit that computes exactly as Azel does.
     pub(super) fn right(judge: &'a Judge) -> Self {
         let target = &judge.pass.target;
@@ -127,7 +127,7 @@ pub(super) fn turned(north_deg: f64, mount: Mount) -> Angle {
 
 /// The path of `unit` while its clock runs through `window`.
 pub(super) fn samples(
-    unit: Unit<'_>,
+    unit: UnitPath<'_>,
     (start, stop): (Timestamp, Timestamp),
 ) -> impl Iterator<Item = Sample> + '_ {
     let ours = |own: Timestamp| add_seconds(own, -unit.ahead_s);

@@ -236,7 +236,7 @@ fn a_lower_minimum_of_the_unit_is_told_beside() {
 #[test]
 fn a_path_is_finely_sampled_to_its_end() {
     let judge = judge();
-    let unit = Unit::of(&OnBoard { clock: Some(clock(7.0)), ..right() }, &judge);
+    let unit = UnitPath::of(&OnBoard { clock: Some(clock(7.0)), ..right() }, &judge);
     let path: Vec<Sample> = judge.path(unit).collect();
     let first = path.first().unwrap();
     assert!((seconds_between(first.time, pass().aos.time) - 7.0).abs() < 1e-6);

@@ -34,7 +34,7 @@ pub(super) fn event_ids(rows: &[ExportedPass<'_>], query: &PassQuery) -> Vec<Str
         let number = satellite.elements.catalog_number();
         let slots = Slots::of(&satellite.elements);
         let again = |from, to| query.passes_between(&satellite.propagator, from, to);
-        let Found { slot, order } = slots.find(pass, query.search.from, again);
+        let FoundSlot { slot, order } = slots.find(pass, query.search.from, again);
         let before = before.entry((number, slot)).or_default();
         let order = order.max(*before);
         *before = order + 1;
@@ -62,7 +62,7 @@ struct Slots {
 }
 
 /// The position of a pass among the slots.
-struct Found {
+struct FoundSlot {
     /// `None` for a satellite that stays above the horizon.
     slot: Option<i64>,
     /// Number of known passes before this one in the same slot.
@@ -93,12 +93,12 @@ impl Slots {
         pass: &Pass,
         from: Timestamp,
         again: impl FnOnce(Timestamp, Timestamp) -> Vec<Pass>,
-    ) -> Found {
+    ) -> FoundSlot {
         let slot = self.at(pass.tca.time);
         let is_cut = pass.starts_before || pass.ends_after || self.start(slot) < from;
-        let found = Found { slot: Some(slot), order: 0 };
+        let found = FoundSlot { slot: Some(slot), order: 0 };
         if !is_cut {
-            return if self.is_long(pass) { Found { slot: None, order: 0 } } else { found };
+            return if self.is_long(pass) { FoundSlot { slot: None, order: 0 } } else { found };
         }
         let first = self.start(slot).min(pass.aos.time);
         let first = time::add_seconds(first, -self.longest_pass_s);
@@ -108,7 +108,7 @@ impl Slots {
         let is_same = |whole: &&Pass| (whole.aos.time..=whole.los.time).contains(&middle);
         let Some(whole) = passes.iter().find(is_same) else { return found };
         if self.is_long(whole) {
-            return Found { slot: None, order: 0 };
+            return FoundSlot { slot: None, order: 0 };
         }
         let slot = self.at(whole.tca.time);
         let is_before = |other: &&Pass| {
@@ -116,7 +116,7 @@ impl Slots {
                 && self.at(other.tca.time) == slot
                 && !self.is_long(other)
         };
-        Found { slot: Some(slot), order: passes.iter().filter(is_before).count() }
+        FoundSlot { slot: Some(slot), order: passes.iter().filter(is_before).count() }
     }
 
     fn is_long(&self, pass: &Pass) -> bool {

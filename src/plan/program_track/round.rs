@@ -38,7 +38,7 @@ pub(super) fn round(
     if !is_behind.contains(&true) {
         return axes_deg;
     }
-    let mut line = Line { points: Vec::new(), limits, max_s: step_s * SHARE_OF_RATE };
+    let mut line = Polyline { points: Vec::new(), limits, max_s: step_s * SHARE_OF_RATE };
     let mut wanted_s = Vec::with_capacity(samples.len());
     if let (Some(true), [Some(first), Some(second)]) = (is_behind.first(), start.axes_deg) {
         // The axes may already be in the middle of a detour; before a pass they wait at its end.
@@ -91,7 +91,7 @@ pub(super) fn round(
 }
 
 /// The path as a line, measured in seconds at full rate.
-struct Line {
+struct Polyline {
     /// Seconds from the start, and positions in degrees as the mount counts.
     points: Vec<(f64, [f64; 2])>,
     limits: AxisLimits,
@@ -99,7 +99,7 @@ struct Line {
     max_s: f64,
 }
 
-impl Line {
+impl Polyline {
     fn begin(&mut self, at_deg: [f64; 2]) {
         self.points.push((0.0, at_deg));
     }

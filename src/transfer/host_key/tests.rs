@@ -25,16 +25,16 @@ fn a_key_is_asked_about_once_then_pinned_and_another_refused() {
     let folder = tempfile::tempdir().unwrap();
     let known = KnownHosts::new(folder.path().join("deeper").join("known_hosts"));
     let good = offered("Unit", 22, ONE);
-    assert_eq!(known.check(&good).unwrap(), Verdict::Unknown);
+    assert_eq!(known.check(&good).unwrap(), KeyVerdict::Unknown);
     known.pin(&good).unwrap();
-    assert_eq!(known.check(&good).unwrap(), Verdict::Pinned);
-    assert_eq!(known.check(&offered("unit", 22, ONE)).unwrap(), Verdict::Pinned);
-    let changed = Verdict::Changed { pinned: vec![FINGERPRINT_ONE.to_owned()] };
+    assert_eq!(known.check(&good).unwrap(), KeyVerdict::Pinned);
+    assert_eq!(known.check(&offered("unit", 22, ONE)).unwrap(), KeyVerdict::Pinned);
+    let changed = KeyVerdict::Changed { pinned: vec![FINGERPRINT_ONE.to_owned()] };
     assert_eq!(known.check(&offered("unit", 22, TWO)).unwrap(), changed);
     // A key of another algorithm counts as changed too, or the pin could be bypassed.
     assert_eq!(known.check(&offered("unit", 22, THREE)).unwrap(), changed);
-    assert_eq!(known.check(&offered("unit", 2222, TWO)).unwrap(), Verdict::Unknown);
-    assert_eq!(known.check(&offered("unit2", 22, TWO)).unwrap(), Verdict::Unknown);
+    assert_eq!(known.check(&offered("unit", 2222, TWO)).unwrap(), KeyVerdict::Unknown);
+    assert_eq!(known.check(&offered("unit2", 22, TWO)).unwrap(), KeyVerdict::Unknown);
 }
 
 #[test]
@@ -49,7 +49,7 @@ fn the_file_is_openssh_s() {
     assert_eq!(lines[0], "# mine");
     assert_eq!(format!("{} one", lines[2]), format!("192.0.2.7 {ONE}"));
     assert_eq!(format!("{} three", lines[3]), format!("[fe80::1]:2222 {THREE}"));
-    assert_eq!(known.check(&offered("old", 22, TWO)).unwrap(), Verdict::Pinned);
+    assert_eq!(known.check(&offered("old", 22, TWO)).unwrap(), KeyVerdict::Pinned);
     let kinds = known.algorithms("fe80::1", 2222).unwrap();
     assert_eq!(kinds.iter().map(ToString::to_string).collect::<Vec<_>>(), ["ecdsa-sha2-nistp256"]);
 }
@@ -61,20 +61,20 @@ fn lines_of_other_kinds_pin_nothing() {
          |1|O33ESRMWPVkMYIwJ1Uw+n877jTo=|nuuC5vEqXlEZ/8BXQR7m619W6Ak= {ONE}\n"
     );
     let (_folder, known) = file(&text);
-    assert_eq!(known.check(&offered("a.example", 22, ONE)).unwrap(), Verdict::Unknown);
-    assert_eq!(known.check(&offered("example.com", 22, ONE)).unwrap(), Verdict::Unknown);
-    assert_eq!(known.check(&offered("unit", 22, TWO)).unwrap(), Verdict::Pinned);
-    assert!(matches!(known.check(&offered("unit", 22, ONE)).unwrap(), Verdict::Changed { .. }));
+    assert_eq!(known.check(&offered("a.example", 22, ONE)).unwrap(), KeyVerdict::Unknown);
+    assert_eq!(known.check(&offered("example.com", 22, ONE)).unwrap(), KeyVerdict::Unknown);
+    assert_eq!(known.check(&offered("unit", 22, TWO)).unwrap(), KeyVerdict::Pinned);
+    assert!(matches!(known.check(&offered("unit", 22, ONE)).unwrap(), KeyVerdict::Changed { .. }));
 }
 
 #[test]
 fn a_revoked_key_is_refused_even_when_it_is_pinned_and_stays_so() {
     let (_folder, known) = file(&format!("@revoked unit {ONE}\nunit {ONE}\nunit {TWO}\n"));
-    assert_eq!(known.check(&offered("unit", 22, ONE)).unwrap(), Verdict::Revoked);
-    assert_eq!(known.check(&offered("unit", 22, TWO)).unwrap(), Verdict::Pinned);
+    assert_eq!(known.check(&offered("unit", 22, ONE)).unwrap(), KeyVerdict::Revoked);
+    assert_eq!(known.check(&offered("unit", 22, TWO)).unwrap(), KeyVerdict::Pinned);
     known.forget("unit", 22).unwrap();
-    assert_eq!(known.check(&offered("unit", 22, ONE)).unwrap(), Verdict::Revoked);
-    assert_eq!(known.check(&offered("unit", 22, TWO)).unwrap(), Verdict::Unknown);
+    assert_eq!(known.check(&offered("unit", 22, ONE)).unwrap(), KeyVerdict::Revoked);
+    assert_eq!(known.check(&offered("unit", 22, TWO)).unwrap(), KeyVerdict::Unknown);
 }
 
 #[test]

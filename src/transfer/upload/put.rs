@@ -7,7 +7,7 @@ use tokio_util::sync::CancellationToken;
 use super::{FolderState, Progress, UploadError, UploadReason, UploadStep};
 use crate::transfer::{
     FileHash, KeptError,
-    folder::{Folder, Found},
+    folder::{Folder, FolderFile},
 };
 
 /// Name of the file while it is written, without `.txt` or `.tle` at the end, so that a
@@ -59,7 +59,7 @@ impl<F: Folder> Put<'_, F> {
     }
 
     /// Reads the present file, after mending an earlier upload that broke off.
-    async fn read_old(&mut self) -> Result<Option<Found>, UploadReason> {
+    async fn read_old(&mut self) -> Result<Option<FolderFile>, UploadReason> {
         if let Some(old) = self.read(UploadStep::ReadOld, self.file).await? {
             return Ok(Some(old));
         }
@@ -171,7 +171,11 @@ impl<F: Folder> Put<'_, F> {
         UploadError { step, reason, state }
     }
 
-    async fn read(&mut self, step: UploadStep, name: &str) -> Result<Option<Found>, UploadReason> {
+    async fn read(
+        &mut self,
+        step: UploadStep,
+        name: &str,
+    ) -> Result<Option<FolderFile>, UploadReason> {
         self.at(step);
         let mut tell = teller(self.tell, step, self.new.len());
         unless_cancelled(self.cancel, self.folder.read(name, &mut tell)).await
@@ -181,7 +185,7 @@ impl<F: Folder> Put<'_, F> {
         teller(self.tell, step, self.new.len())(0);
     }
 
-    fn is_new(&self, found: Option<&Found>) -> bool {
+    fn is_new(&self, found: Option<&FolderFile>) -> bool {
         found.is_some_and(|found| FileHash::of(&found.bytes) == FileHash::of(self.new))
     }
 }

@@ -9,7 +9,7 @@ use super::{
     form::Form,
     row,
     section::{Column, Section},
-    unit::Unit,
+    unit::ShownUnit,
 };
 use crate::{
     device::settings::{Access, Field},
@@ -36,7 +36,7 @@ pub(super) struct CardEffects<'a> {
 /// Shows all cards and scrolls to the one of `scroll_to`.
 pub(super) fn show(
     ui: &mut Ui,
-    unit: &Unit<'_>,
+    unit: &ShownUnit<'_>,
     form: &mut Form,
     scroll_to: &mut Option<Section>,
     effects: &mut CardEffects<'_>,
@@ -79,7 +79,7 @@ fn columns(all: &[Section]) -> (Vec<Section>, Vec<Section>) {
 fn column(
     ui: &mut Ui,
     width: f32,
-    unit: &Unit<'_>,
+    unit: &ShownUnit<'_>,
     form: &mut Form,
     sections: &[Section],
     (scroll_to, effects): (&mut Option<Section>, &mut CardEffects<'_>),
@@ -111,7 +111,7 @@ fn card(ui: &mut Ui, width: f32, content: impl FnOnce(&mut Ui)) -> egui::Rect {
 
 fn fill(
     ui: &mut Ui,
-    unit: &Unit<'_>,
+    unit: &ShownUnit<'_>,
     form: &mut Form,
     section: &Section,
     effects: &mut CardEffects<'_>,
@@ -141,7 +141,7 @@ pub(super) fn subtitle(ui: &mut Ui, words: &str) {
 /// Shows the fields of a group for which `is_wanted` is true.
 pub(super) fn fields(
     ui: &mut Ui,
-    unit: &Unit<'_>,
+    unit: &ShownUnit<'_>,
     form: &mut Form,
     key: &'static str,
     is_wanted: fn(&Field) -> bool,

@@ -8,7 +8,7 @@ use super::{
     field_state::{self, FieldState},
     outcome::{self, HIDDEN},
     row::{self, Columns},
-    unit::Unit,
+    unit::ShownUnit,
 };
 use crate::{
     astro::time::seconds_between,
@@ -27,7 +27,7 @@ use crate::{
 /// password while it is typed.
 pub(super) fn show_all(
     ui: &mut Ui,
-    unit: &Unit<'_>,
+    unit: &ShownUnit<'_>,
     group: &'static Group,
     draft: &mut Draft,
     is_revealed: &mut bool,
@@ -44,7 +44,7 @@ pub(super) fn show_all(
 }
 
 /// Note why the values are not current.
-fn old_or_unread(ui: &mut Ui, unit: &Unit<'_>, group: &Group) {
+fn old_or_unread(ui: &mut Ui, unit: &ShownUnit<'_>, group: &Group) {
     let t = theme::tokens(ui);
     let why = unit.failure(group.key).map(outcome::read_failure);
     let words = match (unit.read_at(group.key), unit.is_open(), why) {
@@ -61,7 +61,7 @@ fn old_or_unread(ui: &mut Ui, unit: &Unit<'_>, group: &Group) {
 
 fn show(
     ui: &mut Ui,
-    unit: &Unit<'_>,
+    unit: &ShownUnit<'_>,
     group: &'static Group,
     field: &'static Field,
     draft: &mut Draft,
@@ -98,7 +98,7 @@ fn paint_unit(ui: &Ui, at: &Columns, field: &Field) {
 }
 
 /// Value on the unit, hollow if it is not current.
-fn on_unit(ui: &Ui, unit: &Unit<'_>, group: &Group, field: &Field, at: &Columns) {
+fn on_unit(ui: &Ui, unit: &ShownUnit<'_>, group: &Group, field: &Field, at: &Columns) {
     if field.access == Access::Write {
         return;
     }
@@ -134,7 +134,7 @@ fn on_unit(ui: &Ui, unit: &Unit<'_>, group: &Group, field: &Field, at: &Columns)
 
 fn edit(
     ui: &mut Ui,
-    unit: &Unit<'_>,
+    unit: &ShownUnit<'_>,
     group: &Group,
     field: &'static Field,
     draft: &mut Draft,

@@ -4,7 +4,7 @@ use jiff::Timestamp;
 
 use super::{
     draft::{Draft, Mark, Reading},
-    unit::Unit,
+    unit::ShownUnit,
 };
 use crate::{
     device::settings::{Access, Field, Group, Guard, Unfit, Value},
@@ -70,7 +70,7 @@ impl FieldState {
 
 /// State of `field` in `group`, with the new value if it can be sent.
 pub(super) fn of(
-    unit: &Unit<'_>,
+    unit: &ShownUnit<'_>,
     group: &Group,
     field: &Field,
     draft: &Draft,
@@ -105,7 +105,7 @@ pub(super) fn of(
 }
 
 fn edited(
-    unit: &Unit<'_>,
+    unit: &ShownUnit<'_>,
     group: &Group,
     field: &Field,
     draft: &Draft,

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use egui::{Align2, Color32, Galley, Key, Modifiers, Rect, Ui, pos2, vec2};
 
-use super::{form::Form, unit::Unit};
+use super::{form::Form, unit::ShownUnit};
 use crate::{
     model::UiCommand,
     ui::{
@@ -43,7 +43,7 @@ enum Mark {
 
 impl Lines {
     /// Lays the sentences out; a narrow view includes the edits not sent yet.
-    fn of(ui: &Ui, unit: &Unit<'_>, form: &Form, width: f32) -> Self {
+    fn of(ui: &Ui, unit: &ShownUnit<'_>, form: &Form, width: f32) -> Self {
         let t = theme::tokens(ui);
         let is_narrow = width < NARROW;
         let room = if is_narrow { width - BUTTONS } else { width * REPORT - PADDING } - 24.0;
@@ -61,7 +61,7 @@ impl Lines {
 }
 
 /// Height of the bar in a view of this width.
-pub(super) fn height(ui: &Ui, unit: &Unit<'_>, form: &Form, width: f32) -> f32 {
+pub(super) fn height(ui: &Ui, unit: &ShownUnit<'_>, form: &Form, width: f32) -> f32 {
     (Lines::of(ui, unit, form, width).height + 16.0).max(MIN_HEIGHT)
 }
 
@@ -69,7 +69,7 @@ pub(super) fn height(ui: &Ui, unit: &Unit<'_>, form: &Form, width: f32) -> f32 {
 pub(super) fn show(
     ui: &mut Ui,
     rect: Rect,
-    unit: &Unit<'_>,
+    unit: &ShownUnit<'_>,
     form: &mut Form,
     commands: &mut Vec<UiCommand>,
 ) {
@@ -112,7 +112,7 @@ pub(super) fn show(
     }
 }
 
-fn report(ui: &Ui, rect: Rect, unit: &Unit<'_>, form: &Form) {
+fn report(ui: &Ui, rect: Rect, unit: &ShownUnit<'_>, form: &Form) {
     let t = theme::tokens(ui);
     let lines = Lines::of(ui, unit, form, rect.width());
     let painter = ui.painter_at(rect);
@@ -135,7 +135,7 @@ fn report(ui: &Ui, rect: Rect, unit: &Unit<'_>, form: &Form) {
 }
 
 /// Edits not sent yet, with the reason.
-fn pending(ui: &Ui, unit: &Unit<'_>, form: &Form) -> (String, Color32) {
+fn pending(ui: &Ui, unit: &ShownUnit<'_>, form: &Form) -> (String, Color32) {
     let t = theme::tokens(ui);
     let count = form.count_all(unit);
     if count.sending > 0 {

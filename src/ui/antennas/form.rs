@@ -12,7 +12,7 @@ use super::{
     draft::{Draft, Sent},
     field_state::{self, FieldState},
     outcome,
-    unit::Unit,
+    unit::ShownUnit,
     unlock::Unlock,
 };
 use crate::{
@@ -83,7 +83,7 @@ impl Form {
     }
 
     /// Counts the fields of these groups.
-    pub(super) fn count(&self, unit: &Unit<'_>, groups: &[&str]) -> Count {
+    pub(super) fn count(&self, unit: &ShownUnit<'_>, groups: &[&str]) -> Count {
         let mut count = Count::default();
         for (key, draft) in self.drafts.iter().filter(|(key, _)| groups.contains(key)) {
             let Some(group) = unit.description(key) else { continue };
@@ -103,14 +103,14 @@ impl Form {
     }
 
     /// Counts the fields of the whole unit.
-    pub(super) fn count_all(&self, unit: &Unit<'_>) -> Count {
+    pub(super) fn count_all(&self, unit: &ShownUnit<'_>) -> Count {
         let groups: Vec<&str> = unit.antenna.groups().iter().map(|group| group.key).collect();
         self.count(unit, &groups)
     }
 
     /// Reason why the ready values cannot be sent now: some of them decide where the antenna
     /// points.
-    pub(super) fn hindrance(&self, unit: &Unit<'_>) -> Option<Hindrance> {
+    pub(super) fn hindrance(&self, unit: &ShownUnit<'_>) -> Option<Hindrance> {
         let ready = |key: &str, draft: &Draft| {
             let Some(group) = unit.description(key) else { return false };
             let moving = group.fields.iter().filter(|field| field.moves);
@@ -121,7 +121,7 @@ impl Form {
     }
 
     /// Requests every group that has not been read on this link, each once.
-    pub(super) fn ask_unread(&mut self, unit: &Unit<'_>, commands: &mut Vec<UiCommand>) {
+    pub(super) fn ask_unread(&mut self, unit: &ShownUnit<'_>, commands: &mut Vec<UiCommand>) {
         let link = unit.antenna.snapshot.state.link_since;
         if !unit.is_open() || link.is_none() {
             return;
@@ -137,7 +137,7 @@ impl Form {
     }
 
     /// Sends the ready values to the unit, one change for each group.
-    pub(super) fn apply(&mut self, unit: &Unit<'_>, commands: &mut Vec<UiCommand>) {
+    pub(super) fn apply(&mut self, unit: &ShownUnit<'_>, commands: &mut Vec<UiCommand>) {
         self.begin_report();
         let all: Vec<(&'static Group, Values)> = unit
             .antenna
@@ -157,7 +157,7 @@ impl Form {
     }
 
     /// Takes over values of a copy as if they had been typed.
-    pub(super) fn take_over(&mut self, unit: &Unit<'_>, taken: Vec<Taken>) {
+    pub(super) fn take_over(&mut self, unit: &ShownUnit<'_>, taken: Vec<Taken>) {
         for Taken { group: key, field: field_key, value } in taken {
             let group = unit.description(key);
             let Some(field) = group.and_then(|group| group.field(field_key)) else { continue };
@@ -173,7 +173,7 @@ impl Form {
     /// Sends `values` to the unit.
     pub(super) fn send(
         &mut self,
-        unit: &Unit<'_>,
+        unit: &ShownUnit<'_>,
         group: &'static Group,
         values: Values,
         commands: &mut Vec<UiCommand>,
@@ -190,7 +190,7 @@ impl Form {
     }
 
     /// Takes the results of the changes that were sent.
-    pub(super) fn take_outcomes(&mut self, unit: &Unit<'_>) {
+    pub(super) fn take_outcomes(&mut self, unit: &ShownUnit<'_>) {
         for (key, draft) in &mut self.drafts {
             let (Some(sent), Some(group)) = (draft.sent(), unit.description(key)) else { continue };
             let state = unit.group(key);

@@ -2,7 +2,7 @@
 
 use egui::{Align2, Rect, Ui, pos2, vec2};
 
-use super::unit::Unit;
+use super::unit::ShownUnit;
 use crate::{
     astro::time::seconds_between,
     driver::Command,
@@ -22,7 +22,7 @@ const PADDING: f32 = 16.0;
 /// Time for which the place of a saved copy is shown, seconds.
 const SAVED_S: f64 = 30.0;
 
-pub(super) fn show(ui: &Ui, rect: Rect, unit: &Unit<'_>, commands: &mut Vec<UiCommand>) {
+pub(super) fn show(ui: &Ui, rect: Rect, unit: &ShownUnit<'_>, commands: &mut Vec<UiCommand>) {
     let t = theme::tokens(ui);
     ui.painter().rect_filled(rect, 0.0, t.bg1);
     ui.painter().hline(rect.x_range(), rect.bottom() - 0.5, (1.0, t.line));
@@ -66,7 +66,7 @@ pub(super) fn show(ui: &Ui, rect: Rect, unit: &Unit<'_>, commands: &mut Vec<UiCo
 }
 
 /// Result of the copy that was just saved.
-fn saved(unit: &Unit<'_>) -> Option<Result<String, String>> {
+fn saved(unit: &ShownUnit<'_>) -> Option<Result<String, String>> {
     let saving = unit.model.copies.saved.as_ref()?;
     let is_news = seconds_between(saving.at, unit.model.now) < SAVED_S;
     (is_news && saving.antenna == unit.name()).then(|| match &saving.result {
@@ -75,12 +75,12 @@ fn saved(unit: &Unit<'_>) -> Option<Result<String, String>> {
     })
 }
 
-fn is_read(unit: &Unit<'_>) -> bool {
+fn is_read(unit: &ShownUnit<'_>) -> bool {
     unit.antenna.groups().iter().any(|group| unit.values(group.key).is_some())
 }
 
 /// How much of the unit is read.
-fn read(unit: &Unit<'_>) -> String {
+fn read(unit: &ShownUnit<'_>) -> String {
     let groups = unit.antenna.groups();
     if groups.is_empty() {
         return "keeps no settings that can be read from here".to_owned();

@@ -2,7 +2,7 @@
 
 use egui::{Align2, Color32, Rect, Role, Stroke, StrokeKind, Ui, pos2, vec2};
 
-use super::{form::Form, makes, section::Section, unit::Unit};
+use super::{form::Form, makes, section::Section, unit::ShownUnit};
 use crate::{
     device::settings::Value,
     engine::antenna::AntennaModel,
@@ -26,7 +26,7 @@ pub(super) fn show(
     ui: &mut Ui,
     rect: Rect,
     model: &Model,
-    shown: Option<(&Unit<'_>, &Form)>,
+    shown: Option<(&ShownUnit<'_>, &Form)>,
     commands: &mut Vec<UiCommand>,
 ) -> Option<Section> {
     let t = theme::tokens(ui);
@@ -70,7 +70,7 @@ fn antenna_line(
     rect: Rect,
     model: &Model,
     antenna: &AntennaModel,
-    shown: Option<(&Unit<'_>, &Form)>,
+    shown: Option<(&ShownUnit<'_>, &Form)>,
 ) -> bool {
     let t = theme::tokens(ui);
     let activity = bar::activity(antenna);
@@ -105,7 +105,7 @@ fn antenna_line(
     response.clicked()
 }
 
-fn section_line(ui: &Ui, rect: Rect, section: Section, unit: &Unit<'_>, form: &Form) -> bool {
+fn section_line(ui: &Ui, rect: Rect, section: Section, unit: &ShownUnit<'_>, form: &Form) -> bool {
     let t = theme::tokens(ui);
     let count = form.count(unit, section.keys);
     let clicked = line(ui, rect, section.title, if count.edited > 0 { t.t1 } else { t.t2 });
@@ -160,7 +160,7 @@ fn badge(
 }
 
 /// Versions that the unit reports, at the foot if there is room.
-fn versions(ui: &Ui, rect: Rect, unit: &Unit<'_>) {
+fn versions(ui: &Ui, rect: Rect, unit: &ShownUnit<'_>) {
     let t = theme::tokens(ui);
     let own = makes::own(unit.antenna.spec());
     let Some(values) = own.and_then(|own| unit.values(own.versions.key)) else { return };

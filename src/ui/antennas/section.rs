@@ -6,12 +6,12 @@ use super::{
     cards::{CardEffects, fields, service},
     form::Form,
     makes, row,
-    unit::Unit,
+    unit::ShownUnit,
 };
 use crate::{device::settings::Group, station::Connection};
 
 /// Draws the content of a card.
-pub(super) type Content = fn(&mut Ui, &Unit<'_>, &mut Form, &Section, &mut CardEffects<'_>);
+pub(super) type Content = fn(&mut Ui, &ShownUnit<'_>, &mut Form, &Section, &mut CardEffects<'_>);
 
 /// A card of the view.
 #[derive(Debug, Clone, Copy)]
@@ -55,7 +55,7 @@ impl Section {
 
 fn all_fields(
     ui: &mut Ui,
-    unit: &Unit<'_>,
+    unit: &ShownUnit<'_>,
     form: &mut Form,
     section: &Section,
     _: &mut CardEffects<'_>,

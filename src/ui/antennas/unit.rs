@@ -12,7 +12,7 @@ use crate::{
 
 /// A unit in this frame, with the rights of its form.
 #[derive(Clone, Copy)]
-pub(super) struct Unit<'a> {
+pub(super) struct ShownUnit<'a> {
     pub(super) model: &'a Model,
     /// Index among the antennas.
     pub(super) index: usize,
@@ -21,7 +21,7 @@ pub(super) struct Unit<'a> {
     pub(super) is_unlocked: bool,
 }
 
-impl<'a> Unit<'a> {
+impl<'a> ShownUnit<'a> {
     pub(super) fn of(model: &'a Model, index: usize) -> Option<Self> {
         let antenna = model.antennas.get(index)?;
         Some(Self { model, index, antenna, is_unlocked: false })

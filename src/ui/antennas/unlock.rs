@@ -4,7 +4,7 @@
 use crate::clock::Instant;
 use std::time::Duration;
 
-use super::unit::Unit;
+use super::unit::ShownUnit;
 
 /// Time for which they stay open.
 const OPEN: Duration = Duration::from_mins(10);
@@ -18,14 +18,14 @@ pub(super) struct Unlock {
 }
 
 impl Unlock {
-    pub(super) fn new(unit: &Unit<'_>) -> Self {
+    pub(super) fn new(unit: &ShownUnit<'_>) -> Self {
         let link_since = unit.antenna.snapshot.state.link_since;
         Self { at: unit.model.steady, link_since }
     }
 
     /// Whether they stay open: within the time, on the same link, while nothing moves and the
     /// operator looks at this antenna.
-    pub(super) fn holds(&self, unit: &Unit<'_>) -> bool {
+    pub(super) fn holds(&self, unit: &ShownUnit<'_>) -> bool {
         self.left(unit) > Duration::ZERO
             && unit.stands()
             && unit.antenna.snapshot.state.link_since == self.link_since
@@ -33,13 +33,13 @@ impl Unlock {
     }
 
     /// Time until they lock by themselves.
-    pub(super) fn left(&self, unit: &Unit<'_>) -> Duration {
+    pub(super) fn left(&self, unit: &ShownUnit<'_>) -> Duration {
         OPEN.saturating_sub(unit.model.steady.saturating_duration_since(self.at))
     }
 }
 
 /// Reason why they cannot be opened now.
-pub(super) fn refusal(unit: &Unit<'_>) -> Option<&'static str> {
+pub(super) fn refusal(unit: &ShownUnit<'_>) -> Option<&'static str> {
     if !unit.is_open() {
         Some("There is no link to the unit.")
     } else if !unit.stands() {

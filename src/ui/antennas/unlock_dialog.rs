@@ -2,7 +2,7 @@
 
 use egui::{Frame, Modal, RichText, Sense, TextEdit, Ui, vec2};
 
-use super::{unit::Unit, unlock};
+use super::{unit::ShownUnit, unlock};
 use crate::ui::{
     text, theme,
     widgets::{
@@ -24,7 +24,7 @@ pub(super) struct UnlockDialog {
 
 /// Outcome of the dialog.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Answer {
+pub(super) enum UnlockAnswer {
     Open,
     Closed,
     Unlock,
@@ -32,17 +32,17 @@ pub(super) enum Answer {
 
 impl UnlockDialog {
     /// Shows the dialog in the middle of the window. Esc closes it and is STOP.
-    pub(super) fn show(&mut self, ui: &Ui, unit: &Unit<'_>) -> Answer {
+    pub(super) fn show(&mut self, ui: &Ui, unit: &ShownUnit<'_>) -> UnlockAnswer {
         let frame = Frame::popup(ui.style()).inner_margin(16);
         let modal = Modal::new(egui::Id::unique("unlock")).frame(frame);
         let shown = modal.show(ui.ctx(), |ui| self.fill(ui, unit));
-        if shown.should_close() && shown.inner == Answer::Open {
-            return Answer::Closed;
+        if shown.should_close() && shown.inner == UnlockAnswer::Open {
+            return UnlockAnswer::Closed;
         }
         shown.inner
     }
 
-    fn fill(&mut self, ui: &mut Ui, unit: &Unit<'_>) -> Answer {
+    fn fill(&mut self, ui: &mut Ui, unit: &ShownUnit<'_>) -> UnlockAnswer {
         let t = theme::tokens(ui);
         ui.set_width(WIDTH);
         let station = unit.model.station.name.trim();
@@ -71,16 +71,16 @@ impl UnlockDialog {
         let (hold, cancelling) = row.split_left_right_at_x(row.right() - cancel.width(ui));
         let hold = hold.with_max_x(hold.right() - 8.0);
         if cancel.show(ui, "cancel unlock", cancelling).clicked() {
-            return Answer::Closed;
+            return UnlockAnswer::Closed;
         }
         if !is_named || refusal.is_some() {
             self.hold = HoldState::Released;
             Button::normal(HOLD).locked(true).show(ui, "unlock locked", hold);
-            return Answer::Open;
+            return UnlockAnswer::Open;
         }
         if hold_button::show(ui, hold, HOLD, &mut self.hold) {
-            return Answer::Unlock;
+            return UnlockAnswer::Unlock;
         }
-        Answer::Open
+        UnlockAnswer::Open
     }
 }

@@ -4,7 +4,7 @@
 use egui::{Rect, RichText, ScrollArea, Ui, UiBuilder, pos2, vec2};
 
 use super::{ConsoleState, PADDING};
-use crate::model::Line;
+use crate::model::ConsoleLine;
 use crate::{
     device::{Direction, Explained, ExplainedValue, Finding, panel::Tone},
     model::Model,
@@ -57,7 +57,7 @@ pub(super) fn show(
     });
 }
 
-fn details(ui: &mut Ui, line: &Line, explained: Option<&Explained>) {
+fn details(ui: &mut Ui, line: &ConsoleLine, explained: Option<&Explained>) {
     let t = theme::tokens(ui);
     ui.label(RichText::new(title(line, explained)).font(text::value()));
     let small = |words: String| RichText::new(words).font(text::small());
@@ -88,13 +88,13 @@ fn details(ui: &mut Ui, line: &Line, explained: Option<&Explained>) {
 }
 
 /// The line as parsed by the make of its antenna.
-fn explained(model: &Model, line: &Line) -> Option<Explained> {
+fn explained(model: &Model, line: &ConsoleLine) -> Option<Explained> {
     let antenna = model.antennas.iter().find(|antenna| *antenna.config.name == *line.antenna);
     let explain = antenna.and_then(|antenna| antenna.spec().explain);
     explain.map(|explain| explain(line.wire()))
 }
 
-fn title(line: &Line, explained: Option<&Explained>) -> String {
+fn title(line: &ConsoleLine, explained: Option<&Explained>) -> String {
     let kind = match (line.wire().finding, line.wire().direction) {
         (Finding::NoReply { .. }, _) => return "No reply".to_owned(),
         (_, Direction::Sent) => "request",
@@ -107,7 +107,7 @@ fn title(line: &Line, explained: Option<&Explained>) -> String {
     }
 }
 
-fn when(line: &Line) -> String {
+fn when(line: &ConsoleLine) -> String {
     let after = line.round_trip().map(|after| format!(", {after} after the request"));
     format!("{}, {}Z{}", line.antenna, line.time(), after.unwrap_or_default())
 }
@@ -132,7 +132,7 @@ fn show_value(ui: &mut Ui, value: &ExplainedValue) {
     paint::name_text(ui, ("value", value.number), row, &words).on_hover_text(&words);
 }
 
-fn bytes(ui: &mut Ui, line: &Line) {
+fn bytes(ui: &mut Ui, line: &ConsoleLine) {
     let t = theme::tokens(ui);
     let wire = line.wire();
     let length = format::number(wire.length as f64, 0);

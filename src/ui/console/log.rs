@@ -3,7 +3,7 @@
 use std::{collections::VecDeque, sync::Arc};
 
 use crate::driver::{MAX_LINES, WireLog};
-use crate::model::Line;
+use crate::model::ConsoleLine;
 
 /// The filter of the log.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -24,19 +24,19 @@ impl Default for Filter {
 
 impl Filter {
     /// Decides whether the line is shown, left out, or left out only as a poll.
-    fn judge(&self, line: &Line, needle: &str) -> Verdict {
+    fn judge(&self, line: &ConsoleLine, needle: &str) -> LineVerdict {
         let is_other = self.antenna.as_ref().is_some_and(|name| **name != *line.antenna);
         if is_other || !(needle.is_empty() || line.has(needle)) {
-            Verdict::Other
+            LineVerdict::Other
         } else if self.hides_polls && line.is_usual_poll() {
-            Verdict::Poll
+            LineVerdict::Poll
         } else {
-            Verdict::Shown
+            LineVerdict::Shown
         }
     }
 }
 
-enum Verdict {
+enum LineVerdict {
     Shown,
     Poll,
     Other,
@@ -45,7 +45,7 @@ enum Verdict {
 /// All lines, and the positions of those shown.
 #[derive(Debug, Default)]
 pub(super) struct Log {
-    lines: VecDeque<Arc<Line>>,
+    lines: VecDeque<Arc<ConsoleLine>>,
     /// Position of the oldest kept line.
     first: u64,
     sources: Vec<Source>,
@@ -83,7 +83,7 @@ impl Log {
         batch.sort_by_key(|(_, recorded)| recorded.line.at);
         for (antenna, recorded) in batch {
             let position = self.first + self.lines.len() as u64;
-            let line = Line::new(position, antenna, recorded);
+            let line = ConsoleLine::new(position, antenna, recorded);
             self.list(&line, &self.filter.needle.to_lowercase());
             self.lines.push_back(Arc::new(line));
         }
@@ -101,11 +101,11 @@ impl Log {
         }
     }
 
-    fn list(&mut self, line: &Line, needle: &str) {
+    fn list(&mut self, line: &ConsoleLine, needle: &str) {
         match self.filter.judge(line, needle) {
-            Verdict::Shown => self.shown.push_back(line.position),
-            Verdict::Poll => self.polls.push_back(line.position),
-            Verdict::Other => {}
+            LineVerdict::Shown => self.shown.push_back(line.position),
+            LineVerdict::Poll => self.polls.push_back(line.position),
+            LineVerdict::Other => {}
         }
     }
 
@@ -159,7 +159,7 @@ impl Log {
     }
 
     /// The line at a position, while it is kept.
-    pub(super) fn line(&self, position: u64) -> Option<&Arc<Line>> {
+    pub(super) fn line(&self, position: u64) -> Option<&Arc<ConsoleLine>> {
         let at = usize::try_from(position.checked_sub(self.first)?).ok()?;
         self.lines.get(at)
     }
@@ -170,11 +170,11 @@ impl Log {
     }
 
     /// All lines, shown or not, newest first.
-    pub(super) fn newest_first(&self) -> impl Iterator<Item = &Arc<Line>> {
+    pub(super) fn newest_first(&self) -> impl Iterator<Item = &Arc<ConsoleLine>> {
         self.lines.iter().rev()
     }
 
-    pub(super) fn all_shown(&self) -> impl Iterator<Item = &Arc<Line>> {
+    pub(super) fn all_shown(&self) -> impl Iterator<Item = &Arc<ConsoleLine>> {
         self.shown.iter().filter_map(|position| self.line(*position))
     }
 }

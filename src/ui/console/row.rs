@@ -3,7 +3,7 @@
 use egui::{Align2, Color32, Rect, Ui, pos2};
 
 use super::{PADDING, raw};
-use crate::model::Line;
+use crate::model::ConsoleLine;
 use crate::{
     device::{Direction, Finding, panel::Tone},
     ui::{
@@ -76,7 +76,7 @@ pub(super) fn show(
     ui: &Ui,
     rect: Rect,
     names_antenna: bool,
-    line: &Line,
+    line: &ConsoleLine,
     is_selected: bool,
     is_hovered: bool,
 ) {
@@ -131,7 +131,7 @@ fn mark_of(tone: Tone, t: &Tokens) -> Option<(Icon, Color32)> {
 }
 
 /// The row for screen readers.
-pub(super) fn spoken(line: &Line) -> String {
+pub(super) fn spoken(line: &ConsoleLine) -> String {
     let raw = line.raw.trim_end_matches("<CR><LF>");
     let went = match line.direction() {
         "" => String::new(),

@@ -6,7 +6,7 @@ use jiff::{SignedDuration, Timestamp};
 
 use super::log::Log;
 use crate::device::{Finding, panel::Tone};
-use crate::model::Line;
+use crate::model::ConsoleLine;
 
 /// Span of the statistics.
 const SPAN: SignedDuration = SignedDuration::from_mins(10);
@@ -49,7 +49,7 @@ impl Tallies {
 }
 
 fn tally(antenna: &Arc<str>, now: Timestamp, log: &Log) -> Tally {
-    let is_recent = |line: &&Arc<Line>| now.duration_since(line.wire().at) <= SPAN;
+    let is_recent = |line: &&Arc<ConsoleLine>| now.duration_since(line.wire().at) <= SPAN;
     let recent = log.newest_first().take_while(is_recent).filter(|line| line.antenna == *antenna);
     let (mut lines, mut bad, mut missing, mut waits) = (0, 0, 0, Vec::new());
     for line in recent {

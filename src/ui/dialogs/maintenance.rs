@@ -32,7 +32,7 @@ pub struct MaintenanceDialog {
     hold: HoldState,
 }
 
-enum Answer {
+enum MaintenanceAnswer {
     Open,
     Closed,
     Held,
@@ -61,9 +61,9 @@ impl MaintenanceDialog {
         });
         let is_left = shown.should_close();
         match (shown.inner, lock_out) {
-            (Answer::Open, _) if !is_left => return,
-            (Answer::Held, Some(_)) => commands.push(for_antenna(Command::Unlock)),
-            (Answer::Held, None) => {
+            (MaintenanceAnswer::Open, _) if !is_left => return,
+            (MaintenanceAnswer::Held, Some(_)) => commands.push(for_antenna(Command::Unlock)),
+            (MaintenanceAnswer::Held, None) => {
                 let command = for_antenna(Command::LockOut(open.typed(model)));
                 // A running activity is named once more before the lock-out ends it.
                 match what_ends(antenna) {
@@ -80,7 +80,7 @@ impl MaintenanceDialog {
         *dialog = None;
     }
 
-    fn lock_out(&mut self, ui: &mut Ui, antenna: &AntennaModel) -> Answer {
+    fn lock_out(&mut self, ui: &mut Ui, antenna: &AntennaModel) -> MaintenanceAnswer {
         let t = theme::tokens(ui);
         let name = &antenna.config.name;
         ui.label(RichText::new(format!("Lock out {name}")).font(text::value()));
@@ -106,7 +106,12 @@ impl MaintenanceDialog {
         self.keys(ui, LOCK, is_told)
     }
 
-    fn take_off(&mut self, ui: &mut Ui, antenna: &AntennaModel, lock_out: &LockOut) -> Answer {
+    fn take_off(
+        &mut self,
+        ui: &mut Ui,
+        antenna: &AntennaModel,
+        lock_out: &LockOut,
+    ) -> MaintenanceAnswer {
         let t = theme::tokens(ui);
         let LockOut { by, reason, since } = lock_out;
         let title = format!("Take off the lock-out of {}", antenna.config.name);
@@ -126,21 +131,21 @@ impl MaintenanceDialog {
         self.keys(ui, TAKE_OFF, true)
     }
 
-    fn keys(&mut self, ui: &mut Ui, words: &str, is_possible: bool) -> Answer {
+    fn keys(&mut self, ui: &mut Ui, words: &str, is_possible: bool) -> MaintenanceAnswer {
         let (row, _) = ui.allocate_exact_size(vec2(WIDTH, HEIGHT), Sense::hover());
         let cancel = Button::normal("Cancel");
         let (hold, cancelling) = row.split_left_right_at_x(row.right() - cancel.width(ui));
         let hold = hold.with_max_x(hold.right() - 8.0);
         if cancel.show(ui, "cancel maintenance", cancelling).clicked() {
-            return Answer::Closed;
+            return MaintenanceAnswer::Closed;
         }
         if !is_possible {
             self.hold = HoldState::Released;
             Button::normal(words).locked(true).show(ui, "maintenance locked", hold);
         } else if hold_button::show(ui, hold, words, &mut self.hold) {
-            return Answer::Held;
+            return MaintenanceAnswer::Held;
         }
-        Answer::Open
+        MaintenanceAnswer::Open
     }
 
     fn typed(&self, model: &Model) -> LockOut {

@@ -7,12 +7,12 @@ use crate::{
 
 /// The found passes, kept until the list or the text changes.
 #[derive(Default)]
-pub(super) struct Found {
+pub(super) struct FoundPasses {
     made_of: Option<(String, Scope, u64, (usize, usize))>,
     places: Vec<usize>,
 }
 
-impl Found {
+impl FoundPasses {
     /// The indexes of the passes in the list of `model` that match `text`, in order; `None`
     /// without a filter.
     pub(super) fn places(&mut self, model: &Model, text: &str) -> Option<&[usize]> {

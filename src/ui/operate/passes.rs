@@ -3,7 +3,7 @@
 use egui::{Rect, Ui};
 use jiff::Timestamp;
 
-use super::filter::Found;
+use super::filter::FoundPasses;
 
 use crate::{
     astro::time::{add_seconds, seconds_between},
@@ -30,7 +30,7 @@ pub(super) fn list(
     model: &Model,
     thumbnails: bool,
     state: &mut PassListState,
-    found: &mut Found,
+    found: &mut FoundPasses,
     commands: &mut Vec<UiCommand>,
 ) {
     let passes = model.upcoming();

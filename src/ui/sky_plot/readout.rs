@@ -23,7 +23,7 @@ const CLEARANCE: f32 = 4.0;
 const LARGE: usize = 2;
 
 /// A line with its place.
-struct Line {
+struct ReadoutLine {
     rect: Rect,
     label: (Pos2, Arc<Galley>),
     value: (Pos2, Arc<Galley>),
@@ -50,14 +50,20 @@ pub(super) fn reserved(
 
 /// Lays the lines out from the left corner downwards until one would meet the disc, then in
 /// the right corner. Lines without room in either corner are left out.
-fn lines(painter: &Painter, rect: Rect, dome: Dome, scene: &SkyScene<'_>, t: &Tokens) -> Vec<Line> {
+fn lines(
+    painter: &Painter,
+    rect: Rect,
+    dome: Dome,
+    scene: &SkyScene<'_>,
+    t: &Tokens,
+) -> Vec<ReadoutLine> {
     let names = grid::name_boxes(dome);
-    let is_free = |line: &Line| {
+    let is_free = |line: &ReadoutLine| {
         let nearest = line.rect.clamp(dome.centre);
         nearest.distance(dome.centre) >= dome.radius + CLEARANCE
             && names.iter().all(|name| !name.expand(CLEARANCE / 2.0).intersects(line.rect))
     };
-    let mut placed: Vec<Line> = Vec::new();
+    let mut placed: Vec<ReadoutLine> = Vec::new();
     let (mut y, mut on_left) = (rect.top() + LEFT_TOP, true);
     for (index, (label, value)) in scene.readout.iter().enumerate() {
         let font = if index < LARGE { text::value() } else { text::small() };
@@ -79,14 +85,20 @@ fn lines(painter: &Painter, rect: Rect, dome: Dome, scene: &SkyScene<'_>, t: &To
 
 /// Lays out a line: in the left corner with the values aligned in a column, in the right
 /// corner with the value at the edge and its label before it.
-fn line(rect: Rect, top: f32, on_left: bool, label: &Arc<Galley>, value: &Arc<Galley>) -> Line {
+fn line(
+    rect: Rect,
+    top: f32,
+    on_left: bool,
+    label: &Arc<Galley>,
+    value: &Arc<Galley>,
+) -> ReadoutLine {
     let label_width = if on_left { LABELS } else { label.size().x + LABEL_GAP };
     let size = vec2(label_width + value.size().x, value.size().y);
     let left = if on_left { rect.left() + EDGE } else { rect.right() - EDGE - size.x };
     // The label stands on the first line of its value.
     let first = value.rows.first().map_or(0.0, |row| row.height());
     let label_at = pos2(left, top + (first - label.size().y) / 2.0);
-    Line {
+    ReadoutLine {
         rect: Rect::from_min_size(pos2(left, top), size),
         label: (label_at, Arc::clone(label)),
         value: (pos2(left + label_width, top), Arc::clone(value)),

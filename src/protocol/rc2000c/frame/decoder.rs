@@ -67,7 +67,7 @@ pub struct Decoder {
 }
 
 /// Judgement of the beginning of the pending bytes.
-enum Verdict {
+enum FrameVerdict {
     /// Undecided until more bytes come.
     Open,
     /// Not a frame of this unit.
@@ -118,46 +118,50 @@ impl Decoder {
         self.skipped_bytes += count as u64;
     }
 
-    fn judge(&self) -> Verdict {
+    fn judge(&self) -> FrameVerdict {
         let Some(header) = self.pending.first().copied().and_then(Header::from_byte) else {
-            return if self.pending.is_empty() { Verdict::Open } else { Verdict::Foreign };
+            return if self.pending.is_empty() {
+                FrameVerdict::Open
+            } else {
+                FrameVerdict::Foreign
+            };
         };
         match self.pending.get(1) {
-            None => return Verdict::Open,
-            Some(byte) if *byte != self.address.number() => return Verdict::Foreign,
+            None => return FrameVerdict::Open,
+            Some(byte) if *byte != self.address.number() => return FrameVerdict::Foreign,
             Some(_) => {}
         }
         for (at, byte) in self.pending.iter().copied().enumerate().skip(2) {
             match byte {
                 ETX if at > 2 => return self.judge_whole(header, at),
                 0x20..0x80 if at + 2 < MAX_FRAME_BYTES => {}
-                0x20..0x80 => return Verdict::Broken(FrameError::TooLong),
-                _ => return Verdict::Broken(FrameError::BadByte { byte, at }),
+                0x20..0x80 => return FrameVerdict::Broken(FrameError::TooLong),
+                _ => return FrameVerdict::Broken(FrameError::BadByte { byte, at }),
             }
         }
-        Verdict::Open
+        FrameVerdict::Open
     }
 
     /// Judges a frame with its ETX at `etx_at`.
-    fn judge_whole(&self, header: Header, etx_at: usize) -> Verdict {
+    fn judge_whole(&self, header: Header, etx_at: usize) -> FrameVerdict {
         let (Some(body), Some(code), Some(data)) = (
             self.pending.get(..=etx_at),
             self.pending.get(2).copied(),
             self.pending.get(3..etx_at),
         ) else {
-            return Verdict::Open;
+            return FrameVerdict::Open;
         };
         if !is_known_form(header, code, data) {
-            return Verdict::Broken(FrameError::BadLength { code, data_bytes: data.len() });
+            return FrameVerdict::Broken(FrameError::BadLength { code, data_bytes: data.len() });
         }
         let Some(received) = self.pending.get(etx_at + 1).copied() else {
-            return Verdict::Open;
+            return FrameVerdict::Open;
         };
         let computed = checksum(body);
         if received == computed {
-            Verdict::Whole(Frame::new(header, self.address, code, data.to_vec()))
+            FrameVerdict::Whole(Frame::new(header, self.address, code, data.to_vec()))
         } else {
-            Verdict::Broken(FrameError::BadChecksum { received, computed })
+            FrameVerdict::Broken(FrameError::BadChecksum { received, computed })
         }
     }
 }
@@ -168,13 +172,13 @@ impl Iterator for Decoder {
     fn next(&mut self) -> Option<Self::Item> {
         loop {
             match self.judge() {
-                Verdict::Open => return None,
-                Verdict::Foreign => self.skip(1),
-                Verdict::Broken(error) => {
+                FrameVerdict::Open => return None,
+                FrameVerdict::Foreign => self.skip(1),
+                FrameVerdict::Broken(error) => {
                     self.skip(1);
                     return Some(Err(error));
                 }
-                Verdict::Whole(frame) => {
+                FrameVerdict::Whole(frame) => {
                     self.pending.drain(..ENVELOPE_BYTES + frame.data().len());
                     return Some(Ok(frame));
                 }

@@ -71,10 +71,14 @@ impl Memory {
 }
 
 impl Folder for Memory {
-    async fn read(&mut self, name: &str, tell: Tell<'_>) -> Result<Option<Found>, FolderError> {
+    async fn read(
+        &mut self,
+        name: &str,
+        tell: Tell<'_>,
+    ) -> Result<Option<FolderFile>, FolderError> {
         let bytes = self.request(|files| files.get(name).cloned()).await?;
         tell(bytes.as_ref().map_or(0, Vec::len) as u64);
-        Ok(bytes.map(|bytes| Found { bytes, mode: None }))
+        Ok(bytes.map(|bytes| FolderFile { bytes, mode: None }))
     }
 
     async fn write_new(
@@ -220,7 +224,11 @@ async fn what_reads_back_as_something_else_in_its_place_is_no_proof() {
     // Someone else writes the file at the moment it takes its place.
     struct Crowded(Memory);
     impl Folder for Crowded {
-        async fn read(&mut self, name: &str, tell: Tell<'_>) -> Result<Option<Found>, FolderError> {
+        async fn read(
+            &mut self,
+            name: &str,
+            tell: Tell<'_>,
+        ) -> Result<Option<FolderFile>, FolderError> {
             self.0.read(name, tell).await
         }
         async fn write_new(

@@ -4,7 +4,7 @@ use egui::{Align2, Sense, Ui, vec2};
 
 use super::{CardEffects, fields, subtitle};
 use crate::ui::{
-    antennas::{form::Form, row, section::Section, unit::Unit},
+    antennas::{form::Form, row, section::Section, unit::ShownUnit},
     format,
     icons::{self, Icon},
     text, theme,
@@ -19,7 +19,7 @@ const ABOUT: &str = "A wrong value here points the antenna wrong or moves it. Op
 
 pub(in crate::ui::antennas) fn show(
     ui: &mut Ui,
-    unit: &Unit<'_>,
+    unit: &ShownUnit<'_>,
     form: &mut Form,
     section: &Section,
     effects: &mut CardEffects<'_>,

@@ -7,14 +7,14 @@ use crate::{
     controller::satrak::settings::{POSITION, VERSIONS},
     device::panel::{Check, CheckState},
     ui::{
-        antennas::{form::Form, row, unit::Unit},
+        antennas::{form::Form, row, unit::ShownUnit},
         format,
         icons::Icon,
         theme,
     },
 };
 
-pub(super) fn show(ui: &mut Ui, unit: &Unit<'_>, form: &mut Form) {
+pub(super) fn show(ui: &mut Ui, unit: &ShownUnit<'_>, form: &mut Form) {
     fields(ui, unit, form, VERSIONS.key, |_| true);
     subtitle(ui, "Position with the unit's own time");
     fields(ui, unit, form, POSITION.key, |_| true);

@@ -12,7 +12,7 @@ use crate::{
     engine::passes::PredictedPass,
     model::{Model, UiCommand},
     ui::{
-        antennas::{draft::Mark, form::Form, row, unit::Unit},
+        antennas::{draft::Mark, form::Form, row, unit::ShownUnit},
         format,
         icons::Icon,
         text, theme,
@@ -22,7 +22,12 @@ use crate::{
 
 const LABEL: &str = "Effect on the track";
 
-pub(super) fn show(ui: &mut Ui, unit: &Unit<'_>, form: &mut Form, commands: &mut Vec<UiCommand>) {
+pub(super) fn show(
+    ui: &mut Ui,
+    unit: &ShownUnit<'_>,
+    form: &mut Form,
+    commands: &mut Vec<UiCommand>,
+) {
     fields(ui, unit, form, CLOCK.key, is_reported);
     effect(ui, unit);
     ui.add_space(6.0);
@@ -30,7 +35,7 @@ pub(super) fn show(ui: &mut Ui, unit: &Unit<'_>, form: &mut Form, commands: &mut
 }
 
 /// Error of the beam due to the clock.
-fn effect(ui: &mut Ui, unit: &Unit<'_>) {
+fn effect(ui: &mut Ui, unit: &ShownUnit<'_>) {
     let t = theme::tokens(ui);
     let ahead_s = unit.values(CLOCK.key).and_then(|values| AHEAD_S.of(values));
     let predicted = predicted_pass(unit);
@@ -51,7 +56,7 @@ fn effect(ui: &mut Ui, unit: &Unit<'_>) {
 }
 
 /// Pass of the satellite on the unit, or else the selected pass.
-fn predicted_pass<'a>(unit: &Unit<'a>) -> Option<&'a PredictedPass> {
+fn predicted_pass<'a>(unit: &ShownUnit<'a>) -> Option<&'a PredictedPass> {
     let model = unit.model;
     let number = unit.values(FILE.key).and_then(|values| CATALOG_NUMBER.of(values));
     let number = number.and_then(|number| u32::try_from(number).ok());
@@ -68,7 +73,7 @@ fn rate_at_tca(model: &Model, predicted: &PredictedPass) -> Option<f64> {
     Some(at(-0.5)?.direction.separation(at(0.5)?.direction).degrees())
 }
 
-fn set(ui: &mut Ui, unit: &Unit<'_>, form: &mut Form, commands: &mut Vec<UiCommand>) {
+fn set(ui: &mut Ui, unit: &ShownUnit<'_>, form: &mut Form, commands: &mut Vec<UiCommand>) {
     let t = theme::tokens(ui);
     let is_sending = form.draft(CLOCK.key).sent().is_some();
     let refusal = if !unit.is_open() {

@@ -9,7 +9,7 @@ use crate::{
         GPS, IS_AUTOMATIC, IS_VALID, LATITUDE_DEG, LONGITUDE_DEG, RECEIVER,
     },
     ui::{
-        antennas::{form::Form, row, unit::Unit},
+        antennas::{form::Form, row, unit::ShownUnit},
         format,
         icons::Icon,
         theme,
@@ -20,7 +20,7 @@ use crate::{
 /// rounding to 0.01° is at most 0.8 km.
 const FAR_KM: f64 = 1.0;
 
-pub(super) fn show(ui: &mut Ui, unit: &Unit<'_>, form: &mut Form) {
+pub(super) fn show(ui: &mut Ui, unit: &ShownUnit<'_>, form: &mut Form) {
     row::head(ui);
     fields(ui, unit, form, GPS.key, |_| true);
     site_check(ui, unit);
@@ -28,7 +28,7 @@ pub(super) fn show(ui: &mut Ui, unit: &Unit<'_>, form: &mut Form) {
     fields(ui, unit, form, RECEIVER.key, |_| true);
 }
 
-fn site_check(ui: &mut Ui, unit: &Unit<'_>) {
+fn site_check(ui: &mut Ui, unit: &ShownUnit<'_>) {
     let t = theme::tokens(ui);
     let Some(away_km) = place(unit).map(|place| distance_km(place, unit.model.station.site)) else {
         return row::plain(ui, "Distance to site", "not known", None);
@@ -45,7 +45,7 @@ fn site_check(ui: &mut Ui, unit: &Unit<'_>) {
 }
 
 /// Place that the unit uses: that of its receiver, or the one it was given.
-fn place(unit: &Unit<'_>) -> Option<Site> {
+fn place(unit: &ShownUnit<'_>) -> Option<Site> {
     let given = unit.values(GPS.key)?;
     let is_automatic = IS_AUTOMATIC.of(given) == Some(true);
     let from_gps = unit

@@ -6,7 +6,7 @@ use crate::{
     controller::satrak::settings::{GENERAL, MINIMUM_ELEVATION_DEG},
     device::settings::Value,
     ui::{
-        antennas::{form::Form, row, unit::Unit},
+        antennas::{form::Form, row, unit::ShownUnit},
         format,
         icons::Icon,
         theme,
@@ -15,7 +15,7 @@ use crate::{
 };
 
 /// Offers the minimum elevation of the station as the new value.
-pub(super) fn show(ui: &mut Ui, unit: &Unit<'_>, form: &mut Form) {
+pub(super) fn show(ui: &mut Ui, unit: &ShownUnit<'_>, form: &mut Form) {
     let station_deg = unit.antenna.config.limits.minimum_elevation_deg;
     let held = unit.values(GENERAL.key).and_then(|held| MINIMUM_ELEVATION_DEG.of(held));
     let Some(unit_deg) = held else { return };

@@ -13,7 +13,7 @@ use crate::{
         antennas::{
             form::{Count, Form},
             row,
-            unit::Unit,
+            unit::ShownUnit,
         },
         icons::{self, Icon},
         source_test::{self, TypedSource},
@@ -31,7 +31,12 @@ use crate::{
 static SOURCES: [&Group; 3] = [&FILE, &WEB, &FTP];
 const TABS: f32 = 216.0;
 
-pub(super) fn show(ui: &mut Ui, unit: &Unit<'_>, form: &mut Form, effects: &mut CardEffects<'_>) {
+pub(super) fn show(
+    ui: &mut Ui,
+    unit: &ShownUnit<'_>,
+    form: &mut Form,
+    effects: &mut CardEffects<'_>,
+) {
     let used = used(unit);
     let shown = form.tab.or(used).unwrap_or(FILE.key);
     if let Some(tab) = tabs(ui, unit, form, used, shown) {
@@ -53,7 +58,7 @@ pub(super) fn show(ui: &mut Ui, unit: &Unit<'_>, form: &mut Form, effects: &mut 
 /// Test fetch of the source as typed.
 fn test_from_here(
     ui: &mut Ui,
-    unit: &Unit<'_>,
+    unit: &ShownUnit<'_>,
     form: &mut Form,
     shown: &'static str,
     effects: &mut CardEffects<'_>,
@@ -93,7 +98,7 @@ fn test_from_here(
 }
 
 /// Group of the source that the unit uses.
-fn used(unit: &Unit<'_>) -> Option<&'static str> {
+fn used(unit: &ShownUnit<'_>) -> Option<&'static str> {
     let code = TLE_SOURCE.of(unit.values(GENERAL.key)?)?;
     SOURCES.get(usize::try_from(code).ok()?).map(|group| group.key)
 }
@@ -104,7 +109,7 @@ fn source(key: &str) -> Option<&'static Group> {
 
 fn tabs(
     ui: &mut Ui,
-    unit: &Unit<'_>,
+    unit: &ShownUnit<'_>,
     form: &Form,
     used: Option<&str>,
     shown: &str,
@@ -148,7 +153,7 @@ fn tabs(
 /// unchanged selects it.
 fn use_it(
     ui: &mut Ui,
-    unit: &Unit<'_>,
+    unit: &ShownUnit<'_>,
     form: &mut Form,
     group: &'static Group,
     effects: &mut CardEffects<'_>,

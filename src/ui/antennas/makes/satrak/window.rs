@@ -13,7 +13,7 @@ use crate::{
         antennas::{
             form::Form,
             row::{self, Columns},
-            unit::Unit,
+            unit::ShownUnit,
         },
         format,
         icons::Icon,
@@ -28,7 +28,12 @@ use crate::{
 
 const AUTO: &str = "Automatic tracking";
 
-pub(super) fn show(ui: &mut Ui, unit: &Unit<'_>, form: &mut Form, commands: &mut Vec<UiCommand>) {
+pub(super) fn show(
+    ui: &mut Ui,
+    unit: &ShownUnit<'_>,
+    form: &mut Form,
+    commands: &mut Vec<UiCommand>,
+) {
     row::head(ui);
     automatic(ui, unit, form, commands);
     fields(ui, unit, form, WINDOW.key, |_| true);
@@ -37,7 +42,7 @@ pub(super) fn show(ui: &mut Ui, unit: &Unit<'_>, form: &mut Form, commands: &mut
 }
 
 /// Switch for automatic tracking. It asks first, for the antenna may start by itself.
-fn automatic(ui: &mut Ui, unit: &Unit<'_>, form: &mut Form, commands: &mut Vec<UiCommand>) {
+fn automatic(ui: &mut Ui, unit: &ShownUnit<'_>, form: &mut Form, commands: &mut Vec<UiCommand>) {
     let t = theme::tokens(ui);
     let at = Columns::of(row::take(ui));
     let program = unit.antenna.snapshot.state.program.filter(|_| unit.is_open());
@@ -81,7 +86,7 @@ fn automatic(ui: &mut Ui, unit: &Unit<'_>, form: &mut Form, commands: &mut Vec<U
 }
 
 /// Reason of a refused request for it, taken from the events.
-fn refusal(unit: &Unit<'_>, form: &Form) -> Option<String> {
+fn refusal(unit: &ShownUnit<'_>, form: &Form) -> Option<String> {
     let asked = form.auto_asked?;
     let (event, _) = unit.antenna.news.as_ref().filter(|(_, at)| *at >= asked)?;
     match event {
@@ -97,7 +102,7 @@ fn refusal(unit: &Unit<'_>, form: &Form) -> Option<String> {
 }
 
 /// Offers AOS and LOS of the selected pass as new values.
-fn take_from_pass(ui: &mut Ui, unit: &Unit<'_>, form: &mut Form) {
+fn take_from_pass(ui: &mut Ui, unit: &ShownUnit<'_>, form: &mut Form) {
     let t = theme::tokens(ui);
     let pass = unit.model.selected_pass();
     let (rect, _) =
