@@ -1,7 +1,8 @@
 //! Passes: the times in which a satellite is above the AOS elevation of a site.
 //!
 //! AOS and LOS are found by [`near_circular`] (`search.rs`, `edges`) for near-circular orbits and
-//! by [`sampled`] (`reach`) for all others; both end in `LocalSeries::crossing`.
+//! by [`sampled`] (`reach`) for all others; both by `LocalSeries::crossing`
+//! (`local_series.rs`), or by halving in `Track::crossing` where that does not settle.
 
 mod geosynchronous;
 mod local_series;
