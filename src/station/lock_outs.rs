@@ -176,7 +176,7 @@ mod tests {
     fn a_lock_out_is_of_the_unit_and_not_of_the_name_of_its_antenna() {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join(LOCK_OUTS_FILE);
-        let dish = Antenna::satrak("Dish", "UnitKey.local:4001").connection;
+        let dish = Antenna::satrak("Dish", "Unit.local:4001").connection;
         let renamed = Antenna::satrak("North dish", "unit.local:4001").connection;
         let other = Antenna::satrak("Dish", "unit.local:4002").connection;
         let make = Antenna::genius("Dish", "unit.local:4001").connection;

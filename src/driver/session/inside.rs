@@ -76,7 +76,7 @@ impl Session {
         }
     }
 
-    /// Controller away from the Sun the shortest way that stays clear of it for its time ahead, or
+    /// Moves away from the Sun the shortest way that stays clear of it for its time ahead, or
     /// to the park position if that is nearer.
     pub(super) fn move_away(&mut self, now: Moment) {
         let has_elevation = self.variant.capabilities.has_elevation();

@@ -116,7 +116,7 @@ impl Settings {
     }
 }
 
-/// A change to change settings; `None` keeps a value. Meanings as in [`Settings`].
+/// The settings to change; `None` keeps a value. Meanings as in [`Settings`].
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct SettingsChange {
     pub rtc_from_gps: Option<bool>,
