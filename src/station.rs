@@ -12,6 +12,7 @@ mod mount;
 mod notices;
 pub mod ranges;
 mod read;
+mod rewrite;
 mod setting;
 mod track_settings;
 mod watch;

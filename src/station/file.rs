@@ -7,7 +7,7 @@ use std::{
 
 use serde::Serialize;
 
-use super::{ControllerSpec, Note, Station, from_toml};
+use super::{ControllerSpec, Note, Station, from_toml, rewrite::rewritten};
 use crate::whole_file;
 
 /// Version that this program writes. A file of a later one is left alone.
@@ -76,9 +76,9 @@ pub fn load(path: &Path, specs: &[&'static ControllerSpec]) -> Result<Loaded, Lo
     Ok(Loaded { station, notes })
 }
 
-/// Writes the station to `path`. A failure at any moment leaves the old file whole. The
-/// previous file is kept beside it with the ending `.old`, because reading forgives more
-/// than it can carry over.
+/// Writes the station to `path`, into the text that stands there: the operator's comments
+/// stay. A failure at any moment leaves the old file whole. The previous file is kept beside
+/// it with the ending `.old`, because reading forgives more than it can carry over.
 pub fn save(station: &Station, path: &Path) -> Result<(), SaveError> {
     #[derive(Serialize)]
     struct Versioned<'a> {
@@ -87,6 +87,10 @@ pub fn save(station: &Station, path: &Path) -> Result<(), SaveError> {
         station: &'a Station,
     }
     let text = toml::to_string_pretty(&Versioned { version: VERSION, station })?;
+    let text = match fs::read_to_string(path) {
+        Ok(old) => rewritten(&old, &text),
+        Err(_) => text,
+    };
     whole_file::replace_and_keep_old(path, text.as_bytes())
         .map_err(|source| SaveError::Write { source, path: path.to_owned() })
 }

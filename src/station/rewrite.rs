@@ -1,0 +1,263 @@
+//! Writes new settings into the text of a station file that the operator may have edited: the
+//! comments, the order and the spelling of what has not changed stay.
+
+use toml_edit::{Array, ArrayOfTables, DocumentMut, Item, Table, TableLike, Value};
+
+/// Key by which the tables of an array are recognised, such as antennas; arrays without it go by
+/// position.
+const ID: &str = "id";
+
+/// `new` with the comments and the order of `old`. What the operator wrote beside a setting that
+/// is gone goes with it. Text that holds anything else than `new` is never returned: where the
+/// two cannot be brought together, it is `new` as it stands.
+pub(super) fn rewritten(old: &str, new: &str) -> String {
+    merged(old, new).unwrap_or_else(|| new.to_owned())
+}
+
+fn merged(old: &str, new: &str) -> Option<String> {
+    let [mut text, wanted] = [old.parse::<DocumentMut>().ok()?, new.parse::<DocumentMut>().ok()?];
+    merge(text.as_table_mut(), wanted.into_table());
+    unplace(text.as_table_mut());
+    let text = text.to_string();
+    let [merged, wanted] = [&text, new].map(|text| toml::from_str::<toml::Table>(text).ok());
+    (merged? == wanted?).then_some(text)
+}
+
+fn merge(old: &mut dyn TableLike, new: Table) {
+    let gone: Vec<String> =
+        old.iter().map(|(key, _)| key.to_owned()).filter(|key| !new.contains_key(key)).collect();
+    for key in gone {
+        old.remove(&key);
+    }
+    for (key, new) in new {
+        match old.get_mut(&key) {
+            Some(old) => merge_item(old, new),
+            None => drop(old.insert(&key, new)),
+        }
+    }
+}
+
+fn merge_item(old: &mut Item, new: Item) {
+    match (&mut *old, new) {
+        (Item::Value(old), Item::Value(new)) => merge_value(old, new),
+        (Item::Table(old), Item::Table(new)) => {
+            // Without a header or a dotted key, an empty table would not be written.
+            old.set_implicit(old.is_implicit() && !new.is_empty());
+            old.set_dotted(old.is_dotted() && !new.is_empty());
+            merge(old, new);
+        }
+        (Item::ArrayOfTables(old), Item::ArrayOfTables(new)) => merge_tables(old, new),
+        // Such as `site = { latitude_deg = 41.0, longitude_deg = 29.0 }`.
+        (Item::Value(Value::InlineTable(old)), Item::Table(new)) => merge(old, new),
+        (old, new) => *old = new,
+    }
+}
+
+fn merge_value(old: &mut Value, new: Value) {
+    if is_same(old, &new) {
+        return;
+    }
+    let decor = old.decor().clone();
+    match (&mut *old, new) {
+        (Value::Array(old), Value::Array(new)) => merge_array(old, new),
+        (Value::InlineTable(old), Value::InlineTable(new)) => merge(old, new.into_table()),
+        (old, new) => *old = new,
+    }
+    *old.decor_mut() = decor;
+}
+
+/// Each value of `new` with the comments of the same value of `old`, if that has it.
+fn merge_array(old: &mut Array, new: Array) {
+    let mut rest: Vec<Option<Value>> = old.iter().cloned().map(Some).collect();
+    old.clear();
+    for new in new {
+        let same = rest.iter_mut().find(|rest| rest.as_ref().is_some_and(|it| is_same(it, &new)));
+        old.push_formatted(same.and_then(Option::take).unwrap_or(new));
+    }
+}
+
+fn merge_tables(old: &mut ArrayOfTables, new: ArrayOfTables) {
+    let mut rest: Vec<Option<Table>> = old.iter().cloned().map(Some).collect();
+    old.clear();
+    for (index, new) in new.into_iter().enumerate() {
+        let id = new.get(ID).and_then(Item::as_value);
+        let is_of = |table: &Table| match (table.get(ID).and_then(Item::as_value), id) {
+            (Some(old), Some(new)) => is_same(old, new),
+            _ => false,
+        };
+        let place = match id {
+            Some(_) => rest.iter().position(|rest| rest.as_ref().is_some_and(is_of)),
+            None => Some(index),
+        };
+        let known = place.and_then(|place| rest.get_mut(place)).and_then(Option::take);
+        let mut table = known.unwrap_or_default();
+        merge(&mut table, new);
+        old.push(table);
+    }
+}
+
+/// Whether both mean the same, however they are spelled.
+fn is_same(old: &Value, new: &Value) -> bool {
+    match (old, new) {
+        (Value::String(old), Value::String(new)) => old.value() == new.value(),
+        (Value::Integer(old), Value::Integer(new)) => old.value() == new.value(),
+        (Value::Float(old), Value::Float(new)) => old.value() == new.value(),
+        (Value::Boolean(old), Value::Boolean(new)) => old.value() == new.value(),
+        (Value::Datetime(old), Value::Datetime(new)) => old.value() == new.value(),
+        (Value::Array(old), Value::Array(new)) => {
+            old.len() == new.len() && old.iter().zip(new).all(|(old, new)| is_same(old, new))
+        }
+        (Value::InlineTable(old), Value::InlineTable(new)) => {
+            old.len() == new.len()
+                && old.iter().all(|(key, old)| new.get(key).is_some_and(|new| is_same(old, new)))
+        }
+        _ => false,
+    }
+}
+
+/// Forgets at which place of their texts the tables stood: those of a moved antenna would be
+/// written below another one.
+fn unplace(table: &mut Table) {
+    table.set_position(None);
+    for (_, item) in table.iter_mut() {
+        match item {
+            Item::Table(table) => unplace(table),
+            Item::ArrayOfTables(tables) => tables.iter_mut().for_each(unplace),
+            _ => {}
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use proptest::prelude::*;
+
+    use super::*;
+
+    const OLD: &str = r#"# Written by hand.
+version = 1
+name = 'Roof' # as on the door
+favourites = [
+    25544, # ISS
+    # weather
+    43013,
+    57166,
+]
+
+# Measured with GPS.
+site = { latitude_deg = 41.020, longitude_deg = 29.17 }
+
+# The old dish.
+[[antenna]]
+id = 1
+name = "Dish" # west
+[antenna.limits]
+maximum_rate_deg_s = 3 # the gear takes no more
+
+# The new one.
+[[antenna]]
+id = 2
+name = "Mast"
+# end
+"#;
+
+    fn is_table_of(text: &str, wanted: &str) {
+        let [text, wanted] =
+            [text, wanted].map(|text| toml::from_str::<toml::Table>(text).unwrap());
+        assert_eq!(text, wanted);
+    }
+
+    #[test]
+    fn what_has_not_changed_stays_as_it_was_written() {
+        let new = r#"
+version = 1
+name = "Tower"
+favourites = [43013, 25544, 40069]
+[site]
+latitude_deg = 41.02
+longitude_deg = 29.5
+[[antenna]]
+id = 2
+name = "Mast"
+beam_width_deg = 2.0
+[antenna.park]
+azimuth_deg = 0.0
+[[antenna]]
+id = 1
+name = "Dish"
+[antenna.limits]
+maximum_rate_deg_s = 3
+[[antenna]]
+id = 3
+name = "Yagi"
+[antenna.limits]
+maximum_rate_deg_s = 6
+"#;
+        let text = rewritten(OLD, new);
+        is_table_of(&text, new);
+        for kept in [
+            "# Written by hand.",
+            "name = \"Tower\" # as on the door",
+            "# weather",
+            "# Measured with GPS.\nsite = { latitude_deg = 41.020, longitude_deg = 29.5 }",
+            "# The old dish.\n[[antenna]]\nid = 1",
+            "name = \"Dish\" # west",
+            "maximum_rate_deg_s = 3 # the gear takes no more",
+            "# The new one.\n[[antenna]]\nid = 2",
+        ] {
+            assert!(text.contains(kept), "{kept:?} is lost:\n{text}");
+        }
+        assert_eq!(rewritten(&text, new), text, "a second time changes nothing");
+    }
+
+    #[test]
+    fn the_comment_of_an_antenna_goes_with_it() {
+        let new = "version = 1\n[[antenna]]\nid = 2\nname = \"Mast\"\n";
+        let text = rewritten(OLD, new);
+        is_table_of(&text, new);
+        assert!(!text.contains("The old dish") && text.contains("# The new one."), "{text}");
+    }
+
+    fn any_table() -> impl Strategy<Value = toml::Table> {
+        let key = || "[a-d]";
+        let leaf = prop_oneof![
+            (0_i64..3).prop_map(toml::Value::Integer),
+            (0_i32..3).prop_map(|number| toml::Value::Float(f64::from(number) / 2.0)),
+            "[a-c# \"]{0,4}".prop_map(toml::Value::String),
+            prop::collection::vec((0_i64..4).prop_map(toml::Value::Integer), 0..4)
+                .prop_map(toml::Value::Array),
+        ];
+        let value = leaf.prop_recursive(3, 24, 4, move |inner| {
+            let table = prop::collection::btree_map(key(), inner, 0..4);
+            let with_id = (prop::option::of(0_i64..4), table.clone()).prop_map(|(id, table)| {
+                let id = id.map(|id| (ID.to_owned(), toml::Value::Integer(id)));
+                toml::Value::Table(table.into_iter().chain(id).collect())
+            });
+            prop_oneof![
+                table.prop_map(|table| toml::Value::Table(table.into_iter().collect())),
+                prop::collection::vec(with_id, 0..4).prop_map(toml::Value::Array),
+            ]
+        });
+        prop::collection::btree_map(key(), value, 0..5)
+            .prop_map(|table| table.into_iter().collect())
+    }
+
+    proptest! {
+        #[test]
+        fn any_settings_go_into_any_text(old in any_table(), new in any_table(), is_long: bool) {
+            let write = |table| match is_long {
+                true => toml::to_string_pretty(table),
+                false => toml::to_string(table),
+            };
+            let [old, new] = [&old, &new].map(|table| write(table).unwrap());
+            prop_assert!(merged(&old, &new).is_some(), "{old}\n---\n{new}");
+        }
+    }
+
+    #[test]
+    fn text_that_cannot_be_merged_is_replaced() {
+        let new = "version = 1\nname = \"Tower\"\n";
+        assert_eq!(rewritten("name = [", new), new);
+        assert_eq!(rewritten("", new), new);
+    }
+}
