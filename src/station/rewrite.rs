@@ -101,7 +101,7 @@ fn is_same(old: &Value, new: &Value) -> bool {
     match (old, new) {
         (Value::String(old), Value::String(new)) => old.value() == new.value(),
         (Value::Integer(old), Value::Integer(new)) => old.value() == new.value(),
-        (Value::Float(old), Value::Float(new)) => old.value() == new.value(),
+        (Value::Float(old), Value::Float(new)) => old.value().to_bits() == new.value().to_bits(),
         (Value::Boolean(old), Value::Boolean(new)) => old.value() == new.value(),
         (Value::Datetime(old), Value::Datetime(new)) => old.value() == new.value(),
         (Value::Array(old), Value::Array(new)) => {
@@ -245,10 +245,7 @@ maximum_rate_deg_s = 6
     proptest! {
         #[test]
         fn any_settings_go_into_any_text(old in any_table(), new in any_table(), is_long: bool) {
-            let write = |table| match is_long {
-                true => toml::to_string_pretty(table),
-                false => toml::to_string(table),
-            };
+            let write = if is_long { toml::to_string_pretty } else { toml::to_string };
             let [old, new] = [&old, &new].map(|table| write(table).unwrap());
             prop_assert!(merged(&old, &new).is_some(), "{old}\n---\n{new}");
         }
