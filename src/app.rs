@@ -9,6 +9,7 @@ mod effects;
 mod log_file;
 mod mask_file;
 mod memory;
+pub mod notifier;
 
 use std::{
     io,
@@ -19,9 +20,12 @@ use std::{
     time::Duration,
 };
 
-use self::{effects::EffectsJob, log_file::LogWork, mask_file::MaskWork, memory::Keeper};
+use self::{
+    effects::EffectsJob, log_file::LogWork, mask_file::MaskWork, memory::Keeper, notifier::Notifier,
+};
 use crate::{
     clock::Clock,
+    desktop::{Desktop, Outlets},
     device::AxisMotion,
     driver::{Outside, TimeSync},
     engine::{
@@ -47,6 +51,8 @@ pub struct App {
     log_work: LogWork,
     mask_work: MaskWork,
     keeper: Keeper,
+    /// `None` where nothing is told to the desktop.
+    notifier: Option<Notifier>,
     /// The attention last reported to the station.
     told: engine::Attention,
     /// Everything to be done before closing is done.
@@ -95,6 +101,8 @@ impl App {
             source_tests: Arc::default(),
             effects: model::effects::Effects::default(),
             alarms: Alarms::default(),
+            reminders: Arc::default(),
+            outlets: Outlets::default(),
             copies: Arc::default(),
             view: View::Operate,
             closing: None,
@@ -112,12 +120,20 @@ impl App {
             log_work,
             mask_work,
             keeper,
+            notifier: None,
             told: engine::Attention::default(),
             closes: false,
             may_close,
             told_to_end,
             drawn: false,
         })
+    }
+
+    /// Tells alarms and reminders to the desktop of this session, too.
+    pub fn with_notifier(mut self) -> io::Result<Self> {
+        let station = self.station.client().clone();
+        self.notifier = Some(Notifier::start(station, Desktop::default(), Arc::clone(&self.wake))?);
+        Ok(self)
     }
 
     pub fn model(&self) -> &Model {
@@ -143,6 +159,7 @@ impl App {
             }
         }
         self.model.watch_station(self.station.stood_for());
+        self.model.outlets = self.notifier.as_ref().map(Notifier::outlets).unwrap_or_default();
         for event in events {
             match event {
                 engine::Event::Saved(result) => self.views.saved(result),

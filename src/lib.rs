@@ -11,6 +11,7 @@ pub mod astro;
 pub mod cli;
 pub mod clock;
 pub mod controller;
+pub mod desktop;
 pub mod device;
 pub mod driver;
 pub mod engine;

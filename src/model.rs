@@ -23,6 +23,7 @@ use self::{daylight::SunSpan, effects::Effects, globe::Globe};
 use crate::{
     astro::{AzEl, HorizonMask, MaskForm, Site, sun_moon},
     clock::Instant,
+    desktop::Outlets,
     driver::{TimeSync, WireLog},
     engine::{
         CatalogState, Handle,
@@ -34,6 +35,7 @@ use crate::{
             ListChoice, ListedSatellite, PassKey, PassLists, PredictedPass, Scope, UpcomingPasses,
             ahead,
         },
+        reminders::Reminder,
         source_tests::SourceTests,
         sources::Sources,
         uploads::Uploads,
@@ -112,6 +114,10 @@ pub struct Model {
     pub effects: Effects,
     /// Active alarms.
     pub alarms: Alarms,
+    /// Reminders of passes that are not over.
+    pub reminders: Arc<Vec<Reminder>>,
+    /// What the desktop cannot do with alarms and reminders.
+    pub outlets: Outlets,
     /// Copies of the settings of units.
     pub copies: Arc<Copies>,
     /// The view that fills the window.
@@ -206,6 +212,7 @@ impl Model {
         self.uploads = Arc::clone(&shown.uploads);
         self.source_tests = Arc::clone(&shown.source_tests);
         self.alarms = shown.alarms.clone();
+        self.reminders = Arc::clone(&shown.reminders);
         self.copies = Arc::clone(&shown.copies);
         self.closing.clone_from(&shown.closing);
         let mut antennas = shown.antennas.clone();

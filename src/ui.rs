@@ -20,6 +20,7 @@ pub mod pass_list;
 pub mod preferences;
 pub mod profile;
 pub mod rail;
+pub mod reminder_note;
 mod second_step;
 pub mod sky_plot;
 pub mod source_test;

@@ -380,6 +380,9 @@ fn program(units: &Units) -> Process {
         .env("XDG_RUNTIME_DIR", folder.join("runtime"))
         .env("XDG_DATA_HOME", folder.join("data"))
         .env("XDG_CONFIG_HOME", folder.join("config"))
+        // Alarms of a test neither show nor sound on the desktop of who runs it.
+        .env("DBUS_SESSION_BUS_ADDRESS", "unix:path=/nowhere")
+        .env("PATH", "")
         .args([Path::new("--station"), &units.path()]);
     process
 }

@@ -16,7 +16,9 @@ use serde::Serialize;
 
 use super::log::Lines;
 use crate::{
+    app::notifier::Notifier,
     clock::Clock,
+    desktop::Desktop,
     engine::{
         Command, Event, Handle, Settings, Snapshot,
         antenna::{AntennaModel, Stake},
@@ -133,6 +135,7 @@ pub(super) fn run(
         }),
     )?;
     drop(wake);
+    Notifier::start(station.client().clone(), Desktop::default(), Arc::new(|| {}))?;
     signals::watch(station.client().clone(), move || {
         let _ = end.send(Wake::End);
     })?;

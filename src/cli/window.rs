@@ -51,7 +51,10 @@ pub(super) fn run(station: Option<PathBuf>) -> anyhow::Result<()> {
         eframe::run_native(
             "Azel",
             options,
-            Box::new(move |cc| Ok(Box::new(App::new(&cc.egui_ctx, &settings, Clock::system())?))),
+            Box::new(move |cc| {
+                let app = App::new(&cc.egui_ctx, &settings, Clock::system())?;
+                Ok(Box::new(app.with_notifier()?))
+            }),
         )
     }));
     panic::set_hook(hook);

@@ -16,7 +16,7 @@ use super::{
     map::{self, MapLayers},
     operate, preferences, rail,
     rail::RailEntry,
-    second_step,
+    reminder_note, second_step,
     sky_plot::Layers,
     timeline::Zoom,
     top_bar,
@@ -24,7 +24,7 @@ use super::{
 };
 use crate::{
     driver::Command,
-    engine::{self, closing::CloseHow},
+    engine::{self, closing::CloseHow, passes::PassKey},
     model::{MaskNews, Model, UiCommand, View},
 };
 
@@ -40,6 +40,8 @@ pub struct Views {
     upload: UploadState,
     question: Option<Question>,
     closing: Option<ClosingDialog>,
+    /// Passes whose reminders were closed.
+    closed_reminders: Vec<PassKey>,
     keys_open: bool,
 }
 
@@ -144,6 +146,7 @@ impl Views {
                 preferences::show(ui, rest, model, &mut self.preferences, commands);
             }
         }
+        reminder_note::show(ui, rest, model, &mut self.closed_reminders, commands);
         if let Some(question) = second_step::ask(model, before, commands) {
             self.question = Some(question);
             // Enter answers the question, rather than ending the typing behind it.

@@ -128,6 +128,8 @@ impl Screen {
 
     /// Starts `command`, which opens the program's window on this screen.
     pub(super) fn window_of(&self, command: &mut Command) -> (Running, String) {
+        // Alarms of a test neither show nor sound on the desktop of who runs it.
+        command.env("DBUS_SESSION_BUS_ADDRESS", "unix:path=/nowhere").env("PATH", "");
         let mut running = Running::start(command);
         let window = wait_for("the window", || {
             let ended = running.0.try_wait().expect("a child");

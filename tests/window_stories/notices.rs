@@ -1,12 +1,22 @@
 //! What is told through the desktop: set in Preferences, and noted in the window.
 
-use azel::station::{Notices, QuietHours, Station};
+use std::sync::Arc;
+
+use azel::{
+    astro::Angle,
+    desktop::{Missing, Outlets},
+    engine::reminders::Reminder,
+    model::{UiCommand, View},
+    station::{AntennaId, Notices, QuietHours, Station},
+};
 use egui::Role;
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
+use jiff::ToSpan as _;
 
 use crate::window_stories::{
     preferences::{form, saved, write},
-    rig::{SIZES, Window, asked, says, settle},
+    rig::{self, SIZES, Window, asked, says, settle},
+    states,
 };
 
 /// The page of notices.
@@ -84,4 +94,82 @@ fn a_favourite_is_marked_for_a_reminder() {
         write(&mut window, "Remind before AOS", "5");
         assert!(says(&window, "Nothing to save."));
     }
+}
+
+#[test]
+fn what_the_desktop_lacks_is_said_where_it_is_set() {
+    let mut window = page(SIZES[0]);
+    assert!(!says(&window, "Nothing is sounded"));
+    window.state_mut().model.outlets = Outlets {
+        notifications: Some(Missing::Bus("no address".to_owned())),
+        sounds: Some(Missing::Elsewhere),
+    };
+    settle(&mut window);
+    assert!(says(&window, "Nothing is shown by the desktop: there is no bus of a desktop session"));
+    assert!(says(&window, "Nothing is sounded: not on this operating system."));
+}
+
+const NOTE: &str = "ISS AOS in 5:00 at 11:20:30Z, max 54°, Satrak can track it.";
+
+/// A window with a reminder of the ISS, in a view.
+fn reminded(size: [f32; 2], view: View) -> (Window, Reminder) {
+    let mut model = rig::model(states::holding());
+    let reminder = Reminder {
+        pass: (25_544, model.now + 5.minutes()),
+        name: "ISS".to_owned(),
+        los: model.now + 15.minutes(),
+        max_elevation: Angle::from_degrees(54.2),
+        can_track: vec![AntennaId::FIRST],
+    };
+    model.view = view;
+    model.reminders = Arc::new(vec![reminder.clone()]);
+    (rig::window(size, model), reminder)
+}
+
+#[test]
+fn a_reminder_is_a_note_in_every_view_that_covers_neither_stop_nor_the_antenna() {
+    for size in SIZES {
+        for view in [
+            View::Operate,
+            View::Elements,
+            View::Antennas,
+            View::Console,
+            View::Map,
+            View::Preferences,
+        ] {
+            let (window, _) = reminded(size, view);
+            let note = window.get_by_role_and_label(Role::Label, NOTE).rect();
+            let close = window.get_by_label("Close the reminder of ISS").rect();
+            let stop = window.get_by_role_and_label(Role::Button, "STOP").rect();
+            assert!(close.right() < size[0] - 304.0, "{view:?}: {close}");
+            assert!(note.left() > 48.0 && note.top() > stop.bottom() && note.bottom() < size[1]);
+            assert!(note.right() <= close.left(), "{view:?}: {note}, {close}");
+        }
+    }
+}
+
+#[test]
+fn the_note_leads_to_its_pass_and_can_be_closed() {
+    for size in SIZES {
+        let (mut window, reminder) = reminded(size, View::Console);
+        window.get_by_label("Show the pass of ISS").click();
+        let wanted = [UiCommand::SelectPass(reminder.pass), UiCommand::Show(View::Operate)];
+        assert_eq!(asked(&mut window), wanted);
+        window.get_by_label("Close the reminder of ISS").click();
+        settle(&mut window);
+        assert!(!says(&window, NOTE));
+        // The next pass has a note of its own.
+        let next = Reminder { pass: (25_544, reminder.aos() - 1.second()), ..reminder };
+        window.state_mut().model.reminders = Arc::new(vec![next]);
+        settle(&mut window);
+        assert!(says(&window, "ISS AOS in 4:59"));
+    }
+}
+
+#[test]
+fn the_note_ends_with_aos() {
+    let (mut window, reminder) = reminded(SIZES[0], View::Operate);
+    window.state_mut().model.now = reminder.aos();
+    settle(&mut window);
+    assert!(!says(&window, "ISS AOS"));
 }

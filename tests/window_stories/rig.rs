@@ -10,6 +10,7 @@ use azel::{
     astro::time::add_seconds,
     clock::Instant,
     controller::satrak,
+    desktop::Outlets,
     driver::{LinkState, Snapshot, TimeSync, WireLog},
     engine::{
         CatalogState, Command,
@@ -154,6 +155,8 @@ pub(crate) fn model(mut snapshot: Snapshot) -> Model {
         source_tests: Arc::default(),
         effects: Effects::default(),
         alarms: Alarms::default(),
+        reminders: Arc::default(),
+        outlets: Outlets::default(),
         copies: Arc::default(),
         view: View::Operate,
         closing: None,

@@ -17,7 +17,11 @@ use crate::{
     model::Model,
     orbit::Elements,
     station::{Notices, QuietHours, ranges},
-    ui::{format, text, theme},
+    ui::{
+        format, text, theme,
+        widgets::told::{self, Tone},
+        words,
+    },
 };
 
 /// Draft of the notices.
@@ -77,8 +81,9 @@ fn telling_fields() -> Vec<Placed<Telling>> {
     let fields = [
         flag("Notifications", |telling| &mut telling.notifications)
             .noted(|_| Some("The desktop shows new alarms and reminders.".to_owned())),
-        flag("Sounds", |telling| &mut telling.sounds)
-            .noted(|_| Some("New alarms sound in two tones, reminders in others.".to_owned())),
+        flag("Sounds", |telling| &mut telling.sounds).noted(|_| {
+            Some("Two falling tones for an alarm, two rising ones for a reminder.".to_owned())
+        }),
         flag("Quiet hours", |telling| &mut telling.is_quiet).noted(|_| {
             let words = "No notifications and no sounds then. What is shown in the window stays.";
             Some(words.to_owned())
@@ -139,14 +144,18 @@ fn time(label: &'static str, place: fn(&mut QuietHours) -> &mut Time) -> Descrip
 }
 
 pub(super) fn show(ui: &mut Ui, model: &Model, draft: &mut Draft, two_columns: bool) {
+    let telling = |ui: &mut Ui, draft: &mut Draft| telling(ui, model, draft);
     columns(ui, two_columns, draft, telling, |ui, draft| reminders(ui, model, draft));
 }
 
-fn telling(ui: &mut Ui, draft: &mut Draft) {
+fn telling(ui: &mut Ui, model: &Model, draft: &mut Draft) {
     card(ui, "Notifications and sounds", |ui| {
         let telling = &mut draft.notices.telling;
         let standings = telling.read().1;
         fields(ui, "telling", &mut telling.fields, &standings);
+        for words in words::missing_outlets(&model.outlets) {
+            told::line(ui, Tone::Caution, &words);
+        }
     });
     card(ui, "Never silenced", |ui| {
         note(

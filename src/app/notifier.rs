@@ -1,0 +1,144 @@
+//! Tells the news of a station through the desktop, on a thread of its own. It is one more client
+//! of the station: it waits for no window, and nobody waits for it. While it is busy, news stay in
+//! the snapshots, where no alarm of the first rank is lost.
+
+use std::{io, thread};
+
+use jiff::tz::TimeZone;
+use tokio::sync::watch;
+
+use crate::{
+    desktop::{Desktop, Notification, Outlets, Sound, Urgency},
+    engine::{
+        Client, Snapshot,
+        notices::{About, Notice, Teller},
+    },
+    job::Wake,
+    ui::words,
+};
+
+/// What is known of a running notifier. It ends with its station.
+pub struct Notifier {
+    outlets: watch::Receiver<Outlets>,
+}
+
+impl Notifier {
+    /// Starts telling the news of `station` to `desktop`. Calls `wake` when an outlet is found to be missing,
+    /// or is back.
+    pub fn start(station: Client, desktop: Desktop, wake: Wake) -> io::Result<Self> {
+        let runtime = tokio::runtime::Builder::new_current_thread().enable_all().build()?;
+        let (tell_outlets, outlets) = watch::channel(Outlets::default());
+        thread::Builder::new().name("azel-notifier".to_owned()).spawn(move || {
+            let told = |outlets: &Outlets| {
+                let is_news = tell_outlets.send_if_modified(|known| {
+                    let is_news = known != outlets;
+                    known.clone_from(outlets);
+                    is_news
+                });
+                if is_news {
+                    wake();
+                }
+            };
+            runtime.block_on(tell_all(station, desktop, told));
+        })?;
+        Ok(Self { outlets })
+    }
+
+    /// The outlets that are missing.
+    pub fn outlets(&self) -> Outlets {
+        self.outlets.borrow().clone()
+    }
+}
+
+async fn tell_all(mut station: Client, mut desktop: Desktop, told: impl Fn(&Outlets)) {
+    let mut teller = Teller::default();
+    desktop.look().await;
+    told(desktop.outlets());
+    loop {
+        let snapshot = station.snapshot();
+        let news = teller.look(&snapshot, &TimeZone::system());
+        if !news.is_empty() {
+            desktop.tell(&notifications(&news, &snapshot), sound(&news)).await;
+            told(desktop.outlets());
+        }
+        if !station.changed().await {
+            break;
+        }
+    }
+}
+
+fn notifications(news: &[Notice], station: &Snapshot) -> Vec<Notification> {
+    let shown = news.iter().filter(|notice| notice.is_shown);
+    shown.map(|notice| notification(&notice.about, station)).collect()
+}
+
+fn notification(about: &About, station: &Snapshot) -> Notification {
+    let (title, text) = words::notice(about, station);
+    let urgency = if about.is_of_first_rank() { Urgency::Critical } else { Urgency::Normal };
+    let number = match about {
+        About::Alarm(alarm) => Some(alarm.row),
+        About::Reminder(_) => None,
+    };
+    Notification { title, text, urgency, number }
+}
+
+/// One sound for all of them.
+fn sound(news: &[Notice]) -> Option<Sound> {
+    let mut sounded = news.iter().filter(|notice| notice.is_sounded).peekable();
+    sounded.peek()?;
+    let is_alarm = |notice: &Notice| matches!(notice.about, About::Alarm(_));
+    Some(if sounded.any(is_alarm) { Sound::Alarm } else { Sound::Reminder })
+}
+
+#[cfg(target_os = "linux")]
+#[cfg(test)]
+mod tests {
+    use std::{
+        sync::{Arc, mpsc},
+        time::Duration,
+    };
+
+    use super::*;
+    use crate::{
+        clock::Clock,
+        desktop::{Missing, testing},
+        engine::{Handle, Settings},
+    };
+
+    const PATIENCE: Duration = Duration::from_mins(1);
+
+    /// A station whose file is `text`, and its folder.
+    fn station(text: &str) -> (Handle, tempfile::TempDir) {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("station.toml");
+        std::fs::write(&path, text).unwrap();
+        let settings = Settings {
+            path: Some(path),
+            library: Some(folder.path().join("elements")),
+            ..Settings::default()
+        };
+        (Handle::start(settings, Clock::system(), Arc::new(|| {})).unwrap(), folder)
+    }
+
+    #[test]
+    fn an_alarm_of_the_first_rank_reaches_the_desktop_whatever_is_set() {
+        let (desktop, _server, calls) = testing::desktop();
+        let (station, _folder) = station(
+            "name = 'Şile 1'\nsound = 3\n[notices]\nnotifications = false\nsounds = false\n\
+             quiet = { from = '00:00', to = '23:59' }\n[[keep_out]]\nname = 'mast'\n",
+        );
+        let (wake, woken) = mpsc::sync_channel(10);
+        let wake: Wake = Arc::new(move || wake.send(()).unwrap());
+        let mut notifier = Notifier::start(station.client().clone(), desktop, wake).unwrap();
+        let call = calls.recv_timeout(PATIENCE).unwrap();
+        assert_eq!((&*call.title, call.urgency), ("Alarm, Şile 1", 2));
+        assert!(call.text.starts_with("mast does not hold: it has no corners."), "{}", call.text);
+        woken.recv_timeout(PATIENCE).unwrap();
+        let outlets = notifier.outlets();
+        assert_eq!(outlets.notifications, None);
+        assert!(matches!(outlets.sounds, Some(Missing::Player(_))));
+        drop(station);
+        while zbus::block_on(notifier.outlets.changed()).is_ok() {}
+        assert_eq!(calls.try_iter().next(), None, "nothing of a lower rank");
+    }
+}

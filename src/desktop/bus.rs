@@ -1,0 +1,181 @@
+//! The notification service of the desktop session ("Desktop Notifications Specification" of
+//! freedesktop.org).
+
+use std::{
+    collections::{BTreeMap, HashMap},
+    time::Duration,
+};
+
+use zbus::{Connection, Message, connection::Builder, zvariant::Value};
+
+use super::{Missing, Notification, Urgency};
+
+const SERVICE: &str = "org.freedesktop.Notifications";
+pub(super) const OBJECT: &str = "/org/freedesktop/Notifications";
+/// The service may be started for the call.
+const PATIENCE: Duration = Duration::from_secs(5);
+/// Most notifications that can be replaced: as many as there can be alarms.
+const MOST: usize = 200;
+/// The service decides for how long a notification is shown.
+const ITS_OWN_TIME: i32 = -1;
+
+/// A connection to the service, made when it is needed.
+#[derive(Default)]
+pub(super) struct Bus {
+    service: Option<Service>,
+    /// Ids of the service by our numbers.
+    shown: BTreeMap<u64, u32>,
+}
+
+pub(super) struct Service {
+    bus: Connection,
+    reads_markup: bool,
+}
+
+impl Bus {
+    #[cfg(test)]
+    pub(super) fn of(service: Service) -> Self {
+        Self { service: Some(service), ..Self::default() }
+    }
+
+    pub(super) async fn look(&mut self) -> Result<(), Missing> {
+        self.service().await.map(drop)
+    }
+
+    pub(super) async fn show(&mut self, notification: &Notification) -> Result<(), Missing> {
+        let is_old = self.service.is_some();
+        let mut shown = self.notify(notification).await;
+        // The session may have got another bus since.
+        if shown.is_err() && is_old {
+            shown = self.notify(notification).await;
+        }
+        let id = shown?;
+        if let Some(number) = notification.number {
+            self.shown.insert(number, id);
+            while self.shown.len() > MOST {
+                self.shown.pop_first();
+            }
+        }
+        Ok(())
+    }
+
+    async fn notify(&mut self, notification: &Notification) -> Result<u32, Missing> {
+        let Notification { title, text, urgency, number } = notification;
+        let replaces = number.and_then(|number| self.shown.get(&number)).copied();
+        let service = self.service().await?;
+        let urgency: u8 = match urgency {
+            Urgency::Normal => 1,
+            Urgency::Critical => 2,
+        };
+        let hints = HashMap::from([
+            ("urgency", Value::from(urgency)),
+            ("desktop-entry", Value::from("azel")),
+            // Whether and how it sounds is set in Azel.
+            ("suppress-sound", Value::from(true)),
+        ]);
+        let text = if service.reads_markup { escaped(text) } else { text.clone() };
+        let (icon, actions) = ("", [""; 0]);
+        let replaces = replaces.unwrap_or(0);
+        let arguments =
+            ("Azel", replaces, icon, title, text, actions.as_slice(), hints, ITS_OWN_TIME);
+        let answer = service.call("Notify", &arguments).await;
+        match answer.and_then(|answer| answer.body().deserialize()) {
+            Ok(id) => Ok(id),
+            Err(error) => {
+                self.service = None;
+                Err(Missing::Service(error.to_string()))
+            }
+        }
+    }
+
+    async fn service(&mut self) -> Result<&Service, Missing> {
+        let service = match self.service.take() {
+            Some(service) => service,
+            None => Service::on(session_bus().await?).await?,
+        };
+        Ok(self.service.insert(service))
+    }
+}
+
+async fn session_bus() -> Result<Connection, Missing> {
+    let connect = async { Builder::session()?.method_timeout(PATIENCE).build().await };
+    let no_bus = |error: zbus::Error| Missing::Bus(error.to_string());
+    match tokio::time::timeout(PATIENCE, connect).await {
+        Ok(bus) => bus.map_err(no_bus),
+        Err(error) => Err(Missing::Bus(error.to_string())),
+    }
+}
+
+impl Service {
+    pub(super) async fn on(bus: Connection) -> Result<Self, Missing> {
+        let mut service = Self { bus, reads_markup: false };
+        let answer = service.call("GetCapabilities", &()).await;
+        let capabilities: Vec<String> = answer
+            .and_then(|answer| answer.body().deserialize())
+            .map_err(|error| Missing::Service(error.to_string()))?;
+        service.reads_markup = capabilities.iter().any(|of| of == "body-markup");
+        Ok(service)
+    }
+
+    async fn call<B>(&self, method: &str, arguments: &B) -> zbus::Result<Message>
+    where
+        B: serde::Serialize + zbus::zvariant::DynamicType,
+    {
+        self.bus.call_method(Some(SERVICE), OBJECT, Some(SERVICE), method, arguments).await
+    }
+}
+
+fn escaped(text: &str) -> String {
+    text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::desktop::testing::{Call, desk};
+
+    fn notification(title: &str, urgency: Urgency, number: Option<u64>) -> Notification {
+        Notification { title: title.to_owned(), text: "X < Y & Z".to_owned(), urgency, number }
+    }
+
+    #[tokio::test]
+    async fn a_notification_comes_as_it_was_meant_and_a_repeat_takes_its_place() {
+        let (mut bus, _server, calls) = desk(&["body", "body-markup"]).await;
+        let first = notification("Alarm", Urgency::Critical, Some(7));
+        let other = notification("Reminder", Urgency::Normal, None);
+        for notification in [&first, &other, &first, &other] {
+            bus.show(notification).await.unwrap();
+        }
+        let call = |title: &str, urgency, replaces| Call {
+            app: "Azel".to_owned(),
+            replaces,
+            title: title.to_owned(),
+            text: "X &lt; Y &amp; Z".to_owned(),
+            urgency,
+            is_silent: true,
+        };
+        let wanted = [
+            call("Alarm", 2, 0),
+            call("Reminder", 1, 0),
+            call("Alarm", 2, 1),
+            call("Reminder", 1, 0),
+        ];
+        assert_eq!(calls.try_iter().collect::<Vec<_>>(), wanted);
+    }
+
+    #[tokio::test]
+    async fn a_service_that_reads_no_markup_gets_plain_text() {
+        let (mut bus, _server, calls) = desk(&["body"]).await;
+        bus.show(&notification("Alarm", Urgency::Normal, None)).await.unwrap();
+        assert_eq!(calls.recv().unwrap().text, "X < Y & Z");
+    }
+
+    #[tokio::test]
+    async fn what_is_kept_for_replacement_is_bounded() {
+        let (mut bus, _server, _calls) = desk(&[]).await;
+        for number in 0..300 {
+            bus.show(&notification("Alarm", Urgency::Normal, Some(number))).await.unwrap();
+        }
+        assert_eq!((bus.shown.len(), bus.shown.contains_key(&299)), (MOST, true));
+    }
+}

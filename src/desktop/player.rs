@@ -1,0 +1,145 @@
+//! The players of sounds that desktops bring.
+
+use std::{
+    env,
+    ffi::OsString,
+    fs::File,
+    io::{self, Seek as _, Write as _},
+    path::PathBuf,
+    process::{ExitStatus, Stdio},
+    time::Duration,
+};
+
+use tokio::{process::Command, time::timeout};
+
+use super::{Missing, Sound};
+
+/// Players with what they are called with before the name of the file.
+const PLAYERS: [(&str, &[&str]); 4] =
+    [("pw-play", &[]), ("paplay", &[]), ("aplay", &["-q"]), ("canberra-gtk-play", &["-f"])];
+const NAMES: &str = "pw-play, paplay, aplay or canberra-gtk-play";
+/// The sounds last less than half a second.
+const PATIENCE: Duration = Duration::from_secs(5);
+
+/// The players found, the one that worked last first.
+pub(super) struct Player {
+    found: Vec<(PathBuf, &'static [&'static str])>,
+}
+
+impl Default for Player {
+    fn default() -> Self {
+        Self::within(env::var_os("PATH"))
+    }
+}
+
+impl Player {
+    /// The players in these folders.
+    pub(super) fn within(path: Option<OsString>) -> Self {
+        let path = path.unwrap_or_default();
+        let place = |name: &str| {
+            let mut folders = env::split_paths(&path).filter(|folder| folder.is_absolute());
+            folders.find_map(|folder| Some(folder.join(name)).filter(|file| file.is_file()))
+        };
+        let found = PLAYERS.iter().filter_map(|(name, with)| Some((place(name)?, *with)));
+        Self { found: found.collect() }
+    }
+
+    pub(super) fn look(&self) -> Result<(), Missing> {
+        if self.found.is_empty() { Err(Missing::Player(NAMES)) } else { Ok(()) }
+    }
+
+    /// Plays the sound to its end with the first player that can.
+    pub(super) async fn play(&mut self, sound: Sound) -> Result<(), Missing> {
+        let mut outcome = self.look();
+        for index in 0..self.found.len() {
+            let Some((program, with)) = self.found.get(index) else { break };
+            let why = match run(program, with, sound).await {
+                Ok(status) if status.success() => {
+                    self.found.rotate_left(index);
+                    return Ok(());
+                }
+                Ok(status) => status.to_string(),
+                Err(error) => error.to_string(),
+            };
+            outcome = Err(Missing::NotPlayed(format!("{}: {why}", program.display())));
+        }
+        outcome
+    }
+}
+
+async fn run(program: &PathBuf, with: &[&str], sound: Sound) -> io::Result<ExitStatus> {
+    let mut player = Command::new(program)
+        .args(with)
+        // All of them take the name of a file, and some nothing else.
+        .arg("/dev/stdin")
+        .stdin(file(sound)?)
+        .stdout(Stdio::null())
+        .stderr(Stdio::null())
+        .kill_on_drop(true)
+        .spawn()?;
+    timeout(PATIENCE, player.wait()).await.map_err(io::Error::from)?
+}
+
+/// A file with the sound that goes with its last reader.
+fn file(sound: Sound) -> io::Result<File> {
+    let bytes: &[u8] = match sound {
+        Sound::Alarm => include_bytes!("../../assets/sounds/alarm.wav"),
+        Sound::Reminder => include_bytes!("../../assets/sounds/reminder.wav"),
+    };
+    let mut file = tempfile::tempfile()?;
+    file.write_all(bytes)?;
+    file.rewind()?;
+    Ok(file)
+}
+
+#[cfg(test)]
+mod tests {
+    use std::{fs, os::unix::fs::PermissionsExt as _, path::Path};
+
+    use super::*;
+
+    /// A player that does this. `$log` is a file in its folder.
+    fn player(folder: &Path, name: &str, script: &str) {
+        let path = folder.join(name);
+        let log = folder.join("log");
+        let text = format!("#!/bin/sh\nlog='{}'\n{script}\n", log.display());
+        fs::write(&path, text).unwrap();
+        fs::set_permissions(&path, fs::Permissions::from_mode(0o755)).unwrap();
+    }
+
+    fn log(folder: &Path) -> String {
+        fs::read_to_string(folder.join("log")).unwrap_or_default()
+    }
+
+    fn players(folder: &Path) -> Player {
+        Player::within(Some(folder.as_os_str().to_owned()))
+    }
+
+    #[tokio::test]
+    async fn the_first_player_that_works_plays_the_sound_and_is_asked_first_from_then_on() {
+        let folder = tempfile::tempdir().unwrap();
+        player(folder.path(), "pw-play", "echo pw-play >> $log; exit 1");
+        player(folder.path(), "aplay", "echo aplay \"$@\" >> $log; /bin/cat \"$2\" > $log.wav");
+        let mut player = players(folder.path());
+        player.play(Sound::Alarm).await.unwrap();
+        player.play(Sound::Reminder).await.unwrap();
+        let wanted = "pw-play\naplay -q /dev/stdin\naplay -q /dev/stdin\n";
+        assert_eq!(log(folder.path()), wanted);
+        let played = fs::read(folder.path().join("log.wav")).unwrap();
+        assert_eq!(played, include_bytes!("../../assets/sounds/reminder.wav"));
+    }
+
+    #[tokio::test]
+    async fn players_that_fail_and_none_at_all_are_told() {
+        let folder = tempfile::tempdir().unwrap();
+        let mut none = players(folder.path());
+        assert_eq!(none.look(), Err(Missing::Player(NAMES)));
+        assert_eq!(none.play(Sound::Alarm).await, Err(Missing::Player(NAMES)));
+        player(folder.path(), "paplay", "exit 3");
+        let mut broken = players(folder.path());
+        assert_eq!(broken.look(), Ok(()));
+        let Err(Missing::NotPlayed(why)) = broken.play(Sound::Alarm).await else { panic!() };
+        assert!(why.ends_with("paplay: exit status: 3"), "{why}");
+        assert_eq!(Player::within(None).look(), Err(Missing::Player(NAMES)));
+    }
+}
