@@ -5,6 +5,7 @@
 //! queue [`UiCommand`]s.
 
 mod carry_out;
+mod catalog_table;
 mod effects;
 mod log_file;
 mod mask_file;
@@ -21,7 +22,8 @@ use std::{
 };
 
 use self::{
-    effects::EffectsJob, log_file::LogWork, mask_file::MaskWork, memory::Keeper, notifier::Notifier,
+    catalog_table::CatalogWork, effects::EffectsJob, log_file::LogWork, mask_file::MaskWork,
+    memory::Keeper, notifier::Notifier,
 };
 use crate::{
     clock::Clock,
@@ -48,6 +50,7 @@ pub struct App {
     clock: Clock,
     wake: Wake,
     effects_job: Option<EffectsJob>,
+    catalog_work: CatalogWork,
     log_work: LogWork,
     mask_work: MaskWork,
     keeper: Keeper,
@@ -89,6 +92,7 @@ impl App {
             demo: false,
             catalog: CatalogState::Loading,
             sources: Arc::default(),
+            catalog_table: model::catalog_table::CatalogTable::default(),
             antennas: Vec::new(),
             wires: Vec::new(),
             selected_antenna: 0,
@@ -117,6 +121,7 @@ impl App {
             clock,
             wake,
             effects_job: None,
+            catalog_work: CatalogWork::default(),
             log_work,
             mask_work,
             keeper,
@@ -171,6 +176,7 @@ impl App {
         self.take_log_file();
         self.take_mask_file();
         self.work_on_effects();
+        self.work_on_catalog();
         self.model.refresh_sky();
         self.remember();
     }

@@ -1,6 +1,7 @@
 //! The model: the state that the views show. Only the shell of the window changes it; a view
 //! reads it and queues commands.
 
+pub mod catalog_table;
 pub mod command;
 pub mod daylight;
 pub mod effects;
@@ -14,12 +15,12 @@ use jiff::Timestamp;
 
 #[cfg(test)]
 pub(crate) use self::line::testing;
+use self::{catalog_table::CatalogTable, daylight::SunSpan, effects::Effects, globe::Globe};
 pub use self::{
     command::UiCommand,
     line::{ConsoleLine, Piece, pieces},
     theme_name::ThemeName,
 };
-use self::{daylight::SunSpan, effects::Effects, globe::Globe};
 use crate::{
     astro::{AzEl, HorizonMask, MaskForm, Site, sun_moon},
     clock::Instant,
@@ -90,6 +91,8 @@ pub struct Model {
     pub catalog: CatalogState,
     /// The sources of elements.
     pub sources: Arc<Sources>,
+    /// The table of the catalog.
+    pub catalog_table: CatalogTable,
     /// The antennas of the station.
     pub antennas: Vec<AntennaModel>,
     /// The traffic on the links of the antennas, in the same order.

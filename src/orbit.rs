@@ -15,7 +15,7 @@ mod writer;
 
 pub use bundled::{BUNDLED_SOURCE, BundledError, bundled};
 pub use catalog::{Catalog, MergeSummary};
-pub use elements::{EPOCH_YEARS, Elements, ElementsError};
+pub use elements::{EPOCH_YEARS, Elements, ElementsError, Heights};
 pub use ground::{SubPoint, TrackPoint};
 pub use look::LookAngles;
 pub use passes::{

@@ -4,6 +4,7 @@
 mod antenna;
 mod connection;
 mod controller_spec;
+mod favourite;
 mod file;
 mod frequency;
 mod keep_out;
@@ -21,6 +22,7 @@ pub use antenna::{Antenna, AntennaId, Direction, MotionLimits, PollRates};
 pub use connection::Connection;
 pub(crate) use connection::check_address;
 pub use controller_spec::{ControllerSpec, Link, Usual};
+pub use favourite::{Favourite, Favourites, Priority};
 pub use file::{LoadError, Loaded, SaveError, load, save, settings_path};
 pub use frequency::Frequency;
 pub use keep_out::{Entered, KeepOut, SunAvoidance};
@@ -50,8 +52,8 @@ pub struct Station {
     pub aos_elevation_deg: f64,
     /// The elevation floor of the pass list, degrees 0 to 89.
     pub elevation_floor_deg: f64,
-    /// Catalog numbers of the satellites in the pass list.
-    pub favourites: Vec<u32>,
+    /// The satellites in the pass list.
+    pub favourites: Favourites,
     /// Frequencies of satellites, of which each may have several.
     #[serde(rename = "frequency", skip_serializing_if = "Vec::is_empty")]
     pub frequencies: Vec<Frequency>,
@@ -97,7 +99,7 @@ impl Default for Station {
             horizon_mask: None,
             aos_elevation_deg: 5.0,
             elevation_floor_deg: 10.0,
-            favourites: vec![
+            favourites: Favourites::from([
                 43013, // NOAA 20
                 54234, // NOAA 21
                 37849, // Suomi NPP
@@ -114,7 +116,7 @@ impl Default for Station {
                 25994, // Terra
                 27424, // Aqua
                 44334, // Eutelsat 7C
-            ],
+            ]),
             frequencies: Vec::new(),
             notices: Notices::default(),
             on_close: None,

@@ -92,7 +92,7 @@ impl Units {
         let rc2000c = Antenna::rc2000c("Horn", &address(horn.local_addr()));
         let mut station = Station {
             antennas: vec![satrak, genius, rc2000c],
-            favourites: vec![NOAA_20],
+            favourites: [NOAA_20].into(),
             ..Station::default()
         };
         change(&mut station);

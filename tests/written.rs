@@ -20,7 +20,7 @@ use azel::{
     orbit::{Elements, PassSearch, Propagator, Source, bundled, passes},
     plan::{OnBoardPass, ProgramTrack, Target},
     secret::Secret,
-    station::{Antenna, AntennaId, LockOut, Station},
+    station::{Antenna, AntennaId, LockOut, Priority, Station},
     transfer::{FileName, Peer, TleFile},
 };
 use jiff::{Timestamp, ToSpan as _};
@@ -185,7 +185,8 @@ fn what_is_asked_of_a_station_comes_back() {
         Command::SetElevationFloor(12.3),
         Command::CancelSearch(Scope::All),
         Command::ResumeSearch(Scope::Favourites),
-        Command::SetFavourite { number: 999_999_999, is_favourite: true },
+        Command::SetFavourites { numbers: vec![999_999_999], is_favourite: true },
+        Command::SetPriority { numbers: vec![25_544], priority: Priority::default() },
         Command::AddSource(Source::celestrak("weather")),
         Command::RemoveSource("weather".to_owned()),
         Command::RefreshSources { names: vec!["weather".to_owned()], forced: true },

@@ -65,6 +65,7 @@ impl App {
                 self.keeper.memory.theme = name;
             }
             UiCommand::ShowEffects(question) => model.effects.ask(*question, model.steady),
+            UiCommand::ShowCatalog(question) => model.catalog_table.asked = question,
             UiCommand::ImportMask(path) => self.import_mask(path),
             UiCommand::ExportMask(mask) => self.export_mask(&mask),
             UiCommand::Station(command) => self.send(command),

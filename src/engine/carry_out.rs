@@ -12,7 +12,7 @@ use super::{
 };
 use crate::{
     driver,
-    station::{self, AntennaId, Station},
+    station::{self, AntennaId, Favourites, Station},
 };
 
 impl Engine {
@@ -53,9 +53,16 @@ impl Engine {
             }
             Command::CancelSearch(scope) => self.searches.of_mut(scope).cancel(),
             Command::ResumeSearch(scope) => self.searches.of_mut(scope).resume(),
-            Command::SetFavourite { number, is_favourite } => {
-                self.set_favourite(number, is_favourite);
-            }
+            Command::SetFavourites { numbers, is_favourite } => self.change_favourites(|list| {
+                for number in numbers {
+                    list.mark(number, is_favourite);
+                }
+            }),
+            Command::SetPriority { numbers, priority } => self.change_favourites(|list| {
+                for number in numbers {
+                    list.put(number, priority);
+                }
+            }),
             Command::AddSource(source) => {
                 let ask = vec![source.name.clone()];
                 let mut list = self.sources.list.clone();
@@ -196,14 +203,11 @@ impl Engine {
         }
     }
 
-    /// Marks or unmarks a favourite. The change lasts only as long as the program for the
+    /// Changes the favourites. The change lasts only as long as the program for the
     /// demo station, and where the station file could not be read or another Azel holds it.
-    fn set_favourite(&mut self, number: u32, is_favourite: bool) {
+    fn change_favourites(&mut self, change: impl FnOnce(&mut Favourites)) {
         let mut station = Station::clone(&self.station);
-        station.favourites.retain(|known| *known != number);
-        if is_favourite {
-            station.favourites.push(number);
-        }
+        change(&mut station.favourites);
         if self.demo.is_none()
             && !self.settings_unread
             && !matches!(self.station_claim, StationClaim::Theirs(_))

@@ -14,7 +14,7 @@ use super::{
 use crate::{
     driver,
     orbit::Source,
-    station::{AntennaId, Station},
+    station::{AntennaId, Priority, Station},
 };
 
 /// A command of a client to a station. STOP is not one: it bypasses the queue of commands.
@@ -40,11 +40,17 @@ pub enum Command {
     CancelSearch(Scope),
     /// Restart the cancelled search.
     ResumeSearch(Scope),
-    /// Mark or unmark a satellite as a favourite.
-    SetFavourite {
-        /// Catalog number.
-        number: u32,
+    /// Mark or unmark satellites as favourites.
+    SetFavourites {
+        /// Catalog numbers.
+        numbers: Vec<u32>,
         is_favourite: bool,
+    },
+    /// Give favourites this priority; other satellites become favourites.
+    SetPriority {
+        /// Catalog numbers.
+        numbers: Vec<u32>,
+        priority: Priority,
     },
     /// Add a source of elements.
     AddSource(Source),

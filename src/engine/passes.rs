@@ -64,7 +64,7 @@ impl Searches {
     ) {
         let key = SearchKey {
             catalog: Arc::clone(catalog),
-            scope: SearchScope::Favourites(station.favourites.clone()),
+            scope: SearchScope::Favourites(station.favourites.numbers()),
             observer: Arc::new(Observer::of(station)),
             floor: station.elevation_floor(),
             span_h: FAVOURITES_H,

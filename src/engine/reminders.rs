@@ -57,7 +57,7 @@ impl Engine {
 fn refresh(known: &mut Vec<Reminder>, station: &Station, passes: &PassList, now: Timestamp) {
     let notices = &station.notices;
     let is_marked =
-        |number: u32| station.favourites.contains(&number) && notices.reminders.contains(&number);
+        |number: u32| station.favourites.contains(number) && notices.reminders.contains(&number);
     known.retain(|reminder| reminder.los > now && is_marked(reminder.pass.0));
     let before_s = notices.reminder_min * 60.0;
     for predicted in passes.upcoming(now).iter() {
@@ -116,7 +116,7 @@ mod tests {
         engine::passes::{ListedSatellite, Observer},
         makes::DemoAddresses,
         orbit::{PassSearch, Propagator, bundled, passes},
-        station::Notices,
+        station::{Favourites, Notices},
     };
 
     const ISS: u32 = 25_544;
@@ -170,7 +170,7 @@ mod tests {
         station.notices.reminders.clear();
         assert_eq!(at(&station, &list, next - 19.minutes()), []);
         station.notices.reminders.insert(ISS);
-        station.favourites.clear();
+        station.favourites = Favourites::default();
         assert_eq!(at(&station, &list, next - 18.minutes()), []);
     }
 

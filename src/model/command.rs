@@ -2,7 +2,7 @@
 
 use std::{path::PathBuf, sync::Arc};
 
-use super::{ConsoleLine, Model, ThemeName, View, effects};
+use super::{ConsoleLine, Model, ThemeName, View, catalog_table, effects};
 use crate::{
     astro::HorizonMask,
     driver,
@@ -36,6 +36,8 @@ pub enum UiCommand {
     SetTheme(ThemeName),
     /// Write these lines of the console to a file.
     SaveLog(Vec<Arc<ConsoleLine>>),
+    /// Show these objects in the table of the catalog.
+    ShowCatalog(catalog_table::Question),
     /// Work out the effects of keep-outs on the passes to come.
     ShowEffects(Box<effects::Question>),
     /// Read a horizon mask from this file into the form.

@@ -228,7 +228,7 @@ impl Globe {
         let lowest = self.aos_elevation.radians().max(skyline.radians());
         Some(GlobeSatellite {
             is_selected: made_of.selected == Some(number),
-            is_favourite: station.favourites.contains(&number),
+            is_favourite: station.favourites.contains(number),
             is_tracked: made_of.tracked.contains(&number),
             speed_km_s: state.velocity_km_s.length(),
             footprint: below.footprint(self.aos_elevation),

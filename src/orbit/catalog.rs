@@ -10,8 +10,21 @@ use super::{Elements, Note, Nothing, ReadReport, Refusal};
 #[derive(Debug, Clone, Default)]
 pub struct Catalog {
     /// By catalog number: a sorted list takes half the memory of a map.
-    entries: Vec<Elements>,
+    entries: Vec<Entry>,
     groups: Vec<Group>,
+}
+
+/// The newest elements of an object, and the group whose source gave them.
+#[derive(Debug, Clone)]
+struct Entry {
+    elements: Elements,
+    group: u32,
+}
+
+impl Entry {
+    fn number(&self) -> u32 {
+        self.elements.catalog_number()
+    }
 }
 
 /// The objects of one source.
@@ -54,31 +67,32 @@ impl Catalog {
             nothing: report.nothing,
             ..MergeSummary::default()
         };
-        let source = self.group(source);
+        let group = self.group(source);
         let known = self.entries.len();
         let mut members: Vec<u32> = Vec::with_capacity(report.elements.len());
         self.entries.reserve(report.elements.len());
-        for mut elements in report.elements {
+        for elements in report.elements {
             let number = elements.catalog_number();
+            let mut entry = Entry { elements, group };
             members.push(number);
             let (sorted, _) = self.entries.split_at_mut(known);
-            let place = sorted.binary_search_by_key(&number, Elements::catalog_number).ok();
+            let place = sorted.binary_search_by_key(&number, Entry::number).ok();
             match place.and_then(|place| sorted.get_mut(place)) {
-                Some(held) => settle(held, &mut elements, &mut summary),
-                None => self.entries.push(elements),
+                Some(held) => settle(held, &mut entry, &mut summary),
+                None => self.entries.push(entry),
             }
         }
         // The sort is stable, so that sets of one object stay in the order of the text.
-        self.entries.sort_by_key(Elements::catalog_number);
+        self.entries.sort_by_key(Entry::number);
         self.entries.dedup_by(|later, held| {
-            let is_same = later.catalog_number() == held.catalog_number();
+            let is_same = later.number() == held.number();
             if is_same {
                 settle(held, later, &mut summary);
             }
             is_same
         });
         summary.added = self.entries.len() - known;
-        if let Some(group) = self.groups.get_mut(source as usize) {
+        if let Some(group) = self.groups.get_mut(group as usize) {
             group.members.extend(members);
             group.members.sort_unstable();
             group.members.dedup();
@@ -96,8 +110,31 @@ impl Catalog {
     }
 
     pub fn get(&self, catalog_number: u32) -> Option<&Elements> {
-        let of = Elements::catalog_number;
-        self.entries.get(self.entries.binary_search_by_key(&catalog_number, of).ok()?)
+        self.entry(catalog_number).map(|entry| &entry.elements)
+    }
+
+    fn entry(&self, catalog_number: u32) -> Option<&Entry> {
+        let place = self.entries.binary_search_by_key(&catalog_number, Entry::number).ok()?;
+        self.entries.get(place)
+    }
+
+    /// The source of the elements in use of an object: the first that gave the newest set.
+    pub fn source_of(&self, catalog_number: u32) -> Option<&str> {
+        let group = self.entry(catalog_number)?.group;
+        Some(self.groups.get(group as usize)?.name.as_str())
+    }
+
+    /// The sources in the order of merging, each with the number of objects whose elements in
+    /// use are its own.
+    pub fn in_use(&self) -> Vec<(&str, usize)> {
+        let mut counted: Vec<_> =
+            self.groups.iter().map(|group| (group.name.as_str(), 0)).collect();
+        for entry in &self.entries {
+            if let Some((_, count)) = counted.get_mut(entry.group as usize) {
+                *count += 1;
+            }
+        }
+        counted
     }
 
     /// The sources in the order of merging, each with the number of its objects.
@@ -135,12 +172,12 @@ impl Catalog {
 
     /// All elements, in order of catalog number.
     pub fn iter(&self) -> impl Iterator<Item = &Elements> {
-        self.entries.iter()
+        self.entries.iter().map(|entry| &entry.elements)
     }
 
     /// The elements at `places` in the order of [`Self::iter`].
     pub fn range(&self, places: Range<usize>) -> impl Iterator<Item = &Elements> {
-        self.entries.iter().take(places.end).skip(places.start)
+        self.iter().take(places.end).skip(places.start)
     }
 
     pub fn len(&self) -> usize {
@@ -157,8 +194,8 @@ impl Catalog {
 }
 
 /// Keeps the newer of two sets of one object in `held`.
-fn settle(held: &mut Elements, other: &mut Elements, summary: &mut MergeSummary) {
-    match other.epoch().cmp(&held.epoch()) {
+fn settle(held: &mut Entry, other: &mut Entry, summary: &mut MergeSummary) {
+    match other.elements.epoch().cmp(&held.elements.epoch()) {
         Ordering::Greater => {
             std::mem::swap(held, other);
             summary.updated += 1;
@@ -166,7 +203,7 @@ fn settle(held: &mut Elements, other: &mut Elements, summary: &mut MergeSummary)
         Ordering::Equal => summary.known += 1,
         Ordering::Less => summary.older += 1,
     }
-    held.take_name(other);
+    held.elements.take_name(&other.elements);
 }
 
 fn search<'a>(
@@ -255,6 +292,20 @@ mod tests {
         assert_eq!(numbers(catalog.in_group("noaa").collect()), [6, 7]);
         assert_eq!(numbers(catalog.search_group("weather", "b", 9)), [9, 6]);
         assert!(catalog.search_group("no such", "", 9).is_empty());
+    }
+
+    #[test]
+    fn the_source_of_the_newest_set_is_known_and_the_counts_sum_to_the_catalog() {
+        let mut catalog = Catalog::default();
+        catalog.merge(report(&[(5, "A", 2), (6, "B", 2), (9, "C", 2)]), "weather");
+        catalog.merge(report(&[(6, "B", 3), (7, "D", 1), (5, "A", 1), (9, "C", 2)]), "own");
+        let of = |number| catalog.source_of(number);
+        assert_eq!(
+            [5, 6, 7, 9].map(of),
+            [Some("weather"), Some("own"), Some("own"), Some("weather")]
+        );
+        assert_eq!(of(8), None);
+        assert_eq!(catalog.in_use(), [("weather", 2), ("own", 2)]);
     }
 
     #[test]

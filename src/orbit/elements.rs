@@ -11,6 +11,16 @@ use crate::{
     name::{self, Name},
 };
 
+/// Heights of an orbit above the equator.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Heights {
+    pub apogee_km: f64,
+    pub perigee_km: f64,
+}
+
+/// WGS72, as SGP4 uses it.
+const EARTH_MU_KM3_S2: f64 = 398_600.8;
+const EARTH_RADIUS_KM: f64 = 6_378.135;
 const SIDEREAL_DAY_S: f64 = 86_164.090_5;
 
 /// One orbit: SGP4 mean elements with the name and number of their object.
@@ -228,6 +238,24 @@ impl Elements {
         Angle::from_degrees(self.inclination_deg)
     }
 
+    /// Right ascension of the ascending node.
+    pub fn node(&self) -> Angle {
+        Angle::from_degrees(self.node_deg)
+    }
+
+    pub fn argument_of_perigee(&self) -> Angle {
+        Angle::from_degrees(self.perigee_deg)
+    }
+
+    pub fn mean_anomaly(&self) -> Angle {
+        Angle::from_degrees(self.mean_anomaly_deg)
+    }
+
+    /// B*, per Earth radius.
+    pub fn bstar(&self) -> f64 {
+        self.bstar
+    }
+
     /// From 0 to below 1.
     pub fn eccentricity(&self) -> f64 {
         self.eccentricity
@@ -235,6 +263,16 @@ impl Elements {
 
     pub fn period_s(&self) -> f64 {
         time::DAY_S / self.mean_motion_rev_day
+    }
+
+    /// Heights of the mean orbit above the equator.
+    pub fn heights(&self) -> Heights {
+        let rate_rad_s = self.mean_motion_rev_day * std::f64::consts::TAU / time::DAY_S;
+        let axis_km = (EARTH_MU_KM3_S2 / (rate_rad_s * rate_rad_s)).cbrt();
+        Heights {
+            apogee_km: axis_km * (1.0 + self.eccentricity) - EARTH_RADIUS_KM,
+            perigee_km: axis_km * (1.0 - self.eccentricity) - EARTH_RADIUS_KM,
+        }
     }
 
     /// Age at `now` in seconds, negative before the epoch.
@@ -314,6 +352,8 @@ mod tests {
         assert!((iss.period_s() / 60.0 - 92.9).abs() < 0.2, "{}", iss.period_s());
         assert!((iss.age_s(time::add_seconds(iss.epoch(), 90.5)) - 90.5).abs() < 1e-6);
         assert!((iss.inclination().degrees() - 51.63).abs() < 0.02);
+        let Heights { apogee_km, perigee_km } = iss.heights();
+        assert!(perigee_km < apogee_km && (400.0..440.0).contains(&apogee_km), "{apogee_km}");
     }
 
     #[test]

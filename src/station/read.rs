@@ -10,7 +10,9 @@ use std::ops::RangeInclusive;
 use serde::{Deserialize, Serialize, de::DeserializeOwned};
 use toml::{Table, Value};
 
-use super::{Antenna, AntennaId, ControllerSpec, Frequency, OnClose, Station, ranges};
+use super::{
+    Antenna, AntennaId, ControllerSpec, Favourites, Frequency, OnClose, Priority, Station, ranges,
+};
 use crate::astro::{HorizonMask, Site};
 
 /// An entry of the file that was not taken over as it stands.
@@ -53,7 +55,7 @@ pub fn from_toml(mut table: Table, specs: &[&'static ControllerSpec]) -> (Statio
             &ranges::ELEVATION_FLOOR_DEG,
             10.0,
         ),
-        favourites: fields.catalog_numbers("favourites", default.favourites),
+        favourites: fields.favourites(default.favourites),
         frequencies: fields.frequencies(),
         notices: fields.notices(),
         on_close: fields.on_close(),
@@ -151,6 +153,54 @@ impl Fields<'_> {
         })
     }
 
+    fn favourites(&mut self, default: Favourites) -> Favourites {
+        let entries = match self.table.remove("favourites") {
+            None => return default,
+            Some(Value::Array(entries)) => entries,
+            Some(_) => {
+                self.invalid("favourites", "must be a list of catalogue numbers");
+                return default;
+            }
+        };
+        let mut favourites = Favourites::default();
+        for (index, entry) in entries.into_iter().enumerate() {
+            let place = format!("favourites[{index}]");
+            match entry {
+                Value::Table(mut table) => {
+                    let path = format!("{place}.");
+                    let mut fields = Fields { table: &mut table, path, notes: Vec::new() };
+                    if let Some(satellite) = fields.satellite() {
+                        favourites.put(satellite, fields.priority());
+                    }
+                    fields.name_the_unknown();
+                    self.notes.append(&mut fields.notes);
+                }
+                number => match catalog_number(&number) {
+                    Some(satellite) => favourites.mark(satellite, true),
+                    None => self.invalid(&place, "must be a catalogue number"),
+                },
+            }
+        }
+        favourites
+    }
+
+    fn satellite(&mut self) -> Option<u32> {
+        let number = self.table.remove("satellite").as_ref().and_then(catalog_number);
+        if number.is_none() {
+            self.invalid("satellite", "must be a catalogue number");
+        }
+        number
+    }
+
+    fn priority(&mut self) -> Priority {
+        let Some(value) = self.table.remove("priority") else { return Priority::default() };
+        let number = value.as_integer().unwrap_or_default();
+        Priority::try_from(number).unwrap_or_else(|why| {
+            self.invalid("priority", why.to_string());
+            Priority::default()
+        })
+    }
+
     fn frequencies(&mut self) -> Vec<Frequency> {
         let tables = match self.table.remove("frequency") {
             None => return Vec::new(),
@@ -187,11 +237,7 @@ impl Fields<'_> {
             }
         };
         let mhz = self.number("mhz", &ranges::FREQUENCY_MHZ, 0.0);
-        let number = self.table.remove("satellite").and_then(|number| number.as_integer());
-        let Some(satellite) = number.and_then(|number| u32::try_from(number).ok()) else {
-            self.invalid("satellite", "must be a catalogue number");
-            return None;
-        };
+        let satellite = self.satellite()?;
         (mhz > 0.0).then_some(Frequency { satellite, mhz, name })
     }
 
@@ -257,6 +303,10 @@ impl Fields<'_> {
             self.note(&key, NoteReason::Unknown);
         }
     }
+}
+
+fn catalog_number(value: &Value) -> Option<u32> {
+    value.as_integer().and_then(|number| u32::try_from(number).ok())
 }
 
 /// The id given in the table of an antenna.

@@ -1,48 +1,78 @@
-//! The Elements view: the sources of elements with their ages, and the catalog, where
-//! the operator searches and marks favourites.
+//! The Elements view: the sources of elements with their ages, the catalog as a table, and the
+//! selected object in detail.
 
 mod add;
-mod search;
+mod bar;
+mod bulk;
+mod chips;
+mod columns;
+mod facts;
+mod inspector;
+mod refused;
+mod selection;
 mod sources;
+mod table;
 mod words;
 
-use egui::{Rect, RichText, ScrollArea, Ui, UiBuilder, vec2};
+use egui::{Rect, Ui};
 
-use super::{confirm::Question, text, theme, words::sentence};
+use self::{selection::Selection, words::Form};
+use super::{confirm::Question, theme, widgets::button::Button};
 use crate::{
-    engine::{
-        self, CatalogState,
-        sources::{SourceWork, Sources},
-    },
-    model::{Model, UiCommand},
+    engine::CatalogState,
+    model::{Model, UiCommand, catalog_table},
 };
 
-/// Width of the catalog.
-const CATALOG_WIDTH: f32 = 416.0;
-/// Width of the catalog in a small window.
-const NARROW_CATALOG_WIDTH: f32 = 360.0;
-/// Below this width of the view the window is small.
-const SMALL_BELOW: f32 = 1100.0;
 const PADDING: f32 = 16.0;
+/// Below this width of the view the inspector is a drawer.
+const DRAWER_BELOW: f32 = 1028.0;
+/// Below this height of the view the bar is low.
+const LOW_BELOW: f32 = 700.0;
 
-/// Input and search results.
+/// Input, selection and open parts.
 #[derive(Default)]
 pub struct ElementsState {
     add: add::AddState,
-    search: search::SearchState,
+    question: catalog_table::Question,
+    selection: Selection,
+    wants_search: bool,
+    /// A row to scroll to.
+    wanted_row: Option<usize>,
+    /// How far the table is scrolled.
+    offset: f32,
+    /// `None` until the operator folds or unfolds them.
+    sources_are_open: Option<bool>,
+    refused_are_open: bool,
+    inspector_is_open: bool,
     upload_is_open: bool,
+    /// Objects to be chosen for the upload.
+    uploads: Option<Vec<u32>>,
+}
+
+/// Where the upload to the selected unit is drawn, in place of the inspector.
+pub struct UploadPlace {
+    pub rect: Rect,
+    /// Catalog numbers to choose for it, when it was just opened for them.
+    pub numbers: Option<Vec<u32>>,
 }
 
 impl ElementsState {
     /// Gives the search field the keyboard focus.
     pub fn focus_search(&mut self) {
-        self.search.focus();
+        self.wants_search = true;
+    }
+
+    /// Opens the upload, of these objects or of those chosen before.
+    fn upload(&mut self, numbers: Option<Vec<u32>>) {
+        self.upload_is_open = true;
+        self.inspector_is_open = true;
+        self.uploads = numbers;
     }
 }
 
 /// Draws the view. `settings_are_edited`: the station's settings have unsaved edits and must
 /// not change. Returns the place for the upload to the selected unit, when it is open in
-/// place of the catalog.
+/// place of the inspector.
 pub fn show(
     ui: &mut Ui,
     rect: Rect,
@@ -51,73 +81,70 @@ pub fn show(
     state: &mut ElementsState,
     question: &mut Option<Question>,
     commands: &mut Vec<UiCommand>,
-) -> Option<Rect> {
+) -> Option<UploadPlace> {
     let t = theme::tokens(ui);
     ui.painter().rect_filled(rect, 0.0, t.bg0);
-    let wide = rect.width() >= SMALL_BELOW;
-    let catalog_width = if wide { CATALOG_WIDTH } else { NARROW_CATALOG_WIDTH };
-    let (left, right) = rect.split_left_right_at_x(rect.right() - catalog_width);
-    ui.painter().rect_filled(right, 0.0, t.bg1);
-    let builder = UiBuilder::new().id_salt("sources").max_rect(left.shrink2(vec2(PADDING, 0.0)));
-    ui.scope_builder(builder, |ui| {
-        ui.set_clip_rect(left);
-        ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
-            ui.add_space(PADDING);
-            head(ui, model, &mut state.upload_is_open, commands);
-            sources::show(ui, model, question, commands);
-            add::show(ui, &model.sources, &mut state.add, commands);
-            ui.add_space(PADDING);
-        });
-    });
-    ui.painter().vline(right.left() + 0.5, rect.y_range(), (1.0, t.line));
-    if state.upload_is_open {
-        return Some(right.shrink(PADDING));
+    if let (None, Some((number, _))) = (state.selection.row(), model.selected) {
+        state.selection.select(number);
     }
-    let builder = UiBuilder::new().id_salt("catalogue").max_rect(right.shrink(PADDING));
-    ui.scope_builder(builder, |ui| {
-        search::show(ui, model, settings_are_edited, &mut state.search, commands);
-    });
+    let can_mark = !settings_are_edited;
+    let has_drawer = rect.width() < DRAWER_BELOW;
+    let side = if has_drawer && !state.inspector_is_open { 0.0 } else { inspector::WIDTH };
+    let (left, right) = rect.split_left_right_at_x(rect.right() - side);
+    let main = if has_drawer { rect } else { left };
+    let is_low = rect.height() < LOW_BELOW;
+    let bar = if is_low { bar::LOW_HEIGHT } else { bar::HEIGHT };
+    let (head, rest) = main.split_top_bottom_at_y(main.top() + bar);
+    bar::show(ui, head, model, has_drawer, state, commands);
+    // A drawer over the table takes the pointer.
+    let rest = if has_drawer { rest.with_max_x(right.left()) } else { rest };
+
+    let sources = sources::height(model, state, rect.height());
+    let (top, rest) = rest.split_top_bottom_at_y(rest.top() + sources);
+    sources::show(ui, top, rect.height(), model, state, question, commands);
+    let (top, rest) = rest.split_top_bottom_at_y(rest.top() + chips::HEIGHT);
+    chips::show(ui, top, model, state);
+    let (rest, bottom) = rest.split_top_bottom_at_y(rest.bottom() - refused::height(model, state));
+    refused::show(ui, bottom, model, state);
+    let is_marked = !state.selection.marked().is_empty();
+    let bulk = if is_marked { bulk::HEIGHT } else { 0.0 };
+    let (body, bottom) = rest.split_top_bottom_at_y(rest.bottom() - bulk);
+    table::show(ui, body, model, can_mark, state, commands);
+    if is_marked {
+        bulk::show(ui, bottom, model, can_mark, state, commands);
+    }
+    if state.question != model.catalog_table.asked {
+        commands.push(UiCommand::ShowCatalog(state.question.clone()));
+    }
+    if side == 0.0 {
+        return None;
+    }
+    let side = if has_drawer { right.with_min_y(head.bottom()) } else { right };
+    if state.upload_is_open {
+        return Some(show_upload(ui, side, state));
+    }
+    inspector::show(ui, side, model, can_mark, state, commands);
     None
 }
 
-fn head(ui: &mut Ui, model: &Model, upload_is_open: &mut bool, commands: &mut Vec<UiCommand>) {
+fn show_upload(ui: &Ui, rect: Rect, state: &mut ElementsState) -> UploadPlace {
     let t = theme::tokens(ui);
-    let sources = &model.sources;
-    ui.label(RichText::new("Elements").font(text::title()));
-    let catalog = match &model.catalog {
-        CatalogState::Loading => "The elements are being read.".to_owned(),
-        CatalogState::Failed => "There are no elements.".to_owned(),
-        CatalogState::Ready(catalog) => words::catalog(catalog, model.now),
-    };
-    ui.label(RichText::new(catalog).font(text::body()).color(t.t2));
-    if let Some(problem) = &sources.problem {
-        ui.label(RichText::new(sentence(problem)).font(text::body()).color(t.bad));
+    ui.painter().rect_filled(rect, 0.0, t.bg1);
+    ui.painter().vline(rect.left() + 0.5, rect.y_range(), (1.0, t.line));
+    let inner = rect.shrink(PADDING);
+    let back = Button::normal("Back to the elements");
+    let size = egui::vec2(back.width(ui), super::widgets::button::SMALL_HEIGHT);
+    let place = Rect::from_min_size(inner.min, size);
+    if back.show(ui, "back from upload", place).clicked() {
+        state.upload_is_open = false;
     }
-    ui.horizontal(|ui| {
-        let all = egui::Button::new("Refresh all");
-        let can = sources.is_free() && !sources.list.is_empty();
-        if ui.add_enabled(can, all).clicked() {
-            let names = sources.list.iter().map(|source| source.name.clone()).collect();
-            commands
-                .push(UiCommand::Station(engine::Command::RefreshSources { names, forced: false }));
-        }
-        let word = if *upload_is_open { "Back to the catalogue" } else { "Upload to unit…" };
-        if ui.add_enabled(model.antenna().is_some(), egui::Button::new(word)).clicked() {
-            *upload_is_open ^= true;
-        }
-    });
-    ui.label(RichText::new(work(sources)).font(text::body()).color(t.t2));
-    ui.add_space(8.0);
+    let rect = inner.with_min_y(place.bottom() + 8.0);
+    UploadPlace { rect, numbers: state.uploads.take() }
 }
 
-fn work(sources: &Sources) -> &'static str {
-    match sources.work {
-        SourceWork::Reading => "The sources are being read.",
-        SourceWork::Asking => "The servers are being asked. The elements in use stay meanwhile.",
-        SourceWork::Nothing if sources.is_locked => "The list of sources is left as it is.",
-        SourceWork::Nothing if sources.list.is_empty() => {
-            "No sources yet. The elements that come with Azel are in use."
-        }
-        SourceWork::Nothing => "Servers that were asked in the last 2 h are left alone.",
-    }
+/// Copies the elements of these objects.
+fn copy(ui: &Ui, model: &Model, numbers: &[u32], form: Form) {
+    let CatalogState::Ready(catalog) = &model.catalog else { return };
+    let held = numbers.iter().filter_map(|number| catalog.get(*number));
+    ui.copy_text(words::copied(held, form));
 }

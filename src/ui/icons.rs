@@ -64,6 +64,26 @@ pub enum Icon {
     Eye,
     /// Put off until a time.
     Clock,
+    /// A favourite.
+    Star,
+    /// No favourite.
+    OpenStar,
+    /// Adds something.
+    Plus,
+    /// A source: a server.
+    Server,
+    /// A source: a file.
+    File,
+    /// A source: a folder.
+    Folder,
+    /// A source: what comes with the program.
+    Package,
+    /// To a unit.
+    Upload,
+    /// To the clipboard.
+    Copy,
+    /// Asks again.
+    Refresh,
 }
 
 /// Paints an icon in one colour, scaled so that its grid fills `rect`.
@@ -82,7 +102,7 @@ mod tests {
     use super::*;
     use egui::{Sense, vec2};
 
-    const ALL: [Icon; 27] = [
+    const ALL: [Icon; 37] = [
         Icon::Octagon,
         Icon::Bell,
         Icon::Warning,
@@ -110,6 +130,16 @@ mod tests {
         Icon::Pencil,
         Icon::Eye,
         Icon::Clock,
+        Icon::Star,
+        Icon::OpenStar,
+        Icon::Plus,
+        Icon::Server,
+        Icon::File,
+        Icon::Folder,
+        Icon::Package,
+        Icon::Upload,
+        Icon::Copy,
+        Icon::Refresh,
     ];
 
     #[test]

@@ -56,7 +56,7 @@ const fn with(modifiers: Modifiers, binding: Binding) -> Binding {
 }
 
 /// All keys, in the order of the list. The app handles the key of STOP before anything else.
-pub const ALL: [Binding; 26] = [
+pub const ALL: [Binding; 27] = [
     row(KeyScope::Focus, &[(Key::Escape, Act::There)], "STOP, everywhere; closes what is open"),
     with(
         Modifiers::COMMAND,
@@ -188,6 +188,16 @@ pub const ALL: [Binding; 26] = [
         KeyScope::Focus,
         &[(Key::Insert, Act::There), (Key::Delete, Act::There)],
         "add, remove a corner; arrows move it (Shift 5°, Ctrl 0.1°)",
+    ),
+    row(
+        KeyScope::Focus,
+        &[
+            (Key::Space, Act::There),
+            (Key::F, Act::There),
+            (Key::Num1, Act::There),
+            (Key::Num5, Act::There),
+        ],
+        "in the table of Elements: mark, favourite, priority 1 to 5",
     ),
     row(KeyScope::Views, &[(Key::A, Act::Acknowledge)], "acknowledge the newest alarm"),
     with(

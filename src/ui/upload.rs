@@ -36,10 +36,19 @@ use form::Form;
 #[derive(Default)]
 pub struct UploadState {
     forms: BTreeMap<String, Form>,
+    /// Catalog numbers to choose in the form that is shown next.
+    chosen: Option<Vec<u32>>,
     /// The stage that was shown last; a new one is scrolled into sight.
     stage: Option<Discriminant<Stage>>,
     questions: questions::Questions,
     question: Option<Question>,
+}
+
+impl UploadState {
+    /// Chooses these satellites for the file.
+    pub fn choose(&mut self, numbers: Vec<u32>) {
+        self.chosen = Some(numbers);
+    }
 }
 
 /// Draws the upload for the antenna with the index `antenna`, as wide as `ui` and as high as
@@ -61,6 +70,9 @@ pub fn show(
         return line(ui, Tone::Plain, &words);
     };
     let form = state.forms.entry(name.clone()).or_insert_with(|| Form::of(&antenna.config, takes));
+    if let Some(numbers) = state.chosen.take() {
+        form.numbers = Some(numbers);
+    }
     ui.spacing_mut().item_spacing.y = 6.0;
     ui.label(RichText::new(format!("Elements to {name}")).font(text::title()));
     let uploads = &model.uploads;
@@ -76,7 +88,7 @@ pub fn show(
     let file = match &model.catalog {
         CatalogState::Ready(catalog) => {
             chosen::show(ui, model, catalog, form);
-            form.chosen_file(catalog, &model.station.favourites)
+            form.chosen_file(catalog, &model.station.favourites.numbers())
         }
         CatalogState::Loading | CatalogState::Failed => Err("there are no elements".to_owned()),
     };

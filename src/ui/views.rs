@@ -126,7 +126,10 @@ impl Views {
                 let (state, question) = (&mut self.elements, &mut self.question);
                 let upload = elements::show(ui, rest, model, is_edited, state, question, commands);
                 if let Some(place) = upload {
-                    show_upload(ui, place, model, &mut self.upload, commands);
+                    if let Some(numbers) = place.numbers {
+                        self.upload.choose(numbers);
+                    }
+                    show_upload(ui, place.rect, model, &mut self.upload, commands);
                 }
             }
             View::Antennas => {

@@ -54,6 +54,7 @@ impl Fixture {
         let (address, control, end) = simulate(&files);
         let mut antenna = Antenna::satrak("Satrak", &address);
         antenna.connection.put(&ELEMENT_FILE, FILE).unwrap();
+        let favourites = favourites.into_iter().collect();
         let station = Station { antennas: vec![antenna], favourites, ..Station::default() };
         let path = folder.path().join("station.toml");
         station::save(&station, &path).unwrap();
@@ -95,7 +96,7 @@ impl Fixture {
         let mut fixture = Self::new(files, favourites);
         fixture.window.key_press_modifiers(Modifiers::COMMAND, Key::Num3);
         fixture.window.run_steps(3);
-        fixture.click("Upload to unit…");
+        fixture.click("Upload to Satrak");
         fixture.write("Port", &address.port().to_string());
         fixture.write("Folder", fixture.files.folder().to_str().unwrap().to_owned().as_str());
         fixture.write("User", &fixture.files.user.name.clone());

@@ -12,11 +12,17 @@ use azel::{
     },
     makes,
     model::{Model, UiCommand, View},
-    orbit::{FetchProblem, FileReport, MergeSummary, Source, SourcePlace, SourceReport},
-    station,
+    orbit::{
+        FetchProblem, FileReport, MergeSummary, Refusal, RefusalReason, Source, SourcePlace,
+        SourceReport,
+    },
+    station::{self, Priority},
 };
 use egui::{Event, Key, Modifiers, Role};
-use egui_kittest::kittest::{NodeT as _, Queryable as _};
+use egui_kittest::{
+    Node,
+    kittest::{NodeT as _, Queryable as _},
+};
 
 use crate::window_stories::{
     rig::{self, NOAA_20, SIZES, Window, asked, says, settle},
@@ -59,7 +65,20 @@ fn view(size: [f32; 2], sources: Vec<(Source, SourceReport)>) -> Window {
     model.view = View::Elements;
     let (list, reports) = sources.into_iter().unzip();
     model.sources = Arc::new(Sources { list, reports, ..Sources::default() });
-    rig::window(size, model)
+    let mut window = rig::window(size, model);
+    if size == rig::SMALL {
+        // In a low window they are folded.
+        sources_bar(&window).click();
+        settle(&mut window);
+    }
+    window
+}
+
+fn sources_bar(window: &Window) -> Node<'_> {
+    window.get_by(|node| {
+        let label = node.label().unwrap_or_default();
+        node.role() == Role::Button && label.contains(" source") && label.contains(": ")
+    })
 }
 
 fn write(window: &mut Window, field: &str, words: &str) {
@@ -102,12 +121,12 @@ fn a_source_says_what_it_holds_and_how_old_it_is() {
         let own = file_source();
         let held = report(&own, 12);
         let window = view(size, vec![(own, held), server(1.0)]);
-        assert!(says(&window, "File /var/elements/own.tle"));
+        assert!(says(&window, "own, /var/elements/own.tle."));
         let held = "12 objects, newest epoch 2026-08-11, 20 h 0 min old. Changed 3 h 0 min ago.";
         assert!(says(&window, held));
         assert!(says(&window, "71 objects"));
         assert!(says(&window, "Asked 60 min ago. It may be asked again from 12:15:30Z."));
-        assert!(says(&window, "16\u{2009}089 objects, the newest epoch is 2026-08-13"));
+        assert!(says(&window, "16\u{2009}089 objects from 1 source."));
     }
 }
 
@@ -151,7 +170,11 @@ fn a_server_is_asked_at_once_when_it_may_be_and_else_after_a_question() {
         click(&mut window, "Ask weather");
         window.key_press(Key::Enter);
         assert_eq!(asked(&mut window), [refresh(&["weather"], true)]);
-        click(&mut window, "Refresh all");
+        click(&mut window, "Read again");
+        assert_eq!(asked(&mut window), [refresh(&[], false)], "no server is due");
+
+        let mut window = view(size, vec![server(3.0), (file_source(), report(&file_source(), 1))]);
+        click(&mut window, "Refresh 1 due");
         assert_eq!(asked(&mut window), [refresh(&["weather"], false)], "never forced for all");
     }
 }
@@ -178,8 +201,9 @@ fn a_source_is_removed_after_a_question() {
 fn a_typed_source_is_added_once_it_is_right_and_stays_typed_until_it_is_there() {
     for size in SIZES {
         let mut window = view(size, Vec::new());
-        assert!(says(&window, "No sources yet."));
-        assert!(is_disabled(&window, "Add source") && is_disabled(&window, "Refresh all"));
+        assert!(is_disabled(&window, "Read again"));
+        click(&mut window, "Add a source");
+        assert!(is_disabled(&window, "Add source"));
         window.get_by_role_and_label(Role::RadioButton, "File").click();
         settle(&mut window);
         write(&mut window, "Name", "own");
@@ -207,6 +231,7 @@ fn a_typed_source_is_added_once_it_is_right_and_stays_typed_until_it_is_there() 
 fn a_group_of_celestrak_is_filled_in_and_a_plain_address_is_refused() {
     for size in SIZES {
         let mut window = view(size, vec![server(3.0)]);
+        click(&mut window, "Add a source");
         assert!(is_disabled(&window, "CelesTrak weather"), "it is there");
         write(&mut window, "Name", "x");
         write(&mut window, "Address", "http://celestrak.org/x");
@@ -242,54 +267,185 @@ fn nothing_is_taken_while_servers_are_asked_or_the_list_is_unreadable() {
             lock(Arc::make_mut(&mut window.state_mut().model.sources));
             settle(&mut window);
             assert!(says(&window, words));
-            for button in ["Ask weather", "Remove weather", "Refresh all", "Add source"] {
+            click(&mut window, "Add a source");
+            for button in ["Ask weather", "Remove weather", "Refresh 1 due", "Add source"] {
                 assert!(is_disabled(&window, button), "{button}");
             }
         }
     }
 }
 
+/// The names of the rows in view.
+fn rows(window: &Window) -> Vec<String> {
+    let rows = window.query_all_by_role(Role::ListBoxOption);
+    rows.map(|row| row.accesskit_node().label().unwrap_or_default()).collect()
+}
+
 #[test]
-fn the_catalog_is_searched_by_name_number_and_group() {
+fn the_catalog_is_searched_by_name_number_and_designator() {
     for size in SIZES {
         let mut window = view(size, Vec::new());
         window.key_press_modifiers(Modifiers::COMMAND, Key::F);
         settle(&mut window);
         window.event(Event::Text("meteor-m2 3".to_owned()));
         settle(&mut window);
-        window.get_by_label("1 object");
-        window.get_by_label_contains("57166 · ");
+        assert_eq!(rows(&window).len(), 1);
+        window.get_by_label_contains("METEOR-M2 3, 57166, elements ");
         write(&mut window, "Search the catalogue", "43013");
-        window.get_by_label_contains("NOAA 20 (JPSS-1), 43013 · ");
+        window.get_by_label_contains("NOAA 20 (JPSS-1), 43013, elements ");
+        write(&mut window, "Search the catalogue", "1998-067A");
+        window.get_by_label_contains("ISS (ZARYA), 25544, ");
         write(&mut window, "Search the catalogue", "no such");
-        assert!(says(&window, "No object has this number or name."));
-        write(&mut window, "Search the catalogue", "");
-        window.get_by_role_and_label(Role::ComboBox, "Group, All").click();
-        settle(&mut window);
-        window.get_by_label("Favourites").click();
-        settle(&mut window);
-        assert!(says(&window, "5 objects"));
+        assert!(says(&window, "No object matches \"no such\"."));
     }
 }
 
 #[test]
-fn satellites_are_followed_and_unfollowed_from_the_catalog() {
+fn groups_choose_what_is_shown() {
+    for size in SIZES {
+        let mut window = view(size, Vec::new());
+        let chip = |window: &mut Window, name: &str| {
+            window.get_by_role_and_label(Role::RadioButton, name).click();
+            settle(window);
+        };
+        chip(&mut window, "Favourites, 5");
+        assert_eq!(rows(&window).len(), 5);
+        write(&mut window, "Search the catalogue", "starlink");
+        assert!(says(&window, "No object matches \"starlink\" here. Choose All"));
+        chip(&mut window, "All, 16\u{2009}089");
+        assert!(rows(&window).len() > 5);
+    }
+}
+
+#[test]
+fn a_click_on_a_head_sorts_and_the_next_one_turns_the_order() {
+    for size in SIZES {
+        let mut window = view(size, Vec::new());
+        write(&mut window, "Search the catalogue", "meteor");
+        click(&mut window, "Sort by number");
+        let up = rows(&window);
+        click(&mut window, "Sort by number, ascending");
+        let mut down = rows(&window);
+        down.reverse();
+        assert!(up.len() > 2);
+        assert_eq!(up, down);
+        for column in ["epoch age", "next pass", "source", "maximum elevation", "priority"] {
+            click(&mut window, &format!("Sort by {column}"));
+            assert_eq!(rows(&window).len(), up.len(), "{column}");
+        }
+    }
+}
+
+#[test]
+fn only_rows_in_view_are_built() {
+    for size in SIZES {
+        let window = view(size, Vec::new());
+        assert!((5..40).contains(&rows(&window).len()), "{}", rows(&window).len());
+    }
+}
+
+fn favour(number: u32, is_favourite: bool) -> UiCommand {
+    let numbers = vec![number];
+    UiCommand::Station(engine::Command::SetFavourites { numbers, is_favourite })
+}
+
+#[test]
+fn satellites_are_followed_and_unfollowed_by_their_star() {
     for size in SIZES {
         let mut window = view(size, Vec::new());
         write(&mut window, "Search the catalogue", "57166");
-        window.get_by_label_contains("Add METEOR").click();
-        let follow = UiCommand::Station(engine::Command::SetFavourite {
-            number: METEOR_M2_3,
-            is_favourite: true,
-        });
-        assert_eq!(asked(&mut window), [follow]);
+        click(&mut window, "Add METEOR-M2 3 to the favourites");
+        assert_eq!(asked(&mut window), [favour(METEOR_M2_3, true)]);
         write(&mut window, "Search the catalogue", "43013");
         click(&mut window, "Remove NOAA 20 (JPSS-1) from the favourites");
-        let unfollow = UiCommand::Station(engine::Command::SetFavourite {
-            number: NOAA_20,
-            is_favourite: false,
-        });
-        assert_eq!(asked(&mut window), [unfollow]);
+        assert_eq!(asked(&mut window), [favour(NOAA_20, false)]);
+    }
+}
+
+#[test]
+fn rows_are_marked_by_mouse_and_keys_and_changed_together() {
+    for size in SIZES {
+        let mut window = view(size, Vec::new());
+        write(&mut window, "Search the catalogue", "meteor-m2");
+        click(&mut window, "Sort by number");
+        let count = rows(&window).len();
+        assert!(count >= 3);
+        let at = |window: &Window, index: usize| {
+            let rows: Vec<_> = window.query_all_by_role(Role::ListBoxOption).collect();
+            rows[index].rect().center()
+        };
+        let first = at(&window, 0);
+        window.hover_at(first);
+        window.drag_at(first);
+        window.drop_at(first);
+        settle(&mut window);
+        window.key_press_modifiers(Modifiers::SHIFT, Key::ArrowDown);
+        settle(&mut window);
+        assert!(says(&window, "2 selected"));
+        window.key_press(Key::ArrowDown);
+        settle(&mut window);
+        window.key_press(Key::Space);
+        settle(&mut window);
+        assert!(says(&window, "3 selected"));
+        window.key_press(Key::Num1);
+        let commands = asked(&mut window);
+        let [UiCommand::Station(engine::Command::SetPriority { numbers, priority })] =
+            &commands[..]
+        else {
+            panic!("{commands:?}");
+        };
+        assert_eq!((numbers.len(), priority.number()), (3, 1));
+        window.key_press(Key::F);
+        let commands = asked(&mut window);
+        let is_of_all = |command: &UiCommand| {
+            matches!(command, UiCommand::Station(engine::Command::SetFavourites { numbers, .. })
+                if numbers.len() == 3)
+        };
+        assert!(commands.iter().all(is_of_all) && commands.len() == 1, "{commands:?}");
+        click(&mut window, "Clear");
+        assert!(!says(&window, "selected"));
+        window.get_by_role_and_label(Role::ListBox, "Catalogue").focus();
+        settle(&mut window);
+        window.key_press_modifiers(Modifiers::COMMAND, Key::A);
+        settle(&mut window);
+        assert!(says(&window, &format!("{count} selected")));
+    }
+}
+
+#[test]
+fn the_selected_row_is_shown_in_detail_with_its_priority() {
+    for size in SIZES {
+        let mut window = view(size, Vec::new());
+        if size == rig::SMALL {
+            click(&mut window, "Details");
+        }
+        assert!(says(&window, "NOAA 20 (JPSS-1), 43013, 2017-073A"));
+        assert!(says(&window, "Inclination: 98."));
+        assert!(says(&window, "Priority 3"));
+        click(&mut window, "More important");
+        let numbers = vec![NOAA_20];
+        let priority = Priority::ALL[1];
+        let wanted = engine::Command::SetPriority { numbers, priority };
+        assert_eq!(asked(&mut window), [UiCommand::Station(wanted)]);
+    }
+}
+
+#[test]
+fn refused_records_have_their_place_and_reason() {
+    for size in SIZES {
+        let own = file_source();
+        let mut held = report(&own, 12);
+        held.files[0].merge.refused = vec![Refusal {
+            line: 1207,
+            object: Some("OBJECT M".to_owned()),
+            reason: RefusalReason::Checksum { line: 2, found: 7, expected: 4 },
+        }];
+        let mut window = view(size, vec![(own, held)]);
+        assert!(!says(&window, "own, line 1207"));
+        window.get_by_label_contains("1 refused record. They change nothing").click();
+        settle(&mut window);
+        let words = "own, line 1207, OBJECT M: The checksum of line 2 is 7, the line gives 4.";
+        assert!(says(&window, words));
     }
 }
 
@@ -303,6 +459,8 @@ fn what_is_typed_in_the_preferences_is_not_overtaken() {
     settle(&mut window);
     write(&mut window, "Search the catalogue", "43013");
     assert!(is_disabled(&window, "Remove NOAA 20 (JPSS-1) from the favourites"));
+    window.get_by_role_and_label(Role::CheckBox, "Mark all that are shown").click();
+    settle(&mut window);
     assert!(says(&window, "Save or revert the preferences before the favourites change."));
 }
 
@@ -314,6 +472,7 @@ fn without_elements_there_is_still_a_way_to_add_some() {
         settle(&mut window);
         assert!(says(&window, "There are no elements."));
         assert!(says(&window, "There is nothing to search."));
+        click(&mut window, "Add a source");
         click(&mut window, "CelesTrak active");
         assert!(!is_disabled(&window, "Add source"));
     }
@@ -321,15 +480,18 @@ fn without_elements_there_is_still_a_way_to_add_some() {
 
 #[test]
 fn every_control_is_whole_in_every_window() {
-    for size in SIZES {
+    for size in [rig::LARGE, [1200.0, 800.0], rig::SMALL] {
         let window = view(size, vec![server(3.0)]);
-        for name in ["Refresh all", "Ask weather", "Remove weather", "CelesTrak geo", "Add source"]
-        {
-            let place = window.get_by_role_and_label(Role::Button, name).rect();
-            assert!(place.right() < size[0] - 360.0 && place.bottom() <= size[1], "{name}");
+        for role in [Role::Button, Role::TextInput, Role::RadioButton, Role::CheckBox] {
+            for node in window.query_all_by_role(role) {
+                let name = node.accesskit_node().label().unwrap_or_default();
+                // The last row may be cut.
+                let is_of_row = name.ends_with("favourites") || name.starts_with("Mark ");
+                let most = if is_of_row { size[1] + 50.0 } else { size[1] };
+                let rect = node.rect();
+                assert!(rect.right() <= size[0] && rect.bottom() <= most, "{name} {rect}");
+            }
         }
-        let fields = window.get_all_by_role(Role::TextInput);
-        assert!(fields.into_iter().all(|field| field.rect().right() < size[0]));
     }
 }
 
@@ -363,6 +525,8 @@ fn an_added_file_is_used_and_kept_for_the_next_start() {
     window.key_press_modifiers(Modifiers::COMMAND, Key::Num3);
     step_until(&mut window, "the view", |model| model.view == View::Elements);
     window.step();
+    window.get_by_role_and_label(Role::Button, "Add a source").click();
+    window.run_steps(3);
     window.get_by_role_and_label(Role::RadioButton, "File").click();
     window.run_steps(2);
     for (field, words) in [("Name", "own"), ("Path", path.to_str().unwrap())] {
@@ -395,12 +559,15 @@ fn a_followed_satellite_is_kept_in_the_station_file_and_listed() {
     window.key_press_modifiers(Modifiers::COMMAND, Key::F);
     window.run_steps(2);
     window.event(Event::Text("57166".to_owned()));
+    step_until(&mut window, "the row", |model| {
+        model.catalog_table.answer.as_ref().is_some_and(|answer| answer.rows.len() == 1)
+    });
     window.run_steps(2);
     window.get_by_label_contains("Add METEOR").click();
     step_until(&mut window, "its passes", |model| {
         model.pass_lists.favourites.passes.iter().any(|pass| pass.number() == METEOR_M2_3)
     });
     assert!(
-        station::load(&settings, makes::SPECS).unwrap().station.favourites.contains(&METEOR_M2_3)
+        station::load(&settings, makes::SPECS).unwrap().station.favourites.contains(METEOR_M2_3)
     );
 }

@@ -403,7 +403,7 @@ fn a_map_without_satellites_says_why() {
         let mut model = model();
         model.pass_lists = PassLists::default();
         model.selected = None;
-        Arc::make_mut(&mut model.station).favourites.clear();
+        Arc::make_mut(&mut model.station).favourites = [].into();
         model.refresh_sky();
         let mut window = rig::window(size, model);
         if size == SMALL {

@@ -137,7 +137,7 @@ fn what_the_unit_tracks_unasked_is_compared_by_the_elements_of_the_station() {
     let path = folder.path().join("station.toml");
     station::save(&unit.station(), &path).unwrap();
     let catalog = bundled().unwrap();
-    let held = catalog.get(rig::station().favourites[0]).unwrap().name().to_owned();
+    let held = catalog.get(rig::station().favourites.numbers()[0]).unwrap().name().to_owned();
     track_by_another(&unit, &held, utc);
     let mut window = open(&path, clock_from(utc));
     step_until(&mut window, "it is compared", |model| {

@@ -18,7 +18,12 @@ use azel::{
         antenna::AntennaModel,
         passes::{ListChoice, ListedSatellite, Observer, PassLists, PredictedPass},
     },
-    model::{Model, Sky, ThemeName, UiCommand, View, effects::Effects, globe::Globe},
+    model::{
+        Model, Sky, ThemeName, UiCommand, View,
+        catalog_table::{Answer, CatalogTable, arrange},
+        effects::Effects,
+        globe::Globe,
+    },
     orbit::{Catalog, PassSearch, Propagator, bundled, passes},
     station::{Antenna, Station},
     ui::{Views, theme},
@@ -143,6 +148,7 @@ pub(crate) fn model(mut snapshot: Snapshot) -> Model {
         demo: false,
         catalog: CatalogState::Ready(Arc::clone(&orbits.catalog)),
         sources: Arc::default(),
+        catalog_table: CatalogTable::default(),
         wires: antennas.iter().map(|_| WireLog::default()).collect(),
         antennas,
         selected_antenna: 0,
@@ -193,11 +199,30 @@ pub(crate) fn window(size: [f32; 2], model: Model) -> Window {
                     ui.set_clip_rect(whole);
                     story.views.show(ui, &story.model, &mut story.commands);
                 });
+                arrange_catalog(story);
             },
             story,
         );
     settle(&mut window);
     window
+}
+
+/// Works out the rows of the catalog as the app does on a thread.
+fn arrange_catalog(story: &mut Story) {
+    let model = &mut story.model;
+    for command in &story.commands {
+        if let UiCommand::ShowCatalog(question) = command {
+            model.catalog_table.asked = question.clone();
+        }
+    }
+    story.commands.retain(|command| !matches!(command, UiCommand::ShowCatalog(_)));
+    let CatalogState::Ready(catalog) = &model.catalog else { return };
+    let inputs = model.catalog_table.inputs(catalog, &model.station.favourites);
+    let is_arranged = |answer: &Answer| answer.inputs == inputs;
+    if model.view == View::Elements && !model.catalog_table.answer.as_ref().is_some_and(is_arranged)
+    {
+        model.catalog_table.answer = Some(arrange(inputs, model.now));
+    }
 }
 
 /// Runs some frames; a blinking bell would never let `run` end.

@@ -308,12 +308,15 @@ fn settings_that_cannot_be_read_are_not_replaced_by_following_a_satellite() {
     window.key_press_modifiers(Modifiers::COMMAND, Key::F);
     window.run_steps(2);
     window.event(Event::Text("43013".to_owned()));
+    step_until(&mut window, "the row", |model| {
+        model.catalog_table.answer.as_ref().is_some_and(|answer| answer.rows.len() == 1)
+    });
     window.run_steps(2);
     window
         .get_by_role_and_label(Role::Button, "Remove NOAA 20 (JPSS-1) from the favourites")
         .click();
     step_until(&mut window, "it is not followed", |model| {
-        !model.station.favourites.contains(&NOAA_20)
+        !model.station.favourites.contains(NOAA_20)
     });
     assert_eq!(std::fs::read_to_string(&path).unwrap(), "name = \"open");
 }

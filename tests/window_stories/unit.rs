@@ -53,7 +53,7 @@ impl Unit {
     /// Like [`Self::start`], with delayed answers.
     pub(crate) fn with_delay(utc: Timestamp, reply_delay: RangeInclusive<Duration>) -> Self {
         let catalog = bundled().unwrap();
-        let favourites = rig::station().favourites.into_iter();
+        let favourites = rig::station().favourites.numbers().into_iter();
         let elements = favourites.map(|number| catalog.get(number).unwrap().clone()).collect();
         Self::run(Options { reply_delay, ..holding(elements, utc) })
     }

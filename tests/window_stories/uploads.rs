@@ -80,7 +80,7 @@ fn an_object_that_a_tle_cannot_carry_is_refused_at_its_line_before_anything_is_t
     catalog.merge(azel::orbit::read_elements(text), "own");
     let model = &mut window.state_mut().model;
     model.catalog = azel::engine::CatalogState::Ready(std::sync::Arc::new(catalog));
-    Arc::make_mut(&mut model.station).favourites.push(340_000);
+    Arc::make_mut(&mut model.station).favourites.mark(340_000, true);
     settle(&mut window);
     assert!(says(&window, "Object 340000: a TLE carries"));
     assert!(is_disabled(&window, "Upload and prove"));
@@ -264,15 +264,19 @@ fn nothing_is_wider_than_its_place() {
 }
 
 #[test]
-fn the_elements_view_opens_the_part_in_place_of_the_catalog() {
+fn the_elements_view_opens_the_part_in_place_of_the_inspector() {
     for size in rig::SIZES {
         let mut model = rig::model(states::holding());
         model.view = View::Elements;
         let mut window = rig::window(size, model);
-        window.get_by_role_and_label(Role::Button, "Upload to unit…").click();
+        if size == rig::SMALL {
+            window.get_by_role_and_label(Role::Button, "Details").click();
+            rig::settle(&mut window);
+        }
+        window.get_by_role_and_label(Role::Button, "Upload to Satrak").click();
         rig::settle(&mut window);
         assert!(rig::says(&window, "Elements to Satrak"));
-        window.get_by_role_and_label(Role::Button, "Back to the catalogue").click();
+        window.get_by_role_and_label(Role::Button, "Back to the elements").click();
         rig::settle(&mut window);
         assert!(!rig::says(&window, "Elements to Satrak"));
     }

@@ -43,7 +43,7 @@ impl Fixture {
             pass_lists: PassLists::default(),
             catalog: Arc::new(catalog),
             station: Station {
-                favourites: vec![NOAA_20],
+                favourites: [NOAA_20].into(),
                 ..Station::demo(&DemoAddresses::default())
             },
             choice: ListChoice { scope: Scope::All, ..ListChoice::default() },

@@ -15,8 +15,8 @@ use crate::{
     device::{CountPoint, settings::Value},
     station::{
         self, AfterPass, Antenna, AntennaId, Entered, KeepOut, LoadError, Loaded, Monitor, Mount,
-        Note, NoteReason, Notices, OnClose, QuietHours, Resume, SaveError, Station, SunAvoidance,
-        TrackSettings, save,
+        Note, NoteReason, Notices, OnClose, Priority, QuietHours, Resume, SaveError, Station,
+        SunAvoidance, TrackSettings, save,
     },
 };
 
@@ -135,6 +135,26 @@ fn a_bad_field_costs_only_itself() {
     let NoteReason::Invalid(why) = &notes[1].reason else { panic!("{:?}", notes[1]) };
     assert_eq!(why, "line 2 does not hold an azimuth and an elevation");
     assert_eq!(notes[5].reason, NoteReason::Unknown);
+}
+
+#[test]
+fn favourites_keep_their_priorities_and_an_old_list_has_the_default() {
+    let (_folder, path) = written("favourites = [43013, { satellite = 25544, priority = 1 }, 7.5]");
+    let loaded = load(&path).unwrap();
+    let favourites = loaded.station.favourites.clone();
+    assert_eq!(favourites.numbers(), [43_013, 25_544]);
+    assert_eq!(favourites.priority(43_013), Some(Priority::default()));
+    assert_eq!(favourites.priority(25_544).map(Priority::number), Some(1));
+    let places: Vec<_> = loaded.notes.iter().map(|note| note.place.as_str()).collect();
+    assert_eq!(places, ["favourites[2]"]);
+    station::save(&loaded.station, &path).unwrap();
+    assert_eq!(load(&path).unwrap().station.favourites, favourites);
+    // Tables alone are written in another form.
+    let mut station = loaded.station;
+    station.favourites.put(43_013, Priority::ALL[4]);
+    station::save(&station, &path).unwrap();
+    let loaded = load(&path).unwrap();
+    assert_eq!((loaded.station.favourites, loaded.notes), (station.favourites, vec![]));
 }
 
 #[test]

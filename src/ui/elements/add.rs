@@ -2,21 +2,16 @@
 
 use std::path::PathBuf;
 
-use egui::{Align, Layout, RichText, TextEdit, Ui, vec2};
+use egui::{Align, Button, Layout, RichText, Role, TextEdit, Ui, WidgetInfo, vec2};
 
-use super::sources::named_button;
 use crate::{
     engine::{self, sources::Sources},
     library::check_source,
     model::UiCommand,
     orbit::{Source, SourcePlace},
-    ui::{
-        text, theme,
-        widgets::{card, input::select_when_tabbed},
-    },
+    ui::{text, theme, widgets::input::select_when_tabbed},
 };
 
-const MAX: f32 = 720.0;
 const LABEL: f32 = 72.0;
 const ROW: f32 = 24.0;
 const NAME: f32 = 240.0;
@@ -69,7 +64,7 @@ pub(super) fn show(
 ) {
     state.forget_the_added(sources);
     let t = theme::tokens(ui);
-    card::show(ui, MAX, |ui| {
+    ui.vertical(|ui| {
         ui.label(RichText::new("Add a source").font(text::value()));
         ui.horizontal(|ui| {
             for (kind, word) in
@@ -139,4 +134,11 @@ fn field(ui: &mut Ui, (label, hint): (&str, &str), width: f32, typed: &mut Strin
         let response = ui.add(edit).labelled_by(label_id);
         select_when_tabbed(ui, &response, typed);
     });
+}
+
+/// Shows a button with a longer accessible name; returns `true` when it was clicked.
+fn named_button(ui: &mut Ui, enabled: bool, word: &str, name: &str) -> bool {
+    let response = ui.add_enabled(enabled, Button::new(word));
+    response.widget_info(|| WidgetInfo::labeled(Role::Button, enabled, name));
+    response.clicked()
 }

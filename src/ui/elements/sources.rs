@@ -1,60 +1,248 @@
-//! The cards of the sources.
+//! The sources of elements, a row each.
 
-use egui::{Align, Button, Layout, RichText, Role, Ui, WidgetInfo, vec2};
+use egui::{Align2, Color32, Rect, Role, ScrollArea, Sense, Ui, UiBuilder, pos2, vec2};
 
-use super::words;
+use super::{ElementsState, PADDING, words};
 use crate::{
-    engine,
+    astro::time::seconds_between,
+    engine::{self, CatalogState},
     model::{Model, UiCommand},
-    orbit::{Source, SourcePlace, SourceReport},
+    orbit::{BUNDLED_SOURCE, Source, SourcePlace, SourceReport},
     ui::{
         confirm::Question,
-        text, theme,
-        widgets::{button::SMALL_HEIGHT, card, told::line},
+        format,
+        icons::{self, Icon},
+        text::{self, Weight},
+        theme,
+        widgets::{button::Button, paint, told::Tone},
     },
 };
 
-/// Maximum width of a card.
-const MAX: f32 = 720.0;
+const BAR: f32 = 32.0;
+const HEAD: f32 = 22.0;
+const ROW: f32 = 25.0;
+/// More rows scroll.
+const MOST_ROWS: usize = 7;
+/// Below this height of the view the sources are folded unless opened.
+const FOLDED_BELOW: f32 = 760.0;
+/// Width of the table that the columns are laid out for.
+const WIDTH: f32 = 1024.0;
 
-pub(super) fn show(
-    ui: &mut Ui,
-    model: &Model,
-    question: &mut Option<Question>,
-    commands: &mut Vec<UiCommand>,
-) {
-    for (index, source) in model.sources.list.iter().enumerate() {
-        let report = model.sources.reports.get(index);
-        card::show(ui, MAX, |ui| one(ui, model, source, report, question, commands));
+/// Ends of the columns.
+const NAME: f32 = 38.0;
+const WHERE: f32 = 170.0;
+const STATE: f32 = 384.0;
+const NEWEST: f32 = 700.0;
+const OBJECTS: f32 = 760.0;
+const IN_USE: f32 = 818.0;
+const NEXT: f32 = 832.0;
+const ASK: f32 = 940.0;
+const REMOVE: f32 = 996.0;
+
+/// Height of the sources in a view of height `of`.
+pub(super) fn height(model: &Model, state: &ElementsState, of: f32) -> f32 {
+    if !is_open(state, of) {
+        return BAR;
     }
+    let rows = (model.sources.list.len() + 1).min(MOST_ROWS);
+    BAR + HEAD + rows as f32 * ROW
 }
 
-fn one(
+fn is_open(state: &ElementsState, of: f32) -> bool {
+    state.sources_are_open.unwrap_or(of >= FOLDED_BELOW)
+}
+
+/// Draws the sources into `rect`, in a view of height `of`.
+pub(super) fn show(
     ui: &mut Ui,
+    rect: Rect,
+    of: f32,
     model: &Model,
-    source: &Source,
-    report: Option<&SourceReport>,
+    state: &mut ElementsState,
     question: &mut Option<Question>,
     commands: &mut Vec<UiCommand>,
 ) {
     let t = theme::tokens(ui);
-    let name = &source.name;
-    let is_free = model.sources.is_free();
-    let size = vec2(ui.available_width(), SMALL_HEIGHT);
-    ui.allocate_ui_with_layout(size, Layout::right_to_left(Align::Center), |ui| {
-        if named_button(ui, is_free, "Remove", &format!("Remove {name}")) {
-            *question = Some(Question {
-                text: format!("Remove the source {name}? Its elements are used no longer."),
-                yes: "Remove",
-                command: UiCommand::Station(engine::Command::RemoveSource(name.clone())),
-            });
+    let (bar, rest) = rect.split_top_bottom_at_y(rect.top() + BAR);
+    let is_open = is_open(state, of);
+    if show_bar(ui, bar, model, is_open) {
+        state.sources_are_open = Some(!is_open);
+    }
+    ui.painter().hline(rect.x_range(), rect.bottom() - 0.5, (1.0, t.line));
+    if !is_open {
+        return;
+    }
+    let (head, body) = rest.split_top_bottom_at_y(rest.top() + HEAD);
+    show_head(ui, head);
+    ui.scope_builder(UiBuilder::new().id_salt("sources").max_rect(body), |ui| {
+        ui.set_clip_rect(body.intersect(ui.clip_rect()));
+        ui.spacing_mut().item_spacing = vec2(0.0, 0.0);
+        ScrollArea::vertical().id_salt("sources").auto_shrink(false).show(ui, |ui| {
+            let in_use = in_use(model);
+            for (index, source) in model.sources.list.iter().enumerate() {
+                let (_, place) = ui.allocate_space(vec2(body.width(), ROW));
+                let report = model.sources.reports.get(index);
+                let row = Row { place, source, report, in_use: count(&in_use, &source.name) };
+                row.show(ui, model, question, commands);
+            }
+            let (_, place) = ui.allocate_space(vec2(body.width(), ROW));
+            bundled(ui, place, count(&in_use, BUNDLED_SOURCE), model);
+        });
+    });
+}
+
+/// Draws the bar; returns `true` when the sources are to be folded or unfolded.
+fn show_bar(ui: &Ui, rect: Rect, model: &Model, is_open: bool) -> bool {
+    let t = theme::tokens(ui);
+    let count = words::counted(model.sources.list.len() + 1, "source");
+    let (tone, words) = worst(model);
+    let name = format!("{count}: {words}");
+    let response = paint::control(ui, "sources bar", rect, Role::Button, true, &name);
+    ui.ctx().accesskit_node_builder(response.id, |node| node.set_expanded(is_open));
+    ui.painter().rect_filled(rect, 0.0, if response.hovered() { t.bg3 } else { t.bg1 });
+    let icon = if is_open { Icon::ChevronDown } else { Icon::ChevronRight };
+    let at = pos2(rect.left() + PADDING + 4.0, rect.center().y);
+    icons::paint(ui.painter(), paint::square(at, 12.0), icon, t.t2);
+    let room = rect.with_min_x(at.x + 14.0).with_max_x(rect.right() - PADDING);
+    let font = text::sized(13.0, Weight::SemiBold);
+    let title = paint::text_in(ui, room, Align2::LEFT_CENTER, &count, font, t.t1);
+    let (mark, colour) = look(tone, ui);
+    let at = pos2(title.right() + 18.0, rect.center().y);
+    if tone != Tone::Plain {
+        icons::paint(ui.painter(), paint::square(at, 12.0), mark, colour);
+    }
+    let room = room.with_min_x(if tone == Tone::Plain { at.x - 6.0 } else { at.x + 10.0 });
+    paint::text_in(ui, room, Align2::LEFT_CENTER, &words, text::small(), colour);
+    paint::focus_ring(ui, &response, 0);
+    response.clicked()
+}
+
+/// The gravest state of the sources.
+fn worst(model: &Model) -> (Tone, String) {
+    let sources = &model.sources;
+    let states: Vec<(Tone, &str)> = (sources.list.iter().enumerate())
+        .map(|(index, source)| {
+            let (tone, _) = words::state(source, sources.reports.get(index), model.now);
+            (tone, source.name.as_str())
+        })
+        .collect();
+    for tone in [Tone::Bad, Tone::Caution] {
+        let names: Vec<&str> =
+            states.iter().filter(|(of, _)| *of == tone).map(|(_, name)| *name).collect();
+        if !names.is_empty() {
+            let words = if names.len() == 1 { "needs a look" } else { "need a look" };
+            return (tone, format!("{} {words}", format::list(&names)));
         }
-        let (word, spoken) = match source.place {
+    }
+    let words = if sources.list.is_empty() {
+        "The elements that come with Azel are in use."
+    } else {
+        "A server is asked at most once in 2 h."
+    };
+    (Tone::Plain, words.to_owned())
+}
+
+fn look(tone: Tone, ui: &Ui) -> (Icon, Color32) {
+    let t = theme::tokens(ui);
+    match tone {
+        Tone::Good => (Icon::Check, t.ok),
+        Tone::Caution => (Icon::Warning, t.warn),
+        Tone::Bad => (Icon::Cross, t.bad),
+        Tone::Plain | Tone::Now => (Icon::Dash, t.t2),
+    }
+}
+
+/// A place in a row between two ends of the layout.
+fn between(row: Rect, from: f32, to: f32) -> Rect {
+    let scale = row.width() / WIDTH;
+    row.with_min_x(row.left() + from * scale).with_max_x(row.left() + to * scale)
+}
+
+fn show_head(ui: &Ui, rect: Rect) {
+    let t = theme::tokens(ui);
+    let head = |words, from, to, anchor| {
+        paint::text_in(ui, between(rect, from, to), anchor, words, text::caption(), t.t3);
+    };
+    head("Name", NAME, WHERE, Align2::LEFT_CENTER);
+    head("Where", WHERE, STATE, Align2::LEFT_CENTER);
+    head("Last fetch", STATE, NEWEST - 90.0, Align2::LEFT_CENTER);
+    head("Newest epoch", NEWEST - 90.0, NEWEST, Align2::RIGHT_CENTER);
+    head("Objects", OBJECTS - 56.0, OBJECTS, Align2::RIGHT_CENTER);
+    head("In use", IN_USE - 50.0, IN_USE, Align2::RIGHT_CENTER);
+    head("Next", NEXT, ASK, Align2::LEFT_CENTER);
+}
+
+fn in_use(model: &Model) -> Vec<(&str, usize)> {
+    match &model.catalog {
+        CatalogState::Ready(catalog) => catalog.in_use(),
+        CatalogState::Loading | CatalogState::Failed => Vec::new(),
+    }
+}
+
+fn count(in_use: &[(&str, usize)], name: &str) -> usize {
+    in_use.iter().find(|(of, _)| *of == name).map_or(0, |(_, count)| *count)
+}
+
+struct Row<'a> {
+    place: Rect,
+    source: &'a Source,
+    report: Option<&'a SourceReport>,
+    in_use: usize,
+}
+
+impl Row<'_> {
+    fn show(
+        &self,
+        ui: &mut Ui,
+        model: &Model,
+        question: &mut Option<Question>,
+        commands: &mut Vec<UiCommand>,
+    ) {
+        let (now, source, report) = (model.now, self.source, self.report);
+        let icon = match source.place {
+            SourcePlace::Web(_) => Icon::Server,
+            SourcePlace::File(_) => Icon::File,
+            SourcePlace::Folder(_) => Icon::Folder,
+        };
+        let sentences = words::sentences(source, report, now);
+        let sentences: Vec<String> = sentences.into_iter().map(|(_, words)| words).collect();
+        let spoken = format!("{}, {}. {}", source.name, words::place(source), sentences.join(" "));
+        let cells = Cells {
+            icon,
+            name: &source.name,
+            place: &words::place(source),
+            state: words::state(source, report, now),
+            newest: report.and_then(|report| report.newest_epoch),
+            objects: report.map_or(0, SourceReport::objects),
+            in_use: self.in_use,
+            next: &words::next(source, report, now),
+            is_due: words::is_due(source, report, now),
+        };
+        let label = cells.show(ui, self.place, &source.name, &spoken, model);
+        label.on_hover_text(format!("{}\n{}", words::place(source), sentences.join("\n")));
+        self.buttons(ui, model, question, commands);
+    }
+
+    fn buttons(
+        &self,
+        ui: &Ui,
+        model: &Model,
+        question: &mut Option<Question>,
+        commands: &mut Vec<UiCommand>,
+    ) {
+        let name = &self.source.name;
+        let is_free = model.sources.is_free();
+        let scale = self.place.width() / WIDTH;
+        let at = |x: f32, width: f32| {
+            let min = pos2(self.place.left() + x * scale, self.place.center().y - 10.0);
+            Rect::from_min_size(min, vec2(width, 20.0))
+        };
+        let (word, spoken) = match self.source.place {
             SourcePlace::Web(_) => ("Ask", format!("Ask {name}")),
             SourcePlace::File(_) | SourcePlace::Folder(_) => ("Read", format!("Read {name} again")),
         };
-        if named_button(ui, is_free, word, &spoken) {
-            let again = words::ask_again(name, report, model.now);
+        if small_button(ui, at(ASK, 48.0), is_free, word, &spoken) {
+            let again = words::ask_again(name, self.report, model.now);
             let forced = again.is_some();
             let command = UiCommand::Station(engine::Command::RefreshSources {
                 names: vec![name.clone()],
@@ -65,22 +253,99 @@ fn one(
                 None => commands.push(command),
             }
         }
-        ui.with_layout(Layout::left_to_right(Align::Center), |ui| {
-            let words = RichText::new(name).font(text::value());
-            ui.add(egui::Label::new(words).truncate());
-        });
-    });
-    ui.spacing_mut().item_spacing.y = 4.0;
-    let place = RichText::new(words::place(source)).font(text::small()).color(t.t3);
-    ui.add(egui::Label::new(place).truncate());
-    for (tone, words) in words::report(source, report, model.now) {
-        line(ui, tone, &words);
+        let place = at(REMOVE, 20.0);
+        let spoken = format!("Remove {name}");
+        let response = paint::control(ui, ("remove", name), place, Role::Button, is_free, &spoken);
+        let t = theme::tokens(ui);
+        let colour = if response.hovered() && is_free { t.t1 } else { t.t3 };
+        icons::paint(ui.painter(), paint::square(place.center(), 12.0), Icon::Cross, colour);
+        paint::focus_ring(ui, &response, 3);
+        if response.on_hover_text(&spoken).clicked() {
+            *question = Some(Question {
+                text: format!("Remove the source {name}? Its elements are used no longer."),
+                yes: "Remove",
+                command: UiCommand::Station(engine::Command::RemoveSource(name.clone())),
+            });
+        }
     }
 }
 
-/// Shows a button with a longer accessible name; returns `true` when it was clicked.
-pub(super) fn named_button(ui: &mut Ui, enabled: bool, word: &str, name: &str) -> bool {
-    let response = ui.add_enabled(enabled, Button::new(word));
-    response.widget_info(|| WidgetInfo::labeled(Role::Button, enabled, name));
+/// What a row of any source says.
+struct Cells<'a> {
+    icon: Icon,
+    name: &'a str,
+    place: &'a str,
+    state: (Tone, String),
+    newest: Option<jiff::Timestamp>,
+    objects: usize,
+    in_use: usize,
+    next: &'a str,
+    is_due: bool,
+}
+
+impl Cells<'_> {
+    fn show(&self, ui: &Ui, row: Rect, salt: &str, spoken: &str, model: &Model) -> egui::Response {
+        let t = theme::tokens(ui);
+        ui.painter().hline(row.x_range(), row.bottom() - 0.5, (1.0, t.line));
+        let at = paint::square(pos2(row.left() + PADDING + 7.0, row.center().y), 14.0);
+        icons::paint(ui.painter(), at, self.icon, t.t2);
+        let left = |from, to, words: &str, font, colour| {
+            let room = between(row, from, to - 8.0);
+            paint::text_in(ui, room, Align2::LEFT_CENTER, words, font, colour)
+        };
+        let right = |to: f32, words: &str, colour| {
+            let room = between(row, to - 84.0, to);
+            paint::text_in(ui, room, Align2::RIGHT_CENTER, words, text::small(), colour)
+        };
+        left(NAME, WHERE, self.name, text::body_medium(), t.t1);
+        left(WHERE, STATE, self.place, text::small(), t.t2);
+        let (tone, words) = &self.state;
+        let (mark, colour) = look(*tone, ui);
+        let at = between(row, STATE, WIDTH).left() + 6.0;
+        icons::paint(ui.painter(), paint::square(pos2(at, row.center().y), 12.0), mark, colour);
+        let colour = if *tone == Tone::Good { t.t1 } else { colour };
+        left(STATE + 18.0, NEWEST - 84.0, words, text::small(), colour);
+        if let Some(newest) = self.newest {
+            let age_s = seconds_between(newest, model.now);
+            let colour = if age_s > crate::ui::words::OLD_ELEMENTS_S { t.warn } else { t.t1 };
+            right(NEWEST, &words::age(age_s), colour);
+        }
+        right(OBJECTS, &format::number(self.objects as f64, 0), t.t1);
+        let colour = if self.in_use == 0 { t.t3 } else { t.t1 };
+        right(IN_USE, &format::number(self.in_use as f64, 0), colour);
+        let colour = if self.is_due { t.sat } else { t.t2 };
+        left(NEXT, ASK, self.next, text::small(), colour);
+        let words = row.with_max_x(between(row, 0.0, ASK).right());
+        let response = ui.interact(words, ui.make_persistent_id(("source", salt)), Sense::hover());
+        response.widget_info(|| egui::WidgetInfo::labeled(Role::Label, true, spoken));
+        response
+    }
+}
+
+fn bundled(ui: &Ui, row: Rect, in_use: usize, model: &Model) {
+    let objects = match &model.catalog {
+        CatalogState::Ready(catalog) => {
+            count(&catalog.groups().collect::<Vec<_>>(), BUNDLED_SOURCE)
+        }
+        CatalogState::Loading | CatalogState::Failed => 0,
+    };
+    let cells = Cells {
+        icon: Icon::Package,
+        name: BUNDLED_SOURCE,
+        place: "comes with Azel",
+        state: (Tone::Plain, "not fetched".to_owned()),
+        newest: None,
+        objects,
+        in_use,
+        next: "never",
+        is_due: false,
+    };
+    let spoken = format!("{BUNDLED_SOURCE}, comes with Azel, {}", words::objects(objects));
+    cells.show(ui, row, BUNDLED_SOURCE, &spoken, model);
+}
+
+fn small_button(ui: &Ui, place: Rect, is_enabled: bool, word: &str, name: &str) -> bool {
+    let response = Button::normal(word).locked(!is_enabled).show(ui, name, place);
+    response.widget_info(|| egui::WidgetInfo::labeled(Role::Button, is_enabled, name));
     response.clicked()
 }

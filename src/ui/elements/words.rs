@@ -1,43 +1,190 @@
-//! Sentences about sources and the catalog.
+//! Words about sources and the catalog.
 
-use jiff::Timestamp;
+use egui::Color32;
+use jiff::{Timestamp, tz::TimeZone};
 
+use super::columns::Next;
 use crate::{
-    astro::time::seconds_between,
-    orbit::{Catalog, FETCH_PAUSE, Source, SourcePlace, SourceReport},
-    ui::{format, widgets::told::Tone, words::sentence},
+    astro::time::{DAY_S, seconds_between},
+    model::catalog_table::{Among, NEXT_PASSES_H, Question},
+    orbit::{
+        Elements, FETCH_PAUSE, Heights, Source, SourcePlace, SourceReport, tle_lines,
+        write_omm_json,
+    },
+    station::Priority,
+    ui::{
+        format,
+        icons::Icon,
+        tokens::Tokens,
+        widgets::told::Tone,
+        words::{OLD_ELEMENTS_S, sentence},
+    },
 };
 
 /// "1 object", "16 089 objects".
 pub(super) fn objects(count: usize) -> String {
+    counted(count, "object")
+}
+
+/// "1 source", "7 sources".
+pub(super) fn counted(count: usize, what: &str) -> String {
     let plural = if count == 1 { "" } else { "s" };
-    format!("{} object{plural}", format::number(count as f64, 0))
+    format!("{} {what}{plural}", format::number(count as f64, 0))
 }
 
-/// All elements in one sentence.
-pub(super) fn catalog(catalog: &Catalog, now: Timestamp) -> String {
-    let newest = catalog.newest_epoch().map_or_else(String::new, |epoch| {
-        format!(", the newest epoch is {}", date_and_age(epoch, now))
-    });
-    format!("{}{newest}. Of each object the newest elements are used.", objects(catalog.len()))
+/// "Priority 1, first".
+pub(super) fn priority(priority: Priority) -> String {
+    let more = match priority.number() {
+        1 => ", first",
+        5 => ", last",
+        _ => "",
+    };
+    format!("Priority {}{more}", priority.number())
 }
 
-/// "2026-08-11, 3 h old".
-fn date_and_age(epoch: Timestamp, now: Timestamp) -> String {
-    format!("{}, {} old", epoch.strftime("%Y-%m-%d"), format::age(seconds_between(epoch, now)))
+pub(super) fn plain(count: usize) -> String {
+    format::number(count as f64, 0)
+}
+
+/// More about the marked objects, of which `old` have old elements.
+pub(super) fn marked(old: usize, can_mark: bool) -> String {
+    let age = match old {
+        0 => String::new(),
+        1 => "1 is older than 7 d.".to_owned(),
+        old => format!("{} are older than 7 d.", plain(old)),
+    };
+    if can_mark {
+        return age;
+    }
+    let words = "Save or revert the preferences before the favourites change.";
+    format!("{age} {words}").trim().to_owned()
+}
+
+/// A catalog number, in groups from six digits on.
+pub(super) fn number(number: u32) -> String {
+    if number < 100_000 { number.to_string() } else { format::number(f64::from(number), 0) }
+}
+
+/// Heights of apogee and perigee, km.
+pub(super) fn heights(heights: Heights) -> String {
+    let Heights { apogee_km, perigee_km } = heights;
+    format!("{} × {}", format::number(apogee_km, 0), format::number(perigee_km, 0))
+}
+
+/// An age in a table: 42 min, 6 h 11, 1 d 3 h, 95 d.
+pub(super) fn age(seconds: f64) -> String {
+    let minutes = (seconds / 60.0).max(0.0) as u64;
+    let (days, hours, rest) = (minutes / 1440, minutes / 60 % 24, minutes % 60);
+    match (days, hours) {
+        _ if seconds < 0.0 => "ahead".to_owned(),
+        (0, 0) => format!("{rest} min"),
+        (0, _) => format!("{hours} h {rest:02}"),
+        (1..30, _) => format!("{days} d {hours} h"),
+        _ => format!("{days} d"),
+    }
+}
+
+/// Whether the age of elements needs a look: sooner in low orbits, which drag changes.
+pub(super) fn age_tone(elements: &Elements, now: Timestamp) -> Tone {
+    let age_s = elements.age_s(now);
+    let times = if elements.is_geosynchronous() { (30.0, 90.0) } else { (7.0, 30.0) };
+    if age_s >= times.1 * DAY_S {
+        Tone::Bad
+    } else if age_s >= times.0 * DAY_S {
+        Tone::Caution
+    } else {
+        Tone::Plain
+    }
+}
+
+/// The mark and colour of an age.
+pub(super) fn age_look(tone: Tone, t: &Tokens) -> (Option<Icon>, Color32) {
+    match tone {
+        Tone::Bad => (Some(Icon::Cross), t.bad),
+        Tone::Caution => (Some(Icon::Warning), t.warn),
+        Tone::Plain | Tone::Now | Tone::Good => (None, t.t1),
+    }
+}
+
+/// When the next pass begins.
+pub(super) fn next_pass(next: Next, now: Timestamp) -> String {
+    match next {
+        Next::Unknown => "–".to_owned(),
+        Next::Never => format!("none in {NEXT_PASSES_H} h"),
+        Next::At(pass) if pass.is_always_up => "always up".to_owned(),
+        Next::At(pass) if pass.aos <= now => {
+            format!("up, {}", format::time_left(seconds_between(now, pass.los)))
+        }
+        Next::At(pass) => {
+            let left_s = seconds_between(now, pass.aos);
+            if left_s < 600.0 {
+                return format!("in {}", format::time_left(left_s));
+            }
+            on_day(pass.aos, now)
+        }
+    }
+}
+
+/// A time of today, or with its day.
+pub(super) fn on_day(at: Timestamp, now: Timestamp) -> String {
+    let day = |at: Timestamp| at.to_zoned(TimeZone::UTC).date();
+    if day(at) == day(now) {
+        return format::time_z(at);
+    }
+    format!("{} {}Z", at.to_zoned(TimeZone::UTC).strftime("%-d %b"), format::hours_minutes(at))
+}
+
+/// Why the table is empty.
+pub(super) fn nothing_found(question: &Question, all: usize) -> String {
+    let search = question.search.trim();
+    match (&question.among, search.is_empty()) {
+        (Among::Favourites, true) => {
+            "No favourites yet: click the star of a satellite, or press F.".to_owned()
+        }
+        (Among::Old, true) => "No elements are older than 7 d.".to_owned(),
+        (_, true) => "There are no objects.".to_owned(),
+        (Among::All, false) => format!("No object matches \"{search}\"."),
+        (_, false) => {
+            let all = objects(all);
+            format!("No object matches \"{search}\" here. Choose All to search {all}.")
+        }
+    }
 }
 
 /// Location of a source.
 pub(super) fn place(source: &Source) -> String {
     match &source.place {
-        SourcePlace::File(path) => format!("File {}", path.display()),
-        SourcePlace::Folder(path) => format!("Folder {}", path.display()),
-        SourcePlace::Web(url) => url.clone(),
+        SourcePlace::File(path) | SourcePlace::Folder(path) => path.display().to_string(),
+        SourcePlace::Web(url) => url.strip_prefix("https://").unwrap_or(url).to_owned(),
+    }
+}
+
+/// The state of a source in a row.
+pub(super) fn state(
+    source: &Source,
+    report: Option<&SourceReport>,
+    now: Timestamp,
+) -> (Tone, String) {
+    let sentences = sentences(source, report, now);
+    let grave = [Tone::Bad, Tone::Caution]
+        .into_iter()
+        .find_map(|tone| sentences.iter().find(|(of, _)| *of == tone));
+    let when = report.and_then(|report| report.as_of);
+    let when = when.map_or_else(String::new, |at| format::moment(at, now));
+    match (grave, report) {
+        (Some((tone, words)), _) => (*tone, words.trim_end_matches('.').to_owned()),
+        (None, Some(report)) if report.refused() > 0 => {
+            let all = report.objects() + report.refused();
+            (Tone::Caution, format!("{when}, {} of {all} refused", report.refused()))
+        }
+        (None, _) if when.is_empty() => (Tone::Good, "read".to_owned()),
+        (None, _) if matches!(source.place, SourcePlace::Web(_)) => (Tone::Good, when),
+        (None, _) => (Tone::Good, format!("changed {when}")),
     }
 }
 
 /// Sentences about the outcome of a source, most important first.
-pub(super) fn report(
+pub(super) fn sentences(
     source: &Source,
     report: Option<&SourceReport>,
     now: Timestamp,
@@ -83,9 +230,10 @@ fn held(source: &Source, report: &SourceReport, now: Timestamp) -> (Tone, String
         };
         return (Tone::Caution, words.to_owned());
     }
-    let newest = report
-        .newest_epoch
-        .map_or_else(String::new, |epoch| format!(", newest epoch {}", date_and_age(epoch, now)));
+    let newest = report.newest_epoch.map_or_else(String::new, |epoch| {
+        let age = format::age(seconds_between(epoch, now));
+        format!(", newest epoch {}, {age} old", epoch.strftime("%Y-%m-%d"))
+    });
     let word = match source.place {
         SourcePlace::Web(_) => "Sent or confirmed",
         SourcePlace::File(_) | SourcePlace::Folder(_) => "Changed",
@@ -123,4 +271,115 @@ pub(super) fn ask_again(
         "The server of {name} was asked {ago} ago. Servers shut out who asks more often than \
          every 2 h. Ask again all the same?"
     ))
+}
+
+/// Whether a source may be asked now.
+pub(super) fn is_due(source: &Source, report: Option<&SourceReport>, now: Timestamp) -> bool {
+    let is_web = matches!(source.place, SourcePlace::Web(_));
+    is_web && report.and_then(|report| report.next_fetch).is_none_or(|next| next <= now)
+}
+
+/// When a source is asked or read the next time.
+pub(super) fn next(source: &Source, report: Option<&SourceReport>, now: Timestamp) -> String {
+    if !matches!(source.place, SourcePlace::Web(_)) {
+        return "when you read it".to_owned();
+    }
+    match report.and_then(|report| report.next_fetch) {
+        None => "due".to_owned(),
+        Some(next) if next <= now => format!("due since {}", until_minute(next, now)),
+        Some(next) => format!("from {}", until_minute(next, now)),
+    }
+}
+
+fn until_minute(at: Timestamp, now: Timestamp) -> String {
+    let far = seconds_between(at, now).abs() >= DAY_S;
+    if far { at.strftime("%-d %b").to_string() } else { format!("{}Z", format::hours_minutes(at)) }
+}
+
+/// How elements are copied.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Form {
+    Tle,
+    Omm,
+}
+
+/// Elements as text. Objects that a TLE cannot carry are left out.
+pub(super) fn copied<'a>(elements: impl Iterator<Item = &'a Elements>, form: Form) -> String {
+    match form {
+        Form::Tle => elements
+            .filter_map(|of| {
+                let [first, second] = tle_lines(of).ok()?;
+                Some(format!("{}\n{first}\n{second}\n", of.name()))
+            })
+            .collect(),
+        Form::Omm => {
+            let mut text = Vec::new();
+            // Memory takes everything.
+            let _ = write_omm_json(elements, &mut text);
+            String::from_utf8(text).unwrap_or_default()
+        }
+    }
+}
+
+/// Whether elements are old enough to be mentioned.
+pub(super) fn is_old(elements: &Elements, now: Timestamp) -> bool {
+    elements.age_s(now) > OLD_ELEMENTS_S
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::model::globe::NextPass;
+    use crate::{astro::Angle, astro::time::add_seconds, orbit::bundled};
+
+    fn now() -> Timestamp {
+        "2026-11-14T12:15:30Z".parse().unwrap()
+    }
+
+    #[test]
+    fn ages_and_numbers_fit_into_a_column() {
+        for (seconds, words) in [
+            (2_520.0, "42 min"),
+            (22_260.0, "6 h 11"),
+            (99_600.0, "1 d 3 h"),
+            (95.5 * DAY_S, "95 d"),
+            (-5.0, "ahead"),
+        ] {
+            assert_eq!(age(seconds), words);
+        }
+        assert_eq!(
+            (number(25_544), number(799_501_204)),
+            ("25544".into(), "799\u{2009}501\u{2009}204".into())
+        );
+    }
+
+    #[test]
+    fn a_next_pass_counts_down_and_has_the_date_of_another_day() {
+        let pass = |from_s: f64| {
+            let (aos, los) = (add_seconds(now(), from_s), add_seconds(now(), from_s + 600.0));
+            let max_elevation = Angle::from_degrees(20.0);
+            Next::At(NextPass { aos, los, max_elevation, is_always_up: false })
+        };
+        for (next, words) in [
+            (Next::Unknown, "–"),
+            (Next::Never, "none in 24 h"),
+            (pass(-408.0), "up, 3:12"),
+            (pass(280.0), "in 4:40"),
+            (pass(1200.0), "12:35:30Z"),
+            (pass(43_200.0), "15 Nov 00:15Z"),
+        ] {
+            assert_eq!(next_pass(next, now()), words);
+        }
+    }
+
+    #[test]
+    fn what_is_copied_can_be_read_again() {
+        let catalog = bundled().unwrap();
+        let iss = catalog.get(25_544).unwrap();
+        for form in [Form::Tle, Form::Omm] {
+            let read = crate::orbit::read_elements(&copied([iss].into_iter(), form)).elements;
+            assert_eq!((read.len(), read[0].name()), (1, "ISS (ZARYA)"), "{form:?}");
+            assert_eq!(read[0].epoch(), iss.epoch());
+        }
+    }
 }

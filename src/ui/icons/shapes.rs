@@ -1,5 +1,7 @@
 //! The shapes of the icons.
 
+mod elements;
+
 use super::{
     Icon,
     pen::{Pen, arc_points},
@@ -59,10 +61,6 @@ pub(super) fn draw(pen: &Pen<'_>, icon: Icon) {
             pen.ring((10.0, 10.0), 7.5);
             pen.line(&[(10.0, 5.5), (10.0, 10.0), (13.5, 12.0)]);
         }
-        Icon::Search => {
-            pen.ring((8.5, 8.5), 5.5);
-            pen.line(&[(12.6, 12.6), (17.5, 17.5)]);
-        }
         Icon::Prompt => {
             pen.line(&[(2.0, 3.5), (18.0, 3.5), (18.0, 16.5), (2.0, 16.5), (2.0, 3.5)]);
             pen.line(&[(5.0, 7.5), (8.0, 10.2), (5.0, 13.0)]);
@@ -110,6 +108,7 @@ pub(super) fn draw(pen: &Pen<'_>, icon: Icon) {
             pen.line(&[(11.6, 9.6), (10.0, 11.0), (10.0, 11.8)]);
             pen.disc((10.0, 14.2), 1.0);
         }
+        other => elements::draw(pen, other),
     }
 }
 

@@ -179,7 +179,7 @@ fn reminders(ui: &mut Ui, model: &Model, draft: &mut Draft) {
              satellite 30 s before its AOS, an alarm says so.",
         );
         ui.add_space(4.0);
-        for number in ground.favourites() {
+        for number in &ground.favourites() {
             let mut is_marked = notices.reminders.contains(number);
             ui.horizontal(|ui| {
                 let name = name(model, *number);

@@ -7,7 +7,7 @@ use super::{
 use crate::{
     astro::Site,
     device::settings::{Kind, Value},
-    station::{Antenna, Frequency, Notices, OnClose, Station, ranges},
+    station::{Antenna, Favourites, Frequency, Notices, OnClose, Station, ranges},
 };
 
 /// A station without its antennas, with a site that may be invalid.
@@ -19,7 +19,7 @@ pub(super) struct Ground {
     altitude_m: f64,
     aos_elevation_deg: f64,
     elevation_floor_deg: f64,
-    favourites: Vec<u32>,
+    favourites: Favourites,
     frequencies: Vec<Frequency>,
     on_close: Option<OnClose>,
 }
@@ -40,8 +40,8 @@ impl Ground {
         }
     }
 
-    pub(super) fn favourites(&self) -> &[u32] {
-        &self.favourites
+    pub(super) fn favourites(&self) -> Vec<u32> {
+        self.favourites.numbers()
     }
 
     /// The station with these antennas, without the contents of the other pages.
@@ -142,7 +142,7 @@ fn about_closing(on_close: Option<OnClose>) -> &'static str {
 
 /// Catalog numbers, separated by commas.
 fn favourites(ground: &Ground) -> String {
-    let numbers: Vec<String> = ground.favourites.iter().map(u32::to_string).collect();
+    let numbers: Vec<String> = ground.favourites.numbers().iter().map(u32::to_string).collect();
     numbers.join(", ")
 }
 
@@ -151,7 +151,8 @@ fn put_favourites(ground: &mut Ground, value: Value) -> Result<(), String> {
     let parts = text.split(',').map(str::trim).filter(|part| !part.is_empty());
     let numbers: Option<Vec<u32>> =
         parts.map(|part| part.parse().ok().filter(|number| *number <= 999_999_999)).collect();
-    ground.favourites =
+    let numbers =
         numbers.ok_or("must be catalogue numbers with commas between, such as 43013, 25544")?;
+    ground.favourites = ground.favourites.with_numbers(&numbers);
     Ok(())
 }

@@ -32,7 +32,7 @@ enum Change {
 }
 
 pub(super) fn show(ui: &mut Ui, model: &Model, catalog: &Arc<Catalog>, form: &mut Form) {
-    let favourites = &model.station.favourites;
+    let favourites = &model.station.favourites.numbers();
     let mut change = None;
     card::show(ui, f32::INFINITY, |ui| {
         let is_own = form.numbers.is_some();

@@ -1,0 +1,403 @@
+//! The catalog as a table: which objects it shows and in which order, and their next passes.
+//! Worked out on a thread, when something it depends on has changed.
+
+use std::{cmp::Ordering, collections::HashMap, sync::Arc};
+
+use jiff::Timestamp;
+use rayon::prelude::*;
+
+use super::globe::NextPass;
+use crate::{
+    astro::{
+        Angle, Site,
+        time::{DAY_S, add_seconds},
+    },
+    orbit::{Catalog, Elements, PassSearch, Propagator, passes_of_all},
+    station::{Favourites, Station},
+};
+
+/// Age from which elements count as old, whatever their orbit.
+pub const OLD_S: f64 = 7.0 * DAY_S;
+/// Hours ahead in which a next pass is searched for.
+pub const NEXT_PASSES_H: u32 = 24;
+/// Time after which the next passes are searched for anew.
+pub const NEXT_PASSES_STALE_S: f64 = 60.0;
+/// A pass under way began at most so long ago, except of satellites that hardly move.
+const LOOK_BACK_S: f64 = 3600.0;
+
+/// The objects of which the table shows those that the search finds.
+#[derive(Debug, Clone, PartialEq, Eq, Default)]
+pub enum Among {
+    #[default]
+    All,
+    Favourites,
+    /// Those of one source.
+    Group(String),
+    /// Those whose elements are older than [`OLD_S`].
+    Old,
+}
+
+/// A column of the table, by which it can be sorted.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Column {
+    /// Favourites by priority.
+    Star,
+    #[default]
+    Name,
+    Number,
+    Period,
+    Inclination,
+    /// Heights of apogee and perigee.
+    Heights,
+    Age,
+    /// The source of the elements in use.
+    From,
+    NextPass,
+    MaxElevation,
+}
+
+/// What the table is to show.
+#[derive(Debug, Clone, PartialEq, Eq, Default)]
+pub struct Question {
+    pub search: String,
+    pub among: Among,
+    pub sort: Column,
+    pub is_descending: bool,
+}
+
+/// Everything that the rows depend on.
+#[derive(Debug, Clone)]
+pub struct Inputs {
+    pub question: Question,
+    pub catalog: Arc<Catalog>,
+    pub favourites: Favourites,
+    pub next: Option<Arc<NextPasses>>,
+}
+
+/// The rows of the table.
+#[derive(Debug, Clone)]
+pub struct Answer {
+    pub inputs: Inputs,
+    /// Catalog numbers, in their order.
+    pub rows: Arc<[u32]>,
+    /// Objects of the whole catalog whose elements are old.
+    pub old: usize,
+}
+
+/// The next pass of every satellite that has one.
+#[derive(Debug)]
+pub struct NextPasses {
+    pub key: NextKey,
+    pub made_at: Timestamp,
+    of: HashMap<u32, NextPass>,
+}
+
+/// What next passes depend on, except the time.
+#[derive(Debug, Clone)]
+pub struct NextKey {
+    pub catalog: Arc<Catalog>,
+    site: Site,
+    aos_elevation: Angle,
+}
+
+/// The table with what was asked last.
+#[derive(Default)]
+pub struct CatalogTable {
+    pub asked: Question,
+    /// The last rows, kept until the next ones.
+    pub answer: Option<Answer>,
+    pub next: Option<Arc<NextPasses>>,
+}
+
+impl CatalogTable {
+    /// What the rows have to be worked out from.
+    pub fn inputs(&self, catalog: &Arc<Catalog>, favourites: &Favourites) -> Inputs {
+        Inputs {
+            question: self.asked.clone(),
+            catalog: Arc::clone(catalog),
+            favourites: favourites.clone(),
+            next: self.next.clone(),
+        }
+    }
+}
+
+impl PartialEq for Inputs {
+    fn eq(&self, other: &Self) -> bool {
+        let made_at = |of: &Self| of.next.as_ref().map(|next| next.made_at);
+        self.question == other.question
+            && Arc::ptr_eq(&self.catalog, &other.catalog)
+            && self.favourites == other.favourites
+            && made_at(self) == made_at(other)
+    }
+}
+
+impl PartialEq for NextKey {
+    fn eq(&self, other: &Self) -> bool {
+        Arc::ptr_eq(&self.catalog, &other.catalog)
+            && self.site == other.site
+            && self.aos_elevation == other.aos_elevation
+    }
+}
+
+impl NextKey {
+    pub fn new(catalog: &Arc<Catalog>, station: &Station) -> Self {
+        Self {
+            catalog: Arc::clone(catalog),
+            site: station.site,
+            aos_elevation: station.aos_elevation(),
+        }
+    }
+}
+
+impl NextPasses {
+    /// Searches for the first pass of every satellite that is not over at `now`.
+    pub fn search(key: NextKey, now: Timestamp, cancelled: &(dyn Fn() -> bool + Sync)) -> Self {
+        let all: Vec<&Elements> = key.catalog.iter().collect();
+        let prepared: Vec<(u32, Propagator)> = all
+            .into_par_iter()
+            .filter(|_| !cancelled())
+            .filter_map(|of| Some((of.catalog_number(), Propagator::new(of).ok()?)))
+            .collect();
+        let (numbers, propagators): (Vec<u32>, Vec<Propagator>) = prepared.into_iter().unzip();
+        let to = add_seconds(now, f64::from(NEXT_PASSES_H) * 3600.0);
+        let window = PassSearch {
+            aos_elevation: key.aos_elevation,
+            floor: key.aos_elevation,
+            ..PassSearch::new(key.site, add_seconds(now, -LOOK_BACK_S), to)
+        };
+        let mut of = HashMap::new();
+        for (index, pass) in passes_of_all(&propagators, &window, &|_| (), cancelled) {
+            if pass.los.time <= now {
+                continue;
+            }
+            if let Some(number) = numbers.get(index) {
+                of.entry(*number).or_insert(NextPass {
+                    aos: pass.aos.time,
+                    los: pass.los.time,
+                    max_elevation: pass.max_elevation(),
+                    is_always_up: pass.starts_before && pass.ends_after,
+                });
+            }
+        }
+        Self { key, made_at: now, of }
+    }
+
+    /// The pass of a satellite that is under way at `now` or comes next.
+    pub fn get(&self, number: u32, now: Timestamp) -> Option<NextPass> {
+        self.of.get(&number).copied().filter(|pass| pass.los > now)
+    }
+}
+
+/// The order of an object in a column; `None` stands last in both directions.
+type Rank = Option<(f64, f64)>;
+
+/// Works out the rows for `inputs` at `now`.
+pub fn arrange(inputs: Inputs, now: Timestamp) -> Answer {
+    let Inputs { question, catalog, favourites, .. } = &inputs;
+    let is_old = |elements: &&Elements| elements.age_s(now) > OLD_S;
+    let mut found: Vec<&Elements> = match &question.among {
+        Among::All => catalog.iter().collect(),
+        Among::Favourites => favourites.iter().filter_map(|of| catalog.get(of.satellite)).collect(),
+        Among::Group(group) => catalog.in_group(group).collect(),
+        Among::Old => catalog.iter().filter(is_old).collect(),
+    };
+    let needle = question.search.trim().to_lowercase();
+    if !needle.is_empty() {
+        found.retain(|elements| is_found(elements, &needle));
+    }
+    let rows = match question.sort {
+        Column::Name => by_text(found, question.is_descending, |of| of.name().to_lowercase()),
+        Column::From => by_text(found, question.is_descending, |of| {
+            catalog.source_of(of.catalog_number()).unwrap_or_default().to_owned()
+        }),
+        column => by_number(found, question.is_descending, |of| rank(column, of, &inputs, now)),
+    };
+    let old = catalog.iter().filter(is_old).count();
+    Answer { inputs, rows, old }
+}
+
+/// Names and designators hold the text in any case, numbers begin with it.
+fn is_found(elements: &Elements, needle: &str) -> bool {
+    elements.name().to_lowercase().contains(needle)
+        || elements.catalog_number().to_string().starts_with(needle)
+        || elements
+            .international_designator()
+            .is_some_and(|designator| designator.to_lowercase().contains(needle))
+}
+
+fn rank(column: Column, of: &Elements, inputs: &Inputs, now: Timestamp) -> Rank {
+    let number = of.catalog_number();
+    let next = || inputs.next.as_ref().and_then(|next| next.get(number, now));
+    let one = |value: f64| Some((value, 0.0));
+    match column {
+        Column::Star => one(f64::from(inputs.favourites.priority(number)?.number())),
+        Column::Name | Column::From | Column::Number => one(f64::from(number)),
+        Column::Period => one(of.period_s()),
+        Column::Inclination => one(of.inclination().degrees()),
+        Column::Heights => {
+            let heights = of.heights();
+            Some((heights.apogee_km, heights.perigee_km))
+        }
+        Column::Age => one(of.age_s(now)),
+        Column::NextPass => {
+            let next = next()?;
+            // Those that are up all the time come after all others.
+            let late = f64::from(u8::from(next.is_always_up));
+            Some((late, next.aos.as_microsecond() as f64))
+        }
+        Column::MaxElevation => one(next()?.max_elevation.degrees()),
+    }
+}
+
+fn by_number(
+    found: Vec<&Elements>,
+    is_descending: bool,
+    rank: impl Fn(&Elements) -> Rank,
+) -> Arc<[u32]> {
+    let mut ranked: Vec<(Rank, u32)> =
+        found.into_iter().map(|of| (rank(of), of.catalog_number())).collect();
+    ranked.sort_by(|(a, first), (b, second)| {
+        let order = match (a, b) {
+            (Some(a), Some(b)) => {
+                let order = a.0.total_cmp(&b.0).then(a.1.total_cmp(&b.1));
+                if is_descending { order.reverse() } else { order }
+            }
+            (Some(_), None) => Ordering::Less,
+            (None, Some(_)) => Ordering::Greater,
+            (None, None) => Ordering::Equal,
+        };
+        order.then(first.cmp(second))
+    });
+    ranked.into_iter().map(|(_, number)| number).collect()
+}
+
+/// Objects without a text come last in both directions.
+fn by_text(
+    found: Vec<&Elements>,
+    is_descending: bool,
+    text: impl Fn(&Elements) -> String,
+) -> Arc<[u32]> {
+    let mut named: Vec<(String, u32)> =
+        found.into_iter().map(|of| (text(of), of.catalog_number())).collect();
+    named.sort_by(|(a, first), (b, second)| {
+        let order = if is_descending { b.cmp(a) } else { a.cmp(b) };
+        a.is_empty().cmp(&b.is_empty()).then(order).then(first.cmp(second))
+    });
+    named.into_iter().map(|(_, number)| number).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use std::time::Instant;
+
+    use super::*;
+    use crate::orbit::bundled;
+
+    const ISS: u32 = 25_544;
+    const NOAA_20: u32 = 43_013;
+
+    fn now() -> Timestamp {
+        "2026-08-12T12:00:00Z".parse().unwrap()
+    }
+
+    fn inputs(question: Question) -> Inputs {
+        let catalog = Arc::new(bundled().unwrap());
+        let mut favourites = Favourites::from([NOAA_20, ISS, 999]);
+        favourites.put(ISS, crate::station::Priority::ALL[0]);
+        Inputs { question, catalog, favourites, next: None }
+    }
+
+    fn rows(question: Question) -> Vec<u32> {
+        arrange(inputs(question), now()).rows.to_vec()
+    }
+
+    fn search(search: &str) -> Question {
+        Question { search: search.to_owned(), ..Question::default() }
+    }
+
+    #[test]
+    fn names_numbers_and_designators_are_found() {
+        assert_eq!(rows(search("noaa 20 ")), [NOAA_20]);
+        assert!(rows(search("43013")).contains(&NOAA_20));
+        assert!(rows(search("1998-067a")).contains(&ISS));
+        assert_eq!(rows(search("no such object")), [0; 0]);
+        assert_eq!(rows(Question::default()).len(), 16_089);
+    }
+
+    #[test]
+    fn every_column_sorts_both_ways() {
+        let catalog = bundled().unwrap();
+        let of = |number: u32| catalog.get(number).unwrap();
+        let sorted =
+            |sort, is_descending| rows(Question { sort, is_descending, ..search("sentinel") });
+        let check = |column, key: &dyn Fn(&Elements) -> f64| {
+            for is_descending in [false, true] {
+                let keys: Vec<f64> =
+                    sorted(column, is_descending).iter().map(|number| key(of(*number))).collect();
+                assert!(keys.len() > 3);
+                let right = |pair: &[f64]| {
+                    if is_descending { pair[0] >= pair[1] } else { pair[0] <= pair[1] }
+                };
+                assert!(keys.windows(2).all(right), "{column:?} {keys:?}");
+            }
+        };
+        check(Column::Number, &|of| f64::from(of.catalog_number()));
+        check(Column::Period, &|of| of.period_s());
+        check(Column::Inclination, &|of| of.inclination().degrees());
+        check(Column::Heights, &|of| of.heights().apogee_km);
+        check(Column::Age, &|of| of.age_s(now()));
+        let names: Vec<_> =
+            sorted(Column::Name, false).iter().map(|n| of(*n).name().to_lowercase()).collect();
+        assert!(names.is_sorted());
+        let all = |sort| rows(Question { sort, ..Question::default() });
+        assert_eq!(all(Column::Star)[..2], [ISS, NOAA_20], "by priority, the others after them");
+        assert_eq!(all(Column::NextPass).len(), 16_089, "also while none is known");
+    }
+
+    #[test]
+    fn groups_favourites_and_old_sets_are_chosen() {
+        let of = |among| arrange(inputs(Question { among, ..Question::default() }), now());
+        assert_eq!(of(Among::Favourites).rows.len(), 2, "one has no elements");
+        assert_eq!(of(Among::Group(crate::orbit::BUNDLED_SOURCE.to_owned())).rows.len(), 16_089);
+        let old = of(Among::Old);
+        assert_eq!(old.rows.len(), old.old);
+        assert!(old.old > 0 && old.old < 16_089, "{}", old.old);
+    }
+
+    #[test]
+    fn sorting_and_searching_the_whole_catalog_is_timed() {
+        let all = inputs(Question::default());
+        let timed = |what: &str, question: Question| {
+            let inputs = Inputs { question, ..all.clone() };
+            let start = Instant::now();
+            let count = arrange(inputs, now()).rows.len();
+            println!("{what}: {:.1} ms, {count} rows", start.elapsed().as_secs_f64() * 1e3);
+        };
+        for sort in [Column::Name, Column::Number, Column::Heights, Column::Age, Column::From] {
+            timed(&format!("sort by {sort:?}"), Question { sort, ..Question::default() });
+        }
+        for text in ["starlink", "noaa", "4301", "no such"] {
+            timed(&format!("search for {text}"), search(text));
+        }
+    }
+
+    #[test]
+    fn the_next_pass_is_the_one_under_way_or_the_first_to_come() {
+        let mut catalog = Catalog::default();
+        let bundled = bundled().unwrap();
+        let mut text = Vec::new();
+        let few = [ISS, NOAA_20, 44_334].map(|number| bundled.get(number).unwrap());
+        crate::orbit::write_omm_json(few, &mut text).unwrap();
+        catalog.merge(crate::orbit::read_element_bytes(&text), "few");
+        let station = Station::default();
+        let key = NextKey::new(&Arc::new(catalog), &station);
+        let next = NextPasses::search(key, now(), &|| false);
+        for number in [ISS, NOAA_20] {
+            let pass = next.get(number, now()).unwrap();
+            assert!(pass.aos < pass.los && pass.los > now());
+            assert!(pass.max_elevation >= station.aos_elevation());
+            assert!(next.get(number, pass.los).is_none(), "it is over");
+        }
+        assert!(next.get(44_334, now()).unwrap().is_always_up);
+    }
+}

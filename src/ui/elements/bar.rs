@@ -1,0 +1,195 @@
+//! The controls above the sources.
+
+use egui::{
+    Align2, Popup, PopupCloseBehavior, Rect, RichText, Role, TextEdit, Ui, WidgetInfo, pos2, vec2,
+};
+
+use super::{ElementsState, PADDING, add, words};
+use crate::{
+    engine::{self, CatalogState, sources::SourceWork},
+    model::{Model, UiCommand},
+    ui::{
+        format,
+        icons::Icon,
+        text, theme,
+        widgets::{
+            button::{Button, HEIGHT as BUTTON},
+            close_key, paint,
+        },
+        words::sentence,
+    },
+};
+
+pub(super) const HEIGHT: f32 = 56.0;
+pub(super) const LOW_HEIGHT: f32 = 44.0;
+const GAP: f32 = 8.0;
+const SEARCH: f32 = 280.0;
+const LEAST_SEARCH: f32 = 160.0;
+/// Room for the title, without and with the sentence below it.
+const TITLE: [f32; 2] = [92.0, 300.0];
+/// Width of the form for a new source.
+const FORM: f32 = 560.0;
+
+/// Draws the controls. `has_drawer`: a button opens the inspector.
+pub(super) fn show(
+    ui: &mut Ui,
+    rect: Rect,
+    model: &Model,
+    has_drawer: bool,
+    state: &mut ElementsState,
+    commands: &mut Vec<UiCommand>,
+) {
+    let t = theme::tokens(ui);
+    ui.painter().rect_filled(rect, 0.0, t.bg1);
+    ui.painter().hline(rect.x_range(), rect.bottom() - 0.5, (1.0, t.line));
+    let inner = rect.shrink2(vec2(PADDING, 0.0));
+    let left = buttons(ui, inner, model, has_drawer, state, commands);
+    let has_sentence = rect.height() >= HEIGHT;
+    let title_room = TITLE.map(|width| inner.left() + width);
+    let least = if has_sentence { title_room[1] } else { title_room[0] };
+    let from = (left - GAP - SEARCH).max(least).min(left - GAP - LEAST_SEARCH);
+    title(ui, inner.with_max_x(from - GAP), model, has_sentence);
+    let place = Rect::from_min_max(
+        pos2(from, rect.center().y - BUTTON / 2.0),
+        pos2(left - GAP, rect.center().y + BUTTON / 2.0),
+    );
+    search(ui, place, state);
+}
+
+fn title(ui: &Ui, rect: Rect, model: &Model, has_sentence: bool) {
+    let t = theme::tokens(ui);
+    if !has_sentence {
+        paint::text_in(ui, rect, Align2::LEFT_CENTER, "Elements", text::title(), t.t1);
+    }
+    let line = |y: f32| {
+        Rect::from_x_y_ranges(rect.x_range(), rect.top() + y - 12.0..=rect.top() + y + 12.0)
+    };
+    let (words, colour) = match &model.sources.problem {
+        Some(problem) => (sentence(problem), t.bad),
+        None => (summary(model), t.t2),
+    };
+    if has_sentence {
+        paint::text_in(ui, line(19.0), Align2::LEFT_CENTER, "Elements", text::title(), t.t1);
+        paint::text_in(ui, line(40.0), Align2::LEFT_CENTER, &words, text::small(), colour);
+    }
+    let place = if has_sentence { line(40.0) } else { rect };
+    paint::name_text(ui, "elements summary", place, &words).on_hover_text(&words);
+}
+
+/// All elements in a sentence, or what is done with them.
+fn summary(model: &Model) -> String {
+    let sources = &model.sources;
+    match sources.work {
+        SourceWork::Asking => {
+            return "The servers are being asked. The elements in use stay meanwhile.".to_owned();
+        }
+        SourceWork::Reading => return "The sources are being read.".to_owned(),
+        SourceWork::Nothing => {}
+    }
+    match &model.catalog {
+        CatalogState::Loading => "The elements are being read.".to_owned(),
+        CatalogState::Failed => "There are no elements.".to_owned(),
+        CatalogState::Ready(catalog) => {
+            let from = words::counted(catalog.groups().count(), "source");
+            let all = words::objects(catalog.len());
+            format!("{all} from {from}. The newest set of each object is used.")
+        }
+    }
+}
+
+fn search(ui: &mut Ui, place: Rect, state: &mut ElementsState) {
+    let t = theme::tokens(ui);
+    let hint = RichText::new("Name, number, designator").color(t.t3);
+    let typed = &mut state.question.search;
+    let edit = TextEdit::singleline(typed)
+        .id_salt("search the catalogue")
+        .hint_text(hint)
+        .align(Align2::LEFT_CENTER)
+        .min_size(place.size())
+        .desired_width(place.width());
+    let edit = ui.place(place, edit);
+    edit.widget_info(|| WidgetInfo::labeled(Role::TextInput, true, "Search the catalogue"));
+    if std::mem::take(&mut state.wants_search) {
+        edit.request_focus();
+    }
+}
+
+/// Draws the buttons from the right end and returns their left end.
+fn buttons(
+    ui: &mut Ui,
+    inner: Rect,
+    model: &Model,
+    has_drawer: bool,
+    state: &mut ElementsState,
+    commands: &mut Vec<UiCommand>,
+) -> f32 {
+    let mut right = inner.right();
+    let mut place = |ui: &Ui, button: &Button<'_>| {
+        let width = button.width(ui);
+        let min = pos2(right - width, inner.center().y - BUTTON / 2.0);
+        right = min.x - GAP;
+        Rect::from_min_size(min, vec2(width, BUTTON))
+    };
+    if has_drawer {
+        let word = if state.inspector_is_open { "Close details" } else { "Details" };
+        let details = Button::normal(word);
+        let at = place(ui, &details);
+        if details.show(ui, "element details", at).clicked() {
+            state.inspector_is_open = !state.inspector_is_open;
+        }
+    }
+    let due = due(model);
+    let can = model.sources.is_free() && !model.sources.list.is_empty();
+    let word = match due.len() {
+        0 => "Read again".to_owned(),
+        count => format!("Refresh {count} due"),
+    };
+    let refresh = if due.is_empty() { Button::normal(&word) } else { Button::primary(&word) };
+    let refresh = refresh.icon(Icon::Refresh).locked(!can);
+    let at = place(ui, &refresh);
+    let refresh = refresh.show(ui, "refresh", at);
+    let refresh = match next_due(model) {
+        Some(next) if due.is_empty() => refresh.on_hover_text(format!(
+            "Reads all files and folders. No server is due before {}.",
+            format::time_z(next)
+        )),
+        _ => refresh,
+    };
+    if refresh.clicked() {
+        commands.push(refresh_due(model));
+    }
+    let add = Button::normal("Add a source").icon(Icon::Plus);
+    let at = place(ui, &add);
+    let add = add.show(ui, "add a source", at);
+    Popup::from_toggle_button_response(&add)
+        .accessible_name("Add a source")
+        .width(FORM)
+        .close_behavior(PopupCloseBehavior::CloseOnClickOutside)
+        .show(|ui| {
+            ui.set_width(FORM);
+            add::show(ui, &model.sources, &mut state.add, commands);
+            close_key::show(ui);
+        });
+    right + GAP
+}
+
+/// Names of the servers that may be asked now.
+fn due(model: &Model) -> Vec<String> {
+    let sources = model.sources.list.iter().enumerate();
+    sources
+        .filter(|(index, source)| {
+            words::is_due(source, model.sources.reports.get(*index), model.now)
+        })
+        .map(|(_, source)| source.name.clone())
+        .collect()
+}
+
+fn next_due(model: &Model) -> Option<jiff::Timestamp> {
+    model.sources.reports.iter().filter_map(|report| report.next_fetch).min()
+}
+
+/// Asks the servers that may be asked, and reads all other sources.
+pub(super) fn refresh_due(model: &Model) -> UiCommand {
+    let command = engine::Command::RefreshSources { names: due(model), forced: false };
+    UiCommand::Station(command)
+}

@@ -1,0 +1,104 @@
+//! What can be done with the marked objects.
+
+use egui::{Align2, Rect, Ui, pos2, vec2};
+
+use super::{ElementsState, PADDING, copy, table, words, words::Form};
+use crate::{
+    engine::{self, CatalogState},
+    model::{Model, UiCommand},
+    station::Priority,
+    ui::{
+        icons::Icon,
+        text::{self, Weight},
+        theme,
+        widgets::{
+            button::{Button, SMALL_HEIGHT},
+            drop_down::DropDown,
+            paint,
+        },
+    },
+};
+
+pub(super) const HEIGHT: f32 = 40.0;
+const GAP: f32 = 8.0;
+
+/// Draws the bar. `can_mark`: favourites may change now.
+pub(super) fn show(
+    ui: &Ui,
+    rect: Rect,
+    model: &Model,
+    can_mark: bool,
+    state: &mut ElementsState,
+    commands: &mut Vec<UiCommand>,
+) {
+    let t = theme::tokens(ui);
+    ui.painter().rect_filled(rect, 0.0, t.bgsel);
+    ui.painter().hline(rect.x_range(), rect.top() + 0.5, (1.0, t.sat));
+    let inner = rect.shrink2(vec2(PADDING, 0.0));
+    let marked = state.selection.chosen();
+    let mut right = inner.right();
+    let mut place = |width: f32| {
+        let min = pos2(right - width, rect.center().y - SMALL_HEIGHT / 2.0);
+        right = min.x - GAP;
+        Rect::from_min_size(min, vec2(width, SMALL_HEIGHT))
+    };
+    let clear = Button::quiet("Clear");
+    if clear.show(ui, "clear marks", place(clear.width(ui))).clicked() {
+        state.selection.unmark_all();
+    }
+    let list =
+        DropDown { button: Button::normal("Copy"), salt: "copy marked", name: "Copy the marked" };
+    list.show(ui, place(list.width(ui)), |ui| {
+        for (word, form) in [("As TLE", Form::Tle), ("As OMM, JSON", Form::Omm)] {
+            if ui.button(word).clicked() {
+                copy(ui, model, &marked, form);
+            }
+        }
+    });
+    if model.antenna().is_some_and(|antenna| antenna.spec().element_files.is_some()) {
+        let upload = Button::normal("Upload…").icon(Icon::Upload);
+        if upload.show(ui, "upload marked", place(upload.width(ui))).clicked() {
+            state.upload(Some(marked.clone()));
+        }
+    }
+    if can_mark {
+        let priority = DropDown {
+            button: Button::normal("Priority"),
+            salt: "priority of marked",
+            name: "Priority of the marked",
+        };
+        priority.show(ui, place(priority.width(ui)), |ui| {
+            for priority in Priority::ALL {
+                let word = words::priority(priority);
+                if ui.button(word).clicked() {
+                    let numbers = marked.clone();
+                    let command = engine::Command::SetPriority { numbers, priority };
+                    commands.push(UiCommand::Station(command));
+                }
+            }
+        });
+        let favourites = &model.station.favourites;
+        let are_all = marked.iter().all(|number| favourites.contains(*number));
+        let word = if are_all { "No favourites" } else { "Favourites" };
+        let star = Button::normal(word).icon(if are_all { Icon::OpenStar } else { Icon::Star });
+        if star.show(ui, "star marked", place(star.width(ui))).clicked() {
+            table::favour(marked.clone(), !are_all, commands);
+        }
+    }
+    let room = inner.with_max_x(right);
+    let count = format!("{} selected", words::plain(marked.len()));
+    let font = text::sized(13.0, Weight::SemiBold);
+    let first = paint::text_in(ui, room, Align2::LEFT_CENTER, &count, font, t.t1);
+    let old = match &model.catalog {
+        CatalogState::Ready(catalog) => {
+            let held = marked.iter().filter_map(|number| catalog.get(*number));
+            held.filter(|elements| words::is_old(elements, model.now)).count()
+        }
+        CatalogState::Loading | CatalogState::Failed => 0,
+    };
+    let more = words::marked(old, can_mark);
+    let room = room.with_min_x(first.right() + 12.0);
+    paint::text_in(ui, room, Align2::LEFT_CENTER, &more, text::small(), t.t2);
+    let spoken = format!("{count}. {more}");
+    paint::name_text(ui, "marked", first.union(room), spoken.trim()).on_hover_text(spoken.trim());
+}

@@ -1,0 +1,120 @@
+//! The groups of the catalog, of which one is shown.
+
+use egui::{Align2, Color32, Rect, Role, Stroke, StrokeKind, Ui, WidgetInfo, pos2, vec2};
+
+use super::{ElementsState, PADDING, table};
+use crate::{
+    engine::CatalogState,
+    model::{Model, catalog_table::Among},
+    ui::{
+        format, text, theme,
+        widgets::{button::Button, drop_down::DropDown, paint},
+    },
+};
+
+pub(super) const HEIGHT: f32 = 40.0;
+const CHIP: f32 = 24.0;
+const GAP: f32 = 8.0;
+
+/// Draws the groups. What has no room stands behind a button.
+pub(super) fn show(ui: &Ui, rect: Rect, model: &Model, state: &mut ElementsState) {
+    let t = theme::tokens(ui);
+    ui.painter().rect_filled(rect, 0.0, t.bg1);
+    ui.painter().hline(rect.x_range(), rect.bottom() - 0.5, (1.0, t.line));
+    let chips = chips(model);
+    // A source that is gone has no objects to show.
+    if !chips.iter().any(|(among, _)| *among == state.question.among) {
+        state.question.among = Among::All;
+    }
+    let inner = rect.shrink2(vec2(PADDING, 0.0));
+    let widths: Vec<f32> = chips.iter().map(|chip| width(ui, chip)).collect();
+    let more = 72.0;
+    let all: f32 = widths.iter().map(|width| width + GAP).sum();
+    let most = if all - GAP <= inner.width() { inner.right() } else { inner.right() - more };
+    let mut x = inner.left();
+    let mut hidden = Vec::new();
+    for (chip, width) in chips.iter().zip(widths) {
+        let place = Rect::from_min_size(pos2(x, rect.center().y - CHIP / 2.0), vec2(width, CHIP));
+        if place.right() > most || !hidden.is_empty() {
+            hidden.push(chip);
+            continue;
+        }
+        x = place.right() + GAP;
+        if one(ui, place, chip, state.question.among == chip.0) {
+            state.question.among = chip.0.clone();
+        }
+    }
+    if hidden.is_empty() {
+        return;
+    }
+    let active = hidden.iter().find(|(among, _)| *among == state.question.among);
+    let shown = active.map_or("More", |(among, _)| word(among));
+    let name = format!("More groups, {}", word(&state.question.among));
+    let list = DropDown { button: Button::quiet(shown), salt: "more groups", name: &name };
+    let place = Rect::from_min_max(
+        pos2(x, rect.center().y - CHIP / 2.0),
+        pos2(inner.right(), rect.center().y + CHIP / 2.0),
+    );
+    let place = place.with_max_x((x + list.width(ui)).min(inner.right()));
+    list.show(ui, place, |ui| {
+        for (among, count) in hidden {
+            let words = format!("{}, {}", word(among), format::number(*count as f64, 0));
+            ui.selectable_value(&mut state.question.among, among.clone(), words);
+        }
+    });
+}
+
+/// The groups with the numbers of their objects.
+fn chips(model: &Model) -> Vec<(Among, usize)> {
+    let CatalogState::Ready(catalog) = &model.catalog else { return vec![(Among::All, 0)] };
+    let favourites = model.station.favourites.iter();
+    let held = favourites.filter(|of| catalog.get(of.satellite).is_some()).count();
+    let mut chips = vec![(Among::Favourites, held), (Among::All, catalog.len())];
+    let groups = catalog.groups().map(|(name, count)| (Among::Group(name.to_owned()), count));
+    chips.extend(groups);
+    let old = table::shown(model).map_or(0, |answer| answer.old);
+    chips.push((Among::Old, old));
+    chips
+}
+
+fn word(among: &Among) -> &str {
+    match among {
+        Among::All => "All",
+        Among::Favourites => "Favourites",
+        Among::Group(name) => name,
+        Among::Old => "Older than 7 d",
+    }
+}
+
+fn count((_, count): &(Among, usize)) -> String {
+    format::number(*count as f64, 0)
+}
+
+fn width(ui: &Ui, chip: &(Among, usize)) -> f32 {
+    let word = paint::text_width(ui, word(&chip.0), text::small());
+    (word + paint::text_width(ui, &count(chip), text::small()) + 30.0).ceil()
+}
+
+fn one(ui: &Ui, place: Rect, chip: &(Among, usize), is_active: bool) -> bool {
+    let t = theme::tokens(ui);
+    let (word, count) = (word(&chip.0), count(chip));
+    let name = format!("{word}, {count}");
+    let response = paint::control(ui, ("chip", word), place, Role::RadioButton, true, &name);
+    response.widget_info(|| WidgetInfo::selected(Role::RadioButton, true, is_active, &name));
+    let fill = match (is_active, response.hovered()) {
+        (true, _) => t.bgsel,
+        (false, true) => t.bg3,
+        (false, false) => Color32::TRANSPARENT,
+    };
+    let border = if is_active { t.sat } else { t.line };
+    let stroke = Stroke::new(1.0, border);
+    ui.painter().rect(place, 12, fill, stroke, StrokeKind::Inside);
+    let room = place.shrink2(vec2(11.0, 0.0));
+    let (font, colour) =
+        if is_active { (text::small_strong(), t.t1) } else { (text::small(), t.t2) };
+    paint::text_in(ui, room, Align2::LEFT_CENTER, word, font, colour);
+    let colour = if is_active { t.t1 } else { t.t3 };
+    paint::text_in(ui, room, Align2::RIGHT_CENTER, &count, text::small(), colour);
+    paint::focus_ring(ui, &response, 12);
+    response.clicked()
+}

@@ -1,0 +1,87 @@
+//! The elements in use of the selected object.
+
+use egui::{Align2, Color32, Rect, Ui, pos2, vec2};
+use jiff::tz::TimeZone;
+
+use super::{PADDING, words};
+use crate::{
+    model::Model,
+    orbit::{Catalog, Elements},
+    ui::{
+        format, icons,
+        text::{self, Weight},
+        theme,
+        widgets::paint,
+    },
+};
+
+/// Height of a line.
+const LINE: f32 = 18.0;
+const TITLE: f32 = 30.0;
+/// Lines across the whole width.
+const WIDE: usize = 3;
+/// Lines of two figures.
+const HALVES: usize = 4;
+
+pub(super) const HEIGHT: f32 = TITLE + (WIDE + HALVES) as f32 * LINE + 8.0;
+
+pub(super) fn show(ui: &Ui, rect: Rect, model: &Model, elements: &Elements, catalog: &Catalog) {
+    let t = theme::tokens(ui);
+    let inner = rect.shrink2(vec2(PADDING, 0.0));
+    let title = inner.with_max_y(inner.top() + TITLE);
+    let font = text::sized(13.0, Weight::SemiBold);
+    paint::text_in(ui, title, Align2::LEFT_CENTER, "Elements in use", font, t.t1);
+    let number = elements.catalog_number();
+    let from = catalog.source_of(number).unwrap_or_default();
+    let room = title.with_min_x(title.left() + 120.0);
+    paint::text_in(ui, room, Align2::RIGHT_CENTER, from, text::small(), t.t2);
+    let epoch = elements.epoch().to_zoned(TimeZone::UTC).strftime("%Y-%m-%d %H:%M:%SZ");
+    let (icon, colour) = words::age_look(words::age_tone(elements, model.now), t);
+    let age = words::age(elements.age_s(model.now));
+    let groups: Vec<&str> = catalog.groups_of(number).collect();
+    let line = |index: usize| {
+        let min = pos2(inner.left(), title.bottom() + index as f32 * LINE);
+        Rect::from_min_size(min, vec2(inner.width(), LINE))
+    };
+    fact(ui, line(0), "Epoch", &epoch.to_string(), t.t1);
+    let place = fact(ui, line(1), "Age", &age, if icon.is_some() { colour } else { t.ok });
+    if let Some(icon) = icon {
+        let at = pos2(place.left() - 11.0, place.center().y);
+        icons::paint(ui.painter(), paint::square(at, 12.0), icon, colour);
+    }
+    fact(ui, line(2), "Held by", &groups.join(", "), t.t1);
+    let figures = figures(elements);
+    let half = (inner.width() - 20.0) / 2.0;
+    for (index, pair) in figures.chunks(2).enumerate() {
+        let line = line(WIDE + index);
+        let halves = [line.with_max_x(line.left() + half), line.with_min_x(line.right() - half)];
+        for ((name, value), place) in pair.iter().zip(halves) {
+            fact(ui, place, name, value, t.t1);
+        }
+    }
+    ui.painter().hline(rect.x_range(), rect.bottom() - 0.5, (1.0, t.line));
+}
+
+fn fact(ui: &Ui, line: Rect, name: &str, value: &str, colour: Color32) -> Rect {
+    let t = theme::tokens(ui);
+    let left = paint::text_in(ui, line, Align2::LEFT_CENTER, name, text::small(), t.t2);
+    let room = line.with_min_x(left.right() + 8.0);
+    let drawn = paint::text_in(ui, room, Align2::RIGHT_CENTER, value, text::small(), colour);
+    let words = format!("{name}: {value}");
+    paint::name_text(ui, ("element fact", name), line, &words).on_hover_text(&words);
+    drawn
+}
+
+fn figures(elements: &Elements) -> [(&'static str, String); 2 * HALVES] {
+    let angle = |of: crate::astro::Angle| format::degrees(of.degrees(), 4);
+    [
+        ("Inclination", angle(elements.inclination())),
+        ("Node", angle(elements.node())),
+        ("Eccentricity", format!("{:.7}", elements.eccentricity())),
+        ("Perigee", angle(elements.argument_of_perigee())),
+        ("Mean motion", format!("{:.5}", elements.mean_motion_rev_day())),
+        ("Anomaly", angle(elements.mean_anomaly())),
+        ("B*", format!("{:.2e}", elements.bstar()).replace('-', "\u{2212}")),
+        ("Heights km", words::heights(elements.heights())),
+    ]
+}

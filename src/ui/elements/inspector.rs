@@ -1,0 +1,211 @@
+//! The selected object in detail.
+
+use egui::{Align2, Rect, Role, ScrollArea, Sense, Ui, UiBuilder, pos2, vec2};
+
+use super::{ElementsState, PADDING, copy, facts, table, words::Form};
+use crate::{
+    engine::{self, CatalogState},
+    model::{Model, UiCommand},
+    orbit::{Catalog, Elements},
+    station::Priority,
+    ui::{
+        format,
+        icons::{self, Icon},
+        text::{self, Weight},
+        theme,
+        widgets::{
+            button::{Button, HEIGHT as BUTTON, SMALL_HEIGHT},
+            paint,
+        },
+    },
+};
+
+pub(super) const WIDTH: f32 = 344.0;
+const HEAD: f32 = 56.0;
+const FOOT: f32 = 88.0;
+const GAP: f32 = 8.0;
+
+/// Draws the panel.
+pub(super) fn show(
+    ui: &mut Ui,
+    rect: Rect,
+    model: &Model,
+    can_mark: bool,
+    state: &mut ElementsState,
+    commands: &mut Vec<UiCommand>,
+) {
+    let t = theme::tokens(ui);
+    ui.painter().rect_filled(rect, 0.0, t.bg1);
+    ui.painter().vline(rect.left() + 0.5, rect.y_range(), (1.0, t.line));
+    let selected = match &model.catalog {
+        CatalogState::Ready(catalog) => {
+            state.selection.row().and_then(|row| Some((catalog.get(row)?, &**catalog)))
+        }
+        CatalogState::Loading | CatalogState::Failed => None,
+    };
+    let Some((elements, catalog)) = selected else {
+        let words = "Click a satellite in the table to see its elements.";
+        let at = rect.min + vec2(PADDING, PADDING);
+        let width = rect.width() - 2.0 * PADDING;
+        let place = paint::paragraph(ui, at, width, words, text::body(), t.t2);
+        paint::name_text(ui, "nothing selected", place, words);
+        return;
+    };
+    let (top, rest) = rect.split_top_bottom_at_y(rect.top() + HEAD);
+    let (body, foot) = rest.split_top_bottom_at_y(rest.bottom() - FOOT);
+    head(ui, top, model, elements, can_mark, commands);
+    ui.scope_builder(UiBuilder::new().id_salt("element inspector").max_rect(body), |ui| {
+        ui.set_clip_rect(body.intersect(ui.clip_rect()));
+        ui.spacing_mut().item_spacing = vec2(0.0, 0.0);
+        let area = ScrollArea::vertical().id_salt("element details").auto_shrink(false);
+        area.show(ui, |ui| parts(ui, body.width(), model, elements, catalog));
+    });
+    show_foot(ui, foot, model, elements, can_mark, state, commands);
+}
+
+fn parts(ui: &mut Ui, width: f32, model: &Model, elements: &Elements, catalog: &Catalog) {
+    let (place, _) = ui.allocate_exact_size(vec2(width, facts::HEIGHT), Sense::hover());
+    facts::show(ui, place, model, elements, catalog);
+}
+
+/// Star, name, number and designator at the left, the countdown at the right.
+fn head(
+    ui: &Ui,
+    rect: Rect,
+    model: &Model,
+    elements: &Elements,
+    can_mark: bool,
+    commands: &mut Vec<UiCommand>,
+) {
+    let t = theme::tokens(ui);
+    ui.painter().hline(rect.x_range(), rect.bottom() - 0.5, (1.0, t.line));
+    let number = elements.catalog_number();
+    let inner = rect.shrink2(vec2(PADDING, 0.0));
+    let line = |y: f32| {
+        Rect::from_x_y_ranges(inner.x_range(), rect.top() + y - 12.0..=rect.top() + y + 12.0)
+    };
+    let is_favourite = model.station.favourites.contains(number);
+    let name = if is_favourite { "No favourite any more" } else { "Make it a favourite" };
+    let place = paint::square(pos2(inner.left() + 9.0, rect.top() + 19.0), 22.0);
+    let response = paint::control(ui, "inspector star", place, Role::Button, can_mark, name);
+    let (icon, colour) = if is_favourite { (Icon::Star, t.sat) } else { (Icon::OpenStar, t.t3) };
+    icons::paint(ui.painter(), place.shrink(2.0), icon, colour);
+    paint::focus_ring(ui, &response, 4);
+    if response.on_hover_text(name).clicked() {
+        table::favour(vec![number], !is_favourite, commands);
+    }
+    let next = model.catalog_table.next.as_ref().and_then(|next| next.get(number, model.now));
+    let (event, countdown) = match next {
+        None => ("", String::new()),
+        Some(next) if next.is_always_up => ("", "always up".to_owned()),
+        Some(next) => {
+            let (event, at) =
+                if next.aos <= model.now { ("LOS", next.los) } else { ("AOS", next.aos) };
+            let left_s = crate::astro::time::seconds_between(model.now, at);
+            (event, format::countdown(left_s))
+        }
+    };
+    let right = Align2::RIGHT_CENTER;
+    let up = paint::text_in(ui, line(16.0), right, event, text::small(), t.t3);
+    let font = text::sized(20.0, Weight::SemiBold);
+    let down = paint::text_in(ui, line(37.0), right, &countdown, font, t.t1);
+    if !countdown.is_empty() {
+        let words = format!("{event} {countdown}");
+        paint::name_text(ui, "element countdown", up.union(down), words.trim());
+    }
+    let left = Align2::LEFT_CENTER;
+    let label = elements.label();
+    let room = line(19.0).with_min_x(place.right() + 4.0).with_max_x(down.left() - GAP);
+    paint::text_in(ui, room, left, &label, text::title(), t.t1);
+    let designator = elements.international_designator().unwrap_or("no designator");
+    let detail = format!("{number}, {designator}");
+    let room = line(41.0).with_min_x(place.right() + 4.0).with_max_x(down.left() - GAP);
+    let detail_place = paint::text_in(ui, room, left, &detail, text::small(), t.t2);
+    let spoken = format!("{label}, {detail}");
+    paint::name_text(ui, "element selected", detail_place, &spoken).on_hover_text(&spoken);
+}
+
+#[allow(clippy::too_many_arguments)]
+fn show_foot(
+    ui: &Ui,
+    rect: Rect,
+    model: &Model,
+    elements: &Elements,
+    can_mark: bool,
+    state: &mut ElementsState,
+    commands: &mut Vec<UiCommand>,
+) {
+    let t = theme::tokens(ui);
+    let number = elements.catalog_number();
+    ui.painter().hline(rect.x_range(), rect.top() + 0.5, (1.0, t.line));
+    let inner = rect.shrink2(vec2(PADDING, 0.0));
+    let first = |left: f32, right: f32| {
+        let top = rect.top() + 8.0;
+        Rect::from_min_max(pos2(left, top), pos2(right, top + BUTTON))
+    };
+    let half = (inner.width() - GAP) / 2.0;
+    if let Some(antenna) = model.antenna() {
+        let word = format!("Upload to {}", antenna.config.name);
+        let takes = antenna.spec().element_files.is_some();
+        let upload = Button::primary(&word).icon(Icon::Upload).locked(!takes);
+        let place = first(inner.left(), inner.left() + half);
+        if upload.show(ui, "upload selected", place).clicked() {
+            state.upload(None);
+        }
+    }
+    if model.pass_of(number).is_some() {
+        let plot = Button::normal("Open on sky plot").icon(Icon::CrossHair);
+        let place = first(inner.right() - half, inner.right());
+        if plot.show(ui, "open on sky plot", place).clicked() {
+            commands.push(UiCommand::SelectSatellite(number));
+            commands.push(UiCommand::Show(crate::model::View::Operate));
+        }
+    }
+    let second = |left: f32, width: f32| {
+        let top = rect.top() + 16.0 + BUTTON;
+        Rect::from_min_size(pos2(left, top), vec2(width, BUTTON))
+    };
+    for (place, word, form) in [(0.0, "TLE", Form::Tle), (80.0, "OMM", Form::Omm)] {
+        let button = Button::normal(word).icon(Icon::Copy);
+        let response = button.show(ui, ("copy", word), second(inner.left() + place, 72.0));
+        let tip = format!("Copies the elements as {word}");
+        if response.on_hover_text(tip).clicked() {
+            copy(ui, model, &[number], form);
+        }
+    }
+    if let (Some(priority), true) = (model.station.favourites.priority(number), can_mark) {
+        show_priority(ui, second(inner.right() - 150.0, 150.0), number, priority, commands);
+    }
+}
+
+/// The priority between two buttons that change it.
+fn show_priority(
+    ui: &Ui,
+    rect: Rect,
+    number: u32,
+    priority: Priority,
+    commands: &mut Vec<UiCommand>,
+) {
+    let t = theme::tokens(ui);
+    paint::text_in(ui, rect, Align2::LEFT_CENTER, "Priority", text::small(), t.t2);
+    let at = |x: f32| {
+        let min = pos2(rect.right() - x, rect.center().y - SMALL_HEIGHT / 2.0);
+        Rect::from_min_size(min, vec2(SMALL_HEIGHT, SMALL_HEIGHT))
+    };
+    let place = Priority::ALL.iter().position(|known| *known == priority).unwrap_or_default();
+    for (x, word, name, by) in [(80.0, "−", "More important", -1), (24.0, "+", "Less important", 1)]
+    {
+        let other = place.checked_add_signed(by).and_then(|place| Priority::ALL.get(place));
+        let response = Button::normal(word).locked(other.is_none()).show(ui, name, at(x));
+        response.widget_info(|| egui::WidgetInfo::labeled(Role::Button, other.is_some(), name));
+        if let (true, Some(priority)) = (response.on_hover_text(name).clicked(), other) {
+            let numbers = vec![number];
+            let command = engine::Command::SetPriority { numbers, priority: *priority };
+            commands.push(UiCommand::Station(command));
+        }
+    }
+    let middle = at(52.0);
+    let word = priority.number().to_string();
+    paint::text_in(ui, middle, Align2::CENTER_CENTER, &word, text::value(), t.t1);
+    paint::name_text(ui, "priority", middle, &format!("Priority {word}"));
+}

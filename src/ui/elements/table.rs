@@ -1,0 +1,397 @@
+//! The catalog as a table, of which only the rows in view are drawn.
+
+use std::sync::Arc;
+
+use egui::{
+    Align2, Color32, Event, EventFilter, Id, Key, Modifiers, Rect, Response, Role, ScrollArea,
+    Sense, Stroke, StrokeKind, Ui, UiBuilder, WidgetInfo, pos2, vec2,
+};
+
+use super::{
+    ElementsState, PADDING, columns,
+    columns::Row,
+    copy,
+    selection::Way,
+    words::{self, Form},
+};
+use crate::{
+    engine::{self, CatalogState},
+    model::{
+        Model, UiCommand,
+        catalog_table::{Answer, Column},
+    },
+    orbit::Catalog,
+    station::Priority,
+    ui::{
+        icons::{self, Icon},
+        text::{self, Weight},
+        theme,
+        widgets::paint,
+    },
+};
+
+pub(super) const HEAD: f32 = 24.0;
+const ROW: f32 = 25.0;
+/// Side of a check box.
+const BOX: f32 = 16.0;
+
+/// Draws the head and the rows.
+pub(super) fn show(
+    ui: &mut Ui,
+    rect: Rect,
+    model: &Model,
+    can_mark: bool,
+    state: &mut ElementsState,
+    commands: &mut Vec<UiCommand>,
+) {
+    let (top, body) = rect.split_top_bottom_at_y(rect.top() + HEAD);
+    let rows = shown(model).map(|answer| Arc::clone(&answer.rows)).unwrap_or_default();
+    show_head(ui, top, &rows, state);
+    let id = ui.make_persistent_id("catalogue");
+    let list = ui.interact(body, id, Sense::CLICK | Sense::FOCUSABLE);
+    list.widget_info(|| WidgetInfo::labeled(Role::ListBox, true, "Catalogue"));
+    keys(ui, &list, body.height(), &rows, model, can_mark, state, commands);
+    let CatalogState::Ready(catalog) = &model.catalog else {
+        return nothing(ui, body, "There is nothing to search.");
+    };
+    if rows.is_empty() {
+        return nothing(ui, body, &words::nothing_found(&state.question, catalog.len()));
+    }
+    let wanted = state.wanted_row.take().map(|row| {
+        let top = row as f32 * ROW;
+        state.offset.min(top).max(top + ROW - body.height())
+    });
+    ui.scope_builder(UiBuilder::new().id_salt("catalogue rows").max_rect(body), |ui| {
+        ui.set_clip_rect(body.intersect(ui.clip_rect()));
+        ui.spacing_mut().item_spacing = vec2(0.0, 0.0);
+        let mut area = ScrollArea::vertical().id_salt("catalogue").auto_shrink(false);
+        if let Some(offset) = wanted {
+            area = area.vertical_scroll_offset(offset);
+        }
+        let output = area.show_rows(ui, ROW, rows.len(), |ui, range| {
+            let top = ui.max_rect().top();
+            for (place, number) in rows.get(range).unwrap_or_default().iter().enumerate() {
+                let min = pos2(body.left(), top + place as f32 * ROW);
+                let place = Rect::from_min_size(min, vec2(body.width(), ROW));
+                let draws = Draws { id, model, catalog, rows: &rows, can_mark };
+                draws.row(ui, place, *number, state, commands);
+            }
+        });
+        state.offset = output.state.clamped_offset().y;
+    });
+    if list.has_focus() {
+        let ring = Stroke::new(2.0, theme::tokens(ui).sat);
+        ui.painter().rect_stroke(body.shrink(1.0), 0.0, ring, StrokeKind::Inside);
+    }
+}
+
+/// The rows, as long as they are those of the present catalog.
+pub(super) fn shown(model: &Model) -> Option<&Answer> {
+    let CatalogState::Ready(catalog) = &model.catalog else { return None };
+    let answer = model.catalog_table.answer.as_ref();
+    answer.filter(|answer| Arc::ptr_eq(&answer.inputs.catalog, catalog))
+}
+
+fn nothing(ui: &Ui, rect: Rect, words: &str) {
+    let t = theme::tokens(ui);
+    let at = rect.left_top() + vec2(PADDING, 12.0);
+    let place = paint::paragraph(ui, at, rect.width() - 2.0 * PADDING, words, text::body(), t.t2);
+    paint::name_text(ui, "no objects", place, words);
+}
+
+fn show_head(ui: &Ui, rect: Rect, rows: &[u32], state: &mut ElementsState) {
+    let t = theme::tokens(ui);
+    ui.painter().rect_filled(rect, 0.0, t.bg1);
+    ui.painter().hline(rect.x_range(), rect.bottom() - 0.5, (1.0, t.line));
+    let some = !state.selection.marked().is_empty();
+    let name = if some { "Unmark all" } else { "Mark all that are shown" };
+    let place = paint::square(pos2(rect.left() + PADDING + BOX / 2.0, rect.center().y), BOX);
+    let response = paint::control(ui, "mark all", place, Role::CheckBox, true, name);
+    paint_box(ui, place, some.then_some(Icon::Dash));
+    paint::focus_ring(ui, &response, 3);
+    if response.on_hover_text(name).clicked() {
+        if some { state.selection.unmark_all() } else { state.selection.mark_all(rows) }
+    }
+    for (column, place) in columns::places(rect) {
+        let is_sorted = state.question.sort == column;
+        let (name, words) = (columns::spoken(column), columns::head(column));
+        let way = match (is_sorted, state.question.is_descending) {
+            (true, false) => ", ascending",
+            (true, true) => ", descending",
+            (false, _) => "",
+        };
+        let name = format!("Sort by {name}{way}");
+        let response = paint::control(ui, ("sort", words), place, Role::Button, true, &name);
+        let (font, colour) = if is_sorted {
+            (text::sized(11.0, Weight::SemiBold), t.t1)
+        } else {
+            (text::caption(), if response.hovered() { t.t1 } else { t.t3 })
+        };
+        if column == Column::Star {
+            icons::paint(ui.painter(), paint::square(place.center(), 14.0), Icon::OpenStar, colour);
+        } else {
+            let anchor =
+                if columns::is_left(column) { Align2::LEFT_CENTER } else { Align2::RIGHT_CENTER };
+            let drawn = paint::text_in(ui, place, anchor, words, font, colour);
+            if is_sorted {
+                let x =
+                    if columns::is_left(column) { drawn.right() + 8.0 } else { drawn.left() - 8.0 };
+                sort_mark(ui, pos2(x, rect.center().y), state.question.is_descending);
+            }
+        }
+        paint::focus_ring(ui, &response, 2);
+        if response.on_hover_text(&name).clicked() {
+            state.question.is_descending = is_sorted && !state.question.is_descending;
+            state.question.sort = column;
+        }
+    }
+}
+
+fn sort_mark(ui: &Ui, at: egui::Pos2, is_descending: bool) {
+    let t = theme::tokens(ui);
+    let down = if is_descending { 2.0 } else { -2.0 };
+    let ends = [vec2(-3.5, -down), vec2(0.0, down), vec2(3.5, -down)];
+    let points = ends.map(|by| at + by).to_vec();
+    ui.painter().line(points, Stroke::new(1.5, t.t1));
+}
+
+fn paint_box(ui: &Ui, rect: Rect, mark: Option<Icon>) {
+    let t = theme::tokens(ui);
+    let (fill, border) =
+        if mark.is_some() { (t.sat, t.sat) } else { (Color32::TRANSPARENT, t.edge) };
+    ui.painter().rect(rect, 3, fill, Stroke::new(1.0, border), StrokeKind::Inside);
+    if let Some(mark) = mark {
+        icons::paint(ui.painter(), rect.shrink(2.0), mark, t.onsat);
+    }
+}
+
+/// What all rows are drawn from.
+struct Draws<'a> {
+    id: Id,
+    model: &'a Model,
+    catalog: &'a Catalog,
+    rows: &'a [u32],
+    can_mark: bool,
+}
+
+impl Draws<'_> {
+    fn row(
+        &self,
+        ui: &Ui,
+        rect: Rect,
+        number: u32,
+        state: &mut ElementsState,
+        commands: &mut Vec<UiCommand>,
+    ) {
+        let Some(elements) = self.catalog.get(number) else { return };
+        let t = theme::tokens(ui);
+        let row = Row::new(elements, self.catalog, self.model);
+        let is_selected = state.selection.row() == Some(number);
+        let priority = self.model.station.favourites.priority(number);
+        // The whole list is one Tab stop.
+        let response = ui.interact(rect, self.id.with(number), Sense::CLICK);
+        response.widget_info(|| {
+            let name = row.spoken(priority.map(Priority::number));
+            WidgetInfo::selected(Role::ListBoxOption, true, is_selected, name)
+        });
+        ui.ctx().accesskit_node_builder(response.id, |node| node.set_selected(is_selected));
+        let ground = match (is_selected, response.hovered()) {
+            (true, _) => t.bgsel,
+            (false, true) => t.bg3,
+            (false, false) => Color32::TRANSPARENT,
+        };
+        ui.painter().rect_filled(rect, 0.0, ground);
+        ui.painter().hline(rect.x_range(), rect.bottom() - 0.5, (1.0, t.line));
+        if is_selected {
+            ui.painter().rect_filled(rect.with_max_x(rect.left() + 3.0), 0.0, t.sat);
+        }
+        for (column, place) in columns::places(rect) {
+            if column == Column::Star {
+                self.star(ui, place, &row, priority, commands);
+            } else {
+                cell(ui, place, column, &row);
+            }
+        }
+        self.mark(ui, rect, &row, state);
+        if response.clicked() {
+            let way = match ui.input(|input| input.modifiers) {
+                Modifiers { shift: true, .. } => Way::Range,
+                Modifiers { command: true, .. } => Way::Toggle,
+                _ => Way::Select,
+            };
+            state.selection.choose(number, way, self.rows);
+            ui.memory_mut(|memory| memory.request_focus(self.id));
+        }
+        response.on_hover_text(row.tip());
+    }
+
+    fn mark(&self, ui: &Ui, rect: Rect, row: &Row<'_>, state: &mut ElementsState) {
+        let number = row.elements.catalog_number();
+        let at = pos2(rect.left() + PADDING + BOX / 2.0, rect.center().y);
+        let place = paint::square(at, BOX);
+        let is_marked = state.selection.is_marked(number);
+        let response = ui.interact(place.expand(3.0), self.id.with(("mark", number)), Sense::CLICK);
+        response.widget_info(|| {
+            let name = format!("Mark {}", row.elements.label());
+            WidgetInfo::selected(Role::CheckBox, true, is_marked, name)
+        });
+        paint_box(ui, place, is_marked.then_some(Icon::Check));
+        if response.clicked() {
+            let shift = ui.input(|input| input.modifiers.shift);
+            let way = if shift { Way::Range } else { Way::Toggle };
+            state.selection.choose(number, way, self.rows);
+        }
+    }
+
+    fn star(
+        &self,
+        ui: &Ui,
+        place: Rect,
+        row: &Row<'_>,
+        priority: Option<Priority>,
+        commands: &mut Vec<UiCommand>,
+    ) {
+        let t = theme::tokens(ui);
+        let number = row.elements.catalog_number();
+        let label = row.elements.label();
+        let name = if priority.is_some() {
+            format!("Remove {label} from the favourites")
+        } else {
+            format!("Add {label} to the favourites")
+        };
+        let sense = if self.can_mark { Sense::CLICK } else { Sense::hover() };
+        let response = ui.interact(place, self.id.with(("star", number)), sense);
+        response.widget_info(|| WidgetInfo::labeled(Role::Button, self.can_mark, &name));
+        let at = paint::square(place.center() - vec2(2.0, 0.0), 15.0);
+        let (icon, colour) = match (priority, response.hovered() && self.can_mark) {
+            (Some(_), _) => (Icon::Star, t.sat),
+            (None, true) => (Icon::OpenStar, t.t1),
+            (None, false) => (Icon::OpenStar, t.t3),
+        };
+        icons::paint(ui.painter(), at, icon, colour);
+        if let Some(priority) = priority.filter(|of| *of != Priority::default()) {
+            let at = pos2(at.right() + 1.0, place.center().y);
+            let words = priority.number();
+            paint::text(ui, at, Align2::LEFT_CENTER, words, text::caption(), t.t1);
+        }
+        if response.on_hover_text(&name).clicked() {
+            favour(vec![number], priority.is_none(), commands);
+        }
+    }
+}
+
+fn cell(ui: &Ui, place: Rect, column: Column, row: &Row<'_>) {
+    let t = theme::tokens(ui);
+    let words = row.cell(column);
+    let anchor = if columns::is_left(column) { Align2::LEFT_CENTER } else { Align2::RIGHT_CENTER };
+    let (font, colour) = match column {
+        Column::Name => (text::body_medium(), t.t1),
+        Column::Age => {
+            let tone = words::age_tone(row.elements, row.now);
+            let (icon, colour) = words::age_look(tone, t);
+            let drawn = paint::text_in(ui, place, anchor, &words, text::small(), colour);
+            if let Some(icon) = icon {
+                let at = pos2(drawn.left() - 12.0, place.center().y);
+                icons::paint(ui.painter(), paint::square(at, 12.0), icon, colour);
+            }
+            return;
+        }
+        Column::NextPass => match row.next.pass() {
+            Some(next) if next.aos <= row.now => (text::small_strong(), t.ok),
+            Some(_) => (text::small(), t.t1),
+            None => (text::small(), t.t3),
+        },
+        Column::MaxElevation => {
+            if let Some(next) = row.next.pass() {
+                bar(ui, place, next.max_elevation.degrees());
+            }
+            (text::small(), t.t1)
+        }
+        Column::From | Column::Number => (text::small(), t.t2),
+        _ => (text::small(), t.t1),
+    };
+    paint::text_in(ui, place, anchor, &words, font, colour);
+}
+
+/// A bar that is full at 90 degrees.
+fn bar(ui: &Ui, place: Rect, degrees: f64) {
+    let t = theme::tokens(ui);
+    let at = pos2(place.left(), place.center().y - 3.0);
+    let whole = Rect::from_min_size(at, vec2(columns::BAR, 6.0));
+    ui.painter().rect(whole, 1, t.bg0, Stroke::new(1.0, t.line), StrokeKind::Inside);
+    let part = (degrees / 90.0).clamp(0.0, 1.0) as f32;
+    let filled = whole.with_max_x(whole.left() + part * whole.width());
+    ui.painter().rect_filled(filled, 1, t.other);
+}
+
+/// Marks or unmarks favourites.
+pub(super) fn favour(numbers: Vec<u32>, is_favourite: bool, commands: &mut Vec<UiCommand>) {
+    let command = engine::Command::SetFavourites { numbers, is_favourite };
+    commands.push(UiCommand::Station(command));
+}
+
+/// Handles the keys of the list while it has the focus.
+#[allow(clippy::too_many_arguments)]
+fn keys(
+    ui: &Ui,
+    list: &Response,
+    height: f32,
+    rows: &[u32],
+    model: &Model,
+    can_mark: bool,
+    state: &mut ElementsState,
+    commands: &mut Vec<UiCommand>,
+) {
+    if list.clicked() {
+        list.request_focus();
+    }
+    if !list.has_focus() {
+        return;
+    }
+    let filter = EventFilter { vertical_arrows: true, ..EventFilter::default() };
+    ui.memory_mut(|memory| memory.set_focus_lock_filter(list.id, filter));
+    let pressed = |modifiers, key| ui.input_mut(|input| input.consume_key(modifiers, key));
+    if ui.input(|input| input.events.iter().any(|event| matches!(event, Event::Copy))) {
+        let form = if ui.input(|input| input.modifiers.shift) { Form::Omm } else { Form::Tle };
+        copy(ui, model, &state.selection.chosen(), form);
+    }
+    if pressed(Modifiers::COMMAND, Key::A) {
+        state.selection.mark_all(rows);
+    }
+    let page = ((height / ROW) as isize - 1).max(1);
+    let moves = [
+        (Key::ArrowUp, -1),
+        (Key::ArrowDown, 1),
+        (Key::PageUp, -page),
+        (Key::PageDown, page),
+        (Key::Home, isize::MIN),
+        (Key::End, isize::MAX),
+    ];
+    for (key, down) in moves {
+        for (modifiers, way) in [(Modifiers::SHIFT, Way::Range), (Modifiers::NONE, Way::Select)] {
+            if pressed(modifiers, key) {
+                let place = state.selection.go(down, way, rows);
+                state.wanted_row = place.or(state.wanted_row);
+            }
+        }
+    }
+    if pressed(Modifiers::NONE, Key::Space) {
+        state.selection.toggle(rows);
+    }
+    let chosen = state.selection.chosen();
+    if chosen.is_empty() || !can_mark {
+        return;
+    }
+    if pressed(Modifiers::NONE, Key::F) {
+        let favourites = &model.station.favourites;
+        let are_all = chosen.iter().all(|number| favourites.contains(*number));
+        favour(chosen.clone(), !are_all, commands);
+    }
+    let digits = [Key::Num1, Key::Num2, Key::Num3, Key::Num4, Key::Num5];
+    for (key, priority) in digits.into_iter().zip(Priority::ALL) {
+        if pressed(Modifiers::NONE, key) {
+            let command = engine::Command::SetPriority { numbers: chosen.clone(), priority };
+            commands.push(UiCommand::Station(command));
+        }
+    }
+}
