@@ -113,14 +113,14 @@ impl Desktop {
         sounds: Option<Result<(), Missing>>,
     ) {
         let attempts = [
-            ("notifications", &mut self.outlets.notifications, notifications),
-            ("sounds", &mut self.outlets.sounds, sounds),
+            ("are not shown by the desktop", &mut self.outlets.notifications, notifications),
+            ("make no sound", &mut self.outlets.sounds, sounds),
         ];
         for (what, missing, attempt) in attempts {
             match attempt {
                 Some(Ok(())) => *missing = None,
                 Some(Err(why)) if missing.is_none() => {
-                    tracing::warn!("alarms and reminders have no {what}: {why}");
+                    tracing::warn!("alarms and reminders {what}: {why}");
                     *missing = Some(why);
                 }
                 _ => {}

@@ -15,13 +15,15 @@ use azel::{
     driver::{self, Dial, Outside, Stream},
     engine::{
         Client, Command, Handle, Settings, Snapshot,
+        alarms::AlarmKind,
         status::{AntennaStatus, LinkStatus},
     },
+    orbit::{PassSearch, Propagator, bundled, passes},
     plan::{ProgramTrack, Target},
     sim::{rc2000c, rotator_genius, satrak},
-    station::{self, Antenna, AntennaId, Station},
+    station::{self, Antenna, AntennaId, Notices, Station},
 };
-use jiff::Timestamp;
+use jiff::{Timestamp, ToSpan as _};
 
 /// Longer than any step here takes, in real time.
 const PATIENCE: Duration = Duration::from_mins(1);
@@ -43,7 +45,7 @@ struct Units {
 }
 
 impl Units {
-    fn new(clock: &Clock) -> Self {
+    fn new(clock: &Clock, start: Timestamp) -> Self {
         let pair = rotator_genius::Options {
             rotators: [
                 rotator_genius::RotatorOptions::default(),
@@ -51,7 +53,7 @@ impl Units {
             ],
             ..rotator_genius::Options::default()
         };
-        let options = satrak::Options::new(Station::default().site, start());
+        let options = satrak::Options::new(Station::default().site, start);
         Self {
             dish: satrak::Control::on_clock(&options, clock.clone()),
             mast: rotator_genius::Control::on_clock(&pair, clock.clone()),
@@ -94,14 +96,19 @@ struct Scene {
 
 impl Scene {
     fn at_speed(speed: NonZeroU32) -> Self {
-        let clock = Clock::at_speed(start(), speed);
-        let units = Units::new(&clock);
+        Self::with(start(), speed, Notices::default())
+    }
+
+    fn with(start: Timestamp, speed: NonZeroU32, notices: Notices) -> Self {
+        let clock = Clock::at_speed(start, speed);
+        let units = Units::new(&clock, start);
         let station = Station {
             antennas: vec![
                 Antenna::satrak("Dish", "dish:1"),
                 Antenna::genius("Mast", "mast:1"),
                 Antenna::rc2000c("Horn", "horn:1"),
             ],
+            notices,
             ..Station::default()
         };
         let folder = tempfile::tempdir().unwrap();
@@ -197,6 +204,40 @@ fn two_stations_live_in_one_process_one_of_them_at_200_times_real_time() {
     until("standstill", || fast.units.all_stand().then_some(()));
 }
 
+#[test]
+fn a_marked_pass_is_reminded_of_and_its_alarm_ends_when_an_antenna_takes_it() {
+    const ISS: u32 = 25_544;
+    let station = Station::default();
+    let propagator = Propagator::new(bundled().unwrap().get(ISS).unwrap()).unwrap();
+    let search = PassSearch {
+        aos_elevation: station.aos_elevation(),
+        floor: station.elevation_floor(),
+        ..PassSearch::new(station.site, start(), start() + 24.hours())
+    };
+    let aos = passes(&propagator, &search, &|| false)[0].aos.time;
+    let notices = Notices { reminder_min: 10.0, reminders: [ISS].into(), ..Notices::default() };
+    let scene = Scene::with(aos - 5.minutes(), NonZeroU32::new(30).unwrap(), notices);
+    let client = scene.client();
+    let is_raised = || {
+        let snapshot = client.snapshot();
+        let mut standing = snapshot.alarms.list().iter().filter(|alarm| !alarm.is_over());
+        standing.any(|alarm| matches!(alarm.kind, AlarmKind::NoAntennaFor { .. }))
+    };
+    let reminder = until("the reminder", || client.snapshot().reminders.first().cloned());
+    assert!(seconds_between(reminder.aos(), aos).abs() < 1.0, "{reminder:?}");
+    assert_eq!((reminder.pass.0, &*reminder.name), (ISS, "ISS"));
+    until("the alarm", || is_raised().then_some(()));
+    assert!(seconds_between(client.snapshot().at.utc, aos) <= 30.0);
+    let mast = measured(&client, "Mast");
+    until("its end", || {
+        let pass = reminder.pass;
+        let _ = client.send(Command::ProgramTrackPass { antenna: mast, pass });
+        (!is_raised()).then_some(())
+    });
+    assert!(client.snapshot().at.utc < reminder.los, "not by LOS");
+    until("the track", || antenna(&client, "Mast")?.1.tracks);
+}
+
 /// Serializes every snapshot that it gets of a station until the station ends; returns
 /// their number.
 fn write_down(mut client: Client) -> usize {
@@ -209,7 +250,10 @@ fn write_down(mut client: Client) -> usize {
         assert_eq!(serde_json::to_string(&back).unwrap(), text);
         // Only the catalog and the pass lists leave anything out.
         let shown = |of: &Snapshot| {
-            let of = (&of.at, &of.time_sync, &of.station, &of.sources, &of.antennas, &of.alarms);
+            let of = (
+                (&of.at, &of.time_sync, &of.station, &of.sources),
+                (&of.antennas, &of.alarms, &of.reminders),
+            );
             format!("{of:?}")
         };
         assert_eq!(shown(&back), shown(&snapshot));

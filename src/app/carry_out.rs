@@ -64,6 +64,11 @@ impl App {
                 theme::set(ctx, name);
                 self.keeper.memory.theme = name;
             }
+            UiCommand::TryNotice(sound) => {
+                if let Some(notifier) = &self.notifier {
+                    notifier.try_out(sound);
+                }
+            }
             UiCommand::ShowEffects(question) => model.effects.ask(*question, model.steady),
             UiCommand::ShowCatalog(question) => model.catalog_table.asked = question,
             UiCommand::ImportMask(path) => self.import_mask(path),

@@ -2,10 +2,13 @@
 //! of the station: it waits for no window, and nobody waits for it. While it is busy, news stay in
 //! the snapshots, where no alarm of the first rank is lost.
 
-use std::{io, thread};
+use std::{io, thread, time::Duration};
 
 use jiff::tz::TimeZone;
-use tokio::sync::watch;
+use tokio::{
+    sync::{mpsc, watch},
+    time::timeout,
+};
 
 use crate::{
     desktop::{Desktop, Notification, Outlets, Sound, Urgency},
@@ -17,17 +20,22 @@ use crate::{
     ui::words,
 };
 
-/// What is known of a running notifier. It ends with its station.
+/// A station that publishes nothing for this long stands.
+const STANDS: Duration = Duration::from_secs(2);
+
+/// Handle on a running notifier, which ends with its station.
 pub struct Notifier {
     outlets: watch::Receiver<Outlets>,
+    trials: mpsc::Sender<Sound>,
 }
 
 impl Notifier {
-    /// Starts telling the news of `station` to `desktop`. Calls `wake` when an outlet is found to be missing,
-    /// or is back.
+    /// Starts telling the news of `station` to `desktop`. Calls `wake` when an outlet is found to
+    /// be missing, or is back.
     pub fn start(station: Client, desktop: Desktop, wake: Wake) -> io::Result<Self> {
         let runtime = tokio::runtime::Builder::new_current_thread().enable_all().build()?;
         let (tell_outlets, outlets) = watch::channel(Outlets::default());
+        let (trials, asked) = mpsc::channel(1);
         thread::Builder::new().name("azel-notifier".to_owned()).spawn(move || {
             let told = |outlets: &Outlets| {
                 let is_news = tell_outlets.send_if_modified(|known| {
@@ -39,32 +47,55 @@ impl Notifier {
                     wake();
                 }
             };
-            runtime.block_on(tell_all(station, desktop, told));
+            runtime.block_on(tell_all(station, desktop, asked, told));
         })?;
-        Ok(Self { outlets })
+        Ok(Self { outlets, trials })
     }
 
     /// The outlets that are missing.
     pub fn outlets(&self) -> Outlets {
         self.outlets.borrow().clone()
     }
+
+    /// Shows and sounds an example, whatever is set; none while one waits.
+    pub fn try_out(&self, sound: Sound) {
+        let _ = self.trials.try_send(sound);
+    }
 }
 
-async fn tell_all(mut station: Client, mut desktop: Desktop, told: impl Fn(&Outlets)) {
-    let mut teller = Teller::default();
+async fn tell_all(
+    mut station: Client,
+    mut desktop: Desktop,
+    mut trials: mpsc::Receiver<Sound>,
+    told: impl Fn(&Outlets),
+) {
+    let (mut teller, mut stood) = (Teller::default(), None);
     desktop.look().await;
     told(desktop.outlets());
     loop {
         let snapshot = station.snapshot();
-        let news = teller.look(&snapshot, &TimeZone::system());
+        let news = teller.look(&snapshot, stood, &TimeZone::system());
         if !news.is_empty() {
             desktop.tell(&notifications(&news, &snapshot), sound(&news)).await;
             told(desktop.outlets());
         }
-        if !station.changed().await {
-            break;
+        tokio::select! {
+            changed = timeout(STANDS, station.changed()) => match changed {
+                Ok(true) => stood = None,
+                Ok(false) => break,
+                Err(_) => stood = Some(STANDS),
+            },
+            Some(sound) = trials.recv() => {
+                desktop.tell(&[trial(sound)], Some(sound)).await;
+                told(desktop.outlets());
+            }
         }
     }
+}
+
+fn trial(sound: Sound) -> Notification {
+    let (title, text) = words::trial(sound);
+    Notification { title, text, urgency: Urgency::Normal, number: None }
 }
 
 fn notifications(news: &[Notice], station: &Snapshot) -> Vec<Notification> {
@@ -77,7 +108,7 @@ fn notification(about: &About, station: &Snapshot) -> Notification {
     let urgency = if about.is_of_first_rank() { Urgency::Critical } else { Urgency::Normal };
     let number = match about {
         About::Alarm(alarm) => Some(alarm.row),
-        About::Reminder(_) => None,
+        About::StationStands(_) | About::Reminder(_) => None,
     };
     Notification { title, text, urgency, number }
 }
@@ -86,17 +117,14 @@ fn notification(about: &About, station: &Snapshot) -> Notification {
 fn sound(news: &[Notice]) -> Option<Sound> {
     let mut sounded = news.iter().filter(|notice| notice.is_sounded).peekable();
     sounded.peek()?;
-    let is_alarm = |notice: &Notice| matches!(notice.about, About::Alarm(_));
-    Some(if sounded.any(is_alarm) { Sound::Alarm } else { Sound::Reminder })
+    let is_reminder = |notice: &Notice| matches!(notice.about, About::Reminder(_));
+    Some(if sounded.all(is_reminder) { Sound::Reminder } else { Sound::Alarm })
 }
 
 #[cfg(target_os = "linux")]
 #[cfg(test)]
 mod tests {
-    use std::{
-        sync::{Arc, mpsc},
-        time::Duration,
-    };
+    use std::sync::{Arc, mpsc};
 
     use super::*;
     use crate::{
@@ -134,6 +162,9 @@ mod tests {
         assert_eq!((&*call.title, call.urgency), ("Alarm, Şile 1", 2));
         assert!(call.text.starts_with("mast does not hold: it has no corners."), "{}", call.text);
         woken.recv_timeout(PATIENCE).unwrap();
+        notifier.try_out(Sound::Reminder);
+        let trial = calls.recv_timeout(PATIENCE).unwrap();
+        assert_eq!((&*trial.text, trial.urgency), ("This is how a reminder is told.", 1));
         let outlets = notifier.outlets();
         assert_eq!(outlets.notifications, None);
         assert!(matches!(outlets.sounds, Some(Missing::Player(_))));

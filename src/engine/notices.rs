@@ -4,7 +4,7 @@
 #[cfg(test)]
 mod tests;
 
-use std::{cmp::Reverse, collections::BTreeSet};
+use std::{cmp::Reverse, collections::BTreeSet, time::Duration};
 
 use jiff::tz::TimeZone;
 
@@ -28,6 +28,8 @@ pub struct Notice {
 #[derive(Debug, Clone, PartialEq)]
 pub enum About {
     Alarm(Alarm),
+    /// The station has published nothing for this long, and raises no alarm of its own.
+    StationStands(Duration),
     Reminder(Reminder),
 }
 
@@ -44,12 +46,20 @@ pub struct Teller {
     new: BTreeSet<u64>,
     /// Passes of the reminders that were there then.
     reminded: Vec<PassKey>,
+    /// The station stood then.
+    stood: bool,
 }
 
 impl Teller {
     /// Alarms that became new and reminders that came since the last look, alarms of the first rank
-    /// first. Quiet hours go by the clock of `zone`.
-    pub fn look(&mut self, station: &Snapshot, zone: &TimeZone) -> Vec<Notice> {
+    /// first. `stood`: the station has published nothing for so long. Quiet hours go by the clock
+    /// of `zone`.
+    pub fn look(
+        &mut self,
+        station: &Snapshot,
+        stood: Option<Duration>,
+        zone: &TimeZone,
+    ) -> Vec<Notice> {
         let new = |alarm: &&Alarm| !alarm.seen;
         let alarms = station.alarms.list().iter().filter(new);
         let untold = alarms.clone().filter(|alarm| !self.new.contains(&alarm.id));
@@ -57,7 +67,8 @@ impl Teller {
         let reminders = station.reminders.iter().filter(|reminder| {
             reminder.aos() > station.at.utc && !self.reminded.contains(&reminder.pass)
         });
-        let about = untold.chain(reminders.cloned().map(About::Reminder));
+        let stands = stood.filter(|_| !self.stood).map(About::StationStands);
+        let about = untold.chain(reminders.cloned().map(About::Reminder)).chain(stands);
         let notices = &station.station.notices;
         let is_quiet =
             notices.quiet.is_some_and(|hours: QuietHours| hours.contain(station.at.utc, zone));
@@ -73,6 +84,7 @@ impl Teller {
             .filter(|notice| notice.is_shown || notice.is_sounded)
             .collect();
         told.sort_by_key(|notice| Reverse(notice.about.is_of_first_rank()));
+        self.stood = stood.is_some();
         self.new = alarms.map(|alarm| alarm.id).collect();
         self.reminded = station.reminders.iter().map(|reminder| reminder.pass).collect();
         told

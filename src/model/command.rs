@@ -5,6 +5,7 @@ use std::{path::PathBuf, sync::Arc};
 use super::{ConsoleLine, Model, ThemeName, View, catalog_table, effects};
 use crate::{
     astro::HorizonMask,
+    desktop::Sound,
     driver,
     engine::{
         self,
@@ -34,6 +35,8 @@ pub enum UiCommand {
     SetSpan(u32),
     Show(View),
     SetTheme(ThemeName),
+    /// Show and sound an example of an alarm or a reminder.
+    TryNotice(Sound),
     /// Write these lines of the console to a file.
     SaveLog(Vec<Arc<ConsoleLine>>),
     /// Show these objects in the table of the catalog.

@@ -142,7 +142,7 @@ pub fn show(
             form::show(ui, model, &mut draft, two_columns);
         }),
         Section::Notices => cards(ui, page, "Alarms and sounds", |ui, two_columns| {
-            notices::show(ui, model, &mut draft, two_columns);
+            notices::show(ui, model, &mut draft, two_columns, commands);
         }),
         Section::Horizon => {
             let (skies, horizon) = (&mut draft.skies, &mut state.horizon);

@@ -8,7 +8,7 @@ mod refusals;
 mod safety;
 
 pub use alarms::{alarm, alarm_state, alarm_times};
-pub use notices::{missing_outlets, notice, reminder};
+pub use notices::{missing_outlets, notice, reminder, trial};
 pub use on_board::{cause, lower_minimum, not_known, trespass, within_beam, would_miss};
 pub use refusals::{
     HOLD_UNGUARDED, HOLD_UNSEEN, HOLD_WAY_OUT, answer, hindrance, link_loss, prepare_error,

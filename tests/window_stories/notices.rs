@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use azel::{
     astro::Angle,
-    desktop::{Missing, Outlets},
+    desktop::{Missing, Outlets, Sound},
     engine::reminders::Reminder,
     model::{UiCommand, View},
     station::{AntennaId, Notices, QuietHours, Station},
@@ -107,6 +107,17 @@ fn what_the_desktop_lacks_is_said_where_it_is_set() {
     settle(&mut window);
     assert!(says(&window, "Nothing is shown by the desktop: there is no bus of a desktop session"));
     assert!(says(&window, "Nothing is sounded: not on this operating system."));
+}
+
+#[test]
+fn the_desktop_is_tried_without_saving() {
+    for size in SIZES {
+        let mut window = page(size);
+        for (word, sound) in [("Try an alarm", Sound::Alarm), ("Try a reminder", Sound::Reminder)] {
+            window.get_by_role_and_label(Role::Button, word).click();
+            assert_eq!(asked(&mut window), [UiCommand::TryNotice(sound)]);
+        }
+    }
 }
 
 const NOTE: &str = "ISS AOS in 5:00 at 11:20:30Z, max 54°, Satrak can track it.";

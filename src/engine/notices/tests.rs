@@ -44,13 +44,13 @@ fn look(teller: &mut Teller, alarms: &Alarms, notices: &Notices) -> Vec<Notice> 
         alarms: alarms.clone(),
         ..Snapshot::before_anything(at)
     };
-    teller.look(&snapshot, &istanbul())
+    teller.look(&snapshot, None, &istanbul())
 }
 
 fn rows(told: &[Notice]) -> Vec<u64> {
     let row = |notice: &Notice| match &notice.about {
         About::Alarm(alarm) => alarm.row,
-        About::Reminder(_) => panic!("no reminder was due"),
+        about => panic!("{about:?}"),
     };
     told.iter().map(row).collect()
 }
@@ -144,7 +144,7 @@ fn a_reminder_is_told_once_before_aos() {
             station: Arc::clone(station),
             ..Snapshot::before_anything(at)
         };
-        teller.look(&snapshot, &istanbul())
+        teller.look(&snapshot, None, &istanbul())
     };
     let mut teller = Teller::default();
     let station = Arc::default();
@@ -157,6 +157,22 @@ fn a_reminder_is_told_once_before_aos() {
     let notices = Notices { quiet: Some(QuietHours::USUAL), ..Notices::default() };
     let quiet = Arc::new(Station { notices, ..Station::default() });
     assert_eq!(look(&mut Teller::default(), time(), &quiet).len(), 1, "the alarm alone");
+}
+
+#[test]
+fn a_station_that_stands_is_told_once_until_it_goes_on() {
+    let at = Moment { utc: time(), steady: Instant::now() };
+    let (snapshot, stood) = (Snapshot::before_anything(at), Duration::from_secs(2));
+    let mut teller = Teller::default();
+    let mut told = |stood| {
+        let told = teller.look(&snapshot, stood, &istanbul());
+        told.into_iter().map(|notice| notice.about).collect::<Vec<_>>()
+    };
+    assert_eq!(told(None), []);
+    assert_eq!(told(Some(stood)), [About::StationStands(stood)]);
+    assert_eq!(told(Some(stood)), []);
+    assert_eq!(told(None), []);
+    assert_eq!(told(Some(stood)), [About::StationStands(stood)]);
 }
 
 #[test]

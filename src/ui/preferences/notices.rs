@@ -12,9 +12,10 @@ use super::{
     form::{card, columns, fields},
 };
 use crate::{
+    desktop::Sound,
     device::settings::{Kind, Unfit, Value},
     engine::CatalogState,
-    model::Model,
+    model::{Model, UiCommand},
     orbit::Elements,
     station::{Notices, QuietHours, ranges},
     ui::{
@@ -143,12 +144,18 @@ fn time(label: &'static str, place: fn(&mut QuietHours) -> &mut Time) -> Descrip
     .when(|telling| telling.is_quiet)
 }
 
-pub(super) fn show(ui: &mut Ui, model: &Model, draft: &mut Draft, two_columns: bool) {
-    let telling = |ui: &mut Ui, draft: &mut Draft| telling(ui, model, draft);
+pub(super) fn show(
+    ui: &mut Ui,
+    model: &Model,
+    draft: &mut Draft,
+    two_columns: bool,
+    commands: &mut Vec<UiCommand>,
+) {
+    let telling = |ui: &mut Ui, draft: &mut Draft| telling(ui, model, draft, commands);
     columns(ui, two_columns, draft, telling, |ui, draft| reminders(ui, model, draft));
 }
 
-fn telling(ui: &mut Ui, model: &Model, draft: &mut Draft) {
+fn telling(ui: &mut Ui, model: &Model, draft: &mut Draft, commands: &mut Vec<UiCommand>) {
     card(ui, "Notifications and sounds", |ui| {
         let telling = &mut draft.notices.telling;
         let standings = telling.read().1;
@@ -156,6 +163,16 @@ fn telling(ui: &mut Ui, model: &Model, draft: &mut Draft) {
         for words in words::missing_outlets(&model.outlets) {
             told::line(ui, Tone::Caution, &words);
         }
+        ui.add_space(4.0);
+        ui.horizontal(|ui| {
+            for (word, sound) in
+                [("Try an alarm", Sound::Alarm), ("Try a reminder", Sound::Reminder)]
+            {
+                if ui.button(word).clicked() {
+                    commands.push(UiCommand::TryNotice(sound));
+                }
+            }
+        });
     });
     card(ui, "Never silenced", |ui| {
         note(

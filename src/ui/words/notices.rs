@@ -5,8 +5,10 @@ use jiff::Timestamp;
 use super::{alarm, alarm_times};
 use crate::{
     astro::time::seconds_between,
-    desktop::Outlets,
-    engine::{Snapshot, antenna::AntennaModel, notices::About, reminders::Reminder},
+    desktop::{Outlets, Sound},
+    engine::{
+        Snapshot, alarms::AlarmKind, antenna::AntennaModel, notices::About, reminders::Reminder,
+    },
     ui::format,
 };
 
@@ -20,6 +22,7 @@ pub fn notice(about: &About, station: &Snapshot) -> (String, String) {
             let times = alarm_times(of, now);
             ("Alarm", format!("{} {times}.", alarm(&of.kind, name)))
         }
+        About::StationStands(stood) => ("Alarm", alarm(&AlarmKind::StationStands(*stood), "Azel")),
         About::Reminder(of) => ("Reminder", reminder(of, antennas, now)),
     };
     (format!("{word}, {}", station.station.name), text)
@@ -37,6 +40,15 @@ pub fn reminder(of: &Reminder, antennas: &[AntennaModel], now: Timestamp) -> Str
         format::time_z(of.aos()),
         format::degrees(of.max_elevation.degrees(), 0),
     )
+}
+
+/// Title and text of a notification with which the operator tries the desktop.
+pub fn trial(sound: Sound) -> (String, String) {
+    let text = match sound {
+        Sound::Alarm => "This is how a new alarm is told.",
+        Sound::Reminder => "This is how a reminder is told.",
+    };
+    ("Azel".to_owned(), text.to_owned())
 }
 
 /// What the desktop does not do, in sentences.
