@@ -103,6 +103,7 @@ impl App {
             globe: model::globe::Globe::default(),
             uploads: Arc::default(),
             source_tests: Arc::default(),
+            link_tests: Arc::default(),
             effects: model::effects::Effects::default(),
             alarms: Alarms::default(),
             reminders: Arc::default(),

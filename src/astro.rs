@@ -5,6 +5,7 @@ mod azel;
 pub mod frames;
 mod ground;
 mod horizon_mask;
+mod locator;
 mod site;
 pub mod sun_moon;
 pub mod time;
@@ -17,5 +18,6 @@ pub use ground::{Cap, CapRow, GroundPoint};
 pub use horizon_mask::{
     HorizonMask, MAX_MASK_POINTS, MaskError, MaskForm, MaskImportError, MaskTextError,
 };
+pub use locator::{LocatorError, LocatorSquare, read_locator};
 pub use site::{Site, SiteError};
 pub use zone::{MAX_CORNERS, MIN_CORNERS, Zone, ZoneError};

@@ -7,6 +7,7 @@ mod debts;
 mod gate;
 mod intent;
 mod link;
+mod link_test;
 mod pulse;
 mod safety;
 mod session;
@@ -36,6 +37,7 @@ pub use debts::{Debts, Unit};
 pub use gate::Refusal;
 pub use intent::Intent;
 pub use link::{Dial, Stream, dial_line, dial_tcp};
+pub use link_test::{LinkFault, LinkFinding, test_link};
 pub use safety::{Mover, Response, Safety, Unlike};
 pub use session::{Command, JOG_LEASE, Session, Wires};
 pub use snapshot::{

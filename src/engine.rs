@@ -14,6 +14,7 @@ pub mod copies;
 mod demo;
 mod handle;
 pub mod host_keys;
+pub mod link_tests;
 mod lock_outs;
 pub mod notices;
 pub mod on_board;
@@ -53,6 +54,7 @@ use self::{
     copies::{Copies, CopyWork},
     demo::Demo,
     handle::{AntennaEnds, Published, Request},
+    link_tests::LinkTest,
     passes::{PassLists, Searches},
     reminders::Reminder,
     source_tests::SourceTests,
@@ -136,6 +138,7 @@ struct Engine {
     reminders: Vec<Reminder>,
     uploads: Uploads,
     source_tests: SourceTests,
+    link_tests: Vec<LinkTest>,
     alarms: Alarms,
     copies: Copies,
     closing: Option<Closing>,
@@ -154,6 +157,7 @@ struct Engine {
     copy_work: CopyWork,
     upload_runner: uploads::Runner,
     source_test_runner: source_tests::Runner,
+    link_test_runner: link_tests::Runner,
     lock_outs: LockOuts,
     claims: Option<Claims>,
     /// Where this station takes STOP from other programs, once it has claimed the station
@@ -216,6 +220,7 @@ impl Engine {
             Arc::new(move || woken.notify_one())
         };
         let clock = outside.clock.clone();
+        let link_test_runner = link_tests::Runner::new(outside.clone(), Arc::clone(&wake));
         let driver = Driver::start(outside, Arc::clone(&wake))?
             .guarded_by(settings.dead_man.clone())
             .marking_in(settings.marks.clone());
@@ -255,6 +260,7 @@ impl Engine {
             reminders: Vec::new(),
             uploads: Uploads::default(),
             source_tests: SourceTests::default(),
+            link_tests: Vec::new(),
             alarms: Alarms::default(),
             copies: Copies::default(),
             closing: None,
@@ -270,6 +276,7 @@ impl Engine {
             elements_broke_off: false,
             upload_runner,
             source_test_runner,
+            link_test_runner,
             lock_outs: LockOuts::default(),
             claims: None,
             socket: None,
@@ -399,6 +406,7 @@ impl Engine {
             reminders: shared(&self.reminders, &last.reminders),
             uploads: shared(&self.uploads, &last.uploads),
             source_tests: shared(&self.source_tests, &last.source_tests),
+            link_tests: shared(&self.link_tests, &last.link_tests),
             alarms: self.alarms.clone(),
             copies: shared(&self.copies, &last.copies),
             closing: self.closing.clone(),

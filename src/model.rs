@@ -32,6 +32,7 @@ use crate::{
         antenna::AntennaModel,
         closing::Closing,
         copies::Copies,
+        link_tests::LinkTest,
         passes::{
             ListChoice, ListedSatellite, PassKey, PassLists, PredictedPass, Scope, UpcomingPasses,
             ahead,
@@ -113,6 +114,8 @@ pub struct Model {
     pub uploads: Arc<Uploads>,
     /// Tests, from this console, of the sources that units use.
     pub source_tests: Arc<SourceTests>,
+    /// Tests of links to units that the station need not have.
+    pub link_tests: Arc<Vec<LinkTest>>,
     /// Effects of the keep-outs on the predicted passes.
     pub effects: Effects,
     /// Active alarms.
@@ -177,6 +180,16 @@ impl Model {
         self.antennas.get(self.place(id)?)
     }
 
+    /// The station that a form starts from: that of the demonstration without its antennas, whose
+    /// addresses end with it.
+    pub fn station_to_edit(&self) -> Station {
+        let station = Station::clone(&self.station);
+        if !self.demo {
+            return station;
+        }
+        Station { name: Station::default().name, antennas: Vec::new(), ..station }
+    }
+
     /// The selected pass, until it is over.
     pub fn selected_pass(&self) -> Option<&PredictedPass> {
         let selected = self.pass_lists.find(self.selected?);
@@ -214,6 +227,7 @@ impl Model {
         self.pass_lists = shown.pass_lists.clone();
         self.uploads = Arc::clone(&shown.uploads);
         self.source_tests = Arc::clone(&shown.source_tests);
+        self.link_tests = Arc::clone(&shown.link_tests);
         self.alarms = shown.alarms.clone();
         self.reminders = Arc::clone(&shown.reminders);
         self.copies = Arc::clone(&shown.copies);

@@ -19,6 +19,7 @@ mod elements_library;
 mod fuzz_regressions;
 mod genius_session;
 mod host_tracking;
+mod link_tests;
 mod mask_stretches;
 mod orbit_reference;
 mod pass_brute_force;

@@ -206,6 +206,7 @@ fn what_is_asked_of_a_station_comes_back() {
             source,
             satellite: "ISS".to_owned(),
         }))),
+        Command::TestLink(Box::new(makes::SPECS[0].antenna("Dish", "host:1"))),
         Command::CloseAfter(CloseHow::Leave),
         Command::StayOpen,
         Command::Look(Attention { list: ListChoice::default(), selected: Some(pass) }),

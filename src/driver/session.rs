@@ -34,6 +34,7 @@ use jiff::Timestamp;
 use tokio::sync::{Mutex as AsyncMutex, Notify, mpsc, watch};
 
 pub use command::Command;
+pub(super) use io_loop::{CONNECT, MIN_WAIT, WRITE, in_words};
 pub use jog::LEASE as JOG_LEASE;
 
 use super::{

@@ -86,6 +86,7 @@ impl Engine {
             Command::UnshelveAlarm(id) => self.alarms.unshelve(id),
             Command::SaveStation(station) => self.save_station(*station),
             Command::TestSource(ask) => self.source_test_runner.ask(ask, &mut self.source_tests),
+            Command::TestLink(antenna) => self.test_link(*antenna),
             Command::Upload(ask) => self.ask_about_upload(ask),
             Command::CloseAfter(how) => self.close_after(how),
             Command::StayOpen => self.closing = None,

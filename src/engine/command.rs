@@ -14,7 +14,7 @@ use super::{
 use crate::{
     driver,
     orbit::Source,
-    station::{AntennaId, Priority, Station},
+    station::{Antenna, AntennaId, Priority, Station},
 };
 
 /// A command of a client to a station. STOP is not one: it bypasses the queue of commands.
@@ -94,6 +94,8 @@ pub enum Command {
     Upload(uploads::Ask),
     /// About a test of an element source that a unit shall use.
     TestSource(TestAsk),
+    /// Ask the unit of this antenna, which the station need not have, and hang up.
+    TestLink(#[serde(with = "written::antenna")] Box<Antenna>),
     /// End once the moving antennas are treated like this.
     CloseAfter(CloseHow),
     /// Cancel the closing.

@@ -5,8 +5,9 @@ use std::sync::Arc;
 use serde::{Deserialize, Serialize};
 
 use super::{
-    alarms::Alarms, antenna::AntennaModel, closing::Closing, copies::Copies, passes::PassLists,
-    reminders::Reminder, source_tests::SourceTests, sources::Sources, uploads::Uploads, written,
+    alarms::Alarms, antenna::AntennaModel, closing::Closing, copies::Copies, link_tests::LinkTest,
+    passes::PassLists, reminders::Reminder, source_tests::SourceTests, sources::Sources,
+    uploads::Uploads, written,
 };
 use crate::{clock::Moment, driver::TimeSync, orbit::Catalog, station::Station};
 
@@ -46,6 +47,8 @@ pub struct Snapshot {
     pub uploads: Arc<Uploads>,
     /// Tests, from here, of the sources that units use.
     pub source_tests: Arc<SourceTests>,
+    /// Tests of links to units that the station need not have.
+    pub link_tests: Arc<Vec<LinkTest>>,
     pub alarms: Alarms,
     /// Copies of the settings of units.
     pub copies: Arc<Copies>,
@@ -69,6 +72,7 @@ impl Snapshot {
             reminders: Arc::default(),
             uploads: Arc::default(),
             source_tests: Arc::default(),
+            link_tests: Arc::default(),
             alarms: Alarms::default(),
             copies: Arc::default(),
             closing: None,

@@ -42,6 +42,7 @@ impl Engine {
         self.watch_closing();
         self.poll_uploads();
         self.source_test_runner.poll(&mut self.source_tests);
+        self.link_test_runner.poll(&mut self.link_tests);
     }
 
     fn look_for_passes(&mut self) {

@@ -45,11 +45,12 @@ pub(super) mod antenna {
         Alone { antenna: [antenna] }.serialize(to)
     }
 
-    pub(in crate::engine) fn deserialize<'de, D: Deserializer<'de>>(
+    pub(in crate::engine) fn deserialize<'de, D: Deserializer<'de>, T: From<Antenna>>(
         from: D,
-    ) -> Result<Antenna, D::Error> {
+    ) -> Result<T, D::Error> {
         let mut station: Station = super::station::deserialize(from)?;
-        station.antennas.pop().ok_or_else(|| D::Error::custom("there is no antenna"))
+        let antenna = station.antennas.pop();
+        antenna.map(T::from).ok_or_else(|| D::Error::custom("there is no antenna"))
     }
 }
 

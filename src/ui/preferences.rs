@@ -129,10 +129,11 @@ pub fn show(
 ) {
     let t = theme::tokens(ui);
     ui.painter().rect_filled(rect, 0.0, t.bg0);
-    let (station, mut draft) = state
-        .draft
-        .take()
-        .unwrap_or_else(|| (Station::clone(&model.station), Draft::of(&model.station)));
+    let (station, mut draft) = state.draft.take().unwrap_or_else(|| {
+        let station = model.station_to_edit();
+        let draft = Draft::of(&station);
+        (station, draft)
+    });
     let before = Draft::of(&station);
     let (body, footer) = rect.split_top_bottom_at_y(rect.bottom() - FOOTER);
     let page = sections(ui, body, state);
@@ -319,7 +320,7 @@ fn outcome(
         (_, true) => ("Not saved yet.".to_owned(), t.sat),
         (Some(Ok(at)), _) => (format!("Saved {}.", format::time_z(*at)), t.ok),
         _ if model.demo => {
-            ("Saving ends the demonstration and uses these antennas.".to_owned(), t.t2)
+            ("Saving ends the demonstration and uses this station.".to_owned(), t.t2)
         }
         _ => ("Nothing to save.".to_owned(), t.t3),
     }

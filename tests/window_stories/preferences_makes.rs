@@ -92,10 +92,12 @@ fn every_make_is_added_as_it_stands_and_comes_back_from_its_file() {
         assert_eq!(reloaded(&station), station);
 
         let mut model = rig::model(states::holding());
-        (model.demo, model.view) = (true, View::Preferences);
+        model.view = View::Preferences;
         model.station = reloaded(&station).into();
         let mut window = rig::window(size, model);
-        assert_eq!(save(&mut window), station, "read back into the form and saved untouched");
+        write(&mut window, "Elevation floor", "11");
+        let wanted = Station { elevation_floor_deg: 11.0, ..station };
+        assert_eq!(save(&mut window), wanted, "read back into the form and saved");
     }
 }
 

@@ -159,6 +159,7 @@ pub(crate) fn model(mut snapshot: Snapshot) -> Model {
         globe: Globe::default(),
         uploads: Arc::default(),
         source_tests: Arc::default(),
+        link_tests: Arc::default(),
         effects: Effects::default(),
         alarms: Alarms::default(),
         reminders: Arc::default(),

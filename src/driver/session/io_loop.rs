@@ -16,9 +16,9 @@ use crate::{
 };
 
 /// Time limit for a connection to come up.
-pub(super) const CONNECT: Duration = Duration::from_secs(3);
+pub(in crate::driver) const CONNECT: Duration = Duration::from_secs(3);
 /// Time limit for a link to take a few bytes.
-pub(super) const WRITE: Duration = Duration::from_secs(1);
+pub(in crate::driver) const WRITE: Duration = Duration::from_secs(1);
 /// Waits between attempts; the last one repeats.
 const BACK_OFF: [Duration; 5] = [
     Duration::from_millis(500),
@@ -30,7 +30,7 @@ const BACK_OFF: [Duration; 5] = [
 
 /// Interval between attempts while a STOP is owed.
 pub(super) const STOP_RETRY: Duration = Duration::from_millis(250);
-pub(super) const MIN_WAIT: Duration = Duration::from_millis(2);
+pub(in crate::driver) const MIN_WAIT: Duration = Duration::from_millis(2);
 
 /// What ended a wait.
 pub(super) enum Input {
@@ -396,7 +396,7 @@ async fn write(
 }
 
 /// The operating system's message, without its number.
-fn in_words(error: &io::Error) -> String {
+pub(in crate::driver) fn in_words(error: &io::Error) -> String {
     let text = error.to_string();
     let words = text.split(" (os error").next().unwrap_or_default();
     words.to_lowercase()

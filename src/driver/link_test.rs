@@ -1,0 +1,164 @@
+//! Tests a link: asks a unit the questions that its controller asks first, and hangs up.
+
+use std::{io, time::Duration};
+
+use serde::{Deserialize, Serialize};
+use tokio::io::{AsyncReadExt as _, AsyncWriteExt as _};
+
+use super::{
+    Outside, Stream,
+    session::{CONNECT, MIN_WAIT, WRITE, in_words},
+};
+use crate::{
+    clock::Clock,
+    device::{AntennaState, Device},
+    station::{Antenna, Link, check_address},
+};
+
+/// Longest time that questions are asked.
+const ASKING: Duration = Duration::from_secs(2);
+/// Time after the first reply in which the next questions are asked.
+const MORE: Duration = Duration::from_millis(1200);
+/// Number of bytes that are kept of a stranger's words.
+const HEARD: usize = 256;
+/// Number of letters that are shown of them.
+const SHOWN: usize = 40;
+
+/// Outcome of a test.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub enum LinkFinding {
+    /// A unit of the make answered.
+    Reached {
+        /// Time from the first question to the first reply.
+        after: Duration,
+        /// All that the unit said.
+        state: Box<AntennaState>,
+    },
+    /// The link opened, and nothing came.
+    Silent,
+    /// The far end closed the link and said nothing.
+    Closed,
+    /// Something came that is no reply of the make.
+    SomethingElse {
+        /// The first printable characters, on one line.
+        text: String,
+    },
+    NotOpened(LinkFault),
+}
+
+/// Why a link could not be opened.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+pub enum LinkFault {
+    /// The host is there, and nothing listens on the port.
+    Refused,
+    /// The host does not answer.
+    NobodyThere,
+    NoSuchPort,
+    NotPermitted,
+    /// Another program uses the serial port.
+    Busy,
+    /// In the words of the operating system.
+    Other(String),
+}
+
+/// Asks the unit of `antenna` for two seconds at most, and sends nothing but questions.
+pub async fn test_link(antenna: &Antenna, outside: &Outside) -> LinkFinding {
+    // This side of a controller can neither start a motion nor write a setting by itself.
+    let mut device: Box<dyn Device> = antenna.controller();
+    let mut dial = (outside.dial)(antenna);
+    let connection = &antenna.connection;
+    let is_line = matches!(connection.spec().link, Link::Line { .. });
+    // The dial of a serial server guesses anew where the parity is made after a link on which
+    // nothing fitted.
+    let tries = if is_line && check_address(&connection.address).is_ok() { 2 } else { 1 };
+    let mut finding = LinkFinding::Silent;
+    for _ in 0..tries {
+        finding = match outside.clock.timeout(CONNECT, dial()).await {
+            Err(_) => LinkFinding::NotOpened(LinkFault::NobodyThere),
+            Ok(Err(error)) => LinkFinding::NotOpened(LinkFault::of(&error)),
+            Ok(Ok(stream)) => talk(device.as_mut(), stream, &outside.clock, ASKING / tries).await,
+        };
+        if !matches!(finding, LinkFinding::Silent | LinkFinding::SomethingElse { .. }) {
+            break;
+        }
+    }
+    finding
+}
+
+async fn talk(
+    device: &mut dyn Device,
+    stream: Box<dyn Stream>,
+    clock: &Clock,
+    longest: Duration,
+) -> LinkFinding {
+    let (mut reader, mut writer) = tokio::io::split(stream);
+    let (mut buffer, mut heard) = ([0; 1024], Vec::new());
+    let start = clock.now();
+    let mut until = start.steady + longest;
+    let (mut asked, mut replied) = (None, None);
+    let mut is_open = true;
+    device.link_up(start);
+    while is_open {
+        let now = clock.now();
+        if now.steady >= until {
+            break;
+        }
+        while let Some(bytes) = device.poll(now) {
+            let written = clock.timeout(WRITE, writer.write_all(&bytes)).await;
+            is_open &= matches!(written, Ok(Ok(())));
+            device.sent(&bytes, now);
+            asked = asked.or(Some(now.steady));
+        }
+        let due = device.due(now).max(now.steady + MIN_WAIT).min(until);
+        tokio::select! {
+            read = reader.read(&mut buffer) => {
+                let bytes = buffer.get(..read.unwrap_or(0)).unwrap_or_default();
+                is_open &= !bytes.is_empty();
+                heard.extend(bytes.iter().take(HEARD.saturating_sub(heard.len())));
+                let now = clock.now();
+                device.receive(bytes, now);
+                if replied.is_none() && device.state().traffic.replies > 0 {
+                    replied = Some(now.steady);
+                    until = until.min(now.steady + MORE);
+                }
+            }
+            () = clock.sleep_until(due) => {}
+        }
+        // Nobody reads the lines of this link.
+        while device.next_wire_line().is_some() {}
+    }
+    // The unit may have gone first.
+    let _ = clock.timeout(WRITE, writer.shutdown()).await;
+    device.link_down(clock.now());
+    match (asked, replied) {
+        (Some(asked), Some(replied)) => LinkFinding::Reached {
+            after: replied.saturating_duration_since(asked),
+            state: Box::new(device.state().clone()),
+        },
+        _ if !heard.is_empty() => LinkFinding::SomethingElse { text: printable(&heard) },
+        _ if is_open => LinkFinding::Silent,
+        _ => LinkFinding::Closed,
+    }
+}
+
+fn printable(bytes: &[u8]) -> String {
+    let text = String::from_utf8_lossy(bytes);
+    let is_shown = |letter: &char| letter.is_ascii_graphic() || *letter == ' ';
+    let first = text.split(['\r', '\n']).map(str::trim).find(|line| !line.is_empty());
+    first.unwrap_or_default().chars().filter(is_shown).take(SHOWN).collect()
+}
+
+impl LinkFault {
+    fn of(error: &io::Error) -> Self {
+        match error.kind() {
+            io::ErrorKind::ConnectionRefused => Self::Refused,
+            io::ErrorKind::TimedOut
+            | io::ErrorKind::HostUnreachable
+            | io::ErrorKind::NetworkUnreachable => Self::NobodyThere,
+            io::ErrorKind::NotFound => Self::NoSuchPort,
+            io::ErrorKind::PermissionDenied => Self::NotPermitted,
+            io::ErrorKind::ResourceBusy => Self::Busy,
+            _ => Self::Other(in_words(error)),
+        }
+    }
+}

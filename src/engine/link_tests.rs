@@ -1,0 +1,131 @@
+//! Tests of links to units that are not part of the station yet: each asks and hangs up.
+
+use std::sync::Arc;
+
+use jiff::Timestamp;
+use serde::{Deserialize, Serialize};
+
+use super::{
+    Engine,
+    claim::{Claim, HeldBy},
+    written,
+};
+use crate::{
+    driver::{LinkFault, LinkFinding, Outside, Unit, test_link},
+    job::{Job, Wake},
+    station::{Antenna, AntennaId},
+};
+
+/// Maximum number of tests that are kept.
+const KEPT: usize = 16;
+
+/// The last test of an antenna.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct LinkTest {
+    /// As it was tested.
+    #[serde(with = "written::antenna")]
+    pub antenna: Antenna,
+    pub stage: LinkTestStage,
+}
+
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub enum LinkTestStage {
+    Working,
+    /// Nothing was asked: an antenna of this station has the unit.
+    InUse,
+    /// Nothing was asked: another Azel has the unit.
+    Elsewhere(HeldBy),
+    Done {
+        finding: LinkFinding,
+        at: Timestamp,
+    },
+}
+
+/// Runs the tests, each on a thread of its own.
+pub(super) struct Runner {
+    outside: Outside,
+    wake: Wake,
+    under_way: Vec<(AntennaId, Option<Job<LinkFinding>>)>,
+}
+
+impl Runner {
+    pub(super) fn new(outside: Outside, wake: Wake) -> Self {
+        Self { outside, wake, under_way: Vec::new() }
+    }
+
+    /// Starts a test; `claim` keeps other programs off the unit until it ends.
+    fn begin(&mut self, antenna: &Antenna, claim: Option<Claim>) -> LinkTestStage {
+        let (of, outside) = (antenna.clone(), self.outside.clone());
+        let work = move |_: &(dyn Fn() -> bool + Sync)| {
+            let _claim = claim;
+            let runtime = tokio::runtime::Builder::new_current_thread().enable_all().build();
+            let Ok(runtime) = runtime else { return not_begun() };
+            let finding = runtime.block_on(test_link(&of, &outside));
+            // A port that does not open, or a name that is not found, holds up nothing.
+            runtime.shutdown_background();
+            finding
+        };
+        match Job::start("azel-link-test", Arc::clone(&self.wake), work) {
+            Ok(job) => {
+                self.under_way.push((antenna.id, Some(job)));
+                LinkTestStage::Working
+            }
+            Err(error) => {
+                tracing::error!(%error, "no thread for the test of a link");
+                LinkTestStage::Done { finding: not_begun(), at: self.outside.clock.utc() }
+            }
+        }
+    }
+
+    /// Takes the outcomes that have come in.
+    pub(super) fn poll(&mut self, shown: &mut [LinkTest]) {
+        let at = self.outside.clock.utc();
+        for (id, job) in &mut self.under_way {
+            let Some(end) = Job::take(job) else { continue };
+            let finding = end.unwrap_or_else(|broke_off| {
+                LinkFinding::NotOpened(LinkFault::Other(broke_off.to_string()))
+            });
+            if let Some(test) = shown.iter_mut().find(|test| test.antenna.id == *id) {
+                test.stage = LinkTestStage::Done { finding, at };
+            }
+        }
+        self.under_way.retain(|(_, job)| job.is_some());
+    }
+}
+
+fn not_begun() -> LinkFinding {
+    let text = "this computer is too busy for the test";
+    LinkFinding::NotOpened(LinkFault::Other(text.to_owned()))
+}
+
+impl Engine {
+    /// Tests the link of an antenna that the station need not have. One test of an antenna at a
+    /// time.
+    pub(super) fn test_link(&mut self, antenna: Antenna) {
+        let tests = &self.link_tests;
+        let place = tests.iter().position(|test| test.antenna.id == antenna.id);
+        let known = place.and_then(|place| tests.get(place));
+        if known.is_some_and(|known| known.stage == LinkTestStage::Working) {
+            return;
+        }
+        let unit = Unit::of(&antenna);
+        let is_ours = self
+            .antennas
+            .iter()
+            .any(|of| of.shown.held_by.is_none() && Unit::of(&of.shown.config) == unit);
+        let stage = if is_ours {
+            LinkTestStage::InUse
+        } else {
+            match self.claim_unit(&antenna) {
+                Ok(claim) => self.link_test_runner.begin(&antenna, claim),
+                Err(by) => LinkTestStage::Elsewhere(by),
+            }
+        };
+        if let Some(place) = place {
+            self.link_tests.remove(place);
+        } else if self.link_tests.len() >= KEPT {
+            self.link_tests.remove(0);
+        }
+        self.link_tests.push(LinkTest { antenna, stage });
+    }
+}
