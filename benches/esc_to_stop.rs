@@ -1,6 +1,6 @@
 //! Time from Esc pressed to `STOP=` on the wire, in the real window on a virtual screen.
 //! Needs Xvfb and xdotool. With the path of another build of the program in `AZEL_BESIDE`
-//! both are measured in turn.
+//! both are measured in turn. An argument chooses the rows whose name holds it.
 
 // A bench prints to its user, and may panic.
 #![allow(clippy::print_stdout, clippy::unwrap_used, clippy::expect_used, clippy::indexing_slicing)]
@@ -74,6 +74,9 @@ fn main() {
     let ours = ("this", env!("CARGO_BIN_EXE_azel").to_owned());
     let beside = env::var("AZEL_BESIDE").ok().map(|program| ("beside", program));
     let programs: Vec<(&str, String)> = std::iter::once(ours).chain(beside).collect();
+    // Cargo itself passes `--bench`.
+    let chosen = env::args().skip(1).find(|argument| !argument.starts_with('-'));
+    let chosen = chosen.unwrap_or_default();
     for (what, hz, stall, doing, presses) in [
         ("poll at 2 Hz", 2.0, Duration::ZERO, Doing::Nothing, 120),
         ("poll at 10 Hz", 10.0, Duration::ZERO, Doing::Nothing, 120),
@@ -81,6 +84,9 @@ fn main() {
         ("in a held jog", 10.0, Duration::ZERO, Doing::Jogging, 40),
         ("while the unit tracks", 10.0, Duration::ZERO, Doing::Tracking, 40),
     ] {
+        if !what.contains(&chosen) {
+            continue;
+        }
         // Each on a screen of its own, where it keeps the focus.
         let mut benches: Vec<(Running, Bench)> = programs
             .iter()
