@@ -3,6 +3,7 @@
 mod input;
 pub mod log;
 mod look;
+mod no_window;
 mod passes;
 #[cfg(unix)]
 mod remote;

@@ -9,7 +9,7 @@ use anyhow::{anyhow, bail};
 
 use crate::{
     app::App,
-    cli::{marks, this_program},
+    cli::{marks, no_window, this_program},
     clock::Clock,
     engine::{
         Settings,
@@ -19,6 +19,8 @@ use crate::{
 
 /// Minimum size of the window, in points.
 const SMALLEST: [f32; 2] = [1024.0, 640.0];
+/// Part of the panic of the window toolkit without a library.
+const NO_LIBRARY: &str = "could not be loaded";
 
 pub(super) fn run(station: Option<PathBuf>) -> anyhow::Result<()> {
     if cfg!(target_os = "linux") && !has_display() {
@@ -46,7 +48,12 @@ pub(super) fn run(station: Option<PathBuf>) -> anyhow::Result<()> {
     // A missing system library makes the window toolkit panic instead of returning an error.
     // The operator needs a sentence, not a back-trace.
     let hook = panic::take_hook();
-    panic::set_hook(Box::new(|panic| tracing::error!("{panic}")));
+    panic::set_hook(Box::new(|panic| {
+        // That one becomes a sentence.
+        if !panic.payload_as_str().is_some_and(|why| why.contains(NO_LIBRARY)) {
+            tracing::error!("{panic}");
+        }
+    }));
     let outcome = panic::catch_unwind(AssertUnwindSafe(|| {
         eframe::run_native(
             "Azel",
@@ -59,13 +66,16 @@ pub(super) fn run(station: Option<PathBuf>) -> anyhow::Result<()> {
     }));
     panic::set_hook(hook);
     match outcome {
-        Ok(result) => result.map_err(|error| anyhow!("The window could not be opened: {error}")),
+        Ok(result) => result.map_err(|error| anyhow!(no_window::reason(&error.to_string()))),
         Err(panic) => {
             let why = panic
                 .downcast_ref::<String>()
-                .map(String::as_str)
-                .or_else(|| panic.downcast_ref::<&str>().copied())
-                .unwrap_or("unknown reason");
+                .cloned()
+                .or_else(|| panic.downcast_ref::<&str>().map(|&text| text.to_owned()))
+                .unwrap_or_else(|| "unknown reason".to_owned());
+            if why.contains(NO_LIBRARY) {
+                bail!(no_window::reason(&why));
+            }
             bail!("The window broke down: {why}")
         }
     }
