@@ -92,6 +92,7 @@ impl App {
             demo: false,
             catalog: CatalogState::Loading,
             sources: Arc::default(),
+            older_sets: None,
             catalog_table: model::catalog_table::CatalogTable::default(),
             antennas: Vec::new(),
             wires: Vec::new(),

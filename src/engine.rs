@@ -17,6 +17,7 @@ pub mod host_keys;
 pub mod link_tests;
 mod lock_outs;
 pub mod notices;
+pub mod older_sets;
 pub mod on_board;
 mod owed;
 pub mod passes;
@@ -55,6 +56,7 @@ use self::{
     demo::Demo,
     handle::{AntennaEnds, Published, Request},
     link_tests::LinkTest,
+    older_sets::OlderSets,
     passes::{PassLists, Searches},
     reminders::Reminder,
     source_tests::SourceTests,
@@ -152,6 +154,8 @@ struct Engine {
     settings_path: Option<PathBuf>,
     places: Places,
     elements_job: Option<Job<Outcome>>,
+    older_sets: Option<Arc<OlderSets>>,
+    older_reading: older_sets::Reading,
     /// The last reading of the elements broke off.
     elements_broke_off: bool,
     copy_work: CopyWork,
@@ -226,7 +230,7 @@ impl Engine {
             .marking_in(settings.marks.clone());
         let places = Places::new(settings_path.as_deref(), settings.library.clone());
         let elements_job =
-            sources::start(&places, Task::default(), clock.utc(), Arc::clone(&wake))?;
+            sources::start(&places, Task::default(), None, clock.utc(), Arc::clone(&wake))?;
         let upload_places = settings.upload_places.clone().or_else(uploads::Places::of_this_user);
         let upload_runner =
             uploads::Runner::new(upload_places.clone(), clock.clone(), Arc::clone(&wake));
@@ -273,6 +277,8 @@ impl Engine {
             settings_path,
             places,
             elements_job: Some(elements_job),
+            older_sets: None,
+            older_reading: older_sets::Reading::default(),
             elements_broke_off: false,
             upload_runner,
             source_test_runner,
@@ -404,6 +410,7 @@ impl Engine {
             antennas: self.antennas.iter().map(|antenna| antenna.shown.clone()).collect(),
             pass_lists: self.pass_lists.clone(),
             reminders: shared(&self.reminders, &last.reminders),
+            older_sets: self.older_sets.clone(),
             uploads: shared(&self.uploads, &last.uploads),
             source_tests: shared(&self.source_tests, &last.source_tests),
             link_tests: shared(&self.link_tests, &last.link_tests),

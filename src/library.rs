@@ -7,6 +7,7 @@
 
 pub(crate) mod disk;
 mod fetch;
+mod history;
 mod index;
 mod list;
 mod unfinished;
@@ -22,6 +23,7 @@ use ureq::tls::{Certificate, RootCerts};
 
 pub use self::{
     fetch::Limits,
+    history::{History, OlderSet},
     index::IndexError,
     list::{SourceProblem, SourcesError, check_source, load_sources, save_sources},
 };

@@ -7,6 +7,7 @@ pub mod daylight;
 pub mod effects;
 pub mod globe;
 mod line;
+pub mod object_detail;
 mod theme_name;
 
 use std::{path::PathBuf, sync::Arc, time::Duration};
@@ -33,6 +34,7 @@ use crate::{
         closing::Closing,
         copies::Copies,
         link_tests::LinkTest,
+        older_sets::OlderSets,
         passes::{
             ListChoice, ListedSatellite, PassKey, PassLists, PredictedPass, Scope, UpcomingPasses,
             ahead,
@@ -92,6 +94,8 @@ pub struct Model {
     pub catalog: CatalogState,
     /// The sources of elements.
     pub sources: Arc<Sources>,
+    /// Older sets of the object that was asked for last.
+    pub older_sets: Option<Arc<OlderSets>>,
     /// The table of the catalog.
     pub catalog_table: CatalogTable,
     /// The antennas of the station.
@@ -224,6 +228,7 @@ impl Model {
         self.demo = shown.demo;
         self.catalog = shown.catalog.clone();
         self.sources = Arc::clone(&shown.sources);
+        self.older_sets.clone_from(&shown.older_sets);
         self.pass_lists = shown.pass_lists.clone();
         self.uploads = Arc::clone(&shown.uploads);
         self.source_tests = Arc::clone(&shown.source_tests);

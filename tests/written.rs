@@ -20,7 +20,7 @@ use azel::{
     orbit::{Elements, PassSearch, Propagator, Source, bundled, passes},
     plan::{OnBoardPass, ProgramTrack, Target},
     secret::Secret,
-    station::{Antenna, AntennaId, LockOut, Priority, Station},
+    station::{Antenna, AntennaId, Frequency, LockOut, Priority, Station},
     transfer::{FileName, Peer, TleFile},
 };
 use jiff::{Timestamp, ToSpan as _};
@@ -186,6 +186,11 @@ fn what_is_asked_of_a_station_comes_back() {
         Command::CancelSearch(Scope::All),
         Command::ResumeSearch(Scope::Favourites),
         Command::SetFavourites { numbers: vec![999_999_999], is_favourite: true },
+        Command::ListOlderSets(25_544),
+        Command::SetFrequencies {
+            satellite: 25_544,
+            frequencies: Frequency::read_list("25544 145.8 Voice").unwrap(),
+        },
         Command::SetPriority { numbers: vec![25_544], priority: Priority::default() },
         Command::AddSource(Source::celestrak("weather")),
         Command::RemoveSource("weather".to_owned()),

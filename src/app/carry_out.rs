@@ -71,6 +71,10 @@ impl App {
             }
             UiCommand::ShowEffects(question) => model.effects.ask(*question, model.steady),
             UiCommand::ShowCatalog(question) => model.catalog_table.asked = question,
+            UiCommand::InspectObject(number) => {
+                model.catalog_table.inspected = Some(number);
+                self.send(Command::ListOlderSets(number));
+            }
             UiCommand::ImportMask(path) => self.import_mask(path),
             UiCommand::ExportMask(mask) => self.export_mask(&mask),
             UiCommand::Station(command) => self.send(command),

@@ -10,6 +10,7 @@ use crate::{
     model::{
         View,
         catalog_table::{Answer, Inputs, NEXT_PASSES_STALE_S, NextKey, NextPasses, arrange},
+        object_detail::{DetailKey, ObjectDetail},
     },
 };
 
@@ -18,6 +19,7 @@ use crate::{
 pub(super) struct CatalogWork {
     rows: Option<(Inputs, Option<Job<Answer>>)>,
     next: Option<(NextKey, Option<Job<NextPasses>>)>,
+    detail: Option<(DetailKey, Option<Job<ObjectDetail>>)>,
 }
 
 impl App {
@@ -52,6 +54,18 @@ impl App {
             });
             work.next = Some((key, started(job)));
         }
+        let inspected = model.catalog_table.inspected.and_then(|number| catalog.get(number));
+        let Some(elements) = inspected else { return };
+        let key = DetailKey::new(elements, &model.station, model.older_sets.as_ref());
+        let detail = model.catalog_table.detail.as_ref();
+        let is_known = detail.is_some_and(|detail| detail.is_of(&key, model.now));
+        if !is_known && work.detail.as_ref().is_none_or(|(begun, _)| *begun != key) {
+            let (asked, now) = (key.clone(), model.now);
+            let job = Job::start("azel-object", Arc::clone(&self.wake), move |cancelled| {
+                ObjectDetail::new(asked, now, cancelled)
+            });
+            work.detail = Some((key, started(job)));
+        }
     }
 
     fn take_catalog(&mut self) {
@@ -68,6 +82,12 @@ impl App {
         {
             table.next = Some(Arc::new(next));
             work.next = None;
+        }
+        if let Some((_, job)) = &mut work.detail
+            && let Some(Ok(detail)) = Job::take(job)
+        {
+            table.detail = Some(detail);
+            work.detail = None;
         }
     }
 }

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use super::{
-    Command, Engine, Event, StationClaim,
+    CatalogState, Command, Engine, Event, StationClaim,
     alarms::AlarmKind,
     handle::Stopped,
     passes::{PassKey, PredictedPass},
@@ -12,7 +12,7 @@ use super::{
 };
 use crate::{
     driver,
-    station::{self, AntennaId, Favourites, Station},
+    station::{self, AntennaId, Station},
 };
 
 impl Engine {
@@ -53,16 +53,21 @@ impl Engine {
             }
             Command::CancelSearch(scope) => self.searches.of_mut(scope).cancel(),
             Command::ResumeSearch(scope) => self.searches.of_mut(scope).resume(),
-            Command::SetFavourites { numbers, is_favourite } => self.change_favourites(|list| {
+            Command::SetFavourites { numbers, is_favourite } => self.change_station(|station| {
                 for number in numbers {
-                    list.mark(number, is_favourite);
+                    station.favourites.mark(number, is_favourite);
                 }
             }),
-            Command::SetPriority { numbers, priority } => self.change_favourites(|list| {
+            Command::SetPriority { numbers, priority } => self.change_station(|station| {
                 for number in numbers {
-                    list.put(number, priority);
+                    station.favourites.put(number, priority);
                 }
             }),
+            Command::SetFrequencies { satellite, frequencies } => self.change_station(|station| {
+                station.frequencies.retain(|of| of.satellite != satellite);
+                station.frequencies.extend(frequencies);
+            }),
+            Command::ListOlderSets(number) => self.list_older_sets(number),
             Command::AddSource(source) => {
                 let ask = vec![source.name.clone()];
                 let mut list = self.sources.list.clone();
@@ -195,7 +200,11 @@ impl Engine {
             return;
         }
         let work = if task.ask.is_empty() { SourceWork::Reading } else { SourceWork::Asking };
-        match sources::start(&self.places, task, self.now, Arc::clone(&self.wake)) {
+        let in_use = match &self.catalog {
+            CatalogState::Ready(catalog) => Some(Arc::clone(catalog)),
+            CatalogState::Loading | CatalogState::Failed => None,
+        };
+        match sources::start(&self.places, task, in_use, self.now, Arc::clone(&self.wake)) {
             Ok(job) => {
                 self.elements_job = Some(job);
                 self.sources.work = work;
@@ -204,11 +213,11 @@ impl Engine {
         }
     }
 
-    /// Changes the favourites. The change lasts only as long as the program for the
+    /// Changes what the station knows of satellites. The change lasts only as long as the program for the
     /// demo station, and where the station file could not be read or another Azel holds it.
-    fn change_favourites(&mut self, change: impl FnOnce(&mut Favourites)) {
+    fn change_station(&mut self, change: impl FnOnce(&mut Station)) {
         let mut station = Station::clone(&self.station);
-        change(&mut station.favourites);
+        change(&mut station);
         if self.demo.is_none()
             && !self.settings_unread
             && !matches!(self.station_claim, StationClaim::Theirs(_))

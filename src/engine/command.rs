@@ -14,7 +14,7 @@ use super::{
 use crate::{
     driver,
     orbit::Source,
-    station::{Antenna, AntennaId, Priority, Station},
+    station::{Antenna, AntennaId, Frequency, Priority, Station},
 };
 
 /// A command of a client to a station. STOP is not one: it bypasses the queue of commands.
@@ -52,10 +52,18 @@ pub enum Command {
         numbers: Vec<u32>,
         priority: Priority,
     },
+    /// Give a satellite these frequencies in place of its own.
+    SetFrequencies {
+        /// Catalog number.
+        satellite: u32,
+        frequencies: Vec<Frequency>,
+    },
     /// Add a source of elements.
     AddSource(Source),
     /// Remove the source of elements with this name.
     RemoveSource(String),
+    /// Publish the older sets of the object with this catalog number.
+    ListOlderSets(u32),
     /// Read all sources anew, and ask the servers of some.
     RefreshSources {
         /// Names of the sources whose servers are asked, where they may be.

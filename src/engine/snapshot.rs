@@ -6,8 +6,8 @@ use serde::{Deserialize, Serialize};
 
 use super::{
     alarms::Alarms, antenna::AntennaModel, closing::Closing, copies::Copies, link_tests::LinkTest,
-    passes::PassLists, reminders::Reminder, source_tests::SourceTests, sources::Sources,
-    uploads::Uploads, written,
+    older_sets::OlderSets, passes::PassLists, reminders::Reminder, source_tests::SourceTests,
+    sources::Sources, uploads::Uploads, written,
 };
 use crate::{clock::Moment, driver::TimeSync, orbit::Catalog, station::Station};
 
@@ -39,6 +39,8 @@ pub struct Snapshot {
     /// Changes whenever the elements change.
     pub catalog_revision: u64,
     pub sources: Arc<Sources>,
+    /// Older sets of the object that was asked for last.
+    pub older_sets: Option<Arc<OlderSets>>,
     /// The antennas of the station, in its order.
     pub antennas: Vec<AntennaModel>,
     pub pass_lists: PassLists,
@@ -67,6 +69,7 @@ impl Snapshot {
             catalog: CatalogState::Loading,
             catalog_revision: 0,
             sources: Arc::default(),
+            older_sets: None,
             antennas: Vec::new(),
             pass_lists: PassLists::default(),
             reminders: Arc::default(),

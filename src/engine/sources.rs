@@ -1,7 +1,10 @@
 //! Sources of elements: the bundled ones and the operator's. They are read, saved and
 //! fetched on a thread of their own.
 
-use std::path::{Path, PathBuf};
+use std::{
+    path::{Path, PathBuf},
+    sync::Arc,
+};
 
 use jiff::Timestamp;
 use serde::{Deserialize, Serialize};
@@ -9,7 +12,7 @@ use serde::{Deserialize, Serialize};
 use crate::job::Job;
 use crate::{
     job::Wake,
-    library::{self, IndexError, Library, Limits, load_sources, save_sources},
+    library::{self, History, IndexError, Library, Limits, OlderSet, load_sources, save_sources},
     orbit::{Catalog, Source, SourceReport, bundled},
 };
 
@@ -86,15 +89,40 @@ pub(super) struct Outcome {
     pub(super) sources: Sources,
 }
 
-/// Starts `task` at `now`.
+/// Starts `task` at `now`. Sets of `in_use` that newer ones replace are kept.
 pub(super) fn start(
     places: &Places,
     task: Task,
+    in_use: Option<Arc<Catalog>>,
     now: Timestamp,
     wake: Wake,
 ) -> std::io::Result<Job<Outcome>> {
     let places = places.clone();
-    Job::start("azel-elements", wake, move |cancelled| carry_out(&places, &task, now, cancelled))
+    Job::start("azel-elements", wake, move |cancelled| {
+        let mut outcome = carry_out(&places, &task, now, cancelled);
+        keep_superseded(&places, &mut outcome.catalog, in_use.as_deref());
+        outcome
+    })
+}
+
+/// Keeps the sets that are not in use, and those of `before` that newer ones replaced, in the
+/// history of the library. A failure is logged: the elements in use are not concerned.
+fn keep_superseded(places: &Places, catalog: &mut Catalog, before: Option<&Catalog>) {
+    let Some(folder) = places.library.as_deref() else { return };
+    let merged = catalog.take_superseded().into_iter();
+    let mut sets: Vec<OlderSet> =
+        merged.map(|(elements, source)| OlderSet { elements, source }).collect();
+    for old in before.into_iter().flat_map(Catalog::iter) {
+        let number = old.catalog_number();
+        let is_replaced = catalog.get(number).is_some_and(|new| new.epoch() > old.epoch());
+        if is_replaced {
+            let source = before.and_then(|before| before.source_of(number)).unwrap_or_default();
+            sets.push(OlderSet { elements: old.clone(), source: source.to_owned() });
+        }
+    }
+    if let Err(error) = History::beside(folder).add(&sets) {
+        tracing::warn!(%error, "older sets are not kept");
+    }
 }
 
 fn carry_out(
@@ -220,6 +248,20 @@ mod tests {
         let gone = fixture.run(&Task { list: Some(Vec::new()), ..Task::default() });
         assert!(iss_epoch(&gone.catalog) < own_epoch());
         assert!(gone.sources.list.is_empty());
+    }
+
+    #[test]
+    fn a_set_that_is_replaced_is_kept() {
+        let fixture = Fixture::new();
+        let before = fixture.run(&Task::default()).catalog;
+        let list = Some(vec![fixture.newer_file()]);
+        let mut after = fixture.run(&Task { list, ..Task::default() }).catalog;
+        keep_superseded(&fixture.places, &mut after, Some(&before));
+        let history = History::beside(&fixture.folder.path().join("data"));
+        let older = history.of(ISS);
+        assert_eq!(older.len(), 1, "once, though both catalogs had it");
+        assert_eq!(older[0].source, crate::orbit::BUNDLED_SOURCE);
+        assert_eq!(older[0].elements.epoch(), iss_epoch(&before));
     }
 
     #[test]

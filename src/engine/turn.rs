@@ -28,6 +28,7 @@ impl Engine {
         self.watch_driver();
         self.watch_claims();
         self.take_catalog();
+        self.take_older_sets();
         self.take_copies();
         self.look_for_passes();
         for index in 0..self.antennas.len() {
@@ -107,6 +108,7 @@ impl Engine {
         }
         self.catalog = CatalogState::Ready(Arc::new(outcome.catalog));
         self.catalog_revision += 1;
+        self.read_older_sets();
         if matches!(self.demo, Some(DemoStation::Coming)) {
             self.start_demo();
         }

@@ -6,7 +6,7 @@ use std::{cmp::Ordering, collections::HashMap, sync::Arc};
 use jiff::Timestamp;
 use rayon::prelude::*;
 
-use super::globe::NextPass;
+use super::{globe::NextPass, object_detail::ObjectDetail};
 use crate::{
     astro::{
         Angle, Site,
@@ -107,6 +107,10 @@ pub struct CatalogTable {
     /// The last rows, kept until the next ones.
     pub answer: Option<Answer>,
     pub next: Option<Arc<NextPasses>>,
+    /// Catalog number of the object that is shown in detail.
+    pub inspected: Option<u32>,
+    /// The detail of an object, kept until the next one.
+    pub detail: Option<ObjectDetail>,
 }
 
 impl CatalogTable {

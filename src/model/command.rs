@@ -41,6 +41,8 @@ pub enum UiCommand {
     SaveLog(Vec<Arc<ConsoleLine>>),
     /// Show these objects in the table of the catalog.
     ShowCatalog(catalog_table::Question),
+    /// Show this object in detail in the Elements view.
+    InspectObject(u32),
     /// Work out the effects of keep-outs on the passes to come.
     ShowEffects(Box<effects::Question>),
     /// Read a horizon mask from this file into the form.

@@ -12,6 +12,8 @@ pub struct Catalog {
     /// By catalog number: a sorted list takes half the memory of a map.
     entries: Vec<Entry>,
     groups: Vec<Group>,
+    /// Sets that came and were not the newest, or are not any more.
+    superseded: Vec<Entry>,
 }
 
 /// The newest elements of an object, and the group whose source gave them.
@@ -73,21 +75,22 @@ impl Catalog {
         self.entries.reserve(report.elements.len());
         for elements in report.elements {
             let number = elements.catalog_number();
-            let mut entry = Entry { elements, group };
+            let entry = Entry { elements, group };
             members.push(number);
             let (sorted, _) = self.entries.split_at_mut(known);
             let place = sorted.binary_search_by_key(&number, Entry::number).ok();
             match place.and_then(|place| sorted.get_mut(place)) {
-                Some(held) => settle(held, &mut entry, &mut summary),
+                Some(held) => self.superseded.extend(settle(held, entry, &mut summary)),
                 None => self.entries.push(entry),
             }
         }
         // The sort is stable, so that sets of one object stay in the order of the text.
         self.entries.sort_by_key(Entry::number);
+        let superseded = &mut self.superseded;
         self.entries.dedup_by(|later, held| {
             let is_same = later.number() == held.number();
             if is_same {
-                settle(held, later, &mut summary);
+                superseded.extend(settle(held, later.clone(), &mut summary));
             }
             is_same
         });
@@ -180,6 +183,13 @@ impl Catalog {
         self.iter().take(places.end).skip(places.start)
     }
 
+    /// Takes the sets that were merged and are not in use, each with the name of its source.
+    pub fn take_superseded(&mut self) -> Vec<(Elements, String)> {
+        let sets = std::mem::take(&mut self.superseded);
+        let name = |group: u32| self.groups.get(group as usize).map(|group| group.name.clone());
+        sets.into_iter().map(|set| (set.elements, name(set.group).unwrap_or_default())).collect()
+    }
+
     pub fn len(&self) -> usize {
         self.entries.len()
     }
@@ -193,17 +203,20 @@ impl Catalog {
     }
 }
 
-/// Keeps the newer of two sets of one object in `held`.
-fn settle(held: &mut Entry, other: &mut Entry, summary: &mut MergeSummary) {
-    match other.elements.epoch().cmp(&held.elements.epoch()) {
+/// Keeps the newer of two sets of one object in `held`; returns the other, unless it is of the
+/// same epoch.
+fn settle(held: &mut Entry, mut other: Entry, summary: &mut MergeSummary) -> Option<Entry> {
+    let order = other.elements.epoch().cmp(&held.elements.epoch());
+    match order {
         Ordering::Greater => {
-            std::mem::swap(held, other);
+            std::mem::swap(held, &mut other);
             summary.updated += 1;
         }
         Ordering::Equal => summary.known += 1,
         Ordering::Less => summary.older += 1,
     }
     held.elements.take_name(&other.elements);
+    (order != Ordering::Equal).then_some(other)
 }
 
 fn search<'a>(
@@ -306,6 +319,13 @@ mod tests {
         );
         assert_eq!(of(8), None);
         assert_eq!(catalog.in_use(), [("weather", 2), ("own", 2)]);
+        let superseded = catalog.take_superseded();
+        let superseded: Vec<_> = superseded
+            .iter()
+            .map(|(elements, source)| (elements.catalog_number(), source.as_str()))
+            .collect();
+        assert_eq!(superseded, [(6, "weather"), (5, "own")], "not the one of the same epoch");
+        assert_eq!(catalog.take_superseded(), []);
     }
 
     #[test]

@@ -1,12 +1,12 @@
 //! Frequencies of satellites, for their Doppler shift.
 
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 use super::ranges;
 use crate::device::settings::{Unfit, number};
 
 /// A carrier of a satellite.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Frequency {
     /// Catalog number of the satellite.
     pub satellite: u32,

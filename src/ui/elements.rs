@@ -7,9 +7,13 @@ mod bulk;
 mod chips;
 mod columns;
 mod facts;
+mod frequencies;
+mod holds;
 mod inspector;
+mod next_passes;
 mod refused;
 mod selection;
+mod sets;
 mod sources;
 mod table;
 mod words;
@@ -45,6 +49,7 @@ pub struct ElementsState {
     refused_are_open: bool,
     inspector_is_open: bool,
     upload_is_open: bool,
+    frequencies: Option<frequencies::Edit>,
     /// Objects to be chosen for the upload.
     uploads: Option<Vec<u32>>,
 }
@@ -115,6 +120,9 @@ pub fn show(
     }
     if state.question != model.catalog_table.asked {
         commands.push(UiCommand::ShowCatalog(state.question.clone()));
+    }
+    if state.selection.row() != model.catalog_table.inspected {
+        commands.extend(state.selection.row().map(UiCommand::InspectObject));
     }
     if side == 0.0 {
         return None;

@@ -6,17 +6,20 @@ use std::{fs, path::PathBuf};
 
 use azel::{
     astro::time::add_seconds,
+    device::HeldSatellite,
     engine::{
         self, CatalogState,
+        older_sets::OlderSets,
         sources::{SourceWork, Sources},
     },
+    library::OlderSet,
     makes,
     model::{Model, UiCommand, View},
     orbit::{
         FetchProblem, FileReport, MergeSummary, Refusal, RefusalReason, Source, SourcePlace,
-        SourceReport,
+        SourceReport, read_elements, write_omm_json,
     },
-    station::{self, Priority},
+    station::{self, Frequency, Priority},
 };
 use egui::{Event, Key, Modifiers, Role};
 use egui_kittest::{
@@ -278,7 +281,9 @@ fn nothing_is_taken_while_servers_are_asked_or_the_list_is_unreadable() {
 /// The names of the rows in view.
 fn rows(window: &Window) -> Vec<String> {
     let rows = window.query_all_by_role(Role::ListBoxOption);
-    rows.map(|row| row.accesskit_node().label().unwrap_or_default()).collect()
+    let names = rows.map(|row| row.accesskit_node().label().unwrap_or_default());
+    // Not those of the passes of the selected object.
+    names.filter(|name| name.contains(", elements ")).collect()
 }
 
 #[test]
@@ -371,8 +376,8 @@ fn rows_are_marked_by_mouse_and_keys_and_changed_together() {
         let count = rows(&window).len();
         assert!(count >= 3);
         let at = |window: &Window, index: usize| {
-            let rows: Vec<_> = window.query_all_by_role(Role::ListBoxOption).collect();
-            rows[index].rect().center()
+            let name = rows(window)[index].clone();
+            window.get_by_role_and_label(Role::ListBoxOption, &name).rect().center()
         };
         let first = at(&window, 0);
         window.hover_at(first);
@@ -428,6 +433,131 @@ fn the_selected_row_is_shown_in_detail_with_its_priority() {
         let wanted = engine::Command::SetPriority { numbers, priority };
         assert_eq!(asked(&mut window), [UiCommand::Station(wanted)]);
     }
+}
+
+fn detail(window: &mut Window, size: [f32; 2]) {
+    if size == rig::SMALL {
+        click(window, "Details");
+    }
+}
+
+#[test]
+fn the_detail_says_what_each_antenna_holds() {
+    for size in SIZES {
+        let mut window = view(size, Vec::new());
+        detail(&mut window, size);
+        assert!(says(&window, "Satrak: Does not say what it holds."));
+        let hold = |window: &mut Window, number: u32, name: &str| {
+            let antenna = &mut window.state_mut().model.antennas[0];
+            Arc::make_mut(&mut antenna.snapshot).state.on_board.satellite = Some(HeldSatellite {
+                catalog_number: number,
+                name: name.to_owned(),
+                maximum_elevation_deg: None,
+            });
+            settle(window);
+        };
+        hold(&mut window, METEOR_M2_3, "METEOR-M2 3");
+        assert!(says(&window, "Satrak: Holds another satellite, METEOR-M2 3."));
+        hold(&mut window, NOAA_20, "NOAA 20");
+        assert!(says(&window, "Satrak: Holds this satellite; it does not tell the epoch"));
+        let model = &mut window.state_mut().model;
+        let mut genius = station::Antenna::genius("Genius", "192.168.1.250:9006");
+        genius.id = station::AntennaId(7);
+        model.antennas.push(rig::antenna(genius, rig::quiet()));
+        settle(&mut window);
+        assert!(says(&window, "Genius: Azel tracks with it, same set."));
+    }
+}
+
+#[test]
+fn the_detail_lists_the_next_passes_and_opens_one_on_the_sky_plot() {
+    for size in SIZES {
+        let mut window = view(size, Vec::new());
+        detail(&mut window, size);
+        assert!(says(&window, "Next passes, max ≥ 10°"));
+        let key = window.state().model.catalog_table.detail.as_ref().unwrap().passes[0].key();
+        let passes: Vec<_> = window.query_all_by_label_contains("Pass at ").collect();
+        assert_eq!(passes.len(), 3);
+        passes[0].scroll_to_me();
+        settle(&mut window);
+        let passes: Vec<_> = window.query_all_by_label_contains("Pass at ").collect();
+        passes[0].click();
+        let wanted = [UiCommand::SelectPass(key), UiCommand::Show(View::Operate)];
+        assert_eq!(asked(&mut window), wanted);
+    }
+}
+
+#[test]
+fn older_sets_stand_against_the_one_in_use() {
+    for size in SIZES {
+        let mut window = view(size, Vec::new());
+        detail(&mut window, size);
+        assert!(says(&window, "Sets held, against the one in use, at "));
+        let model = &mut window.state_mut().model;
+        let CatalogState::Ready(catalog) = &model.catalog else { unreachable!() };
+        let mut text = Vec::new();
+        write_omm_json([catalog.get(NOAA_20).unwrap()], &mut text).unwrap();
+        let mut list: serde_json::Value = serde_json::from_slice(&text).unwrap();
+        list[0]["EPOCH"] = "2026-08-10T02:04:00".into();
+        let elements = read_elements(&list.to_string()).elements.remove(0);
+        let sets = vec![OlderSet { elements, source: "weather".to_owned() }];
+        let older = OlderSets { catalog_number: NOAA_20, sets };
+        model.older_sets = Some(Arc::new(older));
+        settle(&mut window);
+        assert!(says(&window, "Set of 10 Aug 02:04 from weather: "));
+    }
+}
+
+#[test]
+fn frequencies_are_changed_beside_the_elements() {
+    let mut window = view([1440.0, 1200.0], Vec::new());
+    let own = Frequency::read_list("43013 7812 HRD").unwrap();
+    Arc::make_mut(&mut window.state_mut().model.station).frequencies = own;
+    settle(&mut window);
+    assert!(says(&window, "7812.000 MHz HRD"));
+    click(&mut window, "Edit frequencies");
+    let field = "Frequencies, one a line";
+    window.get_by_role_and_label(Role::MultilineTextInput, field).focus();
+    settle(&mut window);
+    window.key_press_modifiers(Modifiers::COMMAND, Key::A);
+    window.event(Event::Text("x".to_owned()));
+    settle(&mut window);
+    assert!(is_disabled(&window, "Save frequencies"));
+    assert!(says(&window, "Each line must be MHz and a name"));
+    window.key_press_modifiers(Modifiers::COMMAND, Key::A);
+    window.event(Event::Text("7812 HRD, X band".to_owned()));
+    settle(&mut window);
+    click(&mut window, "Save frequencies");
+    let frequencies = Frequency::read_list("43013 7812 HRD, X band").unwrap();
+    let wanted = engine::Command::SetFrequencies { satellite: NOAA_20, frequencies };
+    assert_eq!(asked(&mut window), [UiCommand::Station(wanted)]);
+    assert!(!says(&window, "Each line must be"));
+}
+
+#[test]
+fn the_elements_are_copied_as_tle_and_omm() {
+    for size in SIZES {
+        let mut window = view(size, Vec::new());
+        detail(&mut window, size);
+        for (button, start) in
+            [("TLE", "NOAA 20 (JPSS-1)\n1 43013U"), ("OMM", "[\n{\"OBJECT_NAME\"")]
+        {
+            window.get_by_role_and_label(Role::Button, button).click();
+            window.step();
+            let copied = copied(&window);
+            assert!(copied.starts_with(start), "{button}: {copied}");
+        }
+    }
+}
+
+/// The text that was copied in the last frame.
+fn copied(window: &Window) -> String {
+    let commands = &window.output().platform_output.commands;
+    let text = commands.iter().find_map(|command| match command {
+        egui::OutputCommand::CopyText(text) => Some(text.clone()),
+        _ => None,
+    });
+    text.unwrap_or_default()
 }
 
 #[test]
@@ -542,7 +672,8 @@ fn an_added_file_is_used_and_kept_for_the_next_start() {
     let mut window = open(&settings, clock_from(rig::now()));
     step_until(&mut window, "the newer elements again", is_used);
     let kept = std::fs::read_dir(folder.path().join("elements")).unwrap();
-    assert_eq!(kept.count(), 0, "no server was asked, and the reading came to its end");
+    let kept: Vec<_> = kept.map(|file| file.unwrap().file_name()).collect();
+    assert_eq!(kept, ["older-sets.gz"], "no server was asked, and the reading came to its end");
 }
 
 #[test]

@@ -23,6 +23,7 @@ use azel::{
         catalog_table::{Answer, CatalogTable, arrange},
         effects::Effects,
         globe::Globe,
+        object_detail::{DetailKey, ObjectDetail},
     },
     orbit::{Catalog, PassSearch, Propagator, bundled, passes},
     station::{Antenna, Station},
@@ -148,6 +149,7 @@ pub(crate) fn model(mut snapshot: Snapshot) -> Model {
         demo: false,
         catalog: CatalogState::Ready(Arc::clone(&orbits.catalog)),
         sources: Arc::default(),
+        older_sets: None,
         catalog_table: CatalogTable::default(),
         wires: antennas.iter().map(|_| WireLog::default()).collect(),
         antennas,
@@ -216,13 +218,28 @@ fn arrange_catalog(story: &mut Story) {
             model.catalog_table.asked = question.clone();
         }
     }
-    story.commands.retain(|command| !matches!(command, UiCommand::ShowCatalog(_)));
+    for command in &story.commands {
+        if let UiCommand::InspectObject(number) = command {
+            model.catalog_table.inspected = Some(*number);
+        }
+    }
+    let is_carried_out = |command: &UiCommand| {
+        matches!(command, UiCommand::ShowCatalog(_) | UiCommand::InspectObject(_))
+    };
+    story.commands.retain(|command| !is_carried_out(command));
     let CatalogState::Ready(catalog) = &model.catalog else { return };
     let inputs = model.catalog_table.inputs(catalog, &model.station.favourites);
     let is_arranged = |answer: &Answer| answer.inputs == inputs;
     if model.view == View::Elements && !model.catalog_table.answer.as_ref().is_some_and(is_arranged)
     {
         model.catalog_table.answer = Some(arrange(inputs, model.now));
+    }
+    let inspected = model.catalog_table.inspected.and_then(|number| catalog.get(number));
+    let Some(elements) = inspected.filter(|_| model.view == View::Elements) else { return };
+    let key = DetailKey::new(elements, &model.station, model.older_sets.as_ref());
+    let detail = model.catalog_table.detail.as_ref();
+    if !detail.is_some_and(|detail| detail.is_of(&key, model.now)) {
+        model.catalog_table.detail = Some(ObjectDetail::new(key, model.now, &|| false));
     }
 }
 

@@ -1,8 +1,10 @@
 //! The selected object in detail.
 
-use egui::{Align2, Rect, Role, ScrollArea, Sense, Ui, UiBuilder, pos2, vec2};
+use egui::{Align2, Frame, Margin, Rect, Role, ScrollArea, Sense, Ui, UiBuilder, pos2, vec2};
 
-use super::{ElementsState, PADDING, copy, facts, table, words::Form};
+use super::{
+    ElementsState, PADDING, copy, facts, frequencies, holds, next_passes, sets, table, words::Form,
+};
 use crate::{
     engine::{self, CatalogState},
     model::{Model, UiCommand},
@@ -58,14 +60,53 @@ pub(super) fn show(
         ui.set_clip_rect(body.intersect(ui.clip_rect()));
         ui.spacing_mut().item_spacing = vec2(0.0, 0.0);
         let area = ScrollArea::vertical().id_salt("element details").auto_shrink(false);
-        area.show(ui, |ui| parts(ui, body.width(), model, elements, catalog));
+        area.show(ui, |ui| {
+            let object = Object { model, elements, catalog, can_mark };
+            object.parts(ui, body.width(), state, commands);
+        });
     });
     show_foot(ui, foot, model, elements, can_mark, state, commands);
 }
 
-fn parts(ui: &mut Ui, width: f32, model: &Model, elements: &Elements, catalog: &Catalog) {
-    let (place, _) = ui.allocate_exact_size(vec2(width, facts::HEIGHT), Sense::hover());
-    facts::show(ui, place, model, elements, catalog);
+/// The object that is shown.
+struct Object<'a> {
+    model: &'a Model,
+    elements: &'a Elements,
+    catalog: &'a Catalog,
+    can_mark: bool,
+}
+
+impl Object<'_> {
+    fn parts(
+        &self,
+        ui: &mut Ui,
+        width: f32,
+        state: &mut ElementsState,
+        commands: &mut Vec<UiCommand>,
+    ) {
+        let Self { model, elements, catalog, can_mark } = *self;
+        let number = elements.catalog_number();
+        let place = |ui: &mut Ui, height: f32| {
+            let (rect, _) = ui.allocate_exact_size(vec2(width, height), Sense::hover());
+            rect
+        };
+        let part = place(ui, facts::HEIGHT);
+        facts::show(ui, part, model, elements, catalog);
+        let part = place(ui, holds::height(model));
+        holds::show(ui, part, model, elements);
+        let detail = sets::detail(model, number);
+        let part = place(ui, sets::height(detail));
+        sets::show(ui, part, model, elements, catalog, detail);
+        let passes = detail.map(|detail| detail.passes.as_slice());
+        let part = place(ui, next_passes::height(passes));
+        next_passes::show(ui, part, model, passes, commands);
+        let t = theme::tokens(ui);
+        ui.painter().hline(part.x_range(), part.bottom() - 0.5, (1.0, t.line));
+        Frame::new().inner_margin(Margin::symmetric(PADDING as i8, 8)).show(ui, |ui| {
+            ui.set_width(width - 2.0 * PADDING);
+            frequencies::show(ui, model, number, can_mark, state, commands);
+        });
+    }
 }
 
 /// Star, name, number and designator at the left, the countdown at the right.

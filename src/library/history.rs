@@ -1,0 +1,196 @@
+//! Older sets of elements of each object, in one compressed file of the library.
+//!
+//! A line holds one set: catalog number, epoch in microseconds, and the set with the name of its
+//! source as JSON. A line that cannot be read costs itself alone.
+
+use std::{
+    collections::BTreeMap,
+    fs, io,
+    io::{Read as _, Write as _},
+    path::{Path, PathBuf},
+};
+
+use flate2::{Compression, read::GzDecoder, write::GzEncoder};
+use serde::{Deserialize, Serialize};
+
+use crate::{orbit::Elements, whole_file};
+
+/// Name of the file in the folder of the library.
+const NAME: &str = "older-sets.gz";
+/// Sets that are kept of each object, besides the one in use.
+const MOST: usize = 4;
+/// A file that unpacks to more is not one of ours.
+const MAX_UNPACKED: u64 = 1 << 28;
+
+/// A set of elements that is not in use any more.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct OlderSet {
+    pub elements: Elements,
+    /// Name of the source that gave it.
+    pub source: String,
+}
+
+/// The older sets on disk.
+#[derive(Debug)]
+pub struct History {
+    path: PathBuf,
+}
+
+/// The lines of one object with their epochs, the newest first.
+type Lines = Vec<(i64, String)>;
+
+impl History {
+    /// The history of the library in `folder`, which need not exist yet.
+    pub fn beside(folder: &Path) -> Self {
+        Self { path: folder.join(NAME) }
+    }
+
+    /// The older sets of an object, the newest first.
+    pub fn of(&self, catalog_number: u32) -> Vec<OlderSet> {
+        let text = self.text();
+        let lines = text.lines().filter_map(parts);
+        let own = lines.filter(|(number, ..)| *number == catalog_number);
+        let mut sets: Vec<OlderSet> =
+            own.filter_map(|(_, _, set)| serde_json::from_str(set).ok()).collect();
+        sets.sort_by_key(|set| std::cmp::Reverse(set.elements.epoch()));
+        sets
+    }
+
+    /// Adds sets. Of each object the newest are kept.
+    pub fn add(&self, sets: &[OlderSet]) -> io::Result<()> {
+        if sets.is_empty() {
+            return Ok(());
+        }
+        let mut known: BTreeMap<u32, Lines> = BTreeMap::new();
+        for (number, epoch, set) in self.text().lines().filter_map(parts) {
+            known.entry(number).or_default().push((epoch, set.to_owned()));
+        }
+        let mut is_changed = false;
+        for set in sets {
+            let lines = known.entry(set.elements.catalog_number()).or_default();
+            let epoch = set.elements.epoch().as_microsecond();
+            let is_too_old = lines.len() >= MOST && lines.iter().all(|(other, _)| *other > epoch);
+            if is_too_old || lines.iter().any(|(other, _)| *other == epoch) {
+                continue;
+            }
+            lines.push((epoch, serde_json::to_string(set)?));
+            lines.sort_by_key(|(epoch, _)| std::cmp::Reverse(*epoch));
+            lines.truncate(MOST);
+            is_changed = true;
+        }
+        if is_changed { self.save(&known) } else { Ok(()) }
+    }
+
+    fn save(&self, known: &BTreeMap<u32, Lines>) -> io::Result<()> {
+        let mut packed = GzEncoder::new(Vec::new(), Compression::fast());
+        for (number, lines) in known {
+            for (epoch, set) in lines {
+                writeln!(packed, "{number} {epoch} {set}")?;
+            }
+        }
+        whole_file::replace_and_keep_old(&self.path, &packed.finish()?)
+    }
+
+    /// The text of the file, or of the one before it where this one is damaged; what was read
+    /// of a damaged one where there is no other.
+    fn text(&self) -> String {
+        let read = read(&self.path);
+        match read {
+            Ok(text) => text,
+            Err(Damage { error, start }) => {
+                if error.kind() != io::ErrorKind::NotFound {
+                    let path = self.path.display();
+                    tracing::warn!(%error, %path, "the older sets are damaged");
+                }
+                read_old(&self.path).unwrap_or(start)
+            }
+        }
+    }
+}
+
+/// Why a file could not be read to its end.
+struct Damage {
+    error: io::Error,
+    /// What was read before.
+    start: String,
+}
+
+fn read(path: &Path) -> Result<String, Damage> {
+    let mut bytes = Vec::new();
+    let file = fs::File::open(path).map_err(|error| Damage { error, start: String::new() })?;
+    let unpacked = GzDecoder::new(file).take(MAX_UNPACKED).read_to_end(&mut bytes);
+    let text = String::from_utf8_lossy(&bytes).into_owned();
+    match unpacked {
+        Ok(_) => Ok(text),
+        Err(error) => Err(Damage { error, start: text }),
+    }
+}
+
+fn read_old(path: &Path) -> Option<String> {
+    read(&whole_file::old(path)).ok()
+}
+
+fn parts(line: &str) -> Option<(u32, i64, &str)> {
+    let (number, rest) = line.split_once(' ')?;
+    let (epoch, set) = rest.split_once(' ')?;
+    Some((number.parse().ok()?, epoch.parse().ok()?, set))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::orbit::{bundled, read_elements, write_omm_json};
+
+    const ISS: u32 = 25_544;
+
+    /// The ISS with an epoch of this day of August 2026.
+    fn set(day: u32, source: &str) -> OlderSet {
+        let bundled = bundled().unwrap();
+        let mut text = Vec::new();
+        write_omm_json([bundled.get(ISS).unwrap()], &mut text).unwrap();
+        let mut list: serde_json::Value = serde_json::from_slice(&text).unwrap();
+        list[0]["EPOCH"] = format!("2026-08-{day:02}T10:00:00.000000").into();
+        let elements = read_elements(&list.to_string()).elements.remove(0);
+        OlderSet { elements, source: source.to_owned() }
+    }
+
+    fn days(history: &History) -> Vec<i8> {
+        let day = |set: &OlderSet| set.elements.epoch().to_zoned(jiff::tz::TimeZone::UTC).day();
+        history.of(ISS).iter().map(day).collect()
+    }
+
+    #[test]
+    fn the_newest_sets_of_an_object_are_kept_once() {
+        let folder = tempfile::tempdir().unwrap();
+        let history = History::beside(&folder.path().join("deep"));
+        assert_eq!(history.of(ISS), []);
+        history.add(&[set(3, "weather"), set(1, "own"), set(3, "other")]).unwrap();
+        assert_eq!(history.of(ISS), [set(3, "weather"), set(1, "own")]);
+        assert_eq!(history.of(43_013), []);
+        history.add(&[set(2, "own"), set(4, "own"), set(5, "own"), set(1, "own")]).unwrap();
+        assert_eq!(days(&history), [5, 4, 3, 2]);
+        let written = fs::metadata(folder.path().join("deep").join(NAME)).unwrap();
+        history.add(&[set(1, "own"), set(5, "own")]).unwrap();
+        let again = fs::metadata(folder.path().join("deep").join(NAME)).unwrap();
+        assert_eq!(written.modified().unwrap(), again.modified().unwrap(), "nothing was new");
+    }
+
+    #[test]
+    fn a_damaged_file_gives_way_to_the_one_before_it_and_a_bad_line_costs_itself() {
+        let folder = tempfile::tempdir().unwrap();
+        let history = History::beside(folder.path());
+        history.add(&[set(1, "own")]).unwrap();
+        history.add(&[set(2, "own")]).unwrap();
+        let path = folder.path().join(NAME);
+        fs::write(&path, "no gzip").unwrap();
+        assert_eq!(days(&history), [1]);
+        history.add(&[set(3, "own")]).unwrap();
+        assert_eq!(days(&history), [3, 1]);
+
+        let mut packed = GzEncoder::new(Vec::new(), Compression::fast());
+        let good = serde_json::to_string(&set(7, "own")).unwrap();
+        writeln!(packed, "x\n{ISS} 5 {{}}\n{ISS}\n{ISS} 7 {good}").unwrap();
+        fs::write(&path, packed.finish().unwrap()).unwrap();
+        assert_eq!(days(&history), [7]);
+    }
+}

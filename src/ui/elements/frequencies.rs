@@ -1,0 +1,85 @@
+//! The frequencies of the selected object, which can be changed here.
+
+use egui::{RichText, Role, TextEdit, Ui, WidgetInfo};
+
+use super::ElementsState;
+use crate::{
+    engine,
+    model::{Model, UiCommand},
+    station::Frequency,
+    ui::{
+        format,
+        text::{self, Weight},
+        theme,
+    },
+};
+
+/// An edit of the frequencies of an object.
+pub(super) struct Edit {
+    number: u32,
+    text: String,
+}
+
+/// Shows the frequencies. `can_change`: the station's settings may change now.
+pub(super) fn show(
+    ui: &mut Ui,
+    model: &Model,
+    number: u32,
+    can_change: bool,
+    state: &mut ElementsState,
+    commands: &mut Vec<UiCommand>,
+) {
+    let t = theme::tokens(ui);
+    ui.spacing_mut().item_spacing.y = 4.0;
+    let own = || model.station.frequencies.iter().filter(|of| of.satellite == number);
+    let title = RichText::new("Frequencies").font(text::sized(13.0, Weight::SemiBold));
+    ui.label(title.color(t.t1));
+    let Some(edit) = state.frequencies.as_mut().filter(|edit| edit.number == number) else {
+        for of in own() {
+            let words = format!("{} MHz {}", format::number(of.mhz, 3), of.name);
+            ui.label(RichText::new(words.trim()).font(text::small()).color(t.t1));
+        }
+        if own().next().is_none() {
+            let words = "None: no Doppler shift is shown.";
+            ui.label(RichText::new(words).font(text::small()).color(t.t2));
+        }
+        if can_change && ui.button("Edit frequencies").clicked() {
+            let lines: Vec<String> =
+                own().map(|of| format!("{} {}", of.mhz, of.name).trim_end().to_owned()).collect();
+            state.frequencies = Some(Edit { number, text: lines.join("\n") });
+        }
+        return;
+    };
+    let field = TextEdit::multiline(&mut edit.text)
+        .id_salt("frequencies of the object")
+        .hint_text("MHz and a name, one a line")
+        .desired_rows(3)
+        .desired_width(ui.available_width());
+    let response = ui.add(field);
+    response.widget_info(|| {
+        WidgetInfo::labeled(Role::MultilineTextInput, true, "Frequencies, one a line")
+    });
+    let lines = edit.text.lines().filter(|line| !line.trim().is_empty());
+    let list: Vec<String> = lines.map(|line| format!("{number} {line}")).collect();
+    let read = Frequency::read_list(&list.join("\n"));
+    let mut is_over = false;
+    ui.horizontal(|ui| {
+        let save = egui::Button::new("Save frequencies");
+        if ui.add_enabled(read.is_ok() && can_change, save).clicked()
+            && let Ok(frequencies) = &read
+        {
+            let frequencies = frequencies.clone();
+            let command = engine::Command::SetFrequencies { satellite: number, frequencies };
+            commands.push(UiCommand::Station(command));
+            is_over = true;
+        }
+        is_over |= ui.button("Cancel").clicked();
+    });
+    if read.is_err() {
+        let words = "Each line must be MHz and a name, such as 145.8 Voice.";
+        ui.label(RichText::new(words).font(text::small()).color(t.warn));
+    }
+    if is_over {
+        state.frequencies = None;
+    }
+}

@@ -1,0 +1,121 @@
+//! The sets of the selected object that are held, each against the one in use.
+
+use egui::{Align2, Color32, Rect, Ui, pos2, vec2};
+use jiff::{Timestamp, tz::TimeZone};
+
+use super::PADDING;
+use crate::{
+    model::{
+        Model,
+        object_detail::{ObjectDetail, SetShift},
+    },
+    orbit::{Catalog, Elements},
+    ui::{
+        format,
+        icons::{self, Icon},
+        text::{self, Weight},
+        theme,
+        widgets::paint,
+    },
+};
+
+const TITLE: f32 = 30.0;
+const HEAD: f32 = 18.0;
+const LINE: f32 = 18.0;
+
+/// The detail of the object, as far as it is worked out.
+pub(super) fn detail(model: &Model, number: u32) -> Option<&ObjectDetail> {
+    let detail = model.catalog_table.detail.as_ref();
+    detail.filter(|of| of.key.elements.catalog_number() == number)
+}
+
+pub(super) fn height(detail: Option<&ObjectDetail>) -> f32 {
+    let older = detail.map_or(0, |detail| detail.sets.len());
+    TITLE + HEAD + (older + 1) as f32 * LINE + 8.0
+}
+
+pub(super) fn show(
+    ui: &Ui,
+    rect: Rect,
+    model: &Model,
+    elements: &Elements,
+    catalog: &Catalog,
+    detail: Option<&ObjectDetail>,
+) {
+    let t = theme::tokens(ui);
+    let inner = rect.shrink2(vec2(PADDING, 0.0));
+    let title = inner.with_max_y(inner.top() + TITLE);
+    let font = text::sized(13.0, Weight::SemiBold);
+    paint::text_in(ui, title, Align2::LEFT_CENTER, "Sets held", font, t.t1);
+    let pass = detail.and_then(|detail| detail.passes.first());
+    let against = pass.map_or_else(
+        || "no pass to compare at".to_owned(),
+        |of| format!("against the one in use, at {}", format::moment(of.pass.tca.time, model.now)),
+    );
+    let room = title.with_min_x(title.left() + 80.0);
+    paint::text_in(ui, room, Align2::RIGHT_CENTER, &against, text::caption(), t.t2);
+    paint::name_text(ui, "sets held", title, &format!("Sets held, {against}"));
+    let line = |index: f32| {
+        let min = pos2(inner.left(), title.bottom() + index);
+        Rect::from_min_size(min, vec2(inner.width(), LINE))
+    };
+    let head = line(0.0);
+    cells(ui, head, ["Epoch", "From", "Time s", "Angle °"], [t.t3; 4]);
+    let from = catalog.source_of(elements.catalog_number()).unwrap_or_default();
+    let first = line(HEAD);
+    cells(ui, first, [&epoch(elements.epoch()), from, "", "in use"], [t.t1, t.t2, t.t1, t.ok]);
+    let at = pos2(first.right() - paint::text_width(ui, "in use", text::small()) - 10.0, 0.0);
+    let at = pos2(at.x, first.center().y);
+    icons::paint(ui.painter(), paint::square(at, 11.0), Icon::Check, t.ok);
+    let half_beam_deg = model.antenna().map(|antenna| antenna.config.beam_width_deg / 2.0);
+    for (index, set) in detail.map(|of| of.sets.as_slice()).unwrap_or_default().iter().enumerate() {
+        let row = line(HEAD + (index + 1) as f32 * LINE);
+        one(ui, row, index, set, half_beam_deg);
+    }
+    ui.painter().hline(rect.x_range(), rect.bottom() - 0.5, (1.0, t.line));
+}
+
+fn one(ui: &Ui, row: Rect, index: usize, set: &SetShift, half_beam_deg: Option<f64>) {
+    let t = theme::tokens(ui);
+    let is_outside = set
+        .off
+        .zip(half_beam_deg)
+        .is_some_and(|(off, half_beam_deg)| off.degrees() > half_beam_deg);
+    let time = set.late_s.map_or_else(|| "–".to_owned(), |late_s| format::signed(late_s, 2));
+    let angle = set.off.map_or_else(|| "–".to_owned(), |off| format::number(off.degrees(), 2));
+    let colour = if is_outside { t.bad } else { t.t1 };
+    let when = epoch(set.epoch);
+    cells(ui, row, [&when, &set.source, &time, &angle], [t.t1, t.t2, t.t1, colour]);
+    let beam = if is_outside { ", outside the beam" } else { "" };
+    let shift = match (set.late_s, set.off) {
+        (Some(late_s), Some(off)) => {
+            let way = if late_s < 0.0 { "early" } else { "late" };
+            let (time, angle) =
+                (format::number(late_s.abs(), 2), format::degrees(off.degrees(), 2));
+            format!("{time} s {way}, {angle}{beam}")
+        }
+        (None, Some(off)) => {
+            format!("no such pass, {}{beam}", format::degrees(off.degrees(), 2))
+        }
+        (_, None) => "not to be compared".to_owned(),
+    };
+    let words = format!("Set of {when} from {}: {shift}", set.source);
+    paint::name_text(ui, ("older set", index), row, &words).on_hover_text(&words);
+}
+
+fn epoch(at: Timestamp) -> String {
+    at.to_zoned(TimeZone::UTC).strftime("%-d %b %H:%M").to_string()
+}
+
+fn cells(ui: &Ui, row: Rect, words: [&str; 4], colours: [Color32; 4]) {
+    let right = row.right();
+    let places = [
+        (row.with_max_x(row.left() + 92.0), Align2::LEFT_CENTER),
+        (row.with_min_x(row.left() + 98.0).with_max_x(right - 112.0), Align2::LEFT_CENTER),
+        (row.with_min_x(right - 112.0).with_max_x(right - 56.0), Align2::RIGHT_CENTER),
+        (row.with_min_x(right - 56.0), Align2::RIGHT_CENTER),
+    ];
+    for (((place, anchor), words), colour) in places.into_iter().zip(words).zip(colours) {
+        paint::text_in(ui, place, anchor, words, text::small(), colour);
+    }
+}
