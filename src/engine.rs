@@ -154,6 +154,8 @@ struct Engine {
     settings_path: Option<PathBuf>,
     places: Places,
     elements_job: Option<Job<Outcome>>,
+    /// When servers were last asked without a client.
+    refreshed_at: Option<Timestamp>,
     older_sets: Option<Arc<OlderSets>>,
     older_reading: older_sets::Reading,
     /// The last reading of the elements broke off.
@@ -277,6 +279,7 @@ impl Engine {
             settings_path,
             places,
             elements_job: Some(elements_job),
+            refreshed_at: None,
             older_sets: None,
             older_reading: older_sets::Reading::default(),
             elements_broke_off: false,

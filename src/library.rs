@@ -48,6 +48,14 @@ pub(crate) fn element_files(folder: &Path) -> io::Result<Vec<PathBuf>> {
     disk::files(folder, &ENDINGS)
 }
 
+/// The server of a source, for sources that have one.
+pub fn server_of(source: &Source) -> Option<String> {
+    match &source.place {
+        SourcePlace::Web(url) => Some(host(url)),
+        SourcePlace::File(_) | SourcePlace::Folder(_) => None,
+    }
+}
+
 /// Library of elements on disk.
 #[derive(Debug)]
 pub struct Library {
@@ -109,6 +117,7 @@ impl Library {
             && let Some(record) = self.index.get(url)
         {
             report.fetch_problem.clone_from(&record.problem);
+            report.failures = record.failures;
             report.next_fetch = record.attempted_at.checked_add(FETCH_PAUSE).ok();
             report.as_of = record.confirmed_at;
         }
@@ -195,7 +204,9 @@ impl Library {
             if is_silent {
                 silent_hosts.push(host);
             }
-            self.index.entry(url, &source.name, now).problem = problem;
+            let record = self.index.entry(url, &source.name, now);
+            record.failures = if problem.is_some() { record.failures.saturating_add(1) } else { 0 };
+            record.problem = problem;
             self.index.save(&self.folder)?;
         }
         Ok(renewed)
@@ -244,6 +255,7 @@ fn no_report(source: &Source) -> SourceReport {
         as_of: None,
         newest_epoch: None,
         fetch_problem: None,
+        failures: 0,
         next_fetch: None,
         is_set_aside: false,
     }

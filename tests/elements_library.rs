@@ -21,7 +21,7 @@ const LIMITS: Limits = Limits { timeout: Duration::from_secs(20), bytes: 8 << 20
 const HOUR: SignedDuration = SignedDuration::from_hours(1);
 
 /// Answer of the server to one connection.
-enum Reply {
+pub(crate) enum Reply {
     /// Status, additional header lines, body.
     Whole(u16, String, Vec<u8>),
     /// A body shorter than the length in its header.
@@ -30,7 +30,7 @@ enum Reply {
     Silence,
 }
 
-fn ok(headers: &str, body: &str) -> Reply {
+pub(crate) fn ok(headers: &str, body: &str) -> Reply {
     Reply::Whole(200, headers.to_owned(), body.as_bytes().to_vec())
 }
 
@@ -39,13 +39,13 @@ fn status(status: u16) -> Reply {
 }
 
 /// A server that gives its replies in order and records the requests.
-struct Server {
+pub(crate) struct Server {
     address: SocketAddr,
     requests: Arc<Mutex<Vec<String>>>,
 }
 
 impl Server {
-    fn new(replies: Vec<Reply>) -> Self {
+    pub(crate) fn new(replies: Vec<Reply>) -> Self {
         let listener = TcpListener::bind("127.0.0.1:0").unwrap();
         let address = listener.local_addr().unwrap();
         let requests = Arc::new(Mutex::new(Vec::new()));
@@ -81,14 +81,15 @@ impl Server {
         Self { address, requests }
     }
 
-    fn source(&self, name: &str) -> Source {
+    pub(crate) fn source(&self, name: &str) -> Source {
         Source {
             name: name.to_owned(),
             place: SourcePlace::Web(format!("http://{}/{name}", self.address)),
+            refresh: None,
         }
     }
 
-    fn requests(&self) -> Vec<String> {
+    pub(crate) fn requests(&self) -> Vec<String> {
         self.requests.lock().unwrap().clone()
     }
 }
@@ -221,7 +222,11 @@ fn whatever_goes_wrong_leaves_what_was_held() {
     }
     // An address where nobody listens any more.
     let gone = TcpListener::bind("127.0.0.1:0").unwrap().local_addr().unwrap();
-    let source = Source { name: "gone".into(), place: SourcePlace::Web(format!("http://{gone}/")) };
+    let source = Source {
+        name: "gone".into(),
+        place: SourcePlace::Web(format!("http://{gone}/")),
+        refresh: None,
+    };
     let (_, report) = refresh(folder.path(), &source, start(), false, LIMITS);
     assert!(matches!(report.fetch_problem, Some(FetchProblem::Unreachable(_))));
 }
@@ -246,7 +251,7 @@ fn files_folders_and_servers_make_one_catalog() {
     fs::write(path("sets/a.txt"), object(6, 11) + "\n[{}]").unwrap();
     fs::write(path("sets/notes.md"), "[{}]").unwrap();
     fs::create_dir(path("sets/c.tle")).unwrap();
-    let source = |name: &str, place| Source { name: name.to_owned(), place };
+    let source = |name: &str, place| Source { name: name.to_owned(), place, refresh: None };
     let sources = [
         source("own", SourcePlace::File(path("own.json"))),
         source("sets", SourcePlace::Folder(path("sets"))),

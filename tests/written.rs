@@ -17,7 +17,7 @@ use azel::{
         uploads::{Ask, Cargo, Order},
     },
     makes,
-    orbit::{Elements, PassSearch, Propagator, Source, bundled, passes},
+    orbit::{Elements, PassSearch, Propagator, RefreshHours, Source, bundled, passes},
     plan::{OnBoardPass, ProgramTrack, Target},
     secret::Secret,
     station::{Antenna, AntennaId, Frequency, LockOut, Priority, Station},
@@ -187,6 +187,7 @@ fn what_is_asked_of_a_station_comes_back() {
         Command::ResumeSearch(Scope::Favourites),
         Command::SetFavourites { numbers: vec![999_999_999], is_favourite: true },
         Command::ListOlderSets(25_544),
+        Command::SetRefresh { name: "active".to_owned(), hours: Some(RefreshHours::from(6)) },
         Command::SetFrequencies {
             satellite: 25_544,
             frequencies: Frequency::read_list("25544 145.8 Voice").unwrap(),

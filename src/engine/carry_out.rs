@@ -10,10 +10,17 @@ use super::{
     sources::{self, SourceWork, Task},
     uploads,
 };
+use jiff::Timestamp;
+
 use crate::{
+    astro::time::seconds_between,
     driver,
     station::{self, AntennaId, Station},
 };
+
+/// Least time between two rounds of requests that nobody asked for, whatever became of the
+/// first.
+const REFRESH_PAUSE_S: f64 = 600.0;
 
 impl Engine {
     pub(super) fn carry_out(&mut self, command: Command) {
@@ -67,6 +74,13 @@ impl Engine {
                 station.frequencies.retain(|of| of.satellite != satellite);
                 station.frequencies.extend(frequencies);
             }),
+            Command::SetRefresh { name, hours } => {
+                let mut list = self.sources.list.clone();
+                for source in list.iter_mut().filter(|source| source.name == name) {
+                    source.refresh = hours;
+                }
+                self.begin_elements(Task { list: Some(list), ..Task::default() });
+            }
             Command::ListOlderSets(number) => self.list_older_sets(number),
             Command::AddSource(source) => {
                 let ask = vec![source.name.clone()];
@@ -192,6 +206,23 @@ impl Engine {
     /// A listed pass that is not over.
     pub(super) fn pass(&self, key: PassKey) -> Option<&PredictedPass> {
         self.pass_lists.find(key).filter(|predicted| predicted.pass.los.time > self.now)
+    }
+
+    /// Asks the servers that are set to be asked without a client and are due. A server is left
+    /// alone while anything is read or asked.
+    pub(super) fn refresh_by_itself(&mut self) {
+        if self.elements_job.is_some() || self.sources.is_locked {
+            return;
+        }
+        let is_soon = |at: Timestamp| seconds_between(at, self.now).abs() < REFRESH_PAUSE_S;
+        if self.refreshed_at.is_some_and(is_soon) {
+            return;
+        }
+        let due = self.sources.due_by_themselves(self.now);
+        if !due.is_empty() {
+            self.refreshed_at = Some(self.now);
+            self.begin_elements(Task { ask: due, ..Task::default() });
+        }
     }
 
     /// Starts reading the elements. One job at a time: two would write the same files.

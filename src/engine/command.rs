@@ -13,7 +13,7 @@ use super::{
 };
 use crate::{
     driver,
-    orbit::Source,
+    orbit::{RefreshHours, Source},
     station::{Antenna, AntennaId, Frequency, Priority, Station},
 };
 
@@ -62,6 +62,11 @@ pub enum Command {
     AddSource(Source),
     /// Remove the source of elements with this name.
     RemoveSource(String),
+    /// Ask the server of the source with this name so often without a client; `None` for never.
+    SetRefresh {
+        name: String,
+        hours: Option<RefreshHours>,
+    },
     /// Publish the older sets of the object with this catalog number.
     ListOlderSets(u32),
     /// Read all sources anew, and ask the servers of some.

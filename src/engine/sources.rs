@@ -47,6 +47,26 @@ impl Sources {
     }
 }
 
+impl Sources {
+    /// Names of the sources whose servers are to be asked at `now` without a client.
+    pub(super) fn due_by_themselves(&self, now: Timestamp) -> Vec<String> {
+        let sources = self.list.iter().zip(&self.reports);
+        let is_pausing = |report: &SourceReport| report.next_fetch.is_some_and(|next| next > now);
+        // A server that has just failed is not asked for its other sources either.
+        let failed: Vec<String> = sources
+            .clone()
+            .filter(|(_, report)| report.failures > 0 && is_pausing(report))
+            .filter_map(|(source, _)| library::server_of(source))
+            .collect();
+        let is_due = |(source, report): &(&Source, &SourceReport)| {
+            let has_failed = library::server_of(source).is_some_and(|host| failed.contains(&host));
+            let next = source.next_by_itself(Some(report));
+            !is_pausing(report) && !has_failed && next.is_some_and(|next| next <= now)
+        };
+        sources.filter(is_due).map(|(source, _)| source.name.clone()).collect()
+    }
+}
+
 /// Paths of the list and the library; `None` on a machine without a home.
 #[derive(Debug, Clone)]
 pub(super) struct Places {
@@ -181,7 +201,7 @@ mod tests {
     use std::fs;
 
     use super::*;
-    use crate::orbit::{SourcePlace, write_omm_json};
+    use crate::orbit::{RefreshHours, SourcePlace, write_omm_json};
 
     const ISS: u32 = 25_544;
 
@@ -221,7 +241,7 @@ mod tests {
             list[0]["EPOCH"] = "2026-08-12T10:00:00.000000".into();
             let path = self.folder.path().join("own.json");
             fs::write(&path, list.to_string()).unwrap();
-            Source { name: "own".to_owned(), place: SourcePlace::File(path) }
+            Source { name: "own".to_owned(), place: SourcePlace::File(path), refresh: None }
         }
     }
 
@@ -265,11 +285,31 @@ mod tests {
     }
 
     #[test]
+    fn a_server_that_failed_is_not_asked_by_itself_for_its_other_sources() {
+        let now: Timestamp = "2026-08-12T12:00:00Z".parse().unwrap();
+        let refresh = Some(RefreshHours::from(2));
+        let list =
+            ["active", "weather"].map(|group| Source { refresh, ..Source::celestrak(group) });
+        let library = Library::open(Path::new("/no/such"), Limits::default()).unwrap();
+        let (_, reports) = library.load(&list);
+        let mut sources = Sources { list: list.to_vec(), reports, ..Sources::default() };
+        assert_eq!(sources.due_by_themselves(now), ["active", "weather"]);
+        sources.reports[0].failures = 1;
+        sources.reports[0].next_fetch = now.checked_add(jiff::SignedDuration::from_hours(1)).ok();
+        assert_eq!(sources.due_by_themselves(now), [""; 0]);
+        sources.reports[0].failures = 0;
+        assert_eq!(sources.due_by_themselves(now), ["weather"]);
+        sources.list[1].refresh = None;
+        assert_eq!(sources.due_by_themselves(now), [""; 0]);
+    }
+
+    #[test]
     fn a_source_that_is_not_there_says_so_and_costs_only_itself() {
         let fixture = Fixture::new();
         let missing = Source {
             name: "missing".to_owned(),
             place: SourcePlace::File("/no/such/file.tle".into()),
+            refresh: None,
         };
         let list = Some(vec![missing, fixture.newer_file()]);
         let outcome = fixture.run(&Task { list, ..Task::default() });

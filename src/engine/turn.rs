@@ -28,6 +28,7 @@ impl Engine {
         self.watch_driver();
         self.watch_claims();
         self.take_catalog();
+        self.refresh_by_itself();
         self.take_older_sets();
         self.take_copies();
         self.look_for_passes();

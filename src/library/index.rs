@@ -38,6 +38,9 @@ pub(super) struct Record {
     pub(super) etag: Option<String>,
     /// Date of the content as the server wrote it.
     pub(super) last_modified: Option<String>,
+    /// Requests in a row that brought nothing but a problem.
+    #[serde(default)]
+    pub(super) failures: u32,
     /// Reason why the last request brought nothing.
     pub(super) problem: Option<FetchProblem>,
 }
@@ -115,6 +118,7 @@ impl Index {
             confirmed_at: None,
             etag: None,
             last_modified: None,
+            failures: 0,
             problem: None,
         })
     }

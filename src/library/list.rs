@@ -117,7 +117,7 @@ mod tests {
     use super::*;
 
     fn source(name: &str, place: SourcePlace) -> Source {
-        Source { name: name.to_owned(), place }
+        Source { name: name.to_owned(), place, refresh: None }
     }
 
     #[test]

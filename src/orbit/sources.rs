@@ -18,6 +18,27 @@ pub struct Source {
     pub name: String,
     #[serde(flatten)]
     pub place: SourcePlace,
+    /// How often a server is asked without the operator; `None` for never.
+    #[serde(default, rename = "refresh_hours", skip_serializing_if = "Option::is_none")]
+    pub refresh: Option<RefreshHours>,
+}
+
+/// Hours between two requests to a server that nobody asks for: 2 to 168.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(from = "u32", into = "u32")]
+pub struct RefreshHours(u32);
+
+impl From<u32> for RefreshHours {
+    /// Fewer hours would be impolite, more would be as good as never.
+    fn from(hours: u32) -> Self {
+        Self(hours.clamp(2, 168))
+    }
+}
+
+impl From<RefreshHours> for u32 {
+    fn from(hours: RefreshHours) -> Self {
+        hours.0
+    }
 }
 
 /// The place of a source.
@@ -37,8 +58,32 @@ impl Source {
     /// was cataloged after July 2026.
     pub fn celestrak(group: &str) -> Self {
         let url = format!("https://celestrak.org/NORAD/elements/gp.php?GROUP={group}&FORMAT=json");
-        Self { name: group.to_owned(), place: SourcePlace::Web(url) }
+        Self { name: group.to_owned(), place: SourcePlace::Web(url), refresh: None }
     }
+
+    /// When the server of this source is asked the next time without the operator; `None` where
+    /// it is not. A failure doubles the time, four times at most. A part of up to a tenth keeps
+    /// many consoles from asking at once.
+    pub fn next_by_itself(&self, report: Option<&SourceReport>) -> Option<Timestamp> {
+        let hours = self.refresh.filter(|_| matches!(self.place, SourcePlace::Web(_)))?;
+        let report = report.filter(|report| !report.is_set_aside)?;
+        let Some(last) = report.next_fetch.and_then(|next| next.checked_sub(FETCH_PAUSE).ok())
+        else {
+            return Some(Timestamp::UNIX_EPOCH);
+        };
+        let interval_s = f64::from(hours.0) * 3600.0 * f64::from(1_u32 << report.failures.min(4));
+        let spread = f64::from(spread(&self.name, last)) / f64::from(u16::MAX);
+        Some(time::add_seconds(last, interval_s * (1.0 + 0.1 * spread)))
+    }
+}
+
+/// A number that differs from source to source and from request to request.
+fn spread(name: &str, last: Timestamp) -> u16 {
+    let bytes = name.bytes().chain(last.as_microsecond().to_le_bytes());
+    let mixed = bytes.fold(0xcbf2_9ce4_8422_2325_u64, |hash, byte| {
+        (hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3)
+    });
+    (mixed >> 32) as u16
 }
 
 /// Returns `true` if a server that was last asked at `last_attempt` may be asked at `now`, whatever
@@ -93,6 +138,8 @@ pub struct SourceReport {
     pub newest_epoch: Option<Timestamp>,
     /// The reason why the last request brought no new elements.
     pub fetch_problem: Option<FetchProblem>,
+    /// Requests in a row that brought nothing but a problem.
+    pub failures: u32,
     /// When the server may be asked again without force, if the source is a server.
     pub next_fetch: Option<Timestamp>,
     /// The source was not read, because the program ended while reading it the last time.
@@ -142,15 +189,54 @@ mod tests {
     }
 
     #[test]
+    fn a_source_refreshes_by_itself_only_when_set_and_waits_longer_after_failures() {
+        let at = |text: &str| -> Timestamp { text.parse().unwrap() };
+        let report = |failures| SourceReport {
+            source: "active".to_owned(),
+            files: Vec::new(),
+            as_of: None,
+            newest_epoch: None,
+            fetch_problem: None,
+            failures,
+            // Asked at 12:00.
+            next_fetch: Some(at("2026-08-12T14:00:00Z")),
+            is_set_aside: false,
+        };
+        let off = Source::celestrak("active");
+        assert_eq!(off.next_by_itself(Some(&report(0))), None);
+        let source = Source { refresh: Some(RefreshHours::from(1)), ..off };
+        let after_h = |failures| {
+            let next = source.next_by_itself(Some(&report(failures))).unwrap();
+            time::seconds_between(at("2026-08-12T12:00:00Z"), next) / 3600.0
+        };
+        for (failures, least) in [(0, 2.0), (1, 4.0), (2, 8.0), (4, 32.0), (9, 32.0)] {
+            assert!((least..=1.1 * least).contains(&after_h(failures)), "{}", after_h(failures));
+        }
+        assert!(after_h(0) > 2.0, "not all consoles at once");
+        let never = SourceReport { next_fetch: None, ..report(0) };
+        assert_eq!(source.next_by_itself(Some(&never)), Some(Timestamp::UNIX_EPOCH));
+        let aside = SourceReport { is_set_aside: true, ..report(0) };
+        assert_eq!(source.next_by_itself(Some(&aside)), None);
+        let file = Source { place: SourcePlace::File("own.tle".into()), ..source.clone() };
+        assert_eq!(file.next_by_itself(Some(&report(0))), None);
+    }
+
+    #[test]
     fn sources_are_kept_in_settings() {
         #[derive(Debug, PartialEq, Serialize, Deserialize)]
         struct Settings {
             source: Vec<Source>,
         }
-        let file = Source { name: "Own".to_owned(), place: SourcePlace::File("own.tle".into()) };
-        let settings = Settings { source: vec![Source::celestrak("active"), file] };
+        let file = Source {
+            name: "Own".to_owned(),
+            place: SourcePlace::File("own.tle".into()),
+            refresh: None,
+        };
+        let active = Source { refresh: Some(RefreshHours::from(6)), ..Source::celestrak("active") };
+        let settings = Settings { source: vec![active, file] };
         let text = toml::to_string(&settings).unwrap();
         assert!(text.contains("web = \"https://celestrak.org/"), "{text}");
+        assert!(text.contains("refresh_hours = 6"), "{text}");
         assert_eq!(toml::from_str::<Settings>(&text).unwrap(), settings);
     }
 }

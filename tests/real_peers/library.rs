@@ -23,7 +23,8 @@ fn objects(
 ) -> Result<usize, FetchProblem> {
     let folder = tempfile::tempdir().unwrap();
     let url = format!("https://localhost:{}/{FILE}", server.port);
-    let sources = [Source { name: "Weather".to_owned(), place: SourcePlace::Web(url) }];
+    let sources =
+        [Source { name: "Weather".to_owned(), place: SourcePlace::Web(url), refresh: None }];
     let mut library = Library::open(folder.path(), LIMITS).unwrap();
     if let Some(authority) = trusted {
         library = library.trusting_only(&[authority]);

@@ -12,12 +12,12 @@ use azel::{
         older_sets::OlderSets,
         sources::{SourceWork, Sources},
     },
-    library::OlderSet,
+    library::{OlderSet, save_sources},
     makes,
     model::{Model, UiCommand, View},
     orbit::{
-        FetchProblem, FileReport, MergeSummary, Refusal, RefusalReason, Source, SourcePlace,
-        SourceReport, read_elements, write_omm_json,
+        FetchProblem, FileReport, MergeSummary, RefreshHours, Refusal, RefusalReason, Source,
+        SourcePlace, SourceReport, read_elements, write_omm_json,
     },
     station::{self, Frequency, Priority},
 };
@@ -27,6 +27,7 @@ use egui_kittest::{
     kittest::{NodeT as _, Queryable as _},
 };
 
+use crate::elements_library::{Server, ok};
 use crate::window_stories::{
     rig::{self, NOAA_20, SIZES, Window, asked, says, settle},
     states,
@@ -37,7 +38,11 @@ const HOUR_S: f64 = 3600.0;
 const METEOR_M2_3: u32 = 57_166;
 
 fn file_source() -> Source {
-    Source { name: "own".to_owned(), place: SourcePlace::File("/var/elements/own.tle".into()) }
+    Source {
+        name: "own".to_owned(),
+        place: SourcePlace::File("/var/elements/own.tle".into()),
+        refresh: None,
+    }
 }
 
 /// Report of a source with this number of objects.
@@ -50,6 +55,7 @@ fn report(source: &Source, objects: usize) -> SourceReport {
         as_of: Some(add_seconds(rig::now(), -3.0 * HOUR_S)),
         newest_epoch: Some(add_seconds(rig::now(), -20.0 * HOUR_S)),
         fetch_problem: None,
+        failures: 0,
         next_fetch: None,
         is_set_aside: false,
     }
@@ -179,6 +185,23 @@ fn a_server_is_asked_at_once_when_it_may_be_and_else_after_a_question() {
         let mut window = view(size, vec![server(3.0), (file_source(), report(&file_source(), 1))]);
         click(&mut window, "Refresh 1 due");
         assert_eq!(asked(&mut window), [refresh(&["weather"], false)], "never forced for all");
+    }
+}
+
+#[test]
+fn a_server_is_set_to_be_asked_by_itself() {
+    for size in SIZES {
+        let mut window = view(size, vec![server(1.0)]);
+        let name = "Refresh of weather: Only when you ask";
+        window.get_by_role_and_label(Role::ComboBox, name).click();
+        settle(&mut window);
+        window.get_by_label("Every 6 h").click();
+        let hours = Some(RefreshHours::from(6));
+        let wanted = engine::Command::SetRefresh { name: "weather".to_owned(), hours };
+        assert_eq!(asked(&mut window), [UiCommand::Station(wanted)]);
+        Arc::make_mut(&mut window.state_mut().model.sources).list[0].refresh = hours;
+        settle(&mut window);
+        window.get_by_role_and_label(Role::ComboBox, "Refresh of weather: Every 6 h");
     }
 }
 
@@ -674,6 +697,29 @@ fn an_added_file_is_used_and_kept_for_the_next_start() {
     let kept = std::fs::read_dir(folder.path().join("elements")).unwrap();
     let kept: Vec<_> = kept.map(|file| file.unwrap().file_name()).collect();
     assert_eq!(kept, ["older-sets.gz"], "no server was asked, and the reading came to its end");
+}
+
+#[test]
+fn a_server_that_is_set_to_be_asked_is_asked_without_the_operator_and_once() {
+    let folder = tempfile::tempdir().unwrap();
+    let settings = folder.path().join("station.toml");
+    let unit = Unit::start(rig::now());
+    station::save(&unit.station(), &settings).unwrap();
+    let text = fs::read_to_string(newer_elements(&folder)).unwrap();
+    let server = Server::new(vec![ok("", &text), ok("", &text)]);
+    let left_alone = server.source("alone");
+    let asked = Source { refresh: Some(RefreshHours::from(6)), ..server.source("asked") };
+    save_sources(&[left_alone, asked], &folder.path().join("sources.toml")).unwrap();
+    let mut window = open(&settings, clock_from(rig::now()));
+    step_until(&mut window, "the newer elements", |model| {
+        epoch_of_noaa_20(model) == "2026-08-14T00:00:00Z".parse().ok()
+    });
+    step_until(&mut window, "the end of the work", |model| {
+        let sources = &model.sources;
+        sources.work == SourceWork::Nothing && sources.reports[1].next_fetch.is_some()
+    });
+    let requests = server.requests();
+    assert!(requests.len() == 1 && requests[0].contains("/asked"), "{requests:?}");
 }
 
 #[test]

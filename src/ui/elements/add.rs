@@ -44,7 +44,7 @@ impl AddState {
             Kind::File => SourcePlace::File(PathBuf::from(place)),
             Kind::Folder => SourcePlace::Folder(PathBuf::from(place)),
         };
-        Source { name: self.name.trim().to_owned(), place }
+        Source { name: self.name.trim().to_owned(), place, refresh: None }
     }
 
     /// Clears the form once the source is in the list.

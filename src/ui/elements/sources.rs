@@ -1,13 +1,16 @@
 //! The sources of elements, a row each.
 
-use egui::{Align2, Color32, Rect, Role, ScrollArea, Sense, Ui, UiBuilder, pos2, vec2};
+use egui::{
+    Align2, Color32, Popup, Rect, Role, ScrollArea, Sense, Stroke, StrokeKind, Ui, UiBuilder, pos2,
+    vec2,
+};
 
 use super::{ElementsState, PADDING, words};
 use crate::{
     astro::time::seconds_between,
     engine::{self, CatalogState},
     model::{Model, UiCommand},
-    orbit::{BUNDLED_SOURCE, Source, SourcePlace, SourceReport},
+    orbit::{BUNDLED_SOURCE, RefreshHours, Source, SourcePlace, SourceReport},
     ui::{
         confirm::Question,
         format,
@@ -21,6 +24,8 @@ use crate::{
 const BAR: f32 = 32.0;
 const HEAD: f32 = 22.0;
 const ROW: f32 = 25.0;
+/// Offered times between two requests that nobody asks for, hours.
+const REFRESH_HOURS: [u32; 5] = [2, 4, 6, 12, 24];
 /// More rows scroll.
 const MOST_ROWS: usize = 7;
 /// Below this height of the view the sources are folded unless opened.
@@ -253,6 +258,9 @@ impl Row<'_> {
                 None => commands.push(command),
             }
         }
+        if matches!(self.source.place, SourcePlace::Web(_)) && is_free {
+            self.refresh(ui, commands);
+        }
         let place = at(REMOVE, 20.0);
         let spoken = format!("Remove {name}");
         let response = paint::control(ui, ("remove", name), place, Role::Button, is_free, &spoken);
@@ -267,6 +275,34 @@ impl Row<'_> {
                 command: UiCommand::Station(engine::Command::RemoveSource(name.clone())),
             });
         }
+    }
+}
+
+impl Row<'_> {
+    /// A click on when the server is asked next offers to ask it regularly.
+    fn refresh(&self, ui: &Ui, commands: &mut Vec<UiCommand>) {
+        let Source { name, refresh, .. } = self.source;
+        let place = between(self.place, NEXT - 4.0, ASK - 4.0).shrink2(vec2(0.0, 2.0));
+        let spoken = format!("Refresh of {name}: {}", words::refresh(*refresh));
+        let response = paint::control(ui, ("refresh", name), place, Role::ComboBox, true, &spoken);
+        let t = theme::tokens(ui);
+        if response.hovered() {
+            let stroke = Stroke::new(1.0, t.edge);
+            ui.painter().rect_stroke(place, 4, stroke, StrokeKind::Inside);
+        }
+        let at = pos2(place.right() - 8.0, place.center().y);
+        icons::paint(ui.painter(), paint::square(at, 10.0), Icon::ChevronDown, t.t2);
+        paint::focus_ring(ui, &response, 4);
+        Popup::menu(&response).accessible_name(&spoken).show(|ui| {
+            let hours = REFRESH_HOURS.map(|hours| Some(RefreshHours::from(hours)));
+            for hours in [None].into_iter().chain(hours) {
+                let choice = egui::Button::selectable(hours == *refresh, words::refresh(hours));
+                if ui.add(choice).clicked() && hours != *refresh {
+                    let command = engine::Command::SetRefresh { name: name.clone(), hours };
+                    commands.push(UiCommand::Station(command));
+                }
+            }
+        });
     }
 }
 

@@ -8,7 +8,7 @@ use crate::{
     astro::time::{DAY_S, seconds_between},
     model::catalog_table::{Among, NEXT_PASSES_H, Question},
     orbit::{
-        Elements, FETCH_PAUSE, Heights, Source, SourcePlace, SourceReport, tle_lines,
+        Elements, FETCH_PAUSE, Heights, RefreshHours, Source, SourcePlace, SourceReport, tle_lines,
         write_omm_json,
     },
     station::Priority,
@@ -285,9 +285,21 @@ pub(super) fn next(source: &Source, report: Option<&SourceReport>, now: Timestam
         return "when you read it".to_owned();
     }
     match report.and_then(|report| report.next_fetch) {
+        _ if source.refresh.is_some() => match source.next_by_itself(report) {
+            Some(next) if next > now => format!("by itself {}", until_minute(next, now)),
+            _ => "by itself, now".to_owned(),
+        },
         None => "due".to_owned(),
         Some(next) if next <= now => format!("due since {}", until_minute(next, now)),
         Some(next) => format!("from {}", until_minute(next, now)),
+    }
+}
+
+/// How often a server is asked without the operator.
+pub(super) fn refresh(hours: Option<RefreshHours>) -> String {
+    match hours {
+        None => "Only when you ask".to_owned(),
+        Some(hours) => format!("Every {} h", u32::from(hours)),
     }
 }
 

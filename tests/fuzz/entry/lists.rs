@@ -53,10 +53,11 @@ fn library(folder: &Path) {
     let own = folder.join("own.tle");
     fs::write(&own, "").expect("a place on the disk");
     let sources = [
-        Source { name: "own".to_owned(), place: SourcePlace::File(own) },
+        Source { name: "own".to_owned(), place: SourcePlace::File(own), refresh: None },
         Source {
             name: "web".to_owned(),
             place: SourcePlace::Web("https://a.example/x".to_owned()),
+            refresh: None,
         },
     ];
     if let Ok(library) = Library::open(folder, Limits::default()) {
