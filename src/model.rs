@@ -67,6 +67,8 @@ pub enum View {
     Map,
     /// The station's settings.
     Preferences,
+    /// The set-up of a station, during the demonstration.
+    Setup,
 }
 
 /// Outcome of reading or writing a file with a horizon mask.
@@ -225,7 +227,7 @@ impl Model {
         let renewed = self.pass_lists.favourites.revision != shown.pass_lists.favourites.revision;
         self.time_sync = shown.time_sync;
         self.station = Arc::clone(&shown.station);
-        self.demo = shown.demo;
+        self.take_demo(shown.demo);
         self.catalog = shown.catalog.clone();
         self.sources = Arc::clone(&shown.sources);
         self.older_sets.clone_from(&shown.older_sets);
@@ -248,6 +250,21 @@ impl Model {
         if renewed && self.selected_pass().is_none() {
             self.selected = self.next_pass().map(PredictedPass::key);
         }
+    }
+
+    /// The set-up opens by itself where there is no station, and closes with the demonstration;
+    /// then the next pass over the new site is selected.
+    fn take_demo(&mut self, is_demo: bool) {
+        if is_demo && !self.demo {
+            self.view = View::Setup;
+        }
+        if self.demo && !is_demo {
+            self.selected = None;
+            if self.view == View::Setup {
+                self.view = View::Operate;
+            }
+        }
+        self.demo = is_demo;
     }
 
     /// Raises the alarm that the station has published nothing new for `stood`; `None` clears it.

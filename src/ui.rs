@@ -22,6 +22,7 @@ pub mod profile;
 pub mod rail;
 pub mod reminder_note;
 mod second_step;
+pub mod setup;
 pub mod sky_plot;
 pub mod source_test;
 pub mod state_sentence;

@@ -40,6 +40,8 @@ mod settings_forms;
 mod settings_rig;
 mod settings_service;
 mod settings_unit;
+mod setup;
+mod setup_real;
 mod shown_as_it_is;
 mod source_tests;
 mod states;

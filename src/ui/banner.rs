@@ -24,13 +24,22 @@ pub const LOW_HEIGHT: f32 = 28.0;
 pub fn show(ui: &mut Ui, rect: Rect, model: &Model, commands: &mut Vec<UiCommand>) {
     let t = theme::tokens(ui);
     ui.painter().rect_filled(rect, 0.0, t.warnbg);
-    let button = Button::quiet("Set up your station");
+    let (word, view) = match model.view {
+        View::Setup => ("Stay in the demo", View::Operate),
+        _ => ("Set up your station", View::Setup),
+    };
+    let button = Button::quiet(word);
     let width = button.width(ui);
     let place = Rect::from_min_max(
         egui::pos2(rect.right() - width - 8.0, rect.center().y - SMALL_HEIGHT / 2.0),
         egui::pos2(rect.right() - 8.0, rect.center().y + SMALL_HEIGHT / 2.0),
     );
     let words = match &model.catalog {
+        _ if model.view == View::Setup => {
+            "Demo station: the antennas are simulated, no metal moves. It goes on while you set \
+             up yours."
+                .to_owned()
+        }
         CatalogState::Loading => "Demo station: the elements are being read.".to_owned(),
         CatalogState::Failed => "Demo station without elements: they could not be read.".to_owned(),
         // The age is shown above the plot as well.
@@ -54,6 +63,6 @@ pub fn show(ui: &mut Ui, rect: Rect, model: &Model, commands: &mut Vec<UiCommand
     paint::text_in(ui, room, Align2::LEFT_CENTER, &words, text::body(), t.warn);
     paint::name_text(ui, "demo banner", room, &words);
     if button.show(ui, "set up", place).clicked() {
-        commands.push(UiCommand::Show(View::Preferences));
+        commands.push(UiCommand::Show(view));
     }
 }

@@ -56,6 +56,7 @@ pub fn show(ui: &mut Ui, rect: Rect, model: &Model, commands: &mut Vec<UiCommand
     let left_out = left_out_of_stop(model);
     let bar = TopBarModel {
         station: &model.station.name,
+        demo: model.demo,
         coordinates: &coordinates,
         clock: ClockModel {
             utc: &utc,

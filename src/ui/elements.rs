@@ -20,6 +20,10 @@ mod words;
 
 use egui::{Rect, Ui};
 
+pub(super) use self::{
+    add::{AddState, show as add_source},
+    words::{objects, sentences as source_words},
+};
 use self::{selection::Selection, words::Form};
 use super::{confirm::Question, theme, widgets::button::Button};
 use crate::{

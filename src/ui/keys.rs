@@ -56,7 +56,7 @@ const fn with(modifiers: Modifiers, binding: Binding) -> Binding {
 }
 
 /// All keys, in the order of the list. The app handles the key of STOP before anything else.
-pub const ALL: [Binding; 27] = [
+pub const ALL: [Binding; 28] = [
     row(KeyScope::Focus, &[(Key::Escape, Act::There)], "STOP, everywhere; closes what is open"),
     with(
         Modifiers::COMMAND,
@@ -198,6 +198,14 @@ pub const ALL: [Binding; 27] = [
             (Key::Num5, Act::There),
         ],
         "in the table of Elements: mark, favourite, priority 1 to 5",
+    ),
+    with(
+        Modifiers::ALT,
+        row(
+            KeyScope::Focus,
+            &[(Key::ArrowLeft, Act::There)],
+            "in Set up: the step before; Enter goes on",
+        ),
     ),
     row(KeyScope::Views, &[(Key::A, Act::Acknowledge)], "acknowledge the newest alarm"),
     with(

@@ -2,12 +2,12 @@
 
 mod antenna_fields;
 mod connection_fields;
-mod draft;
-mod fields;
-mod form;
+pub(super) mod draft;
+pub(super) mod fields;
+pub(super) mod form;
 mod horizon;
 mod notices;
-mod station_fields;
+pub(super) mod station_fields;
 
 use egui::{
     Align2, Color32, Rect, RichText, Role, ScrollArea, Ui, UiBuilder, WidgetInfo, pos2, vec2,

@@ -59,7 +59,7 @@ pub fn show(
 fn below(view: View) -> f32 {
     match view {
         View::Operate | View::Elements | View::Map => GAP,
-        View::Antennas | View::Preferences => 80.0,
+        View::Antennas | View::Preferences | View::Setup => 80.0,
         View::Console => 128.0,
     }
 }

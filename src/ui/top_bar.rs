@@ -33,6 +33,8 @@ const TWO_LINES_FROM: f32 = 1200.0;
 #[derive(Debug, Clone, Copy)]
 pub struct TopBarModel<'a> {
     pub station: &'a str,
+    /// The station is the demo station.
+    pub demo: bool,
     /// Coordinates of the station.
     pub coordinates: &'a str,
     /// Times and date.

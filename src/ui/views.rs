@@ -16,7 +16,7 @@ use super::{
     map::{self, MapLayers},
     operate, preferences, rail,
     rail::RailEntry,
-    reminder_note, second_step,
+    reminder_note, second_step, setup,
     sky_plot::Layers,
     timeline::Zoom,
     top_bar,
@@ -37,6 +37,7 @@ pub struct Views {
     console: console::ConsoleState,
     map: map::MapState,
     preferences: preferences::PreferencesState,
+    setup: setup::SetupState,
     upload: UploadState,
     question: Option<Question>,
     closing: Option<ClosingDialog>,
@@ -148,6 +149,11 @@ impl Views {
                 self.operate.leave_card(commands);
                 preferences::show(ui, rest, model, &mut self.preferences, commands);
             }
+            View::Setup => {
+                self.operate.leave_card(commands);
+                let takes_keys = self.question.is_none() && !self.keys_open;
+                setup::show(ui, rest, model, takes_keys, &mut self.setup, commands);
+            }
         }
         reminder_note::show(ui, rest, model, &mut self.closed_reminders, commands);
         if let Some(question) = second_step::ask(model, before, commands) {
@@ -179,6 +185,9 @@ impl Views {
         }
         if self.preferences.is_edited() {
             lost.push("The station settings are not saved.".to_owned());
+        }
+        if self.setup.is_edited() {
+            lost.push("The set-up of your station is not finished.".to_owned());
         }
         if model.uploads.stage.is_open() {
             lost.push("An upload is under way.".to_owned());
@@ -224,6 +233,7 @@ impl Views {
 
     /// Takes the outcome of saving the settings: the time or the error.
     pub fn saved(&mut self, result: Result<Timestamp, String>) {
+        self.setup.saved(&result);
         self.preferences.saved(result);
     }
 }

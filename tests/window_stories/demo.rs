@@ -9,7 +9,7 @@ use azel::{
     driver::{Command, LinkState, StopState},
     engine::{self, alarms::AlarmKind},
     makes,
-    model::Model,
+    model::{Model, View},
     station,
 };
 use egui::{Key, Role};
@@ -24,7 +24,11 @@ const RC2000C: usize = 2;
 /// Window of the demo station, once its antennas are there.
 fn demo(folder: &tempfile::TempDir) -> RealWindow {
     let mut window = open(&folder.path().join("station.toml"), Clock::system());
-    step_until(&mut window, "the antennas", |model| model.antennas.len() == 3);
+    step_until(&mut window, "the set-up and the antennas", |model| {
+        model.antennas.len() == 3 && model.view == View::Setup
+    });
+    window.get_by_role_and_label(Role::Button, "Stay in the demo").click();
+    step_until(&mut window, "the demonstration", |model| model.view == View::Operate);
     window
 }
 

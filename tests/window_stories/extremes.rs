@@ -145,7 +145,7 @@ fn the_demo_station_says_that_no_metal_moves() {
             window.get_by_label_contains(if size == SMALL { "Faults: " } else { "Details" });
         assert!(faults.rect().bottom() <= size[1], "{:?}", faults.rect());
         window.get_by_label("Set up your station").click();
-        assert_eq!(asked(&mut window), [UiCommand::Show(View::Preferences)]);
+        assert_eq!(asked(&mut window), [UiCommand::Show(View::Setup)]);
     }
 }
 

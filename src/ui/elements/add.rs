@@ -20,7 +20,7 @@ const GROUPS: [&str; 8] =
     ["active", "stations", "weather", "resource", "science", "amateur", "cubesat", "geo"];
 
 #[derive(Default)]
-pub(super) struct AddState {
+pub(in crate::ui) struct AddState {
     kind: Kind,
     name: String,
     place: String,
@@ -56,7 +56,7 @@ impl AddState {
     }
 }
 
-pub(super) fn show(
+pub(in crate::ui) fn show(
     ui: &mut Ui,
     sources: &Sources,
     state: &mut AddState,

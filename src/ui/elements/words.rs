@@ -22,7 +22,7 @@ use crate::{
 };
 
 /// "1 object", "16 089 objects".
-pub(super) fn objects(count: usize) -> String {
+pub(in crate::ui) fn objects(count: usize) -> String {
     counted(count, "object")
 }
 
@@ -184,7 +184,7 @@ pub(super) fn state(
 }
 
 /// Sentences about the outcome of a source, most important first.
-pub(super) fn sentences(
+pub(in crate::ui) fn sentences(
     source: &Source,
     report: Option<&SourceReport>,
     now: Timestamp,

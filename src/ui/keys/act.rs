@@ -50,7 +50,9 @@ impl Act {
                 let plain = ui.input(|input| input.modifiers.is_none());
                 plain && ui.memory(|memory| memory.focused().is_none())
             }
-            Self::Search => !matches!(model.view, View::Antennas | View::Map | View::Preferences),
+            Self::Search => {
+                !matches!(model.view, View::Antennas | View::Map | View::Preferences | View::Setup)
+            }
             _ => true,
         }
     }

@@ -10,7 +10,7 @@ use crate::ui::{
 
 const WIDTH: f32 = 560.0;
 const KEYS: f32 = 176.0;
-const ROW: f32 = 21.0;
+const ROW: f32 = 20.0;
 
 /// Shows the list until Esc, `?`, a click outside or its button closes it.
 pub fn show(ui: &Ui, open: &mut bool) {
@@ -51,6 +51,7 @@ pub fn in_words(binding: &Binding) -> String {
     let before = match binding.modifiers {
         Modifiers::COMMAND => "Ctrl ",
         Modifiers::SHIFT => "Shift ",
+        Modifiers::ALT => "Alt ",
         _ => "",
     };
     let words: Vec<&str> = binding.keys().map(word).collect();
@@ -70,6 +71,8 @@ fn word(key: Key) -> &'static str {
         Key::Escape => "Esc",
         Key::ArrowUp => "Up",
         Key::ArrowDown => "Down",
+        Key::ArrowLeft => "Left",
+        Key::ArrowRight => "Right",
         Key::PageUp => "Page Up",
         Key::PageDown => "Page Down",
         other => other.symbol_or_name(),

@@ -16,9 +16,9 @@ use crate::station::{Antenna, AntennaId, ControllerSpec, Station};
 
 /// Draft of the whole form.
 #[derive(PartialEq)]
-pub(super) struct Draft {
-    pub(super) ground: Typed<Ground>,
-    pub(super) antennas: Vec<Typed<Antenna>>,
+pub(in crate::ui) struct Draft {
+    pub(in crate::ui) ground: Typed<Ground>,
+    pub(in crate::ui) antennas: Vec<Typed<Antenna>>,
     /// Indices of antennas that saving removes; until then each can be taken back.
     removed: BTreeSet<usize>,
     pub(super) notices: NoticesDraft,
@@ -26,7 +26,7 @@ pub(super) struct Draft {
 }
 
 impl Draft {
-    pub(super) fn of(station: &Station) -> Self {
+    pub(in crate::ui) fn of(station: &Station) -> Self {
         Self {
             ground: Typed::of(Ground::of(station), station_fields::all()),
             antennas: station.antennas.iter().cloned().map(typed).collect(),
@@ -38,7 +38,7 @@ impl Draft {
 
     /// Adds an empty antenna of this make. Its id is made of the time, so that it differs from
     /// that of an antenna removed earlier.
-    pub(super) fn add_antenna(&mut self, spec: &'static ControllerSpec, now: Timestamp) {
+    pub(in crate::ui) fn add_antenna(&mut self, spec: &'static ControllerSpec, now: Timestamp) {
         let taken: Vec<String> = self.antennas.iter().map(name).collect();
         let taken: Vec<&str> = taken.iter().map(String::as_str).collect();
         let name = Antenna::free_name(spec.short_name, &taken);
@@ -70,12 +70,12 @@ impl Draft {
     }
 
     /// Standings of the fields of the site.
-    pub(super) fn ground_standings(&self) -> Vec<Standing> {
+    pub(in crate::ui) fn ground_standings(&self) -> Vec<Standing> {
         self.ground.read().1
     }
 
     /// Standings of the fields of an antenna.
-    pub(super) fn antenna_standings(&self, index: usize) -> Vec<Standing> {
+    pub(in crate::ui) fn antenna_standings(&self, index: usize) -> Vec<Standing> {
         let Some(antenna) = self.antennas.get(index) else { return Vec::new() };
         let (_, mut standings) = antenna.read();
         if let (Some(Standing { problem: problem @ None, .. }), Some(twin)) =
@@ -97,7 +97,7 @@ impl Draft {
     }
 
     /// The station, if every field is right.
-    pub(super) fn read(&self) -> Option<Station> {
+    pub(in crate::ui) fn read(&self) -> Option<Station> {
         let is_right = |standings: &[Standing]| standings.iter().all(|of| of.problem.is_none());
         let (ground, standings) = self.ground.read();
         let mut kept = self.kept().map(|(index, _)| index);

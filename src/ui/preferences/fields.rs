@@ -13,7 +13,7 @@ pub(super) type Place<T, V> = fn(&mut T) -> Option<&mut V>;
 /// Result of a check; the error continues the name of the field to a sentence.
 pub(super) type Checked = Result<(), &'static str>;
 /// A field with the heading of its section.
-pub(super) type Placed<T> = (&'static str, Description<T>);
+pub(in crate::ui) type Placed<T> = (&'static str, Description<T>);
 
 type Get<T> = Box<dyn Fn(&mut T) -> Option<Value>>;
 type Put<T> = Box<dyn Fn(&mut T, Value) -> Result<(), String>>;
@@ -21,7 +21,7 @@ type Note<T> = Box<dyn Fn(&T) -> Option<String>>;
 
 /// How a text is edited.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum TextShape {
+pub(in crate::ui) enum TextShape {
     Line,
     /// One text, wrapped to be seen whole.
     Wrapped,
@@ -32,8 +32,8 @@ pub(super) enum TextShape {
 }
 
 /// Description of one line of a form.
-pub(super) struct Description<T> {
-    pub(super) label: Cow<'static, str>,
+pub(in crate::ui) struct Description<T> {
+    pub(in crate::ui) label: Cow<'static, str>,
     pub(super) kind: Kind,
     /// Unit of measure, shown behind the field.
     pub(super) unit: &'static str,
@@ -165,36 +165,42 @@ impl<T> Description<T> {
 }
 
 /// A field with its typed text.
-pub(super) struct Field<T: 'static> {
+pub(in crate::ui) struct Field<T: 'static> {
     /// Heading above the field and its neighbours.
-    pub(super) section: &'static str,
-    pub(super) description: Description<T>,
-    pub(super) text: String,
+    pub(in crate::ui) section: &'static str,
+    pub(in crate::ui) description: Description<T>,
+    pub(in crate::ui) text: String,
     /// Text before anything was typed.
     before: String,
 }
 
 impl<T> Field<T> {
     /// Whether the typed text differs from the text before.
-    pub(super) fn is_edited(&self) -> bool {
+    pub(in crate::ui) fn is_edited(&self) -> bool {
         self.text != self.before
+    }
+
+    /// Empties the field, as if there had been no value.
+    pub(in crate::ui) fn empty(&mut self) {
+        self.before.clear();
+        self.text.clear();
     }
 }
 
 /// State of a field.
 #[derive(Debug, Clone, PartialEq, Default)]
-pub(super) struct Standing {
+pub(in crate::ui) struct Standing {
     pub(super) is_used: bool,
     /// Problem, shown behind the name of the field.
-    pub(super) problem: Option<String>,
+    pub(in crate::ui) problem: Option<String>,
     /// Note below the field.
     pub(super) note: Option<String>,
 }
 
 /// Draft of a `T`: all its fields.
-pub(super) struct Typed<T: 'static> {
+pub(in crate::ui) struct Typed<T: 'static> {
     base: T,
-    pub(super) fields: Vec<Field<T>>,
+    pub(in crate::ui) fields: Vec<Field<T>>,
 }
 
 impl<T: Clone> Typed<T> {
@@ -211,13 +217,30 @@ impl<T: Clone> Typed<T> {
         Self { base, fields }
     }
 
+    /// Types `text` into the field with this label.
+    pub(in crate::ui) fn write(&mut self, label: &str, text: String) {
+        let mut fields = self.fields.iter_mut();
+        if let Some(field) = fields.find(|field| field.description.label == label) {
+            field.text = text;
+        }
+    }
+
+    /// Brings back the values of the first fields, before anything was typed or emptied.
+    pub(in crate::ui) fn reset(&mut self, count: usize) {
+        let mut whole = self.base.clone();
+        for field in self.fields.iter_mut().take(count) {
+            field.before = field.description.write(&mut whole).unwrap_or_default();
+            field.text.clone_from(&field.before);
+        }
+    }
+
     /// Value before anything was typed.
-    pub(super) fn before(&self) -> &T {
+    pub(in crate::ui) fn before(&self) -> &T {
         &self.base
     }
 
     /// The typed value with every usable field, and the state of each field.
-    pub(super) fn read(&self) -> (T, Vec<Standing>) {
+    pub(in crate::ui) fn read(&self) -> (T, Vec<Standing>) {
         let mut whole = self.base.clone();
         let read = |field: &Field<T>| field.description.read(&mut whole, &field.text).err();
         let problems: Vec<Option<String>> = self.fields.iter().map(read).collect();

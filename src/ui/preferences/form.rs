@@ -25,8 +25,8 @@ use crate::{
     },
 };
 
-const LABEL: f32 = 192.0;
-const ROW: f32 = 24.0;
+pub(in crate::ui) const LABEL: f32 = 192.0;
+pub(in crate::ui) const ROW: f32 = 24.0;
 /// Width of a number with its unit.
 const NUMBER: f32 = 112.0;
 /// Width of a name or an address.
@@ -146,9 +146,15 @@ fn measured(ui: &mut Ui, label: &str, words: &str) {
     });
 }
 
-pub(super) fn fields<T>(ui: &mut Ui, group: &str, fields: &mut [Field<T>], standings: &[Standing]) {
+/// Shows the fields that are used; returns what their input fields respond.
+pub(in crate::ui) fn fields<T>(
+    ui: &mut Ui,
+    group: &str,
+    fields: &mut [Field<T>],
+    standings: &[Standing],
+) -> Vec<Response> {
     let t = theme::tokens(ui);
-    let mut section = "";
+    let (mut section, mut responses) = ("", Vec::new());
     for (field, standing) in fields.iter_mut().zip(standings).filter(|(_, of)| of.is_used) {
         if field.section != section {
             section = field.section;
@@ -169,7 +175,8 @@ pub(super) fn fields<T>(ui: &mut Ui, group: &str, fields: &mut [Field<T>], stand
                     ui.label(words).id
                 })
                 .inner;
-            ui.scope(|ui| edit(ui, group, field, border).labelled_by(name));
+            let field = ui.scope(|ui| edit(ui, group, field, border).labelled_by(name));
+            responses.push(field.inner);
             let words = RichText::new(unit).font(text::body()).color(t.t3);
             ui.allocate_ui_with_layout(vec2(0.0, ROW), left, |ui| ui.label(words));
         });
@@ -183,6 +190,7 @@ pub(super) fn fields<T>(ui: &mut Ui, group: &str, fields: &mut [Field<T>], stand
             });
         }
     }
+    responses
 }
 
 fn edit<T>(ui: &mut Ui, group: &str, field: &mut Field<T>, border: Option<Color32>) -> Response {

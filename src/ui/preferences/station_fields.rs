@@ -10,9 +10,13 @@ use crate::{
     station::{Antenna, Favourites, Frequency, Notices, OnClose, Station, ranges},
 };
 
+/// Labels of the place.
+pub(in crate::ui) const LATITUDE: &str = "Latitude";
+pub(in crate::ui) const LONGITUDE: &str = "Longitude, east";
+
 /// A station without its antennas, with a site that may be invalid.
 #[derive(Debug, Clone, PartialEq)]
-pub(super) struct Ground {
+pub(in crate::ui) struct Ground {
     name: String,
     latitude_deg: f64,
     longitude_deg: f64,
@@ -45,7 +49,7 @@ impl Ground {
     }
 
     /// The station with these antennas, without the contents of the other pages.
-    pub(super) fn with(self, antennas: Vec<Antenna>) -> Option<Station> {
+    pub(in crate::ui) fn with(self, antennas: Vec<Antenna>) -> Option<Station> {
         Some(Station {
             site: Site::new(self.latitude_deg, self.longitude_deg, self.altitude_m).ok()?,
             name: self.name,
@@ -74,10 +78,8 @@ type Of = Description<Ground>;
 pub(super) fn all() -> Vec<Placed<Ground>> {
     let all = [
         Of::text("Name", not_empty, |ground| Some(&mut ground.name)),
-        Of::number("Latitude", -90.0..=90.0, "°", |ground| Some(&mut ground.latitude_deg)),
-        Of::number("Longitude, east", -180.0..=360.0, "°", |ground| {
-            Some(&mut ground.longitude_deg)
-        }),
+        Of::number(LATITUDE, -90.0..=90.0, "°", |ground| Some(&mut ground.latitude_deg)),
+        Of::number(LONGITUDE, -180.0..=360.0, "°", |ground| Some(&mut ground.longitude_deg)),
         Of::number("Altitude", -1000.0..=10_000.0, "m", |ground| Some(&mut ground.altitude_m)),
         Of::number("AOS elevation", ranges::ELEVATION_DEG, "°", |ground| {
             Some(&mut ground.aos_elevation_deg)

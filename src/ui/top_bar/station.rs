@@ -47,13 +47,16 @@ pub(super) fn show(
     icons::paint(ui.painter(), paint::square(at, 14.0), Icon::ChevronDown, t.t2);
     paint::focus_ring(ui, &response, 5);
     Popup::menu(&response).width(180.0).accessible_name("Station menu").show(|ui| {
-        menu(ui, commands);
+        menu(ui, model.demo, commands);
     });
 }
 
-fn menu(ui: &mut Ui, commands: &mut Vec<UiCommand>) {
+fn menu(ui: &mut Ui, demo: bool, commands: &mut Vec<UiCommand>) {
     if ui.button("Station settings…").clicked() {
         commands.push(UiCommand::Show(View::Preferences));
+    }
+    if demo && ui.button("Set up your station…").clicked() {
+        commands.push(UiCommand::Show(View::Setup));
     }
     ui.separator();
     let shown = theme::name(ui);

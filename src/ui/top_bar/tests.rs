@@ -53,6 +53,7 @@ fn show_bar(ui: &mut Ui, stop: StopLook<'_>) -> Vec<UiCommand> {
     ];
     let model = TopBarModel {
         station: "Şile 1",
+        demo: false,
         coordinates: "41.176° N  29.613° E",
         clock: ClockModel {
             utc: "11:06:12",

@@ -1,0 +1,184 @@
+//! The set-up of a station in four steps, beside the running demonstration. Nothing is written
+//! before the last one.
+
+mod antennas;
+mod draft;
+mod elements;
+mod end;
+mod frame;
+mod satellites;
+mod site;
+mod so_far;
+mod steps;
+mod words;
+
+use egui::{Key, Modifiers, Rect, RichText, ScrollArea, Sense, Ui, UiBuilder};
+use jiff::Timestamp;
+
+pub use self::steps::Step;
+use self::{draft::SetupDraft, steps::Progress};
+use super::{text, theme, widgets::paint};
+use crate::{
+    engine,
+    model::{Model, UiCommand},
+};
+
+/// Below this width of the view, the steps are a strip and the right panel is folded.
+const NARROW_BELOW: f32 = 1200.0;
+const PADDING: f32 = 24.0;
+
+/// What was typed, and the step that is shown.
+#[derive(Default)]
+pub struct SetupState {
+    step: Step,
+    progress: Progress,
+    draft: Option<SetupDraft>,
+    satellites: satellites::SearchState,
+    add: super::elements::AddState,
+    /// Why the station was not saved.
+    problem: Option<String>,
+    /// The head of the step is to have the keyboard focus.
+    wants_focus: bool,
+}
+
+impl SetupState {
+    /// Whether something was typed that would be lost.
+    pub fn is_edited(&self) -> bool {
+        self.draft.as_ref().is_some_and(SetupDraft::is_edited)
+    }
+
+    /// Takes the outcome of saving a station: after a success nothing is left to set up.
+    pub fn saved(&mut self, result: &Result<Timestamp, String>) {
+        match result {
+            Ok(_) => *self = Self::default(),
+            Err(why) => self.problem = Some(why.clone()),
+        }
+    }
+
+    fn show_step(&mut self, step: Step) {
+        self.step = step;
+        self.problem = None;
+        self.wants_focus = true;
+    }
+
+    /// Leaves the step as done, unless something hinders it.
+    fn go_on(&mut self, draft: &SetupDraft, model: &Model, commands: &mut Vec<UiCommand>) {
+        if draft.hindrance(self.step, model).is_some() {
+            return;
+        }
+        if let Some(next) = self.step.next() {
+            self.progress.done(self.step);
+            self.show_step(next);
+        } else {
+            let station = draft.station().map(Box::new);
+            let save = station.map(engine::Command::SaveStation);
+            commands.extend(save.map(UiCommand::Station));
+        }
+    }
+
+    fn skip(&mut self, draft: &mut SetupDraft) {
+        if let Some(next) = self.step.next() {
+            if self.step == Step::Site {
+                draft.skip_site();
+            }
+            self.progress.skipped(self.step);
+            self.show_step(next);
+        }
+    }
+
+    fn go_back(&mut self) {
+        if let Some(before) = self.step.before() {
+            self.show_step(before);
+        }
+    }
+}
+
+/// Draws the view. `takes_keys`: nothing lies over it.
+pub fn show(
+    ui: &mut Ui,
+    rect: Rect,
+    model: &Model,
+    takes_keys: bool,
+    state: &mut SetupState,
+    commands: &mut Vec<UiCommand>,
+) {
+    let t = theme::tokens(ui);
+    ui.painter().rect_filled(rect, 0.0, t.bg0);
+    let mut draft = state.draft.take().unwrap_or_else(|| {
+        state.wants_focus = true;
+        SetupDraft::of(model.station_to_edit())
+    });
+    let head = ui.make_persistent_id("head of the step");
+    if takes_keys {
+        take_keys(ui, model, head, &draft, state, commands);
+    }
+    let shown = state.step;
+    let panels = frame::split(rect);
+    frame::show_steps(ui, &panels, model, &draft, state);
+    if let Some(right) = panels.right {
+        so_far::show(ui, right, model, &draft, state.progress);
+    }
+    let (body, foot) = panels.middle;
+    // The scroll bar has the margin at the right.
+    let inner = body.with_min_x(body.left() + PADDING).with_max_x(body.right() - 4.0);
+    let builder = UiBuilder::new().id_salt(("step", shown)).max_rect(inner);
+    ui.scope_builder(builder, |ui| {
+        ui.set_clip_rect(body.intersect(ui.clip_rect()));
+        ScrollArea::vertical().id_salt(("step", shown)).auto_shrink(false).show(ui, |ui| {
+            ui.add_space(16.0);
+            show_head(ui, head, shown, &mut state.wants_focus);
+            ui.add_space(8.0);
+            match shown {
+                Step::Site => site::show(ui, model, &mut draft),
+                Step::Antennas => antennas::show(ui, model, &mut draft, commands),
+                Step::Satellites => {
+                    satellites::show(ui, model, &mut draft, &mut state.satellites);
+                }
+                Step::Elements => elements::show(ui, model, &mut state.add, commands),
+                Step::End => end::show(ui, model, &draft, state),
+            }
+            ui.add_space(16.0);
+        });
+    });
+    frame::show_foot(ui, foot, model, &mut draft, state, commands);
+    state.draft = Some(draft);
+}
+
+/// The head has the focus first: Enter goes on from there, and Tab leads to the first field.
+fn show_head(ui: &mut Ui, id: egui::Id, step: Step, wants_focus: &mut bool) {
+    let t = theme::tokens(ui);
+    let (title, about) = step.title();
+    let galley = ui.painter().layout_no_wrap(title.to_owned(), text::title(), t.t1);
+    let (place, _) = ui.allocate_exact_size(galley.size(), Sense::hover());
+    ui.painter().galley(place.min, galley, t.t1);
+    let response = ui.interact(place, id, Sense::focusable_noninteractive());
+    response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Heading, true, title));
+    if std::mem::take(wants_focus) {
+        response.request_focus();
+    }
+    paint::focus_ring(ui, &response, 3);
+    let about = RichText::new(about).font(text::body()).color(t.t2);
+    ui.add(egui::Label::new(about).wrap());
+}
+
+fn take_keys(
+    ui: &Ui,
+    model: &Model,
+    head: egui::Id,
+    draft: &SetupDraft,
+    state: &mut SetupState,
+    commands: &mut Vec<UiCommand>,
+) {
+    if ui.input_mut(|input| input.consume_key(Modifiers::ALT, Key::ArrowLeft)) {
+        state.go_back();
+        return;
+    }
+    // On a button, Enter presses the button; a search field takes it too.
+    let focused = ui.memory(egui::Memory::focused);
+    let is_free = focused.is_none_or(|id| id == head);
+    let ends_typing = ui.text_edit_focused() && matches!(state.step, Step::Site | Step::Antennas);
+    let enter = |ui: &Ui| ui.input_mut(|input| input.consume_key(Modifiers::NONE, Key::Enter));
+    if (is_free || ends_typing) && enter(ui) {
+        state.go_on(draft, model, commands);
+    }
+}

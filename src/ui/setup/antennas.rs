@@ -1,0 +1,145 @@
+//! The step about the antennas: a card for each.
+
+use egui::{Align, Layout, RichText, Role, Sense, Ui, WidgetInfo, vec2};
+
+use super::{draft::SetupDraft, words};
+use crate::{
+    engine::{self, link_tests::LinkTestStage},
+    makes,
+    model::{Model, UiCommand},
+    ui::{
+        icons::Icon,
+        preferences::form,
+        text, theme,
+        widgets::{
+            button::Button,
+            card,
+            told::{Tone, line},
+        },
+    },
+};
+
+const CARD: f32 = 640.0;
+const HEIGHT: f32 = 28.0;
+/// Place of the address among the fields of a card.
+const ADDRESS: usize = 1;
+
+pub(super) fn show(
+    ui: &mut Ui,
+    model: &Model,
+    draft: &mut SetupDraft,
+    commands: &mut Vec<UiCommand>,
+) {
+    let t = theme::tokens(ui);
+    let mut removed = None;
+    for index in 0..draft.form.antennas.len() {
+        card::show(ui, CARD, |ui| {
+            if one(ui, model, draft, index, commands) {
+                removed = Some(index);
+            }
+        });
+    }
+    if let Some(index) = removed {
+        draft.form.antennas.remove(index);
+    }
+    let word = if draft.form.antennas.is_empty() { "Add an antenna" } else { "Add another" };
+    ui.label(RichText::new(word).font(text::value()));
+    ui.horizontal_wrapped(|ui| {
+        for spec in makes::SPECS {
+            let button = Button::normal(spec.short_name).icon(Icon::Plus);
+            if named(ui, button, ("add", spec.key), true, &format!("Add {}", spec.name)) {
+                draft.form.add_antenna(spec, model.now);
+                draft.wants_address = draft.form.antennas.last().map(|of| of.before().id);
+            }
+        }
+        let words = "or none: Azel then predicts passes only.";
+        ui.label(RichText::new(words).font(text::small()).color(t.t3));
+    });
+    let silent = (0..draft.form.antennas.len()).filter(|index| {
+        let test = draft.test(*index, model);
+        matches!(words::short(test).0, Tone::Bad | Tone::Caution)
+    });
+    let silent: Vec<String> = silent.map(|index| draft.antenna_name(index)).collect();
+    if !silent.is_empty() {
+        ui.add_space(4.0);
+        let names = crate::ui::format::list(&silent);
+        let words = format!("{names}: you can go on. Azel tries again once you finish.");
+        line(ui, Tone::Caution, &words);
+    }
+}
+
+/// Draws a card; returns `true` when the antenna is to be removed.
+fn one(
+    ui: &mut Ui,
+    model: &Model,
+    draft: &mut SetupDraft,
+    index: usize,
+    commands: &mut Vec<UiCommand>,
+) -> bool {
+    let t = theme::tokens(ui);
+    let name = draft.antenna_name(index);
+    let (antenna, standings) = (draft.antenna(index), draft.form.antenna_standings(index));
+    let test = draft.test(index, model);
+    let Some(typed) = draft.form.antennas.get_mut(index) else { return false };
+    let (id, spec) = (typed.before().id, typed.before().connection.spec());
+    let (tone, state) = words::short(test);
+    ui.horizontal(|ui| {
+        ui.label(RichText::new(&name).font(text::value()).color(t.t1));
+        ui.label(RichText::new(spec.name).font(text::small()).color(t.t2));
+        ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
+            let colour = match tone {
+                Tone::Good => t.ok,
+                Tone::Caution => t.warn,
+                Tone::Bad => t.bad,
+                Tone::Plain | Tone::Now => t.t3,
+            };
+            ui.label(RichText::new(state).font(text::body_medium()).color(colour));
+        });
+    });
+    ui.add_space(4.0);
+    let count = typed.fields.iter().take_while(|field| field.section.is_empty()).count();
+    let fields = typed.fields.get_mut(..count).unwrap_or_default();
+    let responses = form::fields(ui, &format!("set-up {index}"), fields, &standings);
+    if draft.wants_address == Some(id)
+        && let Some(address) = responses.get(ADDRESS)
+    {
+        address.request_focus();
+        draft.wants_address = None;
+    }
+    ui.add_space(4.0);
+    let is_removed = ui
+        .horizontal(|ui| {
+            ui.add_space(form::LABEL + 8.0);
+            let is_working = test.is_some_and(|test| test.stage == LinkTestStage::Working);
+            let word = if test.is_some() { "Test again" } else { "Test link" };
+            let can = antenna.is_some() && !is_working;
+            let (button, spoken) = (Button::normal(word).locked(!can), format!("{word} of {name}"));
+            if named(ui, button, ("test", id.0), can, &spoken)
+                && let Some(antenna) = &antenna
+            {
+                let test = engine::Command::TestLink(Box::new(antenna.clone()));
+                commands.push(UiCommand::Station(test));
+            }
+            named(ui, Button::quiet("Remove"), ("remove", id.0), true, &format!("Remove {name}"))
+        })
+        .inner;
+    for (tone, words) in test.map(words::outcome).unwrap_or_default() {
+        line(ui, tone, &words);
+    }
+    is_removed
+}
+
+/// A button with a longer accessible name. It keeps the focus when others come and go before
+/// it.
+fn named(
+    ui: &mut Ui,
+    button: Button<'_>,
+    salt: impl egui::AsIdSalt,
+    enabled: bool,
+    name: &str,
+) -> bool {
+    let (place, _) = ui.allocate_exact_size(vec2(button.width(ui), HEIGHT), Sense::hover());
+    let response = button.show(ui, salt, place);
+    response.widget_info(|| WidgetInfo::labeled(Role::Button, enabled, name));
+    response.on_hover_text(name).clicked()
+}

@@ -1,0 +1,193 @@
+//! The station as typed so far. It rests on the draft of Preferences, of which the steps show a
+//! part.
+
+use super::Step;
+use crate::{
+    astro::{GroundPoint, Site},
+    device::Place,
+    driver::LinkFinding,
+    engine::link_tests::{LinkTest, LinkTestStage},
+    model::Model,
+    station::{Antenna, AntennaId, Favourites, Station},
+    ui::preferences::{
+        draft::Draft,
+        fields::{Field, Standing},
+        station_fields::{LATITUDE, LONGITUDE},
+    },
+};
+
+/// Number of the fields of the site, which are the first of their form.
+pub(super) const SITE_FIELDS: usize = 5;
+/// Number of those that nobody can know beforehand: name, latitude, longitude and altitude.
+const UNKNOWN_FIELDS: usize = 4;
+
+pub(super) struct SetupDraft {
+    pub(super) form: Draft,
+    /// As typed.
+    pub(super) locator: String,
+    pub(super) favourites: Favourites,
+    proposed: Favourites,
+    /// The antenna whose address is to be typed now.
+    pub(super) wants_address: Option<AntennaId>,
+}
+
+impl SetupDraft {
+    /// An empty form; `station` gives what can be proposed.
+    pub(super) fn of(station: Station) -> Self {
+        let mut form = Draft::of(&station);
+        for field in form.ground.fields.iter_mut().take(UNKNOWN_FIELDS) {
+            field.empty();
+        }
+        let favourites = station.favourites;
+        Self {
+            form,
+            locator: String::new(),
+            proposed: favourites.clone(),
+            favourites,
+            wants_address: None,
+        }
+    }
+
+    pub(super) fn is_edited(&self) -> bool {
+        let fields = &self.form.ground.fields;
+        let is_edited = fields.iter().take(UNKNOWN_FIELDS).any(Field::is_edited);
+        is_edited || !self.form.antennas.is_empty() || self.favourites != self.proposed
+    }
+
+    /// Proposes the site of the demonstration.
+    pub(super) fn skip_site(&mut self) {
+        self.form.ground.reset(SITE_FIELDS);
+        self.locator.clear();
+    }
+
+    pub(super) fn put_place(&mut self, latitude_deg: f64, longitude_deg: f64, decimals: usize) {
+        for (label, degrees) in [(LATITUDE, latitude_deg), (LONGITUDE, longitude_deg)] {
+            self.form.ground.write(label, format!("{degrees:.decimals$}"));
+        }
+    }
+
+    /// Standings of the fields of the site. An empty field is not wrong yet.
+    pub(super) fn site_standings(&self) -> Vec<Standing> {
+        let mut standings = self.form.ground_standings();
+        standings.truncate(SITE_FIELDS);
+        for (standing, field) in standings.iter_mut().zip(&self.form.ground.fields) {
+            if field.text.trim().is_empty() {
+                standing.problem = None;
+            }
+        }
+        standings
+    }
+
+    /// Name and site, once all of them are right.
+    pub(super) fn site(&self) -> Option<(String, Site)> {
+        let (ground, standings) = self.form.ground.read();
+        if standings.iter().take(SITE_FIELDS).any(|of| of.problem.is_some()) {
+            return None;
+        }
+        let station = ground.with(Vec::new())?;
+        Some((station.name, station.site))
+    }
+
+    /// The place, also while the rest is not right yet.
+    pub(super) fn place(&self) -> Option<Site> {
+        let (ground, standings) = self.form.ground.read();
+        let mut place = self.form.ground.fields.iter().zip(&standings);
+        let is_right = |label: &str| {
+            place.any(|(of, standing)| of.description.label == label && standing.problem.is_none())
+        };
+        if ![LATITUDE, LONGITUDE].into_iter().all(is_right) {
+            return None;
+        }
+        ground.with(Vec::new()).map(|station| station.site)
+    }
+
+    /// The antenna at this place of the form, once its fields are right.
+    pub(super) fn antenna(&self, index: usize) -> Option<Antenna> {
+        let standings = self.form.antenna_standings(index);
+        let is_right = standings.iter().all(|of| of.problem.is_none());
+        Some(self.form.antennas.get(index).filter(|_| is_right)?.read().0)
+    }
+
+    /// The name as typed, or that of the make while there is none.
+    pub(super) fn antenna_name(&self, index: usize) -> String {
+        let Some(antenna) = self.form.antennas.get(index) else { return String::new() };
+        let typed = antenna.read().0;
+        if typed.name.is_empty() {
+            typed.connection.spec().short_name.to_owned()
+        } else {
+            typed.name
+        }
+    }
+
+    /// The last test of the antenna as it is typed now.
+    pub(super) fn test<'a>(&self, index: usize, model: &'a Model) -> Option<&'a LinkTest> {
+        let antenna = self.antenna(index)?;
+        let is_it = |test: &&LinkTest| {
+            test.antenna.id == antenna.id && test.antenna.connection == antenna.connection
+        };
+        model.link_tests.iter().find(is_it)
+    }
+
+    /// Antennas whose units told their place, with it.
+    pub(super) fn places(&self, model: &Model) -> Vec<(String, Place)> {
+        let told = |index: usize| {
+            let LinkTestStage::Done { finding: LinkFinding::Reached { state, .. }, .. } =
+                &self.test(index, model)?.stage
+            else {
+                return None;
+            };
+            Some((self.antenna_name(index), state.on_board.place?))
+        };
+        (0..self.form.antennas.len()).filter_map(told).collect()
+    }
+
+    /// Distance of the typed place from that of the first unit that told one.
+    pub(super) fn off_the_told_km(&self, model: &Model) -> Option<(String, f64)> {
+        let (name, told) = self.places(model).into_iter().next()?;
+        let site = self.place()?;
+        let told = GroundPoint::from_degrees(told.latitude_deg, told.longitude_deg);
+        let here = GroundPoint::new(site.latitude(), site.longitude());
+        Some((name, here.distance(told).radians() * crate::astro::frames::MEAN_RADIUS_KM))
+    }
+
+    /// The station, if all of it is right.
+    pub(super) fn station(&self) -> Option<Station> {
+        let station = self.form.read()?;
+        Some(Station { favourites: self.favourites.clone(), ..station })
+    }
+
+    /// Why the operator cannot go on from `step`.
+    pub(super) fn hindrance(&self, step: Step, model: &Model) -> Option<String> {
+        match step {
+            Step::Site => self.site_hindrance(),
+            Step::Antennas => self.antenna_hindrance(model),
+            Step::Satellites | Step::Elements => None,
+            Step::End => self.site_hindrance().or_else(|| self.antenna_hindrance(model)),
+        }
+    }
+
+    fn site_hindrance(&self) -> Option<String> {
+        let fields = self.form.ground.fields.iter().take(SITE_FIELDS);
+        let missing = fields.filter(|field| field.text.trim().is_empty());
+        let missing: Vec<&str> = missing.map(|field| &*field.description.label).collect();
+        if !missing.is_empty() {
+            return Some(super::words::missing(&missing));
+        }
+        self.site().is_none().then(|| "Site: a field cannot be used.".to_owned())
+    }
+
+    fn antenna_hindrance(&self, model: &Model) -> Option<String> {
+        (0..self.form.antennas.len()).find_map(|index| {
+            let name = self.antenna_name(index);
+            let Some(antenna) = self.antenna(index) else {
+                return Some(format!("{name}: a field cannot be used."));
+            };
+            let of_demo = |of: &&crate::engine::antenna::AntennaModel| {
+                of.config.connection.spec() == antenna.connection.spec()
+                    && of.config.connection.address == antenna.connection.address
+            };
+            let is_of_demo = model.demo && model.antennas.iter().any(|of| of_demo(&of));
+            is_of_demo.then(|| format!("{name}: the address ends with the demo station."))
+        })
+    }
+}

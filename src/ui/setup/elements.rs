@@ -1,0 +1,48 @@
+//! The step about the elements: what is in use, and the form for a source.
+
+use egui::{RichText, Ui};
+
+use crate::{
+    engine::sources::SourceWork,
+    model::{Model, UiCommand},
+    ui::{
+        elements::{AddState, add_source, source_words},
+        text, theme,
+        widgets::{card, told::line},
+        words::sentence,
+    },
+};
+
+const CARD: f32 = 640.0;
+
+pub(super) fn show(
+    ui: &mut Ui,
+    model: &Model,
+    state: &mut AddState,
+    commands: &mut Vec<UiCommand>,
+) {
+    let t = theme::tokens(ui);
+    let (tone, words) = super::so_far::elements(model);
+    card::show(ui, CARD, |ui| {
+        ui.label(RichText::new("In use").font(text::value()));
+        line(ui, tone, &format!("{}.", crate::ui::words::capitalised(&words)));
+        for (index, source) in model.sources.list.iter().enumerate() {
+            ui.label(RichText::new(&source.name).font(text::body_medium()).color(t.t1));
+            for (tone, words) in source_words(source, model.sources.reports.get(index), model.now) {
+                line(ui, tone, &words);
+            }
+        }
+        let work = match model.sources.work {
+            SourceWork::Reading => "The sources are being read.",
+            SourceWork::Asking => "The servers are being asked. You can go on meanwhile.",
+            SourceWork::Nothing => "",
+        };
+        if !work.is_empty() {
+            ui.label(RichText::new(work).font(text::body()).color(t.t2));
+        }
+        if let Some(problem) = &model.sources.problem {
+            ui.label(RichText::new(sentence(problem)).font(text::body()).color(t.bad));
+        }
+    });
+    card::show(ui, CARD, |ui| add_source(ui, &model.sources, state, commands));
+}

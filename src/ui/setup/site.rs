@@ -1,0 +1,89 @@
+//! The step about the site.
+
+use egui::{Align, Label, Layout, RichText, TextEdit, Ui, vec2};
+
+use super::{draft::SetupDraft, words};
+use crate::{
+    astro::{read_locator, sun_moon},
+    model::Model,
+    ui::{
+        preferences::form,
+        text, theme,
+        widgets::{
+            card,
+            input::select_when_tabbed,
+            told::{Tone, line},
+        },
+    },
+};
+
+const CARD: f32 = 640.0;
+/// Decimals of a degree that a locator and a unit give.
+const OF_LOCATOR: usize = 4;
+const OF_UNIT: usize = 5;
+
+pub(super) fn show(ui: &mut Ui, model: &Model, draft: &mut SetupDraft) {
+    card::show(ui, CARD, |ui| {
+        fields(ui, draft, 0..1);
+        locator(ui, draft);
+        fields(ui, draft, 1..super::draft::SITE_FIELDS);
+    });
+    for (name, place) in draft.places(model) {
+        let there = words::place(place.latitude_deg, place.longitude_deg);
+        if ui.button(format!("Take the place of {name}: {there}")).clicked() {
+            draft.put_place(place.latitude_deg, place.longitude_deg, OF_UNIT);
+            draft.locator.clear();
+        }
+    }
+    let Some(site) = draft.place() else { return };
+    card::show(ui, CARD, |ui| {
+        let there = words::place(site.latitude().degrees(), site.longitude().degrees());
+        let t = theme::tokens(ui);
+        ui.label(RichText::new(there).font(text::value()).color(t.t1));
+        line(ui, Tone::Now, &words::sun(sun_moon::sun(site, model.now)));
+        if let Some((name, km)) = draft.off_the_told_km(model) {
+            let (tone, words) = words::off_the_told(&name, km);
+            line(ui, tone, &words);
+        }
+    });
+}
+
+fn fields(ui: &mut Ui, draft: &mut SetupDraft, which: std::ops::Range<usize>) {
+    let standings = draft.site_standings();
+    let standings = standings.get(which.clone()).unwrap_or_default();
+    let fields = draft.form.ground.fields.get_mut(which).unwrap_or_default();
+    form::fields(ui, "site", fields, standings);
+}
+
+/// The locator as a field, which fills latitude and longitude.
+fn locator(ui: &mut Ui, draft: &mut SetupDraft) {
+    let t = theme::tokens(ui);
+    ui.horizontal_top(|ui| {
+        let left = Layout::left_to_right(Align::Center);
+        let label = ui
+            .allocate_ui_with_layout(vec2(form::LABEL, form::ROW), left, |ui| {
+                ui.set_min_width(form::LABEL);
+                ui.label(RichText::new("Locator").font(text::body()).color(t.t2)).id
+            })
+            .inner;
+        let hint = RichText::new("such as KN41ob, or type degrees").color(t.t3);
+        let edit = TextEdit::singleline(&mut draft.locator).id_salt("locator").hint_text(hint);
+        let response = ui.add(edit.desired_width(240.0)).labelled_by(label);
+        select_when_tabbed(ui, &response, &draft.locator);
+        if response.changed()
+            && let Ok(square) = read_locator(&draft.locator)
+        {
+            let (latitude, longitude) = (square.centre.latitude, square.centre.longitude);
+            draft.put_place(latitude.degrees(), longitude.degrees(), OF_LOCATOR);
+        }
+    });
+    let (words, colour) = match read_locator(&draft.locator) {
+        _ if draft.locator.trim().is_empty() => return,
+        Ok(square) => (words::square(square), t.t3),
+        Err(why) => (format!("Locator {why}."), t.bad),
+    };
+    ui.horizontal_top(|ui| {
+        ui.add_space(form::LABEL + 8.0);
+        ui.add(Label::new(RichText::new(words).font(text::small()).color(colour)).wrap());
+    });
+}

@@ -1,0 +1,96 @@
+//! The steps, and how far the operator has come.
+
+/// A step of the set-up.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
+pub enum Step {
+    #[default]
+    Site,
+    Antennas,
+    Satellites,
+    Elements,
+    /// Shows what is written, and writes it.
+    End,
+}
+
+impl Step {
+    /// The steps that can be skipped.
+    pub(super) const NUMBERED: [Self; 4] =
+        [Self::Site, Self::Antennas, Self::Satellites, Self::Elements];
+    const ALL: [Self; 5] =
+        [Self::Site, Self::Antennas, Self::Satellites, Self::Elements, Self::End];
+
+    pub(super) fn number(self) -> usize {
+        self as usize + 1
+    }
+
+    pub(super) fn next(self) -> Option<Self> {
+        Self::ALL.get(self as usize + 1).copied()
+    }
+
+    pub(super) fn before(self) -> Option<Self> {
+        (self as usize).checked_sub(1).and_then(|index| Self::ALL.get(index)).copied()
+    }
+
+    pub(super) fn name(self) -> &'static str {
+        match self {
+            Self::Site => "Site",
+            Self::Antennas => "Antennas",
+            Self::Satellites => "Satellites",
+            Self::Elements => "Elements",
+            Self::End => "Check and finish",
+        }
+    }
+
+    /// Title, and what the step is for.
+    pub(super) fn title(self) -> (&'static str, &'static str) {
+        let about = match self {
+            Self::Site => {
+                "Where do the antennas stand? Passes and directions are computed for this place."
+            }
+            Self::Antennas => {
+                "Which units move your antennas, and where do they answer? A test only asks; it \
+                 moves nothing."
+            }
+            Self::Satellites => "Which satellites shall the list of passes show?",
+            Self::Elements => {
+                "Orbits change: predictions are as good as the elements are fresh. Sources can \
+                 wait; those added here are kept at once, as in Elements."
+            }
+            Self::End => "Of this station nothing is written yet. This is what Finish does.",
+        };
+        (self.name(), about)
+    }
+}
+
+/// What became of a step.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub(super) enum Passed {
+    #[default]
+    NotYet,
+    Done,
+    Skipped,
+}
+
+/// What became of each step.
+#[derive(Debug, Clone, Copy, Default)]
+pub(super) struct Progress([Passed; Step::NUMBERED.len()]);
+
+impl Progress {
+    pub(super) fn of(self, step: Step) -> Passed {
+        self.0.get(step as usize).copied().unwrap_or_default()
+    }
+
+    pub(super) fn done(&mut self, step: Step) {
+        self.set(step, Passed::Done);
+    }
+
+    pub(super) fn skipped(&mut self, step: Step) {
+        self.set(step, Passed::Skipped);
+    }
+
+    fn set(&mut self, step: Step, passed: Passed) {
+        if let Some(known) = self.0.get_mut(step as usize) {
+            *known = passed;
+        }
+    }
+}

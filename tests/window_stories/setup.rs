@@ -1,0 +1,314 @@
+//! The set-up of a station: what each step asks, shows and refuses.
+
+use std::{sync::Arc, time::Duration};
+
+use azel::{
+    device::{AntennaState, OnBoard, Place},
+    driver::{LinkFault, LinkFinding},
+    engine::{
+        self,
+        link_tests::{LinkTest, LinkTestStage},
+    },
+    makes,
+    model::{Model, UiCommand, View},
+    station::{Antenna, Station},
+};
+use egui::{Event, Key, Modifiers, Role};
+use egui_kittest::kittest::{NodeT as _, Queryable as _};
+
+use crate::window_stories::{
+    preferences::{saved, write},
+    rig::{self, SIZES, Window, asked, says, settle},
+};
+
+const NEXT: [&str; 4] = [
+    "Next: Antennas (Enter)",
+    "Next: Satellites (Enter)",
+    "Next: Elements (Enter)",
+    "Next: Check and finish (Enter)",
+];
+const FINISH: &str = "Finish (Enter)";
+
+fn window(size: [f32; 2]) -> Window {
+    let mut model: Model = rig::model(rig::quiet());
+    (model.demo, model.view) = (true, View::Setup);
+    rig::window(size, model)
+}
+
+fn press(window: &mut Window, button: &str) {
+    window.get_by_role_and_label(Role::Button, button).scroll_to_me();
+    settle(window);
+    window.get_by_role_and_label(Role::Button, button).click();
+    settle(window);
+}
+
+fn is_locked(window: &Window, button: &str) -> bool {
+    window.get_by_role_and_label(Role::Button, button).accesskit_node().is_disabled()
+}
+
+fn field(window: &Window, name: &str) -> String {
+    window.get_by_role_and_label(Role::TextInput, name).value().unwrap_or_default()
+}
+
+fn is_at(window: &Window, step: &str) -> bool {
+    window.query_by_role_and_label(Role::Heading, step).is_some()
+}
+
+fn write_site(window: &mut Window) {
+    write(window, "Name", "Şile 2");
+    write(window, "Locator", "KN41ob");
+    write(window, "Altitude", "121");
+}
+
+/// Adds an antenna of the first make and returns it as it would be tested.
+fn add_and_test(window: &mut Window, address: &str) -> Antenna {
+    press(window, &format!("Add {}", makes::SPECS[0].name));
+    write(window, "Address of the Satrak", address);
+    press(window, "Test link of Satrak");
+    match <[UiCommand; 1]>::try_from(asked(window)) {
+        Ok([UiCommand::Station(engine::Command::TestLink(antenna))]) => *antenna,
+        other => panic!("{other:?}"),
+    }
+}
+
+fn tell(window: &mut Window, antenna: &Antenna, finding: LinkFinding) {
+    let stage = LinkTestStage::Done { finding, at: rig::now() };
+    let test = LinkTest { antenna: antenna.clone(), stage };
+    window.state_mut().model.link_tests = Arc::new(vec![test]);
+    settle(window);
+}
+
+fn reached() -> LinkFinding {
+    let place = Place { latitude_deg: 41.176, longitude_deg: 29.613, step_deg: 1e-4 };
+    let state = AntennaState {
+        identity: Some("SATRAK CU V1.2".to_owned()),
+        on_board: OnBoard { place: Some(place), ..OnBoard::default() },
+        ..AntennaState::default()
+    };
+    LinkFinding::Reached { after: Duration::from_millis(12), state: Box::new(state) }
+}
+
+#[test]
+fn four_steps_make_a_station_without_anything_of_the_demo() {
+    for size in SIZES {
+        let mut window = window(size);
+        let demo = Station::clone(&window.state().model.station);
+        assert!(is_at(&window, "Site") && is_locked(&window, NEXT[0]));
+        write_site(&mut window);
+        press(&mut window, NEXT[0]);
+        assert!(is_at(&window, "Antennas"));
+        add_and_test(&mut window, "unit.local:4001");
+        press(&mut window, NEXT[1]);
+        press(&mut window, "Remove all");
+        write(&mut window, "Search the catalogue", "25544");
+        window.key_press(Key::Enter);
+        settle(&mut window);
+        assert!(says(&window, "1 chosen"));
+        press(&mut window, NEXT[2]);
+        press(&mut window, NEXT[3]);
+        assert!(is_at(&window, "Check and finish"));
+        assert_eq!(asked(&mut window), [], "nothing is written before the end");
+        press(&mut window, FINISH);
+        let station = saved(asked(&mut window));
+        assert_eq!(station.name, "Şile 2");
+        assert_eq!(station.favourites.numbers(), [25_544]);
+        assert!((station.site.latitude().degrees() - 41.0625).abs() < 1e-4);
+        assert!((station.site.longitude().degrees() - 29.2083).abs() < 1e-4);
+        let addresses: Vec<&str> =
+            station.antennas.iter().map(|of| &*of.connection.address).collect();
+        assert_eq!(addresses, ["unit.local:4001"]);
+        assert_ne!(station.antennas[0].connection, demo.antennas[0].connection);
+    }
+}
+
+#[test]
+fn enter_goes_on_alt_left_goes_back_and_a_skipped_step_says_so() {
+    for size in SIZES {
+        let mut window = window(size);
+        window.key_press(Key::Enter);
+        settle(&mut window);
+        assert!(is_at(&window, "Site"), "the site is missing");
+        assert!(says(&window, "Site: 4 fields are empty."));
+        write_site(&mut window);
+        for step in ["Antennas", "Satellites", "Elements", "Check and finish"] {
+            window.key_press(Key::Enter);
+            settle(&mut window);
+            assert!(is_at(&window, step), "{step}");
+        }
+        for step in ["Elements", "Satellites", "Antennas", "Site"] {
+            window.key_press_modifiers(Modifiers::ALT, Key::ArrowLeft);
+            settle(&mut window);
+            assert!(is_at(&window, step), "{step}");
+        }
+        assert_eq!(field(&window, "Name"), "Şile 2");
+        press(&mut window, "Skip this step");
+        window.get_by_label_contains("Step 1: Site, skipped");
+        window.get_by_label_contains("Step 2: Antennas, done");
+        for _ in 0..3 {
+            press(&mut window, "Skip this step");
+        }
+        press(&mut window, FINISH);
+        let demo = Station::clone(&window.state().model.station);
+        let station = saved(asked(&mut window));
+        assert_eq!((station.antennas.len(), station.site), (0, demo.site));
+    }
+}
+
+#[test]
+fn the_set_up_is_found_again_where_it_was_left() {
+    for size in SIZES {
+        let mut window = window(size);
+        write_site(&mut window);
+        press(&mut window, NEXT[0]);
+        press(&mut window, &format!("Add {}", makes::SPECS[1].name));
+        window.get_by_role_and_label(Role::Button, "Stay in the demo").click();
+        assert_eq!(asked(&mut window), [UiCommand::Show(View::Operate)]);
+        for view in [View::Operate, View::Map, View::Setup] {
+            window.state_mut().model.view = view;
+            settle(&mut window);
+        }
+        assert!(is_at(&window, "Antennas"));
+        window.get_by_role_and_label(Role::Button, "Remove Genius");
+        window.get_by_label_contains("Step 1: Site").click();
+        settle(&mut window);
+        assert_eq!(field(&window, "Name"), "Şile 2");
+        let story = window.state_mut();
+        let mut commands = Vec::new();
+        assert!(story.views.ask_before_closing(&story.model, &mut commands), "it would be lost");
+    }
+}
+
+#[test]
+fn the_station_menu_leads_to_the_set_up_of_a_demo_alone() {
+    for (demo, view) in [(true, View::Operate), (false, View::Operate)] {
+        let mut model = rig::model(rig::quiet());
+        (model.demo, model.view) = (demo, view);
+        let mut window = rig::window(rig::SMALL, model);
+        window.get_by_label("Station Şile 1").click();
+        settle(&mut window);
+        let entry = window.query_by_label("Set up your station…");
+        assert_eq!(entry.is_some(), demo);
+        if let Some(entry) = entry {
+            entry.click();
+            assert_eq!(asked(&mut window), [UiCommand::Show(View::Setup)]);
+        }
+    }
+}
+
+#[test]
+fn a_locator_fills_the_place_and_the_sun_tells_a_wrong_sign() {
+    for size in SIZES {
+        let mut window = window(size);
+        write(&mut window, "Locator", "KN41ob");
+        assert_eq!(field(&window, "Latitude"), "41.0625");
+        assert!(says(&window, "The centre of a square of 7.0 by 4.6 km."));
+        assert!(says(&window, "there now. Is that so?"));
+        write(&mut window, "Longitude, east", "-150.6");
+        assert!(says(&window, "below the horizon there now"));
+        write(&mut window, "Locator", "KN41oz");
+        assert!(says(&window, "Locator has a wrong character at place 6: it must be A to X."));
+        assert_eq!(field(&window, "Longitude, east"), "-150.6", "what is wrong fills nothing");
+    }
+}
+
+#[test]
+fn the_place_of_a_reached_unit_can_be_taken() {
+    for size in SIZES {
+        let mut window = window(size);
+        write_site(&mut window);
+        press(&mut window, NEXT[0]);
+        let antenna = add_and_test(&mut window, "unit.local:4001");
+        tell(&mut window, &antenna, reached());
+        assert!(says(&window, "Reached, SATRAK CU V1.2, 12 ms."));
+        window.key_press_modifiers(Modifiers::ALT, Key::ArrowLeft);
+        settle(&mut window);
+        assert!(says(&window, "km from the place that Satrak told. Which of them is right?"));
+        press(&mut window, "Take the place of Satrak: 41.176° N, 29.613° E");
+        assert_eq!(field(&window, "Latitude"), "41.17600");
+        assert!(says(&window, "Agrees with the place that Satrak told: 0.0 km apart."));
+    }
+}
+
+#[test]
+fn each_outcome_of_a_test_says_what_to_check() {
+    for size in SIZES {
+        let mut window = window(size);
+        write_site(&mut window);
+        press(&mut window, NEXT[0]);
+        let antenna = add_and_test(&mut window, "unit.local:4001");
+        let text = "SSH-2.0-OpenSSH_9.2".to_owned();
+        for (finding, words) in [
+            (LinkFinding::Silent, "Nothing came from unit.local:4001 in 2 s."),
+            (LinkFinding::Closed, "unit.local:4001 closed the connection and said nothing."),
+            (
+                LinkFinding::SomethingElse { text },
+                "Something else answers at unit.local:4001: SSH-2.0-OpenSSH_9.2",
+            ),
+            (LinkFinding::NotOpened(LinkFault::Refused), "unit.local:4001 refuses the connection."),
+            (LinkFinding::NotOpened(LinkFault::NobodyThere), "Nobody answers at unit.local:4001."),
+        ] {
+            tell(&mut window, &antenna, finding);
+            assert!(says(&window, words), "{words}");
+            assert!(says(&window, "Satrak: you can go on."), "{words}");
+        }
+        // The outcome is about what was tested.
+        write(&mut window, "Address of the Satrak", "other.local:4001");
+        assert!(!says(&window, "Nobody answers"));
+        window.get_by_role_and_label(Role::Button, "Test link of Satrak");
+    }
+}
+
+#[test]
+fn an_address_of_the_demo_is_not_taken() {
+    let mut window = window(rig::LARGE);
+    write_site(&mut window);
+    press(&mut window, NEXT[0]);
+    let address = window.state().model.antennas[0].config.connection.address.clone();
+    press(&mut window, &format!("Add {}", makes::SPECS[0].name));
+    write(&mut window, "Address of the Satrak", &address);
+    assert!(says(&window, "Satrak: the address ends with the demo station."));
+    assert!(is_locked(&window, NEXT[1]));
+}
+
+#[test]
+fn a_station_that_was_not_saved_says_why() {
+    let mut window = window(rig::LARGE);
+    for _ in 0..4 {
+        press(&mut window, "Skip this step");
+    }
+    press(&mut window, FINISH);
+    window.state_mut().views.saved(Err("the disk is full".to_owned()));
+    settle(&mut window);
+    assert!(says(&window, "Not saved: The disk is full."));
+    assert!(!is_locked(&window, FINISH));
+}
+
+#[test]
+fn every_button_is_in_the_window_and_is_named() {
+    for size in SIZES {
+        let mut window = window(size);
+        write_site(&mut window);
+        for next in NEXT.into_iter().chain([FINISH]) {
+            let right = window.get_by_role_and_label(Role::Button, next).rect();
+            let left = window.get_by_role_and_label(Role::Button, "Back").rect();
+            assert!(right.right() <= size[0] && right.bottom() <= size[1], "{right:?}");
+            assert!(left.right() < right.left(), "{left:?} {right:?}");
+            if next != FINISH {
+                press(&mut window, next);
+            }
+        }
+    }
+}
+
+#[test]
+fn letters_of_a_name_are_no_commands() {
+    let mut window = window(rig::LARGE);
+    window.key_press(Key::Tab);
+    settle(&mut window);
+    for key in [Key::A, Key::T, Key::P] {
+        window.key_press(key);
+    }
+    window.event(Event::Text("atp".to_owned()));
+    assert_eq!(asked(&mut window), []);
+    assert_eq!(field(&window, "Name"), "atp", "Tab leads from the head to the first field");
+}
