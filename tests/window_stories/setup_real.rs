@@ -55,11 +55,11 @@ impl Operator {
         found.is_some_and(|node| node.accesskit_node().is_focused())
     }
 
-    /// Goes to a field and types.
+    /// Goes to a field, unless it has the focus, and types.
     fn write(&mut self, field: &str, text: &str) {
         if self.keys_alone {
             self.tab_to(Role::TextInput, field);
-        } else {
+        } else if !self.has_focus(Role::TextInput, field) {
             self.window.get_by_role_and_label(Role::TextInput, field).click();
             self.actions += 1;
             self.window.run_steps(3);

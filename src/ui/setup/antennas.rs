@@ -14,6 +14,7 @@ use crate::{
         widgets::{
             button::Button,
             card,
+            input::focus_to_replace,
             told::{Tone, line},
         },
     },
@@ -101,9 +102,9 @@ fn one(
     let fields = typed.fields.get_mut(..count).unwrap_or_default();
     let responses = form::fields(ui, &format!("set-up {index}"), fields, &standings);
     if draft.wants_address == Some(id)
-        && let Some(address) = responses.get(ADDRESS)
+        && let (Some(response), Some(field)) = (responses.get(ADDRESS), fields.get(ADDRESS))
     {
-        address.request_focus();
+        focus_to_replace(ui, response, &field.text);
         draft.wants_address = None;
     }
     ui.add_space(4.0);

@@ -111,6 +111,16 @@ pub fn select_when_tabbed(ui: &Ui, response: &Response, typed: &str) {
     if !response.gained_focus() || by_pointer {
         return;
     }
+    select_all(ui, response, typed);
+}
+
+/// Gives a field the focus, with its value selected.
+pub fn focus_to_replace(ui: &Ui, response: &Response, typed: &str) {
+    response.request_focus();
+    select_all(ui, response, typed);
+}
+
+fn select_all(ui: &Ui, response: &Response, typed: &str) {
     let mut state = TextEditState::load(ui.ctx(), response.id).unwrap_or_default();
     state.cursor.set_char_range(Some(CCursorRange::select_all_str(typed)));
     state.store(ui.ctx(), response.id);
