@@ -2,9 +2,9 @@
 //!
 //! The folders are layers; a lower one never names a higher one. From the
 //! bottom: [`astro`], [`orbit`], [`library`], [`protocol`], [`device`], [`transfer`], [`station`],
-//! [`controller`], [`plan`], [`driver`], [`sim`], [`makes`], [`engine`], [`model`], [`ui`], [`app`]; [`secret`] and
-//! `whole_file` stand below them all. `docs/architecture.md` holds the picture and the
-//! invariants.
+//! [`controller`], [`plan`], [`driver`], [`sim`], [`makes`], [`engine`], [`model`], [`ui`],
+//! [`app`]; [`desktop`], [`secret`] and `whole_file` stand below them all. `docs/architecture.md`
+//! holds the picture and the invariants.
 
 pub mod app;
 pub mod astro;

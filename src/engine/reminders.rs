@@ -113,10 +113,16 @@ mod tests {
 
     use super::*;
     use crate::{
-        engine::passes::{ListedSatellite, Observer},
+        clock::Instant,
+        device::{HeldSatellite, Phase, Program},
+        driver::{LinkState, Snapshot},
+        engine::{
+            antenna::AntennaModel,
+            passes::{ListedSatellite, Observer},
+        },
         makes::DemoAddresses,
         orbit::{PassSearch, Propagator, bundled, passes},
-        station::{Favourites, Notices},
+        station::{Antenna, Favourites, Notices},
     };
 
     const ISS: u32 = 25_544;
@@ -201,6 +207,26 @@ mod tests {
         assert_eq!(standing(aos - 5.seconds(), false), 1);
         assert_eq!(standing(los - 1.second(), false), 1);
         assert_eq!(standing(los, false), 0);
+    }
+
+    #[test]
+    fn a_unit_takes_a_pass_by_its_own_program_until_that_is_completed() {
+        let takes = |phase, satellite, link| {
+            let mut snapshot = Snapshot::before_anything(link);
+            snapshot.state.program = Some(Program { enabled: true, phase, auto: None });
+            snapshot.state.on_board.satellite = Some(HeldSatellite {
+                catalog_number: satellite,
+                name: "ISS".to_owned(),
+                maximum_elevation_deg: None,
+            });
+            let config = Antenna::satrak("Dish", "10.0.0.5:4001");
+            AntennaModel::new(config, Arc::new(snapshot)).takes(ISS)
+        };
+        let up = LinkState::Up { since: Instant::now() };
+        assert!(takes(Phase::AtStart, ISS, up.clone()) && takes(Phase::Tracking, ISS, up.clone()));
+        assert!(!takes(Phase::Completed, ISS, up.clone()), "the pass before");
+        assert!(!takes(Phase::AtStart, 43_013, up));
+        assert!(!takes(Phase::AtStart, ISS, LinkState::Off));
     }
 
     #[test]

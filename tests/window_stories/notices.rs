@@ -178,6 +178,15 @@ fn the_note_leads_to_its_pass_and_can_be_closed() {
 }
 
 #[test]
+fn a_pass_that_no_antenna_can_track_says_so() {
+    let (mut window, reminder) = reminded(SIZES[0], View::Map);
+    let reminder = Reminder { can_track: Vec::new(), ..reminder };
+    window.state_mut().model.reminders = Arc::new(vec![reminder]);
+    settle(&mut window);
+    assert!(says(&window, "max 54°, no antenna can track it."));
+}
+
+#[test]
 fn the_note_ends_with_aos() {
     let (mut window, reminder) = reminded(SIZES[0], View::Operate);
     window.state_mut().model.now = reminder.aos();
