@@ -7,6 +7,7 @@
 mod carry_out;
 mod catalog_table;
 mod effects;
+mod intake;
 mod log_file;
 mod mask_file;
 mod memory;
@@ -22,8 +23,8 @@ use std::{
 };
 
 use self::{
-    catalog_table::CatalogWork, effects::EffectsJob, log_file::LogWork, mask_file::MaskWork,
-    memory::Keeper, notifier::Notifier,
+    catalog_table::CatalogWork, effects::EffectsJob, intake::IntakeWork, log_file::LogWork,
+    mask_file::MaskWork, memory::Keeper, notifier::Notifier,
 };
 use crate::{
     clock::Clock,
@@ -51,6 +52,7 @@ pub struct App {
     wake: Wake,
     effects_job: Option<EffectsJob>,
     catalog_work: CatalogWork,
+    intake_work: IntakeWork,
     log_work: LogWork,
     mask_work: MaskWork,
     keeper: Keeper,
@@ -92,6 +94,7 @@ impl App {
             demo: false,
             catalog: CatalogState::Loading,
             sources: Arc::default(),
+            intake: None,
             older_sets: None,
             catalog_table: model::catalog_table::CatalogTable::default(),
             antennas: Vec::new(),
@@ -124,6 +127,7 @@ impl App {
             wake,
             effects_job: None,
             catalog_work: CatalogWork::default(),
+            intake_work: IntakeWork::default(),
             log_work,
             mask_work,
             keeper,
@@ -179,6 +183,7 @@ impl App {
         self.take_mask_file();
         self.work_on_effects();
         self.work_on_catalog();
+        self.take_intake();
         self.model.refresh_sky();
         self.remember();
     }

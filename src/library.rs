@@ -56,6 +56,11 @@ pub fn server_of(source: &Source) -> Option<String> {
     }
 }
 
+/// The bytes of a file of elements, as far as the default limits allow.
+pub fn read_element_file(path: &Path) -> io::Result<Vec<u8>> {
+    Ok(disk::read(path, Limits::default().bytes)?.bytes)
+}
+
 /// Library of elements on disk.
 #[derive(Debug)]
 pub struct Library {

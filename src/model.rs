@@ -6,6 +6,7 @@ pub mod command;
 pub mod daylight;
 pub mod effects;
 pub mod globe;
+pub mod intake;
 mod line;
 pub mod object_detail;
 mod theme_name;
@@ -16,7 +17,9 @@ use jiff::Timestamp;
 
 #[cfg(test)]
 pub(crate) use self::line::testing;
-use self::{catalog_table::CatalogTable, daylight::SunSpan, effects::Effects, globe::Globe};
+use self::{
+    catalog_table::CatalogTable, daylight::SunSpan, effects::Effects, globe::Globe, intake::Intake,
+};
 pub use self::{
     command::UiCommand,
     line::{ConsoleLine, Piece, pieces},
@@ -96,6 +99,8 @@ pub struct Model {
     pub catalog: CatalogState,
     /// The sources of elements.
     pub sources: Arc<Sources>,
+    /// Files and texts that are offered as elements; `None` without any.
+    pub intake: Option<Intake>,
     /// Older sets of the object that was asked for last.
     pub older_sets: Option<Arc<OlderSets>>,
     /// The table of the catalog.

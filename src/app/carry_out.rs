@@ -71,6 +71,11 @@ impl App {
             }
             UiCommand::ShowEffects(question) => model.effects.ask(*question, model.steady),
             UiCommand::ShowCatalog(question) => model.catalog_table.asked = question,
+            UiCommand::OfferElements { offers, is_dropped } => {
+                self.offer_elements(offers, is_dropped);
+            }
+            UiCommand::LeaveElements => self.leave_elements(),
+            UiCommand::ChooseElementFiles => self.choose_element_files(),
             UiCommand::InspectObject(number) => {
                 model.catalog_table.inspected = Some(number);
                 self.send(Command::ListOlderSets(number));

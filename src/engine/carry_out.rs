@@ -74,6 +74,10 @@ impl Engine {
                 station.frequencies.retain(|of| of.satellite != satellite);
                 station.frequencies.extend(frequencies);
             }),
+            Command::CopyElements { name, from } => {
+                let copy = Some((name, from));
+                self.begin_elements(Task { copy, ..Task::default() });
+            }
             Command::SetRefresh { name, hours } => {
                 let mut list = self.sources.list.clone();
                 for source in list.iter_mut().filter(|source| source.name == name) {
@@ -86,7 +90,7 @@ impl Engine {
                 let ask = vec![source.name.clone()];
                 let mut list = self.sources.list.clone();
                 list.push(source);
-                self.begin_elements(Task { list: Some(list), ask, forced: false });
+                self.begin_elements(Task { list: Some(list), ask, ..Task::default() });
             }
             Command::RemoveSource(name) => {
                 let mut list = self.sources.list.clone();
@@ -94,7 +98,7 @@ impl Engine {
                 self.begin_elements(Task { list: Some(list), ..Task::default() });
             }
             Command::RefreshSources { names, forced } => {
-                self.begin_elements(Task { list: None, ask: names, forced });
+                self.begin_elements(Task { ask: names, forced, ..Task::default() });
             }
             Command::OpenedAlarms => self.alarms.unopened = false,
             Command::AcknowledgeAlarm(id) => self.alarms.acknowledge(id, self.now),

@@ -9,6 +9,7 @@ use super::{
     closing::CloseHow,
     passes::{ListChoice, PassKey, Scope},
     source_tests::TestAsk,
+    sources::Copied,
     uploads, written,
 };
 use crate::{
@@ -66,6 +67,11 @@ pub enum Command {
     SetRefresh {
         name: String,
         hours: Option<RefreshHours>,
+    },
+    /// Copy elements into the library, as a source with this name.
+    CopyElements {
+        name: String,
+        from: Copied,
     },
     /// Publish the older sets of the object with this catalog number.
     ListOlderSets(u32),

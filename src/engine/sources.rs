@@ -12,8 +12,12 @@ use serde::{Deserialize, Serialize};
 use crate::job::Job;
 use crate::{
     job::Wake,
-    library::{self, History, IndexError, Library, Limits, OlderSet, load_sources, save_sources},
-    orbit::{Catalog, Source, SourceReport, bundled},
+    library::{
+        self, History, IndexError, Library, Limits, OlderSet, check_source, load_sources,
+        read_element_file, save_sources,
+    },
+    orbit::{Catalog, Source, SourcePlace, SourceReport, bundled},
+    whole_file,
 };
 
 /// The sources as last read.
@@ -89,9 +93,18 @@ impl Places {
     }
 }
 
+/// Elements that are copied into the library.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub enum Copied {
+    File(PathBuf),
+    Text(String),
+}
+
 /// Work to do before everything is read anew.
 #[derive(Debug, Default)]
 pub(super) struct Task {
+    /// Elements to be copied into the library, with the name of their source.
+    pub(super) copy: Option<(String, Copied)>,
     /// A new list to save.
     pub(super) list: Option<Vec<Source>>,
     /// Names of the sources whose servers are asked, where they may be.
@@ -125,6 +138,34 @@ pub(super) fn start(
     })
 }
 
+/// The list on disk with a source of these elements, which are copied into the library.
+fn with_copy(places: &Places, name: &str, from: &Copied) -> Result<Vec<Source>, String> {
+    let path = places.list.as_deref().ok_or("this user has no folder for settings")?;
+    let folder = places.library.as_deref().ok_or("this user has no folder for data")?;
+    let mut list = load_sources(path).map_err(|error| error.to_string())?;
+    let read;
+    let bytes = match from {
+        Copied::Text(text) => text.as_bytes(),
+        Copied::File(file) => {
+            let in_words = |error| format!("cannot be read: {error}: {}", file.display());
+            read = read_element_file(file).map_err(in_words)?;
+            &read
+        }
+    };
+    let plain = |letter: char| if letter.is_ascii_alphanumeric() { letter } else { '-' };
+    let stem: String = name.to_lowercase().chars().map(plain).take(40).collect();
+    let copies = folder.join("copies");
+    let mut files = (1..).map(|count| copies.join(format!("{stem}-{count}.elements")));
+    let file = files.find(|file| !file.exists()).unwrap_or(copies);
+    let source =
+        Source { name: name.to_owned(), place: SourcePlace::File(file.clone()), refresh: None };
+    check_source(&source, &list).map_err(|problem| problem.to_string())?;
+    whole_file::replace(&file, bytes)
+        .map_err(|error| format!("the elements were not copied: {error}: {}", file.display()))?;
+    list.push(source);
+    Ok(list)
+}
+
 /// Keeps the sets that are not in use, and those of `before` that newer ones replaced, in the
 /// history of the library. A failure is logged: the elements in use are not concerned.
 fn keep_superseded(places: &Places, catalog: &mut Catalog, before: Option<&Catalog>) {
@@ -152,7 +193,15 @@ fn carry_out(
     cancelled: &dyn Fn() -> bool,
 ) -> Outcome {
     let mut sources = Sources::default();
-    if let Some(list) = &task.list {
+    let copied = match &task.copy {
+        Some((name, from)) => with_copy(places, name, from).map(Some),
+        None => Ok(task.list.clone()),
+    };
+    let list = copied.unwrap_or_else(|problem| {
+        sources.problem = Some(problem);
+        None
+    });
+    if let Some(list) = &list {
         let saved = places.list.as_deref().map(|path| save_sources(list, path));
         sources.problem = match saved {
             Some(Ok(())) => None,
@@ -201,7 +250,7 @@ mod tests {
     use std::fs;
 
     use super::*;
-    use crate::orbit::{RefreshHours, SourcePlace, write_omm_json};
+    use crate::orbit::{RefreshHours, write_omm_json};
 
     const ISS: u32 = 25_544;
 
@@ -258,7 +307,7 @@ mod tests {
     fn an_added_source_is_kept_and_its_newer_elements_win() {
         let fixture = Fixture::new();
         let list = Some(vec![fixture.newer_file()]);
-        let first = fixture.run(&Task { list, ask: vec!["own".to_owned()], forced: false });
+        let first = fixture.run(&Task { list, ask: vec!["own".to_owned()], ..Task::default() });
         for outcome in [first, fixture.run(&Task::default())] {
             assert_eq!(iss_epoch(&outcome.catalog), own_epoch());
             assert_eq!(outcome.catalog.len(), 16_089);
@@ -301,6 +350,31 @@ mod tests {
         assert_eq!(sources.due_by_themselves(now), ["weather"]);
         sources.list[1].refresh = None;
         assert_eq!(sources.due_by_themselves(now), [""; 0]);
+    }
+
+    #[test]
+    fn copied_elements_stay_when_their_file_goes() {
+        let fixture = Fixture::new();
+        let own = fixture.newer_file();
+        let SourcePlace::File(path) = &own.place else { unreachable!() };
+        let text = fs::read_to_string(path).unwrap();
+        for (name, from) in [("Own, 1", Copied::File(path.clone())), ("pasted", Copied::Text(text))]
+        {
+            let copy = Some((name.to_owned(), from.clone()));
+            let outcome = fixture.run(&Task { copy, ..Task::default() });
+            assert_eq!(outcome.sources.problem, None);
+            fs::write(path, "").unwrap();
+            let outcome = fixture.run(&Task::default());
+            assert_eq!(iss_epoch(&outcome.catalog), own_epoch());
+            let copy = Some((name.to_owned(), from));
+            let again = fixture.run(&Task { copy, ..Task::default() });
+            assert!(again.sources.problem.is_some(), "the name is taken");
+        }
+        let outcome = fixture.run(&Task::default());
+        assert_eq!(outcome.sources.list.len(), 2);
+        let copy = Some(("gone".to_owned(), Copied::File("/no/such/file".into())));
+        let outcome = fixture.run(&Task { copy, ..Task::default() });
+        assert!(outcome.sources.problem.is_some() && outcome.sources.list.len() == 2);
     }
 
     #[test]

@@ -2,7 +2,7 @@
 
 use std::{path::PathBuf, sync::Arc};
 
-use super::{ConsoleLine, Model, ThemeName, View, catalog_table, effects};
+use super::{ConsoleLine, Model, ThemeName, View, catalog_table, effects, intake::Offer};
 use crate::{
     astro::HorizonMask,
     desktop::Sound,
@@ -41,6 +41,15 @@ pub enum UiCommand {
     SaveLog(Vec<Arc<ConsoleLine>>),
     /// Show these objects in the table of the catalog.
     ShowCatalog(catalog_table::Question),
+    /// Read these files and texts, which the operator holds over the window or has dropped.
+    OfferElements {
+        offers: Vec<Offer>,
+        is_dropped: bool,
+    },
+    /// Drop what is offered as elements.
+    LeaveElements,
+    /// Offer files that the operator chooses in the dialog of the desktop.
+    ChooseElementFiles,
     /// Show this object in detail in the Elements view.
     InspectObject(u32),
     /// Work out the effects of keep-outs on the passes to come.

@@ -10,6 +10,7 @@ mod facts;
 mod frequencies;
 mod holds;
 mod inspector;
+mod intake;
 mod next_passes;
 mod refused;
 mod selection;
@@ -17,6 +18,8 @@ mod sets;
 mod sources;
 mod table;
 mod words;
+
+pub use self::bar::refresh_due;
 
 use egui::{Rect, Ui};
 
@@ -54,6 +57,10 @@ pub struct ElementsState {
     inspector_is_open: bool,
     upload_is_open: bool,
     frequencies: Option<frequencies::Edit>,
+    /// Files that were held over the window in the last frame.
+    hovered: Vec<std::path::PathBuf>,
+    /// Places of the offers that were taken.
+    taken: Vec<usize>,
     /// Objects to be chosen for the upload.
     uploads: Option<Vec<u32>>,
 }
@@ -108,19 +115,12 @@ pub fn show(
     // A drawer over the table takes the pointer.
     let rest = if has_drawer { rest.with_max_x(right.left()) } else { rest };
 
-    let sources = sources::height(model, state, rect.height());
-    let (top, rest) = rest.split_top_bottom_at_y(rest.top() + sources);
-    sources::show(ui, top, rect.height(), model, state, question, commands);
-    let (top, rest) = rest.split_top_bottom_at_y(rest.top() + chips::HEIGHT);
-    chips::show(ui, top, model, state);
-    let (rest, bottom) = rest.split_top_bottom_at_y(rest.bottom() - refused::height(model, state));
-    refused::show(ui, bottom, model, state);
-    let is_marked = !state.selection.marked().is_empty();
-    let bulk = if is_marked { bulk::HEIGHT } else { 0.0 };
-    let (body, bottom) = rest.split_top_bottom_at_y(rest.bottom() - bulk);
-    table::show(ui, body, model, can_mark, state, commands);
-    if is_marked {
-        bulk::show(ui, bottom, model, can_mark, state, commands);
+    intake::take(ui, model, state, commands);
+    if let Some(intake) = &model.intake {
+        intake::show(ui, rest, model, intake, state, commands);
+    } else {
+        state.taken.clear();
+        show_main(ui, rest, rect.height(), model, can_mark, state, question, commands);
     }
     if state.question != model.catalog_table.asked {
         commands.push(UiCommand::ShowCatalog(state.question.clone()));
@@ -137,6 +137,34 @@ pub fn show(
     }
     inspector::show(ui, side, model, can_mark, state, commands);
     None
+}
+
+/// Draws sources, groups, table and what belongs to them, in a view of height `of`.
+#[allow(clippy::too_many_arguments)]
+fn show_main(
+    ui: &mut Ui,
+    rest: Rect,
+    of: f32,
+    model: &Model,
+    can_mark: bool,
+    state: &mut ElementsState,
+    question: &mut Option<Question>,
+    commands: &mut Vec<UiCommand>,
+) {
+    let sources = sources::height(model, state, of);
+    let (top, rest) = rest.split_top_bottom_at_y(rest.top() + sources);
+    sources::show(ui, top, of, model, state, question, commands);
+    let (top, rest) = rest.split_top_bottom_at_y(rest.top() + chips::HEIGHT);
+    chips::show(ui, top, model, state);
+    let (rest, bottom) = rest.split_top_bottom_at_y(rest.bottom() - refused::height(model, state));
+    refused::show(ui, bottom, model, state);
+    let is_marked = !state.selection.marked().is_empty();
+    let bulk = if is_marked { bulk::HEIGHT } else { 0.0 };
+    let (body, bottom) = rest.split_top_bottom_at_y(rest.bottom() - bulk);
+    table::show(ui, body, model, can_mark, state, commands);
+    if is_marked {
+        bulk::show(ui, bottom, model, can_mark, state, commands);
+    }
 }
 
 fn show_upload(ui: &Ui, rect: Rect, state: &mut ElementsState) -> UploadPlace {

@@ -36,6 +36,8 @@ pub enum KeyScope {
     Operate,
     /// In the Map view, but not while typing.
     Map,
+    /// In the Elements view, also while typing.
+    Elements,
     /// In the focused control, which handles the key itself.
     Focus,
 }
@@ -56,7 +58,7 @@ const fn with(modifiers: Modifiers, binding: Binding) -> Binding {
 }
 
 /// All keys, in the order of the list. The app handles the key of STOP before anything else.
-pub const ALL: [Binding; 28] = [
+pub const ALL: [Binding; 29] = [
     row(KeyScope::Focus, &[(Key::Escape, Act::There)], "STOP, everywhere; closes what is open"),
     with(
         Modifiers::COMMAND,
@@ -189,6 +191,14 @@ pub const ALL: [Binding; 28] = [
         &[(Key::Insert, Act::There), (Key::Delete, Act::There)],
         "add, remove a corner; arrows move it (Shift 5°, Ctrl 0.1°)",
     ),
+    with(
+        Modifiers::COMMAND,
+        row(
+            KeyScope::Elements,
+            &[(Key::O, Act::ChooseElements), (Key::R, Act::RefreshElements)],
+            "in Elements: choose files, refresh what is due",
+        ),
+    ),
     row(
         KeyScope::Focus,
         &[
@@ -237,6 +247,7 @@ pub fn take(ui: &Ui, model: &Model, targets: &mut KeyTargets<'_>, commands: &mut
         KeyScope::Views => !typing,
         KeyScope::Operate => !typing && model.view == View::Operate,
         KeyScope::Map => !typing && model.view == View::Map,
+        KeyScope::Elements => model.view == View::Elements,
         KeyScope::Focus => false,
     };
     for binding in ALL.iter().filter(|binding| works(binding.place)) {

@@ -2,7 +2,10 @@
 
 use std::sync::Arc;
 
-use std::{fs, path::PathBuf};
+use std::{
+    fs,
+    path::{Path, PathBuf},
+};
 
 use azel::{
     astro::time::add_seconds,
@@ -10,7 +13,7 @@ use azel::{
     engine::{
         self, CatalogState,
         older_sets::OlderSets,
-        sources::{SourceWork, Sources},
+        sources::{Copied, SourceWork, Sources},
     },
     library::{OlderSet, save_sources},
     makes,
@@ -21,7 +24,7 @@ use azel::{
     },
     station::{self, Frequency, Priority},
 };
-use egui::{Event, Key, Modifiers, Role};
+use egui::{DroppedFile, DroppedFileHandle, Event, HoveredFile, Key, Modifiers, Role};
 use egui_kittest::{
     Node,
     kittest::{NodeT as _, Queryable as _},
@@ -646,6 +649,95 @@ fn every_control_is_whole_in_every_window() {
             }
         }
     }
+}
+
+/// A file in the hand of the operator.
+#[derive(Debug)]
+struct Held(PathBuf);
+
+impl DroppedFile for Held {
+    fn path(&self) -> &Path {
+        &self.0
+    }
+
+    fn bytes(&self) -> Result<Vec<u8>, String> {
+        fs::read(&self.0).map_err(|error| error.to_string())
+    }
+}
+
+#[test]
+fn a_held_file_says_what_it_holds_and_is_kept_or_read_once_after_its_release() {
+    let folder = tempfile::tempdir().unwrap();
+    let own = newer_elements(&folder);
+    let notes = folder.path().join("notes.txt");
+    fs::write(&notes, "hello\nworld\n").unwrap();
+    for size in SIZES {
+        let mut window = view(size, Vec::new());
+        let files = [own.clone(), notes.clone()];
+        window.input_mut().hovered_files = files
+            .iter()
+            .map(|path| HoveredFile { path: Some(path.clone()), ..HoveredFile::default() })
+            .collect();
+        settle(&mut window);
+        assert!(says(&window, "Release to read 2 files."));
+        assert!(says(&window, "own.json: 1 object, 1 newer than in use"));
+        assert!(says(&window, "notes.txt: Left out: it is neither TLE nor OMM."));
+        assert!(window.query_by_label("Read once: own.json").is_none(), "nothing is chosen yet");
+        // Moved out of the window again.
+        window.input_mut().hovered_files.clear();
+        settle(&mut window);
+        assert!(!says(&window, "Release to read"));
+        window.input_mut().dropped_files =
+            files.iter().map(|path| Arc::new(Held(path.clone())) as DroppedFileHandle).collect();
+        settle(&mut window);
+        assert!(says(&window, "What shall be taken?"));
+        assert!(window.query_by_label("Read once: notes.txt").is_none());
+        assert_eq!(asked(&mut window), []);
+        click(&mut window, "Keep as source: own.json");
+        let place = SourcePlace::File(own.clone());
+        let source = Source { name: "own".to_owned(), place, refresh: None };
+        assert_eq!(asked(&mut window), [UiCommand::Station(engine::Command::AddSource(source))]);
+        assert!(window.query_by_label("Keep as source: own.json").is_none(), "it is taken");
+        click(&mut window, "Close");
+        assert!(!says(&window, "What shall be taken?"));
+    }
+}
+
+#[test]
+fn pasted_elements_are_told_with_their_refusals_and_taken_once() {
+    for size in SIZES {
+        let mut window = view(size, Vec::new());
+        let text = "[{\"OBJECT_NAME\":\"OBJECT M\"},{\"OBJECT_NAME\":\"NEW\",\"NORAD_CAT_ID\":999999,\
+                    \"EPOCH\":\"2026-08-12T00:00:00\",\"MEAN_MOTION\":14.19,\"ECCENTRICITY\":0.0001,\
+                    \"INCLINATION\":98.7,\"RA_OF_ASC_NODE\":0,\"ARG_OF_PERICENTER\":0,\
+                    \"MEAN_ANOMALY\":0,\"BSTAR\":0}]";
+        window.event(Event::Paste(text.to_owned()));
+        settle(&mut window);
+        assert!(says(&window, "pasted text: 1 object, 1 new, 1 refused"));
+        assert!(says(&window, "line 1: OBJECT M: "));
+        click(&mut window, "Read once: pasted text");
+        let name = "pasted 12 Aug 11:15".to_owned();
+        let from = Copied::Text(text.to_owned());
+        let wanted = engine::Command::CopyElements { name, from };
+        assert_eq!(asked(&mut window), [UiCommand::Station(wanted)]);
+
+        let mut window = view(size, Vec::new());
+        window.event(Event::Paste("hello".to_owned()));
+        settle(&mut window);
+        assert!(says(&window, "None of these holds elements"));
+    }
+}
+
+#[test]
+fn files_are_chosen_by_a_key_and_in_the_form() {
+    let mut window = view(rig::LARGE, vec![server(3.0)]);
+    window.key_press_modifiers(Modifiers::COMMAND, Key::O);
+    assert_eq!(asked(&mut window), [UiCommand::ChooseElementFiles]);
+    window.key_press_modifiers(Modifiers::COMMAND, Key::R);
+    assert_eq!(asked(&mut window), [refresh(&["weather"], false)]);
+    click(&mut window, "Add a source");
+    click(&mut window, "Choose files…");
+    assert_eq!(asked(&mut window), [UiCommand::ChooseElementFiles]);
 }
 
 /// Elements of one object as a file in `folder`, a day newer than the bundled ones.

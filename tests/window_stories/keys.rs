@@ -57,6 +57,10 @@ fn every_key_of_the_list_does_something() {
                 window.key_press(Key::Plus);
                 asked(&mut window);
             }
+            if binding.place == KeyScope::Elements {
+                window.state_mut().model.view = View::Elements;
+                rig::settle(&mut window);
+            }
             let before = all_words(&window);
             window.key_press_modifiers(binding.modifiers, key);
             let asked = asked(&mut window);

@@ -23,6 +23,7 @@ use azel::{
         catalog_table::{Answer, CatalogTable, arrange},
         effects::Effects,
         globe::Globe,
+        intake::{Intake, Judged, Offer},
         object_detail::{DetailKey, ObjectDetail},
     },
     orbit::{Catalog, PassSearch, Propagator, bundled, passes},
@@ -149,6 +150,7 @@ pub(crate) fn model(mut snapshot: Snapshot) -> Model {
         demo: false,
         catalog: CatalogState::Ready(Arc::clone(&orbits.catalog)),
         sources: Arc::default(),
+        intake: None,
         older_sets: None,
         catalog_table: CatalogTable::default(),
         wires: antennas.iter().map(|_| WireLog::default()).collect(),
@@ -223,10 +225,33 @@ fn arrange_catalog(story: &mut Story) {
             model.catalog_table.inspected = Some(*number);
         }
     }
-    let is_carried_out = |command: &UiCommand| {
-        matches!(command, UiCommand::ShowCatalog(_) | UiCommand::InspectObject(_))
+    let is_of_window = |command: &UiCommand| {
+        matches!(
+            command,
+            UiCommand::ShowCatalog(_)
+                | UiCommand::InspectObject(_)
+                | UiCommand::OfferElements { .. }
+                | UiCommand::LeaveElements
+        )
     };
-    story.commands.retain(|command| !is_carried_out(command));
+    for command in story.commands.extract_if(.., |command| is_of_window(command)) {
+        match command {
+            UiCommand::OfferElements { offers, is_dropped } => {
+                let CatalogState::Ready(catalog) = &model.catalog else { continue };
+                let judged = offers.iter().map(|offer| match offer {
+                    Offer::Text(text) => Judged::of(text.as_bytes(), Some(catalog)),
+                    Offer::File(path) => match std::fs::read(path) {
+                        Ok(bytes) => Judged::of(&bytes, Some(catalog)),
+                        Err(error) => Judged::Unreadable(error.to_string()),
+                    },
+                });
+                let judged = Some(judged.collect());
+                model.intake = Some(Intake { offers, is_dropped, judged });
+            }
+            UiCommand::LeaveElements => model.intake = None,
+            _ => {}
+        }
+    }
     let CatalogState::Ready(catalog) = &model.catalog else { return };
     let inputs = model.catalog_table.inputs(catalog, &model.station.favourites);
     let is_arranged = |answer: &Answer| answer.inputs == inputs;

@@ -67,6 +67,14 @@ pub(in crate::ui) fn show(
     ui.vertical(|ui| {
         ui.label(RichText::new("Add a source").font(text::value()));
         ui.horizontal(|ui| {
+            if ui.button("Choose files…").clicked() {
+                commands.push(UiCommand::ChooseElementFiles);
+                ui.close();
+            }
+            let words = "or drop files on this view, or paste elements with Ctrl V";
+            ui.label(RichText::new(words).font(text::body()).color(t.t2));
+        });
+        ui.horizontal(|ui| {
             for (kind, word) in
                 [(Kind::Web, "Server"), (Kind::File, "File"), (Kind::Folder, "Folder")]
             {

@@ -189,7 +189,7 @@ fn next_due(model: &Model) -> Option<jiff::Timestamp> {
 }
 
 /// Asks the servers that may be asked, and reads all other sources.
-pub(super) fn refresh_due(model: &Model) -> UiCommand {
+pub fn refresh_due(model: &Model) -> UiCommand {
     let command = engine::Command::RefreshSources { names: due(model), forced: false };
     UiCommand::Station(command)
 }

@@ -7,7 +7,7 @@ use crate::{
     driver::{self, Intent},
     engine::{self, antenna::AntennaModel},
     model::{Model, UiCommand, View, globe::Towards},
-    ui::{confirm::Question, theme},
+    ui::{confirm::Question, elements, theme},
 };
 
 /// Effect of a key.
@@ -36,6 +36,10 @@ pub(super) enum Act {
     WholeMap,
     MapLayers,
     Search,
+    /// Chooses files of elements.
+    ChooseElements,
+    /// Asks the servers of elements that may be asked.
+    RefreshElements,
     Acknowledge,
     NextTheme,
     List,
@@ -53,6 +57,7 @@ impl Act {
             Self::Search => {
                 !matches!(model.view, View::Antennas | View::Map | View::Preferences | View::Setup)
             }
+            Self::RefreshElements => model.sources.is_free(),
             _ => true,
         }
     }
@@ -102,6 +107,8 @@ impl Act {
                 View::Console => targets.console.focus_filter(),
                 _ => targets.operate.filter_list(),
             },
+            Self::ChooseElements => commands.push(UiCommand::ChooseElementFiles),
+            Self::RefreshElements => commands.push(elements::refresh_due(model)),
             Self::Acknowledge => {
                 let seen = model.alarms.newest_unseen().map(engine::Command::AcknowledgeAlarm);
                 commands.extend(seen.map(UiCommand::Station));

@@ -1,0 +1,83 @@
+//! Reads what the operator offers as elements, and asks for files with the dialog of the desktop,
+//! on threads.
+
+use std::{path::PathBuf, sync::Arc};
+
+use super::App;
+use crate::{
+    engine::CatalogState,
+    job::Job,
+    library::read_element_file,
+    model::intake::{Intake, Judged, Offer},
+};
+
+/// The work under way.
+#[derive(Default)]
+pub(super) struct IntakeWork {
+    judging: Option<Job<Vec<Judged>>>,
+    dialog: Option<Job<Vec<PathBuf>>>,
+}
+
+impl App {
+    /// Begins to read what is offered, unless it is the same as before.
+    pub(super) fn offer_elements(&mut self, offers: Vec<Offer>, is_dropped: bool) {
+        if let Some(known) = self.model.intake.as_mut().filter(|known| known.offers == offers) {
+            known.is_dropped |= is_dropped;
+            return;
+        }
+        let catalog = match &self.model.catalog {
+            CatalogState::Ready(catalog) => Some(Arc::clone(catalog)),
+            CatalogState::Loading | CatalogState::Failed => None,
+        };
+        let asked = offers.clone();
+        let job = Job::start("azel-intake", Arc::clone(&self.wake), move |cancelled| {
+            let wanted = asked.iter().take_while(|_| !cancelled());
+            let judge = |bytes: &[u8]| Judged::of(bytes, catalog.as_deref());
+            wanted
+                .map(|offer| match offer {
+                    Offer::Text(text) => judge(text.as_bytes()),
+                    Offer::File(path) => match read_element_file(path) {
+                        Ok(bytes) => judge(&bytes),
+                        Err(error) => Judged::Unreadable(error.to_string()),
+                    },
+                })
+                .collect()
+        });
+        let job = job.inspect_err(|error| tracing::error!(%error, "no thread for the files"));
+        self.intake_work.judging = job.ok();
+        self.model.intake = Some(Intake { offers, is_dropped, judged: None });
+    }
+
+    /// Drops what is offered.
+    pub(super) fn leave_elements(&mut self) {
+        self.intake_work.judging = None;
+        self.model.intake = None;
+    }
+
+    /// Shows the dialog of the desktop, one at a time.
+    pub(super) fn choose_element_files(&mut self) {
+        if self.intake_work.dialog.is_some() {
+            return;
+        }
+        // Without a dialog the choice is empty, as after Cancel.
+        let job = Job::start("azel-file-dialog", Arc::clone(&self.wake), |_| {
+            let dialog = rfd::FileDialog::new().set_title("Files of elements");
+            dialog.pick_files().unwrap_or_default()
+        });
+        let job = job.inspect_err(|error| tracing::error!(%error, "no thread for the dialog"));
+        self.intake_work.dialog = job.ok();
+    }
+
+    pub(super) fn take_intake(&mut self) {
+        if let Some(Ok(judged)) = Job::take(&mut self.intake_work.judging)
+            && let Some(intake) = &mut self.model.intake
+        {
+            intake.judged = Some(judged);
+        }
+        if let Some(Ok(files)) = Job::take(&mut self.intake_work.dialog)
+            && !files.is_empty()
+        {
+            self.offer_elements(files.into_iter().map(Offer::File).collect(), true);
+        }
+    }
+}
