@@ -3,6 +3,7 @@
 
 use std::{
     io,
+    path::Path,
     sync::{Arc, mpsc},
     time::Duration,
 };
@@ -12,6 +13,7 @@ use azel::{
     driver::{Dial, LinkFault, LinkFinding, Outside, Stream},
     engine::{
         Command, Handle, Settings,
+        claim::HolderKind,
         link_tests::{LinkTest, LinkTestStage},
     },
     makes,
@@ -96,12 +98,18 @@ struct Bench {
 
 impl Bench {
     fn new(antennas: Vec<Antenna>) -> Self {
+        Self::claiming_in(None, antennas)
+    }
+
+    /// With the folder in which it claims its units.
+    fn claiming_in(claims: Option<&Path>, antennas: Vec<Antenna>) -> Self {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("station.toml");
         station::save(&Station { antennas, ..Station::default() }, &path).unwrap();
         let settings = Settings {
             path: Some(path),
             library: Some(folder.path().join("elements")),
+            claims: claims.map(|folder| (folder.to_owned(), HolderKind::Serve)),
             ..Settings::default()
         };
         let clock = Clock::system();
@@ -204,4 +212,26 @@ fn a_unit_of_this_station_is_not_dialled_a_second_time() {
     let spec = makes::SPECS[0];
     let mut bench = Bench::new(vec![spec.antenna("Dish", "unit:1")]);
     assert_eq!(bench.test(&antenna(spec, "unit:1")), LinkTestStage::InUse);
+}
+
+#[test]
+fn a_unit_of_another_azel_is_not_dialled() {
+    let claims = tempfile::tempdir().unwrap();
+    let spec = makes::SPECS[0];
+    let holder = Bench::claiming_in(Some(claims.path()), vec![spec.antenna("Dish", "unit:1")]);
+    let mut bench = Bench::claiming_in(Some(claims.path()), Vec::new());
+    let LinkTestStage::Elsewhere(by) = bench.test(&antenna(spec, "unit:1")) else {
+        panic!("not held")
+    };
+    assert!(by.to_string().starts_with("azel serve"), "{by}");
+    assert!(bench.units.dish.received().is_empty());
+    // After a test the unit is free for others.
+    let LinkTestStage::Done { .. } = bench.test(&antenna(spec, "unit:2")) else {
+        panic!("not tested")
+    };
+    let mut other = Bench::claiming_in(Some(claims.path()), Vec::new());
+    let LinkTestStage::Done { .. } = other.test(&antenna(spec, "unit:2")) else {
+        panic!("still claimed")
+    };
+    drop(holder);
 }

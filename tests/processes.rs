@@ -13,6 +13,8 @@
 mod command_line;
 #[cfg(unix)]
 mod dead_man;
+#[cfg(unix)]
+mod link_sockets;
 mod owed_stop;
 mod passes_command;
 #[cfg(target_os = "linux")]

@@ -100,6 +100,8 @@ fn set_up(keys_alone: bool) {
     operator.write("Address of the Satrak", &unit.address.to_string());
     operator.press("Test link of Satrak");
     step_until(&mut operator.window, "the unit answers", is_reached);
+    let has_focus = operator.has_focus(Role::Button, "Test again of Satrak");
+    assert_eq!(has_focus, keys_alone, "the focus stays on the button");
     assert!(!path.exists(), "nothing is written before the last step");
     if keys_alone {
         operator.tab_to(Role::Button, "Next: Satellites (Enter)");

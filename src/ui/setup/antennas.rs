@@ -4,8 +4,7 @@ use egui::{Align, Layout, RichText, Role, Sense, Ui, WidgetInfo, vec2};
 
 use super::{draft::SetupDraft, words};
 use crate::{
-    engine::{self, link_tests::LinkTestStage},
-    makes,
+    engine, makes,
     model::{Model, UiCommand},
     ui::{
         icons::Icon,
@@ -20,7 +19,7 @@ use crate::{
     },
 };
 
-const CARD: f32 = 640.0;
+const CARD: f32 = 638.0;
 const HEIGHT: f32 = 28.0;
 /// Place of the address among the fields of a card.
 const ADDRESS: usize = 1;
@@ -111,9 +110,8 @@ fn one(
     let is_removed = ui
         .horizontal(|ui| {
             ui.add_space(form::LABEL + 8.0);
-            let is_working = test.is_some_and(|test| test.stage == LinkTestStage::Working);
             let word = if test.is_some() { "Test again" } else { "Test link" };
-            let can = antenna.is_some() && !is_working;
+            let can = antenna.is_some();
             let (button, spoken) = (Button::normal(word).locked(!can), format!("{word} of {name}"));
             if named(ui, button, ("test", id.0), can, &spoken)
                 && let Some(antenna) = &antenna

@@ -13,7 +13,7 @@ use crate::{
     },
 };
 
-const CARD: f32 = 640.0;
+const CARD: f32 = 638.0;
 
 pub(super) fn show(
     ui: &mut Ui,

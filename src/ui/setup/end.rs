@@ -15,7 +15,7 @@ use crate::{
     },
 };
 
-const CARD: f32 = 640.0;
+const CARD: f32 = 638.0;
 
 pub(super) fn show(ui: &mut Ui, model: &Model, draft: &SetupDraft, state: &SetupState) {
     let name = draft.site().map(|(name, _)| name);

@@ -20,7 +20,7 @@ const LARGEST_GROUP: usize = 200;
 const FOUND: usize = 40;
 const LIST: f32 = 300.0;
 const ROW: f32 = 26.0;
-const CARD: f32 = 640.0;
+const CARD: f32 = 638.0;
 
 /// What is looked for, and what was found.
 #[derive(Default)]

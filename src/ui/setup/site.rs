@@ -17,7 +17,7 @@ use crate::{
     },
 };
 
-const CARD: f32 = 640.0;
+const CARD: f32 = 638.0;
 /// Decimals of a degree that a locator and a unit give.
 const OF_LOCATOR: usize = 4;
 const OF_UNIT: usize = 5;

@@ -179,7 +179,7 @@ fn reached(after_ms: u128, state: &AntennaState, spec: &ControllerSpec) -> Vec<(
     }
     if let Some(place) = state.on_board.place {
         let there = self::place(place.latitude_deg, place.longitude_deg);
-        facts.push(format!("It believes to be at {there}."));
+        facts.push(format!("Its own place: {there}."));
     }
     if let Some(clock) = state.on_board.clock.filter(|clock| clock.is_set) {
         let side = if clock.ahead_s < 0.0 { "behind" } else { "ahead" };
