@@ -2,6 +2,7 @@
 //! for sending questions.
 
 mod bar;
+mod entry;
 mod inspector;
 mod links;
 mod log;
@@ -18,6 +19,7 @@ use egui::{Rect, Ui, ViewportId};
 
 use super::theme;
 use crate::model::{ConsoleLine, Model, UiCommand};
+use entry::Entry;
 use log::{Filter, Log};
 use selection::Selection;
 
@@ -37,7 +39,7 @@ pub struct ConsoleState {
     tallies: tally::Tallies,
     is_paused: bool,
     inspector_is_open: bool,
-    typed: String,
+    entry: Entry,
     /// Outcome of the last saving.
     saved: Option<Result<PathBuf, String>>,
 }
@@ -95,7 +97,7 @@ pub fn show(
     };
     table::show(ui, list, model.antennas.len() > 1, state);
     bar::show_strip(ui, strip, state);
-    send::show(ui, send, model, &mut state.typed, commands);
+    send::show(ui, send, model, &mut state.entry, commands);
 
     if !has_drawer {
         let tallies = state.tallies.all();

@@ -179,6 +179,25 @@ fn a_filter_shows_what_has_its_text() {
 }
 
 #[test]
+fn one_way_of_the_link_can_be_read_alone() {
+    for size in SIZES {
+        let mut window = view(size);
+        let all = rows(&window).len();
+        let mut choose = |from: &str, to: &str| {
+            let name = format!("Lines of the log: {from}");
+            window.get_by_role_and_label(Role::ComboBox, &name).click();
+            settle(&mut window);
+            window.get_by_label(to).click();
+            settle(&mut window);
+            rows(&window).len()
+        };
+        let sent = choose("Both ways", "Sent");
+        let received = choose("Sent", "Received");
+        assert!(sent > 0 && received > 0 && sent + received == all, "{sent} {received} {all}");
+    }
+}
+
+#[test]
 fn a_pause_freezes_what_is_shown_and_the_rest_comes_afterwards() {
     for size in SIZES {
         let mut window = view(size);

@@ -65,6 +65,24 @@ fn a_query_is_sent_once_its_frame_stands_there() {
 }
 
 #[test]
+fn earlier_queries_come_back_with_the_arrow_keys() {
+    let mut window = view(SMALL);
+    for query in ["TPOS?", "STATUS?"] {
+        write(&mut window, "Query to send", query);
+        window.key_press(Key::Enter);
+        settle(&mut window);
+    }
+    write(&mut window, "Query to send", "REDU");
+    let mut press = |key| {
+        window.key_press(key);
+        settle(&mut window);
+        window.get_by_label("Query to send").value().unwrap_or_default()
+    };
+    assert_eq!([Key::ArrowUp, Key::ArrowUp].map(&mut press), ["STATUS?", "TPOS?"]);
+    assert_eq!([Key::ArrowDown, Key::ArrowDown].map(&mut press), ["STATUS?", "REDU"]);
+}
+
+#[test]
 fn nothing_but_queries_is_sent_and_the_reason_stands_there() {
     for size in SIZES {
         let mut window = view(size);

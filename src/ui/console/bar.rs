@@ -7,6 +7,7 @@ use egui::{
 
 use super::{ConsoleState, PADDING};
 use crate::{
+    device::Direction,
     model::{Model, UiCommand},
     ui::{
         format, text, theme,
@@ -25,6 +26,7 @@ pub(super) const STRIP: f32 = 28.0;
 const GAP: f32 = 8.0;
 const TITLE: f32 = 88.0;
 const ANTENNA: f32 = 128.0;
+const DIRECTION: f32 = 104.0;
 const POLLS: f32 = 100.0;
 /// The choice without a particular antenna.
 const ALL: &str = "All antennas";
@@ -48,6 +50,7 @@ pub(super) fn show(
     let layout = Layout::left_to_right(Align::Center);
     ui.scope_builder(UiBuilder::new().id_salt("console bar").max_rect(room).layout(layout), |ui| {
         antenna(ui, model, state);
+        direction(ui, state);
         let polls = vec2(POLLS, BUTTON);
         let is_hidden = &mut state.filter.hides_polls;
         ui.add_sized(polls, egui::Checkbox::new(is_hidden, "Hide polls"));
@@ -74,6 +77,24 @@ fn antenna(ui: &mut Ui, model: &Model, state: &mut ConsoleState) {
         for antenna in &model.antennas {
             let name = &antenna.config.name;
             ui.selectable_value(chosen, Some(name.clone()), name);
+        }
+    });
+}
+
+fn direction(ui: &mut Ui, state: &mut ConsoleState) {
+    const WAYS: [(Option<Direction>, &str); 3] = [
+        (None, "Both ways"),
+        (Some(Direction::Sent), "Sent"),
+        (Some(Direction::Received), "Received"),
+    ];
+    let chosen = &mut state.filter.direction;
+    let shown = WAYS.iter().find(|(way, _)| way == chosen).map_or("", |(_, word)| word);
+    let name = format!("Lines of the log: {shown}");
+    let ways = DropDown { button: Button::normal(shown), salt: "console direction", name: &name };
+    let (place, _) = ui.allocate_exact_size(vec2(DIRECTION, BUTTON), Sense::hover());
+    ways.show(ui, place, |ui| {
+        for (way, word) in WAYS {
+            ui.selectable_value(chosen, way, word);
         }
     });
 }

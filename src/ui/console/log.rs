@@ -2,6 +2,7 @@
 
 use std::{collections::VecDeque, sync::Arc};
 
+use crate::device::Direction;
 use crate::driver::{MAX_LINES, WireLog};
 use crate::model::ConsoleLine;
 
@@ -10,6 +11,8 @@ use crate::model::ConsoleLine;
 pub(super) struct Filter {
     /// Only this antenna.
     pub(super) antenna: Option<String>,
+    /// Only lines that went this way.
+    pub(super) direction: Option<Direction>,
     /// Only lines with this text.
     pub(super) needle: String,
     /// Hides routine polls.
@@ -18,7 +21,7 @@ pub(super) struct Filter {
 
 impl Default for Filter {
     fn default() -> Self {
-        Self { antenna: None, needle: String::new(), hides_polls: true }
+        Self { antenna: None, direction: None, needle: String::new(), hides_polls: true }
     }
 }
 
@@ -26,7 +29,8 @@ impl Filter {
     /// Decides whether the line is shown, left out, or left out only as a poll.
     fn judge(&self, line: &ConsoleLine, needle: &str) -> LineVerdict {
         let is_other = self.antenna.as_ref().is_some_and(|name| **name != *line.antenna);
-        if is_other || !(needle.is_empty() || line.has(needle)) {
+        let is_other_way = self.direction.is_some_and(|way| way != line.wire().direction);
+        if is_other || is_other_way || !(needle.is_empty() || line.has(needle)) {
             LineVerdict::Other
         } else if self.hides_polls && line.is_usual_poll() {
             LineVerdict::Poll
@@ -198,7 +202,7 @@ mod tests {
     }
 
     fn filter(needle: &str, hides_polls: bool) -> Filter {
-        Filter { antenna: None, needle: needle.to_owned(), hides_polls }
+        Filter { needle: needle.to_owned(), hides_polls, ..Filter::default() }
     }
 
     #[test]

@@ -2,11 +2,11 @@
 //! and sends nothing but questions.
 
 use egui::{
-    Align, Align2, Color32, Key, Layout, Rect, RichText, Role, Sense, TextEdit, Ui, UiBuilder,
-    WidgetInfo, pos2, vec2,
+    Align, Align2, Color32, Key, Layout, Modifiers, Rect, RichText, Role, Sense, TextEdit, Ui,
+    UiBuilder, WidgetInfo, pos2, vec2,
 };
 
-use super::{PADDING, raw};
+use super::{PADDING, entry::Entry, raw};
 use crate::{
     device::Question,
     driver,
@@ -37,7 +37,7 @@ pub(super) fn show(
     ui: &mut Ui,
     rect: Rect,
     model: &Model,
-    typed: &mut String,
+    entry: &mut Entry,
     commands: &mut Vec<UiCommand>,
 ) {
     let t = theme::tokens(ui);
@@ -50,9 +50,9 @@ pub(super) fn show(
     let frame = line.with_min_x(send.left() - GAP - FRAME).with_max_x(send.left() - GAP);
     let field = line.with_min_x(line.left() + ANTENNA + GAP).with_max_x(frame.left() - GAP);
     let questions = model.antenna().map_or(&[][..], |one| &one.snapshot.state.questions);
-    let is_entered = fields(ui, field, questions, typed);
+    let is_entered = fields(ui, field, questions, entry);
 
-    let read = model.antenna().and_then(|antenna| read(antenna, typed));
+    let read = model.antenna().and_then(|antenna| read(antenna, &entry.text));
     let link = model.antenna().is_some_and(|antenna| antenna.snapshot.link.is_open());
     let ready = match &read {
         Some(Ok(question)) if link => Some(*question),
@@ -80,6 +80,7 @@ pub(super) fn show(
     let is_clicked = button.show(ui, "send query", send).clicked();
     if let Some(question) = ready.filter(|_| is_clicked || is_entered) {
         let command = driver::Command::Ask(question.key.clone());
+        entry.sent();
         commands.extend(model.antenna().map(|of| UiCommand::antenna(of.id(), command)));
     }
 }
@@ -131,8 +132,9 @@ fn antenna(ui: &Ui, rect: Rect, model: &Model) {
     paint::name_text(ui, "asked antenna", rect, &words).on_hover_text(words);
 }
 
-/// Shows the list of questions and the field. Returns `true` when Enter was pressed in it.
-fn fields(ui: &mut Ui, rect: Rect, questions: &[Question], typed: &mut String) -> bool {
+/// Shows the list of questions and the field, where Up and Down bring back earlier questions.
+/// Returns `true` when Enter was pressed in it.
+fn fields(ui: &mut Ui, rect: Rect, questions: &[Question], entry: &mut Entry) -> bool {
     let t = theme::tokens(ui);
     let layout = Layout::left_to_right(Align::Center);
     let builder = UiBuilder::new().id_salt("send fields").max_rect(rect).layout(layout);
@@ -144,13 +146,23 @@ fn fields(ui: &mut Ui, rect: Rect, questions: &[Question], typed: &mut String) -
             for Question { key, about, .. } in questions {
                 let words = RichText::new(format!("{key}  {about}")).font(text::small());
                 if ui.selectable_label(false, words).clicked() {
-                    *typed = key.to_string();
+                    entry.text = key.to_string();
                 }
             }
         });
         let hint = questions.first().map_or("", |one| one.key.as_str());
         let hint = RichText::new(hint).color(t.t3);
-        let edit = TextEdit::singleline(typed).id_salt("send").font(text::raw()).hint_text(hint);
+        let id = ui.scope_id().with("send");
+        if ui.memory(|memory| memory.has_focus(id)) {
+            let pressed = |key| ui.input_mut(|input| input.consume_key(Modifiers::NONE, key));
+            if pressed(Key::ArrowUp) {
+                entry.older();
+            }
+            if pressed(Key::ArrowDown) {
+                entry.newer();
+            }
+        }
+        let edit = TextEdit::singleline(&mut entry.text).id(id).font(text::raw()).hint_text(hint);
         let edit = ui.add(edit.desired_width(ui.available_width() - GAP));
         edit.widget_info(|| WidgetInfo::labeled(Role::TextInput, true, "Query to send"));
         edit.lost_focus() && ui.input(|input| input.key_pressed(Key::Enter))
