@@ -52,7 +52,7 @@ fn apply(style: &mut egui::Style, t: &Tokens) {
     visuals.panel_fill = t.bg1;
     visuals.window_fill = t.bg2;
     visuals.window_stroke = Stroke::new(1.0, t.edge);
-    visuals.extreme_bg_color = t.bg0;
+    visuals.extreme_bg_color = t.field;
     visuals.faint_bg_color = t.bg2;
     visuals.hyperlink_color = t.sat;
     visuals.warn_fg_color = t.warn;

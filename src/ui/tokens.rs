@@ -21,8 +21,10 @@ impl ThemeName {
 /// One colour for each role.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Tokens {
-    /// Background of the window, of plot surroundings and of inputs.
+    /// Background of the window and of plot surroundings.
     pub bg0: Color32,
+    /// Background of an input: in the light theme the tone of the window would look disabled.
+    pub field: Color32,
     /// Panels, bars, day part of the plan.
     pub bg1: Color32,
     /// Cards, table heads, state sentence.
@@ -92,6 +94,7 @@ const fn rgb(hex: u32) -> Color32 {
 
 const DARK: Tokens = Tokens {
     bg0: rgb(0x0A0E13),
+    field: rgb(0x0A0E13),
     bg1: rgb(0x10161D),
     bg2: rgb(0x171F28),
     bg3: rgb(0x222D39),
@@ -125,6 +128,7 @@ const DARK: Tokens = Tokens {
 
 const LIGHT: Tokens = Tokens {
     bg0: rgb(0xDFE4EA),
+    field: rgb(0xFFFFFF),
     bg1: rgb(0xF3F5F8),
     bg2: rgb(0xFFFFFF),
     bg3: rgb(0xE4E9EF),
@@ -158,6 +162,7 @@ const LIGHT: Tokens = Tokens {
 
 const NIGHT: Tokens = Tokens {
     bg0: rgb(0x000000),
+    field: rgb(0x000000),
     bg1: rgb(0x0B0000),
     bg2: rgb(0x150202),
     bg3: rgb(0x240505),
@@ -235,6 +240,11 @@ mod tests {
                 ("onsat on sat", t.onsat, t.sat, 4.5),
                 ("edge on bg1", t.edge, t.bg1, 3.0),
                 ("edge on bg2", t.edge, t.bg2, 3.0),
+                ("t1 on field", t.t1, t.field, 4.5),
+                ("t3 on field", t.t3, t.field, 4.5),
+                ("edge on field", t.edge, t.field, 3.0),
+                ("sat on field", t.sat, t.field, 3.0),
+                ("bad on field", t.bad, t.field, 3.0),
             ] {
                 let ratio = contrast(front, back);
                 assert!(ratio >= needed, "{theme:?} {name}: {ratio:.2}");

@@ -242,7 +242,7 @@ fn lines(
     // A thicker border must not move the fields below.
     let (stroke, outside) =
         border.map_or((Stroke::new(1.0, t.edge), 1), |colour| (Stroke::new(2.0, colour), 0));
-    let frame = Frame::new().fill(t.bg0).stroke(stroke).corner_radius(4).outer_margin(outside);
+    let frame = Frame::new().fill(t.field).stroke(stroke).corner_radius(4).outer_margin(outside);
     let area = ScrollArea::vertical().min_scrolled_height(LINES).max_height(LINES);
     let edit = TextEdit::multiline(text)
         .id(id)

@@ -30,7 +30,7 @@ impl AngleField<'_> {
             Stroke::new(1.0, t.edge)
         };
         let frame = Frame::new()
-            .fill(t.bg0)
+            .fill(t.field)
             .stroke(stroke)
             .corner_radius(RADIUS)
             .inner_margin(Margin::symmetric(8, 0));

@@ -27,13 +27,10 @@ pub struct Input<'a> {
 }
 
 impl Input<'_> {
-    fn stroke(&self, ui: &Ui, has_focus: bool) -> Stroke {
-        let t = theme::tokens(ui);
-        match (self.border, has_focus) {
-            (Some(colour), _) => Stroke::new(2.0, colour),
-            (None, true) => Stroke::new(2.0, t.sat),
-            (None, false) => Stroke::new(1.0, t.edge),
-        }
+    /// Border of the field; the focus has a ring of its own around it.
+    fn stroke(&self, ui: &Ui) -> Stroke {
+        let plain = Stroke::new(1.0, theme::tokens(ui).edge);
+        self.border.map_or(plain, |colour| Stroke::new(2.0, colour))
     }
 
     fn font(&self) -> egui::FontId {
@@ -45,9 +42,9 @@ impl Input<'_> {
     pub fn text(&self, ui: &mut Ui, typed: &mut String, is_password: bool) -> bool {
         let t = theme::tokens(ui);
         let id = ui.make_persistent_id(("input", self.name));
-        let stroke = self.stroke(ui, ui.memory(|memory| memory.has_focus(id)));
+        let stroke = self.stroke(ui);
         let frame = Frame::new()
-            .fill(t.bg0)
+            .fill(t.field)
             .stroke(stroke)
             .corner_radius(RADIUS)
             .inner_margin(Margin::symmetric(INSET as i8, 0));
@@ -62,6 +59,7 @@ impl Input<'_> {
             .desired_width(self.rect.width());
         let response = ui.place(self.rect, edit).accessible_name(self.name);
         select_when_tabbed(ui, &response, typed);
+        paint::focus_ring(ui, &response, RADIUS);
         if is_password {
             forget_typing(ui, response.id);
         }
@@ -74,8 +72,8 @@ impl Input<'_> {
         let salt = ("input", self.name);
         let response = paint::control(ui, salt, self.rect, Role::ComboBox, true, self.name);
         ui.ctx().accesskit_node_builder(response.id, |node| node.set_value(chosen));
-        let stroke = self.stroke(ui, false);
-        ui.painter().rect(self.rect, RADIUS, t.bg0, stroke, StrokeKind::Inside);
+        let stroke = self.stroke(ui);
+        ui.painter().rect(self.rect, RADIUS, t.field, stroke, StrokeKind::Inside);
         let at = pos2(self.rect.right() - 12.0, self.rect.center().y);
         icons::paint(ui.painter(), paint::square(at, 12.0), Icon::ChevronDown, t.t2);
         let room = self.rect.shrink2(vec2(INSET, 0.0)).with_max_x(self.rect.right() - 20.0);

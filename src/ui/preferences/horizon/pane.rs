@@ -476,7 +476,7 @@ pub(super) fn lines(ui: &mut Ui, name: &str, hint: &str, typed: &mut String, is_
     let t = theme::tokens(ui);
     let border = if is_wrong { (2.0, t.bad) } else { (1.0, t.edge) };
     Frame::new()
-        .fill(t.bg0)
+        .fill(t.field)
         .stroke(border)
         .corner_radius(4)
         .inner_margin(Margin::symmetric(2, 2))
