@@ -5,6 +5,7 @@ mod clock;
 mod closing;
 mod console;
 mod console_send;
+mod copying;
 mod demo;
 mod drive;
 mod elements;

@@ -8,6 +8,7 @@ pub mod beam_bar;
 pub mod button;
 pub mod card;
 pub mod close_key;
+pub mod copy_menu;
 pub mod drop_down;
 pub mod fold;
 pub mod go_to;

@@ -100,7 +100,7 @@ pub(crate) fn write(window: &mut Window, field: &str, words: &str) {
 }
 
 /// Texts that `act` copied to the clipboard.
-fn copied(window: &mut Window, act: impl FnOnce(&mut Window)) -> Vec<String> {
+pub(crate) fn copied(window: &mut Window, act: impl FnOnce(&mut Window)) -> Vec<String> {
     act(window);
     for _ in 0..4 {
         window.step();

@@ -10,7 +10,7 @@ use super::{
     phase::{self, Phase},
     row::{self, Look},
 };
-use crate::model::UiCommand;
+use crate::{model::UiCommand, ui::widgets::copy_menu};
 
 pub(super) fn show(
     ui: &mut Ui,
@@ -48,6 +48,7 @@ pub(super) fn show(
             for index in range.start.saturating_sub(1)..range.end {
                 let Some(pass) = (model.row)(index) else { continue };
                 let response = one(ui, list, place(index), &pass, model);
+                copy_menu::offer(ui, &response, "this pass", || phase::copied(&pass));
                 if response.clicked() {
                     response.request_focus();
                     commands.push(UiCommand::SelectPass(pass.key));

@@ -1,8 +1,8 @@
 //! Command, actual, error and rate of the axes of an antenna.
 
-use egui::{Align2, FontId, Rect, Ui, pos2, vec2};
+use egui::{Align2, FontId, Rect, Sense, Ui, pos2, vec2};
 
-use super::paint;
+use super::{copy_menu, paint};
 use crate::ui::{
     format,
     icons::{self, Icon},
@@ -97,6 +97,17 @@ pub fn show(ui: &Ui, rect: Rect, table: &AxesTable<'_>) {
         let row = Rect::from_min_size(pos2(rect.left(), top), vec2(rect.width(), ROW_HEIGHT));
         show_row(ui, row, table, axis, t);
     }
+    let response = ui.interact(rect, ui.make_persistent_id("axes"), Sense::CLICK);
+    copy_menu::offer(ui, &response, "the measured angles", || measured(table));
+}
+
+/// The measured angles as text, such as `Az 143.17° El 30.02°`, with their age if they are old.
+fn measured(table: &AxesTable<'_>) -> String {
+    let axes = table.axes.iter();
+    let angles =
+        axes.map(|axis| format!("{} {}°", axis.name, angle(axis.actual_deg, table.decimals)));
+    let age = table.age.map(|age| format!("({age} old)"));
+    angles.chain(age).collect::<Vec<_>>().join(" ")
 }
 
 fn show_row(ui: &Ui, row: Rect, table: &AxesTable<'_>, axis: &AxisRow<'_>, t: &Tokens) {

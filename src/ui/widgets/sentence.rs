@@ -8,6 +8,7 @@ use egui::{
     vec2,
 };
 
+use super::copy_menu;
 use crate::ui::{
     text::{self, Weight},
     theme,
@@ -121,9 +122,10 @@ fn show_in(
     let radius = CornerRadius { nw: 3, sw: 3, ne: 0, se: 0 };
     ui.painter().rect_filled(bar, radius, sentence.kind.colour(t));
     ui.painter().galley(at + padding, galley, t.t1);
-    let response = ui.interact(rect, ui.make_persistent_id("sentence"), Sense::hover());
+    let response = ui.interact(rect, ui.make_persistent_id("sentence"), Sense::CLICK);
     response.widget_info(|| WidgetInfo::labeled(Role::Label, true, sentence.plain_text()));
     ui.ctx().accesskit_node_builder(response.id, |node| node.set_live(Live::Polite));
+    copy_menu::offer(ui, &response, "this sentence", || sentence.plain_text());
     rect
 }
 
