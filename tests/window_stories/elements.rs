@@ -598,7 +598,7 @@ fn refused_records_have_their_place_and_reason() {
         }];
         let mut window = view(size, vec![(own, held)]);
         assert!(!says(&window, "own, line 1207"));
-        window.get_by_label_contains("1 refused record. They change nothing").click();
+        window.get_by_label_contains("1 refused record. What was held before stays").click();
         settle(&mut window);
         let words = "own, line 1207, OBJECT M: The checksum of line 2 is 7, the line gives 4.";
         assert!(says(&window, words));

@@ -81,7 +81,13 @@ fn one(ui: &Ui, row: Rect, index: usize, set: &SetShift, half_beam_deg: Option<f
         .off
         .zip(half_beam_deg)
         .is_some_and(|(off, half_beam_deg)| off.degrees() > half_beam_deg);
-    let time = set.late_s.map_or_else(|| "–".to_owned(), |late_s| format::signed(late_s, 2));
+    let time = set.late_s.map_or_else(
+        || "–".to_owned(),
+        |late_s| {
+            // Parts of a second say nothing about a set that is minutes away.
+            format::signed(late_s, if late_s.abs() < 100.0 { 2 } else { 0 })
+        },
+    );
     let angle = set.off.map_or_else(|| "–".to_owned(), |off| format::number(off.degrees(), 2));
     let colour = if is_outside { t.bad } else { t.t1 };
     let when = epoch(set.epoch);
