@@ -48,6 +48,10 @@ impl Running {
         wait_for("the process to end", || self.0.try_wait().expect("a child"));
     }
 
+    pub(super) fn runs(&mut self) -> bool {
+        self.0.try_wait().expect("a child").is_none()
+    }
+
     /// Exit code, once it has ended by itself.
     pub(super) fn exit_code(&mut self) -> Option<i32> {
         wait_for("the program to end", || self.0.try_wait().expect("a child")).code()

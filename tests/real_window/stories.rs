@@ -57,7 +57,10 @@ fn a_jog_ends_with_its_key_with_esc_and_with_the_window() {
     satrak.wait_for_line("in payload=STOP=");
     wait_for("proved standstill", || (screen.marks() == 0).then_some(()));
     std::thread::sleep(std::time::Duration::from_secs(1));
-    screen.close(&window);
+    // On a slow screen a late frame ends the jog before the question, and the first time closes.
+    if azel.runs() {
+        screen.close(&window);
+    }
     assert_eq!(azel.exit_code(), Some(0));
 }
 

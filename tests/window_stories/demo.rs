@@ -4,33 +4,21 @@ use std::{collections::BTreeMap, net::TcpStream};
 
 use azel::{
     astro::{Angle, AzEl},
-    clock::Clock,
     device::{Measured, panel::Act, settings::Value},
     driver::{Command, LinkState, StopState},
     engine::{self, alarms::AlarmKind},
     makes,
-    model::{Model, View},
+    model::Model,
     station,
 };
 use egui::{Key, Role};
 use egui_kittest::kittest::Queryable as _;
 
-use crate::window_stories::unit::{RealWindow, open, step_until, wait_until};
+use crate::window_stories::unit::{RealWindow, open_demo, step_until, wait_until};
 
 const SATRAK: usize = 0;
 const GENIUS: usize = 1;
 const RC2000C: usize = 2;
-
-/// Window of the demo station, once its antennas are there.
-fn demo(folder: &tempfile::TempDir) -> RealWindow {
-    let mut window = open(&folder.path().join("station.toml"), Clock::system());
-    step_until(&mut window, "the set-up and the antennas", |model| {
-        model.antennas.len() == 3 && model.view == View::Setup
-    });
-    window.get_by_role_and_label(Role::Button, "Stay in the demo").click();
-    step_until(&mut window, "the demonstration", |model| model.view == View::Operate);
-    window
-}
 
 fn link(model: &Model, antenna: usize) -> LinkState {
     model.antennas[antenna].snapshot.link.clone()
@@ -66,7 +54,7 @@ fn go_to(window: &mut RealWindow, antenna: usize, azimuth_deg: f64, elevation_de
 #[test]
 fn every_make_is_there_and_the_one_with_a_panel_waits_for_a_word() {
     let folder = tempfile::tempdir().unwrap();
-    let mut window = demo(&folder);
+    let mut window = open_demo(&folder);
     let model = window.state().model();
     assert!(model.demo);
     let keys: Vec<&str> = model.antennas.iter().map(|of| of.spec().key).collect();
@@ -81,7 +69,7 @@ fn every_make_is_there_and_the_one_with_a_panel_waits_for_a_word() {
 #[test]
 fn the_rc2000c_is_calibrated_and_goes_where_it_is_sent() {
     let folder = tempfile::tempdir().unwrap();
-    let mut window = demo(&folder);
+    let mut window = open_demo(&folder);
     send(&window, RC2000C, Command::Connect);
     // 1525 and 750 counts, 20 a degree.
     step_until(&mut window, "it is measured", |model| stands_at(model, RC2000C, 164.75, 36.0));
@@ -91,7 +79,7 @@ fn the_rc2000c_is_calibrated_and_goes_where_it_is_sent() {
 #[test]
 fn an_rc2000c_that_tracks_by_itself_is_compared_with_nothing_and_that_is_an_alarm() {
     let folder = tempfile::tempdir().unwrap();
-    let mut window = demo(&folder);
+    let mut window = open_demo(&folder);
     send(&window, RC2000C, Command::Connect);
     let is_listed = |model: &Model| {
         let state = &model.antennas[RC2000C].snapshot.state;
@@ -115,7 +103,7 @@ fn an_rc2000c_that_tracks_by_itself_is_compared_with_nothing_and_that_is_an_alar
 #[test]
 fn the_genius_goes_where_it_is_sent() {
     let folder = tempfile::tempdir().unwrap();
-    let mut window = demo(&folder);
+    let mut window = open_demo(&folder);
     step_until(&mut window, "it is measured", |model| stands_at(model, GENIUS, 173.0, 0.0));
     go_to(&mut window, GENIUS, 181.0, 7.0);
 }
@@ -123,7 +111,7 @@ fn the_genius_goes_where_it_is_sent() {
 #[test]
 fn the_simulators_end_with_the_demonstration() {
     let folder = tempfile::tempdir().unwrap();
-    let mut window = demo(&folder);
+    let mut window = open_demo(&folder);
     let addresses = window.state().model().antennas.iter().take(2);
     let addresses: Vec<String> =
         addresses.map(|antenna| antenna.config.connection.address.clone()).collect();
@@ -142,7 +130,7 @@ fn the_simulators_end_with_the_demonstration() {
 #[test]
 fn esc_takes_no_panel_and_the_card_stops_the_unit_all_the_same() {
     let folder = tempfile::tempdir().unwrap();
-    let mut window = demo(&folder);
+    let mut window = open_demo(&folder);
     let is_off = |model: &Model| link(model, RC2000C) == LinkState::Off;
     step_until(&mut window, "the Satrak is measured", |model| measured(model, SATRAK).is_some());
     assert!(is_off(window.state().model()));

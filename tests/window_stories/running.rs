@@ -19,7 +19,7 @@ use egui_kittest::kittest::Queryable as _;
 
 use crate::window_stories::{
     rig::NOAA_20,
-    unit::{RealWindow, Unit, clock_from, open, step_until, wait_until},
+    unit::{RealWindow, Unit, clock_from, open, open_demo, step_until, wait_until},
 };
 
 fn measured(model: &Model) -> Option<Measured> {
@@ -50,7 +50,7 @@ fn place(window: &RealWindow) -> AzEl {
 
 /// Window of the demo station, once its antenna is measured.
 fn demo(folder: &tempfile::TempDir) -> RealWindow {
-    let mut window = open(&folder.path().join("station.toml"), Clock::system());
+    let mut window = open_demo(folder);
     step_until(&mut window, "the antenna is measured", stands);
     assert!(window.state().model().demo);
     window

@@ -17,13 +17,14 @@ use azel::{
     controller::satrak::ELEMENT_FILE,
     driver::Outside,
     engine::Settings,
-    model::Model,
+    model::{Model, View},
     orbit::{Elements, bundled},
     protocol::satrak::{Frame, Reply, Status, encode},
     sim::satrak::{BUNDLED_FILE, Control, Options, Simulator},
     station::{Antenna, Station},
 };
-use egui_kittest::Harness;
+use egui::Role;
+use egui_kittest::{Harness, kittest::Queryable as _};
 use jiff::Timestamp;
 use tokio::sync::oneshot;
 
@@ -128,6 +129,17 @@ pub(crate) fn open(path: &Path, outside: impl Into<Outside>) -> RealWindow {
     Harness::builder()
         .with_size(rig::LARGE)
         .build_eframe(move |cc| App::new(&cc.egui_ctx, &settings, outside).unwrap())
+}
+
+/// Operate on the demo station, once its antennas are there.
+pub(crate) fn open_demo(folder: &tempfile::TempDir) -> RealWindow {
+    let mut window = open(&folder.path().join("station.toml"), Clock::system());
+    step_until(&mut window, "the set-up and the antennas", |model| {
+        model.antennas.len() == 3 && model.view == View::Setup
+    });
+    window.get_by_role_and_label(Role::Button, "Stay in the demo").click();
+    step_until(&mut window, "the demonstration", |model| model.view == View::Operate);
+    window
 }
 
 /// Runs frames until the condition holds.
