@@ -100,8 +100,8 @@ pub fn show(
 ) -> Option<UploadPlace> {
     let t = theme::tokens(ui);
     ui.painter().rect_filled(rect, 0.0, t.bg0);
-    if let (None, Some((number, _))) = (state.selection.row(), model.selected) {
-        state.selection.select(number);
+    if state.selection.row().is_none() {
+        first_object(model).into_iter().for_each(|number| state.selection.select(number));
     }
     let can_mark = !settings_are_edited;
     let has_drawer = rect.width() < DRAWER_BELOW;
@@ -137,6 +137,15 @@ pub fn show(
     }
     inspector::show(ui, side, model, can_mark, state, commands);
     None
+}
+
+/// The satellite of the selected pass, else the first favourite with elements: favourites
+/// without a pass, as geostationary ones, can be uploaded too.
+fn first_object(model: &Model) -> Option<u32> {
+    let CatalogState::Ready(catalog) = &model.catalog else { return None };
+    let of_pass = model.selected.map(|(number, _)| number);
+    let is_held = |number: &u32| catalog.get(*number).is_some();
+    of_pass.into_iter().chain(model.station.favourites.numbers()).find(is_held)
 }
 
 /// Draws sources, groups, table and what belongs to them, in a view of height `of`.

@@ -225,7 +225,7 @@ fn from_the_first_click_to_the_unit_s_own_word_and_back() {
     fixture.until("it is refused", |model| {
         matches!(&model.uploads.stage, Stage::AsksForSecret(wanted) if wanted.refused.is_some())
     });
-    fixture.window.get_by_role(Role::CheckBox).click();
+    fixture.window.get_by_label("Keep it in the keyring of this computer").click();
     fixture.window.run_steps(2);
     fixture.window.get_by_role(Role::PasswordInput).focus();
     fixture.log_in(PASSWORD);

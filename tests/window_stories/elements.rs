@@ -840,3 +840,13 @@ fn a_followed_satellite_is_kept_in_the_station_file_and_listed() {
         station::load(&settings, makes::SPECS).unwrap().station.favourites.contains(METEOR_M2_3)
     );
 }
+
+#[test]
+fn a_favourite_without_a_pass_is_there_to_be_uploaded() {
+    let mut model = rig::model(states::holding());
+    model.view = View::Elements;
+    model.selected = None;
+    let window = rig::window(rig::LARGE, model);
+    assert!(!says(&window, "Click a satellite in the table"));
+    assert!(window.query_by_label("Upload to Satrak").is_some());
+}
