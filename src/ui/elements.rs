@@ -100,8 +100,10 @@ pub fn show(
 ) -> Option<UploadPlace> {
     let t = theme::tokens(ui);
     ui.painter().rect_filled(rect, 0.0, t.bg0);
-    if state.selection.row().is_none() {
-        first_object(model).into_iter().for_each(|number| state.selection.select(number));
+    if state.selection.row().is_none()
+        && let Some(number) = first_object(model)
+    {
+        state.selection.select(number);
     }
     let can_mark = !settings_are_edited;
     let has_drawer = rect.width() < DRAWER_BELOW;
