@@ -56,6 +56,8 @@ pub struct App {
     log_work: LogWork,
     mask_work: MaskWork,
     keeper: Keeper,
+    /// The set-up opens by itself where there is no station.
+    opens_set_up: bool,
     /// `None` where nothing is told to the desktop.
     notifier: Option<Notifier>,
     /// The attention last reported to the station.
@@ -131,6 +133,7 @@ impl App {
             log_work,
             mask_work,
             keeper,
+            opens_set_up: true,
             notifier: None,
             told: engine::Attention::default(),
             closes: false,
@@ -145,6 +148,13 @@ impl App {
         let station = self.station.client().clone();
         self.notifier = Some(Notifier::start(station, Desktop::default(), Arc::clone(&self.wake))?);
         Ok(self)
+    }
+
+    /// Leaves the set-up closed until the operator opens it.
+    #[must_use]
+    pub fn without_set_up(mut self) -> Self {
+        self.opens_set_up = false;
+        self
     }
 
     pub fn model(&self) -> &Model {
@@ -164,7 +174,11 @@ impl App {
         let events: Vec<_> = std::iter::from_fn(|| self.station.next_event()).collect();
         if self.station.take() {
             let before: Vec<_> = self.model.antennas.iter().map(AntennaModel::id).collect();
+            let was_demo = self.model.demo;
             self.model.take(&self.station);
+            if self.model.demo && !was_demo && self.opens_set_up {
+                self.model.view = View::Setup;
+            }
             if !self.model.antennas.iter().map(AntennaModel::id).eq(before) {
                 self.select_known_antenna();
             }

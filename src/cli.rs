@@ -18,7 +18,7 @@ use std::{
 };
 
 use anyhow::Context as _;
-use clap::{CommandFactory as _, Parser, Subcommand};
+use clap::{CommandFactory as _, Parser, Subcommand, error::ErrorKind};
 use clap_complete::Shell;
 
 #[cfg(unix)]
@@ -35,6 +35,9 @@ pub struct Cli {
     /// Station file to use instead of the user's own
     #[arg(long, value_name = "FILE", global = true)]
     station: Option<PathBuf>,
+    /// Open the window on the demo station, whatever station files there are
+    #[arg(long, conflicts_with = "station")]
+    demo: bool,
     #[command(subcommand)]
     command: Option<Command>,
 }
@@ -94,8 +97,12 @@ impl Cli {
 
     /// Carries out the command line and returns the exit code.
     pub fn run(self) -> anyhow::Result<ExitCode> {
+        if self.demo && self.command.is_some() {
+            let text = "the argument '--demo' opens the window and cannot be used with a command";
+            return told(Err(Self::command().error(ErrorKind::ArgumentConflict, text).into()));
+        }
         match self.command {
-            None => window::run(self.station)?,
+            None => window::run(self.station, self.demo)?,
             Some(Command::Passes(options)) => {
                 return told(passes::run(self.station.as_deref(), &options));
             }

@@ -257,12 +257,8 @@ impl Model {
         }
     }
 
-    /// The set-up opens by itself where there is no station, and closes with the demonstration;
-    /// then the next pass over the new site is selected.
+    /// The set-up closes with the demonstration; then the next pass over the new site is selected.
     fn take_demo(&mut self, is_demo: bool) {
-        if is_demo && !self.demo {
-            self.view = View::Setup;
-        }
         if self.demo && !is_demo {
             self.selected = None;
             if self.view == View::Setup {

@@ -23,7 +23,7 @@ pub use connection::Connection;
 pub(crate) use connection::check_address;
 pub use controller_spec::{ControllerSpec, Link, Usual};
 pub use favourite::{Favourite, Favourites, Priority};
-pub use file::{LoadError, Loaded, SaveError, load, save, settings_path};
+pub use file::{LoadError, Loaded, SaveError, free_path, load, save, settings_path};
 pub use frequency::Frequency;
 pub use keep_out::{Entered, KeepOut, SunAvoidance};
 pub use lock_outs::{LOCK_OUTS_FILE, LockOut, LockOuts};

@@ -33,8 +33,20 @@ fn help_and_version_are_answered() {
     assert_eq!(text(&version.stdout), format!("azel {}\n", env!("CARGO_PKG_VERSION")));
     let help = azel(&["--help"]);
     assert!(help.status.success());
-    for word in ["simulate", "--station"] {
+    for word in ["simulate", "--station", "--demo"] {
         assert!(text(&help.stdout).contains(word), "{word}");
+    }
+}
+
+#[test]
+fn the_demo_is_no_station_and_no_command() {
+    for (arguments, why) in [
+        (&["--demo", "--station", "x.toml"][..], "'--demo' cannot be used with '--station"),
+        (&["--demo", "serve"], "cannot be used with a command"),
+    ] {
+        let output = azel(arguments);
+        assert_eq!(output.status.code(), Some(2), "{arguments:?}");
+        assert!(text(&output.stderr).contains(why), "{}", text(&output.stderr));
     }
 }
 

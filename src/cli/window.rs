@@ -15,6 +15,7 @@ use crate::{
         Settings,
         claim::{HolderKind, claims_folder},
     },
+    station,
 };
 
 /// Minimum size of the window, in points.
@@ -22,7 +23,9 @@ const SMALLEST: [f32; 2] = [1024.0, 640.0];
 /// Part of the panic of the window toolkit without a library.
 const NO_LIBRARY: &str = "could not be loaded";
 
-pub(super) fn run(station: Option<PathBuf>) -> anyhow::Result<()> {
+/// Opens the window on the station file at `station`, or on the user's own. `demo`: on the demo
+/// station instead.
+pub(super) fn run(station: Option<PathBuf>, demo: bool) -> anyhow::Result<()> {
     if cfg!(target_os = "linux") && !has_display() {
         bail!(
             "Azel needs a display: neither DISPLAY nor WAYLAND_DISPLAY is set. \
@@ -30,7 +33,7 @@ pub(super) fn run(station: Option<PathBuf>) -> anyhow::Result<()> {
         );
     }
     let settings = Settings {
-        path: station,
+        path: if demo { station::free_path() } else { station },
         dead_man: this_program(),
         marks: marks(),
         claims: claims_folder().map(|folder| (folder, HolderKind::Window)),
@@ -59,8 +62,8 @@ pub(super) fn run(station: Option<PathBuf>) -> anyhow::Result<()> {
             "Azel",
             options,
             Box::new(move |cc| {
-                let app = App::new(&cc.egui_ctx, &settings, Clock::system())?;
-                Ok(Box::new(app.with_notifier()?))
+                let app = App::new(&cc.egui_ctx, &settings, Clock::system())?.with_notifier()?;
+                Ok(Box::new(if demo { app.without_set_up() } else { app }))
             }),
         )
     }));

@@ -281,6 +281,10 @@ impl Engine {
             _ if let StationClaim::Theirs(by) = &self.station_claim => {
                 Err(format!("it is open in {by}: save it there, or close it there first"))
             }
+            // What stands there by now is somebody's station, not what the operator has seen.
+            Some(path) if self.demo.is_some() && path.exists() => {
+                Err(format!("there is a station by now, from elsewhere: {}", path.display()))
+            }
             Some(path) => station::save(&station, path).map_err(|error| error.to_string()),
             None => Err("this user has no folder for settings".to_owned()),
         };

@@ -60,6 +60,18 @@ pub fn settings_path() -> Option<PathBuf> {
         .map(|dirs| dirs.config_dir().join("station.toml"))
 }
 
+/// Path for one more station file of this user, beside the usual one; there is no file yet.
+pub fn free_path() -> Option<PathBuf> {
+    settings_path().map(|usual| free_beside(&usual))
+}
+
+fn free_beside(usual: &Path) -> PathBuf {
+    let mut numbered = (2..).map(|number| usual.with_file_name(format!("station-{number}.toml")));
+    let is_free = |path: &PathBuf| !path.exists();
+    let usual = usual.to_owned();
+    if is_free(&usual) { usual } else { numbered.find(is_free).unwrap_or(usual) }
+}
+
 /// Reads the station at `path`, with controllers of the makes in `specs`.
 pub fn load(path: &Path, specs: &[&'static ControllerSpec]) -> Result<Loaded, LoadError> {
     let text = fs::read_to_string(path).map_err(|source| match source.kind() {
@@ -93,4 +105,20 @@ pub fn save(station: &Station, path: &Path) -> Result<(), SaveError> {
     };
     whole_file::replace_and_keep_old(path, text.as_bytes())
         .map_err(|source| SaveError::Write { source, path: path.to_owned() })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn one_more_station_takes_no_name_that_is_in_use() {
+        let folder = tempfile::tempdir().unwrap();
+        let usual = folder.path().join("station.toml");
+        for name in ["station.toml", "station-2.toml", "station-3.toml"] {
+            let free = free_beside(&usual);
+            assert_eq!(free, folder.path().join(name));
+            fs::write(&free, "").unwrap();
+        }
+    }
 }

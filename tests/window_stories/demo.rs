@@ -1,20 +1,25 @@
 //! Demo station: a simulated unit of each make, behind real links.
 
-use std::{collections::BTreeMap, net::TcpStream};
+use std::{collections::BTreeMap, fs, net::TcpStream};
 
 use azel::{
+    app::App,
     astro::{Angle, AzEl},
+    clock::Clock,
     device::{Measured, panel::Act, settings::Value},
     driver::{Command, LinkState, StopState},
     engine::{self, alarms::AlarmKind},
     makes,
-    model::Model,
+    model::{Model, View},
     station,
 };
 use egui::{Key, Role};
 use egui_kittest::kittest::Queryable as _;
 
-use crate::window_stories::unit::{RealWindow, open_demo, step_until, wait_until};
+use crate::window_stories::{
+    settings_rig::says,
+    unit::{RealWindow, open_as, open_demo, step_until, wait_until},
+};
 
 const SATRAK: usize = 0;
 const GENIUS: usize = 1;
@@ -106,6 +111,36 @@ fn the_genius_goes_where_it_is_sent() {
     let mut window = open_demo(&folder);
     step_until(&mut window, "it is measured", |model| stands_at(model, GENIUS, 173.0, 0.0));
     go_to(&mut window, GENIUS, 181.0, 7.0);
+}
+
+#[test]
+fn a_demo_that_was_asked_for_opens_without_the_set_up() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("station-2.toml");
+    let mut window = open_as(&path, Clock::system(), App::without_set_up);
+    step_until(&mut window, "the antennas are there", |model| model.antennas.len() == 3);
+    let model = window.state().model();
+    assert!(model.demo && model.view == View::Operate);
+    window.run_steps(2);
+    window.get_by_role_and_label(Role::Button, "Set up your station");
+}
+
+#[test]
+fn a_station_of_somebody_else_is_not_overwritten_by_the_set_up() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut window = open_demo(&folder);
+    let path = folder.path().join("station.toml");
+    let theirs = "name = 'Theirs'\n";
+    fs::write(&path, theirs).unwrap();
+    window.get_by_role_and_label(Role::Tab, "Preferences").click();
+    window.run_steps(3);
+    window.get_by_role_and_label(Role::Button, "Save and use").click();
+    wait_until("it is told", || {
+        window.step();
+        says(&window, "Not saved: there is a station by now, from elsewhere")
+    });
+    assert!(window.state().model().demo, "it goes on");
+    assert_eq!(fs::read_to_string(&path).unwrap(), theirs);
 }
 
 #[test]

@@ -119,6 +119,15 @@ pub(crate) fn clock_from(utc: Timestamp) -> Clock {
 
 /// A window with the real app on the settings at `path`.
 pub(crate) fn open(path: &Path, outside: impl Into<Outside>) -> RealWindow {
+    open_as(path, outside, |app| app)
+}
+
+/// Like [`open`], with an app that was changed before its first frame.
+pub(crate) fn open_as(
+    path: &Path,
+    outside: impl Into<Outside>,
+    change: impl FnOnce(App) -> App + 'static,
+) -> RealWindow {
     let outside = outside.into();
     let settings = Settings {
         path: Some(path.to_owned()),
@@ -128,7 +137,7 @@ pub(crate) fn open(path: &Path, outside: impl Into<Outside>) -> RealWindow {
     };
     Harness::builder()
         .with_size(rig::LARGE)
-        .build_eframe(move |cc| App::new(&cc.egui_ctx, &settings, outside).unwrap())
+        .build_eframe(move |cc| change(App::new(&cc.egui_ctx, &settings, outside).unwrap()))
 }
 
 /// Operate on the demo station, once its antennas are there.

@@ -80,7 +80,13 @@ pub static VARIANT: Variant = Variant {
 pub static ELEMENT_FILE: Setting = Setting::new(
     Field::edit(Key::text("element_file", |_| Ok(())), "Element file on the unit"),
     || Value::Text(String::new()),
-);
+)
+.noted(|value| match value {
+    Value::Text(name) if name.is_empty() => {
+        Some("Empty: the file that the unit uses. A new unit uses none and cannot track yet.")
+    }
+    _ => None,
+});
 
 impl Antenna {
     /// A Satrak at `address` with default figures.

@@ -17,7 +17,7 @@ pub const BUNDLED_FILE: &str = "active.txt";
 /// `azel simulate satrak`.
 pub const COMMAND: Command = Command::of::<Arguments>("satrak");
 
-/// SVS Satrak on TCP, with an X/Y mount and on-board tracking
+/// SVS Satrak on TCP, with an X/Y mount and on-board tracking; its element file is active.txt
 #[derive(Debug, clap::Args)]
 struct Arguments {
     /// Where to listen
