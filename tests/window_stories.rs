@@ -44,6 +44,7 @@ mod settings_unit;
 mod setup;
 mod setup_real;
 mod shown_as_it_is;
+mod sky;
 mod source_tests;
 mod states;
 mod step;

@@ -135,12 +135,12 @@ pub const ALL: [Binding; 29] = [
     row(
         KeyScope::Operate,
         &[(Key::Plus, Act::Zoom(1)), (Key::Minus, Act::Zoom(-1))],
-        "fewer hours, more hours in the strip of passes",
+        "fewer, more hours in the strip; sky plot with the focus: closer, further",
     ),
     row(
         KeyScope::Operate,
         &[(Key::Num0, Act::UsualZoom)],
-        "the usual hours in the strip of passes",
+        "the usual hours; sky plot with the focus: the whole sky",
     ),
     row(
         KeyScope::Map,

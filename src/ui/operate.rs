@@ -7,7 +7,10 @@ mod layout;
 pub(super) mod passes;
 pub(super) mod sky;
 
+use std::time::Duration;
+
 use egui::{Rect, Ui};
+use jiff::Timestamp;
 
 use super::{
     antenna_card::{self, CardState},
@@ -15,6 +18,7 @@ use super::{
     confirm::Question,
     pass_header,
     pass_list::PassListState,
+    profile::ProfileState,
     sky_plot::SkyPlotState,
     theme,
     timeline::Zoom,
@@ -30,6 +34,9 @@ use crate::{
 };
 use layout::Areas;
 
+/// Wait for one more frame.
+const NEXT_FRAME: Duration = Duration::from_millis(1);
+
 /// Input, open parts and folds of this view.
 #[derive(Default)]
 pub struct OperateState {
@@ -43,6 +50,9 @@ pub struct OperateState {
     pub list_width: Option<u32>,
     /// The sky plot.
     pub sky: SkyPlotState,
+    /// The time of the pass that the operator marks in the sky plot or in the profile.
+    marked: Option<Timestamp>,
+    profile: ProfileState,
     passes: PassListState,
     found: filter::FoundPasses,
     /// Index of the antenna whose card was shown last.
@@ -105,12 +115,19 @@ pub fn show(
     if passes::header(ui, areas.header, model, areas.small) {
         state.drawer_open = !state.drawer_open;
     }
-    sky::show(ui, areas.sky, model, state, commands);
+    let pointed = sky::show(ui, areas.sky, model, state, commands);
     if let Some(timeline) = areas.timeline {
         passes::timeline(ui, timeline, model, &mut state.zoom, commands);
     }
+    let mut marked = pointed;
     if let Some(profile) = areas.profile {
-        passes::profile(ui, profile, model);
+        let read = passes::profile(ui, profile, model, pointed, &mut state.profile);
+        marked = marked.or(read);
+    }
+    if state.marked != marked {
+        state.marked = marked;
+        // The plot is drawn before the profile.
+        ui.request_repaint_after_for(NEXT_FRAME, egui::ViewportId::ROOT);
     }
     if let Some(list) = areas.list {
         if areas.small {

@@ -4,6 +4,7 @@ mod curves;
 mod dashes;
 mod error_plot;
 mod head;
+mod marker;
 mod scale;
 mod words;
 
@@ -49,16 +50,32 @@ pub struct ProfileModel<'a> {
     pub errors: &'a [(Timestamp, f32)],
     /// Half the beam width.
     pub half_beam_deg: f64,
+    /// A time that is marked elsewhere.
+    pub marked: Option<Timestamp>,
 }
 
-/// Shows the profile in `rect`; designed for 392 by 208 points.
-pub fn show(ui: &mut Ui, rect: Rect, model: Option<&ProfileModel<'_>>) {
-    let response = ui.interact(rect, ui.make_persistent_id("pass profile"), Sense::hover());
+/// State of the profile, kept from frame to frame.
+#[derive(Debug, Clone, Default)]
+pub struct ProfileState {
+    /// The time that the arrow keys mark.
+    cursor: Option<Timestamp>,
+}
+
+/// Shows the profile in `rect`; designed for 392 by 208 points. Returns the time that the
+/// operator marks in it.
+pub fn show(
+    ui: &mut Ui,
+    rect: Rect,
+    model: Option<&ProfileModel<'_>>,
+    state: &mut ProfileState,
+) -> Option<Timestamp> {
+    let sense = Sense::focusable_noninteractive();
+    let response = ui.interact(rect, ui.make_persistent_id("pass profile"), sense);
     let Some(model) = model else {
         let sentence = "No pass selected.";
         empty(ui, rect, sentence);
         response.widget_info(|| WidgetInfo::labeled(Role::Image, true, sentence));
-        return;
+        return None;
     };
     let head = Rect::from_center_size(
         pos2(rect.center().x, rect.top() + HEAD_Y),
@@ -78,16 +95,27 @@ pub fn show(ui: &mut Ui, rect: Rect, model: Option<&ProfileModel<'_>>) {
         let sentence = format!("The path of {} is not known.", model.name);
         empty(ui, rect.with_min_y(head.bottom()), &sentence);
         response.widget_info(|| WidgetInfo::labeled(Role::Image, true, &sentence));
-        return;
+        return None;
     };
+    let mut asked = None;
     if curves_rect.width() >= MIN_PLOT && curves_rect.height() >= MIN_PLOT {
         curves::show(ui, curves_rect, &axis, model);
         error_plot::show(ui, error_rect, &axis, model);
-        now_line(ui, curves_rect.union(error_rect), &axis, model.now);
+        let plots = curves_rect.union(error_rect);
+        now_line(ui, plots, &axis, model.now);
         words::times(ui, error_rect, &axis, model);
+        asked = marker::asked(ui, &response, plots, &axis, model.now, &mut state.cursor);
+        if let Some(time) = asked.or(model.marked) {
+            marker::paint(ui, plots, curves_rect, &axis, model, time);
+        }
+    }
+    if response.has_focus() {
+        let stroke = Stroke::new(2.0, theme::tokens(ui).sat);
+        ui.painter().rect_stroke(rect.shrink(2.0), 0.0, stroke, egui::StrokeKind::Inside);
     }
     let sentence = words::sentence(&axis, model);
     response.widget_info(|| WidgetInfo::labeled(Role::Image, true, &sentence));
+    asked
 }
 
 fn empty(ui: &Ui, rect: Rect, sentence: &str) {

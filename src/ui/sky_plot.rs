@@ -15,6 +15,7 @@ pub(super) mod marks;
 pub(super) mod mask;
 mod nodes;
 pub(super) mod placement;
+mod pointer;
 mod readout;
 mod scene;
 mod small;
@@ -23,26 +24,41 @@ mod stories;
 #[cfg(test)]
 mod testing;
 mod track;
+mod zoom;
 
 use std::collections::HashMap;
 
-use egui::{Rect, Ui};
+use egui::{Rect, Response, Ui};
+use jiff::Timestamp;
 
 use self::{
     geometry::Dome,
     labels::{Key, Label, Labels},
     placement::{Memory, Side},
 };
-use super::{text, theme, tokens::Tokens};
+use super::{along, text, theme, tokens::Tokens};
 
 pub use scene::{Bearing, KeepOutMark, Keyholes, Measured, OtherSatellite, SkyScene, Track};
 pub use small::paint_small;
+pub use zoom::Zoom;
 
 /// State of the plot, kept from frame to frame.
 #[derive(Debug, Clone, Default)]
 pub struct SkyPlotState {
     pub layers: Layers,
+    pub zoom: Zoom,
+    /// The plot had the keyboard focus in the last frame.
+    pub has_focus: bool,
     labels: HashMap<Key, Memory>,
+}
+
+/// What the operator did in the plot.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct SkyAnswer {
+    /// Catalog number of a satellite chosen with a click or with Enter.
+    pub chosen: Option<u32>,
+    /// Time of the path under the pointer.
+    pub pointed: Option<Timestamp>,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize)]
@@ -76,38 +92,57 @@ impl Default for Layers {
     }
 }
 
-/// Shows the plot in `rect`. Returns the catalog number of a satellite chosen with a click
-/// or with Enter.
-pub fn show(
-    ui: &mut Ui,
-    rect: Rect,
-    scene: &SkyScene<'_>,
-    state: &mut SkyPlotState,
-) -> Option<u32> {
+/// Shows the plot in `rect`.
+pub fn show(ui: &mut Ui, rect: Rect, scene: &SkyScene<'_>, state: &mut SkyPlotState) -> SkyAnswer {
     if !geometry::usable(rect) {
-        return None;
+        return SkyAnswer::default();
     }
     let ui = &mut ui.new_child(egui::UiBuilder::new().id_salt("sky plot").max_rect(rect));
     ui.shrink_clip_rect(rect);
     let t = theme::tokens(ui.ctx());
-    let dome = Dome::fitted(rect);
+    let whole = Dome::fitted(rect);
     ui.painter().rect_filled(rect, 0.0, t.bg0);
 
     // Added before the buttons in the corners, which lie above the canvas.
-    let canvas = nodes::canvas(ui, rect, scene);
+    let canvas = nodes::canvas(ui, rect, scene, whole, &mut state.zoom);
+    let dome = state.zoom.of(whole);
     paint_sky(ui, rect, dome, scene, state, t);
     beam_view::paint(ui.painter(), rect, scene, t);
-    let chosen = nodes::satellites(ui, canvas.id, dome, scene, state.layers.others, t);
+    let chosen = nodes::satellites(ui, canvas.id, rect, dome, scene, state.layers.others, t);
     let events = scene.track.map(|track| track::events(&track)).unwrap_or_default();
     nodes::events_and_antenna(ui, canvas.id, dome, &events, scene);
-    readout::paint(ui.painter(), rect, dome, scene, t);
+    // The corners keep their places in a magnified sky.
+    readout::paint(ui.painter(), rect, whole, scene, !state.zoom.is_whole(), t);
     corners::upper_right(ui, rect, &mut state.layers, t);
-    corners::lower_left(ui, rect, dome, scene, t);
-    if canvas.has_focus() {
+    corners::lower_left(ui, rect, whole, scene, !state.zoom.is_whole(), t);
+    let pointed = point_out(ui, rect, dome, &canvas, scene, t);
+    state.has_focus = canvas.has_focus();
+    if state.has_focus {
         let stroke = egui::Stroke::new(2.0, t.sat);
         ui.painter().rect_stroke(rect.shrink(2.0), 0.0, stroke, egui::StrokeKind::Inside);
     }
-    chosen
+    SkyAnswer { chosen, pointed }
+}
+
+/// Tells the direction under the pointer, or the time where it points at the path or another
+/// view marks a time. Returns the time under the pointer.
+fn point_out(
+    ui: &Ui,
+    rect: Rect,
+    dome: Dome,
+    canvas: &Response,
+    scene: &SkyScene<'_>,
+    t: &Tokens,
+) -> Option<Timestamp> {
+    let pointer = canvas.hover_pos().filter(|_| canvas.hovered() && !canvas.dragged());
+    let on_path = pointer.and_then(|at| pointer::on_path(dome, scene.track.as_ref()?, at));
+    let elsewhere = || along::at(scene.track?.samples, scene.marked?);
+    if let Some(sample) = on_path.or_else(elsewhere) {
+        pointer::marked(ui, rect, dome, sample, t);
+    } else if let Some((at, pointed)) = pointer.and_then(|at| Some((at, dome.direction(at)?))) {
+        pointer::pointed_at(ui, rect, at, pointed, t);
+    }
+    on_path.map(|sample| sample.time)
 }
 
 /// Paints the layers from the disc up to the selected satellite, then the
@@ -145,8 +180,9 @@ fn paint_sky(
             labels.reserve(Rect::from_points(&outline));
         }
     }
-    let numbers = readout::reserved(painter, rect, dome, scene, t);
-    for corner in corners::reserved(rect, dome, scene).into_iter().chain(numbers) {
+    let whole = Dome::fitted(rect);
+    let numbers = readout::reserved(painter, rect, whole, scene, t);
+    for corner in corners::reserved(rect, whole, scene).into_iter().chain(numbers) {
         labels.reserve(corner);
     }
     if layers.sun_and_moon {

@@ -92,7 +92,11 @@ impl Act {
                     targets.operate.card.drive.change_rate(by, speeds, max_deg_s);
                 }
             }
+            Self::Zoom(closer) if targets.operate.sky.has_focus => {
+                targets.operate.sky.zoom.step(closer > 0);
+            }
             Self::Zoom(closer) => targets.operate.zoom.change(closer),
+            Self::UsualZoom if targets.operate.sky.has_focus => targets.operate.sky.zoom.reset(),
             Self::UsualZoom => targets.operate.zoom.reset(),
             Self::Nearest(towards) => {
                 ui.memory_mut(|memory| memory.move_focus(FocusDirection::None));

@@ -171,6 +171,7 @@ fn small_plot(ui: &Ui, rect: Rect, model: &Model, of: &GlobeSatellite, predicted
         bearing: None,
         predicted: None,
         recent_errors: &[],
+        marked: None,
         readout: &[],
         description: "",
     };

@@ -18,7 +18,7 @@ use crate::{
         format,
         pass_header::{self, PassHeaderModel},
         pass_list::{self, PassListModel, PassListState, PassRow, Verdict},
-        profile::{self, ProfileModel},
+        profile::{self, ProfileModel, ProfileState},
         timeline::{self, Bar, TimelineModel, Zoom},
         words,
     },
@@ -234,9 +234,17 @@ pub(super) fn timeline(
     commands.extend(timeline::show(ui, rect, &strip).map(UiCommand::SelectPass));
 }
 
-pub(super) fn profile(ui: &mut Ui, rect: Rect, model: &Model) {
+/// Shows the profile of the selected pass, with the time that is `marked` elsewhere; returns
+/// the time that the operator marks in it.
+pub(super) fn profile(
+    ui: &mut Ui,
+    rect: Rect,
+    model: &Model,
+    marked: Option<Timestamp>,
+    state: &mut ProfileState,
+) -> Option<Timestamp> {
     let Some(predicted) = model.selected_pass() else {
-        return profile::show(ui, rect, None);
+        return profile::show(ui, rect, None, state);
     };
     let number = predicted.satellite.elements.catalog_number();
     let antenna = model.antenna().filter(|antenna| antenna.tracked_number() == Some(number));
@@ -259,6 +267,8 @@ pub(super) fn profile(ui: &mut Ui, rect: Rect, model: &Model) {
             mask: model.station.horizon_mask.as_ref(),
             errors: &errors,
             half_beam_deg: beam_width_deg / 2.0,
+            marked,
         }),
-    );
+        state,
+    )
 }

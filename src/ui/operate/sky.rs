@@ -1,6 +1,7 @@
 //! Fills the sky plot.
 
 use egui::{Rect, Ui};
+use jiff::Timestamp;
 
 use super::OperateState;
 use crate::{
@@ -24,13 +25,14 @@ const FULL_READOUT_FROM: f32 = 520.0;
 /// Span of the errors in the beam view.
 const RECENT_S: f64 = 60.0;
 
+/// Shows the plot; returns the time of the path under the pointer.
 pub(super) fn show(
     ui: &mut Ui,
     rect: Rect,
     model: &Model,
     state: &mut OperateState,
     commands: &mut Vec<UiCommand>,
-) {
+) -> Option<Timestamp> {
     let antenna = model.antenna();
     let predicted = model.selected_pass();
     let selected = predicted.map(|predicted| predicted.satellite.elements.catalog_number());
@@ -76,11 +78,13 @@ pub(super) fn show(
             .and_then(|antenna| antenna.prediction)
             .map(|prediction| prediction.direction),
         recent_errors: &antenna.map(recent_errors).unwrap_or_default(),
+        marked: state.marked,
         readout: &readout(model, rect.height() >= FULL_READOUT_FROM),
         description: &description,
     };
-    let clicked = sky_plot::show(ui, rect, &scene, &mut state.sky);
-    commands.extend(clicked.map(UiCommand::SelectSatellite));
+    let answer = sky_plot::show(ui, rect, &scene, &mut state.sky);
+    commands.extend(answer.chosen.map(UiCommand::SelectSatellite));
+    answer.pointed
 }
 
 /// The path of a pass, with the present look angles of its satellite.

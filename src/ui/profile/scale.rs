@@ -3,7 +3,10 @@
 use egui::{Pos2, Rect, pos2};
 use jiff::Timestamp;
 
-use crate::{astro::time::seconds_between, plan::Sample};
+use crate::{
+    astro::time::{add_seconds, seconds_between},
+    plan::Sample,
+};
 
 /// Top of the elevation scale.
 pub(super) const ELEVATION_TOP_DEG: f64 = 90.0;
@@ -48,6 +51,12 @@ impl TimeAxis {
     pub(super) fn x(&self, time: Timestamp) -> f32 {
         let part = seconds_between(self.start, time) / seconds_between(self.start, self.end);
         self.left + part as f32 * self.width
+    }
+
+    /// The time at `x`; beyond the axis that of its end.
+    pub(super) fn time(&self, x: f32) -> Timestamp {
+        let part = f64::from((x - self.left) / self.width).clamp(0.0, 1.0);
+        add_seconds(self.start, part * seconds_between(self.start, self.end))
     }
 }
 
@@ -142,6 +151,8 @@ mod tests {
         assert!(near(axis.x(axis.start()), 40.0) && near(axis.x(axis.end()), 340.0));
         let later: Timestamp = "2026-11-14T11:12:30Z".parse().unwrap();
         assert!(near(axis.x(later), 415.0) && !axis.contains(later));
+        assert_eq!(axis.time(190.0), "2026-11-14T11:05:00Z".parse().unwrap());
+        assert_eq!((axis.time(0.0), axis.time(900.0)), (axis.start(), axis.end()));
     }
 
     #[test]

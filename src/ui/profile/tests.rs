@@ -34,13 +34,61 @@ fn model<'a>(track: &'a [Sample], errors: &'a [(Timestamp, f32)]) -> ProfileMode
         mask: None,
         errors,
         half_beam_deg: 0.44,
+        marked: None,
     }
 }
 
-fn window(size: [f32; 2], model: Option<ProfileModel<'_>>) -> Harness<'_> {
-    testing::window(size, (), move |ui, ()| {
-        show(ui, Rect::from_min_size(pos2(0.0, 0.0), size.into()), model.as_ref());
+type Story = (ProfileState, Option<Timestamp>);
+
+fn window(size: [f32; 2], model: Option<ProfileModel<'_>>) -> Harness<'_, Story> {
+    testing::window(size, Story::default(), move |ui, (state, asked): &mut Story| {
+        *asked = show(ui, Rect::from_min_size(pos2(0.0, 0.0), size.into()), model.as_ref(), state);
     })
+}
+
+#[test]
+fn the_pointer_marks_a_time_and_reads_the_pass_there() {
+    let (track, errors) = (track(), [(at(149.0), 0.2), (at(190.0), 0.04)]);
+    let mut window = window([392.0, 208.0], Some(model(&track, &errors)));
+    window.run();
+    // A quarter of the way between the two scales.
+    window.hover_at(pos2(LEFT_SCALE + (392.0 - LEFT_SCALE - RIGHT_SCALE) / 4.0, 100.0));
+    window.run();
+    let asked = window.state().1.unwrap();
+    assert!(asked.duration_since(at(150.0)).as_secs_f64().abs() < 0.5, "{asked}");
+    window.get_by_label("Profile at 11:04:23Z: elevation 47.4°, azimuth 330°, error 0.20°");
+    window.hover_at(pos2(200.0, 10.0));
+    window.run();
+    assert_eq!(window.state().1, None, "the title is no time");
+}
+
+#[test]
+fn arrows_mark_a_time_from_the_present_on() {
+    let track = track();
+    let mut window = window([392.0, 208.0], Some(model(&track, &[])));
+    window.run();
+    window.get_by_label_contains("NOAA 20 profile").focus();
+    window.run();
+    assert_eq!(window.state().1, Some(at(200.0)));
+    window.key_press(egui::Key::ArrowLeft);
+    window.run();
+    window.key_press_modifiers(egui::Modifiers::SHIFT, egui::Key::ArrowRight);
+    window.run();
+    assert_eq!(window.state().1, Some(at(250.0)));
+    for _ in 0..9 {
+        window.key_press_modifiers(egui::Modifiers::SHIFT, egui::Key::ArrowRight);
+        window.run();
+    }
+    assert_eq!(window.state().1, Some(at(600.0)), "LOS is the end");
+}
+
+#[test]
+fn a_time_that_is_marked_in_the_sky_is_read_in_the_profile() {
+    let track = track();
+    let marked = Some(at(300.0));
+    let window = window([392.0, 208.0], Some(ProfileModel { marked, ..model(&track, &[]) }));
+    window.get_by_label("Profile at 11:06:53Z: elevation 65.0°, azimuth 000°");
+    assert_eq!(window.state().1, None);
 }
 
 #[test]

@@ -40,7 +40,11 @@ pub(super) fn upper_right(ui: &Ui, rect: Rect, layers: &mut Layers, t: &Tokens) 
         });
 
     let beside = button.left_center() - vec2(8.0, 0.0);
-    paint::text(ui, beside, Align2::RIGHT_CENTER, "N up, E right", text::small(), t.t2);
+    let words = "N up, E right";
+    let size = vec2(paint::text_width(ui, words, text::small()), 16.0);
+    let ground = Align2::RIGHT_CENTER.anchor_size(beside, size).expand(2.0);
+    ui.painter().rect_filled(ground, 0.0, t.bg0);
+    paint::text(ui, beside, Align2::RIGHT_CENTER, words, text::small(), t.t2);
 }
 
 /// The rectangle of the legend, if the plot is high enough and the legend clears the disc.
@@ -53,9 +57,20 @@ fn legend_place(rect: Rect, dome: Dome, scene: &SkyScene<'_>) -> Option<Rect> {
     (is_free && rect.height() >= LEGEND_HEIGHT).then_some(place)
 }
 
-/// Shows the legend in the lower left corner, or the button that opens it.
-pub(super) fn lower_left(ui: &Ui, rect: Rect, dome: Dome, scene: &SkyScene<'_>, t: &Tokens) {
+/// Shows the legend in the lower left corner, `over_sky` on a ground of its own, or the button
+/// that opens it.
+pub(super) fn lower_left(
+    ui: &Ui,
+    rect: Rect,
+    dome: Dome,
+    scene: &SkyScene<'_>,
+    over_sky: bool,
+    t: &Tokens,
+) {
     if let Some(place) = legend_place(rect, dome, scene) {
+        if over_sky {
+            ui.painter().rect_filled(place.expand(4.0), 0.0, t.bg0);
+        }
         legend::paint(ui.painter(), place.min, scene, t);
         return;
     }

@@ -33,6 +33,14 @@ impl Dome {
             .then(|| self.at(direction.azimuth.radians() as f32, direction.elevation_deg() as f32))
     }
 
+    /// The direction at a point; none outside the rim.
+    pub(in crate::ui) fn direction(&self, at: Pos2) -> Option<AzEl> {
+        let off = at - self.centre;
+        let from_zenith = f64::from(off.length() / self.radius);
+        let azimuth_deg = f64::from(off.x.atan2(-off.y)).to_degrees().rem_euclid(360.0);
+        (from_zenith <= 1.0).then(|| AzEl::from_degrees(azimuth_deg, 90.0 * (1.0 - from_zenith)))
+    }
+
     /// The point of a direction; none below the horizon.
     pub(in crate::ui) fn visible(&self, direction: AzEl) -> Option<Pos2> {
         self.point(direction).filter(|_| direction.elevation_deg() >= 0.0)
@@ -197,6 +205,18 @@ mod tests {
             let point = dome.point(AzEl::from_degrees(az, el)).unwrap();
             assert!(near(point, pos2(x, y)), "{az} {el} {point}");
         }
+    }
+
+    #[test]
+    fn a_point_of_the_disc_has_the_direction_that_is_drawn_there() {
+        let dome = Dome { centre: pos2(100.0, 200.0), radius: 90.0 };
+        for (az, el) in [(0.0, 45.0), (121.3, 8.0), (270.0, 89.0), (359.5, 0.1)] {
+            let direction = AzEl::from_degrees(az, el);
+            let back = dome.direction(dome.point(direction).unwrap()).unwrap();
+            assert!(back.separation(direction).degrees() < 0.01, "{az} {el} {back:?}");
+            assert!((0.0..360.0).contains(&back.azimuth_deg()));
+        }
+        assert_eq!(dome.direction(pos2(191.0, 200.0)), None);
     }
 
     #[test]

@@ -16,6 +16,9 @@ use crate::ui::tokens::Tokens;
 /// Padding between a text and the edge of its background, points.
 const PADDING: f32 = 2.0;
 
+/// How far outside of the picture a mark may be that has a label in it, points.
+const OUTSIDE: f32 = 8.0;
+
 /// Identifies a label from frame to frame.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub(in crate::ui) enum Key {
@@ -93,7 +96,10 @@ impl<'a> Labels<'a> {
 
     /// Keeps labels away from a box.
     pub(in crate::ui) fn reserve(&mut self, rect: Rect) {
-        self.reserved.push(rect);
+        // In a magnified sky most of it is out of sight.
+        if self.bounds.intersects(rect) {
+            self.reserved.push(rect);
+        }
     }
 
     /// Keeps labels away from a line of `width` points.
@@ -104,7 +110,7 @@ impl<'a> Labels<'a> {
             // The last point of a segment is the first one of the next segment.
             for step in 0..steps {
                 let at = from.lerp(to, f32::from(step) / f32::from(steps));
-                self.reserved.push(Rect::from_center_size(at, Vec2::splat(width)));
+                self.reserve(Rect::from_center_size(at, Vec2::splat(width)));
             }
         }
     }
@@ -112,6 +118,9 @@ impl<'a> Labels<'a> {
     /// Paints a label at the best place and keeps later ones away from it. Returns `None` for
     /// a dropped label; earlier labels have priority.
     pub(in crate::ui) fn add(&mut self, label: &Label<'_>) -> Option<Placement> {
+        if !self.bounds.expand(OUTSIDE).contains(label.mark) {
+            return None;
+        }
         let measure = job(label, Align::LEFT);
         let size = self.painter.layout_job(measure).size() + Vec2::splat(2.0 * PADDING);
         let is_free = |side: &Side| {

@@ -2,7 +2,7 @@
 
 use egui::{Id, Pos2, Rect, Response, Role, Sense, Stroke, Ui, Vec2, WidgetInfo};
 
-use super::{bearing, geometry::Dome, scene::SkyScene, track::Event};
+use super::{bearing, geometry::Dome, scene::SkyScene, track::Event, zoom::Zoom};
 use crate::{
     astro::AzEl,
     ui::{format, tokens::Tokens},
@@ -11,12 +11,35 @@ use crate::{
 /// Side of the square around a mark that reacts to the pointer, points.
 const TARGET: f32 = 20.0;
 
-/// Adds the plot as one focusable node and returns it; the ids of all other nodes derive
-/// from its id.
-pub(super) fn canvas(ui: &Ui, rect: Rect, scene: &SkyScene<'_>) -> Response {
+/// Adds the plot as one focusable node, which the wheel magnifies and which is then dragged,
+/// and returns it; the ids of all other nodes derive from its id.
+pub(super) fn canvas(
+    ui: &Ui,
+    rect: Rect,
+    scene: &SkyScene<'_>,
+    whole: Dome,
+    zoom: &mut Zoom,
+) -> Response {
     let id = ui.make_persistent_id("sky plot");
-    let response = ui.interact(rect, id, Sense::focusable_noninteractive());
+    let sense = if zoom.is_whole() { Sense::click() } else { Sense::click_and_drag() };
+    let response = ui.interact(rect, id, sense);
     response.widget_info(|| WidgetInfo::labeled(Role::Canvas, true, scene.description));
+    if response.dragged() {
+        zoom.drag(response.drag_delta(), whole);
+    }
+    if let Some(at) = response.hover_pos() {
+        let (points, pinched) =
+            ui.input(|input| (input.smooth_scroll_delta().y, input.zoom_delta()));
+        if points != 0.0 {
+            zoom.turn(points, at, whole);
+        }
+        if (pinched - 1.0).abs() > f32::EPSILON {
+            zoom.magnify(pinched, at, whole);
+        }
+    }
+    if response.double_clicked() {
+        zoom.reset();
+    }
     response
 }
 
@@ -24,6 +47,7 @@ pub(super) fn canvas(ui: &Ui, rect: Rect, scene: &SkyScene<'_>) -> Response {
 pub(super) fn satellites(
     ui: &Ui,
     canvas: Id,
+    rect: Rect,
     dome: Dome,
     scene: &SkyScene<'_>,
     show_others: bool,
@@ -37,7 +61,8 @@ pub(super) fn satellites(
     let mut chosen = None;
     // The selected satellite comes last, so that it takes the pointer where two overlap.
     for (number, name, direction, is_selected) in others.chain(selected) {
-        let Some(at) = dome.visible(direction) else { continue };
+        let at = dome.visible(direction).filter(|at| rect.contains(*at));
+        let Some(at) = at else { continue };
         let place = Rect::from_center_size(at, Vec2::splat(TARGET));
         let response = ui.interact(place, canvas.with(("satellite", number)), Sense::click());
         let label = spoken(name, direction);

@@ -29,9 +29,19 @@ struct ReadoutLine {
     value: (Pos2, Arc<Galley>),
 }
 
-/// Paints the lines that have room.
-pub(super) fn paint(painter: &Painter, rect: Rect, dome: Dome, scene: &SkyScene<'_>, t: &Tokens) {
+/// Paints the lines that have room, `over_sky` on a ground of their own.
+pub(super) fn paint(
+    painter: &Painter,
+    rect: Rect,
+    dome: Dome,
+    scene: &SkyScene<'_>,
+    over_sky: bool,
+    t: &Tokens,
+) {
     for line in lines(painter, rect, dome, scene, t) {
+        if over_sky {
+            painter.rect_filled(line.rect.expand(CLEARANCE), 0.0, t.bg0);
+        }
         painter.galley(line.label.0, line.label.1, t.t2);
         painter.galley(line.value.0, line.value.1, t.t1);
     }

@@ -42,6 +42,8 @@ pub struct SkyScene<'a> {
     /// Measured minus predicted of the last 60 s in degrees, oldest first:
     /// across (azimuth times the cosine of the elevation) and in elevation.
     pub recent_errors: &'a [(f32, f32)],
+    /// A time of the path that is marked elsewhere.
+    pub marked: Option<Timestamp>,
     /// Lines of the readout: label and value.
     pub readout: &'a [(&'a str, String)],
     /// The state sentence, read aloud for the whole plot.

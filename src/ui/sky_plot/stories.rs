@@ -38,7 +38,7 @@ fn story(size: Vec2, scene: SkyScene<'static>) -> Harness<'static, Story> {
         let mut scene = scene.clone();
         scene.track = scene.track.or_else(|| Some(testing::track(&samples)));
         let rect = ui.max_rect();
-        story.chosen = show(ui, rect, &scene, &mut story.plot).or(story.chosen);
+        story.chosen = show(ui, rect, &scene, &mut story.plot).chosen.or(story.chosen);
     })
 }
 

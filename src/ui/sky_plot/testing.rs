@@ -70,6 +70,7 @@ pub(super) fn empty() -> SkyScene<'static> {
         bearing: None,
         predicted: None,
         recent_errors: &[],
+        marked: None,
         readout: &[],
         description: "Holding at 343.1°, 5.0°.",
     }

@@ -1,0 +1,106 @@
+//! The time that the pointer, the arrow keys or another view mark.
+
+use egui::{EventFilter, Key, Modifiers, Rect, Response, Stroke, StrokeKind, Ui, pos2, vec2};
+use jiff::Timestamp;
+
+use super::{
+    ProfileModel,
+    scale::{self, ELEVATION_TOP_DEG, TimeAxis},
+};
+use crate::{
+    astro::time::{add_seconds, seconds_between},
+    ui::{along, format, text, theme, widgets::paint},
+};
+
+/// Step of an arrow key, and with Shift.
+const STEPS_S: [f64; 2] = [10.0, 60.0];
+/// A measured error belongs to a marked time no further away than this.
+const NEAR_S: f64 = 3.0;
+/// Gap between the line and its words.
+const GAP: f32 = 6.0;
+/// Radius of the mark on the elevation.
+const MARK: f32 = 4.0;
+
+/// The time that the operator marks here, with the pointer over `plots` or with the arrow keys;
+/// `cursor` is the time of the keys.
+pub(super) fn asked(
+    ui: &Ui,
+    response: &Response,
+    plots: Rect,
+    axis: &TimeAxis,
+    now: Timestamp,
+    cursor: &mut Option<Timestamp>,
+) -> Option<Timestamp> {
+    if response.has_focus() {
+        let start = if axis.contains(now) { now } else { axis.start() };
+        let held = cursor.filter(|at| axis.contains(*at)).unwrap_or(start);
+        let moved = add_seconds(held, keys_s(ui, response));
+        *cursor = Some(moved.clamp(axis.start(), axis.end()));
+    } else {
+        *cursor = None;
+    }
+    let under = response.hover_pos().filter(|at| plots.contains(*at));
+    under.map(|at| axis.time(at.x)).or(*cursor)
+}
+
+/// Seconds by which the arrow keys of this frame move the time.
+fn keys_s(ui: &Ui, response: &Response) -> f64 {
+    let filter = EventFilter { horizontal_arrows: true, ..EventFilter::default() };
+    ui.memory_mut(|memory| memory.set_focus_lock_filter(response.id, filter));
+    let [step_s, far_s] = STEPS_S;
+    ui.input_mut(|input| {
+        let mut moved_s = 0.0;
+        for (modifiers, by_s) in [(Modifiers::SHIFT, far_s), (Modifiers::NONE, step_s)] {
+            for (key, sign) in [(Key::ArrowLeft, -1.0), (Key::ArrowRight, 1.0)] {
+                let count = input.count_and_consume_key(modifiers, key);
+                moved_s += sign * by_s * count as f64;
+            }
+        }
+        moved_s
+    })
+}
+
+/// Paints the marked time through `plots`, of which `curves` are the upper ones, with what the
+/// pass is there.
+pub(super) fn paint(
+    ui: &Ui,
+    plots: Rect,
+    curves: Rect,
+    axis: &TimeAxis,
+    model: &ProfileModel<'_>,
+    time: Timestamp,
+) {
+    let Some(sample) = along::at(model.track, time).filter(|_| axis.contains(time)) else { return };
+    let t = theme::tokens(ui);
+    let x = axis.x(time);
+    ui.painter().vline(x, plots.y_range(), Stroke::new(1.0, t.t1));
+    let elevation_deg = sample.direction.elevation_deg();
+    let on_curve = pos2(x, scale::y(curves, elevation_deg, ELEVATION_TOP_DEG));
+    ui.painter().circle(on_curve, MARK, t.bg0, Stroke::new(2.0, t.sat));
+
+    let azimuth = format::azimuth(sample.direction.azimuth_deg());
+    let elevation = format::degrees(elevation_deg, 1);
+    let error = error_at(model, time);
+    let off = error.map(|deg| format!("  err {}", format::degrees(f64::from(deg), 2)));
+    let at = format::time_z(time);
+    let words = format!("{at}  el {elevation}  az {azimuth}{}", off.unwrap_or_default());
+    let galley = ui.painter().layout_no_wrap(words, text::caption(), t.t1);
+    let size = galley.size() + vec2(8.0, 2.0);
+    let right = x + GAP + size.x <= plots.right();
+    let left = if right { x + GAP } else { (x - GAP - size.x).max(plots.left()) };
+    let place = Rect::from_min_size(pos2(left, curves.bottom() - size.y - 2.0), size);
+    ui.painter().rect(place, 3.0, t.bg2, Stroke::new(1.0, t.line), StrokeKind::Inside);
+    ui.painter().galley(place.min + vec2(4.0, 1.0), galley, t.t1);
+    let off = error.map(|deg| format!(", error {}", format::degrees(f64::from(deg), 2)));
+    let off = off.unwrap_or_default();
+    let name = format!("Profile at {at}: elevation {elevation}, azimuth {azimuth}{off}");
+    paint::name_text(ui, "marked", place, &name);
+}
+
+/// The measured error nearest to `time`, degrees.
+fn error_at(model: &ProfileModel<'_>, time: Timestamp) -> Option<f32> {
+    let away_s = |at: Timestamp| seconds_between(at, time).abs();
+    let near = model.errors.iter().filter(|(at, deg)| deg.is_finite() && away_s(*at) <= NEAR_S);
+    let nearest = near.min_by(|(a, _), (b, _)| away_s(*a).total_cmp(&away_s(*b)));
+    nearest.map(|(_, deg)| *deg)
+}

@@ -1,0 +1,124 @@
+//! The part of the sky that the plot shows.
+
+use egui::{Pos2, Vec2};
+
+use super::geometry::Dome;
+
+/// Largest magnification.
+const MOST: f32 = 8.0;
+/// Points of the wheel for a magnification of e.
+const POINTS: f32 = 250.0;
+/// Magnification of a key press.
+const STEP: f32 = 1.5;
+
+/// Magnification and place of the disc.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Zoom {
+    factor: f32,
+    /// From the middle of the plot to the zenith, in radii of the whole disc.
+    shift: Vec2,
+}
+
+impl Default for Zoom {
+    fn default() -> Self {
+        Self { factor: 1.0, shift: Vec2::ZERO }
+    }
+}
+
+impl Zoom {
+    /// Returns `true` if the whole disc is shown.
+    pub(super) fn is_whole(self) -> bool {
+        self.factor <= 1.0
+    }
+
+    /// The disc, of which `whole` would show everything.
+    pub(super) fn of(self, whole: Dome) -> Dome {
+        let centre = whole.centre + self.shift * whole.radius;
+        Dome { centre, radius: whole.radius * self.factor }
+    }
+
+    /// Takes a turn of the wheel by `points` at the place `at`, which stays where it is.
+    pub(super) fn turn(&mut self, points: f32, at: Pos2, whole: Dome) {
+        self.magnify((points / POINTS).exp(), at, whole);
+    }
+
+    /// Magnifies by `by` around `at`.
+    pub(super) fn magnify(&mut self, by: f32, at: Pos2, whole: Dome) {
+        if !by.is_finite() {
+            return;
+        }
+        let at = (at - whole.centre) / whole.radius;
+        let of_sky = (at - self.shift) / self.factor;
+        self.factor = (self.factor * by).clamp(1.0, MOST);
+        self.shift = at - of_sky * self.factor;
+        self.keep_in_place();
+    }
+
+    /// Magnifies around the middle of the plot, or makes it smaller.
+    pub fn step(&mut self, is_closer: bool) {
+        let by = if is_closer { STEP } else { 1.0 / STEP };
+        let factor = (self.factor * by).clamp(1.0, MOST);
+        self.shift *= factor / self.factor;
+        self.factor = factor;
+        self.keep_in_place();
+    }
+
+    /// Takes a drag of the disc by `delta` points.
+    pub(super) fn drag(&mut self, delta: Vec2, whole: Dome) {
+        self.shift += delta / whole.radius;
+        self.keep_in_place();
+    }
+
+    /// Shows the whole disc again.
+    pub fn reset(&mut self) {
+        *self = Self::default();
+    }
+
+    /// The disc always fills the place of the whole one.
+    fn keep_in_place(&mut self) {
+        let most = self.factor - 1.0;
+        let length = self.shift.length();
+        if length > most {
+            self.shift *= most / length;
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use egui::{pos2, vec2};
+
+    const WHOLE: Dome = Dome { centre: Pos2::new(300.0, 300.0), radius: 200.0 };
+
+    #[test]
+    fn the_place_under_the_pointer_stays_there() {
+        let at = pos2(380.0, 250.0);
+        let mut zoom = Zoom::default();
+        let before = zoom.of(WHOLE).direction(at).unwrap();
+        zoom.turn(200.0, at, WHOLE);
+        let dome = zoom.of(WHOLE);
+        assert!(dome.radius > 400.0, "{dome:?}");
+        assert!(dome.direction(at).unwrap().separation(before).degrees() < 1e-3);
+    }
+
+    #[test]
+    fn it_ends_at_the_whole_disc_and_at_eight_times_of_it() {
+        let mut zoom = Zoom::default();
+        for _ in 0..50 {
+            zoom.turn(120.0, pos2(450.0, 300.0), WHOLE);
+        }
+        assert!((zoom.of(WHOLE).radius - 1600.0).abs() < 0.1);
+        zoom.drag(vec2(9000.0, 0.0), WHOLE);
+        // The rim reaches the rim of the whole disc and no further.
+        let dome = zoom.of(WHOLE);
+        assert!((dome.centre.x - dome.radius - 100.0).abs() < 0.1, "{dome:?}");
+        for _ in 0..50 {
+            zoom.turn(-120.0, pos2(10.0, 20.0), WHOLE);
+        }
+        assert_eq!(zoom.of(WHOLE), WHOLE);
+        assert!(zoom.is_whole());
+        zoom.magnify(f32::NAN, WHOLE.centre, WHOLE);
+        assert_eq!(zoom, Zoom::default());
+    }
+}

@@ -1,0 +1,134 @@
+//! The sky plot under the pointer: directions, times along the path, a closer look.
+
+use egui::{Event, Key, Modifiers, PointerButton, Pos2, Role, vec2};
+use egui_kittest::kittest::{NodeT as _, Queryable as _};
+
+use crate::window_stories::{
+    rig::{self, LARGE, SIZES, Window, asked, scroll, settle},
+    states,
+};
+
+fn window(size: [f32; 2]) -> Window {
+    rig::window(size, rig::model(states::holding()))
+}
+
+/// The middle of the sky plot: the zenith.
+pub(crate) fn zenith(window: &Window) -> Pos2 {
+    window.get_by_role(Role::Canvas).rect().center()
+}
+
+fn label(window: &Window, start: &str) -> Option<String> {
+    let node = window.query_by_label_contains(start)?;
+    node.accesskit_node().value()
+}
+
+/// Place of the mark of LOS.
+fn los(window: &Window) -> Pos2 {
+    let is_mark = |text: String| text.starts_with("LOS 11:21:") && text.contains("Z, azimuth");
+    let mut found = window.get_all_by_label_contains("LOS 11:21:");
+    let mark = found.find(|node| node.accesskit_node().value().is_some_and(is_mark));
+    mark.expect("the mark of LOS").rect().center()
+}
+
+#[test]
+fn the_pointer_over_the_sky_reads_azimuth_and_elevation() {
+    for size in SIZES {
+        let mut window = window(size);
+        let at = zenith(&window) + vec2(60.0, 0.0);
+        window.hover_at(at);
+        settle(&mut window);
+        let east = label(&window, "Pointer at azimuth").unwrap();
+        assert!(east.starts_with("Pointer at azimuth 90.0°, elevation "), "{east}");
+        window.hover_at(zenith(&window) + vec2(0.0, 60.0));
+        settle(&mut window);
+        let south = label(&window, "Pointer at azimuth").unwrap();
+        assert!(south.starts_with("Pointer at azimuth 180.0°"), "{south}");
+        // Over the card the sky is not read.
+        window.hover_at(Pos2::new(size[0] - 30.0, 300.0));
+        settle(&mut window);
+        assert_eq!(label(&window, "Pointer at azimuth"), None);
+        assert_eq!(asked(&mut window), []);
+    }
+}
+
+#[test]
+fn a_point_of_the_path_has_a_time_which_the_profile_marks_too() {
+    let mut window = window(LARGE);
+    let los = los(&window);
+    let sky = zenith(&window);
+    // Along the rim, the path ends here.
+    window.hover_at(los + (sky - los) * 0.02);
+    settle(&mut window);
+    let in_sky = label(&window, "Path at ").expect("a time of the path");
+    let in_profile = label(&window, "Profile at ").expect("the same time in the profile");
+    assert_eq!(in_sky[8..17], in_profile[11..20], "{in_sky} {in_profile}");
+    window.hover_at(Pos2::new(30.0, 300.0));
+    settle(&mut window);
+    assert_eq!((label(&window, "Path at "), label(&window, "Profile at ")), (None, None));
+}
+
+#[test]
+fn a_time_of_the_profile_is_marked_in_the_sky() {
+    let mut window = window(LARGE);
+    let profile = window.get_by_label_contains("NOAA 20 profile").rect();
+    window.hover_at(profile.center());
+    settle(&mut window);
+    let in_profile = label(&window, "Profile at ").unwrap();
+    let in_sky = label(&window, "Path at ").unwrap();
+    assert_eq!(in_sky[8..17], in_profile[11..20], "{in_sky} {in_profile}");
+
+    // The arrow keys do the same.
+    window.hover_at(Pos2::new(30.0, 300.0));
+    window.get_by_label_contains("NOAA 20 profile").focus();
+    settle(&mut window);
+    assert!(label(&window, "Path at 11:15:30Z").is_some(), "the present");
+    window.key_press(Key::ArrowRight);
+    settle(&mut window);
+    assert!(label(&window, "Path at 11:15:40Z").is_some());
+    assert!(label(&window, "Profile at 11:15:40Z").is_some());
+    assert_eq!(asked(&mut window), []);
+}
+
+#[test]
+fn the_wheel_brings_the_sky_closer_and_a_double_click_brings_it_back() {
+    for size in SIZES {
+        let mut window = window(size);
+        let reads = |window: &Window| label(window, "Pointer at azimuth").unwrap();
+        // Between zenith and east, away from marks.
+        let at = zenith(&window) + vec2(90.0, 2.0);
+        window.hover_at(at);
+        settle(&mut window);
+        let before = reads(&window);
+        let rim = los(&window);
+        scroll(&mut window, at, 200.0);
+        assert_eq!(reads(&window), before, "the place under the pointer stays");
+        let closer = los(&window);
+        assert!(closer.distance(at) > 1.5 * rim.distance(at), "{rim} {closer}");
+        let press = |pressed| Event::PointerButton {
+            pos: at,
+            button: PointerButton::Primary,
+            pressed,
+            modifiers: Modifiers::NONE,
+        };
+        window.input_mut().events.extend([true, false, true, false].map(press));
+        settle(&mut window);
+        let back = los(&window);
+        assert!(back.distance(rim) < 1.0, "{back} {rim}");
+        assert_eq!(asked(&mut window), []);
+    }
+}
+
+#[test]
+fn plus_and_zero_magnify_the_sky_that_has_the_focus() {
+    let mut window = window(LARGE);
+    let (whole, zenith) = (los(&window), zenith(&window));
+    window.get_by_role(Role::Canvas).focus();
+    settle(&mut window);
+    window.key_press(Key::Plus);
+    settle(&mut window);
+    assert!((los(&window).distance(zenith) / whole.distance(zenith) - 1.5).abs() < 0.01);
+    window.key_press(Key::Num0);
+    settle(&mut window);
+    assert!(los(&window).distance(whole) < 0.5);
+    assert_eq!(window.state().views.kept().strip_hours, None, "the strip keeps its hours");
+}
