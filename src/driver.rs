@@ -367,12 +367,18 @@ fn dial(antenna: &Antenna) -> Dial {
 /// the new one sends STOP first.
 async fn keep_alive(open: impl Fn() -> Session, wires: Wires) {
     let mut broke = 0_u32;
+    let mut own_stop = wires.newest_void();
     while caught(Box::pin(async { Box::pin(open().run()).await })).await.is_none() {
-        wires.stop();
         wires.tell(Event::Safety(Safety::SessionBroke));
         // The first restart waits for nothing. A session that breaks again and again must not
-        // keep the others from running.
-        tokio::time::sleep(MAX_REST.min(Duration::from_millis(200) * broke)).await;
+        // keep the others from running, nor keep a STOP of the operator waiting.
+        let rest = tokio::time::sleep(MAX_REST.min(Duration::from_millis(200) * broke));
+        tokio::select! {
+            () = rest => {}
+            () = wires.stopped_after(own_stop) => {}
+        }
+        wires.stop();
+        own_stop = wires.newest_void();
         broke = broke.saturating_add(1);
     }
 }
@@ -398,7 +404,12 @@ impl Drop for Driver {
 
 #[cfg(test)]
 mod tests {
-    use super::*;
+    use std::{num::NonZeroU32, sync::atomic::AtomicUsize};
+
+    use super::{
+        session::testing::{START, antenna},
+        *,
+    };
 
     fn wait_for(what: &str, is_so: impl Fn() -> bool) {
         let until = Instant::now() + Duration::from_secs(20);
@@ -422,5 +433,31 @@ mod tests {
         drop(go_on);
         wait_for("it runs", || driver.stood_for().is_none());
         wakes.recv_timeout(Duration::from_secs(20)).unwrap();
+    }
+
+    #[tokio::test(start_paused = true)]
+    async fn stop_waits_for_no_session_that_rests_after_a_breakdown() {
+        let clock = Clock::at_speed(START, NonZeroU32::MIN);
+        let (of, now) = (antenna(), clock.now().steady);
+        let bounds = Bounds::of_antenna(&of);
+        let (wires, handle) = Wires::new(&of, bounds, now, Arc::new(|| {}), &Orders::default());
+        let dialled = Arc::new(AtomicUsize::new(0));
+        let (counts, ends) = (Arc::clone(&dialled), wires.clone());
+        let open = move || {
+            let counts = Arc::clone(&counts);
+            let dial: Dial = Box::new(move || {
+                counts.fetch_add(1, Ordering::Relaxed);
+                panic!("the link breaks down with its session");
+            });
+            let debts = Debts::marked_in(None);
+            Session::over(of.controller(), &of, dial, clock.clone(), ends.clone(), debts)
+        };
+        tokio::spawn(keep_alive(open, wires));
+        // By then it rests for some five seconds each time.
+        tokio::time::sleep(Duration::from_secs(61)).await;
+        let before = dialled.load(Ordering::Relaxed);
+        handle.stop();
+        tokio::time::sleep(Duration::from_millis(1)).await;
+        assert_eq!(dialled.load(Ordering::Relaxed), before + 1);
     }
 }

@@ -28,7 +28,11 @@ mod unproved;
 mod wanted;
 mod write_settings;
 
-use std::{path::PathBuf, sync::Arc, time::Duration};
+use std::{
+    path::PathBuf,
+    sync::{Arc, atomic::Ordering},
+    time::Duration,
+};
 
 use jiff::Timestamp;
 use tokio::sync::{Mutex as AsyncMutex, Notify, mpsc, watch};
@@ -145,6 +149,18 @@ impl Wires {
     /// Sends a STOP ahead of the next command.
     pub(super) fn stop(&self) {
         self.stopper.stop();
+    }
+
+    /// The newest request that a STOP has voided.
+    pub(super) fn newest_void(&self) -> u64 {
+        self.stopper.void.load(Ordering::SeqCst)
+    }
+
+    /// Waits for a STOP that has voided a newer request than `void`.
+    pub(super) async fn stopped_after(&self, void: u64) {
+        while self.newest_void() <= void {
+            self.stopper.stop.notified().await;
+        }
     }
 
     /// Sends an event to the station.

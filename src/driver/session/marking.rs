@@ -123,14 +123,16 @@ impl Session {
         self.tell(Event::Safety(Safety::LeftMoving { since, asks }));
     }
 
-    /// Records on disk that a STOP is owed, for a program that ends before it is proved.
+    /// Records on disk that a STOP is owed, for a program that ends before it is proved. A slow
+    /// disk holds the STOP up only for a moment; the record is written meanwhile.
     pub(super) async fn mark_debt(&mut self) {
         let (debts, unit, since) =
             (self.owed.debts.clone(), self.owed.unit.clone(), self.now().utc);
         if !debts.has_marks() {
             return;
         }
-        if matches!(spawn_blocking(move || debts.mark(&unit, since)).await, Ok(Ok(()))) {
+        let mark = spawn_blocking(move || debts.mark(&unit, since));
+        if matches!(self.clock.timeout(MAX, mark).await, Ok(Ok(Ok(())))) {
             self.owed.marking = Marking::Marked;
         }
     }

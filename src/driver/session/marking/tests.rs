@@ -11,7 +11,7 @@ use crate::{
         AntennaHandle, Command, Debts, Unit,
         session::testing::{self, START, antenna},
     },
-    sim::satrak::Control,
+    sim::satrak::{Control, Fault},
 };
 
 /// A session with its marks in `folder`, and its unit.
@@ -106,4 +106,34 @@ async fn a_mark_that_cannot_be_written_is_told_and_the_jog_goes_out() {
     assert_eq!(told(&mut handle), [Safety::NoMark]);
     let is_moved = control.received().iter().any(|(_, payload)| payload.starts_with("MOVE="));
     assert!(is_moved, "{:?}", handle.snapshot());
+}
+
+#[test]
+fn a_disk_that_hangs_does_not_hold_up_the_stop_that_is_owed_at_the_end() {
+    let mut runtime = tokio::runtime::Builder::new_current_thread();
+    let runtime = runtime.enable_all().start_paused(true).max_blocking_threads(1).build().unwrap();
+    runtime.block_on(async {
+        let folder = tempfile::tempdir().unwrap();
+        let (control, handle, debts) = start(folder.path());
+        seconds(5).await;
+        control.set_fault(Fault::Silence, true);
+        // From here on nothing is written or read.
+        let (disk, hangs) = std::sync::mpsc::sync_channel::<()>(1);
+        spawn_blocking(move || hangs.recv());
+        handle.stop();
+        advance(100).await;
+        drop(handle);
+        advance(5_000).await;
+        control.set_fault(Fault::Silence, false);
+        advance(10_000).await;
+        assert!(!debts.owes(&Unit::of(&antenna())), "standstill is proved");
+        drop(disk);
+    });
+}
+
+/// Lets time go on, which it does not by itself while the disk hangs.
+async fn advance(milliseconds: u64) {
+    for _ in 0..milliseconds / 10 {
+        tokio::time::advance(Duration::from_millis(10)).await;
+    }
 }
