@@ -7,6 +7,7 @@
 mod carry_out;
 mod catalog_table;
 mod effects;
+mod export;
 mod intake;
 mod log_file;
 mod mask_file;
@@ -23,8 +24,8 @@ use std::{
 };
 
 use self::{
-    catalog_table::CatalogWork, effects::EffectsJob, intake::IntakeWork, log_file::LogWork,
-    mask_file::MaskWork, memory::Keeper, notifier::Notifier,
+    catalog_table::CatalogWork, effects::EffectsJob, export::ExportWork, intake::IntakeWork,
+    log_file::LogWork, mask_file::MaskWork, memory::Keeper, notifier::Notifier,
 };
 use crate::{
     clock::Clock,
@@ -52,6 +53,7 @@ pub struct App {
     wake: Wake,
     effects_job: Option<EffectsJob>,
     catalog_work: CatalogWork,
+    export_work: ExportWork,
     intake_work: IntakeWork,
     log_work: LogWork,
     mask_work: MaskWork,
@@ -129,6 +131,7 @@ impl App {
             wake,
             effects_job: None,
             catalog_work: CatalogWork::default(),
+            export_work: ExportWork::default(),
             intake_work: IntakeWork::default(),
             log_work,
             mask_work,
@@ -193,6 +196,7 @@ impl App {
             }
         }
         self.look();
+        self.take_export();
         self.take_log_file();
         self.take_mask_file();
         self.work_on_effects();

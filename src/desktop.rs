@@ -1,10 +1,11 @@
-//! Notifications and sounds of the desktop. On Linux they go to the notification service of the
+//! Notifications, sounds and file dialogs of the desktop. On Linux notifications and sounds go to the notification service of the
 //! session and to the first player of sounds that works; elsewhere there are none.
 
 #[cfg(target_os = "linux")]
 mod bus;
 #[cfg(not(target_os = "linux"))]
 mod elsewhere;
+pub mod file_dialog;
 #[cfg(target_os = "linux")]
 mod player;
 #[cfg(target_os = "linux")]

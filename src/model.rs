@@ -5,6 +5,7 @@ pub mod catalog_table;
 pub mod command;
 pub mod daylight;
 pub mod effects;
+pub mod export;
 pub mod globe;
 pub mod intake;
 mod line;

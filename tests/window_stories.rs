@@ -32,6 +32,7 @@ mod preferences_makes;
 mod preferences_watch;
 mod rig;
 mod running;
+mod saving;
 mod second_step;
 mod sentences;
 mod settings;

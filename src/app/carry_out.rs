@@ -80,6 +80,7 @@ impl App {
                 model.catalog_table.inspected = Some(number);
                 self.send(Command::ListOlderSets(number));
             }
+            UiCommand::Save(export) => self.save_export(export),
             UiCommand::ImportMask(path) => self.import_mask(path),
             UiCommand::ExportMask(mask) => self.export_mask(&mask),
             UiCommand::Station(command) => self.send(command),

@@ -5,6 +5,7 @@ use std::{path::PathBuf, sync::Arc};
 
 use super::App;
 use crate::{
+    desktop::file_dialog::{self, NoDialog},
     engine::CatalogState,
     job::Job,
     library::read_element_file,
@@ -15,7 +16,7 @@ use crate::{
 #[derive(Default)]
 pub(super) struct IntakeWork {
     judging: Option<Job<Vec<Judged>>>,
-    dialog: Option<Job<Vec<PathBuf>>>,
+    dialog: Option<Job<Result<Vec<PathBuf>, NoDialog>>>,
 }
 
 impl App {
@@ -59,10 +60,8 @@ impl App {
         if self.intake_work.dialog.is_some() {
             return;
         }
-        // Without a dialog the choice is empty, as after Cancel.
         let job = Job::start("azel-file-dialog", Arc::clone(&self.wake), |_| {
-            let dialog = rfd::FileDialog::new().set_title("Files of elements");
-            dialog.pick_files().unwrap_or_default()
+            file_dialog::files_to_open("Files of elements")
         });
         let job = job.inspect_err(|error| tracing::error!(%error, "no thread for the dialog"));
         self.intake_work.dialog = job.ok();
@@ -74,10 +73,12 @@ impl App {
         {
             intake.judged = Some(judged);
         }
-        if let Some(Ok(files)) = Job::take(&mut self.intake_work.dialog)
-            && !files.is_empty()
-        {
-            self.offer_elements(files.into_iter().map(Offer::File).collect(), true);
+        match Job::take(&mut self.intake_work.dialog) {
+            Some(Ok(Ok(files))) if !files.is_empty() => {
+                self.offer_elements(files.into_iter().map(Offer::File).collect(), true);
+            }
+            Some(Ok(Err(error))) => self.views.no_dialog(error),
+            _ => {}
         }
     }
 }

@@ -2,7 +2,9 @@
 
 use std::{path::PathBuf, sync::Arc};
 
-use super::{ConsoleLine, Model, ThemeName, View, catalog_table, effects, intake::Offer};
+use super::{
+    ConsoleLine, Model, ThemeName, View, catalog_table, effects, export::Export, intake::Offer,
+};
 use crate::{
     astro::HorizonMask,
     desktop::Sound,
@@ -52,6 +54,8 @@ pub enum UiCommand {
     ChooseElementFiles,
     /// Show this object in detail in the Elements view.
     InspectObject(u32),
+    /// Save this to a file that the operator names in the dialog of the desktop.
+    Save(Export),
     /// Work out the effects of keep-outs on the passes to come.
     ShowEffects(Box<effects::Question>),
     /// Read a horizon mask from this file into the form.

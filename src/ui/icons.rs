@@ -80,6 +80,8 @@ pub enum Icon {
     Package,
     /// To a unit.
     Upload,
+    /// To a file.
+    Download,
     /// To the clipboard.
     Copy,
     /// Asks again.
@@ -102,7 +104,7 @@ mod tests {
     use super::*;
     use egui::{Sense, vec2};
 
-    const ALL: [Icon; 37] = [
+    const ALL: [Icon; 38] = [
         Icon::Octagon,
         Icon::Bell,
         Icon::Warning,
@@ -138,6 +140,7 @@ mod tests {
         Icon::Folder,
         Icon::Package,
         Icon::Upload,
+        Icon::Download,
         Icon::Copy,
         Icon::Refresh,
     ];

@@ -12,7 +12,7 @@ mod thumbnail;
 #[cfg(test)]
 mod tests;
 
-use std::borrow::Cow;
+use std::{borrow::Cow, sync::Arc};
 
 use egui::{Rect, Ui, vec2};
 use jiff::Timestamp;
@@ -130,6 +130,8 @@ pub struct PassListModel<'a> {
     pub row: &'a dyn Fn(usize) -> Option<PassRow<'a>>,
     /// The index of a pass in the list; must be fast.
     pub place: &'a dyn Fn(PassKey) -> Option<usize>,
+    /// The keys of all rows.
+    pub keys: &'a dyn Fn() -> Arc<[PassKey]>,
     pub selected: Option<PassKey>,
     /// The satellites whose passes are listed.
     pub scope: Scope,

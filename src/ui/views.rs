@@ -14,17 +14,20 @@ use super::{
     icons::Icon,
     keys::{self, KeyTargets},
     map::{self, MapLayers},
+    notes::Notes,
     operate, preferences, rail,
     rail::RailEntry,
-    reminder_note, second_step, setup,
+    second_step, setup,
     sky_plot::Layers,
     timeline::Zoom,
     top_bar,
     upload::{self, UploadState},
+    words,
 };
 use crate::{
+    desktop::file_dialog::NoDialog,
     driver::Command,
-    engine::{self, closing::CloseHow, passes::PassKey},
+    engine::{self, closing::CloseHow},
     model::{MaskNews, Model, UiCommand, View},
 };
 
@@ -41,8 +44,7 @@ pub struct Views {
     upload: UploadState,
     question: Option<Question>,
     closing: Option<ClosingDialog>,
-    /// Passes whose reminders were closed.
-    closed_reminders: Vec<PassKey>,
+    notes: Notes,
     keys_open: bool,
 }
 
@@ -155,7 +157,7 @@ impl Views {
                 setup::show(ui, rest, model, takes_keys, &mut self.setup, commands);
             }
         }
-        reminder_note::show(ui, rest, model, &mut self.closed_reminders, commands);
+        self.notes.show(ui, rest, model, commands);
         if let Some(question) = second_step::ask(model, before, commands) {
             self.question = Some(question);
             // Enter answers the question, rather than ending the typing behind it.
@@ -224,6 +226,18 @@ impl Views {
     /// Takes the outcome of saving console lines: the path or the error.
     pub fn log_saved(&mut self, result: Result<PathBuf, String>) {
         self.console.saved(result);
+    }
+
+    /// Takes the outcome of saving a file: its path or the error.
+    pub fn file_saved(&mut self, result: Result<PathBuf, String>) {
+        self.notes.file = Some(result.map_err(|why| format!("Nothing was saved: {why}.")));
+    }
+
+    /// The dialog of the desktop that the operator wanted cannot be shown.
+    pub fn no_dialog(&mut self, error: NoDialog) {
+        let paste = "Files can be dropped on this window, and elements pasted into it";
+        self.notes.file =
+            Some(Err(format!("{}. {paste}.", words::capitalised(&error.to_string()))));
     }
 
     /// Takes the outcome of reading or writing a horizon mask.

@@ -44,6 +44,13 @@ pub(super) fn list(
         let place = passes.row(key)?;
         found.map_or(Some(place), |found| found.binary_search(&place).ok())
     };
+    let keys = || match found {
+        Some(found) => {
+            let found = found.iter().filter_map(|place| passes.get(*place));
+            found.map(PredictedPass::key).collect()
+        }
+        None => passes.iter().map(PredictedPass::key).collect(),
+    };
     let work = listing.work;
     let none = format!("No pass in the next {} h. Choose a lower elevation.", model.list.span_h());
     let empty = match &model.catalog {
@@ -61,6 +68,7 @@ pub(super) fn list(
         rows: found.map_or(passes.len(), <[usize]>::len),
         row: &row,
         place: &place,
+        keys: &keys,
         selected: selected_key(model),
         scope: model.list.scope,
         span_h: model.list.span_h(),

@@ -1,12 +1,13 @@
 //! Title and count, and the choice of satellites, span and elevation floor.
 
-use egui::{Align2, Color32, Rect, Role, Stroke, StrokeKind, Ui, pos2, vec2};
+use egui::{Align2, Color32, Popup, Rect, Role, Stroke, StrokeKind, TextWrapMode, Ui, pos2, vec2};
 
 use super::{FLOORS_DEG, Filter, PassListModel};
 use crate::{
     engine,
     engine::passes::{SPANS_H, Scope},
-    model::UiCommand,
+    model::{UiCommand, export::Export},
+    plan::pass_export::{LookFormat, PassFormat},
     ui::{
         format,
         icons::{self, Icon},
@@ -70,6 +71,8 @@ pub(super) fn show(
     let side = vec2(SMALL_HEIGHT, SMALL_HEIGHT);
     let place = Rect::from_min_size(pos2(span.left() - GAP - side.x, span.top()), side);
     search(ui, place, filter);
+    let place = place.translate(vec2(-GAP - side.x, 0.0));
+    save(ui, place, model, commands);
     ui.painter().hline(rect.x_range(), rect.bottom() - 0.5, (1.0, t.line));
 }
 
@@ -113,6 +116,42 @@ fn search(ui: &Ui, place: Rect, filter: &mut Filter) {
     if response.on_hover_text("Filter by name or number (Ctrl F)").clicked() {
         filter.open();
     }
+}
+
+/// Shows the button that saves the listed passes, or the look angles of the selected one.
+fn save(ui: &Ui, place: Rect, model: &PassListModel<'_>, commands: &mut Vec<UiCommand>) {
+    let t = theme::tokens(ui);
+    let response = paint::control(ui, "save", place, Role::Button, true, "Save passes to a file");
+    let border = if response.hovered() { t.t2 } else { t.line };
+    let stroke = Stroke::new(1.0, border);
+    ui.painter().rect(place, RADIUS, Color32::TRANSPARENT, stroke, StrokeKind::Inside);
+    icons::paint(ui.painter(), paint::square(place.center(), 14.0), Icon::Download, t.t1);
+    paint::focus_ring(ui, &response, RADIUS);
+    let response = response.on_hover_text("Save passes to a file");
+    Popup::menu(&response).accessible_name("Save passes to a file").show(|ui| {
+        ui.style_mut().wrap_mode = Some(TextWrapMode::Extend);
+        let forms = [
+            ("Listed passes as CSV…", PassFormat::Csv),
+            ("Listed passes as JSON…", PassFormat::Json),
+            ("Listed passes as iCalendar…", PassFormat::Ics),
+        ];
+        for (word, format) in forms {
+            if ui.add_enabled(model.rows > 0, egui::Button::new(word)).clicked() {
+                commands.push(UiCommand::Save(Export::Passes { keys: (model.keys)(), format }));
+            }
+        }
+        ui.separator();
+        let forms = [
+            ("Az/el of the selected pass as CSV…", LookFormat::Csv),
+            ("Az/el of the selected pass as JSON…", LookFormat::Json),
+        ];
+        for (word, format) in forms {
+            let choice = ui.add_enabled(model.selected.is_some(), egui::Button::new(word));
+            if let (true, Some(pass)) = (choice.clicked(), model.selected) {
+                commands.push(UiCommand::Save(Export::Looks { pass, format }));
+            }
+        }
+    });
 }
 
 /// A drop-down button at the right end of a line.

@@ -104,6 +104,7 @@ fn window(fixture: Fixture) -> Harness<'static, Fixture> {
             rows: fixture.rows,
             row: &row,
             place: &|key| (0..rows).find(|index| key_of(index + gone) == key),
+            keys: &|| (0..rows).map(|index| key_of(index + gone)).collect(),
             aos_elevation_deg: 5.0,
             scope: fixture.scope,
             span_h: fixture.span_h,

@@ -1,0 +1,298 @@
+//! Saves passes and look angles to files that the operator names in the dialog of the desktop,
+//! on a thread.
+
+use std::{
+    collections::{BTreeMap, btree_map::Entry},
+    io,
+    path::PathBuf,
+    sync::Arc,
+};
+
+use jiff::Timestamp;
+
+use super::App;
+use crate::{
+    astro::time::seconds_between,
+    desktop::file_dialog,
+    engine::passes::{PassKey, PassLists, PredictedPass},
+    job::Job,
+    model::export::Export,
+    orbit::PassSearch,
+    plan::pass_export::{
+        ExportedPass, LookFormat, LookList, PassFormat, PassList, PassQuery, Satellite,
+    },
+    station::Station,
+    whole_file,
+};
+
+/// Seconds between two look angles, the smallest first.
+const STEPS_S: [f64; 3] = [1.0, 10.0, 60.0];
+/// Most rows of a table of look angles, unless the largest step takes more.
+const MOST_ROWS: f64 = 3600.0;
+
+/// The file that was written; `None` after Cancel.
+type Saved = Result<Option<PathBuf>, String>;
+
+/// Saves one file at a time.
+#[derive(Default)]
+pub(super) struct ExportWork {
+    job: Option<Job<Saved>>,
+}
+
+/// What is written, with all that it takes.
+struct Order {
+    export: Export,
+    lists: PassLists,
+    station: Arc<Station>,
+    span_h: u32,
+    now: Timestamp,
+}
+
+impl App {
+    /// Shows the dialog and writes the file, unless another one is being written.
+    pub(super) fn save_export(&mut self, export: Export) {
+        if self.export_work.job.is_some() {
+            let why = "another file is being saved; its dialog may be behind this window";
+            return self.views.file_saved(Err(why.to_owned()));
+        }
+        let model = &self.model;
+        let order = Order {
+            export,
+            lists: model.pass_lists.clone(),
+            station: Arc::clone(&model.station),
+            span_h: model.list.span_h(),
+            now: model.now,
+        };
+        let work = move |_: &(dyn Fn() -> bool + Sync)| order.save();
+        match Job::start("azel-export", Arc::clone(&self.wake), work) {
+            Ok(job) => self.export_work.job = Some(job),
+            Err(error) => self.views.file_saved(Err(format!("no thread for the file: {error}"))),
+        }
+    }
+
+    /// Takes the result of the thread.
+    pub(super) fn take_export(&mut self) {
+        let Some(end) = Job::take(&mut self.export_work.job) else { return };
+        match end.unwrap_or_else(|broke_off| Err(broke_off.to_string())) {
+            Ok(None) => {}
+            Ok(Some(path)) => self.views.file_saved(Ok(path)),
+            Err(why) => self.views.file_saved(Err(why)),
+        }
+    }
+}
+
+impl Order {
+    fn save(&self) -> Saved {
+        let title = match self.export {
+            Export::Passes { .. } => "Save passes",
+            Export::Looks { .. } => "Save look angles",
+        };
+        let asked = file_dialog::file_to_save(title, &self.name());
+        let Some(path) = asked.map_err(|error| error.to_string())? else { return Ok(None) };
+        let text = self.text().map_err(|why| format!("{why}: {}", path.display()))?;
+        match whole_file::replace(&path, &text) {
+            Ok(()) => Ok(Some(path)),
+            Err(error) => Err(format!("{error}: {}", path.display())),
+        }
+    }
+
+    /// The name that the dialog offers.
+    fn name(&self) -> String {
+        let stamp = |time: Timestamp| time.strftime("%Y%m%dT%H%MZ").to_string();
+        match &self.export {
+            Export::Passes { format, .. } => {
+                format!("passes-{}.{}", stamp(self.now), pass_extension(*format))
+            }
+            Export::Looks { pass: (number, aos), format } => {
+                format!("look-{number}-{}.{}", stamp(*aos), look_extension(*format))
+            }
+        }
+    }
+
+    fn text(&self) -> Result<Vec<u8>, String> {
+        let mut text = Vec::new();
+        let written = match &self.export {
+            Export::Passes { keys, format } => self.write_passes(keys, *format, &mut text)?,
+            Export::Looks { pass, format } => self.write_looks(*pass, *format, &mut text)?,
+        };
+        written.map_err(|error| error.to_string())?;
+        Ok(text)
+    }
+
+    fn write_passes(
+        &self,
+        keys: &[PassKey],
+        format: PassFormat,
+        out: &mut Vec<u8>,
+    ) -> Result<io::Result<()>, String> {
+        let found: Vec<&PredictedPass> =
+            keys.iter().filter_map(|key| self.lists.find(*key)).collect();
+        let mut satellites = BTreeMap::new();
+        for predicted in &found {
+            if let Entry::Vacant(place) = satellites.entry(predicted.number()) {
+                place.insert(satellite(predicted)?);
+            }
+        }
+        let with_satellite = found.iter().filter_map(|predicted| {
+            let satellite = satellites.get(&predicted.number())?;
+            Some(ExportedPass { satellite, pass: &predicted.pass })
+        });
+        let rows: Vec<_> = with_satellite.collect();
+        let station = &self.station;
+        let hours = jiff::SignedDuration::from_hours(i64::from(self.span_h));
+        let to = self.now.saturating_add(hours).unwrap_or(Timestamp::MAX);
+        let search = PassSearch {
+            aos_elevation: station.aos_elevation(),
+            floor: station.elevation_floor(),
+            ..PassSearch::new(station.site, self.now, to)
+        };
+        let list = PassList {
+            rows: &rows,
+            // The mask moves no AOS in a list.
+            query: &PassQuery { search, mask: None },
+            place: Some(&station.name),
+            carrier_hz: None,
+            now: self.now,
+        };
+        Ok(list.write(out, format))
+    }
+
+    fn write_looks(
+        &self,
+        pass: PassKey,
+        format: LookFormat,
+        out: &mut Vec<u8>,
+    ) -> Result<io::Result<()>, String> {
+        let gone = || "the pass is not in the list any more".to_owned();
+        let predicted = self.lists.find(pass).ok_or_else(gone)?;
+        let satellite = satellite(predicted)?;
+        let (from, to) = (predicted.pass.aos.time, predicted.pass.los.time);
+        let whole_s = seconds_between(from, to);
+        let fits = |step_s: &f64| whole_s / step_s <= MOST_ROWS;
+        let [.., largest_s] = STEPS_S;
+        let step_s = STEPS_S.into_iter().find(fits).unwrap_or(largest_s);
+        let mut carriers =
+            self.station.frequencies.iter().filter(|of| of.satellite == predicted.number());
+        // The table has one column of Doppler shifts.
+        let carrier_hz = match (carriers.next(), carriers.next()) {
+            (Some(only), None) => Some(only.mhz * 1e6),
+            _ => None,
+        };
+        let list = LookList {
+            satellite: &satellite,
+            site: self.station.site,
+            from,
+            count: (whole_s / step_s) as u32 + 1,
+            step_s,
+            carrier_hz,
+        };
+        Ok(list.write(out, format))
+    }
+}
+
+fn satellite(predicted: &PredictedPass) -> Result<Satellite, String> {
+    Satellite::new(predicted.satellite.elements.clone()).map_err(|error| error.to_string())
+}
+
+fn pass_extension(format: PassFormat) -> &'static str {
+    match format {
+        PassFormat::Table => "txt",
+        PassFormat::Csv => "csv",
+        PassFormat::Json => "json",
+        PassFormat::Ics => "ics",
+    }
+}
+
+fn look_extension(format: LookFormat) -> &'static str {
+    match format {
+        LookFormat::Table => "txt",
+        LookFormat::Csv => "csv",
+        LookFormat::Json => "json",
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{
+        engine::passes::{ListedSatellite, Observer, PassList as Listed},
+        orbit::{Propagator, bundled, passes},
+        station::Frequency,
+    };
+
+    const ISS: u32 = 25_544;
+
+    fn order(export: impl Fn(&[PredictedPass]) -> Export) -> Order {
+        let catalog = bundled().unwrap();
+        let elements = catalog.get(ISS).unwrap().clone();
+        let now = elements.epoch();
+        let frequencies = vec![Frequency { satellite: ISS, mhz: 145.8, name: String::new() }];
+        let station = Station { frequencies, ..Station::default() };
+        let observer = Arc::new(Observer::of(&station));
+        let propagator = Propagator::new(&elements).unwrap();
+        let satellite = Arc::new(ListedSatellite { elements, propagator });
+        let to = now + jiff::SignedDuration::from_hours(24);
+        let search = PassSearch::new(station.site, now, to);
+        let found = passes(&satellite.propagator, &search, &|| false).into_iter();
+        let listed = found
+            .map(|pass| PredictedPass::new(Arc::clone(&satellite), pass, Arc::clone(&observer)));
+        let listed: Vec<_> = listed.collect();
+        let export = export(&listed);
+        let favourites = Listed {
+            satellites: vec![satellite].into(),
+            passes: Arc::new(listed),
+            ..Listed::default()
+        };
+        let lists = PassLists { favourites, ..PassLists::default() };
+        Order { export, lists, station: Arc::new(station), span_h: 24, now }
+    }
+
+    fn lines(order: &Order) -> Vec<String> {
+        let text = String::from_utf8(order.text().unwrap()).unwrap();
+        text.lines().map(str::to_owned).collect()
+    }
+
+    #[test]
+    fn the_wanted_passes_are_written_in_each_form() {
+        let of = |format| {
+            order(|listed| {
+                let keys = listed.iter().skip(1).map(PredictedPass::key).collect();
+                Export::Passes { keys, format }
+            })
+        };
+        let csv = of(PassFormat::Csv);
+        let wanted = csv.lists.favourites.passes.len() - 1;
+        assert!(wanted > 2 && lines(&csv).len() == wanted + 1, "{:?}", lines(&csv));
+        let json: Vec<serde_json::Value> =
+            serde_json::from_str(&lines(&of(PassFormat::Json)).join("\n")).unwrap();
+        assert_eq!(json.len(), wanted);
+        let calendar = lines(&of(PassFormat::Ics));
+        let events = calendar.iter().filter(|line| *line == "BEGIN:VEVENT");
+        assert_eq!(events.count(), wanted);
+        let place = format!("LOCATION:{}", csv.station.name);
+        assert!(calendar.contains(&place), "{calendar:#?}");
+        assert!(csv.name().starts_with("passes-20") && csv.name().ends_with("Z.csv"));
+    }
+
+    #[test]
+    fn look_angles_go_from_aos_to_los_second_by_second() {
+        let order =
+            order(|listed| Export::Looks { pass: listed[0].key(), format: LookFormat::Csv });
+        let pass = &order.lists.favourites.passes[0].pass;
+        let rows = lines(&order);
+        assert_eq!(rows.len(), pass.duration_s() as usize + 2);
+        assert!(rows[0].ends_with("doppler_hz"), "{}", rows[0]);
+        let azimuth_deg: f64 = rows[1].split(',').nth(1).unwrap().parse().unwrap();
+        assert!((azimuth_deg - pass.aos.direction.azimuth_deg()).abs() < 1e-3);
+        assert!(order.name().starts_with("look-25544-20"), "{}", order.name());
+    }
+
+    #[test]
+    fn a_pass_that_has_left_the_list_is_told() {
+        let gone = order(|_| Export::Looks {
+            pass: (ISS, Timestamp::UNIX_EPOCH),
+            format: LookFormat::Json,
+        });
+        assert_eq!(gone.text(), Err("the pass is not in the list any more".to_owned()));
+    }
+}

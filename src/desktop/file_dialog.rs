@@ -1,0 +1,59 @@
+//! The file dialogs of the desktop. They return once the operator has chosen: they are for
+//! threads that nobody waits for.
+
+use std::path::PathBuf;
+
+/// Nothing on this computer shows a dialog.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
+#[error(
+    "this desktop shows no file dialogs; the packages xdg-desktop-portal-gtk or zenity add them"
+)]
+pub struct NoDialog;
+
+/// Asks for files to open; none after Cancel.
+pub fn files_to_open(title: &str) -> Result<Vec<PathBuf>, NoDialog> {
+    let dialog = dialog(title)?;
+    Ok(dialog.pick_files().unwrap_or_default())
+}
+
+/// Asks where to save a file, which is called `name` unless the operator calls it otherwise;
+/// `None` after Cancel.
+pub fn file_to_save(title: &str, name: &str) -> Result<Option<PathBuf>, NoDialog> {
+    let dialog = dialog(title)?;
+    Ok(dialog.set_file_name(name).save_file())
+}
+
+fn dialog(title: &str) -> Result<rfd::FileDialog, NoDialog> {
+    // A dialog that cannot be shown would look like one that was cancelled.
+    if is_shown() { Ok(rfd::FileDialog::new().set_title(title)) } else { Err(NoDialog) }
+}
+
+#[cfg(not(target_os = "linux"))]
+fn is_shown() -> bool {
+    true
+}
+
+#[cfg(target_os = "linux")]
+fn is_shown() -> bool {
+    has_portal().unwrap_or(false) || has_zenity()
+}
+
+/// Whether the service of the desktop session has dialogs for files ("File Chooser" of the XDG
+/// Desktop Portal).
+#[cfg(target_os = "linux")]
+fn has_portal() -> zbus::Result<bool> {
+    let bus = zbus::blocking::Connection::session()?;
+    let portal = zbus::blocking::Proxy::new(
+        &bus,
+        "org.freedesktop.portal.Desktop",
+        "/org/freedesktop/portal/desktop",
+        "org.freedesktop.portal.FileChooser",
+    )?;
+    Ok(portal.get_property::<u32>("version").is_ok())
+}
+
+#[cfg(target_os = "linux")]
+fn has_zenity() -> bool {
+    let path = std::env::var_os("PATH").unwrap_or_default();
+    std::env::split_paths(&path).any(|folder| folder.join("zenity").is_file())
+}

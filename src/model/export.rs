@@ -1,0 +1,16 @@
+//! What the operator saves to a file for other programs.
+
+use std::sync::Arc;
+
+use crate::{
+    engine::passes::PassKey,
+    plan::pass_export::{LookFormat, PassFormat},
+};
+
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum Export {
+    /// These passes.
+    Passes { keys: Arc<[PassKey]>, format: PassFormat },
+    /// Azimuth, elevation and range through one pass.
+    Looks { pass: PassKey, format: LookFormat },
+}

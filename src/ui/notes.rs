@@ -1,0 +1,136 @@
+//! Notes of the passes to come that the operator wanted to be reminded of, and of the file that
+//! was saved last. They lie over the views, so that nothing moves under the pointer, and clear of
+//! the antenna card.
+
+use std::path::PathBuf;
+
+use egui::{Align2, Area, Frame, Label, Margin, Order, Rect, RichText, Stroke, Ui, vec2};
+
+use super::{text, theme, words};
+use crate::{
+    engine::{passes::PassKey, reminders::Reminder},
+    model::{Model, UiCommand, View},
+};
+
+/// Maximum width.
+const WIDTH: f32 = 560.0;
+/// Width left free at the right, for the antenna card.
+const RIGHT: f32 = 376.0;
+const GAP: f32 = 16.0;
+/// Thickness of the bar at the left.
+const BAR: f32 = 3.0;
+
+/// What the notes tell, beside the reminders of the model.
+#[derive(Debug, Default)]
+pub struct Notes {
+    /// The file that was saved last, or why it was not; until it is closed.
+    pub file: Option<Result<PathBuf, String>>,
+    /// Passes whose reminders were closed.
+    closed: Vec<PassKey>,
+}
+
+impl Notes {
+    /// Shows the file, and the reminders before their AOS that are not closed.
+    pub fn show(&mut self, ui: &Ui, room: Rect, model: &Model, commands: &mut Vec<UiCommand>) {
+        let is_known = |pass: &PassKey| model.reminders.iter().any(|of| of.pass == *pass);
+        self.closed.retain(is_known);
+        let is_shown = |reminder: &&Reminder| {
+            reminder.aos() > model.now && !self.closed.contains(&reminder.pass)
+        };
+        let shown: Vec<&Reminder> = model.reminders.iter().filter(is_shown).collect();
+        if shown.is_empty() && self.file.is_none() {
+            return;
+        }
+        frame(ui, room, model.view, |ui| {
+            for reminder in shown {
+                line(ui, model, reminder, &mut self.closed, commands);
+            }
+            file_line(ui, &mut self.file);
+        });
+    }
+}
+
+fn frame(ui: &Ui, room: Rect, view: View, lines: impl FnOnce(&mut Ui)) {
+    let width = WIDTH.min(room.width() - RIGHT - GAP);
+    let at = room.left_bottom() + vec2(GAP, -below(view));
+    Area::new(ui.make_persistent_id("notes"))
+        .order(Order::Middle)
+        .pivot(Align2::LEFT_BOTTOM)
+        .fixed_pos(at)
+        .show(ui.ctx(), |ui| {
+            ui.set_width(width);
+            let t = theme::tokens(ui);
+            let frame = Frame::new()
+                .fill(t.bg2)
+                .stroke(Stroke::new(1.0, t.edge))
+                .inner_margin(Margin::symmetric(GAP as i8, 8));
+            let place = frame.show(ui, lines);
+            let place = place.response.rect;
+            ui.painter().rect_filled(place.with_max_x(place.left() + BAR), 0.0, t.sat);
+        });
+}
+
+/// Height left free below, for the bars at the foot of the views.
+fn below(view: View) -> f32 {
+    match view {
+        View::Operate | View::Elements | View::Map => GAP,
+        View::Antennas | View::Preferences | View::Setup => 80.0,
+        View::Console => 128.0,
+    }
+}
+
+fn line(
+    ui: &mut Ui,
+    model: &Model,
+    reminder: &Reminder,
+    closed: &mut Vec<PassKey>,
+    commands: &mut Vec<UiCommand>,
+) {
+    let words = words::reminder(reminder, &model.antennas, model.now);
+    let layout = egui::Layout::right_to_left(egui::Align::Center);
+    ui.with_layout(layout, |ui| {
+        let close = ui.button("Close");
+        close.widget_info(|| button(format!("Close the reminder of {}", reminder.name)));
+        if close.clicked() {
+            closed.push(reminder.pass);
+        }
+        let show = ui.button("Show");
+        show.widget_info(|| button(format!("Show the pass of {}", reminder.name)));
+        if show.clicked() {
+            commands.push(UiCommand::SelectPass(reminder.pass));
+            commands.push(UiCommand::Show(View::Operate));
+        }
+        let layout = egui::Layout::left_to_right(egui::Align::Center);
+        ui.with_layout(layout, |ui| {
+            let words = RichText::new(words).font(text::body());
+            ui.add(Label::new(words).wrap());
+        });
+    });
+}
+
+fn file_line(ui: &mut Ui, file: &mut Option<Result<PathBuf, String>>) {
+    let Some(outcome) = file else { return };
+    let t = theme::tokens(ui);
+    let (words, colour) = match outcome {
+        Ok(path) => (format!("Saved: {}", path.display()), t.t1),
+        Err(why) => (why.clone(), t.bad),
+    };
+    let is_closed = ui
+        .with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
+            let close = ui.button("Close");
+            close.widget_info(|| button("Close the note of the file".to_owned()));
+            ui.with_layout(egui::Layout::left_to_right(egui::Align::Center), |ui| {
+                let words = RichText::new(words).font(text::body()).color(colour);
+                ui.add(Label::new(words).wrap());
+            });
+            close.clicked()
+        })
+        .inner;
+    if is_closed {
+        *file = None;
+    }
+}
+
+fn button(name: String) -> egui::WidgetInfo {
+    egui::WidgetInfo::labeled(egui::Role::Button, true, name)
+}
