@@ -132,11 +132,11 @@ pub enum ControllerEvent {
     NotPrepared(TrackTarget, PrepareError),
     /// The unit accepted the command; its state shows whether it moves.
     Accepted(Asked),
-    /// The unit refused the command, with this code as received.
+    /// The unit refused the command with this answer.
     Refused(Asked, String),
     /// No answer came. The command is not sent again; the state shows what happened.
     Unanswered(Asked),
-    /// The unit refused a halt, with this code as received.
+    /// The unit refused a halt with this answer.
     HaltRefused(String),
     /// The unit refused to switch auto-track off, or did not answer.
     AutoStaysOn,
@@ -148,11 +148,8 @@ pub enum PrepareError {
     /// The protocol cannot carry a name, file or time.
     #[error("cannot be sent: {0}")]
     CannotBeSent(String),
-    #[error("refused with {code}")]
-    Refused {
-        /// The code as received.
-        code: String,
-    },
+    #[error("the unit answered {0}")]
+    Refused(String),
     /// No answer to a setting.
     #[error("no answer")]
     Unanswered,

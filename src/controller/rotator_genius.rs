@@ -3,7 +3,6 @@
 //!
 //! One unit turns two rotators and has one STOP for both. The station says what they turn:
 //! both angles of one antenna, or its azimuth and something else.
-//! by the station: both angles of one antenna, or its azimuth and something else.
 
 mod actions;
 mod changes;

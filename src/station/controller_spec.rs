@@ -62,7 +62,7 @@ pub enum Link {
 /// The figures of an antenna that a make can know.
 #[derive(Debug, Clone, Copy)]
 pub struct Usual {
-    /// How the axes are arranged: what is set later is other ends of them.
+    /// How the axes are arranged. A station changes only the ends of their travel.
     pub mount: Mount,
     /// Full width of the beam at half power, degrees.
     pub beam_width_deg: f64,

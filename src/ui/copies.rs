@@ -153,7 +153,7 @@ fn compared(
         if ui.add_enabled(!chosen.is_empty(), egui::Button::new(word)).clicked() {
             taken = chosen;
         }
-        let words = "They stand in the form as edits then; Apply sends them.";
+        let words = "They go into the form as edits. Apply sends them.";
         ui.label(RichText::new(words).font(text::small()).color(t.t2));
     });
     taken

@@ -265,8 +265,9 @@ fn standing(model: &Model, antenna: &AntennaModel) -> Spoken {
         ));
     }
     if state.measured.is_some_and(|measured| measured.moving()) {
-        return Spoken::new(SentenceKind::Caution)
-            .plain("Moving, not by this console. Somebody else drives it, or a motion runs out.");
+        return Spoken::new(SentenceKind::Caution).plain(
+            "Moving, not by this console: somebody else drives it, or it is coasting to a stop.",
+        );
     }
     let next = next_words(
         model.selected_pass().map(|predicted| {

@@ -26,7 +26,7 @@ async fn a_refused_setting_shows_the_code_and_what_the_unit_kept() {
     let mut rig = Rig::usual().await;
     rig.control.set_fault(Fault::RefuseSettings, true);
     let refused = write_settings(&mut rig, threshold(12.0)).await;
-    assert_eq!(refused, Err(WriteError::Refused("7".to_owned())));
+    assert_eq!(refused, Err(WriteError::Refused("ERR,7".to_owned())));
     assert_eq!(shown(&rig, "general", "elevation_threshold_deg"), "2.0");
     assert_eq!(rig.sent("SETTINGS=").len(), 1, "never again by itself");
     // Read back all the same.

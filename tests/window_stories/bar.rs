@@ -50,13 +50,16 @@ fn alarms_are_told_in_words_with_their_antenna() {
     for (kind, wanted) in [
         (AlarmKind::LinkLost(LinkLoss::Closed), "Satrak does not reply: the unit closed"),
         (AlarmKind::StopNotConfirmed, "Satrak is still not known to stand after STOP. Use the"),
-        (AlarmKind::StopRefused("7".to_owned()), "Satrak answered ERR,7 to STOP. Use the local"),
+        (
+            AlarmKind::StopRefused("ERR,7".to_owned()),
+            "Satrak answered ERR,7 to STOP. Use the local",
+        ),
         (
             AlarmKind::JogLeaseOver,
             "Satrak: the jog was stopped because the window did not renew it",
         ),
         (
-            AlarmKind::Refused(Asked::Motion(Motion::StartProgram), "7".to_owned()),
+            AlarmKind::Refused(Asked::Motion(Motion::StartProgram), "ERR,7".to_owned()),
             "Track: Satrak answered ERR,7",
         ),
         (AlarmKind::Check(checks(None)[7].clone()), "Satrak: X motor. Do not move X"),

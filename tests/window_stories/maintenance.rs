@@ -149,7 +149,7 @@ fn until_it_is_read_back_it_is_being_locked_out() {
         let window = rig::window(size, rig::model(locking));
         window.get_by_label_contains("Satrak: Being locked out");
         assert!(rig::says(&window, "Being locked out by Ada"));
-        assert!(rig::says(&window, "That auto-track is off is not read back yet."));
+        assert!(rig::says(&window, "The unit has not confirmed yet that auto-track is off."));
     }
 }
 

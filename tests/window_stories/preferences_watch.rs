@@ -27,7 +27,7 @@ fn what_is_done_by_itself_is_chosen_and_saved() {
         for word in ["Alarm only", "Track on", "Stop and hold"] {
             choose(&mut window, word);
         }
-        assert!(says(&window, "By itself, where the antenna stands as it was left."));
+        assert!(says(&window, "Goes on by itself if the antenna is where it was left."));
         write(&mut window, "Sway allowed", "0,25");
         write(&mut window, "Tracks on after up to", "601");
         assert!(says(&window, "Tracks on after up to must be a number from 0 to 600 s."));

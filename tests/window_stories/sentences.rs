@@ -158,7 +158,7 @@ fn moving_says_who_moves_it_and_where_to() {
     }
     assert_eq!(
         told(states::moving(), unchanged),
-        "Moving, not by this console. Somebody else drives it, or a motion runs out."
+        "Moving, not by this console: somebody else drives it, or it is coasting to a stop."
     );
     let target = Some(states::target());
     let asked = Snapshot { intent: Intent::Track, pending: true, target, ..states::holding() };
@@ -285,7 +285,7 @@ fn what_has_just_happened_is_told_first_and_for_a_while() {
         model.antennas[0].news = Some((back, add_seconds(model.now, -13.0)));
     });
     assert!(later.starts_with("Tracking NOAA 20"), "{later}");
-    let refused = PrepareError::Refused { code: "7".to_owned() };
+    let refused = PrepareError::Refused("ERR,7".to_owned());
     for (event, wanted) in [
         (
             Event::Back { after, found: Found::Still },
@@ -293,7 +293,7 @@ fn what_has_just_happened_is_told_first_and_for_a_while() {
         ),
         (Event::NotSent(Refusal::Stopping), "Not sent: a stop is under way."),
         (
-            Event::Refused(Asked::Motion(Motion::StartProgram), "7".to_owned()),
+            Event::Refused(Asked::Motion(Motion::StartProgram), "ERR,7".to_owned()),
             "Track: the unit answered ERR,7.",
         ),
         (
@@ -301,7 +301,7 @@ fn what_has_just_happened_is_told_first_and_for_a_while() {
             "Not tracking NOAA 20: the unit answered ERR,7.",
         ),
         (
-            Event::StopRefused("7".to_owned()),
+            Event::StopRefused("ERR,7".to_owned()),
             "The unit answered ERR,7 to STOP. Use the local panel.",
         ),
     ] {

@@ -69,7 +69,7 @@ fn what_is_not_read_is_asked_for_once_and_shown_as_a_dash() {
     for key in ["general", "web"] {
         *group(&mut snapshot, key) = GroupState::default();
     }
-    group(&mut snapshot, "web").failure = Some(ReadFailure::Refused("1".to_owned()));
+    group(&mut snapshot, "web").failure = Some(ReadFailure::Refused("ERR,1".to_owned()));
     let mut window = opened(LARGE, snapshot);
     let read = |key| UiCommand::antenna(AntennaId(1), Command::ReadGroup(key));
     assert_eq!(asked(&mut window), [read("general"), read("web")]);
@@ -278,7 +278,7 @@ fn no_text_ever_has_a_password() {
         let commands = asked(&mut window);
         let told = format!("{:?} {commands:?}", texts(&window));
         let change = settles(commands).remove(0);
-        end(&mut window, &change, Err(WriteError::Refused("7".to_owned())));
+        end(&mut window, &change, Err(WriteError::Refused("ERR,7".to_owned())));
         let told = format!("{told} {:?}", texts(&window));
         for secret in [ON_UNIT, "swordfish"] {
             assert!(!told.contains(secret), "{told}");

@@ -266,7 +266,7 @@ fn an_address_of_the_demo_is_not_taken() {
     let address = window.state().model.antennas[0].config.connection.address.clone();
     press(&mut window, &format!("Add {}", makes::SPECS[0].name));
     write(&mut window, "Address of the Satrak", &address);
-    assert!(says(&window, "Satrak: the address ends with the demo station."));
+    assert!(says(&window, "Satrak: this address belongs to the demo station"));
     assert!(is_locked(&window, NEXT[1]));
 }
 

@@ -148,7 +148,7 @@ impl Satrak {
         match Reply::parse(frame).map(|parsed| parsed.reply) {
             Ok(Reply::Refused { code }) => {
                 self.count_reply(now);
-                self.events.push_back(ControllerEvent::HaltRefused(code));
+                self.events.push_back(ControllerEvent::HaltRefused(refusal(&code)));
             }
             Ok(_) => self.count_reply(now),
             Err(error) => {
@@ -189,7 +189,7 @@ impl Satrak {
             self.state.traffic.odd += 1;
         }
         match (parsed.reply, outstanding.purpose) {
-            (Reply::Refused { code }, purpose) => self.take_refusal(code, purpose, now),
+            (Reply::Refused { code }, purpose) => self.take_refusal(refusal(&code), purpose, now),
             (reply, Purpose::Poll(query) | Purpose::Asked(query)) => {
                 let fault_before = self.reported.fault_flag;
                 self.take_report(reply, outstanding.clock.first_sent, now);
@@ -248,21 +248,21 @@ impl Satrak {
         }
     }
 
-    fn take_refusal(&mut self, code: String, purpose: Purpose, now: Moment) {
+    fn take_refusal(&mut self, answer: String, purpose: Purpose, now: Moment) {
         match purpose {
             Purpose::Poll(query) | Purpose::Asked(query) => {
-                self.poll_failed(query, ReadFailure::Refused(code), now);
+                self.poll_failed(query, ReadFailure::Refused(answer), now);
             }
-            Purpose::Prepare => self.fail_preparation(PrepareError::Refused { code }),
-            Purpose::WriteSettings => self.change_refused(code, now),
+            Purpose::Prepare => self.fail_preparation(PrepareError::Refused(answer)),
+            Purpose::WriteSettings => self.change_refused(answer, now),
             Purpose::Motion(motion) => {
-                self.events.push_back(ControllerEvent::Refused(motion.into(), code));
+                self.events.push_back(ControllerEvent::Refused(motion.into(), answer));
                 self.look_soon(now);
             }
             Purpose::Calm(Halt::AutoTrackOff) => {
                 self.events.push_back(ControllerEvent::AutoStaysOn);
             }
-            Purpose::Calm(_) => self.events.push_back(ControllerEvent::HaltRefused(code)),
+            Purpose::Calm(_) => self.events.push_back(ControllerEvent::HaltRefused(answer)),
             Purpose::Disowned => {}
         }
     }
@@ -396,4 +396,9 @@ pub(super) fn unit_motion(motion: Motion) -> Result<unit::Motion, ValueError> {
         Motion::StartProgram => unit::Motion::TrackOn,
         Motion::EnableAuto => unit::Motion::AutoTrackOn,
     })
+}
+
+/// The refusal as the unit answered it, behind its echo of the command.
+fn refusal(code: &str) -> String {
+    if code.is_empty() { "ERR".to_owned() } else { format!("ERR,{code}") }
 }

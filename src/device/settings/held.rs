@@ -35,8 +35,8 @@ pub struct HeldGroup {
 /// Why a group could not be read.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error, Serialize, Deserialize)]
 pub enum ReadFailure {
-    /// The unit does not know the question. The text is its code, as received.
-    #[error("the unit answered ERR,{0}")]
+    /// The unit does not know the question. The text is its answer.
+    #[error("the unit answered {0}")]
     Refused(String),
     /// No readable answer came.
     #[error("the unit did not answer")]
@@ -125,8 +125,8 @@ pub enum WriteError {
         field: Name,
         reason: Unfit,
     },
-    /// The unit refused. The text is its code, as received.
-    #[error("the unit answered ERR,{0}")]
+    /// The unit refused. The text is its answer.
+    #[error("the unit answered {0}")]
     Refused(String),
     /// No answer came, and the read-back shows the old values.
     #[error("the unit did not answer and kept its values")]

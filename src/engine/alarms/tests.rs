@@ -143,7 +143,7 @@ fn an_alarm_on_the_shelf_is_quiet_and_comes_back_when_its_time_is_up() {
 fn the_first_rank_is_never_shelved() {
     for kind in [
         AlarmKind::StopNotConfirmed,
-        AlarmKind::StopRefused("7".to_owned()),
+        AlarmKind::StopRefused("ERR,7".to_owned()),
         AlarmKind::StopNotElsewhere,
         AlarmKind::Owed(Unit::of(&Antenna::satrak("Dish", "10.0.0.5:4001"))),
         AlarmKind::Safety(Safety::DeadManFired),

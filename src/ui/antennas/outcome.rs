@@ -38,7 +38,7 @@ fn with_unit(field: &Field, value: Option<&Value>) -> String {
 /// Reason why a group is unknown.
 pub(super) fn read_failure(failure: &ReadFailure) -> String {
     match failure {
-        ReadFailure::Refused(code) => format!("the unit answered ERR,{code}"),
+        ReadFailure::Refused(answer) => format!("the unit answered {answer}"),
         ReadFailure::Unanswered => "the unit did not answer".to_owned(),
     }
 }
@@ -91,8 +91,8 @@ pub(super) fn sentence(
             let label = group.field(field).map_or(subject, |field| field.label);
             format!("{label} {reason}. Nothing was sent.")
         }
-        WriteError::Refused(code) => {
-            format!("{subject}: the unit answered {} and kept {}.", words::answer(code), kept())
+        WriteError::Refused(answer) => {
+            format!("{subject}: the unit answered {answer} and kept {}.", kept())
         }
         WriteError::Unanswered => {
             format!("{subject}: the unit did not answer and kept {}. Apply again.", kept())
@@ -157,7 +157,7 @@ mod tests {
     fn a_refusal_names_the_field_the_answer_and_what_was_kept() {
         let values = Values::from([("elevation_threshold_deg", Value::Decimal(12.0))]);
         assert_eq!(
-            said(values.clone(), &WriteError::Refused("7".to_owned()), 2.0, 2.0),
+            said(values.clone(), &WriteError::Refused("ERR,7".to_owned()), 2.0, 2.0),
             "Elevation threshold: the unit answered ERR,7 and kept 2.0°."
         );
         assert_eq!(

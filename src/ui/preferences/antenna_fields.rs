@@ -170,7 +170,7 @@ fn outage() -> [Of; 2] {
             let words = match antenna.resume {
                 Resume::Ask => "The antenna stands until you let it go on.",
                 Resume::Continue => {
-                    "By itself, where the antenna stands as it was left. Else it asks."
+                    "Goes on by itself if the antenna is where it was left. Otherwise it asks."
                 }
             };
             Some(words.to_owned())
@@ -193,7 +193,7 @@ fn watch() -> [Of; 2] {
         }),
         Of::number("Sway allowed", ranges::SWAY_DEG, "°", |antenna| Some(&mut antenna.sway_deg))
             .noted(|_| {
-                Some("So far it may sway between two looks and still count as standing.".to_owned())
+                Some("How much the angle may change between two readings of an antenna that stands still.".to_owned())
             }),
     ]
 }

@@ -129,7 +129,7 @@ const ON_CLOSE: [Option<OnClose>; 4] =
 
 fn about_closing(on_close: Option<OnClose>) -> &'static str {
     match on_close {
-        None => "While an antenna moves or is tracked. Ended by the system, Azel stops them.",
+        None => "Asks while an antenna moves or tracks. If the system ends Azel, they are stopped.",
         Some(OnClose::Hold) => "What moves or is tracked is stopped; the window waits for that.",
         Some(OnClose::Park) => {
             "What moves or is tracked is parked first, or stopped where it cannot be. Ended by \

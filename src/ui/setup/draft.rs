@@ -187,7 +187,9 @@ impl SetupDraft {
                     && of.config.connection.address == antenna.connection.address
             };
             let is_of_demo = model.demo && model.antennas.iter().any(|of| of_demo(&of));
-            is_of_demo.then(|| format!("{name}: the address ends with the demo station."))
+            is_of_demo.then(|| {
+                format!("{name}: this address belongs to the demo station and ends with it.")
+            })
         })
     }
 }

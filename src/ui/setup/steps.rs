@@ -56,7 +56,7 @@ impl Step {
                 "Orbits change: predictions are as good as the elements are fresh. Sources can \
                  wait; those added here are kept at once, as in Elements."
             }
-            Self::End => "Of this station nothing is written yet. This is what Finish does.",
+            Self::End => "Nothing has been saved yet. This is what Finish does.",
         };
         (self.name(), about)
     }

@@ -19,7 +19,7 @@ pub(super) fn sentence(antenna: &AntennaModel) -> Option<Spoken> {
         LinkState::Off => " It is not connected.",
         LinkState::Connecting { .. } | LinkState::Lost { .. } => " It does not answer.",
         _ if moves => " It moves, and not by this console.",
-        _ if snapshot.locking => " That auto-track is off is not read back yet.",
+        _ if snapshot.locking => " The unit has not confirmed yet that auto-track is off.",
         _ => "",
     };
     let lead =

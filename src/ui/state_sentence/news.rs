@@ -51,8 +51,7 @@ pub(super) fn sentence(model: &Model, antenna: &AntennaModel) -> Option<Spoken> 
             let reason = refusal.barrier().map(reason);
             caution.plain(words::refusal(refusal) + &reason.unwrap_or_default())
         }
-        Event::Refused(asked, code) => {
-            let answer = words::answer(code);
+        Event::Refused(asked, answer) => {
             caution.plain(format!("{}: the unit answered {answer}.", words::asked(*asked)))
         }
         Event::Unanswered(asked) => caution.plain(format!(
@@ -85,13 +84,11 @@ pub(super) fn sentence(model: &Model, antenna: &AntennaModel) -> Option<Spoken> 
             .plain(words::safety(matter, name))
             .plain(matter.barrier().map(reason).unwrap_or_default()),
         Event::JogLeaseOver => {
-            caution.plain("The jog was stopped: the window did not hold it in time.")
+            caution.plain("The jog was stopped: the window did not renew it in time.")
         }
         Event::JogPositionOld => caution.plain("The jog was stopped: the position came too late."),
-        Event::StopRefused(code) => Spoken::new(SentenceKind::Fault).plain(format!(
-            "The unit answered {} to STOP. Use the local panel.",
-            words::answer(code)
-        )),
+        Event::StopRefused(answer) => Spoken::new(SentenceKind::Fault)
+            .plain(format!("The unit answered {answer} to STOP. Use the local panel.")),
         Event::AutoTrackStillOn => {
             caution.plain("Stopped. Auto-track is on: the unit may start by itself.")
         }

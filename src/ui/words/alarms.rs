@@ -62,8 +62,7 @@ pub fn alarm(kind: &AlarmKind, antenna: &str) -> String {
         AlarmKind::StopNotConfirmed => {
             format!("{antenna} is still not known to stand after STOP. Use the local panel.")
         }
-        AlarmKind::StopRefused(code) => {
-            let answer = super::answer(code);
+        AlarmKind::StopRefused(answer) => {
             format!("{antenna} answered {answer} to STOP. Use the local panel.")
         }
         AlarmKind::JogLeaseOver => {
@@ -80,8 +79,7 @@ pub fn alarm(kind: &AlarmKind, antenna: &str) -> String {
             "{antenna} is locked out, but it is not confirmed that its auto-track is off: it may \
              start by itself. Switch it off at the unit."
         ),
-        AlarmKind::Refused(asked, code) => {
-            let answer = super::answer(code);
+        AlarmKind::Refused(asked, answer) => {
             format!("{}: {antenna} answered {answer}.", super::asked(*asked))
         }
         AlarmKind::Unanswered(asked) => {

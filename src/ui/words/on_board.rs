@@ -68,7 +68,7 @@ pub fn would_miss(name: &str, found: &Supervision) -> String {
             let why = super::capitalised(&cause(first));
             format!("{why}. It would miss {name} by up to {off} at {at}.")
         }
-        None => format!("By what the unit tells it would miss {name} by up to {off} at {at}."),
+        None => format!("By its own settings the unit would miss {name} by up to {off} at {at}."),
     }
 }
 

@@ -137,12 +137,6 @@ pub fn track_problem(problem: &TrackProblem) -> String {
     }
 }
 
-/// The refusal of a unit in words. A number is an error code of a Satrak.
-pub fn answer(code: &str) -> String {
-    let is_number = !code.is_empty() && code.bytes().all(|byte| byte.is_ascii_digit());
-    if is_number { format!("ERR,{code}") } else { code.to_owned() }
-}
-
 /// The reason why a link is lost.
 pub fn link_loss(loss: &LinkLoss) -> String {
     match loss {
@@ -163,7 +157,7 @@ pub fn link_loss(loss: &LinkLoss) -> String {
 pub fn prepare_error(error: &PrepareError) -> String {
     match error {
         PrepareError::CannotBeSent(why) => format!("it cannot be sent: {why}"),
-        PrepareError::Refused { code } => format!("the unit answered ERR,{code}"),
+        PrepareError::Refused(answer) => format!("the unit answered {answer}"),
         PrepareError::Unanswered => "the unit did not answer".to_owned(),
         PrepareError::Differs { held } => format!("the unit still holds {held}"),
         PrepareError::NotOnDevice { file } => {

@@ -79,8 +79,8 @@ pub fn stopping_way(StoppingWay { overrun_s, stops, is_learned }: StoppingWay) -
 }
 
 /// The reason why jogging waits for the operator's permission.
-pub const UNGUARDED: &str =
-    "No dead-man can be had: if Azel ended while the key is held, nothing would stop the antenna.";
+pub const UNGUARDED: &str = "The dead-man could not be started: if Azel ended while the key is held, nothing would stop \
+     the antenna.";
 
 /// The reason for asking the operator to confirm that the antenna stands still.
 pub fn asks_standing(snapshot: &Snapshot) -> Option<String> {

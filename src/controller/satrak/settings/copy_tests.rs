@@ -23,8 +23,10 @@ fn state<const N: usize>(values: [(&'static str, Value); N]) -> GroupState {
 
 fn held() -> Held {
     let text = |text: &str| Value::Text(text.to_owned());
-    let failed =
-        GroupState { failure: Some(ReadFailure::Refused("1".to_owned())), ..GroupState::default() };
+    let failed = GroupState {
+        failure: Some(ReadFailure::Refused("ERR,1".to_owned())),
+        ..GroupState::default()
+    };
     Held::from([
         (
             "general",

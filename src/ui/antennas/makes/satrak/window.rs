@@ -91,8 +91,8 @@ fn refusal(unit: &ShownUnit<'_>, form: &Form) -> Option<String> {
     let (event, _) = unit.antenna.news.as_ref().filter(|(_, at)| *at >= asked)?;
     match event {
         Event::NotSent(refusal) => Some(words::refusal(refusal)),
-        Event::Refused(Asked::Motion(Motion::EnableAuto), code) => {
-            Some(format!("{AUTO}: the unit answered ERR,{code}."))
+        Event::Refused(Asked::Motion(Motion::EnableAuto), answer) => {
+            Some(format!("{AUTO}: the unit answered {answer}."))
         }
         Event::Unanswered(Asked::Motion(Motion::EnableAuto)) => {
             Some(format!("{AUTO}: the unit did not answer."))
