@@ -6,6 +6,7 @@ use std::{
     net::TcpListener,
     sync::mpsc,
     thread,
+    time::Duration,
 };
 
 use azel::{
@@ -86,15 +87,25 @@ static LEVEL: Variant = Variant {
 /// Command at which the controller panics instead of sending it.
 pub(super) const FRAGILE: &str = "G 180 45";
 
-/// A protocol of lines: a code, `P?` answered with a position, `G` and a position, `S`.
+/// Interval between two questions for the position.
+const PERIOD: Duration = Duration::from_millis(100);
+/// A longer line is noise.
+const LONGEST: usize = 256;
+
+/// A protocol of lines: a code; `P?`, answered by `P` and a position; `G` and a position or `J` and
+/// two rates, answered by the same letter; `S`. TCP loses nothing, so nothing is asked twice, and
+/// an answer belongs to the one question that waits for it.
 struct Lever {
     greeting: String,
     state: AntennaState,
     orders: VecDeque<String>,
+    /// The motion that is queued, or sent and not answered.
+    motion: Option<Motion>,
     events: VecDeque<ControllerEvent>,
     heard: Vec<u8>,
-    /// Times of the questions for a position that are not answered yet, in order.
-    asked: VecDeque<Instant>,
+    /// When the position was asked for that has not come yet.
+    asked: Option<Instant>,
+    next_question: Option<Instant>,
 }
 
 impl Lever {
@@ -104,10 +115,63 @@ impl Lever {
             greeting: format!("C {code} {gear} {}\n", connection.whole(&SHAFTS)),
             state: AntennaState::default(),
             orders: VecDeque::new(),
+            motion: None,
             events: VecDeque::new(),
             heard: Vec::new(),
-            asked: VecDeque::new(),
+            asked: None,
+            next_question: None,
         }
+    }
+
+    fn take_line(&mut self, line: &str, now: Moment) {
+        let (word, rest) = line.split_once(' ').unwrap_or((line, ""));
+        let is_motion = ["G", "J"].contains(&word);
+        let figures: Vec<f64> = rest.split(' ').filter_map(|figure| figure.parse().ok()).collect();
+        match (word, &figures[..], self.asked, self.motion) {
+            ("P", &[azimuth_deg, elevation_deg], Some(asked), _) => {
+                self.asked = None;
+                self.take_position([azimuth_deg, elevation_deg], asked, now);
+            }
+            (_, [], _, Some(motion)) if is_motion => {
+                self.motion = None;
+                self.events.push_back(ControllerEvent::Accepted(motion.into()));
+            }
+            _ => {
+                self.state.traffic.unreadable += 1;
+                self.state.traffic.last_unreadable = Some(now.steady);
+                return;
+            }
+        }
+        self.state.traffic.replies += 1;
+        self.state.traffic.last_reply = Some(now.steady);
+    }
+
+    fn take_position(
+        &mut self,
+        [azimuth_deg, elevation_deg]: [f64; 2],
+        asked: Instant,
+        now: Moment,
+    ) {
+        let axis = |angle_deg| Axis {
+            angle_deg: Some(angle_deg),
+            // It tells of no motion: standstill is proved by angles alone.
+            motion: AxisMotion::Still,
+            plus_limit: false,
+            minus_limit: false,
+        };
+        self.state.measured = Some(Measured {
+            at: now.utc,
+            asked,
+            received: now.steady,
+            pointing: AzEl::from_degrees(azimuth_deg, elevation_deg).into(),
+            axes: [axis(azimuth_deg), axis(elevation_deg)],
+        });
+        // It has no faults that would keep it from moving.
+        self.state.motion_lock = Some(false);
+    }
+
+    fn refuse(&mut self, motion: Motion) {
+        self.events.push_back(ControllerEvent::Refused(motion.into(), "no lever".to_owned()));
     }
 }
 
@@ -115,7 +179,7 @@ impl Device for Lever {
     fn link_up(&mut self, now: Moment) {
         self.state.link_since = Some(now.steady);
         self.orders = [self.greeting.clone()].into();
-        self.asked.clear();
+        (self.motion, self.asked, self.next_question) = (None, None, None);
         self.heard.clear();
     }
 
@@ -123,28 +187,10 @@ impl Device for Lever {
         self.heard.extend_from_slice(bytes);
         while let Some(end) = self.heard.iter().position(|byte| *byte == b'\n') {
             let line: Vec<u8> = self.heard.drain(..=end).collect();
-            let line = String::from_utf8_lossy(&line);
-            let place: Vec<f64> =
-                line.split(' ').filter_map(|word| word.trim().parse().ok()).collect();
-            let (&[azimuth, elevation], Some(asked)) = (&place[..], self.asked.pop_front()) else {
-                continue;
-            };
-            let axis = |angle_deg| Axis {
-                angle_deg: Some(angle_deg),
-                motion: AxisMotion::Still,
-                plus_limit: false,
-                minus_limit: false,
-            };
-            self.state.measured = Some(Measured {
-                at: now.utc,
-                asked,
-                received: now.steady,
-                pointing: AzEl::from_degrees(azimuth, elevation).into(),
-                axes: [axis(azimuth), axis(elevation)],
-            });
-            self.state.motion_lock = Some(false);
-            self.state.traffic.replies += 1;
-            self.state.traffic.last_reply = Some(now.steady);
+            self.take_line(String::from_utf8_lossy(&line).trim(), now);
+        }
+        if self.heard.len() > LONGEST {
+            self.heard.clear();
         }
     }
 
@@ -153,21 +199,25 @@ impl Device for Lever {
             assert!(!order.starts_with(FRAGILE), "a controller with a fault of its own");
             return Some(order.into_bytes());
         }
-        if self.asked.back().is_some_and(|last| now.steady < *last + self.prompt()) {
+        if self.asked.is_some() || self.next_question.is_some_and(|next| now.steady < next) {
             return None;
         }
-        self.asked.push_back(now.steady);
+        (self.asked, self.next_question) = (Some(now.steady), Some(now.steady + PERIOD));
         Some(b"P?\n".to_vec())
     }
 
-    /// At any time: while the controller waits for an answer, it must still hear that answer
-    /// and the operator's STOP.
     fn due(&self, now: Moment) -> Instant {
-        now.steady
+        match self.next_question {
+            _ if !self.orders.is_empty() => now.steady,
+            // The answer wakes the session.
+            _ if self.asked.is_some() => now.steady + PERIOD,
+            next => next.unwrap_or(now.steady),
+        }
     }
 
     fn halt(&mut self, _: Extent, _: Moment) -> Vec<u8> {
         self.orders.clear();
+        self.motion = None;
         b"S\n".to_vec()
     }
 
@@ -175,7 +225,7 @@ impl Device for Lever {
     fn watch_closely(&mut self, _: bool) {}
 
     fn motion_under_way(&self) -> bool {
-        !self.orders.is_empty()
+        self.motion.is_some()
     }
 
     fn state(&self) -> &AntennaState {
@@ -190,15 +240,18 @@ impl Device for Lever {
 impl Controller for Lever {
     fn start(&mut self, motion: Motion) {
         let stays_deg = self.state.measured.map(|measured| measured.axes.map(|it| it.angle_deg));
-        if let (Motion::Position { azimuth, elevation }, Some([az_deg, el_deg])) =
-            (motion, stays_deg)
-            && let Some(az_deg) = azimuth.map(Angle::degrees).or(az_deg)
-            && let Some(el_deg) = elevation.map(Angle::degrees).or(el_deg)
-        {
-            self.orders.push_back(format!("G {az_deg} {el_deg}\n"));
-        } else {
-            self.events.push_back(ControllerEvent::Refused(motion.into(), "no lever".to_owned()));
-        }
+        let order = match (motion, stays_deg) {
+            (Motion::Jog { x_deg_s, y_deg_s }, _) => format!("J {x_deg_s} {y_deg_s}\n"),
+            (Motion::Position { azimuth, elevation }, Some([az_deg, el_deg]))
+                if let Some(az_deg) = azimuth.map(Angle::degrees).or(az_deg)
+                    && let Some(el_deg) = elevation.map(Angle::degrees).or(el_deg) =>
+            {
+                format!("G {az_deg} {el_deg}\n")
+            }
+            _ => return self.refuse(motion),
+        };
+        self.orders.push_back(order);
+        self.motion = Some(motion);
     }
 }
 
@@ -219,6 +272,7 @@ pub(crate) fn unit() -> (String, mpsc::Receiver<String>) {
                     continue;
                 }
                 if let Some(aim) = line.strip_prefix("G ") {
+                    stream.write_all(b"G\n").unwrap();
                     aim.clone_into(&mut place);
                 }
                 // The listener may have seen enough.
