@@ -13,13 +13,20 @@ use tempfile::NamedTempFile;
 /// Puts `bytes` at `path`, in folders that are made where they are missing.
 pub(crate) fn replace(path: &Path, bytes: &[u8]) -> io::Result<()> {
     let target = target(path);
-    persist(beside(&target, bytes)?, &target)
+    persist(beside(&target, bytes, Readers::Owner)?, &target)
 }
 
-/// The same; what stood there before is kept at [`old`].
+/// The same for a file that others of this computer may read, as far as the user lets them read
+/// new files or could read the old one.
+pub(crate) fn replace_for_others(path: &Path, bytes: &[u8]) -> io::Result<()> {
+    let target = target(path);
+    persist(beside(&target, bytes, Readers::AsUsual)?, &target)
+}
+
+/// The same as [`replace`]; what stood there before is kept at [`old`].
 pub(crate) fn replace_and_keep_old(path: &Path, bytes: &[u8]) -> io::Result<()> {
     let target = target(path);
-    let file = beside(&target, bytes)?;
+    let file = beside(&target, bytes, Readers::Owner)?;
     match fs::copy(path, old(path)) {
         Err(error) if error.kind() != io::ErrorKind::NotFound => return Err(error),
         _ => {}
@@ -40,10 +47,24 @@ fn target(path: &Path) -> PathBuf {
     fs::canonicalize(path).unwrap_or_else(|_| folder.join(link))
 }
 
-fn beside(path: &Path, bytes: &[u8]) -> io::Result<NamedTempFile> {
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Readers {
+    Owner,
+    AsUsual,
+}
+
+fn beside(path: &Path, bytes: &[u8], readers: Readers) -> io::Result<NamedTempFile> {
     let folder = path.parent().unwrap_or(Path::new("."));
     fs::create_dir_all(folder)?;
-    let mut file = NamedTempFile::new_in(folder)?;
+    let mut builder = tempfile::Builder::new();
+    #[cfg(unix)]
+    if readers == Readers::AsUsual {
+        use std::os::unix::fs::PermissionsExt as _;
+        let of_old = fs::metadata(path).map(|old| old.permissions());
+        // The mask of the user takes its share of them.
+        builder.permissions(of_old.unwrap_or_else(|_| fs::Permissions::from_mode(0o666)));
+    }
+    let mut file = builder.tempfile_in(folder)?;
     file.write_all(bytes)?;
     file.as_file().sync_all()?;
     Ok(file)
@@ -115,5 +136,22 @@ mod tests {
         replace_and_keep_old(&taken, b"new").unwrap_err();
         assert_eq!(names(folder.path()), ["taken"]);
         assert_eq!(names(&taken), ["inside"]);
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn others_read_what_is_for_them_as_any_file_of_the_user() {
+        use std::os::unix::fs::PermissionsExt as _;
+        let folder = tempfile::tempdir().unwrap();
+        let mode = |name: &str| {
+            fs::metadata(folder.path().join(name)).unwrap().permissions().mode() & 0o777
+        };
+        fs::write(folder.path().join("usual"), "").unwrap();
+        replace_for_others(&folder.path().join("passes.csv"), b"a").unwrap();
+        assert_eq!(mode("passes.csv"), mode("usual"));
+        replace(&folder.path().join("station.toml"), b"a").unwrap();
+        assert_eq!(mode("station.toml"), 0o600);
+        replace_for_others(&folder.path().join("station.toml"), b"a").unwrap();
+        assert_eq!(mode("station.toml"), 0o600);
     }
 }

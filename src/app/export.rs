@@ -90,7 +90,7 @@ impl Order {
         let asked = file_dialog::file_to_save(title, &self.name());
         let Some(path) = asked.map_err(|error| error.to_string())? else { return Ok(None) };
         let text = self.text().map_err(|why| format!("{why}: {}", path.display()))?;
-        match whole_file::replace(&path, &text) {
+        match whole_file::replace_for_others(&path, &text) {
             Ok(()) => Ok(Some(path)),
             Err(error) => Err(format!("{error}: {}", path.display())),
         }
