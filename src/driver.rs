@@ -34,7 +34,7 @@ use tokio::sync::{Notify, mpsc, watch};
 
 pub use crate::{clock::Clock, job::Wake};
 pub use debts::{Debts, Unit};
-pub use gate::Refusal;
+pub use gate::{Preview, Refusal, Way};
 pub use intent::Intent;
 pub use link::{Dial, Stream, dial_line, dial_tcp};
 pub use link_test::{LinkFault, LinkFinding, test_link};

@@ -12,6 +12,7 @@ mod elements;
 mod extremes;
 mod following;
 mod fourth_make;
+mod ghost;
 mod holds;
 mod horizon;
 mod in_memory;

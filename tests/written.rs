@@ -3,7 +3,7 @@
 use azel::{
     astro::Angle,
     device::{
-        TrackTarget,
+        Pointing, TrackTarget,
         panel::Act,
         settings::{Change, Value, Values},
     },
@@ -90,6 +90,7 @@ fn commands_of_antennas() -> Vec<driver::Command> {
         C::Resume,
         C::SeenStanding,
         C::Park,
+        C::Preview(Some(Pointing { azimuth: Some(Angle::from_degrees(0.1)), elevation: None })),
         C::Connect,
         C::Disconnect,
         C::Act(act.clone()),
@@ -121,6 +122,7 @@ fn commands_of_antennas() -> Vec<driver::Command> {
             | C::Resume
             | C::SeenStanding
             | C::Park
+            | C::Preview(_)
             | C::Connect
             | C::Disconnect
             | C::Act(_)

@@ -4,6 +4,7 @@
 //! code can start a motion. A new rule is one more entry of [`RULES`], and one more case of
 //! the table that proves it necessary (`tests/each_rule.rs`).
 
+mod preview;
 mod program;
 mod refusal;
 mod rules;
@@ -24,6 +25,7 @@ use crate::{
     plan::{Bounds, Sweep, on_board::Judge},
     station::{Antenna, LockOut, MotionLimits, Mount},
 };
+pub use preview::{Preview, Way};
 pub(super) use program::Held;
 pub use refusal::Refusal;
 use rules::{Check, RULES, Rule};

@@ -43,7 +43,7 @@ pub use jog::LEASE as JOG_LEASE;
 
 use super::{
     AntennaHandle, COMMANDS, Clock, Dial, EVENTS, Event, Intent, LinkState, Numbered, Orbits,
-    Orders, Snapshot, Stopper, Wake, WireLog,
+    Orders, Preview, Snapshot, Stopper, Wake, WireLog,
     before_sleep::Awake,
     debts::{Debts, Unit},
     gate::Gate,
@@ -267,6 +267,8 @@ pub struct Session {
     acts: bool,
     /// A step that may not be over yet.
     stepping: Option<Stepping>,
+    /// The direction that the operator looks at.
+    previewed: Option<Pointing>,
     stop: Stop,
     /// Progress of a lock-out.
     locking: Option<Locking>,
@@ -353,6 +355,7 @@ impl Session {
             awake: None,
             acts: false,
             stepping: None,
+            previewed: None,
             stop: Stop::Ready,
             locking: None,
             doubt: None,
@@ -395,6 +398,7 @@ impl Session {
             jog: self.key.started().map(|jog| jog.rates_deg_s),
             stopping_way: self.stopping_way(),
             step: self.stepping.map(|stepping| stepping.steps_deg),
+            preview: self.preview(now),
             state: self.gate.state().clone(),
             poll_period: self.gate.device().poll_period(),
         };
@@ -410,6 +414,12 @@ impl Session {
         if worth_a_look {
             (self.wires.wake)();
         }
+    }
+
+    /// The way to the direction that the operator looks at.
+    fn preview(&self, now: Moment) -> Option<Arc<Preview>> {
+        let to = self.previewed?;
+        Some(Arc::new(Preview { to, way: self.gate.way_to(to, now) }))
     }
 
     /// Passes what went over the link on to the wire log.

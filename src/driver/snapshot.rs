@@ -5,7 +5,7 @@ use std::{sync::Arc, time::Duration};
 use jiff::Timestamp;
 use serde::{Deserialize, Serialize};
 
-use super::{Intent, Refusal, Safety};
+use super::{Intent, Preview, Refusal, Safety};
 use crate::{
     astro::Angle,
     clock::Instant,
@@ -55,6 +55,8 @@ pub struct Snapshot {
     pub stopping_way: StoppingWay,
     /// Signed amounts of a step that may not be over, degrees.
     pub step: Option<[f64; 2]>,
+    /// What would come of going to the direction that the operator looks at.
+    pub preview: Option<Arc<Preview>>,
     pub state: AntennaState,
     /// Present time between two questions.
     pub poll_period: Duration,
@@ -84,6 +86,7 @@ impl Snapshot {
             jog: None,
             stopping_way: StoppingWay::default(),
             step: None,
+            preview: None,
             state: AntennaState::default(),
             poll_period: Duration::from_millis(500),
         }

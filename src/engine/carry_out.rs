@@ -169,7 +169,10 @@ impl Engine {
     pub(super) fn send(&mut self, index: usize, command: driver::Command) {
         let Some(antenna) = self.antennas.get_mut(index) else { return };
         let of = Some(antenna.shown.id());
-        if !matches!(command, driver::Command::ReadGroup(_) | driver::Command::EndJog) {
+        if !matches!(
+            command,
+            driver::Command::ReadGroup(_) | driver::Command::EndJog | driver::Command::Preview(_)
+        ) {
             antenna.shown.asks_unseen = None;
         }
         match command {

@@ -144,9 +144,12 @@ impl Command {
     /// Returns `true` if the command may move an antenna. A later STOP voids it.
     pub fn may_move(&self) -> bool {
         match self {
-            Self::Antenna(_, command) => {
-                !matches!(command, driver::Command::ReadGroup(_) | driver::Command::LockOut(_))
-            }
+            Self::Antenna(_, command) => !matches!(
+                command,
+                driver::Command::ReadGroup(_)
+                    | driver::Command::LockOut(_)
+                    | driver::Command::Preview(_)
+            ),
             Self::Track { .. }
             | Self::ProgramTrackPass { .. }
             | Self::CloseAfter(CloseHow::Park)

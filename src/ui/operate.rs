@@ -3,6 +3,7 @@
 mod card;
 mod divider;
 mod filter;
+mod ghost;
 mod layout;
 pub(super) mod passes;
 pub(super) mod sky;
@@ -32,6 +33,7 @@ use crate::{
     model::{Model, UiCommand},
     station::AntennaId,
 };
+use ghost::GhostState;
 use layout::Areas;
 
 /// Wait for one more frame.
@@ -53,6 +55,7 @@ pub struct OperateState {
     /// The time of the pass that the operator marks in the sky plot or in the profile.
     marked: Option<Timestamp>,
     profile: ProfileState,
+    ghost: GhostState,
     passes: PassListState,
     found: filter::FoundPasses,
     /// Index of the antenna whose card was shown last.
@@ -82,6 +85,7 @@ impl OperateState {
 
     /// Call when the card disappears. Releases a key that is held there.
     pub fn leave_card(&mut self, commands: &mut Vec<UiCommand>) {
+        self.ghost.leave(commands);
         if self.card.hide().is_some()
             && let Some(antenna) = self.shown_antenna
         {

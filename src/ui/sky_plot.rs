@@ -28,7 +28,7 @@ mod zoom;
 
 use std::collections::HashMap;
 
-use egui::{Rect, Response, Ui};
+use egui::{PointerButton, Popup, Pos2, Rect, Response, Ui};
 use jiff::Timestamp;
 
 use self::{
@@ -37,8 +37,9 @@ use self::{
     placement::{Memory, Side},
 };
 use super::{along, text, theme, tokens::Tokens};
+use crate::astro::AzEl;
 
-pub use scene::{Bearing, KeepOutMark, Keyholes, Measured, OtherSatellite, SkyScene, Track};
+pub use scene::{Bearing, Ghost, KeepOutMark, Keyholes, Measured, OtherSatellite, SkyScene, Track};
 pub use small::paint_small;
 pub use zoom::Zoom;
 
@@ -50,6 +51,8 @@ pub struct SkyPlotState {
     /// The plot had the keyboard focus in the last frame.
     pub has_focus: bool,
     labels: HashMap<Key, Memory>,
+    /// A menu was open in the last frame: a click beside it closes it and means nothing else.
+    menu_open: bool,
 }
 
 /// What the operator did in the plot.
@@ -59,6 +62,12 @@ pub struct SkyAnswer {
     pub chosen: Option<u32>,
     /// Time of the path under the pointer.
     pub pointed: Option<Timestamp>,
+    /// A click in the sky.
+    pub clicked: Option<AzEl>,
+    /// The click before was the first half of a double click, which shows the whole sky.
+    pub takes_click_back: bool,
+    /// The place of the ghost.
+    pub ghost_at: Option<Pos2>,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize)]
@@ -105,6 +114,10 @@ pub fn show(ui: &mut Ui, rect: Rect, scene: &SkyScene<'_>, state: &mut SkyPlotSt
 
     // Added before the buttons in the corners, which lie above the canvas.
     let canvas = nodes::canvas(ui, rect, scene, whole, &mut state.zoom);
+    let takes_click_back = canvas.double_clicked() && !state.zoom.is_whole();
+    if takes_click_back {
+        state.zoom.reset();
+    }
     let dome = state.zoom.of(whole);
     paint_sky(ui, rect, dome, scene, state, t);
     beam_view::paint(ui.painter(), rect, scene, t);
@@ -121,7 +134,26 @@ pub fn show(ui: &mut Ui, rect: Rect, scene: &SkyScene<'_>, state: &mut SkyPlotSt
         let stroke = egui::Stroke::new(2.0, t.sat);
         ui.painter().rect_stroke(rect.shrink(2.0), 0.0, stroke, egui::StrokeKind::Inside);
     }
-    SkyAnswer { chosen, pointed }
+    let is_menu_open = Popup::is_any_open(ui);
+    let closes_menu = std::mem::replace(&mut state.menu_open, is_menu_open) || is_menu_open;
+    let is_click = canvas.clicked_by(PointerButton::Primary) && !takes_click_back && !closes_menu;
+    let clicked = canvas.interact_pointer_pos().filter(|_| is_click);
+    SkyAnswer {
+        chosen,
+        pointed,
+        clicked: clicked.and_then(|at| dome.direction(at)),
+        takes_click_back,
+        ghost_at: ghost_at(dome, scene).filter(|at| rect.contains(*at)),
+    }
+}
+
+/// The place of the ghost; for an antenna without elevation half-way to the rim.
+fn ghost_at(dome: Dome, scene: &SkyScene<'_>) -> Option<Pos2> {
+    let on_line = || {
+        let azimuth = scene.bearing?.ghost.filter(|azimuth| azimuth.is_finite())?;
+        Some(dome.at(azimuth.radians() as f32, 45.0))
+    };
+    scene.ghost.and_then(|ghost| dome.point(ghost.to)).or_else(on_line)
 }
 
 /// Tells the direction under the pointer, or the time where it points at the path or another

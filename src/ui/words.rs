@@ -11,8 +11,8 @@ pub use alarms::{alarm, alarm_state, alarm_times};
 pub use notices::{missing_outlets, notice, reminder, trial};
 pub use on_board::{cause, lower_minimum, not_known, trespass, within_beam, would_miss};
 pub use refusals::{
-    HOLD_UNGUARDED, HOLD_UNSEEN, HOLD_WAY_OUT, hindrance, link_loss, prepare_error, refusal,
-    track_problem,
+    HOLD_UNGUARDED, HOLD_UNSEEN, HOLD_WAY_OUT, hindrance, link_loss, not_possible, prepare_error,
+    refusal, track_problem,
 };
 pub use safety::{
     SUN_IS_LIFTED, UNGUARDED, asks_standing, forbidden, inside, owed, reason, safety, stopping_way,

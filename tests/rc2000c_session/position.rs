@@ -1,10 +1,12 @@
 //! Directions, which need the calibration of both axes.
 
 use azel::{
-    astro::Angle,
+    astro::{Angle, AzEl},
     device::{Asked, Motion, panel::CheckState},
-    driver::{Command, Event, Intent, Refusal},
+    driver::{Command, Event, Intent, Refusal, Way},
+    plan::Bounds,
     sim::rc2000c::{Fault, Options, Quirk},
+    station::Station,
 };
 
 use super::rig::{Rig, antenna, check, uncalibrated};
@@ -138,4 +140,49 @@ async fn a_new_direction_stops_the_way_to_the_old_one() {
     assert_eq!(orders.last().unwrap(), "2 0143000830");
     assert!(orders[1..orders.len() - 1].iter().all(|text| text == "3XS0000"), "{orders:?}");
     assert!(orders.len() > 2);
+}
+
+/// Looks at a direction and returns what was found about the way to it.
+async fn looked_at(rig: &mut Rig, az_deg: f64, el_deg: f64) -> Result<Way, Refusal> {
+    let to = AzEl::from_degrees(az_deg, el_deg).into();
+    rig.send(Command::Preview(Some(to)));
+    rig.seconds(0.1).await;
+    let preview = rig.shown().preview.clone().expect("it was judged");
+    assert_eq!(preview.to, to);
+    preview.way.clone()
+}
+
+#[tokio::test(start_paused = true)]
+async fn a_direction_that_is_only_looked_at_is_judged_like_a_motion_and_moves_nothing() {
+    let mut rig = in_position().await;
+    // In Standby a direction is judged too.
+    rig.send(Command::Standby);
+    let from = rig.shown().state.measured.unwrap().direction().unwrap();
+    let way = looked_at(&mut rig, 180.0, 40.0).await.unwrap();
+    let rate_deg_s = antenna().limits.maximum_rate_deg_s;
+    let turn_deg = (180.0 - from.azimuth_deg()).abs().max((40.0 - from.elevation_deg()).abs());
+    assert!((way.arrives_s.unwrap() - turn_deg / rate_deg_s).abs() < 0.1, "{way:?}");
+    assert!(way.path[0].separation(from).degrees() < 1e-6);
+    assert!(way.path.last().unwrap().separation(AzEl::from_degrees(180.0, 40.0)).degrees() < 0.1);
+    assert!(!way.is_round_a_corner);
+
+    let beyond = looked_at(&mut rig, 20.0, 40.0).await;
+    assert!(matches!(beyond, Err(Refusal::Travel { .. })), "{beyond:?}");
+
+    // A mast between: over it, or not at all where its top is in the way.
+    let corners_deg = [(140.0, -5.0), (150.0, -5.0), (150.0, 60.0), (140.0, 60.0)];
+    let mast = crate::common::mast(&corners_deg);
+    let station = Station { keep_outs: vec![mast], ..Station::default() };
+    rig.handle().keep_within(Bounds::of(&station, &antenna()));
+    let forbidden = looked_at(&mut rig, 145.0, 20.0).await;
+    assert!(matches!(forbidden, Err(Refusal::Forbidden { .. })), "{forbidden:?}");
+    let over = looked_at(&mut rig, 120.0, 75.0).await.unwrap();
+    assert!(over.is_round_a_corner, "{over:?}");
+
+    rig.seconds(5.0).await;
+    assert!(rig.orders().is_empty(), "nothing was sent");
+    assert_eq!((rig.events(), rig.shown().intent), (vec![], Intent::Standby));
+    rig.send(Command::Preview(None));
+    rig.seconds(0.1).await;
+    assert_eq!(rig.shown().preview, None);
 }

@@ -15,7 +15,7 @@ use egui_kittest::kittest::{NodeT as _, Queryable as _};
 use crate::window_stories::{
     extremes::nothing_overlaps,
     makes,
-    rig::{self, SIZES, Window, asked, says, settle},
+    rig::{self, SIZES, Window, asked, says, sent, settle},
     states,
 };
 
@@ -156,7 +156,7 @@ fn a_rotator_alone_has_a_second_pair_of_keys_and_no_elevation() {
         window.get_by_role_and_label(Role::Button, "Go to").click();
         let azimuth = Some(Angle::from_degrees(270.0));
         let wanted = antenna(Command::Position { azimuth, elevation: None });
-        assert_eq!(asked(&mut window), [wanted]);
+        assert_eq!(sent(&mut window), [wanted]);
     }
 }
 
@@ -208,10 +208,10 @@ fn an_axis_of_more_than_a_turn_takes_what_lies_beyond_it() {
             azimuth: Some(Angle::from_degrees(400.0)),
             elevation: Some(Angle::from_degrees(42.0)),
         };
-        assert_eq!(asked(&mut window), [antenna(wanted)]);
+        assert_eq!(sent(&mut window), [antenna(wanted)]);
         type_into(&mut window, AZIMUTH, "4000");
         window.get_by_role_and_label(Role::Button, "Go to").click();
-        assert_eq!(asked(&mut window), []);
+        assert_eq!(sent(&mut window), []);
         assert!(says(&window, "Azimuth 4000 is outside 0° to 450°."));
     }
 }

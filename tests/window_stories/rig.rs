@@ -305,6 +305,18 @@ pub(crate) fn asked(window: &mut Window) -> Vec<UiCommand> {
     asked
 }
 
+/// Commands since the last call, without those that only look at a direction.
+pub(crate) fn sent(window: &mut Window) -> Vec<UiCommand> {
+    let mut commands = asked(window);
+    commands.retain(|command| {
+        let looks = |command: &Command| {
+            matches!(command, Command::Antenna(_, azel::driver::Command::Preview(_)))
+        };
+        !matches!(command, UiCommand::Station(command) if looks(command))
+    });
+    commands
+}
+
 /// Whether a text (not a control) of the window contains `words`.
 pub(crate) fn says(window: &Window, words: &str) -> bool {
     window.query_all_by_role(Role::Label).any(|node| {

@@ -287,7 +287,7 @@ impl Gate {
         first.map(|first| Route { first, then: Some(motion) }).ok_or(refusal)
     }
 
-    fn axis_limits(&self) -> AxisLimits {
+    pub(super) fn axis_limits(&self) -> AxisLimits {
         let mut travel_deg = self.mount.travel_deg();
         if let Mount::AzEl { .. } = self.mount {
             travel_deg[1].0 = travel_deg[1].0.max(self.limits.minimum_elevation_deg);

@@ -13,7 +13,7 @@ use crate::{
     astro::Angle,
     clock::Moment,
     device::{
-        Motion,
+        Motion, Pointing,
         panel::Act,
         settings::{Change, WriteError},
     },
@@ -72,6 +72,9 @@ pub enum Command {
     /// The operator has seen that the antenna stands: no STOP is owed any more.
     SeenStanding,
     Park,
+    /// Judge the way to a direction, anew with each position, without a motion; `None` ends
+    /// that. The snapshot shows what was found.
+    Preview(Option<Pointing>),
     /// Open the link, and keep it open.
     Connect,
     /// Close the link and leave the unit to others. A motion of its own goes on.
@@ -103,6 +106,7 @@ impl Session {
             command,
             Command::Jog { .. }
                 | Command::WriteSettings(_)
+                | Command::Preview(_)
                 | Command::ProgramTrack(_)
                 | Command::ProgramTrackIntoSun(_)
                 | Command::Track(_)
@@ -136,6 +140,7 @@ impl Session {
                 };
                 self.go_to(motion, Intent::Park, now);
             }
+            Command::Preview(to) => self.previewed = to,
             Command::Track(pass) => self.track(*pass, now),
             Command::TakeOver => self.take_over(now),
             Command::ProgramTrack(follow) => self.follow_as_agreed(*follow, false, now),
@@ -292,6 +297,7 @@ impl Session {
             // A group is read once the link is back and somebody looks. The link itself shows
             // that nothing can be asked.
             Command::ReadGroup(_) | Command::Ask(_) => {}
+            Command::Preview(to) => self.previewed = to,
             Command::Connect => self.contact.wanted = Wanted::Yes,
             Command::LockOut(lock_out) => self.lock_out(lock_out, now),
             Command::Unlock => self.unlock(),

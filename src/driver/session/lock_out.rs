@@ -129,6 +129,7 @@ impl Session {
             | Command::Resume
             | Command::WriteSettings(_)
             | Command::Disconnect
+            | Command::Preview(_)
             | Command::ReadGroup(_)
             | Command::Ask(_)
             | Command::LockOut(_)

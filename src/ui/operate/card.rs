@@ -6,7 +6,8 @@ mod locks;
 
 use egui::{Align2, Rect, Ui};
 
-use self::{asked::CardHandler, locks::Locks};
+use self::asked::CardHandler;
+pub(super) use self::locks::Locks;
 use super::antenna_card::{
     self, CardAction, CardModel, CardState, DriveModel, FaultsModel, FollowModel, HeaderModel,
     LinkStatus, LockOutModel, MoreModel, Offer, OtherAntenna, TrackModel, WayOutModel,

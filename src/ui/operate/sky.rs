@@ -3,10 +3,10 @@
 use egui::{Rect, Ui};
 use jiff::Timestamp;
 
-use super::OperateState;
+use super::{OperateState, ghost};
 use crate::{
     astro::{Angle, AzEl, time::seconds_between},
-    driver::{LinkState, StopState},
+    driver::LinkState,
     engine::{antenna::AntennaModel, passes::PredictedPass},
     model::{Model, UiCommand},
     orbit::{LookAngles, PassPoint},
@@ -33,6 +33,7 @@ pub(super) fn show(
     state: &mut OperateState,
     commands: &mut Vec<UiCommand>,
 ) -> Option<Timestamp> {
+    ghost::keep(ui, model, state, commands);
     let antenna = model.antenna();
     let predicted = model.selected_pass();
     let selected = predicted.map(|predicted| predicted.satellite.elements.catalog_number());
@@ -67,7 +68,7 @@ pub(super) fn show(
         sun: model.sky.sun.filter(|sun| sun.elevation_deg() > 0.0),
         moon: model.sky.moon.filter(|moon| moon.elevation_deg() > 0.0),
         commanded: antenna.and_then(commanded),
-        ghost: antenna.and_then(|antenna| ghost(antenna, state)),
+        ghost: antenna.and_then(|antenna| ghost::shown(antenna, state)),
         beam_width: antenna.map_or(Angle::from_degrees(1.0), |antenna| antenna.config.beam_width()),
         measured: antenna
             .and_then(|antenna| antenna.snapshot.state.measured)
@@ -84,6 +85,15 @@ pub(super) fn show(
     };
     let answer = sky_plot::show(ui, rect, &scene, &mut state.sky);
     commands.extend(answer.chosen.map(UiCommand::SelectSatellite));
+    if answer.takes_click_back {
+        state.ghost.forget_click();
+    }
+    if let (Some(direction), Some(antenna)) = (answer.clicked, antenna) {
+        state.ghost.look_at(direction, antenna);
+    }
+    if let (Some(at), Some(antenna)) = (answer.ghost_at, antenna) {
+        ghost::note(ui, rect, at, antenna, state, commands);
+    }
     answer.pointed
 }
 
@@ -168,7 +178,7 @@ fn bearing<'a>(
     if pointing.elevation.is_some() {
         return None;
     }
-    let target = state.card.drive.go_to.previewed();
+    let target = state.ghost.target();
     Some(Bearing {
         name: &antenna.config.name,
         measured: Some(pointing.azimuth?),
@@ -176,17 +186,6 @@ fn bearing<'a>(
         ghost: target.map(|target| Angle::from_degrees(target.azimuth_deg)),
         lost,
     })
-}
-
-/// The preview of a typed but unsent go-to: from, to.
-fn ghost(antenna: &AntennaModel, state: &OperateState) -> Option<(AzEl, AzEl)> {
-    if matches!(antenna.snapshot.stop, StopState::Stopping { .. }) {
-        return None;
-    }
-    let target = state.card.drive.go_to.previewed()?;
-    let from = antenna.snapshot.state.measured?.direction()?;
-    let elevation_deg = target.elevation_deg.unwrap_or(from.elevation_deg());
-    Some((from, AzEl::from_degrees(target.azimuth_deg, elevation_deg)))
 }
 
 /// Errors across and upwards, degrees; across is measured on the sky, not on the horizon.

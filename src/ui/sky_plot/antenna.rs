@@ -28,7 +28,7 @@ fn circles(dome: Dome, scene: &SkyScene<'_>) -> impl Iterator<Item = (Pos2, f32)
     let ring = ring(dome, scene) / 2.0;
     let measured = scene.measured.map(|measured| (measured.direction, CROSS_HAIR / 2.0));
     let commanded = scene.commanded.map(|commanded| (commanded, ring));
-    let ghost = scene.ghost.map(|(_, to)| (to, ring));
+    let ghost = scene.ghost.map(|ghost| (ghost.to, ring));
     let all = [measured, commanded, ghost].into_iter().flatten();
     all.filter_map(move |(direction, radius)| Some((dome.point(direction)?, radius)))
 }
@@ -58,11 +58,12 @@ pub(super) fn clearance(dome: Dome, scene: &SkyScene<'_>, mark: Pos2, usual: f32
 /// Paints the preview, the commanded ring and the cross-hair, in this order.
 pub(super) fn paint(painter: &Painter, dome: Dome, scene: &SkyScene<'_>, t: &Tokens) {
     let ring = ring(dome, scene);
-    if let Some((from, to)) = scene.ghost
-        && let (Some(from), Some(to)) = (dome.point(from), dome.point(to))
+    if let Some(ghost) = scene.ghost
+        && let Some(to) = dome.point(ghost.to)
     {
-        painter.add(Shape::line_segment([from, to], Stroke::new(1.0, t.cmd)));
-        marks::ghost(painter, to, ring, t);
+        let way = ghost.way.iter().filter_map(|direction| dome.point(*direction)).collect();
+        painter.add(Shape::line(way, Stroke::new(1.0, t.cmd)));
+        marks::ghost(painter, to, ring, ghost.is_refused, t);
     }
     if let Some(at) = scene.commanded.and_then(|commanded| dome.point(commanded)) {
         marks::commanded(painter, at, ring, t);

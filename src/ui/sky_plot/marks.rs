@@ -93,10 +93,23 @@ pub(in crate::ui) fn commanded(painter: &Painter, at: Pos2, diameter: f32, t: &T
     painter.circle_stroke(at, diameter / 2.0, Stroke::new(2.25, t.cmd));
 }
 
-/// Paints the preview of a commanded direction.
-pub(in crate::ui) fn ghost(painter: &Painter, at: Pos2, diameter: f32, t: &Tokens) {
+/// Paints the preview of a commanded direction, crossed out if it would be refused.
+pub(in crate::ui) fn ghost(
+    painter: &Painter,
+    at: Pos2,
+    diameter: f32,
+    is_refused: bool,
+    t: &Tokens,
+) {
     let ring = circle(at, diameter / 2.0);
-    painter.extend(dashed(&ring, 4.0, 3.0, Stroke::new(2.25, t.cmd)));
+    let colour = if is_refused { t.warn } else { t.cmd };
+    painter.extend(dashed(&ring, 4.0, 3.0, Stroke::new(2.25, colour)));
+    if is_refused {
+        let arm = Vec2::splat(diameter / 2.0) * std::f32::consts::FRAC_1_SQRT_2;
+        for arm in [arm, arm.rot90()] {
+            painter.line_segment([at - arm, at + arm], Stroke::new(2.25, colour));
+        }
+    }
 }
 
 /// Paints the measured direction: a cross-hair; `scale` 1 is its size in the plot.

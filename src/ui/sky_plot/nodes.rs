@@ -37,9 +37,6 @@ pub(super) fn canvas(
             zoom.magnify(pinched, at, whole);
         }
     }
-    if response.double_clicked() {
-        zoom.reset();
-    }
     response
 }
 

@@ -29,8 +29,8 @@ pub struct SkyScene<'a> {
     pub moon: Option<AzEl>,
     /// The commanded direction.
     pub commanded: Option<AzEl>,
-    /// Preview of a motion: from, to.
-    pub ghost: Option<(AzEl, AzEl)>,
+    /// Preview of a motion.
+    pub ghost: Option<Ghost<'a>>,
     /// Full width of the beam.
     pub beam_width: Angle,
     /// The measured direction.
@@ -98,6 +98,16 @@ pub struct Track<'a> {
     pub show_los: bool,
     /// Present direction of the satellite.
     pub position: Option<AzEl>,
+}
+
+/// A direction that the operator looks at before the antenna is sent there.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Ghost<'a> {
+    pub to: AzEl,
+    /// The way that both axes would take; empty while it is not known.
+    pub way: &'a [AzEl],
+    /// The antenna would not be sent there.
+    pub is_refused: bool,
 }
 
 /// A satellite above the horizon that is not selected.

@@ -134,7 +134,7 @@ fn what_is_not_a_number_is_left_out() {
         sun: Some(NOWHERE),
         moon: Some(NOWHERE),
         commanded: Some(NOWHERE),
-        ghost: Some((NOWHERE, NOWHERE)),
+        ghost: Some(Ghost { to: NOWHERE, way: &[NOWHERE, NOWHERE], is_refused: true }),
         measured: Some(Measured { direction: NOWHERE, lost: None }),
         predicted: Some(AzEl::from_degrees(0.0, 10.0)),
         recent_errors: &[(f32::NAN, f32::NAN), (f32::INFINITY, 0.0)],

@@ -60,6 +60,10 @@ pub struct GoToState {
     pub elevation: String,
     refusal: Option<(Field, String)>,
     previewed: Option<Target>,
+    /// What the fields hold, if it is a direction.
+    typed: Option<Target>,
+    /// The direction that was sent or left; the fields keep it.
+    left: Option<Target>,
     wants_focus: bool,
 }
 
@@ -77,6 +81,26 @@ impl GoToState {
     /// The previewed direction, until the fields change.
     pub fn previewed(&self) -> Option<Target> {
         self.previewed
+    }
+
+    /// The direction in the fields, from the last key on until it is sent or left.
+    pub fn typed(&self) -> Option<Target> {
+        self.typed.filter(|typed| self.left.as_ref() != Some(typed))
+    }
+
+    /// No longer looks at what is typed; the fields keep it.
+    pub fn leave_typed(&mut self) {
+        self.left = self.typed;
+        self.previewed = None;
+    }
+
+    fn in_fields(&self, model: &GoToModel) -> Option<Target> {
+        let azimuth = parse::angle(&self.azimuth, Field::Azimuth.name(), model.azimuth_range_deg);
+        let elevation = model
+            .elevation_range_deg
+            .map(|range| parse::angle(&self.elevation, Field::Elevation.name(), range))
+            .transpose();
+        Some(Target { azimuth_deg: azimuth.ok()?, elevation_deg: elevation.ok()? })
     }
 
     fn read(&mut self, model: &GoToModel) -> Option<Target> {
@@ -130,6 +154,10 @@ pub fn show(
     }
     let button = rect.with_min_y(row(2.0).top());
     let pressed = Button::normal("Go to").locked(model.locked).show(ui, "go to", button).clicked();
+    state.typed = state.in_fields(model).filter(|_| !model.locked);
+    if state.typed.is_none() {
+        state.left = None;
+    }
     if model.locked {
         state.previewed = None;
         state.refusal = None;
@@ -137,11 +165,15 @@ pub fn show(
     }
     if pressed {
         let target = state.read(model)?;
-        state.previewed = None;
+        state.leave_typed();
         return Some(GoToAction::Send(target));
     }
     let action = entered.then(|| state.enter(model)).flatten();
+    if matches!(action, Some(GoToAction::Preview(_))) {
+        state.left = None;
+    }
     if matches!(action, Some(GoToAction::Send(_))) {
+        state.leave_typed();
         // The next key press is a shortcut of the window again.
         ui.memory_mut(egui::Memory::stop_text_input);
     }

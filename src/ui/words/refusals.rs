@@ -120,6 +120,15 @@ pub fn refusal(refusal: &Refusal) -> String {
     }
 }
 
+/// The reason why a motion that nobody has asked for yet would not be sent.
+pub fn not_possible(refusal: &Refusal) -> String {
+    let words = self::refusal(refusal);
+    match words.strip_prefix("Not sent: ") {
+        Some(why) => format!("Not possible: {why}"),
+        None => words,
+    }
+}
+
 /// The reason why a setting that affects pointing must wait, and what to do.
 pub fn hindrance(hindrance: Hindrance) -> String {
     super::sentence(&hindrance.to_string())

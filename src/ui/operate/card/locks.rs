@@ -6,19 +6,19 @@ use crate::{
 };
 
 /// The reasons why controls are locked, each in a sentence.
-pub(super) struct Locks {
+pub(in crate::ui::operate) struct Locks {
     /// For all controls.
-    pub(super) link: Option<&'static str>,
-    pub(super) jog: Option<&'static str>,
-    pub(super) go_to: Option<&'static str>,
-    pub(super) track: Option<&'static str>,
+    pub(in crate::ui::operate) link: Option<&'static str>,
+    pub(in crate::ui::operate) jog: Option<&'static str>,
+    pub(in crate::ui::operate) go_to: Option<&'static str>,
+    pub(in crate::ui::operate) track: Option<&'static str>,
     /// For actions of the make that move metal.
-    pub(super) action: Option<&'static str>,
+    pub(in crate::ui::operate) action: Option<&'static str>,
 }
 
 impl Locks {
     /// `has_checks`: the card has a section that names faults.
-    pub(super) fn of(antenna: &AntennaModel, has_checks: bool) -> Self {
+    pub(in crate::ui::operate) fn of(antenna: &AntennaModel, has_checks: bool) -> Self {
         let snapshot = &antenna.snapshot;
         let intent = snapshot.intent;
         let program = snapshot.state.program.is_some_and(|program| program.enabled);

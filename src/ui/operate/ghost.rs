@@ -1,0 +1,256 @@
+//! The direction that the operator looks at before the antenna is sent there: clicked in the
+//! sky, or typed. The session judges the way; nothing moves before it is asked for.
+
+use std::fmt::Write as _;
+
+use egui::{Key, Pos2, Rect, Role, Sense, Stroke, StrokeKind, Ui, WidgetInfo, pos2, vec2};
+
+use super::{OperateState, card::Locks};
+use crate::{
+    astro::{Angle, AzEl},
+    device::Pointing,
+    driver::{Command, Preview, StopState},
+    engine::antenna::AntennaModel,
+    model::{Model, UiCommand},
+    station::AntennaId,
+    ui::{
+        format,
+        sky_plot::Ghost,
+        state_sentence::short,
+        text, theme,
+        widgets::{
+            button::{Button, SMALL_HEIGHT},
+            go_to::Target,
+        },
+        words,
+    },
+};
+
+/// Size of the note, apart from its sentence.
+const WIDTH: f32 = 248.0;
+const PADDING: f32 = 10.0;
+const GAP: f32 = 6.0;
+/// Distance of the note from the ghost.
+const BESIDE: f32 = 18.0;
+
+/// The clicked direction, and what a session was asked to judge.
+#[derive(Debug, Clone, Default)]
+pub(super) struct GhostState {
+    clicked: Option<Target>,
+    wants_focus: bool,
+    /// The direction in the fields in the last frame.
+    typed: Option<Target>,
+    asked: Option<(AntennaId, Pointing)>,
+}
+
+impl GhostState {
+    /// Looks at a direction of the sky with `antenna`.
+    pub(super) fn look_at(&mut self, direction: AzEl, antenna: &AntennaModel) {
+        let tenths = |deg: f64| (deg * 10.0).round() / 10.0;
+        let has_elevation = antenna.variant().capabilities.has_elevation();
+        self.clicked = Some(Target {
+            azimuth_deg: tenths(direction.azimuth.wrapped_360().degrees()) % 360.0,
+            elevation_deg: has_elevation.then(|| tenths(direction.elevation_deg())),
+        });
+        self.wants_focus = true;
+    }
+
+    pub(super) fn forget_click(&mut self) {
+        self.clicked = None;
+    }
+
+    /// The direction that is looked at: a click comes before the fields.
+    pub(super) fn target(&self) -> Option<Target> {
+        self.clicked.or(self.typed)
+    }
+
+    /// Ends what a session judges.
+    pub(super) fn leave(&mut self, commands: &mut Vec<UiCommand>) {
+        self.clicked = None;
+        if let Some((antenna, _)) = self.asked.take() {
+            commands.push(UiCommand::antenna(antenna, Command::Preview(None)));
+        }
+    }
+}
+
+fn pointing(target: Target) -> Pointing {
+    Pointing {
+        azimuth: Some(Angle::from_degrees(target.azimuth_deg)),
+        elevation: target.elevation_deg.map(Angle::from_degrees),
+    }
+}
+
+/// Takes what was typed, drops the ghost at a STOP, and asks the session about a new one.
+pub(super) fn keep(
+    ui: &Ui,
+    model: &Model,
+    state: &mut OperateState,
+    commands: &mut Vec<UiCommand>,
+) {
+    let antenna = model.antenna();
+    let stops = antenna.is_some_and(|of| matches!(of.snapshot.stop, StopState::Stopping { .. }));
+    if stops || ui.input(|input| input.key_pressed(Key::Escape)) {
+        state.ghost.clicked = None;
+        state.card.drive.go_to.leave_typed();
+    }
+    let typed = state.card.drive.go_to.typed();
+    let ghost = &mut state.ghost;
+    if typed.is_some() && typed != ghost.typed {
+        ghost.clicked = None;
+    }
+    ghost.typed = typed;
+    let can_be_judged = |of: &&AntennaModel| of.snapshot.link.is_open() && of.held_by.is_none();
+    let wanted = antenna
+        .filter(can_be_judged)
+        .and_then(|antenna| Some((antenna.id(), pointing(ghost.target()?))));
+    if wanted == ghost.asked {
+        return;
+    }
+    let is_same = |id: AntennaId| wanted.is_some_and(|(wanted, _)| wanted == id);
+    if let Some((before, _)) = ghost.asked.filter(|(id, _)| !is_same(*id)) {
+        commands.push(UiCommand::antenna(before, Command::Preview(None)));
+    }
+    commands.extend(wanted.map(|(id, to)| UiCommand::antenna(id, Command::Preview(Some(to)))));
+    ghost.asked = wanted;
+}
+
+/// What the session found about the way to `target`.
+fn judged(antenna: &AntennaModel, target: Target) -> Option<&Preview> {
+    antenna.snapshot.preview.as_deref().filter(|preview| preview.to == pointing(target))
+}
+
+/// The ghost for the plot; none for an antenna without elevation.
+pub(super) fn shown<'a>(antenna: &'a AntennaModel, state: &OperateState) -> Option<Ghost<'a>> {
+    let target = state.ghost.target()?;
+    let measured = antenna.snapshot.state.measured.and_then(|measured| measured.direction());
+    let elevation_deg = target.elevation_deg.or(measured.map(AzEl::elevation_deg))?;
+    let way = judged(antenna, target).map(|preview| &preview.way);
+    Some(Ghost {
+        to: AzEl::from_degrees(target.azimuth_deg, elevation_deg),
+        way: way.and_then(|way| way.as_ref().ok()).map_or(&[], |way| &way.path),
+        is_refused: way.is_some_and(Result::is_err),
+    })
+}
+
+/// What stands in the note: the sentence, and whether the antenna can be sent.
+fn found(antenna: &AntennaModel, target: Target) -> (String, bool) {
+    let has_checks = !antenna.snapshot.state.checks.is_empty();
+    if let Some(lock) = Locks::of(antenna, has_checks).track {
+        return (lock.to_owned(), false);
+    }
+    let way = match judged(antenna, target).map(|preview| &preview.way) {
+        None => return ("The way is being judged.".to_owned(), false),
+        Some(Err(refusal)) => return (words::not_possible(refusal), false),
+        Some(Ok(way)) => way,
+    };
+    let mut said = match way.arrives_s {
+        Some(seconds) => format!("Arrives in about {}.", format::duration(seconds.ceil())),
+        None => "How long it takes is not known.".to_owned(),
+    };
+    said += if way.is_round_a_corner {
+        " One axis after the other, to stay clear of what is forbidden."
+    } else {
+        " The way is clear."
+    };
+    if let Some(tracked) = antenna.tracked_name() {
+        // Writing to a string cannot fail.
+        let _ = write!(said, " It ends the track of {}.", short(tracked));
+    }
+    (said, true)
+}
+
+/// Shows the note beside the ghost at `at`; a clicked direction is confirmed in it.
+pub(super) fn note(
+    ui: &mut Ui,
+    plot: Rect,
+    at: Pos2,
+    antenna: &AntennaModel,
+    state: &mut OperateState,
+    commands: &mut Vec<UiCommand>,
+) {
+    let Some(target) = state.ghost.target() else { return };
+    let is_clicked = state.ghost.clicked.is_some();
+    let t = theme::tokens(ui);
+    let can = antenna.variant().capabilities;
+    let head = format!("{} to {}", antenna.config.name, format::pointing(pointing(target), can));
+    let (said, is_possible) = found(antenna, target);
+    let width = WIDTH - 2.0 * PADDING;
+    let layout =
+        |words: &str, font, colour| ui.painter().layout(words.to_owned(), font, colour, width);
+    let title = layout(&head, text::small_strong(), t.t1);
+    let sentence = layout(&said, text::small(), if is_possible { t.t2 } else { t.warn });
+    let buttons = if is_clicked { SMALL_HEIGHT + GAP } else { 0.0 };
+    let height = 2.0 * PADDING + title.size().y + GAP + sentence.size().y + buttons;
+    let place = beside(plot.shrink(8.0), at, vec2(WIDTH, height));
+
+    // Catches what would fall on the sky below.
+    let response = ui.interact(place, ui.make_persistent_id("ghost note"), Sense::click());
+    let spoken = format!("{head}. {said}");
+    response.widget_info(|| WidgetInfo::labeled(Role::Label, true, &spoken));
+    let edge = if is_possible { t.cmd } else { t.warn };
+    ui.painter().rect(place, 6.0, t.bg2, Stroke::new(1.0, edge), StrokeKind::Inside);
+    let top_left = place.min + vec2(PADDING, PADDING);
+    let below = top_left + vec2(0.0, title.size().y + GAP);
+    ui.painter().galley(top_left, title, t.t1);
+    ui.painter().galley(below, sentence, t.t2);
+    if !is_clicked {
+        return;
+    }
+    let row = Rect::from_min_max(
+        pos2(top_left.x, place.bottom() - PADDING - SMALL_HEIGHT),
+        place.max - vec2(PADDING, PADDING),
+    );
+    let go = Button::primary("Point here").locked(!is_possible);
+    let go_place = row.with_max_x(row.left() + go.width(ui));
+    let drop = Button::normal("Drop");
+    let drop_place = row.with_min_x(go_place.right() + GAP);
+    let drop_place = drop_place.with_max_x(drop_place.left() + drop.width(ui));
+    let go = go.show(ui, "point here", go_place);
+    let drop = drop.show(ui, "drop ghost", drop_place);
+    if is_possible && std::mem::take(&mut state.ghost.wants_focus) {
+        go.request_focus();
+    }
+    if drop.clicked() {
+        state.ghost.clicked = None;
+    }
+    if go.clicked() {
+        let Pointing { azimuth, elevation } = pointing(target);
+        commands.push(UiCommand::antenna(antenna.id(), Command::Position { azimuth, elevation }));
+        state.ghost.clicked = None;
+    }
+}
+
+/// The place of a note of `size` beside `at`: the first of four that has room in `plot`.
+fn beside(plot: Rect, at: Pos2, size: egui::Vec2) -> Rect {
+    let away = vec2(BESIDE, BESIDE);
+    let places = [
+        Rect::from_min_size(at + away, size),
+        Rect::from_min_size(pos2(at.x - away.x - size.x, at.y + away.y), size),
+        Rect::from_min_size(pos2(at.x + away.x, at.y - away.y - size.y), size),
+        Rect::from_min_size(at - away - size, size),
+    ];
+    let [first, ..] = places;
+    let inside = places.into_iter().find(|place| plot.contains_rect(*place));
+    inside.unwrap_or_else(|| {
+        let min = first.min.min(plot.max - size).max(plot.min);
+        Rect::from_min_size(min, size)
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_note_stays_in_the_plot_and_beside_the_ghost() {
+        let plot = Rect::from_min_max(pos2(100.0, 100.0), pos2(700.0, 600.0));
+        let size = vec2(WIDTH, 90.0);
+        for x in [101.0, 300.0, 520.0, 699.0] {
+            for y in [101.0, 350.0, 599.0] {
+                let place = beside(plot, pos2(x, y), size);
+                assert!(plot.contains_rect(place), "{place} of {x} {y}");
+                assert!(!place.contains(pos2(x, y)), "{place} over {x} {y}");
+            }
+        }
+    }
+}
