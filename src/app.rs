@@ -6,9 +6,11 @@
 
 mod carry_out;
 mod catalog_table;
+mod change;
 mod effects;
 mod export;
 mod intake;
+mod known;
 mod log_file;
 mod mask_file;
 mod memory;
@@ -16,28 +18,34 @@ pub mod notifier;
 
 use std::{
     io,
+    path::{Path, PathBuf},
     sync::{
-        Arc,
+        Arc, Mutex, PoisonError,
         atomic::{AtomicBool, Ordering},
     },
     time::Duration,
 };
 
 use self::{
-    catalog_table::CatalogWork, effects::EffectsJob, export::ExportWork, intake::IntakeWork,
-    log_file::LogWork, mask_file::MaskWork, memory::Keeper, notifier::Notifier,
+    catalog_table::CatalogWork,
+    change::{Change, FileDialog},
+    effects::EffectsJob,
+    export::ExportWork,
+    intake::IntakeWork,
+    known::KnownWork,
+    log_file::LogWork,
+    mask_file::MaskWork,
+    memory::Keeper,
+    notifier::Notifier,
 };
 use crate::{
     clock::Clock,
-    desktop::{Desktop, Outlets},
+    desktop::Desktop,
     device::AxisMotion,
-    driver::{Outside, TimeSync},
-    engine::{
-        self, CatalogState, Client, Handle, Settings, alarms::Alarms, antenna::AntennaModel,
-        passes::PassLists, signals,
-    },
+    driver::Outside,
+    engine::{self, Client, Handle, Settings, antenna::AntennaModel, signals},
     job::Wake,
-    model::{self, Model, UiCommand, View},
+    model::{Model, UiCommand, View},
     ui,
 };
 
@@ -49,6 +57,13 @@ pub struct App {
     model: Model,
     views: ui::Views,
     station: Handle,
+    /// Of the station in the window.
+    settings: Settings,
+    /// Folder of the list of stations, and of new ones.
+    stations_folder: Option<PathBuf>,
+    outside: Outside,
+    /// The station in the window, for the signals of the operating system.
+    client: Arc<Mutex<Client>>,
     clock: Clock,
     wake: Wake,
     effects_job: Option<EffectsJob>,
@@ -57,6 +72,10 @@ pub struct App {
     intake_work: IntakeWork,
     log_work: LogWork,
     mask_work: MaskWork,
+    known_work: KnownWork,
+    station_dialog: Option<FileDialog>,
+    /// The change to another station.
+    change: Option<Change>,
     keeper: Keeper,
     /// The set-up opens by itself where there is no station.
     opens_set_up: bool,
@@ -88,45 +107,25 @@ impl App {
         let wake = wake(ctx.clone());
         let library = settings.library_path();
         let (log_work, mask_work) = (LogWork::beside(library.clone()), MaskWork::beside(library));
-        let station = Handle::start(settings.clone(), outside, Arc::clone(&wake))?;
-        let now = clock.now();
-        let model = Model {
-            now: now.utc,
-            steady: now.steady,
-            time_sync: TimeSync::NotKnown,
-            station: Arc::default(),
-            demo: false,
-            catalog: CatalogState::Loading,
-            sources: Arc::default(),
-            intake: None,
-            older_sets: None,
-            catalog_table: model::catalog_table::CatalogTable::default(),
-            antennas: Vec::new(),
-            wires: Vec::new(),
-            selected_antenna: 0,
-            pass_lists: PassLists::default(),
-            list: keeper.memory.list,
-            selected: None,
-            sky: model::Sky::default(),
-            globe: model::globe::Globe::default(),
-            uploads: Arc::default(),
-            source_tests: Arc::default(),
-            link_tests: Arc::default(),
-            effects: model::effects::Effects::default(),
-            alarms: Alarms::default(),
-            reminders: Arc::default(),
-            outlets: Outlets::default(),
-            copies: Arc::default(),
-            view: View::Operate,
-            closing: None,
-        };
+        let station = Handle::start(settings.clone(), outside.clone(), Arc::clone(&wake))?;
+        let mut model = Model::before_anything(clock.now());
+        model.list = keeper.memory.list;
+        model.stations.open = settings.station_path();
+        let folder = model.stations.open.as_deref().and_then(Path::parent).map(Path::to_path_buf);
+        let known_work;
+        (known_work, model.stations.known) = KnownWork::beside(folder.as_deref());
+        let client = Arc::new(Mutex::new(station.client().clone()));
         let (may_close, told_to_end) = (Arc::default(), Arc::default());
         let flags = [Arc::clone(&may_close), Arc::clone(&told_to_end)];
-        close_on_signals(station.client().clone(), flags, ctx.clone())?;
+        close_on_signals(Arc::clone(&client), flags, ctx.clone())?;
         Ok(Self {
             model,
             views: ui::Views::with(keeper.memory.views),
             station,
+            settings: settings.clone(),
+            stations_folder: folder,
+            outside,
+            client,
             clock,
             wake,
             effects_job: None,
@@ -135,6 +134,9 @@ impl App {
             intake_work: IntakeWork::default(),
             log_work,
             mask_work,
+            known_work,
+            station_dialog: None,
+            change: None,
             keeper,
             opens_set_up: true,
             notifier: None,
@@ -170,7 +172,8 @@ impl App {
     }
 
     /// Takes all news since the last frame.
-    fn think(&mut self) {
+    fn think(&mut self, ctx: &egui::Context) {
+        self.work_on_change(ctx);
         let now = self.clock.now();
         (self.model.now, self.model.steady) = (now.utc, now.steady);
         // Events refer to state that is published by then.
@@ -185,14 +188,17 @@ impl App {
             if !self.model.antennas.iter().map(AntennaModel::id).eq(before) {
                 self.select_known_antenna();
             }
+            self.note_station();
         }
-        self.model.watch_station(self.station.stood_for());
+        if !self.is_between_stations() {
+            self.model.watch_station(self.station.stood_for());
+        }
         self.model.outlets = self.notifier.as_ref().map(Notifier::outlets).unwrap_or_default();
         for event in events {
             match event {
                 engine::Event::Saved(result) => self.views.saved(result),
                 engine::Event::Changed => self.views.station_changed(),
-                engine::Event::MayEnd => self.closes = true,
+                engine::Event::MayEnd => self.closes = !self.change_now(),
             }
         }
         self.look();
@@ -233,7 +239,7 @@ impl App {
 
     /// Returns `true` once, when the window closes now without a question.
     fn closes_now(&mut self) -> bool {
-        if !self.station.runs() {
+        if !self.station.runs() && !self.is_between_stations() {
             // Nothing is shown any more. The sessions carry the STOP out while they end.
             self.station.client().stop_all();
             std::panic::resume_unwind(Box::new("the station broke down".to_owned()));
@@ -276,17 +282,20 @@ impl Drop for App {
 /// Makes a log-out or Ctrl C in the terminal close the window in order, so that a jog ends
 /// with STOP.
 fn close_on_signals(
-    station: Client,
+    station: Arc<Mutex<Client>>,
     flags: [Arc<AtomicBool>; 2],
     ctx: egui::Context,
 ) -> io::Result<()> {
-    signals::watch(station, move || {
+    // No code panics while it holds the lock.
+    let stop = move || station.lock().unwrap_or_else(PoisonError::into_inner).stop_all();
+    let end = move || {
         for flag in flags {
             flag.store(true, Ordering::Relaxed);
         }
         ctx.send_viewport_cmd_to(egui::ViewportId::ROOT, egui::ViewportCommand::Close);
         ctx.request_repaint_after_for(Duration::from_millis(1), egui::ViewportId::ROOT);
-    })
+    };
+    signals::watch(stop, end)
 }
 
 /// A waker that requests a frame soon. A non-zero delay gives one frame instead of two and
@@ -299,7 +308,7 @@ fn wake(ctx: egui::Context) -> Wake {
 
 impl eframe::App for App {
     fn logic(&mut self, ctx: &egui::Context, _: &mut eframe::Frame) {
-        self.think();
+        self.think(ctx);
         if self.closes_now() {
             ctx.send_viewport_cmd_to(egui::ViewportId::ROOT, egui::ViewportCommand::Close);
         }
@@ -321,12 +330,13 @@ impl eframe::App for App {
         }
         let mut commands = Vec::new();
         let closes = ui.input(|input| input.viewport().close_requested());
-        if closes
-            && !self.may_close.load(Ordering::Relaxed)
-            && self.views.ask_before_closing(&self.model, &mut commands)
-        {
-            ui.ctx().send_viewport_cmd(egui::ViewportCommand::CancelClose);
+        if closes && !self.may_close.load(Ordering::Relaxed) && !self.is_between_stations() {
+            self.stay();
+            if self.views.ask_before_closing(&self.model, &mut commands) {
+                ui.ctx().send_viewport_cmd(egui::ViewportCommand::CancelClose);
+            }
         }
+        self.ask_before_change(&mut commands);
         self.views.show(ui, &self.model, &mut commands);
         let stops =
             |command: &UiCommand| matches!(command, UiCommand::Stop | UiCommand::StopAntenna(_));

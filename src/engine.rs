@@ -19,6 +19,7 @@ mod lock_outs;
 pub mod notices;
 pub mod older_sets;
 pub mod on_board;
+mod opening;
 mod owed;
 pub mod passes;
 pub mod reminders;
@@ -66,6 +67,7 @@ use self::{
 pub use self::{
     command::{Attention, Command},
     handle::{Client, Event, Handle, Stopped},
+    opening::{CannotOpen, look_at},
     snapshot::{CatalogState, Snapshot},
 };
 use crate::{

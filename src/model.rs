@@ -10,6 +10,7 @@ pub mod globe;
 pub mod intake;
 mod line;
 pub mod object_detail;
+mod stations;
 mod theme_name;
 
 use std::{path::PathBuf, sync::Arc, time::Duration};
@@ -24,11 +25,12 @@ use self::{
 pub use self::{
     command::UiCommand,
     line::{ConsoleLine, Piece, pieces},
+    stations::{KnownStation, NextStation, Stations},
     theme_name::ThemeName,
 };
 use crate::{
     astro::{AzEl, HorizonMask, MaskForm, Site, sun_moon},
-    clock::Instant,
+    clock::{Instant, Moment},
     desktop::Outlets,
     driver::{TimeSync, WireLog},
     engine::{
@@ -97,6 +99,8 @@ pub struct Model {
     pub station: Arc<Station>,
     /// The station is the demo station with simulated antennas.
     pub demo: bool,
+    /// The stations of the station menu.
+    pub stations: Stations,
     pub catalog: CatalogState,
     /// The sources of elements.
     pub sources: Arc<Sources>,
@@ -177,6 +181,41 @@ pub struct Selected {
 }
 
 impl Model {
+    /// The model of a station that has told nothing yet.
+    pub fn before_anything(now: Moment) -> Self {
+        Self {
+            now: now.utc,
+            steady: now.steady,
+            time_sync: TimeSync::NotKnown,
+            station: Arc::default(),
+            demo: false,
+            stations: Stations::default(),
+            catalog: CatalogState::Loading,
+            sources: Arc::default(),
+            intake: None,
+            older_sets: None,
+            catalog_table: CatalogTable::default(),
+            antennas: Vec::new(),
+            wires: Vec::new(),
+            selected_antenna: 0,
+            pass_lists: PassLists::default(),
+            list: ListChoice::default(),
+            selected: None,
+            sky: Sky::default(),
+            globe: Globe::default(),
+            uploads: Arc::default(),
+            source_tests: Arc::default(),
+            link_tests: Arc::default(),
+            effects: Effects::default(),
+            alarms: Alarms::default(),
+            reminders: Arc::default(),
+            outlets: Outlets::default(),
+            copies: Arc::default(),
+            view: View::Operate,
+            closing: None,
+        }
+    }
+
     /// The selected antenna.
     pub fn antenna(&self) -> Option<&AntennaModel> {
         self.antennas.get(self.selected_antenna)

@@ -49,6 +49,7 @@ mod shown_as_it_is;
 mod sky;
 mod source_tests;
 mod states;
+mod stations;
 mod step;
 mod stop;
 mod unit;

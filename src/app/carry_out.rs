@@ -81,6 +81,10 @@ impl App {
                 self.send(Command::ListOlderSets(number));
             }
             UiCommand::Save(export) => self.save_export(export),
+            UiCommand::ChooseStation(next) => self.choose_station(next),
+            UiCommand::ChooseStationFile => self.choose_station_file(),
+            UiCommand::ChangeNow => drop(self.change_now()),
+            UiCommand::KeepStation => self.stay(),
             UiCommand::ImportMask(path) => self.import_mask(path),
             UiCommand::ExportMask(mask) => self.export_mask(&mask),
             UiCommand::Station(command) => self.send(command),

@@ -18,6 +18,8 @@ use crate::{
     whole_file,
 };
 
+/// Usual name of the file.
+const FILE: &str = "window.toml";
 /// Maximum wait for the last write at the end of the program.
 const FAREWELL: Duration = Duration::from_millis(500);
 
@@ -74,6 +76,11 @@ impl Memory {
                 map_layers: map_layers(table.get("map_layers").and_then(toml::Value::as_table)),
             },
         }
+    }
+
+    /// Without what belongs to one station alone.
+    fn of_another_station(self) -> Self {
+        Self { antenna: None, ..self }
     }
 
     fn to_toml(&self) -> Result<String, toml::ser::Error> {
@@ -147,6 +154,20 @@ fn word<T: Default + DeserializeOwned>(table: &toml::Table, key: &str) -> T {
     table.get(key).and_then(|value| value.clone().try_into().ok()).unwrap_or_default()
 }
 
+/// File with the memory of the station in `station`: that of `station.toml` has a name of its own,
+/// that of `hill.toml` is `hill.window.toml`.
+fn memory_path(station: &Path) -> PathBuf {
+    match station.file_stem() {
+        Some(stem) if stem != "station" => {
+            let mut name = stem.to_owned();
+            name.push(".");
+            name.push(FILE);
+            station.with_file_name(name)
+        }
+        _ => station.with_file_name(FILE),
+    }
+}
+
 /// The memory, its file and a running write.
 pub(super) struct Keeper {
     /// The kept state.
@@ -157,10 +178,16 @@ pub(super) struct Keeper {
 }
 
 impl Keeper {
-    /// The memory of a station file; without a station file nothing is kept.
+    /// The memory of a station file; without a station file nothing is kept. A station without a
+    /// memory of its own begins as the usual one beside it looks.
     pub(super) fn beside(station: Option<&Path>) -> Self {
-        let path = station.map(|station| station.with_file_name("window.toml"));
-        let memory = path.as_deref().map(Memory::read).unwrap_or_default();
+        let path = station.map(memory_path);
+        let usual = station.map(|station| station.with_file_name(FILE));
+        let memory = match (path.as_deref(), usual.as_deref()) {
+            (Some(path), Some(usual)) if !path.exists() => Memory::read(usual).of_another_station(),
+            (Some(path), _) => Memory::read(path),
+            (None, _) => Memory::default(),
+        };
         Self { written: memory.clone(), memory, path, job: None }
     }
 
@@ -244,6 +271,22 @@ mod tests {
         first.keep(&silent());
         first.finish(&silent());
         assert_eq!(keeper(&folder).memory, other());
+    }
+
+    #[test]
+    fn each_station_has_a_memory_of_its_own_and_begins_as_the_usual_one_looks() {
+        let folder = tempfile::tempdir().unwrap();
+        let at = |name: &str| Keeper::beside(Some(&folder.path().join(name)));
+        let mut usual = at("station.toml");
+        usual.memory = other();
+        usual.finish(&silent());
+        let mut hill = at("hill.toml");
+        assert_eq!(hill.memory, Memory { antenna: None, ..other() });
+        hill.memory = Memory { theme: ThemeName::Light, ..Memory::default() };
+        hill.finish(&silent());
+        assert!(folder.path().join("hill.window.toml").exists());
+        assert_eq!(at("hill.toml").memory.theme, ThemeName::Light);
+        assert_eq!(at("station.toml").memory, other());
     }
 
     #[test]

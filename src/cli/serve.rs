@@ -136,9 +136,13 @@ pub(super) fn run(
     )?;
     drop(wake);
     Notifier::start(station.client().clone(), Desktop::default(), Arc::new(|| {}))?;
-    signals::watch(station.client().clone(), move || {
-        let _ = end.send(Wake::End);
-    })?;
+    let client = station.client().clone();
+    signals::watch(
+        move || client.stop_all(),
+        move || {
+            let _ = end.send(Wake::End);
+        },
+    )?;
     let ended = until_the_end(station, &woken, &mut |told: &Told| lines.say(&told.line(format)));
     lines.finish();
     if ended.broke_down {

@@ -2,7 +2,7 @@
 
 use std::{
     panic::{self, AssertUnwindSafe},
-    path::PathBuf,
+    path::{Path, PathBuf},
 };
 
 use anyhow::{anyhow, bail};
@@ -32,8 +32,9 @@ pub(super) fn run(station: Option<PathBuf>, demo: bool) -> anyhow::Result<()> {
              Start it in a desktop session."
         );
     }
+    let folder = station::settings_path().and_then(|path| path.parent().map(Path::to_path_buf));
     let settings = Settings {
-        path: if demo { station::free_path() } else { station },
+        path: if demo { folder.as_deref().map(station::free_path) } else { station },
         dead_man: this_program(),
         marks: marks(),
         claims: claims_folder().map(|folder| (folder, HolderKind::Window)),
@@ -62,7 +63,11 @@ pub(super) fn run(station: Option<PathBuf>, demo: bool) -> anyhow::Result<()> {
             "Azel",
             options,
             Box::new(move |cc| {
-                let app = App::new(&cc.egui_ctx, &settings, Clock::system())?.with_notifier()?;
+                let mut app =
+                    App::new(&cc.egui_ctx, &settings, Clock::system())?.with_notifier()?;
+                if let Some(folder) = folder {
+                    app = app.with_stations_in(folder);
+                }
                 Ok(Box::new(if demo { app.without_set_up() } else { app }))
             }),
         )

@@ -1,7 +1,7 @@
 //! The file dialogs of the desktop. They return once the operator has chosen: they are for
 //! threads that nobody waits for.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 /// Nothing on this computer shows a dialog.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
@@ -14,6 +14,15 @@ pub struct NoDialog;
 pub fn files_to_open(title: &str) -> Result<Vec<PathBuf>, NoDialog> {
     let dialog = dialog(title)?;
     Ok(dialog.pick_files().unwrap_or_default())
+}
+
+/// Asks for one file to open, beginning in `folder`; `None` after Cancel.
+pub fn file_to_open(title: &str, folder: Option<&Path>) -> Result<Option<PathBuf>, NoDialog> {
+    let dialog = dialog(title)?;
+    Ok(match folder {
+        Some(folder) => dialog.set_directory(folder).pick_file(),
+        None => dialog.pick_file(),
+    })
 }
 
 /// Asks where to save a file, which is called `name` unless the operator calls it otherwise;

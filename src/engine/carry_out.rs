@@ -285,9 +285,10 @@ impl Engine {
                 Err(format!("it is open in {by}: save it there, or close it there first"))
             }
             // What stands there by now is somebody's station, not what the operator has seen.
-            Some(path) if self.demo.is_some() && path.exists() => {
-                Err(format!("there is a station by now, from elsewhere: {}", path.display()))
-            }
+            Some(path) if self.demo.is_some() && path.exists() => Err(format!(
+                "there is a station by now, from elsewhere: open it in the station menu: {}",
+                path.display()
+            )),
             Some(path) => station::save(&station, path).map_err(|error| error.to_string()),
             None => Err("this user has no folder for settings".to_owned()),
         };

@@ -99,8 +99,7 @@ impl Claims {
 
     /// Claims the station file at `path`.
     pub(super) fn station(&self, path: &Path) -> Result<Claim, Unclaimed> {
-        let name = lock_name("station", whole_path(path).to_string_lossy().as_bytes());
-        self.claim(name, None)
+        self.claim(station_lock(path), None)
     }
 
     /// Claims the unit of `antenna`.
@@ -122,12 +121,7 @@ impl Claims {
         let mut file = options.open(self.folder.join(&name)).map_err(Unclaimed::Io)?;
         match file.try_lock() {
             Ok(()) => {}
-            Err(TryLockError::WouldBlock) => {
-                let mut text = String::new();
-                // The claim is held even if the holder's text cannot be read.
-                let _ = file.read_to_string(&mut text);
-                return Err(Unclaimed::Held(HeldBy(serde_json::from_str(&text).ok())));
-            }
+            Err(TryLockError::WouldBlock) => return Err(Unclaimed::Held(held_by(&mut file))),
             Err(TryLockError::Error(error)) => return Err(Unclaimed::Io(error)),
         }
         let me = Holder {
@@ -144,6 +138,23 @@ impl Claims {
         held.insert(name, Arc::downgrade(&claim));
         Ok(claim)
     }
+}
+
+/// The other Azel that holds the station file at `path`, if any does.
+pub(super) fn holder_of_station(folder: &Path, path: &Path) -> Option<HeldBy> {
+    let mut file = File::open(folder.join(station_lock(path))).ok()?;
+    match file.try_lock_shared() {
+        Err(TryLockError::WouldBlock) => Some(held_by(&mut file)),
+        Ok(()) | Err(TryLockError::Error(_)) => None,
+    }
+}
+
+/// The holder that `file` tells of.
+fn held_by(file: &mut File) -> HeldBy {
+    let mut text = String::new();
+    // The claim is held even if the holder's text cannot be read.
+    let _ = file.read_to_string(&mut text);
+    HeldBy(serde_json::from_str(&text).ok())
 }
 
 /// Socket of the holder of the station file at `path`. It has a name in a folder of its
@@ -170,6 +181,10 @@ fn whole_path(path: &Path) -> PathBuf {
         Ok::<_, io::Error>(folder.join(path.file_name().unwrap_or_default()))
     });
     whole.unwrap_or_else(|_| path.to_owned())
+}
+
+fn station_lock(path: &Path) -> String {
+    lock_name("station", whole_path(path).to_string_lossy().as_bytes())
 }
 
 fn lock_name(kind: &str, of: &[u8]) -> String {
@@ -203,11 +218,15 @@ mod tests {
             panic!("free")
         };
         assert_eq!((holder.kind, holder.process), (HolderKind::Serve, std::process::id()));
+        let run = folder.path().join("run");
+        assert_eq!(holder_of_station(&run, &path), Some(HeldBy(Some(holder))));
+        assert_eq!(holder_of_station(&run, &folder.path().join("other.toml")), None);
         // The holder may claim again, and holds it until the last clone is gone.
         let again = first.station(&path).ok().unwrap();
         drop(held);
         assert!(second.station(&path).is_err());
         drop(again);
+        assert_eq!(holder_of_station(&run, &path), None);
         assert!(second.station(&path).is_ok());
     }
 

@@ -2,7 +2,10 @@
 
 use std::{
     io,
-    sync::{Arc, Mutex, MutexGuard, PoisonError, mpsc::RecvTimeoutError},
+    sync::{
+        Arc, Mutex, MutexGuard, PoisonError,
+        mpsc::{RecvTimeoutError, TryRecvError},
+    },
     time::Duration,
 };
 
@@ -228,6 +231,7 @@ impl Handle {
         let runtime = tokio::runtime::Builder::new_current_thread().enable_time().build()?;
         let weak = requests.downgrade();
         std::thread::Builder::new().name("azel-station".to_owned()).spawn(move || {
+            let at_end = Arc::clone(&wake);
             let outbox = super::Outbox { events: tell, wake };
             match Engine::new(&settings, outside, outbox, weak) {
                 Ok((engine, client)) => {
@@ -238,6 +242,7 @@ impl Handle {
                 Err(error) => drop(begun.send(Err(error))),
             }
             let _ = tell_ended.send(());
+            at_end();
         })?;
         let gone = |_| io::Error::other("the station broke down");
         let client = begin.recv().map_err(gone)??;
@@ -298,6 +303,11 @@ impl Handle {
     pub fn begin_end(&mut self) {
         let (closed, _) = mpsc::channel(1);
         self.requests = closed;
+    }
+
+    /// Returns `true` once a station that was to end has done so.
+    pub fn has_ended(&self) -> bool {
+        self.ended.try_recv() != Err(TryRecvError::Empty)
     }
 }
 

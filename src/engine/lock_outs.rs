@@ -32,6 +32,10 @@ impl Engine {
         let config = &antenna.shown.config;
         let (name, connection) = (config.name.clone(), config.connection.clone());
         let is_locked = lock_out.is_some();
+        if self.demo.is_none() {
+            // Another Azel may have written the list, for another station beside this one.
+            self.load_lock_outs();
+        }
         let station = Arc::clone(&self.station);
         let all = station.antennas.iter().map(|antenna| &antenna.connection);
         self.lock_outs.set(&connection, lock_out, all);

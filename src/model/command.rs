@@ -3,7 +3,8 @@
 use std::{path::PathBuf, sync::Arc};
 
 use super::{
-    ConsoleLine, Model, ThemeName, View, catalog_table, effects, export::Export, intake::Offer,
+    ConsoleLine, Model, NextStation, ThemeName, View, catalog_table, effects, export::Export,
+    intake::Offer,
 };
 use crate::{
     astro::HorizonMask,
@@ -26,6 +27,14 @@ pub enum UiCommand {
     Station(engine::Command),
     /// Close the window at once.
     Close,
+    /// Change the station of the window.
+    ChooseStation(NextStation),
+    /// Change to the station whose file the operator chooses in the dialog of the desktop.
+    ChooseStationFile,
+    /// Change to the station that the operator was asked about.
+    ChangeNow,
+    /// Stay with the station in the window.
+    KeepStation,
     SelectPass(PassKey),
     /// Show the present or next pass of this satellite.
     SelectSatellite(u32),

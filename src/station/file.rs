@@ -13,6 +13,9 @@ use crate::whole_file;
 /// Version that this program writes. A file of a later one is left alone.
 const VERSION: i64 = 1;
 
+/// Usual name of a station file.
+const FILE: &str = "station.toml";
+
 /// A station file that was read.
 #[derive(Debug)]
 pub struct Loaded {
@@ -56,19 +59,14 @@ pub enum SaveError {
 
 /// Path of this user's station file; `None` on a machine without a home.
 pub fn settings_path() -> Option<PathBuf> {
-    directories::ProjectDirs::from("", "", "azel")
-        .map(|dirs| dirs.config_dir().join("station.toml"))
+    directories::ProjectDirs::from("", "", "azel").map(|dirs| dirs.config_dir().join(FILE))
 }
 
-/// Path for one more station file of this user, beside the usual one; there is no file yet.
-pub fn free_path() -> Option<PathBuf> {
-    settings_path().map(|usual| free_beside(&usual))
-}
-
-fn free_beside(usual: &Path) -> PathBuf {
-    let mut numbered = (2..).map(|number| usual.with_file_name(format!("station-{number}.toml")));
+/// Path in `folder` for one more station file; there is no file yet.
+pub fn free_path(folder: &Path) -> PathBuf {
+    let usual = folder.join(FILE);
+    let mut numbered = (2..).map(|number| folder.join(format!("station-{number}.toml")));
     let is_free = |path: &PathBuf| !path.exists();
-    let usual = usual.to_owned();
     if is_free(&usual) { usual } else { numbered.find(is_free).unwrap_or(usual) }
 }
 
@@ -114,9 +112,8 @@ mod tests {
     #[test]
     fn one_more_station_takes_no_name_that_is_in_use() {
         let folder = tempfile::tempdir().unwrap();
-        let usual = folder.path().join("station.toml");
         for name in ["station.toml", "station-2.toml", "station-3.toml"] {
-            let free = free_beside(&usual);
+            let free = free_path(folder.path());
             assert_eq!(free, folder.path().join(name));
             fs::write(&free, "").unwrap();
         }

@@ -57,6 +57,7 @@ pub fn show(ui: &mut Ui, rect: Rect, model: &Model, commands: &mut Vec<UiCommand
     let bar = TopBarModel {
         station: &model.station.name,
         demo: model.demo,
+        stations: &model.stations,
         coordinates: &coordinates,
         clock: ClockModel {
             utc: &utc,

@@ -1,5 +1,6 @@
 //! Modal questions. Esc says no, and is also STOP, as everywhere.
 
+pub mod changing;
 pub mod closing;
 mod maintenance;
 mod password;

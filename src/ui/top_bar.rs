@@ -15,7 +15,7 @@ use super::{
         stop_button::{self, StopLook},
     },
 };
-use crate::model::UiCommand;
+use crate::model::{Stations, UiCommand};
 pub use clock::{ClockHealth, ClockModel, ClockMood};
 
 /// Height of the bar.
@@ -35,6 +35,8 @@ pub struct TopBarModel<'a> {
     pub station: &'a str,
     /// The station is the demo station.
     pub demo: bool,
+    /// Stations to change to.
+    pub stations: &'a Stations,
     /// Coordinates of the station.
     pub coordinates: &'a str,
     /// Times and date.

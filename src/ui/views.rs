@@ -9,7 +9,10 @@ use super::{
     antennas, banner, bar,
     confirm::Question,
     console,
-    dialogs::closing::{self, ClosingDialog},
+    dialogs::{
+        changing,
+        closing::{self, ClosingDialog},
+    },
     elements,
     icons::Icon,
     keys::{self, KeyTargets},
@@ -167,6 +170,7 @@ impl Views {
         Question::show(&mut self.question, ui, commands);
         ClosingDialog::show(&mut self.closing, ui, model, commands);
         closing::waiting(ui, model, commands);
+        changing::show(ui, model, commands);
         let is_manual = |command: &UiCommand| {
             matches!(command, UiCommand::Station(engine::Command::Antenna(_, Command::Manual)))
         };
@@ -176,8 +180,8 @@ impl Views {
         keys::list::show(ui, &mut self.keys_open);
     }
 
-    /// Asks before the window closes if something would be lost with it, or closes it in the way
-    /// set for the station. Returns `true` if the window must stay open until then.
+    /// Asks before the window closes or changes to another station if something would be lost with
+    /// it, or ends the station in the way set for it. Returns `true` if that has to wait.
     pub fn ask_before_closing(&mut self, model: &Model, commands: &mut Vec<UiCommand>) -> bool {
         let mut lost = Vec::new();
         match self.antennas.edited(model) {
@@ -195,7 +199,7 @@ impl Views {
             lost.push("An upload is under way.".to_owned());
         }
         if closing::stakes(model).is_empty() {
-            return self.ask_about_lost(&lost, commands);
+            return self.ask_about_lost(&lost, model, commands);
         }
         self.operate.leave_card(commands);
         self.question = None;
@@ -208,13 +212,22 @@ impl Views {
         true
     }
 
-    fn ask_about_lost(&mut self, lost: &[String], commands: &mut Vec<UiCommand>) -> bool {
+    fn ask_about_lost(
+        &mut self,
+        lost: &[String],
+        model: &Model,
+        commands: &mut Vec<UiCommand>,
+    ) -> bool {
         if lost.is_empty() {
             return false;
         }
         self.operate.leave_card(commands);
-        let text = format!("{} Close all the same?", lost.join(" "));
-        self.question = Some(Question { text, yes: "Close", command: UiCommand::Close });
+        let (yes, command) = match model.stations.next {
+            None => ("Close", UiCommand::Close),
+            Some(_) => ("Change", UiCommand::ChangeNow),
+        };
+        let text = format!("{} {yes} all the same?", lost.join(" "));
+        self.question = Some(Question { text, yes, command });
         true
     }
 

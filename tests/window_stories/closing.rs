@@ -111,7 +111,7 @@ fn antennas_that_move_or_are_tracked_are_asked_about_by_name() {
                 "Satrak tracks NOAA 20 by itself.",
                 "RC2000C was moved and is not known to stand.",
                 "STOP goes to Satrak and RC2000C first.",
-                "Satrak to the park position; the window stays until then.",
+                "Satrak to the park position; all stays until then.",
                 "Satrak left to track; nobody here watches. STOP goes to the others first.",
             ] {
                 assert!(rig::says(&window, told), "{told}");

@@ -19,7 +19,7 @@ use azel::{
         passes::{ListChoice, ListedSatellite, Observer, PassLists, PredictedPass},
     },
     model::{
-        Model, Sky, ThemeName, UiCommand, View,
+        Model, Sky, Stations, ThemeName, UiCommand, View,
         catalog_table::{Answer, CatalogTable, arrange},
         effects::Effects,
         globe::Globe,
@@ -148,6 +148,7 @@ pub(crate) fn model(mut snapshot: Snapshot) -> Model {
         time_sync: TimeSync::Synchronised,
         station: Arc::new(station),
         demo: false,
+        stations: Stations::default(),
         catalog: CatalogState::Ready(Arc::clone(&orbits.catalog)),
         sources: Arc::default(),
         intake: None,

@@ -39,7 +39,7 @@ impl ClosingDialog {
         let Some(open) = dialog else { return };
         let modal = Modal::new(Id::unique("closing")).show(ui.ctx(), |ui| {
             ui.set_width(WIDTH);
-            ui.label(RichText::new("Close Azel?").font(text::value()));
+            ui.label(RichText::new(title(model)).font(text::value()));
             for words in stakes(model) {
                 line(ui, Tone::Caution, &words);
             }
@@ -48,12 +48,13 @@ impl ClosingDialog {
             }
             ui.add_space(4.0);
             let mut answer = None;
-            for (word, about, how) in answers(model) {
-                if answer_key(ui, word, &about) {
+            let verb = if model.stations.next.is_some() { "Change" } else { "Close" };
+            for (rest, about, how) in answers(model) {
+                if answer_key(ui, &format!("{verb} {rest}"), &about) {
                     answer = Some(Some(how));
                 }
             }
-            if answer_key(ui, "Stay", "Nothing is sent, the window stays.") {
+            if answer_key(ui, "Stay", "Nothing is sent, all stays as it is.") {
                 answer = Some(None);
             }
             answer
@@ -68,18 +69,25 @@ impl ClosingDialog {
     }
 }
 
+fn title(model: &Model) -> String {
+    model
+        .stations
+        .next
+        .as_ref()
+        .map_or("Close Azel?".to_owned(), |next| format!("Change to {next}?"))
+}
+
 /// The offered answers, and the effect of each.
 fn answers(model: &Model) -> Vec<(&'static str, String, CloseHow)> {
     let staked = || model.antennas.iter().filter_map(|of| Some((of, of.stake()?)));
     let names = |of: Vec<&str>| format::list(&of);
     let all = names(staked().map(|(of, _)| of.config.name.as_str()).collect());
-    let mut answers =
-        vec![("Close and hold", format!("STOP goes to {all} first."), CloseHow::Hold)];
+    let mut answers = vec![("and hold", format!("STOP goes to {all} first."), CloseHow::Hold)];
     let parked: Vec<&str> =
         staked().filter(|(of, _)| of.can_park()).map(|(of, _)| of.config.name.as_str()).collect();
     if !parked.is_empty() {
-        let about = format!("{} to the park position; the window stays until then.", names(parked));
-        answers.push(("Close and park", about, CloseHow::Park));
+        let about = format!("{} to the park position; all stays until then.", names(parked));
+        answers.push(("and park", about, CloseHow::Park));
     }
     let on_board = |stake: &Stake| matches!(stake, Stake::OnBoard(_));
     let left: Vec<&str> = staked()
@@ -90,7 +98,7 @@ fn answers(model: &Model) -> Vec<(&'static str, String, CloseHow)> {
         let others = staked().any(|(_, stake)| !on_board(&stake));
         let others = if others { " STOP goes to the others first." } else { "" };
         let about = format!("{} left to track; nobody here watches.{others}", names(left));
-        answers.push(("Close and let it finish", about, CloseHow::Leave));
+        answers.push(("and let it finish", about, CloseHow::Leave));
     }
     answers
 }
@@ -117,7 +125,9 @@ pub fn waiting(ui: &Ui, model: &Model, commands: &mut Vec<UiCommand>) {
     };
     let modal = Modal::new(Id::unique("closing waits")).show(ui.ctx(), |ui| {
         ui.set_width(WIDTH);
-        ui.label(RichText::new("Azel closes").font(text::value()));
+        let next = model.stations.next.as_ref();
+        let title = next.map_or("Azel closes".to_owned(), |next| format!("Azel changes to {next}"));
+        ui.label(RichText::new(title).font(text::value()));
         for (wanted, words) in
             [(Wanted::Still, "once it is proved to stand"), (Wanted::Parked, "once it is parked")]
         {

@@ -4,7 +4,7 @@ use egui::{Align2, Button, Popup, Rect, Role, Ui, pos2, vec2};
 
 use super::TopBarModel;
 use crate::{
-    model::{ThemeName, UiCommand, View},
+    model::{NextStation, ThemeName, UiCommand, View},
     ui::{
         icons::{self, Icon},
         text::{self, Weight},
@@ -47,17 +47,19 @@ pub(super) fn show(
     icons::paint(ui.painter(), paint::square(at, 14.0), Icon::ChevronDown, t.t2);
     paint::focus_ring(ui, &response, 5);
     Popup::menu(&response).width(180.0).accessible_name("Station menu").show(|ui| {
-        menu(ui, model.demo, commands);
+        menu(ui, model, commands);
     });
 }
 
-fn menu(ui: &mut Ui, demo: bool, commands: &mut Vec<UiCommand>) {
+fn menu(ui: &mut Ui, model: &TopBarModel<'_>, commands: &mut Vec<UiCommand>) {
     if ui.button("Station settings…").clicked() {
         commands.push(UiCommand::Show(View::Preferences));
     }
-    if demo && ui.button("Set up your station…").clicked() {
+    if model.demo && ui.button("Set up your station…").clicked() {
         commands.push(UiCommand::Show(View::Setup));
     }
+    ui.separator();
+    stations(ui, model, commands);
     ui.separator();
     let shown = theme::name(ui);
     for (theme, word) in [
@@ -68,5 +70,26 @@ fn menu(ui: &mut Ui, demo: bool, commands: &mut Vec<UiCommand>) {
         if ui.add(Button::selectable(shown == theme, word)).clicked() {
             commands.push(UiCommand::SetTheme(theme));
         }
+    }
+}
+
+/// The other stations. The one in the window is marked, and a click on it changes nothing.
+fn stations(ui: &mut Ui, model: &TopBarModel<'_>, commands: &mut Vec<UiCommand>) {
+    for known in &model.stations.known {
+        let is_open = !model.demo && model.stations.open.as_ref() == Some(&known.path);
+        let entry = ui.add(Button::selectable(is_open, model.stations.label(known)).truncate());
+        if entry.on_hover_text(known.path.display().to_string()).clicked() && !is_open {
+            let next = NextStation::File(known.path.clone());
+            commands.push(UiCommand::ChooseStation(next));
+        }
+    }
+    if ui.add(Button::selectable(model.demo, "Demo station")).clicked() && !model.demo {
+        commands.push(UiCommand::ChooseStation(NextStation::Demo));
+    }
+    if !model.demo && ui.button("New station…").clicked() {
+        commands.push(UiCommand::ChooseStation(NextStation::New));
+    }
+    if ui.button("Open…").clicked() {
+        commands.push(UiCommand::ChooseStationFile);
     }
 }

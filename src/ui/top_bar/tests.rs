@@ -44,6 +44,7 @@ fn chip(name: &str, link: LinkGlyph) -> ChipModel<'_> {
 }
 
 fn show_bar(ui: &mut Ui, stop: StopLook<'_>) -> Vec<UiCommand> {
+    let stations = Stations::default();
     let window = ui.ctx().content_rect();
     let rect = Rect::from_min_size(window.min, vec2(window.width(), height(window.height())));
     let chips = [
@@ -54,6 +55,7 @@ fn show_bar(ui: &mut Ui, stop: StopLook<'_>) -> Vec<UiCommand> {
     let model = TopBarModel {
         station: "Şile 1",
         demo: false,
+        stations: &stations,
         coordinates: "41.176° N  29.613° E",
         clock: ClockModel {
             utc: "11:06:12",

@@ -1,0 +1,270 @@
+//! Changes the station of the window. The file of the next station is looked at first, and a
+//! station that cannot be opened changes nothing. Then the operator is asked what closing the
+//! window would ask; the old station ends, and the next one begins.
+
+use std::{
+    io,
+    path::{Path, PathBuf},
+    sync::{Arc, PoisonError},
+};
+
+use super::{App, Keeper, KnownWork, LogWork, MaskWork, Notifier};
+use crate::{
+    desktop::{
+        Desktop,
+        file_dialog::{self, NoDialog},
+    },
+    engine::{self, CannotOpen, Handle, Settings, look_at},
+    job::{Job, Wake},
+    model::{KnownStation, Model, NextStation, UiCommand},
+    station, ui,
+};
+
+/// A station that can be opened.
+pub(super) struct Target {
+    name: String,
+    settings: Settings,
+    opens_set_up: bool,
+}
+
+/// Why a station that was chosen is not opened.
+pub(super) struct Refused {
+    path: PathBuf,
+    why: CannotOpen,
+}
+
+/// How far a change of the station has got.
+pub(super) enum Change {
+    Looking(Job<Result<Target, Refused>>),
+    /// The operator is to be asked.
+    Found(Target),
+    /// The operator is asked, or the antennas are brought to rest.
+    Asked(Target),
+    /// The old station ends.
+    Ending(Target),
+    Starting {
+        job: Job<io::Result<(Handle, Keeper)>>,
+        settings: Settings,
+        opens_set_up: bool,
+    },
+}
+
+/// The dialog of the desktop that asks for a station file.
+pub(super) type FileDialog = Job<Result<Option<PathBuf>, NoDialog>>;
+
+impl App {
+    /// Keeps the list of stations, and files of new ones, in `folder` instead of the folder of the
+    /// present one.
+    #[must_use]
+    pub fn with_stations_in(mut self, folder: PathBuf) -> Self {
+        (self.known_work, self.model.stations.known) = KnownWork::beside(Some(&folder));
+        self.stations_folder = Some(folder);
+        self
+    }
+
+    /// Looks at the station that the operator has chosen.
+    pub(super) fn choose_station(&mut self, next: NextStation) {
+        if self.is_between_stations() {
+            return;
+        }
+        let (settings, folder) = (self.settings.clone(), self.stations_folder.clone());
+        let work = move |_: &(dyn Fn() -> bool + Sync)| look(next, settings, folder.as_deref());
+        match Job::start("azel-station-look", Arc::clone(&self.wake), work) {
+            Ok(job) => self.change = Some(Change::Looking(job)),
+            Err(error) => tracing::error!(%error, "no thread to look at the station"),
+        }
+    }
+
+    /// Shows the dialog of the desktop, one at a time.
+    pub(super) fn choose_station_file(&mut self) {
+        if self.station_dialog.is_some() {
+            return;
+        }
+        let folder = self.stations_folder.clone();
+        let job = Job::start("azel-file-dialog", Arc::clone(&self.wake), move |_| {
+            file_dialog::file_to_open("Station file", folder.as_deref())
+        });
+        let job = job.inspect_err(|error| tracing::error!(%error, "no thread for the dialog"));
+        self.station_dialog = job.ok();
+    }
+
+    /// Takes the change as far as it goes by itself.
+    pub(super) fn work_on_change(&mut self, ctx: &egui::Context) {
+        match Job::take(&mut self.station_dialog) {
+            Some(Ok(Ok(Some(path)))) => self.choose_station(NextStation::File(path)),
+            Some(Ok(Err(error))) => self.model.stations.refused = Some(error.to_string()),
+            _ => {}
+        }
+        self.change = match self.change.take() {
+            Some(Change::Looking(job)) => self.take_look(job),
+            Some(Change::Ending(target)) if self.station.has_ended() => self.start(target),
+            Some(Change::Starting { job, settings, opens_set_up }) => {
+                let mut job = Some(job);
+                match Job::take(&mut job) {
+                    None => job.map(|job| Change::Starting { job, settings, opens_set_up }),
+                    Some(Ok(Ok((station, keeper)))) => {
+                        self.use_station(station, keeper, settings, ctx);
+                        self.opens_set_up = opens_set_up;
+                        None
+                    }
+                    Some(Ok(Err(error))) => broke_down(&error.to_string()),
+                    Some(Err(broke_off)) => broke_down(&broke_off.to_string()),
+                }
+            }
+            change => change,
+        };
+        self.model.stations.is_changing = self.is_between_stations();
+    }
+
+    fn take_look(&mut self, job: Job<Result<Target, Refused>>) -> Option<Change> {
+        let mut job = Some(job);
+        match Job::take(&mut job) {
+            None => return job.map(Change::Looking),
+            Some(Ok(Ok(target))) => return Some(Change::Found(target)),
+            Some(Ok(Err(Refused { path, why }))) => {
+                tracing::warn!("a station is not opened: {why}");
+                self.model.stations.refused = Some(why.to_string());
+                if matches!(why, CannotOpen::Missing(_)) {
+                    let known = &mut self.model.stations.known;
+                    self.known_work.forget(path, known, &self.wake);
+                }
+            }
+            Some(Err(broke_off)) => self.model.stations.refused = Some(broke_off.to_string()),
+        }
+        None
+    }
+
+    /// Asks what the change would cost, once the next station can be opened.
+    pub(super) fn ask_before_change(&mut self, commands: &mut Vec<UiCommand>) {
+        self.change = match self.change.take() {
+            Some(Change::Found(target)) => {
+                self.model.stations.next = Some(target.name.clone());
+                if self.views.ask_before_closing(&self.model, commands) {
+                    Some(Change::Asked(target))
+                } else {
+                    Some(self.end_old(target))
+                }
+            }
+            change => change,
+        };
+    }
+
+    /// The operator agrees, and the antennas are at rest as they were wanted. Returns whether a
+    /// change was waiting for that.
+    pub(super) fn change_now(&mut self) -> bool {
+        match self.change.take() {
+            Some(Change::Asked(target)) => {
+                self.change = Some(self.end_old(target));
+                true
+            }
+            change => {
+                self.change = change;
+                false
+            }
+        }
+    }
+
+    /// The station in the window stays.
+    pub(super) fn stay(&mut self) {
+        if !self.is_between_stations() {
+            self.change = None;
+            self.model.stations.next = None;
+        }
+        self.model.stations.refused = None;
+    }
+
+    /// There is no station in the window that could be asked anything.
+    pub(super) fn is_between_stations(&self) -> bool {
+        matches!(self.change, Some(Change::Ending(_) | Change::Starting { .. }))
+    }
+
+    fn end_old(&mut self, target: Target) -> Change {
+        self.model.stations.is_changing = true;
+        self.remember();
+        self.station.begin_end();
+        Change::Ending(target)
+    }
+
+    fn start(&mut self, target: Target) -> Option<Change> {
+        let Target { settings, opens_set_up, .. } = target;
+        let (of_station, outside) = (settings.clone(), self.outside.clone());
+        let wake = Arc::clone(&self.wake);
+        let mut old = std::mem::replace(&mut self.keeper, Keeper::beside(None));
+        let work = move |_: &(dyn Fn() -> bool + Sync)| {
+            old.finish(&wake);
+            let keeper = Keeper::beside(of_station.station_path().as_deref());
+            Ok((Handle::start(of_station, outside, wake)?, keeper))
+        };
+        match Job::start("azel-station-start", Arc::clone(&self.wake), work) {
+            Ok(job) => Some(Change::Starting { job, settings, opens_set_up }),
+            Err(error) => broke_down(&error.to_string()),
+        }
+    }
+
+    /// Puts a station that has begun into the window.
+    fn use_station(
+        &mut self,
+        station: Handle,
+        keeper: Keeper,
+        settings: Settings,
+        ctx: &egui::Context,
+    ) {
+        ui::theme::set(ctx, keeper.memory.theme);
+        // No code panics while it holds the lock.
+        *self.client.lock().unwrap_or_else(PoisonError::into_inner) = station.client().clone();
+        self.station = station;
+        let library = settings.library_path();
+        self.log_work = LogWork::beside(library.clone());
+        self.mask_work = MaskWork::beside(library);
+        (self.effects_job, self.catalog_work) = Default::default();
+        self.intake_work = super::IntakeWork::default();
+        let known = std::mem::take(&mut self.model.stations.known);
+        self.model = Model::before_anything(self.clock.now());
+        self.model.list = keeper.memory.list;
+        (self.model.stations.known, self.model.stations.open) = (known, settings.station_path());
+        self.views = ui::Views::with(keeper.memory.views);
+        (self.keeper, self.settings) = (keeper, settings);
+        (self.told, self.closes) = (engine::Attention::default(), false);
+        if self.notifier.is_some() {
+            let client = self.station.client().clone();
+            let notifier = Notifier::start(client, Desktop::default(), Wake::clone(&self.wake));
+            let told = |error: &io::Error| tracing::error!(%error, "no thread for the desktop");
+            self.notifier = notifier.inspect_err(told).ok();
+        }
+    }
+
+    /// Keeps the station in the window at the head of the list.
+    pub(super) fn note_station(&mut self) {
+        if self.model.demo {
+            return;
+        }
+        let Some(path) = self.model.stations.open.clone() else { return };
+        let station = KnownStation { name: self.model.station.name.clone(), path };
+        self.known_work.put_first(station, &mut self.model.stations.known, &self.wake);
+    }
+}
+
+fn look(next: NextStation, settings: Settings, folder: Option<&Path>) -> Result<Target, Refused> {
+    let free = folder.map(station::free_path);
+    let beside_demo = |name: &str, opens_set_up| {
+        let settings = Settings { path: free, ..settings.clone() };
+        Ok(Target { name: name.to_owned(), settings, opens_set_up })
+    };
+    match next {
+        NextStation::Demo => beside_demo("the demo station", false),
+        NextStation::New => beside_demo("a new station", true),
+        NextStation::File(path) => {
+            let path = std::path::absolute(&path).unwrap_or(path);
+            let settings = Settings { path: Some(path.clone()), ..settings };
+            match look_at(&settings) {
+                Ok(name) => Ok(Target { name, settings, opens_set_up: true }),
+                Err(why) => Err(Refused { path, why }),
+            }
+        }
+    }
+}
+
+/// Without a station there is nothing to show, and nothing to stop.
+fn broke_down(why: &str) -> ! {
+    std::panic::resume_unwind(Box::new(format!("the station did not start: {why}")))
+}

@@ -1,0 +1,37 @@
+//! A look at a station file before the station in use makes way for it.
+
+use std::path::PathBuf;
+
+use super::{
+    Settings,
+    claim::{HeldBy, holder_of_station},
+};
+use crate::{
+    makes,
+    station::{self, LoadError},
+};
+
+/// Why a station cannot be opened. Nothing was changed.
+#[derive(Debug, thiserror::Error)]
+pub enum CannotOpen {
+    #[error("the file is gone: {}", .0.display())]
+    Missing(PathBuf),
+    #[error(transparent)]
+    Unread(LoadError),
+    #[error("it is open in {by}, close it there first: {}", path.display())]
+    Held { by: HeldBy, path: PathBuf },
+}
+
+/// Returns the name of the station that `settings` would open.
+pub fn look_at(settings: &Settings) -> Result<String, CannotOpen> {
+    let path = settings.station_path().ok_or(CannotOpen::Unread(LoadError::Missing))?;
+    let loaded = station::load(&path, makes::SPECS).map_err(|error| match error {
+        LoadError::Missing => CannotOpen::Missing(path.clone()),
+        error => CannotOpen::Unread(error),
+    })?;
+    let claims = settings.claims.as_ref().map(|(folder, _)| folder);
+    if let Some(by) = claims.and_then(|folder| holder_of_station(folder, &path)) {
+        return Err(CannotOpen::Held { by, path });
+    }
+    Ok(loaded.station.name)
+}

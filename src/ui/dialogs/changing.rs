@@ -1,0 +1,46 @@
+//! What is told of a change to another station.
+
+use egui::{Id, Key, Modal, RichText, Ui};
+
+use crate::{
+    model::{Model, UiCommand},
+    ui::{
+        text,
+        widgets::told::{Tone, line},
+        words::sentence,
+    },
+};
+
+const WIDTH: f32 = 440.0;
+
+pub fn show(ui: &Ui, model: &Model, commands: &mut Vec<UiCommand>) {
+    if model.stations.is_changing {
+        under_way(ui, model);
+    } else if let Some(why) = &model.stations.refused {
+        refused(ui, model, why, commands);
+    }
+}
+
+/// Nothing can be asked of either station meanwhile but STOP.
+fn under_way(ui: &Ui, model: &Model) {
+    Modal::new(Id::unique("changing")).show(ui.ctx(), |ui| {
+        ui.set_width(WIDTH);
+        let next = model.stations.next.as_deref().unwrap_or_default();
+        ui.label(RichText::new(format!("Changing to {next}")).font(text::value()));
+        line(ui, Tone::Now, &format!("{} lets go of its antennas.", model.station.name));
+    });
+}
+
+fn refused(ui: &Ui, model: &Model, why: &str, commands: &mut Vec<UiCommand>) {
+    let modal = Modal::new(Id::unique("not opened")).show(ui.ctx(), |ui| {
+        ui.set_width(WIDTH);
+        ui.label(RichText::new("The station is not opened").font(text::value()));
+        line(ui, Tone::Bad, &sentence(why));
+        line(ui, Tone::Plain, &format!("{} stays as it is.", model.station.name));
+        ui.add_space(4.0);
+        ui.button("Close (Enter)").clicked() || ui.input(|input| input.key_pressed(Key::Enter))
+    });
+    if modal.inner || modal.should_close() {
+        commands.push(UiCommand::KeepStation);
+    }
+}
