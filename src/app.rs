@@ -15,6 +15,7 @@ mod log_file;
 mod mask_file;
 mod memory;
 pub mod notifier;
+mod place;
 
 use std::{
     io,
@@ -37,6 +38,7 @@ use self::{
     mask_file::MaskWork,
     memory::Keeper,
     notifier::Notifier,
+    place::PlaceWatch,
 };
 use crate::{
     clock::Clock,
@@ -77,6 +79,7 @@ pub struct App {
     /// The change to another station.
     change: Option<Change>,
     keeper: Keeper,
+    place_watch: PlaceWatch,
     /// The set-up opens by itself where there is no station.
     opens_set_up: bool,
     /// `None` where nothing is told to the desktop.
@@ -109,7 +112,7 @@ impl App {
         let (log_work, mask_work) = (LogWork::beside(library.clone()), MaskWork::beside(library));
         let station = Handle::start(settings.clone(), outside.clone(), Arc::clone(&wake))?;
         let mut model = Model::before_anything(clock.now());
-        model.list = keeper.memory.list;
+        (model.list, model.view) = (keeper.memory.list, keeper.memory.view);
         model.stations.open = settings.station_path();
         let folder = model.stations.open.as_deref().and_then(Path::parent).map(Path::to_path_buf);
         let known_work;
@@ -138,6 +141,7 @@ impl App {
             station_dialog: None,
             change: None,
             keeper,
+            place_watch: PlaceWatch::default(),
             opens_set_up: true,
             notifier: None,
             told: engine::Attention::default(),
@@ -307,8 +311,10 @@ fn wake(ctx: egui::Context) -> Wake {
 }
 
 impl eframe::App for App {
-    fn logic(&mut self, ctx: &egui::Context, _: &mut eframe::Frame) {
+    fn logic(&mut self, ctx: &egui::Context, frame: &mut eframe::Frame) {
         self.think(ctx);
+        self.restore_place(ctx, frame);
+        self.watch_place(ctx);
         if self.closes_now() {
             ctx.send_viewport_cmd_to(egui::ViewportId::ROOT, egui::ViewportCommand::Close);
         }

@@ -16,6 +16,7 @@ mod theme_name;
 use std::{path::PathBuf, sync::Arc, time::Duration};
 
 use jiff::Timestamp;
+use serde::{Deserialize, Serialize};
 
 #[cfg(test)]
 pub(crate) use self::line::testing;
@@ -58,7 +59,8 @@ use crate::{
 const AHEAD_S: f64 = 300.0;
 
 /// The view that fills the window.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
 pub enum View {
     /// Watch and drive.
     #[default]

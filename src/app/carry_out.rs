@@ -59,7 +59,10 @@ impl App {
                 self.keeper.memory.list = model.list;
             }
             UiCommand::SaveLog(lines) => self.save_log(lines),
-            UiCommand::Show(view) => model.view = view,
+            UiCommand::Show(view) => {
+                model.view = view;
+                self.keeper.memory.keep_view(view);
+            }
             UiCommand::SetTheme(name) => {
                 theme::set(ctx, name);
                 self.keeper.memory.theme = name;

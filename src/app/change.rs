@@ -8,7 +8,7 @@ use std::{
     sync::{Arc, PoisonError},
 };
 
-use super::{App, Keeper, KnownWork, LogWork, MaskWork, Notifier};
+use super::{App, Keeper, KnownWork, LogWork, MaskWork, Notifier, PlaceWatch};
 use crate::{
     desktop::{
         Desktop,
@@ -220,10 +220,11 @@ impl App {
         self.intake_work = super::IntakeWork::default();
         let known = std::mem::take(&mut self.model.stations.known);
         self.model = Model::before_anything(self.clock.now());
-        self.model.list = keeper.memory.list;
+        (self.model.list, self.model.view) = (keeper.memory.list, keeper.memory.view);
         (self.model.stations.known, self.model.stations.open) = (known, settings.station_path());
         self.views = ui::Views::with(keeper.memory.views);
         (self.keeper, self.settings) = (keeper, settings);
+        self.place_watch = PlaceWatch::default();
         (self.told, self.closes) = (engine::Attention::default(), false);
         if self.notifier.is_some() {
             let client = self.station.client().clone();

@@ -10,10 +10,11 @@ use std::{
 
 use serde::{Serialize, de::DeserializeOwned};
 
+use super::place::Place;
 use crate::{
     engine::passes::{ListChoice, SPANS_H, Scope},
     job::{Job, Wake},
-    model::ThemeName,
+    model::{ThemeName, View},
     ui::{Kept, map::MapLayers, sky_plot::Layers},
     whole_file,
 };
@@ -30,6 +31,10 @@ pub(super) struct Memory {
     pub(super) theme: ThemeName,
     /// Name of the antenna that the operator selected last.
     pub(super) antenna: Option<String>,
+    /// The view that was shown last.
+    pub(super) view: View,
+    /// Size and place of the window; `None` until the operator changes them.
+    pub(super) place: Option<Place>,
     /// The choice of passes in the list.
     pub(super) list: ListChoice,
     /// The kept state of the views.
@@ -67,6 +72,8 @@ impl Memory {
                 all_h: span("pass_hours_of_all").unwrap_or(list.all_h),
             },
             antenna: table.get("antenna").and_then(toml::Value::as_str).map(str::to_owned),
+            view: kept_view(word(&table, "view")),
+            place: table.get("window").and_then(|place| place.clone().try_into().ok()),
             views: Kept {
                 travel_open: is_set("travel_open"),
                 faults_open: is_set("faults_open"),
@@ -80,7 +87,11 @@ impl Memory {
 
     /// Without what belongs to one station alone.
     fn of_another_station(self) -> Self {
-        Self { antenna: None, ..self }
+        Self { antenna: None, place: None, view: View::default(), ..self }
+    }
+
+    pub(super) fn keep_view(&mut self, view: View) {
+        self.view = kept_view(view);
     }
 
     fn to_toml(&self) -> Result<String, toml::ser::Error> {
@@ -89,6 +100,7 @@ impl Memory {
             theme: ThemeName,
             #[serde(skip_serializing_if = "Option::is_none")]
             antenna: Option<&'a str>,
+            view: View,
             pass_scope: Scope,
             pass_hours: u32,
             pass_hours_of_all: u32,
@@ -100,10 +112,13 @@ impl Memory {
             list_width: Option<u32>,
             layers: Layers,
             map_layers: MapLayers,
+            #[serde(skip_serializing_if = "Option::is_none")]
+            window: Option<Place>,
         }
         toml::to_string(&Lines {
             theme: self.theme,
             antenna: self.antenna.as_deref(),
+            view: self.view,
             pass_scope: self.list.scope,
             pass_hours: self.list.favourites_h,
             pass_hours_of_all: self.list.all_h,
@@ -113,8 +128,14 @@ impl Memory {
             list_width: self.views.list_width,
             layers: self.views.layers,
             map_layers: self.views.map_layers,
+            window: self.place,
         })
     }
+}
+
+/// The set-up opens by itself, where it is to.
+fn kept_view(view: View) -> View {
+    if view == View::Setup { View::default() } else { view }
 }
 
 fn flag(table: &toml::Table, key: &str) -> Option<bool> {
@@ -239,6 +260,12 @@ mod tests {
         Memory {
             theme: ThemeName::Night,
             antenna: Some("Şile \"2\"".to_owned()),
+            view: View::Map,
+            place: "at = [12, 7]\nsize = [1300, 800]\nis_maximized = true"
+                .parse::<toml::Table>()
+                .unwrap()
+                .try_into()
+                .ok(),
             list: ListChoice { scope: Scope::All, favourites_h: 24, all_h: 12 },
             views: Kept {
                 travel_open: true,
@@ -281,7 +308,8 @@ mod tests {
         usual.memory = other();
         usual.finish(&silent());
         let mut hill = at("hill.toml");
-        assert_eq!(hill.memory, Memory { antenna: None, ..other() });
+        assert_eq!(hill.memory.views, other().views);
+        assert_eq!(hill.memory, other().of_another_station());
         hill.memory = Memory { theme: ThemeName::Light, ..Memory::default() };
         hill.finish(&silent());
         assert!(folder.path().join("hill.window.toml").exists());
@@ -317,6 +345,7 @@ mod tests {
                 let list = ListChoice { all_h: 24, ..ListChoice::default() };
                 Memory { list, ..Memory::default() }
             }),
+            ("view = 'setup'\nwindow = { size = [4, 5], is_maximized = 3 }", Memory::default()),
             ("theme = 7\nantenna = 'Mast'", {
                 Memory { antenna: Some("Mast".to_owned()), ..Memory::default() }
             }),

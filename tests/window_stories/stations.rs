@@ -8,6 +8,7 @@ use azel::{
     driver::LinkState,
     engine::{Handle, Settings, claim::HolderKind},
     model::{KnownStation, Model, NextStation, ThemeName, UiCommand, View},
+    orbit::bundled,
     station::{self, Station},
     ui::theme,
 };
@@ -102,7 +103,12 @@ fn open(path: &Path, clock: Clock) -> RealWindow {
 impl Two {
     fn open() -> Self {
         let folder = tempfile::tempdir().unwrap();
-        let units = [(); 2].map(|()| Unit::start(UTC.parse().unwrap()));
+        // Read beforehand: the clocks of the units start with that of the window.
+        let catalog = bundled().unwrap();
+        let elements = rig::station().favourites.numbers().into_iter();
+        let elements: Vec<_> =
+            elements.map(|number| catalog.get(number).unwrap().clone()).collect();
+        let units = [(); 2].map(|()| Unit::of_elements(elements.clone(), UTC.parse().unwrap()));
         let mut list = String::new();
         for ((unit, name), file) in units.iter().zip(NAMES).zip(FILES) {
             let path = folder.path().join(file);
@@ -177,10 +183,19 @@ fn the_window_changes_to_another_station_and_back() {
     two.window.key_press_modifiers(Modifiers::COMMAND, Key::L);
     two.window.run_steps(3);
     assert_eq!(theme::name(&two.window.ctx), ThemeName::Night);
+    two.window.get_by_role_and_label(Role::Tab, "Map").click();
+    two.window.run_steps(3);
     assert!(two.units[0].status().is_some(), "the first unit is free");
     two.pick(NAMES[0]);
     two.wait_for(NAMES[0]);
     assert_eq!(theme::name(&two.window.ctx), ThemeName::Light);
+    assert_eq!(two.window.state().model().view, View::Operate);
+    two.pick(NAMES[1]);
+    two.wait_for(NAMES[1]);
+    assert_eq!(theme::name(&two.window.ctx), ThemeName::Night);
+    assert_eq!(two.window.state().model().view, View::Map);
+    two.pick(NAMES[0]);
+    two.wait_for(NAMES[0]);
     let names: Vec<&str> =
         two.window.state().model().stations.known.iter().map(|known| &*known.name).collect();
     assert_eq!(names, NAMES);
