@@ -63,21 +63,24 @@ async fn flags_lie(mut dice: Dice) {
             scene.report()
         );
     }
-    // A motion that ended early had no time to be reported.
-    if turned_until < began + Duration::from_millis(9900) {
-        return;
-    }
-    if scene.world.make.doubts_flags {
-        let is_told = scene.told(began, |event| matches!(event, Event::StopNotConfirmed));
-        assert!(was_shown || is_told.is_some(), "shown as standing\n{}", scene.report());
-        return;
-    }
-    let is_it = |event: &Event| {
-        let is_told = matches!(event, Event::Safety(Safety::FlagsContradict { .. }));
-        is_told || matches!(event, Event::StopNotConfirmed)
+    let unproved = scene.told(began, |event| matches!(event, Event::StopNotConfirmed)).is_some();
+    let is_told = match scene.world.make.doubts_flags {
+        true => was_shown || unproved,
+        false => unproved || scene.told(began, |event| is_contradiction(event)).is_some(),
     };
-    let told = scene.told(began, is_it);
-    assert!(told.is_some(), "not told: {axis} {rate_deg_s} {pressed:?}\n{}", scene.report());
+    // A motion that ended early had no time to be reported.
+    let had_time = turned_until >= began + Duration::from_millis(9900);
+    let case = format!("{axis} {rate_deg_s} {pressed:?}");
+    assert!(is_told || !had_time, "shown as standing: {case}\n{}", scene.report());
+    if pressed.is_some() {
+        scene.trouble(|line| line.ignores_stop = false);
+        scene.seconds(8.0).await;
+        assert!(!scene.world.unit.is_turning(), "still turns: {case}\n{}", scene.report());
+    }
+}
+
+fn is_contradiction(event: &Event) -> bool {
+    matches!(event, Event::Safety(Safety::FlagsContradict { .. }))
 }
 
 async fn angles_freeze(mut dice: Dice) {

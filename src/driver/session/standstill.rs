@@ -77,12 +77,19 @@ pub(super) struct Looks {
     first: Option<Measured>,
     /// The first position for which the next one has been requested.
     asked_after: Option<Instant>,
+    /// Two positions differed, whatever the flags say.
+    turned: bool,
 }
 
 impl Looks {
     /// When a position that agrees with the first one proves standstill.
     pub(super) fn next(&self, figures: Figures) -> Option<Instant> {
         self.first.map(|first| first.asked + figures.gap)
+    }
+
+    /// Whether another STOP could tell the unit something: not while all positions agree.
+    pub(super) fn want_stop(&self) -> bool {
+        self.first.is_none() || self.turned
     }
 
     /// Returns `true` while the next position has not been requested.
@@ -108,10 +115,9 @@ impl Looks {
         link_since: Option<Instant>,
         figures: Figures,
     ) -> Option<Proof> {
-        let first = self
-            .first
-            .filter(|first| link_since.is_some_and(|since| first.asked >= since))
-            .filter(|first| figures.turned(first, &look).is_none());
+        let known = self.first.filter(|first| link_since.is_some_and(|since| first.asked >= since));
+        let first = known.filter(|first| figures.turned(first, &look).is_none());
+        self.turned |= known.is_some() && first.is_none();
         if !is_at_rest {
             self.first = None;
             return None;

@@ -145,8 +145,7 @@ impl Session {
         }
         let unproved = now.steady.saturating_duration_since(halting.since) >= proof_after;
         let newly_unproved = unproved && !std::mem::replace(&mut halting.told, unproved);
-        // While positions agree, another STOP would tell the unit nothing.
-        let again = now.steady >= halting.again_at && halting.looks.next(figures).is_none();
+        let again = now.steady >= halting.again_at && halting.looks.want_stop();
         let looks_again = halting.looks.is_due(figures, now.steady);
         // Without a link, the halt is the first thing sent on the next one.
         if again && self.contact.link.is_open() {
@@ -220,12 +219,10 @@ impl Session {
         let proof_after = PROOF.max(self.setup.figures.gap() + BEYOND_PROOF);
         if let Some(halting) = self.stop.halting() {
             let proof = (!halting.told).then_some(halting.since + proof_after);
-            let again = match halting.looks.next(self.setup.figures) {
-                Some(at) => halting.looks.awaits_look().then_some(at),
-                None => Some(halting.again_at),
-            };
-            let again = again.filter(|_| self.contact.link.is_open());
-            return proof.into_iter().chain(again).min();
+            let (looks, is_open) = (&halting.looks, self.contact.link.is_open());
+            let look = looks.next(self.setup.figures).filter(|_| looks.awaits_look() && is_open);
+            let again = (looks.want_stop() && is_open).then_some(halting.again_at);
+            return proof.into_iter().chain(look).chain(again).min();
         }
         match self.stop {
             Stop::Proved { at } => Some(at + SHOWN),
