@@ -80,7 +80,8 @@ impl Units {
                     }
                     (_, "satrak") => drop(units.dish.serve(far).await),
                     (_, "genius") => drop(units.mast.serve(far).await),
-                    _ => drop(units.horn.serve(far).await),
+                    (_, "rc2000c") => drop(units.horn.serve(far).await),
+                    (_, make) => panic!("no unit of {make} in memory"),
                 }
             });
             Box::pin(async { Ok(Box::new(near) as Box<dyn Stream>) })

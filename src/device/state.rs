@@ -164,6 +164,8 @@ impl Measured {
 pub struct Axis {
     /// Degrees as the mount counts; `None` where unknown.
     pub angle_deg: Option<f64>,
+    /// As the unit reports it, or as its angles show where it reports none: a standing axis
+    /// that is said to turn delays every proof of STOP, and the reverse raises an alarm.
     pub motion: AxisMotion,
     /// The limit switch at the upper end is set.
     pub plus_limit: bool,

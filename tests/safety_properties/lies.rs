@@ -64,9 +64,10 @@ async fn flags_lie(mut dice: Dice) {
         );
     }
     let unproved = scene.told(began, |event| matches!(event, Event::StopNotConfirmed)).is_some();
-    let is_told = match scene.world.make.doubts_flags {
-        true => was_shown || unproved,
-        false => unproved || scene.told(began, |event| is_contradiction(event)).is_some(),
+    let is_told = if scene.world.make.doubts_flags {
+        was_shown || unproved
+    } else {
+        unproved || scene.told(began, is_contradiction).is_some()
     };
     // A motion that ended early had no time to be reported.
     let had_time = turned_until >= began + Duration::from_millis(9900);
