@@ -140,7 +140,7 @@ pub fn show(
     let antennas = draft.antenna_names();
     match state.section {
         Section::Station => cards(ui, page, "Station settings", |ui, two_columns| {
-            form::show(ui, model, &mut draft, two_columns);
+            form::show(ui, model, &mut draft, two_columns, commands);
         }),
         Section::Notices => cards(ui, page, "Alarms and sounds", |ui, two_columns| {
             notices::show(ui, model, &mut draft, two_columns, commands);

@@ -2,12 +2,14 @@
 //! state, and the remedy.
 
 mod alarms;
+mod link_tests;
 mod notices;
 mod on_board;
 mod refusals;
 mod safety;
 
 pub use alarms::{alarm, alarm_state, alarm_times};
+pub use link_tests::{link_test, link_test_state, place};
 pub use notices::{missing_outlets, notice, reminder, trial};
 pub use on_board::{cause, lower_minimum, not_known, trespass, within_beam, would_miss};
 pub use refusals::{

@@ -4,8 +4,11 @@ use std::sync::Arc;
 
 use azel::{
     clock::Instant,
-    driver::{LinkLoss, LinkState, Snapshot},
-    engine,
+    driver::{LinkFault, LinkFinding, LinkLoss, LinkState, Snapshot},
+    engine::{
+        self,
+        link_tests::{LinkTest, LinkTestStage},
+    },
     model::{Model, UiCommand, View},
     station::Station,
 };
@@ -180,6 +183,58 @@ fn a_removal_is_undone_in_place_and_a_double_click_removes_nothing() {
             assert_eq!(window.query_by_label_contains("removed when saved").is_some(), is_removed);
         }
         assert!(is_disabled(&window, "Save and use"), "nothing is edited");
+    }
+}
+
+fn press(window: &mut Window, button: &str) {
+    window.get_by_role_and_label(Role::Button, button).scroll_to_me();
+    settle(window);
+    window.get_by_role_and_label(Role::Button, button).click();
+    settle(window);
+}
+
+#[test]
+fn a_duplicate_has_all_but_the_name_and_the_address() {
+    for size in SIZES {
+        let mut window = form(size);
+        write(&mut window, "Beam width", "1.7");
+        press(&mut window, "Duplicate antenna 1");
+        press(&mut window, "Save and use");
+        let station = saved(asked(&mut window));
+        let [first, second] = &station.antennas[..] else { panic!("{:?}", station.antennas) };
+        assert_eq!((&*first.name, &*second.name), ("Satrak", "Satrak 2"));
+        assert_ne!(first.id, second.id);
+        assert_eq!(second.connection.address, first.connection.spec().default_address);
+        assert!((second.beam_width_deg - 1.7).abs() < 1e-9);
+    }
+}
+
+#[test]
+fn a_link_is_tested_as_it_is_typed() {
+    for size in SIZES {
+        let mut window = form(size);
+        write(&mut window, "Address of the Satrak", "nowhere");
+        assert!(is_disabled(&window, "Test link of antenna 1"));
+        write(&mut window, "Address of the Satrak", "tower:4001");
+        press(&mut window, "Test link of antenna 1");
+        let [UiCommand::Station(engine::Command::TestLink(antenna))] = &asked(&mut window)[..]
+        else {
+            panic!("no test")
+        };
+        assert_eq!(antenna.connection.address, "tower:4001");
+        let finding = LinkFinding::NotOpened(LinkFault::Refused);
+        let done = LinkTestStage::Done { finding, at: rig::now() };
+        for (stage, words) in [
+            (done, "tower:4001 refuses the connection."),
+            (LinkTestStage::InUse, "Not asked: an antenna of this station has the unit."),
+        ] {
+            let test = LinkTest { antenna: (**antenna).clone(), stage };
+            window.state_mut().model.link_tests = Arc::new(vec![test]);
+            settle(&mut window);
+            assert!(says(&window, words), "{words}");
+        }
+        write(&mut window, "Address of the Satrak", "tower:4002");
+        assert!(!says(&window, "Not asked:"), "the outcome is of another address");
     }
 }
 

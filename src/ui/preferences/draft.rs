@@ -12,7 +12,11 @@ use super::{
 };
 use jiff::Timestamp;
 
-use crate::station::{Antenna, AntennaId, ControllerSpec, Station};
+use crate::{
+    engine::link_tests::LinkTest,
+    model::Model,
+    station::{Antenna, AntennaId, ControllerSpec, Station},
+};
 
 /// Draft of the whole form.
 #[derive(PartialEq)]
@@ -39,13 +43,27 @@ impl Draft {
     /// Adds an empty antenna of this make. Its id is made of the time, so that it differs from
     /// that of an antenna removed earlier.
     pub(in crate::ui) fn add_antenna(&mut self, spec: &'static ControllerSpec, now: Timestamp) {
+        self.add(spec.antenna(spec.short_name, spec.default_address), now);
+    }
+
+    /// Adds an antenna like this one, as far as it can be used. It has another name, and waits
+    /// for an address of its own: two antennas must not drive one unit unnoticed.
+    pub(super) fn duplicate(&mut self, index: usize, now: Timestamp) {
+        let Some(typed) = self.antennas.get(index) else { return };
+        let mut antenna = typed.read().0;
+        let default_address = antenna.connection.spec().default_address;
+        default_address.clone_into(&mut antenna.connection.address);
+        self.add(antenna, now);
+    }
+
+    fn add(&mut self, antenna: Antenna, now: Timestamp) {
         let taken: Vec<String> = self.antennas.iter().map(name).collect();
         let taken: Vec<&str> = taken.iter().map(String::as_str).collect();
-        let name = Antenna::free_name(spec.short_name, &taken);
+        let name = Antenna::free_name(&antenna.name, &taken);
         let ids: Vec<AntennaId> = self.antennas.iter().map(|of| of.before().id).collect();
         let second = u32::try_from(now.as_second()).unwrap_or(AntennaId::FIRST.0);
         let id = AntennaId::free(AntennaId(second), &ids);
-        self.antennas.push(typed(Antenna { id, ..spec.antenna(&name, spec.default_address) }));
+        self.antennas.push(typed(Antenna { id, name, ..antenna }));
     }
 
     pub(super) fn is_removed(&self, index: usize) -> bool {
@@ -84,6 +102,22 @@ impl Draft {
             *problem = Some(format!("must differ from that of antenna {}", twin + 1));
         }
         standings
+    }
+
+    /// The antenna as it is typed now, if every field is right.
+    pub(in crate::ui) fn antenna(&self, index: usize) -> Option<Antenna> {
+        let standings = self.antenna_standings(index);
+        let is_right = standings.iter().all(|of| of.problem.is_none());
+        Some(self.antennas.get(index).filter(|_| is_right)?.read().0)
+    }
+
+    /// The last test of the link of the antenna as it is typed now.
+    pub(in crate::ui) fn test<'a>(&self, index: usize, model: &'a Model) -> Option<&'a LinkTest> {
+        let antenna = self.antenna(index)?;
+        let is_it = |test: &&LinkTest| {
+            test.antenna.id == antenna.id && test.antenna.connection == antenna.connection
+        };
+        model.link_tests.iter().find(is_it)
     }
 
     /// Another antenna with the same name.

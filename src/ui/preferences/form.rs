@@ -11,8 +11,8 @@ use super::{
 };
 use crate::{
     device::settings::Kind,
-    makes,
-    model::Model,
+    engine, makes,
+    model::{Model, UiCommand},
     ui::{
         text, theme,
         widgets::{
@@ -20,6 +20,7 @@ use crate::{
             card as card_frame,
             input::select_when_tabbed,
             segmented::{self, Segment},
+            told,
         },
         words,
     },
@@ -41,8 +42,14 @@ const GAP: f32 = 16.0;
 const COLUMN: f32 = 560.0;
 
 /// Shows all fields, in two columns if there is room.
-pub(super) fn show(ui: &mut Ui, model: &Model, draft: &mut Draft, two_columns: bool) {
-    columns(ui, two_columns, draft, site, |ui, draft| antennas(ui, model, draft));
+pub(super) fn show(
+    ui: &mut Ui,
+    model: &Model,
+    draft: &mut Draft,
+    two_columns: bool,
+    commands: &mut Vec<UiCommand>,
+) {
+    columns(ui, two_columns, draft, site, |ui, draft| antennas(ui, model, draft, commands));
 }
 
 /// Shows two parts of a form side by side, or below each other.
@@ -81,11 +88,12 @@ fn site(ui: &mut Ui, draft: &mut Draft) {
     });
 }
 
-fn antennas(ui: &mut Ui, model: &Model, draft: &mut Draft) {
-    let mut toggled = None;
+fn antennas(ui: &mut Ui, model: &Model, draft: &mut Draft, commands: &mut Vec<UiCommand>) {
+    let (mut toggled, mut duplicated) = (None, None);
     for index in 0..draft.antennas.len() {
         let is_removed = draft.is_removed(index);
         let standings = draft.antenna_standings(index);
+        let (as_typed, test) = (draft.antenna(index), draft.test(index, model));
         let Some(antenna) = draft.antennas.get_mut(index) else { continue };
         let make = antenna.before().connection.spec().name;
         let number = index + 1;
@@ -101,14 +109,36 @@ fn antennas(ui: &mut Ui, model: &Model, draft: &mut Draft) {
             }
             ui.add_space(4.0);
             // The card keeps its height: nothing else moves under the pointer.
-            let word = if is_removed { "Undo: keep" } else { "Remove" };
-            if ui.button(format!("{word} antenna {number}")).clicked() {
-                toggled = Some(index);
+            ui.horizontal(|ui| {
+                let word = if is_removed { "Undo: keep" } else { "Remove" };
+                if ui.button(format!("{word} antenna {number}")).clicked() {
+                    toggled = Some(index);
+                }
+                if is_removed {
+                    return;
+                }
+                if ui.button(format!("Duplicate antenna {number}")).clicked() {
+                    duplicated = Some(index);
+                }
+                let button = egui::Button::new(format!("Test link of antenna {number}"));
+                let response = ui.add_enabled(as_typed.is_some(), button);
+                if let (true, Some(antenna)) = (response.clicked(), as_typed) {
+                    let test = engine::Command::TestLink(Box::new(antenna));
+                    commands.push(UiCommand::Station(test));
+                }
+            });
+            let outcome = test.filter(|_| !is_removed);
+            let outcome = outcome.map(|test| words::link_test(test, model.demo));
+            for (tone, words) in outcome.unwrap_or_default() {
+                told::line(ui, tone, &words);
             }
         });
     }
     if let Some(index) = toggled {
         draft.toggle_removed(index);
+    }
+    if let Some(index) = duplicated {
+        draft.duplicate(index, model.now);
     }
     card(ui, "One more antenna", |ui| {
         ui.horizontal_wrapped(|ui| {

@@ -2,7 +2,7 @@
 
 use egui::{Align, Layout, RichText, Role, Sense, Ui, WidgetInfo, vec2};
 
-use super::{draft::SetupDraft, words};
+use super::draft::SetupDraft;
 use crate::{
     engine, makes,
     model::{Model, UiCommand},
@@ -16,6 +16,7 @@ use crate::{
             input::focus_to_replace,
             told::{Tone, line},
         },
+        words,
     },
 };
 
@@ -56,8 +57,8 @@ pub(super) fn show(
         ui.label(RichText::new(words).font(text::small()).color(t.t3));
     });
     let silent = (0..draft.form.antennas.len()).filter(|index| {
-        let test = draft.test(*index, model);
-        matches!(words::short(test).0, Tone::Bad | Tone::Caution)
+        let test = draft.form.test(*index, model);
+        matches!(words::link_test_state(test).0, Tone::Bad | Tone::Caution)
     });
     let silent: Vec<String> = silent.map(|index| draft.antenna_name(index)).collect();
     if !silent.is_empty() {
@@ -78,11 +79,11 @@ fn one(
 ) -> bool {
     let t = theme::tokens(ui);
     let name = draft.antenna_name(index);
-    let (antenna, standings) = (draft.antenna(index), draft.form.antenna_standings(index));
-    let test = draft.test(index, model);
+    let (antenna, standings) = (draft.form.antenna(index), draft.form.antenna_standings(index));
+    let test = draft.form.test(index, model);
     let Some(typed) = draft.form.antennas.get_mut(index) else { return false };
     let (id, spec) = (typed.before().id, typed.before().connection.spec());
-    let (tone, state) = words::short(test);
+    let (tone, state) = words::link_test_state(test);
     ui.horizontal(|ui| {
         ui.label(RichText::new(&name).font(text::value()).color(t.t1));
         ui.label(RichText::new(spec.name).font(text::small()).color(t.t2));
@@ -122,7 +123,8 @@ fn one(
             named(ui, Button::quiet("Remove"), ("remove", id.0), true, &format!("Remove {name}"))
         })
         .inner;
-    for (tone, words) in test.map(words::outcome).unwrap_or_default() {
+    let outcome = test.map(|test| words::link_test(test, model.demo));
+    for (tone, words) in outcome.unwrap_or_default() {
         line(ui, tone, &words);
     }
     is_removed

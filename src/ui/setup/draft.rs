@@ -6,9 +6,9 @@ use crate::{
     astro::{GroundPoint, Site},
     device::Place,
     driver::LinkFinding,
-    engine::link_tests::{LinkTest, LinkTestStage},
+    engine::link_tests::LinkTestStage,
     model::Model,
-    station::{Antenna, AntennaId, Favourites, Station},
+    station::{AntennaId, Favourites, Station},
     ui::preferences::{
         draft::Draft,
         fields::{Field, Standing},
@@ -101,13 +101,6 @@ impl SetupDraft {
         ground.with(Vec::new()).map(|station| station.site)
     }
 
-    /// The antenna at this place of the form, once its fields are right.
-    pub(super) fn antenna(&self, index: usize) -> Option<Antenna> {
-        let standings = self.form.antenna_standings(index);
-        let is_right = standings.iter().all(|of| of.problem.is_none());
-        Some(self.form.antennas.get(index).filter(|_| is_right)?.read().0)
-    }
-
     /// The name as typed, or that of the make while there is none.
     pub(super) fn antenna_name(&self, index: usize) -> String {
         let Some(antenna) = self.form.antennas.get(index) else { return String::new() };
@@ -119,20 +112,11 @@ impl SetupDraft {
         }
     }
 
-    /// The last test of the antenna as it is typed now.
-    pub(super) fn test<'a>(&self, index: usize, model: &'a Model) -> Option<&'a LinkTest> {
-        let antenna = self.antenna(index)?;
-        let is_it = |test: &&LinkTest| {
-            test.antenna.id == antenna.id && test.antenna.connection == antenna.connection
-        };
-        model.link_tests.iter().find(is_it)
-    }
-
     /// Antennas whose units told their place, with it.
     pub(super) fn places(&self, model: &Model) -> Vec<(String, Place)> {
         let told = |index: usize| {
             let LinkTestStage::Done { finding: LinkFinding::Reached { state, .. }, .. } =
-                &self.test(index, model)?.stage
+                &self.form.test(index, model)?.stage
             else {
                 return None;
             };
@@ -179,7 +163,7 @@ impl SetupDraft {
     fn antenna_hindrance(&self, model: &Model) -> Option<String> {
         (0..self.form.antennas.len()).find_map(|index| {
             let name = self.antenna_name(index);
-            let Some(antenna) = self.antenna(index) else {
+            let Some(antenna) = self.form.antenna(index) else {
                 return Some(format!("{name}: a field cannot be used."));
             };
             let of_demo = |of: &&crate::engine::antenna::AntennaModel| {

@@ -186,7 +186,7 @@ fn detail(step: Step, model: &Model, draft: &SetupDraft, state: &SetupState) -> 
         Step::Antennas => {
             let count = draft.form.antennas.len();
             let reached = (0..count).filter(|index| {
-                let (tone, _) = super::words::short(draft.test(*index, model));
+                let (tone, _) = crate::ui::words::link_test_state(draft.form.test(*index, model));
                 tone == crate::ui::widgets::told::Tone::Good
             });
             if count == 0 {

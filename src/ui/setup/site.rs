@@ -29,7 +29,7 @@ pub(super) fn show(ui: &mut Ui, model: &Model, draft: &mut SetupDraft) {
         fields(ui, draft, 1..super::draft::SITE_FIELDS);
     });
     for (name, place) in draft.places(model) {
-        let there = words::place(place.latitude_deg, place.longitude_deg);
+        let there = crate::ui::words::place(place.latitude_deg, place.longitude_deg);
         if ui.button(format!("Take the place of {name}: {there}")).clicked() {
             draft.put_place(place.latitude_deg, place.longitude_deg, OF_UNIT);
             draft.locator.clear();
@@ -37,7 +37,7 @@ pub(super) fn show(ui: &mut Ui, model: &Model, draft: &mut SetupDraft) {
     }
     let Some(site) = draft.place() else { return };
     card::show(ui, CARD, |ui| {
-        let there = words::place(site.latitude().degrees(), site.longitude().degrees());
+        let there = crate::ui::words::place(site.latitude().degrees(), site.longitude().degrees());
         let t = theme::tokens(ui);
         ui.label(RichText::new(there).font(text::value()).color(t.t1));
         line(ui, Tone::Now, &words::sun(sun_moon::sun(site, model.now)));

@@ -6,7 +6,6 @@ use super::{
     PADDING, Step,
     draft::SetupDraft,
     steps::{Passed, Progress},
-    words,
 };
 use crate::{
     astro::time::seconds_between,
@@ -46,7 +45,10 @@ pub(super) fn parts(model: &Model, draft: &SetupDraft, progress: Progress) -> Ve
     let mut parts =
         vec![part("Clock", (clock.0, clock.1.to_owned())), part("Site", site(draft, progress))];
     for index in 0..draft.form.antennas.len() {
-        parts.push(part(draft.antenna_name(index), words::short(draft.test(index, model))));
+        parts.push(part(
+            draft.antenna_name(index),
+            crate::ui::words::link_test_state(draft.form.test(index, model)),
+        ));
     }
     if draft.form.antennas.is_empty() {
         parts.push(part("Antennas", (Tone::Plain, "none".to_owned())));
@@ -66,7 +68,8 @@ pub(super) fn site(draft: &SetupDraft, progress: Progress) -> (Tone, String) {
     match (progress.of(Step::Site), draft.site()) {
         (Passed::Skipped, _) => (Tone::Caution, "skipped: as in the demo".to_owned()),
         (_, Some((_, site))) => {
-            let words = words::place(site.latitude().degrees(), site.longitude().degrees());
+            let words =
+                crate::ui::words::place(site.latitude().degrees(), site.longitude().degrees());
             (Tone::Good, words)
         }
         (_, None) => (Tone::Plain, "step 1".to_owned()),

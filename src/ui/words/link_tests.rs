@@ -1,0 +1,163 @@
+//! Tests of links: what came of them, and what to check.
+
+use crate::{
+    device::{AntennaState, panel::CheckState},
+    driver::{LinkFault, LinkFinding},
+    engine::link_tests::{LinkTest, LinkTestStage},
+    station::{ControllerSpec, Link},
+    ui::{format, widgets::told::Tone, words::sentence},
+};
+
+/// A place on the ground, by its coordinates.
+pub fn place(latitude_deg: f64, longitude_deg: f64) -> String {
+    format!("{}, {}", format::latitude(latitude_deg, 3), format::longitude(longitude_deg, 3))
+}
+
+/// The state of a test in a few words.
+pub fn link_test_state(test: Option<&LinkTest>) -> (Tone, String) {
+    let Some(test) = test else { return (Tone::Plain, "not tested".to_owned()) };
+    let (tone, words) = match &test.stage {
+        LinkTestStage::Working => (Tone::Now, "asking"),
+        LinkTestStage::InUse => (Tone::Plain, "in use"),
+        LinkTestStage::Elsewhere(_) => (Tone::Caution, "held elsewhere"),
+        LinkTestStage::Done { finding, .. } => match finding {
+            LinkFinding::Reached { state, .. } if state.is_other_device => {
+                (Tone::Caution, "another unit")
+            }
+            LinkFinding::Reached { after, .. } => {
+                return (Tone::Good, format!("reached, {} ms", after.as_millis()));
+            }
+            LinkFinding::Silent | LinkFinding::Closed => (Tone::Bad, "no answer"),
+            LinkFinding::SomethingElse { .. } => (Tone::Bad, "something else"),
+            LinkFinding::NotOpened(_) => (Tone::Bad, "not reached"),
+        },
+    };
+    (tone, words.to_owned())
+}
+
+/// The outcome of a test, and what to check.
+pub fn link_test(test: &LinkTest, is_demo: bool) -> Vec<(Tone, String)> {
+    let connection = &test.antenna.connection;
+    let (spec, address) = (connection.spec(), connection.address.as_str());
+    match &test.stage {
+        LinkTestStage::Working => vec![(Tone::Now, format!("{address} is being asked."))],
+        LinkTestStage::InUse if !is_demo => {
+            let words = "Not asked: an antenna of this station has the unit. Its card shows it.";
+            vec![(Tone::Plain, words.to_owned())]
+        }
+        LinkTestStage::InUse => vec![
+            (Tone::Bad, "This is a simulated unit of the demo station, which ends.".to_owned()),
+            (Tone::Plain, "Type the address of your unit.".to_owned()),
+        ],
+        LinkTestStage::Elsewhere(by) => vec![
+            (Tone::Caution, format!("Not asked: {by} holds this unit.")),
+            (Tone::Plain, "Close it there first: a unit obeys one Azel at a time.".to_owned()),
+        ],
+        LinkTestStage::Done { finding, .. } => finding_words(finding, spec, address),
+    }
+}
+
+fn finding_words(
+    finding: &LinkFinding,
+    spec: &ControllerSpec,
+    address: &str,
+) -> Vec<(Tone, String)> {
+    let port_opens = match spec.link {
+        Link::Tcp => {
+            "The port opens. Check that it is the port of the unit, and that no other program \
+             holds the unit."
+        }
+        Link::Line { .. } => {
+            "The line opens. Compare the settings above with the menu of the unit, check the \
+             cable, and that nobody uses its panel."
+        }
+    };
+    let bad = |what: String, check: String| vec![(Tone::Bad, what), (Tone::Plain, check)];
+    match finding {
+        LinkFinding::Reached { after, state } => reached(after.as_millis(), state, spec),
+        LinkFinding::Silent => {
+            bad(format!("Nothing came from {address} in 2 s."), port_opens.to_owned())
+        }
+        LinkFinding::Closed => bad(
+            format!("{address} closed the connection and said nothing."),
+            spec.closed_note.map_or_else(|| port_opens.to_owned(), sentence),
+        ),
+        LinkFinding::SomethingElse { text } if text.is_empty() => {
+            bad(format!("Something else answers at {address}."), port_opens.to_owned())
+        }
+        LinkFinding::SomethingElse { text } => bad(
+            format!("Something else answers at {address}: {text}"),
+            "Check the port.".to_owned(),
+        ),
+        LinkFinding::NotOpened(fault) => not_opened(fault, spec, address),
+    }
+}
+
+fn not_opened(fault: &LinkFault, spec: &ControllerSpec, address: &str) -> Vec<(Tone, String)> {
+    let (what, check) = match fault {
+        LinkFault::Refused => (
+            format!("{address} refuses the connection."),
+            format!(
+                "The host is there. Check the port. {}",
+                spec.closed_note.map(sentence).unwrap_or_default()
+            ),
+        ),
+        LinkFault::NobodyThere => (
+            format!("Nobody answers at {address}."),
+            "Check the address, the power of the unit and the network.".to_owned(),
+        ),
+        LinkFault::NoSuchPort => (
+            format!("There is no serial port {address}."),
+            "Check its name, and that the adapter is plugged in.".to_owned(),
+        ),
+        LinkFault::NotPermitted => (
+            format!("This user may not open {address}."),
+            "On Linux, add the user to the dialout group and log in again.".to_owned(),
+        ),
+        LinkFault::Busy => {
+            (format!("Another program uses {address}."), "Close it there first.".to_owned())
+        }
+        LinkFault::Other(text) => {
+            (format!("{address} cannot be opened: {text}."), "Check the address.".to_owned())
+        }
+    };
+    vec![(Tone::Bad, what), (Tone::Plain, check.trim().to_owned())]
+}
+
+fn reached(after_ms: u128, state: &AntennaState, spec: &ControllerSpec) -> Vec<(Tone, String)> {
+    let said = state.identity.as_deref().or(state.unit_name.as_deref());
+    let said = said.map(|said| format!(", {said}")).unwrap_or_default();
+    if state.is_other_device {
+        let what = format!("Reached{said}, {after_ms} ms, but this is not the unit expected.");
+        let check = format!("Check that a {} answers there and that it needs no code.", spec.name);
+        return vec![(Tone::Caution, what), (Tone::Plain, check)];
+    }
+    let mut lines = vec![(Tone::Good, format!("Reached{said}, {after_ms} ms."))];
+    let mut facts = Vec::new();
+    if let Some(direction) = state.measured.and_then(|measured| measured.direction()) {
+        facts.push(format!("Stands at {}.", format::pointing_at(direction)));
+    }
+    if let Some(own) = state.on_board.place {
+        let there = place(own.latitude_deg, own.longitude_deg);
+        facts.push(format!("Its own place: {there}."));
+    }
+    if let Some(clock) = state.on_board.clock.filter(|clock| clock.is_set) {
+        let side = if clock.ahead_s < 0.0 { "behind" } else { "ahead" };
+        facts.push(format!("Its clock is {} s {side}.", format::number(clock.ahead_s.abs(), 1)));
+    }
+    if !facts.is_empty() {
+        lines.push((Tone::Plain, facts.join(" ")));
+    }
+    let wrong = state
+        .checks
+        .iter()
+        .filter(|check| matches!(check.state, CheckState::Caution | CheckState::Fault));
+    let wrong: Vec<&str> = wrong.map(|check| check.name).collect();
+    if !wrong.is_empty() {
+        lines.push((Tone::Caution, format!("It reports: {}.", format::list(&wrong))));
+    }
+    if let Some(why) = state.unreadable {
+        lines.push((Tone::Caution, why.to_string()));
+    }
+    lines
+}
