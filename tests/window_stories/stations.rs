@@ -13,10 +13,13 @@ use azel::{
     ui::theme,
 };
 use egui::{Key, Modifiers, Role};
-use egui_kittest::{Harness, kittest::Queryable as _};
+use egui_kittest::{
+    Harness,
+    kittest::{NodeT as _, Queryable as _},
+};
 
 use crate::window_stories::{
-    rig::{self, NOAA_20, SIZES, asked, settle},
+    rig::{self, NOAA_20, SIZES, Window, asked, settle},
     settings_rig::{press, says},
     unit::{RealWindow, Unit, clock_from, step_until, wait_until},
 };
@@ -56,6 +59,31 @@ fn the_menu_of_every_station_leads_to_the_others_and_to_the_demo() {
             entry.click();
             assert_eq!(asked(&mut window), Vec::from_iter(wanted));
         }
+    }
+}
+
+#[test]
+fn the_menu_works_with_the_keyboard_alone() {
+    for size in SIZES {
+        let mut window = rig::window(size, rig::model(rig::quiet()));
+        window.get_by_label("Station Şile 1").focus();
+        settle(&mut window);
+        window.key_press(Key::Enter);
+        settle(&mut window);
+        let has_focus = |window: &Window| {
+            let entry = window.get_by_role_and_label(Role::Button, "Demo station");
+            entry.accesskit_node().is_focused()
+        };
+        for _ in 0..10 {
+            if has_focus(&window) {
+                break;
+            }
+            window.key_press(Key::Tab);
+            settle(&mut window);
+        }
+        assert!(has_focus(&window), "Tab leads into the menu");
+        window.key_press(Key::Enter);
+        assert_eq!(asked(&mut window), [UiCommand::ChooseStation(NextStation::Demo)]);
     }
 }
 
