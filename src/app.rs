@@ -113,7 +113,9 @@ impl App {
         let station = Handle::start(settings.clone(), outside.clone(), Arc::clone(&wake))?;
         let mut model = Model::before_anything(clock.now());
         (model.list, model.view) = (keeper.memory.list, keeper.memory.view);
-        model.stations.open = settings.station_path();
+        // The list outlives the folder that the program was started in.
+        let whole = |path: PathBuf| std::path::absolute(&path).unwrap_or(path);
+        model.stations.open = settings.station_path().map(whole);
         let folder = model.stations.open.as_deref().and_then(Path::parent).map(Path::to_path_buf);
         let known_work;
         (known_work, model.stations.known) = KnownWork::beside(folder.as_deref());

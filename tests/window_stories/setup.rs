@@ -199,7 +199,11 @@ fn the_station_menu_leads_to_the_set_up_of_a_demo_alone() {
 fn a_locator_fills_the_place_and_the_sun_tells_a_wrong_sign() {
     for size in SIZES {
         let mut window = window(size);
+        let altitude =
+            |window: &Window| window.get_by_role_and_label(Role::TextInput, "Altitude").rect();
+        let before = altitude(&window);
         write(&mut window, "Locator", "KN41ob");
+        assert_eq!(altitude(&window), before, "nothing moves under the pointer");
         assert_eq!(field(&window, "Latitude"), "41.0625");
         assert!(says(&window, "The centre of a square of 7.0 by 4.6 km."));
         assert!(says(&window, "there now. Is that so?"));

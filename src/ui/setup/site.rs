@@ -78,7 +78,10 @@ fn locator(ui: &mut Ui, draft: &mut SetupDraft) {
         }
     });
     let (words, colour) = match read_locator(&draft.locator) {
-        _ if draft.locator.trim().is_empty() => return,
+        // The line stays, so that no field moves under the pointer.
+        _ if draft.locator.trim().is_empty() => {
+            ("A Maidenhead locator fills latitude and longitude.".to_owned(), t.t3)
+        }
         Ok(square) => (words::square(square), t.t3),
         Err(why) => (format!("Locator {why}."), t.bad),
     };
