@@ -125,7 +125,7 @@ impl App {
         close_on_signals(Arc::clone(&client), flags, ctx.clone())?;
         Ok(Self {
             model,
-            views: ui::Views::with(keeper.memory.views),
+            views: ui::Views::with(keeper.memory.views.clone()),
             station,
             settings: settings.clone(),
             stations_folder: folder,

@@ -15,6 +15,7 @@ pub mod icons;
 pub mod keys;
 mod lean_shapes;
 pub mod map;
+pub mod menus;
 pub mod notes;
 pub mod operate;
 pub mod pass_header;

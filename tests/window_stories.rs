@@ -21,6 +21,7 @@ mod maintenance;
 mod makes;
 mod map;
 mod mask;
+mod menus;
 mod notices;
 mod on_board;
 mod panel;

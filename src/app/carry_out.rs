@@ -42,6 +42,8 @@ impl App {
                 ctx.send_viewport_cmd(egui::ViewportCommand::Close);
             }
             UiCommand::SelectPass(key) => model.selected = Some(key),
+            // The views have asked, or there is nothing to track it with.
+            UiCommand::AskToTrack(_) => {}
             UiCommand::SelectSatellite(number) => {
                 model.selected = model.pass_of(number).map(PredictedPass::key).or(model.selected);
             }

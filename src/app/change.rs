@@ -222,7 +222,7 @@ impl App {
         self.model = Model::before_anything(self.clock.now());
         (self.model.list, self.model.view) = (keeper.memory.list, keeper.memory.view);
         (self.model.stations.known, self.model.stations.open) = (known, settings.station_path());
-        self.views = ui::Views::with(keeper.memory.views);
+        self.views = ui::Views::with(keeper.memory.views.clone());
         (self.keeper, self.settings) = (keeper, settings);
         self.place_watch = PlaceWatch::default();
         (self.told, self.closes) = (engine::Attention::default(), false);

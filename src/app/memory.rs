@@ -15,7 +15,7 @@ use crate::{
     engine::passes::{ListChoice, SPANS_H, Scope},
     job::{Job, Wake},
     model::{ThemeName, View},
-    ui::{Kept, map::MapLayers, sky_plot::Layers},
+    ui::{Kept, map::MapLayers, pass_list::Arrangement, sky_plot::Layers},
     whole_file,
 };
 
@@ -79,6 +79,7 @@ impl Memory {
                 faults_open: is_set("faults_open"),
                 strip_hours: number("strip_hours"),
                 list_width: number("list_width"),
+                passes: arrangement(table.get("passes").and_then(toml::Value::as_table)),
                 layers: layers(table.get("layers").and_then(toml::Value::as_table)),
                 map_layers: map_layers(table.get("map_layers").and_then(toml::Value::as_table)),
             },
@@ -110,6 +111,7 @@ impl Memory {
             strip_hours: Option<u32>,
             #[serde(skip_serializing_if = "Option::is_none")]
             list_width: Option<u32>,
+            passes: &'a Arrangement,
             layers: Layers,
             map_layers: MapLayers,
             #[serde(skip_serializing_if = "Option::is_none")]
@@ -126,6 +128,7 @@ impl Memory {
             faults_open: self.views.faults_open,
             strip_hours: self.views.strip_hours,
             list_width: self.views.list_width,
+            passes: &self.views.passes,
             layers: self.views.layers,
             map_layers: self.views.map_layers,
             window: self.place,
@@ -142,6 +145,19 @@ fn flag(table: &toml::Table, key: &str) -> Option<bool> {
     table.get(key).and_then(toml::Value::as_bool)
 }
 
+fn arrangement(table: Option<&toml::Table>) -> Arrangement {
+    let Some(table) = table else { return Arrangement::default() };
+    let is_set = |key: &str| flag(table, key).unwrap_or_default();
+    Arrangement {
+        order: word(table, "order"),
+        group: table.get("group").and_then(toml::Value::as_str).map(str::to_owned),
+        light: word(table, "light"),
+        sunlit: is_set("sunlit"),
+        trackable: is_set("trackable"),
+        to_come: is_set("to_come"),
+    }
+}
+
 fn layers(table: Option<&toml::Table>) -> Layers {
     let usual = Layers::default();
     let Some(table) = table else { return usual };
@@ -153,6 +169,7 @@ fn layers(table: Option<&toml::Table>) -> Layers {
         keyholes: shown("keyholes", usual.keyholes),
         mask: shown("mask", usual.mask),
         keep_outs: shown("keep_outs", usual.keep_outs),
+        antennas: shown("antennas", usual.antennas),
     }
 }
 
@@ -255,6 +272,7 @@ fn write(memory: &Memory, path: &Path) {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::ui::pass_list::{Light, Order};
 
     fn other() -> Memory {
         Memory {
@@ -272,6 +290,13 @@ mod tests {
                 faults_open: false,
                 strip_hours: Some(24),
                 list_width: Some(411),
+                passes: Arrangement {
+                    order: Order::Maximum,
+                    group: Some("weather".to_owned()),
+                    light: Light::Night,
+                    trackable: true,
+                    ..Arrangement::default()
+                },
                 layers: Layers { names: false, mask: false, ..Layers::default() },
                 map_layers: MapLayers { other_tracks: true, ..MapLayers::default() },
             },
@@ -340,6 +365,14 @@ mod tests {
             ("list_width = -4\n[layers]\nnames = false\nmask = 3\nnew = true", {
                 let layers = Layers { names: false, ..Layers::default() };
                 Memory { views: Kept { layers, ..Kept::default() }, ..Memory::default() }
+            }),
+            ("[passes]\norder = 'maximum'\nlight = 3\nsunlit = 'yes'\ntrackable = true", {
+                let passes = Arrangement {
+                    order: Order::Maximum,
+                    trackable: true,
+                    ..Arrangement::default()
+                };
+                Memory { views: Kept { passes, ..Kept::default() }, ..Memory::default() }
             }),
             ("pass_scope = 'none'\npass_hours = 7\npass_hours_of_all = 24", {
                 let list = ListChoice { all_h: 24, ..ListChoice::default() };

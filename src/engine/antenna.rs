@@ -2,11 +2,13 @@
 //! it, and the error between the two.
 
 mod errors;
+mod past_tracks;
 mod stake;
 
 use std::{collections::VecDeque, sync::Arc};
 
 pub use errors::{ErrorSample, Errors};
+pub use past_tracks::{PastTrack, PastTracks};
 pub use stake::Stake;
 
 use jiff::Timestamp;
@@ -47,6 +49,10 @@ pub struct AntennaModel {
     pub prediction: Option<Prediction>,
     /// Errors of the present track, oldest first.
     pub errors: Errors,
+    /// Target of the present track.
+    pub errors_of: Option<String>,
+    /// Errors of the last tracks.
+    pub past_tracks: PastTracks,
     /// Measured rates of azimuth and elevation, degrees a second.
     pub rates_deg_s: Option<(f64, f64)>,
     /// How its unit would track the selected or next pass on board.
@@ -81,6 +87,8 @@ impl AntennaModel {
             snapshot,
             prediction: None,
             errors: Errors::default(),
+            errors_of: None,
+            past_tracks: PastTracks::default(),
             rates_deg_s: None,
             judged: None,
             news: None,
@@ -161,9 +169,13 @@ impl AntennaModel {
             })
         };
         if self.prediction.map(|prediction| prediction.catalog_number) != before {
-            self.errors.clear();
+            let errors = std::mem::take(&mut self.errors);
+            self.past_tracks.keep(self.errors_of.take().unwrap_or_default(), errors);
         }
         if let Some(error) = self.error() {
+            if self.errors_of.is_none() {
+                self.errors_of = self.tracked_name().map(str::to_owned);
+            }
             self.errors.push(error);
         }
     }

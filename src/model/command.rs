@@ -36,6 +36,9 @@ pub enum UiCommand {
     /// Stay with the station in the window.
     KeepStation,
     SelectPass(PassKey),
+    /// Ask whether the selected antenna is to track this pass; the second step of the views
+    /// takes it.
+    AskToTrack(PassKey),
     /// Show the present or next pass of this satellite.
     SelectSatellite(u32),
     /// Select the antenna at this place.

@@ -1,5 +1,6 @@
 //! The Operate view, for watching and driving the antennas.
 
+mod all_antennas;
 mod card;
 mod divider;
 mod filter;
@@ -56,7 +57,8 @@ pub struct OperateState {
     marked: Option<Timestamp>,
     profile: ProfileState,
     ghost: GhostState,
-    passes: PassListState,
+    /// The pass list.
+    pub passes: PassListState,
     found: filter::FoundPasses,
     /// Index of the antenna whose card was shown last.
     shown_antenna: Option<AntennaId>,
@@ -72,14 +74,14 @@ impl OperateState {
     /// The pass `down` places below the selected one in the filtered list.
     pub fn neighbour(&mut self, model: &Model, down: isize) -> Option<PassKey> {
         let listed = model.upcoming();
-        let found = self.found.places(model, self.passes.filter.text());
+        let found = self.found.arrange(model, &self.passes.filter);
         let place = model.selected.and_then(|key| listed.row(key));
         let at = match found {
-            Some(found) => place.and_then(|place| found.binary_search(&place).ok()),
+            Some(found) => place.and_then(|place| found.row(place)),
             None => place,
         };
         let wanted = at.map_or(Some(0), |at| at.checked_add_signed(down))?;
-        let place = found.map_or(Some(wanted), |found| found.get(wanted).copied())?;
+        let place = found.map_or(Some(wanted), |found| found.place(wanted))?;
         listed.get(place).map(PredictedPass::key)
     }
 

@@ -1,5 +1,6 @@
 //! The list of passes, one row each, with the pass in progress on top.
 
+mod arrangement;
 mod filter;
 mod header;
 mod phase;
@@ -17,7 +18,7 @@ use std::{borrow::Cow, sync::Arc};
 use egui::{Rect, Ui, vec2};
 use jiff::Timestamp;
 
-use super::{format, text, theme, widgets::paint};
+use super::{format, menus::PassMenu, text, theme, widgets::paint};
 use crate::{
     astro::time::seconds_between,
     engine::passes::{PassKey, Scope, Work},
@@ -25,6 +26,7 @@ use crate::{
     plan::{Loss, Sample},
 };
 
+pub use arrangement::{Arrangement, Light, Order};
 pub use filter::Filter;
 pub use short_row::{SHORT_ROW, short_row};
 
@@ -126,6 +128,10 @@ pub struct PassListModel<'a> {
     pub now: Timestamp,
     /// Number of passes.
     pub rows: usize,
+    /// Number of passes without filters.
+    pub of: usize,
+    /// Names of the groups of the catalogue.
+    pub groups: &'a [&'a str],
     /// The pass at an index. Called only for rows in view.
     pub row: &'a dyn Fn(usize) -> Option<PassRow<'a>>,
     /// The index of a pass in the list; must be fast.
@@ -149,6 +155,8 @@ pub struct PassListModel<'a> {
     pub thumbnails: bool,
     /// The sentence shown when there are no rows.
     pub empty: &'a str,
+    /// Shows the entries of a pass in the menu of the row with this id.
+    pub menu: &'a PassMenu<'a>,
 }
 
 /// State of the column, kept from frame to frame.
@@ -209,9 +217,10 @@ pub fn show(
         status::show(ui, strip, model, &mut commands);
         body = rest;
     }
-    if state.filter.is_open {
-        let (strip, rest) = body.split_top_bottom_at_y(body.top() + filter::HEIGHT);
-        filter::show(ui, strip, &mut state.filter);
+    let height = filter::height(ui, body, &state.filter);
+    if height > 0.0 {
+        let (strip, rest) = body.split_top_bottom_at_y(body.top() + height);
+        filter::show(ui, strip, model, &mut state.filter);
         body = rest;
     }
     if model.rows == 0 {

@@ -5,6 +5,7 @@ mod dashes;
 mod error_plot;
 mod head;
 mod marker;
+mod past;
 mod scale;
 mod words;
 
@@ -13,6 +14,7 @@ use jiff::Timestamp;
 
 use super::{text, theme, widgets::paint};
 use crate::{astro::HorizonMask, plan::Sample};
+pub use past::PastModel;
 use scale::TimeAxis;
 
 /// Padding at the left and the right edge.
@@ -59,6 +61,8 @@ pub struct ProfileModel<'a> {
 pub struct ProfileState {
     /// The time that the arrow keys mark.
     cursor: Option<Timestamp>,
+    /// Begin of the past track that is looked at.
+    past: Option<Timestamp>,
 }
 
 /// Shows the profile in `rect`; designed for 392 by 208 points. Returns the time that the
@@ -67,8 +71,15 @@ pub fn show(
     ui: &mut Ui,
     rect: Rect,
     model: Option<&ProfileModel<'_>>,
+    past: &[PastModel<'_>],
     state: &mut ProfileState,
 ) -> Option<Timestamp> {
+    let shown = past.iter().find(|track| Some(track.from) == state.past);
+    let head_room = past::choice(ui, rect, past, shown, &mut state.past);
+    if let Some(track) = shown {
+        past::show(ui, rect, head_room, track);
+        return None;
+    }
     let sense = Sense::focusable_noninteractive();
     let response = ui.interact(rect, ui.make_persistent_id("pass profile"), sense);
     let Some(model) = model else {
@@ -77,10 +88,7 @@ pub fn show(
         response.widget_info(|| WidgetInfo::labeled(Role::Image, true, sentence));
         return None;
     };
-    let head = Rect::from_center_size(
-        pos2(rect.center().x, rect.top() + HEAD_Y),
-        vec2((rect.width() - 2.0 * PADDING).max(0.0), 16.0),
-    );
+    let head = head_room;
     head::show(ui, head, model.name);
 
     let error_rect = Rect::from_min_max(
@@ -100,7 +108,7 @@ pub fn show(
     let mut asked = None;
     if curves_rect.width() >= MIN_PLOT && curves_rect.height() >= MIN_PLOT {
         curves::show(ui, curves_rect, &axis, model);
-        error_plot::show(ui, error_rect, &axis, model);
+        error_plot::show(ui, error_rect, &axis, model.errors, model.half_beam_deg);
         let plots = curves_rect.union(error_rect);
         now_line(ui, plots, &axis, model.now);
         words::times(ui, error_rect, &axis, model);

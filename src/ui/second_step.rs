@@ -22,6 +22,9 @@ pub(super) fn ask(model: &Model, from: usize, commands: &mut Vec<UiCommand>) -> 
 
 /// The question before `command`; `None` if it needs none.
 fn question(model: &Model, command: &UiCommand) -> Option<Question> {
+    if let UiCommand::AskToTrack(pass) = command {
+        return before_a_track(model, *pass);
+    }
     let UiCommand::Station(station) = command else { return None };
     let antenna = model.antenna_of(station.antenna()?)?;
     let name = &antenna.config.name;
@@ -45,6 +48,23 @@ fn question(model: &Model, command: &UiCommand) -> Option<Question> {
         .unwrap_or_default();
     let text = format!("{name} tracks {tracked}{until}. {what} ends that.");
     Some(Question { text, yes, command: command.clone() })
+}
+
+/// The question before a track, which names the one that it ends.
+fn before_a_track(model: &Model, pass: PassKey) -> Option<Question> {
+    let (antenna, predicted) = (model.antenna()?, model.pass_lists.find(pass)?);
+    let track = engine::Command::Track { antenna: antenna.id(), pass, is_agreed: false };
+    let track = UiCommand::Station(track);
+    let usual = || Question {
+        text: format!(
+            "Track {} with {}? The antenna moves.",
+            predicted.satellite.short_name(),
+            antenna.config.name
+        ),
+        yes: "Track",
+        command: track.clone(),
+    };
+    Some(question(model, &track).unwrap_or_else(usual))
 }
 
 /// What a command that would end a track leads to, and the words of its button.

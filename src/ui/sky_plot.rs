@@ -14,6 +14,7 @@ pub(super) mod legend;
 pub(super) mod marks;
 pub(super) mod mask;
 mod nodes;
+mod other_antennas;
 pub(super) mod placement;
 mod pointer;
 mod readout;
@@ -28,7 +29,7 @@ mod zoom;
 
 use std::collections::HashMap;
 
-use egui::{PointerButton, Popup, Pos2, Rect, Response, Ui};
+use egui::{Id, PointerButton, Popup, Pos2, Rect, Response, Ui};
 use jiff::Timestamp;
 
 use self::{
@@ -36,10 +37,13 @@ use self::{
     labels::{Key, Label, Labels},
     placement::{Memory, Side},
 };
-use super::{along, text, theme, tokens::Tokens};
+use super::{along, text, theme, tokens::Tokens, widgets::context_menu};
 use crate::astro::AzEl;
 
-pub use scene::{Bearing, Ghost, KeepOutMark, Keyholes, Measured, OtherSatellite, SkyScene, Track};
+pub use scene::{
+    AzimuthStop, Bearing, Ghost, KeepOutMark, Keyholes, Measured, OtherAntenna, OtherSatellite,
+    SkyScene, Track,
+};
 pub use small::paint_small;
 pub use zoom::Zoom;
 
@@ -53,6 +57,8 @@ pub struct SkyPlotState {
     labels: HashMap<Key, Memory>,
     /// A menu was open in the last frame: a click beside it closes it and means nothing else.
     menu_open: bool,
+    /// The direction that the menu of the sky is about.
+    menu_at: Option<AzEl>,
 }
 
 /// What the operator did in the plot.
@@ -60,6 +66,8 @@ pub struct SkyPlotState {
 pub struct SkyAnswer {
     /// Catalog number of a satellite chosen with a click or with Enter.
     pub chosen: Option<u32>,
+    /// Place in the station of an antenna chosen with a click or with Enter.
+    pub antenna: Option<usize>,
     /// Time of the path under the pointer.
     pub pointed: Option<Timestamp>,
     /// A click in the sky.
@@ -86,6 +94,8 @@ pub struct Layers {
     pub mask: bool,
     /// Zones into which antennas must not point.
     pub keep_outs: bool,
+    /// Antennas that are not selected, with the ends of their azimuth axes.
+    pub antennas: bool,
 }
 
 impl Default for Layers {
@@ -97,12 +107,31 @@ impl Default for Layers {
             keyholes: true,
             mask: true,
             keep_outs: true,
+            antennas: true,
         }
     }
 }
 
-/// Shows the plot in `rect`.
-pub fn show(ui: &mut Ui, rect: Rect, scene: &SkyScene<'_>, state: &mut SkyPlotState) -> SkyAnswer {
+/// What a menu in the plot is about.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum MenuOf {
+    /// A satellite, by its catalog number, in this direction.
+    Satellite(u32, AzEl),
+    /// A direction of the sky.
+    Sky(AzEl),
+}
+
+/// Shows the entries of a menu.
+pub type ShowMenu<'a> = dyn FnMut(&mut Ui, Id, MenuOf) + 'a;
+
+/// Shows the plot in `rect`, and its menus with `menu`.
+pub fn show(
+    ui: &mut Ui,
+    rect: Rect,
+    scene: &SkyScene<'_>,
+    state: &mut SkyPlotState,
+    menu: &mut ShowMenu<'_>,
+) -> SkyAnswer {
     if !geometry::usable(rect) {
         return SkyAnswer::default();
     }
@@ -121,7 +150,8 @@ pub fn show(ui: &mut Ui, rect: Rect, scene: &SkyScene<'_>, state: &mut SkyPlotSt
     let dome = state.zoom.of(whole);
     paint_sky(ui, rect, dome, scene, state, t);
     beam_view::paint(ui.painter(), rect, scene, t);
-    let chosen = nodes::satellites(ui, canvas.id, rect, dome, scene, state.layers.others, t);
+    let chosen = nodes::satellites(ui, canvas.id, rect, dome, scene, state.layers.others, t, menu);
+    let antenna = other_antennas::nodes(ui, canvas.id, rect, dome, scene, t);
     let events = scene.track.map(|track| track::events(&track)).unwrap_or_default();
     nodes::events_and_antenna(ui, canvas.id, dome, &events, scene);
     // The corners keep their places in a magnified sky.
@@ -136,10 +166,18 @@ pub fn show(ui: &mut Ui, rect: Rect, scene: &SkyScene<'_>, state: &mut SkyPlotSt
     }
     let is_menu_open = Popup::is_any_open(ui);
     let closes_menu = std::mem::replace(&mut state.menu_open, is_menu_open) || is_menu_open;
+    if canvas.secondary_clicked() {
+        state.menu_at = canvas.interact_pointer_pos().and_then(|at| dome.direction(at));
+    }
+    let menu_at = state.menu_at.or(scene.measured.map(|measured| measured.direction));
+    if let Some(direction) = menu_at {
+        context_menu::show(ui, &canvas, |ui| menu(ui, canvas.id, MenuOf::Sky(direction)));
+    }
     let is_click = canvas.clicked_by(PointerButton::Primary) && !takes_click_back && !closes_menu;
     let clicked = canvas.interact_pointer_pos().filter(|_| is_click);
     SkyAnswer {
         chosen,
+        antenna,
         pointed,
         clicked: clicked.and_then(|at| dome.direction(at)),
         takes_click_back,
@@ -225,6 +263,7 @@ fn paint_sky(
     }
     antenna::reserve(dome, scene, &mut labels);
     bearing::label(&mut labels, dome, scene, t);
+    other_antennas::label_stops(&mut labels, dome, scene, t);
 
     let mut events = Vec::new();
     if let Some(track) = &scene.track {
@@ -241,12 +280,15 @@ fn paint_sky(
     if layers.sun_and_moon {
         bodies::label_sun_and_moon(&mut labels, dome, scene, t);
     }
+    other_antennas::label(&mut labels, dome, scene, t);
     if layers.others && layers.names {
         bodies::label_others(&mut labels, dome, scene, t);
     }
     state.labels = labels.into_memory();
 
     track::paint_events(painter, dome, &events, t);
+    other_antennas::paint_stops(painter, dome, scene, t);
+    other_antennas::paint(painter, dome, scene, t);
     bearing::paint(painter, dome, scene, t);
     antenna::paint(painter, dome, scene, t);
     let position = scene.track.and_then(|track| track.position);

@@ -14,9 +14,9 @@ use std::ops::RangeInclusive;
 use egui::{Align2, Rangef, Rect, Role, Sense, Ui, Vec2, WidgetInfo, vec2};
 use jiff::Timestamp;
 
-use crate::model::daylight::SunSpan;
+use crate::model::{UiCommand, daylight::SunSpan};
 
-use super::{format, text, theme, widgets::paint};
+use super::{format, menus::PassMenu, text, theme, widgets::paint};
 use scale::Scale;
 pub use zoom::Zoom;
 
@@ -35,7 +35,7 @@ pub struct Bar<'a> {
     pub possible: bool,
 }
 
-#[derive(Debug, Clone, Copy)]
+#[derive(Clone, Copy)]
 pub struct TimelineModel<'a> {
     /// The time of the now-line, UTC.
     pub now: Timestamp,
@@ -47,6 +47,8 @@ pub struct TimelineModel<'a> {
     pub selected: Option<(u32, Timestamp)>,
     /// Day and night, earliest first.
     pub sun: &'a [SunSpan],
+    /// Shows the entries of a pass in the menu of the bar with this id.
+    pub menu: &'a PassMenu<'a>,
 }
 
 /// Below this height the strip has its small form, in points.
@@ -75,8 +77,8 @@ const BOTTOM: f32 = 6.0;
 const HEIGHTS: RangeInclusive<f32> = 14.0..=44.0;
 const OUT_HEIGHTS: RangeInclusive<f32> = 9.0..=28.0;
 
-/// Shows the strip in `rect`. Returns the key of a bar chosen with a click or with Enter.
-pub fn show(ui: &mut Ui, rect: Rect, model: &TimelineModel<'_>) -> Option<(u32, Timestamp)> {
+/// Shows the strip in `rect`. A click on a bar or Enter selects its pass.
+pub fn show(ui: &mut Ui, rect: Rect, model: &TimelineModel<'_>, commands: &mut Vec<UiCommand>) {
     let is_small = rect.height() < SMALL_BELOW;
     let hours = model.hours;
     let title = match format::number(hours, 0).as_str() {
@@ -86,16 +88,16 @@ pub fn show(ui: &mut Ui, rect: Rect, model: &TimelineModel<'_>) -> Option<(u32, 
     let group = ui.interact(rect, ui.make_persistent_id("timeline"), Sense::hover());
     group.widget_info(|| WidgetInfo::labeled(Role::ListBox, true, &title));
     if rect.width() < MIN.x || rect.height() < MIN.y {
-        return None;
+        return;
     }
     let names = if is_small { SMALL_NAMES } else { NAMES };
     let x = Rangef::new(rect.left() + names, rect.right() - MARGIN);
     let scale = Scale::new(model.now, hours, x);
     if is_small {
-        return small(ui, rect, x, &scale, model);
+        return small(ui, rect, x, &scale, model, commands);
     }
     head::show(ui, rect.with_max_y(rect.top() + HEAD), &title);
-    full(ui, rect.with_min_y(rect.top() + HEAD), x, &scale, model)
+    full(ui, rect.with_min_y(rect.top() + HEAD), x, &scale, model, commands);
 }
 
 fn full(
@@ -104,7 +106,8 @@ fn full(
     x: Rangef,
     scale: &Scale,
     model: &TimelineModel<'_>,
-) -> Option<(u32, Timestamp)> {
+    commands: &mut Vec<UiCommand>,
+) {
     let band = |bottom: f32, height: f32| Rect::from_x_y_ranges(x, bottom - height..=bottom);
     let two_lanes = HEAD + rect.height() >= TWO_LANES_FROM;
     let words = band(rect.bottom() - BOTTOM, SUN_WORDS);
@@ -118,19 +121,18 @@ fn full(
     let heights = bars::fitting(&HEIGHTS, lane);
     let wanted = |bar: &Bar<'_>| bar.possible || !two_lanes;
     let main = bars::stand(model.bars, wanted, scale, lane, &heights);
-    let mut clicked = bars::show(ui, &main, model.selected);
+    bars::show(ui, &main, model, commands);
     if two_lanes {
         ui.painter().hline(x, out.top(), (1.0, theme::tokens(ui).line));
         lane_name(ui, rect.left() + MARGIN, out, "Not possible", false);
         let others = bars::stand(model.bars, |bar| !bar.possible, scale, out, &OUT_HEIGHTS);
-        clicked = clicked.or(bars::show(ui, &others, model.selected));
+        bars::show(ui, &others, model, commands);
     }
     lane_name(ui, rect.left() + MARGIN, sun, "Sun", false);
     sun::show(ui, scale, model.sun, sun, words);
     axis::now_line(ui, scale, model.now, Rangef::new(lane.top() - 4.0, sun.bottom()));
     let room = lane.with_min_x(lane.left() - NAMES_GAP);
     bars::show_names(ui, &main, model.selected, room);
-    clicked
 }
 
 fn small(
@@ -139,18 +141,18 @@ fn small(
     x: Rangef,
     scale: &Scale,
     model: &TimelineModel<'_>,
-) -> Option<(u32, Timestamp)> {
+    commands: &mut Vec<UiCommand>,
+) {
     let names = Rect::from_x_y_ranges(x, rect.top()..=rect.top() + SMALL_AXIS);
     let lane = Rect::from_x_y_ranges(x, names.bottom()..=rect.bottom());
     axis::show(ui, scale, lane, names);
     lane_name(ui, rect.left() + SMALL_MARGIN, lane, model.lane, true);
     let heights = bars::fitting(&HEIGHTS, lane);
     let standing = bars::stand(model.bars, |_| true, scale, lane, &heights);
-    let clicked = bars::show(ui, &standing, model.selected);
+    bars::show(ui, &standing, model, commands);
     axis::now_line(ui, scale, model.now, Rangef::new(lane.top() - 4.0, lane.bottom()));
     let room = lane.with_min_x(lane.left() - NAMES_GAP);
     bars::show_names(ui, &standing, model.selected, room);
-    clicked
 }
 
 /// Paints the name of a lane at its left, cut if it does not fit.

@@ -18,7 +18,9 @@ use super::{
     keys::{self, KeyTargets},
     map::{self, MapLayers},
     notes::Notes,
-    operate, preferences, rail,
+    operate,
+    pass_list::Arrangement,
+    preferences, rail,
     rail::RailEntry,
     second_step, setup,
     sky_plot::Layers,
@@ -52,7 +54,7 @@ pub struct Views {
 }
 
 /// State of the views kept from one start to the next.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub struct Kept {
     /// The travel gauges are unfolded in a low window.
     pub travel_open: bool,
@@ -62,6 +64,8 @@ pub struct Kept {
     pub strip_hours: Option<u32>,
     /// Width of the pass list, points; `None` for the default.
     pub list_width: Option<u32>,
+    /// Order and filters of the pass list.
+    pub passes: Arrangement,
     /// Layers of the sky plot.
     pub layers: Layers,
     /// Layers of the map.
@@ -77,6 +81,7 @@ impl Views {
         operate.card.faults_open = kept.faults_open;
         operate.zoom = Zoom::of(kept.strip_hours);
         operate.list_width = kept.list_width;
+        operate.passes.filter.arrangement = kept.passes;
         operate.sky.layers = kept.layers;
         views.map.layers = kept.map_layers;
         views
@@ -89,6 +94,7 @@ impl Views {
             faults_open: self.operate.card.faults_open,
             strip_hours: self.operate.zoom.wanted(),
             list_width: self.operate.list_width,
+            passes: self.operate.passes.filter.arrangement.clone(),
             layers: self.operate.sky.layers,
             map_layers: self.map.layers,
         }

@@ -8,7 +8,11 @@ use azel::{
     engine::passes::{PredictedPass, Scope},
     model::{Model, UiCommand},
     station::AntennaId,
-    ui::{Kept, Views, sky_plot::Layers},
+    ui::{
+        Kept, Views,
+        pass_list::{Arrangement, Light, Order},
+        sky_plot::Layers,
+    },
 };
 use egui::{Event, Key, Modifiers, PointerButton, Role};
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
@@ -268,6 +272,87 @@ fn up_and_down_stay_within_what_is_filtered() {
     assert_eq!(asked(&mut window), [UiCommand::SelectPass(of_meteor[1])]);
 }
 
+/// The names of the rows of the list.
+fn rows(window: &Window) -> Vec<String> {
+    let rows = window.get_all_by_role(Role::ListBoxOption);
+    let names = rows.filter_map(|row| row.accesskit_node().label());
+    names.filter(|name| name.contains("OS T−") || name.contains("OS in")).collect()
+}
+
+#[test]
+fn chips_filter_and_sort_the_list_and_stay_when_it_is_closed() {
+    for size in SIZES {
+        let mut window = window(size);
+        open_list(&mut window);
+        window.key_press_modifiers(Modifiers::COMMAND, Key::F);
+        settle(&mut window);
+        window.get_by_role_and_label(Role::ComboBox, "Order: By AOS").click();
+        settle(&mut window);
+        window.get_by_label("Highest first").click();
+        settle(&mut window);
+        window.get_by_role_and_label(Role::CheckBox, "To come").click();
+        settle(&mut window);
+        let listed = rows(&window);
+        let highest = |row: &String| -> f64 {
+            let after = row.split("max ").nth(1).unwrap();
+            after.split('°').next().unwrap().parse().unwrap()
+        };
+        assert!(listed.len() > 1, "{listed:?}");
+        assert!(listed.iter().map(highest).is_sorted_by(|a, b| a >= b), "{listed:?}");
+        assert!(listed.iter().all(|row| !row.contains("LOS")), "{listed:?}");
+        let arrangement = window.state().views.kept().passes;
+        assert_eq!((arrangement.order, arrangement.to_come), (Order::Maximum, true));
+
+        window.get_by_role_and_label(Role::Button, "Close").click();
+        settle(&mut window);
+        assert!(says(&window, "Filtered: Highest first · To come"));
+        window.get_by_role_and_label(Role::Button, "Clear").click();
+        settle(&mut window);
+        assert_eq!(window.state().views.kept().passes, Arrangement::default());
+        assert_eq!(asked(&mut window), []);
+    }
+}
+
+#[test]
+fn sunlit_trackable_and_time_of_day_leave_out_the_rest() {
+    let of = |arrangement: Arrangement| {
+        let mut window = window(LARGE);
+        window.state_mut().views = Views::with(Kept { passes: arrangement, ..Kept::default() });
+        settle(&mut window);
+        window.run_steps(20);
+        let title = window.get_by_label_contains("Next passes, ").accesskit_node().value();
+        let title = title.unwrap().replace("Next passes, ", "");
+        title.split([' ', '·']).next().unwrap().parse::<usize>().unwrap()
+    };
+    let all = of(Arrangement::default());
+    let [day, night] =
+        [Light::Day, Light::Night].map(|light| of(Arrangement { light, ..Arrangement::default() }));
+    assert_eq!(day + night, all);
+    assert!(day > 0 && night > 0, "{day} {night}");
+    let sunlit = of(Arrangement { sunlit: true, ..Arrangement::default() });
+    assert!((1..all).contains(&sunlit), "{sunlit} of {all}");
+    let trackable = of(Arrangement { trackable: true, ..Arrangement::default() });
+    assert!((1..=all).contains(&trackable), "{trackable} of {all}");
+    let group = Some("no such group".to_owned());
+    assert_eq!(of(Arrangement { group, ..Arrangement::default() }), all, "a group that is gone");
+}
+
+#[test]
+fn arrows_follow_the_order_of_the_rows() {
+    let mut window = window(LARGE);
+    let passes = Arrangement { order: Order::Duration, to_come: true, ..Arrangement::default() };
+    window.state_mut().views = Views::with(Kept { passes, ..Kept::default() });
+    let model = &window.state().model;
+    let mut wanted: Vec<&PredictedPass> =
+        model.upcoming().iter().filter(|pass| pass.pass.aos.time > model.now).collect();
+    wanted.sort_by(|a, b| b.pass.duration_s().total_cmp(&a.pass.duration_s()));
+    let keys: Vec<_> = wanted.iter().map(|pass| pass.key()).collect();
+    window.state_mut().model.selected = Some(keys[1]);
+    asked(&mut window);
+    window.key_press(Key::ArrowDown);
+    assert_eq!(asked(&mut window), [UiCommand::SelectPass(keys[2])]);
+}
+
 /// Opens the list, which is a drawer in the small window.
 fn open_list(window: &mut Window) {
     if window.query_by_label_contains("Next passes, ").is_none() {
@@ -339,7 +424,7 @@ fn layers_and_width_are_there_again_at_the_next_start() {
     let layers = Layers { names: false, ..Layers::default() };
     let kept = Kept { list_width: Some(300), layers, ..Kept::default() };
     let mut window = window(LARGE);
-    window.state_mut().views = Views::with(kept);
+    window.state_mut().views = Views::with(kept.clone());
     settle(&mut window);
     assert_eq!(window.state().views.kept(), kept);
     let edge = window.get_by_label("Width of the pass list").rect().center();

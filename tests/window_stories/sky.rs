@@ -1,9 +1,13 @@
 //! The sky plot under the pointer: directions, times along the path, a closer look.
 
+use std::{sync::Arc, time::Duration};
+
+use azel::{astro::time::add_seconds, driver::Intent, model::UiCommand, station::AntennaId};
 use egui::{Event, Key, Modifiers, PointerButton, Pos2, Role, vec2};
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
 
 use crate::window_stories::{
+    makes,
     rig::{self, LARGE, SIZES, Window, asked, scroll, settle},
     states,
 };
@@ -131,4 +135,79 @@ fn plus_and_zero_magnify_the_sky_that_has_the_focus() {
     settle(&mut window);
     assert!(los(&window).distance(whole) < 0.5);
     assert_eq!(window.state().views.kept().strip_hours, None, "the strip keeps its hours");
+}
+
+/// A station with a Satrak and a Rotator Genius beside it.
+fn with_a_second_antenna() -> Window {
+    let mut model = rig::model(states::holding());
+    let second = makes::model(makes::pair(), makes::pair_at(Intent::Position));
+    model.antennas.extend(second.antennas);
+    model.antennas[1].config.id = AntennaId(2);
+    rig::window(LARGE, model)
+}
+
+#[test]
+fn all_antennas_stand_in_the_sky_with_the_stop_of_their_azimuth() {
+    let mut window = with_a_second_antenna();
+    let genius = label_of_button(&window, "Antenna Genius").expect("its mark");
+    assert!(genius.contains("azimuth"), "{genius}");
+    window.get_by_role_and_label(Role::Button, &genius).click();
+    assert_eq!(asked(&mut window), [UiCommand::SelectAntenna(1)]);
+    window.state_mut().model.selected_antenna = 1;
+    settle(&mut window);
+    assert!(label_of_button(&window, "Antenna Satrak").is_some());
+    assert!(label_of_button(&window, "Antenna Genius").is_none(), "the loud one is selected");
+
+    // The layer takes the others away.
+    window.get_by_role_and_label(Role::Button, "Layers").click();
+    settle(&mut window);
+    window.get_by_role_and_label(Role::CheckBox, "Other antennas").click();
+    settle(&mut window);
+    assert!(label_of_button(&window, "Antenna Satrak").is_none());
+    assert_eq!(asked(&mut window), []);
+}
+
+fn label_of_button(window: &Window, start: &str) -> Option<String> {
+    let mut buttons = window.query_all_by_role(Role::Button);
+    buttons.find_map(|node| node.accesskit_node().label().filter(|label| label.starts_with(start)))
+}
+
+#[test]
+fn errors_of_the_last_tracks_stay_to_be_looked_at() {
+    let mut model = rig::model(states::tracking(0.02));
+    assert!(model.antennas[0].past_tracks.is_empty());
+    let site = model.station.site;
+    let number = |model: &azel::model::Model, number| model.pass_lists.satellite(number).cloned();
+    for second in 0..8 {
+        let mut snapshot = states::tracking(0.02 * f64::from(second));
+        let mut measured = snapshot.state.measured.unwrap();
+        measured.received = model.steady + Duration::from_secs(u64::try_from(second).unwrap());
+        measured.at = add_seconds(measured.at, f64::from(second));
+        snapshot.state.measured = Some(measured);
+        let noaa = number(&model, rig::NOAA_20);
+        let antenna = &mut model.antennas[0];
+        antenna.snapshot = Arc::new(snapshot);
+        antenna.refresh(site, |_| noaa.as_ref());
+    }
+    let mut over = states::holding();
+    let mut measured = over.state.measured.unwrap();
+    measured.received = model.steady + Duration::from_mins(1);
+    over.state.measured = Some(measured);
+    model.antennas[0].snapshot = Arc::new(over);
+    model.antennas[0].refresh(site, |_| None);
+    let past = model.antennas[0].past_tracks.iter().next().expect("a past track").clone();
+    assert_eq!(past.name, "NOAA 20 (JPSS-1)");
+
+    let mut window = rig::window(LARGE, model);
+    window.get_by_role_and_label(Role::ComboBox, "Errors of the last tracks").click();
+    settle(&mut window);
+    window.get_by_label_contains("NOAA 20, 11:15 to 11:15Z: rms ").click();
+    settle(&mut window);
+    window.get_by_label_contains("Past track of NOAA 20, 11:15 to 11:15Z: rms ");
+    window.get_by_role_and_label(Role::ComboBox, "Errors of the last tracks").click();
+    settle(&mut window);
+    window.get_by_label("The selected pass").click();
+    settle(&mut window);
+    window.get_by_label_contains("NOAA 20 profile");
+    assert_eq!(asked(&mut window), []);
 }

@@ -163,6 +163,16 @@ impl PredictedPass {
         self.outline().trackability.get(antenna).copied()
     }
 
+    /// Like [`Self::trackability`], without keeping what was computed: for looking through a
+    /// long list.
+    pub fn judge(&self, antenna: usize) -> Option<Trackability> {
+        if let Some(outline) = self.outline.get() {
+            return outline.trackability.get(antenna).copied();
+        }
+        let limits = self.observer.antennas.get(antenna)?;
+        Some(trackability(&self.sampled(), *limits))
+    }
+
     fn outline(&self) -> &Outline {
         self.outline.get_or_init(|| {
             let track = self.sampled();
@@ -247,7 +257,13 @@ mod tests {
             assert!(path.len() > 10 && path.len() < 70, "{}", path.len());
             assert!(track.len() as f64 >= pass.duration_s() / 2.0);
             for (index, limits) in observer.antennas.iter().enumerate() {
-                assert_eq!(predicted.trackability(index), Some(trackability(track, *limits)));
+                let looked_at =
+                    PredictedPass::new(Arc::clone(&satellite), pass, Arc::clone(&observer));
+                let judged = Some(trackability(track, *limits));
+                assert_eq!(
+                    (predicted.trackability(index), looked_at.judge(index)),
+                    (judged, judged)
+                );
             }
         }
     }

@@ -5,9 +5,9 @@ use egui::{FocusDirection, Ui};
 use super::KeyTargets;
 use crate::{
     driver::{self, Intent},
-    engine::{self, antenna::AntennaModel},
+    engine::{self, antenna::AntennaModel, passes::PredictedPass},
     model::{Model, UiCommand, View, globe::Towards},
-    ui::{confirm::Question, elements, theme},
+    ui::{elements, theme},
 };
 
 /// Effect of a key.
@@ -81,7 +81,11 @@ impl Act {
                 commands.extend(model.next_pass().map(|next| UiCommand::SelectPass(next.key())));
             }
             Self::Drawer => targets.operate.drawer_open = !targets.operate.drawer_open,
-            Self::Track => *targets.question = ask_to_track(model, commands),
+            Self::Track => {
+                let pass = model.selected_pass().map(PredictedPass::key);
+                let pass = pass.filter(|_| model.antenna().is_some());
+                commands.extend(pass.map(UiCommand::AskToTrack));
+            }
             Self::GoTo => go_to(model, targets, commands),
             Self::Manual => manual(model, targets, commands),
             Self::Rate(by) => {
@@ -143,24 +147,4 @@ fn go_to(model: &Model, targets: &mut KeyTargets<'_>, commands: &mut Vec<UiComma
     if !is_tracked {
         targets.operate.card.drive.go_to.focus();
     }
-}
-
-/// Asks before it tracks; what that ends is asked by the second step.
-fn ask_to_track(model: &Model, commands: &mut Vec<UiCommand>) -> Option<Question> {
-    let (antenna, predicted) = (model.antenna()?, model.selected_pass()?);
-    let track = UiCommand::track_selected(model)?;
-    let is_other = antenna.tracked_number() != Some(predicted.number());
-    if is_other && antenna.tracked_name().is_some() {
-        commands.push(track);
-        return None;
-    }
-    Some(Question {
-        text: format!(
-            "Track {} with {}? The antenna moves.",
-            predicted.satellite.short_name(),
-            antenna.config.name
-        ),
-        yes: "Track",
-        command: track,
-    })
 }

@@ -168,6 +168,8 @@ fn small_plot(ui: &Ui, rect: Rect, model: &Model, of: &GlobeSatellite, predicted
         ghost: None,
         beam_width: Angle::ZERO,
         measured: measured.map(|direction| Measured { direction, lost: lost.as_deref() }),
+        antennas: &[],
+        stops: &[],
         bearing: None,
         predicted: None,
         recent_errors: &[],

@@ -3,7 +3,7 @@
 use egui::{Rect, Ui};
 use jiff::Timestamp;
 
-use super::filter::FoundPasses;
+use super::{NEXT_FRAME, filter::FoundPasses};
 
 use crate::{
     astro::time::{add_seconds, seconds_between},
@@ -15,10 +15,11 @@ use crate::{
     orbit::Pass,
     plan::{Sample, Trackability},
     ui::{
-        format,
+        format, menus,
         pass_header::{self, PassHeaderModel},
-        pass_list::{self, PassListModel, PassListState, PassRow, Verdict},
-        profile::{self, ProfileModel, ProfileState},
+        pass_list::{self, Arrangement, PassListModel, PassListState, PassRow, Verdict},
+        profile::{self, PastModel, ProfileModel, ProfileState},
+        state_sentence::short,
         timeline::{self, Bar, TimelineModel, Zoom},
         words,
     },
@@ -35,21 +36,28 @@ pub(super) fn list(
 ) {
     let passes = model.upcoming();
     let listing = model.pass_lists.of(model.list.scope);
-    let found = found.places(model, state.filter.text());
+    let found = found.arrange(model, &state.filter);
+    if found.is_some_and(|found| !found.is_whole()) {
+        ui.request_repaint_after_for(NEXT_FRAME, egui::ViewportId::ROOT);
+    }
     let row = |index: usize| {
-        let place = found.map_or(Some(index), |found| found.get(index).copied())?;
+        let place = found.map_or(Some(index), |found| found.place(index))?;
         passes.get(place).map(|predicted| pass_row(model, predicted))
     };
     let place = |key| {
         let place = passes.row(key)?;
-        found.map_or(Some(place), |found| found.binary_search(&place).ok())
+        found.map_or(Some(place), |found| found.row(place))
     };
     let keys = || match found {
         Some(found) => {
-            let found = found.iter().filter_map(|place| passes.get(*place));
+            let found = found.places().filter_map(|place| passes.get(place));
             found.map(PredictedPass::key).collect()
         }
         None => passes.iter().map(PredictedPass::key).collect(),
+    };
+    let groups: Vec<&str> = match &model.catalog {
+        CatalogState::Ready(catalog) => catalog.groups().map(|(name, _)| name).collect(),
+        CatalogState::Loading | CatalogState::Failed => Vec::new(),
     };
     let work = listing.work;
     let none = format!("No pass in the next {} h. Choose a lower elevation.", model.list.span_h());
@@ -60,12 +68,20 @@ pub(super) fn list(
             "The passes are being computed."
         }
         CatalogState::Ready(_) if work == Work::Cancelled => "The search was cancelled.",
+        CatalogState::Ready(_) if found.is_some_and(|found| !found.is_whole()) => {
+            "The passes are being judged."
+        }
+        CatalogState::Ready(_) if state.filter.arrangement != Arrangement::default() => {
+            "No listed pass fits the filters."
+        }
         CatalogState::Ready(_) if found.is_some() => "No listed pass has this name or number.",
         CatalogState::Ready(_) => &none,
     };
     let list = PassListModel {
         now: model.now,
-        rows: found.map_or(passes.len(), <[usize]>::len),
+        rows: found.map_or(passes.len(), FoundPasses::len),
+        of: passes.len(),
+        groups: &groups,
         row: &row,
         place: &place,
         keys: &keys,
@@ -78,6 +94,7 @@ pub(super) fn list(
         made: listing.made_at.map(|at| (listing.satellites.len(), at)),
         thumbnails,
         empty,
+        menu: &|ui, row, key, commands| menus::pass(ui, row, model, key, commands),
     };
     commands.extend(pass_list::show(ui, rect, &list, state));
 }
@@ -238,8 +255,9 @@ pub(super) fn timeline(
         bars: &bars,
         selected: selected_key(model),
         sun: &model.sky.sun_spans,
+        menu: &|ui, bar, key, commands| menus::pass(ui, bar, model, key, commands),
     };
-    commands.extend(timeline::show(ui, rect, &strip).map(UiCommand::SelectPass));
+    timeline::show(ui, rect, &strip, commands);
 }
 
 /// Shows the profile of the selected pass, with the time that is `marked` elsewhere; returns
@@ -251,8 +269,9 @@ pub(super) fn profile(
     marked: Option<Timestamp>,
     state: &mut ProfileState,
 ) -> Option<Timestamp> {
+    let past = past_tracks(model);
     let Some(predicted) = model.selected_pass() else {
-        return profile::show(ui, rect, None, state);
+        return profile::show(ui, rect, None, &past, state);
     };
     let number = predicted.satellite.elements.catalog_number();
     let antenna = model.antenna().filter(|antenna| antenna.tracked_number() == Some(number));
@@ -277,6 +296,23 @@ pub(super) fn profile(
             half_beam_deg: beam_width_deg / 2.0,
             marked,
         }),
+        &past,
         state,
     )
+}
+
+/// The last tracks of the selected antenna.
+fn past_tracks(model: &Model) -> Vec<PastModel<'_>> {
+    let Some(antenna) = model.antenna() else { return Vec::new() };
+    let tracks = antenna.past_tracks.iter().map(|track| PastModel {
+        name: short(&track.name),
+        from: track.from,
+        until: track.until,
+        rms_deg: track.rms.degrees(),
+        worst_deg: track.worst.off_beam.degrees(),
+        worst_at: track.worst.time,
+        errors: &track.errors,
+        half_beam_deg: antenna.config.beam_width_deg / 2.0,
+    });
+    tracks.collect()
 }

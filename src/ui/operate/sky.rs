@@ -3,7 +3,7 @@
 use egui::{Rect, Ui};
 use jiff::Timestamp;
 
-use super::{OperateState, ghost};
+use super::{OperateState, all_antennas, ghost};
 use crate::{
     astro::{Angle, AzEl, time::seconds_between},
     driver::LinkState,
@@ -12,9 +12,9 @@ use crate::{
     orbit::{LookAngles, PassPoint},
     plan::Sample,
     ui::{
-        format,
+        format, menus,
         sky_plot::{
-            self, Bearing, KeepOutMark, Keyholes, Measured, OtherSatellite, SkyScene, Track,
+            self, Bearing, KeepOutMark, Keyholes, Measured, MenuOf, OtherSatellite, SkyScene, Track,
         },
         state_sentence::state_sentence,
     },
@@ -55,6 +55,9 @@ pub(super) fn show(
     let lost = antenna.and_then(|antenna| lost_for(model, antenna));
     let description = antenna
         .map_or_else(|| "Sky plot".to_owned(), |antenna| state_sentence(model, antenna).text());
+    let silences = all_antennas::silences(model);
+    let layer = state.sky.layers.antennas;
+    let antennas = if layer { all_antennas::others(model, &silences) } else { Vec::new() };
     let scene = SkyScene {
         now: model.now,
         minimum_elevation: Angle::from_degrees(
@@ -74,6 +77,8 @@ pub(super) fn show(
             .and_then(|antenna| antenna.snapshot.state.measured)
             .and_then(|measured| measured.direction())
             .map(|direction| Measured { direction, lost: lost.as_deref() }),
+        antennas: &antennas,
+        stops: &all_antennas::stops(model, layer),
         bearing: antenna.and_then(|antenna| bearing(antenna, state, lost.as_deref())),
         predicted: antenna
             .and_then(|antenna| antenna.prediction)
@@ -83,12 +88,24 @@ pub(super) fn show(
         readout: &readout(model, rect.height() >= FULL_READOUT_FROM),
         description: &description,
     };
-    let answer = sky_plot::show(ui, rect, &scene, &mut state.sky);
+    let mut looks_at = None;
+    let mut menu = |ui: &mut Ui, of_node: egui::Id, of: MenuOf| {
+        let (looks, direction) = match of {
+            MenuOf::Satellite(number, direction) => {
+                let of = (number, direction);
+                (menus::satellite(ui, of_node, model, of, commands), direction)
+            }
+            MenuOf::Sky(direction) => (menus::sky(ui, of_node, model, direction), direction),
+        };
+        looks_at = looks_at.or(looks.then_some(direction));
+    };
+    let answer = sky_plot::show(ui, rect, &scene, &mut state.sky, &mut menu);
     commands.extend(answer.chosen.map(UiCommand::SelectSatellite));
+    commands.extend(answer.antenna.map(UiCommand::SelectAntenna));
     if answer.takes_click_back {
         state.ghost.forget_click();
     }
-    if let (Some(direction), Some(antenna)) = (answer.clicked, antenna) {
+    if let (Some(direction), Some(antenna)) = (answer.clicked.or(looks_at), antenna) {
         state.ghost.look_at(direction, antenna);
     }
     if let (Some(at), Some(antenna)) = (answer.ghost_at, antenna) {

@@ -1,14 +1,23 @@
-//! The filter of the list by name or number.
+//! The filter of the list: a text, and chips below it.
 
 use egui::{Align2, Rect, RichText, Role, TextEdit, Ui, UiBuilder, WidgetInfo, vec2};
 
+use super::{
+    PassListModel,
+    arrangement::{self, Arrangement},
+};
 use crate::ui::{
-    theme,
-    widgets::button::{Button, SMALL_HEIGHT},
+    text, theme,
+    widgets::{
+        button::{Button, SMALL_HEIGHT},
+        paint,
+    },
 };
 
-/// Height of the strip, with its divider.
-pub(super) const HEIGHT: f32 = 36.0;
+/// Height of the line with the text, or with what is filtered.
+const LINE: f32 = 36.0;
+/// Gap between the chips and the divider.
+const BELOW: f32 = 8.0;
 
 const PADDING: f32 = 16.0;
 const GAP: f32 = 8.0;
@@ -19,6 +28,8 @@ pub struct Filter {
     pub(super) is_open: bool,
     typed: String,
     wants_focus: bool,
+    /// Order and further filters, which stay while the filter is closed.
+    pub arrangement: Arrangement,
 }
 
 impl Filter {
@@ -33,10 +44,43 @@ impl Filter {
     }
 }
 
-pub(super) fn show(ui: &mut Ui, rect: Rect, filter: &mut Filter) {
+/// Height of the strip at the top of `rect`, with its divider.
+pub(super) fn height(ui: &Ui, rect: Rect, filter: &Filter) -> f32 {
+    if filter.is_open {
+        let room = rect.shrink2(vec2(PADDING, 0.0));
+        LINE + arrangement::height(ui, room, &filter.arrangement) + BELOW
+    } else if filter.arrangement == Arrangement::default() {
+        0.0
+    } else {
+        LINE
+    }
+}
+
+/// Shows the strip in `rect`: the open filter, or what is filtered.
+pub(super) fn show(ui: &mut Ui, rect: Rect, model: &PassListModel<'_>, filter: &mut Filter) {
     let t = theme::tokens(ui);
     ui.painter().hline(rect.x_range(), rect.bottom() - 0.5, (1.0, t.line));
     let room = rect.shrink2(vec2(PADDING, 0.0));
+    let line = room.with_max_y(room.top() + LINE);
+    if filter.is_open {
+        typed(ui, line, filter);
+        arrangement::show(ui, room.with_min_y(line.bottom()), model, &mut filter.arrangement);
+        return;
+    }
+    let clear = Button::quiet("Clear");
+    let size = vec2(clear.width(ui), SMALL_HEIGHT);
+    let place = Align2::RIGHT_CENTER.align_size_within_rect(size, line);
+    let words = filter.arrangement.words();
+    let left = line.with_max_x(place.left() - GAP);
+    paint::text_in(ui, left, Align2::LEFT_CENTER, &words, text::small(), t.t1);
+    paint::name_text(ui, "filtered", left, &format!("Filtered: {words}")).on_hover_text(words);
+    if clear.show(ui, "clear filters", place).clicked() {
+        filter.arrangement = Arrangement::default();
+    }
+}
+
+fn typed(ui: &mut Ui, room: Rect, filter: &mut Filter) {
+    let t = theme::tokens(ui);
     let close = Button::quiet("Close");
     let size = vec2(close.width(ui), SMALL_HEIGHT);
     let place = Align2::RIGHT_CENTER.align_size_within_rect(size, room);
@@ -52,6 +96,7 @@ pub(super) fn show(ui: &mut Ui, rect: Rect, filter: &mut Filter) {
         }
     });
     if close.show(ui, "close filter", place).clicked() {
-        *filter = Filter::default();
+        *filter =
+            Filter { arrangement: std::mem::take(&mut filter.arrangement), ..Filter::default() };
     }
 }

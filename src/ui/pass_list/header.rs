@@ -26,6 +26,7 @@ pub(super) const HEIGHT: f32 = 72.0;
 
 const PADDING: f32 = 16.0;
 const GAP: f32 = 8.0;
+const LEAST_GAP: f32 = 2.0;
 /// Centres of the two lines from the top.
 const LINES: [f32; 2] = [20.0, 52.0];
 /// Width of the choice of satellites.
@@ -49,7 +50,10 @@ pub(super) fn show(
     let at = first.left_center();
     let title = paint::text(ui, at, Align2::LEFT_CENTER, "Next passes", text::small_strong(), t.t1);
     let floor = floors(ui, first, model, commands);
-    let count = format::number(model.rows as f64, 0);
+    let mut count = format::number(model.rows as f64, 0);
+    if model.rows < model.of {
+        count = format!("{count} of {}", format::number(model.of as f64, 0));
+    }
     let decimals = usize::from(model.aos_elevation_deg.fract() != 0.0);
     let aos = format::degrees(model.aos_elevation_deg, decimals);
     let count = format!("{count} · AOS at {aos}");
@@ -68,10 +72,13 @@ pub(super) fn show(
         commands.push(UiCommand::SetScope(*scope));
     }
     let span = spans(ui, second, model, commands);
-    let side = vec2(SMALL_HEIGHT, SMALL_HEIGHT);
-    let place = Rect::from_min_size(pos2(span.left() - GAP - side.x, span.top()), side);
+    // In the narrowest list the buttons are narrower and stand closer together.
+    let free = span.left() - second.left() - SCOPES;
+    let side = vec2((free / 2.0 - 1.5 * LEAST_GAP).min(SMALL_HEIGHT), SMALL_HEIGHT);
+    let gap = ((free - 2.0 * side.x) / 3.0).clamp(LEAST_GAP, GAP);
+    let place = Rect::from_min_size(pos2(span.left() - gap - side.x, span.top()), side);
     search(ui, place, filter);
-    let place = place.translate(vec2(-GAP - side.x, 0.0));
+    let place = place.translate(vec2(-gap - side.x, 0.0));
     save(ui, place, model, commands);
     ui.painter().hline(rect.x_range(), rect.bottom() - 0.5, (1.0, t.line));
 }
@@ -113,7 +120,7 @@ fn search(ui: &Ui, place: Rect, filter: &mut Filter) {
     ui.painter().rect(place, RADIUS, fill, stroke, StrokeKind::Inside);
     icons::paint(ui.painter(), paint::square(place.center(), 14.0), Icon::Search, t.t1);
     paint::focus_ring(ui, &response, RADIUS);
-    if response.on_hover_text("Filter by name or number (Ctrl F)").clicked() {
+    if response.on_hover_text("Filter and sort (Ctrl F)").clicked() {
         filter.open();
     }
 }

@@ -10,7 +10,10 @@ use super::{
     phase::{self, Phase},
     row::{self, Look},
 };
-use crate::{model::UiCommand, ui::widgets::copy_menu};
+use crate::{
+    model::UiCommand,
+    ui::widgets::{context_menu, copy_menu},
+};
 
 pub(super) fn show(
     ui: &mut Ui,
@@ -48,7 +51,13 @@ pub(super) fn show(
             for index in range.start.saturating_sub(1)..range.end {
                 let Some(pass) = (model.row)(index) else { continue };
                 let response = one(ui, list, place(index), &pass, model);
-                copy_menu::offer(ui, &response, "this pass", || phase::copied(&pass));
+                copy_menu::by_key(ui, &response, || phase::copied(&pass));
+                context_menu::show(ui, &response, |ui| {
+                    (model.menu)(ui, response.id, pass.key, commands);
+                    if context_menu::entry(ui, response.id, "Copy this pass") {
+                        ui.copy_text(phase::copied(&pass));
+                    }
+                });
                 if response.clicked() {
                     response.request_focus();
                     commands.push(UiCommand::SelectPass(pass.key));

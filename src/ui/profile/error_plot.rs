@@ -1,9 +1,10 @@
 //! The plot of the pointing error along the pass.
 
 use egui::{Align2, Rect, Stroke, Ui, pos2};
+use jiff::Timestamp;
 
 use super::{
-    ProfileModel, dashes,
+    dashes,
     scale::{self, TimeAxis},
 };
 use crate::ui::{format, text, theme, widgets::paint};
@@ -16,7 +17,13 @@ const DASH: (f32, f32) = (4.0, 4.0);
 const GAP: f32 = 6.0;
 
 /// Shows the plot in `rect`; its name and the half beam stand beside it.
-pub(super) fn show(ui: &Ui, rect: Rect, axis: &TimeAxis, model: &ProfileModel<'_>) {
+pub(super) fn show(
+    ui: &Ui,
+    rect: Rect,
+    axis: &TimeAxis,
+    measured: &[(Timestamp, f32)],
+    half_beam_deg: f64,
+) {
     let t = theme::tokens(ui);
     ui.painter().rect_filled(rect, 0.0, t.bg0);
     ui.painter().hline(rect.x_range(), rect.bottom(), (1.0, t.line));
@@ -24,16 +31,16 @@ pub(super) fn show(ui: &Ui, rect: Rect, axis: &TimeAxis, model: &ProfileModel<'_
     paint::text(ui, name, Align2::RIGHT_CENTER, "err", text::caption(), t.t2);
 
     let errors = || {
-        let on_axis = model.errors.iter().filter(|(time, _)| axis.contains(*time));
+        let on_axis = measured.iter().filter(|(time, _)| axis.contains(*time));
         on_axis.map(|&(time, error_deg)| (axis.x(time), f64::from(error_deg)))
     };
-    let top = scale::error_top_deg(errors().map(|(_, error_deg)| error_deg), model.half_beam_deg);
-    if scale::has_beam(model.half_beam_deg) {
-        let y = scale::y(rect, model.half_beam_deg, top);
+    let top = scale::error_top_deg(errors().map(|(_, error_deg)| error_deg), half_beam_deg);
+    if scale::has_beam(half_beam_deg) {
+        let y = scale::y(rect, half_beam_deg, top);
         let line = [pos2(rect.left(), y), pos2(rect.right(), y)];
         let stroke = Stroke::new(1.0, t.cmd);
         dashes::paint(ui.painter(), &line, stroke, DASH);
-        let number = format::number(model.half_beam_deg, 2);
+        let number = format::number(half_beam_deg, 2);
         let at = pos2(rect.right() + GAP, y);
         paint::text(ui, at, Align2::LEFT_CENTER, number, text::caption(), t.cmd);
     }

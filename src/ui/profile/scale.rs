@@ -30,8 +30,11 @@ impl TimeAxis {
     /// The axis from the first to the last sample, across the width of `rect`. `None` if no
     /// time lies between them.
     pub(super) fn new(track: &[Sample], rect: Rect) -> Option<Self> {
-        let start = track.first()?.time;
-        let end = track.last()?.time;
+        Self::between(track.first()?.time, track.last()?.time, rect)
+    }
+
+    /// The axis from `start` to `end`, across the width of `rect`.
+    pub(super) fn between(start: Timestamp, end: Timestamp, rect: Rect) -> Option<Self> {
         (end > start).then(|| Self { start, end, left: rect.left(), width: rect.width() })
     }
 

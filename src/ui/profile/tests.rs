@@ -42,7 +42,8 @@ type Story = (ProfileState, Option<Timestamp>);
 
 fn window(size: [f32; 2], model: Option<ProfileModel<'_>>) -> Harness<'_, Story> {
     testing::window(size, Story::default(), move |ui, (state, asked): &mut Story| {
-        *asked = show(ui, Rect::from_min_size(pos2(0.0, 0.0), size.into()), model.as_ref(), state);
+        *asked =
+            show(ui, Rect::from_min_size(pos2(0.0, 0.0), size.into()), model.as_ref(), &[], state);
     })
 }
 

@@ -73,7 +73,7 @@ pub(super) fn paint(painter: &Painter, dome: Dome, scene: &SkyScene<'_>, t: &Tok
     match measured.lost {
         None => marks::measured(painter, sharp(at), 1.0, t),
         Some(age) => {
-            marks::lost(painter, at, t);
+            marks::lost(painter, at, 1.0, t);
             let note = |from: Vec2, anchor: Align2, words: &str| {
                 let galley = painter.layout_no_wrap(words.to_owned(), text::small_strong(), t.t3);
                 let place = anchor.anchor_size(at + from, galley.size());

@@ -68,16 +68,28 @@ pub(super) fn label(labels: &mut Labels<'_>, dome: Dome, scene: &SkyScene<'_>, t
 
 /// Paints the previewed, the commanded and the measured azimuth, in this order.
 pub(super) fn paint(painter: &Painter, dome: Dome, scene: &SkyScene<'_>, t: &Tokens) {
-    let Some(bearing) = &scene.bearing else { return };
+    if let Some(bearing) = &scene.bearing {
+        paint_one(painter, dome, bearing, 2.0, t);
+    }
+}
+
+/// Paints the lines of one antenna; the one of the measured azimuth is `width` points wide.
+pub(super) fn paint_one(
+    painter: &Painter,
+    dome: Dome,
+    bearing: &Bearing<'_>,
+    width: f32,
+    t: &Tokens,
+) {
     let line = |azimuth: Option<Angle>, dash: (f32, f32), stroke: Stroke| {
         if let Some(ends) = azimuth.and_then(|azimuth| ends(dome, azimuth)) {
             painter.extend(dashed(&ends, dash.0, dash.1, stroke));
         }
     };
     line(bearing.ghost, DASHES, Stroke::new(1.0, t.cmd));
-    line(bearing.commanded, DASHES, Stroke::new(2.25, t.cmd));
+    line(bearing.commanded, DASHES, Stroke::new(1.125 * width, t.cmd));
     let colour = if bearing.lost.is_some() { t.t3 } else { t.ant };
-    line(bearing.measured, DOTS, Stroke::new(2.0, colour));
+    line(bearing.measured, DOTS, Stroke::new(width, colour));
     let Some((middle, corners)) = bearing.measured.and_then(|azimuth| triangle(dome, azimuth))
     else {
         return;

@@ -33,6 +33,7 @@ pub(super) fn upper_right(ui: &Ui, rect: Rect, layers: &mut Layers, t: &Tokens) 
                 (&mut layers.keyholes, "Keyholes"),
                 (&mut layers.mask, "Horizon mask"),
                 (&mut layers.keep_outs, "Keep-outs"),
+                (&mut layers.antennas, "Other antennas"),
             ] {
                 ui.checkbox(on, name);
             }

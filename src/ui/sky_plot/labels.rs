@@ -35,6 +35,10 @@ pub(in crate::ui) enum Key {
     Moon,
     /// The antenna with unknown elevation.
     Bearing,
+    /// An antenna that is not selected, by its place in the station.
+    Antenna(usize),
+    /// The end of an azimuth axis.
+    Stop(usize),
     /// Name of a satellite that is not selected, by its catalog number.
     Other(u32),
 }

@@ -125,9 +125,9 @@ pub(in crate::ui) fn measured(painter: &Painter, at: Pos2, scale: f32, t: &Token
 }
 
 /// Paints the last known direction of an antenna with a lost link.
-pub(in crate::ui) fn lost(painter: &Painter, at: Pos2, t: &Tokens) {
+pub(in crate::ui) fn lost(painter: &Painter, at: Pos2, scale: f32, t: &Tokens) {
     for arm in arms() {
-        let line = [at + arm * ARM.0, at + arm * ARM.1];
+        let line = [at + arm * (ARM.0 * scale), at + arm * (ARM.1 * scale)];
         painter.line_segment(line, Stroke::new(2.0 + 2.0 * OUTLINE, t.sky));
         painter.extend(dashed(&line, 3.0, 3.0, Stroke::new(2.0, t.t3)));
     }

@@ -2,10 +2,10 @@
 
 use egui::{Id, Pos2, Rect, Response, Role, Sense, Stroke, Ui, Vec2, WidgetInfo};
 
-use super::{bearing, geometry::Dome, scene::SkyScene, track::Event, zoom::Zoom};
+use super::{MenuOf, ShowMenu, bearing, geometry::Dome, scene::SkyScene, track::Event, zoom::Zoom};
 use crate::{
     astro::AzEl,
-    ui::{format, tokens::Tokens},
+    ui::{format, tokens::Tokens, widgets::context_menu},
 };
 
 /// Side of the square around a mark that reacts to the pointer, points.
@@ -41,6 +41,8 @@ pub(super) fn canvas(
 }
 
 /// Adds the nodes of the satellites. Returns the chosen one.
+// The plot, what stands in it, and who shows the menus.
+#[allow(clippy::too_many_arguments)]
 pub(super) fn satellites(
     ui: &Ui,
     canvas: Id,
@@ -49,6 +51,7 @@ pub(super) fn satellites(
     scene: &SkyScene<'_>,
     show_others: bool,
     t: &Tokens,
+    menu: &mut ShowMenu<'_>,
 ) -> Option<u32> {
     let selected = scene.track.and_then(|track| {
         track.position.map(|position| (track.catalog_number, track.name, position, true))
@@ -73,6 +76,8 @@ pub(super) fn satellites(
         if response.clicked() {
             chosen = Some(number);
         }
+        let of = MenuOf::Satellite(number, direction);
+        context_menu::show(ui, &response, |ui| menu(ui, response.id, of));
         response.on_hover_text(tip(name, direction));
     }
     chosen
@@ -113,19 +118,19 @@ pub(super) fn events_and_antenna(
     }
 }
 
-fn name_mark(ui: &Ui, id: Id, at: Pos2, name: &str) {
+pub(super) fn name_mark(ui: &Ui, id: Id, at: Pos2, name: &str) {
     // Small, so that satellites around the node keep the pointer.
     let place = Rect::from_center_size(at, Vec2::splat(2.0));
     let response = ui.interact(place, id, Sense::hover());
     response.widget_info(|| WidgetInfo::labeled(Role::Label, true, name));
 }
 
-fn spoken(name: &str, direction: AzEl) -> String {
+pub(super) fn spoken(name: &str, direction: AzEl) -> String {
     let (azimuth, elevation) = numbers(direction);
     format!("{name}, azimuth {azimuth}, elevation {elevation}")
 }
 
-fn tip(name: &str, direction: AzEl) -> String {
+pub(super) fn tip(name: &str, direction: AzEl) -> String {
     let (azimuth, elevation) = numbers(direction);
     format!("{name}\nAz {azimuth}  El {elevation}")
 }

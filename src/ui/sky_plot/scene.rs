@@ -35,6 +35,10 @@ pub struct SkyScene<'a> {
     pub beam_width: Angle,
     /// The measured direction.
     pub measured: Option<Measured<'a>>,
+    /// The antennas that are not selected.
+    pub antennas: &'a [OtherAntenna<'a>],
+    /// The ends of azimuth axes.
+    pub stops: &'a [AzimuthStop<'a>],
     /// The antenna, while only its azimuth is known.
     pub bearing: Option<Bearing<'a>>,
     /// The predicted direction of the satellite at the time of the measurement.
@@ -130,6 +134,26 @@ pub struct Measured<'a> {
     pub direction: AzEl,
     /// The age of the report, such as "14 s", once the link is lost.
     pub lost: Option<&'a str>,
+}
+
+/// An antenna that is not selected.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct OtherAntenna<'a> {
+    /// Its place in the station.
+    pub index: usize,
+    pub name: &'a str,
+    pub commanded: Option<AzEl>,
+    pub measured: Option<Measured<'a>>,
+    /// While only its azimuth is known.
+    pub bearing: Option<Bearing<'a>>,
+}
+
+/// The end of an azimuth axis.
+#[derive(Debug, Clone, PartialEq)]
+pub struct AzimuthStop<'a> {
+    /// The antennas whose axis ends there.
+    pub names: std::borrow::Cow<'a, str>,
+    pub azimuth: Angle,
 }
 
 /// An antenna with unknown elevation.

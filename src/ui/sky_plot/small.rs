@@ -46,7 +46,7 @@ pub fn paint_small(painter: &Painter, rect: Rect, scene: &SkyScene<'_>, t: &Toke
     {
         match measured.lost {
             None => marks::measured(painter, at, 0.6, t),
-            Some(_) => marks::lost(painter, at, t),
+            Some(_) => marks::lost(painter, at, 1.0, t),
         }
     }
     let position = scene.track.and_then(|track| track.position);

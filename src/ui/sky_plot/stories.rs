@@ -38,7 +38,8 @@ fn story(size: Vec2, scene: SkyScene<'static>) -> Harness<'static, Story> {
         let mut scene = scene.clone();
         scene.track = scene.track.or_else(|| Some(testing::track(&samples)));
         let rect = ui.max_rect();
-        story.chosen = show(ui, rect, &scene, &mut story.plot).chosen.or(story.chosen);
+        story.chosen =
+            show(ui, rect, &scene, &mut story.plot, &mut |_, _, _| {}).chosen.or(story.chosen);
     })
 }
 
@@ -151,7 +152,7 @@ fn what_is_not_a_number_is_left_out() {
 fn the_sky_may_be_empty() {
     let mut harness = window(LARGE, SkyPlotState::default(), |ui, state| {
         let rect = ui.max_rect();
-        show(ui, rect, &testing::empty(), state);
+        show(ui, rect, &testing::empty(), state, &mut |_, _, _| {});
     });
     harness.run();
 }

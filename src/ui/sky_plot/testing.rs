@@ -67,6 +67,8 @@ pub(super) fn empty() -> SkyScene<'static> {
         ghost: None,
         beam_width: Angle::from_degrees(0.88),
         measured: None,
+        antennas: &[],
+        stops: &[],
         bearing: None,
         predicted: None,
         recent_errors: &[],

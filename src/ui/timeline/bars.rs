@@ -6,11 +6,17 @@ use egui::{Align2, Rect, Response, Role, Sense, Stroke, StrokeKind, Ui, WidgetIn
 use jiff::Timestamp;
 
 use super::{
-    Bar, head,
+    Bar, TimelineModel, head,
     labels::{self, Placed, Wish},
     scale::{Scale, bar_height},
 };
-use crate::ui::{format, text, theme, widgets::paint};
+use crate::{
+    model::UiCommand,
+    ui::{
+        format, text, theme,
+        widgets::{context_menu, paint},
+    },
+};
 
 const OUTLINE: f32 = 1.0;
 /// Frame of the selected bar: width of its line and gap to the bar.
@@ -61,14 +67,15 @@ pub(super) fn stand<'a>(
     standing
 }
 
-/// Paints the bars, later ones above earlier ones. Returns a clicked bar.
+/// Paints the bars, later ones above earlier ones.
 pub(super) fn show(
     ui: &Ui,
     standing: &[Standing<'_>],
-    selected: Option<(u32, Timestamp)>,
-) -> Option<(u32, Timestamp)> {
+    model: &TimelineModel<'_>,
+    commands: &mut Vec<UiCommand>,
+) {
     let t = theme::tokens(ui);
-    let mut clicked = None;
+    let selected = model.selected;
     let mut focused = None;
     for Standing { bar, rect } in standing {
         let response = node(ui, bar, *rect, selected == Some(bar.key));
@@ -84,11 +91,14 @@ pub(super) fn show(
             ui.painter().rect_stroke(*rect, 0, stroke, StrokeKind::Outside);
         }
         if response.clicked() {
-            clicked = Some(bar.key);
+            commands.push(UiCommand::SelectPass(bar.key));
         }
         if response.has_focus() {
             focused = Some(response.clone());
         }
+        context_menu::show(ui, &response, |ui| {
+            (model.menu)(ui, response.id, bar.key, commands);
+        });
         response.on_hover_text(tool_tip(bar));
     }
     for one in standing {
@@ -103,7 +113,6 @@ pub(super) fn show(
     if let Some(response) = focused {
         paint::focus_ring(ui, &response, 2);
     }
-    clicked
 }
 
 /// Paints the names that fit above the bars: the selected one first, then those of

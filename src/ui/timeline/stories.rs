@@ -8,7 +8,7 @@ use egui_kittest::{
 use jiff::Timestamp;
 
 use super::{Bar, SunSpan, TimelineModel, show};
-use crate::ui::widgets::testing;
+use crate::{model::UiCommand, ui::widgets::testing};
 
 const FULL: egui::Vec2 = vec2(632.0, 208.0);
 const SMALL: egui::Vec2 = vec2(672.0, 80.0);
@@ -55,9 +55,14 @@ fn window(size: egui::Vec2, bars: Vec<Bar<'static>>) -> Harness<'static, Picked>
                 SunSpan { from: at("04:10:00"), to: at("14:45:00"), up: true },
                 SunSpan { from: at("14:45:00"), to: at("23:59:00"), up: false },
             ],
+            menu: &|_, _, _, _| {},
         };
-        if let Some(key) = show(ui, Rect::from_min_size(egui::Pos2::ZERO, size), &model) {
-            *picked = Some(key);
+        let mut commands = Vec::new();
+        show(ui, Rect::from_min_size(egui::Pos2::ZERO, size), &model, &mut commands);
+        for command in commands {
+            if let UiCommand::SelectPass(key) = command {
+                *picked = Some(key);
+            }
         }
     })
 }

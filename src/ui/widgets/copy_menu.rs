@@ -1,16 +1,23 @@
-//! Copies what is shown, by a menu of the secondary mouse button or with Ctrl C on the focus.
+//! Copies what is shown, by its menu or with Ctrl C on the focus.
 
 use egui::{Event, Response, Ui};
 
+use super::context_menu;
+
 /// Offers to copy the text of what `response` shows; `what` names it in the menu.
 pub fn offer(ui: &Ui, response: &Response, what: &str, text: impl Fn() -> String) {
+    by_key(ui, response, &text);
+    context_menu::show(ui, response, |ui| {
+        if context_menu::entry(ui, response.id, &format!("Copy {what}")) {
+            ui.copy_text(text());
+        }
+    });
+}
+
+/// Copies the text of what has the focus with Ctrl C.
+pub fn by_key(ui: &Ui, response: &Response, text: impl Fn() -> String) {
     let copies = |event: &Event| matches!(event, Event::Copy);
     if response.has_focus() && ui.input(|input| input.events.iter().any(copies)) {
         ui.copy_text(text());
     }
-    response.context_menu(|ui| {
-        if ui.button(format!("Copy {what}")).clicked() {
-            ui.copy_text(text());
-        }
-    });
 }

@@ -1,0 +1,105 @@
+//! The errors of the last tracks, which stay to be looked at.
+
+use std::{collections::VecDeque, sync::Arc};
+
+use jiff::Timestamp;
+use serde::{Deserialize, Serialize};
+
+use super::{ErrorSample, Errors};
+use crate::astro::Angle;
+
+/// Number of tracks that are kept.
+const KEPT: usize = 8;
+/// A track with fewer samples is not worth a look.
+const FEWEST: usize = 5;
+
+/// The errors of a track that is over.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct PastTrack {
+    /// Name of the target.
+    pub name: String,
+    /// First and last sample.
+    pub from: Timestamp,
+    pub until: Timestamp,
+    /// Root of the mean square of the angle between beam axis and target.
+    pub rms: Angle,
+    pub worst: ErrorSample,
+    pub errors: Errors,
+}
+
+impl PastTrack {
+    fn of(name: String, errors: Errors) -> Option<Self> {
+        let (first, last) = (*errors.iter().next()?, *errors.back()?);
+        let finite = || errors.iter().filter(|error| error.off_beam.is_finite());
+        let count = finite().count();
+        if count < FEWEST {
+            return None;
+        }
+        let squares: f64 = finite().map(|error| error.off_beam.degrees().powi(2)).sum();
+        let by_size = |a: &&ErrorSample, b: &&ErrorSample| {
+            a.off_beam.degrees().total_cmp(&b.off_beam.degrees())
+        };
+        let rms = Angle::from_degrees((squares / count as f64).sqrt());
+        let worst = *finite().max_by(by_size)?;
+        Some(Self { name, from: first.time, until: last.time, rms, worst, errors })
+    }
+}
+
+/// The last tracks, newest first. Clones share them.
+#[derive(Debug, Clone, Default, Serialize, Deserialize)]
+pub struct PastTracks(VecDeque<Arc<PastTrack>>);
+
+impl PastTracks {
+    /// Newest first.
+    pub fn iter(&self) -> impl Iterator<Item = &Arc<PastTrack>> {
+        self.0.iter()
+    }
+
+    pub fn is_empty(&self) -> bool {
+        self.0.is_empty()
+    }
+
+    /// Keeps the errors of a track that is over.
+    pub(super) fn keep(&mut self, name: String, errors: Errors) {
+        if let Some(track) = PastTrack::of(name, errors) {
+            self.0.push_front(Arc::new(track));
+            self.0.truncate(KEPT);
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::astro::time::add_seconds;
+
+    fn errors(off_beam_deg: &[f64]) -> Errors {
+        let mut errors = Errors::default();
+        for (second, off_beam_deg) in off_beam_deg.iter().enumerate() {
+            errors.push(ErrorSample {
+                time: add_seconds(Timestamp::UNIX_EPOCH, second as f64),
+                off_beam: Angle::from_degrees(*off_beam_deg),
+                azimuth: Angle::ZERO,
+                elevation: Angle::ZERO,
+            });
+        }
+        errors
+    }
+
+    #[test]
+    fn the_last_tracks_stay_with_their_mean_and_worst_error() {
+        let mut past = PastTracks::default();
+        past.keep("SHORT".to_owned(), errors(&[0.1; 4]));
+        assert!(past.is_empty());
+        past.keep("NOAA 20".to_owned(), errors(&[0.3, 0.4, f64::NAN, 0.0, 0.0, 0.5]));
+        let track = Arc::clone(past.iter().next().unwrap());
+        assert!((track.rms.degrees() - 0.1_f64.sqrt()).abs() < 1e-9, "{:?}", track.rms);
+        assert!((track.worst.off_beam.degrees() - 0.5).abs() < 1e-9);
+        assert_eq!((track.from.as_second(), track.until.as_second()), (0, 5));
+        for number in 0..20 {
+            past.keep(format!("SAT {number}"), errors(&[0.1; 9]));
+        }
+        let names: Vec<_> = past.iter().map(|track| track.name.as_str()).collect();
+        assert_eq!((names.len(), names[0]), (KEPT, "SAT 19"));
+    }
+}

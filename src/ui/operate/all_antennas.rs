@@ -1,0 +1,77 @@
+//! The antennas that are not selected, and the ends of azimuth axes, for the sky plot.
+
+use std::borrow::Cow;
+
+use super::sky;
+use crate::{
+    astro::Angle,
+    engine::antenna::AntennaModel,
+    model::Model,
+    station::Mount,
+    ui::sky_plot::{AzimuthStop, Bearing, Measured, OtherAntenna},
+};
+
+/// Ends closer together than this are one mark, degrees.
+const SAME_DEG: f64 = 1.0;
+
+/// How long each antenna with a lost link has been silent, in the order of the station.
+pub(super) fn silences(model: &Model) -> Vec<Option<String>> {
+    model.antennas.iter().map(|antenna| sky::lost_for(model, antenna)).collect()
+}
+
+/// The antennas with a known direction or azimuth, without the selected one.
+pub(super) fn others<'a>(
+    model: &'a Model,
+    silences: &'a [Option<String>],
+) -> Vec<OtherAntenna<'a>> {
+    let antennas = model.antennas.iter().zip(silences).enumerate();
+    let others = antennas.filter(|(index, _)| *index != model.selected_antenna);
+    let shown = others.map(|(index, (antenna, lost))| {
+        let measured = antenna.snapshot.state.measured?;
+        let lost = lost.as_deref();
+        let name = antenna.config.name.as_str();
+        let pointing = measured.pointing;
+        let bearing = pointing.azimuth.filter(|_| pointing.elevation.is_none());
+        Some(OtherAntenna {
+            index,
+            name,
+            commanded: sky::commanded(antenna),
+            measured: measured.direction().map(|direction| Measured { direction, lost }),
+            bearing: bearing.map(|azimuth| Bearing {
+                name,
+                measured: Some(azimuth),
+                commanded: antenna.snapshot.aim.and_then(|aim| aim.azimuth),
+                ghost: None,
+                lost,
+            }),
+        })
+    });
+    shown.flatten().collect()
+}
+
+/// The ends of the azimuth axes, those at one azimuth together. `all`: also of the antennas
+/// that are not selected.
+pub(super) fn stops(model: &Model, all: bool) -> Vec<AzimuthStop<'_>> {
+    let mut stops: Vec<AzimuthStop<'_>> = Vec::new();
+    let antennas = model.antennas.iter().enumerate();
+    for (_, antenna) in antennas.filter(|(index, _)| all || *index == model.selected_antenna) {
+        let name = antenna.config.name.as_str();
+        for azimuth in ends(antenna) {
+            let off_deg =
+                |stop: &AzimuthStop<'_>| (stop.azimuth - azimuth).wrapped_180().degrees().abs();
+            match stops.iter_mut().find(|stop| off_deg(stop) < SAME_DEG) {
+                None => stops.push(AzimuthStop { names: Cow::Borrowed(name), azimuth }),
+                Some(stop) if stop.names.contains(name) => {}
+                Some(stop) => stop.names = Cow::Owned(format!("{}, {name}", stop.names)),
+            }
+        }
+    }
+    stops
+}
+
+/// Both ends of an azimuth axis that has any, as directions of the sky.
+fn ends(antenna: &AntennaModel) -> Vec<Angle> {
+    let mount = antenna.config.mount.within(antenna.snapshot.state.travel_deg);
+    let Mount::AzEl { azimuth_from_deg, azimuth_to_deg, .. } = mount else { return Vec::new() };
+    [azimuth_from_deg, azimuth_to_deg].map(|deg| Angle::from_degrees(deg).wrapped_360()).into()
+}

@@ -1,0 +1,156 @@
+//! The antennas that are not selected, and the ends of azimuth axes.
+
+use egui::{Id, Painter, Pos2, Rect, Role, Sense, Stroke, Ui, Vec2, WidgetInfo};
+
+use super::{
+    bearing,
+    geometry::{Dome, outward},
+    labels::{Key, Label, Labels},
+    marks,
+    nodes::{name_mark, spoken, tip},
+    placement::Side,
+    scene::{AzimuthStop, OtherAntenna, SkyScene},
+};
+use crate::ui::{format, text, tokens::Tokens, widgets::paint};
+
+/// Size of a quiet mark, of the selected one.
+const SCALE: f32 = 0.5;
+/// Half the box of a quiet cross-hair, points.
+const HALF: f32 = 14.0;
+/// Diameter of a quiet commanded ring, points.
+const RING: f32 = 13.0;
+/// Half the length of an azimuth stop across the rim, and of the bar at its end, points.
+const STOP: (f32, f32) = (12.5, 7.0);
+
+impl OtherAntenna<'_> {
+    /// The place of its mark.
+    fn mark(&self, dome: Dome) -> Option<Pos2> {
+        let measured = self.measured.and_then(|measured| dome.visible(measured.direction));
+        measured.or_else(|| bearing::mark(dome, self.bearing.as_ref()?))
+    }
+
+    fn lost(&self) -> Option<&str> {
+        self.measured.and_then(|measured| measured.lost).or(self.bearing?.lost)
+    }
+}
+
+/// Keeps labels away from the marks and names them.
+pub(super) fn label(labels: &mut Labels<'_>, dome: Dome, scene: &SkyScene<'_>, t: &Tokens) {
+    for antenna in scene.antennas {
+        let Some(mark) = antenna.mark(dome) else { continue };
+        labels.reserve(paint::square(mark, 2.0 * HALF));
+        let lost = antenna.lost().map_or_else(String::new, |age| format!(" ? {age}"));
+        let angle = antenna.bearing.and_then(|of| of.measured);
+        let angle = angle.map_or_else(String::new, |az| format::azimuth(az.degrees()));
+        let name = format!("{} {angle}{lost}", antenna.name);
+        let colour = if lost.is_empty() { t.t1 } else { t.t3 };
+        labels.add(&Label {
+            key: Key::Antenna(antenna.index),
+            lines: &[(name.trim_end(), text::small(), colour)],
+            mark,
+            clearance: HALF,
+            order: &Side::ORDER,
+            tolerance: 0.6,
+        });
+    }
+}
+
+/// Labels the ends of azimuth axes outside of the rim.
+pub(super) fn label_stops(labels: &mut Labels<'_>, dome: Dome, scene: &SkyScene<'_>, t: &Tokens) {
+    for (index, stop) in scene.stops.iter().enumerate() {
+        let Some([_, end]) = ends(dome, stop) else { continue };
+        labels.reserve(paint::square(end, 2.0 * STOP.1));
+        let (name, angle) =
+            (format!("{} stop", stop.names), format::azimuth(stop.azimuth.degrees()));
+        labels.add(&Label {
+            key: Key::Stop(index),
+            lines: &[(&name, text::small_strong(), t.bad), (&angle, text::small(), t.bad)],
+            mark: end,
+            clearance: 6.0,
+            order: &Side::towards(end - dome.centre),
+            tolerance: 0.6,
+        });
+    }
+}
+
+/// Both ends of the mark across the rim, the outer one last.
+fn ends(dome: Dome, stop: &AzimuthStop<'_>) -> Option<[Pos2; 2]> {
+    let towards = outward(stop.azimuth.radians() as f32);
+    let rim = dome.centre + towards * dome.radius;
+    stop.azimuth.is_finite().then(|| [rim - towards * STOP.0, rim + towards * STOP.0])
+}
+
+/// Paints the ends of azimuth axes.
+pub(super) fn paint_stops(painter: &Painter, dome: Dome, scene: &SkyScene<'_>, t: &Tokens) {
+    for stop in scene.stops {
+        let Some([inner, end]) = ends(dome, stop) else { continue };
+        let stroke = Stroke::new(3.0, t.bad);
+        let aside = (end - inner).normalized().rot90() * STOP.1;
+        painter.line_segment([inner, end], stroke);
+        painter.line_segment([end - aside, end + aside], stroke);
+    }
+}
+
+/// Paints the marks.
+pub(super) fn paint(painter: &Painter, dome: Dome, scene: &SkyScene<'_>, t: &Tokens) {
+    for antenna in scene.antennas {
+        if let Some(bearing) = &antenna.bearing {
+            bearing::paint_one(painter, dome, bearing, 1.0, t);
+        }
+        if let Some(at) = antenna.commanded.and_then(|commanded| dome.visible(commanded)) {
+            painter.circle_stroke(at, RING / 2.0, Stroke::new(1.25, t.cmd));
+        }
+        let Some(measured) = antenna.measured else { continue };
+        let Some(at) = dome.visible(measured.direction) else { continue };
+        match measured.lost {
+            None => marks::measured(painter, at, SCALE, t),
+            Some(_) => marks::lost(painter, at, SCALE, t),
+        }
+    }
+}
+
+/// Adds the nodes of the antennas; returns the index of one that was clicked.
+pub(super) fn nodes(
+    ui: &Ui,
+    canvas: Id,
+    rect: Rect,
+    dome: Dome,
+    scene: &SkyScene<'_>,
+    t: &Tokens,
+) -> Option<usize> {
+    let mut clicked = None;
+    let mut taken: Vec<Pos2> = Vec::new();
+    for antenna in scene.antennas {
+        let Some(at) = antenna.mark(dome).filter(|at| rect.contains(*at)) else { continue };
+        let lost = antenna.lost().map(|age| format!(", no reply for {age}")).unwrap_or_default();
+        let name = format!("Antenna {}{lost}", antenna.name);
+        let (said, tip) = match (antenna.measured, antenna.bearing.and_then(|of| of.measured)) {
+            (Some(measured), _) => {
+                (spoken(&name, measured.direction), tip(&name, measured.direction))
+            }
+            (None, Some(azimuth)) => {
+                let said = format!("{name}, azimuth {}", format::azimuth(azimuth.degrees()));
+                (said.clone(), said)
+            }
+            (None, None) => continue,
+        };
+        let id = canvas.with(("antenna", antenna.index));
+        // Two antennas on one pass point at one place: a click takes the first.
+        if taken.iter().any(|other| other.distance(at) < 2.0 * HALF) {
+            name_mark(ui, id, at, &said);
+            continue;
+        }
+        taken.push(at);
+        let place = Rect::from_center_size(at, Vec2::splat(HALF));
+        let response = ui.interact(place, id, Sense::click());
+        response.widget_info(|| WidgetInfo::labeled(Role::Button, true, &said));
+        if response.has_focus() {
+            ui.painter().circle_stroke(at, HALF, Stroke::new(2.0, t.sat));
+        }
+        if response.clicked() {
+            clicked = Some(antenna.index);
+        }
+        response.on_hover_text(tip);
+    }
+    clicked
+}
