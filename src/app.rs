@@ -47,7 +47,7 @@ use crate::{
     driver::Outside,
     engine::{self, Client, Handle, Settings, antenna::AntennaModel, signals},
     job::Wake,
-    model::{Model, UiCommand, View},
+    model::{Appearance, Model, UiCommand, View},
     ui,
 };
 
@@ -106,7 +106,7 @@ impl App {
         let outside = outside.into();
         let clock = outside.clock.clone();
         let keeper = Keeper::beside(settings.station_path().as_deref());
-        ui::theme::install(ctx, keeper.memory.theme);
+        ui::theme::install(ctx, keeper.memory.appearance.theme);
         let wake = wake(ctx.clone());
         let library = settings.library_path();
         let (log_work, mask_work) = (LogWork::beside(library.clone()), MaskWork::beside(library));
@@ -178,8 +178,8 @@ impl App {
     }
 
     /// Takes all news since the last frame.
-    fn think(&mut self, ctx: &egui::Context) {
-        self.work_on_change(ctx);
+    fn think(&mut self) {
+        self.work_on_change();
         let now = self.clock.now();
         (self.model.now, self.model.steady) = (now.utc, now.steady);
         // Events refer to state that is published by then.
@@ -235,6 +235,22 @@ impl App {
         if attention != self.told && self.station.client().send(look).is_ok() {
             self.told = attention;
         }
+    }
+
+    /// Uses the theme for this time of day, and the scale.
+    fn appear(&mut self, ctx: &egui::Context) {
+        let appearance = self.keeper.memory.appearance;
+        self.model.appearance = appearance;
+        let theme = appearance.theme_under(self.model.sky.sun);
+        if ui::theme::name(ctx) != theme {
+            ui::theme::set(ctx, theme);
+        }
+        ctx.set_zoom_factor(appearance.scale_percent as f32 / 100.0);
+    }
+
+    fn change_appearance(&mut self, appearance: Appearance, ctx: &egui::Context) {
+        self.keeper.memory.appearance = appearance;
+        self.appear(ctx);
     }
 
     /// Keeps the operator's changes for the next start.
@@ -314,9 +330,10 @@ fn wake(ctx: egui::Context) -> Wake {
 
 impl eframe::App for App {
     fn logic(&mut self, ctx: &egui::Context, frame: &mut eframe::Frame) {
-        self.think(ctx);
+        self.think();
         self.restore_place(ctx, frame);
         self.watch_place(ctx);
+        self.appear(ctx);
         if self.closes_now() {
             ctx.send_viewport_cmd_to(egui::ViewportId::ROOT, egui::ViewportCommand::Close);
         }

@@ -1,6 +1,7 @@
 //! The model: the state that the views show. Only the shell of the window changes it; a view
 //! reads it and queues commands.
 
+mod appearance;
 pub mod catalog_table;
 pub mod command;
 pub mod daylight;
@@ -20,14 +21,15 @@ use serde::{Deserialize, Serialize};
 
 #[cfg(test)]
 pub(crate) use self::line::testing;
-use self::{
-    catalog_table::CatalogTable, daylight::SunSpan, effects::Effects, globe::Globe, intake::Intake,
-};
 pub use self::{
+    appearance::Appearance,
     command::UiCommand,
     line::{ConsoleLine, Piece, pieces},
     stations::{KnownStation, NextStation, Stations},
     theme_name::ThemeName,
+};
+use self::{
+    catalog_table::CatalogTable, daylight::SunSpan, effects::Effects, globe::Globe, intake::Intake,
 };
 use crate::{
     astro::{AzEl, HorizonMask, MaskForm, Site, sun_moon},
@@ -120,6 +122,8 @@ pub struct Model {
     pub selected_antenna: usize,
     /// The predicted passes.
     pub pass_lists: PassLists,
+    /// How the window looks.
+    pub appearance: Appearance,
     /// The choice of passes in the list.
     pub list: ListChoice,
     /// The selected pass.
@@ -201,6 +205,7 @@ impl Model {
             wires: Vec::new(),
             selected_antenna: 0,
             pass_lists: PassLists::default(),
+            appearance: Appearance::default(),
             list: ListChoice::default(),
             selected: None,
             sky: Sky::default(),

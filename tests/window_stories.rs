@@ -1,5 +1,6 @@
 //! Stories of the operator in front of the whole window, without a display.
 
+mod appearance;
 mod bar;
 mod clock;
 mod closing;

@@ -6,9 +6,8 @@ use super::App;
 use crate::{
     driver,
     engine::{Command, Stopped, passes::PredictedPass},
-    model::UiCommand,
+    model::{Appearance, UiCommand},
     station::AntennaId,
-    ui::theme,
 };
 
 impl App {
@@ -66,8 +65,12 @@ impl App {
                 self.keeper.memory.keep_view(view);
             }
             UiCommand::SetTheme(name) => {
-                theme::set(ctx, name);
-                self.keeper.memory.theme = name;
+                let appearance = self.keeper.memory.appearance;
+                let chosen = Appearance { theme: name, light_by_day: false, ..appearance };
+                self.change_appearance(chosen, ctx);
+            }
+            UiCommand::SetAppearance(appearance) => {
+                self.change_appearance(appearance, ctx);
             }
             UiCommand::TryNotice(sound) => {
                 if let Some(notifier) = &self.notifier {

@@ -89,7 +89,7 @@ impl App {
     }
 
     /// Takes the change as far as it goes by itself.
-    pub(super) fn work_on_change(&mut self, ctx: &egui::Context) {
+    pub(super) fn work_on_change(&mut self) {
         match Job::take(&mut self.station_dialog) {
             Some(Ok(Ok(Some(path)))) => self.choose_station(NextStation::File(path)),
             Some(Ok(Err(error))) => self.model.stations.refused = Some(error.to_string()),
@@ -103,7 +103,7 @@ impl App {
                 match Job::take(&mut job) {
                     None => job.map(|job| Change::Starting { job, settings, opens_set_up }),
                     Some(Ok(Ok((station, keeper)))) => {
-                        self.use_station(station, keeper, settings, ctx);
+                        self.use_station(station, keeper, settings);
                         self.opens_set_up = opens_set_up;
                         None
                     }
@@ -202,14 +202,7 @@ impl App {
     }
 
     /// Puts a station that has begun into the window.
-    fn use_station(
-        &mut self,
-        station: Handle,
-        keeper: Keeper,
-        settings: Settings,
-        ctx: &egui::Context,
-    ) {
-        ui::theme::set(ctx, keeper.memory.theme);
+    fn use_station(&mut self, station: Handle, keeper: Keeper, settings: Settings) {
         // No code panics while it holds the lock.
         *self.client.lock().unwrap_or_else(PoisonError::into_inner) = station.client().clone();
         self.station = station;

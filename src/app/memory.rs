@@ -14,7 +14,7 @@ use super::place::Place;
 use crate::{
     engine::passes::{ListChoice, SPANS_H, Scope},
     job::{Job, Wake},
-    model::{ThemeName, View},
+    model::{Appearance, ThemeName, View},
     ui::{Kept, map::MapLayers, pass_list::Arrangement, sky_plot::Layers},
     whole_file,
 };
@@ -27,8 +27,7 @@ const FAREWELL: Duration = Duration::from_millis(500);
 /// The kept state.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub(super) struct Memory {
-    /// The theme.
-    pub(super) theme: ThemeName,
+    pub(super) appearance: Appearance,
     /// Name of the antenna that the operator selected last.
     pub(super) antenna: Option<String>,
     /// The view that was shown last.
@@ -65,7 +64,13 @@ impl Memory {
         let span = |key: &str| number(key).filter(|hours| SPANS_H.contains(hours));
         let list = ListChoice::default();
         Self {
-            theme: word(&table, "theme"),
+            appearance: Appearance {
+                theme: word(&table, "theme"),
+                light_by_day: is_set("light_by_day"),
+                scale_percent: number("scale_percent")
+                    .filter(|percent| Appearance::SCALES_PERCENT.contains(percent))
+                    .unwrap_or(Appearance::default().scale_percent),
+            },
             list: ListChoice {
                 scope: word(&table, "pass_scope"),
                 favourites_h: span("pass_hours").unwrap_or(list.favourites_h),
@@ -99,6 +104,8 @@ impl Memory {
         #[derive(Serialize)]
         struct Lines<'a> {
             theme: ThemeName,
+            light_by_day: bool,
+            scale_percent: u32,
             #[serde(skip_serializing_if = "Option::is_none")]
             antenna: Option<&'a str>,
             view: View,
@@ -118,7 +125,9 @@ impl Memory {
             window: Option<Place>,
         }
         toml::to_string(&Lines {
-            theme: self.theme,
+            theme: self.appearance.theme,
+            light_by_day: self.appearance.light_by_day,
+            scale_percent: self.appearance.scale_percent,
             antenna: self.antenna.as_deref(),
             view: self.view,
             pass_scope: self.list.scope,
@@ -276,7 +285,11 @@ mod tests {
 
     fn other() -> Memory {
         Memory {
-            theme: ThemeName::Night,
+            appearance: Appearance {
+                theme: ThemeName::Night,
+                light_by_day: true,
+                scale_percent: 150,
+            },
             antenna: Some("Şile \"2\"".to_owned()),
             view: View::Map,
             place: "at = [12, 7]\nsize = [1300, 800]\nis_maximized = true"
@@ -335,10 +348,10 @@ mod tests {
         let mut hill = at("hill.toml");
         assert_eq!(hill.memory.views, other().views);
         assert_eq!(hill.memory, other().of_another_station());
-        hill.memory = Memory { theme: ThemeName::Light, ..Memory::default() };
+        hill.memory.appearance.theme = ThemeName::Light;
         hill.finish(&silent());
         assert!(folder.path().join("hill.window.toml").exists());
-        assert_eq!(at("hill.toml").memory.theme, ThemeName::Light);
+        assert_eq!(at("hill.toml").memory.appearance.theme, ThemeName::Light);
         assert_eq!(at("station.toml").memory, other());
     }
 
@@ -347,11 +360,11 @@ mod tests {
         let folder = tempfile::tempdir().unwrap();
         let mut first = keeper(&folder);
         for theme in [ThemeName::Light, ThemeName::Dark, ThemeName::Night] {
-            first.memory.theme = theme;
+            first.memory.appearance.theme = theme;
             first.keep(&silent());
         }
         first.finish(&silent());
-        assert_eq!(keeper(&folder).memory.theme, ThemeName::Night);
+        assert_eq!(keeper(&folder).memory.appearance.theme, ThemeName::Night);
     }
 
     #[test]
@@ -360,7 +373,14 @@ mod tests {
         let path = folder.path().join("window.toml");
         for (text, wanted) in [
             ("theme = 'night'\nstrip_hours = -3\nfaults_open = 'yes'\nnew = 1", {
-                Memory { theme: ThemeName::Night, ..Memory::default() }
+                let theme = ThemeName::Night;
+                let appearance = Appearance { theme, ..Appearance::default() };
+                Memory { appearance, ..Memory::default() }
+            }),
+            ("theme = 'light'\nlight_by_day = 3\nscale_percent = 130", {
+                let theme = ThemeName::Light;
+                let appearance = Appearance { theme, ..Appearance::default() };
+                Memory { appearance, ..Memory::default() }
             }),
             ("list_width = -4\n[layers]\nnames = false\nmask = 3\nnew = true", {
                 let layers = Layers { names: false, ..Layers::default() };

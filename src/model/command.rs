@@ -3,8 +3,8 @@
 use std::{path::PathBuf, sync::Arc};
 
 use super::{
-    ConsoleLine, Model, NextStation, ThemeName, View, catalog_table, effects, export::Export,
-    intake::Offer,
+    Appearance, ConsoleLine, Model, NextStation, ThemeName, View, catalog_table, effects,
+    export::Export, intake::Offer,
 };
 use crate::{
     astro::HorizonMask,
@@ -48,7 +48,9 @@ pub enum UiCommand {
     /// List the passes of this many hours from now on.
     SetSpan(u32),
     Show(View),
+    /// Use this theme, whatever the Sun does.
     SetTheme(ThemeName),
+    SetAppearance(Appearance),
     /// Show and sound an example of an alarm or a reminder.
     TryNotice(Sound),
     /// Write these lines of the console to a file.

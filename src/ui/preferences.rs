@@ -1,6 +1,7 @@
 //! Settings of the station: site, satellites and antennas, in a plain form.
 
 mod antenna_fields;
+mod appearance;
 mod connection_fields;
 pub(super) mod draft;
 pub(super) mod fields;
@@ -66,13 +67,16 @@ enum Section {
     Horizon,
     /// Notifications, sounds and reminders.
     Notices,
+    /// Theme and scale.
+    Appearance,
 }
 
 impl Section {
-    const ALL: [(&'static str, Self); 3] = [
+    const ALL: [(&'static str, Self); 4] = [
         ("Station and antennas", Self::Station),
         ("Horizon and keep-outs", Self::Horizon),
         ("Alarms and sounds", Self::Notices),
+        ("Appearance", Self::Appearance),
     ];
 }
 
@@ -144,6 +148,9 @@ pub fn show(
         }),
         Section::Notices => cards(ui, page, "Alarms and sounds", |ui, two_columns| {
             notices::show(ui, model, &mut draft, two_columns, commands);
+        }),
+        Section::Appearance => cards(ui, page, "Appearance", |ui, _| {
+            appearance::show(ui, model, commands);
         }),
         Section::Horizon => {
             let (skies, horizon) = (&mut draft.skies, &mut state.horizon);

@@ -20,6 +20,8 @@ pub fn name(ctx: &Context) -> ThemeName {
 pub fn install(ctx: &Context, theme: ThemeName) {
     ctx.set_fonts(text::definitions());
     ctx.add_plugin(LeanShapes);
+    // The scale is a setting, which keys of the toolkit would change unseen.
+    ctx.options_mut(|options| options.zoom_with_keyboard = false);
     set(ctx, theme);
 }
 

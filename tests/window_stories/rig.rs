@@ -19,7 +19,7 @@ use azel::{
         passes::{ListChoice, ListedSatellite, Observer, PassLists, PredictedPass},
     },
     model::{
-        Model, Sky, Stations, ThemeName, UiCommand, View,
+        Appearance, Model, Sky, Stations, ThemeName, UiCommand, View,
         catalog_table::{Answer, CatalogTable, arrange},
         effects::Effects,
         globe::Globe,
@@ -158,6 +158,7 @@ pub(crate) fn model(mut snapshot: Snapshot) -> Model {
         antennas,
         selected_antenna: 0,
         pass_lists,
+        appearance: Appearance::default(),
         list: ListChoice::default(),
         selected: None,
         sky: Sky::default(),

@@ -111,7 +111,8 @@ fn limits() -> [Of; 3] {
     [
         Of::number("Minimum elevation", ranges::ELEVATION_DEG, "°", |antenna| {
             Some(&mut antenna.limits.minimum_elevation_deg)
-        }),
+        })
+        .noted(|_| Some("The antenna is never sent below it.".to_owned())),
         Of::number("Maximum rate", ranges::MAXIMUM_RATE_DEG_S, "°/s", |antenna| {
             Some(&mut antenna.limits.maximum_rate_deg_s)
         }),

@@ -91,7 +91,8 @@ pub(super) fn all() -> Vec<Placed<Ground>> {
         }),
         Of::number("Elevation floor", ranges::ELEVATION_FLOOR_DEG, "°", |ground| {
             Some(&mut ground.elevation_floor_deg)
-        }),
+        })
+        .noted(|_| Some("A pass whose maximum stays below it is not listed.".to_owned())),
         Of::new(
             "Satellites",
             Kind::Text(|_| Ok(())),

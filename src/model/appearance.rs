@@ -1,0 +1,56 @@
+//! How the window looks.
+
+use super::ThemeName;
+use crate::astro::AzEl;
+
+/// Elevation of the Sun's centre at sunrise and sunset, with refraction and half its width.
+const SUNRISE_DEG: f64 = -0.833;
+
+/// How the window looks, as the operator has chosen.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Appearance {
+    pub theme: ThemeName,
+    /// The light theme is used while the Sun is up over the station.
+    pub light_by_day: bool,
+    /// Size of everything; one of [`Self::SCALES_PERCENT`].
+    pub scale_percent: u32,
+}
+
+impl Default for Appearance {
+    fn default() -> Self {
+        Self { theme: ThemeName::default(), light_by_day: false, scale_percent: 100 }
+    }
+}
+
+impl Appearance {
+    pub const SCALES_PERCENT: [u32; 5] = [100, 125, 150, 175, 200];
+
+    /// The theme to use while the Sun is there.
+    pub fn theme_under(self, sun: Option<AzEl>) -> ThemeName {
+        let is_day = sun.is_some_and(|sun| sun.elevation_deg() > SUNRISE_DEG);
+        match self.theme {
+            theme if !self.light_by_day => theme,
+            _ if is_day => ThemeName::Light,
+            // By night another one is wanted, even where the light one was used so far.
+            ThemeName::Light => ThemeName::Dark,
+            theme => theme,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn by_day_it_is_light_and_by_night_never() {
+        let sun = |elevation_deg: f64| Some(AzEl::from_degrees(90.0, elevation_deg));
+        let of = |theme, light_by_day| Appearance { theme, light_by_day, ..Appearance::default() };
+        let night = of(ThemeName::Night, true);
+        assert_eq!(night.theme_under(sun(-0.5)), ThemeName::Light);
+        assert_eq!(night.theme_under(sun(-1.0)), ThemeName::Night);
+        assert_eq!(night.theme_under(None), ThemeName::Night);
+        assert_eq!(of(ThemeName::Light, true).theme_under(sun(-9.0)), ThemeName::Dark);
+        assert_eq!(of(ThemeName::Dark, false).theme_under(sun(50.0)), ThemeName::Dark);
+    }
+}

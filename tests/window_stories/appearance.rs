@@ -1,0 +1,74 @@
+//! Theme and scale of the window.
+
+use std::fs;
+
+use azel::{
+    model::{Appearance, ThemeName, UiCommand, View},
+    station,
+    ui::theme,
+};
+use egui::Role;
+use egui_kittest::kittest::Queryable as _;
+use jiff::Timestamp;
+
+use crate::window_stories::{
+    rig::{self, LARGE, SMALL, Window, asked, says, settle},
+    states,
+    unit::{Unit, clock_from, open, step_until},
+};
+
+fn page(size: [f32; 2]) -> Window {
+    let mut model = rig::model(states::holding());
+    model.view = View::Preferences;
+    let mut window = rig::window(size, model);
+    window.get_by_role_and_label(Role::RadioButton, "Appearance").click();
+    settle(&mut window);
+    asked(&mut window);
+    window
+}
+
+fn chosen(window: &mut Window, word: &str) -> Appearance {
+    window.get_by_role_and_label(Role::RadioButton, word).click();
+    match <[UiCommand; 1]>::try_from(asked(window)) {
+        Ok([UiCommand::SetAppearance(appearance)]) => appearance,
+        other => panic!("{other:?}"),
+    }
+}
+
+#[test]
+fn theme_and_sun_are_chosen_and_the_scale_that_fits() {
+    let usual = Appearance::default();
+    let mut window = page(LARGE);
+    let night = Appearance { theme: ThemeName::Night, ..usual };
+    assert_eq!(chosen(&mut window, "Night"), night);
+    let by_day = Appearance { light_by_day: true, ..usual };
+    assert_eq!(chosen(&mut window, "Light by day"), by_day);
+    let larger = Appearance { scale_percent: 150, ..usual };
+    assert_eq!(chosen(&mut window, "150 %"), larger);
+    assert!(window.query_by_label("175 %").is_none(), "the views would be cut off");
+    assert!(says(&window, "A larger scale needs a larger window"));
+
+    let mut window = page(SMALL);
+    assert!(window.query_by_label("125 %").is_none());
+    assert_eq!(chosen(&mut window, "Light").theme, ThemeName::Light);
+}
+
+#[test]
+fn the_window_turns_light_while_the_sun_is_up_and_keeps_its_scale() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("station.toml");
+    let unit = Unit::start(rig::now());
+    station::save(&unit.station(), &path).unwrap();
+    let kept = "theme = 'night'\nlight_by_day = true\nscale_percent = 125\n";
+    fs::write(folder.path().join("window.toml"), kept).unwrap();
+    for (utc, wanted) in
+        [("2026-08-12T10:15:00Z", ThemeName::Light), ("2026-08-12T22:15:00Z", ThemeName::Night)]
+    {
+        let mut window = open(&path, clock_from(utc.parse::<Timestamp>().unwrap()));
+        step_until(&mut window, "the Sun", |model| model.sky.sun.is_some());
+        window.run_steps(2);
+        assert_eq!(theme::name(&window.ctx), wanted, "{utc}");
+        assert!((window.ctx.zoom_factor() - 1.25).abs() < 1e-6);
+    }
+    assert!(fs::read_to_string(folder.path().join("window.toml")).unwrap().contains("'night'"));
+}
