@@ -59,3 +59,4 @@ mod upload_questions;
 mod upload_rig;
 mod uploads;
 mod whole_degrees;
+mod wide;

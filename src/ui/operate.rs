@@ -7,11 +7,12 @@ mod filter;
 mod ghost;
 mod layout;
 pub(super) mod passes;
+mod second_card;
 pub(super) mod sky;
 
 use std::time::Duration;
 
-use egui::{Rect, Ui};
+use egui::{Rect, Role, Sense, Ui, WidgetInfo};
 use jiff::Timestamp;
 
 use super::{
@@ -36,6 +37,7 @@ use crate::{
 };
 use ghost::GhostState;
 use layout::Areas;
+use second_card::SecondCard;
 
 /// Wait for one more frame.
 const NEXT_FRAME: Duration = Duration::from_millis(1);
@@ -60,8 +62,10 @@ pub struct OperateState {
     /// The pass list.
     pub passes: PassListState,
     found: filter::FoundPasses,
-    /// Index of the antenna whose card was shown last.
+    /// The antenna whose card was shown last.
     shown_antenna: Option<AntennaId>,
+    /// The card beside it in a wide window.
+    second: SecondCard,
 }
 
 impl OperateState {
@@ -88,6 +92,7 @@ impl OperateState {
     /// Call when the card disappears. Releases a key that is held there.
     pub fn leave_card(&mut self, commands: &mut Vec<UiCommand>) {
         self.ghost.leave(commands);
+        self.second.leave(commands);
         if self.card.hide().is_some()
             && let Some(antenna) = self.shown_antenna
         {
@@ -107,14 +112,17 @@ pub fn show(
     commands: &mut Vec<UiCommand>,
 ) {
     let list_width = state.list_width.map(|width| width as f32);
-    let areas = Areas::of(window, rect, state.drawer_open, model.demo, list_width);
+    let count = model.antennas.len();
+    let areas = Areas::of(window, rect, state.drawer_open, model.demo, count, list_width);
     let t = theme::tokens(ui);
     let shown = model.antenna().map(AntennaModel::id);
     if state.shown_antenna != shown {
         state.leave_card(commands);
         state.card.change_antenna();
+        state.second.turn_to(model, state.shown_antenna, commands);
         state.shown_antenna = shown;
     }
+    let second = areas.second_card.and_then(|_| state.second.antenna(model, commands));
     if let Some(strip) = areas.banner {
         banner::show(ui, strip, model, commands);
     }
@@ -139,12 +147,22 @@ pub fn show(
         if areas.small {
             // The drawer lies over the plot and needs a background of its own.
             ui.painter().rect_filled(list, 0.0, t.bg1);
+            // Nothing falls through it on the sky. For the pointer alone: Tab skips it.
+            let id = ui.make_persistent_id("drawer");
+            let drawer = ui.interact(list, id, Sense::CLICK | Sense::DRAG);
+            drawer.widget_info(|| WidgetInfo::labeled(Role::Group, true, "Drawer of the passes"));
         }
         let (list_state, found) = (&mut state.passes, &mut state.found);
         passes::list(ui, list, model, areas.thumbnails, list_state, found, commands);
     }
     if let Some(antenna) = model.antenna() {
-        card::show(ui, areas.card, model, antenna, &mut state.card, question, commands);
+        let beside = second.map(AntennaModel::id);
+        card::show(ui, areas.card, model, antenna, beside, &mut state.card, question, commands);
+        if let (Some(place), Some(second)) = (areas.second_card, second) {
+            let card = state.second.card();
+            let beside = Some(antenna.id());
+            card::show(ui, place, model, second, beside, card, question, commands);
+        }
     } else {
         card::none(ui, areas.card, model, commands);
     }

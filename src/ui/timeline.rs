@@ -35,14 +35,23 @@ pub struct Bar<'a> {
     pub possible: bool,
 }
 
+/// The passes of one antenna.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Lane<'a> {
+    pub name: &'a str,
+    /// Passes in any order, without satellites that never set.
+    pub bars: Vec<Bar<'a>>,
+}
+
 #[derive(Clone, Copy)]
 pub struct TimelineModel<'a> {
     /// The time of the now-line, UTC.
     pub now: Timestamp,
     pub hours: f64,
-    pub lane: &'a str,
-    /// Passes in any order, without satellites that never set.
-    pub bars: &'a [Bar<'a>],
+    /// A lane for each antenna, in the order of the station; at least one.
+    pub lanes: &'a [Lane<'a>],
+    /// The lane of the selected antenna.
+    pub main: usize,
     /// The pass that is selected in the window.
     pub selected: Option<(u32, Timestamp)>,
     /// Day and night, earliest first.
@@ -55,6 +64,12 @@ pub struct TimelineModel<'a> {
 pub const SMALL_BELOW: f32 = 120.0;
 /// Minimum size, in points; in less room nothing would be legible.
 const MIN: Vec2 = vec2(160.0, 60.0);
+/// From this height on each antenna has a lane, in points.
+const ALL_LANES_FROM: f32 = 240.0;
+/// Minimum height of such a lane, in points.
+const LOWEST_LANE: f32 = 44.0;
+/// Share of a high lane that its highest bar fills.
+const GROWN: f32 = 0.55;
 /// Below this height all passes share one lane, in points.
 const TWO_LANES_FROM: f32 = 190.0;
 const MARGIN: f32 = 16.0;
@@ -97,7 +112,56 @@ pub fn show(ui: &mut Ui, rect: Rect, model: &TimelineModel<'_>, commands: &mut V
         return small(ui, rect, x, &scale, model, commands);
     }
     head::show(ui, rect.with_max_y(rect.top() + HEAD), &title);
-    full(ui, rect.with_min_y(rect.top() + HEAD), x, &scale, model, commands);
+    let below = rect.with_min_y(rect.top() + HEAD);
+    let room = below.height() - AXIS - LANE_GAP - SUN_LANE - SUN_WORDS - BOTTOM;
+    let count = model.lanes.len();
+    if count > 1 && rect.height() >= ALL_LANES_FROM && room / count as f32 >= LOWEST_LANE {
+        return all_lanes(ui, below, x, &scale, model, commands);
+    }
+    full(ui, below, x, &scale, model, commands);
+}
+
+/// Shows a lane for each antenna, with what it cannot track as outlines.
+fn all_lanes(
+    ui: &Ui,
+    rect: Rect,
+    x: Rangef,
+    scale: &Scale,
+    model: &TimelineModel<'_>,
+    commands: &mut Vec<UiCommand>,
+) {
+    let band = |bottom: f32, height: f32| Rect::from_x_y_ranges(x, bottom - height..=bottom);
+    let words = band(rect.bottom() - BOTTOM, SUN_WORDS);
+    let sun = band(words.top(), SUN_LANE);
+    let names = band(rect.top() + AXIS, AXIS);
+    let room = Rect::from_x_y_ranges(x, names.bottom()..=sun.top() - LANE_GAP);
+    axis::show(ui, scale, room, names);
+    let height = room.height() / model.lanes.len() as f32;
+    let mut standing = Vec::new();
+    for (index, lane) in model.lanes.iter().enumerate() {
+        let top = room.top() + index as f32 * height;
+        let place = Rect::from_x_y_ranges(x, top..=top + height);
+        if index > 0 {
+            ui.painter().hline(x, top, (1.0, theme::tokens(ui).line));
+        }
+        lane_name(ui, rect.left() + MARGIN, place, lane.name, index == model.main);
+        let heights = bars::fitting(&grown(place), place);
+        let bars = bars::stand(&lane.bars, |_| true, scale, place, &heights);
+        bars::show(ui, &bars, Some(index), model, commands);
+        standing.push((place, bars));
+    }
+    lane_name(ui, rect.left() + MARGIN, sun, "Sun", false);
+    sun::show(ui, scale, model.sun, sun, words);
+    axis::now_line(ui, scale, model.now, Rangef::new(room.top() - 4.0, sun.bottom()));
+    for (place, bars) in &standing {
+        let room = place.with_min_x(place.left() - NAMES_GAP);
+        bars::show_names(ui, bars, model.selected, room);
+    }
+}
+
+/// The heights of bars for 0° and 90° of maximum elevation, which grow in a high lane.
+fn grown(lane: Rect) -> RangeInclusive<f32> {
+    *HEIGHTS.start()..=HEIGHTS.end().max(GROWN * lane.height())
 }
 
 fn full(
@@ -117,16 +181,17 @@ fn full(
     let lane = Rect::from_x_y_ranges(x, names.bottom()..=out.top());
 
     axis::show(ui, scale, lane.with_max_y(out.bottom()), names);
-    lane_name(ui, rect.left() + MARGIN, lane, model.lane, true);
-    let heights = bars::fitting(&HEIGHTS, lane);
+    let Some(shown) = model.lanes.get(model.main) else { return };
+    lane_name(ui, rect.left() + MARGIN, lane, shown.name, true);
+    let heights = bars::fitting(&grown(lane), lane);
     let wanted = |bar: &Bar<'_>| bar.possible || !two_lanes;
-    let main = bars::stand(model.bars, wanted, scale, lane, &heights);
-    bars::show(ui, &main, model, commands);
+    let main = bars::stand(&shown.bars, wanted, scale, lane, &heights);
+    bars::show(ui, &main, None, model, commands);
     if two_lanes {
         ui.painter().hline(x, out.top(), (1.0, theme::tokens(ui).line));
         lane_name(ui, rect.left() + MARGIN, out, "Not possible", false);
-        let others = bars::stand(model.bars, |bar| !bar.possible, scale, out, &OUT_HEIGHTS);
-        bars::show(ui, &others, model, commands);
+        let others = bars::stand(&shown.bars, |bar| !bar.possible, scale, out, &OUT_HEIGHTS);
+        bars::show(ui, &others, None, model, commands);
     }
     lane_name(ui, rect.left() + MARGIN, sun, "Sun", false);
     sun::show(ui, scale, model.sun, sun, words);
@@ -146,10 +211,11 @@ fn small(
     let names = Rect::from_x_y_ranges(x, rect.top()..=rect.top() + SMALL_AXIS);
     let lane = Rect::from_x_y_ranges(x, names.bottom()..=rect.bottom());
     axis::show(ui, scale, lane, names);
-    lane_name(ui, rect.left() + SMALL_MARGIN, lane, model.lane, true);
+    let Some(shown) = model.lanes.get(model.main) else { return };
+    lane_name(ui, rect.left() + SMALL_MARGIN, lane, shown.name, true);
     let heights = bars::fitting(&HEIGHTS, lane);
-    let standing = bars::stand(model.bars, |_| true, scale, lane, &heights);
-    bars::show(ui, &standing, model, commands);
+    let standing = bars::stand(&shown.bars, |_| true, scale, lane, &heights);
+    bars::show(ui, &standing, None, model, commands);
     axis::now_line(ui, scale, model.now, Rangef::new(lane.top() - 4.0, lane.bottom()));
     let room = lane.with_min_x(lane.left() - NAMES_GAP);
     bars::show_names(ui, &standing, model.selected, room);

@@ -185,3 +185,20 @@ fn another_antenna_or_view_ends_what_is_looked_at() {
     assert_eq!(asked(&mut window), []);
     assert_eq!(note(&window), None);
 }
+
+#[test]
+fn the_drawer_lets_neither_click_nor_wheel_through_to_the_sky() {
+    let mut window = rig::window(rig::SMALL, rig::model(states::holding()));
+    let before = window.get_by_label_contains("EUTELSAT 7C, azimuth").rect();
+    window.key_press(Key::P);
+    settle(&mut window);
+    let title = window.get_by_label_contains("Next passes, ").rect();
+    let at = title.left_bottom() + vec2(20.0, 2.0);
+    window.hover_at(at);
+    settle(&mut window);
+    rig::scroll(&mut window, at, 200.0);
+    window.drag_at(at);
+    window.drop_at(at);
+    assert_eq!(asked(&mut window), []);
+    assert_eq!(window.get_by_label_contains("EUTELSAT 7C, azimuth").rect(), before);
+}

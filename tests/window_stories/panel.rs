@@ -378,6 +378,7 @@ fn the_other_antennas_stand_below_and_a_click_shows_one() {
         snapshot.link = LinkState::Up { since: Instant::now() };
         snapshot.state.measured = Some(states::measured(43.0, 12.0, AxisMotion::Still));
         model.antennas.push(rig::antenna(genius, snapshot));
+        model.antennas[1].config.id = AntennaId(2);
         let mut window = rig::window(size, model);
         let is_other = |name: &str| name.starts_with("Show Mast: Holding at 43°, 12°");
         let other = |window: &rig::Window| {

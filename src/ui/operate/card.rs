@@ -18,7 +18,7 @@ use crate::{
     driver::{Intent, LinkState},
     engine::{CatalogState, antenna::AntennaModel},
     model::{Model, UiCommand, View},
-    station::Mount,
+    station::{AntennaId, Mount},
     ui::{
         bar,
         confirm::Question,
@@ -39,12 +39,15 @@ use crate::{
     },
 };
 
-/// Draws the card of `antenna`.
+/// Draws the card of `antenna`; the card of the antenna `beside` stands beside it.
+// The card, whose it is, and who takes what is asked.
+#[allow(clippy::too_many_arguments)]
 pub(super) fn show(
     ui: &mut Ui,
     rect: Rect,
     model: &Model,
     antenna: &AntennaModel,
+    beside: Option<AntennaId>,
     state: &mut CardState,
     question: &mut Option<Question>,
     commands: &mut Vec<UiCommand>,
@@ -67,7 +70,7 @@ pub(super) fn show(
     let decimals = format::decimals(can);
     let checks = &antenna.snapshot.state.checks;
     let checked_at = antenna.snapshot.state.checked_at.map(format::time_z).unwrap_or_default();
-    let others = others(model);
+    let others = others(model, [Some(antenna.id()), beside]);
     let locks = Locks::of(antenna, !checks.is_empty());
     let blocked = measured.map(|measured| axes::blocked(measured, can)).unwrap_or_default();
     let jog_note = axes::unseen(antenna);
@@ -306,10 +309,10 @@ fn on_board(model: &Model, antenna: &AntennaModel) -> [Option<String>; 2] {
     [misses, (!said.is_empty()).then(|| said.join(" "))]
 }
 
-/// All antennas but the one whose card is shown.
-fn others(model: &Model) -> Vec<OtherAntenna> {
+/// All antennas but those whose cards are shown.
+fn others(model: &Model, shown: [Option<AntennaId>; 2]) -> Vec<OtherAntenna> {
     let antennas = model.antennas.iter().enumerate();
-    let others = antennas.filter(|(index, _)| *index != model.selected_antenna);
+    let others = antennas.filter(|(_, antenna)| !shown.contains(&Some(antenna.id())));
     let in_short = |(index, antenna): (usize, &AntennaModel)| {
         let measured = antenna.snapshot.state.measured;
         let at = measured

@@ -22,6 +22,11 @@ const DRAWER_BELOW: f32 = 1200.0;
 const THUMBNAILS_FROM: f32 = 1360.0;
 /// In a window below this height there is one short strip.
 const TALL_FROM: f32 = 800.0;
+/// In a window from this height on the strip has room for a lane of each antenna.
+const HIGH_FROM: f32 = 1000.0;
+const HIGH_STRIP: f32 = 272.0;
+/// In a window from this width on two cards stand side by side.
+const TWO_CARDS_FROM: f32 = 1800.0;
 
 /// The parts of the view.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -29,6 +34,8 @@ pub(super) struct Areas {
     pub(super) header: Rect,
     pub(super) sky: Rect,
     pub(super) card: Rect,
+    /// The card of a second antenna, at the right of the first.
+    pub(super) second_card: Option<Rect>,
     /// The strip of the demo station, if it is beside the card.
     pub(super) banner: Option<Rect>,
     pub(super) list: Option<Rect>,
@@ -47,12 +54,16 @@ impl Areas {
         rect: Rect,
         drawer_open: bool,
         demo: bool,
+        antennas: usize,
         list_width: Option<f32>,
     ) -> Self {
         let small = window.width() < DRAWER_BELOW;
         let tall = window.height() >= TALL_FROM;
         let card_width = if small { antenna_card::SMALL_WIDTH } else { antenna_card::WIDTH };
-        let card = rect.with_min_x(rect.right() - card_width);
+        let last = rect.with_min_x(rect.right() - card_width);
+        let has_two = window.width() >= TWO_CARDS_FROM && antennas > 1;
+        let second_card = has_two.then_some(last);
+        let card = if has_two { last.translate(vec2(-card_width, 0.0)) } else { last };
         let left = rect.with_max_x(card.left());
         let banner = (demo && window.height() < top_bar::SMALL_BELOW)
             .then(|| left.with_max_y(left.top() + banner::LOW_HEIGHT));
@@ -64,7 +75,11 @@ impl Areas {
         let list_width = list_widths.clamp(list_width.unwrap_or(usual));
         let thumbnails = list_width >= LIST;
         let header_height = if small { 44.0 } else { pass_header::HEIGHT };
-        let wanted = if tall { STRIP } else { SMALL_STRIP };
+        let wanted = match window.height() {
+            ..TALL_FROM => SMALL_STRIP,
+            TALL_FROM..HIGH_FROM => STRIP,
+            _ => HIGH_STRIP,
+        };
         let room = left.height() - header_height;
         let strip_height = wanted.max(room - MAX_SKY);
         let strip = left.with_min_y(left.bottom() - strip_height);
@@ -90,7 +105,19 @@ impl Areas {
         };
         let timeline = Some(timeline);
         let list_widths = (!small).then_some(list_widths);
-        Self { header, sky, card, banner, list, list_widths, timeline, profile, thumbnails, small }
+        Self {
+            header,
+            sky,
+            card,
+            second_card,
+            banner,
+            list,
+            list_widths,
+            timeline,
+            profile,
+            thumbnails,
+            small,
+        }
     }
 
     /// The lines between the parts, 1 px wide.
@@ -127,7 +154,7 @@ mod tests {
         let window = Rect::from_min_size(pos2(0.0, 0.0), vec2(width, height));
         let (bar, rail) =
             (if height < 800.0 { 48.0 } else { 56.0 }, if width < 1200.0 { 48.0 } else { 72.0 });
-        Areas::of(window, window.with_min_x(rail).with_min_y(bar), false, false, list)
+        Areas::of(window, window.with_min_x(rail).with_min_y(bar), false, false, 2, list)
     }
 
     #[test]
@@ -165,6 +192,21 @@ mod tests {
             assert!(areas.sky.width() >= MIN_SKY && areas.sky.left() >= list.right());
             assert_eq!(areas.thumbnails, wanted >= LIST);
         }
+    }
+
+    #[test]
+    fn a_wide_window_has_two_cards_and_a_high_one_lanes_for_all() {
+        for (width, height) in [(1920.0, 1080.0), (2560.0, 1440.0), (1800.0, 900.0)] {
+            let areas = areas(width, height);
+            let second = areas.second_card.expect("two cards");
+            assert_eq!(areas.card.size(), second.size());
+            assert!((areas.card.right() - second.left()).abs() < 1e-3);
+            assert!((second.right() - width).abs() < 1e-3);
+            assert!(areas.sky.right() <= areas.card.left() && areas.sky.width() >= MIN_SKY);
+            let strip = areas.timeline.unwrap().height();
+            assert_eq!(strip > STRIP, height >= HIGH_FROM, "{strip}");
+        }
+        assert_eq!(areas(1799.0, 1080.0).second_card, None);
     }
 
     #[test]

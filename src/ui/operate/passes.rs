@@ -20,7 +20,7 @@ use crate::{
         pass_list::{self, Arrangement, PassListModel, PassListState, PassRow, Verdict},
         profile::{self, PastModel, ProfileModel, ProfileState},
         state_sentence::short,
-        timeline::{self, Bar, TimelineModel, Zoom},
+        timeline::{self, Bar, Lane, TimelineModel, Zoom},
         words,
     },
 };
@@ -221,6 +221,23 @@ fn clear_of_mask(stretches: &[Pass], now: Timestamp) -> String {
     format!("clear of the mask{parts} {from} to {to}")
 }
 
+/// A strip of this width shows a whole day.
+const LONG_FROM: f32 = 1000.0;
+
+/// A pass as a bar in the lane of `antenna`.
+fn bar(predicted: &PredictedPass, antenna: usize) -> Bar<'_> {
+    let trackability = predicted.trackability(antenna);
+    Bar {
+        key: predicted.key(),
+        name: predicted.satellite.short_name(),
+        aos: predicted.pass.aos.time,
+        los: predicted.pass.los.time,
+        max_elevation_deg: predicted.pass.max_elevation().degrees(),
+        loses: matches!(trackability, Some(Trackability::Loses { .. })),
+        possible: !matches!(trackability, Some(Trackability::Nothing | Trackability::TooLow)),
+    }
+}
+
 pub(super) fn timeline(
     ui: &mut Ui,
     rect: Rect,
@@ -228,31 +245,32 @@ pub(super) fn timeline(
     zoom: &mut Zoom,
     commands: &mut Vec<UiCommand>,
 ) {
-    let usual = if rect.height() < timeline::SMALL_BELOW { 4 } else { 12 };
+    let usual = match (rect.height() < timeline::SMALL_BELOW, rect.width() >= LONG_FROM) {
+        (true, _) => 4,
+        (false, true) => 24,
+        (false, false) => 12,
+    };
     let hours = f64::from(zoom.hours(usual));
     let end = add_seconds(model.now, hours * 3600.0);
-    let of = |predicted: &PredictedPass| predicted.trackability(model.selected_antenna);
     let listed = model.pass_lists.favourites.upcoming(model.now);
-    let bars: Vec<Bar<'_>> = listed
+    let shown: Vec<&PredictedPass> = listed
         .iter()
         .filter(|predicted| !(predicted.pass.starts_before && predicted.pass.ends_after))
         .filter(|predicted| predicted.pass.aos.time < end)
-        .map(|predicted| Bar {
-            key: predicted.key(),
-            name: predicted.satellite.short_name(),
-            aos: predicted.pass.aos.time,
-            los: predicted.pass.los.time,
-            max_elevation_deg: predicted.pass.max_elevation().degrees(),
-            loses: matches!(of(predicted), Some(Trackability::Loses { .. })),
-            possible: !matches!(of(predicted), Some(Trackability::Nothing | Trackability::TooLow)),
-        })
         .collect();
-    let lane = model.antenna().map_or("Passes", |antenna| antenna.config.name.as_str());
+    let bars = |antenna: usize| shown.iter().map(|predicted| bar(predicted, antenna)).collect();
+    let antennas = model.antennas.iter().enumerate();
+    let mut lanes: Vec<Lane<'_>> = antennas
+        .map(|(index, antenna)| Lane { name: &antenna.config.name, bars: bars(index) })
+        .collect();
+    if lanes.is_empty() {
+        lanes.push(Lane { name: "Passes", bars: bars(0) });
+    }
     let strip = TimelineModel {
         now: model.now,
         hours,
-        lane,
-        bars: &bars,
+        lanes: &lanes,
+        main: model.selected_antenna,
         selected: selected_key(model),
         sun: &model.sky.sun_spans,
         menu: &|ui, bar, key, commands| menus::pass(ui, bar, model, key, commands),

@@ -19,8 +19,11 @@ const SCALE: f32 = 0.5;
 const HALF: f32 = 14.0;
 /// Diameter of a quiet commanded ring, points.
 const RING: f32 = 13.0;
-/// Half the length of an azimuth stop across the rim, and of the bar at its end, points.
-const STOP: (f32, f32) = (12.5, 7.0);
+/// How far an azimuth stop reaches inside and outside of the rim, clear of the names there,
+/// points.
+const STOP: (f32, f32) = (19.0, 6.0);
+/// Half the length of the bar at its outer end, points.
+const BAR: f32 = 7.0;
 
 impl OtherAntenna<'_> {
     /// The place of its mark.
@@ -59,14 +62,14 @@ pub(super) fn label(labels: &mut Labels<'_>, dome: Dome, scene: &SkyScene<'_>, t
 pub(super) fn label_stops(labels: &mut Labels<'_>, dome: Dome, scene: &SkyScene<'_>, t: &Tokens) {
     for (index, stop) in scene.stops.iter().enumerate() {
         let Some([_, end]) = ends(dome, stop) else { continue };
-        labels.reserve(paint::square(end, 2.0 * STOP.1));
+        labels.reserve(paint::square(end, 2.0 * BAR));
         let (name, angle) =
             (format!("{} stop", stop.names), format::azimuth(stop.azimuth.degrees()));
         labels.add(&Label {
             key: Key::Stop(index),
             lines: &[(&name, text::small_strong(), t.bad), (&angle, text::small(), t.bad)],
             mark: end,
-            clearance: 6.0,
+            clearance: 2.0 + BAR,
             order: &Side::towards(end - dome.centre),
             tolerance: 0.6,
         });
@@ -77,7 +80,7 @@ pub(super) fn label_stops(labels: &mut Labels<'_>, dome: Dome, scene: &SkyScene<
 fn ends(dome: Dome, stop: &AzimuthStop<'_>) -> Option<[Pos2; 2]> {
     let towards = outward(stop.azimuth.radians() as f32);
     let rim = dome.centre + towards * dome.radius;
-    stop.azimuth.is_finite().then(|| [rim - towards * STOP.0, rim + towards * STOP.0])
+    stop.azimuth.is_finite().then(|| [rim - towards * STOP.0, rim + towards * STOP.1])
 }
 
 /// Paints the ends of azimuth axes.
@@ -85,7 +88,7 @@ pub(super) fn paint_stops(painter: &Painter, dome: Dome, scene: &SkyScene<'_>, t
     for stop in scene.stops {
         let Some([inner, end]) = ends(dome, stop) else { continue };
         let stroke = Stroke::new(3.0, t.bad);
-        let aside = (end - inner).normalized().rot90() * STOP.1;
+        let aside = (end - inner).normalized().rot90() * BAR;
         painter.line_segment([inner, end], stroke);
         painter.line_segment([end - aside, end + aside], stroke);
     }

@@ -67,18 +67,20 @@ pub(super) fn stand<'a>(
     standing
 }
 
-/// Paints the bars, later ones above earlier ones.
+/// Paints the bars, later ones above earlier ones; `lane` is their place among several lanes.
 pub(super) fn show(
     ui: &Ui,
     standing: &[Standing<'_>],
+    lane: Option<usize>,
     model: &TimelineModel<'_>,
     commands: &mut Vec<UiCommand>,
 ) {
     let t = theme::tokens(ui);
     let selected = model.selected;
+    let name = lane.and_then(|lane| model.lanes.get(lane)).map(|lane| lane.name);
     let mut focused = None;
     for Standing { bar, rect } in standing {
-        let response = node(ui, bar, *rect, selected == Some(bar.key));
+        let response = node(ui, bar, *rect, name, selected == Some(bar.key));
         if bar.possible {
             // The rim separates overlapping bars.
             ui.painter().rect(*rect, 0, t.sat, Stroke::new(1.0, t.bg0), StrokeKind::Outside);
@@ -172,11 +174,16 @@ impl Standing<'_> {
     }
 }
 
-fn node(ui: &Ui, bar: &Bar<'_>, rect: Rect, selected: bool) -> Response {
-    let id = ui.make_persistent_id(("pass bar", bar.key));
+/// `lane`: the antenna, where several have lanes.
+fn node(ui: &Ui, bar: &Bar<'_>, rect: Rect, lane: Option<&str>, selected: bool) -> Response {
+    let id = ui.make_persistent_id(("pass bar", lane, bar.key));
     let response = ui.interact(rect, id, Sense::click());
     response.widget_info(|| {
-        WidgetInfo::selected(Role::ListBoxOption, true, selected, accessible_name(bar))
+        let mut name = accessible_name(bar);
+        if let Some(lane) = lane {
+            name = format!("{lane}: {name}");
+        }
+        WidgetInfo::selected(Role::ListBoxOption, true, selected, name)
     });
     ui.ctx().accesskit_node_builder(response.id, |node| node.set_selected(selected));
     response

@@ -7,7 +7,7 @@ use egui_kittest::{
 };
 use jiff::Timestamp;
 
-use super::{Bar, SunSpan, TimelineModel, show};
+use super::{Bar, Lane, SunSpan, TimelineModel, show};
 use crate::{model::UiCommand, ui::widgets::testing};
 
 const FULL: egui::Vec2 = vec2(632.0, 208.0);
@@ -48,8 +48,8 @@ fn window(size: egui::Vec2, bars: Vec<Bar<'static>>) -> Harness<'static, Picked>
         let model = TimelineModel {
             now: at("11:06:12"),
             hours: if size == SMALL { 4.0 } else { 12.0 },
-            lane: "Satrak",
-            bars: &bars,
+            lanes: &[Lane { name: "Satrak", bars: bars.clone() }],
+            main: 0,
             selected: *picked,
             sun: &[
                 SunSpan { from: at("04:10:00"), to: at("14:45:00"), up: true },

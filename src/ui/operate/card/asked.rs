@@ -40,7 +40,10 @@ impl CardHandler<'_> {
             CardAction::SetMode(Intent::Position) => Command::Hold,
             CardAction::SetMode(Intent::Park) => Command::Park,
             CardAction::SetMode(Intent::Track) | CardAction::TrackSelected => {
-                return self.commands.extend(UiCommand::track_selected(self.model));
+                let pass = self.model.selected_pass().map(PredictedPass::key);
+                let antenna = self.antenna.id();
+                let track = |pass| engine::Command::Track { antenna, pass, is_agreed: false };
+                return self.commands.extend(pass.map(track).map(UiCommand::Station));
             }
             CardAction::TakeOver => Command::TakeOver,
             CardAction::TrackAgain => {

@@ -1,0 +1,64 @@
+//! The card of one more antenna beside the selected one, in a wide window.
+
+use crate::{
+    driver::Command,
+    engine::antenna::AntennaModel,
+    model::{Model, UiCommand},
+    station::AntennaId,
+    ui::antenna_card::CardState,
+};
+
+/// The antenna of the card, and its state.
+#[derive(Default)]
+pub(super) struct SecondCard {
+    /// The antenna that the operator had selected before.
+    before: Option<AntennaId>,
+    shown: Option<AntennaId>,
+    card: CardState,
+}
+
+impl SecondCard {
+    /// Call when another antenna is selected; `before` was selected until now.
+    pub(super) fn turn_to(
+        &mut self,
+        model: &Model,
+        before: Option<AntennaId>,
+        commands: &mut Vec<UiCommand>,
+    ) {
+        self.before = before;
+        self.antenna(model, commands);
+    }
+
+    /// The antenna of the card: the one that was selected before, else the next of the station.
+    pub(super) fn antenna<'a>(
+        &mut self,
+        model: &'a Model,
+        commands: &mut Vec<UiCommand>,
+    ) -> Option<&'a AntennaModel> {
+        let selected = model.antenna()?.id();
+        let is_other = |of: &&AntennaModel| of.id() != selected;
+        let before = self.before.and_then(|id| model.antenna_of(id)).filter(is_other);
+        let behind = model.antennas.iter().skip(model.selected_antenna);
+        let antenna = before.or_else(|| behind.chain(&model.antennas).find(is_other));
+        let id = antenna.map(AntennaModel::id);
+        if self.shown != id {
+            self.leave(commands);
+            self.card.change_antenna();
+            self.shown = id;
+        }
+        antenna
+    }
+
+    pub(super) fn card(&mut self) -> &mut CardState {
+        &mut self.card
+    }
+
+    /// Releases a key that is held on the card.
+    pub(super) fn leave(&mut self, commands: &mut Vec<UiCommand>) {
+        if self.card.hide().is_some()
+            && let Some(antenna) = self.shown
+        {
+            commands.push(UiCommand::antenna(antenna, Command::EndJog));
+        }
+    }
+}

@@ -1,0 +1,121 @@
+//! Wide and high windows use their room: two cards, a lane for each antenna, more hours.
+
+use azel::{
+    driver::{Command, Intent},
+    engine,
+    model::{Model, UiCommand},
+    station::AntennaId,
+};
+use egui::Role;
+use egui_kittest::kittest::{NodeT as _, Queryable as _};
+
+use crate::window_stories::{
+    makes,
+    rig::{self, LARGE, NOAA_20, Window, asked, says, settle},
+    states,
+};
+
+const WIDE: [[f32; 2]; 2] = [[1920.0, 1080.0], [2560.0, 1440.0]];
+
+/// A station with a Satrak, a Rotator Genius and an RC2000C.
+fn three() -> Model {
+    let mut model = rig::model(states::holding());
+    let genius = makes::model(makes::pair(), makes::pair_at(Intent::Position));
+    let rc2000c = makes::model(makes::rc2000c(), makes::rc2000c_at(Intent::Manual));
+    model.antennas.extend(genius.antennas);
+    model.antennas.extend(rc2000c.antennas);
+    for (index, antenna) in model.antennas.iter_mut().enumerate() {
+        antenna.config.id = AntennaId(1 + index as u32);
+    }
+    model
+}
+
+fn lanes(window: &Window) -> Vec<String> {
+    let bars = window.get_all_by_role(Role::ListBoxOption);
+    let names = bars.filter_map(|bar| bar.accesskit_node().label());
+    let mut lanes: Vec<String> =
+        names.filter_map(|name| Some(name.split_once(": METEOR")?.0.to_owned())).collect();
+    lanes.dedup();
+    lanes
+}
+
+#[test]
+fn two_cards_and_all_lanes_stand_in_a_wide_window_and_in_no_other() {
+    for size in WIDE {
+        let window = rig::window(size, three());
+        let modes = window.get_all_by_role_and_label(Role::RadioButton, "Standby").count();
+        assert_eq!(modes, 2, "{size:?}");
+        assert_eq!(lanes(&window), ["Satrak", "Genius", "RC2000C"], "{size:?}");
+        let long =
+            says(&window, "Next 24 hours") || window.query_by_label("Next 24 hours").is_some();
+        assert_eq!(long, size[0] > 2000.0);
+    }
+    let window = rig::window(LARGE, three());
+    assert_eq!(window.get_all_by_role_and_label(Role::RadioButton, "Standby").count(), 1);
+    assert!(lanes(&window).is_empty());
+}
+
+#[test]
+fn each_card_drives_its_own_antenna() {
+    let mut window = rig::window(WIDE[0], three());
+    let cards = |window: &Window| {
+        let mut at: Vec<_> = window
+            .get_all_by_role_and_label(Role::RadioButton, "Standby")
+            .map(|node| node.rect().center())
+            .collect();
+        at.sort_by(|a, b| a.x.total_cmp(&b.x));
+        at
+    };
+    let at = cards(&window);
+    for (place, id) in at.into_iter().zip([AntennaId(1), AntennaId(2)]) {
+        window.drag_at(place);
+        window.drop_at(place);
+        assert_eq!(asked(&mut window), [UiCommand::antenna(id, Command::Standby)]);
+    }
+    let mut track: Vec<_> = window
+        .get_all_by_role_and_label(Role::Button, "Track NOAA 20")
+        .map(|node| node.rect().center())
+        .collect();
+    track.sort_by(|a, b| a.x.total_cmp(&b.x));
+    window.drag_at(track[1]);
+    window.drop_at(track[1]);
+    let commands = asked(&mut window);
+    let [UiCommand::Station(engine::Command::Track { antenna, pass, .. })] = &commands[..] else {
+        panic!("{commands:?}")
+    };
+    assert_eq!((*antenna, pass.0), (AntennaId(2), NOAA_20));
+    // The antenna that was selected before keeps its card beside the new one.
+    window.state_mut().model.selected_antenna = 2;
+    settle(&mut window);
+    let [first, second] = cards(&window)[..] else { panic!("two cards") };
+    for (place, id) in [(first, AntennaId(3)), (second, AntennaId(1))] {
+        window.drag_at(place);
+        window.drop_at(place);
+        assert_eq!(asked(&mut window), [UiCommand::antenna(id, Command::Standby)]);
+    }
+}
+
+#[test]
+fn a_jog_of_the_second_card_ends_with_its_view() {
+    let mut model = three();
+    model.antennas[1].snapshot = makes::pair_at(Intent::Manual).into();
+    let mut window = rig::window(WIDE[0], model);
+    let key = window
+        .get_all_by_role_and_label(Role::Button, "Jog clockwise")
+        .map(|node| node.rect().center())
+        .next()
+        .expect("the keys of the second card");
+    window.drag_at(key);
+    let held = asked(&mut window);
+    let is_its = |command: &UiCommand| {
+        matches!(
+            command,
+            UiCommand::Station(engine::Command::Antenna(AntennaId(2), Command::Jog { .. }))
+        )
+    };
+    assert!(!held.is_empty() && held.iter().all(is_its), "{held:?}");
+    window.state_mut().model.view = azel::model::View::Console;
+    let commands = asked(&mut window);
+    let ends = UiCommand::antenna(AntennaId(2), Command::EndJog);
+    assert_eq!(commands.iter().filter(|command| **command == ends).count(), 1, "{commands:?}");
+}
