@@ -61,8 +61,8 @@ pub(super) fn label(labels: &mut Labels<'_>, dome: Dome, scene: &SkyScene<'_>, t
 /// Labels the ends of azimuth axes outside of the rim.
 pub(super) fn label_stops(labels: &mut Labels<'_>, dome: Dome, scene: &SkyScene<'_>, t: &Tokens) {
     for (index, stop) in scene.stops.iter().enumerate() {
-        let Some([_, end]) = ends(dome, stop) else { continue };
-        labels.reserve(paint::square(end, 2.0 * BAR));
+        let Some([inner, end]) = ends(dome, stop) else { continue };
+        labels.reserve(Rect::from_two_pos(inner, end).expand(BAR));
         let (name, angle) =
             (format!("{} stop", stop.names), format::azimuth(stop.azimuth.degrees()));
         labels.add(&Label {
