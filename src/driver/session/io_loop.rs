@@ -72,6 +72,7 @@ impl Session {
             self.mark_debt().await;
             self.pay_owed_stop().await;
         }
+        self.end_marking().await;
         self.contact.link = LinkState::Off;
         let now = self.now();
         self.publish(now);

@@ -102,6 +102,14 @@ impl Session {
         }));
     }
 
+    /// Waits a moment until the record is removed, which the end of the program would cut off.
+    pub(super) async fn end_marking(&mut self) {
+        if let Marking::Removing(removing) = &mut self.owed.marking {
+            // A record that stays costs no more than a STOP at the next start.
+            let _ = self.clock.timeout(MAX, removing).await;
+        }
+    }
+
     /// Checks whether an earlier run left the unit moving. STOP is then sent first, unless the
     /// operator must decide.
     pub(super) async fn look_for_mark(&mut self) {
