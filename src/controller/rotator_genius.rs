@@ -8,6 +8,7 @@ mod actions;
 mod changes;
 mod device;
 mod exchange;
+mod meaning;
 mod orders;
 mod panel;
 mod record;

@@ -31,7 +31,7 @@ async fn commands_and_replies_stand_in_the_log_as_they_went() {
     let find = |direction, bytes: &[u8]| {
         lines.iter().find(|it| it.direction == direction && &*it.bytes == bytes).unwrap()
     };
-    assert!(says(find(Direction::Sent, b"|A1180"), "Turns to a direction"));
+    assert!(says(find(Direction::Sent, b"|A1180"), "Turns rotator 1 to 180°"));
     assert!(says(find(Direction::Sent, b"|S"), "Stops both rotators"));
     let poll = find(Direction::Sent, b"|h");
     assert!(poll.is_poll && says(poll, "Asks for the status"));

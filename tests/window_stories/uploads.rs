@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use azel::{
     controller::satrak::ELEMENT_FILES,
+    device::HeldSatellite,
     engine,
     engine::uploads::{Ask, Cargo, Failure, Kept, KeptEntry, Proved, Stage, Uploads, Warning},
     model::{UiCommand, View},
@@ -16,8 +17,8 @@ use crate::window_stories::{
     rig::{self, NOAA_20},
     states,
     upload_rig::{
-        FILE, ISS, WIDTHS, asked, at, begun, click, failed, is_disabled, kept_entry, part, peer,
-        says, settle, typed, uploaded, working, write,
+        FILE, ISS, WIDTHS, Window, asked, at, begun, click, failed, is_disabled, kept_entry, part,
+        peer, says, settle, typed, uploaded, working, write,
     },
 };
 
@@ -67,6 +68,34 @@ fn satellites_are_added_left_out_and_marked() {
         click(&mut window, "Take the followed ones");
         assert!(window.query_by_label("Leave out NOAA 20 (JPSS-1)").is_some());
     }
+}
+
+#[test]
+fn the_satellite_on_the_unit_stays_marked_until_the_operator_marks_another() {
+    let mut window = typed(WIDTHS[0], Uploads::default());
+    let holds = |window: &mut Window, catalog_number, name: &str| {
+        let antenna = window.state_mut().model.antennas.first_mut().unwrap();
+        let name = name.to_owned();
+        let held = HeldSatellite { catalog_number, name, maximum_elevation_deg: None };
+        Arc::make_mut(&mut antenna.snapshot).state.on_board.satellite = Some(held);
+        settle(window);
+    };
+    let to_follow = |window: &mut Window| {
+        click(window, "Upload and prove");
+        begun(window).satellite
+    };
+    holds(&mut window, ISS, "ISS (ZARYA)");
+    assert_eq!(to_follow(&mut window), Some(ISS));
+    assert!(!says(&window, "The unit holds"));
+    holds(&mut window, 38_771, "METOP-B");
+    assert_eq!(to_follow(&mut window), Some(NOAA_20), "what it holds is not in the file");
+    assert!(says(&window, "The unit holds METOP-B now, and will follow the marked one."));
+    let radio = "The unit follows ISS (ZARYA)";
+    window.get_by_role_and_label(Role::RadioButton, radio).click();
+    settle(&mut window);
+    holds(&mut window, NOAA_20, "NOAA 20 (JPSS-1)");
+    assert_eq!(to_follow(&mut window), Some(ISS), "the operator has marked it");
+    assert!(says(&window, "The unit holds NOAA 20 (JPSS-1) now"));
 }
 
 #[test]

@@ -18,7 +18,7 @@ impl Rc2000c {
             && !self.is_poll_by_hand
             && sent.is_some_and(|sent| sent.purpose == Purpose::Poll);
         let line = WireLine::new(Direction::Sent, bytes, Finding::Good, now.utc);
-        let meaning = meaning::of_sent(bytes, self.address);
+        let meaning = meaning::of_sent(bytes, self.address, &self.axes);
         self.wire.push(WireLine { meaning, is_poll, ..line });
     }
 

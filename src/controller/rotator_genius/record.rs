@@ -1,6 +1,6 @@
 //! Records the link: commands and replies as the decoder cuts them, each with its meaning.
 
-use super::{Genius, REPLY, exchange::Outstanding};
+use super::{Genius, REPLY, exchange::Outstanding, meaning};
 use crate::{
     clock::Moment,
     device::{Direction, Finding, Meaning, WireLine, panel::Tone},
@@ -9,17 +9,7 @@ use crate::{
 
 impl Genius {
     pub(super) fn record_sent(&mut self, bytes: &[u8], now: Moment) {
-        let meaning = Request::parse(bytes).ok().map(|request| {
-            Meaning::plain(match request {
-                Request::Read => "Asks for the status",
-                Request::Stop => "Stops both rotators",
-                Request::Motion(crate::protocol::rotator_genius::Motion::GoTo { .. }) => {
-                    "Turns to a direction"
-                }
-                Request::Motion(_) => "Turns until stopped",
-                Request::Configure(_) => "Sets the configuration",
-            })
-        });
+        let meaning = meaning::of_sent(bytes);
         let is_poll = bytes == Request::Read.to_bytes()
             && self.outstanding.as_ref().is_some_and(Outstanding::is_poll);
         self.wire.push(WireLine { meaning, is_poll, ..line(Direction::Sent, bytes, now) });

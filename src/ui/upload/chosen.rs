@@ -7,6 +7,7 @@ use egui::{Align, Button, Label, Layout, RichText, Role, TextEdit, Ui, WidgetInf
 use super::form::Form;
 use crate::{
     astro::time::seconds_between,
+    device::HeldSatellite,
     engine::uploads::{Chosen, ChosenObject},
     model::Model,
     orbit::{Catalog, Elements},
@@ -31,18 +32,33 @@ enum Change {
     Favourites,
 }
 
-pub(super) fn show(ui: &mut Ui, model: &Model, catalog: &Arc<Catalog>, form: &mut Form) {
+/// `held` is the satellite on the unit: it stays the one to follow until the operator marks
+/// another.
+pub(super) fn show(
+    ui: &mut Ui,
+    model: &Model,
+    catalog: &Arc<Catalog>,
+    held: Option<&HeldSatellite>,
+    form: &mut Form,
+) {
     let favourites = &model.station.favourites.numbers();
     let mut change = None;
     card::show(ui, f32::INFINITY, |ui| {
         let is_own = form.numbers.is_some();
-        let satellite = form.satellite;
+        let marked = form.marked;
         let chosen = form.chosen(catalog, favourites);
-        let followed = satellite.filter(|number| holds(chosen, *number));
+        let held_number = held.map(|held| held.catalog_number);
+        let known = [marked, held_number].into_iter().flatten();
+        let followed = known.clone().find(|number| is_chosen(chosen, *number));
         let followed = followed.or_else(|| first(chosen));
         head(ui, chosen, is_own, &mut change);
         for object in &chosen.objects {
             row(ui, model, object, followed == Some(object.catalog_number), &mut change);
+        }
+        if let Some(held) = held.filter(|held| followed != Some(held.catalog_number)) {
+            let name = &held.name;
+            let words = format!("The unit holds {name} now, and will follow the marked one.");
+            line(ui, Tone::Caution, &words);
         }
         search(ui, catalog, form, &mut change);
         form.satellite = followed;
@@ -51,7 +67,7 @@ pub(super) fn show(ui: &mut Ui, model: &Model, catalog: &Arc<Catalog>, form: &mu
     match change {
         None => {}
         Some(Change::Favourites) => form.numbers = None,
-        Some(Change::Follow(number)) => form.satellite = Some(number),
+        Some(Change::Follow(number)) => form.marked = Some(number),
         Some(Change::Remove(number)) => {
             numbers.retain(|known| *known != number);
             form.numbers = Some(numbers);
@@ -63,7 +79,7 @@ pub(super) fn show(ui: &mut Ui, model: &Model, catalog: &Arc<Catalog>, form: &mu
     }
 }
 
-fn holds(chosen: &Chosen, number: u32) -> bool {
+fn is_chosen(chosen: &Chosen, number: u32) -> bool {
     chosen.objects.iter().any(|object| object.catalog_number == number && is_sent(object))
 }
 

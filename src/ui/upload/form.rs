@@ -34,6 +34,8 @@ pub(super) struct Form {
     pub(super) key_file: String,
     /// Catalog numbers of the chosen satellites; `None` for the favourites.
     pub(super) numbers: Option<Vec<u32>>,
+    /// The satellite that the operator has marked for the unit to follow.
+    pub(super) marked: Option<u32>,
     /// The satellite that the unit shall follow.
     pub(super) satellite: Option<u32>,
     pub(super) search: String,
@@ -62,6 +64,7 @@ impl Form {
             uses_key: false,
             key_file: String::new(),
             numbers: None,
+            marked: None,
             satellite: None,
             search: String::new(),
             checked: None,
