@@ -2,34 +2,46 @@
 //! forgives what it can and never loses what it cannot read.
 
 mod antenna;
+mod automation_rule;
 mod connection;
 mod controller_spec;
 mod favourite;
 mod file;
 mod frequency;
+mod hours_of_day;
 mod keep_out;
 mod lock_outs;
 mod mount;
 mod notices;
+mod pass_choice;
+mod pass_limits;
 pub mod ranges;
 mod read;
 mod rewrite;
+mod satellite_group;
+mod scheduling;
 mod setting;
 mod track_settings;
 mod watch;
 
 pub use antenna::{Antenna, AntennaId, Direction, MotionLimits, PollRates};
+pub use automation_rule::{AutomationRule, RuleOf, SunIs, Then};
 pub use connection::Connection;
 pub(crate) use connection::check_address;
 pub use controller_spec::{ControllerSpec, Link, Usual};
 pub use favourite::{Favourite, Favourites, Priority};
 pub use file::{LoadError, Loaded, SaveError, free_path, load, save, settings_path};
 pub use frequency::Frequency;
+pub use hours_of_day::HoursOfDay;
 pub use keep_out::{Entered, KeepOut, SunAvoidance};
 pub use lock_outs::{LOCK_OUTS_FILE, LockOut, LockOuts};
 pub use mount::Mount;
-pub use notices::{Notices, QuietHours};
+pub use notices::Notices;
+pub use pass_choice::{PassChoice, Take};
+pub use pass_limits::{Light, PassLimits};
 pub use read::{Note, NoteReason, from_toml};
+pub use satellite_group::SatelliteGroup;
+pub use scheduling::{Automatic, BetweenPasses, ChooseBy, Partly, Scheduling};
 pub use setting::{Setting, Table};
 pub use track_settings::{AfterPass, TrackSettings};
 pub use watch::{DEFAULT_RESUME_AFTER_S, DEFAULT_SWAY_DEG, Monitor, OnClose, Resume};
@@ -54,11 +66,23 @@ pub struct Station {
     pub elevation_floor_deg: f64,
     /// The satellites in the pass list.
     pub favourites: Favourites,
+    /// How passes are planned.
+    #[serde(rename = "schedule", skip_serializing_if = "is_default")]
+    pub scheduling: Scheduling,
+    /// Groups of satellites, in the operator's order.
+    #[serde(rename = "group", skip_serializing_if = "Vec::is_empty")]
+    pub groups: Vec<SatelliteGroup>,
+    /// Passes that the operator always or never wants to have taken.
+    #[serde(rename = "pass", skip_serializing_if = "Vec::is_empty")]
+    pub pass_choices: Vec<PassChoice>,
+    /// Automation rules; the first that fits decides.
+    #[serde(rename = "rule", skip_serializing_if = "Vec::is_empty")]
+    pub rules: Vec<AutomationRule>,
     /// Frequencies of satellites, of which each may have several.
     #[serde(rename = "frequency", skip_serializing_if = "Vec::is_empty")]
     pub frequencies: Vec<Frequency>,
     /// Alarms and reminders that the desktop shows and sounds.
-    #[serde(skip_serializing_if = "Notices::is_default")]
+    #[serde(skip_serializing_if = "is_default")]
     pub notices: Notices,
     /// Action on the antennas when the program ends; `None` asks the operator.
     #[serde(rename = "close", skip_serializing_if = "Option::is_none")]
@@ -74,6 +98,10 @@ pub struct Station {
     pub antennas: Vec<Antenna>,
 }
 
+fn is_default<T: Default + PartialEq>(value: &T) -> bool {
+    *value == T::default()
+}
+
 // The signature is serde's.
 #[allow(clippy::ref_option)]
 fn mask_as_text<S: Serializer>(mask: &Option<HorizonMask>, out: S) -> Result<S::Ok, S::Error> {
@@ -87,6 +115,26 @@ impl Station {
 
     pub fn elevation_floor(&self) -> Angle {
         Angle::from_degrees(self.elevation_floor_deg)
+    }
+
+    /// The priority of a favourite: its own, else that of the first group with one that it is
+    /// in, else the default. `None` where it is no favourite.
+    pub fn priority(&self, satellite: u32) -> Option<Priority> {
+        let own = self.favourites.get(satellite)?.priority;
+        let mut groups = self.groups_of(satellite);
+        Some(own.or_else(|| groups.find_map(|group| group.priority)).unwrap_or_default())
+    }
+
+    /// The limits of a satellite: its own, and for what it has none, those of its groups in
+    /// their order.
+    pub fn pass_limits(&self, satellite: u32) -> PassLimits {
+        let own = self.favourites.get(satellite).map(|of| of.limits.clone()).unwrap_or_default();
+        self.groups_of(satellite).fold(own, |limits, group| limits.or(&group.limits))
+    }
+
+    /// The groups that a satellite is in, in their order.
+    pub fn groups_of(&self, satellite: u32) -> impl Iterator<Item = &SatelliteGroup> {
+        self.groups.iter().filter(move |group| group.contains(satellite))
     }
 }
 
@@ -117,6 +165,10 @@ impl Default for Station {
                 27424, // Aqua
                 44334, // Eutelsat 7C
             ]),
+            scheduling: Scheduling::default(),
+            groups: Vec::new(),
+            pass_choices: Vec::new(),
+            rules: Vec::new(),
             frequencies: Vec::new(),
             notices: Notices::default(),
             on_close: None,

@@ -33,7 +33,7 @@ impl App {
             return;
         }
         let (model, work) = (&self.model, &mut self.catalog_work);
-        let inputs = model.catalog_table.inputs(catalog, &model.station.favourites);
+        let inputs = model.catalog_table.inputs(catalog, &model.station);
         let is_known =
             model.catalog_table.answer.as_ref().is_some_and(|known| known.inputs == inputs);
         if !is_known && work.rows.as_ref().is_none_or(|(begun, _)| *begun != inputs) {

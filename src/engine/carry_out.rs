@@ -67,7 +67,7 @@ impl Engine {
             }),
             Command::SetPriority { numbers, priority } => self.change_station(|station| {
                 for number in numbers {
-                    station.favourites.put(number, priority);
+                    station.favourites.set_priority(number, priority);
                 }
             }),
             Command::SetFrequencies { satellite, frequencies } => self.change_station(|station| {

@@ -14,7 +14,7 @@ use super::{
     passes::PassKey,
     reminders::Reminder,
 };
-use crate::station::QuietHours;
+use crate::station::HoursOfDay;
 
 /// An alarm or reminder to be told.
 #[derive(Debug, Clone, PartialEq)]
@@ -71,7 +71,7 @@ impl Teller {
         let about = untold.chain(reminders.cloned().map(About::Reminder)).chain(stands);
         let notices = &station.station.notices;
         let is_quiet =
-            notices.quiet.is_some_and(|hours: QuietHours| hours.contain(station.at.utc, zone));
+            notices.quiet.is_some_and(|hours: HoursOfDay| hours.contain(station.at.utc, zone));
         let mut told: Vec<Notice> = about
             .map(|about| {
                 let is_told = |wanted: bool| about.is_of_first_rank() || wanted && !is_quiet;

@@ -1,6 +1,7 @@
 //! Rules that every make must keep.
 
 mod file;
+mod schedule;
 
 use super::*;
 use crate::{

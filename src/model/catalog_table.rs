@@ -13,7 +13,7 @@ use crate::{
         time::{DAY_S, add_seconds},
     },
     orbit::{Catalog, Elements, PassSearch, Propagator, passes_of_all},
-    station::{Favourites, Station},
+    station::Station,
 };
 
 /// Age from which elements count as old, whatever their orbit.
@@ -70,7 +70,7 @@ pub struct Question {
 pub struct Inputs {
     pub question: Question,
     pub catalog: Arc<Catalog>,
-    pub favourites: Favourites,
+    pub station: Arc<Station>,
     pub next: Option<Arc<NextPasses>>,
 }
 
@@ -115,11 +115,11 @@ pub struct CatalogTable {
 
 impl CatalogTable {
     /// What the rows have to be worked out from.
-    pub fn inputs(&self, catalog: &Arc<Catalog>, favourites: &Favourites) -> Inputs {
+    pub fn inputs(&self, catalog: &Arc<Catalog>, station: &Arc<Station>) -> Inputs {
         Inputs {
             question: self.asked.clone(),
             catalog: Arc::clone(catalog),
-            favourites: favourites.clone(),
+            station: Arc::clone(station),
             next: self.next.clone(),
         }
     }
@@ -130,7 +130,8 @@ impl PartialEq for Inputs {
         let made_at = |of: &Self| of.next.as_ref().map(|next| next.made_at);
         self.question == other.question
             && Arc::ptr_eq(&self.catalog, &other.catalog)
-            && self.favourites == other.favourites
+            && self.station.favourites == other.station.favourites
+            && self.station.groups == other.station.groups
             && made_at(self) == made_at(other)
     }
 }
@@ -197,11 +198,14 @@ type Rank = Option<(f64, f64)>;
 
 /// Works out the rows for `inputs` at `now`.
 pub fn arrange(inputs: Inputs, now: Timestamp) -> Answer {
-    let Inputs { question, catalog, favourites, .. } = &inputs;
+    let Inputs { question, catalog, station, .. } = &inputs;
     let is_old = |elements: &&Elements| elements.age_s(now) > OLD_S;
     let mut found: Vec<&Elements> = match &question.among {
         Among::All => catalog.iter().collect(),
-        Among::Favourites => favourites.iter().filter_map(|of| catalog.get(of.satellite)).collect(),
+        Among::Favourites => {
+            let favourites = station.favourites.iter();
+            favourites.filter_map(|of| catalog.get(of.satellite)).collect()
+        }
         Among::Group(group) => catalog.in_group(group).collect(),
         Among::Old => catalog.iter().filter(is_old).collect(),
     };
@@ -234,7 +238,7 @@ fn rank(column: Column, of: &Elements, inputs: &Inputs, now: Timestamp) -> Rank 
     let next = || inputs.next.as_ref().and_then(|next| next.get(number, now));
     let one = |value: f64| Some((value, 0.0));
     match column {
-        Column::Star => one(f64::from(inputs.favourites.priority(number)?.number())),
+        Column::Star => one(f64::from(inputs.station.priority(number)?.number())),
         Column::Name | Column::From | Column::Number => one(f64::from(number)),
         Column::Period => one(of.period_s()),
         Column::Inclination => one(of.inclination().degrees()),
@@ -295,7 +299,7 @@ mod tests {
     use std::time::Instant;
 
     use super::*;
-    use crate::orbit::bundled;
+    use crate::{orbit::bundled, station::Favourites};
 
     const ISS: u32 = 25_544;
     const NOAA_20: u32 = 43_013;
@@ -307,8 +311,9 @@ mod tests {
     fn inputs(question: Question) -> Inputs {
         let catalog = Arc::new(bundled().unwrap());
         let mut favourites = Favourites::from([NOAA_20, ISS, 999]);
-        favourites.put(ISS, crate::station::Priority::ALL[0]);
-        Inputs { question, catalog, favourites, next: None }
+        favourites.set_priority(ISS, crate::station::Priority::ALL[0]);
+        let station = Arc::new(Station { favourites, ..Station::default() });
+        Inputs { question, catalog, station, next: None }
     }
 
     fn rows(question: Question) -> Vec<u32> {

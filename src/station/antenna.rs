@@ -5,7 +5,8 @@ use std::time::Duration;
 use serde::Serialize;
 
 use super::{
-    Connection, DEFAULT_RESUME_AFTER_S, DEFAULT_SWAY_DEG, Monitor, Mount, Resume, TrackSettings,
+    Automatic, Connection, DEFAULT_RESUME_AFTER_S, DEFAULT_SWAY_DEG, Monitor, Mount, Resume,
+    TrackSettings, is_default,
 };
 use crate::{
     astro::{Angle, AzEl},
@@ -63,10 +64,8 @@ pub struct Antenna {
     /// Outage after which the operator is asked in any case, seconds, 0 to 600.
     #[serde(skip_serializing_if = "is_usual_outage")]
     pub resume_after_s: f64,
-}
-
-fn is_default<T: Default + PartialEq>(value: &T) -> bool {
-    *value == T::default()
+    #[serde(flatten)]
+    pub automatic: Automatic,
 }
 
 // The signatures are serde's.
@@ -120,6 +119,11 @@ impl PollRates {
 }
 
 impl Antenna {
+    /// Time from the end of one pass until it can go to the next, seconds.
+    pub fn set_up_s(&self) -> f64 {
+        self.automatic.set_up_s.unwrap_or(self.connection.spec().usual.set_up_s)
+    }
+
     /// Creates the controller; it is silent until its link is up.
     pub fn controller(&self) -> Box<dyn Controller> {
         (self.connection.spec().open)(self)

@@ -4,8 +4,8 @@
 use std::fmt;
 
 use super::{
-    Antenna, AntennaId, Connection, DEFAULT_RESUME_AFTER_S, DEFAULT_SWAY_DEG, Direction, Monitor,
-    MotionLimits, Mount, PollRates, Resume, Setting, TrackSettings,
+    Antenna, AntennaId, Automatic, Connection, DEFAULT_RESUME_AFTER_S, DEFAULT_SWAY_DEG, Direction,
+    Monitor, MotionLimits, Mount, PollRates, Resume, Setting, TrackSettings,
     connection::{check_address, check_line},
 };
 use crate::device::{Controller, ElementFiles, Explained, Variant, WireLine};
@@ -74,6 +74,9 @@ pub struct Usual {
     pub poll: PollRates,
     /// How this program follows a target with it.
     pub follow: TrackSettings,
+    /// Time from the end of one pass until it can go to the next, seconds: what has to be
+    /// loaded and read back, and the halt before it.
+    pub set_up_s: f64,
 }
 
 impl ControllerSpec {
@@ -84,7 +87,7 @@ impl ControllerSpec {
 
     /// An antenna at `address` with the usual settings and figures.
     pub fn antenna(&'static self, name: &str, address: &str) -> Antenna {
-        let Usual { mount, beam_width_deg, park, limits, poll, follow } = self.usual;
+        let Usual { mount, beam_width_deg, park, limits, poll, follow, .. } = self.usual;
         Antenna {
             id: AntennaId::FIRST,
             name: name.to_owned(),
@@ -99,6 +102,7 @@ impl ControllerSpec {
             sway_deg: DEFAULT_SWAY_DEG,
             resume: Resume::default(),
             resume_after_s: DEFAULT_RESUME_AFTER_S,
+            automatic: Automatic::default(),
         }
     }
 

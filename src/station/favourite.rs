@@ -1,20 +1,25 @@
-//! The satellites that the operator has marked, each with its priority.
+//! The satellites that the operator has marked, with their priorities and limits.
 
-use serde::{Serialize, Serializer, ser::SerializeStruct as _};
+use serde::{Serialize, Serializer};
+
+use super::{PassLimits, is_default};
 
 /// The favourites in the operator's order, each satellite once.
-#[derive(Debug, Clone, Default, PartialEq, Eq, Serialize)]
+#[derive(Debug, Clone, Default, PartialEq, Serialize)]
 #[serde(transparent)]
 pub struct Favourites(Vec<Favourite>);
 
 /// A satellite that the operator has marked.
 ///
-/// In the station file it is a catalog number, or a table where its priority is not the default.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+/// In the station file it is a catalog number, or a table where it has more.
+#[derive(Debug, Clone, PartialEq)]
 pub struct Favourite {
     /// Catalog number.
     pub satellite: u32,
-    pub priority: Priority,
+    /// `None` for that of its group, or else the default.
+    pub priority: Option<Priority>,
+    /// Those of its groups hold for what has no limit here.
+    pub limits: PassLimits,
 }
 
 /// Importance of a favourite, from 1, the first, to 5.
@@ -58,19 +63,24 @@ impl From<Priority> for i64 {
     }
 }
 
+impl Favourite {
+    /// A favourite without a priority or limits of its own.
+    pub fn new(satellite: u32) -> Self {
+        Self { satellite, priority: None, limits: PassLimits::default() }
+    }
+}
+
 impl Favourites {
     pub fn contains(&self, satellite: u32) -> bool {
-        self.priority(satellite).is_some()
+        self.get(satellite).is_some()
     }
 
-    /// The priority of a satellite; `None` where it is no favourite.
-    pub fn priority(&self, satellite: u32) -> Option<Priority> {
-        let found = self.0.iter().find(|favourite| favourite.satellite == satellite);
-        found.map(|favourite| favourite.priority)
+    pub fn get(&self, satellite: u32) -> Option<&Favourite> {
+        self.0.iter().find(|favourite| favourite.satellite == satellite)
     }
 
-    pub fn iter(&self) -> impl Iterator<Item = Favourite> {
-        self.0.iter().copied()
+    pub fn iter(&self) -> impl Iterator<Item = &Favourite> {
+        self.0.iter()
     }
 
     /// Catalog numbers.
@@ -78,35 +88,43 @@ impl Favourites {
         self.iter().map(|favourite| favourite.satellite).collect()
     }
 
-    /// Marks a satellite, or changes its priority.
-    pub fn put(&mut self, satellite: u32, priority: Priority) {
-        match self.0.iter_mut().find(|favourite| favourite.satellite == satellite) {
-            Some(known) => known.priority = priority,
-            None => self.0.push(Favourite { satellite, priority }),
+    /// Marks a satellite, or changes what is known of it.
+    pub fn put(&mut self, favourite: Favourite) {
+        match self.0.iter_mut().find(|known| known.satellite == favourite.satellite) {
+            Some(known) => *known = favourite,
+            None => self.0.push(favourite),
         }
     }
 
-    /// Marks a satellite with the default priority, or unmarks it.
+    /// Marks a satellite, and gives it this priority.
+    pub fn set_priority(&mut self, satellite: u32, priority: Priority) {
+        let known = self.get(satellite).cloned();
+        let favourite = known.unwrap_or_else(|| Favourite::new(satellite));
+        self.put(Favourite { priority: Some(priority), ..favourite });
+    }
+
+    /// Marks a satellite, or unmarks it.
     pub fn mark(&mut self, satellite: u32, is_favourite: bool) {
         if !is_favourite {
             self.0.retain(|favourite| favourite.satellite != satellite);
         } else if !self.contains(satellite) {
-            self.put(satellite, Priority::default());
+            self.put(Favourite::new(satellite));
         }
     }
 
-    /// These satellites in this order; those that are favourites keep their priority.
+    /// These satellites in this order; those that are favourites keep what is known of them.
     #[must_use]
     pub fn with_numbers(&self, numbers: &[u32]) -> Self {
         let mut list = Self::default();
         for number in numbers {
-            list.put(*number, self.priority(*number).unwrap_or_default());
+            let known = self.get(*number).cloned();
+            list.put(known.unwrap_or_else(|| Favourite::new(*number)));
         }
         list
     }
 }
 
-/// Satellites of the default priority.
+/// Satellites without a priority or limits of their own.
 impl FromIterator<u32> for Favourites {
     fn from_iter<T: IntoIterator<Item = u32>>(numbers: T) -> Self {
         let mut list = Self::default();
@@ -125,13 +143,19 @@ impl<const N: usize> From<[u32; N]> for Favourites {
 
 impl Serialize for Favourite {
     fn serialize<S: Serializer>(&self, out: S) -> Result<S::Ok, S::Error> {
-        if self.priority == Priority::default() {
-            return self.satellite.serialize(out);
+        #[derive(Serialize)]
+        struct Table<'a> {
+            satellite: u32,
+            #[serde(skip_serializing_if = "Option::is_none")]
+            priority: Option<Priority>,
+            #[serde(flatten)]
+            limits: &'a PassLimits,
         }
-        let mut table = out.serialize_struct("Favourite", 2)?;
-        table.serialize_field("satellite", &self.satellite)?;
-        table.serialize_field("priority", &self.priority)?;
-        table.end()
+        let Self { satellite, priority, limits } = self;
+        if priority.is_none() && is_default(limits) {
+            return satellite.serialize(out);
+        }
+        Table { satellite: *satellite, priority: *priority, limits }.serialize(out)
     }
 }
 
@@ -140,15 +164,16 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_satellite_is_a_favourite_once_and_keeps_its_priority() {
+    fn a_satellite_is_a_favourite_once_and_keeps_what_is_known_of_it() {
         let first = Priority::try_from(1).unwrap();
         let mut list = Favourites::from([7, 5, 7]);
         assert_eq!(list.numbers(), [7, 5]);
-        list.put(5, first);
+        list.set_priority(5, first);
         list.mark(5, true);
-        assert_eq!((list.priority(5), list.priority(7)), (Some(first), Some(Priority::default())));
+        let priority = |list: &Favourites, number| list.get(number).unwrap().priority;
+        assert_eq!((priority(&list, 5), priority(&list, 7)), (Some(first), None));
         list = list.with_numbers(&[9, 5]);
-        assert_eq!((list.numbers(), list.priority(5)), (vec![9, 5], Some(first)));
+        assert_eq!((list.numbers(), priority(&list, 5)), (vec![9, 5], Some(first)));
         list.mark(5, false);
         assert!(!list.contains(5) && list.contains(9));
         assert!(Priority::try_from(0).is_err() && Priority::try_from(6).is_err());

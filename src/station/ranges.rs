@@ -60,3 +60,20 @@ pub const ELEVATION_FROM_DEG: RangeInclusive<f64> = -90.0..=89.0;
 pub const ELEVATION_TO_DEG: RangeInclusive<f64> = 0.0..=180.0;
 /// Travel from the lower to the upper end, degrees.
 pub const ELEVATION_SPAN_DEG: RangeInclusive<f64> = 1.0..=270.0;
+
+/// Shortest pass, or part of one, that is taken, seconds.
+pub const MIN_DURATION_S: RangeInclusive<f64> = 0.0..=86_400.0;
+/// Most passes of a satellite a day.
+pub const PASSES_PER_DAY: RangeInclusive<f64> = 1.0..=100.0;
+/// Time ahead that is planned, hours.
+pub const SCHEDULE_SPAN_H: RangeInclusive<f64> = 12.0..=168.0;
+/// Smallest part of a pass that is taken, per cent of the seconds that count.
+pub const LEAST_PERCENT: RangeInclusive<f64> = 1.0..=100.0;
+/// Age of elements by which passes are still taken, days.
+pub const ELEMENT_AGE_D: RangeInclusive<f64> = 0.1..=1000.0;
+/// Rest after which a motion of automatic operation is announced, minutes.
+pub const REST_MIN: RangeInclusive<f64> = 0.0..=1440.0;
+/// How long such a motion is announced, seconds.
+pub const WARNING_S: RangeInclusive<f64> = 30.0..=600.0;
+/// Time from the end of one pass until an antenna can go to the next, seconds.
+pub const SET_UP_S: RangeInclusive<f64> = 0.0..=600.0;

@@ -2,17 +2,17 @@
 //! and a note, and an unknown key is named in a note.
 
 mod antenna;
+mod favourites;
 mod keep_out;
 mod notices;
+mod schedule;
 
 use std::ops::RangeInclusive;
 
 use serde::{Deserialize, Serialize, de::DeserializeOwned};
 use toml::{Table, Value};
 
-use super::{
-    Antenna, AntennaId, ControllerSpec, Favourites, Frequency, OnClose, Priority, Station, ranges,
-};
+use super::{Antenna, AntennaId, ControllerSpec, Favourites, Frequency, OnClose, Station, ranges};
 use crate::astro::{HorizonMask, Site};
 
 /// An entry of the file that was not taken over as it stands.
@@ -55,7 +55,11 @@ pub fn from_toml(mut table: Table, specs: &[&'static ControllerSpec]) -> (Statio
             &ranges::ELEVATION_FLOOR_DEG,
             10.0,
         ),
-        favourites: fields.favourites(default.favourites),
+        favourites: Favourites::default(),
+        scheduling: fields.scheduling(),
+        groups: Vec::new(),
+        pass_choices: fields.list("pass", |pass| pass.pass_choice()),
+        rules: Vec::new(),
         frequencies: fields.frequencies(),
         notices: fields.notices(),
         on_close: fields.on_close(),
@@ -70,8 +74,13 @@ pub fn from_toml(mut table: Table, specs: &[&'static ControllerSpec]) -> (Statio
         &ranges::ELEVATION_DEG,
         of_first.unwrap_or(default.aos_elevation_deg),
     );
-    // Keep-outs name antennas.
+    // These name antennas, and rules name groups.
     station.keep_outs = fields.keep_outs(&station.antennas);
+    let antennas: Vec<AntennaId> = station.antennas.iter().map(|antenna| antenna.id).collect();
+    station.favourites = fields.favourites(default.favourites, &antennas);
+    station.groups = fields.list("group", |group| group.satellite_group(&antennas));
+    let groups: Vec<&str> = station.groups.iter().map(|group| &*group.name).collect();
+    station.rules = fields.list("rule", |rule| rule.automation_rule(&antennas, &groups));
     fields.name_the_unknown();
     (station, fields.notes)
 }
@@ -153,37 +162,6 @@ impl Fields<'_> {
         })
     }
 
-    fn favourites(&mut self, default: Favourites) -> Favourites {
-        let entries = match self.table.remove("favourites") {
-            None => return default,
-            Some(Value::Array(entries)) => entries,
-            Some(_) => {
-                self.invalid("favourites", "must be a list of catalogue numbers");
-                return default;
-            }
-        };
-        let mut favourites = Favourites::default();
-        for (index, entry) in entries.into_iter().enumerate() {
-            let place = format!("favourites[{index}]");
-            match entry {
-                Value::Table(mut table) => {
-                    let path = format!("{place}.");
-                    let mut fields = Fields { table: &mut table, path, notes: Vec::new() };
-                    if let Some(satellite) = fields.satellite() {
-                        favourites.put(satellite, fields.priority());
-                    }
-                    fields.name_the_unknown();
-                    self.notes.append(&mut fields.notes);
-                }
-                number => match catalog_number(&number) {
-                    Some(satellite) => favourites.mark(satellite, true),
-                    None => self.invalid(&place, "must be a catalogue number"),
-                },
-            }
-        }
-        favourites
-    }
-
     fn satellite(&mut self) -> Option<u32> {
         let number = self.table.remove("satellite").as_ref().and_then(catalog_number);
         if number.is_none() {
@@ -192,38 +170,8 @@ impl Fields<'_> {
         number
     }
 
-    fn priority(&mut self) -> Priority {
-        let Some(value) = self.table.remove("priority") else { return Priority::default() };
-        let number = value.as_integer().unwrap_or_default();
-        Priority::try_from(number).unwrap_or_else(|why| {
-            self.invalid("priority", why.to_string());
-            Priority::default()
-        })
-    }
-
     fn frequencies(&mut self) -> Vec<Frequency> {
-        let tables = match self.table.remove("frequency") {
-            None => return Vec::new(),
-            Some(Value::Array(tables)) => tables,
-            Some(_) => {
-                self.invalid("frequency", "must be a list of tables");
-                return Vec::new();
-            }
-        };
-        let mut frequencies = Vec::new();
-        for (index, value) in tables.into_iter().enumerate() {
-            let place = format!("frequency[{index}]");
-            let Value::Table(mut table) = value else {
-                self.invalid(&place, "must be a table");
-                continue;
-            };
-            let path = format!("{place}.");
-            let mut fields = Fields { table: &mut table, path, notes: Vec::new() };
-            frequencies.extend(fields.frequency());
-            fields.name_the_unknown();
-            self.notes.append(&mut fields.notes);
-        }
-        frequencies
+        self.list("frequency", |frequency| frequency.frequency())
     }
 
     /// Reads a frequency. Satellite and MHz are required; they have no default.
@@ -239,6 +187,42 @@ impl Fields<'_> {
         let mhz = self.number("mhz", &ranges::FREQUENCY_MHZ, 0.0);
         let satellite = self.satellite()?;
         (mhz > 0.0).then_some(Frequency { satellite, mhz, name })
+    }
+
+    /// Reads the tables of the list `key`. Those that cannot be used are left out with a note.
+    fn list<T>(&mut self, key: &str, mut read: impl FnMut(&mut Fields<'_>) -> Option<T>) -> Vec<T> {
+        let tables = match self.table.remove(key) {
+            None => return Vec::new(),
+            Some(Value::Array(tables)) => tables,
+            Some(_) => {
+                self.invalid(key, "must be a list of tables");
+                return Vec::new();
+            }
+        };
+        let mut found = Vec::new();
+        for (index, value) in tables.into_iter().enumerate() {
+            let place = format!("{key}[{index}]");
+            match value {
+                Value::Table(table) => found.extend(self.entry(&place, table, &mut read)),
+                _ => self.invalid(&place, "must be a table"),
+            }
+        }
+        found
+    }
+
+    /// Reads the table at `place` of a list.
+    fn entry<T>(
+        &mut self,
+        place: &str,
+        mut table: Table,
+        read: impl FnOnce(&mut Fields<'_>) -> T,
+    ) -> T {
+        let path = format!("{}{place}.", self.path);
+        let mut fields = Fields { table: &mut table, path, notes: Vec::new() };
+        let value = read(&mut fields);
+        fields.name_the_unknown();
+        self.notes.append(&mut fields.notes);
+        value
     }
 
     fn antennas(&mut self, specs: &[&'static ControllerSpec]) -> Vec<Antenna> {
@@ -281,7 +265,7 @@ impl Fields<'_> {
 
     /// Reads the fields of the table `key`; a missing table counts as empty.
     fn inner<T>(&mut self, key: &str, read: impl FnOnce(&mut Fields<'_>) -> T) -> T {
-        let mut table = match self.table.remove(key) {
+        let table = match self.table.remove(key) {
             None => Table::new(),
             Some(Value::Table(table)) => table,
             Some(_) => {
@@ -289,12 +273,7 @@ impl Fields<'_> {
                 Table::new()
             }
         };
-        let path = format!("{}{key}.", self.path);
-        let mut fields = Fields { table: &mut table, path, notes: Vec::new() };
-        let value = read(&mut fields);
-        fields.name_the_unknown();
-        self.notes.append(&mut fields.notes);
-        value
+        self.entry(key, table, read)
     }
 
     fn name_the_unknown(&mut self) {

@@ -7,7 +7,7 @@ use azel::{
     desktop::{Missing, Outlets, Sound},
     engine::reminders::Reminder,
     model::{UiCommand, View},
-    station::{AntennaId, Notices, QuietHours, Station},
+    station::{AntennaId, HoursOfDay, Notices, Station},
 };
 use egui::Role;
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
@@ -59,7 +59,7 @@ fn notifications_sounds_and_quiet_hours_are_set() {
         write(&mut window, "Quiet from", "21:30");
         let notices = save(&mut window).notices;
         let quiet =
-            QuietHours { from: QuietHours::read_time("21:30").unwrap(), ..QuietHours::USUAL };
+            HoursOfDay { from: HoursOfDay::read_time("21:30").unwrap(), ..HoursOfDay::NIGHT };
         let wanted = Notices { sounds: false, quiet: Some(quiet), ..Notices::default() };
         assert_eq!(notices, wanted);
     }

@@ -255,7 +255,7 @@ fn arrange_catalog(story: &mut Story) {
         }
     }
     let CatalogState::Ready(catalog) = &model.catalog else { return };
-    let inputs = model.catalog_table.inputs(catalog, &model.station.favourites);
+    let inputs = model.catalog_table.inputs(catalog, &model.station);
     let is_arranged = |answer: &Answer| answer.inputs == inputs;
     if model.view == View::Elements && !model.catalog_table.answer.as_ref().is_some_and(is_arranged)
     {

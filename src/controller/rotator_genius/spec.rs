@@ -43,6 +43,7 @@ pub static SPEC: ControllerSpec = ControllerSpec {
             latency_s: 0.5,
             after: AfterPass::Hold,
         },
+        set_up_s: 2.0,
     },
     settings: &[&ROTATORS],
     closed_note: Some("Perhaps another program holds the connection."),

@@ -39,6 +39,7 @@ pub static SPEC: ControllerSpec = ControllerSpec {
             latency_s: 0.3,
             after: AfterPass::Hold,
         },
+        set_up_s: 12.0,
     },
     settings: &[&ELEMENT_FILE],
     closed_note: None,

@@ -110,9 +110,9 @@ fn each_outlet_has_its_setting_and_quiet_hours_hold_for_both() {
     assert_eq!(told(true, false, None), Some((true, false)));
     assert_eq!(told(false, true, None), Some((false, true)));
     assert_eq!(told(false, false, None), None);
-    assert_eq!(told(true, true, Some(QuietHours::USUAL)), None, "23:00 local, 20:00 UTC");
-    let QuietHours { from, to } = QuietHours::USUAL;
-    let by_day = QuietHours { from: to, to: from };
+    assert_eq!(told(true, true, Some(HoursOfDay::NIGHT)), None, "23:00 local, 20:00 UTC");
+    let HoursOfDay { from, to } = HoursOfDay::NIGHT;
+    let by_day = HoursOfDay { from: to, to: from };
     assert_eq!(told(true, true, Some(by_day)), Some((true, true)));
 }
 
@@ -120,7 +120,7 @@ fn each_outlet_has_its_setting_and_quiet_hours_hold_for_both() {
 fn what_was_quiet_is_not_told_afterwards() {
     let (mut teller, mut alarms) = (Teller::default(), Alarms::default());
     alarms.raise(OF, LOST, time());
-    let quiet = Notices { quiet: Some(QuietHours::USUAL), ..Notices::default() };
+    let quiet = Notices { quiet: Some(HoursOfDay::NIGHT), ..Notices::default() };
     assert_eq!(look(&mut teller, &alarms, &quiet), []);
     assert_eq!(look(&mut teller, &alarms, &Notices::default()), []);
 }
@@ -154,7 +154,7 @@ fn a_reminder_is_told_once_before_aos() {
     assert_eq!(look(&mut teller, time(), &station), []);
     let late = look(&mut Teller::default(), time() + 5.minutes(), &station);
     assert_eq!(late.len(), 1, "not after AOS: {late:?}");
-    let notices = Notices { quiet: Some(QuietHours::USUAL), ..Notices::default() };
+    let notices = Notices { quiet: Some(HoursOfDay::NIGHT), ..Notices::default() };
     let quiet = Arc::new(Station { notices, ..Station::default() });
     assert_eq!(look(&mut Teller::default(), time(), &quiet).len(), 1, "the alarm alone");
 }
@@ -180,7 +180,7 @@ fn nothing_silences_the_first_rank() {
     let silent = Notices {
         notifications: false,
         sounds: false,
-        quiet: Some(QuietHours::USUAL),
+        quiet: Some(HoursOfDay::NIGHT),
         ..Notices::default()
     };
     let mut first = 0;

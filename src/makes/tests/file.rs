@@ -14,17 +14,17 @@ use crate::{
     },
     device::{CountPoint, settings::Value},
     station::{
-        self, AfterPass, Antenna, AntennaId, Entered, KeepOut, LoadError, Loaded, Monitor, Mount,
-        Note, NoteReason, Notices, OnClose, Priority, QuietHours, Resume, SaveError, Station,
+        self, AfterPass, Antenna, AntennaId, Entered, HoursOfDay, KeepOut, LoadError, Loaded,
+        Monitor, Mount, Note, NoteReason, Notices, OnClose, Priority, Resume, SaveError, Station,
         SunAvoidance, TrackSettings, save,
     },
 };
 
-fn load(path: &Path) -> Result<Loaded, LoadError> {
+pub(super) fn load(path: &Path) -> Result<Loaded, LoadError> {
     station::load(path, SPECS)
 }
 
-fn written(text: &str) -> (tempfile::TempDir, PathBuf) {
+pub(super) fn written(text: &str) -> (tempfile::TempDir, PathBuf) {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("station.toml");
     fs::write(&path, text).unwrap();
@@ -60,7 +60,7 @@ fn notices_come_back_as_they_were_saved_and_older_files_have_their_defaults() {
     let notices = Notices {
         notifications: false,
         sounds: false,
-        quiet: Some(QuietHours::USUAL),
+        quiet: Some(HoursOfDay::NIGHT),
         reminder_min: 7.5,
         reminders: [25_544, 43_013].into(),
     };
@@ -143,15 +143,15 @@ fn favourites_keep_their_priorities_and_an_old_list_has_the_default() {
     let loaded = load(&path).unwrap();
     let favourites = loaded.station.favourites.clone();
     assert_eq!(favourites.numbers(), [43_013, 25_544]);
-    assert_eq!(favourites.priority(43_013), Some(Priority::default()));
-    assert_eq!(favourites.priority(25_544).map(Priority::number), Some(1));
+    let priority = |number| loaded.station.priority(number).map(Priority::number);
+    assert_eq!((priority(43_013), priority(25_544), priority(7)), (Some(3), Some(1), None));
     let places: Vec<_> = loaded.notes.iter().map(|note| note.place.as_str()).collect();
     assert_eq!(places, ["favourites[2]"]);
     station::save(&loaded.station, &path).unwrap();
     assert_eq!(load(&path).unwrap().station.favourites, favourites);
     // Tables alone are written in another form.
     let mut station = loaded.station;
-    station.favourites.put(43_013, Priority::ALL[4]);
+    station.favourites.set_priority(43_013, Priority::ALL[4]);
     station::save(&station, &path).unwrap();
     let loaded = load(&path).unwrap();
     assert_eq!((loaded.station.favourites, loaded.notes), (station.favourites, vec![]));

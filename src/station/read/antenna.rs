@@ -45,6 +45,7 @@ impl Fields<'_> {
                 &ranges::RESUME_AFTER_S,
                 default.resume_after_s,
             ),
+            automatic: self.automatic(),
             connection: default.connection,
         })
     }

@@ -214,7 +214,7 @@ fn show_foot(
             copy(ui, model, &[number], form);
         }
     }
-    if let (Some(priority), true) = (model.station.favourites.priority(number), can_mark) {
+    if let (Some(priority), true) = (model.station.priority(number), can_mark) {
         show_priority(ui, second(inner.right() - 150.0, 150.0), number, priority, commands);
     }
 }

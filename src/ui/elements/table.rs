@@ -187,7 +187,7 @@ impl Draws<'_> {
         let t = theme::tokens(ui);
         let row = Row::new(elements, self.catalog, self.model);
         let is_selected = state.selection.row() == Some(number);
-        let priority = self.model.station.favourites.priority(number);
+        let priority = self.model.station.priority(number);
         // The whole list is one Tab stop.
         let response = ui.interact(rect, self.id.with(number), Sense::CLICK);
         response.widget_info(|| {

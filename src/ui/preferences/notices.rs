@@ -17,7 +17,7 @@ use crate::{
     engine::CatalogState,
     model::{Model, UiCommand},
     orbit::Elements,
-    station::{Notices, QuietHours, ranges},
+    station::{HoursOfDay, Notices, ranges},
     ui::{
         format, text, theme,
         widgets::told::{self, Tone},
@@ -39,7 +39,7 @@ struct Telling {
     notifications: bool,
     sounds: bool,
     is_quiet: bool,
-    hours: QuietHours,
+    hours: HoursOfDay,
 }
 
 #[derive(Debug, Clone, PartialEq)]
@@ -53,7 +53,7 @@ impl NoticesDraft {
             notifications: notices.notifications,
             sounds: notices.sounds,
             is_quiet: notices.quiet.is_some(),
-            hours: notices.quiet.unwrap_or(QuietHours::USUAL),
+            hours: notices.quiet.unwrap_or(HoursOfDay::NIGHT),
         };
         let reminding = Reminding { before_min: notices.reminder_min };
         Self {
@@ -92,7 +92,7 @@ fn telling_fields() -> Vec<Placed<Telling>> {
         time("Quiet from", |hours| &mut hours.from),
         time("Quiet to", |hours| &mut hours.to)
             .checked(|telling| {
-                let QuietHours { from, to } = telling.hours;
+                let HoursOfDay { from, to } = telling.hours;
                 if from == to { Err("must be another time than Quiet from") } else { Ok(()) }
             })
             .noted(|_| Some("By the local time of this computer.".to_owned())),
@@ -122,9 +122,9 @@ fn flag(label: &'static str, place: fn(&mut Telling) -> &mut bool) -> Descriptio
     )
 }
 
-fn time(label: &'static str, place: fn(&mut QuietHours) -> &mut Time) -> Description<Telling> {
+fn time(label: &'static str, place: fn(&mut HoursOfDay) -> &mut Time) -> Description<Telling> {
     const NO_TIME: &str = "must be a time of the day such as 22:00";
-    let check = |text: &str| match QuietHours::read_time(text) {
+    let check = |text: &str| match HoursOfDay::read_time(text) {
         Some(_) => Ok(()),
         None => Err(Unfit::Text(NO_TIME.to_owned())),
     };
@@ -132,11 +132,11 @@ fn time(label: &'static str, place: fn(&mut QuietHours) -> &mut Time) -> Descrip
         label,
         Kind::Text(check),
         move |telling: &mut Telling| {
-            Some(Value::Text(QuietHours::time_text(*place(&mut telling.hours))))
+            Some(Value::Text(HoursOfDay::time_text(*place(&mut telling.hours))))
         },
         move |telling, value| {
             if let Value::Text(text) = value {
-                *place(&mut telling.hours) = QuietHours::read_time(&text).ok_or(NO_TIME)?;
+                *place(&mut telling.hours) = HoursOfDay::read_time(&text).ok_or(NO_TIME)?;
             }
             Ok(())
         },

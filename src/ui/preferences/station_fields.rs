@@ -26,6 +26,8 @@ pub(in crate::ui) struct Ground {
     favourites: Favourites,
     frequencies: Vec<Frequency>,
     on_close: Option<OnClose>,
+    /// What other views edit comes from here.
+    elsewhere: Box<Station>,
 }
 
 impl Ground {
@@ -41,6 +43,7 @@ impl Ground {
             favourites: station.favourites.clone(),
             frequencies: station.frequencies.clone(),
             on_close: station.on_close,
+            elsewhere: Box::new(station.clone()),
         }
     }
 
@@ -63,6 +66,7 @@ impl Ground {
             keep_outs: Vec::new(),
             sun_avoidance: None,
             antennas,
+            ..*self.elsewhere
         })
     }
 }

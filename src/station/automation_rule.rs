@@ -1,0 +1,70 @@
+//! Automation rules: what the schedule does with passes by antenna, satellite, Sun and hour.
+
+use jiff::{Timestamp, tz::TimeZone};
+use serde::Serialize;
+
+use super::{AntennaId, HoursOfDay};
+
+/// A rule. Of the rules that are on, the first whose conditions all hold decides.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct AutomationRule {
+    #[serde(rename = "on")]
+    pub is_on: bool,
+    /// `None` for all antennas.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub antenna: Option<AntennaId>,
+    /// `None` for all satellites.
+    #[serde(flatten)]
+    pub of: Option<RuleOf>,
+    /// `None` whatever the Sun does.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub sun: Option<SunIs>,
+    /// By UTC; `None` for all hours.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub hours: Option<HoursOfDay>,
+    pub then: Then,
+}
+
+/// The satellites of a rule.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "lowercase")]
+pub enum RuleOf {
+    /// Catalog number.
+    Satellite(u32),
+    /// Name of a group.
+    Group(String),
+}
+
+/// The Sun at the site.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "lowercase")]
+pub enum SunIs {
+    Up,
+    Down,
+}
+
+/// What a rule does.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Then {
+    /// The pass may be taken, whatever the limits of its satellite say.
+    Take,
+    /// The antenna does not take the pass.
+    Leave,
+    /// The antenna takes no pass and stays parked.
+    Park,
+}
+
+impl AutomationRule {
+    /// Whether it holds at a moment, where the Sun stands as given.
+    pub fn holds_at(&self, at: Timestamp, sun: SunIs) -> bool {
+        self.is_on
+            && self.sun.is_none_or(|wanted| wanted == sun)
+            && self.hours.is_none_or(|hours| hours.contain(at, &TimeZone::UTC))
+    }
+
+    /// Whether it is about this antenna.
+    pub fn is_for(&self, antenna: AntennaId) -> bool {
+        self.antenna.is_none_or(|of| of == antenna)
+    }
+}

@@ -1,0 +1,66 @@
+//! Hours of the day, for settings that hold at some hours alone.
+
+use jiff::{Timestamp, civil::Time, tz::TimeZone};
+use serde::{Serialize, Serializer};
+
+/// A part of each day, which may contain midnight. Who holds it says by which clock.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+pub struct HoursOfDay {
+    #[serde(serialize_with = "as_text")]
+    pub from: Time,
+    #[serde(serialize_with = "as_text")]
+    pub to: Time,
+}
+
+impl HoursOfDay {
+    /// From ten in the evening to six in the morning.
+    pub const NIGHT: Self =
+        Self { from: Time::constant(22, 0, 0, 0), to: Time::constant(6, 0, 0, 0) };
+
+    /// Reads a time of the day, such as 22:00.
+    pub fn read_time(text: &str) -> Option<Time> {
+        Time::strptime("%H:%M", text.trim()).ok()
+    }
+
+    /// Writes a time as [`Self::read_time`] reads it.
+    pub fn time_text(time: Time) -> String {
+        time.strftime("%H:%M").to_string()
+    }
+
+    /// Returns `true` if the clock of `zone` shows one of these hours.
+    pub fn contain(&self, at: Timestamp, zone: &TimeZone) -> bool {
+        let time = zone.to_datetime(at).time();
+        let Self { from, to } = *self;
+        if from <= to { (from..to).contains(&time) } else { from <= time || time < to }
+    }
+}
+
+// The signature is serde's.
+#[allow(clippy::trivially_copy_pass_by_ref)]
+fn as_text<S: Serializer>(time: &Time, out: S) -> Result<S::Ok, S::Error> {
+    HoursOfDay::time_text(*time).serialize(out)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn hours_go_across_midnight_by_the_clock_of_the_zone() {
+        let istanbul = TimeZone::fixed(jiff::tz::offset(3));
+        let is_quiet = |hours: HoursOfDay, at: &str| hours.contain(at.parse().unwrap(), &istanbul);
+        for (at, quiet) in [
+            ("2026-08-12T18:59:59Z", false),
+            ("2026-08-12T19:00:00Z", true),
+            ("2026-08-12T21:30:00Z", true),
+            ("2026-08-13T02:59:59Z", true),
+            ("2026-08-13T03:00:00Z", false),
+        ] {
+            assert_eq!(is_quiet(HoursOfDay::NIGHT, at), quiet, "{at}");
+        }
+        let HoursOfDay { from: to, to: from } = HoursOfDay::NIGHT;
+        let by_day = HoursOfDay { from, to };
+        assert!(is_quiet(by_day, "2026-08-12T09:00:00Z"));
+        assert!(!is_quiet(by_day, "2026-08-12T20:00:00Z"));
+    }
+}

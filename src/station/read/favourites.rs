@@ -1,0 +1,96 @@
+//! Reads favourites and groups of satellites with their priorities and limits.
+
+use toml::Value;
+
+use super::{Fields, catalog_number};
+use crate::station::{
+    AntennaId, Favourite, Favourites, Light, PassLimits, Priority, SatelliteGroup, ranges,
+};
+
+impl Fields<'_> {
+    pub(super) fn favourites(&mut self, default: Favourites, antennas: &[AntennaId]) -> Favourites {
+        let entries = match self.table.remove("favourites") {
+            None => return default,
+            Some(Value::Array(entries)) => entries,
+            Some(_) => {
+                self.invalid("favourites", "must be a list of catalogue numbers");
+                return default;
+            }
+        };
+        let mut favourites = Favourites::default();
+        for (index, entry) in entries.into_iter().enumerate() {
+            let place = format!("favourites[{index}]");
+            match entry {
+                Value::Table(table) => {
+                    let read = self.entry(&place, table, |fields| fields.favourite(antennas));
+                    read.into_iter().for_each(|favourite| favourites.put(favourite));
+                }
+                number => match catalog_number(&number) {
+                    Some(satellite) => favourites.mark(satellite, true),
+                    None => self.invalid(&place, "must be a catalogue number"),
+                },
+            }
+        }
+        favourites
+    }
+
+    fn favourite(&mut self, antennas: &[AntennaId]) -> Option<Favourite> {
+        let (priority, limits) = (self.priority(), self.pass_limits(antennas));
+        Some(Favourite { satellite: self.satellite()?, priority, limits })
+    }
+
+    /// A group without a name is left out: rules could not name it.
+    pub(super) fn satellite_group(&mut self, antennas: &[AntennaId]) -> Option<SatelliteGroup> {
+        let group = SatelliteGroup {
+            name: self.text("name", ""),
+            satellites: self.catalog_numbers("satellites", Vec::new()),
+            priority: self.priority(),
+            limits: self.pass_limits(antennas),
+        };
+        if group.name.is_empty() {
+            self.invalid("name", "must be a text that is not empty");
+        }
+        Some(group).filter(|group| !group.name.is_empty())
+    }
+
+    fn priority(&mut self) -> Option<Priority> {
+        let number = self.table.remove("priority")?.as_integer().unwrap_or_default();
+        Priority::try_from(number).map_err(|why| self.invalid("priority", why.to_string())).ok()
+    }
+
+    fn pass_limits(&mut self, antennas: &[AntennaId]) -> PassLimits {
+        let light = [
+            ("day", Some(Light::Day)),
+            ("night", Some(Light::Night)),
+            ("sunlit", Some(Light::Sunlit)),
+        ];
+        PassLimits {
+            min_max_elevation_deg: self.optional("min_max_elevation_deg", &ranges::ELEVATION_DEG),
+            min_duration_s: self.optional("min_duration_s", &ranges::MIN_DURATION_S),
+            light: self.one_of("light", &light, None),
+            antennas: self.antennas_of_limits(antennas),
+            max_per_day: self
+                .optional("max_per_day", &ranges::PASSES_PER_DAY)
+                .map(|number| number as u32),
+        }
+    }
+
+    /// Antennas that the station does not have are left out with a note. Where none is left, no
+    /// antenna may take the passes: a limit is not widened.
+    fn antennas_of_limits(&mut self, antennas: &[AntennaId]) -> Option<Vec<AntennaId>> {
+        const KEY: &str = "antennas";
+        let given: Vec<u32> = match self.table.remove(KEY)?.try_into() {
+            Ok(given) => given,
+            Err(_) => {
+                self.invalid(KEY, "must be a list of ids of antennas");
+                return None;
+            }
+        };
+        let (known, unknown): (Vec<_>, Vec<_>) =
+            given.into_iter().map(AntennaId).partition(|id| antennas.contains(id));
+        if !unknown.is_empty() {
+            self.invalid(KEY, "names an antenna that the station does not have");
+        }
+        Some(known)
+    }
+}
