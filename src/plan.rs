@@ -9,6 +9,7 @@ pub mod on_board;
 pub mod pass_export;
 pub mod program_track;
 mod rate_limited;
+pub mod schedule;
 mod trackability;
 
 pub use bounds::{Barrier, Bounds, BoundsAt, Clearance, Sweep};

@@ -1,0 +1,6 @@
+//! The schedule: which antenna takes which pass.
+
+mod row;
+mod solve;
+#[cfg(test)]
+mod testing;

@@ -1,0 +1,146 @@
+//! What a schedule is worth: one number a class, compared from the first class on.
+
+use std::{
+    iter::Sum,
+    ops::{Add, AddAssign, Sub},
+};
+
+use serde::{Deserialize, Serialize};
+
+use crate::station::Priority;
+
+/// A class of the row.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Class {
+    /// Entries that cannot be changed any more.
+    Fixed,
+    /// Passes that the operator has set to always.
+    Always,
+    /// Passes of satellites of this priority.
+    Priority(Priority),
+    /// Entries of the previous schedule.
+    Kept,
+}
+
+/// One number a class, then the slews and the times of AOS with a minus: of two rows the one that
+/// is greater in the first number in which they differ is the greater.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Default)]
+pub(super) struct Row([i64; Self::LEN]);
+
+impl Row {
+    pub(super) const ZERO: Self = Self([0; Self::LEN]);
+    /// Number of classes; what comes after them breaks ties.
+    pub(super) const CLASSES: usize = 8;
+    const LEN: usize = Self::CLASSES + 2;
+    const SLEW: usize = Self::CLASSES;
+    const AOS: usize = Self::CLASSES + 1;
+
+    /// A row with one number.
+    pub(super) fn of(class: Class, number: i64) -> Self {
+        Self::at(class.index(), number)
+    }
+
+    /// A row with one number, by the index of its class.
+    pub(super) fn at(class: usize, number: i64) -> Self {
+        let mut row = Self::ZERO;
+        if let Some(cell) = row.0.get_mut(class) {
+            *cell = number;
+        }
+        row
+    }
+
+    pub(super) fn slewed(mut self, slew_ms: i64) -> Self {
+        self.0[Self::SLEW] -= slew_ms;
+        self
+    }
+
+    pub(super) fn risen(mut self, aos_ms: i64) -> Self {
+        self.0[Self::AOS] -= aos_ms;
+        self
+    }
+
+    pub(super) fn slew_ms(&self) -> i64 {
+        -self.0[Self::SLEW]
+    }
+
+    pub(super) fn number(&self, class: usize) -> i64 {
+        self.0.get(class).copied().unwrap_or_default()
+    }
+
+    /// The numbers of the classes, without what breaks ties.
+    pub(super) fn classes(&self) -> &[i64] {
+        self.0.split_at(Self::CLASSES).0
+    }
+
+    /// The first class in which two rows differ.
+    pub(super) fn first_difference(&self, other: &Self) -> Option<usize> {
+        self.classes().iter().zip(other.classes()).position(|(own, other)| own != other)
+    }
+
+    pub(super) fn times(mut self, factor: i64) -> Self {
+        for cell in &mut self.0 {
+            *cell *= factor;
+        }
+        self
+    }
+
+    /// Half of the row, rounded down.
+    pub(super) fn half(mut self) -> Self {
+        for cell in &mut self.0 {
+            *cell = cell.div_euclid(2);
+        }
+        self
+    }
+}
+
+impl Class {
+    /// All classes, in the order of the row.
+    pub(super) fn all() -> impl Iterator<Item = Self> {
+        let priorities = Priority::ALL.into_iter().map(Self::Priority);
+        [Self::Fixed, Self::Always].into_iter().chain(priorities).chain([Self::Kept])
+    }
+
+    pub(super) fn index(self) -> usize {
+        match self {
+            Self::Fixed => 0,
+            Self::Always => 1,
+            Self::Priority(priority) => 1 + usize::from(priority.number()),
+            Self::Kept => Row::CLASSES - 1,
+        }
+    }
+}
+
+impl AddAssign for Row {
+    fn add_assign(&mut self, other: Self) {
+        for (cell, other) in self.0.iter_mut().zip(other.0) {
+            *cell += other;
+        }
+    }
+}
+
+impl Add for Row {
+    type Output = Self;
+
+    fn add(mut self, other: Self) -> Self {
+        self += other;
+        self
+    }
+}
+
+impl Sub for Row {
+    type Output = Self;
+
+    fn sub(mut self, other: Self) -> Self {
+        for (cell, other) in self.0.iter_mut().zip(other.0) {
+            *cell -= other;
+        }
+        self
+    }
+}
+
+impl Sum for Row {
+    fn sum<I: Iterator<Item = Self>>(rows: I) -> Self {
+        rows.fold(Self::ZERO, Self::add)
+    }
+}

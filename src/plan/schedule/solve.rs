@@ -1,0 +1,200 @@
+//! The best choice among takes: ways of taking passes, each on one antenna for a span of time.
+//! Knows only spans, rows and slews.
+//!
+//! One antenna without a limit of takes a day is solved exactly (`line.rs`). Several antennas, or
+//! one with limits, are solved exactly as long as the number of states allows (`vector.rs`);
+//! beyond that by prices of passes (`prices.rs`), which bound what any schedule can be worth.
+
+mod line;
+mod prices;
+#[cfg(test)]
+mod tests;
+mod vector;
+
+use super::row::Row;
+use line::Line;
+
+/// How a take shares its pass with others.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Part {
+    /// It excludes all other takes of its pass. Those on one antenna overlap.
+    Alone,
+    /// It counts only together with a [`Part::Second`] of its pass on another antenna, which
+    /// begins when it has ended.
+    First,
+    Second,
+}
+
+/// One way of taking a pass.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Take {
+    /// Index of the pass.
+    pub(super) pass: u32,
+    /// Index of the antenna.
+    pub(super) antenna: u32,
+    /// Index of the limit that it counts towards; `None` for the second part of a pass.
+    pub(super) limit: Option<u32>,
+    pub(super) part: Part,
+    pub(super) from_ms: i64,
+    /// Later than `from_ms`.
+    pub(super) to_ms: i64,
+    pub(super) row: Row,
+}
+
+/// The way from the end of one take to the start of another.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) struct Leg {
+    /// Least time between the two, with the set-up.
+    pub(super) needs_ms: i64,
+    /// How long the axes turn.
+    pub(super) slew_ms: i64,
+}
+
+/// The slews of all antennas.
+pub(super) trait Slews {
+    /// From where the antenna stands at first; `None` if it cannot be at `to` in time.
+    fn first_ms(&self, to: usize) -> Option<i64>;
+
+    /// Between two takes of one antenna.
+    fn between(&self, from: usize, to: usize) -> Leg;
+
+    /// No leg of the antenna needs more, and no slew takes longer.
+    fn longest_ms(&self, antenna: usize) -> i64;
+}
+
+pub(super) struct Problem<'a> {
+    pub(super) antennas: usize,
+    pub(super) passes: usize,
+    /// By antenna, then by start.
+    pub(super) takes: &'a [Take],
+    /// How many takes may count towards each limit.
+    pub(super) limits: &'a [u32],
+    pub(super) slews: &'a dyn Slews,
+    /// Places looked at before the search for the proved best is given up.
+    pub(super) effort: u64,
+}
+
+/// Takes that exclude each other nowhere.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(super) struct Solution {
+    /// By antenna, each in the order of time.
+    pub(super) takes: Vec<Vec<u32>>,
+    /// What they are worth, with their slews.
+    pub(super) row: Row,
+    /// No solution is worth more.
+    pub(super) bound: Row,
+}
+
+impl Problem<'_> {
+    pub(super) fn take(&self, index: u32) -> Option<&Take> {
+        self.takes.get(index as usize)
+    }
+
+    pub(super) fn solve(&self) -> Solution {
+        let lines: Vec<Line> =
+            (0..self.antennas).map(|antenna| Line::new(self, antenna)).collect();
+        if let [line] = &lines[..] {
+            let takes = line.best(self, &|_, take| Some(take.row)).takes;
+            let row = self.row(std::slice::from_ref(&takes));
+            if self.keeps_limits(std::slice::from_ref(&takes)) {
+                return Solution { takes: vec![takes], row, bound: row };
+            }
+        }
+        match vector::best(self, &lines) {
+            Some(takes) => {
+                let (takes, row) = self.improved(&lines, takes);
+                Solution { takes, row, bound: row }
+            }
+            None => prices::solve(self, &lines),
+        }
+    }
+
+    /// What takes are worth, with their slews.
+    pub(super) fn row(&self, takes: &[Vec<u32>]) -> Row {
+        takes.iter().map(|takes| self.row_of_one(takes)).sum()
+    }
+
+    fn row_of_one(&self, takes: &[u32]) -> Row {
+        let worth: Row = takes.iter().filter_map(|take| self.take(*take)).map(|it| it.row).sum();
+        let first = takes.first().and_then(|first| self.slews.first_ms(*first as usize));
+        let pairs = takes.iter().zip(takes.iter().skip(1));
+        let slews = pairs.map(|(a, b)| self.slews.between(*a as usize, *b as usize).slew_ms);
+        worth.slewed(slews.sum::<i64>() + first.unwrap_or_default())
+    }
+
+    fn keeps_limits(&self, takes: &[Vec<u32>]) -> bool {
+        let used = self.used(takes.iter().flatten());
+        used.iter().zip(self.limits).all(|(used, most)| used <= most)
+    }
+
+    /// How many of these takes count towards each limit.
+    fn used<'t>(&self, takes: impl Iterator<Item = &'t u32>) -> Vec<u32> {
+        let mut used = vec![0; self.limits.len()];
+        for limit in takes.filter_map(|take| self.take(*take)?.limit) {
+            if let Some(used) = used.get_mut(limit as usize) {
+                *used += 1;
+            }
+        }
+        used
+    }
+
+    /// Solves one antenna after the other again, with what the others take left to them, for as
+    /// long as that is worth more.
+    fn improved(&self, lines: &[Line], mut takes: Vec<Vec<u32>>) -> (Vec<Vec<u32>>, Row) {
+        let mut row = self.row(&takes);
+        loop {
+            let before = row;
+            for (antenna, line) in lines.iter().enumerate() {
+                let Some(found) = self.again(line, antenna, &takes) else { continue };
+                let Some(old) = takes.get_mut(antenna) else { continue };
+                let old = std::mem::replace(old, found);
+                let new_row = self.row(&takes);
+                if new_row > row {
+                    row = new_row;
+                } else if let Some(place) = takes.get_mut(antenna) {
+                    *place = old;
+                }
+            }
+            if row == before {
+                return (takes, row);
+            }
+        }
+    }
+
+    /// The best takes of one antenna beside those of the others; `None` where it shares a pass
+    /// with another.
+    fn again(&self, line: &Line, antenna: usize, takes: &[Vec<u32>]) -> Option<Vec<u32>> {
+        let others = || {
+            let others = takes.iter().enumerate().filter(|(index, _)| *index != antenna);
+            others.flat_map(|(_, takes)| takes)
+        };
+        let own = takes.get(antenna)?.iter().filter_map(|take| self.take(*take));
+        if own.clone().any(|take| take.part != Part::Alone) {
+            return None;
+        }
+        let mut is_out = vec![false; self.passes];
+        for take in others().filter_map(|take| self.take(*take)) {
+            if let Some(is_out) = is_out.get_mut(take.pass as usize) {
+                *is_out = true;
+            }
+        }
+        let by_others = self.used(others());
+        loop {
+            let found = line.best(self, &|_, take| {
+                let is_free = !is_out.get(take.pass as usize).copied().unwrap_or(true);
+                (is_free && take.part == Part::Alone).then_some(take.row)
+            });
+            // Beyond its limit, a satellite loses the passes that are worth least.
+            let used = self.used(found.takes.iter());
+            let over = used.iter().zip(&by_others).zip(self.limits);
+            let over = over.map(|((own, others), most)| (own + others).saturating_sub(*most));
+            let Some((limit, _)) = over.enumerate().find(|(_, over)| *over > 0) else {
+                return Some(found.takes);
+            };
+            let of_limit = found.takes.iter().filter_map(|take| self.take(*take));
+            let of_limit = of_limit.filter(|take| take.limit == Some(limit as u32));
+            let least = of_limit.min_by_key(|take| (take.row, take.pass))?;
+            *is_out.get_mut(least.pass as usize)? = true;
+        }
+    }
+}

@@ -1,0 +1,226 @@
+//! Several antennas, or limits of takes a day: dynamic programming over the last take of every
+//! antenna, the passes that may still be taken twice, and what is used of each limit.
+//!
+//! The classes of the row that is found are the best; equal ones are told apart by their slews
+//! only as far as the states that are kept allow.
+
+use super::{Line, Part, Problem, Row};
+
+/// States beyond which the search is given up.
+const MAX_STATES: usize = 4_000;
+/// States below which none are compared.
+const FEW_STATES: usize = 24;
+
+const NONE: u32 = u32::MAX;
+
+/// A pass that is taken while other takes of it are still to come.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+struct Open {
+    pass: u32,
+    /// The take of a first part that waits for its second one.
+    first: Option<u32>,
+}
+
+#[derive(Debug, Clone)]
+struct State {
+    row: Row,
+    /// By antenna; [`NONE`] before its first take.
+    last: Vec<u32>,
+    open: Vec<Open>,
+    /// Limit, and how many takes count towards it.
+    used: Vec<(u32, u32)>,
+    /// The last step of the trail.
+    step: u32,
+}
+
+/// What comes after a take: nothing more of its pass, or of its limit.
+#[derive(Debug, Clone, Copy, Default)]
+struct Closes {
+    pass: bool,
+    limit: bool,
+}
+
+/// The best takes by antenna; `None` if there are too many states.
+pub(super) fn best(problem: &Problem<'_>, lines: &[Line]) -> Option<Vec<Vec<u32>>> {
+    let mut order: Vec<u32> = (0..problem.takes.len() as u32).collect();
+    let key = |take: &u32| problem.take(*take).map(|it| (it.from_ms, it.to_ms, it.antenna));
+    order.sort_by_key(|take| (key(take), *take));
+    let closes = closes(problem, &order);
+
+    let mut search = Search { problem, lines, trail: Vec::new(), effort: 0 };
+    let start = State {
+        row: Row::ZERO,
+        last: vec![NONE; problem.antennas],
+        open: Vec::new(),
+        used: Vec::new(),
+        step: NONE,
+    };
+    let mut states = vec![start];
+    let mut after_pruning = 1;
+    for (take, closes) in order.iter().zip(closes) {
+        let it = problem.take(*take)?;
+        for index in 0..states.len() {
+            let found = states.get(index).and_then(|state| search.with(state, *take));
+            states.extend(found);
+        }
+        search.effort += states.len() as u64;
+        if closes.pass {
+            let waits = |state: &State| {
+                state.open.iter().any(|open| open.pass == it.pass && open.first.is_some())
+            };
+            states.retain(|state| !waits(state));
+            for state in &mut states {
+                state.open.retain(|open| open.pass != it.pass);
+            }
+        }
+        if let Some(limit) = it.limit.filter(|_| closes.limit) {
+            for state in &mut states {
+                state.used.retain(|(used, _)| *used != limit);
+            }
+        }
+        if states.len() > FEW_STATES.max(2 * after_pruning) {
+            search.prune(&mut states, it.from_ms);
+            after_pruning = states.len();
+        }
+        if states.len() > MAX_STATES || search.effort > problem.effort {
+            return None;
+        }
+    }
+    let best = states.into_iter().reduce(|a, b| if b.row > a.row { b } else { a })?;
+    Some(search.traced(best.step))
+}
+
+fn closes(problem: &Problem<'_>, order: &[u32]) -> Vec<Closes> {
+    let mut pass_seen = vec![false; problem.passes];
+    let mut limit_seen = vec![false; problem.limits.len()];
+    let first = |seen: &mut Vec<bool>, index: u32| {
+        seen.get_mut(index as usize).is_some_and(|seen| !std::mem::replace(seen, true))
+    };
+    let mut closes: Vec<Closes> = order
+        .iter()
+        .rev()
+        .map(|take| {
+            let Some(it) = problem.take(*take) else { return Closes::default() };
+            Closes {
+                pass: first(&mut pass_seen, it.pass),
+                limit: it.limit.is_some_and(|limit| first(&mut limit_seen, limit)),
+            }
+        })
+        .collect();
+    closes.reverse();
+    closes
+}
+
+struct Search<'a> {
+    problem: &'a Problem<'a>,
+    lines: &'a [Line],
+    /// The step before, and the take.
+    trail: Vec<(u32, u32)>,
+    effort: u64,
+}
+
+impl Search<'_> {
+    /// `state` with one more take; `None` where it does not fit.
+    fn with(&mut self, state: &State, take: u32) -> Option<State> {
+        let it = self.problem.take(take)?;
+        let antenna = it.antenna as usize;
+        let open = state.open.iter().position(|open| open.pass == it.pass);
+        match (it.part, open.and_then(|open| state.open.get(open))) {
+            (Part::Alone | Part::First, None) => {}
+            (Part::Second, Some(open)) => {
+                let first = self.problem.take(open.first?)?;
+                if first.antenna == it.antenna || first.to_ms > it.from_ms {
+                    return None;
+                }
+            }
+            _ => return None,
+        }
+        let used = it.limit.map(|limit| {
+            let used = state.used.iter().find(|(used, _)| *used == limit);
+            (limit, used.map_or(0, |(_, count)| *count) + 1)
+        });
+        if let Some((limit, count)) = used
+            && count > self.problem.limits.get(limit as usize).copied().unwrap_or(u32::MAX)
+        {
+            return None;
+        }
+        let slew_ms = match *state.last.get(antenna)? {
+            NONE => self.problem.slews.first_ms(take as usize)?,
+            last => self.lines.get(antenna)?.slew_ms(self.problem, last, take)?,
+        };
+        let mut new = state.clone();
+        new.row = state.row + it.row.slewed(slew_ms);
+        *new.last.get_mut(antenna)? = take;
+        if let Some(open) = open {
+            new.open.get_mut(open)?.first = None;
+        } else {
+            let first = (it.part == Part::First).then_some(take);
+            new.open.push(Open { pass: it.pass, first });
+            new.open.sort_by_key(|open| open.pass);
+        }
+        if let Some((limit, count)) = used {
+            new.used.retain(|(used, _)| *used != limit);
+            new.used.push((limit, count));
+        }
+        new.step = self.trail.len() as u32;
+        self.trail.push((state.step, take));
+        Some(new)
+    }
+
+    /// Drops each state that another one can follow wherever it goes, and is worth as much.
+    fn prune(&mut self, states: &mut Vec<State>, now_ms: i64) {
+        let problem = self.problem;
+        let free = |(antenna, last): (usize, &u32)| {
+            let longest_ms = problem.slews.longest_ms(antenna);
+            let ended = |last: u32| problem.take(last).map_or(i64::MIN, |take| take.to_ms);
+            // Where it stands at first is not free: the first slew may not fit any more.
+            let is_free = *last != NONE && ended(*last) + longest_ms <= now_ms;
+            if is_free { None } else { Some(*last) }
+        };
+        let mut sorted: Vec<(State, Vec<Option<u32>>)> = states
+            .drain(..)
+            .map(|state| {
+                let busy = state.last.iter().enumerate().map(free).collect();
+                (state, busy)
+            })
+            .collect();
+        sorted.sort_by(|(a, _), (b, _)| b.row.cmp(&a.row));
+        let mut kept: Vec<(State, Vec<Option<u32>>)> = Vec::new();
+        for (state, busy) in sorted {
+            let beaten = kept.iter().position(|(better, freer)| {
+                let is_freer = |(own, other): (&Option<u32>, &Option<u32>)| {
+                    own.is_none() || own == other
+                };
+                freer.iter().zip(&busy).all(is_freer)
+                    && better.open.iter().all(|open| state.open.contains(open))
+                    && state.open.iter().all(|open| {
+                        open.first.is_none() || better.open.contains(open)
+                    })
+                    && better.used.iter().all(|(limit, count)| {
+                        state.used.iter().any(|(used, other)| used == limit && other >= count)
+                    })
+            });
+            self.effort += beaten.unwrap_or(kept.len()) as u64 / 8;
+            if beaten.is_none() {
+                kept.push((state, busy));
+            }
+        }
+        states.extend(kept.into_iter().map(|(state, _)| state));
+    }
+
+    fn traced(&self, step: u32) -> Vec<Vec<u32>> {
+        let mut takes = vec![Vec::new(); self.problem.antennas];
+        let mut step = step;
+        while let Some((before, take)) = self.trail.get(step as usize) {
+            let antenna = self.problem.take(*take).map(|take| take.antenna as usize);
+            if let Some(takes) = antenna.and_then(|antenna| takes.get_mut(antenna)) {
+                takes.push(*take);
+            }
+            step = *before;
+        }
+        for takes in &mut takes {
+            takes.reverse();
+        }
+        takes
+    }
+}
