@@ -52,7 +52,7 @@ pub enum Trackability {
 }
 
 /// Where an antenna loses a satellite.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub enum Loss {
     /// Near an end of the lower axis of an X/Y mount, at this azimuth.
     Keyhole(Angle),

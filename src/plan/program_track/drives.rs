@@ -140,7 +140,7 @@ impl Drives {
     }
 
     /// The limits of the axes for a detour.
-    pub(super) fn axis_limits(&self) -> AxisLimits {
+    pub(in crate::plan) fn axis_limits(&self) -> AxisLimits {
         let [first, second] = self.mount.travel_deg();
         let second =
             if matches!(self.mount, Mount::AzEl { .. }) { self.elevations_deg() } else { second };

@@ -55,12 +55,8 @@ impl Path {
             })
             .collect();
         let max_deg = drives.rates_deg_s.map(|rate_deg_s| rate_deg_s * step_s);
-        let Planned { flip, axes_deg, .. } = drives.along(&samples, step_s, start, choice);
-        let axes = if bounds.has_way_round() && drives.has_elevation {
-            round(axes_deg, &samples, step_s, start, drives.axis_limits(), bounds)
-        } else {
-            axes_deg
-        };
+        let Planned { flip, axes_deg: axes, .. } =
+            drives.along_within(bounds, &samples, step_s, start, choice);
         let to = samples.last()?.time;
         Some(Self { from, to, step_s, max_deg, axes, flip })
     }
@@ -152,6 +148,25 @@ impl Path {
     fn index(&self, at_s: f64) -> usize {
         let last = self.axes[0].len().saturating_sub(1);
         ((at_s / self.step_s).floor().max(0.0) as usize).min(last)
+    }
+}
+
+impl Drives {
+    /// [`Drives::along`], with detours round the keep-outs of `bounds`.
+    pub(in crate::plan) fn along_within(
+        &self,
+        bounds: &Bounds,
+        samples: &[Sample],
+        step_s: f64,
+        start: Start,
+        choice: Choice,
+    ) -> Planned {
+        let mut planned = self.along(samples, step_s, start, choice);
+        if bounds.has_way_round() && self.has_elevation {
+            let (axes_deg, limits) = (planned.axes_deg, self.axis_limits());
+            planned.axes_deg = round(axes_deg, samples, step_s, start, limits, bounds);
+        }
+        planned
     }
 }
 

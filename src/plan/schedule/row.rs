@@ -7,6 +7,7 @@ use std::{
 
 use serde::{Deserialize, Serialize};
 
+use super::request::ChooseBy;
 use crate::station::Priority;
 
 /// A class of the row.
@@ -19,6 +20,8 @@ pub enum Class {
     Always,
     /// Passes of satellites of this priority.
     Priority(Priority),
+    /// All other passes, where the rule does not look at priorities.
+    All,
     /// Entries of the previous schedule.
     Kept,
 }
@@ -95,16 +98,30 @@ impl Row {
 }
 
 impl Class {
-    /// All classes, in the order of the row.
-    pub(super) fn all() -> impl Iterator<Item = Self> {
-        let priorities = Priority::ALL.into_iter().map(Self::Priority);
-        [Self::Fixed, Self::Always].into_iter().chain(priorities).chain([Self::Kept])
+    /// The class of a pass that is taken by its worth.
+    pub(super) fn by_plan(choose_by: ChooseBy, priority: Priority) -> Self {
+        match choose_by {
+            ChooseBy::PriorityThenElevation | ChooseBy::PriorityThenDuration => {
+                Self::Priority(priority)
+            }
+            ChooseBy::MostPasses | ChooseBy::MostMinutes => Self::All,
+        }
+    }
+
+    /// The classes that the operator sees, in the order of the row.
+    pub(super) fn shown(choose_by: ChooseBy) -> Vec<Self> {
+        let by_plan = |priority| Self::by_plan(choose_by, priority);
+        let mut classes = vec![Self::Always];
+        classes.extend(Priority::ALL.into_iter().map(by_plan));
+        classes.dedup();
+        classes
     }
 
     pub(super) fn index(self) -> usize {
         match self {
             Self::Fixed => 0,
             Self::Always => 1,
+            Self::All => 2,
             Self::Priority(priority) => 1 + usize::from(priority.number()),
             Self::Kept => Row::CLASSES - 1,
         }

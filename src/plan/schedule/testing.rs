@@ -1,4 +1,16 @@
-//! Random numbers for tests: the same everywhere from the same seed.
+//! Random numbers and real satellites for tests: the same everywhere.
+
+use jiff::Timestamp;
+
+use super::{
+    Between, Candidate, ChooseBy, Common, PlannedAntenna, Reach, Request, SatelliteRules, Sight,
+    Steadiness, Wanted, Wish,
+};
+use crate::{
+    astro::{Angle, time::add_seconds},
+    orbit::{Catalog, Elements, Pass, PassSearch, Propagator, bundled, passes},
+    station::{Antenna, AntennaId, Mount, Priority, Station},
+};
 
 /// Splitmix64.
 pub(super) struct Random(u64);
@@ -20,4 +32,130 @@ impl Random {
     pub(super) fn below(&mut self, end: u64) -> u64 {
         self.next() % end
     }
+}
+
+/// The antennas of the demo station: crossed axes, a rotator over the whole circle, and one over
+/// half of it.
+pub(super) fn three_antennas() -> Station {
+    let mut antennas =
+        vec![Antenna::satrak("Satrak", ""), Antenna::genius("Genius", ""), Antenna::rc2000c("Dish", "")];
+    for (antenna, number) in antennas.iter_mut().zip(1..) {
+        antenna.id = AntennaId(number);
+    }
+    antennas[2].mount = Mount::AzEl {
+        azimuth_from_deg: 90.0,
+        azimuth_to_deg: 270.0,
+        elevation_from_deg: 0.0,
+        elevation_to_deg: 90.0,
+    };
+    Station { antennas, ..Station::default() }
+}
+
+pub(super) fn planned(station: &Station, from: Timestamp) -> Vec<PlannedAntenna> {
+    let of = |antenna: &Antenna| PlannedAntenna {
+        id: antenna.id,
+        reach: Reach::of(station, antenna, None),
+        set_up_s: if antenna.name == "Satrak" { 20.0 } else { 2.0 },
+        between: Between::Wait,
+        free_from: from,
+        stands_deg: Some([180.0, 45.0]),
+        off: None,
+    };
+    station.antennas.iter().map(of).collect()
+}
+
+/// Satellites with a priority and what is wanted of them.
+pub(super) struct Satellite {
+    pub(super) elements: Elements,
+    pub(super) priority: Priority,
+    pub(super) rules: SatelliteRules,
+}
+
+/// So many satellites in low orbits, each with a priority.
+pub(super) fn low_satellites(random: &mut Random, count: usize) -> Vec<Satellite> {
+    let catalog: Catalog = bundled().unwrap();
+    let low: Vec<&Elements> =
+        catalog.iter().filter(|it| (5_400.0..6_900.0).contains(&it.period_s())).collect();
+    let mut chosen = Vec::new();
+    while chosen.len() < count {
+        let it = low[random.below(low.len() as u64) as usize];
+        let number = it.catalog_number();
+        if chosen.iter().all(|other: &Satellite| other.elements.catalog_number() != number) {
+            let priority = Priority::try_from(1 + random.below(5) as i64).unwrap();
+            chosen.push(Satellite {
+                elements: it.clone(),
+                priority,
+                rules: SatelliteRules::default(),
+            });
+        }
+    }
+    chosen
+}
+
+pub(super) fn candidates(
+    station: &Station,
+    antennas: &[PlannedAntenna],
+    satellites: &[Satellite],
+    from: Timestamp,
+    hours: f64,
+) -> Vec<Candidate> {
+    let common = Common {
+        site: station.site,
+        floor: station.elevation_floor(),
+        antennas,
+        max_age_s: None,
+    };
+    let search = PassSearch {
+        aos_elevation: station.aos_elevation(),
+        floor: station.elevation_floor(),
+        ..PassSearch::new(station.site, from, add_seconds(from, hours * 3600.0))
+    };
+    let mut found = Vec::new();
+    for satellite in satellites {
+        let propagator = Propagator::new(&satellite.elements).unwrap();
+        for pass in passes(&propagator, &search, &|| false) {
+            found.push(candidate(station, satellite, &propagator, &pass, common));
+        }
+    }
+    found
+}
+
+fn candidate(
+    station: &Station,
+    satellite: &Satellite,
+    propagator: &Propagator,
+    pass: &Pass,
+    common: Common<'_>,
+) -> Candidate {
+    let mask = station.horizon_mask.as_ref();
+    let mut sight = Sight::new(propagator, station.site, mask, pass);
+    let (priority, rules) = (satellite.priority, &satellite.rules);
+    let wanted = Wanted { priority, wish: Wish::ByPlan, rules };
+    let number = satellite.elements.catalog_number();
+    let age_s = satellite.elements.age_s(pass.aos.time);
+    Candidate::new(number, age_s, (pass, propagator), wanted, &mut sight, common)
+}
+
+pub(super) fn request<'a>(
+    antennas: &'a [PlannedAntenna],
+    candidates: &'a [Candidate],
+) -> Request<'a> {
+    Request {
+        antennas,
+        candidates,
+        choose_by: ChooseBy::default(),
+        partial: None,
+        previous: None,
+        steadiness: Steadiness::default(),
+        fixed: &[],
+    }
+}
+
+pub(super) fn noon() -> Timestamp {
+    "2026-08-12T12:00:00Z".parse().unwrap()
+}
+
+/// An elevation in degrees.
+pub(super) fn degrees(degrees: f64) -> Angle {
+    Angle::from_degrees(degrees)
 }

@@ -1,0 +1,392 @@
+//! The request as the solver takes it: every way of taking every pass, and what it is worth.
+
+use std::collections::HashMap;
+
+use jiff::tz::TimeZone;
+
+use super::{
+    legs::{Ends, Legs},
+    outcome::Entry,
+    request::{Candidate, Choice, ChooseBy, PassKey, Request, Wish},
+    row::{Class, Row},
+    solve::{Part, Problem, Solution, Take},
+    way::{Lost, Span, Verdict, Way, ms},
+};
+use crate::station::AntennaId;
+
+/// States that the search for the proved best may look at.
+const EFFORT: u64 = 12_000_000;
+/// A fixed entry counts for more than a pass that is to be taken at any price.
+const FIXED: i64 = 1_000;
+
+/// Everything about a take that the solver need not know.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Fact {
+    pub(super) pass: PassKey,
+    pub(super) antenna: AntennaId,
+    pub(super) class: Class,
+    pub(super) worth: i64,
+    pub(super) counted_ms: i64,
+    pub(super) late_ms: i64,
+    pub(super) early_ms: i64,
+    pub(super) lost: Option<Lost>,
+    pub(super) ends_deg: Ends,
+    pub(super) is_fixed: bool,
+}
+
+pub(super) struct Board<'a> {
+    pub(super) request: &'a Request<'a>,
+    pub(super) takes: Vec<Take>,
+    pub(super) facts: Vec<Fact>,
+    pub(super) limits: Vec<u32>,
+    pub(super) legs: Legs<'a>,
+    passes: usize,
+}
+
+/// The whole of a pass on one antenna.
+struct Whole<'a> {
+    candidate: &'a Candidate,
+    pass: usize,
+    antenna: usize,
+    way: &'a Way,
+    /// In all ways of this pass on this antenna.
+    middle_ms: i64,
+}
+
+impl<'a> Board<'a> {
+    /// With `forced`, a pass that is to be taken at any price but that of a fixed entry.
+    pub(super) fn new(request: &'a Request<'a>, forced: Option<PassKey>) -> Self {
+        let fixed_as = |entry: &Entry| {
+            let is_it = |it: &Candidate| {
+                it.key.satellite == entry.pass.satellite
+                    && it.key.aos < entry.to
+                    && entry.from < it.los
+            };
+            request.candidates.iter().position(is_it)
+        };
+        let fixed: Vec<Option<usize>> = request.fixed.iter().map(fixed_as).collect();
+        let limits = Limits::of(request);
+        let mut board = Self {
+            request,
+            takes: Vec::new(),
+            facts: Vec::new(),
+            limits: limits.most.clone(),
+            legs: Legs::new(request.antennas, std::iter::empty()),
+            passes: request.candidates.len() + request.fixed.len(),
+        };
+        for ((entry, pass), extra) in request.fixed.iter().zip(&fixed).zip(0..) {
+            let pass = pass.unwrap_or(request.candidates.len() + extra);
+            board.add_fixed(entry, pass, limits.of_pass.get(pass).copied().flatten());
+        }
+        let wholes: Vec<Whole<'_>> = (0..request.antennas.len())
+            .flat_map(|antenna| wholes(request, antenna))
+            .filter(|whole| !fixed.contains(&Some(whole.pass)))
+            .collect();
+        let kept = Kept::of(request);
+        let crowd = Crowd::of(request, &wholes);
+        for whole in &wholes {
+            let limit = limits.of_pass.get(whole.pass).copied().flatten();
+            for part in board.parts(whole, &crowd) {
+                board.add(whole, part, limit, &kept, forced);
+            }
+        }
+        let mut order: Vec<usize> = (0..board.takes.len()).collect();
+        order.sort_by_key(|index| board.takes.get(*index).map(|it| (it.antenna, it.from_ms)));
+        board.takes = order.iter().filter_map(|at| board.takes.get(*at).copied()).collect();
+        board.facts = order.iter().filter_map(|at| board.facts.get(*at).copied()).collect();
+        let stops = board.takes.iter().zip(&board.facts);
+        let stops = stops.map(|(take, fact)| (*take, fact.ends_deg, fact.is_fixed));
+        board.legs = Legs::new(request.antennas, stops);
+        board
+    }
+
+    pub(super) fn solve(&self) -> Solution {
+        self.problem().solve()
+    }
+
+    fn problem(&self) -> Problem<'_> {
+        Problem {
+            antennas: self.request.antennas.len(),
+            passes: self.passes,
+            takes: &self.takes,
+            limits: &self.limits,
+            slews: &self.legs,
+            effort: EFFORT,
+        }
+    }
+
+    fn add_fixed(&mut self, entry: &Entry, pass: usize, limit: Option<u32>) {
+        let ids = self.request.antennas.iter().map(|antenna| antenna.id);
+        let Some(antenna) = ids.clone().position(|id| id == entry.antenna) else { return };
+        self.takes.push(Take {
+            pass: pass as u32,
+            antenna: antenna as u32,
+            limit,
+            part: Part::Alone,
+            from_ms: ms(entry.from),
+            to_ms: ms(entry.to),
+            row: Row::of(Class::Fixed, FIXED) + Row::of(entry.class, entry.worth),
+        });
+        self.facts.push(Fact {
+            pass: entry.pass,
+            antenna: entry.antenna,
+            class: entry.class,
+            worth: entry.worth,
+            counted_ms: (entry.counted_s * 1000.0) as i64,
+            late_ms: (entry.late_s * 1000.0) as i64,
+            early_ms: (entry.early_s * 1000.0) as i64,
+            lost: entry.lost,
+            ends_deg: entry.axes_deg,
+            is_fixed: true,
+        });
+    }
+
+    /// The whole way, and what remains of it with a later start or an earlier end.
+    fn parts(&self, whole: &Whole<'_>, crowd: &Crowd) -> Vec<(Span, Part)> {
+        let (way, span) = (whole.way, whole.way.span());
+        let mut parts = vec![(span, Part::Alone)];
+        let Some(partial) = self.request.partial else { return parts };
+        let counted_ms = way.counted_ms(span);
+        let least_ms = (counted_ms as f64 * partial.min_share).max(partial.min_s * 1000.0) as i64;
+        let is_enough = |part: Span| way.counted_ms(part) >= least_ms.max(1);
+        let step_ms = ((partial.step_s * 1000.0) as i64).max(1_000);
+        let cuts = |room_ms: i64| (0..=room_ms / step_ms).map(move |step| step * step_ms);
+        // All parts that stand alone hold the millisecond after the middle.
+        let room = (whole.middle_ms - span.from_ms, span.to_ms - whole.middle_ms - 1);
+        let (is_late, is_early) = crowd.around(whole, span, room);
+        let (late, early) = (if is_late { room.0 } else { 0 }, if is_early { room.1 } else { 0 });
+        for late_ms in cuts(late) {
+            let part = |early_ms| Span {
+                from_ms: span.from_ms + late_ms,
+                to_ms: span.to_ms - early_ms,
+            };
+            let cut = cuts(early.max(0)).map(part).take_while(|part| is_enough(*part));
+            parts.extend(cut.filter(|part| *part != span).map(|part| (part, Part::Alone)));
+        }
+        if partial.hand_over && self.request.antennas.len() > 1 {
+            for cut_ms in cuts(span.length_ms() - 1).skip(1) {
+                let middle_ms = span.from_ms + cut_ms;
+                let first = (Span { to_ms: middle_ms, ..span }, Part::First);
+                let second = (Span { from_ms: middle_ms, ..span }, Part::Second);
+                parts.extend([first, second].into_iter().filter(|(part, _)| is_enough(*part)));
+            }
+        }
+        parts
+    }
+
+    fn add(
+        &mut self,
+        whole: &Whole<'_>,
+        (span, part): (Span, Part),
+        limit: Option<u32>,
+        kept: &Kept,
+        forced: Option<PassKey>,
+    ) {
+        let Some(antenna) = self.request.antennas.get(whole.antenna) else { return };
+        let (candidate, way, all) = (whole.candidate, whole.way, whole.way.span());
+        let choose_by = self.request.choose_by;
+        let counted_ms = way.counted_ms(span);
+        let worth = match choose_by {
+            ChooseBy::PriorityThenElevation => {
+                (counted_ms as f64 * candidate.max_elevation.radians().sin()).round() as i64
+            }
+            ChooseBy::PriorityThenDuration | ChooseBy::MostMinutes => counted_ms,
+            ChooseBy::MostPasses => i64::from(part != Part::Second),
+        };
+        let class = match candidate.wish {
+            Wish::Always => Class::Always,
+            Wish::ByPlan | Wish::Never => Class::by_plan(choose_by, candidate.priority),
+        };
+        let mut row = Row::of(class, worth).risen(ms(candidate.key.aos) - kept.epoch_ms);
+        if kept.holds(whole.pass, antenna.id) {
+            let steadiness = self.request.steadiness;
+            let seconds = match choose_by {
+                ChooseBy::MostPasses => 0,
+                _ => i64::from(steadiness.seconds) * 1000,
+            };
+            let bonus = worth * i64::from(steadiness.percent) / 100 + seconds;
+            row = row + Row::of(class, bonus) + Row::of(Class::Kept, 1);
+        }
+        if forced == Some(candidate.key) && part != Part::Second {
+            row += Row::of(Class::Fixed, 1);
+        }
+        self.takes.push(Take {
+            pass: whole.pass as u32,
+            antenna: whole.antenna as u32,
+            limit: limit.filter(|_| part != Part::Second),
+            part,
+            from_ms: span.from_ms,
+            to_ms: span.to_ms,
+            row,
+        });
+        self.facts.push(Fact {
+            pass: candidate.key,
+            antenna: antenna.id,
+            class,
+            worth,
+            counted_ms,
+            late_ms: span.from_ms - all.from_ms,
+            early_ms: all.to_ms - span.to_ms,
+            lost: way.lost,
+            ends_deg: [way.axes_deg(span.from_ms), way.axes_deg(span.to_ms)],
+            is_fixed: false,
+        });
+    }
+}
+
+/// All that an antenna can take as a whole.
+fn wholes<'a>(request: &'a Request<'a>, antenna: usize) -> Vec<Whole<'a>> {
+    let Some(planned) = request.antennas.get(antenna).filter(|it| it.off.is_none()) else {
+        return Vec::new();
+    };
+    let mut found = Vec::new();
+    let candidates = request.candidates.iter().enumerate();
+    for (pass, candidate) in candidates.filter(|(_, it)| it.refusal.is_none()) {
+        let option = candidate.options.iter().find(|(id, _)| *id == planned.id);
+        let Some((_, Choice::Judged(Verdict::Possible(ways)))) = option else { continue };
+        let from_ms = ways.iter().map(|way| way.span().from_ms).max().unwrap_or_default();
+        let to_ms = ways.iter().map(|way| way.span().to_ms).min().unwrap_or_default();
+        let middle_ms = ms(candidate.tca).min(to_ms).max(from_ms);
+        let holds = |way: &&Way| way.span().from_ms <= middle_ms && middle_ms <= way.span().to_ms;
+        for way in ways.iter().filter(holds) {
+            found.push(Whole { candidate, pass, antenna, way, middle_ms });
+        }
+    }
+    found
+}
+
+/// Where other passes come so near that a late start or an early end may be worth it.
+struct Crowd {
+    /// By antenna: pass, start and end, by start.
+    spans: Vec<Vec<(usize, Span)>>,
+    longest_pass_ms: Vec<i64>,
+    /// By antenna: no slew takes longer.
+    reach_ms: Vec<i64>,
+    free_ms: Vec<i64>,
+}
+
+impl Crowd {
+    fn of(request: &Request<'_>, wholes: &[Whole<'_>]) -> Self {
+        let mut spans = vec![Vec::new(); request.antennas.len()];
+        for whole in wholes {
+            if let Some(spans) = spans.get_mut(whole.antenna) {
+                spans.push((whole.pass, whole.way.span()));
+            }
+        }
+        for spans in &mut spans {
+            spans.sort_by_key(|(pass, span): &(usize, Span)| (span.from_ms, *pass));
+        }
+        let longest = |spans: &Vec<(usize, Span)>| {
+            spans.iter().map(|(_, span)| span.length_ms()).max().unwrap_or_default()
+        };
+        let stops = wholes.iter().map(|whole| {
+            let span = whole.way.span();
+            let take = Take {
+                pass: 0,
+                antenna: whole.antenna as u32,
+                limit: None,
+                part: Part::Alone,
+                from_ms: span.from_ms,
+                to_ms: span.to_ms,
+                row: Row::ZERO,
+            };
+            (take, [span.from_ms, span.to_ms].map(|at| whole.way.axes_deg(at)), false)
+        });
+        let legs = Legs::new(request.antennas, stops);
+        let antennas = 0..request.antennas.len();
+        Self {
+            longest_pass_ms: spans.iter().map(longest).collect(),
+            spans,
+            reach_ms: antennas.map(|it| super::solve::Slews::longest_ms(&legs, it)).collect(),
+            free_ms: request.antennas.iter().map(|antenna| ms(antenna.free_from)).collect(),
+        }
+    }
+
+    /// Whether another pass may need the first or the last part of `span`, of which `room` may be
+    /// given up at the start and at the end.
+    fn around(&self, whole: &Whole<'_>, span: Span, room: (i64, i64)) -> (bool, bool) {
+        let of = |list: &[i64]| list.get(whole.antenna).copied().unwrap_or_default();
+        let reach_ms = of(&self.reach_ms);
+        let Some(spans) = self.spans.get(whole.antenna) else { return (false, false) };
+        let earliest_ms = span.from_ms - reach_ms - of(&self.longest_pass_ms);
+        let first = spans.partition_point(|(_, other)| other.from_ms < earliest_ms);
+        let near = spans.get(first..).unwrap_or_default().iter();
+        let near = near.take_while(|(_, other)| other.from_ms < span.to_ms + reach_ms);
+        let near = near.filter(|(pass, _)| *pass != whole.pass);
+        let mut is_late = of(&self.free_ms) + reach_ms > span.from_ms;
+        let mut is_early = false;
+        for (_, other) in near {
+            is_late |= other.from_ms < span.from_ms + room.0
+                && other.to_ms + reach_ms > span.from_ms;
+            is_early |= other.to_ms > span.to_ms - room.1
+                && other.from_ms < span.to_ms + reach_ms;
+        }
+        (is_late, is_early)
+    }
+}
+
+/// Limits of passes a day that can be reached at all.
+struct Limits {
+    most: Vec<u32>,
+    of_pass: Vec<Option<u32>>,
+}
+
+impl Limits {
+    fn of(request: &Request<'_>) -> Self {
+        let day = |it: &Candidate| {
+            (it.key.satellite, it.key.aos.to_zoned(TimeZone::UTC).date())
+        };
+        let mut counts = HashMap::new();
+        let limited = |it: &&Candidate| it.refusal.is_none() && it.max_a_day.is_some();
+        for candidate in request.candidates.iter().filter(limited) {
+            *counts.entry(day(candidate)).or_insert(0_u32) += 1;
+        }
+        let mut indices = HashMap::new();
+        let mut most = Vec::new();
+        let of_pass = request.candidates.iter().map(|candidate| {
+            let max = candidate.max_a_day.filter(|_| candidate.refusal.is_none())?;
+            let day = day(candidate);
+            if counts.get(&day).is_none_or(|count| *count <= max) {
+                return None;
+            }
+            let index = indices.entry(day).or_insert_with(|| {
+                most.push(max);
+                most.len() as u32 - 1
+            });
+            Some(*index)
+        });
+        let of_pass = of_pass.collect();
+        Self { most, of_pass }
+    }
+}
+
+/// What the previous schedule took.
+struct Kept {
+    /// Index of the pass, and the antenna.
+    taken: Vec<(usize, AntennaId)>,
+    /// From which the times of AOS are counted.
+    epoch_ms: i64,
+}
+
+impl Kept {
+    fn of(request: &Request<'_>) -> Self {
+        let mut by_satellite: HashMap<u32, Vec<(usize, &Candidate)>> = HashMap::new();
+        for (index, candidate) in request.candidates.iter().enumerate() {
+            by_satellite.entry(candidate.key.satellite).or_default().push((index, candidate));
+        }
+        let previous = request.previous.iter().flat_map(|schedule| &schedule.entries);
+        let taken = previous.filter_map(|entry| {
+            let own = by_satellite.get(&entry.pass.satellite)?;
+            let same = own.iter().find(|(_, it)| it.key.aos < entry.to && entry.from < it.los)?;
+            Some((same.0, entry.antenna))
+        });
+        let mut taken: Vec<_> = taken.collect();
+        taken.sort_unstable();
+        let first = request.candidates.iter().map(|candidate| ms(candidate.key.aos)).min();
+        Self { taken, epoch_ms: first.unwrap_or_default() }
+    }
+
+    fn holds(&self, pass: usize, antenna: AntennaId) -> bool {
+        self.taken.binary_search(&(pass, antenna)).is_ok()
+    }
+}

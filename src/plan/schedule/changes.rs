@@ -1,0 +1,97 @@
+//! What changed from one schedule to the next, and why.
+
+use jiff::Timestamp;
+use serde::{Deserialize, Serialize};
+
+use super::{
+    outcome::{Entry, Schedule, Why},
+    request::PassKey,
+};
+use crate::station::AntennaId;
+
+/// Entries that begin or end later by less are the same.
+const SAME_S: f64 = 1.0;
+
+/// A change of one pass.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Change {
+    /// As in the new schedule, where it is still there.
+    pub pass: PassKey,
+    pub changed: Changed,
+    pub cause: Cause,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Changed {
+    Added { antenna: AntennaId },
+    Dropped { antenna: AntennaId },
+    Moved { from: AntennaId, to: AntennaId },
+    /// It starts later and ends earlier by so many seconds; less than 0 for the other way.
+    Cut { late_s: f64, early_s: f64 },
+}
+
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Cause {
+    /// The pass was not there before.
+    NewPass,
+    /// The pass is not predicted any more.
+    Gone,
+    /// The pass is left out now.
+    LeftOut(Why),
+    /// The schedule is worth more this way.
+    Better,
+}
+
+/// What changed from `before` to `after`, from `from` on, in the order of `after`, then of
+/// `before`. A pass is the same if it is of the same satellite and its span has something in
+/// common.
+pub fn changes(before: &Schedule, after: &Schedule, from: Timestamp) -> Vec<Change> {
+    let ahead = |entry: &&Entry| entry.to > from;
+    let old: Vec<&Entry> = before.entries.iter().filter(ahead).collect();
+    let new: Vec<&Entry> = after.entries.iter().filter(ahead).collect();
+    let mut found = Vec::new();
+    for entry in &new {
+        let same: Vec<&&Entry> = old.iter().filter(|it| is_same(it, entry)).collect();
+        let changed = if same.is_empty() {
+            Some(Changed::Added { antenna: entry.antenna })
+        } else if let Some(it) = same.iter().find(|it| it.antenna == entry.antenna) {
+            let (late_s, early_s) = (entry.late_s - it.late_s, entry.early_s - it.early_s);
+            let is_cut = late_s.abs() > SAME_S || early_s.abs() > SAME_S;
+            is_cut.then_some(Changed::Cut { late_s, early_s })
+        } else {
+            let (from, to) = (same.first().map(|it| it.antenna), entry.antenna);
+            from.map(|from| Changed::Moved { from, to })
+        };
+        let was_known = before.left_out.iter().any(|it| is_near(it.pass, entry));
+        let is_new = same.is_empty() && !was_known;
+        let cause = if is_new { Cause::NewPass } else { Cause::Better };
+        let of = |changed| Change { pass: entry.pass, changed, cause };
+        found.extend(changed.map(of));
+    }
+    for entry in &old {
+        if new.iter().any(|it| is_same(it, entry)) {
+            continue;
+        }
+        let left_out = after.left_out.iter().find(|it| is_near(it.pass, entry));
+        let cause = left_out.map_or(Cause::Gone, |it| Cause::LeftOut(it.why.clone()));
+        let pass = left_out.map_or(entry.pass, |it| it.pass);
+        let changed = Changed::Dropped { antenna: entry.antenna };
+        found.push(Change { pass, changed, cause });
+    }
+    found
+}
+
+fn is_same(a: &Entry, b: &Entry) -> bool {
+    a.pass.satellite == b.pass.satellite
+        && (a.pass == b.pass || (a.from < b.to && b.from < a.to))
+}
+
+/// Half of the shortest revolution, seconds: passes of a satellite are further apart.
+const HALF_REVOLUTION_S: f64 = 2_600.0;
+
+fn is_near(pass: PassKey, entry: &Entry) -> bool {
+    let apart_s = crate::astro::time::seconds_between(pass.aos, entry.pass.aos).abs();
+    pass.satellite == entry.pass.satellite && apart_s < HALF_REVOLUTION_S
+}

@@ -1,0 +1,132 @@
+//! What a schedule says.
+
+use jiff::Timestamp;
+use serde::{Deserialize, Serialize};
+
+use super::{
+    request::{Off, PassKey, Refusal},
+    row::Class,
+    way::{Impossible, Lost},
+};
+use crate::station::AntennaId;
+
+/// The passes that all antennas will take, and those that none will.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
+pub struct Schedule {
+    /// By start, then by antenna.
+    pub entries: Vec<Entry>,
+    /// By AOS.
+    pub left_out: Vec<LeftOut>,
+    /// What the entries are worth, class by class, and what is proved about it.
+    pub worth: Vec<ClassWorth>,
+    /// Seconds that the antennas slew.
+    pub slew_s: f64,
+}
+
+/// A pass that an antenna will take.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Entry {
+    pub pass: PassKey,
+    pub antenna: AntennaId,
+    pub class: Class,
+    /// The axes stand at the start of the track.
+    pub from: Timestamp,
+    pub to: Timestamp,
+    /// Seconds by which it starts late and ends early of what the antenna could take.
+    pub late_s: f64,
+    pub early_s: f64,
+    /// Seconds that count.
+    pub counted_s: f64,
+    /// What it adds to its class.
+    pub worth: i64,
+    /// What the mount loses of the pass.
+    pub lost: Option<Lost>,
+    /// Where the axes stand at the start and at the end, degrees as the mount counts: they tell
+    /// the turn of the azimuth and the side of the zenith.
+    pub axes_deg: [[f64; 2]; 2],
+    /// The entry before on the same antenna.
+    pub after: Option<PassKey>,
+    /// Time that the axes turn before the entry, by way of the park position where they go there.
+    pub slew_s: f64,
+    pub set_up_s: f64,
+    /// Time that is left between the entry before and this one; `None` for a first entry of which
+    /// nothing is known before.
+    pub spare_s: Option<f64>,
+    /// The antenna that takes the other part of a pass that is handed over.
+    pub shared_with: Option<AntennaId>,
+    pub is_fixed: bool,
+}
+
+/// A pass that no antenna will take.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct LeftOut {
+    pub pass: PassKey,
+    pub why: Why,
+    /// What stands against it on each antenna.
+    pub by_antenna: Vec<(AntennaId, Why)>,
+}
+
+/// Why a pass is left out.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Why {
+    Refused(Refusal),
+    Impossible(Impossible),
+    Off(Off),
+    /// The rules of the satellite leave out this antenna.
+    OtherAntennas,
+    /// The antenna takes other passes at this time.
+    Overlaps(Conflict),
+    /// The antenna cannot be there in time after a pass, or in time for the next one.
+    SlewTooShort(Conflict),
+    /// The antenna cannot be there in time from where it stands.
+    TooFar,
+    /// As many passes of the satellite are taken on this day as may be.
+    MaxADay(u32),
+    /// Beside the schedule it would be possible; the better schedule was not found.
+    NotFound,
+}
+
+/// What a pass lost against.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Conflict {
+    pub with: PassKey,
+    pub class: Class,
+    /// Seconds that are missing.
+    pub missing_s: f64,
+    /// Further entries that are in the way.
+    pub others: Vec<PassKey>,
+}
+
+/// What the entries of a class are worth.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+pub struct ClassWorth {
+    pub class: Class,
+    /// Milliseconds, or passes where the rule counts them.
+    pub worth: i64,
+    pub proof: Proof,
+}
+
+/// How good a class is known to be.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Proof {
+    /// No schedule with the same classes before is worth more.
+    Best,
+    /// None is worth more than this.
+    AtMost(i64),
+    /// Nothing is known, because a class before is not proved to be the best.
+    Open,
+}
+
+impl Schedule {
+    /// The entries of a pass, two where it is handed over.
+    pub fn entries_of(&self, pass: PassKey) -> impl Iterator<Item = &Entry> {
+        self.entries.iter().filter(move |entry| entry.pass == pass)
+    }
+
+    /// Returns `true` if no schedule is worth more in any class.
+    pub fn is_proved(&self) -> bool {
+        self.worth.iter().all(|class| class.proof == Proof::Best)
+    }
+}

@@ -1,0 +1,161 @@
+//! Why a pass is left out.
+
+use super::{
+    board::{Board, Fact},
+    outcome::{Conflict, LeftOut, Why},
+    request::{Candidate, Choice, PlannedAntenna},
+    solve::{Part, Slews as _, Solution, Take},
+    way::Verdict,
+};
+
+impl Board<'_> {
+    pub(super) fn left_out(&self, solution: &Solution) -> Vec<LeftOut> {
+        let mut is_taken = vec![false; self.request.candidates.len()];
+        for take in solution.takes.iter().flatten().filter_map(|take| self.takes.get(*take as usize)) {
+            if let Some(is_taken) = is_taken.get_mut(take.pass as usize) {
+                *is_taken = true;
+            }
+        }
+        let wholes = self.wholes();
+        let left = self.request.candidates.iter().zip(&is_taken).zip(&wholes);
+        let left = left.filter(|((_, is_taken), _)| !**is_taken);
+        let mut left: Vec<LeftOut> =
+            left.map(|((candidate, _), own)| self.why(candidate, own, solution)).collect();
+        left.sort_by_key(|left| left.pass);
+        left.sort_by_key(|left| left.pass.aos);
+        left
+    }
+
+    /// The whole takes of each candidate.
+    fn wholes(&self) -> Vec<Vec<u32>> {
+        let mut wholes = vec![Vec::new(); self.request.candidates.len()];
+        for ((take, fact), index) in self.takes.iter().zip(&self.facts).zip(0..) {
+            let is_whole = take.part == Part::Alone && fact.late_ms == 0 && fact.early_ms == 0;
+            if let Some(own) = wholes.get_mut(take.pass as usize).filter(|_| is_whole) {
+                own.push(index);
+            }
+        }
+        wholes
+    }
+
+    fn why(&self, candidate: &Candidate, wholes: &[u32], solution: &Solution) -> LeftOut {
+        let on = |(index, antenna): (usize, &PlannedAntenna)| {
+            (antenna.id, self.why_not_on(index, antenna, candidate, wholes, solution))
+        };
+        let by_antenna: Vec<_> = match candidate.options.is_empty() {
+            true => Vec::new(),
+            false => self.request.antennas.iter().enumerate().map(on).collect(),
+        };
+        let all_impossible = by_antenna.iter().all(|(_, why)| matches!(why, Why::Impossible(_)));
+        let nearest = by_antenna.iter().map(|(_, why)| why).min_by_key(|why| distance(why));
+        let why = match (candidate.refusal, nearest) {
+            // What no mount can do is said before the age of the elements and the rules.
+            (Some(_), Some(nearest)) if all_impossible => nearest.clone(),
+            (Some(refusal), _) => Why::Refused(refusal),
+            (None, Some(nearest)) => nearest.clone(),
+            (None, None) => Why::NotFound,
+        };
+        LeftOut { pass: candidate.key, why, by_antenna }
+    }
+
+    fn why_not_on(
+        &self,
+        index: usize,
+        antenna: &PlannedAntenna,
+        candidate: &Candidate,
+        wholes: &[u32],
+        solution: &Solution,
+    ) -> Why {
+        let option = candidate.options.iter().find(|(id, _)| *id == antenna.id);
+        match option {
+            Some((_, Choice::Judged(Verdict::Impossible(why)))) => {
+                return Why::Impossible(why.clone());
+            }
+            Some((_, Choice::AgainstRule)) | None => return Why::OtherAntennas,
+            Some((_, Choice::Judged(Verdict::Possible(_)))) => {}
+        }
+        if let Some(off) = antenna.off {
+            return Why::Off(off);
+        }
+        if let Some(refusal) = candidate.refusal {
+            return Why::Refused(refusal);
+        }
+        let own = wholes.iter().filter(|take| self.is_on(**take, index));
+        let entries = solution.takes.get(index).map(Vec::as_slice).unwrap_or_default();
+        let whys = own.map(|take| self.in_the_way(*take, entries));
+        let in_the_way = whys.min_by_key(|why| why.as_ref().map_or((0, 0), distance));
+        if let Some(Some(in_the_way)) = in_the_way {
+            return in_the_way;
+        }
+        let limit = wholes.iter().find_map(|take| self.takes.get(*take as usize)?.limit);
+        let most = limit.and_then(|limit| self.limits.get(limit as usize));
+        most.map_or(Why::NotFound, |most| Why::MaxADay(*most))
+    }
+
+    fn is_on(&self, take: u32, antenna: usize) -> bool {
+        self.takes.get(take as usize).is_some_and(|take| take.antenna as usize == antenna)
+    }
+
+    /// What hinders one more take among `entries`.
+    fn in_the_way(&self, take: u32, entries: &[u32]) -> Option<Why> {
+        let (it, _) = self.at(take)?;
+        let mut overlaps: Vec<(i64, Fact)> = Vec::new();
+        let mut too_short: Vec<(i64, Fact)> = Vec::new();
+        for entry in entries {
+            let Some((other, fact)) = self.at(*entry) else { continue };
+            let common_ms = other.to_ms.min(it.to_ms) - other.from_ms.max(it.from_ms);
+            if common_ms > 0 {
+                overlaps.push((common_ms, *fact));
+                continue;
+            }
+            let missing_ms = self.missing_ms((*entry, other), (take, it));
+            if missing_ms > 0 {
+                too_short.push((missing_ms, *fact));
+            }
+        }
+        if let Some(conflict) = conflict(overlaps, &too_short) {
+            return Some(Why::Overlaps(conflict));
+        }
+        if let Some(conflict) = conflict(too_short, &[]) {
+            return Some(Why::SlewTooShort(conflict));
+        }
+        let is_first = entries.iter().filter_map(|entry| self.takes.get(*entry as usize));
+        let is_first = is_first.into_iter().all(|other| other.from_ms >= it.to_ms);
+        (is_first && self.legs.first_ms(take as usize).is_none()).then_some(Why::TooFar)
+    }
+
+    fn missing_ms(&self, a: (u32, &Take), b: (u32, &Take)) -> i64 {
+        let (before, after) = if a.1.to_ms <= b.1.from_ms { (a, b) } else { (b, a) };
+        let needs_ms = self.legs.between(before.0 as usize, after.0 as usize).needs_ms;
+        before.1.to_ms + needs_ms - after.1.from_ms
+    }
+}
+
+/// The conflict with the entry of the highest class, and of those the one by most seconds.
+fn conflict(mut found: Vec<(i64, Fact)>, besides: &[(i64, Fact)]) -> Option<Conflict> {
+    found.sort_by_key(|(missing_ms, fact)| (fact.class, -missing_ms));
+    let (missing_ms, with) = found.first()?;
+    let others = found.iter().skip(1).chain(besides).map(|(_, fact)| fact.pass);
+    Some(Conflict {
+        with: with.pass,
+        class: with.class,
+        missing_s: *missing_ms as f64 / 1000.0,
+        others: others.collect(),
+    })
+}
+
+/// How far a pass was from being taken.
+fn distance(why: &Why) -> (u8, i64) {
+    let ms = |conflict: &Conflict| (conflict.missing_s * 1000.0) as i64;
+    match why {
+        Why::NotFound => (0, 0),
+        Why::MaxADay(_) => (1, 0),
+        Why::SlewTooShort(conflict) => (2, ms(conflict)),
+        Why::Overlaps(conflict) => (3, ms(conflict)),
+        Why::TooFar => (4, 0),
+        Why::Refused(_) => (5, 0),
+        Why::Off(_) => (6, 0),
+        Why::OtherAntennas => (7, 0),
+        Why::Impossible(_) => (8, 0),
+    }
+}
