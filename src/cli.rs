@@ -56,6 +56,9 @@ enum Command {
     /// Tell how the antennas of the Azel that has the station open are
     #[cfg(unix)]
     Status(remote::StatusOptions),
+    /// Switch automatic operation of an antenna of the Azel that has the station open
+    #[cfg(unix)]
+    Automatic(remote::AutomaticOptions),
     /// Lock out an antenna of the Azel that has the station open
     #[cfg(unix)]
     LockOut(remote::LockOutOptions),
@@ -122,6 +125,8 @@ impl Cli {
             Some(Command::Stop(options)) => return remote::stop(self.station, &options),
             #[cfg(unix)]
             Some(Command::Status(options)) => return remote::status(self.station, &options),
+            #[cfg(unix)]
+            Some(Command::Automatic(options)) => return remote::automatic(self.station, &options),
             #[cfg(unix)]
             Some(Command::LockOut(options)) => return remote::lock_out(self.station, &options),
             #[cfg(unix)]

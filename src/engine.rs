@@ -4,6 +4,7 @@
 
 pub mod alarms;
 pub mod antenna;
+pub mod automatic;
 mod carry_out;
 pub mod claim;
 mod claims;
@@ -23,6 +24,7 @@ mod opening;
 mod owed;
 pub mod passes;
 pub mod reminders;
+pub mod schedule;
 pub mod signals;
 mod snapshot;
 #[cfg(unix)]
@@ -50,6 +52,7 @@ use tokio::sync::{Notify, mpsc, watch};
 use self::{
     alarms::{AlarmKind, Alarms},
     antenna::AntennaModel,
+    automatic::{AtWork, DayLine, LastRun},
     claim::{Claim, Claims, HeldBy, HolderKind},
     clock_watch::ClockWatch,
     closing::Closing,
@@ -60,6 +63,7 @@ use self::{
     older_sets::OlderSets,
     passes::{PassLists, Searches},
     reminders::Reminder,
+    schedule::{Planned, Scheduler},
     source_tests::SourceTests,
     sources::{Outcome, Places, SourceWork, Sources, Task},
     uploads::Uploads,
@@ -140,6 +144,11 @@ struct Engine {
     searches: Searches,
     pass_lists: PassLists,
     reminders: Vec<Reminder>,
+    scheduler: Scheduler,
+    schedule: Arc<Planned>,
+    /// What became of the passes of this day, and of automatic operation.
+    day: Vec<DayLine>,
+    last_run: LastRun,
     uploads: Uploads,
     source_tests: SourceTests,
     link_tests: Vec<LinkTest>,
@@ -192,6 +201,7 @@ struct Antenna {
     /// Tells sessions of the same antenna apart.
     session: u64,
     handle: AntennaHandle,
+    at_work: AtWork,
 }
 
 /// Claim on the station file.
@@ -266,6 +276,10 @@ impl Engine {
             searches: Searches::default(),
             pass_lists: PassLists::default(),
             reminders: Vec::new(),
+            scheduler: Scheduler::default(),
+            schedule: Arc::default(),
+            day: Vec::new(),
+            last_run: LastRun::default(),
             uploads: Uploads::default(),
             source_tests: SourceTests::default(),
             link_tests: Vec::new(),
@@ -303,6 +317,7 @@ impl Engine {
         engine.take_claims(settings.claims.clone());
         engine.load_lock_outs();
         engine.load_station();
+        engine.start_automatic();
         engine.publish();
         Ok((engine, client))
     }
@@ -359,6 +374,7 @@ impl Engine {
             (self.outbox.wake)();
         }
         self.take_urgent();
+        self.end_automatic();
     }
 
     /// Handles items that must not wait behind requests.
@@ -415,6 +431,8 @@ impl Engine {
             antennas: self.antennas.iter().map(|antenna| antenna.shown.clone()).collect(),
             pass_lists: self.pass_lists.clone(),
             reminders: shared(&self.reminders, &last.reminders),
+            schedule: Arc::clone(&self.schedule),
+            day: shared(&self.day, &last.day),
             older_sets: self.older_sets.clone(),
             uploads: shared(&self.uploads, &last.uploads),
             source_tests: shared(&self.source_tests, &last.source_tests),

@@ -48,7 +48,17 @@ pub use watch::{DEFAULT_RESUME_AFTER_S, DEFAULT_SWAY_DEG, Monitor, OnClose, Resu
 
 use serde::{Serialize, Serializer};
 
-use crate::astro::{Angle, HorizonMask, Site};
+use jiff::Timestamp;
+
+use crate::astro::{
+    Angle, HorizonMask, Site,
+    time::{DAY_S, seconds_between},
+};
+
+/// Largest difference in TCA of one pass by older and newer elements, seconds.
+const SAME_PASS_S: f64 = 300.0;
+/// How long the choice of a pass that is over is kept, seconds.
+const CHOICE_KEPT_S: f64 = DAY_S;
 
 /// Site, antennas and settings of a ground station.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -130,6 +140,34 @@ impl Station {
     pub fn pass_limits(&self, satellite: u32) -> PassLimits {
         let own = self.favourites.get(satellite).map(|of| of.limits.clone()).unwrap_or_default();
         self.groups_of(satellite).fold(own, |limits, group| limits.or(&group.limits))
+    }
+
+    /// What the operator has said of the pass of a satellite that goes on from `aos` to `los`.
+    pub fn pass_choice(
+        &self,
+        satellite: u32,
+        (aos, los): (Timestamp, Timestamp),
+    ) -> Option<&PassChoice> {
+        let mut choices = self.pass_choices.iter().rev();
+        choices.find(|choice| choice.satellite == satellite && (aos..=los).contains(&choice.tca))
+    }
+
+    /// Chooses a pass for the schedule or against it, in place of what was said of it before.
+    /// Choices of passes that are long over go.
+    pub fn choose_pass(
+        &mut self,
+        satellite: u32,
+        tca: Timestamp,
+        take: Option<Take>,
+        now: Timestamp,
+    ) {
+        let apart_s = |choice: &PassChoice| seconds_between(choice.tca, tca).abs();
+        self.pass_choices.retain(|choice| {
+            let is_same = choice.satellite == satellite && apart_s(choice) < SAME_PASS_S;
+            !is_same && seconds_between(choice.tca, now) < CHOICE_KEPT_S
+        });
+        let choice = take.map(|take| PassChoice { satellite, tca, take, chosen_at: now });
+        self.pass_choices.extend(choice);
     }
 
     /// The groups that a satellite is in, in their order.

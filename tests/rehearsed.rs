@@ -1,183 +1,24 @@
 //! Whole stations in memory: simulators instead of units and a clock for each station,
 //! side by side in one process.
 
-use std::{
-    num::NonZeroU32,
-    sync::{Arc, mpsc},
-    thread,
-    time::{Duration, Instant},
-};
+mod automatic;
+mod scene;
+
+use std::{num::NonZeroU32, thread};
 
 use azel::{
     astro::time::seconds_between,
     cli::serve::{Ended, Wake, until_the_end},
-    clock::Clock,
-    driver::{self, Dial, Outside, Stream},
-    engine::{
-        Client, Command, Handle, Settings, Snapshot,
-        alarms::AlarmKind,
-        status::{AntennaStatus, LinkStatus},
-    },
+    driver,
+    engine::{Client, Command, Snapshot, alarms::AlarmKind, status::LinkStatus},
     orbit::{PassSearch, Propagator, bundled, passes},
     plan::{ProgramTrack, Target},
     sim::{rc2000c, rotator_genius, satrak},
-    station::{self, Antenna, AntennaId, Notices, Station},
+    station::{Notices, Station},
 };
-use jiff::{Timestamp, ToSpan as _};
+use jiff::ToSpan as _;
 
-/// Longer than any step here takes, in real time.
-const PATIENCE: Duration = Duration::from_mins(1);
-/// Interval of looks, in real time.
-const LOOK: Duration = Duration::from_millis(20);
-/// Speed, in multiples of real time.
-const FAST: NonZeroU32 = NonZeroU32::new(200).unwrap();
-
-fn start() -> Timestamp {
-    "2026-08-12T11:15:30Z".parse().unwrap()
-}
-
-/// One unit of each make in memory.
-#[derive(Clone)]
-struct Units {
-    dish: satrak::Control,
-    mast: rotator_genius::Control,
-    horn: rc2000c::Control,
-}
-
-impl Units {
-    fn new(clock: &Clock, start: Timestamp) -> Self {
-        let pair = rotator_genius::Options {
-            rotators: [
-                rotator_genius::RotatorOptions::default(),
-                rotator_genius::RotatorOptions::elevation(),
-            ],
-            ..rotator_genius::Options::default()
-        };
-        let options = satrak::Options::new(Station::default().site, start);
-        Self {
-            dish: satrak::Control::on_clock(&options, clock.clone()),
-            mast: rotator_genius::Control::on_clock(&pair, clock.clone()),
-            horn: rc2000c::Control::on_clock(&rc2000c::Options::default(), clock.clone()),
-        }
-    }
-
-    fn dial(&self, antenna: &Antenna) -> Dial {
-        let (units, name) = (self.clone(), antenna.name.clone());
-        Box::new(move || {
-            let (near, far) = tokio::io::duplex(4096);
-            let (units, name) = (units.clone(), name.clone());
-            tokio::spawn(async move {
-                match &*name {
-                    "Dish" => units.dish.serve(far).await,
-                    "Mast" => units.mast.serve(far).await,
-                    _ => units.horn.serve(far).await,
-                }
-            });
-            Box::pin(async { Ok(Box::new(near) as Box<dyn Stream>) })
-        })
-    }
-
-    fn all_stand(&self) -> bool {
-        let mast = self.mast.state().rotators;
-        !self.dish.state().is_moving
-            && !mast.iter().any(|rotator| rotator.is_turning)
-            && !self.horn.state().is_turning
-    }
-}
-
-/// A station in memory.
-struct Scene {
-    units: Units,
-    station: Handle,
-    end: mpsc::SyncSender<Wake>,
-    woken: mpsc::Receiver<Wake>,
-    _folder: tempfile::TempDir,
-}
-
-impl Scene {
-    fn at_speed(speed: NonZeroU32) -> Self {
-        Self::with(start(), speed, Notices::default())
-    }
-
-    fn with(start: Timestamp, speed: NonZeroU32, notices: Notices) -> Self {
-        let clock = Clock::at_speed(start, speed);
-        let units = Units::new(&clock, start);
-        let station = Station {
-            antennas: vec![
-                Antenna::satrak("Dish", "dish:1"),
-                Antenna::genius("Mast", "mast:1"),
-                Antenna::rc2000c("Horn", "horn:1"),
-            ],
-            notices,
-            ..Station::default()
-        };
-        let folder = tempfile::tempdir().unwrap();
-        let path = folder.path().join("station.toml");
-        station::save(&station, &path).unwrap();
-        let settings = Settings {
-            path: Some(path),
-            library: Some(folder.path().join("elements")),
-            ..Settings::default()
-        };
-        let dialled = units.clone();
-        let outside =
-            Outside { clock, dial: Arc::new(move |antenna: &Antenna| dialled.dial(antenna)) };
-        let (end, woken) = mpsc::sync_channel(1);
-        let by_station = end.clone();
-        let wake = Arc::new(move || {
-            let _ = by_station.try_send(Wake::Station);
-        });
-        let station = Handle::start(settings, outside, wake).unwrap();
-        Self { units, station, end, woken, _folder: folder }
-    }
-
-    fn client(&self) -> Client {
-        self.station.client().clone()
-    }
-}
-
-fn until<T>(what: &str, mut found: impl FnMut() -> Option<T>) -> T {
-    let end = Instant::now() + PATIENCE;
-    loop {
-        if let Some(found) = found() {
-            return found;
-        }
-        assert!(Instant::now() < end, "waited too long for {what}");
-        thread::sleep(LOOK);
-    }
-}
-
-fn antenna(client: &Client, name: &str) -> Option<(AntennaId, AntennaStatus)> {
-    let snapshot = client.snapshot();
-    let antenna = snapshot.antennas.iter().find(|antenna| antenna.config.name == name)?;
-    Some((antenna.id(), AntennaStatus::of(antenna)))
-}
-
-/// Waits until the antenna has been measured; connects an RC2000C for it.
-fn measured(client: &Client, name: &str) -> AntennaId {
-    until(name, || {
-        let (id, status) = antenna(client, name)?;
-        if status.link == LinkStatus::Off {
-            let _ = client.send(Command::Antenna(id, driver::Command::Connect));
-        }
-        status.measured_at.map(|_| id)
-    })
-}
-
-fn passed_s(client: &Client) -> f64 {
-    seconds_between(start(), client.now().utc)
-}
-
-/// Sends `command` until the antenna is seen to move: at this speed a busy computer may
-/// act on it too late.
-fn move_by(client: &Client, name: &str, command: &driver::Command) {
-    let id = measured(client, name);
-    until("motion", || {
-        let _ = client.send(Command::Antenna(id, command.clone()));
-        let moves = antenna(client, name)?.1.moves;
-        (moves == Some(true)).then_some(())
-    });
-}
+use scene::{FAST, Scene, Units, antenna, measured, move_by, passed_s, start, until};
 
 #[test]
 fn two_stations_live_in_one_process_one_of_them_at_200_times_real_time() {
@@ -216,7 +57,8 @@ fn a_marked_pass_is_reminded_of_and_its_alarm_ends_when_an_antenna_takes_it() {
     };
     let aos = passes(&propagator, &search, &|| false)[0].aos.time;
     let notices = Notices { reminder_min: 10.0, reminders: [ISS].into(), ..Notices::default() };
-    let scene = Scene::with(aos - 5.minutes(), NonZeroU32::new(30).unwrap(), notices);
+    let station = Station { notices, ..scene::station() };
+    let scene = Scene::with(aos - 5.minutes(), NonZeroU32::new(30).unwrap(), &station);
     let client = scene.client();
     let is_raised = || {
         let snapshot = client.snapshot();
@@ -253,6 +95,7 @@ fn write_down(mut client: Client) -> usize {
             let of = (
                 (&of.at, &of.time_sync, &of.station, &of.sources),
                 (&of.antennas, &of.alarms, &of.reminders),
+                (&of.schedule, &of.day),
             );
             format!("{of:?}")
         };

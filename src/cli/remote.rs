@@ -7,7 +7,7 @@ use std::{
 };
 
 use anyhow::{Context as _, anyhow, bail};
-use clap::{Args, builder::NonEmptyStringValueParser};
+use clap::{Args, ValueEnum, builder::NonEmptyStringValueParser};
 use jiff::Timestamp;
 
 use crate::{
@@ -15,7 +15,7 @@ use crate::{
         Settings,
         claim::{claims_folder, socket_path},
         socket::{self, Answer, Ask},
-        status::AntennaStatus,
+        status::{AntennaStatus, AutomaticStatus},
     },
     station::LockOut,
 };
@@ -35,6 +35,23 @@ pub(super) struct StatusOptions {
     /// Write JSON
     #[arg(long)]
     json: bool,
+}
+
+#[derive(Debug, Args)]
+pub(super) struct AutomaticOptions {
+    #[arg(value_enum)]
+    switch: Switch,
+    /// Antenna, by its name
+    #[arg(long, value_name = "NAME")]
+    antenna: String,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum Switch {
+    /// The antenna takes the passes of its schedule by itself
+    On,
+    /// It takes no more of them; a pass under way goes on
+    Off,
 }
 
 #[derive(Debug, Args)]
@@ -99,11 +116,32 @@ fn sentence(antenna: &AntennaStatus) -> String {
         antenna.measured_at.map(|at| format!("measured {:.1} s ago", age(at))),
         antenna.moves.map(|moves| if moves { "moves" } else { "stands" }.to_owned()),
         antenna.tracks.as_ref().map(|name| format!("tracks {name}")),
+        match antenna.automatic {
+            AutomaticStatus::Off => None,
+            AutomaticStatus::On => Some("automatic".to_owned()),
+            AutomaticStatus::Suspended => Some("automatic operation suspended".to_owned()),
+        },
         antenna.owes_stop.then(|| "STOP IS NOT PROVED".to_owned()),
         antenna.locked_out.as_ref().map(|by| format!("locked out by {by}")),
     ];
     let parts: Vec<String> = parts.into_iter().flatten().collect();
     format!("{}: {}", antenna.antenna, parts.join(", "))
+}
+
+pub(super) fn automatic(
+    station: Option<PathBuf>,
+    options: &AutomaticOptions,
+) -> anyhow::Result<ExitCode> {
+    let antenna = options.antenna.clone();
+    let is_on = options.switch == Switch::On;
+    match ask(station, &Ask::Automatic { antenna: antenna.clone(), is_on })? {
+        Answer::Automatic => {
+            let word = if is_on { "on" } else { "off" };
+            say(&format!("Automatic operation of {antenna} is {word}."))?;
+            Ok(ExitCode::SUCCESS)
+        }
+        other => Err(unexpected(other)),
+    }
 }
 
 pub(super) fn lock_out(

@@ -15,7 +15,12 @@ use jiff::Timestamp;
 use serde::{Deserialize, Serialize};
 
 use super::{
-    claim::HeldBy, on_board::Judged, passes::ListedSatellite, track_again::TrackAgain, written,
+    automatic::{OffBecause, Operation},
+    claim::HeldBy,
+    on_board::Judged,
+    passes::ListedSatellite,
+    track_again::TrackAgain,
+    written,
 };
 use crate::{
     astro::{Angle, AzEl, Site, time::seconds_between},
@@ -74,6 +79,8 @@ pub struct AntennaModel {
     pub asks_unseen: Option<Act>,
     /// The other Azel of this machine that drives its unit.
     pub held_by: Option<HeldBy>,
+    /// Automatic operation.
+    pub operation: Operation,
     /// Orbit by which its session judges on-board track.
     pub orbit: Option<Arc<KnownOrbit>>,
     recent: VecDeque<Measured>,
@@ -99,6 +106,7 @@ impl AntennaModel {
             asks_unguarded: false,
             asks_unseen: None,
             held_by: None,
+            operation: Operation::Off(OffBecause::NotSwitchedOn),
             orbit: None,
             recent: VecDeque::new(),
         }

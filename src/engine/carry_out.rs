@@ -5,7 +5,9 @@ use std::sync::Arc;
 use super::{
     CatalogState, Command, Engine, Event, StationClaim,
     alarms::AlarmKind,
+    automatic::Duty,
     handle::Stopped,
+    on_board,
     passes::{PassKey, PredictedPass},
     sources::{self, SourceWork, Task},
     uploads,
@@ -28,6 +30,7 @@ impl Engine {
             return;
         }
         self.note_track(&command);
+        self.leave_to_operator(&command);
         match command {
             Command::Antenna(id, driver::Command::WriteSettings(change)) => {
                 self.with(id, |engine, index| engine.write_settings(index, change));
@@ -47,6 +50,24 @@ impl Engine {
             Command::ProgramTrackPass { antenna, pass } => {
                 self.with(antenna, |engine, index| engine.follow_pass(index, pass));
             }
+            Command::SetAutomatic { antenna, is_on } => {
+                self.with(antenna, |engine, index| engine.set_automatic(index, is_on));
+            }
+            Command::GoOn(antenna) => self.with(antenna, Self::go_on),
+            Command::ChoosePass { satellite, tca, take } => {
+                let now = self.now;
+                self.change_station(|station| station.choose_pass(satellite, tca, take, now));
+            }
+            Command::SetPassLimits { numbers, limits } => self.change_station(|station| {
+                for number in numbers {
+                    station.favourites.set_limits(number, limits.clone());
+                }
+            }),
+            Command::SetScheduling(scheduling) => {
+                self.change_station(|station| station.scheduling = scheduling);
+            }
+            Command::SetGroups(groups) => self.change_station(|station| station.groups = groups),
+            Command::SetRules(rules) => self.change_station(|station| station.rules = rules),
             Command::SaveSettings(id) => self.with(id, Self::save_copy),
             Command::CompareSettings(id) => self.with(id, Self::open_copies),
             Command::ReadCopy { antenna, path } => self.with(antenna, |engine, index| {
@@ -192,6 +213,32 @@ impl Engine {
             self.stop_one(index);
         }
         self.alarms.raise(of, AlarmKind::NotTaken, self.now);
+    }
+
+    /// Tracks a pass of the schedule.
+    pub(super) fn take_pass(&mut self, index: usize, duty: &Duty) {
+        let Some(predicted) = self.pass(duty.pass) else { return };
+        let (site, now) = (self.station.site, self.now);
+        let Some(antenna) = self.antennas.get(index) else { return };
+        let config = &antenna.shown.config;
+        let cut = |(from, until): (Timestamp, Timestamp)| {
+            let from = if duty.begins_late { from.max(duty.from) } else { from };
+            let until = if duty.ends_early { until.min(duty.until) } else { until };
+            (from, until)
+        };
+        if antenna.shown.variant().capabilities.has_program {
+            return match on_board::pass_for(predicted, config, site, now) {
+                Ok(mut pass) => {
+                    (pass.target.from, pass.target.until) =
+                        on_board::whole_seconds(cut((pass.target.from, pass.target.until)));
+                    self.send(index, driver::Command::Track(Box::new(pass)));
+                }
+                Err(refusal) => self.take_event(index, driver::Event::NotSent(refusal)),
+            };
+        }
+        let mut track = predicted.follow(config, self.station.elevation_floor()).one_pass(now);
+        track.passes.iter_mut().for_each(|span| *span = cut(*span));
+        self.send(index, driver::Command::ProgramTrack(Box::new(track)));
     }
 
     fn track(&mut self, index: usize, pass: PassKey, is_agreed: bool) {

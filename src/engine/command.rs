@@ -2,6 +2,7 @@
 
 use std::path::PathBuf;
 
+use jiff::Timestamp;
 use serde::{Deserialize, Serialize};
 
 use super::{
@@ -15,7 +16,10 @@ use super::{
 use crate::{
     driver,
     orbit::{RefreshHours, Source},
-    station::{Antenna, AntennaId, Frequency, Priority, Station},
+    station::{
+        Antenna, AntennaId, AutomationRule, Frequency, PassLimits, Priority, SatelliteGroup,
+        Scheduling, Station, Take,
+    },
 };
 
 /// A command of a client to a station. STOP is not one: it bypasses the queue of commands.
@@ -35,6 +39,32 @@ pub enum Command {
         antenna: AntennaId,
         pass: PassKey,
     },
+    /// Switch automatic operation of an antenna on or off.
+    SetAutomatic {
+        antenna: AntennaId,
+        is_on: bool,
+    },
+    /// Let automatic operation of an antenna go on that was suspended.
+    GoOn(AntennaId),
+    /// Choose a pass for the schedule or against it; `None` leaves it to the schedule.
+    ChoosePass {
+        /// Catalog number.
+        satellite: u32,
+        tca: Timestamp,
+        take: Option<Take>,
+    },
+    /// Give favourites these limits; other satellites become favourites.
+    SetPassLimits {
+        /// Catalog numbers.
+        numbers: Vec<u32>,
+        limits: PassLimits,
+    },
+    /// Plan passes like this.
+    SetScheduling(Scheduling),
+    /// Use these groups of satellites.
+    SetGroups(Vec<SatelliteGroup>),
+    /// Use these automation rules.
+    SetRules(Vec<AutomationRule>),
     /// List passes with at least this maximum elevation, degrees.
     SetElevationFloor(f64),
     /// End the search for the passes of this list; listed passes stay.
@@ -136,7 +166,9 @@ impl Command {
         match self {
             Self::Antenna(antenna, _)
             | Self::Track { antenna, .. }
-            | Self::ProgramTrackPass { antenna, .. } => Some(*antenna),
+            | Self::ProgramTrackPass { antenna, .. }
+            | Self::SetAutomatic { antenna, .. }
+            | Self::GoOn(antenna) => Some(*antenna),
             _ => None,
         }
     }
@@ -152,6 +184,8 @@ impl Command {
             ),
             Self::Track { .. }
             | Self::ProgramTrackPass { .. }
+            | Self::SetAutomatic { is_on: true, .. }
+            | Self::GoOn(_)
             | Self::CloseAfter(CloseHow::Park)
             | Self::Upload(uploads::Ask::AgreeToTracking) => true,
             _ => false,

@@ -61,6 +61,11 @@ pub fn window(
     })
 }
 
+/// The whole seconds within a span.
+pub(super) fn whole_seconds((from, until): (Timestamp, Timestamp)) -> (Timestamp, Timestamp) {
+    (first_second(from), last_second(until))
+}
+
 fn first_second(time: Timestamp) -> Timestamp {
     let cut = last_second(time);
     if cut == time { time } else { add_seconds(cut, 1.0) }
@@ -71,7 +76,7 @@ fn last_second(time: Timestamp) -> Timestamp {
 }
 
 /// The on-board pass for the unit of `antenna`.
-fn pass_for(
+pub(super) fn pass_for(
     predicted: &PredictedPass,
     antenna: &station::Antenna,
     site: Site,

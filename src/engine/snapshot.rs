@@ -5,9 +5,9 @@ use std::sync::Arc;
 use serde::{Deserialize, Serialize};
 
 use super::{
-    alarms::Alarms, antenna::AntennaModel, closing::Closing, copies::Copies, link_tests::LinkTest,
-    older_sets::OlderSets, passes::PassLists, reminders::Reminder, source_tests::SourceTests,
-    sources::Sources, uploads::Uploads, written,
+    alarms::Alarms, antenna::AntennaModel, automatic::DayLine, closing::Closing, copies::Copies,
+    link_tests::LinkTest, older_sets::OlderSets, passes::PassLists, reminders::Reminder,
+    schedule::Planned, source_tests::SourceTests, sources::Sources, uploads::Uploads, written,
 };
 use crate::{clock::Moment, driver::TimeSync, orbit::Catalog, station::Station};
 
@@ -46,6 +46,10 @@ pub struct Snapshot {
     pub pass_lists: PassLists,
     /// Reminders of passes that are not over.
     pub reminders: Arc<Vec<Reminder>>,
+    pub schedule: Arc<Planned>,
+    /// What became of the passes of this day (UTC), and of automatic operation; the newest is
+    /// the last.
+    pub day: Arc<Vec<DayLine>>,
     pub uploads: Arc<Uploads>,
     /// Tests, from here, of the sources that units use.
     pub source_tests: Arc<SourceTests>,
@@ -73,6 +77,8 @@ impl Snapshot {
             antennas: Vec::new(),
             pass_lists: PassLists::default(),
             reminders: Arc::default(),
+            schedule: Arc::default(),
+            day: Arc::default(),
             uploads: Arc::default(),
             source_tests: Arc::default(),
             link_tests: Arc::default(),

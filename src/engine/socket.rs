@@ -37,6 +37,12 @@ pub enum Ask {
     },
     /// Report the status of all antennas.
     Status,
+    /// Switch automatic operation of an antenna on or off.
+    Automatic {
+        /// Name of the antenna.
+        antenna: String,
+        is_on: bool,
+    },
     /// Lock out an antenna, or remove its lock-out.
     LockOut {
         /// Name of the antenna.
@@ -53,6 +59,8 @@ pub enum Answer {
     /// Antennas that STOP went to, with the proof of their standstill.
     Stopped(Vec<Stopped>),
     Status(Vec<AntennaStatus>),
+    /// Automatic operation is switched on or off.
+    Automatic,
     /// The lock-out is set or removed. `proved`: the antenna stands and will not start by
     /// itself.
     LockOut {
@@ -150,6 +158,10 @@ async fn answer(ask: Ask, station: Client) -> Answer {
     match ask {
         Ask::Status => Answer::Status(AntennaStatus::of_all(&station.snapshot())),
         Ask::Stop { antenna } => stop(antenna.as_deref(), station).await,
+        Ask::Automatic { antenna, is_on } => {
+            let Some(id) = named(&station, &antenna) else { return unknown(&antenna) };
+            set_automatic(id, is_on, station).await
+        }
         Ask::LockOut { antenna, lock_out } => {
             let Some(id) = named(&station, &antenna) else { return unknown(&antenna) };
             set_lock_out(id, lock_out, station).await
@@ -238,6 +250,31 @@ async fn set_lock_out(id: AntennaId, lock_out: Option<LockOut>, mut station: Cli
     }
 }
 
+async fn set_automatic(antenna: AntennaId, is_on: bool, mut station: Client) -> Answer {
+    if station.send(Command::SetAutomatic { antenna, is_on }).is_err() {
+        return Answer::Refused("Azel is too busy to take it".to_owned());
+    }
+    let end = Instant::now() + ASKS_WITHIN;
+    loop {
+        let snapshot = station.snapshot();
+        let Some(shown) = snapshot.antennas.iter().find(|of| of.id() == antenna) else {
+            return Answer::Refused("the antenna is not in the station any more".to_owned());
+        };
+        if shown.operation.is_on() == is_on {
+            return Answer::Automatic;
+        }
+        if let Some(by) = &shown.held_by {
+            return Answer::Refused(format!("{by} drives it: switch it on there"));
+        }
+        if let Some(LockOut { by, reason, .. }) = &shown.snapshot.lock_out {
+            return Answer::Refused(format!("it is locked out by {by}: {reason}"));
+        }
+        if !timeout_at(end, station.changed()).await.unwrap_or_default() {
+            return Answer::Refused("the station did not take it".to_owned());
+        }
+    }
+}
+
 fn named(station: &Client, name: &str) -> Option<AntennaId> {
     let snapshot = station.snapshot();
     let antenna = snapshot.antennas.iter().find(|antenna| antenna.config.name == name);
@@ -264,6 +301,7 @@ mod tests {
             Ask::Stop { antenna: None },
             Ask::Stop { antenna: Some("Dish \"1\"\n".to_owned()) },
             Ask::LockOut { antenna: "Dish".to_owned(), lock_out: Some(lock_out) },
+            Ask::Automatic { antenna: "Dish".to_owned(), is_on: true },
         ] {
             let text = serde_json::to_string(&ask).unwrap();
             assert!(!text.contains('\n'), "{text}");

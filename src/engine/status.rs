@@ -3,7 +3,7 @@
 use jiff::Timestamp;
 use serde::{Deserialize, Serialize};
 
-use super::{Snapshot, antenna::AntennaModel};
+use super::{Snapshot, antenna::AntennaModel, automatic::Operation};
 use crate::{
     astro::Angle,
     driver::{LinkState, StopState},
@@ -29,8 +29,20 @@ pub struct AntennaStatus {
     pub tracks: Option<String>,
     /// A STOP is owed.
     pub owes_stop: bool,
+    /// Automatic operation.
+    pub automatic: AutomaticStatus,
     /// Holder and reason of the lock-out.
     pub locked_out: Option<String>,
+}
+
+/// Automatic operation of an antenna.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum AutomaticStatus {
+    Off,
+    On,
+    /// It waits for the operator, because somebody moved the antenna.
+    Suspended,
 }
 
 /// The link to a unit.
@@ -88,6 +100,11 @@ impl AntennaStatus {
                 snapshot.stop,
                 StopState::Stopping { .. } | StopState::NotConfirmed { .. }
             ),
+            automatic: match antenna.operation {
+                Operation::Off(_) => AutomaticStatus::Off,
+                Operation::On(_) => AutomaticStatus::On,
+                Operation::Suspended { .. } => AutomaticStatus::Suspended,
+            },
             locked_out: lock_out.map(|lock_out| format!("{}: {}", lock_out.by, lock_out.reason)),
         }
     }

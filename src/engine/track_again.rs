@@ -68,6 +68,7 @@ impl Engine {
         self.upload_runner.stopped();
         self.stop_elsewhere(&stopped.elsewhere);
         self.drop_waiting_settings();
+        self.end_automatic_by_stop(stopped);
         // STOP while the antennas are parked for the end: the operator is needed here.
         self.closing.take_if(|closing| closing.how == CloseHow::Park);
         let latest = add_seconds(self.now, OFFERED_S);

@@ -32,12 +32,14 @@ impl Engine {
         self.take_older_sets();
         self.take_copies();
         self.look_for_passes();
+        self.look_after_schedule();
         for index in 0..self.antennas.len() {
             self.take_antenna(index);
         }
         let antennas = self.antennas.iter().map(|antenna| &antenna.shown.config);
         let strangers = owed::strangers(self.driver.debts().units(), antennas);
         owed::tell(&mut self.alarms, strangers, self.now);
+        self.run_automatic();
         self.remind();
         self.alarms.pass_time(self.now);
         self.forget_tracks();
@@ -149,7 +151,7 @@ impl Engine {
         self.watch_on_board(index);
     }
 
-    fn take_event(&mut self, index: usize, event: Event) {
+    pub(super) fn take_event(&mut self, index: usize, event: Event) {
         let now = self.now;
         let Some(id) = self.antennas.get(index).map(|antenna| antenna.shown.id()) else { return };
         let antenna = Some(id);
@@ -163,6 +165,7 @@ impl Engine {
             _ => {}
         }
         self.take_closing_event(id, &event);
+        self.take_automatic_event(index, &event);
         if let Event::Safety(Safety::AsksToResume { name, .. }) = &event {
             self.offer_resume(index, name);
         }

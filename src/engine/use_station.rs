@@ -7,6 +7,7 @@ use super::{
     Antenna, DemoStation, Engine, StationClaim,
     alarms::AlarmKind,
     antenna::AntennaModel,
+    automatic::{AtWork, OffBecause, Operation},
     claim::{Claim, HeldBy},
 };
 use crate::{
@@ -69,6 +70,9 @@ impl Engine {
             .filter(|antenna| debts.owes(&Unit::of(&antenna.shown.config)))
             .map(|antenna| antenna.shown.config.name.clone())
             .collect();
+        let is_on = |antenna: &&Antenna| antenna.shown.operation.is_on();
+        let automatic: Vec<AntennaId> =
+            before.iter().filter(is_on).map(|antenna| antenna.shown.id()).collect();
         // A unit accepts one client: the old session leaves first.
         before.retain(|antenna| {
             antenna.shown.held_by.is_none() && station.antennas.contains(&antenna.shown.config)
@@ -81,7 +85,15 @@ impl Engine {
                 antenna.handle.keep_within(bounds);
                 antenna
             } else {
-                let antenna = self.open_antenna(config.clone(), bounds);
+                let mut antenna = self.open_antenna(config.clone(), bounds);
+                if automatic.contains(&config.id) {
+                    antenna.shown.operation = Operation::Off(OffBecause::Changed);
+                    self.alarms.raise(
+                        Some(config.id),
+                        AlarmKind::AutomaticOff(OffBecause::Changed),
+                        self.now,
+                    );
+                }
                 if owed.contains(&config.name) {
                     antenna.handle.stop();
                 }
@@ -118,7 +130,7 @@ impl Engine {
         };
         let mut shown = AntennaModel::new(config, handle.snapshot());
         shown.held_by = held_by;
-        Antenna { shown, session: self.sessions, handle }
+        Antenna { shown, session: self.sessions, handle, at_work: AtWork::default() }
     }
 
     /// Index of an antenna, if the station still has it.

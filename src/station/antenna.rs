@@ -119,6 +119,12 @@ impl PollRates {
 }
 
 impl Antenna {
+    /// Time in which each axis gets from one end of its travel to the other, seconds.
+    pub fn longest_slew_s(&self) -> f64 {
+        let spans = self.mount.travel_deg().map(|(from_deg, to_deg)| to_deg - from_deg);
+        spans.into_iter().fold(0.0, f64::max) / self.limits.maximum_rate_deg_s
+    }
+
     /// Time from the end of one pass until it can go to the next, seconds.
     pub fn set_up_s(&self) -> f64 {
         self.automatic.set_up_s.unwrap_or(self.connection.spec().usual.set_up_s)

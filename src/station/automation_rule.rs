@@ -1,12 +1,12 @@
 //! Automation rules: what the schedule does with passes by antenna, satellite, Sun and hour.
 
 use jiff::{Timestamp, tz::TimeZone};
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 use super::{AntennaId, HoursOfDay};
 
 /// A rule. Of the rules that are on, the first whose conditions all hold decides.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct AutomationRule {
     #[serde(rename = "on")]
     pub is_on: bool,
@@ -26,7 +26,7 @@ pub struct AutomationRule {
 }
 
 /// The satellites of a rule.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum RuleOf {
     /// Catalog number.
@@ -36,7 +36,7 @@ pub enum RuleOf {
 }
 
 /// The Sun at the site.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum SunIs {
     Up,
@@ -44,7 +44,7 @@ pub enum SunIs {
 }
 
 /// What a rule does.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Then {
     /// The pass may be taken, whatever the limits of its satellite say.

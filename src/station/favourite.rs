@@ -103,6 +103,13 @@ impl Favourites {
         self.put(Favourite { priority: Some(priority), ..favourite });
     }
 
+    /// Marks a satellite, and gives it these limits.
+    pub fn set_limits(&mut self, satellite: u32, limits: PassLimits) {
+        let known = self.get(satellite).cloned();
+        let favourite = known.unwrap_or_else(|| Favourite::new(satellite));
+        self.put(Favourite { limits, ..favourite });
+    }
+
     /// Marks a satellite, or unmarks it.
     pub fn mark(&mut self, satellite: u32, is_favourite: bool) {
         if !is_favourite {

@@ -1,10 +1,10 @@
 //! Hours of the day, for settings that hold at some hours alone.
 
 use jiff::{Timestamp, civil::Time, tz::TimeZone};
-use serde::{Serialize, Serializer};
+use serde::{Deserialize, Serialize, Serializer};
 
 /// A part of each day, which may contain midnight. Who holds it says by which clock.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub struct HoursOfDay {
     #[serde(serialize_with = "as_text")]
     pub from: Time,

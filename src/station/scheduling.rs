@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 /// Settings for the schedule of the whole station.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Scheduling {
     pub choose_by: ChooseBy,
     /// Hours ahead that are planned, 12 to 168.

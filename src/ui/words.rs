@@ -2,6 +2,7 @@
 //! state, and the remedy.
 
 mod alarms;
+pub mod automatic;
 mod link_tests;
 mod notices;
 mod on_board;

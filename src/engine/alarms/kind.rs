@@ -2,6 +2,7 @@
 
 use std::time::Duration;
 
+use jiff::Timestamp;
 use serde::{Deserialize, Serialize};
 
 use crate::{
@@ -11,7 +12,7 @@ use crate::{
         panel::{Check, CheckState},
     },
     driver::{Event, Found, LinkLoss, Safety, TrackProblem, Unit},
-    engine::{claim::HeldBy, passes::PassKey},
+    engine::{automatic::OffBecause, claim::HeldBy, passes::PassKey},
     name::{self, Name},
     plan::on_board::Ranked,
     station::{Note, NoteReason},
@@ -76,6 +77,20 @@ pub enum AlarmKind {
     TrackingEnded,
     /// A motion ended short of its target.
     EndedShort,
+    /// The antenna is not on its way to a pass of the schedule that is about to begin.
+    NotOnItsWay {
+        pass: PassKey,
+        /// Short name of the satellite.
+        name: String,
+    },
+    /// Automatic operation is going to move the antenna, for the first time or after a rest.
+    AutomaticMoves {
+        at: Timestamp,
+        /// Short name of the satellite whose pass it is for.
+        name: String,
+    },
+    /// Automatic operation of the antenna has ended, and not by the operator.
+    AutomaticOff(OffBecause),
     /// No antenna is on its way to a pass that the operator wanted to be reminded of.
     NoAntennaFor {
         pass: PassKey,
@@ -128,6 +143,7 @@ pub enum AlarmKind {
 pub enum Work {
     Elements,
     Passes,
+    Schedule,
 }
 
 impl AlarmKind {
@@ -158,6 +174,9 @@ impl AlarmKind {
             | Self::Unreadable(_)
             | Self::JogPositionOld
             | Self::OffTarget { .. }
+            | Self::NotOnItsWay { .. }
+            | Self::AutomaticMoves { .. }
+            | Self::AutomaticOff(_)
             | Self::Check(Check { state: CheckState::Fault, .. }) => Priority::Warning,
             _ => Priority::Caution,
         }
@@ -185,6 +204,9 @@ impl AlarmKind {
                 | Self::UnitDiffers(_)
                 | Self::NotCompared { .. }
                 | Self::NoAntennaFor { .. }
+                | Self::NotOnItsWay { .. }
+                | Self::AutomaticMoves { .. }
+                | Self::AutomaticOff(_)
                 | Self::ClockNotSet
                 | Self::Unreadable(_)
                 | Self::Setting(_)

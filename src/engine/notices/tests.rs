@@ -13,6 +13,7 @@ use crate::{
     driver::{LinkLoss, Mover, Response, Safety, TrackProblem, Unit},
     engine::{
         alarms::{AlarmKind, Alarms, ShelveTime, Work},
+        automatic::OffBecause,
         claim::HeldBy,
     },
     plan::{
@@ -222,6 +223,9 @@ fn every_kind() -> Vec<AlarmKind> {
         K::UnitDiffers(ranked()),
         K::NotCompared { satellite: None },
         K::NoAntennaFor { pass: (25_544, time()), name: text() },
+        K::NotOnItsWay { pass: (25_544, time()), name: text() },
+        K::AutomaticMoves { at: time(), name: text() },
+        K::AutomaticOff(OffBecause::Failures),
         K::TrackingEnded,
         K::EndedShort,
         K::StartedByItself,
@@ -265,6 +269,9 @@ fn every_kind() -> Vec<AlarmKind> {
             | K::UnitDiffers(_)
             | K::NotCompared { .. }
             | K::NoAntennaFor { .. }
+            | K::NotOnItsWay { .. }
+            | K::AutomaticMoves { .. }
+            | K::AutomaticOff(_)
             | K::TrackingEnded
             | K::EndedShort
             | K::StartedByItself

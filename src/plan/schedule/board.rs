@@ -156,10 +156,8 @@ impl<'a> Board<'a> {
         let (is_late, is_early) = crowd.around(whole, span, room);
         let (late, early) = (if is_late { room.0 } else { 0 }, if is_early { room.1 } else { 0 });
         for late_ms in cuts(late) {
-            let part = |early_ms| Span {
-                from_ms: span.from_ms + late_ms,
-                to_ms: span.to_ms - early_ms,
-            };
+            let part =
+                |early_ms| Span { from_ms: span.from_ms + late_ms, to_ms: span.to_ms - early_ms };
             let cut = cuts(early.max(0)).map(part).take_while(|part| is_enough(*part));
             parts.extend(cut.filter(|part| *part != span).map(|part| (part, Part::Alone)));
         }
@@ -316,10 +314,9 @@ impl Crowd {
         let mut is_late = of(&self.free_ms) + reach_ms > span.from_ms;
         let mut is_early = false;
         for (_, other) in near {
-            is_late |= other.from_ms < span.from_ms + room.0
-                && other.to_ms + reach_ms > span.from_ms;
-            is_early |= other.to_ms > span.to_ms - room.1
-                && other.from_ms < span.to_ms + reach_ms;
+            is_late |=
+                other.from_ms < span.from_ms + room.0 && other.to_ms + reach_ms > span.from_ms;
+            is_early |= other.to_ms > span.to_ms - room.1 && other.from_ms < span.to_ms + reach_ms;
         }
         (is_late, is_early)
     }
@@ -333,9 +330,7 @@ struct Limits {
 
 impl Limits {
     fn of(request: &Request<'_>) -> Self {
-        let day = |it: &Candidate| {
-            (it.key.satellite, it.key.aos.to_zoned(TimeZone::UTC).date())
-        };
+        let day = |it: &Candidate| (it.key.satellite, it.key.aos.to_zoned(TimeZone::UTC).date());
         let mut counts = HashMap::new();
         let limited = |it: &&Candidate| it.refusal.is_none() && it.max_a_day.is_some();
         for candidate in request.candidates.iter().filter(limited) {

@@ -24,11 +24,21 @@ pub struct Change {
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Changed {
-    Added { antenna: AntennaId },
-    Dropped { antenna: AntennaId },
-    Moved { from: AntennaId, to: AntennaId },
+    Added {
+        antenna: AntennaId,
+    },
+    Dropped {
+        antenna: AntennaId,
+    },
+    Moved {
+        from: AntennaId,
+        to: AntennaId,
+    },
     /// It starts later and ends earlier by so many seconds; less than 0 for the other way.
-    Cut { late_s: f64, early_s: f64 },
+    Cut {
+        late_s: f64,
+        early_s: f64,
+    },
 }
 
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -84,8 +94,7 @@ pub fn changes(before: &Schedule, after: &Schedule, from: Timestamp) -> Vec<Chan
 }
 
 fn is_same(a: &Entry, b: &Entry) -> bool {
-    a.pass.satellite == b.pass.satellite
-        && (a.pass == b.pass || (a.from < b.to && b.from < a.to))
+    a.pass.satellite == b.pass.satellite && (a.pass == b.pass || (a.from < b.to && b.from < a.to))
 }
 
 /// Half of the shortest revolution, seconds: passes of a satellite are further apart.

@@ -50,8 +50,15 @@ impl<'a> Legs<'a> {
                 )
             });
             let (from_park_ms, to_park_ms) = park;
-            let stop =
-                Stop { antenna: index, from_ms, to_ms, ends_deg, from_park_ms, to_park_ms, is_fixed };
+            let stop = Stop {
+                antenna: index,
+                from_ms,
+                to_ms,
+                ends_deg,
+                from_park_ms,
+                to_park_ms,
+                is_fixed,
+            };
             stops.push(stop);
         }
         let longest_ms = antennas.iter().enumerate().map(|(index, antenna)| {

@@ -3,12 +3,7 @@
 use jiff::Timestamp;
 use serde::{Deserialize, Serialize};
 
-use super::{
-    Entry, Schedule,
-    reach::Reach,
-    sight::Sight,
-    way::Verdict,
-};
+use super::{Entry, Schedule, reach::Reach, sight::Sight, way::Verdict};
 use crate::{
     astro::{Angle, Site, sun_moon},
     orbit::{Pass, Propagator, is_sunlit},
@@ -73,9 +68,13 @@ pub enum Rule {
 pub enum Refusal {
     Never,
     /// Its greatest elevation is below the elevation floor.
-    BelowFloor { floor_deg: f64 },
+    BelowFloor {
+        floor_deg: f64,
+    },
     /// The elements are older than they may be.
-    OldElements { age_s: f64 },
+    OldElements {
+        age_s: f64,
+    },
     Rule(Rule),
 }
 

@@ -91,8 +91,7 @@ impl Problem<'_> {
     }
 
     pub(super) fn solve(&self) -> Solution {
-        let lines: Vec<Line> =
-            (0..self.antennas).map(|antenna| Line::new(self, antenna)).collect();
+        let lines: Vec<Line> = (0..self.antennas).map(|antenna| Line::new(self, antenna)).collect();
         if let [line] = &lines[..] {
             let takes = line.best(self, &|_, take| Some(take.row)).takes;
             let row = self.row(std::slice::from_ref(&takes));

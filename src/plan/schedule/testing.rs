@@ -37,8 +37,11 @@ impl Random {
 /// The antennas of the demo station: crossed axes, a rotator over the whole circle, and one over
 /// half of it.
 pub(super) fn three_antennas() -> Station {
-    let mut antennas =
-        vec![Antenna::satrak("Satrak", ""), Antenna::genius("Genius", ""), Antenna::rc2000c("Dish", "")];
+    let mut antennas = vec![
+        Antenna::satrak("Satrak", ""),
+        Antenna::genius("Genius", ""),
+        Antenna::rc2000c("Dish", ""),
+    ];
     for (antenna, number) in antennas.iter_mut().zip(1..) {
         antenna.id = AntennaId(number);
     }
@@ -99,12 +102,8 @@ pub(super) fn candidates(
     from: Timestamp,
     hours: f64,
 ) -> Vec<Candidate> {
-    let common = Common {
-        site: station.site,
-        floor: station.elevation_floor(),
-        antennas,
-        max_age_s: None,
-    };
+    let common =
+        Common { site: station.site, floor: station.elevation_floor(), antennas, max_age_s: None };
     let search = PassSearch {
         aos_elevation: station.aos_elevation(),
         floor: station.elevation_floor(),

@@ -14,13 +14,22 @@ fn try_it() {
         let start = Instant::now();
         let list = candidates(&station, &antennas, &satellites, noon(), hours);
         println!("{count} {hours} {} candidates {:?}", list.len(), start.elapsed());
-        for partial in [None, Some(Partial{min_share:0.6,min_s:120.0,step_s:30.0,hand_over:false}),Some(Partial{min_share:0.4,min_s:120.0,step_s:60.0,hand_over:true})] {
+        for partial in [
+            None,
+            Some(Partial { min_share: 0.6, min_s: 120.0, step_s: 30.0, hand_over: false }),
+            Some(Partial { min_share: 0.4, min_s: 120.0, step_s: 60.0, hand_over: true }),
+        ] {
             for n in [1, 3] {
                 let start = Instant::now();
                 let mut req = request(&antennas[..n], &list);
                 req.partial = partial;
                 let schedule = plan(&req);
-                println!("{n} {partial:?} {} taken {} left {:?}", schedule.entries.len(), schedule.left_out.len(), start.elapsed());
+                println!(
+                    "{n} {partial:?} {} taken {} left {:?}",
+                    schedule.entries.len(),
+                    schedule.left_out.len(),
+                    start.elapsed()
+                );
                 println!("   {:?}", schedule.worth);
             }
         }

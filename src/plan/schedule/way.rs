@@ -30,10 +30,8 @@ impl Span {
 
     /// What both have in common, if anything.
     pub(super) fn and(self, other: Self) -> Option<Self> {
-        let both = Self {
-            from_ms: self.from_ms.max(other.from_ms),
-            to_ms: self.to_ms.min(other.to_ms),
-        };
+        let both =
+            Self { from_ms: self.from_ms.max(other.from_ms), to_ms: self.to_ms.min(other.to_ms) };
         (both.from_ms < both.to_ms).then_some(both)
     }
 

@@ -11,7 +11,9 @@ use super::{
 impl Board<'_> {
     pub(super) fn left_out(&self, solution: &Solution) -> Vec<LeftOut> {
         let mut is_taken = vec![false; self.request.candidates.len()];
-        for take in solution.takes.iter().flatten().filter_map(|take| self.takes.get(*take as usize)) {
+        for take in
+            solution.takes.iter().flatten().filter_map(|take| self.takes.get(*take as usize))
+        {
             if let Some(is_taken) = is_taken.get_mut(take.pass as usize) {
                 *is_taken = true;
             }

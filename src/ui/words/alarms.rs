@@ -120,6 +120,18 @@ pub fn alarm(kind: &AlarmKind, antenna: &str) -> String {
              track that is worth less.",
             format::time_z(*aos)
         ),
+        AlarmKind::NotOnItsWay { pass: (_, aos), name } => format!(
+            "{antenna} is not on its way to {name}, AOS {}, which the schedule gives to it.",
+            format::time_z(*aos)
+        ),
+        AlarmKind::AutomaticMoves { at, name } => format!(
+            "{antenna} will move by itself at {}, for {name}. STOP or Hold ends that.",
+            format::time_z(*at)
+        ),
+        AlarmKind::AutomaticOff(because) => format!(
+            "Automatic operation of {antenna} is off. {} Switch it on again in Plan.",
+            super::automatic::off(*because)
+        ),
         AlarmKind::TrackingEnded => format!("{antenna} ended tracking before LOS."),
         AlarmKind::EndedShort => format!("{antenna} stopped before it reached its target."),
         AlarmKind::StartedByItself => {
@@ -136,6 +148,11 @@ pub fn alarm(kind: &AlarmKind, antenna: &str) -> String {
         AlarmKind::BrokeOff(Work::Elements) => {
             "The reading of the elements broke off inside Azel. What was held stays in use; \
              the view Elements reads them again."
+                .to_owned()
+        }
+        AlarmKind::BrokeOff(Work::Schedule) => {
+            "The planning of the passes broke off inside Azel. The schedule stays as it was; it is \
+             made again when something changes."
                 .to_owned()
         }
         AlarmKind::BrokeOff(Work::Passes) => {

@@ -38,9 +38,8 @@ impl Line {
         let indexed = problem.takes.iter().zip(0_u32..);
         let own = indexed.filter(|(take, _)| take.antenna as usize == antenna);
         let mut by_start: Vec<u32> = own.map(|(_, index)| index).collect();
-        let span = |take: &u32| {
-            problem.take(*take).map_or((0, 0), |take| (take.from_ms, take.to_ms))
-        };
+        let span =
+            |take: &u32| problem.take(*take).map_or((0, 0), |take| (take.from_ms, take.to_ms));
         by_start.sort_by_key(|take| (span(take), *take));
         let ends: Vec<i64> = by_start.iter().map(|take| span(take).1).collect();
         let end = |position: &u32| ends.get(*position as usize).copied().unwrap_or_default();
@@ -71,8 +70,7 @@ impl Line {
     /// not fit.
     pub(super) fn slew_ms(&self, problem: &Problem<'_>, before: u32, take: u32) -> Option<i64> {
         let (earlier, later) = (problem.take(before)?, problem.take(take)?);
-        let Leg { needs_ms, slew_ms } =
-            problem.slews.between(before as usize, take as usize);
+        let Leg { needs_ms, slew_ms } = problem.slews.between(before as usize, take as usize);
         (earlier.to_ms + needs_ms <= later.from_ms).then_some(slew_ms)
     }
 

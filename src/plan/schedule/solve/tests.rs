@@ -49,7 +49,8 @@ impl Case {
                 0 => Class::Always,
                 number => Class::Priority(Priority::try_from(1 + (number as i64) % 3).unwrap()),
             };
-            let limit = limits.len().checked_sub(1).map(|last| random.below(last as u64 + 1) as u32);
+            let limit =
+                limits.len().checked_sub(1).map(|last| random.below(last as u64 + 1) as u32);
             let limit = limit.filter(|_| random.below(2) == 0);
             for antenna in 0..antennas as u32 {
                 for _ in 0..random.below(3) {
@@ -63,10 +64,9 @@ impl Case {
                 if antennas > 1 && random.below(4) == 0 {
                     let middle_ms = at_ms + 15 + random.below(5) as i64;
                     let row = Row::of(class, 1 + random.below(5) as i64);
-                    for (part, from_ms, to_ms) in [
-                        (Part::First, at_ms, middle_ms),
-                        (Part::Second, middle_ms, middle_ms + 20),
-                    ] {
+                    for (part, from_ms, to_ms) in
+                        [(Part::First, at_ms, middle_ms), (Part::Second, middle_ms, middle_ms + 20)]
+                    {
                         let limit = limit.filter(|_| part == Part::First);
                         takes.push(Take { pass, antenna, limit, part, from_ms, to_ms, row });
                     }
@@ -212,8 +212,7 @@ fn prices_bound_what_can_be_reached_and_often_reach_it() {
         let passes = 1 + random.below(4) as usize;
         let case_ = Case::random(&mut random, antennas, passes);
         let problem = case_.problem(0);
-        let lines: Vec<Line> =
-            (0..antennas).map(|antenna| Line::new(&problem, antenna)).collect();
+        let lines: Vec<Line> = (0..antennas).map(|antenna| Line::new(&problem, antenna)).collect();
         let solution = prices::solve(&problem, &lines);
         assert_eq!(case_.worth(&solution.takes), Some(solution.row), "case {case}");
         let best = case_.brute_force();

@@ -188,14 +188,14 @@ impl Search<'_> {
         let mut kept: Vec<(State, Vec<Option<u32>>)> = Vec::new();
         for (state, busy) in sorted {
             let beaten = kept.iter().position(|(better, freer)| {
-                let is_freer = |(own, other): (&Option<u32>, &Option<u32>)| {
-                    own.is_none() || own == other
-                };
+                let is_freer =
+                    |(own, other): (&Option<u32>, &Option<u32>)| own.is_none() || own == other;
                 freer.iter().zip(&busy).all(is_freer)
                     && better.open.iter().all(|open| state.open.contains(open))
-                    && state.open.iter().all(|open| {
-                        open.first.is_none() || better.open.contains(open)
-                    })
+                    && state
+                        .open
+                        .iter()
+                        .all(|open| open.first.is_none() || better.open.contains(open))
                     && better.used.iter().all(|(limit, count)| {
                         state.used.iter().any(|(used, other)| used == limit && other >= count)
                     })

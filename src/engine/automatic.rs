@@ -1,0 +1,384 @@
+//! Automatic operation: the station takes the passes of its schedule by itself, antenna by antenna.
+
+mod at_start;
+mod day;
+mod operation;
+
+use std::path::{Path, PathBuf};
+
+pub(super) use self::{at_start::LastRun, operation::is_same_pass};
+use self::{
+    day::Flight,
+    operation::{Act, LATE_S, Outcome, Seen, Wishes},
+};
+pub use self::{
+    day::{DayEvent, DayLine, Flown, MissCause},
+    operation::{Doing, Duty, Interruption, OffBecause, On, Operation, Taking},
+};
+use super::{
+    Antenna, Command, Engine, alarms::AlarmKind, antenna::AntennaModel, handle::Stopped,
+    passes::PassKey,
+};
+use crate::{
+    astro::time::{add_seconds, seconds_between},
+    device::Asked,
+    driver::{self, Event, Found, Intent, Response, Safety, StopState},
+    plan::schedule::Entry,
+    station::{AntennaId, AutomationRule, BetweenPasses, Then},
+};
+
+/// An antenna is sent to a pass so long before it has to be, seconds.
+const LEAD_S: f64 = 60.0;
+
+/// What automatic operation of an antenna has at hand, besides its state in the snapshot.
+#[derive(Default)]
+pub(super) struct AtWork {
+    /// The pass of the schedule that comes next or is under way, from when the antenna should set
+    /// out.
+    flight: Option<Flight>,
+    /// As it was told last.
+    told: Option<Operation>,
+}
+
+impl Engine {
+    /// Switches automatic operation on, unless something forbids it.
+    pub(super) fn set_automatic(&mut self, index: usize, is_on: bool) {
+        let Some(antenna) = self.antennas.get_mut(index) else { return };
+        let of = Some(antenna.shown.id());
+        let operation = &mut antenna.shown.operation;
+        if !is_on {
+            operation.switch_off(OffBecause::Operator);
+        } else if antenna.shown.held_by.is_none() && antenna.shown.snapshot.lock_out.is_none() {
+            *operation = Operation::switched_on();
+            let is_that = |kind: &AlarmKind| matches!(kind, AlarmKind::AutomaticOff(_));
+            self.alarms.clear(of, self.now, is_that);
+        }
+        if !is_on {
+            self.switch_auto_track(index, false);
+        }
+    }
+
+    /// Lets a suspended antenna go on with its schedule.
+    pub(super) fn go_on(&mut self, index: usize) {
+        let now = self.now;
+        if let Some(antenna) = self.antennas.get_mut(index) {
+            antenna.shown.operation.go_on(now);
+        }
+    }
+
+    /// Switches automatic operation on for those antennas for which the station file says so,
+    /// after a run that ended as it should.
+    pub(super) fn start_automatic(&mut self) {
+        let path = self.last_run_path();
+        let last = path.as_deref().map(LastRun::load).unwrap_or_default();
+        for index in 0..self.antennas.len() {
+            let Some(antenna) = self.antennas.get(index) else { continue };
+            let config = &antenna.shown.config;
+            let is_free = antenna.shown.held_by.is_none()
+                && self.lock_outs.of(&config.connection).is_none()
+                && self.driver.debts().units().is_empty();
+            if config.automatic.is_on_at_start && is_free && last.allows(config.id) {
+                self.set_automatic(index, true);
+            }
+        }
+        self.last_run = LastRun { is_orderly: false, ..last };
+        self.keep_last_run();
+    }
+
+    /// The station ends as it should.
+    pub(super) fn end_automatic(&mut self) {
+        let owes = |antenna: &Antenna| {
+            let stop = antenna.handle.snapshot().stop;
+            matches!(stop, StopState::Stopping { .. } | StopState::NotConfirmed { .. })
+        };
+        self.last_run.is_orderly = !self.antennas.iter().any(owes);
+        self.keep_last_run();
+    }
+
+    fn last_run_path(&self) -> Option<PathBuf> {
+        let folder = self.settings_path.as_deref().and_then(Path::parent);
+        folder.filter(|_| self.demo.is_none()).map(|folder| folder.join(at_start::FILE))
+    }
+
+    fn keep_last_run(&self) {
+        let Some(path) = self.last_run_path() else { return };
+        if let Err(error) = self.last_run.save(&path) {
+            tracing::error!(%error, "automatic operation will be off at the next start");
+        }
+    }
+
+    /// A client commands an antenna: automatic operation leaves it to the operator.
+    pub(super) fn leave_to_operator(&mut self, command: &Command) {
+        let is_motion = match command {
+            Command::Antenna(_, command) => !matches!(
+                command,
+                driver::Command::Connect
+                    | driver::Command::ReadGroup(_)
+                    | driver::Command::Preview(_)
+                    | driver::Command::Ask(_)
+                    | driver::Command::LockOut(_)
+                    | driver::Command::Unlock
+                    | driver::Command::AllowUnguarded
+                    | driver::Command::AllowWayOut
+                    | driver::Command::EndJog
+                    | driver::Command::AutoTrack(_)
+                    | driver::Command::WriteSettings(_)
+            ),
+            Command::Track { .. } | Command::ProgramTrackPass { .. } => true,
+            _ => false,
+        };
+        let place = command.antenna().filter(|_| is_motion).and_then(|id| self.place(id));
+        let now = self.now;
+        if let Some(antenna) = place.and_then(|place| self.antennas.get_mut(place)) {
+            antenna.shown.operation.suspend(Interruption::ByHand, now);
+        }
+    }
+
+    /// STOP ends automatic operation: that of all antennas where it was for all.
+    pub(super) fn end_automatic_by_stop(&mut self, stopped: &Stopped) {
+        for antenna in &mut self.antennas {
+            let is_meant = stopped.is_for_all || stopped.antennas.contains(&antenna.shown.id());
+            if is_meant {
+                antenna.shown.operation.switch_off(OffBecause::Stop);
+            }
+        }
+    }
+
+    /// Takes what an antenna tells of a pass that it was given, or of its safety.
+    pub(super) fn take_automatic_event(&mut self, index: usize, event: &Event) {
+        let now = self.now;
+        let Some(antenna) = self.antennas.get_mut(index) else { return };
+        let uses_auto_track = antenna.shown.config.automatic.uses_auto_track;
+        let operation = &mut antenna.shown.operation;
+        match event {
+            Event::CannotTrack(..)
+            | Event::WouldMiss { .. }
+            | Event::CannotProgramTrack(..)
+            | Event::NotSent(_)
+            | Event::Refused(Asked::Motion(_), _)
+            | Event::Unanswered(Asked::Motion(_)) => operation.take_outcome(Outcome::Failed, now),
+            Event::TrackingEnded { completed: false } => {
+                operation.take_outcome(Outcome::EndedEarly, now);
+            }
+            Event::StartedByItself if !uses_auto_track => {
+                operation.suspend(Interruption::Elsewhere, now);
+            }
+            Event::Safety(
+                Safety::DeadManFired
+                | Safety::SessionBroke
+                | Safety::Forbidden { response: Response::Stopped, .. },
+            ) => operation.switch_off(OffBecause::Safety),
+            Event::Safety(Safety::AsksToResume { unlike: Some(_), .. })
+            | Event::Back { found: Found::Moving, .. } => {
+                operation.switch_off(OffBecause::NotAsLeft);
+            }
+            _ => {}
+        }
+    }
+
+    /// Does what is due.
+    pub(super) fn run_automatic(&mut self) {
+        for index in 0..self.antennas.len() {
+            self.run_automatic_of(index);
+            self.tell_automatic(index);
+        }
+    }
+
+    fn run_automatic_of(&mut self, index: usize) {
+        let Some(antenna) = self.antennas.get(index) else { return };
+        let duties = self.duties(&antenna.shown);
+        let wishes = self.wishes(&antenna.shown);
+        let seen = seen(&antenna.shown);
+        self.fly(index, &duties, seen);
+        let now = self.now;
+        let Some(antenna) = self.antennas.get_mut(index) else { return };
+        match antenna.shown.operation.step(&duties, seen, wishes, now) {
+            Some(Act::Take(duty)) => {
+                self.take_pass(index, &duty);
+                self.switch_auto_track(index, true);
+            }
+            Some(Act::Park) => self.send(index, driver::Command::Park),
+            None => {}
+        }
+    }
+
+    /// The unit starts what it holds by itself, where the operator wants that.
+    fn switch_auto_track(&mut self, index: usize, is_on: bool) {
+        let Some(antenna) = self.antennas.get(index) else { return };
+        let config = &antenna.shown.config;
+        let can =
+            config.automatic.uses_auto_track && antenna.shown.variant().capabilities.has_program;
+        if can && antenna.shown.snapshot.link.is_open() {
+            self.send(index, driver::Command::AutoTrack(is_on));
+        }
+    }
+
+    /// The passes that the schedule gives to an antenna.
+    fn duties(&self, antenna: &AntennaModel) -> Vec<Duty> {
+        let id = antenna.id();
+        let entries = self.schedule.schedule.entries.iter().filter(|entry| entry.antenna == id);
+        let between = self.between(antenna);
+        entries.map(|entry| duty(entry, between)).collect()
+    }
+
+    fn between(&self, antenna: &AntennaModel) -> BetweenPasses {
+        let rules = self.station.rules.iter().filter(|rule| rule.is_for(antenna.id()));
+        let sun = self.sun_is();
+        let mut holding = rules.filter(|rule| rule.of.is_none() && rule.holds_at(self.now, sun));
+        match holding.next() {
+            Some(AutomationRule { then: Then::Park, .. }) => BetweenPasses::Park,
+            _ => antenna.config.automatic.between,
+        }
+    }
+
+    fn wishes(&self, antenna: &AntennaModel) -> Wishes {
+        let scheduling = self.station.scheduling;
+        let parks = self.between(antenna) == BetweenPasses::Park && antenna.can_park();
+        Wishes {
+            park_s: parks.then(|| antenna.config.longest_slew_s() + LEAD_S),
+            warn_after_rest_s: scheduling.warn_after_rest_min * 60.0,
+            warning_s: scheduling.warning_s,
+        }
+    }
+
+    /// Follows the pass of the schedule that is under way.
+    fn fly(&mut self, index: usize, duties: &[Duty], seen: Seen) {
+        let now = self.now;
+        let name = |pass: PassKey| {
+            let found = self.pass_lists.find(pass);
+            found.map_or_else(|| pass.0.to_string(), |of| of.satellite.short_name().to_owned())
+        };
+        let is_due = |duty: &&Duty| duty.go_at <= now && now < duty.until;
+        let due = duties.iter().find(is_due).map(|duty| (*duty, name(duty.pass)));
+        let Some(antenna) = self.antennas.get_mut(index) else { return };
+        let (shown, flight) = (&antenna.shown, &mut antenna.at_work.flight);
+        if let Some(flight) = flight {
+            let predicted = shown.prediction.and_then(|prediction| prediction.catalog_number);
+            let error = shown.error().filter(|_| predicted == Some(flight.duty.pass.0));
+            let half_beam = shown.config.beam_width() * 0.5;
+            flight.see(&shown.operation, seen.is_live, error.as_ref(), half_beam, now);
+        }
+        let ended = flight.take_if(|flight| now >= flight.duty.until);
+        if flight.is_none() && (shown.operation.is_on() || ended.is_some()) {
+            *flight = due.map(|(duty, name)| Flight::new(duty, name));
+        }
+        let late = flight.as_ref().filter(|flight| {
+            let until_s = seconds_between(now, flight.duty.from);
+            let is_on_its_way = seen.takes == Some(flight.duty.pass.0);
+            shown.operation.is_on() && until_s <= LATE_S && !is_on_its_way
+        });
+        let late = late.map(|flight| (flight.duty.pass, flight.name().to_owned()));
+        let of = Some(shown.id());
+        self.alarms.clear(of, now, |kind| match kind {
+            AlarmKind::NotOnItsWay { pass, .. } => {
+                late.as_ref().is_none_or(|(late, _)| !is_same_pass(*late, *pass))
+            }
+            _ => false,
+        });
+        if let Some((pass, name)) = late {
+            self.alarms.raise(of, AlarmKind::NotOnItsWay { pass, name }, now);
+        }
+        if let (Some(flight), Some(id)) = (ended, of) {
+            self.note_day(id, DayEvent::Flown(flight.end()));
+        }
+    }
+
+    /// Tells what has become of automatic operation since the last turn.
+    fn tell_automatic(&mut self, index: usize) {
+        let Some(antenna) = self.antennas.get_mut(index) else { return };
+        let id = antenna.shown.id();
+        let operation = antenna.shown.operation.clone();
+        let before = antenna.at_work.told.replace(operation.clone());
+        let announced = match &operation {
+            Operation::On(On { doing: Doing::Announces { moves_at, pass }, .. }) => {
+                Some((*moves_at, *pass))
+            }
+            _ => None,
+        };
+        self.alarms.clear(Some(id), self.now, |kind| {
+            matches!(kind, AlarmKind::AutomaticMoves { .. }) && announced.is_none()
+        });
+        if let Some((at, pass)) = announced {
+            let name = self.pass_lists.find(pass);
+            let name = name.map_or_else(String::new, |of| of.satellite.short_name().to_owned());
+            self.alarms.raise(Some(id), AlarmKind::AutomaticMoves { at, name }, self.now);
+        }
+        let Some(before) = before else { return };
+        let event = match (&before, &operation) {
+            (Operation::On(_), Operation::On(_))
+            | (Operation::Suspended { .. }, Operation::Suspended { .. }) => return,
+            (Operation::Suspended { .. }, Operation::On(_)) => DayEvent::WentOn,
+            (_, Operation::On(_)) => DayEvent::SwitchedOn,
+            (_, Operation::Suspended { by, .. }) => DayEvent::Suspended(*by),
+            (Operation::Off(before), Operation::Off(now)) if before == now => return,
+            (_, Operation::Off(because)) => {
+                if because.is_alarming() {
+                    self.alarms.raise(Some(id), AlarmKind::AutomaticOff(*because), self.now);
+                }
+                DayEvent::SwitchedOff(*because)
+            }
+        };
+        match &event {
+            DayEvent::SwitchedOn => self.keep_switched_off(id, false),
+            // The end of the station switches nothing off for the next start.
+            DayEvent::SwitchedOff(_) if self.closing.is_none() => self.keep_switched_off(id, true),
+            _ => {}
+        }
+        self.note_day(id, event);
+    }
+
+    fn keep_switched_off(&mut self, id: AntennaId, is_off: bool) {
+        self.last_run.switched_off.retain(|known| *known != id);
+        self.last_run.switched_off.extend(is_off.then_some(id));
+        self.keep_last_run();
+    }
+
+    fn note_day(&mut self, antenna: AntennaId, what: DayEvent) {
+        tracing::info!(?antenna, ?what, "automatic operation");
+        day::add(&mut self.day, DayLine { at: self.now, antenna, what });
+    }
+}
+
+fn duty(entry: &Entry, between: BetweenPasses) -> Duty {
+    let before_s = match between {
+        // As soon as the pass before is over.
+        BetweenPasses::Wait => entry.slew_s + entry.set_up_s + entry.spare_s.unwrap_or_default(),
+        BetweenPasses::Stay | BetweenPasses::Park => {
+            let lead_s = entry.spare_s.unwrap_or(LEAD_S).clamp(0.0, LEAD_S);
+            entry.slew_s + entry.set_up_s + lead_s
+        }
+    };
+    Duty {
+        pass: (entry.pass.satellite, entry.pass.aos),
+        from: entry.from,
+        until: entry.to,
+        go_at: add_seconds(entry.from, -before_s),
+        counted_s: entry.counted_s,
+        begins_late: entry.late_s > 0.0,
+        ends_early: entry.early_s > 0.0,
+    }
+}
+
+/// What automatic operation has to know of an antenna.
+fn seen(antenna: &AntennaModel) -> Seen {
+    let snapshot = &antenna.snapshot;
+    let moves = snapshot.state.measured.is_some_and(|measured| measured.moving());
+    let is_still_asked = snapshot.intent == Intent::Track
+        || snapshot.pending
+        || snapshot.runs_out
+        || snapshot.jog.is_some()
+        || snapshot.step.is_some();
+    let stops =
+        matches!(snapshot.stop, StopState::Stopping { .. } | StopState::NotConfirmed { .. });
+    let takes = antenna.tracked_number().filter(|_| !antenna.tracks_unasked());
+    Seen {
+        is_live: antenna.is_live(),
+        is_locked_out: snapshot.lock_out.is_some(),
+        can_be_sent: !stops && snapshot.left_moving.is_none() && antenna.held_by.is_none(),
+        takes: takes.filter(|number| antenna.takes(*number)),
+        is_proved: !snapshot.pending,
+        moves,
+        is_moved_elsewhere: antenna.is_live()
+            && (antenna.tracks_unasked() || moves && !is_still_asked),
+    }
+}

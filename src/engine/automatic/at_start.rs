@@ -1,0 +1,70 @@
+//! Whether automatic operation may be on from the start: what the run before has left, in a file
+//! beside the station file.
+
+use std::{fs, io, path::Path};
+
+use serde::{Deserialize, Serialize};
+
+use crate::{station::AntennaId, whole_file};
+
+/// Name of the file.
+pub(super) const FILE: &str = "automatic.toml";
+
+/// How the last run ended, and which antennas had their automatic operation switched off.
+#[derive(Debug, Clone, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[serde(default)]
+pub(in crate::engine) struct LastRun {
+    /// The run ended as it should: it did not crash, and no antenna was left moving.
+    pub(in crate::engine) is_orderly: bool,
+    /// Antennas whose automatic operation was ended, by the operator or otherwise, and not
+    /// switched on again.
+    pub(in crate::engine) switched_off: Vec<AntennaId>,
+}
+
+impl LastRun {
+    /// A file that cannot be read is that of a run whose end is not known.
+    pub(super) fn load(path: &Path) -> Self {
+        let read = fs::read_to_string(path).map(|text| toml::from_str(&text));
+        match read {
+            Ok(Ok(last)) => last,
+            Ok(Err(error)) => {
+                tracing::warn!(%error, "{FILE} cannot be read");
+                Self::default()
+            }
+            Err(error) => {
+                if error.kind() != io::ErrorKind::NotFound {
+                    tracing::warn!(%error, "{FILE} cannot be read");
+                }
+                Self::default()
+            }
+        }
+    }
+
+    pub(super) fn save(&self, path: &Path) -> io::Result<()> {
+        let text = toml::to_string(self).map_err(io::Error::other)?;
+        whole_file::replace(path, text.as_bytes())
+    }
+
+    pub(super) fn allows(&self, antenna: AntennaId) -> bool {
+        self.is_orderly && !self.switched_off.contains(&antenna)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn only_an_orderly_end_allows_it_and_not_where_it_was_switched_off() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join(FILE);
+        assert!(!LastRun::load(&path).allows(AntennaId(1)), "nothing is known of a first start");
+        let last = LastRun { is_orderly: true, switched_off: vec![AntennaId(2)] };
+        last.save(&path).unwrap();
+        let read = LastRun::load(&path);
+        assert_eq!(read, last);
+        assert!(read.allows(AntennaId(1)) && !read.allows(AntennaId(2)));
+        fs::write(&path, "is_orderly = 7").unwrap();
+        assert!(!LastRun::load(&path).allows(AntennaId(1)));
+    }
+}

@@ -1,0 +1,389 @@
+//! What automatic operation of one antenna does next: a state machine without clock, links or
+//! schedule.
+
+use jiff::Timestamp;
+use serde::{Deserialize, Serialize};
+
+use crate::{
+    astro::time::{add_seconds, seconds_between},
+    engine::passes::PassKey,
+};
+
+/// Passes in a row whose load or proof failed after which automatic operation ends.
+const FAILURES: u8 = 2;
+/// Requests for one pass that led to nothing after which it is given up.
+const REQUESTS: u8 = 2;
+/// A pass of which less than this is left is not begun any more, seconds.
+const WORTH_S: f64 = 10.0;
+/// Largest difference in AOS of one pass between two schedules, seconds.
+const SAME_AOS_S: f64 = 60.0;
+/// An antenna that nobody here moves may coast for this long, seconds.
+const COASTS_S: f64 = 5.0;
+/// A pass that nothing was done for so long before it begins is told, seconds.
+pub(super) const LATE_S: f64 = 30.0;
+
+/// Automatic operation of one antenna. Only the operator switches it on, and lets it go on.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Operation {
+    Off(OffBecause),
+    On(On),
+    /// Somebody moved the antenna: it waits for the operator, whatever the time.
+    Suspended {
+        by: Interruption,
+        since: Timestamp,
+    },
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum OffBecause {
+    /// Nobody has switched it on since the start.
+    NotSwitchedOn,
+    /// The operator switched it off.
+    Operator,
+    Stop,
+    /// The monitor or the dead-man has stopped the antenna.
+    Safety,
+    LockedOut,
+    /// The settings of the antenna were changed.
+    Changed,
+    /// After an outage the unit was not as it had been left.
+    NotAsLeft,
+    /// Two passes in a row could not be loaded or proved.
+    Failures,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Interruption {
+    /// By a command from this station, such as a jog.
+    ByHand,
+    /// By the panel of the unit, or by another program.
+    Elsewhere,
+}
+
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct On {
+    pub doing: Doing,
+    failures: u8,
+    /// When the antenna was last moved by automatic operation, or seen to be.
+    moved_at: Option<Timestamp>,
+    /// Since when the antenna moves although nothing is asked of it.
+    moves_since: Option<Timestamp>,
+}
+
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Doing {
+    Rests,
+    /// The first motion after a rest is announced.
+    Announces {
+        moves_at: Timestamp,
+        pass: PassKey,
+    },
+    /// Goes to its park position between two passes.
+    Parks,
+    Takes(Taking),
+}
+
+/// A pass that is being taken.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct Taking {
+    pub pass: PassKey,
+    pub from: Timestamp,
+    pub until: Timestamp,
+    /// When the unit was asked last, and how often since the pass was last proved.
+    pub asked_at: Timestamp,
+    requests: u8,
+    /// When it was proved that the antenna is on its way; for a unit with a program of its own
+    /// by reading back.
+    pub proved_at: Option<Timestamp>,
+    /// The rest of the pass is not taken: the unit refused it, or it ended early.
+    pub is_given_up: bool,
+}
+
+/// A pass that the schedule gives to the antenna.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct Duty {
+    pub pass: PassKey,
+    /// First and last moment that count.
+    pub from: Timestamp,
+    pub until: Timestamp,
+    /// When the antenna is sent there, at the latest.
+    pub go_at: Timestamp,
+    /// Seconds between them that count.
+    pub counted_s: f64,
+    /// A part of the pass is left out before `from`, or after `until`.
+    pub begins_late: bool,
+    pub ends_early: bool,
+}
+
+/// What is known of the antenna at one moment.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Seen {
+    /// The unit answers in time.
+    pub(super) is_live: bool,
+    pub(super) is_locked_out: bool,
+    /// Commands can be sent: no STOP is owed and nothing else forbids them.
+    pub(super) can_be_sent: bool,
+    /// The satellite that it tracks from here or is on its way to.
+    pub(super) takes: Option<u32>,
+    /// That has been proved.
+    pub(super) is_proved: bool,
+    pub(super) moves: bool,
+    /// It moves or tracks, and not by this station.
+    pub(super) is_moved_elsewhere: bool,
+}
+
+/// How the operator wants it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Wishes {
+    /// Parks between passes where the time allows; `None` where it does not park. Seconds that
+    /// both ways take at most.
+    pub(super) park_s: Option<f64>,
+    pub(super) warn_after_rest_s: f64,
+    pub(super) warning_s: f64,
+}
+
+/// What the station does for automatic operation.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) enum Act {
+    Take(Duty),
+    Park,
+}
+
+/// What became of a request for a pass, as the session tells it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Outcome {
+    /// The pass cannot be loaded or proved, or the unit refused it.
+    Failed,
+    /// The track ended before its end, and nobody here has ended it.
+    EndedEarly,
+}
+
+impl OffBecause {
+    /// Whether the operator has to be told, because it was not he who ended it.
+    pub(super) fn is_alarming(self) -> bool {
+        matches!(self, Self::Safety | Self::Changed | Self::NotAsLeft | Self::Failures)
+    }
+}
+
+impl Operation {
+    pub(super) fn switched_on() -> Self {
+        Self::On(On { doing: Doing::Rests, failures: 0, moved_at: None, moves_since: None })
+    }
+
+    pub fn is_on(&self) -> bool {
+        matches!(self, Self::On(_))
+    }
+
+    /// The pass that is being taken.
+    pub fn taking(&self) -> Option<&Taking> {
+        match self {
+            Self::On(On { doing: Doing::Takes(taking), .. }) => Some(taking),
+            _ => None,
+        }
+    }
+
+    /// Ends it, unless it is off.
+    pub(super) fn switch_off(&mut self, because: OffBecause) {
+        if !matches!(self, Self::Off(_)) || because == OffBecause::Operator {
+            *self = Self::Off(because);
+        }
+    }
+
+    pub(super) fn suspend(&mut self, by: Interruption, now: Timestamp) {
+        if self.is_on() {
+            *self = Self::Suspended { by, since: now };
+        }
+    }
+
+    /// The operator lets it go on.
+    pub(super) fn go_on(&mut self, now: Timestamp) {
+        if matches!(self, Self::Suspended { .. }) {
+            *self = Self::switched_on();
+            // The operator is there, and has just said it.
+            if let Self::On(on) = self {
+                on.moved_at = Some(now);
+            }
+        }
+    }
+
+    /// Takes what became of the request for the present pass.
+    pub(super) fn take_outcome(&mut self, outcome: Outcome, now: Timestamp) {
+        let Self::On(on) = self else { return };
+        let Doing::Takes(taking) = &mut on.doing else { return };
+        if taking.is_given_up {
+            return;
+        }
+        match outcome {
+            Outcome::Failed => {
+                taking.is_given_up = true;
+                on.failures += 1;
+                self.end_after_failures();
+            }
+            Outcome::EndedEarly => self.suspend(Interruption::Elsewhere, now),
+        }
+    }
+
+    fn end_after_failures(&mut self) {
+        if matches!(self, Self::On(On { failures: FAILURES.., .. })) {
+            *self = Self::Off(OffBecause::Failures);
+        }
+    }
+
+    /// What to do at `now`. `duties` are in the order of time; those that are over are ignored.
+    pub(super) fn step(
+        &mut self,
+        duties: &[Duty],
+        seen: Seen,
+        wishes: Wishes,
+        now: Timestamp,
+    ) -> Option<Act> {
+        if seen.is_locked_out {
+            self.switch_off(OffBecause::LockedOut);
+        }
+        let Self::On(on) = self else { return None };
+        on.see(seen, now);
+        if seen.is_moved_elsewhere && on.is_moved_for_long(now) {
+            self.suspend(Interruption::Elsewhere, now);
+            return None;
+        }
+        let act = on.step(duties, seen, wishes, now);
+        self.end_after_failures();
+        act
+    }
+}
+
+impl On {
+    /// Brings what it does up to date.
+    fn see(&mut self, seen: Seen, now: Timestamp) {
+        if !seen.is_moved_elsewhere {
+            self.moves_since = None;
+        } else if self.moves_since.is_none() {
+            self.moves_since = Some(now);
+        }
+        if let Doing::Takes(taking) = &mut self.doing {
+            if seen.takes == Some(taking.pass.0) && seen.is_live {
+                if seen.moves {
+                    self.moved_at = Some(now);
+                }
+                if seen.is_proved && taking.proved_at.is_none() {
+                    taking.proved_at = Some(now);
+                    taking.requests = 0;
+                    self.failures = 0;
+                }
+            }
+            if now >= taking.until {
+                self.doing = Doing::Rests;
+            }
+        }
+    }
+
+    fn is_moved_for_long(&self, now: Timestamp) -> bool {
+        self.moves_since.is_some_and(|since| seconds_between(since, now) >= COASTS_S)
+    }
+
+    fn step(&mut self, duties: &[Duty], seen: Seen, wishes: Wishes, now: Timestamp) -> Option<Act> {
+        if let Doing::Takes(taking) = &self.doing {
+            return self.again(*taking, duties, seen, now);
+        }
+        let left = |duty: &&Duty| seconds_between(now, duty.until) > WORTH_S;
+        let next = duties.iter().find(left).copied();
+        let Some(duty) = next else {
+            return self.park(None, seen, wishes, now);
+        };
+        let rest_s = self.moved_at.map_or(f64::INFINITY, |at| seconds_between(at, now));
+        let is_announced = rest_s >= wishes.warn_after_rest_s;
+        let lead_s = if is_announced { wishes.warning_s } else { 0.0 };
+        if seconds_between(now, duty.go_at) > lead_s {
+            return self.park(Some(duty), seen, wishes, now);
+        }
+        match &self.doing {
+            Doing::Announces { moves_at, pass } if is_same_pass(*pass, duty.pass) => {
+                if now < *moves_at {
+                    return None;
+                }
+            }
+            _ if is_announced => {
+                let moves_at = add_seconds(now, wishes.warning_s);
+                self.doing = Doing::Announces { moves_at, pass: duty.pass };
+                return None;
+            }
+            _ => {}
+        }
+        (seen.is_live && seen.can_be_sent).then(|| self.take(duty, 1, now))
+    }
+
+    fn take(&mut self, duty: Duty, requests: u8, now: Timestamp) -> Act {
+        let Duty { pass, from, until, .. } = duty;
+        self.moved_at = Some(now);
+        self.doing = Doing::Takes(Taking {
+            pass,
+            from,
+            until,
+            asked_at: now,
+            requests,
+            proved_at: None,
+            is_given_up: false,
+        });
+        Act::Take(duty)
+    }
+
+    /// A pass that an outage took away is asked for again once the unit answers and does nothing,
+    /// and given up if that leads to nothing.
+    fn again(
+        &mut self,
+        taking: Taking,
+        duties: &[Duty],
+        seen: Seen,
+        now: Timestamp,
+    ) -> Option<Act> {
+        let is_asked = seconds_between(taking.asked_at, now) < LATE_S;
+        let is_idle = seen.takes != Some(taking.pass.0) && !seen.moves;
+        if taking.is_given_up || is_asked || !is_idle || !seen.is_live || !seen.can_be_sent {
+            return None;
+        }
+        let duty = duties.iter().find(|duty| is_same_pass(duty.pass, taking.pass))?;
+        if taking.requests >= REQUESTS {
+            if let Doing::Takes(taking) = &mut self.doing {
+                taking.is_given_up = true;
+            }
+            self.failures += 1;
+            return None;
+        }
+        let is_worth_it = seconds_between(now, duty.until) > WORTH_S;
+        is_worth_it.then(|| self.take(*duty, taking.requests + 1, now))
+    }
+
+    /// Parks until the next pass, where the time is enough for both ways.
+    fn park(
+        &mut self,
+        next: Option<Duty>,
+        seen: Seen,
+        wishes: Wishes,
+        now: Timestamp,
+    ) -> Option<Act> {
+        let park_s = wishes.park_s?;
+        let has_time = next.is_none_or(|duty| seconds_between(now, duty.go_at) > park_s);
+        // After a rest, or before its first pass, it stays where it is: parking is not announced.
+        let is_awake =
+            self.moved_at.is_some_and(|at| seconds_between(at, now) < wishes.warn_after_rest_s);
+        let is_due = matches!(self.doing, Doing::Rests) && is_awake;
+        if !has_time || !is_due || !seen.is_live || !seen.can_be_sent || seen.moves {
+            return None;
+        }
+        self.doing = Doing::Parks;
+        self.moved_at = Some(now);
+        Some(Act::Park)
+    }
+}
+
+/// Whether both are one pass: newer elements move its AOS a little.
+pub(in crate::engine) fn is_same_pass(one: PassKey, other: PassKey) -> bool {
+    one.0 == other.0 && seconds_between(one.1, other.1).abs() < SAME_AOS_S
+}
+
+#[cfg(test)]
+mod tests;

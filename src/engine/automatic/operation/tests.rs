@@ -1,0 +1,209 @@
+use super::*;
+
+const WARNING_S: f64 = 30.0;
+
+fn at(second: f64) -> Timestamp {
+    add_seconds(Timestamp::UNIX_EPOCH, second)
+}
+
+/// A pass of satellite `number`, for which the antenna has to go 60 s before it begins.
+fn duty(number: u32, from_s: f64) -> Duty {
+    Duty {
+        pass: (number, at(from_s)),
+        from: at(from_s),
+        until: at(from_s + 600.0),
+        go_at: at(from_s - 60.0),
+        counted_s: 600.0,
+        begins_late: false,
+        ends_early: false,
+    }
+}
+
+const STANDS: Seen = Seen {
+    is_live: true,
+    is_locked_out: false,
+    can_be_sent: true,
+    takes: None,
+    is_proved: false,
+    moves: false,
+    is_moved_elsewhere: false,
+};
+
+fn taking(number: u32) -> Seen {
+    Seen { takes: Some(number), is_proved: true, moves: true, ..STANDS }
+}
+
+/// An antenna with its duties, looked at once a second.
+struct Fixture {
+    operation: Operation,
+    duties: Vec<Duty>,
+    wishes: Wishes,
+    now_s: f64,
+}
+
+impl Fixture {
+    fn new(duties: &[Duty]) -> Self {
+        Self {
+            operation: Operation::switched_on(),
+            duties: duties.to_vec(),
+            wishes: Wishes { park_s: None, warn_after_rest_s: 3600.0, warning_s: WARNING_S },
+            now_s: 0.0,
+        }
+    }
+
+    /// All acts until `to_s`, with their seconds, while the antenna is seen like this.
+    fn until(&mut self, to_s: f64, seen: impl Fn(f64) -> Seen) -> Vec<(f64, Act)> {
+        let mut acts = Vec::new();
+        while self.now_s < to_s {
+            let (now_s, now) = (self.now_s, at(self.now_s));
+            let act = self.operation.step(&self.duties, seen(now_s), self.wishes, now);
+            acts.extend(act.map(|act| (now_s, act)));
+            self.now_s += 1.0;
+        }
+        acts
+    }
+
+    fn outcome(&mut self, outcome: Outcome) {
+        self.operation.take_outcome(outcome, at(self.now_s));
+    }
+}
+
+#[test]
+fn nothing_is_done_until_the_operator_has_switched_it_on() {
+    let mut fixture = Fixture::new(&[duty(1, 100.0)]);
+    fixture.operation = Operation::Off(OffBecause::NotSwitchedOn);
+    assert_eq!(fixture.until(900.0, |_| STANDS), []);
+}
+
+#[test]
+fn the_first_motion_and_one_after_a_rest_are_announced_and_others_are_not() {
+    let duties = [duty(1, 200.0), duty(2, 1000.0), duty(3, 9000.0)];
+    let mut fixture = Fixture::new(&duties);
+    let announced = |fixture: &Fixture| match &fixture.operation {
+        Operation::On(On { doing: Doing::Announces { moves_at, pass }, .. }) => {
+            Some((*moves_at, pass.0))
+        }
+        _ => None,
+    };
+    assert_eq!(fixture.until(110.0, |_| STANDS), []);
+    assert_eq!(announced(&fixture), None);
+    assert_eq!(fixture.until(111.0, |_| STANDS), []);
+    assert_eq!(announced(&fixture), Some((at(140.0), 1)));
+    assert_eq!(fixture.until(150.0, |_| STANDS), [(140.0, Act::Take(duties[0]))]);
+    let flown = |number| move |_| taking(number);
+    assert_eq!(fixture.until(810.0, flown(1)), []);
+    assert_eq!(fixture.until(945.0, |_| STANDS), [(940.0, Act::Take(duties[1]))]);
+    assert_eq!(fixture.until(1700.0, flown(2)), []);
+    assert_eq!(fixture.until(8911.0, |_| STANDS), []);
+    assert_eq!(announced(&fixture), Some((at(8940.0), 3)));
+    assert_eq!(fixture.until(8950.0, |_| STANDS), [(8940.0, Act::Take(duties[2]))]);
+}
+
+#[test]
+fn a_suspension_is_ended_by_the_operator_alone() {
+    let duties = [duty(1, 200.0), duty(2, 1000.0)];
+    let mut fixture = Fixture::new(&duties);
+    fixture.until(150.0, |_| STANDS);
+    fixture.operation.suspend(Interruption::ByHand, at(150.0));
+    assert_eq!(fixture.until(500.0, |_| STANDS), []);
+    fixture.duties.insert(1, duty(3, 700.0));
+    assert_eq!(fixture.until(930.0, |_| STANDS), []);
+    fixture.operation.go_on(at(930.0));
+    assert_eq!(fixture.until(945.0, |_| STANDS).first(), Some(&(930.0, Act::Take(duty(3, 700.0)))));
+}
+
+#[test]
+fn an_antenna_that_somebody_moves_is_left_to_them_and_one_that_coasts_is_not() {
+    let moved = |from_s: f64, to_s: f64| {
+        move |now_s: f64| {
+            let is_moved = (from_s..to_s).contains(&now_s);
+            Seen { moves: is_moved, is_moved_elsewhere: is_moved, ..STANDS }
+        }
+    };
+    let mut fixture = Fixture::new(&[duty(1, 500.0)]);
+    fixture.until(100.0, moved(10.0, 14.0));
+    assert!(fixture.operation.is_on());
+    fixture.until(200.0, moved(110.0, 130.0));
+    let since = at(115.0);
+    let suspended = Operation::Suspended { by: Interruption::Elsewhere, since };
+    assert_eq!(fixture.operation, suspended);
+}
+
+#[test]
+fn a_track_that_somebody_ends_suspends_it() {
+    let mut fixture = Fixture::new(&[duty(1, 200.0)]);
+    fixture.until(150.0, |_| STANDS);
+    fixture.until(250.0, |_| taking(1));
+    fixture.outcome(Outcome::EndedEarly);
+    assert!(matches!(fixture.operation, Operation::Suspended { .. }));
+}
+
+#[test]
+fn two_failures_in_a_row_switch_it_off_and_a_pass_between_them_does_not() {
+    let duties = [duty(1, 200.0), duty(2, 1000.0), duty(3, 1800.0), duty(4, 2600.0)];
+    let fails = |fixture: &mut Fixture, to_s: f64| {
+        assert_eq!(fixture.until(to_s, |_| STANDS).len(), 1);
+        fixture.outcome(Outcome::Failed);
+    };
+    let mut fixture = Fixture::new(&duties);
+    fails(&mut fixture, 150.0);
+    assert_eq!(fixture.until(900.0, |_| STANDS), [], "what it refused is not asked for again");
+    fixture.until(945.0, |_| STANDS);
+    fixture.until(1700.0, |_| taking(2));
+    fails(&mut fixture, 1745.0);
+    assert!(fixture.operation.is_on());
+    fails(&mut fixture, 2545.0);
+    assert_eq!(fixture.operation, Operation::Off(OffBecause::Failures));
+    assert_eq!(fixture.until(4000.0, |_| STANDS), []);
+}
+
+#[test]
+fn a_lost_link_costs_what_cannot_be_had_and_the_rest_is_taken() {
+    let duties = [duty(1, 200.0), duty(2, 1000.0)];
+    let mut fixture = Fixture::new(&duties);
+    let gone = |_| Seen { is_live: false, can_be_sent: false, ..STANDS };
+    assert_eq!(fixture.until(400.0, gone), []);
+    let take = Act::Take(duties[0]);
+    assert_eq!(fixture.until(440.0, |_| STANDS), [(400.0, take), (430.0, take)]);
+    fixture.until(500.0, |_| taking(1));
+    fixture.until(550.0, gone);
+    assert_eq!(fixture.until(560.0, |_| STANDS), [(550.0, take)]);
+    fixture.until(600.0, |_| taking(1));
+    fixture.until(795.0, gone);
+    assert_eq!(fixture.until(900.0, |_| STANDS), [], "too little of it is left");
+    assert_eq!(fixture.until(945.0, |_| STANDS), [(940.0, Act::Take(duties[1]))]);
+}
+
+#[test]
+fn a_pass_for_which_nothing_happens_is_given_up() {
+    let duties = [duty(1, 200.0), duty(2, 1000.0), duty(3, 1800.0)];
+    let mut fixture = Fixture::new(&duties);
+    let take = Act::Take(duties[0]);
+    assert_eq!(fixture.until(900.0, |_| STANDS), [(140.0, take), (170.0, take)]);
+    assert!(fixture.operation.is_on());
+    fixture.until(1700.0, |_| STANDS);
+    assert_eq!(fixture.operation, Operation::Off(OffBecause::Failures));
+}
+
+#[test]
+fn it_parks_between_passes_where_the_time_is_enough() {
+    let duties = [duty(1, 200.0), duty(2, 1000.0), duty(3, 2000.0)];
+    let mut fixture = Fixture::new(&duties);
+    fixture.wishes.park_s = Some(300.0);
+    assert_eq!(fixture.until(150.0, |_| STANDS), [(140.0, Act::Take(duties[0]))]);
+    fixture.until(801.0, |_| taking(1));
+    assert_eq!(fixture.until(945.0, |_| STANDS), [(940.0, Act::Take(duties[1]))]);
+    fixture.until(1601.0, |_| taking(2));
+    assert_eq!(
+        fixture.until(1945.0, |_| STANDS),
+        [(1601.0, Act::Park), (1940.0, Act::Take(duties[2]))]
+    );
+}
+
+#[test]
+fn a_lock_out_switches_it_off() {
+    let mut fixture = Fixture::new(&[duty(1, 200.0)]);
+    let locked = |now_s: f64| Seen { is_locked_out: now_s < 50.0, ..STANDS };
+    assert_eq!(fixture.until(900.0, locked), []);
+    assert_eq!(fixture.operation, Operation::Off(OffBecause::LockedOut));
+}

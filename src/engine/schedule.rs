@@ -1,0 +1,268 @@
+//! The schedule of the station: made on a thread whenever something it depends on has changed.
+
+use std::sync::Arc;
+
+use jiff::Timestamp;
+use serde::{Deserialize, Serialize};
+
+use super::{
+    Engine,
+    alarms::{AlarmKind, Work},
+    automatic::is_same_pass,
+    passes::PredictedPass,
+};
+use crate::{
+    astro::{
+        Angle, sun_moon,
+        time::{DAY_S, add_seconds},
+    },
+    job::Job,
+    plan::schedule::{
+        Between, Candidate, Change, Choice, ChooseBy, Common, Entry, Off, Partial, PlannedAntenna,
+        Reach, Request, SatelliteRules, Schedule, Sight, Steadiness, Wanted, Wish, changes, plan,
+    },
+    station::{self, AntennaId, BetweenPasses, RuleOf, Scheduling, Station, SunIs, Take, Then},
+};
+
+/// What a change of the schedule has to gain: a moved minute does not turn it over.
+const STEADINESS: Steadiness = Steadiness { percent: 3, seconds: 10 };
+/// A pass that is taken in part starts late, or ends early, by a multiple of this, seconds.
+const STEP_S: f64 = 15.0;
+
+/// The schedule with its revision.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
+pub struct Planned {
+    pub schedule: Schedule,
+    /// Changes with every new schedule.
+    pub revision: u64,
+    /// `None` before the first.
+    pub made_at: Option<Timestamp>,
+    /// End of what was planned.
+    pub until: Option<Timestamp>,
+    /// What the last new schedule changed.
+    pub changes: Vec<Change>,
+}
+
+/// What a schedule follows from, besides the time.
+#[derive(Clone)]
+pub(super) struct Inputs {
+    station: Arc<Station>,
+    passes: Arc<Vec<PredictedPass>>,
+    /// Revision of `passes`.
+    revision: u64,
+    locked_out: Vec<AntennaId>,
+}
+
+impl PartialEq for Inputs {
+    fn eq(&self, other: &Self) -> bool {
+        self.revision == other.revision
+            && self.locked_out == other.locked_out
+            && (Arc::ptr_eq(&self.station, &other.station) || self.station == other.station)
+    }
+}
+
+/// Makes schedules, one at a time.
+#[derive(Default)]
+pub(super) struct Scheduler {
+    running: Option<Job<Schedule>>,
+    /// What the schedule that is made, or was made last, follows from, and when it was begun.
+    begun: Option<(Inputs, Timestamp)>,
+}
+
+impl Engine {
+    /// Takes a finished schedule, and begins a new one where something has changed.
+    pub(super) fn look_after_schedule(&mut self) {
+        self.take_schedule();
+        let list = &self.pass_lists.favourites;
+        if list.made_at.is_none() || self.scheduler.running.is_some() {
+            return;
+        }
+        let is_out = |antenna: &&super::Antenna| antenna.shown.snapshot.lock_out.is_some();
+        let inputs = Inputs {
+            station: Arc::clone(&self.station),
+            passes: Arc::clone(&list.passes),
+            revision: list.revision,
+            locked_out: self.antennas.iter().filter(is_out).map(|of| of.shown.id()).collect(),
+        };
+        if self.scheduler.begun.as_ref().is_some_and(|(begun, _)| *begun == inputs) {
+            return;
+        }
+        let antennas = self.planned_antennas(&inputs);
+        let (wanted, now) = (inputs.clone(), self.now);
+        let (previous, fixed) = (Arc::clone(&self.schedule), self.fixed());
+        let job = Job::start("azel-schedule", Arc::clone(&self.wake), move |_| {
+            make(&wanted, &antennas, &previous.schedule, &fixed, now)
+        });
+        match job {
+            Ok(job) => self.scheduler.running = Some(job),
+            Err(error) => tracing::error!(%error, "no thread for the schedule"),
+        }
+        self.scheduler.begun = Some((inputs, now));
+    }
+
+    fn take_schedule(&mut self) {
+        let Some(end) = Job::take(&mut self.scheduler.running) else { return };
+        let kind = AlarmKind::BrokeOff(Work::Schedule);
+        let Ok(schedule) = end else {
+            return self.alarms.raise(None, kind, self.now);
+        };
+        self.alarms.clear(None, self.now, |known| *known == kind);
+        let before = &self.schedule;
+        let changes = if before.made_at.is_some() {
+            changes(&before.schedule, &schedule, self.now)
+        } else {
+            Vec::new()
+        };
+        let begun = self.scheduler.begun.as_ref().map(|(_, at)| *at);
+        let span_s = self.station.scheduling.span_h * 3600.0;
+        self.schedule = Arc::new(Planned {
+            schedule,
+            revision: before.revision + 1,
+            made_at: begun,
+            until: begun.map(|at| add_seconds(at, span_s)),
+            changes,
+        });
+    }
+
+    fn planned_antennas(&self, inputs: &Inputs) -> Vec<PlannedAntenna> {
+        let planned = |antenna: &super::Antenna| {
+            let shown = &antenna.shown;
+            let config = &shown.config;
+            let is_out = inputs.locked_out.contains(&config.id);
+            let measured = shown.snapshot.state.measured;
+            let axes = measured.map(|measured| measured.axes.map(|axis| axis.angle_deg));
+            PlannedAntenna {
+                id: config.id,
+                reach: Reach::of(&self.station, config, None),
+                set_up_s: config.set_up_s(),
+                between: match config.automatic.between {
+                    BetweenPasses::Stay => Between::Stay,
+                    BetweenPasses::Wait => Between::Wait,
+                    BetweenPasses::Park => Between::Park,
+                },
+                free_from: self.now,
+                stands_deg: axes.and_then(|[first, second]| Some([first?, second?])),
+                off: is_out.then_some(Off::LockedOut),
+            }
+        };
+        self.antennas.iter().map(planned).collect()
+    }
+
+    /// The entries that a new schedule must keep: those that have begun, or are loaded.
+    fn fixed(&self) -> Vec<Entry> {
+        let entries = self.schedule.schedule.entries.iter();
+        let is_taken = |entry: &&Entry| {
+            let antenna = self.antennas.iter().find(|of| of.shown.id() == entry.antenna);
+            let taking = antenna.and_then(|antenna| antenna.shown.operation.taking());
+            taking.is_some_and(|taking| {
+                is_same_pass(taking.pass, (entry.pass.satellite, entry.pass.aos))
+            })
+        };
+        entries.filter(|entry| entry.to > self.now).filter(is_taken).cloned().collect()
+    }
+
+    /// Whether the Sun is up at the site.
+    pub(super) fn sun_is(&self) -> SunIs {
+        sun_is(&self.station, self.now)
+    }
+}
+
+fn sun_is(station: &Station, at: Timestamp) -> SunIs {
+    let is_up = sun_moon::sun(station.site, at).elevation_deg() > 0.0;
+    if is_up { SunIs::Up } else { SunIs::Down }
+}
+
+fn make(
+    inputs: &Inputs,
+    antennas: &[PlannedAntenna],
+    previous: &Schedule,
+    fixed: &[Entry],
+    now: Timestamp,
+) -> Schedule {
+    let station = &inputs.station;
+    let Scheduling { choose_by, span_h, partly, hand_over, max_element_age_d, .. } =
+        station.scheduling;
+    let end = add_seconds(now, span_h * 3600.0);
+    let common = Common {
+        site: station.site,
+        floor: station.elevation_floor(),
+        antennas,
+        max_age_s: max_element_age_d.map(|days| days * DAY_S),
+    };
+    let ahead = inputs.passes.iter().filter(|of| of.pass.los.time > now && of.pass.aos.time < end);
+    // What never sets is no pass to be planned.
+    let ahead = ahead.filter(|predicted| !predicted.is_always_up());
+    let candidates: Vec<Candidate> =
+        ahead.map(|predicted| candidate(predicted, station, common)).collect();
+    let partial = partly.map(|partly| Partial {
+        min_share: partly.least_percent / 100.0,
+        min_s: partly.least_s,
+        step_s: STEP_S,
+        hand_over,
+    });
+    plan(&Request {
+        antennas,
+        candidates: &candidates,
+        choose_by: match choose_by {
+            station::ChooseBy::Elevation => ChooseBy::PriorityThenElevation,
+            station::ChooseBy::Duration => ChooseBy::PriorityThenDuration,
+            station::ChooseBy::MostPasses => ChooseBy::MostPasses,
+            station::ChooseBy::MostMinutes => ChooseBy::MostMinutes,
+        },
+        partial,
+        previous: (!previous.entries.is_empty()).then_some(previous),
+        steadiness: STEADINESS,
+        fixed,
+    })
+}
+
+fn candidate(predicted: &PredictedPass, station: &Station, common: Common<'_>) -> Candidate {
+    let number = predicted.number();
+    let pass = &predicted.pass;
+    let propagator = &predicted.satellite.propagator;
+    let limits = station.pass_limits(number);
+    let rules = SatelliteRules {
+        min_elevation: limits.min_max_elevation_deg.map(Angle::from_degrees),
+        min_duration_s: limits.min_duration_s,
+        light: None,
+        antennas: limits.antennas,
+        max_a_day: limits.max_per_day,
+    };
+    let choice = station.pass_choice(number, (pass.aos.time, pass.los.time));
+    let wanted = Wanted {
+        priority: station.priority(number).unwrap_or_default(),
+        wish: match choice.map(|choice| choice.take) {
+            None => Wish::ByPlan,
+            Some(Take::Always) => Wish::Always,
+            Some(Take::Never) => Wish::Never,
+        },
+        rules: &rules,
+    };
+    let mask = station.horizon_mask.as_ref();
+    let mut sight = Sight::new(propagator, station.site, mask, pass);
+    let age_s = predicted.satellite.elements.age_s(pass.aos.time);
+    let mut candidate =
+        Candidate::new(number, age_s, (pass, propagator), wanted, &mut sight, common);
+    for (antenna, option) in &mut candidate.options {
+        if matches!(by_rule(station, predicted, *antenna), Some(Then::Leave | Then::Park)) {
+            *option = Choice::AgainstRule;
+        }
+    }
+    candidate
+}
+
+/// What the first automation rule that fits says.
+fn by_rule(station: &Station, predicted: &PredictedPass, antenna: AntennaId) -> Option<Then> {
+    let number = predicted.number();
+    let tca = predicted.pass.tca.time;
+    let sun = sun_is(station, tca);
+    let is_of = |of: &RuleOf| match of {
+        RuleOf::Satellite(satellite) => *satellite == number,
+        RuleOf::Group(name) => station.groups_of(number).any(|group| group.name == *name),
+    };
+    let mut rules = station.rules.iter();
+    let fits = rules.find(|rule| {
+        rule.is_for(antenna) && rule.of.as_ref().is_none_or(is_of) && rule.holds_at(tca, sun)
+    });
+    fits.map(|rule| rule.then)
+}

@@ -1,0 +1,86 @@
+//! Words for automatic operation and the list of the day.
+
+use jiff::Timestamp;
+
+use crate::{
+    engine::automatic::{
+        DayEvent, DayLine, Doing, Flown, Interruption, MissCause, OffBecause, On, Operation,
+    },
+    ui::format,
+};
+
+/// Why automatic operation of an antenna is off, as a sentence.
+pub fn off(because: OffBecause) -> &'static str {
+    match because {
+        OffBecause::NotSwitchedOn => "Nobody has switched it on since the start.",
+        OffBecause::Operator => "It was switched off.",
+        OffBecause::Stop => "STOP switched it off.",
+        OffBecause::Safety => "The antenna was stopped for safety.",
+        OffBecause::LockedOut => "The unit is locked out.",
+        OffBecause::Changed => "The settings of the antenna were changed.",
+        OffBecause::NotAsLeft => "After an outage the unit was not as it had been left.",
+        OffBecause::Failures => "Two passes in a row could not be loaded or proved.",
+    }
+}
+
+/// Who interrupted it, as a sentence.
+pub fn interruption(by: Interruption) -> &'static str {
+    match by {
+        Interruption::ByHand => "The antenna was commanded by hand.",
+        Interruption::Elsewhere => "The antenna was moved by its panel or by another program.",
+    }
+}
+
+/// How automatic operation stands, in a word or two.
+pub fn standing(operation: &Operation) -> &'static str {
+    match operation {
+        Operation::Off(_) => "off",
+        Operation::Suspended { .. } => "suspended",
+        Operation::On(On { doing, .. }) => match doing {
+            Doing::Rests => "on",
+            Doing::Announces { .. } => "on, about to move",
+            Doing::Parks => "on, parking",
+            Doing::Takes(_) => "on, at work",
+        },
+    }
+}
+
+/// Why a pass or a part of it was missed: the end of a sentence.
+pub fn miss_cause(cause: MissCause) -> String {
+    let sentence = match cause {
+        MissCause::Off(because) => off(because),
+        MissCause::Suspended(by) => interruption(by),
+        MissCause::LinkLost => "The unit did not answer.",
+        MissCause::Refused => "The unit or the gate did not take it, or it was not proved.",
+        MissCause::OutsideBeam => "The antenna was outside its beam.",
+    };
+    sentence.to_owned()
+}
+
+/// What became of a pass, as a sentence.
+pub fn flown(flown: &Flown, now: Timestamp) -> String {
+    let Flown { pass: (_, aos), name, of_s, in_beam_s, cause, .. } = flown;
+    let pass = format!("{name}, AOS {}", format::moment(*aos, now));
+    let percent = 100.0 * in_beam_s / of_s.max(1.0);
+    match cause {
+        None => format!("{pass}: done, {} % in the beam.", format::number(percent, 0)),
+        Some(cause) => {
+            let lost = format::duration(flown.lost_s());
+            let of = format::duration(*of_s);
+            format!("{pass}: missed {lost} of {of}. {}", miss_cause(*cause))
+        }
+    }
+}
+
+/// A line of the list of the day, as a sentence.
+pub fn day_line(line: &DayLine, now: Timestamp) -> String {
+    match &line.what {
+        DayEvent::SwitchedOn => "Automatic operation is on.".to_owned(),
+        DayEvent::SwitchedOff(because) => format!("Automatic operation is off. {}", off(*because)),
+        DayEvent::Suspended(by) => {
+            format!("Automatic operation is suspended. {}", interruption(*by))
+        }
+        DayEvent::WentOn => "Automatic operation goes on.".to_owned(),
+        DayEvent::Flown(of) => flown(of, now),
+    }
+}

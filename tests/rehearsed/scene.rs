@@ -1,0 +1,195 @@
+//! A station in memory with one simulated unit of each make.
+
+use std::{
+    num::NonZeroU32,
+    sync::{Arc, LazyLock, mpsc},
+    thread,
+    time::{Duration, Instant},
+};
+
+use azel::{
+    astro::time::seconds_between,
+    cli::serve::Wake,
+    clock::Clock,
+    controller::satrak::ELEMENT_FILE,
+    driver::{self, Dial, Outside, Stream},
+    engine::{
+        Client, Command, Handle, Settings,
+        status::{AntennaStatus, LinkStatus},
+    },
+    orbit::{Elements, bundled},
+    sim::{rc2000c, rotator_genius, satrak, satrak::BUNDLED_FILE},
+    station::{self, Antenna, AntennaId, Station},
+};
+use jiff::Timestamp;
+
+/// Elements of the favourites. To read them takes long by a clock at speed.
+static FAVOURITES: LazyLock<Vec<Elements>> = LazyLock::new(|| {
+    let catalog = bundled().unwrap();
+    let favourites = Station::default().favourites.numbers();
+    favourites.iter().filter_map(|number| catalog.get(*number).cloned()).collect()
+});
+
+/// Longer than any step here takes, in real time.
+pub(super) const PATIENCE: Duration = Duration::from_mins(1);
+/// Interval of looks, in real time.
+pub(super) const LOOK: Duration = Duration::from_millis(20);
+/// Speed, in multiples of real time.
+pub(super) const FAST: NonZeroU32 = NonZeroU32::new(200).unwrap();
+
+pub(super) fn start() -> Timestamp {
+    "2026-08-12T11:15:30Z".parse().unwrap()
+}
+
+/// One unit of each make in memory.
+#[derive(Clone)]
+pub(super) struct Units {
+    pub(super) dish: satrak::Control,
+    pub(super) mast: rotator_genius::Control,
+    pub(super) horn: rc2000c::Control,
+}
+
+impl Units {
+    fn new(clock: &Clock, start: Timestamp) -> Self {
+        let pair = rotator_genius::Options {
+            rotators: [
+                rotator_genius::RotatorOptions::default(),
+                rotator_genius::RotatorOptions::elevation(),
+            ],
+            ..rotator_genius::Options::default()
+        };
+        let mut options = satrak::Options::new(Station::default().site, start);
+        options.elements.insert(BUNDLED_FILE.to_owned(), FAVOURITES.clone());
+        Self {
+            dish: satrak::Control::on_clock(&options, clock.clone()),
+            mast: rotator_genius::Control::on_clock(&pair, clock.clone()),
+            horn: rc2000c::Control::on_clock(&rc2000c::Options::default(), clock.clone()),
+        }
+    }
+
+    fn dial(&self, antenna: &Antenna) -> Dial {
+        let (units, name) = (self.clone(), antenna.name.clone());
+        Box::new(move || {
+            let (near, far) = tokio::io::duplex(4096);
+            let (units, name) = (units.clone(), name.clone());
+            tokio::spawn(async move {
+                match &*name {
+                    "Dish" => units.dish.serve(far).await,
+                    "Mast" => units.mast.serve(far).await,
+                    _ => units.horn.serve(far).await,
+                }
+            });
+            Box::pin(async { Ok(Box::new(near) as Box<dyn Stream>) })
+        })
+    }
+
+    pub(super) fn all_stand(&self) -> bool {
+        let mast = self.mast.state().rotators;
+        !self.dish.state().is_moving
+            && !mast.iter().any(|rotator| rotator.is_turning)
+            && !self.horn.state().is_turning
+    }
+}
+
+/// A station with an antenna of each make.
+pub(super) fn station() -> Station {
+    let mut station = Station {
+        antennas: vec![
+            Antenna::satrak("Dish", "dish:1"),
+            Antenna::genius("Mast", "mast:1"),
+            Antenna::rc2000c("Horn", "horn:1"),
+        ],
+        ..Station::default()
+    };
+    for (antenna, id) in station.antennas.iter_mut().zip(1..) {
+        antenna.id = AntennaId(id);
+    }
+    station.antennas[0].connection.put(&ELEMENT_FILE, BUNDLED_FILE).unwrap();
+    station
+}
+
+/// A station in memory.
+pub(super) struct Scene {
+    pub(super) units: Units,
+    pub(super) station: Handle,
+    pub(super) end: mpsc::SyncSender<Wake>,
+    pub(super) woken: mpsc::Receiver<Wake>,
+    _folder: tempfile::TempDir,
+}
+
+impl Scene {
+    pub(super) fn at_speed(speed: NonZeroU32) -> Self {
+        Self::with(start(), speed, &station())
+    }
+
+    pub(super) fn with(start: Timestamp, speed: NonZeroU32, station: &Station) -> Self {
+        LazyLock::force(&FAVOURITES);
+        let clock = Clock::at_speed(start, speed);
+        let units = Units::new(&clock, start);
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("station.toml");
+        station::save(station, &path).unwrap();
+        let settings = Settings {
+            path: Some(path),
+            library: Some(folder.path().join("elements")),
+            ..Settings::default()
+        };
+        let dialled = units.clone();
+        let outside =
+            Outside { clock, dial: Arc::new(move |antenna: &Antenna| dialled.dial(antenna)) };
+        let (end, woken) = mpsc::sync_channel(1);
+        let by_station = end.clone();
+        let wake = Arc::new(move || {
+            let _ = by_station.try_send(Wake::Station);
+        });
+        let station = Handle::start(settings, outside, wake).unwrap();
+        Self { units, station, end, woken, _folder: folder }
+    }
+
+    pub(super) fn client(&self) -> Client {
+        self.station.client().clone()
+    }
+}
+
+pub(super) fn until<T>(what: &str, mut found: impl FnMut() -> Option<T>) -> T {
+    let end = Instant::now() + PATIENCE;
+    loop {
+        if let Some(found) = found() {
+            return found;
+        }
+        assert!(Instant::now() < end, "waited too long for {what}");
+        thread::sleep(LOOK);
+    }
+}
+
+pub(super) fn antenna(client: &Client, name: &str) -> Option<(AntennaId, AntennaStatus)> {
+    let snapshot = client.snapshot();
+    let antenna = snapshot.antennas.iter().find(|antenna| antenna.config.name == name)?;
+    Some((antenna.id(), AntennaStatus::of(antenna)))
+}
+
+/// Waits until the antenna has been measured; connects an RC2000C for it.
+pub(super) fn measured(client: &Client, name: &str) -> AntennaId {
+    until(name, || {
+        let (id, status) = antenna(client, name)?;
+        if status.link == LinkStatus::Off {
+            let _ = client.send(Command::Antenna(id, driver::Command::Connect));
+        }
+        status.measured_at.map(|_| id)
+    })
+}
+
+pub(super) fn passed_s(client: &Client) -> f64 {
+    seconds_between(start(), client.now().utc)
+}
+
+/// Sends `command` until the antenna is seen to move: at this speed a busy computer may
+/// act on it too late.
+pub(super) fn move_by(client: &Client, name: &str, command: &driver::Command) {
+    let id = measured(client, name);
+    until("motion", || {
+        let _ = client.send(Command::Antenna(id, command.clone()));
+        let moves = antenna(client, name)?.1.moves;
+        (moves == Some(true)).then_some(())
+    });
+}
