@@ -51,6 +51,8 @@ struct Whole<'a> {
     way: &'a Way,
     /// In all ways of this pass on this antenna.
     middle_ms: i64,
+    /// From AOS to LOS.
+    sight_ms: i64,
 }
 
 impl<'a> Board<'a> {
@@ -125,6 +127,8 @@ impl<'a> Board<'a> {
             part: Part::Alone,
             from_ms: ms(entry.from),
             to_ms: ms(entry.to),
+            share: 1000,
+            is_whole: true,
             row: Row::of(Class::Fixed, FIXED) + Row::of(entry.class, entry.worth),
         });
         self.facts.push(Fact {
@@ -215,6 +219,11 @@ impl<'a> Board<'a> {
             part,
             from_ms: span.from_ms,
             to_ms: span.to_ms,
+            share: match part {
+                Part::Alone => 1000,
+                Part::First | Part::Second => span.length_ms() * 1000 / whole.sight_ms,
+            },
+            is_whole: span == all,
             row,
         });
         self.facts.push(Fact {
@@ -245,9 +254,10 @@ fn wholes<'a>(request: &'a Request<'a>, antenna: usize) -> Vec<Whole<'a>> {
         let from_ms = ways.iter().map(|way| way.span().from_ms).max().unwrap_or_default();
         let to_ms = ways.iter().map(|way| way.span().to_ms).min().unwrap_or_default();
         let middle_ms = ms(candidate.tca).min(to_ms).max(from_ms);
+        let sight_ms = (ms(candidate.los) - ms(candidate.key.aos)).max(1);
         let holds = |way: &&Way| way.span().from_ms <= middle_ms && middle_ms <= way.span().to_ms;
         for way in ways.iter().filter(holds) {
-            found.push(Whole { candidate, pass, antenna, way, middle_ms });
+            found.push(Whole { candidate, pass, antenna, way, middle_ms, sight_ms });
         }
     }
     found
@@ -286,6 +296,8 @@ impl Crowd {
                 part: Part::Alone,
                 from_ms: span.from_ms,
                 to_ms: span.to_ms,
+                share: 1000,
+                is_whole: true,
                 row: Row::ZERO,
             };
             (take, [span.from_ms, span.to_ms].map(|at| whole.way.axes_deg(at)), false)

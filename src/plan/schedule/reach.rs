@@ -8,13 +8,12 @@ use super::{
     way::{Impossible, Lost, Span, Verdict, Way, at_ms, ms},
 };
 use crate::{
-    astro::{Angle, AzEl},
+    astro::{Angle, AzEl, time::seconds_between},
     plan::{
-        Bounds, Loss, MountLimits, Sample, Sweep, Trackability,
-        az_el::{Choice, Flip, Start},
+        Barrier, Bounds, Loss, Sample, Sweep,
+        az_el::{Choice, Flip, Planned, Start},
         detour,
         program_track::Drives,
-        trackability,
     },
     station::{Antenna, Mount, Station},
 };
@@ -25,6 +24,8 @@ const SAME_DEG: f64 = 0.5;
 const TURN_DEG: f64 = 360.0;
 /// Share of the rate of an axis below which it keeps up with few samples of a pass.
 const SLOW: f64 = 0.4;
+/// Elevation from which a loss counts as overhead, degrees.
+const OVERHEAD_FROM_DEG: f64 = 60.0;
 /// Elevation below which a pass may be judged by few samples, degrees.
 const LOW_DEG: f64 = 75.0;
 
@@ -37,6 +38,14 @@ pub struct Reach {
     park_deg: [f64; 2],
     /// Its unit follows a pass by itself, and refuses one that leads through a keep-out.
     on_board: bool,
+}
+
+/// One way along a pass.
+struct Judged {
+    /// `None` where nothing counts.
+    way: Option<Way>,
+    entered: Option<Barrier>,
+    lost_at: Option<Loss>,
 }
 
 impl Reach {
@@ -101,7 +110,7 @@ impl Reach {
         if self.has_barriers() || !samples.list.iter().all(is_low) {
             return None;
         }
-        let ways = self.planned(samples);
+        let ways: Vec<_> = self.planned(samples).into_iter().map(|it| it.axes_deg).collect();
         let follows = |axes_deg: &[Vec<f64>; 2]| {
             let slow = axes_deg.iter().zip(self.drives.rates_deg_s).all(|(axis, rate)| {
                 let max_deg = SLOW * rate * samples.step_s;
@@ -112,57 +121,69 @@ impl Reach {
             slow && pairs.all(|(it, axes_deg)| self.off(it.direction, axes_deg) <= self.half_beam)
         };
         ways.iter().all(follows).then(|| {
-            let ways = ways.into_iter().map(|axes_deg| Way::new(samples, axes_deg, clear.to_vec()));
+            let ways = ways.into_iter();
+            let ways = ways.map(|axes_deg| Way::new(samples, axes_deg, clear.to_vec(), None));
             ways.collect()
         })
     }
 
     fn ways(&self, samples: &Samples, clear: &[Span]) -> Verdict {
-        let mut entered = None;
-        let ways = self.planned(samples).into_iter().filter_map(|axes_deg| {
-            let places = axes_deg[0].iter().zip(&axes_deg[1]).map(|(a, b)| [*a, *b]);
-            let mut held: Vec<Span> = Vec::new();
-            // As trackability has it, what lies between two samples is judged by the later one.
-            let later = samples.list.iter().zip(places).skip(1);
-            for (before, (sample, axes_deg)) in samples.list.iter().zip(later) {
-                if self.has_barriers() {
-                    let direction = self.bounds.direction(axes_deg);
-                    if let Some(barrier) = self.bounds.at(sample.time).forbids(direction) {
-                        entered = entered.take().or(Some(barrier));
-                        continue;
-                    }
-                }
-                if self.off(sample.direction, axes_deg) > self.half_beam {
-                    continue;
-                }
-                let span = Span { from_ms: ms(before.time), to_ms: ms(sample.time) };
-                match held.last_mut() {
-                    Some(last) if last.to_ms == span.from_ms => last.to_ms = span.to_ms,
-                    _ => held.push(span),
-                }
-            }
-            let counted = Span::both(&held, clear);
-            (!counted.is_empty()).then(|| Way::new(samples, axes_deg, counted))
-        });
-        let mut ways: Vec<Way> = ways.collect();
+        let planned = self.planned(samples).into_iter();
+        let judged: Vec<Judged> =
+            planned.map(|planned| self.judged(samples, planned, clear)).collect();
+        let entered = judged.iter().find_map(|it| it.entered.clone());
+        let lost_at = judged.iter().find_map(|it| it.lost_at);
+        let mut ways: Vec<Way> = judged.into_iter().filter_map(|it| it.way).collect();
         if let Some(barrier) = entered.filter(|_| self.on_board || ways.is_empty()) {
             return Verdict::Impossible(Impossible::KeepOut(barrier));
         }
-        let whole_ms: i64 = clear.iter().map(|span| span.length_ms()).sum();
         if ways.is_empty() {
-            let lost = Lost { seconds: whole_ms as f64 / 1000.0, at: self.loss_at(samples) };
-            return Verdict::Impossible(Impossible::Lost(lost));
+            let seconds = Span::total_ms(clear) as f64 / 1000.0;
+            let at = lost_at.unwrap_or(Loss::OutOfReach);
+            return Verdict::Impossible(Impossible::Lost(Lost { seconds, at }));
         }
         ways.retain(|way| self.is_within_reach(way));
         if ways.is_empty() {
             return Verdict::Impossible(Impossible::NoWay);
         }
-        for way in &mut ways {
-            let lost_ms = whole_ms - way.counted_ms(way.span());
-            way.lost = (lost_ms > 0)
-                .then(|| Lost { seconds: lost_ms as f64 / 1000.0, at: self.loss_at(samples) });
-        }
         Verdict::Possible(ways)
+    }
+
+    /// What counts along one way, and where the satellite is lost first.
+    fn judged(&self, samples: &Samples, planned: Planned, clear: &[Span]) -> Judged {
+        let Planned { axes_deg, slews, .. } = planned;
+        let [first, second] = &axes_deg;
+        let places = first.iter().zip(second).map(|(first, second)| [*first, *second]);
+        let slews = slews.iter().filter_map(|slew| samples.list.get(*slew));
+        let slews: Vec<Timestamp> = slews.map(|sample| sample.time).collect();
+        let (mut held, mut entered, mut lost_at): (Vec<Span>, _, _) = (Vec::new(), None, None);
+        // As trackability has it, what lies between two samples is judged by the later one.
+        let later = samples.list.iter().zip(places).skip(1);
+        for (before, (sample, axes_deg)) in samples.list.iter().zip(later) {
+            if self.has_barriers() {
+                let direction = self.bounds.direction(axes_deg);
+                if let Some(barrier) = self.bounds.at(sample.time).forbids(direction) {
+                    entered = entered.or(Some(barrier));
+                    continue;
+                }
+            }
+            if self.off(sample.direction, axes_deg) > self.half_beam {
+                lost_at = lost_at.or_else(|| Some(self.loss_at(sample, &slews)));
+                continue;
+            }
+            let span = Span { from_ms: ms(before.time), to_ms: ms(sample.time) };
+            match held.last_mut() {
+                Some(last) if last.to_ms == span.from_ms => last.to_ms = span.to_ms,
+                _ => held.push(span),
+            }
+        }
+        let counted = Span::both(&held, clear);
+        let lost_ms = Span::total_ms(clear) - Span::total_ms(&counted);
+        let lost = lost_at.filter(|_| lost_ms > 0);
+        let lost = lost.map(|at| Lost { seconds: lost_ms as f64 / 1000.0, at });
+        let way = (!counted.is_empty())
+            .then(|| Way::new(samples, axes_deg, counted, lost));
+        Judged { way, entered, lost_at }
     }
 
     /// Returns `true` if ways lead from the park position to the start, and back from the end.
@@ -173,30 +194,34 @@ impl Reach {
             && self.leg_ms(to_deg, self.park_deg, to_ms).is_some()
     }
 
-    fn loss_at(&self, samples: &Samples) -> Loss {
-        match (trackability(&samples.list, self.mount_limits()), self.drives.mount) {
-            (Trackability::Loses { at, .. }, _) => at,
-            (_, Mount::Xy { lower_axis_azimuth_deg, .. }) => {
-                Loss::Keyhole(Angle::from_degrees(lower_axis_azimuth_deg))
+    /// Where an antenna whose azimuth axis slews at `slews` loses what is at `at`.
+    fn loss_at(&self, at: &Sample, slews: &[Timestamp]) -> Loss {
+        let direction = at.direction;
+        match self.drives.mount {
+            Mount::Xy { lower_axis_azimuth_deg, .. } => {
+                let end = Angle::from_degrees(lower_axis_azimuth_deg);
+                let is_far = (direction.azimuth - end).wrapped_180().abs().degrees() > 90.0;
+                let turn = Angle::from_degrees(if is_far { 180.0 } else { 0.0 });
+                Loss::Keyhole((end + turn).wrapped_360())
             }
-            _ => Loss::OutOfReach,
-        }
-    }
-
-    fn mount_limits(&self) -> MountLimits {
-        MountLimits {
-            mount: self.drives.mount,
-            maximum_rate_deg_s: self.drives.rates_deg_s[0].min(self.drives.rates_deg_s[1]),
-            half_beam: self.half_beam,
-            has_elevation: self.drives.has_elevation,
-            min_elevation: self.min_elevation(),
+            Mount::AzEl { .. } => {
+                let near_s = TURN_DEG / self.drives.rates_deg_s[0];
+                let is_near = |slew: &Timestamp| seconds_between(*slew, at.time).abs() <= near_s;
+                if slews.iter().any(is_near) {
+                    Loss::Slew
+                } else if direction.elevation_deg() >= OVERHEAD_FROM_DEG {
+                    Loss::Overhead
+                } else {
+                    Loss::OutOfReach
+                }
+            }
         }
     }
 
     /// The positions of both axes along `samples`, one list for each turn on which the azimuth
     /// axis can begin.
-    fn planned(&self, samples: &Samples) -> Vec<[Vec<f64>; 2]> {
-        let mut found: Vec<[Vec<f64>; 2]> = Vec::new();
+    fn planned(&self, samples: &Samples) -> Vec<Planned> {
+        let mut found: Vec<Planned> = Vec::new();
         for start in self.starts(samples.list.first()) {
             let choice = Choice::Prefer(Flip::None);
             let planned = self.drives.along_within(
@@ -206,10 +231,12 @@ impl Reach {
                 start,
                 choice,
             );
-            let first = |axes: &[Vec<f64>; 2]| axes[0].first().copied().unwrap_or_default();
-            let begins_deg = first(&planned.axes_deg);
+            let first = |planned: &Planned| {
+                planned.axes_deg[0].first().copied().unwrap_or_default()
+            };
+            let begins_deg = first(&planned);
             if found.iter().all(|other| (first(other) - begins_deg).abs() > SAME_DEG) {
-                found.push(planned.axes_deg);
+                found.push(planned);
             }
         }
         found

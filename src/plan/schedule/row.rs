@@ -88,10 +88,10 @@ impl Row {
         self
     }
 
-    /// Half of the row, rounded down.
-    pub(super) fn half(mut self) -> Self {
+    /// So many thousandths of the row, rounded down.
+    pub(super) fn thousandths(mut self, share: i64) -> Self {
         for cell in &mut self.0 {
-            *cell = cell.div_euclid(2);
+            *cell = (*cell * share).div_euclid(1000);
         }
         self
     }

@@ -5,14 +5,18 @@
 //! one with limits, are solved exactly as long as the number of states allows (`vector.rs`);
 //! beyond that by prices of passes (`prices.rs`), which bound what any schedule can be worth.
 
+mod hand_over;
 mod line;
 mod prices;
 #[cfg(test)]
 mod tests;
 mod vector;
 
-use super::row::Row;
+use super::row::{Class, Row};
 use line::Line;
+
+/// A part that stays counts for more than anything else.
+const STAYS: i64 = 1 << 40;
 
 /// How a take shares its pass with others.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -38,6 +42,11 @@ pub(super) struct Take {
     pub(super) from_ms: i64,
     /// Later than `from_ms`.
     pub(super) to_ms: i64,
+    /// How much of its pass it is, thousandths rounded down: parts of a pass that can be taken
+    /// together make no more than 1000, and what stands alone is 1000.
+    pub(super) share: i64,
+    /// Nothing that the antenna could take is cut off.
+    pub(super) is_whole: bool,
     pub(super) row: Row,
 }
 
@@ -99,7 +108,7 @@ impl Problem<'_> {
                 return Solution { takes: vec![takes], row, bound: row };
             }
         }
-        match vector::best(self, &lines) {
+        match vector::best(self, &lines, &|_| true) {
             Some(takes) => {
                 let (takes, row) = self.improved(&lines, takes);
                 Solution { takes, row, bound: row }
@@ -160,28 +169,26 @@ impl Problem<'_> {
         }
     }
 
-    /// The best takes of one antenna beside those of the others; `None` where it shares a pass
-    /// with another.
+    /// The best takes of one antenna beside those of the others. Parts of passes that are handed
+    /// over stay.
     fn again(&self, line: &Line, antenna: usize, takes: &[Vec<u32>]) -> Option<Vec<u32>> {
         let others = || {
             let others = takes.iter().enumerate().filter(|(index, _)| *index != antenna);
             others.flat_map(|(_, takes)| takes)
         };
-        let own = takes.get(antenna)?.iter().filter_map(|take| self.take(*take));
-        if own.clone().any(|take| take.part != Part::Alone) {
-            return None;
-        }
         let mut is_out = vec![false; self.passes];
         for take in others().filter_map(|take| self.take(*take)) {
-            if let Some(is_out) = is_out.get_mut(take.pass as usize) {
-                *is_out = true;
-            }
+            *is_out.get_mut(take.pass as usize)? = true;
         }
+        let own = takes.get(antenna)?;
         let by_others = self.used(others());
         loop {
-            let found = line.best(self, &|_, take| {
-                let is_free = !is_out.get(take.pass as usize).copied().unwrap_or(true);
-                (is_free && take.part == Part::Alone).then_some(take.row)
+            let found = line.best(self, &|index, take| {
+                if take.part != Part::Alone {
+                    let stays = own.contains(&index);
+                    return stays.then(|| take.row + Row::of(Class::Fixed, STAYS));
+                }
+                (!is_out.get(take.pass as usize)?).then_some(take.row)
             });
             // Beyond its limit, a satellite loses the passes that are worth least.
             let used = self.used(found.takes.iter());
@@ -191,7 +198,9 @@ impl Problem<'_> {
                 return Some(found.takes);
             };
             let of_limit = found.takes.iter().filter_map(|take| self.take(*take));
-            let of_limit = of_limit.filter(|take| take.limit == Some(limit as u32));
+            let of_limit = of_limit.filter(|take| {
+                take.limit == Some(limit as u32) && take.part == Part::Alone
+            });
             let least = of_limit.min_by_key(|take| (take.row, take.pass))?;
             *is_out.get_mut(least.pass as usize)? = true;
         }

@@ -28,6 +28,10 @@ impl Span {
         self.to_ms - self.from_ms
     }
 
+    pub(super) fn total_ms(spans: &[Self]) -> i64 {
+        spans.iter().map(|span| span.length_ms()).sum()
+    }
+
     /// What both have in common, if anything.
     pub(super) fn and(self, other: Self) -> Option<Self> {
         let both =
@@ -87,9 +91,14 @@ pub struct Way {
 
 impl Way {
     /// `counted` is not empty.
-    pub(super) fn new(samples: &Samples, axes_deg: [Vec<f64>; 2], counted: Vec<Span>) -> Self {
+    pub(super) fn new(
+        samples: &Samples,
+        axes_deg: [Vec<f64>; 2],
+        counted: Vec<Span>,
+        lost: Option<Lost>,
+    ) -> Self {
         let first_ms = samples.list.first().map_or(0, |first| ms(first.time));
-        Self { counted, axes_deg, first_ms, step_s: samples.step_s, lost: None }
+        Self { counted, axes_deg, first_ms, step_s: samples.step_s, lost }
     }
 
     pub(super) fn span(&self) -> Span {
@@ -101,7 +110,7 @@ impl Way {
 
     /// Milliseconds that count within `span`.
     pub(super) fn counted_ms(&self, span: Span) -> i64 {
-        self.counted.iter().filter_map(|counted| counted.and(span)).map(Span::length_ms).sum()
+        Span::total_ms(&Span::both(&self.counted, &[span]))
     }
 
     /// Where the axes stand at a time, degrees as the mount counts.

@@ -4,8 +4,10 @@
 //! rows as for numbers). Prices rise while a pass is taken more than once and fall while nobody
 //! takes it, class after class, until the bound meets what was found.
 
-use super::{Line, Part, Problem, Row, Solution, Take};
+use super::{Line, Part, Problem, Row, Solution, Take, vector};
 
+/// The share of a whole pass.
+const ONE: i64 = 1000;
 /// Rounds of new prices in each class.
 const ROUNDS: usize = 60;
 /// Rounds without a better bound after which the steps are halved.
@@ -24,7 +26,7 @@ struct Prices {
 struct Round {
     bound: Row,
     takes: Vec<Vec<u32>>,
-    /// In halves: how much more than once each pass is taken.
+    /// In thousandths: how much more than once each pass is taken.
     over_pass: Vec<i64>,
     over_limit: Vec<i64>,
 }
@@ -37,6 +39,13 @@ pub(super) fn solve(problem: &Problem<'_>, lines: &[Line]) -> Solution {
     let mut now = prices.round(problem, lines);
     let mut best = (prices.clone(), now.clone());
     let (mut takes, mut row) = problem.repaired(lines, now.takes.clone());
+    // Whole passes make a smaller search.
+    if let Some(whole) = vector::best(problem, lines, &|take| take.is_whole) {
+        let found = problem.handed_over(lines, problem.improved(lines, whole));
+        if found.1 > row {
+            (takes, row) = found;
+        }
+    }
     for class in 0..Row::CLASSES {
         if best.1.bound.number(class) == row.number(class) {
             continue;
@@ -79,7 +88,7 @@ pub(super) fn solve(problem: &Problem<'_>, lines: &[Line]) -> Solution {
 impl Prices {
     fn of(&self, take: &Take) -> Row {
         let of_pass = self.of_pass.get(take.pass as usize).copied().unwrap_or_default();
-        let of_pass = if take.part == Part::Alone { of_pass } else { of_pass.half() };
+        let of_pass = if take.share == ONE { of_pass } else { of_pass.thousandths(take.share) };
         let of_limit = take.limit.and_then(|limit| self.of_limit.get(limit as usize));
         of_pass + of_limit.copied().unwrap_or_default()
     }
@@ -87,17 +96,17 @@ impl Prices {
     fn round(&self, problem: &Problem<'_>, lines: &[Line]) -> Round {
         let paid = |_, take: &Take| Some(take.row - self.of(take));
         let found: Vec<_> = lines.iter().map(|line| line.best(problem, &paid)).collect();
-        let mut over_pass = vec![-2; problem.passes];
+        let mut over_pass = vec![-ONE; problem.passes];
         let mut over_limit: Vec<i64> =
-            problem.limits.iter().map(|most| -2 * i64::from(*most)).collect();
+            problem.limits.iter().map(|most| -ONE * i64::from(*most)).collect();
         let all = found.iter().flat_map(|sequence| &sequence.takes);
         for take in all.filter_map(|take| problem.take(*take)) {
             if let Some(over) = over_pass.get_mut(take.pass as usize) {
-                *over += if take.part == Part::Alone { 2 } else { 1 };
+                *over += take.share;
             }
             let limit = take.limit.and_then(|limit| over_limit.get_mut(limit as usize));
             if let Some(over) = limit {
-                *over += 2;
+                *over += ONE;
             }
         }
         let of_limits = self.of_limit.iter().zip(problem.limits);
@@ -115,14 +124,14 @@ impl Prices {
         let over = round.over_pass.iter().chain(&round.over_limit);
         let moving = over.zip(self.of_pass.iter().chain(&self.of_limit));
         let moving = moving.filter(|(over, price)| **over > 0 || **price > Row::ZERO);
-        let length: f64 = moving.map(|(over, _)| (*over as f64 / 2.0).powi(2)).sum();
+        let length: f64 = moving.map(|(over, _)| (*over as f64 / ONE as f64).powi(2)).sum();
         if length <= 0.0 {
             return false;
         }
-        let step = ((gap / length / 2.0).ceil().max(1.0)) as i64;
+        let step = (gap / length).ceil().max(1.0) as i64;
         let each = round.over_pass.iter().zip(&mut self.of_pass);
         for (over, price) in each.chain(round.over_limit.iter().zip(&mut self.of_limit)) {
-            let moved = *price + Row::at(class, step * over);
+            let moved = *price + Row::at(class, (step * over).div_euclid(ONE));
             *price = moved.max(Row::ZERO);
         }
         true
@@ -161,10 +170,11 @@ impl Problem<'_> {
             }
             *takes = kept;
         }
-        self.improved(lines, takes)
+        self.handed_over(lines, self.improved(lines, takes))
     }
 
-    fn fits(&self, before: u32, take: u32) -> bool {
+    /// Returns `true` if the second take can follow the first.
+    pub(super) fn fits(&self, before: u32, take: u32) -> bool {
         let needs_ms = self.slews.between(before as usize, take as usize).needs_ms;
         let both = self.take(before).zip(self.take(take));
         both.is_some_and(|(before, take)| before.to_ms + needs_ms <= take.from_ms)

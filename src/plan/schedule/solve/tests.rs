@@ -59,7 +59,10 @@ impl Case {
                     let length_ms = at_ms + 31 - from_ms + random.below(60) as i64;
                     let row = Row::of(class, random.below(5) as i64).risen(at_ms);
                     let (to_ms, part) = (from_ms + length_ms, Part::Alone);
-                    takes.push(Take { pass, antenna, limit, part, from_ms, to_ms, row });
+                    let (share, is_whole) = (1000, random.below(2) == 0);
+                    takes.push(Take {
+                        pass, antenna, limit, part, from_ms, to_ms, share, is_whole, row,
+                    });
                 }
                 if antennas > 1 && random.below(4) == 0 {
                     let middle_ms = at_ms + 15 + random.below(5) as i64;
@@ -68,7 +71,10 @@ impl Case {
                         [(Part::First, at_ms, middle_ms), (Part::Second, middle_ms, middle_ms + 20)]
                     {
                         let limit = limit.filter(|_| part == Part::First);
-                        takes.push(Take { pass, antenna, limit, part, from_ms, to_ms, row });
+                        let (share, is_whole) = (500, false);
+                        takes.push(Take {
+                            pass, antenna, limit, part, from_ms, to_ms, share, is_whole, row,
+                        });
                     }
                 }
             }

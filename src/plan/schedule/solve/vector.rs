@@ -4,7 +4,7 @@
 //! The classes of the row that is found are the best; equal ones are told apart by their slews
 //! only as far as the states that are kept allow.
 
-use super::{Line, Part, Problem, Row};
+use super::{Line, Part, Problem, Row, Take};
 
 /// States beyond which the search is given up.
 const MAX_STATES: usize = 4_000;
@@ -40,9 +40,14 @@ struct Closes {
     limit: bool,
 }
 
-/// The best takes by antenna; `None` if there are too many states.
-pub(super) fn best(problem: &Problem<'_>, lines: &[Line]) -> Option<Vec<Vec<u32>>> {
-    let mut order: Vec<u32> = (0..problem.takes.len() as u32).collect();
+/// The best takes by antenna of those that are in; `None` if there are too many states.
+pub(super) fn best(
+    problem: &Problem<'_>,
+    lines: &[Line],
+    is_in: &dyn Fn(&Take) -> bool,
+) -> Option<Vec<Vec<u32>>> {
+    let all = (0..).zip(problem.takes).filter(|(_, take)| is_in(take));
+    let mut order: Vec<u32> = all.map(|(index, _)| index).collect();
     let key = |take: &u32| problem.take(*take).map(|it| (it.from_ms, it.to_ms, it.antenna));
     order.sort_by_key(|take| (key(take), *take));
     let closes = closes(problem, &order);
