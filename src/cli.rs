@@ -5,6 +5,7 @@ pub mod log;
 mod look;
 mod no_window;
 mod passes;
+mod plan;
 #[cfg(unix)]
 mod remote;
 pub mod serve;
@@ -48,6 +49,8 @@ enum Command {
     Passes(Box<passes::Options>),
     /// Follow one satellite: direction, range and range rate in steps
     Look(Box<look::Options>),
+    /// Plan which antenna takes which pass, and say why the others are left out
+    Plan(Box<plan::Options>),
     /// Run the station without a window, until SIGTERM or Ctrl C
     Serve(serve::Options),
     /// Stop the antennas of the Azel that has the station open, and wait for the proof
@@ -111,6 +114,9 @@ impl Cli {
             }
             Some(Command::Look(options)) => {
                 return told(look::run(self.station.as_deref(), &options));
+            }
+            Some(Command::Plan(options)) => {
+                return told(plan::run(self.station.as_deref(), &options));
             }
             Some(Command::Serve(options)) => {
                 return serve::run(

@@ -10,6 +10,7 @@ pub mod pass_export;
 pub mod program_track;
 mod rate_limited;
 pub mod schedule;
+pub mod schedule_export;
 mod trackability;
 
 pub use bounds::{Barrier, Bounds, BoundsAt, Clearance, Sweep};

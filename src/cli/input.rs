@@ -1,4 +1,4 @@
-//! Input of `azel passes` and `azel look`: the site and the satellites.
+//! Input of `azel passes`, `azel look` and `azel plan`: the site and the satellites.
 
 mod age;
 mod place;
@@ -16,7 +16,7 @@ use jiff::Timestamp;
 
 pub(super) use self::{
     satellites::Satellites,
-    values::{elevation, hours, instant, megahertz, minutes, step_s},
+    values::{elevation, hours, instant, megahertz, minutes, share, step_s},
 };
 use super::Cli;
 use crate::plan::pass_export::Satellite;
@@ -58,6 +58,11 @@ pub(super) struct InputOptions {
 }
 
 impl InputOptions {
+    /// Whether only some of the objects are asked for, or files of them.
+    pub(super) fn asks_for_objects(&self) -> bool {
+        !(self.catalog_number.is_empty() && self.name.is_empty() && self.elements.is_empty())
+    }
+
     /// Refuses a command line that lacks the site or the elements.
     pub(super) fn check(&self, command: &str, station: Option<&Path>) -> Result<(), clap::Error> {
         if station.is_some() {
@@ -90,9 +95,14 @@ pub(super) fn exit_code(is_complete: bool) -> ExitCode {
 pub(super) fn caution(satellites: &[Satellite], from: Timestamp, to: Timestamp) {
     let elements = satellites.iter().map(|satellite| &satellite.elements);
     if let Some(sentence) = age::caution(elements, from, to) {
-        // An error is ignored: standard error is closed.
-        let _ = writeln!(io::stderr(), "{sentence}");
+        note(&sentence);
     }
+}
+
+/// Writes a sentence to standard error.
+pub(super) fn note(sentence: &str) {
+    // An error is ignored: standard error is closed.
+    let _ = writeln!(io::stderr(), "{sentence}");
 }
 
 /// Error for a wrong command line of `azel <command>`.

@@ -49,6 +49,11 @@ pub(in crate::cli) fn megahertz(text: &str) -> Result<f64, String> {
     above_zero(text, 1e6, "MHz")
 }
 
+pub(in crate::cli) fn share(text: &str) -> Result<f64, String> {
+    let share = number(text)?;
+    if (0.0..=1.0).contains(&share) { Ok(share) } else { Err("not between 0 and 1".to_owned()) }
+}
+
 pub(in crate::cli) fn step_s(text: &str) -> Result<f64, String> {
     let seconds = number(text)?;
     if (0.1..=86_400.0).contains(&seconds) {

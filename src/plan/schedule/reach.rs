@@ -181,8 +181,7 @@ impl Reach {
         let lost_ms = Span::total_ms(clear) - Span::total_ms(&counted);
         let lost = lost_at.filter(|_| lost_ms > 0);
         let lost = lost.map(|at| Lost { seconds: lost_ms as f64 / 1000.0, at });
-        let way = (!counted.is_empty())
-            .then(|| Way::new(samples, axes_deg, counted, lost));
+        let way = (!counted.is_empty()).then(|| Way::new(samples, axes_deg, counted, lost));
         Judged { way, entered, lost_at }
     }
 
@@ -231,9 +230,8 @@ impl Reach {
                 start,
                 choice,
             );
-            let first = |planned: &Planned| {
-                planned.axes_deg[0].first().copied().unwrap_or_default()
-            };
+            let first =
+                |planned: &Planned| planned.axes_deg[0].first().copied().unwrap_or_default();
             let begins_deg = first(&planned);
             if found.iter().all(|other| (first(other) - begins_deg).abs() > SAME_DEG) {
                 found.push(planned);

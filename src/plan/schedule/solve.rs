@@ -198,9 +198,8 @@ impl Problem<'_> {
                 return Some(found.takes);
             };
             let of_limit = found.takes.iter().filter_map(|take| self.take(*take));
-            let of_limit = of_limit.filter(|take| {
-                take.limit == Some(limit as u32) && take.part == Part::Alone
-            });
+            let of_limit = of_limit
+                .filter(|take| take.limit == Some(limit as u32) && take.part == Part::Alone);
             let least = of_limit.min_by_key(|take| (take.row, take.pass))?;
             *is_out.get_mut(least.pass as usize)? = true;
         }

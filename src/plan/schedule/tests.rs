@@ -1,37 +1,222 @@
-//! Schedules of real satellites.
+//! Schedules of real satellites on three antennas.
 
-use std::time::Instant;
+mod milp;
 
-use super::testing::*;
-use super::*;
+use super::{testing::*, *};
+use crate::astro::time::{add_seconds, seconds_between};
 
-#[test]
-fn try_it() {
+const SEED: u64 = 2_026;
+
+/// Ways of planning: the operator's choices.
+fn kinds() -> [(Option<Partial>, Between, ChooseBy); 5] {
+    let part = |hand_over| Partial { min_share: 0.4, min_s: 90.0, step_s: 60.0, hand_over };
+    [
+        (None, Between::Wait, ChooseBy::PriorityThenElevation),
+        (None, Between::Park, ChooseBy::PriorityThenDuration),
+        (None, Between::Stay, ChooseBy::MostPasses),
+        (Some(part(false)), Between::Wait, ChooseBy::MostMinutes),
+        (Some(part(true)), Between::Park, ChooseBy::PriorityThenElevation),
+    ]
+}
+
+/// Calls `check` with requests of all kinds for some hours of some satellites.
+fn each_day(days: u64, check: impl Fn(&Request<'_>)) {
     let station = three_antennas();
-    for (count, hours) in [(60, 24.0), (60, 168.0)] {
-        let antennas = planned(&station, noon());
-        let satellites = low_satellites(&mut Random::new(1), count);
-        let start = Instant::now();
-        let list = candidates(&station, &antennas, &satellites, noon(), hours);
-        println!("{count} {hours} {} candidates {:?}", list.len(), start.elapsed());
-        for partial in [
-            None,
-            Some(Partial { min_share: 0.6, min_s: 120.0, step_s: 30.0, hand_over: false }),
-            Some(Partial { min_share: 0.4, min_s: 120.0, step_s: 60.0, hand_over: true }),
-        ] {
-            for n in [1, 3] {
-                let start = Instant::now();
-                let mut req = request(&antennas[..n], &list);
-                req.partial = partial;
-                let schedule = plan(&req);
-                println!(
-                    "{n} {partial:?} {} taken {} left {:?}",
-                    schedule.entries.len(),
-                    schedule.left_out.len(),
-                    start.elapsed()
-                );
-                println!("   {:?}", schedule.worth);
+    let mut random = Random::new(SEED);
+    for day in 0..days {
+        let from = add_seconds(noon(), day as f64 * 86_400.0);
+        let mut satellites = low_satellites(&mut random, 30);
+        for satellite in satellites.iter_mut().step_by(4) {
+            satellite.rules.max_a_day = Some(1);
+        }
+        let mut antennas = planned(&station, from);
+        let list = candidates(&station, &antennas, &satellites, from, 5.0);
+        for (partial, between, choose_by) in kinds() {
+            for antenna in &mut antennas {
+                antenna.between = between;
             }
+            check(&Request { partial, choose_by, ..request(&antennas, &list) });
         }
     }
+}
+
+fn worth(schedule: &Schedule) -> Vec<i64> {
+    schedule.worth.iter().map(|class| class.worth).collect()
+}
+
+#[test]
+fn no_two_entries_of_an_antenna_come_closer_than_slew_and_set_up() {
+    each_day(3, |request| {
+        let schedule = plan(request);
+        assert!(schedule.entries.len() > 10);
+        for antenna in request.antennas {
+            let own = schedule.entries.iter().filter(|entry| entry.antenna == antenna.id);
+            let own: Vec<&Entry> = own.collect();
+            for pair in own.windows(2) {
+                let [a, b] = [pair[0], pair[1]];
+                let straight_ms = antenna.reach.straight_ms(a.axes_deg[1], b.axes_deg[0]);
+                let gap_s = seconds_between(a.to, b.from);
+                assert!(gap_s >= straight_ms as f64 / 1000.0 + antenna.set_up_s, "{a:?} {b:?}");
+                assert!(b.spare_s.is_some_and(|spare_s| spare_s >= 0.0), "{b:?}");
+                assert_eq!(b.after, Some(a.pass));
+            }
+        }
+        for entry in &schedule.entries {
+            let parts: Vec<&Entry> = schedule.entries_of(entry.pass).collect();
+            match parts[..] {
+                [_] => assert_eq!(entry.shared_with, None),
+                [a, b] => {
+                    assert!(request.partial.is_some_and(|partial| partial.hand_over));
+                    assert!(a.antenna != b.antenna && a.to <= b.from, "{a:?} {b:?}");
+                }
+                _ => panic!("{parts:?}"),
+            }
+        }
+        let count = schedule.left_out.len() + request.candidates.len();
+        assert!(schedule.entries.len() + count >= request.candidates.len());
+    });
+}
+
+#[test]
+fn a_bound_is_never_below_what_is_reached() {
+    each_day(3, |request| {
+        let schedule = plan(request);
+        for class in &schedule.worth {
+            if let Proof::AtMost(bound) = class.proof {
+                assert!(bound > class.worth, "{class:?}");
+            }
+        }
+        if request.partial.is_none() {
+            assert!(schedule.is_proved(), "{:?}", schedule.worth);
+        }
+    });
+}
+
+#[test]
+fn planning_again_changes_nothing() {
+    each_day(2, |request| {
+        let schedule = plan(request);
+        assert_eq!(plan(request), schedule);
+        let steadiness = Steadiness { percent: 5, seconds: 10 };
+        let again = plan(&Request { previous: Some(&schedule), steadiness, ..request.clone() });
+        if request.partial.is_none() {
+            assert_eq!(again.entries, schedule.entries);
+            assert_eq!(changes(&schedule, &again, request.antennas[0].free_from), []);
+        }
+    });
+}
+
+#[test]
+fn every_reason_holds_when_the_swap_is_made() {
+    each_day(1, |request| {
+        let schedule = plan(request);
+        for left in schedule.left_out.iter().step_by(3) {
+            let swapped = plan_with(request, left.pass);
+            match &left.why {
+                Why::Refused(_) | Why::Impossible(_) | Why::Off(_) | Why::OtherAntennas => {
+                    assert_eq!(swapped, None, "{left:?}");
+                }
+                Why::Overlaps(_) | Why::SlewTooShort(_) | Why::MaxADay(_) | Why::TooFar => {
+                    let Some(swapped) = swapped else {
+                        assert_eq!(left.why, Why::TooFar);
+                        continue;
+                    };
+                    if schedule.is_proved() {
+                        assert!(worth(&swapped) <= worth(&schedule), "{left:?}");
+                    }
+                    let from = request.antennas[0].free_from;
+                    let changes = changes(&schedule, &swapped, from);
+                    assert!(changes.iter().any(|change| change.pass == left.pass));
+                    // Something has made room for it.
+                    assert!(changes.len() > 1, "{left:?} {changes:?}");
+                }
+                Why::NotFound => assert!(!schedule.is_proved()),
+            }
+        }
+    });
+}
+
+#[test]
+fn conflicts_name_entries_that_are_really_in_the_way() {
+    each_day(1, |request| {
+        let schedule = plan(request);
+        let conflicts = schedule.left_out.iter().flat_map(|left| &left.by_antenna);
+        let mut checked = 0;
+        for (antenna, why) in conflicts {
+            let (Why::Overlaps(conflict) | Why::SlewTooShort(conflict)) = why else { continue };
+            let mut entries = schedule.entries_of(conflict.with);
+            assert!(entries.any(|entry| entry.antenna == *antenna), "{conflict:?}");
+            assert!(conflict.missing_s > 0.0);
+            checked += 1;
+        }
+        assert!(checked > 0);
+    });
+}
+
+#[test]
+fn what_is_fixed_stays_and_what_the_operator_says_is_done() {
+    let station = three_antennas();
+    let antennas = planned(&station, noon());
+    let satellites = low_satellites(&mut Random::new(SEED), 30);
+    let mut list = candidates(&station, &antennas, &satellites, noon(), 6.0);
+    let first = plan(&request(&antennas, &list));
+    let (entry, left) = (first.entries[3].clone(), first.left_out.iter());
+    let is_lost = |left: &&LeftOut| matches!(left.why, Why::Overlaps(_) | Why::SlewTooShort(_));
+    let later = |left: &&LeftOut| left.pass.aos > add_seconds(entry.to, 3_600.0);
+    let lost = left.filter(is_lost).find(later).unwrap().pass;
+    let taken = first.entries[5].pass;
+    for candidate in &mut list {
+        if candidate.key == lost {
+            candidate.wish = Wish::Always;
+        } else if candidate.key == taken {
+            candidate.wish = Wish::Never;
+            candidate.refusal = Some(Refusal::Never);
+        }
+    }
+    let fixed = [entry.clone()];
+    let new = plan(&Request { fixed: &fixed, ..request(&antennas, &list) });
+    let kept = new.entries_of(entry.pass).next().unwrap();
+    assert_eq!((kept.antenna, kept.from, kept.to), (entry.antenna, entry.from, entry.to));
+    assert!(kept.is_fixed);
+    let always = new.entries_of(lost).next().unwrap();
+    assert_eq!(always.class, Class::Always);
+    let never = new.left_out.iter().find(|left| left.pass == taken).unwrap();
+    assert_eq!(never.why, Why::Refused(Refusal::Never));
+    assert!(changes(&first, &new, noon()).iter().any(|change| {
+        change.pass == taken && change.cause == Cause::LeftOut(never.why.clone())
+    }));
+}
+
+#[test]
+fn passes_far_from_what_changed_stay_as_they_are() {
+    let station = three_antennas();
+    let antennas = planned(&station, noon());
+    let mut satellites = low_satellites(&mut Random::new(SEED + 1), 25);
+    let before = candidates(&station, &antennas, &satellites, noon(), 10.0);
+    let schedule = plan(&request(&antennas, &before));
+    let changed = schedule.entries[4].pass.satellite;
+    let satellite = satellites.iter_mut().find(|it| it.elements.catalog_number() == changed);
+    satellite.unwrap().rules.min_elevation = Some(degrees(89.0));
+    let after = candidates(&station, &antennas, &satellites, noon(), 10.0);
+    let steadiness = Steadiness { percent: 5, seconds: 10 };
+    let new =
+        plan(&Request { previous: Some(&schedule), steadiness, ..request(&antennas, &after) });
+    let found = changes(&schedule, &new, noon());
+    assert!(!found.is_empty());
+    let own: Vec<_> =
+        before.iter().map(|it| it.key).filter(|key| key.satellite == changed).collect();
+    for change in &found {
+        let near = own.iter().any(|key| seconds_between(key.aos, change.pass.aos).abs() < 5_400.0);
+        assert!(near, "{change:?}");
+    }
+    assert!(found.len() < schedule.entries.len() / 3, "{}", found.len());
+}
+
+#[test]
+fn a_schedule_can_be_written_down_and_read_again() {
+    each_day(1, |request| {
+        let schedule = plan(request);
+        let text = serde_json::to_string(&schedule).unwrap();
+        assert_eq!(serde_json::from_str::<Schedule>(&text).unwrap(), schedule);
+    });
 }

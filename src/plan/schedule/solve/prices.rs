@@ -41,7 +41,7 @@ pub(super) fn solve(problem: &Problem<'_>, lines: &[Line]) -> Solution {
     let (mut takes, mut row) = problem.repaired(lines, now.takes.clone());
     // Whole passes make a smaller search.
     if let Some(whole) = vector::best(problem, lines, &|take| take.is_whole) {
-        let found = problem.handed_over(lines, problem.improved(lines, whole));
+        let found = problem.improved(lines, whole);
         if found.1 > row {
             (takes, row) = found;
         }
@@ -82,6 +82,7 @@ pub(super) fn solve(problem: &Problem<'_>, lines: &[Line]) -> Solution {
         }
     }
     let bound = best.1.bound;
+    let (takes, row) = problem.handed_over(lines, (takes, row));
     Solution { takes, row, bound: bound.max(row) }
 }
 
@@ -170,7 +171,7 @@ impl Problem<'_> {
             }
             *takes = kept;
         }
-        self.handed_over(lines, self.improved(lines, takes))
+        self.improved(lines, takes)
     }
 
     /// Returns `true` if the second take can follow the first.

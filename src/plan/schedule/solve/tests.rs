@@ -61,7 +61,15 @@ impl Case {
                     let (to_ms, part) = (from_ms + length_ms, Part::Alone);
                     let (share, is_whole) = (1000, random.below(2) == 0);
                     takes.push(Take {
-                        pass, antenna, limit, part, from_ms, to_ms, share, is_whole, row,
+                        pass,
+                        antenna,
+                        limit,
+                        part,
+                        from_ms,
+                        to_ms,
+                        share,
+                        is_whole,
+                        row,
                     });
                 }
                 if antennas > 1 && random.below(4) == 0 {
@@ -73,7 +81,15 @@ impl Case {
                         let limit = limit.filter(|_| part == Part::First);
                         let (share, is_whole) = (500, false);
                         takes.push(Take {
-                            pass, antenna, limit, part, from_ms, to_ms, share, is_whole, row,
+                            pass,
+                            antenna,
+                            limit,
+                            part,
+                            from_ms,
+                            to_ms,
+                            share,
+                            is_whole,
+                            row,
                         });
                     }
                 }

@@ -1,0 +1,191 @@
+//! The schedule beside a greedy one: `cargo bench --bench schedule`.
+//!
+//! Greedy takes passes by their greatest elevation, the highest first, each on the first antenna
+//! that is free in time. Both plan for the demo station's three antennas with their real slews,
+//! weeks of 60 satellites; the value is the seconds that count times the sine of the maximum,
+//! without priorities, because greedy knows none. Then the whole catalogue for a day on one
+//! antenna. All on one core.
+
+// A bench prints to its user, and may panic.
+#![allow(clippy::print_stdout, clippy::unwrap_used, clippy::indexing_slicing)]
+
+use std::time::{Duration, Instant};
+
+use azel::{
+    astro::time::add_seconds,
+    makes::DemoAddresses,
+    orbit::{Elements, PassSearch, Propagator, bundled, passes},
+    plan::schedule::{
+        Between, Candidate, ChooseBy, Common, PlannedAntenna, Reach, Request, SatelliteRules,
+        Schedule, Sight, Steadiness, Wanted, Wish, plan,
+    },
+    station::{Priority, Station},
+};
+use jiff::Timestamp;
+
+const START: &str = "2026-08-12T00:00:00Z";
+const WEEKS: u64 = 20;
+const SATELLITES: usize = 60;
+
+/// Splitmix64.
+struct Random(u64);
+
+impl Random {
+    fn below(&mut self, end: u64) -> u64 {
+        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
+        let mut mixed = self.0;
+        mixed = (mixed ^ (mixed >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+        mixed = (mixed ^ (mixed >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+        (mixed ^ (mixed >> 31)) % end
+    }
+}
+
+fn antennas(station: &Station, from: Timestamp) -> Vec<PlannedAntenna> {
+    let planned = station.antennas.iter().map(|antenna| PlannedAntenna {
+        id: antenna.id,
+        reach: Reach::of(station, antenna, None),
+        set_up_s: 20.0,
+        between: Between::Wait,
+        free_from: from,
+        stands_deg: None,
+        off: None,
+    });
+    planned.collect()
+}
+
+/// The candidates, and the time that finding passes and judging them took.
+fn candidates(
+    station: &Station,
+    antennas: &[PlannedAntenna],
+    satellites: &[(Elements, Priority)],
+    hours: f64,
+) -> (Vec<Candidate>, Duration, Duration) {
+    let from = antennas[0].free_from;
+    let floor = station.elevation_floor();
+    let common = Common { site: station.site, floor, antennas, max_age_s: None };
+    let search = PassSearch {
+        aos_elevation: station.aos_elevation(),
+        floor,
+        ..PassSearch::new(station.site, from, add_seconds(from, hours * 3600.0))
+    };
+    let (mut found, rules) = (Vec::new(), SatelliteRules::default());
+    let (mut finding, mut judging) = (Duration::ZERO, Duration::ZERO);
+    for (elements, priority) in satellites {
+        let Ok(propagator) = Propagator::new(elements) else { continue };
+        let start = Instant::now();
+        let passes = passes(&propagator, &search, &|| false);
+        finding += start.elapsed();
+        let start = Instant::now();
+        for pass in passes {
+            let mut sight = Sight::new(&propagator, station.site, None, &pass);
+            let wanted = Wanted { priority: *priority, wish: Wish::ByPlan, rules: &rules };
+            let number = elements.catalog_number();
+            let with = (&pass, &propagator);
+            found.push(Candidate::new(number, 0.0, with, wanted, &mut sight, common));
+        }
+        judging += start.elapsed();
+    }
+    (found, finding, judging)
+}
+
+fn planned(antennas: &[PlannedAntenna], candidates: &[Candidate]) -> (Schedule, Duration) {
+    let start = Instant::now();
+    let schedule = plan(&Request {
+        antennas,
+        candidates,
+        choose_by: ChooseBy::PriorityThenElevation,
+        partial: None,
+        previous: None,
+        steadiness: Steadiness::default(),
+        fixed: &[],
+    });
+    (schedule, start.elapsed())
+}
+
+fn worth(schedule: &Schedule) -> i64 {
+    schedule.entries.iter().map(|entry| entry.worth).sum()
+}
+
+/// The highest pass first: each is kept if all that were kept before can be kept with it.
+fn greedy(antennas: &[PlannedAntenna], candidates: &[Candidate]) -> i64 {
+    let mut order: Vec<&Candidate> = candidates.iter().collect();
+    order.sort_by(|a, b| {
+        b.max_elevation.degrees().total_cmp(&a.max_elevation.degrees()).then(a.key.cmp(&b.key))
+    });
+    let mut taken: Vec<Vec<Candidate>> = vec![Vec::new(); antennas.len()];
+    let mut total = 0;
+    for candidate in order {
+        for (antenna, own) in antennas.iter().zip(&mut taken) {
+            let near = |it: &&Candidate| {
+                let apart_s = it.key.aos.duration_since(candidate.key.aos).as_secs_f64().abs();
+                apart_s < 3_600.0
+            };
+            let mut few: Vec<Candidate> = own.iter().filter(near).cloned().collect();
+            few.push(candidate.clone());
+            let (all, _) = planned(std::slice::from_ref(antenna), &few);
+            if all.entries.len() == few.len() {
+                let mine = all.entries.iter().find(|entry| entry.pass == candidate.key);
+                total += mine.unwrap().worth;
+                own.push(candidate.clone());
+                break;
+            }
+        }
+    }
+    total
+}
+
+fn main() {
+    let station = Station::demo(&DemoAddresses::default());
+    let start: Timestamp = START.parse().unwrap();
+    let catalog = bundled().unwrap();
+    let low: Vec<&Elements> =
+        catalog.iter().filter(|it| (5_400.0..6_900.0).contains(&it.period_s())).collect();
+    let mut random = Random(1);
+    let (mut gains, mut slowest) = (Vec::new(), Duration::ZERO);
+    for week in 0..WEEKS {
+        let from = add_seconds(start, week as f64 * 86_400.0);
+        let mut chosen: Vec<(Elements, Priority)> = (0..SATELLITES)
+            .map(|_| low[random.below(low.len() as u64) as usize].clone())
+            .map(|it| (it, Priority::try_from(1 + random.below(5) as i64).unwrap()))
+            .collect();
+        chosen.sort_by_key(|(it, _)| it.catalog_number());
+        chosen.dedup_by_key(|(it, _)| it.catalog_number());
+        let antennas = antennas(&station, from);
+        let (list, finding, judging) = candidates(&station, &antennas, &chosen, 168.0);
+        let (schedule, planning) = planned(&antennas, &list);
+        slowest = slowest.max(planning);
+        let mut even = list.clone();
+        for candidate in &mut even {
+            candidate.priority = Priority::default();
+        }
+        let (best, even_planning) = planned(&antennas, &even);
+        let gain = 100.0 * (worth(&best) as f64 / greedy(&antennas, &even) as f64 - 1.0);
+        println!(
+            "week {week:2}: {} passes, found {finding:.2?}, judged {judging:.2?}, planned \
+             {planning:.2?} (taken {}, proved {}), without priorities {even_planning:.2?} (proved \
+             {}): {gain:+.1} % over greedy",
+            list.len(),
+            schedule.entries.len(),
+            schedule.is_proved(),
+            best.is_proved(),
+        );
+        gains.push(gain);
+    }
+    let mean = gains.iter().sum::<f64>() / gains.len() as f64;
+    println!("gain over greedy: mean {mean:.1} %, slowest week with priorities {slowest:.2?}");
+
+    let all: Vec<(Elements, Priority)> =
+        catalog.iter().map(|it| (it.clone(), Priority::default())).collect();
+    for antenna in antennas(&station, start) {
+        let one = [antenna];
+        let (list, finding, judging) = candidates(&station, &one, &all, 24.0);
+        let (schedule, planning) = planned(&one, &list);
+        println!(
+            "whole catalogue, a day, one antenna: {} passes, found {finding:.2?}, judged \
+             {judging:.2?}, planned {planning:.2?} (taken {}, proved {})",
+            list.len(),
+            schedule.entries.len(),
+            schedule.is_proved(),
+        );
+    }
+}

@@ -1,0 +1,190 @@
+//! The schedule of a station, for the terminal and for other programs.
+
+mod reason;
+
+use std::{collections::BTreeMap, path::Path, process::ExitCode};
+
+use anyhow::Context as _;
+use clap::{Args, ValueEnum};
+use jiff::Timestamp;
+use rayon::prelude::*;
+
+use super::{
+    input::{self, EXIT_CODES, InputOptions, Satellites},
+    passes::written,
+};
+use crate::{
+    astro::time,
+    makes,
+    orbit::{Pass, PassSearch, passes_of_all},
+    plan::{
+        pass_export::Satellite,
+        schedule::{
+            Between, Candidate, ChooseBy, Common, Partial, PlannedAntenna, Proof, Reach, Request,
+            SatelliteRules, Schedule, Sight, Steadiness, Wanted, Wish, plan,
+        },
+        schedule_export::{ScheduleFormat, ScheduleList},
+    },
+    station::{self, AfterPass, Antenna, Station},
+};
+
+/// Least part of a pass that is worth taking, seconds.
+const LEAST_PART_S: f64 = 60.0;
+/// By multiples of this a pass is shortened, seconds.
+const PART_STEP_S: f64 = 30.0;
+
+#[derive(Debug, Args)]
+#[command(after_help = EXIT_CODES)]
+pub(super) struct Options {
+    #[command(flatten)]
+    input: InputOptions,
+    /// Start of the schedule: `now`, a date (0 h UTC), or a time with Z or an offset
+    #[arg(long, value_name = "TIME", default_value = "now", value_parser = input::instant)]
+    from: Timestamp,
+    /// Length of the schedule in hours
+    #[arg(long, value_name = "H", default_value_t = 24.0, value_parser = input::hours, allow_negative_numbers = true)]
+    hours: f64,
+    /// What is best
+    #[arg(long, value_enum, default_value_t = Rule::Elevation)]
+    choose_by: Rule,
+    /// Time that a unit which tracks by itself needs before each pass besides the slew, seconds
+    #[arg(long, value_name = "S", default_value_t = 30.0)]
+    set_up: f64,
+    /// Passes may be shortened to this share, 0 to 1; they are taken as a whole when left out
+    #[arg(long, value_name = "SHARE", value_parser = input::share)]
+    least_share: Option<f64>,
+    /// Passes may be handed from one antenna to another; needs --least-share
+    #[arg(long, requires = "least_share")]
+    hand_over: bool,
+    /// How the schedule is written
+    #[arg(long, value_enum, default_value_t = ScheduleFormat::Table)]
+    format: ScheduleFormat,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum Rule {
+    /// Priority, then the seconds that count times the sine of the maximum elevation
+    Elevation,
+    /// Priority, then the seconds that count
+    Duration,
+    /// Most passes
+    Passes,
+    /// Most minutes
+    Minutes,
+}
+
+pub(super) fn run(station: Option<&Path>, options: &Options) -> anyhow::Result<ExitCode> {
+    let own = station::settings_path().filter(|_| station.is_none());
+    let path = station.or(own.as_deref()).context("this user has no folder for settings")?;
+    let unusable = || format!("The station file {} cannot be used", path.display());
+    let station = station::load(path, makes::SPECS).with_context(unusable)?.station;
+    let Satellites { list, is_complete } = options.input.satellites(Some(path))?;
+    let asks = options.input.asks_for_objects();
+    let is_wanted = |satellite: &Satellite| {
+        asks || station.favourites.contains(satellite.elements.catalog_number())
+    };
+    let satellites: Vec<Satellite> = list.into_iter().filter(is_wanted).collect();
+    let (from, to) = (options.from, time::add_seconds(options.from, options.hours * 3600.0));
+    input::caution(&satellites, from, to);
+
+    let antennas: Vec<PlannedAntenna> =
+        station.antennas.iter().map(|antenna| planned(&station, antenna, options)).collect();
+    let candidates = candidates(&station, &antennas, &satellites, (from, to));
+    let partial = options.least_share.map(|min_share| Partial {
+        min_share,
+        min_s: LEAST_PART_S,
+        step_s: PART_STEP_S,
+        hand_over: options.hand_over,
+    });
+    let schedule = plan(&Request {
+        antennas: &antennas,
+        candidates: &candidates,
+        choose_by: match options.choose_by {
+            Rule::Elevation => ChooseBy::PriorityThenElevation,
+            Rule::Duration => ChooseBy::PriorityThenDuration,
+            Rule::Passes => ChooseBy::MostPasses,
+            Rule::Minutes => ChooseBy::MostMinutes,
+        },
+        partial,
+        previous: None,
+        steadiness: Steadiness::default(),
+        fixed: &[],
+    });
+    tell_proof(&schedule);
+
+    let names: BTreeMap<u32, String> = satellites
+        .iter()
+        .map(|it| (it.elements.catalog_number(), it.elements.name().to_owned()))
+        .collect();
+    let name = |number: u32| names.get(&number).cloned().unwrap_or_else(|| number.to_string());
+    let list = ScheduleList {
+        schedule: &schedule,
+        satellites: &names,
+        antennas: &station.antennas.iter().map(|it| (it.id, it.name.clone())).collect(),
+        reason: &|left| reason::reason(left, &name),
+        now: Timestamp::now(),
+    };
+    written(|out| list.write(out, options.format)).context("The schedule cannot be written")?;
+    Ok(input::exit_code(is_complete))
+}
+
+fn planned(station: &Station, antenna: &Antenna, options: &Options) -> PlannedAntenna {
+    let tracks_by_itself = antenna.connection.variant().capabilities.has_program;
+    PlannedAntenna {
+        id: antenna.id,
+        reach: Reach::of(station, antenna, None),
+        set_up_s: if tracks_by_itself { options.set_up } else { 0.0 },
+        between: match antenna.follow.after {
+            AfterPass::Hold => Between::Stay,
+            AfterPass::Park => Between::Park,
+            AfterPass::Next => Between::Wait,
+        },
+        free_from: options.from,
+        stands_deg: None,
+        off: None,
+    }
+}
+
+fn candidates(
+    station: &Station,
+    antennas: &[PlannedAntenna],
+    satellites: &[Satellite],
+    (from, to): (Timestamp, Timestamp),
+) -> Vec<Candidate> {
+    let floor = station.elevation_floor();
+    let common = Common { site: station.site, floor, antennas, max_age_s: None };
+    let search = PassSearch {
+        aos_elevation: station.aos_elevation(),
+        floor,
+        ..PassSearch::new(station.site, from, to)
+    };
+    let rules = SatelliteRules::default();
+    let found: Vec<(usize, Pass)> =
+        passes_of_all(satellites, &search, &|_| (), &|| false).collect();
+    let judged = found.par_iter().filter_map(|(index, pass)| {
+        let Satellite { elements, propagator, .. } = satellites.get(*index)?;
+        let number = elements.catalog_number();
+        let mask = station.horizon_mask.as_ref();
+        let mut sight = Sight::new(propagator, station.site, mask, pass);
+        let priority = station.favourites.priority(number).unwrap_or_default();
+        let wanted = Wanted { priority, wish: Wish::ByPlan, rules: &rules };
+        let age_s = elements.age_s(pass.aos.time);
+        Some(Candidate::new(number, age_s, (pass, propagator), wanted, &mut sight, common))
+    });
+    judged.collect()
+}
+
+/// Says on standard error where a better schedule is not ruled out.
+fn tell_proof(schedule: &Schedule) {
+    let open = schedule.worth.iter().find_map(|class| match class.proof {
+        Proof::AtMost(bound) => Some((class.worth, bound)),
+        Proof::Best | Proof::Open => None,
+    });
+    if let Some((worth, bound)) = open {
+        let percent = 100.0 * (bound - worth) as f64 / bound.max(1) as f64;
+        input::note(&format!(
+            "The best schedule is at most {percent:.1} % better in the first class that is not \
+             proved to be the best."
+        ));
+    }
+}

@@ -1,0 +1,224 @@
+//! Writes a schedule as a table, CSV, JSON or iCalendar.
+
+use std::{
+    collections::BTreeMap,
+    io::{self, Write},
+};
+
+use icalendar::{Calendar, Component as _, Event};
+use jiff::{Timestamp, tz::TimeZone};
+
+use super::schedule::{Entry, LeftOut, Schedule};
+use crate::station::AntennaId;
+
+/// How a schedule is written.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, clap::ValueEnum)]
+pub enum ScheduleFormat {
+    /// For people
+    Table,
+    Csv,
+    Json,
+    /// Events of a calendar: only what is taken
+    Ics,
+}
+
+/// A schedule with the names of what is in it.
+pub struct ScheduleList<'a> {
+    pub schedule: &'a Schedule,
+    /// By catalog number.
+    pub satellites: &'a BTreeMap<u32, String>,
+    pub antennas: &'a BTreeMap<AntennaId, String>,
+    /// Says why a pass is left out.
+    pub reason: &'a dyn Fn(&LeftOut) -> String,
+    /// Time stamp of the events.
+    pub now: Timestamp,
+}
+
+const HEADER: [&str; 13] = [
+    "state",
+    "antenna",
+    "catalog_number",
+    "name",
+    "aos_time",
+    "from_time",
+    "to_time",
+    "counted_s",
+    "late_s",
+    "early_s",
+    "slew_s",
+    "spare_s",
+    "reason",
+];
+
+/// A row of the table: an entry or a pass that is left out.
+enum Row<'a> {
+    Taken(&'a Entry),
+    LeftOut(&'a LeftOut),
+}
+
+impl ScheduleList<'_> {
+    pub fn write(&self, out: &mut impl Write, format: ScheduleFormat) -> io::Result<()> {
+        match format {
+            ScheduleFormat::Table => self.table(out),
+            ScheduleFormat::Csv => self.csv(out),
+            ScheduleFormat::Json => self.json(out),
+            ScheduleFormat::Ics => self.calendar(out),
+        }
+    }
+
+    /// All passes by AOS.
+    fn rows(&self) -> Vec<Row<'_>> {
+        let taken = self.schedule.entries.iter().map(Row::Taken);
+        let mut rows: Vec<Row<'_>> =
+            taken.chain(self.schedule.left_out.iter().map(Row::LeftOut)).collect();
+        rows.sort_by_key(|row| match row {
+            Row::Taken(entry) => (entry.pass.aos, entry.pass.satellite, entry.from),
+            Row::LeftOut(left) => (left.pass.aos, left.pass.satellite, left.pass.aos),
+        });
+        rows
+    }
+
+    fn satellite(&self, number: u32) -> String {
+        self.satellites.get(&number).cloned().unwrap_or_else(|| number.to_string())
+    }
+
+    fn antenna(&self, id: AntennaId) -> &str {
+        self.antennas.get(&id).map_or("", String::as_str)
+    }
+
+    fn table(&self, out: &mut impl Write) -> io::Result<()> {
+        let width = |names: &mut dyn Iterator<Item = &String>| {
+            names.map(|name| name.chars().count()).max().unwrap_or(0).max(9)
+        };
+        let names = width(&mut self.satellites.values());
+        let antennas = width(&mut self.antennas.values());
+        writeln!(
+            out,
+            "{:<antennas$}  {:<names$}  {:<19}  {:<8}  {:>6}  {:>5}  {:>6}",
+            "Antenna", "Satellite", "From (UTC)", "To", "counts", "slew", "spare"
+        )?;
+        for row in self.rows() {
+            match row {
+                Row::Taken(entry) => writeln!(
+                    out,
+                    "{:<antennas$}  {:<names$}  {}  {}  {:>6}  {:>5}  {:>6}",
+                    self.antenna(entry.antenna),
+                    self.satellite(entry.pass.satellite),
+                    civil(entry.from, "%Y-%m-%d %H:%M:%S"),
+                    civil(entry.to, "%H:%M:%S"),
+                    minutes(entry.counted_s),
+                    minutes(entry.slew_s),
+                    entry.spare_s.map(minutes).unwrap_or_default(),
+                )?,
+                Row::LeftOut(left) => writeln!(
+                    out,
+                    "{:<antennas$}  {:<names$}  {}  {}",
+                    "-",
+                    self.satellite(left.pass.satellite),
+                    civil(left.pass.aos, "%Y-%m-%d %H:%M:%S"),
+                    (self.reason)(left),
+                )?,
+            }
+        }
+        Ok(())
+    }
+
+    fn csv(&self, out: &mut impl Write) -> io::Result<()> {
+        let mut table = csv::Writer::from_writer(out);
+        table.write_record(HEADER)?;
+        for row in self.rows() {
+            let fields: [String; 13] = match row {
+                Row::Taken(entry) => [
+                    "taken".to_owned(),
+                    plain(self.antenna(entry.antenna)),
+                    entry.pass.satellite.to_string(),
+                    plain(&self.satellite(entry.pass.satellite)),
+                    stamp(entry.pass.aos),
+                    stamp(entry.from),
+                    stamp(entry.to),
+                    entry.counted_s.to_string(),
+                    entry.late_s.to_string(),
+                    entry.early_s.to_string(),
+                    entry.slew_s.to_string(),
+                    entry.spare_s.map(|spare_s| spare_s.to_string()).unwrap_or_default(),
+                    String::new(),
+                ],
+                Row::LeftOut(left) => {
+                    let mut fields: [String; 13] = Default::default();
+                    let said = [
+                        "left out".to_owned(),
+                        String::new(),
+                        left.pass.satellite.to_string(),
+                        plain(&self.satellite(left.pass.satellite)),
+                        stamp(left.pass.aos),
+                    ];
+                    for (field, said) in fields.iter_mut().zip(said) {
+                        *field = said;
+                    }
+                    if let Some(reason) = fields.last_mut() {
+                        *reason = plain(&(self.reason)(left));
+                    }
+                    fields
+                }
+            };
+            table.write_record(fields)?;
+        }
+        table.flush()
+    }
+
+    fn json(&self, out: &mut impl Write) -> io::Result<()> {
+        let antennas: BTreeMap<String, &String> =
+            self.antennas.iter().map(|(id, name)| (id.0.to_string(), name)).collect();
+        let whole = serde_json::json!({
+            "antennas": antennas,
+            "satellites": self.satellites,
+            "schedule": self.schedule,
+        });
+        serde_json::to_writer_pretty(&mut *out, &whole)?;
+        writeln!(out)
+    }
+
+    fn calendar(&self, out: &mut impl Write) -> io::Result<()> {
+        let mut calendar = Calendar::empty();
+        calendar.append_property(("VERSION", "2.0"));
+        calendar.append_property(("PRODID", "-//Azel//Schedule//EN"));
+        calendar.append_property(("CALSCALE", "GREGORIAN"));
+        for entry in &self.schedule.entries {
+            let (number, antenna) = (entry.pass.satellite, entry.antenna);
+            let mut event = Event::new();
+            event.uid(&format!("{number}-{}-{}@azel", entry.pass.aos.as_second(), antenna.0));
+            event.add_property("DTSTAMP", civil(self.now, BASIC));
+            event.add_property("DTSTART", civil(entry.from, BASIC));
+            event.add_property("DTEND", civil(entry.to, BASIC));
+            let name = self.satellite(number);
+            event.add_property("SUMMARY", format!("{name}, {}", self.antenna(antenna)));
+            calendar.push(event.done());
+        }
+        write!(out, "{calendar}")
+    }
+}
+
+/// UTC in the basic form of iCalendar.
+const BASIC: &str = "%Y%m%dT%H%M%SZ";
+
+fn civil(time: Timestamp, format: &str) -> String {
+    time.to_zoned(TimeZone::UTC).strftime(format).to_string()
+}
+
+fn stamp(time: Timestamp) -> String {
+    format!("{time:.3}")
+}
+
+fn minutes(seconds: f64) -> String {
+    let whole = seconds.round() as i64;
+    format!("{}:{:02}", whole / 60, whole % 60)
+}
+
+/// Text that no spreadsheet takes for a formula.
+fn plain(text: &str) -> String {
+    if text.starts_with(['=', '+', '-', '@', '\t', '\r']) {
+        format!("'{text}")
+    } else {
+        text.to_owned()
+    }
+}

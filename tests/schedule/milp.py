@@ -1,0 +1,61 @@
+"""Solves days of passes as MILPs with HiGHS, class after class.
+
+Reads what `days_are_as_good_as_a_general_solver_makes_them` writes (its file has the commands) and
+writes one row a day to the second file: its number, then what each class is worth at best.
+"""
+
+import json
+import sys
+
+import highspy
+
+
+def solve(day):
+    takes = day["takes"]
+    model = highspy.Highs()
+    model.setOptionValue("output_flag", False)
+    model.setOptionValue("mip_rel_gap", 0.0)
+    model.setOptionValue("mip_abs_gap", 0.0004)
+    x = [model.addBinary() for _ in takes]
+    passes, limits = {}, {}
+    for variable, take in zip(x, takes):
+        passes.setdefault(take["pass"], []).append(variable)
+        if take["limit"] is not None:
+            limits.setdefault(take["limit"], []).append(variable)
+        if not take["possible"]:
+            model.addConstr(variable <= 0)
+    for same in passes.values():
+        if len(same) > 1:
+            model.addConstr(sum(same) <= 1)
+    for limit, same in limits.items():
+        model.addConstr(sum(same) <= day["limits"][limit])
+    for a, b in day["conflicts"]:
+        model.addConstr(x[a] + x[b] <= 1)
+    best = []
+    # Always, then priority 1 to 5; in seconds, which keeps the numbers small.
+    for number in range(1, 7):
+        own = [(v, t["worth"]) for v, t in zip(x, takes) if t["class"] == number]
+        if not own:
+            best.append(0)
+            continue
+        worth = sum(w / 1000 * v for v, w in own)
+        model.maximize(worth)
+        values = model.getSolution().col_value
+        total = sum(w for v, w in own if values[v.index] > 0.5)
+        best.append(total)
+        model.addConstr(worth >= total / 1000 - 0.0004)
+    return best
+
+
+def main():
+    with open(sys.argv[1], encoding="utf-8") as file:
+        days = json.load(file)
+    version = highspy.Highs().version()
+    with open(sys.argv[2], "w", encoding="utf-8") as file:
+        print(f"# HiGHS {version}: day, always, priority 1 to 5 (ms times sine)", file=file)
+        for day in days:
+            print(",".join(map(str, [day["day"], *solve(day)])), file=file, flush=True)
+
+
+
+main()
