@@ -17,6 +17,7 @@ mod dead_man;
 mod link_sockets;
 mod owed_stop;
 mod passes_command;
+mod plan_command;
 #[cfg(target_os = "linux")]
 mod real_peers;
 #[cfg(target_os = "linux")]

@@ -77,7 +77,9 @@ pub(super) fn run(station: Option<&Path>, options: &Options) -> anyhow::Result<E
     let own = station::settings_path().filter(|_| station.is_none());
     let path = station.or(own.as_deref()).context("this user has no folder for settings")?;
     let unusable = || format!("The station file {} cannot be used", path.display());
+    let place = options.input.place(Some(path))?;
     let station = station::load(path, makes::SPECS).with_context(unusable)?.station;
+    let station = Station { site: place.site, ..station };
     let Satellites { list, is_complete } = options.input.satellites(Some(path))?;
     let asks = options.input.asks_for_objects();
     let is_wanted = |satellite: &Satellite| {

@@ -15,6 +15,7 @@ use std::{
 
 use jiff::{Timestamp, tz::TimeZone};
 
+pub(super) use self::csv::{io_error, plain};
 pub use self::looks::{LookFormat, LookList};
 use crate::{
     astro::{HorizonMask, Site, sun_moon, time},
@@ -163,13 +164,13 @@ impl PassList<'_> {
 }
 
 /// RFC 3339, UTC, with milliseconds.
-fn rfc3339(time: Timestamp) -> String {
+pub(super) fn rfc3339(time: Timestamp) -> String {
     let rounded = time.round(jiff::Unit::Millisecond).unwrap_or(time);
     format!("{rounded:.3}")
 }
 
 /// To the nearest second, in UTC.
-fn civil(time: Timestamp, format: &str) -> String {
+pub(super) fn civil(time: Timestamp, format: &str) -> String {
     let rounded = time.round(jiff::Unit::Second).unwrap_or(time);
     rounded.to_zoned(TimeZone::UTC).strftime(format).to_string()
 }

@@ -6,9 +6,12 @@ use std::{
 };
 
 use icalendar::{Calendar, Component as _, Event};
-use jiff::{Timestamp, tz::TimeZone};
+use jiff::Timestamp;
 
-use super::schedule::{Entry, LeftOut, Schedule};
+use super::{
+    pass_export::{civil, io_error, plain, rfc3339},
+    schedule::{Entry, LeftOut, Schedule},
+};
 use crate::station::AntennaId;
 
 /// How a schedule is written.
@@ -125,7 +128,7 @@ impl ScheduleList<'_> {
 
     fn csv(&self, out: &mut impl Write) -> io::Result<()> {
         let mut table = csv::Writer::from_writer(out);
-        table.write_record(HEADER)?;
+        table.write_record(HEADER).map_err(io_error)?;
         for row in self.rows() {
             let fields: [String; 13] = match row {
                 Row::Taken(entry) => [
@@ -133,9 +136,9 @@ impl ScheduleList<'_> {
                     plain(self.antenna(entry.antenna)),
                     entry.pass.satellite.to_string(),
                     plain(&self.satellite(entry.pass.satellite)),
-                    stamp(entry.pass.aos),
-                    stamp(entry.from),
-                    stamp(entry.to),
+                    rfc3339(entry.pass.aos),
+                    rfc3339(entry.from),
+                    rfc3339(entry.to),
                     entry.counted_s.to_string(),
                     entry.late_s.to_string(),
                     entry.early_s.to_string(),
@@ -150,7 +153,7 @@ impl ScheduleList<'_> {
                         String::new(),
                         left.pass.satellite.to_string(),
                         plain(&self.satellite(left.pass.satellite)),
-                        stamp(left.pass.aos),
+                        rfc3339(left.pass.aos),
                     ];
                     for (field, said) in fields.iter_mut().zip(said) {
                         *field = said;
@@ -161,7 +164,7 @@ impl ScheduleList<'_> {
                     fields
                 }
             };
-            table.write_record(fields)?;
+            table.write_record(fields).map_err(io_error)?;
         }
         table.flush()
     }
@@ -201,24 +204,7 @@ impl ScheduleList<'_> {
 /// UTC in the basic form of iCalendar.
 const BASIC: &str = "%Y%m%dT%H%M%SZ";
 
-fn civil(time: Timestamp, format: &str) -> String {
-    time.to_zoned(TimeZone::UTC).strftime(format).to_string()
-}
-
-fn stamp(time: Timestamp) -> String {
-    format!("{time:.3}")
-}
-
 fn minutes(seconds: f64) -> String {
     let whole = seconds.round() as i64;
     format!("{}:{:02}", whole / 60, whole % 60)
-}
-
-/// Text that no spreadsheet takes for a formula.
-fn plain(text: &str) -> String {
-    if text.starts_with(['=', '+', '-', '@', '\t', '\r']) {
-        format!("'{text}")
-    } else {
-        text.to_owned()
-    }
 }

@@ -65,7 +65,7 @@ pub(super) fn write(out: &mut impl Write, list: &PassList<'_>) -> io::Result<()>
 
 /// The original error of the output: its kind distinguishes a reader that has stopped
 /// from a full disk.
-pub(super) fn io_error(error: csv::Error) -> io::Error {
+pub(in crate::plan) fn io_error(error: csv::Error) -> io::Error {
     match error.into_kind() {
         csv::ErrorKind::Io(error) => error,
         other => io::Error::other(format!("{other:?}")),
@@ -80,7 +80,7 @@ pub(super) fn text_of<T: ToString>(value: Option<T>) -> String {
 /// Text that no spreadsheet takes for a formula: names come from files that others wrote.
 ///
 /// Source: OWASP, "CSV Injection".
-fn plain(text: &str) -> String {
+pub(in crate::plan) fn plain(text: &str) -> String {
     if text.starts_with(['=', '+', '-', '@', '\t', '\r']) {
         format!("'{text}")
     } else {

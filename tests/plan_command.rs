@@ -1,0 +1,79 @@
+//! `azel plan` as called from a shell and read by another program.
+
+use std::{
+    fs,
+    path::Path,
+    process::{Command, Output},
+};
+
+use azel::{
+    makes::DemoAddresses,
+    orbit::{bundled, tle_lines},
+    station::{Station, save},
+};
+use serde_json::Value;
+
+fn plan(folder: &Path, arguments: &[&str]) -> Output {
+    let file = |name: &str| folder.join(name).display().to_string();
+    Command::new(env!("CARGO_BIN_EXE_azel"))
+        .args(["plan", "--station", &file("station.toml"), "--elements", &file("active.tle")])
+        .args(["--from", "2026-08-12T00:00:00Z"])
+        .args(arguments)
+        .output()
+        .unwrap()
+}
+
+/// A folder with the demo station and elements of its favourites.
+fn folder() -> tempfile::TempDir {
+    let folder = tempfile::tempdir().unwrap();
+    let station = Station::demo(&DemoAddresses::default());
+    save(&station, &folder.path().join("station.toml")).unwrap();
+    let catalog = bundled().unwrap();
+    let numbers = station.favourites.numbers();
+    let sets = numbers.iter().filter_map(|number| catalog.get(*number));
+    let lines = sets.flat_map(|elements| {
+        let [first, second] = tle_lines(elements).unwrap();
+        [elements.name().to_owned(), first, second]
+    });
+    let text: Vec<String> = lines.collect();
+    fs::write(folder.path().join("active.tle"), text.join("\n")).unwrap();
+    folder
+}
+
+fn text(bytes: &[u8]) -> String {
+    String::from_utf8_lossy(bytes).into_owned()
+}
+
+#[test]
+fn every_pass_is_taken_or_left_out_with_a_reason_in_every_form() {
+    let folder = folder();
+    let json = plan(folder.path(), &["--format", "json"]);
+    assert_eq!(json.status.code(), Some(0), "{}", text(&json.stderr));
+    let whole: Value = serde_json::from_slice(&json.stdout).unwrap();
+    let count = |list: &str| whole["schedule"][list].as_array().unwrap().len();
+    let (entries, left_out) = (count("entries"), count("left_out"));
+    assert!(entries > 40, "{entries}");
+    let proof = |class: &Value| class["proof"] == "best";
+    assert!(whole["schedule"]["worth"].as_array().unwrap().iter().all(proof));
+
+    let csv = text(&plan(folder.path(), &["--format", "csv"]).stdout);
+    let rows = |start: &str| csv.lines().filter(|line| line.starts_with(start)).count();
+    assert_eq!((rows("taken,"), rows("left out,")), (entries, left_out));
+    let reasons = csv.lines().filter(|line| line.starts_with("left out,"));
+    assert!(reasons.into_iter().all(|line| !line.ends_with(',')), "{csv}");
+
+    let table = text(&plan(folder.path(), &[]).stdout);
+    assert_eq!(table.lines().count(), 1 + entries + left_out, "{table}");
+    let calendar = text(&plan(folder.path(), &["--format", "ics"]).stdout);
+    assert_eq!(calendar.matches("BEGIN:VEVENT").count(), entries);
+}
+
+#[test]
+fn a_station_file_that_is_not_there_ends_with_a_sentence() {
+    let output = Command::new(env!("CARGO_BIN_EXE_azel"))
+        .args(["plan", "--station", "/nowhere/station.toml"])
+        .output()
+        .unwrap();
+    assert_eq!(output.status.code(), Some(1));
+    assert!(text(&output.stderr).contains("/nowhere/station.toml"));
+}
