@@ -432,6 +432,7 @@ impl Engine {
             pass_lists: self.pass_lists.clone(),
             reminders: shared(&self.reminders, &last.reminders),
             schedule: Arc::clone(&self.schedule),
+            swap: self.scheduler.swap(),
             day: shared(&self.day, &last.day),
             older_sets: self.older_sets.clone(),
             uploads: shared(&self.uploads, &last.uploads),

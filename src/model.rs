@@ -11,6 +11,7 @@ pub mod globe;
 pub mod intake;
 mod line;
 pub mod object_detail;
+pub mod plan;
 mod stations;
 mod theme_name;
 
@@ -40,6 +41,7 @@ use crate::{
         CatalogState, Handle,
         alarms::{AlarmKind, Alarms},
         antenna::AntennaModel,
+        automatic::DayLine,
         closing::Closing,
         copies::Copies,
         link_tests::LinkTest,
@@ -49,6 +51,7 @@ use crate::{
             ahead,
         },
         reminders::Reminder,
+        schedule::{Planned, Swap},
         source_tests::SourceTests,
         sources::Sources,
         uploads::Uploads,
@@ -67,6 +70,8 @@ pub enum View {
     /// Watch and drive.
     #[default]
     Operate,
+    /// The schedule of the antennas.
+    Plan,
     /// The catalog and its sources.
     Elements,
     /// The settings of the units.
@@ -144,6 +149,12 @@ pub struct Model {
     pub alarms: Alarms,
     /// Reminders of passes that are not over.
     pub reminders: Arc<Vec<Reminder>>,
+    /// The schedule of all antennas.
+    pub schedule: Arc<Planned>,
+    /// What a pass costs that the operator has asked about.
+    pub swap: Option<Arc<Swap>>,
+    /// What became of the passes of this day.
+    pub day: Arc<Vec<DayLine>>,
     /// What the desktop cannot do with alarms and reminders.
     pub outlets: Outlets,
     /// Copies of the settings of units.
@@ -216,6 +227,9 @@ impl Model {
             effects: Effects::default(),
             alarms: Alarms::default(),
             reminders: Arc::default(),
+            schedule: Arc::default(),
+            swap: None,
+            day: Arc::default(),
             outlets: Outlets::default(),
             copies: Arc::default(),
             view: View::Operate,
@@ -289,6 +303,9 @@ impl Model {
         self.link_tests = Arc::clone(&shown.link_tests);
         self.alarms = shown.alarms.clone();
         self.reminders = Arc::clone(&shown.reminders);
+        self.schedule = Arc::clone(&shown.schedule);
+        self.swap.clone_from(&shown.swap);
+        self.day = Arc::clone(&shown.day);
         self.copies = Arc::clone(&shown.copies);
         self.closing.clone_from(&shown.closing);
         let mut antennas = shown.antennas.clone();

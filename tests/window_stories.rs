@@ -29,6 +29,7 @@ mod panel;
 mod panel_layout;
 mod panel_more;
 mod passes;
+mod plan;
 mod popups;
 mod preferences;
 mod preferences_makes;

@@ -6,6 +6,8 @@ mod operation;
 
 use std::path::{Path, PathBuf};
 
+use jiff::Timestamp;
+
 pub(super) use self::{at_start::LastRun, operation::is_same_pass};
 use self::{
     day::Flight,
@@ -339,7 +341,8 @@ impl Engine {
     }
 }
 
-fn duty(entry: &Entry, between: BetweenPasses) -> Duty {
+/// When an antenna is sent to an entry, at the latest.
+pub fn sets_out(entry: &Entry, between: BetweenPasses) -> Timestamp {
     let before_s = match between {
         // As soon as the pass before is over.
         BetweenPasses::Wait => entry.slew_s + entry.set_up_s + entry.spare_s.unwrap_or_default(),
@@ -348,11 +351,15 @@ fn duty(entry: &Entry, between: BetweenPasses) -> Duty {
             entry.slew_s + entry.set_up_s + lead_s
         }
     };
+    add_seconds(entry.from, -before_s)
+}
+
+fn duty(entry: &Entry, between: BetweenPasses) -> Duty {
     Duty {
         pass: (entry.pass.satellite, entry.pass.aos),
         from: entry.from,
         until: entry.to,
-        go_at: add_seconds(entry.from, -before_s),
+        go_at: sets_out(entry, between),
         counted_s: entry.counted_s,
         begins_late: entry.late_s > 0.0,
         ends_early: entry.early_s > 0.0,

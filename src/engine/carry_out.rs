@@ -58,6 +58,7 @@ impl Engine {
                 let now = self.now;
                 self.change_station(|station| station.choose_pass(satellite, tca, take, now));
             }
+            Command::PriceSwap(pass) => self.price_swap(pass),
             Command::SetPassLimits { numbers, limits } => self.change_station(|station| {
                 for number in numbers {
                     station.favourites.set_limits(number, limits.clone());

@@ -53,6 +53,8 @@ pub enum Command {
         tca: Timestamp,
         take: Option<Take>,
     },
+    /// Work out what it costs to take a pass that the schedule leaves out.
+    PriceSwap(PassKey),
     /// Give favourites these limits; other satellites become favourites.
     SetPassLimits {
         /// Catalog numbers.

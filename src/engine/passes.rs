@@ -29,8 +29,8 @@ use crate::{
     station::Station,
 };
 
-/// Hours ahead for the passes of the favourites: the strip shows this much, whatever the
-/// list shows.
+/// Hours ahead for the passes of the favourites at least: the strip shows this much, whatever
+/// the list shows.
 const FAVOURITES_H: u32 = 48;
 
 /// Key of a pass: catalog number of the satellite and AOS.
@@ -67,7 +67,7 @@ impl Searches {
             scope: SearchScope::Favourites(station.favourites.numbers()),
             observer: Arc::new(Observer::of(station)),
             floor: station.elevation_floor(),
-            span_h: FAVOURITES_H,
+            span_h: FAVOURITES_H.max(station.scheduling.span_h.ceil() as u32),
         };
         self.favourites.refresh(&key, now, wake);
         let key = SearchKey { scope: SearchScope::All, span_h: choice.all_h, ..key };

@@ -9,17 +9,19 @@ use super::{
     Engine,
     alarms::{AlarmKind, Work},
     automatic::is_same_pass,
-    passes::PredictedPass,
+    passes::{PassKey, PredictedPass},
 };
 use crate::{
     astro::{
         Angle, sun_moon,
         time::{DAY_S, add_seconds},
     },
+    driver::LinkState,
     job::Job,
     plan::schedule::{
         Between, Candidate, Change, Choice, ChooseBy, Common, Entry, Off, Partial, PlannedAntenna,
         Reach, Request, SatelliteRules, Schedule, Sight, Steadiness, Wanted, Wish, changes, plan,
+        plan_with,
     },
     station::{self, AntennaId, BetweenPasses, RuleOf, Scheduling, Station, SunIs, Take, Then},
 };
@@ -43,6 +45,16 @@ pub struct Planned {
     pub changes: Vec<Change>,
 }
 
+/// What it costs to take a pass that the schedule leaves out.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Swap {
+    pub pass: PassKey,
+    /// Revision of the schedule that it was worked out against.
+    pub revision: u64,
+    /// What changes then; `None` where the pass cannot be taken at all.
+    pub changes: Option<Vec<Change>>,
+}
+
 /// What a schedule follows from, besides the time.
 #[derive(Clone)]
 pub(super) struct Inputs {
@@ -50,13 +62,14 @@ pub(super) struct Inputs {
     passes: Arc<Vec<PredictedPass>>,
     /// Revision of `passes`.
     revision: u64,
-    locked_out: Vec<AntennaId>,
+    /// Antennas that take no passes.
+    off: Vec<(AntennaId, Off)>,
 }
 
 impl PartialEq for Inputs {
     fn eq(&self, other: &Self) -> bool {
         self.revision == other.revision
-            && self.locked_out == other.locked_out
+            && self.off == other.off
             && (Arc::ptr_eq(&self.station, &other.station) || self.station == other.station)
     }
 }
@@ -67,6 +80,14 @@ pub(super) struct Scheduler {
     running: Option<Job<Schedule>>,
     /// What the schedule that is made, or was made last, follows from, and when it was begun.
     begun: Option<(Inputs, Timestamp)>,
+    swap_running: Option<Job<Swap>>,
+    swap: Option<Arc<Swap>>,
+}
+
+impl Scheduler {
+    pub(super) fn swap(&self) -> Option<Arc<Swap>> {
+        self.swap.clone()
+    }
 }
 
 impl Engine {
@@ -77,12 +98,20 @@ impl Engine {
         if list.made_at.is_none() || self.scheduler.running.is_some() {
             return;
         }
-        let is_out = |antenna: &&super::Antenna| antenna.shown.snapshot.lock_out.is_some();
+        let off = self.antennas.iter().filter_map(|antenna| {
+            let snapshot = &antenna.shown.snapshot;
+            let off = match snapshot.link {
+                _ if snapshot.lock_out.is_some() => Off::LockedOut,
+                LinkState::Off => Off::SwitchedOff,
+                _ => return None,
+            };
+            Some((antenna.shown.id(), off))
+        });
         let inputs = Inputs {
             station: Arc::clone(&self.station),
             passes: Arc::clone(&list.passes),
             revision: list.revision,
-            locked_out: self.antennas.iter().filter(is_out).map(|of| of.shown.id()).collect(),
+            off: off.collect(),
         };
         if self.scheduler.begun.as_ref().is_some_and(|(begun, _)| *begun == inputs) {
             return;
@@ -91,7 +120,7 @@ impl Engine {
         let (wanted, now) = (inputs.clone(), self.now);
         let (previous, fixed) = (Arc::clone(&self.schedule), self.fixed());
         let job = Job::start("azel-schedule", Arc::clone(&self.wake), move |_| {
-            make(&wanted, &antennas, &previous.schedule, &fixed, now)
+            make(&wanted, &antennas, &previous.schedule, &fixed, now, |request| plan(request))
         });
         match job {
             Ok(job) => self.scheduler.running = Some(job),
@@ -100,7 +129,28 @@ impl Engine {
         self.scheduler.begun = Some((inputs, now));
     }
 
+    /// Begins to work out what a pass would cost.
+    pub(super) fn price_swap(&mut self, pass: PassKey) {
+        let Some((inputs, _)) = self.scheduler.begun.clone() else { return };
+        let antennas = self.planned_antennas(&inputs);
+        let (planned, fixed, now) = (Arc::clone(&self.schedule), self.fixed(), self.now);
+        let key = crate::plan::schedule::PassKey { satellite: pass.0, aos: pass.1 };
+        let job = Job::start("azel-swap", Arc::clone(&self.wake), move |_| {
+            let with = |request: &Request<'_>| plan_with(request, key);
+            let made = make(&inputs, &antennas, &planned.schedule, &fixed, now, with);
+            let changed = made.map(|made| changes(&planned.schedule, &made, now));
+            Swap { pass, revision: planned.revision, changes: changed }
+        });
+        match job {
+            Ok(job) => self.scheduler.swap_running = Some(job),
+            Err(error) => tracing::error!(%error, "no thread for the price of a pass"),
+        }
+    }
+
     fn take_schedule(&mut self) {
+        if let Some(Ok(swap)) = Job::take(&mut self.scheduler.swap_running) {
+            self.scheduler.swap = Some(Arc::new(swap));
+        }
         let Some(end) = Job::take(&mut self.scheduler.running) else { return };
         let kind = AlarmKind::BrokeOff(Work::Schedule);
         let Ok(schedule) = end else {
@@ -128,7 +178,7 @@ impl Engine {
         let planned = |antenna: &super::Antenna| {
             let shown = &antenna.shown;
             let config = &shown.config;
-            let is_out = inputs.locked_out.contains(&config.id);
+            let off = inputs.off.iter().find(|(id, _)| *id == config.id);
             let measured = shown.snapshot.state.measured;
             let axes = measured.map(|measured| measured.axes.map(|axis| axis.angle_deg));
             PlannedAntenna {
@@ -142,7 +192,7 @@ impl Engine {
                 },
                 free_from: self.now,
                 stands_deg: axes.and_then(|[first, second]| Some([first?, second?])),
-                off: is_out.then_some(Off::LockedOut),
+                off: off.map(|(_, off)| *off),
             }
         };
         self.antennas.iter().map(planned).collect()
@@ -172,13 +222,14 @@ fn sun_is(station: &Station, at: Timestamp) -> SunIs {
     if is_up { SunIs::Up } else { SunIs::Down }
 }
 
-fn make(
+fn make<T>(
     inputs: &Inputs,
     antennas: &[PlannedAntenna],
     previous: &Schedule,
     fixed: &[Entry],
     now: Timestamp,
-) -> Schedule {
+    plan: impl FnOnce(&Request<'_>) -> T,
+) -> T {
     let station = &inputs.station;
     let Scheduling { choose_by, span_h, partly, hand_over, max_element_age_d, .. } =
         station.scheduling;

@@ -5,9 +5,20 @@ use std::sync::Arc;
 use serde::{Deserialize, Serialize};
 
 use super::{
-    alarms::Alarms, antenna::AntennaModel, automatic::DayLine, closing::Closing, copies::Copies,
-    link_tests::LinkTest, older_sets::OlderSets, passes::PassLists, reminders::Reminder,
-    schedule::Planned, source_tests::SourceTests, sources::Sources, uploads::Uploads, written,
+    alarms::Alarms,
+    antenna::AntennaModel,
+    automatic::DayLine,
+    closing::Closing,
+    copies::Copies,
+    link_tests::LinkTest,
+    older_sets::OlderSets,
+    passes::PassLists,
+    reminders::Reminder,
+    schedule::{Planned, Swap},
+    source_tests::SourceTests,
+    sources::Sources,
+    uploads::Uploads,
+    written,
 };
 use crate::{clock::Moment, driver::TimeSync, orbit::Catalog, station::Station};
 
@@ -47,6 +58,8 @@ pub struct Snapshot {
     /// Reminders of passes that are not over.
     pub reminders: Arc<Vec<Reminder>>,
     pub schedule: Arc<Planned>,
+    /// What a pass costs that a client has asked about.
+    pub swap: Option<Arc<Swap>>,
     /// What became of the passes of this day (UTC), and of automatic operation; the newest is
     /// the last.
     pub day: Arc<Vec<DayLine>>,
@@ -78,6 +91,7 @@ impl Snapshot {
             pass_lists: PassLists::default(),
             reminders: Arc::default(),
             schedule: Arc::default(),
+            swap: None,
             day: Arc::default(),
             uploads: Arc::default(),
             source_tests: Arc::default(),

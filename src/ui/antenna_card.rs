@@ -189,6 +189,8 @@ pub enum CardAction {
     TrackAgain,
     /// Take over what the unit tracks by itself.
     TakeOver,
+    /// Let automatic operation go on.
+    GoOn,
     /// Track the selected satellite although the unit would miss it.
     TrackAnyway,
     /// Program-track this target.

@@ -8,7 +8,7 @@ use super::{
     top_bar::{ClockHealth, ClockModel, ClockMood, TopBarModel},
     widgets::{
         alarm_list::{AlarmModel, AlarmRow, Section},
-        link_chip::{ChipModel, LinkGlyph},
+        link_chip::{AutomaticTag, ChipModel, LinkGlyph},
         stop_button::StopLook,
     },
     words,
@@ -19,6 +19,7 @@ use crate::{
     engine::{
         alarms::{Alarm, AlarmKind, Placed},
         antenna::AntennaModel,
+        automatic::Operation,
     },
     model::{Model, UiCommand},
     plan::Barrier,
@@ -46,6 +47,11 @@ pub fn show(ui: &mut Ui, rect: Rect, model: &Model, commands: &mut Vec<UiCommand
             age,
             selected: index == model.selected_antenna,
             maintenance: antenna.snapshot.lock_out.is_some(),
+            automatic: match antenna.operation {
+                Operation::Off(_) => None,
+                Operation::On(_) => Some(AutomaticTag::On),
+                Operation::Suspended { .. } => Some(AutomaticTag::Suspended),
+            },
         })
         .collect();
 

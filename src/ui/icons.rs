@@ -32,6 +32,8 @@ pub enum Icon {
     ChevronLeft,
     /// View: Operate.
     CrossHair,
+    /// View: Plan.
+    Bars,
     /// View: Elements.
     Orbit,
     /// View: Antennas.

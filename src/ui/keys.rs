@@ -7,9 +7,12 @@ use egui::{Key, Modifiers, Ui};
 
 use super::{
     confirm::Question, console::ConsoleState, elements::ElementsState, map::MapState,
-    operate::OperateState,
+    operate::OperateState, plan::PlanState,
 };
-use crate::model::{Model, UiCommand, View, globe::Towards};
+use crate::{
+    model::{Model, UiCommand, View, globe::Towards},
+    station::Take,
+};
 use act::Act;
 
 /// One line of the list of keys.
@@ -34,6 +37,8 @@ pub enum KeyScope {
     Views,
     /// In the Operate view, but not while typing.
     Operate,
+    /// In the Plan view, but not while typing.
+    Plan,
     /// In the Map view, but not while typing.
     Map,
     /// In the Elements view, also while typing.
@@ -58,7 +63,7 @@ const fn with(modifiers: Modifiers, binding: Binding) -> Binding {
 }
 
 /// All keys, in the order of the list. The app handles the key of STOP before anything else.
-pub const ALL: [Binding; 29] = [
+pub const ALL: [Binding; 33] = [
     row(KeyScope::Focus, &[(Key::Escape, Act::There)], "STOP, everywhere; closes what is open"),
     with(
         Modifiers::COMMAND,
@@ -66,13 +71,14 @@ pub const ALL: [Binding; 29] = [
             KeyScope::Everywhere,
             &[
                 (Key::Num1, Act::Show(View::Operate)),
+                (Key::Num2, Act::Show(View::Plan)),
                 (Key::Num3, Act::Show(View::Elements)),
                 (Key::Num4, Act::Show(View::Antennas)),
                 (Key::Num5, Act::Show(View::Console)),
                 (Key::Num6, Act::Show(View::Preferences)),
                 (Key::Num8, Act::Show(View::Map)),
             ],
-            "Operate, Elements, Antennas, Console, Preferences, Map",
+            "Operate, Plan, Elements, Antennas, Console, Preferences, Map",
         ),
     ),
     row(
@@ -162,6 +168,35 @@ pub const ALL: [Binding; 29] = [
         "in Map: closer, further away, the whole map",
     ),
     row(KeyScope::Map, &[(Key::L, Act::MapLayers)], "in Map: layers"),
+    row(
+        KeyScope::Plan,
+        &[
+            (Key::ArrowLeft, Act::PlannedPass(-1)),
+            (Key::ArrowRight, Act::PlannedPass(1)),
+            (Key::ArrowUp, Act::PlannedPass(-1)),
+            (Key::ArrowDown, Act::PlannedPass(1)),
+        ],
+        "in Plan: the pass before or after",
+    ),
+    row(
+        KeyScope::Plan,
+        &[
+            (Key::Y, Act::ChoosePass(Some(Take::Always))),
+            (Key::B, Act::ChoosePass(None)),
+            (Key::V, Act::ChoosePass(Some(Take::Never))),
+        ],
+        "in Plan: take the pass always, by plan, never",
+    ),
+    row(KeyScope::Plan, &[(Key::S, Act::SwapPass)], "in Plan: take a pass that is left out (asks)"),
+    row(
+        KeyScope::Plan,
+        &[
+            (Key::Plus, Act::PlanZoom(true)),
+            (Key::Minus, Act::PlanZoom(false)),
+            (Key::Num0, Act::UsualPlan),
+        ],
+        "in Plan: fewer, more hours in the lanes; from now on",
+    ),
     with(
         Modifiers::COMMAND,
         row(
@@ -234,6 +269,7 @@ pub struct KeyTargets<'a> {
     pub elements: &'a mut ElementsState,
     pub console: &'a mut ConsoleState,
     pub map: &'a mut MapState,
+    pub plan: &'a mut PlanState,
     /// The list of keys is open.
     pub list_open: &'a mut bool,
 }
@@ -247,6 +283,7 @@ pub fn take(ui: &Ui, model: &Model, targets: &mut KeyTargets<'_>, commands: &mut
         KeyScope::Views => !typing,
         KeyScope::Operate => !typing && model.view == View::Operate,
         KeyScope::Map => !typing && model.view == View::Map,
+        KeyScope::Plan => !typing && model.view == View::Plan,
         KeyScope::Elements => model.view == View::Elements,
         KeyScope::Focus => false,
     };

@@ -20,7 +20,7 @@ use super::{
     notes::Notes,
     operate,
     pass_list::Arrangement,
-    preferences, rail,
+    plan, preferences, rail,
     rail::RailEntry,
     second_step, setup,
     sky_plot::Layers,
@@ -44,6 +44,7 @@ pub struct Views {
     antennas: antennas::AntennasState,
     console: console::ConsoleState,
     map: map::MapState,
+    plan: plan::PlanState,
     preferences: preferences::PreferencesState,
     setup: setup::SetupState,
     upload: UploadState,
@@ -111,6 +112,7 @@ impl Views {
             elements: &mut self.elements,
             console: &mut self.console,
             map: &mut self.map,
+            plan: &mut self.plan,
             list_open: &mut self.keys_open,
         };
         keys::take(ui, model, &mut targets, commands);
@@ -131,6 +133,10 @@ impl Views {
             View::Operate => {
                 let (state, question) = (&mut self.operate, &mut self.question);
                 operate::show(ui, window, rest, model, state, question, commands);
+            }
+            View::Plan => {
+                self.operate.leave_card(commands);
+                plan::show(ui, window, rest, model, &mut self.plan, commands);
             }
             View::Elements => {
                 self.operate.leave_card(commands);
@@ -297,6 +303,7 @@ fn show_rail(
 ) -> bool {
     let views = [
         (View::Operate, Icon::CrossHair, "Operate"),
+        (View::Plan, Icon::Bars, "Plan"),
         (View::Elements, Icon::Orbit, "Elements"),
         (View::Antennas, Icon::Antenna, "Antennas"),
         (View::Console, Icon::Prompt, "Console"),

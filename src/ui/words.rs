@@ -8,6 +8,7 @@ mod notices;
 mod on_board;
 mod refusals;
 mod safety;
+pub mod schedule;
 
 pub use alarms::{alarm, alarm_state, alarm_times};
 pub use link_tests::{link_test, link_test_state, place};

@@ -8,21 +8,17 @@ use std::{
 
 use azel::{
     astro::time::add_seconds,
-    clock::Instant,
+    clock::{Instant, Moment},
     controller::satrak,
-    desktop::Outlets,
     driver::{LinkState, Snapshot, TimeSync, WireLog},
     engine::{
         CatalogState, Command,
-        alarms::Alarms,
         antenna::AntennaModel,
-        passes::{ListChoice, ListedSatellite, Observer, PassLists, PredictedPass},
+        passes::{ListedSatellite, Observer, PassLists, PredictedPass},
     },
     model::{
-        Appearance, Model, Sky, Stations, ThemeName, UiCommand, View,
-        catalog_table::{Answer, CatalogTable, arrange},
-        effects::Effects,
-        globe::Globe,
+        Model, ThemeName, UiCommand, View,
+        catalog_table::{Answer, arrange},
         intake::{Intake, Judged, Offer},
         object_detail::{DetailKey, ObjectDetail},
     },
@@ -142,37 +138,15 @@ pub(crate) fn model(mut snapshot: Snapshot) -> Model {
     pass_lists.favourites.satellites = orbits.satellites.clone().into();
     pass_lists.favourites.passes = orbits.passes.clone().into();
     let antennas = vec![antenna(station.antennas[0].clone(), snapshot)];
+    let at = Moment { utc: now(), steady: Instant::now() };
     let mut model = Model {
-        now: now(),
-        steady: Instant::now(),
         time_sync: TimeSync::Synchronised,
         station: Arc::new(station),
-        demo: false,
-        stations: Stations::default(),
         catalog: CatalogState::Ready(Arc::clone(&orbits.catalog)),
-        sources: Arc::default(),
-        intake: None,
-        older_sets: None,
-        catalog_table: CatalogTable::default(),
         wires: antennas.iter().map(|_| WireLog::default()).collect(),
         antennas,
-        selected_antenna: 0,
         pass_lists,
-        appearance: Appearance::default(),
-        list: ListChoice::default(),
-        selected: None,
-        sky: Sky::default(),
-        globe: Globe::default(),
-        uploads: Arc::default(),
-        source_tests: Arc::default(),
-        link_tests: Arc::default(),
-        effects: Effects::default(),
-        alarms: Alarms::default(),
-        reminders: Arc::default(),
-        outlets: Outlets::default(),
-        copies: Arc::default(),
-        view: View::Operate,
-        closing: None,
+        ..Model::before_anything(at)
     };
     model.selected = model.pass_of(NOAA_20).map(PredictedPass::key);
     for antenna in &mut model.antennas {

@@ -19,6 +19,8 @@ pub enum Offer<'a> {
     TrackAgain(&'a str),
     /// The unit tracks it by itself.
     TakeOver(&'a str),
+    /// Automatic operation is suspended; it would go on with this pass.
+    GoOn(&'a str),
 }
 
 /// Height of the line, with the space above it.
@@ -36,6 +38,12 @@ pub(super) fn show(ui: &Ui, block: Rect, offer: Offer<'_>, actions: &mut Vec<Car
             "Track again",
             format!("Track {name} again"),
             CardAction::TrackAgain,
+        ),
+        Offer::GoOn(pass) => (
+            "Suspended.".to_owned(),
+            pass,
+            format!("{pass}: automatic operation is suspended"),
+            CardAction::GoOn,
         ),
         Offer::TakeOver(name) => (
             "Not by this console.".to_owned(),

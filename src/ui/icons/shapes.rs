@@ -52,6 +52,11 @@ pub(super) fn draw(pen: &Pen<'_>, icon: Icon) {
             pen.line(&[(1.8, 10.0), (7.2, 10.0)]);
             pen.line(&[(12.8, 10.0), (18.2, 10.0)]);
         }
+        Icon::Bars => {
+            for (x, y) in [(3.0, 3.5), (6.5, 8.5), (4.5, 13.5)] {
+                pen.line(&[(x, y), (x + 10.0, y), (x + 10.0, y + 3.0), (x, y + 3.0), (x, y)]);
+            }
+        }
         Icon::Orbit => {
             pen.disc((10.0, 10.0), 2.5);
             pen.outline(&ellipse((10.0, 10.0), 8.2, 3.6, -30.0));

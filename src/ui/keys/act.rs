@@ -7,6 +7,7 @@ use crate::{
     driver::{self, Intent},
     engine::{self, antenna::AntennaModel, passes::PredictedPass},
     model::{Model, UiCommand, View, globe::Towards},
+    station::Take,
     ui::{elements, theme},
 };
 
@@ -35,6 +36,15 @@ pub(super) enum Act {
     MapZoom(bool),
     WholeMap,
     MapLayers,
+    /// Selects the pass before or after, in the list of the plan.
+    PlannedPass(isize),
+    /// Chooses the selected pass for the schedule, or against it.
+    ChoosePass(Option<Take>),
+    /// Asks whether a pass that is left out is to be taken.
+    SwapPass,
+    /// Zooms the lanes in, or out.
+    PlanZoom(bool),
+    UsualPlan,
     Search,
     /// Chooses files of elements.
     ChooseElements,
@@ -50,13 +60,14 @@ impl Act {
     pub(super) fn is_possible(self, ui: &Ui, model: &Model) -> bool {
         match self {
             Self::SelectAntenna(index) => index < model.antennas.len(),
-            Self::MoveInList(_) | Self::Nearest(_) => {
+            Self::MoveInList(_) | Self::Nearest(_) | Self::PlannedPass(_) => {
                 let plain = ui.input(|input| input.modifiers.is_none());
                 plain && ui.memory(|memory| memory.focused().is_none())
             }
-            Self::Search => {
-                !matches!(model.view, View::Antennas | View::Map | View::Preferences | View::Setup)
-            }
+            Self::Search => !matches!(
+                model.view,
+                View::Antennas | View::Map | View::Plan | View::Preferences | View::Setup
+            ),
             Self::RefreshElements => model.sources.is_free(),
             _ => true,
         }
@@ -110,6 +121,19 @@ impl Act {
             Self::MapZoom(is_closer) => targets.map.change_zoom(is_closer),
             Self::WholeMap => targets.map.reset_zoom(),
             Self::MapLayers => targets.map.toggle_layers(),
+            Self::PlannedPass(by) => {
+                ui.memory_mut(|memory| memory.move_focus(FocusDirection::None));
+                let neighbour = targets.plan.neighbour(model, by);
+                commands.extend(neighbour.map(UiCommand::SelectPass));
+            }
+            Self::ChoosePass(take) => targets.plan.choose(model, take, commands),
+            Self::SwapPass => {
+                if let Some(question) = targets.plan.ask_to_swap(model) {
+                    *targets.question = Some(question);
+                }
+            }
+            Self::PlanZoom(is_closer) => targets.plan.change_zoom(is_closer),
+            Self::UsualPlan => targets.plan.reset_zoom(),
             Self::Search => match model.view {
                 View::Elements => targets.elements.focus_search(),
                 View::Console => targets.console.focus_filter(),

@@ -4,14 +4,13 @@ use egui::{Align2, Rect, RichText, ScrollArea, Sense, Ui, UiBuilder, pos2, vec2}
 
 use super::{PADDING, facts, upcoming};
 use crate::{
-    astro::{Angle, time::seconds_between},
+    astro::time::seconds_between,
     engine::{antenna::AntennaModel, passes::PredictedPass},
     model::{Model, UiCommand, View, globe::GlobeSatellite},
     ui::{
         format,
         icons::Icon,
-        operate::sky,
-        sky_plot::{self, Keyholes, Measured, SkyScene},
+        small_sky,
         state_sentence::state_sentence,
         text::{self, Weight},
         theme,
@@ -121,7 +120,8 @@ fn parts(
     };
     if let Some(predicted) = predicted {
         let plot = place(ui, PLOT);
-        small_plot(ui, plot, model, of, predicted);
+        let look = model.sky.selected.map_or(of.look, |selected| selected.look);
+        small_sky::show(ui, plot, model, predicted, Some(look));
     }
     let lines = place(ui, facts::HEIGHT + GAP);
     facts::show(ui, lines, model, of);
@@ -142,45 +142,6 @@ fn parts(
 fn speaker<'a>(model: &'a Model, of: &GlobeSatellite) -> Option<&'a AntennaModel> {
     let tracks = |antenna: &&AntennaModel| antenna.tracked_number() == Some(of.number());
     model.antennas.iter().find(tracks).or_else(|| model.antenna())
-}
-
-fn small_plot(ui: &Ui, rect: Rect, model: &Model, of: &GlobeSatellite, predicted: &PredictedPass) {
-    let t = theme::tokens(ui);
-    let antenna = model.antenna();
-    let lost = antenna.and_then(|antenna| sky::lost_for(model, antenna));
-    let measured = antenna
-        .and_then(|antenna| antenna.snapshot.state.measured)
-        .and_then(|measured| measured.direction());
-    let look = model.sky.selected.map_or(of.look, |selected| selected.look);
-    let scene = SkyScene {
-        now: model.now,
-        minimum_elevation: Angle::from_degrees(
-            antenna.map_or(0.0, |antenna| antenna.config.limits.minimum_elevation_deg),
-        ),
-        mask: model.station.horizon_mask.as_ref(),
-        keep_outs: &[],
-        keyholes: antenna.and_then(|antenna| Keyholes::of(&antenna.config.mount)),
-        track: Some(sky::track(predicted, Some(look))),
-        others: &[],
-        sun: None,
-        moon: None,
-        commanded: antenna.and_then(sky::commanded),
-        ghost: None,
-        beam_width: Angle::ZERO,
-        measured: measured.map(|direction| Measured { direction, lost: lost.as_deref() }),
-        antennas: &[],
-        stops: &[],
-        bearing: None,
-        predicted: None,
-        recent_errors: &[],
-        marked: None,
-        readout: &[],
-        description: "",
-    };
-    sky_plot::paint_small(ui.painter(), rect, &scene, t);
-    let (name, at) = (of.satellite.short_name(), format::pointing_at(look.direction));
-    let words = format!("Pass of {name}, now at {at}");
-    paint::name_text(ui, "small sky plot", rect, &words);
 }
 
 fn buttons(ui: &Ui, rect: Rect, commands: &mut Vec<UiCommand>) {

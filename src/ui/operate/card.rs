@@ -24,6 +24,7 @@ use crate::{
         confirm::Question,
         dialogs::MaintenanceDialog,
         format,
+        plan::switches,
         state_sentence::{short, state_sentence},
         text, theme,
         widgets::{
@@ -88,6 +89,7 @@ pub(super) fn show(
         .station
         .sun_avoidance
         .map(|sun| words::sun_lifted(&antenna.config.name, sun.radius_deg));
+    let go_on = switches::go_on(model, antenna);
     state_sentence(model, antenna).with(|sentence| {
         let card = CardModel {
             header: HeaderModel {
@@ -99,7 +101,7 @@ pub(super) fn show(
                 in_maintenance: snapshot.lock_out.is_some(),
             },
             sentence: *sentence,
-            offer: offer(antenna),
+            offer: offer(antenna, go_on.as_deref()),
 
             axes: AxesTable { wanted, decimals, age: age.as_deref(), axes: &table },
             // Kept also without a prediction: the keys below must not jump.
@@ -173,13 +175,14 @@ pub(super) fn none(ui: &mut Ui, rect: Rect, model: &Model, commands: &mut Vec<Ui
     }
 }
 
-/// The line below the sentence: a track to take up again, or to take over.
-fn offer(antenna: &AntennaModel) -> Option<Offer<'_>> {
+/// The line below the sentence: a track to take up again or to take over, or automatic operation
+/// that is suspended.
+fn offer<'a>(antenna: &'a AntennaModel, go_on: Option<&'a str>) -> Option<Offer<'a>> {
     let again = antenna.track_again.as_ref().map(|again| Offer::TrackAgain(short(&again.name)));
     let name = antenna.tracked_name().filter(|_| antenna.tracks_unasked());
     // Where the elements are not known here, there is nothing to watch it by.
     let taken = name.filter(|_| antenna.snapshot.on_board.is_some());
-    again.or(taken.map(|name| Offer::TakeOver(short(name))))
+    again.or(taken.map(|name| Offer::TakeOver(short(name)))).or(go_on.map(Offer::GoOn))
 }
 
 fn second_line(antenna: &AntennaModel) -> String {

@@ -2,7 +2,7 @@
 
 use std::time::Duration;
 
-use egui::{Align2, Key, Rect, Stroke, StrokeKind, Ui, ViewportId, pos2, vec2};
+use egui::{Align2, Key, Rect, Response, Stroke, StrokeKind, Ui, ViewportId, pos2, vec2};
 
 use super::{button::RADIUS, paint};
 use crate::ui::{text, theme};
@@ -51,18 +51,9 @@ impl HoldState {
 /// an earlier release does nothing. `text` must mention the hold, such as "Hold 1 s to park".
 pub fn show(ui: &Ui, rect: Rect, text: &str, state: &mut HoldState) -> bool {
     let t = theme::tokens(ui);
-    let response = paint::held_control(ui, ("hold", text), rect, true, text);
-    let (now_s, keys, window_has_focus) = ui.input(|input| {
-        (input.time, input.key_down(Key::Space) || input.key_down(Key::Enter), input.focused)
-    });
-    let held = window_has_focus
-        && (response.is_pointer_button_down_on() || (response.has_focus() && keys));
-    let done = state.step(held, now_s);
-    if matches!(state, HoldState::Since(_)) {
-        ui.ctx().request_repaint_after_for(FRAME, ViewportId::ROOT);
-    }
+    let (response, done) = held(ui, rect, text, true, state);
     ui.painter().rect_filled(rect, RADIUS, t.warnbg);
-    let edge = rect.left() + state.part(now_s) * rect.width();
+    let edge = rect.left() + part(ui, state) * rect.width();
     ui.painter_at(rect.with_max_x(edge)).rect_filled(rect, RADIUS, t.bgsel);
     ui.painter().rect_stroke(rect, RADIUS, Stroke::new(1.0, t.warn), StrokeKind::Inside);
     if edge > rect.left() {
@@ -73,6 +64,34 @@ pub fn show(ui: &Ui, rect: Rect, text: &str, state: &mut HoldState) -> bool {
     paint::text_in(ui, room, Align2::CENTER_CENTER, text, text::body_medium(), t.t1);
     paint::focus_ring(ui, &response, RADIUS);
     done
+}
+
+/// A control in `rect` that must be held for a second, by pointer or key; the caller draws it.
+/// Returns `true` once, when it was held to the end. `name` must mention the hold.
+pub fn held(
+    ui: &Ui,
+    rect: Rect,
+    name: &str,
+    enabled: bool,
+    state: &mut HoldState,
+) -> (Response, bool) {
+    let response = paint::held_control(ui, ("hold", name), rect, enabled, name);
+    let (now_s, keys, window_has_focus) = ui.input(|input| {
+        (input.time, input.key_down(Key::Space) || input.key_down(Key::Enter), input.focused)
+    });
+    let held = enabled
+        && window_has_focus
+        && (response.is_pointer_button_down_on() || (response.has_focus() && keys));
+    let done = state.step(held, now_s);
+    if matches!(state, HoldState::Since(_)) {
+        ui.ctx().request_repaint_after_for(FRAME, ViewportId::ROOT);
+    }
+    (response, done)
+}
+
+/// Elapsed part of the hold, 0 to 1.
+pub fn part(ui: &Ui, state: &HoldState) -> f32 {
+    state.part(ui.input(|input| input.time))
 }
 
 #[cfg(test)]

@@ -11,6 +11,8 @@ use crate::ui::{
 };
 
 const RADIUS: u8 = 6;
+/// Width of the tag of automatic operation.
+const TAG_WIDTH: f32 = 38.0;
 pub const TWO_LINES_WIDTH: f32 = 144.0;
 
 /// State of the link to a unit. Each has its own shape.
@@ -72,6 +74,15 @@ pub struct ChipModel<'a> {
     pub selected: bool,
     /// The antenna is locked out for maintenance.
     pub maintenance: bool,
+    /// `None` while automatic operation is off.
+    pub automatic: Option<AutomaticTag>,
+}
+
+/// How automatic operation stands, while it is not off.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum AutomaticTag {
+    On,
+    Suspended,
 }
 
 impl ChipModel<'_> {
@@ -104,7 +115,12 @@ pub fn show(ui: &Ui, rect: Rect, model: &ChipModel<'_>, form: ChipForm) -> Respo
     let second = model.second_line();
     let response = ui.interact(rect, ui.make_persistent_id(("chip", model.name)), Sense::click());
     response.widget_info(|| {
-        let name = format!("{}: {second}, link {}", model.name, model.link.word());
+        let automatic = match model.automatic {
+            None => "",
+            Some(AutomaticTag::On) => ", automatic operation",
+            Some(AutomaticTag::Suspended) => ", automatic operation suspended",
+        };
+        let name = format!("{}: {second}, link {}{automatic}", model.name, model.link.word());
         egui::WidgetInfo::selected(Role::Button, true, model.selected, name)
     });
     ui.painter().rect_filled(rect, RADIUS, if response.hovered() { t.bg3 } else { t.bg2 });
@@ -130,7 +146,13 @@ pub fn show(ui: &Ui, rect: Rect, model: &ChipModel<'_>, form: ChipForm) -> Respo
         icons::paint(ui.painter(), glyph, icon, colour);
         let room = rect.with_min_x(rect.left() + 34.0).with_max_x(rect.right() - 6.0);
         let lock = if model.maintenance { 14.0 } else { 0.0 };
-        let first = room.translate(vec2(0.0, -7.0)).with_max_x(room.right() - lock);
+        let mut first = room.translate(vec2(0.0, -7.0)).with_max_x(room.right() - lock);
+        if let Some(tag) = model.automatic {
+            let size = vec2(TAG_WIDTH, 16.0);
+            let min = pos2(first.right() - TAG_WIDTH, first.center().y - 8.0);
+            automatic_tag(ui, Rect::from_min_size(min, size), tag);
+            first = first.with_max_x(min.x - 4.0);
+        }
         paint::text_in(ui, first, Align2::LEFT_CENTER, model.name, strong, t.t1);
         let below = room.translate(vec2(0.0, 8.5));
         paint::text_in(ui, below, Align2::LEFT_CENTER, &second, text::small(), t.t2);
@@ -146,6 +168,22 @@ pub fn show(ui: &Ui, rect: Rect, model: &ChipModel<'_>, form: ChipForm) -> Respo
     }
     paint::focus_ring(ui, &response, RADIUS);
     response
+}
+
+fn automatic_tag(ui: &Ui, rect: Rect, tag: AutomaticTag) {
+    let t = theme::tokens(ui);
+    let colour = match tag {
+        AutomaticTag::On => {
+            ui.painter().rect_stroke(rect, 3.0, Stroke::new(1.0, t.t2), StrokeKind::Inside);
+            t.t2
+        }
+        AutomaticTag::Suspended => {
+            paint::dashed_border(ui, rect, 3.0, Stroke::new(1.0, t.warn));
+            t.warn
+        }
+    };
+    let font = text::sized(11.0, Weight::Medium);
+    paint::text(ui, rect.center(), Align2::CENTER_CENTER, "AUTO", font, colour);
 }
 
 #[cfg(test)]

@@ -46,6 +46,10 @@ impl CardHandler<'_> {
                 return self.commands.extend(pass.map(track).map(UiCommand::Station));
             }
             CardAction::TakeOver => Command::TakeOver,
+            CardAction::GoOn => {
+                let go_on = engine::Command::GoOn(self.antenna.id());
+                return self.commands.push(UiCommand::Station(go_on));
+            }
             CardAction::TrackAgain => {
                 let again = self.antenna.track_again.as_ref();
                 return self

@@ -1,0 +1,160 @@
+//! The controls above the plan.
+
+use egui::{Align2, Rect, Ui, pos2, vec2};
+
+use super::{PADDING, PlanState};
+use crate::{
+    engine,
+    model::{Model, UiCommand},
+    station::{ChooseBy, Scheduling},
+    ui::{
+        format, text, theme,
+        widgets::{
+            button::{Button, HEIGHT as BUTTON},
+            drop_down::DropDown,
+            paint,
+            segmented::{self, Segment},
+        },
+        words,
+    },
+};
+
+pub(super) const HEIGHT: f32 = 56.0;
+const GAP: f32 = 8.0;
+const SPANS_H: [(f64, &str); 4] = [(12.0, "12 h"), (24.0, "24 h"), (48.0, "48 h"), (168.0, "7 d")];
+const SPANS: f32 = 200.0;
+/// Minimum width of the title.
+const TITLE: f32 = 176.0;
+
+pub(super) fn show(
+    ui: &Ui,
+    rect: Rect,
+    model: &Model,
+    has_drawer: bool,
+    state: &mut PlanState,
+    commands: &mut Vec<UiCommand>,
+) {
+    let t = theme::tokens(ui);
+    ui.painter().rect_filled(rect, 0.0, t.bg1);
+    ui.painter().hline(rect.x_range(), rect.bottom() - 0.5, (1.0, t.line));
+    let inner = rect.shrink2(vec2(PADDING, 0.0));
+    let mut right = inner.right();
+    if has_drawer {
+        let word = if state.inspector_is_open { "Close details" } else { "Details" };
+        let button = Button::normal(word);
+        let place = before(ui, &mut right, inner, button.width(ui));
+        if button.show(ui, "plan details", place).clicked() {
+            state.inspector_is_open = !state.inspector_is_open;
+        }
+    }
+    choose_by(ui, &mut right, inner, model, state, commands);
+    spans(ui, &mut right, inner, model, state, commands);
+    title(ui, inner.with_max_x(right.max(inner.left() + TITLE)), model, state, commands);
+}
+
+/// The place of a control that ends at `right`, which moves to its left.
+fn before(_ui: &Ui, right: &mut f32, inner: Rect, width: f32) -> Rect {
+    let min = pos2(*right - width, inner.center().y - BUTTON / 2.0);
+    *right = min.x - GAP;
+    Rect::from_min_size(min, vec2(width, BUTTON))
+}
+
+fn title(ui: &Ui, rect: Rect, model: &Model, state: &mut PlanState, commands: &mut Vec<UiCommand>) {
+    let t = theme::tokens(ui);
+    let line = |y: f32| {
+        Rect::from_x_y_ranges(rect.x_range(), rect.top() + y - 12.0..=rect.top() + y + 12.0)
+    };
+    let (left, small) = (Align2::LEFT_CENTER, text::small());
+    paint::text_in(ui, line(19.0), left, "Plan", text::title(), t.t1);
+    let second = line(40.0);
+    if let Some(undo) = state.undo() {
+        let words = undo.words.clone();
+        let drawn = paint::text_in(ui, second, left, &words, small, t.t2);
+        let button = Button::quiet("Undo");
+        let min = pos2(drawn.right() + GAP, second.center().y - 12.0);
+        let place = Rect::from_min_size(min, vec2(button.width(ui), 24.0));
+        if button.show(ui, "undo plan", place).clicked() {
+            commands.extend(state.take_undo());
+        }
+        return;
+    }
+    let words = match model.schedule.made_at {
+        None => "The passes are being planned.".to_owned(),
+        Some(_) => {
+            let until = format::moment(model.plan_until(), model.now);
+            let changes = match model.schedule.changes.len() {
+                0 => String::new(),
+                1 => ", 1 pass changed".to_owned(),
+                count => format!(", {count} passes changed"),
+            };
+            format!("{} to {until}{changes}", format::time_z(model.now))
+        }
+    };
+    paint::text_in(ui, second, left, &words, small, t.t2);
+    let changed: Vec<String> =
+        model.schedule.changes.iter().map(|of| words::schedule::change(model, of)).collect();
+    let response = paint::name_text(ui, "plan summary", second, &words);
+    if !changed.is_empty() {
+        response.on_hover_text(changed.join("\n"));
+    }
+}
+
+fn spans(
+    ui: &Ui,
+    right: &mut f32,
+    inner: Rect,
+    model: &Model,
+    state: &mut PlanState,
+    commands: &mut Vec<UiCommand>,
+) {
+    let place = before(ui, right, inner, SPANS);
+    let scheduling = model.station.scheduling;
+    let is_chosen = |hours: f64| (scheduling.span_h - hours).abs() < 0.5;
+    let segments = SPANS_H.map(|(hours, word)| {
+        (word, if is_chosen(hours) { Segment::Chosen } else { Segment::Free })
+    });
+    let clicked = segmented::show(ui, "plan span", place, "Time that is planned", &segments);
+    if let Some((hours, _)) = clicked.and_then(|index| SPANS_H.get(index)) {
+        set(model, Scheduling { span_h: *hours, ..scheduling }, "Another span", state, commands);
+    }
+}
+
+fn choose_by(
+    ui: &Ui,
+    right: &mut f32,
+    inner: Rect,
+    model: &Model,
+    state: &mut PlanState,
+    commands: &mut Vec<UiCommand>,
+) {
+    const ALL: [ChooseBy; 4] =
+        [ChooseBy::Elevation, ChooseBy::Duration, ChooseBy::MostPasses, ChooseBy::MostMinutes];
+    let scheduling = model.station.scheduling;
+    let word = words::schedule::choose_by(scheduling.choose_by);
+    let name = format!("Choose by, {word}");
+    let list = DropDown { button: Button::normal(word), salt: "choose by", name: &name };
+    let place = before(ui, right, inner, list.width(ui));
+    let mut chosen = None;
+    list.show(ui, place, |ui| {
+        for rule in ALL {
+            let is_chosen = rule == scheduling.choose_by;
+            if ui.selectable_label(is_chosen, words::schedule::choose_by(rule)).clicked() {
+                chosen = Some(rule);
+            }
+        }
+    });
+    if let Some(choose_by) = chosen {
+        set(model, Scheduling { choose_by, ..scheduling }, "Another rule", state, commands);
+    }
+}
+
+fn set(
+    model: &Model,
+    scheduling: Scheduling,
+    words: &str,
+    state: &mut PlanState,
+    commands: &mut Vec<UiCommand>,
+) {
+    let [to, back] = [scheduling, model.station.scheduling].map(engine::Command::SetScheduling);
+    state.change(model, to, back, words, commands);
+}

@@ -1,0 +1,285 @@
+//! The passes of each satellite over the whole plan.
+
+use egui::{
+    Align2, Rect, Role, ScrollArea, Sense, Stroke, StrokeKind, Ui, UiBuilder, WidgetInfo, pos2,
+    vec2,
+};
+use jiff::{Timestamp, tz::TimeZone};
+
+use super::{LABELS, PADDING, PlanState, Span};
+use crate::{
+    astro::time::seconds_between,
+    model::{
+        Model, UiCommand,
+        plan::{PlannedPass, PlannedSatellite},
+    },
+    station::Take,
+    ui::{
+        format,
+        text::{self, Weight},
+        theme,
+        widgets::paint,
+        words,
+    },
+};
+
+const HEAD: f32 = 40.0;
+const ROW: f32 = 21.0;
+/// Heights of the bars for 0° and 90° of maximum elevation.
+const BARS: std::ops::RangeInclusive<f32> = 7.0..=19.0;
+/// Minimum distance between two hours with their numbers.
+const HOUR_APART: f32 = 36.0;
+const DAY_S: i64 = 86_400;
+
+pub(super) fn height(rows: usize) -> f32 {
+    HEAD + rows.max(1) as f32 * ROW
+}
+
+/// The whole plan.
+pub(super) fn span(model: &Model) -> Span {
+    Span { from: model.now, seconds: model.station.scheduling.span_h * 3600.0 }
+}
+
+pub(super) fn show(
+    ui: &mut Ui,
+    rect: Rect,
+    model: &Model,
+    satellites: &[PlannedSatellite<'_>],
+    state: &mut PlanState,
+    commands: &mut Vec<UiCommand>,
+) {
+    let t = theme::tokens(ui);
+    let (head, body) = rect.split_top_bottom_at_y(rect.top() + HEAD);
+    ui.painter().rect_filled(head, 0.0, t.bg1);
+    let span = span(model);
+    let time = |place: Rect| place.with_min_x(rect.left() + LABELS);
+    heads(ui, head, time(head), span);
+    let list = ui.interact(body, ui.make_persistent_id("plan passes"), Sense::hover());
+    list.widget_info(|| WidgetInfo::labeled(Role::ListBox, true, "Passes by satellite"));
+    if satellites.is_empty() {
+        let words = "No satellite is planned. Mark favourites in Elements.";
+        let at = body.left_top() + vec2(PADDING, 8.0);
+        let place = paint::paragraph(ui, at, body.width() - 32.0, words, text::body(), t.t2);
+        paint::name_text(ui, "nothing planned", place, words);
+        return;
+    }
+    ui.scope_builder(UiBuilder::new().id_salt("plan rows").max_rect(body), |ui| {
+        ui.set_clip_rect(body.intersect(ui.clip_rect()));
+        ui.spacing_mut().item_spacing = vec2(0.0, 0.0);
+        let area = ScrollArea::vertical().id_salt("plan gantt").auto_shrink(false);
+        area.show_rows(ui, ROW, satellites.len(), |ui, rows| {
+            for index in rows {
+                let (_, row) = ui.allocate_space(vec2(body.width(), ROW));
+                let before = index.checked_sub(1).and_then(|before| satellites.get(before));
+                let Some(satellite) = satellites.get(index) else { continue };
+                let is_first = before.is_none_or(|before| before.priority != satellite.priority);
+                show_row(ui, row, time(row), model, satellite, is_first, span, commands);
+            }
+        });
+    });
+    frame(ui, time(rect).with_min_y(head.bottom()), model, span, state);
+    let x = span.x(model.now, time(rect));
+    ui.painter().vline(x, body.y_range(), (1.75, t.t1));
+}
+
+/// Days over hours.
+fn heads(ui: &Ui, head: Rect, place: Rect, span: Span) {
+    let t = theme::tokens(ui);
+    ui.painter().hline(head.x_range(), head.bottom() - 0.5, (1.0, t.line));
+    let labels = head.with_max_x(place.left());
+    let inner = labels.shrink2(vec2(PADDING, 0.0)).with_min_y(labels.top() + HEAD / 2.0);
+    let (left, right) = (Align2::LEFT_CENTER, Align2::RIGHT_CENTER);
+    paint::text_in(ui, inner, left, "Priority", text::caption(), t.t3);
+    paint::text_in(ui, inner, right, "taken", text::caption(), t.t3);
+    let hour_width = place.width() / (span.seconds / 3600.0) as f32;
+    let every = [1, 2, 3, 6, 12].into_iter().find(|of| hour_width * *of as f32 >= HOUR_APART);
+    for at in multiples(span, every.unwrap_or(24) * 3600) {
+        let x = span.x(at, place);
+        let civil = at.to_zoned(TimeZone::UTC);
+        let (word, y) = (civil.strftime("%H").to_string(), head.bottom() - HEAD / 4.0);
+        if x + 10.0 < place.right() {
+            let centre = Align2::CENTER_CENTER;
+            paint::text(ui, pos2(x, y), centre, word, text::caption(), t.t3);
+        }
+    }
+    let days = std::iter::once(span.from).chain(multiples(span, DAY_S));
+    let mut free = place.left();
+    for at in days {
+        let x = span.x(at, place).max(place.left());
+        let word = at.to_zoned(TimeZone::UTC).strftime("%a %-d %b").to_string();
+        let font = text::sized(12.0, Weight::SemiBold);
+        let width = paint::text_width(ui, &word, font.clone());
+        if x >= free && x + width <= place.right() {
+            let y = head.top() + HEAD / 4.0;
+            paint::text(ui, pos2(x, y), left, word, font, t.t1);
+            free = x + width + 8.0;
+        }
+    }
+}
+
+fn multiples(span: Span, step_s: i64) -> impl Iterator<Item = Timestamp> {
+    let start = span.from.as_second();
+    let first = start + (-start).rem_euclid(step_s);
+    let end = span.to();
+    (0..)
+        .map_while(move |step| Timestamp::from_second(first + step * step_s).ok())
+        .take_while(move |at| *at < end)
+}
+
+#[allow(clippy::too_many_arguments)]
+fn show_row(
+    ui: &Ui,
+    row: Rect,
+    place: Rect,
+    model: &Model,
+    satellite: &PlannedSatellite<'_>,
+    is_first: bool,
+    span: Span,
+    commands: &mut Vec<UiCommand>,
+) {
+    let t = theme::tokens(ui);
+    let selected = model.selected_pass().map(|predicted| predicted.key());
+    let is_selected = selected.is_some_and(|(number, _)| number == satellite.number);
+    let line = if is_first { t.edge } else { t.line };
+    let labels = row.with_max_x(place.left());
+    if is_selected {
+        ui.painter().rect_filled(labels, 0.0, t.bgsel);
+    }
+    for at in multiples(span, DAY_S) {
+        ui.painter().vline(span.x(at, place), row.y_range(), (1.0, t.edge));
+    }
+    ui.painter().hline(row.x_range(), row.top() + 0.5, (1.0, line));
+    let inner = labels.shrink2(vec2(PADDING, 0.0));
+    if is_first {
+        let badge = Rect::from_min_size(inner.left_center() - vec2(0.0, 7.0), vec2(22.0, 14.0));
+        ui.painter().rect_stroke(badge, 3.0, Stroke::new(1.0, t.edge), StrokeKind::Inside);
+        let word = satellite.priority.number().to_string();
+        paint::text(ui, badge.center(), Align2::CENTER_CENTER, word, text::caption(), t.t1);
+    }
+    let taken = satellite.passes.iter().filter(|of| !of.entries.is_empty()).count();
+    let count = format!("{taken} / {}", satellite.passes.len());
+    let drawn = paint::text_in(ui, inner, Align2::RIGHT_CENTER, &count, text::small(), t.t2);
+    let room = inner.with_min_x(inner.left() + 36.0).with_max_x(drawn.left() - 6.0);
+    let font = text::sized(12.0, Weight::Medium);
+    paint::text_in(ui, room, Align2::LEFT_CENTER, satellite.name, font, t.t1);
+    let spoken = format!(
+        "{}, priority {}, {taken} of {} passes taken",
+        satellite.name,
+        satellite.priority.number(),
+        satellite.passes.len()
+    );
+    paint::name_text(ui, ("plan row", satellite.number), labels, &spoken);
+    for planned in &satellite.passes {
+        bar(ui, row, place, model, planned, selected, span, commands);
+    }
+}
+
+#[allow(clippy::too_many_arguments)]
+fn bar(
+    ui: &Ui,
+    row: Rect,
+    place: Rect,
+    model: &Model,
+    planned: &PlannedPass<'_>,
+    selected: Option<(u32, Timestamp)>,
+    span: Span,
+    commands: &mut Vec<UiCommand>,
+) {
+    let t = theme::tokens(ui);
+    let predicted = planned.predicted;
+    let pass = &predicted.pass;
+    let Some(x) = span.range(pass.aos.time, pass.los.time, place) else { return };
+    let share = (pass.max_elevation().degrees() / 90.0).clamp(0.0, 1.0) as f32;
+    let height = egui::lerp(BARS, share);
+    let bottom = row.bottom() - 1.0;
+    let rect = Rect::from_x_y_ranges(x, bottom - height..=bottom);
+    let is_selected = selected == Some(predicted.key());
+    let name = spoken(model, planned);
+    let id = ui.make_persistent_id(("plan bar", predicted.key()));
+    let response = ui.interact(rect.expand(1.0), id, Sense::click());
+    response.widget_info(|| WidgetInfo::selected(Role::ListBoxOption, true, is_selected, &name));
+    ui.ctx().accesskit_node_builder(response.id, |node| node.set_selected(is_selected));
+    if planned.entries.is_empty() {
+        ui.painter().rect_stroke(rect, 0.0, Stroke::new(1.0, t.other), StrokeKind::Inside);
+    } else {
+        ui.painter().rect_filled(rect, 0.0, t.sat);
+    }
+    if planned.choice.is_some() {
+        let corner = Rect::from_min_size(rect.right_top() - vec2(3.0, 0.0), vec2(3.0, 3.0));
+        ui.painter().rect_filled(corner, 0.0, t.onsat);
+    }
+    if planned.entries.iter().any(|entry| entry.lost.is_some()) {
+        let tip = pos2(rect.center().x, rect.top() - 5.0);
+        let foot = rect.top() - 1.0;
+        let points = vec![tip, pos2(tip.x + 3.5, foot), pos2(tip.x - 3.5, foot)];
+        ui.painter().add(egui::Shape::convex_polygon(points, t.warn, Stroke::NONE));
+    }
+    if is_selected {
+        let frame = rect.expand(2.5);
+        ui.painter().rect_stroke(frame, 1.0, Stroke::new(1.5, t.ant), StrokeKind::Outside);
+    }
+    paint::focus_ring(ui, &response, 1);
+    if response.clicked() {
+        commands.push(UiCommand::SelectPass(predicted.key()));
+    }
+    response.on_hover_text(name);
+}
+
+/// A pass in words.
+fn spoken(model: &Model, planned: &PlannedPass<'_>) -> String {
+    let predicted = planned.predicted;
+    let pass = &predicted.pass;
+    let name = predicted.satellite.short_name();
+    let times = format!(
+        "{} to {}",
+        format::moment(pass.aos.time, model.now),
+        format::time_z(pass.los.time)
+    );
+    let max = format::degrees(pass.max_elevation().degrees(), 0);
+    let choice = match planned.choice.map(|choice| choice.take) {
+        Some(Take::Always) => " Always.",
+        Some(Take::Never) => " Never.",
+        None => "",
+    };
+    let by: Vec<&str> = planned
+        .entries
+        .iter()
+        .map(|entry| words::schedule::antenna_name(model, entry.antenna))
+        .collect();
+    let what = match planned.left_out {
+        _ if !by.is_empty() => format!("Taken by {}.", format::list(&by)),
+        Some(left_out) => format!("Left out: {}.", words::schedule::why(model, &left_out.why)),
+        None => "Not planned yet.".to_owned(),
+    };
+    format!("{name}, {times}, {max}. {what}{choice}")
+}
+
+/// The frame of the part that the lanes show; drag it to move that.
+fn frame(ui: &Ui, place: Rect, model: &Model, span: Span, state: &mut PlanState) {
+    let t = theme::tokens(ui);
+    let lanes = super::lanes::span(model, state);
+    let Some(x) = span.range(lanes.from, lanes.to(), place) else { return };
+    let rect = Rect::from_x_y_ranges(x, place.y_range()).shrink(0.5);
+    ui.painter().rect_stroke(rect, 0.0, Stroke::new(1.0, t.sat), StrokeKind::Inside);
+    // The grip leaves the bars to clicks.
+    let grip = rect.with_max_y(rect.top() + 8.0);
+    let grip = grip.expand2(vec2(4.0, 0.0)).translate(vec2(0.0, -8.0));
+    let id = ui.make_persistent_id("lanes frame");
+    let response = ui.interact(grip, id, Sense::drag());
+    let words = format!("Part of the lanes, from {}", format::moment(lanes.from, model.now));
+    response.widget_info(|| WidgetInfo::labeled(Role::Splitter, true, &words));
+    ui.painter().rect_filled(grip.shrink2(vec2(4.0, 2.0)), 2.0, t.sat);
+    if response.dragged() {
+        let moved = span.at(place.left() + response.drag_delta().x, place);
+        let by_s = seconds_between(span.from, moved);
+        let most = (span.seconds - lanes.seconds).max(0.0);
+        state.lanes_after_s = (state.lanes_after_s + by_s).clamp(0.0, most);
+        ui.ctx().request_repaint_after_for(
+            std::time::Duration::from_millis(16),
+            egui::ViewportId::ROOT,
+        );
+    }
+    if response.hovered() || response.dragged() {
+        ui.ctx().set_cursor_icon(egui::CursorIcon::ResizeHorizontal);
+    }
+}

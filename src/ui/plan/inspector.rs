@@ -1,0 +1,305 @@
+//! The selected pass: its path, times, what each antenna can take of it, and the operator's choice.
+
+use egui::{Align2, Rect, RichText, ScrollArea, Sense, Ui, UiBuilder, pos2, vec2};
+
+use super::{PADDING, PlanState};
+use crate::{
+    astro::time::seconds_between,
+    engine::{self, antenna::AntennaModel, automatic::Operation},
+    model::{Model, UiCommand, View, plan::PlannedPass},
+    orbit::PassPoint,
+    plan::schedule::Entry,
+    station::{Priority, Take},
+    ui::{
+        format,
+        icons::{self, Icon},
+        small_sky,
+        text::{self, Weight},
+        theme,
+        widgets::{
+            button::{Button, HEIGHT as BUTTON},
+            paint,
+            segmented::{self, Segment},
+        },
+        words,
+    },
+};
+
+const HEAD: f32 = 56.0;
+const PLOT: f32 = 188.0;
+const LINE: f32 = 20.0;
+const FOOT: f32 = 48.0;
+const GAP: f32 = 8.0;
+const LABEL: f32 = 80.0;
+
+pub(super) fn show(
+    ui: &mut Ui,
+    rect: Rect,
+    model: &Model,
+    state: &mut PlanState,
+    commands: &mut Vec<UiCommand>,
+) {
+    let t = theme::tokens(ui);
+    ui.painter().rect_filled(rect, 0.0, t.bg1);
+    ui.painter().vline(rect.left() + 0.5, rect.y_range(), (1.0, t.line));
+    let key = model.selected_pass().map(|selected| selected.key());
+    let planned = model.planned_passes().into_iter().find(|of| Some(of.predicted.key()) == key);
+    let Some(planned) = planned else {
+        let inner = rect.shrink(PADDING);
+        ui.scope_builder(UiBuilder::new().id_salt("plan inspector").max_rect(inner), |ui| {
+            ui.label(RichText::new("No pass selected").font(text::value()));
+            let words = "Click a bar or a row.";
+            ui.label(RichText::new(words).font(text::body()).color(t.t2));
+        });
+        return;
+    };
+    let (top, rest) = rect.split_top_bottom_at_y(rect.top() + HEAD);
+    let (body, foot) = rest.split_top_bottom_at_y(rest.bottom() - FOOT);
+    head(ui, top, model, &planned);
+    ui.scope_builder(UiBuilder::new().id_salt("plan inspector").max_rect(body), |ui| {
+        ui.set_clip_rect(body.intersect(ui.clip_rect()));
+        ui.spacing_mut().item_spacing = vec2(0.0, 0.0);
+        let area = ScrollArea::vertical().id_salt("plan details").auto_shrink(false);
+        area.show(ui, |ui| parts(ui, body.width(), model, &planned, state, commands));
+    });
+    ui.painter().hline(foot.x_range(), foot.top() + 0.5, (1.0, t.line));
+    let inner = foot.shrink2(vec2(PADDING, GAP));
+    let button = Button::normal("Open on sky plot").icon(Icon::CrossHair);
+    let place = Rect::from_min_size(inner.min, vec2(inner.width(), BUTTON));
+    if button.show(ui, "plan sky plot", place).clicked() {
+        commands.push(UiCommand::Show(View::Operate));
+    }
+}
+
+fn head(ui: &Ui, rect: Rect, model: &Model, planned: &PlannedPass<'_>) {
+    let t = theme::tokens(ui);
+    ui.painter().hline(rect.x_range(), rect.bottom() - 0.5, (1.0, t.line));
+    let inner = rect.shrink2(vec2(PADDING, 0.0));
+    let line = |y: f32| {
+        Rect::from_x_y_ranges(inner.x_range(), rect.top() + y - 12.0..=rect.top() + y + 12.0)
+    };
+    let predicted = planned.predicted;
+    let is_up = predicted.in_progress(model.now);
+    let (event, at) =
+        if is_up { ("LOS", predicted.pass.los.time) } else { ("AOS", predicted.pass.aos.time) };
+    let countdown = format::countdown(seconds_between(model.now, at));
+    let (left, right) = (Align2::LEFT_CENTER, Align2::RIGHT_CENTER);
+    paint::text_in(ui, line(16.0), right, event, text::small(), t.t3);
+    let font = text::sized(20.0, Weight::SemiBold);
+    let drawn = paint::text_in(ui, line(37.0), right, &countdown, font, t.t1);
+    paint::name_text(ui, "plan countdown", drawn, &format!("{event} {countdown}"));
+    let name = predicted.satellite.short_name();
+    let room = line(19.0).with_max_x(inner.right() - 40.0);
+    paint::text_in(ui, room, left, name, text::title(), t.t1);
+    let age = format::age(predicted.satellite.elements.age_s(model.now));
+    let detail = format!("{}, elements {age} old", predicted.number());
+    let room = line(40.0).with_max_x(drawn.left() - GAP);
+    let place = paint::text_in(ui, room, left, &detail, text::small(), t.t2);
+    paint::name_text(ui, "plan selected", place, &format!("{name}, {detail}"));
+}
+
+fn parts(
+    ui: &mut Ui,
+    width: f32,
+    model: &Model,
+    planned: &PlannedPass<'_>,
+    state: &mut PlanState,
+    commands: &mut Vec<UiCommand>,
+) {
+    let t = theme::tokens(ui);
+    let place = |ui: &mut Ui, height: f32| {
+        let (rect, _) = ui.allocate_exact_size(vec2(width, height), Sense::hover());
+        rect.shrink2(vec2(PADDING, 0.0))
+    };
+    let plot = place(ui, PLOT);
+    let look = model.sky.selected.filter(|_| planned.predicted.in_progress(model.now));
+    small_sky::show(ui, plot, model, planned.predicted, look.map(|selected| selected.look));
+    let pass = &planned.predicted.pass;
+    let head = place(ui, LINE);
+    sighting(ui, head, ["", "UTC", "Azimuth", "Elevation"], t.t3);
+    for (word, at) in [("AOS", &pass.aos), ("TCA", &pass.tca), ("LOS", &pass.los)] {
+        let row = place(ui, LINE);
+        event(ui, row, model, word, at);
+    }
+    let line = place(ui, GAP);
+    ui.painter().hline(line.expand2(vec2(PADDING, 0.0)).x_range(), line.center().y, (1.0, t.line));
+    for entry in &planned.entries {
+        for (label, value) in facts(model, entry) {
+            let row = place(ui, LINE);
+            pair(ui, row, label, &value);
+        }
+    }
+    let title = place(ui, 28.0);
+    let font = text::sized(13.0, Weight::SemiBold);
+    paint::text_in(ui, title, Align2::LEFT_CENTER, "Antennas", font, t.t1);
+    for antenna in &model.antennas {
+        let (icon, colour, words) = verdict(model, planned, antenna, t);
+        let room = width - 2.0 * PADDING - 20.0;
+        let text = format!("{}: {words}", antenna.config.name);
+        let galley = ui.painter().layout(text.clone(), text::small(), t.t1, room);
+        let row = place(ui, galley.size().y + 6.0);
+        let at = pos2(row.left() + 6.0, row.top() + 9.0);
+        icons::paint(ui.painter(), paint::square(at, 12.0), icon, colour);
+        ui.painter().galley(row.min + vec2(20.0, 2.0), galley, t.t1);
+        paint::name_text(ui, ("verdict", antenna.id().0), row, &text);
+    }
+    price(ui, width, model, planned, commands);
+    controls(ui, width, model, planned, state, commands);
+}
+
+fn sighting(ui: &Ui, row: Rect, words: [&str; 4], colour: egui::Color32) {
+    let right = Align2::RIGHT_CENTER;
+    let [word, time, azimuth, elevation] = words;
+    paint::text_in(ui, row, Align2::LEFT_CENTER, word, text::small(), colour);
+    let at = |x: f32| row.with_max_x(row.right() - x);
+    paint::text_in(ui, at(130.0), right, time, text::small(), colour);
+    paint::text_in(ui, at(64.0), right, azimuth, text::small(), colour);
+    paint::text_in(ui, at(0.0), right, elevation, text::small(), colour);
+}
+
+fn event(ui: &Ui, row: Rect, model: &Model, word: &str, at: &PassPoint) {
+    let t = theme::tokens(ui);
+    let time = format::moment(at.time, model.now);
+    let azimuth = format::azimuth(at.direction.azimuth_deg());
+    let elevation = format::degrees(at.direction.elevation_deg(), 1);
+    sighting(ui, row, [word, &time, &azimuth, &elevation], t.t1);
+    let words = format!("{word} {time}, azimuth {azimuth}, elevation {elevation}");
+    paint::name_text(ui, ("plan event", word), row, &words);
+}
+
+fn pair(ui: &Ui, row: Rect, label: &str, value: &str) {
+    let t = theme::tokens(ui);
+    paint::text_in(ui, row, Align2::LEFT_CENTER, label, text::small(), t.t2);
+    paint::text_in(ui, row, Align2::RIGHT_CENTER, value, text::small(), t.t1);
+    paint::name_text(ui, ("plan fact", label), row, &format!("{label}: {value}"));
+}
+
+fn facts(model: &Model, entry: &Entry) -> Vec<(&'static str, String)> {
+    let name = words::schedule::antenna_name(model, entry.antenna).to_owned();
+    let mut facts = vec![
+        ("Taken by", name),
+        ("Inside the beam", format::duration(entry.counted_s)),
+        ("Slew and set-up before", format::duration(entry.slew_s + entry.set_up_s)),
+    ];
+    if let Some(spare_s) = entry.spare_s {
+        facts.push(("Spare before", format::duration(spare_s)));
+    }
+    facts
+}
+
+/// What an antenna can do with the pass.
+fn verdict(
+    model: &Model,
+    planned: &PlannedPass<'_>,
+    antenna: &AntennaModel,
+    t: &crate::ui::tokens::Tokens,
+) -> (Icon, egui::Color32, String) {
+    let id = antenna.id();
+    if let Some(entry) = planned.entries.iter().find(|entry| entry.antenna == id) {
+        let lost = entry.lost.map(|lost| format!(" {}.", words::schedule::lost(lost)));
+        let automatic = match antenna.operation {
+            Operation::On(_) => "",
+            Operation::Off(_) => " Automatic operation is off.",
+            Operation::Suspended { .. } => " Automatic operation is suspended.",
+        };
+        let colour = if lost.is_some() { t.warn } else { t.ok };
+        let icon = if lost.is_some() { Icon::Warning } else { Icon::Check };
+        return (icon, colour, format!("takes it.{}{automatic}", lost.unwrap_or_default()));
+    }
+    let left_out = planned.left_out.and_then(|left_out| {
+        left_out.by_antenna.iter().find(|(of, _)| *of == id).map(|(_, why)| why)
+    });
+    match left_out {
+        Some(why) => (Icon::Dash, t.t2, format!("{}.", words::schedule::why(model, why))),
+        None if !planned.entries.is_empty() => {
+            (Icon::Dash, t.t2, "leaves it to the other.".to_owned())
+        }
+        None => (Icon::Dash, t.t3, "not planned yet.".to_owned()),
+    }
+}
+
+/// What it would cost to take a pass that is left out.
+fn price(
+    ui: &mut Ui,
+    width: f32,
+    model: &Model,
+    planned: &PlannedPass<'_>,
+    commands: &mut Vec<UiCommand>,
+) {
+    if !planned.entries.is_empty() || planned.left_out.is_none() {
+        return;
+    }
+    let key = planned.predicted.key();
+    let known = model
+        .swap
+        .as_ref()
+        .filter(|swap| swap.pass == key && swap.revision == model.schedule.revision);
+    let words = match known {
+        Some(swap) => format!("If it is always taken: {}", words::schedule::price(model, swap)),
+        None => {
+            let ask = UiCommand::Station(engine::Command::PriceSwap(key));
+            // Asked once a pass and schedule; the answer wakes the window.
+            let id = ui.make_persistent_id("swap asked");
+            let asked = (key, model.schedule.revision);
+            if ui.data(|data| data.get_temp(id)) != Some(asked) {
+                ui.data_mut(|data| data.insert_temp(id, asked));
+                commands.push(ask);
+            }
+            "What it would cost is being worked out.".to_owned()
+        }
+    };
+    let t = theme::tokens(ui);
+    let room = width - 2.0 * PADDING - 24.0;
+    let galley = ui.painter().layout(words.clone(), text::small(), t.t1, room);
+    let size = vec2(width, galley.size().y + 28.0);
+    let (rect, _) = ui.allocate_exact_size(size, Sense::hover());
+    let note = rect.shrink2(vec2(PADDING, 6.0));
+    ui.painter().rect_filled(note, 5.0, t.bg2);
+    ui.painter().galley(note.min + vec2(12.0, 8.0), galley, t.t1);
+    paint::name_text(ui, "plan price", note, &words);
+}
+
+/// The operator's choice for this pass, and the priority of its satellite.
+fn controls(
+    ui: &mut Ui,
+    width: f32,
+    model: &Model,
+    planned: &PlannedPass<'_>,
+    state: &mut PlanState,
+    commands: &mut Vec<UiCommand>,
+) {
+    let t = theme::tokens(ui);
+    let (row, _) = ui.allocate_exact_size(vec2(width, 44.0), Sense::hover());
+    let row = row.shrink2(vec2(PADDING, 6.0));
+    paint::text_in(ui, row, Align2::LEFT_CENTER, "This pass", text::small(), t.t2);
+    let choices = [(None, "By plan"), (Some(Take::Always), "Always"), (Some(Take::Never), "Never")];
+    let present = planned.choice.map(|choice| choice.take);
+    let segments = choices
+        .map(|(take, word)| (word, if take == present { Segment::Chosen } else { Segment::Free }));
+    let place = row.with_min_x(row.left() + LABEL);
+    let clicked = segmented::show(ui, "this pass", place, "This pass", &segments);
+    if let Some((take, _)) = clicked.and_then(|index| choices.get(index)) {
+        state.choose_for(model, planned, *take, commands);
+    }
+    let (row, _) = ui.allocate_exact_size(vec2(width, 40.0), Sense::hover());
+    let row = row.shrink2(vec2(PADDING, 4.0));
+    paint::text_in(ui, row, Align2::LEFT_CENTER, "Priority", text::small(), t.t2);
+    let number = planned.predicted.number();
+    let words = Priority::ALL.map(|priority| priority.number().to_string());
+    let segments: Vec<(&str, Segment)> = Priority::ALL
+        .iter()
+        .zip(&words)
+        .map(|(priority, word)| {
+            let is_it = *priority == planned.priority;
+            (word.as_str(), if is_it { Segment::Chosen } else { Segment::Free })
+        })
+        .collect();
+    let place = row.with_min_x(row.left() + LABEL);
+    let name = "Priority of the satellite, 1 is the first";
+    let clicked = segmented::show(ui, "plan priority", place, name, &segments);
+    if let Some(priority) = clicked.and_then(|index| Priority::ALL.get(index)) {
+        let set = |priority| engine::Command::SetPriority { numbers: vec![number], priority };
+        let (to, back) = (set(*priority), set(planned.priority));
+        state.change(model, to, back, "Another priority", commands);
+    }
+}

@@ -1,0 +1,357 @@
+//! A lane for each antenna: its entries with slews and waits, and its switch.
+
+use egui::{
+    Align2, Rect, Role, ScrollArea, Sense, Stroke, StrokeKind, Ui, UiBuilder, WidgetInfo, pos2,
+    vec2,
+};
+
+use super::{PADDING, PlanState, Span, switches};
+use crate::{
+    astro::time::{add_seconds, seconds_between},
+    engine::{
+        self,
+        antenna::AntennaModel,
+        automatic::{DayEvent, Operation},
+    },
+    model::{Model, UiCommand, plan::PlannedSatellite},
+    plan::schedule::Entry,
+    ui::{
+        format,
+        text::{self, Weight},
+        theme,
+        widgets::{button::Button, paint},
+        words,
+    },
+};
+
+const BAR: f32 = 32.0;
+const AXIS: f32 = 20.0;
+const LANE: f32 = 50.0;
+/// Width of the names and switches.
+const LABEL: f32 = 252.0;
+/// Time before now in the lanes, so that a pass under way keeps its bar, seconds.
+const PAST_S: f64 = 1200.0;
+const ENTRY: f32 = 22.0;
+
+pub(super) fn height(lanes: usize) -> f32 {
+    BAR + AXIS + lanes as f32 * LANE
+}
+
+/// The part of the plan in the lanes.
+pub(super) fn span(model: &Model, state: &PlanState) -> Span {
+    let from = add_seconds(model.now, state.lanes_after_s - PAST_S);
+    Span { from, seconds: state.lanes_h() * 3600.0 }
+}
+
+pub(super) fn show(
+    ui: &mut Ui,
+    rect: Rect,
+    model: &Model,
+    satellites: &[PlannedSatellite<'_>],
+    is_low: bool,
+    state: &mut PlanState,
+    commands: &mut Vec<UiCommand>,
+) {
+    let t = theme::tokens(ui);
+    let (bar, rest) = rect.split_top_bottom_at_y(rect.top() + BAR);
+    let (axis, body) = rest.split_top_bottom_at_y(rest.top() + AXIS);
+    ui.painter().rect_filled(bar, 0.0, t.bg2);
+    ui.painter().rect_filled(axis, 0.0, t.bg1);
+    let span = span(model, state);
+    title(ui, bar, model, satellites, span);
+    let place = |row: Rect| row.with_min_x(rect.left() + LABEL);
+    hours(ui, place(axis), span);
+    if model.antennas.is_empty() {
+        let words = "No antenna yet. Add one in Preferences or run the set-up.";
+        let at = body.left_top() + vec2(PADDING, 12.0);
+        let drawn = paint::paragraph(ui, at, body.width() - 32.0, words, text::body(), t.t2);
+        paint::name_text(ui, "no lanes", drawn, words);
+        return;
+    }
+    ui.scope_builder(UiBuilder::new().id_salt("plan lanes").max_rect(body), |ui| {
+        ui.set_clip_rect(body.intersect(ui.clip_rect()));
+        ui.spacing_mut().item_spacing = vec2(0.0, 0.0);
+        ScrollArea::vertical().id_salt("lanes").auto_shrink(false).show(ui, |ui| {
+            // The chosen antenna stays first.
+            let chosen = model.selected_antenna;
+            let mut order: Vec<usize> = (0..model.antennas.len()).collect();
+            order.sort_by_key(|index| *index != chosen);
+            let shown = if is_low { 1 } else { order.len() };
+            for index in order.into_iter().take(shown) {
+                let Some(antenna) = model.antennas.get(index) else { continue };
+                let (_, row) = ui.allocate_space(vec2(body.width(), LANE));
+                label(
+                    ui,
+                    row.with_max_x(rect.left() + LABEL),
+                    model,
+                    index,
+                    antenna,
+                    state,
+                    commands,
+                );
+                lane(ui, row, place(row), model, antenna, span, commands);
+            }
+        });
+    });
+    let place = place(body);
+    if let Some(x) = span.range(model.now, add_seconds(model.now, 1.0), place) {
+        let y = egui::Rangef::new(axis.bottom() - 6.0, body.bottom());
+        ui.painter().vline(x.min, y, (1.75, t.t1));
+    }
+}
+
+fn title(ui: &Ui, bar: Rect, model: &Model, satellites: &[PlannedSatellite<'_>], span: Span) {
+    let t = theme::tokens(ui);
+    let inner = bar.shrink2(vec2(PADDING, 0.0));
+    let left = Align2::LEFT_CENTER;
+    let [from, to] = [span.from, span.to()].map(format::hours_minutes);
+    let words = format!("Sequences {from} to {to}Z");
+    let font = text::sized(13.0, Weight::SemiBold);
+    let drawn = paint::text_in(ui, inner, left, &words, font, t.t1);
+    let all: usize = satellites.iter().map(|satellite| satellite.passes.len()).sum();
+    let passes = satellites.iter().flat_map(|satellite| &satellite.passes);
+    let taken = passes.filter(|planned| !planned.entries.is_empty()).count();
+    let proof = if model.schedule.made_at.is_none() {
+        ""
+    } else if model.schedule.schedule.is_proved() {
+        ", proved to be the best"
+    } else {
+        ", not proved to be the best"
+    };
+    let count = format!("{taken} of {all} passes are taken{proof}");
+    let room = inner.with_min_x(drawn.right() + 24.0);
+    paint::text_in(ui, room, left, &count, text::small(), t.t2);
+    paint::name_text(ui, "sequences", bar, &format!("{words}. {count}"))
+        .on_hover_text(worth(model));
+}
+
+/// What the schedule comes to, class by class.
+fn worth(model: &Model) -> String {
+    let lines = model.schedule.schedule.worth.iter().map(words::schedule::class_worth);
+    lines.collect::<Vec<_>>().join("\n")
+}
+
+fn hours(ui: &Ui, axis: Rect, span: Span) {
+    let t = theme::tokens(ui);
+    ui.painter().hline(axis.x_range(), axis.bottom() - 0.5, (1.0, t.line));
+    for (x, word) in marks(axis, span) {
+        let at = pos2(x, axis.center().y);
+        if x + 18.0 < axis.right() && x - 18.0 > axis.left() {
+            paint::text(ui, at, Align2::CENTER_CENTER, word, text::caption(), t.t3);
+        }
+    }
+}
+
+/// The half or full hours of the lanes.
+fn marks(place: Rect, span: Span) -> Vec<(f32, String)> {
+    let step_s = if span.seconds > 7.0 * 3600.0 { 3600 } else { 1800 };
+    let start = span.from.as_second();
+    let first = start + (-start).rem_euclid(step_s);
+    let times = (0..).map_while(|step| jiff::Timestamp::from_second(first + step * step_s).ok());
+    let within = times.take_while(|at| *at < span.to());
+    within.map(|at| (span.x(at, place), format::hours_minutes(at))).collect()
+}
+
+fn label(
+    ui: &Ui,
+    rect: Rect,
+    model: &Model,
+    index: usize,
+    antenna: &AntennaModel,
+    state: &mut PlanState,
+    commands: &mut Vec<UiCommand>,
+) {
+    let t = theme::tokens(ui);
+    let is_chosen = index == model.selected_antenna;
+    let name = &antenna.config.name;
+    let switch = switches::place(rect);
+    let choose = rect.with_max_x(switch.left() - 8.0);
+    let id = ui.make_persistent_id(("plan lane", antenna.id().0));
+    let response = ui.interact(choose, id, Sense::click());
+    let standing = switches::sentence(model, antenna);
+    let spoken = format!("{name}. {standing}");
+    response.widget_info(|| WidgetInfo::selected(Role::RadioButton, true, is_chosen, &spoken));
+    if is_chosen {
+        ui.painter().rect_filled(rect, 0.0, t.bgsel);
+        ui.painter().rect_filled(rect.with_max_x(rect.left() + 3.0), 0.0, t.sat);
+    }
+    ui.painter().hline(rect.x_range(), rect.bottom() - 0.5, (1.0, t.line));
+    let inner = rect.shrink2(vec2(PADDING, 6.0));
+    let (first, second) = inner.split_top_bottom_at_fraction(0.5);
+    let room = first.with_max_x(switch.left() - 70.0);
+    let font = text::sized(13.0, Weight::SemiBold);
+    paint::text_in(ui, room, Align2::LEFT_CENTER, name, font, t.t1);
+    let colour = match antenna.operation {
+        Operation::Suspended { .. } => t.warn,
+        _ => t.t2,
+    };
+    paint::text_in(ui, second, Align2::LEFT_CENTER, &standing, text::small(), colour);
+    let word = first.with_max_x(switch.left() - 6.0);
+    paint::text_in(ui, word, Align2::RIGHT_CENTER, "automatic", text::small(), t.t3);
+    if response.clicked() {
+        commands.push(UiCommand::SelectAntenna(index));
+    }
+    paint::focus_ring(ui, &response, 2);
+    response.on_hover_text(spoken);
+    switches::show(ui, switch, antenna, state, commands);
+}
+
+fn lane(
+    ui: &Ui,
+    row: Rect,
+    place: Rect,
+    model: &Model,
+    antenna: &AntennaModel,
+    span: Span,
+    commands: &mut Vec<UiCommand>,
+) {
+    let t = theme::tokens(ui);
+    ui.painter().rect_filled(place, 0.0, t.bg0);
+    ui.painter().hline(row.x_range(), row.bottom() - 0.5, (1.0, t.line));
+    for (x, _) in marks(place, span) {
+        ui.painter().vline(x, place.y_range(), (1.0, t.line));
+    }
+    let id = antenna.id();
+    let middle = place.center().y + 4.0;
+    let band =
+        |x: egui::Rangef| Rect::from_x_y_ranges(x, middle - ENTRY / 2.0..=middle + ENTRY / 2.0);
+    let own = model.day.iter().enumerate().filter(|(_, line)| line.antenna == id);
+    for (place_in_day, line) in own {
+        let DayEvent::Flown(flown) = &line.what else { continue };
+        let to = add_seconds(flown.pass.1, flown.of_s);
+        let Some(x) = span.range(flown.pass.1, to, place) else { continue };
+        let rect = band(x);
+        let words = words::automatic::flown(flown, model.now);
+        if flown.cause.is_none() {
+            ui.painter().rect_filled(rect, 0.0, t.t3);
+        } else {
+            paint::dashed_border(ui, rect, 0.0, Stroke::new(1.0, t.bad));
+        }
+        paint::name_text(ui, ("flown", place_in_day), rect, &words).on_hover_text(words);
+    }
+    let entries: Vec<&Entry> =
+        model.schedule.schedule.entries.iter().filter(|entry| entry.antenna == id).collect();
+    let ahead = entries.iter().filter(|entry| entry.to > model.now);
+    let mut before = model.now;
+    let mut free = place.left();
+    for entry in ahead {
+        way(ui, place, middle, before, entry, span);
+        free = bar(ui, band, place, model, antenna, entry, span, free, commands);
+        before = entry.to;
+    }
+    if let Some(words) = switches::go_on(model, antenna) {
+        let button = Button::primary(&words);
+        let width = button.width(ui).min(place.width() - 16.0);
+        let min = pos2(place.right() - width - 8.0, place.center().y - 12.0);
+        let rect = Rect::from_min_size(min, vec2(width, 24.0));
+        if button.show(ui, ("go on", id.0), rect).clicked() {
+            commands.push(UiCommand::Station(engine::Command::GoOn(id)));
+        }
+    }
+    if entries.is_empty() {
+        let words = if antenna.snapshot.lock_out.is_some() {
+            "Locked out: nothing is planned."
+        } else {
+            "Nothing is planned."
+        };
+        let room = place.shrink2(vec2(PADDING, 0.0));
+        paint::text_in(ui, room, Align2::LEFT_CENTER, words, text::small(), t.t3);
+    }
+}
+
+/// The wait after the entry before, and the slew to the next one.
+fn way(ui: &Ui, place: Rect, y: f32, before: jiff::Timestamp, entry: &Entry, span: Span) {
+    let t = theme::tokens(ui);
+    let slew_s = entry.slew_s + entry.set_up_s;
+    let arrives = add_seconds(before, slew_s);
+    if let Some(x) = span.range(arrives, entry.from, place)
+        && seconds_between(arrives, entry.from) > 0.0
+    {
+        let line = [pos2(x.min, y), pos2(x.max, y)];
+        ui.painter().extend(egui::Shape::dotted_line(&line, t.t3, 5.0, 0.75));
+    }
+    if slew_s > 0.0
+        && let Some(x) = span.range(before, arrives.min(entry.from), place)
+    {
+        let rect = Rect::from_x_y_ranges(x, y - ENTRY / 2.0..=y + ENTRY / 2.0);
+        let stroke = Stroke::new(1.0, t.cmd);
+        ui.painter().rect_stroke(rect, 0.0, stroke, StrokeKind::Inside);
+        ui.painter().line_segment([rect.left_bottom(), rect.right_top()], stroke);
+    }
+}
+
+#[allow(clippy::too_many_arguments)]
+fn bar(
+    ui: &Ui,
+    band: impl Fn(egui::Rangef) -> Rect,
+    place: Rect,
+    model: &Model,
+    antenna: &AntennaModel,
+    entry: &Entry,
+    span: Span,
+    free: f32,
+    commands: &mut Vec<UiCommand>,
+) -> f32 {
+    let t = theme::tokens(ui);
+    let Some(x) = span.range(entry.from, entry.to, place) else { return free };
+    let rect = band(x);
+    let key = (entry.pass.satellite, entry.pass.aos);
+    let name = words::schedule::pass_name(model, key);
+    let found = model.pass_lists.find(key);
+    let max =
+        found.map_or(String::new(), |of| format::degrees(of.pass.max_elevation().degrees(), 0));
+    let is_selected = model.selected_pass().is_some_and(|selected| {
+        selected.number() == key.0 && seconds_between(selected.pass.aos.time, key.1).abs() < 60.0
+    });
+    let taking = antenna.operation.taking().filter(|taking| taking.pass.0 == key.0);
+    let taking = taking.filter(|taking| taking.from < entry.to && entry.from < taking.until);
+    ui.painter().rect_filled(rect, 0.0, t.sat);
+    let state = match taking {
+        None => "planned",
+        Some(taking) if taking.proved_at.is_none() => {
+            ui.painter().rect_stroke(rect, 0.0, Stroke::new(2.5, t.cmd), StrokeKind::Inside);
+            "sent, not proved"
+        }
+        Some(taking) if taking.from <= model.now => {
+            ui.painter().rect_stroke(rect, 0.0, Stroke::new(1.5, t.ant), StrokeKind::Outside);
+            "running"
+        }
+        Some(_) => {
+            ui.painter().rect_stroke(rect, 0.0, Stroke::new(2.5, t.ok), StrokeKind::Inside);
+            "proved"
+        }
+    };
+    if is_selected {
+        let frame = rect.expand(2.5);
+        ui.painter().rect_stroke(frame, 2.0, Stroke::new(1.5, t.ant), StrokeKind::Outside);
+    }
+    let id = ui.make_persistent_id(("lane bar", antenna.id().0, key));
+    let response = ui.interact(rect, id, Sense::click());
+    let lost = entry.lost.map(|lost| format!(" {}.", words::schedule::lost(lost)));
+    let spoken = format!(
+        "{name} with {}, {} to {}, {max}, {state}.{}",
+        antenna.config.name,
+        format::moment(entry.from, model.now),
+        format::time_z(entry.to),
+        lost.unwrap_or_default()
+    );
+    response.widget_info(|| WidgetInfo::selected(Role::ListBoxOption, true, is_selected, &spoken));
+    if paint::text_width(ui, &max, text::caption()) + 4.0 <= rect.width() {
+        let centre = Align2::CENTER_CENTER;
+        paint::text(ui, rect.center(), centre, &max, text::caption(), t.onsat);
+    }
+    let width = paint::text_width(ui, &name, text::caption());
+    let start = (rect.center().x - width / 2.0).max(place.left() + 2.0);
+    let mut used = free;
+    if start >= free && start + width <= place.right() {
+        let at = pos2(start, rect.top() - 3.0);
+        paint::text(ui, at, Align2::LEFT_BOTTOM, &name, text::caption(), t.t1);
+        used = start + width + 6.0;
+    }
+    if response.clicked() {
+        commands.push(UiCommand::SelectPass(key));
+    }
+    paint::focus_ring(ui, &response, 1);
+    response.on_hover_text(spoken);
+    used
+}

@@ -1,0 +1,382 @@
+//! The passes of the chosen antenna in the order in which they are carried out: those that are
+//! over, those that it takes and those that it leaves out.
+
+use egui::{Align2, Color32, Rect, Role, ScrollArea, Sense, Ui, UiBuilder, WidgetInfo, pos2, vec2};
+
+use super::{PADDING, PlanState, state::Shown};
+use crate::{
+    engine::antenna::AntennaModel,
+    model::{
+        Model, UiCommand,
+        plan::{ListedPass, Standing},
+    },
+    station::Take,
+    ui::{
+        format,
+        icons::{self, Icon},
+        text::{self, Weight},
+        theme,
+        tokens::Tokens,
+        widgets::{
+            button::Button,
+            paint,
+            segmented::{self, Segment},
+        },
+        words,
+    },
+};
+
+const BAR: f32 = 32.0;
+const HEAD: f32 = 22.0;
+const ROW: f32 = 25.0;
+const SEGMENTS: f32 = 236.0;
+/// Spare time below which a row has a caution, seconds.
+const SHORT_S: f64 = 60.0;
+/// Minimum width for all columns.
+const ALL_FROM: f32 = 900.0;
+
+/// The least height: some rows below the heads.
+pub(super) fn least_height() -> f32 {
+    BAR + HEAD + 3.0 * ROW
+}
+
+/// The columns, each with its left end, or its right end for times and numbers.
+#[derive(Clone, Copy)]
+struct Columns {
+    state: f32,
+    aos: f32,
+    los: f32,
+    name: f32,
+    max: f32,
+    /// Left end of the slew and right end of the spare time, where there is room.
+    slew: Option<(f32, f32)>,
+    text: f32,
+}
+
+impl Columns {
+    fn of(width: f32) -> Self {
+        if width < ALL_FROM {
+            return Self {
+                state: 16.0,
+                aos: 222.0,
+                los: 286.0,
+                name: 302.0,
+                max: 430.0,
+                slew: None,
+                text: 446.0,
+            };
+        }
+        Self {
+            state: 16.0,
+            aos: 244.0,
+            los: 316.0,
+            name: 332.0,
+            max: 476.0,
+            slew: Some((492.0, 668.0)),
+            text: 684.0,
+        }
+    }
+}
+
+pub(super) fn show(
+    ui: &mut Ui,
+    rect: Rect,
+    model: &Model,
+    state: &mut PlanState,
+    commands: &mut Vec<UiCommand>,
+) {
+    let t = theme::tokens(ui);
+    let (bar, rest) = rect.split_top_bottom_at_y(rect.top() + BAR);
+    let (head, body) = rest.split_top_bottom_at_y(rest.top() + HEAD);
+    ui.painter().rect_filled(bar, 0.0, t.bg2);
+    ui.painter().rect_filled(head, 0.0, t.bg1);
+    let Some(antenna) = model.antenna() else { return };
+    let all = model.listed_passes(antenna);
+    let is_taken =
+        |of: &ListedPass<'_>| of.entry.is_some() || matches!(of.standing, Standing::Flown(_));
+    let taken = all.iter().filter(|of| is_taken(of)).count();
+    let counts = [all.len(), taken, all.len() - taken];
+    show_bar(ui, bar, antenna, counts, state);
+    let columns = Columns::of(rect.width());
+    heads(ui, head, columns);
+    let rows: Vec<&ListedPass<'_>> = all
+        .iter()
+        .filter(|of| match state.shown {
+            Shown::All => true,
+            Shown::Taken => is_taken(of),
+            Shown::LeftOut => !is_taken(of),
+        })
+        .collect();
+    let list = ui.interact(body, ui.make_persistent_id("plan list"), Sense::hover());
+    let title = format!("{}, as it will be executed", antenna.config.name);
+    list.widget_info(|| WidgetInfo::labeled(Role::ListBox, true, &title));
+    if rows.is_empty() {
+        let words = "No such pass in this time.";
+        let at = body.left_top() + vec2(PADDING, 8.0);
+        let place = paint::paragraph(ui, at, body.width() - 32.0, words, text::body(), t.t2);
+        paint::name_text(ui, "no rows", place, words);
+        return;
+    }
+    ui.scope_builder(UiBuilder::new().id_salt("plan list").max_rect(body), |ui| {
+        ui.set_clip_rect(body.intersect(ui.clip_rect()));
+        ui.spacing_mut().item_spacing = vec2(0.0, 0.0);
+        let area = ScrollArea::vertical().id_salt("execution").auto_shrink(false);
+        area.show_rows(ui, ROW, rows.len(), |ui, shown| {
+            for index in shown {
+                let (_, row) = ui.allocate_space(vec2(body.width(), ROW));
+                if let Some(listed) = rows.get(index) {
+                    show_row(ui, row, model, antenna, listed, columns, state, commands);
+                }
+            }
+        });
+    });
+}
+
+fn show_bar(
+    ui: &Ui,
+    bar: Rect,
+    antenna: &AntennaModel,
+    [all, taken, left_out]: [usize; 3],
+    state: &mut PlanState,
+) {
+    let t = theme::tokens(ui);
+    let inner = bar.shrink2(vec2(PADDING, 0.0));
+    let words = format!("{}, as it will be executed", antenna.config.name);
+    let font = text::sized(13.0, Weight::SemiBold);
+    let room = inner.with_max_x(inner.right() - SEGMENTS - 16.0);
+    let drawn = paint::text_in(ui, room, Align2::LEFT_CENTER, &words, font, t.t1);
+    let choices = [
+        (Shown::All, format!("All {all}")),
+        (Shown::Taken, format!("Taken {taken}")),
+        (Shown::LeftOut, format!("Left out {left_out}")),
+    ];
+    let segments: Vec<(&str, Segment)> = choices
+        .iter()
+        .map(|(of, word)| {
+            (word.as_str(), if *of == state.shown { Segment::Chosen } else { Segment::Free })
+        })
+        .collect();
+    let min = pos2(drawn.right() + 24.0, bar.center().y - 12.0);
+    let place = Rect::from_min_size(min, vec2(SEGMENTS, 24.0));
+    let clicked = segmented::show(ui, "plan shown", place, "Passes in the list", &segments);
+    if let Some((shown, _)) = clicked.and_then(|index| choices.get(index)) {
+        state.shown = *shown;
+    }
+    let room = inner.with_min_x(place.right() + 16.0);
+    let set_up = format::duration(antenna.config.set_up_s());
+    let note = format!("Spare: after the slew and {set_up} of set-up.");
+    paint::text_in(ui, room, Align2::LEFT_CENTER, &note, text::small(), t.t2);
+}
+
+fn heads(ui: &Ui, head: Rect, columns: Columns) {
+    let t = theme::tokens(ui);
+    ui.painter().hline(head.x_range(), head.bottom() - 0.5, (1.0, t.line));
+    let (left, right) = (Align2::LEFT_CENTER, Align2::RIGHT_CENTER);
+    let cell = |x: f32, anchor: Align2, words: &str| {
+        let x = head.left() + x;
+        let place = if anchor == left { head.with_min_x(x) } else { head.with_max_x(x) };
+        paint::text_in(ui, place, anchor, words, text::caption(), t.t3);
+    };
+    cell(columns.state, left, "State");
+    cell(columns.aos, right, "AOS");
+    cell(columns.los, right, "LOS");
+    cell(columns.name, left, "Satellite");
+    cell(columns.max, right, "Max el");
+    if let Some((slew, spare)) = columns.slew {
+        cell(slew, left, "Slew in");
+        cell(spare, right, "Spare");
+    }
+    cell(columns.text, left, "What is lost, or why it is left out");
+}
+
+/// Icon, words and colour of a state.
+fn state(
+    model: &Model,
+    antenna: &AntennaModel,
+    listed: &ListedPass<'_>,
+    t: &Tokens,
+) -> (Icon, String, Color32) {
+    match listed.standing {
+        Standing::Flown(flown) => match flown.cause {
+            None => {
+                let percent = 100.0 * flown.in_beam_s / flown.of_s.max(1.0);
+                let words = format!("Done, {} % in beam", format::number(percent, 0));
+                (Icon::Check, words, t.ok)
+            }
+            Some(_) => {
+                let [lost, of] = [flown.lost_s(), flown.of_s].map(format::duration);
+                (Icon::Cross, format!("Missed {lost} of {of}"), t.bad)
+            }
+        },
+        Standing::Running => {
+            let off = antenna.error().map(|error| error.off_beam.degrees());
+            let words = off.map_or_else(
+                || "Running".to_owned(),
+                |off| format!("Running, {} off", format::degrees(off, 2)),
+            );
+            (Icon::Disc, words, t.ok)
+        }
+        Standing::Proved(at) => {
+            let what = if antenna.variant().capabilities.has_program {
+                "On the unit"
+            } else {
+                "On its way"
+            };
+            (Icon::Lock, format!("{what}, {}", format::time_z(at)), t.ok)
+        }
+        Standing::Sent(at) => {
+            let words = format!("Sent {}, not proved", format::time_z(at));
+            (Icon::ChevronRight, words, t.cmd)
+        }
+        Standing::Planned(entry) if antenna.operation.is_on() => {
+            let at = crate::engine::automatic::sets_out(entry, antenna.config.automatic.between);
+            (Icon::Clock, words::schedule::sets_out(antenna, at, model.now), t.t1)
+        }
+        Standing::Planned(_) => (Icon::Clock, "Planned".to_owned(), t.t1),
+        Standing::TakenBy(other) => {
+            let name = words::schedule::antenna_name(model, other);
+            (Icon::Dash, format!("Left out, {name} takes it"), t.t2)
+        }
+        Standing::LeftOut(_) => (Icon::Dash, "Left out".to_owned(), t.t2),
+        Standing::NotKnown => (Icon::Dash, "Not planned yet".to_owned(), t.t3),
+    }
+}
+
+/// What is lost, why it is left out, or why it was taken.
+fn reason(model: &Model, listed: &ListedPass<'_>) -> (String, bool) {
+    let always = listed.planned.as_ref().and_then(|planned| planned.choice);
+    match listed.standing {
+        Standing::Flown(flown) => match flown.cause {
+            None => (String::new(), false),
+            Some(cause) => (words::automatic::miss_cause(cause), true),
+        },
+        Standing::LeftOut(why) => (format!("{}.", words::schedule::why(model, why)), false),
+        Standing::TakenBy(_) | Standing::NotKnown => (String::new(), false),
+        Standing::Running | Standing::Proved(_) | Standing::Sent(_) | Standing::Planned(_) => {
+            let Some(entry) = listed.entry else { return (String::new(), false) };
+            if let Some(lost) = entry.lost {
+                return (format!("{}.", words::schedule::lost(lost)), true);
+            }
+            let cut = entry.late_s + entry.early_s;
+            if cut > 0.0 {
+                return (format!("In part: {} less.", format::duration(cut)), true);
+            }
+            match always.filter(|choice| choice.take == Take::Always) {
+                Some(choice) => {
+                    let at = format::moment(choice.chosen_at, model.now);
+                    (format!("Always, set {at}."), false)
+                }
+                None => (String::new(), false),
+            }
+        }
+    }
+}
+
+#[allow(clippy::too_many_arguments)]
+fn show_row(
+    ui: &Ui,
+    row: Rect,
+    model: &Model,
+    antenna: &AntennaModel,
+    listed: &ListedPass<'_>,
+    columns: Columns,
+    plan: &mut PlanState,
+    commands: &mut Vec<UiCommand>,
+) {
+    let t = theme::tokens(ui);
+    let is_selected = model.selected_pass().is_some_and(|selected| selected.key() == listed.key);
+    let (icon, words, colour) = state(model, antenna, listed, t);
+    let (why, is_caution) = reason(model, listed);
+    let id = ui.make_persistent_id(("plan list row", listed.key));
+    let response = ui.interact(row, id, Sense::click());
+    let max = listed.max_elevation_deg.map(|deg| format::degrees(deg, 0)).unwrap_or_default();
+    let [aos, los] = [listed.key.1, listed.los].map(|at| format::moment(at, model.now));
+    let spoken = format!("{}, {aos} to {los}, {max}. {words}. {why}", listed.name);
+    response.widget_info(|| WidgetInfo::selected(Role::ListBoxOption, true, is_selected, &spoken));
+    ui.ctx().accesskit_node_builder(response.id, |node| node.set_selected(is_selected));
+    let is_missed = matches!(listed.standing, Standing::Flown(flown) if flown.cause.is_some());
+    let ground = match (is_selected, response.hovered()) {
+        (true, _) => t.bgsel,
+        (false, true) => t.bg3,
+        (false, false) if is_missed => t.badbg,
+        (false, false) => Color32::TRANSPARENT,
+    };
+    ui.painter().rect_filled(row, 0.0, ground);
+    ui.painter().hline(row.x_range(), row.bottom() - 0.5, (1.0, t.line));
+    if is_selected {
+        ui.painter().rect_filled(row.with_max_x(row.left() + 3.0), 0.0, t.sat);
+    }
+    let at = |x: f32| row.left() + x;
+    let small = text::small();
+    let (left, right) = (Align2::LEFT_CENTER, Align2::RIGHT_CENTER);
+    icons::paint(
+        ui.painter(),
+        paint::square(pos2(at(columns.state) + 6.0, row.center().y), 12.0),
+        icon,
+        colour,
+    );
+    let day =
+        |time: jiff::Timestamp| format::moment(time, model.now).trim_end_matches('Z').to_owned();
+    let (aos_words, los_words) = (day(listed.key.1), format::time(listed.los));
+    let room = row.with_min_x(at(columns.state) + 20.0);
+    let aos_width = paint::text_width(ui, &aos_words, small.clone());
+    let room = room.with_max_x(at(columns.aos) - aos_width - 8.0);
+    paint::text_in(ui, room, left, &words, small.clone(), colour);
+    paint::text_in(ui, row.with_max_x(at(columns.aos)), right, &aos_words, small.clone(), t.t1);
+    paint::text_in(ui, row.with_max_x(at(columns.los)), right, &los_words, small.clone(), t.t2);
+    let is_out = listed.entry.is_none() && !matches!(listed.standing, Standing::Flown(_));
+    let room = row.with_min_x(at(columns.name)).with_max_x(at(columns.max) - 30.0);
+    let (font, name_colour) =
+        if is_out { (text::small(), t.t2) } else { (text::sized(13.0, Weight::SemiBold), t.t1) };
+    paint::text_in(ui, room, left, listed.name, font, name_colour);
+    paint::text_in(ui, row.with_max_x(at(columns.max)), right, &max, small.clone(), t.t1);
+    let mut text_from = at(columns.text);
+    match (columns.slew, listed.entry) {
+        (Some((slew, spare)), Some(entry)) => {
+            let from = entry.after.map(|after| {
+                let name = words::schedule::pass_name(model, (after.satellite, after.aos));
+                format!(" from {name}")
+            });
+            let words = format!("{}{}", format::duration(entry.slew_s), from.unwrap_or_default());
+            let room = row.with_min_x(at(slew)).with_max_x(at(spare) - 48.0);
+            paint::text_in(ui, room, left, &words, small.clone(), t.cmd);
+            if let Some(spare_s) = entry.spare_s {
+                let colour = if spare_s < SHORT_S { t.warn } else { t.t1 };
+                let words = format::duration(spare_s);
+                paint::text_in(ui, row.with_max_x(at(spare)), right, &words, small.clone(), colour);
+            }
+        }
+        (Some((slew, _)), None) if is_out => text_from = at(slew),
+        _ => {}
+    }
+    let mut end = row.right() - PADDING;
+    let can_swap = matches!(listed.standing, Standing::LeftOut(_));
+    if let (true, Some(planned)) = (can_swap && is_selected, &listed.planned) {
+        let button = Button::normal("Swap");
+        let width = button.width(ui);
+        let place = Rect::from_min_size(pos2(end - width, row.top() + 2.0), vec2(width, ROW - 4.0));
+        if button.show(ui, ("swap", listed.key), place).clicked() {
+            plan.choose_for(model, planned, Some(Take::Always), commands);
+        }
+        end = place.left() - 8.0;
+    }
+    let room = row.with_min_x(text_from).with_max_x(end);
+    let colour = if is_missed {
+        t.bad
+    } else if is_caution {
+        t.warn
+    } else {
+        t.t2
+    };
+    paint::text_in(ui, room, left, &why, small, colour);
+    paint::focus_ring(ui, &response, 0);
+    if response.clicked() {
+        commands.push(UiCommand::SelectPass(listed.key));
+    }
+    if response.double_clicked() {
+        commands.push(UiCommand::Show(crate::model::View::Operate));
+    }
+    if !why.is_empty() {
+        response.on_hover_text(why);
+    }
+}

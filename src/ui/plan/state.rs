@@ -1,0 +1,152 @@
+//! What the Plan view keeps between frames.
+
+use std::collections::BTreeMap;
+
+use jiff::Timestamp;
+
+use super::choose;
+use crate::{
+    astro::time::seconds_between,
+    engine::{self, passes::PassKey},
+    model::{Model, UiCommand, plan::PlannedPass},
+    station::{AntennaId, Take},
+    ui::{confirm::Question, format, widgets::hold_button::HoldState, words},
+};
+
+/// How long a change can be undone, seconds.
+const UNDO_S: f64 = 10.0;
+/// Spans of the lanes, hours.
+const LANES_H: [f64; 5] = [1.5, 3.0, 4.5, 6.0, 12.0];
+
+/// Which passes the list shows.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub(super) enum Shown {
+    #[default]
+    All,
+    Taken,
+    LeftOut,
+}
+
+/// Open parts, the section of the lanes, and the last change.
+#[derive(Default)]
+pub struct PlanState {
+    pub(super) shown: Shown,
+    pub(super) inspector_is_open: bool,
+    /// Start of the lanes after the start of the plan, seconds.
+    pub(super) lanes_after_s: f64,
+    zoom: usize,
+    /// The switches of automatic operation that are held.
+    holds: BTreeMap<AntennaId, HoldState>,
+    undo: Option<Undo>,
+}
+
+/// What takes a change of the plan back.
+pub(super) struct Undo {
+    pub(super) command: UiCommand,
+    pub(super) words: String,
+    since: Timestamp,
+}
+
+impl PlanState {
+    /// Hours in the lanes.
+    pub(super) fn lanes_h(&self) -> f64 {
+        let place = (LANES_H.len() / 2 + self.zoom) % LANES_H.len();
+        LANES_H.get(place).copied().unwrap_or(4.5)
+    }
+
+    /// Shows fewer hours in the lanes, or more.
+    pub fn change_zoom(&mut self, is_closer: bool) {
+        let half = LANES_H.len() / 2;
+        let place = (half + self.zoom) % LANES_H.len();
+        let place =
+            if is_closer { place.saturating_sub(1) } else { (place + 1).min(LANES_H.len() - 1) };
+        self.zoom = (place + LANES_H.len() - half) % LANES_H.len();
+    }
+
+    /// Shows the usual hours from now on.
+    pub fn reset_zoom(&mut self) {
+        (self.zoom, self.lanes_after_s) = (0, 0.0);
+    }
+
+    /// Changes the plan, in a way that can be undone for some seconds.
+    pub(super) fn change(
+        &mut self,
+        model: &Model,
+        command: engine::Command,
+        back: engine::Command,
+        words: &str,
+        commands: &mut Vec<UiCommand>,
+    ) {
+        commands.push(UiCommand::Station(command));
+        let command = UiCommand::Station(back);
+        self.undo = Some(Undo { command, words: words.to_owned(), since: model.now });
+    }
+
+    /// The pass that the list shows before or after the selected one.
+    pub fn neighbour(&self, model: &Model, by: isize) -> Option<PassKey> {
+        let all = model.planned_passes();
+        let keys: Vec<PassKey> = all.iter().map(|planned| planned.predicted.key()).collect();
+        let selected = model.selected_pass().map(|selected| selected.key());
+        let place = keys.iter().position(|key| Some(*key) == selected);
+        let place = place.map_or(Some(0), |place| place.checked_add_signed(by));
+        keys.get(place?).copied()
+    }
+
+    /// Chooses the selected pass for the schedule, or against it.
+    pub fn choose(&mut self, model: &Model, take: Option<Take>, commands: &mut Vec<UiCommand>) {
+        if let Some(planned) = selected(model) {
+            self.choose_for(model, &planned, take, commands);
+        }
+    }
+
+    pub(super) fn choose_for(
+        &mut self,
+        model: &Model,
+        planned: &PlannedPass<'_>,
+        take: Option<Take>,
+        commands: &mut Vec<UiCommand>,
+    ) {
+        let present = planned.choice.map(|choice| choice.take);
+        if present != take {
+            let (to, back) = (choose(planned, take), choose(planned, present));
+            self.change(model, to, back, "Planned anew", commands);
+        }
+    }
+
+    /// The question whether the selected pass, which is left out, is to be taken.
+    pub fn ask_to_swap(&self, model: &Model) -> Option<Question> {
+        let planned = selected(model).filter(|planned| planned.entries.is_empty())?;
+        let key = planned.predicted.key();
+        let name = planned.predicted.satellite.short_name();
+        let aos = format::moment(key.1, model.now);
+        let known = model.swap.as_ref().filter(|swap| swap.pass == key);
+        let price = known.map(|swap| format!(" {}", words::schedule::price(model, swap)));
+        Some(Question {
+            text: format!("Always take {name}, AOS {aos}?{}", price.unwrap_or_default()),
+            yes: "Swap",
+            command: UiCommand::Station(choose(&planned, Some(Take::Always))),
+        })
+    }
+
+    pub(super) fn undo(&self) -> Option<&Undo> {
+        self.undo.as_ref()
+    }
+
+    pub(super) fn take_undo(&mut self) -> Option<UiCommand> {
+        self.undo.take().map(|undo| undo.command)
+    }
+
+    pub(super) fn forget_old_undo(&mut self, now: Timestamp) {
+        self.undo.take_if(|undo| seconds_between(undo.since, now) >= UNDO_S);
+    }
+
+    pub(super) fn hold(&mut self, antenna: AntennaId) -> &mut HoldState {
+        self.holds.entry(antenna).or_default()
+    }
+}
+
+/// The selected pass, as far as it is planned.
+fn selected(model: &Model) -> Option<PlannedPass<'_>> {
+    let key = model.selected_pass()?.key();
+    model.planned_passes().into_iter().find(|planned| planned.predicted.key() == key)
+}

@@ -1,0 +1,123 @@
+//! The switch of automatic operation of an antenna, held for a second to switch it on.
+
+use egui::{Rect, Role, Stroke, StrokeKind, Ui, WidgetInfo, pos2, vec2};
+
+use super::PlanState;
+use crate::{
+    engine::{
+        self,
+        antenna::AntennaModel,
+        automatic::{Doing, OffBecause, On, Operation},
+    },
+    model::{Model, UiCommand},
+    ui::{
+        format, theme,
+        widgets::{hold_button, paint},
+        words,
+    },
+};
+
+const WIDTH: f32 = 36.0;
+const HEIGHT: f32 = 20.0;
+
+/// The place of the switch in the label of a lane.
+pub(super) fn place(label: Rect) -> Rect {
+    let min = pos2(label.right() - 12.0 - WIDTH, label.top() + 7.0);
+    Rect::from_min_size(min, vec2(WIDTH, HEIGHT))
+}
+
+/// The words of the button that lets a suspended antenna go on, with its next pass.
+pub(in crate::ui) fn go_on(model: &Model, antenna: &AntennaModel) -> Option<String> {
+    if !matches!(antenna.operation, Operation::Suspended { .. }) {
+        return None;
+    }
+    let entries = model.schedule.schedule.entries.iter();
+    let mut own = entries.filter(|entry| entry.antenna == antenna.id() && entry.to > model.now);
+    Some(own.next().map_or_else(
+        || "Go on".to_owned(),
+        |entry| {
+            let name = words::schedule::pass_name(model, (entry.pass.satellite, entry.pass.aos));
+            format!("Go on with {name}, {}", format::moment(entry.from, model.now))
+        },
+    ))
+}
+
+/// How automatic operation of an antenna stands, and what comes next.
+pub(super) fn sentence(model: &Model, antenna: &AntennaModel) -> String {
+    match &antenna.operation {
+        Operation::Off(OffBecause::NotSwitchedOn | OffBecause::Operator) => "Off.".to_owned(),
+        Operation::Off(because) => format!("Off. {}", words::automatic::off(*because)),
+        Operation::Suspended { by, .. } => {
+            format!("Suspended. {}", words::automatic::interruption(*by))
+        }
+        Operation::On(On { doing, .. }) => match doing {
+            Doing::Announces { moves_at, .. } => {
+                format!("On. Moves at {}: STOP ends that.", format::time_z(*moves_at))
+            }
+            Doing::Parks => "On. Parks until the next pass.".to_owned(),
+            Doing::Takes(taking) => {
+                let name = words::schedule::pass_name(model, taking.pass);
+                let proved = taking.proved_at.map_or_else(
+                    || format!("asked for {}", format::time_z(taking.asked_at)),
+                    |at| format!("proved {}", format::time_z(at)),
+                );
+                format!("On. {name}, {proved}.")
+            }
+            Doing::Rests => next(model, antenna),
+        },
+    }
+}
+
+fn next(model: &Model, antenna: &AntennaModel) -> String {
+    let entries = model.schedule.schedule.entries.iter();
+    let mut own = entries.filter(|entry| entry.antenna == antenna.id() && entry.to > model.now);
+    own.next().map_or_else(
+        || "On. No pass is planned.".to_owned(),
+        |entry| {
+            let key = (entry.pass.satellite, entry.pass.aos);
+            let name = words::schedule::pass_name(model, key);
+            format!("On. Next {name}, {}.", format::moment(entry.from, model.now))
+        },
+    )
+}
+
+/// Draws the switch. Off takes a click; on has to be held for a second.
+pub(super) fn show(
+    ui: &Ui,
+    rect: Rect,
+    antenna: &AntennaModel,
+    state: &mut PlanState,
+    commands: &mut Vec<UiCommand>,
+) {
+    let t = theme::tokens(ui);
+    let is_on = !matches!(antenna.operation, Operation::Off(_));
+    let name = &antenna.config.name;
+    let id = antenna.id();
+    let can = is_on || antenna.snapshot.lock_out.is_none() && antenna.held_by.is_none();
+    let set = |is_on| UiCommand::Station(engine::Command::SetAutomatic { antenna: id, is_on });
+    let (fill, line) = if is_on { (t.okbg, t.ok) } else { (t.bg0, t.edge) };
+    let mut way = if is_on { 1.0 } else { 0.0 };
+    let response = if is_on {
+        let words = format!("Automatic operation of {name}, on");
+        let response = paint::control(ui, ("automatic", id.0), rect, Role::Switch, true, &words);
+        response.widget_info(|| WidgetInfo::selected(Role::Switch, true, true, &words));
+        if response.clicked() {
+            commands.push(set(false));
+        }
+        response.on_hover_text("Click to switch it off. A pass under way goes on.")
+    } else {
+        let words = format!("Automatic operation of {name}, off: hold 1 s to switch it on");
+        let hold = state.hold(id);
+        let (response, is_held) = hold_button::held(ui, rect, &words, can, hold);
+        if is_held {
+            commands.push(set(true));
+        }
+        way = hold_button::part(ui, hold);
+        response.on_hover_text("Hold for a second to switch it on.")
+    };
+    let knob = pos2(egui::lerp(rect.left() + 10.0..=rect.right() - 10.0, way), rect.center().y);
+    ui.painter().rect_filled(rect, HEIGHT / 2.0, fill);
+    ui.painter().rect_stroke(rect, HEIGHT / 2.0, Stroke::new(1.0, line), StrokeKind::Inside);
+    ui.painter().circle_filled(knob, 7.0, line);
+    paint::focus_ring(ui, &response, 10);
+}

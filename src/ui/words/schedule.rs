@@ -1,0 +1,188 @@
+//! Words for the schedule: why passes are left out, and what a swap costs.
+
+use jiff::Timestamp;
+
+use crate::{
+    engine::{antenna::AntennaModel, passes::PassKey, schedule::Swap},
+    model::Model,
+    plan::{
+        Loss,
+        schedule::{
+            Change, Changed, Class, ClassWorth, Conflict, Impossible, Light, Lost, Off, Proof,
+            Refusal, Rule, Why,
+        },
+    },
+    station::{AntennaId, ChooseBy},
+    ui::format,
+};
+
+/// The rule of what is best, as a choice.
+pub fn choose_by(rule: ChooseBy) -> &'static str {
+    match rule {
+        ChooseBy::Elevation => "Priority, then elevation",
+        ChooseBy::Duration => "Priority, then duration",
+        ChooseBy::MostPasses => "Most passes",
+        ChooseBy::MostMinutes => "Most minutes",
+    }
+}
+
+/// What the mount loses of a pass, as a sentence without a full stop.
+pub fn lost(lost: Lost) -> String {
+    let seconds = format::duration(lost.seconds);
+    match lost.at {
+        Loss::Keyhole(azimuth) => {
+            format!("Loses {seconds} at the keyhole at {}", format::azimuth(azimuth.degrees()))
+        }
+        Loss::Overhead => format!("Loses {seconds} near the zenith"),
+        Loss::Slew => format!("Loses {seconds} turning round"),
+        Loss::OutOfReach => format!("Loses {seconds} out of reach"),
+    }
+}
+
+/// Why a pass is left out, as a sentence without a full stop.
+pub fn why(model: &Model, why: &Why) -> String {
+    match why {
+        Why::Refused(refusal) => refused(*refusal),
+        Why::Impossible(impossible) => not_possible(impossible),
+        Why::Off(Off::LockedOut) => "The unit is locked out".to_owned(),
+        Why::Off(Off::SwitchedOff) => "The antenna is switched off".to_owned(),
+        Why::OtherAntennas => "A rule leaves it to other antennas".to_owned(),
+        Why::Overlaps(conflict) => {
+            let by = format::duration(conflict.missing_s);
+            format!("{} overlaps by {by}", against(model, conflict))
+        }
+        Why::SlewTooShort(conflict) => {
+            let by = format::duration(conflict.missing_s);
+            format!("{} is too close: slew and set-up miss {by}", against(model, conflict))
+        }
+        Why::TooFar => "The antenna cannot be there in time from where it stands".to_owned(),
+        Why::MaxADay(most) => match most {
+            1 => "One pass of the satellite is taken on this day already".to_owned(),
+            most => format!("{most} passes of the satellite are taken on this day already"),
+        },
+        Why::NotFound => "It would fit; a better schedule was not found".to_owned(),
+    }
+}
+
+fn refused(refusal: Refusal) -> String {
+    match refusal {
+        Refusal::Never => "Never, as you chose".to_owned(),
+        Refusal::BelowFloor { floor_deg } => {
+            format!("Stays below the floor of {}", format::degrees(floor_deg, 0))
+        }
+        Refusal::OldElements { age_s } => {
+            format!("The elements will be {} old", format::age(age_s))
+        }
+        Refusal::Rule(Rule::MinElevation { degrees }) => {
+            format!("Stays below {}, the minimum of the satellite", format::degrees(degrees, 0))
+        }
+        Refusal::Rule(Rule::MinDuration { seconds }) => {
+            format!("Shorter than {}, the minimum of the satellite", format::duration(seconds))
+        }
+        Refusal::Rule(Rule::Light(light)) => match light {
+            Light::Day => "Not by day, as the satellite is set".to_owned(),
+            Light::Night => "Not by night, as the satellite is set".to_owned(),
+            Light::Sunlit => "The satellite is not in sunlight, as it is set".to_owned(),
+        },
+    }
+}
+
+fn not_possible(impossible: &Impossible) -> String {
+    match impossible {
+        Impossible::TooLow => "Stays below the minimum elevation of the antenna".to_owned(),
+        Impossible::Hidden => "The horizon mask hides all of it".to_owned(),
+        Impossible::Lost(Lost { at: Loss::Keyhole(_), .. }) => {
+            "Not possible: all of it lies in the keyhole".to_owned()
+        }
+        Impossible::Lost(_) => "Not possible: the mount cannot follow it".to_owned(),
+        Impossible::NoWay => "Not possible: no way leads there past the keep-outs".to_owned(),
+        Impossible::KeepOut(barrier) => {
+            format!("Not possible: it leads {}", super::forbidden(barrier))
+        }
+    }
+}
+
+fn against(model: &Model, conflict: &Conflict) -> String {
+    let name = pass_name(model, (conflict.with.satellite, conflict.with.aos));
+    let class = match conflict.class {
+        Class::Always => ", always,".to_owned(),
+        Class::Priority(priority) => format!(", priority {},", priority.number()),
+        Class::Fixed => ", under way,".to_owned(),
+        Class::All | Class::Kept => String::new(),
+    };
+    match conflict.others.len() {
+        0 => format!("{name}{class}"),
+        1 => format!("{name}{class} with one more"),
+        others => format!("{name}{class} with {others} more"),
+    }
+}
+
+/// Short name of the satellite of a pass.
+pub fn pass_name(model: &Model, pass: PassKey) -> String {
+    let found = model.pass_lists.satellite(pass.0);
+    found.map_or_else(|| pass.0.to_string(), |of| of.short_name().to_owned())
+}
+
+/// What it costs to take a pass, as a sentence.
+pub fn price(model: &Model, swap: &Swap) -> String {
+    let Some(changes) = &swap.changes else {
+        return "It cannot be taken.".to_owned();
+    };
+    let (satellite, aos) = swap.pass;
+    let own = |change: &&Change| change.pass.satellite != satellite || change.pass.aos != aos;
+    let costs: Vec<String> = changes.iter().filter(own).map(|of| change(model, of)).collect();
+    if costs.is_empty() { "It costs nothing.".to_owned() } else { format!("{}.", costs.join("; ")) }
+}
+
+/// A change of the schedule, as a sentence without a full stop.
+pub fn change(model: &Model, change: &Change) -> String {
+    let key = (change.pass.satellite, change.pass.aos);
+    let name = format!("{}, {}", pass_name(model, key), format::moment(key.1, model.now));
+    match change.changed {
+        Changed::Added { antenna } => {
+            format!("{name}, is taken by {}", antenna_name(model, antenna))
+        }
+        Changed::Dropped { .. } => format!("{name}, is dropped"),
+        Changed::Moved { to, .. } => format!("{name}, goes to {}", antenna_name(model, to)),
+        Changed::Cut { late_s, early_s } => {
+            let by = |seconds: f64, more: &str, less: &str| {
+                let word = if seconds > 0.0 { more } else { less };
+                (seconds.abs() >= 1.0)
+                    .then(|| format!("{} {word}", format::duration(seconds.abs())))
+            };
+            let starts = by(late_s, "later", "earlier").map(|by| format!("starts {by}"));
+            let ends = by(early_s, "earlier", "later").map(|by| format!("ends {by}"));
+            let cuts: Vec<String> = starts.into_iter().chain(ends).collect();
+            format!("{name}, {}", cuts.join(" and "))
+        }
+    }
+}
+
+/// What a class comes to, as a sentence.
+pub fn class_worth(of: &ClassWorth) -> String {
+    let class = match of.class {
+        Class::Fixed => "Under way".to_owned(),
+        Class::Always => "Always".to_owned(),
+        Class::Priority(priority) => format!("Priority {}", priority.number()),
+        Class::All => "All passes".to_owned(),
+        Class::Kept => "Kept from before".to_owned(),
+    };
+    let seconds = |worth: i64| format::number(worth as f64 / 1000.0, 0);
+    let proof = match of.proof {
+        Proof::Best => "the best there is".to_owned(),
+        Proof::AtMost(bound) => format!("the best is at most {}", seconds(bound)),
+        Proof::Open => "not compared with the best".to_owned(),
+    };
+    format!("{class}: {}, {proof}.", seconds(of.worth))
+}
+
+/// Name of an antenna.
+pub fn antenna_name(model: &Model, antenna: AntennaId) -> &str {
+    model.antenna_of(antenna).map_or("an antenna", |of| &of.config.name)
+}
+
+/// When an antenna is sent to a pass, in words such as "Loads 12:32:50Z".
+pub fn sets_out(antenna: &AntennaModel, at: Timestamp, now: Timestamp) -> String {
+    let word = if antenna.variant().capabilities.has_program { "Loads" } else { "Sets out" };
+    format!("{word} {}", format::moment(at, now))
+}

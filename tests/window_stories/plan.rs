@@ -1,0 +1,302 @@
+//! The Plan view: what is taken and why, the operator's choices, and automatic operation.
+
+use std::sync::Arc;
+
+use azel::{
+    astro::time::add_seconds,
+    engine::{
+        Command,
+        automatic::{DayEvent, DayLine, Flown, Interruption, MissCause, OffBecause, Operation},
+        passes::PassKey,
+        schedule::{Planned, Swap},
+    },
+    model::{UiCommand, View},
+    plan::schedule::{Class, Conflict, Entry, LeftOut, PassKey as Key, Schedule, Why},
+    station::{AntennaId, ChooseBy, Priority, Take},
+};
+use egui::{Key as Press, Role};
+use egui_kittest::kittest::{NodeT as _, Queryable as _};
+
+use crate::window_stories::{
+    rig::{self, LARGE, SIZES, Window, settle, window},
+    states,
+};
+
+fn key((satellite, aos): PassKey) -> Key {
+    Key { satellite, aos }
+}
+
+/// The first pass is taken by the antenna, the second is left out for it, and so on in turn.
+fn planned(model: &azel::model::Model) -> Planned {
+    let id = model.antennas[0].id();
+    let mut schedule = Schedule::default();
+    let mut before: Option<Key> = None;
+    for (index, predicted) in model
+        .pass_lists
+        .favourites
+        .upcoming(model.now)
+        .iter()
+        .filter(|predicted| !predicted.is_always_up())
+        .enumerate()
+    {
+        let pass = key(predicted.key());
+        if index % 2 == 1 {
+            let with = before.unwrap();
+            let class = Class::Priority(Priority::default());
+            let why = Why::Overlaps(Conflict { with, class, missing_s: 482.0, others: vec![] });
+            let by_antenna = vec![(id, why.clone())];
+            schedule.left_out.push(LeftOut { pass, why, by_antenna });
+            continue;
+        }
+        schedule.entries.push(Entry {
+            pass,
+            antenna: id,
+            class: Class::Priority(Priority::default()),
+            from: predicted.pass.aos.time,
+            to: predicted.pass.los.time,
+            late_s: 0.0,
+            early_s: 0.0,
+            counted_s: predicted.pass.duration_s(),
+            worth: 1,
+            lost: None,
+            axes_deg: [[0.0; 2]; 2],
+            after: before,
+            slew_s: 41.0,
+            set_up_s: 12.0,
+            spare_s: Some(300.0),
+            shared_with: None,
+            is_fixed: false,
+        });
+        before = Some(pass);
+    }
+    Planned { schedule, revision: 4, made_at: Some(model.now), ..Planned::default() }
+}
+
+fn plan(size: [f32; 2]) -> Window {
+    let mut model = rig::model(states::holding());
+    model.view = View::Plan;
+    model.schedule = Arc::new(planned(&model));
+    let mut window = window(size, model);
+    window.state_mut().commands.clear();
+    window
+}
+
+fn commands(window: &mut Window) -> Vec<Command> {
+    settle(window);
+    let commands = std::mem::take(&mut window.state_mut().commands);
+    let station = commands.into_iter().filter_map(|command| match command {
+        UiCommand::Station(Command::PriceSwap(_)) => None,
+        UiCommand::Station(command) => Some(command),
+        _ => None,
+    });
+    station.collect()
+}
+
+/// The pass of the row with this number among the passes to come.
+fn pass(window: &Window, index: usize) -> PassKey {
+    let model = &window.state().model;
+    let passes = model.planned_passes();
+    passes[index].predicted.key()
+}
+
+fn select(window: &mut Window, index: usize) -> PassKey {
+    let key = pass(window, index);
+    window.state_mut().model.selected = Some(key);
+    settle(window);
+    window.state_mut().commands.clear();
+    key
+}
+
+fn says(window: &Window, words: &str) -> bool {
+    window.query_all_by_role(Role::Label).any(|node| {
+        let node = node.accesskit_node();
+        [node.value(), node.label()].into_iter().flatten().any(|text| text.contains(words))
+    })
+}
+
+#[test]
+fn rows_say_what_is_taken_and_why_others_are_left_out() {
+    for size in SIZES {
+        let window = plan(size);
+        let rows: Vec<String> = window
+            .query_all_by_role(Role::ListBoxOption)
+            .filter_map(|node| node.accesskit_node().label())
+            .collect();
+        let overlaps = "overlaps by 8:02";
+        assert!(rows.iter().any(|row| row.contains("Planned")), "{size:?} {rows:?}");
+        assert!(rows.iter().any(|row| row.contains(overlaps) && row.contains("priority 3")));
+        assert!(window.query_by_label_contains("STOP").is_some());
+    }
+}
+
+#[test]
+fn a_pass_is_chosen_by_key_and_by_pointer_and_that_is_undone() {
+    let mut window = plan(LARGE);
+    let (satellite, _) = select(&mut window, 0);
+    let take = |commands: &[Command]| match commands {
+        [Command::ChoosePass { satellite: of, take, .. }] if *of == satellite => *take,
+        other => panic!("{other:?}"),
+    };
+    for (press, wanted) in [(Press::Y, Take::Always), (Press::V, Take::Never)] {
+        window.key_press(press);
+        let commands = commands(&mut window);
+        assert_eq!(take(&commands), Some(wanted));
+    }
+    window.get_by_role_and_label(Role::RadioButton, "Always").click();
+    let asked = commands(&mut window);
+    assert_eq!(take(&asked), Some(Take::Always));
+    window.get_by_role_and_label(Role::Button, "Undo").click();
+    let undone = commands(&mut window);
+    assert_eq!(take(&undone), None);
+    window.key_press(Press::B);
+    assert_eq!(commands(&mut window), [], "it is by plan already");
+}
+
+#[test]
+fn the_price_of_a_pass_is_asked_once_and_a_swap_asks_with_it() {
+    let mut window = plan(LARGE);
+    // The one that was selected before has its price asked already.
+    let key = pass(&window, 3);
+    window.state_mut().model.selected = Some(key);
+    settle(&mut window);
+    let asked = |command: &&UiCommand| **command == UiCommand::Station(Command::PriceSwap(key));
+    assert_eq!(window.state().commands.iter().filter(asked).count(), 1);
+    assert!(says(&window, "being worked out"));
+    let swap = Swap { pass: key, revision: 4, changes: Some(Vec::new()) };
+    window.state_mut().model.swap = Some(Arc::new(swap));
+    settle(&mut window);
+    assert!(says(&window, "It costs nothing."));
+    window.state_mut().commands.clear();
+    window.key_press(Press::S);
+    settle(&mut window);
+    assert!(window.query_by_label_contains("It costs nothing.").is_some());
+    window.get_by_role_and_label(Role::Button, "Swap").click();
+    let commands = commands(&mut window);
+    assert!(
+        matches!(&commands[..], [Command::ChoosePass { take: Some(Take::Always), .. }]),
+        "{commands:?}"
+    );
+}
+
+#[test]
+fn arrows_go_through_the_passes() {
+    let mut window = plan(LARGE);
+    select(&mut window, 0);
+    window.key_press(Press::ArrowRight);
+    settle(&mut window);
+    let next = UiCommand::SelectPass(pass(&window, 1));
+    assert!(window.state().commands.contains(&next));
+}
+
+#[test]
+fn rule_and_span_are_chosen_and_undone() {
+    let mut window = plan(LARGE);
+    window.get_by_role_and_label(Role::RadioButton, "48 h").click();
+    let Some(Command::SetScheduling(scheduling)) = commands(&mut window).pop() else {
+        panic!("no other span");
+    };
+    assert_eq!(scheduling.span_h, 48.0);
+    let list = "Choose by, Priority, then elevation";
+    window.get_by_role_and_label(Role::ComboBox, list).click();
+    settle(&mut window);
+    window.get_by_label("Most passes").click();
+    let Some(Command::SetScheduling(scheduling)) = commands(&mut window).pop() else {
+        panic!("no other rule");
+    };
+    assert_eq!(scheduling.choose_by, ChooseBy::MostPasses);
+    window.get_by_role_and_label(Role::Button, "Undo").click();
+    let Some(Command::SetScheduling(scheduling)) = commands(&mut window).pop() else {
+        panic!("nothing was undone");
+    };
+    assert_eq!(scheduling.choose_by, ChooseBy::Elevation);
+}
+
+#[test]
+fn automatic_operation_takes_a_hold_to_switch_on_and_a_click_to_switch_off() {
+    let mut window = plan(LARGE);
+    let id = window.state().model.antennas[0].id();
+    let off = "Automatic operation of Satrak, off: hold 1 s to switch it on";
+    window.get_by_role_and_label(Role::Button, off).click();
+    assert_eq!(commands(&mut window), [], "a click is not enough");
+    window.get_by_role_and_label(Role::Button, off).focus();
+    settle(&mut window);
+    window.key_down(Press::Space);
+    // More than a second of the window's clock.
+    window.run_steps(90);
+    window.key_up(Press::Space);
+    let set = |is_on| Command::SetAutomatic { antenna: id, is_on };
+    assert_eq!(commands(&mut window), [set(true)]);
+    window.state_mut().model.antennas[0].operation =
+        Operation::Suspended { by: Interruption::ByHand, since: rig::now() };
+    settle(&mut window);
+    assert!(window.query_by_label_contains("Suspended").is_some());
+    window.get_by_role_and_label(Role::Switch, "Automatic operation of Satrak, on").click();
+    assert_eq!(commands(&mut window), [set(false)]);
+}
+
+#[test]
+fn a_suspended_antenna_goes_on_by_a_button_that_names_the_pass() {
+    for view in [View::Plan, View::Operate] {
+        let mut window = plan(LARGE);
+        let id = window.state().model.antennas[0].id();
+        window.state_mut().model.view = view;
+        window.state_mut().model.antennas[0].operation =
+            Operation::Suspended { by: Interruption::Elsewhere, since: rig::now() };
+        settle(&mut window);
+        let button = window
+            .query_all_by_role(Role::Button)
+            .find(|node| {
+                node.accesskit_node().label().is_some_and(|text| text.starts_with("Go on with "))
+            })
+            .unwrap();
+        button.click();
+        assert_eq!(commands(&mut window), [Command::GoOn(id)], "{view:?}");
+        let chip = window.query_by_label_contains("automatic operation suspended");
+        assert!(chip.is_some(), "the chip tells it in {view:?}");
+    }
+}
+
+#[test]
+fn what_was_missed_is_told_with_its_cause() {
+    let mut window = plan(LARGE);
+    let id = window.state().model.antennas[0].id();
+    let aos = add_seconds(rig::now(), -1800.0);
+    let flown = |cause: Option<MissCause>| {
+        DayEvent::Flown(Flown {
+            pass: (if cause.is_none() { rig::NOAA_20 } else { 25_544 }, aos),
+            name: "NOAA 20".to_owned(),
+            of_s: 600.0,
+            in_beam_s: if cause.is_none() { 600.0 } else { 350.0 },
+            proved_at: None,
+            cause,
+        })
+    };
+    let line = |what| DayLine { at: rig::now(), antenna: id, what };
+    window.state_mut().model.day = Arc::new(vec![
+        line(flown(None)),
+        line(flown(Some(MissCause::Off(OffBecause::Stop)))),
+        DayLine { antenna: AntennaId(99), ..line(flown(Some(MissCause::LinkLost))) },
+    ]);
+    settle(&mut window);
+    let rows: Vec<String> = window
+        .query_all_by_role(Role::ListBoxOption)
+        .filter_map(|node| node.accesskit_node().label())
+        .collect();
+    let row = |words: &str| rows.iter().filter(|row| row.contains(words)).count();
+    assert_eq!(row("Done, 100 % in beam"), 1);
+    assert_eq!(row("Missed 4:10 of 10:00. STOP switched it off."), 1, "{rows:?}");
+    assert_eq!(row("did not answer"), 0, "it is of another antenna");
+}
+
+#[test]
+fn without_satellites_or_antennas_the_view_says_what_to_do() {
+    let mut window = plan(LARGE);
+    let model = &mut window.state_mut().model;
+    model.antennas.clear();
+    model.pass_lists = azel::engine::passes::PassLists::default();
+    model.schedule = Arc::default();
+    settle(&mut window);
+    assert!(says(&window, "No satellite is planned."));
+    assert!(says(&window, "No antenna yet."));
+    assert!(says(&window, "The passes are being planned."));
+}
