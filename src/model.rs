@@ -30,7 +30,11 @@ pub use self::{
     theme_name::ThemeName,
 };
 use self::{
-    catalog_table::CatalogTable, daylight::SunSpan, effects::Effects, globe::Globe, intake::Intake,
+    catalog_table::CatalogTable,
+    daylight::SunSpan,
+    effects::{Effects, mounts, obstacles},
+    globe::Globe,
+    intake::Intake,
 };
 use crate::{
     astro::{AzEl, HorizonMask, MaskForm, Site, sun_moon},
@@ -144,7 +148,9 @@ pub struct Model {
     /// Tests of links to units that the station need not have.
     pub link_tests: Arc<Vec<LinkTest>>,
     /// Effects of the keep-outs on the predicted passes.
-    pub effects: Effects,
+    pub obstacle_effects: Effects<obstacles::Question>,
+    /// How much of the predicted passes an antenna tracks.
+    pub mount_effects: Effects<mounts::Question>,
     /// Active alarms.
     pub alarms: Alarms,
     /// Reminders of passes that are not over.
@@ -224,7 +230,8 @@ impl Model {
             uploads: Arc::default(),
             source_tests: Arc::default(),
             link_tests: Arc::default(),
-            effects: Effects::default(),
+            obstacle_effects: Effects::default(),
+            mount_effects: Effects::default(),
             alarms: Alarms::default(),
             reminders: Arc::default(),
             schedule: Arc::default(),

@@ -77,7 +77,10 @@ impl App {
                     notifier.try_out(sound);
                 }
             }
-            UiCommand::ShowEffects(question) => model.effects.ask(*question, model.steady),
+            UiCommand::ShowEffects(question) => {
+                model.obstacle_effects.ask(*question, model.steady);
+            }
+            UiCommand::ShowTracked(question) => model.mount_effects.ask(*question, model.steady),
             UiCommand::ShowCatalog(question) => model.catalog_table.asked = question,
             UiCommand::OfferElements { offers, is_dropped } => {
                 self.offer_elements(offers, is_dropped);

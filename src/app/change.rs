@@ -209,7 +209,7 @@ impl App {
         let library = settings.library_path();
         self.log_work = LogWork::beside(library.clone());
         self.mask_work = MaskWork::beside(library);
-        (self.effects_job, self.catalog_work) = Default::default();
+        (self.effects_jobs, self.catalog_work) = Default::default();
         self.intake_work = super::IntakeWork::default();
         let known = std::mem::take(&mut self.model.stations.known);
         self.model = Model::before_anything(self.clock.now());

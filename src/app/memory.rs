@@ -70,6 +70,7 @@ impl Memory {
                 scale_percent: number("scale_percent")
                     .filter(|percent| Appearance::SCALES_PERCENT.contains(percent))
                     .unwrap_or(Appearance::default().scale_percent),
+                local_time: flag(&table, "local_time").unwrap_or(Appearance::default().local_time),
             },
             list: ListChoice {
                 scope: word(&table, "pass_scope"),
@@ -106,6 +107,7 @@ impl Memory {
             theme: ThemeName,
             light_by_day: bool,
             scale_percent: u32,
+            local_time: bool,
             #[serde(skip_serializing_if = "Option::is_none")]
             antenna: Option<&'a str>,
             view: View,
@@ -128,6 +130,7 @@ impl Memory {
             theme: self.appearance.theme,
             light_by_day: self.appearance.light_by_day,
             scale_percent: self.appearance.scale_percent,
+            local_time: self.appearance.local_time,
             antenna: self.antenna.as_deref(),
             view: self.view,
             pass_scope: self.list.scope,
@@ -289,6 +292,7 @@ mod tests {
                 theme: ThemeName::Night,
                 light_by_day: true,
                 scale_percent: 150,
+                local_time: false,
             },
             antenna: Some("Şile \"2\"".to_owned()),
             view: View::Map,

@@ -3,6 +3,8 @@
 use jiff::Timestamp;
 use serde::{Deserialize, Serialize};
 
+use crate::astro::{GroundPoint, Site, frames::MEAN_RADIUS_KM};
+
 /// On-board track of a unit, each part as last read. `None` means not read, or not
 /// reported.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
@@ -38,6 +40,15 @@ pub struct Place {
     pub longitude_deg: f64,
     /// Step of both angles as reported.
     pub step_deg: f64,
+}
+
+impl Place {
+    /// Distance over the ground from the site, km.
+    pub fn km_from(self, site: Site) -> f64 {
+        let there = GroundPoint::from_degrees(self.latitude_deg, self.longitude_deg);
+        let here = GroundPoint::new(site.latitude(), site.longitude());
+        here.distance(there).radians() * MEAN_RADIUS_KM
+    }
 }
 
 /// Offsets that a unit adds to the path it computes.

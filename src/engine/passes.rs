@@ -16,7 +16,7 @@ use serde::{Deserialize, Serialize};
 pub use self::{
     choice::{ListChoice, SPANS_H, Scope},
     list::{PassList, UpcomingPasses, Work},
-    predicted_pass::{ListedSatellite, Observer, PredictedPass},
+    predicted_pass::{ListedSatellite, Observer, PredictedPass, mount_limits},
 };
 use self::{
     list::Search,

@@ -14,11 +14,18 @@ pub struct Appearance {
     pub light_by_day: bool,
     /// Size of everything; one of [`Self::SCALES_PERCENT`].
     pub scale_percent: u32,
+    /// The top bar has the local time beside UTC.
+    pub local_time: bool,
 }
 
 impl Default for Appearance {
     fn default() -> Self {
-        Self { theme: ThemeName::default(), light_by_day: false, scale_percent: 100 }
+        Self {
+            theme: ThemeName::default(),
+            light_by_day: false,
+            scale_percent: 100,
+            local_time: true,
+        }
     }
 }
 

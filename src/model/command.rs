@@ -3,8 +3,10 @@
 use std::{path::PathBuf, sync::Arc};
 
 use super::{
-    Appearance, ConsoleLine, Model, NextStation, ThemeName, View, catalog_table, effects,
-    export::Export, intake::Offer,
+    Appearance, ConsoleLine, Model, NextStation, ThemeName, View, catalog_table,
+    effects::{mounts, obstacles},
+    export::Export,
+    intake::Offer,
 };
 use crate::{
     astro::HorizonMask,
@@ -71,7 +73,9 @@ pub enum UiCommand {
     /// Save this to a file that the operator names in the dialog of the desktop.
     Save(Export),
     /// Work out the effects of keep-outs on the passes to come.
-    ShowEffects(Box<effects::Question>),
+    ShowEffects(Box<obstacles::Question>),
+    /// Work out how much of the passes to come an antenna tracks.
+    ShowTracked(Box<mounts::Question>),
     /// Read a horizon mask from this file into the form.
     ImportMask(PathBuf),
     /// Write this horizon mask to a file.

@@ -1,50 +1,24 @@
-//! Effects of the horizon mask and the keep-outs, as saved and as edited, on the passes of the
-//! favourites in the next 48 hours. Worked out on a thread.
+//! Effects of edited settings on the passes of the favourites in the next 48 hours, beside those of
+//! the settings as saved. Worked out on a thread.
 
-use std::{ops::Range, sync::Arc, time::Duration};
+pub mod mounts;
+pub mod obstacles;
 
-use crate::{
-    astro::{
-        Angle, AzEl, HorizonMask, Site, sun_moon,
-        time::{add_seconds, seconds_between},
-    },
-    clock::Instant,
-    engine::passes::PredictedPass,
-    plan::Sample,
-    station::{Entered, KeepOut, SunAvoidance},
-};
+use std::{sync::Arc, time::Duration};
+
+use crate::{clock::Instant, engine::passes::PredictedPass, plan::Sample};
 
 /// Time without a change before the work begins.
 pub const DEBOUNCE: Duration = Duration::from_millis(300);
-/// Every how many samples of a track one is checked: every 6 s.
-const EVERY: usize = 3;
-/// Interval between two places of the Sun, seconds: the Sun moves a tenth of a degree.
-const SUN_STEP_S: f64 = 24.0;
 
-/// The obstacles of an antenna.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Obstacles {
-    /// The horizon mask.
-    pub mask: Option<HorizonMask>,
-    /// The keep-outs.
-    pub keep_outs: Vec<KeepOut>,
-    /// Sun avoidance.
-    pub sun: Option<SunAvoidance>,
-}
+/// A question: settings as saved and as edited, which are compared over passes.
+pub trait Compare: Clone + PartialEq + Send + 'static {
+    type Tally: Send + 'static;
+    /// Every how many samples of a track one is looked at.
+    const EVERY: usize;
 
-/// A question: the obstacles to compare.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Question {
-    /// As saved.
-    pub before: Obstacles,
-    /// As edited.
-    pub after: Obstacles,
-    /// The antenna whose passes are looked at; `None` at a site without one.
-    pub antenna: Option<String>,
-    /// Half of the width of its beam.
-    pub half_beam: Angle,
-    /// The site.
-    pub site: Site,
+    /// What comes of the passes by the settings as saved, and as edited.
+    fn tallies(&self, ways: &[PassTrack]) -> [Self::Tally; 2];
 }
 
 /// The track of a satellite through one pass.
@@ -56,308 +30,63 @@ pub struct PassTrack {
     pub samples: Vec<Sample>,
 }
 
-/// Effect of a keep-out on the passes.
-#[derive(Debug, Clone, PartialEq, Default)]
-pub struct Toll {
-    /// Number of passes that touch the zone.
-    pub passes: usize,
-    /// Time of all these passes inside the zone.
-    pub time_s: f64,
-    /// Stretches inside the zone: index of the track and range of its samples.
-    pub blocked: Vec<(usize, Range<usize>)>,
-}
-
-/// Effect of all obstacles on the passes.
-#[derive(Debug, Clone, PartialEq, Default)]
-pub struct Tally {
-    /// Passes that a keep-out or the Sun touches.
-    pub touched: usize,
-    /// Time lost to the Sun, and in keep-outs that do more than warn, seconds.
-    pub lost_s: f64,
-    /// Passes of which nothing is left.
-    pub impossible: usize,
-    /// Passes that the mask cuts.
-    pub masked: usize,
-    /// Effect of each keep-out, in their order.
-    pub of_each: Vec<Toll>,
-    /// Effect of the Sun; `None` without Sun avoidance.
-    pub of_sun: Option<Toll>,
-}
-
-/// The answer.
+/// The answer to a question.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Effect {
-    pub question: Question,
+pub struct Effect<Q: Compare> {
+    pub question: Q,
     /// The passes of the next 48 hours.
     pub ways: Arc<[PassTrack]>,
     /// As saved.
-    pub before: Tally,
+    pub before: Q::Tally,
     /// As edited.
-    pub after: Tally,
+    pub after: Q::Tally,
     /// Edition of the list of passes.
     pub revision: u64,
 }
 
-/// The last question and its answer.
-#[derive(Default)]
-pub struct Effects {
-    /// The last answer, kept until the next one so that the view does not flicker.
-    pub effect: Option<Effect>,
-    /// The question, and the time it was asked first.
-    pub asked: Option<(Question, Instant)>,
+impl<Q: Compare> Effect<Q> {
+    pub fn of(question: Q, ways: &Arc<[PassTrack]>, revision: u64) -> Self {
+        let [before, after] = question.tallies(ways);
+        Self { ways: Arc::clone(ways), before, after, revision, question }
+    }
 }
 
-impl Effects {
+/// The last question and its answer.
+pub struct Effects<Q: Compare> {
+    /// The last answer, kept until the next one so that the view does not flicker.
+    pub effect: Option<Effect<Q>>,
+    /// The question, and the time it was asked first.
+    pub asked: Option<(Q, Instant)>,
+}
+
+impl<Q: Compare> Default for Effects<Q> {
+    fn default() -> Self {
+        Self { effect: None, asked: None }
+    }
+}
+
+impl<Q: Compare> Effects<Q> {
     /// Asks a question. The work begins once no other was asked for a while.
-    pub fn ask(&mut self, question: Question, now: Instant) {
+    pub fn ask(&mut self, question: Q, now: Instant) {
         if self.wanted() != Some(&question) {
             self.asked = Some((question, now));
         }
     }
 
-    pub fn wanted(&self) -> Option<&Question> {
+    pub fn wanted(&self) -> Option<&Q> {
         self.asked.as_ref().map(|(question, _)| question)
     }
 }
 
 /// The tracks of all passes, or of those that were done before cancellation.
-pub fn ways(passes: &[PredictedPass], cancelled: &dyn Fn() -> bool) -> Arc<[PassTrack]> {
+pub fn ways<Q: Compare>(
+    passes: &[PredictedPass],
+    cancelled: &dyn Fn() -> bool,
+) -> Arc<[PassTrack]> {
     let wanted = passes.iter().filter(|predicted| !predicted.is_always_up());
     let way = |predicted: &PredictedPass| PassTrack {
         number: predicted.number(),
-        samples: predicted.track().iter().step_by(EVERY).copied().collect(),
+        samples: predicted.track().iter().step_by(Q::EVERY).copied().collect(),
     };
     wanted.take_while(|_| !cancelled()).map(way).collect()
-}
-
-pub fn answer(question: Question, ways: &Arc<[PassTrack]>, revision: u64) -> Effect {
-    let tally = |obstacles: &Obstacles| tally(obstacles, &question, ways);
-    let (before, after) = (tally(&question.before), tally(&question.after));
-    Effect { ways: Arc::clone(ways), before, after, revision, question }
-}
-
-fn tally(obstacles: &Obstacles, question: &Question, ways: &[PassTrack]) -> Tally {
-    let mut tally = Tally::default();
-    tally.of_each.resize(obstacles.keep_outs.len(), Toll::default());
-    tally.of_sun = obstacles.sun.map(|_| Toll::default());
-    for (index, way) in ways.iter().enumerate() {
-        let is_masked = |sample: &Sample| {
-            let skyline =
-                obstacles.mask.as_ref().map(|of| of.elevation_at(sample.direction.azimuth));
-            skyline.is_some_and(|skyline| sample.direction.elevation < skyline)
-        };
-        let seen: Vec<bool> = way.samples.iter().map(|sample| !is_masked(sample)).collect();
-        tally.masked += usize::from(seen.contains(&false));
-        let mut free = seen.clone();
-        let mut is_touched = false;
-        for (keep_out, toll) in obstacles.keep_outs.iter().zip(&mut tally.of_each) {
-            let holds = question.antenna.as_ref().is_none_or(|name| keep_out.holds_for(name));
-            if !holds {
-                continue;
-            }
-            let inside: Vec<bool> = way
-                .samples
-                .iter()
-                .zip(&seen)
-                .map(|(sample, seen)| {
-                    let margin = keep_out.margin() + question.half_beam;
-                    *seen && keep_out.zone.clearance(sample.direction) < margin
-                })
-                .collect();
-            let stretches = stretches(&inside);
-            if stretches.is_empty() {
-                continue;
-            }
-            is_touched = true;
-            toll.add(index, way, stretches);
-            if keep_out.entered != Entered::Warn {
-                for (free, inside) in free.iter_mut().zip(&inside) {
-                    *free &= !inside;
-                }
-            }
-        }
-        if let (Some(sun), Some(toll)) = (obstacles.sun, &mut tally.of_sun) {
-            let inside = near_sun(sun, question.site, way, &seen);
-            let stretches = stretches(&inside);
-            if !stretches.is_empty() {
-                is_touched = true;
-                toll.add(index, way, stretches);
-                for (free, inside) in free.iter_mut().zip(&inside) {
-                    *free &= !inside;
-                }
-            }
-        }
-        tally.touched += usize::from(is_touched);
-        let blocked: Vec<bool> =
-            seen.iter().zip(&free).map(|(seen, free)| *seen && !free).collect();
-        let lost_s: f64 = stretches(&blocked).iter().map(|of| time_s(way, of)).sum();
-        tally.lost_s += lost_s;
-        tally.impossible += usize::from(lost_s > 0.0 && !free.contains(&true));
-    }
-    tally
-}
-
-impl Toll {
-    fn add(&mut self, index: usize, way: &PassTrack, stretches: Vec<Range<usize>>) {
-        self.passes += 1;
-        self.time_s += stretches.iter().map(|of| time_s(way, of)).sum::<f64>();
-        self.blocked.extend(stretches.into_iter().map(|of| (index, of)));
-    }
-}
-
-/// For each sample that is `seen`, `true` if it lies too near to the Sun, at its time or in the
-/// look-ahead time.
-fn near_sun(sun: SunAvoidance, site: Site, way: &PassTrack, seen: &[bool]) -> Vec<bool> {
-    let (Some(first), Some(last)) = (way.samples.first(), way.samples.last()) else {
-        return Vec::new();
-    };
-    let span_s = seconds_between(first.time, last.time) + sun.ahead_min * 60.0;
-    let steps = (span_s / SUN_STEP_S).ceil().max(0.0) as u32;
-    let suns: Vec<AzEl> = (0..=steps)
-        .map(|step| sun_moon::sun(site, add_seconds(first.time, f64::from(step) * SUN_STEP_S)))
-        .collect();
-    let place = |after_s: f64| (after_s / SUN_STEP_S).max(0.0) as usize;
-    let is_near = |(sample, seen): (&Sample, &bool)| {
-        let after_s = seconds_between(first.time, sample.time);
-        let ahead = suns.iter().take(place(after_s + sun.ahead_min * 60.0) + 1);
-        let mut ahead = ahead.skip(place(after_s));
-        *seen && ahead.any(|at| sample.direction.separation(*at).degrees() < sun.radius_deg)
-    };
-    way.samples.iter().zip(seen).map(is_near).collect()
-}
-
-/// The unbroken runs of `inside`.
-fn stretches(inside: &[bool]) -> Vec<Range<usize>> {
-    let mut found: Vec<Range<usize>> = Vec::new();
-    for (index, _) in inside.iter().enumerate().filter(|(_, inside)| **inside) {
-        match found.last_mut() {
-            Some(last) if last.end == index => last.end = index + 1,
-            _ => found.push(index..index + 1),
-        }
-    }
-    found
-}
-
-/// Duration of a stretch, with half a step more at each end where the track goes on.
-fn time_s(way: &PassTrack, stretch: &Range<usize>) -> f64 {
-    let at = |index: usize| way.samples.get(index).map(|sample| sample.time);
-    let (Some(first), Some(last)) = (at(stretch.start), at(stretch.end.saturating_sub(1))) else {
-        return 0.0;
-    };
-    let before = stretch.start.checked_sub(1).and_then(at).unwrap_or(first);
-    let after = at(stretch.end).unwrap_or(last);
-    seconds_between(first, last)
-        + seconds_between(before, first) / 2.0
-        + seconds_between(last, after) / 2.0
-}
-
-#[cfg(test)]
-mod tests {
-    use jiff::Timestamp;
-
-    use super::*;
-    /// At 20 degrees of elevation from north over east to south, a degree each 6 s.
-    fn way() -> PassTrack {
-        let start: Timestamp = "2026-11-14T12:00:00Z".parse().unwrap();
-        let samples = (0..=180).map(|step| Sample {
-            time: add_seconds(start, f64::from(step) * 6.0),
-            direction: AzEl::from_degrees(f64::from(step), 20.0),
-        });
-        PassTrack { number: 1, samples: samples.collect() }
-    }
-
-    fn keep_out(from_deg: f64, to_deg: f64, entered: Entered) -> KeepOut {
-        let corners = [(from_deg, 0.0), (from_deg, 30.0), (to_deg, 30.0), (to_deg, 0.0)];
-        KeepOut {
-            name: from_deg.to_string(),
-            reason: String::new(),
-            entered,
-            antenna: None,
-            margin_deg: 0.0,
-            zone: KeepOut::zone_of(&corners).unwrap(),
-        }
-    }
-
-    fn effect(keep_outs: Vec<KeepOut>, mask: &str) -> Tally {
-        let after = Obstacles { mask: HorizonMask::parse(mask).ok(), keep_outs, sun: None };
-        let question = question(after);
-        let effect = answer(question, &[way()].into(), 0);
-        assert_eq!(effect.before, Tally::default());
-        effect.after
-    }
-
-    fn question(after: Obstacles) -> Question {
-        Question {
-            before: Obstacles { mask: None, keep_outs: Vec::new(), sun: None },
-            after,
-            antenna: Some("Satrak".to_owned()),
-            half_beam: Angle::ZERO,
-            site: Site::new(41.0, 29.0, 100.0).unwrap(),
-        }
-    }
-
-    #[test]
-    fn a_pass_through_the_surroundings_of_the_sun_is_counted() {
-        let site = Site::new(41.0, 29.0, 100.0).unwrap();
-        let start: Timestamp = "2026-08-12T10:00:00Z".parse().unwrap();
-        let through = |place: AzEl| {
-            // From 20 degrees below to 20 above it, a degree each 6 s.
-            let samples = (-20..=20).map(|step| Sample {
-                time: add_seconds(start, f64::from(step + 20) * 6.0),
-                direction: AzEl {
-                    elevation: place.elevation + Angle::from_degrees(f64::from(step)),
-                    ..place
-                },
-            });
-            PassTrack { number: 1, samples: samples.collect() }
-        };
-        let tally = |way: &PassTrack, sun| {
-            let after = Obstacles { mask: None, keep_outs: Vec::new(), sun };
-            answer(question(after), &[way.clone()].into(), 0).after
-        };
-        let radius_deg = 5.5;
-        let now = Some(SunAvoidance { radius_deg, ahead_min: 0.0 });
-        let way = through(sun_moon::sun(site, start));
-        assert_eq!(tally(&way, None), Tally::default());
-        let held = tally(&way, now);
-        let toll = held.of_sun.clone().unwrap();
-        assert_eq!((held.touched, toll.passes, held.impossible), (1, 1, 0));
-        assert!((held.lost_s - 66.0).abs() < 7.0, "{held:?}");
-
-        let later = through(sun_moon::sun(site, add_seconds(start, 50.0 * 60.0)));
-        assert_eq!(tally(&later, now).touched, 0);
-        let ahead = Some(SunAvoidance { radius_deg, ahead_min: 60.0 });
-        assert_eq!(tally(&later, ahead).touched, 1, "where it will be");
-    }
-
-    #[test]
-    fn the_time_in_a_keep_out_is_counted() {
-        let tally = effect(vec![keep_out(39.5, 59.5, Entered::Hard)], "");
-        assert_eq!((tally.touched, tally.impossible, tally.masked), (1, 0, 0));
-        assert!((tally.lost_s - 120.0).abs() < 1e-6, "{}", tally.lost_s);
-        assert_eq!(tally.of_each[0].blocked, [(0, 40..60)]);
-    }
-
-    #[test]
-    fn what_only_warns_costs_nothing_and_what_is_hidden_is_not_lost_twice() {
-        let tally = effect(vec![keep_out(39.5, 59.5, Entered::Warn)], "");
-        assert_eq!((tally.touched, tally.of_each[0].passes), (1, 1));
-        assert!(tally.lost_s.abs() < 1e-9);
-        let hidden = "0 0\n38 0\n39 25\n61 25\n62 0";
-        let tally = effect(vec![keep_out(39.5, 59.5, Entered::Hard)], hidden);
-        assert_eq!((tally.touched, tally.masked), (0, 1));
-        assert!(tally.lost_s.abs() < 1e-9);
-    }
-
-    #[test]
-    fn keep_outs_that_leave_nothing_make_a_pass_impossible() {
-        let both =
-            vec![keep_out(-1.0, 90.5, Entered::Hard), keep_out(80.0, 181.0, Entered::GoRound)];
-        let tally = effect(both, "");
-        assert_eq!((tally.touched, tally.impossible), (1, 1));
-        assert!((tally.lost_s - 1080.0).abs() < 1e-6, "an overlap counts once: {}", tally.lost_s);
-        let other =
-            KeepOut { antenna: Some("Genius".to_owned()), ..keep_out(-1.0, 181.0, Entered::Hard) };
-        assert_eq!(effect(vec![other], "").touched, 0);
-    }
 }

@@ -29,8 +29,7 @@ use crate::{
 pub fn show(ui: &mut Ui, rect: Rect, model: &Model, commands: &mut Vec<UiCommand>) {
     let (utc, date) = (format::time(model.now), format::date(model.now));
     let zoned = model.now.to_zoned(TimeZone::system());
-    let (local, zone) =
-        (zoned.strftime("%H:%M:%S").to_string(), zoned.strftime("local, %Z").to_string());
+    let local = zoned.strftime("%H:%M:%S local, %Z").to_string();
     let site = model.station.site;
     let coordinates = coordinates(site.latitude().degrees(), site.longitude().degrees());
 
@@ -68,8 +67,7 @@ pub fn show(ui: &mut Ui, rect: Rect, model: &Model, commands: &mut Vec<UiCommand
         clock: ClockModel {
             utc: &utc,
             date: &date,
-            local: &local,
-            zone: &zone,
+            local: model.appearance.local_time.then_some(&*local),
             health: clock_health(model.time_sync),
         },
         chips: &chips,

@@ -7,7 +7,7 @@ use egui::{Key, Modifiers, Ui};
 
 use super::{
     confirm::Question, console::ConsoleState, elements::ElementsState, map::MapState,
-    operate::OperateState, plan::PlanState,
+    operate::OperateState, plan::PlanState, preferences::PreferencesState,
 };
 use crate::{
     model::{Model, UiCommand, View, globe::Towards},
@@ -43,6 +43,8 @@ pub enum KeyScope {
     Map,
     /// In the Elements view, also while typing.
     Elements,
+    /// In the Preferences view, also while typing.
+    Preferences,
     /// In the focused control, which handles the key itself.
     Focus,
 }
@@ -51,6 +53,11 @@ impl Binding {
     /// Keys of the binding.
     pub fn keys(&self) -> impl Iterator<Item = Key> {
         self.keys.iter().map(|(key, _)| *key)
+    }
+
+    /// Returns `true` for the key of STOP.
+    pub fn is_stop(&self) -> bool {
+        self.keys().eq([Key::Escape])
     }
 }
 
@@ -63,7 +70,7 @@ const fn with(modifiers: Modifiers, binding: Binding) -> Binding {
 }
 
 /// All keys, in the order of the list. The app handles the key of STOP before anything else.
-pub const ALL: [Binding; 33] = [
+pub const ALL: [Binding; 34] = [
     row(KeyScope::Focus, &[(Key::Escape, Act::There)], "STOP, everywhere; closes what is open"),
     with(
         Modifiers::COMMAND,
@@ -202,7 +209,7 @@ pub const ALL: [Binding; 33] = [
         row(
             KeyScope::Everywhere,
             &[(Key::F, Act::Search)],
-            "filter the list of passes or the log; search the catalogue",
+            "filter the list of passes or the log; search catalogue or settings",
         ),
     ),
     with(
@@ -210,7 +217,7 @@ pub const ALL: [Binding; 33] = [
         row(
             KeyScope::Focus,
             &[(Key::Enter, Act::There)],
-            "apply the settings of a unit, in Antennas",
+            "apply the settings of a unit, in Antennas; save, in Preferences",
         ),
     ),
     with(
@@ -233,6 +240,10 @@ pub const ALL: [Binding; 33] = [
             &[(Key::O, Act::ChooseElements), (Key::R, Act::RefreshElements)],
             "in Elements: choose files, refresh what is due",
         ),
+    ),
+    with(
+        Modifiers::COMMAND,
+        row(KeyScope::Preferences, &[(Key::Tab, Act::NextPage)], "in Preferences: the next page"),
     ),
     row(
         KeyScope::Focus,
@@ -270,6 +281,7 @@ pub struct KeyTargets<'a> {
     pub console: &'a mut ConsoleState,
     pub map: &'a mut MapState,
     pub plan: &'a mut PlanState,
+    pub preferences: &'a mut PreferencesState,
     /// The list of keys is open.
     pub list_open: &'a mut bool,
 }
@@ -285,6 +297,7 @@ pub fn take(ui: &Ui, model: &Model, targets: &mut KeyTargets<'_>, commands: &mut
         KeyScope::Map => !typing && model.view == View::Map,
         KeyScope::Plan => !typing && model.view == View::Plan,
         KeyScope::Elements => model.view == View::Elements,
+        KeyScope::Preferences => model.view == View::Preferences,
         KeyScope::Focus => false,
     };
     for binding in ALL.iter().filter(|binding| works(binding.place)) {

@@ -113,6 +113,7 @@ impl Views {
             console: &mut self.console,
             map: &mut self.map,
             plan: &mut self.plan,
+            preferences: &mut self.preferences,
             list_open: &mut self.keys_open,
         };
         keys::take(ui, model, &mut targets, commands);

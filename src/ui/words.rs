@@ -9,6 +9,7 @@ mod on_board;
 mod refusals;
 mod safety;
 pub mod schedule;
+mod site;
 
 pub use alarms::{alarm, alarm_state, alarm_times};
 pub use link_tests::{link_test, link_test_state, place};
@@ -22,6 +23,7 @@ pub use safety::{
     SUN_IS_LIFTED, UNGUARDED, asks_standing, forbidden, inside, owed, reason, safety, stopping_way,
     sun_lifted, way_out,
 };
+pub use site::{off_the_told, sun_there};
 
 use crate::{
     device::{Asked, Motion, settings::Unfit},
@@ -89,6 +91,19 @@ pub fn unfit(why: &Unfit, unit: &str) -> String {
             format!("{why}{gap}{unit}")
         }
         _ => why.to_string(),
+    }
+}
+
+/// A reason why a value cannot be used, in a few words for beside its field.
+pub fn unfit_in_short(why: &Unfit, unit: &str) -> String {
+    let only = |min: f64, max: f64| {
+        let gap = if unit == "°" || unit.is_empty() { "" } else { " " };
+        format!("Only {min} to {max}{gap}{unit}").replace('-', "−")
+    };
+    match *why {
+        Unfit::Number { min, max } => only(min, max),
+        Unfit::Integer { min, max } => only(min as f64, max as f64),
+        _ => capitalised(&why.to_string()),
     }
 }
 

@@ -9,7 +9,10 @@ use azel::{
     device::AxisMotion,
     driver::{Intent, Snapshot, StoppingWay},
     makes,
-    model::{Model, UiCommand, View, effects},
+    model::{
+        Model, UiCommand, View,
+        effects::{self, Effect, obstacles},
+    },
     station::{self, Entered, KeepOut, Station, SunAvoidance},
 };
 use egui::{Event, Key, Modifiers, PointerButton, Pos2, Role};
@@ -363,14 +366,14 @@ fn the_effect_on_the_passes_stands_below_the_plot() {
         assert_eq!((&question.before, question.after.keep_outs.len()), (&question.after, 1));
         window.get_by_label_contains("Being worked out.");
         let passes = window.state().model.pass_lists.favourites.passes.clone();
-        let ways = effects::ways(&passes, &|| false);
-        let effect = effects::answer(question.clone(), &ways, 0);
+        let ways = effects::ways::<obstacles::Question>(&passes, &|| false);
+        let effect = Effect::of(question.clone(), &ways, 0);
         assert!(effect.after.touched > 0);
         let touched =
             format!("block part of {} of the {} passes", effect.after.touched, effect.ways.len());
         let model = &mut window.state_mut().model;
-        model.effects.ask(question, model.steady);
-        model.effects.effect = Some(effect);
+        model.obstacle_effects.ask(question, model.steady);
+        model.obstacle_effects.effect = Some(effect);
         settle(&mut window);
         window.get_by_label_contains(&touched);
         assert_eq!(rig::asked(&mut window), [], "asked once");

@@ -209,7 +209,8 @@ impl PredictedPass {
     }
 }
 
-fn mount_limits(antenna: &Antenna) -> MountLimits {
+/// What the trackability of a pass depends on.
+pub fn mount_limits(antenna: &Antenna) -> MountLimits {
     MountLimits {
         mount: antenna.mount,
         maximum_rate_deg_s: antenna.limits.maximum_rate_deg_s,

@@ -46,6 +46,8 @@ pub(super) enum Act {
     PlanZoom(bool),
     UsualPlan,
     Search,
+    /// Shows the next page of the preferences.
+    NextPage,
     /// Chooses files of elements.
     ChooseElements,
     /// Asks the servers of elements that may be asked.
@@ -64,10 +66,9 @@ impl Act {
                 let plain = ui.input(|input| input.modifiers.is_none());
                 plain && ui.memory(|memory| memory.focused().is_none())
             }
-            Self::Search => !matches!(
-                model.view,
-                View::Antennas | View::Map | View::Plan | View::Preferences | View::Setup
-            ),
+            Self::Search => {
+                !matches!(model.view, View::Antennas | View::Map | View::Plan | View::Setup)
+            }
             Self::RefreshElements => model.sources.is_free(),
             _ => true,
         }
@@ -137,8 +138,10 @@ impl Act {
             Self::Search => match model.view {
                 View::Elements => targets.elements.focus_search(),
                 View::Console => targets.console.focus_filter(),
+                View::Preferences => targets.preferences.focus_search(),
                 _ => targets.operate.filter_list(),
             },
+            Self::NextPage => targets.preferences.next_page(),
             Self::ChooseElements => commands.push(UiCommand::ChooseElementFiles),
             Self::RefreshElements => commands.push(elements::refresh_due(model)),
             Self::Acknowledge => {

@@ -3,31 +3,29 @@
 
 use super::{
     connection_fields,
-    fields::{Description, Placed},
+    fields::{Description, Placed, placed},
 };
 use crate::station::{AfterPass, Antenna, ControllerSpec, Monitor, Mount, Resume, ranges};
 
 type Of = Description<Antenna>;
 
+/// Sections of the page, each of which is a card.
+const MOUNT: &str = "Mount and travel";
+const FOLLOWING: &str = "Following and outages";
+pub(super) const WATCH: &str = "Polling and watch";
+
 /// All fields that an antenna of this make may have.
 pub(super) fn all(spec: &'static ControllerSpec) -> Vec<Placed<Antenna>> {
-    let common = [
-        placed("Beam and park", beam()),
-        placed("Limits", limits()),
-        placed("Questions to the unit", poll()),
-        placed("Tracking by this program", follow()),
-        placed("After an outage", outage()),
-        placed("Watch over the antenna", watch()),
-    ];
     let mut all = connection_fields::unit(spec);
-    all.extend(placed("Mount", mount()));
+    all.extend(placed(MOUNT, mount()));
+    all.extend(placed(MOUNT, beam()));
+    all.extend(placed(MOUNT, limits()));
     all.extend(connection_fields::tables(spec));
-    all.extend(common.into_iter().flatten());
+    all.extend(placed(FOLLOWING, follow()));
+    all.extend(placed(FOLLOWING, outage()));
+    all.extend(placed(WATCH, poll()));
+    all.extend(placed(WATCH, watch()));
     all
-}
-
-fn placed(section: &'static str, fields: impl IntoIterator<Item = Of>) -> Vec<Placed<Antenna>> {
-    fields.into_iter().map(|field| (section, field)).collect()
 }
 
 fn mount() -> [Of; 7] {

@@ -13,14 +13,17 @@ use crate::{
 
 type Of = Description<Antenna>;
 
+/// Section of the name and the connection.
+pub(in crate::ui) const CONNECTION: &str = "Connection";
+
 /// Name, address, and the settings beside them.
 pub(super) fn unit(spec: &'static ControllerSpec) -> Vec<Placed<Antenna>> {
     let settings = spec.settings.iter().filter(|setting| setting.table.is_none());
     let mut unit = vec![
-        ("", Of::text("Name", not_empty, |antenna| Some(&mut antenna.name))),
-        ("", address(spec)),
+        (CONNECTION, Of::text("Name", not_empty, |antenna| Some(&mut antenna.name))),
+        (CONNECTION, address(spec)),
     ];
-    unit.extend(settings.map(|setting| ("", field(setting))));
+    unit.extend(settings.map(|setting| (CONNECTION, field(setting))));
     unit
 }
 

@@ -3,16 +3,18 @@
 
 use std::collections::BTreeSet;
 
-use super::{
-    antenna_fields,
-    fields::{Standing, Typed},
-    horizon::draft::Skies,
-    notices::NoticesDraft,
-    station_fields::{self, Ground},
-};
 use jiff::Timestamp;
 
+use super::{
+    antenna_fields,
+    fields::{Counts, Field, Problem, Standing, Typed},
+    horizon::draft::Skies,
+    notices::NoticesDraft,
+    page::Page,
+    station_fields::{self, Ground, LATITUDE, LONGITUDE},
+};
 use crate::{
+    astro::Site,
     engine::link_tests::LinkTest,
     model::Model,
     station::{Antenna, AntennaId, ControllerSpec, Station},
@@ -42,21 +44,24 @@ impl Draft {
 
     /// Adds an empty antenna of this make. Its id is made of the time, so that it differs from
     /// that of an antenna removed earlier.
-    pub(in crate::ui) fn add_antenna(&mut self, spec: &'static ControllerSpec, now: Timestamp) {
-        self.add(spec.antenna(spec.short_name, spec.default_address), now);
+    pub(in crate::ui) fn add_antenna(
+        &mut self,
+        spec: &'static ControllerSpec,
+        now: Timestamp,
+    ) -> AntennaId {
+        self.add(spec.antenna(spec.short_name, spec.default_address), now)
     }
 
     /// Adds an antenna like this one, as far as it can be used. It has another name, and waits
     /// for an address of its own: two antennas must not drive one unit unnoticed.
-    pub(super) fn duplicate(&mut self, index: usize, now: Timestamp) {
-        let Some(typed) = self.antennas.get(index) else { return };
-        let mut antenna = typed.read().0;
+    pub(super) fn duplicate(&mut self, index: usize, now: Timestamp) -> Option<AntennaId> {
+        let mut antenna = self.antennas.get(index)?.read().0;
         let default_address = antenna.connection.spec().default_address;
         default_address.clone_into(&mut antenna.connection.address);
-        self.add(antenna, now);
+        Some(self.add(antenna, now))
     }
 
-    fn add(&mut self, antenna: Antenna, now: Timestamp) {
+    fn add(&mut self, antenna: Antenna, now: Timestamp) -> AntennaId {
         let taken: Vec<String> = self.antennas.iter().map(name).collect();
         let taken: Vec<&str> = taken.iter().map(String::as_str).collect();
         let name = Antenna::free_name(&antenna.name, &taken);
@@ -64,6 +69,78 @@ impl Draft {
         let second = u32::try_from(now.as_second()).unwrap_or(AntennaId::FIRST.0);
         let id = AntennaId::free(AntennaId(second), &ids);
         self.antennas.push(typed(Antenna { id, name, ..antenna }));
+        id
+    }
+
+    /// Index of the antenna with this id.
+    pub(super) fn index(&self, id: AntennaId) -> Option<usize> {
+        self.antennas.iter().position(|antenna| antenna.before().id == id)
+    }
+
+    /// The name of an antenna as typed, or that of its make while it has none.
+    pub(super) fn antenna_title(&self, id: AntennaId) -> String {
+        let Some(antenna) = self.index(id).and_then(|index| self.antennas.get(index)) else {
+            return String::new();
+        };
+        let name = name(antenna).trim().to_owned();
+        if name.is_empty() {
+            antenna.before().connection.spec().short_name.to_owned()
+        } else {
+            name
+        }
+    }
+
+    /// Edits of an antenna, of which its removal is one, and its unusable fields.
+    pub(super) fn antenna_counts(&self, id: AntennaId, before: &Self) -> Counts {
+        let found = self.index(id).and_then(|index| Some((index, self.antennas.get(index)?)));
+        let Some((index, antenna)) = found else { return Counts::default() };
+        if self.is_removed(index) {
+            return Counts { edited: usize::from(before.index(id).is_some()), wrong: 0 };
+        }
+        let standings = self.antenna_standings(index);
+        let added = Counts { edited: usize::from(before.index(id).is_none()), wrong: 0 };
+        Counts::of(antenna.fields.iter().zip(&standings)).and(added)
+    }
+
+    /// The fields of a page that cannot be used.
+    pub(super) fn findings(&self, page: Page) -> Vec<Finding> {
+        let of_ground = |field: &Field<Ground>| Page::of_section(field.section) == page;
+        match page {
+            Page::Site | Page::Satellites => {
+                findings(&self.ground.fields, &self.ground_standings(), of_ground)
+            }
+            Page::Antenna(id) => {
+                let index = self.index(id).filter(|index| !self.is_removed(*index));
+                let antenna = index.and_then(|index| Some((index, self.antennas.get(index)?)));
+                let of = |(index, antenna): (usize, &Typed<Antenna>)| {
+                    findings(&antenna.fields, &self.antenna_standings(index), |_| true)
+                };
+                antenna.map(of).unwrap_or_default()
+            }
+            Page::Horizon => {
+                let problems = self.skies.problems(&self.antenna_names()).into_iter();
+                problems
+                    .map(|label| Finding { label, problem: Problem::of("is not valid") })
+                    .collect()
+            }
+            Page::Notices => self.notices.findings(),
+            Page::Appearance | Page::Keys => Vec::new(),
+        }
+    }
+
+    /// Types `text` into a field of this page.
+    pub(super) fn write(&mut self, page: Page, label: &str, text: String) {
+        match page {
+            Page::Site | Page::Satellites => self.ground.write(label, text),
+            Page::Antenna(id) => {
+                let index = self.index(id);
+                if let Some(antenna) = index.and_then(|index| self.antennas.get_mut(index)) {
+                    antenna.write(label, text);
+                }
+            }
+            Page::Notices => self.notices.write(label, text),
+            Page::Horizon | Page::Appearance | Page::Keys => {}
+        }
     }
 
     pub(super) fn is_removed(&self, index: usize) -> bool {
@@ -87,6 +164,17 @@ impl Draft {
         self.kept().map(|(_, antenna)| antenna.before().name.clone()).collect()
     }
 
+    /// The place as typed, also while the rest is not right yet.
+    pub(in crate::ui) fn place(&self) -> Option<Site> {
+        let (ground, standings) = self.ground.read();
+        let mut fields = self.ground.fields.iter().zip(&standings);
+        let is_wrong = fields.any(|(field, standing)| {
+            let is_of_place = [LATITUDE, LONGITUDE].contains(&&*field.description.label);
+            is_of_place && standing.problem.is_some()
+        });
+        if is_wrong { None } else { ground.with(Vec::new()).map(|station| station.site) }
+    }
+
     /// Standings of the fields of the site.
     pub(in crate::ui) fn ground_standings(&self) -> Vec<Standing> {
         self.ground.read().1
@@ -99,7 +187,11 @@ impl Draft {
         if let (Some(Standing { problem: problem @ None, .. }), Some(twin)) =
             (standings.first_mut(), self.twin(index))
         {
-            *problem = Some(format!("must differ from that of antenna {}", twin + 1));
+            let own: Vec<String> = self.antennas.iter().map(name).collect();
+            let own: Vec<&str> = own.iter().map(String::as_str).collect();
+            let free = Antenna::free_name(name(antenna).trim(), &own);
+            let why = format!("must differ from that of antenna {}", twin + 1);
+            *problem = Some(Problem { would_do: Some(free), ..Problem::of(why) });
         }
         standings
     }
@@ -148,6 +240,32 @@ impl Draft {
         self.skies.put_into(&mut station, &renamed)?;
         Some(station)
     }
+}
+
+/// A field that cannot be used, and why.
+pub(super) struct Finding {
+    pub(super) label: String,
+    pub(super) problem: Problem,
+}
+
+impl Finding {
+    pub(super) fn sentence(&self) -> String {
+        format!("{} {}.", self.label, self.problem.why)
+    }
+}
+
+/// The unusable ones of the fields that `is_of_page`.
+pub(super) fn findings<T>(
+    fields: &[Field<T>],
+    standings: &[Standing],
+    is_of_page: impl Fn(&Field<T>) -> bool,
+) -> Vec<Finding> {
+    let of_page = fields.iter().zip(standings).filter(|(field, _)| is_of_page(field));
+    let found = of_page.filter_map(|(field, standing)| {
+        let label = field.description.label.to_string();
+        Some(Finding { label, problem: standing.problem.clone()? })
+    });
+    found.collect()
 }
 
 fn typed(antenna: Antenna) -> Typed<Antenna> {

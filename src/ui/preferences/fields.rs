@@ -4,7 +4,7 @@
 use std::{borrow::Cow, ops::RangeInclusive};
 
 use crate::{
-    device::settings::{Kind, Unfit, Value},
+    device::settings::{Kind, Unfit, Value, number},
     ui::words,
 };
 
@@ -12,8 +12,16 @@ use crate::{
 pub(super) type Place<T, V> = fn(&mut T) -> Option<&mut V>;
 /// Result of a check; the error continues the name of the field to a sentence.
 pub(super) type Checked = Result<(), &'static str>;
-/// A field with the heading of its section.
+/// A field with its section.
 pub(in crate::ui) type Placed<T> = (&'static str, Description<T>);
+
+/// The fields of a section.
+pub(super) fn placed<T>(
+    section: &'static str,
+    fields: impl IntoIterator<Item = Description<T>>,
+) -> Vec<Placed<T>> {
+    fields.into_iter().map(|field| (section, field)).collect()
+}
 
 type Get<T> = Box<dyn Fn(&mut T) -> Option<Value>>;
 type Put<T> = Box<dyn Fn(&mut T, Value) -> Result<(), String>>;
@@ -158,15 +166,30 @@ impl<T> Description<T> {
     }
 
     /// Parses a text into its value.
-    fn read(&self, whole: &mut T, text: &str) -> Result<(), String> {
-        let value = self.kind.read(text.trim()).map_err(|why| words::unfit(&why, self.unit))?;
-        (self.put)(whole, value)
+    fn read(&self, whole: &mut T, text: &str) -> Result<(), Problem> {
+        let value = self.kind.read(text.trim()).map_err(|why| Problem {
+            short: words::unfit_in_short(&why, self.unit),
+            why: words::unfit(&why, self.unit),
+            would_do: None,
+        })?;
+        (self.put)(whole, value).map_err(Problem::of)
+    }
+
+    /// The text of the number next to the typed one that the field can hold.
+    fn nearest(&self, text: &str) -> Option<String> {
+        let typed = number(text.trim())?;
+        let value = match self.kind {
+            Kind::Number { min, max } => Value::Decimal(typed.clamp(min, max)),
+            Kind::Integer { min, max } => Value::Integer((typed.round() as i64).clamp(min, max)),
+            _ => return None,
+        };
+        Some(self.kind.text(&value))
     }
 }
 
 /// A field with its typed text.
 pub(in crate::ui) struct Field<T: 'static> {
-    /// Heading above the field and its neighbours.
+    /// The section of the field and its neighbours, which is a card of the page.
     pub(in crate::ui) section: &'static str,
     pub(in crate::ui) description: Description<T>,
     pub(in crate::ui) text: String,
@@ -175,6 +198,11 @@ pub(in crate::ui) struct Field<T: 'static> {
 }
 
 impl<T> Field<T> {
+    /// Text before anything was typed.
+    pub(super) fn before(&self) -> &str {
+        &self.before
+    }
+
     /// Whether the typed text differs from the text before.
     pub(in crate::ui) fn is_edited(&self) -> bool {
         self.text != self.before
@@ -187,12 +215,55 @@ impl<T> Field<T> {
     }
 }
 
+/// Why the text of a field cannot be used.
+#[derive(Debug, Clone, PartialEq)]
+pub(in crate::ui) struct Problem {
+    /// Continues the name of the field to a sentence.
+    pub(super) why: String,
+    /// In a few words, for beside the field.
+    pub(super) short: String,
+    /// A text that would do.
+    pub(super) would_do: Option<String>,
+}
+
+impl Problem {
+    pub(super) fn of(why: impl Into<String>) -> Self {
+        let why = why.into();
+        Self { short: words::capitalised(&why), why, would_do: None }
+    }
+}
+
+/// Number of edited and of unusable fields.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub(super) struct Counts {
+    pub(super) edited: usize,
+    pub(super) wrong: usize,
+}
+
+impl Counts {
+    /// Counts the fields of one section, or of all of them.
+    pub(super) fn of<'a, T: 'static>(
+        fields: impl IntoIterator<Item = (&'a Field<T>, &'a Standing)>,
+    ) -> Self {
+        let mut counts = Self::default();
+        for (field, standing) in fields {
+            counts.edited += usize::from(field.is_edited());
+            counts.wrong += usize::from(standing.problem.is_some());
+        }
+        counts
+    }
+
+    #[must_use]
+    pub(super) fn and(self, other: Self) -> Self {
+        Self { edited: self.edited + other.edited, wrong: self.wrong + other.wrong }
+    }
+}
+
 /// State of a field.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub(in crate::ui) struct Standing {
     pub(super) is_used: bool,
-    /// Problem, shown behind the name of the field.
-    pub(in crate::ui) problem: Option<String>,
+    pub(in crate::ui) problem: Option<Problem>,
     /// Note below the field.
     pub(super) note: Option<String>,
 }
@@ -234,6 +305,19 @@ impl<T: Clone> Typed<T> {
         }
     }
 
+    /// Labels of the fields that are used.
+    pub(super) fn labels(&self) -> Vec<Cow<'static, str>> {
+        let standings = self.read().1;
+        let used = self.fields.iter().zip(&standings).filter(|(_, standing)| standing.is_used);
+        used.map(|(field, _)| field.description.label.clone()).collect()
+    }
+
+    /// The sections with the numbers of their fields, in order.
+    pub(super) fn sections(&self) -> Vec<(&'static str, usize)> {
+        let chunks = self.fields.chunk_by(|a, b| a.section == b.section);
+        chunks.filter_map(|chunk| Some((chunk.first()?.section, chunk.len()))).collect()
+    }
+
     /// Value before anything was typed.
     pub(in crate::ui) fn before(&self) -> &T {
         &self.base
@@ -241,9 +325,37 @@ impl<T: Clone> Typed<T> {
 
     /// The typed value with every usable field, and the state of each field.
     pub(in crate::ui) fn read(&self) -> (T, Vec<Standing>) {
+        let texts: Vec<&str> = self.fields.iter().map(|field| field.text.as_str()).collect();
+        let (whole, mut standings) = self.read_as(&texts);
+        for (index, standing) in standings.iter_mut().enumerate() {
+            if let Some(problem) = &mut standing.problem {
+                problem.would_do = self.would_do(index, &texts);
+            }
+        }
+        (whole, standings)
+    }
+
+    /// A text that would do in the field at `index`, with all others as typed: the number next
+    /// to the typed one, or the text before.
+    fn would_do(&self, index: usize, texts: &[&str]) -> Option<String> {
+        let field = self.fields.get(index)?;
+        let candidates = [field.description.nearest(&field.text), Some(field.before.clone())];
+        candidates.into_iter().flatten().find(|candidate| {
+            let mut texts = texts.to_vec();
+            if let Some(text) = texts.get_mut(index) {
+                *text = candidate;
+            }
+            let (_, standings) = self.read_as(&texts);
+            standings.get(index).is_some_and(|standing| standing.problem.is_none())
+        })
+    }
+
+    /// Like [`Self::read`], with these texts in the fields.
+    fn read_as(&self, texts: &[&str]) -> (T, Vec<Standing>) {
         let mut whole = self.base.clone();
-        let read = |field: &Field<T>| field.description.read(&mut whole, &field.text).err();
-        let problems: Vec<Option<String>> = self.fields.iter().map(read).collect();
+        let read = |(field, text): (&Field<T>, &&str)| field.description.read(&mut whole, text);
+        let problems: Vec<Option<Problem>> =
+            self.fields.iter().zip(texts).map(read).map(Result::err).collect();
         let described = || self.fields.iter().map(|field| &field.description).zip(&problems);
         // The combined checks say nothing while one of the fields is wrong.
         let is_whole = described().all(|(of, problem)| problem.is_none() || !(of.is_used)(&whole));
@@ -253,7 +365,7 @@ impl<T: Clone> Typed<T> {
                     return Standing::default();
                 }
                 let together = || (of.check)(&whole).err().filter(|_| is_whole);
-                let problem = problem.clone().or_else(|| together().map(str::to_owned));
+                let problem = problem.clone().or_else(|| together().map(Problem::of));
                 Standing { is_used: true, problem, note: (of.note)(&whole) }
             })
             .collect();

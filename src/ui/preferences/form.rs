@@ -1,172 +1,150 @@
-//! Cards of the form, with their fields.
+//! Cards and rows of the forms.
+
+use std::borrow::Cow;
 
 use egui::{
-    Align, Color32, Frame, Label, Layout, Margin, Response, RichText, ScrollArea, Sense, Stroke,
-    StrokeKind, TextEdit, Ui, vec2,
+    Align, Align2, Color32, Frame, Label, Layout, Margin, Rect, Response, RichText, ScrollArea,
+    Sense, Stroke, StrokeKind, TextEdit, Ui, pos2, vec2,
 };
 
-use super::{
-    draft::Draft,
-    fields::{Field, Standing, TextShape},
-};
+use super::fields::{Field, Problem, Standing, TextShape, Typed};
 use crate::{
     device::settings::Kind,
-    engine, makes,
-    model::{Model, UiCommand},
     ui::{
+        icons::{self, Icon},
         text, theme,
         widgets::{
             button::RADIUS,
             card as card_frame,
-            input::select_when_tabbed,
+            input::{focus_to_replace, select_when_tabbed},
+            paint,
             segmented::{self, Segment},
-            told,
         },
-        words,
     },
 };
 
-pub(in crate::ui) const LABEL: f32 = 192.0;
+pub(in crate::ui) const LABEL: f32 = 176.0;
 pub(in crate::ui) const ROW: f32 = 24.0;
+/// Gap between label, field and state.
+pub(super) const GAP: f32 = 8.0;
 /// Width of a number with its unit.
-const NUMBER: f32 = 112.0;
-/// Width of a name or an address.
-const WORDS: f32 = 240.0;
-/// Width of a choice.
-const CHOICE: f32 = 300.0;
+const NUMBER: f32 = 108.0;
+/// Width of a name or an address, and with the room of the state.
+const WORDS: [f32; 2] = [160.0, 240.0];
+/// Left end of the state, from that of the label.
+const STATE: f32 = 360.0;
+/// Width below which the state of a field is its mark alone.
+const LEAST_STATE: f32 = 64.0;
+/// Width that a segment of a choice needs besides its word.
+const SEGMENT: f32 = 20.0;
 /// Height beyond which a long text is scrolled.
 const LINES: f32 = 140.0;
-/// Gap between the two columns.
-const GAP: f32 = 16.0;
-/// Maximum width of a column, as its fields need it.
-const COLUMN: f32 = 560.0;
+/// Maximum width of a card.
+pub(super) const CARD: f32 = 560.0;
 
-/// Shows all fields, in two columns if there is room.
-pub(super) fn show(
-    ui: &mut Ui,
-    model: &Model,
-    draft: &mut Draft,
-    two_columns: bool,
-    commands: &mut Vec<UiCommand>,
-) {
-    columns(ui, two_columns, draft, site, |ui, draft| antennas(ui, model, draft, commands));
+/// Where the reason stands why a field cannot be used.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(in crate::ui) enum Reasons {
+    /// Below the field.
+    Below,
+    /// Beside it in a few words: no row moves when one comes or goes.
+    Beside,
 }
 
-/// Shows two parts of a form side by side, or below each other.
-pub(super) fn columns<T>(
-    ui: &mut Ui,
-    two_columns: bool,
-    draft: &mut T,
-    first: impl FnOnce(&mut Ui, &mut T),
-    second: impl FnOnce(&mut Ui, &mut T),
-) {
-    if !two_columns {
-        first(ui, draft);
-        second(ui, draft);
-        return;
-    }
-    let width = COLUMN.min((ui.available_width() - GAP) / 2.0);
-    ui.horizontal_top(|ui| {
-        ui.spacing_mut().item_spacing.x = GAP;
-        column(ui, width, |ui| first(ui, draft));
-        column(ui, width, |ui| second(ui, draft));
-    });
-}
+/// The field that a search leads to, until it has the focus.
+#[derive(Default)]
+pub(super) struct Sought(Option<Cow<'static, str>>);
 
-fn column(ui: &mut Ui, width: f32, fill: impl FnOnce(&mut Ui)) {
-    ui.allocate_ui_with_layout(vec2(width, 0.0), Layout::top_down(Align::Min), |ui| {
-        ui.spacing_mut().item_spacing.x = 8.0;
-        ui.set_width(width);
-        fill(ui);
-    });
-}
+impl Sought {
+    pub(super) fn new(label: Cow<'static, str>) -> Self {
+        Self(Some(label))
+    }
 
-fn site(ui: &mut Ui, draft: &mut Draft) {
-    card(ui, "Site and satellites", |ui| {
-        let standings = draft.ground_standings();
-        fields(ui, "station", &mut draft.ground.fields, &standings);
-    });
-}
-
-fn antennas(ui: &mut Ui, model: &Model, draft: &mut Draft, commands: &mut Vec<UiCommand>) {
-    let (mut toggled, mut duplicated) = (None, None);
-    for index in 0..draft.antennas.len() {
-        let is_removed = draft.is_removed(index);
-        let standings = draft.antenna_standings(index);
-        let (as_typed, test) = (draft.antenna(index), draft.test(index, model));
-        let Some(antenna) = draft.antennas.get_mut(index) else { continue };
-        let make = antenna.before().connection.spec().name;
-        let number = index + 1;
-        let note = if is_removed { ", removed when saved" } else { "" };
-        card(ui, &format!("Antenna {number}: {make}{note}"), |ui| {
-            ui.add_enabled_ui(!is_removed, |ui| {
-                fields(ui, &format!("antenna {index}"), &mut antenna.fields, &standings);
-            });
-            let before = antenna.before();
-            if let Some(known) = model.antennas.iter().find(|of| of.config == *before) {
-                let words = words::stopping_way(known.snapshot.stopping_way);
-                measured(ui, "Way after STOP", &words);
-            }
-            ui.add_space(4.0);
-            // The card keeps its height: nothing else moves under the pointer.
-            ui.horizontal(|ui| {
-                let word = if is_removed { "Undo: keep" } else { "Remove" };
-                if ui.button(format!("{word} antenna {number}")).clicked() {
-                    toggled = Some(index);
-                }
-                if is_removed {
-                    return;
-                }
-                if ui.button(format!("Duplicate antenna {number}")).clicked() {
-                    duplicated = Some(index);
-                }
-                let button = egui::Button::new(format!("Test link of antenna {number}"));
-                let response = ui.add_enabled(as_typed.is_some(), button);
-                if let (true, Some(antenna)) = (response.clicked(), as_typed) {
-                    let test = engine::Command::TestLink(Box::new(antenna));
-                    commands.push(UiCommand::Station(test));
-                }
-            });
-            let outcome = test.filter(|_| !is_removed);
-            let outcome = outcome.map(|test| words::link_test(test, model.demo));
-            for (tone, words) in outcome.unwrap_or_default() {
-                told::line(ui, tone, &words);
-            }
-        });
+    /// Returns `true` once for the field with this label.
+    pub(super) fn takes(&mut self, label: &str) -> bool {
+        self.0.take_if(|sought| sought == label).is_some()
     }
-    if let Some(index) = toggled {
-        draft.toggle_removed(index);
-    }
-    if let Some(index) = duplicated {
-        draft.duplicate(index, model.now);
-    }
-    card(ui, "One more antenna", |ui| {
-        ui.horizontal_wrapped(|ui| {
-            for spec in makes::SPECS {
-                if ui.button(format!("Add {}", spec.name)).clicked() {
-                    draft.add_antenna(spec, model.now);
-                }
-            }
-        });
-    });
 }
 
 pub(super) fn card(ui: &mut Ui, title: &str, content: impl FnOnce(&mut Ui)) {
-    card_frame::show(ui, COLUMN, |ui| {
+    card_frame::show(ui, CARD, |ui| {
+        ui.spacing_mut().item_spacing = vec2(GAP, 4.0);
         ui.label(RichText::new(title).font(text::value()));
         content(ui);
     });
 }
 
-/// A measured value, which cannot be typed.
-fn measured(ui: &mut Ui, label: &str, words: &str) {
+/// Shows a card with the fields of `section`, which has its name; `more` stands below them.
+pub(super) fn section<T: Clone>(
+    ui: &mut Ui,
+    group: &str,
+    (typed, standings): (&mut Typed<T>, &[Standing]),
+    section: &str,
+    sought: &mut Sought,
+    more: impl FnOnce(&mut Ui),
+) {
+    card(ui, section, |ui| {
+        for (field, standing) in typed.fields.iter_mut().zip(standings) {
+            if standing.is_used && field.section == section {
+                let response = row(ui, group, field, standing, Reasons::Beside);
+                if sought.takes(&field.description.label) {
+                    focus_to_replace(ui, &response, &field.text);
+                    response.scroll_to_me(Some(Align::Center));
+                }
+            }
+        }
+        more(ui);
+    });
+}
+
+/// Shows the fields that are used, with reasons below them; returns what their input fields
+/// respond.
+pub(in crate::ui) fn fields<T>(
+    ui: &mut Ui,
+    group: &str,
+    fields: &mut [Field<T>],
+    standings: &[Standing],
+) -> Vec<Response> {
+    let used = fields.iter_mut().zip(standings).filter(|(_, standing)| standing.is_used);
+    used.map(|(field, standing)| row(ui, group, field, standing, Reasons::Below)).collect()
+}
+
+/// A row of a form; returns what `content` returns and the place of the whole row.
+fn labelled<R>(
+    ui: &mut Ui,
+    label: &str,
+    content: impl FnOnce(&mut Ui, egui::Id) -> R,
+) -> (R, Rect) {
     let t = theme::tokens(ui);
-    ui.horizontal_top(|ui| {
+    let response = ui.horizontal_top(|ui| {
+        let words = RichText::new(label).font(text::body()).color(t.t2);
         let left = Layout::left_to_right(Align::Center);
-        ui.allocate_ui_with_layout(vec2(LABEL, ROW), left, |ui| {
+        let name = ui.allocate_ui_with_layout(vec2(LABEL, ROW), left, |ui| {
             ui.set_min_width(LABEL);
-            ui.label(RichText::new(label).font(text::body()).color(t.t2));
+            ui.label(words).id
         });
+        content(ui, name.inner)
+    });
+    (response.inner, response.response.rect)
+}
+
+/// A note in the column of the fields.
+pub(super) fn note(ui: &mut Ui, words: &str) {
+    note_in(ui, words, theme::tokens(ui).t3);
+}
+
+fn note_in(ui: &mut Ui, words: &str, colour: Color32) {
+    ui.horizontal_top(|ui| {
+        ui.add_space(LABEL + GAP);
+        let words = RichText::new(words).font(text::small()).color(colour);
+        ui.add(Label::new(words).wrap());
+    });
+}
+
+/// A value that cannot be typed.
+pub(super) fn told(ui: &mut Ui, label: &str, words: &str) {
+    let t = theme::tokens(ui);
+    labelled(ui, label, |ui, _| {
         let words = RichText::new(words).font(text::small()).color(t.t3);
         ui.vertical(|ui| {
             // Align with the label.
@@ -176,54 +154,101 @@ fn measured(ui: &mut Ui, label: &str, words: &str) {
     });
 }
 
-/// Shows the fields that are used; returns what their input fields respond.
-pub(in crate::ui) fn fields<T>(
+/// A choice that holds at once.
+pub(super) fn choice<T: Copy + PartialEq>(
     ui: &mut Ui,
-    group: &str,
-    fields: &mut [Field<T>],
-    standings: &[Standing],
-) -> Vec<Response> {
-    let t = theme::tokens(ui);
-    let (mut section, mut responses) = ("", Vec::new());
-    for (field, standing) in fields.iter_mut().zip(standings).filter(|(_, of)| of.is_used) {
-        if field.section != section {
-            section = field.section;
-            ui.add_space(4.0);
-            ui.label(RichText::new(section).font(text::small()).color(t.t3));
-        }
-        let border = match &standing.problem {
-            Some(_) => Some(t.bad),
-            None => field.is_edited().then_some(t.sat),
-        };
-        let (label, unit) = (field.description.label.clone(), field.description.unit);
-        ui.horizontal_top(|ui| {
-            let words = RichText::new(&*label).font(text::body()).color(t.t2);
-            let left = Layout::left_to_right(Align::Center);
-            let name = ui
-                .allocate_ui_with_layout(vec2(LABEL, ROW), left, |ui| {
-                    ui.set_min_width(LABEL);
-                    ui.label(words).id
-                })
-                .inner;
-            let field = ui.scope(|ui| edit(ui, group, field, border).labelled_by(name));
-            responses.push(field.inner);
-            let words = RichText::new(unit).font(text::body()).color(t.t3);
-            ui.allocate_ui_with_layout(vec2(0.0, ROW), left, |ui| ui.label(words));
-        });
-        let problem = standing.problem.as_ref().map(|why| (format!("{label} {why}."), t.bad));
-        let note = standing.note.clone().map(|words| (words, t.t3));
-        if let Some((words, colour)) = problem.or(note) {
-            ui.horizontal_top(|ui| {
-                ui.add_space(LABEL + 8.0);
-                let words = RichText::new(words).font(text::small()).color(colour);
-                ui.add(Label::new(words).wrap());
-            });
-        }
+    label: &str,
+    choices: &[(&str, T)],
+    value: &mut T,
+) {
+    let state = |of: T| if of == *value { Segment::Chosen } else { Segment::Free };
+    let segments: Vec<_> = choices.iter().map(|(word, of)| (*word, state(*of))).collect();
+    let (clicked, _) = labelled(ui, label, |ui, _| segments_of(ui, (label, label), &segments).0);
+    if let Some((_, of)) = clicked.and_then(|index| choices.get(index)) {
+        *value = *of;
     }
-    responses
 }
 
-fn edit<T>(ui: &mut Ui, group: &str, field: &mut Field<T>, border: Option<Color32>) -> Response {
+fn row<T>(
+    ui: &mut Ui,
+    group: &str,
+    field: &mut Field<T>,
+    standing: &Standing,
+    reasons: Reasons,
+) -> Response {
+    let t = theme::tokens(ui);
+    let border = match &standing.problem {
+        Some(_) => Some(t.bad),
+        None => field.is_edited().then_some(t.sat),
+    };
+    let (label, unit) = (field.description.label.clone(), field.description.unit);
+    let ((response, end), place) = labelled(ui, &label, |ui, name| {
+        let response =
+            ui.scope(|ui| edit(ui, group, field, border, reasons).labelled_by(name)).inner;
+        let words = RichText::new(unit).font(text::body()).color(t.t3);
+        let left = Layout::left_to_right(Align::Center);
+        let unit = ui.allocate_ui_with_layout(vec2(0.0, ROW), left, |ui| ui.label(words));
+        (response, unit.response.rect.right())
+    });
+    match (&standing.problem, reasons) {
+        (Some(problem), Reasons::Below) => {
+            note_in(ui, &format!("{label} {}.", problem.why), t.bad);
+            return response;
+        }
+        (problem, Reasons::Beside) => {
+            let left = (place.left() + STATE).max(end + GAP);
+            let right = ui.max_rect().right();
+            let room = Rect::from_min_max(
+                pos2(left.min(right - 14.0), place.top()),
+                pos2(right, place.top() + ROW),
+            );
+            state(ui, (group, &*label), room, field, problem.as_ref());
+        }
+        (None, Reasons::Below) => {}
+    }
+    if let Some(words) = &standing.note {
+        note_in(ui, words, t.t3);
+    }
+    response
+}
+
+/// The state of a field: unchanged, edited, or why it cannot be used.
+fn state<T>(ui: &Ui, salt: (&str, &str), room: Rect, field: &Field<T>, problem: Option<&Problem>) {
+    let t = theme::tokens(ui);
+    let label = &field.description.label;
+    let (mark, short, whole, colour) = match problem {
+        Some(problem) => {
+            let whole = format!("{label} {}.", problem.why);
+            (Some(Icon::Warning), problem.short.clone(), whole, t.bad)
+        }
+        None if field.is_edited() => {
+            let was = if field.before().is_empty() { "empty" } else { field.before() };
+            let short = format!("Edited, was {was}").replace('-', "−");
+            (Some(Icon::Pencil), short.clone(), short, t.sat)
+        }
+        None => (None, "Unchanged".to_owned(), "Unchanged".to_owned(), t.t3),
+    };
+    let mut words = room;
+    if let Some(mark) = mark {
+        let at = paint::square(room.left_center() + vec2(6.0, 0.0), 12.0);
+        icons::paint(ui.painter(), at, mark, colour);
+        words = room.with_min_x(room.left() + 18.0);
+    }
+    if room.width() >= LEAST_STATE {
+        paint::text_in(ui, words, Align2::LEFT_CENTER, &short, text::small(), colour);
+    }
+    if problem.is_some() || mark.is_some() {
+        paint::name_text(ui, ("state", salt), room, &whole).on_hover_text(&whole);
+    }
+}
+
+fn edit<T>(
+    ui: &mut Ui,
+    group: &str,
+    field: &mut Field<T>,
+    border: Option<Color32>,
+    reasons: Reasons,
+) -> Response {
     let focused = border.unwrap_or(theme::tokens(ui).sat);
     ui.visuals_mut().selection.stroke = Stroke::new(2.0, focused);
     if let Some(colour) = border {
@@ -232,10 +257,12 @@ fn edit<T>(ui: &mut Ui, group: &str, field: &mut Field<T>, border: Option<Color3
             widget.bg_stroke = Stroke::new(2.0, colour);
         }
     }
+    let [beside, alone] = WORDS;
+    let width = if reasons == Reasons::Beside { beside } else { alone };
     let label = &*field.description.label;
     let text = &mut field.text;
     if let Some(words) = field.description.kind.choices() {
-        return choice(ui, (group, label), text, &words, border);
+        return words_choice(ui, (group, label), text, &words, border);
     }
     let edit = match field.description.kind {
         Kind::Points => {
@@ -245,11 +272,11 @@ fn edit<T>(ui: &mut Ui, group: &str, field: &mut Field<T>, border: Option<Color3
             TextEdit::singleline(text).desired_width(NUMBER)
         }
         _ => match field.description.shape {
-            TextShape::Line => TextEdit::singleline(text).desired_width(WORDS),
+            TextShape::Line => TextEdit::singleline(text).desired_width(width),
             TextShape::Wrapped => TextEdit::multiline(text)
                 .return_key(None)
                 .desired_rows(1)
-                .desired_width(ui.available_width().min(COLUMN - LABEL - 48.0)),
+                .desired_width(ui.available_width() - 2.0 * ROW),
             TextShape::Lines { hint } => return lines(ui, (group, label), text, hint, border),
         },
     };
@@ -279,12 +306,12 @@ fn lines(
         .frame(Frame::new().inner_margin(Margin::symmetric(10, 4)))
         .hint_text(hint)
         .desired_rows(3)
-        .desired_width(WORDS);
+        .desired_width(WORDS[1]);
     frame.show(ui, |ui| area.id_salt(salt).show(ui, |ui| ui.add(edit)).inner).inner
 }
 
 /// A choice of a few words, side by side.
-fn choice(
+fn words_choice(
     ui: &mut Ui,
     salt: (&str, &str),
     text: &mut String,
@@ -293,14 +320,26 @@ fn choice(
 ) -> Response {
     let state = |word: &str| if word == text { Segment::Chosen } else { Segment::Free };
     let segments: Vec<(&str, Segment)> = words.iter().map(|word| (*word, state(word))).collect();
-    let (rect, response) = ui.allocate_exact_size(vec2(CHOICE, ROW), Sense::hover());
-    let (group, label) = salt;
-    let clicked = segmented::show(ui, &format!("{group} {label}"), rect, label, &segments);
+    let (clicked, response) = segments_of(ui, salt, &segments);
     if let Some(word) = clicked.and_then(|index| words.get(index)) {
         (*word).clone_into(text);
     }
     if let Some(colour) = border {
-        ui.painter().rect_stroke(rect, RADIUS, Stroke::new(2.0, colour), StrokeKind::Outside);
+        let stroke = Stroke::new(2.0, colour);
+        ui.painter().rect_stroke(response.rect, RADIUS, stroke, StrokeKind::Outside);
     }
     response
+}
+
+/// Segments as wide as their words need.
+fn segments_of(
+    ui: &mut Ui,
+    (group, label): (&str, &str),
+    segments: &[(&str, Segment)],
+) -> (Option<usize>, Response) {
+    let width = |word: &str| paint::text_width(ui, word, text::body_medium()) + SEGMENT;
+    let width: f32 = segments.iter().map(|(word, _)| width(word)).sum();
+    let size = vec2(width.max(WORDS[0]).min(ui.available_width()), ROW);
+    let (rect, response) = ui.allocate_exact_size(size, Sense::hover());
+    (segmented::show(ui, &format!("{group} {label}"), rect, label, segments), response)
 }

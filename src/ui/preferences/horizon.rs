@@ -18,7 +18,7 @@ use crate::{
     engine::antenna::AntennaModel,
     model::{
         Model, UiCommand,
-        effects::{Obstacles, Question},
+        effects::obstacles::{Obstacles, Question},
     },
     station::{Mount, Station},
     ui::{
@@ -123,6 +123,12 @@ impl HorizonState {
             self.chosen = chosen;
             self.corner = None;
         }
+    }
+
+    /// Selects an item and shows its form.
+    pub(super) fn open(&mut self, chosen: Chosen) {
+        self.choose(chosen);
+        self.tab = Tab::Table;
     }
 
     fn begin_drag(&mut self, index: usize, at: Option<(f64, f64)>) {
@@ -374,7 +380,7 @@ fn effect_lines(ui: &Ui, rect: Rect, model: &Model, skies: &Skies, state: &Horiz
         Chosen::Zone(index) => skies.zones.get(index).map(|zone| zone.name.trim()),
         Chosen::Skyline | Chosen::Sun => None,
     };
-    let lines = match &model.effects.effect {
+    let lines = match &model.obstacle_effects.effect {
         Some(effect) => effect::lines(effect, zone),
         None => ["Being worked out.".to_owned(), String::new()],
     };
@@ -423,7 +429,7 @@ fn ask_for_effect(
         half_beam: config.map_or(Angle::ZERO, |config| config.beam_width() * 0.5),
         site: station.site,
     };
-    if model.effects.wanted() != Some(&question) {
+    if model.obstacle_effects.wanted() != Some(&question) {
         ui.ctx().request_repaint_after_for(crate::model::effects::DEBOUNCE, egui::ViewportId::ROOT);
         commands.push(UiCommand::ShowEffects(Box::new(question)));
     }

@@ -1,15 +1,15 @@
 //! The page of what is told through the desktop: notifications, sounds, quiet hours and
 //! reminders.
 
-use std::collections::BTreeSet;
+use std::{borrow::Cow, collections::BTreeSet};
 
 use egui::{Label, RichText, Ui};
 use jiff::civil::Time;
 
 use super::{
-    draft::Draft,
-    fields::{Description, Placed, Typed},
-    form::{card, columns, fields},
+    draft::{self, Draft, Finding},
+    fields::{Counts, Description, Placed, Typed, placed},
+    form::{self, Sought},
 };
 use crate::{
     desktop::Sound,
@@ -24,6 +24,10 @@ use crate::{
         words,
     },
 };
+
+/// Sections of the page, each of which is a card.
+const TELLING: &str = "Notifications and sounds";
+const REMINDING: &str = "Reminders";
 
 /// Draft of the notices.
 #[derive(PartialEq)]
@@ -76,6 +80,33 @@ impl NoticesDraft {
             reminders: self.reminders.clone(),
         })
     }
+
+    /// Edits, of which each mark for a reminder is one, and unusable fields.
+    pub(super) fn counts(&self, before: &Self) -> Counts {
+        let telling = Counts::of(self.telling.fields.iter().zip(&self.telling.read().1));
+        let reminding = Counts::of(self.reminding.fields.iter().zip(&self.reminding.read().1));
+        let marked = self.reminders.symmetric_difference(&before.reminders).count();
+        telling.and(reminding).and(Counts { edited: marked, wrong: 0 })
+    }
+
+    pub(super) fn findings(&self) -> Vec<Finding> {
+        let mut all = draft::findings(&self.telling.fields, &self.telling.read().1, |_| true);
+        all.extend(draft::findings(&self.reminding.fields, &self.reminding.read().1, |_| true));
+        all
+    }
+
+    /// Types `text` into the field with this label.
+    pub(super) fn write(&mut self, label: &str, text: String) {
+        self.telling.write(label, text.clone());
+        self.reminding.write(label, text);
+    }
+
+    /// Labels of the fields that are used.
+    pub(super) fn labels(&self) -> Vec<Cow<'static, str>> {
+        let mut labels = self.telling.labels();
+        labels.extend(self.reminding.labels());
+        labels
+    }
 }
 
 fn telling_fields() -> Vec<Placed<Telling>> {
@@ -97,7 +128,7 @@ fn telling_fields() -> Vec<Placed<Telling>> {
             })
             .noted(|_| Some("By the local time of this computer.".to_owned())),
     ];
-    fields.into_iter().map(|field| ("", field)).collect()
+    placed(TELLING, fields)
 }
 
 fn reminding_fields() -> Vec<Placed<Reminding>> {
@@ -105,7 +136,7 @@ fn reminding_fields() -> Vec<Placed<Reminding>> {
         let Reminding { before_min } = of;
         Some(before_min)
     });
-    vec![("", before)]
+    placed(REMINDING, [before])
 }
 
 fn flag(label: &'static str, place: fn(&mut Telling) -> &mut bool) -> Description<Telling> {
@@ -144,22 +175,34 @@ fn time(label: &'static str, place: fn(&mut HoursOfDay) -> &mut Time) -> Descrip
     .when(|telling| telling.is_quiet)
 }
 
-pub(super) fn show(
+/// Cards of the page with the numbers of their rows.
+pub(super) const CARDS: [usize; 3] = [8, 4, 8];
+
+pub(super) fn card_of(
+    ui: &mut Ui,
+    card: usize,
+    model: &Model,
+    draft: &mut Draft,
+    sought: &mut Sought,
+    commands: &mut Vec<UiCommand>,
+) {
+    match card {
+        0 => telling(ui, model, draft, sought, commands),
+        1 => never_silenced(ui),
+        _ => reminders(ui, model, draft, sought),
+    }
+}
+
+fn telling(
     ui: &mut Ui,
     model: &Model,
     draft: &mut Draft,
-    two_columns: bool,
+    sought: &mut Sought,
     commands: &mut Vec<UiCommand>,
 ) {
-    let telling = |ui: &mut Ui, draft: &mut Draft| telling(ui, model, draft, commands);
-    columns(ui, two_columns, draft, telling, |ui, draft| reminders(ui, model, draft));
-}
-
-fn telling(ui: &mut Ui, model: &Model, draft: &mut Draft, commands: &mut Vec<UiCommand>) {
-    card(ui, "Notifications and sounds", |ui| {
-        let telling = &mut draft.notices.telling;
-        let standings = telling.read().1;
-        fields(ui, "telling", &mut telling.fields, &standings);
+    let telling = &mut draft.notices.telling;
+    let standings = telling.read().1;
+    form::section(ui, "telling", (telling, &standings), TELLING, sought, |ui| {
         for words in words::missing_outlets(&model.outlets) {
             told::line(ui, Tone::Caution, &words);
         }
@@ -174,7 +217,10 @@ fn telling(ui: &mut Ui, model: &Model, draft: &mut Draft, commands: &mut Vec<UiC
             }
         });
     });
-    card(ui, "Never silenced", |ui| {
+}
+
+fn never_silenced(ui: &mut Ui) {
+    form::card(ui, "Never silenced", |ui| {
         note(
             ui,
             "Alarms of the first rank are shown and sounded at any hour, whatever is set here: a \
@@ -184,12 +230,11 @@ fn telling(ui: &mut Ui, model: &Model, draft: &mut Draft, commands: &mut Vec<UiC
     });
 }
 
-fn reminders(ui: &mut Ui, model: &Model, draft: &mut Draft) {
+fn reminders(ui: &mut Ui, model: &Model, draft: &mut Draft, sought: &mut Sought) {
     let (ground, _) = draft.ground.read();
-    let notices = &mut draft.notices;
-    card(ui, "Reminders", |ui| {
-        let standings = notices.reminding.read().1;
-        fields(ui, "reminding", &mut notices.reminding.fields, &standings);
+    let NoticesDraft { reminding, reminders, .. } = &mut draft.notices;
+    let standings = reminding.read().1;
+    form::section(ui, "reminding", (reminding, &standings), REMINDING, sought, |ui| {
         note(
             ui,
             "For the passes of the favourites marked here. Where no antenna tracks such a \
@@ -197,21 +242,21 @@ fn reminders(ui: &mut Ui, model: &Model, draft: &mut Draft) {
         );
         ui.add_space(4.0);
         for number in &ground.favourites() {
-            let mut is_marked = notices.reminders.contains(number);
+            let mut is_marked = reminders.contains(number);
             ui.horizontal(|ui| {
                 let name = name(model, *number);
                 if ui.checkbox(&mut is_marked, name).changed() {
                     if is_marked {
-                        notices.reminders.insert(*number);
+                        reminders.insert(*number);
                     } else {
-                        notices.reminders.remove(number);
+                        reminders.remove(number);
                     }
                 }
                 note(ui, &next_aos(model, *number));
             });
         }
         if ground.favourites().is_empty() {
-            note(ui, "There are no favourites. Add satellites on the page of the station.");
+            note(ui, "There are no favourites. Add some in Satellites and frequencies.");
         }
     });
 }

@@ -2,7 +2,7 @@
 
 use super::{
     connection_fields::not_empty,
-    fields::{Description, Placed},
+    fields::{Description, Placed, placed},
 };
 use crate::{
     astro::Site,
@@ -13,6 +13,13 @@ use crate::{
 /// Labels of the place.
 pub(in crate::ui) const LATITUDE: &str = "Latitude";
 pub(in crate::ui) const LONGITUDE: &str = "Longitude, east";
+
+/// Sections of the fields, each of which is a card.
+pub(super) const SITE: &str = "Site";
+pub(super) const PASSES: &str = "Passes";
+pub(super) const CLOSING: &str = "Closing";
+pub(super) const SATELLITES: &str = "Satellites";
+pub(super) const FREQUENCIES: &str = "Frequencies";
 
 /// A station without its antennas, with a site that may be invalid.
 #[derive(Debug, Clone, PartialEq)]
@@ -80,11 +87,25 @@ type Of = Description<Ground>;
 
 /// All fields of a station besides its antennas.
 pub(super) fn all() -> Vec<Placed<Ground>> {
-    let all = [
+    let mut all = placed(SITE, site());
+    all.extend(placed(PASSES, passes()));
+    all.extend(placed(SATELLITES, [satellites()]));
+    all.extend(placed(FREQUENCIES, [frequencies()]));
+    all.extend(placed(CLOSING, [closing()]));
+    all
+}
+
+fn site() -> [Of; 4] {
+    [
         Of::text("Name", not_empty, |ground| Some(&mut ground.name)),
         Of::number(LATITUDE, -90.0..=90.0, "°", |ground| Some(&mut ground.latitude_deg)),
         Of::number(LONGITUDE, -180.0..=360.0, "°", |ground| Some(&mut ground.longitude_deg)),
         Of::number("Altitude", -1000.0..=10_000.0, "m", |ground| Some(&mut ground.altitude_m)),
+    ]
+}
+
+fn passes() -> [Of; 2] {
+    [
         Of::number("AOS elevation", ranges::ELEVATION_DEG, "°", |ground| {
             Some(&mut ground.aos_elevation_deg)
         })
@@ -97,36 +118,44 @@ pub(super) fn all() -> Vec<Placed<Ground>> {
             Some(&mut ground.elevation_floor_deg)
         })
         .noted(|_| Some("A pass whose maximum stays below it is not listed.".to_owned())),
-        Of::new(
-            "Satellites",
-            Kind::Text(|_| Ok(())),
-            |ground| Some(Value::Text(favourites(ground))),
-            put_favourites,
-        )
-        .wrapped(),
-        Of::new(
-            "Frequencies",
-            Kind::Text(|text| Frequency::read_list(text).map(drop)),
-            |ground| Some(Value::Text(Frequency::list_text(&ground.frequencies))),
-            |ground, value| {
-                if let Value::Text(text) = value {
-                    ground.frequencies =
-                        Frequency::read_list(&text).map_err(|why| why.to_string())?;
-                }
-                Ok(())
-            },
-        )
-        .of_lines("number MHz name, one a line")
-        .noted(|_| Some("For the Doppler shift; a satellite may have several.".to_owned())),
-        Of::choice(
-            "When the window closes",
-            &[(0, "Ask"), (1, "Stop and hold"), (2, "Park first"), (3, "Let finish")],
-            &ON_CLOSE,
-            |ground| &mut ground.on_close,
-        )
-        .noted(|ground| Some(about_closing(ground.on_close).to_owned())),
-    ];
-    all.into_iter().map(|field| ("", field)).collect()
+    ]
+}
+
+fn satellites() -> Of {
+    Of::new(
+        "Satellites",
+        Kind::Text(|_| Ok(())),
+        |ground| Some(Value::Text(favourites(ground))),
+        put_favourites,
+    )
+    .wrapped()
+    .noted(|_| Some("The favourites, by their catalogue numbers.".to_owned()))
+}
+
+fn frequencies() -> Of {
+    Of::new(
+        "Frequencies",
+        Kind::Text(|text| Frequency::read_list(text).map(drop)),
+        |ground| Some(Value::Text(Frequency::list_text(&ground.frequencies))),
+        |ground, value| {
+            if let Value::Text(text) = value {
+                ground.frequencies = Frequency::read_list(&text).map_err(|why| why.to_string())?;
+            }
+            Ok(())
+        },
+    )
+    .of_lines("number MHz name, one a line")
+    .noted(|_| Some("For the Doppler shift; a satellite may have several.".to_owned()))
+}
+
+fn closing() -> Of {
+    Of::choice(
+        "When the window closes",
+        &[(0, "Ask"), (1, "Stop and hold"), (2, "Park first"), (3, "Let finish")],
+        &ON_CLOSE,
+        |ground| &mut ground.on_close,
+    )
+    .noted(|ground| Some(about_closing(ground.on_close).to_owned()))
 }
 
 const ON_CLOSE: [Option<OnClose>; 4] =

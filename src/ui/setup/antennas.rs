@@ -8,7 +8,7 @@ use crate::{
     model::{Model, UiCommand},
     ui::{
         icons::Icon,
-        preferences::form,
+        preferences::{connection_fields::CONNECTION, form},
         text, theme,
         widgets::{
             button::Button,
@@ -98,7 +98,7 @@ fn one(
         });
     });
     ui.add_space(4.0);
-    let count = typed.fields.iter().take_while(|field| field.section.is_empty()).count();
+    let count = typed.fields.iter().take_while(|field| field.section == CONNECTION).count();
     let fields = typed.fields.get_mut(..count).unwrap_or_default();
     let responses = form::fields(ui, &format!("set-up {index}"), fields, &standings);
     if draft.wants_address == Some(id)

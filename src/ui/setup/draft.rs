@@ -3,7 +3,7 @@
 
 use super::Step;
 use crate::{
-    astro::{GroundPoint, Site},
+    astro::Site,
     device::Place,
     driver::LinkFinding,
     engine::link_tests::LinkTestStage,
@@ -90,15 +90,7 @@ impl SetupDraft {
 
     /// The place, also while the rest is not right yet.
     pub(super) fn place(&self) -> Option<Site> {
-        let (ground, standings) = self.form.ground.read();
-        let mut place = self.form.ground.fields.iter().zip(&standings);
-        let is_right = |label: &str| {
-            place.any(|(of, standing)| of.description.label == label && standing.problem.is_none())
-        };
-        if ![LATITUDE, LONGITUDE].into_iter().all(is_right) {
-            return None;
-        }
-        ground.with(Vec::new()).map(|station| station.site)
+        self.form.place()
     }
 
     /// The name as typed, or that of the make while there is none.
@@ -129,9 +121,7 @@ impl SetupDraft {
     pub(super) fn off_the_told_km(&self, model: &Model) -> Option<(String, f64)> {
         let (name, told) = self.places(model).into_iter().next()?;
         let site = self.place()?;
-        let told = GroundPoint::from_degrees(told.latitude_deg, told.longitude_deg);
-        let here = GroundPoint::new(site.latitude(), site.longitude());
-        Some((name, here.distance(told).radians() * crate::astro::frames::MEAN_RADIUS_KM))
+        Some((name, told.km_from(site)))
     }
 
     /// The station, if all of it is right.

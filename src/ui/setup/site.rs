@@ -40,9 +40,9 @@ pub(super) fn show(ui: &mut Ui, model: &Model, draft: &mut SetupDraft) {
         let there = crate::ui::words::place(site.latitude().degrees(), site.longitude().degrees());
         let t = theme::tokens(ui);
         ui.label(RichText::new(there).font(text::value()).color(t.t1));
-        line(ui, Tone::Now, &words::sun(sun_moon::sun(site, model.now)));
+        line(ui, Tone::Now, &crate::ui::words::sun_there(sun_moon::sun(site, model.now)));
         if let Some((name, km)) = draft.off_the_told_km(model) {
-            let (tone, words) = words::off_the_told(&name, km);
+            let (tone, words) = crate::ui::words::off_the_told(&name, km);
             line(ui, tone, &words);
         }
     });

@@ -25,10 +25,8 @@ pub struct ClockModel<'a> {
     pub utc: &'a str,
     /// Day of the week and date, UTC.
     pub date: &'a str,
-    /// Local time.
-    pub local: &'a str,
-    /// Name or offset of the local zone.
-    pub zone: &'a str,
+    /// Local time with the name or offset of its zone; `None` where it is not to be shown.
+    pub local: Option<&'a str>,
     /// Health of the clock.
     pub health: ClockHealth<'a>,
 }
@@ -67,10 +65,8 @@ pub(super) fn show(ui: &Ui, rect: Rect, model: &ClockModel<'_>, wide: bool) -> C
     let font = if wide { text::clock() } else { text::sized(24.0, Weight::SemiBold) };
     let time = paint::text(ui, rect.left_center(), Align2::LEFT_CENTER, model.utc, font, t.t1);
     let named = paint::name_text(ui, "utc", time, &format!("{} UTC", model.utc));
-    named.on_hover_text(format!(
-        "{} UTC\n{} {}\n{}",
-        model.date, model.local, model.zone, model.health.sentence
-    ));
+    let local = model.local.map_or_else(String::new, |local| format!("{local}\n"));
+    named.on_hover_text(format!("{} UTC\n{local}{}", model.date, model.health.sentence));
     let strong = text::sized(12.0, Weight::SemiBold);
     let two_lines = wide || model.health.mood == ClockMood::Bad;
     let at = pos2(time.right() + 10.0, rect.center().y - if two_lines { LINE } else { 0.0 });
@@ -83,25 +79,30 @@ pub(super) fn show(ui: &Ui, rect: Rect, model: &ClockModel<'_>, wide: bool) -> C
 /// was room.
 pub(super) fn date(ui: &Ui, rect: Rect, model: &ClockModel<'_>) -> bool {
     let t = theme::tokens(ui);
-    let local = format!("{} {}", model.local, model.zone);
+    let local = model.local.unwrap_or_default();
+    let gap = if local.is_empty() { 0.0 } else { HEALTH_GAP };
     let width = |words: &str| paint::text_width(ui, words, text::small());
     let bad = model.health.mood == ClockMood::Bad;
-    let room_for_health = width(&local) + HEALTH_GAP + width(model.health.words) <= rect.width();
+    let room_for_health = width(local) + gap + width(model.health.words) <= rect.width();
     if UTC_WIDTH + width(model.date) > rect.width() || (bad && !room_for_health) {
         return false;
     }
     let after_utc = rect.with_min_x(rect.left() + UTC_WIDTH).translate(vec2(0.0, -LINE));
     paint::text_in(ui, after_utc, Align2::LEFT_CENTER, model.date, text::small(), t.t2);
     let below = rect.translate(vec2(0.0, LINE));
-    let place = paint::text_in(ui, below, Align2::LEFT_CENTER, &local, text::small(), t.t2);
-    paint::name_text(ui, "local", place, &format!("{}, local time {local}", model.date));
+    let place = paint::text_in(ui, below, Align2::LEFT_CENTER, local, text::small(), t.t2);
+    let said = match model.local {
+        Some(local) => format!("{}, local time {local}", model.date),
+        None => model.date.to_owned(),
+    };
+    paint::name_text(ui, "local", place, &said);
     if room_for_health {
         let colour = match model.health.mood {
             ClockMood::Good => t.ok,
             ClockMood::Bad => t.warn,
             ClockMood::Unknown => t.t3,
         };
-        let rest = below.with_min_x(place.right() + HEALTH_GAP);
+        let rest = below.with_min_x(place.right() + gap);
         let words = model.health.words;
         let place = paint::text_in(ui, rest, Align2::LEFT_CENTER, words, text::small(), colour);
         name_health(ui, place, &model.health);

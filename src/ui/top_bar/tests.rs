@@ -60,8 +60,7 @@ fn show_bar(ui: &mut Ui, stop: StopLook<'_>) -> Vec<UiCommand> {
         clock: ClockModel {
             utc: "11:06:12",
             date: "Sat 2026-11-14",
-            local: "14:06:12",
-            zone: "local",
+            local: Some("14:06:12 local"),
             health: ClockHealth::default(),
         },
         chips: &chips,

@@ -3,6 +3,7 @@
 
 use std::ops::RangeInclusive;
 
+use super::Chosen;
 use crate::{
     astro::{HorizonMask, Zone},
     device::settings::number,
@@ -333,6 +334,14 @@ impl Skies {
             + self.zones.iter().map(ZoneDraft::edits).sum::<usize>()
             + gone.count()
             + usize::from(self.sun != before.sun)
+    }
+
+    /// The items of the page by their names.
+    pub(in crate::ui::preferences) fn spots(&self) -> Vec<(String, Chosen)> {
+        let zones = self.zones.iter().enumerate();
+        let zones = zones.map(|(index, zone)| (zone.name.trim().to_owned(), Chosen::Zone(index)));
+        let fixed = [("Skyline", Chosen::Skyline), ("Sun avoidance", Chosen::Sun)];
+        fixed.map(|(name, of)| (name.to_owned(), of)).into_iter().chain(zones).collect()
     }
 
     /// Puts the draft into `station` once there are no problems left. `renamed` holds old and

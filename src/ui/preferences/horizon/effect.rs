@@ -1,17 +1,20 @@
 //! Effect of the edits on future passes, in two lines.
 
 use crate::{
-    model::effects::{Effect, Tally},
+    model::effects::{
+        Effect,
+        obstacles::{Obstacles, Question, Tally},
+    },
     ui::format,
 };
 
 /// First the effect of the selected keep-out, or of all; then the total, now and as saved.
-pub(super) fn lines(effect: &Effect, zone: Option<&str>) -> [String; 2] {
+pub(super) fn lines(effect: &Effect<Question>, zone: Option<&str>) -> [String; 2] {
     let of = effect.ways.len();
     if of == 0 {
         return ["No pass of a favourite in the next 48 h.".to_owned(), String::new()];
     }
-    let toll = |tally: &Tally, obstacles: &crate::model::effects::Obstacles| {
+    let toll = |tally: &Tally, obstacles: &Obstacles| {
         let place = obstacles.keep_outs.iter().position(|of| Some(&*of.name) == zone)?;
         tally.of_each.get(place).map(|toll| (toll.passes, toll.time_s))
     };

@@ -92,7 +92,7 @@ fn table(ui: &mut Ui, model: &Model, skies: &mut Skies, state: &mut HorizonState
     let cells = ["Name", "Kind", "Points", "Margin", "Blocks"];
     line(ui, names, cells.map(|cell| (cell.to_owned(), t.t3)), &text::caption());
 
-    let effect = model.effects.effect.as_ref();
+    let effect = model.obstacle_effects.effect.as_ref();
     let masked = effect.map_or_else(dash, |effect| effect.after.masked.to_string());
     let points = skies.skyline().len();
     let skyline = [

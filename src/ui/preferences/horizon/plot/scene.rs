@@ -17,7 +17,10 @@ use crate::{
     engine::antenna::AntennaModel,
     model::{
         Model,
-        effects::{Effect, Toll},
+        effects::{
+            Effect,
+            obstacles::{Question, Toll},
+        },
     },
     station::{Antenna, Mount},
     ui::{
@@ -57,7 +60,7 @@ pub(super) fn paint_sky(
         Chosen::Skyline | Chosen::Sun => None,
     };
     let name = chosen.map(|zone| zone.name.trim());
-    let shown_effect = model.effects.effect.as_ref().filter(|_| state.shows_passes);
+    let shown_effect = model.obstacle_effects.effect.as_ref().filter(|_| state.shows_passes);
     if let Some(effect) = shown_effect {
         passes(ui, dome, effect, name, t);
     }
@@ -115,20 +118,25 @@ pub(super) fn holds_for(zone: &ZoneDraft, antenna: Option<&Antenna>) -> bool {
 }
 
 /// Effect of the keep-out with this name on the passes.
-fn toll_of<'a>(effect: &'a Effect, name: Option<&str>) -> Option<&'a Toll> {
+fn toll_of<'a>(effect: &'a Effect<Question>, name: Option<&str>) -> Option<&'a Toll> {
     let keep_outs = &effect.question.after.keep_outs;
     let place = keep_outs.iter().position(|of| Some(&*of.name) == name)?;
     effect.after.of_each.get(place)
 }
 
-fn path(dome: Dome, effect: &Effect, way: usize, samples: Option<Range<usize>>) -> Vec<Pos2> {
+fn path(
+    dome: Dome,
+    effect: &Effect<Question>,
+    way: usize,
+    samples: Option<Range<usize>>,
+) -> Vec<Pos2> {
     let Some(way) = effect.ways.get(way) else { return Vec::new() };
     let samples = samples.map_or(Some(way.samples.as_slice()), |range| way.samples.get(range));
     dome.path(samples.into_iter().flatten().map(|sample| sample.direction))
 }
 
 /// Draws all passes, those that the selected keep-out touches on top.
-fn passes(ui: &Ui, dome: Dome, effect: &Effect, chosen: Option<&str>, t: &Tokens) {
+fn passes(ui: &Ui, dome: Dome, effect: &Effect<Question>, chosen: Option<&str>, t: &Tokens) {
     let toll = toll_of(effect, chosen);
     let touched =
         |way: usize| toll.is_some_and(|toll| toll.blocked.iter().any(|(of, _)| *of == way));
@@ -142,7 +150,7 @@ fn passes(ui: &Ui, dome: Dome, effect: &Effect, chosen: Option<&str>, t: &Tokens
 }
 
 /// Draws the parts of passes that the selected keep-out blocks.
-fn blocked(ui: &Ui, dome: Dome, effect: &Effect, chosen: Option<&str>, t: &Tokens) {
+fn blocked(ui: &Ui, dome: Dome, effect: &Effect<Question>, chosen: Option<&str>, t: &Tokens) {
     let parts = toll_of(effect, chosen).map(|toll| toll.blocked.iter());
     for (way, samples) in parts.into_iter().flatten() {
         let line = path(dome, effect, *way, Some(samples.clone()));

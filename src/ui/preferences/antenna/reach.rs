@@ -1,0 +1,132 @@
+//! The sky that an antenna reaches, with its park position.
+
+use std::f32::consts::TAU;
+
+use egui::{Mesh, Sense, Shape, Stroke, Ui, vec2};
+
+use crate::{
+    astro::Angle,
+    station::{Antenna, Mount},
+    ui::{
+        format,
+        preferences::antenna_fields::has_elevation,
+        sky_plot::{
+            Keyholes,
+            geometry::{Dome, outward},
+            grid,
+        },
+        text, theme,
+        tokens::Tokens,
+        widgets::paint,
+    },
+};
+
+const HEIGHT: f32 = 232.0;
+const FOLDED_HEIGHT: f32 = 180.0;
+/// Angle between two points of an arc, degrees.
+const STEP_DEG: f64 = 3.0;
+/// Half the length of the mark at an end of the travel, points.
+const STOP: f32 = 8.0;
+
+/// Shows the plot, and in words what it shows.
+pub(super) fn show(ui: &mut Ui, antenna: &Antenna, is_folded: bool) {
+    let t = theme::tokens(ui);
+    let height = if is_folded { FOLDED_HEIGHT } else { HEIGHT };
+    let (rect, _) = ui.allocate_exact_size(vec2(ui.available_width(), height), Sense::hover());
+    let dome = Dome::fitted(rect);
+    let painter = ui.painter_at(rect);
+    grid::disc(&painter, dome, t);
+    let travel = Travel::of(antenna);
+    if let Some(travel) = travel {
+        painter.add(travel.area(dome, t));
+    }
+    grid::rings(&painter, dome, t);
+    if let Some(holes) = Keyholes::of(&antenna.mount) {
+        grid::keyholes(&painter, dome, &holes, t);
+    }
+    let minimum = Angle::from_degrees(antenna.limits.minimum_elevation_deg);
+    grid::rim(&painter, dome, minimum, t);
+    if let Some(travel) = travel {
+        travel.paint_ends(&painter, dome, t);
+    }
+    if let Some(at) = dome.visible(antenna.park_direction()) {
+        let corners = [vec2(0.0, -6.0), vec2(6.0, 5.0), vec2(-6.0, 5.0)].map(|corner| at + corner);
+        painter.add(Shape::closed_line(corners.to_vec(), Stroke::new(1.5, t.t1)));
+    }
+    let words = sentence(antenna, travel);
+    paint::name_text(ui, "reach", rect, &words);
+    ui.label(egui::RichText::new(words).font(text::small()).color(t.t2));
+}
+
+/// Travel of an elevation-over-azimuth mount, degrees.
+#[derive(Debug, Clone, Copy)]
+struct Travel {
+    azimuth: (f64, f64),
+    elevation: (f64, f64),
+}
+
+impl Travel {
+    fn of(antenna: &Antenna) -> Option<Self> {
+        let Mount::AzEl { .. } = antenna.mount else { return None };
+        let [azimuth, (lowest, highest)] = antenna.mount.travel_deg();
+        let whole = (0.0, 90.0);
+        let elevation =
+            if has_elevation(antenna) { (lowest.max(0.0), highest.min(90.0)) } else { whole };
+        Some(Self { azimuth, elevation })
+    }
+
+    fn span_deg(&self) -> f64 {
+        self.azimuth.1 - self.azimuth.0
+    }
+
+    /// The part of the disc between the ends of both axes.
+    fn area(&self, dome: Dome, t: &Tokens) -> Mesh {
+        let mut mesh = Mesh::default();
+        let span_deg = self.span_deg().clamp(0.0, 360.0);
+        let steps = (span_deg / STEP_DEG).ceil().max(1.0) as u32;
+        for step in 0..=steps {
+            let azimuth_deg = self.azimuth.0 + span_deg * f64::from(step) / f64::from(steps);
+            let azimuth = (azimuth_deg.to_radians() as f32).rem_euclid(TAU);
+            for elevation_deg in [self.elevation.0, self.elevation.1] {
+                mesh.colored_vertex(dome.at(azimuth, elevation_deg as f32), t.bgsel);
+            }
+            if step > 0 {
+                let first = 2 * (step - 1);
+                mesh.add_triangle(first, first + 1, first + 2);
+                mesh.add_triangle(first + 1, first + 2, first + 3);
+            }
+        }
+        mesh
+    }
+
+    /// Marks both ends of the azimuth axis as the red T of a stop.
+    fn paint_ends(&self, painter: &egui::Painter, dome: Dome, t: &Tokens) {
+        for azimuth_deg in [self.azimuth.0, self.azimuth.1] {
+            let azimuth = (azimuth_deg.to_radians() as f32).rem_euclid(TAU);
+            let (foot, out) = (dome.at(azimuth, 0.0), outward(azimuth));
+            let stroke = Stroke::new(2.0, t.bad);
+            painter.line_segment([foot - out * STOP, foot + out * STOP], stroke);
+            let (end, across) = (foot + out * STOP, out.rot90() * STOP);
+            painter.line_segment([end - across, end + across], stroke);
+        }
+    }
+}
+
+fn sentence(antenna: &Antenna, travel: Option<Travel>) -> String {
+    let is_within = antenna.mount.reaches(antenna.park_direction());
+    let park = if is_within { "" } else { " The park position lies outside the travel." };
+    let Some(travel) = travel else {
+        return format!("An X/Y mount: it is too slow in the hatched keyholes.{park}");
+    };
+    let (from, to) = travel.azimuth;
+    let [from, to] = [from, to].map(|deg| format::degrees(deg, 0));
+    let span_deg = travel.span_deg();
+    let reach = if span_deg > 360.0 {
+        format!(" {} are reached on two turns.", format::degrees(span_deg - 360.0, 0))
+    } else if span_deg < 360.0 {
+        format!(" {} are not reached.", format::degrees(360.0 - span_deg, 0))
+    } else {
+        String::new()
+    };
+    format!("Azimuth from {from} to {to}.{reach}{park}")
+}

@@ -1,0 +1,143 @@
+//! What has to be true before the settings are saved.
+
+use super::{draft::Draft, page::Page};
+use crate::{
+    engine::antenna::AntennaModel,
+    model::Model,
+    station::{Entered, Mount, Station},
+    ui::{format, widgets::told::Tone},
+};
+
+/// Slack within which a travel counts as that of the unit, degrees.
+const SAME_DEG: f64 = 0.5;
+
+/// The result of the checks.
+pub(super) struct Checks {
+    /// The reason to wait.
+    pub(super) busy: Option<String>,
+    /// An antenna stands where it must not after the change; saving has to be held.
+    pub(super) inside: Option<String>,
+    /// All checks in words, the gravest first.
+    pub(super) lines: Vec<(Tone, String)>,
+}
+
+impl Checks {
+    /// Checks the draft against `station`, which is as saved; `after` is the station of the draft
+    /// once every field is right.
+    pub(super) fn of(
+        model: &Model,
+        station: &Station,
+        after: Option<&Station>,
+        (draft, before): (&Draft, &Draft),
+    ) -> Self {
+        let busy = after.and_then(|after| busy(model, station, after));
+        let inside = after.and_then(|after| inside(model, station, after));
+        let mut lines = Vec::new();
+        lines.extend(unusable(draft).map(|words| (Tone::Bad, words)));
+        lines.extend(busy.iter().chain(&inside).map(|words| (Tone::Caution, words.clone())));
+        if let Some(after) = after.filter(|_| draft != before) {
+            lines.extend(beyond_the_unit(model, after).map(|words| (Tone::Caution, words)));
+            if busy.is_none() {
+                lines.extend(changed(model, after).map(|words| (Tone::Good, words)));
+            }
+        }
+        Self { busy, inside, lines }
+    }
+}
+
+/// The fields that cannot be used, by the first of them.
+fn unusable(draft: &Draft) -> Option<String> {
+    let pages = Page::all(draft).into_iter();
+    let named: Vec<String> = pages
+        .flat_map(|page| {
+            let title = page.title(draft);
+            let findings = draft.findings(page).into_iter();
+            findings.map(move |finding| format!("{} in {title}", finding.label))
+        })
+        .collect();
+    match &named[..] {
+        [] => None,
+        [only] => Some(format!("1 field is not valid: {only}. Nothing is saved until it is.")),
+        [first, others @ ..] => Some(format!(
+            "{} fields are not valid: {first} and others. Nothing is saved until they are.",
+            others.len() + 1
+        )),
+    }
+}
+
+/// Antennas whose new travel goes beyond that of their unit.
+fn beyond_the_unit(model: &Model, after: &Station) -> impl Iterator<Item = String> {
+    after.antennas.iter().filter_map(|antenna| {
+        let known = model.antenna_of(antenna.id)?;
+        if known.config == *antenna || matches!(antenna.mount, Mount::Xy { .. }) {
+            return None;
+        }
+        let both = antenna.mount.travel_deg().into_iter().zip(known.snapshot.state.travel_deg);
+        let beyond = both.zip(["azimuth", "elevation"]).find_map(|((typed, unit), axis)| {
+            let unit = unit?;
+            let is_beyond = typed.0 < unit.0 - SAME_DEG || typed.1 > unit.1 + SAME_DEG;
+            is_beyond.then_some((axis, unit))
+        });
+        let (axis, (from, to)) = beyond?;
+        let [from, to] = [from, to].map(|deg| format::degrees(deg, 0));
+        Some(format!(
+            "{}: the unit itself turns its {axis} from {from} to {to} and stops there until that \
+             is changed.",
+            antenna.name
+        ))
+    })
+}
+
+/// Antennas that are connected anew by the change, which all stand.
+fn changed(model: &Model, after: &Station) -> impl Iterator<Item = String> {
+    after.antennas.iter().filter_map(|antenna| {
+        let name = &antenna.name;
+        match model.antenna_of(antenna.id) {
+            Some(known) if known.config == *antenna => None,
+            Some(_) => Some(format!("{name} does not move. Saving connects it anew.")),
+            None => Some(format!("{name} is new. Saving connects it.")),
+        }
+    })
+}
+
+/// Reason why `after` has to wait: it would interrupt a motion by changing or removing an
+/// antenna, or take away a keep-out while an antenna moves. A change that only tightens
+/// never waits.
+fn busy(model: &Model, before: &Station, after: &Station) -> Option<String> {
+    // The simulators of the demonstration end with it.
+    let mut antennas = model.antennas.iter().filter(|of| !model.demo && of.is_busy());
+    let loosened = before.loosened_in(after);
+    antennas.find_map(|antenna| {
+        let name = &antenna.config.name;
+        if !after.antennas.contains(&antenna.config) {
+            return Some(format!("{name} moves or tracks. Stop it, then save."));
+        }
+        let loosened = loosened?;
+        Some(format!("{name} moves or tracks. To loosen {loosened}, stop it, then save."))
+    })
+}
+
+/// Warning for an antenna that is inside a keep-out of `after`, but was not in `before`.
+fn inside(model: &Model, before: &Station, after: &Station) -> Option<String> {
+    let holds_in = |station: &Station, antenna: &AntennaModel| {
+        let direction = antenna.snapshot.state.measured?.direction()?;
+        let half_beam = antenna.config.beam_width() * 0.5;
+        let mut hold = station
+            .keep_outs
+            .iter()
+            .filter(|of| of.entered != Entered::Warn && of.holds_for(&antenna.config.name));
+        let found = hold.find(|of| of.zone.clearance(direction) < of.margin() + half_beam);
+        found.map(|of| of.name.clone())
+    };
+    model.antennas.iter().find_map(|antenna| {
+        let zone = holds_in(after, antenna)?;
+        let is_new = holds_in(before, antenna).as_ref() != Some(&zone);
+        let name = &antenna.config.name;
+        is_new.then(|| {
+            format!(
+                "{name} stands inside \u{201c}{zone}\u{201d} now. It can be moved out by hand once \
+                 you allow it."
+            )
+        })
+    })
+}

@@ -1,0 +1,117 @@
+//! The layout of a page: its cards in columns, and beside them what their edits change.
+
+use egui::{Align, Layout, Rect, ScrollArea, Ui, UiBuilder, vec2};
+
+use super::{PADDING, form::CARD};
+
+/// Gap between two columns. The first part of it belongs to the scroll bar.
+const GAP: f32 = 16.0;
+/// Least width of a column.
+const LEAST: f32 = 500.0;
+/// Greatest width of a column: that of a card with its padding.
+const MOST: f32 = CARD + 32.0;
+/// A part of a page.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Part {
+    /// The card with this index.
+    Card(usize),
+    /// What the edits change: beside the cards, or as a fold above them.
+    Preview { is_fold: bool },
+    /// What cannot be used.
+    Findings,
+}
+
+/// Shows a page with cards of so many `rows`; `draw` draws each part. What stands aside does not
+/// scroll with the cards.
+pub(super) fn show(
+    ui: &mut Ui,
+    page: Rect,
+    salt: impl egui::AsIdSalt + Copy,
+    rows: &[usize],
+    has_aside: bool,
+    mut draw: impl FnMut(&mut Ui, Part),
+) {
+    let inner = page.shrink2(vec2(PADDING, 0.0));
+    let fitting = ((inner.width() + GAP) / (LEAST + GAP)).floor().max(1.0) as usize;
+    let stands_aside = has_aside && fitting > 1;
+    let forms = (fitting - usize::from(stands_aside)).min(rows.len()).max(1);
+    let count = forms + usize::from(stands_aside);
+    let gaps = GAP * (count - 1) as f32;
+    let width = MOST.min((inner.width() - gaps) / count as f32);
+    let columns = columns_of(rows, forms);
+    let right = inner.left() + forms as f32 * (width + GAP) - 4.0;
+    scrolled(ui, page.with_min_x(inner.left()).with_max_x(right), (salt, "cards"), |ui| {
+        if has_aside && !stands_aside {
+            draw(ui, Part::Preview { is_fold: true });
+        }
+        ui.horizontal_top(|ui| {
+            ui.spacing_mut().item_spacing.x = GAP;
+            for column in 0..forms {
+                let size = vec2(width, 0.0);
+                ui.allocate_ui_with_layout(size, Layout::top_down(Align::Min), |ui| {
+                    ui.set_width(width);
+                    ui.spacing_mut().item_spacing.x = 8.0;
+                    for (card, _) in columns.iter().enumerate().filter(|(_, of)| **of == column) {
+                        draw(ui, Part::Card(card));
+                    }
+                });
+            }
+        });
+        if has_aside && !stands_aside {
+            draw(ui, Part::Findings);
+        }
+    });
+    if stands_aside {
+        let left = inner.left() + forms as f32 * (width + GAP);
+        let place = page.with_min_x(left).with_max_x(left + width + GAP - 4.0);
+        scrolled(ui, place, (salt, "aside"), |ui| {
+            ui.set_width(width);
+            draw(ui, Part::Preview { is_fold: false });
+            draw(ui, Part::Findings);
+        });
+    }
+}
+
+fn scrolled(ui: &mut Ui, place: Rect, salt: impl egui::AsIdSalt, content: impl FnOnce(&mut Ui)) {
+    let builder = UiBuilder::new().id_salt(salt).max_rect(place);
+    ui.scope_builder(builder, |ui| {
+        // The ring of a focus and the border of a card reach a little beyond.
+        ui.set_clip_rect(place.expand2(vec2(4.0, 0.0)).intersect(ui.clip_rect()));
+        ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
+            ui.add_space(PADDING);
+            content(ui);
+            ui.add_space(8.0);
+        });
+    });
+}
+
+/// The column of each card: in their order, of about the same height.
+fn columns_of(rows: &[usize], columns: usize) -> Vec<usize> {
+    let height = |rows: &usize| rows + 2;
+    let total: usize = rows.iter().map(height).sum();
+    let (mut column, mut above, mut placed) = (0, 0, Vec::new());
+    for rows in rows {
+        let height = height(rows);
+        let is_full = (2 * above + height) * columns > 2 * total * (column + 1);
+        if is_full && column + 1 < columns && placed.contains(&column) {
+            column += 1;
+        }
+        placed.push(column);
+        above += height;
+    }
+    placed
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn cards_keep_their_order_and_fill_columns_evenly() {
+        assert_eq!(columns_of(&[4, 10, 6, 4], 1), [0, 0, 0, 0]);
+        assert_eq!(columns_of(&[4, 10, 6, 4], 2), [0, 0, 1, 1]);
+        assert_eq!(columns_of(&[4, 10, 2, 6, 4], 3), [0, 1, 1, 2, 2]);
+        assert_eq!(columns_of(&[30, 1, 1], 3), [0, 1, 2]);
+        assert_eq!(columns_of(&[1, 30, 1], 3), [0, 1, 2]);
+    }
+}

@@ -1,0 +1,33 @@
+//! The card of what cannot be used on a page, with what would do.
+
+use egui::{RichText, Ui};
+
+use super::{draft::Draft, form, page::Page};
+use crate::ui::{
+    text,
+    widgets::told::{self, Tone},
+};
+
+pub(super) fn show(ui: &mut Ui, page: Page, draft: &mut Draft) {
+    let findings = draft.findings(page);
+    let mut taken = None;
+    form::card(ui, "Validation of this page", |ui| {
+        if findings.is_empty() {
+            told::line(ui, Tone::Good, "All fields can be used.");
+        }
+        for finding in &findings {
+            told::line(ui, Tone::Bad, &finding.sentence());
+            let Some(would_do) = &finding.problem.would_do else { continue };
+            ui.horizontal(|ui| {
+                ui.add_space(20.0);
+                let words = RichText::new(format!("Use {would_do}")).font(text::body_medium());
+                if ui.button(words).clicked() {
+                    taken = Some((finding.label.clone(), would_do.clone()));
+                }
+            });
+        }
+    });
+    if let Some((label, text)) = taken {
+        draft.write(page, &label, text);
+    }
+}

@@ -1,0 +1,112 @@
+//! The bar above a page: what it is about, and what can be done with an antenna.
+
+use egui::{Align2, Rect, Ui, pos2, vec2};
+
+use super::{PADDING, PreferencesState, draft::Draft, page::Page};
+use crate::{
+    engine,
+    model::{Model, UiCommand},
+    station::{Antenna, AntennaId, Mount},
+    ui::{
+        preferences::antenna_fields::has_elevation,
+        text, theme,
+        widgets::{
+            button::{Button, HEIGHT},
+            paint,
+        },
+    },
+};
+
+pub(super) fn show(
+    ui: &mut Ui,
+    rect: Rect,
+    model: &Model,
+    draft: &mut Draft,
+    state: &mut PreferencesState,
+    commands: &mut Vec<UiCommand>,
+) {
+    let t = theme::tokens(ui);
+    ui.painter().rect_filled(rect, 0.0, t.bg1);
+    ui.painter().hline(rect.x_range(), rect.bottom() - 0.5, (1.0, t.line));
+    let (title, about) = (state.page.title(draft), about(state.page, draft));
+    let right = match state.page {
+        Page::Antenna(id) => buttons(ui, rect, id, model, draft, state, commands),
+        _ => rect.right() - PADDING,
+    };
+    let room = rect.with_min_x(rect.left() + PADDING).with_max_x(right - PADDING);
+    let up = room.translate(vec2(0.0, -9.0));
+    paint::text_in(ui, up, Align2::LEFT_CENTER, &title, text::title(), t.t1);
+    let down = room.translate(vec2(0.0, 13.0));
+    paint::text_in(ui, down, Align2::LEFT_CENTER, &about, text::small(), t.t2);
+    paint::name_text(ui, "page", room, &format!("{title}. {about}")).on_hover_text(&about);
+}
+
+fn about(page: Page, draft: &Draft) -> String {
+    let about = match page {
+        Page::Antenna(id) => {
+            let index = draft.index(id);
+            let antenna = index.and_then(|index| draft.antennas.get(index));
+            let is_removed = index.is_some_and(|index| draft.is_removed(index));
+            let end = if is_removed { ". It is removed when you save." } else { "" };
+            return antenna.map_or_else(String::new, |of| kind(&of.read().0) + end);
+        }
+        Page::Site => "Where the station is, and which passes it lists",
+        Page::Horizon => "Obstructions of the sky, and where no antenna may point",
+        Page::Satellites => "The favourites of this station, and their frequencies",
+        Page::Notices => "What the desktop tells, and when",
+        Page::Appearance => "Of this window, used at once",
+        Page::Keys => "The keys are fixed",
+    };
+    about.to_owned()
+}
+
+/// Make and mount of an antenna, and who tracks with it.
+fn kind(antenna: &Antenna) -> String {
+    let mount = match antenna.mount {
+        Mount::Xy { .. } => "X/Y",
+        Mount::AzEl { .. } if has_elevation(antenna) => "az/el",
+        Mount::AzEl { .. } => "azimuth only",
+    };
+    let can = antenna.connection.variant().capabilities;
+    let tracks = if can.takes_positions { ", Azel can track with it" } else { "" };
+    format!("{}, {mount}{tracks}", antenna.connection.spec().name)
+}
+
+/// Shows the buttons of an antenna at the right, and returns their left end.
+fn buttons(
+    ui: &mut Ui,
+    rect: Rect,
+    id: AntennaId,
+    model: &Model,
+    draft: &mut Draft,
+    state: &mut PreferencesState,
+    commands: &mut Vec<UiCommand>,
+) -> f32 {
+    let Some(index) = draft.index(id) else { return rect.right() };
+    let is_removed = draft.is_removed(index);
+    let as_typed = draft.antenna(index).filter(|_| !is_removed);
+    let mut right = rect.right() - PADDING;
+    let mut place = |width: f32| {
+        let min = pos2(right - width, rect.center().y - HEIGHT / 2.0);
+        right = min.x - 8.0;
+        Rect::from_min_size(min, vec2(width, HEIGHT))
+    };
+    // Both words have the same width: the place stays under the pointer.
+    let width = Button::quiet("Remove antenna").width(ui);
+    let word = if is_removed { "Undo: keep it" } else { "Remove antenna" };
+    if Button::quiet(word).show(ui, "remove antenna", place(width)).clicked() {
+        draft.toggle_removed(index);
+    }
+    let duplicate = Button::normal("Duplicate").locked(is_removed);
+    if duplicate.show(ui, "duplicate", place(duplicate.width(ui))).clicked()
+        && let Some(added) = draft.duplicate(index, model.now)
+    {
+        state.page = Page::Antenna(added);
+    }
+    let test = Button::normal("Test link").locked(as_typed.is_none());
+    let testing = place(test.width(ui));
+    if let (true, Some(antenna)) = (test.show(ui, "test link", testing).clicked(), as_typed) {
+        commands.push(UiCommand::Station(engine::Command::TestLink(Box::new(antenna))));
+    }
+    right
+}

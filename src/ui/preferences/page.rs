@@ -1,0 +1,82 @@
+//! The pages of the preferences, in the order of their list.
+
+use super::{draft::Draft, fields::Counts, station_fields};
+use crate::station::AntennaId;
+
+/// A page of the preferences.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub(super) enum Page {
+    /// The place of the station, its passes, and what happens when the window closes.
+    #[default]
+    Site,
+    /// Obstructions of the sky, and zones that antennas must not point at.
+    Horizon,
+    Antenna(AntennaId),
+    /// Favourites and their frequencies.
+    Satellites,
+    /// Notifications, sounds and reminders.
+    Notices,
+    /// Theme and scale.
+    Appearance,
+    /// The list of keys.
+    Keys,
+}
+
+impl Page {
+    /// All pages of a station with the antennas of `draft`.
+    pub(super) fn all(draft: &Draft) -> Vec<Self> {
+        let antennas = draft.antennas.iter().map(|antenna| Self::Antenna(antenna.before().id));
+        let mut all = vec![Self::Site, Self::Horizon];
+        all.extend(antennas);
+        all.extend([Self::Satellites, Self::Notices, Self::Appearance, Self::Keys]);
+        all
+    }
+
+    /// The page after this one, and the first after the last.
+    pub(super) fn next(self, draft: &Draft) -> Self {
+        let all = Self::all(draft);
+        let at = all.iter().position(|page| *page == self);
+        let next = at.and_then(|at| all.get(at + 1)).or(all.first());
+        next.copied().unwrap_or_default()
+    }
+
+    /// The page with the fields of this section of the station.
+    pub(super) fn of_section(section: &str) -> Self {
+        match section {
+            station_fields::SATELLITES | station_fields::FREQUENCIES => Self::Satellites,
+            _ => Self::Site,
+        }
+    }
+
+    pub(super) fn title(self, draft: &Draft) -> String {
+        let title = match self {
+            Self::Site => "Site",
+            Self::Horizon => "Horizon and keep-outs",
+            Self::Antenna(id) => return draft.antenna_title(id),
+            Self::Satellites => "Satellites and frequencies",
+            Self::Notices => "Alarms and sounds",
+            Self::Appearance => "Appearance",
+            Self::Keys => "Keys",
+        };
+        title.to_owned()
+    }
+
+    /// Edits of the page that are not saved, and its fields that cannot be used. `before` is the
+    /// draft of the station as saved.
+    pub(super) fn counts(self, draft: &Draft, before: &Draft) -> Counts {
+        match self {
+            Self::Site | Self::Satellites => {
+                let standings = draft.ground_standings();
+                let fields = draft.ground.fields.iter().zip(&standings);
+                Counts::of(fields.filter(|(field, _)| Self::of_section(field.section) == self))
+            }
+            Self::Horizon => Counts {
+                edited: draft.skies.edits(&before.skies),
+                wrong: draft.skies.problems(&draft.antenna_names()).len(),
+            },
+            Self::Antenna(id) => draft.antenna_counts(id, before),
+            Self::Notices => draft.notices.counts(&before.notices),
+            Self::Appearance | Self::Keys => Counts::default(),
+        }
+    }
+}

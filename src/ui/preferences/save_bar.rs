@@ -1,0 +1,173 @@
+//! The bar below the pages, one for all of them: what has to be true before saving, the changes, and
+//! the buttons.
+
+use egui::{Align2, Color32, Key, Modifiers, Rect, Ui, pos2, vec2};
+
+use super::{PADDING, PreferencesState, checks::Checks, draft::Draft, page::Page};
+use crate::{
+    engine,
+    model::{Model, UiCommand},
+    station::Station,
+    ui::{
+        format,
+        icons::{self, Icon},
+        text, theme,
+        widgets::{
+            button::{Button, HEIGHT},
+            hold_button, paint,
+            told::Tone,
+        },
+    },
+};
+
+/// Height of a line.
+const LINE: f32 = 20.0;
+/// Number of lines of checks that are shown.
+const LINES: usize = 3;
+/// Width of the button that the operator must hold.
+const HOLD: f32 = 150.0;
+
+pub(super) fn height(is_small: bool) -> f32 {
+    if is_small { 48.0 } else { 108.0 }
+}
+
+/// Shows the bar. Returns `true` when the edits are to be dropped.
+pub(super) fn show(
+    ui: &mut Ui,
+    rect: Rect,
+    model: &Model,
+    station: &Station,
+    (draft, before): (&Draft, &Draft),
+    state: &mut PreferencesState,
+    commands: &mut Vec<UiCommand>,
+) -> bool {
+    let t = theme::tokens(ui);
+    ui.painter().rect_filled(rect, 0.0, t.bg1);
+    ui.painter().hline(rect.x_range(), rect.top() + 0.5, (1.0, t.line));
+    let read = draft.read();
+    let is_edited = draft != before;
+    let checks = Checks::of(model, station, read.as_ref(), (draft, before));
+    let can_save = read.is_some() && (is_edited || model.demo) && checks.busy.is_none();
+    let holds = can_save && checks.inside.is_some();
+    let save = Button::primary("Save and use").locked(!can_save);
+    let revert = Button::normal("Revert").locked(!is_edited);
+    let place = |right: f32, width: f32| {
+        let min = pos2(right - width, rect.center().y - HEIGHT / 2.0);
+        Rect::from_min_size(min, vec2(width, HEIGHT))
+    };
+    let width = if holds { HOLD } else { save.width(ui) };
+    let saving = place(rect.right() - PADDING, width);
+    let reverting = place(saving.left() - 8.0, revert.width(ui));
+    let room = rect.with_min_x(rect.left() + PADDING).with_max_x(reverting.left() - PADDING);
+    let told = outcome(ui, model, (draft, before), state);
+    lines(ui, room, &checks, told);
+
+    let is_reverted = revert.show(ui, "revert", reverting).clicked();
+    let is_pressed = if holds {
+        hold_button::show(ui, saving, "Hold 1 s to save", &mut state.confirming)
+    } else {
+        let clicked = save.show(ui, "save", saving).on_hover_text("Ctrl Enter").clicked();
+        // Enter in a dialog belongs to the dialog.
+        let is_free = ui.memory(|memory| memory.top_modal_layer().is_none());
+        let enter = || ui.input_mut(|input| input.consume_key(Modifiers::COMMAND, Key::Enter));
+        clicked || (is_free && enter() && can_save)
+    };
+    if is_pressed && let Some(station) = read {
+        commands.push(UiCommand::Station(engine::Command::SaveStation(Box::new(station))));
+    }
+    is_reverted
+}
+
+/// Shows the checks at the left of `room` and the outcome at its right; in a low bar the gravest
+/// check alone, or else the outcome.
+fn lines(ui: &Ui, room: Rect, checks: &Checks, (said, colour): (String, Color32)) {
+    let t = theme::tokens(ui);
+    if room.height() < LINE * (LINES + 1) as f32 {
+        let (tone, words) =
+            checks.lines.first().map_or((Tone::Plain, &said), |(tone, words)| (*tone, words));
+        let (mark, ink) = look(tone, t);
+        let words_at = if mark.is_some() { room.with_min_x(room.left() + LINE) } else { room };
+        if let Some(mark) = mark {
+            let at = paint::square(room.left_center() + vec2(7.0, 0.0), 13.0);
+            icons::paint(ui.painter(), at, mark, ink);
+        }
+        let ink = if mark.is_some() { ink } else { colour };
+        paint::text_in(ui, words_at, Align2::LEFT_CENTER, words, text::small(), ink);
+        let whole = if words == &said { said.clone() } else { format!("{words} {said}") };
+        paint::name_text(ui, "outcome", room, &whole).on_hover_text(&whole);
+        return;
+    }
+    let width = paint::text_width(ui, &said, text::body_medium());
+    let (left, right) = room.split_left_right_at_x((room.right() - width).max(room.center().x));
+    paint::text_in(ui, right, Align2::RIGHT_CENTER, &said, text::body_medium(), colour);
+    paint::name_text(ui, "outcome", right, &said).on_hover_text(&said);
+    if checks.lines.is_empty() {
+        return;
+    }
+    let mut top = rect_top(left, checks.lines.len().min(LINES));
+    let mut row = || {
+        let row = Rect::from_min_size(pos2(left.left(), top), vec2(left.width() - PADDING, LINE));
+        top += LINE;
+        row
+    };
+    let head = row();
+    paint::text_in(ui, head, Align2::LEFT_CENTER, "Before saving", text::body_medium(), t.t1);
+    for (index, (tone, words)) in checks.lines.iter().take(LINES).enumerate() {
+        let row = row();
+        let (mark, ink) = look(*tone, t);
+        if let Some(mark) = mark {
+            let at = paint::square(row.left_center() + vec2(7.0, 0.0), 13.0);
+            icons::paint(ui.painter(), at, mark, ink);
+        }
+        let ink = if *tone == Tone::Good { t.t1 } else { ink };
+        let place = row.with_min_x(row.left() + LINE);
+        paint::text_in(ui, place, Align2::LEFT_CENTER, words, text::small(), ink);
+        paint::name_text(ui, ("check", index), place, words).on_hover_text(words);
+    }
+}
+
+/// Top of so many lines below their head, in the middle of `room`.
+fn rect_top(room: Rect, lines: usize) -> f32 {
+    room.center().y - LINE * (lines + 1) as f32 / 2.0
+}
+
+fn look(tone: Tone, t: &crate::ui::tokens::Tokens) -> (Option<Icon>, Color32) {
+    match tone {
+        Tone::Plain | Tone::Now => (None, t.t2),
+        Tone::Good => (Some(Icon::Check), t.ok),
+        Tone::Caution => (Some(Icon::Warning), t.warn),
+        Tone::Bad => (Some(Icon::Cross), t.bad),
+    }
+}
+
+/// The changes, or what came of the last saving.
+fn outcome(
+    ui: &Ui,
+    model: &Model,
+    (draft, before): (&Draft, &Draft),
+    state: &PreferencesState,
+) -> (String, Color32) {
+    let t = theme::tokens(ui);
+    match &state.outcome {
+        Some(Err(why)) => (format!("Not saved: {why}."), t.bad),
+        _ if draft != before => (changes(draft, before), t.t1),
+        Some(Ok(at)) => (format!("Saved {}.", format::time_z(*at)), t.ok),
+        None if model.demo => {
+            ("Saving ends the demonstration and uses this station.".to_owned(), t.t2)
+        }
+        None => ("Nothing to save.".to_owned(), t.t3),
+    }
+}
+
+/// The number of the changes, and that of the pages with any.
+fn changes(draft: &Draft, before: &Draft) -> String {
+    let pages = Page::all(draft).into_iter();
+    let counts: Vec<usize> =
+        pages.map(|page| page.counts(draft, before).edited).filter(|edited| *edited > 0).collect();
+    match (counts.iter().sum::<usize>(), counts.len()) {
+        (0, _) => "Not saved yet.".to_owned(),
+        (1, _) => "1 change".to_owned(),
+        (changes, 1) => format!("{changes} changes in 1 section"),
+        (changes, sections) => format!("{changes} changes in {sections} sections"),
+    }
+}

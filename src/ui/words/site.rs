@@ -1,0 +1,34 @@
+//! The place of a station: what tells a wrong one.
+
+use crate::{
+    astro::AzEl,
+    ui::{format, widgets::told::Tone},
+};
+
+/// Distance from which a typed place differs from a unit's by more than its receiver does.
+const AGREES_KM: f64 = 1.0;
+
+/// The place of the Sun, by which a wrong sign is seen at once.
+pub fn sun_there(sun: AzEl) -> String {
+    let azimuth = format::azimuth(sun.azimuth_deg());
+    let elevation_deg = sun.elevation_deg();
+    if elevation_deg < 0.0 {
+        let below = format::degrees(-elevation_deg, 0);
+        return format!(
+            "The Sun is {below} below the horizon there now, at {azimuth}. Is that so?"
+        );
+    }
+    let elevation = format::degrees(elevation_deg, 0);
+    format!("The Sun is at {azimuth}, {elevation} there now. Is that so?")
+}
+
+/// How far a typed place is from the one that a unit told.
+pub fn off_the_told(name: &str, km: f64) -> (Tone, String) {
+    let far = format::number(km, usize::from(km < 10.0));
+    if km < AGREES_KM {
+        (Tone::Good, format!("Agrees with the place that {name} told: {far} km apart."))
+    } else {
+        let words = format!("{far} km from the place that {name} told. Which of them is right?");
+        (Tone::Caution, words)
+    }
+}
