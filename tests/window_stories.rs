@@ -33,6 +33,7 @@ mod plan;
 mod popups;
 mod preferences;
 mod preferences_makes;
+mod preferences_pages;
 mod preferences_watch;
 mod rig;
 mod running;

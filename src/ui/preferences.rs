@@ -51,11 +51,40 @@ pub struct PreferencesState {
     outcome: Option<Result<Timestamp, String>>,
     page: Page,
     search: Search,
+    form: FormState,
+    horizon: HorizonState,
+    confirming: HoldState,
+}
+
+/// State of the forms of all pages.
+#[derive(Default)]
+struct FormState {
     sought: Sought,
     /// The preview is unfolded, where it is a fold.
     preview_is_open: bool,
-    horizon: HorizonState,
-    confirming: HoldState,
+}
+
+/// The parts of the view.
+struct Places {
+    list: Rect,
+    page: Rect,
+    /// Height of the bar above the page.
+    head: f32,
+    save_bar: Rect,
+}
+
+impl Places {
+    fn of(rect: Rect) -> Self {
+        let [least_width, least_height] = SMALL_BELOW;
+        let is_narrow = rect.width() < least_width;
+        let is_small = is_narrow || rect.height() < least_height;
+        let list = if is_narrow { list::SMALL_WIDTH } else { list::WIDTH };
+        let (list, rest) = rect.split_left_right_at_x(rect.left() + list);
+        let top = rest.bottom() - save_bar::height(is_small);
+        let (page, save_bar) = rest.split_top_bottom_at_y(top);
+        let [usual, small] = HEAD;
+        Self { list, page, head: if is_small { small } else { usual }, save_bar }
+    }
 }
 
 impl PreferencesState {
@@ -132,15 +161,11 @@ pub fn show(
     if !Page::all(&draft).contains(&state.page) {
         state.page = Page::default();
     }
-    let is_small = rect.width() < SMALL_BELOW[0] || rect.height() < SMALL_BELOW[1];
-    let [usual, small] = HEAD;
-    let head = if is_small { small } else { usual };
-    let list = if rect.width() < SMALL_BELOW[0] { list::SMALL_WIDTH } else { list::WIDTH };
-    let (list, rest) = rect.split_left_right_at_x(rect.left() + list);
-    let (page, bar) = rest.split_top_bottom_at_y(rest.bottom() - save_bar::height(is_small));
-    list::show(ui, list, head, model, (&mut draft, &before), state);
-    show_page(ui, page, head, model, &station, (&mut draft, &before), state, commands);
-    let is_reverted = save_bar::show(ui, bar, model, &station, (&draft, &before), state, commands);
+    let places = Places::of(rect);
+    list::show(ui, &places, model, (&mut draft, &before), state);
+    show_page(ui, &places, model, &station, (&mut draft, &before), state, commands);
+    let drafts = (&draft, &before);
+    let is_reverted = save_bar::show(ui, places.save_bar, model, &station, drafts, state, commands);
     if is_reverted {
         state.outcome = None;
         state.horizon.forget();
@@ -151,8 +176,7 @@ pub fn show(
 
 fn show_page(
     ui: &mut Ui,
-    rect: Rect,
-    head: f32,
+    places: &Places,
     model: &Model,
     station: &Station,
     (draft, before): (&mut Draft, &Draft),
@@ -162,23 +186,21 @@ fn show_page(
     if state.page == Page::Horizon {
         let antennas = draft.antenna_names();
         let (skies, horizon) = (&mut draft.skies, &mut state.horizon);
-        horizon::show(ui, rect, model, (station, &antennas), skies, horizon, commands);
+        horizon::show(ui, places.page, model, (station, &antennas), skies, horizon, commands);
         return;
     }
-    let (bar, rect) = rect.split_top_bottom_at_y(rect.top() + head);
+    let (bar, rect) = places.page.split_top_bottom_at_y(places.page.top() + places.head);
     head::show(ui, bar, model, draft, state, commands);
-    let page = state.page;
-    let PreferencesState { sought, preview_is_open, .. } = state;
+    let (page, form) = (state.page, &mut state.form);
     match page {
         Page::Site | Page::Satellites => {
-            site::show(ui, rect, page, model, draft, sought, preview_is_open);
+            site::show(ui, rect, page, model, (draft, before), form);
         }
         Page::Antenna(id) => {
-            let drafts = (draft, before);
-            antenna::show(ui, rect, model, id, drafts, sought, preview_is_open, commands);
+            antenna::show(ui, rect, model, id, (draft, before), form, commands);
         }
         Page::Notices => cards(ui, rect, "notices", &notices::CARDS, |ui, card| {
-            notices::card_of(ui, card, model, draft, sought, commands);
+            notices::card_of(ui, card, model, draft, &mut form.sought, commands);
         }),
         Page::Appearance => cards(ui, rect, "appearance", &appearance::CARDS, |ui, card| {
             appearance::card_of(ui, card, model, commands);

@@ -24,7 +24,7 @@ use egui_kittest::kittest::Queryable as _;
 use self::lever::{CODE, GEAR, SHAFTS, SPEC, unit};
 use crate::window_stories::{
     makes::{alone, alone_at, model},
-    preferences::{saved, write},
+    preferences::{self, open, saved, write},
     rig::{self, SIZES, asked, says, settle},
 };
 
@@ -86,7 +86,8 @@ fn its_own_settings_are_fields_of_the_form() {
         (model.view, Arc::make_mut(&mut model.station).antennas) =
             (View::Preferences, vec![antenna]);
         let mut window = rig::window(size, model);
-        assert!(says(&window, "Antenna 1: Archimedes Lever"));
+        open(&mut window, "Lever");
+        assert!(says(&window, "Lever. Archimedes Lever, "));
         assert!(says(&window, "It takes no orders so.") && says(&window, "Drive"));
         write(&mut window, "Address of the Lever", "tower:8");
         write(&mut window, "Access code", "eureka");
@@ -100,7 +101,7 @@ fn its_own_settings_are_fields_of_the_form() {
         assert!(says(&window, "Shafts must be a whole number from 1 to 4."));
         write(&mut window, "Shafts", "3");
         window.get_by_role_and_label(Role::Button, "Save and use").click();
-        let station: Station = saved(asked(&mut window));
+        let station: Station = saved(preferences::asked(&mut window));
         let connection = &station.antennas[0].connection;
         assert_eq!((&*connection.address, connection.text(&CODE)), ("tower:8", "eureka"));
         assert_eq!((connection.text(&GEAR), connection.whole(&SHAFTS)), ("high", 3));

@@ -57,8 +57,13 @@ fn every_key_of_the_list_does_something() {
                 window.key_press(Key::Plus);
                 asked(&mut window);
             }
-            if binding.place == KeyScope::Elements {
-                window.state_mut().model.view = View::Elements;
+            let other = match binding.place {
+                KeyScope::Elements => Some(View::Elements),
+                KeyScope::Preferences => Some(View::Preferences),
+                _ => None,
+            };
+            if let Some(view) = other {
+                window.state_mut().model.view = view;
                 rig::settle(&mut window);
             }
             let before = all_words(&window);

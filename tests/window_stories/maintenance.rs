@@ -219,6 +219,9 @@ fn another_address_in_the_settings_is_locked_out_as_well() {
 
     window.get_by_role_and_label(Role::Tab, "Preferences").click();
     window.run_steps(3);
+    let name = unit.station().antennas[0].name.clone();
+    window.get_by_role_and_label(Role::RadioButton, &name).click();
+    window.run_steps(3);
     let address = other.address.to_string();
     let old = unit.address.to_string();
     let is_field = |node: &egui_kittest::Node<'_>| node.accesskit_node().role() == Role::TextInput;

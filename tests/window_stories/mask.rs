@@ -61,7 +61,7 @@ fn a_wrong_line_is_named_and_nothing_typed_is_lost() {
         write(&mut window, "Horizon mask", "0 2\n\n90;fourteen");
         let why = "Line 3 does not hold an azimuth and an elevation in degrees.";
         window.get_by_label_contains(why);
-        window.get_by_label_contains("1 field is not valid: skyline.");
+        window.get_by_label_contains("1 field is not valid: skyline in Horizon");
         window.get_by_role_and_label(Role::Button, "Save and use").click();
         assert_eq!(horizon::asked(&mut window), []);
         write(&mut window, "Horizon mask", "0 2\n400 3");

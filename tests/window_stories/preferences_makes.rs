@@ -16,8 +16,8 @@ use egui::Role;
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
 
 use crate::window_stories::{
-    preferences::{form, saved, write},
-    rig::{self, SIZES, Window, asked, says, settle},
+    preferences::{add, antenna_form, asked, open, saved, write},
+    rig::{self, SIZES, Window, says, settle},
     states,
 };
 
@@ -39,10 +39,6 @@ fn press(window: &mut Window, role: Role, name: &str) {
     settle(window);
     window.get_by_role_and_label(role, name).click();
     settle(window);
-}
-
-fn add(window: &mut Window, button: &str) {
-    press(window, Role::Button, button);
 }
 
 fn save(window: &mut Window) -> Station {
@@ -95,6 +91,7 @@ fn every_make_is_added_as_it_stands_and_comes_back_from_its_file() {
         model.view = View::Preferences;
         model.station = reloaded(&station).into();
         let mut window = rig::window(size, model);
+        open(&mut window, "Site");
         write(&mut window, "Elevation floor", "11");
         let wanted = Station { elevation_floor_deg: 11.0, ..station };
         assert_eq!(save(&mut window), wanted, "read back into the form and saved");
@@ -230,7 +227,7 @@ fn points_that_do_not_fit_are_seen_beside_the_table() {
 #[test]
 fn how_a_satrak_is_tracked_from_here_can_be_set() {
     for size in SIZES {
-        let mut window = form(size);
+        let mut window = antenna_form(size);
         write(&mut window, "Latency", "61");
         assert!(says(&window, "Latency must be a number from 0 to 60 s."));
         write(&mut window, "Latency", "0.7");

@@ -8,8 +8,8 @@ use egui::Role;
 use egui_kittest::kittest::Queryable as _;
 
 use crate::window_stories::{
-    preferences::{form, saved, write},
-    rig::{self, SIZES, Window, asked, says, settle},
+    preferences::{asked, form, open, saved, write},
+    rig::{self, SIZES, Window, says, settle},
     settings_rig::press,
     states,
 };
@@ -24,7 +24,9 @@ fn choose(window: &mut Window, word: &str) {
 fn what_is_done_by_itself_is_chosen_and_saved() {
     for size in SIZES {
         let mut window = form(size);
-        for word in ["Alarm only", "Track on", "Stop and hold"] {
+        choose(&mut window, "Stop and hold");
+        open(&mut window, "Satrak");
+        for word in ["Alarm only", "Track on"] {
             choose(&mut window, word);
         }
         assert!(says(&window, "Goes on by itself if the antenna is where it was left."));
@@ -55,7 +57,9 @@ fn the_way_after_stop_is_the_makes_until_it_was_seen_often_enough() {
     let shown = |stopping_way: StoppingWay| {
         let mut model = rig::model(Snapshot { stopping_way, ..states::holding() });
         model.view = azel::model::View::Preferences;
-        rig::window(rig::LARGE, model)
+        let mut window = rig::window(rig::LARGE, model);
+        open(&mut window, "Satrak");
+        window
     };
     let window = shown(StoppingWay { overrun_s: 0.4, stops: 1, is_learned: false });
     assert!(says(&window, "Runs on for 0.4 s by its make: 1 of 3 STOPs seen."));

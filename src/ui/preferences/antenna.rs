@@ -3,14 +3,15 @@
 mod effect;
 mod reach;
 
-use egui::{Rect, Ui};
+use egui::{Align, Layout, Rect, Ui, vec2};
 
 use super::{
+    FormState,
     antenna_fields::WATCH,
     columns::{self, Part},
+    connection_fields::ADDRESS,
     draft::Draft,
-    findings,
-    form::{self, Sought},
+    findings, form,
     page::Page,
     preview,
 };
@@ -18,26 +19,37 @@ use crate::{
     engine::passes::mount_limits,
     model::{
         Model, UiCommand,
-        effects::{DEBOUNCE, mounts},
+        effects::{DEBOUNCE, Effect, mounts},
     },
-    station::AntennaId,
-    ui::{widgets::told, words},
+    station::{Antenna, AntennaId},
+    ui::{
+        widgets::told::{self, Tone},
+        words,
+    },
 };
 
-/// Shows the page of the antenna. `is_open`: the fold of the preview, where it is one.
+/// Width of the plot in the preview.
+const PLOT: f32 = 224.0;
+
+/// Shows the page of the antenna.
 pub(super) fn show(
     ui: &mut Ui,
     rect: Rect,
     model: &Model,
     id: AntennaId,
     (draft, before): (&mut Draft, &Draft),
-    sought: &mut Sought,
-    is_open: &mut bool,
+    state: &mut FormState,
     commands: &mut Vec<UiCommand>,
 ) {
     let Some(index) = draft.index(id) else { return };
     let is_removed = draft.is_removed(index);
-    let standings = draft.antenna_standings(index);
+    let mut standings = draft.antenna_standings(index);
+    let test = draft.test(index, model).filter(|_| !is_removed);
+    if let (Tone::Good, words) = words::link_test_state(test)
+        && let Some(address) = standings.get_mut(ADDRESS)
+    {
+        address.proved = Some(words::capitalised(&words));
+    }
     let Some(antenna) = draft.antennas.get(index) else { return };
     let sections = antenna.sections();
     let rows: Vec<usize> = sections.iter().map(|(_, rows)| *rows).collect();
@@ -46,6 +58,7 @@ pub(super) fn show(
         before: mount_limits(antenna.before()),
         after: mount_limits(&antenna.read().0),
     };
+    let is_edited = Page::Antenna(id).counts(draft, before).edited > 0;
     let is_new = before.index(id).is_none();
     columns::show(ui, rect, ("antenna", id.0), &rows, true, |ui, part| match part {
         Part::Card(card) => {
@@ -56,7 +69,7 @@ pub(super) fn show(
             }
             let group = format!("antenna {}", id.0);
             let config = antenna.before().clone();
-            form::section(ui, &group, (antenna, &standings), section, sought, |ui| {
+            form::section(ui, &group, (antenna, &standings), section, &mut state.sought, |ui| {
                 let known = model.antennas.iter().find(|of| of.config == config);
                 if let Some(known) = known.filter(|_| *section == WATCH) {
                     let words = words::stopping_way(known.snapshot.stopping_way);
@@ -68,18 +81,18 @@ pub(super) fn show(
             let effect = model.mount_effects.effect.as_ref();
             let effect = effect.filter(|effect| effect.question.antenna == id);
             let value = effect.map_or_else(String::new, effect::in_short);
-            let park = draft.antennas.get(index).map(|antenna| antenna.read().0);
-            preview::card(ui, is_fold.then_some(&mut *is_open), &value, |ui| {
-                if let Some(antenna) = &park {
-                    reach::show(ui, antenna, is_fold);
+            let fold = is_fold.then_some(&mut state.preview_is_open);
+            preview::card(ui, fold, &value, is_edited, |ui| {
+                let antenna = draft.antennas.get(index);
+                let both = antenna.map(|antenna| (antenna.before(), antenna.read().0));
+                if let Some((was, new)) = &both {
+                    reach_and_effect(ui, was, new, effect, is_new);
                 }
-                effect::show(ui, effect, is_new);
             });
         }
         Part::Findings => {
             findings::show(ui, Page::Antenna(id), draft);
-            let outcome = draft.test(index, model).filter(|_| !is_removed);
-            if let Some(test) = outcome {
+            if let Some(test) = test {
                 form::card(ui, "Test of the link", |ui| {
                     for (tone, words) in words::link_test(test, model.demo) {
                         told::line(ui, tone, &words);
@@ -91,5 +104,29 @@ pub(super) fn show(
     if model.mount_effects.wanted() != Some(&question) {
         ui.ctx().request_repaint_after_for(DEBOUNCE, egui::ViewportId::ROOT);
         commands.push(UiCommand::ShowTracked(Box::new(question)));
+    }
+}
+
+/// Shows the reach of an antenna, and beside it what comes of the passes.
+fn reach_and_effect(
+    ui: &mut Ui,
+    was: &Antenna,
+    new: &Antenna,
+    effect: Option<&Effect<mounts::Question>>,
+    is_new: bool,
+) {
+    ui.horizontal_top(|ui| {
+        let plot = vec2(PLOT, 0.0);
+        ui.allocate_ui_with_layout(plot, Layout::top_down(Align::Min), |ui| {
+            ui.set_width(PLOT);
+            reach::plot(ui, was, new);
+        });
+        ui.add_space(8.0);
+        ui.vertical(|ui| effect::numbers(ui, effect, is_new));
+    });
+    ui.add_space(4.0);
+    reach::words(ui, new);
+    if let Some(effect) = effect {
+        effect::words(ui, effect, is_new);
     }
 }

@@ -2,14 +2,14 @@
 
 use egui::{Align, Layout, Rect, ScrollArea, Ui, UiBuilder, vec2};
 
-use super::{PADDING, form::CARD};
+use super::PADDING;
 
 /// Gap between two columns. The first part of it belongs to the scroll bar.
 const GAP: f32 = 16.0;
 /// Least width of a column.
 const LEAST: f32 = 500.0;
-/// Greatest width of a column: that of a card with its padding.
-const MOST: f32 = CARD + 32.0;
+/// Greatest width of one of several columns, and of the only one.
+const MOST: [f32; 2] = [592.0, 800.0];
 /// A part of a page.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Part {
@@ -37,19 +37,21 @@ pub(super) fn show(
     let forms = (fitting - usize::from(stands_aside)).min(rows.len()).max(1);
     let count = forms + usize::from(stands_aside);
     let gaps = GAP * (count - 1) as f32;
-    let width = MOST.min((inner.width() - gaps) / count as f32);
+    let [one_of_many, only] = MOST;
+    let most = if count > 1 { one_of_many } else { only };
+    let width = most.min((inner.width() - gaps) / count as f32);
     let columns = columns_of(rows, forms);
-    let right = inner.left() + forms as f32 * (width + GAP) - 4.0;
+    // The scroll bar stands in the gap, or at the edge of the page.
+    let gap = inner.left() + forms as f32 * (width + GAP) - 4.0;
+    let right = if stands_aside { gap } else { page.right() - 4.0 };
     scrolled(ui, page.with_min_x(inner.left()).with_max_x(right), (salt, "cards"), |ui| {
         if has_aside && !stands_aside {
-            draw(ui, Part::Preview { is_fold: true });
+            within(ui, width, |ui| draw(ui, Part::Preview { is_fold: true }));
         }
         ui.horizontal_top(|ui| {
             ui.spacing_mut().item_spacing.x = GAP;
             for column in 0..forms {
-                let size = vec2(width, 0.0);
-                ui.allocate_ui_with_layout(size, Layout::top_down(Align::Min), |ui| {
-                    ui.set_width(width);
+                within(ui, width, |ui| {
                     ui.spacing_mut().item_spacing.x = 8.0;
                     for (card, _) in columns.iter().enumerate().filter(|(_, of)| **of == column) {
                         draw(ui, Part::Card(card));
@@ -58,18 +60,27 @@ pub(super) fn show(
             }
         });
         if has_aside && !stands_aside {
-            draw(ui, Part::Findings);
+            within(ui, width, |ui| draw(ui, Part::Findings));
         }
     });
     if stands_aside {
         let left = inner.left() + forms as f32 * (width + GAP);
-        let place = page.with_min_x(left).with_max_x(left + width + GAP - 4.0);
+        let place = page.with_min_x(left).with_max_x(page.right() - 4.0);
         scrolled(ui, place, (salt, "aside"), |ui| {
-            ui.set_width(width);
-            draw(ui, Part::Preview { is_fold: false });
-            draw(ui, Part::Findings);
+            within(ui, width, |ui| {
+                draw(ui, Part::Preview { is_fold: false });
+                draw(ui, Part::Findings);
+            });
         });
     }
+}
+
+/// Shows `content` in a column of this width.
+fn within(ui: &mut Ui, width: f32, content: impl FnOnce(&mut Ui)) {
+    ui.allocate_ui_with_layout(vec2(width, 0.0), Layout::top_down(Align::Min), |ui| {
+        ui.set_width(width);
+        content(ui);
+    });
 }
 
 fn scrolled(ui: &mut Ui, place: Rect, salt: impl egui::AsIdSalt, content: impl FnOnce(&mut Ui)) {

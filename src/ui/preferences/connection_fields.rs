@@ -16,6 +16,9 @@ type Of = Description<Antenna>;
 /// Section of the name and the connection.
 pub(in crate::ui) const CONNECTION: &str = "Connection";
 
+/// Index of the address among the fields of an antenna, behind its name.
+pub(in crate::ui) const ADDRESS: usize = 1;
+
 /// Name, address, and the settings beside them.
 pub(super) fn unit(spec: &'static ControllerSpec) -> Vec<Placed<Antenna>> {
     let settings = spec.settings.iter().filter(|setting| setting.table.is_none());

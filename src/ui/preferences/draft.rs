@@ -184,13 +184,13 @@ impl Draft {
     pub(in crate::ui) fn antenna_standings(&self, index: usize) -> Vec<Standing> {
         let Some(antenna) = self.antennas.get(index) else { return Vec::new() };
         let (_, mut standings) = antenna.read();
-        if let (Some(Standing { problem: problem @ None, .. }), Some(twin)) =
-            (standings.first_mut(), self.twin(index))
+        if let Some(Standing { problem: problem @ None, .. }) = standings.first_mut()
+            && self.has_twin(index)
         {
-            let own: Vec<String> = self.antennas.iter().map(name).collect();
-            let own: Vec<&str> = own.iter().map(String::as_str).collect();
-            let free = Antenna::free_name(name(antenna).trim(), &own);
-            let why = format!("must differ from that of antenna {}", twin + 1);
+            let taken: Vec<String> = self.antennas.iter().map(name).collect();
+            let taken: Vec<&str> = taken.iter().map(String::as_str).collect();
+            let free = Antenna::free_name(name(antenna).trim(), &taken);
+            let why = "must differ from those of the other antennas";
             *problem = Some(Problem { would_do: Some(free), ..Problem::of(why) });
         }
         standings
@@ -212,14 +212,11 @@ impl Draft {
         model.link_tests.iter().find(is_it)
     }
 
-    /// Another antenna with the same name.
-    fn twin(&self, index: usize) -> Option<usize> {
-        let own = name(self.antennas.get(index)?);
+    /// Whether another antenna has the same name.
+    fn has_twin(&self, index: usize) -> bool {
+        let Some(own) = self.antennas.get(index).map(name) else { return false };
         let mut kept = self.kept();
-        let is_twin = |(other, antenna): &(usize, &Typed<Antenna>)| {
-            *other != index && Antenna::same_name(&name(antenna), &own)
-        };
-        kept.find(is_twin).map(|(other, _)| other)
+        kept.any(|(other, antenna)| other != index && Antenna::same_name(&name(antenna), &own))
     }
 
     /// The station, if every field is right.

@@ -264,6 +264,8 @@ impl Counts {
 pub(in crate::ui) struct Standing {
     pub(super) is_used: bool,
     pub(in crate::ui) problem: Option<Problem>,
+    /// What a test has shown of the value.
+    pub(super) proved: Option<String>,
     /// Note below the field.
     pub(super) note: Option<String>,
 }
@@ -366,7 +368,7 @@ impl<T: Clone> Typed<T> {
                 }
                 let together = || (of.check)(&whole).err().filter(|_| is_whole);
                 let problem = problem.clone().or_else(|| together().map(Problem::of));
-                Standing { is_used: true, problem, note: (of.note)(&whole) }
+                Standing { is_used: true, problem, proved: None, note: (of.note)(&whole) }
             })
             .collect();
         (whole, standings)

@@ -7,7 +7,7 @@ use egui::{
     Sense, Stroke, StrokeKind, TextEdit, Ui, pos2, vec2,
 };
 
-use super::fields::{Field, Problem, Standing, TextShape, Typed};
+use super::fields::{Field, Standing, TextShape, Typed};
 use crate::{
     device::settings::Kind,
     ui::{
@@ -39,8 +39,6 @@ const LEAST_STATE: f32 = 64.0;
 const SEGMENT: f32 = 20.0;
 /// Height beyond which a long text is scrolled.
 const LINES: f32 = 140.0;
-/// Maximum width of a card.
-pub(super) const CARD: f32 = 560.0;
 
 /// Where the reason stands why a field cannot be used.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -67,9 +65,10 @@ impl Sought {
 }
 
 pub(super) fn card(ui: &mut Ui, title: &str, content: impl FnOnce(&mut Ui)) {
-    card_frame::show(ui, CARD, |ui| {
+    card_frame::show(ui, f32::INFINITY, |ui| {
         ui.spacing_mut().item_spacing = vec2(GAP, 4.0);
         ui.label(RichText::new(title).font(text::value()));
+        ui.add_space(2.0);
         content(ui);
     });
 }
@@ -177,14 +176,19 @@ fn row<T>(
     reasons: Reasons,
 ) -> Response {
     let t = theme::tokens(ui);
-    let border = match &standing.problem {
-        Some(_) => Some(t.bad),
-        None => field.is_edited().then_some(t.sat),
+    let border = match standing {
+        Standing { problem: Some(_), .. } => Some(t.bad),
+        Standing { proved: Some(_), .. } => Some(t.ok),
+        _ => field.is_edited().then_some(t.sat),
     };
     let (label, unit) = (field.description.label.clone(), field.description.unit);
     let ((response, end), place) = labelled(ui, &label, |ui, name| {
         let response =
             ui.scope(|ui| edit(ui, group, field, border, reasons).labelled_by(name)).inner;
+        let end = response.rect.right();
+        if unit.is_empty() {
+            return (response, end);
+        }
         let words = RichText::new(unit).font(text::body()).color(t.t3);
         let left = Layout::left_to_right(Align::Center);
         let unit = ui.allocate_ui_with_layout(vec2(0.0, ROW), left, |ui| ui.label(words));
@@ -195,14 +199,14 @@ fn row<T>(
             note_in(ui, &format!("{label} {}.", problem.why), t.bad);
             return response;
         }
-        (problem, Reasons::Beside) => {
+        (_, Reasons::Beside) => {
             let left = (place.left() + STATE).max(end + GAP);
             let right = ui.max_rect().right();
             let room = Rect::from_min_max(
                 pos2(left.min(right - 14.0), place.top()),
                 pos2(right, place.top() + ROW),
             );
-            state(ui, (group, &*label), room, field, problem.as_ref());
+            state(ui, (group, &*label), room, field, standing);
         }
         (None, Reasons::Below) => {}
     }
@@ -213,20 +217,21 @@ fn row<T>(
 }
 
 /// The state of a field: unchanged, edited, or why it cannot be used.
-fn state<T>(ui: &Ui, salt: (&str, &str), room: Rect, field: &Field<T>, problem: Option<&Problem>) {
+fn state<T>(ui: &Ui, salt: (&str, &str), room: Rect, field: &Field<T>, standing: &Standing) {
     let t = theme::tokens(ui);
     let label = &field.description.label;
-    let (mark, short, whole, colour) = match problem {
-        Some(problem) => {
+    let (mark, short, whole, colour) = match (&standing.problem, &standing.proved) {
+        (Some(problem), _) => {
             let whole = format!("{label} {}.", problem.why);
             (Some(Icon::Warning), problem.short.clone(), whole, t.bad)
         }
-        None if field.is_edited() => {
+        (None, Some(proved)) => (Some(Icon::Check), proved.clone(), proved.clone(), t.ok),
+        (None, None) if field.is_edited() => {
             let was = if field.before().is_empty() { "empty" } else { field.before() };
             let short = format!("Edited, was {was}").replace('-', "−");
             (Some(Icon::Pencil), short.clone(), short, t.sat)
         }
-        None => (None, "Unchanged".to_owned(), "Unchanged".to_owned(), t.t3),
+        (None, None) => (None, "Unchanged".to_owned(), "Unchanged".to_owned(), t.t3),
     };
     let mut words = room;
     if let Some(mark) = mark {
@@ -237,7 +242,7 @@ fn state<T>(ui: &Ui, salt: (&str, &str), room: Rect, field: &Field<T>, problem: 
     if room.width() >= LEAST_STATE {
         paint::text_in(ui, words, Align2::LEFT_CENTER, &short, text::small(), colour);
     }
-    if problem.is_some() || mark.is_some() {
+    if mark.is_some() {
         paint::name_text(ui, ("state", salt), room, &whole).on_hover_text(&whole);
     }
 }
@@ -339,7 +344,7 @@ fn segments_of(
 ) -> (Option<usize>, Response) {
     let width = |word: &str| paint::text_width(ui, word, text::body_medium()) + SEGMENT;
     let width: f32 = segments.iter().map(|(word, _)| width(word)).sum();
-    let size = vec2(width.max(WORDS[0]).min(ui.available_width()), ROW);
+    let size = vec2(width.max(WORDS[0]).min(ui.available_width() - ROW), ROW);
     let (rect, response) = ui.allocate_exact_size(size, Sense::hover());
     (segmented::show(ui, &format!("{group} {label}"), rect, label, segments), response)
 }

@@ -2,7 +2,7 @@
 
 use egui::{Align2, Rect, Ui, pos2, vec2};
 
-use super::{PADDING, PreferencesState, draft::Draft, page::Page};
+use super::{HEAD, PADDING, PreferencesState, draft::Draft, page::Page};
 use crate::{
     engine,
     model::{Model, UiCommand},
@@ -35,8 +35,9 @@ pub(super) fn show(
     };
     let room = rect.with_min_x(rect.left() + PADDING).with_max_x(right - PADDING);
     let up = room.translate(vec2(0.0, -9.0));
-    paint::text_in(ui, up, Align2::LEFT_CENTER, &title, text::title(), t.t1);
-    let down = room.translate(vec2(0.0, 13.0));
+    let font = if rect.height() < HEAD[0] { text::value() } else { text::title() };
+    paint::text_in(ui, up, Align2::LEFT_CENTER, &title, font, t.t1);
+    let down = room.translate(vec2(0.0, rect.height() * 0.23));
     paint::text_in(ui, down, Align2::LEFT_CENTER, &about, text::small(), t.t2);
     paint::name_text(ui, "page", room, &format!("{title}. {about}")).on_hover_text(&about);
 }

@@ -12,7 +12,7 @@ use crate::ui::{
 
 const ROW: f32 = 22.0;
 /// Width of the column of the keys.
-const KEYS: f32 = 132.0;
+const KEYS: f32 = 148.0;
 
 /// The cards, each with its title and its scopes.
 const CARDS: [(&str, &[KeyScope]); 5] = [
@@ -23,8 +23,10 @@ const CARDS: [(&str, &[KeyScope]); 5] = [
     ("In Elements and Preferences", &[KeyScope::Elements, KeyScope::Preferences]),
 ];
 
-fn bindings(scopes: &[KeyScope]) -> impl Iterator<Item = &'static Binding> {
-    ALL.iter().filter(|binding| scopes.contains(&binding.place))
+fn bindings(scopes: &'static [KeyScope]) -> impl Iterator<Item = &'static Binding> {
+    // STOP is above every control.
+    let place = |of: &Binding| if of.is_stop() { KeyScope::Everywhere } else { of.place };
+    ALL.iter().filter(move |binding| scopes.contains(&place(binding)))
 }
 
 /// The numbers of rows in each card.

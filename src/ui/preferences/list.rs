@@ -7,7 +7,7 @@ use egui::{
 use jiff::Timestamp;
 
 use super::{
-    PADDING, PreferencesState,
+    PADDING, Places, PreferencesState,
     draft::Draft,
     fields::Counts,
     form::Sought,
@@ -38,19 +38,19 @@ const ANTENNA: f32 = 30.0;
 const RESULT: f32 = 42.0;
 const FIELD: f32 = 32.0;
 
-/// Shows the list in `rect` and changes the page that is shown.
+/// Shows the list and changes the page that is shown.
 pub(super) fn show(
     ui: &mut Ui,
-    rect: Rect,
-    head: f32,
+    places: &Places,
     model: &Model,
     (draft, before): (&mut Draft, &Draft),
     state: &mut PreferencesState,
 ) {
     let t = theme::tokens(ui);
+    let rect = places.list;
     ui.painter().rect_filled(rect, 0.0, t.bg1);
     ui.painter().vline(rect.right() - 0.5, rect.y_range(), (1.0, t.line));
-    let (title, below) = rect.split_top_bottom_at_y(rect.top() + head);
+    let (title, below) = rect.split_top_bottom_at_y(rect.top() + places.head);
     ui.painter().hline(title.x_range(), title.bottom() - 0.5, (1.0, t.line));
     let words = title.shrink2(vec2(PADDING, 0.0));
     paint::text_in(ui, words, Align2::LEFT_CENTER, "Preferences", text::value(), t.t1);
@@ -155,7 +155,7 @@ fn go_to(found: Found, state: &mut PreferencesState) {
     state.page = page;
     state.search.text.clear();
     match spot {
-        Spot::Field => state.sought = Sought::new(label),
+        Spot::Field => state.form.sought = Sought::new(label),
         Spot::Horizon(chosen) => state.horizon.open(chosen),
         Spot::Page => {}
     }
@@ -176,11 +176,23 @@ fn pages(
             if let Some(added) = antennas_head(ui, draft, model.now) {
                 state.page = added;
             }
+            if is_after_antennas {
+                no_antenna(ui);
+            }
         }
         if page_row(ui, page, model, draft, before, state.page == page) {
             state.page = page;
         }
     }
+}
+
+fn no_antenna(ui: &mut Ui) {
+    let t = theme::tokens(ui);
+    let (row, _) = ui.allocate_exact_size(vec2(ui.available_width(), ANTENNA), Sense::hover());
+    let room = row.shrink2(vec2(PADDING, 0.0));
+    let words = "No antenna yet. Add one.";
+    paint::text_in(ui, room, Align2::LEFT_CENTER, words, text::small(), t.t2);
+    paint::name_text(ui, "no antenna", room, words);
 }
 
 /// The heading of the antennas, with the button that adds one; returns the page of the new one.

@@ -2,7 +2,7 @@
 
 use egui::{Align2, Rect, Sense, Ui, vec2};
 
-use super::form::{self, CARD};
+use super::form;
 use crate::ui::{
     text, theme,
     widgets::{
@@ -14,26 +14,29 @@ use crate::ui::{
 
 const TITLE: &str = "What this changes";
 
-/// Shows `content` in a card, or below a fold that says `value` while it is closed.
+/// Shows `content`, which is of a page that `is_edited`, in a card, or below a fold that says `value` while it is closed.
 pub(super) fn card(
     ui: &mut Ui,
     fold: Option<&mut bool>,
     value: &str,
+    is_edited: bool,
     content: impl FnOnce(&mut Ui),
 ) {
     let Some(is_open) = fold else {
         form::card(ui, TITLE, |ui| {
-            live(ui);
+            if is_edited {
+                live(ui);
+            }
             content(ui);
         });
         return;
     };
-    let width = ui.available_width().min(CARD + 32.0);
+    let width = ui.available_width();
     let (line, _) = ui.allocate_exact_size(vec2(width, fold::HEIGHT), Sense::hover());
     fold::show(ui, line, &FoldModel { title: TITLE, value, mark: None }, is_open);
     ui.add_space(8.0);
     if *is_open {
-        card_frame::show(ui, CARD, content);
+        card_frame::show(ui, f32::INFINITY, content);
     }
 }
 
@@ -41,6 +44,6 @@ pub(super) fn card(
 fn live(ui: &Ui) {
     let t = theme::tokens(ui);
     let max = ui.max_rect();
-    let title = Rect::from_min_size(max.min, vec2(max.width(), 20.0));
+    let title = Rect::from_min_size(max.min, vec2(max.width(), 16.0));
     paint::text_in(ui, title, Align2::RIGHT_CENTER, "live, not saved", text::small(), t.sat);
 }

@@ -24,6 +24,8 @@ use crate::{
 const LINE: f32 = 20.0;
 /// Number of lines of checks that are shown.
 const LINES: usize = 3;
+/// Least width of the outcome.
+const LEAST: f32 = 110.0;
 /// Width of the button that the operator must hold.
 const HOLD: f32 = 150.0;
 
@@ -60,7 +62,7 @@ pub(super) fn show(
     let reverting = place(saving.left() - 8.0, revert.width(ui));
     let room = rect.with_min_x(rect.left() + PADDING).with_max_x(reverting.left() - PADDING);
     let told = outcome(ui, model, (draft, before), state);
-    lines(ui, room, &checks, told);
+    lines(ui, room, &checks, told, can_save && !holds);
 
     let is_reverted = revert.show(ui, "revert", reverting).clicked();
     let is_pressed = if holds {
@@ -80,7 +82,7 @@ pub(super) fn show(
 
 /// Shows the checks at the left of `room` and the outcome at its right; in a low bar the gravest
 /// check alone, or else the outcome.
-fn lines(ui: &Ui, room: Rect, checks: &Checks, (said, colour): (String, Color32)) {
+fn lines(ui: &Ui, room: Rect, checks: &Checks, (said, colour): (String, Color32), can_save: bool) {
     let t = theme::tokens(ui);
     if room.height() < LINE * (LINES + 1) as f32 {
         let (tone, words) =
@@ -97,9 +99,14 @@ fn lines(ui: &Ui, room: Rect, checks: &Checks, (said, colour): (String, Color32)
         paint::name_text(ui, "outcome", room, &whole).on_hover_text(&whole);
         return;
     }
-    let width = paint::text_width(ui, &said, text::body_medium());
+    let width = paint::text_width(ui, &said, text::body_medium()).max(LEAST);
     let (left, right) = room.split_left_right_at_x((room.right() - width).max(room.center().x));
     paint::text_in(ui, right, Align2::RIGHT_CENTER, &said, text::body_medium(), colour);
+    if can_save {
+        let below = right.translate(vec2(0.0, LINE));
+        let words = "Ctrl Enter saves";
+        paint::text_in(ui, below, Align2::RIGHT_CENTER, words, text::caption(), t.t3);
+    }
     paint::name_text(ui, "outcome", right, &said).on_hover_text(&said);
     if checks.lines.is_empty() {
         return;

@@ -2,7 +2,7 @@
 
 use std::borrow::Cow;
 
-use super::{appearance, draft::Draft, horizon::Chosen, page::Page};
+use super::{appearance, draft::Draft, fields::Typed, horizon::Chosen, page::Page};
 use crate::ui::keys::{ALL, list::in_words};
 
 /// Most results that are listed.
@@ -77,7 +77,7 @@ fn all(draft: &Draft) -> Vec<Found> {
             }
             Page::Antenna(id) => {
                 let antenna = draft.index(id).and_then(|index| draft.antennas.get(index));
-                let labels = antenna.map(|antenna| antenna.labels()).unwrap_or_default();
+                let labels = antenna.map(Typed::labels).unwrap_or_default();
                 all.extend(labels.into_iter().map(field));
             }
             Page::Notices => all.extend(draft.notices.labels().into_iter().map(field)),

@@ -3,10 +3,10 @@
 use egui::{Rect, Ui};
 
 use super::{
+    FormState,
     columns::{self, Part},
     draft::Draft,
-    findings,
-    form::{self, Sought},
+    findings, form,
     page::Page,
     preview,
 };
@@ -27,25 +27,33 @@ pub(super) fn show(
     rect: Rect,
     page: Page,
     model: &Model,
-    draft: &mut Draft,
-    sought: &mut Sought,
-    is_open: &mut bool,
+    (draft, before): (&mut Draft, &Draft),
+    state: &mut FormState,
 ) {
     let sections = draft.ground.sections();
     let sections: Vec<(&str, usize)> =
         sections.into_iter().filter(|(section, _)| Page::of_section(section) == page).collect();
     let rows: Vec<usize> = sections.iter().map(|(_, rows)| *rows).collect();
     let standings = draft.ground_standings();
+    let is_edited = page.counts(draft, before).edited > 0;
     let group = if page == Page::Site { "station" } else { "satellites" };
     columns::show(ui, rect, group, &rows, page == Page::Site, |ui, part| match part {
         Part::Card(card) => {
             let Some((section, _)) = sections.get(card) else { return };
-            form::section(ui, group, (&mut draft.ground, &standings), section, sought, |_| {});
+            form::section(
+                ui,
+                group,
+                (&mut draft.ground, &standings),
+                section,
+                &mut state.sought,
+                |_| {},
+            );
         }
         Part::Preview { is_fold } => {
             let site = draft.place();
             let value = site.map_or_else(String::new, |site| sun_in_short(site, model));
-            preview::card(ui, is_fold.then_some(is_open), &value, |ui| about(ui, site, model));
+            let fold = is_fold.then_some(&mut state.preview_is_open);
+            preview::card(ui, fold, &value, is_edited, |ui| about(ui, site, model));
         }
         Part::Findings => findings::show(ui, page, draft),
     });

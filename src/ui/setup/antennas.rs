@@ -8,7 +8,10 @@ use crate::{
     model::{Model, UiCommand},
     ui::{
         icons::Icon,
-        preferences::{connection_fields::CONNECTION, form},
+        preferences::{
+            connection_fields::{ADDRESS, CONNECTION},
+            form,
+        },
         text, theme,
         widgets::{
             button::Button,
@@ -22,8 +25,6 @@ use crate::{
 
 const CARD: f32 = 638.0;
 const HEIGHT: f32 = 28.0;
-/// Place of the address among the fields of a card.
-const ADDRESS: usize = 1;
 
 pub(super) fn show(
     ui: &mut Ui,

@@ -14,7 +14,7 @@ use crate::{
 
 const ROW: f32 = 22.0;
 /// Width of each of the two columns of numbers.
-const NUMBER: f32 = 72.0;
+const NUMBER: f32 = 64.0;
 
 /// The most important number, for a fold.
 pub(super) fn in_short(effect: &Effect<Question>) -> String {
@@ -22,9 +22,9 @@ pub(super) fn in_short(effect: &Effect<Question>) -> String {
 }
 
 /// Shows the numbers. An antenna that is new has none as saved.
-pub(super) fn show(ui: &mut Ui, effect: Option<&Effect<Question>>, is_new: bool) {
+pub(super) fn numbers(ui: &mut Ui, effect: Option<&Effect<Question>>, is_new: bool) {
     let t = theme::tokens(ui);
-    ui.label(RichText::new("Passes of favourites in the next 48 h").font(text::body_medium()));
+    ui.label(RichText::new("Favourites, next 48 h").font(text::body_medium()).color(t.t1));
     let Some(effect) = effect else {
         ui.label(RichText::new("Being worked out.").font(text::small()).color(t.t3));
         return;
@@ -48,7 +48,11 @@ pub(super) fn show(ui: &mut Ui, effect: Option<&Effect<Question>>, is_new: bool)
         let was = if is_new { "–".to_owned() } else { was };
         cells(ui, label, (was, t.t2), (now, colour), true);
     }
-    ui.add_space(4.0);
+}
+
+/// Says in a sentence what changes.
+pub(super) fn words(ui: &mut Ui, effect: &Effect<Question>, is_new: bool) {
+    let t = theme::tokens(ui);
     let words = RichText::new(sentence(effect, is_new)).font(text::body()).color(t.t1);
     ui.add(Label::new(words).wrap());
 }

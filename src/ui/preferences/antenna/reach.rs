@@ -2,7 +2,7 @@
 
 use std::f32::consts::TAU;
 
-use egui::{Mesh, Sense, Shape, Stroke, Ui, vec2};
+use egui::{Label, Mesh, Painter, RichText, Sense, Shape, Stroke, Ui, Vec2, vec2};
 
 use crate::{
     astro::Angle,
@@ -17,49 +17,52 @@ use crate::{
         },
         text, theme,
         tokens::Tokens,
-        widgets::paint,
     },
 };
 
-const HEIGHT: f32 = 232.0;
-const FOLDED_HEIGHT: f32 = 180.0;
 /// Angle between two points of an arc, degrees.
 const STEP_DEG: f64 = 3.0;
-/// Half the length of the mark at an end of the travel, points.
-const STOP: f32 = 8.0;
+/// Length of the mark at an end of the travel, points.
+const STOP: f32 = 10.0;
 
-/// Shows the plot, and in words what it shows.
-pub(super) fn show(ui: &mut Ui, antenna: &Antenna, is_folded: bool) {
+/// Shows the plot in a square, with the ends of the travel as saved.
+pub(super) fn plot(ui: &mut Ui, was: &Antenna, new: &Antenna) {
     let t = theme::tokens(ui);
-    let height = if is_folded { FOLDED_HEIGHT } else { HEIGHT };
-    let (rect, _) = ui.allocate_exact_size(vec2(ui.available_width(), height), Sense::hover());
+    let side = Vec2::splat(ui.available_width());
+    let (rect, _) = ui.allocate_exact_size(side, Sense::hover());
     let dome = Dome::fitted(rect);
     let painter = ui.painter_at(rect);
     grid::disc(&painter, dome, t);
-    let travel = Travel::of(antenna);
+    let (before, travel) = (Travel::of(was), Travel::of(new));
     if let Some(travel) = travel {
         painter.add(travel.area(dome, t));
     }
     grid::rings(&painter, dome, t);
-    if let Some(holes) = Keyholes::of(&antenna.mount) {
+    if let Some(holes) = Keyholes::of(&new.mount) {
         grid::keyholes(&painter, dome, &holes, t);
     }
-    let minimum = Angle::from_degrees(antenna.limits.minimum_elevation_deg);
-    grid::rim(&painter, dome, minimum, t);
-    if let Some(travel) = travel {
-        travel.paint_ends(&painter, dome, t);
+    grid::rim(&painter, dome, Angle::from_degrees(new.limits.minimum_elevation_deg), t);
+    if let Some(before) = before.filter(|_| before != travel) {
+        before.paint_ends(&painter, dome, Stroke::new(1.5, t.t3));
     }
-    if let Some(at) = dome.visible(antenna.park_direction()) {
+    if let Some(travel) = travel {
+        travel.paint_ends(&painter, dome, Stroke::new(2.0, t.bad));
+    }
+    if let Some(at) = dome.visible(new.park_direction()) {
         let corners = [vec2(0.0, -6.0), vec2(6.0, 5.0), vec2(-6.0, 5.0)].map(|corner| at + corner);
         painter.add(Shape::closed_line(corners.to_vec(), Stroke::new(1.5, t.t1)));
     }
-    let words = sentence(antenna, travel);
-    paint::name_text(ui, "reach", rect, &words);
-    ui.label(egui::RichText::new(words).font(text::small()).color(t.t2));
+}
+
+/// Says in words what the plot shows.
+pub(super) fn words(ui: &mut Ui, antenna: &Antenna) {
+    let t = theme::tokens(ui);
+    let words = RichText::new(sentence(antenna)).font(text::small()).color(t.t2);
+    ui.add(Label::new(words).wrap());
 }
 
 /// Travel of an elevation-over-azimuth mount, degrees.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 struct Travel {
     azimuth: (f64, f64),
     elevation: (f64, f64),
@@ -99,23 +102,22 @@ impl Travel {
         mesh
     }
 
-    /// Marks both ends of the azimuth axis as the red T of a stop.
-    fn paint_ends(&self, painter: &egui::Painter, dome: Dome, t: &Tokens) {
+    /// Marks both ends of the azimuth axis with the T of a stop.
+    fn paint_ends(&self, painter: &Painter, dome: Dome, stroke: Stroke) {
         for azimuth_deg in [self.azimuth.0, self.azimuth.1] {
             let azimuth = (azimuth_deg.to_radians() as f32).rem_euclid(TAU);
             let (foot, out) = (dome.at(azimuth, 0.0), outward(azimuth));
-            let stroke = Stroke::new(2.0, t.bad);
-            painter.line_segment([foot - out * STOP, foot + out * STOP], stroke);
-            let (end, across) = (foot + out * STOP, out.rot90() * STOP);
-            painter.line_segment([end - across, end + across], stroke);
+            let across = out.rot90() * (STOP / 2.0);
+            painter.line_segment([foot - out * STOP, foot], stroke);
+            painter.line_segment([foot - across, foot + across], stroke);
         }
     }
 }
 
-fn sentence(antenna: &Antenna, travel: Option<Travel>) -> String {
+fn sentence(antenna: &Antenna) -> String {
     let is_within = antenna.mount.reaches(antenna.park_direction());
     let park = if is_within { "" } else { " The park position lies outside the travel." };
-    let Some(travel) = travel else {
+    let Some(travel) = Travel::of(antenna) else {
         return format!("An X/Y mount: it is too slow in the hatched keyholes.{park}");
     };
     let (from, to) = travel.azimuth;

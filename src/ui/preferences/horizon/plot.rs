@@ -26,6 +26,9 @@ const HANDLE: f32 = 10.0;
 /// Height of a line of the legend.
 const ROW: f32 = 17.0;
 
+/// Room above the rim for the names of azimuths.
+const NAMES: f32 = 24.0;
+
 /// Shows the plot and handles the drawing in it.
 pub(super) fn show(
     ui: &mut Ui,
@@ -72,14 +75,16 @@ pub(super) fn show(
         Tool::Rectangle => "Draw from one corner to the other.",
     };
     let line = rect.with_max_y(rect.top() + 32.0).shrink2(vec2(16.0, 0.0));
-    paint::text_in(
-        ui,
-        line.with_max_x(line.right() - 90.0),
-        Align2::LEFT_CENTER,
-        hint,
-        text::small(),
-        t.t3,
-    );
+    // In a low window the plot reaches up to the line: the hint takes two of them beside its top.
+    let is_beside = dome.centre.y - dome.radius - NAMES < line.bottom();
+    if is_beside {
+        let at = line.left_top() + vec2(0.0, 8.0);
+        let width = dome.centre.x - line.left() - NAMES;
+        paint::paragraph(ui, at, width, hint, text::small(), t.t3);
+    } else {
+        let room = line.with_max_x(line.right() - 90.0);
+        paint::text_in(ui, room, Align2::LEFT_CENTER, hint, text::small(), t.t3);
+    }
     paint::text_in(ui, line, Align2::RIGHT_CENTER, "N up, E right", text::small(), t.t3);
     show_legend(ui, rect, dome, t);
 }

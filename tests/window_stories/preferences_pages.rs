@@ -1,0 +1,310 @@
+//! The pages of the preferences: found, gone through, counted, and what their edits change.
+
+use std::{sync::Arc, time::Duration};
+
+use azel::{
+    device::{OnBoard, Place},
+    driver::{LinkFinding, Snapshot},
+    engine::{
+        self,
+        link_tests::{LinkTest, LinkTestStage},
+    },
+    model::{Model, UiCommand, View, effects},
+    station::{Antenna, AntennaId},
+};
+use egui::{Event, Key, Modifiers, Role};
+use egui_kittest::kittest::{NodeT as _, Queryable as _};
+
+use crate::window_stories::{
+    preferences::{antenna_form, asked, form, open, saved, write},
+    rig::{self, LARGE, SIZES, SMALL, Window, says, settle},
+    states,
+};
+
+const FIND: &str = "Find a setting";
+
+fn type_words(window: &mut Window, words: &str) {
+    window.event(Event::Text(words.to_owned()));
+    settle(window);
+}
+
+fn press(window: &mut Window, role: Role, name: &str) {
+    window.get_by_role_and_label(role, name).scroll_to_me();
+    settle(window);
+    window.get_by_role_and_label(role, name).click();
+    settle(window);
+}
+
+/// The page that is chosen in the list.
+fn shown(window: &Window) -> String {
+    let mut pages = window.query_all_by_role(Role::RadioButton);
+    let list = |node: &egui_kittest::Node<'_>| node.rect().left() < 80.0;
+    let is_on = |node: &egui_kittest::Node<'_>| {
+        node.accesskit_node().toggled() == Some(egui::accesskit::Toggled::True)
+    };
+    let chosen = pages.find(|node| list(node) && is_on(node));
+    chosen.and_then(|node| node.accesskit_node().label()).expect("a chosen page")
+}
+
+#[test]
+fn ctrl_f_finds_a_setting_on_another_page_and_enter_goes_to_its_field() {
+    for size in SIZES {
+        let mut window = form(size);
+        window.key_press_modifiers(Modifiers::COMMAND, Key::F);
+        settle(&mut window);
+        type_words(&mut window, "park az");
+        window.get_by_role_and_label(Role::ListBoxOption, "Park azimuth, Satrak");
+        window.key_press(Key::Enter);
+        settle(&mut window);
+        let field = window.get_by_role_and_label(Role::TextInput, "Park azimuth");
+        assert!(field.is_focused() && field.rect().bottom() < size[1] - 48.0, "in sight");
+        type_words(&mut window, "123");
+        let value = window.get_by_role_and_label(Role::TextInput, "Park azimuth").value();
+        assert_eq!(value.as_deref(), Some("123"), "typed over the old value");
+        assert_eq!(shown(&window), "Satrak");
+    }
+}
+
+#[test]
+fn the_results_of_a_search_are_gone_through_with_arrows_or_clicked() {
+    for size in SIZES {
+        let mut window = form(size);
+        press(&mut window, Role::TextInput, FIND);
+        type_words(&mut window, "poll");
+        let rows = ["Poll while standing, Satrak", "Poll while moving, Satrak"];
+        for row in rows {
+            window.get_by_role_and_label(Role::ListBoxOption, row);
+        }
+        window.key_press(Key::ArrowDown);
+        settle(&mut window);
+        window.key_press(Key::Enter);
+        settle(&mut window);
+        let field = window.get_by_role_and_label(Role::TextInput, "Poll while moving");
+        assert!(field.is_focused());
+
+        press(&mut window, Role::TextInput, FIND);
+        type_words(&mut window, "nowhere");
+        assert!(says(&window, "No setting has that name."));
+        press(&mut window, Role::Button, "Clear the search");
+        press(&mut window, Role::TextInput, FIND);
+        type_words(&mut window, "sun avoid");
+        press(&mut window, Role::ListBoxOption, "Sun avoidance, Horizon and keep-outs");
+        window.get_by_role_and_label(Role::CheckBox, "Keep antennas away from the Sun");
+    }
+}
+
+#[test]
+fn ctrl_tab_goes_through_all_pages_and_round() {
+    for size in SIZES {
+        let mut window = form(size);
+        let mut pages = Vec::new();
+        for _ in 0..8 {
+            pages.push(shown(&window));
+            window.key_press_modifiers(Modifiers::COMMAND, Key::Tab);
+            settle(&mut window);
+        }
+        let wanted = [
+            "Site",
+            "Horizon and keep-outs",
+            "Satrak",
+            "Satellites and frequencies",
+            "Alarms and sounds",
+            "Appearance",
+            "Keys",
+            "Site",
+        ];
+        assert_eq!(pages, wanted);
+    }
+}
+
+#[test]
+fn edits_and_unusable_fields_of_each_page_are_counted_and_ctrl_enter_saves_them_all() {
+    for size in SIZES {
+        let mut window = form(size);
+        write(&mut window, "Altitude", "12");
+        open(&mut window, "Satrak");
+        write(&mut window, "Beam width", "1.7");
+        write(&mut window, "Poll while moving", "11");
+        assert!(says(&window, "Site: 1 edited") && says(&window, "Satrak: 2 edited, 1 not valid"));
+        assert!(says(&window, "3 changes in 2 sections"));
+        window.key_press_modifiers(Modifiers::COMMAND, Key::Enter);
+        assert_eq!(asked(&mut window), [], "a field is not valid");
+        press(&mut window, Role::Button, "Use 10");
+        assert!(says(&window, "All fields can be used."));
+        assert!(says(&window, "Satrak does not move. Saving connects it anew."));
+        window.key_press_modifiers(Modifiers::COMMAND, Key::Enter);
+        let station = saved(asked(&mut window));
+        assert!((station.site.altitude_m() - 12.0).abs() < 1e-9);
+        assert!((station.antennas[0].beam_width_deg - 1.7).abs() < 1e-9);
+        assert!((station.antennas[0].poll.moving_hz - 10.0).abs() < 1e-9);
+    }
+}
+
+#[test]
+fn a_field_says_what_it_was_and_no_row_moves_when_it_is_wrong() {
+    for size in SIZES {
+        let mut window = form(size);
+        let below = |window: &Window| {
+            window.get_by_role_and_label(Role::TextInput, "Elevation floor").rect()
+        };
+        let before = below(&window);
+        write(&mut window, "Latitude", "91");
+        assert!(says(&window, "Latitude must be a number from −90 to 90°."));
+        assert_eq!(below(&window), before);
+        press(&mut window, Role::Button, "Use 90");
+        assert!(says(&window, "Edited, was 41.02"));
+    }
+}
+
+/// Unfolds the preview where it is a fold.
+fn unfold(window: &mut Window) {
+    let fold = window.query_all_by_role(Role::Button).find(|node| {
+        node.accesskit_node().label().is_some_and(|name| name.starts_with("What this changes"))
+    });
+    if let Some(fold) = fold {
+        fold.click();
+    }
+    settle(window);
+}
+
+#[test]
+fn what_an_edit_changes_of_the_passes_is_asked_for_and_shown_beside_what_was() {
+    for size in SIZES {
+        let mut model: Model = rig::model(states::holding());
+        let config = Antenna { id: AntennaId(1), ..Antenna::genius("Genius", "tower:9006") };
+        model.antennas = vec![rig::antenna(config.clone(), rig::quiet())];
+        Arc::make_mut(&mut model.station).antennas = vec![config];
+        model.view = View::Preferences;
+        let mut window = rig::window(size, model);
+        open(&mut window, "Genius");
+        unfold(&mut window);
+        assert!(says(&window, "Being worked out."));
+        rig::asked(&mut window);
+        write(&mut window, "Azimuth to", "180");
+        let commands = rig::asked(&mut window);
+        let question = commands.into_iter().rev().find_map(|command| match command {
+            UiCommand::ShowTracked(question) => Some(*question),
+            _ => None,
+        });
+        let question = question.expect("the page asks");
+        let passes = window.state().model.pass_lists.favourites.passes.clone();
+        let ways = effects::ways::<effects::mounts::Question>(&passes, &|| false);
+        let effect = effects::Effect::of(question.clone(), &ways, 0);
+        let (was, new) = (effect.before, effect.after);
+        assert!(new.whole < was.whole, "{was:?} {new:?}");
+        let model = &mut window.state_mut().model;
+        model.mount_effects.ask(question, model.steady);
+        model.mount_effects.effect = Some(effect);
+        settle(&mut window);
+        let row = format!("Tracked whole: was {}, new {}", was.whole, new.whole);
+        assert!(says(&window, &row), "{row}");
+        window.get_by_label_contains("fewer than as saved.");
+        window.get_by_label_contains("are not reached.");
+        assert_eq!(rig::asked(&mut window), [], "asked once");
+    }
+}
+
+#[test]
+fn the_site_shows_the_sun_and_how_far_the_place_of_each_unit_is() {
+    for size in SIZES {
+        let held = states::holding();
+        let mut state = held.state.clone();
+        let place = Place { latitude_deg: 41.02, longitude_deg: 29.5, step_deg: 0.01 };
+        state.on_board = OnBoard { place: Some(place), ..OnBoard::default() };
+        let mut model = rig::model(Snapshot { state, ..held });
+        model.view = View::Preferences;
+        let mut window = rig::window(size, model);
+        unfold(&mut window);
+        window.get_by_label_contains("The Sun is at");
+        window.get_by_label_contains("km from the place that Satrak told.");
+        write(&mut window, "Longitude, east", "29.5");
+        window.get_by_label_contains("Agrees with the place that Satrak told: 0.0 km apart.");
+    }
+}
+
+#[test]
+fn a_travel_beyond_that_of_the_unit_is_told_before_saving() {
+    let mut held = rig::quiet();
+    held.state.travel_deg = [Some((0.0, 400.0)), None];
+    let mut model: Model = rig::model(states::holding());
+    let config = Antenna { id: AntennaId(1), ..Antenna::genius("Genius", "tower:9006") };
+    model.antennas = vec![rig::antenna(config.clone(), held)];
+    Arc::make_mut(&mut model.station).antennas = vec![config];
+    model.view = View::Preferences;
+    let mut window = rig::window(LARGE, model);
+    open(&mut window, "Genius");
+    write(&mut window, "Azimuth to", "445");
+    assert!(says(&window, "Genius: the unit itself turns its azimuth from 0° to 400°"));
+}
+
+#[test]
+fn a_station_without_an_antenna_says_how_to_add_one() {
+    let mut model = rig::model(states::holding());
+    model.antennas.clear();
+    Arc::make_mut(&mut model.station).antennas.clear();
+    model.view = View::Preferences;
+    let window = rig::window(SMALL, model);
+    assert!(says(&window, "No antenna yet. Add one."));
+    window.get_by_role_and_label(Role::ComboBox, "Add an antenna");
+}
+
+#[test]
+fn the_keys_are_listed_with_what_they_do() {
+    for size in SIZES {
+        let mut window = form(size);
+        open(&mut window, "Keys");
+        for words in ["Esc: STOP, everywhere", "Ctrl Tab: in Preferences: the next page"] {
+            window.get_by_label_contains(words);
+        }
+    }
+}
+
+#[test]
+fn the_local_time_is_taken_out_of_the_top_bar() {
+    let mut window = form(LARGE);
+    assert!(says(&window, "local time"));
+    open(&mut window, "Appearance");
+    window.get_by_role_and_label(Role::RadioButton, "Not shown").click();
+    let [UiCommand::SetAppearance(appearance)] = asked(&mut window)[..] else {
+        panic!("no appearance")
+    };
+    assert!(!appearance.local_time);
+    window.state_mut().model.appearance = appearance;
+    settle(&mut window);
+    assert!(!says(&window, "local time"));
+    window.get_by_label_contains("2026-08-12");
+}
+
+#[test]
+fn the_list_stands_at_the_left_and_the_bar_is_low_in_the_smallest_window() {
+    let mut window = antenna_form(SMALL);
+    let row = window.get_by_role_and_label(Role::RadioButton, "Site").rect();
+    let save = window.get_by_role_and_label(Role::Button, "Save and use").rect();
+    assert!(row.width() <= 160.0 && SMALL[1] - save.center().y < 25.0, "{row:?} {save:?}");
+    let field = window.get_by_role_and_label(Role::TextInput, "Name").rect();
+    unfold(&mut window);
+    let after = window.get_by_role_and_label(Role::TextInput, "Name").rect();
+    assert!(after.top() > field.top(), "the preview is above the first card");
+}
+
+#[test]
+fn the_outcome_of_a_test_moves_no_field() {
+    let mut window = antenna_form(SMALL);
+    let name = window.get_by_role_and_label(Role::TextInput, "Name").rect();
+    window.get_by_role_and_label(Role::Button, "Test link").click();
+    let commands = asked(&mut window);
+    let [UiCommand::Station(engine::Command::TestLink(antenna))] = &commands[..] else {
+        panic!("{commands:?}")
+    };
+    let finding = LinkFinding::Reached { state: Box::default(), after: Duration::from_millis(12) };
+    for (stage, words) in [
+        (LinkTestStage::Working, "is being asked."),
+        (LinkTestStage::Done { finding, at: rig::now() }, "Reached, 12 ms"),
+    ] {
+        let test = LinkTest { antenna: (**antenna).clone(), stage };
+        window.state_mut().model.link_tests = Arc::new(vec![test]);
+        settle(&mut window);
+        assert!(says(&window, words), "{words}");
+        assert_eq!(window.get_by_role_and_label(Role::TextInput, "Name").rect(), name);
+    }
+}
