@@ -29,7 +29,7 @@ use super::{theme, widgets::hold_button::HoldState, words};
 use crate::{
     astro::MaskForm,
     model::{MaskNews, Model, UiCommand},
-    station::Station,
+    station::{AntennaId, Station},
 };
 use columns::Part;
 use draft::Draft;
@@ -132,6 +132,11 @@ impl PreferencesState {
     /// Puts the focus into the search for a setting.
     pub fn focus_search(&mut self) {
         self.search.wants_focus = true;
+    }
+
+    /// Shows the page of this antenna.
+    pub fn show_antenna(&mut self, antenna: AntennaId) {
+        self.page = Page::Antenna(antenna);
     }
 
     /// Shows the next page.

@@ -153,7 +153,15 @@ impl Views {
             }
             View::Antennas => {
                 self.operate.leave_card(commands);
+                let before = commands.len();
                 antennas::show(ui, rest, model, &mut self.antennas, commands);
+                let leads_on = commands
+                    .iter()
+                    .skip(before)
+                    .any(|command| matches!(command, UiCommand::Show(View::Preferences)));
+                if let Some(antenna) = model.antenna().filter(|_| leads_on) {
+                    self.preferences.show_antenna(antenna.id());
+                }
             }
             View::Console => {
                 self.operate.leave_card(commands);

@@ -238,6 +238,32 @@ fn a_travel_beyond_that_of_the_unit_is_told_before_saving() {
 }
 
 #[test]
+fn enter_in_a_field_of_the_page_is_not_meant_for_the_search() {
+    let mut window = form(LARGE);
+    press(&mut window, Role::TextInput, FIND);
+    type_words(&mut window, "poll");
+    window.get_by_role_and_label(Role::TextInput, "Altitude").focus();
+    settle(&mut window);
+    window.key_press(Key::Enter);
+    settle(&mut window);
+    window.get_by_role_and_label(Role::ListBoxOption, "Poll while moving, Satrak");
+}
+
+#[test]
+fn the_settings_of_a_unit_lead_to_the_page_of_its_antenna() {
+    for size in SIZES {
+        let mut model = rig::model(states::holding());
+        model.view = View::Antennas;
+        let mut window = rig::window(size, model);
+        press(&mut window, Role::Button, "Mount, limits and connection");
+        assert!(asked(&mut window).contains(&UiCommand::Show(View::Preferences)));
+        window.state_mut().model.view = View::Preferences;
+        settle(&mut window);
+        assert_eq!(shown(&window), "Satrak");
+    }
+}
+
+#[test]
 fn a_station_without_an_antenna_says_how_to_add_one() {
     let mut model = rig::model(states::holding());
     model.antennas.clear();

@@ -256,7 +256,7 @@ mod tests {
         };
         let tally = |way: &PassTrack, sun| {
             let after = Obstacles { mask: None, keep_outs: Vec::new(), sun };
-            let [_, after] = question(after).tallies(&[way.clone()]);
+            let [_, after] = question(after).tallies(std::slice::from_ref(way));
             after
         };
         let radius_deg = 5.5;

@@ -55,7 +55,7 @@ pub(super) fn show(
     let words = title.shrink2(vec2(PADDING, 0.0));
     paint::text_in(ui, words, Align2::LEFT_CENTER, "Preferences", text::value(), t.t1);
     let field = below.with_max_y(below.top() + FIELD + 16.0).shrink(8.0);
-    search_field(ui, field, &mut state.search);
+    let takes_keys = search_field(ui, field, &mut state.search);
     let rows = below.with_min_y(field.bottom() + 8.0).with_max_x(below.right() - 1.0);
     let builder = UiBuilder::new().id_salt("pages").max_rect(rows);
     ui.scope_builder(builder, |ui| {
@@ -65,13 +65,14 @@ pub(super) fn show(
             if state.search.text.trim().is_empty() {
                 pages(ui, model, draft, before, state);
             } else {
-                results(ui, draft, state);
+                results(ui, draft, takes_keys, state);
             }
         });
     });
 }
 
-fn search_field(ui: &mut Ui, rect: Rect, search: &mut Search) {
+/// Shows the field of the search. Returns `true` while keys are meant for it.
+fn search_field(ui: &mut Ui, rect: Rect, search: &mut Search) -> bool {
     let t = theme::tokens(ui);
     let frame = Frame::new()
         .fill(t.field)
@@ -98,8 +99,10 @@ fn search_field(ui: &mut Ui, rect: Rect, search: &mut Search) {
     if response.changed() {
         search.chosen = 0;
     }
+    // Enter ends the typing in the same frame.
+    let takes_keys = response.has_focus() || response.lost_focus();
     if search.text.is_empty() {
-        return;
+        return takes_keys;
     }
     let cross = paint::square(pos2(rect.right() - 14.0, rect.center().y), 20.0);
     let name = "Clear the search";
@@ -109,9 +112,10 @@ fn search_field(ui: &mut Ui, rect: Rect, search: &mut Search) {
     if clear.clicked() {
         search.text.clear();
     }
+    takes_keys
 }
 
-fn results(ui: &mut Ui, draft: &Draft, state: &mut PreferencesState) {
+fn results(ui: &mut Ui, draft: &Draft, takes_keys: bool, state: &mut PreferencesState) {
     let t = theme::tokens(ui);
     let found = find(&state.search.text, draft);
     if found.is_empty() {
@@ -124,7 +128,7 @@ fn results(ui: &mut Ui, draft: &Draft, state: &mut PreferencesState) {
     }
     let last = found.len() - 1;
     let (up, down, enter) = ui.input_mut(|input| {
-        let mut pressed = |key| input.consume_key(Modifiers::NONE, key);
+        let mut pressed = |key| takes_keys && input.consume_key(Modifiers::NONE, key);
         (pressed(Key::ArrowUp), pressed(Key::ArrowDown), pressed(Key::Enter))
     });
     let search = &mut state.search;

@@ -12,6 +12,7 @@ use crate::{
         format,
         icons::{self, Icon},
         text, theme,
+        tokens::Tokens,
         widgets::{
             button::{Button, HEIGHT},
             hold_button, paint,
@@ -111,7 +112,7 @@ fn lines(ui: &Ui, room: Rect, checks: &Checks, (said, colour): (String, Color32)
     if checks.lines.is_empty() {
         return;
     }
-    let mut top = rect_top(left, checks.lines.len().min(LINES));
+    let mut top = first_line(left, checks.lines.len().min(LINES));
     let mut row = || {
         let row = Rect::from_min_size(pos2(left.left(), top), vec2(left.width() - PADDING, LINE));
         top += LINE;
@@ -134,11 +135,11 @@ fn lines(ui: &Ui, room: Rect, checks: &Checks, (said, colour): (String, Color32)
 }
 
 /// Top of so many lines below their head, in the middle of `room`.
-fn rect_top(room: Rect, lines: usize) -> f32 {
+fn first_line(room: Rect, lines: usize) -> f32 {
     room.center().y - LINE * (lines + 1) as f32 / 2.0
 }
 
-fn look(tone: Tone, t: &crate::ui::tokens::Tokens) -> (Option<Icon>, Color32) {
+fn look(tone: Tone, t: &Tokens) -> (Option<Icon>, Color32) {
     match tone {
         Tone::Plain | Tone::Now => (None, t.t2),
         Tone::Good => (Some(Icon::Check), t.ok),
