@@ -193,6 +193,7 @@ fn an_antenna_is_added_and_removed() {
         assert_eq!(saved(asked(&mut window)).antennas.len(), 2);
         let mut window = antenna_form(size);
         press(&mut window, "Remove antenna");
+        assert!(says(&window, "Satrak is removed from the station with its settings."));
         press(&mut window, "Save and use");
         assert_eq!(saved(asked(&mut window)).antennas.len(), 0);
     }

@@ -64,17 +64,17 @@ pub(super) fn show(
         Part::Card(card) => {
             let Some(antenna) = draft.antennas.get_mut(index) else { return };
             let Some((section, _)) = sections.get(card) else { return };
-            if is_removed {
-                ui.disable();
-            }
             let group = format!("antenna {}", id.0);
             let config = antenna.before().clone();
-            form::section(ui, &group, (antenna, &standings), section, &mut state.sought, |ui| {
-                let known = model.antennas.iter().find(|of| of.config == config);
-                if let Some(known) = known.filter(|_| *section == WATCH) {
-                    let words = words::stopping_way(known.snapshot.stopping_way);
-                    form::told(ui, "Way after STOP", &words);
-                }
+            let (form, sought) = ((antenna, &standings[..]), &mut state.sought);
+            ui.add_enabled_ui(!is_removed, |ui| {
+                form::section(ui, &group, form, section, sought, |ui| {
+                    let known = model.antennas.iter().find(|of| of.config == config);
+                    if let Some(known) = known.filter(|_| *section == WATCH) {
+                        let words = words::stopping_way(known.snapshot.stopping_way);
+                        form::told(ui, "Way after STOP", &words);
+                    }
+                });
             });
         }
         Part::Preview { is_fold } => {

@@ -36,6 +36,7 @@ impl Checks {
         lines.extend(unusable(draft).map(|words| (Tone::Bad, words)));
         lines.extend(busy.iter().chain(&inside).map(|words| (Tone::Caution, words.clone())));
         if let Some(after) = after.filter(|_| draft != before) {
+            lines.extend(removed(model, after).map(|words| (Tone::Caution, words)));
             lines.extend(beyond_the_unit(model, after).map(|words| (Tone::Caution, words)));
             if busy.is_none() {
                 lines.extend(changed(model, after).map(|words| (Tone::Good, words)));
@@ -63,6 +64,13 @@ fn unusable(draft: &Draft) -> Option<String> {
             others.len() + 1
         )),
     }
+}
+
+/// Antennas that the station loses. Those of the demonstration are not among its own.
+fn removed(model: &Model, after: &Station) -> impl Iterator<Item = String> {
+    let is_kept = |id| after.antennas.iter().any(|antenna| antenna.id == id);
+    let gone = model.antennas.iter().filter(move |of| !model.demo && !is_kept(of.id()));
+    gone.map(|of| format!("{} is removed from the station with its settings.", of.config.name))
 }
 
 /// Antennas whose new travel goes beyond that of their unit.

@@ -103,7 +103,7 @@ fn columns_of(rows: &[usize], columns: usize) -> Vec<usize> {
     let (mut column, mut above, mut placed) = (0, 0, Vec::new());
     for rows in rows {
         let height = height(rows);
-        let is_full = (2 * above + height) * columns > 2 * total * (column + 1);
+        let is_full = (2 * above + height) * columns >= 2 * total * (column + 1);
         if is_full && column + 1 < columns && placed.contains(&column) {
             column += 1;
         }
