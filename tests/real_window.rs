@@ -4,6 +4,7 @@
 //! default and run by name where those are installed.
 
 mod deaths;
+mod pictures;
 mod processes;
 mod screen;
 mod stories;

@@ -1,0 +1,321 @@
+//! Pictures of every view, taken from the real window on the demo station.
+//!
+//! The test takes all of them at one size in one theme. The long form takes every size in every
+//! theme and keeps them as `target/pictures/<view>-<size>-<theme>.png`:
+//!
+//! `AZEL_PICTURES=all cargo test --test processes real_window::pictures -- --ignored --nocapture`
+//!
+//! Instead of `all`, sizes such as `1024x640,1440x900` are taken alone.
+
+use std::{
+    collections::HashSet,
+    fs,
+    path::{Path, PathBuf},
+    thread,
+    time::Duration,
+};
+
+use azel::{
+    app::App,
+    clock::Clock,
+    engine::Settings,
+    model::{Model, ThemeName},
+};
+use egui::{Key, Modifiers, Pos2, Rect, Role};
+use egui_kittest::{
+    Harness,
+    kittest::{NodeT as _, Queryable as _},
+};
+
+use super::screen::{Screen, wait_for};
+
+const SIZES: [[u32; 2]; 4] = [[1024, 640], [1440, 900], [1920, 1080], [2560, 1440]];
+const THEMES: [(ThemeName, &str); 3] =
+    [(ThemeName::Dark, "dark"), (ThemeName::Light, "light"), (ThemeName::Night, "night")];
+/// Names the sizes of the long form.
+const LONG_FORM: &str = "AZEL_PICTURES";
+/// Time for the window to finish what a key or a click has begun.
+const SETTLES_IN: Duration = Duration::from_millis(800);
+/// Colours of the least colourful view: text has many shades of its own.
+const LEAST_COLOURS: usize = 60;
+
+/// An act of the operator.
+#[derive(Clone, Copy)]
+enum Act {
+    /// A key, as xdotool and as egui name it.
+    Press(&'static str, Modifiers, Key),
+    /// A click on the first control whose name contains this.
+    Click(&'static str),
+    /// A click on the control, where there is one.
+    ClickIfThere(&'static str),
+    /// A click on the lower left corner, beside everything that opens over the window.
+    ClickBeside,
+}
+use Act::{Click, ClickBeside, ClickIfThere, Press};
+
+const OPERATE: Act = Press("ctrl+1", Modifiers::COMMAND, Key::Num1);
+const ELEMENTS: Act = Press("ctrl+3", Modifiers::COMMAND, Key::Num3);
+const ANTENNAS: Act = Press("ctrl+4", Modifiers::COMMAND, Key::Num4);
+const CONSOLE: Act = Press("ctrl+5", Modifiers::COMMAND, Key::Num5);
+const PREFERENCES: Act = Press("ctrl+6", Modifiers::COMMAND, Key::Num6);
+const MAP: Act = Press("ctrl+8", Modifiers::COMMAND, Key::Num8);
+const FIRST_ANTENNA: Act = Press("F1", Modifiers::NONE, Key::F1);
+const SECOND_ANTENNA: Act = Press("F2", Modifiers::NONE, Key::F2);
+const THIRD_ANTENNA: Act = Press("F3", Modifiers::NONE, Key::F3);
+const KEYS: Act = Press("question", Modifiers::NONE, Key::Questionmark);
+const TRACK: Act = Press("t", Modifiers::NONE, Key::T);
+const NEXT_THEME: Act = Press("ctrl+l", Modifiers::COMMAND, Key::L);
+
+/// A view with how it is opened, and how it is left for the next one.
+struct View {
+    name: &'static str,
+    open: &'static [Act],
+    leave: &'static [Act],
+}
+
+const fn view(name: &'static str, open: &'static [Act], leave: &'static [Act]) -> View {
+    View { name, open, leave }
+}
+
+const VIEWS: [View; 18] = [
+    view("operate", &[OPERATE, FIRST_ANTENNA], &[]),
+    view("operate-genius", &[SECOND_ANTENNA], &[]),
+    view("operate-rc2000c", &[THIRD_ANTENNA], &[FIRST_ANTENNA]),
+    view("alarms", &[Click("alarm")], &[Click("Close")]),
+    view("keys", &[KEYS], &[KEYS]),
+    view("question", &[TRACK], &[ClickBeside]),
+    view("elements", &[ELEMENTS], &[]),
+    view(
+        "upload",
+        &[ClickIfThere("Details"), Click("Upload to")],
+        &[Click("Back to the elements"), ClickIfThere("Close details")],
+    ),
+    view("antennas", &[ANTENNAS], &[]),
+    view("antennas-genius", &[SECOND_ANTENNA], &[]),
+    view("antennas-rc2000c", &[THIRD_ANTENNA], &[FIRST_ANTENNA]),
+    view("console", &[CONSOLE], &[]),
+    view("map", &[MAP], &[]),
+    view("preferences-station", &[PREFERENCES, Click("Station and antennas")], &[]),
+    view("preferences-horizon", &[Click("Horizon and keep-outs")], &[]),
+    view("preferences-alarms", &[Click("Alarms and sounds")], &[]),
+    view("preferences-appearance", &[Click("Appearance")], &[]),
+    view("setup", &[Click("Set up your station")], &[OPERATE]),
+];
+
+/// The same window without a display, which tells where a control is.
+struct Twin {
+    window: Harness<'static, App>,
+    _folder: tempfile::TempDir,
+}
+
+impl Twin {
+    fn new([width, height]: [u32; 2]) -> Self {
+        let folder = tempfile::tempdir().expect("a folder");
+        let settings = Settings {
+            path: Some(folder.path().join("station.toml")),
+            library: Some(folder.path().join("elements")),
+            dead_man: Some(env!("CARGO_BIN_EXE_azel").into()),
+            ..Settings::default()
+        };
+        let window = Harness::builder()
+            .with_size([width as f32, height as f32])
+            .allow_missing_glyphs()
+            .build_eframe(move |cc| {
+                let app = App::new(&cc.egui_ctx, &settings, Clock::system()).expect("the demo");
+                app.without_set_up()
+            });
+        let mut twin = Self { window, _folder: folder };
+        wait_for("the twin of the demo station", || {
+            twin.window.step();
+            is_ready(twin.window.state().model()).then_some(())
+        });
+        twin
+    }
+
+    fn press(&mut self, modifiers: Modifiers, key: Key) {
+        self.window.key_press_modifiers(modifiers, key);
+        self.window.run_steps(3);
+    }
+
+    fn click(&mut self, at: Pos2) {
+        self.window.hover_at(at);
+        self.window.drag_at(at);
+        self.window.drop_at(at);
+        self.window.run_steps(3);
+    }
+
+    /// Where a control is whose name contains `words`.
+    fn find(&mut self, words: &str) -> Option<Pos2> {
+        // What comes from another thread may take some frames.
+        for _ in 0..50 {
+            self.window.step();
+            let is_control = |role| {
+                matches!(role, Role::Button | Role::RadioButton | Role::Tab | Role::MenuItem)
+            };
+            let mut found = self.window.query_all_by_label_contains(words);
+            if let Some(node) = found.find(|node| is_control(node.accesskit_node().role())) {
+                return Some(node.rect().center());
+            }
+            thread::sleep(Duration::from_millis(10));
+        }
+        None
+    }
+
+    fn stop(&self) -> Rect {
+        let mut stops = self.window.get_all_by_label_contains("STOP");
+        let is_stop = |role| role == Role::Button;
+        stops.find(|node| is_stop(node.accesskit_node().role())).expect("STOP").rect()
+    }
+}
+
+fn is_ready(model: &Model) -> bool {
+    let is_measured = model.antennas.iter().any(|of| of.snapshot.state.measured.is_some());
+    model.antennas.len() == 3 && is_measured && model.selected.is_some()
+}
+
+/// A picture in rows of three bytes a pixel.
+struct Picture {
+    width: usize,
+    pixels: Vec<u8>,
+}
+
+impl Picture {
+    fn at(&self, place: Pos2) -> [u8; 3] {
+        let start = 3 * (place.y as usize * self.width + place.x as usize);
+        self.pixels[start..start + 3].try_into().expect("three bytes")
+    }
+
+    fn colours(&self) -> usize {
+        self.pixels.chunks_exact(3).collect::<HashSet<_>>().len()
+    }
+}
+
+/// The real window on a screen of its size, and its twin.
+struct Scene {
+    screen: Screen,
+    size: [u32; 2],
+    twin: Twin,
+    _azel: super::screen::Running,
+}
+
+impl Scene {
+    fn new(number: u32, size: [u32; 2]) -> Self {
+        let [width, height] = size.map(|side| side.to_string());
+        let screen = Screen::new(number, &format!("{width}x{height}"));
+        let (azel, window) = screen.azel(&["--demo"]);
+        screen.xdotool(&["windowmove", &window, "0", "0"]);
+        screen.xdotool(&["windowsize", &window, &width, &height]);
+        let wanted = format!("Geometry: {width}x{height}");
+        wait_for("the size of the window", || {
+            screen.xdotool(&["getwindowgeometry", &window]).contains(&wanted).then_some(())
+        });
+        let mut scene = Self { screen, size, twin: Twin::new(size), _azel: azel };
+        let (theme, _) = THEMES[0];
+        wait_for("the first picture", || scene.is_drawn(theme).then_some(()));
+        // Both have found their passes and read their units.
+        thread::sleep(4 * SETTLES_IN);
+        scene.twin.window.run_steps(3);
+        scene
+    }
+
+    fn picture(&self) -> Picture {
+        Picture { width: self.size[0] as usize, pixels: self.screen.picture() }
+    }
+
+    /// Whether STOP is at its place in this theme's red, over a picture.
+    fn is_drawn(&self, theme: ThemeName) -> bool {
+        let picture = self.picture();
+        let stop = theme.tokens().stop;
+        let above_word = self.twin.stop().center_top() + egui::vec2(0.0, 5.0);
+        picture.at(above_word) == [stop.r(), stop.g(), stop.b()]
+            && picture.colours() > LEAST_COLOURS
+    }
+
+    fn act(&mut self, act: Act) {
+        let at = match act {
+            Press(chord, modifiers, key) => {
+                self.screen.xdotool(&["key", chord]);
+                self.twin.press(modifiers, key);
+                thread::sleep(SETTLES_IN / 4);
+                return;
+            }
+            Click(words) => self.twin.find(words).unwrap_or_else(|| panic!("no control {words:?}")),
+            ClickIfThere(words) => match self.twin.find(words) {
+                Some(at) => at,
+                None => return,
+            },
+            ClickBeside => Pos2::new(3.0, self.size[1] as f32 - 3.0),
+        };
+        let [x, y] = [at.x, at.y].map(|place| format!("{place:.0}"));
+        self.screen.xdotool(&["mousemove", &x, &y, "click", "1"]);
+        self.twin.click(at);
+        thread::sleep(SETTLES_IN / 4);
+        // The pointer covers and highlights nothing in the picture.
+        let corner = (self.size[0] / 2).to_string();
+        self.screen.xdotool(&["mousemove", &corner, "1"]);
+        self.twin.window.hover_at(Pos2::new(self.size[0] as f32 / 2.0, 1.0));
+    }
+
+    /// Takes every view in each of the themes, and keeps the pictures in `folder`.
+    fn take(&mut self, themes: &[(ThemeName, &str)], folder: &Path) -> usize {
+        let mut taken = 0;
+        for view in &VIEWS {
+            for act in view.open {
+                self.act(*act);
+            }
+            for (theme, word) in themes {
+                thread::sleep(SETTLES_IN);
+                let what = format!("{} in the {word} theme", view.name);
+                wait_for(&what, || self.is_drawn(*theme).then_some(()));
+                let [width, height] = self.size;
+                self.keep(&folder.join(format!("{}-{width}x{height}-{word}.png", view.name)));
+                taken += 1;
+                if themes.len() > 1 {
+                    self.act(NEXT_THEME);
+                }
+            }
+            for act in view.leave {
+                self.act(*act);
+            }
+        }
+        taken
+    }
+
+    fn keep(&self, path: &Path) {
+        let path = path.to_string_lossy();
+        let status = self
+            .screen
+            .command("import")
+            .args(["-window", "root", "-define", "png:compression-level=3", &path])
+            .status()
+            .expect("ImageMagick");
+        assert!(status.success(), "{path}");
+    }
+}
+
+fn folder() -> PathBuf {
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).with_file_name("pictures");
+    fs::create_dir_all(&folder).expect("a folder");
+    folder
+}
+
+#[test]
+#[ignore = "needs Xvfb, xdotool, ImageMagick and OpenGL"]
+fn every_view_shows_itself_and_stop() {
+    let wanted = std::env::var(LONG_FORM).ok();
+    let folder = folder();
+    let mut taken = 0;
+    for (number, size) in SIZES.into_iter().enumerate() {
+        let word = format!("{}x{}", size[0], size[1]);
+        let (is_taken, themes) = match wanted.as_deref() {
+            None => (size == SIZES[1], &THEMES[..1]),
+            Some("all") => (true, &THEMES[..]),
+            Some(sizes) => (sizes.split(',').any(|of| of == word), &THEMES[..]),
+        };
+        if is_taken {
+            taken += Scene::new(171 + number as u32, size).take(themes, &folder);
+        }
+    }
+    println!("{taken} pictures in {}", folder.display());
+    assert!(taken >= VIEWS.len(), "{LONG_FORM} names no size of {SIZES:?}");
+}
