@@ -37,7 +37,11 @@ use self::{
     labels::{Key, Label, Labels},
     placement::{Memory, Side},
 };
-use super::{along, text, theme, tokens::Tokens, widgets::context_menu};
+use super::{
+    along, text, theme,
+    tokens::Tokens,
+    widgets::{context_menu, paint},
+};
 use crate::astro::AzEl;
 
 pub use scene::{
@@ -150,10 +154,12 @@ pub fn show(
     let dome = state.zoom.of(whole);
     paint_sky(ui, rect, dome, scene, state, t);
     beam_view::paint(ui.painter(), rect, scene, t);
-    let chosen = nodes::satellites(ui, canvas.id, rect, dome, scene, state.layers.others, t, menu);
-    let antenna = other_antennas::nodes(ui, canvas.id, rect, dome, scene, t);
+    let marks = &paint::marks_of(ui, &canvas);
+    let others = state.layers.others;
+    let chosen = nodes::satellites(marks, canvas.id, rect, dome, scene, others, t, menu);
+    let antenna = other_antennas::nodes(marks, canvas.id, rect, dome, scene, t);
     let events = scene.track.map(|track| track::events(&track)).unwrap_or_default();
-    nodes::events_and_antenna(ui, canvas.id, dome, &events, scene);
+    nodes::events_and_antenna(marks, canvas.id, dome, &events, scene);
     // The corners keep their places in a magnified sky.
     readout::paint(ui.painter(), rect, whole, scene, !state.zoom.is_whole(), t);
     corners::upper_right(ui, rect, &mut state.layers, t);

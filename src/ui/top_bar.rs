@@ -153,6 +153,8 @@ fn mark_left_out(ui: &Ui, rect: Rect, words: &str) {
 /// open. Returns `true` when it was clicked.
 fn stop_clicked(ui: &Ui, rect: Rect, model: &TopBarModel<'_>) -> bool {
     Area::new(Id::unique("stop layer"))
+        // The first of the bar for screen readers too, which would read its layer last.
+        .accessibility_parent(ui.unique_id())
         .order(Order::Tooltip)
         .fixed_pos(rect.min)
         .default_size(rect.size())

@@ -2,7 +2,10 @@
 
 pub(super) mod service;
 
-use egui::{Align, Frame, Layout, Margin, RichText, Stroke, Ui, style::ScrollAnimation, vec2};
+use egui::{
+    Align, Frame, Layout, Margin, RichText, Role, Stroke, Ui, UiBuilder, style::ScrollAnimation,
+    vec2,
+};
 
 use super::{
     field_row,
@@ -116,8 +119,12 @@ fn fill(
     section: &Section,
     effects: &mut CardEffects<'_>,
 ) {
-    // There may be several service cards.
-    ui.push_id(section.title, |ui| {
+    // Several cards may have the same controls.
+    let group = UiBuilder::new()
+        .id_salt(section.title)
+        .accessibility_role(Role::Group)
+        .accessibility_label(section.title);
+    ui.scope_builder(group, |ui| {
         if !section.is_service {
             title(ui, section.title);
         }

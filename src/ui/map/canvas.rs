@@ -40,7 +40,7 @@ pub(super) fn show(
     let canvas = nodes::canvas(ui, world, model, state);
     let projection = Projection::of(world, state.zoom);
     paint_map(ui, &projection, visible, model, shown, state, t);
-    nodes::marks(ui, canvas.id, &projection, model, shown, commands, t);
+    nodes::marks(&paint::marks_of(ui, &canvas), canvas.id, &projection, model, shown, commands, t);
     if let Some(place) = canvas.hover_pos().and_then(|at| projection.place(at)) {
         pointed_at(ui, visible, place, t);
     }

@@ -2,7 +2,7 @@
 
 use egui::{
     Align2, Color32, CornerRadius, FontId, Pos2, Rect, Response, Role, Sense, Shape, Stroke,
-    StrokeKind, Ui, Vec2, WidgetInfo, pos2,
+    StrokeKind, Ui, UiBuilder, Vec2, WidgetInfo, pos2,
     text::{LayoutJob, TextFormat, TextWrapping},
 };
 
@@ -123,6 +123,12 @@ pub fn held_control(
     let response = ui.interact(rect, ui.make_persistent_id(salt), sense);
     response.widget_info(|| WidgetInfo::labeled(Role::Button, enabled, name));
     response
+}
+
+/// A place for the marks of a drawing: their nodes are children of its node.
+pub fn marks_of(ui: &mut Ui, drawing: &Response) -> Ui {
+    let builder = UiBuilder::new().id_salt("marks").max_rect(drawing.rect);
+    ui.new_child(builder.accessibility_parent(drawing.id))
 }
 
 /// Adds an accessibility node for painted text, for screen readers and tests.

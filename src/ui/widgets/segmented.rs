@@ -1,6 +1,9 @@
 //! A choice among a few segments side by side.
 
-use egui::{Align2, CornerRadius, Rect, Role, Stroke, StrokeKind, Ui, WidgetInfo, pos2, vec2};
+use egui::{
+    Align2, CornerRadius, Rect, Response, Role, Stroke, StrokeKind, Ui, UiBuilder, WidgetInfo,
+    pos2, vec2,
+};
 
 use super::{button::RADIUS, paint};
 use crate::ui::{text, theme};
@@ -31,6 +34,7 @@ pub fn show(
     let t = theme::tokens(ui);
     let group = ui.interact(rect, ui.make_persistent_id(salt), egui::Sense::hover());
     group.widget_info(|| WidgetInfo::labeled(Role::RadioGroup, true, name));
+    let cells = inside(ui, &group);
     ui.painter().rect_filled(rect, RADIUS, t.bg2);
     let wanted: Vec<f32> =
         segments.iter().map(|(word, _)| paint::text_width(ui, word, text::body_medium())).collect();
@@ -42,7 +46,7 @@ pub fn show(
         let right = (x + width + spare).min(rect.right());
         let cell = Rect::from_min_max(pos2(x, rect.top()), pos2(right, rect.bottom()));
         let id = ui.make_persistent_id((salt, *word));
-        let response = ui.interact(cell, id, egui::Sense::click());
+        let response = cells.interact(cell, id, egui::Sense::click());
         let chosen = matches!(state, Segment::Chosen | Segment::Foreign);
         let is_foreign = *state == Segment::Foreign;
         let said =
@@ -85,6 +89,18 @@ pub fn show(
         paint::focus_ring(ui, &response, RADIUS);
     }
     clicked
+}
+
+/// A place for the segments, whose nodes are children of the node of the group.
+fn inside(ui: &Ui, group: &Response) -> Ui {
+    let builder = UiBuilder::new().layer_id(ui.layer_id()).max_rect(group.rect);
+    let builder = builder.accessibility_parent(group.id);
+    let mut inside = Ui::new(ui.ctx().clone(), group.id.with("segments"), builder);
+    inside.set_clip_rect(ui.clip_rect());
+    if !ui.is_enabled() {
+        inside.disable();
+    }
+    inside
 }
 
 fn corners(index: usize, count: usize) -> CornerRadius {

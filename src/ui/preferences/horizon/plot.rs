@@ -54,12 +54,13 @@ pub(super) fn show(
     canvas.widget_info(|| WidgetInfo::labeled(Role::Canvas, true, name));
     scene::paint_sky(ui, rect, dome, model, skies, state, antenna);
     draw::draw_on_canvas(ui, &canvas, dome, skies, state, antenna.map(|of| &of.config));
+    let marks = &mut paint::marks_of(ui, &canvas);
     match state.chosen {
-        Chosen::Zone(index) => handles::zone_handles(ui, dome, index, skies, state, t),
+        Chosen::Zone(index) => handles::zone_handles(marks, dome, index, skies, state, t),
         Chosen::Skyline | Chosen::Sun => {}
     }
     if state.chosen == Chosen::Skyline || state.tool == Tool::Point {
-        handles::skyline_handles(ui, dome, skies, state, t);
+        handles::skyline_handles(marks, dome, skies, state, t);
     }
     handles::continue_drag(ui, dome, skies, state);
     draw::paint_drawing(ui, dome, state, t);
