@@ -65,6 +65,8 @@ fn apply(style: &mut egui::Style, t: &Tokens) {
     visuals.popup_shadow = egui::Shadow::NONE;
     visuals.text_cursor.blink = false;
     visuals.override_text_color = Some(t.t1);
+    // Hints in empty fields.
+    visuals.weak_text_color = Some(t.t3);
     let widgets = &mut visuals.widgets;
     for widget in [
         &mut widgets.noninteractive,

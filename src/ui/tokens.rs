@@ -194,22 +194,23 @@ const NIGHT: Tokens = Tokens {
     other: rgb(0xF8402F),
 };
 
+/// Contrast of two opaque colours by the Web Content Accessibility Guidelines, from 1 to 21.
+pub fn contrast(a: Color32, b: Color32) -> f64 {
+    let (a, b) = (luminance(a), luminance(b));
+    (a.max(b) + 0.05) / (a.min(b) + 0.05)
+}
+
+fn luminance(colour: Color32) -> f64 {
+    let linear = |channel: u8| {
+        let value = f64::from(channel) / 255.0;
+        if value <= 0.040_45 { value / 12.92 } else { ((value + 0.055) / 1.055).powf(2.4) }
+    };
+    0.2126 * linear(colour.r()) + 0.7152 * linear(colour.g()) + 0.0722 * linear(colour.b())
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    fn luminance(colour: Color32) -> f64 {
-        let linear = |channel: u8| {
-            let value = f64::from(channel) / 255.0;
-            if value <= 0.040_45 { value / 12.92 } else { ((value + 0.055) / 1.055).powf(2.4) }
-        };
-        0.2126 * linear(colour.r()) + 0.7152 * linear(colour.g()) + 0.0722 * linear(colour.b())
-    }
-
-    fn contrast(a: Color32, b: Color32) -> f64 {
-        let (a, b) = (luminance(a), luminance(b));
-        (a.max(b) + 0.05) / (a.min(b) + 0.05)
-    }
 
     #[test]
     fn text_and_control_borders_can_be_read_in_every_theme() {
@@ -252,6 +253,12 @@ mod tests {
                 ("edge on field", t.edge, t.field, 3.0),
                 ("sat on field", t.sat, t.field, 3.0),
                 ("bad on field", t.bad, t.field, 3.0),
+                ("ok on okbg", t.ok, t.okbg, 4.5),
+                ("t3 on warnbg", t.t3, t.warnbg, 4.5),
+                ("t3 on badbg", t.t3, t.badbg, 4.5),
+                ("onsat on warn", t.onsat, t.warn, 4.5),
+                ("onsat on t3", t.onsat, t.t3, 4.5),
+                ("onsat on cmd", t.onsat, t.cmd, 4.5),
             ] {
                 let ratio = contrast(front, back);
                 assert!(ratio >= needed, "{theme:?} {name}: {ratio:.2}");
