@@ -94,3 +94,21 @@ fn what_does_not_set_has_no_los_and_another_day_is_named() {
         assert!(said.contains("It does not set; at 14 Aug 07:57:24Z it stops"), "{said}");
     }
 }
+
+#[test]
+fn a_header_that_is_cut_keeps_what_matters_and_loses_the_age_of_the_elements_first() {
+    let mut snapshot = states::tracking(0.0);
+    if let Some(held) = &mut snapshot.state.on_board.satellite {
+        held.catalog_number = 25_544;
+        "ISS (ZARYA)".clone_into(&mut held.name);
+    }
+    for size in SIZES {
+        let window = rig::window(size, rig::model(snapshot.clone()));
+        let header = window.get_by_label_contains("JPSS-1 43013").accesskit_node();
+        let header = header.value().or_else(|| header.label()).unwrap();
+        let place = |words: &str| header.find(words).unwrap_or_else(|| panic!("{header}"));
+        let other = place("nother satellite on Satrak");
+        let light = header.find("sunlit").unwrap_or_else(|| place("in eclipse"));
+        assert!(other < light && light < place("lements "), "{header}");
+    }
+}

@@ -188,26 +188,28 @@ pub(super) fn header(ui: &mut Ui, rect: Rect, model: &Model, small: bool) -> boo
 
 /// The second line of the header, most important first: the end is cut in a small window.
 fn second_line(model: &Model, predicted: &PredictedPass, age_s: f64) -> String {
-    let mask = predicted.clear().map(|stretches| clear_of_mask(stretches, model.now));
-    let elements = Some(format!("elements {} old", format::age(age_s)));
-    let order = if age_s > words::OLD_ELEMENTS_S { [elements, mask] } else { [mask, elements] };
-    let mut parts: Vec<String> = order.into_iter().flatten().collect();
-    let held =
-        model.antenna().and_then(|antenna| antenna.snapshot.state.on_board.satellite.as_ref());
-    if let (Some(held), Some(antenna)) = (held, model.antenna()) {
-        let word = if held.name.is_empty() {
-            "no satellite"
-        } else if held.catalog_number == predicted.satellite.elements.catalog_number() {
-            "same satellite"
-        } else {
-            "another satellite"
+    let number = predicted.satellite.elements.catalog_number();
+    let held = model.antenna().and_then(|antenna| {
+        let held = antenna.snapshot.state.on_board.satellite.as_ref()?;
+        let is_same = !held.name.is_empty() && held.catalog_number == number;
+        let word = match (held.name.is_empty(), is_same) {
+            (true, _) => "no satellite",
+            (false, true) => "same satellite",
+            (false, false) => "another satellite",
         };
-        parts.push(format!("{word} on {}", antenna.config.name));
-    }
-    if let Some(selected) = model.sky.selected {
-        parts.push(if selected.sunlit { "sunlit" } else { "in eclipse" }.to_owned());
-    }
-    words::capitalised(&parts.join(" · "))
+        Some((is_same, format!("{word} on {}", antenna.config.name)))
+    });
+    let (same, other) = match held {
+        Some((true, words)) => (Some(words), None),
+        Some((false, words)) => (None, Some(words)),
+        None => (None, None),
+    };
+    let mask = predicted.clear().map(|stretches| clear_of_mask(stretches, model.now));
+    let age = Some(format!("elements {} old", format::age(age_s)));
+    let (old, young) = if age_s > words::OLD_ELEMENTS_S { (age, None) } else { (None, age) };
+    let light = model.sky.selected.map(|of| if of.sunlit { "sunlit" } else { "in eclipse" });
+    let parts = [other, mask, old, same, light.map(str::to_owned), young];
+    words::capitalised(&parts.into_iter().flatten().collect::<Vec<_>>().join(" · "))
 }
 
 /// The times in which a pass is clear of the horizon mask.
