@@ -49,6 +49,8 @@ const FEWER: (&[Placed], f32) = (
 pub(super) const BAR: f32 = 40.0;
 /// Room for the number behind the bar.
 pub(super) const BAR_NUMBER: f32 = 34.0;
+/// Gap between the time of the next pass and the bar.
+const BAR_GAP: f32 = 12.0;
 
 /// Returns `true` if the column is aligned to the left.
 pub(super) fn is_left(column: Column) -> bool {
@@ -60,13 +62,19 @@ pub(super) fn is_left(column: Column) -> bool {
 pub(super) fn places(row: Rect) -> impl Iterator<Item = (Column, Rect)> {
     let (columns, laid_out) = if row.width() < ALL_FROM { FEWER } else { ALL };
     let scale = row.width() / laid_out;
+    let last = columns.last().map_or(row.right(), |(_, end)| row.left() + end * scale);
+    let end_of = move |column: Column, end: f32| match column {
+        // The bar keeps its width in a narrow table.
+        Column::NextPass => (row.left() + end * scale).min(last - BAR - BAR_NUMBER - BAR_GAP),
+        _ => row.left() + end * scale,
+    };
     columns.iter().enumerate().map(move |(index, (column, end))| {
         let x = match column {
             Column::Star => row.left() + end,
             Column::Name => row.left() + PADDING + 54.0,
-            _ => row.left() + end * scale,
+            column => end_of(*column, *end),
         };
-        let neighbour = |by: usize| columns.get(by).map(|(_, end)| row.left() + end * scale);
+        let neighbour = |by: usize| columns.get(by).map(|(column, end)| end_of(*column, *end));
         let place = match column {
             Column::Star => row.with_min_x(x).with_max_x(x + 20.0),
             Column::Name => {
@@ -201,5 +209,23 @@ impl<'a> Row<'a> {
             cell(Column::Inclination),
             cell(Column::Heights),
         )
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use egui::{pos2, vec2};
+
+    #[test]
+    fn the_bar_of_the_elevation_leaves_the_time_of_the_pass_free() {
+        for width in (600..2600_u16).step_by(20) {
+            let row = Rect::from_min_size(pos2(48.0, 0.0), vec2(f32::from(width), 25.0));
+            let place_of = |wanted| places(row).find(|(column, _)| *column == wanted).unwrap().1;
+            let (time, bar) = (place_of(Column::NextPass), place_of(Column::MaxElevation));
+            assert!(time.right() + 8.0 <= bar.left(), "{width}: {time:?} {bar:?}");
+            let from = place_of(Column::From);
+            assert!(from.width() > 40.0 && from.right() < time.right() - 60.0, "{width}: {from:?}");
+        }
     }
 }
