@@ -14,11 +14,20 @@ const DIAMETER: f32 = 104.0;
 const EDGE: f32 = 14.0;
 /// Height of the caption, points.
 const CAPTION: f32 = 20.0;
+/// Room that the caption needs beside the view, points.
+const CAPTION_BESIDE: f32 = 24.0;
 
 /// The square of the view in the lower right corner of the plot.
 pub(super) fn place(rect: Rect) -> Rect {
     let corner = rect.right_bottom() - vec2(EDGE, EDGE + CAPTION);
     Rect::from_min_size(corner - Vec2::splat(DIAMETER), Vec2::splat(DIAMETER))
+}
+
+/// The view with its caption, which labels avoid.
+pub(super) fn reserved(rect: Rect) -> Rect {
+    let view = place(rect).expand(4.0);
+    // The caption is wider than the view.
+    Rect::from_min_max(view.min - vec2(CAPTION_BESIDE, 0.0), rect.right_bottom())
 }
 
 /// Half the width of the view: 1°, or one and a half beam widths for a beam that would

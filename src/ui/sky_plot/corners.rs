@@ -110,6 +110,6 @@ pub(super) fn reserved(rect: Rect, dome: Dome, scene: &SkyScene<'_>) -> Vec<Rect
         Rect::from_min_max(rect.right_top() - vec2(140.0, 0.0), rect.right_top() + vec2(0.0, 40.0));
     let legend = legend_place(rect, dome, scene).unwrap_or_else(|| legend_button(rect));
     let mut boxes = vec![right, legend];
-    boxes.extend(scene.predicted.map(|_| beam_view::place(rect).expand(4.0)));
+    boxes.extend(scene.predicted.map(|_| beam_view::reserved(rect)));
     boxes
 }

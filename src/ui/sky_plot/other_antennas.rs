@@ -63,11 +63,16 @@ pub(super) fn label_stops(labels: &mut Labels<'_>, dome: Dome, scene: &SkyScene<
     for (index, stop) in scene.stops.iter().enumerate() {
         let Some([inner, end]) = ends(dome, stop) else { continue };
         labels.reserve(Rect::from_two_pos(inner, end).expand(BAR));
-        let (name, angle) =
-            (format!("{} stop", stop.names), format::azimuth(stop.azimuth.degrees()));
+        let name = format!("{} stop", stop.names);
+        let angle = format::azimuth(stop.azimuth.degrees());
+        let both = format!("{name} {angle}");
+        // Above and below the disc there is no room for two lines outside of the rim.
+        let is_beside = (end - dome.centre).x.abs() >= (end - dome.centre).y.abs();
+        let two = [(&*name, text::small_strong(), t.bad), (&*angle, text::small(), t.bad)];
+        let one = [(&*both, text::small_strong(), t.bad)];
         labels.add(&Label {
             key: Key::Stop(index),
-            lines: &[(&name, text::small_strong(), t.bad), (&angle, text::small(), t.bad)],
+            lines: if is_beside { &two } else { &one },
             mark: end,
             clearance: 2.0 + BAR,
             order: &Side::towards(end - dome.centre),

@@ -156,3 +156,70 @@ fn the_sky_may_be_empty() {
     });
     harness.run();
 }
+
+/// The texts of the last frame with their places.
+fn texts(harness: &Harness<'_, Story>) -> Vec<(String, Rect)> {
+    fn collect(shape: &egui::Shape, found: &mut Vec<(String, Rect)>) {
+        match shape {
+            egui::Shape::Vec(shapes) => shapes.iter().for_each(|of| collect(of, found)),
+            egui::Shape::Text(text) => {
+                let place = text.galley.rect.translate(text.pos.to_vec2());
+                found.push((text.galley.text().to_owned(), place));
+            }
+            _ => {}
+        }
+    }
+    let mut found = Vec::new();
+    for clipped in &harness.output().shapes {
+        collect(&clipped.shape, &mut found);
+    }
+    found
+}
+
+fn plot(harness: &Harness<'_, Story>) -> Rect {
+    harness.get_by_role(Role::Canvas).rect()
+}
+
+#[test]
+fn no_label_and_the_beam_view_lie_on_each_other() {
+    for turn in (0..360_i16).step_by(15) {
+        let turned =
+            |of: AzEl| AzEl::from_degrees(of.azimuth_deg() + f64::from(turn), of.elevation_deg());
+        let samples: Vec<_> = testing::pass()
+            .into_iter()
+            .map(|sample| crate::plan::Sample { direction: turned(sample.direction), ..sample })
+            .collect();
+        let mut harness = window(LARGE, Story::default(), move |ui, story: &mut Story| {
+            let track = testing::track(&samples);
+            let scene = SkyScene { predicted: track.position, track: Some(track), ..sky() };
+            show(ui, ui.max_rect(), &scene, &mut story.plot, &mut |_, _, _| {});
+        });
+        harness.run();
+        let view = beam_view::place(plot(&harness));
+        let all = texts(&harness);
+        let caption = all.iter().find(|(words, _)| words.starts_with("Beam ")).unwrap().1;
+        for (words, place) in all.iter().filter(|(words, _)| !words.starts_with("Beam ")) {
+            let is_clear = |of: Rect| !of.intersect(*place).is_positive();
+            assert!(is_clear(view) && is_clear(caption), "{turn}: {words:?} at {place:?}");
+        }
+    }
+}
+
+#[test]
+fn the_name_of_an_azimuth_stop_stands_outside_of_the_disc() {
+    for azimuth in (0..360_i16).step_by(15) {
+        let mut harness = window(LARGE, Story::default(), move |ui, story: &mut Story| {
+            let azimuth = crate::astro::Angle::from_degrees(f64::from(azimuth));
+            let stops = [AzimuthStop { azimuth, names: "Genius".into() }];
+            let scene = SkyScene { stops: &stops, ..testing::empty() };
+            show(ui, ui.max_rect(), &scene, &mut story.plot, &mut |_, _, _| {});
+        });
+        harness.run();
+        let dome = Dome::fitted(plot(&harness));
+        let all = texts(&harness);
+        let (_, name) = all.iter().find(|(words, _)| words.contains("stop")).unwrap();
+        // Letters are lower than their line.
+        let nearest = name.shrink2(vec2(0.0, 3.0)).clamp(dome.centre);
+        assert!(nearest.distance(dome.centre) > dome.radius, "{azimuth}: {name:?}");
+    }
+}
