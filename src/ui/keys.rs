@@ -148,7 +148,7 @@ pub const ALL: [Binding; 34] = [
     row(
         KeyScope::Operate,
         &[(Key::Plus, Act::Zoom(1)), (Key::Minus, Act::Zoom(-1))],
-        "fewer, more hours in the strip; sky plot with the focus: closer, further",
+        "fewer, more hours; sky plot with the focus: closer, further",
     ),
     row(
         KeyScope::Operate,

@@ -1,5 +1,10 @@
 //! Keys and their list.
 
+use std::{
+    fs,
+    path::{Path, PathBuf},
+};
+
 use azel::{
     engine::{alarms::AlarmKind, passes::PredictedPass},
     model::{UiCommand, View},
@@ -77,22 +82,146 @@ fn every_key_of_the_list_does_something() {
     }
 }
 
+const VIEWS: [View; 7] = [
+    View::Operate,
+    View::Elements,
+    View::Antennas,
+    View::Console,
+    View::Map,
+    View::Preferences,
+    View::Setup,
+];
+
+/// Whether the keys work in the view without the focus on a control of their own.
+fn is_live(binding: &Binding, view: View) -> bool {
+    match binding.place {
+        KeyScope::Everywhere | KeyScope::Views => true,
+        KeyScope::Operate => view == View::Operate,
+        KeyScope::Map => view == View::Map,
+        KeyScope::Elements => view == View::Elements,
+        KeyScope::Focus => false,
+    }
+}
+
 #[test]
-fn no_two_lines_of_the_list_take_the_same_key() {
-    let taken: Vec<(Modifiers, Key, KeyScope)> = ALL
-        .iter()
-        .flat_map(|binding| binding.keys().map(|key| (binding.modifiers, key, binding.place)))
-        .collect();
-    for (index, (modifiers, key, place)) in taken.iter().enumerate() {
-        let same = taken[index + 1..].iter().find(|(other_modifiers, other, other_place)| {
-            let views = [KeyScope::Operate, KeyScope::Map];
-            let are_apart =
-                place != other_place && views.contains(place) && views.contains(other_place);
-            (modifiers, key) == (other_modifiers, other)
-                && (*place == KeyScope::Focus) == (*other_place == KeyScope::Focus)
-                && !are_apart
-        });
-        assert_eq!(same, None);
+fn no_key_has_two_effects_in_any_view() {
+    let once = |bindings: Vec<&Binding>, place: &str| {
+        let mut taken: Vec<(Modifiers, Key)> = Vec::new();
+        for binding in bindings {
+            for key in binding.keys() {
+                assert!(!taken.contains(&(binding.modifiers, key)), "{place}: {}", line(binding));
+                taken.push((binding.modifiers, key));
+            }
+        }
+    };
+    for view in VIEWS {
+        once(ALL.iter().filter(|of| is_live(of, view)).collect(), &format!("{view:?}"));
+    }
+    once(ALL.iter().filter(|of| of.place == KeyScope::Focus).collect(), "focus");
+}
+
+/// A key in the code of a control, which takes it while it has the focus.
+#[derive(Debug)]
+struct Taken {
+    /// File below the folder of the views.
+    place: String,
+    key: Key,
+    is_with_ctrl: bool,
+}
+
+fn keys_of_controls() -> Vec<Taken> {
+    fn sources(folder: &Path, found: &mut Vec<PathBuf>) {
+        for entry in fs::read_dir(folder).unwrap() {
+            let path = entry.unwrap().path();
+            if path.is_dir() {
+                sources(&path, found);
+            } else {
+                found.push(path);
+            }
+        }
+    }
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("src/ui");
+    let mut files = Vec::new();
+    sources(&root, &mut files);
+    let mut keys = Vec::new();
+    for file in files {
+        let place = file.strip_prefix(&root).unwrap().to_string_lossy().into_owned();
+        let is_test = place.ends_with("tests.rs") || place.ends_with("stories.rs");
+        if place.starts_with("keys") || is_test {
+            continue;
+        }
+        let text = fs::read_to_string(&file).unwrap();
+        let code = text.split("#[cfg(test)]\nmod tests {").next().unwrap();
+        for (at, _) in code.match_indices("Key::") {
+            let (before, named) = (&code[..at], &code[at + "Key::".len()..]);
+            let name: String = named.chars().take_while(char::is_ascii_alphanumeric).collect();
+            // Labels of drawings have keys of their own, which are none of the keyboard's.
+            let Some(key) = Key::ALL.iter().find(|key| format!("{key:?}") == name) else {
+                continue;
+            };
+            let is_with_ctrl = before.ends_with("Modifiers::COMMAND, ");
+            keys.push(Taken { place: place.clone(), key: *key, is_with_ctrl });
+        }
+    }
+    keys
+}
+
+/// The views in which a control of this file can have the focus.
+fn views_of(place: &str) -> Vec<View> {
+    let one = match place.split(['/', '.']).next().unwrap() {
+        "operate" | "antenna_card" | "pass_list" | "profile" | "sky_plot" | "timeline" => {
+            View::Operate
+        }
+        "elements" => View::Elements,
+        "antennas" => View::Antennas,
+        "console" => View::Console,
+        "map" => View::Map,
+        "preferences" => View::Preferences,
+        "setup" => View::Setup,
+        _ => return VIEWS.into(),
+    };
+    vec![one]
+}
+
+#[test]
+fn no_control_takes_a_key_that_means_something_else_in_its_view() {
+    let arrows = [Key::ArrowLeft, Key::ArrowRight, Key::ArrowUp, Key::ArrowDown];
+    let found = keys_of_controls();
+    assert!(found.len() > 40, "{found:?}");
+    for Taken { place, key, is_with_ctrl } in found {
+        for view in views_of(&place) {
+            let modifiers = if is_with_ctrl { Modifiers::COMMAND } else { Modifiers::NONE };
+            let live = ALL.iter().filter(|of| of.modifiers == modifiers && is_live(of, view));
+            let same = live.filter(|of| of.keys().any(|of| of == key)).map(line).next();
+            // The arrows of a view work only while nothing has the focus.
+            assert!(same.is_none() || arrows.contains(&key), "{place}: {key:?}, {same:?}");
+        }
+    }
+}
+
+#[test]
+fn every_key_of_a_control_is_in_the_list() {
+    /// What they do in every table, row and drawing of a desktop.
+    const USUAL: [Key; 10] = [
+        Key::Home,
+        Key::End,
+        Key::PageUp,
+        Key::PageDown,
+        // The menu of what has the focus.
+        Key::F10,
+        Key::Menu,
+        // With Ctrl: all rows, and again what was undone.
+        Key::A,
+        Key::Y,
+        // As Delete.
+        Key::Backspace,
+        // The list says "Space, F, 1, 5" for 1 to 5.
+        Key::Num2,
+    ];
+    for Taken { place, key, .. } in keys_of_controls() {
+        let is_between = [Key::Num3, Key::Num4].contains(&key);
+        let is_listed = ALL.iter().any(|binding| binding.keys().any(|of| of == key));
+        assert!(is_listed || is_between || USUAL.contains(&key), "{place}: {key:?}");
     }
 }
 
