@@ -27,7 +27,7 @@ use egui_kittest::{
     kittest::{NodeT as _, Queryable as _},
 };
 
-use super::screen::{Screen, wait_for};
+use super::screen::{Running, Screen, wait_for};
 
 const SIZES: [[u32; 2]; 4] = [[1024, 640], [1440, 900], [1920, 1080], [2560, 1440]];
 const THEMES: [(ThemeName, &str); 3] =
@@ -185,6 +185,12 @@ impl Picture {
         self.pixels[start..start + 3].try_into().expect("three bytes")
     }
 
+    /// Whether more than a clock has changed.
+    fn differs(&self, other: &Self) -> bool {
+        let pairs = self.pixels.chunks_exact(3).zip(other.pixels.chunks_exact(3));
+        pairs.filter(|(one, other)| one != other).count() > self.pixels.len() / 3 / 200
+    }
+
     fn colours(&self) -> usize {
         self.pixels.chunks_exact(3).collect::<HashSet<_>>().len()
     }
@@ -192,10 +198,11 @@ impl Picture {
 
 /// The real window on a screen of its size, and its twin.
 struct Scene {
+    // Ends before its screen.
+    _azel: Running,
     screen: Screen,
     size: [u32; 2],
     twin: Twin,
-    _azel: super::screen::Running,
 }
 
 impl Scene {
@@ -209,7 +216,8 @@ impl Scene {
         wait_for("the size of the window", || {
             screen.xdotool(&["getwindowgeometry", &window]).contains(&wanted).then_some(())
         });
-        let mut scene = Self { screen, size, twin: Twin::new(size), _azel: azel };
+        let mut scene = Self { _azel: azel, screen, size, twin: Twin::new(size) };
+        scene.point_away();
         let (theme, _) = THEMES[0];
         wait_for("the first picture", || scene.is_drawn(theme).then_some(()));
         // Both have found their passes and read their units.
@@ -250,26 +258,37 @@ impl Scene {
         self.screen.xdotool(&["mousemove", &x, &y, "click", "1"]);
         self.twin.click(at);
         thread::sleep(SETTLES_IN / 4);
-        // The pointer covers and highlights nothing in the picture.
-        let corner = (self.size[0] / 2).to_string();
-        self.screen.xdotool(&["mousemove", &corner, "1"]);
-        self.twin.window.hover_at(Pos2::new(self.size[0] as f32 / 2.0, 1.0));
+        self.point_away();
+    }
+
+    /// Leaves the pointer where it covers and highlights nothing.
+    fn point_away(&self) {
+        let middle = self.size[0] / 2;
+        self.screen.xdotool(&["mousemove", &middle.to_string(), "1"]);
+        self.twin.window.hover_at(Pos2::new(middle as f32, 1.0));
     }
 
     /// Takes every view in each of the themes, and keeps the pictures in `folder`.
     fn take(&mut self, themes: &[(ThemeName, &str)], folder: &Path) -> usize {
         let mut taken = 0;
+        let mut last: Option<Picture> = None;
         for view in &VIEWS {
             for act in view.open {
                 self.act(*act);
             }
             for (theme, word) in themes {
-                thread::sleep(SETTLES_IN);
                 let what = format!("{} in the {word} theme", view.name);
-                wait_for(&what, || self.is_drawn(*theme).then_some(()));
+                self.wait_for_theme(*theme, &what);
+                thread::sleep(SETTLES_IN);
                 let [width, height] = self.size;
                 self.keep(&folder.join(format!("{}-{width}x{height}-{word}.png", view.name)));
                 taken += 1;
+                if *theme == themes[0].0 {
+                    let picture = self.picture();
+                    let is_new = last.is_none_or(|last| last.differs(&picture));
+                    assert!(is_new, "{what} looks as the view before it");
+                    last = Some(picture);
+                }
                 if themes.len() > 1 {
                     self.act(NEXT_THEME);
                 }
@@ -279,6 +298,24 @@ impl Scene {
             }
         }
         taken
+    }
+
+    /// Waits until the window is in this theme. A busy machine may lose the key, which is then
+    /// pressed again.
+    fn wait_for_theme(&self, theme: ThemeName, what: &str) {
+        let mut polls = 0;
+        wait_for(what, || {
+            if self.is_drawn(theme) {
+                return Some(());
+            }
+            polls += 1;
+            let is_before = |of: &&(ThemeName, &str)| of.0.next() == theme;
+            let before = THEMES.iter().find(is_before).expect("a ring of themes");
+            if polls % 20 == 0 && self.is_drawn(before.0) {
+                self.screen.xdotool(&["key", "ctrl+l"]);
+            }
+            None
+        });
     }
 
     fn keep(&self, path: &Path) {
