@@ -10,6 +10,7 @@ mod copying;
 mod demo;
 mod drive;
 mod elements;
+mod every_view;
 mod extremes;
 mod following;
 mod fourth_make;

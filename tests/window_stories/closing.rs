@@ -82,7 +82,7 @@ fn a_window_with_unsaved_settings_asks_first() {
 }
 
 /// Question shown when the window of `model` is to close.
-fn asked_about(size: [f32; 2], model: Model) -> Window {
+pub(crate) fn asked_about(size: [f32; 2], model: Model) -> Window {
     let mut window = rig::window(size, model);
     let story = window.state_mut();
     assert!(story.views.ask_before_closing(&story.model, &mut story.commands));

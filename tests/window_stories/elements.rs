@@ -40,7 +40,7 @@ use crate::window_stories::{
 const HOUR_S: f64 = 3600.0;
 const METEOR_M2_3: u32 = 57_166;
 
-fn file_source() -> Source {
+pub(crate) fn file_source() -> Source {
     Source {
         name: "own".to_owned(),
         place: SourcePlace::File("/var/elements/own.tle".into()),
@@ -49,7 +49,7 @@ fn file_source() -> Source {
 }
 
 /// Report of a source with this number of objects.
-fn report(source: &Source, objects: usize) -> SourceReport {
+pub(crate) fn report(source: &Source, objects: usize) -> SourceReport {
     let path = PathBuf::from("/var/elements/own.tle");
     let file = FileReport { path, objects, merge: MergeSummary::default(), problem: None };
     SourceReport {
@@ -65,14 +65,14 @@ fn report(source: &Source, objects: usize) -> SourceReport {
 }
 
 /// A server whose last request was `hours_ago`.
-fn server(hours_ago: f64) -> (Source, SourceReport) {
+pub(crate) fn server(hours_ago: f64) -> (Source, SourceReport) {
     let source = Source::celestrak("weather");
     let next = add_seconds(rig::now(), (2.0 - hours_ago) * HOUR_S);
     let report = SourceReport { next_fetch: Some(next), ..report(&source, 71) };
     (source, report)
 }
 
-fn view(size: [f32; 2], sources: Vec<(Source, SourceReport)>) -> Window {
+pub(crate) fn view(size: [f32; 2], sources: Vec<(Source, SourceReport)>) -> Window {
     let mut model = rig::model(states::holding());
     model.view = View::Elements;
     let (list, reports) = sources.into_iter().unzip();

@@ -57,7 +57,7 @@ fn page_of(size: [f32; 2], mut model: Model) -> Window {
 }
 
 /// The page of a station with a mast in the east.
-fn page(size: [f32; 2]) -> Window {
+pub(crate) fn page(size: [f32; 2]) -> Window {
     let mut model = rig::model(states::holding());
     Arc::make_mut(&mut model.station).keep_outs = vec![mast()];
     page_of(size, model)

@@ -21,7 +21,7 @@ use crate::window_stories::{
     rig::{self, SIZES, Window, asked, says, settle},
 };
 
-const NEXT: [&str; 4] = [
+pub(crate) const NEXT: [&str; 4] = [
     "Next: Antennas (Enter)",
     "Next: Satellites (Enter)",
     "Next: Elements (Enter)",
@@ -29,13 +29,13 @@ const NEXT: [&str; 4] = [
 ];
 const FINISH: &str = "Finish (Enter)";
 
-fn window(size: [f32; 2]) -> Window {
+pub(crate) fn window(size: [f32; 2]) -> Window {
     let mut model: Model = rig::model(rig::quiet());
     (model.demo, model.view) = (true, View::Setup);
     rig::window(size, model)
 }
 
-fn press(window: &mut Window, button: &str) {
+pub(crate) fn press(window: &mut Window, button: &str) {
     window.get_by_role_and_label(Role::Button, button).scroll_to_me();
     settle(window);
     window.get_by_role_and_label(Role::Button, button).click();
@@ -54,14 +54,14 @@ fn is_at(window: &Window, step: &str) -> bool {
     window.query_by_role_and_label(Role::Heading, step).is_some()
 }
 
-fn write_site(window: &mut Window) {
+pub(crate) fn write_site(window: &mut Window) {
     write(window, "Name", "Şile 2");
     write(window, "Locator", "KN41ob");
     write(window, "Altitude", "121");
 }
 
 /// Adds an antenna of the first make and returns it as it would be tested.
-fn add_and_test(window: &mut Window, address: &str) -> Antenna {
+pub(crate) fn add_and_test(window: &mut Window, address: &str) -> Antenna {
     press(window, &format!("Add {}", makes::SPECS[0].name));
     write(window, "Address of the Satrak", address);
     press(window, "Test link of Satrak");
@@ -71,14 +71,14 @@ fn add_and_test(window: &mut Window, address: &str) -> Antenna {
     }
 }
 
-fn tell(window: &mut Window, antenna: &Antenna, finding: LinkFinding) {
+pub(crate) fn tell(window: &mut Window, antenna: &Antenna, finding: LinkFinding) {
     let stage = LinkTestStage::Done { finding, at: rig::now() };
     let test = LinkTest { antenna: antenna.clone(), stage };
     window.state_mut().model.link_tests = Arc::new(vec![test]);
     settle(window);
 }
 
-fn reached() -> LinkFinding {
+pub(crate) fn reached() -> LinkFinding {
     let place = Place { latitude_deg: 41.176, longitude_deg: 29.613, step_deg: 1e-4 };
     let state = AntennaState {
         identity: Some("SATRAK CU V1.2".to_owned()),

@@ -18,7 +18,7 @@ use crate::window_stories::{
 const WIDE: [[f32; 2]; 2] = [[1920.0, 1080.0], [2560.0, 1440.0]];
 
 /// A station with a Satrak, a Rotator Genius and an RC2000C.
-fn three() -> Model {
+pub(crate) fn three() -> Model {
     let mut model = rig::model(states::holding());
     let genius = makes::model(makes::pair(), makes::pair_at(Intent::Position));
     let rc2000c = makes::model(makes::rc2000c(), makes::rc2000c_at(Intent::Manual));

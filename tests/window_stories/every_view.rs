@@ -1,0 +1,241 @@
+//! Every view, and everything that opens over one: what must hold of all of them.
+
+mod contrast;
+mod painted;
+mod scale;
+mod tooltips;
+mod tree;
+
+use std::sync::Arc;
+
+use azel::{
+    driver::{Intent, LinkLoss, LinkState, Snapshot},
+    engine::{self, alarms::AlarmKind},
+    model::{Model, UiCommand, View},
+    station::AntennaId,
+};
+use egui::{Event, Key, Role};
+use egui_kittest::kittest::{NodeT as _, Queryable as _};
+
+use crate::window_stories::{
+    closing, console, elements, horizon, maintenance, makes,
+    preferences::{self, write},
+    rig::{self, Window, asked, settle},
+    settings_rig, setup, states, wide,
+};
+
+/// A view in one of its states.
+pub(crate) struct Scene {
+    pub(crate) name: &'static str,
+    open: fn([f32; 2]) -> Window,
+}
+
+impl Scene {
+    pub(crate) fn open(&self, size: [f32; 2]) -> Window {
+        (self.open)(size)
+    }
+}
+
+const fn scene(name: &'static str, open: fn([f32; 2]) -> Window) -> Scene {
+    Scene { name, open }
+}
+
+pub(crate) const SCENES: [Scene; 39] = [
+    scene("Operate, tracking", |size| rig::window(size, rig::model(states::tracking(0.04)))),
+    scene("Operate, three antennas of the demo", |size| rig::window(size, demo())),
+    scene("Operate, jog", |size| rig::window(size, rig::model(states::manual()))),
+    scene("Operate, a pair of rotators", |size| {
+        rig::window(size, makes::model(makes::pair(), makes::pair_at(Intent::Position)))
+    }),
+    scene("Operate, a rotator alone", |size| {
+        rig::window(size, makes::model(makes::alone(), makes::alone_at(Intent::Manual, true)))
+    }),
+    scene("Operate, a unit with alarms", |size| {
+        let snapshot = makes::rc2000c_alarmed(Intent::Manual);
+        rig::window(size, makes::model(makes::rc2000c(), snapshot))
+    }),
+    scene("Operate, a unit to be connected", |size| {
+        rig::window(size, makes::model(makes::rc2000c(), makes::rc2000c_off()))
+    }),
+    scene("Operate, link lost", |size| rig::window(size, lost())),
+    scene("Operate, locked out", |size| {
+        rig::window(size, rig::model(maintenance::locked(states::holding())))
+    }),
+    scene("Operate, no antennas", |size| rig::window(size, without_antennas())),
+    scene("Operate, drawer of passes", |size| {
+        let mut window = rig::window(size, rig::model(states::holding()));
+        press(&mut window, Key::P);
+        window
+    }),
+    scene("Operate, layers of the sky", |size| {
+        opened_by(rig::window(size, rig::model(states::holding())), "Layers")
+    }),
+    scene("Operate, menu of the station", |size| {
+        opened_by(rig::window(size, rig::model(states::holding())), "Station Şile 1")
+    }),
+    scene("Operate, menu of the link", |size| {
+        opened_by(rig::window(size, rig::model(states::holding())), "Link of Satrak")
+    }),
+    scene("Operate, what else is followed", |size| {
+        opened_by(rig::window(size, rig::model(states::holding())), "Follow something else")
+    }),
+    scene("Alarms", |size| opened_by(rig::window(size, alarmed()), "alarm")),
+    scene("List of keys", |size| {
+        let mut window = rig::window(size, rig::model(states::holding()));
+        press(&mut window, Key::Questionmark);
+        window
+    }),
+    scene("Question", |size| {
+        let mut window = rig::window(size, rig::model(states::tracking(0.04)));
+        press(&mut window, Key::M);
+        window
+    }),
+    scene("Question before closing", |size| {
+        closing::asked_about(size, rig::model(states::tracking(0.1)))
+    }),
+    scene("Elements", |size| elements::view(size, sources())),
+    scene("Elements, details", |size| {
+        let mut window = elements::view(size, Vec::new());
+        click_if_there(&mut window, "Details");
+        window
+    }),
+    scene("Elements, selected rows", |size| {
+        let mut window = elements::view(size, Vec::new());
+        window.get_by_role_and_label(Role::ListBox, "Catalogue").focus();
+        settle(&mut window);
+        window.key_press(Key::Space);
+        settle(&mut window);
+        window
+    }),
+    scene("Elements, pasted", |size| {
+        let mut window = elements::view(size, Vec::new());
+        window.event(Event::Paste("hello".to_owned()));
+        settle(&mut window);
+        window
+    }),
+    scene("Upload", |size| {
+        let mut window = elements::view(size, Vec::new());
+        click_if_there(&mut window, "Details");
+        opened_by(window, "Upload to")
+    }),
+    scene("Antennas", |size| settings_rig::opened(size, settings_rig::read())),
+    scene("Antennas, unread", |size| settings_rig::opened(size, rig::quiet())),
+    scene("Antennas, a Rotator Genius", |size| {
+        in_view(size, View::Antennas, makes::model(makes::pair(), makes::pair_at(Intent::Standby)))
+    }),
+    scene("Antennas, an RC2000C", |size| {
+        let snapshot = makes::rc2000c_at(Intent::Standby);
+        in_view(size, View::Antennas, makes::model(makes::rc2000c(), snapshot))
+    }),
+    scene("Console", console::view),
+    scene("Map", |size| in_view(size, View::Map, rig::model(states::holding()))),
+    scene("Preferences", preferences::form),
+    scene("Preferences, a wrong field", |size| {
+        let mut window = preferences::form(size);
+        write(&mut window, "Latitude", "91");
+        window
+    }),
+    scene("Horizon and keep-outs", horizon::page),
+    scene("Alarms and sounds", |size| opened_by(preferences::form(size), "Alarms and sounds")),
+    scene("Appearance", |size| opened_by(preferences::form(size), "Appearance")),
+    scene("Set-up, site", setup::window),
+    scene("Set-up, antennas", |size| {
+        let mut window = at_step(size, 1);
+        let antenna = setup::add_and_test(&mut window, "unit.local:4001");
+        setup::tell(&mut window, &antenna, setup::reached());
+        window
+    }),
+    scene("Set-up, satellites", |size| at_step(size, 2)),
+    scene("Set-up, check and finish", |size| at_step(size, 4)),
+];
+
+fn press(window: &mut Window, key: Key) {
+    window.key_press(key);
+    take_up(window);
+}
+
+/// Carries out the command that a key has asked for, as far as it opens something.
+fn take_up(window: &mut Window) {
+    let opens =
+        |command: &UiCommand| matches!(command, UiCommand::Station(engine::Command::OpenedAlarms));
+    if asked(window).iter().any(opens) {
+        window.state_mut().model.alarms.unopened = false;
+    }
+    settle(window);
+}
+
+/// The window after a click on the control whose name contains `words`.
+fn opened_by(mut window: Window, words: &str) -> Window {
+    let is_control = |role| matches!(role, Role::Button | Role::RadioButton);
+    let mut found = window.query_all_by_label_contains(words);
+    let control = found.find(|node| is_control(node.accesskit_node().role()));
+    control.unwrap_or_else(|| panic!("no control {words:?}")).click();
+    drop(found);
+    take_up(&mut window);
+    window
+}
+
+fn click_if_there(window: &mut Window, button: &str) {
+    if let Some(button) = window.query_by_role_and_label(Role::Button, button) {
+        button.click();
+    }
+    settle(window);
+}
+
+fn in_view(size: [f32; 2], view: View, mut model: Model) -> Window {
+    model.view = view;
+    model.refresh_sky();
+    rig::window(size, model)
+}
+
+fn demo() -> Model {
+    Model { demo: true, ..wide::three() }
+}
+
+fn lost() -> Model {
+    let mut model = rig::model(rig::quiet());
+    let (since, retry_at) = (rig::ago(&model, 42), model.steady);
+    let link = LinkState::Lost { since, reason: LinkLoss::Silent, retry_at };
+    let config = model.station.antennas[0].clone();
+    model.antennas = vec![rig::antenna(config, Snapshot { link, ..states::tracking(0.0) })];
+    model
+}
+
+fn without_antennas() -> Model {
+    let mut model = rig::model(states::holding());
+    model.antennas.clear();
+    Arc::make_mut(&mut model.station).antennas.clear();
+    model
+}
+
+/// An alarm of each rank: new, seen, over and shelved.
+fn alarmed() -> Model {
+    let mut model = rig::model(states::holding());
+    let (of, now) = (Some(AntennaId::FIRST), model.now);
+    model.alarms.raise(of, AlarmKind::ClockNotSet, now);
+    model.alarms.raise(of, AlarmKind::AutoStaysOn, now);
+    model.alarms.acknowledge_all(1, now);
+    model.alarms.shelve(0, engine::alarms::ShelveTime::OneHour, now);
+    model.alarms.raise(of, AlarmKind::LinkLost(LinkLoss::Closed), now);
+    model.alarms.clear(of, now, |kind| matches!(kind, AlarmKind::LinkLost(_)));
+    model.alarms.raise(of, AlarmKind::StopNotConfirmed, now);
+    model.alarms.raise(None, AlarmKind::Elements("the file is empty".to_owned()), now);
+    model
+}
+
+fn sources() -> Vec<(azel::orbit::Source, azel::orbit::SourceReport)> {
+    let own = elements::file_source();
+    let report = elements::report(&own, 71);
+    vec![(own, report), elements::server(5.0)]
+}
+
+/// The set-up after `steps` of its steps.
+fn at_step(size: [f32; 2], steps: usize) -> Window {
+    let mut window = setup::window(size);
+    setup::write_site(&mut window);
+    for next in &setup::NEXT[..steps] {
+        setup::press(&mut window, next);
+    }
+    asked(&mut window);
+    window
+}

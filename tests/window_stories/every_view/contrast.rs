@@ -1,0 +1,61 @@
+//! All text can be read on what is painted behind it, in every theme.
+
+use std::collections::BTreeMap;
+
+use azel::{
+    model::ThemeName,
+    ui::{theme, tokens},
+};
+
+use crate::window_stories::{
+    every_view::{
+        SCENES,
+        painted::{self, Run},
+    },
+    rig::{LARGE, settle},
+};
+
+/// Contrast that text needs.
+const TEXT: f64 = 4.5;
+/// Contrast that large text needs: from 24 px, or bold from 18.66 px.
+const LARGE_TEXT: f64 = 3.0;
+
+fn needed(run: &Run) -> f64 {
+    let is_large = run.size >= 24.0 || (run.is_bold && run.size >= 18.66);
+    if is_large { LARGE_TEXT } else { TEXT }
+}
+
+#[test]
+fn every_text_can_be_read_on_its_ground() {
+    let mut faint: BTreeMap<String, Vec<String>> = BTreeMap::new();
+    let mut count = 0;
+    for scene in &SCENES {
+        let mut window = scene.open(LARGE);
+        for name in [ThemeName::Dark, ThemeName::Light, ThemeName::Night] {
+            theme::set(&window.ctx, name);
+            settle(&mut window);
+            for run in painted::runs(&window) {
+                count += 1;
+                let ratio = tokens::contrast(run.colour, run.ground);
+                if ratio < needed(&run) {
+                    let pair = format!(
+                        "{name:?} {:?} on {:?}: {ratio:.2}",
+                        run.colour.to_hex(),
+                        run.ground.to_hex()
+                    );
+                    let place = format!("{}: {:?} at {:?}", scene.name, run.text, run.rect.min);
+                    faint.entry(pair).or_default().push(place);
+                }
+            }
+        }
+    }
+    assert!(count > 10_000, "{count} texts");
+    let told: Vec<String> = faint
+        .iter()
+        .map(|(pair, places)| {
+            let some: Vec<&str> = places.iter().map(String::as_str).take(6).collect();
+            format!("{pair} ({} times)\n    {}", places.len(), some.join("\n    "))
+        })
+        .collect();
+    assert!(faint.is_empty(), "{} pairs\n{}", faint.len(), told.join("\n"));
+}

@@ -1,0 +1,172 @@
+//! Text of a frame as it was painted: colour, ground, place and clip.
+
+use egui::{
+    Color32, FontFamily, Mesh, Pos2, Rect, Shape,
+    epaint::{ClippedShape, TextShape},
+    pos2,
+    text::{ByteIndex, LayoutSection},
+    vec2,
+};
+
+use crate::window_stories::rig::Window;
+
+/// A piece of one line in one colour.
+pub(super) struct Run {
+    pub(super) text: String,
+    pub(super) size: f32,
+    pub(super) is_bold: bool,
+    pub(super) colour: Color32,
+    /// The colour behind its middle.
+    pub(super) ground: Color32,
+    pub(super) rect: Rect,
+    pub(super) clip: Rect,
+}
+
+/// A shape with the area in which it can be.
+struct Layer<'a> {
+    shape: &'a Shape,
+    area: Rect,
+}
+
+/// All text of the last frame of which something can be seen.
+pub(super) fn runs(window: &Window) -> Vec<Run> {
+    let mut layers = Vec::new();
+    let mut found = Vec::new();
+    for ClippedShape { clip_rect, shape, .. } in &window.output().shapes {
+        collect(shape, *clip_rect, &mut layers, &mut found);
+    }
+    // The window is cleared in this colour.
+    let clear = window.ctx.global_style().visuals.panel_fill;
+    found.into_iter().map(|(below, run)| with_ground(run, &layers[..below], clear)).collect()
+}
+
+/// Sorts a shape into fills and text, each text with the number of fills below it.
+fn collect<'a>(
+    shape: &'a Shape,
+    clip: Rect,
+    layers: &mut Vec<Layer<'a>>,
+    found: &mut Vec<(usize, Run)>,
+) {
+    match shape {
+        Shape::Vec(shapes) => {
+            for shape in shapes {
+                collect(shape, clip, layers, found);
+            }
+        }
+        Shape::Text(text) => {
+            let below = layers.len();
+            found.extend(pieces(text, clip).into_iter().map(|run| (below, run)));
+        }
+        shape => {
+            let area = shape.visual_bounding_rect().intersect(clip);
+            if area.is_positive() {
+                layers.push(Layer { shape, area });
+            }
+        }
+    }
+}
+
+fn pieces(text: &TextShape, clip: Rect) -> Vec<Run> {
+    // Turned text would need a turned place; the window has none.
+    assert!(text.angle == 0.0, "turned text: {:?}", text.galley.text());
+    let job = &text.galley.job;
+    let mut runs: Vec<Run> = Vec::new();
+    let mut places = job.text.char_indices().map(|(place, _)| place);
+    for row in &text.galley.rows {
+        let mut last = None;
+        for glyph in &row.row.glyphs {
+            // The ellipsis of a cut text stands for what comes next.
+            let place = places.next().unwrap_or(job.text.len().saturating_sub(1));
+            let holds = |section: &LayoutSection| section.byte_range.contains(&ByteIndex(place));
+            let Some(index) = job.sections.iter().position(holds) else { continue };
+            if glyph.chr.is_whitespace() {
+                continue;
+            }
+            let min = text.pos + row.pos.to_vec2() + glyph.pos.to_vec2();
+            let min = min - vec2(0.0, glyph.font_ascent);
+            let rect = Rect::from_min_size(min, vec2(glyph.advance_width, glyph.font_height));
+            if let Some(run) = runs.last_mut().filter(|_| last == Some(index)) {
+                run.text.push(glyph.chr);
+                run.rect = run.rect.union(rect);
+                continue;
+            }
+            last = Some(index);
+            let format = &job.sections[index].format;
+            let is_own = format.color != Color32::PLACEHOLDER;
+            let own = if is_own { format.color } else { text.fallback_color };
+            let colour = text.override_text_color.unwrap_or(own);
+            let family = &format.font_id.family;
+            runs.push(Run {
+                text: glyph.chr.to_string(),
+                size: format.font_id.size,
+                is_bold: matches!(family, FontFamily::Name(name) if name.contains("bold")),
+                colour: colour.gamma_multiply(text.opacity_factor),
+                ground: Color32::TRANSPARENT,
+                rect,
+                clip,
+            });
+        }
+        if row.ends_with_newline {
+            places.next();
+        }
+    }
+    runs.retain(|run| run.rect.intersect(clip).is_positive());
+    runs
+}
+
+fn with_ground(mut run: Run, below: &[Layer<'_>], clear: Color32) -> Run {
+    let at = run.rect.intersect(run.clip).center();
+    let mut seen = Vec::new();
+    for layer in below.iter().rev().filter(|layer| layer.area.contains(at)) {
+        let Some(fill) = fill_at(layer.shape, at) else { continue };
+        seen.push(fill);
+        if fill.is_opaque() {
+            break;
+        }
+    }
+    run.ground = seen.into_iter().rev().fold(clear, Color32::blend);
+    run.colour = run.ground.blend(run.colour);
+    run
+}
+
+/// The colour with which a shape fills a point.
+fn fill_at(shape: &Shape, at: Pos2) -> Option<Color32> {
+    let fill = match shape {
+        Shape::Rect(rect) if rect.rect.contains(at) => rect.fill,
+        Shape::Circle(circle) if circle.center.distance(at) <= circle.radius => circle.fill,
+        Shape::Path(path) if path.closed && is_inside(&path.points, at) => path.fill,
+        Shape::Mesh(mesh) => mesh_at(mesh, at)?,
+        _ => return None,
+    };
+    (fill != Color32::TRANSPARENT).then_some(fill)
+}
+
+fn mesh_at(mesh: &Mesh, at: Pos2) -> Option<Color32> {
+    let corner = |index: &u32| mesh.vertices[*index as usize];
+    mesh.indices.chunks_exact(3).rev().find_map(|triangle| {
+        let [a, b, c] = [&triangle[0], &triangle[1], &triangle[2]].map(corner);
+        let side = |from: Pos2, to: Pos2| {
+            (to.x - from.x) * (at.y - from.y) - (to.y - from.y) * (at.x - from.x)
+        };
+        let sides = [side(a.pos, b.pos), side(b.pos, c.pos), side(c.pos, a.pos)];
+        let is_in = sides.iter().all(|of| *of >= 0.0) || sides.iter().all(|of| *of <= 0.0);
+        let has_area = sides.iter().any(|of| *of != 0.0);
+        // The soft edge of a shape is no ground.
+        let is_even = a.color == b.color && b.color == c.color;
+        (is_in && has_area && is_even).then_some(a.color)
+    })
+}
+
+fn is_inside(points: &[Pos2], at: Pos2) -> bool {
+    let mut inside = false;
+    let mut before = points.last().copied().unwrap_or(pos2(0.0, 0.0));
+    for point in points {
+        if (point.y > at.y) != (before.y > at.y)
+            && at.x < (before.x - point.x) * (at.y - point.y) / (before.y - point.y) + point.x
+        {
+            inside = !inside;
+        }
+        before = *point;
+    }
+    inside
+}

@@ -1,0 +1,56 @@
+//! What is told where the pointer rests stands beside its subject.
+
+use azel::model::View;
+use egui::{Rect, Role};
+use egui_kittest::kittest::{NodeT as _, Queryable as _};
+
+use crate::window_stories::{
+    every_view::{demo, in_view},
+    rig::{self, SMALL, Window, settle},
+    states,
+};
+
+/// Least distance of the text of a tooltip from its border.
+const MARGIN: f32 = 4.0;
+
+/// Names and places of all controls.
+fn controls(window: &Window) -> Vec<(String, Rect)> {
+    let roles = [Role::Button, Role::ListBoxOption, Role::RadioButton, Role::Slider, Role::Tab];
+    let of = |role| {
+        window
+            .query_all_by_role(role)
+            .map(|node| (node.accesskit_node().label().unwrap_or_default(), node.rect()))
+    };
+    roles.into_iter().flat_map(of).collect()
+}
+
+/// Points at every control in turn and returns the number of tooltips.
+fn point_at_all(window: &mut Window) -> usize {
+    let whole = window.ctx.content_rect();
+    let mut told = 0;
+    let shown = controls(window).into_iter().filter(|(_, of)| whole.contains(of.center()));
+    for (name, subject) in shown {
+        window.hover_at(subject.center());
+        settle(window);
+        for tip in window.query_all_by_role(Role::Tooltip) {
+            // The node itself has no place.
+            let texts = tip.children_recursive();
+            let labels = texts.filter(|of| of.accesskit_node().role() == Role::Label);
+            let Some(tip) = labels.map(|of| of.rect()).reduce(Rect::union) else { continue };
+            told += 1;
+            let tip = tip.expand(MARGIN);
+            let both = tip.intersect(subject);
+            assert!(!both.is_positive(), "{name:?} at {subject:?}: {tip:?}");
+            assert!(whole.contains_rect(tip), "{name:?}: {tip:?}");
+        }
+    }
+    told
+}
+
+#[test]
+fn a_tooltip_covers_no_part_of_its_subject() {
+    let mut operate = rig::window(SMALL, demo());
+    let mut map = in_view(SMALL, View::Map, rig::model(states::holding()));
+    let told = point_at_all(&mut operate) + point_at_all(&mut map);
+    assert!(told > 20, "{told} tooltips");
+}

@@ -1,0 +1,101 @@
+//! The tree for screen readers: names, groups and order.
+
+use std::collections::BTreeMap;
+
+use egui::{Role, accesskit::Action};
+use egui_kittest::kittest::{AccessKitNode, NodeT as _, Queryable as _};
+
+use crate::window_stories::{
+    every_view::SCENES,
+    rig::{SIZES, Window},
+};
+
+/// All nodes in reading order.
+fn in_order(window: &Window) -> Vec<AccessKitNode<'_>> {
+    window.root().children_recursive().map(|node| node.accesskit_node()).collect()
+}
+
+fn is_control(node: &AccessKitNode<'_>) -> bool {
+    let data = node.data();
+    let acts = data.supports_action(Action::Focus) || data.supports_action(Action::Click);
+    // Text can be selected with the pointer.
+    acts && node.role() != Role::Label
+}
+
+fn name(node: &AccessKitNode<'_>) -> String {
+    node.label().unwrap_or_default().trim().to_owned()
+}
+
+/// Names of the groups around a node, from the outermost.
+fn groups(node: &AccessKitNode<'_>) -> Vec<String> {
+    let ancestors = std::iter::successors(node.parent(), AccessKitNode::parent);
+    let mut names: Vec<String> =
+        ancestors.map(|of| name(&of)).filter(|of| !of.is_empty()).collect();
+    names.reverse();
+    names
+}
+
+fn is_hidden(node: &AccessKitNode<'_>) -> bool {
+    node.is_hidden() || node.role() == Role::ScrollBar
+}
+
+/// Controls without a name, and controls of one role and name in one group.
+fn names(window: &Window) -> Vec<String> {
+    let mut faults = Vec::new();
+    let mut seen: BTreeMap<(Vec<String>, String, String), usize> = BTreeMap::new();
+    for node in in_order(window).into_iter().filter(|of| is_control(of) && !is_hidden(of)) {
+        let (role, name) = (format!("{:?}", node.role()), name(&node));
+        if name.is_empty() {
+            let place = node.raw_bounds();
+            faults.push(format!("{role} without a name in {:?} at {place:?}", groups(&node)));
+        }
+        *seen.entry((groups(&node), role, name)).or_default() += 1;
+    }
+    let twice = seen.into_iter().filter(|((_, _, name), count)| *count > 1 && !name.is_empty());
+    faults.extend(twice.map(|((groups, role, name), count)| {
+        format!("{role} {name:?} in {groups:?}, {count} times")
+    }));
+    faults
+}
+
+/// The first control, if it is not STOP.
+fn first(window: &Window) -> Option<String> {
+    let nodes = in_order(window);
+    let first = nodes.iter().find(|of| is_control(of)).map(name).unwrap_or_default();
+    (!first.starts_with("STOP")).then(|| format!("the first control is {first:?}"))
+}
+
+/// Marks in a drawing that are no children of its node.
+fn strays(window: &Window) -> Vec<String> {
+    let mut faults = Vec::new();
+    for canvas in window.query_all_by_role(Role::Canvas) {
+        let inside: Vec<_> =
+            canvas.children_recursive().map(|node| node.accesskit_node().id()).collect();
+        let area = canvas.rect().expand(1.0);
+        for node in window.query_all_by_role(Role::ListBoxOption) {
+            let is_mark = node.rect().width() <= 20.0 && area.contains(node.rect().center());
+            let node = node.accesskit_node();
+            if is_mark && !inside.contains(&node.id()) {
+                faults.push(format!("{:?} does not belong to its drawing", name(&node)));
+            }
+        }
+    }
+    faults
+}
+
+#[test]
+fn every_control_is_named_in_its_group_stop_is_first_and_marks_belong_to_their_drawing() {
+    let (mut faults, mut marked) = (Vec::new(), 0);
+    for scene in &SCENES {
+        for size in SIZES {
+            let window = scene.open(size);
+            let mut found = names(&window);
+            found.extend(first(&window));
+            found.extend(strays(&window));
+            marked += window.query_all_by_role(Role::Canvas).count();
+            faults.extend(found.into_iter().map(|of| format!("{} {size:?}: {of}", scene.name)));
+        }
+    }
+    assert!(marked > 30, "{marked} drawings");
+    assert!(faults.is_empty(), "{}", faults.join("\n"));
+}
