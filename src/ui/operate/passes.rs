@@ -208,7 +208,7 @@ fn second_line(model: &Model, predicted: &PredictedPass, age_s: f64) -> String {
     let age = Some(format!("elements {} old", format::age(age_s)));
     let (old, young) = if age_s > words::OLD_ELEMENTS_S { (age, None) } else { (None, age) };
     let light = model.sky.selected.map(|of| if of.sunlit { "sunlit" } else { "in eclipse" });
-    let parts = [other, mask, old, same, light.map(str::to_owned), young];
+    let parts = [other, old, mask, same, light.map(str::to_owned), young];
     words::capitalised(&parts.into_iter().flatten().collect::<Vec<_>>().join(" · "))
 }
 
