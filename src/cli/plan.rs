@@ -168,7 +168,7 @@ fn candidates(
         let number = elements.catalog_number();
         let mask = station.horizon_mask.as_ref();
         let mut sight = Sight::new(propagator, station.site, mask, pass);
-        let priority = station.favourites.priority(number).unwrap_or_default();
+        let priority = station.priority(number).unwrap_or_default();
         let wanted = Wanted { priority, wish: Wish::ByPlan, rules: &rules };
         let age_s = elements.age_s(pass.aos.time);
         Some(Candidate::new(number, age_s, (pass, propagator), wanted, &mut sight, common))

@@ -3,8 +3,8 @@
 use std::borrow::Cow;
 
 use egui::{
-    Align, Align2, Color32, Frame, Label, Layout, Margin, Rect, Response, RichText, ScrollArea,
-    Sense, Stroke, StrokeKind, TextEdit, Ui, pos2, vec2,
+    Align, Align2, Color32, Frame, Label, Layout, Margin, Rect, Response, RichText, Role,
+    ScrollArea, Sense, Stroke, StrokeKind, TextEdit, Ui, UiBuilder, pos2, vec2,
 };
 
 use super::fields::{Field, Standing, TextShape, Typed};
@@ -69,7 +69,8 @@ pub(super) fn card(ui: &mut Ui, title: &str, content: impl FnOnce(&mut Ui)) {
         ui.spacing_mut().item_spacing = vec2(GAP, 4.0);
         ui.label(RichText::new(title).font(text::value()));
         ui.add_space(2.0);
-        content(ui);
+        let group = UiBuilder::new().accessibility_role(Role::Group).accessibility_label(title);
+        ui.scope_builder(group, content);
     });
 }
 
