@@ -26,7 +26,10 @@ fn plan(folder: &Path, arguments: &[&str]) -> Output {
 /// A folder with the demo station and elements of its favourites.
 fn folder() -> tempfile::TempDir {
     let folder = tempfile::tempdir().unwrap();
-    let station = Station::demo(&DemoAddresses::default());
+    let address = |port: u16| format!("127.0.0.1:{port}");
+    let addresses =
+        DemoAddresses { satrak: address(4001), genius: address(9006), rc2000c: address(4002) };
+    let station = Station::demo(&addresses);
     save(&station, &folder.path().join("station.toml")).unwrap();
     let catalog = bundled().unwrap();
     let numbers = station.favourites.numbers();

@@ -95,12 +95,11 @@ impl Reach {
         if clear.is_empty() {
             return Verdict::Impossible(Impossible::Hidden);
         }
-        let coarse = sight.samples(span, false).clone();
-        if let Some(ways) = self.easy_ways(&coarse, &clear) {
+        let coarse = sight.samples(span, false);
+        if let Some(ways) = self.easy_ways(coarse, &clear) {
             return Verdict::Possible(ways);
         }
-        let fine = sight.samples(span, true).clone();
-        self.ways(&fine, &clear)
+        self.ways(sight.samples(span, true), &clear)
     }
 
     /// The ways of a pass that the axes follow without effort; `None` for one that has to be

@@ -76,11 +76,6 @@ impl Row {
         self.0.split_at(Self::CLASSES).0
     }
 
-    /// The first class in which two rows differ.
-    pub(super) fn first_difference(&self, other: &Self) -> Option<usize> {
-        self.classes().iter().zip(other.classes()).position(|(own, other)| own != other)
-    }
-
     pub(super) fn times(mut self, factor: i64) -> Self {
         for cell in &mut self.0 {
             *cell *= factor;

@@ -21,12 +21,6 @@ pub(super) struct Samples {
     pub(super) step_s: f64,
 }
 
-impl Samples {
-    pub(super) fn seconds(&self) -> f64 {
-        self.step_s * self.list.len().saturating_sub(1) as f64
-    }
-}
-
 /// One pass, prepared for all antennas of a site.
 pub struct Sight<'a> {
     propagator: &'a Propagator,
@@ -92,11 +86,11 @@ impl<'a> Sight<'a> {
         let (propagator, site) = (self.propagator, self.site);
         let [coarse, dense] = &mut self.kept;
         let kept = if fine { dense } else { coarse };
-        if kept.as_ref().is_none_or(|(of, _)| *of != span) {
-            *kept = Some((span, sampled(propagator, site, span, fine)));
+        if kept.as_ref().is_some_and(|(of, _)| *of != span) {
+            *kept = None;
         }
-        static NONE: Samples = Samples { list: Vec::new(), step_s: 1.0 };
-        kept.as_ref().map_or(&NONE, |(_, samples)| samples)
+        let kept = kept.get_or_insert_with(|| (span, sampled(propagator, site, span, fine)));
+        &kept.1
     }
 }
 

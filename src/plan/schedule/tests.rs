@@ -157,7 +157,7 @@ fn conflicts_name_entries_that_are_really_in_the_way() {
 fn what_is_fixed_stays_and_what_the_operator_says_is_done() {
     let station = three_antennas();
     let antennas = planned(&station, noon());
-    let satellites = low_satellites(&mut Random::new(SEED), 30);
+    let satellites = low_satellites(&mut Random::new(SEED), 70);
     let mut list = candidates(&station, &antennas, &satellites, noon(), 6.0);
     let first = plan(&request(&antennas, &list));
     let (entry, left) = (first.entries[3].clone(), first.left_out.iter());
