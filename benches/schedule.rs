@@ -144,10 +144,11 @@ fn main() {
     let (mut gains, mut slowest) = (Vec::new(), Duration::ZERO);
     for week in 0..WEEKS {
         let from = add_seconds(start, week as f64 * 86_400.0);
-        let mut chosen: Vec<(Elements, Priority)> = (0..SATELLITES)
-            .map(|_| low[random.below(low.len() as u64) as usize].clone())
-            .map(|it| (it, Priority::try_from(1 + random.below(5) as i64).unwrap()))
-            .collect();
+        let mut chosen: Vec<(Elements, Priority)> = Vec::new();
+        for _ in 0..SATELLITES {
+            let it = low[random.below(low.len() as u64) as usize].clone();
+            chosen.push((it, Priority::try_from(1 + random.below(5) as i64).unwrap()));
+        }
         chosen.sort_by_key(|(it, _)| it.catalog_number());
         chosen.dedup_by_key(|(it, _)| it.catalog_number());
         let antennas = antennas(&station, from);

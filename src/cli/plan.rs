@@ -161,8 +161,10 @@ fn candidates(
         ..PassSearch::new(station.site, from, to)
     };
     let rules = SatelliteRules::default();
-    let found: Vec<(usize, Pass)> =
-        passes_of_all(satellites, &search, &|_| (), &|| false).collect();
+    // What neither rises nor sets would keep an antenna from everything else.
+    let rises_or_sets = |(_, pass): &(usize, Pass)| !(pass.starts_before && pass.ends_after);
+    let found = passes_of_all(satellites, &search, &|_| (), &|| false);
+    let found: Vec<(usize, Pass)> = found.filter(rises_or_sets).collect();
     let judged = found.par_iter().filter_map(|(index, pass)| {
         let Satellite { elements, propagator, .. } = satellites.get(*index)?;
         let number = elements.catalog_number();
