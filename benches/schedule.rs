@@ -16,10 +16,10 @@ use azel::{
     makes::DemoAddresses,
     orbit::{Elements, PassSearch, Propagator, bundled, passes},
     plan::schedule::{
-        Between, Candidate, ChooseBy, Common, PlannedAntenna, Reach, Request, SatelliteRules,
-        Schedule, Sight, Steadiness, Wanted, Wish, plan,
+        Candidate, Common, PlannedAntenna, Reach, Request, Schedule, Sight, Steadiness, Wanted,
+        plan,
     },
-    station::{Priority, Station},
+    station::{BetweenPasses, ChooseBy, PassLimits, Priority, Station},
 };
 use jiff::Timestamp;
 
@@ -45,7 +45,7 @@ fn antennas(station: &Station, from: Timestamp) -> Vec<PlannedAntenna> {
         id: antenna.id,
         reach: Reach::of(station, antenna, None),
         set_up_s: 20.0,
-        between: Between::Wait,
+        between: BetweenPasses::Wait,
         free_from: from,
         stands_deg: None,
         off: None,
@@ -68,7 +68,7 @@ fn candidates(
         floor,
         ..PassSearch::new(station.site, from, add_seconds(from, hours * 3600.0))
     };
-    let (mut found, rules) = (Vec::new(), SatelliteRules::default());
+    let (mut found, limits) = (Vec::new(), PassLimits::default());
     let (mut finding, mut judging) = (Duration::ZERO, Duration::ZERO);
     for (elements, priority) in satellites {
         let Ok(propagator) = Propagator::new(elements) else { continue };
@@ -78,7 +78,8 @@ fn candidates(
         let start = Instant::now();
         for pass in passes {
             let mut sight = Sight::new(&propagator, station.site, None, &pass);
-            let wanted = Wanted { priority: *priority, wish: Wish::ByPlan, rules: &rules };
+            let wanted =
+                Wanted { priority: *priority, take: None, limits: &limits, by_rule: &|_| None };
             let number = elements.catalog_number();
             let with = (&pass, &propagator);
             found.push(Candidate::new(number, 0.0, with, wanted, &mut sight, common));
@@ -93,7 +94,7 @@ fn planned(antennas: &[PlannedAntenna], candidates: &[Candidate]) -> (Schedule, 
     let schedule = plan(&Request {
         antennas,
         candidates,
-        choose_by: ChooseBy::PriorityThenElevation,
+        choose_by: ChooseBy::Elevation,
         partial: None,
         previous: None,
         steadiness: Steadiness::default(),

@@ -1,7 +1,5 @@
 //! The schedule of a station, for the terminal and for other programs.
 
-mod reason;
-
 use std::{collections::BTreeMap, path::Path, process::ExitCode};
 
 use anyhow::Context as _;
@@ -20,18 +18,17 @@ use crate::{
     plan::{
         pass_export::Satellite,
         schedule::{
-            Between, Candidate, ChooseBy, Common, Partial, PlannedAntenna, Proof, Reach, Request,
-            SatelliteRules, Schedule, Sight, Steadiness, Wanted, Wish, plan,
+            Candidate, Common, LeftOut, Partial, PlannedAntenna, Proof, Request, Schedule,
+            Steadiness, plan,
         },
         schedule_export::{ScheduleFormat, ScheduleList},
     },
-    station::{self, AfterPass, Antenna, Station},
+    station::{self, ChooseBy, Partly, Scheduling, Station},
+    ui::words,
 };
 
 /// Least part of a pass that is worth taking, seconds.
 const LEAST_PART_S: f64 = 60.0;
-/// By multiples of this a pass is shortened, seconds.
-const PART_STEP_S: f64 = 30.0;
 
 #[derive(Debug, Args)]
 #[command(after_help = EXIT_CODES)]
@@ -44,17 +41,14 @@ pub(super) struct Options {
     /// Length of the schedule in hours
     #[arg(long, value_name = "H", default_value_t = 24.0, value_parser = input::hours, allow_negative_numbers = true)]
     hours: f64,
-    /// What is best
-    #[arg(long, value_enum, default_value_t = Rule::Elevation)]
-    choose_by: Rule,
-    /// Time that a unit which tracks by itself needs before each pass besides the slew, seconds
-    #[arg(long, value_name = "S", default_value_t = 30.0)]
-    set_up: f64,
-    /// Passes may be shortened to this share, 0 to 1; they are taken as a whole when left out
+    /// What is best; as the station file says without it
+    #[arg(long, value_enum)]
+    choose_by: Option<Rule>,
+    /// Passes may be shortened to this share, 0 to 1; as the station file says without it
     #[arg(long, value_name = "SHARE", value_parser = input::share)]
     least_share: Option<f64>,
-    /// Passes may be handed from one antenna to another; needs --least-share
-    #[arg(long, requires = "least_share")]
+    /// Passes may be handed from one antenna to another where they may be shortened
+    #[arg(long)]
     hand_over: bool,
     /// How the schedule is written
     #[arg(long, value_enum, default_value_t = ScheduleFormat::Table)]
@@ -73,6 +67,28 @@ enum Rule {
     Minutes,
 }
 
+impl Rule {
+    fn choose_by(self) -> ChooseBy {
+        match self {
+            Self::Elevation => ChooseBy::Elevation,
+            Self::Duration => ChooseBy::Duration,
+            Self::Passes => ChooseBy::MostPasses,
+            Self::Minutes => ChooseBy::MostMinutes,
+        }
+    }
+}
+
+/// How passes are planned: as the station file says, unless the command line says otherwise.
+fn scheduling(station: &Station, options: &Options) -> Scheduling {
+    let own = station.scheduling;
+    let partly = options.least_share.map(|share| Partly {
+        least_percent: 100.0 * share,
+        least_s: own.partly.map_or(LEAST_PART_S, |partly| partly.least_s),
+    });
+    let hand_over = own.hand_over || options.hand_over;
+    Scheduling { partly: partly.or(own.partly), hand_over, ..own }
+}
+
 pub(super) fn run(station: Option<&Path>, options: &Options) -> anyhow::Result<ExitCode> {
     let own = station::settings_path().filter(|_| station.is_none());
     let path = station.or(own.as_deref()).context("this user has no folder for settings")?;
@@ -89,25 +105,17 @@ pub(super) fn run(station: Option<&Path>, options: &Options) -> anyhow::Result<E
     let (from, to) = (options.from, time::add_seconds(options.from, options.hours * 3600.0));
     input::caution(&satellites, from, to);
 
-    let antennas: Vec<PlannedAntenna> =
-        station.antennas.iter().map(|antenna| planned(&station, antenna, options)).collect();
+    let antennas: Vec<PlannedAntenna> = station
+        .antennas
+        .iter()
+        .map(|antenna| PlannedAntenna::of(&station, antenna, options.from))
+        .collect();
     let candidates = candidates(&station, &antennas, &satellites, (from, to));
-    let partial = options.least_share.map(|min_share| Partial {
-        min_share,
-        min_s: LEAST_PART_S,
-        step_s: PART_STEP_S,
-        hand_over: options.hand_over,
-    });
     let schedule = plan(&Request {
         antennas: &antennas,
         candidates: &candidates,
-        choose_by: match options.choose_by {
-            Rule::Elevation => ChooseBy::PriorityThenElevation,
-            Rule::Duration => ChooseBy::PriorityThenDuration,
-            Rule::Passes => ChooseBy::MostPasses,
-            Rule::Minutes => ChooseBy::MostMinutes,
-        },
-        partial,
+        choose_by: options.choose_by.map_or(station.scheduling.choose_by, Rule::choose_by),
+        partial: Partial::of(&scheduling(&station, options)),
         previous: None,
         steadiness: Steadiness::default(),
         fixed: &[],
@@ -123,28 +131,11 @@ pub(super) fn run(station: Option<&Path>, options: &Options) -> anyhow::Result<E
         schedule: &schedule,
         satellites: &names,
         antennas: &station.antennas.iter().map(|it| (it.id, it.name.clone())).collect(),
-        reason: &|left| reason::reason(left, &name),
+        reason: &|left: &LeftOut| words::schedule::why(&|(number, _)| name(number), &left.why),
         now: Timestamp::now(),
     };
     written(|out| list.write(out, options.format)).context("The schedule cannot be written")?;
     Ok(input::exit_code(is_complete))
-}
-
-fn planned(station: &Station, antenna: &Antenna, options: &Options) -> PlannedAntenna {
-    let tracks_by_itself = antenna.connection.variant().capabilities.has_program;
-    PlannedAntenna {
-        id: antenna.id,
-        reach: Reach::of(station, antenna, None),
-        set_up_s: if tracks_by_itself { options.set_up } else { 0.0 },
-        between: match antenna.follow.after {
-            AfterPass::Hold => Between::Stay,
-            AfterPass::Park => Between::Park,
-            AfterPass::Next => Between::Wait,
-        },
-        free_from: options.from,
-        stands_deg: None,
-        off: None,
-    }
 }
 
 fn candidates(
@@ -154,26 +145,20 @@ fn candidates(
     (from, to): (Timestamp, Timestamp),
 ) -> Vec<Candidate> {
     let floor = station.elevation_floor();
-    let common = Common { site: station.site, floor, antennas, max_age_s: None };
+    let max_age_s = station.scheduling.max_element_age_d.map(|days| days * time::DAY_S);
+    let common = Common { site: station.site, floor, antennas, max_age_s };
     let search = PassSearch {
         aos_elevation: station.aos_elevation(),
         floor,
         ..PassSearch::new(station.site, from, to)
     };
-    let rules = SatelliteRules::default();
     // What neither rises nor sets would keep an antenna from everything else.
     let rises_or_sets = |(_, pass): &(usize, Pass)| !(pass.starts_before && pass.ends_after);
     let found = passes_of_all(satellites, &search, &|_| (), &|| false);
     let found: Vec<(usize, Pass)> = found.filter(rises_or_sets).collect();
     let judged = found.par_iter().filter_map(|(index, pass)| {
         let Satellite { elements, propagator, .. } = satellites.get(*index)?;
-        let number = elements.catalog_number();
-        let mask = station.horizon_mask.as_ref();
-        let mut sight = Sight::new(propagator, station.site, mask, pass);
-        let priority = station.priority(number).unwrap_or_default();
-        let wanted = Wanted { priority, wish: Wish::ByPlan, rules: &rules };
-        let age_s = elements.age_s(pass.aos.time);
-        Some(Candidate::new(number, age_s, (pass, propagator), wanted, &mut sight, common))
+        Some(Candidate::of(station, elements, propagator, pass, common))
     });
     judged.collect()
 }

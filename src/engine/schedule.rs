@@ -12,24 +12,18 @@ use super::{
     passes::{PassKey, PredictedPass},
 };
 use crate::{
-    astro::{
-        Angle, sun_moon,
-        time::{DAY_S, add_seconds},
-    },
+    astro::time::{DAY_S, add_seconds},
     driver::LinkState,
     job::Job,
     plan::schedule::{
-        Between, Candidate, Change, Choice, ChooseBy, Common, Entry, Off, Partial, PlannedAntenna,
-        Reach, Request, SatelliteRules, Schedule, Sight, Steadiness, Wanted, Wish, changes, plan,
-        plan_with,
+        self, Candidate, Change, Common, Entry, Off, Partial, PlannedAntenna, Request, Schedule,
+        Steadiness, changes, plan, plan_with, sun_is,
     },
-    station::{self, AntennaId, BetweenPasses, RuleOf, Scheduling, Station, SunIs, Take, Then},
+    station::{AntennaId, Station, SunIs},
 };
 
 /// What a change of the schedule has to gain: a moved minute does not turn it over.
 const STEADINESS: Steadiness = Steadiness { percent: 3, seconds: 10 };
-/// A pass that is taken in part starts late, or ends early, by a multiple of this, seconds.
-const STEP_S: f64 = 15.0;
 
 /// The schedule with its revision.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
@@ -134,7 +128,7 @@ impl Engine {
         let Some((inputs, _)) = self.scheduler.begun.clone() else { return };
         let antennas = self.planned_antennas(&inputs);
         let (planned, fixed, now) = (Arc::clone(&self.schedule), self.fixed(), self.now);
-        let key = crate::plan::schedule::PassKey { satellite: pass.0, aos: pass.1 };
+        let key = schedule::PassKey { satellite: pass.0, aos: pass.1 };
         let job = Job::start("azel-swap", Arc::clone(&self.wake), move |_| {
             let with = |request: &Request<'_>| plan_with(request, key);
             let made = make(&inputs, &antennas, &planned.schedule, &fixed, now, with);
@@ -182,17 +176,9 @@ impl Engine {
             let measured = shown.snapshot.state.measured;
             let axes = measured.map(|measured| measured.axes.map(|axis| axis.angle_deg));
             PlannedAntenna {
-                id: config.id,
-                reach: Reach::of(&self.station, config, None),
-                set_up_s: config.set_up_s(),
-                between: match config.automatic.between {
-                    BetweenPasses::Stay => Between::Stay,
-                    BetweenPasses::Wait => Between::Wait,
-                    BetweenPasses::Park => Between::Park,
-                },
-                free_from: self.now,
                 stands_deg: axes.and_then(|[first, second]| Some([first?, second?])),
                 off: off.map(|(_, off)| *off),
+                ..PlannedAntenna::of(&self.station, config, self.now)
             }
         };
         self.antennas.iter().map(planned).collect()
@@ -217,11 +203,6 @@ impl Engine {
     }
 }
 
-fn sun_is(station: &Station, at: Timestamp) -> SunIs {
-    let is_up = sun_moon::sun(station.site, at).elevation_deg() > 0.0;
-    if is_up { SunIs::Up } else { SunIs::Down }
-}
-
 fn make<T>(
     inputs: &Inputs,
     antennas: &[PlannedAntenna],
@@ -231,89 +212,31 @@ fn make<T>(
     plan: impl FnOnce(&Request<'_>) -> T,
 ) -> T {
     let station = &inputs.station;
-    let Scheduling { choose_by, span_h, partly, hand_over, max_element_age_d, .. } =
-        station.scheduling;
-    let end = add_seconds(now, span_h * 3600.0);
+    let scheduling = station.scheduling;
+    let end = add_seconds(now, scheduling.span_h * 3600.0);
     let common = Common {
         site: station.site,
         floor: station.elevation_floor(),
         antennas,
-        max_age_s: max_element_age_d.map(|days| days * DAY_S),
+        max_age_s: scheduling.max_element_age_d.map(|days| days * DAY_S),
     };
     let ahead = inputs.passes.iter().filter(|of| of.pass.los.time > now && of.pass.aos.time < end);
     // What never sets is no pass to be planned.
     let ahead = ahead.filter(|predicted| !predicted.is_always_up());
-    let candidates: Vec<Candidate> =
-        ahead.map(|predicted| candidate(predicted, station, common)).collect();
-    let partial = partly.map(|partly| Partial {
-        min_share: partly.least_percent / 100.0,
-        min_s: partly.least_s,
-        step_s: STEP_S,
-        hand_over,
-    });
+    let candidates: Vec<Candidate> = ahead
+        .map(|predicted| {
+            let satellite = &predicted.satellite;
+            let (elements, propagator) = (&satellite.elements, &satellite.propagator);
+            Candidate::of(station, elements, propagator, &predicted.pass, common)
+        })
+        .collect();
     plan(&Request {
         antennas,
         candidates: &candidates,
-        choose_by: match choose_by {
-            station::ChooseBy::Elevation => ChooseBy::PriorityThenElevation,
-            station::ChooseBy::Duration => ChooseBy::PriorityThenDuration,
-            station::ChooseBy::MostPasses => ChooseBy::MostPasses,
-            station::ChooseBy::MostMinutes => ChooseBy::MostMinutes,
-        },
-        partial,
+        choose_by: scheduling.choose_by,
+        partial: Partial::of(&scheduling),
         previous: (!previous.entries.is_empty()).then_some(previous),
         steadiness: STEADINESS,
         fixed,
     })
-}
-
-fn candidate(predicted: &PredictedPass, station: &Station, common: Common<'_>) -> Candidate {
-    let number = predicted.number();
-    let pass = &predicted.pass;
-    let propagator = &predicted.satellite.propagator;
-    let limits = station.pass_limits(number);
-    let rules = SatelliteRules {
-        min_elevation: limits.min_max_elevation_deg.map(Angle::from_degrees),
-        min_duration_s: limits.min_duration_s,
-        light: None,
-        antennas: limits.antennas,
-        max_a_day: limits.max_per_day,
-    };
-    let choice = station.pass_choice(number, (pass.aos.time, pass.los.time));
-    let wanted = Wanted {
-        priority: station.priority(number).unwrap_or_default(),
-        wish: match choice.map(|choice| choice.take) {
-            None => Wish::ByPlan,
-            Some(Take::Always) => Wish::Always,
-            Some(Take::Never) => Wish::Never,
-        },
-        rules: &rules,
-    };
-    let mask = station.horizon_mask.as_ref();
-    let mut sight = Sight::new(propagator, station.site, mask, pass);
-    let age_s = predicted.satellite.elements.age_s(pass.aos.time);
-    let mut candidate =
-        Candidate::new(number, age_s, (pass, propagator), wanted, &mut sight, common);
-    for (antenna, option) in &mut candidate.options {
-        if matches!(by_rule(station, predicted, *antenna), Some(Then::Leave | Then::Park)) {
-            *option = Choice::AgainstRule;
-        }
-    }
-    candidate
-}
-
-/// What the first automation rule that fits says.
-fn by_rule(station: &Station, predicted: &PredictedPass, antenna: AntennaId) -> Option<Then> {
-    let number = predicted.number();
-    let tca = predicted.pass.tca.time;
-    let sun = sun_is(station, tca);
-    let is_of = |of: &RuleOf| match of {
-        RuleOf::Satellite(satellite) => *satellite == number,
-        RuleOf::Group(name) => station.groups_of(number).any(|group| group.name == *name),
-    };
-    let mut rules = station.rules.iter();
-    let fits = rules.find(|rule| {
-        rule.is_for(antenna) && rule.of.as_ref().is_none_or(is_of) && rule.holds_at(tca, sun)
-    });
-    fits.map(|rule| rule.then)
 }

@@ -9,6 +9,7 @@
 mod board;
 mod changes;
 mod legs;
+mod of_station;
 mod outcome;
 mod reach;
 mod request;
@@ -23,11 +24,12 @@ mod way;
 mod why;
 
 pub use changes::{Cause, Change, Changed, changes};
+pub use of_station::sun_is;
 pub use outcome::{ClassWorth, Conflict, Entry, LeftOut, Proof, Schedule, Why};
 pub use reach::Reach;
 pub use request::{
-    Between, Candidate, Choice, ChooseBy, Common, Light, Off, Partial, PassKey, PlannedAntenna,
-    Refusal, Request, Rule, SatelliteRules, Steadiness, Wanted, Wish,
+    Candidate, Choice, Common, Off, Partial, PassKey, PlannedAntenna, Refusal, Request, Rule,
+    Steadiness, Wanted,
 };
 pub use row::Class;
 pub use sight::Sight;

@@ -54,6 +54,7 @@ enum Act {
 use Act::{Click, ClickBeside, ClickIfThere, Press};
 
 const OPERATE: Act = Press("ctrl+1", Modifiers::COMMAND, Key::Num1);
+const PLAN: Act = Press("ctrl+2", Modifiers::COMMAND, Key::Num2);
 const ELEMENTS: Act = Press("ctrl+3", Modifiers::COMMAND, Key::Num3);
 const ANTENNAS: Act = Press("ctrl+4", Modifiers::COMMAND, Key::Num4);
 const CONSOLE: Act = Press("ctrl+5", Modifiers::COMMAND, Key::Num5);
@@ -77,13 +78,14 @@ const fn view(name: &'static str, open: &'static [Act], leave: &'static [Act]) -
     View { name, open, leave }
 }
 
-const VIEWS: [View; 18] = [
+const VIEWS: [View; 22] = [
     view("operate", &[OPERATE, FIRST_ANTENNA], &[]),
     view("operate-genius", &[SECOND_ANTENNA], &[]),
     view("operate-rc2000c", &[THIRD_ANTENNA], &[FIRST_ANTENNA]),
     view("alarms", &[Click("alarm")], &[Click("Close")]),
     view("keys", &[KEYS], &[KEYS]),
     view("question", &[TRACK], &[ClickBeside]),
+    view("plan", &[PLAN], &[]),
     view("elements", &[ELEMENTS], &[]),
     view(
         "upload",
@@ -95,10 +97,13 @@ const VIEWS: [View; 18] = [
     view("antennas-rc2000c", &[THIRD_ANTENNA], &[FIRST_ANTENNA]),
     view("console", &[CONSOLE], &[]),
     view("map", &[MAP], &[]),
-    view("preferences-station", &[PREFERENCES, Click("Station and antennas")], &[]),
+    view("preferences-site", &[PREFERENCES, Click("Site")], &[]),
+    view("preferences-antenna", &[Click("Satrak")], &[]),
+    view("preferences-satellites", &[Click("Satellites and frequencies")], &[]),
     view("preferences-horizon", &[Click("Horizon and keep-outs")], &[]),
     view("preferences-alarms", &[Click("Alarms and sounds")], &[]),
     view("preferences-appearance", &[Click("Appearance")], &[]),
+    view("preferences-keys", &[Click("Keys")], &[]),
     view("setup", &[Click("Set up your station")], &[OPERATE]),
 ];
 

@@ -18,7 +18,7 @@ use egui::{Event, Key, Role};
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
 
 use crate::window_stories::{
-    closing, console, elements, horizon, maintenance, makes,
+    closing, console, elements, horizon, maintenance, makes, plan,
     preferences::{self, write},
     rig::{self, Window, asked, settle},
     settings_rig, setup, states, wide,
@@ -40,7 +40,7 @@ const fn scene(name: &'static str, open: fn([f32; 2]) -> Window) -> Scene {
     Scene { name, open }
 }
 
-pub(crate) const SCENES: [Scene; 39] = [
+pub(crate) const SCENES: [Scene; 41] = [
     scene("Operate, tracking", |size| rig::window(size, rig::model(states::tracking(0.04)))),
     scene("Operate, three antennas of the demo", |size| rig::window(size, demo())),
     scene("Operate, jog", |size| rig::window(size, rig::model(states::manual()))),
@@ -92,6 +92,12 @@ pub(crate) const SCENES: [Scene; 39] = [
     }),
     scene("Question before closing", |size| {
         closing::asked_about(size, rig::model(states::tracking(0.1)))
+    }),
+    scene("Plan", plan::view),
+    scene("Plan, details", |size| {
+        let mut window = plan::view(size);
+        click_if_there(&mut window, "Details");
+        window
     }),
     scene("Elements", |size| elements::view(size, sources())),
     scene("Elements, details", |size| {

@@ -63,6 +63,7 @@ fn every_key_of_the_list_does_something() {
                 asked(&mut window);
             }
             let other = match binding.place {
+                KeyScope::Plan => Some(View::Plan),
                 KeyScope::Elements => Some(View::Elements),
                 KeyScope::Preferences => Some(View::Preferences),
                 _ => None,
@@ -82,8 +83,9 @@ fn every_key_of_the_list_does_something() {
     }
 }
 
-const VIEWS: [View; 7] = [
+const VIEWS: [View; 8] = [
     View::Operate,
+    View::Plan,
     View::Elements,
     View::Antennas,
     View::Console,
@@ -98,7 +100,9 @@ fn is_live(binding: &Binding, view: View) -> bool {
         KeyScope::Everywhere | KeyScope::Views => true,
         KeyScope::Operate => view == View::Operate,
         KeyScope::Map => view == View::Map,
+        KeyScope::Plan => view == View::Plan,
         KeyScope::Elements => view == View::Elements,
+        KeyScope::Preferences => view == View::Preferences,
         KeyScope::Focus => false,
     }
 }

@@ -72,7 +72,8 @@ fn planned(model: &azel::model::Model) -> Planned {
     Planned { schedule, revision: 4, made_at: Some(model.now), ..Planned::default() }
 }
 
-fn plan(size: [f32; 2]) -> Window {
+/// The view with every second pass taken.
+pub(crate) fn view(size: [f32; 2]) -> Window {
     let mut model = rig::model(states::holding());
     model.view = View::Plan;
     model.schedule = Arc::new(planned(&model));
@@ -117,7 +118,7 @@ fn says(window: &Window, words: &str) -> bool {
 #[test]
 fn rows_say_what_is_taken_and_why_others_are_left_out() {
     for size in SIZES {
-        let window = plan(size);
+        let window = view(size);
         let rows: Vec<String> = window
             .query_all_by_role(Role::ListBoxOption)
             .filter_map(|node| node.accesskit_node().label())
@@ -131,7 +132,7 @@ fn rows_say_what_is_taken_and_why_others_are_left_out() {
 
 #[test]
 fn a_pass_is_chosen_by_key_and_by_pointer_and_that_is_undone() {
-    let mut window = plan(LARGE);
+    let mut window = view(LARGE);
     let (satellite, _) = select(&mut window, 0);
     let take = |commands: &[Command]| match commands {
         [Command::ChoosePass { satellite: of, take, .. }] if *of == satellite => *take,
@@ -154,7 +155,7 @@ fn a_pass_is_chosen_by_key_and_by_pointer_and_that_is_undone() {
 
 #[test]
 fn the_price_of_a_pass_is_asked_once_and_a_swap_asks_with_it() {
-    let mut window = plan(LARGE);
+    let mut window = view(LARGE);
     // The one that was selected before has its price asked already.
     let key = pass(&window, 3);
     window.state_mut().model.selected = Some(key);
@@ -180,7 +181,7 @@ fn the_price_of_a_pass_is_asked_once_and_a_swap_asks_with_it() {
 
 #[test]
 fn arrows_go_through_the_passes() {
-    let mut window = plan(LARGE);
+    let mut window = view(LARGE);
     select(&mut window, 0);
     window.key_press(Press::ArrowRight);
     settle(&mut window);
@@ -190,7 +191,7 @@ fn arrows_go_through_the_passes() {
 
 #[test]
 fn rule_and_span_are_chosen_and_undone() {
-    let mut window = plan(LARGE);
+    let mut window = view(LARGE);
     window.get_by_role_and_label(Role::RadioButton, "48 h").click();
     let Some(Command::SetScheduling(scheduling)) = commands(&mut window).pop() else {
         panic!("no other span");
@@ -213,7 +214,7 @@ fn rule_and_span_are_chosen_and_undone() {
 
 #[test]
 fn automatic_operation_takes_a_hold_to_switch_on_and_a_click_to_switch_off() {
-    let mut window = plan(LARGE);
+    let mut window = view(LARGE);
     let id = window.state().model.antennas[0].id();
     let off = "Automatic operation of Satrak, off: hold 1 s to switch it on";
     window.get_by_role_and_label(Role::Button, off).click();
@@ -237,7 +238,7 @@ fn automatic_operation_takes_a_hold_to_switch_on_and_a_click_to_switch_off() {
 #[test]
 fn a_suspended_antenna_goes_on_by_a_button_that_names_the_pass() {
     for view in [View::Plan, View::Operate] {
-        let mut window = plan(LARGE);
+        let mut window = self::view(LARGE);
         let id = window.state().model.antennas[0].id();
         window.state_mut().model.view = view;
         window.state_mut().model.antennas[0].operation =
@@ -258,7 +259,7 @@ fn a_suspended_antenna_goes_on_by_a_button_that_names_the_pass() {
 
 #[test]
 fn what_was_missed_is_told_with_its_cause() {
-    let mut window = plan(LARGE);
+    let mut window = view(LARGE);
     let id = window.state().model.antennas[0].id();
     let aos = add_seconds(rig::now(), -1800.0);
     let flown = |cause: Option<MissCause>| {
@@ -290,7 +291,7 @@ fn what_was_missed_is_told_with_its_cause() {
 
 #[test]
 fn without_satellites_or_antennas_the_view_says_what_to_do() {
-    let mut window = plan(LARGE);
+    let mut window = view(LARGE);
     let model = &mut window.state_mut().model;
     model.antennas.clear();
     model.pass_lists = azel::engine::passes::PassLists::default();

@@ -7,12 +7,12 @@ use jiff::tz::TimeZone;
 use super::{
     legs::{Ends, Legs},
     outcome::Entry,
-    request::{Candidate, Choice, ChooseBy, PassKey, Request, Wish},
+    request::{Candidate, Choice, PassKey, Request},
     row::{Class, Row},
     solve::{Part, Problem, Solution, Take},
     way::{Lost, Span, Verdict, Way, ms},
 };
-use crate::station::AntennaId;
+use crate::station::{AntennaId, ChooseBy, Take as Chosen};
 
 /// States that the search for the proved best may look at.
 const EFFORT: u64 = 12_000_000;
@@ -189,15 +189,15 @@ impl<'a> Board<'a> {
         let choose_by = self.request.choose_by;
         let counted_ms = way.counted_ms(span);
         let worth = match choose_by {
-            ChooseBy::PriorityThenElevation => {
+            ChooseBy::Elevation => {
                 (counted_ms as f64 * candidate.max_elevation.radians().sin()).round() as i64
             }
-            ChooseBy::PriorityThenDuration | ChooseBy::MostMinutes => counted_ms,
+            ChooseBy::Duration | ChooseBy::MostMinutes => counted_ms,
             ChooseBy::MostPasses => i64::from(part != Part::Second),
         };
-        let class = match candidate.wish {
-            Wish::Always => Class::Always,
-            Wish::ByPlan | Wish::Never => Class::by_plan(choose_by, candidate.priority),
+        let class = match candidate.take {
+            Some(Chosen::Always) => Class::Always,
+            None | Some(Chosen::Never) => Class::by_plan(choose_by, candidate.priority),
         };
         let mut row = Row::of(class, worth).risen(ms(candidate.key.aos) - kept.epoch_ms);
         if kept.holds(whole.pass, antenna.id) {
@@ -344,14 +344,14 @@ impl Limits {
     fn of(request: &Request<'_>) -> Self {
         let day = |it: &Candidate| (it.key.satellite, it.key.aos.to_zoned(TimeZone::UTC).date());
         let mut counts = HashMap::new();
-        let limited = |it: &&Candidate| it.refusal.is_none() && it.max_a_day.is_some();
+        let limited = |it: &&Candidate| it.refusal.is_none() && it.max_per_day.is_some();
         for candidate in request.candidates.iter().filter(limited) {
             *counts.entry(day(candidate)).or_insert(0_u32) += 1;
         }
         let mut indices = HashMap::new();
         let mut most = Vec::new();
         let of_pass = request.candidates.iter().map(|candidate| {
-            let max = candidate.max_a_day.filter(|_| candidate.refusal.is_none())?;
+            let max = candidate.max_per_day.filter(|_| candidate.refusal.is_none())?;
             let day = day(candidate);
             if counts.get(&day).is_none_or(|count| *count <= max) {
                 return None;

@@ -3,10 +3,11 @@
 use std::{cell::RefCell, collections::HashMap};
 
 use super::{
-    request::{Between, PlannedAntenna},
+    request::PlannedAntenna,
     solve::{Leg, Slews, Take},
     way::ms,
 };
+use crate::station::BetweenPasses;
 
 /// Where the axes stand at both ends of a take, degrees as the mount counts.
 pub(super) type Ends = [[f64; 2]; 2];
@@ -67,7 +68,7 @@ impl<'a> Legs<'a> {
                 + own().map(|stop| stop.to_park_ms).max().unwrap_or_default();
             let places = own().flat_map(|stop| stop.ends_deg);
             let direct = antenna.reach.widest_ms(places);
-            let parks = antenna.between == Between::Park || antenna.reach.has_barriers();
+            let parks = antenna.between == BetweenPasses::Park || antenna.reach.has_barriers();
             (if parks { by_park.max(direct) } else { direct }) + set_up_ms(antenna)
         });
         let longest_ms = longest_ms.collect();
@@ -125,7 +126,7 @@ impl Slews for Legs<'_> {
             return Leg { needs_ms: 0, slew_ms: direct_ms };
         }
         let by_park_ms = before.to_park_ms + after.from_park_ms;
-        let parks = antenna.between == Between::Park
+        let parks = antenna.between == BetweenPasses::Park
             && before.to_ms + by_park_ms + set_up_ms <= after.from_ms;
         let slew_ms = if parks { by_park_ms } else { direct_ms };
         Leg { needs_ms: direct_ms + set_up_ms, slew_ms }

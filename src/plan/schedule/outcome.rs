@@ -82,7 +82,7 @@ pub enum Why {
     /// The antenna cannot be there in time from where it stands.
     TooFar,
     /// As many passes of the satellite are taken on this day as may be.
-    MaxADay(u32),
+    MaxPerDay(u32),
     /// Beside the schedule it would be possible; the better schedule was not found.
     NotFound,
 }

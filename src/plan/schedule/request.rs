@@ -7,7 +7,7 @@ use super::{Entry, Schedule, reach::Reach, sight::Sight, way::Verdict};
 use crate::{
     astro::{Angle, Site, sun_moon},
     orbit::{Pass, Propagator, is_sunlit},
-    station::{AntennaId, Priority},
+    station::{AntennaId, BetweenPasses, ChooseBy, Light, PassLimits, Priority, Take, Then},
 };
 
 /// A pass by the catalog number of its satellite and the time of AOS.
@@ -15,42 +15,6 @@ use crate::{
 pub struct PassKey {
     pub satellite: u32,
     pub aos: Timestamp,
-}
-
-/// What the operator wants of a single pass.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
-pub enum Wish {
-    /// Taken or left out by its worth.
-    #[default]
-    ByPlan,
-    /// Taken before all passes that are not, whatever the rules of its satellite.
-    Always,
-    Never,
-}
-
-/// Light in which passes of a satellite are taken.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
-pub enum Light {
-    /// The Sun is up at the site at TCA.
-    Day,
-    /// The Sun is down at the site at TCA.
-    Night,
-    /// The Sun shines on the satellite at TCA.
-    Sunlit,
-}
-
-/// The rules of a satellite.
-#[derive(Debug, Clone, PartialEq, Default)]
-pub struct SatelliteRules {
-    pub min_elevation: Option<Angle>,
-    pub min_duration_s: Option<f64>,
-    pub light: Option<Light>,
-    /// The antennas that may take it; `None` for all.
-    pub antennas: Option<Vec<AntennaId>>,
-    /// Most passes a day of UTC, by AOS.
-    pub max_a_day: Option<u32>,
 }
 
 /// A rule of a satellite that leaves out a pass.
@@ -86,19 +50,6 @@ pub enum Off {
     LockedOut,
 }
 
-/// What an antenna does between two passes.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
-pub enum Between {
-    /// It goes to its park position where there is time for it.
-    Park,
-    /// It goes to the start of the next pass at once.
-    #[default]
-    Wait,
-    /// It stays where it is, and sets out in time.
-    Stay,
-}
-
 /// An antenna to plan for.
 #[derive(Debug, Clone)]
 pub struct PlannedAntenna {
@@ -107,7 +58,7 @@ pub struct PlannedAntenna {
     /// Time that its unit needs before each pass besides the slew, such as to load it and read it
     /// back, seconds.
     pub set_up_s: f64,
-    pub between: Between,
+    pub between: BetweenPasses,
     /// From when on it is free.
     pub free_from: Timestamp,
     /// Where its axes stand then, degrees as the mount counts; `None` if unknown.
@@ -123,8 +74,9 @@ pub struct Candidate {
     pub tca: Timestamp,
     pub max_elevation: Angle,
     pub priority: Priority,
-    pub wish: Wish,
-    pub max_a_day: Option<u32>,
+    /// What the operator has said of this pass.
+    pub take: Option<Take>,
+    pub max_per_day: Option<u32>,
     pub refusal: Option<Refusal>,
     pub options: Vec<(AntennaId, Choice)>,
 }
@@ -148,11 +100,13 @@ pub struct Common<'a> {
 }
 
 /// What the operator wants of a pass and its satellite.
-#[derive(Debug, Clone, Copy)]
+#[derive(Clone, Copy)]
 pub struct Wanted<'a> {
     pub priority: Priority,
-    pub wish: Wish,
-    pub rules: &'a SatelliteRules,
+    pub take: Option<Take>,
+    pub limits: &'a PassLimits,
+    /// What the automation rules say of the pass on an antenna.
+    pub by_rule: &'a dyn Fn(AntennaId) -> Option<Then>,
 }
 
 impl Candidate {
@@ -165,24 +119,32 @@ impl Candidate {
         sight: &mut Sight<'_>,
         common: Common<'_>,
     ) -> Self {
-        let Wanted { priority, wish, rules } = wanted;
-        let always = wish == Wish::Always;
+        let Wanted { priority, take, limits, by_rule } = wanted;
+        let always = take == Some(Take::Always);
         let max_elevation = pass.max_elevation();
         let too_old = common.max_age_s.filter(|max_s| age_s > *max_s);
-        let refusal = if wish == Wish::Never {
+        let broken = if always { None } else { broken(limits, pass, propagator, common.site) };
+        let is_forced = |antenna: &PlannedAntenna| by_rule(antenna.id) == Some(Then::Take);
+        let refusal = if take == Some(Take::Never) {
             Some(Refusal::Never)
         } else if max_elevation < common.floor && !always {
             Some(Refusal::BelowFloor { floor_deg: common.floor.degrees() })
         } else if too_old.is_some() {
             Some(Refusal::OldElements { age_s })
         } else {
-            let broken = if always { None } else { rules.broken(pass, propagator, common.site) };
-            broken.map(Refusal::Rule)
+            broken.filter(|_| !common.antennas.iter().any(is_forced)).map(Refusal::Rule)
+        };
+        let is_allowed = |antenna: &PlannedAntenna| match by_rule(antenna.id) {
+            Some(Then::Take) => true,
+            Some(Then::Leave | Then::Park) => false,
+            None => {
+                let of_satellite = limits.antennas.as_ref();
+                let may_it = of_satellite.is_none_or(|some| some.contains(&antenna.id));
+                always || may_it && broken.is_none()
+            }
         };
         let judged = |antenna: &PlannedAntenna| {
-            let is_allowed =
-                always || rules.antennas.as_ref().is_none_or(|some| some.contains(&antenna.id));
-            let choice = if is_allowed {
+            let choice = if is_allowed(antenna) {
                 Choice::Judged(antenna.reach.judge(sight))
             } else {
                 Choice::AgainstRule
@@ -199,45 +161,31 @@ impl Candidate {
             tca: pass.tca.time,
             max_elevation,
             priority,
-            wish,
-            max_a_day: rules.max_a_day,
+            take,
+            max_per_day: limits.max_per_day.filter(|_| !always),
             refusal,
             options,
         }
     }
 }
 
-impl SatelliteRules {
-    /// The rule that leaves out `pass`.
-    fn broken(&self, pass: &Pass, propagator: &Propagator, site: Site) -> Option<Rule> {
-        if let Some(least) = self.min_elevation.filter(|least| pass.max_elevation() < *least) {
-            return Some(Rule::MinElevation { degrees: least.degrees() });
-        }
-        if let Some(seconds) = self.min_duration_s.filter(|least| pass.duration_s() < *least) {
-            return Some(Rule::MinDuration { seconds });
-        }
-        let at = pass.tca.time;
-        let is_day = || sun_moon::sun(site, at).elevation > Angle::ZERO;
-        let is_right = |light: &Light| match light {
-            Light::Day => is_day(),
-            Light::Night => !is_day(),
-            Light::Sunlit => propagator.state_at(at).is_ok_and(|state| is_sunlit(&state, at)),
-        };
-        self.light.filter(|light| !is_right(light)).map(Rule::Light)
+/// The limit that leaves out `pass`.
+fn broken(limits: &PassLimits, pass: &Pass, propagator: &Propagator, site: Site) -> Option<Rule> {
+    let too_low = limits.min_max_elevation_deg;
+    if let Some(degrees) = too_low.filter(|deg| pass.max_elevation().degrees() < *deg) {
+        return Some(Rule::MinElevation { degrees });
     }
-}
-
-/// The operator's rule of what is best.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
-pub enum ChooseBy {
-    /// For each priority the seconds that count, times the sine of the greatest elevation.
-    #[default]
-    PriorityThenElevation,
-    /// For each priority the seconds that count.
-    PriorityThenDuration,
-    MostPasses,
-    MostMinutes,
+    if let Some(seconds) = limits.min_duration_s.filter(|least| pass.duration_s() < *least) {
+        return Some(Rule::MinDuration { seconds });
+    }
+    let at = pass.tca.time;
+    let is_day = || sun_moon::sun(site, at).elevation > Angle::ZERO;
+    let is_right = |light: &Light| match light {
+        Light::Day => is_day(),
+        Light::Night => !is_day(),
+        Light::Sunlit => propagator.state_at(at).is_ok_and(|state| is_sunlit(&state, at)),
+    };
+    limits.light.filter(|light| !is_right(light)).map(Rule::Light)
 }
 
 /// How much of a pass has to remain where it is taken in part.

@@ -7,8 +7,7 @@ use std::{
 
 use serde::{Deserialize, Serialize};
 
-use super::request::ChooseBy;
-use crate::station::Priority;
+use crate::station::{ChooseBy, Priority};
 
 /// A class of the row.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
@@ -96,9 +95,7 @@ impl Class {
     /// The class of a pass that is taken by its worth.
     pub(super) fn by_plan(choose_by: ChooseBy, priority: Priority) -> Self {
         match choose_by {
-            ChooseBy::PriorityThenElevation | ChooseBy::PriorityThenDuration => {
-                Self::Priority(priority)
-            }
+            ChooseBy::Elevation | ChooseBy::Duration => Self::Priority(priority),
             ChooseBy::MostPasses | ChooseBy::MostMinutes => Self::All,
         }
     }

@@ -2,14 +2,11 @@
 
 use jiff::Timestamp;
 
-use super::{
-    Between, Candidate, ChooseBy, Common, PlannedAntenna, Reach, Request, SatelliteRules, Sight,
-    Steadiness, Wanted, Wish,
-};
+use super::{Candidate, Common, PlannedAntenna, Reach, Request, Sight, Steadiness, Wanted};
 use crate::{
     astro::{Angle, time::add_seconds},
     orbit::{Catalog, Elements, Pass, PassSearch, Propagator, bundled, passes},
-    station::{Antenna, AntennaId, Mount, Priority, Station},
+    station::{Antenna, AntennaId, BetweenPasses, ChooseBy, Mount, PassLimits, Priority, Station},
 };
 
 /// Splitmix64.
@@ -59,7 +56,7 @@ pub(super) fn planned(station: &Station, from: Timestamp) -> Vec<PlannedAntenna>
         id: antenna.id,
         reach: Reach::of(station, antenna, None),
         set_up_s: if antenna.name == "Satrak" { 20.0 } else { 2.0 },
-        between: Between::Wait,
+        between: BetweenPasses::Wait,
         free_from: from,
         stands_deg: Some([180.0, 45.0]),
         off: None,
@@ -71,7 +68,7 @@ pub(super) fn planned(station: &Station, from: Timestamp) -> Vec<PlannedAntenna>
 pub(super) struct Satellite {
     pub(super) elements: Elements,
     pub(super) priority: Priority,
-    pub(super) rules: SatelliteRules,
+    pub(super) limits: PassLimits,
 }
 
 /// So many satellites in low orbits, each with a priority.
@@ -88,7 +85,7 @@ pub(super) fn low_satellites(random: &mut Random, count: usize) -> Vec<Satellite
             chosen.push(Satellite {
                 elements: it.clone(),
                 priority,
-                rules: SatelliteRules::default(),
+                limits: PassLimits::default(),
             });
         }
     }
@@ -128,8 +125,8 @@ fn candidate(
 ) -> Candidate {
     let mask = station.horizon_mask.as_ref();
     let mut sight = Sight::new(propagator, station.site, mask, pass);
-    let (priority, rules) = (satellite.priority, &satellite.rules);
-    let wanted = Wanted { priority, wish: Wish::ByPlan, rules };
+    let (priority, limits) = (satellite.priority, &satellite.limits);
+    let wanted = Wanted { priority, take: None, limits, by_rule: &|_| None };
     let number = satellite.elements.catalog_number();
     let age_s = satellite.elements.age_s(pass.aos.time);
     Candidate::new(number, age_s, (pass, propagator), wanted, &mut sight, common)
@@ -155,6 +152,3 @@ pub(super) fn noon() -> Timestamp {
 }
 
 /// An elevation in degrees.
-pub(super) fn degrees(degrees: f64) -> Angle {
-    Angle::from_degrees(degrees)
-}

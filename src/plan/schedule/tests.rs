@@ -3,19 +3,22 @@
 mod milp;
 
 use super::{testing::*, *};
-use crate::astro::time::{add_seconds, seconds_between};
+use crate::{
+    astro::time::{add_seconds, seconds_between},
+    station::{BetweenPasses, ChooseBy, Take},
+};
 
 const SEED: u64 = 2_026;
 
 /// Ways of planning: the operator's choices.
-fn kinds() -> [(Option<Partial>, Between, ChooseBy); 5] {
+fn kinds() -> [(Option<Partial>, BetweenPasses, ChooseBy); 5] {
     let part = |hand_over| Partial { min_share: 0.4, min_s: 90.0, step_s: 60.0, hand_over };
     [
-        (None, Between::Wait, ChooseBy::PriorityThenElevation),
-        (None, Between::Park, ChooseBy::PriorityThenDuration),
-        (None, Between::Stay, ChooseBy::MostPasses),
-        (Some(part(false)), Between::Wait, ChooseBy::MostMinutes),
-        (Some(part(true)), Between::Park, ChooseBy::PriorityThenElevation),
+        (None, BetweenPasses::Wait, ChooseBy::Elevation),
+        (None, BetweenPasses::Park, ChooseBy::Duration),
+        (None, BetweenPasses::Stay, ChooseBy::MostPasses),
+        (Some(part(false)), BetweenPasses::Wait, ChooseBy::MostMinutes),
+        (Some(part(true)), BetweenPasses::Park, ChooseBy::Elevation),
     ]
 }
 
@@ -27,7 +30,7 @@ fn each_day(days: u64, check: impl Fn(&Request<'_>)) {
         let from = add_seconds(noon(), day as f64 * 86_400.0);
         let mut satellites = low_satellites(&mut random, 30);
         for satellite in satellites.iter_mut().step_by(4) {
-            satellite.rules.max_a_day = Some(1);
+            satellite.limits.max_per_day = Some(1);
         }
         let mut antennas = planned(&station, from);
         let list = candidates(&station, &antennas, &satellites, from, 5.0);
@@ -116,7 +119,7 @@ fn every_reason_holds_when_the_swap_is_made() {
                 Why::Refused(_) | Why::Impossible(_) | Why::Off(_) | Why::OtherAntennas => {
                     assert_eq!(swapped, None, "{left:?}");
                 }
-                Why::Overlaps(_) | Why::SlewTooShort(_) | Why::MaxADay(_) | Why::TooFar => {
+                Why::Overlaps(_) | Why::SlewTooShort(_) | Why::MaxPerDay(_) | Why::TooFar => {
                     let Some(swapped) = swapped else {
                         assert_eq!(left.why, Why::TooFar);
                         continue;
@@ -167,9 +170,9 @@ fn what_is_fixed_stays_and_what_the_operator_says_is_done() {
     let taken = first.entries[5].pass;
     for candidate in &mut list {
         if candidate.key == lost {
-            candidate.wish = Wish::Always;
+            candidate.take = Some(Take::Always);
         } else if candidate.key == taken {
-            candidate.wish = Wish::Never;
+            candidate.take = Some(Take::Never);
             candidate.refusal = Some(Refusal::Never);
         }
     }
@@ -196,7 +199,7 @@ fn passes_far_from_what_changed_stay_as_they_are() {
     let schedule = plan(&request(&antennas, &before));
     let changed = schedule.entries[4].pass.satellite;
     let satellite = satellites.iter_mut().find(|it| it.elements.catalog_number() == changed);
-    satellite.unwrap().rules.min_elevation = Some(degrees(89.0));
+    satellite.unwrap().limits.min_max_elevation_deg = Some(89.0);
     let after = candidates(&station, &antennas, &satellites, noon(), 10.0);
     let steadiness = Steadiness { percent: 5, seconds: 10 };
     let new =

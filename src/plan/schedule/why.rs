@@ -91,7 +91,7 @@ impl Board<'_> {
         }
         let limit = wholes.iter().find_map(|take| self.takes.get(*take as usize)?.limit);
         let most = limit.and_then(|limit| self.limits.get(limit as usize));
-        most.map_or(Why::NotFound, |most| Why::MaxADay(*most))
+        most.map_or(Why::NotFound, |most| Why::MaxPerDay(*most))
     }
 
     fn is_on(&self, take: u32, antenna: usize) -> bool {
@@ -151,7 +151,7 @@ fn distance(why: &Why) -> (u8, i64) {
     let ms = |conflict: &Conflict| (conflict.missing_s * 1000.0) as i64;
     match why {
         Why::NotFound => (0, 0),
-        Why::MaxADay(_) => (1, 0),
+        Why::MaxPerDay(_) => (1, 0),
         Why::SlewTooShort(conflict) => (2, ms(conflict)),
         Why::Overlaps(conflict) => (3, ms(conflict)),
         Why::TooFar => (4, 0),

@@ -248,7 +248,9 @@ fn spoken(model: &Model, planned: &PlannedPass<'_>) -> String {
         .collect();
     let what = match planned.left_out {
         _ if !by.is_empty() => format!("Taken by {}.", format::list(&by)),
-        Some(left_out) => format!("Left out: {}.", words::schedule::why(model, &left_out.why)),
+        Some(left_out) => {
+            format!("Left out: {}.", words::schedule::why_left_out(model, &left_out.why))
+        }
         None => "Not planned yet.".to_owned(),
     };
     format!("{name}, {times}, {max}. {what}{choice}")

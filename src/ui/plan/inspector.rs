@@ -210,7 +210,7 @@ fn verdict(
         left_out.by_antenna.iter().find(|(of, _)| *of == id).map(|(_, why)| why)
     });
     match left_out {
-        Some(why) => (Icon::Dash, t.t2, format!("{}.", words::schedule::why(model, why))),
+        Some(why) => (Icon::Dash, t.t2, format!("{}.", words::schedule::why_left_out(model, why))),
         None if !planned.entries.is_empty() => {
             (Icon::Dash, t.t2, "leaves it to the other.".to_owned())
         }

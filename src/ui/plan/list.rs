@@ -250,7 +250,9 @@ fn reason(model: &Model, listed: &ListedPass<'_>) -> (String, bool) {
             None => (String::new(), false),
             Some(cause) => (words::automatic::miss_cause(cause), true),
         },
-        Standing::LeftOut(why) => (format!("{}.", words::schedule::why(model, why)), false),
+        Standing::LeftOut(why) => {
+            (format!("{}.", words::schedule::why_left_out(model, why)), false)
+        }
         Standing::TakenBy(_) | Standing::NotKnown => (String::new(), false),
         Standing::Running | Standing::Proved(_) | Standing::Sent(_) | Standing::Planned(_) => {
             let Some(entry) = listed.entry else { return (String::new(), false) };

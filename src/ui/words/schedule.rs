@@ -8,11 +8,11 @@ use crate::{
     plan::{
         Loss,
         schedule::{
-            Change, Changed, Class, ClassWorth, Conflict, Impossible, Light, Lost, Off, Proof,
-            Refusal, Rule, Why,
+            Change, Changed, Class, ClassWorth, Conflict, Impossible, Lost, Off, Proof, Refusal,
+            Rule, Why,
         },
     },
-    station::{AntennaId, ChooseBy},
+    station::{AntennaId, ChooseBy, Light},
     ui::format,
 };
 
@@ -39,8 +39,9 @@ pub fn lost(lost: Lost) -> String {
     }
 }
 
-/// Why a pass is left out, as a sentence without a full stop.
-pub fn why(model: &Model, why: &Why) -> String {
+/// Why a pass is left out, as a sentence without a full stop. `names` gives the name of the
+/// satellite of a pass.
+pub fn why(names: &dyn Fn(PassKey) -> String, why: &Why) -> String {
     match why {
         Why::Refused(refusal) => refused(*refusal),
         Why::Impossible(impossible) => not_possible(impossible),
@@ -49,14 +50,14 @@ pub fn why(model: &Model, why: &Why) -> String {
         Why::OtherAntennas => "A rule leaves it to other antennas".to_owned(),
         Why::Overlaps(conflict) => {
             let by = format::duration(conflict.missing_s);
-            format!("{} overlaps by {by}", against(model, conflict))
+            format!("{} overlaps by {by}", against(names, conflict))
         }
         Why::SlewTooShort(conflict) => {
             let by = format::duration(conflict.missing_s);
-            format!("{} is too close: slew and set-up miss {by}", against(model, conflict))
+            format!("{} is too close: slew and set-up miss {by}", against(names, conflict))
         }
         Why::TooFar => "The antenna cannot be there in time from where it stands".to_owned(),
-        Why::MaxADay(most) => match most {
+        Why::MaxPerDay(most) => match most {
             1 => "One pass of the satellite is taken on this day already".to_owned(),
             most => format!("{most} passes of the satellite are taken on this day already"),
         },
@@ -102,8 +103,8 @@ fn not_possible(impossible: &Impossible) -> String {
     }
 }
 
-fn against(model: &Model, conflict: &Conflict) -> String {
-    let name = pass_name(model, (conflict.with.satellite, conflict.with.aos));
+fn against(names: &dyn Fn(PassKey) -> String, conflict: &Conflict) -> String {
+    let name = names((conflict.with.satellite, conflict.with.aos));
     let class = match conflict.class {
         Class::Always => ", always,".to_owned(),
         Class::Priority(priority) => format!(", priority {},", priority.number()),
@@ -115,6 +116,11 @@ fn against(model: &Model, conflict: &Conflict) -> String {
         1 => format!("{name}{class} with one more"),
         others => format!("{name}{class} with {others} more"),
     }
+}
+
+/// Why a pass is left out, with the names that the window shows.
+pub fn why_left_out(model: &Model, of: &Why) -> String {
+    why(&|pass| pass_name(model, pass), of)
 }
 
 /// Short name of the satellite of a pass.

@@ -23,7 +23,7 @@ fn day(day: u64, check: impl FnOnce(&Request<'_>)) {
     let from = add_seconds(noon(), day as f64 * 86_400.0);
     let mut satellites = low_satellites(&mut random, 45);
     for satellite in satellites.iter_mut().step_by(9).filter(|_| day % 5 == 0) {
-        satellite.rules.max_a_day = Some(3);
+        satellite.limits.max_per_day = Some(3);
     }
     let antennas = planned(&station, from);
     let list = candidates(&station, &antennas, &satellites, from, 24.0);
