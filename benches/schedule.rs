@@ -31,12 +31,12 @@ const SATELLITES: usize = 60;
 struct Random(u64);
 
 impl Random {
-    fn below(&mut self, end: u64) -> u64 {
+    fn below(&mut self, end: u32) -> u32 {
         self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
         let mut mixed = self.0;
         mixed = (mixed ^ (mixed >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
         mixed = (mixed ^ (mixed >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        (mixed ^ (mixed >> 31)) % end
+        ((mixed ^ (mixed >> 31)) % u64::from(end)) as u32
     }
 }
 
@@ -147,7 +147,7 @@ fn main() {
         let from = add_seconds(start, week as f64 * 86_400.0);
         let mut chosen: Vec<(Elements, Priority)> = Vec::new();
         for _ in 0..SATELLITES {
-            let it = low[random.below(low.len() as u64) as usize].clone();
+            let it = low[random.below(low.len() as u32) as usize].clone();
             chosen.push((it, Priority::try_from(1 + random.below(5) as i64).unwrap()));
         }
         chosen.sort_by_key(|(it, _)| it.catalog_number());

@@ -82,16 +82,13 @@ impl Board<'_> {
         let antenna = self.request.antennas.get(it.antenna as usize)?;
         let set_up_ms = legs::set_up_ms(antenna);
         let earlier = before.and_then(|before| self.at(before));
-        let (slew_ms, spare_ms) = match (before, earlier) {
-            (Some(before), Some((earlier, _))) => {
-                let leg = self.legs.between(before as usize, take as usize);
-                (leg.slew_ms, Some(it.from_ms - earlier.to_ms - leg.slew_ms - set_up_ms))
-            }
-            _ => {
-                let slew_ms = self.legs.first_ms(take as usize).unwrap_or_default();
-                let spare_ms = it.from_ms - way::ms(antenna.free_from) - slew_ms - set_up_ms;
-                (slew_ms, antenna.stands_deg.map(|_| spare_ms))
-            }
+        let (slew_ms, spare_ms) = if let Some((before, (earlier, _))) = before.zip(earlier) {
+            let leg = self.legs.between(before as usize, take as usize);
+            (leg.slew_ms, Some(it.from_ms - earlier.to_ms - leg.slew_ms - set_up_ms))
+        } else {
+            let slew_ms = self.legs.first_ms(take as usize).unwrap_or_default();
+            let spare_ms = it.from_ms - way::ms(antenna.free_from) - slew_ms - set_up_ms;
+            (slew_ms, antenna.stands_deg.map(|_| spare_ms))
         };
         let parts = all.iter().flatten().filter(|other| **other != take);
         let mut parts = parts.filter_map(|other| self.at(*other));

@@ -108,7 +108,7 @@ impl Problem<'_> {
                 return Solution { takes: vec![takes], row, bound: row };
             }
         }
-        match vector::best(self, &lines, &|_| true) {
+        match vector::best(self, &|_| true) {
             Some(takes) => {
                 let (takes, row) = self.improved(&lines, takes);
                 Solution { takes, row, bound: row }
@@ -128,6 +128,14 @@ impl Problem<'_> {
         let pairs = takes.iter().zip(takes.iter().skip(1));
         let slews = pairs.map(|(a, b)| self.slews.between(*a as usize, *b as usize).slew_ms);
         worth.slewed(slews.sum::<i64>() + first.unwrap_or_default())
+    }
+
+    /// The slew between two takes of which the second starts later; `None` where the leg does
+    /// not fit.
+    fn slew_ms(&self, before: u32, take: u32) -> Option<i64> {
+        let (earlier, later) = (self.take(before)?, self.take(take)?);
+        let Leg { needs_ms, slew_ms } = self.slews.between(before as usize, take as usize);
+        (earlier.to_ms + needs_ms <= later.from_ms).then_some(slew_ms)
     }
 
     fn keeps_limits(&self, takes: &[Vec<u32>]) -> bool {

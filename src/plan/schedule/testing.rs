@@ -26,8 +26,8 @@ impl Random {
     }
 
     /// A number from 0 to below `end`.
-    pub(super) fn below(&mut self, end: u64) -> u64 {
-        self.next() % end
+    pub(super) fn below(&mut self, end: u32) -> u32 {
+        (self.next() % u64::from(end)) as u32
     }
 }
 
@@ -78,7 +78,7 @@ pub(super) fn low_satellites(random: &mut Random, count: usize) -> Vec<Satellite
         catalog.iter().filter(|it| (5_400.0..6_900.0).contains(&it.period_s())).collect();
     let mut chosen = Vec::new();
     while chosen.len() < count {
-        let it = low[random.below(low.len() as u64) as usize];
+        let it = low[random.below(low.len() as u32) as usize];
         let number = it.catalog_number();
         if chosen.iter().all(|other: &Satellite| other.elements.catalog_number() != number) {
             let priority = Priority::try_from(1 + random.below(5) as i64).unwrap();
@@ -150,5 +150,3 @@ pub(super) fn request<'a>(
 pub(super) fn noon() -> Timestamp {
     "2026-08-12T12:00:00Z".parse().unwrap()
 }
-
-/// An elevation in degrees.

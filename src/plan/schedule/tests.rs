@@ -38,7 +38,7 @@ fn each_day(days: u64, check: impl Fn(&Request<'_>)) {
             for antenna in &mut antennas {
                 antenna.between = between;
             }
-            check(&Request { partial, choose_by, ..request(&antennas, &list) });
+            check(&Request { choose_by, partial, ..request(&antennas, &list) });
         }
     }
 }

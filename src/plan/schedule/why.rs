@@ -44,9 +44,10 @@ impl Board<'_> {
         let on = |(index, antenna): (usize, &PlannedAntenna)| {
             (antenna.id, self.why_not_on(index, antenna, candidate, wholes, solution))
         };
-        let by_antenna: Vec<_> = match candidate.options.is_empty() {
-            true => Vec::new(),
-            false => self.request.antennas.iter().enumerate().map(on).collect(),
+        let by_antenna: Vec<_> = if candidate.options.is_empty() {
+            Vec::new()
+        } else {
+            self.request.antennas.iter().enumerate().map(on).collect()
         };
         let all_impossible = by_antenna.iter().all(|(_, why)| matches!(why, Why::Impossible(_)));
         let nearest = by_antenna.iter().map(|(_, why)| why).min_by_key(|why| distance(why));

@@ -2,7 +2,7 @@
 //! neighbours in a sequence need time between them, so the best sequence that ends with a take
 //! follows from the best ones that end with each take before it, whatever the slews are.
 
-use super::{Leg, Problem, Row, Take};
+use super::{Problem, Row, Take};
 
 /// The takes of one antenna, prepared for repeated solution.
 pub(super) struct Line {
@@ -64,14 +64,6 @@ impl Line {
             near_of.push((start, near.len() as u32));
         }
         Self { antenna, by_start, by_end, far, near_of, near }
-    }
-
-    /// The slew between two takes of which the second starts later; `None` where the leg does
-    /// not fit.
-    pub(super) fn slew_ms(&self, problem: &Problem<'_>, before: u32, take: u32) -> Option<i64> {
-        let (earlier, later) = (problem.take(before)?, problem.take(take)?);
-        let Leg { needs_ms, slew_ms } = problem.slews.between(before as usize, take as usize);
-        (earlier.to_ms + needs_ms <= later.from_ms).then_some(slew_ms)
     }
 
     /// The sequence that is worth most; `worth` is the row of a take, `None` for one that is out.

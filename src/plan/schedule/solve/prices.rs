@@ -40,7 +40,7 @@ pub(super) fn solve(problem: &Problem<'_>, lines: &[Line]) -> Solution {
     let mut best = (prices.clone(), now.clone());
     let (mut takes, mut row) = problem.repaired(lines, now.takes.clone());
     // Whole passes make a smaller search.
-    if let Some(whole) = vector::best(problem, lines, &|take| take.is_whole) {
+    if let Some(whole) = vector::best(problem, &|take| take.is_whole) {
         let found = problem.improved(lines, whole);
         if found.1 > row {
             (takes, row) = found;
@@ -176,8 +176,6 @@ impl Problem<'_> {
 
     /// Returns `true` if the second take can follow the first.
     pub(super) fn fits(&self, before: u32, take: u32) -> bool {
-        let needs_ms = self.slews.between(before as usize, take as usize).needs_ms;
-        let both = self.take(before).zip(self.take(take));
-        both.is_some_and(|(before, take)| before.to_ms + needs_ms <= take.from_ms)
+        self.slew_ms(before, take).is_some()
     }
 }

@@ -41,7 +41,7 @@ struct Case {
 
 impl Case {
     fn random(random: &mut Random, antennas: usize, passes: usize) -> Self {
-        let limits: Vec<u32> = (0..random.below(3)).map(|_| 1 + random.below(2) as u32).collect();
+        let limits: Vec<u32> = (0..random.below(3)).map(|_| 1 + random.below(2)).collect();
         let mut takes = Vec::new();
         for pass in 0..passes as u32 {
             let at_ms = random.below(250) as i64;
@@ -49,8 +49,7 @@ impl Case {
                 0 => Class::Always,
                 number => Class::Priority(Priority::try_from(1 + (number as i64) % 3).unwrap()),
             };
-            let limit =
-                limits.len().checked_sub(1).map(|last| random.below(last as u64 + 1) as u32);
+            let limit = limits.len().checked_sub(1).map(|last| random.below(last as u32 + 1));
             let limit = limit.filter(|_| random.below(2) == 0);
             for antenna in 0..antennas as u32 {
                 for _ in 0..random.below(3) {

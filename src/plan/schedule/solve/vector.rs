@@ -4,7 +4,7 @@
 //! The classes of the row that is found are the best; equal ones are told apart by their slews
 //! only as far as the states that are kept allow.
 
-use super::{Line, Part, Problem, Row, Take};
+use super::{Part, Problem, Row, Take};
 
 /// States beyond which the search is given up.
 const MAX_STATES: usize = 4_000;
@@ -41,18 +41,14 @@ struct Closes {
 }
 
 /// The best takes by antenna of those that are in; `None` if there are too many states.
-pub(super) fn best(
-    problem: &Problem<'_>,
-    lines: &[Line],
-    is_in: &dyn Fn(&Take) -> bool,
-) -> Option<Vec<Vec<u32>>> {
+pub(super) fn best(problem: &Problem<'_>, is_in: &dyn Fn(&Take) -> bool) -> Option<Vec<Vec<u32>>> {
     let all = (0..).zip(problem.takes).filter(|(_, take)| is_in(take));
     let mut order: Vec<u32> = all.map(|(index, _)| index).collect();
     let key = |take: &u32| problem.take(*take).map(|it| (it.from_ms, it.to_ms, it.antenna));
     order.sort_by_key(|take| (key(take), *take));
     let closes = closes(problem, &order);
 
-    let mut search = Search { problem, lines, trail: Vec::new(), effort: 0 };
+    let mut search = Search { problem, trail: Vec::new(), effort: 0 };
     let start = State {
         row: Row::ZERO,
         last: vec![NONE; problem.antennas],
@@ -118,7 +114,6 @@ fn closes(problem: &Problem<'_>, order: &[u32]) -> Vec<Closes> {
 
 struct Search<'a> {
     problem: &'a Problem<'a>,
-    lines: &'a [Line],
     /// The step before, and the take.
     trail: Vec<(u32, u32)>,
     effort: u64,
@@ -151,7 +146,7 @@ impl Search<'_> {
         }
         let slew_ms = match *state.last.get(antenna)? {
             NONE => self.problem.slews.first_ms(take as usize)?,
-            last => self.lines.get(antenna)?.slew_ms(self.problem, last, take)?,
+            last => self.problem.slew_ms(last, take)?,
         };
         let mut new = state.clone();
         new.row = state.row + it.row.slewed(slew_ms);
@@ -189,7 +184,7 @@ impl Search<'_> {
                 (state, busy)
             })
             .collect();
-        sorted.sort_by(|(a, _), (b, _)| b.row.cmp(&a.row));
+        sorted.sort_by_key(|(state, _)| std::cmp::Reverse(state.row));
         let mut kept: Vec<(State, Vec<Option<u32>>)> = Vec::new();
         for (state, busy) in sorted {
             let beaten = kept.iter().position(|(better, freer)| {

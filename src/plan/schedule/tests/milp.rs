@@ -1,4 +1,4 @@
-//! Fifty random days against a MILP of the same data, solved by HiGHS: its results stand in
+//! Fifty random days against a MILP of the same data, solved by `HiGHS`: its results stand in
 //! `tests/data/schedule_milp.csv`. `cargo test` looks at every tenth day; all of them, and how they
 //! are solved again:
 //!
