@@ -237,9 +237,9 @@ impl Engine {
         let scheduling = self.station.scheduling;
         let parks = self.between(antenna) == BetweenPasses::Park && antenna.can_park();
         Wishes {
-            park_s: parks.then(|| antenna.config.longest_slew_s() + LEAD_S),
-            warn_after_rest_s: scheduling.warn_after_rest_min * 60.0,
-            warning_s: scheduling.warning_s,
+            parks_within_s: parks.then(|| antenna.config.longest_slew_s() + LEAD_S),
+            longest_rest_s: scheduling.warn_after_rest_min * 60.0,
+            announced_for_s: scheduling.warning_s,
         }
     }
 

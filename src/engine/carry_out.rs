@@ -25,6 +25,7 @@ use crate::{
 const REFRESH_PAUSE_S: f64 = 600.0;
 
 impl Engine {
+    #[expect(clippy::too_many_lines, reason = "one arm a command")]
     pub(super) fn carry_out(&mut self, command: Command) {
         if self.is_elsewhere(&command) || self.is_void(&command) {
             return;

@@ -114,7 +114,7 @@ impl Engine {
         let (wanted, now) = (inputs.clone(), self.now);
         let (previous, fixed) = (Arc::clone(&self.schedule), self.fixed());
         let job = Job::start("azel-schedule", Arc::clone(&self.wake), move |_| {
-            make(&wanted, &antennas, &previous.schedule, &fixed, now, |request| plan(request))
+            make(&wanted, &antennas, &previous.schedule, &fixed, now, plan)
         });
         match job {
             Ok(job) => self.scheduler.running = Some(job),

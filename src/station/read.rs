@@ -40,6 +40,7 @@ pub enum NoteReason {
 
 /// The station of a parsed station file with controllers of these makes, and notes on
 /// entries that were not taken over.
+#[expect(clippy::redundant_closure_for_method_calls, reason = "a path names one lifetime")]
 pub fn from_toml(mut table: Table, specs: &[&'static ControllerSpec]) -> (Station, Vec<Note>) {
     let mut fields = Fields { notes: Vec::new(), path: String::new(), table: &mut table };
     let default = Station::default();
@@ -170,6 +171,7 @@ impl Fields<'_> {
         number
     }
 
+    #[expect(clippy::redundant_closure_for_method_calls, reason = "a path names one lifetime")]
     fn frequencies(&mut self) -> Vec<Frequency> {
         self.list("frequency", |frequency| frequency.frequency())
     }

@@ -42,7 +42,7 @@ fn operation(client: &Client, antenna: AntennaId) -> Operation {
 
 /// Waits until the clock of the station shows a time.
 fn until_time(client: &Client, at: Timestamp) {
-    let patience = std::time::Instant::now() + std::time::Duration::from_secs(600);
+    let patience = std::time::Instant::now() + std::time::Duration::from_mins(10);
     while client.now().utc < at {
         assert!(std::time::Instant::now() < patience);
         std::thread::sleep(scene::LOOK);

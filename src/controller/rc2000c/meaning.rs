@@ -25,7 +25,7 @@ pub(super) fn of_sent(bytes: &[u8], address: Address, axes: &Axes) -> Option<Mea
         }
         Request::Stop => "Stops azimuth and elevation".into(),
         Request::Motion(Motion::AutoMove(to)) => auto_move(&to, axes).into(),
-        Request::Motion(Motion::Jog(jog)) => jogged(&jog).into(),
+        Request::Motion(Motion::Jog(jog)) => jogged(jog).into(),
         Request::Motion(Motion::Polarization(to)) => polarization(to).into(),
         Request::Motion(Motion::ResetDrive(drive)) => match drive {
             DriveReset::Azimuth => "Clears the alarm of the azimuth drive",
@@ -68,7 +68,7 @@ fn auto_move(to: &AutoMove, axes: &Axes) -> String {
     format!("Turns the polarization to {position}")
 }
 
-fn jogged(jog: &Jog) -> String {
+fn jogged(jog: Jog) -> String {
     let way = match jog.direction() {
         Direction::CounterClockwise => "azimuth counter-clockwise",
         Direction::Clockwise => "azimuth clockwise",

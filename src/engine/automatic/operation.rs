@@ -138,12 +138,13 @@ pub(super) struct Seen {
 
 /// How the operator wants it.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[expect(clippy::struct_field_names, reason = "each is a time in seconds")]
 pub(super) struct Wishes {
     /// Parks between passes where the time allows; `None` where it does not park. Seconds that
     /// both ways take at most.
-    pub(super) park_s: Option<f64>,
-    pub(super) warn_after_rest_s: f64,
-    pub(super) warning_s: f64,
+    pub(super) parks_within_s: Option<f64>,
+    pub(super) longest_rest_s: f64,
+    pub(super) announced_for_s: f64,
 }
 
 /// What the station does for automatic operation.
@@ -295,19 +296,18 @@ impl On {
             return self.park(None, seen, wishes, now);
         };
         let rest_s = self.moved_at.map_or(f64::INFINITY, |at| seconds_between(at, now));
-        let is_announced = rest_s >= wishes.warn_after_rest_s;
-        let lead_s = if is_announced { wishes.warning_s } else { 0.0 };
+        let is_announced = rest_s >= wishes.longest_rest_s;
+        let lead_s = if is_announced { wishes.announced_for_s } else { 0.0 };
         if seconds_between(now, duty.go_at) > lead_s {
             return self.park(Some(duty), seen, wishes, now);
         }
         match &self.doing {
             Doing::Announces { moves_at, pass } if is_same_pass(*pass, duty.pass) => {
-                if now < *moves_at {
-                    return None;
-                }
+                let is_over = now >= *moves_at;
+                is_over.then_some(())?;
             }
             _ if is_announced => {
-                let moves_at = add_seconds(now, wishes.warning_s);
+                let moves_at = add_seconds(now, wishes.announced_for_s);
                 self.doing = Doing::Announces { moves_at, pass: duty.pass };
                 return None;
             }
@@ -365,11 +365,11 @@ impl On {
         wishes: Wishes,
         now: Timestamp,
     ) -> Option<Act> {
-        let park_s = wishes.park_s?;
+        let park_s = wishes.parks_within_s?;
         let has_time = next.is_none_or(|duty| seconds_between(now, duty.go_at) > park_s);
         // After a rest, or before its first pass, it stays where it is: parking is not announced.
         let is_awake =
-            self.moved_at.is_some_and(|at| seconds_between(at, now) < wishes.warn_after_rest_s);
+            self.moved_at.is_some_and(|at| seconds_between(at, now) < wishes.longest_rest_s);
         let is_due = matches!(self.doing, Doing::Rests) && is_awake;
         if !has_time || !is_due || !seen.is_live || !seen.can_be_sent || seen.moves {
             return None;

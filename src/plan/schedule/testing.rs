@@ -4,7 +4,7 @@ use jiff::Timestamp;
 
 use super::{Candidate, Common, PlannedAntenna, Reach, Request, Sight, Steadiness, Wanted};
 use crate::{
-    astro::{Angle, time::add_seconds},
+    astro::time::add_seconds,
     orbit::{Catalog, Elements, Pass, PassSearch, Propagator, bundled, passes},
     station::{Antenna, AntennaId, BetweenPasses, ChooseBy, Mount, PassLimits, Priority, Station},
 };

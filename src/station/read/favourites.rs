@@ -23,7 +23,9 @@ impl Fields<'_> {
             match entry {
                 Value::Table(table) => {
                     let read = self.entry(&place, table, |fields| fields.favourite(antennas));
-                    read.into_iter().for_each(|favourite| favourites.put(favourite));
+                    if let Some(favourite) = read {
+                        favourites.put(favourite);
+                    }
                 }
                 number => match catalog_number(&number) {
                     Some(satellite) => favourites.mark(satellite, true),
@@ -79,12 +81,10 @@ impl Fields<'_> {
     /// antenna may take the passes: a limit is not widened.
     fn antennas_of_limits(&mut self, antennas: &[AntennaId]) -> Option<Vec<AntennaId>> {
         const KEY: &str = "antennas";
-        let given: Vec<u32> = match self.table.remove(KEY)?.try_into() {
-            Ok(given) => given,
-            Err(_) => {
-                self.invalid(KEY, "must be a list of ids of antennas");
-                return None;
-            }
+        let given: Result<Vec<u32>, toml::de::Error> = self.table.remove(KEY)?.try_into();
+        let Ok(given) = given else {
+            self.invalid(KEY, "must be a list of ids of antennas");
+            return None;
         };
         let (known, unknown): (Vec<_>, Vec<_>) =
             given.into_iter().map(AntennaId).partition(|id| antennas.contains(id));

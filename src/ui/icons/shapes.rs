@@ -12,6 +12,7 @@ const HEAVY: f32 = 2.0;
 /// Number of vertices for a smooth ellipse of 20 points.
 const ELLIPSE_POINTS: usize = 32;
 
+#[expect(clippy::too_many_lines, reason = "one arm an icon")]
 pub(super) fn draw(pen: &Pen<'_>, icon: Icon) {
     match icon {
         Icon::Octagon => pen.outline(&[

@@ -78,17 +78,16 @@ fn title(ui: &Ui, rect: Rect, model: &Model, state: &mut PlanState, commands: &m
         }
         return;
     }
-    let words = match model.schedule.made_at {
-        None => "The passes are being planned.".to_owned(),
-        Some(_) => {
-            let until = format::moment(model.plan_until(), model.now);
-            let changes = match model.schedule.changes.len() {
-                0 => String::new(),
-                1 => ", 1 pass changed".to_owned(),
-                count => format!(", {count} passes changed"),
-            };
-            format!("{} to {until}{changes}", format::time_z(model.now))
-        }
+    let words = if model.schedule.made_at.is_none() {
+        "The passes are being planned.".to_owned()
+    } else {
+        let until = format::moment(model.plan_until(), model.now);
+        let changes = match model.schedule.changes.len() {
+            0 => String::new(),
+            1 => ", 1 pass changed".to_owned(),
+            count => format!(", {count} passes changed"),
+        };
+        format!("{} to {until}{changes}", format::time_z(model.now))
     };
     paint::text_in(ui, second, left, &words, small, t.t2);
     let changed: Vec<String> =

@@ -9,6 +9,7 @@ use jiff::{Timestamp, tz::TimeZone};
 use super::{LABELS, PADDING, PlanState, Span};
 use crate::{
     astro::time::seconds_between,
+    engine::passes::PredictedPass,
     model::{
         Model, UiCommand,
         plan::{PlannedPass, PlannedSatellite},
@@ -138,7 +139,7 @@ fn show_row(
     commands: &mut Vec<UiCommand>,
 ) {
     let t = theme::tokens(ui);
-    let selected = model.selected_pass().map(|predicted| predicted.key());
+    let selected = model.selected_pass().map(PredictedPass::key);
     let is_selected = selected.is_some_and(|(number, _)| number == satellite.number);
     let line = if is_first { t.edge } else { t.line };
     let labels = row.with_max_x(place.left());

@@ -5,7 +5,7 @@ use egui::{Align2, Rect, RichText, ScrollArea, Sense, Ui, UiBuilder, pos2, vec2}
 use super::{PADDING, PlanState};
 use crate::{
     astro::time::seconds_between,
-    engine::{self, antenna::AntennaModel, automatic::Operation},
+    engine::{self, antenna::AntennaModel, automatic::Operation, passes::PredictedPass},
     model::{Model, UiCommand, View, plan::PlannedPass},
     orbit::PassPoint,
     plan::schedule::Entry,
@@ -42,7 +42,7 @@ pub(super) fn show(
     let t = theme::tokens(ui);
     ui.painter().rect_filled(rect, 0.0, t.bg1);
     ui.painter().vline(rect.left() + 0.5, rect.y_range(), (1.0, t.line));
-    let key = model.selected_pass().map(|selected| selected.key());
+    let key = model.selected_pass().map(PredictedPass::key);
     let planned = model.planned_passes().into_iter().find(|of| Some(of.predicted.key()) == key);
     let Some(planned) = planned else {
         let inner = rect.shrink(PADDING);
@@ -234,19 +234,18 @@ fn price(
         .swap
         .as_ref()
         .filter(|swap| swap.pass == key && swap.revision == model.schedule.revision);
-    let words = match known {
-        Some(swap) => format!("If it is always taken: {}", words::schedule::price(model, swap)),
-        None => {
-            let ask = UiCommand::Station(engine::Command::PriceSwap(key));
-            // Asked once a pass and schedule; the answer wakes the window.
-            let id = ui.make_persistent_id("swap asked");
-            let asked = (key, model.schedule.revision);
-            if ui.data(|data| data.get_temp(id)) != Some(asked) {
-                ui.data_mut(|data| data.insert_temp(id, asked));
-                commands.push(ask);
-            }
-            "What it would cost is being worked out.".to_owned()
+    let words = if let Some(swap) = known {
+        format!("If it is always taken: {}", words::schedule::price(model, swap))
+    } else {
+        let ask = UiCommand::Station(engine::Command::PriceSwap(key));
+        // Asked once a pass and schedule; the answer wakes the window.
+        let id = ui.make_persistent_id("swap asked");
+        let asked = (key, model.schedule.revision);
+        if ui.data(|data| data.get_temp(id)) != Some(asked) {
+            ui.data_mut(|data| data.insert_temp(id, asked));
+            commands.push(ask);
         }
+        "What it would cost is being worked out.".to_owned()
     };
     let t = theme::tokens(ui);
     let room = width - 2.0 * PADDING - 24.0;

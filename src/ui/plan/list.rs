@@ -197,17 +197,15 @@ fn state(
     t: &Tokens,
 ) -> (Icon, String, Color32) {
     match listed.standing {
-        Standing::Flown(flown) => match flown.cause {
-            None => {
-                let percent = 100.0 * flown.in_beam_s / flown.of_s.max(1.0);
-                let words = format!("Done, {} % in beam", format::number(percent, 0));
-                (Icon::Check, words, t.ok)
-            }
-            Some(_) => {
-                let [lost, of] = [flown.lost_s(), flown.of_s].map(format::duration);
-                (Icon::Cross, format!("Missed {lost} of {of}"), t.bad)
-            }
-        },
+        Standing::Flown(flown) if flown.cause.is_none() => {
+            let percent = 100.0 * flown.in_beam_s / flown.of_s.max(1.0);
+            let words = format!("Done, {} % in beam", format::number(percent, 0));
+            (Icon::Check, words, t.ok)
+        }
+        Standing::Flown(flown) => {
+            let [lost, of] = [flown.lost_s(), flown.of_s].map(format::duration);
+            (Icon::Cross, format!("Missed {lost} of {of}"), t.bad)
+        }
         Standing::Running => {
             let off = antenna.error().map(|error| error.off_beam.degrees());
             let words = off.map_or_else(

@@ -7,7 +7,10 @@ use jiff::Timestamp;
 use super::choose;
 use crate::{
     astro::time::seconds_between,
-    engine::{self, passes::PassKey},
+    engine::{
+        self,
+        passes::{PassKey, PredictedPass},
+    },
     model::{Model, UiCommand, plan::PlannedPass},
     station::{AntennaId, Take},
     ui::{confirm::Question, format, widgets::hold_button::HoldState, words},
@@ -86,7 +89,7 @@ impl PlanState {
     pub fn neighbour(&self, model: &Model, by: isize) -> Option<PassKey> {
         let all = model.planned_passes();
         let keys: Vec<PassKey> = all.iter().map(|planned| planned.predicted.key()).collect();
-        let selected = model.selected_pass().map(|selected| selected.key());
+        let selected = model.selected_pass().map(PredictedPass::key);
         let place = keys.iter().position(|key| Some(*key) == selected);
         let place = place.map_or(Some(0), |place| place.checked_add_signed(by));
         keys.get(place?).copied()

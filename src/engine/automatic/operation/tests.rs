@@ -46,7 +46,11 @@ impl Fixture {
         Self {
             operation: Operation::switched_on(),
             duties: duties.to_vec(),
-            wishes: Wishes { park_s: None, warn_after_rest_s: 3600.0, warning_s: WARNING_S },
+            wishes: Wishes {
+                parks_within_s: None,
+                longest_rest_s: 3600.0,
+                announced_for_s: WARNING_S,
+            },
             now_s: 0.0,
         }
     }
@@ -189,7 +193,7 @@ fn a_pass_for_which_nothing_happens_is_given_up() {
 fn it_parks_between_passes_where_the_time_is_enough() {
     let duties = [duty(1, 200.0), duty(2, 1000.0), duty(3, 2000.0)];
     let mut fixture = Fixture::new(&duties);
-    fixture.wishes.park_s = Some(300.0);
+    fixture.wishes.parks_within_s = Some(300.0);
     assert_eq!(fixture.until(150.0, |_| STANDS), [(140.0, Act::Take(duties[0]))]);
     fixture.until(801.0, |_| taking(1));
     assert_eq!(fixture.until(945.0, |_| STANDS), [(940.0, Act::Take(duties[1]))]);

@@ -22,7 +22,7 @@ fn day(day: u64, check: impl FnOnce(&Request<'_>)) {
     let mut random = Random::new(SEED + 100 + day);
     let from = add_seconds(noon(), day as f64 * 86_400.0);
     let mut satellites = low_satellites(&mut random, 45);
-    for satellite in satellites.iter_mut().step_by(9).filter(|_| day % 5 == 0) {
+    for satellite in satellites.iter_mut().step_by(9).filter(|_| day.is_multiple_of(5)) {
         satellite.limits.max_per_day = Some(3);
     }
     let antennas = planned(&station, from);
