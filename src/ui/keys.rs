@@ -70,7 +70,7 @@ const fn with(modifiers: Modifiers, binding: Binding) -> Binding {
 }
 
 /// All keys, in the order of the list. The app handles the key of STOP before anything else.
-pub const ALL: [Binding; 34] = [
+pub const ALL: [Binding; 33] = [
     row(KeyScope::Focus, &[(Key::Escape, Act::There)], "STOP, everywhere; closes what is open"),
     with(
         Modifiers::COMMAND,
@@ -191,10 +191,10 @@ pub const ALL: [Binding; 34] = [
             (Key::Y, Act::ChoosePass(Some(Take::Always))),
             (Key::B, Act::ChoosePass(None)),
             (Key::V, Act::ChoosePass(Some(Take::Never))),
+            (Key::S, Act::SwapPass),
         ],
-        "in Plan: take the pass always, by plan, never",
+        "in Plan: take the pass always, by plan, never; take one left out (asks)",
     ),
-    row(KeyScope::Plan, &[(Key::S, Act::SwapPass)], "in Plan: take a pass that is left out (asks)"),
     row(
         KeyScope::Plan,
         &[

@@ -3,17 +3,20 @@
 use std::{
     fs,
     path::{Path, PathBuf},
+    sync::Arc,
 };
 
 use azel::{
     engine::{alarms::AlarmKind, passes::PredictedPass},
     model::{UiCommand, View},
+    station::Take,
     ui::keys::{ALL, Binding, KeyScope, list::in_words},
 };
 use egui::{Key, Modifiers, Role};
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
 
 use crate::window_stories::{
+    plan,
     rig::{self, LARGE, SIZES, SMALL, Window, asked, settle},
     states,
 };
@@ -59,6 +62,18 @@ fn every_key_of_the_list_does_something() {
                 window.state_mut().model.view = View::Map;
                 window.state_mut().model.refresh_sky();
                 // One step from the ends of what can be chosen.
+                window.key_press(Key::Plus);
+                asked(&mut window);
+            }
+            if binding.place == KeyScope::Plan {
+                window = plan::view(SMALL);
+                // Each key changes what stands there before.
+                let take = if key == Key::V { Take::Always } else { Take::Never };
+                let model = &mut window.state_mut().model;
+                let pass = model.selected_pass().unwrap();
+                let (satellite, tca) = (pass.number(), pass.pass.tca.time);
+                let now = model.now;
+                Arc::make_mut(&mut model.station).choose_pass(satellite, tca, Some(take), now);
                 window.key_press(Key::Plus);
                 asked(&mut window);
             }

@@ -126,7 +126,7 @@ impl PlanState {
         let price = known.map(|swap| format!(" {}", words::schedule::price(model, swap)));
         Some(Question {
             text: format!("Always take {name}, AOS {aos}?{}", price.unwrap_or_default()),
-            yes: "Swap",
+            yes: "Take it",
             command: UiCommand::Station(choose(&planned, Some(Take::Always))),
         })
     }
