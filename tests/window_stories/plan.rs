@@ -172,7 +172,7 @@ fn the_price_of_a_pass_is_asked_once_and_a_swap_asks_with_it() {
     settle(&mut window);
     let price = "It costs nothing.";
     assert_eq!(window.query_all_by_label_contains(price).count(), 2, "the note and the question");
-    window.get_by_role_and_label(Role::Button, "Take it").click();
+    window.get_by_role_and_label(Role::Button, "Take it (Enter)").click();
     let commands = commands(&mut window);
     assert!(
         matches!(&commands[..], [Command::ChoosePass { take: Some(Take::Always), .. }]),
