@@ -19,6 +19,7 @@ pub mod menus;
 pub mod notes;
 pub mod operate;
 pub mod pass_header;
+mod pass_limits;
 pub mod pass_list;
 pub mod plan;
 pub mod preferences;

@@ -14,14 +14,22 @@ use super::App;
 use crate::{
     astro::time::seconds_between,
     desktop::file_dialog,
-    engine::passes::{PassKey, PassLists, PredictedPass},
+    engine::{
+        passes::{PassKey, PassLists, PredictedPass},
+        schedule::Planned,
+    },
     job::Job,
     model::export::Export,
     orbit::PassSearch,
-    plan::pass_export::{
-        ExportedPass, LookFormat, LookList, PassFormat, PassList, PassQuery, Satellite,
+    plan::{
+        pass_export::{
+            ExportedPass, LookFormat, LookList, PassFormat, PassList, PassQuery, Satellite,
+        },
+        schedule::LeftOut,
+        schedule_export::{ScheduleFormat, ScheduleList},
     },
     station::Station,
+    ui::words,
     whole_file,
 };
 
@@ -43,6 +51,7 @@ pub(super) struct ExportWork {
 struct Order {
     export: Export,
     lists: PassLists,
+    schedule: Arc<Planned>,
     station: Arc<Station>,
     span_h: u32,
     now: Timestamp,
@@ -59,6 +68,7 @@ impl App {
         let order = Order {
             export,
             lists: model.pass_lists.clone(),
+            schedule: Arc::clone(&model.schedule),
             station: Arc::clone(&model.station),
             span_h: model.list.span_h(),
             now: model.now,
@@ -86,6 +96,7 @@ impl Order {
         let title = match self.export {
             Export::Passes { .. } => "Save passes",
             Export::Looks { .. } => "Save look angles",
+            Export::Schedule { .. } => "Save the plan",
         };
         let asked = file_dialog::file_to_save(title, &self.name());
         let Some(path) = asked.map_err(|error| error.to_string())? else { return Ok(None) };
@@ -106,6 +117,9 @@ impl Order {
             Export::Looks { pass: (number, aos), format } => {
                 format!("look-{number}-{}.{}", stamp(*aos), look_extension(*format))
             }
+            Export::Schedule { format } => {
+                format!("plan-{}.{}", stamp(self.now), schedule_extension(*format))
+            }
         }
     }
 
@@ -114,6 +128,7 @@ impl Order {
         let written = match &self.export {
             Export::Passes { keys, format } => self.write_passes(keys, *format, &mut text)?,
             Export::Looks { pass, format } => self.write_looks(*pass, *format, &mut text)?,
+            Export::Schedule { format } => self.write_schedule(*format, &mut text),
         };
         written.map_err(|error| error.to_string())?;
         Ok(text)
@@ -188,6 +203,26 @@ impl Order {
         };
         Ok(list.write(out, format))
     }
+
+    fn write_schedule(&self, format: ScheduleFormat, out: &mut Vec<u8>) -> io::Result<()> {
+        let name = |number: u32| {
+            let found = self.lists.satellite(number);
+            found.map_or_else(|| number.to_string(), |of| of.elements.name().to_owned())
+        };
+        let schedule = &self.schedule.schedule;
+        let taken = schedule.entries.iter().map(|entry| entry.pass.satellite);
+        let left_out = schedule.left_out.iter().map(|left| left.pass.satellite);
+        let satellites = taken.chain(left_out).map(|number| (number, name(number))).collect();
+        let antennas = self.station.antennas.iter().map(|it| (it.id, it.name.clone())).collect();
+        let list = ScheduleList {
+            schedule,
+            satellites: &satellites,
+            antennas: &antennas,
+            reason: &|left: &LeftOut| words::schedule::why(&|(number, _)| name(number), &left.why),
+            now: self.now,
+        };
+        list.write(out, format)
+    }
 }
 
 fn satellite(predicted: &PredictedPass) -> Result<Satellite, String> {
@@ -211,13 +246,24 @@ fn look_extension(format: LookFormat) -> &'static str {
     }
 }
 
+fn schedule_extension(format: ScheduleFormat) -> &'static str {
+    match format {
+        ScheduleFormat::Table => "txt",
+        ScheduleFormat::Csv => "csv",
+        ScheduleFormat::Json => "json",
+        ScheduleFormat::Ics => "ics",
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::{
         engine::passes::{ListedSatellite, Observer, PassList as Listed},
+        makes::DemoAddresses,
         orbit::{Propagator, bundled, passes},
-        station::Frequency,
+        plan::schedule::{Class, Entry, PassKey as Key, Schedule, Why},
+        station::{AntennaId, Frequency, Priority},
     };
 
     const ISS: u32 = 25_544;
@@ -227,7 +273,8 @@ mod tests {
         let elements = catalog.get(ISS).unwrap().clone();
         let now = elements.epoch();
         let frequencies = vec![Frequency { satellite: ISS, mhz: 145.8, name: String::new() }];
-        let station = Station { frequencies, ..Station::default() };
+        let demo = Station::demo(&DemoAddresses::default());
+        let station = Station { frequencies, antennas: demo.antennas, ..Station::default() };
         let observer = Arc::new(Observer::of(&station));
         let propagator = Propagator::new(&elements).unwrap();
         let satellite = Arc::new(ListedSatellite { elements, propagator });
@@ -244,7 +291,38 @@ mod tests {
             ..Listed::default()
         };
         let lists = PassLists { favourites, ..PassLists::default() };
-        Order { export, lists, station: Arc::new(station), span_h: 24, now }
+        let schedule = Arc::new(schedule(&lists, station.antennas[0].id));
+        Order { export, lists, schedule, station: Arc::new(station), span_h: 24, now }
+    }
+
+    /// The first pass of the lists is taken, the second is not.
+    fn schedule(lists: &PassLists, antenna: AntennaId) -> Planned {
+        let [taken, left_out, ..] = &lists.favourites.passes[..] else { panic!("two passes") };
+        let key = |of: &PredictedPass| Key { satellite: of.number(), aos: of.pass.aos.time };
+        let entry = Entry {
+            pass: key(taken),
+            antenna,
+            class: Class::Priority(Priority::default()),
+            from: taken.pass.aos.time,
+            to: taken.pass.los.time,
+            late_s: 0.0,
+            early_s: 0.0,
+            counted_s: taken.pass.duration_s(),
+            worth: 1,
+            lost: None,
+            axes_deg: [[0.0; 2]; 2],
+            after: None,
+            slew_s: 12.0,
+            set_up_s: 10.0,
+            spare_s: None,
+            shared_with: None,
+            is_fixed: false,
+        };
+        let why = Why::TooFar;
+        let left_out = LeftOut { pass: key(left_out), why, by_antenna: vec![] };
+        let schedule =
+            Schedule { entries: vec![entry], left_out: vec![left_out], ..Schedule::default() };
+        Planned { schedule, ..Planned::default() }
     }
 
     fn lines(order: &Order) -> Vec<String> {
@@ -285,6 +363,21 @@ mod tests {
         let azimuth_deg: f64 = rows[1].split(',').nth(1).unwrap().parse().unwrap();
         assert!((azimuth_deg - pass.aos.direction.azimuth_deg()).abs() < 1e-3);
         assert!(order.name().starts_with("look-25544-20"), "{}", order.name());
+    }
+
+    #[test]
+    fn the_plan_is_written_with_names_and_reasons() {
+        let of = |format| order(|_| Export::Schedule { format });
+        let csv = of(ScheduleFormat::Csv);
+        let rows = lines(&csv);
+        assert_eq!(rows.len(), 3, "{rows:#?}");
+        let antenna = &csv.station.antennas[0].name;
+        assert!(rows[1].starts_with(&format!("taken,{antenna},25544,ISS")), "{}", rows[1]);
+        let reason = "The antenna cannot be there in time from where it stands";
+        assert!(rows[2].contains("ISS") && rows[2].ends_with(reason), "{}", rows[2]);
+        let calendar = lines(&of(ScheduleFormat::Ics));
+        assert_eq!(calendar.iter().filter(|line| *line == "BEGIN:VEVENT").count(), 1);
+        assert!(csv.name().starts_with("plan-20") && csv.name().ends_with("Z.csv"));
     }
 
     #[test]

@@ -4,7 +4,10 @@ use std::sync::Arc;
 
 use crate::{
     engine::passes::PassKey,
-    plan::pass_export::{LookFormat, PassFormat},
+    plan::{
+        pass_export::{LookFormat, PassFormat},
+        schedule_export::ScheduleFormat,
+    },
 };
 
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -13,4 +16,6 @@ pub enum Export {
     Passes { keys: Arc<[PassKey]>, format: PassFormat },
     /// Azimuth, elevation and range through one pass.
     Looks { pass: PassKey, format: LookFormat },
+    /// The plan of all antennas.
+    Schedule { format: ScheduleFormat },
 }

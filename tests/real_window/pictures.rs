@@ -67,6 +67,9 @@ const KEYS: Act = Press("question", Modifiers::NONE, Key::Questionmark);
 const TRACK: Act = Press("t", Modifiers::NONE, Key::T);
 const NEXT_THEME: Act = Press("ctrl+l", Modifiers::COMMAND, Key::L);
 
+const CONTROLS: [Role; 5] =
+    [Role::Button, Role::RadioButton, Role::Tab, Role::MenuItem, Role::ComboBox];
+
 /// A view with how it is opened, and how it is left for the next one.
 struct View {
     name: &'static str,
@@ -98,7 +101,11 @@ const VIEWS: [View; 22] = [
     view("console", &[CONSOLE], &[]),
     view("map", &[MAP], &[]),
     view("preferences-site", &[PREFERENCES, Click("Site")], &[]),
-    view("preferences-antenna", &[Click("Satrak")], &[]),
+    view(
+        "preferences-antenna",
+        &[Click("Add an antenna"), Click("Add SVS Satrak")],
+        &[Click("Revert")],
+    ),
     view("preferences-satellites", &[Click("Satellites and frequencies")], &[]),
     view("preferences-horizon", &[Click("Horizon and keep-outs")], &[]),
     view("preferences-alarms", &[Click("Alarms and sounds")], &[]),
@@ -154,11 +161,9 @@ impl Twin {
         // What comes from another thread may take some frames.
         for _ in 0..50 {
             self.window.step();
-            let is_control = |role| {
-                matches!(role, Role::Button | Role::RadioButton | Role::Tab | Role::MenuItem)
-            };
             let mut found = self.window.query_all_by_label_contains(words);
-            if let Some(node) = found.find(|node| is_control(node.accesskit_node().role())) {
+            if let Some(node) = found.find(|node| CONTROLS.contains(&node.accesskit_node().role()))
+            {
                 return Some(node.rect().center());
             }
             thread::sleep(Duration::from_millis(10));

@@ -10,8 +10,11 @@ use azel::{
         passes::PassKey,
         schedule::{Planned, Swap},
     },
-    model::{UiCommand, View},
-    plan::schedule::{Class, Conflict, Entry, LeftOut, PassKey as Key, Schedule, Why},
+    model::{UiCommand, View, export::Export},
+    plan::{
+        schedule::{Class, Conflict, Entry, LeftOut, PassKey as Key, Schedule, Why},
+        schedule_export::ScheduleFormat,
+    },
     station::{AntennaId, ChooseBy, Priority, Take},
 };
 use egui::{Key as Press, Role};
@@ -197,7 +200,7 @@ fn rule_and_span_are_chosen_and_undone() {
     let Some(Command::SetScheduling(scheduling)) = commands(&mut window).pop() else {
         panic!("no other span");
     };
-    assert_eq!(scheduling.span_h, 48.0);
+    assert!((scheduling.span_h - 48.0).abs() < 1e-9, "{scheduling:?}");
     let list = "Choose by, Priority, then elevation";
     window.get_by_role_and_label(Role::ComboBox, list).click();
     settle(&mut window);
@@ -301,4 +304,32 @@ fn without_satellites_or_antennas_the_view_says_what_to_do() {
     assert!(says(&window, "No satellite is planned."));
     assert!(says(&window, "No antenna yet."));
     assert!(says(&window, "The passes are being planned."));
+}
+
+#[test]
+fn limits_of_a_satellite_are_changed_where_it_is_shown() {
+    let mut window = view(LARGE);
+    let (satellite, _) = select(&mut window, 0);
+    window.get_by_role_and_label(Role::ComboBox, "Maximum elevation, any").click();
+    settle(&mut window);
+    window.get_by_label("from 30°").click();
+    let Some(Command::SetPassLimits { numbers, limits }) = commands(&mut window).pop() else {
+        panic!("no other limits");
+    };
+    assert_eq!((numbers, limits.min_max_elevation_deg), (vec![satellite], Some(30.0)));
+    Arc::make_mut(&mut window.state_mut().model.station).favourites.set_limits(satellite, limits);
+    settle(&mut window);
+    assert!(window.query_by_label("Maximum elevation, from 30°").is_some());
+}
+
+#[test]
+fn the_plan_is_saved_to_a_file() {
+    for size in SIZES {
+        let mut window = view(size);
+        window.get_by_role_and_label(Role::ComboBox, "Export the plan").click();
+        settle(&mut window);
+        window.get_by_label("Plan as iCalendar…").click();
+        let wanted = Export::Schedule { format: ScheduleFormat::Ics };
+        assert_eq!(rig::asked(&mut window), [UiCommand::Save(wanted)]);
+    }
 }

@@ -13,6 +13,7 @@ use crate::{
     ui::{
         format,
         icons::{self, Icon},
+        pass_limits,
         text::{self, Weight},
         theme,
         widgets::{
@@ -105,6 +106,9 @@ impl Object<'_> {
         Frame::new().inner_margin(Margin::symmetric(PADDING as i8, 8)).show(ui, |ui| {
             ui.set_width(width - 2.0 * PADDING);
             frequencies::show(ui, model, number, can_mark, state, commands);
+            ui.add_space(8.0);
+            let room = width - 2.0 * PADDING;
+            pass_limits::show(ui, room, model, number, can_mark, commands);
         });
     }
 }

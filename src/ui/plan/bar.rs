@@ -5,7 +5,8 @@ use egui::{Align2, Rect, Ui, pos2, vec2};
 use super::{PADDING, PlanState};
 use crate::{
     engine,
-    model::{Model, UiCommand},
+    model::{Model, UiCommand, export::Export},
+    plan::schedule_export::ScheduleFormat,
     station::{ChooseBy, Scheduling},
     ui::{
         format, text, theme,
@@ -47,6 +48,7 @@ pub(super) fn show(
             state.inspector_is_open = !state.inspector_is_open;
         }
     }
+    save(ui, &mut right, inner, model, commands);
     choose_by(ui, &mut right, inner, model, state, commands);
     spans(ui, &mut right, inner, model, state, commands);
     title(ui, inner.with_max_x(right.max(inner.left() + TITLE)), model, state, commands);
@@ -145,6 +147,26 @@ fn choose_by(
     if let Some(choose_by) = chosen {
         set(model, Scheduling { choose_by, ..scheduling }, "Another rule", state, commands);
     }
+}
+
+fn save(ui: &Ui, right: &mut f32, inner: Rect, model: &Model, commands: &mut Vec<UiCommand>) {
+    const FORMS: [(&str, ScheduleFormat); 4] = [
+        ("Plan as a table…", ScheduleFormat::Table),
+        ("Plan as CSV…", ScheduleFormat::Csv),
+        ("Plan as JSON…", ScheduleFormat::Json),
+        ("Plan as iCalendar…", ScheduleFormat::Ics),
+    ];
+    let list =
+        DropDown { button: Button::normal("Export"), salt: "export plan", name: "Export the plan" };
+    let place = before(ui, right, inner, list.width(ui));
+    list.show(ui, place, |ui| {
+        for (word, format) in FORMS {
+            let is_planned = model.schedule.made_at.is_some();
+            if ui.add_enabled(is_planned, egui::Button::new(word).frame(false)).clicked() {
+                commands.push(UiCommand::Save(Export::Schedule { format }));
+            }
+        }
+    });
 }
 
 fn set(

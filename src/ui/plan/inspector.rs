@@ -1,6 +1,6 @@
 //! The selected pass: its path, times, what each antenna can take of it, and the operator's choice.
 
-use egui::{Align2, Rect, RichText, ScrollArea, Sense, Ui, UiBuilder, pos2, vec2};
+use egui::{Align2, Frame, Margin, Rect, RichText, ScrollArea, Sense, Ui, UiBuilder, pos2, vec2};
 
 use super::{PADDING, PlanState};
 use crate::{
@@ -13,7 +13,7 @@ use crate::{
     ui::{
         format,
         icons::{self, Icon},
-        small_sky,
+        pass_limits, small_sky,
         text::{self, Weight},
         theme,
         widgets::{
@@ -145,6 +145,10 @@ fn parts(
     }
     price(ui, width, model, planned, commands);
     controls(ui, width, model, planned, state, commands);
+    Frame::new().inner_margin(Margin::symmetric(PADDING as i8, 8)).show(ui, |ui| {
+        let number = planned.predicted.number();
+        pass_limits::show(ui, width - 2.0 * PADDING, model, number, true, commands);
+    });
 }
 
 fn sighting(ui: &Ui, row: Rect, words: [&str; 4], colour: egui::Color32) {

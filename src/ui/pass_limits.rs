@@ -1,0 +1,154 @@
+//! The limits of a satellite: which of its passes the schedule takes. Changed where the satellite
+//! is shown.
+
+use egui::{Align2, RichText, Sense, Ui, vec2};
+
+use super::{
+    format,
+    text::{self, Weight},
+    theme,
+    widgets::{
+        button::{Button, SMALL_HEIGHT},
+        drop_down::DropDown,
+        paint,
+    },
+};
+use crate::{
+    engine,
+    model::{Model, UiCommand},
+    station::{Light, PassLimits},
+};
+
+const ROW: f32 = 30.0;
+const LABEL: f32 = 148.0;
+const ELEVATIONS_DEG: [f64; 7] = [10.0, 20.0, 30.0, 40.0, 50.0, 60.0, 75.0];
+const DURATIONS_S: [f64; 6] = [60.0, 120.0, 240.0, 360.0, 480.0, 600.0];
+const PER_DAY: [u32; 6] = [1, 2, 3, 4, 6, 8];
+const LIGHTS: [Light; 3] = [Light::Day, Light::Night, Light::Sunlit];
+
+/// Shows the limits of a favourite in `width` points; a choice changes them at once.
+/// `can_change`: the settings of the station may change now.
+pub(super) fn show(
+    ui: &mut Ui,
+    width: f32,
+    model: &Model,
+    number: u32,
+    can_change: bool,
+    commands: &mut Vec<UiCommand>,
+) {
+    let Some(favourite) = model.station.favourites.get(number) else { return };
+    let t = theme::tokens(ui);
+    let title = RichText::new("Limits of its passes");
+    ui.label(title.font(text::sized(13.0, Weight::SemiBold)).color(t.t1));
+    let own = &favourite.limits;
+    let all = model.station.pass_limits(number);
+    let mut wanted = own.clone();
+    let any = || "any".to_owned();
+    let elevation = |deg: f64| format!("from {}", format::degrees(deg, 0));
+    row(
+        ui,
+        width,
+        "Maximum elevation",
+        &all.min_max_elevation_deg.map_or_else(any, elevation),
+        can_change,
+        |ui| {
+            choices(ui, &mut wanted.min_max_elevation_deg, &ELEVATIONS_DEG, elevation);
+        },
+    );
+    let duration = |seconds: f64| format!("from {}", format::duration(seconds));
+    row(ui, width, "Duration", &all.min_duration_s.map_or_else(any, duration), can_change, |ui| {
+        choices(ui, &mut wanted.min_duration_s, &DURATIONS_S, duration);
+    });
+    row(ui, width, "Light", &all.light.map_or_else(any, light), can_change, |ui| {
+        choices(ui, &mut wanted.light, &LIGHTS, light);
+    });
+    let per_day = |most: u32| format!("{most} at most");
+    row(
+        ui,
+        width,
+        "Passes a day (UTC)",
+        &all.max_per_day.map_or_else(any, per_day),
+        can_change,
+        |ui| choices(ui, &mut wanted.max_per_day, &PER_DAY, per_day),
+    );
+    let names = all.antennas.as_ref().map(|ids| {
+        let names = ids.iter().filter_map(|id| model.antenna_of(*id));
+        names.map(|antenna| antenna.config.name.as_str()).collect::<Vec<_>>()
+    });
+    let words = match names.as_deref() {
+        None => any(),
+        Some([]) => "none".to_owned(),
+        Some(names) => format::list(names),
+    };
+    row(ui, width, "Antennas", &words, can_change, |ui| antennas(ui, model, &mut wanted));
+    if *own != all {
+        let words = "Where it has no limit of its own, that of its group holds.";
+        ui.label(RichText::new(words).font(text::small()).color(t.t2));
+    }
+    if wanted != *own {
+        let command = engine::Command::SetPassLimits { numbers: vec![number], limits: wanted };
+        commands.push(UiCommand::Station(command));
+    }
+}
+
+fn light(light: Light) -> String {
+    let words = match light {
+        Light::Day => "by day",
+        Light::Night => "by night",
+        Light::Sunlit => "satellite in sunlight",
+    };
+    words.to_owned()
+}
+
+fn row(
+    ui: &mut Ui,
+    width: f32,
+    label: &'static str,
+    value: &str,
+    can_change: bool,
+    list: impl FnOnce(&mut Ui),
+) {
+    let t = theme::tokens(ui);
+    let (rect, _) = ui.allocate_exact_size(vec2(width, ROW), Sense::hover());
+    paint::text_in(ui, rect, Align2::LEFT_CENTER, label, text::small(), t.t2);
+    let room = rect.with_min_x(rect.left() + LABEL);
+    if !can_change {
+        paint::text_in(ui, room, Align2::LEFT_CENTER, value, text::small(), t.t1);
+        paint::name_text(ui, ("limit", label), rect, &format!("{label}: {value}"));
+        return;
+    }
+    let name = format!("{label}, {value}");
+    let list_of = DropDown { button: Button::normal(value), salt: label, name: &name };
+    let size = vec2(list_of.width(ui).min(room.width()), SMALL_HEIGHT);
+    let place = egui::Rect::from_min_size(room.left_center() - vec2(0.0, size.y / 2.0), size);
+    list_of.show(ui, place, list);
+}
+
+fn choices<T: Copy + PartialEq>(
+    ui: &mut Ui,
+    value: &mut Option<T>,
+    offered: &[T],
+    words: impl Fn(T) -> String,
+) {
+    ui.selectable_value(value, None, "any");
+    for choice in offered {
+        ui.selectable_value(value, Some(*choice), words(*choice));
+    }
+}
+
+fn antennas(ui: &mut Ui, model: &Model, wanted: &mut PassLimits) {
+    let is_any = wanted.antennas.is_none();
+    if ui.selectable_label(is_any, "any").clicked() {
+        wanted.antennas = None;
+    }
+    for antenna in &model.antennas {
+        let id = antenna.id();
+        let mut list = wanted.antennas.clone().unwrap_or_default();
+        let mut is_on = list.contains(&id);
+        if ui.checkbox(&mut is_on, &antenna.config.name).clicked() {
+            list.retain(|known| *known != id);
+            list.extend(is_on.then_some(id));
+            wanted.antennas = (!list.is_empty()).then_some(list);
+        }
+    }
+}
