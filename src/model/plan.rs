@@ -11,6 +11,7 @@ use crate::{
         antenna::AntennaModel,
         automatic::{DayEvent, Flown, Taking},
         passes::{PassKey, PredictedPass},
+        schedule::Swap,
     },
     plan::schedule::{Entry, LeftOut, Why},
     station::{AntennaId, PassChoice, Priority},
@@ -81,6 +82,12 @@ impl Model {
     /// The end of the plan.
     pub fn plan_until(&self) -> Timestamp {
         add_seconds(self.now, self.station.scheduling.span_h * 3600.0)
+    }
+
+    /// What it costs in the schedule shown to take this pass, once that is known.
+    pub fn swap_of(&self, pass: PassKey) -> Option<&Swap> {
+        let fits = |swap: &&Swap| swap.pass == pass && swap.revision == self.schedule.revision;
+        self.swap.as_deref().filter(fits)
     }
 
     /// All passes to come with what the schedule says of them, by AOS.

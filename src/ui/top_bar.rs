@@ -28,6 +28,8 @@ pub const SMALL_BELOW: f32 = 800.0;
 const DATE_FROM: f32 = 1360.0;
 /// Minimum width for chips with two lines.
 const TWO_LINES_FROM: f32 = 1200.0;
+/// Side of the mark of an antenna that STOP leaves alone.
+const MARK: f32 = 12.0;
 
 /// Content of the bar.
 #[derive(Debug, Clone, Copy)]
@@ -98,7 +100,11 @@ fn fill(ui: &mut Ui, rect: Rect, model: &TopBarModel<'_>, commands: &mut Vec<UiC
 
     let alarm_width = if wide { 104.0 } else { 48.0 };
     let control = if small { 32.0 } else { 40.0 };
-    let gap = if wide { 16.0 } else { 12.0 };
+    let gap = match (model.stop_left_out.is_empty(), wide) {
+        (true, true) => 16.0,
+        (true, false) => 12.0,
+        (false, _) => MARK + 8.0,
+    };
     let min = pos2(stop.left() - gap - alarm_width, rect.center().y - control / 2.0);
     let alarms = Rect::from_min_size(min, vec2(alarm_width, control));
 
@@ -144,7 +150,7 @@ fn fill(ui: &mut Ui, rect: Rect, model: &TopBarModel<'_>, commands: &mut Vec<UiC
 /// Shows a mark between the alarms and STOP: STOP does not stop every antenna.
 fn mark_left_out(ui: &Ui, rect: Rect, words: &str) {
     let t = theme::tokens(ui);
-    let place = paint::square(rect.center(), rect.width().min(12.0));
+    let place = paint::square(rect.center(), MARK);
     icons::paint(ui.painter(), place, icons::Icon::OpenRing, t.warn);
     paint::name_text(ui, "left out of stop", rect, words).on_hover_text(words);
 }

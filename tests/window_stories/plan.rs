@@ -184,6 +184,19 @@ fn the_price_of_a_pass_is_asked_once_and_a_swap_asks_with_it() {
 }
 
 #[test]
+fn a_pass_that_no_antenna_can_take_is_not_swapped() {
+    let mut window = view(LARGE);
+    let key = pass(&window, 3);
+    window.state_mut().model.selected = Some(key);
+    let swap = Swap { pass: key, revision: 4, changes: None };
+    window.state_mut().model.swap = Some(Arc::new(swap));
+    settle(&mut window);
+    assert!(says(&window, "It cannot be taken."));
+    window.get_by_role_and_label(Role::Button, "Swap").click();
+    assert_eq!(commands(&mut window), []);
+}
+
+#[test]
 fn arrows_go_through_the_passes() {
     let mut window = view(LARGE);
     select(&mut window, 0);

@@ -234,11 +234,7 @@ fn price(
         return;
     }
     let key = planned.predicted.key();
-    let known = model
-        .swap
-        .as_ref()
-        .filter(|swap| swap.pass == key && swap.revision == model.schedule.revision);
-    let words = if let Some(swap) = known {
+    let words = if let Some(swap) = model.swap_of(key) {
         format!("If it is always taken: {}", words::schedule::price(model, swap))
     } else {
         let ask = UiCommand::Station(engine::Command::PriceSwap(key));

@@ -255,6 +255,9 @@ fn lane(
             "Nothing is planned."
         };
         let room = place.shrink2(vec2(PADDING, 0.0));
+        // Beside the line of now, not through it.
+        let now = span.x(model.now, place) + 8.0;
+        let room = room.with_min_x(room.left().max(now.min(room.right())));
         paint::text_in(ui, room, Align2::LEFT_CENTER, words, text::small(), t.t3);
     }
 }

@@ -352,7 +352,9 @@ fn show_row(
     let mut end = row.right() - PADDING;
     let can_swap = matches!(listed.standing, Standing::LeftOut(_));
     if let (true, Some(planned)) = (can_swap && is_selected, &listed.planned) {
-        let button = Button::normal("Swap");
+        // Known as soon as the inspector has shown the price.
+        let cannot = model.swap_of(listed.key).is_some_and(|swap| swap.changes.is_none());
+        let button = Button::normal("Swap").locked(cannot);
         let width = button.width(ui);
         let place = Rect::from_min_size(pos2(end - width, row.top() + 2.0), vec2(width, ROW - 4.0));
         if button.show(ui, ("swap", listed.key), place).clicked() {

@@ -122,7 +122,7 @@ impl PlanState {
         let key = planned.predicted.key();
         let name = planned.predicted.satellite.short_name();
         let aos = format::moment(key.1, model.now);
-        let known = model.swap.as_ref().filter(|swap| swap.pass == key);
+        let known = model.swap_of(key);
         let price = known.map(|swap| format!(" {}", words::schedule::price(model, swap)));
         Some(Question {
             text: format!("Always take {name}, AOS {aos}?{}", price.unwrap_or_default()),
