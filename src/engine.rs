@@ -342,14 +342,16 @@ impl Engine {
                 }
                 () = self.clock.sleep(to_next_second(self.clock.utc())) => {
                     self.set_time();
+                    let turn = self.driver.orders().next();
                     self.take_urgent();
-                    self.turn();
+                    self.turn(turn);
                     self.take_urgent();
                     self.publish();
                     continue;
                 }
             };
             self.set_time();
+            let turn = self.driver.orders().next();
             self.take_urgent();
             let mut is_jog_alone = request.is_some();
             while let Some(next) = request {
@@ -367,7 +369,7 @@ impl Engine {
                 () = woken.notified() => {}
                 () = std::future::ready(()) => {}
             }
-            self.turn();
+            self.turn(turn);
             // A STOP pressed meanwhile has not reached a session that was opened meanwhile.
             self.take_urgent();
             self.publish();

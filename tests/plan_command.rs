@@ -69,6 +69,7 @@ fn every_pass_is_taken_or_left_out_with_a_reason_in_every_form() {
     assert_eq!(table.lines().count(), 1 + entries + left_out, "{table}");
     let calendar = text(&plan(folder.path(), &["--format", "ics"]).stdout);
     assert_eq!(calendar.matches("BEGIN:VEVENT").count(), entries);
+    assert_eq!(calendar.matches("TRIGGER;RELATED=START:-PT300S").count(), entries, "{calendar}");
 }
 
 #[test]

@@ -78,6 +78,8 @@ pub enum Unlike {
     Place,
     /// Other offsets.
     Offsets,
+    /// It does not point where it was left.
+    Position,
     /// It has not reported again what it reported before.
     Unread,
 }

@@ -4,7 +4,7 @@ mod at_start;
 mod day;
 mod operation;
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use jiff::Timestamp;
 
@@ -18,8 +18,8 @@ pub use self::{
     operation::{Doing, Duty, Interruption, OffBecause, On, Operation, Taking},
 };
 use super::{
-    Antenna, Command, Engine, alarms::AlarmKind, antenna::AntennaModel, handle::Stopped,
-    passes::PassKey,
+    Antenna, Command, Engine, StationClaim, alarms::AlarmKind, antenna::AntennaModel,
+    handle::Stopped, passes::PassKey,
 };
 use crate::{
     astro::time::{add_seconds, seconds_between},
@@ -55,9 +55,6 @@ impl Engine {
             let is_that = |kind: &AlarmKind| matches!(kind, AlarmKind::AutomaticOff(_));
             self.alarms.clear(of, self.now, is_that);
         }
-        if !is_on {
-            self.switch_auto_track(index, false);
-        }
     }
 
     /// Lets a suspended antenna go on with its schedule.
@@ -87,6 +84,14 @@ impl Engine {
         self.keep_last_run();
     }
 
+    /// The station was taken over from an Azel that has ended: automatic operation stays off, and
+    /// what was switched off there stays so at the next start.
+    pub(super) fn take_over_last_run(&mut self) {
+        let last = self.last_run_path().as_deref().map(LastRun::load).unwrap_or_default();
+        self.last_run = LastRun { is_orderly: false, ..last };
+        self.keep_last_run();
+    }
+
     /// The station ends as it should.
     pub(super) fn end_automatic(&mut self) {
         let owes = |antenna: &Antenna| {
@@ -97,9 +102,11 @@ impl Engine {
         self.keep_last_run();
     }
 
+    /// Beside the station file. `None` for what another Azel holds, and for the demo station.
     fn last_run_path(&self) -> Option<PathBuf> {
-        let folder = self.settings_path.as_deref().and_then(Path::parent);
-        folder.filter(|_| self.demo.is_none()).map(|folder| folder.join(at_start::FILE))
+        let is_ours = self.demo.is_none() && !matches!(self.station_claim, StationClaim::Theirs(_));
+        let path = self.settings_path.as_deref().filter(|_| is_ours)?;
+        Some(path.with_extension(at_start::EXTENSION))
     }
 
     fn keep_last_run(&self) {
@@ -160,7 +167,9 @@ impl Engine {
             | Event::Refused(Asked::Motion(_), _)
             | Event::Unanswered(Asked::Motion(_)) => operation.take_outcome(Outcome::Failed, now),
             Event::TrackingEnded { completed: false } => {
-                operation.take_outcome(Outcome::EndedEarly, now);
+                let outcome =
+                    if operation.is_proved() { Outcome::EndedEarly } else { Outcome::Failed };
+                operation.take_outcome(outcome, now);
             }
             Event::StartedByItself if !uses_auto_track => {
                 operation.suspend(Interruption::Elsewhere, now);
@@ -178,10 +187,14 @@ impl Engine {
         }
     }
 
-    /// Does what is due.
-    pub(super) fn run_automatic(&mut self) {
+    /// Does what is due. A STOP since `turn` was drawn voids what is sent here.
+    pub(super) fn run_automatic(&mut self, turn: u64) {
+        self.asked = Some(turn);
         for index in 0..self.antennas.len() {
             self.run_automatic_of(index);
+        }
+        self.asked = None;
+        for index in 0..self.antennas.len() {
             self.tell_automatic(index);
         }
     }
@@ -194,13 +207,22 @@ impl Engine {
         self.fly(index, &duties, seen);
         let now = self.now;
         let Some(antenna) = self.antennas.get_mut(index) else { return };
-        match antenna.shown.operation.step(&duties, seen, wishes, now) {
-            Some(Act::Take(duty)) => {
-                self.take_pass(index, &duty);
-                self.switch_auto_track(index, true);
-            }
+        // The antennas come to their end by the word of the operator who closes the station.
+        if self.closing.is_some() {
+            return;
+        }
+        let operation = &mut antenna.shown.operation;
+        let was_proved = operation.is_proved();
+        let act = operation.step(&duties, seen, wishes, now);
+        let is_proved = operation.is_proved();
+        match act {
+            Some(Act::Take(duty)) => self.take_pass(index, &duty),
             Some(Act::Park) => self.send(index, driver::Command::Park),
             None => {}
+        }
+        // Only now does the unit hold the pass that it may start by itself.
+        if is_proved && !was_proved {
+            self.switch_auto_track(index, true);
         }
     }
 
@@ -260,6 +282,8 @@ impl Engine {
             let half_beam = shown.config.beam_width() * 0.5;
             flight.see(&shown.operation, seen.is_live, error.as_ref(), half_beam, now);
         }
+        // Its antenna would set out later only by a clock that was set back.
+        flight.take_if(|flight| now < flight.duty.go_at);
         let ended = flight.take_if(|flight| now >= flight.duty.until);
         if flight.is_none() && (shown.operation.is_on() || ended.is_some()) {
             *flight = due.map(|(duty, name)| Flight::new(duty, name));
@@ -306,6 +330,12 @@ impl Engine {
             self.alarms.raise(Some(id), AlarmKind::AutomaticMoves { at, name }, self.now);
         }
         let Some(before) = before else { return };
+        // What the unit holds is not started by itself once nobody minds it. A unit that is
+        // locked out has it off already.
+        let ends = before.is_on() && !operation.is_on();
+        if ends && operation != Operation::Off(OffBecause::LockedOut) {
+            self.switch_auto_track(index, false);
+        }
         let event = match (&before, &operation) {
             (Operation::On(_), Operation::On(_))
             | (Operation::Suspended { .. }, Operation::Suspended { .. }) => return,
@@ -321,15 +351,17 @@ impl Engine {
             }
         };
         match &event {
-            DayEvent::SwitchedOn => self.keep_switched_off(id, false),
+            DayEvent::SwitchedOn | DayEvent::WentOn => self.keep_switched_off(id, false),
             // The end of the station switches nothing off for the next start.
-            DayEvent::SwitchedOff(_) if self.closing.is_none() => self.keep_switched_off(id, true),
+            DayEvent::SwitchedOff(_) | DayEvent::Suspended(_) if self.closing.is_none() => {
+                self.keep_switched_off(id, true);
+            }
             _ => {}
         }
         self.note_day(id, event);
     }
 
-    fn keep_switched_off(&mut self, id: AntennaId, is_off: bool) {
+    pub(super) fn keep_switched_off(&mut self, id: AntennaId, is_off: bool) {
         self.last_run.switched_off.retain(|known| *known != id);
         self.last_run.switched_off.extend(is_off.then_some(id));
         self.keep_last_run();

@@ -161,6 +161,7 @@ impl Engine {
         }
         self.settings_unread = false;
         self.load_lock_outs();
+        self.take_over_last_run();
         self.load_station();
         self.tell(Event::Changed);
         true

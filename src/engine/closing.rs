@@ -4,7 +4,7 @@ use std::time::Duration;
 
 use serde::{Deserialize, Serialize};
 
-use super::{Engine, Event as Told, antenna::Stake};
+use super::{Engine, Event as Told, antenna::Stake, automatic::Interruption};
 use crate::{
     clock::Instant,
     driver::{Command, Event, Intent, StopState},
@@ -61,13 +61,15 @@ impl Engine {
     pub(super) fn close_after(&mut self, how: CloseHow) {
         let mut waits_for = Vec::new();
         for index in 0..self.antennas.len() {
-            let Some(antenna) = self.antennas.get(index) else { continue };
-            let antenna = &antenna.shown;
+            let Some(antenna) = self.antennas.get_mut(index) else { continue };
+            let antenna = &mut antenna.shown;
             let id = antenna.id();
             let Some(stake) = antenna.stake() else { continue };
             if how == CloseHow::Leave && matches!(stake, Stake::OnBoard(_)) {
                 continue;
             }
+            // Also where the end is given up: the operator has ended the track.
+            antenna.operation.suspend(Interruption::ByHand, self.now);
             if how == CloseHow::Park && antenna.can_park() {
                 self.send(index, Command::Park);
                 waits_for.push((id, Wanted::Parked));

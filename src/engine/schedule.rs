@@ -184,7 +184,8 @@ impl Engine {
         self.antennas.iter().map(planned).collect()
     }
 
-    /// The entries that a new schedule must keep: those that have begun, or are loaded.
+    /// The entries that a new schedule must keep: those that automatic operation is
+    /// taking, from the moment it asks the unit.
     fn fixed(&self) -> Vec<Entry> {
         let entries = self.schedule.schedule.entries.iter();
         let is_taken = |entry: &&Entry| {

@@ -20,8 +20,9 @@ use crate::{
 const CLOCK_OFF_S: f64 = 1.0;
 
 impl Engine {
-    /// Takes all reports that have come in since the last turn.
-    pub(super) fn turn(&mut self) {
+    /// Takes all reports that have come in since the last turn. `turn` is the number of what the
+    /// station asks for by itself, drawn before the last look for a STOP.
+    pub(super) fn turn(&mut self, turn: u64) {
         self.set_time();
         let time_sync = self.clock_watch.poll(self.steady, &self.wake);
         self.time_sync = time_sync.unwrap_or(self.time_sync);
@@ -39,7 +40,7 @@ impl Engine {
         let antennas = self.antennas.iter().map(|antenna| &antenna.shown.config);
         let strangers = owed::strangers(self.driver.debts().units(), antennas);
         owed::tell(&mut self.alarms, strangers, self.now);
-        self.run_automatic();
+        self.run_automatic(turn);
         self.remind();
         self.alarms.pass_time(self.now);
         self.forget_tracks();

@@ -70,9 +70,9 @@ impl Engine {
             .filter(|antenna| debts.owes(&Unit::of(&antenna.shown.config)))
             .map(|antenna| antenna.shown.config.name.clone())
             .collect();
-        let is_on = |antenna: &&Antenna| antenna.shown.operation.is_on();
+        let is_not_off = |antenna: &&Antenna| !matches!(antenna.shown.operation, Operation::Off(_));
         let automatic: Vec<AntennaId> =
-            before.iter().filter(is_on).map(|antenna| antenna.shown.id()).collect();
+            before.iter().filter(is_not_off).map(|antenna| antenna.shown.id()).collect();
         // A unit accepts one client: the old session leaves first.
         before.retain(|antenna| {
             antenna.shown.held_by.is_none() && station.antennas.contains(&antenna.shown.config)
@@ -88,6 +88,7 @@ impl Engine {
                 let mut antenna = self.open_antenna(config.clone(), bounds);
                 if automatic.contains(&config.id) {
                     antenna.shown.operation = Operation::Off(OffBecause::Changed);
+                    self.keep_switched_off(config.id, true);
                     self.alarms.raise(
                         Some(config.id),
                         AlarmKind::AutomaticOff(OffBecause::Changed),

@@ -5,7 +5,8 @@ use std::{
     io::{self, Write},
 };
 
-use icalendar::{Calendar, Component as _, Event};
+use chrono::TimeDelta;
+use icalendar::{Alarm, Calendar, Component as _, Event, EventLike as _, Trigger};
 use jiff::Timestamp;
 
 use super::{
@@ -194,12 +195,17 @@ impl ScheduleList<'_> {
             event.add_property("DTSTART", civil(entry.from, BASIC));
             event.add_property("DTEND", civil(entry.to, BASIC));
             let name = self.satellite(number);
-            event.add_property("SUMMARY", format!("{name}, {}", self.antenna(antenna)));
+            let summary = format!("{name}, {}", self.antenna(antenna));
+            event.add_property("SUMMARY", &summary);
+            event.alarm(Alarm::display(&summary, Trigger::before_start(ALARM_BEFORE)));
             calendar.push(event.done());
         }
         write!(out, "{calendar}")
     }
 }
+
+/// Time between the alarm of a calendar and the start of what it is for.
+const ALARM_BEFORE: TimeDelta = TimeDelta::minutes(5);
 
 /// UTC in the basic form of iCalendar.
 const BASIC: &str = "%Y%m%dT%H%M%SZ";

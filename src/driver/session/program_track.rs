@@ -283,7 +283,10 @@ impl Session {
                 .separation(at)
                 .is_some_and(|off| off <= self.setup.rule.half_beam + self.overrun())
         });
-        if self.setup.rule.resume == Resume::Ask || !is_where_it_was {
+        if !is_where_it_was {
+            return self.await_word(lost, Some(Unlike::Position));
+        }
+        if self.setup.rule.resume == Resume::Ask {
             return self.await_word(lost, None);
         }
         if let Some(track) = self.activity.program_mut() {

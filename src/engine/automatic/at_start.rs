@@ -7,8 +7,8 @@ use serde::{Deserialize, Serialize};
 
 use crate::{station::AntennaId, whole_file};
 
-/// Name of the file.
-pub(super) const FILE: &str = "automatic.toml";
+/// The file is named like the station file, but for this.
+pub(super) const EXTENSION: &str = "automatic.toml";
 
 /// How the last run ended, and which antennas had their automatic operation switched off.
 #[derive(Debug, Clone, PartialEq, Eq, Default, Serialize, Deserialize)]
@@ -28,12 +28,12 @@ impl LastRun {
         match read {
             Ok(Ok(last)) => last,
             Ok(Err(error)) => {
-                tracing::warn!(%error, "{FILE} cannot be read");
+                tracing::warn!(%error, "the end of the last run cannot be read");
                 Self::default()
             }
             Err(error) => {
                 if error.kind() != io::ErrorKind::NotFound {
-                    tracing::warn!(%error, "{FILE} cannot be read");
+                    tracing::warn!(%error, "the end of the last run cannot be read");
                 }
                 Self::default()
             }
@@ -57,7 +57,7 @@ mod tests {
     #[test]
     fn only_an_orderly_end_allows_it_and_not_where_it_was_switched_off() {
         let folder = tempfile::tempdir().unwrap();
-        let path = folder.path().join(FILE);
+        let path = folder.path().join("station.automatic.toml");
         assert!(!LastRun::load(&path).allows(AntennaId(1)), "nothing is known of a first start");
         let last = LastRun { is_orderly: true, switched_off: vec![AntennaId(2)] };
         last.save(&path).unwrap();

@@ -9,9 +9,9 @@ use crate::{
     engine::passes::PassKey,
 };
 
-/// Passes in a row whose load or proof failed after which automatic operation ends.
+/// Automatic operation switches itself off after this many failed passes in a row.
 const FAILURES: u8 = 2;
-/// Requests for one pass that led to nothing after which it is given up.
+/// A pass is given up after this many requests without effect.
 const REQUESTS: u8 = 2;
 /// A pass of which less than this is left is not begun any more, seconds.
 const WORTH_S: f64 = 10.0;
@@ -19,7 +19,8 @@ const WORTH_S: f64 = 10.0;
 const SAME_AOS_S: f64 = 60.0;
 /// An antenna that nobody here moves may coast for this long, seconds.
 const COASTS_S: f64 = 5.0;
-/// A pass that nothing was done for so long before it begins is told, seconds.
+/// An antenna that is not on its way this many seconds before its pass raises an alarm. Also the
+/// least time between two requests for one pass.
 pub(super) const LATE_S: f64 = 30.0;
 
 /// Automatic operation of one antenna. Only the operator switches it on, and lets it go on.
@@ -187,6 +188,11 @@ impl Operation {
         }
     }
 
+    /// Whether the antenna is proved to be on its way to the pass that it takes.
+    pub(super) fn is_proved(&self) -> bool {
+        self.taking().is_some_and(|taking| taking.proved_at.is_some())
+    }
+
     /// Ends it, unless it is off.
     pub(super) fn switch_off(&mut self, because: OffBecause) {
         if !matches!(self, Self::Off(_)) || because == OffBecause::Operator {
@@ -194,7 +200,7 @@ impl Operation {
         }
     }
 
-    pub(super) fn suspend(&mut self, by: Interruption, now: Timestamp) {
+    pub(in crate::engine) fn suspend(&mut self, by: Interruption, now: Timestamp) {
         if self.is_on() {
             *self = Self::Suspended { by, since: now };
         }
@@ -260,6 +266,7 @@ impl Operation {
 impl On {
     /// Brings what it does up to date.
     fn see(&mut self, seen: Seen, now: Timestamp) {
+        self.forget_the_future(now);
         if !seen.is_moved_elsewhere {
             self.moves_since = None;
         } else if self.moves_since.is_none() {
@@ -273,12 +280,24 @@ impl On {
                 if seen.is_proved && taking.proved_at.is_none() {
                     taking.proved_at = Some(now);
                     taking.requests = 0;
-                    self.failures = 0;
                 }
             }
             if now >= taking.until {
+                // A track from here counts as proved before the unit has answered to it.
+                if taking.proved_at.is_some() && !taking.is_given_up {
+                    self.failures = 0;
+                }
                 self.doing = Doing::Rests;
             }
+        }
+    }
+
+    /// After the clock was set back, what was done by the old time tells nothing any more.
+    fn forget_the_future(&mut self, now: Timestamp) {
+        self.moved_at = self.moved_at.filter(|at| *at <= now);
+        self.moves_since = self.moves_since.filter(|since| *since <= now);
+        if matches!(&self.doing, Doing::Takes(taking) if taking.asked_at > now) {
+            self.doing = Doing::Rests;
         }
     }
 

@@ -3,7 +3,7 @@
 use super::{Ask, SessionRequest, UnitNow};
 use crate::{
     driver::Command,
-    engine::{Antenna, Engine},
+    engine::{Antenna, Engine, automatic::Interruption},
 };
 
 impl Engine {
@@ -29,12 +29,18 @@ impl Engine {
 
     fn tell_unit(&mut self, request: Option<SessionRequest>) {
         let Some(request) = request else { return };
-        let Some(antenna) = self.upload_antenna() else {
+        let name = &self.uploads.antenna;
+        let antenna = self.antennas.iter_mut().find(|one| one.shown.config.name == *name);
+        let Some(antenna) = antenna else {
             let text = "the antenna is not in the station any more".to_owned();
             return self.upload_runner.not_selected(text, &mut self.uploads);
         };
         let commands = match request {
-            SessionRequest::Rest => vec![Command::Standby, Command::AutoTrack(false)],
+            SessionRequest::Rest => {
+                // The operator has agreed to end the track.
+                antenna.shown.operation.suspend(Interruption::ByHand, self.now);
+                vec![Command::Standby, Command::AutoTrack(false)]
+            }
             SessionRequest::Use(selection) => vec![selection.command()],
         };
         let number = self.asked.unwrap_or_else(|| self.driver.orders().next());

@@ -200,12 +200,12 @@ pub struct Partial {
     pub hand_over: bool,
 }
 
-/// What a change of the schedule has to gain.
+/// Least gain for which an entry of the previous schedule is replaced.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Steadiness {
-    /// Of what the entry that goes is worth.
+    /// Per cent of the worth of the entry that is replaced.
     pub percent: u32,
-    /// Besides, seconds.
+    /// Added to that, seconds.
     pub seconds: u32,
 }
 
@@ -219,6 +219,6 @@ pub struct Request<'a> {
     pub partial: Option<Partial>,
     pub previous: Option<&'a Schedule>,
     pub steadiness: Steadiness,
-    /// Entries that have begun or are loaded.
+    /// Entries that antennas are taking.
     pub fixed: &'a [Entry],
 }

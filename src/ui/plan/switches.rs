@@ -52,7 +52,7 @@ pub(super) fn sentence(model: &Model, antenna: &AntennaModel) -> String {
         }
         Operation::On(On { doing, .. }) => match doing {
             Doing::Announces { moves_at, .. } => {
-                format!("On. Moves at {}: STOP ends that.", format::time_z(*moves_at))
+                format!("On. Moves at {} unless you press STOP.", format::time_z(*moves_at))
             }
             Doing::Parks => "On. Parks until the next pass.".to_owned(),
             Doing::Takes(taking) => {

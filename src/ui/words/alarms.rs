@@ -125,7 +125,7 @@ pub fn alarm(kind: &AlarmKind, antenna: &str) -> String {
             format::time_z(*aos)
         ),
         AlarmKind::AutomaticMoves { at, name } => format!(
-            "{antenna} will move by itself at {}, for {name}. STOP or Hold ends that.",
+            "{antenna} will move by itself at {}, for {name}. STOP or Standby prevents it.",
             format::time_z(*at)
         ),
         AlarmKind::AutomaticOff(because) => format!(

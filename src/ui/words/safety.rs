@@ -115,6 +115,7 @@ fn unlike(unlike: Unlike) -> &'static str {
         }
         Unlike::Limits => " Its limits have changed: check its settings.",
         Unlike::Place => " The place it reports has changed: check its settings.",
+        Unlike::Position => " It does not point where it was left.",
         Unlike::Offsets => " Its offsets have changed: check its settings.",
         Unlike::Unread => " It has not reported again what it reported before.",
     }

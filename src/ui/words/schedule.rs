@@ -46,22 +46,24 @@ pub fn why(names: &dyn Fn(PassKey) -> String, why: &Why) -> String {
         Why::Refused(refusal) => refused(*refusal),
         Why::Impossible(impossible) => not_possible(impossible),
         Why::Off(Off::LockedOut) => "The unit is locked out".to_owned(),
-        Why::Off(Off::SwitchedOff) => "The antenna is switched off".to_owned(),
-        Why::OtherAntennas => "A rule leaves it to other antennas".to_owned(),
+        Why::Off(Off::SwitchedOff) => "The antenna is not connected".to_owned(),
+        Why::OtherAntennas => "A limit or a rule excludes this antenna".to_owned(),
         Why::Overlaps(conflict) => {
             let by = format::duration(conflict.missing_s);
             format!("{} overlaps by {by}", against(names, conflict))
         }
         Why::SlewTooShort(conflict) => {
             let by = format::duration(conflict.missing_s);
-            format!("{} is too close: slew and set-up miss {by}", against(names, conflict))
+            format!("Too close to {}: {by} short for slew and set-up", against(names, conflict))
         }
         Why::TooFar => "The antenna cannot be there in time from where it stands".to_owned(),
         Why::MaxPerDay(most) => match most {
             1 => "One pass of the satellite is taken on this day already".to_owned(),
             most => format!("{most} passes of the satellite are taken on this day already"),
         },
-        Why::NotFound => "It would fit; a better schedule was not found".to_owned(),
+        Why::NotFound => {
+            "It would fit, but no schedule with it was found that is worth more".to_owned()
+        }
     }
 }
 
@@ -69,21 +71,26 @@ fn refused(refusal: Refusal) -> String {
     match refusal {
         Refusal::Never => "Never, as you chose".to_owned(),
         Refusal::BelowFloor { floor_deg } => {
-            format!("Stays below the floor of {}", format::degrees(floor_deg, 0))
+            format!("Maximum elevation is below the floor of {}", format::degrees(floor_deg, 0))
         }
         Refusal::OldElements { age_s } => {
             format!("The elements will be {} old", format::age(age_s))
         }
         Refusal::Rule(Rule::MinElevation { degrees }) => {
-            format!("Stays below {}, the minimum of the satellite", format::degrees(degrees, 0))
+            format!(
+                "Maximum elevation is below {}, the limit of the satellite",
+                format::degrees(degrees, 0)
+            )
         }
         Refusal::Rule(Rule::MinDuration { seconds }) => {
-            format!("Shorter than {}, the minimum of the satellite", format::duration(seconds))
+            format!("Shorter than {}, the limit of the satellite", format::duration(seconds))
         }
         Refusal::Rule(Rule::Light(light)) => match light {
-            Light::Day => "Not by day, as the satellite is set".to_owned(),
-            Light::Night => "Not by night, as the satellite is set".to_owned(),
-            Light::Sunlit => "The satellite is not in sunlight, as it is set".to_owned(),
+            Light::Day => "The satellite is limited to passes by day".to_owned(),
+            Light::Night => "The satellite is limited to passes by night".to_owned(),
+            Light::Sunlit => {
+                "The satellite is limited to passes in sunlight, and it is in shadow".to_owned()
+            }
         },
     }
 }

@@ -211,3 +211,27 @@ fn a_lock_out_switches_it_off() {
     assert_eq!(fixture.until(900.0, locked), []);
     assert_eq!(fixture.operation, Operation::Off(OffBecause::LockedOut));
 }
+
+#[test]
+fn a_proof_that_the_unit_then_belies_is_no_success() {
+    let duties = [duty(1, 200.0), duty(2, 1000.0)];
+    let mut fixture = Fixture::new(&duties);
+    for (to_s, number) in [(150.0, 1), (950.0, 2)] {
+        fixture.until(to_s, |_| STANDS);
+        fixture.until(to_s + 5.0, |_| taking(number));
+        assert!(fixture.operation.is_proved(), "a track from here is proved at once");
+        fixture.outcome(Outcome::Failed);
+    }
+    assert_eq!(fixture.operation, Operation::Off(OffBecause::Failures));
+}
+
+#[test]
+fn a_clock_that_was_set_back_keeps_no_pass_and_is_followed_by_an_announcement() {
+    let duties = [duty(1, 200.0), duty(2, 4000.0)];
+    let mut fixture = Fixture::new(&duties[1..]);
+    fixture.until(4100.0, |now_s| if now_s < 3950.0 { STANDS } else { taking(2) });
+    assert!(fixture.operation.taking().is_some());
+    fixture.now_s = 0.0;
+    fixture.duties = duties.to_vec();
+    assert_eq!(fixture.until(150.0, |_| STANDS), [(140.0, Act::Take(duties[0]))]);
+}
