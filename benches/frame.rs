@@ -19,7 +19,8 @@ fn main() {
     };
     for size in [[1440.0, 900.0], [1024.0, 640.0]] {
         let mut harness = egui_kittest::Harness::builder().with_size(size).build_eframe(|cc| {
-            App::new(&cc.egui_ctx, &settings, Clock::system()).expect("the app starts")
+            let app = App::new(&cc.egui_ctx, &settings, Clock::system()).expect("the app starts");
+            app.without_set_up()
         });
         let start = Instant::now();
         let ready = |app: &App| {
