@@ -3,6 +3,7 @@
 
 mod automatic;
 mod scene;
+mod unattended;
 
 use std::{num::NonZeroU32, thread};
 

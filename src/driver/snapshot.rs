@@ -278,6 +278,9 @@ pub enum Event {
         /// How long it was silent.
         after: Duration,
         found: Found,
+        /// What was asked from here explains what it does and where it points; a track from
+        /// here is compared by itself.
+        is_as_left: bool,
     },
     /// The gate refused it.
     NotSent(Refusal),

@@ -4,7 +4,7 @@ mod at_start;
 mod day;
 mod operation;
 
-use std::path::PathBuf;
+use std::{path::PathBuf, time::Duration};
 
 use jiff::Timestamp;
 
@@ -23,6 +23,7 @@ use super::{
 };
 use crate::{
     astro::time::{add_seconds, seconds_between},
+    clock::Instant,
     device::Asked,
     driver::{self, Event, Found, Intent, Response, Safety, StopState},
     plan::schedule::Entry,
@@ -31,6 +32,8 @@ use crate::{
 
 /// An antenna is sent to a pass so long before it has to be, seconds.
 const LEAD_S: f64 = 60.0;
+/// A unit that still has auto-track on is told again after this time.
+const AUTO_TRACK_AGAIN: Duration = Duration::from_secs(10);
 
 /// What automatic operation of an antenna has at hand, besides its state in the snapshot.
 #[derive(Default)]
@@ -40,6 +43,26 @@ pub(super) struct AtWork {
     flight: Option<Flight>,
     /// As it was told last.
     told: Option<Operation>,
+    auto_track: AutoTrack,
+}
+
+/// Auto-track of a unit, as far as automatic operation has to do with it.
+#[derive(Default)]
+enum AutoTrack {
+    /// As the operator has it.
+    #[default]
+    Untouched,
+    /// Switched on for a pass that the unit holds.
+    On,
+    /// To be switched off, once the unit can be reached. When that was sent last.
+    ToBeOff { sent: Option<Instant> },
+}
+
+impl AtWork {
+    /// What remains of it when the antenna is given another unit.
+    pub(super) fn without_unit(self) -> Self {
+        Self { auto_track: AutoTrack::Untouched, ..self }
+    }
 }
 
 impl Engine {
@@ -136,10 +159,14 @@ impl Engine {
             Command::Track { .. } | Command::ProgramTrackPass { .. } => true,
             _ => false,
         };
-        let place = command.antenna().filter(|_| is_motion).and_then(|id| self.place(id));
         let now = self.now;
-        if let Some(antenna) = place.and_then(|place| self.antennas.get_mut(place)) {
+        let place = command.antenna().and_then(|id| self.place(id));
+        let Some(antenna) = place.and_then(|place| self.antennas.get_mut(place)) else { return };
+        if is_motion {
             antenna.shown.operation.suspend(Interruption::ByHand, now);
+        }
+        if matches!(command, Command::Antenna(_, driver::Command::AutoTrack(_))) {
+            antenna.at_work.auto_track = AutoTrack::Untouched;
         }
     }
 
@@ -179,8 +206,10 @@ impl Engine {
                 | Safety::SessionBroke
                 | Safety::Forbidden { response: Response::Stopped, .. },
             ) => operation.switch_off(OffBecause::Safety),
+            // Auto-track starts what the unit holds by itself.
+            Event::Back { found: Found::Tracking, .. } if uses_auto_track => {}
             Event::Safety(Safety::AsksToResume { unlike: Some(_), .. })
-            | Event::Back { found: Found::Moving, .. } => {
+            | Event::Back { is_as_left: false, .. } => {
                 operation.switch_off(OffBecause::NotAsLeft);
             }
             _ => {}
@@ -196,6 +225,7 @@ impl Engine {
         self.asked = None;
         for index in 0..self.antennas.len() {
             self.tell_automatic(index);
+            self.switch_auto_track_off(index);
         }
     }
 
@@ -222,18 +252,36 @@ impl Engine {
         }
         // Only now does the unit hold the pass that it may start by itself.
         if is_proved && !was_proved {
-            self.switch_auto_track(index, true);
+            self.switch_auto_track_on(index);
         }
     }
 
     /// The unit starts what it holds by itself, where the operator wants that.
-    fn switch_auto_track(&mut self, index: usize, is_on: bool) {
-        let Some(antenna) = self.antennas.get(index) else { return };
-        let config = &antenna.shown.config;
-        let can =
-            config.automatic.uses_auto_track && antenna.shown.variant().capabilities.has_program;
-        if can && antenna.shown.snapshot.link.is_open() {
-            self.send(index, driver::Command::AutoTrack(is_on));
+    fn switch_auto_track_on(&mut self, index: usize) {
+        let Some(antenna) = self.antennas.get_mut(index) else { return };
+        let shown = &antenna.shown;
+        if shown.config.automatic.uses_auto_track && shown.variant().capabilities.has_program {
+            antenna.at_work.auto_track = AutoTrack::On;
+            self.send(index, driver::Command::AutoTrack(true));
+        }
+    }
+
+    /// Switches auto-track off where that is owed, until the unit says so.
+    fn switch_auto_track_off(&mut self, index: usize) {
+        let now = self.steady;
+        let Some(antenna) = self.antennas.get_mut(index) else { return };
+        let AutoTrack::ToBeOff { sent } = &mut antenna.at_work.auto_track else { return };
+        if !antenna.shown.is_live() {
+            return;
+        }
+        let state = &antenna.shown.snapshot.state;
+        let is_off = state.program.is_some_and(|program| program.auto != Some(true));
+        let is_answer = |sent| state.measured.is_some_and(|measured| measured.asked > sent);
+        if is_off && sent.is_some_and(is_answer) {
+            antenna.at_work.auto_track = AutoTrack::Untouched;
+        } else if sent.is_none_or(|at| now.saturating_duration_since(at) >= AUTO_TRACK_AGAIN) {
+            *sent = Some(now);
+            self.send(index, driver::Command::AutoTrack(false));
         }
     }
 
@@ -329,19 +377,26 @@ impl Engine {
             let name = name.map_or_else(String::new, |of| of.satellite.short_name().to_owned());
             self.alarms.raise(Some(id), AlarmKind::AutomaticMoves { at, name }, self.now);
         }
+        if !matches!(operation, Operation::Suspended { .. }) {
+            let is_that = |kind: &AlarmKind| *kind == AlarmKind::AutomaticSuspended;
+            self.alarms.clear(Some(id), self.now, is_that);
+        }
         let Some(before) = before else { return };
-        // What the unit holds is not started by itself once nobody minds it. A unit that is
-        // locked out has it off already.
-        let ends = before.is_on() && !operation.is_on();
-        if ends && operation != Operation::Off(OffBecause::LockedOut) {
-            self.switch_auto_track(index, false);
+        // What the unit holds is not started by itself once nobody minds it.
+        if !operation.is_on() && matches!(antenna.at_work.auto_track, AutoTrack::On) {
+            antenna.at_work.auto_track = AutoTrack::ToBeOff { sent: None };
         }
         let event = match (&before, &operation) {
             (Operation::On(_), Operation::On(_))
             | (Operation::Suspended { .. }, Operation::Suspended { .. }) => return,
             (Operation::Suspended { .. }, Operation::On(_)) => DayEvent::WentOn,
             (_, Operation::On(_)) => DayEvent::SwitchedOn,
-            (_, Operation::Suspended { by, .. }) => DayEvent::Suspended(*by),
+            (_, Operation::Suspended { by, .. }) => {
+                if *by == Interruption::Elsewhere {
+                    self.alarms.raise(Some(id), AlarmKind::AutomaticSuspended, self.now);
+                }
+                DayEvent::Suspended(*by)
+            }
             (Operation::Off(before), Operation::Off(now)) if before == now => return,
             (_, Operation::Off(because)) => {
                 if because.is_alarming() {

@@ -17,6 +17,14 @@ use crate::{
     station::{self, AntennaId, LoadError, Station},
 };
 
+/// What outlasts the session of an antenna whose settings change.
+struct Changed {
+    id: AntennaId,
+    unit: Unit,
+    operation: Operation,
+    at_work: AtWork,
+}
+
 impl Engine {
     pub(super) fn load_station(&mut self) {
         // The running demo ends once another station is in use.
@@ -70,13 +78,20 @@ impl Engine {
             .filter(|antenna| debts.owes(&Unit::of(&antenna.shown.config)))
             .map(|antenna| antenna.shown.config.name.clone())
             .collect();
-        let is_not_off = |antenna: &&Antenna| !matches!(antenna.shown.operation, Operation::Off(_));
-        let automatic: Vec<AntennaId> =
-            before.iter().filter(is_not_off).map(|antenna| antenna.shown.id()).collect();
         // A unit accepts one client: the old session leaves first.
-        before.retain(|antenna| {
+        let is_kept = |antenna: &mut Antenna| {
             antenna.shown.held_by.is_none() && station.antennas.contains(&antenna.shown.config)
-        });
+        };
+        let mut changed: Vec<Changed> = Vec::new();
+        for antenna in before.extract_if(.., |antenna| !is_kept(antenna)) {
+            let AntennaModel { operation, config, .. } = antenna.shown;
+            changed.push(Changed {
+                unit: Unit::of(&config),
+                id: config.id,
+                operation,
+                at_work: antenna.at_work,
+            });
+        }
         for config in &station.antennas {
             let bounds = Bounds::of(&station, config);
             let kept = before.iter().position(|antenna| antenna.shown.config == *config);
@@ -86,14 +101,13 @@ impl Engine {
                 antenna
             } else {
                 let mut antenna = self.open_antenna(config.clone(), bounds);
-                if automatic.contains(&config.id) {
-                    antenna.shown.operation = Operation::Off(OffBecause::Changed);
-                    self.keep_switched_off(config.id, true);
-                    self.alarms.raise(
-                        Some(config.id),
-                        AlarmKind::AutomaticOff(OffBecause::Changed),
-                        self.now,
-                    );
+                let was = changed.iter().position(|changed| changed.id == config.id);
+                if let Some(was) = was.map(|was| changed.swap_remove(was)) {
+                    antenna.shown.operation = was.operation;
+                    antenna.shown.operation.switch_off(OffBecause::Changed);
+                    let is_same_unit = was.unit == Unit::of(config);
+                    antenna.at_work =
+                        if is_same_unit { was.at_work } else { was.at_work.without_unit() };
                 }
                 if owed.contains(&config.name) {
                     antenna.handle.stop();

@@ -58,7 +58,7 @@ async fn one_that_accepts_and_stays_silent_is_stale_then_lost_and_comes_back() {
     rig.control.set_fault(Fault::Silence, false);
     rig.until_event(
         10,
-        |event| matches!(event, Event::Back { found: Found::Still, after } if after.as_secs() >= 8),
+        |event| matches!(event, Event::Back { found: Found::Still, after, .. } if after.as_secs() >= 8),
     )
     .await;
     rig.until_up(1).await;

@@ -218,6 +218,27 @@ async fn where_the_station_lets_it_resume_it_does_so_only_where_it_was_left() {
 }
 
 #[tokio::test(start_paused = true)]
+async fn an_outage_on_the_way_to_a_pass_is_told_from_a_unit_that_was_moved() {
+    let goes_on = Antenna { resume: Resume::Continue, resume_after_s: 0.5, ..antenna() };
+    let scene = sky::usual();
+    for is_moved in [false, true] {
+        let (mut rig, control) = connected(&goes_on, &scene, 120.0).await;
+        rig.send(Command::ProgramTrack(Box::new(scene.follow())));
+        rig.seconds(1.0).await;
+        rig.set_off(true);
+        rig.seconds(1.0).await;
+        if is_moved {
+            send_elsewhere(&control).await;
+        }
+        assert!(is_moved || control.state().is_moving, "still on its way");
+        rig.set_off(false);
+        rig.until_event(20, |event| matches!(event, Event::Back { .. })).await;
+        rig.seconds(20.0).await;
+        assert_eq!(rig.events().iter().any(asks), is_moved);
+    }
+}
+
+#[tokio::test(start_paused = true)]
 async fn a_second_short_outage_does_not_spare_a_unit_the_comparison() {
     let goes_on = Antenna { resume: Resume::Continue, ..antenna() };
     let (mut rig, control, _) = following(&goes_on).await;

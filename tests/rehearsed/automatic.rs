@@ -9,14 +9,14 @@ use azel::{
     driver,
     engine::{
         Client, Command,
-        automatic::{DayEvent, Flown, Interruption, MissCause, Operation},
+        automatic::{Flown, Interruption, MissCause, Operation},
     },
     sim::satrak,
     station::{AntennaId, LockOut, Station},
 };
 use jiff::Timestamp;
 
-use super::scene::{self, Scene, measured, start, until};
+use super::scene::{self, Scene, flown, measured, operation, set_automatic, start, until};
 
 /// Slow enough for a busy computer.
 const SPEED: NonZeroU32 = NonZeroU32::new(100).unwrap();
@@ -28,18 +28,6 @@ fn station() -> Station {
     station
 }
 
-fn set(client: &Client, antenna: AntennaId, is_on: bool) {
-    until("automatic operation", || {
-        let _ = client.send(Command::SetAutomatic { antenna, is_on });
-        (operation(client, antenna).is_on() == is_on).then_some(())
-    });
-}
-
-fn operation(client: &Client, antenna: AntennaId) -> Operation {
-    let snapshot = client.snapshot();
-    snapshot.antennas.iter().find(|of| of.id() == antenna).unwrap().operation.clone()
-}
-
 /// Waits until the clock of the station shows a time.
 fn until_time(client: &Client, at: Timestamp) {
     let patience = std::time::Instant::now() + std::time::Duration::from_mins(10);
@@ -47,15 +35,6 @@ fn until_time(client: &Client, at: Timestamp) {
         assert!(std::time::Instant::now() < patience);
         std::thread::sleep(scene::LOOK);
     }
-}
-
-fn flown(client: &Client) -> Vec<(AntennaId, Flown)> {
-    let day = Arc::clone(&client.snapshot().day);
-    let flown = day.iter().filter_map(|line| match &line.what {
-        DayEvent::Flown(flown) => Some((line.antenna, flown.clone())),
-        _ => None,
-    });
-    flown.collect()
 }
 
 fn add_hours(at: Timestamp, hours: f64) -> Timestamp {
@@ -70,7 +49,7 @@ fn a_station_takes_its_passes_by_itself_and_each_that_it_misses_has_its_cause() 
     let [dish, mast, horn] = ["Dish", "Mast", "Horn"].map(|name| measured(&client, name));
     until("the schedule", || client.snapshot().schedule.made_at);
     for antenna in [dish, mast] {
-        set(&client, antenna, true);
+        set_automatic(&client, antenna, true);
     }
     let lock_out = LockOut { by: "Ada".to_owned(), reason: "belts".to_owned(), since: start() };
     let _ = client.send(Command::Antenna(horn, driver::Command::LockOut(lock_out)));

@@ -1,6 +1,7 @@
 //! A station in memory with one simulated unit of each make.
 
 use std::{
+    fs,
     num::NonZeroU32,
     sync::{Arc, LazyLock, mpsc},
     thread,
@@ -15,6 +16,7 @@ use azel::{
     driver::{self, Dial, Outside, Stream},
     engine::{
         Client, Command, Handle, Settings,
+        automatic::{DayEvent, Flown, Operation},
         status::{AntennaStatus, LinkStatus},
     },
     orbit::{Elements, bundled},
@@ -114,7 +116,8 @@ pub(super) struct Scene {
     pub(super) station: Handle,
     pub(super) end: mpsc::SyncSender<Wake>,
     pub(super) woken: mpsc::Receiver<Wake>,
-    _folder: tempfile::TempDir,
+    clock: Clock,
+    folder: tempfile::TempDir,
 }
 
 impl Scene {
@@ -127,23 +130,38 @@ impl Scene {
         let clock = Clock::at_speed(start, speed);
         let units = Units::new(&clock, start);
         let folder = tempfile::tempdir().unwrap();
-        let path = folder.path().join("station.toml");
-        station::save(station, &path).unwrap();
+        station::save(station, &folder.path().join("station.toml")).unwrap();
+        Self::begin(units, clock, folder)
+    }
+
+    fn begin(units: Units, clock: Clock, folder: tempfile::TempDir) -> Self {
         let settings = Settings {
-            path: Some(path),
+            path: Some(folder.path().join("station.toml")),
             library: Some(folder.path().join("elements")),
             ..Settings::default()
         };
         let dialled = units.clone();
-        let outside =
-            Outside { clock, dial: Arc::new(move |antenna: &Antenna| dialled.dial(antenna)) };
+        let dial = Arc::new(move |antenna: &Antenna| dialled.dial(antenna));
+        let outside = Outside { clock: clock.clone(), dial };
         let (end, woken) = mpsc::sync_channel(1);
         let by_station = end.clone();
         let wake = Arc::new(move || {
             let _ = by_station.try_send(Wake::Station);
         });
         let station = Handle::start(settings, outside, wake).unwrap();
-        Self { units, station, end, woken, _folder: folder }
+        Self { units, station, end, woken, clock, folder }
+    }
+
+    /// The station ends as it should, or as in a crash, and is started again; the units go on.
+    pub(super) fn started_again(self, is_crash: bool) -> Self {
+        let Self { units, station, clock, folder, .. } = self;
+        let left = folder.path().join("station.automatic.toml");
+        let while_running = fs::read(&left).unwrap();
+        drop(station);
+        if is_crash {
+            fs::write(&left, while_running).unwrap();
+        }
+        Self::begin(units, clock, folder)
     }
 
     pub(super) fn client(&self) -> Client {
@@ -192,4 +210,26 @@ pub(super) fn move_by(client: &Client, name: &str, command: &driver::Command) {
         let moves = antenna(client, name)?.1.moves;
         (moves == Some(true)).then_some(())
     });
+}
+
+pub(super) fn operation(client: &Client, antenna: AntennaId) -> Operation {
+    let snapshot = client.snapshot();
+    snapshot.antennas.iter().find(|of| of.id() == antenna).unwrap().operation.clone()
+}
+
+pub(super) fn set_automatic(client: &Client, antenna: AntennaId, is_on: bool) {
+    until("automatic operation", || {
+        let _ = client.send(Command::SetAutomatic { antenna, is_on });
+        (operation(client, antenna).is_on() == is_on).then_some(())
+    });
+}
+
+/// The passes of the schedule that are over, with what became of them.
+pub(super) fn flown(client: &Client) -> Vec<(AntennaId, Flown)> {
+    let day = Arc::clone(&client.snapshot().day);
+    let flown = day.iter().filter_map(|line| match &line.what {
+        DayEvent::Flown(flown) => Some((line.antenna, flown.clone())),
+        _ => None,
+    });
+    flown.collect()
 }

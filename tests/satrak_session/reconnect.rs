@@ -5,8 +5,10 @@ use azel::{
     clock::Instant,
     device::PrepareError,
     driver::{Command, Event, Found, Intent, LinkLoss, LinkState, Refusal, Safety, StopState},
+    protocol::satrak::{Goto, Motion, Request},
     sim::satrak::Fault,
 };
+use tokio::io::AsyncWriteExt as _;
 
 use super::rig::{Rig, antenna, iss, options, track};
 
@@ -62,7 +64,7 @@ async fn tracking_goes_on_without_the_link_and_is_found_again() {
     let before = rig.orders().len();
     rig.set_off(false);
     let back = rig.until_event(9, |event| matches!(event, Event::Back { .. })).await;
-    let Event::Back { after, found } = back else { panic!("{back:?}") };
+    let Event::Back { after, found, .. } = back else { panic!("{back:?}") };
     assert_eq!(found, Found::Tracking);
     assert!((20.0..30.0).contains(&after.as_secs_f64()), "{after:?}");
     rig.seconds(5.0).await;
@@ -84,6 +86,31 @@ async fn tracking_that_ended_meanwhile_is_not_started_again() {
     rig.seconds(5.0).await;
     assert_eq!((rig.shown().intent, rig.shown().target.clone()), (Intent::Standby, None));
     assert_eq!(rig.sent("TRACK=,1").len(), 1);
+}
+
+#[tokio::test(start_paused = true)]
+async fn a_unit_at_rest_that_was_turned_while_out_of_reach_is_not_as_it_was_left() {
+    for (waits_s, is_turned, wanted) in [
+        (5.0, false, (Found::Still, true)),
+        (5.0, true, (Found::Moving, false)),
+        (90.0, true, (Found::Still, false)),
+    ] {
+        let mut rig = Rig::usual().await;
+        rig.set_off(true);
+        rig.seconds(1.0).await;
+        if is_turned {
+            let (mut near, far) = tokio::io::duplex(4096);
+            let unit = rig.control.clone();
+            tokio::spawn(async move { unit.serve(far).await });
+            let goto = Goto::new(Some(200.0), Some(40.0)).unwrap();
+            near.write_all(&Request::Motion(Motion::Goto(goto)).to_bytes()).await.unwrap();
+        }
+        rig.seconds(waits_s).await;
+        rig.set_off(false);
+        let back = rig.until_event(20, |event| matches!(event, Event::Back { .. })).await;
+        let Event::Back { found, is_as_left, .. } = back else { panic!("{back:?}") };
+        assert_eq!((found, is_as_left), wanted);
+    }
 }
 
 #[tokio::test(start_paused = true)]

@@ -276,7 +276,7 @@ fn a_refusal_without_a_code_is_told_in_its_words() {
 #[test]
 fn what_has_just_happened_is_told_first_and_for_a_while() {
     let after = Duration::from_secs(42);
-    let back = Event::Back { after, found: Found::Tracking };
+    let back = Event::Back { after, found: Found::Tracking, is_as_left: true };
     assert_eq!(
         told(states::tracking(0.0), just(back.clone())),
         "Satrak answers again after 42 s. It is still tracking NOAA 20."
@@ -288,7 +288,7 @@ fn what_has_just_happened_is_told_first_and_for_a_while() {
     let refused = PrepareError::Refused("ERR,7".to_owned());
     for (event, wanted) in [
         (
-            Event::Back { after, found: Found::Still },
+            Event::Back { after, found: Found::Still, is_as_left: true },
             "Satrak answers again after 42 s. It stands still and tracks nothing.",
         ),
         (Event::NotSent(Refusal::Stopping), "Not sent: a stop is under way."),

@@ -276,14 +276,12 @@ impl Session {
             return;
         }
         let lost = lost + unchecked.unwrap_or_default();
-        // Where it was sent, or where it was left, within what it coasts.
-        let places = track.commanded.into_iter().chain(self.contact.left_at);
-        let is_where_it_was = places.into_iter().any(|place| {
-            place
-                .separation(at)
-                .is_some_and(|off| off <= self.setup.rule.half_beam + self.overrun())
-        });
-        if !is_where_it_was {
+        // Where it was sent, where it was left, or on the way between the two.
+        let (sent, left) = (track.commanded, self.contact.left_at);
+        let is_there = sent.into_iter().chain(left).any(|place| self.is_near(place, at));
+        let is_on_its_way =
+            sent.zip(left).is_some_and(|(sent, left)| self.is_between(left, sent, at));
+        if !is_there && !is_on_its_way {
             return self.await_word(lost, Some(Unlike::Position));
         }
         if self.setup.rule.resume == Resume::Ask {
@@ -292,6 +290,28 @@ impl Session {
         if let Some(track) = self.activity.program_mut() {
             track.recheck = Some(Recheck { since: now.steady, lost });
         }
+    }
+
+    /// Whether an antenna that was left at `place` may point there without having been moved,
+    /// within what it coasts.
+    pub(super) fn is_near(&self, place: Pointing, at: Pointing) -> bool {
+        let nearby = self.setup.rule.half_beam + self.overrun();
+        place.separation(at).is_some_and(|off| off <= nearby)
+    }
+
+    /// Whether an antenna that was sent from `left` to `sent` passes `at`, each axis by its
+    /// shorter way.
+    fn is_between(&self, left: Pointing, sent: Pointing, at: Pointing) -> bool {
+        let nearby = self.setup.rule.half_beam + self.overrun();
+        let passes = |[left, sent, at]: [Option<Angle>; 3]| {
+            let (Some(left), Some(sent), Some(at)) = (left, sent, at) else {
+                return left.is_none() && sent.is_none() && at.is_none();
+            };
+            let far = |one: Angle, other: Angle| (one - other).wrapped_180().abs();
+            far(left, at) + far(at, sent) <= far(left, sent) + nearby + nearby
+        };
+        passes([left.azimuth, sent.azimuth, at.azimuth])
+            && passes([left.elevation, sent.elevation, at.elevation])
     }
 
     fn overrun(&self) -> Angle {

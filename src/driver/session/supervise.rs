@@ -9,7 +9,7 @@ use super::{
 };
 use crate::{
     clock::{Instant, Moment},
-    device::{Asked, ControllerEvent, Motion, Phase, TrackTarget},
+    device::{Asked, ControllerEvent, Motion, Phase, Pointing, TrackTarget},
     driver::{Found, Intent},
 };
 
@@ -189,6 +189,7 @@ impl Session {
             .away_since
             .map_or(Duration::ZERO, |since| now.steady.saturating_duration_since(since));
         let lost = away + std::mem::take(&mut self.contact.slept);
+        let is_as_left = self.is_as_left(found, measured.pointing);
         self.follow_on(lost, measured.pointing, now);
         match &mut self.activity {
             Activity::OnBoardTrack(track) if found == Found::Tracking => {
@@ -203,11 +204,27 @@ impl Session {
         }
         let event = match self.contact.away_since.take() {
             None => Event::Connected(found),
-            Some(away_since) => {
-                Event::Back { after: now.steady.saturating_duration_since(away_since), found }
-            }
+            Some(away_since) => Event::Back {
+                after: now.steady.saturating_duration_since(away_since),
+                found,
+                is_as_left,
+            },
         };
         self.tell(event);
+    }
+
+    /// Whether what was asked from here explains what the unit does and where it points after an
+    /// outage.
+    fn is_as_left(&self, found: Found, at: Pointing) -> bool {
+        match &self.activity {
+            // Both are compared further.
+            Activity::ProgramTrack(_) | Activity::GoTo(_) => true,
+            Activity::OnBoardTrack(_) => found != Found::Moving,
+            Activity::Standby | Activity::Manual | Activity::Hold(_) => {
+                found == Found::Still
+                    && self.contact.left_at.is_none_or(|left| self.is_near(left, at))
+            }
+        }
     }
 
     /// A unit that starts to track by itself surprises anyone standing beside it.

@@ -91,6 +91,8 @@ pub enum AlarmKind {
     },
     /// Automatic operation of the antenna has ended, and not by the operator.
     AutomaticOff(OffBecause),
+    /// Somebody else moves the antenna, so automatic operation waits for the operator.
+    AutomaticSuspended,
     /// No antenna is on its way to a pass that the operator wanted to be reminded of.
     NoAntennaFor {
         pass: PassKey,
@@ -177,6 +179,7 @@ impl AlarmKind {
             | Self::NotOnItsWay { .. }
             | Self::AutomaticMoves { .. }
             | Self::AutomaticOff(_)
+            | Self::AutomaticSuspended
             | Self::Check(Check { state: CheckState::Fault, .. }) => Priority::Warning,
             _ => Priority::Caution,
         }
@@ -207,6 +210,7 @@ impl AlarmKind {
                 | Self::NotOnItsWay { .. }
                 | Self::AutomaticMoves { .. }
                 | Self::AutomaticOff(_)
+                | Self::AutomaticSuspended
                 | Self::ClockNotSet
                 | Self::Unreadable(_)
                 | Self::Setting(_)

@@ -194,7 +194,7 @@ impl Operation {
     }
 
     /// Ends it, unless it is off.
-    pub(super) fn switch_off(&mut self, because: OffBecause) {
+    pub(in crate::engine) fn switch_off(&mut self, because: OffBecause) {
         if !matches!(self, Self::Off(_)) || because == OffBecause::Operator {
             *self = Self::Off(because);
         }

@@ -226,6 +226,7 @@ fn every_kind() -> Vec<AlarmKind> {
         K::NotOnItsWay { pass: (25_544, time()), name: text() },
         K::AutomaticMoves { at: time(), name: text() },
         K::AutomaticOff(OffBecause::Failures),
+        K::AutomaticSuspended,
         K::TrackingEnded,
         K::EndedShort,
         K::StartedByItself,
@@ -272,6 +273,7 @@ fn every_kind() -> Vec<AlarmKind> {
             | K::NotOnItsWay { .. }
             | K::AutomaticMoves { .. }
             | K::AutomaticOff(_)
+            | K::AutomaticSuspended
             | K::TrackingEnded
             | K::EndedShort
             | K::StartedByItself

@@ -23,7 +23,7 @@ pub(super) fn sentence(model: &Model, antenna: &AntennaModel) -> Option<Spoken> 
     let caution = Spoken::new(SentenceKind::Caution);
     let reason = |of| words::reason(of, &model.station);
     Some(match event {
-        Event::Back { after, found } => {
+        Event::Back { after, found, .. } => {
             let silent = format::age(after.as_secs_f64());
             if antenna.follows() {
                 return Some(

@@ -128,6 +128,10 @@ pub fn alarm(kind: &AlarmKind, antenna: &str) -> String {
             "{antenna} will move by itself at {}, for {name}. STOP or Standby prevents it.",
             format::time_z(*at)
         ),
+        AlarmKind::AutomaticSuspended => format!(
+            "Automatic operation of {antenna} is suspended: the antenna was moved by its panel or by \
+             another program. Let it go on in Plan."
+        ),
         AlarmKind::AutomaticOff(because) => format!(
             "Automatic operation of {antenna} is off. {} Switch it on again in Plan.",
             super::automatic::off(*because)

@@ -1,0 +1,297 @@
+//! What ends automatic operation, and what does not: one antenna, some minutes before a pass.
+
+use std::num::NonZeroU32;
+
+use azel::{
+    astro::time::{add_seconds, seconds_between},
+    driver::{self, LinkState},
+    engine::{
+        Client, Command,
+        alarms::AlarmKind,
+        automatic::{DayEvent, Interruption, MissCause, OffBecause, Operation},
+        closing::CloseHow,
+    },
+    orbit::{PassSearch, Propagator, bundled, passes},
+    protocol::satrak::{Goto, Motion, Request},
+    sim::satrak,
+    station::{Antenna, AntennaId, Station},
+};
+use jiff::{Timestamp, ToSpan as _};
+use tokio::io::AsyncWriteExt as _;
+
+use super::scene::{self, Scene, flown, measured, operation, set_automatic, start, until};
+
+const SPEED: NonZeroU32 = NonZeroU32::new(50).unwrap();
+/// The station starts so long before the pass, seconds.
+const BEFORE_S: f64 = 240.0;
+
+/// A station with this antenna alone.
+fn station(antenna: &str, set: impl FnOnce(&mut Antenna)) -> Station {
+    let mut station = scene::station();
+    station.antennas.retain(|of| of.name == antenna);
+    if let Some(antenna) = station.antennas.first_mut() {
+        set(antenna);
+    }
+    station
+}
+
+/// Some minutes before a high pass of a favourite.
+fn before_a_pass() -> Timestamp {
+    let station = Station::default();
+    let catalog = bundled().unwrap();
+    let search = PassSearch {
+        aos_elevation: station.aos_elevation(),
+        floor: station.elevation_floor(),
+        ..PassSearch::new(station.site, start(), start() + 12.hours())
+    };
+    let aos = station.favourites.numbers().into_iter().flat_map(|number| {
+        let propagator = Propagator::new(catalog.get(number).unwrap()).unwrap();
+        passes(&propagator, &search, &|| false)
+    });
+    let is_high = |maximum_deg: f64| (30.0..80.0).contains(&maximum_deg);
+    let high = aos.filter(|pass| is_high(pass.tca.direction.elevation_deg()));
+    let first = high.map(|pass| pass.aos.time).min().unwrap();
+    add_seconds(first, -BEFORE_S)
+}
+
+fn scene_of(antenna: &str, set: impl FnOnce(&mut Antenna)) -> (Scene, Client, AntennaId) {
+    scene_at(SPEED, antenna, set)
+}
+
+fn scene_at(
+    speed: NonZeroU32,
+    antenna: &str,
+    set: impl FnOnce(&mut Antenna),
+) -> (Scene, Client, AntennaId) {
+    let scene = Scene::with(before_a_pass(), speed, &station(antenna, set));
+    let client = scene.client();
+    let id = measured(&client, antenna);
+    until("the schedule", || client.snapshot().schedule.made_at);
+    (scene, client, id)
+}
+
+/// The antenna is on its way to its first pass, and the unit is proved to hold it.
+fn proved(client: &Client, id: AntennaId) {
+    set_automatic(client, id, true);
+    until("the proof", || operation(client, id).taking()?.proved_at);
+}
+
+fn auto_track(client: &Client, id: AntennaId) -> Option<bool> {
+    let snapshot = client.snapshot();
+    let antenna = snapshot.antennas.iter().find(|of| of.id() == id)?;
+    antenna.snapshot.state.program?.auto
+}
+
+fn until_auto_track(client: &Client, id: AntennaId, is_on: bool) {
+    until("auto-track", || (auto_track(client, id) == Some(is_on)).then_some(()));
+}
+
+fn until_off(client: &Client, id: AntennaId, because: OffBecause) {
+    until("its end", || (operation(client, id) == Operation::Off(because)).then_some(()));
+}
+
+fn stands(client: &Client, is_that: impl Fn(&AlarmKind) -> bool) -> bool {
+    let snapshot = client.snapshot();
+    let mut standing = snapshot.alarms.list().iter().filter(|alarm| !alarm.is_over());
+    standing.any(|alarm| is_that(&alarm.kind))
+}
+
+fn until_lost(client: &Client, id: AntennaId) {
+    until("the loss of the link", || {
+        let snapshot = client.snapshot();
+        let antenna = snapshot.antennas.iter().find(|of| of.id() == id)?;
+        matches!(antenna.snapshot.link, LinkState::Lost { .. }).then_some(())
+    });
+}
+
+/// Another program sends the unit of the dish elsewhere.
+fn send_elsewhere(scene: &Scene) {
+    let runtime = tokio::runtime::Builder::new_current_thread().enable_all().build().unwrap();
+    let unit = scene.units.dish.clone();
+    runtime.block_on(async {
+        let (mut near, far) = tokio::io::duplex(4096);
+        let goto = Goto::new(Some(200.0), Some(60.0)).unwrap();
+        near.write_all(&Request::Motion(Motion::Goto(goto)).to_bytes()).await.unwrap();
+        near.shutdown().await.unwrap();
+        let _ = unit.serve(far).await;
+    });
+}
+
+#[test]
+fn stop_ends_it_and_auto_track_with_it() {
+    let (scene, client, id) = scene_of("Dish", |dish| dish.automatic.uses_auto_track = true);
+    assert_eq!(auto_track(&client, id), Some(false));
+    proved(&client, id);
+    until_auto_track(&client, id, true);
+    client.stop_all();
+    until_off(&client, id, OffBecause::Stop);
+    until_auto_track(&client, id, false);
+    until("standstill", || scene.units.all_stand().then_some(()));
+    assert!(!stands(&client, |kind| matches!(kind, AlarmKind::AutomaticOff(_))), "by the operator");
+    let stopped_at = client.now().utc;
+    until("minutes", || (seconds_between(stopped_at, client.now().utc) > 400.0).then_some(()));
+    assert!(scene.units.all_stand(), "the pass does not start it again");
+    assert_eq!(auto_track(&client, id), Some(false));
+}
+
+#[test]
+fn auto_track_of_a_unit_out_of_reach_is_switched_off_once_it_answers() {
+    let (scene, client, id) = scene_of("Dish", |dish| dish.automatic.uses_auto_track = true);
+    proved(&client, id);
+    until_auto_track(&client, id, true);
+    scene.units.dish.set_fault(satrak::Fault::Silence, true);
+    until_lost(&client, id);
+    set_automatic(&client, id, false);
+    scene.units.dish.set_fault(satrak::Fault::Silence, false);
+    until_auto_track(&client, id, false);
+}
+
+#[test]
+fn what_the_operator_then_makes_of_auto_track_stays() {
+    let (_scene, client, id) = scene_of("Dish", |dish| dish.automatic.uses_auto_track = true);
+    proved(&client, id);
+    until_auto_track(&client, id, true);
+    set_automatic(&client, id, false);
+    until_auto_track(&client, id, false);
+    until("the operator's choice", || {
+        let _ = client.send(Command::Antenna(id, driver::Command::AutoTrack(true)));
+        auto_track(&client, id).filter(|is_on| *is_on)
+    });
+    let at = client.now().utc;
+    until("a minute", || (seconds_between(at, client.now().utc) > 60.0).then_some(()));
+    assert_eq!(auto_track(&client, id), Some(true));
+}
+
+#[test]
+fn an_antenna_that_another_program_moves_is_left_to_it_until_the_operator_comes() {
+    let (scene, client, id) = scene_of("Dish", |_| {});
+    set_automatic(&client, id, true);
+    send_elsewhere(&scene);
+    let by = Interruption::Elsewhere;
+    until("the suspension", || {
+        let is_that = |of| matches!(of, Operation::Suspended { by: found, .. } if found == by);
+        is_that(operation(&client, id)).then_some(())
+    });
+    until("the alarm", || stands(&client, |of| *of == AlarmKind::AutomaticSuspended).then_some(()));
+    until("standstill", || scene.units.all_stand().then_some(()));
+    assert!(!operation(&client, id).is_on(), "its end ends no suspension");
+    let _ = client.send(Command::GoOn(id));
+    until("it to go on", || operation(&client, id).is_on().then_some(()));
+    until("the end", || {
+        (!stands(&client, |of| *of == AlarmKind::AutomaticSuspended)).then_some(())
+    });
+}
+
+#[test]
+fn after_an_outage_it_goes_on_only_with_a_unit_that_is_as_it_was_left() {
+    for is_moved in [false, true] {
+        let (scene, client, id) = scene_of("Dish", |_| {});
+        set_automatic(&client, id, true);
+        scene.units.dish.set_fault(satrak::Fault::Silence, true);
+        until_lost(&client, id);
+        if is_moved {
+            send_elsewhere(&scene);
+            until("standstill", || scene.units.all_stand().then_some(()));
+        }
+        scene.units.dish.set_fault(satrak::Fault::Silence, false);
+        if is_moved {
+            until_off(&client, id, OffBecause::NotAsLeft);
+            let is_that = |of: &AlarmKind| *of == AlarmKind::AutomaticOff(OffBecause::NotAsLeft);
+            until("the alarm", || stands(&client, is_that).then_some(()));
+        } else {
+            until("the pass", || operation(&client, id).taking()?.proved_at);
+        }
+    }
+}
+
+#[test]
+fn two_passes_that_the_unit_refuses_end_it_and_both_are_in_the_list_of_the_day() {
+    let (scene, client, id) = scene_at(scene::FAST, "Dish", |_| {});
+    scene.units.dish.set_fault(satrak::Fault::RefuseSettings, true);
+    set_automatic(&client, id, true);
+    until_off(&client, id, OffBecause::Failures);
+    let is_that = |of: &AlarmKind| *of == AlarmKind::AutomaticOff(OffBecause::Failures);
+    until("the alarm", || stands(&client, is_that).then_some(()));
+    until("both passes", || (flown(&client).len() >= 2).then_some(()));
+    let causes: Vec<_> = flown(&client).iter().map(|(_, of)| of.cause).collect();
+    let ended = MissCause::Off(OffBecause::Failures);
+    assert_eq!(causes[..2], [Some(MissCause::Refused), Some(ended)]);
+    assert!(scene.units.all_stand());
+}
+
+#[test]
+fn it_is_on_at_the_start_only_after_an_end_in_order_and_where_nothing_had_ended_it() {
+    let (scene, client, id) = scene_of("Dish", |dish| dish.automatic.is_on_at_start = true);
+    assert!(!operation(&client, id).is_on(), "nothing is known of an earlier run");
+    set_automatic(&client, id, true);
+    let again = |scene: Scene, is_crash: bool| {
+        let scene = scene.started_again(is_crash);
+        let client = scene.client();
+        measured(&client, "Dish");
+        let is_on = operation(&client, id).is_on();
+        (scene, client, is_on)
+    };
+    let (scene, client, is_on) = again(scene, false);
+    assert!(is_on, "after an end in order");
+    drop(client);
+    let (scene, client, is_on) = again(scene, true);
+    assert!(!is_on, "after a crash");
+    set_automatic(&client, id, true);
+    set_automatic(&client, id, false);
+    let (scene, client, is_on) = again(scene, false);
+    assert!(!is_on, "the operator had switched it off");
+    set_automatic(&client, id, true);
+    client.stop_all();
+    until_off(&client, id, OffBecause::Stop);
+    let (scene, client, is_on) = again(scene, false);
+    assert!(!is_on, "STOP had ended it");
+    set_automatic(&client, id, true);
+    let _ = client.send(Command::Antenna(id, driver::Command::Standby));
+    until("the suspension", || (!operation(&client, id).is_on()).then_some(()));
+    let (scene, client, is_on) = again(scene, false);
+    assert!(!is_on, "the operator had not let it go on");
+    set_automatic(&client, id, true);
+    let (_scene, _, is_on) = again(scene, false);
+    assert!(is_on, "the operator had switched it on again");
+}
+
+#[test]
+fn new_settings_end_it_with_an_alarm_and_a_line_and_auto_track_with_it() {
+    let (scene, client, id) = scene_of("Dish", |dish| dish.automatic.uses_auto_track = true);
+    proved(&client, id);
+    until_auto_track(&client, id, true);
+    let mut station = Station::clone(&client.snapshot().station);
+    station.antennas[0].automatic.uses_auto_track = false;
+    let _ = client.send(Command::SaveStation(Box::new(station)));
+    until_off(&client, id, OffBecause::Changed);
+    let is_that = |of: &AlarmKind| *of == AlarmKind::AutomaticOff(OffBecause::Changed);
+    until("the alarm", || stands(&client, is_that).then_some(()));
+    until_auto_track(&client, id, false);
+    let day = client.snapshot().day.clone();
+    assert!(day.iter().any(|line| line.what == DayEvent::SwitchedOff(OffBecause::Changed)));
+    let (_scene, is_on) = {
+        let scene = scene.started_again(false);
+        let client = scene.client();
+        measured(&client, "Dish");
+        let is_on = operation(&client, id).is_on();
+        (scene, is_on)
+    };
+    assert!(!is_on);
+}
+
+#[test]
+fn parking_for_the_end_is_not_taken_over_by_the_pass() {
+    let (scene, client, id) = scene_of("Dish", |_| {});
+    proved(&client, id);
+    let taken = operation(&client, id).taking().copied().unwrap();
+    until("the pass", || (client.now().utc > taken.from).then_some(()));
+    let _ = client.send(Command::CloseAfter(CloseHow::Park));
+    let is_suspended = || {
+        let by_hand = Interruption::ByHand;
+        matches!(operation(&client, id), Operation::Suspended { by, .. } if by == by_hand)
+    };
+    until("the suspension", || is_suspended().then_some(()));
+    until("standstill", || scene.units.all_stand().then_some(()));
+    until("LOS", || (client.now().utc > taken.until).then_some(()));
+    assert!(is_suspended() && scene.units.all_stand());
+}
