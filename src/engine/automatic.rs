@@ -65,6 +65,17 @@ impl AtWork {
     }
 }
 
+impl Antenna {
+    /// Has auto-track switched off where automatic operation uses it, in this run or one before.
+    fn end_auto_track(&mut self) {
+        let is_chosen = self.shown.config.automatic.uses_auto_track;
+        let is_used = is_chosen && self.shown.variant().capabilities.has_program;
+        if is_used || matches!(self.at_work.auto_track, AutoTrack::On) {
+            self.at_work.auto_track = AutoTrack::ToBeOff { sent: None };
+        }
+    }
+}
+
 impl Engine {
     /// Switches automatic operation on, unless something forbids it.
     pub(super) fn set_automatic(&mut self, index: usize, is_on: bool) {
@@ -176,6 +187,7 @@ impl Engine {
             let is_meant = stopped.is_for_all || stopped.antennas.contains(&antenna.shown.id());
             if is_meant {
                 antenna.shown.operation.switch_off(OffBecause::Stop);
+                antenna.end_auto_track();
             }
         }
     }
@@ -271,6 +283,11 @@ impl Engine {
         let now = self.steady;
         let Some(antenna) = self.antennas.get_mut(index) else { return };
         let AutoTrack::ToBeOff { sent } = &mut antenna.at_work.auto_track else { return };
+        if antenna.shown.snapshot.lock_out.is_some() {
+            // The lock-out has switched it off.
+            antenna.at_work.auto_track = AutoTrack::Untouched;
+            return;
+        }
         if !antenna.shown.is_live() {
             return;
         }
@@ -383,8 +400,8 @@ impl Engine {
         }
         let Some(before) = before else { return };
         // What the unit holds is not started by itself once nobody minds it.
-        if !operation.is_on() && matches!(antenna.at_work.auto_track, AutoTrack::On) {
-            antenna.at_work.auto_track = AutoTrack::ToBeOff { sent: None };
+        if before.is_on() && !operation.is_on() {
+            antenna.end_auto_track();
         }
         let event = match (&before, &operation) {
             (Operation::On(_), Operation::On(_))

@@ -147,6 +147,19 @@ fn auto_track_of_a_unit_out_of_reach_is_switched_off_once_it_answers() {
 }
 
 #[test]
+fn stop_after_another_start_ends_the_auto_track_of_the_run_before() {
+    let (scene, client, id) = scene_of("Dish", |dish| dish.automatic.uses_auto_track = true);
+    proved(&client, id);
+    until_auto_track(&client, id, true);
+    let scene = scene.started_again(false);
+    let client = scene.client();
+    measured(&client, "Dish");
+    until_auto_track(&client, id, true);
+    client.stop_all();
+    until_auto_track(&client, id, false);
+}
+
+#[test]
 fn what_the_operator_then_makes_of_auto_track_stays() {
     let (_scene, client, id) = scene_of("Dish", |dish| dish.automatic.uses_auto_track = true);
     proved(&client, id);
