@@ -245,12 +245,15 @@ impl Engine {
         let Some(antenna) = self.antennas.get(index) else { return };
         let duties = self.duties(&antenna.shown);
         let wishes = self.wishes(&antenna.shown);
-        let seen = seen(&antenna.shown);
+        let mut seen = seen(&antenna.shown);
+        // The schedule may turn out to give the antenna what its unit tracks.
+        seen.is_moved_elsewhere &= seen.offers.is_none() || !self.scheduler.is_at_work();
         self.fly(index, &duties, seen);
         let now = self.now;
         let Some(antenna) = self.antennas.get_mut(index) else { return };
         // The antennas come to their end by the word of the operator who closes the station.
-        if self.closing.is_some() {
+        // Before the first schedule nothing tells what a unit that moves is at.
+        if self.closing.is_some() || self.schedule.made_at.is_none() {
             return;
         }
         let operation = &mut antenna.shown.operation;
@@ -259,6 +262,7 @@ impl Engine {
         let is_proved = operation.is_proved();
         match act {
             Some(Act::Take(duty)) => self.take_pass(index, &duty),
+            Some(Act::TakeOver(_)) => self.send(index, driver::Command::TakeOver),
             Some(Act::Park) => self.send(index, driver::Command::Park),
             None => {}
         }
@@ -327,6 +331,7 @@ impl Engine {
             parks_within_s: parks.then(|| antenna.config.longest_slew_s() + LEAD_S),
             longest_rest_s: scheduling.warn_after_rest_min * 60.0,
             announced_for_s: scheduling.warning_s,
+            uses_auto_track: antenna.config.automatic.uses_auto_track,
         }
     }
 
@@ -345,12 +350,13 @@ impl Engine {
             let predicted = shown.prediction.and_then(|prediction| prediction.catalog_number);
             let error = shown.error().filter(|_| predicted == Some(flight.duty.pass.0));
             let half_beam = shown.config.beam_width() * 0.5;
-            flight.see(&shown.operation, seen.is_live, error.as_ref(), half_beam, now);
+            flight.see(&shown.operation, seen, error.as_ref(), half_beam, now);
         }
         // Its antenna would set out later only by a clock that was set back.
         flight.take_if(|flight| now < flight.duty.go_at);
         let ended = flight.take_if(|flight| now >= flight.duty.until);
-        if flight.is_none() && (shown.operation.is_on() || ended.is_some()) {
+        let is_off = matches!(shown.operation, Operation::Off(_));
+        if flight.is_none() && (!is_off || ended.is_some()) {
             *flight = due.map(|(duty, name)| Flight::new(duty, name));
         }
         let late = flight.as_ref().filter(|flight| {
@@ -488,6 +494,10 @@ fn seen(antenna: &AntennaModel) -> Seen {
         can_be_sent: !stops && snapshot.left_moving.is_none() && antenna.held_by.is_none(),
         takes: takes.filter(|number| antenna.takes(*number)),
         is_proved: !snapshot.pending,
+        awaits_operator: snapshot.program_track.as_ref().is_some_and(|view| view.awaits_operator),
+        offers: antenna
+            .tracked_number()
+            .filter(|_| antenna.tracks_unasked() && snapshot.on_board.is_some()),
         moves,
         is_moved_elsewhere: antenna.is_live()
             && (antenna.tracks_unasked() || moves && !is_still_asked),

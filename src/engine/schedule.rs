@@ -58,12 +58,15 @@ pub(super) struct Inputs {
     revision: u64,
     /// Antennas that take no passes.
     off: Vec<(AntennaId, Off)>,
+    /// Satellites that antennas track without automatic operation.
+    tracked: Vec<(AntennaId, u32)>,
 }
 
 impl PartialEq for Inputs {
     fn eq(&self, other: &Self) -> bool {
         self.revision == other.revision
             && self.off == other.off
+            && self.tracked == other.tracked
             && (Arc::ptr_eq(&self.station, &other.station) || self.station == other.station)
     }
 }
@@ -81,6 +84,11 @@ pub(super) struct Scheduler {
 impl Scheduler {
     pub(super) fn swap(&self) -> Option<Arc<Swap>> {
         self.swap.clone()
+    }
+
+    /// A schedule is being made.
+    pub(super) fn is_at_work(&self) -> bool {
+        self.running.is_some()
     }
 }
 
@@ -101,11 +109,17 @@ impl Engine {
             };
             Some((antenna.shown.id(), off))
         });
+        let tracked = self.antennas.iter().filter_map(|antenna| {
+            let shown = &antenna.shown;
+            let number = shown.tracked_number().filter(|number| shown.takes(*number))?;
+            shown.operation.taking().is_none().then_some((shown.id(), number))
+        });
         let inputs = Inputs {
             station: Arc::clone(&self.station),
             passes: Arc::clone(&list.passes),
             revision: list.revision,
             off: off.collect(),
+            tracked: tracked.collect(),
         };
         if self.scheduler.begun.as_ref().is_some_and(|(begun, _)| *begun == inputs) {
             return;
@@ -231,6 +245,12 @@ fn make<T>(
             Candidate::of(station, elements, propagator, &predicted.pass, common)
         })
         .collect();
+    let under_way = inputs.tracked.iter().filter_map(|(id, number)| {
+        let antenna = antennas.iter().find(|antenna| antenna.id == *id)?;
+        let mut own = candidates.iter().filter(|candidate| candidate.key.satellite == *number);
+        own.find_map(|candidate| candidate.under_way(antenna, scheduling.choose_by, now))
+    });
+    let fixed: Vec<Entry> = fixed.iter().cloned().chain(under_way).collect();
     plan(&Request {
         antennas,
         candidates: &candidates,
@@ -238,6 +258,6 @@ fn make<T>(
         partial: Partial::of(&scheduling),
         previous: (!previous.entries.is_empty()).then_some(previous),
         steadiness: STEADINESS,
-        fixed,
+        fixed: &fixed,
     })
 }

@@ -20,6 +20,7 @@ mod solve;
 mod testing;
 #[cfg(test)]
 mod tests;
+mod under_way;
 mod way;
 mod why;
 

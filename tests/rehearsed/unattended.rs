@@ -269,6 +269,27 @@ fn it_is_on_at_the_start_only_after_an_end_in_order_and_where_nothing_had_ended_
 }
 
 #[test]
+fn a_pass_that_the_unit_tracks_through_another_start_is_taken_over_without_a_motion() {
+    let (scene, client, id) = scene_of("Dish", |dish| dish.automatic.is_on_at_start = true);
+    proved(&client, id);
+    let taken = operation(&client, id).taking().copied().unwrap();
+    until("the pass", || (client.now().utc > add_seconds(taken.from, 60.0)).then_some(()));
+    let is_start = |(_, payload): &(_, String)| payload.starts_with("TRACK=");
+    let starts =
+        |scene: &Scene| scene.units.dish.received().iter().filter(|one| is_start(one)).count();
+    let before = starts(&scene);
+    let scene = scene.started_again(false);
+    let client = scene.client();
+    until("the pass again", || operation(&client, id).taking()?.proved_at);
+    assert!(scene.units.dish.state().is_tracking);
+    assert_eq!(starts(&scene), before);
+    until("LOS", || flown(&client).first().cloned());
+    let (_, of) = &flown(&client)[0];
+    assert!(of.in_beam_s > 0.5 * of.of_s, "{of:?}");
+    assert!(operation(&client, id).is_on());
+}
+
+#[test]
 fn new_settings_end_it_with_an_alarm_and_a_line_and_auto_track_with_it() {
     let (scene, client, id) = scene_of("Dish", |dish| dish.automatic.uses_auto_track = true);
     proved(&client, id);

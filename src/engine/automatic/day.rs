@@ -4,7 +4,7 @@
 use jiff::{Timestamp, tz::TimeZone};
 use serde::{Deserialize, Serialize};
 
-use super::operation::{Duty, Interruption, OffBecause, Operation, is_same_pass};
+use super::operation::{Duty, Interruption, OffBecause, Operation, Seen, is_same_pass};
 use crate::{
     astro::{Angle, time::seconds_between},
     engine::{antenna::ErrorSample, passes::PassKey},
@@ -64,6 +64,8 @@ pub enum MissCause {
     Off(OffBecause),
     Suspended(Interruption),
     LinkLost,
+    /// After an outage nobody answered the question of tracking on.
+    NotResumed,
     /// The unit or the gate refused it, or it could not be proved.
     Refused,
     /// It was tracked, but not all of it inside the beam.
@@ -93,12 +95,11 @@ impl Flight {
         &self.name
     }
 
-    /// Looks at the antenna at `now`: how automatic operation stands, whether the unit answers,
-    /// and the last measured error of this pass.
+    /// Looks at the antenna at `now`, with the last measured error of this pass.
     pub(super) fn see(
         &mut self,
         operation: &Operation,
-        is_live: bool,
+        seen: Seen,
         error: Option<&ErrorSample>,
         half_beam: Angle,
         now: Timestamp,
@@ -120,7 +121,8 @@ impl Flight {
         let cause = match operation {
             Operation::Off(because) => MissCause::Off(*because),
             Operation::Suspended { by, .. } => MissCause::Suspended(*by),
-            Operation::On(_) if !is_live => MissCause::LinkLost,
+            Operation::On(_) if !seen.is_live => MissCause::LinkLost,
+            Operation::On(_) if seen.awaits_operator => MissCause::NotResumed,
             Operation::On(_) if taking.is_some_and(|taking| taking.is_given_up) => {
                 MissCause::Refused
             }
@@ -200,7 +202,8 @@ mod tests {
                 elevation: Angle::ZERO,
             });
             let half_beam = Angle::from_degrees(0.5);
-            flight.see(operation, is_live, error.as_ref(), half_beam, now);
+            let seen = Seen { is_live, ..Seen::default() };
+            flight.see(operation, seen, error.as_ref(), half_beam, now);
         }
     }
 
@@ -249,7 +252,8 @@ mod tests {
         for second in 100..=200 {
             let now = at(f64::from(second));
             let half_beam = Angle::from_degrees(0.5);
-            flight.see(&Operation::switched_on(), true, Some(&error), half_beam, now);
+            let seen = Seen { is_live: true, ..Seen::default() };
+            flight.see(&Operation::switched_on(), seen, Some(&error), half_beam, now);
         }
         assert!((flight.end().in_beam_s - 2.0).abs() < 1e-6);
     }

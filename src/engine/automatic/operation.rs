@@ -121,7 +121,7 @@ pub struct Duty {
 }
 
 /// What is known of the antenna at one moment.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub(super) struct Seen {
     /// The unit answers in time.
     pub(super) is_live: bool,
@@ -132,6 +132,10 @@ pub(super) struct Seen {
     pub(super) takes: Option<u32>,
     /// That has been proved.
     pub(super) is_proved: bool,
+    /// After an outage it waits for the operator's word to track on.
+    pub(super) awaits_operator: bool,
+    /// The satellite that its unit tracks by itself, and that can be taken over without a motion.
+    pub(super) offers: Option<u32>,
     pub(super) moves: bool,
     /// It moves or tracks, and not by this station.
     pub(super) is_moved_elsewhere: bool,
@@ -139,19 +143,23 @@ pub(super) struct Seen {
 
 /// How the operator wants it.
 #[derive(Debug, Clone, Copy, PartialEq)]
-#[expect(clippy::struct_field_names, reason = "each is a time in seconds")]
+#[expect(clippy::struct_field_names, reason = "times in seconds")]
 pub(super) struct Wishes {
     /// Parks between passes where the time allows; `None` where it does not park. Seconds that
     /// both ways take at most.
     pub(super) parks_within_s: Option<f64>,
     pub(super) longest_rest_s: f64,
     pub(super) announced_for_s: f64,
+    /// The unit may start the next pass by itself.
+    pub(super) uses_auto_track: bool,
 }
 
 /// What the station does for automatic operation.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum Act {
     Take(Duty),
+    /// The unit tracks the pass already, and nothing moves.
+    TakeOver(Duty),
     Park,
 }
 
@@ -253,6 +261,10 @@ impl Operation {
         }
         let Self::On(on) = self else { return None };
         on.see(seen, now);
+        if let Some(duty) = on.found_at_work(duties, seen, wishes, now) {
+            on.take(duty, 1, now);
+            return Some(Act::TakeOver(duty));
+        }
         if seen.is_moved_elsewhere && on.is_moved_for_long(now) {
             self.suspend(Interruption::Elsewhere, now);
             return None;
@@ -301,6 +313,22 @@ impl On {
         }
     }
 
+    /// The pass that is due, where the unit tracks it already: started by auto-track, or in a run
+    /// before. Later, and without auto-track, somebody else has started it.
+    fn found_at_work(
+        &self,
+        duties: &[Duty],
+        seen: Seen,
+        wishes: Wishes,
+        now: Timestamp,
+    ) -> Option<Duty> {
+        let is_ours = wishes.uses_auto_track || self.moved_at.is_none();
+        let is_free = !matches!(self.doing, Doing::Takes(_)) && seen.can_be_sent;
+        let number = seen.offers.filter(|_| is_ours && is_free)?;
+        let is_it = |duty: &&Duty| duty.pass.0 == number && duty.go_at <= now && now < duty.until;
+        duties.iter().find(is_it).copied()
+    }
+
     fn is_moved_for_long(&self, now: Timestamp) -> bool {
         self.moves_since.is_some_and(|since| seconds_between(since, now) >= COASTS_S)
     }
@@ -332,10 +360,13 @@ impl On {
             }
             _ => {}
         }
-        (seen.is_live && seen.can_be_sent).then(|| self.take(duty, 1, now))
+        (seen.is_live && seen.can_be_sent).then(|| {
+            self.take(duty, 1, now);
+            Act::Take(duty)
+        })
     }
 
-    fn take(&mut self, duty: Duty, requests: u8, now: Timestamp) -> Act {
+    fn take(&mut self, duty: Duty, requests: u8, now: Timestamp) {
         let Duty { pass, from, until, .. } = duty;
         self.moved_at = Some(now);
         self.doing = Doing::Takes(Taking {
@@ -347,7 +378,6 @@ impl On {
             proved_at: None,
             is_given_up: false,
         });
-        Act::Take(duty)
     }
 
     /// A pass that an outage took away is asked for again once the unit answers and does nothing,
@@ -373,7 +403,10 @@ impl On {
             return None;
         }
         let is_worth_it = seconds_between(now, duty.until) > WORTH_S;
-        is_worth_it.then(|| self.take(*duty, taking.requests + 1, now))
+        is_worth_it.then(|| {
+            self.take(*duty, taking.requests + 1, now);
+            Act::Take(*duty)
+        })
     }
 
     /// Parks until the next pass, where the time is enough for both ways.

@@ -188,17 +188,8 @@ impl<'a> Board<'a> {
         let (candidate, way, all) = (whole.candidate, whole.way, whole.way.span());
         let choose_by = self.request.choose_by;
         let counted_ms = way.counted_ms(span);
-        let worth = match choose_by {
-            ChooseBy::Elevation => {
-                (counted_ms as f64 * candidate.max_elevation.radians().sin()).round() as i64
-            }
-            ChooseBy::Duration | ChooseBy::MostMinutes => counted_ms,
-            ChooseBy::MostPasses => i64::from(part != Part::Second),
-        };
-        let class = match candidate.take {
-            Some(Chosen::Always) => Class::Always,
-            None | Some(Chosen::Never) => Class::by_plan(choose_by, candidate.priority),
-        };
+        let worth = candidate.worth(choose_by, counted_ms, part);
+        let class = candidate.class(choose_by);
         let mut row = Row::of(class, worth).risen(ms(candidate.key.aos) - kept.epoch_ms);
         if kept.holds(whole.pass, antenna.id) {
             let steadiness = self.request.steadiness;
@@ -238,6 +229,26 @@ impl<'a> Board<'a> {
             ends_deg: [way.axes_deg(span.from_ms), way.axes_deg(span.to_ms)],
             is_fixed: false,
         });
+    }
+}
+
+impl Candidate {
+    pub(super) fn class(&self, choose_by: ChooseBy) -> Class {
+        match self.take {
+            Some(Chosen::Always) => Class::Always,
+            None | Some(Chosen::Never) => Class::by_plan(choose_by, self.priority),
+        }
+    }
+
+    /// What milliseconds that count are worth in its class.
+    pub(super) fn worth(&self, choose_by: ChooseBy, counted_ms: i64, part: Part) -> i64 {
+        match choose_by {
+            ChooseBy::Elevation => {
+                (counted_ms as f64 * self.max_elevation.radians().sin()).round() as i64
+            }
+            ChooseBy::Duration | ChooseBy::MostMinutes => counted_ms,
+            ChooseBy::MostPasses => i64::from(part != Part::Second),
+        }
     }
 }
 

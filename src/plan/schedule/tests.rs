@@ -191,6 +191,35 @@ fn what_is_fixed_stays_and_what_the_operator_says_is_done() {
 }
 
 #[test]
+fn a_pass_that_is_tracked_already_stays_until_its_end() {
+    let station = three_antennas();
+    let antennas = planned(&station, noon());
+    let satellites = low_satellites(&mut Random::new(SEED), 40);
+    let list = candidates(&station, &antennas, &satellites, noon(), 6.0);
+    let first = plan(&request(&antennas, &list));
+    let entry = first.entries[3].clone();
+    let candidate = list.iter().find(|candidate| candidate.key == entry.pass).unwrap();
+    let antenna = antennas.iter().find(|antenna| antenna.id == entry.antenna).unwrap();
+    let choose_by = ChooseBy::default();
+    let now = add_seconds(entry.from, 30.0);
+    let rest = candidate.under_way(antenna, choose_by, now).unwrap();
+    assert_eq!((rest.from, rest.to), (now, entry.to));
+    assert!((entry.counted_s - rest.counted_s - 30.0).abs() < 1.0, "{rest:?}");
+    for outside in [add_seconds(entry.pass.aos, -1.0), entry.to] {
+        assert_eq!(candidate.under_way(antenna, choose_by, outside), None);
+    }
+    // By then it could not be taken as a whole.
+    let mut later = antennas.clone();
+    later.iter_mut().for_each(|antenna| antenna.free_from = now);
+    let without = plan(&request(&later, &list));
+    assert!(without.entries_of(entry.pass).all(|found| found.antenna != entry.antenna));
+    let fixed = [rest];
+    let with = plan(&Request { fixed: &fixed, ..request(&later, &list) });
+    let kept = with.entries_of(entry.pass).next().unwrap();
+    assert_eq!((kept.antenna, kept.to, kept.is_fixed), (entry.antenna, entry.to, true));
+}
+
+#[test]
 fn passes_far_from_what_changed_stay_as_they_are() {
     let station = three_antennas();
     let antennas = planned(&station, noon());

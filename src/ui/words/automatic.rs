@@ -51,6 +51,9 @@ pub fn miss_cause(cause: MissCause) -> String {
         MissCause::Off(because) => off(because),
         MissCause::Suspended(by) => interruption(by),
         MissCause::LinkLost => "The unit did not answer.",
+        MissCause::NotResumed => {
+            "After an outage Azel asked whether to track on, and nobody answered."
+        }
         MissCause::Refused => "The unit or the gate did not take it, or it was not proved.",
         MissCause::OutsideBeam => "The antenna was outside its beam.",
     };

@@ -25,6 +25,8 @@ const STANDS: Seen = Seen {
     can_be_sent: true,
     takes: None,
     is_proved: false,
+    awaits_operator: false,
+    offers: None,
     moves: false,
     is_moved_elsewhere: false,
 };
@@ -50,6 +52,7 @@ impl Fixture {
                 parks_within_s: None,
                 longest_rest_s: 3600.0,
                 announced_for_s: WARNING_S,
+                uses_auto_track: false,
             },
             now_s: 0.0,
         }
@@ -234,4 +237,41 @@ fn a_clock_that_was_set_back_keeps_no_pass_and_is_followed_by_an_announcement() 
     fixture.now_s = 0.0;
     fixture.duties = duties.to_vec();
     assert_eq!(fixture.until(150.0, |_| STANDS), [(140.0, Act::Take(duties[0]))]);
+}
+
+#[test]
+fn a_unit_that_tracks_the_pass_already_is_taken_over_without_a_motion() {
+    let at_work =
+        |_: f64| Seen { offers: Some(1), is_moved_elsewhere: true, moves: true, ..STANDS };
+    let duties = [duty(1, 200.0)];
+    let mut fixture = Fixture::new(&duties);
+    fixture.now_s = 300.0;
+    assert_eq!(fixture.until(302.0, at_work), [(300.0, Act::TakeOver(duties[0]))]);
+    assert_eq!(fixture.until(310.0, |_| taking(1)), []);
+    assert!(fixture.operation.is_proved(), "and without a warning");
+
+    let mut other = Fixture::new(&[duty(2, 200.0)]);
+    other.now_s = 300.0;
+    assert_eq!(other.until(310.0, at_work), [], "not the satellite of the schedule");
+    assert!(matches!(other.operation, Operation::Suspended { .. }));
+}
+
+#[test]
+fn a_track_that_begins_later_is_its_own_only_with_auto_track() {
+    for uses_auto_track in [false, true] {
+        let duties = [duty(1, 200.0), duty(2, 1000.0)];
+        let mut fixture = Fixture::new(&duties);
+        fixture.wishes.uses_auto_track = uses_auto_track;
+        fixture.until(150.0, |_| STANDS);
+        fixture.until(801.0, |_| taking(1));
+        let by_itself = |now_s: f64| {
+            let is_up = now_s >= 945.0;
+            Seen { offers: is_up.then_some(2), is_moved_elsewhere: is_up, moves: is_up, ..STANDS }
+        };
+        // The unit sets out before the station would.
+        fixture.duties[1].go_at = at(950.0);
+        let acts = fixture.until(960.0, by_itself);
+        let wanted = [(950.0, Act::TakeOver(fixture.duties[1]))];
+        assert_eq!(acts, if uses_auto_track { &wanted[..] } else { &[] });
+    }
 }

@@ -1,0 +1,56 @@
+//! A pass that an antenna tracks already, as an entry that a schedule keeps.
+
+use jiff::Timestamp;
+
+use super::{
+    Candidate, Choice, Entry, PlannedAntenna,
+    solve::Part,
+    way::{Span, Verdict, Way, at_ms, ms},
+};
+use crate::station::ChooseBy;
+
+impl Candidate {
+    /// What is left of this pass at `now` for an antenna that tracks it; `None` where it has not
+    /// begun or is over, or where the antenna cannot take it.
+    pub fn under_way(
+        &self,
+        antenna: &PlannedAntenna,
+        choose_by: ChooseBy,
+        now: Timestamp,
+    ) -> Option<Entry> {
+        let option = self.options.iter().find(|(id, _)| *id == antenna.id);
+        let (_, Choice::Judged(Verdict::Possible(ways))) = option? else { return None };
+        let now_ms = ms(now);
+        let away_deg = |way: &&Way| {
+            let stands_deg = antenna.stands_deg.unwrap_or_default();
+            let pairs = stands_deg.into_iter().zip(way.axes_deg(now_ms));
+            pairs.map(|(stands, wanted)| (stands - wanted).abs()).fold(0.0, f64::max)
+        };
+        let way = ways.iter().min_by(|a, b| away_deg(a).total_cmp(&away_deg(b)))?;
+        let Span { from_ms, to_ms } = way.span();
+        let rest = Span { from_ms: from_ms.max(now_ms), to_ms };
+        if self.key.aos > now || rest.length_ms() <= 0 {
+            return None;
+        }
+        let counted_ms = way.counted_ms(rest);
+        Some(Entry {
+            pass: self.key,
+            antenna: antenna.id,
+            class: self.class(choose_by),
+            from: at_ms(rest.from_ms),
+            to: at_ms(to_ms),
+            late_s: (rest.from_ms - from_ms) as f64 / 1000.0,
+            early_s: 0.0,
+            counted_s: counted_ms as f64 / 1000.0,
+            worth: self.worth(choose_by, counted_ms, Part::Alone),
+            lost: way.lost,
+            axes_deg: [way.axes_deg(rest.from_ms), way.axes_deg(to_ms)],
+            after: None,
+            slew_s: 0.0,
+            set_up_s: 0.0,
+            spare_s: None,
+            shared_with: None,
+            is_fixed: true,
+        })
+    }
+}
