@@ -11,6 +11,7 @@ pub mod copies;
 pub mod dialogs;
 pub mod elements;
 pub mod format;
+pub mod hand_over_sheet;
 pub mod icons;
 pub mod keys;
 mod lean_shapes;

@@ -73,6 +73,30 @@ fn every_pass_is_taken_or_left_out_with_a_reason_in_every_form() {
 }
 
 #[test]
+fn the_hand_over_sheet_is_one_page_of_the_first_24_hours() {
+    let folder = folder();
+    let sheet = |hours: &str| {
+        let output = plan(folder.path(), &["--format", "svg", "--hours", hours]);
+        assert_eq!(output.status.code(), Some(0), "{}", text(&output.stderr));
+        let svg = text(&output.stdout);
+        // All but the minute of the print.
+        svg.lines().filter(|line| !line.contains(">Printed ")).map(str::to_owned).collect()
+    };
+    let lines: Vec<String> = sheet("24");
+    let whole = lines.join("\n");
+    let page = roxmltree::Document::parse(&whole).unwrap();
+    let texts = || page.descendants().filter_map(|node| node.text());
+    let csv = text(&plan(folder.path(), &["--format", "csv"]).stdout);
+    let taken = csv.lines().filter(|line| line.starts_with("taken,")).count();
+    assert!(texts().any(|text| text == format!("{taken} passes")), "{whole}");
+    let span = "Wed 2026-08-12 00:00Z to Thu 2026-08-13 00:00Z (UTC)";
+    assert!(texts().any(|text| text == span), "{whole}");
+    assert_eq!(lines, sheet("24"));
+    let of_two_days: Vec<String> = sheet("48");
+    assert!(of_two_days.iter().any(|line| line.contains(span)), "{of_two_days:#?}");
+}
+
+#[test]
 fn a_station_file_that_is_not_there_ends_with_a_sentence() {
     let output = Command::new(env!("CARGO_BIN_EXE_azel"))
         .args(["plan", "--station", "/nowhere/station.toml"])

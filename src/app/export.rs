@@ -1,9 +1,9 @@
-//! Saves passes and look angles to files that the operator names in the dialog of the desktop,
+//! Saves passes, look angles and the plan to files that the operator names in the dialog of the desktop,
 //! on a thread.
 
 use std::{
     collections::{BTreeMap, btree_map::Entry},
-    io,
+    io::{self, Write as _},
     path::PathBuf,
     sync::Arc,
 };
@@ -29,7 +29,7 @@ use crate::{
         schedule_export::{ScheduleFormat, ScheduleList},
     },
     station::Station,
-    ui::words,
+    ui::{hand_over_sheet::HandOverSheet, words},
     whole_file,
 };
 
@@ -97,6 +97,7 @@ impl Order {
             Export::Passes { .. } => "Save passes",
             Export::Looks { .. } => "Save look angles",
             Export::Schedule { .. } => "Save the plan",
+            Export::HandOverSheet => "Save the hand-over sheet",
         };
         let asked = file_dialog::file_to_save(title, &self.name());
         let Some(path) = asked.map_err(|error| error.to_string())? else { return Ok(None) };
@@ -120,6 +121,7 @@ impl Order {
             Export::Schedule { format } => {
                 format!("plan-{}.{}", stamp(self.now), schedule_extension(*format))
             }
+            Export::HandOverSheet => format!("hand-over-{}.svg", stamp(self.now)),
         }
     }
 
@@ -129,6 +131,7 @@ impl Order {
             Export::Passes { keys, format } => self.write_passes(keys, *format, &mut text)?,
             Export::Looks { pass, format } => self.write_looks(*pass, *format, &mut text)?,
             Export::Schedule { format } => self.write_schedule(*format, &mut text),
+            Export::HandOverSheet => self.write_sheet(&mut text),
         };
         written.map_err(|error| error.to_string())?;
         Ok(text)
@@ -223,6 +226,20 @@ impl Order {
         };
         list.write(out, format)
     }
+
+    fn write_sheet(&self, out: &mut Vec<u8>) -> io::Result<()> {
+        let schedule = &self.schedule.schedule;
+        let taken = schedule.entries.iter().map(|entry| entry.pass.satellite);
+        let left_out = schedule.left_out.iter().map(|left| left.pass.satellite);
+        let known = taken.chain(left_out).filter_map(|number| self.lists.satellite(number));
+        let satellites = known
+            .map(|it| (it.elements.catalog_number(), (&it.elements, &it.propagator)))
+            .collect();
+        let until = self.schedule.until.unwrap_or(self.now);
+        let span = (self.now, until);
+        let sheet = HandOverSheet::new(&self.station, schedule, &satellites, span, self.now);
+        out.write_all(sheet.svg().as_bytes())
+    }
 }
 
 fn satellite(predicted: &PredictedPass) -> Result<Satellite, String> {
@@ -291,7 +308,8 @@ mod tests {
             ..Listed::default()
         };
         let lists = PassLists { favourites, ..PassLists::default() };
-        let schedule = Arc::new(schedule(&lists, station.antennas[0].id));
+        let planned = schedule(&lists, station.antennas[0].id);
+        let schedule = Arc::new(Planned { until: Some(to), ..planned });
         Order { export, lists, schedule, station: Arc::new(station), span_h: 24, now }
     }
 
@@ -378,6 +396,20 @@ mod tests {
         let calendar = lines(&of(ScheduleFormat::Ics));
         assert_eq!(calendar.iter().filter(|line| *line == "BEGIN:VEVENT").count(), 1);
         assert!(csv.name().starts_with("plan-20") && csv.name().ends_with("Z.csv"));
+    }
+
+    #[test]
+    fn the_window_and_the_command_line_write_one_hand_over_sheet() {
+        let window = order(|_| Export::HandOverSheet);
+        let catalog = bundled().unwrap();
+        let satellite = Satellite::new(catalog.get(ISS).unwrap().clone()).unwrap();
+        let satellites = BTreeMap::from([(ISS, (&satellite.elements, &satellite.propagator))]);
+        let span = (window.now, window.now + jiff::SignedDuration::from_hours(24));
+        let schedule = &window.schedule.schedule;
+        let sheet = HandOverSheet::new(&window.station, schedule, &satellites, span, window.now);
+        assert_eq!(lines(&window), sheet.svg().lines().collect::<Vec<_>>());
+        assert!(lines(&window).iter().any(|line| line.contains(">1 pass<")));
+        assert!(window.name().starts_with("hand-over-20") && window.name().ends_with("Z.svg"));
     }
 
     #[test]

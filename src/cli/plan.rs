@@ -1,6 +1,11 @@
 //! The schedule of a station, for the terminal and for other programs.
 
-use std::{collections::BTreeMap, path::Path, process::ExitCode};
+use std::{
+    collections::BTreeMap,
+    io::{self, Write as _},
+    path::Path,
+    process::ExitCode,
+};
 
 use anyhow::Context as _;
 use clap::{Args, ValueEnum};
@@ -18,13 +23,13 @@ use crate::{
     plan::{
         pass_export::Satellite,
         schedule::{
-            Candidate, Common, LeftOut, Partial, PlannedAntenna, Proof, Request, Schedule,
-            Steadiness, plan,
+            Candidate, Common, LeftOut, Partial, PlannedAntenna, Request, Schedule, Steadiness,
+            plan,
         },
         schedule_export::{ScheduleFormat, ScheduleList},
     },
     station::{self, ChooseBy, Partly, Scheduling, Station},
-    ui::words,
+    ui::{hand_over_sheet::HandOverSheet, words},
 };
 
 /// Least part of a pass that is worth taking, seconds.
@@ -51,8 +56,20 @@ pub(super) struct Options {
     #[arg(long)]
     hand_over: bool,
     /// How the schedule is written
-    #[arg(long, value_enum, default_value_t = ScheduleFormat::Table)]
-    format: ScheduleFormat,
+    #[arg(long, value_enum, default_value_t = Format::Table)]
+    format: Format,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum Format {
+    /// For people
+    Table,
+    Csv,
+    Json,
+    /// Events of a calendar: only what is taken
+    Ics,
+    /// A page to print for the next shift: the first 24 hours
+    Svg,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
@@ -85,8 +102,12 @@ fn scheduling(station: &Station, options: &Options) -> Scheduling {
         least_percent: 100.0 * share,
         least_s: own.partly.map_or(LEAST_PART_S, |partly| partly.least_s),
     });
-    let hand_over = own.hand_over || options.hand_over;
-    Scheduling { partly: partly.or(own.partly), hand_over, ..own }
+    Scheduling {
+        choose_by: options.choose_by.map_or(own.choose_by, Rule::choose_by),
+        partly: partly.or(own.partly),
+        hand_over: own.hand_over || options.hand_over,
+        ..own
+    }
 }
 
 pub(super) fn run(station: Option<&Path>, options: &Options) -> anyhow::Result<ExitCode> {
@@ -95,7 +116,8 @@ pub(super) fn run(station: Option<&Path>, options: &Options) -> anyhow::Result<E
     let unusable = || format!("The station file {} cannot be used", path.display());
     let place = options.input.place(Some(path))?;
     let station = station::load(path, makes::SPECS).with_context(unusable)?.station;
-    let station = Station { site: place.site, ..station };
+    let scheduling = scheduling(&station, options);
+    let station = Station { site: place.site, scheduling, ..station };
     let Satellites { list, is_complete } = options.input.satellites(Some(path))?;
     let asks = options.input.asks_for_objects();
     let is_wanted = |satellite: &Satellite| {
@@ -114,28 +136,65 @@ pub(super) fn run(station: Option<&Path>, options: &Options) -> anyhow::Result<E
     let schedule = plan(&Request {
         antennas: &antennas,
         candidates: &candidates,
-        choose_by: options.choose_by.map_or(station.scheduling.choose_by, Rule::choose_by),
-        partial: Partial::of(&scheduling(&station, options)),
+        choose_by: station.scheduling.choose_by,
+        partial: Partial::of(&station.scheduling),
         previous: None,
         steadiness: Steadiness::default(),
         fixed: &[],
     });
-    tell_proof(&schedule);
+    if let Some(percent) = words::schedule::most_below_best(&schedule) {
+        input::note(&format!(
+            "The best schedule is at most {percent:.1} % better in the first class that is not \
+             proved to be the best."
+        ));
+    }
+    let now = Timestamp::now();
+    let written = match options.format {
+        Format::Table => write_list(&station, &schedule, &satellites, now, ScheduleFormat::Table),
+        Format::Csv => write_list(&station, &schedule, &satellites, now, ScheduleFormat::Csv),
+        Format::Json => write_list(&station, &schedule, &satellites, now, ScheduleFormat::Json),
+        Format::Ics => write_list(&station, &schedule, &satellites, now, ScheduleFormat::Ics),
+        Format::Svg => write_sheet(&station, &schedule, &satellites, (from, to), now),
+    };
+    written.context("The schedule cannot be written")?;
+    Ok(input::exit_code(is_complete))
+}
 
+fn write_list(
+    station: &Station,
+    schedule: &Schedule,
+    satellites: &[Satellite],
+    now: Timestamp,
+    format: ScheduleFormat,
+) -> io::Result<()> {
     let names: BTreeMap<u32, String> = satellites
         .iter()
         .map(|it| (it.elements.catalog_number(), it.elements.name().to_owned()))
         .collect();
     let name = |number: u32| names.get(&number).cloned().unwrap_or_else(|| number.to_string());
     let list = ScheduleList {
-        schedule: &schedule,
+        schedule,
         satellites: &names,
         antennas: &station.antennas.iter().map(|it| (it.id, it.name.clone())).collect(),
         reason: &|left: &LeftOut| words::schedule::why(&|(number, _)| name(number), &left.why),
-        now: Timestamp::now(),
+        now,
     };
-    written(|out| list.write(out, options.format)).context("The schedule cannot be written")?;
-    Ok(input::exit_code(is_complete))
+    written(|out| list.write(out, format))
+}
+
+fn write_sheet(
+    station: &Station,
+    schedule: &Schedule,
+    satellites: &[Satellite],
+    span: (Timestamp, Timestamp),
+    now: Timestamp,
+) -> io::Result<()> {
+    let satellites = satellites
+        .iter()
+        .map(|it| (it.elements.catalog_number(), (&it.elements, &it.propagator)))
+        .collect();
+    let sheet = HandOverSheet::new(station, schedule, &satellites, span, now);
+    written(|out| out.write_all(sheet.svg().as_bytes()))
 }
 
 fn candidates(
@@ -161,19 +220,4 @@ fn candidates(
         Some(Candidate::of(station, elements, propagator, pass, common))
     });
     judged.collect()
-}
-
-/// Says on standard error where a better schedule is not ruled out.
-fn tell_proof(schedule: &Schedule) {
-    let open = schedule.worth.iter().find_map(|class| match class.proof {
-        Proof::AtMost(bound) => Some((class.worth, bound)),
-        Proof::Best | Proof::Open => None,
-    });
-    if let Some((worth, bound)) = open {
-        let percent = 100.0 * (bound - worth) as f64 / bound.max(1) as f64;
-        input::note(&format!(
-            "The best schedule is at most {percent:.1} % better in the first class that is not \
-             proved to be the best."
-        ));
-    }
 }

@@ -18,4 +18,6 @@ pub enum Export {
     Looks { pass: PassKey, format: LookFormat },
     /// The plan of all antennas.
     Schedule { format: ScheduleFormat },
+    /// The page to print for the next shift.
+    HandOverSheet,
 }

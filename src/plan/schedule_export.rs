@@ -16,13 +16,13 @@ use super::{
 use crate::station::AntennaId;
 
 /// How a schedule is written.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, clap::ValueEnum)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum ScheduleFormat {
-    /// For people
+    /// For people.
     Table,
     Csv,
     Json,
-    /// Events of a calendar: only what is taken
+    /// Events of a calendar: only what is taken.
     Ics,
 }
 

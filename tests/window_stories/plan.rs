@@ -346,3 +346,14 @@ fn the_plan_is_saved_to_a_file() {
         assert_eq!(rig::asked(&mut window), [UiCommand::Save(wanted)]);
     }
 }
+
+#[test]
+fn the_hand_over_sheet_is_saved_to_a_file() {
+    for size in SIZES {
+        let mut window = view(size);
+        window.get_by_role_and_label(Role::ComboBox, "Export the plan").click();
+        settle(&mut window);
+        window.get_by_label("Hand-over sheet (SVG)…").click();
+        assert_eq!(rig::asked(&mut window), [UiCommand::Save(Export::HandOverSheet)]);
+    }
+}

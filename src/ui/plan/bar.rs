@@ -150,20 +150,22 @@ fn choose_by(
 }
 
 fn save(ui: &Ui, right: &mut f32, inner: Rect, model: &Model, commands: &mut Vec<UiCommand>) {
-    const FORMS: [(&str, ScheduleFormat); 4] = [
-        ("Plan as a table…", ScheduleFormat::Table),
-        ("Plan as CSV…", ScheduleFormat::Csv),
-        ("Plan as JSON…", ScheduleFormat::Json),
-        ("Plan as iCalendar…", ScheduleFormat::Ics),
+    let plan = |format| Export::Schedule { format };
+    let forms = [
+        ("Hand-over sheet (SVG)…", Export::HandOverSheet),
+        ("Plan as a table…", plan(ScheduleFormat::Table)),
+        ("Plan as CSV…", plan(ScheduleFormat::Csv)),
+        ("Plan as JSON…", plan(ScheduleFormat::Json)),
+        ("Plan as iCalendar…", plan(ScheduleFormat::Ics)),
     ];
     let list =
         DropDown { button: Button::normal("Export"), salt: "export plan", name: "Export the plan" };
     let place = before(ui, right, inner, list.width(ui));
     list.show(ui, place, |ui| {
-        for (word, format) in FORMS {
+        for (word, export) in forms {
             let is_planned = model.schedule.made_at.is_some();
             if ui.add_enabled(is_planned, egui::Button::new(word).frame(false)).clicked() {
-                commands.push(UiCommand::Save(Export::Schedule { format }));
+                commands.push(UiCommand::Save(export));
             }
         }
     });

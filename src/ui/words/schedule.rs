@@ -9,7 +9,7 @@ use crate::{
         Loss,
         schedule::{
             Change, Changed, Class, ClassWorth, Conflict, Impossible, Lost, Off, Proof, Refusal,
-            Rule, Why,
+            Rule, Schedule, Why,
         },
     },
     station::{AntennaId, ChooseBy, Light},
@@ -169,6 +169,25 @@ pub fn change(model: &Model, change: &Change) -> String {
             format!("{name}, {}", cuts.join(" and "))
         }
     }
+}
+
+/// How good a schedule is known to be, in a few words.
+pub fn proof(schedule: &Schedule) -> String {
+    match most_below_best(schedule) {
+        None => "Proved: no schedule is worth more.".to_owned(),
+        Some(percent) => {
+            format!("At most {percent:.1} % below the best in the first class not proved.")
+        }
+    }
+}
+
+/// By how many per cent a better schedule is not ruled out, in the first class that is not proved
+/// to be the best; `None` where all are proved.
+pub fn most_below_best(schedule: &Schedule) -> Option<f64> {
+    schedule.worth.iter().find_map(|class| match class.proof {
+        Proof::AtMost(bound) => Some(100.0 * (bound - class.worth) as f64 / bound.max(1) as f64),
+        Proof::Best | Proof::Open => None,
+    })
 }
 
 /// What a class comes to, as a sentence.

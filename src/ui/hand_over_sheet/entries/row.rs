@@ -1,0 +1,88 @@
+//! What a row says of an entry.
+
+use jiff::Timestamp;
+
+use crate::{
+    engine::automatic,
+    plan::schedule::{Class, Entry},
+    station::BetweenPasses,
+    ui::{
+        format,
+        hand_over_sheet::{HandOverSheet, sky::Track},
+    },
+};
+
+/// Spare time below this is shown as short, seconds.
+const SHORT_S: f64 = 60.0;
+/// Seconds below this are not worth a word.
+const LEAST_S: f64 = 1.0;
+
+pub(super) struct Row {
+    /// The day of UTC.
+    pub(super) day: String,
+    pub(super) sets_out: Timestamp,
+    pub(super) aos: String,
+    /// The greatest elevation and its azimuth.
+    pub(super) max: String,
+    pub(super) los: String,
+    pub(super) name: String,
+    pub(super) priority: String,
+    pub(super) antenna: String,
+    pub(super) counts: String,
+    pub(super) shortened: String,
+    pub(super) spare: String,
+    pub(super) is_spare_short: bool,
+    pub(super) track: Track,
+}
+
+impl Row {
+    pub(super) fn of(sheet: &HandOverSheet<'_>, entry: &Entry) -> Self {
+        let number = entry.pass.satellite;
+        let pass = sheet.pass(entry.pass);
+        let whole = pass.map_or((entry.from, entry.to), |pass| (pass.aos.time, pass.los.time));
+        let max = pass.map(|pass| {
+            let (azimuth_deg, elevation_deg) =
+                (pass.tca.direction.azimuth_deg(), pass.max_elevation().degrees());
+            format!("{} {}", format::degrees(elevation_deg, 0), format::azimuth(azimuth_deg))
+        });
+        let antenna = sheet.station.antennas.iter().find(|it| it.id == entry.antenna);
+        let between = antenna.map_or(BetweenPasses::default(), |it| it.automatic.between);
+        let priority = match entry.class {
+            Class::Always => "A".to_owned(),
+            Class::Priority(priority) => priority.number().to_string(),
+            Class::Fixed | Class::All | Class::Kept => {
+                sheet.station.priority(number).unwrap_or_default().number().to_string()
+            }
+        };
+        let sets_out = automatic::sets_out(entry, between);
+        Self {
+            day: format::date(sets_out),
+            sets_out,
+            aos: format::time(entry.pass.aos),
+            max: max.unwrap_or_default(),
+            los: pass.map(|pass| format::time(pass.los.time)).unwrap_or_default(),
+            name: sheet.name(number),
+            priority,
+            antenna: sheet.antenna(entry.antenna).to_owned(),
+            counts: format::duration(entry.counted_s),
+            shortened: shortened(sheet, entry),
+            spare: entry.spare_s.map_or_else(|| "\u{2013}".to_owned(), format::duration),
+            is_spare_short: entry.spare_s.is_some_and(|spare_s| spare_s < SHORT_S),
+            track: Track {
+                whole: sheet.track(number, whole.0, whole.1),
+                taken: sheet.track(number, entry.from, entry.to),
+            },
+        }
+    }
+}
+
+/// What is missing of a pass, and who takes the rest.
+fn shortened(sheet: &HandOverSheet<'_>, entry: &Entry) -> String {
+    let by = |seconds: f64, word: &str| {
+        (seconds >= LEAST_S).then(|| format!("{word} {}", format::duration(seconds)))
+    };
+    let shared = entry.shared_with.map(|other| format!("with {}", sheet.antenna(other)));
+    let lost_s = entry.lost.map_or(0.0, |lost| lost.seconds);
+    let parts = [shared, by(entry.late_s, "late"), by(entry.early_s, "early"), by(lost_s, "loses")];
+    parts.into_iter().flatten().collect::<Vec<_>>().join(", ")
+}

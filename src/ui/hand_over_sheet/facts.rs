@@ -1,0 +1,113 @@
+//! What the sheet shows beyond the schedule: the passes themselves, the nights, what a pass that
+//! is left out would cost.
+
+use jiff::Timestamp;
+
+use super::HandOverSheet;
+use crate::{
+    astro::{
+        AzEl, sun_moon,
+        time::{DAY_S, add_seconds, seconds_between},
+    },
+    orbit::{Pass, PassSearch, passes},
+    plan::schedule::{Entry, LeftOut, PassKey, Why},
+    station::AntennaId,
+};
+
+/// Points of a track.
+const POINTS: u32 = 30;
+/// A pass that is found begins at most so much later than its key says, seconds.
+const SAME_S: f64 = 60.0;
+/// Distance between two looks at the Sun, seconds.
+const SUN_STEP_S: f64 = 120.0;
+
+/// What an antenna gives up where it takes a pass that is left out.
+pub(super) struct Price<'a> {
+    pub(super) antenna: AntennaId,
+    pub(super) entries: Vec<&'a Entry>,
+}
+
+impl<'a> HandOverSheet<'a> {
+    /// The entries that are not over at the start of the sheet, in the order of execution.
+    pub(super) fn entries(&self) -> Vec<&'a Entry> {
+        let schedule: &'a _ = self.schedule;
+        let within = |entry: &&Entry| entry.to > self.from && entry.from < self.until;
+        schedule.entries.iter().filter(within).collect()
+    }
+
+    pub(super) fn left_out(&self) -> Vec<&'a LeftOut> {
+        let schedule: &'a _ = self.schedule;
+        let within = |left: &&LeftOut| left.pass.aos >= self.from && left.pass.aos < self.until;
+        schedule.left_out.iter().filter(within).collect()
+    }
+
+    /// The pass with this key; `None` where the elements are not known any more.
+    pub(super) fn pass(&self, key: PassKey) -> Option<Pass> {
+        let (_, propagator) = self.satellites.get(&key.satellite)?;
+        let station = self.station;
+        let search = PassSearch {
+            aos_elevation: station.aos_elevation(),
+            ..PassSearch::new(station.site, key.aos, add_seconds(key.aos, DAY_S))
+        };
+        let first = passes(propagator, &search, &|| false).into_iter().next()?;
+        (seconds_between(key.aos, first.aos.time) < SAME_S).then_some(first)
+    }
+
+    /// Directions from one time to another, at equal intervals.
+    pub(super) fn track(&self, satellite: u32, from: Timestamp, to: Timestamp) -> Vec<AzEl> {
+        let Some((_, propagator)) = self.satellites.get(&satellite) else { return Vec::new() };
+        let step_s = seconds_between(from, to) / f64::from(POINTS - 1);
+        let times = (0..POINTS).map(|point| add_seconds(from, f64::from(point) * step_s));
+        let looks = times.filter_map(|at| propagator.look_from(self.station.site, at).ok());
+        looks.map(|look| look.direction).collect()
+    }
+
+    /// The spans in which the Sun is down, as far as they are on the sheet.
+    pub(super) fn nights(&self) -> Vec<[Timestamp; 2]> {
+        let steps = (seconds_between(self.from, self.until) / SUN_STEP_S).ceil() as u32;
+        let mut nights: Vec<[Timestamp; 2]> = Vec::new();
+        let mut is_night = false;
+        for step in 0..=steps {
+            let at = add_seconds(self.from, f64::from(step) * SUN_STEP_S).min(self.until);
+            let was_night = is_night;
+            is_night = sun_moon::sun(self.station.site, at).elevation_deg() < 0.0;
+            match nights.last_mut().filter(|_| was_night) {
+                Some([_, end]) => *end = at,
+                None if is_night => nights.push([at, at]),
+                None => {}
+            }
+        }
+        nights
+    }
+
+    /// What an antenna gives up where it takes a pass and nothing else is planned anew: on the
+    /// antenna where that is least. `None` where no antenna can take it.
+    pub(super) fn price(&self, left: &LeftOut) -> Option<Price<'a>> {
+        let schedule: &'a _ = self.schedule;
+        let on = |(antenna, why): &(AntennaId, Why)| {
+            let in_the_way = match why {
+                Why::Overlaps(conflict) | Why::SlewTooShort(conflict) => {
+                    let mut all = conflict.others.clone();
+                    all.push(conflict.with);
+                    all
+                }
+                Why::NotFound => Vec::new(),
+                _ => return None,
+            };
+            let is_given_up = |it: &&Entry| it.antenna == *antenna && in_the_way.contains(&it.pass);
+            let entries = schedule.entries.iter().filter(is_given_up).collect();
+            Some(Price { antenna: *antenna, entries })
+        };
+        let rank = |price: &Price<'_>| {
+            let class = price.entries.iter().map(|entry| entry.class).min();
+            let seconds: f64 = price.entries.iter().map(|entry| entry.counted_s).sum();
+            (class, seconds)
+        };
+        // A lower priority is given up first, so the greater class is the lesser price.
+        left.by_antenna.iter().filter_map(on).min_by(|a, b| {
+            let ((a, a_s), (b, b_s)) = (rank(a), rank(b));
+            let is_free = |class: Option<_>| class.is_some();
+            is_free(a).cmp(&is_free(b)).then(b.cmp(&a)).then(a_s.total_cmp(&b_s))
+        })
+    }
+}

@@ -1,0 +1,285 @@
+use jiff::SignedDuration;
+use roxmltree::{Document, Node};
+
+use super::*;
+use crate::{
+    makes::DemoAddresses,
+    orbit::{Catalog, PassSearch, bundled, passes, read_elements},
+    plan::schedule::{Class, Conflict, Entry, LeftOut, Why},
+    station::Priority,
+};
+
+const ISS: u32 = 25_544;
+const HOSTILE: &str = "<&\"'>]]>\u{0}\u{1b}[2J\u{202e}\u{ffff} \u{1f6f0}漢字漢字 ";
+
+fn from() -> Timestamp {
+    "2026-08-12T07:00:00Z".parse().unwrap()
+}
+
+fn hours(count: i64) -> Timestamp {
+    from() + SignedDuration::from_hours(count)
+}
+
+/// Elements and propagators of satellites in low orbits.
+fn satellites(catalog: &Catalog, count: usize) -> Vec<(Elements, Propagator)> {
+    let low = catalog.iter().filter(|it| (5_400.0..6_900.0).contains(&it.period_s()));
+    let known = low.filter_map(|it| Some((it.clone(), Propagator::new(it).ok()?)));
+    known.take(count).collect()
+}
+
+/// A schedule that takes so many of the passes of a day and leaves out so many more, each for the
+/// one before it.
+fn schedule(
+    station: &Station,
+    satellites: &[(Elements, Propagator)],
+    (taken, left_out): (usize, usize),
+) -> Schedule {
+    let search = PassSearch::new(station.site, from(), hours(24));
+    let mut found = Vec::new();
+    for (elements, propagator) in satellites {
+        let satellite = elements.catalog_number();
+        let own = passes(propagator, &search, &|| false).into_iter();
+        found.extend(own.map(|pass| (PassKey { satellite, aos: pass.aos.time }, pass)));
+    }
+    found.sort_by_key(|(key, _)| (key.aos, key.satellite));
+    assert!(found.len() >= taken + left_out, "{}", found.len());
+    let mut schedule = Schedule::default();
+    for (index, (pass, of)) in found.into_iter().take(taken + left_out).enumerate() {
+        let antenna = station.antennas[index % station.antennas.len()].id;
+        let class = Class::Priority(Priority::default());
+        if schedule.entries.len() < taken {
+            schedule.entries.push(Entry {
+                pass,
+                antenna,
+                class,
+                from: of.aos.time,
+                to: of.los.time,
+                late_s: if index % 3 == 0 { 73.0 } else { 0.0 },
+                early_s: if index % 4 == 0 { 586.0 } else { 0.0 },
+                counted_s: of.duration_s(),
+                worth: 1,
+                lost: None,
+                axes_deg: [[0.0; 2]; 2],
+                after: None,
+                slew_s: 41.0,
+                set_up_s: 12.0,
+                spare_s: Some(if index % 5 == 0 { 12.0 } else { 45_296.0 }),
+                shared_with: None,
+                is_fixed: false,
+            });
+        } else {
+            let with = schedule.entries.last().map_or(pass, |entry| entry.pass);
+            let why = Why::Overlaps(Conflict { with, class, missing_s: 482.0, others: vec![] });
+            let by_antenna = vec![(antenna, why.clone())];
+            schedule.left_out.push(LeftOut { pass, why, by_antenna });
+        }
+    }
+    schedule
+}
+
+fn printed(
+    station: &Station,
+    schedule: &Schedule,
+    satellites: &[(Elements, Propagator)],
+) -> String {
+    let known = satellites
+        .iter()
+        .map(|(elements, propagator)| (elements.catalog_number(), (elements, propagator)))
+        .collect();
+    HandOverSheet::new(station, schedule, &known, (from(), hours(48)), from()).svg()
+}
+
+/// The sheet of the demo station with so many passes taken and left out.
+fn sheet(counts: (usize, usize)) -> String {
+    let station = Station::demo(&DemoAddresses::default());
+    let satellites = satellites(&bundled().unwrap(), 60);
+    printed(&station, &schedule(&station, &satellites, counts), &satellites)
+}
+
+fn number(node: Node<'_, '_>, name: &str) -> f64 {
+    node.attribute(name).map_or(0.0, |value| value.parse().unwrap())
+}
+
+/// What of the page a text takes: left, top, right, bottom, by a usual width of its letters.
+fn text_box(node: Node<'_, '_>) -> [f64; 4] {
+    let (x, y, size) = (number(node, "x"), number(node, "y"), number(node, "font-size"));
+    let em = |letter: char| match letter {
+        'a'..='z' | 'A'..='Z' | '0'..='9' => 0.55,
+        letter if letter.is_ascii() => 0.28,
+        letter if letter < '\u{1100}' => 0.5,
+        _ => 1.0,
+    };
+    let width = node.text().unwrap().chars().map(em).sum::<f64>() * size;
+    let left = match node.attribute("text-anchor") {
+        Some("end") => x - width,
+        Some("middle") => x - width / 2.0,
+        _ => x,
+    };
+    [left, y - 0.7 * size, left + width, y]
+}
+
+fn text_boxes(page: &Document<'_>) -> Vec<([f64; 4], String)> {
+    let texts = page.descendants().filter(|node| node.has_tag_name("text"));
+    texts.map(|node| (text_box(node), node.text().unwrap().to_owned())).collect()
+}
+
+/// Proves that all that is drawn lies within the margins, and that no text covers another.
+fn check(svg: &str) {
+    let page = Document::parse(svg).unwrap();
+    let root = page.root_element();
+    assert_eq!(root.attribute("viewBox"), Some("0 0 595 842"));
+    assert_eq!(root.attribute("width").zip(root.attribute("height")), Some(("210mm", "297mm")));
+    // Half of what a printer leaves white.
+    let is_within = |[left, top, right, bottom]: [f64; 4]| {
+        left >= 24.0 && top >= 24.0 && right <= 571.0 && bottom <= 818.0
+    };
+    for node in page.descendants().filter(Node::is_element) {
+        let (x, y) = (number(node, "x"), number(node, "y"));
+        let (cx, cy, r) = (number(node, "cx"), number(node, "cy"), number(node, "r"));
+        let bounds = match node.tag_name().name() {
+            "rect" if node.attribute("x").is_some() => {
+                [x, y, x + number(node, "width"), y + number(node, "height")]
+            }
+            "circle" => [cx - r, cy - r, cx + r, cy + r],
+            "line" => ["x1", "y1", "x2", "y2"].map(|name| number(node, name)),
+            "polyline" => {
+                let points = node.attribute("points").unwrap().split([' ', ',']);
+                let points: Vec<f64> = points.map(|value| value.parse().unwrap()).collect();
+                let along = |first: usize| points.iter().skip(first).step_by(2).copied();
+                let least = |first| along(first).fold(f64::MAX, f64::min);
+                let greatest = |first| along(first).fold(f64::MIN, f64::max);
+                [least(0), least(1), greatest(0), greatest(1)]
+            }
+            "text" => {
+                assert!(number(node, "font-size") >= 6.5, "{node:?}");
+                text_box(node)
+            }
+            _ => continue,
+        };
+        assert!(is_within(bounds), "{node:?} {bounds:?} {:?}", node.text());
+    }
+    let boxes = text_boxes(&page);
+    for (index, (a, said)) in boxes.iter().enumerate() {
+        for (b, other) in &boxes[index + 1..] {
+            let covers = a[0] < b[2] && b[0] < a[2] && a[1] < b[3] && b[1] < a[3];
+            assert!(!covers, "{said:?} {a:?} and {other:?} {b:?}");
+        }
+    }
+}
+
+/// Number of thumbnails: each has one dot.
+fn dots(svg: &str) -> usize {
+    svg.matches("<circle").count() - svg.matches("fill=\"none\" stroke=\"#555555\"").count()
+}
+
+#[test]
+fn one_page_holds_any_number_of_passes_and_counts_the_rest() {
+    for taken in [0, 1, 20, 21, 45, 60, 100, 200] {
+        let svg = sheet((taken, 30));
+        check(&svg);
+        let shown = dots(&svg);
+        if shown < taken {
+            assert!(svg.contains(&format!(">and {} more in the list<", taken - shown)), "{taken}");
+        }
+        assert!(shown == taken || shown > 70, "{shown} of {taken}");
+        assert!(svg.contains(">Handed over by<") && svg.contains(">30 passes, "), "{taken}");
+    }
+}
+
+#[test]
+fn passes_that_are_left_out_have_reason_and_price() {
+    let svg = sheet((2, 3));
+    let page = Document::parse(&svg).unwrap();
+    let said =
+        |words: &str| text_boxes(&page).iter().filter(|(_, text)| text.contains(words)).count();
+    assert_eq!(said("overlaps by 8:02"), 3, "{svg}");
+    // By the second entry, which is the antenna's of only one of them.
+    assert_eq!(said(" on Genius") + said("Nothing on "), 3, "{svg}");
+    check(&sheet((0, 0)));
+    assert!(sheet((0, 0)).contains(">No pass is left out<"));
+}
+
+#[test]
+fn passes_of_one_satellite_that_are_left_out_for_one_reason_are_one_row() {
+    let station = Station::demo(&DemoAddresses::default());
+    let catalog = bundled().unwrap();
+    let elements = catalog.get(ISS).unwrap().clone();
+    let propagator = Propagator::new(&elements).unwrap();
+    let satellites = [(elements, propagator)];
+    let mut schedule = schedule(&station, &satellites, (0, 5));
+    for left in &mut schedule.left_out {
+        left.why = Why::OtherAntennas;
+        left.by_antenna.clear();
+    }
+    let svg = printed(&station, &schedule, &satellites);
+    check(&svg);
+    assert_eq!(svg.matches("A limit or a rule excludes this antenna").count(), 1, "{svg}");
+    assert!(svg.contains(" +2<"), "{svg}");
+}
+
+#[test]
+fn names_from_outside_break_nothing() {
+    let mut station = Station::demo(&DemoAddresses::default());
+    station.name = HOSTILE.repeat(9);
+    for antenna in &mut station.antennas {
+        antenna.name = HOSTILE.repeat(9);
+    }
+    let text = serde_json::json!({
+        "OBJECT_NAME": HOSTILE.repeat(9), "OBJECT_ID": "1998-067A", "NORAD_CAT_ID": ISS,
+        "EPOCH": "2026-08-11T01:21:00", "MEAN_MOTION": 15.5, "ECCENTRICITY": 0.001,
+        "INCLINATION": 51.6, "RA_OF_ASC_NODE": 0, "ARG_OF_PERICENTER": 0, "MEAN_ANOMALY": 0,
+        "BSTAR": 0
+    });
+    let elements = read_elements(&text.to_string()).elements.remove(0);
+    let propagator = Propagator::new(&elements).unwrap();
+    let satellites = [(elements, propagator)];
+    for counts in [(5, 0), (2, 3)] {
+        let schedule = schedule(&station, &satellites, counts);
+        let svg = printed(&station, &schedule, &satellites);
+        check(&svg);
+        let unseen = |letter: char| letter != '\n' && letter.is_control() || letter == '\u{202e}';
+        assert!(!svg.contains(unseen) && svg.contains('…'), "{svg}");
+    }
+}
+
+#[test]
+fn many_antennas_leave_room_for_the_passes() {
+    let mut station = Station::demo(&DemoAddresses::default());
+    while station.antennas.len() < 20 {
+        let mut antenna = station.antennas[0].clone();
+        antenna.id = AntennaId(100 + station.antennas.len() as u32);
+        station.antennas.push(antenna);
+    }
+    let satellites = satellites(&bundled().unwrap(), 60);
+    let svg = printed(&station, &schedule(&station, &satellites, (80, 40)), &satellites);
+    check(&svg);
+    assert!(svg.contains(">and 12 more<") && dots(&svg) > 40, "{}", dots(&svg));
+}
+
+#[test]
+fn elements_that_are_too_old_are_marked() {
+    let mut station = Station::demo(&DemoAddresses::default());
+    let satellites = satellites(&bundled().unwrap(), 60);
+    let schedule = schedule(&station, &satellites, (20, 0));
+    let svg = printed(&station, &schedule, &satellites);
+    assert!(svg.contains("oldest first. 0 of ") && !svg.contains(" h ×"), "{svg}");
+    station.scheduling.max_element_age_d = Some(0.5);
+    let svg = printed(&station, &schedule, &satellites);
+    assert!(!svg.contains("oldest first. 0 of ") && svg.contains(" h ×<"), "{svg}");
+}
+
+#[test]
+fn one_schedule_makes_one_sheet() {
+    assert_eq!(sheet((50, 20)), sheet((50, 20)));
+}
+
+#[test]
+fn a_satellite_whose_elements_are_gone_keeps_its_row() {
+    let station = Station::demo(&DemoAddresses::default());
+    let satellites = satellites(&bundled().unwrap(), 10);
+    let schedule = schedule(&station, &satellites, (3, 3));
+    let svg = printed(&station, &schedule, &[]);
+    check(&svg);
+    let number = schedule.entries[0].pass.satellite;
+    assert!(svg.contains(&format!(">{number}<")), "{svg}");
+}
