@@ -35,8 +35,8 @@ const GAP: f64 = 9.0;
 const SECTION_HEAD: f64 = 14.0;
 /// Least height of the notes, with the signatures.
 const NOTES: f64 = 64.0;
-/// Rows of passes that are left out for which room is kept beside many entries.
-const FEW_LEFT_OUT: f64 = 90.0;
+/// Height that is kept for passes that are left out beside many entries.
+const FEW_LEFT_OUT: f64 = 110.0;
 
 const BODY: Face = Face::of(7.0);
 /// The smallest text.

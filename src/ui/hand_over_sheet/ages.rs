@@ -75,7 +75,7 @@ impl List {
             let [x, y] = at(place);
             let face = if age.is_old { SMALL.bold() } else { SMALL };
             let mark = if age.is_old { " \u{d7}" } else { "" };
-            svg.text([x, y], column - 60.0, face, &age.name);
+            svg.name([x, y], column - 60.0, face, &age.name);
             let words = format!("{}{mark}", age_in_words(age.seconds));
             svg.text([x + column - 12.0, y], 46.0, face.anchored(Anchor::End), &words);
         }

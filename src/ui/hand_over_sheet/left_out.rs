@@ -148,7 +148,7 @@ impl Group {
         let [aos, name, priority, max, why, price, right] = COLUMNS;
         let line = y + 6.5;
         svg.text([aos, line], name - aos - SPACE, SMALL, &self.times());
-        svg.text([name, line], priority - name - SPACE, SMALL.bold(), &self.name);
+        svg.name([name, line], priority - name - SPACE, SMALL.bold(), &self.name);
         svg.text([priority, line], max - priority, SMALL, &self.priority.to_string());
         let end = SMALL.anchored(Anchor::End);
         svg.text([why - SPACE - 4.0, line], why - max, end, &self.max_elevation);

@@ -8,6 +8,9 @@ use quick_xml::escape::escape;
 pub(super) const WIDTH: f64 = 595.0;
 pub(super) const HEIGHT: f64 = 842.0;
 
+/// Letters at the end of a name that may be its number.
+const NUMBER: usize = 5;
+
 /// Light enough to read black text on.
 pub(super) const SHADE: &str = "#dcdcdc";
 const INK: &str = "#000000";
@@ -95,8 +98,18 @@ impl Svg {
     }
 
     /// A text on the base line `y` that is cut to `room`.
-    pub(super) fn text(&mut self, [x, y]: [f64; 2], room: f64, face: Face, text: &str) {
-        let text = cut(&shown(text), room, face);
+    pub(super) fn text(&mut self, at: [f64; 2], room: f64, face: Face, text: &str) {
+        self.put(at, face, &cut(&shown(text), room, face, 0));
+    }
+
+    /// A name of a satellite that keeps its number where it is cut.
+    pub(super) fn name(&mut self, at: [f64; 2], room: f64, face: Face, name: &str) {
+        let name = shown(name);
+        let end = if name.ends_with(|letter: char| letter.is_ascii_digit()) { NUMBER } else { 0 };
+        self.put(at, face, &cut(&name, room, face, end));
+    }
+
+    fn put(&mut self, [x, y]: [f64; 2], face: Face, text: &str) {
         if text.is_empty() {
             return;
         }
@@ -109,7 +122,7 @@ impl Svg {
         let weight = if face.is_bold { " font-weight=\"bold\"" } else { "" };
         let fill = if face.is_quiet { QUIET } else { INK };
         let size = number(face.size);
-        let text = escape(&text);
+        let text = escape(text);
         let _ = writeln!(
             self.0,
             "<text x=\"{x}\" y=\"{y}\" font-size=\"{size}\"{anchor}{weight} fill=\"{fill}\">{text}</text>"
@@ -184,13 +197,19 @@ fn shown(text: &str) -> String {
     words.filter(|word| !word.is_empty()).collect::<Vec<_>>().join(" ")
 }
 
-/// The beginning of a text that fits, with an ellipsis where something is missing.
-fn cut(text: &str, room: f64, face: Face) -> String {
+/// A text that fits, with an ellipsis for what is missing before its last `end` letters.
+fn cut(text: &str, room: f64, face: Face, end: usize) -> String {
     if face.width(text) <= room {
         return text.to_owned();
     }
+    let begin = text.chars().count().saturating_sub(end);
+    let tail: String = text.chars().skip(begin).collect();
+    let tail = format!("…{}", tail.trim_start());
+    let left = room - face.width(&tail);
+    if left < 0.0 && end > 0 {
+        return cut(text, room, face, 0);
+    }
     let mut kept = String::new();
-    let left = room - face.width("…");
     for letter in text.chars() {
         kept.push(letter);
         if face.width(&kept) > left {
@@ -198,7 +217,7 @@ fn cut(text: &str, room: f64, face: Face) -> String {
             break;
         }
     }
-    format!("{}…", kept.trim_end())
+    format!("{}{tail}", kept.trim_end())
 }
 
 /// A text in lines that fit; what is too much ends in the last one.
@@ -225,10 +244,18 @@ mod tests {
     #[test]
     fn a_text_is_cut_where_its_room_ends() {
         let face = Face::of(10.0);
-        assert_eq!(cut("NOAA 20", 100.0, face), "NOAA 20");
-        let long = cut(&"METEOR ".repeat(20), 100.0, face);
+        assert_eq!(cut("NOAA 20", 100.0, face, 0), "NOAA 20");
+        let long = cut(&"METEOR ".repeat(20), 100.0, face, 0);
         assert!(long.ends_with('…') && face.width(&long) <= 100.0, "{long}");
-        assert!(cut("WWWW", 1.0, face).len() <= '…'.len_utf8());
+        assert_eq!(cut("WWWW", 1.0, face, 0), "…");
+    }
+
+    #[test]
+    fn a_name_that_is_cut_keeps_its_number() {
+        let face = Face::of(10.0);
+        let name = cut("STARLINK-31472", 80.0, face, NUMBER);
+        assert!(name.ends_with("…31472") && face.width(&name) <= 80.0, "{name}");
+        assert_eq!(cut("STARLINK-31472", 20.0, face, NUMBER), "S…");
     }
 
     #[test]

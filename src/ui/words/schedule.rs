@@ -54,7 +54,9 @@ pub fn why(names: &dyn Fn(PassKey) -> String, why: &Why) -> String {
         }
         Why::SlewTooShort(conflict) => {
             let by = format::duration(conflict.missing_s);
-            format!("Too close to {}: {by} short for slew and set-up", against(names, conflict))
+            let against = against(names, conflict);
+            let against = against.trim_end_matches(',');
+            format!("Too close to {against}: {by} short for slew and set-up")
         }
         Why::TooFar => "The antenna cannot be there in time from where it stands".to_owned(),
         Why::MaxPerDay(most) => match most {
@@ -217,4 +219,23 @@ pub fn antenna_name(model: &Model, antenna: AntennaId) -> &str {
 pub fn sets_out(antenna: &AntennaModel, at: Timestamp, now: Timestamp) -> String {
     let word = if antenna.variant().capabilities.has_program { "Loads" } else { "Sets out" };
     format!("{word} {}", format::moment(at, now))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{plan::schedule::PassKey as Key, station::Priority};
+
+    #[test]
+    fn a_pass_that_is_too_close_names_the_other_with_its_priority() {
+        let said = |class| {
+            let with = Key { satellite: 1, aos: Timestamp::UNIX_EPOCH };
+            let conflict = Conflict { with, class, missing_s: 80.0, others: vec![] };
+            why(&|_| "TERRA".to_owned(), &Why::SlewTooShort(conflict))
+        };
+        let end = ": 1:20 short for slew and set-up";
+        let priority = Class::Priority(Priority::default());
+        assert_eq!(said(priority), format!("Too close to TERRA, priority 3{end}"));
+        assert_eq!(said(Class::All), format!("Too close to TERRA{end}"));
+    }
 }

@@ -100,7 +100,7 @@ const THREE: Cells = Cells {
     priority: Cell::text(93.0, 0, 8.0),
     antenna: Cell::text(53.0, 1, 34.0),
     counts: Cell::number(117.0, 1, 24.0),
-    spare: Cell::number(142.0, 1, 31.0),
+    spare: Cell::number(141.0, 1, 31.0),
     shortened: None,
 };
 
@@ -182,7 +182,9 @@ impl Density {
         let is_marked = cells.shortened.is_none() && !row.shortened.is_empty();
         let mark = if is_marked { "*" } else { "" };
         put(cells.counts, &format!("{}{mark}", row.counts));
-        cells.name.draw(svg, [x, lines[0]], first.bold(), &row.name);
+        let name_size = if matches!(self.layout, Layout::Three) { SMALL } else { first };
+        let Cell { x: name_x, width, .. } = cells.name;
+        svg.name([x + name_x, lines[0]], width, name_size.bold(), &row.name);
         let spare = if row.is_spare_short { second.bold() } else { second };
         cells.spare.draw(svg, [x, lines[1]], spare, &row.spare);
         if let Some((cell, most)) = cells.shortened {
