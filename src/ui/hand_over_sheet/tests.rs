@@ -187,16 +187,51 @@ fn one_page_holds_any_number_of_passes_and_counts_the_rest() {
 }
 
 #[test]
-fn passes_that_are_left_out_have_reason_and_price() {
-    let svg = sheet((2, 3));
-    let page = Document::parse(&svg).unwrap();
-    let said =
-        |words: &str| text_boxes(&page).iter().filter(|(_, text)| text.contains(words)).count();
-    assert_eq!(said("overlaps by 8:02"), 3, "{svg}");
-    // By the second entry, which is the antenna's of only one of them.
-    assert_eq!(said(" on Genius") + said("Nothing on "), 3, "{svg}");
-    check(&sheet((0, 0)));
-    assert!(sheet((0, 0)).contains(">No pass is left out<"));
+fn the_price_of_a_pass_is_what_the_antenna_that_gives_up_least_has_to_drop() {
+    let station = Station::demo(&DemoAddresses::default());
+    let satellites = satellites(&bundled().unwrap(), 10);
+    let mut schedule = schedule(&station, &satellites, (3, 1));
+    let class = |number| Class::Priority(Priority::try_from(number).unwrap());
+    let said = |schedule: &Schedule| {
+        let svg = printed(&station, schedule, &satellites);
+        check(&svg);
+        let page = Document::parse(&svg).unwrap();
+        let mut texts = page.descendants().filter_map(|node| node.text());
+        texts.find(|text| text.contains(" on ")).map(str::to_owned).unwrap_or_default()
+    };
+    let name = |of: &Entry| {
+        let own = satellites.iter().find(|it| it.0.catalog_number() == of.pass.satellite).unwrap();
+        format!("{} {}", own.0.label(), format::hours_minutes(of.pass.aos))
+    };
+    let against = |entry: &Entry| {
+        let (with, class) = (entry.pass, entry.class);
+        let conflict = Conflict { with, class, missing_s: 482.0, others: vec![] };
+        (entry.antenna, Why::Overlaps(conflict))
+    };
+    // The lowest priority, then the shortest.
+    for (entry, number) in schedule.entries.iter_mut().zip([1, 4, 4]) {
+        entry.class = class(number);
+        entry.counted_s = 100.0 * f64::from(entry.antenna.0);
+    }
+    let antennas = [0, 1, 2].map(|index: usize| station.antennas[index].name.clone());
+    schedule.left_out[0].by_antenna = schedule.entries.iter().map(against).collect();
+    let [_, second, _] = &schedule.entries[..] else { panic!("three entries") };
+    assert_eq!(said(&schedule), format!("{} on {}", name(second), antennas[1]));
+
+    schedule.left_out[0].by_antenna[2].1 = Why::NotFound;
+    assert_eq!(said(&schedule), format!("Nothing on {}", antennas[2]));
+
+    schedule.left_out[0].by_antenna.truncate(1);
+    assert_eq!(said(&schedule), format!("{} on {}", name(&schedule.entries[0]), antennas[0]));
+
+    schedule.left_out[0].by_antenna.clear();
+    assert_eq!(said(&schedule), "");
+}
+
+#[test]
+fn an_empty_schedule_says_so() {
+    let svg = sheet((0, 0));
+    assert!(svg.contains(">No passes<") && svg.contains(">No pass is left out<"), "{svg}");
 }
 
 #[test]
