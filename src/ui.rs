@@ -18,6 +18,7 @@ mod lean_shapes;
 pub mod map;
 pub mod menus;
 pub mod notes;
+mod object_search;
 pub mod operate;
 pub mod pass_header;
 mod pass_limits;

@@ -35,6 +35,7 @@ mod popups;
 mod preferences;
 mod preferences_makes;
 mod preferences_pages;
+mod preferences_rules;
 mod preferences_watch;
 mod rig;
 mod running;

@@ -209,6 +209,11 @@ impl Elements {
         &self.name
     }
 
+    /// The name up to the first opening bracket.
+    pub fn short_name(&self) -> &str {
+        self.name.split_once(" (").map_or(&*self.name, |(short, _)| short)
+    }
+
     /// The name, or the catalog number if there is no name.
     pub fn label(&self) -> String {
         if self.name.is_empty() { self.catalog_number.to_string() } else { self.name.to_string() }

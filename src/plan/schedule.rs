@@ -25,7 +25,7 @@ mod way;
 mod why;
 
 pub use changes::{Cause, Change, Changed, changes};
-pub use of_station::sun_is;
+pub use of_station::{deciding_rule, sun_is};
 pub use outcome::{ClassWorth, Conflict, Entry, LeftOut, Proof, Schedule, Why};
 pub use reach::Reach;
 pub use request::{

@@ -16,7 +16,7 @@ use super::{
 use crate::{
     engine,
     model::{Model, UiCommand},
-    station::{Light, PassLimits},
+    station::{AntennaId, Light, PassLimits},
 };
 
 const ROW: f32 = 30.0;
@@ -40,55 +40,85 @@ pub(super) fn show(
     let t = theme::tokens(ui);
     let title = RichText::new("Limits of its passes");
     ui.label(title.font(text::sized(13.0, Weight::SemiBold)).color(t.t1));
-    let own = &favourite.limits;
+    let antennas: Vec<(AntennaId, String)> =
+        model.antennas.iter().map(|of| (of.id(), of.config.name.clone())).collect();
     let all = model.station.pass_limits(number);
-    let mut wanted = own.clone();
-    let any = || "any".to_owned();
-    let elevation = |deg: f64| format!("from {}", format::degrees(deg, 0));
-    row(
-        ui,
-        width,
-        "Maximum elevation",
-        &all.min_max_elevation_deg.map_or_else(any, elevation),
-        can_change,
-        |ui| {
-            choices(ui, &mut wanted.min_max_elevation_deg, &ELEVATIONS_DEG, elevation);
-        },
-    );
-    let duration = |seconds: f64| format!("from {}", format::duration(seconds));
-    row(ui, width, "Duration", &all.min_duration_s.map_or_else(any, duration), can_change, |ui| {
-        choices(ui, &mut wanted.min_duration_s, &DURATIONS_S, duration);
+    let mut limits = favourite.limits.clone();
+    edit(ui, width, &antennas, &mut limits, &all, can_change);
+    if favourite.limits != limits {
+        let command = engine::Command::SetPassLimits { numbers: vec![number], limits };
+        commands.push(UiCommand::Station(command));
+    }
+}
+
+/// Shows the limits that hold, which are `all`, and changes `own`.
+pub(super) fn edit(
+    ui: &mut Ui,
+    width: f32,
+    antennas: &[(AntennaId, String)],
+    own: &mut PassLimits,
+    all: &PassLimits,
+    can_change: bool,
+) {
+    let t = theme::tokens(ui);
+    let is_partly_of_a_group = own != all;
+    let value = all.min_max_elevation_deg.map_or_else(any, elevation);
+    row(ui, width, "Maximum elevation", &value, can_change, |ui| {
+        choices(ui, &mut own.min_max_elevation_deg, &ELEVATIONS_DEG, elevation);
+    });
+    let value = all.min_duration_s.map_or_else(any, duration);
+    row(ui, width, "Duration", &value, can_change, |ui| {
+        choices(ui, &mut own.min_duration_s, &DURATIONS_S, duration);
     });
     row(ui, width, "Light", &all.light.map_or_else(any, light), can_change, |ui| {
-        choices(ui, &mut wanted.light, &LIGHTS, light);
+        choices(ui, &mut own.light, &LIGHTS, light);
     });
-    let per_day = |most: u32| format!("{most} at most");
-    row(
-        ui,
-        width,
-        "Passes a day (UTC)",
-        &all.max_per_day.map_or_else(any, per_day),
-        can_change,
-        |ui| choices(ui, &mut wanted.max_per_day, &PER_DAY, per_day),
-    );
-    let names = all.antennas.as_ref().map(|ids| {
-        let names = ids.iter().filter_map(|id| model.antenna_of(*id));
-        names.map(|antenna| antenna.config.name.as_str()).collect::<Vec<_>>()
+    let value = all.max_per_day.map_or_else(any, per_day);
+    row(ui, width, "Passes a day (UTC)", &value, can_change, |ui| {
+        choices(ui, &mut own.max_per_day, &PER_DAY, per_day);
     });
-    let words = match names.as_deref() {
-        None => any(),
-        Some([]) => "none".to_owned(),
-        Some(names) => format::list(names),
-    };
-    row(ui, width, "Antennas", &words, can_change, |ui| antennas(ui, model, &mut wanted));
-    if *own != all {
+    row(ui, width, "Antennas", &names(all, antennas), can_change, |ui| {
+        choose_antennas(ui, antennas, own);
+    });
+    if is_partly_of_a_group {
         let words = "Where it has no limit of its own, that of its group holds.";
         ui.label(RichText::new(words).font(text::small()).color(t.t2));
     }
-    if wanted != *own {
-        let command = engine::Command::SetPassLimits { numbers: vec![number], limits: wanted };
-        commands.push(UiCommand::Station(command));
-    }
+}
+
+/// The limits in a few words, such as "from 20°, by night"; empty where there are none.
+pub(super) fn in_short(limits: &PassLimits, antennas: &[(AntennaId, String)]) -> String {
+    let words = [
+        limits.min_max_elevation_deg.map(elevation),
+        limits.min_duration_s.map(duration),
+        limits.light.map(light),
+        limits.max_per_day.map(|most| format!("{most} a day")),
+        limits.antennas.as_ref().map(|_| format!("by {}", names(limits, antennas))),
+    ];
+    words.into_iter().flatten().collect::<Vec<_>>().join(", ")
+}
+
+fn any() -> String {
+    "any".to_owned()
+}
+
+fn elevation(deg: f64) -> String {
+    format!("from {}", format::degrees(deg, 0))
+}
+
+fn duration(seconds: f64) -> String {
+    format!("from {}", format::duration(seconds))
+}
+
+fn per_day(most: u32) -> String {
+    format!("{most} at most")
+}
+
+fn names(limits: &PassLimits, antennas: &[(AntennaId, String)]) -> String {
+    let Some(ids) = &limits.antennas else { return any() };
+    let known = antennas.iter().filter(|(id, _)| ids.contains(id));
+    let names: Vec<&str> = known.map(|(_, name)| name.as_str()).collect();
+    if names.is_empty() { "none".to_owned() } else { format::list(&names) }
 }
 
 fn light(light: Light) -> String {
@@ -136,19 +166,17 @@ fn choices<T: Copy + PartialEq>(
     }
 }
 
-fn antennas(ui: &mut Ui, model: &Model, wanted: &mut PassLimits) {
-    let is_any = wanted.antennas.is_none();
-    if ui.selectable_label(is_any, "any").clicked() {
-        wanted.antennas = None;
+fn choose_antennas(ui: &mut Ui, antennas: &[(AntennaId, String)], own: &mut PassLimits) {
+    if ui.selectable_label(own.antennas.is_none(), "any").clicked() {
+        own.antennas = None;
     }
-    for antenna in &model.antennas {
-        let id = antenna.id();
-        let mut list = wanted.antennas.clone().unwrap_or_default();
-        let mut is_on = list.contains(&id);
-        if ui.checkbox(&mut is_on, &antenna.config.name).clicked() {
-            list.retain(|known| *known != id);
-            list.extend(is_on.then_some(id));
-            wanted.antennas = (!list.is_empty()).then_some(list);
+    for (id, name) in antennas {
+        let mut list = own.antennas.clone().unwrap_or_default();
+        let mut is_on = list.contains(id);
+        if ui.checkbox(&mut is_on, name).clicked() {
+            list.retain(|known| known != id);
+            list.extend(is_on.then_some(*id));
+            own.antennas = (!list.is_empty()).then_some(list);
         }
     }
 }

@@ -16,7 +16,10 @@ mod keys;
 mod list;
 mod notices;
 mod page;
+mod picker;
 mod preview;
+mod rules;
+mod satellites;
 mod save_bar;
 mod search;
 mod site;
@@ -36,6 +39,8 @@ use draft::Draft;
 use form::Sought;
 use horizon::HorizonState;
 use page::Page;
+use rules::RulesState;
+use satellites::SatellitesState;
 use search::Search;
 
 const PADDING: f32 = 16.0;
@@ -62,6 +67,8 @@ struct FormState {
     sought: Sought,
     /// The preview is unfolded, where it is a fold.
     preview_is_open: bool,
+    satellites: SatellitesState,
+    rules: RulesState,
 }
 
 /// The parts of the view.
@@ -198,9 +205,9 @@ fn show_page(
     head::show(ui, bar, model, draft, state, commands);
     let (page, form) = (state.page, &mut state.form);
     match page {
-        Page::Site | Page::Satellites => {
-            site::show(ui, rect, page, model, (draft, before), form);
-        }
+        Page::Site => site::show(ui, rect, model, (draft, before), form),
+        Page::Satellites => satellites::show(ui, rect, model, draft, form),
+        Page::Rules => rules::show(ui, rect, model, (draft, before), form),
         Page::Antenna(id) => {
             antenna::show(ui, rect, model, id, (draft, before), form, commands);
         }

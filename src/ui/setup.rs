@@ -17,7 +17,7 @@ use jiff::Timestamp;
 
 pub use self::steps::Step;
 use self::{draft::SetupDraft, steps::Progress};
-use super::{text, theme, widgets::paint};
+use super::{object_search::ObjectSearch, text, theme, widgets::paint};
 use crate::{
     engine,
     model::{Model, UiCommand},
@@ -33,7 +33,7 @@ pub struct SetupState {
     step: Step,
     progress: Progress,
     draft: Option<SetupDraft>,
-    satellites: satellites::SearchState,
+    satellites: ObjectSearch,
     add: super::elements::AddState,
     /// Why the station was not saved.
     problem: Option<String>,

@@ -28,8 +28,10 @@ pub use site::{off_the_told, sun_there};
 use crate::{
     device::{Asked, Motion, settings::Unfit},
     driver::Intent,
-    engine::antenna::Stake,
+    engine::{CatalogState, antenna::Stake},
     makes,
+    model::Model,
+    orbit::Elements,
 };
 
 /// Age from which old elements are mentioned: after some days a satellite in low orbit is
@@ -129,4 +131,13 @@ pub fn capitalised(text: &str) -> String {
     let mut letters = text.chars();
     let first = letters.next().map(char::to_uppercase).into_iter().flatten();
     first.chain(letters).collect()
+}
+
+/// Short name of a satellite by its catalog number, which stands for it where it has none.
+pub fn satellite(model: &Model, number: u32) -> String {
+    let name = match &model.catalog {
+        CatalogState::Ready(catalog) => catalog.get(number).map(Elements::short_name),
+        CatalogState::Loading | CatalogState::Failed => None,
+    };
+    name.filter(|name| !name.is_empty()).map_or_else(|| number.to_string(), str::to_owned)
 }

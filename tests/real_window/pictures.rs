@@ -106,7 +106,7 @@ const VIEWS: [View; 22] = [
         &[Click("Add an antenna"), Click("Add SVS Satrak")],
         &[Click("Revert")],
     ),
-    view("preferences-satellites", &[Click("Satellites and frequencies")], &[]),
+    view("preferences-satellites", &[Click("Satellites and priorities")], &[]),
     view("preferences-horizon", &[Click("Horizon and keep-outs")], &[]),
     view("preferences-alarms", &[Click("Alarms and sounds")], &[]),
     view("preferences-appearance", &[Click("Appearance")], &[]),

@@ -144,7 +144,7 @@ fn right_fields_are_saved_as_typed() {
         write(&mut window, "Latitude", "91");
         write(&mut window, "Latitude", "−33,5");
         assert!(!says(&window, WRONG) && says(&window, "1 change"));
-        open(&mut window, "Satellites and frequencies");
+        open(&mut window, "Satellites and priorities");
         write(&mut window, "Satellites", "25544, 43013");
         assert!(says(&window, "2 changes in 2 sections"));
         window.get_by_role_and_label(Role::Button, "Save and use").click();
@@ -321,7 +321,7 @@ fn every_field_and_the_bar_below_are_whole_in_every_window() {
         let bar = window.get_by_role_and_label(Role::Button, "Save and use").rect();
         assert!(bar.right() <= size[0] && bar.bottom() <= size[1], "{bar:?}");
         let card = window.get_by_role_and_label(Role::TextInput, "Latitude").rect();
-        open(&mut window, "Satellites and frequencies");
+        open(&mut window, "Satellites and priorities");
         let all = window.get_by_role_and_label(Role::MultilineTextInput, "Satellites").rect();
         assert!(all.right() < size[0] && all.height() > card.height(), "{all:?}");
         open(&mut window, "Satrak");

@@ -98,7 +98,7 @@ fn ctrl_tab_goes_through_all_pages_and_round() {
     for size in SIZES {
         let mut window = form(size);
         let mut pages = Vec::new();
-        for _ in 0..8 {
+        for _ in 0..9 {
             pages.push(shown(&window));
             window.key_press_modifiers(Modifiers::COMMAND, Key::Tab);
             settle(&mut window);
@@ -107,7 +107,8 @@ fn ctrl_tab_goes_through_all_pages_and_round() {
             "Site",
             "Horizon and keep-outs",
             "Satrak",
-            "Satellites and frequencies",
+            "Satellites and priorities",
+            "Automation rules",
             "Alarms and sounds",
             "Appearance",
             "Keys",

@@ -29,10 +29,8 @@ pub struct ListedSatellite {
 }
 
 impl ListedSatellite {
-    /// The name up to the first opening bracket.
     pub fn short_name(&self) -> &str {
-        let name = self.elements.name();
-        name.split_once(" (").map_or(name, |(short, _)| short)
+        self.elements.short_name()
     }
 }
 

@@ -66,16 +66,26 @@ impl Partial {
 
 /// What the first automation rule says that fits a satellite and an antenna at a time.
 fn by_rule(station: &Station, satellite: u32, at: Timestamp, antenna: AntennaId) -> Option<Then> {
-    let mut rules = station.rules.iter().filter(|rule| rule.is_for(antenna)).peekable();
-    rules.peek()?;
-    let sun = sun_is(station, at);
+    station.rules.iter().find(|rule| rule.is_for(antenna))?;
+    let place = deciding_rule(station, satellite, (at, sun_is(station, at)), antenna)?;
+    station.rules.get(place).map(|rule| rule.then)
+}
+
+/// Place of the first automation rule that fits a satellite and an antenna at a time, where the
+/// Sun stands as given.
+pub fn deciding_rule(
+    station: &Station,
+    satellite: u32,
+    (at, sun): (Timestamp, SunIs),
+    antenna: AntennaId,
+) -> Option<usize> {
     let is_of = |of: &RuleOf| match of {
         RuleOf::Satellite(number) => *number == satellite,
         RuleOf::Group(name) => station.groups_of(satellite).any(|group| group.name == *name),
     };
-    let mut fitting =
-        rules.filter(|rule| rule.of.as_ref().is_none_or(is_of) && rule.holds_at(at, sun));
-    fitting.next().map(|rule| rule.then)
+    station.rules.iter().position(|rule| {
+        rule.is_for(antenna) && rule.of.as_ref().is_none_or(is_of) && rule.holds_at(at, sun)
+    })
 }
 
 /// Whether the Sun is up at the site of a station.

@@ -11,6 +11,8 @@ use super::{
     horizon::draft::Skies,
     notices::NoticesDraft,
     page::Page,
+    rules::{cannot_act::Around, draft::RulesDraft},
+    satellites::draft::SatellitesDraft,
     station_fields::{self, Ground, LATITUDE, LONGITUDE},
 };
 use crate::{
@@ -29,6 +31,8 @@ pub(in crate::ui) struct Draft {
     removed: BTreeSet<usize>,
     pub(super) notices: NoticesDraft,
     pub(super) skies: Skies,
+    pub(super) satellites: SatellitesDraft,
+    pub(super) rules: RulesDraft,
 }
 
 impl Draft {
@@ -39,6 +43,8 @@ impl Draft {
             removed: BTreeSet::new(),
             notices: NoticesDraft::of(&station.notices),
             skies: Skies::of(station),
+            satellites: SatellitesDraft::of(station),
+            rules: RulesDraft::of(station),
         }
     }
 
@@ -106,9 +112,13 @@ impl Draft {
     pub(super) fn findings(&self, page: Page) -> Vec<Finding> {
         let of_ground = |field: &Field<Ground>| Page::of_section(field.section) == page;
         match page {
-            Page::Site | Page::Satellites => {
-                findings(&self.ground.fields, &self.ground_standings(), of_ground)
+            Page::Site => findings(&self.ground.fields, &self.ground_standings(), of_ground),
+            Page::Satellites => {
+                let mut all = findings(&self.ground.fields, &self.ground_standings(), of_ground);
+                all.extend(self.satellites.findings());
+                all
             }
+            Page::Rules => self.rules.findings(&self.around_rules()),
             Page::Antenna(id) => {
                 let index = self.index(id).filter(|index| !self.is_removed(*index));
                 let antenna = index.and_then(|index| Some((index, self.antennas.get(index)?)));
@@ -139,7 +149,7 @@ impl Draft {
                 }
             }
             Page::Notices => self.notices.write(label, text),
-            Page::Horizon | Page::Appearance | Page::Keys => {}
+            Page::Rules | Page::Horizon | Page::Appearance | Page::Keys => {}
         }
     }
 
@@ -157,6 +167,28 @@ impl Draft {
     /// The antennas that stay, by their indices.
     fn kept(&self) -> impl Iterator<Item = (usize, &Typed<Antenna>)> {
         self.antennas.iter().enumerate().filter(|(index, _)| !self.is_removed(*index))
+    }
+
+    /// The antennas that stay, with their names as typed.
+    pub(super) fn antenna_titles(&self) -> Vec<(AntennaId, String)> {
+        let ids = self.kept().map(|(_, antenna)| antenna.before().id);
+        ids.map(|id| (id, self.antenna_title(id))).collect()
+    }
+
+    /// What the rules name.
+    pub(super) fn around_rules(&self) -> Around<'_> {
+        Around {
+            antennas: self.antenna_titles(),
+            favourites: self.ground.read().0.favourites(),
+            satellites: &self.satellites,
+        }
+    }
+
+    /// Edits and unusable fields of the station on this page.
+    pub(super) fn ground_counts(&self, page: Page) -> Counts {
+        let standings = self.ground_standings();
+        let fields = self.ground.fields.iter().zip(&standings);
+        Counts::of(fields.filter(|(field, _)| Page::of_section(field.section) == page))
     }
 
     /// Names of the antennas before anything was typed.
@@ -235,6 +267,8 @@ impl Draft {
             .collect();
         station.notices = self.notices.read()?;
         self.skies.put_into(&mut station, &renamed)?;
+        self.satellites.put_into(&mut station)?;
+        station.rules = self.rules.read(&self.around_rules())?;
         Some(station)
     }
 }

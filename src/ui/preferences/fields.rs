@@ -3,8 +3,11 @@
 
 use std::{borrow::Cow, ops::RangeInclusive};
 
+use jiff::civil::Time;
+
 use crate::{
     device::settings::{Kind, Unfit, Value, number},
+    station::HoursOfDay,
     ui::words,
 };
 
@@ -135,6 +138,30 @@ impl<T> Description<T> {
             Ok(())
         };
         Self::new(label, Kind::Choice(choices), get, put)
+    }
+
+    /// A time of the day.
+    pub(super) fn time(label: &'static str, place: fn(&mut T) -> &mut Time) -> Self
+    where
+        T: 'static,
+    {
+        const NO_TIME: &str = "must be a time of the day such as 22:00";
+        let check = |text: &str| match HoursOfDay::read_time(text) {
+            Some(_) => Ok(()),
+            None => Err(Unfit::Text(NO_TIME.to_owned())),
+        };
+        let get = move |whole: &mut T| Some(Value::Text(HoursOfDay::time_text(*place(whole))));
+        let put = move |whole: &mut T, value| {
+            if let Value::Text(text) = value {
+                *place(whole) = HoursOfDay::read_time(&text).ok_or(NO_TIME)?;
+            }
+            Ok(())
+        };
+        Self::new(label, Kind::Text(check), get, put)
+    }
+
+    pub(super) fn in_unit(self, unit: &'static str) -> Self {
+        Self { unit, ..self }
     }
 
     pub(super) fn wrapped(self) -> Self {

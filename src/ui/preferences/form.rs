@@ -84,17 +84,28 @@ pub(super) fn section<T: Clone>(
     more: impl FnOnce(&mut Ui),
 ) {
     card(ui, section, |ui| {
-        for (field, standing) in typed.fields.iter_mut().zip(standings) {
-            if standing.is_used && field.section == section {
-                let response = row(ui, group, field, standing, Reasons::Beside);
-                if sought.takes(&field.description.label) {
-                    focus_to_replace(ui, &response, &field.text);
-                    response.scroll_to_me(Some(Align::Center));
-                }
-            }
-        }
+        rows(ui, group, (typed, standings), section, sought);
         more(ui);
     });
+}
+
+/// Shows the fields of `section` that are used, with their states beside them.
+pub(super) fn rows<T: Clone>(
+    ui: &mut Ui,
+    group: &str,
+    (typed, standings): (&mut Typed<T>, &[Standing]),
+    section: &str,
+    sought: &mut Sought,
+) {
+    for (field, standing) in typed.fields.iter_mut().zip(standings) {
+        if standing.is_used && field.section == section {
+            let response = row(ui, group, field, standing, Reasons::Beside);
+            if sought.takes(&field.description.label) {
+                focus_to_replace(ui, &response, &field.text);
+                response.scroll_to_me(Some(Align::Center));
+            }
+        }
+    }
 }
 
 /// Shows the fields that are used, with reasons below them; returns what their input fields
@@ -110,7 +121,7 @@ pub(in crate::ui) fn fields<T>(
 }
 
 /// A row of a form; returns what `content` returns and the place of the whole row.
-fn labelled<R>(
+pub(super) fn labelled<R>(
     ui: &mut Ui,
     label: &str,
     content: impl FnOnce(&mut Ui, egui::Id) -> R,
@@ -234,6 +245,17 @@ fn state<T>(ui: &Ui, salt: (&str, &str), room: Rect, field: &Field<T>, standing:
         }
         (None, None) => (None, "Unchanged".to_owned(), "Unchanged".to_owned(), t.t3),
     };
+    paint_state(ui, salt, room, mark, [&short, &whole], colour);
+}
+
+fn paint_state(
+    ui: &Ui,
+    salt: (&str, &str),
+    room: Rect,
+    mark: Option<Icon>,
+    [short, whole]: [&str; 2],
+    colour: Color32,
+) {
     let mut words = room;
     if let Some(mark) = mark {
         let at = paint::square(room.left_center() + vec2(6.0, 0.0), 12.0);
@@ -241,11 +263,34 @@ fn state<T>(ui: &Ui, salt: (&str, &str), room: Rect, field: &Field<T>, standing:
         words = room.with_min_x(room.left() + 18.0);
     }
     if room.width() >= LEAST_STATE {
-        paint::text_in(ui, words, Align2::LEFT_CENTER, &short, text::small(), colour);
+        paint::text_in(ui, words, Align2::LEFT_CENTER, short, text::small(), colour);
     }
     if mark.is_some() {
-        paint::name_text(ui, ("state", salt), room, &whole).on_hover_text(&whole);
+        paint::name_text(ui, ("state", salt), room, whole).on_hover_text(whole);
     }
+}
+
+/// A row whose field `content` shows, with its state beside it: why it cannot be used, or that it
+/// is edited.
+pub(super) fn row_of<R>(
+    ui: &mut Ui,
+    (group, label): (&str, &str),
+    wrong: Option<&str>,
+    is_edited: bool,
+    content: impl FnOnce(&mut Ui) -> R,
+) -> R {
+    let t = theme::tokens(ui);
+    let (result, place) = labelled(ui, label, |ui, _| content(ui));
+    let right = ui.max_rect().right();
+    let left = (place.left() + STATE).max(place.right() + GAP).min(right - 14.0);
+    let room = Rect::from_min_max(pos2(left, place.top()), pos2(right, place.top() + ROW));
+    let (mark, words, colour) = match wrong {
+        Some(why) => (Some(Icon::Warning), why, t.bad),
+        None if is_edited => (Some(Icon::Pencil), "Edited", t.sat),
+        None => (None, "Unchanged", t.t3),
+    };
+    paint_state(ui, (group, label), room, mark, [words, &format!("{label}: {words}")], colour);
+    result
 }
 
 fn edit<T>(

@@ -8,6 +8,7 @@ use crate::{
     model::{Model, UiCommand},
     station::{Antenna, AntennaId, Mount},
     ui::{
+        icons::Icon,
         preferences::antenna_fields::has_elevation,
         text, theme,
         widgets::{
@@ -31,6 +32,7 @@ pub(super) fn show(
     let (title, about) = (state.page.title(draft), about(state.page, draft));
     let right = match state.page {
         Page::Antenna(id) => buttons(ui, rect, id, model, draft, state, commands),
+        Page::Rules => add_rule(ui, rect, draft, state),
         _ => rect.right() - PADDING,
     };
     let room = rect.with_min_x(rect.left() + PADDING).with_max_x(right - PADDING);
@@ -53,7 +55,8 @@ fn about(page: Page, draft: &Draft) -> String {
         }
         Page::Site => "Where the station is, and which passes it lists",
         Page::Horizon => "Obstructions of the sky, and where no antenna may point",
-        Page::Satellites => "The favourites of this station, and their frequencies",
+        Page::Satellites => "Which passes come first, and which are taken at all",
+        Page::Rules => "The first rule that fits decides, in the plan and in automatic operation",
         Page::Notices => "What the desktop tells, and when",
         Page::Appearance => "Of this window, used at once",
         Page::Keys => "The keys are fixed",
@@ -71,6 +74,19 @@ fn kind(antenna: &Antenna) -> String {
     let can = antenna.connection.variant().capabilities;
     let tracks = if can.takes_positions { ", Azel can track with it" } else { "" };
     format!("{}, {mount}{tracks}", antenna.connection.spec().name)
+}
+
+/// Shows the button that adds a rule, and returns its left end.
+fn add_rule(ui: &Ui, rect: Rect, draft: &mut Draft, state: &mut PreferencesState) -> f32 {
+    let add = Button::normal("Add rule").icon(Icon::Plus);
+    let right_centre = pos2(rect.right() - PADDING, rect.center().y);
+    let size = vec2(add.width(ui), HEIGHT);
+    let place = Rect::from_min_size(right_centre - vec2(size.x, size.y / 2.0), size);
+    if add.show(ui, "add rule", place).clicked() {
+        let added = draft.rules.add();
+        state.form.rules.choose(added);
+    }
+    place.left()
 }
 
 /// Shows the buttons of an antenna at the right, and returns their left end.

@@ -4,7 +4,6 @@
 use std::{borrow::Cow, collections::BTreeSet};
 
 use egui::{Label, RichText, Ui};
-use jiff::civil::Time;
 
 use super::{
     draft::{self, Draft, Finding},
@@ -13,7 +12,7 @@ use super::{
 };
 use crate::{
     desktop::Sound,
-    device::settings::{Kind, Unfit, Value},
+    device::settings::{Kind, Value},
     engine::CatalogState,
     model::{Model, UiCommand},
     orbit::Elements,
@@ -120,8 +119,10 @@ fn telling_fields() -> Vec<Placed<Telling>> {
             let words = "No notifications and no sounds then. What is shown in the window stays.";
             Some(words.to_owned())
         }),
-        time("Quiet from", |hours| &mut hours.from),
-        time("Quiet to", |hours| &mut hours.to)
+        Description::time("Quiet from", |telling: &mut Telling| &mut telling.hours.from)
+            .when(|telling| telling.is_quiet),
+        Description::time("Quiet to", |telling: &mut Telling| &mut telling.hours.to)
+            .when(|telling| telling.is_quiet)
             .checked(|telling| {
                 let HoursOfDay { from, to } = telling.hours;
                 if from == to { Err("must be another time than Quiet from") } else { Ok(()) }
@@ -151,28 +152,6 @@ fn flag(label: &'static str, place: fn(&mut Telling) -> &mut bool) -> Descriptio
             Ok(())
         },
     )
-}
-
-fn time(label: &'static str, place: fn(&mut HoursOfDay) -> &mut Time) -> Description<Telling> {
-    const NO_TIME: &str = "must be a time of the day such as 22:00";
-    let check = |text: &str| match HoursOfDay::read_time(text) {
-        Some(_) => Ok(()),
-        None => Err(Unfit::Text(NO_TIME.to_owned())),
-    };
-    Description::new(
-        label,
-        Kind::Text(check),
-        move |telling: &mut Telling| {
-            Some(Value::Text(HoursOfDay::time_text(*place(&mut telling.hours))))
-        },
-        move |telling, value| {
-            if let Value::Text(text) = value {
-                *place(&mut telling.hours) = HoursOfDay::read_time(&text).ok_or(NO_TIME)?;
-            }
-            Ok(())
-        },
-    )
-    .when(|telling| telling.is_quiet)
 }
 
 /// Cards of the page with the numbers of their rows.
@@ -256,7 +235,7 @@ fn reminders(ui: &mut Ui, model: &Model, draft: &mut Draft, sought: &mut Sought)
             });
         }
         if ground.favourites().is_empty() {
-            note(ui, "There are no favourites. Add some in Satellites and frequencies.");
+            note(ui, "There are no favourites. Add some in Satellites and priorities.");
         }
     });
 }

@@ -12,8 +12,10 @@ pub(super) enum Page {
     /// Obstructions of the sky, and zones that antennas must not point at.
     Horizon,
     Antenna(AntennaId),
-    /// Favourites and their frequencies.
+    /// Favourites with their priorities, limits and frequencies, and groups.
     Satellites,
+    /// Automation rules.
+    Rules,
     /// Notifications, sounds and reminders.
     Notices,
     /// Theme and scale.
@@ -28,7 +30,7 @@ impl Page {
         let antennas = draft.antennas.iter().map(|antenna| Self::Antenna(antenna.before().id));
         let mut all = vec![Self::Site, Self::Horizon];
         all.extend(antennas);
-        all.extend([Self::Satellites, Self::Notices, Self::Appearance, Self::Keys]);
+        all.extend([Self::Satellites, Self::Rules, Self::Notices, Self::Appearance, Self::Keys]);
         all
     }
 
@@ -53,7 +55,8 @@ impl Page {
             Self::Site => "Site",
             Self::Horizon => "Horizon and keep-outs",
             Self::Antenna(id) => return draft.antenna_title(id),
-            Self::Satellites => "Satellites and frequencies",
+            Self::Satellites => "Satellites and priorities",
+            Self::Rules => "Automation rules",
             Self::Notices => "Alarms and sounds",
             Self::Appearance => "Appearance",
             Self::Keys => "Keys",
@@ -65,11 +68,12 @@ impl Page {
     /// draft of the station as saved.
     pub(super) fn counts(self, draft: &Draft, before: &Draft) -> Counts {
         match self {
-            Self::Site | Self::Satellites => {
-                let standings = draft.ground_standings();
-                let fields = draft.ground.fields.iter().zip(&standings);
-                Counts::of(fields.filter(|(field, _)| Self::of_section(field.section) == self))
+            Self::Site => draft.ground_counts(self),
+            Self::Satellites => {
+                let of_ground = draft.ground_counts(self);
+                of_ground.and(draft.satellites.counts(&before.satellites))
             }
+            Self::Rules => draft.rules.counts(&before.rules, &draft.around_rules()),
             Self::Horizon => Counts {
                 edited: draft.skies.edits(&before.skies),
                 wrong: draft.skies.problems(&draft.antenna_names()).len(),

@@ -2,7 +2,9 @@
 
 use std::borrow::Cow;
 
-use super::{appearance, draft::Draft, fields::Typed, horizon::Chosen, page::Page};
+use super::{
+    appearance, draft::Draft, fields::Typed, horizon::Chosen, page::Page, rules, satellites,
+};
 use crate::ui::keys::{ALL, list::in_words};
 
 /// Most results that are listed.
@@ -66,7 +68,13 @@ fn all(draft: &Draft) -> Vec<Found> {
                 let fields = draft.ground.fields.iter();
                 let of_page = fields.filter(|of| Page::of_section(of.section) == page);
                 all.extend(of_page.map(|of| field(of.description.label.clone())));
+                if page == Page::Satellites {
+                    all.extend(satellites::LABELS.map(|label| on_page(label.into())));
+                    let groups = draft.satellites.kept();
+                    all.extend(groups.map(|(_, group)| on_page(group.title().into())));
+                }
             }
+            Page::Rules => all.extend(rules::LABELS.map(|label| on_page(label.into()))),
             Page::Horizon => {
                 let spots = draft.skies.spots().into_iter();
                 all.extend(spots.map(|(label, chosen)| Found {

@@ -1,4 +1,4 @@
-//! The page of the site, and that of the satellites: fields of the station itself.
+//! The page of the site: fields of the station itself.
 
 use egui::{Rect, Ui};
 
@@ -21,23 +21,22 @@ use crate::{
     },
 };
 
-/// Shows the sections of `page`.
 pub(super) fn show(
     ui: &mut Ui,
     rect: Rect,
-    page: Page,
     model: &Model,
     (draft, before): (&mut Draft, &Draft),
     state: &mut FormState,
 ) {
+    let page = Page::Site;
     let sections = draft.ground.sections();
     let sections: Vec<(&str, usize)> =
         sections.into_iter().filter(|(section, _)| Page::of_section(section) == page).collect();
     let rows: Vec<usize> = sections.iter().map(|(_, rows)| *rows).collect();
     let standings = draft.ground_standings();
     let is_edited = page.counts(draft, before).edited > 0;
-    let group = if page == Page::Site { "station" } else { "satellites" };
-    columns::show(ui, rect, group, &rows, page == Page::Site, |ui, part| match part {
+    let group = "station";
+    columns::show(ui, rect, group, &rows, true, |ui, part| match part {
         Part::Card(card) => {
             let Some((section, _)) = sections.get(card) else { return };
             form::section(

@@ -10,50 +10,22 @@ use super::draft::SetupDraft;
 use crate::{
     engine::CatalogState,
     model::Model,
-    orbit::{Catalog, Elements},
-    ui::{format, text, theme, widgets::card},
+    orbit::Catalog,
+    ui::{
+        format,
+        object_search::{ObjectSearch, named},
+        text, theme,
+        widgets::card,
+    },
 };
 
 /// A larger group is no choice.
 const LARGEST_GROUP: usize = 200;
-/// Number of objects that a search shows.
-const FOUND: usize = 40;
 const LIST: f32 = 300.0;
 const ROW: f32 = 26.0;
 const CARD: f32 = 638.0;
 
-/// What is looked for, and what was found.
-#[derive(Default)]
-pub(super) struct SearchState {
-    typed: String,
-    found: Option<Found>,
-}
-
-struct Found {
-    catalog: Arc<Catalog>,
-    typed: String,
-    objects: Vec<(u32, String)>,
-}
-
-impl SearchState {
-    fn objects(&mut self, catalog: &Arc<Catalog>) -> &[(u32, String)] {
-        let is_known =
-            |found: &Found| Arc::ptr_eq(&found.catalog, catalog) && found.typed == self.typed;
-        let found = self.found.take().filter(is_known).unwrap_or_else(|| Found {
-            catalog: Arc::clone(catalog),
-            typed: self.typed.clone(),
-            objects: catalog.search(self.typed.trim(), FOUND).into_iter().map(named).collect(),
-        });
-        &self.found.insert(found).objects
-    }
-}
-
-fn named(elements: &Elements) -> (u32, String) {
-    let name = if elements.name().is_empty() { "No name" } else { elements.name() };
-    (elements.catalog_number(), name.to_owned())
-}
-
-pub(super) fn show(ui: &mut Ui, model: &Model, draft: &mut SetupDraft, state: &mut SearchState) {
+pub(super) fn show(ui: &mut Ui, model: &Model, draft: &mut SetupDraft, state: &mut ObjectSearch) {
     let t = theme::tokens(ui);
     let CatalogState::Ready(catalog) = &model.catalog else {
         let words = "There are no elements to choose from. You can go on and choose later.";
@@ -97,7 +69,7 @@ fn groups(ui: &mut Ui, catalog: &Catalog, draft: &mut SetupDraft) {
     ui.add_space(4.0);
 }
 
-fn search(ui: &mut Ui, catalog: &Arc<Catalog>, draft: &mut SetupDraft, state: &mut SearchState) {
+fn search(ui: &mut Ui, catalog: &Arc<Catalog>, draft: &mut SetupDraft, state: &mut ObjectSearch) {
     let t = theme::tokens(ui);
     let hint = RichText::new("Number or name; Enter adds the first").color(t.t3);
     let edit = TextEdit::singleline(&mut state.typed).id_salt("search").hint_text(hint);

@@ -1,0 +1,116 @@
+//! The page of the automation rules: a table in their order, and the chosen one as a form.
+
+pub(super) mod cannot_act;
+mod decided;
+pub(super) mod draft;
+mod editor;
+mod sentence;
+mod table;
+#[cfg(test)]
+mod tests;
+
+use egui::{Rect, Ui};
+
+use super::{
+    FormState, PADDING,
+    columns::{self, Part},
+    draft::Draft,
+};
+use crate::{
+    model::Model,
+    station::Station,
+    ui::{object_search::ObjectSearch, words},
+};
+use cannot_act::{Around, CannotAct};
+use decided::{Decided, DecidedPass};
+use draft::RulesDraft;
+
+/// Settings of the page that are no fields of the station.
+pub(super) const LABELS: [&str; 3] =
+    ["Order of the rules", "Rules by satellite or group", "Rules by Sun and hours"];
+/// Most of the page that the table takes.
+const TABLE_SHARE: f32 = 0.45;
+/// Rows of the cards, for the columns.
+const CARDS: [usize; 2] = [10, 8];
+
+/// The rule that is chosen, and what is looked for.
+#[derive(Default)]
+pub(super) struct RulesState {
+    chosen: usize,
+    /// The row that gets the keyboard focus.
+    wants_focus: Option<usize>,
+    /// The rule that follows the pointer.
+    dragged: Option<usize>,
+    search: ObjectSearch,
+    decided: Option<Decided>,
+}
+
+impl RulesState {
+    pub(super) fn choose(&mut self, index: usize) {
+        self.chosen = index;
+        self.wants_focus = Some(index);
+    }
+
+    /// Works out the passes that the rules of `station` decide, unless they are known.
+    fn work_out(&mut self, station: Option<Station>, model: &Model) {
+        self.decided = station.map(|station| {
+            let known = self.decided.take().filter(|decided| decided.is_of(&station, model));
+            known.unwrap_or_else(|| Decided::of(station, model))
+        });
+    }
+}
+
+/// A rule of the draft with what is said of it.
+struct Shown {
+    index: usize,
+    /// `None` where it is removed.
+    number: Option<usize>,
+    sentence: String,
+    /// Why it cannot act; of a rule that is off, why it could not be saved.
+    hindrance: Option<(CannotAct, String)>,
+}
+
+impl Shown {
+    fn of(index: usize, rules: &RulesDraft, around: &Around<'_>, model: &Model) -> Option<Self> {
+        let rule = rules.all().get(index)?;
+        let number = rules.number(index);
+        let hindrance = rules.cannot_act(index, around);
+        let counts = |why: &CannotAct| number.is_some() && (rule.is_on || why.is_wrong());
+        Some(Self {
+            index,
+            number,
+            sentence: sentence::sentence(rule, around, &|number| words::satellite(model, number)),
+            hindrance: hindrance.filter(counts).map(|why| (why, why.words(around))),
+        })
+    }
+
+    /// The passes that it decides; `None` while not all that is typed can be used.
+    fn decided<'a>(&self, state: &'a RulesState) -> Option<&'a [DecidedPass]> {
+        Some(state.decided.as_ref()?.by(self.number? - 1))
+    }
+}
+
+pub(super) fn show(
+    ui: &mut Ui,
+    rect: Rect,
+    model: &Model,
+    (draft, before): (&mut Draft, &Draft),
+    state: &mut FormState,
+) {
+    state.rules.work_out(draft.read(), model);
+    let (antennas, favourites) = (draft.antenna_titles(), draft.ground.read().0.favourites());
+    // Borrowed apart from the rules, which change.
+    let Draft { satellites, rules, .. } = draft;
+    let around = Around { antennas, favourites, satellites };
+    let wanted = table::height(rules.all().len());
+    let height = wanted.min((rect.height() * TABLE_SHARE).max(table::height(2)));
+    let (top, below) = rect.split_top_bottom_at_y(rect.top() + height);
+    table::show(ui, top, model, rules, &around, &mut state.rules);
+    let Some(shown) = Shown::of(state.rules.chosen, rules, &around, model) else { return };
+    let below = below.with_min_y(below.top() + PADDING / 2.0);
+    columns::show(ui, below, "rules", &CARDS, false, |ui, part| match part {
+        Part::Card(0) => editor::show(ui, model, &shown, (rules, &before.rules), &around, state),
+        Part::Card(_) => editor::decided(ui, model, &shown, &around, &state.rules),
+        Part::Preview { .. } | Part::Findings => {}
+    });
+}

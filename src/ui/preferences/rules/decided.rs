@@ -1,0 +1,73 @@
+//! The passes of the next 48 h that each rule decides, as edited.
+
+use std::sync::Arc;
+
+use jiff::Timestamp;
+
+use crate::{
+    engine::passes::PredictedPass,
+    model::Model,
+    plan::schedule::{deciding_rule, sun_is},
+    station::{AntennaId, Station},
+};
+
+const AHEAD_H: u32 = 48;
+/// Passes are gone through again after so long, seconds.
+const KEPT_S: i64 = 30;
+
+/// A pass that a rule decides.
+pub(super) struct DecidedPass {
+    /// Catalog number.
+    pub(super) satellite: u32,
+    pub(super) aos: Timestamp,
+    pub(super) max_elevation_deg: f64,
+    /// For these antennas.
+    pub(super) antennas: Vec<AntennaId>,
+}
+
+/// The passes by the places of the rules of `station`.
+pub(super) struct Decided {
+    station: Station,
+    passes: Arc<Vec<PredictedPass>>,
+    at: Timestamp,
+    of_rules: Vec<Vec<DecidedPass>>,
+}
+
+impl Decided {
+    pub(super) fn of(station: Station, model: &Model) -> Self {
+        let list = &model.pass_lists.favourites;
+        let mut of_rules: Vec<Vec<DecidedPass>> = station.rules.iter().map(|_| vec![]).collect();
+        for predicted in list.within(model.now, AHEAD_H).iter() {
+            let (number, pass) = (predicted.number(), &predicted.pass);
+            let at = (pass.tca.time, sun_is(&station, pass.tca.time));
+            for antenna in &station.antennas {
+                let rule = deciding_rule(&station, number, at, antenna.id);
+                let Some(of_rule) = rule.and_then(|rule| of_rules.get_mut(rule)) else { continue };
+                match of_rule.last_mut() {
+                    Some(last) if last.satellite == number && last.aos == pass.aos.time => {
+                        last.antennas.push(antenna.id);
+                    }
+                    _ => of_rule.push(DecidedPass {
+                        satellite: number,
+                        aos: pass.aos.time,
+                        max_elevation_deg: pass.tca.direction.elevation_deg(),
+                        antennas: vec![antenna.id],
+                    }),
+                }
+            }
+        }
+        Self { station, passes: Arc::clone(&list.passes), at: model.now, of_rules }
+    }
+
+    pub(super) fn is_of(&self, station: &Station, model: &Model) -> bool {
+        let age_s = (model.now.as_second() - self.at.as_second()).abs();
+        self.station == *station
+            && age_s < KEPT_S
+            && Arc::ptr_eq(&self.passes, &model.pass_lists.favourites.passes)
+    }
+
+    /// The passes that the rule at this place decides, by AOS.
+    pub(super) fn by(&self, place: usize) -> &[DecidedPass] {
+        self.of_rules.get(place).map(Vec::as_slice).unwrap_or_default()
+    }
+}

@@ -1,0 +1,257 @@
+//! Draft of the automation rules.
+
+use super::cannot_act::{Around, CannotAct};
+use crate::{
+    station::{AntennaId, AutomationRule, HoursOfDay, RuleOf, Station, SunIs, Then},
+    ui::preferences::{
+        draft::Finding,
+        fields::{Counts, Description, Placed, Problem, Typed, placed},
+    },
+};
+
+/// Sections of the fields of a rule.
+pub(super) const WHEN: &str = "When";
+pub(super) const THEN: &str = "Then";
+
+/// The rules in their order; those that saving removes keep their place until then.
+#[derive(PartialEq)]
+pub(in crate::ui::preferences) struct RulesDraft(Vec<RuleDraft>);
+
+#[derive(Clone, PartialEq)]
+pub(super) struct Conditions {
+    pub(super) sun: Option<SunIs>,
+    pub(super) is_by_hours: bool,
+    /// They wait here while the rule holds at all hours.
+    pub(super) hours: HoursOfDay,
+    pub(super) then: Then,
+}
+
+/// The satellites of a rule.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Of {
+    All,
+    /// `None` until one is chosen.
+    Satellite(Option<u32>),
+    /// Index of the draft of the group: the rule follows its name.
+    Group(Option<usize>),
+}
+
+#[derive(PartialEq)]
+pub(super) struct RuleDraft {
+    /// Place among the rules as saved.
+    was: Option<usize>,
+    pub(super) is_on: bool,
+    pub(super) antenna: Option<AntennaId>,
+    pub(super) of: Of,
+    pub(super) typed: Typed<Conditions>,
+    pub(super) is_removed: bool,
+}
+
+impl Conditions {
+    pub(super) fn hours(&self) -> Option<HoursOfDay> {
+        self.is_by_hours.then_some(self.hours)
+    }
+}
+
+impl RuleDraft {
+    fn of(rule: &AutomationRule, was: Option<usize>, station: &Station) -> Self {
+        let group = |name: &String| station.groups.iter().position(|of| of.name == *name);
+        let conditions = Conditions {
+            sun: rule.sun,
+            is_by_hours: rule.hours.is_some(),
+            hours: rule.hours.unwrap_or(HoursOfDay::NIGHT),
+            then: rule.then,
+        };
+        Self {
+            was,
+            is_on: rule.is_on,
+            antenna: rule.antenna,
+            of: match &rule.of {
+                None => Of::All,
+                Some(RuleOf::Satellite(number)) => Of::Satellite(Some(*number)),
+                Some(RuleOf::Group(name)) => Of::Group(group(name)),
+            },
+            typed: Typed::of(conditions, fields()),
+            is_removed: false,
+        }
+    }
+
+    /// The rule as saved.
+    pub(super) fn was_in<'a>(&self, before: &'a RulesDraft) -> Option<&'a Self> {
+        self.was.and_then(|was| before.0.get(was))
+    }
+
+    fn edits(&self, before: &RulesDraft) -> usize {
+        let Some(was) = self.was_in(before) else {
+            return usize::from(!self.is_removed);
+        };
+        if self.is_removed {
+            return 1;
+        }
+        let fields = self.typed.fields.iter().filter(|field| field.is_edited()).count();
+        fields
+            + usize::from(was.is_on != self.is_on)
+            + usize::from(was.antenna != self.antenna)
+            + usize::from(was.of != self.of)
+    }
+
+    /// The rule as typed. `None` where it would not be one of the station file.
+    fn read(&self, around: &Around<'_>) -> Option<AutomationRule> {
+        let of = match self.of {
+            Of::All => None,
+            Of::Satellite(number) => Some(RuleOf::Satellite(number?)),
+            Of::Group(group) => Some(RuleOf::Group(around.group(group?)?)),
+        };
+        let conditions = self.typed.read().0;
+        Some(AutomationRule {
+            is_on: self.is_on,
+            antenna: self.antenna,
+            of,
+            sun: conditions.sun,
+            hours: conditions.hours(),
+            then: conditions.then,
+        })
+    }
+}
+
+impl RulesDraft {
+    pub(in crate::ui::preferences) fn of(station: &Station) -> Self {
+        let rules = station.rules.iter().enumerate();
+        Self(rules.map(|(index, rule)| RuleDraft::of(rule, Some(index), station)).collect())
+    }
+
+    pub(super) fn all(&self) -> &[RuleDraft] {
+        &self.0
+    }
+
+    pub(super) fn get_mut(&mut self, index: usize) -> Option<&mut RuleDraft> {
+        self.0.get_mut(index)
+    }
+
+    /// Adds a rule that leaves all passes out, switched off, at the end, and returns its place.
+    pub(in crate::ui::preferences) fn add(&mut self) -> usize {
+        let conditions = Conditions {
+            sun: None,
+            is_by_hours: false,
+            hours: HoursOfDay::NIGHT,
+            then: Then::Leave,
+        };
+        self.0.push(RuleDraft {
+            was: None,
+            is_on: false,
+            antenna: None,
+            of: Of::All,
+            typed: Typed::of(conditions, fields()),
+            is_removed: false,
+        });
+        self.0.len() - 1
+    }
+
+    /// Adds a rule like this one, switched off, behind it, and returns its place.
+    pub(super) fn duplicate(&mut self, index: usize) -> Option<usize> {
+        let rule = self.0.get(index)?;
+        let copy = RuleDraft {
+            was: None,
+            is_on: false,
+            antenna: rule.antenna,
+            of: rule.of,
+            typed: Typed::of(rule.typed.read().0, fields()),
+            is_removed: false,
+        };
+        self.0.insert(index + 1, copy);
+        Some(index + 1)
+    }
+
+    /// Moves a rule to another place.
+    pub(super) fn reorder(&mut self, from: usize, to: usize) {
+        if from < self.0.len() && to < self.0.len() {
+            let rule = self.0.remove(from);
+            self.0.insert(to, rule);
+        }
+    }
+
+    /// The number of a rule among those that stay, from 1.
+    pub(super) fn number(&self, index: usize) -> Option<usize> {
+        let rule = self.0.get(index).filter(|rule| !rule.is_removed);
+        let before = self.0.iter().take(index).filter(|rule| !rule.is_removed).count();
+        rule.map(|_| before + 1)
+    }
+
+    fn is_reordered(&self) -> bool {
+        !self.0.iter().filter_map(|rule| rule.was).is_sorted()
+    }
+
+    /// Edits, of which another order is one, and rules that cannot be saved.
+    pub(in crate::ui::preferences) fn counts(&self, before: &Self, around: &Around<'_>) -> Counts {
+        let edited = self.0.iter().map(|rule| rule.edits(before)).sum::<usize>();
+        Counts {
+            edited: edited + usize::from(self.is_reordered()),
+            wrong: self.findings(around).len(),
+        }
+    }
+
+    /// The rules that would not be read back from the station file.
+    pub(in crate::ui::preferences) fn findings(&self, around: &Around<'_>) -> Vec<Finding> {
+        let of = |index: usize| {
+            let number = self.number(index)?;
+            let why = self.cannot_act(index, around).filter(CannotAct::is_wrong)?;
+            let problem = Problem::of(format!("cannot be saved: {}", why.words(around)));
+            Some(Finding { label: format!("Rule {number}"), problem })
+        };
+        (0..self.0.len()).filter_map(of).collect()
+    }
+
+    /// The rules, if all of them are right.
+    pub(in crate::ui::preferences) fn read(
+        &self,
+        around: &Around<'_>,
+    ) -> Option<Vec<AutomationRule>> {
+        if !self.findings(around).is_empty() {
+            return None;
+        }
+        let kept = self.0.iter().filter(|rule| !rule.is_removed);
+        kept.map(|rule| rule.read(around)).collect()
+    }
+}
+
+fn fields() -> Vec<Placed<Conditions>> {
+    const SUN: [Option<SunIs>; 3] = [None, Some(SunIs::Up), Some(SunIs::Down)];
+    const THENS: [Then; 3] = [Then::Take, Then::Leave, Then::Park];
+    let mut fields = placed(
+        WHEN,
+        [
+            Description::choice(
+                "Sun",
+                &[(0, "Any"), (1, "Up"), (2, "Down")],
+                &SUN,
+                |conditions: &mut Conditions| &mut conditions.sun,
+            ),
+            Description::choice(
+                "Hours",
+                &[(0, "All"), (1, "Some")],
+                &[false, true],
+                |conditions: &mut Conditions| &mut conditions.is_by_hours,
+            ),
+            Description::time("From", |conditions: &mut Conditions| &mut conditions.hours.from)
+                .in_unit("UTC")
+                .when(|conditions| conditions.is_by_hours),
+            Description::time("To", |conditions: &mut Conditions| &mut conditions.hours.to)
+                .in_unit("UTC")
+                .when(|conditions| conditions.is_by_hours)
+                .checked(|conditions| {
+                    let HoursOfDay { from, to } = conditions.hours;
+                    if from == to { Err("must be another time than From") } else { Ok(()) }
+                }),
+        ],
+    );
+    fields.extend(placed(
+        THEN,
+        [Description::choice(
+            "Then",
+            &[(0, "Take"), (1, "Leave"), (2, "Park")],
+            &THENS,
+            |conditions: &mut Conditions| &mut conditions.then,
+        )],
+    ));
+    fields
+}

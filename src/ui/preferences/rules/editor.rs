@@ -1,0 +1,263 @@
+//! The chosen rule as a form that ends with it as one sentence, and the passes that it decides.
+
+use egui::{Frame, Label, Margin, RichText, Sense, Ui, vec2};
+
+use super::{
+    RulesState, Shown,
+    cannot_act::{Around, CannotAct},
+    draft::{Of, RuleDraft, RulesDraft, THEN, WHEN},
+};
+use crate::{
+    model::Model,
+    ui::{
+        format,
+        object_search::ObjectSearch,
+        preferences::{
+            FormState,
+            form::{self, ROW},
+            picker,
+        },
+        text, theme,
+        widgets::{
+            button::Button,
+            drop_down::DropDown,
+            paint,
+            segmented::{self, Segment},
+            told::{self, Tone},
+        },
+        words,
+    },
+};
+
+/// Passes that are listed.
+const LISTED: usize = 10;
+
+pub(super) fn show(
+    ui: &mut Ui,
+    model: &Model,
+    shown: &Shown,
+    (rules, before): (&mut RulesDraft, &RulesDraft),
+    around: &Around<'_>,
+    state: &mut FormState,
+) {
+    let title = match shown.number {
+        Some(number) => format!("Rule {number}"),
+        None => "Rule that is removed".to_owned(),
+    };
+    form::card(ui, &title, |ui| {
+        buttons(ui, shown, rules, &mut state.rules);
+        let Some(rule) = rules.get_mut(shown.index) else { return };
+        let was = rule.was_in(before);
+        let is_other_antenna = was.is_some_and(|was| was.antenna != rule.antenna);
+        let is_of_others = was.is_some_and(|was| was.of != rule.of);
+        ui.add_enabled_ui(!rule.is_removed, |ui| {
+            let why = shown.hindrance.as_ref().map(|(why, _)| *why);
+            antenna(ui, rule, around, (why, is_other_antenna));
+            let search = &mut state.rules.search;
+            satellites(ui, model, rule, around, (why, is_of_others), search);
+            let standings = rule.typed.read().1;
+            for section in [WHEN, THEN] {
+                let typed = (&mut rule.typed, &*standings);
+                form::rows(ui, "rule", typed, section, &mut state.sought);
+            }
+        });
+        ui.add_space(4.0);
+        sentence(ui, shown);
+    });
+}
+
+fn buttons(ui: &mut Ui, shown: &Shown, rules: &mut RulesDraft, state: &mut RulesState) {
+    let (index, last) = (shown.index, rules.all().len().saturating_sub(1));
+    let is_removed = shown.number.is_none();
+    ui.horizontal(|ui| {
+        for (word, to) in
+            [("Move up", index.saturating_sub(1)), ("Move down", (index + 1).min(last))]
+        {
+            if ui.add_enabled(to != index, egui::Button::new(word)).clicked() {
+                rules.reorder(index, to);
+                state.chosen = to;
+            }
+        }
+        if ui.add_enabled(!is_removed, egui::Button::new("Duplicate")).clicked()
+            && let Some(copy) = rules.duplicate(index)
+        {
+            state.choose(copy);
+        }
+        let word = if is_removed { "Undo: keep it" } else { "Remove rule" };
+        if ui.button(word).clicked()
+            && let Some(rule) = rules.get_mut(index)
+        {
+            rule.is_removed = !rule.is_removed;
+        }
+    });
+    ui.add_space(4.0);
+}
+
+fn antenna(
+    ui: &mut Ui,
+    rule: &mut RuleDraft,
+    around: &Around<'_>,
+    (why, is_edited): (Option<CannotAct>, bool),
+) {
+    let wrong = (why == Some(CannotAct::NoAntenna)).then_some("Is removed");
+    form::row_of(ui, ("rule", "Antenna"), wrong, is_edited, |ui| {
+        let chosen = rule.antenna.map_or("All", |id| around.antenna(id).unwrap_or("Removed"));
+        drop_down(ui, "antenna", chosen, &format!("Antenna, {chosen}"), |ui| {
+            ui.selectable_value(&mut rule.antenna, None, "All");
+            for (id, name) in &around.antennas {
+                ui.selectable_value(&mut rule.antenna, Some(*id), name);
+            }
+        });
+    });
+}
+
+fn drop_down(
+    ui: &mut Ui,
+    salt: &'static str,
+    chosen: &str,
+    name: &str,
+    list: impl FnOnce(&mut Ui),
+) {
+    const LEAST: f32 = 160.0;
+    let drop_down = DropDown { button: Button::normal(chosen), salt, name };
+    let size = vec2(drop_down.width(ui).max(LEAST), ROW);
+    let (place, _) = ui.allocate_exact_size(size, Sense::hover());
+    drop_down.show(ui, place, list);
+}
+
+fn satellites(
+    ui: &mut Ui,
+    model: &Model,
+    rule: &mut RuleDraft,
+    around: &Around<'_>,
+    (why, is_edited): (Option<CannotAct>, bool),
+    search: &mut ObjectSearch,
+) {
+    const KINDS: [&str; 3] = ["All", "One", "Group"];
+    const WIDTH: f32 = 160.0;
+    let wrong = match why {
+        Some(CannotAct::NoSatellite) => Some("Choose one"),
+        Some(CannotAct::NoGroup) => Some("Choose a group"),
+        _ => None,
+    };
+    form::row_of(ui, ("rule", "Satellites"), wrong, is_edited, |ui| {
+        ui.vertical(|ui| {
+            let present = match rule.of {
+                Of::All => 0,
+                Of::Satellite(_) => 1,
+                Of::Group(_) => 2,
+            };
+            let state = |kind| if kind == present { Segment::Chosen } else { Segment::Free };
+            let segments: Vec<_> =
+                (0..).zip(KINDS).map(|(kind, word)| (word, state(kind))).collect();
+            let (place, _) = ui.allocate_exact_size(vec2(WIDTH, ROW), Sense::hover());
+            let clicked = segmented::show(ui, "of", place, "Satellites", &segments);
+            match clicked.filter(|kind| *kind != present) {
+                Some(0) => rule.of = Of::All,
+                Some(1) => rule.of = Of::Satellite(None),
+                Some(_) => rule.of = Of::Group(None),
+                None => {}
+            }
+            match rule.of {
+                Of::All => {}
+                Of::Satellite(number) => {
+                    if let Some(number) = number {
+                        let name = words::satellite(model, number);
+                        let words = format!("{name}, {number}");
+                        ui.label(RichText::new(words).font(text::body_medium()));
+                    }
+                    let taken: Vec<u32> = number.into_iter().collect();
+                    let found = picker::show(ui, model, &around.favourites, &taken, search);
+                    if found.is_some() {
+                        rule.of = Of::Satellite(found);
+                    }
+                }
+                Of::Group(group) => choose_group(ui, group, rule, around),
+            }
+        });
+    });
+}
+
+fn choose_group(ui: &mut Ui, group: Option<usize>, rule: &mut RuleDraft, around: &Around<'_>) {
+    if around.satellites.kept().next().is_none() {
+        let words = "There are no groups. Add one in Satellites and priorities.";
+        ui.label(RichText::new(words).font(text::small()).color(theme::tokens(ui).warn));
+        return;
+    }
+    let chosen = group.and_then(|group| around.group(group));
+    let chosen = chosen.unwrap_or_else(|| "Choose a group".to_owned());
+    drop_down(ui, "group", &chosen, &format!("Group, {chosen}"), |ui| {
+        for (index, group) in around.satellites.kept() {
+            ui.selectable_value(&mut rule.of, Of::Group(Some(index)), group.title());
+        }
+    });
+}
+
+/// The rule as one sentence, and why it cannot act.
+fn sentence(ui: &mut Ui, shown: &Shown) {
+    let t = theme::tokens(ui);
+    let frame = Frame::new().fill(t.bg2).corner_radius(6).inner_margin(Margin::symmetric(12, 8));
+    frame.show(ui, |ui| {
+        ui.set_width(ui.available_width());
+        let words = RichText::new(&shown.sentence).font(text::body()).color(t.t1);
+        ui.add(Label::new(words).wrap());
+        if let Some((why, words)) = &shown.hindrance {
+            let tone = if why.is_wrong() { Tone::Bad } else { Tone::Caution };
+            told::line(ui, tone, &format!("It cannot act: {words}."));
+        }
+    });
+}
+
+/// The passes of the next 48 h that the rule decides.
+pub(super) fn decided(
+    ui: &mut Ui,
+    model: &Model,
+    shown: &Shown,
+    around: &Around<'_>,
+    state: &RulesState,
+) {
+    form::card(ui, "Passes that it decides, 48 h", |ui| {
+        let passes = shown.decided(state);
+        let words = match passes {
+            None => "Not known while a field cannot be used, or the rule is removed.",
+            Some([]) => "None.",
+            Some(_) => "Sun and hours count at the middle of a pass, its TCA.",
+        };
+        told::line(ui, Tone::Plain, words);
+        let passes = passes.unwrap_or_default();
+        for pass in passes.iter().take(LISTED) {
+            let of = |id| around.antenna(id).map(str::to_owned);
+            let antennas: Vec<String> = pass.antennas.iter().copied().filter_map(of).collect();
+            let words = [
+                format::moment(pass.aos, model.now),
+                words::satellite(model, pass.satellite),
+                format::degrees(pass.max_elevation_deg, 0),
+                antennas.join(", "),
+            ];
+            line(ui, &words);
+        }
+        if passes.len() > LISTED {
+            told::line(ui, Tone::Plain, &format!("And {} more.", passes.len() - LISTED));
+        }
+    });
+}
+
+fn line(ui: &mut Ui, words: &[String; 4]) {
+    const SHARES: [f32; 4] = [0.22, 0.34, 0.12, 0.32];
+    let t = theme::tokens(ui);
+    let (row, response) = ui.allocate_exact_size(vec2(ui.available_width(), ROW), Sense::hover());
+    let mut left = row.left();
+    for (index, (words, share)) in words.iter().zip(SHARES).enumerate() {
+        let right = left + row.width() * share;
+        let place = row.with_min_x(left).with_max_x(right - 8.0);
+        let (anchor, ink) = match index {
+            1 => (egui::Align2::LEFT_CENTER, t.t1),
+            2 => (egui::Align2::RIGHT_CENTER, t.t2),
+            _ => (egui::Align2::LEFT_CENTER, t.t2),
+        };
+        paint::text_in(ui, place, anchor, words, text::small(), ink);
+        left = right + if index == 2 { 8.0 } else { 0.0 };
+    }
+    let spoken = words.join(", ");
+    response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Label, true, &spoken));
+}

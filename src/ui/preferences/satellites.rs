@@ -1,0 +1,71 @@
+//! The page of the satellites: priorities and limits of the favourites, groups, frequencies.
+
+pub(super) mod draft;
+mod favourites;
+mod groups;
+
+use egui::{Rect, Ui};
+
+use super::{
+    FormState,
+    columns::{self, Part},
+    draft::Draft,
+    form,
+    page::Page,
+};
+use crate::{model::Model, station::AntennaId, ui::object_search::ObjectSearch};
+
+/// What is open on the page.
+#[derive(Default)]
+pub(super) struct SatellitesState {
+    /// The favourite whose limits are open.
+    favourite: Option<u32>,
+    /// The group that is open.
+    group: Option<usize>,
+    search: ObjectSearch,
+}
+
+/// What the cards of the page show besides the draft.
+struct Around<'a> {
+    model: &'a Model,
+    favourites: Vec<u32>,
+    antennas: Vec<(AntennaId, String)>,
+}
+
+/// Settings of the page that are no fields.
+pub(super) const LABELS: [&str; 3] = [favourites::TITLE, "Limits of passes", groups::TITLE];
+
+pub(super) fn show(
+    ui: &mut Ui,
+    rect: Rect,
+    model: &Model,
+    draft: &mut Draft,
+    state: &mut FormState,
+) {
+    let around = Around {
+        model,
+        favourites: draft.ground.read().0.favourites(),
+        antennas: draft.antenna_titles(),
+    };
+    let sections = draft.ground.sections();
+    let sections: Vec<(&str, usize)> = sections
+        .into_iter()
+        .filter(|(section, _)| Page::of_section(section) == Page::Satellites)
+        .collect();
+    let mut rows = vec![around.favourites.len() + 2, draft.satellites.groups().len() + 2];
+    rows.extend(sections.iter().map(|(_, rows)| *rows));
+    let standings = draft.ground_standings();
+    columns::show(ui, rect, "satellites", &rows, false, |ui, part| {
+        let Part::Card(card) = part else { return };
+        let satellites = &mut draft.satellites;
+        match card {
+            0 => favourites::show(ui, &around, satellites, &mut state.satellites),
+            1 => groups::show(ui, &around, satellites, state),
+            card => {
+                let Some((section, _)) = sections.get(card - 2) else { return };
+                let typed = (&mut draft.ground, &*standings);
+                form::section(ui, "satellites", typed, section, &mut state.sought, |_| {});
+            }
+        }
+    });
+}

@@ -1,0 +1,245 @@
+//! Draft of the priorities and limits of the favourites, and of the groups.
+
+use crate::{
+    station::{
+        Antenna, AntennaId, Favourite, Favourites, PassLimits, Priority, SatelliteGroup, Station,
+    },
+    ui::preferences::{
+        connection_fields::not_empty,
+        draft::Finding,
+        fields::{Counts, Description, Placed, Problem, Standing, Typed, placed},
+    },
+};
+
+/// Section of the fields of a group.
+pub(super) const GROUP: &str = "Group";
+const PRIORITIES: [Option<Priority>; 6] = {
+    let [first, second, third, fourth, fifth] = Priority::ALL;
+    [None, Some(first), Some(second), Some(third), Some(fourth), Some(fifth)]
+};
+
+#[derive(PartialEq)]
+pub(in crate::ui::preferences) struct SatellitesDraft {
+    /// What each favourite has of its own. Which satellites are favourites is a field of the
+    /// station; what was set for one that left is kept until it is back.
+    own: Favourites,
+    groups: Vec<GroupDraft>,
+}
+
+/// A group; it keeps its place among the groups while it is removed.
+#[derive(PartialEq)]
+pub(in crate::ui::preferences) struct GroupDraft {
+    was: Option<SatelliteGroup>,
+    pub(super) named: Typed<Named>,
+    pub(super) satellites: Vec<u32>,
+    pub(super) limits: PassLimits,
+    pub(in crate::ui::preferences) is_removed: bool,
+}
+
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Named {
+    name: String,
+    priority: Option<Priority>,
+}
+
+/// What the groups of a satellite give it.
+pub(super) struct OfGroups {
+    /// With the name of the group.
+    pub(super) priority: Option<(Priority, String)>,
+    pub(super) limits: PassLimits,
+}
+
+impl GroupDraft {
+    fn of(group: &SatelliteGroup) -> Self {
+        let named = Named { name: group.name.clone(), priority: group.priority };
+        Self {
+            was: Some(group.clone()),
+            named: Typed::of(named, fields()),
+            satellites: group.satellites.clone(),
+            limits: group.limits.clone(),
+            is_removed: false,
+        }
+    }
+
+    fn added(name: String) -> Self {
+        Self {
+            was: None,
+            named: Typed::of(Named { name, priority: None }, fields()),
+            satellites: Vec::new(),
+            limits: PassLimits::default(),
+            is_removed: false,
+        }
+    }
+
+    /// The name as typed; that of before while there is none.
+    pub(in crate::ui::preferences) fn title(&self) -> String {
+        let typed = self.typed_name().trim();
+        if typed.is_empty() { self.named.before().name.clone() } else { typed.to_owned() }
+    }
+
+    fn typed_name(&self) -> &str {
+        self.named.fields.first().map_or("", |field| field.text.as_str())
+    }
+
+    pub(super) fn priority(&self) -> Option<Priority> {
+        self.named.read().0.priority
+    }
+
+    pub(super) fn has_other_satellites(&self) -> bool {
+        let was = self.was.as_ref().map(|was| was.satellites.as_slice()).unwrap_or_default();
+        was != self.satellites
+    }
+
+    #[cfg(test)]
+    pub(in crate::ui::preferences) fn rename(&mut self, name: &str) {
+        self.named.write("Name", name.to_owned());
+    }
+
+    fn edits(&self) -> usize {
+        let Some(was) = &self.was else { return usize::from(!self.is_removed) };
+        if self.is_removed {
+            return 1;
+        }
+        let fields = self.named.fields.iter().filter(|field| field.is_edited()).count();
+        fields + usize::from(self.has_other_satellites()) + usize::from(was.limits != self.limits)
+    }
+}
+
+fn fields() -> Vec<Placed<Named>> {
+    let fields = [
+        Description::text("Name", not_empty, |named: &mut Named| Some(&mut named.name)),
+        Description::choice(
+            "Priority",
+            &[(0, "None"), (1, "1"), (2, "2"), (3, "3"), (4, "4"), (5, "5")],
+            &PRIORITIES,
+            |named: &mut Named| &mut named.priority,
+        )
+        .noted(|_| Some("For those of its satellites that have none of their own.".to_owned())),
+    ];
+    placed(GROUP, fields)
+}
+
+impl SatellitesDraft {
+    pub(in crate::ui::preferences) fn of(station: &Station) -> Self {
+        Self {
+            own: station.favourites.clone(),
+            groups: station.groups.iter().map(GroupDraft::of).collect(),
+        }
+    }
+
+    /// What a favourite has of its own.
+    pub(super) fn own(&self, number: u32) -> Favourite {
+        self.own.get(number).cloned().unwrap_or_else(|| Favourite::new(number))
+    }
+
+    pub(super) fn put(&mut self, favourite: Favourite) {
+        self.own.put(favourite);
+    }
+
+    pub(in crate::ui::preferences) fn groups(&self) -> &[GroupDraft] {
+        &self.groups
+    }
+
+    pub(in crate::ui::preferences) fn group_mut(
+        &mut self,
+        index: usize,
+    ) -> Option<&mut GroupDraft> {
+        self.groups.get_mut(index)
+    }
+
+    /// The groups that stay, by their indices.
+    pub(in crate::ui::preferences) fn kept(&self) -> impl Iterator<Item = (usize, &GroupDraft)> {
+        self.groups.iter().enumerate().filter(|(_, group)| !group.is_removed)
+    }
+
+    /// Satellites of a group that stays.
+    pub(in crate::ui::preferences) fn members(&self, group: usize) -> Option<&[u32]> {
+        let group = self.groups.get(group).filter(|group| !group.is_removed)?;
+        Some(&group.satellites)
+    }
+
+    /// Adds a group without satellites and returns its index.
+    pub(super) fn add_group(&mut self) -> usize {
+        let taken: Vec<&str> = self.groups.iter().map(GroupDraft::typed_name).collect();
+        let name = Antenna::free_name("Group", &taken);
+        self.groups.push(GroupDraft::added(name));
+        self.groups.len() - 1
+    }
+
+    /// What a satellite has from its groups.
+    pub(super) fn of_groups(&self, number: u32) -> OfGroups {
+        let mut found = OfGroups { priority: None, limits: PassLimits::default() };
+        for (_, group) in self.kept().filter(|(_, group)| group.satellites.contains(&number)) {
+            let priority = || group.priority().map(|priority| (priority, group.title()));
+            found.priority = found.priority.or_else(priority);
+            found.limits = found.limits.or(&group.limits);
+        }
+        found
+    }
+
+    /// Standings of the fields of a group: its name differs from those of the others as well.
+    pub(super) fn standings(&self, index: usize) -> Vec<Standing> {
+        let Some(group) = self.groups.get(index) else { return Vec::new() };
+        let (_, mut standings) = group.named.read();
+        let own = group.typed_name();
+        let has_twin = self
+            .kept()
+            .any(|(other, group)| other != index && Antenna::same_name(group.typed_name(), own));
+        if let Some(Standing { problem: problem @ None, .. }) = standings.first_mut()
+            && has_twin
+        {
+            let taken: Vec<&str> = self.groups.iter().map(GroupDraft::typed_name).collect();
+            let free = Antenna::free_name(own.trim(), &taken);
+            let why = "must differ from those of the other groups";
+            *problem = Some(Problem { would_do: Some(free), ..Problem::of(why) });
+        }
+        standings
+    }
+
+    pub(in crate::ui::preferences) fn findings(&self) -> Vec<Finding> {
+        let of = |(index, group): (usize, &GroupDraft)| {
+            let problem =
+                self.standings(index).into_iter().find_map(|standing| standing.problem)?;
+            Some(Finding { label: format!("Name of the group {}", group.title()), problem })
+        };
+        self.kept().filter_map(of).collect()
+    }
+
+    /// Edits, of which each priority and each row of limits is one, and unusable names.
+    pub(in crate::ui::preferences) fn counts(&self, before: &Self) -> Counts {
+        let of_favourite = |own: &Favourite| {
+            let was = before.own(own.satellite);
+            usize::from(was.priority != own.priority) + usize::from(was.limits != own.limits)
+        };
+        let edited = self.own.iter().map(of_favourite).sum::<usize>()
+            + self.groups.iter().map(GroupDraft::edits).sum::<usize>();
+        Counts { edited, wrong: self.findings().len() }
+    }
+
+    /// Puts the draft into `station`, which has its favourites and antennas already, if every
+    /// field is right. Limits to antennas that are gone do not name them any more.
+    pub(in crate::ui::preferences) fn put_into(&self, station: &mut Station) -> Option<()> {
+        if !self.findings().is_empty() {
+            return None;
+        }
+        let ids: Vec<AntennaId> = station.antennas.iter().map(|antenna| antenna.id).collect();
+        let kept = |limits: &PassLimits| PassLimits {
+            antennas: limits
+                .antennas
+                .as_ref()
+                .map(|named| named.iter().copied().filter(|id| ids.contains(id)).collect()),
+            ..limits.clone()
+        };
+        for number in station.favourites.numbers() {
+            let own = self.own(number);
+            station.favourites.put(Favourite { limits: kept(&own.limits), ..own });
+        }
+        let group = |(_, group): (usize, &GroupDraft)| {
+            let Named { name, priority } = group.named.read().0;
+            let satellites = group.satellites.clone();
+            SatelliteGroup { name, satellites, priority, limits: kept(&group.limits) }
+        };
+        station.groups = self.kept().map(group).collect();
+        Some(())
+    }
+}

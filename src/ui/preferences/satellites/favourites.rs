@@ -1,0 +1,121 @@
+//! The table of the favourites with their priorities and limits.
+
+use egui::{Align2, Label, Rect, RichText, Sense, Ui, vec2};
+
+use super::{Around, SatellitesState, draft::SatellitesDraft};
+use crate::{
+    station::Priority,
+    ui::{
+        pass_limits,
+        preferences::form,
+        text, theme,
+        widgets::{
+            button::{Button, SMALL_HEIGHT},
+            paint,
+            segmented::{self, Segment},
+        },
+        words,
+    },
+};
+
+pub(super) const TITLE: &str = "Priorities of the favourites";
+const ROW: f32 = 32.0;
+const PRIORITY: f32 = 176.0;
+/// Width of what holds for a favourite without a priority of its own.
+const USUAL: f32 = 88.0;
+const LIMITS: f32 = 120.0;
+const GAP: f32 = 8.0;
+
+pub(super) fn show(
+    ui: &mut Ui,
+    around: &Around<'_>,
+    draft: &mut SatellitesDraft,
+    state: &mut SatellitesState,
+) {
+    form::card(ui, TITLE, |ui| {
+        note(ui, "1 comes first. Without one of its own, a favourite has that of its group, or 3.");
+        for number in &around.favourites {
+            ui.push_id(number, |ui| row(ui, around, *number, draft, state));
+        }
+        if around.favourites.is_empty() {
+            note(
+                ui,
+                "There are no favourites. Mark some in Elements, or name them by number here.",
+            );
+        }
+    });
+}
+
+fn row(
+    ui: &mut Ui,
+    around: &Around<'_>,
+    number: u32,
+    draft: &mut SatellitesDraft,
+    state: &mut SatellitesState,
+) {
+    let t = theme::tokens(ui);
+    let name = words::satellite(around.model, number);
+    let (mut own, of_groups) = (draft.own(number), draft.of_groups(number));
+    let width = ui.available_width();
+    let (row, _) = ui.allocate_exact_size(vec2(width, ROW), Sense::hover());
+    ui.painter().hline(row.x_range(), row.top(), (1.0, t.line));
+    let from_right = |right: f32, width: f32| {
+        let centre = egui::pos2(row.right() - right - width / 2.0, row.center().y);
+        Rect::from_center_size(centre, vec2(width, SMALL_HEIGHT))
+    };
+    let limits_at = from_right(0.0, LIMITS);
+    let usual_at = from_right(LIMITS + GAP, USUAL);
+    let priority_at = from_right(LIMITS + USUAL + 2.0 * GAP, PRIORITY);
+    let name_at = row.with_max_x(priority_at.left() - GAP);
+    paint::text_in(ui, name_at, Align2::LEFT_CENTER, &name, text::body_medium(), t.t1);
+    paint::name_text(ui, "name", name_at, &name).on_hover_text(format!("{name}, {number}"));
+
+    choose_priority(ui, priority_at, &name, &mut own.priority);
+    if own.priority.is_none() {
+        let usual = of_groups.priority.as_ref().map_or_else(
+            || format!("{}, usual", Priority::default().number()),
+            |(priority, group)| format!("{}, {group}", priority.number()),
+        );
+        paint::text_in(ui, usual_at, Align2::LEFT_CENTER, &usual, text::small(), t.t2);
+        paint::name_text(ui, "usual", usual_at, &format!("Priority of {name}: {usual}"));
+    }
+    let all = own.limits.or(&of_groups.limits);
+    let in_short = pass_limits::in_short(&all, &around.antennas);
+    let words = if in_short.is_empty() { "No limits" } else { &in_short };
+    let is_open = state.favourite == Some(number);
+    let response = Button::normal(words).chevron().show(ui, "limits", limits_at);
+    response.widget_info(|| {
+        let name = format!("Limits of {name}: {words}");
+        egui::WidgetInfo::labeled(egui::Role::Button, true, name)
+    });
+    ui.ctx().accesskit_node_builder(response.id, |node| node.set_expanded(is_open));
+    if response.on_hover_text(words).clicked() {
+        state.favourite = (!is_open).then_some(number);
+    }
+    if is_open {
+        pass_limits::edit(ui, width, &around.antennas, &mut own.limits, &all, true);
+        ui.add_space(GAP);
+    }
+    if own != draft.own(number) {
+        draft.put(own);
+    }
+}
+
+fn choose_priority(ui: &Ui, place: Rect, name: &str, priority: &mut Option<Priority>) {
+    let choices: Vec<(Option<Priority>, String)> = std::iter::once((None, "None".to_owned()))
+        .chain(Priority::ALL.map(|of| (Some(of), of.number().to_string())))
+        .collect();
+    let state = |of| if of == *priority { Segment::Chosen } else { Segment::Free };
+    let segments: Vec<(&str, Segment)> =
+        choices.iter().map(|(of, word)| (word.as_str(), state(*of))).collect();
+    let name = format!("Priority of {name}");
+    let clicked = segmented::show(ui, "priority", place, &name, &segments);
+    if let Some((chosen, _)) = clicked.and_then(|index| choices.get(index)) {
+        *priority = *chosen;
+    }
+}
+
+pub(super) fn note(ui: &mut Ui, words: &str) {
+    let t = theme::tokens(ui);
+    ui.add(Label::new(RichText::new(words).font(text::small()).color(t.t3)).wrap());
+}
