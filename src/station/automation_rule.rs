@@ -8,7 +8,7 @@ use super::{AntennaId, HoursOfDay};
 /// A rule. Of the rules that are on, the first whose conditions all hold decides.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct AutomationRule {
-    #[serde(rename = "on")]
+    #[serde(rename = "on", default = "usually_on", skip_serializing_if = "is_usual")]
     pub is_on: bool,
     /// `None` for all antennas.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -53,6 +53,16 @@ pub enum Then {
     Leave,
     /// The antenna takes no pass and stays parked.
     Park,
+}
+
+fn usually_on() -> bool {
+    true
+}
+
+// The signature is serde's.
+#[allow(clippy::trivially_copy_pass_by_ref)]
+fn is_usual(is_on: &bool) -> bool {
+    *is_on == usually_on()
 }
 
 impl AutomationRule {

@@ -3,9 +3,10 @@
 
 use toml_edit::{Array, ArrayOfTables, DocumentMut, Item, Table, TableLike, Value};
 
-/// Key by which the tables of an array are recognised, such as antennas; arrays without it go by
-/// position.
+/// Key by which the tables of an array are recognised, such as antennas. Tables without it are
+/// recognised if they have not changed, or by their name, and else go by position.
 const ID: &str = "id";
+const NAME: &str = "name";
 
 /// `new` with the comments and the order of `old`. What the operator wrote beside a setting that
 /// is gone goes with it. Text that holds anything else than `new` is never returned: where the
@@ -78,22 +79,51 @@ fn merge_array(old: &mut Array, new: Array) {
 
 fn merge_tables(old: &mut ArrayOfTables, new: ArrayOfTables) {
     let mut rest: Vec<Option<Table>> = old.iter().cloned().map(Some).collect();
+    let mut known: Vec<Option<Table>> = new.iter().map(|_| None).collect();
+    // What is sure takes its table before what only stands in its place.
+    for is_known in [is_of_same_id, is_unchanged, is_of_same_name] {
+        for (known, new) in known.iter_mut().zip(new.iter()).filter(|(known, _)| known.is_none()) {
+            let found =
+                rest.iter_mut().find(|rest| rest.as_ref().is_some_and(|old| is_known(old, new)));
+            *known = found.and_then(Option::take);
+        }
+    }
     old.clear();
-    for (index, new) in new.into_iter().enumerate() {
-        let id = new.get(ID).and_then(Item::as_value);
-        let is_of = |table: &Table| match (table.get(ID).and_then(Item::as_value), id) {
-            (Some(old), Some(new)) => is_same(old, new),
-            _ => false,
-        };
-        let place = match id {
-            Some(_) => rest.iter().position(|rest| rest.as_ref().is_some_and(is_of)),
-            None => Some(index),
-        };
-        let known = place.and_then(|place| rest.get_mut(place)).and_then(Option::take);
-        let mut table = known.unwrap_or_default();
+    for (index, (known, new)) in known.into_iter().zip(new).enumerate() {
+        let has_id = new.contains_key(ID);
+        let mut in_its_place = || rest.get_mut(index).filter(|_| !has_id).and_then(Option::take);
+        let mut table = known.or_else(&mut in_its_place).unwrap_or_default();
         merge(&mut table, new);
         old.push(table);
     }
+}
+
+fn is_of_same_id(old: &Table, new: &Table) -> bool {
+    has_same(old, new, ID)
+}
+
+fn is_of_same_name(old: &Table, new: &Table) -> bool {
+    !new.contains_key(ID) && has_same(old, new, NAME)
+}
+
+fn is_unchanged(old: &Table, new: &Table) -> bool {
+    !new.contains_key(ID) && is_same_table(old, new)
+}
+
+fn has_same(old: &Table, new: &Table, key: &str) -> bool {
+    let [old, new] = [old, new].map(|table| table.get(key).and_then(Item::as_value));
+    old.zip(new).is_some_and(|(old, new)| is_same(old, new))
+}
+
+fn is_same_table(old: &dyn TableLike, new: &dyn TableLike) -> bool {
+    let is_same_item = |(key, new): (&str, &Item)| {
+        let Some(old) = old.get(key) else { return false };
+        match (old.as_table_like(), new.as_table_like()) {
+            (Some(old), Some(new)) => is_same_table(old, new),
+            _ => old.as_value().zip(new.as_value()).is_some_and(|(old, new)| is_same(old, new)),
+        }
+    };
+    old.len() == new.len() && new.iter().all(is_same_item)
 }
 
 /// Whether both mean the same, however they are spelled.
@@ -216,6 +246,61 @@ maximum_rate_deg_s = 6
         let text = rewritten(OLD, new);
         is_table_of(&text, new);
         assert!(!text.contains("The old dish") && text.contains("# The new one."), "{text}");
+    }
+
+    #[test]
+    fn the_comments_of_rules_and_groups_go_with_them() {
+        let old = r#"# Clouds.
+[[group]]
+name = "Weather" # for the desk
+satellites = [43013, 54234] # the two NOAA
+
+[[group]]
+name = "Stations"
+satellites = [25544]
+
+# The dish sleeps.
+[[rule]]
+antenna = 1
+hours = { from = "22:00", to = "06:00" }
+then = "park"
+
+# The school.
+[[rule]]
+satellite = 25544 # ISS
+then = "take"
+"#;
+        let new = r#"
+[[group]]
+name = "Stations"
+satellites = [25544]
+[[group]]
+name = "Weather"
+satellites = [43013]
+[[rule]]
+satellite = 25544
+then = "take"
+[[rule]]
+antenna = 2
+then = "leave"
+[[rule]]
+antenna = 1
+then = "park"
+[rule.hours]
+from = "22:00"
+to = "06:00"
+"#;
+        let text = rewritten(old, new);
+        is_table_of(&text, new);
+        for kept in [
+            "# Clouds.\n[[group]]\nname = \"Weather\" # for the desk",
+            "# the two NOAA",
+            "# The school.\n[[rule]]\nsatellite = 25544 # ISS",
+            "# The dish sleeps.\n[[rule]]\nantenna = 1\nhours = { from",
+        ] {
+            assert!(text.contains(kept), "{kept:?} is lost:\n{text}");
+        }
+        assert_eq!(rewritten(&text, new), text, "a second time changes nothing");
     }
 
     fn any_table() -> impl Strategy<Value = toml::Table> {

@@ -44,45 +44,67 @@ pub(super) fn show(
         model.antennas.iter().map(|of| (of.id(), of.config.name.clone())).collect();
     let all = model.station.pass_limits(number);
     let mut limits = favourite.limits.clone();
-    edit(ui, width, &antennas, &mut limits, &all, can_change);
+    let form = LimitsForm { width, label_width: LABEL, antennas: &antennas, can_change };
+    form.show(ui, &mut limits, &all);
     if favourite.limits != limits {
         let command = engine::Command::SetPassLimits { numbers: vec![number], limits };
         commands.push(UiCommand::Station(command));
     }
 }
 
-/// Shows the limits that hold, which are `all`, and changes `own`.
-pub(super) fn edit(
-    ui: &mut Ui,
-    width: f32,
-    antennas: &[(AntennaId, String)],
-    own: &mut PassLimits,
-    all: &PassLimits,
-    can_change: bool,
-) {
-    let t = theme::tokens(ui);
-    let is_partly_of_a_group = own != all;
-    let value = all.min_max_elevation_deg.map_or_else(any, elevation);
-    row(ui, width, "Maximum elevation", &value, can_change, |ui| {
-        choices(ui, &mut own.min_max_elevation_deg, &ELEVATIONS_DEG, elevation);
-    });
-    let value = all.min_duration_s.map_or_else(any, duration);
-    row(ui, width, "Duration", &value, can_change, |ui| {
-        choices(ui, &mut own.min_duration_s, &DURATIONS_S, duration);
-    });
-    row(ui, width, "Light", &all.light.map_or_else(any, light), can_change, |ui| {
-        choices(ui, &mut own.light, &LIGHTS, light);
-    });
-    let value = all.max_per_day.map_or_else(any, per_day);
-    row(ui, width, "Passes a day (UTC)", &value, can_change, |ui| {
-        choices(ui, &mut own.max_per_day, &PER_DAY, per_day);
-    });
-    row(ui, width, "Antennas", &names(all, antennas), can_change, |ui| {
-        choose_antennas(ui, antennas, own);
-    });
-    if is_partly_of_a_group {
-        let words = "Where it has no limit of its own, that of its group holds.";
-        ui.label(RichText::new(words).font(text::small()).color(t.t2));
+/// Drop-downs for the limits of a satellite or a group.
+pub(super) struct LimitsForm<'a> {
+    pub(super) width: f32,
+    pub(super) label_width: f32,
+    /// The antennas that can be chosen.
+    pub(super) antennas: &'a [(AntennaId, String)],
+    pub(super) can_change: bool,
+}
+
+impl LimitsForm<'_> {
+    /// Shows the limits that hold, which are `all`, and changes `own`.
+    pub(super) fn show(&self, ui: &mut Ui, own: &mut PassLimits, all: &PassLimits) {
+        let t = theme::tokens(ui);
+        let is_partly_of_a_group = own != all;
+        let value = all.min_max_elevation_deg.map_or_else(any, elevation);
+        self.row(ui, "Maximum elevation", &value, |ui| {
+            choices(ui, &mut own.min_max_elevation_deg, &ELEVATIONS_DEG, elevation);
+        });
+        let value = all.min_duration_s.map_or_else(any, duration);
+        self.row(ui, "Duration", &value, |ui| {
+            choices(ui, &mut own.min_duration_s, &DURATIONS_S, duration);
+        });
+        self.row(ui, "Light", &all.light.map_or_else(any, light), |ui| {
+            choices(ui, &mut own.light, &LIGHTS, light);
+        });
+        let value = all.max_per_day.map_or_else(any, per_day);
+        self.row(ui, "Passes a day (UTC)", &value, |ui| {
+            choices(ui, &mut own.max_per_day, &PER_DAY, per_day);
+        });
+        self.row(ui, "Antennas", &names(all, self.antennas), |ui| {
+            choose_antennas(ui, self.antennas, own);
+        });
+        if is_partly_of_a_group {
+            let words = "Where it has no limit of its own, that of its group holds.";
+            ui.label(RichText::new(words).font(text::small()).color(t.t2));
+        }
+    }
+
+    fn row(&self, ui: &mut Ui, label: &'static str, value: &str, list: impl FnOnce(&mut Ui)) {
+        let t = theme::tokens(ui);
+        let (rect, _) = ui.allocate_exact_size(vec2(self.width, ROW), Sense::hover());
+        paint::text_in(ui, rect, Align2::LEFT_CENTER, label, text::small(), t.t2);
+        let room = rect.with_min_x(rect.left() + self.label_width);
+        if !self.can_change {
+            paint::text_in(ui, room, Align2::LEFT_CENTER, value, text::small(), t.t1);
+            paint::name_text(ui, ("limit", label), rect, &format!("{label}: {value}"));
+            return;
+        }
+        let name = format!("{label}, {value}");
+        let list_of = DropDown { button: Button::normal(value), salt: label, name: &name };
+        let size = vec2(list_of.width(ui).min(room.width()), SMALL_HEIGHT);
+        let place = egui::Rect::from_min_size(room.left_center() - vec2(0.0, size.y / 2.0), size);
+        list_of.show(ui, place, list);
     }
 }
 
@@ -128,30 +150,6 @@ fn light(light: Light) -> String {
         Light::Sunlit => "satellite in sunlight",
     };
     words.to_owned()
-}
-
-fn row(
-    ui: &mut Ui,
-    width: f32,
-    label: &'static str,
-    value: &str,
-    can_change: bool,
-    list: impl FnOnce(&mut Ui),
-) {
-    let t = theme::tokens(ui);
-    let (rect, _) = ui.allocate_exact_size(vec2(width, ROW), Sense::hover());
-    paint::text_in(ui, rect, Align2::LEFT_CENTER, label, text::small(), t.t2);
-    let room = rect.with_min_x(rect.left() + LABEL);
-    if !can_change {
-        paint::text_in(ui, room, Align2::LEFT_CENTER, value, text::small(), t.t1);
-        paint::name_text(ui, ("limit", label), rect, &format!("{label}: {value}"));
-        return;
-    }
-    let name = format!("{label}, {value}");
-    let list_of = DropDown { button: Button::normal(value), salt: label, name: &name };
-    let size = vec2(list_of.width(ui).min(room.width()), SMALL_HEIGHT);
-    let place = egui::Rect::from_min_size(room.left_center() - vec2(0.0, size.y / 2.0), size);
-    list_of.show(ui, place, list);
 }
 
 fn choices<T: Copy + PartialEq>(

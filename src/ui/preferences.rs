@@ -206,7 +206,7 @@ fn show_page(
     let (page, form) = (state.page, &mut state.form);
     match page {
         Page::Site => site::show(ui, rect, model, (draft, before), form),
-        Page::Satellites => satellites::show(ui, rect, model, draft, form),
+        Page::Satellites => satellites::show(ui, rect, model, (draft, before), form),
         Page::Rules => rules::show(ui, rect, model, (draft, before), form),
         Page::Antenna(id) => {
             antenna::show(ui, rect, model, id, (draft, before), form, commands);

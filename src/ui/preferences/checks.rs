@@ -38,6 +38,7 @@ impl Checks {
         if let Some(after) = after.filter(|_| draft != before) {
             lines.extend(removed(model, after).map(|words| (Tone::Caution, words)));
             lines.extend(beyond_the_unit(model, after).map(|words| (Tone::Caution, words)));
+            lines.extend(idle_rules(draft).map(|words| (Tone::Caution, words)));
             if busy.is_none() {
                 lines.extend(changed(model, after).map(|words| (Tone::Good, words)));
             }
@@ -64,6 +65,16 @@ fn unusable(draft: &Draft) -> Option<String> {
             others.len() + 1
         )),
     }
+}
+
+/// The rules that are on and cannot act, by the first of them.
+fn idle_rules(draft: &Draft) -> Option<String> {
+    let idle = draft.rules.idle(&draft.around_rules());
+    let (number, why) = idle.first()?;
+    Some(match idle.len() {
+        1 => format!("Rule {number} cannot act: {why}."),
+        many => format!("{many} rules cannot act: {number}, because {why}, and others."),
+    })
 }
 
 /// Antennas that the station loses. Those of the demonstration are not among its own.

@@ -39,7 +39,7 @@ pub(super) fn show(
     ui: &mut Ui,
     rect: Rect,
     model: &Model,
-    draft: &mut Draft,
+    (draft, before): (&mut Draft, &Draft),
     state: &mut FormState,
 ) {
     let around = Around {
@@ -59,7 +59,10 @@ pub(super) fn show(
         let Part::Card(card) = part else { return };
         let satellites = &mut draft.satellites;
         match card {
-            0 => favourites::show(ui, &around, satellites, &mut state.satellites),
+            0 => {
+                let drafts = (satellites, &before.satellites);
+                favourites::show(ui, &around, drafts, &mut state.satellites);
+            }
             1 => groups::show(ui, &around, satellites, state),
             card => {
                 let Some((section, _)) = sections.get(card - 2) else { return };

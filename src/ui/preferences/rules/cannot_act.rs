@@ -87,6 +87,17 @@ impl RulesDraft {
         wrong(rule, around).or_else(|| self.in_vain(index, rule, around))
     }
 
+    /// Numbers of the rules that are on and cannot act although they can be saved, and why.
+    pub(in crate::ui::preferences) fn idle(&self, around: &Around<'_>) -> Vec<(usize, String)> {
+        let on = self.all().iter().enumerate().filter(|(_, rule)| rule.is_on);
+        let of = |index: usize| {
+            let number = self.number(index)?;
+            let why = self.cannot_act(index, around).filter(|why| !why.is_wrong())?;
+            Some((number, why.words(around)))
+        };
+        on.filter_map(|(index, _)| of(index)).collect()
+    }
+
     fn in_vain(&self, index: usize, rule: &RuleDraft, around: &Around<'_>) -> Option<CannotAct> {
         let members = around.members(rule.of);
         match (rule.of, &members) {

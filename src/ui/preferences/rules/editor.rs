@@ -243,7 +243,7 @@ pub(super) fn decided(
 }
 
 fn line(ui: &mut Ui, words: &[String; 4]) {
-    const SHARES: [f32; 4] = [0.22, 0.34, 0.12, 0.32];
+    const SHARES: [f32; 4] = [0.27, 0.31, 0.12, 0.3];
     let t = theme::tokens(ui);
     let (row, response) = ui.allocate_exact_size(vec2(ui.available_width(), ROW), Sense::hover());
     let mut left = row.left();

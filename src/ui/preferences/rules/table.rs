@@ -107,6 +107,7 @@ pub(super) fn show(
                 draw(ui, row, model, &shown, rules, around, state);
             }
             drag(ui, all, rules, state);
+            ring(ui, all, rules.all().len());
         });
     });
 }
@@ -147,7 +148,16 @@ fn draw(
     }
     grip(ui, columns.grip, index, state);
     keys(ui, &response, index, rules, state);
-    paint::focus_ring(ui, &response, 0);
+}
+
+/// Paints the ring of the row that has the focus, over the grounds of its neighbours.
+fn ring(ui: &Ui, all: Rect, rules: usize) {
+    let focused = (0..rules).find(|index| ui.memory(|of| of.has_focus(id_of(ui, *index))));
+    let Some(index) = focused else { return };
+    let top = all.top() + ROW * index as f32;
+    let row = all.with_min_y(top).with_max_y(top + ROW);
+    let stroke = Stroke::new(2.0, theme::tokens(ui).sat);
+    ui.painter().rect_stroke(row.shrink(1.0), 0.0, stroke, StrokeKind::Inside);
 }
 
 /// The row as a control that chooses the rule.
@@ -179,6 +189,8 @@ fn choice(ui: &Ui, row: Rect, shown: &Shown, state: &mut RulesState) -> Response
     ui.painter().hline(row.x_range(), row.bottom() - 0.5, (1.0, t.line));
     if state.wants_focus.take_if(|wanted| *wanted == shown.index).is_some() {
         response.request_focus();
+    }
+    if response.gained_focus() && !ui.input(|input| input.pointer.any_down()) {
         response.scroll_to_me(None);
     }
     if response.clicked() {

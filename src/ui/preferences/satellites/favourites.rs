@@ -1,16 +1,16 @@
 //! The table of the favourites with their priorities and limits.
 
-use egui::{Align2, Label, Rect, RichText, Sense, Ui, vec2};
+use egui::{Align2, Label, Rect, RichText, Sense, Stroke, StrokeKind, Ui, vec2};
 
 use super::{Around, SatellitesState, draft::SatellitesDraft};
 use crate::{
     station::Priority,
     ui::{
-        pass_limits,
+        pass_limits::{self, LimitsForm},
         preferences::form,
         text, theme,
         widgets::{
-            button::{Button, SMALL_HEIGHT},
+            button::{Button, RADIUS, SMALL_HEIGHT},
             paint,
             segmented::{self, Segment},
         },
@@ -29,13 +29,13 @@ const GAP: f32 = 8.0;
 pub(super) fn show(
     ui: &mut Ui,
     around: &Around<'_>,
-    draft: &mut SatellitesDraft,
+    (draft, before): (&mut SatellitesDraft, &SatellitesDraft),
     state: &mut SatellitesState,
 ) {
     form::card(ui, TITLE, |ui| {
         note(ui, "1 comes first. Without one of its own, a favourite has that of its group, or 3.");
         for number in &around.favourites {
-            ui.push_id(number, |ui| row(ui, around, *number, draft, state));
+            ui.push_id(number, |ui| row(ui, around, *number, (draft, before), state));
         }
         if around.favourites.is_empty() {
             note(
@@ -50,7 +50,7 @@ fn row(
     ui: &mut Ui,
     around: &Around<'_>,
     number: u32,
-    draft: &mut SatellitesDraft,
+    (draft, before): (&mut SatellitesDraft, &SatellitesDraft),
     state: &mut SatellitesState,
 ) {
     let t = theme::tokens(ui);
@@ -71,6 +71,18 @@ fn row(
     paint::name_text(ui, "name", name_at, &name).on_hover_text(format!("{name}, {number}"));
 
     choose_priority(ui, priority_at, &name, &mut own.priority);
+    let was = before.own(number);
+    for (place, is_edited) in
+        [(priority_at, was.priority != own.priority), (limits_at, was.limits != own.limits)]
+    {
+        if is_edited {
+            let stroke = Stroke::new(2.0, t.sat);
+            ui.painter().rect_stroke(place, RADIUS, stroke, StrokeKind::Outside);
+        }
+    }
+    if was != own {
+        paint::name_text(ui, "edited", name_at, &format!("{name}: edited"));
+    }
     if own.priority.is_none() {
         let usual = of_groups.priority.as_ref().map_or_else(
             || format!("{}, usual", Priority::default().number()),
@@ -93,11 +105,20 @@ fn row(
         state.favourite = (!is_open).then_some(number);
     }
     if is_open {
-        pass_limits::edit(ui, width, &around.antennas, &mut own.limits, &all, true);
+        limits_form(ui, around).show(ui, &mut own.limits, &all);
         ui.add_space(GAP);
     }
     if own != draft.own(number) {
         draft.put(own);
+    }
+}
+
+pub(super) fn limits_form<'a>(ui: &Ui, around: &'a Around<'_>) -> LimitsForm<'a> {
+    LimitsForm {
+        width: ui.available_width(),
+        label_width: form::LABEL + form::GAP,
+        antennas: &around.antennas,
+        can_change: true,
     }
 }
 

@@ -5,7 +5,7 @@ use egui::{Align2, Rect, Sense, Ui, pos2, vec2};
 use super::{
     Around,
     draft::{GROUP, GroupDraft, SatellitesDraft},
-    favourites::note,
+    favourites::{limits_form, note},
 };
 use crate::ui::{
     icons::{self, Icon},
@@ -136,8 +136,8 @@ fn edit(
             group.satellites.extend(added);
         });
     });
-    let (width, all) = (ui.available_width(), group.limits.clone());
-    pass_limits::edit(ui, width, &around.antennas, &mut group.limits, &all, true);
+    let all = group.limits.clone();
+    limits_form(ui, around).show(ui, &mut group.limits, &all);
     ui.add_space(8.0);
 }
 
