@@ -70,7 +70,7 @@ const fn with(modifiers: Modifiers, binding: Binding) -> Binding {
 }
 
 /// All keys, in the order of the list. The app handles the key of STOP before anything else.
-pub const ALL: [Binding; 33] = [
+pub const ALL: [Binding; 34] = [
     row(KeyScope::Focus, &[(Key::Escape, Act::There)], "STOP, everywhere; closes what is open"),
     with(
         Modifiers::COMMAND,
@@ -254,6 +254,14 @@ pub const ALL: [Binding; 33] = [
             (Key::Num5, Act::There),
         ],
         "in the table of Elements: mark, favourite, priority 1 to 5",
+    ),
+    with(
+        Modifiers::ALT,
+        row(
+            KeyScope::Focus,
+            &[(Key::ArrowUp, Act::There), (Key::ArrowDown, Act::There)],
+            "on an automation rule: move it",
+        ),
     ),
     with(
         Modifiers::ALT,

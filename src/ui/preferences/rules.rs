@@ -65,6 +65,7 @@ struct Shown {
     index: usize,
     /// `None` where it is removed.
     number: Option<usize>,
+    is_on: bool,
     sentence: String,
     /// Why it cannot act; of a rule that is off, why it could not be saved.
     hindrance: Option<(CannotAct, String)>,
@@ -79,6 +80,7 @@ impl Shown {
         Some(Self {
             index,
             number,
+            is_on: rule.is_on,
             sentence: sentence::sentence(rule, around, &|number| words::satellite(model, number)),
             hindrance: hindrance.filter(counts).map(|why| (why, why.words(around))),
         })

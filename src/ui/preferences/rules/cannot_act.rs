@@ -119,7 +119,8 @@ impl RulesDraft {
     }
 }
 
-fn wrong(rule: &RuleDraft, around: &Around<'_>) -> Option<CannotAct> {
+/// Why a rule could not be read back from the station file.
+pub(super) fn wrong(rule: &RuleDraft, around: &Around<'_>) -> Option<CannotAct> {
     if rule.antenna.is_some_and(|id| around.antenna(id).is_none()) {
         return Some(CannotAct::NoAntenna);
     }

@@ -1,6 +1,6 @@
 //! Draft of the automation rules.
 
-use super::cannot_act::{Around, CannotAct};
+use super::cannot_act::{self, Around};
 use crate::{
     station::{AntennaId, AutomationRule, HoursOfDay, RuleOf, Station, SunIs, Then},
     ui::preferences::{
@@ -194,7 +194,7 @@ impl RulesDraft {
     pub(in crate::ui::preferences) fn findings(&self, around: &Around<'_>) -> Vec<Finding> {
         let of = |index: usize| {
             let number = self.number(index)?;
-            let why = self.cannot_act(index, around).filter(CannotAct::is_wrong)?;
+            let why = cannot_act::wrong(self.0.get(index)?, around)?;
             let problem = Problem::of(format!("cannot be saved: {}", why.words(around)));
             Some(Finding { label: format!("Rule {number}"), problem })
         };

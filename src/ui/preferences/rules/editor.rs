@@ -220,6 +220,7 @@ pub(super) fn decided(
         let passes = shown.decided(state);
         let words = match passes {
             None => "Not known while a field cannot be used, or the rule is removed.",
+            Some([]) if !shown.is_on => "None: the rule is off.",
             Some([]) => "None.",
             Some(_) => "Sun and hours count at the middle of a pass, its TCA.",
         };

@@ -36,9 +36,9 @@ fn of_satellite(number: u32) -> AutomationRule {
     AutomationRule { of: Some(RuleOf::Satellite(number)), ..rule() }
 }
 
-fn hours(from: &str, to: &str) -> Option<HoursOfDay> {
+fn hours(from: &str, to: &str) -> HoursOfDay {
     let time = |text| HoursOfDay::read_time(text).unwrap();
-    Some(HoursOfDay { from: time(from), to: time(to) })
+    HoursOfDay { from: time(from), to: time(to) }
 }
 
 fn group(name: &str, satellites: &[u32]) -> SatelliteGroup {
@@ -93,7 +93,7 @@ fn a_rule_is_one_sentence_made_from_its_fields() {
             AutomationRule {
                 antenna: genius,
                 sun: Some(SunIs::Up),
-                hours: hours("22:00", "06:30"),
+                hours: Some(hours("22:00", "06:30")),
                 then: Then::Park,
                 ..rule()
             },
@@ -128,7 +128,7 @@ fn the_table_says_a_rule_in_a_few_words() {
     assert_eq!(words(rule()), ("always".to_owned(), "leave out"));
     let night = AutomationRule {
         sun: Some(SunIs::Down),
-        hours: hours("22:00", "06:00"),
+        hours: Some(hours("22:00", "06:00")),
         then: Then::Take,
         ..of_group("Weather")
     };
@@ -148,9 +148,9 @@ fn a_rule_that_names_nothing_planned_cannot_act() {
 #[test]
 fn a_rule_is_hidden_by_an_earlier_one_that_holds_wherever_it_does() {
     let behind = Some(CannotAct::Behind(1));
-    let night = AutomationRule { hours: hours("22:00", "06:00"), ..rule() };
-    let late = AutomationRule { hours: hours("23:30", "06:00"), ..rule() };
-    let early = AutomationRule { hours: hours("06:00", "07:00"), ..rule() };
+    let night = AutomationRule { hours: Some(hours("22:00", "06:00")), ..rule() };
+    let late = AutomationRule { hours: Some(hours("23:30", "06:00")), ..rule() };
+    let early = AutomationRule { hours: Some(hours("06:00", "07:00")), ..rule() };
     let genius = AutomationRule { antenna: Some(GENIUS), ..rule() };
     let satrak = AutomationRule { antenna: Some(AntennaId(1)), ..rule() };
     let by_day = AutomationRule { sun: Some(SunIs::Up), ..rule() };

@@ -23,7 +23,9 @@ const ROW: f32 = 32.0;
 const PRIORITY: f32 = 176.0;
 /// Width of what holds for a favourite without a priority of its own.
 const USUAL: f32 = 88.0;
-const LIMITS: f32 = 120.0;
+/// Width of the limits, and in a wide row.
+const LIMITS: [f32; 2] = [120.0, 240.0];
+const WIDE: f32 = 640.0;
 const GAP: f32 = 8.0;
 
 pub(super) fn show(
@@ -63,9 +65,11 @@ fn row(
         let centre = egui::pos2(row.right() - right - width / 2.0, row.center().y);
         Rect::from_center_size(centre, vec2(width, SMALL_HEIGHT))
     };
-    let limits_at = from_right(0.0, LIMITS);
-    let usual_at = from_right(LIMITS + GAP, USUAL);
-    let priority_at = from_right(LIMITS + USUAL + 2.0 * GAP, PRIORITY);
+    let [usual_limits, wide_limits] = LIMITS;
+    let limits = if width < WIDE { usual_limits } else { wide_limits };
+    let limits_at = from_right(0.0, limits);
+    let usual_at = from_right(limits + GAP, USUAL);
+    let priority_at = from_right(limits + USUAL + 2.0 * GAP, PRIORITY);
     let name_at = row.with_max_x(priority_at.left() - GAP);
     paint::text_in(ui, name_at, Align2::LEFT_CENTER, &name, text::body_medium(), t.t1);
     paint::name_text(ui, "name", name_at, &name).on_hover_text(format!("{name}, {number}"));
