@@ -52,8 +52,8 @@ impl Columns {
             number: from(left + 16.0, left + 44.0),
             switch: Rect::from_center_size(switch, SWITCH.into()),
             antenna: from(antenna, rest),
-            when: from(rest, rest + 3.6 * share),
-            then: from(rest + 3.6 * share, rest + 6.2 * share),
+            when: from(rest, rest + 3.4 * share),
+            then: from(rest + 3.4 * share, rest + 6.2 * share),
             last: inner.with_min_x(rest + 6.2 * share),
         }
     }
