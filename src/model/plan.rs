@@ -92,16 +92,21 @@ impl Model {
 
     /// All passes to come with what the schedule says of them, by AOS.
     pub fn planned_passes(&self) -> Vec<PlannedPass<'_>> {
+        self.planned_passes_until(self.plan_until())
+    }
+
+    /// The passes to come with AOS before `end`, with what the schedule says of them, by AOS.
+    pub fn planned_passes_until(&self, end: Timestamp) -> Vec<PlannedPass<'_>> {
         let schedule = &self.schedule.schedule;
+        let last = add_seconds(end, SAME_AOS_S);
         let mut entries: BTreeMap<u32, Vec<&Entry>> = BTreeMap::new();
-        for entry in &schedule.entries {
+        for entry in schedule.entries.iter().filter(|entry| entry.pass.aos < last) {
             entries.entry(entry.pass.satellite).or_default().push(entry);
         }
         let mut left_out: BTreeMap<u32, Vec<&LeftOut>> = BTreeMap::new();
-        for of in &schedule.left_out {
+        for of in schedule.left_out.iter().filter(|of| of.pass.aos < last) {
             left_out.entry(of.pass.satellite).or_default().push(of);
         }
-        let end = self.plan_until();
         let ahead = self.pass_lists.favourites.upcoming(self.now);
         let passes = ahead.iter().filter(|it| !it.is_always_up() && it.pass.aos.time < end);
         let planned = passes.map(|predicted| {
@@ -145,22 +150,42 @@ impl Model {
         satellites
     }
 
+    /// The passes of this day that are over for an antenna.
+    pub fn flown_by(&self, antenna: AntennaId) -> impl Iterator<Item = &Flown> + Clone {
+        let own = self.day.iter().filter(move |line| line.antenna == antenna);
+        own.filter_map(|line| match &line.what {
+            DayEvent::Flown(flown) => Some(flown),
+            _ => None,
+        })
+    }
+
+    /// How a pass that has not set stands on an antenna.
+    pub fn standing_on<'a>(
+        &'a self,
+        planned: &PlannedPass<'a>,
+        antenna: &AntennaModel,
+    ) -> Standing<'a> {
+        let (id, key) = (antenna.id(), planned.predicted.key());
+        // What is over for the antenna may not have set yet.
+        if let Some(flown) = self.flown_by(id).find(|flown| is_same(flown.pass, key)) {
+            return Standing::Flown(flown);
+        }
+        let entry = planned.entries.iter().copied().find(|entry| entry.antenna == id);
+        standing(planned, entry, id, antenna.operation.taking().copied(), self.now)
+    }
+
     /// What the list of an antenna shows: the passes of this day that are over, then those to
     /// come.
     pub fn listed_passes(&self, antenna: &AntennaModel) -> Vec<ListedPass<'_>> {
         let id = antenna.id();
-        let over = self.day.iter().filter(|line| line.antenna == id);
-        let over = over.filter_map(|line| match &line.what {
-            DayEvent::Flown(flown) => Some(ListedPass {
-                key: flown.pass,
-                name: &flown.name,
-                los: add_seconds(flown.pass.1, flown.of_s),
-                max_elevation_deg: None,
-                entry: None,
-                standing: Standing::Flown(flown),
-                planned: None,
-            }),
-            _ => None,
+        let over = self.flown_by(id).map(|flown| ListedPass {
+            key: flown.pass,
+            name: &flown.name,
+            los: add_seconds(flown.pass.1, flown.of_s),
+            max_elevation_deg: None,
+            entry: None,
+            standing: Standing::Flown(flown),
+            planned: None,
         });
         let taking = antenna.operation.taking().copied();
         // What is over for the antenna may not have set yet.

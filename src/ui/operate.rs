@@ -9,6 +9,7 @@ mod layout;
 pub(super) mod passes;
 mod second_card;
 pub(super) mod sky;
+mod strip;
 
 use std::time::Duration;
 
@@ -131,7 +132,7 @@ pub fn show(
     }
     let pointed = sky::show(ui, areas.sky, model, state, commands);
     if let Some(timeline) = areas.timeline {
-        passes::timeline(ui, timeline, model, &mut state.zoom, commands);
+        strip::show(ui, timeline, model, &mut state.zoom, commands);
     }
     let mut marked = pointed;
     if let Some(profile) = areas.profile {

@@ -1,5 +1,5 @@
-//! The strip "Next 12 hours": the passes of one antenna as bars over time,
-//! with day and night below. A low strip has a single lane.
+//! The strip "Next 12 hours": the passes of one antenna, or of each, as bars over time, with day
+//! and night below. A low strip has a single lane.
 
 mod axis;
 mod bars;
@@ -14,9 +14,10 @@ use std::ops::RangeInclusive;
 use egui::{Align2, Rangef, Rect, Role, Sense, Ui, Vec2, WidgetInfo, vec2};
 use jiff::Timestamp;
 
-use crate::model::{UiCommand, daylight::SunSpan};
+use crate::model::{UiCommand, daylight::SunSpan, plan::Standing};
 
 use super::{format, menus::PassMenu, text, theme, widgets::paint};
+use bars::LaneOf;
 use scale::Scale;
 pub use zoom::Zoom;
 
@@ -27,12 +28,38 @@ pub struct Bar<'a> {
     pub name: &'a str,
     pub aos: Timestamp,
     pub los: Timestamp,
-    /// Maximum elevation, 0 to 90.
-    pub max_elevation_deg: f64,
+    /// Maximum elevation, 0 to 90; `None` for a pass of which it is not known any more.
+    pub max_elevation_deg: Option<f64>,
     /// The mount loses part of the pass, such as at its keyhole.
     pub loses: bool,
-    /// The mount can track the pass.
-    pub possible: bool,
+    pub state: State<'a>,
+}
+
+/// What is known of a pass on the antenna of its lane.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum State<'a> {
+    /// As long as there is no schedule.
+    Mount {
+        can_track: bool,
+    },
+    Plan(Standing<'a>),
+}
+
+impl Bar<'_> {
+    /// The antenna tracks the pass, or did; without a schedule, the mount could.
+    fn is_taken(&self) -> bool {
+        match self.state {
+            State::Mount { can_track } => can_track,
+            State::Plan(standing) => match standing {
+                Standing::Flown(_)
+                | Standing::Running
+                | Standing::Proved(_)
+                | Standing::Sent(_)
+                | Standing::Planned(_) => true,
+                Standing::TakenBy(_) | Standing::LeftOut(_) | Standing::NotKnown => false,
+            },
+        }
+    }
 }
 
 /// The passes of one antenna.
@@ -52,10 +79,14 @@ pub struct TimelineModel<'a> {
     pub lanes: &'a [Lane<'a>],
     /// The lane of the selected antenna.
     pub main: usize,
+    /// The bars show the schedule.
+    pub is_planned: bool,
     /// The pass that is selected in the window.
     pub selected: Option<(u32, Timestamp)>,
     /// Day and night, earliest first.
     pub sun: &'a [SunSpan],
+    /// How a pass stands on an antenna of this name, in words.
+    pub says: &'a dyn Fn(Standing<'_>, &str) -> String,
     /// Shows the entries of a pass in the menu of the bar with this id.
     pub menu: &'a PassMenu<'a>,
 }
@@ -82,7 +113,7 @@ const NAMES_GAP: f32 = 8.0;
 const HEAD: f32 = 32.0;
 const AXIS: f32 = 24.0;
 const SMALL_AXIS: f32 = 21.0;
-/// Height of the lane of passes that the mount cannot track.
+/// Height of the lane of passes that the antenna does not track.
 const OUT_LANE: f32 = 34.0;
 const SUN_LANE: f32 = 9.0;
 const SUN_WORDS: f32 = 20.0;
@@ -111,7 +142,7 @@ pub fn show(ui: &mut Ui, rect: Rect, model: &TimelineModel<'_>, commands: &mut V
     if is_small {
         return small(ui, rect, x, &scale, model, commands);
     }
-    head::show(ui, rect.with_max_y(rect.top() + HEAD), &title);
+    head::show(ui, rect.with_max_y(rect.top() + HEAD), &title, model);
     let below = rect.with_min_y(rect.top() + HEAD);
     let room = below.height() - AXIS - LANE_GAP - SUN_LANE - SUN_WORDS - BOTTOM;
     let count = model.lanes.len();
@@ -121,7 +152,7 @@ pub fn show(ui: &mut Ui, rect: Rect, model: &TimelineModel<'_>, commands: &mut V
     full(ui, below, x, &scale, model, commands);
 }
 
-/// Shows a lane for each antenna, with what it cannot track as outlines.
+/// Shows a lane for each antenna, with what it does not track as outlines.
 fn all_lanes(
     ui: &Ui,
     rect: Rect,
@@ -147,7 +178,8 @@ fn all_lanes(
         lane_name(ui, rect.left() + MARGIN, place, lane.name, index == model.main);
         let heights = bars::fitting(&grown(place), place);
         let bars = bars::stand(&lane.bars, |_| true, scale, place, &heights);
-        bars::show(ui, &bars, Some(index), model, commands);
+        let of = LaneOf { antenna: lane.name, is_one_of_several: true };
+        bars::show(ui, &bars, of, model, commands);
         standing.push((place, bars));
     }
     lane_name(ui, rect.left() + MARGIN, sun, "Sun", false);
@@ -183,15 +215,17 @@ fn full(
     axis::show(ui, scale, lane.with_max_y(out.bottom()), names);
     let Some(shown) = model.lanes.get(model.main) else { return };
     lane_name(ui, rect.left() + MARGIN, lane, shown.name, true);
+    let of = LaneOf { antenna: shown.name, is_one_of_several: false };
     let heights = bars::fitting(&grown(lane), lane);
-    let wanted = |bar: &Bar<'_>| bar.possible || !two_lanes;
+    let wanted = |bar: &Bar<'_>| bar.is_taken() || !two_lanes;
     let main = bars::stand(&shown.bars, wanted, scale, lane, &heights);
-    bars::show(ui, &main, None, model, commands);
+    bars::show(ui, &main, of, model, commands);
     if two_lanes {
         ui.painter().hline(x, out.top(), (1.0, theme::tokens(ui).line));
-        lane_name(ui, rect.left() + MARGIN, out, "Not possible", false);
-        let others = bars::stand(&shown.bars, |bar| !bar.possible, scale, out, &OUT_HEIGHTS);
-        bars::show(ui, &others, None, model, commands);
+        let name = if model.is_planned { "Left out" } else { "Not possible" };
+        lane_name(ui, rect.left() + MARGIN, out, name, false);
+        let others = bars::stand(&shown.bars, |bar| !bar.is_taken(), scale, out, &OUT_HEIGHTS);
+        bars::show(ui, &others, of, model, commands);
     }
     lane_name(ui, rect.left() + MARGIN, sun, "Sun", false);
     sun::show(ui, scale, model.sun, sun, words);
@@ -213,9 +247,10 @@ fn small(
     axis::show(ui, scale, lane, names);
     let Some(shown) = model.lanes.get(model.main) else { return };
     lane_name(ui, rect.left() + SMALL_MARGIN, lane, shown.name, true);
+    let of = LaneOf { antenna: shown.name, is_one_of_several: false };
     let heights = bars::fitting(&HEIGHTS, lane);
     let standing = bars::stand(&shown.bars, |_| true, scale, lane, &heights);
-    bars::show(ui, &standing, None, model, commands);
+    bars::show(ui, &standing, of, model, commands);
     axis::now_line(ui, scale, model.now, Rangef::new(lane.top() - 4.0, lane.bottom()));
     let room = lane.with_min_x(lane.left() - NAMES_GAP);
     bars::show_names(ui, &standing, model.selected, room);

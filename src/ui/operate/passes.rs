@@ -1,4 +1,4 @@
-//! Fills the parts that show passes: list, header, strip and profile.
+//! Fills the parts that show passes: list, header and profile.
 
 use egui::{Rect, Ui};
 use jiff::Timestamp;
@@ -6,7 +6,7 @@ use jiff::Timestamp;
 use super::{NEXT_FRAME, filter::FoundPasses};
 
 use crate::{
-    astro::time::{add_seconds, seconds_between},
+    astro::time::seconds_between,
     engine::{
         CatalogState,
         passes::{PassKey, PredictedPass, Work},
@@ -20,7 +20,6 @@ use crate::{
         pass_list::{self, Arrangement, PassListModel, PassListState, PassRow, Verdict},
         profile::{self, PastModel, ProfileModel, ProfileState},
         state_sentence::short,
-        timeline::{self, Bar, Lane, TimelineModel, Zoom},
         words,
     },
 };
@@ -137,7 +136,7 @@ pub(in crate::ui) fn pass_row<'a>(model: &Model, predicted: &'a PredictedPass) -
     }
 }
 
-fn selected_key(model: &Model) -> Option<PassKey> {
+pub(super) fn selected_key(model: &Model) -> Option<PassKey> {
     model.selected_pass().map(PredictedPass::key)
 }
 
@@ -221,63 +220,6 @@ fn clear_of_mask(stretches: &[Pass], now: Timestamp) -> String {
         if stretches.len() > 1 { format!(" in {} parts", stretches.len()) } else { String::new() };
     let [from, to] = [first.aos.time, last.los.time].map(|time| format::moment(time, now));
     format!("clear of the mask{parts} {from} to {to}")
-}
-
-/// A strip of this width shows a whole day.
-const LONG_FROM: f32 = 1000.0;
-
-/// A pass as a bar in the lane of `antenna`.
-fn bar(predicted: &PredictedPass, antenna: usize) -> Bar<'_> {
-    let trackability = predicted.trackability(antenna);
-    Bar {
-        key: predicted.key(),
-        name: predicted.satellite.short_name(),
-        aos: predicted.pass.aos.time,
-        los: predicted.pass.los.time,
-        max_elevation_deg: predicted.pass.max_elevation().degrees(),
-        loses: matches!(trackability, Some(Trackability::Loses { .. })),
-        possible: !matches!(trackability, Some(Trackability::Nothing | Trackability::TooLow)),
-    }
-}
-
-pub(super) fn timeline(
-    ui: &mut Ui,
-    rect: Rect,
-    model: &Model,
-    zoom: &mut Zoom,
-    commands: &mut Vec<UiCommand>,
-) {
-    let usual = match (rect.height() < timeline::SMALL_BELOW, rect.width() >= LONG_FROM) {
-        (true, _) => 4,
-        (false, true) => 24,
-        (false, false) => 12,
-    };
-    let hours = f64::from(zoom.hours(usual));
-    let end = add_seconds(model.now, hours * 3600.0);
-    let listed = model.pass_lists.favourites.upcoming(model.now);
-    let shown: Vec<&PredictedPass> = listed
-        .iter()
-        .filter(|predicted| !(predicted.pass.starts_before && predicted.pass.ends_after))
-        .filter(|predicted| predicted.pass.aos.time < end)
-        .collect();
-    let bars = |antenna: usize| shown.iter().map(|predicted| bar(predicted, antenna)).collect();
-    let antennas = model.antennas.iter().enumerate();
-    let mut lanes: Vec<Lane<'_>> = antennas
-        .map(|(index, antenna)| Lane { name: &antenna.config.name, bars: bars(index) })
-        .collect();
-    if lanes.is_empty() {
-        lanes.push(Lane { name: "Passes", bars: bars(0) });
-    }
-    let strip = TimelineModel {
-        now: model.now,
-        hours,
-        lanes: &lanes,
-        main: model.selected_antenna,
-        selected: selected_key(model),
-        sun: &model.sky.sun_spans,
-        menu: &|ui, bar, key, commands| menus::pass(ui, bar, model, key, commands),
-    };
-    timeline::show(ui, rect, &strip, commands);
 }
 
 /// Shows the profile of the selected pass, with the time that is `marked` elsewhere; returns

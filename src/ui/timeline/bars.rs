@@ -6,12 +6,12 @@ use egui::{Align2, Rect, Response, Role, Sense, Stroke, StrokeKind, Ui, WidgetIn
 use jiff::Timestamp;
 
 use super::{
-    Bar, TimelineModel, head,
+    Bar, State, TimelineModel, head,
     labels::{self, Placed, Wish},
     scale::{Scale, bar_height},
 };
 use crate::{
-    model::UiCommand,
+    model::{UiCommand, plan},
     ui::{
         format, text, theme,
         widgets::{context_menu, paint},
@@ -19,6 +19,8 @@ use crate::{
 };
 
 const OUTLINE: f32 = 1.0;
+/// Width of the border of a pass that the unit was asked for, as far as the bar has room.
+const BORDER: f32 = 2.5;
 /// Frame of the selected bar: width of its line and gap to the bar.
 const FRAME: f32 = 1.5;
 const FRAME_GAP: f32 = 1.5;
@@ -36,6 +38,13 @@ const ABOVE: f32 = 25.0;
 pub(super) fn fitting(wanted: &RangeInclusive<f32>, lane: Rect) -> RangeInclusive<f32> {
     let highest = (lane.height() - FLOOR - ABOVE).clamp(LOWEST, *wanted.end());
     wanted.start().min(highest)..=highest
+}
+
+/// The antenna of a lane.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct LaneOf<'a> {
+    pub antenna: &'a str,
+    pub is_one_of_several: bool,
 }
 
 /// A bar and its place.
@@ -59,7 +68,7 @@ pub(super) fn stand<'a>(
         .filter(|bar| wanted(bar))
         .filter_map(|bar| {
             let x = scale.span(bar.aos, bar.los)?;
-            let top = floor - bar_height(bar.max_elevation_deg, heights);
+            let top = floor - bar_height(bar.max_elevation_deg.unwrap_or_default(), heights);
             Some(Standing { bar, rect: Rect::from_x_y_ranges(x, top..=floor) })
         })
         .collect();
@@ -67,27 +76,21 @@ pub(super) fn stand<'a>(
     standing
 }
 
-/// Paints the bars, later ones above earlier ones; `lane` is their place among several lanes.
+/// Paints the bars of an antenna, later ones above earlier ones.
 pub(super) fn show(
     ui: &Ui,
     standing: &[Standing<'_>],
-    lane: Option<usize>,
+    lane: LaneOf<'_>,
     model: &TimelineModel<'_>,
     commands: &mut Vec<UiCommand>,
 ) {
     let t = theme::tokens(ui);
     let selected = model.selected;
-    let name = lane.and_then(|lane| model.lanes.get(lane)).map(|lane| lane.name);
     let mut focused = None;
     for Standing { bar, rect } in standing {
-        let response = node(ui, bar, *rect, name, selected == Some(bar.key));
-        if bar.possible {
-            // The rim separates overlapping bars.
-            ui.painter().rect(*rect, 0, t.sat, Stroke::new(1.0, t.bg0), StrokeKind::Outside);
-        } else {
-            let stroke = Stroke::new(OUTLINE, t.other);
-            ui.painter().rect_stroke(*rect, 0, stroke, StrokeKind::Inside);
-        }
+        let remarks = || remarks(bar, lane.antenna, model);
+        let response = node(ui, bar, *rect, lane, selected == Some(bar.key), &remarks);
+        paint_bar(ui, bar, *rect);
         if response.hovered() {
             let stroke = Stroke::new(1.0, t.t1);
             ui.painter().rect_stroke(*rect, 0, stroke, StrokeKind::Outside);
@@ -101,7 +104,9 @@ pub(super) fn show(
         context_menu::show(ui, &response, |ui| {
             (model.menu)(ui, response.id, bar.key, commands);
         });
-        response.on_hover_text(tool_tip(bar));
+        if response.hovered() {
+            response.on_hover_text(tool_tip(bar, &remarks()));
+        }
     }
     for one in standing {
         if let Some(sign) = one.triangle() {
@@ -117,8 +122,45 @@ pub(super) fn show(
     }
 }
 
+/// Paints a bar by its state, as the lanes of the plan do.
+fn paint_bar(ui: &Ui, bar: &Bar<'_>, rect: Rect) {
+    let t = theme::tokens(ui);
+    let painter = ui.painter();
+    let filled = |colour| {
+        // The rim separates overlapping bars.
+        painter.rect(rect, 0, colour, Stroke::new(1.0, t.bg0), StrokeKind::Outside);
+    };
+    let border = |colour| {
+        let width = BORDER.min(rect.width() / 4.0);
+        painter.rect_stroke(rect, 0, Stroke::new(width, colour), StrokeKind::Inside);
+    };
+    match bar.state {
+        State::Plan(plan::Standing::Flown(flown)) => match flown.cause {
+            None => filled(t.t3),
+            Some(_) => paint::dashed_border(ui, rect, 0.0, Stroke::new(OUTLINE, t.bad)),
+        },
+        State::Plan(plan::Standing::Sent(_)) => {
+            filled(t.sat);
+            border(t.cmd);
+        }
+        State::Plan(plan::Standing::Proved(_)) => {
+            filled(t.sat);
+            border(t.ok);
+        }
+        State::Plan(plan::Standing::Running) => {
+            filled(t.sat);
+            painter.rect_stroke(rect, 0, Stroke::new(FRAME, t.ant), StrokeKind::Outside);
+        }
+        State::Mount { .. } | State::Plan(_) if bar.is_taken() => filled(t.sat),
+        State::Mount { .. } | State::Plan(_) => {
+            let stroke = Stroke::new(OUTLINE, t.other);
+            painter.rect_stroke(rect, 0, stroke, StrokeKind::Inside);
+        }
+    }
+}
+
 /// Paints the names that fit above the bars: the selected one first, then those of
-/// trackable passes.
+/// passes that are taken.
 pub(super) fn show_names(
     ui: &Ui,
     standing: &[Standing<'_>],
@@ -127,7 +169,7 @@ pub(super) fn show_names(
 ) {
     let t = theme::tokens(ui);
     let mut order: Vec<&Standing<'_>> = standing.iter().collect();
-    order.sort_by_key(|one| (selected != Some(one.bar.key), !one.bar.possible));
+    order.sort_by_key(|one| (selected != Some(one.bar.key), !one.bar.is_taken()));
     let shorts: Vec<String> = order.iter().map(|one| labels::short_name(one.bar.name)).collect();
     let mut obstacles: Vec<Rect> = standing.iter().map(|one| one.rect).collect();
     obstacles.extend(standing.iter().filter_map(Standing::triangle));
@@ -148,7 +190,7 @@ pub(super) fn show_names(
         };
         // Covers the now-line and the grid behind the letters.
         ui.painter().rect_filled(rect, 0, t.bg0);
-        let colour = if one.bar.possible { t.t1 } else { t.other };
+        let colour = if one.bar.is_taken() { t.t1 } else { t.other };
         paint::text(ui, rect.center(), Align2::CENTER_CENTER, name, text::caption(), colour);
     }
 }
@@ -156,7 +198,7 @@ pub(super) fn show_names(
 impl Standing<'_> {
     /// The rectangle of the sign for lost seconds.
     fn triangle(&self) -> Option<Rect> {
-        let shown = self.bar.loses && self.bar.possible;
+        let shown = self.bar.loses && self.bar.is_taken();
         let low = pos2(self.rect.center().x, self.rect.top() - FRAME - FRAME_GAP);
         shown.then(|| Align2::CENTER_BOTTOM.anchor_size(low, TRIANGLE))
     }
@@ -174,14 +216,20 @@ impl Standing<'_> {
     }
 }
 
-/// `lane`: the antenna, where several have lanes.
-fn node(ui: &Ui, bar: &Bar<'_>, rect: Rect, lane: Option<&str>, selected: bool) -> Response {
-    let id = ui.make_persistent_id(("pass bar", lane, bar.key));
+fn node(
+    ui: &Ui,
+    bar: &Bar<'_>,
+    rect: Rect,
+    lane: LaneOf<'_>,
+    selected: bool,
+    remarks: &dyn Fn() -> String,
+) -> Response {
+    let id = ui.make_persistent_id(("pass bar", lane.antenna, bar.key));
     let response = ui.interact(rect, id, Sense::click());
     response.widget_info(|| {
-        let mut name = accessible_name(bar);
-        if let Some(lane) = lane {
-            name = format!("{lane}: {name}");
+        let mut name = accessible_name(bar, &remarks());
+        if lane.is_one_of_several {
+            name = format!("{}: {name}", lane.antenna);
         }
         WidgetInfo::selected(Role::ListBoxOption, true, selected, name)
     });
@@ -189,26 +237,31 @@ fn node(ui: &Ui, bar: &Bar<'_>, rect: Rect, lane: Option<&str>, selected: bool) 
     response
 }
 
-fn remark(bar: &Bar<'_>) -> Option<&'static str> {
-    match (bar.possible, bar.loses) {
-        (false, _) => Some("not possible"),
-        (true, true) => Some("seconds lost"),
-        (true, false) => None,
-    }
+/// How a pass stands, each remark after a comma.
+fn remarks(bar: &Bar<'_>, antenna: &str, model: &TimelineModel<'_>) -> String {
+    let stands = match bar.state {
+        State::Mount { can_track: true } => None,
+        State::Mount { can_track: false } => Some("not possible".to_owned()),
+        State::Plan(standing) => Some((model.says)(standing, antenna)),
+    };
+    let lost = (bar.loses && bar.is_taken()).then(|| "seconds lost".to_owned());
+    stands.into_iter().chain(lost).map(|remark| format!(", {remark}")).collect()
 }
 
-fn accessible_name(bar: &Bar<'_>) -> String {
+fn accessible_name(bar: &Bar<'_>, remarks: &str) -> String {
     let (from, to) = (format::hours_minutes(bar.aos), format::hours_minutes(bar.los));
-    let highest = format::degrees(bar.max_elevation_deg, 0);
-    let name = format!("{}, {from} to {to}, max {highest}", bar.name);
-    remark(bar).map_or(name.clone(), |remark| format!("{name}, {remark}"))
+    format!("{}, {from} to {to}{}{remarks}", bar.name, max_elevation(bar, ", "))
 }
 
-fn tool_tip(bar: &Bar<'_>) -> String {
+fn tool_tip(bar: &Bar<'_>, remarks: &str) -> String {
     let (from, to) = (format::time(bar.aos), format::time_z(bar.los));
-    let highest = format::degrees(bar.max_elevation_deg, 0);
-    let tip = format!("{}\n{from} to {to}\nmax {highest}", bar.name);
-    remark(bar).map_or(tip.clone(), |remark| format!("{tip}, {remark}"))
+    format!("{}\n{from} to {to}{}{remarks}", bar.name, max_elevation(bar, "\n"))
+}
+
+/// The maximum elevation after `separator`; empty where it is not known any more.
+fn max_elevation(bar: &Bar<'_>, separator: &str) -> String {
+    let known = bar.max_elevation_deg.map(|deg| format::degrees(deg, 0));
+    known.map_or_else(String::new, |deg| format!("{separator}max {deg}"))
 }
 
 #[cfg(test)]

@@ -2,11 +2,14 @@
 
 use egui::{Align2, Color32, Rect, Shape, Stroke, StrokeKind, Ui, pos2};
 
-use super::MARGIN;
-use crate::ui::{
-    text::{self, Weight},
-    theme,
-    widgets::paint,
+use super::{MARGIN, State, TimelineModel};
+use crate::{
+    model::plan::Standing,
+    ui::{
+        text::{self, Weight},
+        theme,
+        widgets::paint,
+    },
 };
 
 const MARK: f32 = 10.0;
@@ -16,26 +19,42 @@ const ENTRY_GAP: f32 = 20.0;
 #[derive(Debug, Clone, Copy)]
 enum Mark {
     Filled,
+    Done,
     Outline,
+    Dashed,
     Triangle,
 }
 
 /// Entries from right to left; those without room beside the title are left out, from the
 /// left.
-const LEGEND: [(Mark, &str); 3] = [
-    (Mark::Triangle, "seconds lost"),
-    (Mark::Outline, "not possible"),
-    (Mark::Filled, "trackable, height = max elevation"),
-];
+fn legend(model: &TimelineModel<'_>) -> Vec<(Mark, &'static str)> {
+    let lost = (Mark::Triangle, "seconds lost");
+    if !model.is_planned {
+        let filled = (Mark::Filled, "trackable, height = max elevation");
+        return vec![lost, (Mark::Outline, "not possible"), filled];
+    }
+    let bars = || model.lanes.iter().flat_map(|lane| &lane.bars);
+    let flown = |is_missed: bool| {
+        bars().any(|bar| match bar.state {
+            State::Plan(Standing::Flown(flown)) => flown.cause.is_some() == is_missed,
+            _ => false,
+        })
+    };
+    let missed = flown(true).then_some((Mark::Dashed, "missed"));
+    let done = flown(false).then_some((Mark::Done, "done"));
+    let always = [lost, (Mark::Outline, "left out")];
+    let planned = (Mark::Filled, "planned, height = max elevation");
+    always.into_iter().chain(missed).chain(done).chain([planned]).collect()
+}
 
 /// Shows the head line in `rect`.
-pub(super) fn show(ui: &Ui, rect: Rect, title: &str) {
+pub(super) fn show(ui: &Ui, rect: Rect, title: &str, model: &TimelineModel<'_>) {
     let t = theme::tokens(ui);
     let at = pos2(rect.left() + MARGIN, rect.center().y);
     let font = text::sized(13.0, Weight::SemiBold);
     let title = paint::text(ui, at, Align2::LEFT_CENTER, title, font, t.t1);
     let mut right = rect.right() - MARGIN;
-    for (mark, words) in LEGEND {
+    for (mark, words) in legend(model) {
         let width = MARK + MARK_GAP + paint::text_width(ui, words, text::small());
         let left = right - width;
         if left < title.right() + ENTRY_GAP {
@@ -54,6 +73,12 @@ fn sign(ui: &Ui, rect: Rect, mark: Mark) {
     match mark {
         Mark::Filled => {
             ui.painter().rect_filled(rect, 0, t.sat);
+        }
+        Mark::Done => {
+            ui.painter().rect_filled(rect, 0, t.t3);
+        }
+        Mark::Dashed => {
+            paint::dashed_border(ui, rect, 0.0, Stroke::new(1.0, t.bad));
         }
         Mark::Outline => {
             ui.painter().rect_stroke(rect, 0, Stroke::new(1.0, t.other), StrokeKind::Inside);

@@ -7,7 +7,7 @@ use egui_kittest::{
 };
 use jiff::Timestamp;
 
-use super::{Bar, Lane, SunSpan, TimelineModel, show};
+use super::{Bar, Lane, State, SunSpan, TimelineModel, show};
 use crate::{model::UiCommand, ui::widgets::testing};
 
 const FULL: egui::Vec2 = vec2(632.0, 208.0);
@@ -23,9 +23,9 @@ fn bar(number: u32, name: &'static str, aos: &str, los: &str, max: f64) -> Bar<'
         name,
         aos: at(aos),
         los: at(los),
-        max_elevation_deg: max,
+        max_elevation_deg: Some(max),
         loses: false,
-        possible: true,
+        state: State::Mount { can_track: true },
     }
 }
 
@@ -33,7 +33,10 @@ fn bars() -> Vec<Bar<'static>> {
     vec![
         Bar { loses: true, ..bar(59_051, "METEOR-M2 4", "11:34:54", "11:46:45", 34.0) },
         bar(43_013, "NOAA 20", "11:01:53", "11:14:45", 69.2),
-        Bar { possible: false, ..bar(25_544, "ISS", "12:36:06", "12:43:01", 52.0) },
+        Bar {
+            state: State::Mount { can_track: false },
+            ..bar(25_544, "ISS", "12:36:06", "12:43:01", 52.0)
+        },
         bar(54_754, "SWOT", "17:00:00", "17:20:00", 80.0),
         bar(38_771, "METOP-B", "17:10:00", "17:26:00", 40.0),
         bar(37_849, "SUOMI NPP", "23:53:03", "23:59:00", 24.0),
@@ -50,11 +53,13 @@ fn window(size: egui::Vec2, bars: Vec<Bar<'static>>) -> Harness<'static, Picked>
             hours: if size == SMALL { 4.0 } else { 12.0 },
             lanes: &[Lane { name: "Satrak", bars: bars.clone() }],
             main: 0,
+            is_planned: false,
             selected: *picked,
             sun: &[
                 SunSpan { from: at("04:10:00"), to: at("14:45:00"), up: true },
                 SunSpan { from: at("14:45:00"), to: at("23:59:00"), up: false },
             ],
+            says: &|_, _| String::new(),
             menu: &|_, _, _, _| {},
         };
         let mut commands = Vec::new();

@@ -62,17 +62,20 @@ pub fn miss_cause(cause: MissCause) -> String {
 
 /// What became of a pass, as a sentence.
 pub fn flown(flown: &Flown, now: Timestamp) -> String {
-    let Flown { pass: (_, aos), name, of_s, in_beam_s, cause, .. } = flown;
-    let pass = format!("{name}, AOS {}", format::moment(*aos, now));
-    let percent = 100.0 * in_beam_s / of_s.max(1.0);
-    match cause {
-        None => format!("{pass}: done, {} % in the beam.", format::number(percent, 0)),
-        Some(cause) => {
-            let lost = format::duration(flown.lost_s());
-            let of = format::duration(*of_s);
-            format!("{pass}: missed {lost} of {of}. {}", miss_cause(*cause))
-        }
+    let (_, aos) = flown.pass;
+    let cause = flown.cause.map_or_else(String::new, |cause| format!(" {}", miss_cause(cause)));
+    let pass = format!("{}, AOS {}", flown.name, format::moment(aos, now));
+    format!("{pass}: {}.{cause}", flown_part(flown))
+}
+
+/// How much of a pass was tracked, or missed: the end of a sentence.
+pub fn flown_part(flown: &Flown) -> String {
+    let Flown { of_s, in_beam_s, cause, .. } = flown;
+    if cause.is_none() {
+        let percent = 100.0 * in_beam_s / of_s.max(1.0);
+        return format!("done, {} % in the beam", format::number(percent, 0));
     }
+    format!("missed {} of {}", format::duration(flown.lost_s()), format::duration(*of_s))
 }
 
 /// A line of the list of the day, as a sentence.

@@ -4,7 +4,7 @@ use jiff::Timestamp;
 
 use crate::{
     engine::{antenna::AntennaModel, passes::PassKey, schedule::Swap},
-    model::Model,
+    model::{Model, plan::Standing},
     plan::{
         Loss,
         schedule::{
@@ -130,6 +130,20 @@ fn against(names: &dyn Fn(PassKey) -> String, conflict: &Conflict) -> String {
 /// Why a pass is left out, with the names that the window shows.
 pub fn why_left_out(model: &Model, of: &Why) -> String {
     why(&|pass| pass_name(model, pass), of)
+}
+
+/// How a pass stands on an antenna of this name: the end of a sentence.
+pub fn standing(model: &Model, standing: Standing<'_>, antenna: &str) -> String {
+    match standing {
+        Standing::Flown(flown) => super::automatic::flown_part(flown),
+        Standing::Running => format!("running on {antenna}"),
+        Standing::Proved(_) => format!("planned on {antenna}, proved"),
+        Standing::Sent(_) => format!("planned on {antenna}, sent, not proved"),
+        Standing::Planned(_) => format!("planned on {antenna}"),
+        Standing::TakenBy(other) => format!("planned on {}", antenna_name(model, other)),
+        Standing::LeftOut(why) => format!("left out: {}", why_left_out(model, why)),
+        Standing::NotKnown => "not planned yet".to_owned(),
+    }
 }
 
 /// Short name of the satellite of a pass.

@@ -1,0 +1,130 @@
+//! Fills the strip with the passes of each antenna, as the schedule has them once there is one.
+
+use egui::{Rect, Ui};
+use jiff::Timestamp;
+
+use super::passes::selected_key;
+use crate::{
+    astro::time::add_seconds,
+    engine::{antenna::AntennaModel, automatic::Flown, passes::PredictedPass},
+    model::{
+        Model, UiCommand,
+        plan::{PlannedPass, Standing},
+    },
+    plan::Trackability,
+    ui::{
+        menus,
+        timeline::{self, Bar, Lane, State, TimelineModel, Zoom},
+        words,
+    },
+};
+
+/// A strip of this width shows a whole day.
+const LONG_FROM: f32 = 1000.0;
+
+pub(super) fn show(
+    ui: &mut Ui,
+    rect: Rect,
+    model: &Model,
+    zoom: &mut Zoom,
+    commands: &mut Vec<UiCommand>,
+) {
+    let usual = match (rect.height() < timeline::SMALL_BELOW, rect.width() >= LONG_FROM) {
+        (true, _) => 4,
+        (false, true) => 24,
+        (false, false) => 12,
+    };
+    let hours = f64::from(zoom.hours(usual));
+    let end = add_seconds(model.now, hours * 3600.0);
+    let is_planned = model.schedule.made_at.is_some();
+    let antennas = model.antennas.iter();
+    let mut lanes: Vec<Lane<'_>> = if is_planned {
+        let planned = model.planned_passes_until(end);
+        let lanes = antennas.map(|antenna| Lane {
+            name: &antenna.config.name,
+            bars: bars_of_plan(model, antenna, &planned),
+        });
+        lanes.collect()
+    } else {
+        let lanes = antennas.enumerate().map(|(index, antenna)| Lane {
+            name: &antenna.config.name,
+            bars: bars_of_mount(model, index, end),
+        });
+        lanes.collect()
+    };
+    if lanes.is_empty() {
+        lanes.push(Lane { name: "Passes", bars: bars_of_mount(model, 0, end) });
+    }
+    let strip = TimelineModel {
+        now: model.now,
+        hours,
+        lanes: &lanes,
+        main: model.selected_antenna,
+        is_planned,
+        selected: selected_key(model),
+        sun: &model.sky.sun_spans,
+        says: &|standing, antenna| words::schedule::standing(model, standing, antenna),
+        menu: &|ui, bar, key, commands| menus::pass(ui, bar, model, key, commands),
+    };
+    timeline::show(ui, rect, &strip, commands);
+}
+
+/// The passes to come with what the mount can do of them.
+fn bars_of_mount(model: &Model, antenna: usize, end: Timestamp) -> Vec<Bar<'_>> {
+    let ahead = model.pass_lists.favourites.upcoming(model.now);
+    let shown = ahead.iter().filter(|it| !it.is_always_up() && it.pass.aos.time < end);
+    let bars = shown.map(|predicted| {
+        let trackability = predicted.trackability(antenna);
+        let impossible = matches!(trackability, Some(Trackability::Nothing | Trackability::TooLow));
+        let loses = matches!(trackability, Some(Trackability::Loses { .. }));
+        bar(predicted, State::Mount { can_track: !impossible }, loses)
+    });
+    bars.collect()
+}
+
+/// The passes that have just ended for an antenna, and those to come.
+fn bars_of_plan<'a>(
+    model: &'a Model,
+    antenna: &AntennaModel,
+    planned: &[PlannedPass<'a>],
+) -> Vec<Bar<'a>> {
+    let ahead = planned.iter().map(|planned| {
+        let standing = model.standing_on(planned, antenna);
+        let mut own = planned.entries.iter().filter(|entry| entry.antenna == antenna.id());
+        let loses = own.any(|entry| entry.lost.is_some());
+        bar(planned.predicted, State::Plan(standing), loses)
+    });
+    let over = model.flown_by(antenna.id()).filter_map(|flown| {
+        let predicted = model.pass_lists.favourites.find(flown.pass);
+        let has_set = predicted.is_none_or(|of| of.pass.los.time <= model.now);
+        has_set.then(|| flown_bar(flown, predicted))
+    });
+    over.chain(ahead).collect()
+}
+
+fn bar<'a>(predicted: &'a PredictedPass, state: State<'a>, loses: bool) -> Bar<'a> {
+    Bar {
+        key: predicted.key(),
+        name: predicted.satellite.short_name(),
+        aos: predicted.pass.aos.time,
+        los: predicted.pass.los.time,
+        max_elevation_deg: Some(predicted.pass.max_elevation().degrees()),
+        loses,
+        state,
+    }
+}
+
+/// A pass that has set; `predicted` as long as the list still has it.
+fn flown_bar<'a>(flown: &'a Flown, predicted: Option<&PredictedPass>) -> Bar<'a> {
+    let los = predicted.map(|of| of.pass.los.time);
+    let max = predicted.map(|of| of.pass.max_elevation().degrees());
+    Bar {
+        key: flown.pass,
+        name: &flown.name,
+        aos: flown.pass.1,
+        los: los.unwrap_or_else(|| add_seconds(flown.pass.1, flown.of_s)),
+        max_elevation_deg: max,
+        loses: false,
+        state: State::Plan(Standing::Flown(flown)),
+    }
+}
