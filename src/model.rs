@@ -12,6 +12,7 @@ pub mod intake;
 mod line;
 pub mod object_detail;
 pub mod plan;
+mod sky;
 mod stations;
 mod theme_name;
 
@@ -26,18 +27,18 @@ pub use self::{
     appearance::Appearance,
     command::UiCommand,
     line::{ConsoleLine, Piece, pieces},
+    sky::{Seen, Selected, Sky},
     stations::{KnownStation, NextStation, Stations},
     theme_name::ThemeName,
 };
 use self::{
     catalog_table::CatalogTable,
-    daylight::SunSpan,
     effects::{Effects, mounts, obstacles},
     globe::Globe,
     intake::Intake,
 };
 use crate::{
-    astro::{AzEl, HorizonMask, MaskForm, Site, sun_moon},
+    astro::{HorizonMask, MaskForm},
     clock::{Instant, Moment},
     desktop::Outlets,
     driver::{TimeSync, WireLog},
@@ -50,22 +51,15 @@ use crate::{
         copies::Copies,
         link_tests::LinkTest,
         older_sets::OlderSets,
-        passes::{
-            ListChoice, ListedSatellite, PassKey, PassLists, PredictedPass, Scope, UpcomingPasses,
-            ahead,
-        },
+        passes::{ListChoice, PassKey, PassLists, PredictedPass, Scope, UpcomingPasses},
         reminders::Reminder,
         schedule::{Planned, Swap},
         source_tests::SourceTests,
         sources::Sources,
         uploads::Uploads,
     },
-    orbit::{LookAngles, is_sunlit},
     station::{AntennaId, Station},
 };
-
-/// Length of the drawn path of a satellite that is not selected.
-const AHEAD_S: f64 = 300.0;
 
 /// The view that fills the window.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
@@ -169,38 +163,6 @@ pub struct Model {
     pub view: View,
     /// What a closing window waits for; `None` while it is not closing.
     pub closing: Option<Closing>,
-}
-
-/// The sky of the site.
-#[derive(Debug, Default)]
-pub struct Sky {
-    /// Satellites of the list above the horizon.
-    pub satellites: Vec<Seen>,
-    /// The satellite of the selected pass, above the horizon or not.
-    pub selected: Option<Selected>,
-    pub sun: Option<AzEl>,
-    pub moon: Option<AzEl>,
-    /// Day and night from shortly before now for the next hours.
-    pub sun_spans: Vec<SunSpan>,
-    seconds: Option<i64>,
-    sun_spans_of: Option<(Site, i64)>,
-}
-
-/// A satellite above the horizon.
-#[derive(Debug)]
-pub struct Seen {
-    pub satellite: Arc<ListedSatellite>,
-    pub direction: AzEl,
-    /// Path of the next minutes.
-    pub ahead: Vec<AzEl>,
-}
-
-/// The satellite of the selected pass.
-#[derive(Debug, Clone, Copy)]
-pub struct Selected {
-    pub look: LookAngles,
-    /// The Sun shines on it.
-    pub sunlit: bool,
 }
 
 impl Model {
@@ -359,49 +321,10 @@ impl Model {
         let selected = self.selected_pass().map(|predicted| Arc::clone(&predicted.satellite));
         self.sky.refresh(&self.pass_lists.favourites.satellites, selected.as_deref(), site, now);
     }
-}
 
-impl Sky {
-    fn refresh(
-        &mut self,
-        satellites: &[Arc<ListedSatellite>],
-        selected: Option<&ListedSatellite>,
-        site: Site,
-        now: Timestamp,
-    ) {
-        // The selected satellite is compared with the antenna and moves with every frame.
-        self.selected = selected.and_then(|satellite| {
-            let look = satellite.propagator.look_from(site, now).ok()?;
-            let state = satellite.propagator.state_at(now).ok()?;
-            Some(Selected { look, sunlit: is_sunlit(&state, now) })
-        });
-        if self.seconds == Some(now.as_second()) {
-            return;
-        }
-        self.seconds = Some(now.as_second());
-        self.sun = Some(sun_moon::sun(site, now));
-        self.refresh_sun_spans(site, now);
-        self.moon = Some(sun_moon::moon(site, now));
-        self.satellites = satellites
-            .iter()
-            .filter_map(|satellite| {
-                let look = satellite.propagator.look_from(site, now).ok()?;
-                (look.direction.elevation_deg() > 0.0).then(|| Seen {
-                    satellite: Arc::clone(satellite),
-                    direction: look.direction,
-                    ahead: ahead(satellite, site, now, AHEAD_S),
-                })
-            })
-            .collect();
-    }
-
-    /// Recomputes day and night every minute.
-    fn refresh_sun_spans(&mut self, site: Site, now: Timestamp) {
-        let made_of = (site, now.as_second() / 60);
-        if self.sun_spans_of == Some(made_of) {
-            return;
-        }
-        self.sun_spans_of = Some(made_of);
-        self.sun_spans = daylight::spans(site, now);
+    /// The sky at another time, without day and night.
+    pub fn sky_at(&self, at: Timestamp) -> Sky {
+        let selected = self.selected_pass().map(|predicted| &*predicted.satellite);
+        Sky::at(&self.pass_lists.favourites.satellites, selected, self.station.site, at)
     }
 }

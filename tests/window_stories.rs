@@ -58,6 +58,7 @@ mod states;
 mod stations;
 mod step;
 mod stop;
+mod strip;
 mod unit;
 mod upload_questions;
 mod upload_rig;

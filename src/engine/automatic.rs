@@ -26,8 +26,8 @@ use crate::{
     clock::Instant,
     device::Asked,
     driver::{self, Event, Found, Intent, Response, Safety, StopState},
-    plan::schedule::Entry,
-    station::{AntennaId, AutomationRule, BetweenPasses, Then},
+    plan::schedule::{Entry, sun_is},
+    station::{self, AntennaId, AutomationRule, BetweenPasses, Station, Then},
 };
 
 /// An antenna is sent to a pass so long before it has to be, seconds.
@@ -315,20 +315,14 @@ impl Engine {
     }
 
     fn between(&self, antenna: &AntennaModel) -> BetweenPasses {
-        let rules = self.station.rules.iter().filter(|rule| rule.is_for(antenna.id()));
-        let sun = self.sun_is();
-        let mut holding = rules.filter(|rule| rule.of.is_none() && rule.holds_at(self.now, sun));
-        match holding.next() {
-            Some(AutomationRule { then: Then::Park, .. }) => BetweenPasses::Park,
-            _ => antenna.config.automatic.between,
-        }
+        between(&self.station, &antenna.config, self.now)
     }
 
     fn wishes(&self, antenna: &AntennaModel) -> Wishes {
         let scheduling = self.station.scheduling;
         let parks = self.between(antenna) == BetweenPasses::Park && antenna.can_park();
         Wishes {
-            parks_within_s: parks.then(|| antenna.config.longest_slew_s() + LEAD_S),
+            parks_within_s: parks.then(|| parks_within_s(&antenna.config)),
             longest_rest_s: scheduling.warn_after_rest_min * 60.0,
             announced_for_s: scheduling.warning_s,
             uses_auto_track: antenna.config.automatic.uses_auto_track,
@@ -449,6 +443,26 @@ impl Engine {
         tracing::info!(?antenna, ?what, "automatic operation");
         day::add(&mut self.day, DayLine { at: self.now, antenna, what });
     }
+}
+
+/// Where the antenna is between passes at `at`, by its settings and by the rules of the station.
+pub fn between(station: &Station, antenna: &station::Antenna, at: Timestamp) -> BetweenPasses {
+    let mut rules = station.rules.iter().filter(|rule| rule.is_for(antenna.id)).peekable();
+    if rules.peek().is_none() {
+        return antenna.automatic.between;
+    }
+    let sun = sun_is(station, at);
+    let mut holding = rules.filter(|rule| rule.of.is_none() && rule.holds_at(at, sun));
+    match holding.next() {
+        Some(AutomationRule { then: Then::Park, .. }) => BetweenPasses::Park,
+        _ => antenna.automatic.between,
+    }
+}
+
+/// Time after a pass that must be left before the antenna sets out, for it to park: both ways,
+/// seconds.
+pub fn parks_within_s(antenna: &station::Antenna) -> f64 {
+    antenna.longest_slew_s() + LEAD_S
 }
 
 /// When an antenna is sent to an entry, at the latest.

@@ -17,9 +17,9 @@ use crate::{
     job::Job,
     plan::schedule::{
         self, Candidate, Change, Common, Entry, Off, Partial, PlannedAntenna, Request, Schedule,
-        Steadiness, changes, plan, plan_with, sun_is,
+        Steadiness, changes, plan, plan_with,
     },
-    station::{AntennaId, Station, SunIs},
+    station::{AntennaId, Station},
 };
 
 /// What a change of the schedule has to gain: a moved minute does not turn it over.
@@ -210,11 +210,6 @@ impl Engine {
             })
         };
         entries.filter(|entry| entry.to > self.now).filter(is_taken).cloned().collect()
-    }
-
-    /// Whether the Sun is up at the site.
-    pub(super) fn sun_is(&self) -> SunIs {
-        sun_is(&self.station, self.now)
     }
 }
 

@@ -1,5 +1,7 @@
 //! The plan as its view shows it: each pass of the favourites with what the schedule says of it.
 
+mod pose;
+
 use std::collections::BTreeMap;
 
 use jiff::Timestamp;
@@ -16,6 +18,8 @@ use crate::{
     plan::schedule::{Entry, LeftOut, Why},
     station::{AntennaId, PassChoice, Priority},
 };
+
+pub use pose::{PlannedActivity, Pose};
 
 /// Largest difference in AOS of one pass between the list and the schedule, seconds.
 const SAME_AOS_S: f64 = 60.0;

@@ -30,7 +30,7 @@ fn key((satellite, aos): PassKey) -> Key {
 }
 
 /// The first pass is taken by the antenna, the second is left out for it, and so on in turn.
-fn planned(model: &azel::model::Model) -> Planned {
+pub(crate) fn planned(model: &azel::model::Model) -> Planned {
     let id = model.antennas[0].id();
     let mut schedule = Schedule::default();
     let mut before: Option<Key> = None;

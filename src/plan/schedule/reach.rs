@@ -9,6 +9,7 @@ use super::{
 };
 use crate::{
     astro::{Angle, AzEl, time::seconds_between},
+    device::Pointing,
     plan::{
         Barrier, Bounds, Loss, Sample, Sweep,
         az_el::{Choice, Flip, Planned, Start},
@@ -74,8 +75,21 @@ impl Reach {
         }
     }
 
-    pub(super) fn park_deg(&self) -> [f64; 2] {
+    /// Where the axes stand at the park position, degrees as the mount counts.
+    pub fn park_deg(&self) -> [f64; 2] {
         self.park_deg
+    }
+
+    /// Where the antenna points with its axes there; an antenna without elevation by azimuth alone.
+    pub fn pointing(&self, axes_deg: [f64; 2]) -> Pointing {
+        let direction = self.bounds.direction(axes_deg);
+        let elevation = Some(direction.elevation).filter(|_| self.drives.has_elevation);
+        Pointing { azimuth: Some(direction.azimuth), elevation }
+    }
+
+    /// Time from one place of the axes to another along the straight way, seconds.
+    pub fn straight_s(&self, from_deg: [f64; 2], to_deg: [f64; 2]) -> f64 {
+        self.straight_ms(from_deg, to_deg) as f64 / 1000.0
     }
 
     pub(super) fn has_barriers(&self) -> bool {

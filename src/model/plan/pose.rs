@@ -1,0 +1,155 @@
+//! Where the antennas point by the schedule at any moment of it.
+
+use jiff::Timestamp;
+
+use super::Model;
+use crate::{
+    astro::time::{add_seconds, seconds_between},
+    device::Pointing,
+    engine::{
+        antenna::AntennaModel,
+        automatic::{between, parks_within_s, sets_out},
+        passes::PassKey,
+    },
+    plan::schedule::{Entry, Reach},
+    station::BetweenPasses,
+};
+
+/// What an antenna does by the schedule, and where it points.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Pose {
+    pub doing: PlannedActivity,
+    pub pointing: Pointing,
+}
+
+/// What an antenna does by the schedule at one moment.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum PlannedActivity {
+    Tracks(PassKey),
+    SlewsTo(PassKey),
+    /// Stands where the pass will begin.
+    WaitsFor(PassKey),
+    /// Stands where the last pass ended, or where it stands now.
+    Stays,
+    SlewsToPark,
+    Parked,
+}
+
+/// A motion of the axes, degrees as the mount counts.
+#[derive(Debug, Clone, Copy)]
+struct Slew {
+    from: Timestamp,
+    seconds: f64,
+    from_deg: [f64; 2],
+    to_deg: [f64; 2],
+}
+
+impl Slew {
+    /// Where the axes are, both moving from the beginning to the end.
+    fn axes_deg(self, at: Timestamp) -> [f64; 2] {
+        let share = (seconds_between(self.from, at) / self.seconds.max(1e-3)).clamp(0.0, 1.0);
+        let [a, b] = self.from_deg;
+        let [c, d] = self.to_deg;
+        [a + (c - a) * share, b + (d - b) * share]
+    }
+
+    fn has_begun(self, at: Timestamp) -> bool {
+        at >= self.from
+    }
+
+    fn is_over(self, at: Timestamp) -> bool {
+        seconds_between(self.from, at) >= self.seconds
+    }
+}
+
+fn key(entry: &Entry) -> PassKey {
+    (entry.pass.satellite, entry.pass.aos)
+}
+
+impl Model {
+    /// The end of the schedule, if that is to come.
+    pub fn schedule_until(&self) -> Option<Timestamp> {
+        self.schedule.until.filter(|until| *until > self.now)
+    }
+
+    /// What the schedule has an antenna do at `at`, and where it points then. `None` for an
+    /// antenna without passes, and where it is not known where the antenna will stand.
+    pub fn pose_at(&self, antenna: &AntennaModel, at: Timestamp) -> Option<Pose> {
+        let id = antenna.id();
+        let entries = || self.schedule.schedule.entries.iter().filter(|of| of.antenna == id);
+        entries().next()?;
+        let reach = Reach::of(&self.station, &antenna.config, None);
+        if let Some(entry) = entries().find(|entry| entry.from <= at && at < entry.to) {
+            return self.tracks(&reach, entry, at);
+        }
+        let before = entries().rfind(|entry| entry.to <= at);
+        let next = entries().find(|entry| entry.from > at);
+        let measured = antenna.snapshot.state.measured;
+        let has_elevation = antenna.variant().capabilities.has_elevation();
+        let stands_deg = match before {
+            Some(entry) => Some(entry.axes_deg[1]),
+            None => measured.and_then(|measured| measured.axes_deg(has_elevation)),
+        };
+        let (doing, axes_deg) =
+            self.between_passes(antenna, &reach, (before, next), stands_deg, at)?;
+        Some(Pose { doing, pointing: reach.pointing(axes_deg) })
+    }
+
+    fn tracks(&self, reach: &Reach, entry: &Entry, at: Timestamp) -> Option<Pose> {
+        let satellite = self.pass_lists.satellite(entry.pass.satellite)?;
+        let look = satellite.propagator.look_from(self.station.site, at).ok()?;
+        // Without an elevation axis there is none to plan.
+        let has_elevation = reach.pointing(entry.axes_deg[0]).elevation.is_some();
+        let elevation = Some(look.direction.elevation).filter(|_| has_elevation);
+        let pointing = Pointing { azimuth: Some(look.direction.azimuth), elevation };
+        Some(Pose { doing: PlannedActivity::Tracks(key(entry)), pointing })
+    }
+
+    /// What the antenna does between two entries, and where its axes stand; it stands at
+    /// `stands_deg` at first.
+    fn between_passes(
+        &self,
+        antenna: &AntennaModel,
+        reach: &Reach,
+        (before, next): (Option<&Entry>, Option<&Entry>),
+        stands_deg: Option<[f64; 2]>,
+        at: Timestamp,
+    ) -> Option<(PlannedActivity, [f64; 2])> {
+        let since = before.map_or(self.now, |entry| entry.to);
+        let policy = between(&self.station, &antenna.config, since);
+        let goes_at = next.map(|next| sets_out(next, policy).max(since));
+        let left_s = goes_at.map_or(f64::INFINITY, |at| seconds_between(since, at));
+        // Before its first pass it stays where it is: parking is not announced.
+        let parks = policy == BetweenPasses::Park
+            && before.is_some()
+            && antenna.can_park()
+            && left_s > parks_within_s(&antenna.config);
+        let park = stands_deg.filter(|_| parks).map(|stands_deg| {
+            let to_deg = reach.park_deg();
+            let seconds = reach.straight_s(stands_deg, to_deg);
+            Slew { from: since, seconds, from_deg: stands_deg, to_deg }
+        });
+        let rest_deg = park.map(|park| park.to_deg).or(stands_deg);
+        if let (Some(next), Some(goes_at)) = (next, goes_at) {
+            let to_deg = next.axes_deg[0];
+            let from_deg = rest_deg.unwrap_or(to_deg);
+            let seconds = match park {
+                Some(_) => reach.straight_s(from_deg, to_deg),
+                None => next.slew_s,
+            };
+            let from = add_seconds(goes_at, next.set_up_s);
+            let slew = Slew { from, seconds, from_deg, to_deg };
+            if slew.is_over(at) {
+                return Some((PlannedActivity::WaitsFor(key(next)), to_deg));
+            }
+            if slew.has_begun(at) {
+                return Some((PlannedActivity::SlewsTo(key(next)), slew.axes_deg(at)));
+            }
+        }
+        match park {
+            Some(park) if park.is_over(at) => Some((PlannedActivity::Parked, park.to_deg)),
+            Some(park) => Some((PlannedActivity::SlewsToPark, park.axes_deg(at))),
+            None => Some((PlannedActivity::Stays, stands_deg?)),
+        }
+    }
+}

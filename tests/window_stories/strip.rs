@@ -1,0 +1,126 @@
+//! The strip of Operate: what the mount can track, or what the schedule takes and leaves out.
+
+use std::sync::Arc;
+
+use azel::{
+    astro::time::add_seconds,
+    engine::automatic::{DayEvent, DayLine, Flown, MissCause},
+    model::{Model, UiCommand},
+    station::AntennaId,
+};
+use egui::{Key, Role};
+use egui_kittest::kittest::{NodeT as _, Queryable as _};
+
+use crate::window_stories::{
+    makes, plan,
+    rig::{self, LARGE, SIZES, Window, asked, settle},
+    states,
+};
+
+fn with_plan(size: [f32; 2]) -> Window {
+    let mut model = rig::model(states::holding());
+    model.schedule = Arc::new(plan::planned(&model));
+    rig::window(size, model)
+}
+
+/// Whether it reads like "11:01 to 11:14", as in the strip alone; in lanes after a name.
+fn is_times(words: &str) -> bool {
+    words.len() == "11:01 to 11:14".len() && words.contains(" to ")
+}
+
+/// The bars of the strip, as they are read aloud.
+fn bars(window: &Window) -> Vec<String> {
+    let options = window.query_all_by_role(Role::ListBoxOption);
+    let names = options.filter_map(|node| node.accesskit_node().label());
+    let has_times = |name: &String| name.split(", ").nth(1).is_some_and(is_times);
+    names.filter(has_times).collect()
+}
+
+#[test]
+fn each_pass_of_the_strip_is_planned_or_left_out_with_the_reason() {
+    for size in SIZES {
+        let window = with_plan(size);
+        let bars = bars(&window);
+        let (planned, left_out): (Vec<_>, Vec<_>) =
+            bars.iter().partition(|bar| bar.ends_with(", planned on Satrak"));
+        assert!(!planned.is_empty(), "{bars:?}");
+        assert!(!left_out.is_empty(), "{bars:?}");
+        for bar in left_out {
+            assert!(bar.contains(", left out: ") && bar.ends_with(" overlaps by 8:02"), "{bar}");
+        }
+    }
+}
+
+#[test]
+fn before_the_first_schedule_the_strip_shows_what_the_mount_can_track() {
+    for size in SIZES {
+        let window = rig::window(size, rig::model(states::holding()));
+        let bars = bars(&window);
+        assert!(!bars.is_empty());
+        for bar in bars {
+            assert!(!bar.contains("planned") && !bar.contains("left out"), "{bar}");
+        }
+    }
+}
+
+#[test]
+fn the_pointer_reads_how_a_pass_stands_and_a_key_selects_it() {
+    let mut window = with_plan(LARGE);
+    let name = bars(&window).into_iter().find(|bar| bar.contains("left out")).unwrap();
+    window.get_by_label(&name).hover();
+    window.run_steps(8);
+    window.get_by_label_contains("\nmax");
+    window.get_by_label(&name).focus();
+    settle(&mut window);
+    window.state_mut().commands.clear();
+    window.key_press(Key::Enter);
+    let commands = asked(&mut window);
+    assert!(matches!(&commands[..], [UiCommand::SelectPass(_)]), "{commands:?}");
+}
+
+/// A day on which the pass that is up was missed in part, and one before it was tracked.
+fn after_two_passes(model: &mut Model) {
+    let upcoming = model.pass_lists.favourites.upcoming(model.now);
+    let key = upcoming.iter().find(|predicted| !predicted.is_always_up()).unwrap().key();
+    let flown = |pass, cause: Option<MissCause>| {
+        let lost_s = if cause.is_some() { 250.0 } else { 0.0 };
+        let name = "NOAA 20".to_owned();
+        let in_beam_s = 742.0 - lost_s;
+        let flown = Flown { pass, name, of_s: 742.0, in_beam_s, proved_at: None, cause };
+        DayLine { at: model.now, antenna: AntennaId(1), what: DayEvent::Flown(flown) }
+    };
+    let before = (37_849, add_seconds(model.now, -900.0));
+    model.day = Arc::new(vec![flown(before, None), flown(key, Some(MissCause::OutsideBeam))]);
+}
+
+#[test]
+fn passes_that_are_over_are_done_or_missed() {
+    for size in SIZES {
+        let mut window = with_plan(size);
+        after_two_passes(&mut window.state_mut().model);
+        settle(&mut window);
+        window.get_by_label_contains(", missed 4:10 of 12:22");
+        assert!(
+            bars(&window).iter().any(|bar| bar.ends_with(", done, 100 % in the beam")),
+            "{:?}",
+            bars(&window)
+        );
+    }
+}
+
+#[test]
+fn each_lane_of_a_high_strip_says_which_antenna_takes_a_pass() {
+    let mut model = rig::model(states::holding());
+    let second = makes::model(makes::pair(), makes::pair_at(azel::driver::Intent::Position));
+    model.antennas.extend(second.antennas);
+    model.antennas[1].config.id = AntennaId(2);
+    model.schedule = Arc::new(plan::planned(&model));
+    let window = rig::window([1920.0, 1080.0], model);
+    let bars = bars(&window);
+    let of = |antenna: &str| {
+        let own = bars.iter().filter(|bar| bar.starts_with(antenna));
+        own.filter(|bar| bar.ends_with("planned on Satrak")).count()
+    };
+    assert!(of("Satrak: ") > 0, "{bars:?}");
+    assert_eq!(of("Satrak: "), of("Genius: "), "the other lane names who takes it: {bars:?}");
+}
