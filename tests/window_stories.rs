@@ -53,6 +53,7 @@ mod setup;
 mod setup_real;
 mod shown_as_it_is;
 mod sky;
+mod sky_time;
 mod source_tests;
 mod states;
 mod stations;

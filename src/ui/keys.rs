@@ -147,6 +147,11 @@ pub const ALL: [Binding; 34] = [
     ),
     row(
         KeyScope::Operate,
+        &[(Key::Home, Act::SkyOfNow)],
+        "sky of now; on its slider: Left, Right 1 min, Page 10 min",
+    ),
+    row(
+        KeyScope::Operate,
         &[(Key::Plus, Act::Zoom(1)), (Key::Minus, Act::Zoom(-1))],
         "fewer, more hours; sky plot with the focus: closer, further",
     ),

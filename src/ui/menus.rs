@@ -57,10 +57,15 @@ pub(super) fn sky(ui: &mut Ui, response: Id, model: &Model, direction: AzEl) -> 
         let words = format!("Point {} here\u{2026}", antenna.config.name);
         entry(ui, response, &words)
     });
+    self::direction(ui, response, direction);
+    looks
+}
+
+/// Shows the entry that copies a direction.
+pub(super) fn direction(ui: &mut Ui, response: Id, direction: AzEl) {
     if entry(ui, response, "Copy azimuth and elevation") {
         ui.copy_text(format::pointing_at(direction));
     }
-    looks
 }
 
 fn track(

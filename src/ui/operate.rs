@@ -9,6 +9,7 @@ mod layout;
 pub(super) mod passes;
 mod second_card;
 pub(super) mod sky;
+mod sky_time;
 mod strip;
 
 use std::time::Duration;
@@ -39,6 +40,9 @@ use crate::{
 use ghost::GhostState;
 use layout::Areas;
 use second_card::SecondCard;
+use sky_time::SkyTime;
+
+pub use sky_time::row::LONG_STEP_S;
 
 /// Wait for one more frame.
 const NEXT_FRAME: Duration = Duration::from_millis(1);
@@ -56,6 +60,7 @@ pub struct OperateState {
     pub list_width: Option<u32>,
     /// The sky plot.
     pub sky: SkyPlotState,
+    pub sky_time: SkyTime,
     /// The time of the pass that the operator marks in the sky plot or in the profile.
     marked: Option<Timestamp>,
     profile: ProfileState,
@@ -88,6 +93,12 @@ impl OperateState {
         let wanted = at.map_or(Some(0), |at| at.checked_add_signed(down))?;
         let place = found.map_or(Some(wanted), |found| found.place(wanted))?;
         listed.get(place).map(PredictedPass::key)
+    }
+
+    /// Call while another view is shown.
+    pub fn leave(&mut self, commands: &mut Vec<UiCommand>) {
+        self.leave_card(commands);
+        self.sky_time.to_now();
     }
 
     /// Call when the card disappears. Releases a key that is held there.
@@ -131,12 +142,14 @@ pub fn show(
         state.drawer_open = !state.drawer_open;
     }
     let pointed = sky::show(ui, areas.sky, model, state, commands);
+    sky_time::row::show(ui, areas.sky_time, model, &mut state.sky_time);
+    let then = state.sky_time.at();
     if let Some(timeline) = areas.timeline {
-        strip::show(ui, timeline, model, &mut state.zoom, commands);
+        strip::show(ui, timeline, model, then, &mut state.zoom, commands);
     }
     let mut marked = pointed;
     if let Some(profile) = areas.profile {
-        let read = passes::profile(ui, profile, model, pointed, &mut state.profile);
+        let read = passes::profile(ui, profile, model, pointed.or(then), &mut state.profile);
         marked = marked.or(read);
     }
     if state.marked != marked {

@@ -16,6 +16,7 @@ pub(super) mod mask;
 mod nodes;
 mod other_antennas;
 pub(super) mod placement;
+mod planned;
 mod pointer;
 mod readout;
 mod scene;
@@ -46,7 +47,7 @@ use crate::astro::AzEl;
 
 pub use scene::{
     AzimuthStop, Bearing, Ghost, KeepOutMark, Keyholes, Measured, OtherAntenna, OtherSatellite,
-    SkyScene, Track,
+    PlannedAntenna, SkyScene, Then, Track,
 };
 pub use small::paint_small;
 pub use zoom::Zoom;
@@ -159,6 +160,7 @@ pub fn show(
     let chosen = nodes::satellites(marks, canvas.id, rect, dome, scene, others, t, menu);
     let antenna = other_antennas::nodes(marks, canvas.id, rect, dome, scene, t);
     let events = scene.track.map(|track| track::events(&track)).unwrap_or_default();
+    planned::nodes(marks, canvas.id, dome, scene);
     nodes::events_and_antenna(marks, canvas.id, dome, &events, scene);
     // The corners keep their places in a magnified sky.
     readout::paint(ui.painter(), rect, whole, scene, !state.zoom.is_whole(), t);
@@ -286,6 +288,7 @@ fn paint_sky(
     if layers.sun_and_moon {
         bodies::label_sun_and_moon(&mut labels, dome, scene, t);
     }
+    planned::label(&mut labels, dome, scene, t);
     other_antennas::label(&mut labels, dome, scene, t);
     if layers.others && layers.names {
         bodies::label_others(&mut labels, dome, scene, t);
@@ -294,6 +297,7 @@ fn paint_sky(
 
     track::paint_events(painter, dome, &events, t);
     other_antennas::paint_stops(painter, dome, scene, t);
+    planned::paint(painter, dome, scene, t);
     other_antennas::paint(painter, dome, scene, t);
     bearing::paint(painter, dome, scene, t);
     antenna::paint(painter, dome, scene, t);

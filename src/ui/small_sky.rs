@@ -37,6 +37,7 @@ pub(super) fn show(
         others: &[],
         sun: None,
         moon: None,
+        then: None,
         commanded: antenna.and_then(sky::commanded),
         ghost: None,
         beam_width: Angle::ZERO,

@@ -74,6 +74,8 @@ pub struct Lane<'a> {
 pub struct TimelineModel<'a> {
     /// The time of the now-line, UTC.
     pub now: Timestamp,
+    /// The time that the sky plot shows, if that is not now.
+    pub then: Option<Timestamp>,
     pub hours: f64,
     /// A lane for each antenna, in the order of the station; at least one.
     pub lanes: &'a [Lane<'a>],
@@ -184,7 +186,7 @@ fn all_lanes(
     }
     lane_name(ui, rect.left() + MARGIN, sun, "Sun", false);
     sun::show(ui, scale, model.sun, sun, words);
-    axis::now_line(ui, scale, model.now, Rangef::new(room.top() - 4.0, sun.bottom()));
+    axis::time_lines(ui, scale, model, Rangef::new(room.top() - 4.0, sun.bottom()));
     for (place, bars) in &standing {
         let room = place.with_min_x(place.left() - NAMES_GAP);
         bars::show_names(ui, bars, model.selected, room);
@@ -229,7 +231,7 @@ fn full(
     }
     lane_name(ui, rect.left() + MARGIN, sun, "Sun", false);
     sun::show(ui, scale, model.sun, sun, words);
-    axis::now_line(ui, scale, model.now, Rangef::new(lane.top() - 4.0, sun.bottom()));
+    axis::time_lines(ui, scale, model, Rangef::new(lane.top() - 4.0, sun.bottom()));
     let room = lane.with_min_x(lane.left() - NAMES_GAP);
     bars::show_names(ui, &main, model.selected, room);
 }
@@ -251,7 +253,7 @@ fn small(
     let heights = bars::fitting(&HEIGHTS, lane);
     let standing = bars::stand(&shown.bars, |_| true, scale, lane, &heights);
     bars::show(ui, &standing, of, model, commands);
-    axis::now_line(ui, scale, model.now, Rangef::new(lane.top() - 4.0, lane.bottom()));
+    axis::time_lines(ui, scale, model, Rangef::new(lane.top() - 4.0, lane.bottom()));
     let room = lane.with_min_x(lane.left() - NAMES_GAP);
     bars::show_names(ui, &standing, model.selected, room);
 }

@@ -130,17 +130,18 @@ impl Views {
         let side = body.with_max_x(body.left() + rail::width(window.width()));
         self.keys_open |= show_rail(ui, side, model, self.antennas.edited(model), commands);
         let rest = Rect::from_min_max(pos2(side.right(), body.top()), body.max);
+        if model.view != View::Operate {
+            self.operate.leave(commands);
+        }
         match model.view {
             View::Operate => {
                 let (state, question) = (&mut self.operate, &mut self.question);
                 operate::show(ui, window, rest, model, state, question, commands);
             }
             View::Plan => {
-                self.operate.leave_card(commands);
                 plan::show(ui, window, rest, model, &mut self.plan, commands);
             }
             View::Elements => {
-                self.operate.leave_card(commands);
                 let is_edited = self.preferences.is_edited();
                 let (state, question) = (&mut self.elements, &mut self.question);
                 let upload = elements::show(ui, rest, model, is_edited, state, question, commands);
@@ -152,7 +153,6 @@ impl Views {
                 }
             }
             View::Antennas => {
-                self.operate.leave_card(commands);
                 let before = commands.len();
                 antennas::show(ui, rest, model, &mut self.antennas, commands);
                 let leads_on = commands
@@ -164,19 +164,15 @@ impl Views {
                 }
             }
             View::Console => {
-                self.operate.leave_card(commands);
                 console::show(ui, window, rest, model, &mut self.console, commands);
             }
             View::Map => {
-                self.operate.leave_card(commands);
                 map::show(ui, window, rest, model, &mut self.map, commands);
             }
             View::Preferences => {
-                self.operate.leave_card(commands);
                 preferences::show(ui, rest, model, &mut self.preferences, commands);
             }
             View::Setup => {
-                self.operate.leave_card(commands);
                 let takes_keys = self.question.is_none() && !self.keys_open;
                 setup::show(ui, rest, model, takes_keys, &mut self.setup, commands);
             }
@@ -254,6 +250,7 @@ impl Views {
 
     /// Call when the station has changed other than by the preferences.
     pub fn station_changed(&mut self) {
+        self.operate.sky_time.to_now();
         self.preferences.forget();
     }
 

@@ -8,7 +8,7 @@ use crate::{
     engine::{self, antenna::AntennaModel, passes::PredictedPass},
     model::{Model, UiCommand, View, globe::Towards},
     station::Take,
-    ui::{elements, theme},
+    ui::{elements, operate::LONG_STEP_S, theme},
 };
 
 /// Effect of a key.
@@ -27,6 +27,8 @@ pub(super) enum Act {
     Manual,
     /// Moves the jog rate by this many steps up.
     Rate(i32),
+    /// Shows the sky of now.
+    SkyOfNow,
     /// Zooms the timeline in by this many steps.
     Zoom(isize),
     UsualZoom,
@@ -100,6 +102,9 @@ impl Act {
             }
             Self::GoTo => go_to(model, targets, commands),
             Self::Manual => manual(model, targets, commands),
+            Self::Rate(by) if targets.operate.sky_time.has_focus => {
+                targets.operate.sky_time.step(model, f64::from(by) * LONG_STEP_S);
+            }
             Self::Rate(by) => {
                 let manual = |of: &&AntennaModel| of.snapshot.intent == Intent::Manual;
                 if let Some(antenna) = model.antenna().filter(manual) {
@@ -108,6 +113,7 @@ impl Act {
                     targets.operate.card.drive.change_rate(by, speeds, max_deg_s);
                 }
             }
+            Self::SkyOfNow => targets.operate.sky_time.to_now(),
             Self::Zoom(closer) if targets.operate.sky.has_focus => {
                 targets.operate.sky.zoom.step(closer > 0);
             }

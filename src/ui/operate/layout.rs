@@ -12,6 +12,8 @@ const MAX_LIST: f32 = 480.0;
 const MIN_SKY: f32 = 480.0;
 const STRIP: f32 = 208.0;
 const SMALL_STRIP: f32 = 80.0;
+const SKY_TIME: f32 = 32.0;
+const SMALL_SKY_TIME: f32 = 28.0;
 const PROFILE: f32 = 392.0;
 /// Maximum size of the sky plot; the strip below gets the rest.
 const MAX_SKY: f32 = 2.0 * (420.0 + 36.0);
@@ -33,6 +35,8 @@ const TWO_CARDS_FROM: f32 = 1800.0;
 pub(super) struct Areas {
     pub(super) header: Rect,
     pub(super) sky: Rect,
+    /// The row below the plot with the time that it shows.
+    pub(super) sky_time: Rect,
     pub(super) card: Rect,
     /// The card of a second antenna, at the right of the first.
     pub(super) second_card: Option<Rect>,
@@ -81,13 +85,15 @@ impl Areas {
             _ => HIGH_STRIP,
         };
         let room = left.height() - header_height;
-        let strip_height = wanted.max(room - MAX_SKY);
+        let sky_time = if tall { SKY_TIME } else { SMALL_SKY_TIME };
+        let strip_height = wanted.max(room - sky_time - MAX_SKY);
         let strip = left.with_min_y(left.bottom() - strip_height);
         let above = left.with_max_y(strip.top());
 
         let beside = if small { above } else { above.with_min_x(above.left() + list_width) };
         let header = beside.with_max_y(beside.top() + header_height);
-        let sky = beside.with_min_y(header.bottom());
+        let (sky, sky_time) =
+            beside.with_min_y(header.bottom()).split_top_bottom_at_y(beside.bottom() - sky_time);
         let list = if small {
             // Never over the card or STOP.
             let drawer = Rect::from_min_size(
@@ -108,6 +114,7 @@ impl Areas {
         Self {
             header,
             sky,
+            sky_time,
             card,
             second_card,
             banner,
@@ -163,7 +170,8 @@ mod tests {
         let at = |x: f32, y: f32, w: f32, h: f32| Rect::from_min_size(pos2(x, y), vec2(w, h));
         assert_eq!(areas.list, Some(at(72.0, 56.0, 320.0, 636.0)));
         assert_eq!(areas.header, at(392.0, 56.0, 704.0, 56.0));
-        assert_eq!(areas.sky, at(392.0, 112.0, 704.0, 580.0));
+        assert_eq!(areas.sky, at(392.0, 112.0, 704.0, 548.0));
+        assert_eq!(areas.sky_time, at(392.0, 660.0, 704.0, 32.0));
         assert_eq!(areas.card, at(1096.0, 56.0, 344.0, 844.0));
         assert_eq!(areas.timeline, Some(at(72.0, 692.0, 632.0, 208.0)));
         assert_eq!(areas.profile, Some(at(704.0, 692.0, 392.0, 208.0)));
@@ -175,7 +183,7 @@ mod tests {
         assert!(areas.small && areas.list.is_none() && areas.profile.is_none());
         assert_eq!(areas.card.size(), vec2(304.0, 592.0));
         assert_eq!(areas.timeline.map(|strip| strip.size()), Some(vec2(672.0, 80.0)));
-        assert_eq!(areas.sky.size(), vec2(672.0, 468.0));
+        assert_eq!(areas.sky.size(), vec2(672.0, 440.0));
     }
 
     #[test]

@@ -1,27 +1,32 @@
 //! Fills the sky plot.
 
-use egui::{Rect, Ui};
+use egui::{Rect, Stroke, StrokeKind, Ui};
 use jiff::Timestamp;
 
-use super::{OperateState, all_antennas, ghost};
+use super::{OperateState, all_antennas, ghost, sky_time};
 use crate::{
     astro::{Angle, AzEl, time::seconds_between},
     driver::LinkState,
-    engine::{antenna::AntennaModel, passes::PredictedPass},
-    model::{Model, UiCommand},
+    engine::{
+        antenna::AntennaModel,
+        passes::{PassKey, PredictedPass},
+    },
+    model::{Model, Selected, UiCommand},
     orbit::{LookAngles, PassPoint},
     plan::Sample,
     ui::{
         format, menus,
         sky_plot::{
-            self, Bearing, KeepOutMark, Keyholes, Measured, MenuOf, OtherSatellite, SkyScene, Track,
+            self, Bearing, KeepOutMark, Keyholes, Measured, MenuOf, OtherSatellite, SkyScene, Then,
+            Track,
         },
         state_sentence::state_sentence,
+        theme,
     },
 };
 
 /// Minimum height of a plot for the full readout.
-const FULL_READOUT_FROM: f32 = 520.0;
+const FULL_READOUT_FROM: f32 = 500.0;
 /// Span of the errors in the beam view.
 const RECENT_S: f64 = 60.0;
 
@@ -33,12 +38,18 @@ pub(super) fn show(
     state: &mut OperateState,
     commands: &mut Vec<UiCommand>,
 ) -> Option<Timestamp> {
+    state.sky_time.keep(model);
+    let then = state.sky_time.at();
+    if then.is_some() {
+        // What was clicked in the sky of now is no direction for the sky of then.
+        state.ghost.forget_click();
+    }
     ghost::keep(ui, model, state, commands);
+    let sky = state.sky_time.sky().unwrap_or(&model.sky);
     let antenna = model.antenna();
     let predicted = model.selected_pass();
     let selected = predicted.map(|predicted| predicted.satellite.elements.catalog_number());
-    let others: Vec<OtherSatellite<'_>> = model
-        .sky
+    let others: Vec<OtherSatellite<'_>> = sky
         .satellites
         .iter()
         .filter(|seen| Some(seen.satellite.elements.catalog_number()) != selected)
@@ -50,16 +61,20 @@ pub(super) fn show(
             geostationary: seen.satellite.elements.is_geosynchronous(),
         })
         .collect();
-    let look = model.sky.selected.map(|selected| selected.look);
+    let look = sky.selected.map(|selected| selected.look);
     let track = predicted.map(|predicted| track(predicted, look));
     let lost = antenna.and_then(|antenna| lost_for(model, antenna));
-    let description = antenna
+    let mut description = antenna
         .map_or_else(|| "Sky plot".to_owned(), |antenna| state_sentence(model, antenna).text());
+    if let Some(words) = state.sky_time.words(model) {
+        description = format!("{words}. {description}");
+    }
+    let planned = then.map(|then| sky_time::planned_antennas(model, then));
     let silences = all_antennas::silences(model);
     let layer = state.sky.layers.antennas;
     let antennas = if layer { all_antennas::others(model, &silences) } else { Vec::new() };
     let scene = SkyScene {
-        now: model.now,
+        now: then.unwrap_or(model.now),
         minimum_elevation: Angle::from_degrees(
             antenna.map_or(0.0, |antenna| antenna.config.limits.minimum_elevation_deg),
         ),
@@ -68,8 +83,12 @@ pub(super) fn show(
         keyholes: antenna.and_then(|antenna| Keyholes::of(&antenna.config.mount)),
         track,
         others: &others,
-        sun: model.sky.sun.filter(|sun| sun.elevation_deg() > 0.0),
-        moon: model.sky.moon.filter(|moon| moon.elevation_deg() > 0.0),
+        sun: sky.sun.filter(|sun| sun.elevation_deg() > 0.0),
+        moon: sky.moon.filter(|moon| moon.elevation_deg() > 0.0),
+        then: planned.as_deref().map(|antennas| Then {
+            antennas,
+            selected: antenna.map(|antenna| antenna.config.name.as_str()),
+        }),
         commanded: antenna.and_then(commanded),
         ghost: antenna.and_then(|antenna| ghost::shown(antenna, state)),
         beam_width: antenna.map_or(Angle::from_degrees(1.0), |antenna| antenna.config.beam_width()),
@@ -85,11 +104,15 @@ pub(super) fn show(
             .map(|prediction| prediction.direction),
         recent_errors: &antenna.map(recent_errors).unwrap_or_default(),
         marked: state.marked,
-        readout: &readout(model, rect.height() >= FULL_READOUT_FROM),
+        readout: &readout(model, sky.selected, rect.height() >= FULL_READOUT_FROM),
         description: &description,
     };
     let mut looks_at = None;
     let mut menu = |ui: &mut Ui, of_node: egui::Id, of: MenuOf| {
+        if then.is_some() {
+            let (MenuOf::Satellite(_, direction) | MenuOf::Sky(direction)) = of;
+            return menus::direction(ui, of_node, direction);
+        }
         let (looks, direction) = match of {
             MenuOf::Satellite(number, direction) => {
                 let of = (number, direction);
@@ -100,18 +123,36 @@ pub(super) fn show(
         looks_at = looks_at.or(looks.then_some(direction));
     };
     let answer = sky_plot::show(ui, rect, &scene, &mut state.sky, &mut menu);
-    commands.extend(answer.chosen.map(UiCommand::SelectSatellite));
+    if let Some(then) = then {
+        let stroke = Stroke::new(2.0, theme::tokens(ui).warn);
+        ui.painter().rect_stroke(rect, 0.0, stroke, StrokeKind::Inside);
+        let pass = answer.chosen.and_then(|number| pass_at(model, number, then));
+        commands.extend(pass.map(UiCommand::SelectPass));
+    } else {
+        commands.extend(answer.chosen.map(UiCommand::SelectSatellite));
+    }
     commands.extend(answer.antenna.map(UiCommand::SelectAntenna));
     if answer.takes_click_back {
         state.ghost.forget_click();
     }
-    if let (Some(direction), Some(antenna)) = (answer.clicked.or(looks_at), antenna) {
+    if then.is_some() {
+        if answer.clicked.is_some() {
+            state.sky_time.refuse_click();
+        }
+    } else if let (Some(direction), Some(antenna)) = (answer.clicked.or(looks_at), antenna) {
         state.ghost.look_at(direction, antenna);
     }
     if let (Some(at), Some(antenna)) = (answer.ghost_at, antenna) {
         ghost::note(ui, rect, at, antenna, state, commands);
     }
     answer.pointed
+}
+
+/// The pass of a satellite that is under way at `at`.
+fn pass_at(model: &Model, number: u32, at: Timestamp) -> Option<PassKey> {
+    let ahead = model.pass_lists.favourites.upcoming(model.now);
+    let mut own = ahead.iter().filter(|predicted| predicted.number() == number);
+    own.find(|of| of.pass.aos.time <= at && at <= of.pass.los.time).map(PredictedPass::key)
 }
 
 /// The path of a pass, with the present look angles of its satellite.
@@ -131,8 +172,8 @@ pub(in crate::ui) fn track(predicted: &PredictedPass, look: Option<LookAngles>) 
 }
 
 /// The readout; a low plot has room for the direction only.
-fn readout(model: &Model, full: bool) -> Vec<(&'static str, String)> {
-    let Some(selected) = model.sky.selected else { return Vec::new() };
+fn readout(model: &Model, selected: Option<Selected>, full: bool) -> Vec<(&'static str, String)> {
+    let Some(selected) = selected else { return Vec::new() };
     let look = selected.look;
     let direction = [
         ("Az", format::degrees(look.direction.azimuth_deg(), 2)),

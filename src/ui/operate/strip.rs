@@ -26,6 +26,7 @@ pub(super) fn show(
     ui: &mut Ui,
     rect: Rect,
     model: &Model,
+    then: Option<Timestamp>,
     zoom: &mut Zoom,
     commands: &mut Vec<UiCommand>,
 ) {
@@ -57,6 +58,7 @@ pub(super) fn show(
     }
     let strip = TimelineModel {
         now: model.now,
+        then,
         hours,
         lanes: &lanes,
         main: model.selected_antenna,

@@ -54,7 +54,8 @@ pub(super) fn label(labels: &mut Labels<'_>, dome: Dome, scene: &SkyScene<'_>, t
     if let Some(ends) = ends(dome, azimuth) {
         labels.reserve_path(&ends, 4.0);
     }
-    let name = words(bearing, azimuth);
+    let now = if scene.then.is_some() { " now" } else { "" };
+    let name = format!("{}{now}", words(bearing, azimuth));
     let colour = if bearing.lost.is_some() { t.t3 } else { t.ant };
     labels.add(&Label {
         key: Key::Bearing,

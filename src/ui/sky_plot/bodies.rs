@@ -48,6 +48,8 @@ pub(super) fn label_sun_and_moon(
 ) {
     let live = scene.measured.filter(|measured| measured.lost.is_none());
     let beam = live.map(|measured| measured.direction).or(scene.commanded);
+    // The beam of now is no neighbour of the Sun of another time.
+    let beam = beam.filter(|_| scene.then.is_none());
     let bodies =
         [(Key::Sun, "Sun", scene.sun, 13.0, t.sun), (Key::Moon, "Moon", scene.moon, 9.0, t.moon)];
     for (key, word, direction, clearance, colour) in bodies {

@@ -11,7 +11,7 @@ use crate::ui::{
 };
 
 /// In a plot below this height a button opens the legend, points.
-const LEGEND_HEIGHT: f32 = 520.0;
+const LEGEND_HEIGHT: f32 = 500.0;
 /// Distance of the texts from the edges of the plot, points.
 pub(super) const EDGE: f32 = 16.0;
 

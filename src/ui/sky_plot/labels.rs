@@ -37,6 +37,10 @@ pub(in crate::ui) enum Key {
     Bearing,
     /// An antenna that is not selected, by its place in the station.
     Antenna(usize),
+    /// Where the plan has an antenna at another time.
+    Planned(usize),
+    /// The selected antenna, in the sky of another time.
+    LiveAntenna,
     /// The end of an azimuth axis.
     Stop(usize),
     /// Name of a satellite that is not selected, by its catalog number.

@@ -35,12 +35,16 @@ pub(super) fn paint(painter: &Painter, at: Pos2, scene: &SkyScene<'_>, t: &Token
 }
 
 fn rows(scene: &SkyScene<'_>) -> impl Iterator<Item = (&'static str, Sample)> {
+    let (commanded, measured) = match scene.then {
+        None => ("Commanded", "Measured"),
+        Some(_) => ("Commanded now", "Measured now"),
+    };
     let always: [(&str, Sample); 5] = [
         ("Satellite", marks::selected),
-        ("Commanded", |painter, at, t| {
+        (commanded, |painter, at, t| {
             painter.circle_stroke(at, 6.5, Stroke::new(2.0, t.cmd));
         }),
-        ("Measured", |painter, at, t| {
+        (measured, |painter, at, t| {
             for arm in [vec2(1.0, 0.0), vec2(-1.0, 0.0), vec2(0.0, 1.0), vec2(0.0, -1.0)] {
                 painter.line_segment([at + arm * 3.0, at + arm * 8.0], Stroke::new(2.0, t.ant));
             }
@@ -53,6 +57,7 @@ fn rows(scene: &SkyScene<'_>) -> impl Iterator<Item = (&'static str, Sample)> {
             marks::other(painter, at, false, t);
         }),
     ];
+    let planned = scene.then.map(|_| ("Planned antenna", planned as Sample));
     let mask = scene.mask.map(|_| ("Horizon mask", mask as Sample));
     let keyhole = scene.keyholes.map(|_| ("Keyhole", keyhole as Sample));
     let mut keep_outs = scene.keep_outs.iter();
@@ -60,7 +65,11 @@ fn rows(scene: &SkyScene<'_>) -> impl Iterator<Item = (&'static str, Sample)> {
         .any(|mark| mark.margin.degrees() > 0.0)
         .then_some(("Safety margin", margin as Sample));
     let keep_out = (!scene.keep_outs.is_empty()).then_some(("Keep-out", keep_out as Sample));
-    always.into_iter().chain(mask).chain(keyhole).chain(keep_out).chain(margin)
+    always.into_iter().chain(planned).chain(mask).chain(keyhole).chain(keep_out).chain(margin)
+}
+
+fn planned(painter: &Painter, at: Pos2, t: &Tokens) {
+    marks::planned(painter, at, 6.5, t);
 }
 
 pub(in crate::ui) fn mask(painter: &Painter, at: Pos2, t: &Tokens) {

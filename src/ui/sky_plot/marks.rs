@@ -112,6 +112,18 @@ pub(in crate::ui) fn ghost(
     }
 }
 
+/// Paints where the plan has an antenna: the four corners of a square with sides of twice `half`.
+pub(in crate::ui) fn planned(painter: &Painter, at: Pos2, half: f32, t: &Tokens) {
+    let leg = half * 0.6;
+    for stroke in [Stroke::new(2.0 + 2.0 * OUTLINE, t.sky), Stroke::new(2.0, t.sat)] {
+        for (x, y) in [(1.0, 1.0), (1.0, -1.0), (-1.0, 1.0), (-1.0, -1.0)] {
+            let corner = at + vec2(x, y) * half;
+            let ends = [corner - vec2(x * leg, 0.0), corner, corner - vec2(0.0, y * leg)];
+            painter.add(Shape::line(ends.into(), stroke));
+        }
+    }
+}
+
 /// Paints the measured direction: a cross-hair; `scale` 1 is its size in the plot.
 pub(in crate::ui) fn measured(painter: &Painter, at: Pos2, scale: f32, t: &Tokens) {
     for stroke in [Stroke::new(2.0 + 2.0 * OUTLINE, t.sky), Stroke::new(2.0, t.ant)] {

@@ -45,7 +45,8 @@ pub(super) fn label(labels: &mut Labels<'_>, dome: Dome, scene: &SkyScene<'_>, t
         let lost = antenna.lost().map_or_else(String::new, |age| format!(" ? {age}"));
         let angle = antenna.bearing.and_then(|of| of.measured);
         let angle = angle.map_or_else(String::new, |az| format::azimuth(az.degrees()));
-        let name = format!("{} {angle}{lost}", antenna.name);
+        let now = if scene.then.is_some() { " now" } else { "" };
+        let name = format!("{}{now} {angle}{lost}", antenna.name);
         let colour = if lost.is_empty() { t.t1 } else { t.t3 };
         labels.add(&Label {
             key: Key::Antenna(antenna.index),

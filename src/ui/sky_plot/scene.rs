@@ -4,6 +4,7 @@ use jiff::Timestamp;
 
 use crate::{
     astro::{Angle, AzEl, HorizonMask, Zone},
+    device::Pointing,
     plan::Sample,
     station::Mount,
 };
@@ -11,7 +12,7 @@ use crate::{
 /// Content of the plot at one moment. The plot leaves out directions that are not finite.
 #[derive(Debug, Clone)]
 pub struct SkyScene<'a> {
-    /// The displayed time.
+    /// The displayed time, of the track as well. All that is commanded or measured is of now.
     pub now: Timestamp,
     /// Lowest elevation at which passes are planned.
     pub minimum_elevation: Angle,
@@ -27,6 +28,8 @@ pub struct SkyScene<'a> {
     pub sun: Option<AzEl>,
     /// The Moon; not drawn below the horizon.
     pub moon: Option<AzEl>,
+    /// In the sky of another time; `None` for now.
+    pub then: Option<Then<'a>>,
     /// The commanded direction.
     pub commanded: Option<AzEl>,
     /// Preview of a motion.
@@ -146,6 +149,25 @@ pub struct OtherAntenna<'a> {
     pub measured: Option<Measured<'a>>,
     /// While only its azimuth is known.
     pub bearing: Option<Bearing<'a>>,
+}
+
+/// What the sky of another time shows besides.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Then<'a> {
+    pub antennas: &'a [PlannedAntenna<'a>],
+    /// Name of the selected antenna.
+    pub selected: Option<&'a str>,
+}
+
+/// Where the plan has an antenna at another time.
+#[derive(Debug, Clone, PartialEq)]
+pub struct PlannedAntenna<'a> {
+    /// Its place in the station.
+    pub index: usize,
+    pub name: &'a str,
+    /// What it does then, such as "tracking NOAA 20".
+    pub doing: String,
+    pub pointing: Pointing,
 }
 
 /// The end of an azimuth axis.

@@ -1,10 +1,11 @@
 //! The hours above the lanes, the grid through them, and the now-line.
 
-use egui::{Align2, Rangef, Rect, Shape, Stroke, Ui, pos2, vec2};
-use jiff::Timestamp;
-
-use super::scale::{Scale, is_full_hour};
+use super::{
+    TimelineModel,
+    scale::{Scale, is_full_hour},
+};
 use crate::ui::{format, text, theme, widgets::paint};
+use egui::{Align2, Rangef, Rect, Shape, Stroke, Ui, pos2, vec2};
 
 const NOW_WIDTH: f32 = 1.75;
 const NOW_TRIANGLE: egui::Vec2 = vec2(10.0, 7.0);
@@ -49,10 +50,16 @@ fn hour_names(ui: &Ui, scale: &Scale, names: Rect) -> Vec<(f32, String)> {
     named.filter(fits).collect()
 }
 
-/// Paints the now-line through `y`, with its triangle on top.
-pub(super) fn now_line(ui: &Ui, scale: &Scale, now: Timestamp, y: Rangef) {
+/// Paints the now-line through `y`, with its triangle on top, and a dashed line for the time that
+/// the sky plot shows.
+pub(super) fn time_lines(ui: &Ui, scale: &Scale, model: &TimelineModel<'_>, y: Rangef) {
     let t = theme::tokens(ui);
-    let x = scale.x(now);
+    if let Some(then) = model.then.filter(|then| *then < scale.to()) {
+        let x = scale.x(then);
+        let line = [pos2(x, y.min), pos2(x, y.max)];
+        ui.painter().extend(Shape::dashed_line(&line, Stroke::new(NOW_WIDTH, t.warn), 4.0, 3.0));
+    }
+    let x = scale.x(model.now);
     ui.painter().vline(x, y, Stroke::new(NOW_WIDTH, t.t1));
     let half = NOW_TRIANGLE.x / 2.0;
     let tip = pos2(x, y.min + NOW_TRIANGLE.y);
@@ -62,6 +69,8 @@ pub(super) fn now_line(ui: &Ui, scale: &Scale, now: Timestamp, y: Rangef) {
 
 #[cfg(test)]
 mod tests {
+    use jiff::Timestamp;
+
     use super::*;
     use crate::ui::widgets::testing;
 

@@ -53,6 +53,7 @@ fn window(size: egui::Vec2, bars: Vec<Bar<'static>>) -> Harness<'static, Picked>
             hours: if size == SMALL { 4.0 } else { 12.0 },
             lanes: &[Lane { name: "Satrak", bars: bars.clone() }],
             main: 0,
+            then: None,
             is_planned: false,
             selected: *picked,
             sun: &[

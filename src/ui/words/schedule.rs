@@ -4,7 +4,10 @@ use jiff::Timestamp;
 
 use crate::{
     engine::{antenna::AntennaModel, passes::PassKey, schedule::Swap},
-    model::{Model, plan::Standing},
+    model::{
+        Model,
+        plan::{PlannedActivity, Standing},
+    },
     plan::{
         Loss,
         schedule::{
@@ -143,6 +146,18 @@ pub fn standing(model: &Model, standing: Standing<'_>, antenna: &str) -> String 
         Standing::TakenBy(other) => format!("planned on {}", antenna_name(model, other)),
         Standing::LeftOut(why) => format!("left out: {}", why_left_out(model, why)),
         Standing::NotKnown => "not planned yet".to_owned(),
+    }
+}
+
+/// What an antenna does by the schedule: a participle.
+pub fn doing(model: &Model, doing: PlannedActivity) -> String {
+    match doing {
+        PlannedActivity::Tracks(pass) => format!("tracking {}", pass_name(model, pass)),
+        PlannedActivity::SlewsTo(pass) => format!("slewing to {}", pass_name(model, pass)),
+        PlannedActivity::WaitsFor(pass) => format!("waiting for {}", pass_name(model, pass)),
+        PlannedActivity::Stays => "holding".to_owned(),
+        PlannedActivity::SlewsToPark => "slewing to park".to_owned(),
+        PlannedActivity::Parked => "parked".to_owned(),
     }
 }
 

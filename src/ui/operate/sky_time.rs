@@ -1,0 +1,115 @@
+//! The time that the sky plot shows: now, or a moment of the plan that the operator looks at. It
+//! changes the picture alone; no command follows from it.
+
+pub(super) mod row;
+
+use jiff::Timestamp;
+
+use crate::{
+    astro::{
+        Site,
+        time::{add_seconds, seconds_between},
+    },
+    engine::passes::PassKey,
+    model::{Model, Sky},
+    ui::{format, sky_plot::PlannedAntenna, words},
+};
+
+/// The time of the sky plot, from the operator's choice on until it is over.
+#[derive(Debug, Default)]
+pub struct SkyTime {
+    /// `None` for now.
+    at: Option<Timestamp>,
+    sky: Option<(SkyKey, Sky)>,
+    /// The slider had the keyboard focus in the last frame.
+    pub has_focus: bool,
+    /// The operator clicked in the sky of another time.
+    is_click_refused: bool,
+}
+
+/// What a sky was computed for.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct SkyKey {
+    at: Timestamp,
+    site: Site,
+    passes_revision: u64,
+    selected: Option<PassKey>,
+}
+
+impl SkyTime {
+    /// The time shown, if it is not now.
+    pub fn at(&self) -> Option<Timestamp> {
+        self.at
+    }
+
+    pub fn to_now(&mut self) {
+        (self.at, self.sky, self.is_click_refused) = (None, None, false);
+    }
+
+    /// Shows another time, at most the end of the schedule. A time that is over is now.
+    pub fn show_at(&mut self, model: &Model, at: Timestamp) {
+        self.is_click_refused = false;
+        match model.schedule_until() {
+            Some(until) if at > model.now => self.at = Some(at.min(until)),
+            _ => self.to_now(),
+        }
+    }
+
+    /// Shows a time so many seconds later, or earlier.
+    pub fn step(&mut self, model: &Model, by_s: f64) {
+        self.show_at(model, add_seconds(self.at.unwrap_or(model.now), by_s));
+    }
+
+    /// A click in the sky of another time points no antenna, and says so.
+    pub(super) fn refuse_click(&mut self) {
+        self.is_click_refused = true;
+    }
+
+    /// Returns to now from a time that is over, or that the schedule does not hold any more, and
+    /// computes the sky of the time shown.
+    pub(super) fn keep(&mut self, model: &Model) {
+        let Some(at) = self.at else { return };
+        let Some(until) = model.schedule_until().filter(|_| at > model.now) else {
+            return self.to_now();
+        };
+        let at = at.min(until);
+        self.at = Some(at);
+        let key = SkyKey {
+            at,
+            site: model.station.site,
+            passes_revision: model.pass_lists.favourites.revision,
+            selected: model.selected,
+        };
+        if self.sky.as_ref().is_none_or(|(of, _)| *of != key) {
+            self.sky = Some((key, model.sky_at(at)));
+        }
+    }
+
+    /// The sky of the time shown, if that is not now.
+    pub(super) fn sky(&self) -> Option<&Sky> {
+        let (_, sky) = self.sky.as_ref().filter(|_| self.at.is_some())?;
+        Some(sky)
+    }
+
+    /// Which time it is, in words.
+    pub(super) fn words(&self, model: &Model) -> Option<String> {
+        let at = self.at?;
+        let moment = format::moment(at, model.now);
+        Some(format!("Sky at {moment}, in {}", format::time_left(seconds_between(model.now, at))))
+    }
+}
+
+/// Where the schedule has the antennas at `at`.
+pub(super) fn planned_antennas(model: &Model, at: Timestamp) -> Vec<PlannedAntenna<'_>> {
+    let antennas = model.antennas.iter().enumerate();
+    let planned = antennas.filter_map(|(index, antenna)| {
+        let pose = model.pose_at(antenna, at)?;
+        Some(PlannedAntenna {
+            index,
+            name: &antenna.config.name,
+            doing: words::schedule::doing(model, pose.doing),
+            pointing: pose.pointing,
+        })
+    });
+    planned.collect()
+}

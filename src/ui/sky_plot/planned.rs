@@ -1,0 +1,85 @@
+//! Where the plan has the antennas, in the sky of another time. Their live marks stay where they
+//! are and are named so.
+
+use egui::{Id, Painter, Pos2, Ui};
+
+use super::{
+    geometry::{Dome, outward},
+    labels::{Key, Label, Labels},
+    marks,
+    nodes::{name_mark, spoken},
+    placement::Side,
+    scene::{PlannedAntenna, SkyScene},
+};
+use crate::ui::{format, text, tokens::Tokens, widgets::paint};
+
+/// Half the box of a mark, points.
+const HALF: f32 = 13.0;
+
+impl PlannedAntenna<'_> {
+    /// The place of its mark; at the rim for an antenna without elevation.
+    fn mark(&self, dome: Dome) -> Option<Pos2> {
+        if let Some(direction) = self.pointing.direction() {
+            return dome.visible(direction);
+        }
+        let azimuth = self.pointing.azimuth.filter(|azimuth| azimuth.is_finite())?;
+        Some(dome.centre + outward(azimuth.radians() as f32) * (dome.radius - HALF))
+    }
+}
+
+/// Keeps labels away from the marks, and names them and the live mark of the selected antenna.
+pub(super) fn label(labels: &mut Labels<'_>, dome: Dome, scene: &SkyScene<'_>, t: &Tokens) {
+    let Some(then) = scene.then else { return };
+    let marks = || then.antennas.iter().filter_map(|of| Some((of, of.mark(dome)?)));
+    for (_, mark) in marks() {
+        labels.reserve(paint::square(mark, 2.0 * HALF));
+    }
+    let live = scene.measured.and_then(|measured| dome.visible(measured.direction));
+    if let Some((name, mark)) = then.selected.zip(live) {
+        let name = format!("{name} now");
+        labels.add(&Label {
+            key: Key::LiveAntenna,
+            lines: &[(&name, text::small_strong(), t.ant)],
+            mark,
+            clearance: 28.0,
+            order: &Side::ORDER,
+            tolerance: 1.0,
+        });
+    }
+    for (planned, mark) in marks() {
+        let name = format!("{} planned", planned.name);
+        labels.add(&Label {
+            key: Key::Planned(planned.index),
+            lines: &[(&name, text::small_strong(), t.sat), (&planned.doing, text::caption(), t.t2)],
+            mark,
+            clearance: HALF + 2.0,
+            order: &Side::ORDER,
+            tolerance: 1.0,
+        });
+    }
+}
+
+/// Paints the marks.
+pub(super) fn paint(painter: &Painter, dome: Dome, scene: &SkyScene<'_>, t: &Tokens) {
+    let antennas = scene.then.map(|then| then.antennas).unwrap_or_default();
+    for at in antennas.iter().filter_map(|antenna| antenna.mark(dome)) {
+        marks::planned(painter, at, HALF - 2.0, t);
+    }
+}
+
+/// Adds a node for each mark.
+pub(super) fn nodes(ui: &Ui, canvas: Id, dome: Dome, scene: &SkyScene<'_>) {
+    let antennas = scene.then.map(|then| then.antennas).unwrap_or_default();
+    for antenna in antennas {
+        let Some(at) = antenna.mark(dome) else { continue };
+        let name = format!("{} planned, {}", antenna.name, antenna.doing);
+        let said = match antenna.pointing.direction() {
+            Some(direction) => spoken(&name, direction),
+            None => {
+                let azimuth = antenna.pointing.azimuth.map(|azimuth| azimuth.degrees());
+                format!("{name}, azimuth {}", format::azimuth(azimuth.unwrap_or(f64::NAN)))
+            }
+        };
+        name_mark(ui, canvas.with(("planned", antenna.index)), at, &said);
+    }
+}
