@@ -210,8 +210,8 @@ fn without_a_schedule_there_is_only_now() {
     assert!(says(&window, "Sky of now."));
 }
 
-/// Two passes of the antenna, hours apart: at the end of the first it points to the zenith, at
-/// the start of the second to 60° of elevation.
+/// Two passes of the antenna, hours apart: the way from the end of the first to the start of
+/// the second leads from 60° of elevation over the zenith to 60°.
 fn two_entries(model: &mut Model, between: BetweenPasses) -> [Entry; 2] {
     let mut station = (*model.station).clone();
     station.antennas[0].automatic.between = between;
@@ -224,7 +224,7 @@ fn two_entries(model: &mut Model, between: BetweenPasses) -> [Entry; 2] {
     let second = Entry { from: later(first.from), to: later(first.to), ..first.clone() };
     let spare_s = second.from.duration_since(first.to).as_secs_f64() - 40.0 - 12.0;
     let entries = [
-        Entry { axes_deg: [[90.0, 90.0], [90.0, 90.0]], ..first },
+        Entry { axes_deg: [[90.0, 90.0], [60.0, 90.0]], ..first },
         Entry {
             axes_deg: [[120.0, 90.0], [90.0, 90.0]],
             slew_s: 40.0,
@@ -257,9 +257,9 @@ fn an_antenna_points_along_its_pass_and_holds_slews_and_waits_between() {
     assert!((elevation_deg - look.direction.elevation_deg()).abs() < 1e-9);
     // It sets out a minute early: 12 s of set-up, 40 s of slew.
     for (before_s, doing, elevation_deg) in [
-        (130.0, PlannedActivity::Stays, 90.0),
-        (101.0, PlannedActivity::Stays, 90.0),
-        (80.0, PlannedActivity::SlewsTo(next), 75.0),
+        (130.0, PlannedActivity::Stays, 60.0),
+        (101.0, PlannedActivity::Stays, 60.0),
+        (80.0, PlannedActivity::SlewsTo(next), 90.0),
         (59.0, PlannedActivity::WaitsFor(next), 60.0),
         (1.0, PlannedActivity::WaitsFor(next), 60.0),
     ] {

@@ -91,8 +91,13 @@ impl Model {
             None => measured.and_then(|measured| measured.axes_deg(has_elevation)),
         };
         let (doing, axes_deg) =
-            self.between_passes(antenna, &reach, (before, next), stands_deg, at)?;
-        Some(Pose { doing, pointing: reach.pointing(axes_deg) })
+            self.between_passes(antenna, &reach, (before, next), stands_deg, at);
+        let pointing = if doing == PlannedActivity::Stays && before.is_none() {
+            measured?.pointing
+        } else {
+            reach.pointing(axes_deg?)
+        };
+        Some(Pose { doing, pointing })
     }
 
     fn tracks(&self, reach: &Reach, entry: &Entry, at: Timestamp) -> Option<Pose> {
@@ -105,8 +110,8 @@ impl Model {
         Some(Pose { doing: PlannedActivity::Tracks(key(entry)), pointing })
     }
 
-    /// What the antenna does between two entries, and where its axes stand; it stands at
-    /// `stands_deg` at first.
+    /// What the antenna does between two entries, and where its axes stand as far as that is known;
+    /// they stand at `stands_deg` at first.
     fn between_passes(
         &self,
         antenna: &AntennaModel,
@@ -114,7 +119,7 @@ impl Model {
         (before, next): (Option<&Entry>, Option<&Entry>),
         stands_deg: Option<[f64; 2]>,
         at: Timestamp,
-    ) -> Option<(PlannedActivity, [f64; 2])> {
+    ) -> (PlannedActivity, Option<[f64; 2]>) {
         let since = before.map_or(self.now, |entry| entry.to);
         let policy = between(&self.station, &antenna.config, since);
         let goes_at = next.map(|next| sets_out(next, policy).max(since));
@@ -140,16 +145,16 @@ impl Model {
             let from = add_seconds(goes_at, next.set_up_s);
             let slew = Slew { from, seconds, from_deg, to_deg };
             if slew.is_over(at) {
-                return Some((PlannedActivity::WaitsFor(key(next)), to_deg));
+                return (PlannedActivity::WaitsFor(key(next)), Some(to_deg));
             }
             if slew.has_begun(at) {
-                return Some((PlannedActivity::SlewsTo(key(next)), slew.axes_deg(at)));
+                return (PlannedActivity::SlewsTo(key(next)), Some(slew.axes_deg(at)));
             }
         }
         match park {
-            Some(park) if park.is_over(at) => Some((PlannedActivity::Parked, park.to_deg)),
-            Some(park) => Some((PlannedActivity::SlewsToPark, park.axes_deg(at))),
-            None => Some((PlannedActivity::Stays, stands_deg?)),
+            Some(park) if park.is_over(at) => (PlannedActivity::Parked, Some(park.to_deg)),
+            Some(park) => (PlannedActivity::SlewsToPark, Some(park.axes_deg(at))),
+            None => (PlannedActivity::Stays, stands_deg),
         }
     }
 }
