@@ -317,9 +317,11 @@ impl Model {
             globe.refresh(self);
             self.globe = globe;
         }
-        let (site, now) = (self.station.site, self.now);
+        let span_s = self.station.scheduling.span_h * 3600.0;
+        let site = (self.station.site, span_s);
         let selected = self.selected_pass().map(|predicted| Arc::clone(&predicted.satellite));
-        self.sky.refresh(&self.pass_lists.favourites.satellites, selected.as_deref(), site, now);
+        let satellites = &self.pass_lists.favourites.satellites;
+        self.sky.refresh(satellites, selected.as_deref(), site, self.now);
     }
 
     /// The sky at another time, without day and night.

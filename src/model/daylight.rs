@@ -2,9 +2,16 @@
 
 use jiff::Timestamp;
 
-use crate::astro::{Site, sun_moon, time::add_seconds};
+use crate::astro::{
+    Site, sun_moon,
+    time::{add_seconds, seconds_between},
+};
 
-const SPAN_MIN: (i32, i32) = (-60, 25 * 60);
+/// Time before now, seconds.
+const PAST_S: f64 = 3600.0;
+/// Between two looks at the Sun; a change between them is then found to the minute, seconds.
+const STEP_S: f64 = 600.0;
+const EXACT_S: f64 = 60.0;
 
 /// A stretch of day or of night.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -16,24 +23,43 @@ pub struct SunSpan {
     pub up: bool,
 }
 
-/// Day and night from an hour before `now` to 25 h after it, to the minute.
-pub fn spans(site: Site, now: Timestamp) -> Vec<SunSpan> {
-    let (from, to) = SPAN_MIN;
-    let mut spans: Vec<SunSpan> = Vec::new();
-    for minute in from..=to {
-        let time = add_seconds(now, f64::from(minute) * 60.0);
-        let up = sun_moon::sun(site, time).elevation_deg() > sun_moon::RISE_DEG;
-        match spans.last_mut() {
-            Some(last) if last.up == up => last.to = time,
-            last => {
-                if let Some(last) = last {
-                    last.to = time;
-                }
-                spans.push(SunSpan { from: time, to: time, up });
-            }
+/// Day and night from an hour before `now` to `ahead_s` after it, to the minute. A day or a night
+/// of less than ten minutes may be missed.
+pub fn spans(site: Site, now: Timestamp, ahead_s: f64) -> Vec<SunSpan> {
+    let is_up = |at: Timestamp| sun_moon::sun(site, at).elevation_deg() > sun_moon::RISE_DEG;
+    let mut at = add_seconds(now, -PAST_S);
+    let end = add_seconds(now, ahead_s);
+    let mut last = SunSpan { from: at, to: at, up: is_up(at) };
+    let mut spans = Vec::new();
+    while at < end {
+        let next = add_seconds(at, STEP_S).min(end);
+        if is_up(next) != last.up {
+            let change = change(at, next, |at| is_up(at) == last.up);
+            spans.push(SunSpan { to: change, ..last });
+            last = SunSpan { from: change, to: change, up: !last.up };
+        }
+        at = next;
+    }
+    spans.push(SunSpan { to: end, ..last });
+    spans
+}
+
+/// When what `is_same` tells ends, between a time at which it holds and a later one at which it
+/// does not.
+fn change(
+    mut same: Timestamp,
+    mut other: Timestamp,
+    is_same: impl Fn(Timestamp) -> bool,
+) -> Timestamp {
+    while seconds_between(same, other) > EXACT_S {
+        let middle = add_seconds(same, seconds_between(same, other) / 2.0);
+        if is_same(middle) {
+            same = middle;
+        } else {
+            other = middle;
         }
     }
-    spans
+    other
 }
 
 #[cfg(test)]
@@ -45,10 +71,25 @@ mod tests {
         // 2026-08-12: sunset 20:10 local time, UTC+3, to a minute or two.
         let site = Site::new(41.02, 29.17, 100.0).unwrap();
         let noon: Timestamp = "2026-08-12T10:00:00Z".parse().unwrap();
-        let spans = spans(site, noon);
+        let spans = spans(site, noon, 25.0 * 3600.0);
         assert!(spans[0].up && !spans[1].up);
         let sunset: Timestamp = "2026-08-12T17:08:00Z".parse().unwrap();
         let off_s = crate::astro::time::seconds_between(sunset, spans[1].from);
         assert!(off_s.abs() < 300.0, "{off_s}");
+    }
+
+    #[test]
+    fn the_spans_of_a_week_follow_each_other_without_a_gap() {
+        let site = Site::new(41.02, 29.17, 100.0).unwrap();
+        let now: Timestamp = "2026-08-12T10:00:00Z".parse().unwrap();
+        let spans = spans(site, now, 168.0 * 3600.0);
+        assert_eq!(spans.len(), 15, "seven nights between eight days");
+        for pair in spans.windows(2) {
+            assert_eq!(pair[0].to, pair[1].from);
+            assert_ne!(pair[0].up, pair[1].up);
+            let hours = seconds_between(pair[1].from, pair[1].to) / 3600.0;
+            assert!(hours < 14.5, "{hours}");
+        }
+        assert_eq!(spans[14].to, add_seconds(now, 168.0 * 3600.0));
     }
 }

@@ -13,6 +13,8 @@ use crate::{
 
 /// Length of the drawn path of a satellite that is not selected.
 const AHEAD_S: f64 = 300.0;
+/// Least time ahead of day and night.
+const SUN_AHEAD_S: f64 = 25.0 * 3600.0;
 
 /// The sky of the site.
 #[derive(Debug, Default)]
@@ -23,10 +25,10 @@ pub struct Sky {
     pub selected: Option<Selected>,
     pub sun: Option<AzEl>,
     pub moon: Option<AzEl>,
-    /// Day and night from shortly before now for the next hours.
+    /// Day and night from shortly before now to the end of the plan, for a day at least.
     pub sun_spans: Vec<SunSpan>,
     seconds: Option<i64>,
-    sun_spans_of: Option<(Site, i64)>,
+    sun_spans_of: Option<(Site, i64, f64)>,
 }
 
 /// A satellite above the horizon.
@@ -54,11 +56,12 @@ impl Selected {
 }
 
 impl Sky {
+    /// Brings it to `now`; `span_s` is the length of the plan.
     pub(super) fn refresh(
         &mut self,
         satellites: &[Arc<ListedSatellite>],
         selected: Option<&ListedSatellite>,
-        site: Site,
+        (site, span_s): (Site, f64),
         now: Timestamp,
     ) {
         if self.seconds == Some(now.as_second()) {
@@ -70,7 +73,7 @@ impl Sky {
         *self = Self::at(satellites, selected, site, now);
         self.seconds = Some(now.as_second());
         (self.sun_spans, self.sun_spans_of) = sun_spans;
-        self.refresh_sun_spans(site, now);
+        self.refresh_sun_spans(site, span_s, now);
     }
 
     /// The sky at any time, without day and night.
@@ -98,12 +101,12 @@ impl Sky {
     }
 
     /// Recomputes day and night every minute.
-    fn refresh_sun_spans(&mut self, site: Site, now: Timestamp) {
-        let made_of = (site, now.as_second() / 60);
+    fn refresh_sun_spans(&mut self, site: Site, span_s: f64, now: Timestamp) {
+        let made_of = (site, now.as_second() / 60, span_s);
         if self.sun_spans_of == Some(made_of) {
             return;
         }
         self.sun_spans_of = Some(made_of);
-        self.sun_spans = daylight::spans(site, now);
+        self.sun_spans = daylight::spans(site, now, span_s.max(SUN_AHEAD_S));
     }
 }

@@ -5,6 +5,7 @@ mod bar;
 mod gantt;
 mod inspector;
 mod lanes;
+mod legend;
 mod list;
 mod state;
 pub(super) mod switches;

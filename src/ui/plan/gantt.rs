@@ -64,6 +64,7 @@ pub(super) fn show(
         paint::name_text(ui, "nothing planned", place, words);
         return;
     }
+    day_and_night(ui, time(body), model, span);
     ui.scope_builder(UiBuilder::new().id_salt("plan rows").max_rect(body), |ui| {
         ui.set_clip_rect(body.intersect(ui.clip_rect()));
         ui.spacing_mut().item_spacing = vec2(0.0, 0.0);
@@ -81,6 +82,17 @@ pub(super) fn show(
     frame(ui, time(rect).with_min_y(head.bottom()), model, span, state);
     let x = span.x(model.now, time(rect));
     ui.painter().vline(x, body.y_range(), (1.75, t.t1));
+}
+
+/// The day is a little lighter than the night.
+fn day_and_night(ui: &Ui, place: Rect, model: &Model, span: Span) {
+    let t = theme::tokens(ui);
+    ui.painter().rect_filled(place, 0.0, t.bg0);
+    for day in model.sky.sun_spans.iter().filter(|span| span.up) {
+        if let Some(x) = span.range(day.from, day.to, place) {
+            ui.painter().rect_filled(Rect::from_x_y_ranges(x, place.y_range()), 0.0, t.bg1);
+        }
+    }
 }
 
 /// Days over hours.

@@ -5,7 +5,7 @@ use egui::{
     vec2,
 };
 
-use super::{PADDING, PlanState, Span, switches};
+use super::{PADDING, PlanState, Span, legend, switches};
 use crate::{
     astro::time::{add_seconds, seconds_between},
     engine::{
@@ -120,7 +120,8 @@ fn title(ui: &Ui, bar: Rect, model: &Model, satellites: &[PlannedSatellite<'_>],
     };
     let count = format!("{taken} of {all} passes are taken{proof}");
     let room = inner.with_min_x(drawn.right() + 24.0);
-    paint::text_in(ui, room, left, &count, text::small(), t.t2);
+    let drawn = paint::text_in(ui, room, left, &count, text::small(), t.t2);
+    legend::show(ui, inner.with_min_x(drawn.right() + 24.0));
     paint::name_text(ui, "sequences", bar, &format!("{words}. {count}"))
         .on_hover_text(worth(model));
 }

@@ -34,6 +34,9 @@ const SEGMENTS: f32 = 236.0;
 const SHORT_S: f64 = 60.0;
 /// Minimum width for all columns.
 const ALL_FROM: f32 = 900.0;
+/// From this width on the column of the slew grows, by at most so much.
+const WIDE_FROM: f32 = 1024.0;
+const MORE_SLEW: f32 = 120.0;
 
 /// The least height: some rows below the heads.
 pub(super) fn least_height() -> f32 {
@@ -66,14 +69,16 @@ impl Columns {
                 text: 446.0,
             };
         }
+        // The names of satellites are shown whole where there is room.
+        let more = (width - WIDE_FROM).clamp(0.0, MORE_SLEW);
         Self {
             state: 16.0,
             aos: 244.0,
             los: 316.0,
             name: 332.0,
             max: 476.0,
-            slew: Some((492.0, 668.0)),
-            text: 684.0,
+            slew: Some((492.0, 668.0 + more)),
+            text: 684.0 + more,
         }
     }
 }

@@ -1,0 +1,61 @@
+//! The legend of the lanes.
+
+use egui::{Align2, Rect, Shape, Stroke, StrokeKind, Ui, Vec2, pos2, vec2};
+
+use crate::ui::{text, theme, tokens::Tokens, widgets::paint};
+
+const MARK: Vec2 = vec2(14.0, 10.0);
+const MARK_GAP: f32 = 6.0;
+const ENTRY_GAP: f32 = 16.0;
+
+/// Paints the mark of an entry.
+type Mark = fn(&Ui, Rect, &Tokens);
+
+/// From right to left; those without room are left out, from the left.
+const ENTRIES: [(Mark, &str); 6] = [
+    (|ui, rect, t| paint::dashed_border(ui, rect, 0.0, Stroke::new(1.0, t.bad)), "missed"),
+    (
+        |ui, rect, t| {
+            ui.painter().rect_filled(rect, 0.0, t.t3);
+        },
+        "done",
+    ),
+    (|ui, rect, t| bordered(ui, rect, t, t.ok), "proved"),
+    (|ui, rect, t| bordered(ui, rect, t, t.cmd), "sent"),
+    (
+        |ui, rect, t| {
+            let line = [rect.left_center(), rect.right_center()];
+            ui.painter().extend(Shape::dotted_line(&line, t.t3, 5.0, 0.75));
+        },
+        "waits",
+    ),
+    (
+        |ui, rect, t| {
+            let stroke = Stroke::new(1.0, t.cmd);
+            ui.painter().rect_stroke(rect, 0.0, stroke, StrokeKind::Inside);
+            ui.painter().line_segment([rect.left_bottom(), rect.right_top()], stroke);
+        },
+        "slew",
+    ),
+];
+
+fn bordered(ui: &Ui, rect: Rect, t: &Tokens, colour: egui::Color32) {
+    ui.painter().rect(rect, 0.0, t.sat, Stroke::new(2.0, colour), StrokeKind::Inside);
+}
+
+/// Shows the entries that have room at the right of `rect`.
+pub(super) fn show(ui: &Ui, rect: Rect) {
+    let t = theme::tokens(ui);
+    let mut right = rect.right();
+    for (mark, words) in ENTRIES {
+        let left = right - MARK.x - MARK_GAP - paint::text_width(ui, words, text::small());
+        if left < rect.left() {
+            return;
+        }
+        let middle = pos2(left + MARK.x / 2.0, rect.center().y);
+        mark(ui, Rect::from_center_size(middle, MARK), t);
+        let at = pos2(left + MARK.x + MARK_GAP, rect.center().y);
+        paint::text(ui, at, Align2::LEFT_CENTER, words, text::small(), t.t2);
+        right = left - ENTRY_GAP;
+    }
+}
