@@ -98,7 +98,7 @@ fn place(loss: Loss) -> Cow<'static, str> {
             format!("at keyhole {towards}").into()
         }
         Loss::Overhead => "overhead".into(),
-        Loss::Slew => "turning round".into(),
+        Loss::Slew => "at azimuth unwrap".into(),
         Loss::OutOfReach => "out of reach".into(),
     }
 }

@@ -37,7 +37,7 @@ pub fn lost(lost: Lost) -> String {
             format!("Loses {seconds} at the keyhole at {}", format::azimuth(azimuth.degrees()))
         }
         Loss::Overhead => format!("Loses {seconds} near the zenith"),
-        Loss::Slew => format!("Loses {seconds} turning round"),
+        Loss::Slew => format!("Loses {seconds} at the azimuth unwrap"),
         Loss::OutOfReach => format!("Loses {seconds} out of reach"),
     }
 }
