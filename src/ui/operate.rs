@@ -98,7 +98,7 @@ impl OperateState {
     /// Call while another view is shown.
     pub fn leave(&mut self, commands: &mut Vec<UiCommand>) {
         self.leave_card(commands);
-        self.sky_time.to_now();
+        self.sky_time.return_to_now();
     }
 
     /// Call when the card disappears. Releases a key that is held there.

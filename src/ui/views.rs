@@ -250,7 +250,7 @@ impl Views {
 
     /// Call when the station has changed other than by the preferences.
     pub fn station_changed(&mut self) {
-        self.operate.sky_time.to_now();
+        self.operate.sky_time.return_to_now();
         self.preferences.forget();
     }
 

@@ -113,7 +113,7 @@ impl Act {
                     targets.operate.card.drive.change_rate(by, speeds, max_deg_s);
                 }
             }
-            Self::SkyOfNow => targets.operate.sky_time.to_now(),
+            Self::SkyOfNow => targets.operate.sky_time.return_to_now(),
             Self::Zoom(closer) if targets.operate.sky.has_focus => {
                 targets.operate.sky.zoom.step(closer > 0);
             }

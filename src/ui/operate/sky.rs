@@ -11,7 +11,7 @@ use crate::{
         antenna::AntennaModel,
         passes::{PassKey, PredictedPass},
     },
-    model::{Model, Selected, UiCommand},
+    model::{Model, Selected, Sky, UiCommand},
     orbit::{LookAngles, PassPoint},
     plan::Sample,
     ui::{
@@ -49,26 +49,11 @@ pub(super) fn show(
     let antenna = model.antenna();
     let predicted = model.selected_pass();
     let selected = predicted.map(|predicted| predicted.satellite.elements.catalog_number());
-    let others: Vec<OtherSatellite<'_>> = sky
-        .satellites
-        .iter()
-        .filter(|seen| Some(seen.satellite.elements.catalog_number()) != selected)
-        .map(|seen| OtherSatellite {
-            catalog_number: seen.satellite.elements.catalog_number(),
-            name: seen.satellite.short_name(),
-            direction: seen.direction,
-            ahead: &seen.ahead,
-            geostationary: seen.satellite.elements.is_geosynchronous(),
-        })
-        .collect();
+    let others = others(sky, selected);
     let look = sky.selected.map(|selected| selected.look);
     let track = predicted.map(|predicted| track(predicted, look));
     let lost = antenna.and_then(|antenna| lost_for(model, antenna));
-    let mut description = antenna
-        .map_or_else(|| "Sky plot".to_owned(), |antenna| state_sentence(model, antenna).text());
-    if let Some(words) = state.sky_time.words(model) {
-        description = format!("{words}. {description}");
-    }
+    let description = description(model, state);
     let planned = then.map(|then| sky_time::planned_antennas(model, then));
     let silences = all_antennas::silences(model);
     let layer = state.sky.layers.antennas;
@@ -146,6 +131,30 @@ pub(super) fn show(
         ghost::note(ui, rect, at, antenna, state, commands);
     }
     answer.pointed
+}
+
+/// What is read aloud for the whole plot.
+fn description(model: &Model, state: &OperateState) -> String {
+    let sentence = model.antenna().map(|antenna| state_sentence(model, antenna).text());
+    let sentence = sentence.unwrap_or_else(|| "Sky plot".to_owned());
+    match state.sky_time.words(model) {
+        Some(words) => format!("{words}. {sentence}"),
+        None => sentence,
+    }
+}
+
+/// The satellites of `sky` that are not selected.
+fn others(sky: &Sky, selected: Option<u32>) -> Vec<OtherSatellite<'_>> {
+    let seen = sky.satellites.iter();
+    let others = seen.filter(|seen| Some(seen.satellite.elements.catalog_number()) != selected);
+    let others = others.map(|seen| OtherSatellite {
+        catalog_number: seen.satellite.elements.catalog_number(),
+        name: seen.satellite.short_name(),
+        direction: seen.direction,
+        ahead: &seen.ahead,
+        geostationary: seen.satellite.elements.is_geosynchronous(),
+    });
+    others.collect()
 }
 
 /// The pass of a satellite that is under way at `at`.

@@ -10,7 +10,7 @@ use crate::{
         Site,
         time::{add_seconds, seconds_between},
     },
-    engine::passes::PassKey,
+    engine::passes::{PassKey, PredictedPass},
     model::{Model, Sky},
     ui::{format, sky_plot::PlannedAntenna, words},
 };
@@ -42,7 +42,7 @@ impl SkyTime {
         self.at
     }
 
-    pub fn to_now(&mut self) {
+    pub fn return_to_now(&mut self) {
         (self.at, self.sky, self.is_click_refused) = (None, None, false);
     }
 
@@ -51,7 +51,7 @@ impl SkyTime {
         self.is_click_refused = false;
         match model.schedule_until() {
             Some(until) if at > model.now => self.at = Some(at.min(until)),
-            _ => self.to_now(),
+            _ => self.return_to_now(),
         }
     }
 
@@ -70,7 +70,7 @@ impl SkyTime {
     pub(super) fn keep(&mut self, model: &Model) {
         let Some(at) = self.at else { return };
         let Some(until) = model.schedule_until().filter(|_| at > model.now) else {
-            return self.to_now();
+            return self.return_to_now();
         };
         let at = at.min(until);
         self.at = Some(at);
@@ -78,7 +78,7 @@ impl SkyTime {
             at,
             site: model.station.site,
             passes_revision: model.pass_lists.favourites.revision,
-            selected: model.selected,
+            selected: model.selected_pass().map(PredictedPass::key),
         };
         if self.sky.as_ref().is_none_or(|(of, _)| *of != key) {
             self.sky = Some((key, model.sky_at(at)));

@@ -11,7 +11,10 @@ use super::{
     placement::Side,
     scene::{PlannedAntenna, SkyScene},
 };
-use crate::ui::{format, text, tokens::Tokens, widgets::paint};
+use crate::{
+    astro::Angle,
+    ui::{format, text, tokens::Tokens, widgets::paint},
+};
 
 /// Half the box of a mark, points.
 const HALF: f32 = 13.0;
@@ -73,12 +76,11 @@ pub(super) fn nodes(ui: &Ui, canvas: Id, dome: Dome, scene: &SkyScene<'_>) {
     for antenna in antennas {
         let Some(at) = antenna.mark(dome) else { continue };
         let name = format!("{} planned, {}", antenna.name, antenna.doing);
-        let said = match antenna.pointing.direction() {
-            Some(direction) => spoken(&name, direction),
-            None => {
-                let azimuth = antenna.pointing.azimuth.map(|azimuth| azimuth.degrees());
-                format!("{name}, azimuth {}", format::azimuth(azimuth.unwrap_or(f64::NAN)))
-            }
+        let said = if let Some(direction) = antenna.pointing.direction() {
+            spoken(&name, direction)
+        } else {
+            let azimuth_deg = antenna.pointing.azimuth.map_or(f64::NAN, Angle::degrees);
+            format!("{name}, azimuth {}", format::azimuth(azimuth_deg))
         };
         name_mark(ui, canvas.with(("planned", antenna.index)), at, &said);
     }

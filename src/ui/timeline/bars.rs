@@ -245,7 +245,12 @@ fn remarks(bar: &Bar<'_>, antenna: &str, model: &TimelineModel<'_>) -> String {
         State::Plan(standing) => Some((model.says)(standing, antenna)),
     };
     let lost = (bar.loses && bar.is_taken()).then(|| "seconds lost".to_owned());
-    stands.into_iter().chain(lost).map(|remark| format!(", {remark}")).collect()
+    let mut remarks = String::new();
+    for remark in stands.into_iter().chain(lost) {
+        remarks += ", ";
+        remarks += &remark;
+    }
+    remarks
 }
 
 fn accessible_name(bar: &Bar<'_>, remarks: &str) -> String {

@@ -50,7 +50,7 @@ pub(in crate::ui::operate) fn show(ui: &Ui, rect: Rect, model: &Model, state: &m
         let size = vec2(button.width(ui), SMALL_HEIGHT);
         let place = Align2::RIGHT_CENTER.align_size_within_rect(size, room);
         if button.show(ui, "sky of now", place).clicked() {
-            state.to_now();
+            state.return_to_now();
         }
         room.max.x = place.left() - GAP;
     }
@@ -106,7 +106,8 @@ fn slider(ui: &Ui, track: Rect, model: &Model, state: &mut SkyTime) {
     let y = track.center().y;
     let x = track.left() + (after_s / span_s) as f32 * track.width();
     let line = |from: f32, to: f32| Rect::from_x_y_ranges(from..=to, y - 1.5..=y + 1.5);
-    ui.painter().rect_filled(line(track.left(), track.right()), 1.0, t.bg3);
+    let base = if state.at.is_some() { t.edge } else { t.bg3 };
+    ui.painter().rect_filled(line(track.left(), track.right()), 1.0, base);
     ui.painter().rect_filled(line(track.left(), x), 1.0, t.warn);
     if is_open {
         let colour = match (state.at.is_some(), response.hovered()) {
