@@ -273,22 +273,23 @@ fn paint_sky(
     bearing::label(&mut labels, dome, scene, t);
     other_antennas::label_stops(&mut labels, dome, scene, t);
 
-    let mut events = Vec::new();
-    if let Some(track) = &scene.track {
-        let parts = track::parts(dome, track, scene.now);
-        let ticks = track::ticks(dome, track);
-        events = track::events(track);
+    let drawn = scene.track.map(|track| {
+        let parts = track::parts(dome, &track, scene.now);
+        let ticks = track::ticks(dome, &track);
         labels.reserve_path(&parts.flown, 6.0);
         labels.reserve_path(&parts.planned, 6.0);
         track::paint(painter, &parts, &ticks, t);
-        label_selected(&mut labels, dome, scene, t);
-        track::label_events(&mut labels, dome, &events, t);
-        track::label_minutes(&mut labels, &ticks, &events, scene.now, t);
-    }
+        (ticks, track::events(&track))
+    });
+    let (ticks, events) = drawn.unwrap_or_default();
+    planned::reserve(&mut labels, dome, scene);
+    label_selected(&mut labels, dome, scene, t);
+    planned::label(&mut labels, dome, scene, t);
+    track::label_events(&mut labels, dome, &events, t);
+    track::label_minutes(&mut labels, &ticks, &events, scene.now, t);
     if layers.sun_and_moon {
         bodies::label_sun_and_moon(&mut labels, dome, scene, t);
     }
-    planned::label(&mut labels, dome, scene, t);
     other_antennas::label(&mut labels, dome, scene, t);
     if layers.others && layers.names {
         bodies::label_others(&mut labels, dome, scene, t);

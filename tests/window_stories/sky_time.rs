@@ -107,6 +107,10 @@ fn the_slider_is_dragged_and_its_button_returns_to_now() {
         let slider = window.get_by_role_and_label(Role::Slider, "Time of the sky");
         let value = slider.accesskit_node().value().unwrap();
         assert!(value.starts_with("Sky at 14:"), "{value}");
+        press(&mut window, Key::Home);
+        assert!(says(&window, "Sky of now."));
+        press(&mut window, Key::PageUp);
+        assert!(says(&window, "Sky at 11:25:30Z, in 10:00."), "the touch gave it the focus");
         window.get_by_role_and_label(Role::Button, "Now").click();
         settle(&mut window);
         assert!(says(&window, "Sky of now."));

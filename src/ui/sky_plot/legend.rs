@@ -10,7 +10,7 @@ use super::{
 use crate::ui::{text, tokens::Tokens};
 
 /// Width of the legend, points.
-pub(super) const WIDTH: f32 = 120.0;
+pub(super) const WIDTH: f32 = 134.0;
 /// Height of a line, points.
 const ROW: f32 = 18.0;
 /// Half the width of a sample, points.

@@ -30,13 +30,24 @@ impl PlannedAntenna<'_> {
     }
 }
 
-/// Keeps labels away from the marks, and names them and the live mark of the selected antenna.
-pub(super) fn label(labels: &mut Labels<'_>, dome: Dome, scene: &SkyScene<'_>, t: &Tokens) {
-    let Some(then) = scene.then else { return };
-    let marks = || then.antennas.iter().filter_map(|of| Some((of, of.mark(dome)?)));
-    for (_, mark) in marks() {
+fn marks<'a>(
+    dome: Dome,
+    scene: &SkyScene<'a>,
+) -> impl Iterator<Item = (&'a PlannedAntenna<'a>, Pos2)> {
+    let antennas = scene.then.map(|then| then.antennas).unwrap_or_default();
+    antennas.iter().filter_map(move |antenna| Some((antenna, antenna.mark(dome)?)))
+}
+
+/// Keeps labels away from the marks.
+pub(super) fn reserve(labels: &mut Labels<'_>, dome: Dome, scene: &SkyScene<'_>) {
+    for (_, mark) in marks(dome, scene) {
         labels.reserve(paint::square(mark, 2.0 * HALF));
     }
+}
+
+/// Names the marks, and the live mark of the selected antenna.
+pub(super) fn label(labels: &mut Labels<'_>, dome: Dome, scene: &SkyScene<'_>, t: &Tokens) {
+    let Some(then) = scene.then else { return };
     let live = scene.measured.and_then(|measured| dome.visible(measured.direction));
     if let Some((name, mark)) = then.selected.zip(live) {
         let name = format!("{name} now");
@@ -49,14 +60,15 @@ pub(super) fn label(labels: &mut Labels<'_>, dome: Dome, scene: &SkyScene<'_>, t
             tolerance: 1.0,
         });
     }
-    for (planned, mark) in marks() {
+    for (planned, mark) in marks(dome, scene) {
         let name = format!("{} planned", planned.name);
         labels.add(&Label {
             key: Key::Planned(planned.index),
             lines: &[(&name, text::small_strong(), t.sat), (&planned.doing, text::caption(), t.t2)],
             mark,
             clearance: HALF + 2.0,
-            order: &Side::ORDER,
+            // Inside of the disc there is room.
+            order: &Side::towards(dome.centre - mark),
             tolerance: 1.0,
         });
     }
@@ -64,17 +76,14 @@ pub(super) fn label(labels: &mut Labels<'_>, dome: Dome, scene: &SkyScene<'_>, t
 
 /// Paints the marks.
 pub(super) fn paint(painter: &Painter, dome: Dome, scene: &SkyScene<'_>, t: &Tokens) {
-    let antennas = scene.then.map(|then| then.antennas).unwrap_or_default();
-    for at in antennas.iter().filter_map(|antenna| antenna.mark(dome)) {
+    for (_, at) in marks(dome, scene) {
         marks::planned(painter, at, HALF - 2.0, t);
     }
 }
 
 /// Adds a node for each mark.
 pub(super) fn nodes(ui: &Ui, canvas: Id, dome: Dome, scene: &SkyScene<'_>) {
-    let antennas = scene.then.map(|then| then.antennas).unwrap_or_default();
-    for antenna in antennas {
-        let Some(at) = antenna.mark(dome) else { continue };
+    for (antenna, at) in marks(dome, scene) {
         let name = format!("{} planned, {}", antenna.name, antenna.doing);
         let said = if let Some(direction) = antenna.pointing.direction() {
             spoken(&name, direction)

@@ -23,6 +23,8 @@ use crate::{
 const EDGE: f32 = 16.0;
 const GAP: f32 = 16.0;
 const KNOB: f32 = 6.0;
+/// Room above and below the part of the row that takes the pointer.
+const GRIP: f32 = 4.0;
 /// Share of the row that the slider takes.
 const SLIDER: f32 = 0.4;
 /// Step of an arrow key.
@@ -86,7 +88,7 @@ fn slider(ui: &Ui, track: Rect, model: &Model, state: &mut SkyTime) {
     let until = model.schedule_until();
     let id = ui.make_persistent_id("sky time slider");
     let sense = if until.is_some() { Sense::click_and_drag() } else { Sense::hover() };
-    let response = ui.interact(track.expand2(vec2(KNOB, 0.0)), id, sense);
+    let response = ui.interact(track.expand2(vec2(KNOB, -GRIP)), id, sense);
     if let Some(until) = until {
         operate(ui, &response, track, model, until, state);
     }
@@ -130,6 +132,8 @@ fn operate(
 ) {
     let pressed = response.is_pointer_button_down_on() || response.clicked();
     if let Some(pointer) = response.interact_pointer_pos().filter(|_| pressed) {
+        // The keys work from the first touch on.
+        response.request_focus();
         let share = f64::from((pointer.x - track.left()) / track.width().max(1.0));
         let span_s = seconds_between(model.now, until);
         state.show_at(model, add_seconds(model.now, share.clamp(0.0, 1.0) * span_s));
