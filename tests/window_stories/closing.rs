@@ -178,7 +178,10 @@ fn tracking(unit: &Unit, path: &Path) -> RealWindow {
     step_until(&mut window, "it is measured", |model| {
         model.antenna().is_some_and(|of| of.snapshot.state.motion_lock == Some(false))
     });
-    step_until(&mut window, "the passes are there", |model| model.pass_of(NOAA_20).is_some());
+    step_until(&mut window, "the passes are planned", |model| {
+        // The bars of the strip change their places with the first plan.
+        model.schedule.made_at.is_some() && model.pass_of(NOAA_20).is_some()
+    });
     window.get_by_label_contains("NOAA 20, 11:08 to 11:21").click();
     window.run_steps(2);
     press(&mut window, "Track NOAA 20");

@@ -18,7 +18,7 @@ use egui_kittest::kittest::{NodeT as _, Queryable as _};
 use crate::window_stories::{
     plan,
     rig::{self, LARGE, SIZES, SMALL, Window, asked, settle},
-    states,
+    sky_time, states,
 };
 
 /// A window in which every key has something to do.
@@ -76,6 +76,9 @@ fn every_key_of_the_list_does_something() {
                 Arc::make_mut(&mut model.station).choose_pass(satellite, tca, Some(take), now);
                 window.key_press(Key::Plus);
                 asked(&mut window);
+            }
+            if key == Key::Home {
+                window = sky_time::later(SMALL);
             }
             let other = match binding.place {
                 KeyScope::Plan => Some(View::Plan),

@@ -66,6 +66,13 @@ fn drag(window: &mut Window) {
     settle(window);
 }
 
+/// The view with the sky of a later time.
+pub(crate) fn later(size: [f32; 2]) -> Window {
+    let mut window = window(size);
+    drag(&mut window);
+    window
+}
+
 /// Where NOAA 20 is drawn, in words.
 fn noaa_20(window: &Window) -> Option<String> {
     let mark = window.query_by_label_contains("NOAA 20, azimuth")?;

@@ -169,8 +169,9 @@ impl Two {
     }
 
     fn track(&mut self) {
-        step_until(&mut self.window, "the passes are there", |model| {
-            model.pass_of(NOAA_20).is_some()
+        step_until(&mut self.window, "the passes are planned", |model| {
+            // The bars of the strip change their places with the first plan.
+            model.schedule.made_at.is_some() && model.pass_of(NOAA_20).is_some()
         });
         self.window.get_by_label_contains("NOAA 20, 11:08 to 11:21").click();
         self.window.run_steps(2);

@@ -134,7 +134,8 @@ fn a_held_jog_takes_no_step_and_a_limit_blocks_only_its_own() {
 
 #[test]
 fn page_up_and_down_change_the_rate_in_manual_and_not_while_typing() {
-    let rate = |window: &Window| window.get_by_role(Role::Slider).accesskit_node().numeric_value();
+    let rate =
+        |window: &Window| window.get_by_label_contains("Jog rate").accesskit_node().numeric_value();
     for size in SIZES {
         let mut window = rig::window(size, rig::model(states::manual()));
         window.key_press(Key::PageUp);

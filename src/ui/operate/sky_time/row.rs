@@ -24,7 +24,7 @@ const EDGE: f32 = 16.0;
 const GAP: f32 = 16.0;
 const KNOB: f32 = 6.0;
 /// Room above and below the part of the row that takes the pointer.
-const GRIP: f32 = 4.0;
+const GRIP: f32 = 8.0;
 /// Share of the row that the slider takes.
 const SLIDER: f32 = 0.4;
 /// Step of an arrow key.
