@@ -68,8 +68,6 @@ impl Engine {
             Command::SetScheduling(scheduling) => {
                 self.change_station(|station| station.scheduling = scheduling);
             }
-            Command::SetGroups(groups) => self.change_station(|station| station.groups = groups),
-            Command::SetRules(rules) => self.change_station(|station| station.rules = rules),
             Command::SaveSettings(id) => self.with(id, Self::save_copy),
             Command::CompareSettings(id) => self.with(id, Self::open_copies),
             Command::ReadCopy { antenna, path } => self.with(antenna, |engine, index| {

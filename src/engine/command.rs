@@ -16,10 +16,7 @@ use super::{
 use crate::{
     driver,
     orbit::{RefreshHours, Source},
-    station::{
-        Antenna, AntennaId, AutomationRule, Frequency, PassLimits, Priority, SatelliteGroup,
-        Scheduling, Station, Take,
-    },
+    station::{Antenna, AntennaId, Frequency, PassLimits, Priority, Scheduling, Station, Take},
 };
 
 /// A command of a client to a station. STOP is not one: it bypasses the queue of commands.
@@ -63,10 +60,6 @@ pub enum Command {
     },
     /// Plan passes like this.
     SetScheduling(Scheduling),
-    /// Use these groups of satellites.
-    SetGroups(Vec<SatelliteGroup>),
-    /// Use these automation rules.
-    SetRules(Vec<AutomationRule>),
     /// List passes with at least this maximum elevation, degrees.
     SetElevationFloor(f64),
     /// End the search for the passes of this list; listed passes stay.
