@@ -3,8 +3,8 @@
 //! Greedy takes passes by their greatest elevation, the highest first, each on the first antenna
 //! that is free in time. Both plan for the demo station's three antennas with their real slews,
 //! weeks of 60 satellites; the value is the seconds that count times the sine of the maximum,
-//! without priorities, because greedy knows none. Then the whole catalogue for a day on one
-//! antenna. All on one core.
+//! without priorities, because greedy knows none. All that is on one core. Then the whole catalogue
+//! for a day on one antenna, found and judged on all cores, as the station does it.
 
 // A bench prints to its user, and may panic.
 #![allow(clippy::print_stdout, clippy::unwrap_used, clippy::indexing_slicing)]
@@ -14,7 +14,7 @@ use std::time::{Duration, Instant};
 use azel::{
     astro::time::add_seconds,
     makes::DemoAddresses,
-    orbit::{Elements, PassSearch, Propagator, bundled, passes},
+    orbit::{Elements, Pass, PassSearch, Propagator, bundled, passes},
     plan::schedule::{
         Candidate, Common, PlannedAntenna, Reach, Request, Schedule, Sight, Steadiness, Wanted,
         plan,
@@ -22,6 +22,7 @@ use azel::{
     station::{BetweenPasses, ChooseBy, PassLimits, Priority, Station},
 };
 use jiff::Timestamp;
+use rayon::prelude::*;
 
 const START: &str = "2026-08-12T00:00:00Z";
 const WEEKS: u64 = 20;
@@ -77,16 +78,61 @@ fn candidates(
         finding += start.elapsed();
         let start = Instant::now();
         for pass in passes {
-            let mut sight = Sight::new(&propagator, station.site, None, &pass);
-            let wanted =
-                Wanted { priority: *priority, take: None, limits: &limits, by_rule: &|_| None };
-            let number = elements.catalog_number();
-            let with = (&pass, &propagator);
-            found.push(Candidate::new(number, 0.0, with, wanted, &mut sight, common));
+            let satellite = (elements, *priority, &propagator);
+            found.push(candidate(station, satellite, &pass, &limits, common));
         }
         judging += start.elapsed();
     }
     (found, finding, judging)
+}
+
+fn candidate(
+    station: &Station,
+    (elements, priority, propagator): (&Elements, Priority, &Propagator),
+    pass: &Pass,
+    limits: &PassLimits,
+    common: Common<'_>,
+) -> Candidate {
+    let mut sight = Sight::new(propagator, station.site, None, pass);
+    let wanted = Wanted { priority, take: None, limits, by_rule: &|_| None };
+    let number = elements.catalog_number();
+    Candidate::new(number, 0.0, (pass, propagator), wanted, &mut sight, common)
+}
+
+/// The same on all cores.
+fn candidates_at_once(
+    station: &Station,
+    antennas: &[PlannedAntenna],
+    satellites: &[(Elements, Priority)],
+    hours: f64,
+) -> (Vec<Candidate>, Duration, Duration) {
+    let from = antennas[0].free_from;
+    let floor = station.elevation_floor();
+    let common = Common { site: station.site, floor, antennas, max_age_s: None };
+    let search = PassSearch {
+        aos_elevation: station.aos_elevation(),
+        floor,
+        ..PassSearch::new(station.site, from, add_seconds(from, hours * 3600.0))
+    };
+    let limits = PassLimits::default();
+    let start = Instant::now();
+    let found: Vec<_> = satellites
+        .par_iter()
+        .filter_map(|(elements, priority)| {
+            let propagator = Propagator::new(elements).ok()?;
+            let passes = passes(&propagator, &search, &|| false);
+            Some((elements, *priority, propagator, passes))
+        })
+        .collect();
+    let finding = start.elapsed();
+    let start = Instant::now();
+    let judged = found.par_iter().flat_map(|(elements, priority, propagator, passes)| {
+        let satellite = (*elements, *priority, propagator);
+        let judged = passes.par_iter();
+        judged.map(move |pass| candidate(station, satellite, pass, &limits, common))
+    });
+    let judged = judged.collect();
+    (judged, finding, start.elapsed())
 }
 
 fn planned(antennas: &[PlannedAntenna], candidates: &[Candidate]) -> (Schedule, Duration) {
@@ -180,7 +226,7 @@ fn main() {
         catalog.iter().map(|it| (it.clone(), Priority::default())).collect();
     for antenna in antennas(&station, start) {
         let one = [antenna];
-        let (list, finding, judging) = candidates(&station, &one, &all, 24.0);
+        let (list, finding, judging) = candidates_at_once(&station, &one, &all, 24.0);
         let (schedule, planning) = planned(&one, &list);
         println!(
             "whole catalogue, a day, one antenna: {} passes, found {finding:.2?}, judged \

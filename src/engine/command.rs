@@ -168,6 +168,19 @@ impl Command {
         }
     }
 
+    /// Returns `true` if the command changes the station file at once, beside its preferences.
+    pub fn changes_station(&self) -> bool {
+        matches!(
+            self,
+            Self::ChoosePass { .. }
+                | Self::SetPassLimits { .. }
+                | Self::SetScheduling(_)
+                | Self::SetFavourites { .. }
+                | Self::SetPriority { .. }
+                | Self::SetFrequencies { .. }
+        )
+    }
+
     /// Returns `true` if the command may move an antenna. A later STOP voids it.
     pub fn may_move(&self) -> bool {
         match self {

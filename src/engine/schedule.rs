@@ -3,6 +3,7 @@
 use std::sync::Arc;
 
 use jiff::Timestamp;
+use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
 use super::{
@@ -232,8 +233,9 @@ fn make<T>(
     };
     let ahead = inputs.passes.iter().filter(|of| of.pass.los.time > now && of.pass.aos.time < end);
     // What never sets is no pass to be planned.
-    let ahead = ahead.filter(|predicted| !predicted.is_always_up());
+    let ahead: Vec<&PredictedPass> = ahead.filter(|it| !it.is_always_up()).collect();
     let candidates: Vec<Candidate> = ahead
+        .par_iter()
         .map(|predicted| {
             let satellite = &predicted.satellite;
             let (elements, propagator) = (&satellite.elements, &satellite.propagator);

@@ -15,7 +15,7 @@ use super::{
 };
 use crate::astro::{Angle, AzEl};
 pub(super) use flip::{Choice, Flip};
-use seen::Seen;
+use seen::{Seen, SinCos, sin_cos};
 
 /// Smallest improvement in pointing, degrees, for which a flip other than the preferred one is
 /// taken: it is not worth moving the elevation over the zenith for less.
@@ -103,12 +103,13 @@ impl AzElAxes {
                 Seen::new(sample.direction, *is_flipped, self.elevation_deg)
             })
             .collect();
-        let cost = |index: usize, azimuth_deg: f64| {
-            seen.get(index).map_or(0.0, |seen| seen.azimuth_cost(azimuth_deg))
+        let cost = |index: usize, azimuth: &SinCos| {
+            seen.get(index).map_or(0.0, |seen| seen.azimuth_cost(*azimuth))
         };
         // First computed as if the axis had no ends, so that a turn of the sky that the axis does
         // not make in time does not take it to an end.
-        let free = rate_limited(&flip::azimuths_deg(samples, &flipped), azimuth_max_deg, cost);
+        let azimuths_deg = flip::azimuths_deg(samples, &flipped);
+        let free = rate_limited(&azimuths_deg, azimuth_max_deg, sin_cos, cost);
         let [azimuth_now_deg, _] = start.axes_deg;
         let wrap = AzimuthRange::new(self.azimuth_deg).map_or_else(
             || AzimuthWrap {
@@ -118,17 +119,19 @@ impl AzElAxes {
             |range| AzimuthWrap::along(&free, range, azimuth_now_deg),
         );
         let (from_deg, to_deg) = self.azimuth_deg;
-        let azimuths: Vec<f64> = rate_limited(&wrap.positions_deg, azimuth_max_deg, cost)
+        let azimuths: Vec<f64> = rate_limited(&wrap.positions_deg, azimuth_max_deg, sin_cos, cost)
             .into_iter()
             .map(|axis_deg| axis_deg.min(to_deg).max(from_deg))
             .collect();
-        let pairs = seen.iter().zip(&azimuths);
+        let turned: Vec<SinCos> = azimuths.iter().map(|deg| sin_cos(*deg)).collect();
+        let pairs = seen.iter().zip(&turned);
         let elevations: Vec<f64> =
-            pairs.map(|(seen, azimuth_deg)| seen.elevation_deg(*azimuth_deg)).collect();
-        let elevations = rate_limited(&elevations, elevation_max_deg, |index, elevation_deg| {
-            let pair = seen.get(index).zip(azimuths.get(index));
-            pair.map_or(0.0, |(seen, azimuth_deg)| seen.cost(*azimuth_deg, elevation_deg))
-        });
+            pairs.map(|(seen, azimuth)| seen.elevation_deg(*azimuth)).collect();
+        let cost = |index: usize, elevation: &SinCos| {
+            let pair = seen.get(index).zip(turned.get(index));
+            pair.map_or(0.0, |(seen, azimuth)| seen.cost(*azimuth, *elevation))
+        };
+        let elevations = rate_limited(&elevations, elevation_max_deg, sin_cos, cost);
         Planned { flip, axes_deg: [azimuths, elevations], slews: wrap.slews }
     }
 

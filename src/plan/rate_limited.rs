@@ -12,11 +12,13 @@ const SAME_DEG: f64 = 1e-6;
 
 /// Positions along `wanted` (degrees at equal intervals) that never differ by more than `max_deg`
 /// from one interval to the next. Where the course is slow enough, they are the course itself;
-/// elsewhere they minimise the sum of `cost(interval, position)`.
-pub(super) fn rate_limited(
+/// elsewhere they minimise the sum of `cost(interval, position)`, with each position as `prepare`
+/// makes it once for all intervals.
+pub(super) fn rate_limited<P>(
     wanted: &[f64],
     max_deg: f64,
-    cost: impl Fn(usize, f64) -> f64,
+    prepare: impl Fn(f64) -> P,
+    cost: impl Fn(usize, &P) -> f64,
 ) -> Vec<f64> {
     let bounds = Envelope::around(wanted, max_deg);
     let mut way = bounds.low.clone();
@@ -25,7 +27,7 @@ pub(super) fn rate_limited(
     }
     for slew in bounds.slews() {
         let mut place = at(&bounds.low, slew.start.saturating_sub(1));
-        let rough = cheapest::between(&bounds, &slew, place, max_deg, &cost);
+        let rough = cheapest::between(&bounds, &slew, place, max_deg, &prepare, &cost);
         for (index, rough_deg) in slew.zip(rough.places_deg) {
             // Within a cell of the grid, the course itself is better.
             let course = at(wanted, index);
@@ -102,8 +104,8 @@ mod tests {
     /// Positions along `wanted`, with errors weighted by `weight`.
     fn weighted(wanted: &[f64], weight: &[f64], max_deg: f64) -> Vec<f64> {
         let cost =
-            |at: usize, place: f64| weight[at] * (1.0 - (place - wanted[at]).to_radians().cos());
-        rate_limited(wanted, max_deg, cost)
+            |at: usize, place: &f64| weight[at] * (1.0 - (place - wanted[at]).to_radians().cos());
+        rate_limited(wanted, max_deg, |place| place, cost)
     }
 
     fn cost(way: &[f64], wanted: &[f64], weight: &[f64]) -> f64 {
@@ -155,8 +157,8 @@ mod tests {
                 (f64::from(at) * 0.1).atan().to_degrees() + 90.0 + side
             })
             .collect();
-        let cost = |at: usize, place: f64| (place - wanted[at]).to_radians().sin().powi(2);
-        let way = rate_limited(&wanted, 4.0, cost);
+        let cost = |at: usize, place: &f64| (place - wanted[at]).to_radians().sin().powi(2);
+        let way = rate_limited(&wanted, 4.0, |place| place, cost);
         assert!(fastest(&way) <= 4.0 + 1e-9);
         assert!(way.iter().all(|place| place.abs() < 60.0), "{way:?}");
         assert!((way[20] - wanted[20]).abs() < 0.1 && (way[80] - wanted[80]).abs() < 0.1);

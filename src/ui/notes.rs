@@ -1,5 +1,5 @@
-//! Notes of the passes to come that the operator wanted to be reminded of, and of the file that
-//! was saved last. They lie over the views, so that nothing moves under the pointer, and clear of
+//! Notes of the passes to come that the operator wanted to be reminded of, and of what became of a
+//! file or a change. They lie over the views, so that nothing moves under the pointer, and clear of
 //! the antenna card.
 
 use std::path::PathBuf;
@@ -23,8 +23,8 @@ const BAR: f32 = 3.0;
 /// What the notes tell, beside the reminders of the model.
 #[derive(Debug, Default)]
 pub struct Notes {
-    /// The file that was saved last, or why it was not; until it is closed.
-    pub file: Option<Result<PathBuf, String>>,
+    /// The file that was saved last, or what was not done and why; until it is closed.
+    pub news: Option<Result<PathBuf, String>>,
     /// Passes whose reminders were closed.
     closed: Vec<PassKey>,
 }
@@ -38,14 +38,14 @@ impl Notes {
             reminder.aos() > model.now && !self.closed.contains(&reminder.pass)
         };
         let shown: Vec<&Reminder> = model.reminders.iter().filter(is_shown).collect();
-        if shown.is_empty() && self.file.is_none() {
+        if shown.is_empty() && self.news.is_none() {
             return;
         }
         frame(ui, room, model.view, |ui| {
             for reminder in shown {
                 line(ui, model, reminder, &mut self.closed, commands);
             }
-            file_line(ui, &mut self.file);
+            news_line(ui, &mut self.news);
         });
     }
 }
@@ -108,8 +108,8 @@ fn line(
     });
 }
 
-fn file_line(ui: &mut Ui, file: &mut Option<Result<PathBuf, String>>) {
-    let Some(outcome) = file else { return };
+fn news_line(ui: &mut Ui, news: &mut Option<Result<PathBuf, String>>) {
+    let Some(outcome) = news else { return };
     let t = theme::tokens(ui);
     let (words, colour) = match outcome {
         Ok(path) => (format!("Saved: {}", path.display()), t.t1),
@@ -127,7 +127,7 @@ fn file_line(ui: &mut Ui, file: &mut Option<Result<PathBuf, String>>) {
         })
         .inner;
     if is_closed {
-        *file = None;
+        *news = None;
     }
 }
 

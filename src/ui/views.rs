@@ -177,6 +177,7 @@ impl Views {
                 setup::show(ui, rest, model, takes_keys, &mut self.setup, commands);
             }
         }
+        self.keep_edits(commands, before);
         self.notes.show(ui, rest, model, commands);
         if let Some(question) = second_step::ask(model, before, commands) {
             self.question = Some(question);
@@ -195,6 +196,21 @@ impl Views {
             self.operate.card.drive.focus_pad();
         }
         keys::list::show(ui, &mut self.keys_open);
+    }
+
+    /// Drops commands since `before` that would change the station under edits of its
+    /// preferences, which would be lost with it, and says so.
+    fn keep_edits(&mut self, commands: &mut Vec<UiCommand>, before: usize) {
+        if !self.preferences.is_edited() {
+            return;
+        }
+        let changes = |command: &mut UiCommand| matches!(command, UiCommand::Station(command) if command.changes_station());
+        if commands.extract_if(before.., changes).count() > 0 {
+            let text = "Not changed: Preferences has changes that are not saved. Save or revert \
+                        them first.";
+            self.notes.news = Some(Err(text.to_owned()));
+            self.plan.was_not_changed();
+        }
     }
 
     /// Asks before the window closes or changes to another station if something would be lost with
@@ -261,13 +277,13 @@ impl Views {
 
     /// Takes the outcome of saving a file: its path or the error.
     pub fn file_saved(&mut self, result: Result<PathBuf, String>) {
-        self.notes.file = Some(result.map_err(|why| format!("Nothing was saved: {why}.")));
+        self.notes.news = Some(result.map_err(|why| format!("Nothing was saved: {why}.")));
     }
 
     /// The dialog of the desktop that the operator wanted cannot be shown.
     pub fn no_dialog(&mut self, error: NoDialog) {
         let paste = "Files can be dropped on this window, and elements pasted into it";
-        self.notes.file =
+        self.notes.news =
             Some(Err(format!("{}. {paste}.", words::capitalised(&error.to_string()))));
     }
 

@@ -21,6 +21,7 @@ use egui::{Key as Press, Role};
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
 
 use crate::window_stories::{
+    preferences,
     rig::{self, LARGE, SIZES, Window, settle, window},
     states,
 };
@@ -154,6 +155,24 @@ fn a_pass_is_chosen_by_key_and_by_pointer_and_that_is_undone() {
     assert_eq!(take(&undone), None);
     window.key_press(Press::B);
     assert_eq!(commands(&mut window), [], "it is by plan already");
+}
+
+#[test]
+fn a_choice_waits_for_edits_of_the_preferences_which_stay() {
+    let mut window = view(LARGE);
+    select(&mut window, 0);
+    window.state_mut().model.view = View::Preferences;
+    settle(&mut window);
+    preferences::write(&mut window, "Name", "Hilltop");
+    window.state_mut().model.view = View::Plan;
+    settle(&mut window);
+    window.key_press(Press::V);
+    assert_eq!(commands(&mut window), []);
+    assert!(says(&window, "Not changed: Preferences has changes that are not saved."));
+    assert!(window.query_by_role_and_label(Role::Button, "Undo").is_none());
+    window.state_mut().model.view = View::Preferences;
+    settle(&mut window);
+    assert!(window.query_by_value("Hilltop").is_some());
 }
 
 #[test]

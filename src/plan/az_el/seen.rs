@@ -11,17 +11,24 @@ pub(super) fn is_overhead(direction: AzEl) -> bool {
     direction.elevation_deg() >= OVERHEAD_FROM_DEG
 }
 
+/// Sine and cosine of an angle.
+pub(super) type SinCos = (f64, f64);
+
+/// Sine and cosine of an angle in degrees.
+pub(super) fn sin_cos(deg: f64) -> SinCos {
+    deg.to_radians().sin_cos()
+}
+
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Seen {
-    azimuth_rad: f64,
-    /// Sine and cosine of the elevation.
-    height: (f64, f64),
+    azimuth: SinCos,
+    height: SinCos,
     /// Position of the elevation axis where it does not make up for the azimuth, degrees.
     default_deg: f64,
-    usual: (f64, f64),
+    usual: SinCos,
     /// Ends of the elevation axis where it makes up for the azimuth, degrees.
     ends_deg: Option<[f64; 2]>,
-    ends: Option<[(f64, f64); 2]>,
+    ends: Option<[SinCos; 2]>,
 }
 
 impl Seen {
@@ -33,43 +40,41 @@ impl Seen {
         let default_deg = side_deg.min(to_deg).max(from_deg);
         let helps = ends_deg.filter(|_| is_overhead(direction));
         let ends_deg = helps.map(|(from_deg, to_deg)| [from_deg, to_deg]);
-        let turned = |deg: f64| deg.to_radians().sin_cos();
         Self {
-            azimuth_rad: direction.azimuth.radians(),
+            azimuth: direction.azimuth.radians().sin_cos(),
             height: direction.elevation.radians().sin_cos(),
             default_deg,
-            usual: turned(default_deg),
+            usual: sin_cos(default_deg),
             ends_deg,
-            ends: ends_deg.map(|ends_deg| ends_deg.map(turned)),
+            ends: ends_deg.map(|ends_deg| ends_deg.map(sin_cos)),
         }
     }
 
     /// The best position of the elevation axis for a position of the azimuth axis, in degrees.
-    pub(super) fn elevation_deg(&self, azimuth_deg: f64) -> f64 {
+    pub(super) fn elevation_deg(&self, azimuth: SinCos) -> f64 {
         let Some([from_deg, to_deg]) = self.ends_deg else { return self.default_deg };
-        let (up, along) = self.in_plane(azimuth_deg);
+        let (up, along) = self.in_plane(azimuth);
         up.atan2(along).to_degrees().min(to_deg).max(from_deg)
     }
 
     /// Cost of a position of both axes: grows with the square of a small error, up to 2 for the
     /// opposite direction.
-    pub(super) fn cost(&self, azimuth_deg: f64, elevation_deg: f64) -> f64 {
-        let (sin, cos) = elevation_deg.to_radians().sin_cos();
-        let (up, along) = self.in_plane(azimuth_deg);
+    pub(super) fn cost(&self, azimuth: SinCos, (sin, cos): SinCos) -> f64 {
+        let (up, along) = self.in_plane(azimuth);
         1.0 - (up * sin + along * cos)
     }
 
     /// Cost of a position of the azimuth axis, with the elevation axis where it points best.
-    pub(super) fn azimuth_cost(&self, azimuth_deg: f64) -> f64 {
-        let (up, along) = self.in_plane(azimuth_deg);
-        let towards = |(sin, cos): (f64, f64)| up * sin + along * cos;
+    pub(super) fn azimuth_cost(&self, azimuth: SinCos) -> f64 {
+        let (up, along) = self.in_plane(azimuth);
+        let towards = |(sin, cos): SinCos| up * sin + along * cos;
         let Some([from, to]) = self.ends else { return 1.0 - towards(self.usual) };
         // The sign of the cross product tells on which side of an end the direction lies.
-        let is_beyond = |(sin, cos): (f64, f64)| up * cos - along * sin > 0.0;
+        let is_beyond = |(sin, cos): SinCos| up * cos - along * sin > 0.0;
         if is_beyond(to) {
             1.0 - towards(to)
         } else if is_beyond(from) {
-            1.0 - up.hypot(along)
+            1.0 - (up * up + along * along).sqrt()
         } else {
             1.0 - towards(from)
         }
@@ -77,8 +82,8 @@ impl Seen {
 
     /// The direction in the plane in which the elevation axis turns: its component upwards, and the
     /// one towards the azimuth of the axis.
-    fn in_plane(&self, azimuth_deg: f64) -> (f64, f64) {
-        let (up, out) = self.height;
-        (up, out * (azimuth_deg.to_radians() - self.azimuth_rad).cos())
+    fn in_plane(&self, (sin, cos): SinCos) -> (f64, f64) {
+        let ((up, out), (to_sin, to_cos)) = (self.height, self.azimuth);
+        (up, out * (cos * to_cos + sin * to_sin))
     }
 }

@@ -115,11 +115,11 @@ fn the_best_elevation_costs_least() {
             for to_deg in [90.0, 110.0, 180.0] {
                 let direction = AzEl::from_degrees(123.0, elevation_deg);
                 let seen = Seen::new(direction, false, Some((10.0, to_deg)));
-                let azimuth_deg = f64::from(azimuth_deg);
-                let best = seen.cost(azimuth_deg, seen.elevation_deg(azimuth_deg));
-                assert!((best - seen.azimuth_cost(azimuth_deg)).abs() < 1e-12);
+                let azimuth = sin_cos(f64::from(azimuth_deg));
+                let best = seen.cost(azimuth, sin_cos(seen.elevation_deg(azimuth)));
+                assert!((best - seen.azimuth_cost(azimuth)).abs() < 1e-12);
                 let others = (10..=180).map(f64::from).filter(|at| *at <= to_deg);
-                let least = others.map(|at| seen.cost(azimuth_deg, at)).fold(9.0, f64::min);
+                let least = others.map(|at| seen.cost(azimuth, sin_cos(at))).fold(9.0, f64::min);
                 assert!(best < least + 1e-12, "{azimuth_deg} {elevation_deg} {to_deg}");
             }
         }

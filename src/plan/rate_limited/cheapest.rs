@@ -22,12 +22,13 @@ pub(super) struct Rough {
 
 /// The cheapest path through `slew` of an axis that stands at `before_deg` one interval before the
 /// slew and turns by at most `max_deg` per interval.
-pub(super) fn between(
+pub(super) fn between<P>(
     bounds: &Envelope,
     slew: &Range<usize>,
     before_deg: f64,
     max_deg: f64,
-    cost: &impl Fn(usize, f64) -> f64,
+    prepare: &impl Fn(f64) -> P,
+    cost: &impl Fn(usize, &P) -> f64,
 ) -> Rough {
     let low = bounds.low.get(slew.clone()).unwrap_or_default().iter();
     let high = bounds.high.get(slew.clone()).unwrap_or_default().iter();
@@ -39,6 +40,7 @@ pub(super) fn between(
     let below = ((before_deg - min_deg) / cell_deg).ceil() as usize;
     let places = below + ((greatest_deg - before_deg) / cell_deg).ceil() as usize + 1;
     let place_deg = |place: usize| before_deg + (place as f64 - below as f64) * cell_deg;
+    let prepared: Vec<P> = (0..places).map(|place| prepare(place_deg(place))).collect();
 
     let mut sums = vec![f64::INFINITY; places];
     if let Some(start) = sums.get_mut(below) {
@@ -52,7 +54,7 @@ pub(super) fn between(
         let index = index.saturating_sub(1);
         let lowest_deg = at(&bounds.low, index) - cell_deg;
         let highest_deg = at(&bounds.high, index) + cell_deg;
-        let best = |place: usize| {
+        let best = |(place, prepared): (usize, &P)| {
             let deg = place_deg(place);
             if deg < lowest_deg || deg > highest_deg {
                 return (place, f64::INFINITY);
@@ -64,9 +66,9 @@ pub(super) fn between(
             });
             let (from, sum) =
                 from.min_by(|a, b| a.1.total_cmp(&b.1)).unwrap_or((place, f64::INFINITY));
-            (from, sum + cost(index, deg))
+            (from, sum + cost(index, prepared))
         };
-        let (from, next): (Vec<usize>, Vec<f64>) = (0..places).map(best).unzip();
+        let (from, next): (Vec<usize>, Vec<f64>) = prepared.iter().enumerate().map(best).unzip();
         came.push(from);
         sums = next;
     }

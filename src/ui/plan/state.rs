@@ -85,6 +85,11 @@ impl PlanState {
         self.undo = Some(Undo { command, words: words.to_owned(), since: model.now });
     }
 
+    /// The last change was not made.
+    pub fn was_not_changed(&mut self) {
+        self.undo = None;
+    }
+
     /// The pass that the list shows before or after the selected one.
     pub fn neighbour(&self, model: &Model, by: isize) -> Option<PassKey> {
         let all = model.planned_passes();
