@@ -24,8 +24,8 @@ use super::{
 use crate::{
     astro::time::{add_seconds, seconds_between},
     clock::Instant,
-    device::Asked,
-    driver::{self, Event, Found, Intent, Response, Safety, StopState},
+    device::{Asked, Motion},
+    driver::{self, Event, Found, Intent, Refusal, Response, Safety, StopState},
     plan::schedule::{Entry, sun_is},
     station::{self, AntennaId, AutomationRule, BetweenPasses, Station, Then},
 };
@@ -84,6 +84,10 @@ impl Engine {
         let operation = &mut antenna.shown.operation;
         if !is_on {
             operation.switch_off(OffBecause::Operator);
+            let is_that = |kind: &AlarmKind| matches!(kind, AlarmKind::AutomaticOff(_));
+            self.alarms.clear(of, self.now, is_that);
+        } else if operation.is_on() {
+            // It is at work.
         } else if antenna.shown.held_by.is_none() && antenna.shown.snapshot.lock_out.is_none() {
             *operation = Operation::switched_on();
             let is_that = |kind: &AlarmKind| matches!(kind, AlarmKind::AutomaticOff(_));
@@ -110,11 +114,15 @@ impl Engine {
             let is_free = antenna.shown.held_by.is_none()
                 && self.lock_outs.of(&config.connection).is_none()
                 && self.driver.debts().units().is_empty();
-            if config.automatic.is_on_at_start && is_free && last.allows(config.id) {
+            let (id, is_on_at_start) = (config.id, config.automatic.is_on_at_start);
+            if is_on_at_start && is_free && last.allows(id) {
                 self.set_automatic(index, true);
+            } else if !last.allows(id) {
+                // The run before may have owed its unit that.
+                self.owe_auto_track_off(index);
             }
         }
-        self.last_run = LastRun { is_orderly: false, ..last };
+        self.last_run = last.begun();
         self.keep_last_run();
     }
 
@@ -122,7 +130,7 @@ impl Engine {
     /// what was switched off there stays so at the next start.
     pub(super) fn take_over_last_run(&mut self) {
         let last = self.last_run_path().as_deref().map(LastRun::load).unwrap_or_default();
-        self.last_run = LastRun { is_orderly: false, ..last };
+        self.last_run = last.begun();
         self.keep_last_run();
     }
 
@@ -199,12 +207,18 @@ impl Engine {
         let uses_auto_track = antenna.shown.config.automatic.uses_auto_track;
         let operation = &mut antenna.shown.operation;
         match event {
+            // The pass itself goes on without auto-track, and waits at the edge of a keep-out.
+            Event::Refused(Asked::Motion(Motion::EnableAuto), _)
+            | Event::Unanswered(Asked::Motion(Motion::EnableAuto))
+            | Event::NotSent(Refusal::Forbidden { .. }) => {}
+            Event::NotSent(_) if operation.is_proved() => {}
             Event::CannotTrack(..)
             | Event::WouldMiss { .. }
             | Event::CannotProgramTrack(..)
             | Event::NotSent(_)
             | Event::Refused(Asked::Motion(_), _)
             | Event::Unanswered(Asked::Motion(_)) => operation.take_outcome(Outcome::Failed, now),
+            Event::EndedShort { .. } => operation.ended_short(now),
             Event::TrackingEnded { completed: false } => {
                 let outcome =
                     if operation.is_proved() { Outcome::EndedEarly } else { Outcome::Failed };
@@ -246,8 +260,7 @@ impl Engine {
         let duties = self.duties(&antenna.shown);
         let wishes = self.wishes(&antenna.shown);
         let mut seen = seen(&antenna.shown);
-        // The schedule may turn out to give the antenna what its unit tracks.
-        seen.is_moved_elsewhere &= seen.offers.is_none() || !self.scheduler.is_at_work();
+        seen.may_be_planned = seen.offers.is_some() && self.scheduler.is_at_work();
         self.fly(index, &duties, seen);
         let now = self.now;
         let Some(antenna) = self.antennas.get_mut(index) else { return };
@@ -259,7 +272,10 @@ impl Engine {
         let operation = &mut antenna.shown.operation;
         let was_proved = operation.is_proved();
         let act = operation.step(&duties, seen, wishes, now);
-        let is_proved = operation.is_proved();
+        let newly_proved =
+            operation.taking().filter(|taking| taking.proved_at.is_some() && !was_proved);
+        let newly_proved = newly_proved.map(|taking| taking.pass);
+        let id = antenna.shown.id();
         match act {
             Some(Act::Take(duty)) => self.take_pass(index, &duty),
             Some(Act::TakeOver(_)) => self.send(index, driver::Command::TakeOver),
@@ -267,7 +283,9 @@ impl Engine {
             None => {}
         }
         // Only now does the unit hold the pass that it may start by itself.
-        if is_proved && !was_proved {
+        if let Some(pass) = newly_proved {
+            self.last_run.holds(id, pass);
+            self.keep_last_run();
             self.switch_auto_track_on(index);
         }
     }
@@ -279,6 +297,12 @@ impl Engine {
         if shown.config.automatic.uses_auto_track && shown.variant().capabilities.has_program {
             antenna.at_work.auto_track = AutoTrack::On;
             self.send(index, driver::Command::AutoTrack(true));
+        }
+    }
+
+    fn owe_auto_track_off(&mut self, index: usize) {
+        if let Some(antenna) = self.antennas.get_mut(index) {
+            antenna.end_auto_track();
         }
     }
 
@@ -325,7 +349,7 @@ impl Engine {
             parks_within_s: parks.then(|| parks_within_s(&antenna.config)),
             longest_rest_s: scheduling.warn_after_rest_min * 60.0,
             announced_for_s: scheduling.warning_s,
-            uses_auto_track: antenna.config.automatic.uses_auto_track,
+            held: self.last_run.held_by(antenna.id()),
         }
     }
 
@@ -346,8 +370,13 @@ impl Engine {
             let half_beam = shown.config.beam_width() * 0.5;
             flight.see(&shown.operation, seen, error.as_ref(), half_beam, now);
         }
-        // Its antenna would set out later only by a clock that was set back.
-        flight.take_if(|flight| now < flight.duty.go_at);
+        // Its antenna would set out later only by a clock that was set back. What the schedule
+        // gives up before it begins is not missed.
+        let is_planned =
+            |flight: &Flight| duties.iter().any(|duty| is_same_pass(duty.pass, flight.duty.pass));
+        flight.take_if(|flight| {
+            now < flight.duty.go_at || now < flight.duty.from && !is_planned(flight)
+        });
         let ended = flight.take_if(|flight| now >= flight.duty.until);
         let is_off = matches!(shown.operation, Operation::Off(_));
         if flight.is_none() && (!is_off || ended.is_some()) {
@@ -502,6 +531,13 @@ fn seen(antenna: &AntennaModel) -> Seen {
     let stops =
         matches!(snapshot.stop, StopState::Stopping { .. } | StopState::NotConfirmed { .. });
     let takes = antenna.tracked_number().filter(|_| !antenna.tracks_unasked());
+    // Somebody has given the unit another satellite than it was asked to track from here.
+    let asked = snapshot.target.as_ref().map(|target| target.catalog_number);
+    let is_replaced = antenna.is_live()
+        && snapshot.intent == Intent::Track
+        && !snapshot.pending
+        && snapshot.state.program.is_some_and(|program| program.enabled)
+        && asked.is_some_and(|asked| takes.is_some_and(|takes| takes != asked));
     Seen {
         is_live: antenna.is_live(),
         is_locked_out: snapshot.lock_out.is_some(),
@@ -512,8 +548,9 @@ fn seen(antenna: &AntennaModel) -> Seen {
         offers: antenna
             .tracked_number()
             .filter(|_| antenna.tracks_unasked() && snapshot.on_board.is_some()),
+        may_be_planned: false,
         moves,
-        is_moved_elsewhere: antenna.is_live()
-            && (antenna.tracks_unasked() || moves && !is_still_asked),
+        is_moved_elsewhere: is_replaced
+            || antenna.is_live() && (antenna.tracks_unasked() || moves && !is_still_asked),
     }
 }

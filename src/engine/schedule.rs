@@ -61,6 +61,8 @@ pub(super) struct Inputs {
     off: Vec<(AntennaId, Off)>,
     /// Satellites that antennas track without automatic operation.
     tracked: Vec<(AntennaId, u32)>,
+    /// Antennas of which it is known where they stand.
+    placed: Vec<AntennaId>,
 }
 
 impl PartialEq for Inputs {
@@ -68,6 +70,7 @@ impl PartialEq for Inputs {
         self.revision == other.revision
             && self.off == other.off
             && self.tracked == other.tracked
+            && self.placed == other.placed
             && (Arc::ptr_eq(&self.station, &other.station) || self.station == other.station)
     }
 }
@@ -113,14 +116,19 @@ impl Engine {
         let tracked = self.antennas.iter().filter_map(|antenna| {
             let shown = &antenna.shown;
             let number = shown.tracked_number().filter(|number| shown.takes(*number))?;
-            shown.operation.taking().is_none().then_some((shown.id(), number))
+            // What automatic operation takes is fixed from the start, and what it has ended is not.
+            let is_by_hand = !shown.operation.is_on() || shown.tracks_unasked();
+            is_by_hand.then_some((shown.id(), number))
         });
+        let is_placed = |antenna: &&super::Antenna| antenna.shown.snapshot.state.measured.is_some();
+        let placed = self.antennas.iter().filter(is_placed).map(|antenna| antenna.shown.id());
         let inputs = Inputs {
             station: Arc::clone(&self.station),
             passes: Arc::clone(&list.passes),
             revision: list.revision,
             off: off.collect(),
             tracked: tracked.collect(),
+            placed: placed.collect(),
         };
         if self.scheduler.begun.as_ref().is_some_and(|(begun, _)| *begun == inputs) {
             return;

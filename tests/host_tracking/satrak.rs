@@ -7,7 +7,7 @@ use azel::{
     controller::satrak::Satrak,
     driver::{Command, Event, Intent, Refusal, Safety, Session, TrackProblem, Unlike},
     plan::{ProgramTrack, Target, TrackPhase},
-    protocol::satrak::{FaultKind, Goto, Motion, Request, encode},
+    protocol::satrak::{FaultKind, Goto, Halt, Motion, Request, encode},
     sim::satrak::{Control, Fault, Options},
     station::{AfterPass, Antenna, Resume},
 };
@@ -236,6 +236,26 @@ async fn an_outage_on_the_way_to_a_pass_is_told_from_a_unit_that_was_moved() {
         rig.seconds(20.0).await;
         assert_eq!(rig.events().iter().any(asks), is_moved);
     }
+}
+
+#[tokio::test(start_paused = true)]
+async fn one_that_somebody_has_stopped_on_its_way_to_a_pass_is_not_as_it_was_left() {
+    let goes_on = Antenna { resume: Resume::Continue, resume_after_s: 0.5, ..antenna() };
+    let (mut rig, control) = connected(&goes_on, &sky::usual(), 120.0).await;
+    rig.send(Command::ProgramTrack(Box::new(sky::usual().follow())));
+    rig.seconds(1.0).await;
+    rig.set_off(true);
+    rig.seconds(0.2).await;
+    let (mut near, far) = tokio::io::duplex(4096);
+    let unit = control.clone();
+    tokio::spawn(async move { unit.serve(far).await });
+    near.write_all(&Request::Halt(Halt::Stop).to_bytes()).await.unwrap();
+    rig.seconds(3.0).await;
+    assert!(!control.state().is_moving);
+    rig.set_off(false);
+    rig.until_event(20, |event| matches!(event, Event::Back { .. })).await;
+    rig.seconds(5.0).await;
+    assert!(rig.events().iter().any(asks));
 }
 
 #[tokio::test(start_paused = true)]

@@ -5,7 +5,7 @@ use azel::{
     clock::Instant,
     device::PrepareError,
     driver::{Command, Event, Found, Intent, LinkLoss, LinkState, Refusal, Safety, StopState},
-    protocol::satrak::{Goto, Motion, Request},
+    protocol::satrak::{Goto, Halt, Motion, Request},
     sim::satrak::Fault,
 };
 use tokio::io::AsyncWriteExt as _;
@@ -88,28 +88,75 @@ async fn tracking_that_ended_meanwhile_is_not_started_again() {
     assert_eq!(rig.sent("TRACK=,1").len(), 1);
 }
 
+/// Another client sends this to the unit.
+async fn elsewhere(rig: &Rig, request: Request) {
+    let (mut near, far) = tokio::io::duplex(4096);
+    let unit = rig.control.clone();
+    tokio::spawn(async move { unit.serve(far).await });
+    near.write_all(&request.to_bytes()).await.unwrap();
+    tokio::time::sleep(std::time::Duration::from_millis(100)).await;
+}
+
+fn goto() -> Request {
+    Request::Motion(Motion::Goto(Goto::new(Some(200.0), Some(40.0)).unwrap()))
+}
+
+/// What the unit was found doing after an outage in which this was sent to it, and whether that
+/// is as it was left.
+async fn after_an_outage(rig: &mut Rig, request: Option<Request>, waits_s: f64) -> (Found, bool) {
+    rig.set_off(true);
+    rig.seconds(1.0).await;
+    if let Some(request) = request {
+        elsewhere(rig, request).await;
+    }
+    rig.seconds(waits_s).await;
+    rig.set_off(false);
+    let back = rig.until_event(20, |event| matches!(event, Event::Back { .. })).await;
+    let Event::Back { found, is_as_left, .. } = back else { panic!("{back:?}") };
+    (found, is_as_left)
+}
+
 #[tokio::test(start_paused = true)]
 async fn a_unit_at_rest_that_was_turned_while_out_of_reach_is_not_as_it_was_left() {
-    for (waits_s, is_turned, wanted) in [
-        (5.0, false, (Found::Still, true)),
-        (5.0, true, (Found::Moving, false)),
-        (90.0, true, (Found::Still, false)),
-    ] {
-        let mut rig = Rig::usual().await;
-        rig.set_off(true);
-        rig.seconds(1.0).await;
-        if is_turned {
-            let (mut near, far) = tokio::io::duplex(4096);
-            let unit = rig.control.clone();
-            tokio::spawn(async move { unit.serve(far).await });
-            let goto = Goto::new(Some(200.0), Some(40.0)).unwrap();
-            near.write_all(&Request::Motion(Motion::Goto(goto)).to_bytes()).await.unwrap();
+    for parks_first in [false, true] {
+        for (waits_s, request, wanted) in [
+            (5.0, None, (Found::Still, true)),
+            (5.0, Some(goto()), (Found::Moving, false)),
+            (90.0, Some(goto()), (Found::Still, false)),
+        ] {
+            let mut rig = Rig::usual().await;
+            if parks_first {
+                rig.send(Command::Park);
+                rig.until_event(200, |event| matches!(event, Event::Arrived(_))).await;
+            }
+            assert_eq!(after_an_outage(&mut rig, request, waits_s).await, wanted);
         }
-        rig.seconds(waits_s).await;
-        rig.set_off(false);
-        let back = rig.until_event(20, |event| matches!(event, Event::Back { .. })).await;
-        let Event::Back { found, is_as_left, .. } = back else { panic!("{back:?}") };
-        assert_eq!((found, is_as_left), wanted);
+    }
+}
+
+#[tokio::test(start_paused = true)]
+async fn a_track_that_somebody_has_ended_while_out_of_reach_is_not_as_it_was_left() {
+    let mut rig = tracking().await;
+    assert_eq!(after_an_outage(&mut rig, None, 10.0).await, (Found::Tracking, true));
+    let off = Request::Halt(Halt::TrackOff);
+    assert_eq!(after_an_outage(&mut rig, Some(off), 10.0).await, (Found::Still, false));
+    let mut rig = tracking().await;
+    // Its end has come meanwhile.
+    assert_eq!(after_an_outage(&mut rig, None, 1500.0).await, (Found::Still, true));
+}
+
+#[tokio::test(start_paused = true)]
+async fn a_motion_that_was_stopped_on_its_way_while_out_of_reach_is_not_as_it_was_left() {
+    for stops in [false, true] {
+        let mut rig = Rig::usual().await;
+        rig.send(Command::Position {
+            azimuth: Some(Angle::from_degrees(200.0)),
+            elevation: Some(Angle::from_degrees(30.0)),
+        });
+        rig.seconds(1.0).await;
+        let stop = stops.then_some(Request::Halt(Halt::Stop));
+        let (_, is_as_left) = after_an_outage(&mut rig, stop, 1.0).await;
+        assert_eq!(is_as_left, !stops);
     }
 }
 

@@ -276,11 +276,12 @@ impl Session {
             return;
         }
         let lost = lost + unchecked.unwrap_or_default();
-        // Where it was sent, where it was left, or on the way between the two.
+        // Where it was sent, where it was left, or still moving from one to the other: at rest
+        // between the two somebody has stopped it.
         let (sent, left) = (track.commanded, self.contact.left_at);
         let is_there = sent.into_iter().chain(left).any(|place| self.is_near(place, at));
-        let is_on_its_way =
-            sent.zip(left).is_some_and(|(sent, left)| self.is_between(left, sent, at));
+        let is_on_its_way = self.turns()
+            && sent.zip(left).is_some_and(|(sent, left)| self.is_between(left, sent, at));
         if !is_there && !is_on_its_way {
             return self.await_word(lost, Some(Unlike::Position));
         }
@@ -301,7 +302,7 @@ impl Session {
 
     /// Whether an antenna that was sent from `left` to `sent` passes `at`, each axis by its
     /// shorter way.
-    fn is_between(&self, left: Pointing, sent: Pointing, at: Pointing) -> bool {
+    pub(super) fn is_between(&self, left: Pointing, sent: Pointing, at: Pointing) -> bool {
         let nearby = self.setup.rule.half_beam + self.overrun();
         let passes = |[left, sent, at]: [Option<Angle>; 3]| {
             let (Some(left), Some(sent), Some(at)) = (left, sent, at) else {

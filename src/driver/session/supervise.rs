@@ -189,7 +189,7 @@ impl Session {
             .away_since
             .map_or(Duration::ZERO, |since| now.steady.saturating_duration_since(since));
         let lost = away + std::mem::take(&mut self.contact.slept);
-        let is_as_left = self.is_as_left(found, measured.pointing);
+        let is_as_left = self.is_as_left(found, measured.pointing, now);
         self.follow_on(lost, measured.pointing, now);
         match &mut self.activity {
             Activity::OnBoardTrack(track) if found == Found::Tracking => {
@@ -215,14 +215,31 @@ impl Session {
 
     /// Whether what was asked from here explains what the unit does and where it points after an
     /// outage.
-    fn is_as_left(&self, found: Found, at: Pointing) -> bool {
+    fn is_as_left(&self, found: Found, at: Pointing, now: Moment) -> bool {
+        let left = self.contact.left_at;
+        let is_at = |place: Option<Pointing>| place.is_none_or(|place| self.is_near(place, at));
+        let stands_as_left = found == Found::Still && is_at(left);
         match &self.activity {
-            // Both are compared further.
-            Activity::ProgramTrack(_) | Activity::GoTo(_) => true,
-            Activity::OnBoardTrack(_) => found != Found::Moving,
-            Activity::Standby | Activity::Manual | Activity::Hold(_) => {
-                found == Found::Still
-                    && self.contact.left_at.is_none_or(|left| self.is_near(left, at))
+            // Compared by itself.
+            Activity::ProgramTrack(_) => true,
+            Activity::OnBoardTrack(track) => {
+                let is_over = now.utc >= track.target.until;
+                match track.stage {
+                    _ if found == Found::Tracking => true,
+                    OnBoardStage::Tracking => found == Found::Still && is_over,
+                    _ => stands_as_left,
+                }
+            }
+            Activity::GoTo(GoTo { aim, stage: GoToStage::UnderWay { .. }, .. }) => match found {
+                Found::Tracking => false,
+                Found::Still => stands_as_left || is_at(*aim),
+                Found::Moving => {
+                    let way = left.zip(*aim);
+                    way.is_none_or(|(left, aim)| self.is_between(left, aim, at))
+                }
+            },
+            Activity::GoTo(_) | Activity::Standby | Activity::Manual | Activity::Hold(_) => {
+                stands_as_left
             }
         }
     }

@@ -3,9 +3,10 @@
 
 use std::{fs, io, path::Path};
 
+use jiff::Timestamp;
 use serde::{Deserialize, Serialize};
 
-use crate::{station::AntennaId, whole_file};
+use crate::{engine::passes::PassKey, station::AntennaId, whole_file};
 
 /// The file is named like the station file, but for this.
 pub(super) const EXTENSION: &str = "automatic.toml";
@@ -19,6 +20,15 @@ pub(in crate::engine) struct LastRun {
     /// Antennas whose automatic operation was ended, by the operator or otherwise, and not
     /// switched on again.
     pub(in crate::engine) switched_off: Vec<AntennaId>,
+    /// The pass that was proved last, by antenna: its unit may still be at work on it.
+    held: Vec<Held>,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+struct Held {
+    antenna: AntennaId,
+    satellite: u32,
+    aos: Timestamp,
 }
 
 impl LastRun {
@@ -45,6 +55,22 @@ impl LastRun {
         whole_file::replace(path, text.as_bytes())
     }
 
+    /// The run that follows it, until that ends.
+    pub(super) fn begun(self) -> Self {
+        Self { is_orderly: false, ..self }
+    }
+
+    /// The pass that this antenna's unit was last proved to be on its way to.
+    pub(super) fn held_by(&self, antenna: AntennaId) -> Option<PassKey> {
+        let held = self.held.iter().find(|held| held.antenna == antenna)?;
+        Some((held.satellite, held.aos))
+    }
+
+    pub(super) fn holds(&mut self, antenna: AntennaId, (satellite, aos): PassKey) {
+        self.held.retain(|held| held.antenna != antenna);
+        self.held.push(Held { antenna, satellite, aos });
+    }
+
     pub(super) fn allows(&self, antenna: AntennaId) -> bool {
         self.is_orderly && !self.switched_off.contains(&antenna)
     }
@@ -59,7 +85,9 @@ mod tests {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("station.automatic.toml");
         assert!(!LastRun::load(&path).allows(AntennaId(1)), "nothing is known of a first start");
-        let last = LastRun { is_orderly: true, switched_off: vec![AntennaId(2)] };
+        let mut last =
+            LastRun { is_orderly: true, switched_off: vec![AntennaId(2)], ..LastRun::default() };
+        last.holds(AntennaId(1), (7, Timestamp::UNIX_EPOCH));
         last.save(&path).unwrap();
         let read = LastRun::load(&path);
         assert_eq!(read, last);

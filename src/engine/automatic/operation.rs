@@ -136,6 +136,8 @@ pub(super) struct Seen {
     pub(super) awaits_operator: bool,
     /// The satellite that its unit tracks by itself, and that can be taken over without a motion.
     pub(super) offers: Option<u32>,
+    /// The schedule that is being made may give the antenna what its unit tracks.
+    pub(super) may_be_planned: bool,
     pub(super) moves: bool,
     /// It moves or tracks, and not by this station.
     pub(super) is_moved_elsewhere: bool,
@@ -143,15 +145,15 @@ pub(super) struct Seen {
 
 /// How the operator wants it.
 #[derive(Debug, Clone, Copy, PartialEq)]
-#[expect(clippy::struct_field_names, reason = "times in seconds")]
 pub(super) struct Wishes {
     /// Parks between passes where the time allows; `None` where it does not park. Seconds that
     /// both ways take at most.
     pub(super) parks_within_s: Option<f64>,
     pub(super) longest_rest_s: f64,
     pub(super) announced_for_s: f64,
-    /// The unit may start the next pass by itself.
-    pub(super) uses_auto_track: bool,
+    /// The pass that automatic operation proved last, in this run or the one before: what the
+    /// unit may go on with by itself.
+    pub(super) held: Option<PassKey>,
 }
 
 /// What the station does for automatic operation.
@@ -242,6 +244,13 @@ impl Operation {
         }
     }
 
+    /// A motion ended before its target.
+    pub(super) fn ended_short(&mut self, now: Timestamp) {
+        if matches!(self, Self::On(On { doing: Doing::Parks, .. })) {
+            self.suspend(Interruption::Elsewhere, now);
+        }
+    }
+
     fn end_after_failures(&mut self) {
         if matches!(self, Self::On(On { failures: FAILURES.., .. })) {
             *self = Self::Off(OffBecause::Failures);
@@ -265,8 +274,10 @@ impl Operation {
             on.take(duty, 1, now);
             return Some(Act::TakeOver(duty));
         }
-        if seen.is_moved_elsewhere && on.is_moved_for_long(now) {
-            self.suspend(Interruption::Elsewhere, now);
+        if seen.is_moved_elsewhere {
+            if on.is_moved_for_long(now) && !seen.may_be_planned {
+                self.suspend(Interruption::Elsewhere, now);
+            }
             return None;
         }
         let act = on.step(duties, seen, wishes, now);
@@ -313,8 +324,7 @@ impl On {
         }
     }
 
-    /// The pass that is due, where the unit tracks it already: started by auto-track, or in a run
-    /// before. Later, and without auto-track, somebody else has started it.
+    /// The pass of the schedule that the unit tracks by itself, as automatic operation left it.
     fn found_at_work(
         &self,
         duties: &[Duty],
@@ -322,10 +332,9 @@ impl On {
         wishes: Wishes,
         now: Timestamp,
     ) -> Option<Duty> {
-        let is_ours = wishes.uses_auto_track || self.moved_at.is_none();
         let is_free = !matches!(self.doing, Doing::Takes(_)) && seen.can_be_sent;
-        let number = seen.offers.filter(|_| is_ours && is_free)?;
-        let is_it = |duty: &&Duty| duty.pass.0 == number && duty.go_at <= now && now < duty.until;
+        let held = wishes.held.filter(|held| is_free && seen.offers == Some(held.0))?;
+        let is_it = |duty: &&Duty| is_same_pass(duty.pass, held) && now < duty.until;
         duties.iter().find(is_it).copied()
     }
 
@@ -340,8 +349,17 @@ impl On {
         let left = |duty: &&Duty| seconds_between(now, duty.until) > WORTH_S;
         let next = duties.iter().find(left).copied();
         let Some(duty) = next else {
+            if matches!(self.doing, Doing::Announces { .. }) {
+                self.doing = Doing::Rests;
+            }
             return self.park(None, seen, wishes, now);
         };
+        // The operator has it tracked already, from here.
+        if seen.is_live && seen.takes == Some(duty.pass.0) && now >= duty.go_at {
+            self.take(duty, 1, now);
+            return None;
+        }
+        self.keep_announcement(duty, seen, wishes, now);
         let rest_s = self.moved_at.map_or(f64::INFINITY, |at| seconds_between(at, now));
         let is_announced = rest_s >= wishes.longest_rest_s;
         let lead_s = if is_announced { wishes.announced_for_s } else { 0.0 };
@@ -353,6 +371,7 @@ impl On {
                 let is_over = now >= *moves_at;
                 is_over.then_some(())?;
             }
+            _ if is_announced && !(seen.is_live && seen.can_be_sent) => return None,
             _ if is_announced => {
                 let moves_at = add_seconds(now, wishes.announced_for_s);
                 self.doing = Doing::Announces { moves_at, pass: duty.pass };
@@ -364,6 +383,16 @@ impl On {
             self.take(duty, 1, now);
             Act::Take(duty)
         })
+    }
+
+    /// What is announced stays so only while it can be done and is still the next.
+    fn keep_announcement(&mut self, next: Duty, seen: Seen, wishes: Wishes, now: Timestamp) {
+        let Doing::Announces { pass, .. } = &self.doing else { return };
+        let is_near = seconds_between(now, next.go_at) <= wishes.announced_for_s;
+        let is_it = is_same_pass(*pass, next.pass) && is_near;
+        if !is_it || !seen.is_live || !seen.can_be_sent {
+            self.doing = Doing::Rests;
+        }
     }
 
     fn take(&mut self, duty: Duty, requests: u8, now: Timestamp) {

@@ -11,7 +11,7 @@ use crate::station::ChooseBy;
 
 impl Candidate {
     /// What is left of this pass at `now` for an antenna that tracks it; `None` where it has not
-    /// begun or is over, or where the antenna cannot take it.
+    /// begun or is over, or where the antenna takes no passes or cannot take this one.
     pub fn under_way(
         &self,
         antenna: &PlannedAntenna,
@@ -29,7 +29,7 @@ impl Candidate {
         let way = ways.iter().min_by(|a, b| away_deg(a).total_cmp(&away_deg(b)))?;
         let Span { from_ms, to_ms } = way.span();
         let rest = Span { from_ms: from_ms.max(now_ms), to_ms };
-        if self.key.aos > now || rest.length_ms() <= 0 {
+        if antenna.off.is_some() || self.key.aos > now || rest.length_ms() <= 0 {
             return None;
         }
         let counted_ms = way.counted_ms(rest);

@@ -27,6 +27,7 @@ const STANDS: Seen = Seen {
     is_proved: false,
     awaits_operator: false,
     offers: None,
+    may_be_planned: false,
     moves: false,
     is_moved_elsewhere: false,
 };
@@ -52,7 +53,7 @@ impl Fixture {
                 parks_within_s: None,
                 longest_rest_s: 3600.0,
                 announced_for_s: WARNING_S,
-                uses_auto_track: false,
+                held: None,
             },
             now_s: 0.0,
         }
@@ -171,7 +172,7 @@ fn a_lost_link_costs_what_cannot_be_had_and_the_rest_is_taken() {
     let gone = |_| Seen { is_live: false, can_be_sent: false, ..STANDS };
     assert_eq!(fixture.until(400.0, gone), []);
     let take = Act::Take(duties[0]);
-    assert_eq!(fixture.until(440.0, |_| STANDS), [(400.0, take), (430.0, take)]);
+    assert_eq!(fixture.until(470.0, |_| STANDS), [(430.0, take), (460.0, take)], "with a warning");
     fixture.until(500.0, |_| taking(1));
     fixture.until(550.0, gone);
     assert_eq!(fixture.until(560.0, |_| STANDS), [(550.0, take)]);
@@ -240,38 +241,73 @@ fn a_clock_that_was_set_back_keeps_no_pass_and_is_followed_by_an_announcement() 
 }
 
 #[test]
-fn a_unit_that_tracks_the_pass_already_is_taken_over_without_a_motion() {
-    let at_work =
-        |_: f64| Seen { offers: Some(1), is_moved_elsewhere: true, moves: true, ..STANDS };
+fn the_pass_that_the_unit_was_left_with_is_taken_over_without_a_motion_and_no_other_track() {
+    let tracks = |number: u32| {
+        move |_: f64| Seen { offers: Some(number), is_moved_elsewhere: true, moves: true, ..STANDS }
+    };
     let duties = [duty(1, 200.0)];
     let mut fixture = Fixture::new(&duties);
-    fixture.now_s = 300.0;
-    assert_eq!(fixture.until(302.0, at_work), [(300.0, Act::TakeOver(duties[0]))]);
+    (fixture.now_s, fixture.wishes.held) = (300.0, Some(duties[0].pass));
+    assert_eq!(fixture.until(302.0, tracks(1)), [(300.0, Act::TakeOver(duties[0]))]);
     assert_eq!(fixture.until(310.0, |_| taking(1)), []);
     assert!(fixture.operation.is_proved(), "and without a warning");
 
-    let mut other = Fixture::new(&[duty(2, 200.0)]);
-    other.now_s = 300.0;
-    assert_eq!(other.until(310.0, at_work), [], "not the satellite of the schedule");
-    assert!(matches!(other.operation, Operation::Suspended { .. }));
+    for (held, number) in [(Some(duties[0].pass), 2), (None, 1), (Some((1, at(9_999.0))), 1)] {
+        let mut other = Fixture::new(&duties);
+        (other.now_s, other.wishes.held) = (300.0, held);
+        assert_eq!(other.until(310.0, tracks(number)), [], "somebody else's");
+        assert!(matches!(other.operation, Operation::Suspended { .. }));
+    }
 }
 
 #[test]
-fn a_track_that_begins_later_is_its_own_only_with_auto_track() {
-    for uses_auto_track in [false, true] {
-        let duties = [duty(1, 200.0), duty(2, 1000.0)];
-        let mut fixture = Fixture::new(&duties);
-        fixture.wishes.uses_auto_track = uses_auto_track;
-        fixture.until(150.0, |_| STANDS);
-        fixture.until(801.0, |_| taking(1));
-        let by_itself = |now_s: f64| {
-            let is_up = now_s >= 945.0;
-            Seen { offers: is_up.then_some(2), is_moved_elsewhere: is_up, moves: is_up, ..STANDS }
-        };
-        // The unit sets out before the station would.
-        fixture.duties[1].go_at = at(950.0);
-        let acts = fixture.until(960.0, by_itself);
-        let wanted = [(950.0, Act::TakeOver(fixture.duties[1]))];
-        assert_eq!(acts, if uses_auto_track { &wanted[..] } else { &[] });
-    }
+fn nothing_is_sent_while_somebody_else_moves_the_antenna() {
+    let mut fixture = Fixture::new(&[duty(1, 200.0), duty(2, 1000.0)]);
+    fixture.until(150.0, |_| STANDS);
+    fixture.until(850.0, |_| taking(1));
+    // Never for as long as it takes to suspend.
+    let nudged = |now_s: f64| {
+        let is_moved = now_s as i64 % 5 != 0;
+        Seen { is_moved_elsewhere: is_moved, moves: is_moved, ..STANDS }
+    };
+    let acts = fixture.until(945.0, nudged);
+    assert!(acts.iter().all(|(at_s, _)| *at_s as i64 % 5 == 0), "{acts:?}");
+}
+
+#[test]
+fn what_was_announced_is_announced_anew_when_it_could_not_be_done() {
+    let duties = [duty(1, 200.0)];
+    let mut fixture = Fixture::new(&duties);
+    // The warning runs out while the unit does not answer.
+    let acts = fixture.until(400.0, |now_s| {
+        let is_live = !(120.0..300.0).contains(&now_s);
+        Seen { is_live, ..STANDS }
+    });
+    assert_eq!(acts.first(), Some(&(330.0, Act::Take(duties[0]))), "after another warning");
+
+    let mut dropped = Fixture::new(&duties);
+    dropped.until(120.0, |_| STANDS);
+    assert!(matches!(&dropped.operation, Operation::On(On { doing: Doing::Announces { .. }, .. })));
+    dropped.duties.clear();
+    dropped.until(122.0, |_| STANDS);
+    assert!(matches!(&dropped.operation, Operation::On(On { doing: Doing::Rests, .. })));
+}
+
+#[test]
+fn a_pass_that_the_operator_tracks_already_is_not_begun_again() {
+    let mut fixture = Fixture::new(&[duty(1, 200.0)]);
+    fixture.now_s = 300.0;
+    assert_eq!(fixture.until(400.0, |_| taking(1)), []);
+    assert!(fixture.operation.is_proved());
+}
+
+#[test]
+fn a_park_that_somebody_ends_suspends_it() {
+    let mut fixture = Fixture::new(&[duty(1, 200.0), duty(2, 4000.0)]);
+    fixture.wishes.parks_within_s = Some(120.0);
+    fixture.until(150.0, |_| STANDS);
+    fixture.until(810.0, |_| taking(1));
+    assert!(!fixture.until(815.0, |_| STANDS).is_empty(), "it parks");
+    fixture.operation.ended_short(at(820.0));
+    assert!(matches!(fixture.operation, Operation::Suspended { .. }));
 }
