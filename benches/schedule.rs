@@ -114,7 +114,7 @@ fn candidates_at_once(
         floor,
         ..PassSearch::new(station.site, from, add_seconds(from, hours * 3600.0))
     };
-    let limits = PassLimits::default();
+    let limits = &PassLimits::default();
     let start = Instant::now();
     let found: Vec<_> = satellites
         .par_iter()
@@ -129,7 +129,7 @@ fn candidates_at_once(
     let judged = found.par_iter().flat_map(|(elements, priority, propagator, passes)| {
         let satellite = (*elements, *priority, propagator);
         let judged = passes.par_iter();
-        judged.map(move |pass| candidate(station, satellite, pass, &limits, common))
+        judged.map(move |pass| candidate(station, satellite, pass, limits, common))
     });
     let judged = judged.collect();
     (judged, finding, start.elapsed())
