@@ -5,6 +5,7 @@
 use std::{num::NonZeroU32, sync::Arc};
 
 use azel::{
+    astro::time::seconds_between,
     driver,
     engine::{
         Client, Command,
