@@ -96,15 +96,14 @@ impl AzElAxes {
     ) -> Planned {
         let [azimuth_max_deg, elevation_max_deg] = self.rates_deg_s.map(|rate| rate * step_s);
         let flipped = flip.flipped(samples);
-        let seen: Vec<Seen> = samples
-            .iter()
-            .zip(&flipped)
-            .map(|(sample, is_flipped)| {
-                Seen::new(sample.direction, *is_flipped, self.elevation_deg)
-            })
-            .collect();
-        let cost = |index: usize, azimuth: &SinCos| {
-            seen.get(index).map_or(0.0, |seen| seen.azimuth_cost(*azimuth))
+        // The sines and cosines are needed only where an axis does not keep up.
+        let seen = |index: usize| {
+            let (sample, is_flipped) = samples.get(index).zip(flipped.get(index))?;
+            Some(Seen::new(sample.direction, *is_flipped, self.elevation_deg))
+        };
+        let cost = |index: usize| {
+            let seen = seen(index);
+            move |azimuth: &SinCos| seen.map_or(0.0, |seen| seen.azimuth_cost(*azimuth))
         };
         // First computed as if the axis had no ends, so that a turn of the sky that the axis does
         // not make in time does not take it to an end.
@@ -123,13 +122,23 @@ impl AzElAxes {
             .into_iter()
             .map(|axis_deg| axis_deg.min(to_deg).max(from_deg))
             .collect();
-        let turned: Vec<SinCos> = azimuths.iter().map(|deg| sin_cos(*deg)).collect();
-        let pairs = seen.iter().zip(&turned);
-        let elevations: Vec<f64> =
-            pairs.map(|(seen, azimuth)| seen.elevation_deg(*azimuth)).collect();
-        let cost = |index: usize, elevation: &SinCos| {
-            let pair = seen.get(index).zip(turned.get(index));
-            pair.map_or(0.0, |(seen, azimuth)| seen.cost(*azimuth, *elevation))
+        let elevations: Vec<f64> = samples
+            .iter()
+            .zip(&flipped)
+            .zip(&azimuths)
+            .map(|((sample, is_flipped), azimuth_deg)| {
+                Seen::elevation_deg(
+                    (sample.direction, *is_flipped),
+                    self.elevation_deg,
+                    *azimuth_deg,
+                )
+            })
+            .collect();
+        let cost = |index: usize| {
+            let pair = seen(index).zip(azimuths.get(index).map(|deg| sin_cos(*deg)));
+            move |elevation: &SinCos| {
+                pair.map_or(0.0, |(seen, azimuth)| seen.cost(azimuth, *elevation))
+            }
         };
         let elevations = rate_limited(&elevations, elevation_max_deg, sin_cos, cost);
         Planned { flip, axes_deg: [azimuths, elevations], slews: wrap.slews }

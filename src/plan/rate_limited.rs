@@ -12,13 +12,13 @@ const SAME_DEG: f64 = 1e-6;
 
 /// Positions along `wanted` (degrees at equal intervals) that never differ by more than `max_deg`
 /// from one interval to the next. Where the course is slow enough, they are the course itself;
-/// elsewhere they minimise the sum of `cost(interval, position)`, with each position as `prepare`
+/// elsewhere they minimise the sum of `cost(interval)(position)`, with each position as `prepare`
 /// makes it once for all intervals.
-pub(super) fn rate_limited<P>(
+pub(super) fn rate_limited<P, C: Fn(&P) -> f64>(
     wanted: &[f64],
     max_deg: f64,
     prepare: impl Fn(f64) -> P,
-    cost: impl Fn(usize, &P) -> f64,
+    cost: impl Fn(usize) -> C,
 ) -> Vec<f64> {
     let bounds = Envelope::around(wanted, max_deg);
     let mut way = bounds.low.clone();
@@ -103,8 +103,9 @@ mod tests {
 
     /// Positions along `wanted`, with errors weighted by `weight`.
     fn weighted(wanted: &[f64], weight: &[f64], max_deg: f64) -> Vec<f64> {
-        let cost =
-            |at: usize, place: &f64| weight[at] * (1.0 - (place - wanted[at]).to_radians().cos());
+        let cost = |at: usize| {
+            move |place: &f64| weight[at] * (1.0 - (place - wanted[at]).to_radians().cos())
+        };
         rate_limited(wanted, max_deg, |place| place, cost)
     }
 
@@ -157,7 +158,9 @@ mod tests {
                 (f64::from(at) * 0.1).atan().to_degrees() + 90.0 + side
             })
             .collect();
-        let cost = |at: usize, place: &f64| (place - wanted[at]).to_radians().sin().powi(2);
+        let wanted_at = wanted.as_slice();
+        let cost =
+            |at: usize| move |place: &f64| (place - wanted_at[at]).to_radians().sin().powi(2);
         let way = rate_limited(&wanted, 4.0, |place| place, cost);
         assert!(fastest(&way) <= 4.0 + 1e-9);
         assert!(way.iter().all(|place| place.abs() < 60.0), "{way:?}");

@@ -81,7 +81,7 @@ const fn view(name: &'static str, open: &'static [Act], leave: &'static [Act]) -
     View { name, open, leave }
 }
 
-const VIEWS: [View; 22] = [
+const VIEWS: [View; 23] = [
     view("operate", &[OPERATE, FIRST_ANTENNA], &[]),
     view("operate-genius", &[SECOND_ANTENNA], &[]),
     view("operate-rc2000c", &[THIRD_ANTENNA], &[FIRST_ANTENNA]),
@@ -107,6 +107,7 @@ const VIEWS: [View; 22] = [
         &[Click("Revert")],
     ),
     view("preferences-satellites", &[Click("Satellites and priorities")], &[]),
+    view("preferences-rules", &[Click("Automation rules")], &[]),
     view("preferences-horizon", &[Click("Horizon and keep-outs")], &[]),
     view("preferences-alarms", &[Click("Alarms and sounds")], &[]),
     view("preferences-appearance", &[Click("Appearance")], &[]),

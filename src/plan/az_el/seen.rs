@@ -23,37 +23,43 @@ pub(super) fn sin_cos(deg: f64) -> SinCos {
 pub(super) struct Seen {
     azimuth: SinCos,
     height: SinCos,
-    /// Position of the elevation axis where it does not make up for the azimuth, degrees.
-    default_deg: f64,
+    /// The elevation axis where it does not make up for the azimuth.
     usual: SinCos,
-    /// Ends of the elevation axis where it makes up for the azimuth, degrees.
-    ends_deg: Option<[f64; 2]>,
+    /// Ends of the elevation axis where it makes up for the azimuth.
     ends: Option<[SinCos; 2]>,
+}
+
+/// Position of the elevation axis where it does not make up for the azimuth, degrees.
+fn usual_deg(direction: AzEl, is_flipped: bool, ends_deg: Option<(f64, f64)>) -> f64 {
+    let elevation_deg = direction.elevation_deg();
+    let side_deg = if is_flipped { 180.0 - elevation_deg } else { elevation_deg };
+    let (from_deg, to_deg) = ends_deg.unwrap_or((-90.0, 90.0));
+    side_deg.min(to_deg).max(from_deg)
 }
 
 impl Seen {
     /// Prepares `direction` for an elevation axis between `ends_deg`, flipped or not.
     pub(super) fn new(direction: AzEl, is_flipped: bool, ends_deg: Option<(f64, f64)>) -> Self {
-        let elevation_deg = direction.elevation_deg();
-        let side_deg = if is_flipped { 180.0 - elevation_deg } else { elevation_deg };
-        let (from_deg, to_deg) = ends_deg.unwrap_or((-90.0, 90.0));
-        let default_deg = side_deg.min(to_deg).max(from_deg);
         let helps = ends_deg.filter(|_| is_overhead(direction));
-        let ends_deg = helps.map(|(from_deg, to_deg)| [from_deg, to_deg]);
         Self {
             azimuth: direction.azimuth.radians().sin_cos(),
             height: direction.elevation.radians().sin_cos(),
-            default_deg,
-            usual: sin_cos(default_deg),
-            ends_deg,
-            ends: ends_deg.map(|ends_deg| ends_deg.map(sin_cos)),
+            usual: sin_cos(usual_deg(direction, is_flipped, ends_deg)),
+            ends: helps.map(|(from_deg, to_deg)| [from_deg, to_deg].map(sin_cos)),
         }
     }
 
     /// The best position of the elevation axis for a position of the azimuth axis, in degrees.
-    pub(super) fn elevation_deg(&self, azimuth: SinCos) -> f64 {
-        let Some([from_deg, to_deg]) = self.ends_deg else { return self.default_deg };
-        let (up, along) = self.in_plane(azimuth);
+    pub(super) fn elevation_deg(
+        (direction, is_flipped): (AzEl, bool),
+        ends_deg: Option<(f64, f64)>,
+        azimuth_deg: f64,
+    ) -> f64 {
+        let usual_deg = usual_deg(direction, is_flipped, ends_deg);
+        let Some((from_deg, to_deg)) = ends_deg.filter(|_| is_overhead(direction)) else {
+            return usual_deg;
+        };
+        let (up, along) = Self::new(direction, is_flipped, ends_deg).in_plane(sin_cos(azimuth_deg));
         up.atan2(along).to_degrees().min(to_deg).max(from_deg)
     }
 

@@ -114,9 +114,12 @@ fn the_best_elevation_costs_least() {
         for elevation_deg in [62.0, 75.0, 89.0] {
             for to_deg in [90.0, 110.0, 180.0] {
                 let direction = AzEl::from_degrees(123.0, elevation_deg);
-                let seen = Seen::new(direction, false, Some((10.0, to_deg)));
-                let azimuth = sin_cos(f64::from(azimuth_deg));
-                let best = seen.cost(azimuth, sin_cos(seen.elevation_deg(azimuth)));
+                let ends_deg = Some((10.0, to_deg));
+                let seen = Seen::new(direction, false, ends_deg);
+                let azimuth_deg = f64::from(azimuth_deg);
+                let azimuth = sin_cos(azimuth_deg);
+                let best_deg = Seen::elevation_deg((direction, false), ends_deg, azimuth_deg);
+                let best = seen.cost(azimuth, sin_cos(best_deg));
                 assert!((best - seen.azimuth_cost(azimuth)).abs() < 1e-12);
                 let others = (10..=180).map(f64::from).filter(|at| *at <= to_deg);
                 let least = others.map(|at| seen.cost(azimuth, sin_cos(at))).fold(9.0, f64::min);

@@ -76,30 +76,26 @@ impl Drives {
         });
         let (lower, upper): (Vec<f64>, Vec<f64>) =
             axes.map(|[lower, upper]| (lower, upper)).unzip();
-        let turned = |deg: &f64| deg.to_radians().sin_cos();
-        let lower_at: Vec<(f64, f64)> = lower.iter().map(turned).collect();
-        let upper_at: Vec<(f64, f64)> = upper.iter().map(turned).collect();
-        let off = |wanted: &[(f64, f64)], index: usize, (sin, cos): (f64, f64)| {
-            wanted.get(index).map_or(0.0, |(to_sin, to_cos)| 1.0 - (cos * to_cos + sin * to_sin))
+        let turned = |deg: f64| deg.to_radians().sin_cos();
+        let wanted = |axis: &[f64], index: usize| turned(axis.get(index).copied().unwrap_or(90.0));
+        let off = |(to_sin, to_cos): (f64, f64), (sin, cos): (f64, f64)| {
+            1.0 - (cos * to_cos + sin * to_sin)
         };
         let [lower_max_deg, upper_max_deg] = self.rates_deg_s.map(|rate| rate * step_s);
-        let lower = rate_limited(
-            &lower,
-            lower_max_deg,
-            |deg| turned(&deg),
-            |index, at| {
-                // The farther the upper axis is tipped, the less the lower one matters.
-                let (sin, _) = upper_at.get(index).copied().unwrap_or((1.0, 0.0));
-                sin.powi(2) * off(&lower_at, index, *at)
-            },
-        );
-        let upper = rate_limited(
-            &upper,
-            upper_max_deg,
-            |deg| turned(&deg),
-            |index, at| off(&upper_at, index, *at),
-        );
-        Planned { flip: Flip::None, axes_deg: [lower, upper], slews: Vec::new() }
+        let lower_cost = |index: usize| {
+            // The farther the upper axis is tipped, the less the lower one matters.
+            let ((sin, _), to) = (wanted(&upper, index), wanted(&lower, index));
+            move |at: &(f64, f64)| sin.powi(2) * off(to, *at)
+        };
+        let upper_cost = |index: usize| {
+            let to = wanted(&upper, index);
+            move |at: &(f64, f64)| off(to, *at)
+        };
+        let axes_deg = [
+            rate_limited(&lower, lower_max_deg, turned, lower_cost),
+            rate_limited(&upper, upper_max_deg, turned, upper_cost),
+        ];
+        Planned { flip: Flip::None, axes_deg, slews: Vec::new() }
     }
 
     fn az_el(&self) -> AzElAxes {

@@ -80,9 +80,10 @@ pub(super) fn round(
         }
         index = stretch.end;
     }
-    let cost = |index: usize, at_s: &f64| {
+    let line = &line;
+    let cost = |index: usize| {
         let target = samples.get(index).map(|sample| sample.direction);
-        target.map_or(0.0, |target| line.off(target, *at_s, bounds))
+        move |at_s: &f64| target.map_or(0.0, |target| line.off(target, *at_s, bounds))
     };
     let way_s = rate_limited(&wanted_s, step_s * SHARE_OF_RATE, |at_s| at_s, cost);
     let places = way_s.into_iter().map(|at_s| line.at(at_s));

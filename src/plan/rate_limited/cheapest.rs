@@ -22,13 +22,13 @@ pub(super) struct Rough {
 
 /// The cheapest path through `slew` of an axis that stands at `before_deg` one interval before the
 /// slew and turns by at most `max_deg` per interval.
-pub(super) fn between<P>(
+pub(super) fn between<P, C: Fn(&P) -> f64>(
     bounds: &Envelope,
     slew: &Range<usize>,
     before_deg: f64,
     max_deg: f64,
     prepare: &impl Fn(f64) -> P,
-    cost: &impl Fn(usize, &P) -> f64,
+    cost: &impl Fn(usize) -> C,
 ) -> Rough {
     let low = bounds.low.get(slew.clone()).unwrap_or_default().iter();
     let high = bounds.high.get(slew.clone()).unwrap_or_default().iter();
@@ -54,6 +54,7 @@ pub(super) fn between<P>(
         let index = index.saturating_sub(1);
         let lowest_deg = at(&bounds.low, index) - cell_deg;
         let highest_deg = at(&bounds.high, index) + cell_deg;
+        let cost = cost(index);
         let best = |(place, prepared): (usize, &P)| {
             let deg = place_deg(place);
             if deg < lowest_deg || deg > highest_deg {
@@ -66,7 +67,7 @@ pub(super) fn between<P>(
             });
             let (from, sum) =
                 from.min_by(|a, b| a.1.total_cmp(&b.1)).unwrap_or((place, f64::INFINITY));
-            (from, sum + cost(index, prepared))
+            (from, sum + cost(prepared))
         };
         let (from, next): (Vec<usize>, Vec<f64>) = prepared.iter().enumerate().map(best).unzip();
         came.push(from);

@@ -131,7 +131,7 @@ impl Reach {
             });
             let places = axes_deg[0].iter().zip(&axes_deg[1]).map(|(a, b)| [*a, *b]);
             let mut pairs = samples.list.iter().zip(places);
-            slow && pairs.all(|(it, axes_deg)| self.off(it.direction, axes_deg) <= self.half_beam)
+            slow && pairs.all(|(it, axes_deg)| self.is_in_beam(it.direction, axes_deg))
         };
         ways.iter().all(follows).then(|| {
             let ways = ways.into_iter();
@@ -180,7 +180,7 @@ impl Reach {
                     continue;
                 }
             }
-            if self.off(sample.direction, axes_deg) > self.half_beam {
+            if !self.is_in_beam(sample.direction, axes_deg) {
                 lost_at = lost_at.or_else(|| Some(self.loss_at(sample, &slews)));
                 continue;
             }
@@ -269,12 +269,22 @@ impl Reach {
             .collect()
     }
 
-    fn off(&self, direction: AzEl, axes_deg: [f64; 2]) -> Angle {
-        if self.drives.has_elevation {
-            self.bounds.direction(axes_deg).separation(direction)
+    fn is_in_beam(&self, direction: AzEl, axes_deg: [f64; 2]) -> bool {
+        let off = if self.drives.has_elevation {
+            let points = self.bounds.direction(axes_deg);
+            let [azimuth, elevation] = [
+                (points.azimuth - direction.azimuth).wrapped_180().abs(),
+                (points.elevation - direction.elevation).abs(),
+            ];
+            // No direction is farther away than both differences together.
+            if azimuth + elevation <= self.half_beam {
+                return true;
+            }
+            points.separation(direction)
         } else {
             (Angle::from_degrees(axes_deg[0]) - direction.azimuth).wrapped_180().abs()
-        }
+        };
+        off <= self.half_beam
     }
 
     /// The longest leg between any two of these places, without detours, milliseconds.

@@ -32,7 +32,7 @@ const STEP_S: f64 = 60.0;
 /// Step of Page Up and Page Down.
 pub const LONG_STEP_S: f64 = 600.0;
 
-const NOTHING_MOVES: &str = "Nothing moves. To point an antenna, go back to now.";
+const MOVES_NOTHING: &str = "The slider moves nothing. To point an antenna, go back to now.";
 
 /// Shows the row in `rect`.
 pub(in crate::ui::operate) fn show(ui: &Ui, rect: Rect, model: &Model, state: &mut SkyTime) {
@@ -79,8 +79,8 @@ fn say(ui: &Ui, room: Rect, model: &Model, state: &SkyTime) {
     };
     paint::text_in(ui, upper, left, &words, text::small_strong(), t.warn);
     let colour = if state.is_click_refused { t.warn } else { t.t1 };
-    paint::text_in(ui, lower, left, NOTHING_MOVES, text::caption(), colour);
-    paint::name_text(ui, "sky time", room, &format!("{words}. {NOTHING_MOVES}"));
+    paint::text_in(ui, lower, left, MOVES_NOTHING, text::caption(), colour);
+    paint::name_text(ui, "sky time", room, &format!("{words}. {MOVES_NOTHING}"));
 }
 
 fn slider(ui: &Ui, track: Rect, model: &Model, state: &mut SkyTime) {
