@@ -27,7 +27,9 @@ const SPEED: NonZeroU32 = NonZeroU32::new(100).unwrap();
 fn station() -> Station {
     let mut station = scene::station();
     station.scheduling.warn_after_rest_min = 24.0 * 60.0;
-    station.antennas.iter_mut().for_each(|antenna| antenna.automatic.is_on_at_start = true);
+    for antenna in &mut station.antennas {
+        antenna.automatic.is_on_at_start = true;
+    }
     station
 }
 

@@ -27,8 +27,9 @@ const TURN_DEG: f64 = 360.0;
 const SLOW: f64 = 0.4;
 /// Elevation from which a loss counts as overhead, degrees.
 const OVERHEAD_FROM_DEG: f64 = 60.0;
-/// Elevation below which a pass may be judged by few samples, degrees.
-const LOW_DEG: f64 = 75.0;
+/// Angle from the direction in which the first axis turns on the spot (the zenith, or an end of
+/// the lower axis of an X/Y mount) from which a pass may be judged by few samples, degrees.
+const CLEAR_DEG: f64 = 5.0;
 
 /// Mount, rates, limits and bounds of an antenna, as passes and slews need them.
 #[derive(Debug, Clone)]
@@ -119,8 +120,7 @@ impl Reach {
     /// The ways of a pass that the axes follow without effort; `None` for one that has to be
     /// looked at more closely.
     fn easy_ways(&self, samples: &Samples, clear: &[Span]) -> Option<Vec<Way>> {
-        let is_low = |it: &Sample| it.direction.elevation_deg() < LOW_DEG;
-        if self.has_barriers() || !samples.list.iter().all(is_low) {
+        if self.has_barriers() {
             return None;
         }
         let ways: Vec<_> = self.planned(samples).into_iter().map(|it| it.axes_deg).collect();
@@ -131,13 +131,23 @@ impl Reach {
             });
             let places = axes_deg[0].iter().zip(&axes_deg[1]).map(|(a, b)| [*a, *b]);
             let mut pairs = samples.list.iter().zip(places);
-            slow && pairs.all(|(it, axes_deg)| self.is_in_beam(it.direction, axes_deg))
+            slow && axes_deg[1].iter().all(|deg| self.is_clear(*deg))
+                && pairs.all(|(it, axes_deg)| self.is_in_beam(it.direction, axes_deg))
         };
         ways.iter().all(follows).then(|| {
             let ways = ways.into_iter();
             let ways = ways.map(|axes_deg| Way::new(samples, axes_deg, clear.to_vec(), None));
             ways.collect()
         })
+    }
+
+    /// Whether the first axis need not turn on the spot with the second one here.
+    fn is_clear(&self, second_deg: f64) -> bool {
+        let to_pole_deg = match self.drives.mount {
+            Mount::AzEl { .. } => (second_deg - 90.0).abs(),
+            Mount::Xy { .. } => 90.0 - (second_deg - 90.0).abs(),
+        };
+        to_pole_deg >= CLEAR_DEG
     }
 
     fn ways(&self, samples: &Samples, clear: &[Span]) -> Verdict {
@@ -321,5 +331,63 @@ impl Reach {
         let legs = route.iter().zip(route.iter().skip(1));
         let seconds: f64 = legs.map(|(from, to)| limits.seconds(*from, *to)).sum();
         Some(straight_ms.max((seconds * 1000.0).ceil() as i64))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{
+        orbit::{PassSearch, Propagator, passes},
+        plan::schedule::testing::{Random, low_satellites, noon, planned, three_antennas},
+    };
+
+    #[test]
+    fn what_few_samples_tell_of_a_pass_is_what_many_tell() {
+        let station = three_antennas();
+        let antennas = planned(&station, noon());
+        let search = PassSearch {
+            aos_elevation: station.aos_elevation(),
+            floor: station.elevation_floor(),
+            ..PassSearch::new(
+                station.site,
+                noon(),
+                crate::astro::time::add_seconds(noon(), 86_400.0),
+            )
+        };
+        let mut compared = [0; 3];
+        for satellite in low_satellites(&mut Random::new(7), 60) {
+            let propagator = Propagator::new(&satellite.elements).unwrap();
+            for pass in passes(&propagator, &search, &|| false) {
+                let mut sight = Sight::new(&propagator, station.site, None, &pass);
+                for (antenna, compared) in antennas.iter().zip(&mut compared) {
+                    let reach = &antenna.reach;
+                    let Some(span) = sight.above(reach.min_elevation()) else { continue };
+                    let clear = sight.clear(span);
+                    let Some(few) = reach.easy_ways(sight.samples(span, false), &clear) else {
+                        continue;
+                    };
+                    let Verdict::Possible(many) = reach.ways(sight.samples(span, true), &clear)
+                    else {
+                        panic!("{pass:?}");
+                    };
+                    assert_eq!(few.len(), many.len(), "{pass:?}");
+                    for (few, many) in few.iter().zip(&many) {
+                        let (a, b) = (few.span(), many.span());
+                        assert!(
+                            (few.counted_ms(a) - many.counted_ms(b)).abs() <= 4_000,
+                            "{pass:?}"
+                        );
+                        for (from_ms, to_ms) in [(a.from_ms, b.from_ms), (a.to_ms, b.to_ms)] {
+                            let pairs = few.axes_deg(from_ms).into_iter().zip(many.axes_deg(to_ms));
+                            let apart = pairs.map(|(few, many)| (few - many).abs());
+                            assert!(apart.fold(0.0, f64::max) < 2.0, "{pass:?}");
+                        }
+                    }
+                    *compared += 1;
+                }
+            }
+        }
+        assert!(compared.iter().all(|count| *count > 10), "{compared:?}");
     }
 }

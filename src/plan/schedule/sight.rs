@@ -7,10 +7,11 @@ use crate::{
     plan::Sample,
 };
 
-/// Distance between samples, seconds, and their greatest number.
+/// Distance between samples, seconds, and their greatest numbers.
 const FINE_S: f64 = 2.0;
 const COARSE_S: f64 = 20.0;
-const MAX_SAMPLES: f64 = 600.0;
+const MAX_FINE: f64 = 600.0;
+const MAX_COARSE: f64 = 60.0;
 /// Halvings that find when a height is crossed, to some milliseconds.
 const HALVINGS: usize = 18;
 
@@ -96,7 +97,8 @@ impl<'a> Sight<'a> {
 
 fn sampled(propagator: &Propagator, site: Site, span: Span, fine: bool) -> Samples {
     let seconds = span.length_ms() as f64 / 1000.0;
-    let step_s = if fine { FINE_S.max(seconds / MAX_SAMPLES) } else { COARSE_S };
+    let (least_s, most) = if fine { (FINE_S, MAX_FINE) } else { (COARSE_S, MAX_COARSE) };
+    let step_s = least_s.max(seconds / most);
     let steps = (seconds / step_s).ceil().max(1.0);
     let step_s = seconds / steps;
     let list = (0..=steps as i64)

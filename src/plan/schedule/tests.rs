@@ -210,7 +210,9 @@ fn a_pass_that_is_tracked_already_stays_until_its_end() {
     }
     // By then it could not be taken as a whole.
     let mut later = antennas.clone();
-    later.iter_mut().for_each(|antenna| antenna.free_from = now);
+    for antenna in &mut later {
+        antenna.free_from = now;
+    }
     let without = plan(&request(&later, &list));
     assert!(without.entries_of(entry.pass).all(|found| found.antenna != entry.antenna));
     let fixed = [rest];
