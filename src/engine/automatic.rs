@@ -1,17 +1,21 @@
 //! Automatic operation: the station takes the passes of its schedule by itself, antenna by antenna.
 
 mod at_start;
+mod auto_track;
 mod day;
 mod operation;
+mod seen;
 
-use std::{path::PathBuf, time::Duration};
+use std::path::PathBuf;
 
 use jiff::Timestamp;
 
 pub(super) use self::{at_start::LastRun, operation::is_same_pass};
 use self::{
+    auto_track::AutoTrack,
     day::Flight,
     operation::{Act, LATE_S, Outcome, Seen, Wishes},
+    seen::seen,
 };
 pub use self::{
     day::{DayEvent, DayLine, Flown, MissCause},
@@ -23,17 +27,14 @@ use super::{
 };
 use crate::{
     astro::time::{add_seconds, seconds_between},
-    clock::Instant,
     device::{Asked, Motion},
-    driver::{self, Event, Found, Intent, Refusal, Response, Safety, StopState},
+    driver::{self, Event, Found, Refusal, Response, Safety, StopState},
     plan::schedule::{Entry, sun_is},
     station::{self, AntennaId, AutomationRule, BetweenPasses, Station, Then},
 };
 
 /// An antenna is sent to a pass so long before it has to be, seconds.
 const LEAD_S: f64 = 60.0;
-/// A unit that still has auto-track on is told again after this time.
-const AUTO_TRACK_AGAIN: Duration = Duration::from_secs(10);
 
 /// What automatic operation of an antenna has at hand, besides its state in the snapshot.
 #[derive(Default)]
@@ -46,33 +47,10 @@ pub(super) struct AtWork {
     auto_track: AutoTrack,
 }
 
-/// Auto-track of a unit, as far as automatic operation has to do with it.
-#[derive(Default)]
-enum AutoTrack {
-    /// As the operator has it.
-    #[default]
-    Untouched,
-    /// Switched on for a pass that the unit holds.
-    On,
-    /// To be switched off, once the unit can be reached. When that was sent last.
-    ToBeOff { sent: Option<Instant> },
-}
-
 impl AtWork {
     /// What remains of it when the antenna is given another unit.
     pub(super) fn without_unit(self) -> Self {
         Self { auto_track: AutoTrack::Untouched, ..self }
-    }
-}
-
-impl Antenna {
-    /// Has auto-track switched off where automatic operation uses it, in this run or one before.
-    fn end_auto_track(&mut self) {
-        let is_chosen = self.shown.config.automatic.uses_auto_track;
-        let is_used = is_chosen && self.shown.variant().capabilities.has_program;
-        if is_used || matches!(self.at_work.auto_track, AutoTrack::On) {
-            self.at_work.auto_track = AutoTrack::ToBeOff { sent: None };
-        }
     }
 }
 
@@ -290,46 +268,6 @@ impl Engine {
         }
     }
 
-    /// The unit starts what it holds by itself, where the operator wants that.
-    fn switch_auto_track_on(&mut self, index: usize) {
-        let Some(antenna) = self.antennas.get_mut(index) else { return };
-        let shown = &antenna.shown;
-        if shown.config.automatic.uses_auto_track && shown.variant().capabilities.has_program {
-            antenna.at_work.auto_track = AutoTrack::On;
-            self.send(index, driver::Command::AutoTrack(true));
-        }
-    }
-
-    fn owe_auto_track_off(&mut self, index: usize) {
-        if let Some(antenna) = self.antennas.get_mut(index) {
-            antenna.end_auto_track();
-        }
-    }
-
-    /// Switches auto-track off where that is owed, until the unit says so.
-    fn switch_auto_track_off(&mut self, index: usize) {
-        let now = self.steady;
-        let Some(antenna) = self.antennas.get_mut(index) else { return };
-        let AutoTrack::ToBeOff { sent } = &mut antenna.at_work.auto_track else { return };
-        if antenna.shown.snapshot.lock_out.is_some() {
-            // The lock-out has switched it off.
-            antenna.at_work.auto_track = AutoTrack::Untouched;
-            return;
-        }
-        if !antenna.shown.is_live() {
-            return;
-        }
-        let state = &antenna.shown.snapshot.state;
-        let is_off = state.program.is_some_and(|program| program.auto != Some(true));
-        let is_answer = |sent| state.measured.is_some_and(|measured| measured.asked > sent);
-        if is_off && sent.is_some_and(is_answer) {
-            antenna.at_work.auto_track = AutoTrack::Untouched;
-        } else if sent.is_none_or(|at| now.saturating_duration_since(at) >= AUTO_TRACK_AGAIN) {
-            *sent = Some(now);
-            self.send(index, driver::Command::AutoTrack(false));
-        }
-    }
-
     /// The passes that the schedule gives to an antenna.
     fn duties(&self, antenna: &AntennaModel) -> Vec<Duty> {
         let id = antenna.id();
@@ -516,41 +454,5 @@ fn duty(entry: &Entry, between: BetweenPasses) -> Duty {
         counted_s: entry.counted_s,
         begins_late: entry.late_s > 0.0,
         ends_early: entry.early_s > 0.0,
-    }
-}
-
-/// What automatic operation has to know of an antenna.
-fn seen(antenna: &AntennaModel) -> Seen {
-    let snapshot = &antenna.snapshot;
-    let moves = snapshot.state.measured.is_some_and(|measured| measured.moving());
-    let is_still_asked = snapshot.intent == Intent::Track
-        || snapshot.pending
-        || snapshot.runs_out
-        || snapshot.jog.is_some()
-        || snapshot.step.is_some();
-    let stops =
-        matches!(snapshot.stop, StopState::Stopping { .. } | StopState::NotConfirmed { .. });
-    let takes = antenna.tracked_number().filter(|_| !antenna.tracks_unasked());
-    // Somebody has given the unit another satellite than it was asked to track from here.
-    let asked = snapshot.target.as_ref().map(|target| target.catalog_number);
-    let is_replaced = antenna.is_live()
-        && snapshot.intent == Intent::Track
-        && !snapshot.pending
-        && snapshot.state.program.is_some_and(|program| program.enabled)
-        && asked.is_some_and(|asked| takes.is_some_and(|takes| takes != asked));
-    Seen {
-        is_live: antenna.is_live(),
-        is_locked_out: snapshot.lock_out.is_some(),
-        can_be_sent: !stops && snapshot.left_moving.is_none() && antenna.held_by.is_none(),
-        takes: takes.filter(|number| antenna.takes(*number)),
-        is_proved: !snapshot.pending,
-        awaits_operator: snapshot.program_track.as_ref().is_some_and(|view| view.awaits_operator),
-        offers: antenna
-            .tracked_number()
-            .filter(|_| antenna.tracks_unasked() && snapshot.on_board.is_some()),
-        may_be_planned: false,
-        moves,
-        is_moved_elsewhere: is_replaced
-            || antenna.is_live() && (antenna.tracks_unasked() || moves && !is_still_asked),
     }
 }

@@ -1,0 +1,42 @@
+//! What automatic operation has to know of an antenna at one moment, taken from its snapshot.
+
+use super::operation::Seen;
+use crate::{
+    driver::{Intent, StopState},
+    engine::antenna::AntennaModel,
+};
+
+pub(super) fn seen(antenna: &AntennaModel) -> Seen {
+    let snapshot = &antenna.snapshot;
+    let moves = snapshot.state.measured.is_some_and(|measured| measured.moving());
+    let is_still_asked = snapshot.intent == Intent::Track
+        || snapshot.pending
+        || snapshot.runs_out
+        || snapshot.jog.is_some()
+        || snapshot.step.is_some();
+    let stops =
+        matches!(snapshot.stop, StopState::Stopping { .. } | StopState::NotConfirmed { .. });
+    let takes = antenna.tracked_number().filter(|_| !antenna.tracks_unasked());
+    // Somebody has given the unit another satellite than it was asked to track from here.
+    let asked = snapshot.target.as_ref().map(|target| target.catalog_number);
+    let is_replaced = antenna.is_live()
+        && snapshot.intent == Intent::Track
+        && !snapshot.pending
+        && snapshot.state.program.is_some_and(|program| program.enabled)
+        && asked.is_some_and(|asked| takes.is_some_and(|takes| takes != asked));
+    Seen {
+        is_live: antenna.is_live(),
+        is_locked_out: snapshot.lock_out.is_some(),
+        can_be_sent: !stops && snapshot.left_moving.is_none() && antenna.held_by.is_none(),
+        takes: takes.filter(|number| antenna.takes(*number)),
+        is_proved: !snapshot.pending,
+        awaits_operator: snapshot.program_track.as_ref().is_some_and(|view| view.awaits_operator),
+        offers: antenna
+            .tracked_number()
+            .filter(|_| antenna.tracks_unasked() && snapshot.on_board.is_some()),
+        may_be_planned: false,
+        moves,
+        is_moved_elsewhere: is_replaced
+            || antenna.is_live() && (antenna.tracks_unasked() || moves && !is_still_asked),
+    }
+}
