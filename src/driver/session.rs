@@ -386,6 +386,7 @@ impl Session {
             target: self.activity.on_board().map(|track| track.target.clone()),
             on_board: self.on_board_watch().map(on_board::Watch::view),
             program_track: self.activity.last_program().map(Tracking::view),
+            rates_deg_s: Some(self.setup.track_config.rates_deg_s()),
             unproved: self.is_unproved(),
             lock_out: self.gate.lock_out().cloned(),
             locking: self.is_being_locked_out(),

@@ -34,6 +34,9 @@ pub struct Snapshot {
     /// The on-board track, as it is supervised.
     pub on_board: Option<OnBoardView>,
     pub program_track: Option<TrackView>,
+    /// Rates of the axes as learned from long slews, degrees per second; `None` before the
+    /// session runs. Until a slew they are those of the settings.
+    pub rates_deg_s: Option<[f64; 2]>,
     /// It was moved from here, or a STOP is owed, and standstill has not been proved since.
     pub unproved: bool,
     pub lock_out: Option<LockOut>,
@@ -74,6 +77,7 @@ impl Snapshot {
             target: None,
             on_board: None,
             program_track: None,
+            rates_deg_s: None,
             unproved: false,
             lock_out: None,
             locking: false,

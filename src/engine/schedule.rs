@@ -17,8 +17,8 @@ use crate::{
     driver::LinkState,
     job::Job,
     plan::schedule::{
-        self, Candidate, Change, Common, Entry, Off, Partial, PlannedAntenna, Request, Schedule,
-        Steadiness, changes, plan, plan_with,
+        self, Candidate, Change, Common, Entry, Off, Partial, PlannedAntenna, Reach, Request,
+        Schedule, Steadiness, changes, plan, plan_with,
     },
     station::{AntennaId, Station},
 };
@@ -61,8 +61,8 @@ pub(super) struct Inputs {
     off: Vec<(AntennaId, Off)>,
     /// Satellites that antennas track without automatic operation.
     tracked: Vec<(AntennaId, u32)>,
-    /// Antennas of which it is known where they stand.
-    placed: Vec<AntennaId>,
+    /// Antennas of which it is known where they stand, with the rates of their axes as learned.
+    placed: Vec<(AntennaId, Option<[f64; 2]>)>,
 }
 
 impl PartialEq for Inputs {
@@ -121,7 +121,8 @@ impl Engine {
             is_by_hand.then_some((shown.id(), number))
         });
         let is_placed = |antenna: &&super::Antenna| antenna.shown.snapshot.state.measured.is_some();
-        let placed = self.antennas.iter().filter(is_placed).map(|antenna| antenna.shown.id());
+        let placed = self.antennas.iter().filter(is_placed);
+        let placed = placed.map(|antenna| (antenna.shown.id(), antenna.shown.snapshot.rates_deg_s));
         let inputs = Inputs {
             station: Arc::clone(&self.station),
             passes: Arc::clone(&list.passes),
@@ -201,6 +202,7 @@ impl Engine {
             PlannedAntenna {
                 stands_deg: axes.and_then(|[first, second]| Some([first?, second?])),
                 off: off.map(|(_, off)| *off),
+                reach: Reach::of(&self.station, config, shown.snapshot.rates_deg_s),
                 ..PlannedAntenna::of(&self.station, config, self.now)
             }
         };

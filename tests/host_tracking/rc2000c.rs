@@ -126,6 +126,9 @@ async fn a_rate_that_was_set_wrong_is_learned_on_the_way_to_the_pass() {
         rig.send(Command::Position { azimuth: Some(away.wrapped_360()), elevation: None });
         rig.until_event(60, |event| matches!(event, Event::Arrived(_))).await;
         let learned = over(&mut rig, &scene).await;
+        let rates_deg_s = rig.shown().rates_deg_s.unwrap();
+        let real_deg_s = self::antenna(360.0).limits.maximum_rate_deg_s;
+        assert!((rates_deg_s[0] / real_deg_s - 1.0).abs() < 0.1, "{rates_deg_s:?} {real_deg_s}");
         let figures =
             |what, stats| figures(&format!("RC2000C, 88 degrees, {share} rate, {what}"), stats);
         let (_, before) = figures("not known", unknown);

@@ -21,6 +21,11 @@ pub(in crate::driver::session) struct TrackConfig {
 }
 
 impl TrackConfig {
+    /// Rates of both axes as learned, or as set.
+    pub(in crate::driver::session) fn rates_deg_s(&self) -> [f64; 2] {
+        self.drives.rates_deg_s
+    }
+
     pub(in crate::driver::session) fn of(antenna: &Antenna, can: Capabilities) -> Self {
         let drives = Drives {
             mount: antenna.mount,
