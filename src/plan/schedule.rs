@@ -93,7 +93,7 @@ impl Board<'_> {
         };
         let parts = all.iter().flatten().filter(|other| **other != take);
         let mut parts = parts.filter_map(|other| self.at(*other));
-        let shared_with = parts.find(|(other, _)| other.pass == it.pass);
+        let shared_with = parts.find(|(_, other)| other.pass == fact.pass);
         let seconds = |ms: i64| ms as f64 / 1000.0;
         Some(Entry {
             pass: fact.pass,

@@ -77,19 +77,36 @@ impl<'a> Board<'a> {
             passes: request.candidates.len() + request.fixed.len(),
         };
         for ((entry, pass), extra) in request.fixed.iter().zip(&fixed).zip(0..) {
-            let pass = pass.unwrap_or(request.candidates.len() + extra);
+            // Beside one part of a pass that is handed over, the other may be taken.
+            let own = request.candidates.len() + extra;
+            let pass = pass.filter(|_| entry.shared_with.is_none()).unwrap_or(own);
             board.add_fixed(entry, pass, limits.of_pass.get(pass).copied().flatten());
         }
-        let wholes: Vec<Whole<'_>> = (0..request.antennas.len())
-            .flat_map(|antenna| wholes(request, antenna))
-            .filter(|whole| !fixed.contains(&Some(whole.pass)))
-            .collect();
+        let wholes: Vec<Whole<'_>> =
+            (0..request.antennas.len()).flat_map(|antenna| wholes(request, antenna)).collect();
+        let fixed_beside = |whole: &Whole<'_>| {
+            let pairs = request.fixed.iter().zip(&fixed);
+            let own = pairs.filter(|(_, pass)| **pass == Some(whole.pass));
+            own.map(|(entry, _)| entry).collect::<Vec<_>>()
+        };
         let kept = Kept::of(request);
         let crowd = Crowd::of(request, &wholes);
         for whole in &wholes {
             let limit = limits.of_pass.get(whole.pass).copied().flatten();
-            for part in board.parts(whole, &crowd) {
-                board.add(whole, part, limit, &kept, forced);
+            let beside = fixed_beside(whole);
+            let id = request.antennas.get(whole.antenna).map(|antenna| antenna.id);
+            let is_free = |span: Span| {
+                beside.iter().all(|entry| {
+                    let is_apart = span.from_ms >= ms(entry.to) || span.to_ms <= ms(entry.from);
+                    entry.shared_with.is_some() && id != Some(entry.antenna) && is_apart
+                })
+            };
+            for (span, part) in board.parts(whole, &crowd) {
+                if beside.is_empty() {
+                    board.add(whole, (span, part), limit, &kept, forced);
+                } else if part != Part::Alone && is_free(span) {
+                    board.add(whole, (span, Part::Alone), limit, &kept, forced);
+                }
             }
         }
         let mut order: Vec<usize> = (0..board.takes.len()).collect();

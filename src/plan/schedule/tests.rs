@@ -222,6 +222,28 @@ fn a_pass_that_is_tracked_already_stays_until_its_end() {
 }
 
 #[test]
+fn the_other_part_of_a_pass_that_is_handed_over_stays_when_one_is_fixed() {
+    let station = three_antennas();
+    let antennas = planned(&station, noon());
+    let satellites = low_satellites(&mut Random::new(SEED), 40);
+    let list = candidates(&station, &antennas, &satellites, noon(), 2.0);
+    let partial = Some(Partial { min_share: 0.2, min_s: 60.0, step_s: 60.0, hand_over: true });
+    let request = Request { partial, ..request(&antennas, &list) };
+    let first = plan(&request);
+    let shared = first.entries.iter().filter(|it| it.shared_with.is_some());
+    let shared: Vec<_> = shared.take(2).collect();
+    assert_eq!(shared.len(), 2, "nothing is handed over");
+    for entry in shared {
+        let fixed = [entry.clone()];
+        let new = plan(&Request { fixed: &fixed, previous: Some(&first), ..request.clone() });
+        let parts: Vec<_> = new.entries_of(entry.pass).collect();
+        assert_eq!(parts.len(), 2, "{entry:?}");
+        assert!(parts.iter().all(|part| part.shared_with.is_some()));
+        assert!(parts.iter().any(|part| part.is_fixed && part.antenna == entry.antenna));
+    }
+}
+
+#[test]
 fn passes_far_from_what_changed_stay_as_they_are() {
     let station = three_antennas();
     let antennas = planned(&station, noon());
