@@ -54,6 +54,22 @@ fn antennas(station: &Station, from: Timestamp) -> Vec<PlannedAntenna> {
     planned.collect()
 }
 
+/// What all passes of so many hours have in common.
+fn asked<'a>(
+    station: &Station,
+    antennas: &'a [PlannedAntenna],
+    hours: f64,
+) -> (Common<'a>, PassSearch) {
+    let (site, floor) = (station.site, station.elevation_floor());
+    let from = antennas[0].free_from;
+    let search = PassSearch {
+        aos_elevation: station.aos_elevation(),
+        floor,
+        ..PassSearch::new(site, from, add_seconds(from, hours * 3600.0))
+    };
+    (Common { site, floor, antennas, max_age_s: None }, search)
+}
+
 /// The candidates, and the time that finding passes and judging them took.
 fn candidates(
     station: &Station,
@@ -61,14 +77,7 @@ fn candidates(
     satellites: &[(Elements, Priority)],
     hours: f64,
 ) -> (Vec<Candidate>, Duration, Duration) {
-    let from = antennas[0].free_from;
-    let floor = station.elevation_floor();
-    let common = Common { site: station.site, floor, antennas, max_age_s: None };
-    let search = PassSearch {
-        aos_elevation: station.aos_elevation(),
-        floor,
-        ..PassSearch::new(station.site, from, add_seconds(from, hours * 3600.0))
-    };
+    let (common, search) = asked(station, antennas, hours);
     let (mut found, limits) = (Vec::new(), PassLimits::default());
     let (mut finding, mut judging) = (Duration::ZERO, Duration::ZERO);
     for (elements, priority) in satellites {
@@ -99,21 +108,14 @@ fn candidate(
     Candidate::new(number, 0.0, (pass, propagator), wanted, &mut sight, common)
 }
 
-/// The same on all cores.
+/// As [`candidates`], on all cores.
 fn candidates_at_once(
     station: &Station,
     antennas: &[PlannedAntenna],
     satellites: &[(Elements, Priority)],
     hours: f64,
 ) -> (Vec<Candidate>, Duration, Duration) {
-    let from = antennas[0].free_from;
-    let floor = station.elevation_floor();
-    let common = Common { site: station.site, floor, antennas, max_age_s: None };
-    let search = PassSearch {
-        aos_elevation: station.aos_elevation(),
-        floor,
-        ..PassSearch::new(station.site, from, add_seconds(from, hours * 3600.0))
-    };
+    let (common, search) = asked(station, antennas, hours);
     let limits = &PassLimits::default();
     let start = Instant::now();
     let found: Vec<_> = satellites

@@ -95,12 +95,14 @@ impl Engine {
             let (id, is_on_at_start) = (config.id, config.automatic.is_on_at_start);
             if is_on_at_start && is_free && last.allows(id) {
                 self.set_automatic(index, true);
-            } else if !last.allows(id) {
-                // The run before may have owed its unit that.
-                self.owe_auto_track_off(index);
+            } else if !last.allows(id)
+                && let Some(antenna) = self.antennas.get_mut(index)
+            {
+                // The run before may have left it on.
+                antenna.end_auto_track();
             }
         }
-        self.last_run = last.begun();
+        self.last_run = last.next_run();
         self.keep_last_run();
     }
 
@@ -108,7 +110,7 @@ impl Engine {
     /// what was switched off there stays so at the next start.
     pub(super) fn take_over_last_run(&mut self) {
         let last = self.last_run_path().as_deref().map(LastRun::load).unwrap_or_default();
-        self.last_run = last.begun();
+        self.last_run = last.next_run();
         self.keep_last_run();
     }
 

@@ -55,8 +55,8 @@ impl LastRun {
         whole_file::replace(path, text.as_bytes())
     }
 
-    /// The run that follows it, until that ends.
-    pub(super) fn begun(self) -> Self {
+    /// What the next start has to know of the run that begins now, unless it ends in order.
+    pub(super) fn next_run(self) -> Self {
         Self { is_orderly: false, ..self }
     }
 

@@ -45,12 +45,6 @@ impl Engine {
         }
     }
 
-    pub(super) fn owe_auto_track_off(&mut self, index: usize) {
-        if let Some(antenna) = self.antennas.get_mut(index) {
-            antenna.end_auto_track();
-        }
-    }
-
     /// Switches auto-track off where that is owed, until the unit says so.
     pub(super) fn switch_auto_track_off(&mut self, index: usize) {
         let now = self.steady;

@@ -22,9 +22,10 @@ impl Candidate {
         let (_, Choice::Judged(Verdict::Possible(ways))) = option? else { return None };
         let now_ms = ms(now);
         let away_deg = |way: &&Way| {
-            let stands_deg = antenna.stands_deg.unwrap_or_default();
-            let pairs = stands_deg.into_iter().zip(way.axes_deg(now_ms));
-            pairs.map(|(stands, wanted)| (stands - wanted).abs()).fold(0.0, f64::max)
+            antenna.stands_deg.map_or(0.0, |stands_deg| {
+                let pairs = stands_deg.into_iter().zip(way.axes_deg(now_ms));
+                pairs.map(|(stands, wanted)| (stands - wanted).abs()).fold(0.0, f64::max)
+            })
         };
         let way = ways.iter().min_by(|a, b| away_deg(a).total_cmp(&away_deg(b)))?;
         let Span { from_ms, to_ms } = way.span();

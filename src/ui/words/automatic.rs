@@ -52,7 +52,7 @@ pub fn miss_cause(cause: MissCause) -> String {
         MissCause::Suspended(by) => interruption(by),
         MissCause::LinkLost => "The unit did not answer.",
         MissCause::NotResumed => {
-            "After an outage Azel asked whether to track on, and nobody answered."
+            "After an outage Azel asked whether to go on tracking, and nobody answered."
         }
         MissCause::Refused => "The unit or the gate did not take it, or it was not proved.",
         MissCause::OutsideBeam => "The antenna was outside its beam.",
