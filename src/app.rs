@@ -45,7 +45,7 @@ use crate::{
     desktop::Desktop,
     device::AxisMotion,
     driver::Outside,
-    engine::{self, Client, Handle, Settings, antenna::AntennaModel, signals},
+    engine::{self, By, Client, Handle, Settings, antenna::AntennaModel, signals},
     job::Wake,
     model::{Appearance, Model, UiCommand, View},
     ui,
@@ -309,7 +309,10 @@ fn close_on_signals(
     ctx: egui::Context,
 ) -> io::Result<()> {
     // No code panics while it holds the lock.
-    let stop = move || station.lock().unwrap_or_else(PoisonError::into_inner).stop_all();
+    let stop = move || {
+        let station = station.lock().unwrap_or_else(PoisonError::into_inner).clone();
+        station.acting_for(By::Signal).stop_all()
+    };
     let end = move || {
         for flag in flags {
             flag.store(true, Ordering::Relaxed);

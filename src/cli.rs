@@ -6,6 +6,7 @@ mod look;
 mod no_window;
 mod passes;
 mod plan;
+mod record;
 #[cfg(unix)]
 mod remote;
 pub mod serve;
@@ -53,6 +54,8 @@ enum Command {
     Plan(Box<plan::Options>),
     /// Run the station without a window, until SIGTERM or Ctrl C
     Serve(serve::Options),
+    /// Write the record of the station as lines of JSON
+    Log(record::Options),
     /// Stop the antennas of the Azel that has the station open, and wait for the proof
     #[cfg(unix)]
     Stop(remote::StopOptions),
@@ -127,6 +130,7 @@ impl Cli {
                     claims_folder(),
                 );
             }
+            Some(Command::Log(options)) => return record::run(self.station, &options),
             #[cfg(unix)]
             Some(Command::Stop(options)) => return remote::stop(self.station, &options),
             #[cfg(unix)]

@@ -8,6 +8,7 @@ mod gate;
 mod intent;
 mod link;
 mod link_test;
+mod position_log;
 mod pulse;
 mod safety;
 mod session;
@@ -38,6 +39,7 @@ pub use gate::{Preview, Refusal, Way};
 pub use intent::Intent;
 pub use link::{Dial, Stream, dial_line, dial_tcp};
 pub use link_test::{LinkFault, LinkFinding, test_link};
+pub use position_log::PositionLog;
 pub use safety::{Mover, Response, Safety, Unlike};
 pub use session::{Command, JOG_LEASE, Session, Wires};
 pub use snapshot::{
@@ -74,6 +76,7 @@ pub struct AntennaHandle {
     orders: Orders,
     events: mpsc::Receiver<Event>,
     wire: WireLog,
+    positions: PositionLog,
     orbit: Orbits,
     bounds: watch::Sender<Bounds>,
 }
@@ -169,6 +172,11 @@ impl AntennaHandle {
 
     pub fn wire(&self) -> &WireLog {
         &self.wire
+    }
+
+    /// The last measured positions.
+    pub fn positions(&self) -> &PositionLog {
+        &self.positions
     }
 
     /// Replaces the bounds of the antenna.

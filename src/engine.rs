@@ -23,6 +23,7 @@ pub mod on_board;
 mod opening;
 mod owed;
 pub mod passes;
+mod recording;
 pub mod reminders;
 pub mod schedule;
 pub mod signals;
@@ -62,6 +63,7 @@ use self::{
     link_tests::LinkTest,
     older_sets::OlderSets,
     passes::{PassLists, Searches},
+    recording::Recording,
     reminders::Reminder,
     schedule::{Planned, Scheduler},
     source_tests::SourceTests,
@@ -70,8 +72,9 @@ use self::{
 };
 pub use self::{
     command::{Attention, Command},
-    handle::{Client, Event, Handle, Stopped},
+    handle::{By, Client, Event, Handle, Stopped},
     opening::{CannotOpen, look_at},
+    recording::{demo_record_path, record_path, records_folder},
     snapshot::{CatalogState, Snapshot},
 };
 use crate::{
@@ -101,6 +104,8 @@ pub struct Settings {
     pub dead_man: Option<PathBuf>,
     /// Folder for marks of motions by hand; `None` for none.
     pub marks: Option<PathBuf>,
+    /// Folder for the records of stations; `None` to record nothing.
+    pub records: Option<PathBuf>,
     /// Folder for claims of the station and its units, and the role of this process; `None`
     /// to ignore other Azels.
     pub claims: Option<(PathBuf, HolderKind)>,
@@ -154,6 +159,7 @@ struct Engine {
     link_tests: Vec<LinkTest>,
     alarms: Alarms,
     copies: Copies,
+    recording: Recording,
     closing: Option<Closing>,
     // Drop order: the sessions end before their thread does, and that before their units.
     driver: Driver,
@@ -260,6 +266,7 @@ impl Engine {
             driver.orders().clone(),
             published,
             clock.clone(),
+            settings.claims.as_ref().map_or_else(By::default, |(_, kind)| (*kind).into()),
         );
         let mut engine = Self {
             now: now.utc,
@@ -285,6 +292,7 @@ impl Engine {
             link_tests: Vec::new(),
             alarms: Alarms::default(),
             copies: Copies::default(),
+            recording: Recording::in_folder(settings.records.clone()),
             closing: None,
             driver,
             clock,
@@ -399,7 +407,7 @@ impl Engine {
 
     fn take_request(&mut self, request: Request) {
         let is_jog = request.is_jog();
-        let Request { command, number, at } = request;
+        let Request { command, by, number, at } = request;
         let age = self.steady.saturating_duration_since(at);
         if is_jog && age > JOG_LEASE {
             // The key may be up by now; its release comes next.
@@ -409,6 +417,7 @@ impl Engine {
             tracing::error!(?command, ?age, "too late to be carried out");
             return self.alarms.raise(None, AlarmKind::NotTaken, self.now);
         }
+        self.note_command(&command, by);
         self.asked = Some(number);
         self.carry_out(command);
         self.asked = None;
@@ -442,6 +451,7 @@ impl Engine {
             link_tests: shared(&self.link_tests, &last.link_tests),
             alarms: self.alarms.clone(),
             copies: shared(&self.copies, &last.copies),
+            record: self.recording.status(),
             closing: self.closing.clone(),
         });
         let is_same = {

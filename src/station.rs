@@ -10,6 +10,7 @@ mod file;
 mod frequency;
 mod hours_of_day;
 mod keep_out;
+mod keeping;
 mod lock_outs;
 mod mount;
 mod notices;
@@ -34,6 +35,7 @@ pub use file::{LoadError, Loaded, SaveError, free_path, load, save, settings_pat
 pub use frequency::Frequency;
 pub use hours_of_day::HoursOfDay;
 pub use keep_out::{Entered, KeepOut, SunAvoidance};
+pub use keeping::Keeping;
 pub use lock_outs::{LOCK_OUTS_FILE, LockOut, LockOuts};
 pub use mount::Mount;
 pub use notices::Notices;
@@ -94,6 +96,9 @@ pub struct Station {
     /// Alarms and reminders that the desktop shows and sounds.
     #[serde(skip_serializing_if = "is_default")]
     pub notices: Notices,
+    /// How long the record is kept.
+    #[serde(skip_serializing_if = "is_default")]
+    pub record: Keeping,
     /// Action on the antennas when the program ends; `None` asks the operator.
     #[serde(rename = "close", skip_serializing_if = "Option::is_none")]
     pub on_close: Option<OnClose>,
@@ -209,6 +214,7 @@ impl Default for Station {
             rules: Vec::new(),
             frequencies: Vec::new(),
             notices: Notices::default(),
+            record: Keeping::default(),
             on_close: None,
             keep_outs: Vec::new(),
             sun_avoidance: None,

@@ -1,6 +1,8 @@
 //! Station without a window: real sockets to simulated units, and the program itself as a
 //! process beside others.
 
+mod record;
+
 use std::{
     collections::BTreeMap,
     io::{BufRead as _, BufReader},

@@ -20,11 +20,11 @@ use crate::{
     clock::Clock,
     desktop::Desktop,
     engine::{
-        Command, Event, Handle, Settings, Snapshot,
+        By, Command, Event, Handle, Settings, Snapshot,
         antenna::{AntennaModel, Stake},
         claim::HolderKind,
         closing::CloseHow,
-        signals,
+        records_folder, signals,
         status::{AntennaStatus, LinkStatus},
     },
     makes, station,
@@ -106,7 +106,9 @@ pub(super) fn run(
     claims: Option<PathBuf>,
 ) -> anyhow::Result<ExitCode> {
     let claims = claims.map(|folder| (folder, HolderKind::Serve));
-    let settings = Settings { path: station, dead_man, marks, claims, ..Settings::default() };
+    let records = records_folder();
+    let settings =
+        Settings { path: station, dead_man, marks, records, claims, ..Settings::default() };
     let path = settings.station_path().context("this user has no folder for settings")?;
     if !path.exists() {
         bail!(
@@ -136,7 +138,7 @@ pub(super) fn run(
     )?;
     drop(wake);
     Notifier::start(station.client().clone(), Desktop::default(), Arc::new(|| {}))?;
-    let client = station.client().clone();
+    let client = station.client().clone().acting_for(By::Signal);
     signals::watch(
         move || client.stop_all(),
         move || {
@@ -199,7 +201,8 @@ pub fn until_the_end(
     };
     say(tell, None, About::Station, "Ends.".to_owned());
     // A station that does not take it has stopped, or has broken down: see below.
-    let _ = station.client().send(Command::CloseAfter(how));
+    let serve = station.client().clone().acting_for(By::Serve);
+    let _ = serve.send(Command::CloseAfter(how));
     let end = Instant::now() + ENDS_WITHIN;
     let is_left = |stake: &Stake| how == CloseHow::Leave && matches!(stake, Stake::OnBoard(_));
     let open = |antenna: &AntennaModel| antenna.stake().is_some_and(|stake| !is_left(&stake));

@@ -14,6 +14,7 @@ use crate::{
     engine::{
         Settings,
         claim::{HolderKind, claims_folder},
+        records_folder,
     },
     station,
 };
@@ -37,6 +38,7 @@ pub(super) fn run(station: Option<PathBuf>, demo: bool) -> anyhow::Result<()> {
         path: if demo { folder.as_deref().map(station::free_path) } else { station },
         dead_man: this_program(),
         marks: marks(),
+        records: records_folder(),
         claims: claims_folder().map(|folder| (folder, HolderKind::Window)),
         ..Settings::default()
     };

@@ -43,7 +43,7 @@ pub use jog::LEASE as JOG_LEASE;
 
 use super::{
     AntennaHandle, COMMANDS, Clock, Dial, EVENTS, Event, Intent, LinkState, Numbered, Orbits,
-    Orders, Preview, Snapshot, Stopper, Wake, WireLog,
+    Orders, PositionLog, Preview, Snapshot, Stopper, Wake, WireLog,
     before_sleep::Awake,
     debts::{Debts, Unit},
     gate::Gate,
@@ -82,6 +82,7 @@ pub struct Wires {
     events: mpsc::Sender<Event>,
     wake: Wake,
     wire_log: WireLog,
+    positions: PositionLog,
     orbit: Orbits,
     bounds: watch::Receiver<Bounds>,
 }
@@ -107,6 +108,7 @@ impl Wires {
             snapshots: read_snapshots,
         };
         let (wire_log, orbit) = (WireLog::default(), Orbits::default());
+        let positions = PositionLog::default();
         let (keep_within, bounds) = watch::channel(bounds);
         let wires = Self {
             commands: Arc::new(AsyncMutex::new(commands)),
@@ -116,6 +118,7 @@ impl Wires {
             events,
             wake,
             wire_log: wire_log.clone(),
+            positions: positions.clone(),
             orbit: Arc::clone(&orbit),
             bounds,
         };
@@ -125,6 +128,7 @@ impl Wires {
             orders: orders.clone(),
             events: read_events,
             wire: wire_log,
+            positions,
             orbit,
             bounds: keep_within,
         };
@@ -423,8 +427,11 @@ impl Session {
         Some(Arc::new(Preview { to, way: self.gate.way_to(to, now) }))
     }
 
-    /// Passes what went over the link on to the wire log.
+    /// Passes what went over the link on to the wire log, and the position on to its log.
     fn record(&mut self) {
+        if let Some(measured) = self.gate.state().measured {
+            self.wires.positions.push(measured);
+        }
         let mut is_awaited = false;
         while let Some(line) = self.gate.device().next_wire_line() {
             is_awaited |= self.wires.wire_log.push(line);

@@ -38,6 +38,14 @@ struct Ring {
     is_watched: bool,
 }
 
+impl Ring {
+    fn from(&self, number: u64) -> Vec<Arc<Recorded>> {
+        let first = self.next - self.lines.len() as u64;
+        let skip = usize::try_from(number.saturating_sub(first)).unwrap_or(usize::MAX);
+        self.lines.iter().skip(skip).take(MAX_READ).cloned().collect()
+    }
+}
+
 impl WireLog {
     /// Adds a line; the oldest go when there are too many. Returns `true` if somebody waits
     /// for it.
@@ -55,14 +63,22 @@ impl WireLog {
     }
 
     /// The lines from `number` on, oldest first, at most 1,000; empty when there are no newer
-    /// ones.
+    /// ones. The next line wakes the station.
     pub fn read_from(&self, number: u64) -> Vec<Arc<Recorded>> {
         let mut ring = self.ring();
-        let first = ring.next - ring.lines.len() as u64;
-        let skip = usize::try_from(number.saturating_sub(first)).unwrap_or(usize::MAX);
-        let lines: Vec<_> = ring.lines.iter().skip(skip).take(MAX_READ).cloned().collect();
+        let lines = ring.from(number);
         ring.is_watched = lines.len() < MAX_READ;
         lines
+    }
+
+    /// The same for a reader who comes back by himself.
+    pub fn copy_from(&self, number: u64) -> Vec<Arc<Recorded>> {
+        self.ring().from(number)
+    }
+
+    /// Returns `true` if nobody else holds the log: its session has ended.
+    pub fn is_alone(&self) -> bool {
+        Arc::strong_count(&self.0) == 1
     }
 
     /// The number of the next line.

@@ -6,7 +6,7 @@ use super::{
     CatalogState, Command, Engine, Event, StationClaim,
     alarms::AlarmKind,
     automatic::Duty,
-    handle::Stopped,
+    handle::{By, Stopped},
     on_board,
     passes::{PassKey, PredictedPass},
     sources::{self, SourceWork, Task},
@@ -176,6 +176,7 @@ impl Engine {
             let (id, stopper) = (antenna.shown.id(), antenna.handle.stopper());
             let stopped = Stopped {
                 at: self.steady,
+                by: By::Station,
                 antennas: vec![id],
                 elsewhere: Vec::new(),
                 tracked: stopper.tracks().then_some(id).into_iter().collect(),
@@ -188,6 +189,9 @@ impl Engine {
     }
 
     pub(super) fn send(&mut self, index: usize, command: driver::Command) {
+        if self.asked.is_none() {
+            self.note_own_command(index, &command);
+        }
         let Some(antenna) = self.antennas.get_mut(index) else { return };
         let of = Some(antenna.shown.id());
         if !matches!(
@@ -314,6 +318,7 @@ impl Engine {
             self.alarms.raise(None, AlarmKind::Settings(text), self.now);
             return;
         }
+        self.record_station(&station);
         self.station = Arc::new(station);
         self.tell(Event::Changed);
     }

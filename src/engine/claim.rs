@@ -173,7 +173,7 @@ pub fn claims_folder() -> Option<PathBuf> {
 }
 
 /// The canonical path of a station file, even where the file does not exist yet.
-fn whole_path(path: &Path) -> PathBuf {
+pub(super) fn whole_path(path: &Path) -> PathBuf {
     let whole = path.canonicalize().or_else(|_| {
         // The file may not exist yet.
         let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty());
@@ -191,7 +191,7 @@ fn lock_name(kind: &str, of: &[u8]) -> String {
     format!("{}.lock", digest(kind, of))
 }
 
-fn digest(kind: &str, of: &[u8]) -> String {
+pub(super) fn digest(kind: &str, of: &[u8]) -> String {
     let mut name = format!("{kind}-");
     for byte in Sha256::digest(of).iter().take(8) {
         // Writing to a text cannot fail.

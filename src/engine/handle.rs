@@ -12,7 +12,7 @@ use std::{
 use serde::{Deserialize, Serialize};
 use tokio::sync::{Notify, mpsc, watch};
 
-use super::{Command, Engine, Settings, Snapshot};
+use super::{Command, Engine, Settings, Snapshot, claim::HolderKind};
 use crate::{
     clock::{Clock, Instant, Moment},
     driver::{self, Orders, Outside, Stopper, WireLog},
@@ -30,10 +30,11 @@ const FAREWELL: Duration = Duration::from_secs(8);
 /// A station that publishes nothing for this long counts as stuck.
 const STANDS: Duration = Duration::from_secs(2);
 
-/// A request to the thread of a station: a command, its serial number, and the time of the
-/// request.
+/// A request to the thread of a station: a command, who gave it, its serial number, and the time
+/// of the request.
 pub(super) struct Request {
     pub(super) command: Command,
+    pub(super) by: By,
     pub(super) number: u64,
     pub(super) at: Instant,
 }
@@ -57,10 +58,38 @@ pub(super) struct Urgent {
     pub(super) is_stop_lost: bool,
 }
 
+/// Who gives a command.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum By {
+    /// The operator, in the window.
+    #[default]
+    Window,
+    /// `azel serve`, when it ends.
+    Serve,
+    /// Another program of this user, such as `azel stop`.
+    Program,
+    /// A signal of the operating system.
+    Signal,
+    /// The station by itself, such as automatic operation.
+    Station,
+}
+
+impl From<HolderKind> for By {
+    fn from(kind: HolderKind) -> Self {
+        match kind {
+            HolderKind::Window => Self::Window,
+            HolderKind::Serve => Self::Serve,
+        }
+    }
+}
+
 /// A STOP that was already sent to the sessions.
 #[derive(Debug, Clone)]
 pub struct Stopped {
     pub at: Instant,
+    /// Who pressed it.
+    pub by: By,
     /// Antennas that it was sent to.
     pub antennas: Vec<AntennaId>,
     /// Antennas that another Azel drives; the STOP is passed on to it.
@@ -111,6 +140,7 @@ pub struct Client {
     orders: Orders,
     published: watch::Receiver<Published>,
     clock: Clock,
+    by: By,
 }
 
 impl Client {
@@ -120,8 +150,15 @@ impl Client {
         orders: Orders,
         published: watch::Receiver<Published>,
         clock: Clock,
+        by: By,
     ) -> Self {
-        Self { requests, urgent: Arc::default(), woken, orders, published, clock }
+        Self { requests, urgent: Arc::default(), woken, orders, published, clock, by }
+    }
+
+    /// The same for somebody else, as the record tells it.
+    #[must_use]
+    pub fn acting_for(self, by: By) -> Self {
+        Self { by, ..self }
     }
 
     /// Time by the clocks of the station.
@@ -138,7 +175,7 @@ impl Client {
             self.urgent().has_turned_away = true;
             return Err(command);
         };
-        place.send(Request { command, number, at: self.clock.now().steady });
+        place.send(Request { command, by: self.by, number, at: self.clock.now().steady });
         Ok(())
     }
 
@@ -158,6 +195,7 @@ impl Client {
         let ends = Arc::clone(&self.published.borrow().ends);
         let mut stopped = Stopped {
             at: self.clock.now().steady,
+            by: self.by,
             antennas: Vec::new(),
             elsewhere: Vec::new(),
             tracked: Vec::new(),

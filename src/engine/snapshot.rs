@@ -20,7 +20,7 @@ use super::{
     uploads::Uploads,
     written,
 };
-use crate::{clock::Moment, driver::TimeSync, orbit::Catalog, station::Station};
+use crate::{clock::Moment, driver::TimeSync, orbit::Catalog, record, station::Station};
 
 /// State of the elements.
 #[derive(Debug, Clone, Serialize, Deserialize)]
@@ -71,6 +71,8 @@ pub struct Snapshot {
     pub alarms: Alarms,
     /// Copies of the settings of units.
     pub copies: Arc<Copies>,
+    /// How the record stands; `None` where none is kept.
+    pub record: Option<Arc<record::Status>>,
     /// The closing under way, and what it waits for.
     pub closing: Option<Closing>,
 }
@@ -98,6 +100,7 @@ impl Snapshot {
             link_tests: Arc::default(),
             alarms: Alarms::default(),
             copies: Arc::default(),
+            record: None,
             closing: None,
         }
     }

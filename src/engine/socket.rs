@@ -11,7 +11,7 @@ use tokio::{
     time::{Instant, timeout, timeout_at},
 };
 
-use super::{Client, Command, antenna::AntennaModel, status::AntennaStatus};
+use super::{By, Client, Command, antenna::AntennaModel, status::AntennaStatus};
 use crate::{
     driver::{self, StopState},
     station::{AntennaId, LockOut},
@@ -96,6 +96,7 @@ pub fn ask(path: &Path, ask: &Ask) -> io::Result<Answer> {
 
 /// Serves the socket at `path` on a thread of its own until the station ends.
 pub(super) fn serve(path: &Path, station: Client) -> io::Result<()> {
+    let station = station.acting_for(By::Program);
     // A socket left there belongs to a process that has ended, because the station is
     // claimed.
     match std::fs::remove_file(path) {

@@ -65,6 +65,7 @@ impl Engine {
 
     /// Records a STOP that has gone to the sessions.
     pub(super) fn note_stop(&mut self, stopped: &Stopped) {
+        self.note_pressed_stop(stopped);
         self.upload_runner.stopped();
         self.stop_elsewhere(&stopped.elsewhere);
         self.drop_waiting_settings();

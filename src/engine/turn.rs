@@ -48,6 +48,7 @@ impl Engine {
         self.poll_uploads();
         self.source_test_runner.poll(&mut self.source_tests);
         self.link_test_runner.poll(&mut self.link_tests);
+        self.record_turn();
     }
 
     fn look_for_passes(&mut self) {
@@ -165,6 +166,7 @@ impl Engine {
             }
             _ => {}
         }
+        self.recording.event(id, &event, self.clock.now());
         self.take_closing_event(id, &event);
         self.take_automatic_event(index, &event);
         if let Event::Safety(Safety::AsksToResume { name, .. }) = &event {

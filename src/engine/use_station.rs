@@ -61,6 +61,7 @@ impl Engine {
 
     /// Takes a station into use. Unchanged antennas keep their session.
     pub(super) fn use_station(&mut self, station: Station) {
+        self.record_station(&station);
         self.keep_locked_out(&station.antennas);
         let mut before = std::mem::take(&mut self.antennas);
         // The alarms of a unit end with it; a STOP that it is owed is an alarm of its own.
@@ -143,6 +144,7 @@ impl Engine {
             }
             Err(held_by) => (Driver::leave_alone(&config), Some(held_by)),
         };
+        self.recording.follow(&config, &handle, self.clock.now());
         let mut shown = AntennaModel::new(config, handle.snapshot());
         shown.held_by = held_by;
         Antenna { shown, session: self.sessions, handle, at_work: AtWork::default() }

@@ -77,3 +77,8 @@ pub const REST_MIN: RangeInclusive<f64> = 0.0..=1440.0;
 pub const WARNING_S: RangeInclusive<f64> = 30.0..=600.0;
 /// Time from the end of one pass until an antenna can go to the next, seconds.
 pub const SET_UP_S: RangeInclusive<f64> = 0.0..=600.0;
+
+/// How long measured positions and lines on the links are kept, days.
+pub const RAW_DAYS: RangeInclusive<f64> = 0.04..=3650.0;
+/// How long everything else is kept, years.
+pub const RECORD_YEARS: RangeInclusive<f64> = 0.1..=100.0;

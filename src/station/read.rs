@@ -4,6 +4,7 @@
 mod antenna;
 mod favourites;
 mod keep_out;
+mod keeping;
 mod notices;
 mod schedule;
 
@@ -63,6 +64,7 @@ pub fn from_toml(mut table: Table, specs: &[&'static ControllerSpec]) -> (Statio
         rules: Vec::new(),
         frequencies: fields.frequencies(),
         notices: fields.notices(),
+        record: fields.keeping(),
         on_close: fields.on_close(),
         keep_outs: Vec::new(),
         sun_avoidance: fields.sun_avoidance(),

@@ -138,6 +138,7 @@ impl Scene {
         let settings = Settings {
             path: Some(folder.path().join("station.toml")),
             library: Some(folder.path().join("elements")),
+            records: Some(folder.path().join("records")),
             ..Settings::default()
         };
         let dialled = units.clone();

@@ -138,6 +138,8 @@ pub enum AlarmKind {
     Settings(String),
     /// The elements could not be read; in words.
     Elements(String),
+    /// Nothing can be recorded, for this reason.
+    NoRecord(String),
 }
 
 /// Background work that can break off.
@@ -216,6 +218,7 @@ impl AlarmKind {
                 | Self::Setting(_)
                 | Self::Settings(_)
                 | Self::Elements(_)
+                | Self::NoRecord(_)
         )
     }
 }
@@ -225,6 +228,7 @@ pub(super) fn same_matter(a: &AlarmKind, b: &AlarmKind) -> bool {
     match (a, b) {
         (AlarmKind::ClockOff(_), AlarmKind::ClockOff(_))
         | (AlarmKind::LinkLost(_), AlarmKind::LinkLost(_))
+        | (AlarmKind::NoRecord(_), AlarmKind::NoRecord(_))
         | (AlarmKind::DriverStands(_), AlarmKind::DriverStands(_))
         | (AlarmKind::StationStands(_), AlarmKind::StationStands(_))
         | (AlarmKind::StationElsewhere(_), AlarmKind::StationElsewhere(_))

@@ -149,6 +149,10 @@ pub fn alarm(kind: &AlarmKind, antenna: &str) -> String {
              Use their local panels.",
             format::age(stood.as_secs_f64())
         ),
+        AlarmKind::NoRecord(why) => format!(
+            "Nothing is recorded: {why}. What was recorded stays, and recording goes on by itself \
+             once the file can be written."
+        ),
         AlarmKind::BrokeOff(Work::Elements) => {
             "The reading of the elements broke off inside Azel. What was held stays in use; \
              the view Elements reads them again."

@@ -1,0 +1,324 @@
+//! What the station hands to its record: what was asked of it, and what has changed since the last
+//! turn. Lines and positions go there from the sessions' own logs.
+
+mod differences;
+mod state;
+
+use std::{
+    collections::BTreeMap,
+    path::{Path, PathBuf},
+    sync::Arc,
+};
+
+use jiff::Timestamp;
+use serde_json::{Map, Value, json};
+
+use self::{differences::differences, state::State};
+use super::{
+    Antenna, Command, Engine,
+    alarms::{Alarm, AlarmKind},
+    claim::{digest, whole_path},
+    handle::{By, Stopped},
+};
+use crate::{
+    clock::{Clock, Instant, Moment},
+    driver::{self, AntennaHandle, Event, TimeSync},
+    record::{Entry, Followed, Kind, Recorder, Status},
+    station::{self, AntennaId, Station},
+};
+
+/// A step of UTC against the steady clock from which the clock counts as set, seconds.
+const CLOCK_SET_S: f64 = 0.05;
+/// Name of the demo station's record.
+const DEMO: &str = "demo.sqlite";
+
+/// The record of a station, and what of the station it holds already.
+#[derive(Default)]
+pub(super) struct Recording {
+    /// Folder of all records; `None` to keep none.
+    folder: Option<PathBuf>,
+    recorder: Option<(PathBuf, Recorder)>,
+    status: Option<Arc<Status>>,
+    station: Value,
+    states: BTreeMap<AntennaId, Value>,
+    /// The last write to each group of settings.
+    written: BTreeMap<(AntennaId, &'static str), Timestamp>,
+    alarms: Vec<Alarm>,
+    /// Revision of the schedule, and its entries and left out passes.
+    schedule: (u64, Map<String, Value>),
+    day_lines: usize,
+    clock: Option<(Moment, TimeSync)>,
+    /// The antenna that a held key turns, and when that was last heard of.
+    jog: Option<(AntennaId, Instant)>,
+}
+
+/// The record of the station file at `station`, in the folder of all records.
+pub fn record_path(folder: &Path, station: &Path) -> PathBuf {
+    let path = whole_path(station);
+    let stem = path.file_stem().unwrap_or_default().to_string_lossy();
+    folder.join(format!("{}.sqlite", digest(&stem, path.to_string_lossy().as_bytes())))
+}
+
+/// The record of the demo station, in the folder of all records.
+pub fn demo_record_path(folder: &Path) -> PathBuf {
+    folder.join(DEMO)
+}
+
+/// Folder of this user's records; `None` on a machine without a home.
+pub fn records_folder() -> Option<PathBuf> {
+    let dirs = directories::ProjectDirs::from("", "", "azel")?;
+    Some(dirs.data_dir().join("records"))
+}
+
+impl Recording {
+    pub(super) fn in_folder(folder: Option<PathBuf>) -> Self {
+        Self { folder, ..Self::default() }
+    }
+
+    pub(super) fn status(&self) -> Option<Arc<Status>> {
+        self.status.clone()
+    }
+
+    /// Records the session that begins for an antenna.
+    pub(super) fn follow(&self, config: &station::Antenna, handle: &AntennaHandle, at: Moment) {
+        let Some((_, recorder)) = &self.recorder else { return };
+        recorder.follow(Followed {
+            at,
+            antenna: config.id,
+            name: config.name.clone(),
+            make: config.connection.spec().key,
+            wire: handle.wire().clone(),
+            positions: handle.positions().clone(),
+        });
+    }
+
+    pub(super) fn event(&self, antenna: AntennaId, event: &Event, at: Moment) {
+        self.note(at, Some(antenna), kind_of(event), event);
+    }
+
+    fn note(
+        &self,
+        at: Moment,
+        antenna: Option<AntennaId>,
+        kind: Kind,
+        data: &impl serde::Serialize,
+    ) {
+        if let Some((_, recorder)) = &self.recorder {
+            recorder.note(Entry::new(at, antenna, kind, data));
+        }
+    }
+
+    /// Records into the file at `path`, from its beginning.
+    fn begin(&mut self, path: PathBuf, clock: &Clock, keeping: station::Keeping) {
+        match Recorder::start(path.clone(), clock.clone(), keeping) {
+            Ok(recorder) => {
+                let folder = self.folder.take();
+                *self = Self { folder, recorder: Some((path, recorder)), ..Self::default() };
+            }
+            Err(error) => tracing::error!(%error, "no thread for the record"),
+        }
+    }
+}
+
+impl Engine {
+    /// Records into the file of the station that comes into use, and what is new in it.
+    pub(super) fn record_station(&mut self, station: &Station) {
+        let path = self.recording.folder.as_deref().zip(self.settings_path.as_deref()).map(
+            |(folder, of)| match self.demo {
+                Some(_) => demo_record_path(folder),
+                None => record_path(folder, of),
+            },
+        );
+        // What another Azel drives, it records.
+        let path = path.filter(|_| !matches!(self.station_claim, super::StationClaim::Theirs(_)));
+        match (path, &self.recording.recorder) {
+            (Some(path), Some((at, recorder))) if path == *at => recorder.keep(station.record),
+            (Some(path), _) => self.recording.begin(path, &self.clock, station.record),
+            (None, _) => self.recording.recorder = None,
+        }
+        let at = self.clock.now();
+        let now = serde_json::to_value(station).unwrap_or_default();
+        let before = std::mem::replace(&mut self.recording.station, now);
+        let now = &self.recording.station;
+        if before.is_null() {
+            self.recording.note(at, None, Kind::Station, &json!({ "station": now }));
+        } else if before != *now {
+            let changes = differences(&before, now);
+            self.recording.note(at, None, Kind::Station, &json!({ "changes": changes }));
+        }
+    }
+
+    /// Records a command of a client. A held jog key counts once.
+    pub(super) fn note_command(&mut self, command: &Command, by: By) {
+        match command {
+            Command::Look(_)
+            | Command::OpenedAlarms
+            | Command::Antenna(_, driver::Command::Preview(_)) => return,
+            Command::Antenna(id, driver::Command::Jog { .. }) => {
+                let held = self.recording.jog.replace((*id, self.steady));
+                let lease = driver::JOG_LEASE;
+                let is_held = held.is_some_and(|(held, at)| {
+                    held == *id && self.steady.saturating_duration_since(at) <= lease
+                });
+                if is_held {
+                    return;
+                }
+            }
+            _ => self.recording.jog = None,
+        }
+        let at = self.clock.now();
+        let data = json!({ "by": by, "command": command });
+        self.recording.note(at, command.antenna(), Kind::Command, &data);
+    }
+
+    /// Records a command that the station gives by itself.
+    pub(super) fn note_own_command(&self, index: usize, command: &driver::Command) {
+        let antenna = self.antennas.get(index).map(|antenna| antenna.shown.id());
+        let data = json!({ "by": By::Station, "command": command });
+        self.recording.note(self.clock.now(), antenna, Kind::Command, &data);
+    }
+
+    pub(super) fn note_pressed_stop(&self, stopped: &Stopped) {
+        let at = Moment { steady: stopped.at, utc: self.now };
+        let data = json!({
+            "by": stopped.by,
+            "antennas": stopped.antennas,
+            "elsewhere": stopped.elsewhere,
+            "is_for_all": stopped.is_for_all,
+        });
+        self.recording.note(at, None, Kind::Stop, &data);
+    }
+
+    /// Records what this turn has changed, and watches over the record.
+    pub(super) fn record_turn(&mut self) {
+        let Some((_, recorder)) = &self.recording.recorder else {
+            self.recording.status = None;
+            return;
+        };
+        let status = recorder.status();
+        match &status.failing {
+            Some(failing) => {
+                self.alarms.raise(None, AlarmKind::NoRecord(failing.why.clone()), self.now);
+            }
+            None => {
+                self.alarms.clear(None, self.now, |kind| matches!(kind, AlarmKind::NoRecord(_)));
+            }
+        }
+        if self.recording.status.as_deref() != Some(&status) {
+            self.recording.status = Some(Arc::new(status));
+        }
+        let at = self.clock.now();
+        self.note_clock(at);
+        self.note_alarms(at);
+        self.note_schedule(at);
+        self.note_day_lines(at);
+        for antenna in &self.antennas {
+            note_antenna(&mut self.recording, antenna, at);
+        }
+        self.recording.states.retain(|id, _| self.antennas.iter().any(|it| it.shown.id() == *id));
+    }
+
+    fn note_clock(&mut self, at: Moment) {
+        let now = (at, self.time_sync);
+        let Some((before, sync)) = self.recording.clock.replace(now) else {
+            return self.recording.note(at, None, Kind::Clock, &json!({ "sync": self.time_sync }));
+        };
+        let steady_s = at.steady.saturating_duration_since(before.steady).as_secs_f64();
+        let set_by_s = crate::astro::time::seconds_between(before.utc, at.utc) - steady_s;
+        if set_by_s.abs() > CLOCK_SET_S || sync != self.time_sync {
+            let data = json!({ "sync": self.time_sync, "set_by_s": set_by_s });
+            self.recording.note(at, None, Kind::Clock, &data);
+        }
+    }
+
+    fn note_alarms(&mut self, at: Moment) {
+        let list = self.alarms.list();
+        // How long something stands grows with every turn.
+        let story =
+            |alarm: &Alarm| (alarm.seen, alarm.over_since, alarm.shelved_until, alarm.count);
+        for alarm in list {
+            let before = self.recording.alarms.iter().find(|before| before.id == alarm.id);
+            if before.is_none_or(|before| story(before) != story(alarm)) {
+                self.recording.note(at, alarm.antenna, Kind::Alarm, alarm);
+            }
+        }
+        let is_same = list.len() == self.recording.alarms.len()
+            && list.iter().map(story).eq(self.recording.alarms.iter().map(story));
+        if !is_same {
+            self.recording.alarms = list.to_vec();
+        }
+    }
+
+    fn note_schedule(&mut self, at: Moment) {
+        let planned = &self.schedule;
+        if planned.revision == self.recording.schedule.0 {
+            return;
+        }
+        let mut now = Map::new();
+        for entry in &planned.schedule.entries {
+            let key = format!("{:?} {}", entry.pass, entry.antenna.0);
+            now.insert(key, serde_json::to_value(entry).unwrap_or_default());
+        }
+        for left_out in &planned.schedule.left_out {
+            let key = format!("{:?}", left_out.pass);
+            now.insert(key, serde_json::to_value(left_out).unwrap_or_default());
+        }
+        let (_, before) = std::mem::replace(&mut self.recording.schedule, (planned.revision, now));
+        let now = &self.recording.schedule.1;
+        let news: Vec<&Value> = (now.iter())
+            .filter(|(key, entry)| before.get(*key) != Some(entry))
+            .map(|(_, entry)| entry)
+            .collect();
+        let gone: Vec<&Value> = (before.iter())
+            .filter(|(key, _)| !now.contains_key(*key))
+            .filter_map(|(_, entry)| entry.get("pass"))
+            .collect();
+        if !news.is_empty() || !gone.is_empty() {
+            let data = json!({
+                "revision": planned.revision, "new": news, "gone": gone, "changes": planned.changes,
+            });
+            self.recording.note(at, None, Kind::Schedule, &data);
+        }
+    }
+
+    fn note_day_lines(&mut self, at: Moment) {
+        // The lines of yesterday go, and the first of today come.
+        let from = self.recording.day_lines.min(self.day.len());
+        for line in self.day.get(from..).unwrap_or_default() {
+            self.recording.note(at, Some(line.antenna), Kind::Day, line);
+        }
+        self.recording.day_lines = self.day.len();
+    }
+}
+
+fn note_antenna(recording: &mut Recording, antenna: &Antenna, at: Moment) {
+    let id = antenna.shown.id();
+    let state = serde_json::to_value(State::of(&antenna.shown)).unwrap_or_default();
+    if recording.states.get(&id) != Some(&state) {
+        recording.note(at, Some(id), Kind::State, &state);
+        recording.states.insert(id, state);
+    }
+    for (group, held) in &*antenna.shown.snapshot.state.held {
+        let Some(written) = &held.written else { continue };
+        if recording.written.insert((id, group), written.at) != Some(written.at) {
+            let data = json!({ "group": group, "written": written });
+            recording.note(at, Some(id), Kind::Setting, &data);
+        }
+    }
+}
+
+fn kind_of(event: &Event) -> Kind {
+    match event {
+        Event::LinkLost(_) | Event::Connected(_) | Event::Back { .. } => Kind::Link,
+        Event::NotSent(_)
+        | Event::Refused(..)
+        | Event::Unanswered(_)
+        | Event::CannotTrack(..)
+        | Event::CannotProgramTrack(..)
+        | Event::WouldMiss { .. }
+        | Event::StopRefused(_)
+        | Event::AutoStaysOn => Kind::Refusal,
+        Event::Stopped | Event::StopNotConfirmed => Kind::Stop,
+        _ => Kind::Event,
+    }
+}

@@ -1,0 +1,78 @@
+//! State of an antenna as the record tells it: all that changes now and then, and nothing that
+//! changes with each measurement.
+
+use jiff::Timestamp;
+use serde::Serialize;
+
+use crate::{
+    device::{Phase, panel::CheckState},
+    driver::{Inside, Intent, StopState},
+    engine::{
+        antenna::AntennaModel,
+        automatic::Operation,
+        status::{AntennaStatus, LinkStatus},
+    },
+    plan::TrackPhase,
+    station::LockOut,
+};
+
+#[derive(Debug, Serialize)]
+pub(super) struct State {
+    link: LinkStatus,
+    intent: Intent,
+    /// The intent is not proved by the unit yet.
+    is_pending: bool,
+    /// The axes turn.
+    moves: Option<bool>,
+    /// Name and catalog number of what is tracked.
+    tracks: Option<(Option<String>, Option<u32>)>,
+    program_track: Option<TrackPhase>,
+    on_board_track: Option<Phase>,
+    auto_track: Option<bool>,
+    stop: &'static str,
+    /// It was moved from here, and standstill has not been proved since.
+    is_unproved: bool,
+    is_silent: bool,
+    left_moving: Option<Timestamp>,
+    inside: Option<Inside>,
+    lock_out: Option<LockOut>,
+    operation: Operation,
+    /// Names of the checks that are not good.
+    faults: Vec<String>,
+    held_by: Option<String>,
+}
+
+impl State {
+    pub(super) fn of(antenna: &AntennaModel) -> Self {
+        let snapshot = &antenna.snapshot;
+        let program = snapshot.state.program;
+        let bad = |state| matches!(state, CheckState::Caution | CheckState::Fault);
+        let checks = snapshot.state.checks.iter().filter(|check| bad(check.state));
+        let is_tracked = antenna.tracked_name().is_some() || antenna.tracked_number().is_some();
+        Self {
+            link: AntennaStatus::of(antenna).link,
+            intent: snapshot.intent,
+            is_pending: snapshot.pending,
+            moves: snapshot.state.measured.map(|measured| measured.moving()),
+            tracks: is_tracked
+                .then(|| (antenna.tracked_name().map(str::to_owned), antenna.tracked_number())),
+            program_track: snapshot.program_track.as_ref().map(|view| view.phase),
+            on_board_track: program.filter(|it| it.enabled).map(|program| program.phase),
+            auto_track: program.and_then(|program| program.auto),
+            stop: match snapshot.stop {
+                StopState::Ready => "ready",
+                StopState::Stopping { .. } => "stopping",
+                StopState::Stopped { .. } => "stopped",
+                StopState::NotConfirmed { .. } => "not_confirmed",
+            },
+            is_unproved: snapshot.unproved,
+            is_silent: snapshot.silent,
+            left_moving: snapshot.left_moving,
+            inside: snapshot.inside.clone(),
+            lock_out: snapshot.lock_out.clone(),
+            operation: antenna.operation.clone(),
+            faults: checks.map(|check| check.name.to_string()).collect(),
+            held_by: antenna.held_by.as_ref().map(ToString::to_string),
+        }
+    }
+}

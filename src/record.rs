@@ -1,0 +1,47 @@
+//! The record of a station: what was measured, sent, received, asked and decided, in one SQLite
+//! file (`docs/record.md` tells its schema).
+//!
+//! Invariant: nobody waits for the record. Sessions keep their last lines and positions in logs of
+//! their own, the station queues its entries, and one thread writes both. What it could not keep
+//! is counted and marked in the record itself.
+
+mod entry;
+mod file;
+mod keeping;
+mod read;
+mod recorder;
+#[cfg(test)]
+mod tests;
+mod writer;
+
+pub use entry::{Entry, Kind};
+pub use read::{Query, Record, Row, What};
+pub use recorder::{Failing, Followed, Recorder, Status};
+
+/// Why a record cannot be written or read.
+#[derive(Debug, thiserror::Error)]
+pub enum RecordError {
+    #[error("the disk is full")]
+    DiskFull,
+    /// Written by a newer program.
+    #[error("it has version {0}, and this program knows version {known}", known = file::VERSION)]
+    Newer(i64),
+    /// Not a record, or damaged.
+    #[error("it is no record of Azel, or it is damaged")]
+    NoRecord,
+    #[error("{0}")]
+    Database(rusqlite::Error),
+    #[error("{0}")]
+    Io(#[from] std::io::Error),
+}
+
+impl From<rusqlite::Error> for RecordError {
+    fn from(error: rusqlite::Error) -> Self {
+        use rusqlite::ErrorCode;
+        match error.sqlite_error_code() {
+            Some(ErrorCode::DiskFull) => Self::DiskFull,
+            Some(ErrorCode::NotADatabase | ErrorCode::DatabaseCorrupt) => Self::NoRecord,
+            _ => Self::Database(error),
+        }
+    }
+}

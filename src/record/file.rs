@@ -1,0 +1,140 @@
+//! The SQLite file: its schema, and how it is opened.
+
+use std::{fs, path::Path, time::Duration};
+
+use rusqlite::{Connection, OpenFlags};
+
+use super::RecordError;
+
+/// Version of the schema (`PRAGMA user_version`).
+pub(super) const VERSION: i64 = 1;
+/// Marks the file as a record (`PRAGMA application_id`): "Azel" in ASCII.
+const APPLICATION: i64 = 0x417a_656c;
+/// How long a reader and the writer wait for each other.
+const BUSY: Duration = Duration::from_secs(2);
+/// Angles are kept as whole numbers of this part of a degree.
+pub(super) const PER_DEGREE: f64 = 10_000.0;
+
+/// Positions and frames lie in order of antenna and time, and have no further index: a day of
+/// three antennas holds millions of them.
+const SCHEMA: &str = "
+CREATE TABLE run (
+    id INTEGER PRIMARY KEY,
+    begun_us INTEGER NOT NULL,
+    ended_us INTEGER,
+    program TEXT NOT NULL
+);
+CREATE TABLE antenna (
+    id INTEGER NOT NULL,
+    since_us INTEGER NOT NULL,
+    name TEXT NOT NULL,
+    make TEXT NOT NULL,
+    PRIMARY KEY (id, since_us)
+) WITHOUT ROWID;
+CREATE TABLE position (
+    antenna INTEGER NOT NULL,
+    utc_us INTEGER NOT NULL,
+    number INTEGER NOT NULL,
+    run INTEGER NOT NULL,
+    steady_us INTEGER NOT NULL,
+    azimuth INTEGER,
+    elevation INTEGER,
+    axis_1 INTEGER,
+    axis_2 INTEGER,
+    motion_1 INTEGER,
+    motion_2 INTEGER,
+    limits INTEGER NOT NULL,
+    PRIMARY KEY (antenna, utc_us, number)
+) WITHOUT ROWID;
+CREATE TABLE frame (
+    antenna INTEGER NOT NULL,
+    utc_us INTEGER NOT NULL,
+    number INTEGER NOT NULL,
+    run INTEGER NOT NULL,
+    is_sent INTEGER NOT NULL,
+    bytes BLOB NOT NULL,
+    length INTEGER,
+    fault TEXT,
+    meaning TEXT,
+    reply_us INTEGER,
+    PRIMARY KEY (antenna, utc_us, number)
+) WITHOUT ROWID;
+CREATE TABLE event (
+    id INTEGER PRIMARY KEY,
+    utc_us INTEGER NOT NULL,
+    steady_us INTEGER NOT NULL,
+    run INTEGER NOT NULL,
+    antenna INTEGER,
+    kind TEXT NOT NULL,
+    data TEXT NOT NULL
+);
+CREATE INDEX event_time ON event (utc_us);
+CREATE VIEW positions AS SELECT
+    strftime('%Y-%m-%dT%H:%M:%fZ', utc_us / 1000000.0, 'unixepoch') AS time,
+    (SELECT name FROM antenna AS a WHERE a.id = antenna ORDER BY since_us DESC LIMIT 1) AS antenna,
+    azimuth / 10000.0 AS azimuth_deg, elevation / 10000.0 AS elevation_deg,
+    axis_1 / 10000.0 AS axis_1_deg, axis_2 / 10000.0 AS axis_2_deg,
+    motion_1, motion_2, limits
+    FROM position;
+CREATE VIEW events AS SELECT
+    strftime('%Y-%m-%dT%H:%M:%fZ', utc_us / 1000000.0, 'unixepoch') AS time,
+    (SELECT name FROM antenna AS a WHERE a.id = antenna ORDER BY since_us DESC LIMIT 1) AS antenna,
+    kind, data
+    FROM event;
+";
+
+/// Opens the record at `path` to write to it; makes it where there is none.
+pub(super) fn open(path: &Path) -> Result<Connection, RecordError> {
+    if let Some(folder) = path.parent() {
+        fs::create_dir_all(folder)?;
+    }
+    let flags = OpenFlags::SQLITE_OPEN_READ_WRITE
+        | OpenFlags::SQLITE_OPEN_CREATE
+        | OpenFlags::SQLITE_OPEN_NO_MUTEX;
+    let mut db = Connection::open_with_flags(path, flags)?;
+    // It tells where antennas are and what was done with them: for its owner alone.
+    #[cfg(unix)]
+    fs::set_permissions(path, std::os::unix::fs::PermissionsExt::from_mode(0o600))?;
+    db.busy_timeout(BUSY)?;
+    let version = version(&db)?;
+    match version {
+        0 => {
+            // Before the first table: it cannot be changed later.
+            db.pragma_update(None, "auto_vacuum", "INCREMENTAL")?;
+            let of_new = db.transaction()?;
+            of_new.execute_batch(SCHEMA)?;
+            of_new.pragma_update(None, "application_id", APPLICATION)?;
+            of_new.pragma_update(None, "user_version", VERSION)?;
+            of_new.commit()?;
+        }
+        VERSION => {}
+        newer => return Err(RecordError::Newer(newer)),
+    }
+    // A reader disturbs no writer, and what was committed outlasts a loss of power.
+    db.pragma_update(None, "journal_mode", "WAL")?;
+    db.pragma_update(None, "synchronous", "FULL")?;
+    Ok(db)
+}
+
+/// Opens the record at `path` to read it alone, also while it is written.
+pub(super) fn open_to_read(path: &Path) -> Result<Connection, RecordError> {
+    let db = Connection::open_with_flags(path, OpenFlags::SQLITE_OPEN_READ_ONLY)?;
+    db.busy_timeout(BUSY)?;
+    match version(&db)? {
+        VERSION => Ok(db),
+        0 => Err(RecordError::NoRecord),
+        newer => Err(RecordError::Newer(newer)),
+    }
+}
+
+/// Version of the schema; 0 for an empty file.
+fn version(db: &Connection) -> Result<i64, RecordError> {
+    let number = |name| db.pragma_query_value(None, name, |row| row.get::<_, i64>(0));
+    let (application, version) = (number("application_id")?, number("user_version")?);
+    let tables: i64 = db.query_row("SELECT count(*) FROM sqlite_schema", [], |row| row.get(0))?;
+    match (application, version) {
+        (APPLICATION, version) if version > 0 => Ok(version),
+        (0, 0) if tables == 0 => Ok(0),
+        _ => Err(RecordError::NoRecord),
+    }
+}

@@ -1,0 +1,70 @@
+//! How long the parts of the record are kept.
+
+use rusqlite::{Connection, OptionalExtension as _, params};
+
+use super::RecordError;
+use crate::station::Keeping;
+
+const DAY_US: f64 = 86_400e6;
+/// The Julian year.
+const YEAR_D: f64 = 365.25;
+/// Span of one antenna's positions or frames that is removed at once, so that the writer goes on
+/// in between.
+const SLICE_US: i64 = 600_000_000;
+/// Rows of events that are removed at once.
+const SLICE_ROWS: i64 = 2000;
+/// Pages that are given back to the disk at once.
+const PAGES: i64 = 200;
+
+/// Removes a slice of what is older than it is kept. Returns `true` if more may be left.
+pub(super) fn remove_old(
+    db: &Connection,
+    keeping: Keeping,
+    now_us: i64,
+) -> Result<bool, RecordError> {
+    let before = |days: f64| {
+        #[expect(clippy::cast_possible_truncation, reason = "some centuries at most")]
+        let span_us = (days * DAY_US) as i64;
+        now_us.saturating_sub(span_us)
+    };
+    let raw_before = before(keeping.raw_days);
+    let mut is_more = false;
+    let antennas: Vec<i64> = db
+        .prepare_cached("SELECT DISTINCT id FROM antenna")?
+        .query_map([], |row| row.get(0))?
+        .collect::<Result<_, _>>()?;
+    for table in ["position", "frame"] {
+        for antenna in &antennas {
+            is_more |= remove_raw(db, table, *antenna, raw_before)?;
+        }
+    }
+    let removed = db
+        .prepare_cached(
+            "DELETE FROM event WHERE id IN \
+             (SELECT id FROM event WHERE utc_us < ?1 ORDER BY utc_us LIMIT ?2)",
+        )?
+        .execute(params![before(keeping.years * YEAR_D), SLICE_ROWS])?;
+    is_more |= removed > 0;
+    if is_more {
+        db.execute_batch(&format!("PRAGMA incremental_vacuum({PAGES})"))?;
+    }
+    Ok(is_more)
+}
+
+fn remove_raw(
+    db: &Connection,
+    table: &str,
+    antenna: i64,
+    before: i64,
+) -> Result<bool, RecordError> {
+    let oldest: Option<i64> = db
+        .prepare_cached(&format!("SELECT min(utc_us) FROM {table} WHERE antenna = ?1"))?
+        .query_row([antenna], |row| row.get(0))
+        .optional()?
+        .flatten();
+    let Some(oldest) = oldest.filter(|oldest| *oldest < before) else { return Ok(false) };
+    let until = before.min(oldest.saturating_add(SLICE_US));
+    db.prepare_cached(&format!("DELETE FROM {table} WHERE antenna = ?1 AND utc_us < ?2"))?
+        .execute(params![antenna, until])?;
+    Ok(true)
+}

@@ -1,0 +1,153 @@
+//! The station's end of its record.
+
+use std::{
+    io,
+    path::PathBuf,
+    sync::{
+        Arc, Mutex, MutexGuard, PoisonError,
+        atomic::{AtomicU64, Ordering},
+        mpsc,
+    },
+    thread,
+    time::Duration,
+};
+
+use jiff::Timestamp;
+use serde::{Deserialize, Serialize};
+
+use super::{Entry, writer::Writer};
+use crate::{
+    clock::{Clock, Moment},
+    driver::{PositionLog, WireLog},
+    station::{AntennaId, Keeping},
+};
+
+/// Most orders that wait for the writer. A turn of the station makes some ten at most.
+const ORDERS: usize = 4096;
+/// How long the end of the station waits for the last write.
+const FAREWELL: Duration = Duration::from_secs(2);
+
+/// State of a record.
+#[derive(Debug, Clone, PartialEq, Eq, Default, Serialize, Deserialize)]
+pub struct Status {
+    pub path: PathBuf,
+    /// Size on disk when it was last looked at, bytes.
+    pub bytes: u64,
+    /// Nothing is written at present.
+    pub failing: Option<Failing>,
+}
+
+/// Why nothing is written.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Failing {
+    /// When something was written last.
+    pub since: Timestamp,
+    pub why: String,
+    /// Entries that wait.
+    pub waiting: u64,
+}
+
+pub(super) enum Order {
+    Entry(Box<Entry>),
+    /// Write at once, then answer.
+    Flush(mpsc::SyncSender<()>),
+}
+
+/// A session to be recorded.
+pub struct Followed {
+    /// When it began.
+    pub at: Moment,
+    pub antenna: AntennaId,
+    /// Name of the antenna.
+    pub name: String,
+    /// Key of its make.
+    pub make: &'static str,
+    pub wire: WireLog,
+    pub positions: PositionLog,
+}
+
+/// What both ends share.
+pub(super) struct Shared {
+    pub(super) status: Mutex<Status>,
+    /// Sessions that the writer does not know of yet.
+    pub(super) begun: Mutex<Vec<Followed>>,
+    pub(super) keeping: Mutex<Keeping>,
+    /// Entries for which there was no room.
+    pub(super) turned_away: AtomicU64,
+}
+
+/// Locks what both ends share. No code panics while it holds the lock.
+pub(super) fn locked<T>(of: &Mutex<T>) -> MutexGuard<'_, T> {
+    of.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+/// Records a station. Dropping it writes what waits.
+pub struct Recorder {
+    /// `None` once it ends.
+    orders: Option<mpsc::SyncSender<Order>>,
+    shared: Arc<Shared>,
+    ended: mpsc::Receiver<()>,
+}
+
+impl Recorder {
+    /// Starts to record into the file at `path`, on a thread of its own. A file that cannot be
+    /// written is tried again and again.
+    pub fn start(path: PathBuf, clock: Clock, keeping: Keeping) -> io::Result<Self> {
+        let (orders, inbox) = mpsc::sync_channel(ORDERS);
+        let (tell_ended, ended) = mpsc::sync_channel(1);
+        let shared = Arc::new(Shared {
+            status: Mutex::new(Status { path, ..Status::default() }),
+            begun: Mutex::default(),
+            keeping: Mutex::new(keeping),
+            turned_away: AtomicU64::default(),
+        });
+        let writer = Writer::new(clock, Arc::clone(&shared));
+        thread::Builder::new().name("azel-record".to_owned()).spawn(move || {
+            writer.run(&inbox);
+            let _ = tell_ended.send(());
+        })?;
+        Ok(Self { orders: Some(orders), shared, ended })
+    }
+
+    /// Records an entry. One that the writer has no room for is counted.
+    pub fn note(&self, entry: Entry) {
+        let Some(orders) = &self.orders else { return };
+        if orders.try_send(Order::Entry(Box::new(entry))).is_err() {
+            self.shared.turned_away.fetch_add(1, Ordering::Relaxed);
+        }
+    }
+
+    /// Records a session from its beginning: its lines and measured positions.
+    pub fn follow(&self, session: Followed) {
+        locked(&self.shared.begun).push(session);
+    }
+
+    /// Keeps the parts of the record for so long from now on.
+    pub fn keep(&self, keeping: Keeping) {
+        *locked(&self.shared.keeping) = keeping;
+    }
+
+    pub fn status(&self) -> Status {
+        locked(&self.shared.status).clone()
+    }
+
+    /// Waits until all that was noted so far is written, or could not be.
+    pub fn flush(&self) {
+        let (done, wait) = mpsc::sync_channel(1);
+        if let Some(orders) = &self.orders
+            && orders.send(Order::Flush(done)).is_ok()
+        {
+            // A writer that has broken down answers by its end.
+            let _ = wait.recv();
+        }
+    }
+}
+
+impl Drop for Recorder {
+    fn drop(&mut self) {
+        self.orders = None;
+        if self.ended.recv_timeout(FAREWELL).is_err() {
+            tracing::error!("the last seconds are not in the record: the disk takes too long");
+        }
+    }
+}

@@ -1,0 +1,310 @@
+//! The record as it is written and read.
+
+use std::{fs, path::Path, time::Duration};
+
+use jiff::Timestamp;
+use serde_json::{Value, json};
+
+use super::{Entry, Followed, Kind, Query, Record, RecordError, Recorder, Row, What};
+use crate::{
+    astro::Angle,
+    clock::{Clock, Instant, Moment},
+    device::{Axis, AxisMotion, Direction, Finding, Meaning, Measured, Pointing, WireLine},
+    driver::{MAX_LINES, PositionLog, WireLog},
+    station::{AntennaId, Keeping},
+};
+
+const DISH: AntennaId = AntennaId(4);
+
+fn start() -> Timestamp {
+    "2026-03-01T12:00:00Z".parse().unwrap()
+}
+
+fn clock() -> Clock {
+    Clock::new(start)
+}
+
+fn recorder(path: &Path) -> Recorder {
+    Recorder::start(path.to_owned(), clock(), Keeping::default()).unwrap()
+}
+
+/// The logs of a session that is recorded.
+struct Logs {
+    wire: WireLog,
+    positions: PositionLog,
+    steady: Instant,
+}
+
+impl Logs {
+    fn followed_by(recorder: &Recorder) -> Self {
+        let (wire, positions) = (WireLog::default(), PositionLog::default());
+        recorder.follow(Followed {
+            at: clock().now(),
+            antenna: DISH,
+            name: "Dish".to_owned(),
+            make: "satrak",
+            wire: wire.clone(),
+            positions: positions.clone(),
+        });
+        Self { wire, positions, steady: Instant::now() }
+    }
+
+    fn line(&self, bytes: &[u8], finding: Finding, is_poll: bool) {
+        self.wire.push(WireLine {
+            meaning: Some(Meaning::plain("Asks for the position")),
+            is_poll,
+            reply_after: Some(Duration::from_millis(20)),
+            ..WireLine::new(Direction::Sent, bytes, finding, start())
+        });
+    }
+
+    fn position(&mut self, azimuth_deg: f64) {
+        self.steady += Duration::from_millis(100);
+        let axis = |angle_deg| Axis {
+            angle_deg,
+            motion: AxisMotion::Minus,
+            plus_limit: false,
+            minus_limit: true,
+        };
+        self.positions.push(Measured {
+            at: start(),
+            asked: self.steady,
+            received: self.steady,
+            pointing: Pointing { azimuth: Some(Angle::from_degrees(azimuth_deg)), elevation: None },
+            axes: [axis(Some(azimuth_deg - 360.0)), axis(None)],
+        });
+    }
+}
+
+fn entry(number: u32) -> Entry {
+    let at = Moment { steady: Instant::now(), utc: start() };
+    Entry::new(at, Some(DISH), Kind::Event, &json!({ "number": number }))
+}
+
+fn rows_of(path: &Path, query: &Query) -> Vec<Row> {
+    let mut rows = Vec::new();
+    let take = &mut |row| {
+        rows.push(row);
+        true
+    };
+    Record::open(path).unwrap().read(query, take).unwrap();
+    rows
+}
+
+fn rows(path: &Path, what: What) -> Vec<Row> {
+    rows_of(path, &Query { what: vec![what], ..Query::default() })
+}
+
+fn events(path: &Path) -> Vec<u64> {
+    let number = |row: &Row| row.data["number"].as_u64().unwrap();
+    rows(path, What::Entry(Kind::Event)).iter().map(number).collect()
+}
+
+#[test]
+fn entries_positions_and_lines_are_read_as_they_were_noted() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("records").join("a.sqlite");
+    let recorder = recorder(&path);
+    let mut logs = Logs::followed_by(&recorder);
+    logs.line(b"?P\\\r", Finding::Good, false);
+    logs.line(b"?P\r", Finding::Good, true);
+    logs.line(b"?P", Finding::Unfinished, true);
+    logs.position(359.123_44);
+    recorder.note(entry(7));
+    recorder.flush();
+
+    let positions = rows(&path, What::Position);
+    let [position] = &positions[..] else { panic!("{positions:?}") };
+    assert_eq!((position.time, position.antenna.as_deref()), (start(), Some("Dish")));
+    assert_eq!(
+        position.data,
+        json!({
+            "azimuth_deg": 359.1234, "elevation_deg": null, "axes_deg": [-0.8766, null],
+            "motion": [-1, -1], "limits": 0b1010,
+        })
+    );
+    let frames = rows(&path, What::Frame);
+    let told = |name: &str| -> Vec<&Value> { frames.iter().map(|row| &row.data[name]).collect() };
+    assert_eq!(told("bytes"), [r"?P\\\r", r"?P\r", "?P"]);
+    // Most lines are good questions for the position, and their bytes say the same.
+    let asks = json!("Asks for the position");
+    assert_eq!(told("meaning"), [&asks, &Value::Null, &asks]);
+    assert_eq!(told("fault"), [&Value::Null, &Value::Null, &json!("Unfinished")]);
+    assert_eq!(events(&path), [7]);
+    // Antenna and time choose.
+    let of = |antenna: &str, from: Option<Timestamp>| {
+        let what = What::all().collect();
+        rows_of(&path, &Query { antenna: Some(antenna.to_owned()), from, what, to: None }).len()
+    };
+    assert_eq!((of("Dish", None), of("Mast", None)), (5, 0));
+    assert_eq!(of("Dish", Some(start() + Duration::from_secs(1))), 0);
+}
+
+#[test]
+fn a_reader_goes_on_where_it_has_ended() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("a.sqlite");
+    let recorder = recorder(&path);
+    recorder.note(entry(1));
+    recorder.flush();
+    let mut record = Record::open(&path).unwrap();
+    let query = Query { what: vec![What::Entry(Kind::Event)], ..Query::default() };
+    let read = |record: &mut Record, is_first: bool| {
+        let mut numbers = Vec::new();
+        let take = &mut |row: Row| {
+            numbers.push(row.data["number"].as_u64().unwrap());
+            true
+        };
+        let outcome =
+            if is_first { record.read(&query, take) } else { record.read_on(&query, take) };
+        outcome.unwrap();
+        numbers
+    };
+    assert_eq!(read(&mut record, true), [1]);
+    assert_eq!(read(&mut record, false), [0; 0]);
+    recorder.note(entry(2));
+    recorder.note(entry(3));
+    recorder.flush();
+    assert_eq!(read(&mut record, false), [2, 3]);
+}
+
+#[test]
+fn what_waits_for_a_disk_is_written_later_and_nothing_is_lost() {
+    let folder = tempfile::tempdir().unwrap();
+    let blocked = folder.path().join("records");
+    // A file where the folder has to be.
+    fs::write(&blocked, "").unwrap();
+    let path = blocked.join("a.sqlite");
+    let recorder = recorder(&path);
+    let mut logs = Logs::followed_by(&recorder);
+    recorder.note(entry(1));
+    logs.position(1.0);
+    recorder.flush();
+    let failing = recorder.status().failing.expect("nothing can be written");
+    assert_eq!(failing.since, start());
+    fs::remove_file(&blocked).unwrap();
+    recorder.note(entry(2));
+    logs.position(2.0);
+    recorder.flush();
+    assert_eq!(recorder.status().failing, None);
+    assert_eq!(events(&path), [1, 2]);
+    assert_eq!(rows(&path, What::Position).len(), 2);
+    assert_eq!(rows(&path, What::Entry(Kind::Gap)), [], "nothing is missing");
+}
+
+#[test]
+fn what_did_not_fit_is_counted_and_marked() {
+    let folder = tempfile::tempdir().unwrap();
+    let blocked = folder.path().join("records");
+    fs::write(&blocked, "").unwrap();
+    let path = blocked.join("a.sqlite");
+    let recorder = recorder(&path);
+    let logs = Logs::followed_by(&recorder);
+    for _ in 0..MAX_LINES + 7 {
+        logs.line(b"x", Finding::Good, true);
+    }
+    recorder.flush();
+    fs::remove_file(&blocked).unwrap();
+    recorder.flush();
+    let gaps = rows(&path, What::Entry(Kind::Gap));
+    let [gap] = &gaps[..] else { panic!("{gaps:?}") };
+    let counts = ["frames", "positions", "entries"].map(|of| gap.data[of].as_u64().unwrap());
+    assert_eq!(counts, [7, 0, 0]);
+    assert_eq!(rows(&path, What::Frame).len(), MAX_LINES);
+    recorder.flush();
+    assert_eq!(rows(&path, What::Entry(Kind::Gap)).len(), 1, "marked once");
+}
+
+#[test]
+fn a_file_that_is_no_record_is_kept_beside_a_new_one() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("a.sqlite");
+    fs::write(&path, "letters to my grandmother, of some length, so that it is no header").unwrap();
+    let recorder = recorder(&path);
+    recorder.note(entry(1));
+    recorder.flush();
+    recorder.flush();
+    assert_eq!(events(&path), [1]);
+    let kept = fs::read_dir(folder.path()).unwrap().map(|file| file.unwrap().path());
+    let kept = kept.filter(|file| file.to_string_lossy().contains("unreadable"));
+    let texts: Vec<String> = kept.map(|file| fs::read_to_string(file).unwrap()).collect();
+    assert!(matches!(&texts[..], [text] if text.starts_with("letters")), "{texts:?}");
+}
+
+#[test]
+fn a_record_of_a_newer_program_is_left_as_it_is() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("a.sqlite");
+    drop(recorder(&path));
+    let db = rusqlite::Connection::open(&path).unwrap();
+    db.pragma_update(None, "user_version", 2).unwrap();
+    drop(db);
+    let before = fs::read(&path).unwrap();
+    let recorder = recorder(&path);
+    recorder.note(entry(1));
+    recorder.flush();
+    let failing = recorder.status().failing.unwrap();
+    assert_eq!(failing.why, "it has version 2, and this program knows version 1");
+    assert!(matches!(Record::open(&path), Err(RecordError::Newer(2))));
+    drop(recorder);
+    assert_eq!(fs::read(&path).unwrap(), before);
+}
+
+#[test]
+fn a_record_that_is_removed_while_it_is_written_is_begun_anew() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("a.sqlite");
+    let recorder = recorder(&path);
+    let mut logs = Logs::followed_by(&recorder);
+    logs.position(1.0);
+    recorder.note(entry(1));
+    recorder.flush();
+    fs::remove_file(&path).unwrap();
+    logs.position(2.0);
+    recorder.note(entry(2));
+    recorder.flush();
+    recorder.flush();
+    assert_eq!(events(&path), [2]);
+    let positions = rows(&path, What::Position);
+    assert_eq!(positions.len(), 1);
+    assert_eq!(positions[0].antenna.as_deref(), Some("Dish"), "it is named again");
+}
+
+#[test]
+fn old_positions_and_lines_go_and_entries_stay() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("a.sqlite");
+    {
+        let recorder = recorder(&path);
+        let mut logs = Logs::followed_by(&recorder);
+        logs.position(1.0);
+        logs.line(b"x", Finding::Good, true);
+        recorder.note(entry(1));
+        recorder.flush();
+        assert_eq!(rows(&path, What::Position).len(), 1);
+    }
+    let later = || start() + Duration::from_hours(8 * 24);
+    let keeping = Keeping { raw_days: 7.0, years: 1.0 };
+    let recorder = Recorder::start(path.clone(), Clock::new(later), keeping).unwrap();
+    recorder.flush();
+    assert_eq!(rows(&path, What::Position), []);
+    assert_eq!(rows(&path, What::Frame), []);
+    assert_eq!(events(&path), [1]);
+    drop(recorder);
+    let much_later = || start() + Duration::from_hours(400 * 24);
+    let recorder = Recorder::start(path.clone(), Clock::new(much_later), keeping).unwrap();
+    recorder.flush();
+    assert_eq!(events(&path), [0; 0]);
+}
+
+#[cfg(unix)]
+#[test]
+fn a_record_is_for_its_owner_alone() {
+    use std::os::unix::fs::PermissionsExt as _;
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("a.sqlite");
+    let recorder = recorder(&path);
+    recorder.flush();
+    let mode = fs::metadata(&path).unwrap().permissions().mode();
+    assert_eq!(mode & 0o777, 0o600);
+}

@@ -1,0 +1,452 @@
+//! The thread that writes the record.
+
+use std::{
+    fs,
+    path::{Path, PathBuf},
+    sync::{Arc, atomic::Ordering, mpsc},
+    time::{Duration, Instant},
+};
+
+use jiff::Timestamp;
+use rusqlite::{Connection, Transaction, params};
+use serde_json::json;
+
+use super::{
+    Entry, Kind, RecordError,
+    file::{self, PER_DEGREE},
+    keeping,
+    recorder::{Failing, Followed, Order, Shared, locked},
+};
+use crate::{
+    astro::Angle,
+    clock::{Clock, Moment},
+    device::{AxisMotion, Direction, Finding, Measured, WireLine},
+    driver::Recorded,
+    station::AntennaId,
+};
+
+/// Time between two writes: a crash costs no more than this, and less than a second with the turn
+/// of the station before it.
+const EVERY: Duration = Duration::from_millis(500);
+/// Time between two tries while nothing can be written.
+const RETRY: Duration = Duration::from_secs(2);
+/// Time between two looks at the size of the file, and for what is older than it is kept.
+const LOOK: Duration = Duration::from_secs(10);
+/// Most entries that wait for a disk.
+const WAITING: usize = 20_000;
+/// Beyond this the clock of the computer has been set, and nothing is removed by it, seconds.
+const CLOCK_SET_S: i64 = 60;
+
+/// A session, and how far it is recorded.
+struct Source {
+    of: Followed,
+    is_named: bool,
+    next_line: u64,
+    next_position: u64,
+}
+
+/// What of a session is new, for one write.
+struct News {
+    lines: Vec<Arc<Recorded>>,
+    first_position: u64,
+    positions: Vec<Measured>,
+    /// The session has ended: there is nothing more to come.
+    is_last: bool,
+}
+
+/// What could not be recorded since the last write.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+struct Missed {
+    entries: u64,
+    positions: u64,
+    frames: u64,
+}
+
+pub(super) struct Writer {
+    path: PathBuf,
+    clock: Clock,
+    begun: Moment,
+    /// The open file and the number of this run in it.
+    open: Option<(Connection, i64)>,
+    run: Option<i64>,
+    sources: Vec<Source>,
+    waiting: Vec<Entry>,
+    /// Entries dropped here since the last write.
+    dropped: u64,
+    written_at: Timestamp,
+    looked_at: Option<Instant>,
+    shared: Arc<Shared>,
+}
+
+impl Writer {
+    pub(super) fn new(clock: Clock, shared: Arc<Shared>) -> Self {
+        let begun = clock.now();
+        let path = locked(&shared.status).path.clone();
+        Self {
+            path,
+            clock,
+            begun,
+            open: None,
+            run: None,
+            sources: Vec::new(),
+            waiting: Vec::new(),
+            dropped: 0,
+            written_at: begun.utc,
+            looked_at: None,
+            shared,
+        }
+    }
+
+    /// Writes until the station ends.
+    pub(super) fn run(mut self, orders: &mpsc::Receiver<Order>) {
+        self.queue(Entry {
+            at: self.begun,
+            antenna: None,
+            kind: Kind::Run,
+            data: json!({ "begun": env!("CARGO_PKG_VERSION") }),
+        });
+        let mut due = Instant::now();
+        loop {
+            match orders.recv_timeout(due.saturating_duration_since(Instant::now())) {
+                Ok(Order::Entry(entry)) => self.queue(*entry),
+                Ok(Order::Flush(done)) => {
+                    self.write();
+                    // Nobody may be waiting any more.
+                    let _ = done.send(());
+                }
+                Err(mpsc::RecvTimeoutError::Timeout) => {
+                    let is_written = self.write();
+                    due = Instant::now() + if is_written { EVERY } else { RETRY };
+                }
+                Err(mpsc::RecvTimeoutError::Disconnected) => break,
+            }
+        }
+        let at = self.clock.now();
+        let data = json!({ "ended": true });
+        self.queue(Entry { at, antenna: None, kind: Kind::Run, data });
+        self.write();
+        if let Some((db, run)) = self.open.take() {
+            let ended = db.execute(
+                "UPDATE run SET ended_us = ?1 WHERE id = ?2",
+                params![at.utc.as_microsecond(), run],
+            );
+            if let Err(error) = ended {
+                tracing::warn!(%error, "the end of this run is not in the record");
+            }
+        }
+    }
+
+    fn queue(&mut self, entry: Entry) {
+        if self.waiting.len() >= WAITING {
+            self.dropped += 1;
+            return;
+        }
+        self.waiting.push(entry);
+    }
+
+    /// Writes what is new. Returns `false` if it could not.
+    fn write(&mut self) -> bool {
+        let begun = std::mem::take(&mut *locked(&self.shared.begun));
+        self.sources.extend(begun.into_iter().map(Source::new));
+        match self.try_write() {
+            Ok(()) => {
+                self.written_at = self.clock.utc();
+                if locked(&self.shared.status).failing.take().is_some() {
+                    tracing::warn!("the record goes on");
+                }
+                if self.looked_at.is_none_or(|at| at.elapsed() >= LOOK) {
+                    self.look_after_file();
+                }
+                true
+            }
+            Err(error) => {
+                self.open = None;
+                let since = self.written_at;
+                let failing =
+                    Failing { since, why: error.to_string(), waiting: self.waiting.len() as u64 };
+                if locked(&self.shared.status).failing.replace(failing).is_none() {
+                    tracing::error!(%error, path = %self.path.display(), "nothing is recorded");
+                }
+                if matches!(error, RecordError::NoRecord) {
+                    self.set_aside();
+                }
+                false
+            }
+        }
+    }
+
+    fn try_write(&mut self) -> Result<(), RecordError> {
+        if !self.path.exists() {
+            // Somebody has removed it while it was open.
+            self.open = None;
+        }
+        let open = match self.open.take() {
+            Some(open) => open,
+            None => self.open_file()?,
+        };
+        let (db, run) = self.open.insert(open);
+        let news: Vec<News> = self.sources.iter().map(Source::news).collect();
+        let turned_away = self.shared.turned_away.load(Ordering::Relaxed);
+        let mut missed = Missed { entries: self.dropped + turned_away, ..Missed::default() };
+        for (source, news) in self.sources.iter().zip(&news) {
+            let first_line = news.lines.first().map_or(source.next_line, |line| line.number);
+            missed.frames += first_line - source.next_line;
+            missed.positions += news.first_position - source.next_position;
+        }
+        let tx = db.transaction()?;
+        let to = Tables { tx: &tx, run: *run, begun: self.begun };
+        if missed != Missed::default() {
+            to.gap(missed, self.written_at, self.clock.now())?;
+        }
+        for (source, news) in self.sources.iter().zip(&news) {
+            if !source.is_named {
+                to.antenna(&source.of)?;
+            }
+            to.frames(source.of.antenna, &news.lines)?;
+            to.positions(source.of.antenna, news.first_position, &news.positions)?;
+        }
+        for entry in &self.waiting {
+            to.entry(entry)?;
+        }
+        tx.commit()?;
+        // Only now: what could not be written is tried again.
+        self.shared.turned_away.fetch_sub(turned_away, Ordering::Relaxed);
+        self.dropped = 0;
+        self.waiting.clear();
+        for (source, news) in self.sources.iter_mut().zip(&news) {
+            source.is_named = true;
+            source.next_line = news.lines.last().map_or(source.next_line, |line| line.number + 1);
+            source.next_position = news.first_position + news.positions.len() as u64;
+        }
+        let mut news = news.iter();
+        self.sources.retain(|_| news.next().is_none_or(|news| !news.is_last));
+        Ok(())
+    }
+
+    fn open_file(&mut self) -> Result<(Connection, i64), RecordError> {
+        let db = file::open(&self.path)?;
+        let run = match self.run {
+            // The same file again.
+            Some(run)
+                if db.query_row("SELECT count(*) FROM run WHERE id = ?1", [run], |row| {
+                    row.get::<_, i64>(0)
+                })? > 0 =>
+            {
+                run
+            }
+            _ => {
+                db.execute(
+                    "INSERT INTO run (begun_us, program) VALUES (?1, ?2)",
+                    params![self.begun.utc.as_microsecond(), env!("CARGO_PKG_VERSION")],
+                )?;
+                // A new file knows no names of antennas.
+                self.sources.iter_mut().for_each(|source| source.is_named = false);
+                db.last_insert_rowid()
+            }
+        };
+        self.run = Some(run);
+        Ok((db, run))
+    }
+
+    /// Keeps a file that is no record under another name, so that a new one can begin.
+    fn set_aside(&self) {
+        let ending = format!("unreadable-{}", self.clock.utc().as_second());
+        for part in ["", "-wal", "-shm"] {
+            let from = with_ending(&self.path, part);
+            if from.exists() {
+                let to = from.with_added_extension(&ending);
+                if let Err(error) = fs::rename(&from, &to) {
+                    tracing::error!(%error, "the unreadable record stays in its place");
+                }
+            }
+        }
+    }
+
+    fn look_after_file(&mut self) {
+        locked(&self.shared.status).bytes = size(&self.path);
+        let now = self.clock.now();
+        let Some((db, _)) = &self.open else { return };
+        let steady_s = now.steady.saturating_duration_since(self.begun.steady).as_secs();
+        let utc_s = now.utc.as_second() - self.begun.utc.as_second();
+        let is_clock_set = (utc_s - steady_s.cast_signed()).abs() > CLOCK_SET_S;
+        let keeping = *locked(&self.shared.keeping);
+        // By a clock that was set, everything could be old.
+        let is_more = !is_clock_set
+            && keeping::remove_old(db, keeping, now.utc.as_microsecond()).unwrap_or_else(|error| {
+                tracing::warn!(%error, "old parts of the record stay");
+                false
+            });
+        if !is_more {
+            self.looked_at = Some(Instant::now());
+        }
+    }
+}
+
+impl Source {
+    fn new(of: Followed) -> Self {
+        Self { of, is_named: false, next_line: 0, next_position: 0 }
+    }
+
+    fn news(&self) -> News {
+        // Before the logs are read: what is written to them afterwards is not lost.
+        let is_last = self.of.wire.is_alone();
+        let mut lines = self.of.wire.copy_from(self.next_line);
+        while let Some(last) = lines.last() {
+            let more = self.of.wire.copy_from(last.number + 1);
+            if more.is_empty() {
+                break;
+            }
+            lines.extend(more);
+        }
+        let (first_position, positions) = self.of.positions.read_from(self.next_position);
+        News { lines, first_position, positions, is_last }
+    }
+}
+
+/// The tables, within one transaction.
+struct Tables<'a> {
+    tx: &'a Transaction<'a>,
+    run: i64,
+    begun: Moment,
+}
+
+impl Tables<'_> {
+    fn steady_us(&self, steady: crate::clock::Instant) -> i64 {
+        let since = steady.saturating_duration_since(self.begun.steady);
+        i64::try_from(since.as_micros()).unwrap_or(i64::MAX)
+    }
+
+    fn antenna(&self, of: &Followed) -> Result<(), RecordError> {
+        self.tx
+            .prepare_cached("INSERT OR REPLACE INTO antenna VALUES (?1, ?2, ?3, ?4)")?
+            .execute(params![of.antenna.0, of.at.utc.as_microsecond(), of.name, of.make])?;
+        Ok(())
+    }
+
+    fn entry(&self, entry: &Entry) -> Result<(), RecordError> {
+        let antenna = entry.antenna.map(|antenna| antenna.0);
+        let utc_us = entry.at.utc.as_microsecond();
+        self.tx
+            .prepare_cached(
+                "INSERT INTO event (utc_us, steady_us, run, antenna, kind, data) \
+                 VALUES (?1, ?2, ?3, ?4, ?5, ?6)",
+            )?
+            .execute(params![
+                utc_us,
+                self.steady_us(entry.at.steady),
+                self.run,
+                antenna,
+                entry.kind.word(),
+                entry.data.to_string(),
+            ])?;
+        Ok(())
+    }
+
+    fn gap(&self, missed: Missed, since: Timestamp, at: Moment) -> Result<(), RecordError> {
+        let Missed { entries, positions, frames } = missed;
+        let data = json!({
+            "since": since, "entries": entries, "positions": positions, "frames": frames,
+        });
+        self.entry(&Entry { at, antenna: None, kind: Kind::Gap, data })
+    }
+
+    fn positions(
+        &self,
+        antenna: AntennaId,
+        first: u64,
+        positions: &[Measured],
+    ) -> Result<(), RecordError> {
+        let mut insert = self.tx.prepare_cached(
+            "INSERT OR IGNORE INTO position \
+             VALUES (?1, ?2, ?3, ?4, ?5, ?6, ?7, ?8, ?9, ?10, ?11, ?12)",
+        )?;
+        for (number, measured) in (first..).zip(positions) {
+            let [first, second] = &measured.axes;
+            let limits =
+                [first.plus_limit, first.minus_limit, second.plus_limit, second.minus_limit]
+                    .iter()
+                    .enumerate()
+                    .fold(0, |bits, (place, is_set)| bits | i64::from(*is_set) << place);
+            insert.execute(params![
+                antenna.0,
+                measured.at.as_microsecond(),
+                number.cast_signed(),
+                self.run,
+                self.steady_us(measured.received),
+                parts(measured.pointing.azimuth.map(Angle::degrees)),
+                parts(measured.pointing.elevation.map(Angle::degrees)),
+                parts(first.angle_deg),
+                parts(second.angle_deg),
+                motion(first.motion),
+                motion(second.motion),
+                limits,
+            ])?;
+        }
+        Ok(())
+    }
+
+    fn frames(&self, antenna: AntennaId, lines: &[Arc<Recorded>]) -> Result<(), RecordError> {
+        let mut insert = self.tx.prepare_cached(
+            "INSERT OR IGNORE INTO frame VALUES (?1, ?2, ?3, ?4, ?5, ?6, ?7, ?8, ?9, ?10)",
+        )?;
+        for Recorded { number, line } in lines.iter().map(AsRef::as_ref) {
+            insert.execute(params![
+                antenna.0,
+                line.at.as_microsecond(),
+                number.cast_signed(),
+                self.run,
+                line.direction == Direction::Sent,
+                &*line.bytes,
+                line.is_shortened.then(|| i64::try_from(line.length).unwrap_or(i64::MAX)),
+                fault(line.finding),
+                meaning(line),
+                line.reply_after.map(|after| i64::try_from(after.as_micros()).unwrap_or(i64::MAX)),
+            ])?;
+        }
+        Ok(())
+    }
+}
+
+/// Degrees in whole parts; `None` where there is no angle.
+fn parts(deg: Option<f64>) -> Option<i64> {
+    let parts = deg.filter(|deg| deg.is_finite())? * PER_DEGREE;
+    #[expect(clippy::cast_possible_truncation, reason = "an angle has some turns at most")]
+    Some(parts.round() as i64)
+}
+
+fn motion(motion: AxisMotion) -> Option<i64> {
+    match motion {
+        AxisMotion::Still => Some(0),
+        AxisMotion::Plus => Some(1),
+        AxisMotion::Minus => Some(-1),
+        AxisMotion::Unknown(_) => None,
+    }
+}
+
+/// What is wrong with a line, if anything is.
+fn fault(finding: Finding) -> Option<String> {
+    if finding.is_good() {
+        return None;
+    }
+    serde_json::to_string(&finding).ok()
+}
+
+/// What a line says. That of a good line which is asked for again and again is left out: most
+/// lines are such, and their bytes say the same.
+fn meaning(line: &WireLine) -> Option<&str> {
+    let is_told = !line.is_poll || !line.finding.is_good();
+    line.meaning.as_ref().filter(|_| is_told).map(|meaning| &*meaning.text)
+}
+
+/// Size of the file and its log, bytes.
+fn size(path: &Path) -> u64 {
+    let of = |path: &Path| fs::metadata(path).map_or(0, |file| file.len());
+    of(path) + of(&with_ending(path, "-wal"))
+}
+
+/// The path with `ending` straight after its name, as SQLite names its log.
+fn with_ending(path: &Path, ending: &str) -> PathBuf {
+    let mut name = path.as_os_str().to_owned();
+    name.push(ending);
+    name.into()
+}

@@ -1,0 +1,190 @@
+//! The record of a station without a window, and `azel log`.
+
+use std::{
+    fs,
+    io::{BufRead as _, BufReader},
+    path::{Path, PathBuf},
+    process::{Command as Process, Stdio},
+    time::{Duration, Instant},
+};
+
+use azel::{
+    engine::record_path,
+    record::{Query, Record, Row, What},
+};
+use jiff::{SignedDuration, Timestamp};
+use serde_json::Value;
+
+use super::{PATIENCE, Served, Units, program, says, wait_for};
+
+/// Kills of the short form; `AZEL_KILLS` sets another number, such as 100 for five minutes.
+const KILLS: u32 = 3;
+/// What a crash may cost.
+const LOST: SignedDuration = SignedDuration::from_secs(1);
+/// Longest time from one measured position to the next at two questions a second.
+const BETWEEN: SignedDuration = SignedDuration::from_millis(700);
+
+fn place(units: &Units) -> PathBuf {
+    record_path(&units.folder.path().join("data/azel/records"), &units.path())
+}
+
+fn rows(path: &Path, what: What) -> Vec<Row> {
+    let mut rows = Vec::new();
+    let query = Query { what: vec![what], ..Query::default() };
+    let Ok(mut record) = Record::open(path) else { return rows };
+    let read = record.read(&query, &mut |row| {
+        rows.push(row);
+        true
+    });
+    read.unwrap();
+    rows
+}
+
+/// Lines of `azel log` with these arguments.
+fn log(units: &Units, arguments: &[&str]) -> Vec<Value> {
+    let output = program(units).arg("log").args(arguments).output().unwrap();
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    says(&output).lines().map(|line| serde_json::from_str(line).unwrap()).collect()
+}
+
+#[test]
+fn the_log_tells_what_was_asked_of_a_station_and_what_was_measured() {
+    let units = Units::start(|_| {});
+    let mut served = Served::start(&units);
+    served.until(|told| told["antenna"] == "Mast" && told["about"] == "motion");
+    let mut follower = program(&units)
+        .args(["log", "--follow", "--kind", "stop"])
+        .stdout(Stdio::piped())
+        .spawn()
+        .unwrap();
+    let stop = program(&units).args(["stop", "--antenna", "Mast"]).output().unwrap();
+    assert!(says(&stop).contains("Mast: stands"));
+    let mut line = String::new();
+    BufReader::new(follower.stdout.take().unwrap()).read_line(&mut line).unwrap();
+    let told: Value = serde_json::from_str(&line).unwrap();
+    assert_eq!((&told["kind"], &told["data"]["by"]), (&"stop".into(), &"program".into()), "{line}");
+    follower.kill().unwrap();
+    follower.wait().unwrap();
+    served.signal("TERM");
+    served.process.wait().unwrap();
+
+    let entries = log(&units, &[]);
+    let of = |kind: &str| -> Vec<&Value> {
+        entries.iter().filter(|entry| entry["kind"] == kind).collect()
+    };
+    assert_eq!(of("run").len(), 2, "its beginning and its end");
+    let station = of("station");
+    assert_eq!(station[0]["data"]["station"]["antenna"][1]["name"], "Mast");
+    assert!(of("link").iter().any(|link| link["antenna"] == "Dish"));
+    assert!(of("state").iter().any(|state| state["data"]["link"] == "up"));
+    let ends = of("command");
+    assert!(
+        ends.iter()
+            .any(|it| it["data"]["by"] == "serve" && it["data"]["command"]["CloseAfter"] == "Hold"),
+        "{ends:?}"
+    );
+    let stopped = of("stop");
+    assert!(stopped.iter().any(|it| it["antenna"] == "Mast" && it["data"] == "Stopped"));
+    assert!(entries.is_sorted_by_key(|entry| entry["time"].as_str().map(str::to_owned)));
+
+    let raw = log(&units, &["--antenna", "Mast", "--kind", "position,frame"]);
+    let positions = raw.iter().filter(|row| row["kind"] == "position");
+    let angles = positions.map(|row| row["data"]["azimuth_deg"].as_f64().unwrap());
+    assert!(angles.count() > 1);
+    let is_sent = |row: &&Value| row["data"]["is_sent"] == true;
+    assert!(raw.iter().filter(is_sent).count() > 1);
+    assert!(raw.iter().all(|row| row["antenna"] == "Mast"));
+    let from = raw[raw.len() / 2]["time"].as_str().unwrap();
+    let later = log(&units, &["--antenna", "Mast", "--kind", "position,frame", "--from", from]);
+    assert!(later.len() < raw.len() && later.len() >= raw.len() / 2);
+    let unknown = program(&units).args(["log", "--kind", "weather"]).output().unwrap();
+    assert_eq!(unknown.status.code(), Some(2));
+}
+
+#[test]
+fn a_program_that_is_killed_loses_less_than_a_second_of_its_record() {
+    let kills = std::env::var("AZEL_KILLS").map_or(KILLS, |kills| kills.parse().unwrap());
+    let units = Units::start(|_| {});
+    let path = place(&units);
+    let mut worst = SignedDuration::ZERO;
+    let mut before = 0;
+    for kill in 1..=kills {
+        let begun = Timestamp::now();
+        let served = Served::start(&units);
+        // The units live at another time of day than this program, and run with it.
+        wait_for("positions of this run", || {
+            let rows = rows(&path, What::Position);
+            rows.iter().any(|row| row.run == i64::from(kill) && row.time > begun).then_some(())
+        });
+        // Somewhere between two writes.
+        let until = Instant::now() + Duration::from_millis(1000 + u64::from(kill * 137 % 500));
+        wait_for("the moment", || (Instant::now() >= until).then_some(()));
+        let killed = Timestamp::now();
+        served.signal("KILL");
+        drop(served);
+        let rows = rows(&path, What::Position);
+        let newest = rows.iter().map(|row| row.time).max().unwrap();
+        let lost = killed.duration_since(newest);
+        assert!(lost <= LOST + BETWEEN, "kill {kill}: {lost:?}");
+        worst = worst.max(lost);
+        assert!(rows.len() > before, "what was there stays");
+        before = rows.len();
+        let db = rusqlite::Connection::open(&path).unwrap();
+        let found: String = db.query_row("PRAGMA integrity_check", [], |row| row.get(0)).unwrap();
+        assert_eq!(found, "ok");
+    }
+    println!("{kills} kills, {before} positions; newest position at most {worst:?} old");
+}
+
+/// A disk of one megabyte, until it is dropped.
+struct SmallDisk<'a>(&'a Path);
+
+impl<'a> SmallDisk<'a> {
+    fn at(path: &'a Path) -> Self {
+        fs::create_dir_all(path).unwrap();
+        let mounted = Process::new("mount")
+            .args(["-t", "tmpfs", "-o", "size=1m", "tmpfs"])
+            .arg(path)
+            .status();
+        assert!(mounted.unwrap().success(), "only root may mount a disk");
+        Self(path)
+    }
+}
+
+impl Drop for SmallDisk<'_> {
+    fn drop(&mut self) {
+        let _ = Process::new("umount").arg(self.0).status();
+    }
+}
+
+#[test]
+#[ignore = "mounts a disk of its own, which only root may"]
+fn a_full_disk_costs_nothing_that_was_written_and_the_record_goes_on_when_there_is_room() {
+    let units = Units::start(|_| {});
+    let path = place(&units);
+    let disk = SmallDisk::at(path.parent().unwrap());
+    let served = Served::start(&units);
+    let count = || rows(&path, What::Position).len();
+    wait_for("a record", || (count() > 5).then_some(()));
+    let ballast = disk.0.join("ballast");
+    // All that is left of the disk.
+    let _ = fs::write(&ballast, vec![0; 1 << 20]);
+    served.until(|told| told["text"].as_str().is_some_and(|it| it.contains("the disk is full")));
+    let before = count();
+    assert!(before > 5);
+    let is_live = || {
+        let status = program(&units).args(["status", "--json"]).output().unwrap();
+        says(&status).contains("\"up\"")
+    };
+    assert!(is_live(), "the links do not mind");
+    fs::remove_file(&ballast).unwrap();
+    let until = Instant::now() + PATIENCE;
+    wait_for("the record goes on", || {
+        assert!(Instant::now() < until);
+        (count() > before).then_some(())
+    });
+    served.until(|told| told["about"] == "alarm_over");
+    // The logs of the sessions held what did not fit on the disk.
+    assert_eq!(rows(&path, What::Entry(azel::record::Kind::Gap)), []);
+    drop(served);
+}
