@@ -7,6 +7,7 @@ pub mod bounds;
 pub(crate) mod detour;
 pub mod on_board;
 pub mod pass_export;
+pub mod pass_report;
 pub mod program_track;
 mod rate_limited;
 pub mod schedule;

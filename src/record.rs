@@ -14,9 +14,9 @@ mod recorder;
 mod tests;
 mod writer;
 
-pub use entry::{Entry, Kind};
+pub use entry::{Entry, Kind, PassNote, PassPoint};
 pub use read::{Query, Record, Row, What};
-pub use recorder::{Failing, Followed, Recorder, Status};
+pub use recorder::{Failing, RecordedSession, Recorder, Status};
 
 /// Why a record cannot be written or read.
 #[derive(Debug, thiserror::Error)]

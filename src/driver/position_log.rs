@@ -45,6 +45,11 @@ impl PositionLog {
         (number.max(oldest), ring.positions.iter().skip(skip).copied().collect())
     }
 
+    /// Returns `true` if both are the log of the same session.
+    pub fn is_same(&self, other: &Self) -> bool {
+        Arc::ptr_eq(&self.0, &other.0)
+    }
+
     fn ring(&self) -> MutexGuard<'_, Ring> {
         // A position is whole or absent, whichever thread broke off.
         self.0.lock().unwrap_or_else(PoisonError::into_inner)

@@ -2,6 +2,7 @@
 //! turn. Lines and positions go there from the sessions' own logs.
 
 mod differences;
+mod reports;
 mod state;
 
 use std::{
@@ -13,7 +14,7 @@ use std::{
 use jiff::Timestamp;
 use serde_json::{Map, Value, json};
 
-use self::{differences::differences, state::State};
+use self::{differences::differences, reports::Followed, state::State};
 use super::{
     Antenna, Command, Engine,
     alarms::{Alarm, AlarmKind},
@@ -23,7 +24,8 @@ use super::{
 use crate::{
     clock::{Clock, Instant, Moment},
     driver::{self, AntennaHandle, Event, TimeSync},
-    record::{Entry, Followed, Kind, Recorder, Status},
+    job::Job,
+    record::{Entry, Kind, PassNote, RecordedSession, Recorder, Status},
     station::{self, AntennaId, Station},
 };
 
@@ -50,6 +52,11 @@ pub(super) struct Recording {
     clock: Option<(Moment, TimeSync)>,
     /// The antenna that a held key turns, and when that was last heard of.
     jog: Option<(AntennaId, Instant)>,
+    /// Passes that are tracked, and the reports that are worked on.
+    followed: Vec<Followed>,
+    reports: Vec<Option<Job<PassNote>>>,
+    /// The second in which tracks were last looked at.
+    looked_at: i64,
 }
 
 /// The record of the station file at `station`, in the folder of all records.
@@ -75,6 +82,10 @@ impl Recording {
         Self { folder, ..Self::default() }
     }
 
+    fn is_on(&self) -> bool {
+        self.recorder.is_some()
+    }
+
     pub(super) fn status(&self) -> Option<Arc<Status>> {
         self.status.clone()
     }
@@ -82,7 +93,7 @@ impl Recording {
     /// Records the session that begins for an antenna.
     pub(super) fn follow(&self, config: &station::Antenna, handle: &AntennaHandle, at: Moment) {
         let Some((_, recorder)) = &self.recorder else { return };
-        recorder.follow(Followed {
+        recorder.follow(RecordedSession {
             at,
             antenna: config.id,
             name: config.name.clone(),
@@ -207,6 +218,7 @@ impl Engine {
         if self.recording.status.as_deref() != Some(&status) {
             self.recording.status = Some(Arc::new(status));
         }
+        self.report_passes();
         let at = self.clock.now();
         self.note_clock(at);
         self.note_alarms(at);

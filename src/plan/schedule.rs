@@ -17,7 +17,7 @@ mod row;
 mod sight;
 mod solve;
 #[cfg(test)]
-mod testing;
+pub(super) mod testing;
 #[cfg(test)]
 mod tests;
 mod under_way;

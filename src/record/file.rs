@@ -69,6 +69,25 @@ CREATE TABLE event (
     data TEXT NOT NULL
 );
 CREATE INDEX event_time ON event (utc_us);
+CREATE TABLE pass (
+    id INTEGER PRIMARY KEY,
+    antenna INTEGER NOT NULL,
+    satellite INTEGER NOT NULL,
+    name TEXT NOT NULL,
+    from_us INTEGER NOT NULL,
+    until_us INTEGER NOT NULL,
+    run INTEGER NOT NULL,
+    verdict TEXT NOT NULL,
+    report TEXT NOT NULL
+);
+CREATE INDEX pass_time ON pass (until_us);
+CREATE TABLE pass_point (
+    pass INTEGER NOT NULL,
+    utc_us INTEGER NOT NULL,
+    azimuth INTEGER,
+    elevation INTEGER,
+    PRIMARY KEY (pass, utc_us)
+) WITHOUT ROWID;
 CREATE VIEW positions AS SELECT
     strftime('%Y-%m-%dT%H:%M:%fZ', utc_us / 1000000.0, 'unixepoch') AS time,
     (SELECT name FROM antenna AS a WHERE a.id = antenna ORDER BY since_us DESC LIMIT 1) AS antenna,

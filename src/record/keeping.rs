@@ -45,6 +45,14 @@ pub(super) fn remove_old(
         )?
         .execute(params![before(keeping.years * YEAR_D), SLICE_ROWS])?;
     is_more |= removed > 0;
+    let old = "SELECT id FROM pass WHERE until_us < ?1 ORDER BY until_us LIMIT 20";
+    for table in [
+        format!("DELETE FROM pass_point WHERE pass IN ({old})"),
+        format!("DELETE FROM pass WHERE id IN ({old})"),
+    ] {
+        let removed = db.prepare_cached(&table)?.execute([before(keeping.years * YEAR_D)])?;
+        is_more |= removed > 0;
+    }
     if is_more {
         db.execute_batch(&format!("PRAGMA incremental_vacuum({PAGES})"))?;
     }

@@ -21,12 +21,15 @@ pub enum What {
     Position,
     /// A line on a link.
     Frame,
+    /// A pass that was tracked, at its end, with its report.
+    Pass,
 }
 
 impl What {
     /// All, entries first.
     pub fn all() -> impl Iterator<Item = Self> {
-        Kind::ALL.into_iter().map(Self::Entry).chain([Self::Position, Self::Frame])
+        let others = [Self::Pass, Self::Position, Self::Frame];
+        Kind::ALL.into_iter().map(Self::Entry).chain(others)
     }
 
     pub fn word(self) -> &'static str {
@@ -34,6 +37,7 @@ impl What {
             Self::Entry(kind) => kind.word(),
             Self::Position => "position",
             Self::Frame => "frame",
+            Self::Pass => "pass",
         }
     }
 }
@@ -72,6 +76,7 @@ pub struct Row {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 struct Place {
     event: i64,
+    pass: i64,
     /// Latest time of a position or line that was read, microseconds.
     raw_us: i64,
 }
@@ -130,6 +135,7 @@ impl Record {
         };
         Ok(Place {
             event: newest("SELECT max(id) FROM event")?,
+            pass: newest("SELECT max(id) FROM pass")?,
             raw_us: raw("position")?.max(raw("frame")?),
         })
     }
@@ -156,7 +162,7 @@ impl Record {
         }
         if query.what.contains(&What::Position) {
             parts.push(
-                "SELECT utc_us, run, steady_us, antenna, 'position', azimuth, elevation, axis_1, \
+                "SELECT utc_us, run, steady_us, antenna, 'position' AS kind, azimuth, elevation, axis_1, \
                  axis_2, motion_1, motion_2, limits FROM position \
                  WHERE antenna IN (SELECT id FROM antenna) \
                  AND utc_us >= ?1 AND utc_us < ?2 AND utc_us > ?4"
@@ -165,10 +171,18 @@ impl Record {
         }
         if query.what.contains(&What::Frame) {
             parts.push(
-                "SELECT utc_us, run, NULL, antenna, 'frame', is_sent, bytes, length, fault, \
+                "SELECT utc_us, run, NULL AS steady_us, antenna, 'frame' AS kind, is_sent, bytes, length, fault, \
                  meaning, reply_us, NULL FROM frame \
                  WHERE antenna IN (SELECT id FROM antenna) \
                  AND utc_us >= ?1 AND utc_us < ?2 AND utc_us > ?4"
+                    .to_owned(),
+            );
+        }
+        if query.what.contains(&What::Pass) {
+            parts.push(
+                "SELECT until_us AS utc_us, run, NULL AS steady_us, antenna, 'pass' AS kind, report, satellite, name, NULL, \
+                 NULL, NULL, NULL FROM pass \
+                 WHERE until_us >= ?1 AND until_us < ?2 AND id > ?5"
                     .to_owned(),
             );
         }
@@ -177,11 +191,11 @@ impl Record {
         }
         let of_antenna = query.antenna.as_ref().map_or(
             "",
-            |_| "WHERE antenna IN (SELECT id FROM antenna AS named WHERE named.name = ?5)",
+            |_| "WHERE antenna IN (SELECT id FROM antenna AS named WHERE named.name = ?6)",
         );
         let sql = format!(
             "SELECT *, (SELECT name FROM antenna AS a WHERE a.id = antenna \
-             ORDER BY since_us > all_rows.utc_us, abs(since_us - all_rows.utc_us) LIMIT 1) AS name \
+             ORDER BY since_us > all_rows.utc_us, abs(since_us - all_rows.utc_us) LIMIT 1) AS antenna_name \
              FROM ({}) AS all_rows {of_antenna} ORDER BY utc_us",
             parts.join(" UNION ALL ")
         );
@@ -191,6 +205,7 @@ impl Record {
             span.to_us.into(),
             span.after.event.into(),
             span.after.raw_us.into(),
+            span.after.pass.into(),
         ];
         given.extend(query.antenna.clone().map(SqlValue::from));
         given.truncate(statement.parameter_count());
@@ -251,13 +266,21 @@ fn read_row(row: &SqlRow<'_>) -> Result<Row, RecordError> {
                 "reply_s": reply_us.map(|us| us as f64 / 1e6),
             })
         }
+        "pass" => {
+            let report: String = row.get(5)?;
+            json!({
+                "satellite": row.get::<_, u32>(6)?,
+                "name": row.get::<_, String>(7)?,
+                "report": serde_json::from_str::<Value>(&report).unwrap_or_default(),
+            })
+        }
         _ => serde_json::from_str(&row.get::<_, String>(5)?).unwrap_or_default(),
     };
     Ok(Row {
         time: Timestamp::from_microsecond(utc_us).unwrap_or_default(),
         run: row.get(1)?,
         steady_s: row.get::<_, Option<i64>>(2)?.map(|us| us as f64 / 1e6),
-        antenna: row.get("name")?,
+        antenna: row.get("antenna_name")?,
         kind,
         data,
     })

@@ -15,7 +15,7 @@ use std::{
 use jiff::Timestamp;
 use serde::{Deserialize, Serialize};
 
-use super::{Entry, writer::Writer};
+use super::{Entry, PassNote, writer::Writer};
 use crate::{
     clock::{Clock, Moment},
     driver::{PositionLog, WireLog},
@@ -49,12 +49,13 @@ pub struct Failing {
 
 pub(super) enum Order {
     Entry(Box<Entry>),
+    Pass(Box<PassNote>),
     /// Write at once, then answer.
     Flush(mpsc::SyncSender<()>),
 }
 
 /// A session to be recorded.
-pub struct Followed {
+pub struct RecordedSession {
     /// When it began.
     pub at: Moment,
     pub antenna: AntennaId,
@@ -70,7 +71,7 @@ pub struct Followed {
 pub(super) struct Shared {
     pub(super) status: Mutex<Status>,
     /// Sessions that the writer does not know of yet.
-    pub(super) begun: Mutex<Vec<Followed>>,
+    pub(super) begun: Mutex<Vec<RecordedSession>>,
     pub(super) keeping: Mutex<Keeping>,
     /// Entries for which there was no room.
     pub(super) turned_away: AtomicU64,
@@ -111,14 +112,23 @@ impl Recorder {
 
     /// Records an entry. One that the writer has no room for is counted.
     pub fn note(&self, entry: Entry) {
+        self.order(Order::Entry(Box::new(entry)));
+    }
+
+    /// Records a pass, in the same way.
+    pub fn note_pass(&self, pass: PassNote) {
+        self.order(Order::Pass(Box::new(pass)));
+    }
+
+    fn order(&self, order: Order) {
         let Some(orders) = &self.orders else { return };
-        if orders.try_send(Order::Entry(Box::new(entry))).is_err() {
+        if orders.try_send(order).is_err() {
             self.shared.turned_away.fetch_add(1, Ordering::Relaxed);
         }
     }
 
     /// Records a session from its beginning: its lines and measured positions.
-    pub fn follow(&self, session: Followed) {
+    pub fn follow(&self, session: RecordedSession) {
         locked(&self.shared.begun).push(session);
     }
 

@@ -5,7 +5,7 @@ use std::{fs, path::Path, time::Duration};
 use jiff::Timestamp;
 use serde_json::{Value, json};
 
-use super::{Entry, Followed, Kind, Query, Record, RecordError, Recorder, Row, What};
+use super::{Entry, Kind, Query, Record, RecordError, RecordedSession, Recorder, Row, What};
 use crate::{
     astro::Angle,
     clock::{Clock, Instant, Moment},
@@ -38,7 +38,7 @@ struct Logs {
 impl Logs {
     fn followed_by(recorder: &Recorder) -> Self {
         let (wire, positions) = (WireLog::default(), PositionLog::default());
-        recorder.follow(Followed {
+        recorder.follow(RecordedSession {
             at: clock().now(),
             antenna: DISH,
             name: "Dish".to_owned(),

@@ -12,10 +12,10 @@ use rusqlite::{Connection, Transaction, params};
 use serde_json::json;
 
 use super::{
-    Entry, Kind, RecordError,
+    Entry, Kind, PassNote, RecordError,
     file::{self, PER_DEGREE},
     keeping,
-    recorder::{Failing, Followed, Order, Shared, locked},
+    recorder::{Failing, Order, RecordedSession, Shared, locked},
 };
 use crate::{
     astro::Angle,
@@ -39,7 +39,7 @@ const CLOCK_SET_S: i64 = 60;
 
 /// A session, and how far it is recorded.
 struct Source {
-    of: Followed,
+    of: RecordedSession,
     is_named: bool,
     next_line: u64,
     next_position: u64,
@@ -71,6 +71,7 @@ pub(super) struct Writer {
     run: Option<i64>,
     sources: Vec<Source>,
     waiting: Vec<Entry>,
+    passes: Vec<PassNote>,
     /// Entries dropped here since the last write.
     dropped: u64,
     written_at: Timestamp,
@@ -90,6 +91,7 @@ impl Writer {
             run: None,
             sources: Vec::new(),
             waiting: Vec::new(),
+            passes: Vec::new(),
             dropped: 0,
             written_at: begun.utc,
             looked_at: None,
@@ -109,6 +111,8 @@ impl Writer {
         loop {
             match orders.recv_timeout(due.saturating_duration_since(Instant::now())) {
                 Ok(Order::Entry(entry)) => self.queue(*entry),
+                // There are some dozens a day: they need no limit.
+                Ok(Order::Pass(pass)) => self.passes.push(*pass),
                 Ok(Order::Flush(done)) => {
                     self.write();
                     // Nobody may be waiting any more.
@@ -208,11 +212,15 @@ impl Writer {
         for entry in &self.waiting {
             to.entry(entry)?;
         }
+        for pass in &self.passes {
+            to.pass(pass)?;
+        }
         tx.commit()?;
         // Only now: what could not be written is tried again.
         self.shared.turned_away.fetch_sub(turned_away, Ordering::Relaxed);
         self.dropped = 0;
         self.waiting.clear();
+        self.passes.clear();
         for (source, news) in self.sources.iter_mut().zip(&news) {
             source.is_named = true;
             source.next_line = news.lines.last().map_or(source.next_line, |line| line.number + 1);
@@ -283,7 +291,7 @@ impl Writer {
 }
 
 impl Source {
-    fn new(of: Followed) -> Self {
+    fn new(of: RecordedSession) -> Self {
         Self { of, is_named: false, next_line: 0, next_position: 0 }
     }
 
@@ -316,7 +324,7 @@ impl Tables<'_> {
         i64::try_from(since.as_micros()).unwrap_or(i64::MAX)
     }
 
-    fn antenna(&self, of: &Followed) -> Result<(), RecordError> {
+    fn antenna(&self, of: &RecordedSession) -> Result<(), RecordError> {
         self.tx
             .prepare_cached("INSERT OR REPLACE INTO antenna VALUES (?1, ?2, ?3, ?4)")?
             .execute(params![of.antenna.0, of.at.utc.as_microsecond(), of.name, of.make])?;
@@ -339,6 +347,36 @@ impl Tables<'_> {
                 entry.kind.word(),
                 entry.data.to_string(),
             ])?;
+        Ok(())
+    }
+
+    fn pass(&self, pass: &PassNote) -> Result<(), RecordError> {
+        self.tx
+            .prepare_cached(
+                "INSERT INTO pass (antenna, satellite, name, from_us, until_us, run, verdict, \
+                 report) VALUES (?1, ?2, ?3, ?4, ?5, ?6, ?7, ?8)",
+            )?
+            .execute(params![
+                pass.antenna.0,
+                pass.satellite,
+                pass.name,
+                pass.from.as_microsecond(),
+                pass.until.as_microsecond(),
+                self.run,
+                pass.verdict.word(),
+                pass.report.to_string(),
+            ])?;
+        let id = self.tx.last_insert_rowid();
+        let mut insert =
+            self.tx.prepare_cached("INSERT OR IGNORE INTO pass_point VALUES (?1, ?2, ?3, ?4)")?;
+        for point in &pass.points {
+            insert.execute(params![
+                id,
+                point.time.as_microsecond(),
+                parts(point.pointing.azimuth.map(Angle::degrees)),
+                parts(point.pointing.elevation.map(Angle::degrees)),
+            ])?;
+        }
         Ok(())
     }
 

@@ -3,6 +3,7 @@
 use std::{
     fs,
     num::NonZeroU32,
+    path::Path,
     sync::{Arc, LazyLock, mpsc},
     thread,
     time::{Duration, Instant},
@@ -163,6 +164,10 @@ impl Scene {
             fs::write(&left, while_running).unwrap();
         }
         Self::begin(units, clock, folder)
+    }
+
+    pub(super) fn folder(&self) -> &Path {
+        self.folder.path()
     }
 
     pub(super) fn client(&self) -> Client {

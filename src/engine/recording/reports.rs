@@ -1,0 +1,292 @@
+//! Reports of the passes that antennas track, however they are tracked: each is written when the
+//! pass is over.
+
+use jiff::Timestamp;
+use serde::Serialize;
+
+use super::Recording;
+use crate::{
+    astro::{
+        Angle, AzEl, Site,
+        time::{add_seconds, seconds_between},
+    },
+    driver::{PositionLog, TimeSync},
+    engine::{Antenna, CatalogState, Engine, antenna::AntennaModel, passes::mount_limits},
+    job::{Job, Wake},
+    library::History,
+    orbit::{Elements, PassSearch, Propagator, passes},
+    plan::{
+        MountLimits, Sample, Trackability,
+        pass_report::{Evidence, Explanation, Flown, FlownPass, PassReport},
+        trackability,
+    },
+    record::{PassNote, PassPoint},
+    station::AntennaId,
+};
+
+/// How far a pass under way may reach back and ahead, seconds. Of a satellite that stays up
+/// longer, this much before and after the beginning of the track is reported.
+const REACH_S: f64 = 6.0 * 3600.0;
+/// Time from the end of a pass to its report: the last position may still be on its way, seconds.
+const AFTER_S: f64 = 3.0;
+/// Time between two samples for the trackability, seconds.
+const STEP_S: f64 = 2.0;
+/// Least time between two points that are kept of the track, seconds.
+const POINT_S: f64 = 0.95;
+
+/// A pass that an antenna tracks, or has tracked, until it is over.
+pub(super) struct Followed {
+    antenna: AntennaId,
+    elements: Elements,
+    propagator: Propagator,
+    site: Site,
+    /// What counts, above the antenna's own minimum elevation.
+    from: Timestamp,
+    until: Timestamp,
+    max_elevation_deg: f64,
+    limits: MountLimits,
+    about: About,
+    positions: PositionLog,
+    next_position: u64,
+    flown: Vec<Flown>,
+}
+
+/// What is told of a track besides its positions.
+#[derive(Debug, Clone, Serialize)]
+struct About {
+    /// When it was first seen to be tracked.
+    begun: Timestamp,
+    by: TrackedBy,
+    /// Positions that were sent, with program track.
+    sent: Option<u32>,
+    /// The unit's clock against ours, seconds.
+    unit_clock_ahead_s: Option<f64>,
+    /// Whether a time service keeps this computer's clock.
+    sync: TimeSync,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+enum TrackedBy {
+    ProgramTrack,
+    OnBoard,
+    /// The unit began it, or somebody at its panel.
+    Elsewhere,
+}
+
+/// A report as it is written down.
+#[derive(Debug, Serialize)]
+struct Written {
+    from: Timestamp,
+    until: Timestamp,
+    max_elevation_deg: f64,
+    /// Age of the elements in the middle of the pass, days.
+    age_days: f64,
+    elements: Elements,
+    half_beam_deg: f64,
+    #[serde(flatten)]
+    about: About,
+    #[serde(flatten)]
+    report: PassReport,
+    /// What would explain the error, the best first.
+    explanations: Vec<Explanation>,
+}
+
+impl Engine {
+    /// Takes up the passes that antennas track, and reports on those that are over.
+    pub(super) fn report_passes(&mut self) {
+        if !self.recording.is_on() {
+            return;
+        }
+        self.recording.reports.retain_mut(|job| {
+            let mut job_left = job.take();
+            if let Some(Ok(note)) = Job::take(&mut job_left)
+                && let Some((_, recorder)) = &self.recording.recorder
+            {
+                recorder.note_pass(note);
+            }
+            *job = job_left;
+            job.is_some()
+        });
+        // A pass is long beside a second.
+        if self.now.as_second() == self.recording.looked_at {
+            return;
+        }
+        self.recording.looked_at = self.now.as_second();
+        for index in 0..self.antennas.len() {
+            self.take_up_pass(index);
+        }
+        let (now, sync) = (self.now, self.time_sync);
+        let Recording { followed, reports, .. } = &mut self.recording;
+        for pass in followed.iter_mut() {
+            let antenna = self.antennas.iter().find(|of| of.shown.id() == pass.antenna);
+            pass.look(antenna, sync);
+        }
+        let is_over = |pass: &mut Followed| seconds_between(pass.until, now) > AFTER_S;
+        for pass in followed.extract_if(.., is_over) {
+            let history = self.places.library().map(History::beside);
+            reports.extend(pass.report(history, &self.wake).map(Some));
+        }
+    }
+
+    /// Takes up the pass that an antenna tracks now, if it is a new one.
+    fn take_up_pass(&mut self, index: usize) {
+        let Some(antenna) = self.antennas.get(index) else { return };
+        let (shown, now) = (&antenna.shown, self.now);
+        let Some(number) = shown.tracked_number().filter(|_| shown.tracks()) else { return };
+        let is_known = |pass: &Followed| {
+            pass.antenna == shown.id()
+                && pass.elements.catalog_number() == number
+                && now <= pass.until
+        };
+        if self.recording.followed.iter().any(is_known) {
+            return;
+        }
+        let CatalogState::Ready(catalog) = &self.catalog else { return };
+        let Some(elements) = catalog.get(number) else { return };
+        let Ok(propagator) = Propagator::new(elements) else { return };
+        let limits = mount_limits(&shown.config);
+        let lowest = self.station.aos_elevation_deg.max(limits.min_elevation.degrees());
+        let search = PassSearch {
+            aos_elevation: Angle::from_degrees(lowest),
+            ..PassSearch::new(
+                self.station.site,
+                add_seconds(now, -REACH_S),
+                add_seconds(now, REACH_S),
+            )
+        };
+        let found = passes(&propagator, &search, &|| false);
+        let is_now = |pass: &&crate::orbit::Pass| pass.aos.time <= now && now <= pass.los.time;
+        let Some(pass) = found.iter().find(is_now) else { return };
+        let (from, until) = (pass.aos.time, pass.los.time);
+        let max_elevation_deg = pass.max_elevation().degrees();
+        let followed = Followed {
+            antenna: shown.id(),
+            elements: elements.clone(),
+            propagator,
+            site: self.station.site,
+            from,
+            until,
+            max_elevation_deg,
+            limits,
+            about: About::of(shown, now, self.time_sync),
+            positions: antenna.handle.positions().clone(),
+            next_position: 0,
+            flown: Vec::new(),
+        };
+        self.recording.followed.push(followed);
+    }
+}
+
+impl About {
+    fn of(antenna: &AntennaModel, begun: Timestamp, sync: TimeSync) -> Self {
+        let by = match () {
+            () if antenna.follows() => TrackedBy::ProgramTrack,
+            () if antenna.tracks_unasked() => TrackedBy::Elsewhere,
+            () => TrackedBy::OnBoard,
+        };
+        Self { begun, by, sent: None, unit_clock_ahead_s: None, sync }
+    }
+}
+
+impl Followed {
+    /// Takes what is new of the pass.
+    fn look(&mut self, antenna: Option<&Antenna>, sync: TimeSync) {
+        if let Some(antenna) = antenna {
+            let positions = antenna.handle.positions();
+            if !positions.is_same(&self.positions) {
+                // Another session has taken over.
+                (self.positions, self.next_position) = (positions.clone(), 0);
+            }
+            let snapshot = &antenna.shown.snapshot;
+            let view = snapshot.program_track.as_ref();
+            let number = self.elements.catalog_number();
+            if let Some(view) = view.filter(|view| view.catalog_number == Some(number)) {
+                self.about.sent = Some(view.stats.commands);
+            }
+            let clock = snapshot.state.on_board.clock.filter(|clock| clock.is_set);
+            self.about.unit_clock_ahead_s =
+                clock.map(|clock| clock.ahead_s).or(self.about.unit_clock_ahead_s);
+        }
+        if sync == TimeSync::NotSynchronised {
+            self.about.sync = sync;
+        }
+        let (first, positions) = self.positions.read_from(self.next_position);
+        self.next_position = first + positions.len() as u64;
+        let within = positions.iter().filter(|it| self.from <= it.at && it.at <= self.until);
+        self.flown.extend(within.map(|it| Flown { time: it.at, pointing: it.pointing }));
+    }
+
+    /// Starts the work on the report; `None` where there is no thread for it.
+    fn report(self, history: Option<History>, wake: &Wake) -> Option<Job<PassNote>> {
+        let job =
+            Job::start("azel-report", Wake::clone(wake), move |_| self.note(history.as_ref()));
+        job.inspect_err(|error| tracing::error!(%error, "a pass without a report")).ok()
+    }
+
+    fn note(self, history: Option<&History>) -> PassNote {
+        let report = FlownPass {
+            propagator: &self.propagator,
+            site: self.site,
+            from: self.from,
+            until: self.until,
+            limits: self.limits,
+            trackability: self.trackability(),
+        }
+        .report(&self.flown);
+        let has_elevation = self.limits.has_elevation;
+        let measured = self.flown.iter().filter_map(|flown| {
+            let azimuth = flown.pointing.azimuth?;
+            let elevation = flown.pointing.elevation.or((!has_elevation).then_some(Angle::ZERO))?;
+            Some((flown.time, AzEl { azimuth, elevation }))
+        });
+        let evidence = Evidence::new(&self.propagator, self.site, measured, has_elevation);
+        let sets = history.map_or_else(Vec::new, |of| of.of(self.elements.catalog_number()));
+        let others = sets.iter().filter(|set| set.elements.epoch() != self.elements.epoch());
+        let others = others
+            .filter_map(|set| Some((set.elements.epoch(), Propagator::new(&set.elements).ok()?)));
+        let explanations = evidence.explanations(&others.collect::<Vec<_>>());
+        let middle = add_seconds(self.from, seconds_between(self.from, self.until) / 2.0);
+        let satellite = self.elements.catalog_number();
+        let name = self.elements.name().to_owned();
+        let written = Written {
+            from: self.from,
+            until: self.until,
+            max_elevation_deg: self.max_elevation_deg,
+            age_days: self.elements.age_s(middle) / 86_400.0,
+            half_beam_deg: self.limits.half_beam.degrees(),
+            elements: self.elements,
+            about: self.about,
+            report,
+            explanations,
+        };
+        let mut points: Vec<PassPoint> = Vec::new();
+        for flown in &self.flown {
+            if points.last().is_none_or(|last| seconds_between(last.time, flown.time) >= POINT_S) {
+                let Flown { time, pointing } = *flown;
+                points.push(PassPoint { time, pointing });
+            }
+        }
+        let verdict = written.report.verdict;
+        PassNote {
+            antenna: self.antenna,
+            satellite,
+            name,
+            from: self.from,
+            until: self.until,
+            verdict,
+            report: serde_json::to_value(written).unwrap_or_default(),
+            points,
+        }
+    }
+
+    fn trackability(&self) -> Trackability {
+        let count = (seconds_between(self.from, self.until) / STEP_S) as u32;
+        let samples = (0..=count).filter_map(|step| {
+            let time = add_seconds(self.from, f64::from(step) * STEP_S);
+            let look = self.propagator.look_from(self.site, time).ok()?;
+            Some(Sample { time, direction: look.direction })
+        });
+        trackability(&samples.collect::<Vec<_>>(), self.limits)
+    }
+}

@@ -1,0 +1,336 @@
+//! Report of a pass that an antenna tracked: where it pointed, beside where the satellite was.
+
+mod explain;
+#[cfg(test)]
+mod tests;
+
+pub use explain::{Cause, Evidence, Explanation};
+
+use jiff::Timestamp;
+use serde::{Deserialize, Serialize};
+
+use super::trackability::{Loss, MountLimits, Trackability};
+use crate::{
+    astro::{Angle, AzEl, Site, time::seconds_between},
+    device::Pointing,
+    orbit::Propagator,
+};
+
+/// Positions that are further apart tell nothing of the time between, seconds.
+const APART_S: f64 = 2.0;
+/// Time between the two directions that give the direction of motion, seconds.
+const MOTION_S: f64 = 0.5;
+/// Share of a pass inside half of the beam from which it is good.
+const GOOD: f64 = 0.995;
+/// Share from which it is fair.
+const FAIR: f64 = 0.95;
+/// More seconds of a pass without a position make it poor.
+const NOT_KNOWN_S: f64 = 10.0;
+
+/// A pass of an antenna, to be reported on.
+#[derive(Debug, Clone, Copy)]
+pub struct FlownPass<'a> {
+    pub propagator: &'a Propagator,
+    pub site: Site,
+    /// What counts: from AOS to LOS, above the antenna's minimum elevation.
+    pub from: Timestamp,
+    pub until: Timestamp,
+    pub limits: MountLimits,
+    /// What could be had of it.
+    pub trackability: Trackability,
+}
+
+/// A measured position.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Flown {
+    pub time: Timestamp,
+    pub pointing: Pointing,
+}
+
+/// Report of a pass.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct PassReport {
+    pub verdict: PassVerdict,
+    /// Seconds that count.
+    pub counted_s: f64,
+    /// Seconds of them with positions.
+    pub known_s: f64,
+    /// Seconds of them inside half of the beam.
+    pub in_beam_s: f64,
+    /// Root of the mean square over all positions; `None` without one.
+    pub rms: Option<PointingError>,
+    pub worst: Option<WorstError>,
+    /// Stretches outside half of the beam or without positions, in order.
+    pub losses: Vec<LostStretch>,
+}
+
+impl PassReport {
+    /// Share of the pass inside half of the beam.
+    pub fn share(&self) -> f64 {
+        if self.counted_s > 0.0 { self.in_beam_s / self.counted_s } else { 0.0 }
+    }
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum PassVerdict {
+    /// At least 99.5 %, and never outside half of the beam; or all that was lost could not be had.
+    Good,
+    /// At least 95 %.
+    Fair,
+    /// Less, or more than 10 s are not known.
+    Poor,
+}
+
+impl PassVerdict {
+    /// Its word in lists and files.
+    pub fn word(self) -> &'static str {
+        match self {
+            Self::Good => "good",
+            Self::Fair => "fair",
+            Self::Poor => "poor",
+        }
+    }
+}
+
+/// Measured minus predicted direction, degrees.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct PointingError {
+    /// Angle between the beam axis and the satellite.
+    pub off_deg: f64,
+    /// Of the azimuth, the short way round: large near the zenith.
+    pub azimuth_deg: f64,
+    pub elevation_deg: f64,
+    /// Along the satellite's way; positive where the antenna is ahead.
+    pub along_deg: f64,
+    /// Across it; positive to the left of the way as seen from the site.
+    pub across_deg: f64,
+}
+
+/// The largest error of a pass.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct WorstError {
+    pub at: Timestamp,
+    pub error: PointingError,
+}
+
+/// A stretch of a pass that was lost.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct LostStretch {
+    pub from: Timestamp,
+    pub until: Timestamp,
+    pub cause: LossCause,
+}
+
+impl LostStretch {
+    pub fn seconds(&self) -> f64 {
+        seconds_between(self.from, self.until)
+    }
+}
+
+/// Why a stretch was lost, as far as positions and mount tell.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum LossCause {
+    /// No positions came in.
+    NotMeasured,
+    /// The mount cannot point there.
+    OutOfReach,
+    /// An axis would have had to turn faster than it can: near a keyhole or overhead.
+    RateOfMount,
+    /// The axis had to slew a whole turn.
+    Slew,
+    /// The antenna had not arrived at the satellite yet.
+    LateStart,
+    /// The antenna had left the satellite before its end.
+    EarlyEnd,
+    NotExplained,
+}
+
+/// A position with what it is compared with.
+struct Compared {
+    time: Timestamp,
+    error: PointingError,
+    is_in_beam: bool,
+}
+
+impl FlownPass<'_> {
+    /// The report by `flown`, oldest first. Those outside of the pass are left out.
+    pub fn report(&self, flown: &[Flown]) -> PassReport {
+        let counted_s = seconds_between(self.from, self.until).max(0.0);
+        let within = |flown: &&Flown| self.from <= flown.time && flown.time <= self.until;
+        let compared: Vec<Compared> =
+            flown.iter().filter(within).filter_map(|flown| self.compare(*flown)).collect();
+        let (known_s, in_beam_s) = self.times(&compared);
+        let losses = self.losses(&compared);
+        let by_size = |a: &&Compared, b: &&Compared| a.error.off_deg.total_cmp(&b.error.off_deg);
+        let worst = compared.iter().max_by(by_size);
+        let worst = worst.map(|worst| WorstError { at: worst.time, error: worst.error });
+        let is_planned = |loss: &LostStretch| {
+            let planned = matches!(
+                loss.cause,
+                LossCause::OutOfReach | LossCause::RateOfMount | LossCause::Slew
+            );
+            planned && !matches!(self.trackability, Trackability::Whole)
+        };
+        let not_known_s = counted_s - known_s;
+        let share = if counted_s > 0.0 { in_beam_s / counted_s } else { 0.0 };
+        let stays_in_beam = losses.iter().all(|loss| loss.cause == LossCause::NotMeasured);
+        let verdict = if not_known_s > NOT_KNOWN_S || compared.is_empty() {
+            PassVerdict::Poor
+        } else if share >= GOOD && stays_in_beam || losses.iter().all(is_planned) {
+            PassVerdict::Good
+        } else if share >= FAIR {
+            PassVerdict::Fair
+        } else {
+            PassVerdict::Poor
+        };
+        PassReport { verdict, counted_s, known_s, in_beam_s, rms: rms(&compared), worst, losses }
+    }
+
+    fn direction(&self, at: Timestamp) -> Option<AzEl> {
+        self.propagator.look_from(self.site, at).ok().map(|look| look.direction)
+    }
+
+    fn compare(&self, flown: Flown) -> Option<Compared> {
+        let satellite = self.direction(flown.time)?;
+        let ahead = self.direction(crate::astro::time::add_seconds(flown.time, MOTION_S))?;
+        let azimuth = flown.pointing.azimuth?;
+        let elevation = match flown.pointing.elevation {
+            Some(elevation) => elevation,
+            // A rotator of azimuth alone is judged by its azimuth.
+            None if !self.limits.has_elevation => satellite.elevation,
+            None => return None,
+        };
+        let antenna = AzEl { azimuth, elevation };
+        let off = flown.pointing.separation(satellite.into())?;
+        let at = satellite.to_enu();
+        let error = antenna.to_enu() - at;
+        let way = (ahead.to_enu() - at).reject_from_normalized(at).normalize_or_zero();
+        let along = Angle::from_radians(error.dot(way));
+        let across = Angle::from_radians(error.dot(at.cross(way)));
+        Some(Compared {
+            time: flown.time,
+            error: PointingError {
+                off_deg: off.degrees(),
+                azimuth_deg: (azimuth - satellite.azimuth).wrapped_180().degrees(),
+                elevation_deg: (elevation - satellite.elevation).degrees(),
+                along_deg: along.degrees(),
+                across_deg: across.degrees(),
+            },
+            is_in_beam: off <= self.limits.half_beam,
+        })
+    }
+
+    /// Seconds with positions, and seconds of them inside half of the beam.
+    fn times(&self, compared: &[Compared]) -> (f64, f64) {
+        let (mut known_s, mut in_beam_s) = (0.0, 0.0);
+        // Before the first and after the last position the pass is as it was seen there.
+        if let (Some(first), Some(last)) = (compared.first(), compared.last()) {
+            for (end, edge) in [(self.from, first), (self.until, last)] {
+                let apart_s = seconds_between(end, edge.time).abs();
+                if apart_s <= APART_S {
+                    known_s += apart_s;
+                    in_beam_s += if edge.is_in_beam { apart_s } else { 0.0 };
+                }
+            }
+        }
+        for pair in compared.windows(2) {
+            let [before, after] = pair else { continue };
+            let apart_s = seconds_between(before.time, after.time);
+            if apart_s <= APART_S {
+                known_s += apart_s;
+                let ends = u8::from(before.is_in_beam) + u8::from(after.is_in_beam);
+                in_beam_s += apart_s * f64::from(ends) / 2.0;
+            }
+        }
+        (known_s, in_beam_s)
+    }
+
+    fn losses(&self, compared: &[Compared]) -> Vec<LostStretch> {
+        let mut losses: Vec<LostStretch> = Vec::new();
+        let mut seen_to = self.from;
+        let mut out_since: Option<Timestamp> = None;
+        let mut has_arrived = false;
+        let end =
+            |since: Timestamp, until: Timestamp, has_arrived: bool, is_over: bool| LostStretch {
+                from: since,
+                until,
+                cause: self.cause(since, until, has_arrived, is_over),
+            };
+        for position in compared {
+            if seconds_between(seen_to, position.time) > APART_S {
+                losses
+                    .extend(out_since.take().map(|since| end(since, seen_to, has_arrived, false)));
+                let (from, until) = (seen_to, position.time);
+                losses.push(LostStretch { from, until, cause: LossCause::NotMeasured });
+            }
+            if position.is_in_beam {
+                losses.extend(
+                    out_since.take().map(|since| end(since, position.time, has_arrived, false)),
+                );
+                has_arrived = true;
+            } else if out_since.is_none() {
+                out_since = Some(seen_to);
+            }
+            seen_to = position.time;
+        }
+        let is_measured = seconds_between(seen_to, self.until) <= APART_S;
+        let until = if is_measured { self.until } else { seen_to };
+        losses.extend(out_since.map(|since| end(since, until, has_arrived, true)));
+        if !is_measured {
+            let (from, until) = (seen_to, self.until);
+            losses.push(LostStretch { from, until, cause: LossCause::NotMeasured });
+        }
+        losses
+    }
+
+    /// Why the beam was off the satellite between two times.
+    fn cause(
+        &self,
+        from: Timestamp,
+        until: Timestamp,
+        has_arrived: bool,
+        is_over: bool,
+    ) -> LossCause {
+        let middle = crate::astro::time::add_seconds(from, seconds_between(from, until) / 2.0);
+        let times = [from, middle, until];
+        let mut directions = times.iter().filter_map(|at| self.direction(*at));
+        if directions.any(|direction| !self.limits.mount.reaches(direction)) {
+            return LossCause::OutOfReach;
+        }
+        if let Trackability::Loses { at, .. } = self.trackability
+            && has_arrived
+            && !is_over
+        {
+            return match at {
+                Loss::Keyhole(_) | Loss::Overhead => LossCause::RateOfMount,
+                Loss::Slew => LossCause::Slew,
+                Loss::OutOfReach => LossCause::OutOfReach,
+            };
+        }
+        match (has_arrived, is_over) {
+            (false, _) => LossCause::LateStart,
+            (true, true) => LossCause::EarlyEnd,
+            (true, false) => LossCause::NotExplained,
+        }
+    }
+}
+
+fn rms(compared: &[Compared]) -> Option<PointingError> {
+    let count = compared.len();
+    if count == 0 {
+        return None;
+    }
+    let of = |part: fn(&PointingError) -> f64| {
+        let squares: f64 = compared.iter().map(|it| part(&it.error).powi(2)).sum();
+        (squares / count as f64).sqrt()
+    };
+    Some(PointingError {
+        off_deg: of(|error| error.off_deg),
+        azimuth_deg: of(|error| error.azimuth_deg),
+        elevation_deg: of(|error| error.elevation_deg),
+        along_deg: of(|error| error.along_deg),
+        across_deg: of(|error| error.across_deg),
+    })
+}

@@ -1,0 +1,274 @@
+//! Errors of known causes, put into passes of real satellites.
+
+use std::collections::BTreeMap;
+
+use glam::{DQuat, DVec3};
+use jiff::Timestamp;
+
+use super::{Cause, Evidence, Explanation};
+use crate::{
+    astro::{Angle, AzEl, Site, time::add_seconds},
+    orbit::{Elements, Pass, PassSearch, Propagator, bundled, passes},
+    plan::schedule::testing::Random,
+    station::Station,
+};
+
+const SEED: u64 = 20_260_812;
+/// `AZEL_EXPLAIN_CASES` sets another number.
+const CASES: u32 = 200;
+/// Standard deviation of both angles, degrees.
+const NOISE_DEG: f64 = 0.02;
+const STEP_S: f64 = 0.5;
+
+struct Flight {
+    elements: Elements,
+    propagator: Propagator,
+    site: Site,
+    pass: Pass,
+}
+
+/// Passes of low satellites that come up well, over three days.
+fn flights() -> Vec<Flight> {
+    let catalog = bundled().unwrap();
+    let site = Station::default().site;
+    let start: Timestamp = "2026-08-12T00:00:00Z".parse().unwrap();
+    let mut flights = Vec::new();
+    for number in [25_544, 43_013, 37_849, 25_338] {
+        let Some(elements) = catalog.get(number) else { continue };
+        let propagator = Propagator::new(elements).unwrap();
+        let search = PassSearch {
+            aos_elevation: Angle::from_degrees(5.0),
+            floor: Angle::from_degrees(20.0),
+            ..PassSearch::new(site, start, add_seconds(start, 3.0 * 86_400.0))
+        };
+        for pass in passes(&propagator, &search, &|| false) {
+            let propagator = Propagator::new(elements).unwrap();
+            flights.push(Flight { elements: elements.clone(), propagator, site, pass });
+        }
+    }
+    assert!(flights.len() > 20, "{}", flights.len());
+    flights
+}
+
+impl Flight {
+    fn at(&self, time: Timestamp) -> AzEl {
+        self.propagator.look_from(self.site, time).unwrap().direction
+    }
+
+    fn times(&self) -> impl Iterator<Item = Timestamp> {
+        let from = self.pass.aos.time;
+        let count = (self.pass.duration_s() / STEP_S) as u32;
+        (0..=count).map(move |step| add_seconds(from, f64::from(step) * STEP_S))
+    }
+
+    /// Elements whose satellite is a little further on.
+    fn shifted(&self, mean_anomaly_deg: f64) -> Elements {
+        let mut written = serde_json::to_value(&self.elements).unwrap();
+        let anomaly = written["mean_anomaly_deg"].as_f64().unwrap();
+        written["mean_anomaly_deg"] = (anomaly + mean_anomaly_deg).into();
+        // The plane differs too, as it does between two real sets.
+        let node = written["node_deg"].as_f64().unwrap();
+        written["node_deg"] = (node + mean_anomaly_deg / 2.0).into();
+        serde_json::from_value(written).unwrap()
+    }
+}
+
+fn deg(deg: f64) -> Angle {
+    Angle::from_degrees(deg)
+}
+
+/// A number from -1 to 1, but not close to zero.
+fn signed(random: &mut Random) -> f64 {
+    let size = 0.15 + 0.85 * f64::from(random.below(10_000)) / 10_000.0;
+    if random.below(2) == 0 { size } else { -size }
+}
+
+/// From the normal distribution, nearly.
+fn normal(random: &mut Random) -> f64 {
+    (0..12).map(|_| f64::from(random.below(1_000_000)) / 1e6).sum::<f64>() - 6.0
+}
+
+/// Draws one of eight causes.
+fn drawn(random: &mut Random, flight: &Flight) -> (&'static str, Cause) {
+    match random.below(8) {
+        0 => (
+            "late",
+            Cause::Late {
+                late_s: 2.0 * signed(random).powi(2).max(0.025).copysign(signed(random)),
+            },
+        ),
+        1 => ("azimuth", Cause::AzimuthOffset { offset_deg: signed(random) }),
+        2 => ("elevation", Cause::ElevationOffset { offset_deg: signed(random) }),
+        3 => ("tilt", Cause::Tilt { north_deg: signed(random), east_deg: signed(random) }),
+        4 => ("azimuth scale", Cause::AzimuthScale { per_mille: 5.0 * signed(random) }),
+        5 => ("elevation scale", Cause::ElevationScale { per_mille: 20.0 * signed(random) }),
+        6 => ("elements", Cause::OtherElements { epoch: flight.elements.epoch() }),
+        _ => ("slow drives", Cause::SlowDrives { rate_deg_s: 0.0 }),
+    }
+}
+
+/// What an antenna with this cause measures, without noise.
+fn measured(flight: &Flight, cause: &mut Cause, other: &Propagator) -> Vec<(Timestamp, AzEl)> {
+    let directions: Vec<(Timestamp, AzEl)> =
+        flight.times().map(|time| (time, flight.at(time))).collect();
+    let mut azimuth_deg = directions[0].1.azimuth.degrees();
+    let mut before = directions[0].1.azimuth;
+    if let Cause::SlowDrives { rate_deg_s } = cause {
+        let rates = directions.windows(2).map(|pair| {
+            let turned = (pair[1].1.azimuth - pair[0].1.azimuth).wrapped_180().degrees();
+            turned.abs() / STEP_S
+        });
+        // So that some of the pass is lost, and the antenna comes back.
+        *rate_deg_s = 0.85 * rates.fold(0.0, f64::max);
+    }
+    let mut slow: Option<(f64, f64)> = None;
+    let each = directions.iter().map(|(time, at)| {
+        azimuth_deg += (at.azimuth - before).wrapped_180().degrees();
+        before = at.azimuth;
+        let AzEl { azimuth, elevation } = *at;
+        let direction = match *cause {
+            Cause::Late { late_s } => flight.at(add_seconds(*time, -late_s)),
+            Cause::AzimuthOffset { offset_deg } => {
+                AzEl { azimuth: azimuth + deg(offset_deg), elevation }
+            }
+            Cause::ElevationOffset { offset_deg } => {
+                AzEl { azimuth, elevation: elevation + deg(offset_deg) }
+            }
+            Cause::Tilt { north_deg, east_deg } => {
+                let lean = DVec3::new(-deg(north_deg).radians(), deg(east_deg).radians(), 0.0);
+                AzEl::from_enu(DQuat::from_scaled_axis(lean) * at.to_enu())
+            }
+            Cause::AzimuthScale { per_mille } => {
+                AzEl { azimuth: azimuth + deg(azimuth_deg * per_mille / 1000.0), elevation }
+            }
+            Cause::ElevationScale { per_mille } => {
+                AzEl { azimuth, elevation: deg(elevation.degrees() * (1.0 + per_mille / 1000.0)) }
+            }
+            Cause::OtherElements { .. } => other.look_from(flight.site, *time).unwrap().direction,
+            Cause::SlowDrives { rate_deg_s } => {
+                let most = rate_deg_s * STEP_S;
+                let (az, el) = slow.map_or((azimuth_deg, elevation.degrees()), |(az, el)| {
+                    let turned = |from: f64, to: f64| from + (to - from).clamp(-most, most);
+                    (turned(az, azimuth_deg), turned(el, elevation.degrees()))
+                });
+                slow = Some((az, el));
+                AzEl { azimuth: deg(az).wrapped_360(), elevation: deg(el) }
+            }
+        };
+        (*time, direction)
+    });
+    each.collect()
+}
+
+/// With noise on both angles of the sky.
+fn noisy(exact: &[(Timestamp, AzEl)], random: &mut Random) -> Vec<(Timestamp, AzEl)> {
+    let each = exact.iter().map(|(time, at)| {
+        let across = normal(random) * NOISE_DEG / at.elevation.radians().cos().max(0.02);
+        let azimuth = (at.azimuth + deg(across)).wrapped_360();
+        let elevation = at.elevation + deg(normal(random) * NOISE_DEG);
+        (*time, AzEl { azimuth, elevation })
+    });
+    each.collect()
+}
+
+fn is_same_kind(a: &Cause, b: &Cause) -> bool {
+    std::mem::discriminant(a) == std::mem::discriminant(b)
+}
+
+/// The sizes of a cause, each with the error that noise may bring.
+fn sizes(cause: &Cause) -> Vec<(f64, f64)> {
+    match *cause {
+        Cause::Late { late_s } => vec![(late_s, 0.02)],
+        Cause::AzimuthOffset { offset_deg } | Cause::ElevationOffset { offset_deg } => {
+            vec![(offset_deg, 0.01)]
+        }
+        Cause::Tilt { north_deg, east_deg } => vec![(north_deg, 0.02), (east_deg, 0.02)],
+        Cause::AzimuthScale { per_mille } | Cause::ElevationScale { per_mille } => {
+            vec![(per_mille, 0.5)]
+        }
+        Cause::SlowDrives { rate_deg_s } => vec![(rate_deg_s, 0.01)],
+        Cause::OtherElements { .. } => Vec::new(),
+    }
+}
+
+#[test]
+fn the_true_cause_of_an_error_is_named_first_or_with_those_that_look_alike() {
+    let cases = std::env::var("AZEL_EXPLAIN_CASES").map_or(CASES, |cases| cases.parse().unwrap());
+    let flights = flights();
+    let mut random = Random::new(SEED);
+    // By cause: cases, named, of the right size, lines with more than one cause.
+    let mut table = BTreeMap::<&str, [u32; 4]>::new();
+    for case in 0..cases {
+        let flight = &flights[random.below(flights.len() as u32) as usize];
+        let (name, mut cause) = drawn(&mut random, flight);
+        let other = flight.shifted(0.3 * signed(&mut random));
+        let other = Propagator::new(&other).unwrap();
+        let exact = measured(flight, &mut cause, &other);
+        let seen = noisy(&exact, &mut random);
+        let evidence = Evidence::new(&flight.propagator, flight.site, seen.into_iter(), true);
+        let found = evidence.explanations(&[(flight.elements.epoch(), other)]);
+        let line: Vec<&Explanation> = found.iter().filter(|it| it.is_alike).collect();
+        let named = line.iter().find(|it| is_same_kind(&it.cause, &cause));
+        let is_right = |it: &&&Explanation| {
+            let pairs = sizes(&it.cause).into_iter().zip(sizes(&cause));
+            pairs.into_iter().all(|((got, noise), (true_size, _))| {
+                (got - true_size).abs() <= (0.1 * true_size.abs()).max(noise)
+            })
+        };
+        let row = table.entry(name).or_default();
+        row[0] += 1;
+        row[1] += u32::from(named.is_some());
+        let is_right = named.as_ref().is_some_and(is_right);
+        row[2] += u32::from(is_right);
+        row[3] += u32::from(line.len() > 1);
+        if !is_right {
+            println!("case {case}, {cause:?}: {found:?}");
+        }
+    }
+    println!("seed {SEED}, {cases} cases: cause, cases, named, right size, lines of several");
+    for (name, row) in &table {
+        println!("{name:16} {row:?}");
+    }
+    let total = |place: usize| table.values().map(|row| row[place]).sum::<u32>();
+    assert!(f64::from(total(1)) >= 0.95 * f64::from(total(0)), "named");
+    assert!(f64::from(total(2)) >= 0.95 * f64::from(total(0)), "of the right size");
+}
+
+#[test]
+fn an_error_of_noise_alone_is_not_explained() {
+    let flights = flights();
+    let mut random = Random::new(SEED);
+    for flight in &flights {
+        let exact: Vec<_> = flight.times().map(|time| (time, flight.at(time))).collect();
+        let seen = noisy(&exact, &mut random);
+        let evidence = Evidence::new(&flight.propagator, flight.site, seen.into_iter(), true);
+        let found = evidence.explanations(&[]);
+        assert!(found.iter().all(|it| it.left_deg > 0.9 * NOISE_DEG), "{found:?}");
+    }
+    let flight = &flights[0];
+    let few = flight.times().take(10).map(|time| (time, flight.at(time)));
+    assert_eq!(Evidence::new(&flight.propagator, flight.site, few, true).explanations(&[]), []);
+}
+
+#[test]
+fn a_rotator_of_azimuth_alone_has_no_error_of_its_elevation() {
+    let flights = flights();
+    let flight = &flights[0];
+    let seen = flight.times().map(|time| {
+        let mut at = flight.at(time);
+        at.azimuth = (at.azimuth + deg(0.5)).wrapped_360();
+        at.elevation = Angle::ZERO;
+        (time, at)
+    });
+    let evidence = Evidence::new(&flight.propagator, flight.site, seen, false);
+    let found = evidence.explanations(&[]);
+    let Cause::AzimuthOffset { offset_deg } = found[0].cause else { panic!("{found:?}") };
+    assert!((offset_deg - 0.5).abs() < 1e-6);
+    let of_elevation = |it: &Explanation| {
+        matches!(
+            it.cause,
+            Cause::ElevationOffset { .. } | Cause::ElevationScale { .. } | Cause::Tilt { .. }
+        )
+    };
+    assert!(!found.iter().any(of_elevation), "{found:?}");
+}

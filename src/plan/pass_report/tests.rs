@@ -1,0 +1,176 @@
+//! Reports of passes whose errors are known.
+
+use jiff::Timestamp;
+
+use super::{Flown, FlownPass, LossCause, PassReport, PassVerdict};
+use crate::{
+    astro::{
+        Angle, AzEl, Site,
+        time::{add_seconds, seconds_between},
+    },
+    orbit::{Pass, PassSearch, Propagator, bundled, passes},
+    plan::{MountLimits, Trackability},
+    station::{Mount, Station},
+};
+
+const ISS: u32 = 25_544;
+const STEP_S: f64 = 0.2;
+
+struct Scene {
+    propagator: Propagator,
+    site: Site,
+    pass: Pass,
+}
+
+impl Scene {
+    /// A pass of the ISS that stands well above the horizon.
+    fn new() -> Self {
+        let propagator = Propagator::new(bundled().unwrap().get(ISS).unwrap()).unwrap();
+        let site = Station::default().site;
+        let start: Timestamp = "2026-08-12T00:00:00Z".parse().unwrap();
+        let search = PassSearch {
+            aos_elevation: Angle::from_degrees(5.0),
+            floor: Angle::from_degrees(40.0),
+            ..PassSearch::new(site, start, add_seconds(start, 3.0 * 86_400.0))
+        };
+        let pass = passes(&propagator, &search, &|| false)[0];
+        Self { propagator, site, pass }
+    }
+
+    fn flown_pass(&self) -> FlownPass<'_> {
+        FlownPass {
+            propagator: &self.propagator,
+            site: self.site,
+            from: self.pass.aos.time,
+            until: self.pass.los.time,
+            limits: MountLimits {
+                mount: Mount::AzEl {
+                    azimuth_from_deg: 0.0,
+                    azimuth_to_deg: 540.0,
+                    elevation_from_deg: 0.0,
+                    elevation_to_deg: 90.0,
+                },
+                maximum_rate_deg_s: 10.0,
+                half_beam: Angle::from_degrees(1.0),
+                has_elevation: true,
+                min_elevation: Angle::from_degrees(5.0),
+            },
+            trackability: Trackability::Whole,
+        }
+    }
+
+    fn direction(&self, at: Timestamp) -> AzEl {
+        self.propagator.look_from(self.site, at).unwrap().direction
+    }
+
+    /// Positions all through the pass: at each second of it, the direction at which the antenna
+    /// points, if it tells one.
+    fn flown(&self, points: impl Fn(f64, Timestamp) -> Option<AzEl>) -> Vec<Flown> {
+        let (from, until) = (self.pass.aos.time, self.pass.los.time);
+        let count = (seconds_between(from, until) / STEP_S) as u32;
+        let at = |step: u32| add_seconds(from, f64::from(step) * STEP_S);
+        let flown = (0..=count).filter_map(|step| {
+            let direction = points(f64::from(step) * STEP_S, at(step))?;
+            Some(Flown { time: at(step), pointing: direction.into() })
+        });
+        flown.collect()
+    }
+
+    fn report(&self, points: impl Fn(f64, Timestamp) -> Option<AzEl>) -> PassReport {
+        self.flown_pass().report(&self.flown(points))
+    }
+
+    fn duration_s(&self) -> f64 {
+        self.pass.duration_s()
+    }
+}
+
+fn causes(report: &PassReport) -> Vec<LossCause> {
+    report.losses.iter().map(|loss| loss.cause).collect()
+}
+
+fn is_close(a: f64, b: f64, by: f64) -> bool {
+    (a - b).abs() <= by
+}
+
+#[test]
+fn an_antenna_on_its_satellite_has_a_good_pass_without_losses() {
+    let scene = Scene::new();
+    let report = scene.report(|_, at| Some(scene.direction(at)));
+    assert_eq!((report.verdict, &*report.losses), (PassVerdict::Good, &[][..]));
+    let whole_s = scene.duration_s();
+    for seconds in [report.counted_s, report.known_s, report.in_beam_s] {
+        assert!(is_close(seconds, whole_s, 0.01), "{seconds} of {whole_s}");
+    }
+    assert!(report.rms.unwrap().off_deg < 1e-9);
+}
+
+#[test]
+fn a_late_antenna_is_behind_along_the_way_and_not_across_it() {
+    let scene = Scene::new();
+    let report = scene.report(|_, at| Some(scene.direction(add_seconds(at, -0.5))));
+    let rms = report.rms.unwrap();
+    assert!(is_close(rms.along_deg, rms.off_deg, 1e-3), "{rms:?}");
+    assert!(rms.across_deg < 0.01 * rms.along_deg, "{rms:?}");
+    let worst = report.worst.unwrap();
+    assert!(worst.error.along_deg < 0.0, "{worst:?}");
+    // A satellite is fastest where it is nearest.
+    assert!(is_close(seconds_between(worst.at, scene.pass.tca.time), 0.0, 5.0));
+}
+
+#[test]
+fn an_error_of_elevation_is_told_as_one() {
+    let scene = Scene::new();
+    let report = scene.report(|_, at| {
+        let mut direction = scene.direction(at);
+        direction.elevation = direction.elevation + Angle::from_degrees(0.3);
+        Some(direction)
+    });
+    let rms = report.rms.unwrap();
+    assert!(is_close(rms.elevation_deg, 0.3, 1e-9) && is_close(rms.azimuth_deg, 0.0, 1e-9));
+    assert!(is_close(rms.off_deg, 0.3, 1e-6));
+    assert!(is_close(rms.along_deg.hypot(rms.across_deg), 0.3, 1e-4), "{rms:?}");
+    assert_eq!(report.verdict, PassVerdict::Good);
+}
+
+#[test]
+fn a_stretch_without_positions_is_not_known_and_makes_a_pass_poor() {
+    let scene = Scene::new();
+    let gap = |second: f64| (100.0..112.0).contains(&second);
+    let report = scene.report(|second, at| (!gap(second)).then(|| scene.direction(at)));
+    assert_eq!(causes(&report), [LossCause::NotMeasured]);
+    assert!(is_close(report.losses[0].seconds(), 12.0, 2.0 * STEP_S));
+    assert!(is_close(report.counted_s - report.known_s, 12.0, 2.0 * STEP_S));
+    assert_eq!(report.verdict, PassVerdict::Poor);
+    let short = |second: f64| (100.0..103.0).contains(&second);
+    let report = scene.report(|second, at| (!short(second)).then(|| scene.direction(at)));
+    assert_eq!(report.verdict, PassVerdict::Fair, "3 s of it are not known");
+}
+
+#[test]
+fn what_comes_late_leaves_early_or_wanders_is_told_apart() {
+    let scene = Scene::new();
+    let aside = |at: Timestamp| {
+        let mut direction = scene.direction(at);
+        direction.elevation = direction.elevation + Angle::from_degrees(20.0);
+        direction
+    };
+    let off = |when: std::ops::Range<f64>| {
+        scene.report(|second, at| {
+            Some(if when.contains(&second) { aside(at) } else { scene.direction(at) })
+        })
+    };
+    let late = off(0.0..20.0);
+    assert_eq!(causes(&late), [LossCause::LateStart]);
+    assert!(is_close(late.losses[0].seconds(), 20.0, STEP_S));
+    assert_eq!(causes(&off(scene.duration_s() - 20.0..f64::MAX)), [LossCause::EarlyEnd]);
+    let wanders = off(100.0..104.0);
+    assert_eq!(causes(&wanders), [LossCause::NotExplained]);
+    assert_eq!(wanders.verdict, PassVerdict::Fair);
+    assert_eq!(off(100.0..200.0).verdict, PassVerdict::Poor);
+    let nothing = scene.report(|_, at| Some(aside(at)));
+    assert_eq!((nothing.verdict, nothing.in_beam_s), (PassVerdict::Poor, 0.0));
+    let unmeasured = scene.report(|_, _| None);
+    assert_eq!((unmeasured.verdict, unmeasured.known_s), (PassVerdict::Poor, 0.0));
+    assert_eq!(causes(&unmeasured), [LossCause::NotMeasured]);
+}

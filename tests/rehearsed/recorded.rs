@@ -1,0 +1,79 @@
+//! What a station leaves in its record, in memory at many times real time.
+
+use std::num::NonZeroU32;
+
+use azel::{
+    engine::{Client, Command, record_path},
+    orbit::{PassSearch, Propagator, bundled, passes},
+    plan::pass_report::PassReport,
+    record::{Query, Record, Row, What},
+    station::Station,
+};
+use jiff::ToSpan as _;
+
+use super::scene::{self, Scene, antenna, measured, start, until};
+
+const ISS: u32 = 25_544;
+
+fn rows(scene: &Scene, what: What) -> Vec<Row> {
+    let path = record_path(&scene.folder().join("records"), &scene.folder().join("station.toml"));
+    let mut rows = Vec::new();
+    let query = Query { what: vec![what], ..Query::default() };
+    let Ok(mut record) = Record::open(&path) else { return rows };
+    let read = record.read(&query, &mut |row| {
+        rows.push(row);
+        true
+    });
+    read.unwrap();
+    rows
+}
+
+/// Tracks the next pass of the ISS that is listed, with the antenna of this name.
+fn track(client: &Client, name: &str) {
+    let id = measured(client, name);
+    let pass = until("the pass", || {
+        let lists = client.snapshot().pass_lists.clone();
+        let list = lists.favourites.passes.iter().find(|pass| pass.number() == ISS)?.key();
+        Some(list)
+    });
+    until("the track", || {
+        let _ = client.send(Command::ProgramTrackPass { antenna: id, pass });
+        antenna(client, name)?.1.tracks
+    });
+}
+
+#[test]
+fn a_pass_that_was_tracked_is_reported_when_it_is_over() {
+    let station = Station { favourites: [ISS].into(), ..scene::station() };
+    let propagator = Propagator::new(bundled().unwrap().get(ISS).unwrap()).unwrap();
+    let search = PassSearch {
+        aos_elevation: station.aos_elevation(),
+        floor: station.elevation_floor(),
+        ..PassSearch::new(station.site, start(), start() + 24.hours())
+    };
+    let pass = passes(&propagator, &search, &|| false)[0];
+    let speed = NonZeroU32::new(40).unwrap();
+    let scene = Scene::with(pass.aos.time - 4.minutes(), speed, &station);
+    let client = scene.client();
+    track(&client, "Mast");
+    until("its report", || {
+        let reports = rows(&scene, What::Pass);
+        (!reports.is_empty()).then_some(())
+    });
+    let reports = rows(&scene, What::Pass);
+    let [row] = &reports[..] else { panic!("{reports:?}") };
+    assert_eq!(row.antenna.as_deref(), Some("Mast"));
+    assert_eq!(row.data["satellite"], ISS);
+    let told = &row.data["report"];
+    assert_eq!(
+        (&told["by"], &told["elements"]["catalog_number"]),
+        (&"program_track".into(), &ISS.into())
+    );
+    assert!(told["sent"].as_u64().unwrap() > 10, "{told}");
+    let report: PassReport = serde_json::from_value(told.clone()).unwrap();
+    assert!((report.counted_s - pass.duration_s()).abs() < 60.0, "{report:?}");
+    assert!(report.known_s > 0.9 * report.counted_s, "{report:?}");
+    // Whole degrees inside half of a beam that is wider.
+    assert!(report.share() > 0.9, "{report:?}");
+    assert!(rows(&scene, What::Position).len() > 500);
+}
