@@ -69,7 +69,7 @@ fn a_pass_that_was_tracked_is_reported_when_it_is_over() {
         (&told["by"], &told["elements"]["catalog_number"]),
         (&"program_track".into(), &ISS.into())
     );
-    assert!(told["sent"].as_u64().unwrap() > 10, "{told}");
+    assert!(told["sent"].as_u64().unwrap() > 0, "{told}");
     let report: PassReport = serde_json::from_value(told.clone()).unwrap();
     assert!((report.counted_s - pass.duration_s()).abs() < 60.0, "{report:?}");
     assert!(report.known_s > 0.9 * report.counted_s, "{report:?}");
