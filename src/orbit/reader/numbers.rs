@@ -5,7 +5,7 @@
 /// they look like digits.
 ///
 /// Source: Space-Track, "Alpha-5".
-pub(super) fn catalog_number(text: &str) -> Option<u64> {
+pub(super) fn alpha_5(text: &str) -> Option<u64> {
     let mut letters = text.chars();
     let Some(letter @ 'A'..='Z') = letters.next() else {
         return digits(text);
@@ -18,6 +18,13 @@ pub(super) fn catalog_number(text: &str) -> Option<u64> {
 /// The letters of Alpha-5, which stand for the numbers from 10 on.
 pub(in crate::orbit) const ALPHA_5: &str = "ABCDEFGHJKLMNPQRSTUVWXYZ";
 
+/// A number with a point and without an exponent, such as `-.00002182`.
+pub(super) fn with_point(text: &str) -> Option<f64> {
+    let (whole, fraction) = text.strip_prefix(['+', '-']).unwrap_or(text).split_once('.')?;
+    let mut digits = whole.bytes().chain(fraction.bytes());
+    if digits.all(|byte| byte.is_ascii_digit()) { text.parse().ok() } else { None }
+}
+
 /// A number written only with digits, without a sign.
 pub(super) fn digits(text: &str) -> Option<u64> {
     Some(text).filter(|text| text.bytes().all(|byte| byte.is_ascii_digit()))?.parse().ok()
@@ -26,6 +33,25 @@ pub(super) fn digits(text: &str) -> Option<u64> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_number_with_a_point_has_no_exponent() {
+        for (text, number) in [
+            ("51.6416", Some(51.6416)),
+            ("-.5", Some(-0.5)),
+            ("+1.", Some(1.0)),
+            ("51.6e25", None),
+            ("1.E5", None),
+            ("1 .5", None),
+            ("--.5", None),
+            ("15", None),
+            ("inf", None),
+            (".", None),
+            ("", None),
+        ] {
+            assert_eq!(with_point(text), number, "{text}");
+        }
+    }
 
     #[test]
     fn alpha_5_has_24_letters() {
@@ -49,7 +75,7 @@ mod tests {
             ("", None),
             ("5 5", None),
         ] {
-            assert_eq!(catalog_number(text), number, "{text}");
+            assert_eq!(alpha_5(text), number, "{text}");
         }
     }
 }

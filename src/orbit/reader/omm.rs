@@ -122,7 +122,7 @@ impl<'a> Message<'a> {
     fn elements(&self) -> Result<Elements, RefusalReason> {
         self.is_sgp4()?;
         let number = self
-            .read("NORAD_CAT_ID", numbers::catalog_number)?
+            .read("NORAD_CAT_ID", numbers::alpha_5)?
             .ok_or(RefusalReason::MissingField("NORAD_CAT_ID"))?;
         let elements = Elements {
             name: clean(self.text("OBJECT_NAME").unwrap_or_default()),

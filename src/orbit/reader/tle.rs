@@ -82,6 +82,8 @@ fn set(
 
 #[cfg(test)]
 mod tests {
+    use std::ops::RangeInclusive;
+
     use super::*;
     use crate::orbit::{ElementsError, reader::Refusal};
 
@@ -172,6 +174,73 @@ mod tests {
         for wrong in ["26366.00000000", "26000.50000000", "26 -1.50000000", "26001.0e000000"] {
             assert_eq!(epoch(wrong), None, "{wrong}");
         }
+    }
+
+    /// Columns of lines 1 and 2 that hold numbers.
+    const NUMBERS: [&[RangeInclusive<usize>]; 2] = [
+        &[3..=7, 19..=32, 34..=43, 45..=52, 54..=61, 63..=63, 65..=68],
+        &[3..=7, 9..=16, 18..=25, 27..=33, 35..=42, 44..=51, 53..=63, 64..=68],
+    ];
+
+    /// The sets that follow from `first` and `second` with `text` in each column of a number in
+    /// turn, with what the columns held before.
+    fn each_with(first: &str, second: &str, text: &str) -> Vec<(String, String)> {
+        let lines = [first, second];
+        let mut sets = Vec::new();
+        for (index, columns) in NUMBERS.iter().enumerate() {
+            for column in columns.iter().cloned().flatten() {
+                let mut lines = lines.map(str::to_owned);
+                let held = lines[index][column - 1..column].to_owned();
+                lines[index] = with(&lines[index], column, text);
+                if column <= 7 {
+                    lines[1 - index] = with(&lines[1 - index], column, text);
+                }
+                sets.push((held, lines.join("\n")));
+            }
+        }
+        sets
+    }
+
+    #[test]
+    fn a_blank_in_place_of_a_digit_is_read_as_0_or_refused() {
+        // Every field ends in 0, and B* and the second derivative are there.
+        let first = with(LINE_1, 45, " 12340-5 -11600-4 0  290");
+        let first = with(&with(&first, 3, "25540"), 43, "0");
+        let second = with(LINE_2, 3, "25540  51.6410 247.4620 0006700 130.5360 325.0280");
+        let second = with(&second, 53, "15.7212539056350");
+        assert_eq!(read(&format!("{first}\n{second}")).refused, []);
+        let zeros = each_with(&first, &second, "0");
+        let mut refused = 0;
+        for ((held, blank), (_, zero)) in each_with(&first, &second, " ").iter().zip(&zeros) {
+            let (read_blank, read_zero) = (read(blank), read(zero));
+            let is_number = held.bytes().all(|byte| byte.is_ascii_digit());
+            let same = read_blank.elements == read_zero.elements;
+            assert!(!read_blank.refused.is_empty() || (same || !is_number), "{blank}");
+            refused += read_blank.refused.len();
+        }
+        assert!(refused > 20, "{refused}");
+        // The last digit of an eccentricity and of B*.
+        for (place, text) in [("ECCENTRICITY", 33), ("BSTAR", 59)] {
+            let lines = match place {
+                "BSTAR" => [with(&first, text, " "), second.clone()],
+                _ => [first.clone(), with(&second, text, " ")],
+            };
+            assert_eq!(refusal(&lines.join("\n")), RefusalReason::Field(place));
+        }
+    }
+
+    #[test]
+    fn no_letter_is_part_of_a_number() {
+        for letter in ["e", "E"] {
+            for (_, set) in each_with(LINE_1, LINE_2, letter) {
+                // In column 3, it is the first letter of an Alpha-5 number.
+                if !set.contains("1 E") {
+                    assert_eq!(read(&set).elements, [], "{set}");
+                }
+            }
+        }
+        let first = with(LINE_2, 9, " 51.6e25");
+        assert_eq!(refusal(&format!("{LINE_1}\n{first}")), RefusalReason::Field("INCLINATION"));
     }
 
     #[test]

@@ -2,7 +2,7 @@
 //!
 //! Source: `CelesTrak`, "NORAD Two-Line Element Set Format". Columns count from 1.
 
-use std::{ops::RangeInclusive, str::FromStr};
+use std::ops::RangeInclusive;
 
 use jiff::{SignedDuration, Timestamp, civil, tz::TimeZone};
 use smol_str::SmolStr;
@@ -63,34 +63,69 @@ impl Columns {
         Ok(Self { bytes, has_checksum })
     }
 
-    /// The text in `columns`, trimmed.
-    fn text(&self, columns: RangeInclusive<usize>) -> &str {
+    fn raw(&self, columns: RangeInclusive<usize>) -> &str {
         self.bytes
             .get(columns.start() - 1..*columns.end())
             .and_then(|bytes| str::from_utf8(bytes).ok())
             .unwrap_or_default()
-            .trim()
     }
 
-    /// A number; `None` if the columns are blank.
-    fn number<T: FromStr>(
+    /// The text in `columns`, trimmed.
+    fn text(&self, columns: RangeInclusive<usize>) -> &str {
+        self.raw(columns).trim()
+    }
+
+    /// Text that ends in the last of its columns. A whole number with a blank in place of its
+    /// last digit would be read as a tenth of itself.
+    fn right_aligned(&self, columns: RangeInclusive<usize>) -> &str {
+        self.raw(columns).trim_start()
+    }
+
+    /// A number with a decimal point; `None` if the columns are blank.
+    fn decimal(
         &self,
         columns: RangeInclusive<usize>,
         field: &'static str,
-    ) -> Result<Option<T>, RefusalReason> {
-        let text = self.text(columns);
-        if text.is_empty() {
-            return Ok(None);
+    ) -> Result<Option<f64>, RefusalReason> {
+        match self.text(columns) {
+            "" => Ok(None),
+            text => numbers::with_point(text).map(Some).ok_or(RefusalReason::Field(field)),
         }
-        text.parse().map(Some).map_err(|_| RefusalReason::Field(field))
     }
 
-    fn needed<T: FromStr>(
+    fn needed(
+        &self,
+        columns: RangeInclusive<usize>,
+        field: &'static str,
+    ) -> Result<f64, RefusalReason> {
+        self.decimal(columns, field)?.ok_or(RefusalReason::MissingField(field))
+    }
+
+    /// A whole number, 0 if the columns are blank.
+    fn count<T: TryFrom<u64> + Default>(
         &self,
         columns: RangeInclusive<usize>,
         field: &'static str,
     ) -> Result<T, RefusalReason> {
-        self.number(columns, field)?.ok_or(RefusalReason::MissingField(field))
+        match self.right_aligned(columns) {
+            "" => Ok(T::default()),
+            text => numbers::digits(text)
+                .and_then(|number| T::try_from(number).ok())
+                .ok_or(RefusalReason::Field(field)),
+        }
+    }
+
+    /// A fraction without its point: `0.0001771` for `0001771`.
+    fn fraction(
+        &self,
+        columns: RangeInclusive<usize>,
+        field: &'static str,
+    ) -> Result<String, RefusalReason> {
+        let width = columns.end() - columns.start() + 1;
+        let text = self.right_aligned(columns);
+        numbers::digits(text).ok_or(RefusalReason::Field(field))?;
+        // Old sets leave leading zeros blank.
+        Ok(format!("0.{text:0>width$}"))
     }
 
     /// A number of the form `-12345-6`, which means -0.12345e-6. All blank is 0.
@@ -98,38 +133,35 @@ impl Columns {
         if self.text(start..=start + 7).is_empty() {
             return Ok(0.0);
         }
-        let sign = self.text(start..=start);
-        let digits = self.zero_filled(start + 1..=start + 5);
-        let exponent: i8 = self.needed(start + 6..=start + 7, field)?;
+        let sign = match self.text(start..=start) {
+            sign @ ("" | "+" | "-") => sign,
+            _ => return Err(RefusalReason::Field(field)),
+        };
+        let fraction = self.fraction(start + 1..=start + 5, field)?;
+        let exponent = self.right_aligned(start + 6..=start + 7).parse::<i8>();
+        let exponent = exponent.map_err(|_| RefusalReason::Field(field))?;
         // Parsed as one decimal number, so that it equals that of an OMM.
-        format!("{sign}0.{digits}e{exponent}").parse().map_err(|_| RefusalReason::Field(field))
-    }
-
-    /// The digits in `columns`; old sets leave leading zeros blank.
-    fn zero_filled(&self, columns: RangeInclusive<usize>) -> String {
-        let width = columns.end() - columns.start() + 1;
-        format!("{:0>width$}", self.text(columns))
+        format!("{sign}{fraction}e{exponent}").parse().map_err(|_| RefusalReason::Field(field))
     }
 
     fn catalog_number(&self) -> Result<u64, RefusalReason> {
-        numbers::catalog_number(self.text(3..=7)).ok_or(RefusalReason::Field("NORAD_CAT_ID"))
+        let text = self.right_aligned(3..=7);
+        numbers::alpha_5(text).ok_or(RefusalReason::Field("NORAD_CAT_ID"))
     }
 
     /// Such as `1998-067A` for `98067A`.
     fn international_designator(&self) -> SmolStr {
-        let text = self.text(10..=17);
-        let Some((launch_year, rest)) = text.split_at_checked(2) else { return SmolStr::default() };
-        match launch_year.parse().ok() {
-            Some(launch_year) => clean(&format!("{}-{rest}", full_year(launch_year))),
+        match full_year(self.right_aligned(10..=11)) {
+            Some(launch_year) => clean(&format!("{launch_year}-{}", self.text(12..=17))),
             None => SmolStr::default(),
         }
     }
 
     fn epoch(&self) -> Option<Timestamp> {
-        let year = full_year(self.text(19..=20).parse().ok()?);
+        let year = full_year(self.right_aligned(19..=20))?;
         let new_year = civil::Date::new(year, 1, 1).ok()?;
         let (day, fraction) = self.text(21..=32).split_once('.')?;
-        let day: i64 = day.trim().parse().ok()?;
+        let day = i64::try_from(numbers::digits(day)?).ok()?;
         if !(1..=i64::from(new_year.days_in_year())).contains(&day) {
             return None;
         }
@@ -157,8 +189,9 @@ pub(in crate::orbit) fn checksum(content: &[u8]) -> u8 {
 }
 
 /// The year that two digits mean: 57 is the year of the first satellite.
-fn full_year(two_digits: u8) -> i16 {
-    i16::from(two_digits) + if two_digits < 57 { 2000 } else { 1900 }
+fn full_year(two_digits: &str) -> Option<i16> {
+    let year = i16::try_from(numbers::digits(two_digits)?).ok()?;
+    Some(year + if year < 57 { 2000 } else { 1900 })
 }
 
 pub(super) fn elements(
@@ -174,14 +207,14 @@ pub(super) fn elements(
         letter @ ("U" | "C" | "S") => Classification::from_letter(letter),
         _ => return Err(RefusalReason::Field("CLASSIFICATION_TYPE")),
     };
-    let eccentricity = format!("0.{}", second.zero_filled(27..=33));
+    let eccentricity = second.fraction(27..=33, "ECCENTRICITY")?;
     let elements = Elements {
         name: clean(name),
         international_designator: first.international_designator(),
         catalog_number: catalog_number(number)?,
         epoch: first.epoch().ok_or(RefusalReason::Field("EPOCH"))?,
         mean_motion_rev_day: second.needed(53..=63, "MEAN_MOTION")?,
-        mean_motion_dot: first.number(34..=43, "MEAN_MOTION_DOT")?.unwrap_or(0.0),
+        mean_motion_dot: first.decimal(34..=43, "MEAN_MOTION_DOT")?.unwrap_or(0.0),
         mean_motion_ddot: first.assumed_point(45, "MEAN_MOTION_DDOT")?,
         bstar: first.assumed_point(54, "BSTAR")?,
         inclination_deg: second.needed(9..=16, "INCLINATION")?,
@@ -189,9 +222,9 @@ pub(super) fn elements(
         eccentricity: eccentricity.parse().map_err(|_| RefusalReason::Field("ECCENTRICITY"))?,
         perigee_deg: second.needed(35..=42, "ARG_OF_PERICENTER")?,
         mean_anomaly_deg: second.needed(44..=51, "MEAN_ANOMALY")?,
-        set_number: first.number(65..=68, "ELEMENT_SET_NO")?.unwrap_or(0),
-        revolution_number: second.number(64..=68, "REV_AT_EPOCH")?.unwrap_or(0),
-        ephemeris_type: first.number(63..=63, "EPHEMERIS_TYPE")?.unwrap_or(0),
+        set_number: first.count(65..=68, "ELEMENT_SET_NO")?,
+        revolution_number: second.count(64..=68, "REV_AT_EPOCH")?,
+        ephemeris_type: first.count(63..=63, "EPHEMERIS_TYPE")?,
         classification,
     };
     Ok(elements.checked()?)
