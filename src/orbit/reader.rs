@@ -268,6 +268,35 @@ mod tests {
     }
 
     #[test]
+    fn the_catalog_number_of_an_omm_is_digits_with_a_plus_at_most() {
+        let refused = RefusalReason::Field("NORAD_CAT_ID");
+        for form in &FORMS[1..] {
+            for text in ["+25544", "025544"] {
+                let report = read_elements(&form.replace("25544", text));
+                assert_eq!(report, read_elements(form), "{text}");
+            }
+            // Alpha-5 belongs to the five columns of a TLE.
+            for text in ["A0000", "+A0000", "++25544", "-25544", "25544.0"] {
+                let report = read_elements(&form.replace("25544", text));
+                assert_eq!(report.elements, [], "{text}");
+                assert_eq!(report.refused[0].reason, refused, "{text}");
+            }
+        }
+        let signed = FORMS[3].replace("REV_AT_EPOCH=1", "REV_AT_EPOCH=+1").replace("=999", "=+999");
+        assert_eq!(read_elements(&signed), read_elements(FORMS[3]));
+        let zero = FORMS[3].replace("=999", "=0");
+        assert_eq!(read_elements(&zero.replace("_NO=0", "_NO=+0")), read_elements(&zero));
+    }
+
+    #[test]
+    fn an_omm_without_a_catalog_number_is_refused_by_its_name() {
+        let report = read_elements(&FORMS[3].replace("NORAD_CAT_ID=25544\n", ""));
+        assert_eq!(report.elements, []);
+        let reason = RefusalReason::MissingField("NORAD_CAT_ID");
+        assert_eq!(report.refused, [Refusal { line: 2, object: Some("A".to_owned()), reason }]);
+    }
+
+    #[test]
     fn what_is_compressed_is_read() {
         let mut packed = flate2::write::GzEncoder::new(Vec::new(), flate2::Compression::fast());
         packed.write_all(FORMS[0].as_bytes()).unwrap();

@@ -121,9 +121,10 @@ impl<'a> Message<'a> {
 
     fn elements(&self) -> Result<Elements, RefusalReason> {
         self.is_sgp4()?;
-        let number = self
-            .read("NORAD_CAT_ID", numbers::alpha_5)?
-            .ok_or(RefusalReason::MissingField("NORAD_CAT_ID"))?;
+        // OMM 3.0 may leave it out, but an object is known by its number: to the catalog, to
+        // favourites and to plans.
+        let number = self.whole("NORAD_CAT_ID")?;
+        let number = number.ok_or(RefusalReason::MissingField("NORAD_CAT_ID"))?;
         let elements = Elements {
             name: clean(self.text("OBJECT_NAME").unwrap_or_default()),
             international_designator: clean(self.text("OBJECT_ID").unwrap_or_default()),
@@ -175,18 +176,14 @@ impl<'a> Message<'a> {
         }
     }
 
-    /// A whole number, read from text by `parse`.
-    fn read(
-        &self,
-        name: &'static str,
-        parse: fn(&str) -> Option<u64>,
-    ) -> Result<Option<u64>, RefusalReason> {
+    /// A whole number.
+    fn whole(&self, name: &'static str) -> Result<Option<u64>, RefusalReason> {
         let whole = match self.value(name) {
             None => return Ok(None),
             Some(Value::Text(text)) => {
                 let text = text.trim();
                 // CCSDS 502.0-B, 7.5.4.
-                parse(text.strip_prefix('+').unwrap_or(text))
+                numbers::digits(text.strip_prefix('+').unwrap_or(text))
             }
             Some(Value::Number(number)) if *number >= 0.0 && number.fract() == 0.0 => {
                 Some(*number as u64)
@@ -198,7 +195,7 @@ impl<'a> Message<'a> {
 
     /// A whole number, 0 if absent.
     fn count<T: TryFrom<u64>>(&self, name: &'static str) -> Result<T, RefusalReason> {
-        let count = self.read(name, numbers::digits)?.unwrap_or(0);
+        let count = self.whole(name)?.unwrap_or(0);
         T::try_from(count).map_err(|_| RefusalReason::Field(name))
     }
 
