@@ -21,7 +21,11 @@ pub(super) use self::{numbers::ALPHA_5, tle::checksum};
 /// whole and never panics.
 pub fn read_elements(text: &str) -> ReadReport {
     let text = text.trim_start_matches('\u{feff}');
-    let mut report = match form(text) {
+    let form = form(text);
+    if form.is_of_lines() && !text.contains('\n') && text.trim().contains('\r') {
+        return of_nothing(Nothing::CarriageReturns);
+    }
+    let mut report = match form {
         Form::Json => json::read(text),
         Form::Xml => xml::read(text),
         Form::Kvn => kvn::read(text),
@@ -64,6 +68,9 @@ pub fn read_element_bytes(bytes: &[u8]) -> ReadReport {
     if PACKED.iter().any(|mark| bytes.starts_with(mark)) {
         return of_nothing(Nothing::Packed);
     }
+    if is_unmarked_utf_16(bytes) {
+        return of_nothing(Nothing::Utf16);
+    }
     read_elements(&decoded(bytes))
 }
 
@@ -92,6 +99,13 @@ fn decoded(bytes: &[u8]) -> Cow<'_, str> {
     Cow::Owned(letters.collect())
 }
 
+/// Returns `true` if every other byte of the start is 0, as in UTF-16 of ASCII, and no mark says
+/// so.
+fn is_unmarked_utf_16(bytes: &[u8]) -> bool {
+    // All forms start with ASCII.
+    matches!(bytes, [1..=127, 0, 1..=127, 0, ..] | [0, 1..=127, 0, 1..=127, ..])
+}
+
 /// First bytes of a gzip.
 const GZIP: &[u8] = &[0x1f, 0x8b];
 /// Maximum size of an unpacked text, bytes; the whole catalog as XML has 30 MB.
@@ -105,6 +119,12 @@ enum Form {
     Kvn,
     Csv,
     Tle,
+}
+
+impl Form {
+    fn is_of_lines(&self) -> bool {
+        matches!(self, Self::Kvn | Self::Csv | Self::Tle)
+    }
 }
 
 /// The form of `text`, from its first line that is not a remark.
@@ -261,9 +281,34 @@ mod tests {
             (b"PK\x03\x04....", Nothing::Packed),
             (b"\x1f\x8b\x08 no gzip", Nothing::Unpackable),
             (b"hello\nworld\n", Nothing::Unknown),
+            (b"hello\rworld\r\n", Nothing::Unknown),
             (b"[]", Nothing::Unknown),
         ] {
             assert_eq!(read_element_bytes(bytes), of_nothing(why), "{why}");
+        }
+    }
+
+    #[test]
+    fn lines_that_end_with_cr_alone_are_told() {
+        let cr = |text: &str| text.replace("\r\n", "\n").replace('\n', "\r");
+        for text in [FORMS[0], &FORMS[0][5..], FORMS[3], FORMS[4]] {
+            assert_eq!(read_elements(&cr(text)), of_nothing(Nothing::CarriageReturns), "{text}");
+        }
+        // These two forms need no lines.
+        for text in [FORMS[1], FORMS[2].trim_start_matches("# remark\n")] {
+            assert_eq!(read_elements(&cr(text)), read_elements(text), "{text}");
+        }
+    }
+
+    #[test]
+    fn utf_16_without_a_mark_is_told() {
+        for text in FORMS {
+            let units: Vec<u16> = text.replace("0 A", "0 \u{15f}").encode_utf16().collect();
+            let little = units.iter().flat_map(|unit| unit.to_le_bytes());
+            let big = units.iter().flat_map(|unit| unit.to_be_bytes());
+            for bytes in [little.collect::<Vec<u8>>(), big.collect()] {
+                assert_eq!(read_element_bytes(&bytes), of_nothing(Nothing::Utf16), "{text}");
+            }
         }
     }
 

@@ -151,6 +151,11 @@ pub enum Nothing {
     Packed,
     #[error("it is compressed, and cannot be unpacked")]
     Unpackable,
+    /// Lines as Macs wrote them before 2001.
+    #[error("its lines end with CR alone; save it with LF or CR LF")]
+    CarriageReturns,
+    #[error("it is UTF-16 without a byte order mark; save it as UTF-8")]
+    Utf16,
     #[error("it is neither TLE nor OMM")]
     Unknown,
 }
