@@ -27,6 +27,9 @@ const FARTHEST_REACH: f64 = 1.3;
 /// The neglected waves, including the difference between geodetic and geocentric zenith, move a
 /// satellite by less than this, in radians.
 const MARGIN: f64 = 0.012;
+/// The cosine of 179 degrees of inclination. Towards 180 degrees, the long-period wave of the
+/// latitude grows without bounds.
+const LEAST_COS_INCLINATION: f64 = -0.999_848;
 /// The neglected waves in the distance, in km.
 const RADIUS_MARGIN_KM: f64 = 15.0;
 
@@ -73,7 +76,9 @@ impl<'a> NearCircular<'a> {
         };
         let Plane { sin_inclination, cos_inclination, .. } = secular.plane;
         let visible = reach(window.aos_elevation);
-        let possible = (0.0..FARTHEST_REACH).contains(&visible) && sin_inclination >= 0.0;
+        let possible = (0.0..FARTHEST_REACH).contains(&visible)
+            && sin_inclination >= 0.0
+            && cos_inclination > LEAST_COS_INCLINATION;
         possible.then(|| Self {
             index,
             track,
