@@ -23,7 +23,8 @@ pub use passes::{
 };
 pub use propagator::{PropagationError, Propagator, State};
 pub use reader::{
-    Note, NoteKind, Nothing, ReadReport, Refusal, RefusalReason, read_element_bytes, read_elements,
+    MAX_ELEMENT_BYTES, Note, NoteKind, Nothing, ReadReport, Refusal, RefusalReason,
+    read_element_bytes, read_elements,
 };
 pub use shadow::is_sunlit;
 pub use sources::{

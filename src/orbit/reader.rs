@@ -16,6 +16,9 @@ use self::omm::{csv, json, kvn, xml};
 pub use self::report::{Note, NoteKind, Nothing, ReadReport, Refusal, RefusalReason};
 pub(super) use self::{numbers::ALPHA_5, tle::checksum};
 
+/// Maximum size of a text of elements, unpacked, in bytes; the whole catalog as XML has 30 MB.
+pub const MAX_ELEMENT_BYTES: u64 = 1 << 28;
+
 /// Reads all elements of `text`: TLE with two or three lines per set (including Alpha-5 numbers),
 /// or OMM in JSON, XML, KVN or CSV, as written by `CelesTrak` and Space-Track. Never fails as a
 /// whole and never panics.
@@ -81,9 +84,9 @@ fn of_nothing(nothing: Nothing) -> ReadReport {
 /// All files of a gzip; `None` if it is damaged or unpacks to too much.
 fn unpack(bytes: &[u8]) -> Option<Vec<u8>> {
     let mut unpacked = Vec::new();
-    let mut packed = flate2::read::MultiGzDecoder::new(bytes).take(MAX_UNPACKED + 1);
+    let mut packed = flate2::read::MultiGzDecoder::new(bytes).take(MAX_ELEMENT_BYTES + 1);
     packed.read_to_end(&mut unpacked).ok()?;
-    (unpacked.len() as u64 <= MAX_UNPACKED).then_some(unpacked)
+    (unpacked.len() as u64 <= MAX_ELEMENT_BYTES).then_some(unpacked)
 }
 
 fn decoded(bytes: &[u8]) -> Cow<'_, str> {
@@ -108,8 +111,6 @@ fn is_unmarked_utf_16(bytes: &[u8]) -> bool {
 
 /// First bytes of a gzip.
 const GZIP: &[u8] = &[0x1f, 0x8b];
-/// Maximum size of an unpacked text, bytes; the whole catalog as XML has 30 MB.
-const MAX_UNPACKED: u64 = 1 << 28;
 /// First bytes of zip, bzip2, xz and zstd.
 const PACKED: [&[u8]; 4] = [b"PK\x03\x04", b"BZh", b"\xfd7zXZ", &[0x28, 0xb5, 0x2f, 0xfd]];
 

@@ -204,3 +204,12 @@ fn old_elements_are_told_on_standard_error() {
         assert!(said.contains("SMALLSAT") && said.lines().count() == 1, "{said}");
     }
 }
+
+#[test]
+#[cfg(unix)]
+fn a_file_without_an_end_is_refused() {
+    let output = azel(&[&["passes", "--elements", "/dev/zero"][..], &SITE].concat());
+    assert_eq!(output.status.code(), Some(1));
+    let told = "/dev/zero cannot be read: more than 268435456 bytes\n";
+    assert!(text(&output.stderr).starts_with(told), "{}", text(&output.stderr));
+}

@@ -12,12 +12,12 @@ use anyhow::{Context as _, bail};
 use super::InputOptions;
 use crate::{
     library::{Library, Limits, disk::read_limited, element_files, library_folder, load_sources},
-    orbit::{Catalog, Elements, MergeSummary, Note, Refusal, Source, read_element_bytes},
+    orbit::{
+        Catalog, Elements, MAX_ELEMENT_BYTES, MergeSummary, Note, Refusal, Source,
+        read_element_bytes,
+    },
     plan::pass_export::Satellite,
 };
-
-/// Size limit of one file; the whole catalogue as XML has 30 MB.
-const MAX_BYTES: u64 = 1 << 30;
 
 /// Requested satellites.
 pub(in crate::cli) struct Satellites {
@@ -136,9 +136,9 @@ impl InputOptions {
 
 fn bytes_of(file: &Path) -> io::Result<Vec<u8>> {
     if file == Path::new("-") {
-        read_limited(io::stdin().lock(), MAX_BYTES)
+        read_limited(io::stdin().lock(), MAX_ELEMENT_BYTES)
     } else {
-        read_limited(File::open(file)?, MAX_BYTES)
+        read_limited(File::open(file)?, MAX_ELEMENT_BYTES)
     }
 }
 
