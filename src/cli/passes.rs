@@ -27,8 +27,21 @@ pub(super) const LEFT_OUT: &str = "All times are UTC. Directions are geometric: 
     horizon by half a degree, so that a low one comes up some 10 s before its AOS and goes down \
     as much after its LOS; the rest comes to less than 0.1 s.";
 
+/// Fields of CSV and JSON, for `--help`.
+const FIELDS: &str = "CSV has a row and JSON an object for each pass; lines end with LF. Fields: \
+    catalog_number, name; time, azimuth_deg and elevation_deg of aos, tca and los (in CSV aos_time \
+    and so on), in JSON also range_km, range_rate_km_s and, with --doppler, doppler_hz; \
+    max_elevation_deg, duration_s; starts_before and ends_after (the window cuts the pass); epoch \
+    and age_days (of the elements, at AOS); sunlit and, in CSV, range_km at TCA; in JSON \
+    dark_at_site; designator.";
+
+/// Places where a pass is not sharp, for `--help`.
+const NOT_SHARP: &str = "TCA of a geosynchronous satellite may be off by half an hour, in which its \
+    elevation changes by less than 0.0001 degrees. Where an orbit far from its epoch dips below \
+    the ground, its pass may end or go on.";
+
 #[derive(Debug, Args)]
-#[command(after_help = format!("{LEFT_OUT}\n\n{EXIT_CODES}"))]
+#[command(after_help = format!("{FIELDS}\n\n{LEFT_OUT}\n\n{NOT_SHARP}\n\n{EXIT_CODES}"))]
 pub(super) struct Options {
     #[command(flatten)]
     input: InputOptions,
