@@ -55,7 +55,14 @@ fn calendar(elements: &[Elements], query: &PassQuery) -> Calendar {
         .iter()
         .map(|(index, pass)| ExportedPass { satellite: &satellites[*index], pass })
         .collect();
-    let list = PassList { rows: &rows, query, place: None, carrier_hz: None, now: start() };
+    let list = PassList {
+        rows: &rows,
+        query,
+        place: None,
+        carrier_hz: None,
+        alarm_before_s: None,
+        now: start(),
+    };
     let mut text = Vec::new();
     list.write(&mut text, PassFormat::Ics).unwrap();
     let text = String::from_utf8(text).unwrap().replace("\r\n ", "");

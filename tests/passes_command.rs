@@ -1,6 +1,7 @@
 //! `azel passes` as called from a shell and read by another program.
 
 mod asked;
+mod chosen;
 mod fields;
 mod look;
 

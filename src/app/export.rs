@@ -170,6 +170,7 @@ impl Order {
             query: &PassQuery { search, mask: None },
             place: Some(&station.name),
             carrier_hz: None,
+            alarm_before_s: None,
             now: self.now,
         };
         Ok(list.write(out, format))

@@ -16,7 +16,7 @@ use jiff::Timestamp;
 
 pub(super) use self::{
     satellites::Satellites,
-    values::{elevation, hours, instant, megahertz, minutes, share, step_s},
+    values::{duration_s, elevation, hours, instant, megahertz, minutes, share, step_s},
 };
 use super::Cli;
 use crate::plan::pass_export::Satellite;
@@ -106,7 +106,7 @@ pub(super) fn note(sentence: &str) {
 }
 
 /// Error for a wrong command line of `azel <command>`.
-fn usage(command: &str, sentence: &str) -> clap::Error {
+pub(super) fn usage(command: &str, sentence: &str) -> clap::Error {
     let mut azel = Cli::command();
     azel.build();
     let kind = ErrorKind::MissingRequiredArgument;

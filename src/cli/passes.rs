@@ -55,6 +55,12 @@ pub(super) struct Options {
     /// station, or 0, when left out
     #[arg(long, value_name = "DEG", value_parser = input::elevation, allow_negative_numbers = true)]
     floor: Option<f64>,
+    /// Leave out passes that are shorter, in seconds from AOS to LOS
+    #[arg(long, value_name = "S", default_value_t = 0.0, value_parser = input::duration_s, allow_negative_numbers = true)]
+    min_duration: f64,
+    /// Keep only the first of the passes; all when left out
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
+    max_passes: Option<u32>,
     /// Elevation of AOS and LOS; that of the station, or 0, when left out
     #[arg(long, value_name = "DEG", value_parser = input::elevation, allow_negative_numbers = true)]
     aos: Option<f64>,
@@ -65,6 +71,9 @@ pub(super) struct Options {
     /// Add the Doppler shift of this frequency, sent by the satellite, to CSV and JSON
     #[arg(long, value_name = "MHZ", value_parser = input::megahertz, allow_negative_numbers = true)]
     doppler: Option<f64>,
+    /// Give each event of a calendar an alarm, this many minutes before AOS
+    #[arg(long, value_name = "MIN", value_parser = input::minutes, allow_negative_numbers = true)]
+    alarm: Option<f64>,
     /// Threads to compute with; as many as there are cores when left out
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=256))]
     threads: Option<u16>,
@@ -75,6 +84,9 @@ pub(super) struct Options {
 
 pub(super) fn run(station: Option<&Path>, options: &Options) -> anyhow::Result<ExitCode> {
     options.input.check("passes", station)?;
+    if options.alarm.is_some() && options.format != PassFormat::Ics {
+        return Err(input::usage("passes", "--alarm is for events and needs --format ics").into());
+    }
     let place = options.input.place(station)?;
     let angle = |own: Option<f64>, of_place| own.map_or(of_place, Angle::from_degrees);
     let (from, to) = (options.from, time::add_seconds(options.from, options.hours * 3600.0));
@@ -112,14 +124,19 @@ pub(super) fn run(station: Option<&Path>, options: &Options) -> anyhow::Result<E
 
     let mut rows: Vec<_> = found
         .iter()
+        .filter(|(_, pass)| pass.duration_s() >= options.min_duration)
         .filter_map(|(index, pass)| Some(ExportedPass { satellite: satellites.get(*index)?, pass }))
         .collect();
     rows.sort_by_key(|row| (row.pass.aos.time, row.satellite.elements.catalog_number()));
+    if let Some(most) = options.max_passes {
+        rows.truncate(most as usize);
+    }
     let list = PassList {
         rows: &rows,
         query: &query,
         place: place.name.as_deref(),
         carrier_hz: options.doppler.map(|megahertz| megahertz * 1e6),
+        alarm_before_s: options.alarm.map(|minutes| minutes * 60.0),
         now: Timestamp::now(),
     };
     written(|out| list.write(out, options.format)).context("The passes cannot be written")?;

@@ -121,6 +121,8 @@ pub struct PassList<'a> {
     pub place: Option<&'a str>,
     /// Frequency for which the Doppler shift is written.
     pub carrier_hz: Option<f64>,
+    /// How long before AOS an event of a calendar has its alarm.
+    pub alarm_before_s: Option<f64>,
     /// Time stamp of the events of a calendar.
     pub now: Timestamp,
 }

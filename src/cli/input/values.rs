@@ -63,6 +63,15 @@ pub(in crate::cli) fn step_s(text: &str) -> Result<f64, String> {
     }
 }
 
+pub(in crate::cli) fn duration_s(text: &str) -> Result<f64, String> {
+    let seconds = number(text)?;
+    if (0.0..=1e9).contains(&seconds) {
+        Ok(seconds)
+    } else {
+        Err("not between 0 and 1000000000 seconds".to_owned())
+    }
+}
+
 fn above_zero(text: &str, most: f64, unit: &str) -> Result<f64, String> {
     let value = number(text)?;
     if value > 0.0 && value <= most {

@@ -2,7 +2,8 @@
 
 use std::io::{self, Write};
 
-use icalendar::{Calendar, Component as _, Event};
+use chrono::TimeDelta;
+use icalendar::{Alarm, Calendar, Component as _, Event, EventLike as _, Trigger};
 use jiff::{SignedDuration, Timestamp, Unit};
 
 use super::{ExportedPass, PassList, civil, event_ids::event_ids};
@@ -34,7 +35,8 @@ fn event(list: &PassList<'_>, row: &ExportedPass<'_>, id: &str, location: &str) 
     event.add_property("DTSTAMP", date_time(list.now));
     event.add_property("DTSTART", date_time(start));
     event.add_property("DTEND", date_time(end));
-    event.add_property("SUMMARY", format!("{} {maximum_deg:.0}°", elements.label()));
+    let summary = format!("{} {maximum_deg:.0}°", elements.label());
+    event.add_property("SUMMARY", &summary);
     event.add_property(
         "DESCRIPTION",
         format!(
@@ -49,6 +51,13 @@ fn event(list: &PassList<'_>, row: &ExportedPass<'_>, id: &str, location: &str) 
     event.add_property("LOCATION", location);
     let (latitude_deg, longitude_deg) = (site.latitude().degrees(), site.longitude().degrees());
     event.add_property("GEO", format!("{latitude_deg:.6};{longitude_deg:.6}"));
+    if let Some(before_s) = list.alarm_before_s {
+        let before = TimeDelta::seconds(before_s.round() as i64);
+        let mut alarm = Alarm::display(&summary, Trigger::before_start(before));
+        // Left out, they would be random and the time of writing.
+        alarm.uid(&format!("alarm-{id}")).add_property("DTSTAMP", date_time(list.now));
+        event.alarm(alarm);
+    }
     event.done()
 }
 

@@ -66,5 +66,7 @@ pub(super) fn write_to(
     let at = |text: &str| -> Timestamp { text.parse().unwrap() };
     let (now, to) = (at("2026-08-11T00:00:00Z"), at("2026-08-13T00:00:00Z"));
     let query = PassQuery { search: PassSearch::new(Site::default(), now, to), mask: None };
-    PassList { rows: &rows, query: &query, place: None, carrier_hz, now }.write(out, format)
+    let (place, alarm_before_s) = (None, None);
+    let list = PassList { rows: &rows, query: &query, place, carrier_hz, alarm_before_s, now };
+    list.write(out, format)
 }
