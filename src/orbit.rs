@@ -17,9 +17,10 @@ pub use bundled::{BUNDLED_SOURCE, BundledError, bundled};
 pub use catalog::{Catalog, MergeSummary};
 pub use elements::{EPOCH_YEARS, Elements, ElementsError, Heights};
 pub use ground::{SubPoint, TrackPoint};
-pub use look::LookAngles;
+pub use look::{Distance, LookAngles};
 pub use passes::{
-    Pass, PassPoint, PassSearch, clear_stretches, passes, passes_and_effort, passes_of_all,
+    Pass, PassPoint, PassSearch, clear_stretches, pass_batches, passes, passes_and_effort,
+    passes_of_all,
 };
 pub use propagator::{PropagationError, Propagator, State};
 pub use reader::{

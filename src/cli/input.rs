@@ -15,6 +15,7 @@ use clap::{Args, CommandFactory as _, builder::NonEmptyStringValueParser, error:
 use jiff::Timestamp;
 
 pub(super) use self::{
+    place::Place,
     satellites::Satellites,
     values::{duration_s, elevation, hours, instant, megahertz, minutes, share, step_s},
 };

@@ -14,11 +14,11 @@ use jiff::Timestamp;
 use rayon::prelude::*;
 
 use self::progress::Progress;
-use super::input::{self, EXIT_CODES, InputOptions, Satellites};
+use super::input::{self, EXIT_CODES, InputOptions, Place, Satellites};
 use crate::{
     astro::{Angle, HorizonMask, time},
-    orbit::{Pass, PassSearch, passes_of_all},
-    plan::pass_export::{ExportedPass, PassFormat, PassList, PassQuery},
+    orbit::{Pass, PassSearch, pass_batches},
+    plan::pass_export::{PassFormat, PassList, PassQuery, in_order},
 };
 
 /// Limits of the predictions, for `--help`.
@@ -101,39 +101,41 @@ pub(super) fn run(station: Option<&Path>, options: &Options) -> anyhow::Result<E
     let query = PassQuery { search, mask };
     let threads = options.threads.map_or(0, usize::from);
     let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build()?;
+    pool.install(|| write_passes(station, options, &place, &query))
+}
 
+/// Reads, searches and writes, with all threads of the rayon pool in which this is called.
+fn write_passes(
+    station: Option<&Path>,
+    options: &Options,
+    place: &Place,
+    query: &PassQuery,
+) -> anyhow::Result<ExitCode> {
+    let PassQuery { search, mask } = query;
     let Satellites { list: satellites, is_complete } = options.input.satellites(station)?;
-    input::caution(&satellites, from, to);
+    input::caution(&satellites, search.from, search.to);
     let progress = Progress::new(satellites.len());
-    let found = pool.install(|| {
-        let found =
-            passes_of_all(&satellites, &query.search, &|done| progress.show(done), &|| false);
-        if query.mask.is_none() {
-            return found.collect();
+    let mut found = pass_batches(&satellites, search, &|done| progress.show(done), &|| false);
+    let parts = |(index, pass): (usize, Pass)| {
+        let satellite = satellites.get(index);
+        let parts = satellite.map(|satellite| query.parts(&satellite.propagator, pass));
+        parts.into_iter().flatten().map(move |part| (index, part))
+    };
+    found.par_iter_mut().for_each(|batch| {
+        if mask.is_some() {
+            *batch = batch.drain(..).flat_map(parts).collect();
         }
-        let parts = |(index, pass): (usize, Pass)| {
-            let satellite = satellites.get(index)?;
-            Some(
-                query.parts(&satellite.propagator, pass).into_iter().map(move |part| (index, part)),
-            )
-        };
-        let found: Vec<_> = found.collect();
-        found.into_par_iter().filter_map(parts).flatten_iter().collect::<Vec<_>>()
+        batch.retain(|(_, pass)| pass.duration_s() >= options.min_duration);
     });
     progress.end();
 
-    let mut rows: Vec<_> = found
-        .iter()
-        .filter(|(_, pass)| pass.duration_s() >= options.min_duration)
-        .filter_map(|(index, pass)| Some(ExportedPass { satellite: satellites.get(*index)?, pass }))
-        .collect();
-    rows.sort_by_key(|row| (row.pass.aos.time, row.satellite.elements.catalog_number()));
+    let mut rows = in_order(&satellites, &found);
     if let Some(most) = options.max_passes {
         rows.truncate(most as usize);
     }
     let list = PassList {
         rows: &rows,
-        query: &query,
+        query,
         place: place.name.as_deref(),
         carrier_hz: options.doppler.map(|megahertz| megahertz * 1e6),
         alarm_before_s: options.alarm.map(|minutes| minutes * 60.0),
@@ -149,11 +151,14 @@ fn read_mask(path: &PathBuf) -> anyhow::Result<HorizonMask> {
     HorizonMask::parse(&text).with_context(|| format!("{} is no horizon mask", path.display()))
 }
 
+/// Size of the buffer in front of standard output, bytes.
+const WRITTEN_AT_ONCE: usize = 1 << 16;
+
 /// Writes to standard output. A reader that stops early, as `head` does, is no error.
 pub(super) fn written(
     write: impl FnOnce(&mut BufWriter<io::StdoutLock<'static>>) -> io::Result<()>,
 ) -> io::Result<()> {
-    let mut out = BufWriter::new(io::stdout().lock());
+    let mut out = BufWriter::with_capacity(WRITTEN_AT_ONCE, io::stdout().lock());
     match write(&mut out).and_then(|()| out.flush()) {
         Err(error) if error.kind() == io::ErrorKind::BrokenPipe => Ok(()),
         result => result,

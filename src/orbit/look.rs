@@ -12,6 +12,7 @@
 //!
 //! With the UT1 - UTC of 2026, some hundredths of a second, AOS is accurate to 2 ms.
 
+use glam::DVec3;
 use jiff::Timestamp;
 
 use super::{PropagationError, Propagator, State};
@@ -29,7 +30,26 @@ pub struct LookAngles {
     pub range_rate_km_s: f64,
 }
 
+/// Distance of a satellite from a site, and its change.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Distance {
+    pub range_km: f64,
+    /// Negative when approaching.
+    pub range_rate_km_s: f64,
+}
+
 impl LookAngles {
+    pub fn distance(self) -> Distance {
+        Distance { range_km: self.range_km, range_rate_km_s: self.range_rate_km_s }
+    }
+
+    /// The shift of [`Distance::doppler_hz`].
+    pub fn doppler_hz(self, carrier_hz: f64) -> f64 {
+        self.distance().doppler_hz(carrier_hz)
+    }
+}
+
+impl Distance {
     /// Doppler shift in Hz of a carrier of `carrier_hz` that the satellite sends: positive when
     /// approaching. First order in v/c.
     pub fn doppler_hz(self, carrier_hz: f64) -> f64 {
@@ -40,15 +60,28 @@ impl LookAngles {
 impl State {
     /// Look angles from `site` at `at`, the time of this state.
     pub fn look_from(&self, site: Site, at: Timestamp) -> LookAngles {
+        let (line_km, distance) = self.line_from(frames::site_ecef_km(site), at);
+        let direction = AzEl::from_enu(frames::ecef_to_enu(site) * line_km);
+        let Distance { range_km, range_rate_km_s } = distance;
+        LookAngles { direction, range_km, range_rate_km_s }
+    }
+
+    /// Distance from a site, given in Earth-fixed axes, at `at`, the time of this state. Takes half
+    /// the time of [`Self::look_from`].
+    pub fn distance_from(&self, site_ecef_km: DVec3, at: Timestamp) -> Distance {
+        self.line_from(site_ecef_km, at).1
+    }
+
+    /// The Earth-fixed vector from a site to the satellite, and its length.
+    fn line_from(&self, site_ecef_km: DVec3, at: Timestamp) -> (DVec3, Distance) {
         let to_ecef = frames::teme_to_ecef(at);
         let position_km = to_ecef * self.position_km;
         let velocity_km_s =
             frames::velocity_over_ground_km_s(position_km, to_ecef * self.velocity_km_s);
-        let line_km = position_km - frames::site_ecef_km(site);
+        let line_km = position_km - site_ecef_km;
         let range_km = line_km.length();
-        let direction = AzEl::from_enu(frames::ecef_to_enu(site) * line_km);
         let range_rate_km_s = line_km.dot(velocity_km_s) / range_km;
-        LookAngles { direction, range_km, range_rate_km_s }
+        (line_km, Distance { range_km, range_rate_km_s })
     }
 }
 

@@ -3,9 +3,11 @@
 
 mod calendar;
 mod csv;
+mod digits;
 mod event_ids;
 mod json;
 mod looks;
+mod rows;
 mod table;
 
 use std::{
@@ -13,14 +15,16 @@ use std::{
     io::{self, Write},
 };
 
+use glam::DVec3;
 use jiff::{Timestamp, tz::TimeZone};
+use rayon::prelude::*;
 
 pub(super) use self::csv::{io_error, plain};
 pub use self::looks::{LookFormat, LookList};
 use crate::{
-    astro::{HorizonMask, Site, sun_moon, time},
+    astro::{HorizonMask, Site, frames, sun_moon, time},
     orbit::{
-        Elements, Pass, PassSearch, PropagationError, Propagator, clear_stretches, is_sunlit,
+        Distance, Elements, Pass, PassSearch, PropagationError, Propagator, State, clear_stretches,
         passes,
     },
 };
@@ -48,19 +52,18 @@ impl Satellite {
     fn age_days(&self, time: Timestamp) -> f64 {
         rounded(self.elements.age_s(time) / time::DAY_S, 1e4)
     }
+}
 
-    /// The satellite as seen at `at`; `None` once it has decayed.
-    fn seen(&self, site: Site, at: Timestamp, carrier_hz: Option<f64>) -> Option<Seen> {
-        let state = self.propagator.state_at(at).ok()?;
-        let look = state.look_from(site, at);
-        Some(Seen {
-            azimuth_deg: degrees(look.direction.azimuth_deg()),
-            elevation_deg: degrees(look.direction.elevation_deg()),
-            range_km: rounded(look.range_km, 1e3),
-            range_rate_km_s: rounded(look.range_rate_km_s, 1e6),
-            doppler_hz: carrier_hz.map(|carrier_hz| rounded(look.doppler_hz(carrier_hz), 10.0)),
-            is_sunlit: is_sunlit(&state, at),
-        })
+/// What a satellite is seen from.
+#[derive(Debug, Clone, Copy)]
+struct View {
+    site_ecef_km: DVec3,
+    carrier_hz: Option<f64>,
+}
+
+impl View {
+    fn seen(&self, state: &State, at: Timestamp) -> Seen {
+        Seen::new(state.distance_from(self.site_ecef_km, at), self.carrier_hz)
     }
 }
 
@@ -70,15 +73,22 @@ impl Borrow<Propagator> for Satellite {
     }
 }
 
-/// A satellite as seen at one instant, with values rounded for export.
+/// Distance and Doppler shift of a satellite at one instant, rounded for export.
 #[derive(Debug, Clone, Copy)]
 struct Seen {
-    azimuth_deg: f64,
-    elevation_deg: f64,
     range_km: f64,
     range_rate_km_s: f64,
     doppler_hz: Option<f64>,
-    is_sunlit: bool,
+}
+
+impl Seen {
+    fn new(distance: Distance, carrier_hz: Option<f64>) -> Self {
+        Self {
+            range_km: rounded(distance.range_km, 1e3),
+            range_rate_km_s: rounded(distance.range_rate_km_s, 1e6),
+            doppler_hz: carrier_hz.map(|carrier_hz| rounded(distance.doppler_hz(carrier_hz), 10.0)),
+        }
+    }
 }
 
 /// A search for passes, and the mask that cuts them.
@@ -112,6 +122,23 @@ pub struct ExportedPass<'a> {
     pub pass: &'a Pass,
 }
 
+/// The passes of `satellites` that a search found, in order of AOS, then of satellite.
+pub fn in_order<'a>(
+    satellites: &'a [Satellite],
+    found: &'a [Vec<(usize, Pass)>],
+) -> Vec<ExportedPass<'a>> {
+    let passes: Vec<&(usize, Pass)> = found.iter().flatten().collect();
+    // Sorting moves and compares these alone, and does not look for the passes.
+    let aos_and_place = |((_, pass), place): (&&(usize, Pass), u32)| (pass.aos.time, place);
+    let mut order: Vec<(Timestamp, u32)> = passes.iter().zip(0..).map(aos_and_place).collect();
+    order.par_sort_unstable();
+    let row = |(_, place): (Timestamp, u32)| {
+        let (index, pass) = passes.get(place as usize)?;
+        Some(ExportedPass { satellite: satellites.get(*index)?, pass })
+    };
+    order.into_iter().filter_map(row).collect()
+}
+
 /// Passes to write, in this order.
 #[derive(Debug, Clone, Copy)]
 pub struct PassList<'a> {
@@ -141,7 +168,8 @@ pub enum PassFormat {
 }
 
 impl PassList<'_> {
-    /// Writes the list. All times are UTC.
+    /// Writes the list. All times are UTC. Rows of CSV and JSON are made by the threads of the rayon
+    /// pool in which this is called.
     pub fn write(&self, out: &mut impl Write, format: PassFormat) -> io::Result<()> {
         match format {
             PassFormat::Table => table::write(out, self.rows),
@@ -155,8 +183,9 @@ impl PassList<'_> {
         self.query.search.site
     }
 
-    fn seen(&self, row: &ExportedPass<'_>, at: Timestamp) -> Option<Seen> {
-        row.satellite.seen(self.site(), at, self.carrier_hz)
+    fn view(&self) -> View {
+        let site_ecef_km = frames::site_ecef_km(self.site());
+        View { site_ecef_km, carrier_hz: self.carrier_hz }
     }
 
     /// Returns `true` if the sky over the site is dark enough to see a satellite in sunlight.
@@ -167,8 +196,9 @@ impl PassList<'_> {
 
 /// RFC 3339, UTC, with milliseconds.
 pub(super) fn rfc3339(time: Timestamp) -> String {
-    let rounded = time.round(jiff::Unit::Millisecond).unwrap_or(time);
-    format!("{rounded:.3}")
+    let mut text = Vec::new();
+    digits::push_time(&mut text, time);
+    String::from_utf8(text).unwrap_or_default()
 }
 
 /// To the nearest second, in UTC.

@@ -8,6 +8,7 @@ use std::{
 };
 
 use anyhow::{Context as _, bail};
+use rayon::{iter::Either, prelude::*};
 
 use super::InputOptions;
 use crate::{
@@ -68,12 +69,17 @@ impl InputOptions {
         for missing in &asked.missing {
             said.unusable(missing);
         }
-        let mut list = Vec::new();
-        for elements in catalog.iter().filter(|elements| asked.holds(elements)) {
-            match Satellite::new(elements.clone()) {
-                Ok(satellite) => list.push(satellite),
-                Err(reason) => said.unusable(&format!("{}: {reason}", elements.label())),
-            }
+        let requested: Vec<&Elements> =
+            catalog.iter().filter(|elements| asked.holds(elements)).collect();
+        let (list, refused): (Vec<_>, Vec<_>) =
+            requested.into_par_iter().partition_map(|elements| {
+                match Satellite::new(elements.clone()) {
+                    Ok(satellite) => Either::Left(satellite),
+                    Err(reason) => Either::Right(format!("{}: {reason}", elements.label())),
+                }
+            });
+        for sentence in &refused {
+            said.unusable(sentence);
         }
         if list.is_empty() {
             bail!("There are no elements to compute with.");

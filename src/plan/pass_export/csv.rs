@@ -2,7 +2,12 @@
 
 use std::io::{self, Write};
 
-use super::{ExportedPass, PassList, Seen, degrees, rfc3339};
+use super::{
+    ExportedPass, PassList, View,
+    digits::{push_fixed, push_shortest, push_time, push_whole},
+    rows::write_rows,
+};
+use crate::orbit::is_sunlit;
 
 /// New columns are added at the end, so that programs that count columns keep working.
 const HEADER: [&str; 20] = [
@@ -30,37 +35,75 @@ const HEADER: [&str; 20] = [
 const DOPPLER_HEADER: [&str; 3] = ["aos_doppler_hz", "tca_doppler_hz", "los_doppler_hz"];
 
 pub(super) fn write(out: &mut impl Write, list: &PassList<'_>) -> io::Result<()> {
-    let mut table = csv::Writer::from_writer(out);
-    let has_doppler = list.carrier_hz.is_some();
-    let doppler: &[&str] = if has_doppler { &DOPPLER_HEADER } else { &[] };
-    table.write_record(HEADER.iter().chain(doppler)).map_err(io_error)?;
-    for row in list.rows {
-        let ExportedPass { satellite, pass } = row;
-        let elements = &satellite.elements;
-        let mut fields = vec![elements.catalog_number().to_string(), plain(elements.name())];
-        for point in [pass.aos, pass.tca, pass.los] {
-            fields.push(rfc3339(point.time));
-            fields.push(degrees(point.direction.azimuth_deg()).to_string());
-            fields.push(degrees(point.direction.elevation_deg()).to_string());
-        }
-        fields.push(degrees(pass.max_elevation().degrees()).to_string());
-        fields.push(format!("{:.3}", pass.duration_s()));
-        fields.push(pass.starts_before.to_string());
-        fields.push(pass.ends_after.to_string());
-        fields.push(satellite.epoch.clone());
-        fields.push(satellite.age_days(pass.aos.time).to_string());
-        let tca = list.seen(row, pass.tca.time);
-        fields.push(text_of(tca.map(|seen| seen.range_km)));
-        fields.push(text_of(tca.map(|seen| seen.is_sunlit)));
-        fields.push(plain(elements.international_designator().unwrap_or_default()));
-        if has_doppler {
-            let seen = [list.seen(row, pass.aos.time), tca, list.seen(row, pass.los.time)];
-            let doppler_hz = |seen: Option<Seen>| text_of(seen.and_then(|seen| seen.doppler_hz));
-            fields.extend(seen.map(doppler_hz));
-        }
-        table.write_record(fields).map_err(io_error)?;
+    let doppler: &[&str] = if list.carrier_hz.is_some() { &DOPPLER_HEADER } else { &[] };
+    let names: Vec<&str> = HEADER.iter().chain(doppler).copied().collect();
+    writeln!(out, "{}", names.join(","))?;
+    let view = list.view();
+    write_rows(out, list.rows, |text, row| {
+        push_row(text, &view, row);
+        Ok(())
+    })
+}
+
+fn push_row(text: &mut Vec<u8>, view: &View, row: &ExportedPass<'_>) {
+    let ExportedPass { satellite, pass } = row;
+    let elements = &satellite.elements;
+    push_whole(text, elements.catalog_number());
+    text.push(b',');
+    push_text(text, elements.name());
+    for point in [pass.aos, pass.tca, pass.los] {
+        text.push(b',');
+        push_time(text, point.time);
+        push_number(text, Some(point.direction.azimuth_deg()), 6);
+        push_number(text, Some(point.direction.elevation_deg()), 6);
     }
-    table.flush()
+    push_number(text, Some(pass.max_elevation().degrees()), 6);
+    text.push(b',');
+    push_fixed(text, pass.duration_s(), 3);
+    push_flag(text, Some(pass.starts_before));
+    push_flag(text, Some(pass.ends_after));
+    text.push(b',');
+    text.extend_from_slice(satellite.epoch.as_bytes());
+    push_number(text, Some(satellite.age_days(pass.aos.time)), 4);
+    let tca = pass.tca.time;
+    let state = satellite.propagator.state_at(tca).ok();
+    push_number(text, state.map(|state| view.seen(&state, tca).range_km), 3);
+    push_flag(text, state.map(|state| is_sunlit(&state, tca)));
+    text.push(b',');
+    push_text(text, elements.international_designator().unwrap_or_default());
+    if view.carrier_hz.is_some() {
+        for at in [pass.aos.time, tca, pass.los.time] {
+            let seen = satellite.propagator.state_at(at).ok().map(|state| view.seen(&state, at));
+            push_number(text, seen.and_then(|seen| seen.doppler_hz), 1);
+        }
+    }
+    text.push(b'\n');
+}
+
+/// Appends a comma and the number, if there is one.
+fn push_number(text: &mut Vec<u8>, number: Option<f64>, decimals: u32) {
+    text.push(b',');
+    if let Some(number) = number {
+        push_shortest(text, number, decimals);
+    }
+}
+
+fn push_flag(text: &mut Vec<u8>, flag: Option<bool>) {
+    text.extend_from_slice(match flag {
+        Some(true) => b",true",
+        Some(false) => b",false",
+        None => b",",
+    });
+}
+
+/// Appends a field that others wrote, in quotation marks where it needs them.
+fn push_text(text: &mut Vec<u8>, field: &str) {
+    let field = plain(field);
+    if field.contains(['"', ',', '\r', '\n']) {
+        text.extend(format!("\"{}\"", field.replace('"', "\"\"")).bytes());
+    } else {
+        text.extend(field.bytes());
+    }
 }
 
 /// The original error of the output: its kind distinguishes a reader that has stopped

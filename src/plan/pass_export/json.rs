@@ -4,8 +4,8 @@ use std::io::{self, Write};
 
 use serde::Serialize;
 
-use super::{ExportedPass, PassList, Seen, degrees, rfc3339, rounded};
-use crate::orbit::PassPoint;
+use super::{ExportedPass, PassList, View, degrees, rfc3339, rounded, rows::write_rows};
+use crate::orbit::{PassPoint, State, is_sunlit};
 
 #[derive(Serialize)]
 struct Point {
@@ -36,7 +36,8 @@ struct Row<'a> {
     dark_at_site: bool,
 }
 
-fn point(point: PassPoint, seen: Option<Seen>) -> Point {
+fn point(view: &View, point: PassPoint, state: Option<State>) -> Point {
+    let seen = state.map(|state| view.seen(&state, point.time));
     Point {
         time: rfc3339(point.time),
         azimuth_deg: degrees(point.direction.azimuth_deg()),
@@ -48,17 +49,17 @@ fn point(point: PassPoint, seen: Option<Seen>) -> Point {
 }
 
 impl<'a> Row<'a> {
-    fn new(list: &PassList<'_>, row: &ExportedPass<'a>) -> Self {
+    fn new(list: &PassList<'_>, view: &View, row: &ExportedPass<'a>) -> Self {
         let ExportedPass { satellite, pass } = row;
         let elements = &satellite.elements;
-        let [aos, tca, los] =
-            [pass.aos, pass.tca, pass.los].map(|point| list.seen(row, point.time));
+        let state = |point: PassPoint| satellite.propagator.state_at(point.time).ok();
+        let tca = state(pass.tca);
         Self {
             catalog_number: elements.catalog_number(),
             name: elements.name(),
-            aos: point(pass.aos, aos),
-            tca: point(pass.tca, tca),
-            los: point(pass.los, los),
+            aos: point(view, pass.aos, state(pass.aos)),
+            tca: point(view, pass.tca, tca),
+            los: point(view, pass.los, state(pass.los)),
             max_elevation_deg: degrees(pass.max_elevation().degrees()),
             duration_s: rounded(pass.duration_s(), 1e3),
             starts_before: pass.starts_before,
@@ -66,7 +67,7 @@ impl<'a> Row<'a> {
             epoch: &satellite.epoch,
             age_days: satellite.age_days(pass.aos.time),
             designator: elements.international_designator(),
-            sunlit: tca.map(|seen| seen.is_sunlit),
+            sunlit: tca.map(|state| is_sunlit(&state, pass.tca.time)),
             dark_at_site: list.is_dark(pass.tca.time),
         }
     }
@@ -74,7 +75,19 @@ impl<'a> Row<'a> {
 
 /// Writes one object per line, so that the list can also be compared and cut by lines.
 pub(super) fn write(out: &mut impl Write, list: &PassList<'_>) -> io::Result<()> {
-    write_lines(out, list.rows.iter().map(|row| Row::new(list, row)))
+    let view = list.view();
+    let push = |text: &mut Vec<u8>, before: &[u8], row: &ExportedPass<'_>| {
+        text.extend_from_slice(before);
+        Ok(serde_json::to_writer(text, &Row::new(list, &view, row))?)
+    };
+    write!(out, "[")?;
+    if let Some((first, rest)) = list.rows.split_first() {
+        let mut text = Vec::new();
+        push(&mut text, b"\n", first)?;
+        out.write_all(&text)?;
+        write_rows(out, rest, |text, row| push(text, b",\n", row))?;
+    }
+    writeln!(out, "\n]")
 }
 
 /// Writes a list of `rows`, one per line.

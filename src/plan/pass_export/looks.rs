@@ -8,6 +8,7 @@ use serde::Serialize;
 use super::{
     Satellite, Seen, civil,
     csv::{io_error, text_of},
+    degrees,
     json::write_lines,
     rfc3339, turn,
 };
@@ -39,6 +40,14 @@ pub struct LookList<'a> {
     pub carrier_hz: Option<f64>,
 }
 
+/// Look angles at one instant, rounded for export.
+struct Look {
+    at: Timestamp,
+    azimuth_deg: f64,
+    elevation_deg: f64,
+    seen: Seen,
+}
+
 #[derive(Serialize)]
 struct Row {
     time: String,
@@ -56,15 +65,21 @@ impl LookList<'_> {
         match format {
             LookFormat::Table => self.write_table(out),
             LookFormat::Csv => self.write_csv(out),
-            LookFormat::Json => write_lines(out, self.looks().map(|(at, seen)| row(at, seen))),
+            LookFormat::Json => write_lines(out, self.looks().map(|look| row(&look))),
         }
     }
 
-    fn looks(&self) -> impl Iterator<Item = (Timestamp, Seen)> {
+    fn looks(&self) -> impl Iterator<Item = Look> {
         let instants = (0..self.count)
             .map(|index| time::add_seconds(self.from, f64::from(index) * self.step_s));
         instants.map_while(|at| {
-            self.satellite.seen(self.site, at, self.carrier_hz).map(|seen| (at, seen))
+            let look = self.satellite.propagator.look_from(self.site, at).ok()?;
+            Some(Look {
+                at,
+                azimuth_deg: degrees(look.direction.azimuth_deg()),
+                elevation_deg: degrees(look.direction.elevation_deg()),
+                seen: Seen::new(look.distance(), self.carrier_hz),
+            })
         })
     }
 
@@ -74,7 +89,7 @@ impl LookList<'_> {
         let head = if is_fine { "UTC                    " } else { "UTC                " };
         write!(out, "{head}     az     el    range km      km/s")?;
         writeln!(out, "{}", if self.carrier_hz.is_some() { "    Doppler Hz" } else { "" })?;
-        for (at, seen) in self.looks() {
+        for Look { at, azimuth_deg, elevation_deg, seen } in self.looks() {
             let shown = if is_fine {
                 rfc3339(at).replace('T', " ").trim_end_matches('Z').to_owned()
             } else {
@@ -83,8 +98,8 @@ impl LookList<'_> {
             write!(
                 out,
                 "{shown}  {:>5.1}  {:>5.1}  {:>10.1}  {:>8.4}",
-                turn(seen.azimuth_deg),
-                seen.elevation_deg,
+                turn(azimuth_deg),
+                elevation_deg,
                 seen.range_km,
                 seen.range_rate_km_s,
             )?;
@@ -98,9 +113,8 @@ impl LookList<'_> {
         let mut table = csv::Writer::from_writer(out);
         let doppler = self.carrier_hz.map(|_| "doppler_hz");
         table.write_record(HEADER.into_iter().chain(doppler)).map_err(io_error)?;
-        for (at, seen) in self.looks() {
-            let numbers =
-                [seen.azimuth_deg, seen.elevation_deg, seen.range_km, seen.range_rate_km_s];
+        for Look { at, azimuth_deg, elevation_deg, seen } in self.looks() {
+            let numbers = [azimuth_deg, elevation_deg, seen.range_km, seen.range_rate_km_s];
             let mut fields = vec![rfc3339(at)];
             fields.extend(numbers.map(|number| number.to_string()));
             fields.extend(seen.doppler_hz.map(|hertz| text_of(Some(hertz))));
@@ -110,11 +124,12 @@ impl LookList<'_> {
     }
 }
 
-fn row(at: Timestamp, seen: Seen) -> Row {
+fn row(look: &Look) -> Row {
+    let Look { at, azimuth_deg, elevation_deg, seen } = *look;
     Row {
         time: rfc3339(at),
-        azimuth_deg: seen.azimuth_deg,
-        elevation_deg: seen.elevation_deg,
+        azimuth_deg,
+        elevation_deg,
         range_km: seen.range_km,
         range_rate_km_s: seen.range_rate_km_s,
         doppler_hz: seen.doppler_hz,
