@@ -80,7 +80,7 @@ fn push_row(text: &mut Vec<u8>, view: &View, row: &ExportedPass<'_>) {
     text.push(b'\n');
 }
 
-/// Appends a comma and the number, if there is one.
+/// Appends a comma, and the number if there is one.
 fn push_number(text: &mut Vec<u8>, number: Option<f64>, decimals: u32) {
     text.push(b',');
     if let Some(number) = number {
@@ -88,6 +88,7 @@ fn push_number(text: &mut Vec<u8>, number: Option<f64>, decimals: u32) {
     }
 }
 
+/// Appends a comma, and the flag if there is one.
 fn push_flag(text: &mut Vec<u8>, flag: Option<bool>) {
     text.extend_from_slice(match flag {
         Some(true) => b",true",
@@ -100,9 +101,9 @@ fn push_flag(text: &mut Vec<u8>, flag: Option<bool>) {
 fn push_text(text: &mut Vec<u8>, field: &str) {
     let field = plain(field);
     if field.contains(['"', ',', '\r', '\n']) {
-        text.extend(format!("\"{}\"", field.replace('"', "\"\"")).bytes());
+        text.extend_from_slice(format!("\"{}\"", field.replace('"', "\"\"")).as_bytes());
     } else {
-        text.extend(field.bytes());
+        text.extend_from_slice(field.as_bytes());
     }
 }
 

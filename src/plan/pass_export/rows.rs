@@ -30,3 +30,42 @@ pub(super) fn write_rows(
     }
     Ok(())
 }
+
+#[cfg(test)]
+mod tests {
+    use jiff::SignedDuration;
+
+    use super::{super::testing::example, *};
+    use crate::plan::pass_export::{Satellite, in_order};
+
+    /// Rows in the order of their AOS, of passes that were found in another.
+    fn written(count: usize, threads: usize) -> Vec<u8> {
+        let (elements, pass) = example();
+        let satellites = [Satellite::new(elements).unwrap()];
+        let mut passes = vec![(0, pass); count];
+        for ((_, pass), second) in passes.iter_mut().zip((0..).rev()) {
+            pass.aos.time += SignedDuration::from_secs(second);
+        }
+        let found: Vec<_> = passes.chunks(100).map(<[_]>::to_vec).collect();
+        let rows = in_order(&satellites, &found);
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+        let push = |text: &mut Vec<u8>, row: &ExportedPass<'_>| {
+            writeln!(text, "{}", row.pass.aos.time.as_second())
+        };
+        let mut out = Vec::new();
+        pool.install(|| write_rows(&mut out, &rows, push)).unwrap();
+        out
+    }
+
+    #[test]
+    fn rows_are_in_order_whatever_thread_made_them() {
+        let count = 3 * CHUNK * CHUNKS_AHEAD + 7;
+        let one = written(count, 1);
+        let text = String::from_utf8(one.clone()).unwrap();
+        let seconds: Vec<i64> = text.lines().map(|line| line.parse().unwrap()).collect();
+        assert_eq!(seconds.len(), count);
+        assert!(seconds.windows(2).all(|two| two[1] == two[0] + 1));
+        assert_eq!(written(count, 3), one);
+        assert_eq!(written(0, 2), b"");
+    }
+}
