@@ -119,7 +119,9 @@ pub struct Question {
 pub enum Extent {
     /// Present motion only.
     Motion,
-    /// Present motion and anything that may start, whatever the known state.
+    /// Present motion and on-board track, whatever the known state.
+    Track,
+    /// These, and whatever the unit would start by itself.
     Everything,
 }
 
@@ -208,7 +210,8 @@ pub trait Device: Send {
 
     /// Returns the bytes that stop all motion and end on-board track, and drops motions
     /// that wait. The caller writes them at once, before and despite anything else. With
-    /// [`Extent::Motion`], an on-board track that is known to be off is left alone.
+    /// [`Extent::Motion`], an on-board track that is known to be off is left alone; with
+    /// [`Extent::Everything`], auto-track is switched off too.
     fn halt(&mut self, extent: Extent, now: Moment) -> Vec<u8>;
 
     /// The operator has pressed STOP, whatever was halted before: ends every permission

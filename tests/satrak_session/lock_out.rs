@@ -39,8 +39,8 @@ async fn lock(rig: &mut Rig) {
 
 /// Commands received other than questions and STOP.
 fn others(rig: &Rig) -> Vec<String> {
-    let is_stop = |payload: &String| payload == "STOP=" || payload == "TRACK=,0";
-    rig.orders().into_iter().filter(|payload| !is_stop(payload)).collect()
+    const STOP: [&str; 3] = ["STOP=", "TRACK=,0", "TRACK_AUTO_ENABLE=,0"];
+    rig.orders().into_iter().filter(|payload| !STOP.contains(&payload.as_str())).collect()
 }
 
 fn commands() -> Vec<Command> {

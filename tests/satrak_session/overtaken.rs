@@ -25,7 +25,7 @@ async fn what_waits_in_the_queue_when_stop_is_pressed_is_never_sent() {
     rig.stop();
     rig.until("stopped", 2, |shown| matches!(shown.stop, StopState::Stopped { .. })).await;
     rig.seconds(20.0).await;
-    assert_eq!(rig.orders(), ["STOP=", "TRACK=,0"]);
+    assert_eq!(rig.orders(), ["STOP=", "TRACK=,0", "TRACK_AUTO_ENABLE=,0"]);
     assert_eq!(rig.events(), [Event::Stopped]);
     assert_eq!((rig.shown().intent, rig.shown().pending), (Intent::Standby, false));
 }

@@ -4,10 +4,16 @@ use azel::{
     astro::Angle,
     clock::Instant,
     driver::{Command, Event, Intent, LinkState, StopState},
-    sim::satrak::Fault,
+    sim::satrak::{Fault, Quirk},
 };
 
-use super::rig::{Rig, iss, track};
+use super::{
+    rig::{Rig, iss, track},
+    script::{STILL, Scripted, plain},
+};
+
+/// What the unit receives of one STOP.
+const STOP: [&str; 3] = ["STOP=", "TRACK=,0", "TRACK_AUTO_ENABLE=,0"];
 
 fn position(azimuth_deg: f64, elevation_deg: f64) -> Command {
     Command::Position {
@@ -39,7 +45,8 @@ async fn a_stop_in_a_goto_is_sent_at_once_and_shown_until_proved() {
     let pressed = azel::clock::Instant::now();
     rig.stop();
     rig.seconds(0.02).await;
-    assert_eq!(rig.orders(), ["GOTO=,90,30", "STOP=", "TRACK=,0"]);
+    assert_eq!(rig.orders()[0], "GOTO=,90,30");
+    assert_eq!(rig.orders()[1..], STOP);
     assert_eq!(rig.times("STOP=")[0], pressed);
     let shown = rig.shown();
     assert!(is_stopping(shown.stop));
@@ -72,7 +79,7 @@ async fn a_stop_at_rest_is_sent_and_proved_too() {
     let mut rig = Rig::usual().await;
     rig.stop();
     rig.until("stopped", 1, |shown| matches!(shown.stop, StopState::Stopped { .. })).await;
-    assert_eq!(rig.orders(), ["STOP=", "TRACK=,0"]);
+    assert_eq!(rig.orders(), STOP);
 }
 
 #[tokio::test(start_paused = true)]
@@ -81,7 +88,7 @@ async fn a_stop_ends_tracking_for_good() {
     let before = rig.orders().len();
     rig.stop();
     rig.seconds(0.02).await;
-    assert_eq!(rig.orders()[before..], ["STOP=", "TRACK=,0"]);
+    assert_eq!(rig.orders()[before..], STOP);
     rig.until("stopped", 3, |shown| matches!(shown.stop, StopState::Stopped { .. })).await;
     rig.seconds(30.0).await;
     assert!(!rig.control.state().is_moving && !rig.control.state().is_tracking);
@@ -129,18 +136,65 @@ async fn a_stop_overtakes_a_peer_that_owes_a_reply() {
     assert!(rig.events().contains(&Event::Stopped));
 }
 
-#[tokio::test(start_paused = true)]
-async fn a_stop_with_auto_track_on_warns_of_it() {
-    let mut rig = Rig::usual().await;
+async fn switch_auto_track_on(rig: &mut Rig) {
     rig.send(Command::AutoTrack(true));
-    rig.until("auto", 2, |shown| {
-        shown.state.program.is_some_and(|program| program.auto == Some(true))
-    })
-    .await;
+    rig.until("auto-track", 2, |shown| shown.state.program.unwrap().auto == Some(true)).await;
+}
+
+#[tokio::test(start_paused = true)]
+async fn a_stop_switches_auto_track_off() {
+    let mut rig = Rig::usual().await;
+    switch_auto_track_on(&mut rig).await;
     rig.stop();
-    rig.until_event(1, |event| *event == Event::AutoTrackStillOn).await;
-    rig.until_event(3, |event| *event == Event::Stopped).await;
-    assert_eq!(rig.orders(), ["TRACK_AUTO_ENABLE=,1", "STOP=", "TRACK=,0"]);
+    rig.until_event(1, |event| *event == Event::Stopped).await;
+    assert_eq!(rig.shown().state.program.unwrap().auto, Some(false));
+    assert_eq!(rig.orders()[1..], STOP);
+    assert_eq!(rig.events(), []);
+}
+
+#[tokio::test(start_paused = true)]
+async fn auto_track_that_leaves_no_window_alone_does_not_undo_a_stop() {
+    let mut rig = tracking().await;
+    rig.control.set_quirk(Quirk::AutoTrackRestarts, true);
+    switch_auto_track_on(&mut rig).await;
+    rig.stop();
+    rig.until("stopped", 3, |shown| matches!(shown.stop, StopState::Stopped { .. })).await;
+    rig.seconds(30.0).await;
+    assert!(!rig.control.state().is_tracking && !rig.control.state().is_moving);
+    assert_eq!(rig.events(), [Event::Stopped]);
+}
+
+#[tokio::test(start_paused = true)]
+async fn the_end_of_a_jog_leaves_auto_track_alone_however_often_it_is_sent() {
+    let mut rig = Rig::usual().await;
+    switch_auto_track_on(&mut rig).await;
+    rig.send(Command::Manual);
+    rig.hold([2.0, 0.0], 2.0).await;
+    rig.control.set_fault(Fault::Silence, true);
+    rig.send(Command::EndJog);
+    rig.seconds(3.0).await;
+    rig.control.set_fault(Fault::Silence, false);
+    rig.seconds(5.0).await;
+    assert!(rig.sent("STOP=").len() > 1);
+    assert_eq!(rig.sent("TRACK_AUTO_ENABLE=,0"), [""; 0]);
+    assert_eq!(rig.shown().state.program.unwrap().auto, Some(true));
+}
+
+#[tokio::test(start_paused = true)]
+async fn auto_track_that_a_stop_does_not_end_is_told() {
+    // The unit answers OK and changes nothing.
+    let on = format!("{}1", STILL.strip_suffix('0').unwrap());
+    let script = move |payload: &str| match payload {
+        "STATUS?" => vec![(10, on.clone())],
+        other => plain(other),
+    };
+    let mut unit = Scripted::start(Box::new(script));
+    unit.seconds(3.0).await;
+    unit.handle.stop();
+    unit.seconds(10.0).await;
+    let told = unit.events();
+    assert!(told.ends_with(&[Event::Stopped, Event::AutoTrackStillOn]), "{told:?}");
+    assert_eq!(unit.sent("TRACK_AUTO_ENABLE=").len(), 2, "once more, alone");
 }
 
 #[tokio::test(start_paused = true)]
@@ -196,6 +250,6 @@ async fn a_stop_just_before_the_end_of_the_program_is_sent_and_waited_for() {
     rig.stop();
     rig.drop_handle().await;
     let last = rig.orders();
-    assert!(last.ends_with(&["STOP=".to_owned(), "TRACK=,0".to_owned()]), "{last:?}");
+    assert!(last.ends_with(&STOP.map(str::to_owned)), "{last:?}");
     assert!(!rig.control.state().is_tracking);
 }

@@ -107,7 +107,7 @@ impl Device for Rc2000c {
         let stands = |status: &Status| status.polarization_motion == PolarizationMotion::Still;
         // A halt of a jog must not take back what STOP has begun.
         self.holds_polarization |=
-            extent == Extent::Everything && !self.status.as_ref().is_some_and(stands);
+            extent != Extent::Motion && !self.status.as_ref().is_some_and(stands);
         self.halt = Some(Outstanding::new(Request::Stop, Purpose::Halt, self.line, now));
         self.look_soon(now);
         Request::Stop.to_bytes(self.address)

@@ -110,16 +110,19 @@ impl Device for Satrak {
     }
 
     fn halt(&mut self, extent: Extent, now: Moment) -> Vec<u8> {
-        let program = extent == Extent::Everything || self.program_may_run();
+        let ends_track = extent != Extent::Motion || self.program_may_run();
+        let ends_auto_track = extent == Extent::Everything;
         self.motions.clear();
         self.fail_preparation(PrepareError::Stopped);
         if let Some(outstanding) = &mut self.outstanding {
             outstanding.disown();
         }
         self.halts.retain(|(_, until)| *until > now.steady);
-        // STOP alone may leave the tracking switched on, and the antenna would start again by
-        // itself.
-        let halts = [Halt::Stop].into_iter().chain(program.then_some(Halt::TrackOff));
+        // STOP alone may leave the tracking switched on, and auto-track may switch it on again:
+        // the antenna would start again by itself.
+        let track = [Halt::TrackOff].into_iter().filter(|_| ends_track);
+        let auto_track = [Halt::AutoTrackOff].into_iter().filter(|_| ends_auto_track);
+        let halts = [Halt::Stop].into_iter().chain(track).chain(auto_track);
         let until = now.steady + REPLY;
         self.halts.extend(halts.clone().map(|halt| (halt, until)));
         self.look_soon(now);

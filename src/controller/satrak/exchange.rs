@@ -148,7 +148,10 @@ impl Satrak {
         match Reply::parse(frame).map(|parsed| parsed.reply) {
             Ok(Reply::Refused { code }) => {
                 self.count_reply(now);
-                self.events.push_back(ControllerEvent::HaltRefused(refusal(&code)));
+                self.events.push_back(match halt {
+                    Halt::AutoTrackOff => ControllerEvent::AutoStaysOn,
+                    Halt::Stop | Halt::TrackOff => ControllerEvent::HaltRefused(refusal(&code)),
+                });
             }
             Ok(_) => self.count_reply(now),
             Err(error) => {

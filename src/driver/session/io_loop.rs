@@ -213,11 +213,10 @@ impl Session {
         let mut buffer = [0; 4096];
         let start = self.now();
         self.gate.device().link_up(start);
-        if self.stop.is_under_way() {
-            self.stop_bytes = self.gate.device().halt(Extent::Everything, start);
-        } else {
-            self.stop_bytes.clear();
-        }
+        self.stop_bytes = match self.stop.extent() {
+            Some(extent) => self.gate.device().halt(extent, start),
+            None => Vec::new(),
+        };
         self.contact.unread = true;
         let mut hurries = false;
         loop {

@@ -96,7 +96,6 @@ impl Session {
             && (driver == Mover::Azel || self.setup.monitor == Monitor::Stop);
         if stops && !self.stop.is_under_way() {
             self.halt(now);
-            self.gate.device().disable_auto();
         } else if is_told {
             return;
         }

@@ -34,6 +34,12 @@ pub(super) struct Halting {
     told: bool,
 }
 
+impl Halting {
+    fn extent_again(&self) -> Extent {
+        if self.pressed { Extent::Everything } else { Extent::Track }
+    }
+}
+
 /// STOP of an antenna, pressed or at the end of a motion.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) enum Stop {
@@ -48,6 +54,11 @@ pub(super) enum Stop {
 impl Stop {
     pub(super) fn is_under_way(&self) -> bool {
         matches!(self, Self::UnderWay(_))
+    }
+
+    /// What a halt that is sent again ends.
+    pub(super) fn extent(&self) -> Option<Extent> {
+        self.halting().map(Halting::extent_again)
     }
 
     fn halting(&self) -> Option<&Halting> {
@@ -150,7 +161,7 @@ impl Session {
         // Without a link, the halt is the first thing sent on the next one.
         if again && self.contact.link.is_open() {
             halting.again_at = now.steady + self.gate.device().halt_patience();
-            self.stop_bytes = self.gate.device().halt(Extent::Everything, now);
+            self.stop_bytes = self.gate.device().halt(halting.extent_again(), now);
         }
         if looks_again {
             self.gate.device().ask_position(now);
@@ -175,6 +186,8 @@ impl Session {
             }
             if self.gate.state().program.is_some_and(|program| program.auto == Some(true)) {
                 self.tell(Event::AutoTrackStillOn);
+                // Alone, for a unit that has missed what came close behind STOP.
+                self.gate.device().disable_auto();
             }
         }
     }

@@ -22,10 +22,12 @@ pub enum Quirk {
     SpaceBeforeEq,
     /// Decimal commas, as a Turkish locale prints them.
     DecimalComma,
+    /// Auto-track starts again in a window in which tracking was switched off.
+    AutoTrackRestarts,
 }
 
 impl Quirk {
-    pub const ALL: [(Self, &'static str); 8] = [
+    pub const ALL: [(Self, &'static str); 9] = [
         (Self::NoComma, "no_comma"),
         (Self::Fields15, "fields=15"),
         (Self::Err11, "err=11"),
@@ -34,6 +36,7 @@ impl Quirk {
         (Self::LfOnly, "lf_only"),
         (Self::SpaceBeforeEq, "space_before_eq"),
         (Self::DecimalComma, "decimal_comma"),
+        (Self::AutoTrackRestarts, "auto_track_restarts"),
     ];
 }
 

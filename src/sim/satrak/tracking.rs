@@ -42,6 +42,8 @@ pub(super) struct Tracking {
     pub(super) window: Option<TrackWindow>,
     pub(super) is_enabled: bool,
     pub(super) is_auto: bool,
+    /// Auto track leaves no window alone.
+    pub(super) restarts: bool,
     /// The window ended while tracking.
     is_completed: bool,
     /// The operator ended tracking in this window: auto track leaves it alone.
@@ -92,7 +94,8 @@ impl Tracking {
             self.is_completed |= ended;
             return ended;
         }
-        let may_start = self.is_auto && !self.is_declined && self.target.is_some();
+        let is_left_alone = self.is_declined && !self.restarts;
+        let may_start = self.is_auto && !is_left_alone && self.target.is_some();
         if may_start && rtc >= lead_start(window, lead_ms) {
             self.is_enabled = true;
         }

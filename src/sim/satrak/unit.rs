@@ -229,7 +229,8 @@ impl harness::Unit for Satrak {
     }
 
     fn set_switches(&mut self, switches: &Switches<Quirk, Fault>) {
-        let Switches { faults, .. } = switches;
+        let Switches { faults, quirks, .. } = switches;
+        self.tracking.restarts = quirks.contains(&Quirk::AutoTrackRestarts);
         self.injected = faults
             .iter()
             .filter_map(|fault| if let Fault::Unit(kind) = fault { Some(*kind) } else { None })
