@@ -1,4 +1,4 @@
-//! STOPs that are owed. A debt belongs to a unit, not to a row of the settings: it outlives
+//! STOPs that are owed, and auto-track that is to be off. A debt belongs to a unit, not to a row of the settings: it outlives
 //! the session, the name and the address of its antenna and, as a record on disk, this
 //! program.
 
@@ -51,6 +51,14 @@ struct Mark {
     since: Timestamp,
 }
 
+impl Ledger {
+    /// The STOP of a newer session of the same unit.
+    fn newer(&self, unit: &Unit, session: u64) -> Option<&Arc<Notify>> {
+        let newest = self.sessions.get(unit).filter(|(number, _)| *number > session);
+        newest.map(|(_, stop)| stop)
+    }
+}
+
 /// All debts of this program. Clones share them.
 #[derive(Debug, Clone, Default)]
 pub struct Debts {
@@ -66,6 +74,8 @@ struct Ledger {
     /// The newest session of each unit, and its STOP.
     sessions: BTreeMap<Unit, (u64, Arc<Notify>)>,
     owed: BTreeSet<Unit>,
+    /// Units whose auto-track is to be off and was not read back as off since.
+    auto_track: BTreeSet<Unit>,
     /// Units that were moved from here since then and are not known to stand.
     unproved: BTreeMap<Unit, Instant>,
 }
@@ -94,7 +104,7 @@ impl Debts {
         number
     }
 
-    pub(super) fn owe(&self, unit: &Unit) {
+    pub fn owe(&self, unit: &Unit) {
         self.ledger().owed.insert(unit.clone());
     }
 
@@ -107,11 +117,35 @@ impl Debts {
     /// there is none.
     pub(super) fn hand_over(&self, unit: &Unit, session: u64) -> bool {
         let ledger = self.ledger();
-        let newer = ledger.sessions.get(unit).filter(|(number, _)| *number > session);
-        if let Some((_, stop)) = newer {
+        let newer = ledger.newer(unit, session);
+        if let Some(stop) = newer {
             stop.notify_one();
         }
         newer.is_some()
+    }
+
+    /// Returns `true` if there is a newer session of the same unit than `session`.
+    pub(super) fn is_followed(&self, unit: &Unit, session: u64) -> bool {
+        self.ledger().newer(unit, session).is_some()
+    }
+
+    /// From now on `unit` is not to track by itself.
+    pub fn owe_auto_track_off(&self, unit: &Unit) {
+        self.ledger().auto_track.insert(unit.clone());
+    }
+
+    /// The unit does not track by itself any more, or is to do so again.
+    pub(super) fn settle_auto_track(&self, unit: &Unit) {
+        self.ledger().auto_track.remove(unit);
+    }
+
+    pub(super) fn owes_auto_track_off(&self, unit: &Unit) -> bool {
+        self.ledger().auto_track.contains(unit)
+    }
+
+    /// The units whose auto-track is to be off and is not read back as off.
+    pub fn with_auto_track(&self) -> Vec<Unit> {
+        self.ledger().auto_track.iter().cloned().collect()
     }
 
     /// Records since when `unit` was moved without proof that it stands. An older `session`
@@ -217,6 +251,20 @@ mod tests {
         assert!(is_notified(&new), "STOP is its first word");
         debts.settle(&unit);
         assert_eq!(debts.units(), []);
+    }
+
+    #[test]
+    fn auto_track_that_is_to_be_off_hands_no_stop_to_the_next_session() {
+        let (debts, unit) = (Debts::default(), unit("a:1"));
+        let first = debts.begin(&unit, Arc::default());
+        debts.owe_auto_track_off(&unit);
+        assert!(!debts.is_followed(&unit, first));
+        let stop = Arc::new(Notify::new());
+        debts.begin(&unit, Arc::clone(&stop));
+        assert!(debts.is_followed(&unit, first) && !is_notified(&stop));
+        assert_eq!(debts.with_auto_track(), [unit.clone()]);
+        debts.settle_auto_track(&unit);
+        assert!(!debts.owes_auto_track_off(&unit));
     }
 
     #[test]

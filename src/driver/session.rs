@@ -3,6 +3,7 @@
 //! nor frames.
 
 mod activity;
+mod auto_track;
 mod clocks;
 mod command;
 mod guard;
@@ -224,10 +225,12 @@ struct Contact {
     program_was_on: bool,
 }
 
-/// The STOP that is owed to the unit, also by other sessions and earlier runs.
+/// What is owed to the unit, also by other sessions and earlier runs.
 struct Owed {
     unit: Unit,
     debts: Debts,
+    /// When the unit was last told on this link to switch auto-track off.
+    auto_track_told: Option<Instant>,
     /// Tells the sessions of one unit apart.
     number: u64,
     /// Since when a record is kept that the unit was moved and has not been proved to stand.
@@ -345,6 +348,7 @@ impl Session {
             owed: Owed {
                 unit,
                 debts,
+                auto_track_told: None,
                 number,
                 kept_unproved: gate.unproved_since(),
                 marking: Marking::None,

@@ -337,6 +337,8 @@ pub enum Event {
     AutoTrackStillOn,
     /// The unit did not switch auto-track off.
     AutoStaysOn,
+    /// The unit was told to switch auto-track off, and cannot tell whether it has.
+    AutoTrackNotKnown,
     /// The unit is locked out, but auto-track off cannot be read back.
     LockOutUnproved,
 }

@@ -12,7 +12,6 @@ use jiff::Timestamp;
 
 pub(super) use self::{at_start::LastRun, operation::is_same_pass};
 use self::{
-    auto_track::AutoTrack,
     day::Flight,
     operation::{Act, LATE_S, Outcome, Seen, Wishes},
     seen::seen,
@@ -44,13 +43,14 @@ pub(super) struct AtWork {
     flight: Option<Flight>,
     /// As it was told last.
     told: Option<Operation>,
-    auto_track: AutoTrack,
+    /// Auto-track was switched on for a pass that the unit holds, and nobody has touched it since.
+    has_auto_track_on: bool,
 }
 
 impl AtWork {
     /// What remains of it when the antenna is given another unit.
     pub(super) fn without_unit(self) -> Self {
-        Self { auto_track: AutoTrack::Untouched, ..self }
+        Self { has_auto_track_on: false, ..self }
     }
 }
 
@@ -95,11 +95,9 @@ impl Engine {
             let (id, is_on_at_start) = (config.id, config.automatic.is_on_at_start);
             if is_on_at_start && is_free && last.allows(id) {
                 self.set_automatic(index, true);
-            } else if !last.allows(id)
-                && let Some(antenna) = self.antennas.get_mut(index)
-            {
+            } else if !last.allows(id) {
                 // The run before may have left it on.
-                antenna.end_auto_track();
+                self.end_auto_track(index);
             }
         }
         self.last_run = last.next_run();
@@ -165,17 +163,18 @@ impl Engine {
             antenna.shown.operation.suspend(Interruption::ByHand, now);
         }
         if matches!(command, Command::Antenna(_, driver::Command::AutoTrack(_))) {
-            antenna.at_work.auto_track = AutoTrack::Untouched;
+            antenna.at_work.has_auto_track_on = false;
         }
     }
 
     /// STOP ends automatic operation: that of all antennas where it was for all.
     pub(super) fn end_automatic_by_stop(&mut self, stopped: &Stopped) {
-        for antenna in &mut self.antennas {
+        for index in 0..self.antennas.len() {
+            let Some(antenna) = self.antennas.get_mut(index) else { continue };
             let is_meant = stopped.is_for_all || stopped.antennas.contains(&antenna.shown.id());
             if is_meant {
                 antenna.shown.operation.switch_off(OffBecause::Stop);
-                antenna.end_auto_track();
+                self.end_auto_track(index);
             }
         }
     }
@@ -231,7 +230,6 @@ impl Engine {
         self.asked = None;
         for index in 0..self.antennas.len() {
             self.tell_automatic(index);
-            self.switch_auto_track_off(index);
         }
     }
 
@@ -368,10 +366,6 @@ impl Engine {
             self.alarms.clear(Some(id), self.now, is_that);
         }
         let Some(before) = before else { return };
-        // What the unit holds is not started by itself once nobody minds it.
-        if before.is_on() && !operation.is_on() {
-            antenna.end_auto_track();
-        }
         let event = match (&before, &operation) {
             (Operation::On(_), Operation::On(_))
             | (Operation::Suspended { .. }, Operation::Suspended { .. }) => return,
@@ -400,6 +394,10 @@ impl Engine {
             _ => {}
         }
         self.note_day(id, event);
+        // What the unit holds is not started by itself once nobody minds it.
+        if before.is_on() && !operation.is_on() {
+            self.end_auto_track(index);
+        }
     }
 
     pub(super) fn keep_switched_off(&mut self, id: AntennaId, is_off: bool) {

@@ -1,32 +1,34 @@
-//! STOPs owed to units that no antenna of the station has: the antenna was deleted, or
-//! given another address, while it moved.
+//! STOPs and ends of auto-track that are owed to units that no antenna of the station has: the
+//! antenna was deleted, or given another address, while it moved or tracked by itself.
 
 use jiff::Timestamp;
 
 use super::alarms::{AlarmKind, Alarms};
-use crate::{driver::Unit, station::Antenna};
+use crate::{
+    driver::{Debts, Unit},
+    station::Antenna,
+};
 
-/// The units of `owed` that no antenna has.
+/// The alarms about units to which something is owed and that none of `antennas` has.
 pub(super) fn strangers<'a>(
-    mut owed: Vec<Unit>,
+    debts: &Debts,
     antennas: impl Iterator<Item = &'a Antenna>,
-) -> Vec<Unit> {
-    for antenna in antennas {
-        let known = Unit::of(antenna);
-        owed.retain(|unit| *unit != known);
-    }
-    owed
+) -> Vec<AlarmKind> {
+    let known: Vec<Unit> = antennas.map(Unit::of).collect();
+    let is_strange = |unit: &Unit| !known.contains(unit);
+    let stops = debts.units().into_iter().filter(is_strange).map(AlarmKind::Owed);
+    let auto_track = debts.with_auto_track().into_iter().filter(is_strange);
+    stops.chain(auto_track.map(AlarmKind::AutoTrackOwed)).collect()
 }
 
-/// Raises an alarm for each of `strangers`, and clears those whose STOP is paid.
-pub(super) fn tell(alarms: &mut Alarms, strangers: Vec<Unit>, now: Timestamp) {
-    alarms.clear(
-        None,
-        now,
-        |kind| matches!(kind, AlarmKind::Owed(unit) if !strangers.contains(unit)),
-    );
-    for unit in strangers {
-        alarms.raise(None, AlarmKind::Owed(unit), now);
+/// Raises these alarms, and clears those whose debt is paid.
+pub(super) fn tell(alarms: &mut Alarms, strangers: Vec<AlarmKind>, now: Timestamp) {
+    alarms.clear(None, now, |kind| {
+        let is_that = matches!(kind, AlarmKind::Owed(_) | AlarmKind::AutoTrackOwed(_));
+        is_that && !strangers.contains(kind)
+    });
+    for kind in strangers {
+        alarms.raise(None, kind, now);
     }
 }
 
@@ -41,18 +43,26 @@ mod tests {
     }
 
     #[test]
-    fn a_unit_of_no_antenna_is_named_until_its_stop_is_paid() {
+    fn a_unit_of_no_antenna_is_named_until_its_debts_are_paid() {
         let kept = Antenna::satrak("Dish", "10.0.0.5:4001");
         let gone = Antenna::genius("Mast", "10.0.0.6:9006");
-        let owed = vec![Unit::of(&kept), Unit::of(&gone)];
+        let left = Antenna::satrak("Dish", "10.0.0.7:4001");
+        let debts = Debts::default();
+        for antenna in [&kept, &left] {
+            debts.owe_auto_track_off(&Unit::of(antenna));
+        }
+        for antenna in [&kept, &gone] {
+            debts.owe(&Unit::of(antenna));
+        }
         let mut alarms = Alarms::default();
         for _ in 0..3 {
-            let strangers = strangers(owed.clone(), std::iter::once(&kept));
+            let strangers = strangers(&debts, std::iter::once(&kept));
             tell(&mut alarms, strangers, Timestamp::UNIX_EPOCH);
         }
         let told = standing(&alarms);
-        assert_eq!(told.len(), 1, "{told:?}");
+        assert_eq!(told.len(), 2, "{told:?}");
         assert!(told[0].starts_with("The 4O3A Rotator Genius at 10.0.0.6:9006"), "{told:?}");
+        assert!(told[1].starts_with("The SVS Satrak at 10.0.0.7:4001"), "{told:?}");
         tell(&mut alarms, Vec::new(), Timestamp::UNIX_EPOCH);
         assert_eq!(standing(&alarms), [""; 0]);
     }

@@ -38,7 +38,7 @@ impl Engine {
             self.take_antenna(index);
         }
         let antennas = self.antennas.iter().map(|antenna| &antenna.shown.config);
-        let strangers = owed::strangers(self.driver.debts().units(), antennas);
+        let strangers = owed::strangers(self.driver.debts(), antennas);
         owed::tell(&mut self.alarms, strangers, self.now);
         self.run_automatic(turn);
         self.remind();

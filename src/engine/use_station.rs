@@ -85,13 +85,15 @@ impl Engine {
         };
         let mut changed: Vec<Changed> = Vec::new();
         for antenna in before.extract_if(.., |antenna| !is_kept(antenna)) {
+            let unit = Unit::of(&antenna.shown.config);
+            let is_of =
+                |new: &station::Antenna| new.id == antenna.shown.id() && Unit::of(new) == unit;
+            let is_left = !station.antennas.iter().any(is_of) && antenna.shown.held_by.is_none();
+            if is_left && antenna.may_have_auto_track() {
+                debts.owe_auto_track_off(&unit);
+            }
             let AntennaModel { operation, config, .. } = antenna.shown;
-            changed.push(Changed {
-                unit: Unit::of(&config),
-                id: config.id,
-                operation,
-                at_work: antenna.at_work,
-            });
+            changed.push(Changed { unit, id: config.id, operation, at_work: antenna.at_work });
         }
         for config in &station.antennas {
             let bounds = Bounds::of(&station, config);

@@ -147,6 +147,17 @@ fn auto_track_of_a_unit_out_of_reach_is_switched_off_once_it_answers() {
 }
 
 #[test]
+fn a_unit_that_cannot_tell_whether_auto_track_is_off_is_an_alarm() {
+    let (scene, client, id) = scene_of("Dish", |dish| dish.automatic.uses_auto_track = true);
+    scene.units.dish.set_quirk(satrak::Quirk::Fields15, true);
+    proved(&client, id);
+    until("auto-track", || scene.units.dish.state().is_auto.then_some(()));
+    set_automatic(&client, id, false);
+    until("its end", || (!scene.units.dish.state().is_auto).then_some(()));
+    until("the alarm", || stands(&client, |of| *of == AlarmKind::AutoTrackNotKnown).then_some(()));
+}
+
+#[test]
 fn stop_after_another_start_ends_the_auto_track_of_the_run_before() {
     let (scene, client, id) = scene_of("Dish", |dish| dish.automatic.uses_auto_track = true);
     proved(&client, id);
@@ -311,6 +322,31 @@ fn new_settings_end_it_with_an_alarm_and_a_line_and_auto_track_with_it() {
         (scene, is_on)
     };
     assert!(!is_on);
+}
+
+#[test]
+fn auto_track_of_a_unit_that_the_station_no_longer_has_is_switched_off_once_it_answers() {
+    for is_moved in [false, true] {
+        let (scene, client, id) = scene_of("Dish", |dish| dish.automatic.uses_auto_track = true);
+        proved(&client, id);
+        until_auto_track(&client, id, true);
+        scene.units.dish.set_fault(satrak::Fault::Silence, true);
+        until_lost(&client, id);
+        let mut station = Station::clone(&client.snapshot().station);
+        if is_moved {
+            // To a unit that does not understand it.
+            "Mast".clone_into(&mut station.antennas[0].name);
+            "elsewhere:1".clone_into(&mut station.antennas[0].connection.address);
+        } else {
+            station.antennas.clear();
+        }
+        let _ = client.send(Command::SaveStation(Box::new(station)));
+        let is_owed = |of: &AlarmKind| matches!(of, AlarmKind::AutoTrackOwed(_));
+        until("the alarm", || stands(&client, is_owed).then_some(()));
+        scene.units.dish.set_fault(satrak::Fault::Silence, false);
+        until("its end", || (!stands(&client, is_owed)).then_some(()));
+        assert!(!scene.units.dish.state().is_auto);
+    }
 }
 
 #[test]

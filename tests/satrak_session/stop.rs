@@ -194,7 +194,19 @@ async fn auto_track_that_a_stop_does_not_end_is_told() {
     unit.seconds(10.0).await;
     let told = unit.events();
     assert!(told.ends_with(&[Event::Stopped, Event::AutoTrackStillOn]), "{told:?}");
-    assert_eq!(unit.sent("TRACK_AUTO_ENABLE=").len(), 2, "once more, alone");
+    assert_eq!(unit.sent("TRACK_AUTO_ENABLE=").len(), 4, "again and again");
+}
+
+#[tokio::test(start_paused = true)]
+async fn a_unit_that_does_not_report_auto_track_is_told_of_after_a_stop() {
+    let mut rig = Rig::usual().await;
+    rig.control.set_quirk(Quirk::Fields15, true);
+    rig.stop();
+    rig.seconds(30.0).await;
+    let mut told = rig.events();
+    told.sort_by_key(|event| *event != Event::Stopped);
+    assert_eq!(told, [Event::Stopped, Event::AutoTrackNotKnown]);
+    assert_eq!(rig.sent("TRACK_AUTO_ENABLE=").len(), 1, "it can say no more");
 }
 
 #[tokio::test(start_paused = true)]

@@ -148,9 +148,11 @@ impl Session {
             Command::AutoTrack(true) => {
                 let held = self.held(now);
                 self.gate.will_hold(held);
-                self.start(Motion::EnableAuto, now);
+                if self.start(Motion::EnableAuto, now) {
+                    self.allow_auto_track();
+                }
             }
-            Command::AutoTrack(false) => self.gate.device().disable_auto(),
+            Command::AutoTrack(false) => self.end_auto_track(),
             Command::ReadGroup(group) => self.gate.device().read_group(group),
             Command::WriteSettings(change) => self.write_settings(change, now),
             Command::Ask(question) => self.gate.device().ask(&question),
@@ -309,6 +311,7 @@ impl Session {
             Command::SeenStanding => self.take_word_for_standstill(),
             Command::Resume => self.resume(),
             Command::Standby => self.activity = Activity::Standby,
+            Command::AutoTrack(false) => self.end_auto_track(),
             _ => {
                 // An operator who wants something else does not want this to go on.
                 if self.activity.program().is_some() {

@@ -70,8 +70,10 @@ impl Session {
         }
         if self.stop.is_under_way() || self.key.held().is_some() {
             self.mark_debt().await;
-            self.pay_owed_stop().await;
+            let now = self.now();
+            self.halt_quietly(now);
         }
+        self.pay_debts().await;
         self.end_marking().await;
         self.contact.link = LinkState::Off;
         let now = self.now();
@@ -213,10 +215,11 @@ impl Session {
         let mut buffer = [0; 4096];
         let start = self.now();
         self.gate.device().link_up(start);
-        self.stop_bytes = match self.stop.extent() {
-            Some(extent) => self.gate.device().halt(extent, start),
-            None => Vec::new(),
-        };
+        self.told_auto_track_off(None);
+        self.stop_bytes.clear();
+        if let Some(extent) = self.stop.extent() {
+            self.queue_halt(extent, start);
+        }
         self.contact.unread = true;
         let mut hurries = false;
         loop {

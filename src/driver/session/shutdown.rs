@@ -17,8 +17,8 @@ use crate::{
 const STANDSTILL_WITHIN: Duration = Duration::from_millis(1500);
 
 impl Session {
-    /// Ends a session: a jog must not outlive it. Waits until standstill is proved, or the
-    /// time limit.
+    /// Ends a session: a jog must not outlive it. Waits until what is owed is proved, or the time
+    /// limit.
     pub(super) async fn shut_down(
         &mut self,
         reader: &mut ReadHalf<Box<dyn Stream>>,
@@ -33,7 +33,9 @@ impl Session {
         let mut buffer = [0; 4096];
         let clock = self.clock.clone();
         let until = start.steady + STANDSTILL_WITHIN + self.setup.figures.gap();
-        while self.stop.is_under_way() && self.now().steady < until {
+        while self.is_in_debt() && self.now().steady < until {
+            let now = self.now();
+            self.watch_auto_track(now);
             if let Err(loss) = self.send(writer).await {
                 return tracing::error!(
                     antenna = self.name,
@@ -72,28 +74,40 @@ impl Session {
         until.min(self.halt_due().map_or(due, |halt| halt.min(due)))
     }
 
-    /// The station has let go of this antenna while a STOP is owed to its unit: tries until it
-    /// is proved, or another session of the unit takes it over.
-    pub(super) async fn pay_owed_stop(&mut self) {
-        let now = self.now();
-        self.halt_quietly(now);
-        while self.stop.is_under_way() {
-            if self.owed.debts.hand_over(&self.owed.unit, self.owed.number) {
-                return;
-            }
+    /// The station has let go of this antenna while something is owed to its unit: tries until
+    /// that is proved, or another session of the unit takes it over.
+    pub(super) async fn pay_debts(&mut self) {
+        while self.is_in_debt() && !self.is_relieved() {
             if let Ok(Ok(stream)) = self.clock.timeout(CONNECT, (self.dial)()).await {
                 let (mut reader, mut writer) = tokio::io::split(stream);
                 let now = self.now();
                 self.gate.device().link_up(now);
                 self.contact.link = LinkState::Up { since: now.steady };
-                self.halt_quietly(now);
+                self.told_auto_track_off(None);
+                if self.stop.is_under_way() {
+                    self.halt_quietly(now);
+                }
                 self.shut_down(&mut reader, &mut writer).await;
                 let now = self.now();
                 self.gate.device().link_down(now);
             }
-            if self.stop.is_under_way() {
+            if self.is_in_debt() {
                 self.clock.sleep(STOP_RETRY).await;
             }
+        }
+    }
+
+    fn is_in_debt(&self) -> bool {
+        self.stop.is_under_way() || self.owes_auto_track_off()
+    }
+
+    /// Another session of the unit has begun, and takes over what is owed.
+    fn is_relieved(&self) -> bool {
+        let (debts, unit, number) = (&self.owed.debts, &self.owed.unit, self.owed.number);
+        if self.stop.is_under_way() {
+            debts.hand_over(unit, number)
+        } else {
+            debts.is_followed(unit, number)
         }
     }
 }

@@ -115,8 +115,10 @@ impl Session {
         self.stepping = None;
         self.doubt = None;
         self.activity.halt();
-        let extent = if pressed { Extent::Everything } else { Extent::Motion };
-        self.stop_bytes = self.gate.device().halt(extent, now);
+        if pressed {
+            self.end_auto_track();
+        }
+        self.queue_halt(if pressed { Extent::Everything } else { Extent::Motion }, now);
         self.owed.debts.owe(&self.owed.unit);
         let again_at = now.steady + self.gate.device().halt_patience();
         match &mut self.stop {
@@ -135,6 +137,14 @@ impl Session {
                     told: false,
                 }));
             }
+        }
+    }
+
+    /// The bytes of a halt are the next to be written.
+    pub(super) fn queue_halt(&mut self, extent: Extent, now: Moment) {
+        self.stop_bytes = self.gate.device().halt(extent, now);
+        if extent == Extent::Everything {
+            self.told_auto_track_off(Some(now.steady));
         }
     }
 
@@ -161,7 +171,8 @@ impl Session {
         // Without a link, the halt is the first thing sent on the next one.
         if again && self.contact.link.is_open() {
             halting.again_at = now.steady + self.gate.device().halt_patience();
-            self.stop_bytes = self.gate.device().halt(halting.extent_again(), now);
+            let extent = halting.extent_again();
+            self.queue_halt(extent, now);
         }
         if looks_again {
             self.gate.device().ask_position(now);
@@ -186,8 +197,6 @@ impl Session {
             }
             if self.gate.state().program.is_some_and(|program| program.auto == Some(true)) {
                 self.tell(Event::AutoTrackStillOn);
-                // Alone, for a unit that has missed what came close behind STOP.
-                self.gate.device().disable_auto();
             }
         }
     }

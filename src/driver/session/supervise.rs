@@ -47,6 +47,7 @@ impl Session {
         self.watch_bounds(now);
         self.watch_standstill();
         self.watch_lock_out(now);
+        self.watch_auto_track(now);
         self.forget_old_stop(now);
         self.start_queued(now);
         match self.activity {

@@ -46,6 +46,10 @@ pub enum AlarmKind {
     AutoTrackStillOn,
     /// The unit did not switch auto-track off.
     AutoStaysOn,
+    /// The unit was told to switch auto-track off, and cannot tell whether it has.
+    AutoTrackNotKnown,
+    /// Auto-track is to be switched off at a unit that belongs to no antenna of the station.
+    AutoTrackOwed(Unit),
     /// The unit is locked out, but no read-back proves that it does not start by itself.
     LockOutUnproved,
     /// The list of locked-out units could not be read or written; in words.
@@ -177,6 +181,7 @@ impl AlarmKind {
             | Self::StartedByItself
             | Self::Unreadable(_)
             | Self::JogPositionOld
+            | Self::AutoTrackOwed(_)
             | Self::OffTarget { .. }
             | Self::NotOnItsWay { .. }
             | Self::AutomaticMoves { .. }
@@ -195,6 +200,7 @@ impl AlarmKind {
                 | Self::StopNotConfirmed
                 | Self::Safety(Safety::LeftMoving { asks: true, .. } | Safety::SilentInMotion)
                 | Self::Owed(_)
+                | Self::AutoTrackOwed(_)
                 | Self::DriverStands(_)
                 | Self::StationStands(_)
                 | Self::StationElsewhere(_)
@@ -292,6 +298,7 @@ pub fn alarm_of(event: &Event) -> Option<AlarmKind> {
         Event::JogPositionOld => AlarmKind::JogPositionOld,
         Event::AutoTrackStillOn => AlarmKind::AutoTrackStillOn,
         Event::AutoStaysOn => AlarmKind::AutoStaysOn,
+        Event::AutoTrackNotKnown => AlarmKind::AutoTrackNotKnown,
         Event::LockOutUnproved => AlarmKind::LockOutUnproved,
         Event::Refused(asked, code) => AlarmKind::Refused(asked, code),
         Event::Unanswered(asked) => AlarmKind::Unanswered(asked),

@@ -214,6 +214,8 @@ fn every_kind() -> Vec<AlarmKind> {
         K::JogPositionOld,
         K::AutoTrackStillOn,
         K::AutoStaysOn,
+        K::AutoTrackNotKnown,
+        K::AutoTrackOwed(Unit::of(&Antenna::satrak("Dish", "10.0.0.5:4001"))),
         K::LockOutUnproved,
         K::LockOuts(text()),
         K::Refused(Asked::Action("park"), text()),
@@ -262,6 +264,8 @@ fn every_kind() -> Vec<AlarmKind> {
             | K::JogPositionOld
             | K::AutoTrackStillOn
             | K::AutoStaysOn
+            | K::AutoTrackNotKnown
+            | K::AutoTrackOwed(_)
             | K::LockOutUnproved
             | K::LockOuts(_)
             | K::Refused(..)

@@ -41,6 +41,8 @@ pub struct Snapshot {
     /// Elevation, degrees.
     pub el_deg: f64,
     pub is_tracking: bool,
+    /// It starts to track by itself.
+    pub is_auto: bool,
     pub is_moving: bool,
 }
 
@@ -257,6 +259,7 @@ impl harness::Unit for Satrak {
             az_deg: direction.azimuth_deg(),
             el_deg: direction.elevation_deg(),
             is_tracking: self.tracking.is_enabled,
+            is_auto: self.tracking.is_auto,
             is_moving: self.mount.is_moving(),
         }
     }

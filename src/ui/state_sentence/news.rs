@@ -93,6 +93,9 @@ pub(super) fn sentence(model: &Model, antenna: &AntennaModel) -> Option<Spoken> 
             caution.plain("Stopped. Auto-track is on: the unit may start by itself.")
         }
         Event::AutoStaysOn => caution.plain("The unit did not switch auto-track off."),
+        Event::AutoTrackNotKnown => caution.plain(
+            "The unit does not report whether auto-track is off: it may start by itself.",
+        ),
         Event::LockOutUnproved => caution.plain(
             "Locked out, but that auto-track is off cannot be read back. Switch it off at the unit.",
         ),

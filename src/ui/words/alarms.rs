@@ -75,6 +75,11 @@ pub fn alarm(kind: &AlarmKind, antenna: &str) -> String {
             format!("{antenna} is stopped, but auto-track is on: it may start by itself.")
         }
         AlarmKind::AutoStaysOn => format!("{antenna} did not switch auto-track off."),
+        AlarmKind::AutoTrackNotKnown => format!(
+            "{antenna} was told to switch auto-track off, and does not report whether it has: it may \
+             start by itself. Look at the unit."
+        ),
+        AlarmKind::AutoTrackOwed(unit) => super::auto_track_owed(unit),
         AlarmKind::LockOutUnproved => format!(
             "{antenna} is locked out, but it is not confirmed that its auto-track is off: it may \
              start by itself. Switch it off at the unit."

@@ -97,13 +97,25 @@ pub fn asks_standing(snapshot: &Snapshot) -> Option<String> {
 
 /// The sentence about a STOP owed to a unit that belongs to no antenna any more.
 pub fn owed(unit: &Unit) -> String {
-    let Unit { make, address } = unit;
-    let known = makes::SPECS.iter().find(|known| known.key == make);
-    let make = known.map_or(make.as_str(), |known| known.name);
     format!(
-        "The {make} at {address} may still move: a STOP is owed to it, and no antenna of the \
-         station has it any more. Azel goes on trying. Look at the antenna."
+        "{} may still move: a STOP is owed to it, and no antenna of the station has it any more. \
+         Azel goes on trying. Look at the antenna.",
+        at_its_address(unit)
     )
+}
+
+/// The sentence about auto-track of a unit that belongs to no antenna any more.
+pub fn auto_track_owed(unit: &Unit) -> String {
+    format!(
+        "{} may still track by itself: its auto-track is to be switched off, and no antenna of the \
+         station has it any more. Azel goes on trying.",
+        at_its_address(unit)
+    )
+}
+
+fn at_its_address(Unit { make, address }: &Unit) -> String {
+    let known = makes::SPECS.iter().find(|known| known.key == make);
+    format!("The {} at {address}", known.map_or(make.as_str(), |known| known.name))
 }
 
 /// The difference of a unit from its earlier state, as a sentence after a blank.
