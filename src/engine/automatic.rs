@@ -5,6 +5,7 @@ mod auto_track;
 mod day;
 mod operation;
 mod seen;
+mod stance;
 
 use std::path::PathBuf;
 
@@ -15,6 +16,7 @@ use self::{
     day::Flight,
     operation::{Act, LATE_S, Outcome, Seen, Wishes},
     seen::seen,
+    stance::Stance,
 };
 pub use self::{
     day::{DayEvent, DayLine, Flown, MissCause},
@@ -45,12 +47,13 @@ pub(super) struct AtWork {
     told: Option<Operation>,
     /// Auto-track was switched on for a pass that the unit holds, and nobody has touched it since.
     has_auto_track_on: bool,
+    stance: Stance,
 }
 
 impl AtWork {
     /// What remains of it when the antenna is given another unit.
     pub(super) fn without_unit(self) -> Self {
-        Self { has_auto_track_on: false, ..self }
+        Self { has_auto_track_on: false, stance: Stance::default(), ..self }
     }
 }
 
@@ -234,10 +237,13 @@ impl Engine {
     }
 
     fn run_automatic_of(&mut self, index: usize) {
+        let Some(antenna) = self.antennas.get_mut(index) else { return };
+        let is_turned = antenna.at_work.stance.look(&antenna.shown);
         let Some(antenna) = self.antennas.get(index) else { return };
         let duties = self.duties(&antenna.shown);
         let wishes = self.wishes(&antenna.shown);
         let mut seen = seen(&antenna.shown);
+        seen.is_turned = is_turned;
         seen.may_be_planned = seen.offers.is_some() && self.scheduler.is_at_work();
         self.fly(index, &duties, seen);
         let now = self.now;

@@ -207,6 +207,24 @@ fn an_antenna_that_another_program_moves_is_left_to_it_until_the_operator_comes(
 }
 
 #[test]
+fn an_antenna_that_is_nudged_at_its_panel_is_left_to_whoever_did_it() {
+    let (scene, client, id) = scene_of("Dish", |_| {});
+    set_automatic(&client, id, true);
+    let at = client.now().utc;
+    until("it to stand", || (seconds_between(at, client.now().utc) > 30.0).then_some(()));
+    assert!(operation(&client, id).is_on());
+    let [x_deg, y_deg] = scene.units.dish.state().metal_deg;
+    scene.units.dish.place([x_deg + 0.5, y_deg]);
+    let by = Interruption::Elsewhere;
+    until("the suspension", || {
+        let is_that = |of| matches!(of, Operation::Suspended { by: found, .. } if found == by);
+        is_that(operation(&client, id)).then_some(())
+    });
+    let _ = client.send(Command::GoOn(id));
+    proved(&client, id);
+}
+
+#[test]
 fn after_an_outage_it_goes_on_only_with_a_unit_that_is_as_it_was_left() {
     for is_moved in [false, true] {
         let (scene, client, id) = scene_of("Dish", |_| {});

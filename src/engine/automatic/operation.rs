@@ -141,6 +141,8 @@ pub(super) struct Seen {
     pub(super) moves: bool,
     /// It moves or tracks, and not by this station.
     pub(super) is_moved_elsewhere: bool,
+    /// It stood, and its angles show that somebody else has turned it.
+    pub(super) is_turned: bool,
 }
 
 /// How the operator wants it.
@@ -273,6 +275,10 @@ impl Operation {
         if let Some(duty) = on.found_at_work(duties, seen, wishes, now) {
             on.take(duty, 1, now);
             return Some(Act::TakeOver(duty));
+        }
+        if seen.is_turned {
+            self.suspend(Interruption::Elsewhere, now);
+            return None;
         }
         if seen.is_moved_elsewhere {
             if on.is_moved_for_long(now) && !seen.may_be_planned {

@@ -2,18 +2,13 @@
 
 use super::operation::Seen;
 use crate::{
-    driver::{Intent, StopState},
+    driver::{Intent, Snapshot, StopState},
     engine::antenna::AntennaModel,
 };
 
 pub(super) fn seen(antenna: &AntennaModel) -> Seen {
     let snapshot = &antenna.snapshot;
     let moves = snapshot.state.measured.is_some_and(|measured| measured.moving());
-    let is_still_asked = snapshot.intent == Intent::Track
-        || snapshot.pending
-        || snapshot.runs_out
-        || snapshot.jog.is_some()
-        || snapshot.step.is_some();
     let stops =
         matches!(snapshot.stop, StopState::Stopping { .. } | StopState::NotConfirmed { .. });
     let takes = antenna.tracked_number().filter(|_| !antenna.tracks_unasked());
@@ -35,8 +30,18 @@ pub(super) fn seen(antenna: &AntennaModel) -> Seen {
             .tracked_number()
             .filter(|_| antenna.tracks_unasked() && snapshot.on_board.is_some()),
         may_be_planned: false,
+        is_turned: false,
         moves,
         is_moved_elsewhere: is_replaced
-            || antenna.is_live() && (antenna.tracks_unasked() || moves && !is_still_asked),
+            || antenna.is_live() && (antenna.tracks_unasked() || moves && !is_asked(snapshot)),
     }
+}
+
+/// Something is asked of the antenna from here that may still move it.
+pub(super) fn is_asked(snapshot: &Snapshot) -> bool {
+    snapshot.intent == Intent::Track
+        || snapshot.pending
+        || snapshot.runs_out
+        || snapshot.jog.is_some()
+        || snapshot.step.is_some()
 }
