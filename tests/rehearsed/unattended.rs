@@ -12,9 +12,9 @@ use azel::{
         closing::CloseHow,
     },
     orbit::{PassSearch, Propagator, bundled, passes},
-    protocol::satrak::{Goto, Motion, Request},
+    protocol::satrak::{Goto, Motion, Request, encode},
     sim::satrak,
-    station::{Antenna, AntennaId, Station},
+    station::{Antenna, AntennaId, Monitor, Station},
 };
 use jiff::{Timestamp, ToSpan as _};
 use tokio::io::AsyncWriteExt as _;
@@ -106,12 +106,17 @@ fn until_lost(client: &Client, id: AntennaId) {
 
 /// Another program sends the unit of the dish elsewhere.
 fn send_elsewhere(scene: &Scene) {
+    let goto = Goto::new(Some(200.0), Some(60.0)).unwrap();
+    by_another(scene, &Request::Motion(Motion::Goto(goto)).to_bytes());
+}
+
+/// Another program sends this to the unit of the dish.
+fn by_another(scene: &Scene, bytes: &[u8]) {
     let runtime = tokio::runtime::Builder::new_current_thread().enable_all().build().unwrap();
     let unit = scene.units.dish.clone();
     runtime.block_on(async {
         let (mut near, far) = tokio::io::duplex(4096);
-        let goto = Goto::new(Some(200.0), Some(60.0)).unwrap();
-        near.write_all(&Request::Motion(Motion::Goto(goto)).to_bytes()).await.unwrap();
+        near.write_all(bytes).await.unwrap();
         near.shutdown().await.unwrap();
         let _ = unit.serve(far).await;
     });
@@ -204,6 +209,30 @@ fn an_antenna_that_another_program_moves_is_left_to_it_until_the_operator_comes(
     until("the end", || {
         (!stands(&client, |of| *of == AlarmKind::AutomaticSuspended)).then_some(())
     });
+}
+
+#[test]
+fn a_unit_that_is_given_another_satellite_is_left_to_whoever_did_it() {
+    for is_in_pass in [false, true] {
+        // The other satellite may be below the horizon.
+        let (scene, client, id) = scene_of("Dish", |dish| dish.monitor = Monitor::Alarm);
+        proved(&client, id);
+        let taken = operation(&client, id).taking().copied().unwrap();
+        if is_in_pass {
+            let middle = add_seconds(taken.from, 60.0);
+            until("the pass", || (client.now().utc > middle).then_some(()));
+        }
+        let favourites = Station::default().favourites.numbers();
+        let number = favourites.into_iter().find(|number| *number != taken.pass.0).unwrap();
+        let catalog = bundled().unwrap();
+        let name = catalog.get(number).unwrap().name().trim();
+        by_another(&scene, &encode(&format!("SATELLITE=,{},{name},1,1", satrak::BUNDLED_FILE)));
+        let by = Interruption::Elsewhere;
+        until("the suspension", || {
+            let is_that = |of| matches!(of, Operation::Suspended { by: found, .. } if found == by);
+            is_that(operation(&client, id)).then_some(())
+        });
+    }
 }
 
 #[test]
