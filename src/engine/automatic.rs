@@ -175,9 +175,16 @@ impl Engine {
         for index in 0..self.antennas.len() {
             let Some(antenna) = self.antennas.get_mut(index) else { continue };
             let is_meant = stopped.is_for_all || stopped.antennas.contains(&antenna.shown.id());
-            if is_meant {
-                antenna.shown.operation.switch_off(OffBecause::Stop);
-                self.end_auto_track(index);
+            if !is_meant {
+                continue;
+            }
+            let id = antenna.shown.id();
+            let was_off = matches!(antenna.shown.operation, Operation::Off(_));
+            antenna.shown.operation.switch_off(OffBecause::Stop);
+            self.end_auto_track(index);
+            if !was_off {
+                // At once: perhaps no turn comes before the end of the program.
+                self.keep_switched_off(id, true);
             }
         }
     }
@@ -462,3 +469,6 @@ fn duty(entry: &Entry, between: BetweenPasses) -> Duty {
         ends_early: entry.early_s > 0.0,
     }
 }
+
+#[cfg(test)]
+mod tests;

@@ -13,7 +13,7 @@ use super::{
     passes::{PassKey, PredictedPass},
 };
 use crate::{
-    astro::time::{DAY_S, add_seconds},
+    astro::time::{DAY_S, add_seconds, seconds_between},
     driver::LinkState,
     job::Job,
     plan::schedule::{
@@ -25,6 +25,9 @@ use crate::{
 
 /// What a change of the schedule has to gain: a moved minute does not turn it over.
 const STEADINESS: Steadiness = Steadiness { percent: 3, seconds: 10 };
+
+/// An entry whose end moves by less is the same, seconds.
+const MOVED_S: f64 = 1.0;
 
 /// The schedule with its revision.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
@@ -60,9 +63,17 @@ pub(super) struct Inputs {
     /// Antennas that take no passes.
     off: Vec<(AntennaId, Off)>,
     /// Satellites that antennas track without automatic operation.
-    tracked: Vec<(AntennaId, u32)>,
+    tracked: Vec<Tracked>,
     /// Antennas of which it is known where they stand, with the rates of their axes as learned.
     placed: Vec<(AntennaId, Option<[f64; 2]>)>,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Tracked {
+    antenna: AntennaId,
+    satellite: u32,
+    /// Begin of the pass that its unit was asked for.
+    from: Option<Timestamp>,
 }
 
 impl PartialEq for Inputs {
@@ -75,12 +86,19 @@ impl PartialEq for Inputs {
     }
 }
 
+/// The schedule that is made, or was made last.
+struct Begun {
+    inputs: Inputs,
+    at: Timestamp,
+    /// The entries that it keeps.
+    fixed: Vec<Entry>,
+}
+
 /// Makes schedules, one at a time.
 #[derive(Default)]
 pub(super) struct Scheduler {
     running: Option<Job<Schedule>>,
-    /// What the schedule that is made, or was made last, follows from, and when it was begun.
-    begun: Option<(Inputs, Timestamp)>,
+    begun: Option<Begun>,
     swap_running: Option<Job<Swap>>,
     swap: Option<Arc<Swap>>,
 }
@@ -100,10 +118,31 @@ impl Engine {
     /// Takes a finished schedule, and begins a new one where something has changed.
     pub(super) fn look_after_schedule(&mut self) {
         self.take_schedule();
-        let list = &self.pass_lists.favourites;
-        if list.made_at.is_none() || self.scheduler.running.is_some() {
+        if self.scheduler.running.is_some() {
             return;
         }
+        let Some(inputs) = self.schedule_inputs() else { return };
+        if self.scheduler.begun.as_ref().is_some_and(|begun| begun.inputs == inputs) {
+            return;
+        }
+        let antennas = self.planned_antennas(&inputs);
+        let (wanted, now) = (inputs.clone(), self.now);
+        let (previous, fixed) = (Arc::clone(&self.schedule), self.fixed());
+        let kept = fixed.clone();
+        let job = Job::start("azel-schedule", Arc::clone(&self.wake), move |_| {
+            make(&wanted, &antennas, &previous.schedule, &kept, now, plan)
+        });
+        match job {
+            Ok(job) => self.scheduler.running = Some(job),
+            Err(error) => tracing::error!(%error, "no thread for the schedule"),
+        }
+        self.scheduler.begun = Some(Begun { inputs, at: now, fixed });
+    }
+
+    /// What a schedule follows from now; `None` before the passes are known.
+    fn schedule_inputs(&self) -> Option<Inputs> {
+        let list = &self.pass_lists.favourites;
+        list.made_at?;
         let off = self.antennas.iter().filter_map(|antenna| {
             let snapshot = &antenna.shown.snapshot;
             let off = match snapshot.link {
@@ -115,41 +154,31 @@ impl Engine {
         });
         let tracked = self.antennas.iter().filter_map(|antenna| {
             let shown = &antenna.shown;
-            let number = shown.tracked_number().filter(|number| shown.takes(*number))?;
+            let satellite = shown.tracked_number().filter(|number| shown.takes(*number))?;
             // What automatic operation takes is fixed from the start, and what it has ended is not.
             let is_by_hand = !shown.operation.is_on() || shown.tracks_unasked();
-            is_by_hand.then_some((shown.id(), number))
+            let target = shown.snapshot.target.as_ref();
+            let target = target.filter(|target| target.catalog_number == satellite);
+            let from = target.map(|target| target.from);
+            is_by_hand.then_some(Tracked { antenna: shown.id(), satellite, from })
         });
         let is_placed = |antenna: &&super::Antenna| antenna.shown.snapshot.state.measured.is_some();
         let placed = self.antennas.iter().filter(is_placed);
         let placed = placed.map(|antenna| (antenna.shown.id(), antenna.shown.snapshot.rates_deg_s));
-        let inputs = Inputs {
+        Some(Inputs {
             station: Arc::clone(&self.station),
             passes: Arc::clone(&list.passes),
             revision: list.revision,
             off: off.collect(),
             tracked: tracked.collect(),
             placed: placed.collect(),
-        };
-        if self.scheduler.begun.as_ref().is_some_and(|(begun, _)| *begun == inputs) {
-            return;
-        }
-        let antennas = self.planned_antennas(&inputs);
-        let (wanted, now) = (inputs.clone(), self.now);
-        let (previous, fixed) = (Arc::clone(&self.schedule), self.fixed());
-        let job = Job::start("azel-schedule", Arc::clone(&self.wake), move |_| {
-            make(&wanted, &antennas, &previous.schedule, &fixed, now, plan)
-        });
-        match job {
-            Ok(job) => self.scheduler.running = Some(job),
-            Err(error) => tracing::error!(%error, "no thread for the schedule"),
-        }
-        self.scheduler.begun = Some((inputs, now));
+        })
     }
 
     /// Begins to work out what a pass would cost.
     pub(super) fn price_swap(&mut self, pass: PassKey) {
-        let Some((inputs, _)) = self.scheduler.begun.clone() else { return };
+        // Not those of the last schedule: an antenna may have begun to track since.
+        let Some(inputs) = self.schedule_inputs() else { return };
         let antennas = self.planned_antennas(&inputs);
         let (planned, fixed, now) = (Arc::clone(&self.schedule), self.fixed(), self.now);
         let key = schedule::PassKey { satellite: pass.0, aos: pass.1 };
@@ -175,13 +204,20 @@ impl Engine {
             return self.alarms.raise(None, kind, self.now);
         };
         self.alarms.clear(None, self.now, |known| *known == kind);
+        let fixed = self.fixed();
+        let begun =
+            self.scheduler.begun.take_if(|begun| gives_away(&schedule, &begun.fixed, &fixed));
+        if begun.is_some() {
+            // It is made once more, with what was begun meanwhile.
+            return;
+        }
         let before = &self.schedule;
         let changes = if before.made_at.is_some() {
             changes(&before.schedule, &schedule, self.now)
         } else {
             Vec::new()
         };
-        let begun = self.scheduler.begun.as_ref().map(|(_, at)| *at);
+        let begun = self.scheduler.begun.as_ref().map(|begun| begun.at);
         let span_s = self.station.scheduling.span_h * 3600.0;
         self.schedule = Arc::new(Planned {
             schedule,
@@ -224,6 +260,20 @@ impl Engine {
     }
 }
 
+/// Returns `true` if `schedule` takes an entry from an antenna that has begun to take it since the
+/// schedule was `begun`.
+fn gives_away(schedule: &Schedule, begun: &[Entry], fixed: &[Entry]) -> bool {
+    let is_in = |entries: &[Entry], entry: &Entry| {
+        entries.iter().any(|other| {
+            let key = |of: &Entry| (of.pass.satellite, of.pass.aos);
+            other.antenna == entry.antenna
+                && is_same_pass(key(other), key(entry))
+                && seconds_between(other.to, entry.to).abs() < MOVED_S
+        })
+    };
+    fixed.iter().any(|entry| !is_in(begun, entry) && !is_in(&schedule.entries, entry))
+}
+
 fn make<T>(
     inputs: &Inputs,
     antennas: &[PlannedAntenna],
@@ -252,10 +302,13 @@ fn make<T>(
             Candidate::of(station, elements, propagator, &predicted.pass, common)
         })
         .collect();
-    let under_way = inputs.tracked.iter().filter_map(|(id, number)| {
-        let antenna = antennas.iter().find(|antenna| antenna.id == *id)?;
-        let mut own = candidates.iter().filter(|candidate| candidate.key.satellite == *number);
-        own.find_map(|candidate| candidate.under_way(antenna, scheduling.choose_by, now))
+    let under_way = inputs.tracked.iter().filter_map(|tracked| {
+        let antenna = antennas.iter().find(|antenna| antenna.id == tracked.antenna)?;
+        let own =
+            candidates.iter().filter(|candidate| candidate.key.satellite == tracked.satellite);
+        let ahead = own.filter(|candidate| tracked.from.is_none_or(|from| candidate.los > from));
+        let pass = ahead.min_by_key(|candidate| candidate.key.aos)?;
+        pass.under_way(antenna, scheduling.choose_by, now)
     });
     let fixed: Vec<Entry> = fixed.iter().cloned().chain(under_way).collect();
     plan(&Request {
@@ -267,4 +320,50 @@ fn make<T>(
         steadiness: STEADINESS,
         fixed: &fixed,
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::plan::schedule::Class;
+
+    fn at(second: f64) -> Timestamp {
+        add_seconds(Timestamp::UNIX_EPOCH, second)
+    }
+
+    fn entry(antenna: u32, satellite: u32, to_s: f64) -> Entry {
+        Entry {
+            pass: schedule::PassKey { satellite, aos: at(100.0) },
+            antenna: AntennaId(antenna),
+            class: Class::Fixed,
+            from: at(100.0),
+            to: at(to_s),
+            late_s: 0.0,
+            early_s: 0.0,
+            counted_s: 100.0,
+            worth: 1,
+            lost: None,
+            axes_deg: [[0.0; 2]; 2],
+            after: None,
+            slew_s: 0.0,
+            set_up_s: 0.0,
+            spare_s: None,
+            shared_with: None,
+            is_fixed: false,
+        }
+    }
+
+    #[test]
+    fn a_schedule_gives_away_nothing_that_was_begun_while_it_was_made() {
+        let of = |entries: &[Entry]| Schedule { entries: entries.to_vec(), ..Schedule::default() };
+        let taken = entry(1, 7, 700.0);
+        let fixed = [taken.clone()];
+        assert!(!gives_away(&of(&fixed), &[], &fixed));
+        let newer = entry(1, 7, 700.4);
+        assert!(!gives_away(&of(&[newer]), &[], &fixed), "by newer elements");
+        for other in [entry(2, 7, 700.0), entry(1, 8, 700.0), entry(1, 7, 400.0)] {
+            assert!(gives_away(&of(&[other]), &[], &fixed));
+        }
+        assert!(!gives_away(&of(&[]), &fixed, &fixed), "it was known");
+    }
 }

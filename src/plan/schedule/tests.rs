@@ -191,7 +191,7 @@ fn what_is_fixed_stays_and_what_the_operator_says_is_done() {
 }
 
 #[test]
-fn a_pass_that_is_tracked_already_stays_until_its_end() {
+fn a_pass_that_is_tracked_already_or_waited_for_stays_until_its_end() {
     let station = three_antennas();
     let antennas = planned(&station, noon());
     let satellites = low_satellites(&mut Random::new(SEED), 40);
@@ -205,9 +205,10 @@ fn a_pass_that_is_tracked_already_stays_until_its_end() {
     let rest = candidate.under_way(antenna, choose_by, now).unwrap();
     assert_eq!((rest.from, rest.to), (now, entry.to));
     assert!((entry.counted_s - rest.counted_s - 30.0).abs() < 1.0, "{rest:?}");
-    for outside in [add_seconds(entry.pass.aos, -1.0), entry.to] {
-        assert_eq!(candidate.under_way(antenna, choose_by, outside), None);
-    }
+    assert_eq!(candidate.under_way(antenna, choose_by, entry.to), None);
+    let ahead = candidate.under_way(antenna, choose_by, add_seconds(entry.pass.aos, -900.0));
+    let ahead = ahead.unwrap();
+    assert_eq!((ahead.from, ahead.to, ahead.late_s), (entry.from, entry.to, 0.0));
     // By then it could not be taken as a whole.
     let mut later = antennas.clone();
     for antenna in &mut later {

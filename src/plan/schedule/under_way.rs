@@ -1,4 +1,4 @@
-//! A pass that an antenna tracks already, as an entry that a schedule keeps.
+//! A pass that an antenna tracks already or was sent to, as an entry that a schedule keeps.
 
 use jiff::Timestamp;
 
@@ -10,8 +10,8 @@ use super::{
 use crate::station::ChooseBy;
 
 impl Candidate {
-    /// What is left of this pass at `now` for an antenna that tracks it; `None` where it has not
-    /// begun or is over, or where the antenna takes no passes or cannot take this one.
+    /// What is left of this pass at `now` for an antenna that tracks it, or waits for it to begin;
+    /// `None` where it is over, or where the antenna takes no passes or cannot take this one.
     pub fn under_way(
         &self,
         antenna: &PlannedAntenna,
@@ -30,7 +30,7 @@ impl Candidate {
         let way = ways.iter().min_by(|a, b| away_deg(a).total_cmp(&away_deg(b)))?;
         let Span { from_ms, to_ms } = way.span();
         let rest = Span { from_ms: from_ms.max(now_ms), to_ms };
-        if antenna.off.is_some() || self.key.aos > now || rest.length_ms() <= 0 {
+        if antenna.off.is_some() || rest.length_ms() <= 0 {
             return None;
         }
         let counted_ms = way.counted_ms(rest);
