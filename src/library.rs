@@ -6,6 +6,7 @@
 //! wait for disks and servers: make them on a worker thread.
 
 pub(crate) mod disk;
+mod exceptions;
 mod fetch;
 mod history;
 mod index;
@@ -22,6 +23,7 @@ use rustls::pki_types::CertificateDer;
 use ureq::tls::{Certificate, RootCerts};
 
 pub use self::{
+    exceptions::Exceptions,
     fetch::Limits,
     history::{History, OlderSet},
     index::IndexError,

@@ -14,7 +14,7 @@ use azel::{
         closing::CloseHow,
         passes::{ListChoice, Scope},
         source_tests::{SourceOrder, TestAsk, TestedSource},
-        sources::Copied,
+        sources::{Copied, SetChoice},
         uploads::{Ask, Cargo, Order},
     },
     makes,
@@ -190,6 +190,8 @@ fn what_is_asked_of_a_station_comes_back() {
         Command::ResumeSearch(Scope::Favourites),
         Command::SetFavourites { numbers: vec![999_999_999], is_favourite: true },
         Command::ListOlderSets(25_544),
+        Command::UseSet(SetChoice::Older { catalog_number: 25_544, epoch: noon() }),
+        Command::UseSet(SetChoice::Newest { catalog_number: 25_544 }),
         Command::CopyElements { name: "own".to_owned(), from: Copied::Text("x".to_owned()) },
         Command::SetRefresh { name: "active".to_owned(), hours: Some(RefreshHours::from(6)) },
         Command::SetFrequencies {

@@ -107,6 +107,9 @@ impl Engine {
                 self.begin_elements(Task { list: Some(list), ..Task::default() });
             }
             Command::ListOlderSets(number) => self.list_older_sets(number),
+            Command::UseSet(choice) => {
+                self.begin_elements(Task { set: Some(choice), ..Task::default() });
+            }
             Command::AddSource(source) => {
                 let ask = vec![source.name.clone()];
                 let mut list = self.sources.list.clone();

@@ -10,7 +10,7 @@ use super::{
     closing::CloseHow,
     passes::{ListChoice, PassKey, Scope},
     source_tests::TestAsk,
-    sources::Copied,
+    sources::{Copied, SetChoice},
     uploads, written,
 };
 use crate::{
@@ -100,6 +100,8 @@ pub enum Command {
     },
     /// Publish the older sets of the object with this catalog number.
     ListOlderSets(u32),
+    /// Use this set of elements of an object.
+    UseSet(SetChoice),
     /// Read all sources anew, and ask the servers of some.
     RefreshSources {
         /// Names of the sources whose servers are asked, where they may be.

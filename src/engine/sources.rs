@@ -13,8 +13,8 @@ use crate::job::Job;
 use crate::{
     job::Wake,
     library::{
-        self, History, IndexError, Library, Limits, OlderSet, check_source, load_sources,
-        read_element_file, save_sources,
+        self, Exceptions, History, IndexError, Library, Limits, OlderSet, check_source,
+        load_sources, read_element_file, save_sources,
     },
     orbit::{Catalog, Source, SourcePlace, SourceReport, bundled},
     whole_file,
@@ -100,6 +100,15 @@ pub enum Copied {
     Text(String),
 }
 
+/// The set of elements that an object is to have.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+pub enum SetChoice {
+    /// The held set with this epoch, until one comes that is newer than all held.
+    Older { catalog_number: u32, epoch: Timestamp },
+    /// The newest set, as all objects have without a choice.
+    Newest { catalog_number: u32 },
+}
+
 /// Work to do before everything is read anew.
 #[derive(Debug, Default)]
 pub(super) struct Task {
@@ -109,6 +118,7 @@ pub(super) struct Task {
     pub(super) list: Option<Vec<Source>>,
     /// Names of the sources whose servers are asked, where they may be.
     pub(super) ask: Vec<String>,
+    pub(super) set: Option<SetChoice>,
     /// Ask even if they were asked lately.
     pub(super) forced: bool,
 }
@@ -133,6 +143,9 @@ pub(super) fn start(
     let places = places.clone();
     Job::start("azel-elements", wake, move |cancelled| {
         let mut outcome = carry_out(&places, &task, now, cancelled);
+        if let Err(problem) = use_older_sets(&places, task.set, &mut outcome.catalog) {
+            outcome.sources.problem = Some(problem);
+        }
         keep_superseded(&places, &mut outcome.catalog, in_use.as_deref());
         outcome
     })
@@ -166,6 +179,40 @@ fn with_copy(places: &Places, name: &str, from: &Copied) -> Result<Vec<Source>, 
     Ok(list)
 }
 
+/// Takes `choice` into the library, and puts the older sets that the operator uses into `catalog`.
+fn use_older_sets(
+    places: &Places,
+    choice: Option<SetChoice>,
+    catalog: &mut Catalog,
+) -> Result<(), String> {
+    let Some(folder) = places.library.as_deref() else { return Ok(()) };
+    let mut exceptions = Exceptions::load(folder);
+    let ended = exceptions.forget_ended(catalog);
+    let chosen = choice.map_or(Ok(()), |choice| choose(choice, &mut exceptions, folder, catalog));
+    exceptions.apply(catalog);
+    chosen?;
+    ended.map_err(|error| format!("the older sets in use are not kept: {error}"))
+}
+
+fn choose(
+    choice: SetChoice,
+    exceptions: &mut Exceptions,
+    folder: &Path,
+    catalog: &Catalog,
+) -> Result<(), String> {
+    let kept = match choice {
+        SetChoice::Older { catalog_number, epoch } => {
+            let gone = || format!("{catalog_number}: the chosen set is not held any more");
+            let newest = catalog.get(catalog_number).ok_or_else(gone)?.epoch();
+            let held = History::beside(folder).of(catalog_number);
+            let set = held.into_iter().find(|set| set.elements.epoch() == epoch);
+            exceptions.begin(set.ok_or_else(gone)?, newest)
+        }
+        SetChoice::Newest { catalog_number } => exceptions.end(catalog_number),
+    };
+    kept.map_err(|error| format!("the choice of a set is not kept: {error}"))
+}
+
 /// Keeps the sets that are not in use, and those of `before` that newer ones replaced, in the
 /// history of the library. A failure is logged: the elements in use are not concerned.
 fn keep_superseded(places: &Places, catalog: &mut Catalog, before: Option<&Catalog>) {
@@ -181,6 +228,11 @@ fn keep_superseded(places: &Places, catalog: &mut Catalog, before: Option<&Catal
             sets.push(OlderSet { elements: old.clone(), source: source.to_owned() });
         }
     }
+    let aside = catalog.all_set_aside().map(|(elements, source)| OlderSet {
+        elements: elements.clone(),
+        source: source.to_owned(),
+    });
+    sets.extend(aside);
     if let Err(error) = History::beside(folder).add(&sets) {
         tracing::warn!(%error, "older sets are not kept");
     }

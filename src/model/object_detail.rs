@@ -56,16 +56,14 @@ pub struct ObjectDetail {
     pub key: DetailKey,
     /// The first passes that reach the elevation floor of the station, in order of time.
     pub passes: Vec<PredictedPass>,
-    /// The older sets, the newest first.
+    /// The sets that are not in use, the newest first.
     pub sets: Vec<SetShift>,
 }
 
-/// An older set against the one in use during the next pass.
+/// A set that is not in use against the one in use, during the next pass.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SetShift {
-    pub epoch: Timestamp,
-    /// Name of the source that gave the set.
-    pub source: String,
+    pub set: OlderSet,
     /// Seconds by which the satellite comes later by this set, at its closest approach; `None`
     /// where it has no such pass.
     pub late_s: Option<f64>,
@@ -95,12 +93,7 @@ fn shift(
     key: &DetailKey,
     cancelled: &dyn Fn() -> bool,
 ) -> SetShift {
-    let mut shift = SetShift {
-        epoch: set.elements.epoch(),
-        source: set.source.clone(),
-        late_s: None,
-        off: None,
-    };
+    let mut shift = SetShift { set: set.clone(), late_s: None, off: None };
     let propagator = Propagator::new(&set.elements).ok();
     let (Some(predicted), Some(propagator)) = (predicted, propagator) else { return shift };
     let off = |sample: &Sample| {

@@ -1,6 +1,7 @@
-//! The catalog: all elements that the operator has, with the newest set of every object.
+//! The catalog: all elements that the operator has, with the newest set of every object, or an
+//! older one where the operator uses that.
 
-use std::{cmp::Ordering, ops::Range};
+use std::{cmp::Ordering, collections::BTreeMap, ops::Range};
 
 use jiff::Timestamp;
 use serde::{Deserialize, Serialize};
@@ -14,6 +15,16 @@ pub struct Catalog {
     groups: Vec<Group>,
     /// Sets that came and were not the newest, or are not any more.
     superseded: Vec<Entry>,
+    /// The newest sets of the objects of which an older one is in use, by catalog number.
+    set_aside: BTreeMap<u32, SetAside>,
+}
+
+/// The newest set of an object, while an older one is in use.
+#[derive(Debug, Clone)]
+struct SetAside {
+    newest: Elements,
+    /// The source of the set in use.
+    source_in_use: String,
 }
 
 /// The newest elements of an object, and the group whose source gave them.
@@ -121,14 +132,49 @@ impl Catalog {
         self.entries.get(place)
     }
 
-    /// The source of the elements in use of an object: the first that gave the newest set.
+    /// The source of the elements in use of an object: the first that gave the newest set, or
+    /// that of the older set in its place.
     pub fn source_of(&self, catalog_number: u32) -> Option<&str> {
+        if let Some(aside) = self.set_aside.get(&catalog_number) {
+            return Some(&aside.source_in_use);
+        }
+        self.source_of_newest(catalog_number)
+    }
+
+    fn source_of_newest(&self, catalog_number: u32) -> Option<&str> {
         let group = self.entry(catalog_number)?.group;
         Some(self.groups.get(group as usize)?.name.as_str())
     }
 
-    /// The sources in the order of merging, each with the number of objects whose elements in
-    /// use are its own.
+    /// Uses `older`, which `source` gave, in place of the newest set of its object. To be called
+    /// after all merges.
+    pub fn use_in_place(&mut self, mut older: Elements, source: &str) {
+        let number = older.catalog_number();
+        let Ok(place) = self.entries.binary_search_by_key(&number, Entry::number) else { return };
+        let Some(held) = self.entries.get_mut(place) else { return };
+        if held.elements.epoch() == older.epoch() {
+            return;
+        }
+        older.take_name(&held.elements);
+        let newest = std::mem::replace(&mut held.elements, older);
+        let aside = SetAside { newest, source_in_use: source.to_owned() };
+        self.set_aside.insert(number, aside);
+    }
+
+    /// The newest set of an object of which an older one is in use.
+    pub fn set_aside(&self, catalog_number: u32) -> Option<&Elements> {
+        self.set_aside.get(&catalog_number).map(|aside| &aside.newest)
+    }
+
+    /// All sets that [`Self::use_in_place`] has set aside, each with its source.
+    pub fn all_set_aside(&self) -> impl Iterator<Item = (&Elements, &str)> {
+        self.set_aside.iter().map(|(number, aside)| {
+            (&aside.newest, self.source_of_newest(*number).unwrap_or_default())
+        })
+    }
+
+    /// The sources in the order of merging, each with the number of objects whose newest set is
+    /// its own.
     pub fn in_use(&self) -> Vec<(&str, usize)> {
         let mut counted: Vec<_> =
             self.groups.iter().map(|group| (group.name.as_str(), 0)).collect();
@@ -256,6 +302,22 @@ mod tests {
             })
             .collect();
         read_elements(&serde_json::json!(messages).to_string())
+    }
+
+    #[test]
+    fn an_older_set_in_use_keeps_the_newest_one_at_hand() {
+        let mut catalog = Catalog::default();
+        catalog.merge(report(&[(5, "FIVE", 1)]), "own");
+        let older = catalog.get(5).unwrap().clone();
+        catalog.merge(report(&[(5, "FIVE", 3), (6, "SIX", 3)]), "weather");
+        let newest = catalog.get(5).unwrap().clone();
+        catalog.use_in_place(older.clone(), "own");
+        assert_eq!((catalog.get(5), catalog.set_aside(5)), (Some(&older), Some(&newest)));
+        assert_eq!((catalog.source_of(5), catalog.source_of(6)), (Some("own"), Some("weather")));
+        assert_eq!(catalog.all_set_aside().collect::<Vec<_>>(), [(&newest, "weather")]);
+        assert_eq!(catalog.in_use(), [("own", 0), ("weather", 2)], "the sum is the catalog");
+        catalog.use_in_place(catalog.get(6).unwrap().clone(), "own");
+        assert_eq!(catalog.set_aside(6), None, "it is the set in use");
     }
 
     #[test]

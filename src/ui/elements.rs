@@ -14,6 +14,7 @@ mod intake;
 mod next_passes;
 mod refused;
 mod selection;
+mod set_menu;
 mod sets;
 mod sources;
 mod table;
@@ -137,7 +138,7 @@ pub fn show(
     if state.upload_is_open {
         return Some(show_upload(ui, side, state));
     }
-    inspector::show(ui, side, model, can_mark, state, commands);
+    inspector::show(ui, side, model, can_mark, state, question, commands);
     None
 }
 

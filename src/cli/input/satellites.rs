@@ -12,7 +12,10 @@ use rayon::{iter::Either, prelude::*};
 
 use super::InputOptions;
 use crate::{
-    library::{Library, Limits, disk::read_limited, element_files, library_folder, load_sources},
+    library::{
+        Exceptions, Library, Limits, disk::read_limited, element_files, library_folder,
+        load_sources,
+    },
     orbit::{
         Catalog, Elements, MAX_ELEMENT_BYTES, MergeSummary, Note, Refusal, Source,
         read_element_bytes,
@@ -39,10 +42,12 @@ impl InputOptions {
     pub(in crate::cli) fn satellites(&self, station: Option<&Path>) -> anyhow::Result<Satellites> {
         let mut said = Said { errors: io::stderr().lock(), is_complete: true };
         let mut files = self.own_files(&mut said);
+        let mut older_sets = None;
         if let Some(station) = station
             && (self.elements.is_empty() || !self.group.is_empty())
         {
             files.extend(self.library_files(station, &mut said)?);
+            older_sets = library_folder().map(|folder| Exceptions::load(&folder));
         }
         // Of two sets with the same epoch the first stays: make the order on the command line
         // irrelevant.
@@ -61,6 +66,9 @@ impl InputOptions {
                 }
                 Err(error) => said.unusable(&format!("{file} cannot be read: {error}")),
             }
+        }
+        if let Some(older_sets) = older_sets {
+            older_sets.apply(&mut catalog);
         }
         let asked = Asked::new(self, &catalog);
         for file in &merged {

@@ -145,6 +145,8 @@ impl Next {
 pub(super) struct Row<'a> {
     pub(super) elements: &'a Elements,
     pub(super) from: &'a str,
+    /// An older set is in use by choice of the operator.
+    pub(super) is_older_set: bool,
     pub(super) next: Next,
     pub(super) now: Timestamp,
 }
@@ -156,6 +158,7 @@ impl<'a> Row<'a> {
         Self {
             elements,
             from: catalog.source_of(number).unwrap_or_default(),
+            is_older_set: catalog.set_aside(number).is_some(),
             next: next.map_or(Next::Unknown, |next| {
                 next.get(number, model.now).map_or(Next::Never, Next::At)
             }),
@@ -187,8 +190,9 @@ impl<'a> Row<'a> {
     pub(super) fn spoken(&self, priority: Option<u8>) -> String {
         let cell = |column| self.cell(column);
         let star = priority.map(|of| format!(", favourite of priority {of}")).unwrap_or_default();
+        let choice = if self.is_older_set { ", an older set by choice" } else { "" };
         format!(
-            "{}, {}, elements {} old, from {}, next pass {}{star}",
+            "{}, {}, elements {} old, from {}{choice}, next pass {}{star}",
             cell(Column::Name),
             self.elements.catalog_number(),
             cell(Column::Age),

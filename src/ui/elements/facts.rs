@@ -8,7 +8,8 @@ use crate::{
     model::Model,
     orbit::{Catalog, Elements},
     ui::{
-        format, icons,
+        format,
+        icons::{self, Icon},
         text::{self, Weight},
         theme,
         widgets::paint,
@@ -34,7 +35,15 @@ pub(super) fn show(ui: &Ui, rect: Rect, model: &Model, elements: &Elements, cata
     let number = elements.catalog_number();
     let from = catalog.source_of(number).unwrap_or_default();
     let room = title.with_min_x(title.left() + 120.0);
-    paint::text_in(ui, room, Align2::RIGHT_CENTER, from, text::small(), t.t2);
+    if catalog.set_aside(number).is_some() {
+        let words = format!("{from}, older set by choice");
+        let drawn = paint::text_in(ui, room, Align2::RIGHT_CENTER, &words, text::small(), t.warn);
+        let at = pos2(drawn.left() - 11.0, drawn.center().y);
+        icons::paint(ui.painter(), paint::square(at, 12.0), Icon::Warning, t.warn);
+        paint::name_text(ui, "older set in use", drawn, &words).on_hover_text(&words);
+    } else {
+        paint::text_in(ui, room, Align2::RIGHT_CENTER, from, text::small(), t.t2);
+    }
     let epoch = elements.epoch().to_zoned(TimeZone::UTC).strftime("%Y-%m-%d %H:%M:%SZ");
     let (icon, colour) = words::age_look(words::age_tone(elements, model.now), t);
     let age = words::age(elements.age_s(model.now));
@@ -72,7 +81,7 @@ fn fact(ui: &Ui, line: Rect, name: &str, value: &str, colour: Color32) -> Rect {
     drawn
 }
 
-fn figures(elements: &Elements) -> [(&'static str, String); 2 * HALVES] {
+pub(super) fn figures(elements: &Elements) -> [(&'static str, String); 2 * HALVES] {
     let angle = |of: crate::astro::Angle| format::degrees(of.degrees(), 4);
     [
         ("Inclination", angle(elements.inclination())),

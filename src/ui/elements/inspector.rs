@@ -11,6 +11,7 @@ use crate::{
     orbit::{Catalog, Elements},
     station::Priority,
     ui::{
+        confirm::Question,
         format,
         icons::{self, Icon},
         pass_limits,
@@ -29,12 +30,14 @@ const FOOT: f32 = 88.0;
 const GAP: f32 = 8.0;
 
 /// Draws the panel.
+#[allow(clippy::too_many_arguments)]
 pub(super) fn show(
     ui: &mut Ui,
     rect: Rect,
     model: &Model,
     can_mark: bool,
     state: &mut ElementsState,
+    question: &mut Option<Question>,
     commands: &mut Vec<UiCommand>,
 ) {
     let t = theme::tokens(ui);
@@ -63,7 +66,7 @@ pub(super) fn show(
         let area = ScrollArea::vertical().id_salt("element details").auto_shrink(false);
         area.show(ui, |ui| {
             let object = Object { model, elements, catalog, can_mark };
-            object.parts(ui, body.width(), state, commands);
+            object.parts(ui, body.width(), state, question, commands);
         });
     });
     show_foot(ui, foot, model, elements, can_mark, state, commands);
@@ -83,6 +86,7 @@ impl Object<'_> {
         ui: &mut Ui,
         width: f32,
         state: &mut ElementsState,
+        question: &mut Option<Question>,
         commands: &mut Vec<UiCommand>,
     ) {
         let Self { model, elements, catalog, can_mark } = *self;
@@ -96,8 +100,8 @@ impl Object<'_> {
         let part = place(ui, holds::height(model));
         holds::show(ui, part, model, elements);
         let detail = sets::detail(model, number);
-        let part = place(ui, sets::height(detail));
-        sets::show(ui, part, model, elements, catalog, detail);
+        let part = place(ui, sets::height(detail, catalog.set_aside(number).is_some()));
+        sets::show(ui, part, model, elements, catalog, detail, question);
         let passes = detail.map(|detail| detail.passes.as_slice());
         let part = place(ui, next_passes::height(passes));
         next_passes::show(ui, part, model, passes, commands);

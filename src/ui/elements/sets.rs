@@ -1,9 +1,9 @@
 //! The sets of the selected object that are held, each against the one in use.
 
-use egui::{Align2, Color32, Rect, Ui, pos2, vec2};
+use egui::{Align2, Color32, Rect, Response, Role, Sense, Ui, WidgetInfo, pos2, vec2};
 use jiff::{Timestamp, tz::TimeZone};
 
-use super::PADDING;
+use super::{PADDING, set_menu};
 use crate::{
     model::{
         Model,
@@ -11,17 +11,23 @@ use crate::{
     },
     orbit::{Catalog, Elements},
     ui::{
+        confirm::Question,
         format,
         icons::{self, Icon},
         text::{self, Weight},
         theme,
-        widgets::paint,
+        widgets::{
+            button::{Button, SMALL_HEIGHT},
+            paint,
+        },
     },
 };
 
 const TITLE: f32 = 30.0;
 const HEAD: f32 = 18.0;
 const LINE: f32 = 18.0;
+/// The line about the newest set, while an older one is in use.
+const ASIDE: f32 = 30.0;
 
 /// The detail of the object, as far as it is worked out.
 pub(super) fn detail(model: &Model, number: u32) -> Option<&ObjectDetail> {
@@ -29,9 +35,11 @@ pub(super) fn detail(model: &Model, number: u32) -> Option<&ObjectDetail> {
     detail.filter(|of| of.key.elements.catalog_number() == number)
 }
 
-pub(super) fn height(detail: Option<&ObjectDetail>) -> f32 {
-    let older = detail.map_or(0, |detail| detail.sets.len());
-    TITLE + HEAD + (older + 1) as f32 * LINE + 8.0
+/// `has_aside`: an older set is in use.
+pub(super) fn height(detail: Option<&ObjectDetail>, has_aside: bool) -> f32 {
+    let others = detail.map_or(0, |detail| detail.sets.len());
+    let aside = if has_aside { ASIDE } else { 0.0 };
+    TITLE + HEAD + (others + 1) as f32 * LINE + aside + 8.0
 }
 
 pub(super) fn show(
@@ -41,6 +49,7 @@ pub(super) fn show(
     elements: &Elements,
     catalog: &Catalog,
     detail: Option<&ObjectDetail>,
+    question: &mut Option<Question>,
 ) {
     let t = theme::tokens(ui);
     let inner = rect.shrink2(vec2(PADDING, 0.0));
@@ -63,37 +72,82 @@ pub(super) fn show(
     cells(ui, head, ["Epoch", "From", "Time s", "Angle °"], [t.t3; 4]);
     let from = catalog.source_of(elements.catalog_number()).unwrap_or_default();
     let first = line(HEAD);
-    cells(ui, first, [&epoch(elements.epoch()), from, "", "in use"], [t.t1, t.t2, t.t1, t.ok]);
+    let newest = catalog.set_aside(elements.catalog_number());
+    let (icon, colour) = match newest {
+        Some(_) => (Icon::Warning, t.warn),
+        None => (Icon::Check, t.ok),
+    };
+    cells(ui, first, [&epoch(elements.epoch()), from, "", "in use"], [t.t1, t.t2, t.t1, colour]);
     let at = pos2(first.right() - paint::text_width(ui, "in use", text::small()) - 10.0, 0.0);
     let at = pos2(at.x, first.center().y);
-    icons::paint(ui.painter(), paint::square(at, 11.0), Icon::Check, t.ok);
+    icons::paint(ui.painter(), paint::square(at, 11.0), icon, colour);
     let half_beam_deg = model.antenna().map(|antenna| antenna.config.beam_width_deg / 2.0);
+    let menu = set_menu::Menu { model, elements, detail };
     for (index, set) in detail.map(|of| of.sets.as_slice()).unwrap_or_default().iter().enumerate() {
         let row = line(HEAD + (index + 1) as f32 * LINE);
-        one(ui, row, index, set, half_beam_deg);
+        let response = one(ui, row, index, set, half_beam_deg);
+        set_menu::show(&response, &menu, set, question);
+    }
+    if let Some(newest) = newest {
+        let line = Rect::from_x_y_ranges(
+            inner.x_range(),
+            rect.bottom() - 8.0 - ASIDE..=rect.bottom() - 8.0,
+        );
+        aside(ui, line, &menu, newest, question);
     }
     ui.painter().hline(rect.x_range(), rect.bottom() - 0.5, (1.0, t.line));
 }
 
-fn one(ui: &Ui, row: Rect, index: usize, set: &SetShift, half_beam_deg: Option<f64>) {
+/// The newest set, which is not in use, and the button that uses it again.
+fn aside(
+    ui: &Ui,
+    line: Rect,
+    menu: &set_menu::Menu<'_>,
+    newest: &Elements,
+    question: &mut Option<Question>,
+) {
     let t = theme::tokens(ui);
-    let is_outside = set
+    let button = Button::normal("Use the newest").locked(!menu.model.sources.is_free());
+    let size = vec2(button.width(ui), SMALL_HEIGHT);
+    let place = Rect::from_center_size(line.right_center() - vec2(size.x / 2.0, 0.0), size);
+    let words = format!("Not in use: the newest, {}", epoch(newest.epoch()));
+    let room = line.with_max_x(place.left() - 8.0);
+    paint::text_in(ui, room, Align2::LEFT_CENTER, &words, text::small(), t.warn);
+    paint::name_text(ui, "set aside", room, &words).on_hover_text(&words);
+    if button.show(ui, "use the newest set", place).clicked() {
+        *question = Some(menu.ask(newest.epoch()));
+    }
+}
+
+/// Draws the row of a set that is not in use, which opens its menu.
+fn one(ui: &Ui, row: Rect, index: usize, shift: &SetShift, half_beam_deg: Option<f64>) -> Response {
+    let t = theme::tokens(ui);
+    let set = &shift.set;
+    let is_outside = shift
         .off
         .zip(half_beam_deg)
         .is_some_and(|(off, half_beam_deg)| off.degrees() > half_beam_deg);
-    let time = set.late_s.map_or_else(
+    let time = shift.late_s.map_or_else(
         || "–".to_owned(),
         |late_s| {
             // Parts of a second say nothing about a set that is minutes away.
             format::signed(late_s, if late_s.abs() < 100.0 { 2 } else { 0 })
         },
     );
-    let angle = set.off.map_or_else(|| "–".to_owned(), |off| format::number(off.degrees(), 2));
+    let angle = shift.off.map_or_else(|| "–".to_owned(), |off| format::number(off.degrees(), 2));
     let colour = if is_outside { t.bad } else { t.t1 };
-    let when = epoch(set.epoch);
+    let when = epoch(set.elements.epoch());
+    let response = ui.interact(
+        row,
+        ui.make_persistent_id(("held set", index)),
+        Sense::CLICK | Sense::FOCUSABLE,
+    );
+    if response.hovered() {
+        ui.painter().rect_filled(row.expand2(vec2(6.0, 0.0)), 3, t.bg3);
+    }
     cells(ui, row, [&when, &set.source, &time, &angle], [t.t1, t.t2, t.t1, colour]);
     let beam = if is_outside { ", outside the beam" } else { "" };
-    let shift = match (set.late_s, set.off) {
+    let against = match (shift.late_s, shift.off) {
         (Some(late_s), Some(off)) => {
             let way = if late_s < 0.0 { "early" } else { "late" };
             let (time, angle) =
@@ -105,11 +159,14 @@ fn one(ui: &Ui, row: Rect, index: usize, set: &SetShift, half_beam_deg: Option<f
         }
         (_, None) => "not to be compared".to_owned(),
     };
-    let words = format!("Set of {when} from {}: {shift}", set.source);
-    paint::name_text(ui, ("older set", index), row, &words).on_hover_text(&words);
+    let words = format!("Set of {when} from {}: {against}", set.source);
+    response.widget_info(|| WidgetInfo::labeled(Role::Button, true, &words));
+    paint::focus_ring(ui, &response, 3);
+    response.on_hover_text(&words)
 }
 
-fn epoch(at: Timestamp) -> String {
+/// Day and minute of an epoch.
+pub(super) fn epoch(at: Timestamp) -> String {
     at.to_zoned(TimeZone::UTC).strftime("%-d %b %H:%M").to_string()
 }
 

@@ -307,6 +307,13 @@ fn cell(ui: &Ui, place: Rect, column: Column, row: &Row<'_>) {
             }
             (text::small(), t.t1)
         }
+        Column::From if row.is_older_set => {
+            let at = pos2(place.left() + 6.0, place.center().y);
+            icons::paint(ui.painter(), paint::square(at, 12.0), Icon::Warning, t.warn);
+            let room = place.with_min_x(place.left() + 17.0);
+            paint::text_in(ui, room, anchor, &words, text::small(), t.warn);
+            return;
+        }
         Column::From | Column::Number => (text::small(), t.t2),
         _ => (text::small(), t.t1),
     };

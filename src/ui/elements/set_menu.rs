@@ -1,0 +1,131 @@
+//! The menu of a set that is held and not in use: its elements, and how to use it.
+
+use egui::{Grid, Popup, Response, RichText, Ui};
+use jiff::Timestamp;
+
+use super::{
+    facts, sets,
+    words::{self, Form},
+};
+use crate::{
+    engine::{Command, sources::SetChoice},
+    library::OlderSet,
+    model::{
+        Model, UiCommand,
+        object_detail::{ObjectDetail, SetShift},
+    },
+    orbit::Elements,
+    ui::{confirm::Question, format, text, theme, widgets::close_key},
+};
+
+/// Width of the menu.
+const WIDTH: f32 = 320.0;
+
+/// The object whose sets are shown.
+pub(super) struct Menu<'a> {
+    pub(super) model: &'a Model,
+    /// The set in use.
+    pub(super) elements: &'a Elements,
+    pub(super) detail: Option<&'a ObjectDetail>,
+}
+
+/// Shows the menu of `shift` while it is open.
+pub(super) fn show(
+    response: &Response,
+    menu: &Menu<'_>,
+    shift: &SetShift,
+    question: &mut Option<Question>,
+) {
+    Popup::menu(response).width(WIDTH).accessible_name("Menu of the set").show(|ui| {
+        menu.contents(ui, shift, question);
+        close_key::show(ui);
+    });
+}
+
+impl Menu<'_> {
+    fn contents(&self, ui: &mut Ui, shift: &SetShift, question: &mut Option<Question>) {
+        let t = theme::tokens(ui);
+        let OlderSet { elements, source } = &shift.set;
+        let title = format!("{}Z, from {source}", sets::epoch(elements.epoch()));
+        ui.label(RichText::new(title).font(text::body_medium()).color(t.t1));
+        Grid::new("figures of the set").num_columns(4).spacing([12.0, 2.0]).show(ui, |ui| {
+            for pair in facts::figures(elements).chunks(2) {
+                for (name, value) in pair {
+                    ui.label(RichText::new(*name).font(text::small()).color(t.t2));
+                    ui.label(RichText::new(value).font(text::small()).color(t.t1));
+                }
+                ui.end_row();
+            }
+        });
+        let is_free = self.model.sources.is_free();
+        let word = if elements.epoch() > self.elements.epoch() {
+            "Use the newest set\u{2026}"
+        } else {
+            "Use this set\u{2026}"
+        };
+        let entry = ui.add_enabled(is_free, egui::Button::new(word));
+        let entry = entry.on_disabled_hover_text("The sources are being read.");
+        if entry.clicked() {
+            *question = Some(self.ask(elements.epoch()));
+        }
+        for (word, form) in [("Copy as TLE", Form::Tle), ("Copy as OMM, JSON", Form::Omm)] {
+            if ui.button(word).clicked() {
+                ui.copy_text(words::copied(std::iter::once(elements), form));
+            }
+        }
+    }
+
+    /// The question whether the set with this epoch is to be used.
+    pub(super) fn ask(&self, epoch: Timestamp) -> Question {
+        let catalog_number = self.elements.catalog_number();
+        let is_newest = epoch > self.elements.epoch();
+        let (which, until, yes, choice) = if is_newest {
+            let choice = SetChoice::Newest { catalog_number };
+            ("newest set", "", "Use the newest", choice)
+        } else {
+            let until = " It stays in use until newer elements come or you end it.";
+            let choice = SetChoice::Older { catalog_number, epoch };
+            ("older set", until, "Use this set", choice)
+        };
+        let (label, when) = (self.elements.label(), sets::epoch(epoch));
+        let effect = self.effect(epoch);
+        Question {
+            text: format!("Use the {which} of {when}Z for {label}? {effect}{until}"),
+            yes,
+            command: UiCommand::Station(Command::UseSet(choice)),
+        }
+    }
+
+    /// What changes at the next pass with the set of this epoch.
+    fn effect(&self, epoch: Timestamp) -> String {
+        let unknown = || "What it changes at the next pass is not known yet.".to_owned();
+        let Some(detail) = self.detail else { return unknown() };
+        let Some(pass) = detail.passes.first() else {
+            return "There is no pass in the next 7 days that it would change.".to_owned();
+        };
+        let shift = detail.sets.iter().find(|shift| shift.set.elements.epoch() == epoch);
+        let Some((shift, off)) = shift.and_then(|shift| Some((shift, shift.off?))) else {
+            return unknown();
+        };
+        let at = format::moment(pass.pass.tca.time, self.model.now);
+        let angle = format::degrees(off.degrees(), 2);
+        let off_now = match shift.late_s {
+            Some(late_s) => {
+                let way = if late_s < 0.0 { "earlier" } else { "later" };
+                let time = format::number(late_s.abs(), 2);
+                format!("it puts the satellite {time} s {way} and up to {angle} away")
+            }
+            None => format!("it puts the satellite up to {angle} away, and has no such pass"),
+        };
+        let beam = self.model.antenna().map_or_else(String::new, |antenna| {
+            let half_deg = antenna.config.beam_width_deg / 2.0;
+            let side = if off.degrees() > half_deg { "more" } else { "less" };
+            format!(
+                ", {side} than the half beam of {}, {}",
+                antenna.config.name,
+                format::degrees(half_deg, 2)
+            )
+        });
+        format!("At the next pass, {at}, {off_now}{beam}.")
+    }
+}

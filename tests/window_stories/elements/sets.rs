@@ -1,0 +1,162 @@
+//! Sets of one object that are held, and the older one that the operator uses.
+
+use std::sync::Arc;
+
+use azel::{
+    engine::{
+        self, CatalogState,
+        older_sets::OlderSets,
+        sources::{SetChoice, SourceWork, Sources},
+    },
+    library::OlderSet,
+    model::{Model, UiCommand},
+    orbit::{Elements, Source, SourcePlace, read_elements, write_omm_json},
+    station,
+};
+use egui::{Key, Role};
+use egui_kittest::kittest::{NodeT as _, Queryable as _};
+use jiff::Timestamp;
+
+use super::{
+    adding::{epoch_of_noaa_20, newer_elements},
+    click,
+    detail::detail,
+    view, write,
+};
+use crate::window_stories::{
+    rig::{self, NOAA_20, SIZES, Window, asked, says, settle},
+    unit::{RealWindow, Unit, clock_from, open, step_until},
+};
+
+/// Elements of NOAA 20 of the catalogue with this epoch.
+fn with_epoch(model: &Model, epoch: &str) -> Elements {
+    let CatalogState::Ready(catalog) = &model.catalog else { unreachable!() };
+    let mut text = Vec::new();
+    write_omm_json([catalog.get(NOAA_20).unwrap()], &mut text).unwrap();
+    let mut list: serde_json::Value = serde_json::from_slice(&text).unwrap();
+    list[0]["EPOCH"] = epoch.into();
+    read_elements(&list.to_string()).elements.remove(0)
+}
+
+/// Shows a set of NOAA 20 that is not in use.
+fn hold(window: &mut Window, elements: Elements) {
+    let sets = vec![OlderSet { elements, source: "weather".to_owned() }];
+    let older = OlderSets { catalog_number: NOAA_20, sets };
+    window.state_mut().model.older_sets = Some(Arc::new(older));
+    settle(window);
+}
+
+/// Opens the menu of the set whose row begins like this.
+fn open_menu(window: &mut Window, row: &str) {
+    let row = window.get_by(|node| {
+        node.role() == Role::Button && node.label().unwrap_or_default().starts_with(row)
+    });
+    row.scroll_to_me();
+    row.click();
+    settle(window);
+}
+
+fn use_set(choice: SetChoice) -> UiCommand {
+    UiCommand::Station(engine::Command::UseSet(choice))
+}
+
+#[test]
+fn an_older_set_stands_against_the_one_in_use_and_is_used_after_a_question() {
+    for size in SIZES {
+        let mut window = view(size, Vec::new());
+        detail(&mut window, size);
+        assert!(says(&window, "Sets held, against the one in use, at "));
+        let older = with_epoch(&window.state().model, "2026-08-10T02:04:00");
+        let epoch = older.epoch();
+        hold(&mut window, older);
+        asked(&mut window);
+        let row = "Set of 10 Aug 02:04 from weather: ";
+        open_menu(&mut window, row);
+        assert!(says(&window, "Mean motion"), "a click shows its elements");
+        click(&mut window, "Use this set\u{2026}");
+        assert_eq!(asked(&mut window), []);
+        assert!(says(&window, "Use the older set of 10 Aug 02:04Z for NOAA 20"));
+        assert!(says(&window, "At the next pass, "), "with what it changes");
+        assert!(says(&window, "than the half beam of "));
+        assert!(says(&window, "until newer elements come or you end it."));
+        window.key_press(Key::Enter);
+        let choice = SetChoice::Older { catalog_number: NOAA_20, epoch };
+        assert_eq!(asked(&mut window), [use_set(choice)]);
+    }
+}
+
+#[test]
+fn while_an_older_set_is_in_use_it_is_told_and_the_newest_is_one_click_away() {
+    for size in SIZES {
+        let mut window = view(size, Vec::new());
+        let model = &mut window.state_mut().model;
+        let older = with_epoch(model, "2026-08-10T02:04:00");
+        let CatalogState::Ready(catalog) = &mut model.catalog else { unreachable!() };
+        let newest = catalog.get(NOAA_20).unwrap().clone();
+        Arc::make_mut(catalog).use_in_place(older, "weather");
+        write(&mut window, "Search the catalogue", "43013");
+        window.get_by_label_contains("from weather, an older set by choice, next pass ");
+        detail(&mut window, size);
+        hold(&mut window, newest);
+        asked(&mut window);
+        assert!(says(&window, "weather, older set by choice"));
+        assert!(says(&window, "Not in use: the newest, "));
+        click(&mut window, "Use the newest");
+        assert_eq!(asked(&mut window), []);
+        assert!(says(&window, "Use the newest set of "));
+        window.key_press(Key::Enter);
+        let choice = SetChoice::Newest { catalog_number: NOAA_20 };
+        assert_eq!(asked(&mut window), [use_set(choice)]);
+
+        let sources = Sources { work: SourceWork::Reading, ..Sources::default() };
+        window.state_mut().model.sources = Arc::new(sources);
+        settle(&mut window);
+        let button = window.get_by_role_and_label(Role::Button, "Use the newest");
+        assert!(button.accesskit_node().is_disabled(), "it would not be taken now");
+    }
+}
+
+fn send(window: &RealWindow, command: engine::Command) {
+    assert!(window.state().station().client().send(command).is_ok());
+}
+
+#[test]
+fn an_older_set_is_used_over_the_next_start_until_a_newer_one_comes() {
+    let folder = tempfile::tempdir().unwrap();
+    let settings = folder.path().join("station.toml");
+    let unit = Unit::start(rig::now());
+    station::save(&unit.station(), &settings).unwrap();
+    let mut window = open(&settings, clock_from(rig::now()));
+    step_until(&mut window, "the elements", |model| epoch_of_noaa_20(model).is_some());
+    let bundled = epoch_of_noaa_20(window.state().model());
+    let own = newer_elements(&folder);
+    let source =
+        Source { name: "own".to_owned(), place: SourcePlace::File(own.clone()), refresh: None };
+    send(&window, engine::Command::AddSource(source));
+    let newer: Option<Timestamp> = "2026-08-14T00:00:00Z".parse().ok();
+    step_until(&mut window, "the newer set", |model| epoch_of_noaa_20(model) == newer);
+
+    send(&window, engine::Command::ListOlderSets(NOAA_20));
+    step_until(&mut window, "the older set", |model| {
+        model.older_sets.as_ref().is_some_and(|older| !older.sets.is_empty())
+    });
+    let epoch = bundled.unwrap();
+    let choice = SetChoice::Older { catalog_number: NOAA_20, epoch };
+    send(&window, engine::Command::UseSet(choice));
+    step_until(&mut window, "the older set in use", |model| epoch_of_noaa_20(model) == bundled);
+    let has_newest = |model: &Model| {
+        let older = model.older_sets.as_ref();
+        older.is_some_and(|older| older.sets.iter().any(|set| Some(set.elements.epoch()) == newer))
+    };
+    step_until(&mut window, "the newest among the others", has_newest);
+    drop(window);
+
+    let mut window = open(&settings, clock_from(rig::now()));
+    step_until(&mut window, "the older set again", |model| epoch_of_noaa_20(model) == bundled);
+    let text = std::fs::read_to_string(&own).unwrap();
+    std::fs::write(&own, text.replace("08-14T", "08-15T")).unwrap();
+    let read = engine::Command::RefreshSources { names: vec!["own".to_owned()], forced: false };
+    send(&window, read);
+    let newest: Option<Timestamp> = "2026-08-15T00:00:00Z".parse().ok();
+    step_until(&mut window, "the newest set", |model| epoch_of_noaa_20(model) == newest);
+}
