@@ -1,10 +1,9 @@
-//! Saves passes, look angles and the plan to files that the operator names in the dialog of the desktop,
-//! on a thread.
+//! Saves elements, passes, look angles and the plan to files that the operator names in the dialog
+//! of the desktop, on a thread.
 
 use std::{
     collections::{BTreeMap, btree_map::Entry},
     io::{self, Write as _},
-    path::PathBuf,
     sync::Arc,
 };
 
@@ -15,12 +14,13 @@ use crate::{
     astro::time::seconds_between,
     desktop::file_dialog,
     engine::{
+        CatalogState,
         passes::{PassKey, PassLists, PredictedPass},
         schedule::Planned,
     },
     job::Job,
-    model::export::Export,
-    orbit::PassSearch,
+    model::export::{ElementForm, Export, SavedFile},
+    orbit::{PassSearch, write_omm_csv, write_omm_json, write_tle},
     plan::{
         pass_export::{
             ExportedPass, LookFormat, LookList, PassFormat, PassList, PassQuery, Satellite,
@@ -39,7 +39,7 @@ const STEPS_S: [f64; 3] = [1.0, 10.0, 60.0];
 const MOST_ROWS: f64 = 3600.0;
 
 /// The file that was written; `None` after Cancel.
-type Saved = Result<Option<PathBuf>, String>;
+type Saved = Result<Option<SavedFile>, String>;
 
 /// Saves one file at a time.
 #[derive(Default)]
@@ -50,6 +50,7 @@ pub(super) struct ExportWork {
 /// What is written, with all that it takes.
 struct Order {
     export: Export,
+    catalog: CatalogState,
     lists: PassLists,
     schedule: Arc<Planned>,
     station: Arc<Station>,
@@ -67,6 +68,7 @@ impl App {
         let model = &self.model;
         let order = Order {
             export,
+            catalog: model.catalog.clone(),
             lists: model.pass_lists.clone(),
             schedule: Arc::clone(&model.schedule),
             station: Arc::clone(&model.station),
@@ -85,7 +87,7 @@ impl App {
         let Some(end) = Job::take(&mut self.export_work.job) else { return };
         match end.unwrap_or_else(|broke_off| Err(broke_off.to_string())) {
             Ok(None) => {}
-            Ok(Some(path)) => self.views.file_saved(Ok(path)),
+            Ok(Some(file)) => self.views.file_saved(Ok(file)),
             Err(why) => self.views.file_saved(Err(why)),
         }
     }
@@ -94,6 +96,7 @@ impl App {
 impl Order {
     fn save(&self) -> Saved {
         let title = match self.export {
+            Export::Elements { .. } => "Save elements",
             Export::Passes { .. } => "Save passes",
             Export::Looks { .. } => "Save look angles",
             Export::Schedule { .. } => "Save the plan",
@@ -101,9 +104,9 @@ impl Order {
         };
         let asked = file_dialog::file_to_save(title, &self.name());
         let Some(path) = asked.map_err(|error| error.to_string())? else { return Ok(None) };
-        let text = self.text().map_err(|why| format!("{why}: {}", path.display()))?;
+        let (text, left_out) = self.text().map_err(|why| format!("{why}: {}", path.display()))?;
         match whole_file::replace_for_others(&path, &text) {
-            Ok(()) => Ok(Some(path)),
+            Ok(()) => Ok(Some(SavedFile { path, left_out })),
             Err(error) => Err(format!("{error}: {}", path.display())),
         }
     }
@@ -112,6 +115,9 @@ impl Order {
     fn name(&self) -> String {
         let stamp = |time: Timestamp| time.strftime("%Y%m%dT%H%MZ").to_string();
         match &self.export {
+            Export::Elements { form, .. } => {
+                format!("elements-{}.{}", stamp(self.now), element_extension(*form))
+            }
             Export::Passes { format, .. } => {
                 format!("passes-{}.{}", stamp(self.now), pass_extension(*format))
             }
@@ -125,16 +131,40 @@ impl Order {
         }
     }
 
-    fn text(&self) -> Result<Vec<u8>, String> {
+    /// The text of the file, and the number of objects that it cannot carry.
+    fn text(&self) -> Result<(Vec<u8>, usize), String> {
         let mut text = Vec::new();
+        let mut left_out = 0;
         let written = match &self.export {
+            Export::Elements { numbers, form } => {
+                self.write_elements(numbers, *form, &mut text).map(|count| left_out = count)
+            }
             Export::Passes { keys, format } => self.write_passes(keys, *format, &mut text)?,
             Export::Looks { pass, format } => self.write_looks(*pass, *format, &mut text)?,
             Export::Schedule { format } => self.write_schedule(*format, &mut text),
             Export::HandOverSheet => self.write_sheet(&mut text),
         };
         written.map_err(|error| error.to_string())?;
-        Ok(text)
+        if left_out > 0 && text.is_empty() {
+            return Err("a TLE can carry none of these objects".to_owned());
+        }
+        Ok((text, left_out))
+    }
+
+    /// Returns the number of objects that the form cannot carry.
+    fn write_elements(
+        &self,
+        numbers: &[u32],
+        form: ElementForm,
+        out: &mut Vec<u8>,
+    ) -> io::Result<usize> {
+        let CatalogState::Ready(catalog) = &self.catalog else { return Ok(0) };
+        let elements = numbers.iter().filter_map(|number| catalog.get(*number));
+        match form {
+            ElementForm::Tle => write_tle(elements, out).map(|refused| refused.len()),
+            ElementForm::OmmJson => write_omm_json(elements, out).map(|()| 0),
+            ElementForm::OmmCsv => write_omm_csv(elements, out).map(|()| 0),
+        }
     }
 
     fn write_passes(
@@ -247,6 +277,14 @@ fn satellite(predicted: &PredictedPass) -> Result<Satellite, String> {
     Satellite::new(predicted.satellite.elements.clone()).map_err(|error| error.to_string())
 }
 
+fn element_extension(form: ElementForm) -> &'static str {
+    match form {
+        ElementForm::Tle => "tle",
+        ElementForm::OmmJson => "json",
+        ElementForm::OmmCsv => "csv",
+    }
+}
+
 fn pass_extension(format: PassFormat) -> &'static str {
     match format {
         PassFormat::Table => "txt",
@@ -279,7 +317,7 @@ mod tests {
     use crate::{
         engine::passes::{ListedSatellite, Observer, PassList as Listed},
         makes::DemoAddresses,
-        orbit::{Propagator, bundled, passes},
+        orbit::{Propagator, bundled, passes, read_elements},
         plan::schedule::{Class, Entry, PassKey as Key, Schedule, Why},
         station::{AntennaId, Frequency, Priority},
     };
@@ -311,7 +349,8 @@ mod tests {
         let lists = PassLists { favourites, ..PassLists::default() };
         let planned = schedule(&lists, station.antennas[0].id);
         let schedule = Arc::new(Planned { until: Some(to), ..planned });
-        Order { export, lists, schedule, station: Arc::new(station), span_h: 24, now }
+        let (catalog, station) = (CatalogState::Ready(Arc::new(catalog)), Arc::new(station));
+        Order { export, catalog, lists, schedule, station, span_h: 24, now }
     }
 
     /// The first pass of the lists is taken, the second is not.
@@ -345,7 +384,7 @@ mod tests {
     }
 
     fn lines(order: &Order) -> Vec<String> {
-        let text = String::from_utf8(order.text().unwrap()).unwrap();
+        let text = String::from_utf8(order.text().unwrap().0).unwrap();
         text.lines().map(str::to_owned).collect()
     }
 
@@ -369,6 +408,35 @@ mod tests {
         let place = format!("LOCATION:{}", csv.station.name);
         assert!(calendar.contains(&place), "{calendar:#?}");
         assert!(csv.name().starts_with("passes-20") && csv.name().ends_with("Z.csv"));
+    }
+
+    #[test]
+    fn elements_are_written_in_each_form_and_what_a_tle_cannot_carry_is_counted() {
+        const BEYOND: u32 = 799_501_204;
+        let of = |form, numbers: &[u32]| {
+            let numbers: Arc<[u32]> = numbers.into();
+            let mut order = order(|_| Export::Elements { numbers: Arc::clone(&numbers), form });
+            let CatalogState::Ready(catalog) = &mut order.catalog else { unreachable!() };
+            let iss = String::from_utf8({
+                let mut text = Vec::new();
+                write_omm_json([catalog.get(ISS).unwrap()], &mut text).unwrap();
+                text
+            });
+            let beyond = iss.unwrap().replace("25544", &BEYOND.to_string());
+            Arc::make_mut(catalog).merge(read_elements(&beyond), "own");
+            order
+        };
+        for form in [ElementForm::Tle, ElementForm::OmmJson, ElementForm::OmmCsv] {
+            let order = of(form, &[ISS, BEYOND, 43_013]);
+            let (text, left_out) = order.text().unwrap();
+            let read = crate::orbit::read_element_bytes(&text).elements;
+            let is_tle = form == ElementForm::Tle;
+            assert_eq!((read.len(), left_out), if is_tle { (2, 1) } else { (3, 0) }, "{form:?}");
+            assert!(read.iter().any(|elements| elements.catalog_number() == ISS));
+            assert!(order.name().starts_with("elements-20"), "{}", order.name());
+        }
+        let none = "a TLE can carry none of these objects".to_owned();
+        assert_eq!(of(ElementForm::Tle, &[BEYOND]).text(), Err(none));
     }
 
     #[test]

@@ -14,8 +14,8 @@ use super::place::Place;
 use crate::{
     engine::passes::{ListChoice, SPANS_H, Scope},
     job::{Job, Wake},
-    model::{Appearance, ThemeName, View},
-    ui::{Kept, map::MapLayers, pass_list::Arrangement, sky_plot::Layers},
+    model::{Appearance, ThemeName, View, catalog_table::Column},
+    ui::{Kept, elements::ChosenColumns, map::MapLayers, pass_list::Arrangement, sky_plot::Layers},
     whole_file,
 };
 
@@ -88,6 +88,7 @@ impl Memory {
                 passes: arrangement(table.get("passes").and_then(toml::Value::as_table)),
                 layers: layers(table.get("layers").and_then(toml::Value::as_table)),
                 map_layers: map_layers(table.get("map_layers").and_then(toml::Value::as_table)),
+                columns: columns(table.get("columns").and_then(toml::Value::as_array)),
             },
         }
     }
@@ -120,6 +121,7 @@ impl Memory {
             strip_hours: Option<u32>,
             #[serde(skip_serializing_if = "Option::is_none")]
             list_width: Option<u32>,
+            columns: &'a ChosenColumns,
             passes: &'a Arrangement,
             layers: Layers,
             map_layers: MapLayers,
@@ -140,6 +142,7 @@ impl Memory {
             faults_open: self.views.faults_open,
             strip_hours: self.views.strip_hours,
             list_width: self.views.list_width,
+            columns: &self.views.columns,
             passes: &self.views.passes,
             layers: self.views.layers,
             map_layers: self.views.map_layers,
@@ -183,6 +186,11 @@ fn layers(table: Option<&toml::Table>) -> Layers {
         keep_outs: shown("keep_outs", usual.keep_outs),
         antennas: shown("antennas", usual.antennas),
     }
+}
+
+fn columns(list: Option<&toml::value::Array>) -> ChosenColumns {
+    let Some(list) = list else { return ChosenColumns::default() };
+    list.iter().filter_map(|word| word.clone().try_into::<Column>().ok()).collect()
 }
 
 fn map_layers(table: Option<&toml::Table>) -> MapLayers {
@@ -316,6 +324,7 @@ mod tests {
                 },
                 layers: Layers { names: false, mask: false, ..Layers::default() },
                 map_layers: MapLayers { other_tracks: true, ..MapLayers::default() },
+                columns: [Column::Age, Column::Number].into_iter().collect(),
             },
         }
     }
@@ -401,6 +410,10 @@ mod tests {
             ("pass_scope = 'none'\npass_hours = 7\npass_hours_of_all = 24", {
                 let list = ListChoice { all_h: 24, ..ListChoice::default() };
                 Memory { list, ..Memory::default() }
+            }),
+            ("columns = ['age', 'colour', 7, 'name', 'number']", {
+                let columns = [Column::Age, Column::Number].into_iter().collect();
+                Memory { views: Kept { columns, ..Kept::default() }, ..Memory::default() }
             }),
             ("view = 'setup'\nwindow = { size = [4, 5], is_maximized = 3 }", Memory::default()),
             ("theme = 7\nantenna = 'Mast'", {

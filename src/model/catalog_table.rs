@@ -1,10 +1,15 @@
 //! The catalog as a table: which objects it shows and in which order, and their next passes.
 //! Worked out on a thread, when something it depends on has changed.
 
-use std::{cmp::Ordering, collections::HashMap, sync::Arc};
+use std::{
+    cmp::Ordering,
+    collections::{BTreeSet, HashMap},
+    sync::Arc,
+};
 
 use jiff::Timestamp;
 use rayon::prelude::*;
+use serde::{Deserialize, Serialize};
 
 use super::{globe::NextPass, object_detail::ObjectDetail};
 use crate::{
@@ -33,12 +38,15 @@ pub enum Among {
     Favourites,
     /// Those of one source.
     Group(String),
+    /// Those of a group that the operator has made, by its name.
+    Own(String),
     /// Those whose elements are older than [`OLD_S`].
     Old,
 }
 
 /// A column of the table, by which it can be sorted.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
 pub enum Column {
     /// Favourites by priority.
     Star,
@@ -207,6 +215,12 @@ pub fn arrange(inputs: Inputs, now: Timestamp) -> Answer {
             favourites.filter_map(|of| catalog.get(of.satellite)).collect()
         }
         Among::Group(group) => catalog.in_group(group).collect(),
+        Among::Own(name) => {
+            let groups = station.groups.iter().filter(|group| group.name == *name);
+            let numbers: BTreeSet<u32> =
+                groups.flat_map(|group| &group.satellites).copied().collect();
+            numbers.into_iter().filter_map(|number| catalog.get(number)).collect()
+        }
         Among::Old => catalog.iter().filter(is_old).collect(),
     };
     let needle = question.search.trim().to_lowercase();
@@ -299,7 +313,10 @@ mod tests {
     use std::time::Instant;
 
     use super::*;
-    use crate::{orbit::bundled, station::Favourites};
+    use crate::{
+        orbit::bundled,
+        station::{Favourites, PassLimits, SatelliteGroup},
+    };
 
     const ISS: u32 = 25_544;
     const NOAA_20: u32 = 43_013;
@@ -312,7 +329,14 @@ mod tests {
         let catalog = Arc::new(bundled().unwrap());
         let mut favourites = Favourites::from([NOAA_20, ISS, 999]);
         favourites.set_priority(ISS, crate::station::Priority::ALL[0]);
-        let station = Arc::new(Station { favourites, ..Station::default() });
+        let weather = SatelliteGroup {
+            name: "weather".to_owned(),
+            satellites: vec![NOAA_20, 999],
+            priority: None,
+            limits: PassLimits::default(),
+        };
+        let groups = vec![weather];
+        let station = Arc::new(Station { favourites, groups, ..Station::default() });
         Inputs { question, catalog, station, next: None }
     }
 
@@ -367,6 +391,7 @@ mod tests {
     fn groups_favourites_and_old_sets_are_chosen() {
         let of = |among| arrange(inputs(Question { among, ..Question::default() }), now());
         assert_eq!(of(Among::Favourites).rows.len(), 2, "one has no elements");
+        assert_eq!(of(Among::Own("weather".to_owned())).rows[..], [NOAA_20], "one is not held");
         assert_eq!(of(Among::Group(crate::orbit::BUNDLED_SOURCE.to_owned())).rows.len(), 16_089);
         let old = of(Among::Old);
         assert_eq!(old.rows.len(), old.old);

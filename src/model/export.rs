@@ -1,6 +1,6 @@
 //! What the operator saves to a file for other programs.
 
-use std::sync::Arc;
+use std::{path::PathBuf, sync::Arc};
 
 use crate::{
     engine::passes::PassKey,
@@ -10,8 +10,26 @@ use crate::{
     },
 };
 
+/// A file that was saved.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct SavedFile {
+    pub path: PathBuf,
+    /// Objects that its form cannot carry.
+    pub left_out: usize,
+}
+
+/// The form of a file of elements.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum ElementForm {
+    Tle,
+    OmmJson,
+    OmmCsv,
+}
+
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Export {
+    /// The elements in use of these objects, by catalog number.
+    Elements { numbers: Arc<[u32]>, form: ElementForm },
     /// These passes.
     Passes { keys: Arc<[PassKey]>, format: PassFormat },
     /// Azimuth, elevation and range through one pass.

@@ -20,7 +20,7 @@ mod sources;
 mod table;
 mod words;
 
-pub use self::bar::refresh_due;
+pub use self::{bar::refresh_due, columns::ChosenColumns};
 
 use egui::{Rect, Ui};
 
@@ -55,6 +55,8 @@ pub struct ElementsState {
     /// `None` until the operator folds or unfolds them.
     sources_are_open: Option<bool>,
     refused_are_open: bool,
+    /// The columns of the table that the operator has chosen.
+    pub columns: ChosenColumns,
     inspector_is_open: bool,
     upload_is_open: bool,
     frequencies: Option<frequencies::Edit>,
@@ -167,7 +169,7 @@ fn show_main(
     let (top, rest) = rest.split_top_bottom_at_y(rest.top() + sources);
     sources::show(ui, top, of, model, state, question, commands);
     let (top, rest) = rest.split_top_bottom_at_y(rest.top() + chips::HEIGHT);
-    chips::show(ui, top, model, state);
+    chips::show(ui, top, model, state, commands);
     let (rest, bottom) = rest.split_top_bottom_at_y(rest.bottom() - refused::height(model, state));
     refused::show(ui, bottom, model, state);
     let is_marked = !state.selection.marked().is_empty();

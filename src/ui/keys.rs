@@ -257,8 +257,9 @@ pub const ALL: [Binding; 35] = [
             (Key::F, Act::There),
             (Key::Num1, Act::There),
             (Key::Num5, Act::There),
+            (Key::U, Act::There),
         ],
-        "in the table of Elements: mark, favourite, priority 1 to 5",
+        "in the table of Elements: mark, favourite, priority 1 to 5, upload",
     ),
     with(
         Modifiers::ALT,

@@ -2,14 +2,12 @@
 //! file or a change. They lie over the views, so that nothing moves under the pointer, and clear of
 //! the antenna card.
 
-use std::path::PathBuf;
-
 use egui::{Align2, Area, Frame, Label, Margin, Order, Rect, RichText, Stroke, Ui, vec2};
 
 use super::{text, theme, words};
 use crate::{
     engine::{passes::PassKey, reminders::Reminder},
-    model::{Model, UiCommand, View},
+    model::{Model, UiCommand, View, export::SavedFile},
 };
 
 /// Maximum width.
@@ -24,7 +22,7 @@ const BAR: f32 = 3.0;
 #[derive(Debug, Default)]
 pub struct Notes {
     /// The file that was saved last, or what was not done and why; until it is closed.
-    pub news: Option<Result<PathBuf, String>>,
+    pub news: Option<Result<SavedFile, String>>,
     /// Passes whose reminders were closed.
     closed: Vec<PassKey>,
 }
@@ -108,11 +106,11 @@ fn line(
     });
 }
 
-fn news_line(ui: &mut Ui, news: &mut Option<Result<PathBuf, String>>) {
+fn news_line(ui: &mut Ui, news: &mut Option<Result<SavedFile, String>>) {
     let Some(outcome) = news else { return };
     let t = theme::tokens(ui);
     let (words, colour) = match outcome {
-        Ok(path) => (format!("Saved: {}", path.display()), t.t1),
+        Ok(file) => (saved(file), t.t1),
         Err(why) => (why.clone(), t.bad),
     };
     let is_closed = ui
@@ -128,6 +126,15 @@ fn news_line(ui: &mut Ui, news: &mut Option<Result<PathBuf, String>>) {
         .inner;
     if is_closed {
         *news = None;
+    }
+}
+
+fn saved(SavedFile { path, left_out }: &SavedFile) -> String {
+    let path = path.display();
+    match left_out {
+        0 => format!("Saved: {path}"),
+        1 => format!("Saved, but for 1 object that this form cannot carry: {path}"),
+        count => format!("Saved, but for {count} objects that this form cannot carry: {path}"),
     }
 }
 

@@ -13,7 +13,7 @@ use super::{
         changing,
         closing::{self, ClosingDialog},
     },
-    elements,
+    elements::{self, ChosenColumns},
     icons::Icon,
     keys::{self, KeyTargets},
     map::{self, MapLayers},
@@ -33,7 +33,7 @@ use crate::{
     desktop::file_dialog::NoDialog,
     driver::Command,
     engine::{self, closing::CloseHow},
-    model::{MaskNews, Model, UiCommand, View},
+    model::{MaskNews, Model, UiCommand, View, export::SavedFile},
 };
 
 /// Input, open parts and folds of all views.
@@ -71,6 +71,8 @@ pub struct Kept {
     pub layers: Layers,
     /// Layers of the map.
     pub map_layers: MapLayers,
+    /// Columns of the catalogue.
+    pub columns: ChosenColumns,
 }
 
 impl Views {
@@ -85,6 +87,7 @@ impl Views {
         operate.passes.filter.arrangement = kept.passes;
         operate.sky.layers = kept.layers;
         views.map.layers = kept.map_layers;
+        views.elements.columns = kept.columns;
         views
     }
 
@@ -98,6 +101,7 @@ impl Views {
             passes: self.operate.passes.filter.arrangement.clone(),
             layers: self.operate.sky.layers,
             map_layers: self.map.layers,
+            columns: self.elements.columns.clone(),
         }
     }
 
@@ -275,8 +279,8 @@ impl Views {
         self.console.saved(result);
     }
 
-    /// Takes the outcome of saving a file: its path or the error.
-    pub fn file_saved(&mut self, result: Result<PathBuf, String>) {
+    /// Takes the outcome of saving a file: the file or the error.
+    pub fn file_saved(&mut self, result: Result<SavedFile, String>) {
         self.notes.news = Some(result.map_err(|why| format!("Nothing was saved: {why}.")));
     }
 

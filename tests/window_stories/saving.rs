@@ -3,7 +3,10 @@
 use azel::{
     desktop::file_dialog::NoDialog,
     engine::passes::PredictedPass,
-    model::{UiCommand, export::Export},
+    model::{
+        UiCommand,
+        export::{Export, SavedFile},
+    },
     plan::pass_export::{LookFormat, PassFormat},
 };
 use egui::Role;
@@ -61,11 +64,14 @@ fn what_came_of_it_is_told_over_the_views_until_it_is_closed() {
         window.state_mut().views.file_saved(result);
         settle(window);
     };
-    tell(&mut window, Ok("/home/operator/passes.csv".into()));
+    let saved = |path: &str, left_out| Ok(SavedFile { path: path.into(), left_out });
+    tell(&mut window, saved("/home/operator/passes.csv", 0));
     assert!(says(&window, "Saved: /home/operator/passes.csv"));
     window.get_by_label("Close the note of the file").click();
     settle(&mut window);
     assert!(!says(&window, "Saved: "));
+    tell(&mut window, saved("/home/operator/own.tle", 3));
+    assert!(says(&window, "Saved, but for 3 objects that this form cannot carry: /home/"));
     tell(&mut window, Err(NoDialog.to_string()));
     assert!(says(&window, "Nothing was saved: this desktop shows no file dialogs"));
     window.state_mut().views.no_dialog(NoDialog);

@@ -1,32 +1,49 @@
-//! The groups of the catalog, of which one is shown.
+//! The groups of the catalog, of which one is shown, with the choice of columns and the export.
 
-use egui::{Align2, Color32, Rect, Role, Stroke, StrokeKind, Ui, WidgetInfo, pos2, vec2};
+use egui::{
+    Align2, Color32, Popup, PopupCloseBehavior, Rect, Role, Stroke, StrokeKind, Ui, WidgetInfo,
+    pos2, vec2,
+};
 
-use super::{ElementsState, PADDING, table};
+use super::{ElementsState, PADDING, columns, table, words};
 use crate::{
     engine::CatalogState,
-    model::{Model, catalog_table::Among},
+    model::{
+        Model, UiCommand,
+        catalog_table::Among,
+        export::{ElementForm, Export},
+    },
     ui::{
         format, text, theme,
-        widgets::{button::Button, drop_down::DropDown, paint},
+        widgets::{button::Button, close_key, drop_down::DropDown, paint},
     },
 };
 
 pub(super) const HEIGHT: f32 = 40.0;
 const CHIP: f32 = 24.0;
 const GAP: f32 = 8.0;
+/// Width of the list of columns.
+const COLUMNS: f32 = 300.0;
 
-/// Draws the groups. What has no room stands behind a button.
-pub(super) fn show(ui: &Ui, rect: Rect, model: &Model, state: &mut ElementsState) {
+/// Draws the groups, and what is done with the whole table. Groups without room stand behind a
+/// button.
+pub(super) fn show(
+    ui: &Ui,
+    rect: Rect,
+    model: &Model,
+    state: &mut ElementsState,
+    commands: &mut Vec<UiCommand>,
+) {
     let t = theme::tokens(ui);
     ui.painter().rect_filled(rect, 0.0, t.bg1);
     ui.painter().hline(rect.x_range(), rect.bottom() - 0.5, (1.0, t.line));
     let chips = chips(model);
-    // A source that is gone has no objects to show.
+    // A source or group that is gone has no objects to show.
     if !chips.iter().any(|(among, _)| *among == state.question.among) {
         state.question.among = Among::All;
     }
     let inner = rect.shrink2(vec2(PADDING, 0.0));
+    let inner = inner.with_max_x(lists(ui, inner, model, state, commands));
     let widths: Vec<f32> = chips.iter().map(|chip| width(ui, chip)).collect();
     let more = 72.0;
     let all: f32 = widths.iter().map(|width| width + GAP).sum();
@@ -64,6 +81,60 @@ pub(super) fn show(ui: &Ui, rect: Rect, model: &Model, state: &mut ElementsState
     });
 }
 
+/// Draws what is done with the whole table from the right end on, and returns the left end.
+fn lists(
+    ui: &Ui,
+    inner: Rect,
+    model: &Model,
+    state: &mut ElementsState,
+    commands: &mut Vec<UiCommand>,
+) -> f32 {
+    let place = |right: f32, width: f32| {
+        let min = pos2(right - width, inner.center().y - CHIP / 2.0);
+        Rect::from_min_size(min, vec2(width, CHIP))
+    };
+    let columns = Button::quiet("Columns").chevron();
+    let at = place(inner.right(), columns.width(ui));
+    let response = columns.show(ui, "columns", at);
+    Popup::from_toggle_button_response(&response)
+        .accessible_name("Columns of the catalogue")
+        .width(COLUMNS)
+        .close_behavior(PopupCloseBehavior::CloseOnClickOutside)
+        .show(|ui| {
+            ui.set_width(COLUMNS);
+            columns::choose(ui, &mut state.columns, &mut state.question);
+            close_key::show(ui);
+        });
+    let marked = state.selection.marked();
+    let (numbers, which): (Vec<u32>, _) = if marked.is_empty() {
+        let rows = table::shown(model).map(|answer| answer.rows.to_vec());
+        (rows.unwrap_or_default(), "listed")
+    } else {
+        (marked.iter().copied().collect(), "marked")
+    };
+    let name = format!("Export the {} {which}", words::plain(numbers.len()));
+    let export = DropDown {
+        button: Button::quiet("Export").locked(numbers.is_empty()),
+        salt: "export elements",
+        name: &name,
+    };
+    let at = place(at.left() - GAP, export.width(ui));
+    export.show(ui, at, |ui| {
+        ui.label(&name);
+        for (word, form) in [
+            ("TLE\u{2026}", ElementForm::Tle),
+            ("OMM, JSON\u{2026}", ElementForm::OmmJson),
+            ("OMM, CSV\u{2026}", ElementForm::OmmCsv),
+        ] {
+            if ui.button(word).clicked() {
+                let numbers = numbers.clone().into();
+                commands.push(UiCommand::Save(Export::Elements { numbers, form }));
+            }
+        }
+    });
+    at.left() - GAP
+}
+
 /// The groups with the numbers of their objects.
 fn chips(model: &Model) -> Vec<(Among, usize)> {
     let CatalogState::Ready(catalog) = &model.catalog else { return vec![(Among::All, 0)] };
@@ -74,6 +145,10 @@ fn chips(model: &Model) -> Vec<(Among, usize)> {
     chips.extend(groups);
     let old = table::shown(model).map_or(0, |answer| answer.old);
     chips.push((Among::Old, old));
+    chips.extend(model.station.groups.iter().map(|group| {
+        let held = group.satellites.iter().filter(|number| catalog.get(**number).is_some());
+        (Among::Own(group.name.clone()), held.count())
+    }));
     chips
 }
 
@@ -81,7 +156,7 @@ fn word(among: &Among) -> &str {
     match among {
         Among::All => "All",
         Among::Favourites => "Favourites",
-        Among::Group(name) => name,
+        Among::Group(name) | Among::Own(name) => name,
         Among::Old => "Older than 7 d",
     }
 }
@@ -98,8 +173,9 @@ fn width(ui: &Ui, chip: &(Among, usize)) -> f32 {
 fn one(ui: &Ui, place: Rect, chip: &(Among, usize), is_active: bool) -> bool {
     let t = theme::tokens(ui);
     let (word, count) = (word(&chip.0), count(chip));
-    let name = format!("{word}, {count}");
-    let response = paint::control(ui, ("chip", word), place, Role::RadioButton, true, &name);
+    let own = if matches!(chip.0, Among::Own(_)) { ", your group" } else { "" };
+    let name = format!("{word}{own}, {count}");
+    let response = paint::control(ui, ("chip", own, word), place, Role::RadioButton, true, &name);
     response.widget_info(|| WidgetInfo::selected(Role::RadioButton, true, is_active, &name));
     let fill = match (is_active, response.hovered()) {
         (true, _) => t.bgsel,

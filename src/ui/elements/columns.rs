@@ -1,95 +1,207 @@
 //! The columns of the table of the catalog.
 
-use egui::Rect;
+use egui::{Align, Button, Layout, Rect, Role, Ui, WidgetInfo};
 use jiff::Timestamp;
+use serde::Serialize;
 
 use super::{PADDING, words};
 use crate::{
-    model::{Model, catalog_table::Column, globe::NextPass},
+    model::{
+        Model,
+        catalog_table::{Column, Question},
+        globe::NextPass,
+    },
     orbit::{Catalog, Elements},
-    ui::format,
+    ui::{format, words::capitalised},
 };
-
-/// Minimum width of a table with all columns.
-const ALL_FROM: f32 = 900.0;
-
-/// A column with its left end, or its right end for numbers, in a table of the width that the
-/// layout is made for.
-type Placed = (Column, f32);
-
-const ALL: (&[Placed], f32) = (
-    &[
-        (Column::Star, 40.0),
-        (Column::Name, 70.0),
-        (Column::Number, 350.0),
-        (Column::Period, 420.0),
-        (Column::Inclination, 484.0),
-        (Column::Heights, 590.0),
-        (Column::Age, 686.0),
-        (Column::From, 704.0),
-        (Column::NextPass, 920.0),
-        (Column::MaxElevation, 1008.0),
-    ],
-    1024.0,
-);
-const FEWER: (&[Placed], f32) = (
-    &[
-        (Column::Star, 40.0),
-        (Column::Name, 70.0),
-        (Column::Number, 330.0),
-        (Column::Age, 430.0),
-        (Column::From, 450.0),
-        (Column::NextPass, 680.0),
-        (Column::MaxElevation, 768.0),
-    ],
-    784.0,
-);
 
 /// Width of the bar of a maximum elevation, for 90 degrees.
 pub(super) const BAR: f32 = 40.0;
 /// Room for the number behind the bar.
-pub(super) const BAR_NUMBER: f32 = 34.0;
-/// Gap between the time of the next pass and the bar.
-const BAR_GAP: f32 = 12.0;
+const BAR_NUMBER: f32 = 34.0;
+/// Free space between two columns.
+const GAP: f32 = 12.0;
+/// Left end of the names, behind the marks and stars.
+const NAME: f32 = PADDING + 54.0;
+/// Width of the stars.
+const STAR: f32 = 20.0;
+/// Minimum width of the names.
+const MIN_NAME: f32 = 140.0;
+
+/// The columns behind the names, which the operator chooses and orders.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+#[serde(transparent)]
+pub struct ChosenColumns(Vec<Column>);
+
+/// All columns that can be chosen, in their usual order.
+const USUAL: [Column; 8] = [
+    Column::Number,
+    Column::Period,
+    Column::Inclination,
+    Column::Heights,
+    Column::Age,
+    Column::From,
+    Column::NextPass,
+    Column::MaxElevation,
+];
+
+/// The columns that a table leaves out that is too narrow, the least important first.
+const FOLDS: [Column; 8] = [
+    Column::Period,
+    Column::Inclination,
+    Column::Heights,
+    Column::From,
+    Column::Number,
+    Column::MaxElevation,
+    Column::Age,
+    Column::NextPass,
+];
+
+impl Default for ChosenColumns {
+    fn default() -> Self {
+        Self(USUAL.to_vec())
+    }
+}
+
+impl FromIterator<Column> for ChosenColumns {
+    /// Each column once; those that cannot be chosen are left out.
+    fn from_iter<T: IntoIterator<Item = Column>>(columns: T) -> Self {
+        let mut chosen = Vec::new();
+        for column in columns {
+            if USUAL.contains(&column) && !chosen.contains(&column) {
+                chosen.push(column);
+            }
+        }
+        Self(chosen)
+    }
+}
+
+impl ChosenColumns {
+    /// The chosen columns in their order, then the others.
+    fn listed(&self) -> Vec<Column> {
+        let others = USUAL.into_iter().filter(|column| !self.0.contains(column));
+        self.0.iter().copied().chain(others).collect()
+    }
+
+    fn shift(&mut self, column: Column, by: isize) {
+        let Some(place) = self.0.iter().position(|known| *known == column) else { return };
+        if let Some(other) = place.checked_add_signed(by).filter(|other| *other < self.0.len()) {
+            self.0.swap(place, other);
+        }
+    }
+
+    fn set(&mut self, column: Column, is_shown: bool) {
+        self.0.retain(|known| *known != column);
+        if is_shown {
+            self.0.push(column);
+        }
+    }
+
+    /// Those for which a table of this width has room.
+    fn that_fit(&self, width: f32) -> Vec<Column> {
+        let mut fit = self.0.clone();
+        for folded in FOLDS {
+            if min_width(&fit) <= width {
+                break;
+            }
+            fit.retain(|column| *column != folded);
+        }
+        fit
+    }
+}
+
+/// Shows the list in which the columns are chosen and ordered.
+pub(super) fn choose(ui: &mut Ui, chosen: &mut ChosenColumns, question: &mut Question) {
+    for column in chosen.listed() {
+        let place = chosen.0.iter().position(|known| *known == column);
+        ui.horizontal(|ui| {
+            let mut is_shown = place.is_some();
+            let name = capitalised(spoken(column));
+            if ui.checkbox(&mut is_shown, name).changed() {
+                chosen.set(column, is_shown);
+                if !is_shown && question.sort == column {
+                    *question = Question {
+                        search: question.search.clone(),
+                        among: question.among.clone(),
+                        ..Question::default()
+                    };
+                }
+            }
+            ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
+                let last = chosen.0.len().saturating_sub(1);
+                for (word, by, can) in [
+                    ("Later", 1, place.is_some_and(|place| place < last)),
+                    ("Earlier", -1, place.is_some_and(|place| place > 0)),
+                ] {
+                    let button = ui.add_enabled(can, Button::new(word).small());
+                    let name = format!("{word}: {}", spoken(column));
+                    button.widget_info(|| WidgetInfo::labeled(Role::Button, can, &name));
+                    if button.clicked() {
+                        chosen.shift(column, by);
+                    }
+                }
+            });
+        });
+    }
+    if ui.button("The usual columns").clicked() {
+        *chosen = ChosenColumns::default();
+    }
+}
+
+/// Minimum width of a column behind the names, with the gap before it.
+fn min_width_of(column: Column) -> f32 {
+    let width = match column {
+        Column::Star | Column::Name => 0.0,
+        Column::Number => 64.0,
+        Column::Period => 62.0,
+        Column::Inclination => 46.0,
+        Column::Heights => 84.0,
+        Column::Age => 80.0,
+        Column::From => 88.0,
+        Column::NextPass => 92.0,
+        Column::MaxElevation => BAR + BAR_NUMBER,
+    };
+    width + GAP
+}
+
+fn min_width(columns: &[Column]) -> f32 {
+    let others: f32 = columns.iter().map(|column| min_width_of(*column)).sum();
+    NAME + MIN_NAME + others + PADDING
+}
+
+/// How much of the free room a column gets: texts more than numbers.
+fn weight(column: Column) -> f32 {
+    match column {
+        Column::Name => 3.0,
+        Column::From => 2.0,
+        Column::MaxElevation => 0.0,
+        _ => 1.0,
+    }
+}
 
 /// Returns `true` if the column is aligned to the left.
 pub(super) fn is_left(column: Column) -> bool {
     matches!(column, Column::Star | Column::Name | Column::From)
 }
 
-/// The shown columns with their places in `row`. They spread with the table; names get the
-/// room that is left.
-pub(super) fn places(row: Rect) -> impl Iterator<Item = (Column, Rect)> {
-    let (columns, laid_out) = if row.width() < ALL_FROM { FEWER } else { ALL };
-    let scale = row.width() / laid_out;
-    let last = columns.last().map_or(row.right(), |(_, end)| row.left() + end * scale);
-    let end_of = move |column: Column, end: f32| match column {
-        // The bar keeps its width in a narrow table.
-        Column::NextPass => (row.left() + end * scale).min(last - BAR - BAR_NUMBER - BAR_GAP),
-        _ => row.left() + end * scale,
-    };
-    columns.iter().enumerate().map(move |(index, (column, end))| {
-        let x = match column {
-            Column::Star => row.left() + end,
-            Column::Name => row.left() + PADDING + 54.0,
-            column => end_of(*column, *end),
-        };
-        let neighbour = |by: usize| columns.get(by).map(|(column, end)| end_of(*column, *end));
-        let place = match column {
-            Column::Star => row.with_min_x(x).with_max_x(x + 20.0),
-            Column::Name => {
-                let to = neighbour(index + 1).unwrap_or(row.right()) - 84.0;
-                row.with_min_x(x).with_max_x(to)
-            }
-            Column::From => {
-                let to = neighbour(index + 1).unwrap_or(row.right()) - 92.0;
-                row.with_min_x(x).with_max_x(to)
-            }
-            Column::MaxElevation => row.with_min_x(x - BAR - BAR_NUMBER).with_max_x(x),
-            _ => row.with_min_x(x - 96.0).with_max_x(x),
-        };
-        (*column, place)
-    })
+/// The shown columns with their places in `row`, which share the room that is left.
+pub(super) fn places(row: Rect, chosen: &ChosenColumns) -> Vec<(Column, Rect)> {
+    let others = chosen.that_fit(row.width());
+    let free = (row.width() - min_width(&others)).max(0.0);
+    let weights: f32 = others.iter().map(|column| weight(*column)).sum();
+    let unit = free / (weight(Column::Name) + weights);
+    let from = row.left() + NAME;
+    let mut end = from + MIN_NAME + unit * weight(Column::Name);
+    let star = row.with_min_x(row.left() + PADDING + 24.0);
+    let star = star.with_max_x(star.left() + STAR);
+    let mut places =
+        vec![(Column::Star, star), (Column::Name, row.with_min_x(from).with_max_x(end))];
+    for column in others {
+        let start = end + GAP;
+        end += min_width_of(column) + unit * weight(column);
+        places.push((column, row.with_min_x(start).with_max_x(end)));
+    }
+    places
 }
 
 pub(super) fn head(column: Column) -> &'static str {
@@ -221,15 +333,56 @@ mod tests {
     use super::*;
     use egui::{pos2, vec2};
 
+    fn row(width: f32) -> Rect {
+        Rect::from_min_size(pos2(48.0, 0.0), vec2(width, 25.0))
+    }
+
+    fn shown(width: f32, chosen: &ChosenColumns) -> Vec<Column> {
+        places(row(width), chosen).into_iter().map(|(column, _)| column).collect()
+    }
+
     #[test]
-    fn the_bar_of_the_elevation_leaves_the_time_of_the_pass_free() {
-        for width in (600..2600_u16).step_by(20) {
-            let row = Rect::from_min_size(pos2(48.0, 0.0), vec2(f32::from(width), 25.0));
-            let place_of = |wanted| places(row).find(|(column, _)| *column == wanted).unwrap().1;
-            let (time, bar) = (place_of(Column::NextPass), place_of(Column::MaxElevation));
-            assert!(time.right() + 8.0 <= bar.left(), "{width}: {time:?} {bar:?}");
-            let from = place_of(Column::From);
-            assert!(from.width() > 40.0 && from.right() < time.right() - 60.0, "{width}: {from:?}");
+    fn columns_stand_beside_each_other_within_the_row_at_every_width() {
+        for width in (680..2600_u16).step_by(20).map(f32::from) {
+            let places = places(row(width), &ChosenColumns::default());
+            for pair in places.windows(2) {
+                let [(_, left), (column, right)] = pair else { unreachable!() };
+                assert!(left.right() < right.left(), "{width} {column:?}: {left:?} {right:?}");
+            }
+            let (last, place) = places.last().unwrap();
+            assert!(place.right() <= row(width).right() - PADDING + 0.1, "{width} {last:?}");
         }
+    }
+
+    #[test]
+    fn a_narrow_table_leaves_the_least_important_columns_out() {
+        let usual = ChosenColumns::default();
+        assert_eq!(shown(1024.0, &usual).len(), 10);
+        let narrow = shown(684.0, &usual);
+        for column in [Column::Number, Column::Age, Column::From, Column::NextPass] {
+            assert!(narrow.contains(&column), "{narrow:?}");
+        }
+        assert!(!narrow.contains(&Column::Period));
+        let few: ChosenColumns = [Column::Period, Column::Age].into_iter().collect();
+        assert_eq!(
+            shown(684.0, &few),
+            [Column::Star, Column::Name, Column::Period, Column::Age],
+            "what is chosen has room where little is"
+        );
+    }
+
+    #[test]
+    fn columns_are_chosen_and_ordered() {
+        let mut chosen: ChosenColumns =
+            [Column::Age, Column::Name, Column::Number, Column::Age].into_iter().collect();
+        assert_eq!(chosen.0, [Column::Age, Column::Number], "each once, without the name");
+        chosen.set(Column::Period, true);
+        chosen.shift(Column::Period, -1);
+        assert_eq!(chosen.0, [Column::Age, Column::Period, Column::Number]);
+        chosen.shift(Column::Age, -1);
+        chosen.shift(Column::Number, 1);
+        chosen.set(Column::Age, false);
+        assert_eq!(chosen.0, [Column::Period, Column::Number]);
+        assert_eq!(chosen.listed().len(), USUAL.len());
     }
 }

@@ -15,7 +15,7 @@ use super::{
     words::{self, Form},
 };
 use crate::{
-    engine::{self, CatalogState},
+    engine::{self, CatalogState, antenna::AntennaModel},
     model::{
         Model, UiCommand,
         catalog_table::{Answer, Column},
@@ -112,7 +112,7 @@ fn show_head(ui: &Ui, rect: Rect, rows: &[u32], state: &mut ElementsState) {
     if response.on_hover_text(name).clicked() {
         if some { state.selection.unmark_all() } else { state.selection.mark_all(rows) }
     }
-    for (column, place) in columns::places(rect) {
+    for (column, place) in columns::places(rect, &state.columns) {
         let is_sorted = state.question.sort == column;
         let (name, words) = (columns::spoken(column), columns::head(column));
         let way = match (is_sorted, state.question.is_descending) {
@@ -205,7 +205,7 @@ impl Draws<'_> {
         if is_selected {
             ui.painter().rect_filled(rect.with_max_x(rect.left() + 3.0), 0.0, t.sat);
         }
-        for (column, place) in columns::places(rect) {
+        for (column, place) in columns::places(rect, &state.columns) {
             if column == Column::Star {
                 self.star(ui, place, &row, priority, commands);
             } else {
@@ -380,6 +380,12 @@ fn keys(
                 let place = state.selection.go(down, way, rows);
                 state.wanted_row = place.or(state.wanted_row);
             }
+        }
+    }
+    if pressed(Modifiers::NONE, Key::U) {
+        let takes = |antenna: &AntennaModel| antenna.spec().element_files.is_some();
+        if model.antenna().is_some_and(takes) {
+            state.upload(Some(state.selection.chosen()));
         }
     }
     if pressed(Modifiers::NONE, Key::Space) {

@@ -1,12 +1,21 @@
 //! The catalogue as a table, the marked objects, and the refused records.
 
+use std::sync::Arc;
+
 use azel::{
     engine::{self, CatalogState},
-    model::{UiCommand, View},
+    model::{
+        UiCommand, View,
+        export::{ElementForm, Export},
+    },
     orbit::{Refusal, RefusalReason},
+    station::{PassLimits, SatelliteGroup},
 };
 use egui::{Event, Key, Modifiers, Role};
-use egui_kittest::kittest::{NodeT as _, Queryable as _};
+use egui_kittest::{
+    Node,
+    kittest::{NodeT as _, Queryable as _},
+};
 
 use super::{METEOR_M2_3, click, file_source, is_disabled, report, server, view, write};
 use crate::window_stories::rig::{self, NOAA_20, SIZES, Window, asked, says, settle};
@@ -213,4 +222,99 @@ fn every_control_is_whole_in_every_window() {
             }
         }
     }
+}
+
+#[test]
+fn groups_of_the_operator_stand_behind_those_of_the_sources() {
+    let mut window = view([1700.0, 900.0], Vec::new());
+    let weather = SatelliteGroup {
+        name: "weather".to_owned(),
+        satellites: vec![NOAA_20, METEOR_M2_3, 999],
+        priority: None,
+        limits: PassLimits::default(),
+    };
+    Arc::make_mut(&mut window.state_mut().model.station).groups = vec![weather];
+    settle(&mut window);
+    window.get_by_role_and_label(Role::RadioButton, "weather, your group, 2").click();
+    settle(&mut window);
+    assert_eq!(rows(&window).len(), 2, "one is not held");
+    Arc::make_mut(&mut window.state_mut().model.station).groups.clear();
+    settle(&mut window);
+    assert!(rows(&window).len() > 2, "the group is gone");
+}
+
+/// Names of the heads, from left to right.
+fn heads(window: &Window) -> Vec<String> {
+    let heads = window.query_all_by_role(Role::Button);
+    let name = |node: Node<'_>| node.accesskit_node().label().unwrap_or_default();
+    let names = heads.map(|node| (node.rect().left(), name(node)));
+    let mut names: Vec<_> = names.filter(|(_, name)| name.starts_with("Sort by ")).collect();
+    names.sort_by(|(a, _), (b, _)| a.total_cmp(b));
+    names.into_iter().map(|(_, name)| name.replace("Sort by ", "")).collect()
+}
+
+#[test]
+fn columns_are_chosen_and_ordered_and_a_hidden_one_sorts_no_more() {
+    let mut window = view(rig::LARGE, Vec::new());
+    click(&mut window, "Sort by period");
+    assert!(heads(&window).contains(&"period, ascending".to_owned()));
+    click(&mut window, "Columns");
+    window.get_by_role_and_label(Role::CheckBox, "Period").click();
+    settle(&mut window);
+    click(&mut window, "Later: number");
+    click(&mut window, "Later: number");
+    let shown = heads(&window);
+    assert_eq!(
+        shown[..5],
+        ["priority", "name, ascending", "inclination", "apogee and perigee", "number"],
+        "{shown:?}"
+    );
+    window.get_by_role_and_label(Role::CheckBox, "Period").click();
+    settle(&mut window);
+    assert_eq!(heads(&window).last().map(String::as_str), Some("period"));
+    click(&mut window, "The usual columns");
+    assert_eq!(heads(&window)[2..4], ["number", "period"]);
+}
+
+#[test]
+fn what_is_listed_or_marked_is_exported() {
+    for size in SIZES {
+        let mut window = view(size, Vec::new());
+        let export = |window: &mut Window, list: &str, form: &str| {
+            window.get_by_role_and_label(Role::ComboBox, list).click();
+            settle(window);
+            click(window, form);
+            asked(window)
+        };
+        write(&mut window, "Search the catalogue", "meteor-m2 3");
+        asked(&mut window);
+        let save = |numbers: &[u32], form| {
+            [UiCommand::Save(Export::Elements { numbers: numbers.into(), form })]
+        };
+        let list = "Export the 1 listed";
+        let saved = export(&mut window, list, "TLE\u{2026}");
+        assert_eq!(saved, save(&[METEOR_M2_3], ElementForm::Tle));
+        click_mark(&mut window, "Mark METEOR-M2 3");
+        write(&mut window, "Search the catalogue", "noaa 20 ");
+        click_mark(&mut window, "Mark NOAA 20 (JPSS-1)");
+        asked(&mut window);
+        let saved = export(&mut window, "Export the 2 marked", "OMM, CSV\u{2026}");
+        assert_eq!(saved, save(&[NOAA_20, METEOR_M2_3], ElementForm::OmmCsv));
+    }
+}
+
+fn click_mark(window: &mut Window, name: &str) {
+    window.get_by_role_and_label(Role::CheckBox, name).click();
+    settle(window);
+}
+
+#[test]
+fn a_key_opens_the_upload_of_the_selected_row() {
+    let mut window = view(rig::LARGE, Vec::new());
+    write(&mut window, "Search the catalogue", "meteor-m2 3");
+    window.get_by_label_contains("METEOR-M2 3, 57166, elements ").click();
+    settle(&mut window);
+    window.key_press(Key::U);
+    settle(&mut window);
+    window.get_by_role_and_label(Role::Button, "Back to the elements");
 }
