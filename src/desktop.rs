@@ -6,6 +6,7 @@ mod bus;
 #[cfg(not(target_os = "linux"))]
 mod elsewhere;
 pub mod file_dialog;
+pub mod folder;
 #[cfg(target_os = "linux")]
 mod player;
 #[cfg(target_os = "linux")]
@@ -34,10 +35,11 @@ pub enum Urgency {
     Critical,
 }
 
+/// Two tones.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Sound {
-    Alarm,
-    Reminder,
+    Falling,
+    Rising,
 }
 
 /// Why nothing is shown or sounded.
@@ -101,6 +103,13 @@ impl Desktop {
         };
         let (shown, played) = tokio::join!(show, play);
         self.found(shown, played);
+    }
+
+    /// Closes the notifications with these numbers, as far as they are shown.
+    pub async fn close(&mut self, numbers: &[u64]) {
+        for number in numbers {
+            self.bus.close(*number).await;
+        }
     }
 
     pub fn outlets(&self) -> &Outlets {

@@ -31,14 +31,14 @@ pub use connection::Connection;
 pub(crate) use connection::check_address;
 pub use controller_spec::{ControllerSpec, Link, Usual};
 pub use favourite::{Favourite, Favourites, Priority};
-pub use file::{LoadError, Loaded, SaveError, free_path, load, save, settings_path};
+pub use file::{LoadError, Loaded, SaveError, free_path, load, save, saved_at, settings_path};
 pub use frequency::Frequency;
 pub use hours_of_day::HoursOfDay;
 pub use keep_out::{Entered, KeepOut, SunAvoidance};
 pub use keeping::Keeping;
 pub use lock_outs::{LOCK_OUTS_FILE, LockOut, LockOuts};
 pub use mount::Mount;
-pub use notices::Notices;
+pub use notices::{Notices, Tones};
 pub use pass_choice::{PassChoice, Take};
 pub use pass_limits::{Light, PassLimits};
 pub use read::{Note, NoteReason, from_toml};
@@ -47,6 +47,8 @@ pub use scheduling::{Automatic, BetweenPasses, ChooseBy, Partly, Scheduling};
 pub use setting::{Setting, Table};
 pub use track_settings::{AfterPass, TrackSettings};
 pub use watch::{DEFAULT_RESUME_AFTER_S, DEFAULT_SWAY_DEG, Monitor, OnClose, Resume};
+
+use std::collections::BTreeSet;
 
 use serde::{Serialize, Serializer};
 
@@ -138,6 +140,12 @@ impl Station {
         let own = self.favourites.get(satellite)?.priority;
         let mut groups = self.groups_of(satellite);
         Some(own.or_else(|| groups.find_map(|group| group.priority)).unwrap_or_default())
+    }
+
+    /// The satellites of all groups with this name.
+    pub fn in_groups(&self, name: &str) -> BTreeSet<u32> {
+        let groups = self.groups.iter().filter(|group| group.name == name);
+        groups.flat_map(|group| &group.satellites).copied().collect()
     }
 
     /// The limits of a satellite: its own, and for what it has none, those of its groups in

@@ -17,6 +17,7 @@ use crate::{
         notices::{About, Notice, Teller},
     },
     job::Wake,
+    station::Tones,
     ui::words,
 };
 
@@ -75,10 +76,12 @@ async fn tell_all(
     loop {
         let snapshot = station.snapshot();
         let news = teller.look(&snapshot, stood, &TimeZone::system());
-        if !news.is_empty() {
-            desktop.tell(&notifications(&news, &snapshot), sound(&news)).await;
+        if !news.told.is_empty() {
+            let notifications = notifications(&news.told, &snapshot);
+            desktop.tell(&notifications, sound(&news.told)).await;
             told(desktop.outlets());
         }
+        desktop.close(&news.over).await;
         tokio::select! {
             changed = timeout(STANDS, station.changed()) => match changed {
                 Ok(true) => stood = None,
@@ -113,12 +116,13 @@ fn notification(about: &About, station: &Snapshot) -> Notification {
     Notification { title, text, urgency, number }
 }
 
-/// One sound for all of them.
+/// One sound for all of them, that of the most urgent.
 fn sound(news: &[Notice]) -> Option<Sound> {
-    let mut sounded = news.iter().filter(|notice| notice.is_sounded).peekable();
-    sounded.peek()?;
-    let is_reminder = |notice: &Notice| matches!(notice.about, About::Reminder(_));
-    Some(if sounded.all(is_reminder) { Sound::Reminder } else { Sound::Alarm })
+    match news.iter().map(|notice| notice.tones).max()? {
+        Tones::None => None,
+        Tones::Rising => Some(Sound::Rising),
+        Tones::Falling => Some(Sound::Falling),
+    }
 }
 
 #[cfg(target_os = "linux")]
@@ -162,9 +166,9 @@ mod tests {
         assert_eq!((&*call.title, call.urgency), ("Alarm, Şile 1", 2));
         assert!(call.text.starts_with("mast does not hold: it has no corners."), "{}", call.text);
         woken.recv_timeout(PATIENCE).unwrap();
-        notifier.try_out(Sound::Reminder);
+        notifier.try_out(Sound::Rising);
         let trial = calls.recv_timeout(PATIENCE).unwrap();
-        assert_eq!((&*trial.text, trial.urgency), ("This is how a reminder is told.", 1));
+        assert_eq!((&*trial.text, trial.urgency), ("This is how rising tones sound.", 1));
         let outlets = notifier.outlets();
         assert_eq!(outlets.notifications, None);
         assert!(matches!(outlets.sounds, Some(Missing::Player(_))));

@@ -59,6 +59,16 @@ impl Bus {
         Ok(())
     }
 
+    /// Closes the notification with this number, if it was shown. One that the operator has closed
+    /// is unknown to the service, which then answers with an error.
+    pub(super) async fn close(&mut self, number: u64) {
+        let Some(id) = self.shown.remove(&number) else { return };
+        let Some(service) = &self.service else { return };
+        if let Err(error) = service.call("CloseNotification", &(id,)).await {
+            tracing::debug!(%error, "a notification was not closed");
+        }
+    }
+
     async fn notify(&mut self, notification: &Notification) -> Result<u32, Missing> {
         let Notification { title, text, urgency, number } = notification;
         let replaces = number.and_then(|number| self.shown.get(&number)).copied();
@@ -132,7 +142,7 @@ fn escaped(text: &str) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::desktop::testing::{Call, desk};
+    use crate::desktop::testing::{Call, closed, desk};
 
     fn notification(title: &str, urgency: Urgency, number: Option<u64>) -> Notification {
         Notification { title: title.to_owned(), text: "X < Y & Z".to_owned(), urgency, number }
@@ -161,6 +171,20 @@ mod tests {
             call("Reminder", 1, 0),
         ];
         assert_eq!(calls.try_iter().collect::<Vec<_>>(), wanted);
+    }
+
+    #[tokio::test]
+    async fn a_notification_is_closed_once_and_comes_anew_afterwards() {
+        let (mut bus, server, calls) = desk(&[]).await;
+        let alarm = notification("Alarm", Urgency::Critical, Some(7));
+        bus.show(&alarm).await.unwrap();
+        bus.close(8).await;
+        bus.close(7).await;
+        bus.close(7).await;
+        assert_eq!(closed(&server).await, [1]);
+        bus.show(&alarm).await.unwrap();
+        let replaced: Vec<u32> = calls.try_iter().map(|call| call.replaces).collect();
+        assert_eq!(replaced, [0, 0]);
     }
 
     #[tokio::test]

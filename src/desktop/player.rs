@@ -83,8 +83,8 @@ async fn run(program: &PathBuf, with: &[&str], sound: Sound) -> io::Result<ExitS
 /// A file with the sound that goes with its last reader.
 fn file(sound: Sound) -> io::Result<File> {
     let bytes: &[u8] = match sound {
-        Sound::Alarm => include_bytes!("../../assets/sounds/alarm.wav"),
-        Sound::Reminder => include_bytes!("../../assets/sounds/reminder.wav"),
+        Sound::Falling => include_bytes!("../../assets/sounds/alarm.wav"),
+        Sound::Rising => include_bytes!("../../assets/sounds/reminder.wav"),
     };
     let mut file = tempfile::tempfile()?;
     file.write_all(bytes)?;
@@ -121,8 +121,8 @@ mod tests {
         player(folder.path(), "pw-play", "echo pw-play >> $log; exit 1");
         player(folder.path(), "aplay", "echo aplay \"$@\" >> $log; /bin/cat \"$2\" > $log.wav");
         let mut player = players(folder.path());
-        player.play(Sound::Alarm).await.unwrap();
-        player.play(Sound::Reminder).await.unwrap();
+        player.play(Sound::Falling).await.unwrap();
+        player.play(Sound::Rising).await.unwrap();
         let wanted = "pw-play\naplay -q /dev/stdin\naplay -q /dev/stdin\n";
         assert_eq!(log(folder.path()), wanted);
         let played = fs::read(folder.path().join("log.wav")).unwrap();
@@ -134,11 +134,11 @@ mod tests {
         let folder = tempfile::tempdir().unwrap();
         let mut none = players(folder.path());
         assert_eq!(none.look(), Err(Missing::Player(NAMES)));
-        assert_eq!(none.play(Sound::Alarm).await, Err(Missing::Player(NAMES)));
+        assert_eq!(none.play(Sound::Falling).await, Err(Missing::Player(NAMES)));
         player(folder.path(), "paplay", "exit 3");
         let mut broken = players(folder.path());
         assert_eq!(broken.look(), Ok(()));
-        let Err(Missing::NotPlayed(why)) = broken.play(Sound::Alarm).await else { panic!() };
+        let Err(Missing::NotPlayed(why)) = broken.play(Sound::Falling).await else { panic!() };
         assert!(why.ends_with("paplay: exit status: 3"), "{why}");
         assert_eq!(Player::within(None).look(), Err(Missing::Player(NAMES)));
     }

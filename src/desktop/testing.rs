@@ -25,12 +25,17 @@ struct Desk {
     calls: mpsc::SyncSender<Call>,
     capabilities: Vec<String>,
     last_id: u32,
+    closed: Vec<u32>,
 }
 
 #[zbus::interface(name = "org.freedesktop.Notifications")]
 impl Desk {
     fn get_capabilities(&self) -> Vec<String> {
         self.capabilities.clone()
+    }
+
+    fn close_notification(&mut self, id: u32) {
+        self.closed.push(id);
     }
 
     // The signature is the specification's.
@@ -66,7 +71,7 @@ pub(super) async fn desk(capabilities: &[&str]) -> (Bus, Connection, mpsc::Recei
     let (near, far) = UnixStream::pair().unwrap();
     let (calls, called) = mpsc::sync_channel(1000);
     let capabilities = capabilities.iter().map(|of| (*of).to_owned()).collect();
-    let desk = Desk { calls, capabilities, last_id: 0 };
+    let desk = Desk { calls, capabilities, last_id: 0, closed: Vec::new() };
     let server = async {
         let builder = Builder::async_io_unix_stream(far).server(Guid::generate())?.p2p();
         builder.serve_at(OBJECT, desk)?.build().await
@@ -75,6 +80,12 @@ pub(super) async fn desk(capabilities: &[&str]) -> (Bus, Connection, mpsc::Recei
     let (server, client) = tokio::join!(server, client);
     let service = Service::on(client.unwrap()).await.unwrap();
     (Bus::of(service), server.unwrap(), called)
+}
+
+/// Ids of the notifications that were closed.
+pub(crate) async fn closed(server: &Connection) -> Vec<u32> {
+    let desk = server.object_server().interface::<_, Desk>(OBJECT).await.unwrap();
+    desk.get().await.closed.clone()
 }
 
 /// A desktop with a notification service and without players.

@@ -14,7 +14,7 @@ use super::{
     passes::PassKey,
     reminders::Reminder,
 };
-use crate::station::HoursOfDay;
+use crate::station::{HoursOfDay, Notices, Tones};
 
 /// An alarm or reminder to be told.
 #[derive(Debug, Clone, PartialEq)]
@@ -22,7 +22,7 @@ pub struct Notice {
     pub about: About,
     /// The desktop shows it.
     pub is_shown: bool,
-    pub is_sounded: bool,
+    pub tones: Tones,
 }
 
 #[derive(Debug, Clone, PartialEq)]
@@ -39,11 +39,22 @@ impl About {
     }
 }
 
+/// News since the last look.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct News {
+    /// What is to be told, alarms of the first rank first.
+    pub told: Vec<Notice>,
+    /// Rows of alarms that stood at the last look and are over.
+    pub over: Vec<u64>,
+}
+
 /// Knows what was told.
 #[derive(Debug, Default)]
 pub struct Teller {
     /// Ids of the alarms that were new when it last looked.
     new: BTreeSet<u64>,
+    /// Rows of the alarms that stood then.
+    standing: BTreeSet<u64>,
     /// Passes of the reminders that were there then.
     reminded: Vec<PassKey>,
     /// The station stood then.
@@ -51,15 +62,10 @@ pub struct Teller {
 }
 
 impl Teller {
-    /// Alarms that became new and reminders that came since the last look, alarms of the first rank
-    /// first. `stood`: the station has published nothing for so long. Quiet hours go by the clock
+    /// Alarms that became new, reminders that came and alarms that were over since the last look.
+    /// `stood`: the station has published nothing for so long. Quiet hours go by the clock
     /// of `zone`.
-    pub fn look(
-        &mut self,
-        station: &Snapshot,
-        stood: Option<Duration>,
-        zone: &TimeZone,
-    ) -> Vec<Notice> {
+    pub fn look(&mut self, station: &Snapshot, stood: Option<Duration>, zone: &TimeZone) -> News {
         let new = |alarm: &&Alarm| !alarm.seen;
         let alarms = station.alarms.list().iter().filter(new);
         let untold = alarms.clone().filter(|alarm| !self.new.contains(&alarm.id));
@@ -77,16 +83,37 @@ impl Teller {
                 let is_told = |wanted: bool| about.is_of_first_rank() || wanted && !is_quiet;
                 Notice {
                     is_shown: is_told(notices.notifications),
-                    is_sounded: is_told(notices.sounds),
+                    tones: if is_told(notices.sounds) {
+                        tones(&about, notices)
+                    } else {
+                        Tones::None
+                    },
                     about,
                 }
             })
-            .filter(|notice| notice.is_shown || notice.is_sounded)
+            .filter(|notice| notice.is_shown || notice.tones != Tones::None)
             .collect();
         told.sort_by_key(|notice| Reverse(notice.about.is_of_first_rank()));
         self.stood = stood.is_some();
         self.new = alarms.map(|alarm| alarm.id).collect();
+        let stand = station.alarms.list().iter().filter(|alarm| !alarm.is_over());
+        let standing: BTreeSet<u64> = stand.map(|alarm| alarm.row).collect();
+        let over = self.standing.difference(&standing).copied().collect();
+        self.standing = standing;
         self.reminded = station.reminders.iter().map(|reminder| reminder.pass).collect();
-        told
+        News { told, over }
+    }
+}
+
+/// The sound of a notice. That of the first rank is not to be chosen.
+fn tones(about: &About, notices: &Notices) -> Tones {
+    match about {
+        About::Alarm(alarm) => match alarm.priority() {
+            Priority::First => Tones::Falling,
+            Priority::Warning => notices.warning_tones,
+            Priority::Caution => notices.caution_tones,
+        },
+        About::StationStands(_) => notices.warning_tones,
+        About::Reminder(_) => notices.reminder_tones,
     }
 }

@@ -1,6 +1,8 @@
 //! Rules that every make must keep.
 
 mod file;
+mod keep_out;
+mod notices;
 mod schedule;
 
 use super::*;

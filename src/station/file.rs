@@ -5,6 +5,7 @@ use std::{
     path::{Path, PathBuf},
 };
 
+use jiff::Timestamp;
 use serde::Serialize;
 
 use super::{ControllerSpec, Note, Station, from_toml, rewrite::rewritten};
@@ -84,6 +85,12 @@ pub fn load(path: &Path, specs: &[&'static ControllerSpec]) -> Result<Loaded, Lo
     }
     let (station, notes) = from_toml(table, specs);
     Ok(Loaded { station, notes })
+}
+
+/// When the file at `path` was written last.
+pub fn saved_at(path: &Path) -> Option<Timestamp> {
+    let modified = fs::metadata(path).and_then(|metadata| metadata.modified()).ok()?;
+    Timestamp::try_from(modified).ok()
 }
 
 /// Writes the station to `path`, into the text that stands there: the operator's comments

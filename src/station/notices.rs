@@ -6,6 +6,23 @@ use serde::Serialize;
 
 use super::HoursOfDay;
 
+/// Sound of a notice, the least urgent first.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Tones {
+    None,
+    /// Two rising tones.
+    Rising,
+    /// Two falling tones.
+    Falling,
+}
+
+impl Tones {
+    /// All with their words in the station file.
+    pub(super) const WORDS: [(&'static str, Self); 3] =
+        [("none", Self::None), ("rising", Self::Rising), ("falling", Self::Falling)];
+}
+
 /// Settings for notices: alarms and reminders that the desktop shows and sounds. Alarms of the
 /// first rank ignore them.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -14,6 +31,11 @@ pub struct Notices {
     pub notifications: bool,
     /// New alarms and reminders make a sound.
     pub sounds: bool,
+    /// Sound of alarms that something is wrong now.
+    pub warning_tones: Tones,
+    /// Sound of alarms that something will go wrong or was not done.
+    pub caution_tones: Tones,
+    pub reminder_tones: Tones,
     /// `None` where no hours are quiet.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub quiet: Option<HoursOfDay>,
@@ -28,6 +50,9 @@ impl Default for Notices {
         Self {
             notifications: true,
             sounds: true,
+            warning_tones: Tones::Falling,
+            caution_tones: Tones::Falling,
+            reminder_tones: Tones::Rising,
             quiet: None,
             reminder_min: 5.0,
             reminders: BTreeSet::new(),

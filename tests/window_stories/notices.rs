@@ -7,7 +7,7 @@ use azel::{
     desktop::{Missing, Outlets, Sound},
     engine::reminders::Reminder,
     model::{UiCommand, View},
-    station::{AntennaId, HoursOfDay, Notices, Station},
+    station::{AntennaId, HoursOfDay, Notices, Station, Tones},
 };
 use egui::Role;
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
@@ -66,6 +66,25 @@ fn notifications_sounds_and_quiet_hours_are_set() {
 }
 
 #[test]
+fn each_kind_of_notice_gets_a_sound_or_none() {
+    for size in SIZES {
+        let mut window = page(size);
+        choose(&mut window, "Cautions", "None");
+        choose(&mut window, "Reminders of passes", "Falling");
+        let wanted = Notices {
+            caution_tones: Tones::None,
+            reminder_tones: Tones::Falling,
+            ..Notices::default()
+        };
+        assert_eq!(save(&mut window).notices, wanted);
+        choose(&mut window, "Sounds", "Off");
+        let groups = window.query_all_by_role(Role::RadioGroup);
+        let mut names = groups.map(|node| node.accesskit_node().label().unwrap_or_default());
+        assert!(!names.any(|name| name == "Cautions"), "nothing sounds but the first rank");
+    }
+}
+
+#[test]
 fn a_wrong_time_says_why_and_cannot_be_saved() {
     let mut window = page(SIZES[0]);
     choose(&mut window, "Quiet hours", "On");
@@ -99,21 +118,25 @@ fn a_favourite_is_marked_for_a_reminder() {
 #[test]
 fn what_the_desktop_lacks_is_said_where_it_is_set() {
     let mut window = page(SIZES[0]);
-    assert!(!says(&window, "Nothing is sounded"));
+    assert!(!says(&window, "There is no sound"));
     window.state_mut().model.outlets = Outlets {
         notifications: Some(Missing::Bus("no address".to_owned())),
         sounds: Some(Missing::Elsewhere),
     };
     settle(&mut window);
-    assert!(says(&window, "Nothing is shown by the desktop: there is no bus of a desktop session"));
-    assert!(says(&window, "Nothing is sounded: not on this operating system."));
+    assert!(says(&window, "The desktop shows no notifications: Azel does not run in a desktop"));
+    assert!(says(&window, "Start it from the desktop"), "with what to do");
+    assert!(says(&window, "The answer of the system: no address"), "as it came");
+    assert!(says(&window, "There is no sound: Azel has none on this operating system."));
 }
 
 #[test]
 fn the_desktop_is_tried_without_saving() {
     for size in SIZES {
         let mut window = page(size);
-        for (word, sound) in [("Try an alarm", Sound::Alarm), ("Try a reminder", Sound::Reminder)] {
+        for (word, sound) in
+            [("Try falling tones", Sound::Falling), ("Try rising tones", Sound::Rising)]
+        {
             window.get_by_role_and_label(Role::Button, word).click();
             assert_eq!(asked(&mut window), [UiCommand::TryNotice(sound)]);
         }

@@ -45,7 +45,7 @@ fn look(teller: &mut Teller, alarms: &Alarms, notices: &Notices) -> Vec<Notice> 
         alarms: alarms.clone(),
         ..Snapshot::before_anything(at)
     };
-    teller.look(&snapshot, None, &istanbul())
+    teller.look(&snapshot, None, &istanbul()).told
 }
 
 fn rows(told: &[Notice]) -> Vec<u64> {
@@ -63,7 +63,7 @@ fn an_alarm_is_told_once_and_again_in_its_row_when_it_comes_again() {
     alarms.raise(OF, LOST, time());
     let told = look(&mut teller, &alarms, &notices);
     assert_eq!(rows(&told), [0]);
-    assert!(told[0].is_shown && told[0].is_sounded);
+    assert!(told[0].is_shown && told[0].tones == Tones::Falling);
     alarms.raise(OF, LOST, time());
     assert_eq!(look(&mut teller, &alarms, &notices), []);
     alarms.raise(None, AlarmKind::NotTaken, time());
@@ -106,7 +106,7 @@ fn each_outlet_has_its_setting_and_quiet_hours_hold_for_both() {
     let told = |notifications, sounds, quiet| {
         let notices = Notices { notifications, sounds, quiet, ..Notices::default() };
         let told = look(&mut Teller::default(), &alarms, &notices);
-        told.first().map(|notice| (notice.is_shown, notice.is_sounded))
+        told.first().map(|notice| (notice.is_shown, notice.tones != Tones::None))
     };
     assert_eq!(told(true, false, None), Some((true, false)));
     assert_eq!(told(false, true, None), Some((false, true)));
@@ -115,6 +115,46 @@ fn each_outlet_has_its_setting_and_quiet_hours_hold_for_both() {
     let HoursOfDay { from, to } = HoursOfDay::NIGHT;
     let by_day = HoursOfDay { from: to, to: from };
     assert_eq!(told(true, true, Some(by_day)), Some((true, true)));
+}
+
+#[test]
+fn each_kind_of_notice_has_a_sound_of_its_own_or_none() {
+    let told = |kind: AlarmKind, notices: &Notices| {
+        let mut alarms = Alarms::default();
+        alarms.raise(OF, kind, time());
+        look(&mut Teller::default(), &alarms, notices).first().map(|notice| notice.tones)
+    };
+    let (warning, caution) = (LOST, AlarmKind::ClockNotSet);
+    let ranks = [&warning, &caution].map(AlarmKind::priority);
+    assert_eq!(ranks, [Priority::Warning, Priority::Caution]);
+    let notices =
+        Notices { warning_tones: Tones::Rising, caution_tones: Tones::None, ..Notices::default() };
+    assert_eq!(told(warning, &notices), Some(Tones::Rising));
+    assert_eq!(told(caution.clone(), &notices), Some(Tones::None), "shown all the same");
+    let silent = Notices { notifications: false, ..notices };
+    assert_eq!(told(caution, &silent), None);
+    assert_eq!(told(STOP, &silent), Some(Tones::Falling), "of the first rank");
+}
+
+#[test]
+fn an_alarm_that_stood_and_is_over_is_named_once() {
+    let at = Moment { utc: time(), steady: Instant::now() };
+    let (mut teller, mut alarms) = (Teller::default(), Alarms::default());
+    let mut over = |alarms: &Alarms| {
+        let alarms = alarms.clone();
+        let snapshot = Snapshot { alarms, ..Snapshot::before_anything(at) };
+        teller.look(&snapshot, None, &istanbul()).over
+    };
+    alarms.raise(OF, LOST, time());
+    alarms.raise(OF, AlarmKind::EndedShort, time());
+    assert_eq!(over(&alarms), [0; 0], "what lasts for a moment alone never stood");
+    alarms.clear(OF, time(), |kind| *kind == LOST);
+    assert_eq!(over(&alarms), [0]);
+    assert_eq!(over(&alarms), [0; 0]);
+    alarms.raise(OF, LOST, time());
+    assert_eq!(over(&alarms), [0; 0]);
+    alarms.clear(OF, time(), |_| true);
+    assert_eq!(over(&alarms), [0], "it came again in its row");
 }
 
 #[test]
@@ -145,7 +185,7 @@ fn a_reminder_is_told_once_before_aos() {
             station: Arc::clone(station),
             ..Snapshot::before_anything(at)
         };
-        teller.look(&snapshot, None, &istanbul())
+        teller.look(&snapshot, None, &istanbul()).told
     };
     let mut teller = Teller::default();
     let station = Arc::default();
@@ -166,7 +206,7 @@ fn a_station_that_stands_is_told_once_until_it_goes_on() {
     let (snapshot, stood) = (Snapshot::before_anything(at), Duration::from_secs(2));
     let mut teller = Teller::default();
     let mut told = |stood| {
-        let told = teller.look(&snapshot, stood, &istanbul());
+        let told = teller.look(&snapshot, stood, &istanbul()).told;
         told.into_iter().map(|notice| notice.about).collect::<Vec<_>>()
     };
     assert_eq!(told(None), []);
@@ -181,6 +221,7 @@ fn nothing_silences_the_first_rank() {
     let silent = Notices {
         notifications: false,
         sounds: false,
+        warning_tones: Tones::None,
         quiet: Some(HoursOfDay::NIGHT),
         ..Notices::default()
     };
@@ -190,7 +231,7 @@ fn nothing_silences_the_first_rank() {
         alarms.raise(OF, kind.clone(), time());
         alarms.shelve(0, ShelveTime::EightHours, time());
         let told = look(&mut Teller::default(), &alarms, &silent);
-        let is_told = told.iter().any(|notice| notice.is_shown && notice.is_sounded);
+        let is_told = told.iter().any(|notice| notice.is_shown && notice.tones == Tones::Falling);
         assert_eq!(is_told, kind.priority() == Priority::First, "{kind:?}");
         first += usize::from(is_told);
     }

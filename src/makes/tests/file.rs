@@ -14,9 +14,8 @@ use crate::{
     },
     device::{CountPoint, settings::Value},
     station::{
-        self, AfterPass, Antenna, AntennaId, Entered, HoursOfDay, KeepOut, LoadError, Loaded,
-        Monitor, Mount, Note, NoteReason, Notices, OnClose, Priority, Resume, SaveError, Station,
-        SunAvoidance, TrackSettings, save,
+        self, AfterPass, Antenna, AntennaId, LoadError, Loaded, Monitor, Mount, Note, NoteReason,
+        Priority, Resume, SaveError, Station, TrackSettings, save,
     },
 };
 
@@ -50,45 +49,6 @@ fn a_station_comes_back_as_it_was_saved() {
     assert_eq!(loaded.station, station);
     save(&Station::default(), &path).unwrap();
     assert_eq!(load(&path.with_extension("toml.old")).unwrap().station, station);
-}
-
-#[test]
-fn notices_come_back_as_they_were_saved_and_older_files_have_their_defaults() {
-    let (_folder, path) = written("name = 'Old'");
-    let old = load(&path).unwrap();
-    assert_eq!((old.station.notices, old.notes), (Notices::default(), Vec::new()));
-    let notices = Notices {
-        notifications: false,
-        sounds: false,
-        quiet: Some(HoursOfDay::NIGHT),
-        reminder_min: 7.5,
-        reminders: [25_544, 43_013].into(),
-    };
-    let station = Station { notices, ..Station::default() };
-    save(&station, &path).unwrap();
-    let loaded = load(&path).unwrap();
-    assert_eq!((loaded.station, loaded.notes), (station, Vec::new()));
-    assert!(fs::read_to_string(&path).unwrap().contains("from = \"22:00\""));
-}
-
-#[test]
-fn wrong_notices_are_named_and_make_nothing_quiet() {
-    for (text, place) in [
-        ("sounds = 'off'", "notices.sounds"),
-        ("notifications = 0", "notices.notifications"),
-        ("reminder_min = 0.5", "notices.reminder_min"),
-        ("reminders = ['ISS']", "notices.reminders"),
-        ("sound = false", "notices.sound"),
-        ("quiet = { from = '22:00', to = '22:00' }", "notices.quiet"),
-        ("quiet = { from = '22:00', to = '26:00' }", "notices.quiet.to"),
-        ("quiet = { from = 22, to = '06:00' }", "notices.quiet.from"),
-        ("quiet = true", "notices.quiet"),
-    ] {
-        let (_folder, path) = written(&format!("[notices]\n{text}\n"));
-        let Loaded { station, notes } = load(&path).unwrap();
-        assert_eq!(station.notices, Notices::default(), "{text}");
-        assert_eq!(notes.first().map(|note| &*note.place), Some(place), "{notes:?}");
-    }
 }
 
 #[test]
@@ -373,135 +333,6 @@ fn an_antenna_keeps_its_id_and_no_other_gets_it() {
     assert_eq!(ids, [2, 1, 3, 4, 9]);
     let places: Vec<&str> = notes.iter().map(|note| &*note.place).collect();
     assert_eq!(places, ["antenna[2].id", "antenna[3].id"]);
-}
-
-fn mast() -> KeepOut {
-    KeepOut {
-        name: "mast".to_owned(),
-        reason: "Steel mast, 24 m away".to_owned(),
-        entered: Entered::GoRound,
-        antenna: Some("Satrak".to_owned()),
-        margin_deg: 2.5,
-        zone: KeepOut::zone_of(&[(350.0, 0.0), (350.0, 16.3), (370.1, 24.0), (370.0, -0.2)])
-            .unwrap(),
-    }
-}
-
-#[test]
-fn keep_outs_and_what_is_done_by_itself_come_back_as_they_were_saved() {
-    let mut satrak = Antenna::satrak("Satrak", "h:4001");
-    satrak.monitor = Monitor::Alarm;
-    satrak.resume = Resume::Continue;
-    (satrak.sway_deg, satrak.resume_after_s) = (0.0, 600.0);
-    let cap = KeepOut::zone_of(&[(0.0, 85.0), (180.0, 85.0), (360.0, 85.0)]).unwrap();
-    let overhead = KeepOut {
-        name: "overhead".to_owned(),
-        reason: String::new(),
-        entered: Entered::Warn,
-        antenna: None,
-        margin_deg: 0.0,
-        zone: cap,
-    };
-    let station = Station {
-        antennas: vec![satrak],
-        keep_outs: vec![mast(), overhead],
-        sun_avoidance: Some(SunAvoidance { radius_deg: 2.5, ahead_min: 0.0 }),
-        on_close: Some(OnClose::Park),
-        ..Station::default()
-    };
-    let folder = tempfile::tempdir().unwrap();
-    let path = folder.path().join("station.toml");
-    save(&station, &path).unwrap();
-    let loaded = load(&path).unwrap();
-    assert_eq!(loaded.notes, []);
-    assert_eq!(loaded.station, station);
-    let text = fs::read_to_string(&path).unwrap();
-    for line in ["close = \"park\"", "monitor = \"alarm\"", "resume = true", "sway_deg = 0.0"] {
-        assert!(text.lines().any(|found| found.trim().trim_end_matches(',') == line), "{line}");
-    }
-}
-
-const SATRAK: &str = "[[antenna]]\nname = 'Satrak'\n[antenna.connection]\n\
-                      controller = 'satrak'\naddress = 'h:4001'\n";
-
-#[test]
-fn a_keep_out_that_cannot_be_read_is_said_not_to_hold() {
-    for (corners, expected) in [
-        ("", "it has no corners"),
-        ("corners = 3", "corners must be a list of pairs of azimuth and elevation"),
-        ("corners = [[0, 0, 1]]", "corners must be a list of pairs of azimuth and elevation"),
-        ("corners = [[0, 0], [0, 5]]", "a zone needs at least 3 corners"),
-        (
-            "corners = [[0, 0], [10, 20], [10, 0], [0, 20]]",
-            "edges 1 and 3 cross or touch each other",
-        ),
-    ] {
-        let (_folder, path) = written(&format!(
-            "[[keep_out]]\nname = 'mast'\n{corners}\n[[keep_out]]\nname = 'roof'\n\
-             corners = [[0, 0], [0, 5], [7, 5]]\n{SATRAK}"
-        ));
-        let Loaded { station, notes } = load(&path).unwrap();
-        assert_eq!(station.keep_outs.len(), 1);
-        assert_eq!(station.keep_outs[0].name, "roof");
-        let reason = NoteReason::DoesNotHold { name: "mast".to_owned(), why: expected.to_owned() };
-        assert_eq!(notes, [Note { place: "keep_out[0]".to_owned(), reason }]);
-    }
-    for (text, name) in [
-        ("keep_out = 'mast'", "keep_out"),
-        ("keep_out = ['mast']", "keep_out[0]"),
-        ("sun_avoidance = 5", "Sun avoidance"),
-        ("sun_avoidance = { ahead_min = 5 }", "Sun avoidance"),
-        ("sun_avoidance = { radius_deg = 61 }", "Sun avoidance"),
-    ] {
-        let (_folder, path) = written(text);
-        let Loaded { station, notes } = load(&path).unwrap();
-        assert_eq!((station.keep_outs, station.sun_avoidance), (Vec::new(), None));
-        let held_not = |note: &Note| matches!(&note.reason, NoteReason::DoesNotHold { name: found, .. } if found == name);
-        assert!(notes.iter().any(held_not), "{text}: {notes:?}");
-    }
-}
-
-#[test]
-fn a_keep_out_with_a_wrong_value_holds_all_the_more() {
-    let corners = "corners = [[350, 0], [350, 16.3], [370.1, 24], [370, -0.2]]";
-    let (_folder, path) = written(&format!(
-        "[[keep_out]]\nname = ' '\nentered = 'maybe'\nantenna = 'Nobody'\nmargin_deg = 45\n\
-         margn = 3\n{corners}\n[[keep_out]]\nname = 'mast'\nentered = 'go_round'\n\
-         antenna = 'satrak'\nmargin_deg = 2.5\nreason = 'Steel mast, 24 m away'\n{corners}\n\
-         [[keep_out]]\nname = 'mast'\nmargin_deg = 'x'\n{corners}\n\
-         [sun_avoidance]\nradius_deg = 5\nahead_min = 121\n{SATRAK}"
-    ));
-    let Loaded { station, notes } = load(&path).unwrap();
-    let strict = |name: &str, margin_deg| KeepOut {
-        name: name.to_owned(),
-        reason: String::new(),
-        entered: Entered::Hard,
-        antenna: None,
-        margin_deg,
-        ..mast()
-    };
-    assert_eq!(
-        station.keep_outs,
-        [strict("Keep-out 1", 30.0), mast(), strict("mast 2", KeepOut::DEFAULT_MARGIN_DEG)]
-    );
-    let sun = SunAvoidance { radius_deg: 5.0, ahead_min: SunAvoidance::DEFAULT_AHEAD_MIN };
-    assert_eq!(station.sun_avoidance, Some(sun));
-    let places: Vec<&str> = notes.iter().map(|note| note.place.as_str()).collect();
-    assert_eq!(
-        places,
-        [
-            "sun_avoidance.ahead_min",
-            "keep_out[0].name",
-            "keep_out[0].entered",
-            "keep_out[0].antenna",
-            "keep_out[0].margin_deg",
-            "keep_out[0].margn",
-            "keep_out[2].name",
-            "keep_out[2].margin_deg",
-        ]
-    );
-    assert!(mast().holds_for(" SATRAK") && !mast().holds_for("Genius"));
-    assert!(strict("x", 0.0).holds_for("Genius"));
 }
 
 #[test]

@@ -1,7 +1,7 @@
 //! Reads the settings for notices.
 
 use super::Fields;
-use crate::station::{Notices, ranges};
+use crate::station::{Notices, Tones, ranges};
 
 impl Fields<'_> {
     pub(super) fn notices(&mut self) -> Notices {
@@ -9,6 +9,9 @@ impl Fields<'_> {
         self.inner("notices", |fields| Notices {
             notifications: fields.flag("notifications", default.notifications),
             sounds: fields.flag("sounds", default.sounds),
+            warning_tones: fields.one_of("warning_tones", &Tones::WORDS, default.warning_tones),
+            caution_tones: fields.one_of("caution_tones", &Tones::WORDS, default.caution_tones),
+            reminder_tones: fields.one_of("reminder_tones", &Tones::WORDS, default.reminder_tones),
             quiet: fields.hours("quiet"),
             reminder_min: fields.number(
                 "reminder_min",

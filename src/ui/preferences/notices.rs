@@ -16,7 +16,7 @@ use crate::{
     engine::CatalogState,
     model::{Model, UiCommand},
     orbit::Elements,
-    station::{HoursOfDay, Notices, ranges},
+    station::{HoursOfDay, Notices, Tones, ranges},
     ui::{
         format, text, theme,
         widgets::told::{self, Tone},
@@ -41,6 +41,9 @@ pub(super) struct NoticesDraft {
 struct Telling {
     notifications: bool,
     sounds: bool,
+    warning: Tones,
+    caution: Tones,
+    reminder: Tones,
     is_quiet: bool,
     hours: HoursOfDay,
 }
@@ -55,6 +58,9 @@ impl NoticesDraft {
         let telling = Telling {
             notifications: notices.notifications,
             sounds: notices.sounds,
+            warning: notices.warning_tones,
+            caution: notices.caution_tones,
+            reminder: notices.reminder_tones,
             is_quiet: notices.quiet.is_some(),
             hours: notices.quiet.unwrap_or(HoursOfDay::NIGHT),
         };
@@ -74,6 +80,9 @@ impl NoticesDraft {
         is_right.then(|| Notices {
             notifications: telling.notifications,
             sounds: telling.sounds,
+            warning_tones: telling.warning,
+            caution_tones: telling.caution,
+            reminder_tones: telling.reminder,
             quiet: telling.is_quiet.then_some(telling.hours),
             reminder_min: reminding.before_min,
             reminders: self.reminders.clone(),
@@ -112,9 +121,12 @@ fn telling_fields() -> Vec<Placed<Telling>> {
     let fields = [
         flag("Notifications", |telling| &mut telling.notifications)
             .noted(|_| Some("The desktop shows new alarms and reminders.".to_owned())),
-        flag("Sounds", |telling| &mut telling.sounds).noted(|_| {
-            Some("Two falling tones for an alarm, two rising ones for a reminder.".to_owned())
-        }),
+        flag("Sounds", |telling| &mut telling.sounds),
+        tones("Warnings", |telling| &mut telling.warning)
+            .noted(|_| Some("Alarms that something is wrong now.".to_owned())),
+        tones("Cautions", |telling| &mut telling.caution)
+            .noted(|_| Some("Alarms that something was not done or will go wrong.".to_owned())),
+        tones("Reminders of passes", |telling| &mut telling.reminder),
         flag("Quiet hours", |telling| &mut telling.is_quiet).noted(|_| {
             let words = "No notifications and no sounds then. What is shown in the window stays.";
             Some(words.to_owned())
@@ -140,6 +152,12 @@ fn reminding_fields() -> Vec<Placed<Reminding>> {
     placed(REMINDING, [before])
 }
 
+fn tones(label: &'static str, place: fn(&mut Telling) -> &mut Tones) -> Description<Telling> {
+    const WORDS: [(i64, &str); 3] = [(0, "Falling"), (1, "Rising"), (2, "None")];
+    const VALUES: [Tones; 3] = [Tones::Falling, Tones::Rising, Tones::None];
+    Description::choice(label, &WORDS, &VALUES, place).when(|telling: &Telling| telling.sounds)
+}
+
 fn flag(label: &'static str, place: fn(&mut Telling) -> &mut bool) -> Description<Telling> {
     Description::new(
         label,
@@ -155,7 +173,7 @@ fn flag(label: &'static str, place: fn(&mut Telling) -> &mut bool) -> Descriptio
 }
 
 /// Cards of the page with the numbers of their rows.
-pub(super) const CARDS: [usize; 3] = [8, 4, 8];
+pub(super) const CARDS: [usize; 3] = [13, 4, 8];
 
 pub(super) fn card_of(
     ui: &mut Ui,
@@ -182,13 +200,16 @@ fn telling(
     let telling = &mut draft.notices.telling;
     let standings = telling.read().1;
     form::section(ui, "telling", (telling, &standings), TELLING, sought, |ui| {
-        for words in words::missing_outlets(&model.outlets) {
-            told::line(ui, Tone::Caution, &words);
+        for missing in words::missing_outlets(&model.outlets) {
+            told::line(ui, Tone::Caution, &missing.words);
+            if let Some(raw) = missing.raw {
+                note(ui, &format!("The answer of the system: {raw}"));
+            }
         }
         ui.add_space(4.0);
         ui.horizontal(|ui| {
             for (word, sound) in
-                [("Try an alarm", Sound::Alarm), ("Try a reminder", Sound::Reminder)]
+                [("Try falling tones", Sound::Falling), ("Try rising tones", Sound::Rising)]
             {
                 if ui.button(word).clicked() {
                     commands.push(UiCommand::TryNotice(sound));

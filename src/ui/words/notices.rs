@@ -5,7 +5,7 @@ use jiff::Timestamp;
 use super::{alarm, alarm_times};
 use crate::{
     astro::time::seconds_between,
-    desktop::{Outlets, Sound},
+    desktop::{Missing, Outlets, Sound},
     engine::{
         Snapshot, alarms::AlarmKind, antenna::AntennaModel, notices::About, reminders::Reminder,
     },
@@ -45,20 +45,60 @@ pub fn reminder(of: &Reminder, antennas: &[AntennaModel], now: Timestamp) -> Str
 /// Title and text of a notification with which the operator tries the desktop.
 pub fn trial(sound: Sound) -> (String, String) {
     let text = match sound {
-        Sound::Alarm => "This is how a new alarm is told.",
-        Sound::Reminder => "This is how a reminder is told.",
+        Sound::Falling => "This is how falling tones sound.",
+        Sound::Rising => "This is how rising tones sound.",
     };
     ("Azel".to_owned(), text.to_owned())
 }
 
 /// What the desktop does not do, in sentences.
-pub fn missing_outlets(outlets: &Outlets) -> Vec<String> {
-    let notifications = outlets.notifications.as_ref().map(|why| {
-        format!("Nothing is shown by the desktop: {why}. It is tried again with each alarm.")
-    });
-    let sounds = outlets
-        .sounds
-        .as_ref()
-        .map(|why| format!("Nothing is sounded: {why}. It is tried again with each alarm."));
+pub fn missing_outlets(outlets: &Outlets) -> Vec<MissingOutlet> {
+    let of = |what, missing: &Option<Missing>| {
+        let missing = missing.as_ref()?;
+        let (why, cure) = why_and_cure(missing);
+        Some(MissingOutlet { words: format!("{what}: {why}. {cure}"), raw: raw(missing) })
+    };
+    let notifications = of("The desktop shows no notifications", &outlets.notifications);
+    let sounds = of("There is no sound", &outlets.sounds);
     notifications.into_iter().chain(sounds).collect()
+}
+
+/// What is not told through the desktop.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct MissingOutlet {
+    /// What, why, and what to do.
+    pub words: String,
+    /// The answer of the system, as it came.
+    pub raw: Option<String>,
+}
+
+fn why_and_cure(missing: &Missing) -> (&'static str, String) {
+    match missing {
+        Missing::Bus(_) => (
+            "Azel does not run in a desktop session",
+            "Start it from the desktop, not over a remote shell or as another user.".to_owned(),
+        ),
+        Missing::Service(_) => (
+            "no program of the desktop takes them",
+            "Start one, such as dunst or mako. The next alarm tries it again.".to_owned(),
+        ),
+        Missing::Player(names) => {
+            ("no player of sounds is installed", format!("Install one of {names}."))
+        }
+        Missing::NotPlayed(_) => (
+            "the player failed",
+            "Check the sound output of this computer. The next alarm tries it again.".to_owned(),
+        ),
+        Missing::Elsewhere => (
+            "Azel has none on this operating system",
+            "The list of alarms in the window has everything.".to_owned(),
+        ),
+    }
+}
+
+fn raw(missing: &Missing) -> Option<String> {
+    match missing {
+        Missing::Bus(raw) | Missing::Service(raw) | Missing::NotPlayed(raw) => Some(raw.clone()),
+        Missing::Player(_) | Missing::Elsewhere => None,
+    }
 }

@@ -1,0 +1,55 @@
+//! The file manager of the desktop.
+
+use std::{
+    io,
+    path::Path,
+    process::{Command, ExitStatus, Stdio},
+};
+
+/// Why a folder was not opened.
+#[derive(Debug, thiserror::Error)]
+pub enum NotOpened {
+    #[error("{PROGRAM} cannot be started: {0}")]
+    NoProgram(io::Error),
+    #[error("{PROGRAM} failed: {0}")]
+    Failed(ExitStatus),
+}
+
+#[cfg(target_os = "macos")]
+const PROGRAM: &str = "open";
+#[cfg(windows)]
+const PROGRAM: &str = "explorer";
+#[cfg(not(any(target_os = "macos", windows)))]
+const PROGRAM: &str = "xdg-open";
+
+/// Shows `folder` in the file manager. Waits for the program that finds it: for threads that
+/// nobody waits for.
+pub fn open(folder: &Path) -> Result<(), NotOpened> {
+    open_with(PROGRAM, folder)
+}
+
+fn open_with(program: &str, folder: &Path) -> Result<(), NotOpened> {
+    let status = Command::new(program)
+        .arg(folder)
+        .stdin(Stdio::null())
+        .stdout(Stdio::null())
+        .stderr(Stdio::null())
+        .status()
+        .map_err(NotOpened::NoProgram)?;
+    // The program of Windows fails whatever it does.
+    if status.success() || cfg!(windows) { Ok(()) } else { Err(NotOpened::Failed(status)) }
+}
+
+#[cfg(unix)]
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_program_that_fails_or_is_not_there_is_told() {
+        assert!(open_with("true", Path::new("/")).is_ok());
+        assert!(matches!(open_with("false", Path::new("/")), Err(NotOpened::Failed(_))));
+        let none = open_with("/no/such/program", Path::new("/"));
+        assert!(matches!(none, Err(NotOpened::NoProgram(_))));
+    }
+}
