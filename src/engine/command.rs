@@ -8,9 +8,10 @@ use serde::{Deserialize, Serialize};
 use super::{
     alarms::ShelveTime,
     closing::CloseHow,
+    older_sets::SetChoice,
     passes::{ListChoice, PassKey, Scope},
     source_tests::TestAsk,
-    sources::{Copied, SetChoice},
+    sources::Copied,
     uploads, written,
 };
 use crate::{

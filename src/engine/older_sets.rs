@@ -1,13 +1,15 @@
-//! The older sets of the object that a client looks at, read from the library.
+//! The older sets of the object that a client looks at, read from the library, and those in use.
 
-use std::sync::Arc;
+use std::{path::Path, sync::Arc};
 
+use jiff::Timestamp;
 use serde::{Deserialize, Serialize};
 
 use super::Engine;
 use crate::{
     job::Job,
-    library::{History, OlderSet},
+    library::{Exceptions, History, OlderSet},
+    orbit::Catalog,
 };
 
 /// The older sets of one object.
@@ -16,6 +18,15 @@ pub struct OlderSets {
     pub catalog_number: u32,
     /// The newest first.
     pub sets: Vec<OlderSet>,
+}
+
+/// The set of elements that an object is to have.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+pub enum SetChoice {
+    /// The held set with this epoch, until one comes that is newer than all held.
+    Older { catalog_number: u32, epoch: Timestamp },
+    /// The newest set, as all objects have without a choice.
+    Newest { catalog_number: u32 },
 }
 
 /// The reading of older sets.
@@ -50,4 +61,37 @@ impl Engine {
             self.older_sets = Some(Arc::new(sets));
         }
     }
+}
+
+/// Takes `choice` into the library, and puts the older sets that the operator uses into `catalog`.
+pub(super) fn use_older_sets(
+    folder: &Path,
+    choice: Option<SetChoice>,
+    catalog: &mut Catalog,
+) -> Result<(), String> {
+    let mut exceptions = Exceptions::load(folder);
+    let ended = exceptions.forget_ended(catalog);
+    let chosen = choice.map_or(Ok(()), |choice| choose(choice, &mut exceptions, folder, catalog));
+    exceptions.apply(catalog);
+    chosen?;
+    ended.map_err(|error| format!("the older sets in use are not kept: {error}"))
+}
+
+fn choose(
+    choice: SetChoice,
+    exceptions: &mut Exceptions,
+    folder: &Path,
+    catalog: &Catalog,
+) -> Result<(), String> {
+    let kept = match choice {
+        SetChoice::Older { catalog_number, epoch } => {
+            let gone = || format!("{catalog_number}: the chosen set is not held any more");
+            let newest = catalog.get(catalog_number).ok_or_else(gone)?.epoch();
+            let held = History::beside(folder).of(catalog_number);
+            let set = held.into_iter().find(|set| set.elements.epoch() == epoch);
+            exceptions.begin(set.ok_or_else(gone)?, newest)
+        }
+        SetChoice::Newest { catalog_number } => exceptions.end(catalog_number),
+    };
+    kept.map_err(|error| format!("the choice of a set is not kept: {error}"))
 }

@@ -9,12 +9,13 @@ use std::{
 use jiff::Timestamp;
 use serde::{Deserialize, Serialize};
 
+use super::older_sets::{SetChoice, use_older_sets};
 use crate::job::Job;
 use crate::{
     job::Wake,
     library::{
-        self, Exceptions, History, IndexError, Library, Limits, OlderSet, check_source,
-        load_sources, read_element_file, save_sources,
+        self, History, IndexError, Library, Limits, OlderSet, check_source, load_sources,
+        read_element_file, save_sources,
     },
     orbit::{Catalog, Source, SourcePlace, SourceReport, bundled},
     whole_file,
@@ -100,15 +101,6 @@ pub enum Copied {
     Text(String),
 }
 
-/// The set of elements that an object is to have.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
-pub enum SetChoice {
-    /// The held set with this epoch, until one comes that is newer than all held.
-    Older { catalog_number: u32, epoch: Timestamp },
-    /// The newest set, as all objects have without a choice.
-    Newest { catalog_number: u32 },
-}
-
 /// Work to do before everything is read anew.
 #[derive(Debug, Default)]
 pub(super) struct Task {
@@ -143,7 +135,9 @@ pub(super) fn start(
     let places = places.clone();
     Job::start("azel-elements", wake, move |cancelled| {
         let mut outcome = carry_out(&places, &task, now, cancelled);
-        if let Err(problem) = use_older_sets(&places, task.set, &mut outcome.catalog) {
+        if let Some(folder) = places.library()
+            && let Err(problem) = use_older_sets(folder, task.set, &mut outcome.catalog)
+        {
             outcome.sources.problem = Some(problem);
         }
         keep_superseded(&places, &mut outcome.catalog, in_use.as_deref());
@@ -177,40 +171,6 @@ fn with_copy(places: &Places, name: &str, from: &Copied) -> Result<Vec<Source>, 
         .map_err(|error| format!("the elements were not copied: {error}: {}", file.display()))?;
     list.push(source);
     Ok(list)
-}
-
-/// Takes `choice` into the library, and puts the older sets that the operator uses into `catalog`.
-fn use_older_sets(
-    places: &Places,
-    choice: Option<SetChoice>,
-    catalog: &mut Catalog,
-) -> Result<(), String> {
-    let Some(folder) = places.library.as_deref() else { return Ok(()) };
-    let mut exceptions = Exceptions::load(folder);
-    let ended = exceptions.forget_ended(catalog);
-    let chosen = choice.map_or(Ok(()), |choice| choose(choice, &mut exceptions, folder, catalog));
-    exceptions.apply(catalog);
-    chosen?;
-    ended.map_err(|error| format!("the older sets in use are not kept: {error}"))
-}
-
-fn choose(
-    choice: SetChoice,
-    exceptions: &mut Exceptions,
-    folder: &Path,
-    catalog: &Catalog,
-) -> Result<(), String> {
-    let kept = match choice {
-        SetChoice::Older { catalog_number, epoch } => {
-            let gone = || format!("{catalog_number}: the chosen set is not held any more");
-            let newest = catalog.get(catalog_number).ok_or_else(gone)?.epoch();
-            let held = History::beside(folder).of(catalog_number);
-            let set = held.into_iter().find(|set| set.elements.epoch() == epoch);
-            exceptions.begin(set.ok_or_else(gone)?, newest)
-        }
-        SetChoice::Newest { catalog_number } => exceptions.end(catalog_number),
-    };
-    kept.map_err(|error| format!("the choice of a set is not kept: {error}"))
 }
 
 /// Keeps the sets that are not in use, and those of `before` that newer ones replaced, in the

@@ -1,11 +1,7 @@
 //! The catalog as a table: which objects it shows and in which order, and their next passes.
 //! Worked out on a thread, when something it depends on has changed.
 
-use std::{
-    cmp::Ordering,
-    collections::{BTreeSet, HashMap},
-    sync::Arc,
-};
+use std::{cmp::Ordering, collections::HashMap, sync::Arc};
 
 use jiff::Timestamp;
 use rayon::prelude::*;
@@ -216,10 +212,7 @@ pub fn arrange(inputs: Inputs, now: Timestamp) -> Answer {
         }
         Among::Group(group) => catalog.in_group(group).collect(),
         Among::Own(name) => {
-            let groups = station.groups.iter().filter(|group| group.name == *name);
-            let numbers: BTreeSet<u32> =
-                groups.flat_map(|group| &group.satellites).copied().collect();
-            numbers.into_iter().filter_map(|number| catalog.get(number)).collect()
+            station.in_groups(name).into_iter().filter_map(|number| catalog.get(number)).collect()
         }
         Among::Old => catalog.iter().filter(is_old).collect(),
     };

@@ -1,5 +1,7 @@
 //! The groups of the catalog, of which one is shown, with the choice of columns and the export.
 
+use std::collections::BTreeSet;
+
 use egui::{
     Align2, Color32, Popup, PopupCloseBehavior, Rect, Role, Stroke, StrokeKind, Ui, WidgetInfo,
     pos2, vec2,
@@ -145,9 +147,11 @@ fn chips(model: &Model) -> Vec<(Among, usize)> {
     chips.extend(groups);
     let old = table::shown(model).map_or(0, |answer| answer.old);
     chips.push((Among::Old, old));
-    chips.extend(model.station.groups.iter().map(|group| {
-        let held = group.satellites.iter().filter(|number| catalog.get(**number).is_some());
-        (Among::Own(group.name.clone()), held.count())
+    // A station file may have two groups of one name.
+    let names: BTreeSet<&String> = model.station.groups.iter().map(|group| &group.name).collect();
+    chips.extend(names.into_iter().map(|name| {
+        let own = model.station.in_groups(name).into_iter();
+        (Among::Own(name.clone()), own.filter(|number| catalog.get(*number).is_some()).count())
     }));
     chips
 }

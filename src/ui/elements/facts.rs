@@ -36,7 +36,7 @@ pub(super) fn show(ui: &Ui, rect: Rect, model: &Model, elements: &Elements, cata
     let from = catalog.source_of(number).unwrap_or_default();
     let room = title.with_min_x(title.left() + 120.0);
     if catalog.set_aside(number).is_some() {
-        let words = format!("{from}, older set by choice");
+        let words = format!("older set, {from}");
         let drawn = paint::text_in(ui, room, Align2::RIGHT_CENTER, &words, text::small(), t.warn);
         let at = pos2(drawn.left() - 11.0, drawn.center().y);
         icons::paint(ui.painter(), paint::square(at, 12.0), Icon::Warning, t.warn);

@@ -8,7 +8,7 @@ use super::{
     words::{self, Form},
 };
 use crate::{
-    engine::{Command, sources::SetChoice},
+    engine::{Command, older_sets::SetChoice},
     library::OlderSet,
     model::{
         Model, UiCommand,
@@ -112,7 +112,7 @@ impl Menu<'_> {
         let off_now = match shift.late_s {
             Some(late_s) => {
                 let way = if late_s < 0.0 { "earlier" } else { "later" };
-                let time = format::number(late_s.abs(), 2);
+                let time = format::number(late_s.abs(), sets::time_decimals(late_s));
                 format!("it puts the satellite {time} s {way} and up to {angle} away")
             }
             None => format!("it puts the satellite up to {angle} away, and has no such pass"),

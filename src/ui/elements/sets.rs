@@ -110,9 +110,11 @@ fn aside(
     let button = Button::normal("Use the newest").locked(!menu.model.sources.is_free());
     let size = vec2(button.width(ui), SMALL_HEIGHT);
     let place = Rect::from_center_size(line.right_center() - vec2(size.x / 2.0, 0.0), size);
-    let words = format!("Not in use: the newest, {}", epoch(newest.epoch()));
+    let newest_epoch = epoch(newest.epoch());
     let room = line.with_max_x(place.left() - 8.0);
+    let words = format!("Newest: {newest_epoch}");
     paint::text_in(ui, room, Align2::LEFT_CENTER, &words, text::small(), t.warn);
+    let words = format!("Not in use: the newest, {newest_epoch}");
     paint::name_text(ui, "set aside", room, &words).on_hover_text(&words);
     if button.show(ui, "use the newest set", place).clicked() {
         *question = Some(menu.ask(newest.epoch()));
@@ -127,13 +129,9 @@ fn one(ui: &Ui, row: Rect, index: usize, shift: &SetShift, half_beam_deg: Option
         .off
         .zip(half_beam_deg)
         .is_some_and(|(off, half_beam_deg)| off.degrees() > half_beam_deg);
-    let time = shift.late_s.map_or_else(
-        || "–".to_owned(),
-        |late_s| {
-            // Parts of a second say nothing about a set that is minutes away.
-            format::signed(late_s, if late_s.abs() < 100.0 { 2 } else { 0 })
-        },
-    );
+    let time = shift
+        .late_s
+        .map_or_else(|| "–".to_owned(), |late_s| format::signed(late_s, time_decimals(late_s)));
     let angle = shift.off.map_or_else(|| "–".to_owned(), |off| format::number(off.degrees(), 2));
     let colour = if is_outside { t.bad } else { t.t1 };
     let when = epoch(set.elements.epoch());
@@ -150,8 +148,10 @@ fn one(ui: &Ui, row: Rect, index: usize, shift: &SetShift, half_beam_deg: Option
     let against = match (shift.late_s, shift.off) {
         (Some(late_s), Some(off)) => {
             let way = if late_s < 0.0 { "early" } else { "late" };
-            let (time, angle) =
-                (format::number(late_s.abs(), 2), format::degrees(off.degrees(), 2));
+            let (time, angle) = (
+                format::number(late_s.abs(), time_decimals(late_s)),
+                format::degrees(off.degrees(), 2),
+            );
             format!("{time} s {way}, {angle}{beam}")
         }
         (None, Some(off)) => {
@@ -163,6 +163,11 @@ fn one(ui: &Ui, row: Rect, index: usize, shift: &SetShift, half_beam_deg: Option
     response.widget_info(|| WidgetInfo::labeled(Role::Button, true, &words));
     paint::focus_ring(ui, &response, 3);
     response.on_hover_text(&words)
+}
+
+/// Parts of a second say nothing about a set that is minutes away.
+pub(super) fn time_decimals(late_s: f64) -> usize {
+    if late_s.abs() < 100.0 { 2 } else { 0 }
 }
 
 /// Day and minute of an epoch.

@@ -261,8 +261,8 @@ fn columns_are_chosen_and_ordered_and_a_hidden_one_sorts_no_more() {
     click(&mut window, "Columns");
     window.get_by_role_and_label(Role::CheckBox, "Period").click();
     settle(&mut window);
-    click(&mut window, "Later: number");
-    click(&mut window, "Later: number");
+    click(&mut window, "Right: number");
+    click(&mut window, "Right: number");
     let shown = heads(&window);
     assert_eq!(
         shown[..5],

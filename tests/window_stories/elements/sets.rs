@@ -5,8 +5,8 @@ use std::sync::Arc;
 use azel::{
     engine::{
         self, CatalogState,
-        older_sets::OlderSets,
-        sources::{SetChoice, SourceWork, Sources},
+        older_sets::{OlderSets, SetChoice},
+        sources::{SourceWork, Sources},
     },
     library::OlderSet,
     model::{Model, UiCommand},
@@ -99,7 +99,7 @@ fn while_an_older_set_is_in_use_it_is_told_and_the_newest_is_one_click_away() {
         detail(&mut window, size);
         hold(&mut window, newest);
         asked(&mut window);
-        assert!(says(&window, "weather, older set by choice"));
+        assert!(says(&window, "older set, weather"));
         assert!(says(&window, "Not in use: the newest, "));
         click(&mut window, "Use the newest");
         assert_eq!(asked(&mut window), []);

@@ -1,0 +1,173 @@
+use super::*;
+use crate::{
+    engine::passes::{ListedSatellite, Observer, PassList as Listed},
+    makes::DemoAddresses,
+    orbit::{Propagator, bundled, passes, read_elements},
+    plan::schedule::{Class, Entry, PassKey as Key, Schedule, Why},
+    station::{AntennaId, Frequency, Priority},
+};
+
+const ISS: u32 = 25_544;
+
+fn order(export: impl Fn(&[PredictedPass]) -> Export) -> Order {
+    let catalog = bundled().unwrap();
+    let elements = catalog.get(ISS).unwrap().clone();
+    let now = elements.epoch();
+    let frequencies = vec![Frequency { satellite: ISS, mhz: 145.8, name: String::new() }];
+    let demo = Station::demo(&DemoAddresses::default());
+    let station = Station { frequencies, antennas: demo.antennas, ..Station::default() };
+    let observer = Arc::new(Observer::of(&station));
+    let propagator = Propagator::new(&elements).unwrap();
+    let satellite = Arc::new(ListedSatellite { elements, propagator });
+    let to = now + jiff::SignedDuration::from_hours(24);
+    let search = PassSearch::new(station.site, now, to);
+    let found = passes(&satellite.propagator, &search, &|| false).into_iter();
+    let listed =
+        found.map(|pass| PredictedPass::new(Arc::clone(&satellite), pass, Arc::clone(&observer)));
+    let listed: Vec<_> = listed.collect();
+    let export = export(&listed);
+    let favourites = Listed {
+        satellites: vec![satellite].into(),
+        passes: Arc::new(listed),
+        ..Listed::default()
+    };
+    let lists = PassLists { favourites, ..PassLists::default() };
+    let planned = schedule(&lists, station.antennas[0].id);
+    let schedule = Arc::new(Planned { until: Some(to), ..planned });
+    let (catalog, station) = (CatalogState::Ready(Arc::new(catalog)), Arc::new(station));
+    Order { export, catalog, lists, schedule, station, span_h: 24, now }
+}
+
+/// The first pass of the lists is taken, the second is not.
+fn schedule(lists: &PassLists, antenna: AntennaId) -> Planned {
+    let [taken, left_out, ..] = &lists.favourites.passes[..] else { panic!("two passes") };
+    let key = |of: &PredictedPass| Key { satellite: of.number(), aos: of.pass.aos.time };
+    let entry = Entry {
+        pass: key(taken),
+        antenna,
+        class: Class::Priority(Priority::default()),
+        from: taken.pass.aos.time,
+        to: taken.pass.los.time,
+        late_s: 0.0,
+        early_s: 0.0,
+        counted_s: taken.pass.duration_s(),
+        worth: 1,
+        lost: None,
+        axes_deg: [[0.0; 2]; 2],
+        after: None,
+        slew_s: 12.0,
+        set_up_s: 10.0,
+        spare_s: None,
+        shared_with: None,
+        is_fixed: false,
+    };
+    let why = Why::TooFar;
+    let left_out = LeftOut { pass: key(left_out), why, by_antenna: vec![] };
+    let schedule =
+        Schedule { entries: vec![entry], left_out: vec![left_out], ..Schedule::default() };
+    Planned { schedule, ..Planned::default() }
+}
+
+fn lines(order: &Order) -> Vec<String> {
+    let text = String::from_utf8(order.text().unwrap().0).unwrap();
+    text.lines().map(str::to_owned).collect()
+}
+
+#[test]
+fn the_wanted_passes_are_written_in_each_form() {
+    let of = |format| {
+        order(|listed| {
+            let keys = listed.iter().skip(1).map(PredictedPass::key).collect();
+            Export::Passes { keys, format }
+        })
+    };
+    let csv = of(PassFormat::Csv);
+    let wanted = csv.lists.favourites.passes.len() - 1;
+    assert!(wanted > 2 && lines(&csv).len() == wanted + 1, "{:?}", lines(&csv));
+    let json: Vec<serde_json::Value> =
+        serde_json::from_str(&lines(&of(PassFormat::Json)).join("\n")).unwrap();
+    assert_eq!(json.len(), wanted);
+    let calendar = lines(&of(PassFormat::Ics));
+    let events = calendar.iter().filter(|line| *line == "BEGIN:VEVENT");
+    assert_eq!(events.count(), wanted);
+    let place = format!("LOCATION:{}", csv.station.name);
+    assert!(calendar.contains(&place), "{calendar:#?}");
+    assert!(csv.name().starts_with("passes-20") && csv.name().ends_with("Z.csv"));
+}
+
+#[test]
+fn elements_are_written_in_each_form_and_what_a_tle_cannot_carry_is_counted() {
+    const BEYOND: u32 = 799_501_204;
+    let of = |form, numbers: &[u32]| {
+        let numbers: Arc<[u32]> = numbers.into();
+        let mut order = order(|_| Export::Elements { numbers: Arc::clone(&numbers), form });
+        let CatalogState::Ready(catalog) = &mut order.catalog else { unreachable!() };
+        let iss = String::from_utf8({
+            let mut text = Vec::new();
+            write_omm_json([catalog.get(ISS).unwrap()], &mut text).unwrap();
+            text
+        });
+        let beyond = iss.unwrap().replace("25544", &BEYOND.to_string());
+        Arc::make_mut(catalog).merge(read_elements(&beyond), "own");
+        order
+    };
+    for form in [ElementForm::Tle, ElementForm::OmmJson, ElementForm::OmmCsv] {
+        let order = of(form, &[ISS, BEYOND, 43_013]);
+        let (text, left_out) = order.text().unwrap();
+        let read = crate::orbit::read_element_bytes(&text).elements;
+        let is_tle = form == ElementForm::Tle;
+        assert_eq!((read.len(), left_out), if is_tle { (2, 1) } else { (3, 0) }, "{form:?}");
+        assert!(read.iter().any(|elements| elements.catalog_number() == ISS));
+        assert!(order.name().starts_with("elements-20"), "{}", order.name());
+    }
+    let none = "a TLE can carry none of these objects".to_owned();
+    assert_eq!(of(ElementForm::Tle, &[BEYOND]).text(), Err(none));
+}
+
+#[test]
+fn look_angles_go_from_aos_to_los_second_by_second() {
+    let order = order(|listed| Export::Looks { pass: listed[0].key(), format: LookFormat::Csv });
+    let pass = &order.lists.favourites.passes[0].pass;
+    let rows = lines(&order);
+    assert_eq!(rows.len(), pass.duration_s() as usize + 2);
+    assert!(rows[0].ends_with("doppler_hz"), "{}", rows[0]);
+    let azimuth_deg: f64 = rows[1].split(',').nth(1).unwrap().parse().unwrap();
+    assert!((azimuth_deg - pass.aos.direction.azimuth_deg()).abs() < 1e-3);
+    assert!(order.name().starts_with("look-25544-20"), "{}", order.name());
+}
+
+#[test]
+fn the_plan_is_written_with_names_and_reasons() {
+    let of = |format| order(|_| Export::Schedule { format });
+    let csv = of(ScheduleFormat::Csv);
+    let rows = lines(&csv);
+    assert_eq!(rows.len(), 3, "{rows:#?}");
+    let antenna = &csv.station.antennas[0].name;
+    assert!(rows[1].starts_with(&format!("taken,{antenna},25544,ISS")), "{}", rows[1]);
+    let reason = "The antenna cannot be there in time from where it stands";
+    assert!(rows[2].contains("ISS") && rows[2].ends_with(reason), "{}", rows[2]);
+    let calendar = lines(&of(ScheduleFormat::Ics));
+    assert_eq!(calendar.iter().filter(|line| *line == "BEGIN:VEVENT").count(), 1);
+    assert!(csv.name().starts_with("plan-20") && csv.name().ends_with("Z.csv"));
+}
+
+#[test]
+fn the_window_and_the_command_line_write_one_hand_over_sheet() {
+    let window = order(|_| Export::HandOverSheet);
+    let catalog = bundled().unwrap();
+    let satellite = Satellite::new(catalog.get(ISS).unwrap().clone()).unwrap();
+    let satellites = BTreeMap::from([(ISS, (&satellite.elements, &satellite.propagator))]);
+    let span = (window.now, window.now + jiff::SignedDuration::from_hours(24));
+    let schedule = &window.schedule.schedule;
+    let sheet = HandOverSheet::new(&window.station, schedule, &satellites, span, window.now);
+    assert_eq!(lines(&window), sheet.svg().lines().collect::<Vec<_>>());
+    assert!(lines(&window).iter().any(|line| line.contains(">1 pass<")));
+    assert!(window.name().starts_with("hand-over-20") && window.name().ends_with("Z.svg"));
+}
+
+#[test]
+fn a_pass_that_has_left_the_list_is_told() {
+    let gone =
+        order(|_| Export::Looks { pass: (ISS, Timestamp::UNIX_EPOCH), format: LookFormat::Json });
+    assert_eq!(gone.text(), Err("the pass is not in the list any more".to_owned()));
+}
