@@ -1,5 +1,7 @@
 //! Wide and high windows use their room: two cards, a lane for each antenna, more hours.
 
+use std::collections::BTreeSet;
+
 use azel::{
     driver::{Command, Intent},
     engine,
@@ -12,7 +14,7 @@ use egui_kittest::kittest::{NodeT as _, Queryable as _};
 use crate::window_stories::{
     makes,
     rig::{self, LARGE, NOAA_20, Window, asked, says, settle},
-    states,
+    settings_rig, states,
 };
 
 const WIDE: [[f32; 2]; 2] = [[1920.0, 1080.0], [2560.0, 1440.0]];
@@ -118,4 +120,19 @@ fn a_jog_of_the_second_card_ends_with_its_view() {
     let commands = asked(&mut window);
     let ends = UiCommand::antenna(AntennaId(2), Command::EndJog);
     assert_eq!(commands.iter().filter(|command| **command == ends).count(), 1, "{commands:?}");
+}
+
+#[test]
+fn the_settings_of_a_unit_stand_in_as_many_columns_as_have_room() {
+    for (width, wanted) in [(1024.0, 1), (1440.0, 2), (1920.0, 2), (2560.0, 3)] {
+        let window = settings_rig::opened([width, 1440.0], settings_rig::read());
+        let cards = ["General", "GPS", "Tracking window", "Clock", "Service"];
+        let lefts = cards.map(|card| {
+            let card = window.get_by_role_and_label(Role::Group, card).rect();
+            assert!(card.right() <= width, "{width} {card:?}");
+            card.left().round() as i32
+        });
+        let columns: BTreeSet<i32> = lefts.into_iter().collect();
+        assert_eq!(columns.len(), wanted, "{width}");
+    }
 }

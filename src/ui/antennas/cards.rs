@@ -1,4 +1,4 @@
-//! Cards of a unit, in one column or two.
+//! Cards of a unit, in up to three columns.
 
 pub(super) mod service;
 
@@ -50,16 +50,14 @@ pub(super) fn show(
         return row::note(ui, Some(Icon::Info), NONE, theme::tokens(ui).t2);
     }
     let least = row::MIN_WIDTH + 2.0 * f32::from(PADDING) + 2.0;
-    let half = (room - GAP) / 2.0;
-    if half < least {
-        column(ui, room.min(WIDEST), unit, form, &all, (&mut *scroll_to, effects));
-        return;
-    }
-    let (left, right) = columns(&all);
+    let fitting = ((room + GAP) / (least + GAP)) as usize;
+    let columns = columns(&all, fitting);
+    let count = columns.len() as f32;
+    let width = ((room - GAP * (count - 1.0)) / count).min(WIDEST);
     ui.horizontal_top(|ui| {
         ui.spacing_mut().item_spacing.x = GAP;
-        for sections in [left.as_slice(), &right] {
-            let size = vec2(half.min(WIDEST), 0.0);
+        for sections in &columns {
+            let size = vec2(width, 0.0);
             ui.allocate_ui_with_layout(size, Layout::top_down(Align::Min), |ui| {
                 ui.spacing_mut().item_spacing.x = 8.0;
                 column(ui, size.x, unit, form, sections, (&mut *scroll_to, &mut *effects));
@@ -68,15 +66,25 @@ pub(super) fn show(
     });
 }
 
-/// Splits the cards into two columns.
-fn columns(all: &[Section]) -> (Vec<Section>, Vec<Section>) {
+/// Splits the cards into columns, of which at most `fitting` have room. The third one takes the
+/// lower cards of the left one.
+fn columns(all: &[Section], fitting: usize) -> Vec<Vec<Section>> {
+    if fitting < 2 {
+        return vec![all.to_vec()];
+    }
     let places = all.iter().enumerate().map(|(place, section)| {
         let turn = if place % 2 == 0 { Column::Left } else { Column::Right };
         (section.column.unwrap_or(turn), *section)
     });
     let (left, right): (Vec<_>, Vec<_>) = places.partition(|(column, _)| *column == Column::Left);
-    let sections = |column: Vec<(Column, Section)>| column.into_iter().map(|(_, of)| of).collect();
-    (sections(left), sections(right))
+    let sections =
+        |column: Vec<(Column, Section)>| column.into_iter().map(|(_, of)| of).collect::<Vec<_>>();
+    let (mut left, right) = (sections(left), sections(right));
+    if fitting < 3 || left.len() < 2 {
+        return vec![left, right];
+    }
+    let lower = left.split_off(left.len().div_ceil(2));
+    vec![left, lower, right]
 }
 
 fn column(
