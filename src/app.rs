@@ -9,6 +9,7 @@ mod catalog_table;
 mod change;
 mod effects;
 mod export;
+mod folder;
 mod intake;
 mod known;
 mod log_file;
@@ -32,6 +33,7 @@ use self::{
     change::{Change, FileDialog},
     effects::EffectsJobs,
     export::ExportWork,
+    folder::FolderWork,
     intake::IntakeWork,
     known::KnownWork,
     log_file::LogWork,
@@ -71,6 +73,7 @@ pub struct App {
     effects_jobs: EffectsJobs,
     catalog_work: CatalogWork,
     export_work: ExportWork,
+    folder_work: FolderWork,
     intake_work: IntakeWork,
     log_work: LogWork,
     mask_work: MaskWork,
@@ -136,6 +139,7 @@ impl App {
             effects_jobs: EffectsJobs::default(),
             catalog_work: CatalogWork::default(),
             export_work: ExportWork::default(),
+            folder_work: FolderWork::default(),
             intake_work: IntakeWork::default(),
             log_work,
             mask_work,
@@ -209,6 +213,7 @@ impl App {
         }
         self.look();
         self.take_export();
+        self.take_folder();
         self.take_log_file();
         self.take_mask_file();
         self.work_on_effects();

@@ -33,7 +33,7 @@ pub use self::{
 };
 use self::{
     catalog_table::CatalogTable,
-    effects::{Effects, mounts, obstacles},
+    effects::{Effects, mounts, obstacles, sites},
     globe::Globe,
     intake::Intake,
 };
@@ -104,6 +104,8 @@ pub struct Model {
     pub time_sync: TimeSync,
     /// The station as saved.
     pub station: Arc<Station>,
+    /// When its file was written last; `None` for the demo station.
+    pub station_saved_at: Option<Timestamp>,
     /// The station is the demo station with simulated antennas.
     pub demo: bool,
     /// The stations of the station menu.
@@ -145,6 +147,8 @@ pub struct Model {
     pub obstacle_effects: Effects<obstacles::Question>,
     /// How much of the predicted passes an antenna tracks.
     pub mount_effects: Effects<mounts::Question>,
+    /// Effects of an edited site.
+    pub site_effects: Effects<sites::Question>,
     /// Active alarms.
     pub alarms: Alarms,
     /// Reminders of passes that are not over.
@@ -173,6 +177,7 @@ impl Model {
             steady: now.steady,
             time_sync: TimeSync::NotKnown,
             station: Arc::default(),
+            station_saved_at: None,
             demo: false,
             stations: Stations::default(),
             catalog: CatalogState::Loading,
@@ -194,6 +199,7 @@ impl Model {
             link_tests: Arc::default(),
             obstacle_effects: Effects::default(),
             mount_effects: Effects::default(),
+            site_effects: Effects::default(),
             alarms: Alarms::default(),
             reminders: Arc::default(),
             schedule: Arc::default(),
@@ -262,6 +268,7 @@ impl Model {
         let renewed = self.pass_lists.favourites.revision != shown.pass_lists.favourites.revision;
         self.time_sync = shown.time_sync;
         self.station = Arc::clone(&shown.station);
+        self.station_saved_at = shown.station_saved_at;
         self.take_demo(shown.demo);
         self.catalog = shown.catalog.clone();
         self.sources = Arc::clone(&shown.sources);

@@ -81,6 +81,7 @@ impl App {
                 model.obstacle_effects.ask(*question, model.steady);
             }
             UiCommand::ShowTracked(question) => model.mount_effects.ask(*question, model.steady),
+            UiCommand::ShowMoved(question) => model.site_effects.ask(*question, model.steady),
             UiCommand::ShowCatalog(question) => model.catalog_table.asked = question,
             UiCommand::OfferElements { offers, is_dropped } => {
                 self.offer_elements(offers, is_dropped);
@@ -92,6 +93,7 @@ impl App {
                 self.send(Command::ListOlderSets(number));
             }
             UiCommand::Save(export) => self.save_export(export),
+            UiCommand::OpenFolder(folder) => self.open_folder(folder),
             UiCommand::ChooseStation(next) => self.choose_station(next),
             UiCommand::ChooseStationFile => self.choose_station_file(),
             UiCommand::ChangeNow => drop(self.change_now()),

@@ -7,7 +7,7 @@ use crate::{
     clock::Moment,
     engine::passes::PassList,
     job::{Job, Wake},
-    model::effects::{Compare, DEBOUNCE, Effect, Effects, mounts, obstacles, ways},
+    model::effects::{Compare, DEBOUNCE, Effect, Effects, mounts, obstacles, sites, ways},
 };
 
 /// A running computation, with its question and the revision of the pass list.
@@ -18,16 +18,18 @@ type EffectsJob<Q> = (Q, u64, Job<Effect<Q>>);
 pub(super) struct EffectsJobs {
     obstacles: Option<EffectsJob<obstacles::Question>>,
     mounts: Option<EffectsJob<mounts::Question>>,
+    sites: Option<EffectsJob<sites::Question>>,
 }
 
 impl App {
     pub(super) fn work_on_effects(&mut self) {
-        let EffectsJobs { obstacles, mounts } = &mut self.effects_jobs;
+        let EffectsJobs { obstacles, mounts, sites } = &mut self.effects_jobs;
         let model = &mut self.model;
         let (passes, wake) = (&model.pass_lists.favourites, &self.wake);
         let now = Moment { utc: model.now, steady: model.steady };
         work(&mut model.obstacle_effects, obstacles, passes, now, wake);
         work(&mut model.mount_effects, mounts, passes, now, wake);
+        work(&mut model.site_effects, sites, passes, now, wake);
     }
 }
 

@@ -71,6 +71,9 @@ impl Memory {
                     .filter(|percent| Appearance::SCALES_PERCENT.contains(percent))
                     .unwrap_or(Appearance::default().scale_percent),
                 local_time: flag(&table, "local_time").unwrap_or(Appearance::default().local_time),
+                angle_decimals: number("angle_decimals")
+                    .filter(|decimals| Appearance::ANGLE_DECIMALS.contains(decimals))
+                    .unwrap_or(Appearance::default().angle_decimals),
             },
             list: ListChoice {
                 scope: word(&table, "pass_scope"),
@@ -109,6 +112,7 @@ impl Memory {
             light_by_day: bool,
             scale_percent: u32,
             local_time: bool,
+            angle_decimals: u32,
             #[serde(skip_serializing_if = "Option::is_none")]
             antenna: Option<&'a str>,
             view: View,
@@ -133,6 +137,7 @@ impl Memory {
             light_by_day: self.appearance.light_by_day,
             scale_percent: self.appearance.scale_percent,
             local_time: self.appearance.local_time,
+            angle_decimals: self.appearance.angle_decimals,
             antenna: self.antenna.as_deref(),
             view: self.view,
             pass_scope: self.list.scope,
@@ -301,6 +306,7 @@ mod tests {
                 light_by_day: true,
                 scale_percent: 150,
                 local_time: false,
+                angle_decimals: 3,
             },
             antenna: Some("Şile \"2\"".to_owned()),
             view: View::Map,
@@ -390,7 +396,7 @@ mod tests {
                 let appearance = Appearance { theme, ..Appearance::default() };
                 Memory { appearance, ..Memory::default() }
             }),
-            ("theme = 'light'\nlight_by_day = 3\nscale_percent = 130", {
+            ("theme = 'light'\nlight_by_day = 3\nscale_percent = 130\nangle_decimals = 4", {
                 let theme = ThemeName::Light;
                 let appearance = Appearance { theme, ..Appearance::default() };
                 Memory { appearance, ..Memory::default() }

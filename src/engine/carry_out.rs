@@ -314,12 +314,14 @@ impl Engine {
             && !self.settings_unread
             && !matches!(self.station_claim, StationClaim::Theirs(_))
             && let Some(path) = &self.settings_path
-            && let Err(error) = station::save(&station, path)
         {
-            let text = error.to_string();
-            tracing::error!("{text}");
-            self.alarms.raise(None, AlarmKind::Settings(text), self.now);
-            return;
+            if let Err(error) = station::save(&station, path) {
+                let text = error.to_string();
+                tracing::error!("{text}");
+                self.alarms.raise(None, AlarmKind::Settings(text), self.now);
+                return;
+            }
+            self.station_saved_at = Some(self.now);
         }
         self.record_station(&station);
         self.station = Arc::new(station);
@@ -357,6 +359,7 @@ impl Engine {
                     self.load_lock_outs();
                 }
                 self.settings_unread = false;
+                self.station_saved_at = Some(now);
                 self.use_station(station);
                 drop(demo);
                 self.tell(Event::Saved(Ok(now)));

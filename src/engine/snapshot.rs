@@ -2,6 +2,7 @@
 
 use std::sync::Arc;
 
+use jiff::Timestamp;
 use serde::{Deserialize, Serialize};
 
 use super::{
@@ -44,6 +45,8 @@ pub struct Snapshot {
     /// The station as saved.
     #[serde(with = "written::station")]
     pub station: Arc<Station>,
+    /// When its file was written last; `None` for the demo station.
+    pub station_saved_at: Option<Timestamp>,
     /// This is the demo station with simulated antennas.
     pub demo: bool,
     pub catalog: CatalogState,
@@ -84,6 +87,7 @@ impl Snapshot {
             at,
             time_sync: TimeSync::NotKnown,
             station: Arc::default(),
+            station_saved_at: None,
             demo: false,
             catalog: CatalogState::Loading,
             catalog_revision: 0,

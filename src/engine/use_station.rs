@@ -35,6 +35,7 @@ impl Engine {
         };
         match loaded {
             Ok(loaded) => {
+                self.station_saved_at = self.settings_path.as_deref().and_then(station::saved_at);
                 for note in loaded.notes {
                     self.alarms.raise(None, AlarmKind::Setting(note), self.now);
                 }

@@ -16,6 +16,9 @@ pub struct Appearance {
     pub scale_percent: u32,
     /// The top bar has the local time beside UTC.
     pub local_time: bool,
+    /// Most decimals of the angles of an antenna and of the selected satellite; one of
+    /// [`Self::ANGLE_DECIMALS`].
+    pub angle_decimals: u32,
 }
 
 impl Default for Appearance {
@@ -25,12 +28,14 @@ impl Default for Appearance {
             light_by_day: false,
             scale_percent: 100,
             local_time: true,
+            angle_decimals: 2,
         }
     }
 }
 
 impl Appearance {
     pub const SCALES_PERCENT: [u32; 5] = [100, 125, 150, 175, 200];
+    pub const ANGLE_DECIMALS: [u32; 3] = [1, 2, 3];
 
     /// The theme to use while the Sun is there.
     pub fn theme_under(self, sun: Option<AzEl>) -> ThemeName {

@@ -4,7 +4,7 @@ use std::{path::PathBuf, sync::Arc};
 
 use super::{
     Appearance, ConsoleLine, Model, NextStation, ThemeName, View, catalog_table,
-    effects::{mounts, obstacles},
+    effects::{mounts, obstacles, sites},
     export::Export,
     intake::Offer,
 };
@@ -76,6 +76,10 @@ pub enum UiCommand {
     ShowEffects(Box<obstacles::Question>),
     /// Work out how much of the passes to come an antenna tracks.
     ShowTracked(Box<mounts::Question>),
+    /// Work out the passes to come over an edited site.
+    ShowMoved(Box<sites::Question>),
+    /// Show this folder in the file manager of the desktop.
+    OpenFolder(PathBuf),
     /// Read a horizon mask from this file into the form.
     ImportMask(PathBuf),
     /// Write this horizon mask to a file.

@@ -3,6 +3,7 @@
 
 pub mod mounts;
 pub mod obstacles;
+pub mod sites;
 
 use std::{sync::Arc, time::Duration};
 

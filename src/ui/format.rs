@@ -55,7 +55,7 @@ pub fn degrees(value_deg: f64, decimals: usize) -> String {
 pub fn pointing(pointing: Pointing, can: Capabilities) -> String {
     let azimuth = pointing.azimuth.map(|azimuth| azimuth.wrapped_360().degrees());
     let angles = [azimuth, pointing.elevation.map(Angle::degrees)];
-    let decimals = decimals(can).min(1);
+    let decimals = decimals(can, 1);
     let known = angles.into_iter().flatten().map(|deg| degrees(deg, decimals));
     known.collect::<Vec<_>>().join(", ")
 }
@@ -83,13 +83,13 @@ fn lettered(value_deg: f64, decimals: usize, plus: char, minus: char) -> String 
     format!("{digits}° {letter}")
 }
 
-/// Significant decimals of a degree for a controller with these capabilities, at most two.
-pub fn decimals(can: Capabilities) -> usize {
+/// Significant decimals of a degree for a controller with these capabilities, at most `most`.
+pub fn decimals(can: Capabilities, most: usize) -> usize {
     match can.position_step_deg {
-        0.0 => 2,
+        0.0 => most,
         step_deg if step_deg.fract() == 0.0 => 0,
-        step_deg if (step_deg * 10.0).fract() == 0.0 => 1,
-        _ => 2,
+        step_deg if (step_deg * 10.0).fract() == 0.0 => most.min(1),
+        _ => most.min(2),
     }
 }
 
@@ -196,9 +196,9 @@ mod tests {
         let satrak = crate::controller::satrak::VARIANT.capabilities;
         let said = |position_step_deg| {
             let can = Capabilities { position_step_deg, ..satrak };
-            (pointing(at, can), decimals(can))
+            (pointing(at, can), decimals(can, 3))
         };
-        assert_eq!(said(0.0), ("43.0°, 12.0°".to_owned(), 2));
+        assert_eq!(said(0.0), ("43.0°, 12.0°".to_owned(), 3));
         assert_eq!(said(1.0), ("43°, 12°".to_owned(), 0));
         assert_eq!(said(0.5), ("43.0°, 12.0°".to_owned(), 1));
         assert_eq!(said(0.25).1, 2);

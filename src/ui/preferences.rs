@@ -8,6 +8,7 @@ mod columns;
 pub(super) mod connection_fields;
 pub(super) mod draft;
 pub(super) mod fields;
+mod file_block;
 mod findings;
 pub(super) mod form;
 mod head;
@@ -174,7 +175,7 @@ pub fn show(
         state.page = Page::default();
     }
     let places = Places::of(rect);
-    list::show(ui, &places, model, (&mut draft, &before), state);
+    list::show(ui, &places, model, (&mut draft, &before), state, commands);
     show_page(ui, &places, model, &station, (&mut draft, &before), state, commands);
     let drafts = (&draft, &before);
     let is_reverted = save_bar::show(ui, places.save_bar, model, &station, drafts, state, commands);
@@ -205,7 +206,7 @@ fn show_page(
     head::show(ui, bar, model, draft, state, commands);
     let (page, form) = (state.page, &mut state.form);
     match page {
-        Page::Site => site::show(ui, rect, model, (draft, before), form),
+        Page::Site => site::show(ui, rect, model, (draft, before), form, commands),
         Page::Satellites => satellites::show(ui, rect, model, (draft, before), form),
         Page::Rules => rules::show(ui, rect, model, (draft, before), form),
         Page::Antenna(id) => {

@@ -284,6 +284,12 @@ impl Views {
         self.notes.news = Some(result.map_err(|why| format!("Nothing was saved: {why}.")));
     }
 
+    /// The folder that the operator wanted to see was not opened.
+    pub fn folder_not_opened(&mut self, why: &str) {
+        let cure = "Copy its path and open it by hand";
+        self.notes.news = Some(Err(format!("The folder was not opened: {why}. {cure}.")));
+    }
+
     /// The dialog of the desktop that the operator wanted cannot be shown.
     pub fn no_dialog(&mut self, error: NoDialog) {
         let paste = "Files can be dropped on this window, and elements pasted into it";

@@ -8,7 +8,7 @@ use azel::{
     ui::theme,
 };
 use egui::Role;
-use egui_kittest::kittest::Queryable as _;
+use egui_kittest::kittest::{NodeT as _, Queryable as _};
 use jiff::Timestamp;
 
 use crate::window_stories::{
@@ -51,6 +51,25 @@ fn theme_and_sun_are_chosen_and_the_scale_that_fits() {
     let mut window = page(SMALL);
     assert!(window.query_by_label("125 %").is_none());
     assert_eq!(chosen(&mut window, "Light").theme, ThemeName::Light);
+}
+
+#[test]
+fn angles_have_the_decimals_that_are_chosen_and_no_more_than_the_unit_gives() {
+    let mut window = page(LARGE);
+    let exact = Appearance { angle_decimals: 3, ..Appearance::default() };
+    assert_eq!(chosen(&mut window, "0.001°"), exact);
+    let axes = |angle_decimals| {
+        let mut model = rig::model(states::holding());
+        model.appearance.angle_decimals = angle_decimals;
+        let window = rig::window(LARGE, model);
+        let labels = window.query_all_by_role(Role::Label);
+        let mut words = labels.filter_map(|node| node.accesskit_node().value());
+        let words = words.find(|words| words.contains(", actual ")).unwrap();
+        let actual = words.split("actual ").nth(1).unwrap_or_default();
+        let decimals = actual.split(',').next().unwrap_or_default().split('.').nth(1);
+        decimals.unwrap_or_default().len()
+    };
+    assert_eq!([1, 2, 3].map(axes), [1, 2, 3]);
 }
 
 #[test]

@@ -335,3 +335,65 @@ fn the_outcome_of_a_test_moves_no_field() {
         assert_eq!(window.get_by_role_and_label(Role::TextInput, "Name").rect(), name);
     }
 }
+
+#[test]
+fn an_edit_is_marked_by_its_border_and_the_focus_by_a_ring_and_an_invalid_field_says_why_below() {
+    for size in SIZES {
+        let mut window = form(size);
+        write(&mut window, "Latitude", "91");
+        let why = "Latitude must be a number from −90 to 90°. Use 90.";
+        assert!(says(&window, why), "below the field that has the focus");
+        window.get_by_role_and_label(Role::TextInput, "Name").focus();
+        settle(&mut window);
+        assert!(!says(&window, why), "the findings have it, the field is left alone");
+    }
+}
+
+#[test]
+fn a_moved_site_shows_its_passes_beside_those_of_the_saved_one() {
+    for size in SIZES {
+        let mut window = form(size);
+        window.state_mut().model.pass_lists.favourites.made_at = Some(rig::now());
+        unfold(&mut window);
+        assert!(says(&window, "Being worked out."));
+        write(&mut window, "Latitude", "70");
+        let commands = rig::asked(&mut window);
+        let question = commands.into_iter().rev().find_map(|command| match command {
+            UiCommand::ShowMoved(question) => Some(*question),
+            _ => None,
+        });
+        let question = question.expect("the page asks");
+        assert_ne!(question.before, question.after);
+        let effect = effects::Effect::of(question.clone(), &Arc::default(), 0);
+        let (was, new) = (effect.before, effect.after);
+        assert_ne!(was.count, new.count, "{was:?} {new:?}");
+        let model = &mut window.state_mut().model;
+        model.site_effects.ask(question, model.steady);
+        model.site_effects.effect = Some(effect);
+        settle(&mut window);
+        let row = format!("Passes: was {}, new {}", was.count, new.count);
+        assert!(says(&window, &row), "{row}");
+        assert_eq!(rig::asked(&mut window), [], "asked once");
+    }
+}
+
+#[test]
+fn the_settings_file_is_told_with_its_age_and_its_folder_opened() {
+    for size in SIZES {
+        let mut model = rig::model(states::holding());
+        model.view = View::Preferences;
+        model.stations.open = Some("/home/ops/.config/azel/station.toml".into());
+        model.station_saved_at = Some(model.now);
+        let mut window = rig::window(size, model);
+        let now = azel::ui::format::moment(rig::now(), rig::now());
+        let file = format!("Settings file: /home/ops/.config/azel/station.toml, saved {now}");
+        assert!(says(&window, &file), "{file}");
+        rig::asked(&mut window);
+        press(&mut window, Role::Button, "Open folder");
+        let folder = "/home/ops/.config/azel".into();
+        assert_eq!(rig::asked(&mut window), [UiCommand::OpenFolder(folder)]);
+        window.state_mut().model.station_saved_at = None;
+        settle(&mut window);
+        assert!(says(&window, "station.toml, not saved yet"));
+    }
+}

@@ -155,6 +155,8 @@ fn a_group_needs_a_name_of_its_own() {
         press(&mut window, Role::Button, "Add a group");
         write(&mut window, "Name", "weather");
         assert!(says(&window, "Name must differ from those of the other groups."));
+        let twin = ": cannot be saved, its name must differ from those of the other groups";
+        assert_eq!(window.query_all_by_label_contains(twin).count(), 2, "at each of them");
         assert!(says(&window, "Satellites and priorities: 1 edited, 2 not valid"), "both names");
         key(&mut window, Modifiers::COMMAND, Key::Enter);
         assert_eq!(asked(&mut window), []);

@@ -55,6 +55,7 @@ fn model() -> CardModel<'static> {
         axes: AxesTable {
             wanted: WantedColumn::Command,
             decimals: 2,
+            predicted_decimals: 2,
             age: None,
             axes: &[
                 AxisRow {

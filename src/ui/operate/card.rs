@@ -68,7 +68,8 @@ pub(super) fn show(
     } else {
         WantedColumn::Command
     };
-    let decimals = format::decimals(can);
+    let predicted_decimals = model.appearance.angle_decimals as usize;
+    let decimals = format::decimals(can, predicted_decimals);
     let checks = &antenna.snapshot.state.checks;
     let checked_at = antenna.snapshot.state.checked_at.map(format::time_z).unwrap_or_default();
     let others = others(model, [Some(antenna.id()), beside]);
@@ -103,7 +104,13 @@ pub(super) fn show(
             sentence: *sentence,
             offer: offer(antenna, go_on.as_deref()),
 
-            axes: AxesTable { wanted, decimals, age: age.as_deref(), axes: &table },
+            axes: AxesTable {
+                wanted,
+                decimals,
+                predicted_decimals,
+                age: age.as_deref(),
+                axes: &table,
+            },
             // Kept also without a prediction: the keys below must not jump.
             beam: Some(BeamModel {
                 error_deg: antenna.error().map(|error| error.off_beam.degrees()),
@@ -123,7 +130,7 @@ pub(super) fn show(
             }),
             drive: DriveModel {
                 commanded_deg: commanded.into(),
-                commanded_decimals: wanted.decimals(decimals),
+                commanded_decimals: wanted.decimals(decimals, predicted_decimals),
                 ..drive(antenna, &locks, &blocked, jog_note.as_deref())
             },
             readings: &snapshot.state.readings,
@@ -289,7 +296,7 @@ fn track<'a>(
                 .filter(|_| antenna.variant().capabilities.has_program)
                 .map(|predicted| predicted.satellite.short_name()),
             here: state.measured.and_then(|measured| target(measured.pointing)),
-            here_decimals: format::decimals(antenna.variant().capabilities).min(1),
+            here_decimals: format::decimals(antenna.variant().capabilities, 1),
             sun_avoidance,
         }),
     }

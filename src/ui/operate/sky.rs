@@ -184,9 +184,10 @@ pub(in crate::ui) fn track(predicted: &PredictedPass, look: Option<LookAngles>) 
 fn readout(model: &Model, selected: Option<Selected>, full: bool) -> Vec<(&'static str, String)> {
     let Some(selected) = selected else { return Vec::new() };
     let look = selected.look;
+    let decimals = model.appearance.angle_decimals as usize;
     let direction = [
-        ("Az", format::degrees(look.direction.azimuth_deg(), 2)),
-        ("El", format::degrees(look.direction.elevation_deg(), 2)),
+        ("Az", format::degrees(look.direction.azimuth_deg(), decimals)),
+        ("El", format::degrees(look.direction.elevation_deg(), decimals)),
     ];
     let motion = [
         ("Range", format!("{} km", format::number(look.range_km, 0))),

@@ -9,20 +9,21 @@ use crate::model::{Appearance, Model, ThemeName, UiCommand};
 /// The least size of the window at which all views work, points.
 const LEAST: [f32; 2] = [960.0, 540.0];
 /// Cards of the page with the numbers of their rows.
-pub(super) const CARDS: [usize; 2] = [6, 3];
+pub(super) const CARDS: [usize; 3] = [6, 3, 3];
 /// Labels of the choices.
-pub(super) const LABELS: [&str; 4] = [THEME, SUN, SCALE, CLOCK];
+pub(super) const LABELS: [&str; 5] = [THEME, SUN, SCALE, CLOCK, DECIMALS];
 const THEME: &str = "Theme";
 const SUN: &str = "With the Sun";
 const SCALE: &str = "Scale";
 const CLOCK: &str = "Local time";
+const DECIMALS: &str = "Decimals";
 
 pub(super) fn card_of(ui: &mut Ui, card: usize, model: &Model, commands: &mut Vec<UiCommand>) {
     let mut wanted = model.appearance;
-    if card == 0 {
-        theme_and_size(ui, &mut wanted);
-    } else {
-        times(ui, &mut wanted);
+    match card {
+        0 => theme_and_size(ui, &mut wanted),
+        1 => times(ui, &mut wanted),
+        _ => angles(ui, &mut wanted),
     }
     if wanted != model.appearance {
         commands.push(UiCommand::SetAppearance(wanted));
@@ -58,6 +59,18 @@ fn times(ui: &mut Ui, wanted: &mut Appearance) {
         let shown = [("Beside UTC", true), ("Not shown", false)];
         choice(ui, CLOCK, &shown, &mut wanted.local_time);
         note(ui, "In the top bar alone. Every other time is UTC.");
+    });
+}
+
+fn angles(ui: &mut Ui, wanted: &mut Appearance) {
+    form::card(ui, "Angles", |ui| {
+        let [one, two, three] = Appearance::ANGLE_DECIMALS;
+        let choices = [("0.1°", one), ("0.01°", two), ("0.001°", three)];
+        choice(ui, DECIMALS, &choices, &mut wanted.angle_decimals);
+        note(
+            ui,
+            "Of the axes of an antenna and of the selected satellite. A unit that gives fewer shows fewer.",
+        );
     });
 }
 

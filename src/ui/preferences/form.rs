@@ -4,15 +4,16 @@ use std::borrow::Cow;
 
 use egui::{
     Align, Align2, Color32, Frame, Label, Layout, Margin, Rect, Response, RichText, Role,
-    ScrollArea, Sense, Stroke, StrokeKind, TextEdit, Ui, UiBuilder, pos2, vec2,
+    ScrollArea, Sense, Stroke, StrokeKind, TextEdit, Tooltip, Ui, UiBuilder, pos2, vec2,
 };
 
-use super::fields::{Field, Standing, TextShape, Typed};
+use super::fields::{Field, Problem, Standing, TextShape, Typed};
 use crate::{
     device::settings::Kind,
     ui::{
         icons::{self, Icon},
-        text, theme,
+        text::{self, Weight},
+        theme,
         widgets::{
             button::RADIUS,
             card as card_frame,
@@ -219,6 +220,9 @@ fn row<T>(
                 pos2(right, place.top() + ROW),
             );
             state(ui, (group, &*label), room, field, standing);
+            if let Some(problem) = standing.problem.as_ref().filter(|_| response.has_focus()) {
+                why_below(&response, &label, problem);
+            }
         }
         (None, Reasons::Below) => {}
     }
@@ -226,6 +230,19 @@ fn row<T>(
         note_in(ui, words, t.t3);
     }
     response
+}
+
+/// Says below a field that has the focus why it cannot be used. It lies over the rows, so that
+/// none of them moves.
+fn why_below(response: &Response, label: &str, problem: &Problem) {
+    let cure = problem.would_do.as_ref().map(|text| format!(" Use {text}."));
+    let words = format!("{label} {}.{}", problem.why, cure.unwrap_or_default());
+    let (ctx, layer) = (response.ctx.clone(), response.layer_id);
+    let below = Tooltip::always_open(ctx, layer, response.id.with("why"), response.rect);
+    below.show(|ui| {
+        let colour = theme::tokens(ui).bad;
+        ui.label(RichText::new(words).font(text::small()).color(colour));
+    });
 }
 
 /// The state of a field: unchanged, edited, or why it cannot be used.
@@ -300,14 +317,16 @@ fn edit<T>(
     border: Option<Color32>,
     reasons: Reasons,
 ) -> Response {
-    let focused = border.unwrap_or(theme::tokens(ui).sat);
-    ui.visuals_mut().selection.stroke = Stroke::new(2.0, focused);
+    let plain = Stroke::new(1.0, theme::tokens(ui).edge);
+    // The focus has a ring of its own around the border.
+    ui.visuals_mut().selection.stroke = border.map_or(plain, |colour| Stroke::new(2.0, colour));
     if let Some(colour) = border {
         let widgets = &mut ui.visuals_mut().widgets;
         for widget in [&mut widgets.inactive, &mut widgets.hovered] {
             widget.bg_stroke = Stroke::new(2.0, colour);
         }
     }
+    let is_edited = field.is_edited();
     let [beside, alone] = WORDS;
     let width = if reasons == Reasons::Beside { beside } else { alone };
     let label = &*field.description.label;
@@ -331,7 +350,10 @@ fn edit<T>(
             TextShape::Lines { hint } => return lines(ui, (group, label), text, hint, border),
         },
     };
+    let weight = if is_edited { Weight::SemiBold } else { Weight::Regular };
+    let edit = edit.font(text::sized(13.0, weight));
     let response = ui.add(edit.id_salt((group, label)));
+    paint::focus_ring(ui, &response, 4);
     select_when_tabbed(ui, &response, &field.text);
     response
 }
@@ -346,7 +368,6 @@ fn lines(
 ) -> Response {
     let t = theme::tokens(ui);
     let id = ui.make_persistent_id(salt);
-    let border = border.or_else(|| ui.memory(|memory| memory.has_focus(id)).then_some(t.sat));
     // A thicker border must not move the fields below.
     let (stroke, outside) =
         border.map_or((Stroke::new(1.0, t.edge), 1), |colour| (Stroke::new(2.0, colour), 0));
@@ -358,7 +379,11 @@ fn lines(
         .hint_text(hint)
         .desired_rows(3)
         .desired_width(WORDS[1]);
-    frame.show(ui, |ui| area.id_salt(salt).show(ui, |ui| ui.add(edit)).inner).inner
+    let shown = frame.show(ui, |ui| area.id_salt(salt).show(ui, |ui| ui.add(edit)).inner);
+    if shown.inner.has_focus() {
+        paint::ring_around(ui, shown.response.rect, 4);
+    }
+    shown.inner
 }
 
 /// A choice of a few words, side by side.

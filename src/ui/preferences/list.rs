@@ -10,13 +10,14 @@ use super::{
     PADDING, Places, PreferencesState,
     draft::Draft,
     fields::Counts,
+    file_block,
     form::Sought,
     page::Page,
     search::{Found, Search, Spot, find},
 };
 use crate::{
     makes,
-    model::Model,
+    model::{Model, UiCommand},
     ui::{
         bar,
         icons::{self, Icon},
@@ -45,6 +46,7 @@ pub(super) fn show(
     model: &Model,
     (draft, before): (&mut Draft, &Draft),
     state: &mut PreferencesState,
+    commands: &mut Vec<UiCommand>,
 ) {
     let t = theme::tokens(ui);
     let rect = places.list;
@@ -56,7 +58,10 @@ pub(super) fn show(
     paint::text_in(ui, words, Align2::LEFT_CENTER, "Preferences", text::value(), t.t1);
     let field = below.with_max_y(below.top() + FIELD + 16.0).shrink(8.0);
     let takes_keys = search_field(ui, field, &mut state.search);
-    let rows = below.with_min_y(field.bottom() + 8.0).with_max_x(below.right() - 1.0);
+    let file = below.with_min_y(below.bottom() - file_block::height(below.width()));
+    file_block::show(ui, file.with_max_x(file.right() - 1.0), model, commands);
+    let rows = below.with_min_y(field.bottom() + 8.0).with_max_y(file.top());
+    let rows = rows.with_max_x(below.right() - 1.0);
     let builder = UiBuilder::new().id_salt("pages").max_rect(rows);
     ui.scope_builder(builder, |ui| {
         ui.set_clip_rect(rows.intersect(ui.clip_rect()));

@@ -1,6 +1,6 @@
 //! What the edits of a page change, before they are saved.
 
-use egui::{Align2, Rect, Sense, Ui, vec2};
+use egui::{Align2, Color32, FontId, Rect, Sense, Ui, pos2, vec2};
 
 use super::form;
 use crate::ui::{
@@ -13,6 +13,9 @@ use crate::ui::{
 };
 
 const TITLE: &str = "What this changes";
+const ROW: f32 = 22.0;
+/// Width of each of the two columns of numbers.
+const NUMBER: f32 = 72.0;
 
 /// Shows `content`, which is of a page that `is_edited`, in a card, or below a fold that says `value` while it is closed.
 pub(super) fn card(
@@ -46,4 +49,34 @@ fn live(ui: &Ui) {
     let max = ui.max_rect();
     let title = Rect::from_min_size(max.min, vec2(max.width(), 16.0));
     paint::text_in(ui, title, Align2::RIGHT_CENTER, "live, not saved", text::small(), t.sat);
+}
+
+/// The heads of the two columns of numbers.
+pub(super) fn heads(ui: &mut Ui) {
+    let t = theme::tokens(ui);
+    let (row, _) = ui.allocate_exact_size(vec2(ui.available_width(), ROW), Sense::hover());
+    let heads = [("new".to_owned(), t.t3), ("was".to_owned(), t.t3)];
+    numbers(ui, row, heads, [text::small(), text::small()]);
+}
+
+/// A row with a number as saved and as edited.
+pub(super) fn cells(ui: &mut Ui, label: &str, was: (String, Color32), new: (String, Color32)) {
+    let t = theme::tokens(ui);
+    let (row, _) = ui.allocate_exact_size(vec2(ui.available_width(), ROW), Sense::hover());
+    ui.painter().hline(row.x_range(), row.top(), (1.0, t.line));
+    let room = row.with_max_x(row.right() - 2.0 * NUMBER);
+    paint::text_in(ui, room, Align2::LEFT_CENTER, label, text::small(), t.t2);
+    let said = format!("{label}: was {}, new {}", was.0, new.0);
+    numbers(ui, row, [new, was], [text::small_strong(), text::small()]);
+    paint::name_text(ui, ("changed", label), row, &said);
+}
+
+/// Numbers in the columns of `row`, from its right end on.
+fn numbers(ui: &Ui, row: Rect, numbers: [(String, Color32); 2], fonts: [FontId; 2]) {
+    let mut right = row.right();
+    for ((words, colour), font) in numbers.into_iter().zip(fonts) {
+        let cell = Rect::from_min_max(pos2(right - NUMBER, row.top()), pos2(right, row.bottom()));
+        paint::text_in(ui, cell, Align2::RIGHT_CENTER, &words, font, colour);
+        right -= NUMBER;
+    }
 }

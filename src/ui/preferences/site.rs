@@ -1,6 +1,8 @@
 //! The page of the site: fields of the station itself.
 
-use egui::{Rect, Ui};
+use std::{cmp::Ordering, sync::Arc};
+
+use egui::{Rect, RichText, Ui};
 
 use super::{
     FormState,
@@ -13,9 +15,15 @@ use super::{
 use crate::{
     astro::{Site, sun_moon},
     engine::antenna::AntennaModel,
-    model::Model,
+    model::{
+        Model, UiCommand,
+        effects::{
+            DEBOUNCE,
+            sites::{Question, Standpoint, Tally},
+        },
+    },
     ui::{
-        format,
+        format, text, theme,
         widgets::told::{self, Tone},
         words,
     },
@@ -27,6 +35,7 @@ pub(super) fn show(
     model: &Model,
     (draft, before): (&mut Draft, &Draft),
     state: &mut FormState,
+    commands: &mut Vec<UiCommand>,
 ) {
     let page = Page::Site;
     let sections = draft.ground.sections();
@@ -35,6 +44,7 @@ pub(super) fn show(
     let rows: Vec<usize> = sections.iter().map(|(_, rows)| *rows).collect();
     let standings = draft.ground_standings();
     let is_edited = page.counts(draft, before).edited > 0;
+    let question = question(model, draft, before);
     let group = "station";
     columns::show(ui, rect, group, &rows, true, |ui, part| match part {
         Part::Card(card) => {
@@ -52,10 +62,76 @@ pub(super) fn show(
             let site = draft.place();
             let value = site.map_or_else(String::new, |site| sun_in_short(site, model));
             let fold = is_fold.then_some(&mut state.preview_is_open);
-            preview::card(ui, fold, &value, is_edited, |ui| about(ui, site, model));
+            preview::card(ui, fold, &value, is_edited, |ui| {
+                about(ui, site, model);
+                if let Some(question) = &question {
+                    ui.add_space(4.0);
+                    passes(ui, question, model);
+                }
+            });
         }
         Part::Findings => findings::show(ui, page, draft),
     });
+    if let Some(question) = question
+        && model.site_effects.wanted() != Some(&question)
+    {
+        ui.ctx().request_repaint_after_for(DEBOUNCE, egui::ViewportId::ROOT);
+        commands.push(UiCommand::ShowMoved(Box::new(question)));
+    }
+}
+
+/// Asks for the passes over the site as saved and as typed, once there are favourites to look at.
+fn question(model: &Model, draft: &Draft, before: &Draft) -> Option<Question> {
+    let favourites = &model.pass_lists.favourites;
+    let station = |draft: &Draft| {
+        draft.place()?;
+        draft.ground.read().0.with(Vec::new())
+    };
+    Some(Question {
+        satellites: Arc::clone(&favourites.satellites),
+        from: favourites.made_at?,
+        before: Standpoint::of(&station(before)?),
+        after: Standpoint::of(&station(draft)?),
+    })
+}
+
+/// The passes of the favourites over the site as saved and as edited.
+fn passes(ui: &mut Ui, question: &Question, model: &Model) {
+    let t = theme::tokens(ui);
+    ui.label(RichText::new("Favourites, next 48 h").font(text::body_medium()).color(t.t1));
+    let effect = model.site_effects.effect.as_ref();
+    let Some(effect) = effect.filter(|effect| effect.question == *question) else {
+        ui.label(RichText::new("Being worked out.").font(text::small()).color(t.t3));
+        return;
+    };
+    preview::heads(ui);
+    let aos = |of: &Tally| {
+        of.first_aos.map_or_else(|| "–".to_owned(), |at| format::moment(at, model.now))
+    };
+    let highest = |of: &Tally| {
+        if of.count == 0 { "–".to_owned() } else { format::degrees(of.highest_deg, 0) }
+    };
+    let (old, new) = (&effect.before, &effect.after);
+    let rows = [
+        ("Passes", old.count.to_string(), new.count.to_string(), new.count.cmp(&old.count)),
+        (
+            "Time up",
+            format::duration(old.up_s),
+            format::duration(new.up_s),
+            new.up_s.total_cmp(&old.up_s),
+        ),
+        ("Highest", highest(old), highest(new), new.highest_deg.total_cmp(&old.highest_deg)),
+        ("First AOS", aos(old), aos(new), Ordering::Equal),
+    ];
+    for (label, was, now, gain) in rows {
+        let colour = match gain {
+            _ if was == now => t.t1,
+            Ordering::Greater => t.ok,
+            Ordering::Less => t.bad,
+            Ordering::Equal => t.sat,
+        };
+        preview::cells(ui, label, (was, t.t2), (now, colour));
+    }
 }
 
 fn sun_in_short(site: Site, model: &Model) -> String {

@@ -39,10 +39,10 @@ impl WantedColumn {
     }
 
     /// Decimals of this column, for a unit whose angles have `of_unit` decimals.
-    pub fn decimals(self, of_unit: usize) -> usize {
+    pub fn decimals(self, of_unit: usize, predicted: usize) -> usize {
         match self {
             Self::Command => of_unit,
-            Self::Predicted => 2,
+            Self::Predicted => predicted,
         }
     }
 }
@@ -62,8 +62,9 @@ pub struct AxisRow<'a> {
 #[derive(Debug, Clone, Copy, Default)]
 pub struct AxesTable<'a> {
     pub wanted: WantedColumn,
-    /// Decimals of measured and commanded values; predicted ones have two.
+    /// Decimals of measured and commanded values.
     pub decimals: usize,
+    pub predicted_decimals: usize,
     /// Age of the measured values while the unit does not answer in time, such as `4.9 s`.
     pub age: Option<&'a str>,
     pub axes: &'a [AxisRow<'a>],
@@ -111,7 +112,7 @@ fn measured(table: &AxesTable<'_>) -> String {
 }
 
 fn show_row(ui: &Ui, row: Rect, table: &AxesTable<'_>, axis: &AxisRow<'_>, t: &Tokens) {
-    let &AxesTable { wanted, decimals, age, .. } = table;
+    let &AxesTable { wanted, decimals, predicted_decimals, age, .. } = table;
     let y = row.center().y;
     let strong = text::sized(15.0, Weight::SemiBold);
     paint::text(ui, pos2(row.left(), y), Align2::LEFT_CENTER, axis.name, strong.clone(), t.t1);
@@ -119,7 +120,7 @@ fn show_row(ui: &Ui, row: Rect, table: &AxesTable<'_>, axis: &AxisRow<'_>, t: &T
         WantedColumn::Command => t.cmd,
         WantedColumn::Predicted => t.sat,
     };
-    let wanted_decimals = wanted.decimals(decimals);
+    let wanted_decimals = wanted.decimals(decimals, predicted_decimals);
     let texts = [
         angle(axis.wanted_deg, wanted_decimals),
         angle(axis.actual_deg, decimals),
@@ -185,8 +186,13 @@ mod tests {
                 ..AxisRow::default()
             }];
             let rect = Rect::from_min_size(pos2(10.0, 10.0), vec2(312.0, height(1)));
-            let table =
-                AxesTable { wanted: WantedColumn::Predicted, decimals: 2, age: None, axes: &axes };
+            let table = AxesTable {
+                wanted: WantedColumn::Predicted,
+                decimals: 2,
+                predicted_decimals: 2,
+                age: None,
+                axes: &axes,
+            };
             show(ui, rect, &table);
         });
         window.get_by_label("Az: Predicted not known, actual 185.51, error −0.04, rate not known");

@@ -87,10 +87,15 @@ pub fn focus_ring(ui: &Ui, response: &Response, radius: u8) {
         response.scroll_to_me(None);
     }
     if response.has_focus() {
-        let stroke = Stroke::new(FOCUS, theme::tokens(ui).sat);
-        let radius = CornerRadius::same(radius.saturating_add(2));
-        ui.painter().rect_stroke(response.rect.expand(FOCUS), radius, stroke, StrokeKind::Outside);
+        ring_around(ui, response.rect, radius);
     }
+}
+
+/// The ring of a focus around `rect`.
+pub fn ring_around(ui: &Ui, rect: Rect, radius: u8) {
+    let stroke = Stroke::new(FOCUS, theme::tokens(ui).sat);
+    let radius = CornerRadius::same(radius.saturating_add(2));
+    ui.painter().rect_stroke(rect.expand(FOCUS), radius, stroke, StrokeKind::Outside);
 }
 
 /// Adds a control with its role and name in a given rectangle. A disabled control ignores

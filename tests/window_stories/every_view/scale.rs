@@ -1,6 +1,12 @@
 //! At 200 % nothing that must stay is lost, in any view.
 
-use egui::{Rect, Role, ViewportId, accesskit::Live, pos2, vec2};
+use std::collections::BTreeMap;
+
+use egui::{
+    Rect, Role, ViewportId,
+    accesskit::{Action, Live},
+    pos2, vec2,
+};
 use egui_kittest::kittest::{AccessKitNode, By, NodeT as _, Queryable as _};
 
 use crate::window_stories::{
@@ -36,6 +42,13 @@ fn starts(node: &AccessKitNode<'_>, words: &str) -> bool {
     name(node).starts_with(words)
 }
 
+fn is_control(node: &AccessKitNode<'_>) -> bool {
+    let data = node.data();
+    let acts = data.supports_action(Action::Focus) || data.supports_action(Action::Click);
+    // Text can be selected with the pointer.
+    acts && node.role() != Role::Label
+}
+
 /// Whether there is such a node, and all of them are whole in the window.
 fn is_there(window: &Window, whole: Rect, is_it: fn(&AccessKitNode<'_>) -> bool) -> bool {
     let all = window.query_all(By::new()).filter(|node| is_it(&node.accesskit_node()));
@@ -43,8 +56,53 @@ fn is_there(window: &Window, whole: Rect, is_it: fn(&AccessKitNode<'_>) -> bool)
     !places.is_empty() && places.iter().all(|place| whole.contains_rect(*place))
 }
 
+/// Role, name and place of the controls that are not whole in the window.
+fn outside(window: &Window, whole: Rect) -> Vec<(Role, String, Rect)> {
+    let all = window.query_all(By::new()).filter(|node| is_control(&node.accesskit_node()));
+    let found = all.map(|node| {
+        let known = node.accesskit_node();
+        (known.role(), name(&known), node.rect())
+    });
+    found.filter(|(_, name, place)| !name.is_empty() && !whole.contains_rect(*place)).collect()
+}
+
+/// The lowest control below the window in each quarter of its width, which cannot be scrolled to.
+fn unreachable(window: &mut Window, whole: Rect) -> Vec<String> {
+    let mut lowest: BTreeMap<u8, (Role, String, Rect)> = BTreeMap::new();
+    for (role, name, place) in outside(window, whole) {
+        let quarter = (4.0 * place.center().x / whole.width()).clamp(0.0, 3.0) as u8;
+        let known = lowest.get(&quarter);
+        if known.is_none_or(|(_, _, known)| known.bottom() < place.bottom()) {
+            lowest.insert(quarter, (role, name, place));
+        }
+    }
+    let mut lost = Vec::new();
+    for (role, name, place) in lowest.into_values() {
+        let is_it = |node: &AccessKitNode<'_>, name_of: &str| {
+            node.role() == role && self::name(node) == name_of
+        };
+        let lowest_of = |window: &Window| {
+            let all = window.query_all(By::new());
+            let all = all.filter(|node| is_it(&node.accesskit_node(), &name));
+            all.map(|node| node.rect()).max_by(|a, b| a.bottom().total_cmp(&b.bottom()))
+        };
+        let all = window.query_all(By::new());
+        let own = all.filter(|node| is_it(&node.accesskit_node(), &name));
+        let own = own.max_by(|a, b| a.rect().bottom().total_cmp(&b.rect().bottom()));
+        if let Some(own) = own {
+            own.scroll_to_me();
+        }
+        settle(window);
+        let is_seen = lowest_of(window).is_some_and(|place| whole.expand(1.0).contains_rect(place));
+        if !is_seen {
+            lost.push(format!("{name:?} at {place:?} cannot be reached"));
+        }
+    }
+    lost
+}
+
 #[test]
-fn at_200_percent_no_view_loses_what_must_stay() {
+fn at_200_percent_no_view_loses_what_must_stay_and_every_control_can_be_reached() {
     let mut faults = Vec::new();
     for scene in &SCENES {
         for size in SIZES {
@@ -73,6 +131,8 @@ fn at_200_percent_no_view_loses_what_must_stay() {
                     ));
                 }
             }
+            let lost = unreachable(&mut window, whole);
+            faults.extend(lost.iter().map(|what| format!("{} {size:?}: {what}", scene.name)));
         }
     }
     assert!(faults.is_empty(), "{} faults\n{}", faults.len(), faults.join("\n"));

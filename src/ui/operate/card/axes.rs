@@ -68,7 +68,7 @@ pub(super) fn travel(antenna: &AntennaModel) -> Vec<TravelModel<'static>> {
             scale_deg,
             travel_deg: *within_deg.get(index)?,
             position_deg: axis.and_then(|axis| axis.angle_deg),
-            decimals: format::decimals(can).min(1),
+            decimals: format::decimals(can, 1),
             lower_limit: axis.is_some_and(|axis| axis.minus_limit),
             upper_limit: axis.is_some_and(|axis| axis.plus_limit),
             turns: whole_deg.1 - whole_deg.0 > 360.0,

@@ -2,19 +2,15 @@
 
 use std::cmp::Ordering;
 
-use egui::{Align2, Color32, Label, Rect, RichText, Sense, Ui, pos2, vec2};
+use egui::{Label, RichText, Ui};
 
 use crate::{
     model::effects::{
         Effect,
         mounts::{Question, Tally},
     },
-    ui::{format, text, theme, tokens::Tokens, widgets::paint},
+    ui::{format, preferences::preview, text, theme},
 };
-
-const ROW: f32 = 22.0;
-/// Width of each of the two columns of numbers.
-const NUMBER: f32 = 64.0;
 
 /// The most important number, for a fold.
 pub(super) fn in_short(effect: &Effect<Question>) -> String {
@@ -30,7 +26,7 @@ pub(super) fn numbers(ui: &mut Ui, effect: Option<&Effect<Question>>, is_new: bo
         return;
     };
     let (old, new) = (&effect.before, &effect.after);
-    cells(ui, "", ("was".to_owned(), t.t3), ("new".to_owned(), t.t3), false);
+    preview::heads(ui);
     let count = |count: usize| count.to_string();
     let rows = [
         ("Tracked whole", count(old.whole), count(new.whole), new.whole.cmp(&old.whole)),
@@ -46,7 +42,7 @@ pub(super) fn numbers(ui: &mut Ui, effect: Option<&Effect<Question>>, is_new: bo
             Ordering::Equal => t.sat,
         };
         let was = if is_new { "–".to_owned() } else { was };
-        cells(ui, label, (was, t.t2), (now, colour), true);
+        preview::cells(ui, label, (was, t.t2), (now, colour));
     }
 }
 
@@ -59,27 +55,6 @@ pub(super) fn words(ui: &mut Ui, effect: &Effect<Question>, is_new: bool) {
 
 fn lost(tally: &Tally) -> String {
     format::duration(tally.lost_s)
-}
-
-/// A row with both numbers.
-fn cells(ui: &mut Ui, label: &str, was: (String, Color32), new: (String, Color32), is_named: bool) {
-    let t: &Tokens = theme::tokens(ui);
-    let (row, _) = ui.allocate_exact_size(vec2(ui.available_width(), ROW), Sense::hover());
-    if is_named {
-        ui.painter().hline(row.x_range(), row.top(), (1.0, t.line));
-    }
-    paint::text_in(ui, row, Align2::LEFT_CENTER, label, text::small(), t.t2);
-    let mut right = row.right();
-    let fonts = [text::small_strong(), text::small()];
-    let said = format!("{label}: was {}, new {}", was.0, new.0);
-    for ((words, colour), font) in [new, was].into_iter().zip(fonts) {
-        let cell = Rect::from_min_max(pos2(right - NUMBER, row.top()), pos2(right, row.bottom()));
-        paint::text_in(ui, cell, Align2::RIGHT_CENTER, &words, font, colour);
-        right -= NUMBER;
-    }
-    if is_named {
-        paint::name_text(ui, ("tracked", label), row, &said);
-    }
 }
 
 fn sentence(effect: &Effect<Question>, is_new: bool) -> String {

@@ -52,7 +52,7 @@ fn row(
     state: &mut FormState,
 ) {
     let t = theme::tokens(ui);
-    let is_wrong = draft.standings(index).iter().any(|standing| standing.problem.is_some());
+    let problem = draft.standings(index).into_iter().find_map(|standing| standing.problem);
     let Some(group) = draft.group_mut(index) else { return };
     let (row, _) = ui.allocate_exact_size(vec2(ui.available_width(), ROW), Sense::hover());
     ui.painter().hline(row.x_range(), row.top(), (1.0, t.line));
@@ -73,8 +73,12 @@ fn row(
         group.is_removed = !group.is_removed;
         state.satellites.group.take_if(|open| *open == index);
     }
-    let summary =
-        if group.is_removed { "removed when you save".to_owned() } else { in_short(group, around) };
+    let problem = problem.filter(|_| !group.is_removed);
+    let summary = match &problem {
+        _ if group.is_removed => "removed when you save".to_owned(),
+        Some(problem) => format!("cannot be saved, its name {}", problem.why),
+        None => in_short(group, around),
+    };
     let head = row.with_max_x(place.left() - 8.0).shrink2(vec2(0.0, 3.0));
     let name = format!("Group {title}: {summary}");
     let can_open = !group.is_removed;
@@ -85,7 +89,7 @@ fn row(
         ui.painter().rect_filled(head, 4.0, t.bg3);
     }
     let at = paint::square(pos2(head.left() + 10.0, head.center().y), 12.0);
-    let (icon, colour) = match (is_wrong && can_open, is_open) {
+    let (icon, colour) = match (problem.is_some(), is_open) {
         (true, _) => (Icon::Warning, t.bad),
         (false, true) => (Icon::ChevronDown, t.t2),
         (false, false) => (Icon::ChevronRight, t.t2),
@@ -95,7 +99,8 @@ fn row(
     let ink = if group.is_removed { t.t3 } else { t.t1 };
     let named = paint::text_in(ui, room, Align2::LEFT_CENTER, &title, text::body_medium(), ink);
     let room = room.with_min_x(named.right() + 12.0).with_max_x(head.right() - 4.0);
-    paint::text_in(ui, room, Align2::LEFT_CENTER, &summary, text::small(), t.t2);
+    let ink = if problem.is_some() { t.bad } else { t.t2 };
+    paint::text_in(ui, room, Align2::LEFT_CENTER, &summary, text::small(), ink);
     paint::focus_ring(ui, &response, 4);
     if response.on_hover_text(&summary).clicked() {
         state.satellites.group = (!is_open).then_some(index);

@@ -1,0 +1,34 @@
+//! Opens folders in the file manager of the desktop, on a thread.
+
+use std::{path::PathBuf, sync::Arc};
+
+use super::App;
+use crate::{
+    desktop::folder::{self, NotOpened},
+    job::Job,
+};
+
+/// Opens one folder at a time.
+#[derive(Default)]
+pub(super) struct FolderWork {
+    job: Option<Job<Result<(), NotOpened>>>,
+}
+
+impl App {
+    pub(super) fn open_folder(&mut self, path: PathBuf) {
+        let work = move |_: &(dyn Fn() -> bool + Sync)| folder::open(&path);
+        match Job::start("azel-folder", Arc::clone(&self.wake), work) {
+            Ok(job) => self.folder_work.job = Some(job),
+            Err(error) => self.views.folder_not_opened(&error.to_string()),
+        }
+    }
+
+    /// Takes the result of the thread.
+    pub(super) fn take_folder(&mut self) {
+        match Job::take(&mut self.folder_work.job) {
+            None | Some(Ok(Ok(()))) => {}
+            Some(Ok(Err(why))) => self.views.folder_not_opened(&why.to_string()),
+            Some(Err(broke_off)) => self.views.folder_not_opened(&broke_off.to_string()),
+        }
+    }
+}

@@ -1,0 +1,144 @@
+//! The passes to come over a site that is edited.
+
+use std::sync::Arc;
+
+use jiff::Timestamp;
+
+use super::{Compare, PassTrack};
+use crate::{
+    astro::{
+        Angle, Site,
+        time::{add_seconds, seconds_between},
+    },
+    engine::passes::ListedSatellite,
+    orbit::{PassSearch, passes},
+    station::Station,
+};
+
+/// Time ahead in which passes are searched for, hours.
+const AHEAD_H: f64 = 48.0;
+
+/// A site with the elevations that decide which passes it has.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Standpoint {
+    pub site: Site,
+    aos_elevation: Angle,
+    floor: Angle,
+}
+
+impl Standpoint {
+    pub fn of(station: &Station) -> Self {
+        Self {
+            site: station.site,
+            aos_elevation: station.aos_elevation(),
+            floor: station.elevation_floor(),
+        }
+    }
+}
+
+/// A question: the site as saved and as edited.
+#[derive(Debug, Clone)]
+pub struct Question {
+    /// The favourites.
+    pub satellites: Arc<Vec<Arc<ListedSatellite>>>,
+    /// Start of the passes that are counted.
+    pub from: Timestamp,
+    pub before: Standpoint,
+    pub after: Standpoint,
+}
+
+impl PartialEq for Question {
+    fn eq(&self, other: &Self) -> bool {
+        Arc::ptr_eq(&self.satellites, &other.satellites)
+            && self.from == other.from
+            && self.before == other.before
+            && self.after == other.after
+    }
+}
+
+/// The passes over a site.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Tally {
+    pub count: usize,
+    /// Time from AOS to LOS of all of them, seconds.
+    pub up_s: f64,
+    /// The highest maximum elevation, degrees; zero without a pass.
+    pub highest_deg: f64,
+    pub first_aos: Option<Timestamp>,
+}
+
+impl Tally {
+    fn of(standpoint: Standpoint, question: &Question) -> Self {
+        let search = PassSearch {
+            aos_elevation: standpoint.aos_elevation,
+            floor: standpoint.floor,
+            ..PassSearch::new(
+                standpoint.site,
+                question.from,
+                add_seconds(question.from, AHEAD_H * 3600.0),
+            )
+        };
+        let mut tally = Self::default();
+        for satellite in question.satellites.iter() {
+            for pass in passes(&satellite.propagator, &search, &|| false) {
+                // Such a satellite hardly moves and has no AOS.
+                if pass.starts_before && pass.ends_after {
+                    continue;
+                }
+                tally.count += 1;
+                tally.up_s += seconds_between(pass.aos.time, pass.los.time);
+                tally.highest_deg = tally.highest_deg.max(pass.max_elevation().degrees());
+                let aos = Some(pass.aos.time).filter(|_| !pass.starts_before);
+                tally.first_aos = match (tally.first_aos, aos) {
+                    (Some(first), Some(aos)) => Some(first.min(aos)),
+                    (first, aos) => first.or(aos),
+                };
+            }
+        }
+        tally
+    }
+}
+
+impl Compare for Question {
+    type Tally = Tally;
+    /// Tracks are not looked at: those of another site differ.
+    const EVERY: usize = usize::MAX;
+
+    fn tallies(&self, _: &[PassTrack]) -> [Tally; 2] {
+        [self.before, self.after].map(|standpoint| Tally::of(standpoint, self))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::orbit::{Propagator, bundled};
+
+    #[test]
+    fn a_moved_site_and_a_higher_aos_have_other_passes() {
+        let elements = bundled().unwrap().get(25_544).unwrap().clone();
+        let from = elements.epoch();
+        let propagator = Propagator::new(&elements).unwrap();
+        let satellite = ListedSatellite { elements, propagator };
+        let station = Station::default();
+        let tallies = |station: &Station| {
+            let question = Question {
+                satellites: Arc::new(vec![Arc::new(ListedSatellite {
+                    elements: satellite.elements.clone(),
+                    propagator: satellite.propagator.clone(),
+                })]),
+                from,
+                before: Standpoint::of(&Station::default()),
+                after: Standpoint::of(station),
+            };
+            question.tallies(&[])
+        };
+        let [was, same] = tallies(&station);
+        assert_eq!(was, same);
+        assert!(was.count > 4 && was.up_s > 600.0 && was.highest_deg > 5.0, "{was:?}");
+        let pole = Station { site: Site::new(89.0, 0.0, 0.0).unwrap(), ..Station::default() };
+        assert_eq!(tallies(&pole)[1], Tally::default(), "the ISS is never up at the pole");
+        let [was, new] = tallies(&Station { aos_elevation_deg: 20.0, ..station });
+        assert!(new.up_s < was.up_s && new.first_aos > was.first_aos, "{was:?} {new:?}");
+    }
+}
