@@ -15,7 +15,10 @@ use crate::{
     engine::passes::{ListChoice, SPANS_H, Scope},
     job::{Job, Wake},
     model::{Appearance, ThemeName, View, catalog_table::Column},
-    ui::{Kept, elements::ChosenColumns, map::MapLayers, pass_list::Arrangement, sky_plot::Layers},
+    ui::{
+        Kept, elements::ChosenColumns, keys::own::OwnKeys, map::MapLayers, pass_list::Arrangement,
+        sky_plot::Layers,
+    },
     whole_file,
 };
 
@@ -92,6 +95,7 @@ impl Memory {
                 layers: layers(table.get("layers").and_then(toml::Value::as_table)),
                 map_layers: map_layers(table.get("map_layers").and_then(toml::Value::as_table)),
                 columns: columns(table.get("columns").and_then(toml::Value::as_array)),
+                keys: own_keys(table.get("keys").and_then(toml::Value::as_array)),
             },
         }
     }
@@ -126,6 +130,7 @@ impl Memory {
             #[serde(skip_serializing_if = "Option::is_none")]
             list_width: Option<u32>,
             columns: &'a ChosenColumns,
+            keys: Vec<[&'static str; 3]>,
             passes: &'a Arrangement,
             layers: Layers,
             map_layers: MapLayers,
@@ -148,6 +153,7 @@ impl Memory {
             strip_hours: self.views.strip_hours,
             list_width: self.views.list_width,
             columns: &self.views.columns,
+            keys: self.views.keys.kept().collect(),
             passes: &self.views.passes,
             layers: self.views.layers,
             map_layers: self.views.map_layers,
@@ -191,6 +197,13 @@ fn layers(table: Option<&toml::Table>) -> Layers {
         keep_outs: shown("keep_outs", usual.keep_outs),
         antennas: shown("antennas", usual.antennas),
     }
+}
+
+/// Keys as lists of place, usual key and own key.
+fn own_keys(list: Option<&toml::value::Array>) -> OwnKeys {
+    let words = list.into_iter().flatten().filter_map(|own| own.clone().try_into().ok());
+    let kept: Vec<[String; 3]> = words.collect();
+    OwnKeys::from_kept(kept.iter().map(|words| words.each_ref().map(String::as_str)))
 }
 
 fn columns(list: Option<&toml::value::Array>) -> ChosenColumns {
@@ -331,6 +344,7 @@ mod tests {
                 layers: Layers { names: false, mask: false, ..Layers::default() },
                 map_layers: MapLayers { other_tracks: true, ..MapLayers::default() },
                 columns: [Column::Age, Column::Number].into_iter().collect(),
+                keys: OwnKeys::from_kept([["operate", "N", "J"]]),
             },
         }
     }
@@ -416,6 +430,10 @@ mod tests {
             ("pass_scope = 'none'\npass_hours = 7\npass_hours_of_all = 24", {
                 let list = ListChoice { all_h: 24, ..ListChoice::default() };
                 Memory { list, ..Memory::default() }
+            }),
+            ("keys = [['operate', 'N', 'J'], ['operate', 'T', 'K'], 'N', ['map', 'L']]", {
+                let keys = OwnKeys::from_kept([["operate", "N", "J"]]);
+                Memory { views: Kept { keys, ..Kept::default() }, ..Memory::default() }
             }),
             ("columns = ['age', 'colour', 7, 'name', 'number']", {
                 let columns = [Column::Age, Column::Number].into_iter().collect();

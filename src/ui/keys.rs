@@ -2,6 +2,7 @@
 
 mod act;
 pub mod list;
+pub mod own;
 
 use egui::{Key, Modifiers, Ui};
 
@@ -303,7 +304,10 @@ pub struct KeyTargets<'a> {
 /// Handles the keys of this frame.
 pub fn take(ui: &Ui, model: &Model, targets: &mut KeyTargets<'_>, commands: &mut Vec<UiCommand>) {
     // A typed letter is no shortcut, and a dialog has keys of its own.
-    let typing = ui.text_edit_focused() || targets.question.is_some() || *targets.list_open;
+    let typing = ui.text_edit_focused()
+        || targets.question.is_some()
+        || *targets.list_open
+        || targets.preferences.waits_for_key();
     let works = |place| match place {
         KeyScope::Everywhere => true,
         KeyScope::Views => !typing,
@@ -314,10 +318,11 @@ pub fn take(ui: &Ui, model: &Model, targets: &mut KeyTargets<'_>, commands: &mut
         KeyScope::Preferences => model.view == View::Preferences,
         KeyScope::Focus => false,
     };
+    let own = targets.preferences.own_keys().clone();
     for binding in ALL.iter().filter(|binding| works(binding.place)) {
-        for (key, act) in binding.keys {
+        for ((_, act), key) in binding.keys.iter().zip(own.keys(binding)) {
             if act.is_possible(ui, model)
-                && ui.input_mut(|input| input.consume_key(binding.modifiers, *key))
+                && ui.input_mut(|input| input.consume_key(binding.modifiers, key))
             {
                 act.carry_out(ui, model, targets, commands);
             }

@@ -29,7 +29,7 @@ pub(super) mod station_fields;
 use egui::{Rect, Ui};
 use jiff::Timestamp;
 
-use super::{theme, widgets::hold_button::HoldState, words};
+use super::{keys::own::OwnKeys, theme, widgets::hold_button::HoldState, words};
 use crate::{
     astro::MaskForm,
     model::{MaskNews, Model, UiCommand},
@@ -39,6 +39,7 @@ use columns::Part;
 use draft::Draft;
 use form::Sought;
 use horizon::HorizonState;
+use keys::KeysState;
 use page::Page;
 use rules::RulesState;
 use satellites::SatellitesState;
@@ -59,6 +60,7 @@ pub struct PreferencesState {
     search: Search,
     form: FormState,
     horizon: HorizonState,
+    keys: KeysState,
     confirming: HoldState,
 }
 
@@ -142,6 +144,20 @@ impl PreferencesState {
         self.search.wants_focus = true;
     }
 
+    /// The keys that the operator has chosen.
+    pub fn own_keys(&self) -> &OwnKeys {
+        &self.keys.own
+    }
+
+    pub(super) fn use_keys(&mut self, own: OwnKeys) {
+        self.keys.own = own;
+    }
+
+    /// Whether the next key is one to be chosen.
+    pub(super) fn waits_for_key(&self) -> bool {
+        self.keys.waits()
+    }
+
     /// Shows the page of this antenna.
     pub fn show_antenna(&mut self, antenna: AntennaId) {
         self.page = Page::Antenna(antenna);
@@ -218,7 +234,11 @@ fn show_page(
         Page::Appearance => cards(ui, rect, "appearance", &appearance::CARDS, |ui, card| {
             appearance::card_of(ui, card, model, commands);
         }),
-        Page::Keys => cards(ui, rect, "keys", &keys::rows(), keys::card_of),
+        Page::Keys => {
+            let keys = &mut state.keys;
+            keys.listen(ui);
+            cards(ui, rect, "keys", &keys::rows(), |ui, card| keys::card_of(ui, card, keys));
+        }
         Page::Horizon => {}
     }
 }

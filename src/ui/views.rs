@@ -15,7 +15,7 @@ use super::{
     },
     elements::{self, ChosenColumns},
     icons::Icon,
-    keys::{self, KeyTargets},
+    keys::{self, KeyTargets, own::OwnKeys},
     map::{self, MapLayers},
     notes::Notes,
     operate,
@@ -73,6 +73,8 @@ pub struct Kept {
     pub map_layers: MapLayers,
     /// Columns of the catalogue.
     pub columns: ChosenColumns,
+    /// Keys that the operator has chosen.
+    pub keys: OwnKeys,
 }
 
 impl Views {
@@ -88,6 +90,7 @@ impl Views {
         operate.sky.layers = kept.layers;
         views.map.layers = kept.map_layers;
         views.elements.columns = kept.columns;
+        views.preferences.use_keys(kept.keys);
         views
     }
 
@@ -102,6 +105,7 @@ impl Views {
             layers: self.operate.sky.layers,
             map_layers: self.map.layers,
             columns: self.elements.columns.clone(),
+            keys: self.preferences.own_keys().clone(),
         }
     }
 
@@ -199,7 +203,7 @@ impl Views {
         if commands.iter().skip(answered).any(is_manual) {
             self.operate.card.drive.focus_pad();
         }
-        keys::list::show(ui, &mut self.keys_open);
+        keys::list::show(ui, &mut self.keys_open, self.preferences.own_keys());
     }
 
     /// Drops commands since `before` that would change the station under edits of its

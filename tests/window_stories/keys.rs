@@ -10,7 +10,7 @@ use azel::{
     engine::{alarms::AlarmKind, passes::PredictedPass},
     model::{UiCommand, View},
     station::Take,
-    ui::keys::{ALL, Binding, KeyScope, list::in_words},
+    ui::keys::{ALL, Binding, KeyScope, list::in_words, own::OwnKeys},
 };
 use egui::{Key, Modifiers, Role};
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
@@ -50,7 +50,7 @@ fn all_words(window: &Window) -> Vec<String> {
 }
 
 fn line(binding: &Binding) -> String {
-    format!("{}: {}", in_words(binding), binding.does)
+    format!("{}: {}", in_words(binding, &OwnKeys::default()), binding.does)
 }
 
 #[test]

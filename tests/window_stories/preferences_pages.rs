@@ -11,6 +11,7 @@ use azel::{
     },
     model::{Model, UiCommand, View, effects},
     station::{Antenna, AntennaId},
+    ui::keys::{ALL, list::in_words, own::OwnKeys},
 };
 use egui::{Event, Key, Modifiers, Role};
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
@@ -276,14 +277,67 @@ fn a_station_without_an_antenna_says_how_to_add_one() {
 }
 
 #[test]
-fn the_keys_are_listed_with_what_they_do() {
+fn all_keys_are_listed_with_what_they_do() {
     for size in SIZES {
         let mut window = form(size);
         open(&mut window, "Keys");
-        for words in ["Esc: STOP, everywhere", "Ctrl Tab: in Preferences: the next page"] {
-            window.get_by_label_contains(words);
+        for binding in &ALL {
+            let words = format!("{}: {}", in_words(binding, &OwnKeys::default()), binding.does);
+            assert!(says(&window, &words), "{words}");
         }
     }
+}
+
+#[test]
+fn a_key_is_changed_by_a_press_and_one_that_is_taken_is_refused_by_name() {
+    let mut window = form(LARGE);
+    open(&mut window, "Keys");
+    let next = "the pass in progress or the next one";
+    press(&mut window, Role::Button, &format!("Change N: {next}"));
+    window.key_press(Key::A);
+    settle(&mut window);
+    assert!(says(&window, "A is taken: acknowledge the newest alarm."));
+    assert_eq!(rig::asked(&mut window), [], "the pressed key did nothing else");
+    press(&mut window, Role::Button, &format!("Change N: {next}"));
+    window.key_press(Key::J);
+    settle(&mut window);
+    assert!(says(&window, &format!("J: {next}")));
+    window.get_by_role_and_label(Role::Button, &format!("Change J: {next}"));
+    let kept: Vec<_> = window.state().views.kept().keys.kept().collect();
+    assert_eq!(kept, [["operate", "N", "J"]]);
+
+    window.state_mut().model.view = View::Operate;
+    window.state_mut().model.selected = None;
+    settle(&mut window);
+    rig::asked(&mut window);
+    window.key_press(Key::N);
+    assert_eq!(rig::asked(&mut window), []);
+    window.key_press(Key::J);
+    assert!(matches!(rig::asked(&mut window)[..], [UiCommand::SelectPass(_)]));
+
+    window.state_mut().model.view = View::Preferences;
+    settle(&mut window);
+    press(&mut window, Role::Button, "Use the usual keys");
+    assert!(says(&window, &format!("N: {next}")));
+}
+
+#[test]
+fn stop_stays_on_esc_while_a_key_is_waited_for() {
+    let mut window = form(LARGE);
+    open(&mut window, "Keys");
+    let named = |node: &egui_kittest::Node<'_>| {
+        node.accesskit_node().label().is_some_and(|name| name.starts_with("Change "))
+    };
+    let names = window.query_all_by_role(Role::Button).filter(named).count();
+    assert!(names > 10);
+    for fixed in ["Change Esc: ", "Change T: ", "Change G: ", "Change M: "] {
+        assert_eq!(window.query_all_by_label_contains(fixed).count(), 0, "{fixed}");
+    }
+    press(&mut window, Role::Button, "Change N: the pass in progress or the next one");
+    window.key_press(Key::Escape);
+    settle(&mut window);
+    assert!(says(&window, "N: the pass in progress or the next one"));
+    assert_eq!(window.state().views.kept().keys, OwnKeys::default());
 }
 
 #[test]

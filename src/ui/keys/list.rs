@@ -2,7 +2,7 @@
 
 use egui::{Align2, Frame, Key, Modal, Modifiers, Sense, Ui, vec2};
 
-use super::{ALL, Binding};
+use super::{ALL, Binding, own::OwnKeys};
 use crate::ui::{
     text, theme,
     widgets::{button::Button, paint},
@@ -13,7 +13,7 @@ const KEYS: f32 = 176.0;
 const ROW: f32 = 16.0;
 
 /// Shows the list until Esc, `?`, a click outside or its button closes it.
-pub fn show(ui: &Ui, open: &mut bool) {
+pub fn show(ui: &Ui, open: &mut bool, own: &OwnKeys) {
     if !*open {
         return;
     }
@@ -33,7 +33,7 @@ pub fn show(ui: &Ui, open: &mut bool) {
             let (row, _) = ui.allocate_exact_size(vec2(WIDTH, ROW), Sense::hover());
             ui.painter().hline(row.x_range(), row.top(), (1.0, t.line));
             let (keys, does) = row.split_left_right_at_x(row.left() + KEYS);
-            let words = in_words(binding);
+            let words = in_words(binding, own);
             let font = text::body_medium();
             paint::text_in(ui, keys, Align2::LEFT_CENTER, &words, font, t.t1);
             paint::text_in(ui, does, Align2::LEFT_CENTER, binding.does, text::body(), t.t2);
@@ -47,16 +47,16 @@ pub fn show(ui: &Ui, open: &mut bool) {
 }
 
 /// The keys of a line as labelled on the keyboard, such as "Ctrl 1, 6".
-pub fn in_words(binding: &Binding) -> String {
+pub fn in_words(binding: &Binding, own: &OwnKeys) -> String {
     let before = match binding.modifiers {
         Modifiers::COMMAND => "Ctrl ",
         Modifiers::SHIFT => "Shift ",
         Modifiers::ALT => "Alt ",
         _ => "",
     };
-    let words: Vec<&str> = binding.keys().map(word).collect();
+    let words: Vec<&str> = own.keys(binding).map(word).collect();
     // The four arrow keys have a common name.
-    if words.len() == 4 && binding.keys().all(is_arrow) {
+    if words.len() == 4 && own.keys(binding).all(is_arrow) {
         return if before.is_empty() { "Arrows".to_owned() } else { format!("{before}arrows") };
     }
     format!("{before}{}", words.join(", "))
@@ -66,7 +66,8 @@ fn is_arrow(key: Key) -> bool {
     matches!(key, Key::ArrowLeft | Key::ArrowRight | Key::ArrowUp | Key::ArrowDown)
 }
 
-fn word(key: Key) -> &'static str {
+/// A key as labelled on the keyboard.
+pub fn word(key: Key) -> &'static str {
     match key {
         Key::Escape => "Esc",
         Key::ArrowUp => "Up",

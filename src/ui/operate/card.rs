@@ -59,15 +59,8 @@ pub(super) fn show(
     let measured = snapshot.state.measured;
     let second_line = second_line(antenna);
     let table = axes::table(antenna);
-    let age = measured.filter(|_| !antenna.is_live()).map(|measured| {
-        let age = model.steady.saturating_duration_since(measured.received);
-        format::age(age.as_secs_f64())
-    });
-    let wanted = if snapshot.aim.is_none() && antenna.prediction.is_some() {
-        WantedColumn::Predicted
-    } else {
-        WantedColumn::Command
-    };
+    let age = age_of_old(model, antenna);
+    let wanted = wanted(antenna);
     let predicted_decimals = model.appearance.angle_decimals as usize;
     let decimals = format::decimals(can, predicted_decimals);
     let checks = &antenna.snapshot.state.checks;
@@ -190,6 +183,22 @@ fn offer<'a>(antenna: &'a AntennaModel, go_on: Option<&'a str>) -> Option<Offer<
     // Where the elements are not known here, there is nothing to watch it by.
     let taken = name.filter(|_| antenna.snapshot.on_board.is_some());
     again.or(taken.map(|name| Offer::TakeOver(short(name)))).or(go_on.map(Offer::GoOn))
+}
+
+/// The age of measured values that are old.
+fn age_of_old(model: &Model, antenna: &AntennaModel) -> Option<String> {
+    let measured = antenna.snapshot.state.measured.filter(|_| !antenna.is_live())?;
+    let age = model.steady.saturating_duration_since(measured.received);
+    Some(format::age(age.as_secs_f64()))
+}
+
+/// What stands beside the measured values.
+fn wanted(antenna: &AntennaModel) -> WantedColumn {
+    if antenna.snapshot.aim.is_none() && antenna.prediction.is_some() {
+        WantedColumn::Predicted
+    } else {
+        WantedColumn::Command
+    }
 }
 
 fn second_line(antenna: &AntennaModel) -> String {

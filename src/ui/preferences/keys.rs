@@ -1,11 +1,16 @@
-//! The page of the keys: which key does what, and where.
+//! The page of the keys: which key does what, and where, and the choice of other keys. A choice
+//! is used at once and belongs to this window.
 
-use egui::{Align2, Rect, Sense, Ui, vec2};
+use egui::{Align2, Color32, Event, Key, Rect, Role, Sense, Stroke, StrokeKind, Ui, pos2, vec2};
 
 use super::form;
 use crate::ui::{
     icons::{self, Icon},
-    keys::{ALL, Binding, KeyScope, list::in_words},
+    keys::{
+        ALL, Binding, KeyScope,
+        list::{in_words, word},
+        own::{Clash, OwnKeys, Slot},
+    },
     text, theme,
     widgets::paint,
 };
@@ -13,15 +18,61 @@ use crate::ui::{
 const ROW: f32 = 22.0;
 /// Width of the column of the keys.
 const KEYS: f32 = 148.0;
+const GAP: f32 = 4.0;
+/// What a key says that waits for another one.
+const WAITING: &str = "Press a key";
 
 /// The cards, each with its title and its scopes.
-const CARDS: [(&str, &[KeyScope]); 5] = [
+const CARDS: [(&str, &[KeyScope]); 6] = [
     ("In every view", &[KeyScope::Everywhere, KeyScope::Views]),
     ("In the focused control", &[KeyScope::Focus]),
     ("In Operate", &[KeyScope::Operate]),
+    ("In Plan", &[KeyScope::Plan]),
     ("In Map", &[KeyScope::Map]),
     ("In Elements and Preferences", &[KeyScope::Elements, KeyScope::Preferences]),
 ];
+
+/// The chosen keys, and the choice under way.
+#[derive(Default)]
+pub(super) struct KeysState {
+    pub(super) own: OwnKeys,
+    /// The key for which another one is to be pressed.
+    waiting: Option<Slot>,
+    refused: Option<(Slot, Key, Clash)>,
+}
+
+impl KeysState {
+    pub(super) fn waits(&self) -> bool {
+        self.waiting.is_some()
+    }
+
+    /// Takes the key that is pressed in this frame, if one is waited for. Esc is STOP, also here.
+    pub(super) fn listen(&mut self, ui: &Ui) {
+        let Some(slot) = self.waiting else { return };
+        let pressed = ui.input_mut(|input| {
+            let pressed = input.events.iter().find_map(|event| match event {
+                Event::Key { key, pressed: true, repeat: false, modifiers, .. } => {
+                    Some((*key, modifiers.is_none()))
+                }
+                _ => None,
+            });
+            if pressed.is_some() {
+                let is_of_keys =
+                    |event: &Event| matches!(event, Event::Key { .. } | Event::Text(_));
+                input.events.retain(|event| !is_of_keys(event));
+            }
+            pressed
+        });
+        let Some((key, is_plain)) = pressed else { return };
+        self.waiting = None;
+        self.refused = match self.own.choose(slot, key) {
+            _ if key == Key::Escape => None,
+            _ if !is_plain => Some((slot, key, Clash::NoShortcut)),
+            Ok(()) => None,
+            Err(clash) => Some((slot, key, clash)),
+        };
+    }
+}
 
 fn bindings(scopes: &'static [KeyScope]) -> impl Iterator<Item = &'static Binding> {
     // STOP is above every control.
@@ -34,29 +85,86 @@ pub(super) fn rows() -> [usize; CARDS.len()] {
     CARDS.map(|(_, scopes)| bindings(scopes).count())
 }
 
-pub(super) fn card_of(ui: &mut Ui, card: usize) {
+pub(super) fn card_of(ui: &mut Ui, card: usize, state: &mut KeysState) {
     let Some((title, scopes)) = CARDS.get(card) else { return };
     form::card(ui, title, |ui| {
         ui.spacing_mut().item_spacing.y = 0.0;
         for binding in bindings(scopes) {
-            row(ui, binding);
+            row(ui, binding, state);
+        }
+        if card == 0 && state.own != OwnKeys::default() {
+            ui.add_space(8.0);
+            if ui.button("Use the usual keys").clicked() {
+                *state = KeysState::default();
+            }
         }
     });
 }
 
-fn row(ui: &mut Ui, binding: &Binding) {
+fn row(ui: &mut Ui, binding: &Binding, state: &mut KeysState) {
     let t = theme::tokens(ui);
     let (rect, _) = ui.allocate_exact_size(vec2(ui.available_width(), ROW), Sense::hover());
     ui.painter().hline(rect.x_range(), rect.top(), (1.0, t.line));
-    let words = in_words(binding);
     let place = rect.with_max_x(rect.left() + KEYS);
-    let keys = paint::text_in(ui, place, Align2::LEFT_CENTER, &words, text::body_medium(), t.t1);
-    if binding.is_stop() {
-        let lock = paint::square(keys.right_center() + vec2(14.0, 0.0), 12.0);
-        icons::paint(ui.painter(), lock, Icon::Lock, t.t3);
+    let slots: Vec<Slot> = binding.slots().collect();
+    let words = in_words(binding, &state.own);
+    if slots.is_empty() {
+        let keys =
+            paint::text_in(ui, place, Align2::LEFT_CENTER, &words, text::body_medium(), t.t1);
+        if binding.is_stop() {
+            let lock = paint::square(keys.right_center() + vec2(14.0, 0.0), 12.0);
+            icons::paint(ui.painter(), lock, Icon::Lock, t.t3);
+        }
     }
-    let does = Rect::from_min_max(place.right_top(), rect.max);
-    paint::text_in(ui, does, Align2::LEFT_CENTER, binding.does, text::body(), t.t2);
-    let said = format!("{words}: {}", binding.does);
-    paint::name_text(ui, ("key", binding.does), rect, &said).on_hover_text(&said);
+    let mut left = place.left();
+    for slot in &slots {
+        left = key(ui, pos2(left, place.center().y), *slot, binding.does, state) + GAP;
+    }
+    let does = Rect::from_min_max(pos2(place.right().max(left + GAP), place.top()), rect.max);
+    let refused = state.refused.filter(|(slot, ..)| slots.contains(slot));
+    let (said, colour) = match refused {
+        Some((_, key, clash)) => (refusal(key, clash), t.bad),
+        None => (binding.does.to_owned(), t.t2),
+    };
+    paint::text_in(ui, does, Align2::LEFT_CENTER, &said, text::body(), colour);
+    let spoken = format!("{words}: {said}");
+    paint::name_text(ui, ("key", binding.does), does, &spoken).on_hover_text(&spoken);
+}
+
+fn refusal(key: Key, clash: Clash) -> String {
+    match clash {
+        Clash::NoShortcut => {
+            format!("{} cannot be chosen: a letter, a digit or F5 to F12 can.", word(key))
+        }
+        Clash::Taken(does) => format!("{} is taken: {does}.", word(key)),
+    }
+}
+
+/// A key that can be changed; returns its right end.
+fn key(ui: &Ui, left: egui::Pos2, slot: Slot, does: &str, state: &mut KeysState) -> f32 {
+    let t = theme::tokens(ui);
+    let waits = state.waiting == Some(slot);
+    let now = word(state.own.of_slot(slot));
+    let words = if waits { WAITING } else { now };
+    let width = (paint::text_width(ui, words, text::body_medium()) + 12.0).max(ROW);
+    let rect = Rect::from_min_size(left - vec2(0.0, 9.0), vec2(width, 18.0));
+    let name = if waits {
+        format!("{WAITING} in place of {now}")
+    } else {
+        format!("Change {now}: {does}")
+    };
+    let response = paint::control(ui, ("change key", does, now), rect, Role::Button, true, &name);
+    let (fill, border, ink) = match (waits, state.own.is_own(slot)) {
+        (true, _) => (t.sat, t.sat, t.onsat),
+        (false, true) => (Color32::TRANSPARENT, t.sat, t.t1),
+        (false, false) => (Color32::TRANSPARENT, t.edge, t.t1),
+    };
+    ui.painter().rect(rect, 3, fill, Stroke::new(1.0, border), StrokeKind::Inside);
+    paint::text_in(ui, rect, Align2::CENTER_CENTER, words, text::body_medium(), ink);
+    paint::focus_ring(ui, &response, 3);
+    if response.on_hover_text(&name).clicked() {
+        state.waiting = (!waits).then_some(slot);
+        state.refused = None;
+    }
+    rect.right()
 }
