@@ -268,7 +268,8 @@ impl Reporter {
             let antenna =
                 alarm.antenna.and_then(|id| station.antennas.iter().find(|of| of.id() == id));
             let name = antenna.map(|antenna| antenna.config.name.clone());
-            let text = words::alarm(&alarm.kind, name.as_deref().unwrap_or("Azel"));
+            let text =
+                words::alarm(&alarm.kind, name.as_deref().unwrap_or("Azel"), Timestamp::now());
             say(tell, name.as_deref(), About::Alarm, text.clone());
             self.alarms.insert(alarm.id, (name, text));
         }

@@ -39,7 +39,7 @@ mod tests {
 
     fn standing(alarms: &Alarms) -> Vec<String> {
         let list = alarms.list().iter().filter(|alarm| !alarm.is_over());
-        list.map(|alarm| words::alarm(&alarm.kind, "")).collect()
+        list.map(|alarm| words::alarm(&alarm.kind, "", Timestamp::UNIX_EPOCH)).collect()
     }
 
     #[test]

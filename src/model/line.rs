@@ -50,11 +50,6 @@ impl ConsoleLine {
         texts.into_iter().any(|text| text.to_lowercase().contains(needle))
     }
 
-    /// hh:mm:ss with milliseconds, UTC.
-    pub fn time(&self) -> String {
-        self.wire().at.to_zoned(TimeZone::UTC).strftime("%H:%M:%S.%3f").to_string()
-    }
-
     /// Round trip, such as "34 ms".
     pub fn round_trip(&self) -> Option<String> {
         let after = self.wire().reply_after?;

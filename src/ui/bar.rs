@@ -1,7 +1,6 @@
 //! Fills the top bar from the model.
 
 use egui::{Rect, Ui};
-use jiff::tz::TimeZone;
 
 use super::{
     format, state_sentence, top_bar,
@@ -27,9 +26,8 @@ use crate::{
 };
 
 pub fn show(ui: &mut Ui, rect: Rect, model: &Model, commands: &mut Vec<UiCommand>) {
-    let (utc, date) = (format::time(model.now), format::date(model.now));
-    let zoned = model.now.to_zoned(TimeZone::system());
-    let local = zoned.strftime("%H:%M:%S local, %Z").to_string();
+    let (utc, date) = (format::clock(model.now), format::date(model.now));
+    let local = format::local_clock(model.now);
     let site = model.station.site;
     let coordinates = coordinates(site.latitude().degrees(), site.longitude().degrees());
 
@@ -121,7 +119,7 @@ fn told_alarms(model: &Model) -> Vec<ToldAlarm<'_>> {
         ToldAlarm {
             alarm,
             follows: follows.and_then(section_of) == Some(Section::of(alarm.state())),
-            text: words::alarm(&alarm.kind, name) + &reason.unwrap_or_default(),
+            text: words::alarm(&alarm.kind, name, model.now) + &reason.unwrap_or_default(),
             time: words::alarm_times(alarm, model.now),
             state: words::alarm_state(alarm.state(), model.now),
             moves_away: alarm.antenna.filter(|_| {

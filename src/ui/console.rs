@@ -95,7 +95,7 @@ pub fn show(
     } else {
         (list, Rect::NOTHING)
     };
-    table::show(ui, list, model.antennas.len() > 1, state);
+    table::show(ui, list, model.antennas.len() > 1, model.now, state);
     bar::show_strip(ui, strip, state);
     send::show(ui, send, model, &mut state.entry, commands);
 

@@ -117,11 +117,10 @@ fn compared(
     let t = theme::tokens(ui);
     let head = &copy.head;
     let words = format!(
-        "Copy of {} at {}, saved {} {}.",
+        "Copy of {} at {}, saved {}.",
         head.antenna,
         head.address,
-        format::date(head.saved_at),
-        format::time_z(head.saved_at)
+        format::dated(head.saved_at)
     );
     ui.label(RichText::new(words).font(text::small()).color(t.t2));
     if !copy.unknown.is_empty() {

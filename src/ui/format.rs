@@ -1,10 +1,14 @@
 //! The formats of numbers and times.
 
-use jiff::{Timestamp, tz::TimeZone};
+mod times;
 
 use crate::{
     astro::{Angle, AzEl},
     device::{Capabilities, Pointing},
+};
+pub use times::{
+    clock, copied, date, dated, day, hour_of_day, local_clock, millisecond, minute, minute_of_day,
+    minutes, moment, second_of_day, stretch, weekday,
 };
 
 /// Typographic minus sign.
@@ -145,33 +149,6 @@ pub fn age(seconds: f64) -> String {
     }
 }
 
-/// UTC as hh:mm:ss.
-pub fn time(at: Timestamp) -> String {
-    at.to_zoned(TimeZone::UTC).strftime("%H:%M:%S").to_string()
-}
-
-/// UTC as hh:mm:ssZ.
-pub fn time_z(at: Timestamp) -> String {
-    format!("{}Z", time(at))
-}
-
-/// UTC as hh:mm:ssZ, with its day before it where that is not the day of `now`.
-pub fn moment(at: Timestamp, now: Timestamp) -> String {
-    let [at, now] = [at, now].map(|time| time.to_zoned(TimeZone::UTC));
-    let day = if at.date() == now.date() { "" } else { "%-d %b " };
-    at.strftime(&format!("{day}%H:%M:%SZ")).to_string()
-}
-
-/// UTC as hh:mm.
-pub fn hours_minutes(at: Timestamp) -> String {
-    at.to_zoned(TimeZone::UTC).strftime("%H:%M").to_string()
-}
-
-/// UTC as weekday and ISO date, such as Sat 2026-11-14.
-pub fn date(at: Timestamp) -> String {
-    at.to_zoned(TimeZone::UTC).strftime("%a %Y-%m-%d").to_string()
-}
-
 /// Names joined into a list, such as "Satrak, Genius and RC2000C".
 pub fn list(names: &[impl AsRef<str>]) -> String {
     let mut text = String::new();
@@ -250,13 +227,5 @@ mod tests {
         assert_eq!(age(31_920.0), "8 h 52 min");
         assert_eq!(age(102.0 * 86_400.0), "102 d");
         assert_eq!(age(-1.0), "0.0 s");
-    }
-
-    #[test]
-    fn clock_times() {
-        let at: Timestamp = "2026-11-14T11:06:12.9Z".parse().unwrap();
-        assert_eq!(time_z(at), "11:06:12Z");
-        assert_eq!(hours_minutes(at), "11:06");
-        assert_eq!(date(at), "Sat 2026-11-14");
     }
 }

@@ -95,7 +95,7 @@ impl<'a> HandOverSheet<'a> {
 
     /// Name of a satellite with the time of AOS.
     fn named_pass(&self, pass: PassKey) -> String {
-        format!("{} {}", self.name(pass.satellite), format::hours_minutes(pass.aos))
+        format!("{} {}", self.name(pass.satellite), format::minute_of_day(pass.aos))
     }
 
     fn antenna(&self, id: AntennaId) -> &str {

@@ -216,7 +216,7 @@ fn point_out(
     let on_path = pointer.and_then(|at| pointer::on_path(dome, scene.track.as_ref()?, at));
     let elsewhere = || along::at(scene.track?.samples, scene.marked?);
     if let Some(sample) = on_path.or_else(elsewhere) {
-        pointer::marked(ui, rect, dome, sample, t);
+        pointer::marked(ui, rect, dome, sample, scene.now, t);
     } else if let Some((at, pointed)) = pointer.and_then(|at| Some((at, dome.direction(at)?))) {
         pointer::pointed_at(ui, rect, at, pointed, t);
     }
@@ -285,7 +285,7 @@ fn paint_sky(
     planned::reserve(&mut labels, dome, scene);
     label_selected(&mut labels, dome, scene, t);
     planned::label(&mut labels, dome, scene, t);
-    track::label_events(&mut labels, dome, &events, t);
+    track::label_events(&mut labels, dome, &events, scene.now, t);
     track::label_minutes(&mut labels, &ticks, &events, scene.now, t);
     if layers.sun_and_moon {
         bodies::label_sun_and_moon(&mut labels, dome, scene, t);

@@ -88,7 +88,7 @@ fn alarms_are_told_in_words_with_their_antenna() {
         (note(NoteReason::Unknown), "Setting antenna.park is not known."),
         (AlarmKind::Elements("the file is empty".to_owned()), "The file is empty"),
     ] {
-        let said = words::alarm(&kind, "Satrak");
+        let said = words::alarm(&kind, "Satrak", rig::now());
         assert!(said.starts_with(wanted), "{said}");
         assert!(said.ends_with('.') || !wanted.ends_with('.'), "{said}");
     }
@@ -101,7 +101,7 @@ fn an_alarm_is_opened_acknowledged_and_stays_until_it_is_over() {
         let (now, kind) = (model.now, AlarmKind::LinkLost(LinkLoss::Closed));
         model.alarms.raise(Some(AntennaId::FIRST), kind.clone(), now);
         model.alarms.raise(None, AlarmKind::Elements("the file is empty".to_owned()), now);
-        let text = words::alarm(&kind, "Satrak");
+        let text = words::alarm(&kind, "Satrak", rig::now());
         let mut window = rig::window(size, model);
         window.get_by_label("2 alarms, 2 new").click();
         assert_eq!(carry_out(&mut window), [UiCommand::Station(engine::Command::OpenedAlarms)]);
@@ -131,7 +131,7 @@ fn an_alarm_that_is_over_and_new_says_so_with_its_times_and_repeats() {
             model.alarms.raise(of, kind.clone(), at);
             model.alarms.clear(of, at + 15.seconds(), |_| true);
         }
-        let text = words::alarm(&kind, "Satrak");
+        let text = words::alarm(&kind, "Satrak", rig::now());
         let mut window = rig::window(size, model);
         window.get_by_label("1 alarm, 1 new").click();
         carry_out(&mut window);
@@ -169,7 +169,7 @@ fn a_seen_alarm_is_shelved_and_taken_back_but_none_of_the_first_rank() {
             model.alarms.raise(of, kind, model.now);
         }
         model.alarms.acknowledge_all(1, model.now);
-        let text = words::alarm(&AlarmKind::ClockNotSet, "Satrak");
+        let text = words::alarm(&AlarmKind::ClockNotSet, "Satrak", rig::now());
         let mut window = rig::window(size, model);
         window.get_by_label("2 alarms, seen").click();
         carry_out(&mut window);

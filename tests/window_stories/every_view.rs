@@ -1,6 +1,7 @@
 //! Every view, and everything that opens over one: what must hold of all of them.
 
 mod contrast;
+mod days;
 mod painted;
 mod scale;
 mod tooltips;

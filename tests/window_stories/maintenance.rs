@@ -259,7 +259,7 @@ fn a_list_that_cannot_be_read_locks_out_everything_and_says_so() {
         .alarms
         .list()
         .iter()
-        .map(|alarm| azel::ui::words::alarm(&alarm.kind, "Azel"))
+        .map(|alarm| azel::ui::words::alarm(&alarm.kind, "Azel", rig::now()))
         .collect();
     assert!(alarms.iter().any(|words| words.starts_with("Every unit is locked out")), "{alarms:?}");
     window.run_steps(2);

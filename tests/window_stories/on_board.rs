@@ -102,10 +102,10 @@ fn the_minimum_of_the_station_is_filled_in_to_be_applied() {
 fn a_missed_satellite_is_told_with_the_likeliest_cause() {
     let off = Angle::from_degrees(23.04);
     let missed = AlarmKind::OffTarget { off, cause: Some(elsewhere(23.0)) };
-    let said = words::alarm(&missed, "Satrak");
+    let said = words::alarm(&missed, "Satrak", rig::now());
     assert!(said.starts_with("Satrak is 23.0° off its satellite: the unit stands 1596 km"));
     let unexplained = AlarmKind::OffTarget { off, cause: None };
-    let said = words::alarm(&unexplained, "Satrak");
+    let said = words::alarm(&unexplained, "Satrak", rig::now());
     assert!(said.contains("the age of its elements is not known"), "{said}");
 }
 
@@ -167,7 +167,7 @@ fn what_the_unit_tracks_that_the_station_has_no_elements_of_is_an_alarm() {
         alarms.any(|alarm| alarm.kind == not_compared && alarm.is_over() == is_over)
     };
     step_until(&mut window, "it is told", |model| stands(model, false));
-    let said = words::alarm(&not_compared, "Satrak");
+    let said = words::alarm(&not_compared, "Satrak", rig::now());
     assert!(said.contains("add a source that has them"), "{said}");
     window.key_press(Key::Escape);
     step_until(&mut window, "it is over", |model| stands(model, true));

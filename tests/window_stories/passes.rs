@@ -70,7 +70,7 @@ fn a_click_on_a_bar_of_the_strip_selects_its_pass() {
     for size in SIZES {
         let mut window = window(size);
         let wanted = coming(&window.state().model, METEOR_M2_4).key();
-        window.get_by_label("METEOR-M2 4, 12:44 to 12:56, max 49°").click();
+        window.get_by_label("METEOR-M2 4, 12:44Z to 12:56Z, max 49°").click();
         assert_eq!(asked(&mut window), [UiCommand::SelectPass(wanted)]);
     }
 }

@@ -201,9 +201,9 @@ fn errors_of_the_last_tracks_stay_to_be_looked_at() {
     let mut window = rig::window(LARGE, model);
     window.get_by_role_and_label(Role::ComboBox, "Errors of the last tracks").click();
     settle(&mut window);
-    window.get_by_label_contains("NOAA 20, 11:15 to 11:15Z: rms ").click();
+    window.get_by_label_contains("NOAA 20, 11:15Z to 11:15Z: rms ").click();
     settle(&mut window);
-    window.get_by_label_contains("Past track of NOAA 20, 11:15 to 11:15Z: rms ");
+    window.get_by_label_contains("Past track of NOAA 20, 11:15Z to 11:15Z: rms ");
     window.get_by_role_and_label(Role::ComboBox, "Errors of the last tracks").click();
     settle(&mut window);
     window.get_by_label("The selected pass").click();

@@ -231,7 +231,7 @@ fn a_station_that_shows_nothing_new_says_so() {
     model.watch_station(Some(Duration::from_secs(3)));
     let text = |model: &Model| {
         let alarms = model.alarms.list().iter().filter(|alarm| !alarm.is_over());
-        alarms.map(|alarm| words::alarm(&alarm.kind, "Azel")).collect::<Vec<_>>()
+        alarms.map(|alarm| words::alarm(&alarm.kind, "Azel", rig::now())).collect::<Vec<_>>()
     };
     let told = text(&model);
     assert!(told.len() == 1 && told[0].starts_with("What is shown is 3"), "{told:?}");

@@ -23,9 +23,9 @@ fn with_plan(size: [f32; 2]) -> Window {
     rig::window(size, model)
 }
 
-/// Whether it reads like "11:01 to 11:14", as in the strip alone; in lanes after a name.
+/// Whether it reads like "11:01Z to 11:14Z", as in the strip alone; in lanes after a name.
 fn is_times(words: &str) -> bool {
-    words.len() == "11:01 to 11:14".len() && words.contains(" to ")
+    words.split(" to ").all(|time| time.ends_with('Z')) && words.contains(" to ")
 }
 
 /// The bars of the strip, as they are read aloud.

@@ -83,7 +83,7 @@ fn show(
         edit(ui, unit, group, field, draft, is_revealed, (&state, place));
     }
     let (icon, colour) = look(&state, t);
-    let word = state.word();
+    let word = state.word(unit.model.now);
     row::state(ui, at.state, icon, &word, colour, &format!("{}: {word}", field.label));
     below(ui, field, draft, &state);
     if *is_revealed && matches!(field.kind, Kind::Password(_)) {
@@ -106,7 +106,7 @@ fn on_unit(ui: &Ui, unit: &ShownUnit<'_>, group: &Group, field: &Field, at: &Col
     let value = unit.values(group.key).and_then(|held| held.get(field.key));
     let full = value.map_or_else(|| UNKNOWN.to_owned(), |value| outcome::shown(field, value));
     let short = match value {
-        Some(Value::Time(time)) => time.strftime("%-d %b %H:%M:%S").to_string(),
+        Some(Value::Time(time)) => format::moment(*time, unit.model.now),
         _ => full.clone(),
     };
     let mut room = if field.access == Access::Read {

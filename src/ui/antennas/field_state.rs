@@ -33,7 +33,7 @@ pub(super) enum FieldState {
 
 impl FieldState {
     /// State in a word or two.
-    pub(super) fn word(&self) -> String {
+    pub(super) fn word(&self, now: Timestamp) -> String {
         match self {
             Self::Unknown => "Not read".to_owned(),
             Self::Unchanged => "Unchanged".to_owned(),
@@ -41,8 +41,8 @@ impl FieldState {
             Self::ConfirmFirst => "Confirm first".to_owned(),
             Self::NeedsService => "Service locked".to_owned(),
             Self::Sending => "Sending".to_owned(),
-            Self::Verified(at) => format!("Verified {}", format::time_z(*at)),
-            Self::Taken(at) => format!("Taken {}", format::time_z(*at)),
+            Self::Verified(at) => format!("Verified {}", format::moment(*at, now)),
+            Self::Taken(at) => format!("Taken {}", format::moment(*at, now)),
             Self::Rejected => "Rejected".to_owned(),
             Self::Invalid(_) => "Invalid".to_owned(),
             Self::ReadOnly => "Read only".to_owned(),

@@ -48,7 +48,7 @@ impl Lines {
         let is_narrow = width < NARROW;
         let room = if is_narrow { width - BUTTONS } else { width * REPORT - PADDING } - 24.0;
         let pending = is_narrow.then(|| (Mark::Pending, pending(ui, unit, form).0));
-        let report = form.report.lines().into_iter();
+        let report = form.report.lines(unit.model.now).into_iter();
         let report = report.map(|(good, words)| (if good { Mark::Good } else { Mark::Bad }, words));
         let lay = |(mark, words): (Mark, String)| {
             let galley = ui.painter().layout(words.clone(), text::small(), t.t1, room);

@@ -47,19 +47,26 @@ pub(super) struct Form {
 #[derive(Default)]
 pub(super) struct Report {
     /// Number of proved settings, and time of the last proof.
-    verified: Option<(usize, String)>,
-    /// Sentences; `true` for success.
-    pub(super) lines: Vec<(bool, String)>,
+    verified: Option<(usize, Timestamp)>,
+    /// Groups with values that the unit never reports, and the time of the answer.
+    taken: Vec<(&'static str, Timestamp)>,
+    failures: Vec<String>,
 }
 
 impl Report {
-    /// All sentences, successes first.
-    pub(super) fn lines(&self) -> Vec<(bool, String)> {
+    /// All sentences, successes first; `true` for success.
+    pub(super) fn lines(&self, now: Timestamp) -> Vec<(bool, String)> {
         let verified = self.verified.iter().map(|(count, at)| {
             let plural = if *count == 1 { "" } else { "s" };
+            let at = format::moment(*at, now);
             (true, format!("{count} setting{plural} read back and verified {at}"))
         });
-        verified.chain(self.lines.iter().cloned()).collect()
+        let taken = self.taken.iter().map(|(title, at)| {
+            let at = format::moment(*at, now);
+            (true, format!("{title}: the unit said OK, and was read again {at}"))
+        });
+        let failures = self.failures.iter().map(|words| (false, words.clone()));
+        verified.chain(taken).chain(failures).collect()
     }
 }
 
@@ -201,10 +208,10 @@ impl Form {
             if let Some(written) = written {
                 let count = sent.values.len();
                 match &written.result {
-                    Ok(()) => self.report.verify(group, &sent.values, count, &written.at),
+                    Ok(()) => self.report.verify(group, &sent.values, count, written.at),
                     Err(error) => {
                         let words = outcome::sentence(group, &written, error, draft.seen(), held);
-                        self.report.lines.push((false, words));
+                        self.report.failures.push(words);
                     }
                 }
                 draft.end(&written, group.fields, held);
@@ -214,7 +221,7 @@ impl Form {
             if !is_under_way && unit.model.steady.saturating_duration_since(sent.at) > HEARD {
                 draft.give_up();
                 let words = format!("{}: nothing was heard of it. Read again.", group.title);
-                self.report.lines.push((false, words));
+                self.report.failures.push(words);
             }
         }
     }
@@ -227,16 +234,14 @@ impl Form {
 }
 
 impl Report {
-    fn verify(&mut self, group: &Group, values: &Values, count: usize, at: &Timestamp) {
-        let at = format::time_z(*at);
+    fn verify(&mut self, group: &Group, values: &Values, count: usize, at: Timestamp) {
         let reported =
             |key: &&&str| group.field(key).is_some_and(|field| field.access == Access::Edit);
         if values.keys().any(|key| reported(&key)) {
             let before = self.verified.as_ref().map_or(0, |(count, _)| *count);
             self.verified = Some((before + count, at));
         } else {
-            let words = format!("{}: the unit said OK, and was read again {at}", group.title);
-            self.lines.push((true, words));
+            self.taken.push((group.title, at));
         }
     }
 }

@@ -94,7 +94,7 @@ fn read(unit: &ShownUnit<'_>) -> String {
         groups.iter().filter(|group| !unit.is_fresh(group.key)).map(|group| group.title).collect();
     let oldest = groups.iter().filter_map(|group| unit.read_at(group.key)).min();
     match (missing.as_slice(), oldest) {
-        ([], Some(oldest)) => format!("all groups read {}", format::time_z(oldest)),
+        ([], Some(oldest)) => format!("all groups read {}", format::moment(oldest, unit.model.now)),
         (missing, _) => format!("not read: {}", missing.join(", ")),
     }
 }

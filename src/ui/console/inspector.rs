@@ -2,6 +2,7 @@
 //! and its bytes.
 
 use egui::{Rect, RichText, ScrollArea, Ui, UiBuilder, pos2, vec2};
+use jiff::Timestamp;
 
 use super::{ConsoleState, PADDING};
 use crate::model::ConsoleLine;
@@ -49,7 +50,7 @@ pub(super) fn show(
         ui.set_clip_rect(rect.intersect(ui.clip_rect()));
         ui.spacing_mut().item_spacing.y = 4.0;
         if let Some(line) = state.selected() {
-            return details(ui, line, explained(model, line).as_ref());
+            return details(ui, line, explained(model, line).as_ref(), model.now);
         }
         ui.label(RichText::new("No line selected").font(text::value()));
         let words = "Click a line to see its values and its bytes.";
@@ -57,11 +58,11 @@ pub(super) fn show(
     });
 }
 
-fn details(ui: &mut Ui, line: &ConsoleLine, explained: Option<&Explained>) {
+fn details(ui: &mut Ui, line: &ConsoleLine, explained: Option<&Explained>, now: Timestamp) {
     let t = theme::tokens(ui);
     ui.label(RichText::new(title(line, explained)).font(text::value()));
     let small = |words: String| RichText::new(words).font(text::small());
-    ui.label(small(when(line)).color(t.t2));
+    ui.label(small(when(line, now)).color(t.t2));
     let colour = match line.meaning.tone {
         Tone::Bad => t.bad,
         Tone::Caution => t.warn,
@@ -107,9 +108,14 @@ fn title(line: &ConsoleLine, explained: Option<&Explained>) -> String {
     }
 }
 
-fn when(line: &ConsoleLine) -> String {
+fn when(line: &ConsoleLine, now: Timestamp) -> String {
     let after = line.round_trip().map(|after| format!(", {after} after the request"));
-    format!("{}, {}Z{}", line.antenna, line.time(), after.unwrap_or_default())
+    format!(
+        "{}, {}Z{}",
+        line.antenna,
+        format::millisecond(line.wire().at, now),
+        after.unwrap_or_default()
+    )
 }
 
 fn show_value(ui: &mut Ui, value: &ExplainedValue) {

@@ -1,12 +1,14 @@
 //! One row of the log.
 
 use egui::{Align2, Color32, Rect, Ui, pos2};
+use jiff::Timestamp;
 
 use super::{PADDING, raw};
 use crate::model::ConsoleLine;
 use crate::{
     device::{Direction, Finding, panel::Tone},
     ui::{
+        format,
         icons::{self, Icon},
         text, theme,
         tokens::Tokens,
@@ -14,7 +16,7 @@ use crate::{
     },
 };
 
-const TIME: f32 = 104.0;
+const TIME: f32 = 116.0;
 const ANTENNA: f32 = 92.0;
 const ARROW: f32 = 24.0;
 const ROUND_TRIP: f32 = 64.0;
@@ -76,6 +78,7 @@ pub(super) fn show(
     ui: &Ui,
     rect: Rect,
     names_antenna: bool,
+    now: Timestamp,
     line: &ConsoleLine,
     is_selected: bool,
     is_hovered: bool,
@@ -95,7 +98,14 @@ pub(super) fn show(
     }
     let columns = Columns::of(rect, names_antenna);
     let left = Align2::LEFT_CENTER;
-    paint::text_in(ui, columns.time, left, &line.time(), text::raw(), t.t2);
+    paint::text_in(
+        ui,
+        columns.time,
+        left,
+        &format::millisecond(line.wire().at, now),
+        text::raw(),
+        t.t2,
+    );
     if let Some(place) = columns.antenna {
         paint::text_in(ui, place, left, &line.antenna, text::small_strong(), t.t1);
     }
@@ -131,11 +141,12 @@ fn mark_of(tone: Tone, t: &Tokens) -> Option<(Icon, Color32)> {
 }
 
 /// The row for screen readers.
-pub(super) fn spoken(line: &ConsoleLine) -> String {
+pub(super) fn spoken(line: &ConsoleLine, now: Timestamp) -> String {
+    let time = format::millisecond(line.wire().at, now);
     let raw = line.raw.trim_end_matches("<CR><LF>");
     let went = match line.direction() {
         "" => String::new(),
         direction => format!(" {direction} {raw}"),
     };
-    format!("{} {}{went}: {}", line.time(), line.antenna, line.meaning.text)
+    format!("{time} {}{went}: {}", line.antenna, line.meaning.text)
 }

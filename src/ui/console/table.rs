@@ -4,6 +4,7 @@ use egui::{
     Event, EventFilter, Id, Key, Modifiers, Rect, Response, Role, ScrollArea, Sense, StrokeKind,
     Ui, UiBuilder, WidgetInfo, pos2, vec2,
 };
+use jiff::Timestamp;
 
 use super::{ConsoleState, PADDING, row, selection::Way};
 use crate::ui::{text, theme, widgets::paint};
@@ -39,7 +40,13 @@ impl TableState {
 }
 
 /// Draws the head and the rows.
-pub(super) fn show(ui: &mut Ui, rect: Rect, names_antenna: bool, state: &mut ConsoleState) {
+pub(super) fn show(
+    ui: &mut Ui,
+    rect: Rect,
+    names_antenna: bool,
+    now: Timestamp,
+    state: &mut ConsoleState,
+) {
     let (top, body) = rect.split_top_bottom_at_y(rect.top() + HEAD);
     row::head(ui, top, names_antenna);
     let id = ui.make_persistent_id("log");
@@ -71,7 +78,7 @@ pub(super) fn show(ui: &mut Ui, rect: Rect, names_antenna: bool, state: &mut Con
             for (place, index) in range.enumerate() {
                 let min = pos2(body.left(), top + place as f32 * ROW);
                 let place = Rect::from_min_size(min, vec2(body.width(), ROW));
-                show_row(ui, id, place, names_antenna, index, state);
+                show_row(ui, id, place, (names_antenna, now), index, state);
             }
         });
         let offset = output.state.clamped_offset().y;
@@ -106,7 +113,7 @@ fn show_row(
     ui: &Ui,
     id: Id,
     rect: Rect,
-    names_antenna: bool,
+    (names_antenna, now): (bool, Timestamp),
     index: usize,
     state: &mut ConsoleState,
 ) {
@@ -117,10 +124,10 @@ fn show_row(
     // The whole list is one Tab stop.
     let response = ui.interact(rect, id.with(line.position), Sense::CLICK);
     response.widget_info(|| {
-        WidgetInfo::selected(Role::ListBoxOption, true, is_selected, row::spoken(line))
+        WidgetInfo::selected(Role::ListBoxOption, true, is_selected, row::spoken(line, now))
     });
     ui.ctx().accesskit_node_builder(response.id, |node| node.set_selected(is_selected));
-    row::show(ui, rect, names_antenna, line, is_selected, response.hovered());
+    row::show(ui, rect, names_antenna, now, line, is_selected, response.hovered());
     if response.clicked() {
         let position = line.position;
         let way = way(ui.input(|input| input.modifiers));

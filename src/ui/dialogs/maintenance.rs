@@ -119,7 +119,7 @@ impl MaintenanceDialog {
         for (label, told) in [
             ("Locked out by", by.clone()),
             ("Reason", reason.clone()),
-            ("Since", format!("{} {}", format::date(*since), format::time_z(*since))),
+            ("Since", format::dated(*since)),
         ] {
             ui.label(RichText::new(label).font(text::small()).color(t.t3));
             ui.label(RichText::new(told).font(text::body_medium()).color(t.t1));

@@ -151,7 +151,7 @@ fn buttons(
     let refresh = match next_due(model) {
         Some(next) if due.is_empty() => refresh.on_hover_text(format!(
             "Reads all files and folders. No server is due before {}.",
-            format::time_z(next)
+            format::moment(next, model.now)
         )),
         _ => refresh,
     };

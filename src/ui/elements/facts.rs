@@ -1,7 +1,6 @@
 //! The elements in use of the selected object.
 
 use egui::{Align2, Color32, Rect, Ui, pos2, vec2};
-use jiff::tz::TimeZone;
 
 use super::{PADDING, words};
 use crate::{
@@ -44,7 +43,7 @@ pub(super) fn show(ui: &Ui, rect: Rect, model: &Model, elements: &Elements, cata
     } else {
         paint::text_in(ui, room, Align2::RIGHT_CENTER, from, text::small(), t.t2);
     }
-    let epoch = elements.epoch().to_zoned(TimeZone::UTC).strftime("%Y-%m-%d %H:%M:%SZ");
+    let epoch = format::copied(elements.epoch());
     let (icon, colour) = words::age_look(words::age_tone(elements, model.now), t);
     let age = words::age(elements.age_s(model.now));
     let groups: Vec<&str> = catalog.groups_of(number).collect();
@@ -52,7 +51,7 @@ pub(super) fn show(ui: &Ui, rect: Rect, model: &Model, elements: &Elements, cata
         let min = pos2(inner.left(), title.bottom() + index as f32 * LINE);
         Rect::from_min_size(min, vec2(inner.width(), LINE))
     };
-    fact(ui, line(0), "Epoch", &epoch.to_string(), t.t1);
+    fact(ui, line(0), "Epoch", &epoch.clone(), t.t1);
     let place = fact(ui, line(1), "Age", &age, if icon.is_some() { colour } else { t.ok });
     if let Some(icon) = icon {
         let at = pos2(place.left() - 11.0, place.center().y);

@@ -15,6 +15,7 @@ use crate::{
     },
     orbit::{Source, SourcePlace},
     ui::{
+        format,
         icons::{self, Icon},
         text::{self, Weight},
         theme,
@@ -258,7 +259,7 @@ fn free_name(offer: &Offer, model: &Model) -> String {
         Offer::File(path) => path.file_stem().map(|stem| stem.to_string_lossy().into_owned()),
         Offer::Text(_) => None,
     };
-    let stem = stem.unwrap_or_else(|| format!("pasted {}", model.now.strftime("%-d %b %H:%M")));
+    let stem = stem.unwrap_or_else(|| format!("pasted {}", format::day(model.now)));
     let is_free = |name: &str| {
         let place = SourcePlace::File(Path::new("/").join("any"));
         let source = Source { name: name.to_owned(), place, refresh: None };

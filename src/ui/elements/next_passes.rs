@@ -2,7 +2,7 @@
 
 use egui::{Align2, Rect, Ui, pos2, vec2};
 
-use super::{PADDING, words};
+use super::PADDING;
 use crate::{
     engine::passes::PredictedPass,
     model::{Model, UiCommand, View},
@@ -52,7 +52,7 @@ pub(super) fn show(
     for (index, predicted) in passes.unwrap_or_default().iter().enumerate() {
         let min = pos2(body.left(), body.top() + index as f32 * SHORT_ROW);
         let place = Rect::from_min_size(min, vec2(body.width(), SHORT_ROW));
-        let time = words::on_day(predicted.pass.aos.time, model.now);
+        let time = format::minute(predicted.pass.aos.time, model.now);
         let row = pass_row(model, predicted);
         let clicked = short_row(ui, place, &row, &time, false).clicked();
         if clicked && model.pass_lists.find(predicted.key()).is_some() {

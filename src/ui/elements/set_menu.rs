@@ -87,10 +87,11 @@ impl Menu<'_> {
             let choice = SetChoice::Older { catalog_number, epoch };
             ("older set", until, "Use this set", choice)
         };
-        let (label, when) = (self.elements.label(), sets::epoch(epoch));
+        let label = self.elements.label();
+        let when = format::minute(epoch, self.model.now);
         let effect = self.effect(epoch);
         Question {
-            text: format!("Use the {which} of {when}Z for {label}? {effect}{until}"),
+            text: format!("Use the {which} of {when} for {label}? {effect}{until}"),
             yes,
             command: UiCommand::Station(Command::UseSet(choice)),
         }

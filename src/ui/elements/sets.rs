@@ -1,7 +1,7 @@
 //! The sets of the selected object that are held, each against the one in use.
 
 use egui::{Align2, Color32, Rect, Response, Role, Sense, Ui, WidgetInfo, pos2, vec2};
-use jiff::{Timestamp, tz::TimeZone};
+use jiff::Timestamp;
 
 use super::{PADDING, set_menu};
 use crate::{
@@ -77,7 +77,7 @@ pub(super) fn show(
         Some(_) => (Icon::Warning, t.warn),
         None => (Icon::Check, t.ok),
     };
-    cells(ui, first, [&epoch(elements.epoch()), from, "", "in use"], [t.t1, t.t2, t.t1, colour]);
+    cells(ui, first, [&format::minute(elements.epoch(), model.now), from, "", "in use"], [t.t1, t.t2, t.t1, colour]);
     let at = pos2(first.right() - paint::text_width(ui, "in use", text::small()) - 10.0, 0.0);
     let at = pos2(at.x, first.center().y);
     icons::paint(ui.painter(), paint::square(at, 11.0), icon, colour);
@@ -85,7 +85,7 @@ pub(super) fn show(
     let menu = set_menu::Menu { model, elements, detail };
     for (index, set) in detail.map(|of| of.sets.as_slice()).unwrap_or_default().iter().enumerate() {
         let row = line(HEAD + (index + 1) as f32 * LINE);
-        let response = one(ui, row, index, set, half_beam_deg);
+        let response = one(ui, row, index, set, half_beam_deg, model.now);
         set_menu::show(&response, &menu, set, question);
     }
     if let Some(newest) = newest {
@@ -110,7 +110,7 @@ fn aside(
     let button = Button::normal("Use the newest").locked(!menu.model.sources.is_free());
     let size = vec2(button.width(ui), SMALL_HEIGHT);
     let place = Rect::from_center_size(line.right_center() - vec2(size.x / 2.0, 0.0), size);
-    let newest_epoch = epoch(newest.epoch());
+    let newest_epoch = format::minute(newest.epoch(), menu.model.now);
     let room = line.with_max_x(place.left() - 8.0);
     let words = format!("Newest: {newest_epoch}");
     paint::text_in(ui, room, Align2::LEFT_CENTER, &words, text::small(), t.warn);
@@ -122,7 +122,14 @@ fn aside(
 }
 
 /// Draws the row of a set that is not in use, which opens its menu.
-fn one(ui: &Ui, row: Rect, index: usize, shift: &SetShift, half_beam_deg: Option<f64>) -> Response {
+fn one(
+    ui: &Ui,
+    row: Rect,
+    index: usize,
+    shift: &SetShift,
+    half_beam_deg: Option<f64>,
+    now: Timestamp,
+) -> Response {
     let t = theme::tokens(ui);
     let set = &shift.set;
     let is_outside = shift
@@ -134,7 +141,7 @@ fn one(ui: &Ui, row: Rect, index: usize, shift: &SetShift, half_beam_deg: Option
         .map_or_else(|| "–".to_owned(), |late_s| format::signed(late_s, time_decimals(late_s)));
     let angle = shift.off.map_or_else(|| "–".to_owned(), |off| format::number(off.degrees(), 2));
     let colour = if is_outside { t.bad } else { t.t1 };
-    let when = epoch(set.elements.epoch());
+    let when = format::minute(set.elements.epoch(), now);
     let response = ui.interact(
         row,
         ui.make_persistent_id(("held set", index)),
@@ -168,11 +175,6 @@ fn one(ui: &Ui, row: Rect, index: usize, shift: &SetShift, half_beam_deg: Option
 /// Parts of a second say nothing about a set that is minutes away.
 pub(super) fn time_decimals(late_s: f64) -> usize {
     if late_s.abs() < 100.0 { 2 } else { 0 }
-}
-
-/// Day and minute of an epoch.
-pub(super) fn epoch(at: Timestamp) -> String {
-    at.to_zoned(TimeZone::UTC).strftime("%-d %b %H:%M").to_string()
 }
 
 fn cells(ui: &Ui, row: Rect, words: [&str; 4], colours: [Color32; 4]) {

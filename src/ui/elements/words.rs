@@ -1,7 +1,7 @@
 //! Words about sources and the catalog.
 
 use egui::Color32;
-use jiff::{Timestamp, tz::TimeZone};
+use jiff::Timestamp;
 
 use super::columns::Next;
 use crate::{
@@ -120,18 +120,9 @@ pub(super) fn next_pass(next: Next, now: Timestamp) -> String {
             if left_s < 600.0 {
                 return format!("in {}", format::time_left(left_s));
             }
-            on_day(pass.aos, now)
+            format::minute(pass.aos, now)
         }
     }
-}
-
-/// A time of today, or with its day.
-pub(super) fn on_day(at: Timestamp, now: Timestamp) -> String {
-    let day = |at: Timestamp| at.to_zoned(TimeZone::UTC).date();
-    if day(at) == day(now) {
-        return format::time_z(at);
-    }
-    format!("{} {}Z", at.to_zoned(TimeZone::UTC).strftime("%-d %b"), format::hours_minutes(at))
 }
 
 /// Why the table is empty.
@@ -250,7 +241,7 @@ fn asked(report: &SourceReport, now: Timestamp) -> Option<String> {
     let last = next.checked_sub(FETCH_PAUSE).ok()?;
     let ago = format::age(seconds_between(last, now));
     let again = if next > now {
-        format!(" It may be asked again from {}.", format::time_z(next))
+        format!(" It may be asked again from {}.", format::moment(next, now))
     } else {
         String::new()
     };
@@ -305,7 +296,7 @@ pub(super) fn refresh(hours: Option<RefreshHours>) -> String {
 
 fn until_minute(at: Timestamp, now: Timestamp) -> String {
     let far = seconds_between(at, now).abs() >= DAY_S;
-    if far { at.strftime("%-d %b").to_string() } else { format!("{}Z", format::hours_minutes(at)) }
+    if far { format::day(at) } else { format::minute(at, now) }
 }
 
 /// How elements are copied.

@@ -45,7 +45,7 @@ impl List {
         let old = ages.iter().filter(|age| age.is_old).count();
         let said = format!(
             "At {}Z, oldest first. {old} of {} older than {} (bold, \u{d7})",
-            format::hours_minutes(sheet.from),
+            format::minute_of_day(sheet.from),
             ages.len(),
             format::age(most_s),
         );

@@ -18,7 +18,7 @@ impl HandOverSheet<'_> {
         svg.text([RIGHT, y + 13.0], ON_RIGHT, title, "Hand-over sheet");
         svg.line([LEFT, y + 19.0], [RIGHT, y + 19.0], 1.2);
 
-        let minute = |at| format!("{} {}Z", format::date(at), format::hours_minutes(at));
+        let minute = |at| format!("{} {}Z", format::date(at), format::minute_of_day(at));
         let span = format!("{} to {} (UTC)", minute(self.from), minute(self.until));
         svg.text([LEFT, y + 30.0], on_left, BODY.bold(), &span);
         let printed = format!("Printed {}", minute(self.printed));

@@ -163,9 +163,9 @@ impl Group {
 
     fn times(&self) -> String {
         if let [one] = self.aos[..] {
-            return format::time(one);
+            return format::second_of_day(one);
         }
-        let times = self.aos.iter().take(TIMES).map(|at| format::hours_minutes(*at));
+        let times = self.aos.iter().take(TIMES).map(|at| format::minute_of_day(*at));
         let mut times: Vec<String> = times.collect();
         let more = self.aos.len().saturating_sub(TIMES);
         times.extend((more > 0).then(|| format!("+{more}")));

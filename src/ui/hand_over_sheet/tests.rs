@@ -201,7 +201,7 @@ fn the_price_of_a_pass_is_what_the_antenna_that_gives_up_least_has_to_drop() {
     };
     let name = |of: &Entry| {
         let own = satellites.iter().find(|it| it.0.catalog_number() == of.pass.satellite).unwrap();
-        format!("{} {}", own.0.label(), format::hours_minutes(of.pass.aos))
+        format!("{} {}", own.0.label(), format::minute_of_day(of.pass.aos))
     };
     let against = |entry: &Entry| {
         let (with, class) = (entry.pass, entry.class);

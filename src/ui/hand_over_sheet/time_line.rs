@@ -1,6 +1,6 @@
 //! The hours of the sheet, a lane for each antenna.
 
-use jiff::{Timestamp, ToSpan as _, tz::TimeZone};
+use jiff::{Timestamp, ToSpan as _};
 
 use super::{
     BODY, CAPTION, HandOverSheet, LEFT, RIGHT, section,
@@ -9,6 +9,7 @@ use super::{
 use crate::{
     astro::time::{add_seconds, seconds_between},
     engine::automatic,
+    ui::format,
 };
 
 const LABEL: f64 = 74.0;
@@ -30,7 +31,7 @@ impl HandOverSheet<'_> {
         }
         for hour in self.hours() {
             svg.line([self.x(hour), top], [self.x(hour), bottom], 0.25);
-            let words = hour.to_zoned(TimeZone::UTC).strftime("%H").to_string();
+            let words = format::hour_of_day(hour);
             let face = if words == "00" { CAPTION.bold() } else { CAPTION };
             let x = self.x(hour).min(RIGHT - 4.5);
             svg.text([x, bottom + 7.5], 20.0, face.anchored(Anchor::Middle), &words);

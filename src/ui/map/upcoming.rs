@@ -2,11 +2,12 @@
 
 use egui::{Align2, Rect, Ui, pos2, vec2};
 
-use super::{PADDING, words};
+use super::PADDING;
 use crate::{
     engine::passes::PredictedPass,
     model::{Model, UiCommand},
     ui::{
+        format,
         operate::passes::pass_row,
         pass_list::{SHORT_ROW, short_row},
         text::{self, Weight},
@@ -60,7 +61,7 @@ pub(super) fn show(
     for (index, predicted) in passes.iter().enumerate() {
         let min = pos2(body.left(), body.top() + index as f32 * SHORT_ROW);
         let place = Rect::from_min_size(min, vec2(body.width(), SHORT_ROW));
-        let time = words::on_day(predicted.pass.aos.time, model.now);
+        let time = format::minute(predicted.pass.aos.time, model.now);
         let is_selected = model.selected == Some(predicted.key());
         let row = pass_row(model, predicted);
         if short_row(ui, place, &row, &time, is_selected).clicked() {

@@ -1,6 +1,6 @@
 //! Figures of the map in words.
 
-use jiff::{Timestamp, tz::TimeZone};
+use jiff::Timestamp;
 
 use super::Shown;
 use crate::{
@@ -83,18 +83,9 @@ pub(super) fn next(pass: Option<NextPass>, now: Timestamp) -> String {
     match pass {
         None => "none in 48 h".to_owned(),
         Some(pass) if pass.is_always_up => "always up".to_owned(),
-        Some(pass) if pass.aos <= now => format!("until {}", on_day(pass.los, now)),
-        Some(pass) => on_day(pass.aos, now),
+        Some(pass) if pass.aos <= now => format!("until {}", format::minute(pass.los, now)),
+        Some(pass) => format::minute(pass.aos, now),
     }
-}
-
-/// A time of today, or with its day.
-pub(super) fn on_day(at: Timestamp, now: Timestamp) -> String {
-    let day = |at: Timestamp| at.to_zoned(TimeZone::UTC).date();
-    if day(at) == day(now) {
-        return format::time_z(at);
-    }
-    format!("{} {}Z", at.to_zoned(TimeZone::UTC).strftime("%-d %b"), format::hours_minutes(at))
 }
 
 /// The tool-tip of a satellite.

@@ -64,7 +64,8 @@ pub(super) fn show(
     let predicted_decimals = model.appearance.angle_decimals as usize;
     let decimals = format::decimals(can, predicted_decimals);
     let checks = &antenna.snapshot.state.checks;
-    let checked_at = antenna.snapshot.state.checked_at.map(format::time_z).unwrap_or_default();
+    let checked_at = antenna.snapshot.state.checked_at;
+    let checked_at = checked_at.map(|at| format::moment(at, model.now)).unwrap_or_default();
     let others = others(model, [Some(antenna.id()), beside]);
     let locks = Locks::of(antenna, !checks.is_empty());
     let blocked = measured.map(|measured| axes::blocked(measured, can)).unwrap_or_default();
@@ -77,7 +78,7 @@ pub(super) fn show(
     let [misses, note] = on_board(model, antenna);
     let asks_unseen = antenna.asks_unseen.as_ref().and_then(|act| make.action(act.action));
     let note = snapshot.sun_lifted.then(|| words::SUN_IS_LIFTED.to_owned()).or(note);
-    let asks_standing = words::asks_standing(snapshot);
+    let asks_standing = words::asks_standing(snapshot, model.now);
     let way_out = way_out(antenna);
     let sun_avoidance = model
         .station
@@ -318,7 +319,7 @@ fn on_board(model: &Model, antenna: &AntennaModel) -> [Option<String>; 2] {
     let name = model.selected_pass().map(|predicted| predicted.satellite.short_name());
     let is_missed = !found.is_within_beam;
     let misses = name.filter(|_| is_missed).map(|name| {
-        let why = words::would_miss(name, found);
+        let why = words::would_miss(name, found, model.now);
         format!("{why} Follow it from here instead.")
     });
     let lowest_deg = antenna.config.limits.minimum_elevation_deg;

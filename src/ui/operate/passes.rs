@@ -267,6 +267,7 @@ pub(super) fn profile(
 fn past_tracks(model: &Model) -> Vec<PastModel<'_>> {
     let Some(antenna) = model.antenna() else { return Vec::new() };
     let tracks = antenna.past_tracks.iter().map(|track| PastModel {
+        now: model.now,
         name: short(&track.name),
         from: track.from,
         until: track.until,

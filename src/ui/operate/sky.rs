@@ -127,8 +127,8 @@ pub(super) fn show(
     } else if let (Some(direction), Some(antenna)) = (answer.clicked.or(looks_at), antenna) {
         state.ghost.look_at(direction, antenna);
     }
-    if let (Some(at), Some(antenna)) = (answer.ghost_at, antenna) {
-        ghost::note(ui, rect, at, antenna, state, commands);
+    if let Some(at) = answer.ghost_at {
+        ghost::note(ui, rect, at, model, state, commands);
     }
     answer.pointed
 }

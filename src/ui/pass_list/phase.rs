@@ -94,10 +94,9 @@ pub(super) fn aos_time(row: &PassRow<'_>, now: Timestamp) -> String {
 
 /// The pass as one line for other programs and messages, with its day; times are UTC.
 pub(super) fn copied(row: &PassRow<'_>) -> String {
-    let time = |time: Timestamp| time.strftime("%Y-%m-%d %H:%M:%SZ").to_string();
     let azimuth = |degrees: f64| format::azimuth(degrees);
-    let aos = format!("AOS {} at {}", time(row.aos), azimuth(row.aos_azimuth_deg));
-    let los = format!("LOS {} at {}", time(row.los), azimuth(row.los_azimuth_deg));
+    let aos = format!("AOS {} at {}", format::copied(row.aos), azimuth(row.aos_azimuth_deg));
+    let los = format!("LOS {} at {}", format::copied(row.los), azimuth(row.los_azimuth_deg));
     let [aos, los] = match (row.starts_before, row.ends_after) {
         (true, true) => ["up all the time".to_owned(), String::new()],
         (true, false) => ["up already".to_owned(), los],

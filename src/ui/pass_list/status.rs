@@ -29,7 +29,7 @@ pub(super) fn show(ui: &Ui, rect: Rect, model: &PassListModel<'_>, commands: &mu
     ui.painter().hline(rect.x_range(), rect.bottom() - 0.5, (1.0, t.line));
     let made = model.made.map_or_else(String::new, |(satellites, at)| {
         let count = format::number(satellites as f64, 0);
-        format!("{count} satellites at {}", format::hours_minutes(at))
+        format!("{count} satellites at {}", format::minute(at, model.now))
     });
     let (words, colour, offer) = match model.work {
         Work::Nothing => (made, t.t3, None),
@@ -49,7 +49,7 @@ pub(super) fn show(ui: &Ui, rect: Rect, model: &PassListModel<'_>, commands: &mu
         }
         Work::Cancelled => {
             let words = match model.made {
-                Some((_, at)) => format!("Cancelled; list of {}", format::hours_minutes(at)),
+                Some((_, at)) => format!("Cancelled; list of {}", format::minute(at, model.now)),
                 None => "Cancelled".to_owned(),
             };
             (

@@ -83,13 +83,13 @@ fn title(ui: &Ui, rect: Rect, model: &Model, state: &mut PlanState, commands: &m
     let words = if model.schedule.made_at.is_none() {
         "The passes are being planned.".to_owned()
     } else {
-        let until = format::moment(model.plan_until(), model.now);
+        let times = format::stretch(model.now, model.plan_until(), model.now);
         let changes = match model.schedule.changes.len() {
             0 => String::new(),
             1 => ", 1 pass changed".to_owned(),
             count => format!(", {count} passes changed"),
         };
-        format!("{} to {until}{changes}", format::time_z(model.now))
+        format!("{times}{changes}")
     };
     paint::text_in(ui, second, left, &words, small, t.t2);
     let changed: Vec<String> =

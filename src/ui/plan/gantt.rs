@@ -4,7 +4,7 @@ use egui::{
     Align2, Rect, Role, ScrollArea, Sense, Stroke, StrokeKind, Ui, UiBuilder, WidgetInfo, pos2,
     vec2,
 };
-use jiff::{Timestamp, tz::TimeZone};
+use jiff::Timestamp;
 
 use super::{LABELS, PADDING, PlanState, Span};
 use crate::{
@@ -108,8 +108,7 @@ fn heads(ui: &Ui, head: Rect, place: Rect, span: Span) {
     let every = [1, 2, 3, 6, 12].into_iter().find(|of| hour_width * *of as f32 >= HOUR_APART);
     for at in multiples(span, every.unwrap_or(24) * 3600) {
         let x = span.x(at, place);
-        let civil = at.to_zoned(TimeZone::UTC);
-        let (word, y) = (civil.strftime("%H").to_string(), head.bottom() - HEAD / 4.0);
+        let (word, y) = (format::hour_of_day(at), head.bottom() - HEAD / 4.0);
         if x + 10.0 < place.right() {
             let centre = Align2::CENTER_CENTER;
             paint::text(ui, pos2(x, y), centre, word, text::caption(), t.t3);
@@ -119,7 +118,7 @@ fn heads(ui: &Ui, head: Rect, place: Rect, span: Span) {
     let mut free = place.left();
     for at in days {
         let x = span.x(at, place).max(place.left());
-        let word = at.to_zoned(TimeZone::UTC).strftime("%a %-d %b").to_string();
+        let word = format::weekday(at);
         let font = text::sized(12.0, Weight::SemiBold);
         let width = paint::text_width(ui, &word, font.clone());
         if x >= free && x + width <= place.right() {
@@ -243,11 +242,7 @@ fn spoken(model: &Model, planned: &PlannedPass<'_>) -> String {
     let predicted = planned.predicted;
     let pass = &predicted.pass;
     let name = predicted.satellite.short_name();
-    let times = format!(
-        "{} to {}",
-        format::moment(pass.aos.time, model.now),
-        format::time_z(pass.los.time)
-    );
+    let times = format::stretch(pass.aos.time, pass.los.time, model.now);
     let max = format::degrees(pass.max_elevation().degrees(), 0);
     let choice = match planned.choice.map(|choice| choice.take) {
         Some(Take::Always) => " Always.",

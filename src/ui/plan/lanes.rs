@@ -104,8 +104,7 @@ fn title(ui: &Ui, bar: Rect, model: &Model, satellites: &[PlannedSatellite<'_>],
     let t = theme::tokens(ui);
     let inner = bar.shrink2(vec2(PADDING, 0.0));
     let left = Align2::LEFT_CENTER;
-    let [from, to] = [span.from, span.to()].map(format::hours_minutes);
-    let words = format!("Sequences {from} to {to}Z");
+    let words = format!("Sequences {}", format::minutes(span.from, span.to(), model.now));
     let font = text::sized(13.0, Weight::SemiBold);
     let drawn = paint::text_in(ui, inner, left, &words, font, t.t1);
     let all: usize = satellites.iter().map(|satellite| satellite.passes.len()).sum();
@@ -150,7 +149,7 @@ fn marks(place: Rect, span: Span) -> Vec<(f32, String)> {
     let first = start + (-start).rem_euclid(step_s);
     let times = (0..).map_while(|step| jiff::Timestamp::from_second(first + step * step_s).ok());
     let within = times.take_while(|at| *at < span.to());
-    within.map(|at| (span.x(at, place), format::hours_minutes(at))).collect()
+    within.map(|at| (span.x(at, place), format::minute_of_day(at))).collect()
 }
 
 fn label(
@@ -333,10 +332,9 @@ fn bar(
     let response = ui.interact(rect, id, Sense::click());
     let lost = entry.lost.map(|lost| format!(" {}.", words::schedule::lost(lost)));
     let spoken = format!(
-        "{name} with {}, {} to {}, {max}, {state}.{}",
+        "{name} with {}, {}, {max}, {state}.{}",
         antenna.config.name,
-        format::moment(entry.from, model.now),
-        format::time_z(entry.to),
+        format::stretch(entry.from, entry.to, model.now),
         lost.unwrap_or_default()
     );
     response.widget_info(|| WidgetInfo::selected(Role::ListBoxOption, true, is_selected, &spoken));

@@ -225,10 +225,10 @@ fn state(
             } else {
                 "On its way"
             };
-            (Icon::Lock, format!("{what}, {}", format::time_z(at)), t.ok)
+            (Icon::Lock, format!("{what}, {}", format::moment(at, model.now)), t.ok)
         }
         Standing::Sent(at) => {
-            let words = format!("Sent {}, not proved", format::time_z(at));
+            let words = format!("Sent {}, not proved", format::moment(at, model.now));
             (Icon::ChevronRight, words, t.cmd)
         }
         Standing::Planned(entry) if antenna.operation.is_on() => {
@@ -320,9 +320,8 @@ fn show_row(
         icon,
         colour,
     );
-    let day =
-        |time: jiff::Timestamp| format::moment(time, model.now).trim_end_matches('Z').to_owned();
-    let (aos_words, los_words) = (day(listed.key.1), format::time(listed.los));
+    let [aos_words, los_words] =
+        [listed.key.1, listed.los].map(|time| format::moment(time, model.now));
     let room = row.with_min_x(at(columns.state) + 20.0);
     let aos_width = paint::text_width(ui, &aos_words, small.clone());
     let room = room.with_max_x(at(columns.aos) - aos_width - 8.0);

@@ -52,14 +52,17 @@ pub(super) fn sentence(model: &Model, antenna: &AntennaModel) -> String {
         }
         Operation::On(On { doing, .. }) => match doing {
             Doing::Announces { moves_at, .. } => {
-                format!("On. Moves at {} unless you press STOP.", format::time_z(*moves_at))
+                format!(
+                    "On. Moves at {} unless you press STOP.",
+                    format::moment(*moves_at, model.now)
+                )
             }
             Doing::Parks => "On. Parks until the next pass.".to_owned(),
             Doing::Takes(taking) => {
                 let name = words::schedule::pass_name(model, taking.pass);
                 let proved = taking.proved_at.map_or_else(
-                    || format!("asked for {}", format::time_z(taking.asked_at)),
-                    |at| format!("proved {}", format::time_z(at)),
+                    || format!("asked for {}", format::moment(taking.asked_at, model.now)),
+                    |at| format!("proved {}", format::moment(at, model.now)),
                 );
                 format!("On. {name}, {proved}.")
             }

@@ -159,7 +159,7 @@ fn outcome(
     match &state.outcome {
         Some(Err(why)) => (format!("Not saved: {why}."), t.bad),
         _ if draft != before => (changes(draft, before), t.t1),
-        Some(Ok(at)) => (format!("Saved {}.", format::time_z(*at)), t.ok),
+        Some(Ok(at)) => (format!("Saved {}.", format::moment(*at, model.now)), t.ok),
         None if model.demo => {
             ("Saving ends the demonstration and uses this station.".to_owned(), t.t2)
         }

@@ -82,7 +82,7 @@ pub(super) fn paint(
     let elevation = format::degrees(elevation_deg, 1);
     let error = error_at(model, time);
     let off = error.map(|deg| format!("  err {}", format::degrees(f64::from(deg), 2)));
-    let at = format::time_z(time);
+    let at = format::moment(time, model.now);
     let words = format!("{at}  el {elevation}  az {azimuth}{}", off.unwrap_or_default());
     let galley = ui.painter().layout_no_wrap(words, text::caption(), t.t1);
     let size = galley.size() + vec2(8.0, 2.0);

@@ -25,6 +25,7 @@ const GAP: f32 = 10.0;
 /// A track that is over.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PastModel<'a> {
+    pub now: Timestamp,
     pub name: &'a str,
     pub from: Timestamp,
     pub until: Timestamp,
@@ -38,10 +39,10 @@ pub struct PastModel<'a> {
 
 impl PastModel<'_> {
     fn words(&self) -> String {
-        let (from, until) = (format::hours_minutes(self.from), format::hours_minutes(self.until));
+        let times = format::minutes(self.from, self.until, self.now);
         let rms = format::degrees(self.rms_deg, 2);
         let worst = format::degrees(self.worst_deg, 2);
-        format!("{}, {from} to {until}Z: rms {rms}, worst {worst}", self.name)
+        format!("{}, {times}: rms {rms}, worst {worst}", self.name)
     }
 }
 
@@ -89,7 +90,7 @@ pub(super) fn show(ui: &Ui, rect: Rect, head: Rect, track: &PastModel<'_>) {
     let title = paint::text_in(ui, head, Align2::LEFT_CENTER, &title, text::small_strong(), t.t1);
     let rms = format::degrees(track.rms_deg, 2);
     let worst = format::degrees(track.worst_deg, 2);
-    let at = format::time_z(track.worst_at);
+    let at = format::moment(track.worst_at, track.now);
     let figures = format!("rms {rms} \u{b7} worst {worst} at {at}");
     let room = head.with_min_x(title.right() + GAP);
     paint::text_in(ui, room, Align2::RIGHT_CENTER, &figures, text::caption(), t.t2);
@@ -105,8 +106,8 @@ pub(super) fn show(ui: &Ui, rect: Rect, head: Rect, track: &PastModel<'_>) {
         error_plot::show(ui, plot, &axis, &errors, track.half_beam_deg);
     }
     let y = plot.bottom() + TIMES / 2.0;
-    let from = format!("from {}", format::time(track.from));
-    let until = format!("to {}", format::time(track.until));
+    let from = format!("from {}", format::moment(track.from, track.now));
+    let until = format!("to {}", format::moment(track.until, track.now));
     let font = text::caption();
     paint::text(ui, pos2(plot.left(), y), Align2::LEFT_CENTER, from, font.clone(), t.t2);
     paint::text(ui, pos2(plot.right(), y), Align2::RIGHT_CENTER, until, font, t.t2);

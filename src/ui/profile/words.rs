@@ -26,14 +26,14 @@ pub(super) fn times(ui: &Ui, plot: Rect, axis: &TimeAxis, model: &ProfileModel<'
     let colour = theme::tokens(ui).t2;
     let y = plot.bottom() + BELOW;
     let (begin, end) = ends(model.cut);
-    let begin = format!("{begin} {}", format::time(axis.start()));
-    let end = format!("{end} {}", format::time(axis.end()));
+    let begin = format!("{begin} {}", format::moment(axis.start(), model.now));
+    let end = format!("{end} {}", format::moment(axis.end(), model.now));
     let at = pos2(plot.left(), y);
     let begin = paint::text(ui, at, Align2::LEFT_CENTER, begin, text::caption(), colour);
     let at = pos2(plot.right(), y);
     let end = paint::text(ui, at, Align2::RIGHT_CENTER, end, text::caption(), colour);
     if axis.contains(model.tca.time) {
-        let words = format!("TCA {}", format::time(model.tca.time));
+        let words = format!("TCA {}", format::moment(model.tca.time, model.now));
         let half = paint::text_width(ui, &words, text::caption()) / 2.0;
         let x = axis.x(model.tca.time);
         if let Some(x) = centre(x, half, begin.right() + GAP, end.left() - GAP) {

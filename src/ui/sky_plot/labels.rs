@@ -216,7 +216,7 @@ mod tests {
             let pass = testing::track(&samples);
             let mut labels = Labels::new(ui.painter(), t, Some(dome), bounds, HashMap::new());
             let (events, ticks) = (track::events(&pass), track::ticks(dome, &pass));
-            track::label_events(&mut labels, dome, &events, t);
+            track::label_events(&mut labels, dome, &events, pass.los.time, t);
             track::label_minutes(&mut labels, &ticks, &events, pass.los.time, t);
             for (index, text) in labels.texts.iter().enumerate() {
                 let others = &labels.texts[index + 1..];

@@ -37,13 +37,14 @@ pub(super) fn on_path(dome: Dome, track: &Track<'_>, at: Pos2) -> Option<Sample>
 }
 
 /// Paints the marked point of the path, with its time and direction beside it.
-pub(super) fn marked(ui: &Ui, rect: Rect, dome: Dome, sample: Sample, t: &Tokens) {
+pub(super) fn marked(ui: &Ui, rect: Rect, dome: Dome, sample: Sample, now: Timestamp, t: &Tokens) {
     let Some(at) = dome.visible(sample.direction) else { return };
     ui.painter().circle(at, MARK, t.sky, Stroke::new(2.0, t.sat));
-    let words = format!("{}\n{}", format::time_z(sample.time), direction(sample.direction));
+    let time = format::moment(sample.time, now);
+    let words = format!("{time}\n{}", direction(sample.direction));
     let place = words_beside(ui, rect, at, &words, t);
     let (azimuth, elevation) = spoken(sample.direction);
-    let name = format!("Path at {}: {azimuth}, {elevation}", format::time_z(sample.time));
+    let name = format!("Path at {time}: {azimuth}, {elevation}");
     paint::name_text(ui, "marked", place, &name);
 }
 

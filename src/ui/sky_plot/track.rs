@@ -137,13 +137,19 @@ pub(super) fn paint_events(painter: &Painter, dome: Dome, events: &[Event], t: &
 }
 
 /// Labels the events; where there is no room for all, AOS and LOS come before TCA.
-pub(super) fn label_events(labels: &mut Labels<'_>, dome: Dome, events: &[Event], t: &Tokens) {
+pub(super) fn label_events(
+    labels: &mut Labels<'_>,
+    dome: Dome,
+    events: &[Event],
+    now: Timestamp,
+    t: &Tokens,
+) {
     let is_top = |event: &&Event| event.form == EventForm::Diamond;
     let (top, ends): (Vec<&Event>, Vec<&Event>) = events.iter().partition(is_top);
     for event in ends.into_iter().chain(top) {
         let direction = event.sample.direction;
         let Some(mark) = dome.point(direction) else { continue };
-        let first = format!("{} {}", event.word, format::time(event.sample.time));
+        let first = format!("{} {}", event.word, format::moment(event.sample.time, now));
         let azimuth = format::azimuth(direction.azimuth_deg());
         let second = if is_top(&event) {
             format!("el {} az {azimuth}", format::degrees(direction.elevation_deg(), 1))
@@ -180,7 +186,7 @@ pub(super) fn label_minutes(
         let Ok(time) = Timestamp::from_second(second) else { continue };
         labels.add(&Label {
             key: Key::Minute(tick.minute),
-            lines: &[(&format::hours_minutes(time), text::caption(), t.t2)],
+            lines: &[(&format::minute_of_day(time), text::caption(), t.t2)],
             mark: tick.at,
             clearance: 7.0,
             order: &[Side::nearest(tick.across), Side::nearest(-tick.across)],

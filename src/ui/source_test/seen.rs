@@ -47,7 +47,7 @@ fn sentences(
     }
     let words = format!(
         "Fetched {}: {} bytes, {} objects, SHA-256 {}.",
-        format::time_z(at),
+        format::moment(at, now),
         view.bytes,
         view.objects,
         view.sha256
@@ -89,11 +89,10 @@ fn found(view: &UnitView, satellite: &str, now: Timestamp) -> (Tone, String) {
 
 fn of(object: &FileObject, now: Timestamp) -> String {
     format!(
-        "{} ({}), elements of {} {}, {} old",
+        "{} ({}), elements of {}, {} old",
         object.name,
         object.catalog_number,
-        format::date(object.epoch),
-        format::time_z(object.epoch),
+        format::dated(object.epoch),
         format::age(seconds_between(object.epoch, now))
     )
 }

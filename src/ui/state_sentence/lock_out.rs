@@ -34,5 +34,5 @@ pub(super) fn sentence(antenna: &AntennaModel) -> Option<Spoken> {
 /// Start of the lock-out, with the day.
 fn since(antenna: &AntennaModel) -> String {
     let since = antenna.snapshot.lock_out.as_ref().map(|lock_out| lock_out.since);
-    since.map_or_else(String::new, |at| format!("{} {}", format::date(at), format::time_z(at)))
+    since.map_or_else(String::new, format::dated)
 }

@@ -18,6 +18,7 @@ pub(super) fn sentence(model: &Model, antenna: &AntennaModel) -> Option<Spoken> 
     if seconds_between(*at, model.now) > SHOWN_S {
         return None;
     }
+    let now = model.now;
     let name = &antenna.config.name;
     let can = antenna.variant().capabilities;
     let caution = Spoken::new(SentenceKind::Caution);
@@ -49,7 +50,7 @@ pub(super) fn sentence(model: &Model, antenna: &AntennaModel) -> Option<Spoken> 
         }
         Event::NotSent(refusal) => {
             let reason = refusal.barrier().map(reason);
-            caution.plain(words::refusal(refusal) + &reason.unwrap_or_default())
+            caution.plain(words::refusal(refusal, now) + &reason.unwrap_or_default())
         }
         Event::Refused(asked, answer) => {
             caution.plain(format!("{}: the unit answered {answer}.", words::asked(*asked)))
@@ -64,13 +65,13 @@ pub(super) fn sentence(model: &Model, antenna: &AntennaModel) -> Option<Spoken> 
             .plain(format!(": {}.", words::prepare_error(reason))),
         Event::WouldMiss { name, found } => caution.plain(format!(
             "Not tracking. {} Hold Track anyway, or follow from here.",
-            words::would_miss(short(name), found)
+            words::would_miss(short(name), found, now)
         )),
         Event::ProgramTrackOver { name, stats } => follow_over(name, *stats),
         Event::CannotProgramTrack(target, problem) => caution
             .plain("Not following ")
             .bold(short(target))
-            .plain(format!(": {}", words::track_problem(problem)))
+            .plain(format!(": {}", words::track_problem(problem, now)))
             .plain(problem.barrier().map(reason).unwrap_or_default()),
         Event::TrackingEnded { completed: false } => {
             caution.plain("The unit ended tracking before LOS.")
@@ -81,7 +82,7 @@ pub(super) fn sentence(model: &Model, antenna: &AntennaModel) -> Option<Spoken> 
             format::pointing(*aim, can)
         )),
         Event::Safety(matter) => caution
-            .plain(words::safety(matter, name))
+            .plain(words::safety(matter, name, now))
             .plain(matter.barrier().map(reason).unwrap_or_default()),
         Event::JogLeaseOver => {
             caution.plain("The jog was stopped: the window did not renew it in time.")

@@ -89,7 +89,7 @@ pub(super) fn show(
     let mut focused = None;
     for Standing { bar, rect } in standing {
         let remarks = || remarks(bar, lane.antenna, model);
-        let response = node(ui, bar, *rect, lane, selected == Some(bar.key), &remarks);
+        let response = node(ui, bar, *rect, lane, (model.now, selected == Some(bar.key)), &remarks);
         paint_bar(ui, bar, *rect);
         if response.hovered() {
             let stroke = Stroke::new(1.0, t.t1);
@@ -105,7 +105,7 @@ pub(super) fn show(
             (model.menu)(ui, response.id, bar.key, commands);
         });
         if response.hovered() {
-            response.on_hover_text(tool_tip(bar, &remarks()));
+            response.on_hover_text(tool_tip(bar, model.now, &remarks()));
         }
     }
     for one in standing {
@@ -221,13 +221,13 @@ fn node(
     bar: &Bar<'_>,
     rect: Rect,
     lane: LaneOf<'_>,
-    selected: bool,
+    (now, selected): (Timestamp, bool),
     remarks: &dyn Fn() -> String,
 ) -> Response {
     let id = ui.make_persistent_id(("pass bar", lane.antenna, bar.key));
     let response = ui.interact(rect, id, Sense::click());
     response.widget_info(|| {
-        let mut name = accessible_name(bar, &remarks());
+        let mut name = accessible_name(bar, now, &remarks());
         if lane.is_one_of_several {
             name = format!("{}: {name}", lane.antenna);
         }
@@ -253,14 +253,14 @@ fn remarks(bar: &Bar<'_>, antenna: &str, model: &TimelineModel<'_>) -> String {
     remarks
 }
 
-fn accessible_name(bar: &Bar<'_>, remarks: &str) -> String {
-    let (from, to) = (format::hours_minutes(bar.aos), format::hours_minutes(bar.los));
-    format!("{}, {from} to {to}{}{remarks}", bar.name, max_elevation(bar, ", "))
+fn accessible_name(bar: &Bar<'_>, now: Timestamp, remarks: &str) -> String {
+    let times = format::minutes(bar.aos, bar.los, now);
+    format!("{}, {times}{}{remarks}", bar.name, max_elevation(bar, ", "))
 }
 
-fn tool_tip(bar: &Bar<'_>, remarks: &str) -> String {
-    let (from, to) = (format::time(bar.aos), format::time_z(bar.los));
-    format!("{}\n{from} to {to}{}{remarks}", bar.name, max_elevation(bar, "\n"))
+fn tool_tip(bar: &Bar<'_>, now: Timestamp, remarks: &str) -> String {
+    let times = format::stretch(bar.aos, bar.los, now);
+    format!("{}\n{times}{}{remarks}", bar.name, max_elevation(bar, "\n"))
 }
 
 /// The maximum elevation after `separator`; empty where it is not known any more.

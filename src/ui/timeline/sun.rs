@@ -36,7 +36,7 @@ pub(super) fn show(ui: &Ui, scale: &Scale, spans: &[SunSpan], bar: Rect, words: 
 /// The caption of a span: the state at the start of the window, or the change that begins
 /// the span.
 fn caption(span: &SunSpan, scale: &Scale) -> String {
-    let began = format::hours_minutes(span.from);
+    let began = format::minute_of_day(span.from);
     match (span.from > scale.from(), span.up) {
         (false, true) => "day".to_owned(),
         (false, false) => "night".to_owned(),

@@ -69,7 +69,7 @@ fn one(
 ) {
     let t = theme::tokens(ui);
     let file = &entry.file;
-    let at = format!("{} {}", format::date(file.at), format::time_z(file.at));
+    let at = format::dated(file.at);
     let origin = match file.origin {
         Origin::Found => "was on the unit",
         Origin::Uploaded => "sent from here",

@@ -55,7 +55,7 @@ pub(super) fn show(
 
 fn proved(ui: &mut Ui, model: &Model, proved: &Proved) {
     let what = if model.uploads.is_roll_back { "Rolled back and proved" } else { "Proved" };
-    let words = format!("{what} {}", format::time_z(proved.at));
+    let words = format!("{what} {}", format::moment(proved.at, model.now));
     line(ui, Tone::Good, &words);
     let satellite = &proved.satellite;
     let words = format!(
@@ -96,7 +96,7 @@ fn failed(ui: &mut Ui, model: &Model, failure: &Failure, question: &mut Option<Q
 fn file(ui: &mut Ui, uploaded: &Uploaded) {
     fact(ui, "File", &format!("{}, {} bytes", uploaded.file.as_str(), uploaded.bytes));
     fact(ui, "Unit", &uploaded.unit.to_string());
-    let at = format!("{} {}", format::date(uploaded.at), format::time_z(uploaded.at));
+    let at = format::dated(uploaded.at);
     fact(ui, "Read back", &at);
     fact(ui, "SHA-256", &uploaded.sha256.to_string());
 }

@@ -34,7 +34,7 @@ pub fn alarm_state(state: AlarmState, now: Timestamp) -> String {
 /// An alarm in words. `antenna` is the name of its antenna, if it has one.
 // One arm a kind.
 #[allow(clippy::too_many_lines)]
-pub fn alarm(kind: &AlarmKind, antenna: &str) -> String {
+pub fn alarm(kind: &AlarmKind, antenna: &str, now: Timestamp) -> String {
     match kind {
         AlarmKind::StationStands(stood) => format!(
             "What is shown is {} old: the part of Azel that runs the station does not respond. \
@@ -94,7 +94,7 @@ pub fn alarm(kind: &AlarmKind, antenna: &str) -> String {
             format!("{antenna} does not track {}: {}.", target.name, super::prepare_error(reason))
         }
         AlarmKind::CannotProgramTrack(name, problem) => {
-            format!("{antenna} does not follow {name}: {}", super::track_problem(problem))
+            format!("{antenna} does not follow {name}: {}", super::track_problem(problem, now))
         }
         AlarmKind::OffTarget { off, cause } => {
             let off = format::degrees(off.degrees(), 1);
@@ -123,15 +123,15 @@ pub fn alarm(kind: &AlarmKind, antenna: &str) -> String {
         AlarmKind::NoAntennaFor { pass: (_, aos), name } => format!(
             "No antenna is on its way to {name}, AOS {}. Select the pass and track it, or stop a \
              track that is worth less.",
-            format::time_z(*aos)
+            format::moment(*aos, now)
         ),
         AlarmKind::NotOnItsWay { pass: (_, aos), name } => format!(
             "{antenna} is not on its way to {name}, AOS {}, which the schedule gives to it.",
-            format::time_z(*aos)
+            format::moment(*aos, now)
         ),
         AlarmKind::AutomaticMoves { at, name } => format!(
             "{antenna} will move by itself at {}, for {name}. STOP or Standby prevents it.",
-            format::time_z(*at)
+            format::moment(*at, now)
         ),
         AlarmKind::AutomaticSuspended => format!(
             "Automatic operation of {antenna} is suspended: the antenna was moved by its panel or by \
@@ -147,7 +147,7 @@ pub fn alarm(kind: &AlarmKind, antenna: &str) -> String {
             format!("{antenna} tracks by its own program, not by this console.")
         }
         AlarmKind::MovesByItself => format!("{antenna} moves, and not by this console."),
-        AlarmKind::Safety(matter) => super::safety(matter, antenna),
+        AlarmKind::Safety(matter) => super::safety(matter, antenna, now),
         AlarmKind::Owed(unit) => super::owed(unit),
         AlarmKind::DriverStands(stood) => format!(
             "The driver has not responded for {}: nothing reaches the antennas, not even STOP. \

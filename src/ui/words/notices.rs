@@ -20,9 +20,11 @@ pub fn notice(about: &About, station: &Snapshot) -> (String, String) {
             let antenna = antennas.iter().find(|antenna| Some(antenna.id()) == of.antenna);
             let name = antenna.map_or("Azel", |antenna| antenna.config.name.as_str());
             let times = alarm_times(of, now);
-            ("Alarm", format!("{} {times}.", alarm(&of.kind, name)))
+            ("Alarm", format!("{} {times}.", alarm(&of.kind, name, now)))
         }
-        About::StationStands(stood) => ("Alarm", alarm(&AlarmKind::StationStands(*stood), "Azel")),
+        About::StationStands(stood) => {
+            ("Alarm", alarm(&AlarmKind::StationStands(*stood), "Azel", now))
+        }
         About::Reminder(of) => ("Reminder", reminder(of, antennas, now)),
     };
     (format!("{word}, {}", station.station.name), text)
@@ -37,7 +39,7 @@ pub fn reminder(of: &Reminder, antennas: &[AntennaModel], now: Timestamp) -> Str
         "{} AOS in {} at {}, max {}, {names} can track it.",
         of.name,
         format::time_left(seconds_between(now, of.aos())),
-        format::time_z(of.aos()),
+        format::moment(of.aos(), now),
         format::degrees(of.max_elevation.degrees(), 0),
     )
 }

@@ -1,5 +1,7 @@
 //! Sentences about on-board track.
 
+use jiff::Timestamp;
+
 use crate::{
     astro::AzEl,
     device::Place,
@@ -60,9 +62,9 @@ fn place_words(place: Place) -> String {
 }
 
 /// The amount by which a unit would miss `name`, and the reason.
-pub fn would_miss(name: &str, found: &Supervision) -> String {
+pub fn would_miss(name: &str, found: &Supervision, now: Timestamp) -> String {
     let off = format::degrees(found.worst.off.degrees(), 1);
-    let at = format::time_z(found.worst.at);
+    let at = format::moment(found.worst.at, now);
     match found.causes.first() {
         Some(first) => {
             let why = super::capitalised(&cause(first));
@@ -101,7 +103,8 @@ pub fn lower_minimum(unit_deg: f64, station_deg: f64) -> String {
 }
 
 /// The first place where a unit's own program would enter a forbidden zone, and what to do.
-pub fn trespass(Trespass { at, direction, limit }: &Trespass) -> String {
+pub fn trespass(trespass: &Trespass, now: Timestamp) -> String {
+    let Trespass { at, direction, limit } = trespass;
     let bound = match limit {
         OffLimits::Elevation { lowest_deg } => {
             format!("below the {} of this antenna", format::degrees(*lowest_deg, 1))
@@ -111,7 +114,7 @@ pub fn trespass(Trespass { at, direction, limit }: &Trespass) -> String {
     };
     format!(
         "Not sent: at {} the unit would point to {}, {bound}. Follow from here instead.",
-        format::time_z(*at),
+        format::moment(*at, now),
         pair(*direction)
     )
 }

@@ -1,5 +1,7 @@
 //! The reasons of refusals and failures.
 
+use jiff::Timestamp;
+
 use crate::{
     device::{PrepareError, settings::Hindrance},
     driver::{LinkLoss, Refusal, TrackProblem},
@@ -16,7 +18,7 @@ pub const HOLD_UNGUARDED: &str = "Hold 1 s to move without dead-man";
 /// The reason why a motion was not sent.
 // One arm a kind.
 #[allow(clippy::too_many_lines)]
-pub fn refusal(refusal: &Refusal) -> String {
+pub fn refusal(refusal: &Refusal, now: Timestamp) -> String {
     match refusal {
         Refusal::LockedOut { by, reason } => {
             format!("Not sent: in maintenance, locked out by {by}: {reason}.")
@@ -115,14 +117,14 @@ pub fn refusal(refusal: &Refusal) -> String {
             format::degrees(*lowest_deg, 1),
             format::degrees(*highest_deg, 1)
         ),
-        Refusal::Path(trespass) => super::trespass(trespass),
+        Refusal::Path(trespass) => super::trespass(trespass, now),
         Refusal::Setting { field, why } => format!("{field} was not sent. {}", hindrance(*why)),
     }
 }
 
 /// The reason why a motion that nobody has asked for yet would not be sent.
-pub fn not_possible(refusal: &Refusal) -> String {
-    let words = self::refusal(refusal);
+pub fn not_possible(refusal: &Refusal, now: Timestamp) -> String {
+    let words = self::refusal(refusal, now);
     match words.strip_prefix("Not sent: ") {
         Some(why) => format!("Not possible: {why}"),
         None => words,
@@ -135,12 +137,12 @@ pub fn hindrance(hindrance: Hindrance) -> String {
 }
 
 /// The reason why a target is not tracked, or no longer.
-pub fn track_problem(problem: &TrackProblem) -> String {
+pub fn track_problem(problem: &TrackProblem, now: Timestamp) -> String {
     match problem {
         TrackProblem::NoPass => "it does not rise in the next days.".to_owned(),
         TrackProblem::Orbit(_) => "its elements do not say where it is.".to_owned(),
         TrackProblem::Refused(why) => {
-            let words = refusal(why);
+            let words = refusal(why, now);
             words.strip_prefix("Not sent: ").map_or_else(|| words.clone(), str::to_owned)
         }
     }

@@ -1,5 +1,7 @@
 //! Sentences about safety.
 
+use jiff::Timestamp;
+
 use crate::{
     driver::{Inside, Mover, Response, Safety, Snapshot, StopState, StoppingWay, Unit, Unlike},
     makes,
@@ -83,13 +85,13 @@ pub const UNGUARDED: &str = "The dead-man could not be started: if Azel ended wh
      the antenna.";
 
 /// The reason for asking the operator to confirm that the antenna stands still.
-pub fn asks_standing(snapshot: &Snapshot) -> Option<String> {
+pub fn asks_standing(snapshot: &Snapshot, now: Timestamp) -> Option<String> {
     if let StopState::NotConfirmed { .. } = snapshot.stop {
         let why =
             "STOP is repeated until it is known to stand. Look at the antenna before you say so.";
         return Some(why.to_owned());
     }
-    let since = format::time_z(snapshot.left_moving?);
+    let since = format::moment(snapshot.left_moving?, now);
     Some(format!(
         "Azel ended at {since} while it was moved. Look at the antenna before you say so."
     ))
@@ -134,19 +136,19 @@ fn unlike(unlike: Unlike) -> &'static str {
 }
 
 /// A matter of safety in words; `antenna` is the name of the antenna.
-pub fn safety(matter: &Safety, antenna: &str) -> String {
+pub fn safety(matter: &Safety, antenna: &str, now: Timestamp) -> String {
     match matter {
         Safety::DeadManFired => format!(
             "{antenna} was stopped by the dead-man: Azel was late. Press the key anew to move it."
         ),
         Safety::LeftMoving { since, asks: false } => format!(
             "Azel ended at {} while {antenna} was moved by hand. STOP was sent first.",
-            format::time_z(*since)
+            format::moment(*since, now)
         ),
         Safety::LeftMoving { since, asks: true } => format!(
             "Azel ended at {} while {antenna} was moved by hand, and nobody has seen it stand \
              since. Press STOP, or say that you have seen it stand.",
-            format::time_z(*since)
+            format::moment(*since, now)
         ),
         Safety::NoMark => format!(
             "It could not be written to disk that {antenna} is moved by hand: if Azel ended now, \

@@ -40,6 +40,23 @@ pub(super) fn runs(window: &Window) -> Vec<Run> {
     found.into_iter().map(|(below, run)| with_ground(run, &layers[..below], clear)).collect()
 }
 
+/// All texts of the last frame, each with its blanks and whole if it was cut.
+pub(super) fn texts(window: &Window) -> Vec<String> {
+    let mut texts = Vec::new();
+    for ClippedShape { shape, .. } in &window.output().shapes {
+        add_texts(shape, &mut texts);
+    }
+    texts
+}
+
+fn add_texts(shape: &Shape, texts: &mut Vec<String>) {
+    match shape {
+        Shape::Vec(shapes) => shapes.iter().for_each(|shape| add_texts(shape, texts)),
+        Shape::Text(text) => texts.push(text.galley.text().to_owned()),
+        _ => {}
+    }
+}
+
 /// Sorts a shape into fills and text, each text with the number of fills below it.
 fn collect<'a>(
     shape: &'a Shape,

@@ -173,7 +173,7 @@ impl Density {
             let (base, face) = if cell.line == 0 { (lines[0], first) } else { (lines[1], second) };
             cell.draw(svg, [x, base], face, words);
         };
-        put(cells.sets_out, &format::time(row.sets_out));
+        put(cells.sets_out, &format::second_of_day(row.sets_out));
         put(cells.aos, &row.aos);
         put(cells.los, &row.los);
         put(cells.priority, &row.priority);

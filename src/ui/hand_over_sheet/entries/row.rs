@@ -58,9 +58,9 @@ impl Row {
         Self {
             day: format::date(sets_out),
             sets_out,
-            aos: format::time(entry.pass.aos),
+            aos: format::second_of_day(entry.pass.aos),
             max: max.unwrap_or_default(),
-            los: pass.map(|pass| format::time(pass.los.time)).unwrap_or_default(),
+            los: pass.map(|pass| format::second_of_day(pass.los.time)).unwrap_or_default(),
             name: sheet.name(number),
             priority,
             antenna: sheet.antenna(entry.antenna).to_owned(),

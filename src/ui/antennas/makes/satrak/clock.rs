@@ -103,7 +103,7 @@ fn set(ui: &mut Ui, unit: &ShownUnit<'_>, form: &mut Form, commands: &mut Vec<Ui
     let said = match (refusal, mark) {
         (Some(refusal), _) => refusal.to_owned(),
         (None, Some(Mark::Taken(at) | Mark::Verified(at))) => {
-            format!("Set and read again {}", format::time_z(at))
+            format!("Set and read again {}", format::moment(at, unit.model.now))
         }
         (None, Some(Mark::Rejected)) => "Not set. See below.".to_owned(),
         (None, None) => String::new(),

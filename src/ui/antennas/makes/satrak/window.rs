@@ -90,7 +90,7 @@ fn refusal(unit: &ShownUnit<'_>, form: &Form) -> Option<String> {
     let asked = form.auto_asked?;
     let (event, _) = unit.antenna.news.as_ref().filter(|(_, at)| *at >= asked)?;
     match event {
-        Event::NotSent(refusal) => Some(words::refusal(refusal)),
+        Event::NotSent(refusal) => Some(words::refusal(refusal, unit.model.now)),
         Event::Refused(Asked::Motion(Motion::EnableAuto), answer) => {
             Some(format!("{AUTO}: the unit answered {answer}."))
         }
@@ -123,9 +123,9 @@ fn take_from_pass(ui: &mut Ui, unit: &ShownUnit<'_>, form: &mut Form) {
             let name = predicted.satellite.short_name();
             match &window {
                 Ok((start, stop)) => {
-                    format!("{name}, {} to {}", format::time(*start), format::time_z(*stop))
+                    format!("{name}, {}", format::stretch(*start, *stop, model.now))
                 }
-                Err(refusal) => words::refusal(refusal),
+                Err(refusal) => words::refusal(refusal, model.now),
             }
         },
     );
