@@ -111,6 +111,28 @@ fn a_wrong_value_is_refused_at_its_field_and_the_typing_stays() {
 }
 
 #[test]
+fn half_of_what_belongs_together_is_not_sent_without_the_other_half() {
+    for (group, [good, value], [bad, typed]) in [
+        ("gps", ["Latitude", "41.5N"], ["Longitude", "200E"]),
+        ("gps", ["Longitude", "28.9E"], ["Latitude", ""]),
+        ("window", ["Start", "2026-08-12 12:00:00"], ["Stop", "noon"]),
+        ("window", ["Stop", "2026-08-12 12:10:00"], ["Start", ""]),
+    ] {
+        let mut window = opened(LARGE, read());
+        write(&mut window, good, value);
+        assert_eq!(state_of(&window, good), "Edited");
+        write(&mut window, bad, typed);
+        assert_eq!(state_of(&window, good), "Waits", "{good} with {bad} {typed:?}");
+        assert!(says(&window, &format!("{good} waits for {bad}: they are sent together.")));
+        assert!(says(&window, "2 changes not sent, 1 cannot be used, 1 waits for another"));
+        write(&mut window, "North offset", "1.5");
+        apply(&mut window);
+        let sent: Vec<_> = settles(asked(&mut window)).iter().map(|of| of.group).collect();
+        assert_eq!(sent, ["general"], "what does not belong to {group} goes");
+    }
+}
+
+#[test]
 fn apply_waits_with_a_setting_that_points_until_the_antenna_may_be_pointed() {
     for (is_on, auto, why) in [
         (true, Some(false), "The unit tracks: stop it first."),

@@ -81,6 +81,7 @@ pub(crate) fn write<S>(window: &mut Harness<'_, S>, label: &str, words: &str) {
     field.unwrap_or_else(|| panic!("no field {name}")).focus();
     window.run_steps(2);
     window.key_press_modifiers(Modifiers::COMMAND, Key::A);
+    window.key_press(Key::Backspace);
     window.event(Event::Text(words.to_owned()));
     window.run_steps(2);
 }

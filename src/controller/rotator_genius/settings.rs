@@ -19,10 +19,16 @@ const KIND: Key<i64> = Key::choice("kind", &[(0, "Azimuth"), (1, "Elevation")]);
 const STOP_OFFSET: Key<i64> = Key::integer("stop_offset_deg", 0, MAX_STOP_OFFSET_DEG as i64);
 const NAME: Key<String> = Key::text("name", check_name);
 
+const TRAVEL: &str = "travel";
+
 const fn fields() -> [Field; 5] {
     [
-        Field::edit(LIMIT_CW, "CW limit").in_unit("°").about("The end of the travel clockwise."),
+        Field::edit(LIMIT_CW, "CW limit")
+            .part_of(TRAVEL)
+            .in_unit("°")
+            .about("The end of the travel clockwise."),
         Field::edit(LIMIT_CCW, "CCW limit")
+            .part_of(TRAVEL)
             .in_unit("°")
             .about("The end of the travel counter-clockwise."),
         Field::edit(KIND, "Turns"),

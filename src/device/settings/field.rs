@@ -33,6 +33,9 @@ pub struct Field {
     pub guard: fn(&Value) -> Guard,
     /// It decides where the antenna points or when it starts: it passes the gate.
     pub moves: bool,
+    /// What it is a part of. Parts of one whole in a group mean nothing alone: a new value goes
+    /// out with those of the other parts, or waits for them.
+    pub part_of: Option<&'static str>,
     /// What it does, in a sentence or two.
     pub about: &'static str,
 }
@@ -108,6 +111,7 @@ impl Field {
             access: Access::Edit,
             guard: free,
             moves: false,
+            part_of: None,
             about: "",
         }
     }
@@ -140,6 +144,12 @@ impl Field {
         Self { guard, ..self }
     }
 
+    /// As a part of this whole.
+    #[must_use]
+    pub const fn part_of(self, whole: &'static str) -> Self {
+        Self { part_of: Some(whole), ..self }
+    }
+
     /// With the mark of what decides where the antenna points or when it starts.
     #[must_use]
     pub const fn moving(self) -> Self {
@@ -151,6 +161,13 @@ impl Group {
     /// The field with this key.
     pub fn field(&self, key: &str) -> Option<&'static Field> {
         self.fields.iter().find(|field| field.key == key)
+    }
+
+    /// The other parts of what `field` is a part of.
+    pub fn other_parts(&self, field: &Field) -> impl Iterator<Item = &'static Field> {
+        let (key, whole) = (field.key, field.part_of);
+        let is_other = move |other: &&Field| whole.is_some() && other.part_of == whole;
+        self.fields.iter().filter(is_other).filter(move |other| other.key != key)
     }
 
     /// Something in it can be set.

@@ -209,6 +209,10 @@ fn below(ui: &mut Ui, field: &'static Field, draft: &mut Draft, state: &FieldSta
             let words = format!("{}: unlock Service to send this value.", field.label);
             row::note(ui, Some(Icon::Lock), &words, t.warn);
         }
+        FieldState::WaitsFor(other) => {
+            let words = format!("{} waits for {other}: they are sent together.", field.label);
+            row::note(ui, Some(Icon::Warning), &words, t.warn);
+        }
         FieldState::ConfirmFirst => {
             let value = draft.text(field, None);
             let words = format!("Hold 1 s to confirm {} {value}", field.label);
@@ -226,7 +230,9 @@ fn below(ui: &mut Ui, field: &'static Field, draft: &mut Draft, state: &FieldSta
 fn border(state: &FieldState, t: &Tokens) -> Option<Color32> {
     match state {
         FieldState::Edited => Some(t.sat),
-        FieldState::ConfirmFirst | FieldState::NeedsService => Some(t.warn),
+        FieldState::ConfirmFirst | FieldState::NeedsService | FieldState::WaitsFor(_) => {
+            Some(t.warn)
+        }
         FieldState::Verified(_) | FieldState::Taken(_) => Some(t.ok),
         FieldState::Rejected | FieldState::Invalid(_) => Some(t.bad),
         _ => None,
@@ -236,7 +242,7 @@ fn border(state: &FieldState, t: &Tokens) -> Option<Color32> {
 fn look(state: &FieldState, t: &Tokens) -> (Option<Icon>, Color32) {
     match state {
         FieldState::Edited => (Some(Icon::Pencil), t.sat),
-        FieldState::ConfirmFirst => (Some(Icon::Warning), t.warn),
+        FieldState::ConfirmFirst | FieldState::WaitsFor(_) => (Some(Icon::Warning), t.warn),
         FieldState::NeedsService => (Some(Icon::Lock), t.warn),
         FieldState::Sending => (Some(Icon::HalfDisc), t.cmd),
         FieldState::Verified(_) | FieldState::Taken(_) => (Some(Icon::Check), t.ok),

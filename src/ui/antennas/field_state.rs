@@ -27,6 +27,8 @@ pub(super) enum FieldState {
     Taken(Timestamp),
     Rejected,
     Invalid(Unfit),
+    /// The value goes out with that of the field with this label, which cannot be sent.
+    WaitsFor(&'static str),
     ReadOnly,
     Locked,
 }
@@ -45,6 +47,7 @@ impl FieldState {
             Self::Taken(at) => format!("Taken {}", format::moment(*at, now)),
             Self::Rejected => "Rejected".to_owned(),
             Self::Invalid(_) => "Invalid".to_owned(),
+            Self::WaitsFor(_) => "Waits".to_owned(),
             Self::ReadOnly => "Read only".to_owned(),
             Self::Locked => "Locked".to_owned(),
         }
@@ -64,12 +67,31 @@ impl FieldState {
                 | Self::NeedsService
                 | Self::Rejected
                 | Self::Invalid(_)
+                | Self::WaitsFor(_)
         )
     }
 }
 
 /// State of `field` in `group`, with the new value if it can be sent.
 pub(super) fn of(
+    unit: &ShownUnit<'_>,
+    group: &Group,
+    field: &Field,
+    draft: &Draft,
+) -> (FieldState, Option<Value>) {
+    let (state, value) = alone(unit, group, field, draft);
+    let holds_back = |other: &&Field| {
+        let (state, value) = alone(unit, group, other, draft);
+        state.is_edit() && value.is_none()
+    };
+    match group.other_parts(field).find(holds_back) {
+        Some(other) if value.is_some() => (FieldState::WaitsFor(other.label), None),
+        _ => (state, value),
+    }
+}
+
+/// State of `field` regardless of the fields that its value goes out with.
+fn alone(
     unit: &ShownUnit<'_>,
     group: &Group,
     field: &Field,

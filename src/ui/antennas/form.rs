@@ -80,6 +80,8 @@ pub(super) struct Count {
     pub(super) to_confirm: usize,
     pub(super) locked: usize,
     pub(super) invalid: usize,
+    /// Fields whose value waits for another field.
+    pub(super) waiting: usize,
     pub(super) rejected: usize,
     pub(super) sending: usize,
 }
@@ -102,6 +104,7 @@ impl Form {
                 add(&mut count.to_confirm, state == FieldState::ConfirmFirst);
                 add(&mut count.locked, state == FieldState::NeedsService);
                 add(&mut count.invalid, matches!(state, FieldState::Invalid(_)));
+                add(&mut count.waiting, matches!(state, FieldState::WaitsFor(_)));
                 add(&mut count.rejected, state == FieldState::Rejected);
                 add(&mut count.sending, state == FieldState::Sending);
             }

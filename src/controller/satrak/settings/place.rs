@@ -12,6 +12,7 @@ pub const IS_AUTOMATIC: Key<bool> = Key::flag("is_automatic");
 pub const LATITUDE_DEG: Key<f64> = Key::place("latitude_deg", 90.0, ['N', 'S']);
 pub const LONGITUDE_DEG: Key<f64> = Key::place("longitude_deg", 180.0, ['E', 'W']);
 pub const IS_VALID: Key<bool> = Key::flag("is_valid");
+const PLACE: &str = "place";
 const TIME: Key<Timestamp> = Key::time("time");
 
 pub static GPS: Group = Group {
@@ -23,9 +24,11 @@ pub static GPS: Group = Group {
             .moving()
             .about("On: the unit uses its receiver. Off: it uses the place below."),
         Field::edit(LATITUDE_DEG, "Latitude")
+            .part_of(PLACE)
             .moving()
             .about("Used while the position does not come from GPS. Sent with two decimals."),
         Field::edit(LONGITUDE_DEG, "Longitude")
+            .part_of(PLACE)
             .moving()
             .about("Used while the position does not come from GPS. Sent with two decimals."),
     ],

@@ -25,6 +25,9 @@ const Y_RATIO: Key<f64> = Key::decimal("y", 0.001, 1_000_000.0, 0);
 const STATUS: Key<String> = Key::text("status", text);
 const FILE: Key<String> = Key::text("file", text);
 
+const X_REFERENCE: &str = "x_reference";
+const Y_REFERENCE: &str = "y_reference";
+
 pub static ANGLES: Group = Group {
     key: "angles",
     title: "Angle calibration",
@@ -33,10 +36,10 @@ pub static ANGLES: Group = Group {
         Field::write(REFERENCE, "Sensor references")
             .moving()
             .about("Present position: the unit takes the references from where it stands."),
-        Field::edit(X_SENSOR, "X sensor reference").moving(),
-        Field::edit(X_DEG, "X angle at it").moving().in_unit("°"),
-        Field::edit(Y_SENSOR, "Y sensor reference").moving(),
-        Field::edit(Y_DEG, "Y angle at it").moving().in_unit("°"),
+        Field::edit(X_SENSOR, "X sensor reference").part_of(X_REFERENCE).moving(),
+        Field::edit(X_DEG, "X angle at it").part_of(X_REFERENCE).moving().in_unit("°"),
+        Field::edit(Y_SENSOR, "Y sensor reference").part_of(Y_REFERENCE).moving(),
+        Field::edit(Y_DEG, "Y angle at it").part_of(Y_REFERENCE).moving().in_unit("°"),
     ],
 };
 

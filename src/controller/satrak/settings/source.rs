@@ -34,6 +34,9 @@ pub const PORT: Key<i64> = Key::integer("port", 1, 65_535);
 /// In the group [`FTP`].
 pub const SATELLITE: Key<String> = Key::text("satellite", text);
 
+const SATELLITE_OF_FILE: &str = "satellite_of_file";
+const SERVER: &str = "server";
+
 const fn continue_tracking() -> Field {
     Field::write(CONTINUE_TRACKING, "Keep the present track")
         .moving()
@@ -45,8 +48,14 @@ pub static FILE: Group = Group {
     title: "File",
     is_service: false,
     fields: &[
-        Field::edit(FILE_NAME, "TLE file").moving().about("In the unit's folder of element files."),
-        Field::edit(SATELLITE_NAME, "Satellite").moving().about("Its name as in the file."),
+        Field::edit(FILE_NAME, "TLE file")
+            .part_of(SATELLITE_OF_FILE)
+            .moving()
+            .about("In the unit's folder of element files."),
+        Field::edit(SATELLITE_NAME, "Satellite")
+            .part_of(SATELLITE_OF_FILE)
+            .moving()
+            .about("Its name as in the file."),
         Field::edit(PERIOD, "Update period")
             .moving()
             .about("Its unit is not documented here; days for web and FTP."),
@@ -74,14 +83,18 @@ pub static FTP: Group = Group {
     title: "FTP",
     is_service: false,
     fields: &[
-        Field::edit(ADDRESS, "Server address").moving(),
-        Field::edit(USER, "User").moving(),
+        Field::edit(ADDRESS, "Server address").part_of(SERVER).moving(),
+        Field::edit(USER, "User").part_of(SERVER).moving(),
         Field::edit(PASSWORD, "Password")
+            .part_of(SERVER)
             .moving()
             .about("The unit sends it in clear, also when it is asked."),
-        Field::edit(PORT, "Port").moving().about("22 is SFTP, 21 is FTP."),
-        Field::edit(FILE_NAME, "TLE file").moving(),
-        Field::edit(SATELLITE, "Satellite").moving().about("Its name as in the file."),
+        Field::edit(PORT, "Port").part_of(SERVER).moving().about("22 is SFTP, 21 is FTP."),
+        Field::edit(FILE_NAME, "TLE file").part_of(SATELLITE_OF_FILE).moving(),
+        Field::edit(SATELLITE, "Satellite")
+            .part_of(SATELLITE_OF_FILE)
+            .moving()
+            .about("Its name as in the file."),
         Field::edit(PERIOD_DAYS, "Update period").moving().in_unit("days"),
         Field::edit(ON_ERROR, "When a fetch fails").moving(),
     ],

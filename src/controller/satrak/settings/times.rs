@@ -24,16 +24,23 @@ const CLOCK_RIGHT_S: f64 = 2.0;
 pub const START: Key<Timestamp> = Key::time("start");
 pub const STOP: Key<Timestamp> = Key::time("stop");
 
+const FROM_START_TO_STOP: &str = "window";
+
 pub static WINDOW: Group = Group {
     key: "window",
     title: "Tracking window",
     is_service: false,
     fields: &[
         Field::edit(START, "Start")
+            .part_of(FROM_START_TO_STOP)
             .in_unit("UTC")
             .moving()
             .about("The unit tracks from here on while tracking is switched on."),
-        Field::edit(STOP, "Stop").in_unit("UTC").moving().about("The unit ends tracking here."),
+        Field::edit(STOP, "Stop")
+            .part_of(FROM_START_TO_STOP)
+            .in_unit("UTC")
+            .moving()
+            .about("The unit ends tracking here."),
     ],
 };
 
