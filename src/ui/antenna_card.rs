@@ -230,8 +230,8 @@ impl Cursor {
     }
 }
 
-/// Shows the card in `rect`. State sentence, axes table and mode always stay in sight; the
-/// rest scrolls if it does not fit.
+/// Shows the card in `rect`. State sentence, axes table, mode, Track and the controls for moving
+/// by hand always stay in sight; the rest scrolls if it does not fit.
 pub fn show(
     ui: &mut Ui,
     rect: Rect,
@@ -292,6 +292,10 @@ fn fill(
     if let Some(mode) = mode_selector::show(ui, at.take(32.0), &model.modes) {
         track::mode_clicked(mode, &mut state.track, actions);
     }
+    let typed = state.drive.go_to.previewed();
+    track::row(ui, &mut at, model.track.as_ref(), typed, &mut state.track, actions);
+    at.skip(if short { 6.0 } else { 12.0 });
+    drive::show(ui, &mut at, &model.drive, &mut state.drive, actions, short);
 
     let below = rect.with_min_y(at.y);
     ui.scope_builder(UiBuilder::new().id_salt("lower").max_rect(below), |ui| {

@@ -78,7 +78,7 @@ fn nothing_of_the_card_lies_on_something_else_when_all_is_unfolded() {
             settle(&mut window);
         }
         // Scrolled lines are under the upper part of the card.
-        rig::scroll(&mut window, pos2(870.0, 600.0), 5000.0);
+        rig::scroll(&mut window, pos2(870.0, rig::SMALL[1] - 8.0), 5000.0);
         nothing_overlaps(&window);
     }
 }
@@ -91,7 +91,7 @@ fn a_fold_that_is_opened_at_the_lower_end_is_brought_into_sight() {
     // The readings fit; the actions do not, and begin at the top.
     let field = format!("{}: {}", first.label, first.fields[0].label);
     let mut window = rig::window(rig::SMALL, model);
-    for (fold, inside) in [("Readings: ", "Alarm: none"), ("More: ", &field)] {
+    for (fold, inside) in [("Readings: ", "Satellite: "), ("More: ", &field)] {
         let line = |window: &Window| window.get_by_label_contains(fold).rect();
         // As Tab does: the line just in sight, at the lower end.
         window.get_by_label_contains(fold).focus();
@@ -102,13 +102,45 @@ fn a_fold_that_is_opened_at_the_lower_end_is_brought_into_sight() {
         settle(&mut window);
         let modes = window.get_by_role_and_label(Role::RadioButton, "Manual").rect();
         assert!(line(&window).top() >= modes.bottom(), "{fold} {:?}", line(&window));
-        let content = window.get_by_label(inside).rect();
+        let content = window.get_by_label_contains(inside).rect();
         assert!(content.bottom() <= bottom, "{inside} {content:?}");
         // Closing it moves nothing that stays.
         let open = line(&window);
         window.get_by_label_contains(fold).click();
         settle(&mut window);
         assert!(line(&window).top() >= open.top(), "{fold}");
+    }
+}
+
+/// Whether a control of the card is there, whole and above all that scrolls.
+fn stays(window: &Window, size: [f32; 2], is_it: impl Fn(&str) -> bool) -> bool {
+    let whole = Rect::from_min_size(pos2(0.0, 0.0), vec2(size[0], size[1]));
+    let buttons = window.query_all_by_role(Role::Button);
+    let mut found = buttons.filter(|of| is_it(&of.accesskit_node().label().unwrap_or_default()));
+    found.any(|of| whole.contains_rect(of.rect()))
+}
+
+#[test]
+fn track_jog_and_stop_stay_in_sight_however_far_the_card_is_scrolled() {
+    let of_makes = cases().into_iter().map(|(config, snapshot)| makes::model(config, snapshot));
+    let others = around_the_jog_keys().into_iter().map(|(_, model)| model);
+    for (case, model) in of_makes.chain(others).enumerate() {
+        let mut window = rig::window(rig::SMALL, model);
+        for fold in ["Travel: ", "Readings: ", "Faults: ", "More: "] {
+            if let Some(line) = window.query_by_label_contains(fold) {
+                line.click_accesskit();
+            }
+            settle(&mut window);
+        }
+        let foot = pos2(rig::SMALL[0] - 120.0, rig::SMALL[1] - 8.0);
+        rig::scroll(&mut window, foot, -5000.0);
+        for starts in [&["STOP"][..], &["Jog "], &["Track ", "Hold 1 s to track anyway"]] {
+            let is_it = |of: &str| starts.iter().any(|start| of.starts_with(start));
+            let has_none = starts.contains(&"Track ")
+                && (window.query_by_role_and_label(Role::RadioButton, "Track").is_none()
+                    || window.query_by_label_contains("Selected, is tracked").is_some());
+            assert!(has_none || stays(&window, rig::SMALL, is_it), "case {case}: {starts:?}");
+        }
     }
 }
 

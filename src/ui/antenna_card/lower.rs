@@ -1,12 +1,12 @@
-//! The lower part of the card, which scrolls if there is no room: tracking, moving by
-//! hand, the other antennas and the readings. In a low window each section folds to one
+//! The lower part of the card, which scrolls if there is no room: questions and notes, the other
+//! antennas and the readings. In a low window each section folds to one
 //! line with its most important content.
 
 use egui::{Align2, Rect, Ui};
 
 use super::{
-    CardAction, CardModel, CardState, Cursor, WayOutModel, drive, faults, holds, more, others,
-    readings, track,
+    CardAction, CardModel, CardState, Cursor, LinkStatus, WayOutModel, drive, faults, holds, more,
+    others, readings, released, track,
 };
 use crate::ui::{
     text, theme,
@@ -18,7 +18,8 @@ use crate::ui::{
     words,
 };
 
-/// Shows everything below the mode.
+/// Shows everything below the controls for moving by hand: what comes and goes, and what
+/// unfolds.
 pub(super) fn show(
     ui: &mut Ui,
     card: Rect,
@@ -28,11 +29,9 @@ pub(super) fn show(
     actions: &mut Vec<CardAction>,
     short: bool,
 ) {
-    // Sections that come and go are below the jog keys, which keep a fixed place.
-    let typed = state.drive.go_to.previewed();
-    track::row(ui, at, model.track.as_ref(), typed, &mut state.track, actions);
-    at.skip(if short { 6.0 } else { 12.0 });
-    drive::show(ui, at, &model.drive, &mut state.drive, actions, short);
+    if model.header.status == LinkStatus::NotConnected {
+        released::about(ui, at, &model.header);
+    }
     asked(ui, at, model, state, actions);
     drive::messages(ui, at, &model.drive, &state.drive);
     let said = model.drive.jog_locked;
@@ -95,7 +94,9 @@ fn asked(
     state: &mut CardState,
     actions: &mut Vec<CardAction>,
 ) {
-    if let Some(words) = model.track.as_ref().and_then(|track| state.track.about_the_sun(track)) {
+    if let Some(words) =
+        model.track.as_ref().and_then(|track| state.track.about_the_sun(track))
+    {
         holds::note(ui, at, words);
     }
     if let Some(why) = model.asks_standing
@@ -138,7 +139,9 @@ fn fold_line(
 /// stays in sight.
 fn bring_into_sight(ui: &Ui, at: &Cursor, opened: Option<Rect>) {
     if let Some(line) = opened {
-        ui.scroll_to_rect(line.with_max_y(at.y), None);
+        let section = line.with_max_y(at.y);
+        let has_room = section.height() <= ui.clip_rect().height();
+        ui.scroll_to_rect(section, (!has_room).then_some(egui::Align::TOP));
     }
 }
 

@@ -28,20 +28,28 @@ pub(super) fn show(
     {
         actions.push(CardAction::Connect);
     }
-    let panel = if model.takes_panel {
-        " and takes the panel from whoever stands in front of the unit"
-    } else {
-        ""
-    };
-    let about = format!("STOP connects{panel}; it lets go when the antenna stands.");
-    if stop_key(ui, stop.with_min_x(stop.left() + 4.0), model.name, &about) {
+    if stop_key(ui, stop.with_min_x(stop.left() + 4.0), model.name, &about_stop(model)) {
         actions.push(CardAction::Stop);
     }
+    at.skip(6.0);
+}
+
+/// Shows what STOP does with such a unit.
+pub(super) fn about(ui: &Ui, at: &mut Cursor, model: &HeaderModel<'_>) {
     let t = theme::tokens(ui);
-    at.skip(2.0);
+    let about = about_stop(model);
     let words = paint::paragraph(ui, at.at(), at.width(), &about, text::small(), t.t2);
     paint::name_text(ui, "about stop of a released unit", words, &about);
     at.y = words.bottom() + 6.0;
+}
+
+fn about_stop(model: &HeaderModel<'_>) -> String {
+    let panel = if model.takes_panel {
+        " and takes the panel from anybody who stands in front of the unit"
+    } else {
+        ""
+    };
+    format!("STOP connects{panel}; it disconnects when the antenna stands.")
 }
 
 fn stop_key(ui: &Ui, rect: egui::Rect, antenna: &str, about: &str) -> bool {
