@@ -3,14 +3,13 @@
 use egui::{Align2, Rect, Ui};
 
 use super::{
-    format, text, theme,
+    text, theme,
     widgets::{
         button::{Button, SMALL_HEIGHT},
         paint,
     },
 };
 use crate::{
-    astro::time::seconds_between,
     engine::CatalogState,
     model::{Model, UiCommand, View},
     orbit::BUNDLED_SOURCE,
@@ -20,9 +19,38 @@ use crate::{
 pub const HEIGHT: f32 = 32.0;
 /// Height of the strip in a low window, where its text is shorter.
 pub const LOW_HEIGHT: f32 = 28.0;
+const PADDING: f32 = 16.0;
 
+/// The room of the strip. It outlives the demonstration until another view is opened: without it
+/// every control would move under the pointer.
+#[derive(Debug, Default)]
+pub struct BannerRoom {
+    kept_for: Option<View>,
+}
+
+impl BannerRoom {
+    /// Whether the strip, or its room, is in the view of `model`.
+    pub fn is_taken(&mut self, model: &Model) -> bool {
+        if model.demo {
+            self.kept_for = Some(model.view);
+        } else if self.kept_for != Some(model.view) {
+            self.kept_for = None;
+        }
+        self.kept_for.is_some()
+    }
+}
+
+/// Shows the strip; after the demonstration it names the station in use.
 pub fn show(ui: &mut Ui, rect: Rect, model: &Model, commands: &mut Vec<UiCommand>) {
     let t = theme::tokens(ui);
+    let whole = rect.with_min_x(rect.left() + PADDING).with_max_x(rect.right() - 8.0);
+    if !model.demo {
+        ui.painter().rect_filled(rect, 0.0, t.bg1);
+        let words = format!("The demonstration is over. {} is in use.", model.station.name);
+        paint::text_in(ui, whole, Align2::LEFT_CENTER, &words, text::body(), t.t2);
+        paint::name_text(ui, "after the demo", whole, &words);
+        return;
+    }
     ui.painter().rect_filled(rect, 0.0, t.warnbg);
     let (word, view) = match model.view {
         View::Setup => ("Stay in the demo", View::Operate),
@@ -42,24 +70,19 @@ pub fn show(ui: &mut Ui, rect: Rect, model: &Model, commands: &mut Vec<UiCommand
         }
         CatalogState::Loading => "Demo station: the elements are being read.".to_owned(),
         CatalogState::Failed => "Demo station without elements: they could not be read.".to_owned(),
-        // The age is shown above the plot as well.
         CatalogState::Ready(_) if rect.height() < HEIGHT => {
             "Demo station: the antennas are simulated, no metal moves.".to_owned()
         }
-        CatalogState::Ready(catalog) => {
-            let age = catalog.newest_epoch().map_or_else(String::new, |newest| {
-                format!(", {} old", format::age(seconds_between(newest, model.now)))
-            });
-            // With several sources, the newest epoch alone would be misleading.
+        CatalogState::Ready(_) => {
             let elements = if model.sources.list.is_empty() {
-                format!(" Elements: {BUNDLED_SOURCE}{age}.")
+                format!(" Elements: {BUNDLED_SOURCE}.")
             } else {
                 String::new()
             };
             format!("Demo station: the antennas are simulated, no metal moves.{elements}")
         }
     };
-    let room = rect.with_min_x(rect.left() + 16.0).with_max_x(place.left() - 8.0);
+    let room = whole.with_max_x(place.left() - 8.0);
     paint::text_in(ui, room, Align2::LEFT_CENTER, &words, text::body(), t.warn);
     paint::name_text(ui, "demo banner", room, &words);
     if button.show(ui, "set up", place).clicked() {

@@ -52,6 +52,8 @@ const NEXT_FRAME: Duration = Duration::from_millis(1);
 pub struct OperateState {
     /// The antenna card.
     pub card: CardState,
+    /// The strip of the demo station, or its room, is in the window.
+    pub has_banner: bool,
     /// The pass list lies over the plot, in a small window.
     pub drawer_open: bool,
     /// Number of hours in the timeline.
@@ -125,7 +127,7 @@ pub fn show(
 ) {
     let list_width = state.list_width.map(|width| width as f32);
     let count = model.antennas.len();
-    let areas = Areas::of(window, rect, state.drawer_open, model.demo, count, list_width);
+    let areas = Areas::of(window, rect, state.drawer_open, state.has_banner, count, list_width);
     let t = theme::tokens(ui);
     let shown = model.antenna().map(AntennaModel::id);
     if state.shown_antenna != shown {

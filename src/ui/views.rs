@@ -6,7 +6,9 @@ use egui::{Rect, ScrollArea, Ui, UiBuilder, pos2};
 use jiff::Timestamp;
 
 use super::{
-    antennas, banner, bar,
+    antennas,
+    banner::{self, BannerRoom},
+    bar,
     confirm::Question,
     console,
     dialogs::{
@@ -51,6 +53,7 @@ pub struct Views {
     question: Option<Question>,
     closing: Option<ClosingDialog>,
     notes: Notes,
+    banner: BannerRoom,
     keys_open: bool,
 }
 
@@ -130,7 +133,9 @@ impl Views {
         let mut body = window.with_min_y(top.bottom());
         // In a low window the antenna card needs the whole height.
         let beside_card = window.height() < top_bar::SMALL_BELOW && model.view == View::Operate;
-        if model.demo && !beside_card {
+        let has_banner = self.banner.is_taken(model);
+        self.operate.has_banner = has_banner;
+        if has_banner && !beside_card {
             let strip = body.with_max_y(body.top() + banner::HEIGHT);
             banner::show(ui, strip, model, commands);
             body = body.with_min_y(strip.bottom());
@@ -276,6 +281,7 @@ impl Views {
     pub fn station_changed(&mut self) {
         self.operate.sky_time.return_to_now();
         self.preferences.forget();
+        self.banner = BannerRoom::default();
     }
 
     /// Takes the outcome of saving console lines: the path or the error.

@@ -12,7 +12,7 @@ use egui_kittest::kittest::{NodeT as _, Queryable as _};
 
 use crate::window_stories::{
     maintenance,
-    rig::{self, SIZES, SMALL, Window, asked, says},
+    rig::{self, SIZES, SMALL, Window, asked, says, settle},
     states,
 };
 
@@ -146,6 +146,38 @@ fn the_demo_station_says_that_no_metal_moves() {
         assert!(faults.rect().bottom() <= size[1], "{:?}", faults.rect());
         window.get_by_label("Set up your station").click();
         assert_eq!(asked(&mut window), [UiCommand::Show(View::Setup)]);
+    }
+}
+
+/// Places of all controls of the window.
+fn places(window: &Window) -> Vec<(String, Rect)> {
+    let roles = [Role::Button, Role::RadioButton, Role::TextInput, Role::ListBoxOption];
+    let of =
+        |role| window.query_all_by_role(role).map(|of| (of.accesskit_node().label(), of.rect()));
+    let all = roles.into_iter().flat_map(of);
+    let named = all.filter_map(|(name, place)| Some((name?, place)));
+    named.filter(|(name, _)| name != "Set up your station").collect()
+}
+
+#[test]
+fn the_end_of_the_demonstration_moves_nothing_under_the_pointer() {
+    for size in SIZES {
+        for view in [View::Operate, View::Plan, View::Antennas, View::Preferences, View::Map] {
+            let mut model = rig::model(states::holding());
+            (model.demo, model.view) = (true, view);
+            let mut window = rig::window(size, model);
+            let before = places(&window);
+            window.state_mut().model.demo = false;
+            settle(&mut window);
+            assert_eq!(places(&window), before, "{view:?} {size:?}");
+            assert!(!says(&window, "Demo station"));
+            // The room is given back with the next view.
+            for view in [View::Console, view] {
+                window.state_mut().model.view = view;
+                settle(&mut window);
+            }
+            assert_ne!(places(&window), before, "{view:?} {size:?}");
+        }
     }
 }
 

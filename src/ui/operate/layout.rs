@@ -57,7 +57,7 @@ impl Areas {
         window: Rect,
         rect: Rect,
         drawer_open: bool,
-        demo: bool,
+        has_banner: bool,
         antennas: usize,
         list_width: Option<f32>,
     ) -> Self {
@@ -69,7 +69,7 @@ impl Areas {
         let second_card = has_two.then_some(last);
         let card = if has_two { last.translate(vec2(-card_width, 0.0)) } else { last };
         let left = rect.with_max_x(card.left());
-        let banner = (demo && window.height() < top_bar::SMALL_BELOW)
+        let banner = (has_banner && window.height() < top_bar::SMALL_BELOW)
             .then(|| left.with_max_y(left.top() + banner::LOW_HEIGHT));
         let left = banner.map_or(left, |banner| left.with_min_y(banner.bottom()));
 
