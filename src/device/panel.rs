@@ -57,9 +57,9 @@ pub struct Check {
     /// Name as the operator knows it.
     #[serde(deserialize_with = "name::one")]
     pub name: Name,
-    /// Shown after the name: what is good or bad about it; may be empty.
+    /// Shown after the name of a check that is good: what that means; may be empty.
     #[serde(deserialize_with = "name::one")]
-    pub about: Name,
+    pub when_good: Name,
     pub state: CheckState,
     /// The unit's own words where they say more than `state`; else empty.
     pub told: Cow<'static, str>,
@@ -74,7 +74,7 @@ impl Check {
     /// A check that never forbids motion.
     pub const fn new(name: &'static str, state: CheckState, advice: &'static str) -> Self {
         let told = Cow::Borrowed("");
-        Self { name, about: "", state, told, advice, locks_motion: false }
+        Self { name, when_good: "", state, told, advice, locks_motion: false }
     }
 
     /// Returns `true` for a fault that forbids all motion.

@@ -91,6 +91,15 @@ fn faults_stand_with_what_to_do() {
     assert!(says(&window, "The X angle cannot be trusted: check the sensor and its cable."));
 }
 
+#[test]
+fn a_good_result_is_not_told_of_a_check_that_is_not_good() {
+    let mut snapshot = read();
+    states::report(&mut snapshot, &[2], rig::now());
+    let window = opened(LARGE, snapshot);
+    assert!(!says(&window, "Age of the elements: young enough to track with"));
+    assert!(says(&window, "Element file: on the unit"));
+}
+
 fn state_of_check(window: &Window, name: &str) -> String {
     let before = format!("{name}: ");
     let told = texts(window).into_iter();

@@ -26,8 +26,8 @@ pub fn checks(faults: Option<&Faults>) -> Vec<Check> {
             Some(FaultState::Unknown(code)) => Cow::Owned(format!("Unknown ({code})")),
             None | Some(FaultState::Clear | FaultState::Set) => Cow::Borrowed(""),
         };
-        let (about, locks_motion) = (about(kind), kind.locks_motion());
-        Check { about, told, locks_motion, ..Check::new(name(kind), state, advice(kind)) }
+        let (when_good, locks_motion) = (when_good(kind), kind.locks_motion());
+        Check { when_good, told, locks_motion, ..Check::new(name(kind), state, advice(kind)) }
     };
     FaultKind::ALL.into_iter().map(check).collect()
 }
@@ -49,16 +49,16 @@ const fn name(kind: FaultKind) -> &'static str {
     }
 }
 
-/// Meaning of the check.
-fn about(kind: FaultKind) -> &'static str {
+/// Meaning of a good result.
+fn when_good(kind: FaultKind) -> &'static str {
     match kind {
-        FaultKind::InternalLink => "between control and drive unit",
-        FaultKind::TleOutdated => "young enough to track by",
-        FaultKind::TleMissing => "is on the unit",
-        FaultKind::SatelliteMissing => "its name is found",
+        FaultKind::InternalLink => "control and drive unit talk",
+        FaultKind::TleOutdated => "young enough to track with",
+        FaultKind::TleMissing => "on the unit",
+        FaultKind::SatelliteMissing => "found by its name",
         FaultKind::WebTle => "the unit can read them",
         FaultKind::TrackingStopped => "not ended by an error",
-        FaultKind::Setup => "of the unit",
+        FaultKind::Setup => "complete",
         FaultKind::XMotor | FaultKind::YMotor => "works",
         FaultKind::XSensor | FaultKind::YSensor => "connected and set up",
         FaultKind::GpsLink => "the receiver answers",

@@ -11,6 +11,8 @@ use crate::ui::{
 pub(super) const HEIGHT: f32 = 28.0;
 /// Height of a field in a line.
 const FIELD: f32 = 24.0;
+/// Gap between two columns.
+const GAP: f32 = 6.0;
 /// Width that the columns need.
 pub(super) const MIN_WIDTH: f32 = 516.0;
 
@@ -27,12 +29,12 @@ impl Columns {
     /// Columns of a line in `rect`; the values share any width beyond the minimum.
     pub(super) fn of(rect: Rect) -> Self {
         let spare = (rect.width() - MIN_WIDTH).max(0.0);
-        let widths = [130.0, 92.0 + spare * 0.5, 122.0 + spare * 0.3, 32.0, 128.0 + spare * 0.2];
+        let widths = [132.0, 110.0 + spare * 0.5, 98.0 + spare * 0.3, 30.0, 122.0 + spare * 0.2];
         let mut left = rect.left();
         let [label, on_unit, new, unit, state] = widths.map(|width| {
             let column =
                 Rect::from_min_max(pos2(left, rect.top()), pos2(left + width, rect.bottom()));
-            left += width + 3.0;
+            left += width + GAP;
             column
         });
         let inset = (rect.height() - FIELD) / 2.0;

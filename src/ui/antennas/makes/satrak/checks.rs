@@ -24,7 +24,7 @@ pub(super) fn show(ui: &mut Ui, unit: &ShownUnit<'_>, form: &mut Form) {
         subtitle(ui, "Faults");
         return row::note(ui, Some(Icon::Dash), "The unit has not reported its checks.", t.t3);
     };
-    subtitle(ui, &format!("Faults, read {}", format::time_z(read_at)));
+    subtitle(ui, &format!("Faults, read {}", format::moment(read_at, unit.model.now)));
     for check in state.checks.iter() {
         show_check(ui, check);
     }
@@ -39,7 +39,9 @@ fn show_check(ui: &mut Ui, check: &Check) {
         CheckState::Fault => (Icon::Cross, "Fault", t.bad),
     };
     let word = if check.told.is_empty() { word } else { check.told.as_ref() };
-    row::plain(ui, check.name, check.about, Some((Some(icon), word, colour)));
+    let is_good = check.state == CheckState::Good;
+    let about = if is_good { check.when_good } else { "" };
+    row::plain(ui, check.name, about, Some((Some(icon), word, colour)));
     if matches!(check.state, CheckState::Caution | CheckState::Fault) {
         row::note(ui, None, check.advice, t.t2);
     }
