@@ -65,6 +65,20 @@ fn a_query_is_sent_once_its_frame_stands_there() {
 }
 
 #[test]
+fn the_field_keeps_the_focus_after_enter() {
+    for size in SIZES {
+        let mut window = view(size);
+        write(&mut window, "Query to send", "TPOS?");
+        for _ in 0..2 {
+            window.key_press(Key::Enter);
+            assert_eq!(asked(&mut window).len(), 1);
+            let field = window.get_by_role_and_label(Role::TextInput, "Query to send");
+            assert!(field.accesskit_node().is_focused());
+        }
+    }
+}
+
+#[test]
 fn earlier_queries_come_back_with_the_arrow_keys() {
     let mut window = view(SMALL);
     for query in ["TPOS?", "STATUS?"] {

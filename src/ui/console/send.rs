@@ -153,6 +153,7 @@ fn fields(ui: &mut Ui, rect: Rect, questions: &[Question], entry: &mut Entry) ->
         let hint = questions.first().map_or("", |one| one.key.as_str());
         let hint = RichText::new(hint).color(t.t3);
         let id = ui.scope_id().with("send");
+        let mut is_entered = false;
         if ui.memory(|memory| memory.has_focus(id)) {
             let pressed = |key| ui.input_mut(|input| input.consume_key(Modifiers::NONE, key));
             if pressed(Key::ArrowUp) {
@@ -161,11 +162,14 @@ fn fields(ui: &mut Ui, rect: Rect, questions: &[Question], entry: &mut Entry) ->
             if pressed(Key::ArrowDown) {
                 entry.newer();
             }
+            is_entered = pressed(Key::Enter);
         }
-        let edit = TextEdit::singleline(&mut entry.text).id(id).font(text::raw()).hint_text(hint);
+        // Enter leaves the focus here, for the next question.
+        let edit = TextEdit::singleline(&mut entry.text).id(id).return_key(None);
+        let edit = edit.font(text::raw()).hint_text(hint);
         let edit = ui.add(edit.desired_width(ui.available_width() - GAP));
         edit.widget_info(|| WidgetInfo::labeled(Role::TextInput, true, "Query to send"));
-        edit.lost_focus() && ui.input(|input| input.key_pressed(Key::Enter))
+        is_entered
     });
     shown.inner
 }

@@ -136,7 +136,7 @@ fn state(status: &Status) -> String {
         }
     }
     if status.fault {
-        parts.push("a fault exists".to_owned());
+        parts.push("a fault exists, ERRSTATUS? tells which".to_owned());
     }
     parts.join(", ")
 }
@@ -189,7 +189,7 @@ mod tests {
             (
                 "STATUS?,1,0,0,0,0,0,1,1,1,0,0,1,-1,80.0,35.0",
                 "Az 0.00°, El 0.00°, moving X+ and Y\u{2212}, tracking, Y\u{2212} limit set, \
-                 a fault exists",
+                 a fault exists, ERRSTATUS? tells which",
             ),
         ] {
             assert_eq!(says(payload), (Tone::Plain, words.to_owned()));
