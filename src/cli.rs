@@ -12,6 +12,7 @@ mod remote;
 pub mod serve;
 mod simulate;
 mod window;
+mod work_area;
 
 use std::{
     io::{self, Write as _},

@@ -6,10 +6,11 @@ use std::{
 };
 
 use anyhow::{anyhow, bail};
+use egui::{Vec2, vec2};
 
 use crate::{
     app::App,
-    cli::{marks, no_window, this_program},
+    cli::{marks, no_window, this_program, work_area::WorkArea},
     clock::Clock,
     engine::{
         Settings,
@@ -19,8 +20,12 @@ use crate::{
     station,
 };
 
+/// Usual size of the window, in points.
+const USUAL: Vec2 = vec2(1440.0, 900.0);
 /// Minimum size of the window, in points.
-const SMALLEST: [f32; 2] = [1024.0, 640.0];
+const SMALLEST: Vec2 = vec2(1024.0, 640.0);
+/// Height left for the title bar, in points; X11 tells it only once the window is there.
+const TITLE_BAR: f32 = 40.0;
 /// Part of the panic of the window toolkit without a library.
 const NO_LIBRARY: &str = "could not be loaded";
 
@@ -42,10 +47,11 @@ pub(super) fn run(station: Option<PathBuf>, demo: bool) -> anyhow::Result<()> {
         claims: claims_folder().map(|folder| (folder, HolderKind::Window)),
         ..Settings::default()
     };
+    let work_area = WorkArea::of_the_desktop();
     let options = eframe::NativeOptions {
         viewport: egui::ViewportBuilder::default()
             .with_app_id("azel")
-            .with_inner_size([1440.0, 900.0])
+            .with_inner_size(USUAL)
             .with_min_inner_size(SMALLEST),
         // Off: flat colours do not need it, and a software renderer pays for it in every pixel.
         dithering: false,
@@ -65,6 +71,11 @@ pub(super) fn run(station: Option<PathBuf>, demo: bool) -> anyhow::Result<()> {
             "Azel",
             options,
             Box::new(move |cc| {
+                if let Some(area) = work_area {
+                    let points = area.points(cc.egui_ctx.native_pixels_per_point().unwrap_or(1.0));
+                    let size = fitting(points);
+                    cc.egui_ctx.send_viewport_cmd(egui::ViewportCommand::InnerSize(size));
+                }
                 let mut app =
                     App::new(&cc.egui_ctx, &settings, Clock::system())?.with_notifier()?;
                 if let Some(folder) = folder {
@@ -91,8 +102,26 @@ pub(super) fn run(station: Option<PathBuf>, demo: bool) -> anyhow::Result<()> {
     }
 }
 
+/// Size of a window that stays clear of the panels of a desktop with `room` points for it.
+fn fitting(room: Vec2) -> Vec2 {
+    (room - vec2(0.0, TITLE_BAR)).min(USUAL).max(SMALLEST)
+}
+
 fn has_display() -> bool {
     ["DISPLAY", "WAYLAND_DISPLAY"]
         .iter()
         .any(|name| std::env::var_os(name).is_some_and(|value| !value.is_empty()))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_first_window_stays_clear_of_the_panels_of_the_desktop() {
+        assert_eq!(fitting(vec2(2560.0, 1400.0)), USUAL);
+        assert_eq!(fitting(vec2(1440.0, 860.0)), vec2(1440.0, 820.0));
+        assert_eq!(fitting(vec2(1366.0, 728.0)), vec2(1366.0, 688.0));
+        assert_eq!(fitting(vec2(800.0, 480.0)), SMALLEST);
+    }
 }
