@@ -13,24 +13,30 @@ use std::{
     mem::{self, Discriminant},
 };
 
-use egui::{Align, RichText, Ui, vec2};
+use egui::{Align, Align2, Rect, RichText, ScrollArea, Ui, UiBuilder, pos2, vec2};
 
 use super::{
     confirm::Question,
-    text,
+    icons::{self, Icon},
+    text, theme,
     widgets::{
         button::{Button, HEIGHT},
+        paint,
         told::{Tone, line},
     },
 };
 use crate::{
     engine::{
         self, CatalogState,
+        antenna::AntennaModel,
         uploads::{Ask, Cargo, Order, Stage},
     },
     model::{Model, UiCommand},
 };
 use form::Form;
+
+/// Height of the foot: the button, and why nothing can be sent.
+const FOOT: f32 = 64.0;
 
 /// Input and choices for every antenna, by its name. A failure leaves them as they are.
 #[derive(Default)]
@@ -51,8 +57,8 @@ impl UploadState {
     }
 }
 
-/// Draws the upload for the antenna with the index `antenna`, as wide as `ui` and as high as
-/// needed; designed for 300 to 560 points. Its questions are modal.
+/// Draws the upload for the antenna with the index `antenna` into `ui`; designed for 300 to 560
+/// points. All but the button scrolls. Its questions are modal.
 pub fn show(
     ui: &mut Ui,
     model: &Model,
@@ -66,15 +72,37 @@ pub fn show(
     };
     let name = &antenna.config.name;
     let Some(takes) = antenna.spec().element_files else {
-        let words = format!("{name} holds no elements: none are uploaded to it.");
+        let words = format!("{name} stores no elements, so none can be uploaded to it.");
         return line(ui, Tone::Plain, &words);
     };
     let form = state.forms.entry(name.clone()).or_insert_with(|| Form::of(&antenna.config, takes));
     if let Some(numbers) = state.chosen.take() {
         form.numbers = Some(numbers);
     }
+    let room = ui.available_rect_before_wrap();
+    let (above, foot) = room.split_top_bottom_at_y(room.bottom() - FOOT);
+    let order = ui
+        .scope_builder(UiBuilder::new().max_rect(above), |ui| {
+            let area = ScrollArea::vertical().auto_shrink(false);
+            area.show(ui, |ui| content(ui, model, antenna, state, commands)).inner
+        })
+        .inner;
+    send(ui, foot, model, order.as_ref().map_err(String::as_str), commands);
+    Question::show(&mut state.question, ui, commands);
+}
+
+/// Shows all that scrolls above the button. Returns the order, or why there is none.
+fn content(
+    ui: &mut Ui,
+    model: &Model,
+    antenna: &AntennaModel,
+    state: &mut UploadState,
+    commands: &mut Vec<UiCommand>,
+) -> Result<Order, String> {
+    let name = &antenna.config.name;
+    let Some(form) = state.forms.get_mut(name) else { return Err("there is no form".to_owned()) };
     ui.spacing_mut().item_spacing.y = 6.0;
-    ui.label(RichText::new(format!("Elements to {name}")).font(text::title()));
+    ui.label(RichText::new(format!("Upload elements to {name}")).font(text::title()));
     let uploads = &model.uploads;
     let (is_ours, is_open) = (uploads.antenna == *name, uploads.stage.is_open());
     if is_ours && uploads.stage != Stage::Idle {
@@ -95,23 +123,32 @@ pub fn show(
     };
     form::show(ui, form);
     let order = form.order(name, file.map(Cargo::New));
-    send(ui, model, order.as_ref().map_err(String::as_str), commands);
     if is_open && !is_ours {
-        let words = format!("Files are on their way to {}. One at a time.", uploads.antenna);
+        let words =
+            format!("An upload to {} is under way. Only one can run at a time.", uploads.antenna);
         line(ui, Tone::Plain, &words);
     }
     kept::show(ui, model, name, form, &mut state.question, commands);
     if is_ours {
         questions::show(ui, model, &mut state.questions, commands);
     }
-    Question::show(&mut state.question, ui, commands);
+    order
 }
 
 /// Shows the send button, and below it the reason why nothing can be sent.
-fn send(ui: &mut Ui, model: &Model, order: Result<&Order, &str>, commands: &mut Vec<UiCommand>) {
+fn send(
+    ui: &Ui,
+    foot: Rect,
+    model: &Model,
+    order: Result<&Order, &str>,
+    commands: &mut Vec<UiCommand>,
+) {
+    let t = theme::tokens(ui);
+    ui.painter().hline(foot.x_range(), foot.top() + 0.5, (1.0, t.line));
     let can = order.is_ok() && !model.uploads.stage.is_open();
     let button = Button::primary("Upload and prove").locked(!can);
-    let (_, place) = ui.allocate_space(vec2(button.width(ui), HEIGHT));
+    let min = foot.min + vec2(0.0, 8.0);
+    let place = Rect::from_min_size(min, vec2(button.width(ui), HEIGHT));
     if button.show(ui, "upload", place).clicked()
         && let Ok(order) = order
     {
@@ -119,6 +156,12 @@ fn send(ui: &mut Ui, model: &Model, order: Result<&Order, &str>, commands: &mut 
         commands.push(UiCommand::Station(engine::Command::Upload(begin)));
     }
     if let Err(problem) = order {
-        line(ui, Tone::Caution, &format!("Not to be sent yet: {problem}."));
+        let words = format!("This cannot be uploaded yet: {problem}.");
+        let below = foot.with_min_y(place.bottom());
+        let glyph = paint::square(pos2(below.left() + 7.0, below.center().y), 13.0);
+        icons::paint(ui.painter(), glyph, Icon::Warning, t.warn);
+        let room = below.with_min_x(below.left() + 20.0);
+        paint::text_in(ui, room, Align2::LEFT_CENTER, &words, text::small(), t.warn);
+        paint::name_text(ui, "no upload", room, &words).on_hover_text(&words);
     }
 }

@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use egui::{Rect, ScrollArea, Ui, UiBuilder, pos2};
+use egui::{Rect, Ui, UiBuilder, pos2};
 use jiff::Timestamp;
 
 use super::{
@@ -328,9 +328,7 @@ fn show_upload(
 ) {
     let builder = UiBuilder::new().id_salt("upload").max_rect(place);
     ui.scope_builder(builder, |ui| {
-        ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
-            upload::show(ui, model, model.selected_antenna, state, commands);
-        });
+        upload::show(ui, model, model.selected_antenna, state, commands);
     });
 }
 

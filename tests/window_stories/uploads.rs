@@ -28,7 +28,7 @@ fn what_is_followed_is_sent_to_where_the_antenna_is() {
         let mut window = part(width, Uploads::default());
         assert!(says(&window, "5 satellites to send"));
         assert!(is_disabled(&window, "Upload and prove"));
-        assert!(says(&window, "Not to be sent yet"));
+        assert!(says(&window, "This cannot be uploaded yet"));
         write(&mut window, "File", FILE);
         click(&mut window, &format!("Take the factory user {}", ELEMENT_FILES.factory_user));
         click(&mut window, "Upload and prove");
@@ -164,7 +164,7 @@ fn proof_is_told_with_file_hash_time_and_ages() {
         ] {
             assert!(says(&window, words), "{words}");
         }
-        click(&mut window, "Done reading");
+        click(&mut window, "Close");
         assert_eq!(asked(&mut window), [Ask::Dismiss]);
     }
 }
@@ -249,7 +249,7 @@ fn the_list_of_what_is_kept_is_asked_for_once_the_file_is_known() {
 fn an_order_of_another_antenna_is_told_and_waited_for() {
     let uploads = Uploads { antenna: "North".to_owned(), ..working(UploadStep::Write) };
     let window = typed(WIDTHS[0], uploads);
-    assert!(says(&window, "Files are on their way to North."));
+    assert!(says(&window, "An upload to North is under way."));
     assert!(is_disabled(&window, "Upload and prove"));
 }
 
@@ -304,9 +304,35 @@ fn the_elements_view_opens_the_part_in_place_of_the_inspector() {
         }
         window.get_by_role_and_label(Role::Button, "Upload to Satrak").click();
         rig::settle(&mut window);
-        assert!(rig::says(&window, "Elements to Satrak"));
+        assert!(rig::says(&window, "Upload elements to Satrak"));
         window.get_by_role_and_label(Role::Button, "Back to the elements").click();
         rig::settle(&mut window);
-        assert!(!rig::says(&window, "Elements to Satrak"));
+        assert!(!rig::says(&window, "Upload elements to Satrak"));
     }
+}
+
+/// The Elements view with the upload open, in the smallest window.
+fn opened_small(uploads: Uploads) -> rig::Window {
+    let mut model = rig::model(states::holding());
+    (model.view, model.uploads) = (View::Elements, uploads.into());
+    let mut window = rig::window(rig::SMALL, model);
+    for button in ["Details", "Upload to Satrak"] {
+        window.get_by_role_and_label(Role::Button, button).click();
+        rig::settle(&mut window);
+    }
+    window
+}
+
+#[test]
+fn the_button_and_the_proof_are_in_sight_in_the_smallest_window() {
+    let whole = egui::Rect::from_min_size(egui::Pos2::ZERO, rig::SMALL.into());
+    let window = opened_small(Uploads::default());
+    let button = window.get_by_role_and_label(Role::Button, "Upload and prove").rect();
+    assert!(whole.contains_rect(button), "{button:?}");
+    let uploaded = uploaded();
+    let satellite: FileObject = uploaded.objects[1].clone();
+    let proved = Proved { uploaded, satellite, at: rig::now() };
+    let window = opened_small(at(Stage::Proved(Box::new(proved))));
+    let proof = window.get_by_label_contains("Proved 11:15:30Z").rect();
+    assert!(whole.contains_rect(proof), "{proof:?}");
 }

@@ -46,7 +46,7 @@ pub(super) fn show(
                 _ => {}
             }
             warnings(ui, model);
-            if ui.button("Done reading").clicked() {
+            if ui.button("Close").clicked() {
                 commands.push(UiCommand::Station(engine::Command::Upload(Ask::Dismiss)));
             }
         });
