@@ -6,6 +6,7 @@ use super::{
     geometry::{Dome, sharp},
     labels::Labels,
     marks,
+    placement::Side,
     scene::SkyScene,
 };
 use crate::ui::{text, tokens::Tokens, widgets::paint};
@@ -53,6 +54,15 @@ pub(super) fn clearance(dome: Dome, scene: &SkyScene<'_>, mark: Pos2, usual: f32
         .filter(|(distance, radius)| distance < radius)
         .map(|(distance, radius)| distance + radius + 1.0)
         .fold(usual, f32::max)
+}
+
+/// Sides of a label beside `mark`, and its distance: on the side away from the antenna it clears
+/// the antenna's circles where it is nearest to its own mark.
+pub(super) fn aside(dome: Dome, scene: &SkyScene<'_>, mark: Pos2, usual: f32) -> ([Side; 8], f32) {
+    let (away, clearance) = circles(dome, scene)
+        .map(|(at, radius)| (mark - at, radius + 1.0 - at.distance(mark)))
+        .fold((Vec2::ZERO, usual), |most, next| if next.1 > most.1 { next } else { most });
+    (Side::towards(away), clearance)
 }
 
 /// Paints the preview, the commanded ring and the cross-hair, in this order.

@@ -61,12 +61,13 @@ pub(super) fn label_sun_and_moon(
             Some(distance) => format!("{word} {}", format::degrees(distance, 1)),
             None => word.to_owned(),
         };
+        let (order, clearance) = antenna::aside(dome, scene, mark, clearance);
         labels.add(&Label {
             key,
             lines: &[(&name, text::small(), colour)],
             mark,
-            clearance: antenna::clearance(dome, scene, mark, clearance),
-            order: &Side::ORDER,
+            clearance,
+            order: &order,
             tolerance: 1.0,
         });
     }

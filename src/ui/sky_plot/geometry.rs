@@ -79,6 +79,12 @@ impl Dome {
         (rect.center().distance(self.centre) < limit).then(|| corners.map(inside).to_vec())
     }
 
+    /// Whether a rectangle lies within the rim.
+    pub(in crate::ui) fn holds(&self, rect: Rect) -> bool {
+        let corners = [rect.left_top(), rect.right_top(), rect.right_bottom(), rect.left_bottom()];
+        corners.iter().all(|corner| corner.distance(self.centre) < self.radius)
+    }
+
     /// The circle of `radius` points around the zenith, as a closed path.
     pub(in crate::ui) fn circle(&self, radius: f32) -> Vec<Pos2> {
         circle(self.centre, radius)

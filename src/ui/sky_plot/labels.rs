@@ -174,6 +174,11 @@ impl<'a> Labels<'a> {
         let inner = place.rect.shrink(PADDING);
         match self.dome.map(|dome| dome.clipped(place.rect)) {
             Some(Some(ground)) => {
+                // Outside of the rim, too: what a label lies on must not run through it.
+                let beyond = |dome: Dome| !dome.holds(place.rect);
+                if self.dome.is_some_and(beyond) {
+                    self.painter.rect_filled(place.rect, 0.0, self.tokens.bg0);
+                }
                 self.painter.add(Shape::convex_polygon(ground, self.tokens.sky, Stroke::NONE));
             }
             Some(None) => {}

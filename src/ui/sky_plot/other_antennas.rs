@@ -19,9 +19,9 @@ const SCALE: f32 = 0.5;
 const HALF: f32 = 14.0;
 /// Diameter of a quiet commanded ring, points.
 const RING: f32 = 13.0;
-/// How far an azimuth stop reaches inside and outside of the rim, clear of the names there,
-/// points.
-const STOP: (f32, f32) = (19.0, 6.0);
+/// How far an azimuth stop reaches inside of the rim, points. It ends on the rim, clear of the
+/// names outside.
+const STOP: f32 = 22.0;
 /// Half the length of the bar at its outer end, points.
 const BAR: f32 = 7.0;
 
@@ -86,7 +86,7 @@ pub(super) fn label_stops(labels: &mut Labels<'_>, dome: Dome, scene: &SkyScene<
 fn ends(dome: Dome, stop: &AzimuthStop<'_>) -> Option<[Pos2; 2]> {
     let towards = outward(stop.azimuth.radians() as f32);
     let rim = dome.centre + towards * dome.radius;
-    stop.azimuth.is_finite().then(|| [rim - towards * STOP.0, rim + towards * STOP.1])
+    stop.azimuth.is_finite().then(|| [rim - towards * STOP, rim])
 }
 
 /// Paints the ends of azimuth axes.

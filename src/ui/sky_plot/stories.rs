@@ -206,6 +206,78 @@ fn no_label_and_the_beam_view_lie_on_each_other() {
 }
 
 #[test]
+fn an_azimuth_stop_touches_no_name_of_the_rim() {
+    for (azimuth, letter) in [(0.0, "N"), (90.0, "E"), (180.0, "S"), (270.0, "W")] {
+        let mut harness = window(LARGE, Story::default(), move |ui, story: &mut Story| {
+            let azimuth = crate::astro::Angle::from_degrees(azimuth);
+            let stops = [AzimuthStop { azimuth, names: "Genius".into() }];
+            let scene = SkyScene { stops: &stops, ..testing::empty() };
+            show(ui, ui.max_rect(), &scene, &mut story.plot, &mut |_, _, _| {});
+        });
+        harness.run();
+        let bad = theme::tokens(&harness.ctx).bad;
+        let lines = harness.output().shapes.iter().filter_map(|of| match &of.shape {
+            egui::Shape::LineSegment { points: [a, b], stroke } if stroke.color == bad => {
+                Some(Rect::from_two_pos(*a, *b).expand(stroke.width / 2.0))
+            }
+            _ => None,
+        });
+        let stop = lines.reduce(Rect::union).unwrap();
+        let all = texts(&harness);
+        let name = all.iter().find(|(words, _)| words == letter).unwrap().1;
+        // The line of a letter is higher than the letter.
+        let gap = name.shrink2(vec2(0.0, 3.0)).intersect(stop.expand(3.0));
+        assert!(!gap.is_positive(), "{letter} at {name:?}, stop at {stop:?}");
+    }
+}
+
+#[test]
+fn the_name_of_the_sun_stands_beside_the_sun_also_near_the_beam() {
+    for off in [0.0, 1.0, 2.0, 4.6] {
+        let beam = AzEl::from_degrees(185.0, 37.0);
+        let sun = AzEl::from_degrees(185.0, 37.0 + off);
+        let measured = Measured { direction: beam, lost: None };
+        let scene = SkyScene { sun: Some(sun), measured: Some(measured), ..testing::empty() };
+        let mut harness = story(LARGE, scene);
+        harness.run();
+        let dome = Dome::fitted(plot(&harness));
+        let at = dome.point(sun).unwrap();
+        let all = texts(&harness);
+        let name = all.iter().find(|(words, _)| words.starts_with("Sun ")).unwrap().1;
+        let away = name.clamp(at).distance(at);
+        assert!(away < 34.0, "{off}: {away}");
+    }
+}
+
+#[test]
+fn a_label_across_the_rim_has_a_ground_on_both_sides_of_it() {
+    let samples: Vec<_> = testing::pass();
+    let mut harness = window(LARGE, Story::default(), move |ui, story: &mut Story| {
+        let track = testing::track(&samples);
+        let scene = SkyScene { track: Some(track), ..sky() };
+        show(ui, ui.max_rect(), &scene, &mut story.plot, &mut |_, _, _| {});
+    });
+    harness.run();
+    let dome = Dome::fitted(plot(&harness));
+    let across: Vec<_> = texts(&harness)
+        .into_iter()
+        .filter(|(words, place)| {
+            let is_label = ["AOS", "TCA", "LOS"].iter().any(|word| words.starts_with(word));
+            is_label && dome.clipped(*place).is_some() && !dome.holds(*place)
+        })
+        .collect();
+    assert!(!across.is_empty());
+    let ground = theme::tokens(&harness.ctx).bg0;
+    for (words, place) in across {
+        let lies_on_it = harness.output().shapes.iter().any(|of| {
+            matches!(&of.shape, egui::Shape::Rect(rect) if rect.fill == ground
+                && rect.rect.contains_rect(place) && rect.rect.width() < place.width() + 10.0)
+        });
+        assert!(lies_on_it, "{words:?} at {place:?}");
+    }
+}
+
+#[test]
 fn the_name_of_an_azimuth_stop_stands_outside_of_the_disc() {
     for azimuth in (0..360_i16).step_by(15) {
         let mut harness = window(LARGE, Story::default(), move |ui, story: &mut Story| {
