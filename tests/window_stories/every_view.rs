@@ -1,8 +1,9 @@
 //! Every view, and everything that opens over one: what must hold of all of them.
 
 mod contrast;
+mod cut;
 mod days;
-mod painted;
+pub(crate) mod painted;
 mod scale;
 mod tooltips;
 mod tree;

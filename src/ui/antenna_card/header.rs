@@ -65,14 +65,17 @@ pub(super) fn show(
         link_menu(ui, key, model, actions);
         end = row.with_max_x(key.left() - 2.0);
     }
-    let tag_left = status_tag(ui, end, model.status);
-    let name_room = row.with_min_x(row.left() + 24.0).with_max_x(tag_left - 6.0);
+    let room = end.with_min_x(row.left() + 24.0);
+    // The second line has the width for itself.
+    let upper = if short { end } else { end.translate(vec2(0.0, -8.0)) };
+    let tag_left = status_tag(ui, upper, model.status);
+    let name_room = room.with_max_x(tag_left - 6.0);
     if short {
         paint::text_in(ui, name_room, Align2::LEFT_CENTER, model.name, text::value(), t.t1);
     } else {
         let up = name_room.translate(vec2(0.0, -8.0));
         paint::text_in(ui, up, Align2::LEFT_CENTER, model.name, text::value(), t.t1);
-        let down = name_room.translate(vec2(0.0, 10.0));
+        let down = room.translate(vec2(0.0, 11.0));
         paint::text_in(ui, down, Align2::LEFT_CENTER, model.second_line, text::small(), t.t2);
     }
     let words = format!("{}, {}, link {}", model.name, model.second_line, model.link.word());

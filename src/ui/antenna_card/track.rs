@@ -45,6 +45,9 @@ pub struct TrackModel<'a> {
     pub follow: Option<FollowModel<'a>>,
 }
 
+/// Minimum width of the satellite on the left.
+const MIN_HELD: f32 = 88.0;
+
 /// Open questions.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct TrackState {
@@ -177,12 +180,19 @@ fn satellite_row(
     actions: &mut Vec<CardAction>,
 ) {
     let misses = model.misses.is_some() && model.refusal.is_none();
-    // The text on the hold button is long.
-    let share = if misses { 0.36 } else { 0.45 };
-    let held = row.with_max_x(row.left() + share * row.width() - 8.0);
+    let selected = model.selected.filter(|_| !model.tracks_selected);
+    let words = selected.map(|selected| format!("Track {selected}")).unwrap_or_default();
+    let button = Button::primary(&words).locked(model.refusal.is_some());
+    let held_width = match selected {
+        // The text on the hold button is long.
+        Some(_) if misses => 0.36 * row.width(),
+        Some(_) => (row.width() - button.width(ui)).clamp(MIN_HELD, 0.45 * row.width()),
+        None => 0.45 * row.width(),
+    };
+    let held = row.with_max_x(row.left() + held_width - 8.0);
     two_lines(ui, "held", held, Align2::LEFT_CENTER, model.head, model.held.unwrap_or("none"));
     let rest = row.with_min_x(held.right() + 8.0);
-    let Some(selected) = model.selected.filter(|_| !model.tracks_selected) else {
+    let Some(selected) = selected else {
         let name = model.selected.unwrap_or("none");
         let head = if model.selected.is_some() { "Selected, is tracked" } else { "Selected" };
         two_lines(ui, "selected", rest, Align2::RIGHT_CENTER, head, name);
@@ -194,8 +204,6 @@ fn satellite_row(
         }
         return;
     }
-    let words = format!("Track {selected}");
-    let button = Button::primary(&words).locked(model.refusal.is_some());
     let width = button.width(ui).min(rest.width());
     let response = button.show(ui, "track", row.with_min_x(row.right() - width));
     if response.on_hover_text(selected).clicked() {

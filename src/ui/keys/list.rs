@@ -8,7 +8,7 @@ use crate::ui::{
     widgets::{button::Button, paint},
 };
 
-const WIDTH: f32 = 560.0;
+const WIDTH: f32 = 648.0;
 const KEYS: f32 = 176.0;
 const ROW: f32 = 16.0;
 

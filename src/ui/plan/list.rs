@@ -77,8 +77,8 @@ impl Columns {
             los: 316.0,
             name: 332.0,
             max: 476.0,
-            slew: Some((492.0, 668.0 + more)),
-            text: 684.0 + more,
+            slew: Some((492.0, 692.0 + more)),
+            text: 708.0 + more,
         }
     }
 }

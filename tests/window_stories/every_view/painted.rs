@@ -41,12 +41,29 @@ pub(super) fn runs(window: &Window) -> Vec<Run> {
 }
 
 /// All texts of the last frame, each with its blanks and whole if it was cut.
-pub(super) fn texts(window: &Window) -> Vec<String> {
+pub(crate) fn texts(window: &Window) -> Vec<String> {
     let mut texts = Vec::new();
     for ClippedShape { shape, .. } in &window.output().shapes {
         add_texts(shape, &mut texts);
     }
     texts
+}
+
+/// Texts of the last frame that end with an ellipsis.
+pub(crate) fn cut(window: &Window) -> Vec<String> {
+    let mut cut = Vec::new();
+    for ClippedShape { shape, .. } in &window.output().shapes {
+        add_cut(shape, &mut cut);
+    }
+    cut
+}
+
+fn add_cut(shape: &Shape, cut: &mut Vec<String>) {
+    match shape {
+        Shape::Vec(shapes) => shapes.iter().for_each(|shape| add_cut(shape, cut)),
+        Shape::Text(text) if text.galley.elided => cut.push(text.galley.text().to_owned()),
+        _ => {}
+    }
 }
 
 fn add_texts(shape: &Shape, texts: &mut Vec<String>) {

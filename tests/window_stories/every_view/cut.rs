@@ -1,0 +1,71 @@
+//! What must be read whole is not cut.
+
+use azel::model::View;
+
+use crate::window_stories::{
+    every_view::{SCENES, in_view, painted},
+    rig::{self, LARGE, SIZES, SMALL},
+    settings_rig, states,
+};
+
+fn scene(name: &str, size: [f32; 2]) -> rig::Window {
+    SCENES.iter().find(|scene| scene.name == name).expect("a scene of this name").open(size)
+}
+
+#[test]
+fn the_list_of_keys_and_the_head_of_a_card_are_whole() {
+    for size in SIZES {
+        let list = scene("List of keys", size);
+        let before = painted::cut(&scene("Operate, jog", size));
+        let cut: Vec<_> =
+            painted::cut(&list).into_iter().filter(|words| !before.contains(words)).collect();
+        assert!(cut.is_empty(), "{size:?}: {cut:?}");
+    }
+    for name in ["Operate, tracking", "Operate, three antennas of the demo"] {
+        let cut = painted::cut(&scene(name, LARGE));
+        assert!(!cut.iter().any(|words| words.contains("mount at")), "{name}: {cut:?}");
+    }
+}
+
+#[test]
+fn the_satellite_of_the_track_button_is_whole_in_the_smallest_window() {
+    let mut model = rig::model(states::holding());
+    let meteor = model.pass_lists.favourites.passes.iter().find(|of| of.number() == 59_051);
+    model.selected = meteor.map(azel::engine::passes::PredictedPass::key);
+    let window = rig::window(SMALL, model);
+    assert!(painted::texts(&window).contains(&"Track METEOR-M2 4".to_owned()));
+    let cut = painted::cut(&window);
+    assert!(!cut.iter().any(|words| words.starts_with("Track ")), "{cut:?}");
+}
+
+#[test]
+fn where_an_antenna_comes_from_is_whole_in_a_wide_plan() {
+    let cut = painted::cut(&scene("Plan", LARGE));
+    assert!(!cut.iter().any(|words| words.contains(" from ")), "{cut:?}");
+}
+
+#[test]
+fn the_seconds_of_a_unit_are_whole_on_any_day() {
+    for size in SIZES {
+        let mut window = settings_rig::opened(size, settings_rig::read());
+        let model = &mut window.state_mut().model;
+        model.now = azel::astro::time::add_seconds(model.now, -36.0 * 3600.0);
+        rig::settle(&mut window);
+        let cut = painted::cut(&window);
+        assert!(!cut.iter().any(|words| words.contains(" Aug ")), "{size:?}: {cut:?}");
+    }
+}
+
+#[test]
+fn raw_bytes_that_have_no_room_end_with_an_ellipsis() {
+    let window = in_view(SMALL, View::Console, {
+        let model = rig::model(states::holding());
+        let long = format!("SATELLITE?,{}.txt,NOAA 20,1,43013,78.4", "a".repeat(200));
+        let line =
+            crate::window_stories::console::wire(1.0, azel::device::Direction::Received, &long);
+        model.wires[0].push(line);
+        model
+    });
+    let cut = painted::cut(&window);
+    assert!(cut.iter().any(|words| words.starts_with("$SATELLITE?,aaa")), "{cut:?}");
+}
