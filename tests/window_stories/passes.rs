@@ -12,9 +12,10 @@ use azel::{
         Kept, Views,
         pass_list::{Arrangement, Light, Order},
         sky_plot::Layers,
+        theme,
     },
 };
-use egui::{Event, Key, Modifiers, PointerButton, Role};
+use egui::{Event, Key, Modifiers, PointerButton, Rect, Role, Shape, epaint::Vertex};
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
 
 use crate::window_stories::{
@@ -54,6 +55,34 @@ fn a_click_on_a_row_of_the_list_selects_its_pass() {
     settle(&mut window);
     assert_eq!(window.get_by_label(row).accesskit_node().is_selected(), Some(true));
     window.get_by_label_contains("METEOR-M2 4, 59051, ");
+}
+
+fn add_vertices(shape: &Shape, vertices: &mut Vec<Vertex>) {
+    match shape {
+        Shape::Vec(shapes) => shapes.iter().for_each(|of| add_vertices(of, vertices)),
+        Shape::Mesh(mesh) => vertices.extend(&mesh.vertices),
+        _ => {}
+    }
+}
+
+#[test]
+fn a_pass_under_way_looks_selected_only_if_it_is() {
+    let window = window(LARGE);
+    let row = |name: &str| {
+        let mut rows = window.query_all_by_role(Role::ListBoxOption);
+        let is_row = |label: String| label.starts_with(name) && label.contains("LOS T−");
+        rows.find(|of| of.accesskit_node().label().is_some_and(is_row)).expect(name).rect()
+    };
+    let (selected, other) = (row("NOAA 20, "), row("METEOR-M2 4, "));
+    let ground = theme::tokens(&window.ctx).bgsel;
+    let filled = |place: Rect| {
+        let is_corner = |of: &Vertex| of.color == ground && of.pos.distance(place.min) < 0.5;
+        let mut vertices = Vec::new();
+        window.output().shapes.iter().for_each(|of| add_vertices(&of.shape, &mut vertices));
+        vertices.iter().any(is_corner)
+    };
+    assert!(filled(selected));
+    assert!(!filled(other), "under way, and another is selected");
 }
 
 #[test]

@@ -2,11 +2,18 @@
 
 use std::{sync::Arc, time::Duration};
 
-use azel::{astro::time::add_seconds, driver::Intent, model::UiCommand, station::AntennaId};
+use azel::{
+    astro::time::add_seconds,
+    driver::Intent,
+    model::UiCommand,
+    station::{AntennaId, Frequency},
+    ui::format,
+};
 use egui::{Event, Key, Modifiers, PointerButton, Pos2, Role, vec2};
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
 
 use crate::window_stories::{
+    every_view::painted,
     makes,
     rig::{self, LARGE, SIZES, Window, asked, scroll, settle},
     states,
@@ -138,6 +145,29 @@ fn plus_and_zero_magnify_the_sky_that_has_the_focus() {
 }
 
 /// A station with a Satrak and a Rotator Genius beside it.
+fn painted(model: azel::model::Model) -> Vec<String> {
+    painted::texts(&rig::window(LARGE, model))
+}
+
+#[test]
+fn the_doppler_shift_is_that_of_the_satellites_own_frequencies() {
+    let mut model = rig::model(states::holding());
+    let none = painted(rig::model(states::holding()));
+    assert!(!none.iter().any(|words| words.contains("MHz") || words == "Doppler"), "{none:?}");
+    let of = |satellite, mhz, name: &str| Frequency { satellite, mhz, name: name.to_owned() };
+    let own = [of(rig::NOAA_20, 7812.0, "HRD"), of(rig::NOAA_20, 1707.0, "")];
+    Arc::make_mut(&mut model.station).frequencies = [own[0].clone(), of(25_544, 145.8, "")].into();
+    Arc::make_mut(&mut model.station).frequencies.push(own[1].clone());
+    let look = model.sky.selected.unwrap().look;
+    let shown = painted(model);
+    for of in own {
+        let khz = format::signed(look.doppler_hz(of.mhz * 1e6) / 1e3, 2);
+        let words = format!("{khz} kHz\n{}", format!("{} {} MHz", of.name, of.mhz).trim());
+        assert!(shown.contains(&words), "{words:?} in {shown:?}");
+    }
+    assert!(!shown.iter().any(|words| words.contains("145.8") || words.contains("437")));
+}
+
 fn with_a_second_antenna() -> Window {
     let mut model = rig::model(states::holding());
     let second = makes::model(makes::pair(), makes::pair_at(Intent::Position));
