@@ -31,7 +31,7 @@ pub use filter::Filter;
 pub use short_row::{SHORT_ROW, short_row};
 
 /// Selectable elevation floors.
-pub const FLOORS_DEG: [f64; 6] = [0.0, 5.0, 10.0, 20.0, 30.0, 45.0];
+pub const FLOORS_DEG: [f64; 8] = [0.0, 5.0, 10.0, 20.0, 30.0, 45.0, 60.0, 75.0];
 
 #[derive(Debug, Clone, Copy)]
 pub struct PassRow<'a> {
