@@ -11,7 +11,7 @@ use egui::{Rect, Role, pos2, vec2};
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
 
 use crate::window_stories::{
-    maintenance,
+    maintenance, preferences,
     rig::{self, SIZES, SMALL, Window, asked, says, settle},
     states,
 };
@@ -146,6 +146,19 @@ fn the_demo_station_says_that_no_metal_moves() {
         assert!(faults.rect().bottom() <= size[1], "{:?}", faults.rect());
         window.get_by_label("Set up your station").click();
         assert_eq!(asked(&mut window), [UiCommand::Show(View::Setup)]);
+    }
+}
+
+#[test]
+fn what_saving_does_to_the_demonstration_is_said_before_and_while_one_types() {
+    for size in SIZES {
+        let mut model = rig::model(states::holding());
+        (model.demo, model.view) = (true, View::Preferences);
+        let mut window = rig::window(size, model);
+        let ends = "Saving ends the demonstration and uses this station.";
+        window.get_by_label(ends);
+        preferences::write(&mut window, "Latitude", "41.5");
+        window.get_by_label(&format!("1 change. {ends}"));
     }
 }
 

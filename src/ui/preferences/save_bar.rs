@@ -22,6 +22,7 @@ use crate::{
 };
 
 /// Height of a line.
+const ENDS_THE_DEMO: &str = "Saving ends the demonstration and uses this station.";
 const LINE: f32 = 20.0;
 /// Number of lines of checks that are shown.
 const LINES: usize = 3;
@@ -158,11 +159,12 @@ fn outcome(
     let t = theme::tokens(ui);
     match &state.outcome {
         Some(Err(why)) => (format!("Not saved: {why}."), t.bad),
+        _ if draft != before && model.demo => {
+            (format!("{}. {ENDS_THE_DEMO}", changes(draft, before)), t.t1)
+        }
         _ if draft != before => (changes(draft, before), t.t1),
         Some(Ok(at)) => (format!("Saved {}.", format::moment(*at, model.now)), t.ok),
-        None if model.demo => {
-            ("Saving ends the demonstration and uses this station.".to_owned(), t.t2)
-        }
+        None if model.demo => (ENDS_THE_DEMO.to_owned(), t.t2),
         None => ("Nothing to save.".to_owned(), t.t3),
     }
 }
@@ -173,7 +175,7 @@ fn changes(draft: &Draft, before: &Draft) -> String {
     let counts: Vec<usize> =
         pages.map(|page| page.counts(draft, before).edited).filter(|edited| *edited > 0).collect();
     match (counts.iter().sum::<usize>(), counts.len()) {
-        (0, _) => "Not saved yet.".to_owned(),
+        (0, _) => "Not saved yet".to_owned(),
         (1, _) => "1 change".to_owned(),
         (changes, 1) => format!("{changes} changes in 1 section"),
         (changes, sections) => format!("{changes} changes in {sections} sections"),
