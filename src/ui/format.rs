@@ -105,6 +105,13 @@ pub fn azimuth(value_deg: f64) -> String {
     format!("{:03}°", (value_deg.rem_euclid(360.0).round() as u32) % 360)
 }
 
+/// The side of the sky at an azimuth, such as NE.
+pub fn side_of_sky(azimuth_deg: f64) -> &'static str {
+    const SIDES: [&str; 8] = ["N", "NE", "E", "SE", "S", "SW", "W", "NW"];
+    let eighth = (azimuth_deg / 45.0).round().rem_euclid(8.0);
+    SIDES.get(eighth as usize).copied().unwrap_or("N")
+}
+
 /// A duration: m:ss, from one hour h:mm:ss, from one day in days.
 pub fn duration(seconds: f64) -> String {
     let seconds = seconds.abs().round() as u64;
@@ -204,6 +211,17 @@ mod tests {
         assert_eq!(azimuth(5.4), "005°");
         assert_eq!(azimuth(359.6), "000°");
         assert_eq!(azimuth(-1.0), "359°");
+    }
+
+    #[test]
+    fn sides_of_the_sky_are_the_nearest_of_eight() {
+        for (azimuth_deg, side) in [(0.0, "N"), (22.0, "N"), (23.0, "NE"), (359.0, "N")] {
+            assert_eq!(side_of_sky(azimuth_deg), side);
+        }
+        assert_eq!(
+            [side_of_sky(450.0), side_of_sky(-90.0), side_of_sky(f64::NAN)],
+            ["E", "W", "N"]
+        );
     }
 
     #[test]

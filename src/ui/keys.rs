@@ -107,7 +107,11 @@ pub const ALL: [Binding; 35] = [
     row(KeyScope::Focus, &[(Key::Enter, Act::There)], "select what has the focus"),
     row(KeyScope::Operate, &[(Key::N, Act::NextPass)], "the pass in progress or the next one"),
     row(KeyScope::Operate, &[(Key::P, Act::Drawer)], "pass list, in small windows"),
-    row(KeyScope::Operate, &[(Key::T, Act::Track)], "track the selected pass (asks)"),
+    row(
+        KeyScope::Operate,
+        &[(Key::T, Act::Track), (Key::K, Act::Park)],
+        "track the selected pass, park the antenna (both ask)",
+    ),
     row(
         KeyScope::Operate,
         &[(Key::G, Act::GoTo)],

@@ -2,7 +2,7 @@
 //! question that names what ends. It stands behind all views, so that mouse, key and screen
 //! reader meet the same one. Standby and STOP never take it.
 
-use super::{confirm::Question, format, state_sentence::short};
+use super::{confirm::Question, format, state_sentence::short, words};
 use crate::{
     astro::time::seconds_between,
     driver,
@@ -48,6 +48,20 @@ fn question(model: &Model, command: &UiCommand) -> Option<Question> {
         .unwrap_or_default();
     let text = format!("{name} tracks {tracked}{until}. {what} ends that.");
     Some(Question { text, yes, command: command.clone() })
+}
+
+/// The question before parking by key; the button of the card is held instead.
+pub(super) fn before_parking(antenna: &AntennaModel) -> Question {
+    let name = &antenna.config.name;
+    let ends = antenna.tracked_name().map_or_else(
+        || " The antenna moves.".to_owned(),
+        |tracked| format!(" That ends the track of {}.", short(tracked)),
+    );
+    Question {
+        text: format!("Park {name}? {}{ends}", words::parks_at(antenna)),
+        yes: "Park",
+        command: UiCommand::antenna(antenna.id(), driver::Command::Park),
+    }
 }
 
 /// The question before a track, which names the one that it ends.

@@ -26,12 +26,16 @@ pub use safety::{
 pub use site::{off_the_told, sun_there};
 
 use crate::{
-    device::{Asked, Motion, settings::Unfit},
+    device::{Asked, Motion, SecondAxis, settings::Unfit},
     driver::Intent,
-    engine::{CatalogState, antenna::Stake},
+    engine::{
+        CatalogState,
+        antenna::{AntennaModel, Stake},
+    },
     makes,
     model::Model,
     orbit::Elements,
+    ui::format,
 };
 
 /// Age from which old elements are mentioned: after some days a satellite in low orbit is
@@ -117,6 +121,19 @@ pub fn intent(intent: Intent) -> &'static str {
         Intent::Position => "Position",
         Intent::Track => "Track",
         Intent::Park => "Park",
+    }
+}
+
+/// Where an antenna parks, as a sentence.
+pub fn parks_at(antenna: &AntennaModel) -> String {
+    let park = antenna.config.park_direction();
+    let azimuth = format::degrees(park.azimuth_deg(), 1);
+    match antenna.variant().capabilities.second_axis {
+        SecondAxis::Elevation => {
+            let elevation = format::degrees(park.elevation_deg(), 1);
+            format!("It parks at azimuth {azimuth}, elevation {elevation}.")
+        }
+        SecondAxis::Other(_) | SecondAxis::Absent => format!("It parks at azimuth {azimuth}."),
     }
 }
 

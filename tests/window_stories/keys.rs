@@ -7,10 +7,18 @@ use std::{
 };
 
 use azel::{
+    astro::{
+        Angle,
+        xy_mount::{AxisAngles, azel_from_axes},
+    },
+    driver,
     engine::{alarms::AlarmKind, passes::PredictedPass},
     model::{UiCommand, View},
-    station::Take,
-    ui::keys::{ALL, Binding, KeyScope, list::in_words, own::OwnKeys},
+    station::{AntennaId, Mount, Take},
+    ui::{
+        format,
+        keys::{ALL, Binding, KeyScope, list::in_words, own::OwnKeys},
+    },
 };
 use egui::{Key, Modifiers, Role};
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
@@ -51,6 +59,47 @@ fn all_words(window: &Window) -> Vec<String> {
 
 fn line(binding: &Binding) -> String {
     format!("{}: {}", in_words(binding, &OwnKeys::default()), binding.does)
+}
+
+#[test]
+fn k_asks_whether_to_park_and_says_where() {
+    for size in SIZES {
+        let mut window = rig::window(size, rig::model(states::holding()));
+        window.key_press(Key::K);
+        assert_eq!(asked(&mut window), []);
+        let park = window.state().model.antennas[0].config.park_direction();
+        let [azimuth, elevation] =
+            [park.azimuth_deg(), park.elevation_deg()].map(|deg| format::degrees(deg, 1));
+        let where_to = format!("It parks at azimuth {azimuth}, elevation {elevation}.");
+        window.get_by_label_contains(&format!("Park Satrak? {where_to}"));
+        window.key_press(Key::Enter);
+        let park = UiCommand::antenna(AntennaId(1), driver::Command::Park);
+        assert_eq!(asked(&mut window), [park]);
+        window.get_by_role_and_label(Role::RadioButton, "Park").click();
+        settle(&mut window);
+        window.get_by_label(&where_to);
+    }
+}
+
+#[test]
+fn the_keys_of_an_x_y_mount_say_which_way_on_the_sky_they_lead() {
+    let window = rig::window(SMALL, rig::model(states::manual()));
+    let Mount::Xy { lower_axis_azimuth_deg, .. } = window.state().model.antennas[0].config.mount
+    else {
+        panic!("no X/Y mount")
+    };
+    let zenith = Angle::from_degrees(0.0);
+    for (key, lower, upper) in [("Jog X+", 1.0, 0.0), ("Jog Y+", 0.0, 1.0), ("Jog X−", -1.0, 0.0)]
+    {
+        let [lower, upper] = [lower, upper].map(|deg| zenith + Angle::from_degrees(deg));
+        let axes = AxisAngles { lower, upper };
+        let leads = azel_from_axes(axes, Angle::from_degrees(lower_axis_azimuth_deg));
+        let side = format::side_of_sky(leads.azimuth_deg());
+        let node = window.get_by_label(key);
+        let about = node.accesskit_node().data().description().map(str::to_owned);
+        let axis = key.trim_start_matches("Jog ");
+        assert_eq!(about, Some(format!("{axis}: towards {side}")));
+    }
 }
 
 #[test]

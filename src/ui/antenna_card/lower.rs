@@ -95,7 +95,7 @@ fn asked(
     actions: &mut Vec<CardAction>,
 ) {
     if let Some(words) =
-        model.track.as_ref().and_then(|track| state.track.about_the_sun(track))
+        model.track.as_ref().and_then(|track| state.track.about_the_question(track))
     {
         holds::note(ui, at, words);
     }

@@ -91,11 +91,12 @@ fn model() -> CardModel<'static> {
             misses: None,
             note: None,
             auto_track: Some(true),
+            parks_at: "",
             ends: None,
             follow: None,
         }),
         drive: DriveModel {
-            keys: JogKeys::Xy,
+            keys: JogKeys::Xy { x_plus: "E", x_minus: "W", y_plus: "N", y_minus: "S" },
             jog_locked: None,
             jog_note: None,
             unguarded: None,

@@ -39,6 +39,8 @@ pub struct TrackModel<'a> {
     pub note: Option<&'a str>,
     /// The unit starts passes by itself; none if it cannot.
     pub auto_track: Option<bool>,
+    /// Park position of the antenna in words.
+    pub parks_at: &'a str,
     /// Target of the track that parking would end.
     pub ends: Option<&'a str>,
     /// Other targets for program track, if any.
@@ -131,9 +133,12 @@ impl TrackModel<'_> {
 }
 
 impl TrackState {
-    /// The note on following the Sun, while that question is open.
-    pub(super) fn about_the_sun<'a>(&self, model: &'a TrackModel<'_>) -> Option<&'a str> {
-        model.sun_avoidance().filter(|_| self.question(model) == Some(Question::Sun))
+    /// The note on the open question, if any: the park position, or following the Sun.
+    pub(super) fn about_the_question<'a>(&self, model: &'a TrackModel<'_>) -> Option<&'a str> {
+        match self.question(model)? {
+            Question::Park => Some(model.parks_at),
+            Question::Sun => model.sun_avoidance(),
+        }
     }
 
     fn question(&self, model: &TrackModel<'_>) -> Option<Question> {

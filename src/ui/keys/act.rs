@@ -8,7 +8,7 @@ use crate::{
     engine::{self, antenna::AntennaModel, passes::PredictedPass},
     model::{Model, UiCommand, View, globe::Towards},
     station::Take,
-    ui::{elements, operate::LONG_STEP_S, theme},
+    ui::{elements, operate::LONG_STEP_S, second_step, theme},
 };
 
 /// Effect of a key.
@@ -23,6 +23,8 @@ pub(super) enum Act {
     NextPass,
     Drawer,
     Track,
+    /// Asks whether the selected antenna is to be parked.
+    Park,
     GoTo,
     Manual,
     /// Moves the jog rate by this many steps up.
@@ -107,6 +109,10 @@ impl Act {
                 let pass = model.selected_pass().map(PredictedPass::key);
                 let pass = pass.filter(|_| model.antenna().is_some());
                 commands.extend(pass.map(UiCommand::AskToTrack));
+            }
+            Self::Park => {
+                let antenna = model.antenna().filter(|antenna| antenna.can_park());
+                *targets.question = antenna.map(second_step::before_parking);
             }
             Self::GoTo => go_to(model, targets, commands),
             Self::Manual => manual(model, targets, commands),

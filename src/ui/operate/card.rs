@@ -80,10 +80,8 @@ pub(super) fn show(
     let note = snapshot.sun_lifted.then(|| words::SUN_IS_LIFTED.to_owned()).or(note);
     let asks_standing = words::asks_standing(snapshot, model.now);
     let way_out = way_out(antenna);
-    let sun_avoidance = model
-        .station
-        .sun_avoidance
-        .map(|sun| words::sun_lifted(&antenna.config.name, sun.radius_deg));
+    let sun_avoidance = sun_avoidance(model, antenna);
+    let parks_at = words::parks_at(antenna);
     let go_on = switches::go_on(model, antenna);
     state_sentence(model, antenna).with(|sentence| {
         let card = CardModel {
@@ -120,6 +118,7 @@ pub(super) fn show(
             track: modes.contains(&Intent::Track).then(|| TrackModel {
                 misses: misses.as_deref(),
                 note: note.as_deref(),
+                parks_at: &parks_at,
                 ..track(model, antenna, &locks, sun_avoidance.as_deref())
             }),
             drive: DriveModel {
@@ -200,6 +199,12 @@ fn wanted(antenna: &AntennaModel) -> WantedColumn {
     } else {
         WantedColumn::Command
     }
+}
+
+/// What following the Sun lifts.
+fn sun_avoidance(model: &Model, antenna: &AntennaModel) -> Option<String> {
+    let sun = model.station.sun_avoidance?;
+    Some(words::sun_lifted(&antenna.config.name, sun.radius_deg))
 }
 
 fn second_line(antenna: &AntennaModel) -> String {
@@ -293,6 +298,7 @@ fn track<'a>(
         held: held.map(short),
         selected: selected.map(|predicted| predicted.satellite.short_name()),
         tracks_selected,
+        parks_at: "",
         ends: antenna.tracked_name().map(short),
         refusal: locks.track,
         misses: None,

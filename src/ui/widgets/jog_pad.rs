@@ -69,6 +69,10 @@ pub fn show(
         if free {
             look_at(ui, &mut frame, direction, &response);
         }
+        if !label.about.is_empty() {
+            let about = label.about.clone();
+            ui.ctx().accesskit_node_builder(response.id, |node| node.set_description(about));
+        }
         keys.push((direction, label, free, response));
     }
     frame.blocked = JogDirection::ALL
@@ -141,15 +145,11 @@ fn paint_key(ui: &Ui, label: &KeyLabel, free: bool, locked: bool, held: bool, re
         if locked { t.t3 } else { t.bad }
     };
     let strong = text::sized(13.0, Weight::SemiBold);
-    if label.mark.is_empty() {
-        paint::text(ui, rect.center(), Align2::CENTER_CENTER, label.word, strong, colour);
-    } else {
-        let (above, below) = rect.split_top_bottom_at_fraction(0.5);
-        let (above, below) = (above.with_min_y(above.top() + 3.0), below);
-        paint::text(ui, above.center(), Align2::CENTER_CENTER, label.mark, strong, colour);
-        let room = below.with_max_y(below.bottom() - 3.0);
-        paint::text_in(ui, room, Align2::CENTER_CENTER, label.word, text::caption(), colour);
-    }
+    let (above, below) = rect.split_top_bottom_at_fraction(0.5);
+    let above = above.with_min_y(above.top() + 3.0);
+    paint::text(ui, above.center(), Align2::CENTER_CENTER, label.mark, strong, colour);
+    let room = below.with_max_y(below.bottom() - 3.0);
+    paint::text_in(ui, room, Align2::CENTER_CENTER, label.word, text::caption(), colour);
     paint::focus_ring(ui, response, RADIUS);
 }
 

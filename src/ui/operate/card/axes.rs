@@ -81,13 +81,24 @@ pub(super) fn travel(antenna: &AntennaModel) -> Vec<TravelModel<'static>> {
 pub(super) fn keys(antenna: &AntennaModel) -> JogKeys {
     let can = antenna.variant().capabilities;
     match (antenna.config.mount, can.second_axis) {
-        (Mount::Xy { .. }, _) => JogKeys::Xy,
+        (Mount::Xy { lower_axis_azimuth_deg, .. }, _) => xy_keys(lower_axis_azimuth_deg),
         (Mount::AzEl { .. }, SecondAxis::Elevation) => JogKeys::AzEl,
         (Mount::AzEl { .. }, SecondAxis::Other(_)) => {
             let [_, name] = can.axes;
             JogKeys::AzOther(name)
         }
         (Mount::AzEl { .. }, SecondAxis::Absent) => JogKeys::Az,
+    }
+}
+
+/// The keys of an X/Y mount. From the zenith, X tilts across the lower axis and Y along it.
+fn xy_keys(lower_axis_azimuth_deg: f64) -> JogKeys {
+    let side = |from_axis_deg| format::side_of_sky(lower_axis_azimuth_deg + from_axis_deg);
+    JogKeys::Xy {
+        x_plus: side(90.0),
+        x_minus: side(270.0),
+        y_plus: side(0.0),
+        y_minus: side(180.0),
     }
 }
 

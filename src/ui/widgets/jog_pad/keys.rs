@@ -43,10 +43,10 @@ impl JogDirection {
 /// The pair of axes that the keys turn, which gives their labels.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum JogKeys {
-    /// The axes of an X/Y mount.
-    #[default]
-    Xy,
+    /// The axes of an X/Y mount, with the side of the sky to which each key leads.
+    Xy { x_plus: &'static str, x_minus: &'static str, y_plus: &'static str, y_minus: &'static str },
     /// Azimuth and elevation.
+    #[default]
     AzEl,
     /// The azimuth, and something else by this name.
     AzOther(&'static str),
@@ -57,12 +57,14 @@ pub enum JogKeys {
 /// Label of a key.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct KeyLabel {
-    /// An arrow or a sign above the word; empty for a word alone.
+    /// An arrow, a sign or the axis, above the word.
     pub mark: &'static str,
-    /// The word of the front panels.
+    /// The word of the front panels, or the side of the sky.
     pub word: &'static str,
     /// The axis and direction, for screen readers.
     pub name: String,
+    /// What else is to be said of the key; may be empty.
+    pub about: String,
 }
 
 impl JogKeys {
@@ -70,10 +72,10 @@ impl JogKeys {
     pub fn label(self, direction: JogDirection) -> Option<KeyLabel> {
         use JogDirection::{XMinus, XPlus, YMinus, YPlus};
         let (mark, word, name) = match (self, direction) {
-            (Self::Xy, XPlus) => ("", "X+", "X+"),
-            (Self::Xy, XMinus) => ("", "X−", "X−"),
-            (Self::Xy, YPlus) => ("", "Y+", "Y+"),
-            (Self::Xy, YMinus) => ("", "Y−", "Y−"),
+            (Self::Xy { x_plus, .. }, XPlus) => ("X+", x_plus, "X+"),
+            (Self::Xy { x_minus, .. }, XMinus) => ("X−", x_minus, "X−"),
+            (Self::Xy { y_plus, .. }, YPlus) => ("Y+", y_plus, "Y+"),
+            (Self::Xy { y_minus, .. }, YMinus) => ("Y−", y_minus, "Y−"),
             (_, XPlus) => ("→", "CW", "clockwise"),
             (_, XMinus) => ("←", "CCW", "counterclockwise"),
             (Self::AzEl, YPlus) => ("↑", "Up", "up"),
@@ -83,6 +85,10 @@ impl JogKeys {
             (Self::Az, YPlus | YMinus) => return None,
         };
         let name = if name.is_empty() { format!("{word} {mark}") } else { name.to_owned() };
-        Some(KeyLabel { mark, word, name })
+        let about = match self {
+            Self::Xy { .. } => format!("{mark}: towards {word}"),
+            Self::AzEl | Self::AzOther(_) | Self::Az => String::new(),
+        };
+        Some(KeyLabel { mark, word, name, about })
     }
 }
