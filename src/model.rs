@@ -58,6 +58,7 @@ use crate::{
         sources::Sources,
         uploads::Uploads,
     },
+    record,
     station::{AntennaId, Station},
 };
 
@@ -163,6 +164,8 @@ pub struct Model {
     pub outlets: Outlets,
     /// Copies of the settings of units.
     pub copies: Arc<Copies>,
+    /// How the record stands; `None` where none is kept.
+    pub record: Option<Arc<record::Status>>,
     /// The view that fills the window.
     pub view: View,
     /// What a closing window waits for; `None` while it is not closing.
@@ -207,6 +210,7 @@ impl Model {
             day: Arc::default(),
             outlets: Outlets::default(),
             copies: Arc::default(),
+            record: None,
             view: View::Operate,
             closing: None,
         }
@@ -283,6 +287,7 @@ impl Model {
         self.swap.clone_from(&shown.swap);
         self.day = Arc::clone(&shown.day);
         self.copies = Arc::clone(&shown.copies);
+        self.record.clone_from(&shown.record);
         self.closing.clone_from(&shown.closing);
         let mut antennas = shown.antennas.clone();
         for antenna in &mut antennas {

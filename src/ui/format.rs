@@ -112,6 +112,16 @@ pub fn side_of_sky(azimuth_deg: f64) -> &'static str {
     SIDES.get(eighth as usize).copied().unwrap_or("N")
 }
 
+/// A size of a file, such as 12.3 MB.
+pub fn bytes(count: u64) -> String {
+    let count = count as f64;
+    match count {
+        _ if count < 1e5 => format!("{:.0} kB", count / 1e3),
+        _ if count < 1e9 => format!("{:.1} MB", count / 1e6),
+        _ => format!("{:.1} GB", count / 1e9),
+    }
+}
+
 /// A duration: m:ss, from one hour h:mm:ss, from one day in days.
 pub fn duration(seconds: f64) -> String {
     let seconds = seconds.abs().round() as u64;

@@ -8,7 +8,7 @@ use super::*;
 use crate::{
     clock::Clock,
     driver::{Dial, Outside},
-    engine::{Outbox, Settings},
+    engine::{By, Outbox, Settings},
     station::Antenna as Config,
 };
 
@@ -40,6 +40,7 @@ fn a_stop_before_the_first_turn_keeps_it_off_at_the_next_start() {
     assert!(engine.antennas[0].shown.operation.is_on());
     engine.note_stop(&Stopped {
         at: engine.steady,
+        by: By::Window,
         antennas: Vec::new(),
         elsewhere: Vec::new(),
         tracked: Vec::new(),

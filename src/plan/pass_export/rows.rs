@@ -6,10 +6,11 @@ use rayon::prelude::*;
 
 use super::ExportedPass;
 
-/// Number of rows that one thread takes at a time: some 200 kB of text.
-const CHUNK: usize = 1024;
+/// Number of rows that one thread takes at a time: some 100 kB of text, for which the allocator
+/// need not ask the operating system each time.
+const CHUNK: usize = 256;
 /// Number of chunks for each thread between two writes.
-const CHUNKS_AHEAD: usize = 4;
+const CHUNKS_AHEAD: usize = 16;
 
 /// Writes `rows` in their order, each as `push` appends it to a buffer. The work is shared by the
 /// threads of the rayon pool in which this is called.
@@ -43,7 +44,7 @@ mod tests {
         let (elements, pass) = example();
         let satellites = [Satellite::new(elements).unwrap()];
         let mut passes = vec![(0, pass); count];
-        for ((_, pass), second) in passes.iter_mut().zip((0..).rev()) {
+        for ((_, pass), second) in passes.iter_mut().zip((0..count as i64).rev()) {
             pass.aos.time += SignedDuration::from_secs(second);
         }
         let found: Vec<_> = passes.chunks(100).map(<[_]>::to_vec).collect();

@@ -46,7 +46,7 @@ impl Menu<'_> {
     fn contents(&self, ui: &mut Ui, shift: &SetShift, question: &mut Option<Question>) {
         let t = theme::tokens(ui);
         let OlderSet { elements, source } = &shift.set;
-        let title = format!("{}, from {source}", format::minute(elements.epoch(), menu.model.now));
+        let title = format!("{}, from {source}", format::minute(elements.epoch(), self.model.now));
         ui.label(RichText::new(title).font(text::body_medium()).color(t.t1));
         Grid::new("figures of the set").num_columns(4).spacing([12.0, 2.0]).show(ui, |ui| {
             for pair in facts::figures(elements).chunks(2) {

@@ -77,7 +77,12 @@ pub(super) fn show(
         Some(_) => (Icon::Warning, t.warn),
         None => (Icon::Check, t.ok),
     };
-    cells(ui, first, [&format::minute(elements.epoch(), model.now), from, "", "in use"], [t.t1, t.t2, t.t1, colour]);
+    cells(
+        ui,
+        first,
+        [&format::minute(elements.epoch(), model.now), from, "", "in use"],
+        [t.t1, t.t2, t.t1, colour],
+    );
     let at = pos2(first.right() - paint::text_width(ui, "in use", text::small()) - 10.0, 0.0);
     let at = pos2(at.x, first.center().y);
     icons::paint(ui.painter(), paint::square(at, 11.0), icon, colour);

@@ -11,6 +11,7 @@ use super::{
     findings, form,
     page::Page,
     preview,
+    station_fields::RECORD,
 };
 use crate::{
     astro::{Site, sun_moon},
@@ -41,21 +42,29 @@ pub(super) fn show(
     let sections = draft.ground.sections();
     let sections: Vec<(&str, usize)> =
         sections.into_iter().filter(|(section, _)| Page::of_section(section) == page).collect();
-    let rows: Vec<usize> = sections.iter().map(|(_, rows)| *rows).collect();
+    // The record has three lines more.
+    let rows_of = |(section, rows): &(&str, usize)| {
+        if *section == RECORD { rows + 3 } else { *rows }
+    };
+    let rows: Vec<usize> = sections.iter().map(rows_of).collect();
     let standings = draft.ground_standings();
     let is_edited = page.counts(draft, before).edited > 0;
     let question = question(model, draft, before);
     let group = "station";
     columns::show(ui, rect, group, &rows, true, |ui, part| match part {
         Part::Card(card) => {
-            let Some((section, _)) = sections.get(card) else { return };
+            let Some(&(section, _)) = sections.get(card) else { return };
             form::section(
                 ui,
                 group,
                 (&mut draft.ground, &standings),
                 section,
                 &mut state.sought,
-                |_| {},
+                |ui| {
+                    if section == RECORD {
+                        about_record(ui, model);
+                    }
+                },
             );
         }
         Part::Preview { is_fold } => {
@@ -132,6 +141,25 @@ fn passes(ui: &mut Ui, question: &Question, model: &Model) {
         };
         preview::cells(ui, label, (was, t.t2), (now, colour));
     }
+}
+
+/// Where the record lies, how large it is, and whether it is written.
+fn about_record(ui: &mut Ui, model: &Model) {
+    let Some(record) = &model.record else {
+        return told::line(ui, Tone::Plain, "Nothing is recorded: there is no folder for it.");
+    };
+    match &record.failing {
+        Some(failing) => {
+            let since = format::moment(failing.since, model.now);
+            let words = format!("Nothing is recorded since {since}: {}.", failing.why);
+            told::line(ui, Tone::Bad, &words);
+        }
+        None => {
+            let size = format::bytes(record.bytes);
+            told::line(ui, Tone::Now, &format!("Recording, {size} so far."));
+        }
+    }
+    told::line(ui, Tone::Plain, &record.path.display().to_string());
 }
 
 fn sun_in_short(site: Site, model: &Model) -> String {

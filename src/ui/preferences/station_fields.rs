@@ -7,7 +7,7 @@ use super::{
 use crate::{
     astro::Site,
     device::settings::{Kind, Value},
-    station::{Antenna, Favourites, Frequency, Notices, OnClose, Station, ranges},
+    station::{Antenna, Favourites, Frequency, Keeping, Notices, OnClose, Station, ranges},
 };
 
 /// Labels of the place.
@@ -18,6 +18,7 @@ pub(in crate::ui) const LONGITUDE: &str = "Longitude, east";
 pub(super) const SITE: &str = "Site";
 pub(super) const PASSES: &str = "Passes";
 pub(super) const CLOSING: &str = "Closing";
+pub(super) const RECORD: &str = "Record";
 pub(super) const SATELLITES: &str = "Satellites";
 pub(super) const FREQUENCIES: &str = "Frequencies";
 
@@ -33,6 +34,7 @@ pub(in crate::ui) struct Ground {
     favourites: Favourites,
     frequencies: Vec<Frequency>,
     on_close: Option<OnClose>,
+    record: Keeping,
     /// What other views edit comes from here.
     elsewhere: Box<Station>,
 }
@@ -50,6 +52,7 @@ impl Ground {
             favourites: station.favourites.clone(),
             frequencies: station.frequencies.clone(),
             on_close: station.on_close,
+            record: station.record,
             elsewhere: Box::new(station.clone()),
         }
     }
@@ -70,6 +73,7 @@ impl Ground {
             frequencies: self.frequencies,
             notices: Notices::default(),
             on_close: self.on_close,
+            record: self.record,
             keep_outs: Vec::new(),
             sun_avoidance: None,
             antennas,
@@ -92,6 +96,7 @@ pub(super) fn all() -> Vec<Placed<Ground>> {
     all.extend(placed(SATELLITES, [satellites()]));
     all.extend(placed(FREQUENCIES, [frequencies()]));
     all.extend(placed(CLOSING, [closing()]));
+    all.extend(placed(RECORD, record()));
     all
 }
 
@@ -156,6 +161,22 @@ fn closing() -> Of {
         |ground| &mut ground.on_close,
     )
     .noted(|ground| Some(about_closing(ground.on_close).to_owned()))
+}
+
+fn record() -> [Of; 2] {
+    [
+        Of::number("Keep positions and lines for", ranges::RAW_DAYS, "days", |ground| {
+            Some(&mut ground.record.raw_days)
+        })
+        .noted(|_| Some("What was measured, and what went over the links.".to_owned())),
+        Of::number("Keep the rest for", ranges::RECORD_YEARS, "years", |ground| {
+            Some(&mut ground.record.years)
+        })
+        .noted(|_| {
+            let words = "Reports and tracks of passes, commands, events, alarms, changes.";
+            Some(words.to_owned())
+        }),
+    ]
 }
 
 const ON_CLOSE: [Option<OnClose>; 4] =
