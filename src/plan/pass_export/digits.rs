@@ -40,7 +40,7 @@ pub(super) fn push_shortest(text: &mut Vec<u8>, value: f64, decimals: u32) {
 
 /// The size of `value` in units of its last decimal. Appends a minus if one belongs before it.
 fn parts(text: &mut Vec<u8>, value: f64, decimals: u32) -> u64 {
-    let parts = (value * 10_f64.powi(decimals as i32)).round() as i64;
+    let parts = (value * 10_u64.pow(decimals) as f64).round() as i64;
     if parts < 0 {
         text.push(b'-');
     }
@@ -104,7 +104,7 @@ mod tests {
     proptest! {
         #[test]
         fn numbers_are_those_of_the_standard_library(value in -1e6..1e6_f64, decimals in 0..7_u32) {
-            let expected = rounded(value, 10_f64.powi(decimals as i32)).to_string();
+            let expected = rounded(value, 10_u64.pow(decimals) as f64).to_string();
             prop_assert_eq!(pushed(|text| push_shortest(text, value, decimals)), expected);
         }
 

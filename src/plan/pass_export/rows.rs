@@ -44,7 +44,7 @@ mod tests {
         let (elements, pass) = example();
         let satellites = [Satellite::new(elements).unwrap()];
         let mut passes = vec![(0, pass); count];
-        for ((_, pass), second) in passes.iter_mut().zip((0..count as i64).rev()) {
+        for ((_, pass), second) in passes.iter_mut().zip((0..i64::try_from(count).unwrap()).rev()) {
             pass.aos.time += SignedDuration::from_secs(second);
         }
         let found: Vec<_> = passes.chunks(100).map(<[_]>::to_vec).collect();

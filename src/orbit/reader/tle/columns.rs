@@ -133,9 +133,8 @@ impl Columns {
         if self.text(start..=start + 7).is_empty() {
             return Ok(0.0);
         }
-        let sign = match self.text(start..=start) {
-            sign @ ("" | "+" | "-") => sign,
-            _ => return Err(RefusalReason::Field(field)),
+        let sign @ ("" | "+" | "-") = self.text(start..=start) else {
+            return Err(RefusalReason::Field(field));
         };
         let fraction = self.fraction(start + 1..=start + 5, field)?;
         let exponent = self.right_aligned(start + 6..=start + 7).parse::<i8>();
