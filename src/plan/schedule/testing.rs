@@ -6,7 +6,10 @@ use super::{Candidate, Common, PlannedAntenna, Reach, Request, Sight, Steadiness
 use crate::{
     astro::time::add_seconds,
     orbit::{Catalog, Elements, Pass, PassSearch, Propagator, bundled, passes},
-    station::{Antenna, AntennaId, BetweenPasses, ChooseBy, Mount, PassLimits, Priority, Station},
+    station::{
+        Antenna, AntennaId, BetweenPasses, ChooseBy, Entered, KeepOut, Mount, PassLimits, Priority,
+        Station, SunAvoidance,
+    },
 };
 
 /// Splitmix64.
@@ -49,6 +52,50 @@ pub(super) fn three_antennas() -> Station {
         elevation_to_deg: 90.0,
     };
     Station { antennas, ..Station::default() }
+}
+
+/// The same antennas with other travels, rates and beams.
+pub(super) fn any_three_antennas(random: &mut Random) -> Station {
+    let mut station = three_antennas();
+    let mut between =
+        |from: f64, to: f64| from + (to - from) * f64::from(random.below(1_000)) / 1e3;
+    for antenna in &mut station.antennas {
+        antenna.limits.maximum_rate_deg_s = between(1.0, 8.0);
+        antenna.beam_width_deg = between(1.0, 12.0);
+        match &mut antenna.mount {
+            Mount::Xy { lower_axis_azimuth_deg, .. } => {
+                *lower_axis_azimuth_deg = between(0.0, 180.0)
+            }
+            Mount::AzEl { azimuth_from_deg, azimuth_to_deg, .. } => {
+                let travel_deg = *azimuth_to_deg - *azimuth_from_deg;
+                *azimuth_from_deg = between(-180.0, 180.0);
+                // Of the one that turns all round, some directions are there twice.
+                let more_deg = if travel_deg < 360.0 { 0.0 } else { between(0.0, 300.0) };
+                *azimuth_to_deg = *azimuth_from_deg + travel_deg + more_deg;
+            }
+        }
+    }
+    station
+}
+
+/// Adds two zones that no antenna may point into, and the Sun.
+pub(super) fn add_barriers(station: &mut Station, random: &mut Random) {
+    for (name, entered) in [("Mast", Entered::GoRound), ("Yard", Entered::Hard)] {
+        let from_deg = f64::from(random.below(360));
+        let to_deg = from_deg + 10.0 + f64::from(random.below(40));
+        let top_deg = 10.0 + f64::from(random.below(30));
+        let corners = [(from_deg, 0.0), (to_deg, 0.0), (to_deg, top_deg), (from_deg, top_deg)];
+        station.keep_outs.push(KeepOut {
+            name: name.to_owned(),
+            reason: String::new(),
+            entered,
+            antenna: None,
+            margin_deg: 1.0,
+            zone: KeepOut::zone_of(&corners).unwrap(),
+        });
+    }
+    let radius_deg = 3.0 + f64::from(random.below(10));
+    station.sun_avoidance = Some(SunAvoidance { radius_deg, ahead_min: 10.0 });
 }
 
 pub(super) fn planned(station: &Station, from: Timestamp) -> Vec<PlannedAntenna> {

@@ -43,6 +43,53 @@ fn each_day(days: u64, check: impl Fn(&Request<'_>)) {
     }
 }
 
+#[test]
+fn no_two_entries_come_closer_than_the_way_round_keep_outs_and_set_up() {
+    let mut random = Random::new(SEED);
+    let (mut pairs, mut detours) = (0, 0);
+    for day in 0..3 {
+        let mut station = any_three_antennas(&mut random);
+        add_barriers(&mut station, &mut random);
+        let from = add_seconds(noon(), f64::from(day) * 86_400.0);
+        let satellites = low_satellites(&mut random, 6);
+        let mut antennas = planned(&station, from);
+        for antenna in &mut antennas {
+            antenna.stands_deg = Some(antenna.reach.park_deg());
+        }
+        let list = candidates(&station, &antennas, &satellites, from, 5.0);
+        // Parts of passes have many ways between them, each round the keep-outs.
+        for (partial, between, choose_by) in kinds().into_iter().take(3) {
+            for antenna in &mut antennas {
+                antenna.between = between;
+            }
+            let schedule = plan(&Request { choose_by, partial, ..request(&antennas, &list) });
+            for antenna in &antennas {
+                let own = schedule.entries.iter().filter(|entry| entry.antenna == antenna.id);
+                let own: Vec<&Entry> = own.collect();
+                for pair in own.windows(2) {
+                    let [a, b] = [pair[0], pair[1]];
+                    let reach = &antenna.reach;
+                    let (end_deg, start_deg) = (a.axes_deg[1], b.axes_deg[0]);
+                    let direct = reach.leg_ms(end_deg, start_deg, way::ms(a.to));
+                    let back = reach.leg_ms(end_deg, reach.park_deg(), way::ms(a.to));
+                    let there = reach.leg_ms(reach.park_deg(), start_deg, way::ms(b.from));
+                    let by_park = back.zip(there).map(|(back, there)| back + there);
+                    let way_ms = direct.into_iter().chain(by_park).min();
+                    let what = || format!("seed {SEED}, day {day}: {a:?} {b:?}");
+                    let needs_s =
+                        way_ms.unwrap_or_else(|| panic!("no way, {}", what())) as f64 / 1e3;
+                    let gap_s = seconds_between(a.to, b.from);
+                    assert!(gap_s + 1e-3 >= needs_s + antenna.set_up_s, "{needs_s} {}", what());
+                    pairs += 1;
+                    detours += usize::from(way_ms > Some(reach.straight_ms(end_deg, start_deg)));
+                }
+            }
+        }
+    }
+    println!("seed {SEED}: {pairs} pairs of entries, {detours} with a way round");
+    assert!(pairs > 15 && detours > 5, "{pairs} {detours}");
+}
+
 fn worth(schedule: &Schedule) -> Vec<i64> {
     schedule.worth.iter().map(|class| class.worth).collect()
 }

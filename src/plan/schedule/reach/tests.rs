@@ -1,0 +1,126 @@
+//! Passes of real satellites, judged by few samples and by many.
+
+use super::*;
+use crate::{
+    astro::time::add_seconds,
+    orbit::{PassSearch, Propagator, passes},
+    plan::schedule::testing::{
+        Random, add_barriers, any_three_antennas, low_satellites, noon, planned, three_antennas,
+    },
+};
+
+const SEED: u64 = 7;
+
+/// Calls `check` with the passes of so many satellites in a day, and the reach of each antenna.
+fn each_pass(
+    station: &Station,
+    random: &mut Random,
+    satellites: usize,
+    mut check: impl FnMut(usize, &Reach, &mut Sight<'_>),
+) {
+    let antennas = planned(station, noon());
+    let search = PassSearch {
+        aos_elevation: station.aos_elevation(),
+        floor: station.elevation_floor(),
+        ..PassSearch::new(station.site, noon(), add_seconds(noon(), 86_400.0))
+    };
+    for satellite in low_satellites(random, satellites) {
+        let propagator = Propagator::new(&satellite.elements).unwrap();
+        for pass in passes(&propagator, &search, &|| false) {
+            let mut sight = Sight::new(&propagator, station.site, None, &pass);
+            for (place, antenna) in antennas.iter().enumerate() {
+                check(place, &antenna.reach, &mut sight);
+            }
+        }
+    }
+}
+
+/// Judges by many samples alone.
+fn by_many(reach: &Reach, sight: &mut Sight<'_>) -> Option<Verdict> {
+    let span = sight.above(reach.min_elevation())?;
+    let clear = sight.clear(span);
+    Some(reach.ways(sight.samples(span, true), &clear))
+}
+
+/// Judges by few samples alone, where they are enough.
+fn by_few(reach: &Reach, sight: &mut Sight<'_>) -> Option<Vec<Way>> {
+    let span = sight.above(reach.min_elevation())?;
+    let clear = sight.clear(span);
+    reach.easy_ways(sight.samples(span, false), &clear)
+}
+
+fn assert_alike(few: &[Way], many: &Verdict, what: &str) {
+    let Verdict::Possible(many) = many else { panic!("{what}: {many:?}") };
+    assert_eq!(few.len(), many.len(), "{what}");
+    for (few, many) in few.iter().zip(many) {
+        let (a, b) = (few.span(), many.span());
+        assert!(
+            (few.counted_ms(a) - many.counted_ms(b)).abs() <= 4_000,
+            "{what}: {few:?} {many:?}"
+        );
+        for (from_ms, to_ms) in [(a.from_ms, b.from_ms), (a.to_ms, b.to_ms)] {
+            let pairs = few.axes_deg(from_ms).into_iter().zip(many.axes_deg(to_ms));
+            let apart = pairs.map(|(few, many)| (few - many).abs());
+            assert!(apart.fold(0.0, f64::max) < 2.0, "{what}: {few:?} {many:?}");
+        }
+    }
+}
+
+#[test]
+fn what_few_samples_tell_of_a_pass_is_what_many_tell() {
+    let mut compared = [0; 3];
+    let mut random = Random::new(SEED);
+    let mut turns = 0;
+    for case in 0..25 {
+        let station = if case == 0 { three_antennas() } else { any_three_antennas(&mut random) };
+        each_pass(&station, &mut random, 8, |place, reach, sight| {
+            let Some(few) = by_few(reach, sight) else { return };
+            let many = by_many(reach, sight).unwrap();
+            assert_alike(&few, &many, &format!("seed {SEED}, case {case}, antenna {place}"));
+            turns += usize::from(few.len() > 1);
+            compared[place] += 1;
+        });
+    }
+    println!("seed {SEED}: {compared:?} passes compared, {turns} of them on more than one turn");
+    assert!(compared.iter().all(|count| *count > 100) && turns > 100, "{compared:?} {turns}");
+}
+
+#[test]
+fn with_keep_outs_or_the_sun_few_samples_decide_nothing() {
+    let (mut judged, mut entered) = ([0; 3], 0);
+    let mut random = Random::new(SEED + 1);
+    for case in 0..8 {
+        let mut station = any_three_antennas(&mut random);
+        add_barriers(&mut station, &mut random);
+        each_pass(&station, &mut random, 3, |place, reach, sight| {
+            let Some(many) = by_many(reach, sight) else { return };
+            let what = format!("seed {SEED}, case {case}, antenna {place}");
+            assert_eq!(reach.judge(sight), many, "{what}");
+            entered += usize::from(matches!(many, Verdict::Impossible(Impossible::KeepOut(_))));
+            let Verdict::Possible(ways) = many else { return };
+            for way in ways {
+                assert_outside(reach, &way, &what);
+            }
+            judged[place] += 1;
+        });
+    }
+    println!("seed {SEED}: {judged:?} passes judged, {entered} lead into a barrier");
+    assert!(judged.iter().all(|count| *count > 10) && entered > 10, "{judged:?} {entered}");
+}
+
+/// What counts of a way lies in no barrier, and both ends can be reached from the park position.
+fn assert_outside(reach: &Reach, way: &Way, what: &str) {
+    let Span { from_ms, to_ms } = way.span();
+    for at in (from_ms + 2_000..to_ms).step_by(5_000) {
+        let around = Span { from_ms: at - 2_000, to_ms: at + 2_000 };
+        if way.counted_ms(around) < around.length_ms() {
+            continue;
+        }
+        let bounds = reach.bounds.at(at_ms(at));
+        let nearest = bounds.nearest(reach.bounds.direction(way.axes_deg(at)));
+        // Between two samples the axes may cut a corner.
+        let inside_deg = nearest.map_or(0.0, |nearest| -nearest.angle.degrees());
+        assert!(inside_deg < 0.3, "{what}: {inside_deg} at {at}");
+    }
+    assert!(reach.is_within_reach(way), "{what}");
+}
