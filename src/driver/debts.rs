@@ -262,7 +262,7 @@ mod tests {
         let stop = Arc::new(Notify::new());
         debts.begin(&unit, Arc::clone(&stop));
         assert!(debts.is_followed(&unit, first) && !is_notified(&stop));
-        assert_eq!(debts.with_auto_track(), [unit.clone()]);
+        assert_eq!(debts.with_auto_track(), std::slice::from_ref(&unit));
         debts.settle_auto_track(&unit);
         assert!(!debts.owes_auto_track_off(&unit));
     }

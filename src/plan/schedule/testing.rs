@@ -64,7 +64,7 @@ pub(super) fn any_three_antennas(random: &mut Random) -> Station {
         antenna.beam_width_deg = between(1.0, 12.0);
         match &mut antenna.mount {
             Mount::Xy { lower_axis_azimuth_deg, .. } => {
-                *lower_axis_azimuth_deg = between(0.0, 180.0)
+                *lower_axis_azimuth_deg = between(0.0, 180.0);
             }
             Mount::AzEl { azimuth_from_deg, azimuth_to_deg, .. } => {
                 let travel_deg = *azimuth_to_deg - *azimuth_from_deg;
