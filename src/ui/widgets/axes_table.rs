@@ -223,7 +223,12 @@ mod tests {
                     rate_deg_s: Some(-0.25),
                 }];
                 let rect = Rect::from_min_size(pos2(10.0, 10.0), vec2(312.0, height(1)));
-                let table = AxesTable { wanted: *wanted, axes: &axes, ..AxesTable::default() };
+                let table = AxesTable {
+                    wanted: *wanted,
+                    predicted_decimals: 2,
+                    axes: &axes,
+                    ..AxesTable::default()
+                };
                 show(ui, rect, &table);
             });
             window.get_by_label(said);
