@@ -22,6 +22,8 @@ const RING: f32 = 13.0;
 /// How far an azimuth stop reaches inside of the rim, points. It ends on the rim, clear of the
 /// names outside.
 const STOP: f32 = 22.0;
+/// How far outside of the rim the name of a stop is placed from, points.
+const BESIDE_RIM: f32 = 6.0;
 /// Half the length of the bar at its outer end, points.
 const BAR: f32 = 7.0;
 
@@ -74,7 +76,7 @@ pub(super) fn label_stops(labels: &mut Labels<'_>, dome: Dome, scene: &SkyScene<
         labels.add(&Label {
             key: Key::Stop(index),
             lines: if is_beside { &two } else { &one },
-            mark: end,
+            mark: end + (end - inner).normalized() * BESIDE_RIM,
             clearance: 2.0 + BAR,
             order: &Side::towards(end - dome.centre),
             tolerance: 0.6,

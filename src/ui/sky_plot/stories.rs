@@ -176,6 +176,22 @@ fn texts(harness: &Harness<'_, Story>) -> Vec<(String, Rect)> {
     found
 }
 
+/// The corners of all that is filled in the last frame.
+fn vertices(harness: &Harness<'_, Story>) -> Vec<egui::epaint::Vertex> {
+    fn collect(shape: &egui::Shape, found: &mut Vec<egui::epaint::Vertex>) {
+        match shape {
+            egui::Shape::Vec(shapes) => shapes.iter().for_each(|of| collect(of, found)),
+            egui::Shape::Mesh(mesh) => found.extend(&mesh.vertices),
+            _ => {}
+        }
+    }
+    let mut found = Vec::new();
+    for clipped in &harness.output().shapes {
+        collect(&clipped.shape, &mut found);
+    }
+    found
+}
+
 fn plot(harness: &Harness<'_, Story>) -> Rect {
     harness.get_by_role(Role::Canvas).rect()
 }
@@ -216,13 +232,9 @@ fn an_azimuth_stop_touches_no_name_of_the_rim() {
         });
         harness.run();
         let bad = theme::tokens(&harness.ctx).bad;
-        let lines = harness.output().shapes.iter().filter_map(|of| match &of.shape {
-            egui::Shape::LineSegment { points: [a, b], stroke } if stroke.color == bad => {
-                Some(Rect::from_two_pos(*a, *b).expand(stroke.width / 2.0))
-            }
-            _ => None,
-        });
-        let stop = lines.reduce(Rect::union).unwrap();
+        let of_stop = vertices(&harness).into_iter().filter(|of| of.color == bad);
+        let stop = Rect::from_points(&of_stop.map(|of| of.pos).collect::<Vec<_>>());
+        assert!(stop.is_positive());
         let all = texts(&harness);
         let name = all.iter().find(|(words, _)| words == letter).unwrap().1;
         // The line of a letter is higher than the letter.
@@ -269,10 +281,9 @@ fn a_label_across_the_rim_has_a_ground_on_both_sides_of_it() {
     assert!(!across.is_empty());
     let ground = theme::tokens(&harness.ctx).bg0;
     for (words, place) in across {
-        let lies_on_it = harness.output().shapes.iter().any(|of| {
-            matches!(&of.shape, egui::Shape::Rect(rect) if rect.fill == ground
-                && rect.rect.contains_rect(place) && rect.rect.width() < place.width() + 10.0)
-        });
+        let is_corner =
+            |of: &egui::epaint::Vertex| of.color == ground && of.pos.distance(place.min) < 4.0;
+        let lies_on_it = vertices(&harness).iter().any(is_corner);
         assert!(lies_on_it, "{words:?} at {place:?}");
     }
 }
