@@ -199,14 +199,13 @@ impl PassList {
 
     /// The passes that are not over at `now`.
     pub fn upcoming(&self, now: Timestamp) -> UpcomingPasses<'_> {
-        UpcomingPasses::of(self, &self.passes, now)
+        UpcomingPasses::of(self, now, None)
     }
 
     /// The passes that are not over and begin within `span_h` hours, for a list by AOS.
     pub fn within(&self, now: Timestamp, span_h: u32) -> UpcomingPasses<'_> {
         let end = add_seconds(now, f64::from(span_h) * 3600.0);
-        let count = self.passes.partition_point(|predicted| predicted.pass.aos.time < end);
-        UpcomingPasses::of(self, self.passes.get(..count).unwrap_or_default(), now)
+        UpcomingPasses::of(self, now, Some(end))
     }
 
     /// Place of the pass of `key` in the list. Its AOS may differ a little in a new list.
@@ -244,30 +243,38 @@ impl PassList {
 #[derive(Debug, Clone)]
 pub struct UpcomingPasses<'a> {
     list: &'a PassList,
-    passes: &'a [PredictedPass],
-    /// Places of the passes that are over, in order.
-    over: Vec<usize>,
+    /// Places of the passes that are over or begin too late, in order.
+    left_out: Vec<usize>,
+    /// Place of the first pass that begins too late.
+    late: usize,
 }
 
 impl<'a> UpcomingPasses<'a> {
-    fn of(list: &'a PassList, passes: &'a [PredictedPass], now: Timestamp) -> Self {
-        let behind = passes.iter().rev().take_while(|predicted| predicted.is_always_up()).count();
-        let dated = passes.len() - behind;
-        let is_over = |predicted: &PredictedPass| predicted.pass.los.time <= now;
+    fn of(list: &'a PassList, now: Timestamp, end: Option<Timestamp>) -> Self {
+        let (dated, standing) = list.parts();
+        let over = |passes: &[PredictedPass], first: usize| {
+            let passes = passes.iter().enumerate();
+            let over = passes.filter(|(_, predicted)| predicted.pass.los.time <= now);
+            over.map(|(place, _)| first + place).collect::<Vec<_>>()
+        };
         // A pass that is over has begun: the rest of a long list need not be searched.
-        let begun = passes.iter().take(dated).take_while(|of| of.pass.aos.time <= now).count();
-        let candidates = (0..begun).chain(dated..passes.len());
-        let over = candidates.filter(|place| passes.get(*place).is_some_and(is_over)).collect();
-        Self { list, passes, over }
+        let begun = dated.partition_point(|predicted| predicted.pass.aos.time <= now);
+        let late = end.map_or(dated.len(), |end| {
+            dated.partition_point(|predicted| predicted.pass.aos.time < end).max(begun)
+        });
+        let mut left_out = over(dated.get(..begun).unwrap_or_default(), 0);
+        left_out.extend(late..dated.len());
+        left_out.extend(over(standing, dated.len()));
+        Self { list, left_out, late }
     }
 
     pub fn len(&self) -> usize {
-        self.passes.len() - self.over.len()
+        self.list.passes.len() - self.left_out.len()
     }
 
     /// Changes whenever the rows change within one revision of the list.
     pub fn version(&self) -> (usize, usize) {
-        (self.passes.len(), self.over.len())
+        (self.late, self.left_out.len())
     }
 
     pub fn is_empty(&self) -> bool {
@@ -277,26 +284,26 @@ impl<'a> UpcomingPasses<'a> {
     /// The pass in this row.
     pub fn get(&self, row: usize) -> Option<&'a PredictedPass> {
         let mut place = row;
-        for over in &self.over {
-            if *over > place {
+        for left_out in &self.left_out {
+            if *left_out > place {
                 break;
             }
             place += 1;
         }
-        self.passes.get(place)
+        self.list.passes.get(place)
     }
 
     pub fn iter(&self) -> impl Iterator<Item = &'a PredictedPass> {
-        let mut over = self.over.iter().peekable();
-        self.passes.iter().enumerate().filter_map(move |(place, predicted)| {
-            over.next_if_eq(&&place).is_none().then_some(predicted)
+        let mut left_out = self.left_out.iter().peekable();
+        self.list.passes.iter().enumerate().filter_map(move |(place, predicted)| {
+            left_out.next_if_eq(&&place).is_none().then_some(predicted)
         })
     }
 
     /// Row of the pass of `key`. Its AOS may differ a little in a new list.
     pub fn row(&self, key: PassKey) -> Option<usize> {
-        let place = self.list.place(key).filter(|place| *place < self.passes.len())?;
-        let before = self.over.binary_search(&place).err()?;
+        let place = self.list.place(key)?;
+        let before = self.left_out.binary_search(&place).err()?;
         Some(place - before)
     }
 }

@@ -130,13 +130,11 @@ pub(super) fn search(
             Some(PredictedPass::new(satellite, pass, Arc::clone(observer)))
         })
         .collect();
-    let is_all = key.scope == SearchScope::All;
-    // Hundreds of satellites that never set would hide the first pass of a whole catalog.
-    let is_late = |predicted: &PredictedPass| is_all && predicted.is_always_up();
+    // Satellites that never set would hide the first pass.
     passes.par_sort_by_key(|predicted| {
-        (is_late(predicted), predicted.pass.aos.time, predicted.number())
+        (predicted.is_always_up(), predicted.pass.aos.time, predicted.number())
     });
-    if !is_all {
+    if key.scope != SearchScope::All {
         // The strip shows all of them from the first frame on.
         passes.par_iter().for_each(|predicted| {
             predicted.path();

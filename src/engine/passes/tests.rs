@@ -109,6 +109,24 @@ fn what_never_sets_stands_behind_the_passes_of_all_satellites() {
 }
 
 #[test]
+fn what_never_sets_stands_behind_the_passes_of_favourites_whatever_the_span() {
+    let mut fixture = Fixture::new();
+    fixture.station.favourites = [METEOSAT_12, ISS].into();
+    fixture.finish();
+    let favourites = &fixture.pass_lists.favourites;
+    for (span_h, is_cut) in [(1, true), (12, true), (48, false)] {
+        let listed = favourites.within(now(), span_h);
+        assert_eq!(listed.len() < favourites.passes.len(), is_cut, "{span_h} h");
+        let last = listed.get(listed.len() - 1).unwrap();
+        assert_eq!((last.number(), listed.row(last.key())), (METEOSAT_12, Some(listed.len() - 1)));
+        let end = add_seconds(now(), f64::from(span_h) * 3600.0);
+        let others = || listed.iter().take(listed.len() - 1);
+        assert!(others().all(|of| of.number() == ISS && of.pass.aos.time < end));
+        assert!(others().enumerate().all(|(row, of)| listed.row(of.key()) == Some(row)));
+    }
+}
+
+#[test]
 fn another_floor_span_or_site_searches_again_and_keeps_what_is_prepared() {
     let mut fixture = Fixture::new();
     fixture.finish();
