@@ -173,7 +173,7 @@ fn a_filter_shows_what_has_its_text() {
         write(&mut window, "Filter the log", "refused");
         assert_eq!(rows(&window).len(), 1);
         write(&mut window, "Filter the log", "no such");
-        assert!(rows(&window).is_empty() && says(&window, "No line has this text."));
+        assert!(rows(&window).is_empty() && says(&window, "No line contains this text."));
         assert!(is_disabled(&window, "Save"));
     }
 }

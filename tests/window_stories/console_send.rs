@@ -129,7 +129,7 @@ fn without_a_link_nothing_is_sent() {
     assert!(says(&window, "Not sent. There is no link."));
     window.key_press(Key::Enter);
     assert_eq!(asked(&mut window), []);
-    assert!(says(&window, "Nothing has gone over a link yet."));
+    assert!(says(&window, "Nothing has been sent or received yet."));
 }
 
 #[test]

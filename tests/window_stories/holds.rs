@@ -96,7 +96,7 @@ fn the_way_out_of_a_keep_out_is_allowed_by_holding_only() {
         assert_eq!(asked(&mut window), [UiCommand::antenna(AntennaId(1), Command::AllowWayOut)]);
 
         let window = rig::window(size, shows(inside(mast(), true)));
-        assert!(says(&window, "By your word it may be moved out by hand for a minute"));
+        assert!(says(&window, "You have allowed it to be moved out by hand for a minute"));
         assert!(window.query_by_label(OUT).is_none());
         let window = rig::window(size, shows(states::manual()));
         assert!(window.query_by_label(OUT).is_none());

@@ -78,7 +78,7 @@ fn a_change_that_is_not_heard_of_may_be_tried_again() {
             assert!(change.is_unlocked && change.group == "reduction");
             window.state_mut().model.steady += Duration::from_secs(4);
             settle(&mut window);
-            assert!(says(&window, "Drive reduction: nothing was heard of it. Read again."));
+            assert!(says(&window, "Drive reduction: no answer came back. Read again."));
         }
     }
 }

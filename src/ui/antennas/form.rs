@@ -223,7 +223,7 @@ impl Form {
             let is_under_way = state.is_some_and(|state| state.step.is_some());
             if !is_under_way && unit.model.steady.saturating_duration_since(sent.at) > HEARD {
                 draft.give_up();
-                let words = format!("{}: nothing was heard of it. Read again.", group.title);
+                let words = format!("{}: no answer came back. Read again.", group.title);
                 self.report.failures.push(words);
             }
         }

@@ -96,7 +96,7 @@ fn read<'a>(antenna: &'a AntennaModel, typed: &str) -> Option<Result<&'a Questio
     let found = questions.find(|question| bare(&question.key) == bare(&text));
     Some(found.ok_or_else(|| match antenna.spec().why_no_question {
         Some(why) => why(&text),
-        None => "This is no question that the unit answers: pick one from the list.".to_owned(),
+        None => "The unit does not answer this query: pick one from the list.".to_owned(),
     }))
 }
 

@@ -97,11 +97,11 @@ pub(super) fn show(
 
 fn nothing(ui: &Ui, rect: Rect, state: &ConsoleState) {
     let words = if !state.filter.needle.is_empty() {
-        "No line has this text."
+        "No line contains this text."
     } else if state.log.hidden_polls() > 0 {
         "Nothing but polls so far. Untick \"Hide polls\" to see them."
     } else {
-        "Nothing has gone over a link yet."
+        "Nothing has been sent or received yet."
     };
     let at = rect.left_top() + vec2(PADDING, 12.0);
     let t = theme::tokens(ui);

@@ -27,7 +27,7 @@ fn under_way(ui: &Ui, model: &Model) {
         ui.set_width(WIDTH);
         let next = model.stations.next.as_deref().unwrap_or_default();
         ui.label(RichText::new(format!("Changing to {next}")).font(text::value()));
-        line(ui, Tone::Now, &format!("{} lets go of its antennas.", model.station.name));
+        line(ui, Tone::Now, &format!("{} disconnects from its antennas.", model.station.name));
     });
 }
 

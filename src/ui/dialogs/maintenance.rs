@@ -101,7 +101,7 @@ impl MaintenanceDialog {
         }
         let is_told = !self.by.trim().is_empty() && !self.reason.trim().is_empty();
         if !is_told {
-            line(ui, Tone::Plain, "Both are needed: whoever comes next has to know.");
+            line(ui, Tone::Plain, "Both are needed: the next person at the antenna has to know.");
         }
         self.keys(ui, LOCK, is_told)
     }

@@ -86,7 +86,7 @@ pub(super) fn show(
     let title = match (is_useless, intake.is_dropped) {
         (true, _) => "None of these holds elements".to_owned(),
         (false, false) => format!("Release to read {count}"),
-        (false, true) => "What shall be taken?".to_owned(),
+        (false, true) => "What should be imported?".to_owned(),
     };
     let more = if intake.is_dropped {
         "Keep a file as a source, which is read again when you ask for it, or take what it holds \

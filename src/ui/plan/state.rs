@@ -117,7 +117,7 @@ impl PlanState {
         let present = planned.choice.map(|choice| choice.take);
         if present != take {
             let (to, back) = (choose(planned, take), choose(planned, present));
-            self.change(model, to, back, "Planned anew", commands);
+            self.change(model, to, back, "Planned again", commands);
         }
     }
 

@@ -113,7 +113,7 @@ fn changed(model: &Model, after: &Station) -> impl Iterator<Item = String> {
         let name = &antenna.name;
         match model.antenna_of(antenna.id) {
             Some(known) if known.config == *antenna => None,
-            Some(_) => Some(format!("{name} does not move. Saving connects it anew.")),
+            Some(_) => Some(format!("{name} does not move. Saving reconnects it.")),
             None => Some(format!("{name} is new. Saving connects it.")),
         }
     })

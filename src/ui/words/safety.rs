@@ -39,7 +39,7 @@ pub fn way_out(antenna: &str, Inside { barrier, may_leave }: &Inside) -> String 
             format!("{antenna} stands {place} now. It can be moved out by hand once you allow it.")
         }
         (true, _) => format!(
-            "{antenna} stands {place}. By your word it may be moved out by hand for a minute, \
+            "{antenna} stands {place}. You have allowed it to be moved out by hand for a minute, \
              slowly and outwards only."
         ),
     }
@@ -56,7 +56,7 @@ pub fn sun_lifted(antenna: &str, radius_deg: f64) -> String {
 
 /// The note while the Sun is followed.
 pub const SUN_IS_LIFTED: &str =
-    "The Sun avoidance is lifted by your word, for this track alone. STOP ends both.";
+    "You have lifted the Sun avoidance for this track alone. STOP ends both.";
 
 /// The operator's reason for a keep-out, to append to a sentence about it; empty if there is
 /// none.
@@ -87,13 +87,12 @@ pub const UNGUARDED: &str = "The dead-man could not be started: if Azel ended wh
 /// The reason for asking the operator to confirm that the antenna stands still.
 pub fn asks_standing(snapshot: &Snapshot, now: Timestamp) -> Option<String> {
     if let StopState::NotConfirmed { .. } = snapshot.stop {
-        let why =
-            "STOP is repeated until it is known to stand. Look at the antenna before you say so.";
+        let why = "STOP is repeated until it is known to stand. Look at the antenna before you confirm it.";
         return Some(why.to_owned());
     }
     let since = format::moment(snapshot.left_moving?, now);
     Some(format!(
-        "Azel ended at {since} while it was moved. Look at the antenna before you say so."
+        "Azel ended at {since} while it was moved. Look at the antenna before you confirm it."
     ))
 }
 
@@ -139,7 +138,7 @@ fn unlike(unlike: Unlike) -> &'static str {
 pub fn safety(matter: &Safety, antenna: &str, now: Timestamp) -> String {
     match matter {
         Safety::DeadManFired => format!(
-            "{antenna} was stopped by the dead-man: Azel was late. Press the key anew to move it."
+            "{antenna} was stopped by the dead-man: Azel was late. Press the key again to move it."
         ),
         Safety::LeftMoving { since, asks: false } => format!(
             "Azel ended at {} while {antenna} was moved by hand. STOP was sent first.",
@@ -189,10 +188,10 @@ pub fn safety(matter: &Safety, antenna: &str, now: Timestamp) -> String {
             format::signed(*by_s, 1)
         ),
         Safety::EndedForSleep => format!(
-            "This computer goes to sleep: the jog of {antenna} was ended. Press the key anew to move it."
+            "This computer goes to sleep: the jog of {antenna} was ended. Press the key again to move it."
         ),
         Safety::Slept { lasted } => format!(
-            "This computer slept for {}. {antenna} is read anew.",
+            "This computer slept for {}. {antenna} is being read again.",
             format::age(lasted.as_secs_f64())
         ),
         Safety::AsksToResume { name, lost, unlike } => format!(

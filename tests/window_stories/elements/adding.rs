@@ -68,7 +68,7 @@ fn a_held_file_says_what_it_holds_and_is_kept_or_read_once_after_its_release() {
         window.input_mut().dropped_files =
             files.iter().map(|path| Arc::new(Held(path.clone())) as DroppedFileHandle).collect();
         settle(&mut window);
-        assert!(says(&window, "What shall be taken?"));
+        assert!(says(&window, "What should be imported?"));
         assert!(window.query_by_label("Read once: notes.txt").is_none());
         assert_eq!(asked(&mut window), []);
         click(&mut window, "Keep as source: own.json");
@@ -77,7 +77,7 @@ fn a_held_file_says_what_it_holds_and_is_kept_or_read_once_after_its_release() {
         assert_eq!(asked(&mut window), [UiCommand::Station(engine::Command::AddSource(source))]);
         assert!(window.query_by_label("Keep as source: own.json").is_none(), "it is taken");
         click(&mut window, "Close");
-        assert!(!says(&window, "What shall be taken?"));
+        assert!(!says(&window, "What should be imported?"));
     }
 }
 

@@ -166,7 +166,7 @@ fn use_it(
     let refusal = if let Some(why) = &hindrance {
         Some(why.as_str())
     } else if !is_free {
-        Some("Apply does it, with the edits.")
+        Some("Apply selects it, together with the edits.")
     } else if !unit.is_fresh(group.key) || values.is_empty() {
         Some("Its values are not known yet.")
     } else {
@@ -180,7 +180,7 @@ fn use_it(
         form.send(unit, group, values, effects.commands);
     }
     let room = place.with_min_x(place.right() + 8.0).with_max_x(rect.right());
-    let said = refusal.unwrap_or("Sets it as it is, which makes it the source.");
+    let said = refusal.unwrap_or("Sends it unchanged, which selects it as the source.");
     row::said(ui, room, said, text::small(), t.t3, said);
 }
 
