@@ -129,10 +129,10 @@ mod tests {
             max_elevation: Angle::from_degrees(38.0),
             is_always_up: false,
         };
-        let today = pass("2026-11-14T23:20:32Z", "2026-11-14T23:31:00Z");
-        assert_eq!(next(Some(today), now), "23:20:32Z");
-        let running = pass("2026-11-14T18:08:00Z", "2026-11-14T18:21:19Z");
-        assert_eq!(next(Some(running), now), "until 18:21:19Z");
+        let today = pass("2026-11-14T23:20Z", "2026-11-14T23:31:00Z");
+        assert_eq!(next(Some(today), now), "23:20Z");
+        let running = pass("2026-11-14T18:08:00Z", "2026-11-14T18:21Z");
+        assert_eq!(next(Some(running), now), "until 18:21Z");
         let tomorrow = pass("2026-11-15T00:13:10Z", "2026-11-15T00:20:00Z");
         assert_eq!(next(Some(tomorrow), now), "15 Nov 00:13Z");
         let standing = NextPass { is_always_up: true, ..running };

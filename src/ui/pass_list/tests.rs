@@ -233,7 +233,7 @@ fn a_search_tells_how_far_it_is_and_can_be_cancelled_and_begun_again() {
     assert_eq!(bar.accesskit_node().numeric_value(), Some(25.0));
     window.get_by_role_and_label(Role::Button, "Cancel").click();
     window.run();
-    window.get_by_label("Cancelled; list of 11:06");
+    window.get_by_label("Cancelled; list of 11:06Z");
     assert!(window.query_by_label_contains("NOAA 20").is_some(), "the old list stays");
     window.get_by_role_and_label(Role::Button, "Search").click();
     window.run();
@@ -250,7 +250,7 @@ fn a_search_tells_how_far_it_is_and_can_be_cancelled_and_begun_again() {
 #[test]
 fn of_a_list_that_is_made_it_says_of_what_and_when() {
     let mut window = window(Fixture { scope: Scope::All, ..Fixture::with(8) });
-    window.get_by_label("16\u{2009}089 satellites at 11:06");
+    window.get_by_label("16\u{2009}089 satellites at 11:06Z");
     window.state_mut().scope = Scope::Favourites;
     window.run();
     assert!(window.query_by_label_contains("satellites at").is_none());

@@ -77,7 +77,7 @@ fn window(size: egui::Vec2, bars: Vec<Bar<'static>>) -> Harness<'static, Picked>
 fn a_bar_is_found_by_name_and_a_click_selects_it() {
     let mut window = window(FULL, bars());
     window.get_by_role_and_label(Role::ListBox, "Next 12 hours");
-    let noaa = "NOAA 20, 11:01 to 11:14, max 69°";
+    let noaa = "NOAA 20, 11:01Z to 11:14Z, max 69°";
     assert!(!window.get_by_label(noaa).accesskit_node().is_selected().unwrap_or(false));
     window.get_by_role_and_label(Role::ListBoxOption, noaa).click();
     window.run();
@@ -88,8 +88,8 @@ fn a_bar_is_found_by_name_and_a_click_selects_it() {
 #[test]
 fn names_tell_what_the_mount_cannot_do() {
     let window = window(FULL, bars());
-    window.get_by_label("METEOR-M2 4, 11:34 to 11:46, max 34°, seconds lost");
-    window.get_by_label("ISS, 12:36 to 12:43, max 52°, not possible");
+    window.get_by_label("METEOR-M2 4, 11:34Z to 11:46Z, max 34°, seconds lost");
+    window.get_by_label("ISS, 12:36Z to 12:43Z, max 52°, not possible");
     assert!(window.query_by_label_contains("SUOMI").is_none(), "begins after the strip");
 }
 
@@ -138,7 +138,7 @@ fn pointing_at_a_bar_tells_its_times() {
     let mut window = window(FULL, bars());
     window.get_by_label_contains("METEOR").hover();
     window.run_steps(8);
-    window.get_by_label("METEOR-M2 4\n11:34:54 to 11:46:45Z\nmax 34°, seconds lost");
+    window.get_by_label("METEOR-M2 4\n11:34:54Z to 11:46:45Z\nmax 34°, seconds lost");
 }
 
 #[test]

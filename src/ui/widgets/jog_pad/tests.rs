@@ -11,6 +11,8 @@ struct Pad {
     held: Option<JogDirection>,
 }
 
+const XY: JogKeys = JogKeys::Xy { x_plus: "E", x_minus: "W", y_plus: "N", y_minus: "S" };
+
 fn pad(pad: Pad) -> Harness<'static, Pad> {
     let mut window = testing::window([200.0, 200.0], pad, |ui, pad| {
         let rect = Rect::from_min_size(pos2(20.0, 20.0), vec2(136.0, 136.0));
@@ -19,7 +21,7 @@ fn pad(pad: Pad) -> Harness<'static, Pad> {
             blocked: &pad.blocked,
             asked: "0.50",
             real_deg_s: Some(0.48),
-            ..JogModel::default()
+            keys: XY,
         };
         pad.held = show(ui, rect, &model, &mut pad.state);
     });
@@ -251,8 +253,7 @@ fn the_keys_say_what_they_turn_on_every_mount() {
         let labels = JogDirection::ALL.into_iter().filter_map(|direction| keys.label(direction));
         labels.map(|label| label.name).collect()
     };
-    let xy = JogKeys::Xy { x_plus: "E", x_minus: "W", y_plus: "N", y_minus: "S" };
-    assert_eq!(names(xy), ["Y+", "X−", "X+", "Y−"]);
+    assert_eq!(names(XY), ["Y+", "X−", "X+", "Y−"]);
     assert_eq!(names(JogKeys::AzEl), ["up", "counterclockwise", "clockwise", "down"]);
     let alone = ["Other +", "counterclockwise", "clockwise", "Other −"];
     assert_eq!(names(JogKeys::AzOther("Other")), alone);
