@@ -23,7 +23,8 @@ impl ThemeName {
 pub struct Tokens {
     /// Background of the window and of plot surroundings.
     pub bg0: Color32,
-    /// Background of an input: in the light theme the tone of the window would look disabled.
+    /// Background of an input and of the rows of a table: in the light theme the tone of the
+    /// window would look disabled.
     pub field: Color32,
     /// Panels, bars, day part of the plan.
     pub bg1: Color32,

@@ -49,6 +49,7 @@ pub(super) fn show(
 ) {
     let (top, body) = rect.split_top_bottom_at_y(rect.top() + HEAD);
     row::head(ui, top, names_antenna);
+    ui.painter().rect_filled(body, 0.0, theme::tokens(ui).field);
     let id = ui.make_persistent_id("log");
     let sense = Sense::CLICK | Sense::FOCUSABLE;
     let list = ui.interact(body, id, sense);

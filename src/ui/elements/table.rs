@@ -47,6 +47,7 @@ pub(super) fn show(
     let (top, body) = rect.split_top_bottom_at_y(rect.top() + HEAD);
     let rows = shown(model).map(|answer| Arc::clone(&answer.rows)).unwrap_or_default();
     show_head(ui, top, &rows, state);
+    ui.painter().rect_filled(body, 0.0, theme::tokens(ui).field);
     let id = ui.make_persistent_id("catalogue");
     let list = ui.interact(body, id, Sense::CLICK | Sense::FOCUSABLE);
     list.widget_info(|| WidgetInfo::labeled(Role::ListBox, true, "Catalogue"));

@@ -154,7 +154,7 @@ pub(super) fn show(
     let bar = if is_drawer { (rect.height() - rows).clamp(BAR, MAX_BAR) } else { BAR };
     let bar = if is_open { BAR } else { bar };
     let (top, rest) = rect.split_top_bottom_at_y(rect.top() + bar);
-    ui.painter().rect_filled(rect, 0.0, t.bg0);
+    ui.painter().rect_filled(rect, 0.0, t.field);
     ui.painter().rect_filled(top, 0.0, t.bg2);
     ui.painter().hline(rect.x_range(), rect.top() + 0.5, (1.0, t.line));
     let (end, is_toggled) = title(ui, top, is_drawer, is_open);

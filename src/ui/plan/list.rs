@@ -104,6 +104,7 @@ pub(super) fn show(
     show_bar(ui, bar, antenna, counts, state);
     let columns = Columns::of(rect.width());
     heads(ui, head, columns);
+    ui.painter().rect_filled(body, 0.0, theme::tokens(ui).field);
     let rows: Vec<&ListedPass<'_>> = all
         .iter()
         .filter(|of| match state.shown {

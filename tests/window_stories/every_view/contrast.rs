@@ -2,6 +2,9 @@
 
 use std::collections::BTreeMap;
 
+use egui::{Rect, Role};
+use egui_kittest::kittest::Queryable as _;
+
 use azel::{
     model::ThemeName,
     ui::{theme, tokens},
@@ -23,6 +26,23 @@ const LARGE_TEXT: f64 = 3.0;
 fn needed(run: &Run) -> f64 {
     let is_large = run.size >= 24.0 || (run.is_bold && run.size >= 18.66);
     if is_large { LARGE_TEXT } else { TEXT }
+}
+
+#[test]
+fn the_rows_of_a_table_lie_on_the_tone_of_an_input_in_the_light_theme() {
+    for name in ["Elements", "Plan", "Map", "Console"] {
+        let scene = SCENES.iter().find(|scene| scene.name == name).expect(name);
+        let mut window = scene.open(LARGE);
+        theme::set(&window.ctx, ThemeName::Light);
+        settle(&mut window);
+        let field = theme::tokens(&window.ctx).field;
+        let rows: Vec<Rect> =
+            window.query_all_by_role(Role::ListBoxOption).map(|row| row.rect()).collect();
+        let is_of_a_row = |run: &Run| rows.iter().any(|row| row.contains(run.rect.center()));
+        let runs = painted::runs(&window);
+        let on_field = runs.iter().filter(|run| is_of_a_row(run) && run.ground == field).count();
+        assert!(on_field > 2, "{name}: {on_field} texts");
+    }
 }
 
 #[test]
