@@ -333,7 +333,7 @@ fn no_other_view_shows_what_only_a_satrak_has() {
             let question = UiCommand::antenna(AntennaId(1), Command::Ask("STATUS".into()));
             assert_eq!(asked(&mut window), [question]);
             type_into(&mut window, "Query to send", "TPOS?");
-            assert!(says(&window, "Not sent. This is no question that the unit answers"));
+            assert!(says(&window, "Not sent. The unit does not answer this query"));
             window.state_mut().model.view = View::Elements;
             settle(&mut window);
             assert!(window.query_by_label("Upload and prove").is_none());

@@ -259,7 +259,9 @@ fn free_name(offer: &Offer, model: &Model) -> String {
         Offer::File(path) => path.file_stem().map(|stem| stem.to_string_lossy().into_owned()),
         Offer::Text(_) => None,
     };
-    let stem = stem.unwrap_or_else(|| format!("pasted {}", format::day(model.now)));
+    let stem = stem.unwrap_or_else(|| {
+        format!("pasted {} {}", format::day(model.now), format::minute_of_day(model.now))
+    });
     let is_free = |name: &str| {
         let place = SourcePlace::File(Path::new("/").join("any"));
         let source = Source { name: name.to_owned(), place, refresh: None };

@@ -148,16 +148,13 @@ fn about_record(ui: &mut Ui, model: &Model) {
     let Some(record) = &model.record else {
         return told::line(ui, Tone::Plain, "Nothing is recorded: there is no folder for it.");
     };
-    match &record.failing {
-        Some(failing) => {
-            let since = format::moment(failing.since, model.now);
-            let words = format!("Nothing is recorded since {since}: {}.", failing.why);
-            told::line(ui, Tone::Bad, &words);
-        }
-        None => {
-            let size = format::bytes(record.bytes);
-            told::line(ui, Tone::Now, &format!("Recording, {size} so far."));
-        }
+    if let Some(failing) = &record.failing {
+        let since = format::moment(failing.since, model.now);
+        let words = format!("Nothing is recorded since {since}: {}.", failing.why);
+        told::line(ui, Tone::Bad, &words);
+    } else {
+        let size = format::bytes(record.bytes);
+        told::line(ui, Tone::Now, &format!("Recording, {size} so far."));
     }
     told::line(ui, Tone::Plain, &record.path.display().to_string());
 }

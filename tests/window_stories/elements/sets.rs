@@ -70,7 +70,7 @@ fn an_older_set_stands_against_the_one_in_use_and_is_used_after_a_question() {
         let epoch = older.epoch();
         hold(&mut window, older);
         asked(&mut window);
-        let row = "Set of 10 Aug 02:04 from weather: ";
+        let row = "Set of 10 Aug 02:04Z from weather: ";
         open_menu(&mut window, row);
         assert!(says(&window, "Mean motion"), "a click shows its elements");
         click(&mut window, "Use this set\u{2026}");
