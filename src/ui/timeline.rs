@@ -110,8 +110,10 @@ const SMALL_MARGIN: f32 = 12.0;
 /// Width at the left for the names of the lanes, in points.
 const NAMES: f32 = 96.0;
 const SMALL_NAMES: f32 = 84.0;
-/// Gap between the name of a lane and the lane; the name of a bar may reach into it.
+/// Gap between the name of a lane and the lane.
 const NAMES_GAP: f32 = 8.0;
+/// How far the name of a bar may reach into that gap.
+const REACH: f32 = 2.0;
 const HEAD: f32 = 32.0;
 const AXIS: f32 = 24.0;
 const SMALL_AXIS: f32 = 21.0;
@@ -188,7 +190,7 @@ fn all_lanes(
     sun::show(ui, scale, model.sun, sun, words);
     axis::time_lines(ui, scale, model, Rangef::new(room.top() - 4.0, sun.bottom()));
     for (place, bars) in &standing {
-        let room = place.with_min_x(place.left() - NAMES_GAP);
+        let room = place.with_min_x(place.left() - REACH);
         bars::show_names(ui, bars, model.selected, room);
     }
 }
@@ -232,7 +234,7 @@ fn full(
     lane_name(ui, rect.left() + MARGIN, sun, "Sun", false);
     sun::show(ui, scale, model.sun, sun, words);
     axis::time_lines(ui, scale, model, Rangef::new(lane.top() - 4.0, sun.bottom()));
-    let room = lane.with_min_x(lane.left() - NAMES_GAP);
+    let room = lane.with_min_x(lane.left() - REACH);
     bars::show_names(ui, &main, model.selected, room);
 }
 
@@ -254,7 +256,7 @@ fn small(
     let standing = bars::stand(&shown.bars, |_| true, scale, lane, &heights);
     bars::show(ui, &standing, of, model, commands);
     axis::time_lines(ui, scale, model, Rangef::new(lane.top() - 4.0, lane.bottom()));
-    let room = lane.with_min_x(lane.left() - NAMES_GAP);
+    let room = lane.with_min_x(lane.left() - REACH);
     bars::show_names(ui, &standing, model.selected, room);
 }
 

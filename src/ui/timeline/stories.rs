@@ -164,3 +164,35 @@ fn a_strip_without_passes_or_room_is_fine() {
     window(vec2(60.0, 130.0), bars()).run();
     window(vec2(20.0, 8.0), bars()).run();
 }
+
+/// The texts of the last frame with their places.
+fn texts(harness: &Harness<'_, Picked>) -> Vec<(String, Rect)> {
+    fn collect(shape: &egui::Shape, found: &mut Vec<(String, Rect)>) {
+        match shape {
+            egui::Shape::Vec(shapes) => shapes.iter().for_each(|of| collect(of, found)),
+            egui::Shape::Text(text) => {
+                let place = text.galley.rect.translate(text.pos.to_vec2());
+                found.push((text.galley.text().to_owned(), place));
+            }
+            _ => {}
+        }
+    }
+    let mut found = Vec::new();
+    for clipped in &harness.output().shapes {
+        collect(&clipped.shape, &mut found);
+    }
+    found
+}
+
+#[test]
+fn the_name_of_the_first_bar_stays_clear_of_the_name_of_its_lane() {
+    for size in [FULL, SMALL] {
+        let first = bar(43_013, "SENTINEL-6A", "11:06:13", "11:09:45", 12.0);
+        let mut harness = window(size, vec![first]);
+        harness.run();
+        let all = texts(&harness);
+        let place = |words: &[&str]| all.iter().find(|(of, _)| words.contains(&&**of)).unwrap().1;
+        let gap = place(&["S6A", "SENTINEL-6A"]).left() - place(&["Satrak"]).right();
+        assert!(gap >= 6.0, "{size:?}: {gap}");
+    }
+}
