@@ -16,7 +16,8 @@ pub struct Question {
 }
 
 impl Question {
-    /// Shows the question until it is answered. Enter says yes, Esc says no.
+    /// Shows the question until it is answered. Enter says yes unless Cancel has the focus, Esc says
+    /// no.
     pub fn show(question: &mut Option<Self>, ui: &Ui, commands: &mut Vec<UiCommand>) {
         let Some(asked) = question else { return };
         let mut answer = None;
@@ -26,11 +27,12 @@ impl Question {
             ui.add_space(8.0);
             ui.horizontal(|ui| {
                 let yes = ui.button(format!("{} (Enter)", asked.yes));
-                if yes.clicked() || ui.input(|input| input.key_pressed(Key::Enter)) {
-                    answer = Some(true);
-                }
-                if ui.button("Cancel").clicked() {
+                let cancel = ui.button("Cancel");
+                let enter = ui.input(|input| input.key_pressed(Key::Enter));
+                if cancel.clicked() {
                     answer = Some(false);
+                } else if yes.clicked() || enter && !cancel.has_focus() {
+                    answer = Some(true);
                 }
             });
         });

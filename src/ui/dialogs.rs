@@ -26,7 +26,8 @@ pub enum Answer {
     No,
 }
 
-/// Asks `words`; `yes` is the text of the button that agrees, as does Enter.
+/// Asks `words`; `yes` is the text of the button that agrees, as does Enter unless No
+/// has the focus.
 pub fn question(ui: &Ui, words: &str, yes: &str) -> Option<Answer> {
     ask(ui, "question", yes, true, |ui| {
         ui.label(RichText::new(words).font(text::body()));
@@ -95,11 +96,11 @@ fn ask(
         ui.horizontal(|ui| {
             let word = if enter_says_yes { format!("{yes} (Enter)") } else { yes.to_owned() };
             let enter = enter_says_yes && ui.input(|input| input.key_pressed(Key::Enter));
-            if ui.button(word).clicked() || enter {
-                answer = Some(Answer::Yes);
-            }
-            if ui.button("No").clicked() {
+            let (yes, no) = (ui.button(word), ui.button("No"));
+            if no.clicked() {
                 answer = Some(Answer::No);
+            } else if yes.clicked() || enter && !no.has_focus() {
+                answer = Some(Answer::Yes);
             }
         });
     });

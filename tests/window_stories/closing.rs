@@ -182,7 +182,7 @@ fn tracking(unit: &Unit, path: &Path) -> RealWindow {
         // The bars of the strip change their places with the first plan.
         model.schedule.made_at.is_some() && model.pass_of(NOAA_20).is_some()
     });
-    window.get_by_label_contains("NOAA 20, 11:08 to 11:21").click();
+    window.get_by_label_contains("NOAA 20, 11:08Z to 11:21Z").click();
     window.run_steps(2);
     press(&mut window, "Track NOAA 20");
     step_until(&mut window, "it tracks", |model| model.antenna().unwrap().tracks());

@@ -82,6 +82,21 @@ fn k_asks_whether_to_park_and_says_where() {
 }
 
 #[test]
+fn enter_on_cancel_says_no() {
+    for size in SIZES {
+        let mut window = rig::window(size, rig::model(states::holding()));
+        window.key_press(Key::K);
+        settle(&mut window);
+        window.get_by_role_and_label(Role::Button, "Cancel").focus();
+        settle(&mut window);
+        window.key_press(Key::Enter);
+        assert_eq!(asked(&mut window), []);
+        settle(&mut window);
+        assert!(window.query_by_label_contains("Park Satrak?").is_none(), "it is answered");
+    }
+}
+
+#[test]
 fn the_keys_of_an_x_y_mount_say_which_way_on_the_sky_they_lead() {
     let window = rig::window(SMALL, rig::model(states::manual()));
     let Mount::Xy { lower_axis_azimuth_deg, .. } = window.state().model.antennas[0].config.mount

@@ -18,7 +18,7 @@ use crate::window_stories::{
 
 const METEOR_M2_4: u32 = 59_051;
 const EUTELSAT_7C: u32 = 44_334;
-const BAR: &str = "METEOR-M2 4, 12:44 to 12:56, max 49°";
+const BAR: &str = "METEOR-M2 4, 12:44Z to 12:56Z, max 49°";
 const ROW: &str = "METEOR-M2 4, AOS T−1:28:52, max 49°, Trackable";
 
 fn window(size: [f32; 2]) -> Window {

@@ -231,7 +231,7 @@ fn a_pass_of_any_satellite_is_listed_selected_drawn_and_tracked() {
             is_agreed: false,
         });
         assert_eq!(asked(&mut window), [track]);
-        assert!(window.query_by_label_contains("12:44 to 12:56").is_none(), "not in the strip");
+        assert!(window.query_by_label_contains("12:44Z to 12:56Z").is_none(), "not in the strip");
         window.key_press(Key::N);
         assert_eq!(asked(&mut window), [], "no followed satellite comes");
         window.key_press(Key::ArrowUp);

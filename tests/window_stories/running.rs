@@ -196,7 +196,7 @@ fn a_satellite_that_is_up_is_tracked_within_the_beam() {
         model.schedule.made_at.is_some() && model.pass_of(NOAA_20).is_some()
     });
     assert!(!window.state().model().demo);
-    window.get_by_label_contains("NOAA 20, 11:08 to 11:21").click();
+    window.get_by_label_contains("NOAA 20, 11:08Z to 11:21Z").click();
     window.run_steps(2);
     window.get_by_role_and_label(Role::Button, "Track NOAA 20").click();
     step_until(&mut window, "it follows within the beam", |model| {

@@ -173,7 +173,7 @@ impl Two {
             // The bars of the strip change their places with the first plan.
             model.schedule.made_at.is_some() && model.pass_of(NOAA_20).is_some()
         });
-        self.window.get_by_label_contains("NOAA 20, 11:08 to 11:21").click();
+        self.window.get_by_label_contains("NOAA 20, 11:08Z to 11:21Z").click();
         self.window.run_steps(2);
         press(&mut self.window, "Track NOAA 20");
         step_until(&mut self.window, "it tracks", |model| model.antenna().unwrap().tracks());

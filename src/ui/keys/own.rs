@@ -150,7 +150,10 @@ mod tests {
     fn a_key_is_chosen_unless_it_does_something_else_there() {
         let next = slot(KeyScope::Operate, Key::N);
         let mut own = OwnKeys::default();
-        assert_eq!(own.choose(next, Key::T), Err(Clash::Taken("track the selected pass (asks)")));
+        assert_eq!(
+            own.choose(next, Key::T),
+            Err(Clash::Taken("track the selected pass, park the antenna (both ask)"))
+        );
         assert_eq!(own.choose(next, Key::A), Err(Clash::Taken("acknowledge the newest alarm")));
         assert_eq!(own.choose(next, Key::Escape), Err(Clash::NoShortcut));
         assert_eq!(own.choose(next, Key::Space), Err(Clash::NoShortcut));
@@ -166,7 +169,8 @@ mod tests {
     fn what_stops_or_moves_an_antenna_or_belongs_to_a_control_cannot_be_changed() {
         let slots: Vec<Slot> = ALL.iter().flat_map(Binding::slots).collect();
         assert!(slots.len() > 10);
-        for usual in [Key::Escape, Key::T, Key::G, Key::M, Key::PageUp, Key::F1, Key::Space] {
+        for usual in [Key::Escape, Key::T, Key::K, Key::G, Key::M, Key::PageUp, Key::F1, Key::Space]
+        {
             assert!(slots.iter().all(|slot| slot.usual != usual), "{usual:?}");
         }
     }
