@@ -66,7 +66,13 @@ impl Act {
     pub(super) fn is_fixed(self) -> bool {
         matches!(
             self,
-            Self::There | Self::Track | Self::GoTo | Self::Manual | Self::Rate(_) | Self::List
+            Self::There
+                | Self::Track
+                | Self::Park
+                | Self::GoTo
+                | Self::Manual
+                | Self::Rate(_)
+                | Self::List
         )
     }
 
