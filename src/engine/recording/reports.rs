@@ -10,13 +10,13 @@ use crate::{
         Angle, AzEl, Site,
         time::{add_seconds, seconds_between},
     },
-    driver::{PositionLog, TimeSync},
+    driver::{PositionLog, TimeSync, TrackView},
     engine::{Antenna, CatalogState, Engine, antenna::AntennaModel, passes::mount_limits},
     job::{Job, Wake},
     library::History,
     orbit::{Elements, PassSearch, Propagator, passes},
     plan::{
-        MountLimits, Sample, Trackability,
+        MountLimits, Sample, TrackPhase, Trackability,
         pass_report::{Evidence, Explanation, Flown, FlownPass, PassReport},
         trackability,
     },
@@ -201,7 +201,11 @@ impl Followed {
             let snapshot = &antenna.shown.snapshot;
             let view = snapshot.program_track.as_ref();
             let number = self.elements.catalog_number();
-            if let Some(view) = view.filter(|view| view.catalog_number == Some(number)) {
+            // Before AOS and after LOS it counts for other passes.
+            let is_of_this = |view: &&TrackView| {
+                view.catalog_number == Some(number) && view.phase == TrackPhase::Tracking
+            };
+            if let Some(view) = view.filter(is_of_this) {
                 self.about.sent = Some(view.stats.commands);
             }
             let clock = snapshot.state.on_board.clock.filter(|clock| clock.is_set);
