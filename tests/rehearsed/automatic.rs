@@ -127,6 +127,10 @@ fn a_station_takes_its_passes_by_itself_and_each_that_it_misses_has_its_cause() 
     // What is under way has no line in either run.
     let told = std::mem::take(&mut witness.begun).into_iter();
     witness.begun = told.filter(|(antenna, pass)| witness.is_told(*antenna, *pass)).collect();
+    // On a busy computer, units may have failed it before by late answers.
+    for antenna in [dish, mast] {
+        set_automatic(&client, antenna, true);
+    }
     scene = scene.started_again(false);
     client = scene.client();
     for (name, antenna) in [("Dish", dish), ("Mast", mast)] {
