@@ -10,6 +10,7 @@ mod file;
 mod keeping;
 mod read;
 mod recorder;
+mod tables;
 #[cfg(test)]
 mod tests;
 mod writer;
