@@ -26,6 +26,7 @@ pub mod passes;
 mod recording;
 pub mod reminders;
 pub mod schedule;
+mod settings;
 pub mod signals;
 mod snapshot;
 #[cfg(unix)]
@@ -40,12 +41,7 @@ mod use_station;
 mod write_settings;
 mod written;
 
-use std::{
-    io,
-    path::{Path, PathBuf},
-    sync::Arc,
-    time::Duration,
-};
+use std::{io, path::PathBuf, sync::Arc, time::Duration};
 
 use jiff::Timestamp;
 use tokio::sync::{Notify, mpsc, watch};
@@ -54,7 +50,7 @@ use self::{
     alarms::{AlarmKind, Alarms},
     antenna::AntennaModel,
     automatic::{AtWork, DayLine, LastRun},
-    claim::{Claim, Claims, HeldBy, HolderKind},
+    claim::{Claim, Claims, HeldBy},
     clock_watch::ClockWatch,
     closing::Closing,
     copies::{Copies, CopyWork},
@@ -75,13 +71,14 @@ pub use self::{
     handle::{By, Client, Event, Handle, Stopped},
     opening::{CannotOpen, look_at},
     recording::{demo_record_path, record_path, records_folder},
+    settings::Settings,
     snapshot::{CatalogState, Snapshot},
 };
 use crate::{
     clock::{Clock, Instant},
     driver::{AntennaHandle, Driver, JOG_LEASE, Outside, TimeSync},
     job::{Job, Wake},
-    station::{self, LockOuts, Station},
+    station::{LockOuts, Station},
 };
 
 /// Reports of the sessions are taken at most this often. A change still shows with the next
@@ -90,40 +87,6 @@ const BREATH: Duration = Duration::from_millis(10);
 
 /// A motion request that has waited this long is not carried out.
 const TOO_LATE: Duration = Duration::from_secs(2);
-
-/// Places of a station's files and its role among the Azels of this machine.
-#[derive(Debug, Clone, Default)]
-pub struct Settings {
-    /// Path of the station file; `None` for the user's own.
-    pub path: Option<PathBuf>,
-    /// Folder for elements from servers; `None` for the user's own.
-    pub library: Option<PathBuf>,
-    /// Places of host keys, old uploads and secrets; `None` for the user's own.
-    pub upload_places: Option<uploads::Places>,
-    /// Program to start as the dead-man; `None` for none.
-    pub dead_man: Option<PathBuf>,
-    /// Folder for marks of motions by hand; `None` for none.
-    pub marks: Option<PathBuf>,
-    /// Folder for the records of stations; `None` to record nothing.
-    pub records: Option<PathBuf>,
-    /// Folder for claims of the station and its units, and the role of this process; `None`
-    /// to ignore other Azels.
-    pub claims: Option<(PathBuf, HolderKind)>,
-}
-
-impl Settings {
-    /// Path of the station file, if this user has a place for one.
-    pub fn station_path(&self) -> Option<PathBuf> {
-        self.path.clone().or_else(station::settings_path)
-    }
-
-    /// Folder for elements from servers, if this user has a place for it.
-    pub fn library_path(&self) -> Option<PathBuf> {
-        let station = self.station_path();
-        let places = Places::new(station.as_deref(), self.library.clone());
-        places.library().map(Path::to_path_buf)
-    }
-}
 
 /// Channel for events to the client.
 struct Outbox {

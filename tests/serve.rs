@@ -1,7 +1,7 @@
 //! Station without a window: real sockets to simulated units, and the program itself as a
 //! process beside others.
 
-mod record;
+pub(crate) mod record;
 
 use std::{
     collections::BTreeMap,

@@ -1,18 +1,12 @@
 //! `azel log`: the record of a station as lines of JSON.
 
-use std::{
-    io::{self, BufWriter, Write as _},
-    path::PathBuf,
-    process::ExitCode,
-    thread,
-    time::Duration,
-};
+use std::{io, path::PathBuf, process::ExitCode, thread, time::Duration};
 
 use anyhow::{Context as _, bail};
 use clap::{Args, ValueEnum, builder::PossibleValue};
-use jiff::Timestamp;
+use jiff::{SignedDuration, Timestamp};
 
-use super::input;
+use super::{input, passes::written};
 use crate::{
     engine::{Settings, demo_record_path, record_path, records_folder},
     record::{Query, Record, Row, What},
@@ -20,6 +14,8 @@ use crate::{
 
 /// Time between two looks for new rows. The record is written twice a second.
 const LOOK: Duration = Duration::from_millis(250);
+/// Longest time from a measurement until it is in the record.
+const LATE: SignedDuration = SignedDuration::from_secs(2);
 
 #[derive(Debug, Args)]
 pub(super) struct Options {
@@ -89,14 +85,39 @@ pub(super) fn run(station: Option<PathBuf>, options: &Options) -> anyhow::Result
         antenna: options.antenna.clone(),
         what,
     };
-    let mut lines = Lines { out: BufWriter::new(io::stdout().lock()), error: None };
-    record.read(&query, &mut |row| lines.write(&row)).with_context(unread)?;
-    while options.follow && lines.flush() && query.to.is_none_or(|to| to > Timestamp::now()) {
-        thread::sleep(LOOK);
-        record.read_on(&query, &mut |row| lines.write(&row)).with_context(unread)?;
-    }
-    lines.finish().context("The record cannot be written to standard output")?;
+    let unwritten = || format!("The record at {} cannot be written out", path.display());
+    written(|out| write(&mut record, &query, options.follow, out)).with_context(unwritten)?;
     Ok(ExitCode::SUCCESS)
+}
+
+/// Writes the rows that `query` wants, and goes on with those to come while `follow`.
+fn write(
+    record: &mut Record,
+    query: &Query,
+    follow: bool,
+    out: &mut impl io::Write,
+) -> io::Result<()> {
+    loop {
+        let mut outcome = Ok(());
+        let read = record.read(query, &mut |row| {
+            outcome = line(out, &row);
+            outcome.is_ok()
+        });
+        read.map_err(io::Error::other)?;
+        outcome?;
+        out.flush()?;
+        // What was measured at the end is written a little later.
+        let is_over = query.to.is_some_and(|to| Timestamp::now().duration_since(to) > LATE);
+        if !follow || is_over {
+            return Ok(());
+        }
+        thread::sleep(LOOK);
+    }
+}
+
+fn line(out: &mut impl io::Write, row: &Row) -> io::Result<()> {
+    serde_json::to_writer(&mut *out, row)?;
+    out.write_all(b"\n")
 }
 
 fn place(station: Option<PathBuf>, of_demo: bool) -> anyhow::Result<PathBuf> {
@@ -107,39 +128,4 @@ fn place(station: Option<PathBuf>, of_demo: bool) -> anyhow::Result<PathBuf> {
     let station = Settings { path: station, ..Settings::default() }.station_path();
     let station = station.context("this user has no folder for settings")?;
     Ok(record_path(&folder, &station))
-}
-
-/// Writes lines until nobody reads them.
-struct Lines<W: io::Write> {
-    out: BufWriter<W>,
-    error: Option<io::Error>,
-}
-
-impl<W: io::Write> Lines<W> {
-    /// Returns `false` once it makes no sense to go on.
-    fn write(&mut self, row: &Row) -> bool {
-        let written = serde_json::to_writer(&mut self.out, row)
-            .map_err(io::Error::from)
-            .and_then(|()| self.out.write_all(b"\n"));
-        self.keep(written)
-    }
-
-    fn flush(&mut self) -> bool {
-        let flushed = self.out.flush();
-        self.keep(flushed)
-    }
-
-    fn keep(&mut self, outcome: io::Result<()>) -> bool {
-        self.error = self.error.take().or(outcome.err());
-        self.error.is_none()
-    }
-
-    fn finish(mut self) -> io::Result<()> {
-        self.flush();
-        match self.error {
-            // The reader has seen enough.
-            Some(error) if error.kind() != io::ErrorKind::BrokenPipe => Err(error),
-            _ => Ok(()),
-        }
-    }
 }

@@ -22,6 +22,7 @@ use super::{
     handle::{By, Stopped},
 };
 use crate::{
+    astro::time::seconds_between,
     clock::{Clock, Instant, Moment},
     driver::{self, AntennaHandle, Event, TimeSync},
     job::Job,
@@ -42,7 +43,7 @@ pub(super) struct Recording {
     recorder: Option<(PathBuf, Recorder)>,
     status: Option<Arc<Status>>,
     station: Value,
-    states: BTreeMap<AntennaId, Value>,
+    states: BTreeMap<AntennaId, State>,
     /// The last write to each group of settings.
     written: BTreeMap<(AntennaId, &'static str), Timestamp>,
     alarms: Vec<Alarm>,
@@ -236,7 +237,7 @@ impl Engine {
             return self.recording.note(at, None, Kind::Clock, &json!({ "sync": self.time_sync }));
         };
         let steady_s = at.steady.saturating_duration_since(before.steady).as_secs_f64();
-        let set_by_s = crate::astro::time::seconds_between(before.utc, at.utc) - steady_s;
+        let set_by_s = seconds_between(before.utc, at.utc) - steady_s;
         if set_by_s.abs() > CLOCK_SET_S || sync != self.time_sync {
             let data = json!({ "sync": self.time_sync, "set_by_s": set_by_s });
             self.recording.note(at, None, Kind::Clock, &data);
@@ -246,19 +247,20 @@ impl Engine {
     fn note_alarms(&mut self, at: Moment) {
         let list = self.alarms.list();
         // How long something stands grows with every turn.
-        let story =
-            |alarm: &Alarm| (alarm.seen, alarm.over_since, alarm.shelved_until, alarm.count);
+        let story = |alarm: &Alarm| {
+            (alarm.id, alarm.seen, alarm.over_since, alarm.shelved_until, alarm.count)
+        };
+        let known = &self.recording.alarms;
+        if list.iter().map(story).eq(known.iter().map(story)) {
+            return;
+        }
         for alarm in list {
-            let before = self.recording.alarms.iter().find(|before| before.id == alarm.id);
+            let before = known.iter().find(|before| before.id == alarm.id);
             if before.is_none_or(|before| story(before) != story(alarm)) {
                 self.recording.note(at, alarm.antenna, Kind::Alarm, alarm);
             }
         }
-        let is_same = list.len() == self.recording.alarms.len()
-            && list.iter().map(story).eq(self.recording.alarms.iter().map(story));
-        if !is_same {
-            self.recording.alarms = list.to_vec();
-        }
+        self.recording.alarms = list.to_vec();
     }
 
     fn note_schedule(&mut self, at: Moment) {
@@ -305,7 +307,7 @@ impl Engine {
 
 fn note_antenna(recording: &mut Recording, antenna: &Antenna, at: Moment) {
     let id = antenna.shown.id();
-    let state = serde_json::to_value(State::of(&antenna.shown)).unwrap_or_default();
+    let state = State::of(&antenna.shown);
     if recording.states.get(&id) != Some(&state) {
         recording.note(at, Some(id), Kind::State, &state);
         recording.states.insert(id, state);

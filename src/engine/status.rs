@@ -63,6 +63,19 @@ pub enum LinkStatus {
     Elsewhere,
 }
 
+impl LinkStatus {
+    pub fn of(antenna: &AntennaModel) -> Self {
+        match antenna.snapshot.link {
+            _ if antenna.held_by.is_some() => Self::Elsewhere,
+            LinkState::Off => Self::Off,
+            LinkState::Connecting { .. } => Self::Connecting,
+            LinkState::Up { .. } => Self::Up,
+            LinkState::Stale { .. } => Self::Stale,
+            LinkState::Lost { .. } => Self::Lost,
+        }
+    }
+}
+
 impl AntennaStatus {
     /// Status of all antennas.
     pub fn of_all(station: &Snapshot) -> Vec<Self> {
@@ -78,14 +91,7 @@ impl AntennaStatus {
         let lock_out = snapshot.lock_out.as_ref();
         Self {
             antenna: antenna.config.name.clone(),
-            link: match snapshot.link {
-                _ if antenna.held_by.is_some() => LinkStatus::Elsewhere,
-                LinkState::Off => LinkStatus::Off,
-                LinkState::Connecting { .. } => LinkStatus::Connecting,
-                LinkState::Up { .. } => LinkStatus::Up,
-                LinkState::Stale { .. } => LinkStatus::Stale,
-                LinkState::Lost { .. } => LinkStatus::Lost,
-            },
+            link: LinkStatus::of(antenna),
             intent: format!("{:?}", snapshot.intent).to_lowercase(),
             azimuth_deg: measured
                 .and_then(|measured| measured.pointing.azimuth)

@@ -1,9 +1,9 @@
 //! Reads a record, also while it is written.
 
-use std::path::Path;
+use std::{collections::BTreeMap, path::Path};
 
 use jiff::Timestamp;
-use rusqlite::{Connection, Row as SqlRow, params_from_iter, types::Value as SqlValue};
+use rusqlite::{Connection, Row as SqlRow, params_from_iter};
 use serde::Serialize;
 use serde_json::{Value, json};
 
@@ -11,6 +11,10 @@ use super::{
     Kind, RecordError,
     file::{self, PER_DEGREE},
 };
+
+/// Times that no row is before or after, microseconds.
+const EARLIEST_US: i64 = i64::MIN / 2;
+const LATEST_US: i64 = i64::MAX / 2;
 
 /// What a row of the record is.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
@@ -72,13 +76,16 @@ pub struct Row {
     pub data: Value,
 }
 
-/// Up to where a reader has read.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+/// Up to where a reader has read. Each antenna has a place of its own: one may answer later than
+/// another to what was measured before.
+#[derive(Debug, Clone, PartialEq, Eq, Default)]
 struct Place {
     event: i64,
     pass: i64,
-    /// Latest time of a position or line that was read, microseconds.
-    raw_us: i64,
+    /// Time of the latest position of each antenna, microseconds.
+    position_us: BTreeMap<i64, i64>,
+    /// The same of the lines.
+    frame_us: BTreeMap<i64, i64>,
 }
 
 /// A record to be read.
@@ -93,146 +100,120 @@ impl Record {
         Ok(Self { db: file::open_to_read(path)?, read_to: Place::default() })
     }
 
-    /// Hands the rows that `query` wants to `take`, in order of time, until it returns `false`.
+    /// Hands the rows that `query` wants and that were not read before to `take`, in order of time,
+    /// until it returns `false`.
     pub fn read(
         &mut self,
         query: &Query,
         take: &mut dyn FnMut(Row) -> bool,
     ) -> Result<(), RecordError> {
+        // Both look at the same state of the file, whatever is written meanwhile.
+        let _state = self.db.unchecked_transaction()?;
         let place = self.place()?;
-        self.rows(query, &Span::of(query, Place::default()), take)?;
-        self.read_to = place;
-        Ok(())
-    }
-
-    /// Hands the rows that have come since the last reading to `take`.
-    pub fn read_on(
-        &mut self,
-        query: &Query,
-        take: &mut dyn FnMut(Row) -> bool,
-    ) -> Result<(), RecordError> {
-        let place = self.place()?;
-        if place == self.read_to {
-            return Ok(());
+        if place != self.read_to {
+            self.rows(query, &place, take)?;
         }
-        self.rows(query, &Span::of(query, self.read_to), take)?;
         self.read_to = place;
         Ok(())
     }
 
     /// Up to where there is something to read.
     fn place(&self) -> Result<Place, RecordError> {
-        let newest = |sql: &str| {
-            self.db
-                .query_row(sql, [], |row| row.get::<_, Option<i64>>(0))
-                .map(Option::unwrap_or_default)
+        let newest = |table: &str| {
+            let sql = format!("SELECT max(id) FROM {table}");
+            self.db.query_row(&sql, [], |row| row.get::<_, Option<i64>>(0))
         };
-        let raw = |table: &str| {
-            newest(&format!(
-                "SELECT max((SELECT max(utc_us) FROM {table} WHERE antenna = a.id)) \
+        let latest = |table: &str| -> Result<BTreeMap<i64, i64>, RecordError> {
+            let mut statement = self.db.prepare_cached(&format!(
+                "SELECT id, (SELECT max(utc_us) FROM {table} WHERE antenna = a.id) \
                  FROM (SELECT DISTINCT id FROM antenna) AS a"
-            ))
+            ))?;
+            let rows = statement.query_map([], |row| Ok((row.get(0)?, row.get(1)?)))?;
+            let rows: Vec<(i64, Option<i64>)> = rows.collect::<Result<_, _>>()?;
+            Ok(rows.into_iter().filter_map(|(antenna, utc_us)| Some((antenna, utc_us?))).collect())
         };
         Ok(Place {
-            event: newest("SELECT max(id) FROM event")?,
-            pass: newest("SELECT max(id) FROM pass")?,
-            raw_us: raw("position")?.max(raw("frame")?),
+            event: newest("event")?.unwrap_or_default(),
+            pass: newest("pass")?.unwrap_or_default(),
+            position_us: latest("position")?,
+            frame_us: latest("frame")?,
         })
     }
 
+    /// Hands the rows from the last place up to `now` to `take`.
     fn rows(
         &self,
         query: &Query,
-        span: &Span,
+        now: &Place,
         take: &mut dyn FnMut(Row) -> bool,
     ) -> Result<(), RecordError> {
+        let before = &self.read_to;
+        let from_us = query.from.map_or(EARLIEST_US, Timestamp::as_microsecond);
+        let to_us = query.to.map_or(LATEST_US, Timestamp::as_microsecond);
         let mut parts = Vec::new();
-        let kinds: Vec<&str> = (query.what.iter())
-            .filter(|what| matches!(what, What::Entry(_)))
-            .map(|what| what.word())
-            .collect();
+        let is_entry = |what: &&What| matches!(what, What::Entry(_));
+        let kinds: Vec<&str> = query.what.iter().filter(is_entry).map(|what| what.word()).collect();
         if !kinds.is_empty() {
-            let kinds = kinds.join("', '");
             parts.push(format!(
-                "SELECT utc_us, run, steady_us, antenna, kind, data, \
-                 NULL AS b, NULL AS c, NULL AS d, NULL AS e, NULL AS f, NULL AS g \
-                 FROM event WHERE utc_us >= ?1 AND utc_us < ?2 AND id > ?3 \
-                 AND kind IN ('{kinds}')"
+                "SELECT utc_us, run, steady_us, antenna, kind, data, NULL AS b, NULL AS c, \
+                 NULL AS d, NULL AS e, NULL AS f, NULL AS g FROM event \
+                 WHERE utc_us >= {from_us} AND utc_us < {to_us} AND id > {} AND kind IN ('{}')",
+                before.event,
+                kinds.join("', '")
             ));
         }
+        if query.what.contains(&What::Pass) {
+            parts.push(format!(
+                "SELECT until_us AS utc_us, run, NULL AS steady_us, antenna, 'pass' AS kind, \
+                 report, satellite, name, NULL, NULL, NULL, NULL FROM pass \
+                 WHERE until_us >= {from_us} AND until_us < {to_us} AND id > {}",
+                before.pass
+            ));
+        }
+        let mut of_antennas =
+            |select: &str, now: &BTreeMap<i64, i64>, read: &BTreeMap<i64, i64>| {
+                for (antenna, newest_us) in now {
+                    let after_us =
+                        read.get(antenna).map_or(from_us, |read_us| from_us.max(read_us + 1));
+                    if after_us <= *newest_us {
+                        parts.push(format!(
+                            "{select} WHERE antenna = {antenna} \
+                         AND utc_us >= {after_us} AND utc_us < {to_us}"
+                        ));
+                    }
+                }
+            };
         if query.what.contains(&What::Position) {
-            parts.push(
-                "SELECT utc_us, run, steady_us, antenna, 'position' AS kind, azimuth, elevation, axis_1, \
-                 axis_2, motion_1, motion_2, limits FROM position \
-                 WHERE antenna IN (SELECT id FROM antenna) \
-                 AND utc_us >= ?1 AND utc_us < ?2 AND utc_us > ?4"
-                    .to_owned(),
-            );
+            let select = "SELECT utc_us, run, steady_us, antenna, 'position' AS kind, azimuth, \
+                          elevation, axis_1, axis_2, motion_1, motion_2, limits FROM position";
+            of_antennas(select, &now.position_us, &before.position_us);
         }
         if query.what.contains(&What::Frame) {
-            parts.push(
-                "SELECT utc_us, run, NULL AS steady_us, antenna, 'frame' AS kind, is_sent, bytes, length, fault, \
-                 meaning, reply_us, NULL FROM frame \
-                 WHERE antenna IN (SELECT id FROM antenna) \
-                 AND utc_us >= ?1 AND utc_us < ?2 AND utc_us > ?4"
-                    .to_owned(),
-            );
-        }
-        if query.what.contains(&What::Pass) {
-            parts.push(
-                "SELECT until_us AS utc_us, run, NULL AS steady_us, antenna, 'pass' AS kind, report, satellite, name, NULL, \
-                 NULL, NULL, NULL FROM pass \
-                 WHERE until_us >= ?1 AND until_us < ?2 AND id > ?5"
-                    .to_owned(),
-            );
+            let select = "SELECT utc_us, run, NULL AS steady_us, antenna, 'frame' AS kind, \
+                          is_sent, bytes, length, fault, meaning, reply_us, NULL FROM frame";
+            of_antennas(select, &now.frame_us, &before.frame_us);
         }
         if parts.is_empty() {
             return Ok(());
         }
-        let of_antenna = query.antenna.as_ref().map_or(
-            "",
-            |_| "WHERE antenna IN (SELECT id FROM antenna AS named WHERE named.name = ?6)",
-        );
+        let of_antenna = match &query.antenna {
+            Some(_) => "WHERE antenna IN (SELECT id FROM antenna AS named WHERE named.name = ?1)",
+            None => "",
+        };
         let sql = format!(
-            "SELECT *, (SELECT name FROM antenna AS a WHERE a.id = antenna \
-             ORDER BY since_us > all_rows.utc_us, abs(since_us - all_rows.utc_us) LIMIT 1) AS antenna_name \
+            "SELECT *, (SELECT name FROM antenna AS a WHERE a.id = antenna ORDER BY \
+             since_us > all_rows.utc_us, abs(since_us - all_rows.utc_us) LIMIT 1) AS antenna_name \
              FROM ({}) AS all_rows {of_antenna} ORDER BY utc_us",
             parts.join(" UNION ALL ")
         );
         let mut statement = self.db.prepare(&sql)?;
-        let mut given: Vec<SqlValue> = vec![
-            span.from_us.into(),
-            span.to_us.into(),
-            span.after.event.into(),
-            span.after.raw_us.into(),
-            span.after.pass.into(),
-        ];
-        given.extend(query.antenna.clone().map(SqlValue::from));
-        given.truncate(statement.parameter_count());
-        let mut rows = statement.query(params_from_iter(given))?;
+        let mut rows = statement.query(params_from_iter(&query.antenna))?;
         while let Some(row) = rows.next()? {
             if !take(read_row(row)?) {
                 break;
             }
         }
         Ok(())
-    }
-}
-
-/// Which rows are looked at.
-struct Span {
-    from_us: i64,
-    to_us: i64,
-    after: Place,
-}
-
-impl Span {
-    fn of(query: &Query, after: Place) -> Self {
-        Self {
-            from_us: query.from.map_or(i64::MIN, Timestamp::as_microsecond),
-            to_us: query.to.map_or(i64::MAX, Timestamp::as_microsecond),
-            after,
-        }
     }
 }
 

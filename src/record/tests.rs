@@ -37,10 +37,14 @@ struct Logs {
 
 impl Logs {
     fn followed_by(recorder: &Recorder) -> Self {
+        Self::of(DISH, recorder)
+    }
+
+    fn of(antenna: AntennaId, recorder: &Recorder) -> Self {
         let (wire, positions) = (WireLog::default(), PositionLog::default());
         recorder.follow(RecordedSession {
             at: clock().now(),
-            antenna: DISH,
+            antenna,
             name: "Dish".to_owned(),
             make: "satrak",
             wire: wire.clone(),
@@ -59,6 +63,10 @@ impl Logs {
     }
 
     fn position(&mut self, azimuth_deg: f64) {
+        self.position_at(start(), azimuth_deg);
+    }
+
+    fn position_at(&mut self, at: Timestamp, azimuth_deg: f64) {
         self.steady += Duration::from_millis(100);
         let axis = |angle_deg| Axis {
             angle_deg,
@@ -67,7 +75,7 @@ impl Logs {
             minus_limit: true,
         };
         self.positions.push(Measured {
-            at: start(),
+            at,
             asked: self.steady,
             received: self.steady,
             pointing: Pointing { azimuth: Some(Angle::from_degrees(azimuth_deg)), elevation: None },
@@ -149,23 +157,49 @@ fn a_reader_goes_on_where_it_has_ended() {
     recorder.flush();
     let mut record = Record::open(&path).unwrap();
     let query = Query { what: vec![What::Entry(Kind::Event)], ..Query::default() };
-    let read = |record: &mut Record, is_first: bool| {
+    let read = |record: &mut Record| {
         let mut numbers = Vec::new();
         let take = &mut |row: Row| {
             numbers.push(row.data["number"].as_u64().unwrap());
             true
         };
-        let outcome =
-            if is_first { record.read(&query, take) } else { record.read_on(&query, take) };
-        outcome.unwrap();
+        record.read(&query, take).unwrap();
         numbers
     };
-    assert_eq!(read(&mut record, true), [1]);
-    assert_eq!(read(&mut record, false), [0; 0]);
+    assert_eq!(read(&mut record), [1]);
+    assert_eq!(read(&mut record), [0; 0]);
     recorder.note(entry(2));
     recorder.note(entry(3));
     recorder.flush();
-    assert_eq!(read(&mut record, false), [2, 3]);
+    assert_eq!(read(&mut record), [2, 3]);
+}
+
+#[test]
+fn what_one_antenna_measured_before_another_and_told_later_is_read_too() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("a.sqlite");
+    let recorder = recorder(&path);
+    let mut first = Logs::followed_by(&recorder);
+    let mut second = Logs::of(AntennaId(5), &recorder);
+    first.position_at(start() + Duration::from_secs(1), 10.0);
+    second.position_at(start(), 20.0);
+    recorder.flush();
+    let mut record = Record::open(&path).unwrap();
+    let query = Query { what: vec![What::Position], ..Query::default() };
+    let azimuths = |record: &mut Record| {
+        let mut found = Vec::new();
+        let take = &mut |row: Row| {
+            found.push(row.data["azimuth_deg"].as_f64().unwrap());
+            true
+        };
+        record.read(&query, take).unwrap();
+        found
+    };
+    assert_eq!(azimuths(&mut record), [20.0, 10.0]);
+    second.position_at(start() + Duration::from_millis(500), 21.0);
+    recorder.flush();
+    assert_eq!(azimuths(&mut record), [21.0]);
+    assert_eq!(azimuths(&mut record), [0.0; 0]);
 }
 
 #[test]

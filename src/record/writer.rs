@@ -106,7 +106,13 @@ impl Writer {
         });
         let mut due = Instant::now();
         loop {
-            match orders.recv_timeout(due.saturating_duration_since(Instant::now())) {
+            let left = due.saturating_duration_since(Instant::now());
+            if left.is_zero() {
+                let is_written = self.write();
+                due = Instant::now() + if is_written { EVERY } else { RETRY };
+                continue;
+            }
+            match orders.recv_timeout(left) {
                 Ok(Order::Entry(entry)) => self.queue(*entry),
                 // There are some dozens a day: they need no limit.
                 Ok(Order::Pass(pass)) => self.passes.push(*pass),
@@ -115,10 +121,7 @@ impl Writer {
                     // Nobody may be waiting any more.
                     let _ = done.send(());
                 }
-                Err(mpsc::RecvTimeoutError::Timeout) => {
-                    let is_written = self.write();
-                    due = Instant::now() + if is_written { EVERY } else { RETRY };
-                }
+                Err(mpsc::RecvTimeoutError::Timeout) => {}
                 Err(mpsc::RecvTimeoutError::Disconnected) => break,
             }
         }

@@ -6,26 +6,21 @@ use azel::{
     engine::{Client, Command, record_path},
     orbit::{PassSearch, Propagator, bundled, passes},
     plan::pass_report::PassReport,
-    record::{Query, Record, Row, What},
+    record::{Row, What},
     station::Station,
 };
 use jiff::ToSpan as _;
 
-use super::scene::{self, Scene, antenna, measured, start, until};
+use super::{
+    super::serve::record,
+    scene::{self, Scene, antenna, measured, start, until},
+};
 
 const ISS: u32 = 25_544;
 
 fn rows(scene: &Scene, what: What) -> Vec<Row> {
-    let path = record_path(&scene.folder().join("records"), &scene.folder().join("station.toml"));
-    let mut rows = Vec::new();
-    let query = Query { what: vec![what], ..Query::default() };
-    let Ok(mut record) = Record::open(&path) else { return rows };
-    let read = record.read(&query, &mut |row| {
-        rows.push(row);
-        true
-    });
-    read.unwrap();
-    rows
+    let station = scene.folder().join("station.toml");
+    record::rows(&record_path(&scene.folder().join("records"), &station), what)
 }
 
 /// Tracks the next pass of the ISS that is listed, with the antenna of this name.

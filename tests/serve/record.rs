@@ -28,7 +28,7 @@ fn place(units: &Units) -> PathBuf {
     record_path(&units.folder.path().join("data/azel/records"), &units.path())
 }
 
-fn rows(path: &Path, what: What) -> Vec<Row> {
+pub(crate) fn rows(path: &Path, what: What) -> Vec<Row> {
     let mut rows = Vec::new();
     let query = Query { what: vec![what], ..Query::default() };
     let Ok(mut record) = Record::open(path) else { return rows };

@@ -25,7 +25,7 @@ use crate::{
 };
 
 /// How far a pass under way may reach back and ahead, seconds. Of a satellite that stays up
-/// longer, this much before and after the beginning of the track is reported.
+/// longer, this much from the beginning of its track is reported.
 const REACH_S: f64 = 6.0 * 3600.0;
 /// Time from the end of a pass to its report: the last position may still be on its way, seconds.
 const AFTER_S: f64 = 3.0;
@@ -158,7 +158,9 @@ impl Engine {
         let found = passes(&propagator, &search, &|| false);
         let is_now = |pass: &&crate::orbit::Pass| pass.aos.time <= now && now <= pass.los.time;
         let Some(pass) = found.iter().find(is_now) else { return };
-        let (from, until) = (pass.aos.time, pass.los.time);
+        // Of one that does not rise, what was before the track is nobody's loss.
+        let from = if pass.starts_before { now } else { pass.aos.time };
+        let until = pass.los.time;
         let max_elevation_deg = pass.max_elevation().degrees();
         let followed = Followed {
             antenna: shown.id(),

@@ -7,16 +7,12 @@ use serde::Serialize;
 use crate::{
     device::{Phase, panel::CheckState},
     driver::{Inside, Intent, StopState},
-    engine::{
-        antenna::AntennaModel,
-        automatic::Operation,
-        status::{AntennaStatus, LinkStatus},
-    },
+    engine::{antenna::AntennaModel, automatic::Operation, status::LinkStatus},
     plan::TrackPhase,
     station::LockOut,
 };
 
-#[derive(Debug, Serialize)]
+#[derive(Debug, PartialEq, Serialize)]
 pub(super) struct State {
     link: LinkStatus,
     intent: Intent,
@@ -50,7 +46,7 @@ impl State {
         let checks = snapshot.state.checks.iter().filter(|check| bad(check.state));
         let is_tracked = antenna.tracked_name().is_some() || antenna.tracked_number().is_some();
         Self {
-            link: AntennaStatus::of(antenna).link,
+            link: LinkStatus::of(antenna),
             intent: snapshot.intent,
             is_pending: snapshot.pending,
             moves: snapshot.state.measured.map(|measured| measured.moving()),
