@@ -124,10 +124,11 @@ struct Engine {
     link_tests: Vec<LinkTest>,
     alarms: Alarms,
     copies: Copies,
-    recording: Recording,
     closing: Option<Closing>,
-    // Drop order: the sessions end before their thread does, and that before their units.
+    // Drop order: the sessions end before their thread does, that before their record, and that
+    // before their units.
     driver: Driver,
+    recording: Recording,
     demo: Option<DemoStation>,
     clock: Clock,
     clock_watch: ClockWatch,
@@ -156,14 +157,21 @@ struct Engine {
     claims_looked_at: i64,
     /// The station file could not be read: only the operator may replace it.
     settings_unread: bool,
-    /// Number of the client's request, while it is carried out.
-    asked: Option<u64>,
+    /// The request that is carried out.
+    asked: Option<CurrentRequest>,
     told: Vec<Event>,
     outbox: Outbox,
     /// Handed to the socket.
     #[cfg_attr(not(unix), allow(dead_code, reason = "there is no socket"))]
     client: Client,
     publish: watch::Sender<Published>,
+}
+
+/// A request while it is carried out: its number among all, and who made it.
+#[derive(Debug, Clone, Copy)]
+struct CurrentRequest {
+    number: u64,
+    by: By,
 }
 
 /// One antenna and its session.
@@ -384,7 +392,7 @@ impl Engine {
             return self.alarms.raise(None, AlarmKind::NotTaken, self.now);
         }
         self.note_command(&command, by);
-        self.asked = Some(number);
+        self.asked = Some(CurrentRequest { number, by });
         self.carry_out(command);
         self.asked = None;
     }

@@ -16,7 +16,7 @@ mod tests;
 mod writer;
 
 pub use entry::{Entry, Kind, PassNote, PassPoint};
-pub use read::{Query, Record, Row, What};
+pub use read::{Query, Record, Row, RowKind};
 pub use recorder::{Failing, RecordedSession, Recorder, Status};
 
 /// Why a record cannot be written or read.
@@ -25,10 +25,14 @@ pub enum RecordError {
     #[error("the disk is full")]
     DiskFull,
     /// Written by a newer program.
-    #[error("it has version {0}, and this program knows version {known}", known = file::VERSION)]
+    #[error(
+        "the record was written by a newer Azel (schema {0}; this one reads {known}): update Azel, or \
+         move the file away",
+        known = file::VERSION
+    )]
     Newer(i64),
     /// Not a record, or damaged.
-    #[error("it is no record of Azel, or it is damaged")]
+    #[error("the file is not a record of Azel, or it is damaged")]
     NoRecord,
     #[error("{0}")]
     Database(rusqlite::Error),

@@ -35,7 +35,7 @@ pub use file::{LoadError, Loaded, SaveError, free_path, load, save, saved_at, se
 pub use frequency::Frequency;
 pub use hours_of_day::HoursOfDay;
 pub use keep_out::{Entered, KeepOut, SunAvoidance};
-pub use keeping::Keeping;
+pub use keeping::Retention;
 pub use lock_outs::{LOCK_OUTS_FILE, LockOut, LockOuts};
 pub use mount::Mount;
 pub use notices::{Notices, Tones};
@@ -100,7 +100,7 @@ pub struct Station {
     pub notices: Notices,
     /// How long the record is kept.
     #[serde(skip_serializing_if = "is_default")]
-    pub record: Keeping,
+    pub record: Retention,
     /// Action on the antennas when the program ends; `None` asks the operator.
     #[serde(rename = "close", skip_serializing_if = "Option::is_none")]
     pub on_close: Option<OnClose>,
@@ -222,7 +222,7 @@ impl Default for Station {
             rules: Vec::new(),
             frequencies: Vec::new(),
             notices: Notices::default(),
-            record: Keeping::default(),
+            record: Retention::default(),
             on_close: None,
             keep_outs: Vec::new(),
             sun_avoidance: None,

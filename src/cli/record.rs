@@ -1,6 +1,12 @@
 //! `azel log`: the record of a station as lines of JSON.
 
-use std::{io, path::PathBuf, process::ExitCode, thread, time::Duration};
+use std::{
+    io::{self, Seek as _},
+    path::PathBuf,
+    process::ExitCode,
+    thread,
+    time::Duration,
+};
 
 use anyhow::{Context as _, bail};
 use clap::{Args, ValueEnum, builder::PossibleValue};
@@ -9,11 +15,13 @@ use jiff::{SignedDuration, Timestamp};
 use super::{input, passes::written};
 use crate::{
     engine::{Settings, demo_record_path, record_path, records_folder},
-    record::{Query, Record, Row, What},
+    record::{Query, Record, Row, RowKind},
 };
 
 /// Time between two looks for new rows. The record is written twice a second.
 const LOOK: Duration = Duration::from_millis(250);
+/// Lines that are kept in memory until they are written, bytes; more go to a file.
+const IN_MEMORY: usize = 1 << 20;
 /// Longest time from a measurement until it is in the record.
 const LATE: SignedDuration = SignedDuration::from_secs(2);
 
@@ -45,12 +53,12 @@ pub(super) struct Options {
 
 /// A kind of rows, as an argument.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-struct Kinds(What);
+struct Kinds(RowKind);
 
 impl ValueEnum for Kinds {
     fn value_variants<'a>() -> &'a [Self] {
         static ALL: std::sync::LazyLock<Vec<Kinds>> =
-            std::sync::LazyLock::new(|| What::all().map(Kinds).collect());
+            std::sync::LazyLock::new(|| RowKind::all().map(Kinds).collect());
         &ALL
     }
 
@@ -72,9 +80,9 @@ pub(super) fn run(station: Option<PathBuf>, options: &Options) -> anyhow::Result
     }
     let unread = || format!("The record at {} cannot be read", path.display());
     let mut record = Record::open(&path).with_context(unread)?;
-    let is_raw = |what: &What| matches!(what, What::Position | What::Frame);
+    let is_raw = |what: &RowKind| matches!(what, RowKind::Position | RowKind::Frame);
     let what = if options.kind.is_empty() {
-        What::all().filter(|what| !is_raw(what)).collect()
+        RowKind::all().filter(|what| !is_raw(what)).collect()
     } else {
         options.kind.iter().map(|kind| kind.0).collect()
     };
@@ -98,13 +106,17 @@ fn write(
     out: &mut impl io::Write,
 ) -> io::Result<()> {
     loop {
+        // Whoever reads standard output may take his time, and the record must not wait for him.
+        let mut lines = tempfile::spooled_tempfile(IN_MEMORY);
         let mut outcome = Ok(());
         let read = record.read(query, &mut |row| {
-            outcome = line(out, &row);
+            outcome = line(&mut lines, &row);
             outcome.is_ok()
         });
         read.map_err(io::Error::other)?;
         outcome?;
+        lines.rewind()?;
+        io::copy(&mut lines, out)?;
         out.flush()?;
         // What was measured at the end is written a little later.
         let is_over = query.to.is_some_and(|to| Timestamp::now().duration_since(to) > LATE);

@@ -231,6 +231,8 @@ struct Owed {
     debts: Debts,
     /// When the unit was last told on this link to switch auto-track off.
     auto_track_told: Option<Instant>,
+    /// The operator knows that the unit does not switch it off.
+    auto_stays_told: bool,
     /// Tells the sessions of one unit apart.
     number: u64,
     /// Since when a record is kept that the unit was moved and has not been proved to stand.
@@ -349,6 +351,7 @@ impl Session {
                 unit,
                 debts,
                 auto_track_told: None,
+                auto_stays_told: false,
                 number,
                 kept_unproved: gate.unproved_since(),
                 marking: Marking::None,

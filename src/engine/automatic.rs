@@ -23,8 +23,8 @@ pub use self::{
     operation::{Doing, Duty, Interruption, OffBecause, On, Operation, Taking},
 };
 use super::{
-    Antenna, Command, Engine, StationClaim, alarms::AlarmKind, antenna::AntennaModel,
-    handle::Stopped, passes::PassKey,
+    Antenna, By, Command, CurrentRequest, Engine, StationClaim, alarms::AlarmKind,
+    antenna::AntennaModel, handle::Stopped, passes::PassKey,
 };
 use crate::{
     astro::time::{add_seconds, seconds_between},
@@ -233,7 +233,7 @@ impl Engine {
 
     /// Does what is due. A STOP since `turn` was drawn voids what is sent here.
     pub(super) fn run_automatic(&mut self, turn: u64) {
-        self.asked = Some(turn);
+        self.asked = Some(CurrentRequest { number: turn, by: By::Station });
         for index in 0..self.antennas.len() {
             self.run_automatic_of(index);
         }
@@ -421,7 +421,9 @@ impl Engine {
 
     fn note_day(&mut self, antenna: AntennaId, what: DayEvent) {
         tracing::info!(?antenna, ?what, "automatic operation");
-        day::add(&mut self.day, DayLine { at: self.now, antenna, what });
+        let line = DayLine { at: self.now, antenna, what };
+        self.recording.day_line(&line, self.clock.now());
+        day::add(&mut self.day, line);
     }
 }
 

@@ -147,7 +147,7 @@ impl Engine {
         let antenna = antenna.and_then(|place| self.antennas.get(place));
         let is_void =
             |number| antenna.is_some_and(|antenna| antenna.handle.stopper().is_void(number));
-        command.may_move() && self.asked.is_some_and(is_void)
+        command.may_move() && self.asked.is_some_and(|asked| is_void(asked.number))
     }
 
     /// Returns `true` if another Azel drives the antenna, and then shows the refusal on it.
@@ -192,9 +192,8 @@ impl Engine {
     }
 
     pub(super) fn send(&mut self, index: usize, command: driver::Command) {
-        if self.asked.is_none() {
-            self.note_own_command(index, &command);
-        }
+        self.note_sent(index, &command);
+        let number = self.number();
         let Some(antenna) = self.antennas.get_mut(index) else { return };
         let of = Some(antenna.shown.id());
         if !matches!(
@@ -212,7 +211,6 @@ impl Engine {
             }
             _ => {}
         }
-        let number = self.asked.unwrap_or_else(|| self.driver.orders().next());
         let Err(command) = antenna.handle.send_as(command, number) else { return };
         tracing::error!(?command, "the session is too busy to take a command");
         // A command that ends a motion must not get lost: stop instead.
@@ -220,6 +218,11 @@ impl Engine {
             self.stop_one(index);
         }
         self.alarms.raise(of, AlarmKind::NotTaken, self.now);
+    }
+
+    /// Number of what is carried out, for the sessions.
+    pub(super) fn number(&self) -> u64 {
+        self.asked.map_or_else(|| self.driver.orders().next(), |asked| asked.number)
     }
 
     /// Tracks a pass of the schedule.

@@ -24,8 +24,8 @@ use crate::{
 const REQUESTS: usize = 256;
 /// Maximum number of waiting events.
 const EVENTS: usize = 256;
-/// Maximum time for a station to end: its sessions send their last STOP.
-const FAREWELL: Duration = Duration::from_secs(8);
+/// Maximum time for a station to end: its sessions send their last STOP, which is recorded.
+const FAREWELL: Duration = Duration::from_secs(9);
 
 /// A station that publishes nothing for this long counts as stuck.
 const STANDS: Duration = Duration::from_secs(2);

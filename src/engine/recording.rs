@@ -9,6 +9,7 @@ use std::{
     collections::BTreeMap,
     path::{Path, PathBuf},
     sync::Arc,
+    time::Duration,
 };
 
 use jiff::Timestamp;
@@ -18,6 +19,7 @@ use self::{differences::differences, reports::Followed, state::State};
 use super::{
     Antenna, Command, Engine,
     alarms::{Alarm, AlarmKind},
+    automatic::DayLine,
     claim::{digest, whole_path},
     handle::{By, Stopped},
 };
@@ -49,12 +51,14 @@ pub(super) struct Recording {
     alarms: Vec<Alarm>,
     /// Revision of the schedule, and its entries and left out passes.
     schedule: (u64, Map<String, Value>),
-    day_lines: usize,
-    clock: Option<(Moment, TimeSync)>,
+    /// The clocks of the last turn, and how long the computer had slept by then.
+    clock: Option<(Moment, Duration, TimeSync)>,
     /// The antenna that a held key turns, and when that was last heard of.
     jog: Option<(AntennaId, Instant)>,
     /// Passes that are tracked, and the reports that are worked on.
     followed: Vec<Followed>,
+    /// Tracks of no pass, with the time of the last search for one.
+    sought: Vec<((AntennaId, u32), Timestamp)>,
     reports: Vec<Option<Job<PassNote>>>,
     /// The second in which tracks were last looked at.
     looked_at: i64,
@@ -104,6 +108,10 @@ impl Recording {
         });
     }
 
+    pub(super) fn day_line(&self, line: &DayLine, at: Moment) {
+        self.note(at, Some(line.antenna), Kind::Day, line);
+    }
+
     pub(super) fn event(&self, antenna: AntennaId, event: &Event, at: Moment) {
         self.note(at, Some(antenna), kind_of(event), event);
     }
@@ -121,7 +129,7 @@ impl Recording {
     }
 
     /// Records into the file at `path`, from its beginning.
-    fn begin(&mut self, path: PathBuf, clock: &Clock, keeping: station::Keeping) {
+    fn begin(&mut self, path: PathBuf, clock: &Clock, keeping: station::Retention) {
         match Recorder::start(path.clone(), clock.clone(), keeping) {
             Ok(recorder) => {
                 let folder = self.folder.take();
@@ -183,11 +191,18 @@ impl Engine {
         self.recording.note(at, command.antenna(), Kind::Command, &data);
     }
 
-    /// Records a command that the station gives by itself.
-    pub(super) fn note_own_command(&self, index: usize, command: &driver::Command) {
-        let antenna = self.antennas.get(index).map(|antenna| antenna.shown.id());
-        let data = json!({ "by": By::Station, "command": command });
-        self.recording.note(self.clock.now(), antenna, Kind::Command, &data);
+    /// Records a command that goes to a session. That of a client was recorded when it came, unless
+    /// the client named a pass alone.
+    pub(super) fn note_sent(&self, index: usize, command: &driver::Command) {
+        use driver::Command::{ProgramTrack, ProgramTrackIntoSun, Track};
+        let by = self.asked.map_or(By::Station, |asked| asked.by);
+        let is_track = matches!(command, Track(_) | ProgramTrack(_) | ProgramTrackIntoSun(_));
+        if by != By::Station && !is_track {
+            return;
+        }
+        let Some(id) = self.antennas.get(index).map(|antenna| antenna.shown.id()) else { return };
+        let data = json!({ "by": by, "command": { "Antenna": [id, command] } });
+        self.recording.note(self.clock.now(), Some(id), Kind::Command, &data);
     }
 
     pub(super) fn note_pressed_stop(&self, stopped: &Stopped) {
@@ -224,7 +239,6 @@ impl Engine {
         self.note_clock(at);
         self.note_alarms(at);
         self.note_schedule(at);
-        self.note_day_lines(at);
         for antenna in &self.antennas {
             note_antenna(&mut self.recording, antenna, at);
         }
@@ -232,12 +246,14 @@ impl Engine {
     }
 
     fn note_clock(&mut self, at: Moment) {
-        let now = (at, self.time_sync);
-        let Some((before, sync)) = self.recording.clock.replace(now) else {
+        let asleep = self.clock.asleep();
+        let now = (at, asleep, self.time_sync);
+        let Some((before, slept, sync)) = self.recording.clock.replace(now) else {
             return self.recording.note(at, None, Kind::Clock, &json!({ "sync": self.time_sync }));
         };
-        let steady_s = at.steady.saturating_duration_since(before.steady).as_secs_f64();
-        let set_by_s = seconds_between(before.utc, at.utc) - steady_s;
+        let passed = at.steady.saturating_duration_since(before.steady);
+        let expected_s = (passed + asleep.saturating_sub(slept)).as_secs_f64();
+        let set_by_s = seconds_between(before.utc, at.utc) - expected_s;
         if set_by_s.abs() > CLOCK_SET_S || sync != self.time_sync {
             let data = json!({ "sync": self.time_sync, "set_by_s": set_by_s });
             self.recording.note(at, None, Kind::Clock, &data);
@@ -293,15 +309,6 @@ impl Engine {
             });
             self.recording.note(at, None, Kind::Schedule, &data);
         }
-    }
-
-    fn note_day_lines(&mut self, at: Moment) {
-        // The lines of yesterday go, and the first of today come.
-        let from = self.recording.day_lines.min(self.day.len());
-        for line in self.day.get(from..).unwrap_or_default() {
-            self.recording.note(at, Some(line.antenna), Kind::Day, line);
-        }
-        self.recording.day_lines = self.day.len();
     }
 }
 

@@ -24,12 +24,15 @@ const MOTION_S: f64 = 0.5;
 const GOOD: f64 = 0.995;
 /// Share from which it is fair.
 const FAIR: f64 = 0.95;
+/// What a mount loses may take so many times as long as was worked out, and these seconds more.
+const MORE: f64 = 1.25;
+const COMES_BACK_S: f64 = 3.0;
 /// More seconds of a pass without a position make it poor.
 const NOT_KNOWN_S: f64 = 10.0;
 
 /// A pass of an antenna, to be reported on.
 #[derive(Debug, Clone, Copy)]
-pub struct FlownPass<'a> {
+pub struct TrackedPass<'a> {
     pub propagator: &'a Propagator,
     pub site: Site,
     /// What counts: from AOS to LOS, above the antenna's minimum elevation.
@@ -42,7 +45,7 @@ pub struct FlownPass<'a> {
 
 /// A measured position.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Flown {
+pub struct MeasuredPosition {
     pub time: Timestamp,
     pub pointing: Pointing,
 }
@@ -154,11 +157,12 @@ struct Compared {
     is_in_beam: bool,
 }
 
-impl FlownPass<'_> {
+impl TrackedPass<'_> {
     /// The report by `flown`, oldest first. Those outside of the pass are left out.
-    pub fn report(&self, flown: &[Flown]) -> PassReport {
+    pub fn report(&self, flown: &[MeasuredPosition]) -> PassReport {
         let counted_s = seconds_between(self.from, self.until).max(0.0);
-        let within = |flown: &&Flown| self.from <= flown.time && flown.time <= self.until;
+        let within =
+            |flown: &&MeasuredPosition| self.from <= flown.time && flown.time <= self.until;
         let compared: Vec<Compared> =
             flown.iter().filter(within).filter_map(|flown| self.compare(*flown)).collect();
         let (known_s, in_beam_s) = self.times(&compared);
@@ -166,19 +170,18 @@ impl FlownPass<'_> {
         let by_size = |a: &&Compared, b: &&Compared| a.error.off_deg.total_cmp(&b.error.off_deg);
         let worst = compared.iter().max_by(by_size);
         let worst = worst.map(|worst| WorstError { at: worst.time, error: worst.error });
-        let is_planned = |loss: &LostStretch| {
-            let planned = matches!(
-                loss.cause,
-                LossCause::OutOfReach | LossCause::RateOfMount | LossCause::Slew
-            );
-            planned && !matches!(self.trackability, Trackability::Whole)
+        let is_planned = |loss: &&LostStretch| {
+            matches!(loss.cause, LossCause::OutOfReach | LossCause::RateOfMount | LossCause::Slew)
         };
+        let planned_s: f64 = losses.iter().filter(is_planned).map(LostStretch::seconds).sum();
+        let could_not_be_had =
+            losses.iter().all(|loss| is_planned(&loss)) && planned_s <= self.allowed_s();
         let not_known_s = counted_s - known_s;
         let share = if counted_s > 0.0 { in_beam_s / counted_s } else { 0.0 };
         let stays_in_beam = losses.iter().all(|loss| loss.cause == LossCause::NotMeasured);
         let verdict = if not_known_s > NOT_KNOWN_S || compared.is_empty() {
             PassVerdict::Poor
-        } else if share >= GOOD && stays_in_beam || losses.iter().all(is_planned) {
+        } else if share >= GOOD && stays_in_beam || could_not_be_had {
             PassVerdict::Good
         } else if share >= FAIR {
             PassVerdict::Fair
@@ -188,11 +191,20 @@ impl FlownPass<'_> {
         PassReport { verdict, counted_s, known_s, in_beam_s, rms: rms(&compared), worst, losses }
     }
 
+    /// Seconds that this mount may lose: an antenna needs some to come back to its satellite.
+    fn allowed_s(&self) -> f64 {
+        match self.trackability {
+            Trackability::Whole => 0.0,
+            Trackability::Loses { seconds, .. } => MORE * seconds + COMES_BACK_S,
+            Trackability::Nothing | Trackability::TooLow => f64::INFINITY,
+        }
+    }
+
     fn direction(&self, at: Timestamp) -> Option<AzEl> {
         self.propagator.look_from(self.site, at).ok().map(|look| look.direction)
     }
 
-    fn compare(&self, flown: Flown) -> Option<Compared> {
+    fn compare(&self, flown: MeasuredPosition) -> Option<Compared> {
         let satellite = self.direction(flown.time)?;
         let ahead = self.direction(crate::astro::time::add_seconds(flown.time, MOTION_S))?;
         let azimuth = flown.pointing.azimuth?;
@@ -264,6 +276,7 @@ impl FlownPass<'_> {
                     .extend(out_since.take().map(|since| end(since, seen_to, has_arrived, false)));
                 let (from, until) = (seen_to, position.time);
                 losses.push(LostStretch { from, until, cause: LossCause::NotMeasured });
+                seen_to = position.time;
             }
             if position.is_in_beam {
                 losses.extend(
@@ -302,6 +315,7 @@ impl FlownPass<'_> {
         if let Trackability::Loses { at, .. } = self.trackability
             && has_arrived
             && !is_over
+            && seconds_between(from, until) <= self.allowed_s()
         {
             return match at {
                 Loss::Keyhole(_) | Loss::Overhead => LossCause::RateOfMount,

@@ -12,6 +12,8 @@ pub(super) const VERSION: i64 = 1;
 const APPLICATION: i64 = 0x417a_656c;
 /// How long a reader and the writer wait for each other.
 const BUSY: Duration = Duration::from_secs(2);
+/// The write-ahead log is cut to this once all readers have let it go.
+const LOG_BYTES: i64 = 16 << 20;
 /// Angles are kept as whole numbers of this part of a degree.
 pub(super) const PER_DEGREE: f64 = 10_000.0;
 
@@ -132,6 +134,7 @@ pub(super) fn open(path: &Path) -> Result<Connection, RecordError> {
     // A reader disturbs no writer, and what was committed outlasts a loss of power.
     db.pragma_update(None, "journal_mode", "WAL")?;
     db.pragma_update(None, "synchronous", "FULL")?;
+    db.pragma_update(None, "journal_size_limit", LOG_BYTES)?;
     Ok(db)
 }
 

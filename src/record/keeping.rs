@@ -3,7 +3,7 @@
 use rusqlite::{Connection, OptionalExtension as _, params};
 
 use super::RecordError;
-use crate::station::Keeping;
+use crate::station::Retention;
 
 const DAY_US: f64 = 86_400e6;
 /// The Julian year.
@@ -13,13 +13,15 @@ const YEAR_D: f64 = 365.25;
 const SLICE_US: i64 = 600_000_000;
 /// Rows of events that are removed at once.
 const SLICE_ROWS: i64 = 2000;
+/// Empty pages that the file keeps: what comes next fills them.
+const SPARE: i64 = 256;
 /// Pages that are given back to the disk at once.
 const PAGES: i64 = 200;
 
 /// Removes a slice of what is older than it is kept. Returns `true` if more may be left.
 pub(super) fn remove_old(
     db: &Connection,
-    keeping: Keeping,
+    keeping: Retention,
     now_us: i64,
 ) -> Result<bool, RecordError> {
     let before = |days: f64| {
@@ -53,8 +55,13 @@ pub(super) fn remove_old(
         let removed = db.prepare_cached(&table)?.execute([before(keeping.years * YEAR_D)])?;
         is_more |= removed > 0;
     }
-    if is_more {
-        db.execute_batch(&format!("PRAGMA incremental_vacuum({PAGES})"))?;
+    let spare: i64 = db.pragma_query_value(None, "freelist_count", |row| row.get(0))?;
+    if spare > SPARE {
+        is_more = true;
+        // It gives a page back with each row.
+        let mut vacuum = db.prepare(&format!("PRAGMA incremental_vacuum({PAGES})"))?;
+        let mut pages = vacuum.query([])?;
+        while pages.next()?.is_some() {}
     }
     Ok(is_more)
 }

@@ -18,7 +18,7 @@ const LATEST_US: i64 = i64::MAX / 2;
 
 /// What a row of the record is.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
-pub enum What {
+pub enum RowKind {
     /// An entry of the station.
     Entry(Kind),
     /// A measured position.
@@ -29,7 +29,7 @@ pub enum What {
     Pass,
 }
 
-impl What {
+impl RowKind {
     /// All, entries first.
     pub fn all() -> impl Iterator<Item = Self> {
         let others = [Self::Pass, Self::Position, Self::Frame];
@@ -55,7 +55,7 @@ pub struct Query {
     pub to: Option<Timestamp>,
     /// Name of the antenna, now or at the time.
     pub antenna: Option<String>,
-    pub what: Vec<What>,
+    pub what: Vec<RowKind>,
 }
 
 /// A row of the record.
@@ -101,7 +101,8 @@ impl Record {
     }
 
     /// Hands the rows that `query` wants and that were not read before to `take`, in order of time,
-    /// until it returns `false`.
+    /// until it returns `false`. `take` must not wait for anybody: meanwhile the file gives no space
+    /// back.
     pub fn read(
         &mut self,
         query: &Query,
@@ -151,7 +152,7 @@ impl Record {
         let from_us = query.from.map_or(EARLIEST_US, Timestamp::as_microsecond);
         let to_us = query.to.map_or(LATEST_US, Timestamp::as_microsecond);
         let mut parts = Vec::new();
-        let is_entry = |what: &&What| matches!(what, What::Entry(_));
+        let is_entry = |what: &&RowKind| matches!(what, RowKind::Entry(_));
         let kinds: Vec<&str> = query.what.iter().filter(is_entry).map(|what| what.word()).collect();
         if !kinds.is_empty() {
             parts.push(format!(
@@ -162,7 +163,7 @@ impl Record {
                 kinds.join("', '")
             ));
         }
-        if query.what.contains(&What::Pass) {
+        if query.what.contains(&RowKind::Pass) {
             parts.push(format!(
                 "SELECT until_us AS utc_us, run, NULL AS steady_us, antenna, 'pass' AS kind, \
                  report, satellite, name, NULL, NULL, NULL, NULL FROM pass \
@@ -183,12 +184,12 @@ impl Record {
                     }
                 }
             };
-        if query.what.contains(&What::Position) {
+        if query.what.contains(&RowKind::Position) {
             let select = "SELECT utc_us, run, steady_us, antenna, 'position' AS kind, azimuth, \
                           elevation, axis_1, axis_2, motion_1, motion_2, limits FROM position";
             of_antennas(select, &now.position_us, &before.position_us);
         }
-        if query.what.contains(&What::Frame) {
+        if query.what.contains(&RowKind::Frame) {
             let select = "SELECT utc_us, run, NULL AS steady_us, antenna, 'frame' AS kind, \
                           is_sent, bytes, length, fault, meaning, reply_us, NULL FROM frame";
             of_antennas(select, &now.frame_us, &before.frame_us);

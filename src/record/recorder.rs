@@ -19,7 +19,7 @@ use super::{Entry, PassNote, writer::Writer};
 use crate::{
     clock::{Clock, Moment},
     driver::{PositionLog, WireLog},
-    station::{AntennaId, Keeping},
+    station::{AntennaId, Retention},
 };
 
 /// Most orders that wait for the writer. A turn of the station makes some ten at most.
@@ -72,7 +72,7 @@ pub(super) struct Shared {
     pub(super) status: Mutex<Status>,
     /// Sessions that the writer does not know of yet.
     pub(super) begun: Mutex<Vec<RecordedSession>>,
-    pub(super) keeping: Mutex<Keeping>,
+    pub(super) keeping: Mutex<Retention>,
     /// Entries for which there was no room.
     pub(super) turned_away: AtomicU64,
 }
@@ -93,7 +93,7 @@ pub struct Recorder {
 impl Recorder {
     /// Starts to record into the file at `path`, on a thread of its own. A file that cannot be
     /// written is tried again and again.
-    pub fn start(path: PathBuf, clock: Clock, keeping: Keeping) -> io::Result<Self> {
+    pub fn start(path: PathBuf, clock: Clock, keeping: Retention) -> io::Result<Self> {
         let (orders, inbox) = mpsc::sync_channel(ORDERS);
         let (tell_ended, ended) = mpsc::sync_channel(1);
         let shared = Arc::new(Shared {
@@ -133,7 +133,7 @@ impl Recorder {
     }
 
     /// Keeps the parts of the record for so long from now on.
-    pub fn keep(&self, keeping: Keeping) {
+    pub fn keep(&self, keeping: Retention) {
         *locked(&self.shared.keeping) = keeping;
     }
 

@@ -17,7 +17,8 @@ use super::{
     tables::Tables,
 };
 use crate::{
-    clock::{Clock, Moment},
+    astro::time::seconds_between,
+    clock::{self, Clock, Moment},
     device::Measured,
     driver::Recorded,
 };
@@ -31,8 +32,11 @@ const RETRY: Duration = Duration::from_secs(2);
 const LOOK: Duration = Duration::from_secs(10);
 /// Most entries that wait for a disk.
 const WAITING: usize = 20_000;
-/// Beyond this the clock of the computer has been set, and nothing is removed by it, seconds.
-const CLOCK_SET_S: i64 = 60;
+/// Beyond this the clock of the computer has been set, seconds.
+const CLOCK_SET_S: f64 = 60.0;
+/// Nothing is removed by a clock that was set until it has gone on for so long: a wrong one does
+/// not stay unseen.
+const TRUSTED_AFTER: Duration = Duration::from_hours(24);
 
 /// A session, and how far it is recorded.
 struct Source {
@@ -73,6 +77,10 @@ pub(super) struct Writer {
     dropped: u64,
     written_at: Timestamp,
     looked_at: Option<Instant>,
+    /// The clocks at the last look, and how long the computer had slept by then.
+    clocks: (Moment, Duration),
+    /// When the clock of the computer was set last.
+    clock_set_at: Option<clock::Instant>,
     shared: Arc<Shared>,
 }
 
@@ -80,6 +88,7 @@ impl Writer {
     pub(super) fn new(clock: Clock, shared: Arc<Shared>) -> Self {
         let begun = clock.now();
         let path = locked(&shared.status).path.clone();
+        let clocks = (begun, clock.asleep());
         Self {
             path,
             clock,
@@ -92,6 +101,8 @@ impl Writer {
             dropped: 0,
             written_at: begun.utc,
             looked_at: None,
+            clocks,
+            clock_set_at: None,
             shared,
         }
     }
@@ -258,11 +269,12 @@ impl Writer {
 
     /// Keeps a file that is no record under another name, so that a new one can begin.
     fn set_aside(&self) {
-        let ending = format!("unreadable-{}", self.clock.utc().as_second());
+        let aside = format!("unreadable-{}", self.clock.utc().as_second());
+        let aside = self.path.with_added_extension(aside);
         for part in ["", "-wal", "-shm"] {
             let from = with_ending(&self.path, part);
             if from.exists() {
-                let to = from.with_added_extension(&ending);
+                let to = with_ending(&aside, part);
                 if let Err(error) = fs::rename(&from, &to) {
                     tracing::error!(%error, "the unreadable record stays in its place");
                 }
@@ -273,14 +285,24 @@ impl Writer {
     fn look_after_file(&mut self) {
         locked(&self.shared.status).bytes = size(&self.path);
         let now = self.clock.now();
-        let Some((db, _)) = &self.open else { return };
-        let steady_s = now.steady.saturating_duration_since(self.begun.steady).as_secs();
-        let utc_s = now.utc.as_second() - self.begun.utc.as_second();
-        let is_clock_set = (utc_s - steady_s.cast_signed()).abs() > CLOCK_SET_S;
+        let asleep = self.clock.asleep();
+        let (before, slept) = std::mem::replace(&mut self.clocks, (now, asleep));
+        let passed = now.steady.saturating_duration_since(before.steady);
+        let expected_s = (passed + asleep.saturating_sub(slept)).as_secs_f64();
+        if (seconds_between(before.utc, now.utc) - expected_s).abs() > CLOCK_SET_S {
+            self.clock_set_at = Some(now.steady);
+        }
+        // By a clock that was set wrongly, everything could be old.
+        let is_trusted = self
+            .clock_set_at
+            .is_none_or(|at| now.steady.saturating_duration_since(at) >= TRUSTED_AFTER);
+        let Some((db, _)) = self.open.as_ref().filter(|_| is_trusted) else {
+            self.looked_at = Some(Instant::now());
+            return;
+        };
         let keeping = *locked(&self.shared.keeping);
-        // By a clock that was set, everything could be old.
-        let is_more = !is_clock_set
-            && keeping::remove_old(db, keeping, now.utc.as_microsecond()).unwrap_or_else(|error| {
+        let is_more =
+            keeping::remove_old(db, keeping, now.utc.as_microsecond()).unwrap_or_else(|error| {
                 tracing::warn!(%error, "old parts of the record stay");
                 false
             });

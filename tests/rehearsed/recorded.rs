@@ -6,7 +6,7 @@ use azel::{
     engine::{Client, Command, record_path},
     orbit::{PassSearch, Propagator, bundled, passes},
     plan::pass_report::PassReport,
-    record::{Row, What},
+    record::{Row, RowKind},
     station::Station,
 };
 use jiff::ToSpan as _;
@@ -18,7 +18,7 @@ use super::{
 
 const ISS: u32 = 25_544;
 
-fn rows(scene: &Scene, what: What) -> Vec<Row> {
+fn rows(scene: &Scene, what: RowKind) -> Vec<Row> {
     let station = scene.folder().join("station.toml");
     record::rows(&record_path(&scene.folder().join("records"), &station), what)
 }
@@ -52,16 +52,16 @@ fn a_pass_that_was_tracked_is_reported_when_it_is_over() {
     let client = scene.client();
     track(&client, "Mast");
     until("its report", || {
-        let reports = rows(&scene, What::Pass);
+        let reports = rows(&scene, RowKind::Pass);
         (!reports.is_empty()).then_some(())
     });
-    let reports = rows(&scene, What::Pass);
+    let reports = rows(&scene, RowKind::Pass);
     let [row] = &reports[..] else { panic!("{reports:?}") };
     assert_eq!(row.antenna.as_deref(), Some("Mast"));
     assert_eq!(row.data["satellite"], ISS);
     let told = &row.data["report"];
     assert_eq!(
-        (&told["by"], &told["elements"]["catalog_number"]),
+        (&told["tracked_by"], &told["elements"]["catalog_number"]),
         (&"program_track".into(), &ISS.into())
     );
     assert!(told["sent"].as_u64().unwrap() > 0, "{told}");
@@ -70,5 +70,5 @@ fn a_pass_that_was_tracked_is_reported_when_it_is_over() {
     assert!(report.known_s > 0.9 * report.counted_s, "{report:?}");
     // Whole degrees inside half of a beam that is wider.
     assert!(report.share() > 0.9, "{report:?}");
-    assert!(rows(&scene, What::Position).len() > 500);
+    assert!(rows(&scene, RowKind::Position).len() > 500);
 }

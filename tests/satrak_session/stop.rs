@@ -198,6 +198,27 @@ async fn auto_track_that_a_stop_does_not_end_is_told() {
 }
 
 #[tokio::test(start_paused = true)]
+async fn a_unit_that_refuses_to_switch_auto_track_off_is_told_again_and_the_operator_once() {
+    let on = format!("{}1", STILL.strip_suffix('0').unwrap());
+    let script = move |payload: &str| match payload {
+        "STATUS?" => vec![(10, on.clone())],
+        "TRACK_AUTO_ENABLE=,0" => vec![(10, "TRACK_AUTO_ENABLE=,ERR".to_owned())],
+        other => plain(other),
+    };
+    let mut unit = Scripted::start(Box::new(script));
+    unit.seconds(3.0).await;
+    unit.handle.stop();
+    unit.seconds(30.0).await;
+    let told = unit.events();
+    let count = told.iter().filter(|event| **event == Event::AutoStaysOn).count();
+    assert_eq!(count, 1, "{told:?}");
+    assert!(unit.sent("TRACK_AUTO_ENABLE=").len() > 8);
+    unit.handle.stop();
+    unit.seconds(5.0).await;
+    assert!(unit.events().contains(&Event::AutoStaysOn), "a new STOP is told of anew");
+}
+
+#[tokio::test(start_paused = true)]
 async fn a_unit_that_does_not_report_auto_track_is_told_of_after_a_stop() {
     let mut rig = Rig::usual().await;
     rig.control.set_quirk(Quirk::Fields15, true);

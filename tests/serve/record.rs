@@ -10,7 +10,7 @@ use std::{
 
 use azel::{
     engine::record_path,
-    record::{Query, Record, Row, What},
+    record::{Query, Record, Row, RowKind},
 };
 use jiff::{SignedDuration, Timestamp};
 use serde_json::Value;
@@ -28,7 +28,7 @@ fn place(units: &Units) -> PathBuf {
     record_path(&units.folder.path().join("data/azel/records"), &units.path())
 }
 
-pub(crate) fn rows(path: &Path, what: What) -> Vec<Row> {
+pub(crate) fn rows(path: &Path, what: RowKind) -> Vec<Row> {
     let mut rows = Vec::new();
     let query = Query { what: vec![what], ..Query::default() };
     let Ok(mut record) = Record::open(path) else { return rows };
@@ -113,7 +113,7 @@ fn a_program_that_is_killed_loses_less_than_a_second_of_its_record() {
         let served = Served::start(&units);
         // The units live at another time of day than this program, and run with it.
         wait_for("positions of this run", || {
-            let rows = rows(&path, What::Position);
+            let rows = rows(&path, RowKind::Position);
             rows.iter().any(|row| row.run == i64::from(kill) && row.time > begun).then_some(())
         });
         // Somewhere between two writes.
@@ -122,7 +122,7 @@ fn a_program_that_is_killed_loses_less_than_a_second_of_its_record() {
         let killed = Timestamp::now();
         served.signal("KILL");
         drop(served);
-        let rows = rows(&path, What::Position);
+        let rows = rows(&path, RowKind::Position);
         let newest = rows.iter().map(|row| row.time).max().unwrap();
         let lost = killed.duration_since(newest);
         assert!(lost <= LOST + BETWEEN, "kill {kill}: {lost:?}");
@@ -164,7 +164,7 @@ fn a_full_disk_costs_nothing_that_was_written_and_the_record_goes_on_when_there_
     let path = place(&units);
     let disk = SmallDisk::at(path.parent().unwrap());
     let served = Served::start(&units);
-    let count = || rows(&path, What::Position).len();
+    let count = || rows(&path, RowKind::Position).len();
     wait_for("a record", || (count() > 5).then_some(()));
     let ballast = disk.0.join("ballast");
     // All that is left of the disk.
@@ -185,6 +185,6 @@ fn a_full_disk_costs_nothing_that_was_written_and_the_record_goes_on_when_there_
     });
     served.until(|told| told["about"] == "alarm_over");
     // The logs of the sessions held what did not fit on the disk.
-    assert_eq!(rows(&path, What::Entry(azel::record::Kind::Gap)), []);
+    assert_eq!(rows(&path, RowKind::Entry(azel::record::Kind::Gap)), []);
     drop(served);
 }

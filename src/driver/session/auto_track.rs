@@ -15,6 +15,16 @@ impl Session {
         if self.variant.capabilities.has_program {
             self.owed.debts.owe_auto_track_off(&self.owed.unit);
             self.owed.auto_track_told = None;
+            self.owed.auto_stays_told = false;
+        }
+    }
+
+    /// The unit has refused to switch auto-track off, or has not answered. It is told again and
+    /// again, and the operator once.
+    pub(super) fn auto_stays_on(&mut self) {
+        let is_told = std::mem::replace(&mut self.owed.auto_stays_told, true);
+        if !is_told || !self.owes_auto_track_off() {
+            self.tell(Event::AutoStaysOn);
         }
     }
 

@@ -102,7 +102,7 @@ impl Session {
                 self.doubt = Some(Doubt { asked, since: now.steady, before_deg });
             }
             ControllerEvent::HaltRefused(code) => self.tell(Event::StopRefused(code)),
-            ControllerEvent::AutoStaysOn => self.tell(Event::AutoStaysOn),
+            ControllerEvent::AutoStaysOn => self.auto_stays_on(),
         }
     }
 

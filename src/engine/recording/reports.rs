@@ -17,7 +17,7 @@ use crate::{
     orbit::{Elements, PassSearch, Propagator, passes},
     plan::{
         MountLimits, Sample, TrackPhase, Trackability,
-        pass_report::{Evidence, Explanation, Flown, FlownPass, PassReport},
+        pass_report::{Evidence, Explanation, MeasuredPosition, PassReport, TrackedPass},
         trackability,
     },
     record::{PassNote, PassPoint},
@@ -29,6 +29,8 @@ use crate::{
 const REACH_S: f64 = 6.0 * 3600.0;
 /// Time from the end of a pass to its report: the last position may still be on its way, seconds.
 const AFTER_S: f64 = 3.0;
+/// A pass that is not there is looked for again after this time, seconds.
+const SOUGHT_AGAIN_S: f64 = 60.0;
 /// Time between two samples for the trackability, seconds.
 const STEP_S: f64 = 2.0;
 /// Least time between two points that are kept of the track, seconds.
@@ -48,7 +50,7 @@ pub(super) struct Followed {
     about: About,
     positions: PositionLog,
     next_position: u64,
-    flown: Vec<Flown>,
+    flown: Vec<MeasuredPosition>,
 }
 
 /// What is told of a track besides its positions.
@@ -56,7 +58,7 @@ pub(super) struct Followed {
 struct About {
     /// When it was first seen to be tracked.
     begun: Timestamp,
-    by: TrackedBy,
+    tracked_by: TrackedBy,
     /// Positions that were sent, with program track.
     sent: Option<u32>,
     /// The unit's clock against ours, seconds.
@@ -142,6 +144,13 @@ impl Engine {
         if self.recording.followed.iter().any(is_known) {
             return;
         }
+        let sought = (shown.id(), number);
+        let is_soon = |(of, at): &(_, Timestamp)| {
+            *of == sought && seconds_between(*at, now).abs() < SOUGHT_AGAIN_S
+        };
+        if self.recording.sought.iter().any(is_soon) {
+            return;
+        }
         let CatalogState::Ready(catalog) = &self.catalog else { return };
         let Some(elements) = catalog.get(number) else { return };
         let Ok(propagator) = Propagator::new(elements) else { return };
@@ -157,7 +166,10 @@ impl Engine {
         };
         let found = passes(&propagator, &search, &|| false);
         let is_now = |pass: &&crate::orbit::Pass| pass.aos.time <= now && now <= pass.los.time;
-        let Some(pass) = found.iter().find(is_now) else { return };
+        let Some(pass) = found.iter().find(is_now) else {
+            self.recording.sought.retain(|((antenna, _), _)| *antenna != sought.0);
+            return self.recording.sought.push((sought, now));
+        };
         // Of one that does not rise, what was before the track is nobody's loss.
         let from = if pass.starts_before { now } else { pass.aos.time };
         let until = pass.los.time;
@@ -182,12 +194,12 @@ impl Engine {
 
 impl About {
     fn of(antenna: &AntennaModel, begun: Timestamp, sync: TimeSync) -> Self {
-        let by = match () {
+        let tracked_by = match () {
             () if antenna.follows() => TrackedBy::ProgramTrack,
             () if antenna.tracks_unasked() => TrackedBy::Elsewhere,
             () => TrackedBy::OnBoard,
         };
-        Self { begun, by, sent: None, unit_clock_ahead_s: None, sync }
+        Self { begun, tracked_by, sent: None, unit_clock_ahead_s: None, sync }
     }
 }
 
@@ -220,7 +232,7 @@ impl Followed {
         let (first, positions) = self.positions.read_from(self.next_position);
         self.next_position = first + positions.len() as u64;
         let within = positions.iter().filter(|it| self.from <= it.at && it.at <= self.until);
-        self.flown.extend(within.map(|it| Flown { time: it.at, pointing: it.pointing }));
+        self.flown.extend(within.map(|it| MeasuredPosition { time: it.at, pointing: it.pointing }));
     }
 
     /// Starts the work on the report; `None` where there is no thread for it.
@@ -231,7 +243,7 @@ impl Followed {
     }
 
     fn note(self, history: Option<&History>) -> PassNote {
-        let report = FlownPass {
+        let report = TrackedPass {
             propagator: &self.propagator,
             site: self.site,
             from: self.from,
@@ -269,7 +281,7 @@ impl Followed {
         let mut points: Vec<PassPoint> = Vec::new();
         for flown in &self.flown {
             if points.last().is_none_or(|last| seconds_between(last.time, flown.time) >= POINT_S) {
-                let Flown { time, pointing } = *flown;
+                let MeasuredPosition { time, pointing } = *flown;
                 points.push(PassPoint { time, pointing });
             }
         }

@@ -30,8 +30,9 @@ impl Engine {
     fn tell_unit(&mut self, request: Option<SessionRequest>) {
         let Some(request) = request else { return };
         let name = &self.uploads.antenna;
-        let antenna = self.antennas.iter_mut().find(|one| one.shown.config.name == *name);
-        let Some(antenna) = antenna else {
+        let place = self.antennas.iter().position(|one| one.shown.config.name == *name);
+        let Some((place, antenna)) = place.and_then(|at| Some((at, self.antennas.get_mut(at)?)))
+        else {
             let text = "the antenna is not in the station any more".to_owned();
             return self.upload_runner.not_selected(text, &mut self.uploads);
         };
@@ -43,9 +44,14 @@ impl Engine {
             }
             SessionRequest::Use(selection) => vec![selection.command()],
         };
-        let number = self.asked.unwrap_or_else(|| self.driver.orders().next());
+        let number = self.number();
         let mut commands = commands.into_iter();
-        if commands.any(|command| antenna.handle.send_as(command, number).is_err()) {
+        let is_turned_away = commands.any(|command| {
+            self.note_sent(place, &command);
+            let antenna = self.antennas.get(place);
+            antenna.is_none_or(|antenna| antenna.handle.send_as(command, number).is_err())
+        });
+        if is_turned_away {
             let text = "the session of the antenna is too busy to take it".to_owned();
             self.upload_runner.not_selected(text, &mut self.uploads);
         }

@@ -2,14 +2,14 @@
 
 use jiff::Timestamp;
 
-use super::{Flown, FlownPass, LossCause, PassReport, PassVerdict};
+use super::{LossCause, LostStretch, MeasuredPosition, PassReport, PassVerdict, TrackedPass};
 use crate::{
     astro::{
         Angle, AzEl, Site,
         time::{add_seconds, seconds_between},
     },
     orbit::{Pass, PassSearch, Propagator, bundled, passes},
-    plan::{MountLimits, Trackability},
+    plan::{Loss, MountLimits, Trackability},
     station::{Mount, Station},
 };
 
@@ -37,8 +37,8 @@ impl Scene {
         Self { propagator, site, pass }
     }
 
-    fn flown_pass(&self) -> FlownPass<'_> {
-        FlownPass {
+    fn flown_pass(&self) -> TrackedPass<'_> {
+        TrackedPass {
             propagator: &self.propagator,
             site: self.site,
             from: self.pass.aos.time,
@@ -65,13 +65,13 @@ impl Scene {
 
     /// Positions all through the pass: at each second of it, the direction at which the antenna
     /// points, if it tells one.
-    fn flown(&self, points: impl Fn(f64, Timestamp) -> Option<AzEl>) -> Vec<Flown> {
+    fn flown(&self, points: impl Fn(f64, Timestamp) -> Option<AzEl>) -> Vec<MeasuredPosition> {
         let (from, until) = (self.pass.aos.time, self.pass.los.time);
         let count = (seconds_between(from, until) / STEP_S) as u32;
         let at = |step: u32| add_seconds(from, f64::from(step) * STEP_S);
         let flown = (0..=count).filter_map(|step| {
             let direction = points(f64::from(step) * STEP_S, at(step))?;
-            Some(Flown { time: at(step), pointing: direction.into() })
+            Some(MeasuredPosition { time: at(step), pointing: direction.into() })
         });
         flown.collect()
     }
@@ -145,6 +145,47 @@ fn a_stretch_without_positions_is_not_known_and_makes_a_pass_poor() {
     let short = |second: f64| (100.0..103.0).contains(&second);
     let report = scene.report(|second, at| (!short(second)).then(|| scene.direction(at)));
     assert_eq!(report.verdict, PassVerdict::Fair, "3 s of it are not known");
+}
+
+#[test]
+fn what_the_mount_had_to_lose_is_no_fault_and_no_excuse_for_more() {
+    let scene = Scene::new();
+    let aside = |at: Timestamp| {
+        let mut direction = scene.direction(at);
+        direction.elevation = direction.elevation + Angle::from_degrees(20.0);
+        direction
+    };
+    let report = |lost: std::ops::Range<f64>| {
+        let seen = scene.flown(|second, at| {
+            Some(if lost.contains(&second) { aside(at) } else { scene.direction(at) })
+        });
+        let trackability = Trackability::Loses { seconds: 8.0, at: Loss::Overhead };
+        TrackedPass { trackability, ..scene.flown_pass() }.report(&seen)
+    };
+    let planned = report(150.0..158.0);
+    assert_eq!(
+        (planned.verdict, causes(&planned)),
+        (PassVerdict::Good, vec![LossCause::RateOfMount])
+    );
+    let more = report(150.0..250.0);
+    assert_eq!((more.verdict, causes(&more)), (PassVerdict::Poor, vec![LossCause::NotExplained]));
+}
+
+#[test]
+fn seconds_are_lost_once_also_where_positions_come_back_outside_of_the_beam() {
+    let scene = Scene::new();
+    let report = scene.report(|second, at| match second {
+        _ if (100.0..106.0).contains(&second) => None,
+        _ if (106.0..110.0).contains(&second) => {
+            let mut direction = scene.direction(at);
+            direction.elevation = direction.elevation + Angle::from_degrees(20.0);
+            Some(direction)
+        }
+        _ => Some(scene.direction(at)),
+    });
+    assert_eq!(causes(&report), [LossCause::NotMeasured, LossCause::NotExplained]);
+    let lost_s: f64 = report.losses.iter().map(LostStretch::seconds).sum();
+    assert!(is_close(lost_s, 10.0, 3.0 * STEP_S), "{:?}", report.losses);
 }
 
 #[test]

@@ -1,12 +1,12 @@
 //! Reads how long the record is kept.
 
 use super::Fields;
-use crate::station::{Keeping, ranges};
+use crate::station::{Retention, ranges};
 
 impl Fields<'_> {
-    pub(super) fn keeping(&mut self) -> Keeping {
-        let default = Keeping::default();
-        self.inner("record", |fields| Keeping {
+    pub(super) fn keeping(&mut self) -> Retention {
+        let default = Retention::default();
+        self.inner("record", |fields| Retention {
             raw_days: fields.number("raw_days", &ranges::RAW_DAYS, default.raw_days),
             years: fields.number("years", &ranges::RECORD_YEARS, default.years),
         })

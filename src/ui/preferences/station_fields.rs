@@ -7,7 +7,7 @@ use super::{
 use crate::{
     astro::Site,
     device::settings::{Kind, Value},
-    station::{Antenna, Favourites, Frequency, Keeping, Notices, OnClose, Station, ranges},
+    station::{Antenna, Favourites, Frequency, Notices, OnClose, Retention, Station, ranges},
 };
 
 /// Labels of the place.
@@ -34,7 +34,7 @@ pub(in crate::ui) struct Ground {
     favourites: Favourites,
     frequencies: Vec<Frequency>,
     on_close: Option<OnClose>,
-    record: Keeping,
+    record: Retention,
     /// What other views edit comes from here.
     elsewhere: Box<Station>,
 }
