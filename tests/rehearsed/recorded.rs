@@ -4,16 +4,16 @@ use std::num::NonZeroU32;
 
 use azel::{
     engine::{Client, Command, record_path},
-    orbit::{PassSearch, Propagator, bundled, passes},
+    orbit::{Pass, PassSearch, Propagator, bundled, passes},
     plan::pass_report::PassReport,
-    record::{Row, RowKind},
+    record::{Kind, Row, RowKind},
     station::Station,
 };
 use jiff::ToSpan as _;
 
 use super::{
     super::serve::record,
-    scene::{self, Scene, antenna, measured, start, until},
+    scene::{self, Scene, antenna, measured, operation, set_automatic, start, until},
 };
 
 const ISS: u32 = 25_544;
@@ -21,6 +21,16 @@ const ISS: u32 = 25_544;
 fn rows(scene: &Scene, what: RowKind) -> Vec<Row> {
     let station = scene.folder().join("station.toml");
     record::rows(&record_path(&scene.folder().join("records"), &station), what)
+}
+
+fn next_pass(station: &Station) -> Pass {
+    let propagator = Propagator::new(bundled().unwrap().get(ISS).unwrap()).unwrap();
+    let search = PassSearch {
+        aos_elevation: station.aos_elevation(),
+        floor: station.elevation_floor(),
+        ..PassSearch::new(station.site, start(), start() + 24.hours())
+    };
+    passes(&propagator, &search, &|| false)[0]
 }
 
 /// Tracks the next pass of the ISS that is listed, with the antenna of this name.
@@ -40,13 +50,7 @@ fn track(client: &Client, name: &str) {
 #[test]
 fn a_pass_that_was_tracked_is_reported_when_it_is_over() {
     let station = Station { favourites: [ISS].into(), ..scene::station() };
-    let propagator = Propagator::new(bundled().unwrap().get(ISS).unwrap()).unwrap();
-    let search = PassSearch {
-        aos_elevation: station.aos_elevation(),
-        floor: station.elevation_floor(),
-        ..PassSearch::new(station.site, start(), start() + 24.hours())
-    };
-    let pass = passes(&propagator, &search, &|| false)[0];
+    let pass = next_pass(&station);
     let speed = NonZeroU32::new(40).unwrap();
     let scene = Scene::with(pass.aos.time - 4.minutes(), speed, &station);
     let client = scene.client();
@@ -71,4 +75,27 @@ fn a_pass_that_was_tracked_is_reported_when_it_is_over() {
     // Whole degrees inside half of a beam that is wider.
     assert!(report.share() > 0.9, "{report:?}");
     assert!(rows(&scene, RowKind::Position).len() > 500);
+}
+
+#[test]
+fn what_automatic_operation_does_is_in_the_record() {
+    let station = Station { favourites: [ISS].into(), ..scene::station() };
+    let pass = next_pass(&station);
+    let speed = NonZeroU32::new(40).unwrap();
+    let scene = Scene::with(pass.aos.time - 6.minutes(), speed, &station);
+    let client = scene.client();
+    let mast = measured(&client, "Mast");
+    set_automatic(&client, mast, true);
+    until("the pass", || operation(&client, mast).taking()?.proved_at);
+    let is_track = |row: &Row| {
+        let data = &row.data;
+        let what = &data["command"]["Antenna"][1];
+        data["by"] == "station" && what["ProgramTrack"]["target"]["Satellite"].is_object()
+    };
+    until("its command", || {
+        let commands = rows(&scene, RowKind::Entry(Kind::Command));
+        commands.iter().any(is_track).then_some(())
+    });
+    let day = rows(&scene, RowKind::Entry(Kind::Day));
+    assert_eq!(day[0].data["what"], "switched_on", "{day:?}");
 }
