@@ -26,6 +26,8 @@ pub(super) struct Menu<'a> {
     pub(super) model: &'a Model,
     /// The set in use.
     pub(super) elements: &'a Elements,
+    /// The newest set, where it is not the one in use.
+    pub(super) newest: Option<&'a Elements>,
     pub(super) detail: Option<&'a ObjectDetail>,
 }
 
@@ -58,7 +60,7 @@ impl Menu<'_> {
             }
         });
         let is_free = self.model.sources.is_free();
-        let word = if elements.epoch() > self.elements.epoch() {
+        let word = if self.is_newest(elements.epoch()) {
             "Use the newest set\u{2026}"
         } else {
             "Use this set\u{2026}"
@@ -78,14 +80,13 @@ impl Menu<'_> {
     /// The question whether the set with this epoch is to be used.
     pub(super) fn ask(&self, epoch: Timestamp) -> Question {
         let catalog_number = self.elements.catalog_number();
-        let is_newest = epoch > self.elements.epoch();
-        let (which, until, yes, choice) = if is_newest {
+        let (which, until, yes, choice) = if self.is_newest(epoch) {
             let choice = SetChoice::Newest { catalog_number };
             ("newest set", "", "Use the newest", choice)
         } else {
             let until = " It stays in use until newer elements come or you end it.";
             let choice = SetChoice::Older { catalog_number, epoch };
-            ("older set", until, "Use this set", choice)
+            ("set", until, "Use this set", choice)
         };
         let label = self.elements.label();
         let when = format::minute(epoch, self.model.now);
@@ -95,6 +96,10 @@ impl Menu<'_> {
             yes,
             command: UiCommand::Station(Command::UseSet(choice)),
         }
+    }
+
+    fn is_newest(&self, epoch: Timestamp) -> bool {
+        self.newest.is_some_and(|newest| newest.epoch() == epoch)
     }
 
     /// What changes at the next pass with the set of this epoch.
@@ -110,23 +115,24 @@ impl Menu<'_> {
         };
         let at = format::moment(pass.pass.tca.time, self.model.now);
         let angle = format::degrees(off.degrees(), 2);
-        let off_now = match shift.late_s {
-            Some(late_s) => {
-                let way = if late_s < 0.0 { "earlier" } else { "later" };
-                let time = format::number(late_s.abs(), sets::time_decimals(late_s));
-                format!("it puts the satellite {time} s {way} and up to {angle} away")
-            }
-            None => format!("it puts the satellite up to {angle} away, and has no such pass"),
-        };
         let beam = self.model.antenna().map_or_else(String::new, |antenna| {
             let half_deg = antenna.config.beam_width_deg / 2.0;
             let side = if off.degrees() > half_deg { "more" } else { "less" };
             format!(
-                ", {side} than the half beam of {}, {}",
+                ", {side} than half the beam width of {} ({})",
                 antenna.config.name,
                 format::degrees(half_deg, 2)
             )
         });
-        format!("At the next pass, {at}, {off_now}{beam}.")
+        let away = format!("up to {angle} away from where the set in use puts it{beam}");
+        let shifted = match shift.late_s {
+            Some(late_s) => {
+                let way = if late_s < 0.0 { "earlier" } else { "later" };
+                let time = format::number(late_s.abs(), sets::time_decimals(late_s));
+                format!("{time} s {way} and {away}")
+            }
+            None => format!("{away}, and predicts no pass at that time"),
+        };
+        format!("At the next pass, {at}, this set puts the satellite {shifted}.")
     }
 }

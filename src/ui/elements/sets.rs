@@ -87,7 +87,7 @@ pub(super) fn show(
     let at = pos2(at.x, first.center().y);
     icons::paint(ui.painter(), paint::square(at, 11.0), icon, colour);
     let half_beam_deg = model.antenna().map(|antenna| antenna.config.beam_width_deg / 2.0);
-    let menu = set_menu::Menu { model, elements, detail };
+    let menu = set_menu::Menu { model, elements, newest, detail };
     for (index, set) in detail.map(|of| of.sets.as_slice()).unwrap_or_default().iter().enumerate() {
         let row = line(HEAD + (index + 1) as f32 * LINE);
         let response = one(ui, row, index, set, half_beam_deg, model.now);

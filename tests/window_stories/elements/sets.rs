@@ -12,6 +12,7 @@ use azel::{
     model::{Model, UiCommand},
     orbit::{Elements, Source, SourcePlace, read_elements, write_omm_json},
     station,
+    ui::format,
 };
 use egui::{Key, Role};
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
@@ -38,9 +39,10 @@ fn with_epoch(model: &Model, epoch: &str) -> Elements {
     read_elements(&list.to_string()).elements.remove(0)
 }
 
-/// Shows a set of NOAA 20 that is not in use.
-fn hold(window: &mut Window, elements: Elements) {
-    let sets = vec![OlderSet { elements, source: "weather".to_owned() }];
+/// Shows sets of NOAA 20 that are not in use.
+fn hold(window: &mut Window, sets: impl IntoIterator<Item = Elements>) {
+    let of_weather = |elements| OlderSet { elements, source: "weather".to_owned() };
+    let sets = sets.into_iter().map(of_weather).collect();
     let older = OlderSets { catalog_number: NOAA_20, sets };
     window.state_mut().model.older_sets = Some(Arc::new(older));
     settle(window);
@@ -68,16 +70,16 @@ fn an_older_set_stands_against_the_one_in_use_and_is_used_after_a_question() {
         assert!(says(&window, "Sets held, against the one in use, at "));
         let older = with_epoch(&window.state().model, "2026-08-10T02:04:00");
         let epoch = older.epoch();
-        hold(&mut window, older);
+        hold(&mut window, [older]);
         asked(&mut window);
         let row = "Set of 10 Aug 02:04Z from weather: ";
         open_menu(&mut window, row);
         assert!(says(&window, "Mean motion"), "a click shows its elements");
         click(&mut window, "Use this set\u{2026}");
         assert_eq!(asked(&mut window), []);
-        assert!(says(&window, "Use the older set of 10 Aug 02:04Z for NOAA 20"));
+        assert!(says(&window, "Use the set of 10 Aug 02:04Z for NOAA 20"));
         assert!(says(&window, "At the next pass, "), "with what it changes");
-        assert!(says(&window, "than the half beam of "));
+        assert!(says(&window, "than half the beam width of "));
         assert!(says(&window, "until newer elements come or you end it."));
         window.key_press(Key::Enter);
         let choice = SetChoice::Older { catalog_number: NOAA_20, epoch };
@@ -97,7 +99,7 @@ fn while_an_older_set_is_in_use_it_is_told_and_the_newest_is_one_click_away() {
         write(&mut window, "Search the catalogue", "43013");
         window.get_by_label_contains("from weather, an older set by choice, next pass ");
         detail(&mut window, size);
-        hold(&mut window, newest);
+        hold(&mut window, [newest]);
         asked(&mut window);
         assert!(says(&window, "older set, weather"));
         assert!(says(&window, "Not in use: the newest, "));
@@ -113,6 +115,37 @@ fn while_an_older_set_is_in_use_it_is_told_and_the_newest_is_one_click_away() {
         settle(&mut window);
         let button = window.get_by_role_and_label(Role::Button, "Use the newest");
         assert!(button.accesskit_node().is_disabled(), "it would not be taken now");
+    }
+}
+
+#[test]
+fn a_set_between_the_older_one_in_use_and_the_newest_is_not_called_the_newest() {
+    for size in SIZES {
+        let mut window = view(size, Vec::new());
+        let model = &mut window.state_mut().model;
+        let in_use = with_epoch(model, "2026-08-03T02:04:00");
+        let between = with_epoch(model, "2026-08-05T02:04:00");
+        let CatalogState::Ready(catalog) = &mut model.catalog else { unreachable!() };
+        let newest = catalog.get(NOAA_20).unwrap().clone();
+        Arc::make_mut(catalog).use_in_place(in_use, "weather");
+        detail(&mut window, size);
+        let (epoch, newest_epoch) = (between.epoch(), newest.epoch());
+        assert!(newest_epoch > epoch);
+        hold(&mut window, [newest, between]);
+        asked(&mut window);
+        open_menu(&mut window, "Set of 5 Aug 02:04Z from weather: ");
+        click(&mut window, "Use this set\u{2026}");
+        assert!(says(&window, "Use the set of 5 Aug 02:04Z for NOAA 20"));
+        window.key_press(Key::Enter);
+        let choice = SetChoice::Older { catalog_number: NOAA_20, epoch };
+        assert_eq!(asked(&mut window), [use_set(choice)]);
+
+        let row = format!("Set of {} from weather: ", format::minute(newest_epoch, rig::now()));
+        open_menu(&mut window, &row);
+        click(&mut window, "Use the newest set\u{2026}");
+        window.key_press(Key::Enter);
+        let choice = SetChoice::Newest { catalog_number: NOAA_20 };
+        assert_eq!(asked(&mut window), [use_set(choice)]);
     }
 }
 
