@@ -69,23 +69,31 @@ impl OwnKeys {
         if key != slot.usual && !is_shortcut(key) {
             return Err(Clash::NoShortcut);
         }
+        if let Some(holder) = self.holder(slot, key) {
+            return Err(Clash::Taken(holder.does));
+        }
+        self.put(slot, key);
+        Ok(())
+    }
+
+    /// The binding that has `key` where the key of `slot` works, other than by `slot` itself.
+    fn holder(&self, slot: Slot, key: Key) -> Option<&'static Binding> {
         let mut others = ALL
             .iter()
             .filter(|other| other.modifiers == Modifiers::NONE && overlap(other.place, slot.place));
-        let holder = others.find(|other| {
+        others.find(|other| {
             other.keys().any(|usual| {
                 let is_itself = other.place == slot.place && usual == slot.usual;
                 !is_itself && self.of(other.place, usual) == key
             })
-        });
-        if let Some(holder) = holder {
-            return Err(Clash::Taken(holder.does));
-        }
+        })
+    }
+
+    fn put(&mut self, slot: Slot, key: Key) {
         self.chosen.retain(|(known, _)| *known != slot);
         if key != slot.usual {
             self.chosen.push((slot, key));
         }
-        Ok(())
     }
 
     /// The chosen keys as words, to be kept: place, usual key, own key.
@@ -100,10 +108,18 @@ impl OwnKeys {
             let slot = ALL.iter().flat_map(Binding::slots).find(|slot| {
                 slot.place.word() == place && Some(slot.usual) == Key::from_name(usual)
             });
-            if let (Some(slot), Some(key)) = (slot, Key::from_name(key)) {
-                // A clash leaves the usual key.
-                let _ = own.choose(slot, key);
+            let key = Key::from_name(key).filter(|key| is_shortcut(*key));
+            if let (Some(slot), Some(key)) = (slot, key) {
+                own.put(slot, key);
             }
+        }
+        // Only the whole table tells what clashes: one key may have been freed by another. A key
+        // that is left out takes back its usual one, which may clash in turn.
+        let clashes = |own: &Self| {
+            own.chosen.iter().rposition(|(slot, key)| own.holder(*slot, *key).is_some())
+        };
+        while let Some(last) = clashes(&own) {
+            own.chosen.remove(last);
         }
         own
     }
@@ -139,6 +155,8 @@ fn is_shortcut(key: Key) -> bool {
 
 #[cfg(test)]
 mod tests {
+    use proptest::prelude::*;
+
     use super::*;
 
     fn slot(place: KeyScope, usual: Key) -> Slot {
@@ -185,5 +203,47 @@ mod tests {
         let odd =
             [["operate", "T", "J"], ["operate", "N", "A"], ["x", "N", "J"], ["map", "L", "?"]];
         assert_eq!(OwnKeys::from_kept(odd), OwnKeys::default());
+    }
+
+    #[test]
+    fn a_chain_of_keys_and_a_swap_come_back() {
+        let (next, drawer) = (slot(KeyScope::Operate, Key::N), slot(KeyScope::Operate, Key::P));
+        for choices in [
+            [(next, Key::J), (drawer, Key::N), (next, Key::L)],
+            [(next, Key::J), (drawer, Key::N), (next, Key::P)],
+        ] {
+            let mut own = OwnKeys::default();
+            for (slot, key) in choices {
+                own.choose(slot, key).unwrap();
+            }
+            assert_eq!(OwnKeys::from_kept(own.kept()), own);
+        }
+    }
+
+    #[test]
+    fn of_two_kept_keys_that_clash_the_first_stays() {
+        let kept = [["operate", "N", "J"], ["operate", "P", "J"]];
+        let mut first = OwnKeys::default();
+        first.choose(slot(KeyScope::Operate, Key::N), Key::J).unwrap();
+        assert_eq!(OwnKeys::from_kept(kept), first);
+        let chain = [["operate", "N", "A"], ["operate", "P", "N"]];
+        assert_eq!(OwnKeys::from_kept(chain), OwnKeys::default(), "N stays, so P cannot have it");
+    }
+
+    proptest! {
+        #[test]
+        fn keys_come_back_as_they_were_after_any_choices(
+            choices in prop::collection::vec((any::<usize>(), any::<usize>()), 0..60)
+        ) {
+            let slots: Vec<Slot> = ALL.iter().flat_map(Binding::slots).collect();
+            // Few keys, so that they are often taken, freed and swapped.
+            let mut keys: Vec<Key> = slots.iter().map(|slot| slot.usual).collect();
+            keys.extend([Key::J, Key::X, Key::F5]);
+            let mut own = OwnKeys::default();
+            for (slot, key) in choices {
+                let _ = own.choose(slots[slot % slots.len()], keys[key % keys.len()]);
+                prop_assert_eq!(OwnKeys::from_kept(own.kept()), own.clone());
+            }
+        }
     }
 }
