@@ -158,6 +158,11 @@ impl PreferencesState {
         self.keys.waits()
     }
 
+    /// To be called in each frame that does not show the preferences.
+    pub(super) fn leave(&mut self) {
+        self.keys.stop_waiting();
+    }
+
     /// Shows the page of this antenna.
     pub fn show_antenna(&mut self, antenna: AntennaId) {
         self.page = Page::Antenna(antenna);
@@ -212,6 +217,9 @@ fn show_page(
     state: &mut PreferencesState,
     commands: &mut Vec<UiCommand>,
 ) {
+    if state.page != Page::Keys {
+        state.keys.stop_waiting();
+    }
     if state.page == Page::Horizon {
         let antennas = draft.antenna_names();
         let (skies, horizon) = (&mut draft.skies, &mut state.horizon);

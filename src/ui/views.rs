@@ -117,6 +117,9 @@ impl Views {
         let (window, before) = (ui.max_rect(), commands.len());
         let top = window.with_max_y(window.top() + top_bar::height(window.height()));
         bar::show(ui, top, model, commands);
+        if model.view != View::Preferences {
+            self.preferences.leave();
+        }
         let mut targets = KeyTargets {
             question: &mut self.question,
             operate: &mut self.operate,

@@ -317,7 +317,7 @@ fn a_key_is_changed_by_a_press_and_one_that_is_taken_is_refused_by_name() {
 
     window.state_mut().model.view = View::Preferences;
     settle(&mut window);
-    press(&mut window, Role::Button, "Use the usual keys");
+    press(&mut window, Role::Button, "Restore default keys");
     assert!(says(&window, &format!("N: {next}")));
 }
 
@@ -338,6 +338,47 @@ fn stop_stays_on_esc_while_a_key_is_waited_for() {
     settle(&mut window);
     assert!(says(&window, "N: the pass in progress or the next one"));
     assert_eq!(window.state().views.kept().keys, OwnKeys::default());
+}
+
+#[test]
+fn a_key_with_shift_or_esc_changes_no_key_and_says_what_is_wanted() {
+    let mut window = form(LARGE);
+    open(&mut window, "Keys");
+    let next = "the pass in progress or the next one";
+    let unchanged = format!("N: {next}");
+    let is_modified = "Press one key alone, without Ctrl, Shift or Alt.";
+    let is_odd = "Space cannot be used here: choose a letter, a digit or F5 to F12.";
+    for (modifiers, key, words) in [
+        (Modifiers::SHIFT, Key::J, is_modified),
+        (Modifiers::SHIFT, Key::Escape, &unchanged),
+        (Modifiers::NONE, Key::Space, is_odd),
+    ] {
+        press(&mut window, Role::Button, &format!("Change N: {next}"));
+        window.key_press_modifiers(modifiers, key);
+        settle(&mut window);
+        assert_eq!(window.state().views.kept().keys, OwnKeys::default(), "{key:?}");
+        assert!(says(&window, words), "{words}");
+    }
+}
+
+#[test]
+fn a_key_is_no_longer_waited_for_once_its_page_is_left() {
+    let mut window = form(LARGE);
+    let next = "the pass in progress or the next one";
+    let waiting = "Press a key in place of N";
+    open(&mut window, "Keys");
+    press(&mut window, Role::Button, &format!("Change N: {next}"));
+    window.get_by_role_and_label(Role::Button, waiting);
+    open(&mut window, "Site");
+    open(&mut window, "Keys");
+    assert!(window.query_by_role_and_label(Role::Button, waiting).is_none(), "another page");
+
+    press(&mut window, Role::Button, &format!("Change N: {next}"));
+    window.state_mut().model.view = View::Operate;
+    window.state_mut().model.selected = None;
+    rig::asked(&mut window);
+    window.key_press(Key::N);
+    assert!(matches!(rig::asked(&mut window)[..], [UiCommand::SelectPass(_)]), "another view");
 }
 
 #[test]

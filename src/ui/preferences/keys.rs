@@ -38,12 +38,26 @@ pub(super) struct KeysState {
     pub(super) own: OwnKeys,
     /// The key for which another one is to be pressed.
     waiting: Option<Slot>,
-    refused: Option<(Slot, Key, Clash)>,
+    refused: Option<(Slot, Refusal)>,
+}
+
+/// Why a pressed key was not taken.
+#[derive(Clone, Copy)]
+enum Refusal {
+    /// It was pressed with Ctrl, Shift or Alt.
+    Modified,
+    Clash(Key, Clash),
 }
 
 impl KeysState {
     pub(super) fn waits(&self) -> bool {
         self.waiting.is_some()
+    }
+
+    /// Waits for no key any more. To be called wherever the page is not shown: a key pressed
+    /// there belongs to what is.
+    pub(super) fn stop_waiting(&mut self) {
+        self.waiting = None;
     }
 
     /// Takes the key that is pressed in this frame, if one is waited for. Esc is STOP, also here.
@@ -65,11 +79,13 @@ impl KeysState {
         });
         let Some((key, is_plain)) = pressed else { return };
         self.waiting = None;
-        self.refused = match self.own.choose(slot, key) {
-            _ if key == Key::Escape => None,
-            _ if !is_plain => Some((slot, key, Clash::NoShortcut)),
-            Ok(()) => None,
-            Err(clash) => Some((slot, key, clash)),
+        self.refused = match (key, is_plain) {
+            (Key::Escape, _) => None,
+            (_, false) => Some((slot, Refusal::Modified)),
+            (_, true) => {
+                let clash = self.own.choose(slot, key).err();
+                clash.map(|clash| (slot, Refusal::Clash(key, clash)))
+            }
         };
     }
 }
@@ -94,7 +110,7 @@ pub(super) fn card_of(ui: &mut Ui, card: usize, state: &mut KeysState) {
         }
         if card == 0 && state.own != OwnKeys::default() {
             ui.add_space(8.0);
-            if ui.button("Use the usual keys").clicked() {
+            if ui.button("Restore default keys").clicked() {
                 *state = KeysState::default();
             }
         }
@@ -123,7 +139,7 @@ fn row(ui: &mut Ui, binding: &Binding, state: &mut KeysState) {
     let does = Rect::from_min_max(pos2(place.right().max(left + GAP), place.top()), rect.max);
     let refused = state.refused.filter(|(slot, ..)| slots.contains(slot));
     let (said, colour) = match refused {
-        Some((_, key, clash)) => (refusal(key, clash), t.bad),
+        Some((_, refusal)) => (refusal_in_words(refusal), t.bad),
         None => (binding.does.to_owned(), t.t2),
     };
     paint::text_in(ui, does, Align2::LEFT_CENTER, &said, text::body(), colour);
@@ -131,12 +147,13 @@ fn row(ui: &mut Ui, binding: &Binding, state: &mut KeysState) {
     paint::name_text(ui, ("key", binding.does), does, &spoken).on_hover_text(&spoken);
 }
 
-fn refusal(key: Key, clash: Clash) -> String {
-    match clash {
-        Clash::NoShortcut => {
-            format!("{} cannot be chosen: a letter, a digit or F5 to F12 can.", word(key))
+fn refusal_in_words(refusal: Refusal) -> String {
+    match refusal {
+        Refusal::Modified => "Press one key alone, without Ctrl, Shift or Alt.".to_owned(),
+        Refusal::Clash(key, Clash::NoShortcut) => {
+            format!("{} cannot be used here: choose a letter, a digit or F5 to F12.", word(key))
         }
-        Clash::Taken(does) => format!("{} is taken: {does}.", word(key)),
+        Refusal::Clash(key, Clash::Taken(does)) => format!("{} is taken: {does}.", word(key)),
     }
 }
 
