@@ -134,7 +134,7 @@ impl Order {
         }
     }
 
-    /// The text of the file, and the number of objects that it cannot carry.
+    /// The text of the file, and the number of objects that it cannot hold.
     fn text(&self) -> Result<(Vec<u8>, usize), String> {
         let mut text = Vec::new();
         let mut left_out = 0;
@@ -149,12 +149,12 @@ impl Order {
         };
         written.map_err(|error| error.to_string())?;
         if left_out > 0 && text.is_empty() {
-            return Err("a TLE can carry none of these objects".to_owned());
+            return Err("a TLE can hold none of these objects".to_owned());
         }
         Ok((text, left_out))
     }
 
-    /// Returns the number of objects that the form cannot carry.
+    /// Returns the number of objects that the form cannot hold.
     fn write_elements(
         &self,
         numbers: &[u32],

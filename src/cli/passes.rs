@@ -37,8 +37,8 @@ const FIELDS: &str = "CSV has a row and JSON an object for each pass; lines end 
 
 /// Places where a pass is not sharp, for `--help`.
 const NOT_SHARP: &str = "TCA of a geosynchronous satellite may be off by half an hour, in which its \
-    elevation changes by less than 0.0001 degrees. Where an orbit far from its epoch dips below \
-    the ground, its pass may end or go on.";
+    elevation changes by less than 0.0001 degrees. Far from its epoch, a propagated orbit may \
+    pass below the Earth's surface; LOS of such a pass is not reliable.";
 
 #[derive(Debug, Args)]
 #[command(after_help = format!("{FIELDS}\n\n{LEFT_OUT}\n\n{NOT_SHARP}\n\n{EXIT_CODES}"))]
@@ -55,10 +55,10 @@ pub(super) struct Options {
     /// station, or 0, when left out
     #[arg(long, value_name = "DEG", value_parser = input::elevation, allow_negative_numbers = true)]
     floor: Option<f64>,
-    /// Leave out passes that are shorter, in seconds from AOS to LOS
+    /// Minimum duration of a pass, seconds from AOS to LOS
     #[arg(long, value_name = "S", default_value_t = 0.0, value_parser = input::duration_s, allow_negative_numbers = true)]
     min_duration: f64,
-    /// Keep only the first of the passes; all when left out
+    /// Maximum number of passes, earliest AOS first [default: all]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
     max_passes: Option<u32>,
     /// Elevation of AOS and LOS; that of the station, or 0, when left out

@@ -27,23 +27,23 @@ const LATE: SignedDuration = SignedDuration::from_secs(2);
 
 #[derive(Debug, Args)]
 pub(super) struct Options {
-    /// From this instant on: `now`, a date (0 h UTC), or a time with Z or an offset; all without
-    /// it
+    /// Start of the rows: `now`, a date (0 h UTC), or a time with Z or an offset [default: the
+    /// beginning; with --follow, now]
     #[arg(long, value_name = "TIME", value_parser = input::instant)]
     from: Option<Timestamp>,
-    /// Before this instant
+    /// End of the rows, exclusive, in the same forms
     #[arg(long, value_name = "TIME", value_parser = input::instant)]
     to: Option<Timestamp>,
-    /// What concerns the antenna of this name alone
+    /// Only rows of this antenna
     #[arg(long, value_name = "NAME")]
     antenna: Option<String>,
-    /// Kinds of rows; all but position and frame without it
+    /// Kinds of rows [default: all except position and frame]
     #[arg(long, value_name = "KIND", value_delimiter = ',')]
     kind: Vec<Kinds>,
     /// Go on with what is recorded from now on, until Ctrl C
     #[arg(long)]
     follow: bool,
-    /// Another record than that of the station, such as a copy
+    /// Read this record file instead of the station's
     #[arg(long, value_name = "FILE", conflicts_with = "of_demo")]
     file: Option<PathBuf>,
     /// The record of the demo station
@@ -93,7 +93,7 @@ pub(super) fn run(station: Option<PathBuf>, options: &Options) -> anyhow::Result
         antenna: options.antenna.clone(),
         what,
     };
-    let unwritten = || format!("The record at {} cannot be written out", path.display());
+    let unwritten = || format!("Printing the record at {} failed", path.display());
     written(|out| write(&mut record, &query, options.follow, out)).with_context(unwritten)?;
     Ok(ExitCode::SUCCESS)
 }

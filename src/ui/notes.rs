@@ -133,8 +133,8 @@ fn saved(SavedFile { path, left_out }: &SavedFile) -> String {
     let path = path.display();
     match left_out {
         0 => format!("Saved: {path}"),
-        1 => format!("Saved, but for 1 object that this form cannot carry: {path}"),
-        count => format!("Saved, but for {count} objects that this form cannot carry: {path}"),
+        1 => format!("Saved without 1 object that a TLE cannot hold: {path}"),
+        count => format!("Saved without {count} objects that a TLE cannot hold: {path}"),
     }
 }
 

@@ -7,6 +7,8 @@ use azel::{
     driver::{LinkFinding, Snapshot},
     engine::{
         self,
+        alarms::AlarmKind,
+        claim::HeldBy,
         link_tests::{LinkTest, LinkTestStage},
     },
     model::{Model, UiCommand, View, effects},
@@ -445,6 +447,17 @@ fn an_edit_is_marked_by_its_border_and_the_focus_by_a_ring_and_an_invalid_field_
 }
 
 #[test]
+fn a_station_without_a_record_says_whether_another_azel_keeps_it() {
+    let mut window = form(LARGE);
+    assert!(says(&window, "Nothing is recorded: this user has no folder for records."));
+    let model = &mut window.state_mut().model;
+    model.alarms.raise(None, AlarmKind::StationElsewhere(HeldBy(None)), model.now);
+    settle(&mut window);
+    let kept = "Nothing is recorded from here: the Azel that has this station open records it.";
+    assert!(says(&window, kept));
+}
+
+#[test]
 fn a_moved_site_shows_its_passes_beside_those_of_the_saved_one() {
     for size in SIZES {
         let mut window = form(size);
@@ -473,7 +486,7 @@ fn a_moved_site_shows_its_passes_beside_those_of_the_saved_one() {
 }
 
 #[test]
-fn the_settings_file_is_told_with_its_age_and_its_folder_opened() {
+fn the_station_file_is_told_with_its_age_and_its_folder_opened() {
     for size in SIZES {
         let mut model = rig::model(states::holding());
         model.view = View::Preferences;
@@ -481,7 +494,7 @@ fn the_settings_file_is_told_with_its_age_and_its_folder_opened() {
         model.station_saved_at = Some(model.now);
         let mut window = rig::window(size, model);
         let now = azel::ui::format::moment(rig::now(), rig::now());
-        let file = format!("Settings file: /home/ops/.config/azel/station.toml, saved {now}");
+        let file = format!("Station file: /home/ops/.config/azel/station.toml, saved {now}");
         assert!(says(&window, &file), "{file}");
         rig::asked(&mut window);
         press(&mut window, Role::Button, "Open folder");

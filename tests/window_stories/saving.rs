@@ -71,7 +71,7 @@ fn what_came_of_it_is_told_over_the_views_until_it_is_closed() {
     settle(&mut window);
     assert!(!says(&window, "Saved: "));
     tell(&mut window, saved("/home/operator/own.tle", 3));
-    assert!(says(&window, "Saved, but for 3 objects that this form cannot carry: /home/"));
+    assert!(says(&window, "Saved without 3 objects that a TLE cannot hold: /home/"));
     tell(&mut window, Err(NoDialog.to_string()));
     assert!(says(&window, "Nothing was saved: this desktop shows no file dialogs"));
     window.state_mut().views.no_dialog(NoDialog);

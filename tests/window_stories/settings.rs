@@ -122,9 +122,14 @@ fn half_of_what_belongs_together_is_not_sent_without_the_other_half() {
         write(&mut window, good, value);
         assert_eq!(state_of(&window, good), "Edited");
         write(&mut window, bad, typed);
-        assert_eq!(state_of(&window, good), "Waits", "{good} with {bad} {typed:?}");
-        assert!(says(&window, &format!("{good} waits for {bad}: they are sent together.")));
-        assert!(says(&window, "2 changes not sent, 1 cannot be used, 1 waits for another"));
+        assert_eq!(state_of(&window, good), "Held back", "{good} with {bad} {typed:?}");
+        let why =
+            format!("{good} is not sent until {bad} can be sent too: both are sent together.");
+        assert!(says(&window, &why));
+        assert!(says(
+            &window,
+            "2 changes not sent, 1 cannot be used, 1 held back by another field"
+        ));
         write(&mut window, "North offset", "1.5");
         apply(&mut window);
         let sent: Vec<_> = settles(asked(&mut window)).iter().map(|of| of.group).collect();

@@ -120,7 +120,7 @@ fn elements_are_written_in_each_form_and_what_a_tle_cannot_carry_is_counted() {
         assert!(read.iter().any(|elements| elements.catalog_number() == ISS));
         assert!(order.name().starts_with("elements-20"), "{}", order.name());
     }
-    let none = "a TLE can carry none of these objects".to_owned();
+    let none = "a TLE can hold none of these objects".to_owned();
     assert_eq!(of(ElementForm::Tle, &[BEYOND]).text(), Err(none));
 }
 

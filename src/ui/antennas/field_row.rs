@@ -209,8 +209,11 @@ fn below(ui: &mut Ui, field: &'static Field, draft: &mut Draft, state: &FieldSta
             let words = format!("{}: unlock Service to send this value.", field.label);
             row::note(ui, Some(Icon::Lock), &words, t.warn);
         }
-        FieldState::WaitsFor(other) => {
-            let words = format!("{} waits for {other}: they are sent together.", field.label);
+        FieldState::HeldBackBy(other) => {
+            let words = format!(
+                "{} is not sent until {other} can be sent too: both are sent together.",
+                field.label
+            );
             row::note(ui, Some(Icon::Warning), &words, t.warn);
         }
         FieldState::ConfirmFirst => {
@@ -230,7 +233,7 @@ fn below(ui: &mut Ui, field: &'static Field, draft: &mut Draft, state: &FieldSta
 fn border(state: &FieldState, t: &Tokens) -> Option<Color32> {
     match state {
         FieldState::Edited => Some(t.sat),
-        FieldState::ConfirmFirst | FieldState::NeedsService | FieldState::WaitsFor(_) => {
+        FieldState::ConfirmFirst | FieldState::NeedsService | FieldState::HeldBackBy(_) => {
             Some(t.warn)
         }
         FieldState::Verified(_) | FieldState::Taken(_) => Some(t.ok),
@@ -242,7 +245,7 @@ fn border(state: &FieldState, t: &Tokens) -> Option<Color32> {
 fn look(state: &FieldState, t: &Tokens) -> (Option<Icon>, Color32) {
     match state {
         FieldState::Edited => (Some(Icon::Pencil), t.sat),
-        FieldState::ConfirmFirst | FieldState::WaitsFor(_) => (Some(Icon::Warning), t.warn),
+        FieldState::ConfirmFirst | FieldState::HeldBackBy(_) => (Some(Icon::Warning), t.warn),
         FieldState::NeedsService => (Some(Icon::Lock), t.warn),
         FieldState::Sending => (Some(Icon::HalfDisc), t.cmd),
         FieldState::Verified(_) | FieldState::Taken(_) => (Some(Icon::Check), t.ok),

@@ -28,7 +28,7 @@ pub(super) enum FieldState {
     Rejected,
     Invalid(Unfit),
     /// The value goes out with that of the field with this label, which cannot be sent.
-    WaitsFor(&'static str),
+    HeldBackBy(&'static str),
     ReadOnly,
     Locked,
 }
@@ -47,7 +47,7 @@ impl FieldState {
             Self::Taken(at) => format!("Taken {}", format::moment(*at, now)),
             Self::Rejected => "Rejected".to_owned(),
             Self::Invalid(_) => "Invalid".to_owned(),
-            Self::WaitsFor(_) => "Waits".to_owned(),
+            Self::HeldBackBy(_) => "Held back".to_owned(),
             Self::ReadOnly => "Read only".to_owned(),
             Self::Locked => "Locked".to_owned(),
         }
@@ -67,7 +67,7 @@ impl FieldState {
                 | Self::NeedsService
                 | Self::Rejected
                 | Self::Invalid(_)
-                | Self::WaitsFor(_)
+                | Self::HeldBackBy(_)
         )
     }
 }
@@ -85,7 +85,7 @@ pub(super) fn of(
         state.is_edit() && value.is_none()
     };
     match group.other_parts(field).find(holds_back) {
-        Some(other) if value.is_some() => (FieldState::WaitsFor(other.label), None),
+        Some(other) if value.is_some() => (FieldState::HeldBackBy(other.label), None),
         _ => (state, value),
     }
 }

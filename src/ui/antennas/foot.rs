@@ -147,12 +147,11 @@ fn pending(ui: &Ui, unit: &ShownUnit<'_>, form: &Form) -> (String, Color32) {
     let plural = if count.edited == 1 { "change" } else { "changes" };
     let mut said = vec![format!("{} {plural} not sent", count.edited)];
     let needs = if count.to_confirm == 1 { "needs" } else { "need" };
-    let waits = if count.waiting == 1 { "waits" } else { "wait" };
     for (number, words) in [
         (count.to_confirm, format!("{needs} confirmation")),
         (count.locked, "locked by Service".to_owned()),
         (count.invalid, "cannot be used".to_owned()),
-        (count.waiting, format!("{waits} for another")),
+        (count.held_back, "held back by another field".to_owned()),
     ] {
         if number > 0 {
             said.push(format!("{number} {words}"));

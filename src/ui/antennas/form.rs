@@ -80,8 +80,8 @@ pub(super) struct Count {
     pub(super) to_confirm: usize,
     pub(super) locked: usize,
     pub(super) invalid: usize,
-    /// Fields whose value waits for another field.
-    pub(super) waiting: usize,
+    /// Fields that are not sent because another one cannot be.
+    pub(super) held_back: usize,
     pub(super) rejected: usize,
     pub(super) sending: usize,
 }
@@ -104,7 +104,7 @@ impl Form {
                 add(&mut count.to_confirm, state == FieldState::ConfirmFirst);
                 add(&mut count.locked, state == FieldState::NeedsService);
                 add(&mut count.invalid, matches!(state, FieldState::Invalid(_)));
-                add(&mut count.waiting, matches!(state, FieldState::WaitsFor(_)));
+                add(&mut count.held_back, matches!(state, FieldState::HeldBackBy(_)));
                 add(&mut count.rejected, state == FieldState::Rejected);
                 add(&mut count.sending, state == FieldState::Sending);
             }

@@ -130,8 +130,8 @@ pub(super) fn choose(ui: &mut Ui, chosen: &mut ChosenColumns, question: &mut Que
             ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
                 let last = chosen.0.len().saturating_sub(1);
                 for (word, by, can) in [
-                    ("Right", 1, place.is_some_and(|place| place < last)),
-                    ("Left", -1, place.is_some_and(|place| place > 0)),
+                    ("Move right", 1, place.is_some_and(|place| place < last)),
+                    ("Move left", -1, place.is_some_and(|place| place > 0)),
                 ] {
                     let button = ui.add_enabled(can, Button::new(word).small());
                     let name = format!("{word}: {}", spoken(column));
@@ -143,7 +143,7 @@ pub(super) fn choose(ui: &mut Ui, chosen: &mut ChosenColumns, question: &mut Que
             });
         });
     }
-    if ui.button("The usual columns").clicked() {
+    if ui.button("Restore default columns").clicked() {
         *chosen = ChosenColumns::default();
     }
 }

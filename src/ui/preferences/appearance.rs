@@ -69,7 +69,8 @@ fn angles(ui: &mut Ui, wanted: &mut Appearance) {
         choice(ui, DECIMALS, &choices, &mut wanted.angle_decimals);
         note(
             ui,
-            "Of the axes of an antenna and of the selected satellite. A unit that gives fewer shows fewer.",
+            "For the angles of the antenna's axes and of the selected satellite. The angles of a \
+             unit with a coarser resolution have fewer.",
         );
     });
 }

@@ -35,19 +35,19 @@ pub(super) fn show(ui: &Ui, rect: Rect, model: &Model, commands: &mut Vec<UiComm
         Rect::from_min_size(inner.min + vec2(0.0, index * LINE), vec2(inner.width(), LINE))
     };
     let left = Align2::LEFT_CENTER;
-    paint::text_in(ui, line(0.0), left, "Settings file", text::small(), t.t3);
+    paint::text_in(ui, line(0.0), left, "Station file", text::small(), t.t3);
     let Some(path) = &model.stations.open else {
         let words = "This user has no folder for settings.";
         paint::text_in(ui, line(1.0), left, words, text::small(), t.warn);
-        paint::name_text(ui, "settings file", line(1.0), words).on_hover_text(words);
+        paint::name_text(ui, "station file", line(1.0), words).on_hover_text(words);
         return;
     };
     let name = path.file_name().map_or_else(String::new, |name| name.to_string_lossy().into());
     paint::text_in(ui, line(1.0), left, &name, text::body_medium(), t.t1);
     let saved = saved(model);
     paint::text_in(ui, line(2.0), left, &saved, text::small(), t.t2);
-    let spoken = format!("Settings file: {}, {saved}", path.display());
-    paint::name_text(ui, "settings file", line(1.0).union(line(2.0)), &spoken)
+    let spoken = format!("Station file: {}, {saved}", path.display());
+    paint::name_text(ui, "station file", line(1.0).union(line(2.0)), &spoken)
         .on_hover_text(path.display().to_string());
     let (copy, open) = (Button::normal("Copy path"), Button::normal("Open folder"));
     let first = Rect::from_min_size(
@@ -60,11 +60,11 @@ pub(super) fn show(ui: &Ui, rect: Rect, model: &Model, commands: &mut Vec<UiComm
         pos2(first.right() + GAP, first.top())
     };
     let second = Rect::from_min_size(second, vec2(open.width(ui), SMALL_HEIGHT));
-    if copy.show(ui, "copy settings path", first).clicked() {
+    if copy.show(ui, "copy station path", first).clicked() {
         ui.copy_text(path.display().to_string());
     }
     if let Some(folder) = path.parent().map(Path::to_owned)
-        && open.show(ui, "open settings folder", second).clicked()
+        && open.show(ui, "open station folder", second).clicked()
     {
         commands.push(UiCommand::OpenFolder(folder));
     }

@@ -59,7 +59,7 @@ fn about(page: Page, draft: &Draft) -> String {
         Page::Rules => "The first rule that fits decides, in the plan and in automatic operation",
         Page::Notices => "What the desktop tells, and when",
         Page::Appearance => "Of this window, used at once",
-        Page::Keys => "A click on a key in a frame changes it, in this window at once",
+        Page::Keys => "Click a boxed key, then press the new one. Used at once, in this window",
     };
     about.to_owned()
 }

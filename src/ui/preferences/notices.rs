@@ -119,16 +119,22 @@ impl NoticesDraft {
 
 fn telling_fields() -> Vec<Placed<Telling>> {
     let fields = [
-        flag("Notifications", |telling| &mut telling.notifications)
-            .noted(|_| Some("The desktop shows new alarms and reminders.".to_owned())),
-        flag("Sounds", |telling| &mut telling.sounds),
+        flag("Notifications", |telling| &mut telling.notifications).noted(|_| {
+            let words = "The desktop shows new alarms and reminders. Alarms of the first rank are \
+                         always shown.";
+            Some(words.to_owned())
+        }),
+        flag("Sounds", |telling| &mut telling.sounds)
+            .noted(|_| Some("Alarms of the first rank always sound.".to_owned())),
         tones("Warnings", |telling| &mut telling.warning)
-            .noted(|_| Some("Alarms that something is wrong now.".to_owned())),
-        tones("Cautions", |telling| &mut telling.caution)
-            .noted(|_| Some("Alarms that something was not done or will go wrong.".to_owned())),
+            .noted(|_| Some("Alarms about something that is wrong now.".to_owned())),
+        tones("Cautions", |telling| &mut telling.caution).noted(|_| {
+            Some("Alarms about something that was not done or will go wrong.".to_owned())
+        }),
         tones("Reminders of passes", |telling| &mut telling.reminder),
         flag("Quiet hours", |telling| &mut telling.is_quiet).noted(|_| {
-            let words = "No notifications and no sounds then. What is shown in the window stays.";
+            let words = "No notifications and no sounds then, except for alarms of the first rank. \
+                         The window shows all alarms.";
             Some(words.to_owned())
         }),
         Description::time("Quiet from", |telling: &mut Telling| &mut telling.hours.from)
@@ -173,7 +179,7 @@ fn flag(label: &'static str, place: fn(&mut Telling) -> &mut bool) -> Descriptio
 }
 
 /// Cards of the page with the numbers of their rows.
-pub(super) const CARDS: [usize; 3] = [13, 4, 8];
+pub(super) const CARDS: [usize; 3] = [14, 4, 8];
 
 pub(super) fn card_of(
     ui: &mut Ui,

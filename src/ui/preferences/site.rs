@@ -15,7 +15,7 @@ use super::{
 };
 use crate::{
     astro::{Site, sun_moon},
-    engine::antenna::AntennaModel,
+    engine::{alarms::AlarmKind, antenna::AntennaModel},
     model::{
         Model, UiCommand,
         effects::{
@@ -124,12 +124,12 @@ fn passes(ui: &mut Ui, question: &Question, model: &Model) {
     let rows = [
         ("Passes", old.count.to_string(), new.count.to_string(), new.count.cmp(&old.count)),
         (
-            "Time up",
+            "Total time of passes",
             format::duration(old.up_s),
             format::duration(new.up_s),
             new.up_s.total_cmp(&old.up_s),
         ),
-        ("Highest", highest(old), highest(new), new.highest_deg.total_cmp(&old.highest_deg)),
+        ("Highest pass", highest(old), highest(new), new.highest_deg.total_cmp(&old.highest_deg)),
         ("First AOS", aos(old), aos(new), Ordering::Equal),
     ];
     for (label, was, now, gain) in rows {
@@ -146,11 +146,19 @@ fn passes(ui: &mut Ui, question: &Question, model: &Model) {
 /// Where the record lies, how large it is, and whether it is written.
 fn about_record(ui: &mut Ui, model: &Model) {
     let Some(record) = &model.record else {
-        return told::line(ui, Tone::Plain, "Nothing is recorded: there is no folder for it.");
+        let is_open_elsewhere = model.alarms.list().iter().any(|alarm| {
+            false && matches!(alarm.kind, AlarmKind::StationElsewhere(_)) && !alarm.is_over()
+        });
+        let words = if is_open_elsewhere {
+            "Nothing is recorded from here: the Azel that has this station open records it."
+        } else {
+            "Nothing is recorded: this user has no folder for records."
+        };
+        return told::line(ui, Tone::Plain, words);
     };
     if let Some(failing) = &record.failing {
         let since = format::moment(failing.since, model.now);
-        let words = format!("Nothing is recorded since {since}: {}.", failing.why);
+        let words = format!("Nothing has been recorded since {since}: {}.", failing.why);
         told::line(ui, Tone::Bad, &words);
     } else {
         let size = format::bytes(record.bytes);

@@ -95,7 +95,8 @@ pub(super) fn sentence(model: &Model, antenna: &AntennaModel) -> Option<Spoken> 
         }
         Event::AutoStaysOn => caution.plain("The unit did not switch auto-track off."),
         Event::AutoTrackNotKnown => caution.plain(
-            "The unit does not report whether auto-track is off: it may start by itself.",
+            "The unit was told to switch auto-track off but does not report auto-track: it may start \
+             tracking by itself. Check auto-track at the unit.",
         ),
         Event::LockOutUnproved => caution.plain(
             "Locked out, but that auto-track is off cannot be read back. Switch it off at the unit.",

@@ -76,8 +76,8 @@ pub fn alarm(kind: &AlarmKind, antenna: &str, now: Timestamp) -> String {
         }
         AlarmKind::AutoStaysOn => format!("{antenna} did not switch auto-track off."),
         AlarmKind::AutoTrackNotKnown => format!(
-            "{antenna} was told to switch auto-track off, and does not report whether it has: it may \
-             start by itself. Look at the unit."
+            "The unit of {antenna} was told to switch auto-track off but does not report auto-track: \
+             it may start tracking by itself. Check auto-track at the unit."
         ),
         AlarmKind::AutoTrackOwed(unit) => super::auto_track_owed(unit),
         AlarmKind::LockOutUnproved => format!(
@@ -155,8 +155,8 @@ pub fn alarm(kind: &AlarmKind, antenna: &str, now: Timestamp) -> String {
             format::age(stood.as_secs_f64())
         ),
         AlarmKind::NoRecord(why) => format!(
-            "Nothing is recorded: {why}. What was recorded stays, and recording goes on by itself \
-             once the file can be written."
+            "Nothing is being recorded: {why}. What was recorded is kept, and Azel tries again \
+             every 2 s."
         ),
         AlarmKind::BrokeOff(Work::Elements) => {
             "The reading of the elements broke off inside Azel. What was held stays in use; \

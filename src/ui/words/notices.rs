@@ -81,18 +81,19 @@ fn why_and_cure(missing: &Missing) -> (&'static str, String) {
             "Start it from the desktop, not over a remote shell or as another user.".to_owned(),
         ),
         Missing::Service(_) => (
-            "no program of the desktop takes them",
-            "Start one, such as dunst or mako. The next alarm tries it again.".to_owned(),
+            "no notification service answers",
+            "Start one, such as dunst or mako. Azel tries again at the next alarm.".to_owned(),
         ),
         Missing::Player(names) => {
-            ("no player of sounds is installed", format!("Install one of {names}."))
+            ("no sound player is installed", format!("Install one of {names}."))
         }
         Missing::NotPlayed(_) => (
             "the player failed",
-            "Check the sound output of this computer. The next alarm tries it again.".to_owned(),
+            "Check the sound output of this computer. Azel tries again at the next alarm."
+                .to_owned(),
         ),
         Missing::Elsewhere => (
-            "Azel has none on this operating system",
+            "Azel does not support this on this operating system",
             "The list of alarms in the window has everything.".to_owned(),
         ),
     }

@@ -99,8 +99,8 @@ pub fn asks_standing(snapshot: &Snapshot, now: Timestamp) -> Option<String> {
 /// The sentence about a STOP owed to a unit that belongs to no antenna any more.
 pub fn owed(unit: &Unit) -> String {
     format!(
-        "{} may still move: a STOP is owed to it, and no antenna of the station has it any more. \
-         Azel goes on trying. Look at the antenna.",
+        "{} may still move: a STOP is owed to it, and no antenna of this station uses this unit \
+         any more. Azel keeps trying. Look at the antenna.",
         at_its_address(unit)
     )
 }
@@ -108,8 +108,8 @@ pub fn owed(unit: &Unit) -> String {
 /// The sentence about auto-track of a unit that belongs to no antenna any more.
 pub fn auto_track_owed(unit: &Unit) -> String {
     format!(
-        "{} may still track by itself: its auto-track is to be switched off, and no antenna of the \
-         station has it any more. Azel goes on trying.",
+        "{} may still track by itself. No antenna of this station uses this unit any more. Azel \
+         keeps trying to switch its auto-track off; check it at the unit.",
         at_its_address(unit)
     )
 }

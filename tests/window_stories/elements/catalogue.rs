@@ -261,8 +261,8 @@ fn columns_are_chosen_and_ordered_and_a_hidden_one_sorts_no_more() {
     click(&mut window, "Columns");
     window.get_by_role_and_label(Role::CheckBox, "Period").click();
     settle(&mut window);
-    click(&mut window, "Right: number");
-    click(&mut window, "Right: number");
+    click(&mut window, "Move right: number");
+    click(&mut window, "Move right: number");
     let shown = heads(&window);
     assert_eq!(
         shown[..5],
@@ -272,7 +272,7 @@ fn columns_are_chosen_and_ordered_and_a_hidden_one_sorts_no_more() {
     window.get_by_role_and_label(Role::CheckBox, "Period").click();
     settle(&mut window);
     assert_eq!(heads(&window).last().map(String::as_str), Some("period"));
-    click(&mut window, "The usual columns");
+    click(&mut window, "Restore default columns");
     assert_eq!(heads(&window)[2..4], ["number", "period"]);
 }
 
