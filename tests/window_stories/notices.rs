@@ -127,7 +127,10 @@ fn what_the_desktop_lacks_is_said_where_it_is_set() {
     assert!(says(&window, "The desktop shows no notifications: Azel does not run in a desktop"));
     assert!(says(&window, "Start it from the desktop"), "with what to do");
     assert!(says(&window, "The answer of the system: no address"), "as it came");
-    assert!(says(&window, "There is no sound: Azel has none on this operating system."));
+    assert!(says(
+        &window,
+        "There is no sound: Azel does not support this on this operating system."
+    ));
 }
 
 #[test]

@@ -146,9 +146,10 @@ fn passes(ui: &mut Ui, question: &Question, model: &Model) {
 /// Where the record lies, how large it is, and whether it is written.
 fn about_record(ui: &mut Ui, model: &Model) {
     let Some(record) = &model.record else {
-        let is_open_elsewhere = model.alarms.list().iter().any(|alarm| {
-            false && matches!(alarm.kind, AlarmKind::StationElsewhere(_)) && !alarm.is_over()
-        });
+        let is_open_elsewhere =
+            model.alarms.list().iter().any(|alarm| {
+                matches!(alarm.kind, AlarmKind::StationElsewhere(_)) && !alarm.is_over()
+            });
         let words = if is_open_elsewhere {
             "Nothing is recorded from here: the Azel that has this station open records it."
         } else {
