@@ -23,6 +23,7 @@ pub mod on_board;
 mod opening;
 mod owed;
 pub mod passes;
+pub mod recorded;
 mod recording;
 pub mod reminders;
 pub mod schedule;
@@ -59,6 +60,7 @@ use self::{
     link_tests::LinkTest,
     older_sets::OlderSets,
     passes::{PassLists, Searches},
+    recorded::{RecordReading, Recorded},
     recording::Recording,
     reminders::Reminder,
     schedule::{Planned, Scheduler},
@@ -141,6 +143,8 @@ struct Engine {
     refreshed_at: Option<Timestamp>,
     older_sets: Option<Arc<OlderSets>>,
     older_reading: older_sets::Reading,
+    recorded: Option<Arc<Recorded>>,
+    record_reading: RecordReading,
     /// The last reading of the elements broke off.
     elements_broke_off: bool,
     copy_work: CopyWork,
@@ -280,6 +284,8 @@ impl Engine {
             refreshed_at: None,
             older_sets: None,
             older_reading: older_sets::Reading::default(),
+            recorded: None,
+            record_reading: RecordReading::default(),
             elements_broke_off: false,
             upload_runner,
             source_test_runner,
@@ -421,6 +427,7 @@ impl Engine {
             swap: self.scheduler.swap(),
             day: shared(&self.day, &last.day),
             older_sets: self.older_sets.clone(),
+            recorded: self.recorded.clone(),
             uploads: shared(&self.uploads, &last.uploads),
             source_tests: shared(&self.source_tests, &last.source_tests),
             link_tests: shared(&self.link_tests, &last.link_tests),

@@ -52,6 +52,7 @@ use crate::{
         link_tests::LinkTest,
         older_sets::OlderSets,
         passes::{ListChoice, PassKey, PassLists, PredictedPass, Scope, UpcomingPasses},
+        recorded::Recorded,
         reminders::Reminder,
         schedule::{Planned, Swap},
         source_tests::SourceTests,
@@ -77,6 +78,8 @@ pub enum View {
     Antennas,
     /// The traffic on the links.
     Console,
+    /// The passes that were tracked.
+    Record,
     /// The satellites over the globe.
     Map,
     /// The station's settings.
@@ -118,6 +121,8 @@ pub struct Model {
     pub intake: Option<Intake>,
     /// Older sets of the object that was asked for last.
     pub older_sets: Option<Arc<OlderSets>>,
+    /// Passes of the record, where they are looked at.
+    pub recorded: Option<Arc<Recorded>>,
     /// The table of the catalog.
     pub catalog_table: CatalogTable,
     /// The antennas of the station.
@@ -187,6 +192,7 @@ impl Model {
             sources: Arc::default(),
             intake: None,
             older_sets: None,
+            recorded: None,
             catalog_table: CatalogTable::default(),
             antennas: Vec::new(),
             wires: Vec::new(),
@@ -277,6 +283,7 @@ impl Model {
         self.catalog = shown.catalog.clone();
         self.sources = Arc::clone(&shown.sources);
         self.older_sets.clone_from(&shown.older_sets);
+        self.recorded.clone_from(&shown.recorded);
         self.pass_lists = shown.pass_lists.clone();
         self.uploads = Arc::clone(&shown.uploads);
         self.source_tests = Arc::clone(&shown.source_tests);

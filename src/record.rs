@@ -8,14 +8,19 @@
 mod entry;
 mod file;
 mod keeping;
+mod pass;
+mod past;
 mod read;
 mod recorder;
 mod tables;
 #[cfg(test)]
 mod tests;
+mod way_out;
 mod writer;
 
-pub use entry::{Entry, Kind, PassNote, PassPoint};
+pub use entry::{Entry, Kind};
+pub use pass::{AboutTrack, PassNote, RecordedReport, TrackedBy};
+pub use past::{OpenedPass, PassPage, PassQuery, RecordedPass, open_pass, passes};
 pub use read::{Query, Record, Row, RowKind};
 pub use recorder::{Failing, RecordedSession, Recorder, Status};
 
@@ -36,6 +41,8 @@ pub enum RecordError {
     NoRecord,
     #[error("{0}")]
     Database(rusqlite::Error),
+    #[error("a report cannot be written as JSON: {0}")]
+    Report(#[from] serde_json::Error),
     #[error("{0}")]
     Io(#[from] std::io::Error),
 }

@@ -27,6 +27,7 @@ pub mod plan;
 pub mod preferences;
 pub mod profile;
 pub mod rail;
+pub mod record;
 mod second_step;
 pub mod setup;
 pub mod sky_plot;

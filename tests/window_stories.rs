@@ -37,6 +37,7 @@ mod preferences_makes;
 mod preferences_pages;
 mod preferences_rules;
 mod preferences_watch;
+mod record;
 mod rig;
 mod running;
 mod saving;

@@ -19,10 +19,11 @@ use crate::{
     engine::{
         CatalogState,
         passes::{PassKey, PassLists, PredictedPass},
+        recorded::Recorded,
         schedule::Planned,
     },
     job::Job,
-    model::export::{ElementForm, Export, SavedFile},
+    model::export::{ElementForm, Export, ReportFormat, SavedFile},
     orbit::{PassSearch, write_omm_csv, write_omm_json, write_tle},
     plan::{
         pass_export::{
@@ -31,6 +32,7 @@ use crate::{
         schedule::LeftOut,
         schedule_export::{ScheduleFormat, ScheduleList},
     },
+    record::OpenedPass,
     station::Station,
     ui::{hand_over_sheet::HandOverSheet, words},
     whole_file,
@@ -55,6 +57,7 @@ struct Order {
     export: Export,
     catalog: CatalogState,
     lists: PassLists,
+    recorded: Option<Arc<Recorded>>,
     schedule: Arc<Planned>,
     station: Arc<Station>,
     span_h: u32,
@@ -73,6 +76,7 @@ impl App {
             export,
             catalog: model.catalog.clone(),
             lists: model.pass_lists.clone(),
+            recorded: model.recorded.clone(),
             schedule: Arc::clone(&model.schedule),
             station: Arc::clone(&model.station),
             span_h: model.list.span_h(),
@@ -104,6 +108,7 @@ impl Order {
             Export::Looks { .. } => "Save look angles",
             Export::Schedule { .. } => "Save the plan",
             Export::HandOverSheet => "Save the hand-over sheet",
+            Export::Report { .. } => "Save the report",
         };
         let asked = file_dialog::file_to_save(title, &self.name());
         let Some(path) = asked.map_err(|error| error.to_string())? else { return Ok(None) };
@@ -131,6 +136,14 @@ impl Order {
                 format!("plan-{}.{}", stamp(self.now), schedule_extension(*format))
             }
             Export::HandOverSheet => format!("hand-over-{}.svg", stamp(self.now)),
+            Export::Report { format } => {
+                let from = self.opened().map(|opened| opened.pass.report.from);
+                let extension = match format {
+                    ReportFormat::Csv => "csv",
+                    ReportFormat::Json => "json",
+                };
+                format!("pass-{}.{extension}", stamp(from.unwrap_or(self.now)))
+            }
         }
     }
 
@@ -146,12 +159,32 @@ impl Order {
             Export::Looks { pass, format } => self.write_looks(*pass, *format, &mut text)?,
             Export::Schedule { format } => self.write_schedule(*format, &mut text),
             Export::HandOverSheet => self.write_sheet(&mut text),
+            Export::Report { format } => self.write_report(*format, &mut text)?,
         };
         written.map_err(|error| error.to_string())?;
         if left_out > 0 && text.is_empty() {
             return Err("a TLE can hold none of these objects".to_owned());
         }
         Ok((text, left_out))
+    }
+
+    /// The pass of the record that is shown.
+    fn opened(&self) -> Option<&OpenedPass> {
+        self.recorded.as_ref()?.found.as_ref().ok()?.opened.as_ref()
+    }
+
+    fn write_report(
+        &self,
+        format: ReportFormat,
+        out: &mut Vec<u8>,
+    ) -> Result<io::Result<()>, String> {
+        let opened = self.opened().ok_or("no pass of the record is shown any more")?;
+        let text = match format {
+            ReportFormat::Csv => opened.csv(),
+            ReportFormat::Json => opened.json().map_err(|error| error.to_string())?,
+        };
+        out.extend(text.into_bytes());
+        Ok(Ok(()))
     }
 
     /// Returns the number of objects that the form cannot hold.

@@ -107,6 +107,7 @@ impl Engine {
                 self.begin_elements(Task { list: Some(list), ..Task::default() });
             }
             Command::ListOlderSets(number) => self.list_older_sets(number),
+            Command::LookAtRecord(look) => self.look_at_record(look),
             Command::UseSet(choice) => {
                 self.begin_elements(Task { set: Some(choice), ..Task::default() });
             }

@@ -10,6 +10,7 @@ use super::{
     closing::CloseHow,
     older_sets::SetChoice,
     passes::{ListChoice, PassKey, Scope},
+    recorded::RecordLook,
     source_tests::TestAsk,
     sources::Copied,
     uploads, written,
@@ -101,6 +102,8 @@ pub enum Command {
     },
     /// Publish the older sets of the object with this catalog number.
     ListOlderSets(u32),
+    /// Publish what the record holds of this; `None` ends it.
+    LookAtRecord(Option<RecordLook>),
     /// Use this set of elements of an object.
     UseSet(SetChoice),
     /// Read all sources anew, and ask the servers of some.

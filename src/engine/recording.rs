@@ -141,21 +141,27 @@ impl Recording {
 }
 
 impl Engine {
+    /// The record of the station in use, whoever writes it.
+    pub(super) fn record_file(&self) -> Option<PathBuf> {
+        let folder = self.recording.folder.as_deref();
+        folder.zip(self.settings_path.as_deref()).map(|(folder, of)| match self.demo {
+            Some(_) => demo_record_path(folder),
+            None => record_path(folder, of),
+        })
+    }
+
     /// Records into the file of the station that comes into use, and what is new in it.
     pub(super) fn record_station(&mut self, station: &Station) {
-        let path = self.recording.folder.as_deref().zip(self.settings_path.as_deref()).map(
-            |(folder, of)| match self.demo {
-                Some(_) => demo_record_path(folder),
-                None => record_path(folder, of),
-            },
-        );
         // What another Azel drives, it records.
-        let path = path.filter(|_| !matches!(self.station_claim, super::StationClaim::Theirs(_)));
+        let path = self
+            .record_file()
+            .filter(|_| !matches!(self.station_claim, super::StationClaim::Theirs(_)));
         match (path, &self.recording.recorder) {
             (Some(path), Some((at, recorder))) if path == *at => recorder.keep(station.record),
             (Some(path), _) => self.recording.begin(path, &self.clock, station.record),
             (None, _) => self.recording.recorder = None,
         }
+        self.record_has_grown();
         let at = self.clock.now();
         let now = serde_json::to_value(station).unwrap_or_default();
         let before = std::mem::replace(&mut self.recording.station, now);
@@ -172,6 +178,7 @@ impl Engine {
     pub(super) fn note_command(&mut self, command: &Command, by: By) {
         match command {
             Command::Look(_)
+            | Command::LookAtRecord(_)
             | Command::OpenedAlarms
             | Command::Antenna(_, driver::Command::Preview(_)) => return,
             Command::Antenna(id, driver::Command::Jog { .. }) => {

@@ -14,6 +14,7 @@ use super::{
     link_tests::LinkTest,
     older_sets::OlderSets,
     passes::PassLists,
+    recorded::Recorded,
     reminders::Reminder,
     schedule::{Planned, Swap},
     source_tests::SourceTests,
@@ -55,6 +56,8 @@ pub struct Snapshot {
     pub sources: Arc<Sources>,
     /// Older sets of the object that was asked for last.
     pub older_sets: Option<Arc<OlderSets>>,
+    /// Passes of the record, where they are looked at.
+    pub recorded: Option<Arc<Recorded>>,
     /// The antennas of the station, in its order.
     pub antennas: Vec<AntennaModel>,
     pub pass_lists: PassLists,
@@ -93,6 +96,7 @@ impl Snapshot {
             catalog_revision: 0,
             sources: Arc::default(),
             older_sets: None,
+            recorded: None,
             antennas: Vec::new(),
             pass_lists: PassLists::default(),
             reminders: Arc::default(),

@@ -31,6 +31,7 @@ impl Engine {
         self.take_catalog();
         self.refresh_by_itself();
         self.take_older_sets();
+        self.take_recorded();
         self.take_copies();
         self.look_for_passes();
         self.look_after_schedule();

@@ -26,6 +26,15 @@ pub enum ElementForm {
     OmmCsv,
 }
 
+/// The form of a recorded pass.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum ReportFormat {
+    /// The points of its track.
+    Csv,
+    /// Its report and what happened in it.
+    Json,
+}
+
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Export {
     /// The elements in use of these objects, by catalog number.
@@ -38,4 +47,6 @@ pub enum Export {
     Schedule { format: ScheduleFormat },
     /// The page to print for the next shift.
     HandOverSheet,
+    /// The pass of the record that is shown.
+    Report { format: ReportFormat },
 }

@@ -150,11 +150,46 @@ pub enum LossCause {
     NotExplained,
 }
 
-/// A position with what it is compared with.
-struct Compared {
-    time: Timestamp,
-    error: PointingError,
-    is_in_beam: bool,
+/// A measured position beside where the satellite was.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct TrackPoint {
+    pub time: Timestamp,
+    pub antenna: AzEl,
+    pub satellite: AzEl,
+    pub error: PointingError,
+}
+
+impl TrackPoint {
+    /// `None` where the position has no direction, or the elements none at its time. A mount without
+    /// an elevation axis counts as pointed at the elevation of the satellite.
+    pub fn new(
+        propagator: &Propagator,
+        site: Site,
+        has_elevation: bool,
+        flown: MeasuredPosition,
+    ) -> Option<Self> {
+        let direction = |at| propagator.look_from(site, at).ok().map(|look| look.direction);
+        let satellite = direction(flown.time)?;
+        let ahead = direction(crate::astro::time::add_seconds(flown.time, MOTION_S))?;
+        let azimuth = flown.pointing.azimuth?;
+        let elevation =
+            flown.pointing.elevation.or((!has_elevation).then_some(satellite.elevation))?;
+        let antenna = AzEl { azimuth, elevation };
+        let off = flown.pointing.separation(satellite.into())?;
+        let at = satellite.to_enu();
+        let error = antenna.to_enu() - at;
+        let way = (ahead.to_enu() - at).reject_from_normalized(at).normalize_or_zero();
+        let along = Angle::from_radians(error.dot(way));
+        let across = Angle::from_radians(error.dot(at.cross(way)));
+        let error = PointingError {
+            off_deg: off.degrees(),
+            azimuth_deg: (azimuth - satellite.azimuth).wrapped_180().degrees(),
+            elevation_deg: (elevation - satellite.elevation).degrees(),
+            along_deg: along.degrees(),
+            across_deg: across.degrees(),
+        };
+        Some(Self { time: flown.time, antenna, satellite, error })
+    }
 }
 
 impl TrackedPass<'_> {
@@ -163,11 +198,12 @@ impl TrackedPass<'_> {
         let counted_s = seconds_between(self.from, self.until).max(0.0);
         let within =
             |flown: &&MeasuredPosition| self.from <= flown.time && flown.time <= self.until;
-        let compared: Vec<Compared> =
+        let compared: Vec<TrackPoint> =
             flown.iter().filter(within).filter_map(|flown| self.compare(*flown)).collect();
         let (known_s, in_beam_s) = self.times(&compared);
         let losses = self.losses(&compared);
-        let by_size = |a: &&Compared, b: &&Compared| a.error.off_deg.total_cmp(&b.error.off_deg);
+        let by_size =
+            |a: &&TrackPoint, b: &&TrackPoint| a.error.off_deg.total_cmp(&b.error.off_deg);
         let worst = compared.iter().max_by(by_size);
         let worst = worst.map(|worst| WorstError { at: worst.time, error: worst.error });
         let is_planned = |loss: &&LostStretch| {
@@ -204,38 +240,16 @@ impl TrackedPass<'_> {
         self.propagator.look_from(self.site, at).ok().map(|look| look.direction)
     }
 
-    fn compare(&self, flown: MeasuredPosition) -> Option<Compared> {
-        let satellite = self.direction(flown.time)?;
-        let ahead = self.direction(crate::astro::time::add_seconds(flown.time, MOTION_S))?;
-        let azimuth = flown.pointing.azimuth?;
-        let elevation = match flown.pointing.elevation {
-            Some(elevation) => elevation,
-            // A rotator of azimuth alone is judged by its azimuth.
-            None if !self.limits.has_elevation => satellite.elevation,
-            None => return None,
-        };
-        let antenna = AzEl { azimuth, elevation };
-        let off = flown.pointing.separation(satellite.into())?;
-        let at = satellite.to_enu();
-        let error = antenna.to_enu() - at;
-        let way = (ahead.to_enu() - at).reject_from_normalized(at).normalize_or_zero();
-        let along = Angle::from_radians(error.dot(way));
-        let across = Angle::from_radians(error.dot(at.cross(way)));
-        Some(Compared {
-            time: flown.time,
-            error: PointingError {
-                off_deg: off.degrees(),
-                azimuth_deg: (azimuth - satellite.azimuth).wrapped_180().degrees(),
-                elevation_deg: (elevation - satellite.elevation).degrees(),
-                along_deg: along.degrees(),
-                across_deg: across.degrees(),
-            },
-            is_in_beam: off <= self.limits.half_beam,
-        })
+    fn compare(&self, flown: MeasuredPosition) -> Option<TrackPoint> {
+        TrackPoint::new(self.propagator, self.site, self.limits.has_elevation, flown)
+    }
+
+    fn is_in_beam(&self, point: &TrackPoint) -> bool {
+        point.error.off_deg <= self.limits.half_beam.degrees()
     }
 
     /// Seconds with positions, and seconds of them inside half of the beam.
-    fn times(&self, compared: &[Compared]) -> (f64, f64) {
+    fn times(&self, compared: &[TrackPoint]) -> (f64, f64) {
         let (mut known_s, mut in_beam_s) = (0.0, 0.0);
         // Before the first and after the last position the pass is as it was seen there.
         if let (Some(first), Some(last)) = (compared.first(), compared.last()) {
@@ -243,7 +257,7 @@ impl TrackedPass<'_> {
                 let apart_s = seconds_between(end, edge.time).abs();
                 if apart_s <= APART_S {
                     known_s += apart_s;
-                    in_beam_s += if edge.is_in_beam { apart_s } else { 0.0 };
+                    in_beam_s += if self.is_in_beam(edge) { apart_s } else { 0.0 };
                 }
             }
         }
@@ -252,14 +266,14 @@ impl TrackedPass<'_> {
             let apart_s = seconds_between(before.time, after.time);
             if apart_s <= APART_S {
                 known_s += apart_s;
-                let ends = u8::from(before.is_in_beam) + u8::from(after.is_in_beam);
+                let ends = u8::from(self.is_in_beam(before)) + u8::from(self.is_in_beam(after));
                 in_beam_s += apart_s * f64::from(ends) / 2.0;
             }
         }
         (known_s, in_beam_s)
     }
 
-    fn losses(&self, compared: &[Compared]) -> Vec<LostStretch> {
+    fn losses(&self, compared: &[TrackPoint]) -> Vec<LostStretch> {
         let mut losses: Vec<LostStretch> = Vec::new();
         let mut seen_to = self.from;
         let mut out_since: Option<Timestamp> = None;
@@ -278,7 +292,7 @@ impl TrackedPass<'_> {
                 losses.push(LostStretch { from, until, cause: LossCause::NotMeasured });
                 seen_to = position.time;
             }
-            if position.is_in_beam {
+            if self.is_in_beam(position) {
                 losses.extend(
                     out_since.take().map(|since| end(since, position.time, has_arrived, false)),
                 );
@@ -331,7 +345,7 @@ impl TrackedPass<'_> {
     }
 }
 
-fn rms(compared: &[Compared]) -> Option<PointingError> {
+fn rms(compared: &[TrackPoint]) -> Option<PointingError> {
     let count = compared.len();
     if count == 0 {
         return None;

@@ -1,10 +1,9 @@
 //! Entries that the station hands to its record.
 
-use jiff::Timestamp;
 use serde::Serialize;
 use serde_json::Value;
 
-use crate::{clock::Moment, device::Pointing, plan::pass_report::PassVerdict, station::AntennaId};
+use crate::{clock::Moment, station::AntennaId};
 
 /// An entry of the record, other than measured positions and lines on a link.
 #[derive(Debug, Clone, PartialEq)]
@@ -25,30 +24,6 @@ impl Entry {
         });
         Self { at, antenna, kind, data }
     }
-}
-
-/// A pass that an antenna has tracked, with its report.
-#[derive(Debug, Clone, PartialEq)]
-pub struct PassNote {
-    pub antenna: AntennaId,
-    /// Catalog number.
-    pub satellite: u32,
-    /// Name of the satellite, as in its elements.
-    pub name: String,
-    /// From AOS to LOS, above the antenna's minimum elevation.
-    pub from: Timestamp,
-    pub until: Timestamp,
-    pub verdict: PassVerdict,
-    pub report: Value,
-    /// The track, about a point a second.
-    pub points: Vec<PassPoint>,
-}
-
-/// A point of a recorded track.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct PassPoint {
-    pub time: Timestamp,
-    pub pointing: Pointing,
 }
 
 /// What an entry is about.

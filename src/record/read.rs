@@ -4,7 +4,7 @@ use std::{collections::BTreeMap, path::Path};
 
 use jiff::Timestamp;
 use rusqlite::{Connection, Row as SqlRow, params_from_iter};
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 use serde_json::{Value, json};
 
 use super::{
@@ -59,17 +59,17 @@ pub struct Query {
 }
 
 /// A row of the record.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Row {
     /// UTC.
     pub time: Timestamp,
     /// Number of the run of the program.
     pub run: i64,
     /// Seconds of the steady clock since that run began; `None` for lines on a link.
-    #[serde(skip_serializing_if = "Option::is_none")]
+    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub steady_s: Option<f64>,
     /// Name of the antenna at the time, if the row has one.
-    #[serde(skip_serializing_if = "Option::is_none")]
+    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub antenna: Option<String>,
     pub kind: String,
     /// What the kind tells; see `docs/record.md`.

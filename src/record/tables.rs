@@ -58,6 +58,7 @@ impl Tables<'_> {
     }
 
     pub(super) fn pass(&self, pass: &PassNote) -> Result<(), RecordError> {
+        let report = &pass.report;
         self.tx
             .prepare_cached(
                 "INSERT INTO pass (antenna, satellite, name, from_us, until_us, run, verdict, \
@@ -65,13 +66,13 @@ impl Tables<'_> {
             )?
             .execute(params![
                 pass.antenna.0,
-                pass.satellite,
-                pass.name,
-                pass.from.as_microsecond(),
-                pass.until.as_microsecond(),
+                report.elements.catalog_number(),
+                report.elements.name(),
+                report.from.as_microsecond(),
+                report.until.as_microsecond(),
                 self.run,
-                pass.verdict.word(),
-                pass.report.to_string(),
+                report.report.verdict.word(),
+                serde_json::to_string(report)?,
             ])?;
         let id = self.tx.last_insert_rowid();
         let mut insert =

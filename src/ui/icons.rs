@@ -40,6 +40,8 @@ pub enum Icon {
     Antenna,
     /// View: Console.
     Prompt,
+    /// View: Record.
+    Pulse,
     /// View: Map.
     Globe,
     /// View: Preferences.
@@ -106,7 +108,7 @@ mod tests {
     use super::*;
     use egui::{Sense, vec2};
 
-    const ALL: [Icon; 38] = [
+    const ALL: [Icon; 39] = [
         Icon::Octagon,
         Icon::Bell,
         Icon::Warning,
@@ -121,6 +123,7 @@ mod tests {
         Icon::Orbit,
         Icon::Antenna,
         Icon::Prompt,
+        Icon::Pulse,
         Icon::Globe,
         Icon::Sliders,
         Icon::Disc,

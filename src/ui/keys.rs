@@ -8,7 +8,7 @@ use egui::{Key, Modifiers, Ui};
 
 use super::{
     confirm::Question, console::ConsoleState, elements::ElementsState, map::MapState,
-    operate::OperateState, plan::PlanState, preferences::PreferencesState,
+    operate::OperateState, plan::PlanState, preferences::PreferencesState, record::RecordState,
 };
 use crate::{
     model::{Model, UiCommand, View, globe::Towards},
@@ -40,6 +40,8 @@ pub enum KeyScope {
     Operate,
     /// In the Plan view, but not while typing.
     Plan,
+    /// In the Record view, but not while typing.
+    Record,
     /// In the Map view, but not while typing.
     Map,
     /// In the Elements view, also while typing.
@@ -71,7 +73,7 @@ const fn with(modifiers: Modifiers, binding: Binding) -> Binding {
 }
 
 /// All keys, in the order of the list. The app handles the key of STOP before anything else.
-pub const ALL: [Binding; 35] = [
+pub const ALL: [Binding; 36] = [
     row(KeyScope::Focus, &[(Key::Escape, Act::There)], "STOP, everywhere; closes what is open"),
     with(
         Modifiers::COMMAND,
@@ -84,9 +86,10 @@ pub const ALL: [Binding; 35] = [
                 (Key::Num4, Act::Show(View::Antennas)),
                 (Key::Num5, Act::Show(View::Console)),
                 (Key::Num6, Act::Show(View::Preferences)),
+                (Key::Num7, Act::Show(View::Record)),
                 (Key::Num8, Act::Show(View::Map)),
             ],
-            "Operate, Plan, Elements, Antennas, Console, Preferences, Map",
+            "Operate, Plan, Elements, Antennas, Console, Preferences, Record, Map",
         ),
     ),
     row(
@@ -103,6 +106,11 @@ pub const ALL: [Binding; 35] = [
         KeyScope::Operate,
         &[(Key::ArrowUp, Act::MoveInList(-1)), (Key::ArrowDown, Act::MoveInList(1))],
         "the pass before or after, unless the focus is elsewhere",
+    ),
+    row(
+        KeyScope::Record,
+        &[(Key::ArrowUp, Act::RecordedPass(-1)), (Key::ArrowDown, Act::RecordedPass(1))],
+        "the recorded pass before or after",
     ),
     row(KeyScope::Focus, &[(Key::Enter, Act::There)], "select what has the focus"),
     row(KeyScope::Operate, &[(Key::N, Act::NextPass)], "the pass in progress or the next one"),
@@ -300,6 +308,7 @@ pub struct KeyTargets<'a> {
     pub console: &'a mut ConsoleState,
     pub map: &'a mut MapState,
     pub plan: &'a mut PlanState,
+    pub record: &'a mut RecordState,
     pub preferences: &'a mut PreferencesState,
     /// The list of keys is open.
     pub list_open: &'a mut bool,
@@ -316,6 +325,7 @@ pub fn take(ui: &Ui, model: &Model, targets: &mut KeyTargets<'_>, commands: &mut
         KeyScope::Everywhere => true,
         KeyScope::Views => !typing,
         KeyScope::Operate => !typing && model.view == View::Operate,
+        KeyScope::Record => !typing && model.view == View::Record,
         KeyScope::Map => !typing && model.view == View::Map,
         KeyScope::Plan => !typing && model.view == View::Plan,
         KeyScope::Elements => model.view == View::Elements,

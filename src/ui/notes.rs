@@ -71,7 +71,7 @@ fn frame(ui: &Ui, room: Rect, view: View, lines: impl FnOnce(&mut Ui)) {
 /// Height left free below, for the bars at the foot of the views.
 fn below(view: View) -> f32 {
     match view {
-        View::Operate | View::Plan | View::Elements | View::Map => GAP,
+        View::Operate | View::Plan | View::Elements | View::Record | View::Map => GAP,
         View::Antennas | View::Preferences | View::Setup => 80.0,
         View::Console => 128.0,
     }

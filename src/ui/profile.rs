@@ -1,12 +1,12 @@
 //! Elevation, azimuth and pointing error of the selected pass over time.
 
 mod curves;
-mod dashes;
+pub(super) mod dashes;
 mod error_plot;
 mod head;
 mod marker;
 mod past;
-mod scale;
+pub(super) mod scale;
 mod words;
 
 use egui::{Align2, Rect, Role, Sense, Shape, Stroke, Ui, WidgetInfo, pos2, vec2};

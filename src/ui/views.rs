@@ -24,7 +24,7 @@ use super::{
     pass_list::Arrangement,
     plan, preferences, rail,
     rail::RailEntry,
-    second_step, setup,
+    record, second_step, setup,
     sky_plot::Layers,
     timeline::Zoom,
     top_bar,
@@ -47,6 +47,7 @@ pub struct Views {
     console: console::ConsoleState,
     map: map::MapState,
     plan: plan::PlanState,
+    record: record::RecordState,
     preferences: preferences::PreferencesState,
     setup: setup::SetupState,
     upload: UploadState,
@@ -127,6 +128,7 @@ impl Views {
             console: &mut self.console,
             map: &mut self.map,
             plan: &mut self.plan,
+            record: &mut self.record,
             preferences: &mut self.preferences,
             list_open: &mut self.keys_open,
         };
@@ -148,6 +150,9 @@ impl Views {
         let rest = Rect::from_min_max(pos2(side.right(), body.top()), body.max);
         if model.view != View::Operate {
             self.operate.leave(commands);
+        }
+        if model.view != View::Record {
+            self.record.leave(commands);
         }
         match model.view {
             View::Operate => {
@@ -181,6 +186,9 @@ impl Views {
             }
             View::Console => {
                 console::show(ui, window, rest, model, &mut self.console, commands);
+            }
+            View::Record => {
+                record::show(ui, window, rest, model, &mut self.record, commands);
             }
             View::Map => {
                 map::show(ui, window, rest, model, &mut self.map, commands);
@@ -350,6 +358,7 @@ fn show_rail(
         (View::Elements, Icon::Orbit, "Elements"),
         (View::Antennas, Icon::Antenna, "Antennas"),
         (View::Console, Icon::Prompt, "Console"),
+        (View::Record, Icon::Pulse, "Record"),
         (View::Map, Icon::Globe, "Map"),
     ];
     let entry = |view, icon, word| RailEntry {

@@ -6,6 +6,7 @@ pub mod automatic;
 mod link_tests;
 mod notices;
 mod on_board;
+pub mod record;
 mod refusals;
 mod safety;
 pub mod schedule;

@@ -22,6 +22,7 @@ use egui_kittest::kittest::{NodeT as _, Queryable as _};
 use crate::window_stories::{
     closing, console, elements, horizon, maintenance, makes, plan,
     preferences::{self, write},
+    record,
     rig::{self, Window, asked, settle},
     settings_rig, setup, states, wide,
 };
@@ -42,7 +43,7 @@ const fn scene(name: &'static str, open: fn([f32; 2]) -> Window) -> Scene {
     Scene { name, open }
 }
 
-pub(crate) const SCENES: [Scene; 41] = [
+pub(crate) const SCENES: [Scene; 42] = [
     scene("Operate, tracking", |size| rig::window(size, rig::model(states::tracking(0.04)))),
     scene("Operate, three antennas of the demo", |size| rig::window(size, demo())),
     scene("Operate, jog", |size| rig::window(size, rig::model(states::manual()))),
@@ -136,6 +137,7 @@ pub(crate) const SCENES: [Scene; 41] = [
         in_view(size, View::Antennas, makes::model(makes::rc2000c(), snapshot))
     }),
     scene("Console", console::view),
+    scene("Record", record::view),
     scene("Map", |size| in_view(size, View::Map, rig::model(states::holding()))),
     scene("Preferences", preferences::form),
     scene("Preferences, a wrong field", |size| {

@@ -165,12 +165,13 @@ fn every_key_of_the_list_does_something() {
     }
 }
 
-const VIEWS: [View; 8] = [
+const VIEWS: [View; 9] = [
     View::Operate,
     View::Plan,
     View::Elements,
     View::Antennas,
     View::Console,
+    View::Record,
     View::Map,
     View::Preferences,
     View::Setup,
@@ -181,6 +182,7 @@ fn is_live(binding: &Binding, view: View) -> bool {
     match binding.place {
         KeyScope::Everywhere | KeyScope::Views => true,
         KeyScope::Operate => view == View::Operate,
+        KeyScope::Record => view == View::Record,
         KeyScope::Map => view == View::Map,
         KeyScope::Plan => view == View::Plan,
         KeyScope::Elements => view == View::Elements,
@@ -262,6 +264,7 @@ fn views_of(place: &str) -> Vec<View> {
         "antennas" => View::Antennas,
         "console" => View::Console,
         "map" => View::Map,
+        "record" => View::Record,
         "preferences" => View::Preferences,
         "setup" => View::Setup,
         _ => return VIEWS.into(),

@@ -35,7 +35,7 @@ fn order(export: impl Fn(&[PredictedPass]) -> Export) -> Order {
     let planned = schedule(&lists, station.antennas[0].id);
     let schedule = Arc::new(Planned { until: Some(to), ..planned });
     let (catalog, station) = (CatalogState::Ready(Arc::new(catalog)), Arc::new(station));
-    Order { export, catalog, lists, schedule, station, span_h: 24, now }
+    Order { export, catalog, lists, recorded: None, schedule, station, span_h: 24, now }
 }
 
 /// The first pass of the lists is taken, the second is not.

@@ -2,7 +2,6 @@
 //! pass is over.
 
 use jiff::Timestamp;
-use serde::Serialize;
 
 use super::Recording;
 use crate::{
@@ -17,10 +16,10 @@ use crate::{
     orbit::{Elements, PassSearch, Propagator, passes},
     plan::{
         MountLimits, Sample, TrackPhase, Trackability,
-        pass_report::{Evidence, Explanation, MeasuredPosition, PassReport, TrackedPass},
+        pass_report::{Evidence, MeasuredPosition, TrackedPass},
         trackability,
     },
-    record::{PassNote, PassPoint},
+    record::{AboutTrack, PassNote, RecordedReport, TrackedBy},
     station::AntennaId,
 };
 
@@ -47,51 +46,10 @@ pub(super) struct Followed {
     until: Timestamp,
     max_elevation_deg: f64,
     limits: MountLimits,
-    about: About,
+    about: AboutTrack,
     positions: PositionLog,
     next_position: u64,
     flown: Vec<MeasuredPosition>,
-}
-
-/// What is told of a track besides its positions.
-#[derive(Debug, Clone, Serialize)]
-struct About {
-    /// When it was first seen to be tracked.
-    begun: Timestamp,
-    tracked_by: TrackedBy,
-    /// Positions that were sent, with program track.
-    sent: Option<u32>,
-    /// The unit's clock against ours, seconds.
-    unit_clock_ahead_s: Option<f64>,
-    /// Whether a time service keeps this computer's clock.
-    sync: TimeSync,
-}
-
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
-#[serde(rename_all = "snake_case")]
-enum TrackedBy {
-    ProgramTrack,
-    OnBoard,
-    /// The unit began it, or somebody at its panel.
-    Elsewhere,
-}
-
-/// A report as it is written down.
-#[derive(Debug, Serialize)]
-struct Written {
-    from: Timestamp,
-    until: Timestamp,
-    max_elevation_deg: f64,
-    /// Age of the elements in the middle of the pass, days.
-    age_days: f64,
-    elements: Elements,
-    half_beam_deg: f64,
-    #[serde(flatten)]
-    about: About,
-    #[serde(flatten)]
-    report: PassReport,
-    /// What would explain the error, the best first.
-    explanations: Vec<Explanation>,
 }
 
 impl Engine {
@@ -100,16 +58,21 @@ impl Engine {
         if !self.recording.is_on() {
             return;
         }
+        let mut has_grown = false;
         self.recording.reports.retain_mut(|job| {
             let mut job_left = job.take();
             if let Some(Ok(note)) = Job::take(&mut job_left)
                 && let Some((_, recorder)) = &self.recording.recorder
             {
                 recorder.note_pass(note);
+                has_grown = true;
             }
             *job = job_left;
             job.is_some()
         });
+        if has_grown {
+            self.record_has_grown();
+        }
         // A pass is long beside a second.
         if self.now.as_second() == self.recording.looked_at {
             return;
@@ -183,7 +146,7 @@ impl Engine {
             until,
             max_elevation_deg,
             limits,
-            about: About::of(shown, now, self.time_sync),
+            about: about(shown, now, self.time_sync),
             positions: antenna.handle.positions().clone(),
             next_position: 0,
             flown: Vec::new(),
@@ -192,15 +155,14 @@ impl Engine {
     }
 }
 
-impl About {
-    fn of(antenna: &AntennaModel, begun: Timestamp, sync: TimeSync) -> Self {
-        let tracked_by = match () {
-            () if antenna.follows() => TrackedBy::ProgramTrack,
-            () if antenna.tracks_unasked() => TrackedBy::Elsewhere,
-            () => TrackedBy::OnBoard,
-        };
-        Self { begun, tracked_by, sent: None, unit_clock_ahead_s: None, sync }
-    }
+/// What is told of a track that begins now.
+fn about(antenna: &AntennaModel, begun: Timestamp, sync: TimeSync) -> AboutTrack {
+    let tracked_by = match () {
+        () if antenna.follows() => TrackedBy::ProgramTrack,
+        () if antenna.tracks_unasked() => TrackedBy::Elsewhere,
+        () => TrackedBy::OnBoard,
+    };
+    AboutTrack { begun, tracked_by, sent: None, unit_clock_ahead_s: None, sync }
 }
 
 impl Followed {
@@ -265,37 +227,25 @@ impl Followed {
             .filter_map(|set| Some((set.elements.epoch(), Propagator::new(&set.elements).ok()?)));
         let explanations = evidence.explanations(&others.collect::<Vec<_>>());
         let middle = add_seconds(self.from, seconds_between(self.from, self.until) / 2.0);
-        let satellite = self.elements.catalog_number();
-        let name = self.elements.name().to_owned();
-        let written = Written {
+        let mut points: Vec<MeasuredPosition> = Vec::new();
+        for flown in &self.flown {
+            if points.last().is_none_or(|last| seconds_between(last.time, flown.time) >= POINT_S) {
+                points.push(*flown);
+            }
+        }
+        let report = RecordedReport {
             from: self.from,
             until: self.until,
             max_elevation_deg: self.max_elevation_deg,
             age_days: self.elements.age_s(middle) / 86_400.0,
             half_beam_deg: self.limits.half_beam.degrees(),
             elements: self.elements,
+            site: Some(self.site),
             about: self.about,
             report,
             explanations,
         };
-        let mut points: Vec<PassPoint> = Vec::new();
-        for flown in &self.flown {
-            if points.last().is_none_or(|last| seconds_between(last.time, flown.time) >= POINT_S) {
-                let MeasuredPosition { time, pointing } = *flown;
-                points.push(PassPoint { time, pointing });
-            }
-        }
-        let verdict = written.report.verdict;
-        PassNote {
-            antenna: self.antenna,
-            satellite,
-            name,
-            from: self.from,
-            until: self.until,
-            verdict,
-            report: serde_json::to_value(written).unwrap_or_default(),
-            points,
-        }
+        PassNote { antenna: self.antenna, report, points }
     }
 
     fn trackability(&self) -> Trackability {

@@ -42,6 +42,8 @@ pub(super) enum Act {
     MapLayers,
     /// Selects the pass before or after, in the list of the plan.
     PlannedPass(isize),
+    /// Shows the pass so many rows further down in the record.
+    RecordedPass(isize),
     /// Chooses the selected pass for the schedule, or against it.
     ChoosePass(Option<Take>),
     /// Asks whether a pass that is left out is to be taken.
@@ -80,7 +82,10 @@ impl Act {
     pub(super) fn is_possible(self, ui: &Ui, model: &Model) -> bool {
         match self {
             Self::SelectAntenna(index) => index < model.antennas.len(),
-            Self::MoveInList(_) | Self::Nearest(_) | Self::PlannedPass(_) => {
+            Self::MoveInList(_)
+            | Self::Nearest(_)
+            | Self::PlannedPass(_)
+            | Self::RecordedPass(_) => {
                 let plain = ui.input(|input| input.modifiers.is_none());
                 plain && ui.memory(|memory| memory.focused().is_none())
             }
@@ -107,6 +112,7 @@ impl Act {
                 ui.memory_mut(|memory| memory.move_focus(FocusDirection::None));
                 commands.extend(targets.operate.neighbour(model, down).map(UiCommand::SelectPass));
             }
+            Self::RecordedPass(down) => targets.record.step(model, down),
             Self::NextPass => {
                 commands.extend(model.next_pass().map(|next| UiCommand::SelectPass(next.key())));
             }

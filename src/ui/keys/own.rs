@@ -132,6 +132,7 @@ impl KeyScope {
             Self::Views => "views",
             Self::Operate => "operate",
             Self::Plan => "plan",
+            Self::Record => "record",
             Self::Map => "map",
             Self::Elements => "elements",
             Self::Preferences => "preferences",

@@ -4,7 +4,7 @@ use egui::{Painter, Pos2, Stroke};
 
 /// Paints `path` in dashes. Each dash is one line, also around a bend; in a dash pieced
 /// together from segments, the ends would run into the gaps.
-pub(super) fn paint(painter: &Painter, path: &[Pos2], stroke: Stroke, pattern: (f32, f32)) {
+pub(in crate::ui) fn paint(painter: &Painter, path: &[Pos2], stroke: Stroke, pattern: (f32, f32)) {
     for dash in along(path, pattern) {
         // egui aligns only a level line segment with whole pixels.
         if let [start, end] = dash[..] {

@@ -9,9 +9,9 @@ use crate::{
 };
 
 /// Top of the elevation scale.
-pub(super) const ELEVATION_TOP_DEG: f64 = 90.0;
+pub(in crate::ui) const ELEVATION_TOP_DEG: f64 = 90.0;
 /// Top of the azimuth scale.
-pub(super) const AZIMUTH_TOP_DEG: f64 = 360.0;
+pub(in crate::ui) const AZIMUTH_TOP_DEG: f64 = 360.0;
 /// Minimum top of the error plot, in half beams.
 const MIN_ERROR_HALF_BEAMS: f64 = 1.4;
 /// Maximum top of the error plot, in half beams; larger errors lie at the top edge.
@@ -19,7 +19,7 @@ const MAX_ERROR_HALF_BEAMS: f64 = 3.0;
 
 /// The time axis that both plots share.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct TimeAxis {
+pub(in crate::ui) struct TimeAxis {
     start: Timestamp,
     end: Timestamp,
     left: f32,
@@ -29,35 +29,35 @@ pub(super) struct TimeAxis {
 impl TimeAxis {
     /// The axis from the first to the last sample, across the width of `rect`. `None` if no
     /// time lies between them.
-    pub(super) fn new(track: &[Sample], rect: Rect) -> Option<Self> {
+    pub(in crate::ui) fn new(track: &[Sample], rect: Rect) -> Option<Self> {
         Self::between(track.first()?.time, track.last()?.time, rect)
     }
 
     /// The axis from `start` to `end`, across the width of `rect`.
-    pub(super) fn between(start: Timestamp, end: Timestamp, rect: Rect) -> Option<Self> {
+    pub(in crate::ui) fn between(start: Timestamp, end: Timestamp, rect: Rect) -> Option<Self> {
         (end > start).then(|| Self { start, end, left: rect.left(), width: rect.width() })
     }
 
-    pub(super) fn start(&self) -> Timestamp {
+    pub(in crate::ui) fn start(&self) -> Timestamp {
         self.start
     }
 
-    pub(super) fn end(&self) -> Timestamp {
+    pub(in crate::ui) fn end(&self) -> Timestamp {
         self.end
     }
 
-    pub(super) fn contains(&self, time: Timestamp) -> bool {
+    pub(in crate::ui) fn contains(&self, time: Timestamp) -> bool {
         (self.start..=self.end).contains(&time)
     }
 
     /// The x of `time`, which may lie outside the axis.
-    pub(super) fn x(&self, time: Timestamp) -> f32 {
+    pub(in crate::ui) fn x(&self, time: Timestamp) -> f32 {
         let part = seconds_between(self.start, time) / seconds_between(self.start, self.end);
         self.left + part as f32 * self.width
     }
 
     /// The time at `x`; beyond the axis that of its end.
-    pub(super) fn time(&self, x: f32) -> Timestamp {
+    pub(in crate::ui) fn time(&self, x: f32) -> Timestamp {
         let part = f64::from((x - self.left) / self.width).clamp(0.0, 1.0);
         add_seconds(self.start, part * seconds_between(self.start, self.end))
     }
@@ -65,13 +65,13 @@ impl TimeAxis {
 
 /// The y of `value` in `rect`, whose bottom is 0 and whose top is `top`. A value beyond them
 /// lies at the edge.
-pub(super) fn y(rect: Rect, value: f64, top: f64) -> f32 {
+pub(in crate::ui) fn y(rect: Rect, value: f64, top: f64) -> f32 {
     rect.bottom() - (value / top).clamp(0.0, 1.0) as f32 * rect.height()
 }
 
 /// The top of the error plot in degrees: 1.4 half beams, or up to 3 if an
 /// error is larger. Without a beam, the largest error.
-pub(super) fn error_top_deg(errors: impl Iterator<Item = f64>, half_beam_deg: f64) -> f64 {
+pub(in crate::ui) fn error_top_deg(errors: impl Iterator<Item = f64>, half_beam_deg: f64) -> f64 {
     let largest = errors.filter(|error| error.is_finite()).fold(0.0, f64::max);
     if has_beam(half_beam_deg) {
         largest.clamp(MIN_ERROR_HALF_BEAMS * half_beam_deg, MAX_ERROR_HALF_BEAMS * half_beam_deg)
@@ -82,12 +82,12 @@ pub(super) fn error_top_deg(errors: impl Iterator<Item = f64>, half_beam_deg: f6
     }
 }
 
-pub(super) fn has_beam(half_beam_deg: f64) -> bool {
+pub(in crate::ui) fn has_beam(half_beam_deg: f64) -> bool {
     half_beam_deg.is_finite() && half_beam_deg > 0.0
 }
 
 /// The points of a curve, cut into pieces at values that are not finite.
-pub(super) fn pieces(
+pub(in crate::ui) fn pieces(
     points: impl Iterator<Item = (f32, f64)>,
     rect: Rect,
     top: f64,
@@ -107,7 +107,7 @@ pub(super) fn pieces(
 /// Azimuths in degrees, broken where they pass north: one piece ends at one
 /// edge of the scale, and a value that is not finite separates it from the
 /// next, which starts at the other edge.
-pub(super) fn broken_at_north(points: impl Iterator<Item = (f32, f64)>) -> Vec<(f32, f64)> {
+pub(in crate::ui) fn broken_at_north(points: impl Iterator<Item = (f32, f64)>) -> Vec<(f32, f64)> {
     let mut broken: Vec<(f32, f64)> = Vec::new();
     for (x, azimuth_deg) in points {
         let azimuth_deg = azimuth_deg.rem_euclid(AZIMUTH_TOP_DEG);

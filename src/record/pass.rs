@@ -1,0 +1,66 @@
+//! A pass that an antenna tracked, as it is kept.
+
+use jiff::Timestamp;
+use serde::{Deserialize, Serialize};
+
+use crate::{
+    astro::Site,
+    driver::TimeSync,
+    orbit::Elements,
+    plan::pass_report::{Explanation, MeasuredPosition, PassReport},
+    station::AntennaId,
+};
+
+/// A pass that an antenna has tracked, to be kept.
+#[derive(Debug, Clone, PartialEq)]
+pub struct PassNote {
+    pub antenna: AntennaId,
+    pub report: RecordedReport,
+    /// The track, about a point a second.
+    pub points: Vec<MeasuredPosition>,
+}
+
+/// Report of a pass as it is kept; `docs/record.md` tells its fields.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct RecordedReport {
+    /// From AOS to LOS, above the antenna's minimum elevation.
+    pub from: Timestamp,
+    pub until: Timestamp,
+    pub max_elevation_deg: f64,
+    /// Age of the elements in the middle of the pass, days.
+    pub age_days: f64,
+    pub elements: Elements,
+    /// Where the antenna stands; `None` in records of version 0.1 before it was kept.
+    #[serde(default)]
+    pub site: Option<Site>,
+    pub half_beam_deg: f64,
+    #[serde(flatten)]
+    pub about: AboutTrack,
+    #[serde(flatten)]
+    pub report: PassReport,
+    /// What would explain the error, the best first.
+    pub explanations: Vec<Explanation>,
+}
+
+/// What is told of a track besides its positions.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct AboutTrack {
+    /// When it was first seen to be tracked.
+    pub begun: Timestamp,
+    pub tracked_by: TrackedBy,
+    /// Positions that were sent, with program track.
+    pub sent: Option<u32>,
+    /// The unit's clock against that of this computer, seconds.
+    pub unit_clock_ahead_s: Option<f64>,
+    /// Whether a time service keeps the clock of this computer.
+    pub sync: TimeSync,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum TrackedBy {
+    ProgramTrack,
+    OnBoard,
+    /// The unit began it, or somebody at its panel.
+    Elsewhere,
+}

@@ -1,0 +1,213 @@
+//! Passes of a record, as somebody looks back at them.
+
+use std::path::Path;
+
+use jiff::{SignedDuration, Timestamp};
+use rusqlite::{Connection, Row as SqlRow, named_params};
+use serde::{Deserialize, Serialize};
+
+use super::{
+    Kind, Query, Record, RecordError, RecordedReport, Row, RowKind,
+    file::{self, PER_DEGREE},
+};
+use crate::{
+    astro::{Angle, Site, time::seconds_between},
+    device::Pointing,
+    orbit::Propagator,
+    plan::{
+        Sample,
+        pass_report::{MeasuredPosition, PassVerdict, TrackPoint},
+    },
+    station::AntennaId,
+};
+
+/// Entries are told from this long before a track began, which may have led to it,
+const BEFORE: SignedDuration = SignedDuration::from_secs(300);
+/// to this long after its pass.
+const AFTER: SignedDuration = SignedDuration::from_secs(60);
+/// Time between two directions of the predicted path, seconds.
+const STEP_S: f64 = 2.0;
+/// Kinds of entries that tell what happened in a pass.
+const TOLD: [Kind; 7] =
+    [Kind::Command, Kind::Stop, Kind::Refusal, Kind::Link, Kind::Alarm, Kind::Day, Kind::Gap];
+
+/// Which passes are looked at.
+#[derive(Debug, Clone, PartialEq, Eq, Default, Serialize, Deserialize)]
+pub struct PassQuery {
+    pub antenna: Option<AntennaId>,
+    pub verdict: Option<PassVerdict>,
+    /// Part of the name of the satellite, its catalog number, or the beginning of a date.
+    pub text: String,
+    /// So many at most, the newest.
+    pub count: u32,
+}
+
+/// A pass of the record.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct RecordedPass {
+    /// Number in the record.
+    pub id: i64,
+    pub antenna: AntennaId,
+    /// Name of the antenna at the time.
+    pub antenna_name: String,
+    pub report: RecordedReport,
+}
+
+/// The passes that a query finds, the newest first.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
+pub struct PassPage {
+    pub passes: Vec<RecordedPass>,
+    /// Number of passes that the query finds without its limit.
+    pub matching: u32,
+    /// Number of all passes in the record.
+    pub all: u32,
+    /// LOS of the first pass in the record.
+    pub since: Option<Timestamp>,
+    /// Passes of the page whose report cannot be read.
+    pub unreadable: u32,
+}
+
+/// A pass with its track and what happened in it.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct OpenedPass {
+    pub pass: RecordedPass,
+    /// The measured track beside the predicted one, about a point a second.
+    pub track: Vec<TrackPoint>,
+    /// The predicted path from AOS to LOS.
+    pub path: Vec<Sample>,
+    /// Entries of the antenna, from five minutes before its track began to a minute after LOS.
+    pub entries: Vec<Row>,
+}
+
+/// The passes that `query` finds in the record at `path`.
+pub fn passes(path: &Path, query: &PassQuery) -> Result<PassPage, RecordError> {
+    Passes { db: file::open_to_read(path)? }.page(query)
+}
+
+/// The pass with this number, if the record at `path` has it. Reports without a site are of an
+/// antenna at `site`.
+pub fn open_pass(path: &Path, id: i64, site: Site) -> Result<Option<OpenedPass>, RecordError> {
+    let passes = Passes { db: file::open_to_read(path)? };
+    let Some(pass) = passes.pass(id)? else { return Ok(None) };
+    let flown = passes.points(id)?;
+    let report = &pass.report;
+    let site = report.site.unwrap_or(site);
+    let (mut track, mut predicted) = (Vec::new(), Vec::new());
+    if let Ok(propagator) = Propagator::new(&report.elements) {
+        let has_elevation = flown.iter().any(|flown| flown.pointing.elevation.is_some());
+        let point =
+            |flown: &MeasuredPosition| TrackPoint::new(&propagator, site, has_elevation, *flown);
+        track = flown.iter().filter_map(point).collect();
+        predicted = path_of(&propagator, site, report);
+    }
+    let mut entries = Vec::new();
+    let query = Query {
+        from: report.from.min(report.about.begun).checked_sub(BEFORE).ok(),
+        to: report.until.checked_add(AFTER).ok(),
+        antenna: Some(pass.antenna_name.clone()),
+        what: TOLD.into_iter().map(RowKind::Entry).collect(),
+    };
+    Record::open(path)?.read(&query, &mut |row| {
+        entries.push(row);
+        true
+    })?;
+    Ok(Some(OpenedPass { pass, track, path: predicted, entries }))
+}
+
+fn path_of(propagator: &Propagator, site: Site, report: &RecordedReport) -> Vec<Sample> {
+    let count = (seconds_between(report.from, report.until) / STEP_S).ceil().max(0.0) as u32;
+    let times = (0..=count).map(|step| {
+        let time = crate::astro::time::add_seconds(report.from, f64::from(step) * STEP_S);
+        time.min(report.until)
+    });
+    let sample = |time| {
+        let look = propagator.look_from(site, time).ok()?;
+        Some(Sample { time, direction: look.direction })
+    };
+    times.filter_map(sample).collect()
+}
+
+/// The passes of an open record.
+struct Passes {
+    db: Connection,
+}
+
+/// Columns of a pass.
+const COLUMNS: &str = "id, antenna, (SELECT name FROM antenna AS a WHERE a.id = pass.antenna \
+    ORDER BY since_us > pass.until_us, abs(since_us - pass.until_us) LIMIT 1), report";
+
+impl Passes {
+    fn page(&self, query: &PassQuery) -> Result<PassPage, RecordError> {
+        let wanted = "(:antenna IS NULL OR antenna = :antenna) \
+            AND (:verdict IS NULL OR verdict = :verdict) \
+            AND (instr(lower(name), lower(:text)) > 0 OR CAST(satellite AS TEXT) = :text \
+                 OR instr(strftime('%Y-%m-%d', from_us / 1000000, 'unixepoch'), :text) = 1)";
+        let antenna = query.antenna.map(|antenna| antenna.0);
+        let verdict = query.verdict.map(PassVerdict::word);
+        let text = query.text.trim();
+        let of_query = named_params! { ":antenna": antenna, ":verdict": verdict, ":text": text };
+        let matching = self.db.query_row(
+            &format!("SELECT count(*) FROM pass WHERE {wanted}"),
+            of_query,
+            |row| row.get(0),
+        )?;
+        let (all, since_us): (u32, Option<i64>) =
+            self.db.query_row("SELECT count(*), min(until_us) FROM pass", [], |row| {
+                Ok((row.get(0)?, row.get(1)?))
+            })?;
+        let mut page = PassPage {
+            matching,
+            all,
+            since: since_us.and_then(|us| Timestamp::from_microsecond(us).ok()),
+            ..PassPage::default()
+        };
+        let mut statement = self.db.prepare(&format!(
+            "SELECT {COLUMNS} FROM pass WHERE {wanted} ORDER BY until_us DESC LIMIT {}",
+            query.count
+        ))?;
+        let mut rows = statement.query(of_query)?;
+        while let Some(row) = rows.next()? {
+            match read_pass(row)? {
+                Some(pass) => page.passes.push(pass),
+                None => page.unreadable += 1,
+            }
+        }
+        Ok(page)
+    }
+
+    fn pass(&self, id: i64) -> Result<Option<RecordedPass>, RecordError> {
+        let mut statement =
+            self.db.prepare(&format!("SELECT {COLUMNS} FROM pass WHERE id = ?1"))?;
+        let mut rows = statement.query([id])?;
+        rows.next()?.map_or(Ok(None), read_pass)
+    }
+
+    fn points(&self, id: i64) -> Result<Vec<MeasuredPosition>, RecordError> {
+        let mut statement = self.db.prepare(
+            "SELECT utc_us, azimuth, elevation FROM pass_point WHERE pass = ?1 ORDER BY utc_us",
+        )?;
+        let points = statement.query_map([id], |row| {
+            let angle = |place| -> rusqlite::Result<Option<Angle>> {
+                let parts: Option<i64> = row.get(place)?;
+                Ok(parts.map(|parts| Angle::from_degrees(parts as f64 / PER_DEGREE)))
+            };
+            Ok(MeasuredPosition {
+                time: Timestamp::from_microsecond(row.get(0)?).unwrap_or_default(),
+                pointing: Pointing { azimuth: angle(1)?, elevation: angle(2)? },
+            })
+        })?;
+        Ok(points.collect::<Result<_, _>>()?)
+    }
+}
+
+/// The pass of a row; `None` where its report cannot be read.
+fn read_pass(row: &SqlRow<'_>) -> Result<Option<RecordedPass>, RecordError> {
+    let report: String = row.get(3)?;
+    let Ok(report) = serde_json::from_str(&report) else { return Ok(None) };
+    Ok(Some(RecordedPass {
+        id: row.get(0)?,
+        antenna: AntennaId(row.get(1)?),
+        antenna_name: row.get::<_, Option<String>>(2)?.unwrap_or_default(),
+        report,
+    }))
+}

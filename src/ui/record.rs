@@ -1,0 +1,115 @@
+//! The Record view: the passes that antennas have tracked, and what became of each.
+
+mod bar;
+mod cursor;
+mod curves;
+mod events;
+mod explain;
+mod facts;
+mod list;
+mod path;
+mod report;
+mod state;
+
+use egui::{Rect, RichText, ScrollArea, Ui, UiBuilder, vec2};
+
+pub use self::state::RecordState;
+use super::{text, theme};
+use crate::model::{Model, UiCommand};
+
+const PADDING: f32 = 16.0;
+/// Width of the list of passes.
+const LIST: f32 = 320.0;
+/// In a window below this width the list is a drawer, and the tables stand below the curves.
+const DRAWER_BELOW: f32 = 1100.0;
+/// Height of the path and the curves.
+const DRAWINGS: f32 = 384.0;
+/// Least height of the tables below them.
+const TABLES: f32 = 276.0;
+
+/// Draws the view.
+pub fn show(
+    ui: &mut Ui,
+    window: Rect,
+    rect: Rect,
+    model: &Model,
+    state: &mut RecordState,
+    commands: &mut Vec<UiCommand>,
+) {
+    let t = theme::tokens(ui);
+    ui.painter().rect_filled(rect, 0.0, t.bg0);
+    let has_drawer = window.width() < DRAWER_BELOW;
+    let (top, rest) = rect.split_top_bottom_at_y(rect.top() + bar::HEIGHT);
+    bar::show(ui, top, model, has_drawer, state, commands);
+    let is_listed = !has_drawer || state.list_is_open;
+    let list_width = if is_listed { LIST } else { 0.0 };
+    let (left, right) = rest.split_left_right_at_x(rest.left() + list_width);
+    // A drawer lies over the report and takes the pointer.
+    if is_listed {
+        list::show(ui, left, model, state);
+    }
+    let body = if has_drawer { rest.with_min_x(left.right()) } else { right };
+    match state.opened(model) {
+        Some(opened) => {
+            let opened = opened.clone();
+            show_report(ui, body, window, model, &opened, state, commands);
+        }
+        None => nothing(ui, body, model, state),
+    }
+    state.ask(model, commands);
+}
+
+/// What stands in place of a report.
+fn nothing(ui: &mut Ui, rect: Rect, model: &Model, state: &RecordState) {
+    let t = theme::tokens(ui);
+    let place = rect.shrink2(vec2(PADDING, PADDING));
+    ui.scope_builder(UiBuilder::new().id_salt("no report").max_rect(place), |ui| {
+        let (head, words) = state.why_nothing(model);
+        ui.label(RichText::new(head).font(text::value()));
+        ui.label(RichText::new(words).font(text::body()).color(t.t2));
+    });
+}
+
+fn show_report(
+    ui: &mut Ui,
+    rect: Rect,
+    window: Rect,
+    model: &Model,
+    opened: &crate::record::OpenedPass,
+    state: &mut RecordState,
+    commands: &mut Vec<UiCommand>,
+) {
+    let (head, rest) = rect.split_top_bottom_at_y(rect.top() + report::HEAD);
+    report::head(ui, head, model, &opened.pass, commands);
+    ui.scope_builder(UiBuilder::new().id_salt("report").max_rect(rest), |ui| {
+        ui.set_clip_rect(rest.intersect(ui.clip_rect()));
+        ui.spacing_mut().item_spacing = vec2(0.0, 0.0);
+        ScrollArea::vertical().id_salt("report").auto_shrink(false).show(ui, |ui| {
+            let width = rest.width();
+            let verdict = report::verdict_height(ui, width, model, &opened.pass);
+            let (_, place) = ui.allocate_space(vec2(width, verdict));
+            report::verdict(ui, place, model, &opened.pass);
+            let (_, place) = ui.allocate_space(vec2(width, DRAWINGS));
+            let side = (0.344 * width).clamp(280.0, 400.0);
+            let (left, right) = place.split_left_right_at_x(place.left() + side);
+            path::show(ui, left, model, opened, state);
+            curves::show(ui, right, model, opened, state);
+            let is_wide = window.width() >= DRAWER_BELOW;
+            let rows = explain::height(opened);
+            let spare = rest.height() - verdict - DRAWINGS;
+            if is_wide {
+                let height = rows.max(facts::HEIGHT).max(TABLES).max(spare);
+                let (_, place) = ui.allocate_space(vec2(width, height));
+                let side = (0.375 * width).clamp(340.0, 420.0);
+                let (left, right) = place.split_left_right_at_x(place.right() - side);
+                explain::show(ui, left, opened);
+                facts::show(ui, right, model, opened, commands);
+            } else {
+                let (_, place) = ui.allocate_space(vec2(width, rows));
+                explain::show(ui, place, opened);
+                let (_, place) = ui.allocate_space(vec2(width, facts::HEIGHT));
+                facts::show(ui, place, model, opened, commands);
+            }
+        });
+    });
+}

@@ -1,0 +1,200 @@
+//! The controls above the record.
+
+use egui::{Align2, Rect, RichText, Role, TextEdit, Ui, WidgetInfo, pos2, vec2};
+
+use super::{PADDING, RecordState};
+use crate::{
+    engine::antenna::AntennaModel,
+    model::{Model, UiCommand},
+    plan::pass_report::PassVerdict,
+    ui::{
+        format,
+        icons::{self, Icon},
+        text, theme,
+        widgets::{
+            button::{Button, HEIGHT as BUTTON},
+            drop_down::DropDown,
+            input, paint,
+            segmented::{self, Segment},
+        },
+        words::record as words,
+    },
+};
+
+pub(super) const HEIGHT: f32 = 56.0;
+const GAP: f32 = 8.0;
+const TITLE: f32 = 228.0;
+const SMALL_TITLE: f32 = 76.0;
+const SEARCH: f32 = 208.0;
+/// In a bar below this width the recording state is a mark, and the title has no second line.
+const WIDE: f32 = 1150.0;
+const ANTENNA: f32 = 84.0;
+const VERDICTS: [PassVerdict; 3] = [PassVerdict::Good, PassVerdict::Fair, PassVerdict::Poor];
+
+pub(super) fn show(
+    ui: &mut Ui,
+    rect: Rect,
+    model: &Model,
+    has_drawer: bool,
+    state: &mut RecordState,
+    _commands: &mut Vec<UiCommand>,
+) {
+    let t = theme::tokens(ui);
+    ui.painter().rect_filled(rect, 0.0, t.bg1);
+    ui.painter().hline(rect.x_range(), rect.bottom() - 0.5, (1.0, t.line));
+    let inner = rect.shrink2(vec2(PADDING, 0.0));
+    let is_wide = rect.width() >= WIDE;
+    let mut left = inner.left();
+    let mut place = |width: f32| {
+        let min = pos2(left, rect.center().y - BUTTON / 2.0);
+        left += width + GAP;
+        Rect::from_min_size(min, vec2(width, BUTTON))
+    };
+    if has_drawer {
+        let button = Button::normal("Passes");
+        let at = place(button.width(ui));
+        if button.show(ui, "record passes", at).clicked() {
+            state.list_is_open = !state.list_is_open;
+        }
+    }
+    let at = place(if is_wide { TITLE } else { SMALL_TITLE });
+    title(ui, at, model, is_wide, state);
+    antennas(ui, &mut place, model, is_wide, state);
+    let at = place(if is_wide { SEARCH } else { SEARCH - 48.0 });
+    search(ui, at, state);
+    verdicts(ui, &mut place, state);
+    recording(ui, inner.with_min_x(left + GAP), model);
+}
+
+fn title(ui: &Ui, rect: Rect, model: &Model, is_wide: bool, state: &RecordState) {
+    let t = theme::tokens(ui);
+    let left = Align2::LEFT_CENTER;
+    let words = summary(model, state);
+    if is_wide {
+        let line = |y: f32| {
+            Rect::from_x_y_ranges(
+                rect.x_range(),
+                rect.center().y + y - 12.0..=rect.center().y + y + 12.0,
+            )
+        };
+        paint::text_in(ui, line(-9.0), left, "Record", text::title(), t.t1);
+        paint::text_in(ui, line(12.0), left, &words, text::small(), t.t2);
+        paint::name_text(ui, "record summary", line(12.0), &words).on_hover_text(&words);
+    } else {
+        paint::text_in(ui, rect, left, "Record", text::title(), t.t1);
+        paint::name_text(ui, "record summary", rect, &words).on_hover_text(&words);
+    }
+}
+
+/// How many passes there are, since when, and how large the record is.
+fn summary(model: &Model, state: &RecordState) -> String {
+    let Some(page) = state.page(model) else { return String::new() };
+    let size = model.record.as_ref().map(|record| format::bytes(record.bytes));
+    let mut words = match (page.all, page.since) {
+        (0, _) | (_, None) => "No pass yet".to_owned(),
+        (1, Some(since)) => format!("1 pass, {}", format::day(since)),
+        (all, Some(since)) => format!("{all} passes since {}", format::day(since)),
+    };
+    if state.filters() {
+        words = format!("{} of {words}", page.matching);
+    }
+    if let Some(size) = size {
+        words += &format!(", {size}");
+    }
+    words
+}
+
+fn antennas(
+    ui: &Ui,
+    place: &mut impl FnMut(f32) -> Rect,
+    model: &Model,
+    is_wide: bool,
+    state: &mut RecordState,
+) {
+    let chosen = state.query.antenna;
+    if is_wide && model.antennas.len() <= 3 {
+        let mark = |is_chosen| if is_chosen { Segment::Chosen } else { Segment::Free };
+        let mut segments = vec![("All", mark(chosen.is_none()))];
+        segments.extend(
+            model
+                .antennas
+                .iter()
+                .map(|antenna| (antenna.config.name.as_str(), mark(chosen == Some(antenna.id())))),
+        );
+        let at = place(44.0 + ANTENNA * model.antennas.len() as f32);
+        if let Some(index) = segmented::show(ui, "record antenna", at, "Antenna", &segments) {
+            let antenna = index.checked_sub(1).and_then(|index| model.antennas.get(index));
+            state.query.antenna = antenna.map(AntennaModel::id);
+        }
+        return;
+    }
+    let of = chosen.and_then(|id| model.antenna_of(id));
+    let word = of.map_or("All antennas", |antenna| &antenna.config.name).to_owned();
+    let name = format!("Antenna, {word}");
+    let list = DropDown { button: Button::normal(&word), salt: "record antenna", name: &name };
+    let at = place(list.width(ui));
+    list.show(ui, at, |ui| {
+        ui.selectable_value(&mut state.query.antenna, None, "All antennas");
+        for antenna in &model.antennas {
+            let name = antenna.config.name.as_str();
+            ui.selectable_value(&mut state.query.antenna, Some(antenna.id()), name);
+        }
+    });
+}
+
+fn search(ui: &mut Ui, place: Rect, state: &mut RecordState) {
+    let t = theme::tokens(ui);
+    let edit = TextEdit::singleline(&mut state.query.text)
+        .id_salt("search the record")
+        .hint_text(RichText::new("Satellite or 2026-11-30").color(t.t3))
+        .align(Align2::LEFT_CENTER)
+        .min_size(place.size())
+        .desired_width(place.width());
+    let edit = ui.place(place, edit).accessible_name("Satellite or date");
+    input::select_when_tabbed(ui, &edit, &state.query.text);
+    paint::focus_ring(ui, &edit, 4);
+}
+
+fn verdicts(ui: &Ui, place: &mut impl FnMut(f32) -> Rect, state: &mut RecordState) {
+    let word = state.query.verdict.map_or("All verdicts", words::verdict);
+    let name = format!("Verdict, {word}");
+    let list = DropDown { button: Button::normal(word), salt: "record verdict", name: &name };
+    let at = place(list.width(ui));
+    list.show(ui, at, |ui| {
+        ui.selectable_value(&mut state.query.verdict, None, "All verdicts");
+        for verdict in VERDICTS {
+            ui.selectable_value(&mut state.query.verdict, Some(verdict), words::verdict(verdict));
+        }
+    });
+}
+
+/// Whether the record is written, at the right.
+fn recording(ui: &Ui, room: Rect, model: &Model) {
+    let t = theme::tokens(ui);
+    let (icon, colour, words) = match &model.record {
+        None => (Icon::OpenRing, t.t3, "Not recording".to_owned()),
+        Some(record) => match &record.failing {
+            Some(failing) => {
+                let since = format::moment(failing.since, model.now);
+                (Icon::Warning, t.bad, format!("Nothing recorded since {since}: {}", failing.why))
+            }
+            None => {
+                let count = model.antennas.len();
+                let antennas = if count == 1 { "antenna" } else { "antennas" };
+                (Icon::Disc, t.ok, format!("Recording {count} {antennas}"))
+            }
+        },
+    };
+    if room.width() < 24.0 {
+        return;
+    }
+    let width = paint::text_width(ui, &words, text::small()) + 20.0;
+    let place = room.with_min_x((room.right() - width).max(room.left()));
+    let at = pos2(place.left() + 6.0, place.center().y);
+    icons::paint(ui.painter(), paint::square(at, 12.0), icon, colour);
+    let rest = place.with_min_x(place.left() + 18.0);
+    paint::text_in(ui, rest, Align2::LEFT_CENTER, &words, text::small(), t.t2);
+    let response = paint::name_text(ui, "recording", place, &words);
+    response.widget_info(|| WidgetInfo::labeled(Role::Status, true, &words));
+    response.on_hover_text(&words);
+}

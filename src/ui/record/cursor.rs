@@ -1,0 +1,27 @@
+//! The time at which all drawings of a report are read.
+
+use jiff::Timestamp;
+
+use super::RecordState;
+use crate::{astro::time::seconds_between, plan::pass_report::TrackPoint, record::OpenedPass};
+
+/// Points further from the cursor than this say nothing of it, seconds.
+const NEAR_S: f64 = 2.0;
+
+/// The point of the track at the cursor; that of the worst error until the operator moves it.
+pub(super) fn point<'a>(opened: &'a OpenedPass, state: &RecordState) -> Option<&'a TrackPoint> {
+    match state.cursor {
+        Some(at) => nearest(&opened.track, at),
+        None => worst(&opened.track),
+    }
+}
+
+pub(super) fn worst(track: &[TrackPoint]) -> Option<&TrackPoint> {
+    track.iter().max_by(|a, b| a.error.off_deg.total_cmp(&b.error.off_deg))
+}
+
+fn nearest(track: &[TrackPoint], at: Timestamp) -> Option<&TrackPoint> {
+    let apart = |point: &TrackPoint| seconds_between(point.time, at).abs();
+    let nearest = track.iter().min_by(|a, b| apart(a).total_cmp(&apart(b)))?;
+    (apart(nearest) <= NEAR_S).then_some(nearest)
+}

@@ -1,0 +1,223 @@
+//! What happened in a pass, in lanes below its curves.
+
+use egui::{Align2, Color32, Rect, Role, Sense, Stroke, Ui, WidgetInfo, pos2};
+use jiff::Timestamp;
+
+use super::{PADDING, RecordState, curves};
+use crate::{
+    engine::alarms::Alarm,
+    model::Model,
+    plan::pass_report::LossCause,
+    record::{OpenedPass, Row},
+    ui::{
+        format,
+        profile::scale::TimeAxis,
+        text, theme,
+        widgets::paint,
+        words::{alarm, record as words},
+    },
+};
+
+const LANE: f32 = 20.0;
+const LANES: [&str; 4] = ["Pass", "Sent", "Link", "Alarm"];
+
+/// Draws the lanes into `rect`; times lie as in `plots` above.
+pub(super) fn show(
+    ui: &Ui,
+    rect: Rect,
+    plots: Rect,
+    axis: &TimeAxis,
+    model: &Model,
+    opened: &OpenedPass,
+    state: &mut RecordState,
+) {
+    let t = theme::tokens(ui);
+    let lane = |index: usize| {
+        let top = rect.top() + index as f32 * LANE;
+        Rect::from_x_y_ranges(plots.x_range(), top..=top + LANE)
+    };
+    for (index, name) in LANES.into_iter().enumerate() {
+        let place = lane(index);
+        let label = place.with_min_x(rect.left() + PADDING).with_max_x(plots.left() - 4.0);
+        paint::text_in(ui, label, Align2::LEFT_CENTER, name, text::caption(), t.t2);
+        ui.painter().hline(rect.x_range(), place.bottom(), (1.0, t.line));
+    }
+    let below = lane(LANES.len());
+    for minute in curves::minutes(axis) {
+        let at = pos2(axis.x(minute), below.center().y);
+        let words = format::minute_of_day(minute);
+        paint::text(ui, at, Align2::CENTER_CENTER, words, text::caption(), t.t3);
+    }
+    link(ui, lane(2), axis, opened);
+    for (index, of_lane) in events(model, opened).into_iter().enumerate() {
+        marks(ui, lane(index), axis, &of_lane, model.now, state);
+    }
+}
+
+/// A moment with its words.
+struct Moment {
+    at: Timestamp,
+    words: String,
+    colour: Colour,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Colour {
+    Satellite,
+    Sent,
+    Caution,
+    Fault,
+}
+
+impl Colour {
+    fn of(self, ui: &Ui) -> Color32 {
+        let t = theme::tokens(ui);
+        match self {
+            Self::Satellite => t.sat,
+            Self::Sent => t.cmd,
+            Self::Caution => t.warn,
+            Self::Fault => t.bad,
+        }
+    }
+}
+
+fn events(model: &Model, opened: &OpenedPass) -> [Vec<Moment>; 4] {
+    let report = &opened.pass.report;
+    let highest = opened
+        .path
+        .iter()
+        .max_by(|a, b| a.direction.elevation_deg().total_cmp(&b.direction.elevation_deg()));
+    let of_pass = |at: Timestamp, word: &str| Moment {
+        at,
+        words: format!("{word} {}", format::moment(at, model.now)),
+        colour: Colour::Satellite,
+    };
+    let mut pass = vec![of_pass(report.from, "AOS")];
+    pass.extend(highest.map(|sample| of_pass(sample.time, "TCA")));
+    pass.push(of_pass(report.until, "LOS"));
+    let mut lanes = [pass, Vec::new(), Vec::new(), Vec::new()];
+    for row in &opened.entries {
+        let (lane, words, colour) = match &*row.kind {
+            "command" => (1, command(row), Colour::Sent),
+            "stop" => (1, "STOP".to_owned(), Colour::Fault),
+            "refusal" => (1, "Refused".to_owned(), Colour::Caution),
+            "link" => (2, variant(&row.data).unwrap_or_default(), Colour::Caution),
+            "alarm" => match serde_json::from_value::<Alarm>(row.data.clone()) {
+                Ok(of) => {
+                    let name = &opened.pass.antenna_name;
+                    (3, alarm(&of.kind, name, model.now), Colour::Caution)
+                }
+                Err(_) => continue,
+            },
+            "gap" => (2, "Not recorded".to_owned(), Colour::Caution),
+            _ => continue,
+        };
+        if let Some(lane) = lanes.get_mut(lane) {
+            lane.push(Moment { at: row.time, words, colour });
+        }
+    }
+    let longest =
+        report.report.losses.iter().filter(|lost| !matches!(lost.cause, LossCause::NotMeasured));
+    if let Some(alarms) = lanes.last_mut() {
+        alarms.extend(longest.map(|lost| Moment {
+            at: lost.from,
+            words: format!(
+                "Outside half of the beam {}: {}",
+                format::duration(lost.seconds()),
+                words::loss(lost.cause).to_lowercase()
+            ),
+            colour: Colour::Fault,
+        }));
+        alarms.sort_by_key(|moment| moment.at);
+    }
+    lanes
+}
+
+/// A command in words: what, and who gave it.
+fn command(row: &Row) -> String {
+    let by = row.data.get("by").and_then(serde_json::Value::as_str).unwrap_or_default();
+    let command = row.data.get("command");
+    let of_antenna = command.and_then(|command| command.get("Antenna")).and_then(|of| of.get(1));
+    let what = of_antenna.or(command).and_then(variant).unwrap_or_default();
+    format!("{what}, {by}")
+}
+
+/// The name of a variant as words.
+fn variant(value: &serde_json::Value) -> Option<String> {
+    let name = value
+        .as_str()
+        .or_else(|| value.as_object().and_then(|of| of.keys().next()).map(String::as_str))?;
+    let mut words = String::new();
+    for letter in name.chars() {
+        if letter.is_uppercase() && !words.is_empty() {
+            words.push(' ');
+            words.extend(letter.to_lowercase());
+        } else {
+            words.push(letter);
+        }
+    }
+    Some(words)
+}
+
+/// Where positions came in, and where none did.
+fn link(ui: &Ui, lane: Rect, axis: &TimeAxis, opened: &OpenedPass) {
+    let t = theme::tokens(ui);
+    let report = &opened.pass.report;
+    let bar = |from: Timestamp, until: Timestamp, colour| {
+        let (left, right) = (axis.x(from), axis.x(until).max(axis.x(from) + 2.0));
+        let place =
+            Rect::from_x_y_ranges(left..=right, lane.center().y - 2.5..=lane.center().y + 2.5);
+        ui.painter().rect_filled(place, 0.0, colour);
+    };
+    bar(report.from, report.until, t.ok);
+    for lost in &report.report.losses {
+        if lost.cause == LossCause::NotMeasured {
+            bar(lost.from, lost.until, t.bad);
+        }
+    }
+}
+
+/// Draws the moments of a lane; words only where they do not reach the next.
+fn marks(
+    ui: &Ui,
+    lane: Rect,
+    axis: &TimeAxis,
+    moments: &[Moment],
+    now: Timestamp,
+    state: &mut RecordState,
+) {
+    let clamped = |at: Timestamp| axis.x(at).clamp(lane.left(), lane.right());
+    for (index, moment) in moments.iter().enumerate() {
+        let x = clamped(moment.at);
+        let colour = moment.colour.of(ui);
+        let mark = Rect::from_center_size(pos2(x, lane.center().y), egui::vec2(3.0, 13.0));
+        ui.painter().rect_filled(mark, 0.0, colour);
+        let next = moments.get(index + 1).map_or(lane.right() + 72.0, |next| clamped(next.at));
+        let font = text::caption();
+        let width = paint::text_width(ui, &moment.words, font.clone());
+        let room = if x + 6.0 + width > lane.right() + 72.0 && index > 0 {
+            lane.with_min_x((x - 6.0 - width).max(lane.left())).with_max_x(x - 6.0)
+        } else {
+            lane.with_min_x(x + 6.0).with_max_x((next - 4.0).max(x + 6.0))
+        };
+        if room.width() > 24.0 {
+            paint::text_in(ui, room, Align2::LEFT_CENTER, &moment.words, font, colour);
+        }
+        let id = ui.make_persistent_id(("recorded event", lane.top() as i32, index));
+        let response = ui.interact(mark.expand(4.0), id, Sense::click());
+        let spoken = format!("{}: {}", format::moment(moment.at, now), moment.words);
+        response.widget_info(|| WidgetInfo::labeled(Role::Button, true, &spoken));
+        if response.has_focus() {
+            ui.painter().rect_stroke(
+                mark.expand(3.0),
+                1.0,
+                Stroke::new(1.5, theme::tokens(ui).t1),
+                egui::StrokeKind::Outside,
+            );
+        }
+        if response.clicked() {
+            state.cursor = Some(moment.at);
+        }
+        response.on_hover_text(&spoken);
+    }
+}

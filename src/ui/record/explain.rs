@@ -1,0 +1,136 @@
+//! The table of what would explain the error.
+
+use egui::{Align2, Rect, Ui, pos2, vec2};
+
+use super::PADDING;
+use crate::{
+    plan::pass_report::Explanation,
+    record::OpenedPass,
+    ui::{format, text, theme, widgets::paint, words::record as words},
+};
+
+const BAR: f32 = 32.0;
+const HEAD: f32 = 22.0;
+const ROW: f32 = 29.0;
+const FOOT: f32 = 40.0;
+const SHARE_BAR: f32 = 108.0;
+
+pub(super) fn height(opened: &OpenedPass) -> f32 {
+    let rows = opened.pass.report.explanations.len() + 2;
+    BAR + HEAD + rows as f32 * ROW + FOOT
+}
+
+pub(super) fn show(ui: &Ui, rect: Rect, opened: &OpenedPass) {
+    let t = theme::tokens(ui);
+    ui.painter().rect_filled(rect, 0.0, t.field);
+    let report = &opened.pass.report;
+    let explanations = &report.explanations;
+    let (bar, rest) = rect.split_top_bottom_at_y(rect.top() + BAR);
+    ui.painter().rect_filled(bar, 0.0, t.bg2);
+    let inner = bar.shrink2(vec2(PADDING, 0.0));
+    let left = Align2::LEFT_CENTER;
+    let drawn =
+        paint::text_in(ui, inner, left, "What would explain the error", text::small_strong(), t.t1);
+    let note = format!("each fitted alone to {} points", opened.track.len());
+    paint::text_in(ui, inner.with_min_x(drawn.right() + 12.0), left, &note, text::small(), t.t3);
+    let (head, mut rest) = rest.split_top_bottom_at_y(rest.top() + HEAD);
+    ui.painter().hline(head.x_range(), head.bottom() - 0.5, (1.0, t.line));
+    let columns = Columns::of(rect);
+    for (place, word, anchor) in [
+        (columns.cause, "Cause", Align2::LEFT_CENTER),
+        (columns.size, "Best value", Align2::RIGHT_CENTER),
+        (columns.left, "Rms left °", Align2::RIGHT_CENTER),
+        (columns.bar, "Explained", Align2::LEFT_CENTER),
+    ] {
+        let cell = head.with_min_x(place.0).with_max_x(place.1);
+        paint::text_in(ui, cell, anchor, word, text::caption(), t.t3);
+    }
+    let mut next = || {
+        let (row, below) = rest.split_top_bottom_at_y(rest.top() + ROW);
+        rest = below;
+        ui.painter().hline(row.x_range(), row.bottom() - 0.5, (1.0, t.line));
+        row
+    };
+    let rms =
+        report.report.rms.map_or_else(|| "–".to_owned(), |rms| format::number(rms.off_deg, 3));
+    let row = next();
+    cells(ui, row, &columns, ["As flown", "–", &rms]);
+    paint::name_text(ui, "as flown", row, &format!("As flown, root mean square {rms}°"));
+    if explanations.is_empty() {
+        let row = next();
+        let words = if opened.track.is_empty() {
+            "Nothing was measured"
+        } else {
+            "Not explained: no cause explains three tenths of it"
+        };
+        let room = row.with_min_x(columns.cause.0).with_max_x(row.right() - PADDING);
+        paint::text_in(ui, room, left, words, text::small(), t.t2);
+        paint::name_text(ui, "not explained", row, words);
+    }
+    for (place, explanation) in explanations.iter().enumerate() {
+        let row = next();
+        if place == 0 {
+            ui.painter().rect_filled(row.shrink2(vec2(0.0, 1.0)), 0.0, t.bgsel);
+            ui.painter().rect_filled(row.with_max_x(row.left() + 3.0), 0.0, t.sat);
+        }
+        explained(ui, row, place, &columns, explanation);
+    }
+    if let Some(words) = words::alike(explanations) {
+        let at = rest.min + vec2(PADDING, 8.0);
+        let width = rest.width() - 2.0 * PADDING;
+        let place = paint::paragraph(ui, at, width, &words, text::small(), t.t3);
+        paint::name_text(ui, "alike", place, &words);
+    }
+}
+
+/// Ranges of x.
+struct Columns {
+    cause: (f32, f32),
+    size: (f32, f32),
+    left: (f32, f32),
+    bar: (f32, f32),
+    share: (f32, f32),
+}
+
+impl Columns {
+    fn of(rect: Rect) -> Self {
+        let share = (rect.right() - PADDING - 48.0, rect.right() - PADDING);
+        let bar = (share.0 - 8.0 - SHARE_BAR, share.0 - 8.0);
+        let left = (bar.0 - 16.0 - 64.0, bar.0 - 16.0);
+        let cause_end = rect.left() + PADDING + 0.34 * (left.0 - rect.left());
+        Self {
+            cause: (rect.left() + PADDING, cause_end),
+            size: (cause_end + 8.0, left.0 - 8.0),
+            left,
+            bar,
+            share,
+        }
+    }
+}
+
+fn cells(ui: &Ui, row: Rect, columns: &Columns, [cause, size, left]: [&str; 3]) {
+    let t = theme::tokens(ui);
+    let cell = |(from, to): (f32, f32)| row.with_min_x(from).with_max_x(to);
+    paint::text_in(ui, cell(columns.cause), Align2::LEFT_CENTER, cause, text::small_strong(), t.t1);
+    paint::text_in(ui, cell(columns.size), Align2::RIGHT_CENTER, size, text::small(), t.t1);
+    paint::text_in(ui, cell(columns.left), Align2::RIGHT_CENTER, left, text::small(), t.t1);
+}
+
+fn explained(ui: &Ui, row: Rect, place: usize, columns: &Columns, of: &Explanation) {
+    let t = theme::tokens(ui);
+    let (cause, size) = (words::cause(&of.cause), words::size(&of.cause));
+    let left = format::number(of.left_deg, 3);
+    cells(ui, row, columns, [cause, &size, &left]);
+    let (from, to) = columns.bar;
+    let y = row.center().y;
+    let whole = Rect::from_min_max(pos2(from, y - 4.0), pos2(to, y + 4.0));
+    ui.painter().rect_filled(whole, 1.0, t.bg3);
+    let share = of.share.clamp(0.0, 1.0) as f32;
+    ui.painter().rect_filled(whole.with_max_x(egui::lerp(from..=to, share)), 1.0, t.sat);
+    let words = words::whole_share(of.share);
+    let cell = row.with_min_x(columns.share.0).with_max_x(columns.share.1);
+    paint::text_in(ui, cell, Align2::RIGHT_CENTER, &words, text::small_strong(), t.t1);
+    let alike = if of.is_alike { ", not told from the best one" } else { "" };
+    let spoken = format!("{cause} {size}: explains {words}, {left}° left{alike}");
+    paint::name_text(ui, ("explanation", place), row, &spoken);
+}

@@ -1,0 +1,172 @@
+//! The recorded passes by day, the newest first.
+
+use egui::{Align2, Color32, Rect, Role, ScrollArea, Sense, Ui, UiBuilder, WidgetInfo, pos2, vec2};
+
+use jiff::Timestamp;
+
+use super::{PADDING, RecordState};
+use crate::{
+    model::Model,
+    plan::pass_report::PassVerdict,
+    record::RecordedPass,
+    ui::{
+        format,
+        icons::{self, Icon},
+        text::{self, Weight},
+        theme,
+        tokens::Tokens,
+        widgets::{button::Button, paint},
+        words::record as words,
+    },
+};
+
+const DAY: f32 = 28.0;
+const ROW: f32 = 50.0;
+/// A row with the cause of its loss or error.
+const HIGH_ROW: f32 = 66.0;
+const FOOT: f32 = 44.0;
+
+pub(super) fn show(ui: &mut Ui, rect: Rect, model: &Model, state: &mut RecordState) {
+    let t = theme::tokens(ui);
+    ui.painter().rect_filled(rect, 0.0, t.field);
+    ui.painter().vline(rect.right() - 0.5, rect.y_range(), (1.0, t.line));
+    let id = ui.make_persistent_id("recorded passes");
+    let list = ui.interact(rect, id, Sense::hover());
+    list.widget_info(|| WidgetInfo::labeled(Role::ListBox, true, "Recorded passes"));
+    let shown = state.shown(model);
+    let scrolls = std::mem::take(&mut state.scrolls);
+    let mut chosen = None;
+    ui.scope_builder(UiBuilder::new().id_salt("record list").max_rect(rect), |ui| {
+        ui.set_clip_rect(rect.intersect(ui.clip_rect()));
+        ui.spacing_mut().item_spacing = vec2(0.0, 0.0);
+        ScrollArea::vertical().id_salt("record list").auto_shrink(false).show(ui, |ui| {
+            let passes = state.passes(model);
+            let day = |pass: &RecordedPass| format::date(pass.report.from);
+            for of_day in passes.chunk_by(|a, b| day(a) == day(b)) {
+                let (_, place) = ui.allocate_space(vec2(rect.width(), DAY));
+                head(ui, place, of_day);
+                for pass in of_day {
+                    let cause = words::cause_in_short(pass);
+                    let height = if cause.is_some() { HIGH_ROW } else { ROW };
+                    let (_, place) = ui.allocate_space(vec2(rect.width(), height));
+                    let is_shown = shown == Some(pass.id);
+                    if row(ui, place, model.now, pass, cause.as_deref(), is_shown) {
+                        chosen = Some(pass.id);
+                    }
+                    if is_shown && scrolls {
+                        ui.scroll_to_rect(place, None);
+                    }
+                }
+            }
+            let left = state.page(model).map_or(0, |page| page.matching - listed(page));
+            if left > 0 {
+                let (_, place) = ui.allocate_space(vec2(rect.width(), FOOT));
+                let word = format!("Older passes ({left})");
+                let button = Button::normal(&word);
+                let size = vec2(button.width(ui), 32.0);
+                let at = Rect::from_min_size(place.min + vec2(PADDING, 6.0), size);
+                if button.show(ui, "older passes", at).clicked() {
+                    state.list_more();
+                }
+            }
+        });
+    });
+    if let Some(id) = chosen {
+        state.choose(id);
+    }
+}
+
+/// Number of passes of the page, with those that cannot be read.
+fn listed(page: &crate::record::PassPage) -> u32 {
+    let passes = u32::try_from(page.passes.len()).unwrap_or(u32::MAX);
+    passes.saturating_add(page.unreadable).min(page.matching)
+}
+
+fn head(ui: &Ui, rect: Rect, of_day: &[RecordedPass]) {
+    let t = theme::tokens(ui);
+    ui.painter().rect_filled(rect, 0.0, t.bg2);
+    let inner = rect.shrink2(vec2(PADDING, 0.0));
+    let day = of_day.first().map_or_else(String::new, |pass| format::date(pass.report.from));
+    let good = of_day.iter().filter(|pass| pass.report.report.verdict == PassVerdict::Good).count();
+    let count = of_day.len();
+    let passes = if count == 1 { "pass" } else { "passes" };
+    let words = if good == count {
+        format!("{count} {passes}, all good")
+    } else {
+        format!("{count} {passes}, {good} good")
+    };
+    let right = Align2::RIGHT_CENTER;
+    let counted = paint::text_in(ui, inner, right, &words, text::small(), t.t3);
+    let room = inner.with_max_x(counted.left() - 8.0);
+    paint::text_in(ui, room, Align2::LEFT_CENTER, &day, text::small_strong(), t.t1);
+    paint::name_text(ui, ("record day", &day), rect, &format!("{day}: {words}"));
+}
+
+/// Mark and colour of a verdict.
+pub(super) fn mark(verdict: PassVerdict, t: &Tokens) -> (Icon, Color32) {
+    match verdict {
+        PassVerdict::Good => (Icon::Check, t.ok),
+        PassVerdict::Fair => (Icon::Warning, t.warn),
+        PassVerdict::Poor => (Icon::Cross, t.bad),
+    }
+}
+
+fn row(
+    ui: &Ui,
+    rect: Rect,
+    now: Timestamp,
+    pass: &RecordedPass,
+    cause: Option<&str>,
+    is_shown: bool,
+) -> bool {
+    let t = theme::tokens(ui);
+    let report = &pass.report;
+    let name = report.elements.name();
+    let max = format!("max {}", format::degrees(report.max_elevation_deg, 0));
+    let aos = format::moment(report.from, now);
+    let said = words::in_short(&report.report);
+    let spoken = format!(
+        "{name}, {aos}, {max}, {}: {}, {said}{}",
+        pass.antenna_name,
+        words::verdict(report.report.verdict),
+        cause.map_or_else(String::new, |cause| format!(", {cause}"))
+    );
+    let id = ui.make_persistent_id(("recorded pass", pass.id));
+    let response = ui.interact(rect, id, Sense::click());
+    response.widget_info(|| WidgetInfo::selected(Role::ListBoxOption, true, is_shown, &spoken));
+    ui.ctx().accesskit_node_builder(response.id, |node| node.set_selected(is_shown));
+    let ground = match (is_shown, response.hovered()) {
+        (true, _) => t.bgsel,
+        (false, true) => t.bg3,
+        (false, false) => Color32::TRANSPARENT,
+    };
+    ui.painter().rect_filled(rect, 0.0, ground);
+    ui.painter().hline(rect.x_range(), rect.bottom() - 0.5, (1.0, t.line));
+    if is_shown {
+        ui.painter().rect_filled(rect.with_max_x(rect.left() + 3.0), 0.0, t.sat);
+    }
+    let inner = rect.shrink2(vec2(PADDING, 0.0));
+    let line = |y: f32| {
+        Rect::from_x_y_ranges(inner.x_range(), rect.top() + y - 9.0..=rect.top() + y + 9.0)
+    };
+    let (left, right) = (Align2::LEFT_CENTER, Align2::RIGHT_CENTER);
+    let time = paint::text_in(ui, line(16.0), right, &aos, text::small(), t.t1);
+    let room = line(16.0).with_max_x(time.left() - 16.0);
+    let high = paint::text_in(ui, room, right, &max, text::small(), t.t2);
+    let room = line(16.0).with_max_x(high.left() - 8.0);
+    paint::text_in(ui, room, left, name, text::sized(13.0, Weight::SemiBold), t.t1);
+    let (icon, colour) = mark(report.report.verdict, t);
+    let at = pos2(inner.left() + 7.0, rect.top() + 35.0);
+    icons::paint(ui.painter(), paint::square(at, 13.0), icon, colour);
+    let indent = |y: f32| line(y).with_min_x(inner.left() + 20.0);
+    let of_antenna =
+        paint::text_in(ui, indent(35.0), right, &pass.antenna_name, text::small(), t.t3);
+    let room = indent(35.0).with_max_x(of_antenna.left() - 8.0);
+    let colour = if report.report.verdict == PassVerdict::Good { t.t1 } else { colour };
+    paint::text_in(ui, room, left, &said, text::small(), colour);
+    if let Some(cause) = cause {
+        paint::text_in(ui, indent(52.0), left, cause, text::small(), t.t2);
+    }
+    paint::focus_ring(ui, &response, 0);
+    response.clicked()
+}

@@ -1,0 +1,196 @@
+//! The path over the sky, with the error of the antenna enlarged.
+
+use egui::{Align2, Painter, Pos2, Rect, Sense, Stroke, Ui, WidgetInfo, pos2};
+use jiff::Timestamp;
+
+use super::{PADDING, RecordState, cursor};
+use crate::{
+    astro::time::seconds_between,
+    model::Model,
+    plan::{Sample, pass_report::TrackPoint},
+    record::OpenedPass,
+    ui::{
+        format,
+        profile::dashes,
+        sky_plot::{
+            geometry::{Dome, usable},
+            grid,
+        },
+        text, theme,
+        tokens::Tokens,
+        widgets::paint,
+    },
+};
+
+const TITLE: f32 = 32.0;
+const LEGEND: f32 = 28.0;
+/// The enlarged worst error takes at most so many degrees of the plot.
+const MOST_DEG: f64 = 12.0;
+const ENLARGED: [u16; 4] = [50, 20, 10, 5];
+const DASH: (f32, f32) = (6.0, 4.0);
+/// Length of the tick of a minute.
+const TICK: f32 = 6.0;
+/// Points of the track that are further apart are not joined, seconds.
+const APART_S: f64 = 3.0;
+
+pub(super) fn show(ui: &Ui, rect: Rect, model: &Model, opened: &OpenedPass, state: &RecordState) {
+    let t = theme::tokens(ui);
+    let (title, rest) = rect.split_top_bottom_at_y(rect.top() + TITLE);
+    let factor = enlarged(&opened.track);
+    let words = match factor {
+        1 => "Path, predicted and flown".to_owned(),
+        factor => format!("Path, error drawn {factor} times larger"),
+    };
+    let room = title.shrink2(egui::vec2(PADDING, 0.0));
+    paint::text_in(ui, room, Align2::LEFT_CENTER, &words, text::small_strong(), t.t1);
+    let (plot, foot) = rest.split_top_bottom_at_y(rest.bottom() - LEGEND);
+    if !usable(plot) {
+        return;
+    }
+    let dome = Dome::fitted(plot);
+    let painter = ui.painter_at(rect);
+    grid::disc(&painter, dome, t);
+    grid::rings(&painter, dome, t);
+    for (name, azimuth_deg) in [("N", 0.0_f32), ("E", 90.0), ("S", 180.0), ("W", 270.0)] {
+        let at = dome.at(azimuth_deg.to_radians(), -11.0);
+        painter.text(at, Align2::CENTER_CENTER, name, text::small_strong(), t.t1);
+    }
+    let predicted = dome.path(opened.path.iter().map(|sample| sample.direction));
+    dashes::paint(&painter, &predicted, Stroke::new(1.5, t.sat), DASH);
+    for piece in flown(dome, &opened.track, factor) {
+        painter.line(piece, Stroke::new(2.0, t.ant));
+    }
+    ticks(&painter, dome, opened, factor, t);
+    ends(ui, &painter, dome, &opened.path, model.now, t);
+    if let Some(point) = cursor::point(opened, state)
+        && let (Some(at), Some(off)) =
+            (dome.visible(point.satellite), enlarged_at(dome, point, factor))
+    {
+        painter.line_segment([at, off], Stroke::new(2.5, t.warn));
+        painter.circle_filled(at, 4.0, t.sat);
+        painter.circle_stroke(off, 4.0, Stroke::new(1.5, t.ant));
+        let words = format!(
+            "{}, {}",
+            format::degrees(point.error.off_deg, 2),
+            format::moment(point.time, model.now)
+        );
+        // Towards the middle of the plot there is room.
+        let (anchor, x) = if off.x > dome.centre.x {
+            (Align2::RIGHT_CENTER, at.x.min(off.x) - 10.0)
+        } else {
+            (Align2::LEFT_CENTER, at.x.max(off.x) + 10.0)
+        };
+        label(&painter, pos2(x, off.y), anchor, &words, t.warn, t);
+    }
+    legend(ui, foot);
+    let id = ui.make_persistent_id("recorded path");
+    let spoken = format!("Sky plot of the pass. {words}");
+    ui.interact(plot, id, Sense::hover())
+        .widget_info(|| WidgetInfo::labeled(egui::Role::Image, true, &spoken));
+}
+
+/// By how much the error is drawn larger.
+fn enlarged(track: &[TrackPoint]) -> u16 {
+    let worst_deg = cursor::worst(track).map_or(0.0, |worst| worst.error.off_deg);
+    let fits = |factor: &u16| worst_deg * f64::from(*factor) <= MOST_DEG;
+    ENLARGED.into_iter().find(fits).unwrap_or(1)
+}
+
+/// The place of the antenna, with its error enlarged; `None` outside of the plot.
+fn enlarged_at(dome: Dome, point: &TrackPoint, factor: u16) -> Option<Pos2> {
+    let satellite = dome.visible(point.satellite)?;
+    let antenna = dome.point(point.antenna)?;
+    Some(satellite + (antenna - satellite) * f32::from(factor))
+}
+
+/// The flown path in pieces that were measured without a break.
+fn flown(dome: Dome, track: &[TrackPoint], factor: u16) -> Vec<Vec<Pos2>> {
+    let joined = |a: &TrackPoint, b: &TrackPoint| seconds_between(a.time, b.time) <= APART_S;
+    let pieces = track.chunk_by(joined).map(|piece| {
+        piece.iter().filter_map(|point| enlarged_at(dome, point, factor)).collect::<Vec<_>>()
+    });
+    pieces.filter(|piece| piece.len() > 1).collect()
+}
+
+/// Marks each full minute on both paths, on the left side of the predicted one and on the right
+/// side of the flown one: an error along the path shows as ticks that do not meet.
+fn ticks(painter: &Painter, dome: Dome, opened: &OpenedPass, factor: u16, t: &Tokens) {
+    let is_minute = |before: Timestamp, time: Timestamp| {
+        before.as_second().div_euclid(60) != time.as_second().div_euclid(60)
+    };
+    for pair in opened.path.windows(2) {
+        let [a, b] = pair else { continue };
+        if is_minute(a.time, b.time)
+            && let (Some(from), Some(to)) = (dome.visible(a.direction), dome.visible(b.direction))
+        {
+            let out = (to - from).normalized().rot90();
+            painter.line_segment([to, to - out * TICK], Stroke::new(1.5, t.sat));
+        }
+    }
+    for pair in opened.track.windows(2) {
+        let [a, b] = pair else { continue };
+        let places = (enlarged_at(dome, a, factor), enlarged_at(dome, b, factor));
+        if is_minute(a.time, b.time)
+            && let ((Some(_), Some(at)), (Some(from), Some(to))) =
+                (places, (dome.visible(a.satellite), dome.visible(b.satellite)))
+        {
+            let out = (to - from).normalized().rot90();
+            painter.line_segment([at, at + out * TICK], Stroke::new(1.5, t.ant));
+        }
+    }
+}
+
+/// Marks AOS and LOS with their times.
+fn ends(ui: &Ui, painter: &Painter, dome: Dome, path: &[Sample], now: Timestamp, t: &Tokens) {
+    let (Some(first), Some(last)) = (path.first(), path.last()) else { return };
+    for (word, sample) in [("AOS", first), ("LOS", last)] {
+        let Some(at) = dome.visible(sample.direction) else { continue };
+        painter.circle(at, 4.5, t.bg0, Stroke::new(1.5, t.sat));
+        let words = format!("{word} {}", format::moment(sample.time, now));
+        let is_right = at.x > dome.centre.x;
+        let (anchor, x) = if is_right {
+            (Align2::RIGHT_CENTER, at.x - 10.0)
+        } else {
+            (Align2::LEFT_CENTER, at.x + 10.0)
+        };
+        label(painter, pos2(x, at.y), anchor, &words, t.t1, t);
+        paint::name_text(ui, ("recorded end", word), paint::square(at, 12.0), &words);
+    }
+}
+
+fn label(
+    painter: &Painter,
+    at: Pos2,
+    anchor: Align2,
+    words: &str,
+    colour: egui::Color32,
+    t: &Tokens,
+) {
+    let galley = painter.layout_no_wrap(words.to_owned(), text::small(), colour);
+    let place = anchor.anchor_size(at, galley.size());
+    painter.rect_filled(place.expand2(egui::vec2(3.0, 0.0)), 3.0, t.bg0.gamma_multiply(0.75));
+    painter.galley(place.min, galley, colour);
+}
+
+fn legend(ui: &Ui, rect: Rect) {
+    let t = theme::tokens(ui);
+    let mut x = rect.left() + PADDING;
+    let y = rect.center().y;
+    for (word, colour, is_dashed) in
+        [("predicted", t.sat, true), ("flown", t.ant, false), ("error", t.warn, false)]
+    {
+        let line = [pos2(x, y), pos2(x + 18.0, y)];
+        let stroke = Stroke::new(2.0, colour);
+        if is_dashed {
+            dashes::paint(ui.painter(), &line, stroke, DASH);
+        } else {
+            ui.painter().line_segment(line, stroke);
+        }
+        let place = rect.with_min_x(x + 24.0);
+        let drawn = paint::text_in(ui, place, Align2::LEFT_CENTER, word, text::caption(), t.t2);
+        x = drawn.right() + 16.0;
+    }
+    let place = rect.with_min_x(x).with_max_x(rect.right() - 4.0);
+    let words = "ticks: full minutes";
+    paint::text_in(ui, place, Align2::LEFT_CENTER, words, text::caption(), t.t3);
+}

@@ -1,0 +1,133 @@
+//! What the operator looks at in the record.
+
+use jiff::Timestamp;
+
+use crate::{
+    engine::{
+        self,
+        recorded::{Found, RecordLook},
+    },
+    model::{Model, UiCommand},
+    record::{OpenedPass, PassQuery, RecordedPass},
+    ui::words::sentence,
+};
+
+/// Passes that are listed at first, and as many more at a time.
+const PAGE: u32 = 200;
+
+/// Query, chosen pass, and the time at the cursor.
+#[derive(Debug)]
+pub struct RecordState {
+    pub(super) query: PassQuery,
+    /// Number of the chosen pass; `None` for the newest.
+    chosen: Option<i64>,
+    /// What the station was asked for last.
+    asked: Option<RecordLook>,
+    /// The time at which all drawings are read.
+    pub(super) cursor: Option<Timestamp>,
+    pub(super) list_is_open: bool,
+    /// The list scrolls to the chosen pass.
+    pub(super) scrolls: bool,
+}
+
+impl Default for RecordState {
+    fn default() -> Self {
+        Self {
+            query: PassQuery { count: PAGE, ..PassQuery::default() },
+            chosen: None,
+            asked: None,
+            cursor: None,
+            list_is_open: false,
+            scrolls: false,
+        }
+    }
+}
+
+impl RecordState {
+    fn found<'a>(&self, model: &'a Model) -> Option<&'a Found> {
+        model.recorded.as_deref()?.found.as_ref().ok()
+    }
+
+    /// The listed passes, the newest first.
+    pub(super) fn passes<'a>(&self, model: &'a Model) -> &'a [RecordedPass] {
+        self.found(model).map_or(&[], |found| &found.page.passes)
+    }
+
+    pub(super) fn page<'a>(&self, model: &'a Model) -> Option<&'a crate::record::PassPage> {
+        self.found(model).map(|found| &found.page)
+    }
+
+    /// Number of the pass whose report is shown.
+    pub(super) fn shown(&self, model: &Model) -> Option<i64> {
+        self.chosen.or_else(|| self.passes(model).first().map(|pass| pass.id))
+    }
+
+    pub(super) fn opened<'a>(&self, model: &'a Model) -> Option<&'a OpenedPass> {
+        let opened = self.found(model)?.opened.as_ref()?;
+        Some(opened).filter(|opened| Some(opened.pass.id) == self.shown(model))
+    }
+
+    pub(super) fn choose(&mut self, id: i64) {
+        self.chosen = Some(id);
+        self.cursor = None;
+        self.list_is_open = false;
+    }
+
+    /// Chooses the pass so many rows further down.
+    pub fn step(&mut self, model: &Model, down: isize) {
+        let passes = self.passes(model);
+        let shown = self.shown(model);
+        let Some(place) = passes.iter().position(|pass| Some(pass.id) == shown) else { return };
+        let next = place.saturating_add_signed(down).min(passes.len().saturating_sub(1));
+        if let Some(pass) = passes.get(next) {
+            let list_is_open = self.list_is_open;
+            self.choose(pass.id);
+            (self.list_is_open, self.scrolls) = (list_is_open, true);
+        }
+    }
+
+    pub(super) fn list_more(&mut self) {
+        self.query.count += PAGE;
+    }
+
+    /// Returns `true` if the query leaves passes out.
+    pub(super) fn filters(&self) -> bool {
+        let all = PassQuery { count: self.query.count, ..PassQuery::default() };
+        self.query != all
+    }
+
+    /// Asks the station for what is shown, if that is new.
+    pub(super) fn ask(&mut self, model: &Model, commands: &mut Vec<UiCommand>) {
+        let look = RecordLook { query: self.query.clone(), opened: self.shown(model) };
+        if self.asked.as_ref() != Some(&look) {
+            self.asked = Some(look.clone());
+            commands.push(UiCommand::Station(engine::Command::LookAtRecord(Some(look))));
+        }
+    }
+
+    /// Ends the looking, in another view.
+    pub fn leave(&mut self, commands: &mut Vec<UiCommand>) {
+        if self.asked.take().is_some() {
+            commands.push(UiCommand::Station(engine::Command::LookAtRecord(None)));
+        }
+    }
+
+    /// Why there is no report: a head and a sentence.
+    pub(super) fn why_nothing(&self, model: &Model) -> (&'static str, String) {
+        let Some(recorded) = &model.recorded else {
+            return ("Record", "The record is being read.".to_owned());
+        };
+        match &recorded.found {
+            Err(why) => ("The record cannot be read", sentence(why)),
+            Ok(found) if found.page.all == 0 => (
+                "No pass is recorded yet",
+                "The report of a pass appears here when an antenna has tracked it to its end."
+                    .to_owned(),
+            ),
+            Ok(found) if found.page.passes.is_empty() => {
+                ("No pass is found", "Another antenna, verdict or text finds more.".to_owned())
+            }
+            Ok(_) => ("Record", "The pass is being read.".to_owned()),
+        }
+    }
+}

@@ -1,0 +1,229 @@
+//! Words for the passes of the record: how good they were, and what explains their errors.
+
+use jiff::Timestamp;
+
+use crate::{
+    plan::pass_report::{Cause, Explanation, LossCause, LostStretch, PassReport, PassVerdict},
+    record::{RecordedPass, TrackedBy},
+    ui::format,
+};
+
+/// Seconds without positions that a list need not tell.
+const UNTOLD_S: f64 = 10.0;
+
+/// By what the antenna was led.
+pub fn tracked_by(by: TrackedBy) -> &'static str {
+    match by {
+        TrackedBy::ProgramTrack => "program track",
+        TrackedBy::OnBoard => "on-board tracking",
+        TrackedBy::Elsewhere => "tracked by the unit, not by Azel",
+    }
+}
+
+/// A verdict, as a choice of the list.
+pub fn verdict(verdict: PassVerdict) -> &'static str {
+    match verdict {
+        PassVerdict::Good => "Good",
+        PassVerdict::Fair => "Fair",
+        PassVerdict::Poor => "Poor",
+    }
+}
+
+/// Share inside half of the beam and the worst error, for a row.
+pub fn in_short(report: &PassReport) -> String {
+    let share = share(report.share());
+    let not_known_s = report.counted_s - report.known_s;
+    match &report.worst {
+        None => "No position was measured".to_owned(),
+        Some(_) if not_known_s > UNTOLD_S => {
+            format!("{share} inside, {} not known", format::duration(not_known_s))
+        }
+        Some(worst) => {
+            format!("{share} inside, worst {}", format::degrees(worst.error.off_deg, 2))
+        }
+    }
+}
+
+/// A share of the whole, in per cent. Only the whole is 100 %.
+fn share(share: f64) -> String {
+    let per_cent = (share * 1000.0).floor() / 10.0;
+    let decimals = usize::from(per_cent < 100.0);
+    format!("{} %", format::number(per_cent, decimals))
+}
+
+/// What was lost most, or else what explains the error; `None` where nothing stands out.
+pub fn cause_in_short(pass: &RecordedPass) -> Option<String> {
+    let report = &pass.report.report;
+    let by_length = |a: &&LostStretch, b: &&LostStretch| a.seconds().total_cmp(&b.seconds());
+    if report.verdict != PassVerdict::Good
+        && let Some(lost) = report.losses.iter().max_by(by_length)
+        && lost.cause != LossCause::NotExplained
+    {
+        return Some(format!("{} {}", loss(lost.cause), format::duration(lost.seconds())));
+    }
+    match pass.report.explanations.first() {
+        Some(explanation) => Some(cause_with_size(&explanation.cause)),
+        None if report.verdict == PassVerdict::Good => None,
+        None => Some("Not explained".to_owned()),
+    }
+}
+
+/// Why a stretch was lost, in the words of a list.
+pub fn loss(cause: LossCause) -> &'static str {
+    match cause {
+        LossCause::NotMeasured => "No positions",
+        LossCause::OutOfReach => "Out of reach of the mount",
+        LossCause::RateOfMount => "Rate of the mount",
+        LossCause::Slew => "Azimuth unwrap",
+        LossCause::LateStart => "Late start",
+        LossCause::EarlyEnd => "Early end",
+        LossCause::NotExplained => "Not explained",
+    }
+}
+
+/// The name of a cause in a table.
+pub fn cause(cause: &Cause) -> &'static str {
+    match cause {
+        Cause::Late { .. } => "Time offset",
+        Cause::AzimuthOffset { .. } => "Azimuth offset",
+        Cause::ElevationOffset { .. } => "Elevation offset",
+        Cause::Tilt { .. } => "Tilt of the azimuth axis",
+        Cause::AzimuthScale { .. } => "Azimuth scale",
+        Cause::ElevationScale { .. } => "Elevation scale",
+        Cause::OtherElements { .. } => "Other elements",
+        Cause::SlowDrives { .. } => "Slow drives",
+    }
+}
+
+/// The size of a cause that fits best.
+pub fn size(cause: &Cause) -> String {
+    let deg = |value: f64| format!("{}°", format::signed(value, 2));
+    match cause {
+        Cause::Late { late_s } => format!("{} s", format::signed(*late_s, 2)),
+        Cause::AzimuthOffset { offset_deg } | Cause::ElevationOffset { offset_deg } => {
+            deg(*offset_deg)
+        }
+        Cause::Tilt { north_deg, east_deg } => {
+            format!("{} north, {} east", deg(*north_deg), deg(*east_deg))
+        }
+        Cause::AzimuthScale { per_mille } | Cause::ElevationScale { per_mille } => {
+            format!("{} %", format::signed(per_mille / 10.0, 2))
+        }
+        Cause::OtherElements { epoch } => format!("of {}", format::copied(*epoch)),
+        Cause::SlowDrives { rate_deg_s } => format!("{}°/s", format::number(*rate_deg_s, 2)),
+    }
+}
+
+fn cause_with_size(of: &Cause) -> String {
+    match of {
+        Cause::Late { late_s } if *late_s < 0.0 => {
+            format!("Antenna {} s early", format::number(-late_s, 2))
+        }
+        Cause::Late { late_s } => format!("Antenna {} s late", format::number(*late_s, 2)),
+        of => format!("{} {}", cause(of), size(of)),
+    }
+}
+
+/// A cause as the subject of a sentence.
+fn cause_as_subject(of: &Cause) -> String {
+    let deg = |value: f64| format!("{}°", format::signed(value, 2));
+    match of {
+        Cause::Late { late_s } if *late_s < 0.0 => {
+            format!("The antenna was {} s early", format::number(-late_s, 2))
+        }
+        Cause::Late { late_s } => {
+            format!("The antenna was {} s late", format::number(*late_s, 2))
+        }
+        Cause::AzimuthOffset { offset_deg } => {
+            format!("The azimuth was off by {}", deg(*offset_deg))
+        }
+        Cause::ElevationOffset { offset_deg } => {
+            format!("The elevation was off by {}", deg(*offset_deg))
+        }
+        Cause::Tilt { .. } => format!("The azimuth axis leans by {}", size(of)),
+        Cause::AzimuthScale { .. } => format!("The azimuth scale is off by {}", size(of)),
+        Cause::ElevationScale { .. } => format!("The elevation scale is off by {}", size(of)),
+        Cause::OtherElements { epoch } => {
+            format!("The antenna followed older elements, of {}", format::copied(*epoch))
+        }
+        Cause::SlowDrives { .. } => format!("The drives turn no faster than {}", size(of)),
+    }
+}
+
+/// The report in one line: how much, the worst, what explains it, and what else was lost.
+pub fn verdict_sentence(pass: &RecordedPass, now: Timestamp) -> String {
+    let report = &pass.report.report;
+    let Some(worst) = &report.worst else {
+        return "No position was measured in this pass.".to_owned();
+    };
+    let mut words = format!(
+        "Inside half of the beam {} of {}, worst {} at {}.",
+        share(report.share()),
+        format::duration(report.counted_s),
+        format::degrees(worst.error.off_deg, 2),
+        format::moment(worst.at, now),
+    );
+    if let Some(best) = pass.report.explanations.first() {
+        words += &format!(
+            " {}; that explains {} of the error.",
+            cause_as_subject(&best.cause),
+            whole_share(best.share)
+        );
+    }
+    words + &losses_sentence(&report.losses)
+}
+
+fn losses_sentence(losses: &[LostStretch]) -> String {
+    if losses.is_empty() {
+        return " Nothing was lost.".to_owned();
+    }
+    let mut causes: Vec<(LossCause, f64)> = Vec::new();
+    for lost in losses {
+        match causes.iter_mut().find(|(cause, _)| *cause == lost.cause) {
+            Some((_, seconds)) => *seconds += lost.seconds(),
+            None => causes.push((lost.cause, lost.seconds())),
+        }
+    }
+    let told = causes.into_iter().map(|(cause, seconds)| {
+        format!("{} {}", format::duration(seconds), loss_in_sentence(cause))
+    });
+    format!(" Lost: {}.", format::list(&told.collect::<Vec<_>>()))
+}
+
+fn loss_in_sentence(cause: LossCause) -> &'static str {
+    match cause {
+        LossCause::NotMeasured => "without positions",
+        LossCause::OutOfReach => "out of reach of the mount",
+        LossCause::RateOfMount => "where the mount is too slow",
+        LossCause::Slew => "at the azimuth unwrap",
+        LossCause::LateStart => "until the antenna had arrived",
+        LossCause::EarlyEnd => "after the antenna had left",
+        LossCause::NotExplained => "without a known cause",
+    }
+}
+
+/// The share that a cause explains, without a decimal.
+pub fn whole_share(share: f64) -> String {
+    format!("{} %", format::number((share * 100.0).floor(), 0))
+}
+
+/// What the data cannot tell apart, as a sentence; `None` where the best cause stands alone.
+pub fn alike(explanations: &[Explanation]) -> Option<String> {
+    let mut names: Vec<&str> = Vec::new();
+    for explanation in explanations.iter().filter(|explanation| explanation.is_alike) {
+        let name = cause(&explanation.cause);
+        if !names.contains(&name) {
+            names.push(name);
+        }
+    }
+    let first = cause(&explanations.first()?.cause);
+    if !names.contains(&first) {
+        names.insert(0, first);
+    }
+    (names.len() > 1).then(|| {
+        format!(
+            "This pass cannot tell these apart: {}. A pass in another part of the sky can.",
+            format::list(&names)
+        )
+    })
+}

@@ -1,0 +1,282 @@
+//! The record: passes that were tracked, and what became of them.
+
+use std::sync::Arc;
+
+use azel::{
+    astro::{AzEl, time::add_seconds},
+    device::Pointing,
+    driver::TimeSync,
+    engine::{
+        Command,
+        recorded::{Found, RecordLook, Recorded},
+    },
+    model::{
+        Model, UiCommand, View,
+        export::{Export, ReportFormat},
+    },
+    orbit::{Pass, PassSearch, Propagator, bundled, passes},
+    plan::{
+        Sample,
+        pass_report::{
+            Evidence, LossCause, LostStretch, MeasuredPosition, PassReport, PassVerdict,
+            PointingError, TrackPoint, WorstError,
+        },
+    },
+    record::{
+        AboutTrack, OpenedPass, PassPage, PassQuery, RecordedPass, RecordedReport, TrackedBy,
+    },
+};
+use egui::{Key, Modifiers, Role};
+use egui_kittest::kittest::{NodeT as _, Queryable as _};
+use jiff::ToSpan as _;
+
+use crate::window_stories::{
+    extremes::{nothing_is_cut, nothing_overlaps},
+    rig::{self, LARGE, NOAA_20, SIZES, Window, asked, says, settle},
+    states,
+};
+
+/// The antenna is where the satellite was so long before, seconds.
+const LATE_S: f64 = 0.8;
+const HALF_BEAM_DEG: f64 = 0.44;
+
+/// Passes of the day before, the newest first, each as an antenna flew it.
+fn flown(model: &Model) -> Vec<OpenedPass> {
+    let elements = bundled().unwrap().get(NOAA_20).unwrap().clone();
+    let propagator = Propagator::new(&elements).unwrap();
+    let search = PassSearch::new(model.station.site, model.now - 24.hours(), model.now - 1.hour());
+    let mut found = passes(&propagator, &search, &|| false);
+    found.sort_by_key(|pass| std::cmp::Reverse(pass.aos.time));
+    let kinds = [PassVerdict::Fair, PassVerdict::Good, PassVerdict::Poor];
+    let both = found.iter().zip(kinds.into_iter().cycle());
+    (1..).zip(both).map(|(id, (pass, verdict))| opened(model, id, pass, verdict)).collect()
+}
+
+fn opened(model: &Model, id: i64, pass: &Pass, verdict: PassVerdict) -> OpenedPass {
+    let elements = bundled().unwrap().get(NOAA_20).unwrap().clone();
+    let propagator = Propagator::new(&elements).unwrap();
+    let site = model.station.site;
+    let at = |time| propagator.look_from(site, time).unwrap().direction;
+    let (from, until) = (pass.aos.time, pass.los.time);
+    let late_s = if verdict == PassVerdict::Good { 0.02 } else { LATE_S };
+    let positions: Vec<MeasuredPosition> = (0..pass.duration_s() as u32)
+        .map(|second| {
+            let time = add_seconds(from, f64::from(second));
+            let AzEl { azimuth, elevation } = at(add_seconds(time, -late_s));
+            let pointing = Pointing { azimuth: Some(azimuth), elevation: Some(elevation) };
+            MeasuredPosition { time, pointing }
+        })
+        .collect();
+    let point = |flown: &MeasuredPosition| TrackPoint::new(&propagator, site, true, *flown);
+    let track: Vec<TrackPoint> = positions.iter().filter_map(point).collect();
+    let worst = track.iter().max_by(|a, b| a.error.off_deg.total_cmp(&b.error.off_deg)).unwrap();
+    let rms = |part: fn(&PointingError) -> f64| {
+        let squares: f64 = track.iter().map(|point| part(&point.error).powi(2)).sum();
+        (squares / track.len() as f64).sqrt()
+    };
+    let counted_s = pass.duration_s();
+    let lost_s = if verdict == PassVerdict::Poor { 90.0 } else { 0.0 };
+    let report = PassReport {
+        verdict,
+        counted_s,
+        known_s: counted_s - lost_s,
+        in_beam_s: counted_s * if verdict == PassVerdict::Good { 1.0 } else { 0.98 } - lost_s,
+        rms: Some(PointingError {
+            off_deg: rms(|error| error.off_deg),
+            azimuth_deg: rms(|error| error.azimuth_deg),
+            elevation_deg: rms(|error| error.elevation_deg),
+            along_deg: rms(|error| error.along_deg),
+            across_deg: rms(|error| error.across_deg),
+        }),
+        worst: Some(WorstError { at: worst.time, error: worst.error }),
+        losses: (lost_s > 0.0)
+            .then(|| LostStretch {
+                from,
+                until: add_seconds(from, lost_s),
+                cause: LossCause::NotMeasured,
+            })
+            .into_iter()
+            .collect(),
+    };
+    let measured = track.iter().map(|point| (point.time, point.antenna));
+    let explanations = Evidence::new(&propagator, site, measured, true).explanations(&[]);
+    let step = |step: u32| {
+        let time = add_seconds(from, 2.0 * f64::from(step)).min(until);
+        Sample { time, direction: at(time) }
+    };
+    let report = RecordedReport {
+        from,
+        until,
+        max_elevation_deg: pass.max_elevation().degrees(),
+        age_days: 0.4,
+        elements,
+        site: Some(site),
+        half_beam_deg: HALF_BEAM_DEG,
+        about: AboutTrack {
+            begun: add_seconds(from, -30.0),
+            tracked_by: TrackedBy::OnBoard,
+            sent: None,
+            unit_clock_ahead_s: Some(-LATE_S),
+            sync: TimeSync::Synchronised,
+        },
+        report,
+        explanations: if verdict == PassVerdict::Good { Vec::new() } else { explanations },
+    };
+    let antenna = &model.antennas[0];
+    OpenedPass {
+        pass: RecordedPass {
+            id,
+            antenna: antenna.id(),
+            antenna_name: antenna.config.name.clone(),
+            report,
+        },
+        track,
+        path: (0..=(counted_s / 2.0) as u32 + 1).map(step).collect(),
+        entries: Vec::new(),
+    }
+}
+
+/// The model of a station whose record holds these passes, with one of them opened.
+fn recorded(flown: &[OpenedPass], place: usize) -> Recorded {
+    let passes: Vec<RecordedPass> = flown.iter().map(|opened| opened.pass.clone()).collect();
+    let count = passes.len() as u32;
+    let since = passes.last().map(|pass| pass.report.until);
+    let page = PassPage { passes, matching: count, all: count, since, unreadable: 0 };
+    let opened = flown.get(place).cloned();
+    let look = RecordLook {
+        query: PassQuery { count: 200, ..PassQuery::default() },
+        opened: opened.as_ref().map(|opened| opened.pass.id),
+    };
+    Recorded { look, found: Ok(Found { page, opened }) }
+}
+
+fn model() -> (Model, Vec<OpenedPass>) {
+    let mut model = rig::model(states::holding());
+    let flown = flown(&model);
+    model.recorded = Some(Arc::new(recorded(&flown, 0)));
+    model.view = View::Record;
+    (model, flown)
+}
+
+pub(super) fn view(size: [f32; 2]) -> Window {
+    rig::window(size, model().0)
+}
+
+fn looks(asked: &[UiCommand]) -> Vec<Option<RecordLook>> {
+    let look = |command: &UiCommand| match command {
+        UiCommand::Station(Command::LookAtRecord(look)) => Some(look.clone()),
+        _ => None,
+    };
+    asked.iter().filter_map(look).collect()
+}
+
+#[test]
+fn the_record_is_asked_for_while_it_is_shown() {
+    for size in SIZES {
+        let mut window = rig::window(size, rig::model(states::holding()));
+        window.get_by_role_and_label(Role::Tab, "Record").click();
+        assert_eq!(asked(&mut window), [UiCommand::Show(View::Record)]);
+        window.key_press_modifiers(Modifiers::COMMAND, Key::Num7);
+        assert_eq!(asked(&mut window), [UiCommand::Show(View::Record)]);
+        window.state_mut().model.view = View::Record;
+        let first = looks(&asked(&mut window));
+        let [Some(first)] = &first[..] else { panic!("{first:?}") };
+        assert_eq!((first.query.text.as_str(), first.opened), ("", None));
+        assert!(says(&window, "The record is being read."));
+        settle(&mut window);
+        assert_eq!(looks(&asked(&mut window)), [], "asked once");
+        window.state_mut().model.view = View::Operate;
+        assert_eq!(looks(&asked(&mut window)), [None], "and not any more");
+    }
+}
+
+#[test]
+fn the_newest_pass_is_told_in_a_sentence_and_what_explains_its_error_first() {
+    for size in SIZES {
+        let (model, flown) = model();
+        let newest = &flown[0].pass.report;
+        let mut window = rig::window(size, model);
+        settle(&mut window);
+        let worst = newest.report.worst.unwrap();
+        assert!(says(&window, &format!("worst {:.2}°", worst.error.off_deg)));
+        assert!(says(&window, "The antenna was 0.80 s late; that explains"));
+        assert!(says(&window, "Time offset +0.80 s: explains"));
+        assert!(says(&window, "Unit clock: 0.80 s late"));
+        assert!(says(&window, "Set the unit's clock first"), "no offset that hides it");
+    }
+}
+
+#[test]
+fn rows_tell_verdict_and_cause_and_the_arrows_lead_through_them() {
+    let (model, flown) = model();
+    let mut window = rig::window(LARGE, model);
+    settle(&mut window);
+    let rows: Vec<String> = window
+        .query_all_by_role(Role::ListBoxOption)
+        .filter_map(|node| node.accesskit_node().label())
+        .filter(|label| label.contains("inside"))
+        .collect();
+    assert_eq!(rows.len(), flown.len(), "{rows:?}");
+    assert!(rows[0].contains("Fair, 98.0 % inside"), "{}", rows[0]);
+    assert!(rows[0].contains("0.80 s late"), "{}", rows[0]);
+    assert!(rows[1].contains("Good, 100 % inside"), "{}", rows[1]);
+    assert!(rows[2].contains("not known, No positions 1:30"), "{}", rows[2]);
+    let _ = asked(&mut window);
+    window.key_press(Key::ArrowDown);
+    let look = looks(&asked(&mut window));
+    assert_eq!(look[0].as_ref().unwrap().opened, Some(flown[1].pass.id));
+    assert!(says(&window, "The pass is being read."), "not the report of the other");
+    window.state_mut().model.recorded = Some(Arc::new(recorded(&flown, 1)));
+    settle(&mut window);
+    assert!(says(&window, "Nothing was lost."));
+    assert!(says(&window, "Not explained"));
+}
+
+#[test]
+fn a_click_on_an_event_moves_the_cursor_there() {
+    let (model, flown) = model();
+    let mut window = rig::window(LARGE, model);
+    settle(&mut window);
+    let from = flown[0].pass.report.from.strftime("%H:%M:%SZ").to_string();
+    window.get_by_label(&format!("{from}: AOS {from}")).click();
+    settle(&mut window);
+    let read = window.get_by_role(Role::Slider).accesskit_node().label().unwrap();
+    assert!(read.starts_with(&format!("Time in the pass, {from}")), "{read}");
+}
+
+#[test]
+fn a_report_is_saved_for_other_programs() {
+    for (word, format) in
+        [("Points (CSV)", ReportFormat::Csv), ("Report (JSON)", ReportFormat::Json)]
+    {
+        let mut window = view(LARGE);
+        settle(&mut window);
+        window.get_by_role_and_label(Role::Button, "Export report").click();
+        settle(&mut window);
+        let _ = asked(&mut window);
+        window.get_by_label(word).click();
+        let asked = asked(&mut window);
+        assert!(asked.contains(&UiCommand::Save(Export::Report { format })), "{asked:?}");
+    }
+    let (_, flown) = model();
+    let csv = flown[0].csv();
+    let mut lines = csv.lines();
+    let columns = lines.next().unwrap().split(',').count();
+    assert_eq!(lines.clone().count(), flown[0].track.len());
+    assert!(lines.all(|line| line.split(',').count() == columns));
+    let json: serde_json::Value = serde_json::from_str(&flown[0].json().unwrap()).unwrap();
+    assert_eq!(json["satellite"], NOAA_20);
+    assert_eq!(json["report"]["verdict"], "fair");
+}
+
+#[test]
+fn nothing_lies_on_another_and_in_a_usual_window_nothing_is_cut() {
+    for size in SIZES {
+        let mut window = view(size);
+        settle(&mut window);
+        nothing_overlaps(&window);
+    }
+    let mut window = view(LARGE);
+    settle(&mut window);
+    nothing_is_cut(&window, LARGE);
+}
