@@ -316,7 +316,7 @@ mod tests {
 
     use crate::{
         astro::{Angle, Site, time},
-        orbit::{PassSearch, Propagator, passes, read_elements},
+        orbit::{PassSearch, Propagator, bundled, passes, passes_and_effort, read_elements},
     };
 
     /// Orbits whose perigee passes a site more closely than their states are apart, and the passes
@@ -371,5 +371,25 @@ mod tests {
             assert!(said > highest - 2e-5 && said < highest + 0.5, "{said} {highest} {text}");
         }
         assert!(nearest_km < 120.0, "{nearest_km}");
+    }
+
+    #[test]
+    fn the_greatest_elevation_of_a_geosynchronous_satellite_is_exact_and_takes_few_states() {
+        let from: Timestamp = "2026-08-12T00:00:00Z".parse().unwrap();
+        let site = Site::new(41.02, 29.17, 100.0).unwrap();
+        let search = PassSearch::new(site, from, time::add_seconds(from, time::DAY_S));
+        let catalog = bundled().unwrap();
+        for number in [35_696, 44_637, 45_985, 50_002, 53_813] {
+            let propagator = Propagator::new(catalog.get(number).unwrap()).unwrap();
+            let (found, effort) = passes_and_effort(&propagator, &search, &|| false);
+            assert!(found.len() == 1 && effort < 20, "{number}: {effort} states, {found:?}");
+            let elevation = |half_minute: u32| {
+                let at = time::add_seconds(from, 30.0 * f64::from(half_minute));
+                propagator.look_from(site, at).unwrap().direction.elevation.radians()
+            };
+            let highest = (0..2880).map(elevation).fold(f64::MIN, f64::max);
+            let said = found[0].max_elevation().radians();
+            assert!((said - highest).abs() < 3e-7, "{number}: {said} {highest}");
+        }
     }
 }

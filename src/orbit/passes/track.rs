@@ -132,7 +132,8 @@ impl<'a> Track<'a> {
 
     /// The greatest or least height near `guess_s`, and the series from which it was taken.
     /// Newton's method goes as far as it has to, with a new state where the last one is too far
-    /// away; `None` if it does not converge within `max_s` of the guess.
+    /// away, and with the speed of two states where that of one is not exact enough; `None` if it
+    /// does not converge within `max_s` of the guess.
     pub(super) fn extreme(
         &self,
         guess_s: f64,
@@ -150,20 +151,25 @@ impl<'a> Track<'a> {
         bend: Bend,
     ) -> Option<(LocalSeries, LocalState)> {
         let guess_s = series.at_s;
-        let mut series = series;
+        let (mut series, mut is_mended) = (series, false);
         for _ in 0..8 {
             let place = series.extreme(bend, max_s)?;
             if (place.at_s - guess_s).abs() > max_s {
                 return None;
             }
-            let tau = place.at_s - series.at_s;
-            if self.exactness.is_crest(tau, &place) {
+            let tau = (place.at_s - series.at_s).abs();
+            let is_exact = self.exactness.is_crest(tau, &place);
+            if is_exact || (is_mended && tau <= 2.0 * LONGEST_STEP_S) {
                 return Some((series, place));
             }
-            if tau.abs() <= LONGEST_STEP_S {
-                return self.mended(&series, bend);
+            if tau > LONGEST_STEP_S {
+                series = self.series(place.at_s)?;
+            } else {
+                is_mended = true;
             }
-            series = self.series(place.at_s)?;
+            if is_mended {
+                series = self.mended(&series)?;
+            }
         }
         None
     }
@@ -193,12 +199,9 @@ impl<'a> Track<'a> {
         self.place(f64::midpoint(before_s, after_s))
     }
 
-    /// The extreme near a series, with the speed that follows from a second state.
-    fn mended(&self, series: &LocalSeries, bend: Bend) -> Option<(LocalSeries, LocalState)> {
-        let second = self.series(series.at_s + MENDING_STEP_S)?;
-        let series = series.mended(&second);
-        let place = series.extreme(bend, 2.0 * LONGEST_STEP_S)?;
-        Some((series, place))
+    /// The same series, with the speed that follows from a second state.
+    fn mended(&self, series: &LocalSeries) -> Option<LocalSeries> {
+        Some(series.mended(&self.series(series.at_s + MENDING_STEP_S)?))
     }
 
     /// Where the height crosses the horizon between `below_s`, where it is less, and `above_s`,
