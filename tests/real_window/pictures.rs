@@ -19,7 +19,7 @@ use azel::{
     app::App,
     clock::Clock,
     engine::Settings,
-    model::{Model, ThemeName},
+    model::{Model, ThemeName, View},
 };
 use egui::{Key, Modifiers, Pos2, Rect, Role};
 use egui_kittest::{
@@ -48,10 +48,12 @@ enum Act {
     Click(&'static str),
     /// A click on the control, where there is one.
     ClickIfThere(&'static str),
+    /// A click on this page in the list of the preferences.
+    Page(&'static str),
     /// A click on the lower left corner, beside everything that opens over the window.
     ClickBeside,
 }
-use Act::{Click, ClickBeside, ClickIfThere, Press};
+use Act::{Click, ClickBeside, ClickIfThere, Page, Press};
 
 const OPERATE: Act = Press("ctrl+1", Modifiers::COMMAND, Key::Num1);
 const PLAN: Act = Press("ctrl+2", Modifiers::COMMAND, Key::Num2);
@@ -69,50 +71,59 @@ const NEXT_THEME: Act = Press("ctrl+l", Modifiers::COMMAND, Key::L);
 
 const CONTROLS: [Role; 5] =
     [Role::Button, Role::RadioButton, Role::Tab, Role::MenuItem, Role::ComboBox];
+const PAGES: [Role; 1] = [Role::RadioButton];
 
-/// A view with how it is opened, and how it is left for the next one.
-struct View {
+/// What a picture shows, how it is opened, and how it is left for the next one.
+struct Sight {
     name: &'static str,
+    view: View,
     open: &'static [Act],
     leave: &'static [Act],
 }
 
-const fn view(name: &'static str, open: &'static [Act], leave: &'static [Act]) -> View {
-    View { name, open, leave }
+const fn sight(
+    name: &'static str,
+    view: View,
+    open: &'static [Act],
+    leave: &'static [Act],
+) -> Sight {
+    Sight { name, view, open, leave }
 }
 
-const VIEWS: [View; 23] = [
-    view("operate", &[OPERATE, FIRST_ANTENNA], &[]),
-    view("operate-genius", &[SECOND_ANTENNA], &[]),
-    view("operate-rc2000c", &[THIRD_ANTENNA], &[FIRST_ANTENNA]),
-    view("alarms", &[Click("alarm")], &[Click("Close")]),
-    view("keys", &[KEYS], &[KEYS]),
-    view("question", &[TRACK], &[ClickBeside]),
-    view("plan", &[PLAN], &[]),
-    view("elements", &[ELEMENTS], &[]),
-    view(
+const SIGHTS: [Sight; 23] = [
+    sight("operate", View::Operate, &[OPERATE, FIRST_ANTENNA], &[]),
+    sight("operate-genius", View::Operate, &[SECOND_ANTENNA], &[]),
+    sight("operate-rc2000c", View::Operate, &[THIRD_ANTENNA], &[FIRST_ANTENNA]),
+    sight("alarms", View::Operate, &[Click("alarm")], &[Click("Close")]),
+    sight("keys", View::Operate, &[KEYS], &[KEYS]),
+    sight("question", View::Operate, &[TRACK], &[ClickBeside]),
+    sight("plan", View::Plan, &[PLAN], &[]),
+    sight("elements", View::Elements, &[ELEMENTS], &[]),
+    sight(
         "upload",
+        View::Elements,
         &[ClickIfThere("Details"), Click("Upload to")],
         &[Click("Back to the elements"), ClickIfThere("Close details")],
     ),
-    view("antennas", &[ANTENNAS], &[]),
-    view("antennas-genius", &[SECOND_ANTENNA], &[]),
-    view("antennas-rc2000c", &[THIRD_ANTENNA], &[FIRST_ANTENNA]),
-    view("console", &[CONSOLE], &[]),
-    view("map", &[MAP], &[]),
-    view("preferences-site", &[PREFERENCES, Click("Site")], &[]),
-    view(
+    sight("antennas", View::Antennas, &[ANTENNAS], &[]),
+    sight("antennas-genius", View::Antennas, &[SECOND_ANTENNA], &[]),
+    sight("antennas-rc2000c", View::Antennas, &[THIRD_ANTENNA], &[FIRST_ANTENNA]),
+    sight("console", View::Console, &[CONSOLE], &[]),
+    sight("map", View::Map, &[MAP], &[]),
+    sight("preferences-site", View::Preferences, &[PREFERENCES, Page("Site")], &[]),
+    sight(
         "preferences-antenna",
+        View::Preferences,
         &[Click("Add an antenna"), Click("Add SVS Satrak")],
         &[Click("Revert")],
     ),
-    view("preferences-satellites", &[Click("Satellites and priorities")], &[]),
-    view("preferences-rules", &[Click("Automation rules")], &[]),
-    view("preferences-horizon", &[Click("Horizon and keep-outs")], &[]),
-    view("preferences-alarms", &[Click("Alarms and sounds")], &[]),
-    view("preferences-appearance", &[Click("Appearance")], &[]),
-    view("preferences-keys", &[Click("Keys")], &[]),
-    view("setup", &[Click("Set up your station")], &[OPERATE]),
+    sight("preferences-satellites", View::Preferences, &[Page("Satellites and priorities")], &[]),
+    sight("preferences-rules", View::Preferences, &[Page("Automation rules")], &[]),
+    sight("preferences-horizon", View::Preferences, &[Page("Horizon and keep-outs")], &[]),
+    sight("preferences-alarms", View::Preferences, &[Page("Alarms and sounds")], &[]),
+    sight("preferences-appearance", View::Preferences, &[Page("Appearance")], &[]),
+    sight("preferences-keys", View::Preferences, &[Page("Keys")], &[]),
+    sight("setup", View::Setup, &[Click("Set up your station")], &[OPERATE]),
 ];
 
 /// The same window without a display, which tells where a control is.
@@ -157,19 +168,27 @@ impl Twin {
         self.window.run_steps(3);
     }
 
-    /// Where a control is whose name contains `words`.
-    fn find(&mut self, words: &str) -> Option<Pos2> {
+    /// Where a control of one of these roles is whose name contains `words`.
+    fn find(&mut self, words: &str, roles: &[Role]) -> Option<Pos2> {
         // What comes from another thread may take some frames.
         for _ in 0..50 {
             self.window.step();
             let mut found = self.window.query_all_by_label_contains(words);
-            if let Some(node) = found.find(|node| CONTROLS.contains(&node.accesskit_node().role()))
-            {
+            if let Some(node) = found.find(|node| roles.contains(&node.accesskit_node().role())) {
                 return Some(node.rect().center());
             }
             thread::sleep(Duration::from_millis(10));
         }
         None
+    }
+
+    fn place(&mut self, words: &str, roles: &[Role]) -> Pos2 {
+        self.find(words, roles).unwrap_or_else(|| panic!("no control {words:?}"))
+    }
+
+    fn has_page(&self, words: &str) -> bool {
+        let page = self.window.get_by_role_and_label(Role::RadioButton, words);
+        page.accesskit_node().toggled() == Some(egui::accesskit::Toggled::True)
     }
 
     fn stop(&self) -> Rect {
@@ -258,8 +277,9 @@ impl Scene {
                 thread::sleep(SETTLES_IN / 4);
                 return;
             }
-            Click(words) => self.twin.find(words).unwrap_or_else(|| panic!("no control {words:?}")),
-            ClickIfThere(words) => match self.twin.find(words) {
+            Click(words) => self.twin.place(words, &CONTROLS),
+            Page(words) => self.twin.place(words, &PAGES),
+            ClickIfThere(words) => match self.twin.find(words, &CONTROLS) {
                 Some(at) => at,
                 None => return,
             },
@@ -268,6 +288,9 @@ impl Scene {
         let [x, y] = [at.x, at.y].map(|place| format!("{place:.0}"));
         self.screen.xdotool(&["mousemove", &x, &y, "click", "1"]);
         self.twin.click(at);
+        if let Page(words) = act {
+            assert!(self.twin.has_page(words), "the page {words:?} is not shown");
+        }
         thread::sleep(SETTLES_IN / 4);
         self.point_away();
     }
@@ -283,16 +306,17 @@ impl Scene {
     fn take(&mut self, themes: &[(ThemeName, &str)], folder: &Path) -> usize {
         let mut taken = 0;
         let mut last: Option<Picture> = None;
-        for view in &VIEWS {
-            for act in view.open {
+        for sight in &SIGHTS {
+            for act in sight.open {
                 self.act(*act);
             }
+            assert_eq!(self.twin.window.state().model().view, sight.view, "{}", sight.name);
             for (theme, word) in themes {
-                let what = format!("{} in the {word} theme", view.name);
+                let what = format!("{} in the {word} theme", sight.name);
                 self.wait_for_theme(*theme, &what);
                 thread::sleep(SETTLES_IN);
                 let [width, height] = self.size;
-                self.keep(&folder.join(format!("{}-{width}x{height}-{word}.png", view.name)));
+                self.keep(&folder.join(format!("{}-{width}x{height}-{word}.png", sight.name)));
                 taken += 1;
                 if *theme == themes[0].0 {
                     let picture = self.picture();
@@ -304,7 +328,7 @@ impl Scene {
                     self.act(NEXT_THEME);
                 }
             }
-            for act in view.leave {
+            for act in sight.leave {
                 self.act(*act);
             }
         }
@@ -365,5 +389,5 @@ fn every_view_shows_itself_and_stop() {
         }
     }
     println!("{taken} pictures in {}", folder.display());
-    assert!(taken >= VIEWS.len(), "{LONG_FORM} names no size of {SIZES:?}");
+    assert!(taken >= SIGHTS.len(), "{LONG_FORM} names no size of {SIZES:?}");
 }
