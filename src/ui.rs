@@ -20,6 +20,7 @@ pub mod menus;
 pub mod notes;
 mod object_search;
 pub mod operate;
+mod pass_bar;
 pub mod pass_header;
 mod pass_limits;
 pub mod pass_list;

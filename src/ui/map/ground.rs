@@ -32,9 +32,14 @@ pub(super) fn paint(
         let shade = caps::fill(&projection, night, t.bg0.gamma_multiply(NIGHT));
         painter.add(Shape::mesh(shade));
         for line in caps::outline(&projection, night) {
-            painter.extend(dashed(&line, 6.0, 4.0, Stroke::new(1.25, t.sun)));
+            terminator(painter, &line, t);
         }
     }
+}
+
+/// The edge of the night. Its dots are no dashes of a track, in one hue as well.
+pub(super) fn terminator(painter: &Painter, line: &[Pos2], t: &Tokens) {
+    painter.extend(dashed(line, 1.5, 3.0, Stroke::new(1.5, t.sun)));
 }
 
 /// The station: an open triangle.

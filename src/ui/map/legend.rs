@@ -2,7 +2,7 @@
 
 use egui::{Align2, Painter, Pos2, Rect, Stroke, Ui, pos2, vec2};
 
-use super::{MapLayers, words};
+use super::{MapLayers, ground, words};
 use crate::{
     model::{
         Model,
@@ -92,5 +92,5 @@ fn rises(painter: &Painter, at: Pos2, t: &Tokens) {
 }
 
 fn terminator(painter: &Painter, at: Pos2, t: &Tokens) {
-    painter.extend(dashed(&line(at), 6.0, 4.0, Stroke::new(1.25, t.sun)));
+    ground::terminator(painter, &line(at), t);
 }

@@ -17,6 +17,7 @@ use crate::{
     plan::schedule::Entry,
     ui::{
         format,
+        pass_bar::{self, BarForm},
         text::{self, Weight},
         theme,
         widgets::{button::Button, paint},
@@ -113,9 +114,9 @@ fn title(ui: &Ui, bar: Rect, model: &Model, satellites: &[PlannedSatellite<'_>],
     let proof = if model.schedule.made_at.is_none() {
         ""
     } else if model.schedule.schedule.is_proved() {
-        ", proved to be the best"
+        ": no better choice exists"
     } else {
-        ", not proved to be the best"
+        ": a better choice may exist"
     };
     let count = format!("{taken} of {all} passes are taken{proof}");
     let room = inner.with_min_x(drawn.right() + 24.0);
@@ -222,11 +223,8 @@ fn lane(
         let Some(x) = span.range(flown.pass.1, to, place) else { continue };
         let rect = band(x);
         let words = words::automatic::flown(flown, model.now);
-        if flown.cause.is_none() {
-            ui.painter().rect_filled(rect, 0.0, t.t3);
-        } else {
-            paint::dashed_border(ui, rect, 0.0, Stroke::new(1.0, t.bad));
-        }
+        let form = if flown.cause.is_none() { BarForm::Done } else { BarForm::Missed };
+        pass_bar::paint(ui, rect, form);
         paint::name_text(ui, ("flown", place_in_day), rect, &words).on_hover_text(words);
     }
     let entries: Vec<&Entry> =
@@ -308,22 +306,13 @@ fn bar(
     });
     let taking = antenna.operation.taking().filter(|taking| taking.pass.0 == key.0);
     let taking = taking.filter(|taking| taking.from < entry.to && entry.from < taking.until);
-    ui.painter().rect_filled(rect, 0.0, t.sat);
-    let state = match taking {
-        None => "planned",
-        Some(taking) if taking.proved_at.is_none() => {
-            ui.painter().rect_stroke(rect, 0.0, Stroke::new(2.5, t.cmd), StrokeKind::Inside);
-            "sent, not proved"
-        }
-        Some(taking) if taking.from <= model.now => {
-            ui.painter().rect_stroke(rect, 0.0, Stroke::new(1.5, t.ant), StrokeKind::Outside);
-            "running"
-        }
-        Some(_) => {
-            ui.painter().rect_stroke(rect, 0.0, Stroke::new(2.5, t.ok), StrokeKind::Inside);
-            "proved"
-        }
+    let (form, state) = match taking {
+        None => (BarForm::Planned, "planned"),
+        Some(taking) if taking.proved_at.is_none() => (BarForm::Sent, "sent, not proved"),
+        Some(taking) if taking.from <= model.now => (BarForm::Running, "running"),
+        Some(_) => (BarForm::Proved, "proved"),
     };
+    pass_bar::paint(ui, rect, form);
     if is_selected {
         let frame = rect.expand(2.5);
         ui.painter().rect_stroke(frame, 2.0, Stroke::new(1.5, t.ant), StrokeKind::Outside);

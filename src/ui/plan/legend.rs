@@ -2,7 +2,12 @@
 
 use egui::{Align2, Rect, Shape, Stroke, StrokeKind, Ui, Vec2, pos2, vec2};
 
-use crate::ui::{text, theme, tokens::Tokens, widgets::paint};
+use crate::ui::{
+    pass_bar::{self, BarForm},
+    text, theme,
+    tokens::Tokens,
+    widgets::paint,
+};
 
 const MARK: Vec2 = vec2(14.0, 10.0);
 const MARK_GAP: f32 = 6.0;
@@ -13,15 +18,10 @@ type Mark = fn(&Ui, Rect, &Tokens);
 
 /// From right to left; those without room are left out, from the left.
 const ENTRIES: [(Mark, &str); 6] = [
-    (|ui, rect, t| paint::dashed_border(ui, rect, 0.0, Stroke::new(1.0, t.bad)), "missed"),
-    (
-        |ui, rect, t| {
-            ui.painter().rect_filled(rect, 0.0, t.t3);
-        },
-        "done",
-    ),
-    (|ui, rect, t| bordered(ui, rect, t, t.ok), "proved"),
-    (|ui, rect, t| bordered(ui, rect, t, t.cmd), "sent"),
+    (|ui, rect, _| pass_bar::paint(ui, rect, BarForm::Missed), "missed"),
+    (|ui, rect, _| pass_bar::paint(ui, rect, BarForm::Done), "done"),
+    (|ui, rect, _| pass_bar::paint(ui, rect, BarForm::Proved), "proved"),
+    (|ui, rect, _| pass_bar::paint(ui, rect, BarForm::Sent), "sent"),
     (
         |ui, rect, t| {
             let line = [rect.left_center(), rect.right_center()];
@@ -38,10 +38,6 @@ const ENTRIES: [(Mark, &str); 6] = [
         "slew",
     ),
 ];
-
-fn bordered(ui: &Ui, rect: Rect, t: &Tokens, colour: egui::Color32) {
-    ui.painter().rect(rect, 0.0, t.sat, Stroke::new(2.0, colour), StrokeKind::Inside);
-}
 
 /// Shows the entries that have room at the right of `rect`.
 pub(super) fn show(ui: &Ui, rect: Rect) {

@@ -13,14 +13,13 @@ use super::{
 use crate::{
     model::{UiCommand, plan},
     ui::{
-        format, text, theme,
+        format,
+        pass_bar::{self, BarForm},
+        text, theme,
         widgets::{context_menu, paint},
     },
 };
 
-const OUTLINE: f32 = 1.0;
-/// Width of the border of a pass that the unit was asked for, as far as the bar has room.
-const BORDER: f32 = 2.5;
 /// Frame of the selected bar: width of its line and gap to the bar.
 const FRAME: f32 = 1.5;
 const FRAME_GAP: f32 = 1.5;
@@ -90,7 +89,7 @@ pub(super) fn show(
     for Standing { bar, rect } in standing {
         let remarks = || remarks(bar, lane.antenna, model);
         let response = node(ui, bar, *rect, lane, (model.now, selected == Some(bar.key)), &remarks);
-        paint_bar(ui, bar, *rect);
+        pass_bar::paint(ui, *rect, form(bar));
         if response.hovered() {
             let stroke = Stroke::new(1.0, t.t1);
             ui.painter().rect_stroke(*rect, 0, stroke, StrokeKind::Outside);
@@ -122,40 +121,16 @@ pub(super) fn show(
     }
 }
 
-/// Paints a bar by its state, as the lanes of the plan do.
-fn paint_bar(ui: &Ui, bar: &Bar<'_>, rect: Rect) {
-    let t = theme::tokens(ui);
-    let painter = ui.painter();
-    let filled = |colour| {
-        // The rim separates overlapping bars.
-        painter.rect(rect, 0, colour, Stroke::new(1.0, t.bg0), StrokeKind::Outside);
-    };
-    let border = |colour| {
-        let width = BORDER.min(rect.width() / 4.0);
-        painter.rect_stroke(rect, 0, Stroke::new(width, colour), StrokeKind::Inside);
-    };
+/// The form of a bar, the same as in the lanes of the plan.
+fn form(bar: &Bar<'_>) -> BarForm {
     match bar.state {
-        State::Plan(plan::Standing::Flown(flown)) => match flown.cause {
-            None => filled(t.t3),
-            Some(_) => paint::dashed_border(ui, rect, 0.0, Stroke::new(OUTLINE, t.bad)),
-        },
-        State::Plan(plan::Standing::Sent(_)) => {
-            filled(t.sat);
-            border(t.cmd);
-        }
-        State::Plan(plan::Standing::Proved(_)) => {
-            filled(t.sat);
-            border(t.ok);
-        }
-        State::Plan(plan::Standing::Running) => {
-            filled(t.sat);
-            painter.rect_stroke(rect, 0, Stroke::new(FRAME, t.ant), StrokeKind::Outside);
-        }
-        State::Mount { .. } | State::Plan(_) if bar.is_taken() => filled(t.sat),
-        State::Mount { .. } | State::Plan(_) => {
-            let stroke = Stroke::new(OUTLINE, t.other);
-            painter.rect_stroke(rect, 0, stroke, StrokeKind::Inside);
-        }
+        State::Plan(plan::Standing::Flown(flown)) if flown.cause.is_none() => BarForm::Done,
+        State::Plan(plan::Standing::Flown(_)) => BarForm::Missed,
+        State::Plan(plan::Standing::Sent(_)) => BarForm::Sent,
+        State::Plan(plan::Standing::Proved(_)) => BarForm::Proved,
+        State::Plan(plan::Standing::Running) => BarForm::Running,
+        State::Mount { .. } | State::Plan(_) if bar.is_taken() => BarForm::Planned,
+        State::Mount { .. } | State::Plan(_) => BarForm::LeftOut,
     }
 }
 

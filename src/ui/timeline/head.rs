@@ -1,11 +1,12 @@
 //! The title and the legend of the strip.
 
-use egui::{Align2, Color32, Rect, Shape, Stroke, StrokeKind, Ui, pos2};
+use egui::{Align2, Color32, Rect, Shape, Stroke, Ui, pos2};
 
 use super::{MARGIN, State, TimelineModel};
 use crate::{
     model::plan::Standing,
     ui::{
+        pass_bar::{self, BarForm},
         text::{self, Weight},
         theme,
         widgets::paint,
@@ -18,10 +19,7 @@ const ENTRY_GAP: f32 = 20.0;
 
 #[derive(Debug, Clone, Copy)]
 enum Mark {
-    Filled,
-    Done,
-    Outline,
-    Dashed,
+    Bar(BarForm),
     Triangle,
 }
 
@@ -30,8 +28,8 @@ enum Mark {
 fn legend(model: &TimelineModel<'_>) -> Vec<(Mark, &'static str)> {
     let lost = (Mark::Triangle, "seconds lost");
     if !model.is_planned {
-        let filled = (Mark::Filled, "trackable, height = max elevation");
-        return vec![lost, (Mark::Outline, "not possible"), filled];
+        let filled = (Mark::Bar(BarForm::Planned), "trackable, height = max elevation");
+        return vec![lost, (Mark::Bar(BarForm::LeftOut), "not possible"), filled];
     }
     let bars = || model.lanes.iter().flat_map(|lane| &lane.bars);
     let flown = |is_missed: bool| {
@@ -40,10 +38,10 @@ fn legend(model: &TimelineModel<'_>) -> Vec<(Mark, &'static str)> {
             _ => false,
         })
     };
-    let missed = flown(true).then_some((Mark::Dashed, "missed"));
-    let done = flown(false).then_some((Mark::Done, "done"));
-    let always = [lost, (Mark::Outline, "left out")];
-    let planned = (Mark::Filled, "planned, height = max elevation");
+    let missed = flown(true).then_some((Mark::Bar(BarForm::Missed), "missed"));
+    let done = flown(false).then_some((Mark::Bar(BarForm::Done), "done"));
+    let always = [lost, (Mark::Bar(BarForm::LeftOut), "left out")];
+    let planned = (Mark::Bar(BarForm::Planned), "planned, height = max elevation");
     always.into_iter().chain(missed).chain(done).chain([planned]).collect()
 }
 
@@ -69,23 +67,9 @@ pub(super) fn show(ui: &Ui, rect: Rect, title: &str, model: &TimelineModel<'_>) 
 }
 
 fn sign(ui: &Ui, rect: Rect, mark: Mark) {
-    let t = theme::tokens(ui);
     match mark {
-        Mark::Filled => {
-            ui.painter().rect_filled(rect, 0, t.sat);
-        }
-        Mark::Done => {
-            ui.painter().rect_filled(rect, 0, t.t3);
-        }
-        Mark::Dashed => {
-            paint::dashed_border(ui, rect, 0.0, Stroke::new(1.0, t.bad));
-        }
-        Mark::Outline => {
-            ui.painter().rect_stroke(rect, 0, Stroke::new(1.0, t.other), StrokeKind::Inside);
-        }
-        Mark::Triangle => {
-            triangle(ui, rect, t.warn);
-        }
+        Mark::Bar(form) => pass_bar::paint(ui, rect, form),
+        Mark::Triangle => triangle(ui, rect, theme::tokens(ui).warn),
     }
 }
 
