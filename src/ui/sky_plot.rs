@@ -223,8 +223,8 @@ fn point_out(
     on_path.map(|sample| sample.time)
 }
 
-/// Paints the layers from the disc up to the selected satellite, then the
-/// labels between them, so that no line crosses a text.
+/// Paints the layers from the disc up to the selected satellite, and the labels between them: over
+/// the lines, so that none crosses a text, and with their grounds below the marks.
 fn paint_sky(
     ui: &Ui,
     rect: Rect,
@@ -235,34 +235,39 @@ fn paint_sky(
 ) {
     let painter = ui.painter();
     let layers = state.layers;
-    let before = std::mem::take(&mut state.labels);
-    let mut labels = Labels::new(painter, t, Some(dome), rect.shrink(4.0), before);
-
     grid::disc(painter, dome, t);
     if let Some(mask) = scene.mask.filter(|_| layers.mask) {
         mask::paint(painter, dome, mask, t);
     }
-    grid::rings(painter, dome, t);
-    for name in grid::rim(painter, dome, scene.minimum_elevation, t) {
-        labels.reserve(name);
-    }
-    labels.reserve_path(&dome.circle(dome.radius), 4.0);
+    let mut reserved = grid::rings(painter, dome, t).to_vec();
+    reserved.extend(grid::rim(painter, dome, scene.minimum_elevation, t));
     if layers.keep_outs {
         keep_outs::paint(painter, dome, scene.keep_outs, t);
-        for words in keep_outs::words(painter, dome, scene.keep_outs, t) {
-            labels.reserve(words);
-        }
+        reserved.extend(keep_outs::words(painter, dome, scene.keep_outs, t));
     }
     if let Some(holes) = scene.keyholes.filter(|_| layers.keyholes) {
-        for outline in grid::keyholes(painter, dome, &holes, t) {
-            labels.reserve(Rect::from_points(&outline));
-        }
+        let outlines = grid::keyholes(painter, dome, &holes, t);
+        reserved.extend(outlines.iter().map(|outline| Rect::from_points(outline)));
     }
     let whole = Dome::fitted(rect);
-    let numbers = readout::reserved(painter, rect, whole, scene, t);
-    for corner in corners::reserved(rect, whole, scene).into_iter().chain(numbers) {
-        labels.reserve(corner);
+    reserved.extend(corners::reserved(rect, whole, scene));
+    reserved.extend(readout::reserved(painter, rect, whole, scene, t));
+    if layers.others {
+        bodies::paths(painter, dome, scene.others, t);
     }
+    let drawn = scene.track.map(|track| {
+        let parts = track::parts(dome, &track, scene.now);
+        let ticks = track::ticks(dome, &track);
+        track::paint(painter, &parts, &ticks, t);
+        (parts, ticks, track::events(&track))
+    });
+
+    let before = std::mem::take(&mut state.labels);
+    let mut labels = Labels::new(painter, t, Some(dome), rect.shrink(4.0), before);
+    for rect in reserved {
+        labels.reserve(rect);
+    }
+    labels.reserve_path(&dome.circle(dome.radius), 4.0);
     if layers.sun_and_moon {
         bodies::sun_and_moon(painter, dome, scene, &mut labels, t);
     }
@@ -270,18 +275,14 @@ fn paint_sky(
         bodies::others(painter, dome, scene.others, &mut labels, t);
     }
     antenna::reserve(dome, scene, &mut labels);
+    other_antennas::reserve(&mut labels, dome, scene);
     bearing::label(&mut labels, dome, scene, t);
     other_antennas::label_stops(&mut labels, dome, scene, t);
-
-    let drawn = scene.track.map(|track| {
-        let parts = track::parts(dome, &track, scene.now);
-        let ticks = track::ticks(dome, &track);
+    let (ticks, events) = drawn.map_or_else(Default::default, |(parts, ticks, events)| {
         labels.reserve_path(&parts.flown, 6.0);
         labels.reserve_path(&parts.planned, 6.0);
-        track::paint(painter, &parts, &ticks, t);
-        (ticks, track::events(&track))
+        (ticks, events)
     });
-    let (ticks, events) = drawn.unwrap_or_default();
     planned::reserve(&mut labels, dome, scene);
     label_selected(&mut labels, dome, scene, t);
     planned::label(&mut labels, dome, scene, t);
@@ -294,7 +295,7 @@ fn paint_sky(
     if layers.others && layers.names {
         bodies::label_others(&mut labels, dome, scene, t);
     }
-    state.labels = labels.into_memory();
+    state.labels = labels.finish();
 
     track::paint_events(painter, dome, &events, t);
     other_antennas::paint_stops(painter, dome, scene, t);

@@ -62,13 +62,6 @@ fn paint_map(
     let painter = ui.painter();
     let (layers, world) = (state.layers, projection.world);
     ground::paint(painter, *projection, &model.globe, layers, &mut state.land, t);
-    let before = std::mem::take(&mut state.labels);
-    let mut labels = Labels::new(painter, t, None, visible.shrink(4.0), before);
-    if let Some(subsolar) = model.globe.subsolar.filter(|_| layers.terminator) {
-        let at = projection.point(subsolar);
-        marks::sun(painter, at, t);
-        labels.reserve(paint::square(at, 22.0));
-    }
     let selected = shown.iter().find(|of| of.is_selected);
     let others = || shown.iter().filter(|of| !of.is_selected);
     if layers.other_tracks {
@@ -95,6 +88,15 @@ fn paint_map(
     let laid_out = laid_out.map(|of| tracks::tracks(projection, of, model.now));
     if let Some(tracks) = &laid_out {
         tracks::paint(painter, tracks, t);
+    }
+    let before = std::mem::take(&mut state.labels);
+    let mut labels = Labels::new(painter, t, None, visible.shrink(4.0), before);
+    if let Some(subsolar) = model.globe.subsolar.filter(|_| layers.terminator) {
+        let at = projection.point(subsolar);
+        marks::sun(painter, at, t);
+        labels.reserve(paint::square(at, 22.0));
+    }
+    if let Some(tracks) = &laid_out {
         labels::reserve(&mut labels, world, &tracks.flown, 6.0);
         labels::reserve(&mut labels, world, &tracks.ahead, 6.0);
     }
@@ -107,7 +109,7 @@ fn paint_map(
         labels.reserve(paint::square(projection.point(of.below.point), 8.0));
     }
     labels::add(&mut labels, projection, model, shown, laid_out.as_ref(), layers.names, t);
-    state.labels = labels.into_memory();
+    state.labels = labels.finish();
 
     ground::station(painter, projection.point(station), t);
     for of in others() {

@@ -73,7 +73,16 @@ pub(super) fn label_sun_and_moon(
     }
 }
 
-/// Paints the other satellites and their paths, and keeps labels away from them.
+/// Paints the paths of the other satellites.
+pub(super) fn paths(painter: &Painter, dome: Dome, others: &[OtherSatellite<'_>], t: &Tokens) {
+    let visible = others.iter().filter(|of| dome.visible(of.direction).is_some());
+    for satellite in visible {
+        let path = dome.path(satellite.ahead.iter().copied());
+        painter.extend(dashed(&path, 1.5, 4.0, Stroke::new(1.25, t.other)));
+    }
+}
+
+/// Paints the other satellites, and keeps labels away from them and their paths.
 pub(super) fn others(
     painter: &Painter,
     dome: Dome,
@@ -85,7 +94,6 @@ pub(super) fn others(
         let Some(at) = dome.visible(satellite.direction) else { continue };
         let path = dome.path(satellite.ahead.iter().copied());
         labels.reserve_path(&path, 3.0);
-        painter.extend(dashed(&path, 1.5, 4.0, Stroke::new(1.25, t.other)));
         marks::other(painter, at, satellite.geostationary, t);
         labels.reserve(paint::square(at, 8.0));
     }

@@ -28,8 +28,8 @@ pub(in crate::ui) fn disc(painter: &Painter, dome: Dome, t: &Tokens) {
     painter.circle_filled(dome.centre, dome.radius, t.sky);
 }
 
-/// Paints the rings and the spokes.
-pub(in crate::ui) fn rings(painter: &Painter, dome: Dome, t: &Tokens) {
+/// Paints the rings and the spokes. Returns the boxes of the numbers.
+pub(in crate::ui) fn rings(painter: &Painter, dome: Dome, t: &Tokens) -> [Rect; 2] {
     let thin = Stroke::new(1.0, t.grid);
     for elevation in [30.0, 60.0] {
         painter.circle_stroke(dome.centre, dome.ring(elevation), thin);
@@ -47,14 +47,15 @@ pub(in crate::ui) fn rings(painter: &Painter, dome: Dome, t: &Tokens) {
     for arm in [vec2(5.0, 0.0), vec2(0.0, 5.0)] {
         painter.line_segment([dome.centre - arm, dome.centre + arm], cross);
     }
-    for elevation in [30.0, 60.0] {
+    [30.0, 60.0].map(|elevation| {
         let at = dome.at(std::f32::consts::FRAC_PI_2, elevation);
         let name = format!("{elevation}°");
         let galley = painter.layout_no_wrap(name, text::caption(), t.t3);
         let place = Rect::from_center_size(at, galley.size());
         painter.rect_filled(place.expand2(vec2(3.0, 0.0)), 0.0, t.sky);
         painter.galley(place.min, galley, t.t3);
-    }
+        place
+    })
 }
 
 /// Paints the rim with its ticks and names, and the ring of the minimum

@@ -3,18 +3,22 @@
 use std::collections::HashMap;
 
 use egui::{
-    Align, Color32, FontId, Painter, Pos2, Rect, Shape, Stroke, Vec2, text::LayoutJob,
-    text::TextFormat,
+    Align, Color32, FontId, Painter, Pos2, Rect, Shape, Stroke, Vec2, layers::ShapeIdx,
+    text::LayoutJob, text::TextFormat,
 };
 
 use super::{
     geometry::Dome,
-    placement::{Memory, Placement, Side, place},
+    placement::{Memory, Obstacle, Placement, Side, place},
 };
 use crate::ui::tokens::Tokens;
 
 /// Padding between a text and the edge of its background, points.
 const PADDING: f32 = 2.0;
+
+/// Weights of what a label may cover: a line runs on beside it, a mark or a number is lost.
+const LINE: f32 = 1.0;
+const MARK: f32 = 4.0;
 
 /// How far outside of the picture a mark may be that has a label in it, points.
 const OUTSIDE: f32 = 8.0;
@@ -68,8 +72,10 @@ pub(in crate::ui) struct Labels<'a> {
     /// The disc that the background of a text must not leave.
     dome: Option<Dome>,
     bounds: Rect,
-    /// Boxes that a label should not cover.
-    reserved: Vec<Rect>,
+    obstacles: Vec<Obstacle>,
+    /// The grounds of the labels, and their place among what is painted.
+    grounds: Vec<Shape>,
+    grounds_at: ShapeIdx,
     /// The painted labels; no label may overlap another.
     texts: Vec<Rect>,
     before: HashMap<Key, Memory>,
@@ -77,7 +83,8 @@ pub(in crate::ui) struct Labels<'a> {
 }
 
 impl<'a> Labels<'a> {
-    /// Starts a frame with the memory of the previous one.
+    /// Starts a frame with the memory of the previous one. What is painted from here on lies
+    /// over the grounds of the labels.
     pub(in crate::ui) fn new(
         painter: &'a Painter,
         tokens: &'a Tokens,
@@ -90,7 +97,9 @@ impl<'a> Labels<'a> {
             tokens,
             dome,
             bounds,
-            reserved: Vec::new(),
+            obstacles: Vec::new(),
+            grounds: Vec::new(),
+            grounds_at: painter.add(Shape::Noop),
             texts: Vec::new(),
             before,
             memory: HashMap::new(),
@@ -102,11 +111,15 @@ impl<'a> Labels<'a> {
         self.bounds
     }
 
-    /// Keeps labels away from a box.
+    /// Keeps labels away from a mark or a number.
     pub(in crate::ui) fn reserve(&mut self, rect: Rect) {
+        self.avoid(rect, MARK);
+    }
+
+    fn avoid(&mut self, rect: Rect, weight: f32) {
         // In a magnified sky most of it is out of sight.
         if self.bounds.intersects(rect) {
-            self.reserved.push(rect);
+            self.obstacles.push(Obstacle { rect, weight });
         }
     }
 
@@ -118,7 +131,7 @@ impl<'a> Labels<'a> {
             // The last point of a segment is the first one of the next segment.
             for step in 0..steps {
                 let at = from.lerp(to, f32::from(step) / f32::from(steps));
-                self.reserve(Rect::from_center_size(at, Vec2::splat(width)));
+                self.avoid(Rect::from_center_size(at, Vec2::splat(width)), LINE);
             }
         }
     }
@@ -142,7 +155,7 @@ impl<'a> Labels<'a> {
             label.clearance,
             &free,
             self.bounds,
-            &self.reserved,
+            &self.obstacles,
             self.before.get(&label.key).copied(),
         )?;
         // Keep the memory of the first choice: otherwise many small steps would add up
@@ -150,7 +163,7 @@ impl<'a> Labels<'a> {
         let chosen = Memory { side: place.side, covered: place.covered };
         let kept = self.before.get(&label.key).filter(|memory| memory.side == place.side);
         self.memory.insert(label.key, kept.copied().unwrap_or(chosen));
-        if place.covered > label.tolerance {
+        if place.covered.min(1.0) > label.tolerance {
             return None;
         }
         self.paint(label, place);
@@ -158,12 +171,13 @@ impl<'a> Labels<'a> {
         Some(place)
     }
 
-    /// The memory for the next frame.
-    pub(in crate::ui) fn into_memory(self) -> HashMap<Key, Memory> {
+    /// Lays the grounds. Returns the memory for the next frame.
+    pub(in crate::ui) fn finish(self) -> HashMap<Key, Memory> {
+        self.painter.set(self.grounds_at, Shape::Vec(self.grounds));
         self.memory
     }
 
-    fn paint(&self, label: &Label<'_>, place: Placement) {
+    fn paint(&mut self, label: &Label<'_>, place: Placement) {
         let towards = place.side.direction();
         let align = match towards.x {
             x if x < 0.0 => Align::RIGHT,
@@ -177,13 +191,13 @@ impl<'a> Labels<'a> {
                 // Outside of the rim, too: what a label lies on must not run through it.
                 let beyond = |dome: Dome| !dome.holds(place.rect);
                 if self.dome.is_some_and(beyond) {
-                    self.painter.rect_filled(place.rect, 0.0, self.tokens.bg0);
+                    self.grounds.push(Shape::rect_filled(place.rect, 0.0, self.tokens.bg0));
                 }
-                self.painter.add(Shape::convex_polygon(ground, self.tokens.sky, Stroke::NONE));
+                self.grounds.push(Shape::convex_polygon(ground, self.tokens.sky, Stroke::NONE));
             }
             Some(None) => {}
             None => {
-                self.painter.rect_filled(place.rect, 0.0, self.tokens.sky);
+                self.grounds.push(Shape::rect_filled(place.rect, 0.0, self.tokens.sky));
             }
         }
         // A galley that is not aligned to the left lies around its origin.
@@ -227,7 +241,7 @@ mod tests {
                 let others = &labels.texts[index + 1..];
                 assert!(others.iter().all(|other| !other.intersects(*text)), "{radius}");
             }
-            *found = labels.into_memory().into_keys().collect();
+            *found = labels.finish().into_keys().collect();
         });
         harness.run();
         harness.state().clone()

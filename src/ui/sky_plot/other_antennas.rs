@@ -24,6 +24,8 @@ const RING: f32 = 13.0;
 const STOP: f32 = 22.0;
 /// How far outside of the rim the name of a stop is placed from, points.
 const BESIDE_RIM: f32 = 6.0;
+/// Number of sides on which its name may stand.
+const OUTWARDS: usize = 2;
 /// Half the length of the bar at its outer end, points.
 const BAR: f32 = 7.0;
 
@@ -39,11 +41,17 @@ impl OtherAntenna<'_> {
     }
 }
 
-/// Keeps labels away from the marks and names them.
+/// Keeps labels away from the marks.
+pub(super) fn reserve(labels: &mut Labels<'_>, dome: Dome, scene: &SkyScene<'_>) {
+    for mark in scene.antennas.iter().filter_map(|antenna| antenna.mark(dome)) {
+        labels.reserve(paint::square(mark, 2.0 * HALF));
+    }
+}
+
+/// Names the marks.
 pub(super) fn label(labels: &mut Labels<'_>, dome: Dome, scene: &SkyScene<'_>, t: &Tokens) {
     for antenna in scene.antennas {
         let Some(mark) = antenna.mark(dome) else { continue };
-        labels.reserve(paint::square(mark, 2.0 * HALF));
         let lost = antenna.lost().map_or_else(String::new, |age| format!(" ? {age}"));
         let angle = antenna.bearing.and_then(|of| of.measured);
         let angle = angle.map_or_else(String::new, |az| format::azimuth(az.degrees()));
@@ -73,13 +81,16 @@ pub(super) fn label_stops(labels: &mut Labels<'_>, dome: Dome, scene: &SkyScene<
         let is_beside = (end - dome.centre).x.abs() >= (end - dome.centre).y.abs();
         let two = [(&*name, text::small_strong(), t.bad), (&*angle, text::small(), t.bad)];
         let one = [(&*both, text::small_strong(), t.bad)];
+        let sides = Side::towards(end - dome.centre);
+        let (outwards, _) = sides.split_at(OUTWARDS);
         labels.add(&Label {
             key: Key::Stop(index),
             lines: if is_beside { &two } else { &one },
             mark: end + (end - inner).normalized() * BESIDE_RIM,
             clearance: 2.0 + BAR,
-            order: &Side::towards(end - dome.centre),
-            tolerance: 0.6,
+            // The others lead into the disc.
+            order: outwards,
+            tolerance: 1.0,
         });
     }
 }

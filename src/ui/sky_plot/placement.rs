@@ -77,7 +77,7 @@ pub(in crate::ui) struct Placement {
     pub(in crate::ui) side: Side,
     /// The rectangle of the text.
     pub(in crate::ui) rect: Rect,
-    /// Covered share of the label, 0 to 1.
+    /// Covered share of the label by the weight of what it covers; may be above 1.
     pub(in crate::ui) covered: f32,
 }
 
@@ -85,19 +85,28 @@ pub(in crate::ui) struct Placement {
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(in crate::ui) struct Memory {
     pub(in crate::ui) side: Side,
-    /// Covered share of the label when its side was chosen, 0 to 1.
+    /// [`Placement::covered`] when its side was chosen.
     pub(in crate::ui) covered: f32,
 }
 
-/// The share of `rect` that lies under other boxes or outside `bounds`.
-pub(in crate::ui) fn covered(rect: Rect, bounds: Rect, reserved: &[Rect]) -> f32 {
+/// A box that labels should not cover.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(in crate::ui) struct Obstacle {
+    pub(in crate::ui) rect: Rect,
+    /// How much worse it is to cover this box than a line.
+    pub(in crate::ui) weight: f32,
+}
+
+/// The share of `rect` that lies over obstacles, each by its weight, or outside `bounds`. Above 1
+/// where there is much to cover.
+fn covered(rect: Rect, bounds: Rect, obstacles: &[Obstacle]) -> f32 {
     let area = rect.area().max(f32::EPSILON);
     let shared = |other: Rect| {
         let both = rect.intersect(other);
         if both.is_positive() { both.area() } else { 0.0 }
     };
-    let under: f32 = reserved.iter().map(|other| shared(*other)).sum();
-    ((under + area - shared(bounds)) / area).min(1.0)
+    let over: f32 = obstacles.iter().map(|other| other.weight * shared(other.rect)).sum();
+    (over + area - shared(bounds)) / area
 }
 
 /// Chooses the first free side in the given order, otherwise the least covered one. A label
@@ -109,12 +118,12 @@ pub(in crate::ui) fn place(
     clearance: f32,
     order: &[Side],
     bounds: Rect,
-    reserved: &[Rect],
+    obstacles: &[Obstacle],
     before: Option<Memory>,
 ) -> Option<Placement> {
     let on = |side: Side| {
         let rect = side.rect(mark, size, clearance);
-        Placement { side, rect, covered: covered(rect, bounds, reserved) }
+        Placement { side, rect, covered: covered(rect, bounds, obstacles) }
     };
     if let Some(memory) = before {
         let now = on(memory.side);
@@ -139,7 +148,27 @@ mod tests {
     const MARK: Pos2 = pos2(200.0, 200.0);
 
     fn placed(reserved: &[Rect], before: Option<Memory>) -> Placement {
-        place(MARK, SIZE, 8.0, &Side::ORDER, BOUNDS, reserved, before).unwrap()
+        place(MARK, SIZE, 8.0, &Side::ORDER, BOUNDS, &lines(reserved), before).unwrap()
+    }
+
+    fn lines(rects: &[Rect]) -> Vec<Obstacle> {
+        rects.iter().map(|rect| Obstacle { rect: *rect, weight: 1.0 }).collect()
+    }
+
+    #[test]
+    fn a_label_covers_a_line_rather_than_a_little_of_a_mark() {
+        let part = |side: Side, share: f32| {
+            let rect = side.rect(MARK, SIZE, 8.0);
+            Rect::from_min_size(rect.min, vec2(rect.width() * share, rect.height()))
+        };
+        let line = Obstacle { rect: part(Side::South, 0.6), weight: 1.0 };
+        let side = |weight: f32| {
+            let over_north = Obstacle { rect: part(Side::North, 0.3), weight };
+            let sides = [Side::North, Side::South];
+            place(MARK, SIZE, 8.0, &sides, BOUNDS, &[over_north, line], None).unwrap().side
+        };
+        assert_eq!(side(1.0), Side::North);
+        assert_eq!(side(4.0), Side::South);
     }
 
     #[test]
