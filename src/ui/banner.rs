@@ -1,6 +1,6 @@
 //! The strip that marks the demo station.
 
-use egui::{Align2, Rect, Ui};
+use egui::{Align2, Rect, Ui, pos2, vec2};
 
 use super::{
     text, theme,
@@ -17,7 +17,8 @@ use crate::{
 
 /// Height of the strip.
 pub const HEIGHT: f32 = 32.0;
-/// Height of the strip in a low window, where its text is shorter.
+/// Height of the strip in a low window, where its text is shorter and its button follows that: all
+/// of it stands at one place in a narrow and in a wide view.
 pub const LOW_HEIGHT: f32 = 28.0;
 const PADDING: f32 = 16.0;
 
@@ -56,12 +57,7 @@ pub fn show(ui: &mut Ui, rect: Rect, model: &Model, commands: &mut Vec<UiCommand
         View::Setup => ("Stay in the demo", View::Operate),
         _ => ("Set up your station", View::Setup),
     };
-    let button = Button::quiet(word);
-    let width = button.width(ui);
-    let place = Rect::from_min_max(
-        egui::pos2(rect.right() - width - 8.0, rect.center().y - SMALL_HEIGHT / 2.0),
-        egui::pos2(rect.right() - 8.0, rect.center().y + SMALL_HEIGHT / 2.0),
-    );
+    let is_low = rect.height() < HEIGHT;
     let words = match &model.catalog {
         _ if model.view == View::Setup => {
             "Demo station: the antennas are simulated, no metal moves. It goes on while you set \
@@ -70,7 +66,7 @@ pub fn show(ui: &mut Ui, rect: Rect, model: &Model, commands: &mut Vec<UiCommand
         }
         CatalogState::Loading => "Demo station: the elements are being read.".to_owned(),
         CatalogState::Failed => "Demo station without elements: they could not be read.".to_owned(),
-        CatalogState::Ready(_) if rect.height() < HEIGHT => {
+        CatalogState::Ready(_) if is_low => {
             "Demo station: the antennas are simulated, no metal moves.".to_owned()
         }
         CatalogState::Ready(_) => {
@@ -82,9 +78,14 @@ pub fn show(ui: &mut Ui, rect: Rect, model: &Model, commands: &mut Vec<UiCommand
             format!("Demo station: the antennas are simulated, no metal moves.{elements}")
         }
     };
-    let room = whole.with_max_x(place.left() - 8.0);
-    paint::text_in(ui, room, Align2::LEFT_CENTER, &words, text::body(), t.warn);
+    let button = Button::quiet(word);
+    let size = vec2(button.width(ui), SMALL_HEIGHT);
+    let room = whole.with_max_x(whole.right() - size.x - 8.0);
+    let drawn = paint::text_in(ui, room, Align2::LEFT_CENTER, &words, text::body(), t.warn);
     paint::name_text(ui, "demo banner", room, &words);
+    let left = if is_low { drawn.right() + PADDING } else { whole.right() - size.x };
+    let middle = pos2(left + size.x / 2.0, rect.center().y);
+    let place = Rect::from_center_size(middle, size);
     if button.show(ui, "set up", place).clicked() {
         commands.push(UiCommand::Show(view));
     }

@@ -136,18 +136,23 @@ impl Views {
 
         self.antennas.watch(model);
         let mut body = window.with_min_y(top.bottom());
-        // In a low window the antenna card needs the whole height.
-        let beside_card = window.height() < top_bar::SMALL_BELOW && model.view == View::Operate;
+        let is_low = window.height() < top_bar::SMALL_BELOW;
         let has_banner = self.banner.is_taken(model);
         self.operate.has_banner = has_banner;
-        if has_banner && !beside_card {
+        if has_banner && !is_low {
             let strip = body.with_max_y(body.top() + banner::HEIGHT);
             banner::show(ui, strip, model, commands);
             body = body.with_min_y(strip.bottom());
         }
         let side = body.with_max_x(body.left() + rail::width(window.width()));
         self.keys_open |= show_rail(ui, side, model, self.antennas.edited(model), commands);
-        let rest = Rect::from_min_max(pos2(side.right(), body.top()), body.max);
+        let mut rest = Rect::from_min_max(pos2(side.right(), body.top()), body.max);
+        // In a low window the antenna card needs the whole height: Operate has the strip beside it.
+        if has_banner && is_low && model.view != View::Operate {
+            let strip = rest.with_max_y(rest.top() + banner::LOW_HEIGHT);
+            banner::show(ui, strip, model, commands);
+            rest = rest.with_min_y(strip.bottom());
+        }
         if model.view != View::Operate {
             self.operate.leave(commands);
         }

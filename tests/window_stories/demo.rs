@@ -14,9 +14,10 @@ use azel::{
     station,
 };
 use egui::{Key, Role};
-use egui_kittest::kittest::Queryable as _;
+use egui_kittest::kittest::{NodeT as _, Queryable as _};
 
 use crate::window_stories::{
+    rig,
     settings_rig::says,
     unit::{RealWindow, open_as, open_demo, step_until, wait_until},
 };
@@ -183,4 +184,33 @@ fn esc_takes_no_panel_and_the_card_stops_the_unit_all_the_same() {
         matches!(model.antennas[RC2000C].snapshot.stop, StopState::Stopped { .. })
     });
     step_until(&mut window, "it is let go of", is_off);
+}
+
+#[test]
+fn the_band_of_the_demonstration_and_the_rail_keep_their_places_in_all_views() {
+    let views = [
+        View::Operate,
+        View::Plan,
+        View::Elements,
+        View::Antennas,
+        View::Console,
+        View::Map,
+        View::Preferences,
+    ];
+    for size in rig::SIZES {
+        let seen = views.map(|view| {
+            let mut model = rig::model(rig::quiet());
+            model.demo = true;
+            model.view = view;
+            let window = rig::window(size, model);
+            let words = window.get_by_label_contains("Demo station:");
+            let words = words.accesskit_node().label().unwrap_or_default();
+            let button = window.get_by_role_and_label(Role::Button, "Set up your station").rect();
+            let first = window.get_by_role_and_label(Role::Tab, "Operate").rect();
+            (words, button, first)
+        });
+        for (view, other) in views.iter().zip(&seen) {
+            assert_eq!(*other, seen[0], "{view:?} at {size:?}");
+        }
+    }
 }
