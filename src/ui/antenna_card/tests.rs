@@ -80,6 +80,7 @@ fn model() -> CardModel<'static> {
             offered: &mode_selector::ALL,
             current: Some(Intent::Track),
             is_foreign: false,
+            is_locked: false,
             pending: None,
         },
         track: Some(TrackModel {

@@ -113,6 +113,7 @@ pub(super) fn show(
                 offered: &modes,
                 current: (!snapshot.pending && snapshot.link != LinkState::Off).then_some(mode),
                 is_foreign,
+                is_locked: snapshot.link == LinkState::Off,
                 pending: snapshot.pending.then_some(mode),
             },
             track: modes.contains(&Intent::Track).then(|| TrackModel {

@@ -27,6 +27,8 @@ pub struct ModeModel<'a> {
     pub current: Option<Intent>,
     /// The antenna is in it, but not by this console.
     pub is_foreign: bool,
+    /// No mode can be chosen now; the card says why.
+    pub is_locked: bool,
     /// The requested mode, until the unit reports it.
     pub pending: Option<Intent>,
 }
@@ -37,7 +39,9 @@ pub fn show(ui: &Ui, rect: Rect, model: &ModeModel<'_>) -> Option<Intent> {
     let segments: Vec<(&str, Segment)> = modes
         .iter()
         .map(|mode| {
-            let state = if model.pending == Some(*mode) {
+            let state = if model.is_locked {
+                Segment::Locked
+            } else if model.pending == Some(*mode) {
                 Segment::Pending
             } else if model.current == Some(*mode) {
                 if model.is_foreign { Segment::Foreign } else { Segment::Chosen }
@@ -65,8 +69,8 @@ mod tests {
             let model = ModeModel {
                 offered: &[Intent::Manual, Intent::Position, Intent::Track],
                 current: Some(Intent::Track),
-                is_foreign: false,
                 pending: Some(Intent::Manual),
+                ..ModeModel::default()
             };
             *clicked = show(ui, rect, &model).or(*clicked);
         });
@@ -77,5 +81,19 @@ mod tests {
         window.get_by_role_and_label(Role::RadioButton, "Position").click();
         window.run();
         assert_eq!(*window.state(), Some(Intent::Position));
+    }
+
+    #[test]
+    fn a_locked_mode_takes_no_click() {
+        let mut window = testing::window([400.0, 80.0], None, |ui, clicked| {
+            let rect = Rect::from_min_size(pos2(20.0, 20.0), vec2(312.0, 32.0));
+            let model = ModeModel { offered: &ALL, is_locked: true, ..ModeModel::default() };
+            *clicked = show(ui, rect, &model).or(*clicked);
+        });
+        let manual = window.get_by_role_and_label(Role::RadioButton, "Manual");
+        assert!(manual.accesskit_node().is_disabled());
+        manual.click();
+        window.run();
+        assert_eq!(*window.state(), None);
     }
 }

@@ -20,6 +20,8 @@ pub enum Segment {
     Foreign,
     /// Requested, but not confirmed yet.
     Pending,
+    /// Cannot be chosen now.
+    Locked,
 }
 
 /// Shows segments in `rect`, each as wide as its text needs, with the remaining width shared
@@ -46,18 +48,21 @@ pub fn show(
         let right = (x + width + spare).min(rect.right());
         let cell = Rect::from_min_max(pos2(x, rect.top()), pos2(right, rect.bottom()));
         let id = ui.make_persistent_id((salt, *word));
-        let response = cells.interact(cell, id, egui::Sense::click());
+        let is_free = *state != Segment::Locked;
+        let sense = if is_free { egui::Sense::click() } else { egui::Sense::hover() };
+        let response = cells.interact(cell, id, sense);
         let chosen = matches!(state, Segment::Chosen | Segment::Foreign);
         let is_foreign = *state == Segment::Foreign;
         let said =
             if is_foreign { format!("{word}, not by this console") } else { (*word).to_owned() };
-        response.widget_info(|| WidgetInfo::selected(Role::RadioButton, true, chosen, &said));
+        response.widget_info(|| WidgetInfo::selected(Role::RadioButton, is_free, chosen, &said));
         let radius = corners(index, segments.len());
         let colour = match state {
             Segment::Chosen => {
                 ui.painter().rect_filled(cell, radius, t.sat);
                 t.onsat
             }
+            Segment::Locked => t.t3,
             _ if response.hovered() => {
                 ui.painter().rect_filled(cell, radius, t.bg3);
                 t.t1
@@ -75,7 +80,11 @@ pub fn show(
         over_border.push((*state, radius, response));
         x = right;
     }
-    ui.painter().rect_stroke(rect, RADIUS, Stroke::new(1.0, t.edge), StrokeKind::Inside);
+    if segments.iter().all(|(_, state)| *state == Segment::Locked) {
+        paint::dashed_border(ui, rect, f32::from(RADIUS), Stroke::new(1.0, t.edge));
+    } else {
+        ui.painter().rect_stroke(rect, RADIUS, Stroke::new(1.0, t.edge), StrokeKind::Inside);
+    }
     for (state, radius, response) in over_border {
         if state == Segment::Pending {
             let stroke = Stroke::new(2.0, t.cmd);
