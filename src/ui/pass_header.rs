@@ -40,10 +40,10 @@ pub struct PassHeaderModel<'a> {
     pub name: &'a str,
     /// Second name and catalog number.
     pub detail: &'a str,
-    /// The elements and their location.
+    /// What of the second line is a warning; it stands first.
+    pub warning: &'a str,
+    /// The rest of the second line: the elements and their location.
     pub second_line: &'a str,
-    /// The second line is a warning.
-    pub second_line_warns: bool,
     /// Countdown to TCA; empty once it is over.
     pub tca_countdown: &'a str,
     /// Event of the large countdown, such as AOS or LOS.
@@ -81,7 +81,7 @@ pub fn show(ui: &mut Ui, rect: Rect, model: &PassHeaderModel<'_>) -> bool {
     let texts = room.with_max_x((left - GAP).max(room.left()));
     if one_line {
         // A warning needs the room more than the second name.
-        let detail = if model.second_line_warns { "" } else { model.detail };
+        let detail = if model.warning.is_empty() { model.detail } else { "" };
         let end = names(ui, texts, model.name, detail, text::value());
         let rest = texts.with_min_x(end + WORD_GAP).translate(vec2(0.0, DOWN_PER_SIZE * 3.0));
         second_line(ui, rest, model);
@@ -91,8 +91,13 @@ pub fn show(ui: &mut Ui, rect: Rect, model: &PassHeaderModel<'_>) -> bool {
         second_line(ui, line(rect.top() + 40.0), model);
     }
     // The tool-tip contains texts that had no room.
-    paint::name_text(ui, "pass", texts, &said(&[model.name, model.detail, model.second_line]))
-        .on_hover_text(model.second_line);
+    paint::name_text(
+        ui,
+        "pass",
+        texts,
+        &said(&[model.name, model.detail, model.warning, model.second_line]),
+    )
+    .on_hover_text(said(&[model.warning, model.second_line]));
     clicked
 }
 
@@ -110,10 +115,17 @@ fn names(ui: &Ui, rect: Rect, name: &str, detail: &str, font: FontId) -> f32 {
 }
 
 fn second_line(ui: &Ui, rect: Rect, model: &PassHeaderModel<'_>) {
-    if rect.width() >= MIN_TEXT {
-        let t = theme::tokens(ui);
-        let colour = if model.second_line_warns { t.warn } else { t.t2 };
-        paint::text_in(ui, rect, Align2::LEFT_CENTER, model.second_line, text::small(), colour);
+    let t = theme::tokens(ui);
+    let mut room = rect;
+    let mut words = model.second_line.to_owned();
+    if !model.warning.is_empty() && rect.width() >= MIN_TEXT {
+        let drawn =
+            paint::text_in(ui, rect, Align2::LEFT_CENTER, model.warning, text::small(), t.warn);
+        room = rect.with_min_x(drawn.right());
+        words = format!(" · {words}");
+    }
+    if room.width() >= MIN_TEXT && !model.second_line.is_empty() {
+        paint::text_in(ui, room, Align2::LEFT_CENTER, &words, text::small(), t.t2);
     }
 }
 

@@ -166,16 +166,15 @@ pub(super) fn header(ui: &mut Ui, rect: Rect, model: &Model, small: bool) -> boo
     let (event, countdown) = if always { ("", "always up".to_owned()) } else { (event, until(at)) };
     let tca =
         if always || pass.tca.time < model.now { String::new() } else { until(pass.tca.time) };
-    let age_s = elements.age_s(model.now);
+    let [warning, second_line] = second_line(model, predicted);
     pass_header::show(
         ui,
         rect,
         &PassHeaderModel {
             name,
             detail: detail.trim(),
-            second_line: &second_line(model, predicted, age_s),
-            second_line_warns: age_s > words::OLD_ELEMENTS_S
-                || predicted.clear().is_some_and(<[Pass]>::is_empty),
+            warning: &warning,
+            second_line: &second_line,
             tca_countdown: &tca,
             event,
             countdown: &countdown,
@@ -185,8 +184,10 @@ pub(super) fn header(ui: &mut Ui, rect: Rect, model: &Model, small: bool) -> boo
     )
 }
 
-/// The second line of the header, most important first: the end is cut in a small window.
-fn second_line(model: &Model, predicted: &PredictedPass, age_s: f64) -> String {
+/// What is a caution of the second line of the header, and the rest, most important first: the end
+/// is cut in a small window.
+fn second_line(model: &Model, predicted: &PredictedPass) -> [String; 2] {
+    let age_s = predicted.satellite.elements.age_s(model.now);
     let number = predicted.satellite.elements.catalog_number();
     let held = model.antenna().and_then(|antenna| {
         let held = antenna.snapshot.state.on_board.satellite.as_ref()?;
@@ -204,11 +205,19 @@ fn second_line(model: &Model, predicted: &PredictedPass, age_s: f64) -> String {
         None => (None, None),
     };
     let mask = predicted.clear().map(|stretches| clear_of_mask(stretches, model.now));
+    let is_blocked = predicted.clear().is_some_and(<[Pass]>::is_empty);
+    let (blocked, mask) = if is_blocked { (mask, None) } else { (None, mask) };
     let age = Some(format!("elements {} old", format::age(age_s)));
     let (old, young) = if age_s > words::OLD_ELEMENTS_S { (age, None) } else { (None, age) };
     let light = model.sky.selected.map(|of| if of.sunlit { "sunlit" } else { "in eclipse" });
-    let parts = [other, old, mask, same, light.map(str::to_owned), young];
-    words::capitalised(&parts.into_iter().flatten().collect::<Vec<_>>().join(" · "))
+    let joined = |parts: &[Option<String>]| {
+        let parts: Vec<&str> = parts.iter().flatten().map(String::as_str).collect();
+        parts.join(" · ")
+    };
+    let warning = words::capitalised(&joined(&[old, blocked]));
+    let rest = joined(&[other, mask, same, light.map(str::to_owned), young]);
+    let rest = if warning.is_empty() { words::capitalised(&rest) } else { rest };
+    [warning, rest]
 }
 
 /// The times in which a pass is clear of the horizon mask.

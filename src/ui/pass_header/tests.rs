@@ -10,7 +10,7 @@ const NOAA_20: PassHeaderModel<'_> = PassHeaderModel {
     name: "NOAA 20",
     detail: "JPSS-1  43013",
     second_line: "Elements 8 h 52 min old · same set on Satrak · sunlit",
-    second_line_warns: false,
+    warning: "",
     tca_countdown: "T−02:06",
     event: "LOS",
     countdown: "T−08:33",
