@@ -18,7 +18,7 @@ mod set_menu;
 mod sets;
 mod sources;
 mod table;
-mod words;
+pub(super) mod words;
 
 pub use self::{bar::refresh_due, columns::ChosenColumns};
 

@@ -125,7 +125,7 @@ fn each_field_says_what_is_missing() {
         ("Folder", "", "the folder is missing", "/svs/satrak/tle"),
         ("Host", "", "the host is missing", "unit.local"),
         ("Port", "0", "the port is no number", "2222"),
-        ("User", "", "the user is missing", "op"),
+        ("User", "", "the user name for the unit, under On the unit, is missing", "op"),
     ] {
         write(&mut window, field, wrong);
         assert!(says(&window, problem) && is_disabled(&window, "Upload and prove"), "{field}");

@@ -1,5 +1,7 @@
 //! The sources of elements, a row each.
 
+use std::sync::Arc;
+
 use egui::{
     Align2, Color32, Popup, Rect, Role, ScrollArea, Sense, Stroke, StrokeKind, Ui, UiBuilder, pos2,
     vec2,
@@ -8,7 +10,7 @@ use egui::{
 use super::{ElementsState, PADDING, words};
 use crate::{
     astro::time::seconds_between,
-    engine::{self, CatalogState},
+    engine::{self, CatalogState, passes::ListedSatellite},
     model::{Model, UiCommand},
     orbit::{BUNDLED_SOURCE, RefreshHours, Source, SourcePlace, SourceReport},
     ui::{
@@ -139,12 +141,25 @@ fn worst(model: &Model) -> (Tone, String) {
             return (tone, format!("{} {words}", format::list(&names)));
         }
     }
-    let words = if sources.list.is_empty() {
-        "The elements that come with Azel are in use."
-    } else {
-        "A server is asked at most once in 2 h."
-    };
-    (Tone::Plain, words.to_owned())
+    if sources.list.is_empty() {
+        return state_of_bundled(model);
+    }
+    (Tone::Plain, "A server is asked at most once in 2 h.".to_owned())
+}
+
+/// The state of the elements that come with the program, by what they are used for.
+fn state_of_bundled(model: &Model) -> (Tone, String) {
+    let in_use = "The elements that come with Azel are in use";
+    let favourites = &model.pass_lists.favourites.satellites;
+    for (tone, word) in [(Tone::Bad, "too old"), (Tone::Caution, "getting old")] {
+        let is_so = |of: &&Arc<ListedSatellite>| words::age_tone(&of.elements, model.now) == tone;
+        let count = favourites.iter().filter(is_so).count();
+        if count > 0 {
+            let of = favourites.len();
+            return (tone, format!("{in_use}: {word} for {count} of {of} favourites."));
+        }
+    }
+    (Tone::Plain, format!("{in_use}."))
 }
 
 fn look(tone: Tone, ui: &Ui) -> (Icon, Color32) {

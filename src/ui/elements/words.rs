@@ -85,7 +85,7 @@ pub(super) fn age(seconds: f64) -> String {
 }
 
 /// Whether the age of elements needs a look: sooner in low orbits, which drag changes.
-pub(super) fn age_tone(elements: &Elements, now: Timestamp) -> Tone {
+pub(in crate::ui) fn age_tone(elements: &Elements, now: Timestamp) -> Tone {
     let age_s = elements.age_s(now);
     let times = if elements.is_geosynchronous() { (30.0, 90.0) } else { (7.0, 30.0) };
     if age_s >= times.1 * DAY_S {
@@ -98,7 +98,7 @@ pub(super) fn age_tone(elements: &Elements, now: Timestamp) -> Tone {
 }
 
 /// The mark and colour of an age.
-pub(super) fn age_look(tone: Tone, t: &Tokens) -> (Option<Icon>, Color32) {
+pub(in crate::ui) fn age_look(tone: Tone, t: &Tokens) -> (Option<Icon>, Color32) {
     match tone {
         Tone::Bad => (Some(Icon::Cross), t.bad),
         Tone::Caution => (Some(Icon::Warning), t.warn),

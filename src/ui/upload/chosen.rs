@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use egui::{Align, Button, Label, Layout, RichText, Role, TextEdit, Ui, WidgetInfo, vec2};
+use egui::{Align, Button, Label, Layout, RichText, Role, Sense, TextEdit, Ui, WidgetInfo, vec2};
 
 use super::form::Form;
 use crate::{
@@ -12,12 +12,13 @@ use crate::{
     model::Model,
     orbit::{Catalog, Elements},
     ui::{
-        format, text, theme,
+        elements::words::{age_look, age_tone},
+        format, icons, text, theme,
         widgets::{
             card,
             told::{Tone, line},
         },
-        words::{OLD_ELEMENTS_S, sentence},
+        words::sentence,
     },
 };
 
@@ -53,7 +54,7 @@ pub(super) fn show(
         let followed = followed.or_else(|| first(chosen));
         head(ui, chosen, is_own, &mut change);
         for object in &chosen.objects {
-            row(ui, model, object, followed == Some(object.catalog_number), &mut change);
+            row(ui, model, catalog, object, followed == Some(object.catalog_number), &mut change);
         }
         if let Some(held) = held.filter(|held| followed != Some(held.catalog_number)) {
             let name = &held.name;
@@ -108,6 +109,7 @@ fn head(ui: &mut Ui, chosen: &Chosen, is_own: bool, change: &mut Option<Change>)
 fn row(
     ui: &mut Ui,
     model: &Model,
+    catalog: &Catalog,
     object: &ChosenObject,
     is_followed: bool,
     change: &mut Option<Change>,
@@ -121,10 +123,16 @@ fn row(
             *change = Some(Change::Remove(number));
         }
         let age_s = object.epoch.map(|epoch| seconds_between(epoch, model.now));
-        let is_fresh = age_s.is_some_and(|age_s| age_s <= OLD_ELEMENTS_S);
-        let colour = if is_fresh { t.t3 } else { t.warn };
         let words = age_s.map_or_else(|| "no elements".to_owned(), format::age);
+        // As in the table of the elements.
+        let tone =
+            catalog.get(number).map_or(Tone::Caution, |elements| age_tone(elements, model.now));
+        let (mark, colour) = age_look(tone, t);
         ui.label(RichText::new(words).font(text::small()).color(colour));
+        if let Some(mark) = mark {
+            let (place, _) = ui.allocate_exact_size(vec2(12.0, 12.0), Sense::hover());
+            icons::paint(ui.painter(), place, mark, colour);
+        }
         ui.with_layout(Layout::left_to_right(Align::Center), |ui| {
             let can = is_sent(object);
             ui.add_enabled_ui(can, |ui| {

@@ -127,7 +127,7 @@ impl Form {
         let missing = |typed: &str, what: &str| {
             if typed.trim().is_empty() { Err(format!("the {what} is missing")) } else { Ok(()) }
         };
-        missing(&self.user, "user")?;
+        missing(&self.user, "user name for the unit, under On the unit,")?;
         missing(&self.folder, "folder")?;
         if self.uses_key {
             missing(&self.key_file, "path of the key file")?;
