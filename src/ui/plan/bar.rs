@@ -83,7 +83,7 @@ fn title(ui: &Ui, rect: Rect, model: &Model, state: &mut PlanState, commands: &m
     let words = if model.schedule.made_at.is_none() {
         "The passes are being planned.".to_owned()
     } else {
-        let times = format::stretch(model.now, model.plan_until(), model.now);
+        let times = format::minutes(model.now, model.plan_until(), model.now);
         let changes = match model.schedule.changes.len() {
             0 => String::new(),
             1 => ", 1 pass changed".to_owned(),

@@ -32,8 +32,8 @@ const ROW: f32 = 25.0;
 const SEGMENTS: f32 = 236.0;
 /// Spare time below which a row has a caution, seconds.
 const SHORT_S: f64 = 60.0;
-/// Minimum width for all columns.
-const ALL_FROM: f32 = 900.0;
+/// Minimum width for all columns: the smallest window has less.
+const ALL_FROM: f32 = 1000.0;
 /// From this width on the column of the slew grows, by at most so much.
 const WIDE_FROM: f32 = 1024.0;
 const MORE_SLEW: f32 = 120.0;
