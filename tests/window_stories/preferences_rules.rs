@@ -91,7 +91,7 @@ fn a_favourite_gets_a_priority_and_limits() {
     for size in SIZES {
         let mut window = page(size, SATELLITES, Vec::new());
         assert!(says(&window, "Priority of NOAA 20: 2, Weather"));
-        assert!(says(&window, "Priority of ISS: 3, usual"));
+        assert!(says(&window, "Priority of ISS: 3, default"));
         choose(&mut window, "Priority of ISS", "1");
         press(&mut window, Role::Button, "Limits of ISS: No limits");
         press(&mut window, Role::ComboBox, "Light, any");

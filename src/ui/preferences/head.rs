@@ -29,7 +29,7 @@ pub(super) fn show(
     let t = theme::tokens(ui);
     ui.painter().rect_filled(rect, 0.0, t.bg1);
     ui.painter().hline(rect.x_range(), rect.bottom() - 0.5, (1.0, t.line));
-    let (title, about) = (state.page.title(draft), about(state.page, draft));
+    let (title, about) = (state.page.title(draft), about(state.page, model, draft));
     let right = match state.page {
         Page::Antenna(id) => buttons(ui, rect, id, model, draft, state, commands),
         Page::Rules => add_rule(ui, rect, draft, state),
@@ -44,7 +44,7 @@ pub(super) fn show(
     paint::name_text(ui, "page", room, &format!("{title}. {about}")).on_hover_text(&about);
 }
 
-fn about(page: Page, draft: &Draft) -> String {
+fn about(page: Page, model: &Model, draft: &Draft) -> String {
     let about = match page {
         Page::Antenna(id) => {
             let index = draft.index(id);
@@ -53,6 +53,7 @@ fn about(page: Page, draft: &Draft) -> String {
             let end = if is_removed { ". It is removed when you save." } else { "" };
             return antenna.map_or_else(String::new, |of| kind(&of.read().0) + end);
         }
+        Page::Site if model.demo => "Of your new station: the demonstration is not changed here",
         Page::Site => "Where the station is, and which passes it lists",
         Page::Horizon => "Obstructions of the sky, and where no antenna may point",
         Page::Satellites => "Which passes come first, and which are taken at all",

@@ -21,8 +21,8 @@ use crate::{
     },
 };
 
-/// Height of a line.
 const ENDS_THE_DEMO: &str = "Saving ends the demonstration and uses this station.";
+/// Height of a line.
 const LINE: f32 = 20.0;
 /// Number of lines of checks that are shown.
 const LINES: usize = 3;
@@ -87,8 +87,9 @@ pub(super) fn show(
 fn lines(ui: &Ui, room: Rect, checks: &Checks, (said, colour): (String, Color32), can_save: bool) {
     let t = theme::tokens(ui);
     if room.height() < LINE * (LINES + 1) as f32 {
-        let (tone, words) =
-            checks.lines.first().map_or((Tone::Plain, &said), |(tone, words)| (*tone, words));
+        // A check that is met is no reason to hide what saving does.
+        let gravest = checks.lines.first().filter(|(tone, _)| *tone != Tone::Good);
+        let (tone, words) = gravest.map_or((Tone::Plain, &said), |(tone, words)| (*tone, words));
         let (mark, ink) = look(tone, t);
         let words_at = if mark.is_some() { room.with_min_x(room.left() + LINE) } else { room };
         if let Some(mark) = mark {

@@ -26,10 +26,13 @@ pub(super) fn lines(effect: &Effect<Question>, zone: Option<&str>) -> [String; 2
         (format!("Keep-outs{sun} block"), (effect.after.touched, effect.after.lost_s))
     };
     let blocks = match passes {
-        0 => format!("{who} none of the {of} passes."),
-        1 => format!("{who} part of 1 of the {of} passes, {}.", format::duration(time_s)),
+        0 => format!("{who} none of the {of} passes of the next 48 h."),
+        1 => format!(
+            "{who} part of 1 of the {of} passes of the next 48 h, {}.",
+            format::duration(time_s)
+        ),
         _ => format!(
-            "{who} part of {passes} of the {of} passes, about {} each.",
+            "{who} part of {passes} of the {of} passes of the next 48 h, about {} each.",
             format::duration(time_s / passes as f64)
         ),
     };
@@ -44,7 +47,12 @@ pub(super) fn lines(effect: &Effect<Question>, zone: Option<&str>) -> [String; 2
         == (new.touched, new.masked, new.impossible)
         && (old.lost_s - new.lost_s).abs() < 0.5
     {
-        format!("All together as saved. The skyline cuts {} passes.", new.masked)
+        let skyline = match new.masked {
+            0 => "The skyline cuts none.".to_owned(),
+            1 => "The skyline cuts 1.".to_owned(),
+            many => format!("The skyline cuts {many}."),
+        };
+        format!("{skyline} Saving changes nothing of that.")
     } else {
         format!(
             "All together {} passes, {} lost, skyline cuts {}; as saved {} passes, {} lost, \

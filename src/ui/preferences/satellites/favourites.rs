@@ -35,7 +35,7 @@ pub(super) fn show(
     state: &mut SatellitesState,
 ) {
     form::card(ui, TITLE, |ui| {
-        note(ui, "1 comes first. Without one of its own, a favourite has that of its group, or 3.");
+        note(ui, "1 is taken first. A favourite without its own priority has its group's, else 3.");
         for number in &around.favourites {
             ui.push_id(number, |ui| row(ui, around, *number, (draft, before), state));
         }
@@ -89,7 +89,7 @@ fn row(
     }
     if own.priority.is_none() {
         let usual = of_groups.priority.as_ref().map_or_else(
-            || format!("{}, usual", Priority::default().number()),
+            || format!("{}, default", Priority::default().number()),
             |(priority, group)| format!("{}, {group}", priority.number()),
         );
         paint::text_in(ui, usual_at, Align2::LEFT_CENTER, &usual, text::small(), t.t2);
