@@ -325,7 +325,8 @@ fn no_other_view_shows_what_only_a_satrak_has() {
             asked(&mut window);
             window.state_mut().model.view = View::Console;
             settle(&mut window);
-            let words = "Questions can be sent, such as STATUS. Settings and motion cannot.";
+            let words = "Questions can be sent, such as STATUS. Settings are changed under Antennas, \
+                         motion in Operate.";
             assert!(says(&window, words));
             type_into(&mut window, "Query to send", "status");
             assert!(says(&window, "Asks for the status. The answer comes in the log."));

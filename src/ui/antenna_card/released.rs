@@ -49,7 +49,7 @@ fn about_stop(model: &HeaderModel<'_>) -> String {
     } else {
         ""
     };
-    format!("STOP connects{panel}; it disconnects when the antenna stands.")
+    format!("STOP connects{panel}; it disconnects when the antenna has stopped.")
 }
 
 fn stop_key(ui: &Ui, rect: egui::Rect, antenna: &str, about: &str) -> bool {

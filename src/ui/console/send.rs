@@ -26,6 +26,8 @@ use crate::{
 
 /// Height of the line with the note below it.
 pub(super) const HEIGHT: f32 = 88.0;
+/// Where the rest is done.
+const ELSEWHERE: &str = "Settings are changed under Antennas, motion in Operate.";
 const GAP: f32 = 8.0;
 const ANTENNA: f32 = 112.0;
 const PICK: f32 = 96.0;
@@ -69,7 +71,7 @@ pub(super) fn show(
         (None, _) => {
             let such =
                 questions.first().map_or_else(String::new, |one| format!(", such as {}", one.key));
-            let words = format!("Questions can be sent{such}. Settings and motion cannot.");
+            let words = format!("Questions can be sent{such}. {ELSEWHERE}");
             (Icon::Info, words, t.t2)
         }
         (Some(Ok(_)), None) => (Icon::Lock, "Not sent. There is no link.".to_owned(), t.warn),
