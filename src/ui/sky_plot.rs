@@ -264,10 +264,15 @@ fn paint_sky(
 
     let before = std::mem::take(&mut state.labels);
     let mut labels = Labels::new(painter, t, Some(dome), rect.shrink(4.0), before);
-    for rect in reserved {
-        labels.reserve(rect);
-    }
     labels.reserve_path(&dome.circle(dome.radius), 4.0);
+    // The name of a stop has few places outside of the disc: it takes the one with the least below.
+    for rect in &reserved {
+        labels.avoid(*rect, labels::LINE);
+    }
+    other_antennas::label_stops(&mut labels, dome, scene, t);
+    for rect in reserved {
+        labels.avoid(rect, labels::MARK - labels::LINE);
+    }
     if layers.sun_and_moon {
         bodies::sun_and_moon(painter, dome, scene, &mut labels, t);
     }
@@ -277,7 +282,6 @@ fn paint_sky(
     antenna::reserve(dome, scene, &mut labels);
     other_antennas::reserve(&mut labels, dome, scene);
     bearing::label(&mut labels, dome, scene, t);
-    other_antennas::label_stops(&mut labels, dome, scene, t);
     let (ticks, events) = drawn.map_or_else(Default::default, |(parts, ticks, events)| {
         labels.reserve_path(&parts.flown, 6.0);
         labels.reserve_path(&parts.planned, 6.0);

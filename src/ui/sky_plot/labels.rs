@@ -17,8 +17,8 @@ use crate::ui::tokens::Tokens;
 const PADDING: f32 = 2.0;
 
 /// Weights of what a label may cover: a line runs on beside it, a mark or a number is lost.
-const LINE: f32 = 1.0;
-const MARK: f32 = 4.0;
+pub(super) const LINE: f32 = 1.0;
+pub(super) const MARK: f32 = 4.0;
 
 /// How far outside of the picture a mark may be that has a label in it, points.
 const OUTSIDE: f32 = 8.0;
@@ -116,7 +116,8 @@ impl<'a> Labels<'a> {
         self.avoid(rect, MARK);
     }
 
-    fn avoid(&mut self, rect: Rect, weight: f32) {
+    /// Keeps labels away from a box, by its weight.
+    pub(super) fn avoid(&mut self, rect: Rect, weight: f32) {
         // In a magnified sky most of it is out of sight.
         if self.bounds.intersects(rect) {
             self.obstacles.push(Obstacle { rect, weight });

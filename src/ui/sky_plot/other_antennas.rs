@@ -24,8 +24,6 @@ const RING: f32 = 13.0;
 const STOP: f32 = 22.0;
 /// How far outside of the rim the name of a stop is placed from, points.
 const BESIDE_RIM: f32 = 6.0;
-/// Number of sides on which its name may stand.
-const OUTWARDS: usize = 2;
 /// Half the length of the bar at its outer end, points.
 const BAR: f32 = 7.0;
 
@@ -81,16 +79,13 @@ pub(super) fn label_stops(labels: &mut Labels<'_>, dome: Dome, scene: &SkyScene<
         let is_beside = (end - dome.centre).x.abs() >= (end - dome.centre).y.abs();
         let two = [(&*name, text::small_strong(), t.bad), (&*angle, text::small(), t.bad)];
         let one = [(&*both, text::small_strong(), t.bad)];
-        let sides = Side::towards(end - dome.centre);
-        let (outwards, _) = sides.split_at(OUTWARDS);
         labels.add(&Label {
             key: Key::Stop(index),
             lines: if is_beside { &two } else { &one },
             mark: end + (end - inner).normalized() * BESIDE_RIM,
             clearance: 2.0 + BAR,
-            // The others lead into the disc.
-            order: outwards,
-            tolerance: 1.0,
+            order: &Side::towards(end - dome.centre),
+            tolerance: 0.6,
         });
     }
 }
