@@ -114,20 +114,36 @@ impl Model {
         let ahead = self.pass_lists.favourites.upcoming(self.now);
         let passes = ahead.iter().filter(|it| !it.is_always_up() && it.pass.aos.time < end);
         let planned = passes.map(|predicted| {
-            let key = predicted.key();
-            let (number, pass) = (key.0, &predicted.pass);
-            let of_pass = |entry: &&&Entry| is_same((number, entry.pass.aos), key);
-            let entries = entries.get(&number).into_iter().flatten();
-            let out = left_out.get(&number).into_iter().flatten();
-            PlannedPass {
-                predicted,
-                priority: self.station.priority(number).unwrap_or_default(),
-                entries: entries.filter(of_pass).copied().collect(),
-                left_out: out.copied().find(|of| is_same((number, of.pass.aos), key)),
-                choice: self.station.pass_choice(number, (pass.aos.time, pass.los.time)),
-            }
+            let entries = entries.get(&predicted.number()).into_iter().flatten().copied();
+            let out = left_out.get(&predicted.number()).into_iter().flatten().copied();
+            self.planned(predicted, entries, out)
         });
         planned.collect()
+    }
+
+    /// A pass with what the schedule says of it.
+    pub fn planned_pass<'a>(&'a self, predicted: &'a PredictedPass) -> PlannedPass<'a> {
+        let schedule = &self.schedule.schedule;
+        self.planned(predicted, schedule.entries.iter(), schedule.left_out.iter())
+    }
+
+    fn planned<'a>(
+        &'a self,
+        predicted: &'a PredictedPass,
+        entries: impl Iterator<Item = &'a Entry>,
+        mut left_out: impl Iterator<Item = &'a LeftOut>,
+    ) -> PlannedPass<'a> {
+        let key = predicted.key();
+        let (number, pass) = (key.0, &predicted.pass);
+        PlannedPass {
+            predicted,
+            priority: self.station.priority(number).unwrap_or_default(),
+            entries: entries
+                .filter(|entry| is_same((entry.pass.satellite, entry.pass.aos), key))
+                .collect(),
+            left_out: left_out.find(|of| is_same((of.pass.satellite, of.pass.aos), key)),
+            choice: self.station.pass_choice(number, (pass.aos.time, pass.los.time)),
+        }
     }
 
     /// The satellites of the plan by priority, then in the order of the favourites.

@@ -7,8 +7,8 @@ use crate::{
     device::{Capabilities, Pointing},
 };
 pub use times::{
-    clock, copied, date, dated, day, hour_of_day, local_clock, millisecond, minute, minute_of_day,
-    minutes, moment, second_of_day, stretch, weekday,
+    clock, copied, date, dated, day, hour_of_day, is_today, local_clock, millisecond, minute,
+    minute_of_day, minutes, moment, second_of_day, stretch, weekday,
 };
 
 /// Typographic minus sign.

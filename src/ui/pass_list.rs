@@ -9,26 +9,28 @@ mod rows;
 mod short_row;
 mod status;
 mod thumbnail;
+mod verdict;
 
 #[cfg(test)]
 mod tests;
 
-use std::{borrow::Cow, sync::Arc};
+use std::sync::Arc;
 
 use egui::{Rect, Ui, vec2};
 use jiff::Timestamp;
 
-use super::{format, menus::PassMenu, text, theme, widgets::paint};
+use super::{menus::PassMenu, text, theme, widgets::paint};
 use crate::{
     astro::time::seconds_between,
     engine::passes::{PassKey, Scope, Work},
     model::UiCommand,
-    plan::{Loss, Sample},
+    plan::Sample,
 };
 
 pub use arrangement::{Arrangement, Light, Order};
 pub use filter::Filter;
 pub use short_row::{SHORT_ROW, short_row};
+pub use verdict::{LeftOut, Verdict};
 
 /// Selectable elevation floors.
 pub const FLOORS_DEG: [f64; 8] = [0.0, 5.0, 10.0, 20.0, 30.0, 45.0, 60.0, 75.0];
@@ -55,71 +57,6 @@ pub struct PassRow<'a> {
     pub clear_s: Option<f64>,
     /// The path over the sky, oldest first.
     pub path: &'a [Sample],
-}
-
-/// Trackability of a pass.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Verdict<'a> {
-    /// The mount tracks the whole pass.
-    Trackable,
-    /// The mount loses part of the pass.
-    Loses {
-        /// Lost time.
-        seconds: f64,
-        /// Place where the loss begins.
-        at: Loss,
-    },
-    /// The mount tracks the whole pass, but the horizon mask blocks the beam.
-    Blocked {
-        /// Blocked time.
-        seconds: f64,
-        /// No part is clear of it.
-        is_whole: bool,
-    },
-    /// The mount can follow, but the unit would miss according to its own settings.
-    Misses,
-    /// Not trackable: a sentence such as "Not possible: stays below the travel".
-    NotPossible(&'a str),
-    /// Not trackable now: the unit is in maintenance.
-    InMaintenance,
-}
-
-/// The place of a loss, such as "at keyhole N".
-fn place(loss: Loss) -> Cow<'static, str> {
-    match loss {
-        Loss::Keyhole(azimuth) => {
-            let towards = match azimuth.degrees().round() as i32 % 360 {
-                0 => "N".into(),
-                90 => "E".into(),
-                180 => "S".into(),
-                270 => "W".into(),
-                _ => format::azimuth(azimuth.degrees()),
-            };
-            format!("at keyhole {towards}").into()
-        }
-        Loss::Overhead => "overhead".into(),
-        Loss::Slew => "at azimuth unwrap".into(),
-        Loss::OutOfReach => "out of reach".into(),
-    }
-}
-
-impl<'a> Verdict<'a> {
-    /// The verdict in words, such as "Loses 12 s at keyhole N".
-    fn sentence(self) -> Cow<'a, str> {
-        match self {
-            Self::Trackable => "Trackable".into(),
-            Self::Blocked { is_whole: true, .. } => "Never clear of the mask".into(),
-            Self::Blocked { seconds, .. } => {
-                format!("Blocked by the mask for {}", format::duration(seconds)).into()
-            }
-            Self::Misses => "The unit would miss".into(),
-            Self::NotPossible(sentence) => sentence.into(),
-            Self::InMaintenance => "In maintenance".into(),
-            Self::Loses { seconds, at } => {
-                format!("Loses {} {}", format::age(seconds.ceil()), place(at)).into()
-            }
-        }
-    }
 }
 
 /// Content of the column.

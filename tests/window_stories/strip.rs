@@ -124,3 +124,17 @@ fn each_lane_of_a_high_strip_says_which_antenna_takes_a_pass() {
     assert!(of("Satrak: ") > 0, "{bars:?}");
     assert_eq!(of("Satrak: "), of("Genius: "), "the other lane names who takes it: {bars:?}");
 }
+
+#[test]
+fn a_row_of_the_list_says_that_the_schedule_leaves_the_pass_out_and_why() {
+    let window = with_plan(LARGE);
+    let rows = window.query_all_by_role(Role::ListBoxOption);
+    let names: Vec<String> = rows.filter_map(|node| node.accesskit_node().label()).collect();
+    let of = |name: &str, words: &str| {
+        names.iter().any(|row| row.starts_with(name) && row.contains(words))
+    };
+    assert!(of("NOAA 20, LOS", "Left out: overlaps METEOR-M2 4"), "{names:?}");
+    assert!(of("METEOR-M2 4, AOS", "Trackable"), "taken: {names:?}");
+    assert!(of("METEOR-M2 4, LOS", "0:28 late, 0:16 left"), "has to slew there: {names:?}");
+    assert!(of("EUTELSAT 7C, up all the time", "Trackable"), "{names:?}");
+}

@@ -24,10 +24,14 @@ pub fn minute(at: Timestamp, now: Timestamp) -> String {
     on_its_day(at, now, "%H:%MZ")
 }
 
+/// Whether both are on the same day of UTC.
+pub fn is_today(at: Timestamp, now: Timestamp) -> bool {
+    utc(at).date() == utc(now).date()
+}
+
 /// A [`moment`] with milliseconds; on another day to the second, which takes the same room.
 pub fn millisecond(at: Timestamp, now: Timestamp) -> String {
-    let is_of_today = utc(at).date() == utc(now).date();
-    on_its_day(at, now, if is_of_today { "%H:%M:%S.%3f" } else { "%H:%M:%S" })
+    on_its_day(at, now, if is_today(at, now) { "%H:%M:%S.%3f" } else { "%H:%M:%S" })
 }
 
 /// Two moments, such as 11:06:12Z to 11:18:40Z.

@@ -9,15 +9,19 @@ use crate::{
     astro::time::seconds_between,
     engine::{
         CatalogState,
-        passes::{PassKey, PredictedPass, Work},
+        antenna::AntennaModel,
+        passes::{PassKey, PredictedPass, Work, mount_limits},
     },
-    model::{Model, UiCommand},
+    model::{Model, UiCommand, plan::Standing},
     orbit::Pass,
-    plan::{Sample, Trackability},
+    plan::{
+        Joining, Sample, Trackability, joining,
+        schedule::{Conflict, Refusal, Why},
+    },
     ui::{
         format, menus,
         pass_header::{self, PassHeaderModel},
-        pass_list::{self, Arrangement, PassListModel, PassListState, PassRow, Verdict},
+        pass_list::{self, Arrangement, LeftOut, PassListModel, PassListState, PassRow, Verdict},
         profile::{self, PastModel, ProfileModel, ProfileState},
         state_sentence::short,
         words,
@@ -99,7 +103,7 @@ pub(super) fn list(
 }
 
 /// A pass as a row of a list, with the verdict for the selected antenna.
-pub(in crate::ui) fn pass_row<'a>(model: &Model, predicted: &'a PredictedPass) -> PassRow<'a> {
+pub(in crate::ui) fn pass_row<'a>(model: &'a Model, predicted: &'a PredictedPass) -> PassRow<'a> {
     let pass = &predicted.pass;
     let antenna = model.antenna();
     let in_maintenance = antenna.is_some_and(|antenna| antenna.snapshot.lock_out.is_some());
@@ -107,17 +111,22 @@ pub(in crate::ui) fn pass_row<'a>(model: &Model, predicted: &'a PredictedPass) -
     let trackability = predicted.trackability(model.selected_antenna);
     let verdict = trackability.map(|trackability| match trackability {
         _ if in_maintenance => Verdict::InMaintenance,
-        Trackability::Whole | Trackability::Loses { .. } if misses => Verdict::Misses,
-        Trackability::Whole => match predicted.clear_s() {
-            Some(clear_s) => {
-                Verdict::Blocked { seconds: pass.duration_s() - clear_s, is_whole: clear_s <= 0.0 }
-            }
-            None => Verdict::Trackable,
-        },
-        Trackability::Loses { seconds, at } => Verdict::Loses { seconds, at },
-        Trackability::Nothing => Verdict::NotPossible("Not possible: the mount cannot follow"),
-        Trackability::TooLow => {
-            Verdict::NotPossible("Not possible: below the antenna's minimum elevation")
+        Trackability::Nothing => Verdict::OutOfReach,
+        Trackability::TooLow => Verdict::TooLow,
+        Trackability::Whole | Trackability::Loses { .. } => {
+            let in_part = match (trackability, predicted.clear_s()) {
+                _ if misses => Verdict::Misses,
+                (Trackability::Loses { seconds, at }, _) => Verdict::Loses { seconds, at },
+                (_, Some(clear_s)) => Verdict::Blocked {
+                    seconds: pass.duration_s() - clear_s,
+                    is_whole: clear_s <= 0.0,
+                },
+                _ => Verdict::Trackable,
+            };
+            let antenna = antenna.filter(|antenna| !is_taken(antenna, predicted));
+            let left_out = antenna.and_then(|antenna| left_out(model, antenna, predicted));
+            let late = || antenna.and_then(|antenna| late(model, antenna, predicted));
+            left_out.map(Verdict::LeftOut).or_else(late).unwrap_or(in_part)
         }
     });
     PassRow {
@@ -133,6 +142,67 @@ pub(in crate::ui) fn pass_row<'a>(model: &Model, predicted: &'a PredictedPass) -
         verdict,
         clear_s: predicted.clear_s(),
         path: predicted.path(),
+    }
+}
+
+/// The antenna tracks the satellite, or is on its way to this pass.
+fn is_taken(antenna: &AntennaModel, predicted: &PredictedPass) -> bool {
+    antenna.tracked_number() == Some(predicted.number())
+}
+
+/// Why the schedule leaves a pass out for an antenna that could track it.
+fn left_out<'a>(
+    model: &'a Model,
+    antenna: &AntennaModel,
+    predicted: &'a PredictedPass,
+) -> Option<LeftOut<'a>> {
+    let planned = model.planned_pass(predicted);
+    let name = |conflict: &Conflict| {
+        let found = model.pass_lists.satellite(conflict.with.satellite);
+        found.map_or("another pass", |of| of.short_name())
+    };
+    let why = match model.standing_on(&planned, antenna) {
+        Standing::TakenBy(other) => {
+            return Some(LeftOut::TakenBy(words::schedule::antenna_name(model, other)));
+        }
+        Standing::LeftOut(why) => why,
+        _ => return None,
+    };
+    Some(match why {
+        Why::Overlaps(conflict) => LeftOut::Overlaps(name(conflict)),
+        Why::SlewTooShort(conflict) => LeftOut::TooClose(name(conflict)),
+        Why::TooFar => LeftOut::TooFar,
+        Why::Refused(Refusal::Never) => LeftOut::Never,
+        Why::Refused(_) | Why::Impossible(_) | Why::OtherAntennas | Why::MaxPerDay(_) => {
+            LeftOut::Limit
+        }
+        Why::Off(_) => LeftOut::AntennaOff,
+        Why::NotFound => LeftOut::WorthLess,
+    })
+}
+
+/// What is left of a pass under way, or about to begin, for an antenna that has to slew there.
+fn late(
+    model: &Model,
+    antenna: &AntennaModel,
+    predicted: &PredictedPass,
+) -> Option<Verdict<'static>> {
+    let until_s = seconds_between(model.now, predicted.pass.aos.time);
+    if predicted.is_always_up()
+        || !antenna.is_live()
+        || is_taken(antenna, predicted)
+        || until_s > antenna.config.longest_slew_s()
+    {
+        return None;
+    }
+    let has_elevation = antenna.variant().capabilities.has_elevation();
+    let axes_deg = antenna.snapshot.state.measured?.axes_deg(has_elevation)?;
+    let limits = mount_limits(&antenna.config);
+    match joining(predicted.track(), limits, axes_deg, model.now) {
+        None => Some(Verdict::TooLate),
+        Some(Joining { late_s, left_s }) => {
+            (late_s >= 1.0).then_some(Verdict::Late { seconds: late_s, left_s })
+        }
     }
 }
 
@@ -214,10 +284,23 @@ fn second_line(model: &Model, predicted: &PredictedPass) -> [String; 2] {
         let parts: Vec<&str> = parts.iter().flatten().map(String::as_str).collect();
         parts.join(" · ")
     };
-    let warning = words::capitalised(&joined(&[old, blocked]));
+    let way = model.antenna().and_then(|antenna| way_there(model, antenna, predicted));
+    let warning = words::capitalised(&joined(&[way, old, blocked]));
     let rest = joined(&[other, mask, same, light.map(str::to_owned), young]);
     let rest = if warning.is_empty() { words::capitalised(&rest) } else { rest };
     [warning, rest]
+}
+
+/// What the way there costs of a pass under way, or about to begin.
+fn way_there(model: &Model, antenna: &AntennaModel, predicted: &PredictedPass) -> Option<String> {
+    let name = &antenna.config.name;
+    match late(model, antenna, predicted)? {
+        Verdict::Late { seconds, left_s } => {
+            let [late, left] = [seconds, left_s].map(format::duration);
+            Some(format!("{name} would join {late} late, {left} left"))
+        }
+        _ => Some(format!("{name} does not get there before LOS")),
+    }
 }
 
 /// The times in which a pass is clear of the horizon mask.

@@ -86,7 +86,9 @@ pub(super) fn duration(row: &PassRow<'_>) -> String {
 /// Time of AOS; a dash if it lies before the list, empty if LOS also lies after the list.
 pub(super) fn aos_time(row: &PassRow<'_>, now: Timestamp) -> String {
     match (row.starts_before, row.ends_after) {
-        (false, _) => format::moment(row.aos, now),
+        (false, _) if format::is_today(row.aos, now) => format::moment(row.aos, now),
+        // The seconds would cost the verdict beside it its room.
+        (false, _) => format::minute(row.aos, now),
         (true, false) => "–".to_owned(),
         (true, true) => String::new(),
     }
@@ -182,7 +184,7 @@ mod tests {
     fn a_time_that_is_not_today_carries_its_day() {
         let row = row(false, false);
         assert_eq!(aos_time(&row, add_seconds(AOS, 86_399.0)), "00:00:00Z");
-        assert_eq!(aos_time(&row, add_seconds(AOS, -1.0)), "1 Jan 00:00:00Z");
+        assert_eq!(aos_time(&row, add_seconds(AOS, -1.0)), "1 Jan 00:00Z");
     }
 
     #[test]

@@ -133,20 +133,25 @@ fn verdict_line(ui: &Ui, rect: Rect, row: &PassRow<'_>, now: Timestamp, t: &Toke
     verdict_in(ui, rect.with_max_x(time.left() - COLUMN_GAP), verdict, t)
 }
 
-/// Paints a verdict with its mark. Returns `true` if it was cut.
+/// Paints a verdict with its mark, in short where it has no room. Returns `true` if it was cut.
 pub(super) fn verdict_in(ui: &Ui, rect: Rect, verdict: Verdict<'_>, t: &Tokens) -> bool {
     let (icon, mark, colour) = match verdict {
         Verdict::Trackable => (Icon::Check, t.ok, t.t2),
-        Verdict::Loses { .. } | Verdict::Blocked { .. } | Verdict::Misses => {
-            (Icon::Warning, t.warn, t.warn)
-        }
-        Verdict::NotPossible(_) => (Icon::Cross, t.bad, t.bad),
+        Verdict::Loses { .. }
+        | Verdict::Blocked { .. }
+        | Verdict::Late { .. }
+        | Verdict::Misses => (Icon::Warning, t.warn, t.warn),
+        Verdict::TooLate | Verdict::OutOfReach | Verdict::TooLow => (Icon::Cross, t.bad, t.bad),
+        Verdict::LeftOut(_) => (Icon::Dash, t.t2, t.t2),
         Verdict::InMaintenance => (Icon::Lock, t.warn, t.warn),
     };
     let glyph = paint::square(pos2(rect.left() + 6.0, rect.center().y), 12.0);
     icons::paint(ui.painter(), glyph, icon, mark);
     let room = rect.with_min_x(glyph.right() + 5.0);
-    elided(ui, room, &verdict.sentence(), text::small(), colour)
+    let sentence = verdict.sentence();
+    let fits = paint::text_width(ui, &sentence, text::small()) <= room.width();
+    let words = if fits { sentence } else { verdict.short() };
+    elided(ui, room, &words, text::small(), colour)
 }
 
 /// Paints a text from the left, cut with an ellipsis. Returns `true` if it was cut.

@@ -76,7 +76,7 @@ fn pass(index: usize, path: &[Sample]) -> PassRow<'_> {
         verdict: match index {
             0 => Some(Verdict::Trackable),
             1 => Some(Verdict::Loses { seconds: 11.4, at: Loss::Keyhole(Angle::ZERO) }),
-            2 => Some(Verdict::NotPossible("Not possible: below the travel")),
+            2 => Some(Verdict::OutOfReach),
             _ => None,
         },
         clear_s: None,

@@ -1,0 +1,160 @@
+//! The verdict on a pass, in words.
+
+use std::borrow::Cow;
+
+use crate::{plan::Loss, ui::format};
+
+/// What the selected antenna can take of a pass, and whether the schedule wants it to.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Verdict<'a> {
+    /// The mount tracks the whole pass.
+    Trackable,
+    /// The mount loses part of the pass.
+    Loses {
+        /// Lost time.
+        seconds: f64,
+        /// Place where the loss begins.
+        at: Loss,
+    },
+    /// The mount tracks the whole pass, but the horizon mask blocks the beam.
+    Blocked {
+        /// Blocked time.
+        seconds: f64,
+        /// No part is clear of it.
+        is_whole: bool,
+    },
+    /// The antenna could track it, but not before it has slewed there from where it stands.
+    Late {
+        /// Lost time.
+        seconds: f64,
+        /// Time from then to LOS.
+        left_s: f64,
+    },
+    /// The antenna cannot get there before LOS.
+    TooLate,
+    /// The mount can follow, but the unit would miss according to its own settings.
+    Misses,
+    /// All of the pass is out of the reach of the mount.
+    OutOfReach,
+    /// The pass stays below the minimum elevation of the antenna.
+    TooLow,
+    /// Not trackable now: the unit is in maintenance.
+    InMaintenance,
+    /// The antenna could track it, but the schedule leaves it out.
+    LeftOut(LeftOut<'a>),
+}
+
+/// Why the schedule leaves a pass out for an antenna.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum LeftOut<'a> {
+    /// The pass of this satellite is taken at the same time.
+    Overlaps(&'a str),
+    /// No time for slew and set-up beside the pass of this satellite.
+    TooClose(&'a str),
+    /// This antenna takes it.
+    TakenBy(&'a str),
+    TooFar,
+    /// The operator chose so.
+    Never,
+    /// A limit of the satellite or of the station.
+    Limit,
+    /// The antenna is locked out or not connected.
+    AntennaOff,
+    /// No schedule with it is known to be worth more.
+    WorthLess,
+}
+
+impl LeftOut<'_> {
+    /// The reason alone, such as "overlaps METOP-B".
+    fn reason(self) -> Cow<'static, str> {
+        match self {
+            Self::Overlaps(name) => format!("overlaps {name}").into(),
+            Self::TooClose(name) => format!("close to {name}").into(),
+            Self::TakenBy(name) => format!("{name} takes it").into(),
+            Self::TooFar => "slew too long".into(),
+            Self::Never => "as you chose".into(),
+            Self::Limit => "a limit".into(),
+            Self::AntennaOff => "antenna off".into(),
+            Self::WorthLess => "worth less".into(),
+        }
+    }
+}
+
+/// The azimuth of a keyhole, as a point of the compass where it is one.
+fn towards(degrees: f64) -> String {
+    match degrees.round() as i32 % 360 {
+        0 => "N".to_owned(),
+        90 => "E".to_owned(),
+        180 => "S".to_owned(),
+        270 => "W".to_owned(),
+        _ => format::azimuth(degrees),
+    }
+}
+
+impl Verdict<'_> {
+    /// The verdict in words, such as "Loses 12 s at keyhole N".
+    pub(super) fn sentence(self) -> Cow<'static, str> {
+        match self {
+            Self::Trackable => "Trackable".into(),
+            Self::Blocked { is_whole: true, .. } => "Never clear of the mask".into(),
+            Self::Blocked { seconds, .. } => {
+                format!("Blocked by the mask for {}", format::duration(seconds)).into()
+            }
+            Self::Misses => "The unit would miss".into(),
+            Self::OutOfReach => "Out of the mount's reach".into(),
+            Self::TooLow => "Below the antenna's minimum elevation".into(),
+            Self::InMaintenance => "In maintenance".into(),
+            Self::Late { seconds, left_s } => {
+                let [late, left] = [seconds, left_s].map(format::duration);
+                format!("{late} late, {left} left").into()
+            }
+            Self::TooLate => "Sets before it gets there".into(),
+            Self::LeftOut(why) => format!("Left out: {}", why.reason()).into(),
+            Self::Loses { seconds, at } => {
+                let lost = format::age(seconds.ceil());
+                match at {
+                    Loss::Keyhole(azimuth) => {
+                        format!("Loses {lost} at keyhole {}", towards(azimuth.degrees()))
+                    }
+                    Loss::Overhead => format!("Loses {lost} overhead"),
+                    Loss::Slew => format!("Loses {lost} at azimuth unwrap"),
+                    Loss::OutOfReach => format!("Loses {lost} out of reach"),
+                }
+                .into()
+            }
+        }
+    }
+
+    /// The verdict where [`Self::sentence`] has no room: the reason is what stays.
+    pub(super) fn short(self) -> Cow<'static, str> {
+        match self {
+            Self::Blocked { is_whole: true, .. } => "Mask blocks it".into(),
+            Self::Blocked { seconds, .. } => {
+                format!("Mask blocks {}", format::duration(seconds)).into()
+            }
+            Self::OutOfReach => "Out of reach".into(),
+            Self::TooLow => "Stays too low".into(),
+            Self::TooLate => "Sets before".into(),
+            Self::Late { seconds, .. } => format!("{} late", format::duration(seconds)).into(),
+            Self::LeftOut(why) => {
+                let reason = why.reason();
+                let mut letters = reason.chars();
+                let first = letters.next().map(|letter| letter.to_ascii_uppercase());
+                first.into_iter().chain(letters).collect::<String>().into()
+            }
+            Self::Loses { seconds, at } => {
+                let lost = format::age(seconds.ceil());
+                match at {
+                    Loss::Keyhole(azimuth) => {
+                        format!("{lost}: keyhole {}", towards(azimuth.degrees()))
+                    }
+                    Loss::Overhead => format!("{lost} overhead"),
+                    Loss::Slew => format!("{lost}: unwrap"),
+                    Loss::OutOfReach => format!("{lost} out of reach"),
+                }
+                .into()
+            }
+            Self::Trackable | Self::Misses | Self::InMaintenance => self.sentence(),
+        }
+    }
+}
