@@ -5,7 +5,7 @@ use std::{collections::BTreeSet, path::Path, path::PathBuf};
 
 use egui::{Align, Grid, Layout, Modal, RichText, ScrollArea, TextEdit, Ui};
 
-use super::{format, text, theme};
+use super::{format, text, theme, widgets::check_box::CheckBox};
 use crate::{
     device::settings::{Difference, Field, Group, SettingsCopy, Value, Verdict},
     engine::{self, antenna::AntennaModel, copies::OpenCopy},
@@ -175,7 +175,7 @@ fn row(ui: &mut Ui, difference: &Difference, state: &mut CompareState) {
     let key = (group.key, field.key);
     let is_free = difference.verdict == Verdict::Free;
     let mut is_chosen = is_free && state.chosen.contains(&key);
-    let check = ui.add_enabled(is_free, egui::Checkbox::new(&mut is_chosen, name));
+    let check = ui.add_enabled(is_free, CheckBox::new(&mut is_chosen, &name));
     if check.clicked() {
         if is_chosen {
             state.chosen.insert(key)

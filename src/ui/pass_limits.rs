@@ -9,6 +9,7 @@ use super::{
     theme,
     widgets::{
         button::{Button, SMALL_HEIGHT},
+        check_box::CheckBox,
         drop_down::DropDown,
         paint,
     },
@@ -171,7 +172,7 @@ fn choose_antennas(ui: &mut Ui, antennas: &[(AntennaId, String)], own: &mut Pass
     for (id, name) in antennas {
         let mut list = own.antennas.clone().unwrap_or_default();
         let mut is_on = list.contains(id);
-        if ui.checkbox(&mut is_on, name).clicked() {
+        if ui.add(CheckBox::new(&mut is_on, name)).clicked() {
             list.retain(|known| known != id);
             list.extend(is_on.then_some(*id));
             own.antennas = (!list.is_empty()).then_some(list);

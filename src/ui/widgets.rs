@@ -7,6 +7,7 @@ pub mod axes_table;
 pub mod beam_bar;
 pub mod button;
 pub mod card;
+pub mod check_box;
 pub mod chip;
 pub mod close_key;
 pub mod context_menu;

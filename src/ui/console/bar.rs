@@ -13,6 +13,7 @@ use crate::{
         format, text, theme,
         widgets::{
             button::{Button, HEIGHT as BUTTON},
+            check_box::CheckBox,
             drop_down::DropDown,
             paint,
         },
@@ -27,7 +28,7 @@ const GAP: f32 = 8.0;
 const TITLE: f32 = 88.0;
 const ANTENNA: f32 = 128.0;
 const DIRECTION: f32 = 104.0;
-const POLLS: f32 = 100.0;
+const POLLS: f32 = 104.0;
 /// The choice without a particular antenna.
 const ALL: &str = "All antennas";
 
@@ -53,7 +54,7 @@ pub(super) fn show(
         direction(ui, state);
         let polls = vec2(POLLS, BUTTON);
         let is_hidden = &mut state.filter.hides_polls;
-        ui.add_sized(polls, egui::Checkbox::new(is_hidden, "Hide polls"));
+        ui.add_sized(polls, CheckBox::new(is_hidden, "Hide polls"));
         let hint = RichText::new("Filter by text").color(t.t3);
         let needle = &mut state.filter.needle;
         let edit = TextEdit::singleline(needle).hint_text(hint).id_salt("filter");

@@ -8,7 +8,10 @@ use crate::{
     secret::Secret,
     ui::{
         text, theme,
-        widgets::told::{Tone, line},
+        widgets::{
+            check_box::CheckBox,
+            told::{Tone, line},
+        },
         words::sentence,
     },
 };
@@ -69,7 +72,7 @@ impl PasswordDialog {
         }
         match &wanted.keyring_problem {
             None => {
-                ui.checkbox(&mut self.keep, "Keep it in the keyring of this computer");
+                ui.add(CheckBox::new(&mut self.keep, "Keep it in the keyring of this computer"));
                 let words = "Without that it is asked for once in each session of Azel.";
                 ui.label(RichText::new(words).font(text::small()).color(t.t3));
             }

@@ -12,7 +12,7 @@ use crate::{
         globe::NextPass,
     },
     orbit::{Catalog, Elements},
-    ui::{format, words::capitalised},
+    ui::{format, widgets::check_box::CheckBox, words::capitalised},
 };
 
 /// Width of the bar of a maximum elevation, for 90 degrees.
@@ -117,7 +117,7 @@ pub(super) fn choose(ui: &mut Ui, chosen: &mut ChosenColumns, question: &mut Que
         ui.horizontal(|ui| {
             let mut is_shown = place.is_some();
             let name = capitalised(spoken(column));
-            if ui.checkbox(&mut is_shown, name).changed() {
+            if ui.add(CheckBox::new(&mut is_shown, &name)).changed() {
                 chosen.set(column, is_shown);
                 if !is_shown && question.sort == column {
                     *question = Question {

@@ -10,6 +10,7 @@ use crate::{
         text, theme,
         widgets::{
             button::{Button, HEIGHT as BUTTON},
+            check_box::{self, CheckBox},
             close_key, paint,
             segmented::{self, Segment},
         },
@@ -21,8 +22,6 @@ pub(super) const HEIGHT: f32 = 56.0;
 const GAP: f32 = 8.0;
 /// Distance between two check boxes.
 const BOX_GAP: f32 = 14.0;
-/// Width of a check box without its word.
-const BOX: f32 = 22.0;
 /// Width of the title and the line below it.
 const TITLE: f32 = 268.0;
 const SEGMENTS: f32 = 172.0;
@@ -54,7 +53,7 @@ pub(super) fn show(ui: &mut Ui, rect: Rect, model: &Model, has_drawer: bool, sta
         ui.scope_builder(builder, |ui| {
             ui.spacing_mut().item_spacing.x = BOX_GAP;
             for (on, name) in first(&mut state.layers) {
-                ui.checkbox(on, name);
+                ui.add(CheckBox::new(on, name));
             }
         });
     }
@@ -106,10 +105,10 @@ fn buttons(ui: &Ui, inner: Rect, has_drawer: bool, state: &mut MapState) -> f32 
         .close_behavior(PopupCloseBehavior::CloseOnClickOutside)
         .show(|ui| {
             for (on, name) in first(&mut state.layers) {
-                ui.checkbox(on, name);
+                ui.add(CheckBox::new(on, name));
             }
-            ui.checkbox(&mut state.layers.other_tracks, "Tracks of the others");
-            ui.checkbox(&mut state.layers.grid, "Grid");
+            ui.add(CheckBox::new(&mut state.layers.other_tracks, "Tracks of the others"));
+            ui.add(CheckBox::new(&mut state.layers.grid, "Grid"));
             close_key::show(ui);
         });
     right
@@ -127,6 +126,7 @@ fn first(layers: &mut MapLayers) -> [(&mut bool, &'static str); 4] {
 
 fn boxes_width(ui: &Ui) -> f32 {
     let words = first(&mut MapLayers::default()).map(|(_, word)| word);
-    let width = |word: &&str| paint::text_width(ui, word, text::body_medium()) + BOX + BOX_GAP;
+    let width =
+        |word: &&str| paint::text_width(ui, word, text::body_medium()) + check_box::WIDTH + BOX_GAP;
     words.iter().map(width).sum()
 }

@@ -9,7 +9,7 @@ mod pane;
 mod plot;
 mod skyline;
 
-use egui::{Align2, Checkbox, Key, Modifiers, Rect, Ui, pos2, vec2};
+use egui::{Align2, Key, Modifiers, Rect, Ui, pos2, vec2};
 use jiff::Timestamp;
 
 use self::{draft::Skies, history::History, skyline::Recording};
@@ -27,6 +27,7 @@ use crate::{
         text, theme,
         widgets::{
             button::{Button, SMALL_HEIGHT},
+            check_box::{self, CheckBox},
             paint,
             segmented::{self, Segment},
         },
@@ -363,10 +364,10 @@ fn tool_bar(ui: &mut Ui, bar: Rect, skies: &mut Skies, state: &mut HorizonState)
     let mut left = place.right() + 12.0;
     for (on, word) in [(&mut state.snaps, "Snap 0.5°"), (&mut state.shows_passes, "Passes of 48 h")]
     {
-        let width = paint::text_width(ui, word, text::body()) + 32.0;
+        let width = paint::text_width(ui, word, text::body()) + check_box::WIDTH + 14.0;
         if left + width < undoing.left() {
             let rect = row.with_min_x(left).with_max_x(left + width);
-            ui.place(rect, Checkbox::new(on, word));
+            ui.place(rect, CheckBox::new(on, word));
         }
         left += width;
     }

@@ -7,7 +7,7 @@ use crate::ui::{
     icons::{self, Icon},
     text,
     tokens::Tokens,
-    widgets::{close_key, paint},
+    widgets::{check_box::CheckBox, close_key, paint},
 };
 
 /// In a plot below this height a button opens the legend, points.
@@ -35,7 +35,7 @@ pub(super) fn upper_right(ui: &Ui, rect: Rect, layers: &mut Layers, t: &Tokens) 
                 (&mut layers.keep_outs, "Keep-outs"),
                 (&mut layers.antennas, "Other antennas"),
             ] {
-                ui.checkbox(on, name);
+                ui.add(CheckBox::new(on, name));
             }
             close_key::show(ui);
         });

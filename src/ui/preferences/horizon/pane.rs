@@ -1,8 +1,8 @@
 //! Table of the barriers, and the form of the selected one.
 
 use egui::{
-    Align2, Checkbox, Color32, FontId, Frame, Margin, Rect, Role, ScrollArea, Sense, TextEdit, Ui,
-    UiBuilder, WidgetInfo, vec2,
+    Align2, Color32, FontId, Frame, Margin, Rect, Role, ScrollArea, Sense, TextEdit, Ui, UiBuilder,
+    WidgetInfo, vec2,
 };
 
 use super::{
@@ -21,6 +21,7 @@ use crate::{
         tokens::Tokens,
         widgets::{
             button::{Button, SMALL_HEIGHT},
+            check_box::CheckBox,
             input::Input,
             paint,
             segmented::{self, Segment},
@@ -446,7 +447,7 @@ fn sun(ui: &mut Ui, skies: &mut Skies) {
     let t = theme::tokens(ui);
     let head = row(ui, 32.0);
     paint::text_in(ui, head, Align2::LEFT_CENTER, "Sun", text::value(), t.t1);
-    ui.add(Checkbox::new(&mut skies.sun.is_on, "Keep antennas away from the Sun"));
+    ui.add(CheckBox::new(&mut skies.sun.is_on, "Keep antennas away from the Sun"));
     ui.add_space(4.0);
     if !skies.sun.is_on {
         return;
