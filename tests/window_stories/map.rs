@@ -216,7 +216,7 @@ fn the_selected_satellite_stands_in_the_inspector() {
         for words in ["METEOR-M2 4, 59051, elements", "LOS T", "Below it: ", "Height, speed: 8"] {
             assert!(says(&window, words), "{words}");
         }
-        assert!(says(&window, "Sees the ground to: 2"));
+        assert!(says(&window, "Footprint radius: 2"));
         assert!(says(&window, "Goes: "));
         assert!(says(&window, "Next at Şile 1"));
         let passes = named(&window, Role::ListBoxOption, "Pass at ");

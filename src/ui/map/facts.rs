@@ -37,10 +37,7 @@ fn facts(model: &Model, of: &GlobeSatellite) -> [(&'static str, String); COUNT] 
     [
         ("Below it", words::place(of.below.point)),
         ("Height, speed", format!("{} km, {speed} km/s", words::km(of.below.height_km))),
-        (
-            "Sees the ground to",
-            format!("{} km around, at {elevation}", words::km(of.footprint.radius_km())),
-        ),
+        ("Footprint radius", format!("{} km at {elevation}", words::km(of.footprint.radius_km()))),
         (
             "From the station",
             format!(
@@ -50,7 +47,7 @@ fn facts(model: &Model, of: &GlobeSatellite) -> [(&'static str, String); COUNT] 
                 words::km(of.look.range_km),
             ),
         ),
-        ("Goes", format!("{}, around in {minutes} min", words::goes(of.heading))),
+        ("Goes", format!("{}, period {minutes} min", words::goes(of.heading))),
         ("Light", words::light(of.is_sunlit).to_owned()),
     ]
 }

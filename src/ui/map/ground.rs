@@ -54,5 +54,5 @@ pub(super) fn station(painter: &Painter, at: Pos2, t: &Tokens) {
 
 /// The colour of the footprint of a satellite that is not selected.
 pub(super) fn edge(is_up: bool, t: &Tokens) -> Color32 {
-    if is_up { t.t2 } else { t.hatch }
+    if is_up { t.t3 } else { t.hatch }
 }

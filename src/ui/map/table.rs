@@ -81,19 +81,19 @@ impl Column {
         matches!(self, Self::Satellite | Self::Goes | Self::Light)
     }
 
-    fn head(self, station: &str) -> String {
+    fn head(self) -> &'static str {
         match self {
-            Self::Satellite => "Satellite".to_owned(),
-            Self::Latitude => "Latitude".to_owned(),
-            Self::Longitude => "Longitude".to_owned(),
-            Self::Height => "Height km".to_owned(),
-            Self::Azimuth => "Azimuth".to_owned(),
-            Self::Elevation => "Elevation".to_owned(),
-            Self::Range => "Range km".to_owned(),
-            Self::Goes => "Goes".to_owned(),
-            Self::Next => format!("Next at {station}"),
-            Self::Max => "Max el".to_owned(),
-            Self::Light => "Light".to_owned(),
+            Self::Satellite => "Satellite",
+            Self::Latitude => "Latitude",
+            Self::Longitude => "Longitude",
+            Self::Height => "Height km",
+            Self::Azimuth => "Azimuth",
+            Self::Elevation => "Elevation",
+            Self::Range => "Range km",
+            Self::Goes => "Goes",
+            Self::Next => "Next here",
+            Self::Max => "Max el",
+            Self::Light => "Light",
         }
     }
 
@@ -162,7 +162,7 @@ pub(super) fn show(
     legend::show(ui, room, model, state.layers);
     if is_open {
         let (head, body) = rest.split_top_bottom_at_y(rest.top() + HEAD);
-        show_head(ui, head, model);
+        show_head(ui, head);
         show_rows(ui, body, model, shown, state, commands);
     }
     is_toggled
@@ -214,12 +214,12 @@ fn columns(row: Rect) -> impl Iterator<Item = (Column, Rect)> {
     })
 }
 
-fn show_head(ui: &Ui, rect: Rect, model: &Model) {
+fn show_head(ui: &Ui, rect: Rect) {
     let t = theme::tokens(ui);
     ui.painter().rect_filled(rect, 0.0, t.bg1);
     ui.painter().hline(rect.x_range(), rect.bottom() - 0.5, (1.0, t.line));
     for (column, place) in columns(rect) {
-        let words = column.head(&model.station.name);
+        let words = column.head();
         let anchor = if column.is_left() { Align2::LEFT_CENTER } else { Align2::RIGHT_CENTER };
         // The rows are sorted by it.
         let (font, colour) = if column == Column::Elevation {
@@ -229,7 +229,7 @@ fn show_head(ui: &Ui, rect: Rect, model: &Model) {
         } else {
             (text::caption(), t.t3)
         };
-        paint::text_in(ui, place, anchor, &words, font, colour);
+        paint::text_in(ui, place, anchor, words, font, colour);
     }
 }
 
