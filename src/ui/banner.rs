@@ -47,7 +47,7 @@ pub fn show(ui: &mut Ui, rect: Rect, model: &Model, commands: &mut Vec<UiCommand
     let whole = rect.with_min_x(rect.left() + PADDING).with_max_x(rect.right() - 8.0);
     if !model.demo {
         ui.painter().rect_filled(rect, 0.0, t.bg1);
-        let words = format!("The demonstration is over. {} is in use.", model.station.name);
+        let words = format!("The demo is over. {} is in use.", model.station.name);
         paint::text_in(ui, whole, Align2::LEFT_CENTER, &words, text::body(), t.t2);
         paint::name_text(ui, "after the demo", whole, &words);
         return;

@@ -50,6 +50,12 @@ fn apply(style: &mut egui::Style, t: &Tokens) {
     style.spacing.button_padding = egui::vec2(12.0, 4.0);
     style.spacing.interact_size = egui::vec2(32.0, 24.0);
 
+    // What is cut at the edge of a scroll area shows that it goes on.
+    let scroll = &mut style.spacing.scroll;
+    scroll.dormant_handle_opacity = 0.5;
+    scroll.floating_width = 4.0;
+    scroll.fade.strength = 0.9;
+
     let visuals = &mut style.visuals;
     visuals.panel_fill = t.bg1;
     visuals.window_fill = t.bg2;

@@ -4,10 +4,10 @@ mod chips;
 mod clock;
 mod station;
 
-use egui::{Area, Id, Order, Rect, Ui, UiBuilder, pos2, vec2};
+use egui::{Align2, Area, Id, Order, Rect, Ui, UiBuilder, pos2, vec2};
 
 use super::{
-    icons, theme,
+    icons, text, theme,
     widgets::{
         alarm_list::{self, AlarmModel},
         link_chip::ChipModel,
@@ -30,6 +30,8 @@ const DATE_FROM: f32 = 1360.0;
 const TWO_LINES_FROM: f32 = 1200.0;
 /// Side of the mark of an antenna that STOP leaves alone.
 const MARK: f32 = 12.0;
+/// Width of this mark with its word.
+const LEFT_OUT: f32 = 52.0;
 
 /// Content of the bar.
 #[derive(Debug, Clone, Copy)]
@@ -103,14 +105,15 @@ fn fill(ui: &mut Ui, rect: Rect, model: &TopBarModel<'_>, commands: &mut Vec<UiC
     let gap = match (model.stop_left_out.is_empty(), wide) {
         (true, true) => 16.0,
         (true, false) => 12.0,
-        (false, _) => MARK + 8.0,
+        (false, true) => LEFT_OUT,
+        (false, false) => MARK + 8.0,
     };
     let min = pos2(stop.left() - gap - alarm_width, rect.center().y - control / 2.0);
     let alarms = Rect::from_min_size(min, vec2(alarm_width, control));
 
     if !model.stop_left_out.is_empty() {
         let beside = Rect::from_min_max(alarms.right_top(), stop.left_bottom());
-        mark_left_out(ui, beside, model.stop_left_out);
+        mark_left_out(ui, beside, wide, model.stop_left_out);
     }
 
     let clock = clock::show(ui, rect.with_min_x(left), &model.clock, wide);
@@ -148,9 +151,15 @@ fn fill(ui: &mut Ui, rect: Rect, model: &TopBarModel<'_>, commands: &mut Vec<UiC
 }
 
 /// Shows a mark between the alarms and STOP: STOP does not stop every antenna.
-fn mark_left_out(ui: &Ui, rect: Rect, words: &str) {
+fn mark_left_out(ui: &Ui, rect: Rect, has_word: bool, words: &str) {
     let t = theme::tokens(ui);
-    let place = paint::square(rect.center(), MARK);
+    let mut at = rect.center();
+    if has_word {
+        at.y -= 8.0;
+        let line = rect.with_min_y(at.y + 6.0);
+        paint::text_in(ui, line, Align2::CENTER_CENTER, "not all", text::caption(), t.warn);
+    }
+    let place = paint::square(at, MARK);
     icons::paint(ui.painter(), place, icons::Icon::OpenRing, t.warn);
     paint::name_text(ui, "left out of stop", rect, words).on_hover_text(words);
 }

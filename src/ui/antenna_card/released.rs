@@ -57,16 +57,17 @@ fn stop_key(ui: &Ui, rect: egui::Rect, antenna: &str, about: &str) -> bool {
     let name = format!("Connect and STOP {antenna}");
     let response = paint::control(ui, "stop a released unit", rect, Role::Button, true, &name);
     ui.ctx().accesskit_node_builder(response.id, |node| node.set_description(about));
-    let border = Stroke::new(1.0, t.stop);
-    ui.painter().rect(rect, button::RADIUS, t.stop, border, StrokeKind::Inside);
+    // The fill of STOP is that of the one in the top bar alone.
+    let border = Stroke::new(2.0, t.bad);
+    ui.painter().rect(rect, button::RADIUS, t.bg3, border, StrokeKind::Inside);
     let words = "Connect and STOP";
     let font = text::sized(13.0, Weight::SemiBold);
     let width = paint::text_width(ui, words, font.clone()) + 22.0;
     let left = rect.center().x - width / 2.0;
     let glyph = paint::square(pos2(left + 8.0, rect.center().y), 16.0);
-    icons::paint(ui.painter(), glyph, Icon::Octagon, t.onstop);
+    icons::paint(ui.painter(), glyph, Icon::Octagon, t.bad);
     let room = rect.with_min_x(left + 22.0).shrink2(vec2(0.0, 2.0));
-    paint::text_in(ui, room, Align2::LEFT_CENTER, words, font, t.onstop);
+    paint::text_in(ui, room, Align2::LEFT_CENTER, words, font, t.bad);
     paint::focus_ring(ui, &response, button::RADIUS);
     response.on_hover_text(about).clicked()
 }

@@ -19,7 +19,7 @@ use crate::{
 const LINE: f32 = 18.0;
 const TITLE: f32 = 30.0;
 /// Lines across the whole width.
-const WIDE: usize = 3;
+const WIDE: usize = 4;
 /// Lines of two figures.
 const HALVES: usize = 4;
 
@@ -58,6 +58,8 @@ pub(super) fn show(ui: &Ui, rect: Rect, model: &Model, elements: &Elements, cata
         icons::paint(ui.painter(), paint::square(at, 12.0), icon, colour);
     }
     fact(ui, line(2), "Held by", &groups.join(", "), t.t1);
+    let heights = format!("{} km", words::heights(elements.heights()));
+    fact(ui, line(3), "Apogee × perigee", &heights, t.t1);
     let figures = figures(elements);
     let half = (inner.width() - 20.0) / 2.0;
     for (index, pair) in figures.chunks(2).enumerate() {
@@ -80,7 +82,7 @@ fn fact(ui: &Ui, line: Rect, name: &str, value: &str, colour: Color32) -> Rect {
     drawn
 }
 
-pub(super) fn figures(elements: &Elements) -> [(&'static str, String); 2 * HALVES] {
+pub(super) fn figures(elements: &Elements) -> [(&'static str, String); 7] {
     let angle = |of: crate::astro::Angle| format::degrees(of.degrees(), 4);
     [
         ("Inclination", angle(elements.inclination())),
@@ -90,6 +92,5 @@ pub(super) fn figures(elements: &Elements) -> [(&'static str, String); 2 * HALVE
         ("Mean motion", format!("{:.5}", elements.mean_motion_rev_day())),
         ("Anomaly", angle(elements.mean_anomaly())),
         ("B*", format!("{:.2e}", elements.bstar()).replace('-', "\u{2212}")),
-        ("Heights km", words::heights(elements.heights())),
     ]
 }

@@ -85,7 +85,10 @@ fn holds(
     uploaded: Option<Timestamp>,
 ) -> (Tone, String) {
     if !antenna.variant().capabilities.has_program {
-        return (Tone::Good, "Azel tracks with it, same set.".to_owned());
+        if antenna.tracked_number() == Some(elements.catalog_number()) {
+            return (Tone::Good, "Azel tracks it with this antenna now.".to_owned());
+        }
+        return (Tone::Plain, "Holds no elements: Azel uses the set in use.".to_owned());
     }
     let Some(held) = &antenna.snapshot.state.on_board.satellite else {
         return (Tone::Plain, "Does not say what it holds.".to_owned());

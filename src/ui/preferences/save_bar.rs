@@ -21,7 +21,7 @@ use crate::{
     },
 };
 
-const ENDS_THE_DEMO: &str = "Saving ends the demonstration and uses this station.";
+const ENDS_THE_DEMO: &str = "Saving ends the demo and uses this station.";
 /// Height of a line.
 const LINE: f32 = 20.0;
 /// Number of lines of checks that are shown.
@@ -32,7 +32,7 @@ const LEAST: f32 = 110.0;
 const HOLD: f32 = 150.0;
 
 pub(super) fn height(is_small: bool) -> f32 {
-    if is_small { 48.0 } else { 108.0 }
+    if is_small { 48.0 } else { 84.0 }
 }
 
 /// Shows the bar. Returns `true` when the edits are to be dropped.

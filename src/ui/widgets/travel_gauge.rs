@@ -81,8 +81,8 @@ pub fn show(ui: &Ui, rect: Rect, model: &TravelModel<'_>) {
     let y = rect.center().y;
     let strong = text::sized(13.0, Weight::SemiBold);
     paint::text(ui, rect.left_center(), Align2::LEFT_CENTER, model.name, strong, t.t1);
-    let lower = Rect::from_min_size(pos2(rect.left() + 20.0, y - TAG.y / 2.0), TAG);
-    let upper = lower.translate(vec2(rect.width() - 95.0, 0.0));
+    let lower = Rect::from_min_size(pos2(rect.left() + 24.0, y - TAG.y / 2.0), TAG);
+    let upper = lower.translate(vec2(rect.width() - 99.0, 0.0));
     tag(ui, lower, &format!("{}−", model.name), model.lower_limit, t);
     tag(ui, upper, &format!("{}+", model.name), model.upper_limit, t);
     let track = Rect::from_min_max(
