@@ -155,7 +155,7 @@ fn what_saving_does_to_the_demonstration_is_said_before_and_while_one_types() {
         let mut model = rig::model(states::holding());
         (model.demo, model.view) = (true, View::Preferences);
         let mut window = rig::window(size, model);
-        let ends = "Saving ends the demonstration and uses this station.";
+        let ends = "Saving ends the demo and uses this station.";
         window.get_by_label(ends);
         preferences::write(&mut window, "Latitude", "41.5");
         window.get_by_label(&format!("1 change. {ends}"));

@@ -70,7 +70,7 @@ fn each_kind_of_notice_gets_a_sound_or_none() {
     for size in SIZES {
         let mut window = page(size);
         choose(&mut window, "Cautions", "None");
-        choose(&mut window, "Reminders of passes", "Falling");
+        choose(&mut window, "Reminders before passes", "Falling");
         let wanted = Notices {
             caution_tones: Tones::None,
             reminder_tones: Tones::Falling,
@@ -126,7 +126,11 @@ fn what_the_desktop_lacks_is_said_where_it_is_set() {
     settle(&mut window);
     assert!(says(&window, "The desktop shows no notifications: Azel does not run in a desktop"));
     assert!(says(&window, "Start it from the desktop"), "with what to do");
-    assert!(says(&window, "The answer of the system: no address"), "as it came");
+    let raw = "The answer of the system: no address";
+    assert!(!says(&window, raw));
+    window.get_by_label_contains("The desktop shows no notifications").hover();
+    window.run_steps(8);
+    assert!(says(&window, raw), "as it came, where it is asked for");
     assert!(says(
         &window,
         "There is no sound: Azel does not support this on this operating system."

@@ -294,7 +294,7 @@ fn the_modes_are_those_of_the_unit_and_each_is_asked_for() {
                 assert_eq!(asked(&mut window), [command], "{word}");
             }
             assert!(window.query_by_label_contains("Auto-track").is_none());
-            window.get_by_label("Followed by Azel: none");
+            window.get_by_label("Azel follows: nothing");
         }
     }
 }

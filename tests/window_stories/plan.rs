@@ -210,7 +210,7 @@ fn a_pass_that_no_antenna_can_take_is_not_swapped() {
     let swap = Swap { pass: key, revision: 4, changes: None };
     window.state_mut().model.swap = Some(Arc::new(swap));
     settle(&mut window);
-    assert!(says(&window, "It cannot be taken."));
+    assert!(says(&window, "Always: not possible."));
     window.get_by_role_and_label(Role::Button, "Swap").click();
     assert_eq!(commands(&mut window), []);
 }

@@ -289,7 +289,7 @@ fn the_demo_station_is_taken_over_without_its_antennas() {
         let before = Station::clone(&model.station);
         assert_eq!(before.antennas.len(), 1);
         let mut window = rig::window(size, model);
-        assert!(says(&window, "Saving ends the demonstration and uses this station."));
+        assert!(says(&window, "Saving ends the demo and uses this station."));
         window.get_by_role_and_label(Role::Button, "Save and use").click();
         let name = "Station".to_owned();
         let wanted = Station { name, antennas: Vec::new(), ..before };

@@ -220,9 +220,9 @@ fn the_site_shows_the_sun_and_how_far_the_place_of_each_unit_is() {
         let mut window = rig::window(size, model);
         unfold(&mut window);
         window.get_by_label_contains("The Sun is at");
-        window.get_by_label_contains("km from the place that Satrak told.");
+        window.get_by_label_contains("km from the position that Satrak reports.");
         write(&mut window, "Longitude, east", "29.5");
-        window.get_by_label_contains("Agrees with the place that Satrak told: 0.0 km apart.");
+        window.get_by_label_contains("Agrees with the position that Satrak reports: 0.0 km apart.");
     }
 }
 
@@ -259,7 +259,7 @@ fn the_settings_of_a_unit_lead_to_the_page_of_its_antenna() {
         let mut model = rig::model(states::holding());
         model.view = View::Antennas;
         let mut window = rig::window(size, model);
-        press(&mut window, Role::Button, "Mount, limits and connection");
+        press(&mut window, Role::Button, "Mount and connection");
         assert!(asked(&mut window).contains(&UiCommand::Show(View::Preferences)));
         window.state_mut().model.view = View::Preferences;
         settle(&mut window);

@@ -58,7 +58,7 @@ fn the_view_opens_from_rail_and_key_and_leads_to_the_preferences() {
         window.key_press_modifiers(Modifiers::COMMAND, Key::Num4);
         assert_eq!(asked(&mut window), [UiCommand::Show(View::Antennas)]);
         let mut window = opened(size, read());
-        press(&mut window, "Mount, limits and connection");
+        press(&mut window, "Mount and connection");
         assert_eq!(asked(&mut window), [UiCommand::Show(View::Preferences)]);
     }
 }

@@ -84,7 +84,7 @@ fn keys_move_the_sky_on_and_home_is_now() {
     for size in SIZES {
         let mut window = window(size);
         let now = noaa_20(&window).expect("NOAA 20 is up");
-        assert!(says(&window, "Sky of now."));
+        assert!(says(&window, "Sky now."));
         focus(&mut window);
         press(&mut window, Key::ArrowRight);
         press(&mut window, Key::ArrowRight);
@@ -98,7 +98,7 @@ fn keys_move_the_sky_on_and_home_is_now() {
         press(&mut window, Key::End);
         assert!(says(&window, "Sky at 23:15:30Z, in 12:00:00."));
         press(&mut window, Key::Home);
-        assert!(says(&window, "Sky of now."));
+        assert!(says(&window, "Sky now."));
         assert_eq!(noaa_20(&window), Some(now));
         assert_eq!(asked(&mut window), []);
     }
@@ -115,12 +115,12 @@ fn the_slider_is_dragged_and_its_button_returns_to_now() {
         let value = slider.accesskit_node().value().unwrap();
         assert!(value.starts_with("Sky at 14:"), "{value}");
         press(&mut window, Key::Home);
-        assert!(says(&window, "Sky of now."));
+        assert!(says(&window, "Sky now."));
         press(&mut window, Key::PageUp);
         assert!(says(&window, "Sky at 11:25:30Z, in 10:00."), "the touch gave it the focus");
         window.get_by_role_and_label(Role::Button, "Now").click();
         settle(&mut window);
-        assert!(says(&window, "Sky of now."));
+        assert!(says(&window, "Sky now."));
         assert!(!says(&window, "Satrak planned, "));
         assert!(window.query_by_role_and_label(Role::Button, "Now").is_none());
         assert_eq!(asked(&mut window), []);
@@ -195,11 +195,11 @@ fn another_view_and_another_station_show_the_sky_of_now() {
     settle(&mut window);
     window.state_mut().model.view = View::Operate;
     settle(&mut window);
-    assert!(says(&window, "Sky of now."));
+    assert!(says(&window, "Sky now."));
     drag(&mut window);
     window.state_mut().views.station_changed();
     settle(&mut window);
-    assert!(says(&window, "Sky of now."));
+    assert!(says(&window, "Sky now."));
 }
 
 #[test]
@@ -210,7 +210,7 @@ fn a_time_that_has_come_is_now() {
     let now = add_seconds(window.state().model.now, 61.0);
     window.state_mut().model.now = now;
     settle(&mut window);
-    assert!(says(&window, "Sky of now."));
+    assert!(says(&window, "Sky now."));
 }
 
 #[test]
@@ -218,7 +218,7 @@ fn without_a_schedule_there_is_only_now() {
     let mut window = rig::window(LARGE, rig::model(states::holding()));
     assert!(says(&window, "There is no plan yet to look ahead in."));
     drag(&mut window);
-    assert!(says(&window, "Sky of now."));
+    assert!(says(&window, "Sky now."));
 }
 
 /// Two passes of the antenna, hours apart: the way from the end of the first to the start of

@@ -31,7 +31,7 @@ const fn fields() -> [Field; 5] {
             .part_of(TRAVEL)
             .in_unit("°")
             .about("The end of the travel counter-clockwise."),
-        Field::edit(KIND, "Turns"),
+        Field::edit(KIND, "Axis"),
         Field::write(STOP_OFFSET, "Stop offset").in_unit("°").about(
             "How early the drive is cut off before a target. The unit never tells it, so it must \
              be given with every change.",

@@ -84,8 +84,8 @@ fn model() -> CardModel<'static> {
             pending: None,
         },
         track: Some(TrackModel {
-            head: "The unit holds",
-            held: Some("NOAA 20"),
+            head: "On the unit",
+            held: "NOAA 20",
             selected: Some("METEOR-M2 4"),
             tracks_selected: false,
             refusal: None,
@@ -268,7 +268,7 @@ fn a_refused_direction_says_why_below_the_fields() {
 #[test]
 fn track_and_auto_track_are_one_click() {
     let mut window = card(LARGE, &model());
-    window.get_by_label("The unit holds: NOAA 20");
+    window.get_by_label("On the unit: NOAA 20");
     window.get_by_role_and_label(Role::Button, "Track METEOR-M2 4").click();
     window.run();
     window.get_by_role_and_label(Role::Button, "Auto-track: switch off").click();
@@ -281,7 +281,7 @@ fn track_and_auto_track_are_one_click() {
 fn what_the_unit_tracks_already_has_no_button() {
     let mut model = model();
     model.track = Some(TrackModel {
-        held: Some("NOAA 20"),
+        held: "NOAA 20",
         selected: Some("NOAA 20"),
         tracks_selected: true,
         ..TrackModel::default()

@@ -25,8 +25,9 @@ use crate::{
 pub struct TrackModel<'a> {
     /// Caption of the satellite on the left.
     pub head: &'a str,
-    /// The satellite whose elements the unit holds, or that program track follows.
-    pub held: Option<&'a str>,
+    /// The satellite whose elements the unit holds, or what program track follows, or that there
+    /// is none.
+    pub held: &'a str,
     /// The satellite that is selected in the window.
     pub selected: Option<&'a str>,
     /// The antenna tracks the selected satellite now.
@@ -195,7 +196,7 @@ fn satellite_row(
         None => 0.45 * row.width(),
     };
     let held = row.with_max_x(row.left() + held_width - 8.0);
-    two_lines(ui, "held", held, Align2::LEFT_CENTER, model.head, model.held.unwrap_or("none"));
+    two_lines(ui, "held", held, Align2::LEFT_CENTER, model.head, model.held);
     let rest = row.with_min_x(held.right() + 8.0);
     let Some(selected) = selected else {
         let name = model.selected.unwrap_or("none");

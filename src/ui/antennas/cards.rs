@@ -21,7 +21,7 @@ use crate::{
 };
 
 const NONE: &str = "This unit keeps no settings that can be read or changed over its link. Mount, \
-                    limits and connection stand in the Preferences.";
+                    limits and connection are in Preferences.";
 
 /// Gap between the columns, and around them.
 const GAP: f32 = 16.0;

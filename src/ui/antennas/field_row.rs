@@ -104,7 +104,8 @@ fn on_unit(ui: &Ui, unit: &ShownUnit<'_>, group: &Group, field: &Field, at: &Col
     }
     let t = theme::tokens(ui);
     let value = unit.values(group.key).and_then(|held| held.get(field.key));
-    let full = value.map_or_else(|| UNKNOWN.to_owned(), |value| outcome::shown(field, value));
+    let full = value.map(|value| outcome::shown(field, value)).filter(|shown| !shown.is_empty());
+    let full = full.unwrap_or_else(|| UNKNOWN.to_owned());
     let short = match value {
         Some(Value::Time(time)) => format::moment(*time, unit.model.now),
         _ => full.clone(),

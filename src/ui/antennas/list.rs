@@ -54,7 +54,7 @@ pub(super) fn show(
         }
         let place = Rect::from_min_size(pos2(rect.left(), y), vec2(rect.width(), SECTION));
         y = place.bottom() + 4.0;
-        if line(ui, place, "Mount, limits and connection", t.t2) {
+        if line(ui, place, "Mount and connection", t.t2) {
             commands.push(UiCommand::Show(View::Preferences));
         }
         ui.painter().hline(rect.x_range(), y, (1.0, t.line));

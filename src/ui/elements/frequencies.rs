@@ -52,12 +52,12 @@ pub(super) fn show(
     };
     let field = TextEdit::multiline(&mut edit.text)
         .id_salt("frequencies of the object")
-        .hint_text("MHz and a name, one a line")
+        .hint_text("MHz and a name, one per line")
         .desired_rows(3)
         .desired_width(ui.available_width());
     let response = ui.add(field);
     response.widget_info(|| {
-        WidgetInfo::labeled(Role::MultilineTextInput, true, "Frequencies, one a line")
+        WidgetInfo::labeled(Role::MultilineTextInput, true, "Frequencies, one per line")
     });
     let lines = edit.text.lines().filter(|line| !line.trim().is_empty());
     let list: Vec<String> = lines.map(|line| format!("{number} {line}")).collect();

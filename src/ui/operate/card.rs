@@ -285,18 +285,18 @@ fn track<'a>(
     let (head, held, tracks_selected) = if is_here {
         let name = followed.map(|followed| followed.name.as_str());
         let of_it = followed.and_then(|followed| followed.catalog_number);
-        ("Followed by Azel", name, of_it.is_some() && of_it == number)
+        ("Azel follows", name.map_or("nothing", short), of_it.is_some() && of_it == number)
     } else {
         // A fresh unit names no satellite, and an unreadable reply may pass for a name.
         let names_one = |held: &&HeldSatellite| !held.name.is_empty() && state.unreadable.is_none();
         let held = state.on_board.satellite.as_ref().filter(names_one);
         let of_it = held.map(|held| held.catalog_number);
         let is_tracked = of_it.is_some() && of_it == number && antenna.tracked_number() == number;
-        ("The unit holds", held.map(|held| held.name.as_str()), is_tracked)
+        ("On the unit", held.map_or("no satellite", |held| short(&held.name)), is_tracked)
     };
     TrackModel {
         head,
-        held: held.map(short),
+        held,
         selected: selected.map(|predicted| predicted.satellite.short_name()),
         tracks_selected,
         parks_at: "",

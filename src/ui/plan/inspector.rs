@@ -235,7 +235,10 @@ fn price(
     }
     let key = planned.predicted.key();
     let words = if let Some(swap) = model.swap_of(key) {
-        format!("If it is always taken: {}", words::schedule::price(model, swap))
+        match swap.changes {
+            Some(_) => format!("If it is always taken: {}", words::schedule::price(model, swap)),
+            None => "Always: not possible.".to_owned(),
+        }
     } else {
         let ask = UiCommand::Station(engine::Command::PriceSwap(key));
         // Asked once a pass and schedule; the answer wakes the window.

@@ -19,7 +19,10 @@ use crate::{
     station::{HoursOfDay, Notices, Tones, ranges},
     ui::{
         format, text, theme,
-        widgets::told::{self, Tone},
+        widgets::{
+            check_box::CheckBox,
+            told::{self, Tone},
+        },
         words,
     },
 };
@@ -131,7 +134,7 @@ fn telling_fields() -> Vec<Placed<Telling>> {
         tones("Cautions", |telling| &mut telling.caution).noted(|_| {
             Some("Alarms about something that was not done or will go wrong.".to_owned())
         }),
-        tones("Reminders of passes", |telling| &mut telling.reminder),
+        tones("Reminders before passes", |telling| &mut telling.reminder),
         flag("Quiet hours", |telling| &mut telling.is_quiet).noted(|_| {
             let words = "No notifications and no sounds then, except for alarms of the first rank. \
                          The window shows all alarms.";
@@ -207,9 +210,12 @@ fn telling(
     let standings = telling.read().1;
     form::section(ui, "telling", (telling, &standings), TELLING, sought, |ui| {
         for missing in words::missing_outlets(&model.outlets) {
-            told::line(ui, Tone::Caution, &missing.words);
-            if let Some(raw) = missing.raw {
-                note(ui, &format!("The answer of the system: {raw}"));
+            match missing.raw {
+                Some(raw) => {
+                    let tip = format!("The answer of the system: {raw}");
+                    told::line_with_tip(ui, Tone::Caution, &missing.words, &tip);
+                }
+                None => told::line(ui, Tone::Caution, &missing.words),
             }
         }
         ui.add_space(4.0);
@@ -230,8 +236,8 @@ fn never_silenced(ui: &mut Ui) {
         note(
             ui,
             "Alarms of the first rank are shown and sounded at any hour, whatever is set here: a \
-             STOP that is not proved or is owed, an antenna where it must not point, a dead-man \
-             that stopped an antenna, a unit that moves against its word.",
+             STOP not confirmed or still owed, an antenna where it must not point, a dead-man \
+             that stopped an antenna, a unit that moves although it reports that it stands.",
         );
     });
 }
@@ -251,7 +257,7 @@ fn reminders(ui: &mut Ui, model: &Model, draft: &mut Draft, sought: &mut Sought)
             let mut is_marked = reminders.contains(number);
             ui.horizontal(|ui| {
                 let name = name(model, *number);
-                if ui.checkbox(&mut is_marked, name).changed() {
+                if ui.add(CheckBox::new(&mut is_marked, &name)).changed() {
                     if is_marked {
                         reminders.insert(*number);
                     } else {

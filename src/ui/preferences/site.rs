@@ -191,7 +191,7 @@ fn about(ui: &mut Ui, site: Option<Site>, model: &Model) {
 fn distance(site: Site, antenna: &AntennaModel) -> (Tone, String) {
     let name = &antenna.config.name;
     let Some(told) = antenna.snapshot.state.on_board.place else {
-        return (Tone::Plain, format!("{name} has not told a place."));
+        return (Tone::Plain, format!("{name} reports no position."));
     };
     words::off_the_told(name, told.km_from(site))
 }

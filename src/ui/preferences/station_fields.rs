@@ -149,7 +149,7 @@ fn frequencies() -> Of {
             Ok(())
         },
     )
-    .of_lines("number MHz name, one a line")
+    .of_lines("Number, MHz, name, one per line")
     .noted(|_| Some("For the Doppler shift; a satellite may have several.".to_owned()))
 }
 

@@ -1,6 +1,6 @@
 //! Sentences with a mark, and lines of name and value.
 
-use egui::{Label, RichText, Sense, Ui, vec2};
+use egui::{Label, Response, RichText, Sense, Ui, vec2};
 
 use super::paint;
 use crate::ui::{
@@ -27,6 +27,15 @@ pub enum Tone {
 /// Shows a sentence after the mark of its tone; colour alone would not do, as a theme may
 /// have one hue only.
 pub fn line(ui: &mut Ui, tone: Tone, words: &str) {
+    sentence(ui, tone, words);
+}
+
+/// A [`line`] with more for whoever points at it.
+pub fn line_with_tip(ui: &mut Ui, tone: Tone, words: &str, tip: &str) {
+    sentence(ui, tone, words).on_hover_text(tip);
+}
+
+fn sentence(ui: &mut Ui, tone: Tone, words: &str) -> Response {
     let t = theme::tokens(ui);
     let (mark, colour) = match tone {
         Tone::Plain => (None, t.t2),
@@ -41,8 +50,9 @@ pub fn line(ui: &mut Ui, tone: Tone, words: &str) {
             icons::paint(ui.painter(), paint::square(place.center(), MARK), icon, colour);
         }
         let words = RichText::new(words).font(text::body()).color(colour);
-        ui.add(Label::new(words).wrap());
-    });
+        ui.add(Label::new(words).wrap())
+    })
+    .inner
 }
 
 /// Shows a name and its value, in a font that is read letter by letter.

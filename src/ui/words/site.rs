@@ -26,9 +26,10 @@ pub fn sun_there(sun: AzEl) -> String {
 pub fn off_the_told(name: &str, km: f64) -> (Tone, String) {
     let far = format::number(km, usize::from(km < 10.0));
     if km < AGREES_KM {
-        (Tone::Good, format!("Agrees with the place that {name} told: {far} km apart."))
+        (Tone::Good, format!("Agrees with the position that {name} reports: {far} km apart."))
     } else {
-        let words = format!("{far} km from the place that {name} told. Which of them is right?");
+        let words =
+            format!("{far} km from the position that {name} reports. Which of them is right?");
         (Tone::Caution, words)
     }
 }

@@ -65,7 +65,7 @@ fn the_detail_says_what_each_antenna_holds() {
         genius.id = station::AntennaId(7);
         model.antennas.push(rig::antenna(genius, rig::quiet()));
         settle(&mut window);
-        assert!(says(&window, "Genius: Azel tracks with it, same set."));
+        assert!(says(&window, "Genius: Holds no elements: Azel uses the set in use."));
     }
 }
 
@@ -95,7 +95,7 @@ fn frequencies_are_changed_beside_the_elements() {
     settle(&mut window);
     assert!(says(&window, "7812.000 MHz HRD"));
     click(&mut window, "Edit frequencies");
-    let field = "Frequencies, one a line";
+    let field = "Frequencies, one per line";
     window.get_by_role_and_label(Role::MultilineTextInput, field).focus();
     settle(&mut window);
     window.key_press_modifiers(Modifiers::COMMAND, Key::A);

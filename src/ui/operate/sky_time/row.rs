@@ -70,8 +70,8 @@ fn say(ui: &Ui, room: Rect, model: &Model, state: &SkyTime) {
     let left = Align2::LEFT_CENTER;
     let Some(words) = state.words(model) else {
         let words = match model.schedule_until() {
-            Some(_) => "Sky of now. Drag to see the sky and the antennas of the plan.",
-            None => "Sky of now. There is no plan yet to look ahead in.",
+            Some(_) => "Sky now. Drag to see the planned sky and antennas.",
+            None => "Sky now. There is no plan yet to look ahead in.",
         };
         paint::text_in(ui, room, left, words, text::small(), t.t2);
         paint::name_text(ui, "sky time", room, words);

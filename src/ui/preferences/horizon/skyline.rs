@@ -75,7 +75,7 @@ pub(super) fn form(ui: &mut Ui, skies: &mut Skies) {
     let head = row(ui, 32.0);
     paint::text_in(ui, head, Align2::LEFT_CENTER, "Skyline", text::value(), t.t1);
     let read = skies.read_mask();
-    let hint = "azimuth elevation, one point a line; tables of other programs are read too";
+    let hint = "Azimuth and elevation, one point per line. Tables from other programs also work.";
     pane::lines(ui, "Horizon mask", hint, &mut skies.mask, read.is_err());
     if let Err(why) = read {
         let words = format!("{}. The plot shows no skyline.", words::capitalised(&why));

@@ -115,6 +115,7 @@ fn tabs(
     shown: &str,
 ) -> Option<&'static str> {
     let t = theme::tokens(ui);
+    ui.add_space(6.0);
     let (rect, _) = ui.allocate_exact_size(vec2(ui.available_width(), HEIGHT), Sense::hover());
     let segments = SOURCES.map(|group| {
         (group.title, if group.key == shown { Segment::Chosen } else { Segment::Free })
