@@ -1,5 +1,7 @@
 //! A pass of the record for other programs.
 
+use std::fmt::Write as _;
+
 use serde::Serialize;
 
 use super::{OpenedPass, RecordedReport, Row};
@@ -25,8 +27,10 @@ impl OpenedPass {
         let mut text = format!("{COLUMNS}\n");
         for point in &self.track {
             let TrackPoint { time, antenna, satellite, error } = point;
-            text += &format!(
-                "{time:.3},{:.4},{:.4},{:.4},{:.4},{:.4},{:.4},{:.4},{:.4},{:.4}\n",
+            // Writing to a string cannot fail.
+            let _ = writeln!(
+                text,
+                "{time:.3},{:.4},{:.4},{:.4},{:.4},{:.4},{:.4},{:.4},{:.4},{:.4}",
                 antenna.azimuth_deg(),
                 antenna.elevation_deg(),
                 satellite.azimuth_deg(),

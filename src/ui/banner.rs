@@ -44,7 +44,7 @@ impl BannerRoom {
 /// Shows the strip; after the demonstration it names the station in use.
 pub fn show(ui: &mut Ui, rect: Rect, model: &Model, commands: &mut Vec<UiCommand>) {
     let t = theme::tokens(ui);
-    let whole = rect.with_min_x(rect.left() + PADDING).with_max_x(rect.right() - 8.0);
+    let whole = rect.shrink2(vec2(PADDING, 0.0));
     if !model.demo {
         ui.painter().rect_filled(rect, 0.0, t.bg1);
         let words = format!("The demo is over. {} is in use.", model.station.name);
@@ -78,7 +78,7 @@ pub fn show(ui: &mut Ui, rect: Rect, model: &Model, commands: &mut Vec<UiCommand
             format!("Demo station: the antennas are simulated, no metal moves.{elements}")
         }
     };
-    let button = Button::quiet(word);
+    let button = Button::normal(word);
     let size = vec2(button.width(ui), SMALL_HEIGHT);
     let room = whole.with_max_x(whole.right() - size.x - 8.0);
     let drawn = paint::text_in(ui, room, Align2::LEFT_CENTER, &words, text::body(), t.warn);

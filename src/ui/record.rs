@@ -54,17 +54,17 @@ pub fn show(
             let opened = opened.clone();
             show_report(ui, body, window, model, &opened, state, commands);
         }
-        None => nothing(ui, body, model, state),
+        None => nothing(ui, body, model),
     }
     state.ask(model, commands);
 }
 
 /// What stands in place of a report.
-fn nothing(ui: &mut Ui, rect: Rect, model: &Model, state: &RecordState) {
+fn nothing(ui: &mut Ui, rect: Rect, model: &Model) {
     let t = theme::tokens(ui);
     let place = rect.shrink2(vec2(PADDING, PADDING));
     ui.scope_builder(UiBuilder::new().id_salt("no report").max_rect(place), |ui| {
-        let (head, words) = state.why_nothing(model);
+        let (head, words) = RecordState::why_nothing(model);
         ui.label(RichText::new(head).font(text::value()));
         ui.label(RichText::new(words).font(text::body()).color(t.t2));
     });

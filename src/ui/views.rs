@@ -153,20 +153,13 @@ impl Views {
             banner::show(ui, strip, model, commands);
             rest = rest.with_min_y(strip.bottom());
         }
-        if model.view != View::Operate {
-            self.operate.leave(commands);
-        }
-        if model.view != View::Record {
-            self.record.leave(commands);
-        }
+        self.leave_others(model.view, commands);
         match model.view {
             View::Operate => {
                 let (state, question) = (&mut self.operate, &mut self.question);
                 operate::show(ui, window, rest, model, state, question, commands);
             }
-            View::Plan => {
-                plan::show(ui, window, rest, model, &mut self.plan, commands);
-            }
+            View::Plan => plan::show(ui, window, rest, model, &mut self.plan, commands),
             View::Elements => {
                 let is_edited = self.preferences.is_edited();
                 let (state, question) = (&mut self.elements, &mut self.question);
@@ -189,15 +182,9 @@ impl Views {
                     self.preferences.show_antenna(antenna.id());
                 }
             }
-            View::Console => {
-                console::show(ui, window, rest, model, &mut self.console, commands);
-            }
-            View::Record => {
-                record::show(ui, window, rest, model, &mut self.record, commands);
-            }
-            View::Map => {
-                map::show(ui, window, rest, model, &mut self.map, commands);
-            }
+            View::Console => console::show(ui, window, rest, model, &mut self.console, commands),
+            View::Record => record::show(ui, window, rest, model, &mut self.record, commands),
+            View::Map => map::show(ui, window, rest, model, &mut self.map, commands),
             View::Preferences => {
                 preferences::show(ui, rest, model, &mut self.preferences, commands);
             }
@@ -225,6 +212,16 @@ impl Views {
             self.operate.card.drive.focus_pad();
         }
         keys::list::show(ui, &mut self.keys_open, self.preferences.own_keys());
+    }
+
+    /// Ends what only a view that is shown goes on with.
+    fn leave_others(&mut self, shown: View, commands: &mut Vec<UiCommand>) {
+        if shown != View::Operate {
+            self.operate.leave(commands);
+        }
+        if shown != View::Record {
+            self.record.leave(commands);
+        }
     }
 
     /// Drops commands since `before` that would change the station under edits of its

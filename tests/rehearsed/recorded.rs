@@ -80,12 +80,12 @@ fn a_pass_that_was_tracked_is_reported_when_it_is_over() {
     assert!(rows(&scene, RowKind::Position).len() > 500);
 
     let all = PassQuery { count: 10, ..PassQuery::default() };
-    let found = look(&client, RecordLook { query: all.clone(), opened: None });
+    let found = look(&client, &RecordLook { query: all.clone(), opened: None });
     assert_eq!((found.page.matching, found.page.all, found.page.unreadable), (1, 1, 0));
     let [listed] = &found.page.passes[..] else { panic!("{found:?}") };
     assert_eq!((listed.antenna_name.as_str(), &listed.report.report), ("Mast", &report));
     assert_eq!(found.opened, None);
-    let opened = look(&client, RecordLook { query: all.clone(), opened: Some(listed.id) }).opened;
+    let opened = look(&client, &RecordLook { query: all.clone(), opened: Some(listed.id) }).opened;
     let opened = opened.unwrap();
     assert!(opened.track.len() as f64 > 0.8 * report.counted_s, "about a point a second");
     let worst = opened.track.iter().map(|point| point.error.off_deg).fold(0.0, f64::max);
@@ -97,21 +97,21 @@ fn a_pass_that_was_tracked_is_reported_when_it_is_over() {
     assert!(opened.entries.iter().any(asked), "{:?}", opened.entries);
     for (text, matching) in [("iss", 1), ("25544", 1), ("METOP", 0), ("1999-01-01", 0)] {
         let query = PassQuery { text: text.to_owned(), ..all.clone() };
-        let found = look(&client, RecordLook { query, opened: None });
+        let found = look(&client, &RecordLook { query, opened: None });
         assert_eq!(found.page.matching, matching, "{text}");
     }
     let poor = PassQuery { verdict: Some(PassVerdict::Poor), ..all };
     let is_poor = u32::from(report.verdict == PassVerdict::Poor);
-    let found = look(&client, RecordLook { query: poor, opened: None });
+    let found = look(&client, &RecordLook { query: poor, opened: None });
     assert_eq!(found.page.matching, is_poor);
 }
 
 /// What the station publishes of its record once it has read this.
-fn look(client: &Client, look: RecordLook) -> Found {
+fn look(client: &Client, look: &RecordLook) -> Found {
     client.send(Command::LookAtRecord(Some(look.clone()))).unwrap();
     until("the record", || {
         let recorded = client.snapshot().recorded.clone()?;
-        (recorded.look == look).then(|| recorded.found.clone().unwrap())
+        (recorded.look == *look).then(|| recorded.found.clone().unwrap())
     })
 }
 

@@ -226,10 +226,10 @@ fn the_place_of_a_reached_unit_can_be_taken() {
         assert!(says(&window, "Reached, SATRAK CU V1.2, 12 ms."));
         window.key_press_modifiers(Modifiers::ALT, Key::ArrowLeft);
         settle(&mut window);
-        assert!(says(&window, "km from the place that Satrak told. Which of them is right?"));
+        assert!(says(&window, "km from the position that Satrak reports. Which of them is right?"));
         press(&mut window, "Take the place of Satrak: 41.176° N, 29.613° E");
         assert_eq!(field(&window, "Latitude"), "41.17600");
-        assert!(says(&window, "Agrees with the place that Satrak told: 0.0 km apart."));
+        assert!(says(&window, "Agrees with the position that Satrak reports: 0.0 km apart."));
     }
 }
 

@@ -10,7 +10,7 @@ use crate::ui::{
 
 const WIDTH: f32 = 648.0;
 const KEYS: f32 = 176.0;
-const ROW: f32 = 16.0;
+const ROW: f32 = 15.5;
 
 /// Shows the list until Esc, `?`, a click outside or its button closes it.
 pub fn show(ui: &Ui, open: &mut bool, own: &OwnKeys) {

@@ -88,7 +88,8 @@ fn lines(ui: &Ui, room: Rect, checks: &Checks, (said, colour): (String, Color32)
     let t = theme::tokens(ui);
     if room.height() < LINE * (LINES + 1) as f32 {
         // A check that is met is no reason to hide what saving does.
-        let gravest = checks.lines.first().filter(|(tone, _)| *tone != Tone::Good);
+        let first = checks.lines.first();
+        let gravest = first.filter(|(tone, _)| *tone != Tone::Good);
         let (tone, words) = gravest.map_or((Tone::Plain, &said), |(tone, words)| (*tone, words));
         let (mark, ink) = look(tone, t);
         let words_at = if mark.is_some() { room.with_min_x(room.left() + LINE) } else { room };
@@ -98,7 +99,7 @@ fn lines(ui: &Ui, room: Rect, checks: &Checks, (said, colour): (String, Color32)
         }
         let ink = if mark.is_some() { ink } else { colour };
         paint::text_in(ui, words_at, Align2::LEFT_CENTER, words, text::small(), ink);
-        let whole = if words == &said { said.clone() } else { format!("{words} {said}") };
+        let whole = first.map_or_else(|| said.clone(), |(_, first)| format!("{first} {said}"));
         paint::name_text(ui, "outcome", room, &whole).on_hover_text(&whole);
         return;
     }

@@ -88,7 +88,7 @@ fn title(ui: &Ui, rect: Rect, model: &Model, is_wide: bool, state: &RecordState)
 
 /// How many passes there are, since when, and how large the record is.
 fn summary(model: &Model, state: &RecordState) -> String {
-    let Some(page) = state.page(model) else { return String::new() };
+    let Some(page) = RecordState::page(model) else { return String::new() };
     let size = model.record.as_ref().map(|record| format::bytes(record.bytes));
     let mut words = match (page.all, page.since) {
         (0, _) | (_, None) => "No pass yet".to_owned(),
@@ -98,10 +98,10 @@ fn summary(model: &Model, state: &RecordState) -> String {
     if state.filters() {
         words = format!("{} of {words}", page.matching);
     }
-    if let Some(size) = size {
-        words += &format!(", {size}");
+    match size {
+        Some(size) => format!("{words}, {size}"),
+        None => words,
     }
-    words
 }
 
 fn antennas(
@@ -171,19 +171,16 @@ fn verdicts(ui: &Ui, place: &mut impl FnMut(f32) -> Rect, state: &mut RecordStat
 /// Whether the record is written, at the right.
 fn recording(ui: &Ui, room: Rect, model: &Model) {
     let t = theme::tokens(ui);
-    let (icon, colour, words) = match &model.record {
-        None => (Icon::OpenRing, t.t3, "Not recording".to_owned()),
-        Some(record) => match &record.failing {
-            Some(failing) => {
-                let since = format::moment(failing.since, model.now);
-                (Icon::Warning, t.bad, format!("Nothing recorded since {since}: {}", failing.why))
-            }
-            None => {
-                let count = model.antennas.len();
-                let antennas = if count == 1 { "antenna" } else { "antennas" };
-                (Icon::Disc, t.ok, format!("Recording {count} {antennas}"))
-            }
-        },
+    let failing = model.record.as_ref().and_then(|record| record.failing.as_ref());
+    let (icon, colour, words) = if let Some(failing) = failing {
+        let since = format::moment(failing.since, model.now);
+        (Icon::Warning, t.bad, format!("Nothing recorded since {since}: {}", failing.why))
+    } else if model.record.is_some() {
+        let count = model.antennas.len();
+        let antennas = if count == 1 { "antenna" } else { "antennas" };
+        (Icon::Disc, t.ok, format!("Recording {count} {antennas}"))
+    } else {
+        (Icon::OpenRing, t.t3, "Not recording".to_owned())
     };
     if room.width() < 24.0 {
         return;

@@ -28,7 +28,7 @@ const DIRECTION: f32 = 78.0;
 const ERROR: f32 = 104.0;
 /// Room for the numbers at the left and at the right.
 const LEFT: f32 = 60.0;
-const RIGHT: f32 = 84.0;
+const RIGHT: f32 = 96.0;
 const GAP: f32 = 6.0;
 const DOTS: (f32, f32) = (1.5, 3.5);
 const DASH: (f32, f32) = (6.0, 4.0);
@@ -244,7 +244,7 @@ fn errors(ui: &Ui, rect: Rect, axis: &TimeAxis, opened: &OpenedPass) {
     let worst_deg = cursor::worst(&opened.track).map_or(0.0, |worst| worst.error.off_deg);
     let top = (1.1 * worst_deg).clamp(LEAST * half_beam_deg, MOST * half_beam_deg);
     let y = |value: f64| {
-        let part = (value.clamp(-top, top) / top + 1.0) / 2.0;
+        let part = f64::midpoint(value.clamp(-top, top) / top, 1.0);
         egui::lerp(rect.bottom()..=rect.top(), part as f32)
     };
     let beyond = rect.with_max_y(y(half_beam_deg));

@@ -19,6 +19,12 @@ use crate::{
 };
 
 const LANE: f32 = 20.0;
+/// Between a mark and words.
+const GAP: f32 = 6.0;
+/// Room for words right of the lane.
+const BEYOND: f32 = 80.0;
+/// In less room words would say nothing.
+const LEAST_ROOM: f32 = 24.0;
 const LANES: [&str; 4] = ["Pass", "Sent", "Link", "Alarm"];
 
 /// Draws the lanes into `rect`; times lie as in `plots` above.
@@ -187,22 +193,28 @@ fn marks(
     state: &mut RecordState,
 ) {
     let clamped = |at: Timestamp| axis.x(at).clamp(lane.left(), lane.right());
-    for (index, moment) in moments.iter().enumerate() {
+    // From the right: the words of a moment end before those of the next begin.
+    let mut free_to = lane.right() + BEYOND;
+    for (index, moment) in moments.iter().enumerate().rev() {
         let x = clamped(moment.at);
         let colour = moment.colour.of(ui);
         let mark = Rect::from_center_size(pos2(x, lane.center().y), egui::vec2(3.0, 13.0));
         ui.painter().rect_filled(mark, 0.0, colour);
-        let next = moments.get(index + 1).map_or(lane.right() + 72.0, |next| clamped(next.at));
         let font = text::caption();
         let width = paint::text_width(ui, &moment.words, font.clone());
-        let room = if x + 6.0 + width > lane.right() + 72.0 && index > 0 {
-            lane.with_min_x((x - 6.0 - width).max(lane.left())).with_max_x(x - 6.0)
+        let before = moments
+            .get(..index)
+            .and_then(<[Moment]>::last)
+            .map_or(lane.left(), |before| clamped(before.at));
+        let room = if x + GAP + width > free_to && x - GAP - width > before + GAP {
+            lane.with_min_x(x - GAP - width).with_max_x(x - GAP)
         } else {
-            lane.with_min_x(x + 6.0).with_max_x((next - 4.0).max(x + 6.0))
+            lane.with_min_x(x + GAP).with_max_x(free_to.max(x + GAP))
         };
-        if room.width() > 24.0 {
+        if room.width() >= LEAST_ROOM {
             paint::text_in(ui, room, Align2::LEFT_CENTER, &moment.words, font, colour);
         }
+        free_to = room.left().min(mark.left()) - GAP;
         let id = ui.make_persistent_id(("recorded event", lane.top() as i32, index));
         let response = ui.interact(mark.expand(4.0), id, Sense::click());
         let spoken = format!("{}: {}", format::moment(moment.at, now), moment.words);

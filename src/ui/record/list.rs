@@ -40,7 +40,7 @@ pub(super) fn show(ui: &mut Ui, rect: Rect, model: &Model, state: &mut RecordSta
         ui.set_clip_rect(rect.intersect(ui.clip_rect()));
         ui.spacing_mut().item_spacing = vec2(0.0, 0.0);
         ScrollArea::vertical().id_salt("record list").auto_shrink(false).show(ui, |ui| {
-            let passes = state.passes(model);
+            let passes = RecordState::passes(model);
             let day = |pass: &RecordedPass| format::date(pass.report.from);
             for of_day in passes.chunk_by(|a, b| day(a) == day(b)) {
                 let (_, place) = ui.allocate_space(vec2(rect.width(), DAY));
@@ -58,7 +58,7 @@ pub(super) fn show(ui: &mut Ui, rect: Rect, model: &Model, state: &mut RecordSta
                     }
                 }
             }
-            let left = state.page(model).map_or(0, |page| page.matching - listed(page));
+            let left = RecordState::page(model).map_or(0, |page| page.matching - listed(page));
             if left > 0 {
                 let (_, place) = ui.allocate_space(vec2(rect.width(), FOOT));
                 let word = format!("Older passes ({left})");
@@ -121,7 +121,7 @@ fn row(
 ) -> bool {
     let t = theme::tokens(ui);
     let report = &pass.report;
-    let name = report.elements.name();
+    let name = report.elements.short_name();
     let max = format!("max {}", format::degrees(report.max_elevation_deg, 0));
     let aos = format::moment(report.from, now);
     let said = words::in_short(&report.report);

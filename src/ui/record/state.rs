@@ -8,7 +8,7 @@ use crate::{
         recorded::{Found, RecordLook},
     },
     model::{Model, UiCommand},
-    record::{OpenedPass, PassQuery, RecordedPass},
+    record::{OpenedPass, PassPage, PassQuery, RecordedPass},
     ui::words::sentence,
 };
 
@@ -44,26 +44,22 @@ impl Default for RecordState {
 }
 
 impl RecordState {
-    fn found<'a>(&self, model: &'a Model) -> Option<&'a Found> {
-        model.recorded.as_deref()?.found.as_ref().ok()
-    }
-
     /// The listed passes, the newest first.
-    pub(super) fn passes<'a>(&self, model: &'a Model) -> &'a [RecordedPass] {
-        self.found(model).map_or(&[], |found| &found.page.passes)
+    pub(super) fn passes(model: &Model) -> &[RecordedPass] {
+        found(model).map_or(&[], |found| &found.page.passes)
     }
 
-    pub(super) fn page<'a>(&self, model: &'a Model) -> Option<&'a crate::record::PassPage> {
-        self.found(model).map(|found| &found.page)
+    pub(super) fn page(model: &Model) -> Option<&PassPage> {
+        found(model).map(|found| &found.page)
     }
 
     /// Number of the pass whose report is shown.
     pub(super) fn shown(&self, model: &Model) -> Option<i64> {
-        self.chosen.or_else(|| self.passes(model).first().map(|pass| pass.id))
+        self.chosen.or_else(|| Self::passes(model).first().map(|pass| pass.id))
     }
 
     pub(super) fn opened<'a>(&self, model: &'a Model) -> Option<&'a OpenedPass> {
-        let opened = self.found(model)?.opened.as_ref()?;
+        let opened = found(model)?.opened.as_ref()?;
         Some(opened).filter(|opened| Some(opened.pass.id) == self.shown(model))
     }
 
@@ -75,7 +71,7 @@ impl RecordState {
 
     /// Chooses the pass so many rows further down.
     pub fn step(&mut self, model: &Model, down: isize) {
-        let passes = self.passes(model);
+        let passes = Self::passes(model);
         let shown = self.shown(model);
         let Some(place) = passes.iter().position(|pass| Some(pass.id) == shown) else { return };
         let next = place.saturating_add_signed(down).min(passes.len().saturating_sub(1));
@@ -113,7 +109,7 @@ impl RecordState {
     }
 
     /// Why there is no report: a head and a sentence.
-    pub(super) fn why_nothing(&self, model: &Model) -> (&'static str, String) {
+    pub(super) fn why_nothing(model: &Model) -> (&'static str, String) {
         let Some(recorded) = &model.recorded else {
             return ("Record", "The record is being read.".to_owned());
         };
@@ -130,4 +126,8 @@ impl RecordState {
             Ok(_) => ("Record", "The pass is being read.".to_owned()),
         }
     }
+}
+
+fn found(model: &Model) -> Option<&Found> {
+    model.recorded.as_deref()?.found.as_ref().ok()
 }

@@ -156,21 +156,18 @@ pub fn verdict_sentence(pass: &RecordedPass, now: Timestamp) -> String {
     let Some(worst) = &report.worst else {
         return "No position was measured in this pass.".to_owned();
     };
-    let mut words = format!(
+    let inside = format!(
         "Inside half of the beam {} of {}, worst {} at {}.",
         share(report.share()),
         format::duration(report.counted_s),
         format::degrees(worst.error.off_deg, 2),
         format::moment(worst.at, now),
     );
-    if let Some(best) = pass.report.explanations.first() {
-        words += &format!(
-            " {}; that explains {} of the error.",
-            cause_as_subject(&best.cause),
-            whole_share(best.share)
-        );
-    }
-    words + &losses_sentence(&report.losses)
+    let explained = pass.report.explanations.first().map(|best| {
+        let share = whole_share(best.share);
+        format!(" {}; that explains {share} of the error.", cause_as_subject(&best.cause))
+    });
+    inside + &explained.unwrap_or_default() + &losses_sentence(&report.losses)
 }
 
 fn losses_sentence(losses: &[LostStretch]) -> String {
