@@ -30,7 +30,7 @@ pub struct RecordedReport {
     /// Age of the elements in the middle of the pass, days.
     pub age_days: f64,
     pub elements: Elements,
-    /// Where the antenna stands; `None` in records of version 0.1 before it was kept.
+    /// Where the antenna stands; `None` in older reports.
     #[serde(default)]
     pub site: Option<Site>,
     pub half_beam_deg: f64,

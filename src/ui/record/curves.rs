@@ -3,7 +3,7 @@
 use egui::{Align2, Color32, Rect, Role, Sense, Stroke, Ui, WidgetInfo, pos2, vec2};
 use jiff::{SignedDuration, Timestamp};
 
-use super::{PADDING, RecordState, cursor, events};
+use super::{APART_S, PADDING, RecordState, cursor, events};
 use crate::{
     astro::time::{add_seconds, seconds_between},
     model::Model,
@@ -35,8 +35,6 @@ const DASH: (f32, f32) = (6.0, 4.0);
 /// The scale of the error reaches so far beyond half of the beam, and at most so many times as far.
 const LEAST: f64 = 1.25;
 const MOST: f64 = 4.0;
-/// Points that are further apart are not joined, seconds.
-const APART_S: f64 = 3.0;
 /// Width of the readout at the cursor.
 const READOUT: f32 = 176.0;
 

@@ -3,7 +3,7 @@
 use egui::{Align2, Painter, Pos2, Rect, Sense, Stroke, Ui, WidgetInfo, pos2};
 use jiff::Timestamp;
 
-use super::{PADDING, RecordState, cursor};
+use super::{APART_S, PADDING, RecordState, cursor};
 use crate::{
     astro::time::seconds_between,
     model::Model,
@@ -30,8 +30,6 @@ const ENLARGED: [u16; 4] = [50, 20, 10, 5];
 const DASH: (f32, f32) = (6.0, 4.0);
 /// Length of the tick of a minute.
 const TICK: f32 = 6.0;
-/// Points of the track that are further apart are not joined, seconds.
-const APART_S: f64 = 3.0;
 
 pub(super) fn show(ui: &Ui, rect: Rect, model: &Model, opened: &OpenedPass, state: &RecordState) {
     let t = theme::tokens(ui);
