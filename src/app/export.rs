@@ -34,7 +34,7 @@ use crate::{
     },
     record::OpenedPass,
     station::Station,
-    ui::{hand_over_sheet::HandOverSheet, words},
+    ui::{hand_over_sheet::HandOverSheet, report_sheet, words},
     whole_file,
 };
 
@@ -141,6 +141,7 @@ impl Order {
                 let extension = match format {
                     ReportFormat::Csv => "csv",
                     ReportFormat::Json => "json",
+                    ReportFormat::Svg => "svg",
                 };
                 format!("pass-{}.{extension}", stamp(from.unwrap_or(self.now)))
             }
@@ -182,6 +183,7 @@ impl Order {
         let text = match format {
             ReportFormat::Csv => opened.csv(),
             ReportFormat::Json => opened.json().map_err(|error| error.to_string())?,
+            ReportFormat::Svg => report_sheet::svg(opened, self.now),
         };
         out.extend(text.into_bytes());
         Ok(Ok(()))

@@ -33,6 +33,8 @@ pub enum ReportFormat {
     Csv,
     /// Its report and what happened in it.
     Json,
+    /// A page to print.
+    Svg,
 }
 
 #[derive(Debug, Clone, PartialEq, Eq)]

@@ -6,8 +6,6 @@ mod entries;
 mod facts;
 mod head;
 mod left_out;
-mod sky;
-mod svg;
 #[cfg(test)]
 mod tests;
 mod time_line;
@@ -16,32 +14,23 @@ use std::collections::BTreeMap;
 
 use jiff::Timestamp;
 
-use super::format;
+use super::{
+    format,
+    sheet::{BOTTOM, LEFT, MARGIN, RIGHT, SMALL, section, svg::Svg},
+};
 use crate::{
     astro::time::{DAY_S, add_seconds},
     orbit::{Elements, Propagator},
     plan::schedule::{PassKey, Schedule},
     station::{AntennaId, Station},
 };
-use svg::{Anchor, Face, HEIGHT, Svg, WIDTH};
 
-const MARGIN: f64 = 28.0;
-const LEFT: f64 = MARGIN;
-const RIGHT: f64 = WIDTH - MARGIN;
-const BOTTOM: f64 = HEIGHT - MARGIN;
 /// Between two sections.
 const GAP: f64 = 9.0;
-/// Height of the head of a section.
-const SECTION_HEAD: f64 = 14.0;
 /// Least height of the notes, with the signatures.
 const NOTES: f64 = 64.0;
 /// Height that is kept for passes that are left out beside many entries.
 const FEW_LEFT_OUT: f64 = 110.0;
-
-const BODY: Face = Face::of(7.0);
-/// The smallest text.
-const SMALL: Face = Face::of(6.5);
-const CAPTION: Face = SMALL.quiet();
 
 /// The part of a schedule that the sheet shows, and what it is made from.
 pub struct HandOverSheet<'a> {
@@ -102,17 +91,6 @@ impl<'a> HandOverSheet<'a> {
         let known = self.station.antennas.iter().find(|antenna| antenna.id == id);
         known.map_or("?", |antenna| &antenna.name)
     }
-}
-
-/// Head of a section: its name over a line, and what is to be said of it. Returns where the
-/// section goes on.
-fn section(svg: &mut Svg, y: f64, name: &str, said: &str) -> f64 {
-    const NAME: f64 = 110.0;
-    svg.text([LEFT, y + 8.0], NAME, Face::of(8.5).bold(), name);
-    let right = CAPTION.anchored(Anchor::End);
-    svg.text([RIGHT, y + 8.0], RIGHT - LEFT - NAME, right, said);
-    svg.line([LEFT, y + 10.5], [RIGHT, y + 10.5], 0.8);
-    y + SECTION_HEAD
 }
 
 /// Lines to write on, and the signatures at the bottom of the page.

@@ -18,8 +18,6 @@ use super::{text, theme};
 use crate::model::{Model, UiCommand};
 
 const PADDING: f32 = 16.0;
-/// Points of the track that are further apart are not joined, seconds.
-const APART_S: f64 = 3.0;
 /// Width of the list of passes.
 const LIST: f32 = 320.0;
 /// In a window below this width the list is a drawer, and the tables stand below the curves.

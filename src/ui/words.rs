@@ -3,6 +3,7 @@
 
 mod alarms;
 pub mod automatic;
+pub mod flown_with;
 mod link_tests;
 mod notices;
 mod on_board;

@@ -246,9 +246,11 @@ fn a_click_on_an_event_moves_the_cursor_there() {
 
 #[test]
 fn a_report_is_saved_for_other_programs() {
-    for (word, format) in
-        [("Points (CSV)", ReportFormat::Csv), ("Report (JSON)", ReportFormat::Json)]
-    {
+    for (word, format) in [
+        ("Page to print (SVG)", ReportFormat::Svg),
+        ("Points (CSV)", ReportFormat::Csv),
+        ("Report (JSON)", ReportFormat::Json),
+    ] {
         let mut window = view(LARGE);
         settle(&mut window);
         window.get_by_role_and_label(Role::Button, "Export report").click();

@@ -2,13 +2,17 @@
 
 use std::collections::BTreeSet;
 
-use super::{
-    CAPTION, HandOverSheet, LEFT, RIGHT, SECTION_HEAD, SMALL, section,
-    svg::{Anchor, Svg},
-};
+use super::HandOverSheet;
 use crate::{
     astro::time::DAY_S,
-    ui::{format, words::OLD_ELEMENTS_S},
+    ui::{
+        format,
+        sheet::{
+            CAPTION, LEFT, RIGHT, SECTION_HEAD, SMALL, section,
+            svg::{Anchor, Svg},
+        },
+        words::OLD_ELEMENTS_S,
+    },
 };
 
 const COLUMNS: usize = 4;

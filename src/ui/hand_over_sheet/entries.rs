@@ -5,8 +5,9 @@ mod row;
 
 use row::Row;
 
-use super::{
-    HandOverSheet, LEFT, RIGHT, SECTION_HEAD, section,
+use super::HandOverSheet;
+use crate::ui::sheet::{
+    LEFT, RIGHT, SECTION_HEAD, section,
     svg::{Face, Svg},
 };
 

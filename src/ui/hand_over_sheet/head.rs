@@ -1,10 +1,14 @@
 //! The head of the page: which station, which hours, and how good the schedule is known to be.
 
-use super::{
-    HandOverSheet, LEFT, RIGHT,
-    svg::{Anchor, Face, Svg},
+use super::HandOverSheet;
+use crate::ui::{
+    format,
+    sheet::{
+        LEFT, RIGHT, place,
+        svg::{Anchor, Face, Svg},
+    },
+    words,
 };
-use crate::ui::{format, words};
 
 impl HandOverSheet<'_> {
     /// Returns where the head ends.
@@ -27,13 +31,7 @@ impl HandOverSheet<'_> {
         let rule = words::schedule::choose_by(self.station.scheduling.choose_by);
         let proof = words::schedule::proof(self.schedule);
         svg.text([LEFT, y + 41.0], on_left, BODY, &format!("{rule}. {proof}"));
-        let site = self.station.site;
-        let place = format!(
-            "{}, {}, {} m",
-            format::latitude(site.latitude().degrees(), 3),
-            format::longitude(site.longitude().degrees(), 3),
-            format::number(site.altitude_m(), 0)
-        );
+        let place = place(self.station.site);
         svg.text([RIGHT, y + 41.0], ON_RIGHT, right, &place);
         y + 43.0
     }

@@ -2,13 +2,17 @@
 
 use jiff::Timestamp;
 
-use super::{
-    CAPTION, HandOverSheet, LEFT, RIGHT, SECTION_HEAD, SMALL, section,
-    svg::{Anchor, Svg, wrapped},
-};
+use super::HandOverSheet;
 use crate::{
     plan::schedule::{LeftOut, Why},
-    ui::{format, words},
+    ui::{
+        format,
+        sheet::{
+            CAPTION, LEFT, RIGHT, SECTION_HEAD, SMALL, section,
+            svg::{Anchor, Svg, wrapped},
+        },
+        words,
+    },
 };
 
 const HEAD: f64 = 9.0;

@@ -2,14 +2,17 @@
 
 use jiff::{Timestamp, ToSpan as _};
 
-use super::{
-    BODY, CAPTION, HandOverSheet, LEFT, RIGHT, section,
-    svg::{Anchor, SHADE, Svg},
-};
+use super::HandOverSheet;
 use crate::{
     astro::time::{add_seconds, seconds_between},
     engine::automatic,
-    ui::format,
+    ui::{
+        format,
+        sheet::{
+            BODY, CAPTION, LEFT, RIGHT, section,
+            svg::{Anchor, SHADE, Svg},
+        },
+    },
 };
 
 const LABEL: f64 = 74.0;

@@ -3,7 +3,10 @@
 use jiff::Timestamp;
 
 use super::RecordState;
-use crate::{astro::time::seconds_between, plan::pass_report::TrackPoint, record::OpenedPass};
+use crate::{
+    astro::time::seconds_between, plan::pass_report::TrackPoint, record::OpenedPass,
+    ui::recorded_track,
+};
 
 /// Points further from the cursor than this say nothing of it, seconds.
 const NEAR_S: f64 = 2.0;
@@ -12,12 +15,8 @@ const NEAR_S: f64 = 2.0;
 pub(super) fn point<'a>(opened: &'a OpenedPass, state: &RecordState) -> Option<&'a TrackPoint> {
     match state.cursor {
         Some(at) => nearest(&opened.track, at),
-        None => worst(&opened.track),
+        None => recorded_track::worst(&opened.track),
     }
-}
-
-pub(super) fn worst(track: &[TrackPoint]) -> Option<&TrackPoint> {
-    track.iter().max_by(|a, b| a.error.off_deg.total_cmp(&b.error.off_deg))
 }
 
 fn nearest(track: &[TrackPoint], at: Timestamp) -> Option<&TrackPoint> {

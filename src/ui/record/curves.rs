@@ -3,7 +3,7 @@
 use egui::{Align2, Color32, Rect, Role, Sense, Stroke, Ui, WidgetInfo, pos2, vec2};
 use jiff::{SignedDuration, Timestamp};
 
-use super::{APART_S, PADDING, RecordState, cursor, events};
+use super::{PADDING, RecordState, cursor, events};
 use crate::{
     astro::time::{add_seconds, seconds_between},
     model::Model,
@@ -15,7 +15,7 @@ use crate::{
             dashes,
             scale::{self, AZIMUTH_TOP_DEG, ELEVATION_TOP_DEG, TimeAxis},
         },
-        text, theme,
+        recorded_track, text, theme,
         tokens::Tokens,
         widgets::paint,
     },
@@ -32,9 +32,6 @@ const RIGHT: f32 = 96.0;
 const GAP: f32 = 6.0;
 const DOTS: (f32, f32) = (1.5, 3.5);
 const DASH: (f32, f32) = (6.0, 4.0);
-/// The scale of the error reaches so far beyond half of the beam, and at most so many times as far.
-const LEAST: f64 = 1.25;
-const MOST: f64 = 4.0;
 /// Width of the readout at the cursor.
 const READOUT: f32 = 176.0;
 
@@ -224,14 +221,9 @@ fn directions(ui: &Ui, rect: Rect, axis: &TimeAxis, opened: &OpenedPass) {
 /// A curve along the track, with a break where nothing was measured.
 fn with_breaks(axis: &TimeAxis, track: &[TrackPoint], part: Part) -> Vec<(f32, f64)> {
     let mut curve = Vec::new();
-    let mut before: Option<Timestamp> = None;
-    for point in track {
-        let x = axis.x(point.time);
-        if before.is_some_and(|before| seconds_between(before, point.time) > APART_S) {
-            curve.push((x, f64::NAN));
-        }
-        curve.push((x, part(&point.error, point)));
-        before = Some(point.time);
+    for piece in recorded_track::pieces(track) {
+        curve.extend(piece.iter().map(|point| (axis.x(point.time), part(&point.error, point))));
+        curve.push((f32::NAN, f64::NAN));
     }
     curve
 }
@@ -239,8 +231,7 @@ fn with_breaks(axis: &TimeAxis, track: &[TrackPoint], part: Part) -> Vec<(f32, f
 fn errors(ui: &Ui, rect: Rect, axis: &TimeAxis, opened: &OpenedPass) {
     let t = theme::tokens(ui);
     let half_beam_deg = opened.pass.report.half_beam_deg.max(1e-3);
-    let worst_deg = cursor::worst(&opened.track).map_or(0.0, |worst| worst.error.off_deg);
-    let top = (1.1 * worst_deg).clamp(LEAST * half_beam_deg, MOST * half_beam_deg);
+    let top = recorded_track::error_top_deg(half_beam_deg, &opened.track);
     let y = |value: f64| {
         let part = f64::midpoint(value.clamp(-top, top) / top, 1.0);
         egui::lerp(rect.bottom()..=rect.top(), part as f32)
@@ -248,9 +239,9 @@ fn errors(ui: &Ui, rect: Rect, axis: &TimeAxis, opened: &OpenedPass) {
     let beyond = rect.with_max_y(y(half_beam_deg));
     ui.painter().rect_filled(beyond, 0.0, t.badbg);
     grid(ui, rect, axis);
-    let step = nice_step(top);
+    let step = recorded_track::nice_step(top);
     let lines = (top / step).floor() as i32;
-    let decimals = usize::from(step < 1.0) + usize::from(step < 0.1);
+    let decimals = recorded_track::decimals(step);
     for line in -lines..=lines {
         let value = f64::from(line) * step;
         ui.painter().hline(rect.x_range(), y(value), (1.0, t.line));
@@ -280,12 +271,6 @@ fn errors(ui: &Ui, rect: Rect, axis: &TimeAxis, opened: &OpenedPass) {
     for piece in curve(|error, _| error.off_deg) {
         painter.line(piece, Stroke::new(2.0, t.ant));
     }
-}
-
-/// Distance of the lines of a scale that reaches from minus `top` to `top`.
-fn nice_step(top: f64) -> f64 {
-    let tenth = 10_f64.powf((top / 2.0).log10().floor());
-    [5.0, 2.0, 1.0].into_iter().map(|of| of * tenth).find(|step| top / step >= 2.0).unwrap_or(tenth)
 }
 
 /// What was predicted and measured at the cursor.

@@ -58,11 +58,7 @@ pub(super) fn show(ui: &Ui, rect: Rect, opened: &OpenedPass) {
     paint::name_text(ui, "as flown", row, &format!("As flown, root mean square {rms}°"));
     if explanations.is_empty() {
         let row = next();
-        let words = if opened.track.is_empty() {
-            "Nothing was measured"
-        } else {
-            "Not explained: no cause explains three tenths of it"
-        };
+        let words = words::not_explained(!opened.track.is_empty());
         let room = row.with_min_x(columns.cause.0).with_max_x(row.right() - PADDING);
         paint::text_in(ui, room, left, words, text::small(), t.t2);
         paint::name_text(ui, "not explained", row, words);

@@ -1,29 +1,24 @@
 //! What the antenna was led by, and how its clock stood.
 
-use egui::{Align2, Color32, Rect, Ui, pos2, vec2};
+use egui::{Align2, Rect, Ui, pos2, vec2};
 
 use super::PADDING;
 use crate::{
-    driver::TimeSync,
     model::{Model, UiCommand, View},
-    plan::pass_report::Cause,
     record::OpenedPass,
     ui::{
-        format, text, theme,
-        tokens::Tokens,
+        text, theme,
         widgets::{
             button::{Button, SMALL_HEIGHT},
             paint,
         },
-        words::record as words,
+        words::flown_with::{Fact, FactKind, clock_first, facts},
     },
 };
 
 pub(super) const HEIGHT: f32 = 316.0;
 const BAR: f32 = 32.0;
 const LINE: f32 = 19.0;
-/// From here on the clock of a unit is worth a caution, seconds.
-const CLOCK_OFF_S: f64 = 0.1;
 
 pub(super) fn show(
     ui: &Ui,
@@ -50,7 +45,14 @@ pub(super) fn show(
         }
     }
     let mut y = bar.bottom() + 8.0;
-    for (index, (name, value, colour)) in facts(model, opened, t).into_iter().enumerate() {
+    for (index, Fact { name, value, kind }) in
+        facts(&opened.pass.report, model.now).into_iter().enumerate()
+    {
+        let colour = match kind {
+            FactKind::Plain => t.t1,
+            FactKind::Caution => t.warn,
+            FactKind::NotKnown => t.t2,
+        };
         let line = Rect::from_min_size(pos2(inner.left(), y), vec2(inner.width(), LINE));
         let left = paint::text_in(ui, line, Align2::LEFT_CENTER, name, text::small(), t.t2);
         let room = line.with_min_x(left.right() + 8.0);
@@ -59,11 +61,7 @@ pub(super) fn show(
         paint::name_text(ui, ("flown with", index), line, &words).on_hover_text(&words);
         y += LINE;
     }
-    if !is_clock_late(opened) {
-        return;
-    }
-    let words = "Set the unit's clock first: a time offset would hide the wrong clock, and be \
-                 wrong itself once the clock is set.";
+    let Some(words) = clock_first(&opened.pass.report) else { return };
     let width = inner.width() - 24.0;
     let galley = ui.painter().layout(words.to_owned(), text::small(), t.warn, width);
     let note = Rect::from_min_size(
@@ -73,54 +71,4 @@ pub(super) fn show(
     ui.painter().rect_filled(note, 4.0, t.warnbg);
     ui.painter().galley(note.min + vec2(12.0, 8.0), galley, t.warn);
     paint::name_text(ui, "clock note", note, words);
-}
-
-/// The error is explained by the time, and the clock of the unit was off by then.
-fn is_clock_late(opened: &OpenedPass) -> bool {
-    let report = &opened.pass.report;
-    let is_time = |explanation: &crate::plan::pass_report::Explanation| {
-        matches!(explanation.cause, Cause::Late { .. })
-    };
-    report.explanations.first().is_some_and(is_time)
-        && report.about.unit_clock_ahead_s.is_some_and(|ahead_s| ahead_s.abs() >= CLOCK_OFF_S)
-}
-
-fn facts(model: &Model, opened: &OpenedPass, t: &Tokens) -> Vec<(&'static str, String, Color32)> {
-    let report = &opened.pass.report;
-    let about = &report.about;
-    let epoch = format::copied(report.elements.epoch());
-    let age = format::age(report.age_days * 86_400.0);
-    let mut facts = vec![
-        ("Elements of", epoch, t.t1),
-        ("Their age in the pass", age, t.t1),
-        ("Tracked by", words::tracked_by(about.tracked_by).to_owned(), t.t1),
-        ("Tracked since", format::moment(about.begun, model.now), t.t1),
-    ];
-    if let Some(sent) = about.sent {
-        facts.push(("Positions sent", sent.to_string(), t.t1));
-    }
-    if let Some(ahead_s) = about.unit_clock_ahead_s {
-        let colour = if ahead_s.abs() >= CLOCK_OFF_S { t.warn } else { t.t1 };
-        let way = if ahead_s < 0.0 { "late" } else { "early" };
-        let words = format!("{} s {way}", format::number(ahead_s.abs(), 2));
-        facts.push(("Unit clock", words, colour));
-    }
-    let (sync, colour) = match about.sync {
-        TimeSync::Synchronised => ("synchronised", t.t1),
-        TimeSync::NotSynchronised => ("not synchronised", t.warn),
-        TimeSync::NotKnown => ("not known", t.t2),
-    };
-    facts.push(("Clock of this computer", sync.to_owned(), colour));
-    let known = format!(
-        "{} of {}",
-        format::duration(report.report.known_s),
-        format::duration(report.report.counted_s)
-    );
-    facts.push(("With positions", known, t.t1));
-    if let Some(rms) = report.report.rms {
-        let two = |a: f64, b: f64| format!("{}, {}", format::degrees(a, 3), format::degrees(b, 3));
-        facts.push(("Rms in azimuth, elevation", two(rms.azimuth_deg, rms.elevation_deg), t.t1));
-        facts.push(("Rms along, across", two(rms.along_deg, rms.across_deg), t.t1));
-    }
-    facts
 }

@@ -3,15 +3,15 @@
 use egui::{Align2, Painter, Pos2, Rect, Sense, Stroke, Ui, WidgetInfo, pos2};
 use jiff::Timestamp;
 
-use super::{APART_S, PADDING, RecordState, cursor};
+use super::{PADDING, RecordState, cursor};
 use crate::{
-    astro::time::seconds_between,
     model::Model,
     plan::{Sample, pass_report::TrackPoint},
     record::OpenedPass,
     ui::{
         format,
         profile::dashes,
+        recorded_track,
         sky_plot::{
             geometry::{Dome, usable},
             grid,
@@ -24,9 +24,6 @@ use crate::{
 
 const TITLE: f32 = 32.0;
 const LEGEND: f32 = 28.0;
-/// The enlarged worst error takes at most so many degrees of the plot.
-const MOST_DEG: f64 = 12.0;
-const ENLARGED: [u16; 4] = [50, 20, 10, 5];
 const DASH: (f32, f32) = (6.0, 4.0);
 /// Length of the tick of a minute.
 const TICK: f32 = 6.0;
@@ -34,11 +31,8 @@ const TICK: f32 = 6.0;
 pub(super) fn show(ui: &Ui, rect: Rect, model: &Model, opened: &OpenedPass, state: &RecordState) {
     let t = theme::tokens(ui);
     let (title, rest) = rect.split_top_bottom_at_y(rect.top() + TITLE);
-    let factor = enlarged(&opened.track);
-    let words = match factor {
-        1 => "Path, predicted and flown".to_owned(),
-        factor => format!("Path, error drawn {factor} times larger"),
-    };
+    let factor = recorded_track::enlarged(&opened.track);
+    let words = format!("Path, {}", recorded_track::enlargement(factor));
     let room = title.shrink2(egui::vec2(PADDING, 0.0));
     paint::text_in(ui, room, Align2::LEFT_CENTER, &words, text::small_strong(), t.t1);
     let (plot, foot) = rest.split_top_bottom_at_y(rest.bottom() - LEGEND);
@@ -87,13 +81,6 @@ pub(super) fn show(ui: &Ui, rect: Rect, model: &Model, opened: &OpenedPass, stat
         .widget_info(|| WidgetInfo::labeled(egui::Role::Image, true, &spoken));
 }
 
-/// By how much the error is drawn larger.
-fn enlarged(track: &[TrackPoint]) -> u16 {
-    let worst_deg = cursor::worst(track).map_or(0.0, |worst| worst.error.off_deg);
-    let fits = |factor: &u16| worst_deg * f64::from(*factor) <= MOST_DEG;
-    ENLARGED.into_iter().find(fits).unwrap_or(1)
-}
-
 /// The place of the antenna, with its error enlarged; `None` outside of the plot.
 fn enlarged_at(dome: Dome, point: &TrackPoint, factor: u16) -> Option<Pos2> {
     let satellite = dome.visible(point.satellite)?;
@@ -103,8 +90,7 @@ fn enlarged_at(dome: Dome, point: &TrackPoint, factor: u16) -> Option<Pos2> {
 
 /// The flown path in pieces that were measured without a break.
 fn flown(dome: Dome, track: &[TrackPoint], factor: u16) -> Vec<Vec<Pos2>> {
-    let joined = |a: &TrackPoint, b: &TrackPoint| seconds_between(a.time, b.time) <= APART_S;
-    let pieces = track.chunk_by(joined).map(|piece| {
+    let pieces = recorded_track::pieces(track).map(|piece| {
         piece.iter().filter_map(|point| enlarged_at(dome, point, factor)).collect::<Vec<_>>()
     });
     pieces.filter(|piece| piece.len() > 1).collect()

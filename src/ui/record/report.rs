@@ -22,8 +22,11 @@ use crate::{
 pub(super) const HEAD: f32 = 56.0;
 /// Room above, below and beside the sentence in its box.
 const INSET: f32 = 12.0;
-const FORMATS: [(ReportFormat, &str); 2] =
-    [(ReportFormat::Csv, "Points (CSV)"), (ReportFormat::Json, "Report (JSON)")];
+const FORMATS: [(ReportFormat, &str); 3] = [
+    (ReportFormat::Svg, "Page to print (SVG)"),
+    (ReportFormat::Csv, "Points (CSV)"),
+    (ReportFormat::Json, "Report (JSON)"),
+];
 
 pub(super) fn head(
     ui: &Ui,

@@ -204,6 +204,15 @@ pub fn whole_share(share: f64) -> String {
     format!("{} %", format::number((share * 100.0).floor(), 0))
 }
 
+/// Why the table of causes is empty.
+pub fn not_explained(is_measured: bool) -> &'static str {
+    if is_measured {
+        "Not explained: no cause explains three tenths of it"
+    } else {
+        "Nothing was measured"
+    }
+}
+
 /// What the data cannot tell apart, as a sentence; `None` where the best cause stands alone.
 pub fn alike(explanations: &[Explanation]) -> Option<String> {
     let mut names: Vec<&str> = Vec::new();

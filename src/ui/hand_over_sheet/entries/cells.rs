@@ -3,7 +3,7 @@
 use super::{DAY, Density, Layout, begins_day, row::Row};
 use crate::ui::{
     format,
-    hand_over_sheet::{
+    sheet::{
         CAPTION, SMALL, sky,
         svg::{Anchor, Face, Svg, wrapped},
     },

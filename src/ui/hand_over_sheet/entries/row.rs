@@ -6,10 +6,7 @@ use crate::{
     engine::automatic,
     plan::schedule::{Class, Entry},
     station::BetweenPasses,
-    ui::{
-        format,
-        hand_over_sheet::{HandOverSheet, sky::Track},
-    },
+    ui::{format, hand_over_sheet::HandOverSheet, sheet::sky::Track},
 };
 
 /// Spare time below this is shown as short, seconds.

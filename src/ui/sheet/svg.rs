@@ -5,21 +5,21 @@ use std::fmt::Write as _;
 use quick_xml::escape::escape;
 
 /// A4, upright.
-pub(super) const WIDTH: f64 = 595.0;
-pub(super) const HEIGHT: f64 = 842.0;
+pub(in crate::ui) const WIDTH: f64 = 595.0;
+pub(in crate::ui) const HEIGHT: f64 = 842.0;
 
 /// Letters at the end of a name that may be its number.
 const NUMBER: usize = 5;
 
 /// Light enough to read black text on.
-pub(super) const SHADE: &str = "#dcdcdc";
+pub(in crate::ui) const SHADE: &str = "#dcdcdc";
 const INK: &str = "#000000";
 /// For captions and rings.
 const QUIET: &str = "#555555";
 
 /// Where a text stands beside its point.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Anchor {
+pub(in crate::ui) enum Anchor {
     Start,
     Middle,
     End,
@@ -27,27 +27,27 @@ pub(super) enum Anchor {
 
 /// How a text looks.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Face {
-    pub(super) size: f64,
-    pub(super) is_bold: bool,
-    pub(super) is_quiet: bool,
-    pub(super) anchor: Anchor,
+pub(in crate::ui) struct Face {
+    pub(in crate::ui) size: f64,
+    pub(in crate::ui) is_bold: bool,
+    pub(in crate::ui) is_quiet: bool,
+    pub(in crate::ui) anchor: Anchor,
 }
 
 impl Face {
-    pub(super) const fn of(size: f64) -> Self {
+    pub(in crate::ui) const fn of(size: f64) -> Self {
         Self { size, is_bold: false, is_quiet: false, anchor: Anchor::Start }
     }
 
-    pub(super) const fn bold(self) -> Self {
+    pub(in crate::ui) const fn bold(self) -> Self {
         Self { is_bold: true, ..self }
     }
 
-    pub(super) const fn quiet(self) -> Self {
+    pub(in crate::ui) const fn quiet(self) -> Self {
         Self { is_quiet: true, ..self }
     }
 
-    pub(super) const fn anchored(self, anchor: Anchor) -> Self {
+    pub(in crate::ui) const fn anchored(self, anchor: Anchor) -> Self {
         Self { anchor, ..self }
     }
 
@@ -75,10 +75,10 @@ fn em(letter: char) -> f64 {
 }
 
 /// A page that is being drawn.
-pub(super) struct Svg(String);
+pub(in crate::ui) struct Svg(String);
 
 impl Svg {
-    pub(super) fn new(title: &str) -> Self {
+    pub(in crate::ui) fn new(title: &str) -> Self {
         let mut page = String::new();
         let _ = write!(
             page,
@@ -92,18 +92,18 @@ impl Svg {
         Self(page)
     }
 
-    pub(super) fn finish(mut self) -> String {
+    pub(in crate::ui) fn finish(mut self) -> String {
         self.0 += "</svg>\n";
         self.0
     }
 
     /// A text on the base line `y` that is cut to `room`.
-    pub(super) fn text(&mut self, at: [f64; 2], room: f64, face: Face, text: &str) {
+    pub(in crate::ui) fn text(&mut self, at: [f64; 2], room: f64, face: Face, text: &str) {
         self.put(at, face, &cut(&shown(text), room, face, 0));
     }
 
     /// A name of a satellite that keeps its number where it is cut.
-    pub(super) fn name(&mut self, at: [f64; 2], room: f64, face: Face, name: &str) {
+    pub(in crate::ui) fn name(&mut self, at: [f64; 2], room: f64, face: Face, name: &str) {
         let name = shown(name);
         let end = if name.ends_with(|letter: char| letter.is_ascii_digit()) { NUMBER } else { 0 };
         self.put(at, face, &cut(&name, room, face, end));
@@ -129,7 +129,7 @@ impl Svg {
         );
     }
 
-    pub(super) fn line(&mut self, from: [f64; 2], to: [f64; 2], stroke: f64) {
+    pub(in crate::ui) fn line(&mut self, from: [f64; 2], to: [f64; 2], stroke: f64) {
         let ([x1, y1], [x2, y2]) = (from.map(number), to.map(number));
         let stroke = number(stroke);
         let _ = writeln!(
@@ -139,7 +139,12 @@ impl Svg {
     }
 
     /// A box of one colour without an edge.
-    pub(super) fn filled(&mut self, [x, y]: [f64; 2], [width, height]: [f64; 2], fill: &str) {
+    pub(in crate::ui) fn filled(
+        &mut self,
+        [x, y]: [f64; 2],
+        [width, height]: [f64; 2],
+        fill: &str,
+    ) {
         let [x, y, width, height] = [x, y, width, height].map(number);
         let _ = writeln!(
             self.0,
@@ -147,11 +152,11 @@ impl Svg {
         );
     }
 
-    pub(super) fn bar(&mut self, at: [f64; 2], size: [f64; 2]) {
+    pub(in crate::ui) fn bar(&mut self, at: [f64; 2], size: [f64; 2]) {
         self.filled(at, size, INK);
     }
 
-    pub(super) fn ring(&mut self, [x, y]: [f64; 2], radius: f64, stroke: f64) {
+    pub(in crate::ui) fn ring(&mut self, [x, y]: [f64; 2], radius: f64, stroke: f64) {
         let [x, y, radius, stroke] = [x, y, radius, stroke].map(number);
         let _ = writeln!(
             self.0,
@@ -159,12 +164,22 @@ impl Svg {
         );
     }
 
-    pub(super) fn dot(&mut self, [x, y]: [f64; 2], radius: f64) {
+    pub(in crate::ui) fn dot(&mut self, [x, y]: [f64; 2], radius: f64) {
         let [x, y, radius] = [x, y, radius].map(number);
         let _ = writeln!(self.0, "<circle cx=\"{x}\" cy=\"{y}\" r=\"{radius}\" fill=\"{INK}\"/>");
     }
 
-    pub(super) fn path(&mut self, points: &[[f64; 2]], stroke: f64) {
+    pub(in crate::ui) fn path(&mut self, points: &[[f64; 2]], stroke: f64) {
+        self.polyline(points, stroke, "");
+    }
+
+    /// A path of dashes and gaps of these lengths.
+    pub(in crate::ui) fn dashed(&mut self, points: &[[f64; 2]], stroke: f64, dash: [f64; 2]) {
+        let [on, off] = dash.map(number);
+        self.polyline(points, stroke, &format!(" stroke-dasharray=\"{on} {off}\""));
+    }
+
+    fn polyline(&mut self, points: &[[f64; 2]], stroke: f64, dash: &str) {
         let points: Vec<String> =
             points.iter().map(|[x, y]| format!("{},{}", number(*x), number(*y))).collect();
         if points.len() < 2 {
@@ -173,8 +188,8 @@ impl Svg {
         let (points, stroke) = (points.join(" "), number(stroke));
         let _ = writeln!(
             self.0,
-            "<polyline points=\"{points}\" fill=\"none\" stroke=\"{INK}\" stroke-width=\"{stroke}\" \
-             stroke-linejoin=\"round\" stroke-linecap=\"round\"/>"
+            "<polyline points=\"{points}\" fill=\"none\" stroke=\"{INK}\" stroke-width=\"{stroke}\"{dash} \
+             stroke-linejoin=\"round\" stroke-linecap=\"butt\"/>"
         );
     }
 }
@@ -221,7 +236,7 @@ fn cut(text: &str, room: f64, face: Face, end: usize) -> String {
 }
 
 /// A text in lines that fit; what is too much ends in the last one.
-pub(super) fn wrapped(text: &str, room: f64, face: Face, lines: usize) -> Vec<String> {
+pub(in crate::ui) fn wrapped(text: &str, room: f64, face: Face, lines: usize) -> Vec<String> {
     let text = shown(text);
     let mut wrapped = vec![String::new()];
     for word in text.split(' ') {

@@ -1,0 +1,53 @@
+//! A recorded track as it is drawn, in the window and on paper.
+
+use crate::{astro::time::seconds_between, plan::pass_report::TrackPoint};
+
+/// Points that are further apart are not joined, seconds.
+const APART_S: f64 = 3.0;
+/// The enlarged worst error takes at most so many degrees of the sky.
+const MOST_DEG: f64 = 12.0;
+const ENLARGED: [u16; 4] = [50, 20, 10, 5];
+
+/// The parts of a track that were measured without a break.
+pub(super) fn pieces(track: &[TrackPoint]) -> impl Iterator<Item = &[TrackPoint]> {
+    track.chunk_by(|a, b| seconds_between(a.time, b.time) <= APART_S)
+}
+
+pub(super) fn worst(track: &[TrackPoint]) -> Option<&TrackPoint> {
+    track.iter().max_by(|a, b| a.error.off_deg.total_cmp(&b.error.off_deg))
+}
+
+/// By how much the error is drawn larger over the sky.
+pub(super) fn enlarged(track: &[TrackPoint]) -> u16 {
+    let worst_deg = worst(track).map_or(0.0, |worst| worst.error.off_deg);
+    let fits = |factor: &u16| worst_deg * f64::from(*factor) <= MOST_DEG;
+    ENLARGED.into_iter().find(fits).unwrap_or(1)
+}
+
+/// What the path over the sky shows, after its title.
+pub(super) fn enlargement(factor: u16) -> String {
+    match factor {
+        1 => "predicted and flown".to_owned(),
+        factor => format!("error drawn {factor} times larger"),
+    }
+}
+
+/// Half of the height of the scale of errors, degrees.
+pub(super) fn error_top_deg(half_beam_deg: f64, track: &[TrackPoint]) -> f64 {
+    /// The scale reaches so far beyond half of the beam, and at most so many times as far.
+    const LEAST: f64 = 1.25;
+    const MOST: f64 = 4.0;
+    let worst_deg = worst(track).map_or(0.0, |worst| worst.error.off_deg);
+    (1.1 * worst_deg).clamp(LEAST * half_beam_deg, MOST * half_beam_deg)
+}
+
+/// Distance of the lines of a scale that reaches from minus `top` to `top`.
+pub(super) fn nice_step(top: f64) -> f64 {
+    let tenth = 10_f64.powf((top / 2.0).log10().floor());
+    [5.0, 2.0, 1.0].into_iter().map(|of| of * tenth).find(|step| top / step >= 2.0).unwrap_or(tenth)
+}
+
+/// Decimals of the numbers of a scale whose lines are `step` apart.
+pub(super) fn decimals(step: f64) -> usize {
+    usize::from(step < 1.0) + usize::from(step < 0.1)
+}

@@ -1,0 +1,153 @@
+use super::*;
+use crate::{
+    astro::{Angle, AzEl, Site, time::add_seconds},
+    device::Pointing,
+    driver::TimeSync,
+    orbit::{PassSearch, Propagator, bundled, passes},
+    plan::{
+        MountLimits, Sample, Trackability,
+        pass_report::{Evidence, MeasuredPosition, TrackPoint, TrackedPass},
+    },
+    record::{AboutTrack, RecordedPass, RecordedReport, TrackedBy},
+    station::{AntennaId, Mount},
+    ui::sheet::tests::check,
+};
+
+const ISS: u32 = 25_544;
+const HALF_BEAM_DEG: f64 = 0.5;
+const HOSTILE: &str = "<&\"'>]]>\u{0}\u{1b}[2J\u{202e}\u{ffff} \u{1f6f0}漢字漢字 ";
+
+/// A high pass of the ISS by an antenna that was `late_s` late, measured at the seconds that
+/// `is_measured` keeps.
+fn opened(late_s: f64, is_measured: impl Fn(u32) -> bool) -> OpenedPass {
+    let catalog = bundled().unwrap();
+    let elements = catalog.get(ISS).unwrap().clone();
+    let propagator = Propagator::new(&elements).unwrap();
+    let site = Site::new(41.2, -8.6, 120.0).unwrap();
+    let start = elements.epoch();
+    let search = PassSearch::new(site, start, add_seconds(start, 3.0 * 86_400.0));
+    let found = passes(&propagator, &search, &|| false);
+    let height = |pass: &&crate::orbit::Pass| pass.max_elevation().degrees();
+    let pass = found.iter().max_by(|a, b| height(a).total_cmp(&height(b))).unwrap();
+    let (from, until) = (pass.aos.time, pass.los.time);
+    let at = |time| propagator.look_from(site, time).unwrap().direction;
+    let seconds = (0..pass.duration_s() as u32).filter(|second| is_measured(*second));
+    let positions: Vec<MeasuredPosition> = seconds
+        .map(|second| {
+            let time = add_seconds(from, f64::from(second));
+            let AzEl { azimuth, elevation } = at(add_seconds(time, -late_s));
+            let pointing = Pointing { azimuth: Some(azimuth), elevation: Some(elevation) };
+            MeasuredPosition { time, pointing }
+        })
+        .collect();
+    let limits = MountLimits {
+        mount: Mount::AzEl {
+            azimuth_from_deg: 0.0,
+            azimuth_to_deg: 540.0,
+            elevation_from_deg: 0.0,
+            elevation_to_deg: 90.0,
+        },
+        maximum_rate_deg_s: 10.0,
+        half_beam: Angle::from_degrees(HALF_BEAM_DEG),
+        has_elevation: true,
+        min_elevation: Angle::from_degrees(0.0),
+    };
+    let trackability = Trackability::Whole;
+    let tracked = TrackedPass { propagator: &propagator, site, from, until, limits, trackability };
+    let points = positions.iter().map(|at| TrackPoint::new(&propagator, site, true, *at));
+    let track: Vec<TrackPoint> = points.flatten().collect();
+    let measured = track.iter().map(|point| (point.time, point.antenna));
+    let steps = (0..=pass.duration_s() as u32 / 2).map(|step| {
+        let time = add_seconds(from, 2.0 * f64::from(step));
+        Sample { time, direction: at(time) }
+    });
+    OpenedPass {
+        path: steps.collect(),
+        pass: RecordedPass {
+            id: 1,
+            antenna: AntennaId(1),
+            antenna_name: "North mast".to_owned(),
+            report: RecordedReport {
+                from,
+                until,
+                max_elevation_deg: pass.max_elevation().degrees(),
+                age_days: 0.4,
+                site: Some(site),
+                half_beam_deg: HALF_BEAM_DEG,
+                about: AboutTrack {
+                    begun: add_seconds(from, -30.0),
+                    tracked_by: TrackedBy::ProgramTrack,
+                    sent: Some(640),
+                    unit_clock_ahead_s: Some(-late_s),
+                    sync: TimeSync::Synchronised,
+                },
+                report: tracked.report(&positions),
+                explanations: Evidence::new(&propagator, site, measured, true).explanations(&[]),
+                elements,
+            },
+        },
+        track,
+        entries: Vec::new(),
+    }
+}
+
+fn page(opened: &OpenedPass) -> String {
+    svg(opened, add_seconds(opened.pass.report.until, 600.0))
+}
+
+/// Points of all solid lines that are `width` wide.
+fn solid(svg: &str, width: &str) -> usize {
+    let page = roxmltree::Document::parse(svg).unwrap();
+    let lines = page.descendants().filter(|node| {
+        node.has_tag_name("polyline")
+            && node.attribute("stroke-width") == Some(width)
+            && node.attribute("stroke-dasharray").is_none()
+    });
+    lines.map(|line| line.attribute("points").unwrap().split(' ').count()).sum()
+}
+
+#[test]
+fn the_report_of_a_late_antenna_is_one_page_that_says_so() {
+    let opened = opened(1.2, |_| true);
+    let page = page(&opened);
+    check(&page);
+    for words in
+        ["Pass report", "Verdict: poor", "Time offset", "+1.20 s", "North mast", "program track"]
+    {
+        assert!(page.contains(words), "{words}");
+    }
+    assert!(page.contains("The antenna was 1.20 s late"));
+    assert!(
+        page.contains("Set the unit's clock first")
+            || page.contains("Set the unit&apos;s clock first")
+    );
+    if let Ok(folder) = std::env::var("AZEL_SHEETS") {
+        std::fs::write(std::path::Path::new(&folder).join("report.svg"), &page).unwrap();
+    }
+}
+
+#[test]
+fn all_that_was_measured_is_drawn_and_nothing_across_a_gap() {
+    let whole = opened(0.3, |_| true);
+    let broken = opened(0.3, |second| !(200..260).contains(&second));
+    assert_eq!(solid(&page(&whole), "1.1"), whole.track.len());
+    assert_eq!(solid(&page(&broken), "1.1"), broken.track.len());
+    let pieces = |svg: &str| svg.matches("stroke-width=\"1.1\"").count();
+    assert_eq!((pieces(&page(&whole)), pieces(&page(&broken))), (1, 2));
+    check(&page(&broken));
+}
+
+#[test]
+fn a_pass_without_a_position_has_a_page() {
+    let page = page(&opened(0.0, |_| false));
+    check(&page);
+    assert!(page.contains("No position was measured in this pass."));
+    assert!(page.contains("Nothing was measured"));
+}
+
+#[test]
+fn names_from_outside_break_nothing() {
+    let mut opened = opened(1.2, |_| true);
+    opened.pass.antenna_name = HOSTILE.repeat(40);
+    check(&page(&opened));
+}

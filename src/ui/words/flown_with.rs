@@ -1,0 +1,84 @@
+//! What an antenna was led by in a recorded pass, and how its clock stood.
+
+use jiff::Timestamp;
+
+use super::record;
+use crate::{
+    astro::time::DAY_S,
+    driver::TimeSync,
+    plan::pass_report::{Cause, Explanation},
+    record::RecordedReport,
+    ui::format,
+};
+
+/// From here on the clock of a unit is worth a caution, seconds.
+const CLOCK_OFF_S: f64 = 0.1;
+
+/// A name with a value.
+pub struct Fact {
+    pub name: &'static str,
+    pub value: String,
+    pub kind: FactKind,
+}
+
+pub enum FactKind {
+    Plain,
+    Caution,
+    NotKnown,
+}
+
+/// All that is told of a track besides its error.
+pub fn facts(report: &RecordedReport, now: Timestamp) -> Vec<Fact> {
+    let fact = |name, value, kind| Fact { name, value, kind };
+    let plain = |name, value| fact(name, value, FactKind::Plain);
+    let about = &report.about;
+    let mut facts = vec![
+        plain("Elements of", format::copied(report.elements.epoch())),
+        plain("Their age in the pass", format::age(report.age_days * DAY_S)),
+        plain("Tracked by", record::tracked_by(about.tracked_by).to_owned()),
+        plain("Tracked since", format::moment(about.begun, now)),
+    ];
+    if let Some(sent) = about.sent {
+        facts.push(plain("Positions sent", sent.to_string()));
+    }
+    if let Some(ahead_s) = about.unit_clock_ahead_s {
+        let kind = if is_off(ahead_s) { FactKind::Caution } else { FactKind::Plain };
+        let way = if ahead_s < 0.0 { "late" } else { "early" };
+        let words = format!("{} s {way}", format::number(ahead_s.abs(), 2));
+        facts.push(fact("Unit clock", words, kind));
+    }
+    let (sync, kind) = match about.sync {
+        TimeSync::Synchronised => ("synchronised", FactKind::Plain),
+        TimeSync::NotSynchronised => ("not synchronised", FactKind::Caution),
+        TimeSync::NotKnown => ("not known", FactKind::NotKnown),
+    };
+    facts.push(fact("Clock of this computer", sync.to_owned(), kind));
+    let known = format!(
+        "{} of {}",
+        format::duration(report.report.known_s),
+        format::duration(report.report.counted_s)
+    );
+    facts.push(plain("With positions", known));
+    if let Some(rms) = report.report.rms {
+        let two = |a: f64, b: f64| format!("{}, {}", format::degrees(a, 3), format::degrees(b, 3));
+        facts.push(plain("Rms in azimuth, elevation", two(rms.azimuth_deg, rms.elevation_deg)));
+        facts.push(plain("Rms along, across", two(rms.along_deg, rms.across_deg)));
+    }
+    facts
+}
+
+/// What to do first where the error is explained by the time, and the clock of the unit was off
+/// by then.
+pub fn clock_first(report: &RecordedReport) -> Option<&'static str> {
+    let is_time = |explanation: &Explanation| matches!(explanation.cause, Cause::Late { .. });
+    let is_late = report.explanations.first().is_some_and(is_time)
+        && report.about.unit_clock_ahead_s.is_some_and(is_off);
+    is_late.then_some(
+        "Set the unit's clock first: a time offset would hide the wrong clock, and be wrong \
+         itself once the clock is set.",
+    )
+}
+
+fn is_off(ahead_s: f64) -> bool {
+    ahead_s.abs() >= CLOCK_OFF_S
+}
