@@ -302,7 +302,7 @@ fn next_words(
             format::time_left(seconds_between(now, aos))
         ),
         Some((satellite, _, los)) if los > now => {
-            format!("{} is up and not tracked.", satellite.short_name())
+            format!("{} is up but is not being tracked.", satellite.short_name())
         }
         _ => "Nothing is selected.".to_owned(),
     }

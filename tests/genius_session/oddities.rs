@@ -32,7 +32,7 @@ async fn the_narrow_form_is_shown_as_such() {
     let mut options = pair();
     options.quirks.insert(Quirk::Narrow);
     let rig = Rig::connected(&options, Rotators::Pair).await;
-    assert_eq!(rig.reading("Form of the status"), "64 bytes");
+    assert_eq!(rig.reading("Status format"), "64 bytes");
     assert_eq!(rig.reading("Rotator 1"), "Tower, azimuth");
 }
 
@@ -41,7 +41,7 @@ async fn a_form_that_changes_costs_one_status() {
     let mut rig = Rig::pair().await;
     rig.control.set_quirk(Quirk::Narrow, true);
     rig.seconds(4.0).await;
-    assert_eq!(rig.reading("Form of the status"), "64 bytes");
+    assert_eq!(rig.reading("Status format"), "64 bytes");
     assert_eq!(rig.shown().state.traffic.odd, 1);
     assert!(matches!(rig.shown().link, LinkState::Up { .. }));
 }

@@ -3,6 +3,7 @@
 mod contrast;
 mod cut;
 mod days;
+mod overlaps;
 pub(crate) mod painted;
 mod scale;
 mod tooltips;

@@ -26,14 +26,14 @@ fn what_is_done_by_itself_is_chosen_and_saved() {
         let mut window = form(size);
         choose(&mut window, "Stop and hold");
         open(&mut window, "Satrak");
-        for word in ["Alarm only", "Track on"] {
+        for word in ["Alarm only", "Keep tracking"] {
             choose(&mut window, word);
         }
         assert!(says(&window, "Goes on by itself if the antenna is where it was left."));
         write(&mut window, "Sway allowed", "0,25");
-        write(&mut window, "Tracks on after up to", "601");
-        assert!(says(&window, "Tracks on after up to must be a number from 0 to 600 s."));
-        write(&mut window, "Tracks on after up to", "20");
+        write(&mut window, "Keeps tracking through", "601");
+        assert!(says(&window, "Keeps tracking through must be a number from 0 to 600 s."));
+        write(&mut window, "Keeps tracking through", "20");
         press(&mut window, "Save and use");
         let station = saved(asked(&mut window));
         let [antenna] = &station.antennas[..] else { panic!("{:?}", station.antennas) };

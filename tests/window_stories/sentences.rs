@@ -124,7 +124,7 @@ fn standing_says_where_and_what_comes_next() {
     let nothing = |model: &mut Model, _: &mut Snapshot| model.selected = None;
     assert_eq!(
         told(states::holding(), unchanged),
-        "Holding at 343.1°, 5.0°. NOAA 20 is up and not tracked."
+        "Holding at 343.1°, 5.0°. NOAA 20 is up but is not being tracked."
     );
     assert_eq!(
         told(states::holding(), coming),

@@ -96,8 +96,8 @@ fn a_good_result_is_not_told_of_a_check_that_is_not_good() {
     let mut snapshot = read();
     states::report(&mut snapshot, &[2], rig::now());
     let window = opened(LARGE, snapshot);
-    assert!(!says(&window, "Age of the elements: young enough to track with"));
-    assert!(says(&window, "Element file: on the unit"));
+    assert!(!says(&window, "Age of the elements: no fault reported"));
+    assert!(says(&window, "Element file: no fault reported"));
 }
 
 fn state_of_check(window: &Window, name: &str) -> String {

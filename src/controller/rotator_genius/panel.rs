@@ -87,7 +87,7 @@ pub(super) fn readings(
         Layout::Narrow => "64 bytes",
     };
     let active = Reading::new("Active byte", format!("0x{:02X}", status.active));
-    let rest = [Reading::new("Form of the status", form), active];
+    let rest = [Reading::new("Status format", form), active];
     rescue.into_iter().chain(of_rotators).chain(panic).chain(rest).collect()
 }
 

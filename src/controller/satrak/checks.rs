@@ -53,9 +53,10 @@ const fn name(kind: FaultKind) -> &'static str {
 fn when_good(kind: FaultKind) -> &'static str {
     match kind {
         FaultKind::InternalLink => "control and drive unit talk",
-        FaultKind::TleOutdated => "young enough to track with",
-        FaultKind::TleMissing => "on the unit",
-        FaultKind::SatelliteMissing => "found by its name",
+        // The unit says so too while it holds no file.
+        FaultKind::TleOutdated | FaultKind::TleMissing | FaultKind::SatelliteMissing => {
+            "no fault reported"
+        }
         FaultKind::WebTle => "the unit can read them",
         FaultKind::TrackingStopped => "not ended by an error",
         FaultKind::Setup => "complete",

@@ -43,7 +43,7 @@ pub(super) fn show(ui: &Ui, at: &mut Cursor, readings: &[Reading], with_head: bo
     let t = theme::tokens(ui);
     if with_head {
         let head = at.take(20.0);
-        let words = "Told by the unit";
+        let words = "Reported by the unit";
         paint::text(ui, head.left_center(), Align2::LEFT_CENTER, words, text::caption(), t.t3);
     }
     for reading in readings {

@@ -39,10 +39,10 @@ const WIDTH: f32 = 1024.0;
 const NAME: f32 = 38.0;
 const WHERE: f32 = 170.0;
 const STATE: f32 = 384.0;
-const NEWEST: f32 = 700.0;
-const OBJECTS: f32 = 760.0;
-const IN_USE: f32 = 818.0;
-const NEXT: f32 = 832.0;
+const NEWEST: f32 = 676.0;
+const OBJECTS: f32 = 748.0;
+const IN_USE: f32 = 820.0;
+const NEXT: f32 = 838.0;
 const ASK: f32 = 940.0;
 const REMOVE: f32 = 996.0;
 

@@ -114,7 +114,7 @@ fn title(ui: &Ui, bar: Rect, model: &Model, satellites: &[PlannedSatellite<'_>],
     let proof = if model.schedule.made_at.is_none() {
         ""
     } else if model.schedule.schedule.is_proved() {
-        ": no better choice exists"
+        ": no better plan exists"
     } else {
         ": a better choice may exist"
     };

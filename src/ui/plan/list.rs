@@ -61,24 +61,24 @@ impl Columns {
         if width < ALL_FROM {
             return Self {
                 state: 16.0,
-                aos: 222.0,
-                los: 286.0,
-                name: 302.0,
-                max: 430.0,
+                aos: 240.0,
+                los: 354.0,
+                name: 370.0,
+                max: 498.0,
                 slew: None,
-                text: 446.0,
+                text: 514.0,
             };
         }
         // The names of satellites are shown whole where there is room.
         let more = (width - WIDE_FROM).clamp(0.0, MORE_SLEW);
         Self {
             state: 16.0,
-            aos: 244.0,
-            los: 316.0,
-            name: 332.0,
-            max: 476.0,
-            slew: Some((492.0, 692.0 + more)),
-            text: 708.0 + more,
+            aos: 288.0,
+            los: 402.0,
+            name: 418.0,
+            max: 562.0,
+            slew: Some((578.0, 778.0 + more)),
+            text: 794.0 + more,
         }
     }
 }
@@ -114,7 +114,7 @@ pub(super) fn show(
         })
         .collect();
     let list = ui.interact(body, ui.make_persistent_id("plan list"), Sense::hover());
-    let title = format!("{}, as it will be executed", antenna.config.name);
+    let title = title(antenna);
     list.widget_info(|| WidgetInfo::labeled(Role::ListBox, true, &title));
     if rows.is_empty() {
         let words = "No such pass in this time.";
@@ -147,7 +147,7 @@ fn show_bar(
 ) {
     let t = theme::tokens(ui);
     let inner = bar.shrink2(vec2(PADDING, 0.0));
-    let words = format!("{}, as it will be executed", antenna.config.name);
+    let words = title(antenna);
     let font = text::sized(13.0, Weight::SemiBold);
     let room = inner.with_max_x(inner.right() - SEGMENTS - 16.0);
     let drawn = paint::text_in(ui, room, Align2::LEFT_CENTER, &words, font, t.t1);
@@ -172,6 +172,16 @@ fn show_bar(
     let set_up = format::duration(antenna.config.set_up_s());
     let note = format!("Spare: after the slew and {set_up} of set-up.");
     paint::text_in(ui, room, Align2::LEFT_CENTER, &note, text::small(), t.t2);
+}
+
+/// Nothing is carried out while automatic operation is off.
+fn title(antenna: &AntennaModel) -> String {
+    let name = &antenna.config.name;
+    if antenna.operation.is_on() {
+        format!("{name}, as it will be executed")
+    } else {
+        format!("{name}, as planned")
+    }
 }
 
 fn heads(ui: &Ui, head: Rect, columns: Columns) {

@@ -154,13 +154,13 @@ fn follow() -> [Of; 4] {
 
 fn outage() -> [Of; 2] {
     [
-        Of::number("Tracks on after up to", ranges::RESUME_AFTER_S, "s", |antenna| {
+        Of::number("Keeps tracking through", ranges::RESUME_AFTER_S, "s", |antenna| {
             Some(&mut antenna.resume_after_s)
         })
         .when(takes_positions),
         Of::choice(
-            "After a longer one",
-            &[(0, "Stand and ask"), (1, "Track on")],
+            "After a longer outage",
+            &[(0, "Stop and ask"), (1, "Keep tracking")],
             &[Resume::Ask, Resume::Continue],
             |antenna| &mut antenna.resume,
         )
@@ -180,7 +180,7 @@ fn outage() -> [Of; 2] {
 fn watch() -> [Of; 2] {
     [
         Of::choice(
-            "When others drive it in",
+            "If others drive it in",
             &[(0, "STOP and alarm"), (1, "Alarm only")],
             &[Monitor::Stop, Monitor::Alarm],
             |antenna| &mut antenna.monitor,

@@ -58,8 +58,8 @@ fn off(antenna: &AntennaModel) -> String {
     }
     if antenna.variant().capabilities.waits_for_word {
         return format!(
-            "Not known: {name} is not connected. Nothing is asked of it before Connect, because \
-             that may take its panel from somebody who stands in front of it."
+            "Not known: {name} is not connected. Azel sends it nothing before Connect, because \
+             that may take its panel from whoever stands in front of it."
         );
     }
     format!(

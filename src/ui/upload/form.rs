@@ -178,7 +178,7 @@ pub(super) fn show(ui: &mut Ui, form: &mut Form) {
             field(ui, ("Key file", "/home/…/.ssh/id_ed25519"), &mut form.key_file);
         } else {
             let t = theme::tokens(ui);
-            let words = "The password is asked for once the host is known to be the right one.";
+            let words = "Azel asks for the password after it has checked the host.";
             ui.label(RichText::new(words).font(text::small()).color(t.t3));
         }
     });

@@ -22,6 +22,16 @@ pub(super) struct Run {
     pub(super) clip: Rect,
 }
 
+/// Opacity from which a fill hides the text below it.
+const COVERS: u8 = 150;
+
+impl Run {
+    /// The place of the letters, without what the font keeps free above and below them.
+    fn letters(&self) -> Rect {
+        self.rect.shrink2(vec2(0.0, 0.2 * self.rect.height()))
+    }
+}
+
 /// A shape with the area in which it can be.
 struct Layer<'a> {
     shape: &'a Shape,
@@ -38,6 +48,34 @@ pub(super) fn runs(window: &Window) -> Vec<Run> {
     // The window is cleared in this colour.
     let clear = window.ctx.global_style().visuals.panel_fill;
     found.into_iter().map(|(below, run)| with_ground(run, &layers[..below], clear)).collect()
+}
+
+/// Texts of the last frame that lie on each other, with nothing painted between them.
+pub(super) fn on_each_other(window: &Window) -> Vec<[String; 2]> {
+    let mut layers = Vec::new();
+    let mut found = Vec::new();
+    for ClippedShape { clip_rect, shape, .. } in &window.output().shapes {
+        collect(shape, *clip_rect, &mut layers, &mut found);
+    }
+    let mut pairs = Vec::new();
+    for (index, (below, run)) in found.iter().enumerate() {
+        for (above, other) in &found[index + 1..] {
+            let [seen, over] = [run, other].map(|run| run.letters().intersect(run.clip));
+            let common = seen.intersect(over);
+            if common.width() < 2.0 || common.height() < 2.0 {
+                continue;
+            }
+            let at = common.center();
+            let covers = |layer: &Layer<'_>| {
+                layer.area.contains(at)
+                    && fill_at(layer.shape, at).is_some_and(|fill| fill.a() >= COVERS)
+            };
+            if !layers[*below..*above].iter().any(covers) {
+                pairs.push([run.text.clone(), other.text.clone()]);
+            }
+        }
+    }
+    pairs
 }
 
 /// All texts of the last frame, each with its blanks and whole if it was cut.

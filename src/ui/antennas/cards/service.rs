@@ -14,7 +14,7 @@ use crate::ui::{
     },
 };
 
-const ABOUT: &str = "A wrong value here points the antenna wrong or moves it. Opens for 10 minutes \
+const ABOUT: &str = "A wrong value here makes the antenna point wrongly, or move. Opens for 10 minutes \
                      after the station name is typed, while the antenna stands.";
 
 pub(in crate::ui::antennas) fn show(

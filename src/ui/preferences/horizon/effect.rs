@@ -52,7 +52,7 @@ pub(super) fn lines(effect: &Effect<Question>, zone: Option<&str>) -> [String; 2
             1 => "The skyline cuts 1.".to_owned(),
             many => format!("The skyline cuts {many}."),
         };
-        format!("{skyline} Saving changes nothing of that.")
+        format!("{skyline} Saving does not change that.")
     } else {
         format!(
             "All together {} passes, {} lost, skyline cuts {}; as saved {} passes, {} lost, \

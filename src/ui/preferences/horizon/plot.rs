@@ -67,7 +67,7 @@ pub(super) fn show(
 
     let hint = match state.tool {
         Tool::Select => {
-            "Drag a point, Shift keeps one axis, Alt a click on an edge adds one, Del removes."
+            "Drag a point, Shift keeps one axis, Alt-click an edge to add one, Del removes."
         }
         Tool::Point => "Click where the sky begins; drag a point to move it, Del removes it.",
         Tool::Polygon => {
