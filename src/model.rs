@@ -9,6 +9,7 @@ pub mod effects;
 pub mod export;
 pub mod globe;
 pub mod intake;
+mod joinings;
 mod line;
 pub mod object_detail;
 pub mod plan;
@@ -36,6 +37,7 @@ use self::{
     effects::{Effects, mounts, obstacles, sites},
     globe::Globe,
     intake::Intake,
+    joinings::Joinings,
 };
 use crate::{
     astro::{HorizonMask, MaskForm},
@@ -163,6 +165,8 @@ pub struct Model {
     pub schedule: Arc<Planned>,
     /// What a pass costs that the operator has asked about.
     pub swap: Option<Arc<Swap>>,
+    /// When antennas would join passes that are under way.
+    pub joinings: Joinings,
     /// What became of the passes of this day.
     pub day: Arc<Vec<DayLine>>,
     /// What the desktop cannot do with alarms and reminders.
@@ -213,6 +217,7 @@ impl Model {
             reminders: Arc::default(),
             schedule: Arc::default(),
             swap: None,
+            joinings: Joinings::default(),
             day: Arc::default(),
             outlets: Outlets::default(),
             copies: Arc::default(),

@@ -5,7 +5,6 @@ mod az_el;
 mod azimuth_wrap;
 pub mod bounds;
 pub(crate) mod detour;
-mod joining;
 pub mod on_board;
 pub mod pass_export;
 pub mod pass_report;
@@ -16,7 +15,6 @@ pub mod schedule_export;
 mod trackability;
 
 pub use bounds::{Barrier, Bounds, BoundsAt, Clearance, Sweep};
-pub use joining::{Joining, joining};
 pub use on_board::{OnBoardPass, Supervision};
 pub use program_track::{ProgramTrack, Target, TrackPhase, TrackStats};
 pub use trackability::{Loss, MountLimits, Sample, Trackability, trackability};

@@ -8,6 +8,7 @@
 
 mod board;
 mod changes;
+mod joining;
 mod legs;
 mod of_station;
 mod outcome;
@@ -25,6 +26,7 @@ mod way;
 mod why;
 
 pub use changes::{Cause, Change, Changed, changes};
+pub use joining::Joining;
 pub use of_station::{deciding_rule, sun_is};
 pub use outcome::{ClassWorth, Conflict, Entry, LeftOut, Proof, Schedule, Why};
 pub use reach::Reach;

@@ -101,6 +101,33 @@ impl Reach {
         Angle::from_degrees(self.drives.limits.minimum_elevation_deg)
     }
 
+    /// How program track takes what is left at `now` of a pass along `samples`, which are at equal
+    /// intervals, with axes that stand there and may turn from `ready_ms` on; `None` where nothing
+    /// counts.
+    pub(super) fn rest(
+        &self,
+        samples: &[Sample],
+        stands_deg: [f64; 2],
+        (now, ready_ms): (Timestamp, i64),
+    ) -> Option<Way> {
+        let is_ahead = |sample: &&Sample| {
+            sample.time >= now && sample.direction.elevation >= self.min_elevation()
+        };
+        let first = samples.iter().position(|sample| is_ahead(&sample))?;
+        let last = samples.iter().rposition(|sample| is_ahead(&sample))?;
+        let list = samples.get(first..=last).unwrap_or_default().to_vec();
+        let [from, second, ..] = list.as_slice() else { return None };
+        let step_s = seconds_between(from.time, second.time);
+        let span = Span { from_ms: ms(from.time), to_ms: ms(list.last()?.time) };
+        let lead_s = ((span.from_ms - ready_ms) as f64 / 1000.0).max(0.0);
+        let start = Start { axes_deg: stands_deg.map(Some), lead_s };
+        let choice = Choice::Prefer(Flip::None);
+        let planned = self.drives.along_within(&self.bounds, &list, step_s, start, choice);
+        let samples = Samples { list, step_s };
+        let Judged { way, entered, .. } = self.judged(&samples, planned, &[span]);
+        way.filter(|_| entered.is_none() || !self.on_board)
+    }
+
     /// How the antenna can take what is in sight.
     pub fn judge(&self, sight: &mut Sight<'_>) -> Verdict {
         let Some(span) = sight.above(self.min_elevation()) else {

@@ -113,6 +113,17 @@ impl Way {
         Span::total_ms(&Span::both(&self.counted, &[span]))
     }
 
+    /// The first millisecond from `at` on that counts.
+    pub(super) fn next_counted_ms(&self, at: i64) -> Option<i64> {
+        let span = self.counted.iter().find(|span| at < span.to_ms)?;
+        Some(span.from_ms.max(at))
+    }
+
+    /// When the stretch begins that counts after the one at `at`.
+    pub(super) fn next_stretch_ms(&self, at: i64) -> Option<i64> {
+        self.counted.iter().map(|span| span.from_ms).find(|from_ms| at < *from_ms)
+    }
+
     /// Where the axes stand at a time, degrees as the mount counts.
     pub(super) fn axes_deg(&self, at: i64) -> [f64; 2] {
         let steps = ((at - self.first_ms) as f64 / 1000.0 / self.step_s).max(0.0);

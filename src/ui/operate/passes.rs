@@ -10,13 +10,13 @@ use crate::{
     engine::{
         CatalogState,
         antenna::AntennaModel,
-        passes::{PassKey, PredictedPass, Work, mount_limits},
+        passes::{PassKey, PredictedPass, Work},
     },
     model::{Model, UiCommand, plan::Standing},
     orbit::Pass,
     plan::{
-        Joining, Sample, Trackability, joining,
-        schedule::{Conflict, Refusal, Why},
+        Sample, Trackability,
+        schedule::{Conflict, Joining, PlannedAntenna, Reach, Refusal, Why},
     },
     ui::{
         format, menus,
@@ -188,17 +188,26 @@ fn late(
     predicted: &PredictedPass,
 ) -> Option<Verdict<'static>> {
     let until_s = seconds_between(model.now, predicted.pass.aos.time);
+    let config = &antenna.config;
     if predicted.is_always_up()
         || !antenna.is_live()
         || is_taken(antenna, predicted)
-        || until_s > antenna.config.longest_slew_s()
+        || until_s > config.longest_slew_s() + config.set_up_s()
     {
         return None;
     }
     let has_elevation = antenna.variant().capabilities.has_elevation();
     let axes_deg = antenna.snapshot.state.measured?.axes_deg(has_elevation)?;
-    let limits = mount_limits(&antenna.config);
-    match joining(predicted.track(), limits, axes_deg, model.now) {
+    let (now, station) = (model.now, &model.station);
+    let find = || {
+        let planned = PlannedAntenna {
+            stands_deg: Some(axes_deg),
+            reach: Reach::of(station, config, antenna.snapshot.rates_deg_s),
+            ..PlannedAntenna::of(station, config, now)
+        };
+        planned.joining(predicted.track())
+    };
+    match model.joinings.of(antenna.id(), predicted.key(), now, find) {
         None => Some(Verdict::TooLate),
         Some(Joining { late_s, left_s }) => {
             (late_s >= 1.0).then_some(Verdict::Late { seconds: late_s, left_s })

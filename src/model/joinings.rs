@@ -1,0 +1,66 @@
+//! When antennas would join passes. A way round keep-outs takes long to find, so what was found is
+//! kept for the second.
+
+use std::{
+    collections::HashMap,
+    sync::{Mutex, PoisonError},
+};
+
+use jiff::Timestamp;
+
+use crate::{engine::passes::PassKey, plan::schedule::Joining, station::AntennaId};
+
+/// More than a list shows at once.
+const KEPT: usize = 200;
+
+type Found = HashMap<(AntennaId, PassKey), (i64, Option<Joining>)>;
+
+#[derive(Debug, Default)]
+pub struct Joinings(Mutex<Found>);
+
+impl Joinings {
+    /// When the antenna would join the pass at `now`, by `find` or as it found before.
+    pub fn of(
+        &self,
+        antenna: AntennaId,
+        pass: PassKey,
+        now: Timestamp,
+        find: impl FnOnce() -> Option<Joining>,
+    ) -> Option<Joining> {
+        // No code panics while it holds the lock.
+        let mut found = self.0.lock().unwrap_or_else(PoisonError::into_inner);
+        let second = now.as_second();
+        if let Some((at, joining)) = found.get(&(antenna, pass))
+            && *at == second
+        {
+            return *joining;
+        }
+        let joining = find();
+        if found.len() >= KEPT {
+            found.clear();
+        }
+        found.insert((antenna, pass), (second, joining));
+        joining
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_was_found_is_kept_for_the_second_of_its_antenna_and_pass() {
+        let joinings = Joinings::default();
+        let at = |ms: i64| Timestamp::from_millisecond(ms).unwrap();
+        let of = |antenna: u32, satellite: u32, now: Timestamp, late_s: f64| {
+            let joining = Some(Joining { late_s, left_s: 1.0 });
+            let pass = (satellite, Timestamp::UNIX_EPOCH);
+            joinings.of(AntennaId(antenna), pass, now, || joining).unwrap().late_s as i64
+        };
+        assert_eq!(of(1, 7, at(1_000), 10.0), 10);
+        assert_eq!(of(1, 7, at(1_900), 11.0), 10);
+        assert_eq!(of(2, 7, at(1_900), 12.0), 12);
+        assert_eq!(of(1, 8, at(1_900), 13.0), 13);
+        assert_eq!(of(1, 7, at(2_000), 14.0), 14);
+    }
+}
