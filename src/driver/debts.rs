@@ -1,10 +1,11 @@
-//! STOPs that are owed, and auto-track that is to be off. A debt belongs to a unit, not to a row of the settings: it outlives
-//! the session, the name and the address of its antenna and, as a record on disk, this
-//! program.
+//! STOPs that are owed, and auto-track that is to be off. A debt belongs to a unit, not to a row of
+//! the settings: it outlives the session, the name and the address of its antenna and, as a record
+//! on disk, this program. Auto-track has such a record only where no antenna is left that would be
+//! looked after at the next start.
 
 use std::{
     collections::{BTreeMap, BTreeSet},
-    fs,
+    fs, io,
     path::{Path, PathBuf},
     sync::{Arc, Mutex, MutexGuard, PoisonError},
 };
@@ -15,6 +16,9 @@ use sha2::{Digest as _, Sha256};
 use tokio::sync::Notify;
 
 use crate::{clock::Instant, station::Antenna, whole_file};
+
+/// End of the names of records of auto-track.
+const AUTO_TRACK: &str = ".auto-track.toml";
 
 /// A unit, by what does not change when the operator renames its antenna.
 #[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
@@ -32,13 +36,22 @@ impl Unit {
         }
     }
 
-    /// Name of its record: readable, and unique to the unit.
+    /// Name of the record of a STOP: readable, and unique to the unit.
     fn file_name(&self) -> String {
+        format!("{}.toml", self.stem())
+    }
+
+    /// Name of the record that auto-track is to be off.
+    fn auto_track_file_name(&self) -> String {
+        format!("{}{AUTO_TRACK}", self.stem())
+    }
+
+    fn stem(&self) -> String {
         let plain = |letter: char| if letter.is_ascii_alphanumeric() { letter } else { '-' };
         let readable: String = self.address.chars().map(plain).take(40).collect();
         let hash = Sha256::digest(format!("{}\n{}", self.make, self.address));
         let [a, b, c, d, ..] = *hash.first_chunk::<4>().unwrap_or(&[0; 4]);
-        format!("{}-{readable}-{a:02x}{b:02x}{c:02x}{d:02x}.toml", self.make)
+        format!("{}-{readable}-{a:02x}{b:02x}{c:02x}{d:02x}", self.make)
     }
 }
 
@@ -65,6 +78,8 @@ pub struct Debts {
     /// Folder of the records; `None` for none.
     folder: Option<Arc<Path>>,
     ledger: Arc<Mutex<Ledger>>,
+    /// Held while records of auto-track are written or removed, and never with the ledger.
+    files: Arc<Mutex<()>>,
 }
 
 #[derive(Debug, Default)]
@@ -81,14 +96,21 @@ struct Ledger {
 }
 
 impl Debts {
-    /// With records in `folder`.
+    /// With records in `folder`, and the auto-track that an earlier run recorded there.
     pub fn marked_in(folder: Option<PathBuf>) -> Self {
-        Self { folder: folder.map(Arc::from), ledger: Arc::default() }
+        let debts = Self { folder: folder.map(Arc::from), ..Self::default() };
+        let found = debts.folder.as_deref().map_or_else(Vec::new, with_auto_track);
+        debts.ledger().auto_track.extend(found);
+        debts
     }
 
     fn ledger(&self) -> MutexGuard<'_, Ledger> {
         // No code panics while it holds the lock.
         self.ledger.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    fn files(&self) -> MutexGuard<'_, ()> {
+        self.files.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
     /// A session of `unit` begins; `stop` stops it, at once if a STOP is owed. Returns its
@@ -134,9 +156,31 @@ impl Debts {
         self.ledger().auto_track.insert(unit.clone());
     }
 
-    /// The unit does not track by itself any more, or is to do so again.
-    pub(super) fn settle_auto_track(&self, unit: &Unit) {
-        self.ledger().auto_track.remove(unit);
+    /// Like [`Self::owe_auto_track_off`], also for the next start: no antenna is left that has this
+    /// unit. Blocks until it is on the disk.
+    pub fn mark_auto_track_off(&self, unit: &Unit, since: Timestamp) -> io::Result<()> {
+        self.owe_auto_track_off(unit);
+        let Some(folder) = &self.folder else { return Ok(()) };
+        let mark = Mark { unit: unit.clone(), since };
+        let text = toml::to_string(&mark).map_err(io::Error::other)?;
+        let _files = self.files();
+        whole_file::replace(&folder.join(unit.auto_track_file_name()), text.as_bytes())
+    }
+
+    /// The unit does not track by itself any more, is to do so again, or is another's. Returns
+    /// `true` if it was to be off; then [`Self::unmark_auto_track`] removes the record.
+    pub fn settle_auto_track(&self, unit: &Unit) -> bool {
+        self.ledger().auto_track.remove(unit)
+    }
+
+    /// Removes the record of a debt that is settled and has not arisen anew. Blocks.
+    pub(super) fn unmark_auto_track(&self, unit: &Unit) {
+        let Some(folder) = &self.folder else { return };
+        let _files = self.files();
+        if !self.owes_auto_track_off(unit) {
+            // A missing file needs no removal; one that stays switches auto-track off once more.
+            fs::remove_file(folder.join(unit.auto_track_file_name())).ok();
+        }
     }
 
     pub(super) fn owes_auto_track_off(&self, unit: &Unit) -> bool {
@@ -181,10 +225,10 @@ impl Debts {
     }
 
     /// Records on disk that `unit` is moved by hand. Blocks until it is on the disk.
-    pub(super) fn mark(&self, unit: &Unit, since: Timestamp) -> std::io::Result<()> {
+    pub(super) fn mark(&self, unit: &Unit, since: Timestamp) -> io::Result<()> {
         let Some(folder) = &self.folder else { return Ok(()) };
         let text =
-            toml::to_string(&Mark { unit: unit.clone(), since }).map_err(std::io::Error::other)?;
+            toml::to_string(&Mark { unit: unit.clone(), since }).map_err(io::Error::other)?;
         whole_file::replace(&folder.join(unit.file_name()), text.as_bytes())
     }
 
@@ -203,10 +247,27 @@ impl Debts {
                 let mark = toml::from_str::<Mark>(&text);
                 Some(mark.map_or(Timestamp::UNIX_EPOCH, |mark| mark.since))
             }
-            Err(error) if error.kind() == std::io::ErrorKind::NotFound => None,
+            Err(error) if error.kind() == io::ErrorKind::NotFound => None,
             Err(_) => Some(Timestamp::UNIX_EPOCH),
         }
     }
+}
+
+/// The units with records of auto-track in `folder`. One that cannot be read names no unit: it
+/// stays, and the log says so.
+fn with_auto_track(folder: &Path) -> Vec<Unit> {
+    let Ok(files) = fs::read_dir(folder) else { return Vec::new() };
+    let paths = files.filter_map(|file| Some(file.ok()?.path()));
+    let is_one = |path: &PathBuf| path.to_string_lossy().ends_with(AUTO_TRACK);
+    let unit = |path: PathBuf| {
+        let text = fs::read_to_string(&path).map_err(io::Error::other);
+        let mark = text.and_then(|text| toml::from_str::<Mark>(&text).map_err(io::Error::other));
+        let told = mark.inspect_err(|error| {
+            tracing::error!(%error, path = %path.display(), "a unit may still track by itself");
+        });
+        told.ok().map(|mark| mark.unit)
+    };
+    paths.filter(is_one).filter_map(unit).collect()
 }
 
 #[cfg(test)]
@@ -265,6 +326,36 @@ mod tests {
         assert_eq!(debts.with_auto_track(), std::slice::from_ref(&unit));
         debts.settle_auto_track(&unit);
         assert!(!debts.owes_auto_track_off(&unit));
+    }
+
+    #[test]
+    fn auto_track_that_is_to_be_off_outlives_the_program_until_it_is_settled() {
+        let folder = tempfile::tempdir().unwrap();
+        let debts = || Debts::marked_in(Some(folder.path().join("marks")));
+        let (one, other) = (unit("10.0.0.5:4001"), unit("10.0.0.6:4001"));
+        let first = debts();
+        first.mark(&other, Timestamp::UNIX_EPOCH).unwrap();
+        first.mark_auto_track_off(&one, Timestamp::UNIX_EPOCH).unwrap();
+        first.owe_auto_track_off(&other);
+        assert_eq!(first.with_auto_track(), [one.clone(), other.clone()]);
+        assert_eq!(debts().marked(&one), None, "it is no STOP");
+        let second = debts();
+        assert_eq!(second.with_auto_track(), std::slice::from_ref(&one));
+        second.unmark_auto_track(&one);
+        assert_eq!(debts().with_auto_track(), std::slice::from_ref(&one), "it is not settled");
+        assert!(second.settle_auto_track(&one) && !second.settle_auto_track(&one));
+        second.unmark_auto_track(&one);
+        assert_eq!(debts().with_auto_track(), []);
+        assert!(debts().marked(&other).is_some());
+    }
+
+    #[test]
+    fn a_record_of_auto_track_that_cannot_be_read_stays() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join(unit("a:1").auto_track_file_name());
+        fs::write(&path, "since = ").unwrap();
+        assert_eq!(Debts::marked_in(Some(folder.path().to_owned())).with_auto_track(), []);
+        assert!(path.exists());
     }
 
     #[test]

@@ -36,7 +36,10 @@ use std::{
 };
 
 use jiff::Timestamp;
-use tokio::sync::{Mutex as AsyncMutex, Notify, mpsc, watch};
+use tokio::{
+    sync::{Mutex as AsyncMutex, Notify, mpsc, watch},
+    task::JoinHandle,
+};
 
 pub use command::Command;
 pub(super) use io_loop::{CONNECT, MIN_WAIT, WRITE, in_words};
@@ -238,6 +241,8 @@ struct Owed {
     /// Since when a record is kept that the unit was moved and has not been proved to stand.
     kept_unproved: Option<Instant>,
     marking: Marking,
+    /// The record of auto-track is being removed.
+    unmarking: Option<JoinHandle<()>>,
     /// An earlier run may have left the unit moving, since then; the operator is being asked.
     left_moving: Option<Timestamp>,
 }
@@ -355,6 +360,7 @@ impl Session {
                 number,
                 kept_unproved: gate.unproved_since(),
                 marking: Marking::None,
+                unmarking: None,
                 left_moving: None,
             },
             seen: LastSeen::default(),

@@ -3,11 +3,39 @@
 
 use jiff::Timestamp;
 
-use super::alarms::{AlarmKind, Alarms};
+use super::{
+    Engine,
+    alarms::{AlarmKind, Alarms},
+};
 use crate::{
     driver::{Debts, Unit},
+    makes,
+    plan::Bounds,
     station::Antenna,
 };
+
+impl Engine {
+    /// Switches auto-track off at the units that an earlier run owes that and no antenna has: each
+    /// has a session that ends once it is paid.
+    pub(super) fn pay_left_auto_track(&mut self) {
+        let debts = self.driver.debts();
+        let has_it = |unit: &Unit| self.station.antennas.iter().any(|of| Unit::of(of) == *unit);
+        for unit in debts.with_auto_track().into_iter().filter(|unit| !has_it(unit)) {
+            let spec = makes::SPECS.iter().find(|spec| spec.key == unit.make);
+            // A unit of a make that this version does not know stays an alarm.
+            let Some(spec) = spec else { continue };
+            let antenna = spec.antenna(&unit.address, &unit.address);
+            match self.claim_unit(&antenna) {
+                Ok(claim) => {
+                    let (bounds, until_the_end) = (Bounds::of_antenna(&antenna), Box::new(claim));
+                    drop(self.driver.open(&antenna, bounds, None, until_the_end));
+                }
+                // Whoever drives it looks after it.
+                Err(_) => drop(debts.settle_auto_track(&unit)),
+            }
+        }
+    }
+}
 
 /// The alarms about units to which something is owed and that none of `antennas` has.
 pub(super) fn strangers<'a>(

@@ -40,6 +40,7 @@ impl Engine {
                     self.alarms.raise(None, AlarmKind::Setting(note), self.now);
                 }
                 self.use_station(loaded.station);
+                self.pay_left_auto_track();
             }
             Err(LoadError::Missing) => {
                 self.station_claim = StationClaim::None;
@@ -91,7 +92,10 @@ impl Engine {
                 |new: &station::Antenna| new.id == antenna.shown.id() && Unit::of(new) == unit;
             let is_left = !station.antennas.iter().any(is_of) && antenna.shown.held_by.is_none();
             if is_left && antenna.may_have_auto_track() {
-                debts.owe_auto_track_off(&unit);
+                let marked = debts.mark_auto_track_off(&unit, self.now);
+                if let Err(error) = marked {
+                    tracing::error!(%error, "the next start would not know of this auto-track");
+                }
             }
             let AntennaModel { operation, config, .. } = antenna.shown;
             changed.push(Changed { unit, id: config.id, operation, at_work: antenna.at_work });

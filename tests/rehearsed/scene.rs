@@ -77,7 +77,8 @@ impl Units {
             let (units, name) = (units.clone(), name.clone());
             tokio::spawn(async move {
                 match &*name {
-                    "Dish" => units.dish.serve(far).await,
+                    // A unit without an antenna is called by its address.
+                    "Dish" | "dish:1" => units.dish.serve(far).await,
                     "Mast" => units.mast.serve(far).await,
                     _ => units.horn.serve(far).await,
                 }
@@ -119,6 +120,7 @@ pub(super) struct Scene {
     pub(super) woken: mpsc::Receiver<Wake>,
     clock: Clock,
     folder: tempfile::TempDir,
+    has_marks: bool,
 }
 
 impl Scene {
@@ -127,19 +129,29 @@ impl Scene {
     }
 
     pub(super) fn with(start: Timestamp, speed: NonZeroU32, station: &Station) -> Self {
+        Self::made(start, speed, station, false)
+    }
+
+    /// One that keeps records of what is owed to units.
+    pub(super) fn marking(start: Timestamp, speed: NonZeroU32, station: &Station) -> Self {
+        Self::made(start, speed, station, true)
+    }
+
+    fn made(start: Timestamp, speed: NonZeroU32, station: &Station, has_marks: bool) -> Self {
         LazyLock::force(&FAVOURITES);
         let clock = Clock::at_speed(start, speed);
         let units = Units::new(&clock, start);
         let folder = tempfile::tempdir().unwrap();
         station::save(station, &folder.path().join("station.toml")).unwrap();
-        Self::begin(units, clock, folder)
+        Self::begin(units, clock, folder, has_marks)
     }
 
-    fn begin(units: Units, clock: Clock, folder: tempfile::TempDir) -> Self {
+    fn begin(units: Units, clock: Clock, folder: tempfile::TempDir, has_marks: bool) -> Self {
         let settings = Settings {
             path: Some(folder.path().join("station.toml")),
             library: Some(folder.path().join("elements")),
             records: Some(folder.path().join("records")),
+            marks: has_marks.then(|| folder.path().join("marks")),
             ..Settings::default()
         };
         let dialled = units.clone();
@@ -151,19 +163,19 @@ impl Scene {
             let _ = by_station.try_send(Wake::Station);
         });
         let station = Handle::start(settings, outside, wake).unwrap();
-        Self { units, station, end, woken, clock, folder }
+        Self { units, station, end, woken, clock, folder, has_marks }
     }
 
     /// The station ends as it should, or as in a crash, and is started again; the units go on.
     pub(super) fn started_again(self, is_crash: bool) -> Self {
-        let Self { units, station, clock, folder, .. } = self;
+        let Self { units, station, clock, folder, has_marks, .. } = self;
         let left = folder.path().join("station.automatic.toml");
         let while_running = fs::read(&left).unwrap();
         drop(station);
         if is_crash {
             fs::write(&left, while_running).unwrap();
         }
-        Self::begin(units, clock, folder)
+        Self::begin(units, clock, folder, has_marks)
     }
 
     pub(super) fn folder(&self) -> &Path {

@@ -397,6 +397,36 @@ fn auto_track_of_a_unit_that_the_station_no_longer_has_is_switched_off_once_it_a
 }
 
 #[test]
+fn auto_track_that_is_to_be_off_is_switched_off_after_the_next_start() {
+    let alone = station("Dish", |dish| dish.automatic.uses_auto_track = true);
+    let scene = Scene::marking(before_a_pass(), SPEED, &alone);
+    let client = scene.client();
+    let id = measured(&client, "Dish");
+    until("the schedule", || client.snapshot().schedule.made_at);
+    proved(&client, id);
+    until_auto_track(&client, id, true);
+    scene.units.dish.set_fault(satrak::Fault::Silence, true);
+    until_lost(&client, id);
+    let mut station = Station::clone(&client.snapshot().station);
+    station.antennas.clear();
+    let _ = client.send(Command::SaveStation(Box::new(station)));
+    let is_owed = |of: &AlarmKind| matches!(of, AlarmKind::AutoTrackOwed(_));
+    until("the alarm", || stands(&client, is_owed).then_some(()));
+    drop(client);
+    let scene = scene.started_again(false);
+    let client = scene.client();
+    until("the alarm of the next run", || stands(&client, is_owed).then_some(()));
+    assert!(scene.units.dish.state().is_auto);
+    scene.units.dish.set_fault(satrak::Fault::Silence, false);
+    until("its end", || (!stands(&client, is_owed)).then_some(()));
+    assert!(!scene.units.dish.state().is_auto);
+    drop(client);
+    let scene = scene.started_again(false);
+    let marks = scene.folder().join("marks");
+    assert_eq!(std::fs::read_dir(marks).unwrap().count(), 0, "paid");
+}
+
+#[test]
 fn parking_for_the_end_is_not_taken_over_by_the_pass() {
     let (scene, client, id) = scene_of("Dish", |_| {});
     proved(&client, id);

@@ -102,10 +102,13 @@ impl Session {
         }));
     }
 
-    /// Waits a moment until the record is removed, which the end of the program would cut off.
+    /// Waits a moment until records are removed, which the end of the program would cut off.
     pub(super) async fn end_marking(&mut self) {
         if let Marking::Removing(removing) = &mut self.owed.marking {
             // A record that stays costs no more than a STOP at the next start.
+            let _ = self.clock.timeout(MAX, removing).await;
+        }
+        if let Some(removing) = &mut self.owed.unmarking {
             let _ = self.clock.timeout(MAX, removing).await;
         }
     }
