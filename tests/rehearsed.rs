@@ -2,6 +2,7 @@
 //! side by side in one process.
 
 mod automatic;
+mod prices;
 mod recorded;
 mod scene;
 mod unattended;

@@ -18,9 +18,9 @@ use crate::{
     job::Job,
     plan::schedule::{
         self, Candidate, Change, Common, Entry, Off, Partial, PlannedAntenna, Reach, Request,
-        Schedule, Steadiness, changes, plan, plan_with,
+        Schedule, Steadiness, changes, plan,
     },
-    station::{AntennaId, Station},
+    station::{AntennaId, Station, Take},
 };
 
 /// What a change of the schedule has to gain: a moved minute does not turn it over.
@@ -130,7 +130,7 @@ impl Engine {
         let (previous, fixed) = (Arc::clone(&self.schedule), self.fixed());
         let kept = fixed.clone();
         let job = Job::start("azel-schedule", Arc::clone(&self.wake), move |_| {
-            make(&wanted, &antennas, &previous.schedule, &kept, now, plan)
+            make(&wanted, &antennas, &previous.schedule, &kept, now)
         });
         match job {
             Ok(job) => self.scheduler.running = Some(job),
@@ -175,18 +175,26 @@ impl Engine {
         })
     }
 
-    /// Begins to work out what a pass would cost.
+    /// Begins to work out what it would cost to take a pass always: the schedule is made as it would
+    /// be made after that choice.
     pub(super) fn price_swap(&mut self, pass: PassKey) {
         // Not those of the last schedule: an antenna may have begun to track since.
-        let Some(inputs) = self.schedule_inputs() else { return };
+        let Some(mut inputs) = self.schedule_inputs() else { return };
+        let mut listed = inputs.passes.iter();
+        let Some(tca) = listed.find(|of| of.key() == pass).map(|of| of.pass.tca.time) else {
+            return;
+        };
+        let mut station = Station::clone(&inputs.station);
+        station.choose_pass(pass.0, tca, Some(Take::Always), self.now);
+        inputs.station = Arc::new(station);
         let antennas = self.planned_antennas(&inputs);
         let (planned, fixed, now) = (Arc::clone(&self.schedule), self.fixed(), self.now);
         let key = schedule::PassKey { satellite: pass.0, aos: pass.1 };
         let job = Job::start("azel-swap", Arc::clone(&self.wake), move |_| {
-            let with = |request: &Request<'_>| plan_with(request, key);
-            let made = make(&inputs, &antennas, &planned.schedule, &fixed, now, with);
-            let changed = made.map(|made| changes(&planned.schedule, &made, now));
-            Swap { pass, revision: planned.revision, changes: changed }
+            let made = make(&inputs, &antennas, &planned.schedule, &fixed, now);
+            let is_taken = made.entries_of(key).next().is_some();
+            let changes = is_taken.then(|| changes(&planned.schedule, &made, now));
+            Swap { pass, revision: planned.revision, changes }
         });
         match job {
             Ok(job) => self.scheduler.swap_running = Some(job),
@@ -274,14 +282,13 @@ fn gives_away(schedule: &Schedule, begun: &[Entry], fixed: &[Entry]) -> bool {
     fixed.iter().any(|entry| !is_in(begun, entry) && !is_in(&schedule.entries, entry))
 }
 
-fn make<T>(
+fn make(
     inputs: &Inputs,
     antennas: &[PlannedAntenna],
     previous: &Schedule,
     fixed: &[Entry],
     now: Timestamp,
-    plan: impl FnOnce(&Request<'_>) -> T,
-) -> T {
+) -> Schedule {
     let station = &inputs.station;
     let scheduling = station.scheduling;
     let end = add_seconds(now, scheduling.span_h * 3600.0);

@@ -44,17 +44,8 @@ use way::at_ms;
 
 /// The best schedule.
 pub fn plan(request: &Request<'_>) -> Schedule {
-    let board = Board::new(request, None);
+    let board = Board::new(request);
     board.schedule(&board.solve())
-}
-
-/// The best schedule that takes `pass`; `None` where that is not possible beside the fixed
-/// entries. What it costs is told by [`changes`].
-pub fn plan_with(request: &Request<'_>, pass: PassKey) -> Option<Schedule> {
-    let board = Board::new(request, Some(pass));
-    let schedule = board.schedule(&board.solve());
-    let is_taken = schedule.entries_of(pass).next().is_some();
-    is_taken.then_some(schedule)
 }
 
 impl Board<'_> {

@@ -17,16 +17,24 @@ def solve(day):
     model.setOptionValue("mip_rel_gap", 0.0)
     model.setOptionValue("mip_abs_gap", 0.0004)
     x = [model.addBinary() for _ in takes]
-    passes, limits = {}, {}
+    passes, seconds, limits = {}, {}, {}
     for variable, take in zip(x, takes):
-        passes.setdefault(take["pass"], []).append(variable)
+        of = seconds if take["part"] == "second" else passes
+        of.setdefault(take["pass"], []).append((variable, take["part"]))
         if take["limit"] is not None:
             limits.setdefault(take["limit"], []).append(variable)
         if not take["possible"]:
             model.addConstr(variable <= 0)
-    for same in passes.values():
+    for number, same in passes.items():
         if len(same) > 1:
-            model.addConstr(sum(same) <= 1)
+            model.addConstr(sum(v for v, _ in same) <= 1)
+        # One part of a pass counts only with the other.
+        firsts = [v for v, part in same if part == "first"]
+        others = [v for v, _ in seconds.pop(number, [])]
+        if firsts or others:
+            model.addConstr(sum(firsts) - sum(others) == 0)
+    for alone in seconds.values():
+        model.addConstr(sum(v for v, _ in alone) <= 0)
     for limit, same in limits.items():
         model.addConstr(sum(same) <= day["limits"][limit])
     for a, b in day["conflicts"]:

@@ -16,8 +16,6 @@ use crate::station::{AntennaId, ChooseBy, Take as Chosen};
 
 /// States that the search for the proved best may look at.
 const EFFORT: u64 = 12_000_000;
-/// A fixed entry counts for more than a pass that is to be taken at any price.
-const FIXED: i64 = 1_000;
 
 /// Everything about a take that the solver need not know.
 #[derive(Debug, Clone, Copy)]
@@ -56,8 +54,7 @@ struct Whole<'a> {
 }
 
 impl<'a> Board<'a> {
-    /// With `forced`, a pass that is to be taken at any price but that of a fixed entry.
-    pub(super) fn new(request: &'a Request<'a>, forced: Option<PassKey>) -> Self {
+    pub(super) fn new(request: &'a Request<'a>) -> Self {
         let fixed_as = |entry: &Entry| {
             let is_it = |it: &Candidate| {
                 it.key.satellite == entry.pass.satellite
@@ -103,9 +100,9 @@ impl<'a> Board<'a> {
             };
             for (span, part) in board.parts(whole, &crowd) {
                 if beside.is_empty() {
-                    board.add(whole, (span, part), limit, &kept, forced);
+                    board.add(whole, (span, part), limit, &kept);
                 } else if part != Part::Alone && is_free(span) {
-                    board.add(whole, (span, Part::Alone), limit, &kept, forced);
+                    board.add(whole, (span, Part::Alone), limit, &kept);
                 }
             }
         }
@@ -146,7 +143,7 @@ impl<'a> Board<'a> {
             to_ms: ms(entry.to),
             share: 1000,
             is_whole: true,
-            row: Row::of(Class::Fixed, FIXED) + Row::of(entry.class, entry.worth),
+            row: Row::of(Class::Fixed, 1) + Row::of(entry.class, entry.worth),
         });
         self.facts.push(Fact {
             pass: entry.pass,
@@ -199,7 +196,6 @@ impl<'a> Board<'a> {
         (span, part): (Span, Part),
         limit: Option<u32>,
         kept: &Kept,
-        forced: Option<PassKey>,
     ) {
         let Some(antenna) = self.request.antennas.get(whole.antenna) else { return };
         let (candidate, way, all) = (whole.candidate, whole.way, whole.way.span());
@@ -216,9 +212,6 @@ impl<'a> Board<'a> {
             };
             let bonus = worth * i64::from(steadiness.percent) / 100 + seconds;
             row = row + Row::of(class, bonus) + Row::of(Class::Kept, 1);
-        }
-        if forced == Some(candidate.key) && part != Part::Second {
-            row += Row::of(Class::Fixed, 1);
         }
         self.takes.push(Take {
             pass: whole.pass as u32,

@@ -1,4 +1,5 @@
-//! Fifty random days against a MILP of the same data, solved by `HiGHS`: its results stand in
+//! Fifty random days, and after them ten times some hours in which passes are taken in part and
+//! handed over, against a MILP of the same data, solved by `HiGHS`: its results stand in
 //! `tests/data/schedule_milp.csv`. `cargo test` looks at every tenth day; all of them, and how they
 //! are solved again:
 //!
@@ -10,35 +11,52 @@
 //! ```
 
 use super::*;
-use crate::plan::schedule::{board::Board, solve::Slews as _};
+use crate::plan::schedule::{
+    board::Board,
+    solve::{Part, Slews as _},
+};
 
 const DAYS: u64 = 50;
+const DAYS_IN_PARTS: u64 = 10;
 const RESULTS: &str = include_str!("../../../../tests/data/schedule_milp.csv");
 
-/// A day with so many satellites that each antenna has to choose, every fifth time with a limit of
-/// passes for some of them.
+/// A day, or some hours in parts, with so many satellites that each antenna has to choose, every
+/// fifth time with a limit of passes for some of them.
 fn day(day: u64, check: impl FnOnce(&Request<'_>)) {
     let station = three_antennas();
     let mut random = Random::new(SEED + 100 + day);
     let from = add_seconds(noon(), day as f64 * 86_400.0);
-    let mut satellites = low_satellites(&mut random, 45);
+    let in_parts = day >= DAYS;
+    let (count, hours) = if in_parts { (14, 4.0) } else { (45, 24.0) };
+    let mut satellites = low_satellites(&mut random, count);
     for satellite in satellites.iter_mut().step_by(9).filter(|_| day.is_multiple_of(5)) {
-        satellite.limits.max_per_day = Some(3);
+        satellite.limits.max_per_day = Some(if in_parts { 1 } else { 3 });
     }
     let antennas = planned(&station, from);
-    let list = candidates(&station, &antennas, &satellites, from, 24.0);
-    check(&request(&antennas, &list));
+    let list = candidates(&station, &antennas, &satellites, from, hours);
+    let partial = Partial { min_share: 0.4, min_s: 90.0, step_s: 120.0, hand_over: true };
+    check(&Request { partial: in_parts.then_some(partial), ..request(&antennas, &list) });
 }
 
 fn written(day: u64, request: &Request<'_>) -> serde_json::Value {
-    let board = Board::new(request, None);
+    let board = Board::new(request);
     let all = 0..board.takes.len();
     let fits = |a: usize, b: usize| {
         let needs_ms = board.legs.between(a, b).needs_ms;
         board.takes[a].to_ms + needs_ms <= board.takes[b].from_ms
     };
+    // The second part of a pass goes on, on another antenna, when the first has ended.
+    let go_on = |a: usize, b: usize| {
+        let (first, second) = (&board.takes[a], &board.takes[b]);
+        first.antenna != second.antenna && first.to_ms <= second.from_ms
+    };
     let excludes = |a: usize, b: usize| {
-        board.takes[a].antenna == board.takes[b].antenna && !fits(a, b) && !fits(b, a)
+        let (one, other) = (&board.takes[a], &board.takes[b]);
+        match (one.part, other.part) {
+            (Part::First, Part::Second) if one.pass == other.pass => !go_on(a, b),
+            (Part::Second, Part::First) if one.pass == other.pass => !go_on(b, a),
+            _ => one.antenna == other.antenna && !fits(a, b) && !fits(b, a),
+        }
     };
     let pairs = all.clone().flat_map(|a| (a + 1..board.takes.len()).map(move |b| (a, b)));
     let conflicts: Vec<(usize, usize)> = pairs.filter(|(a, b)| excludes(*a, *b)).collect();
@@ -47,6 +65,11 @@ fn written(day: u64, request: &Request<'_>) -> serde_json::Value {
             let (take, fact) = (&board.takes[index], &board.facts[index]);
             serde_json::json!({
                 "pass": take.pass,
+                "part": match take.part {
+                    Part::Alone => "alone",
+                    Part::First => "first",
+                    Part::Second => "second",
+                },
                 "limit": take.limit,
                 "class": fact.class.index(),
                 "worth": fact.worth,
@@ -63,7 +86,7 @@ fn written(day: u64, request: &Request<'_>) -> serde_json::Value {
 fn days_are_as_good_as_a_general_solver_makes_them() {
     if let Some(path) = std::env::var_os("AZEL_SCHEDULE_DAYS") {
         let mut days = Vec::new();
-        for number in 0..DAYS {
+        for number in 0..DAYS + DAYS_IN_PARTS {
             day(number, |request| days.push(written(number, request)));
         }
         std::fs::write(path, serde_json::to_vec(&days).unwrap()).unwrap();
@@ -76,7 +99,7 @@ fn days_are_as_good_as_a_general_solver_makes_them() {
         .filter(|line| !line.starts_with('#'))
         .map(|line| line.split(',').map(|cell| cell.parse().unwrap()).collect())
         .collect();
-    assert_eq!(rows.len() as u64, DAYS);
+    assert_eq!(rows.len() as u64, DAYS + DAYS_IN_PARTS);
     let (mut optimal, mut days, mut count) = (0, 0, 0);
     for numbers in rows.iter().step_by(every) {
         let (number, best) = (numbers[0], &numbers[1..]);
