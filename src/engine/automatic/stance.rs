@@ -1,7 +1,7 @@
-//! Whether somebody else has turned an antenna that stands. Its angles show it at once, however
-//! short the motion was.
+//! Whether somebody else has turned an antenna that stands, or that settles after a motion. Its
+//! angles show it at once, however short the motion was: one that settles swings less and less.
 
-use std::time::Duration;
+use std::{collections::VecDeque, time::Duration};
 
 use super::seen::is_asked;
 use crate::{
@@ -15,6 +15,12 @@ use crate::{
 const NOISE_DEG: f64 = 0.02;
 /// An antenna that has turned by no more than noise for so long has settled.
 const SETTLES: Duration = Duration::from_secs(10);
+/// An antenna swings no further than this when its drives have come to rest, degrees.
+const SWINGS_DEG: f64 = 3.0;
+/// Time in which its swings become a third, seconds.
+const CALMS_S: f64 = 2.0;
+/// Positions that are kept of an antenna that settles.
+const KEPT: usize = 100;
 /// Where it stands is taken anew after this time: it may creep, and nobody turns it so slowly.
 const CREEPS: Duration = Duration::from_mins(1);
 
@@ -39,8 +45,9 @@ struct Asked {
 enum At {
     #[default]
     Unknown,
-    /// It has turned by no more than noise since this position.
-    Settles(Measured),
+    /// Its drives rest since then. `is_off`: it has turned further than it swings, by the last
+    /// position.
+    Settles { since: Instant, looks: VecDeque<Measured>, is_off: bool },
     /// It stands there. `is_off`: the last position was another one.
     Stands { there: Measured, is_off: bool },
 }
@@ -64,33 +71,74 @@ impl Stance {
         let Some(look) = look.filter(|look| self.looked != Some(look.asked)) else { return false };
         self.looked = Some(look.asked);
         let noise_deg = noise_deg(can.standstill.resolution_deg, antenna.config.sway_deg);
-        self.at.look(look, |from| turned_deg(from, &look, can.axis_count()) > noise_deg)
+        self.at.look(look, noise_deg, |from| turned_deg(from, &look, can.axis_count()))
     }
 }
 
 impl At {
-    fn look(&mut self, look: Measured, has_turned: impl Fn(&Measured) -> bool) -> bool {
+    fn look(
+        &mut self,
+        look: Measured,
+        noise_deg: f64,
+        turned_deg: impl Fn(&Measured) -> f64,
+    ) -> bool {
         let is_past =
             |from: &Measured, time| look.asked.saturating_duration_since(from.asked) >= time;
-        let (next, is_turned) = match self {
-            Self::Unknown => (Self::Settles(look), false),
-            Self::Settles(from) if has_turned(from) => (Self::Settles(look), false),
-            Self::Settles(from) if is_past(from, SETTLES) => {
-                (Self::Stands { there: look, is_off: false }, false)
+        let has_turned = |from: &Measured| turned_deg(from) > noise_deg;
+        match self {
+            // What its drives still do may be the end of a motion.
+            Self::Unknown if look.moving() => false,
+            Self::Unknown => {
+                *self = Self::settling(look);
+                false
             }
-            Self::Settles(from) => (Self::Settles(*from), false),
-            Self::Stands { there, .. } if !has_turned(there) => {
-                let there = if is_past(there, CREEPS) { look } else { *there };
-                (Self::Stands { there, is_off: false }, false)
+            Self::Settles { since, looks, is_off } => {
+                let swing_deg = |at: Instant| {
+                    let rested_s = at.saturating_duration_since(*since).as_secs_f64();
+                    SWINGS_DEG * (-rested_s / CALMS_S).exp()
+                };
+                let too_far = |from: &Measured| {
+                    turned_deg(from) > noise_deg + swing_deg(from.asked) + swing_deg(look.asked)
+                };
+                if looks.iter().any(too_far) {
+                    // One position alone may be misread.
+                    if std::mem::replace(is_off, true) {
+                        *self = Self::settling(look);
+                        return true;
+                    }
+                    return false;
+                }
+                *is_off = false;
+                let still = looks.iter().rev().take_while(|from| !has_turned(from)).last();
+                if still.is_some_and(|from| is_past(from, SETTLES)) {
+                    *self = Self::Stands { there: look, is_off: false };
+                    return false;
+                }
+                if looks.len() >= KEPT {
+                    looks.pop_front();
+                }
+                looks.push_back(look);
+                false
             }
-            // One position alone may be misread.
-            Self::Stands { there, is_off: false } => {
-                (Self::Stands { there: *there, is_off: true }, false)
+            Self::Stands { there, is_off } if !has_turned(there) => {
+                if is_past(there, CREEPS) {
+                    *there = look;
+                }
+                *is_off = false;
+                false
             }
-            Self::Stands { .. } => (Self::Settles(look), true),
-        };
-        *self = next;
-        is_turned
+            Self::Stands { is_off, .. } => {
+                if std::mem::replace(is_off, true) {
+                    *self = Self::settling(look);
+                    return true;
+                }
+                false
+            }
+        }
+    }
+
+    fn settling(look: Measured) -> Self {
+        Self::Settles { since: look.asked, looks: VecDeque::from([look]), is_off: false }
     }
 }
 
@@ -158,7 +206,7 @@ mod tests {
                 axes: [axis(read_deg * self.resolution_deg), axis(0.0)],
             };
             let noise_deg = noise_deg(self.resolution_deg, 0.0);
-            self.at.look(look, |from| turned_deg(from, &look, 2) > noise_deg)
+            self.at.look(look, noise_deg, |from| turned_deg(from, &look, 2))
         }
     }
 
@@ -174,10 +222,9 @@ mod tests {
         #[test]
         fn an_antenna_that_settles_and_stands_with_noise_was_turned_by_nobody(
             resolution_deg in resolutions(),
-            swings_deg in 0.0..3.0_f64,
+            swings_deg in 0.0..SWINGS_DEG,
             period_s in 0.3..6.0_f64,
-            // Time in which its swings become a third.
-            calms_s in 0.1..2.0_f64,
+            calms_s in 0.1..CALMS_S,
             creeps_deg_s in -0.00005..0.00005_f64,
             stands_deg in 0.0..360.0_f64,
             errors in errors(600),
@@ -212,6 +259,32 @@ mod tests {
                 }
             }
             prop_assert_eq!(seen_at, Some(41));
+        }
+    }
+
+    proptest! {
+        #[test]
+        fn one_that_is_turned_while_it_settles_further_than_it_swings_is_seen_within_two_looks(
+            resolution_deg in resolutions(),
+            at in 2..18_usize,
+            steps in 2.0..50.0_f64,
+            is_back in any::<bool>(),
+            stands_deg in 0.0..360.0_f64,
+            errors in errors(30),
+        ) {
+            let mut fixture = Fixture::new(resolution_deg);
+            let swing_deg = |look: usize| SWINGS_DEG * (-(look as f64) * 0.5 / CALMS_S).exp();
+            let swings_deg = swing_deg(at - 1) + swing_deg(at);
+            let turned_deg = (steps + 0.5) * resolution_deg + NOISE_DEG * 4.0 + swings_deg;
+            let turned_deg = if is_back { -turned_deg } else { turned_deg };
+            let mut seen_at = None;
+            for (look, error_deg) in errors.into_iter().enumerate() {
+                let angle_deg = stands_deg + if look < at { 0.0 } else { turned_deg };
+                if fixture.look(angle_deg, error_deg) && seen_at.is_none() {
+                    seen_at = Some(look);
+                }
+            }
+            prop_assert_eq!(seen_at, Some(at + 1));
         }
     }
 
