@@ -364,6 +364,8 @@ impl Engine {
             (self.outbox.wake)();
         }
         self.take_urgent();
+        self.set_time();
+        self.report_last_passes();
         self.end_automatic();
     }
 

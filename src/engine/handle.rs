@@ -24,8 +24,9 @@ use crate::{
 const REQUESTS: usize = 256;
 /// Maximum number of waiting events.
 const EVENTS: usize = 256;
-/// Maximum time for a station to end: its sessions send their last STOP, which is recorded.
-const FAREWELL: Duration = Duration::from_secs(9);
+/// Maximum time for a station to end: its passes are reported on, its sessions send their last
+/// STOP, which is recorded.
+const FAREWELL: Duration = Duration::from_secs(10);
 
 /// A station that publishes nothing for this long counts as stuck.
 const STANDS: Duration = Duration::from_secs(2);

@@ -41,6 +41,8 @@ pub struct TrackedPass<'a> {
     pub limits: MountLimits,
     /// What could be had of it.
     pub trackability: Trackability,
+    /// When the program ended, if that was before the pass was over.
+    pub ended: Option<Timestamp>,
 }
 
 /// A measured position.
@@ -137,6 +139,8 @@ impl LostStretch {
 pub enum LossCause {
     /// No positions came in.
     NotMeasured,
+    /// The program ended: nothing is known of what came after.
+    ProgramEnded,
     /// The mount cannot point there.
     OutOfReach,
     /// An axis would have had to turn faster than it can: near a keyhole or overhead.
@@ -214,7 +218,10 @@ impl TrackedPass<'_> {
             losses.iter().all(|loss| is_planned(&loss)) && planned_s <= self.allowed_s();
         let not_known_s = counted_s - known_s;
         let share = if counted_s > 0.0 { in_beam_s / counted_s } else { 0.0 };
-        let stays_in_beam = losses.iter().all(|loss| loss.cause == LossCause::NotMeasured);
+        let is_unknown = |loss: &LostStretch| {
+            matches!(loss.cause, LossCause::NotMeasured | LossCause::ProgramEnded)
+        };
+        let stays_in_beam = losses.iter().all(is_unknown);
         let verdict = if not_known_s > NOT_KNOWN_S || compared.is_empty() {
             PassVerdict::Poor
         } else if share >= GOOD && stays_in_beam || could_not_be_had {
@@ -253,7 +260,8 @@ impl TrackedPass<'_> {
         let (mut known_s, mut in_beam_s) = (0.0, 0.0);
         // Before the first and after the last position the pass is as it was seen there.
         if let (Some(first), Some(last)) = (compared.first(), compared.last()) {
-            for (end, edge) in [(self.from, first), (self.until, last)] {
+            let until = self.ended.unwrap_or(self.until);
+            for (end, edge) in [(self.from, first), (until, last)] {
                 let apart_s = seconds_between(end, edge.time).abs();
                 if apart_s <= APART_S {
                     known_s += apart_s;
@@ -302,13 +310,19 @@ impl TrackedPass<'_> {
             }
             seen_to = position.time;
         }
-        let is_measured = seconds_between(seen_to, self.until) <= APART_S;
-        let until = if is_measured { self.until } else { seen_to };
-        losses.extend(out_since.map(|since| end(since, until, has_arrived, true)));
+        let last = self.ended.unwrap_or(self.until);
+        let is_measured = seconds_between(seen_to, last) <= APART_S;
+        let until = if is_measured { last } else { seen_to };
+        losses.extend(out_since.map(|since| end(since, until, has_arrived, self.ended.is_none())));
         if !is_measured {
-            let (from, until) = (seen_to, self.until);
+            let (from, until) = (seen_to, last);
             losses.push(LostStretch { from, until, cause: LossCause::NotMeasured });
         }
+        losses.extend(self.ended.map(|from| LostStretch {
+            from,
+            until: self.until,
+            cause: LossCause::ProgramEnded,
+        }));
         losses
     }
 

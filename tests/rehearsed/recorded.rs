@@ -8,7 +8,7 @@ use azel::{
         recorded::{Found, RecordLook},
     },
     orbit::{Pass, PassSearch, Propagator, bundled, passes},
-    plan::pass_report::{PassReport, PassVerdict},
+    plan::pass_report::{LossCause, PassReport, PassVerdict},
     record::{Kind, PassQuery, Row, RowKind},
     station::Station,
 };
@@ -104,6 +104,27 @@ fn a_pass_that_was_tracked_is_reported_when_it_is_over() {
     let is_poor = u32::from(report.verdict == PassVerdict::Poor);
     let found = look(&client, &RecordLook { query: poor, opened: None });
     assert_eq!(found.page.matching, is_poor);
+}
+
+#[test]
+fn a_pass_under_way_is_reported_when_the_program_ends() {
+    let station = Station { favourites: [ISS].into(), ..scene::station() };
+    let pass = next_pass(&station);
+    let speed = NonZeroU32::new(40).unwrap();
+    let scene = Scene::with(pass.aos.time - 4.minutes(), speed, &station);
+    let client = scene.client();
+    track(&client, "Mast");
+    until("the middle of the pass", || (client.now().utc > pass.tca.time).then_some(()));
+    let file = scene.folder().join("station.toml");
+    let records = record_path(&scene.folder().join("records"), &file);
+    drop(client);
+    drop(scene.station);
+    let reports = record::rows(&records, RowKind::Pass);
+    let [row] = &reports[..] else { panic!("{reports:?}") };
+    let report: PassReport = serde_json::from_value(row.data["report"].clone()).unwrap();
+    let last = report.losses.last().unwrap();
+    assert_eq!((last.cause, report.verdict), (LossCause::ProgramEnded, PassVerdict::Poor));
+    assert!(report.in_beam_s > 60.0 && report.known_s < 0.8 * report.counted_s, "{report:?}");
 }
 
 /// What the station publishes of its record once it has read this.

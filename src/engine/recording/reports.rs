@@ -1,5 +1,7 @@
 //! Reports of the passes that antennas track, however they are tracked: each is written when the
-//! pass is over.
+//! pass is over, or when the program ends.
+
+use std::time::{Duration, Instant};
 
 use jiff::Timestamp;
 
@@ -30,6 +32,8 @@ const REACH_S: f64 = 6.0 * 3600.0;
 const AFTER_S: f64 = 3.0;
 /// A pass that is not there is looked for again after this time, seconds.
 const SOUGHT_AGAIN_S: f64 = 60.0;
+/// Time for the reports that are not ready when the program ends.
+const LAST_WITHIN: Duration = Duration::from_secs(1);
 /// Time between two samples for the trackability, seconds.
 const STEP_S: f64 = 2.0;
 /// Least time between two points that are kept of the track, seconds.
@@ -45,6 +49,8 @@ pub(super) struct Followed {
     from: Timestamp,
     until: Timestamp,
     max_elevation_deg: f64,
+    /// When the program ended, if that was before the pass was over.
+    ended: Option<Timestamp>,
     limits: MountLimits,
     about: AboutTrack,
     positions: PositionLog,
@@ -81,14 +87,42 @@ impl Engine {
         for index in 0..self.antennas.len() {
             self.take_up_pass(index);
         }
-        let (now, sync) = (self.now, self.time_sync);
-        let Recording { followed, reports, .. } = &mut self.recording;
-        for pass in followed.iter_mut() {
-            let antenna = self.antennas.iter().find(|of| of.shown.id() == pass.antenna);
-            pass.look(antenna, sync);
+        let now = self.now;
+        self.look_at_passes();
+        self.begin_reports(|pass| seconds_between(pass.until, now) > AFTER_S);
+    }
+
+    /// The program ends: what is known of the passes under way is written as well.
+    pub(in crate::engine) fn report_last_passes(&mut self) {
+        let now = self.now;
+        self.look_at_passes();
+        for pass in &mut self.recording.followed {
+            pass.ended = Some(now).filter(|now| *now < pass.until);
         }
-        let is_over = |pass: &mut Followed| seconds_between(pass.until, now) > AFTER_S;
-        for pass in followed.extract_if(.., is_over) {
+        self.begin_reports(|_| true);
+        let end = Instant::now() + LAST_WITHIN;
+        for job in self.recording.reports.drain(..).flatten() {
+            match (
+                job.wait(end.saturating_duration_since(Instant::now())),
+                &self.recording.recorder,
+            ) {
+                (Some(note), Some((_, recorder))) => recorder.note_pass(note),
+                (None, _) => tracing::error!("a pass without a report: the program ended"),
+                (Some(_), None) => {}
+            }
+        }
+    }
+
+    fn look_at_passes(&mut self) {
+        for pass in &mut self.recording.followed {
+            let antenna = self.antennas.iter().find(|of| of.shown.id() == pass.antenna);
+            pass.look(antenna, self.time_sync);
+        }
+    }
+
+    fn begin_reports(&mut self, is_ready: impl Fn(&Followed) -> bool) {
+        let Recording { followed, reports, .. } = &mut self.recording;
+        for pass in followed.extract_if(.., |pass| is_ready(pass)) {
             let history = self.places.library().map(History::beside);
             reports.extend(pass.report(history, &self.wake).map(Some));
         }
@@ -145,6 +179,7 @@ impl Engine {
             from,
             until,
             max_elevation_deg,
+            ended: None,
             limits,
             about: about(shown, now, self.time_sync),
             positions: antenna.handle.positions().clone(),
@@ -212,6 +247,7 @@ impl Followed {
             until: self.until,
             limits: self.limits,
             trackability: self.trackability(),
+            ended: self.ended,
         }
         .report(&self.flown);
         let has_elevation = self.limits.has_elevation;

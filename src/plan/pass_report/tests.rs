@@ -56,6 +56,7 @@ impl Scene {
                 min_elevation: Angle::from_degrees(5.0),
             },
             trackability: Trackability::Whole,
+            ended: None,
         }
     }
 
@@ -186,6 +187,29 @@ fn seconds_are_lost_once_also_where_positions_come_back_outside_of_the_beam() {
     assert_eq!(causes(&report), [LossCause::NotMeasured, LossCause::NotExplained]);
     let lost_s: f64 = report.losses.iter().map(LostStretch::seconds).sum();
     assert!(is_close(lost_s, 10.0, 3.0 * STEP_S), "{:?}", report.losses);
+}
+
+#[test]
+fn what_came_after_the_end_of_the_program_is_not_known_and_nobody_s_fault() {
+    let scene = Scene::new();
+    let ended = Some(add_seconds(scene.pass.aos.time, 100.0));
+    let report = |is_off: fn(f64) -> bool| {
+        let seen = scene.flown(|second, at| {
+            let mut direction = scene.direction(at);
+            if is_off(second) {
+                direction.elevation = direction.elevation + Angle::from_degrees(20.0);
+            }
+            (second <= 100.0).then_some(direction)
+        });
+        TrackedPass { ended, ..scene.flown_pass() }.report(&seen)
+    };
+    let on = report(|_| false);
+    assert_eq!((on.verdict, causes(&on)), (PassVerdict::Poor, vec![LossCause::ProgramEnded]));
+    assert!(is_close(on.in_beam_s, 100.0, STEP_S) && is_close(on.known_s, 100.0, STEP_S));
+    let after_s = scene.duration_s() - 100.0;
+    assert!(is_close(on.losses[0].seconds(), after_s, 1e-3), "{:?}", on.losses);
+    let left = report(|second| second > 90.0);
+    assert_eq!(causes(&left), [LossCause::NotExplained, LossCause::ProgramEnded]);
 }
 
 #[test]

@@ -72,6 +72,7 @@ pub fn cause_in_short(pass: &RecordedPass) -> Option<String> {
 pub fn loss(cause: LossCause) -> &'static str {
     match cause {
         LossCause::NotMeasured => "No positions",
+        LossCause::ProgramEnded => "Azel ended",
         LossCause::OutOfReach => "Out of reach of the mount",
         LossCause::RateOfMount => "Rate of the mount",
         LossCause::Slew => "Azimuth unwrap",
@@ -190,6 +191,7 @@ fn losses_sentence(losses: &[LostStretch]) -> String {
 fn loss_in_sentence(cause: LossCause) -> &'static str {
     match cause {
         LossCause::NotMeasured => "without positions",
+        LossCause::ProgramEnded => "after Azel had ended",
         LossCause::OutOfReach => "out of reach of the mount",
         LossCause::RateOfMount => "where the mount is too slow",
         LossCause::Slew => "at the azimuth unwrap",
