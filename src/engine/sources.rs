@@ -30,8 +30,8 @@ pub struct Sources {
     /// used.
     pub reports: Vec<SourceReport>,
     pub work: SourceWork,
-    /// Problem with the list or the library as a whole.
-    pub problem: Option<String>,
+    /// Problems with the list or the library as a whole, in the order in which they came up.
+    pub problems: Vec<String>,
     /// The list cannot be read: it is left as it is and accepts no change.
     pub is_locked: bool,
 }
@@ -138,7 +138,7 @@ pub(super) fn start(
         if let Some(folder) = places.library()
             && let Err(problem) = use_older_sets(folder, task.set, &mut outcome.catalog)
         {
-            outcome.sources.problem = Some(problem);
+            outcome.sources.problems.push(problem);
         }
         keep_superseded(&places, &mut outcome.catalog, in_use.as_deref());
         outcome
@@ -210,21 +210,24 @@ fn carry_out(
         None => Ok(task.list.clone()),
     };
     let list = copied.unwrap_or_else(|problem| {
-        sources.problem = Some(problem);
+        sources.problems.push(problem);
         None
     });
     if let Some(list) = &list {
         let saved = places.list.as_deref().map(|path| save_sources(list, path));
-        sources.problem = match saved {
-            Some(Ok(())) => None,
-            Some(Err(error)) => Some(error.to_string()),
-            None => Some("this user has no folder for settings".to_owned()),
-        };
+        match saved {
+            Some(Ok(())) => {}
+            Some(Err(error)) => sources.problems.push(error.to_string()),
+            None => sources.problems.push("this user has no folder for settings".to_owned()),
+        }
     }
     // Only the list on disk counts, whatever was requested.
     match places.list.as_deref().map_or(Ok(Vec::new()), load_sources) {
         Ok(list) => sources.list = list,
-        Err(error) => (sources.problem, sources.is_locked) = (Some(error.to_string()), true),
+        Err(error) => {
+            sources.problems.push(error.to_string());
+            sources.is_locked = true;
+        }
     }
     let (mut catalog, bundled_problem) = match bundled() {
         Ok(catalog) => (catalog, None),
@@ -233,7 +236,7 @@ fn carry_out(
     if !sources.list.is_empty() {
         match read(places, &sources.list, task, now, &mut catalog, cancelled) {
             Ok(reports) => sources.reports = reports,
-            Err(problem) => sources.problem = Some(problem),
+            Err(problem) => sources.problems.push(problem),
         }
     }
     Outcome { catalog, bundled_problem, sources }
@@ -311,7 +314,7 @@ mod tests {
         let fixture = Fixture::new();
         let outcome = fixture.run(&Task::default());
         assert!(iss_epoch(&outcome.catalog) < own_epoch());
-        assert!(outcome.bundled_problem.is_none() && outcome.sources.problem.is_none());
+        assert!(outcome.bundled_problem.is_none() && outcome.sources.problems.is_empty());
         assert_eq!(fs::read_dir(fixture.folder.path()).unwrap().count(), 0);
     }
 
@@ -374,19 +377,19 @@ mod tests {
         {
             let copy = Some((name.to_owned(), from.clone()));
             let outcome = fixture.run(&Task { copy, ..Task::default() });
-            assert_eq!(outcome.sources.problem, None);
+            assert_eq!(outcome.sources.problems, [""; 0]);
             fs::write(path, "").unwrap();
             let outcome = fixture.run(&Task::default());
             assert_eq!(iss_epoch(&outcome.catalog), own_epoch());
             let copy = Some((name.to_owned(), from));
             let again = fixture.run(&Task { copy, ..Task::default() });
-            assert!(again.sources.problem.is_some(), "the name is taken");
+            assert!(!again.sources.problems.is_empty(), "the name is taken");
         }
         let outcome = fixture.run(&Task::default());
         assert_eq!(outcome.sources.list.len(), 2);
         let copy = Some(("gone".to_owned(), Copied::File("/no/such/file".into())));
         let outcome = fixture.run(&Task { copy, ..Task::default() });
-        assert!(outcome.sources.problem.is_some() && outcome.sources.list.len() == 2);
+        assert!(!outcome.sources.problems.is_empty() && outcome.sources.list.len() == 2);
     }
 
     #[test]
@@ -430,7 +433,7 @@ mod tests {
         fs::create_dir_all(fixture.folder.path().join("config")).unwrap();
         fs::write(fixture.folder.path().join("config/sources.toml"), "source = 7").unwrap();
         let outcome = fixture.run(&Task::default());
-        assert!(outcome.sources.is_locked && outcome.sources.problem.is_some());
+        assert!(outcome.sources.is_locked && !outcome.sources.problems.is_empty());
         assert_eq!(outcome.catalog.len(), 16_089);
     }
 
@@ -441,7 +444,25 @@ mod tests {
         // A file is where the folder should be.
         fs::write(fixture.folder.path().join("config"), "").unwrap();
         let outcome = fixture.run(&Task { list: Some(vec![own]), ..Task::default() });
-        assert!(outcome.sources.problem.is_some() && outcome.sources.list.is_empty());
+        assert!(!outcome.sources.problems.is_empty() && outcome.sources.list.is_empty());
+    }
+
+    #[test]
+    fn one_problem_does_not_hide_another() {
+        let fixture = Fixture::new();
+        let own = fixture.newer_file();
+        // A file is where the folder should be.
+        fs::write(fixture.folder.path().join("config"), "").unwrap();
+        let problems = |set: Option<SetChoice>| {
+            let task = Task { list: Some(vec![own.clone()]), set, ..Task::default() };
+            let job = start(&fixture.places, task, None, own_epoch(), Arc::new(|| {})).unwrap();
+            job.wait(std::time::Duration::from_mins(1)).unwrap().sources.problems
+        };
+        let of_list = problems(None);
+        assert!(!of_list.is_empty());
+        let not_held = SetChoice::Older { catalog_number: ISS, epoch: own_epoch() };
+        let both = problems(Some(not_held));
+        assert_eq!(both.strip_prefix(&*of_list).map(<[String]>::len), Some(1), "{both:?}");
     }
 
     #[test]
@@ -451,6 +472,6 @@ mod tests {
         let task = Task { list: Some(Vec::new()), ..Task::default() };
         let outcome = carry_out(&places, &task, now, &|| false);
         assert_eq!(outcome.catalog.len(), 16_089);
-        assert!(outcome.sources.problem.is_some());
+        assert!(!outcome.sources.problems.is_empty());
     }
 }

@@ -103,7 +103,7 @@ impl Engine {
         for report in outcome.sources.reports.iter().filter(|report| report.is_set_aside) {
             alarms.raise(None, AlarmKind::SourceSetAside(report.source.clone()), now);
         }
-        for text in outcome.bundled_problem.iter().chain(&outcome.sources.problem) {
+        for text in outcome.bundled_problem.iter().chain(&outcome.sources.problems) {
             tracing::error!("{text}");
             alarms.raise(None, AlarmKind::Elements(text.clone()), now);
         }

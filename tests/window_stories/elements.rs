@@ -277,7 +277,7 @@ fn nothing_is_taken_while_servers_are_asked_or_the_list_is_unreadable() {
         (
             |sources| {
                 sources.is_locked = true;
-                sources.problem = Some("the list cannot be read".to_owned());
+                sources.problems.push("the list cannot be read".to_owned());
             },
             "The list cannot be read.",
         ),

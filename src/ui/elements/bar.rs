@@ -64,10 +64,9 @@ fn title(ui: &Ui, rect: Rect, model: &Model, has_sentence: bool) {
     let line = |y: f32| {
         Rect::from_x_y_ranges(rect.x_range(), rect.top() + y - 12.0..=rect.top() + y + 12.0)
     };
-    let (words, colour) = match &model.sources.problem {
-        Some(problem) => (sentence(problem), t.bad),
-        None => (summary(model), t.t2),
-    };
+    let problems: Vec<String> = model.sources.problems.iter().map(|it| sentence(it)).collect();
+    let (words, colour) =
+        if problems.is_empty() { (summary(model), t.t2) } else { (problems.join(" "), t.bad) };
     if has_sentence {
         paint::text_in(ui, line(19.0), Align2::LEFT_CENTER, "Elements", text::title(), t.t1);
         paint::text_in(ui, line(40.0), Align2::LEFT_CENTER, &words, text::small(), colour);

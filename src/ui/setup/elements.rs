@@ -40,7 +40,7 @@ pub(super) fn show(
         if !work.is_empty() {
             ui.label(RichText::new(work).font(text::body()).color(t.t2));
         }
-        if let Some(problem) = &model.sources.problem {
+        for problem in &model.sources.problems {
             ui.label(RichText::new(sentence(problem)).font(text::body()).color(t.bad));
         }
     });
