@@ -1,5 +1,5 @@
-//! What a mount can follow and how it follows it, and lists of passes for other programs and people
-//! to read. Pure functions over passes.
+//! What a mount can follow and how it follows it, how its axes read otherwise than it points, and
+//! lists of passes for other programs and people to read. Pure functions over passes.
 
 mod az_el;
 mod azimuth_wrap;
@@ -8,6 +8,7 @@ pub(crate) mod detour;
 pub mod on_board;
 pub mod pass_export;
 pub mod pass_report;
+pub mod pointing;
 pub mod program_track;
 mod rate_limited;
 pub mod schedule;

@@ -1,0 +1,216 @@
+//! The fit of a pointing model to points, by least squares on the sphere.
+
+use jiff::Timestamp;
+use serde::{Deserialize, Serialize};
+
+use super::{
+    PointingModel, Term,
+    least_squares::{Normal, Square},
+};
+use crate::astro::{AzEl, Site, sun_moon};
+
+/// Rounds of a fit: what a round leaves is the square of what was there.
+const ROUNDS: usize = 5;
+/// Fewer points tell nothing of the noise beside eight terms.
+const FEWEST: usize = 8;
+/// Points nearer to the zenith tell nothing of the azimuth, degrees.
+const HIGHEST_DEG: f64 = 88.0;
+/// No point is more exact, degrees: more would be lost in the arithmetic.
+const LEAST_NOISE_DEG: f64 = 1e-7;
+/// Quantile of the normal distribution that holds 95 % on both sides.
+const NORMAL_95: f64 = 1.959_963_985;
+
+/// What a point was measured at. Each kind has a noise of its own.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Kind {
+    /// A satellite at one moment of a pass.
+    Satellite,
+    /// The peak of the Sun's noise.
+    Sun,
+    /// The peak of the Moon's noise.
+    Moon,
+}
+
+/// A direction that the beam was on, and what the axes read there.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct Point {
+    pub kind: Kind,
+    pub wanted: AzEl,
+    pub measured: AzEl,
+    /// Among the points of its kind.
+    pub weight: f64,
+}
+
+impl Point {
+    /// The peak of the Sun at this time.
+    pub fn of_sun(site: Site, at: Timestamp, measured: AzEl, weight: f64) -> Self {
+        Self { kind: Kind::Sun, wanted: sun_moon::sun(site, at), measured, weight }
+    }
+
+    /// The peak of the Moon at this time.
+    pub fn of_moon(site: Site, at: Timestamp, measured: AzEl, weight: f64) -> Self {
+        Self { kind: Kind::Moon, wanted: sun_moon::moon(site, at), measured, weight }
+    }
+
+    /// Measured minus modelled, of the azimuth on the sky and of the elevation, degrees.
+    fn rest_deg(&self, model: &PointingModel) -> Option<[f64; 2]> {
+        let reading = model.reading(self.wanted)?;
+        let azimuth = (self.measured.azimuth - reading.azimuth).wrapped_180().degrees();
+        let elevation_deg = (self.measured.elevation - reading.elevation).degrees();
+        Some([azimuth * self.wanted.elevation.radians().cos(), elevation_deg])
+    }
+
+    fn is_usable(&self) -> bool {
+        let weighs = self.weight.is_finite() && self.weight > 0.0;
+        let angles = [self.wanted, self.measured].map(|at| [at.azimuth, at.elevation]);
+        let is_known = angles.as_flattened().iter().all(|angle| angle.is_finite());
+        weighs && is_known && self.wanted.elevation_deg().abs() <= HIGHEST_DEG
+    }
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
+pub enum CannotFit {
+    #[error("{0} usable points are too few")]
+    TooFew(usize),
+}
+
+/// A term with the interval that holds it in 95 of 100 cases, in its unit.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Interval {
+    pub value: f64,
+    /// Half of the width.
+    pub half: f64,
+}
+
+/// A term that the points cannot tell from others together, which are named. It counts as zero.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Alike {
+    pub term: Term,
+    pub with: Vec<Term>,
+}
+
+/// The noise of the points of a kind.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Found {
+    pub kind: Kind,
+    pub points: usize,
+    /// Standard deviation of one axis at the weight 1, degrees.
+    pub noise_deg: f64,
+}
+
+/// The model that fits best, and how well it is known.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Fit {
+    pub model: PointingModel,
+    /// Terms that were fitted.
+    pub kept: Vec<Term>,
+    pub alike: Vec<Alike>,
+    pub noise: Vec<Found>,
+    covariance: Square<{ Term::COUNT }>,
+    /// Equations beyond the unknowns.
+    freedom: usize,
+}
+
+impl Fit {
+    /// `None` for a term that was not fitted.
+    pub fn interval(&self, term: Term) -> Option<Interval> {
+        let is_kept = self.kept.contains(&term);
+        let variance = is_kept.then(|| self.covariance(term, term))?;
+        let half = student_95(self.freedom as f64) * variance.sqrt();
+        Some(Interval { value: self.model.term(term), half })
+    }
+
+    pub fn covariance(&self, a: Term, b: Term) -> f64 {
+        let row = self.covariance.get(a as usize);
+        row.and_then(|row| row.get(b as usize)).copied().unwrap_or_default()
+    }
+
+    /// From -1 to 1; `None` where one of the terms was not fitted.
+    pub fn correlation(&self, a: Term, b: Term) -> Option<f64> {
+        let is_kept = self.kept.contains(&a) && self.kept.contains(&b);
+        let deviations = (self.covariance(a, a) * self.covariance(b, b)).sqrt();
+        is_kept.then(|| self.covariance(a, b) / deviations)
+    }
+}
+
+/// Fits all terms that `points` can tell apart.
+pub fn fit(points: &[Point]) -> Result<Fit, CannotFit> {
+    let usable: Vec<Point> = points.iter().copied().filter(Point::is_usable).collect();
+    if usable.len() < FEWEST {
+        return Err(CannotFit::TooFew(usable.len()));
+    }
+    let mut model = PointingModel::default();
+    let mut noise: Vec<Found> = Vec::new();
+    let mut solved = Solved::default();
+    for _ in 0..ROUNDS {
+        let variance = |kind: Kind| {
+            let found = noise.iter().find(|found| found.kind == kind);
+            found.map_or(1.0, |found| found.noise_deg.max(LEAST_NOISE_DEG).powi(2))
+        };
+        let mut normal = Normal::new();
+        for point in &usable {
+            let Some(rest_deg) = point.rest_deg(&model) else { continue };
+            let effects = Term::ALL.map(|term| term.effect(point.wanted));
+            let weight = point.weight / variance(point.kind);
+            for (axis, rest_deg) in rest_deg.into_iter().enumerate() {
+                let row = effects.map(|of| of.get(axis).copied().unwrap_or_default());
+                normal.add(&row, rest_deg, weight);
+            }
+        }
+        let (kept, alike) = normal.told_apart();
+        let (steps, covariance) = normal.solve(&kept);
+        for (index, (term, step)) in Term::ALL.into_iter().zip(steps).enumerate() {
+            let place = model.place(term);
+            *place = if kept.contains(&index) { *place + step } else { 0.0 };
+        }
+        noise = noise_of(&usable, &model, kept.len());
+        solved = Solved { kept, alike, covariance };
+    }
+    // The last round weighs by the noise that it finds, so that the variance of its sums is one.
+    let named = |places: &[usize]| -> Vec<Term> {
+        places.iter().filter_map(|place| Term::ALL.get(*place).copied()).collect()
+    };
+    let alike = solved.alike.iter().filter_map(|(place, with)| {
+        Some(Alike { term: *Term::ALL.get(*place)?, with: named(with) })
+    });
+    Ok(Fit {
+        model,
+        kept: named(&solved.kept),
+        alike: alike.collect(),
+        noise,
+        covariance: solved.covariance,
+        freedom: (2 * usable.len()).saturating_sub(solved.kept.len()),
+    })
+}
+
+#[derive(Default)]
+struct Solved {
+    kept: Vec<usize>,
+    alike: Vec<super::least_squares::Alike>,
+    covariance: Square<{ Term::COUNT }>,
+}
+
+/// The noise of each kind, with its part of the unknowns.
+fn noise_of(points: &[Point], model: &PointingModel, unknowns: usize) -> Vec<Found> {
+    let free_share = 1.0 - unknowns as f64 / (2 * points.len()) as f64;
+    let of = |kind: Kind| {
+        let own = points.iter().filter(|point| point.kind == kind);
+        let rests = own.filter_map(|point| Some((point.weight, point.rest_deg(model)?)));
+        let squares = rests.map(|(weight, [a, b])| weight * (a * a + b * b));
+        let (count, sum) = squares.fold((0, 0.0), |(count, sum), it| (count + 1, sum + it));
+        let free = 2.0 * f64::from(count) * free_share;
+        let noise_deg = (sum / free.max(1.0)).sqrt();
+        (count > 0).then_some(Found { kind, points: count as usize, noise_deg })
+    };
+    [Kind::Satellite, Kind::Sun, Kind::Moon].into_iter().filter_map(of).collect()
+}
+
+/// Quantile of Student's distribution that holds 95 % on both sides, by its expansion for many
+/// degrees of freedom.
+fn student_95(freedom: f64) -> f64 {
+    let z = NORMAL_95;
+    let first = (z.powi(3) + z) / 4.0;
+    let second = (5.0 * z.powi(5) + 16.0 * z.powi(3) + 3.0 * z) / 96.0;
+    z + first / freedom + second / freedom.powi(2)
+}

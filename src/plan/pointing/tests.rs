@@ -1,0 +1,222 @@
+//! Models that are known, found again from points with noise.
+
+use jiff::Timestamp;
+
+use super::*;
+use crate::{
+    astro::{Site, sun_moon},
+    plan::schedule::testing::Random,
+};
+
+const SEED: u64 = 2_026;
+const CASES: u32 = 200;
+
+fn between(random: &mut Random, from: f64, to: f64) -> f64 {
+    from + (to - from) * f64::from(random.below(1_000_000)) / 1e6
+}
+
+/// Of the normal distribution, by Box and Muller.
+fn normal(random: &mut Random) -> f64 {
+    let (a, b) = (between(random, 1e-9, 1.0), between(random, 0.0, std::f64::consts::TAU));
+    (-2.0 * a.ln()).sqrt() * b.cos()
+}
+
+fn any_model(random: &mut Random) -> PointingModel {
+    let mut model = PointingModel::default();
+    for term in Term::ALL {
+        let most = match term {
+            Term::AzimuthOffset | Term::ElevationOffset => 5.0,
+            Term::ElevationScale => 0.01,
+            _ => 1.0,
+        };
+        *model.place(term) = between(random, -most, most);
+    }
+    model
+}
+
+fn any_direction(random: &mut Random, elevations_deg: (f64, f64)) -> AzEl {
+    let (from_deg, to_deg) = elevations_deg;
+    AzEl::from_degrees(between(random, 0.0, 360.0), between(random, from_deg, to_deg))
+}
+
+/// A point that is read with this noise.
+fn point(
+    kind: Kind,
+    wanted: AzEl,
+    model: &PointingModel,
+    noise_deg: f64,
+    random: &mut Random,
+) -> Point {
+    let mut measured = model.reading(wanted).unwrap();
+    let aside_deg = noise_deg * normal(random) / wanted.elevation.radians().cos();
+    measured.azimuth = measured.azimuth + Angle::from_degrees(aside_deg);
+    measured.elevation = measured.elevation + Angle::from_degrees(noise_deg * normal(random));
+    Point { kind, wanted, measured, weight: 1.0 }
+}
+
+fn points(
+    model: &PointingModel,
+    (count, noise_deg): (usize, f64),
+    elevations_deg: (f64, f64),
+    random: &mut Random,
+) -> Vec<Point> {
+    let one = |_| {
+        let wanted = any_direction(random, elevations_deg);
+        point(Kind::Satellite, wanted, model, noise_deg, random)
+    };
+    (0..count).map(one).collect()
+}
+
+#[test]
+fn what_is_read_and_where_it_points_are_inverse_to_each_other() {
+    let mut random = Random::new(SEED);
+    for case in 0..2_000 {
+        let model = any_model(&mut random);
+        let sky = any_direction(&mut random, (0.0, 85.0));
+        let reading = model.reading(sky).unwrap();
+        let back = model.direction(reading);
+        assert!(back.separation(sky).degrees() < 1e-6, "case {case}: {model:?} {sky:?} {back:?}");
+        let again = model.reading(back).unwrap();
+        assert!(again.separation(reading).degrees() < 1e-6, "case {case}: {model:?} {reading:?}");
+    }
+}
+
+#[test]
+fn a_model_without_terms_changes_nothing() {
+    let model = PointingModel::default();
+    for (azimuth_deg, elevation_deg) in [(0.0, 0.0), (213.0, 41.0), (359.9, 89.0)] {
+        let sky = AzEl::from_degrees(azimuth_deg, elevation_deg);
+        assert!(model.reading(sky).unwrap().separation(sky).degrees() < 1e-9);
+        assert!(model.direction(sky).separation(sky).degrees() < 1e-9);
+    }
+}
+
+#[test]
+fn each_term_acts_as_its_name_says() {
+    let read = |term: Term, azimuth_deg: f64, elevation_deg: f64| {
+        let mut model = PointingModel::default();
+        *model.place(term) = 0.1;
+        let sky = AzEl::from_degrees(azimuth_deg, elevation_deg);
+        let reading = model.reading(sky).unwrap();
+        let azimuth_deg = (reading.azimuth - sky.azimuth).wrapped_180().degrees();
+        [azimuth_deg, (reading.elevation - sky.elevation).degrees()]
+    };
+    let north = read(Term::TiltNorth, 0.0, 40.0);
+    assert!(north[0].abs() < 1e-3 && (north[1] - 0.1).abs() < 1e-3, "{north:?}");
+    let east = read(Term::TiltEast, 90.0, 40.0);
+    assert!(east[0].abs() < 1e-3 && (east[1] - 0.1).abs() < 1e-3, "{east:?}");
+    // The beam lies to the left: the axis turns further to the right, the more the higher.
+    let [low, high] = [0.0, 60.0].map(|elevation_deg| read(Term::Collimation, 10.0, elevation_deg));
+    assert!((low[0] - 0.1).abs() < 1e-3 && (high[0] - 0.2).abs() < 1e-3, "{low:?} {high:?}");
+    let leans = read(Term::NonPerpendicularity, 10.0, 45.0);
+    assert!((leans[0] - 0.1).abs() < 1e-3, "{leans:?}");
+    let [flat, steep] = [0.0, 60.0].map(|elevation_deg| read(Term::Sag, 10.0, elevation_deg));
+    assert!((flat[1] - 0.1).abs() < 1e-3 && (steep[1] - 0.05).abs() < 1e-3, "{flat:?} {steep:?}");
+}
+
+#[test]
+fn intervals_hold_the_terms_and_are_as_small_as_they_can_be() {
+    let mut random = Random::new(SEED);
+    let mut held = 0;
+    let mut squares = [0.0; Term::COUNT];
+    let mut noises = 0.0;
+    for case in 0..CASES {
+        let model = any_model(&mut random);
+        let noise_deg = between(&mut random, 0.01, 0.1);
+        let points = points(&model, (80, noise_deg), (8.0, 82.0), &mut random);
+        let fit = fit(&points).unwrap();
+        assert_eq!(fit.kept, Term::ALL, "seed {SEED}, case {case}");
+        let found = fit.noise[0];
+        assert_eq!((found.kind, found.points), (Kind::Satellite, 80));
+        noises += found.noise_deg / noise_deg / f64::from(CASES);
+        for (term, square) in Term::ALL.into_iter().zip(&mut squares) {
+            let interval = fit.interval(term).unwrap();
+            let off = interval.value - model.term(term);
+            held += u32::from(off.abs() <= interval.half);
+            // The bound of Cramer and Rao: the covariance by the noise that there is.
+            let bound = fit.covariance(term, term) * (noise_deg / found.noise_deg).powi(2);
+            *square += off * off / bound / f64::from(CASES);
+        }
+    }
+    let share = f64::from(held) / f64::from(CASES) / Term::COUNT as f64;
+    let ratios = squares.map(f64::sqrt);
+    println!("seed {SEED}: {share:.4} held, {ratios:.3?} times the bound, noise {noises:.3}");
+    assert!((0.93..=0.97).contains(&share), "{share}");
+    assert!(ratios.iter().all(|ratio| *ratio <= 1.3), "{ratios:?}");
+    assert!((0.9..=1.1).contains(&noises), "{noises}");
+}
+
+#[test]
+fn without_noise_the_model_is_found_as_it_is() {
+    let mut random = Random::new(SEED);
+    for _ in 0..20 {
+        let model = any_model(&mut random);
+        let fit = fit(&points(&model, (60, 0.0), (8.0, 82.0), &mut random)).unwrap();
+        for term in Term::ALL {
+            assert!((fit.model.term(term) - model.term(term)).abs() < 1e-6, "{term:?}");
+        }
+    }
+}
+
+#[test]
+fn terms_that_the_points_do_not_tell_apart_are_named_and_left_out() {
+    let mut random = Random::new(SEED);
+    let model = any_model(&mut random);
+    let level = points(&model, (60, 0.02), (30.0, 30.0), &mut random);
+    let fit = fit(&level).unwrap();
+    let alike = |term: Term| fit.alike.iter().find(|alike| alike.term == term).map(|it| &*it.with);
+    assert_eq!(alike(Term::Collimation), Some(&[Term::AzimuthOffset][..]));
+    assert_eq!(alike(Term::NonPerpendicularity), Some(&[Term::AzimuthOffset][..]));
+    assert_eq!(alike(Term::ElevationScale), Some(&[Term::ElevationOffset][..]));
+    assert_eq!(alike(Term::Sag), Some(&[Term::ElevationOffset][..]));
+    assert_eq!((fit.model.sag_deg, fit.interval(Term::Sag)), (0.0, None));
+    assert_eq!(fit.correlation(Term::Sag, Term::ElevationOffset), None);
+    // What is left describes these points all the same.
+    assert!((0.8..1.2).contains(&(fit.noise[0].noise_deg / 0.02)), "{:?}", fit.noise);
+    assert!(fit.correlation(Term::TiltNorth, Term::TiltEast).unwrap().abs() < 0.5);
+}
+
+#[test]
+fn peaks_of_sun_and_moon_have_a_noise_of_their_own() {
+    let mut random = Random::new(SEED);
+    let site = Site::new(41.0, 29.0, 100.0).unwrap();
+    let start: Timestamp = "2026-08-12T05:00:00Z".parse().unwrap();
+    let model = any_model(&mut random);
+    let mut all = points(&model, (60, 0.02), (8.0, 82.0), &mut random);
+    let times =
+        (0..100).map(|step| crate::astro::time::add_seconds(start, 360.0 * f64::from(step)));
+    for at in times {
+        let (sun, moon) = (sun_moon::sun(site, at), sun_moon::moon(site, at));
+        if sun.elevation_deg() > 5.0 {
+            let measured = point(Kind::Sun, sun, &model, 0.3, &mut random).measured;
+            all.push(Point::of_sun(site, at, measured, 1.0));
+        }
+        if moon.elevation_deg() > 5.0 {
+            let measured = point(Kind::Moon, moon, &model, 0.1, &mut random).measured;
+            all.push(Point::of_moon(site, at, measured, 1.0));
+        }
+    }
+    let fit = fit(&all).unwrap();
+    assert_eq!(fit.noise.len(), 3, "{:?}", fit.noise);
+    for (found, noise_deg) in fit.noise.iter().zip([0.02, 0.3, 0.1]) {
+        assert!((0.7..1.3).contains(&(found.noise_deg / noise_deg)), "{:?}", fit.noise);
+    }
+    for term in Term::ALL {
+        let Interval { value, half } = fit.interval(term).unwrap();
+        assert!((value - model.term(term)).abs() < 2.0 * half, "{term:?} {value} {half}");
+    }
+}
+
+#[test]
+fn few_points_or_such_without_numbers_are_refused() {
+    let mut random = Random::new(SEED);
+    let mut few = points(&PointingModel::default(), (7, 0.02), (8.0, 82.0), &mut random);
+    assert_eq!(fit(&few), Err(CannotFit::TooFew(7)));
+    let mut odd = few[0];
+    odd.weight = f64::NAN;
+    few.push(odd);
+    odd = few[0];
+    odd.measured.azimuth = Angle::from_radians(f64::INFINITY);
+    few.push(odd);
+    assert_eq!(fit(&few), Err(CannotFit::TooFew(7)));
+}
