@@ -2,13 +2,17 @@
 //! is written out in `demo.rs`.
 
 mod demo;
+mod units;
 
 pub use demo::DemoAddresses;
+pub use units::Surroundings;
+
+use std::sync::Arc;
 
 use crate::{
     controller::{rc2000c, rotator_genius, satrak},
-    sim,
-    station::ControllerSpec,
+    sim::{self, InMemory},
+    station::{Antenna, ControllerSpec},
 };
 
 /// Descriptions of all makes, for the reader of the station file.
@@ -17,6 +21,23 @@ pub static SPECS: &[&ControllerSpec] = &[&satrak::SPEC, &rotator_genius::SPEC, &
 /// Simulators of all makes, as commands.
 pub static SIMULATORS: &[sim::Command] =
     &[sim::satrak::COMMAND, sim::rotator_genius::COMMAND, sim::rc2000c::COMMAND];
+
+/// Units of all makes in memory, by the key of the make.
+static UNITS: &[(&str, units::Make)] = &[
+    (satrak::SPEC.key, units::satrak),
+    (rotator_genius::SPEC.key, units::genius),
+    (rc2000c::SPEC.key, units::rc2000c),
+];
+
+/// A simulated unit for `antenna`, set up like the antenna; `None` for a make without a simulator.
+/// Where the antenna leaves open which file of elements its unit uses, it is told.
+pub fn unit_in_memory(
+    antenna: &mut Antenna,
+    around: &Surroundings<'_>,
+) -> Option<Arc<dyn InMemory>> {
+    let key = antenna.connection.spec().key;
+    UNITS.iter().find(|(known, _)| *known == key).map(|(_, make)| make(antenna, around))
+}
 
 #[cfg(test)]
 mod tests;

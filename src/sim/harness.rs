@@ -5,12 +5,14 @@
 
 mod connection;
 mod control;
+mod in_memory;
 mod simulator;
 #[cfg(test)]
 pub(super) mod testing;
 
 pub(super) use connection::{Replies, serve};
 pub use control::Control;
+pub use in_memory::{InMemory, Trouble};
 pub(super) use simulator::HEARTBEAT;
 pub use simulator::Simulator;
 
@@ -29,6 +31,12 @@ pub trait Unit: fmt::Debug + Send + Sized + 'static {
     type Place;
     type Wire: Wire<Self>;
 
+    /// Fault: no reply comes.
+    const SILENCE: Self::Fault;
+    /// Fault: noise precedes each reply.
+    const NOISE: Self::Fault;
+    /// Fault: what a track needs is refused.
+    const REFUSAL: Self::Fault;
     /// Fault: replies come in pieces.
     const SPLIT: Self::Fault;
     /// Fault: replies are gathered and come together.
@@ -39,6 +47,14 @@ pub trait Unit: fmt::Debug + Send + Sized + 'static {
 
     /// Switches these quirks and faults on and all others off.
     fn set_switches(&mut self, switches: &Switches<Self::Quirk, Self::Fault>);
+
+    /// Leaves the drives this share of their full rate, 0 to 1.
+    fn set_strength(&mut self, share: f64);
+
+    /// Sets the unit's own clock back by so much. Returns `false` if it has none that matters.
+    fn set_clock_late(&mut self, _late: Duration) -> bool {
+        false
+    }
 
     /// Puts both axes elsewhere, as if by hand; they stand there.
     fn place(&mut self, place: Self::Place);

@@ -20,7 +20,7 @@ mod tracking;
 mod unit;
 
 pub use command_line::COMMAND;
-pub use options::Options;
+pub use options::{AxisOptions, Options};
 #[cfg(unix)]
 pub use pty::PtySimulator;
 pub use quirks::{Fault, Quirk};

@@ -83,6 +83,8 @@ impl<U: Unit, S: AsyncRead + AsyncWrite + Unpin> Connection<'_, U, S> {
             let waiting = &self.replies.waiting;
             let due = waiting.front().map(|(due, _)| *due);
             tokio::select! {
+                // In paused time the same events have the same order.
+                biased;
                 read = self.stream.read(&mut buffer), if waiting.len() < MAX_WAITING => {
                     let count = read?;
                     if count == 0 {

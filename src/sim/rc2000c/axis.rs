@@ -1,16 +1,17 @@
-//! A driven axis, in counts of its sensor. Rates, ramp and travel are the simulator's own
-//! choices: 20 counts are one degree.
+//! A driven axis, in counts of its sensor. Slow speed and ramps are the simulator's own
+//! choices.
 
 use std::ops::RangeInclusive;
 
+use super::AxisOptions;
 use crate::protocol::rc2000c::{AxisDrive, Sense, Speed};
 
-const FAST_COUNTS_S: f64 = 40.0;
-const SLOW_COUNTS_S: f64 = 8.0;
-/// Acceleration of the drive.
-const RAMP_COUNTS_S2: f64 = 80.0;
-/// Deceleration of an axis without power.
-const COAST_COUNTS_S2: f64 = 50.0;
+/// Share of slow speed in the full rate.
+const SLOW: f64 = 0.2;
+/// Time in which a drive comes to its full rate, seconds.
+const RAMP_S: f64 = 0.5;
+/// Time in which an axis without power comes to rest from it, seconds.
+const COAST_S: f64 = 0.8;
 /// Distance within which an auto move has arrived.
 const ARRIVED_COUNTS: f64 = 0.3;
 /// Time without motion after which a drive is jammed.
@@ -45,6 +46,9 @@ pub(super) struct Axis {
     rate_counts_s: f64,
     goal: Goal,
     travel: RangeInclusive<f64>,
+    full_rate_counts_s: f64,
+    /// What is left of the full rate, 0 to 1.
+    strength: f64,
     /// Only the elevation reports its limits as an alarm.
     has_limit_alarm: bool,
     trouble: Trouble,
@@ -53,13 +57,15 @@ pub(super) struct Axis {
 }
 
 impl Axis {
-    pub(super) fn new(counts: u16, travel: RangeInclusive<u16>, has_limit_alarm: bool) -> Self {
-        let [least, most] = [*travel.start(), *travel.end()].map(f64::from);
+    pub(super) fn new(counts: u16, of: &AxisOptions, has_limit_alarm: bool) -> Self {
+        let [least, most] = [*of.travel.start(), *of.travel.end()].map(f64::from);
         Self {
-            counts: f64::from(counts).clamp(least, most),
+            counts: f64::from(counts).max(least).min(most),
             rate_counts_s: 0.0,
             goal: Goal::Still,
             travel: least..=most,
+            full_rate_counts_s: of.full_rate_counts_s,
+            strength: 1.0,
             has_limit_alarm,
             trouble: Trouble::default(),
             alarm: None,
@@ -69,6 +75,24 @@ impl Axis {
 
     pub(super) fn set_trouble(&mut self, trouble: Trouble) {
         self.trouble = trouble;
+    }
+
+    pub(super) fn set_strength(&mut self, strength: f64) {
+        self.strength = strength;
+    }
+
+    fn fast_counts_s(&self) -> f64 {
+        self.full_rate_counts_s * self.strength
+    }
+
+    /// Acceleration of the drive.
+    fn ramp_counts_s2(&self) -> f64 {
+        self.full_rate_counts_s / RAMP_S
+    }
+
+    /// Deceleration of an axis without power.
+    fn coast_counts_s2(&self) -> f64 {
+        self.full_rate_counts_s / COAST_S
     }
 
     /// Reading of the sensor.
@@ -125,8 +149,8 @@ impl Axis {
 
     pub(super) fn jog(&mut self, sense: Sense, speed: Speed, duration_s: f64) {
         let rate_counts_s = match speed {
-            Speed::Slow => SLOW_COUNTS_S,
-            Speed::Fast => FAST_COUNTS_S,
+            Speed::Slow => SLOW * self.fast_counts_s(),
+            Speed::Fast => self.fast_counts_s(),
         };
         self.begin(Goal::Jog { sense, rate_counts_s, left_s: duration_s });
     }
@@ -161,7 +185,7 @@ impl Axis {
         let is_commanded = self.goal != Goal::Still;
         if self.trouble.runs_away {
             self.fail(AxisDrive::Runaway);
-            self.turn(SLOW_COUNTS_S, step_s);
+            self.turn(SLOW * self.full_rate_counts_s, step_s);
             return;
         }
         if self.trouble.is_overloaded && is_commanded {
@@ -194,7 +218,7 @@ impl Axis {
         }
         if let Goal::AutoMove(target) = self.goal
             && (target - self.counts).abs() < ARRIVED_COUNTS
-            && self.rate_counts_s.abs() <= COAST_COUNTS_S2 * step_s
+            && self.rate_counts_s.abs() <= self.coast_counts_s2() * step_s
         {
             self.counts = target;
             self.rate_counts_s = 0.0;
@@ -206,7 +230,8 @@ impl Axis {
     fn turn(&mut self, wanted_counts_s: f64, step_s: f64) {
         let is_braking = wanted_counts_s.abs() < self.rate_counts_s.abs()
             || wanted_counts_s * self.rate_counts_s < 0.0;
-        let max_change = step_s * if is_braking { COAST_COUNTS_S2 } else { RAMP_COUNTS_S2 };
+        let ramp = if is_braking { self.coast_counts_s2() } else { self.ramp_counts_s2() };
+        let max_change = step_s * ramp;
         let change = wanted_counts_s - self.rate_counts_s;
         self.rate_counts_s += change.clamp(-max_change, max_change);
         self.counts += self.rate_counts_s * step_s;
@@ -228,10 +253,10 @@ impl Axis {
     fn approach(&self, target: f64, step_s: f64) -> f64 {
         let away = target - self.counts;
         // Less than the actual braking, so that the braking never falls behind.
-        let brake = 0.8 * COAST_COUNTS_S2;
+        let brake = 0.8 * self.coast_counts_s2();
         let half = brake * step_s / 2.0;
         let fastest = (half * half + 2.0 * brake * away.abs()).sqrt() - half;
-        fastest.min(away.abs() / step_s).min(FAST_COUNTS_S).copysign(away)
+        fastest.min(away.abs() / step_s).min(self.fast_counts_s()).copysign(away)
     }
 }
 

@@ -3,6 +3,7 @@
 use std::collections::BTreeSet;
 use std::io;
 use std::net::SocketAddr;
+use std::ops::RangeInclusive;
 use std::time::Duration;
 
 use super::{Control, Fault, Quirk, Simulator, StoredSatellite, unit::Rc2000c};
@@ -19,6 +20,8 @@ pub struct Options {
     pub address: Address,
     /// List of satellites, up to 35.
     pub satellites: Vec<StoredSatellite>,
+    pub azimuth: AxisOptions,
+    pub elevation: AxisOptions,
     /// Oddities of firmware and wiring.
     pub quirks: BTreeSet<Quirk>,
     /// Failures.
@@ -31,13 +34,30 @@ pub struct Options {
     pub max_clients: usize,
 }
 
+/// An axis, in counts of its sensor.
+#[derive(Debug, Clone)]
+pub struct AxisOptions {
+    pub travel: RangeInclusive<u16>,
+    /// Full rate, counts a second.
+    pub full_rate_counts_s: f64,
+}
+
+impl AxisOptions {
+    /// From the counter-clockwise to the clockwise limit, half a turn; 20 counts are one degree.
+    pub const AZIMUTH: Self = Self { travel: 30..=3630, full_rate_counts_s: 40.0 };
+    /// From the horizon to the zenith.
+    pub const ELEVATION: Self = Self { travel: 30..=1830, full_rate_counts_s: 40.0 };
+}
+
 impl Default for Options {
-    /// A well-behaved unit at address 50 with six satellites: replies begin after 15 ms on a
-    /// line of 9600 baud, one client.
+    /// A well-behaved unit at address 50 with six satellites: half a turn and a quarter at 2
+    /// degrees a second, replies begin after 15 ms on a line of 9600 baud, one client.
     fn default() -> Self {
         Self {
             address: Address::FACTORY,
             satellites: StoredSatellite::demo(),
+            azimuth: AxisOptions::AZIMUTH,
+            elevation: AxisOptions::ELEVATION,
             quirks: BTreeSet::new(),
             faults: BTreeSet::new(),
             latency: Duration::from_millis(15),

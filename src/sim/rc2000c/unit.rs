@@ -11,7 +11,7 @@ use super::axis::{Axis, Trouble};
 use super::feed::Feed;
 use super::satellites::StoredSatellite;
 use super::tracking::Tracking;
-use super::{Fault, Options, Quirk, connection::Line};
+use super::{AxisOptions, Fault, Options, Quirk, connection::Line};
 use crate::protocol::rc2000c::{Address, AxisDrive, Frame, PolarizationMotion, Submode};
 use crate::sim::harness::{self, Switches};
 
@@ -19,10 +19,6 @@ use crate::sim::harness::{self, Switches};
 const STEP: Duration = Duration::from_millis(50);
 /// Longest absence that is caught up with; a longer one is skipped.
 const LONGEST_CATCH_UP: Duration = Duration::from_mins(10);
-/// From the counter-clockwise to the clockwise limit, half a turn.
-const AZIMUTH_TRAVEL: std::ops::RangeInclusive<u16> = 30..=3630;
-/// From the horizon to the zenith.
-const ELEVATION_TRAVEL: std::ops::RangeInclusive<u16> = 30..=1830;
 /// Position at the start: on the first satellite of the demo.
 const START_COUNTS: [u16; 2] = [1525, 750];
 const START_POLARIZATION: u16 = 263;
@@ -41,9 +37,9 @@ pub enum Mode {
 /// Activity of the unit, for tests and displays.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Snapshot {
-    /// Azimuth in counts, 30 to 3630.
+    /// Azimuth in counts.
     pub az_counts: u16,
-    /// Elevation in counts, 30 to 1830.
+    /// Elevation in counts.
     pub el_counts: u16,
     /// Polarization in the feed's units.
     pub polarization_units: u16,
@@ -63,6 +59,7 @@ pub struct Rc2000c {
     /// Time since the start.
     elapsed: Duration,
     mode: Mode,
+    axes: [AxisOptions; 2],
     azimuth: Axis,
     elevation: Axis,
     /// Counts on a frozen display.
@@ -85,8 +82,9 @@ impl Rc2000c {
             faults: options.faults.clone(),
             elapsed: Duration::ZERO,
             mode: Mode::Manual,
-            azimuth: Axis::new(az_counts, AZIMUTH_TRAVEL, false),
-            elevation: Axis::new(el_counts, ELEVATION_TRAVEL, true),
+            axes: [options.azimuth.clone(), options.elevation.clone()],
+            azimuth: Axis::new(az_counts, &options.azimuth, false),
+            elevation: Axis::new(el_counts, &options.elevation, true),
             frozen: None,
             feed: Feed::new(START_POLARIZATION),
             is_auto_polarization: false,
@@ -195,6 +193,9 @@ impl harness::Unit for Rc2000c {
     type Place = [u16; 2];
     type Wire = Line;
 
+    const SILENCE: Fault = Fault::Silence;
+    const NOISE: Fault = Fault::Garbage;
+    const REFUSAL: Fault = Fault::Refuse;
     const SPLIT: Fault = Fault::Split;
     const MERGE: Fault = Fault::Merge;
 
@@ -214,9 +215,15 @@ impl harness::Unit for Rc2000c {
         self.suffer();
     }
 
+    fn set_strength(&mut self, share: f64) {
+        self.azimuth.set_strength(share);
+        self.elevation.set_strength(share);
+    }
+
     fn place(&mut self, [azimuth, elevation]: [u16; 2]) {
-        self.azimuth = Axis::new(azimuth, AZIMUTH_TRAVEL, false);
-        self.elevation = Axis::new(elevation, ELEVATION_TRAVEL, true);
+        let [of_azimuth, of_elevation] = &self.axes;
+        self.azimuth = Axis::new(azimuth, of_azimuth, false);
+        self.elevation = Axis::new(elevation, of_elevation, true);
         self.suffer();
     }
 

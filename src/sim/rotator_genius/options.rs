@@ -46,6 +46,8 @@ pub struct RotatorOptions {
     /// Degrees before a target at which the drive is cut off. From full rate the rotator
     /// coasts 2 degrees.
     pub stop_offset_deg: u8,
+    /// Full rate, degrees a second.
+    pub full_rate_deg_s: f64,
     /// The rotator has a sensor, without which it cannot be moved.
     pub has_sensor: bool,
 }
@@ -68,7 +70,7 @@ impl Default for Options {
 }
 
 impl Default for RotatorOptions {
-    /// An azimuth rotator at 173 degrees, with limits at 0 and 359.
+    /// An azimuth rotator at 173 degrees, with limits at 0 and 359 and 4 degrees a second.
     fn default() -> Self {
         Self {
             name: "Tower".to_owned(),
@@ -78,6 +80,7 @@ impl Default for RotatorOptions {
             limit_ccw: WholeDegrees::saturating(0),
             offset_deg: 0,
             stop_offset_deg: 2,
+            full_rate_deg_s: 4.0,
             has_sensor: true,
         }
     }

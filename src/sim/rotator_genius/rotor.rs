@@ -1,4 +1,4 @@
-//! Kinematics of a rotator. Rate and ramp are the simulator's own choices.
+//! Kinematics of a rotator. The ramp is the simulator's own choice.
 
 use super::RotatorOptions;
 use super::travel::Travel;
@@ -6,11 +6,8 @@ use crate::protocol::rotator_genius::{
     Configuration, Direction, Moving, RotatorKind, WholeDegrees,
 };
 
-/// Full rate, degrees per second.
-const RATE_DEG_S: f64 = 4.0;
-/// Ramp up and coasting down, degrees per second squared. From full rate the rotator
-/// coasts 2 degrees, the default stop offset.
-const RAMP_DEG_S2: f64 = 4.0;
+/// Way that the rotator coasts from its full rate, degrees: the default stop offset.
+const COAST_DEG: f64 = 2.0;
 
 /// State of the drive.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -43,6 +40,9 @@ pub(super) struct Rotor {
     frozen: Option<WholeDegrees>,
     rests_falsely: bool,
     travel: Travel,
+    full_rate_deg_s: f64,
+    /// What is left of the full rate, 0 to 1.
+    strength: f64,
     /// Position on the travel; beyond its ends when outside the limits.
     place_deg: f64,
     rate_deg_s: f64,
@@ -65,6 +65,8 @@ impl Rotor {
             frozen: None,
             rests_falsely: false,
             travel,
+            full_rate_deg_s: options.full_rate_deg_s,
+            strength: 1.0,
             place_deg: travel.place(degrees(options.position)),
             rate_deg_s: 0.0,
             drive: Drive::Off,
@@ -179,6 +181,10 @@ impl Rotor {
         }
     }
 
+    pub(super) fn set_strength(&mut self, strength: f64) {
+        self.strength = strength;
+    }
+
     /// Sets the errors of the status.
     pub(super) fn set_lies(&mut self, is_frozen: bool, rests_falsely: bool) {
         let angle = self.frozen.unwrap_or_else(|| self.angle());
@@ -190,17 +196,23 @@ impl Rotor {
         if self.has_arrived() {
             self.drive = Drive::Off;
         }
+        let rate = self.full_rate_deg_s * self.strength;
         let wanted = match self.moving() {
             Moving::Stopped => 0.0,
-            Moving::Clockwise => RATE_DEG_S,
-            Moving::CounterClockwise => -RATE_DEG_S,
+            Moving::Clockwise => rate,
+            Moving::CounterClockwise => -rate,
         };
-        let ramp = RAMP_DEG_S2 * step_s;
+        let ramp = self.ramp_deg_s2() * step_s;
         self.rate_deg_s += (wanted - self.rate_deg_s).clamp(-ramp, ramp);
         if self.is_stuck {
             self.rate_deg_s = 0.0;
         }
         self.place_deg += self.rate_deg_s * step_s;
+    }
+
+    /// Ramp up and coasting down.
+    fn ramp_deg_s2(&self) -> f64 {
+        self.full_rate_deg_s * self.full_rate_deg_s / (2.0 * COAST_DEG)
     }
 
     /// Whether the target is within the stop offset, or passed.

@@ -122,6 +122,9 @@ impl harness::Unit for RotatorGenius {
     type Place = [WholeDegrees; 2];
     type Wire = CommandReader;
 
+    const SILENCE: Fault = Fault::Silence;
+    const NOISE: Fault = Fault::Garbage;
+    const REFUSAL: Fault = Fault::Refuse;
     const SPLIT: Fault = Fault::Split;
     const MERGE: Fault = Fault::Merge;
 
@@ -147,6 +150,10 @@ impl harness::Unit for RotatorGenius {
             let is_frozen = switches.has_fault(Fault::FrozenAngles);
             rotor.set_lies(is_frozen, switches.has_fault(Fault::FalseRest));
         }
+    }
+
+    fn set_strength(&mut self, share: f64) {
+        self.rotors.iter_mut().for_each(|rotor| rotor.set_strength(share));
     }
 
     fn place(&mut self, angles: [WholeDegrees; 2]) {

@@ -6,7 +6,7 @@ mod axis;
 use crate::astro::xy_mount::{AxisAngles, axes_from_azel, azel_from_axes};
 use crate::astro::{Angle, AzEl};
 
-use self::axis::{Axis, TRAVEL_DEG, ZENITH_DEG};
+use self::axis::{Axis, ZENITH_DEG};
 
 /// Both axes, and the mount's orientation.
 #[derive(Debug, Clone)]
@@ -16,9 +16,11 @@ pub(super) struct Mount {
 }
 
 impl Mount {
-    /// A mount parked at the zenith.
-    pub(super) fn new() -> Self {
-        Self { x: Axis::parked(), y: Axis::parked() }
+    /// A mount parked at the zenith, with these ends of the travel and this full rate of both
+    /// axes.
+    pub(super) fn new(ends_deg: [f64; 2], full_rate_deg_s: f64) -> Self {
+        let axis = Axis::parked(ends_deg, full_rate_deg_s);
+        Self { x: axis, y: axis }
     }
 
     /// Puts both axes there at once.
@@ -39,7 +41,7 @@ impl Mount {
     /// Sends both axes to mechanical angles in degrees, without a path between them. Returns
     /// `false`, and does nothing, if one angle is beyond its travel.
     pub(super) fn go_to(&mut self, [x_deg, y_deg]: [f64; 2]) -> bool {
-        let reachable = TRAVEL_DEG.contains(&x_deg) && TRAVEL_DEG.contains(&y_deg);
+        let reachable = self.x.reaches(x_deg) && self.y.reaches(y_deg);
         if reachable {
             self.x.go_to(x_deg);
             self.y.go_to(y_deg);
@@ -61,6 +63,11 @@ impl Mount {
     pub(super) fn set_drive_scales(&mut self, x: f64, y: f64) {
         self.x.set_drive_scale(x);
         self.y.set_drive_scale(y);
+    }
+
+    pub(super) fn set_strength(&mut self, strength: f64) {
+        self.x.set_strength(strength);
+        self.y.set_strength(strength);
     }
 
     pub(super) fn set_dead_motors(&mut self, x: bool, y: bool) {
@@ -86,11 +93,16 @@ pub(super) fn azel_from_xy([x_deg, y_deg]: [f64; 2], lower_axis: Angle) -> AzEl 
 
 #[cfg(test)]
 mod tests {
-    use super::axis::{MAX_RATE_DEG_S, RAMP_DEG_S2};
+    use super::axis::RAMP_S;
     use super::*;
     use crate::protocol::satrak::AxisMotion;
 
     const STEP_S: f64 = 0.05;
+    const MAX_RATE_DEG_S: f64 = 5.0;
+
+    fn mount() -> Mount {
+        Mount::new([5.0, 175.0], MAX_RATE_DEG_S)
+    }
 
     fn run(mount: &mut Mount, seconds: f64) -> Vec<f64> {
         let steps = (seconds / STEP_S).round() as usize;
@@ -113,7 +125,7 @@ mod tests {
     #[test]
     fn an_axis_ramps_and_halts_at_its_angle_without_overshoot() {
         for target in [90.01, 91.0, 130.0, 174.9, 12.0] {
-            let mut mount = Mount::new();
+            let mut mount = mount();
             assert!(mount.go_to([target, 90.0]));
             let angles = run(&mut mount, 40.0);
             assert!((mount.x.angle_deg() - target).abs() < 1e-9, "{target}");
@@ -125,13 +137,13 @@ mod tests {
 
     #[test]
     fn rates_and_accelerations_stay_within_their_bounds() {
-        let mut mount = Mount::new();
+        let mut mount = mount();
         mount.x.run(50.0);
         let angles = run(&mut mount, 3.0);
         let rates: Vec<f64> = angles.windows(2).map(|pair| (pair[1] - pair[0]) / STEP_S).collect();
         assert!(rates.iter().all(|rate| *rate <= MAX_RATE_DEG_S + 1e-9));
         let jumps = rates.windows(2).map(|pair| (pair[1] - pair[0]) / STEP_S);
-        assert!(jumps.into_iter().all(|ramp| ramp.abs() <= RAMP_DEG_S2 + 1e-6));
+        assert!(jumps.into_iter().all(|ramp| ramp.abs() <= MAX_RATE_DEG_S / RAMP_S + 1e-6));
         mount.stop();
         run(&mut mount, 1.2);
         assert!(!mount.is_moving());
@@ -139,7 +151,7 @@ mod tests {
 
     #[test]
     fn the_end_switches_end_a_run_in_one_direction_only() {
-        let mut mount = Mount::new();
+        let mut mount = mount();
         mount.x.run(5.0);
         run(&mut mount, 30.0);
         assert!(mount.x.is_at_upper_end() && !mount.x.is_at_lower_end());
@@ -152,7 +164,7 @@ mod tests {
 
     #[test]
     fn a_moving_target_is_followed_without_lag() {
-        let mut mount = Mount::new();
+        let mut mount = mount();
         let mut worst: f64 = 0.0;
         for step in 0..400 {
             let target = 95.0 + 2.0 * f64::from(step) * STEP_S;
@@ -166,8 +178,21 @@ mod tests {
     }
 
     #[test]
+    fn a_weak_drive_is_slower_and_the_travel_is_that_of_the_mount() {
+        let mut mount = Mount::new([20.0, 160.0], 3.0);
+        assert!(!mount.go_to([170.0, 90.0]));
+        mount.set_strength(0.5);
+        mount.x.run(5.0);
+        let angles = run(&mut mount, 10.0);
+        let fastest = angles.windows(2).map(|pair| (pair[1] - pair[0]) / STEP_S);
+        assert!((fastest.fold(0.0, f64::max) - 1.5).abs() < 1e-9);
+        run(&mut mount, 100.0);
+        assert!(mount.x.is_at_upper_end() && (mount.x.angle_deg() - 160.0).abs() < 1e-9);
+    }
+
+    #[test]
     fn a_dead_motor_does_not_move() {
-        let mut mount = Mount::new();
+        let mut mount = mount();
         mount.set_dead_motors(true, false);
         mount.x.run(5.0);
         mount.y.run(5.0);

@@ -39,6 +39,12 @@ pub struct Options {
     pub max_clients: usize,
     /// Azimuth of the lower axis.
     pub lower_axis: Angle,
+    /// Both ends of the travel of both axes, degrees as the unit counts.
+    pub ends_deg: [f64; 2],
+    /// Full rate of both axes, degrees a second.
+    pub full_rate_deg_s: f64,
+    /// Lowest elevation that the unit is set to, degrees.
+    pub minimum_elevation_deg: f64,
     /// Time from the start until GPS is locked.
     pub gps_lock_after: Duration,
     /// The clock starts in 2000 instead of showing the right time.
@@ -49,7 +55,8 @@ pub struct Options {
 
 impl Options {
     /// A well-behaved unit at `site` that starts at `utc_origin`: one client, replies after 5
-    /// to 30 ms, lower axis to the north, GPS locked after 8 s, no elements.
+    /// to 30 ms, lower axis to the north, travel from 5 to 175 degrees at 5 degrees a second, GPS
+    /// locked after 8 s, no elements.
     pub fn new(site: Site, utc_origin: Timestamp) -> Self {
         Self {
             site,
@@ -61,6 +68,9 @@ impl Options {
             reply_delay: Duration::from_millis(5)..=Duration::from_millis(30),
             max_clients: 1,
             lower_axis: Angle::ZERO,
+            ends_deg: [5.0, 175.0],
+            full_rate_deg_s: 5.0,
+            minimum_elevation_deg: 3.0,
             gps_lock_after: Duration::from_secs(8),
             clock_is_unset: false,
             seed: 1,

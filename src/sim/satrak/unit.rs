@@ -57,8 +57,10 @@ pub struct Satrak {
     gps_lock_after: Duration,
     /// Time since the start of the unit.
     elapsed: Duration,
-    /// The unit's clock minus UTC.
+    /// The unit's clock minus what GPS tells.
     clock_error: SignedDuration,
+    /// How far what GPS tells is behind UTC.
+    late: Duration,
     is_clock_from_gps: bool,
     had_gps_lock: bool,
     mount: Mount,
@@ -94,9 +96,10 @@ impl Satrak {
             clock_error,
             is_clock_from_gps: false,
             had_gps_lock: false,
-            mount: Mount::new(),
+            mount: Mount::new(options.ends_deg, options.full_rate_deg_s),
             tracking: Tracking::default(),
             memory: Memory::default(),
+            late: Duration::ZERO,
             injected: BTreeSet::new(),
             refuses_settings: false,
             has_frozen_angles: false,
@@ -104,6 +107,7 @@ impl Satrak {
             found: BTreeSet::new(),
             last_xy_deg: [0.0; 2],
         };
+        unit.memory.settings.minimum_elevation_deg = options.minimum_elevation_deg;
         unit.last_xy_deg = unit.measured_xy_deg();
         unit
     }
@@ -155,7 +159,8 @@ impl Satrak {
     /// UTC by the unit's clock.
     fn rtc(&self) -> Timestamp {
         let utc = self.utc();
-        utc.checked_add(self.clock_error).unwrap_or(utc)
+        let by_gps = utc.checked_sub(self.late).unwrap_or(utc);
+        by_gps.checked_add(self.clock_error).unwrap_or(by_gps)
     }
 
     fn is_gps_locked(&self) -> bool {
@@ -217,6 +222,9 @@ impl harness::Unit for Satrak {
     type Place = [f64; 2];
     type Wire = Decoder;
 
+    const SILENCE: Fault = Fault::Silence;
+    const NOISE: Fault = Fault::Garbage;
+    const REFUSAL: Fault = Fault::RefuseSettings;
     const SPLIT: Fault = Fault::Split;
     const MERGE: Fault = Fault::Merge;
 
@@ -242,6 +250,15 @@ impl harness::Unit for Satrak {
         self.rests_falsely = faults.contains(&Fault::FalseRest);
         let has = |kind| self.injected.contains(&kind);
         self.mount.set_dead_motors(has(FaultKind::XMotor), has(FaultKind::YMotor));
+    }
+
+    fn set_strength(&mut self, share: f64) {
+        self.mount.set_strength(share);
+    }
+
+    fn set_clock_late(&mut self, late: Duration) -> bool {
+        self.late = late;
+        true
     }
 
     fn place(&mut self, axes_deg: [f64; 2]) {

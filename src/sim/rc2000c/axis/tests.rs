@@ -3,7 +3,7 @@ use super::*;
 const STEP_S: f64 = 0.05;
 
 fn axis() -> Axis {
-    Axis::new(1000, 30..=1830, true)
+    Axis::new(1000, &AxisOptions::ELEVATION, true)
 }
 
 fn run(axis: &mut Axis, seconds: f64) -> Vec<f64> {
@@ -34,9 +34,9 @@ fn rates_and_ramps_stay_within_their_bounds() {
     axis.jog(Sense::Positive, Speed::Fast, 3.0);
     let seen = run(&mut axis, 6.0);
     let rates: Vec<f64> = seen.windows(2).map(|pair| (pair[1] - pair[0]) / STEP_S).collect();
-    assert!(rates.iter().all(|rate| (0.0..=FAST_COUNTS_S + 1e-9).contains(rate)));
+    assert!(rates.iter().all(|rate| (0.0..=axis.fast_counts_s() + 1e-9).contains(rate)));
     let jumps = rates.windows(2).map(|pair| (pair[1] - pair[0]) / STEP_S);
-    assert!(jumps.into_iter().all(|jump| jump.abs() <= RAMP_COUNTS_S2 + 1e-6));
+    assert!(jumps.into_iter().all(|jump| jump.abs() <= axis.ramp_counts_s2() + 1e-6));
 }
 
 #[test]

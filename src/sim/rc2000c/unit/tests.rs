@@ -99,8 +99,8 @@ proptest! {
             unit.suffer();
             unit.advance(elapsed);
             let Snapshot { az_counts, el_counts, polarization_units, .. } = unit.snapshot();
-            prop_assert!(AZIMUTH_TRAVEL.contains(&az_counts), "{az_counts}");
-            prop_assert!(ELEVATION_TRAVEL.contains(&el_counts), "{el_counts}");
+            prop_assert!(AxisOptions::AZIMUTH.travel.contains(&az_counts), "{az_counts}");
+            prop_assert!(AxisOptions::ELEVATION.travel.contains(&el_counts), "{el_counts}");
             prop_assert!(polarization_units <= 1012);
         }
     }

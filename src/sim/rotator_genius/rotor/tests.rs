@@ -101,9 +101,9 @@ fn rate_and_ramp_stay_within_their_bounds() {
     rotor.rotate(Direction::CounterClockwise);
     angles.extend(run(&mut rotor, 3.0));
     let rates: Vec<f64> = angles.windows(2).map(|pair| (pair[1] - pair[0]) / STEP_S).collect();
-    assert!(rates.iter().all(|rate| rate.abs() <= RATE_DEG_S + 1e-6));
+    assert!(rates.iter().all(|rate| rate.abs() <= rotor.full_rate_deg_s + 1e-6));
     let ramps = rates.windows(2).map(|pair| (pair[1] - pair[0]) / STEP_S);
-    assert!(ramps.into_iter().all(|ramp| ramp.abs() <= RAMP_DEG_S2 + 1e-6));
+    assert!(ramps.into_iter().all(|ramp| ramp.abs() <= rotor.ramp_deg_s2() + 1e-6));
 }
 
 #[test]

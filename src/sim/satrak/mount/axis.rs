@@ -1,17 +1,11 @@
-//! A driven axis. Rate, ramp and travel are the simulator's own choices.
-
-use std::ops::RangeInclusive;
+//! A driven axis. The ramp is the simulator's own choice.
 
 use crate::protocol::satrak::AxisMotion;
 
-const LOWEST_DEG: f64 = 5.0;
-const HIGHEST_DEG: f64 = 175.0;
-/// Travel of an axis, degrees.
-pub(super) const TRAVEL_DEG: RangeInclusive<f64> = LOWEST_DEG..=HIGHEST_DEG;
 /// Reading at the zenith, degrees.
 pub(super) const ZENITH_DEG: f64 = 90.0;
-pub(super) const MAX_RATE_DEG_S: f64 = 5.0;
-pub(super) const RAMP_DEG_S2: f64 = 5.0;
+/// Time in which an axis comes to its full rate, seconds.
+pub(super) const RAMP_S: f64 = 1.0;
 /// Distance within which the axis has arrived, degrees.
 const ARRIVED_DEG: f64 = 0.002;
 
@@ -34,26 +28,53 @@ pub(in crate::sim::satrak) struct Axis {
     angle_deg: f64,
     rate_deg_s: f64,
     goal: Goal,
+    /// Both ends of the travel.
+    ends_deg: [f64; 2],
+    full_rate_deg_s: f64,
+    /// What is left of the full rate, 0 to 1.
+    strength: f64,
     /// Ratio of the drive's rate to the commanded one.
     drive_scale: f64,
     is_motor_dead: bool,
 }
 
 impl Axis {
-    pub(super) fn parked() -> Self {
+    /// At the zenith, or as near to it as its travel goes.
+    pub(super) fn parked([lower_deg, upper_deg]: [f64; 2], full_rate_deg_s: f64) -> Self {
+        let ends_deg = [lower_deg.min(upper_deg), upper_deg.max(lower_deg)];
         Self {
-            angle_deg: ZENITH_DEG,
+            angle_deg: within(ends_deg, ZENITH_DEG),
             rate_deg_s: 0.0,
             goal: Goal::Still,
+            ends_deg,
+            full_rate_deg_s,
+            strength: 1.0,
             drive_scale: 1.0,
             is_motor_dead: false,
         }
     }
 
     pub(super) fn place(&mut self, angle_deg: f64) {
-        self.angle_deg = angle_deg.clamp(LOWEST_DEG, HIGHEST_DEG);
+        self.angle_deg = within(self.ends_deg, angle_deg);
         self.rate_deg_s = 0.0;
         self.goal = Goal::Still;
+    }
+
+    pub(super) fn reaches(&self, angle_deg: f64) -> bool {
+        let [lowest_deg, highest_deg] = self.ends_deg;
+        (lowest_deg..=highest_deg).contains(&angle_deg)
+    }
+
+    pub(super) fn set_strength(&mut self, strength: f64) {
+        self.strength = strength;
+    }
+
+    fn max_rate_deg_s(&self) -> f64 {
+        self.full_rate_deg_s * self.strength
+    }
+
+    fn ramp_deg_s2(&self) -> f64 {
+        self.full_rate_deg_s / RAMP_S
     }
 
     pub(super) fn set_drive_scale(&mut self, scale: f64) {
@@ -80,11 +101,11 @@ impl Axis {
     }
 
     pub(in crate::sim::satrak) fn is_at_upper_end(&self) -> bool {
-        self.angle_deg >= HIGHEST_DEG
+        self.angle_deg >= self.ends_deg[1]
     }
 
     pub(in crate::sim::satrak) fn is_at_lower_end(&self) -> bool {
-        self.angle_deg <= LOWEST_DEG
+        self.angle_deg <= self.ends_deg[0]
     }
 
     pub(in crate::sim::satrak) fn stop(&mut self) {
@@ -93,7 +114,8 @@ impl Axis {
 
     /// Runs until told otherwise, or to the end of the travel.
     pub(in crate::sim::satrak) fn run(&mut self, rate_deg_s: f64) {
-        let rate = (rate_deg_s * self.drive_scale).clamp(-MAX_RATE_DEG_S, MAX_RATE_DEG_S);
+        let max_rate = self.max_rate_deg_s();
+        let rate = (rate_deg_s * self.drive_scale).clamp(-max_rate, max_rate);
         self.goal = if rate == 0.0 { Goal::Still } else { Goal::Rate(rate) };
     }
 
@@ -104,11 +126,11 @@ impl Axis {
     }
 
     pub(super) fn go_to(&mut self, angle_deg: f64) {
-        self.goal = Goal::Angle(angle_deg.clamp(LOWEST_DEG, HIGHEST_DEG));
+        self.goal = Goal::Angle(within(self.ends_deg, angle_deg));
     }
 
     pub(super) fn follow(&mut self, angle_deg: f64, step_s: f64) {
-        let angle = angle_deg.clamp(LOWEST_DEG, HIGHEST_DEG);
+        let angle = within(self.ends_deg, angle_deg);
         let rate = match self.goal {
             Goal::Follow(before, _) => (angle - before) / step_s,
             _ => 0.0,
@@ -127,8 +149,9 @@ impl Axis {
             Goal::Angle(angle) => self.approach(angle, step_s),
             Goal::Follow(angle, rate) => rate + self.approach(angle - rate * step_s, step_s),
         };
-        let ramp = RAMP_DEG_S2 * step_s;
-        let wanted = wanted.clamp(-MAX_RATE_DEG_S, MAX_RATE_DEG_S);
+        let ramp = self.ramp_deg_s2() * step_s;
+        let max_rate = self.max_rate_deg_s();
+        let wanted = wanted.clamp(-max_rate, max_rate);
         self.rate_deg_s += (wanted - self.rate_deg_s).clamp(-ramp, ramp);
         self.angle_deg += self.rate_deg_s * step_s;
         if let Goal::Angle(angle) = self.goal
@@ -139,8 +162,8 @@ impl Axis {
             self.rate_deg_s = 0.0;
             self.goal = Goal::Still;
         }
-        if !TRAVEL_DEG.contains(&self.angle_deg) {
-            self.angle_deg = self.angle_deg.clamp(LOWEST_DEG, HIGHEST_DEG);
+        if !self.reaches(self.angle_deg) {
+            self.angle_deg = within(self.ends_deg, self.angle_deg);
             self.rate_deg_s = 0.0;
             if matches!(self.goal, Goal::Rate(_)) {
                 self.goal = Goal::Still;
@@ -152,9 +175,13 @@ impl Axis {
     fn approach(&self, angle_deg: f64, step_s: f64) -> f64 {
         let away = angle_deg - self.angle_deg;
         // A little less than the ramp, so that the braking never falls behind.
-        let brake = 0.9 * RAMP_DEG_S2;
+        let brake = 0.9 * self.ramp_deg_s2();
         let half = brake * step_s / 2.0;
         let fastest = (half * half + 2.0 * brake * away.abs()).sqrt() - half;
         fastest.min(away.abs() / step_s).copysign(away)
     }
+}
+
+fn within([lowest_deg, highest_deg]: [f64; 2], angle_deg: f64) -> f64 {
+    angle_deg.max(lowest_deg).min(highest_deg)
 }

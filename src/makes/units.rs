@@ -1,0 +1,154 @@
+//! Simulated units in memory, set up as the antennas of a station are.
+
+use std::{collections::BTreeMap, ops::RangeInclusive, sync::Arc};
+
+use crate::{
+    astro::{Angle, Site, xy_mount::axes_from_azel},
+    clock::Clock,
+    controller::{
+        rc2000c::{BAUD, BUS_ADDRESS, Calibration},
+        rotator_genius::Rotators,
+        satrak::ELEMENT_FILE,
+    },
+    device::{CountLine, CountPoint},
+    orbit::Elements,
+    protocol::{
+        rc2000c::Address,
+        rotator_genius::{RotatorKind, WholeDegrees},
+    },
+    sim::{
+        InMemory, rc2000c,
+        rotator_genius::{self, RotatorOptions},
+        satrak,
+    },
+    station::{Antenna, Mount},
+};
+
+/// What the units of a station have in common.
+pub struct Surroundings<'a> {
+    pub site: Site,
+    pub clock: Clock,
+    /// What a unit that tracks by itself holds.
+    pub elements: &'a [Elements],
+    /// Seed of all randomness.
+    pub seed: u64,
+}
+
+/// A unit as `antenna` has it, which stands at the park position. Where the antenna leaves open which
+/// file of elements its unit uses, it is told.
+pub(super) type Make = fn(&mut Antenna, &Surroundings<'_>) -> Arc<dyn InMemory>;
+
+pub(super) fn satrak(antenna: &mut Antenna, around: &Surroundings<'_>) -> Arc<dyn InMemory> {
+    if antenna.connection.text(&ELEMENT_FILE).is_empty() {
+        // Cannot fail: it accepts any text.
+        antenna.connection.put(&ELEMENT_FILE, satrak::BUNDLED_FILE).ok();
+    }
+    let file = antenna.connection.text(&ELEMENT_FILE).to_owned();
+    let usual = satrak::Options::new(around.site, around.clock.utc());
+    let (lower_axis, ends_deg) = match antenna.mount {
+        Mount::Xy { lower_axis_azimuth_deg, travel_from_deg, travel_to_deg } => {
+            (Angle::from_degrees(lower_axis_azimuth_deg), [travel_from_deg, travel_to_deg])
+        }
+        Mount::AzEl { .. } => (usual.lower_axis, usual.ends_deg),
+    };
+    let options = satrak::Options {
+        elements: BTreeMap::from([(file, around.elements.to_vec())]),
+        lower_axis,
+        ends_deg,
+        full_rate_deg_s: antenna.limits.maximum_rate_deg_s,
+        minimum_elevation_deg: antenna.limits.minimum_elevation_deg,
+        seed: around.seed,
+        ..usual
+    };
+    let unit = satrak::Control::on_clock(&options, around.clock.clone());
+    let axes = axes_from_azel(antenna.park_direction(), lower_axis);
+    unit.place([90.0 + axes.lower.degrees(), 90.0 + axes.upper.degrees()]);
+    Arc::new(unit)
+}
+
+pub(super) fn genius(antenna: &mut Antenna, around: &Surroundings<'_>) -> Arc<dyn InMemory> {
+    let [azimuth_deg, elevation_deg] = antenna.mount.travel_deg();
+    let full_rate_deg_s = antenna.limits.maximum_rate_deg_s;
+    let park = antenna.park;
+    let (limit_ccw, limit_cw) = ends_of_circle(azimuth_deg);
+    let azimuth = RotatorOptions {
+        position: whole(park.azimuth_deg),
+        limit_cw,
+        limit_ccw,
+        full_rate_deg_s,
+        ..RotatorOptions::default()
+    };
+    let elevation = RotatorOptions {
+        kind: RotatorKind::Elevation,
+        position: whole(park.elevation_deg),
+        limit_cw: whole(elevation_deg.1),
+        limit_ccw: whole(elevation_deg.0.max(0.0)),
+        full_rate_deg_s,
+        ..RotatorOptions::elevation()
+    };
+    let other = RotatorOptions { name: "Other".to_owned(), ..RotatorOptions::default() };
+    let rotators = match Rotators::of(&antenna.connection) {
+        Rotators::Pair => [azimuth, elevation],
+        Rotators::First => [azimuth, other],
+        Rotators::Second => [other, azimuth],
+    };
+    let options = rotator_genius::Options {
+        rotators,
+        seed: around.seed,
+        ..rotator_genius::Options::default()
+    };
+    Arc::new(rotator_genius::Control::on_clock(&options, around.clock.clone()))
+}
+
+fn whole(degrees: f64) -> WholeDegrees {
+    WholeDegrees::nearest(degrees.clamp(0.0, 360.0)).unwrap_or(WholeDegrees::saturating(0))
+}
+
+/// The ends of a travel on a circle of 0 to 360 degrees, the counter-clockwise one first; equal ones
+/// leave a whole turn.
+fn ends_of_circle((from_deg, to_deg): (f64, f64)) -> (WholeDegrees, WholeDegrees) {
+    let from = from_deg.rem_euclid(360.0);
+    let span = (to_deg - from_deg).min(360.0);
+    let to = from + span;
+    (whole(from), whole(if to > 360.0 { to - 360.0 } else { to }))
+}
+
+pub(super) fn rc2000c(antenna: &mut Antenna, around: &Surroundings<'_>) -> Arc<dyn InMemory> {
+    let connection = &antenna.connection;
+    let calibration = Calibration::of(connection);
+    let usual = rc2000c::Options::default();
+    let [azimuth_deg, elevation_deg] = antenna.mount.travel_deg();
+    let rate_deg_s = antenna.limits.maximum_rate_deg_s;
+    let azimuth = counted(&calibration.azimuth, azimuth_deg, rate_deg_s);
+    let elevation = counted(&calibration.elevation, elevation_deg, rate_deg_s);
+    let address = u8::try_from(connection.whole(&BUS_ADDRESS)).ok();
+    let options = rc2000c::Options {
+        address: address.and_then(|number| Address::new(number).ok()).unwrap_or(usual.address),
+        baud: connection.whole(&BAUD),
+        azimuth: azimuth.unwrap_or(usual.azimuth),
+        elevation: elevation.unwrap_or(usual.elevation),
+        ..usual
+    };
+    let unit = rc2000c::Control::on_clock(&options, around.clock.clone());
+    let counts = |points: &[CountPoint], deg| CountLine::through(points).ok()?.counts(deg);
+    let park = antenna.park;
+    let azimuth = counts(&calibration.azimuth, park.azimuth_deg);
+    let elevation = counts(&calibration.elevation, park.elevation_deg);
+    if let Some(place) = azimuth.zip(elevation) {
+        unit.place(place.into());
+    }
+    Arc::new(unit)
+}
+
+/// An axis whose sensor has these points; `None` where it is not calibrated.
+fn counted(
+    points: &[CountPoint],
+    (from_deg, to_deg): (f64, f64),
+    rate_deg_s: f64,
+) -> Option<rc2000c::AxisOptions> {
+    let line = CountLine::through(points).ok()?;
+    let (from, to) = (line.counts(from_deg)?, line.counts(to_deg)?);
+    let travel: RangeInclusive<u16> = from.min(to)..=from.max(to);
+    let counts_per_deg = f64::from(from.abs_diff(to)) / (to_deg - from_deg);
+    Some(rc2000c::AxisOptions { travel, full_rate_counts_s: rate_deg_s * counts_per_deg })
+}

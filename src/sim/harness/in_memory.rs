@@ -1,0 +1,69 @@
+//! A unit in memory whose make does not matter to who serves and disturbs it.
+
+use std::{future::Future, pin::Pin, time::Duration};
+
+use tokio::io::DuplexStream;
+
+use super::{Control, Unit};
+
+/// Trouble that a unit of any make can be given.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Trouble {
+    /// No reply comes; what is asked for is carried out.
+    Silence,
+    /// Noise precedes each reply.
+    Noise,
+    /// What a track needs is refused.
+    Refusal,
+    /// The drives have this share of their full rate, 0 to 1.
+    SlowDrives(f64),
+    /// The unit's own clock is late.
+    ClockLate(Duration),
+}
+
+/// A simulated unit of any make, without a port.
+pub trait InMemory: Send + Sync {
+    /// Serves one client until it leaves or is dropped.
+    fn serve(&self, stream: DuplexStream) -> Pin<Box<dyn Future<Output = ()> + Send>>;
+
+    /// Closes every connection. The unit goes on with its activity.
+    fn drop_clients(&self);
+
+    /// Begins or ends a trouble. Returns `false` for one that this make cannot have.
+    fn set_trouble(&self, trouble: Trouble, is_on: bool) -> bool;
+}
+
+impl<U: Unit> InMemory for Control<U>
+where
+    U::Wire: 'static,
+    <U::Wire as super::Wire<U>>::Reply: 'static,
+{
+    fn serve(&self, stream: DuplexStream) -> Pin<Box<dyn Future<Output = ()> + Send>> {
+        let control = self.clone();
+        Box::pin(async move {
+            let result = Control::serve(&control, stream).await;
+            tracing::info!(target: "azel::sim", ?result, "client left");
+        })
+    }
+
+    fn drop_clients(&self) {
+        Control::drop_clients(self);
+    }
+
+    fn set_trouble(&self, trouble: Trouble, is_on: bool) -> bool {
+        match trouble {
+            Trouble::Silence => self.set_fault(U::SILENCE, is_on),
+            Trouble::Noise => self.set_fault(U::NOISE, is_on),
+            Trouble::Refusal => self.set_fault(U::REFUSAL, is_on),
+            Trouble::SlowDrives(share) => {
+                let share = if is_on { share.clamp(0.0, 1.0) } else { 1.0 };
+                self.with_unit(|unit| unit.set_strength(share));
+            }
+            Trouble::ClockLate(late) => {
+                let late = if is_on { late } else { Duration::ZERO };
+                return self.with_unit(|unit| unit.set_clock_late(late));
+            }
+        }
+        true
+    }
+}
