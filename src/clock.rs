@@ -86,6 +86,7 @@ pub struct Clock {
     utc: Arc<dyn Fn() -> Timestamp + Send + Sync>,
     asleep: Arc<dyn Fn() -> Duration + Send + Sync>,
     speed: NonZeroU32,
+    is_of_system: bool,
 }
 
 impl fmt::Debug for Clock {
@@ -97,12 +98,14 @@ impl fmt::Debug for Clock {
 impl Clock {
     /// The clocks of the operating system.
     pub fn system() -> Self {
-        Self { utc: Arc::new(Timestamp::now), asleep: Arc::new(asleep), speed: NonZeroU32::MIN }
+        let utc = Arc::new(Timestamp::now);
+        Self { utc, asleep: Arc::new(asleep), speed: NonZeroU32::MIN, is_of_system: true }
     }
 
     /// A clock of one's own, of a computer that never sleeps.
     pub fn new(utc: impl Fn() -> Timestamp + Send + Sync + 'static) -> Self {
-        Self { utc: Arc::new(utc), asleep: Arc::new(|| Duration::ZERO), speed: NonZeroU32::MIN }
+        let asleep = Arc::new(|| Duration::ZERO);
+        Self { utc: Arc::new(utc), asleep, speed: NonZeroU32::MIN, is_of_system: false }
     }
 
     /// A clock that shows `start` now and runs `speed` times as fast as real time.
@@ -119,6 +122,11 @@ impl Clock {
     #[must_use]
     pub fn sleeping(self, asleep: impl Fn() -> Duration + Send + Sync + 'static) -> Self {
         Self { asleep: Arc::new(asleep), ..self }
+    }
+
+    /// Returns `true` for the clocks of the operating system, which a time service keeps.
+    pub fn is_of_system(&self) -> bool {
+        self.is_of_system
     }
 
     /// UTC now.

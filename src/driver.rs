@@ -229,14 +229,20 @@ impl From<Clock> for Outside {
 
 pub struct Driver {
     runtime: tokio::runtime::Handle,
-    end: Option<tokio::sync::oneshot::Sender<()>>,
-    ended: std::sync::mpsc::Receiver<()>,
+    /// `None` where somebody else runs the runtime.
+    thread: Option<DriverThread>,
     sessions: tokio_util::task::TaskTracker,
     outside: Outside,
     wake: Wake,
     orders: Orders,
     dead_man: Option<PathBuf>,
     debts: Debts,
+}
+
+/// The driver's thread, and what watches over it.
+struct DriverThread {
+    end: Option<tokio::sync::oneshot::Sender<()>>,
+    ended: std::sync::mpsc::Receiver<()>,
     before_sleep: BeforeSleep,
     pulse: Pulse,
     _watchdog: std::sync::mpsc::SyncSender<()>,
@@ -245,41 +251,25 @@ pub struct Driver {
 impl Driver {
     /// Starts the thread. It calls `wake` after every change.
     pub fn start(outside: impl Into<Outside>, wake: Wake) -> io::Result<Self> {
-        let runtime = tokio::runtime::Builder::new_current_thread().enable_all().build()?;
-        let handle = runtime.handle().clone();
         let sessions = tokio_util::task::TaskTracker::new();
-        let running = sessions.clone();
-        let (end, told_to_end) = tokio::sync::oneshot::channel();
-        let (tell_ended, ended) = std::sync::mpsc::sync_channel(1);
-        let pulse = Pulse::default();
-        runtime.spawn(pulse.clone().beat());
-        let watchdog = pulse.watch(Arc::clone(&wake))?;
-        let before_sleep = BeforeSleep::default();
-        before_sleep::watch(before_sleep.clone(), handle.clone())?;
-        thread::Builder::new().name("azel-driver".to_owned()).spawn(move || {
-            runtime.block_on(async {
-                // An error means that the driver is gone, which says the same.
-                let _ = told_to_end.await;
-                running.close();
-                let _ = tokio::time::timeout(FAREWELL, running.wait()).await;
-            });
-            // Perhaps nobody waits any more.
-            let _ = tell_ended.send(());
-        })?;
-        Ok(Self {
-            runtime: handle,
-            end: Some(end),
-            ended,
-            sessions,
-            outside: outside.into(),
+        let (runtime, thread) = DriverThread::start(sessions.clone(), &wake)?;
+        let thread = Some(thread);
+        Ok(Self { thread, sessions, ..Self::within(runtime, outside.into(), wake) })
+    }
+
+    /// Runs the sessions on a runtime that somebody else drives, such as a rehearsal: nothing
+    /// watches over it, and its end waits for nobody.
+    pub fn within(runtime: tokio::runtime::Handle, outside: Outside, wake: Wake) -> Self {
+        Self {
+            runtime,
+            thread: None,
+            sessions: tokio_util::task::TaskTracker::new(),
+            outside,
             wake,
             orders: Orders::default(),
             dead_man: None,
             debts: Debts::default(),
-            before_sleep,
-            pulse,
-            _watchdog: watchdog,
-        })
+        }
     }
 
     /// With `program` as the dead-man of motions by hand: this program, which knows
@@ -301,7 +291,7 @@ impl Driver {
     /// carried out, STOP included. `wake` is called when the thread hangs, each second while
     /// it does, and when it runs again.
     pub fn stood_for(&self) -> Option<Duration> {
-        self.pulse.stood_for()
+        self.thread.as_ref()?.pulse.stood_for()
     }
 
     /// The runtime of the driver's thread, for other work.
@@ -325,7 +315,10 @@ impl Driver {
             Arc::clone(&self.wake),
             &self.orders,
         );
-        let wires = wires.hearing(self.before_sleep.hear());
+        let wires = match &self.thread {
+            Some(thread) => wires.hearing(thread.before_sleep.hear()),
+            None => wires,
+        };
         let Outside { clock, dial } = self.outside.clone();
         let (antenna, debts) = (antenna.clone(), self.debts.clone());
         let (dead_man, ends) = (self.dead_man.clone(), wires.clone());
@@ -360,6 +353,36 @@ impl Driver {
 
     pub fn debts(&self) -> &Debts {
         &self.debts
+    }
+}
+
+impl DriverThread {
+    /// Starts the thread, and returns its runtime. It ends when all `sessions` have ended.
+    fn start(
+        sessions: tokio_util::task::TaskTracker,
+        wake: &Wake,
+    ) -> io::Result<(tokio::runtime::Handle, Self)> {
+        let runtime = tokio::runtime::Builder::new_current_thread().enable_all().build()?;
+        let handle = runtime.handle().clone();
+        let (end, told_to_end) = tokio::sync::oneshot::channel();
+        let (tell_ended, ended) = std::sync::mpsc::sync_channel(1);
+        let pulse = Pulse::default();
+        runtime.spawn(pulse.clone().beat());
+        let watchdog = pulse.watch(Arc::clone(wake))?;
+        let before_sleep = BeforeSleep::default();
+        before_sleep::watch(before_sleep.clone(), handle.clone())?;
+        thread::Builder::new().name("azel-driver".to_owned()).spawn(move || {
+            runtime.block_on(async {
+                // An error means that the driver is gone, which says the same.
+                let _ = told_to_end.await;
+                sessions.close();
+                let _ = tokio::time::timeout(FAREWELL, sessions.wait()).await;
+            });
+            // Perhaps nobody waits any more.
+            let _ = tell_ended.send(());
+        })?;
+        let thread = Self { end: Some(end), ended, before_sleep, pulse, _watchdog: watchdog };
+        Ok((handle, thread))
     }
 }
 
@@ -401,7 +424,7 @@ async fn caught<F: Future>(mut work: Pin<Box<F>>) -> Option<F::Output> {
 }
 
 /// Waits, within limits, until every session has sent its last STOP.
-impl Drop for Driver {
+impl Drop for DriverThread {
     fn drop(&mut self) {
         drop(self.end.take());
         if self.ended.recv_timeout(FAREWELL + Duration::from_millis(500)).is_err() {

@@ -15,6 +15,7 @@ pub mod copies;
 mod demo;
 mod handle;
 pub mod host_keys;
+pub mod in_place;
 pub mod link_tests;
 mod lock_outs;
 pub mod notices;
@@ -207,27 +208,42 @@ enum DemoStation {
 }
 
 impl Engine {
-    /// A station with these settings.
+    /// A station with these settings, and a driver on a thread of its own.
     fn new(
         settings: &Settings,
         outside: Outside,
         outbox: Outbox,
         requests: mpsc::WeakSender<Request>,
     ) -> io::Result<(Self, Client)> {
-        let settings_path = settings.station_path();
         let woken = Arc::new(Notify::new());
-        let wake: Wake = {
-            let woken = Arc::clone(&woken);
-            Arc::new(move || woken.notify_one())
-        };
-        let clock = outside.clock.clone();
-        let link_test_runner = link_tests::Runner::new(outside.clone(), Arc::clone(&wake));
-        let driver = Driver::start(outside, Arc::clone(&wake))?
+        let driver = Driver::start(outside.clone(), wake_of(&woken))?
             .guarded_by(settings.dead_man.clone())
             .marking_in(settings.marks.clone());
+        Self::over(driver, woken, settings, outside, outbox, requests)
+    }
+
+    /// A station whose antennas `driver` drives; its wake notifies `woken`.
+    fn over(
+        driver: Driver,
+        woken: Arc<Notify>,
+        settings: &Settings,
+        outside: Outside,
+        outbox: Outbox,
+        requests: mpsc::WeakSender<Request>,
+    ) -> io::Result<(Self, Client)> {
+        let settings_path = settings.station_path();
+        let wake = wake_of(&woken);
+        let clock = outside.clock.clone();
+        let link_test_runner = link_tests::Runner::new(outside, Arc::clone(&wake));
         let places = Places::new(settings_path.as_deref(), settings.library.clone());
-        let elements_job =
-            sources::start(&places, Task::default(), None, clock.utc(), Arc::clone(&wake))?;
+        let (catalog, elements_job) = match &settings.elements {
+            Some(given) => (CatalogState::Ready(Arc::clone(given)), None),
+            None => {
+                let (task, now) = (Task::default(), clock.utc());
+                let job = sources::start(&places, task, None, now, Arc::clone(&wake))?;
+                (CatalogState::Loading, Some(job))
+            }
+        };
         let upload_places = settings.upload_places.clone().or_else(uploads::Places::of_this_user);
         let upload_runner =
             uploads::Runner::new(upload_places.clone(), clock.clone(), Arc::clone(&wake));
@@ -252,9 +268,16 @@ impl Engine {
             station: Arc::default(),
             station_saved_at: None,
             demo: None,
-            catalog: CatalogState::Loading,
+            catalog,
             catalog_revision: 0,
-            sources: Sources { work: SourceWork::Reading, ..Sources::default() },
+            sources: Sources {
+                work: if elements_job.is_some() {
+                    SourceWork::Reading
+                } else {
+                    SourceWork::Nothing
+                },
+                ..Sources::default()
+            },
             antennas: Vec::new(),
             sessions: 0,
             attention: Attention::default(),
@@ -270,7 +293,7 @@ impl Engine {
             link_tests: Vec::new(),
             alarms: Alarms::default(),
             copies: Copies::default(),
-            recording: Recording::in_folder(settings.records.clone()),
+            recording: Recording::new(settings.records.clone(), settings.reports.clone()),
             closing: None,
             driver,
             clock,
@@ -280,7 +303,7 @@ impl Engine {
             copy_work: CopyWork::beside(settings_path.as_deref()),
             settings_path,
             places,
-            elements_job: Some(elements_job),
+            elements_job,
             refreshed_at: None,
             older_sets: None,
             older_reading: older_sets::Reading::default(),
@@ -479,6 +502,12 @@ impl Drop for Engine {
             }
         }
     }
+}
+
+/// A wake that notifies `woken`.
+fn wake_of(woken: &Arc<Notify>) -> Wake {
+    let woken = Arc::clone(woken);
+    Arc::new(move || woken.notify_one())
 }
 
 /// Shares `last` if it is unchanged, else a new copy of `now`.

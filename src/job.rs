@@ -2,7 +2,10 @@
 //! word that it broke off.
 
 use std::{
+    cell::Cell,
     io,
+    marker::PhantomData,
+    panic::{self, AssertUnwindSafe},
     sync::{
         Arc,
         atomic::{AtomicBool, Ordering},
@@ -19,6 +22,27 @@ pub type Wake = Arc<dyn Fn() + Send + Sync>;
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
 #[error("the work broke off inside Azel")]
 pub struct BrokeOff;
+
+thread_local! {
+    static RUNS_IN_PLACE: Cell<bool> = const { Cell::new(false) };
+}
+
+/// While this lives, jobs that its thread starts run on that thread and are over at once: in a
+/// rehearsal no time passes while they work.
+pub struct InPlace(PhantomData<*const ()>);
+
+impl InPlace {
+    pub fn begin() -> Self {
+        RUNS_IN_PLACE.set(true);
+        Self(PhantomData)
+    }
+}
+
+impl Drop for InPlace {
+    fn drop(&mut self) {
+        RUNS_IN_PLACE.set(false);
+    }
+}
 
 /// A piece of work under way. Dropping it cancels it.
 pub struct Job<T> {
@@ -37,7 +61,7 @@ impl<T: Send + 'static> Job<T> {
         let (send, result) = mpsc::sync_channel(1);
         let cancelled = Arc::new(AtomicBool::new(false));
         let asked = Arc::clone(&cancelled);
-        thread::Builder::new().name(name.to_owned()).spawn(move || {
+        let whole = move || {
             // Dropped in the order result, wake, also where the work panics: whoever is
             // woken finds the end of the work.
             let _wake = WakeAtEnd(wake);
@@ -45,7 +69,13 @@ impl<T: Send + 'static> Job<T> {
             let outcome = work(&|| asked.load(Ordering::Relaxed));
             // Nobody may be waiting any more.
             let _ = send.send(outcome);
-        })?;
+        };
+        if RUNS_IN_PLACE.get() {
+            // Whoever asks for the result learns that it broke off.
+            panic::catch_unwind(AssertUnwindSafe(whole)).ok();
+        } else {
+            thread::Builder::new().name(name.to_owned()).spawn(whole)?;
+        }
         Ok(Self { result, cancelled })
     }
 
@@ -110,5 +140,19 @@ mod tests {
         wakes.recv().unwrap();
         assert_eq!(Job::<()>::take(&mut job), Some(Err(BrokeOff)));
         assert!(job.is_none());
+    }
+
+    #[test]
+    fn in_place_work_is_over_when_it_has_been_started() {
+        let here = thread::current().id();
+        let in_place = InPlace::begin();
+        let (mut job, _wakes) = start(move || thread::current().id() == here);
+        assert_eq!(Job::take(&mut job), Some(Ok(true)));
+        let (mut broken, _wakes) = start(|| panic!("on purpose"));
+        assert_eq!(Job::<()>::take(&mut broken), Some(Err(BrokeOff)));
+        drop(in_place);
+        let (mut job, wakes) = start(move || thread::current().id() == here);
+        wakes.recv().unwrap();
+        assert_eq!(Job::take(&mut job), Some(Ok(false)));
     }
 }

@@ -2,7 +2,7 @@
 //!
 //! The folders are layers; a lower one never names a higher one. From the
 //! bottom: [`astro`], [`orbit`], [`library`], [`protocol`], [`device`], [`transfer`], [`station`],
-//! [`controller`], [`plan`], [`driver`], [`record`], [`sim`], [`makes`], [`engine`], [`model`], [`ui`],
+//! [`controller`], [`plan`], [`driver`], [`record`], [`sim`], [`makes`], [`engine`], [`rehearsal`], [`model`], [`ui`],
 //! [`app`]; [`desktop`], [`secret`] and `whole_file` stand below them all. `docs/architecture.md`
 //! holds the picture and the invariants.
 
@@ -24,6 +24,7 @@ pub mod orbit;
 pub mod plan;
 pub mod protocol;
 pub mod record;
+pub mod rehearsal;
 pub mod secret;
 pub mod sim;
 pub mod station;

@@ -14,6 +14,7 @@ use std::{
 
 use jiff::Timestamp;
 use serde_json::{Map, Value, json};
+use tokio::sync::mpsc;
 
 use self::{differences::differences, reports::Followed, state::State};
 use super::{
@@ -42,6 +43,8 @@ const DEMO: &str = "demo.sqlite";
 pub(super) struct Recording {
     /// Folder of all records; `None` to keep none.
     folder: Option<PathBuf>,
+    /// Who takes the reports of passes besides the record.
+    taker: Option<mpsc::Sender<PassNote>>,
     recorder: Option<(PathBuf, Recorder)>,
     status: Option<Arc<Status>>,
     station: Value,
@@ -83,12 +86,25 @@ pub fn records_folder() -> Option<PathBuf> {
 }
 
 impl Recording {
-    pub(super) fn in_folder(folder: Option<PathBuf>) -> Self {
-        Self { folder, ..Self::default() }
+    pub(super) fn new(folder: Option<PathBuf>, taker: Option<mpsc::Sender<PassNote>>) -> Self {
+        Self { folder, taker, ..Self::default() }
     }
 
-    fn is_on(&self) -> bool {
-        self.recorder.is_some()
+    /// Somebody wants reports of passes.
+    fn reports(&self) -> bool {
+        self.recorder.is_some() || self.taker.is_some()
+    }
+
+    /// Passes on the report of a pass.
+    fn tell_pass(&self, note: PassNote) {
+        if let Some(taker) = &self.taker
+            && taker.try_send(note.clone()).is_err()
+        {
+            tracing::error!("a report of a pass is not taken");
+        }
+        if let Some((_, recorder)) = &self.recorder {
+            recorder.note_pass(note);
+        }
     }
 
     pub(super) fn status(&self) -> Option<Arc<Status>> {
@@ -132,8 +148,9 @@ impl Recording {
     fn begin(&mut self, path: PathBuf, clock: &Clock, keeping: station::Retention) {
         match Recorder::start(path.clone(), clock.clone(), keeping) {
             Ok(recorder) => {
-                let folder = self.folder.take();
-                *self = Self { folder, recorder: Some((path, recorder)), ..Self::default() };
+                let (folder, taker) = (self.folder.take(), self.taker.take());
+                let recorder = Some((path, recorder));
+                *self = Self { folder, taker, recorder, ..Self::default() };
             }
             Err(error) => tracing::error!(%error, "no thread for the record"),
         }
@@ -225,6 +242,7 @@ impl Engine {
 
     /// Records what this turn has changed, and watches over the record.
     pub(super) fn record_turn(&mut self) {
+        self.report_passes();
         let Some((_, recorder)) = &self.recording.recorder else {
             self.recording.status = None;
             return;
@@ -241,7 +259,6 @@ impl Engine {
         if self.recording.status.as_deref() != Some(&status) {
             self.recording.status = Some(Arc::new(status));
         }
-        self.report_passes();
         let at = self.clock.now();
         self.note_clock(at);
         self.note_alarms(at);

@@ -1,9 +1,14 @@
 //! What a station is started with.
 
-use std::path::{Path, PathBuf};
+use std::{
+    path::{Path, PathBuf},
+    sync::Arc,
+};
+
+use tokio::sync::mpsc;
 
 use super::{claim::HolderKind, sources::Places, uploads};
-use crate::station;
+use crate::{orbit::Catalog, record::PassNote, station};
 
 /// Places of a station's files and its role among the Azels of this machine.
 #[derive(Debug, Clone, Default)]
@@ -20,6 +25,10 @@ pub struct Settings {
     pub marks: Option<PathBuf>,
     /// Folder for the records of stations; `None` to record nothing.
     pub records: Option<PathBuf>,
+    /// Elements in place of those of the sources, of which none is then read.
+    pub elements: Option<Arc<Catalog>>,
+    /// Who takes the reports of passes besides the record.
+    pub reports: Option<mpsc::Sender<PassNote>>,
     /// Folder for claims of the station and its units, and the role of this process; `None`
     /// to ignore other Azels.
     pub claims: Option<(PathBuf, HolderKind)>,

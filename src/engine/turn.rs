@@ -24,8 +24,10 @@ impl Engine {
     /// station asks for by itself, drawn before the last look for a STOP.
     pub(super) fn turn(&mut self, turn: u64) {
         self.set_time();
-        let time_sync = self.clock_watch.poll(self.steady, &self.wake);
-        self.time_sync = time_sync.unwrap_or(self.time_sync);
+        if self.clock.is_of_system() {
+            let time_sync = self.clock_watch.poll(self.steady, &self.wake);
+            self.time_sync = time_sync.unwrap_or(self.time_sync);
+        }
         self.watch_driver();
         self.watch_claims();
         self.take_catalog();

@@ -44,6 +44,7 @@ impl Session {
                 );
             }
             tokio::select! {
+                biased;
                 read = reader.read(&mut buffer) => match read {
                     Ok(count @ 1..) => {
                         let now = self.now();

@@ -31,6 +31,7 @@ impl Session {
             let turn = match due {
                 None => word.await,
                 Some(due) => tokio::select! {
+                    biased;
                     turn = word => turn,
                     () = clock.sleep_until(due.max(now.steady + MIN_WAIT)) => Input::Time,
                 },

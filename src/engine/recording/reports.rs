@@ -61,23 +61,17 @@ pub(super) struct Followed {
 impl Engine {
     /// Takes up the passes that antennas track, and reports on those that are over.
     pub(super) fn report_passes(&mut self) {
-        if !self.recording.is_on() {
+        if !self.recording.reports() {
             return;
         }
-        let mut has_grown = false;
-        self.recording.reports.retain_mut(|job| {
-            let mut job_left = job.take();
-            if let Some(Ok(note)) = Job::take(&mut job_left)
-                && let Some((_, recorder)) = &self.recording.recorder
-            {
-                recorder.note_pass(note);
-                has_grown = true;
-            }
-            *job = job_left;
-            job.is_some()
-        });
-        if has_grown {
+        let finished: Vec<PassNote> =
+            self.recording.reports.iter_mut().filter_map(Job::take).flatten().collect();
+        self.recording.reports.retain(Option::is_some);
+        if !finished.is_empty() {
             self.record_has_grown();
+        }
+        for note in finished {
+            self.recording.tell_pass(note);
         }
         // A pass is long beside a second.
         if self.now.as_second() == self.recording.looked_at {

@@ -1,0 +1,45 @@
+//! A station that runs where it is awaited, without a thread of its own.
+
+use std::{future::Future, io, sync::Arc};
+
+use tokio::sync::{Notify, mpsc};
+
+use super::{Client, Engine, Event, Outbox, Settings, handle::Request, wake_of};
+use crate::driver::{Driver, Outside};
+
+/// Most requests that wait.
+const REQUESTS: usize = 64;
+/// Most events that wait.
+const EVENTS: usize = 64;
+
+/// A station in the runtime in which it is started. It ends when this is dropped and its future,
+/// which runs it, is awaited to the end.
+pub struct InPlace {
+    client: Client,
+    _requests: mpsc::Sender<Request>,
+}
+
+impl InPlace {
+    /// Starts a station. Its sessions are tasks of the present runtime.
+    pub fn start(
+        settings: &Settings,
+        outside: Outside,
+    ) -> io::Result<(Self, impl Future<Output = ()>)> {
+        let runtime = tokio::runtime::Handle::try_current().map_err(io::Error::other)?;
+        let (requests, inbox) = mpsc::channel(REQUESTS);
+        let (tell, mut events) = mpsc::channel::<Event>(EVENTS);
+        // What they tell stands in the snapshots too.
+        runtime.spawn(async move { while events.recv().await.is_some() {} });
+        let woken = Arc::new(Notify::new());
+        let driver = Driver::within(runtime, outside.clone(), wake_of(&woken));
+        let outbox = Outbox { events: tell, wake: Arc::new(|| {}) };
+        let weak = requests.downgrade();
+        let (engine, client) = Engine::over(driver, woken, settings, outside, outbox, weak)?;
+        let station = Self { client, _requests: requests };
+        Ok((station, engine.run(inbox)))
+    }
+
+    pub fn client(&self) -> &Client {
+        &self.client
+    }
+}

@@ -1,0 +1,214 @@
+//! Rehearsal: the plan of a station carried out against simulated units, before it happens.
+//!
+//! Everything is a task of one runtime on one thread, in tokio's paused time: time passes only when
+//! engine, sessions and simulators have nothing left to do at the present moment, and jobs are over
+//! when they have been started. So a rehearsal runs as fast as it can, and gives the same twice.
+
+mod fault;
+mod pass;
+mod units;
+
+use std::{
+    io,
+    num::NonZeroU32,
+    pin::pin,
+    sync::Arc,
+    thread,
+    time::{Duration, Instant},
+};
+
+use jiff::Timestamp;
+use tokio::sync::mpsc;
+
+pub use self::{
+    fault::{Fault, FaultKind, WrongFault},
+    pass::{Rehearsed, RehearsedPass},
+};
+use self::{pass::Passes, units::Units};
+use crate::{
+    astro::time::{add_seconds, seconds_between},
+    clock::Clock,
+    driver,
+    engine::{Client, Command, Settings, Snapshot, in_place::InPlace, uploads},
+    job,
+    orbit::Catalog,
+    record::PassNote,
+    station::{self, Antenna, SaveError, Station},
+    transfer::{KeptFiles, KnownHosts, Limits, MemoryKeyring},
+};
+
+/// Time for the links to come up and for a first plan before the rehearsal begins, seconds.
+const LEAD_S: f64 = 120.0;
+/// Longest time after its end until the last pass is over, seconds.
+const LONGEST_PASS_S: f64 = 6.0 * 3600.0;
+/// Most reports that wait.
+const REPORTS: usize = 64;
+
+/// What is rehearsed.
+#[derive(Debug, Clone)]
+pub struct Rehearsal {
+    /// Its antennas are copied; nothing of its file is touched.
+    pub station: Station,
+    pub elements: Arc<Catalog>,
+    pub from: Timestamp,
+    pub hours: f64,
+    pub seed: u64,
+    pub faults: Vec<Fault>,
+    /// In multiples of real time; `None` for as fast as it can. The result is the same.
+    pub speed: Option<NonZeroU32>,
+}
+
+#[derive(Debug, thiserror::Error)]
+pub enum RehearsalError {
+    #[error("there is no antenna with a simulated unit")]
+    NoAntenna,
+    #[error("there is no antenna {0} for a fault")]
+    UnknownAntenna(String),
+    #[error("the unit of {0} cannot have this fault")]
+    ImpossibleFault(String),
+    #[error("the copy of the station cannot be written: {0}")]
+    Copy(#[from] SaveError),
+    #[error("the rehearsal cannot be started: {0}")]
+    Start(#[from] io::Error),
+    #[error("the rehearsed station broke down")]
+    BrokeDown,
+    #[error("it was cancelled")]
+    Cancelled,
+}
+
+/// Rehearses on this thread. `tell` is called with the time of the rehearsal as it passes.
+pub fn run(
+    what: &Rehearsal,
+    tell: &dyn Fn(Timestamp),
+    is_cancelled: &dyn Fn() -> bool,
+) -> Result<Rehearsed, RehearsalError> {
+    let _jobs = job::InPlace::begin();
+    let runtime =
+        tokio::runtime::Builder::new_current_thread().enable_time().start_paused(true).build()?;
+    let folder = tempfile::tempdir()?;
+    let rehearsed = runtime.block_on(async {
+        let start = add_seconds(what.from, -LEAD_S);
+        let clock = Clock::at_speed(start, NonZeroU32::MIN);
+        let mut station = what.station.clone();
+        let (units, left_out) = Units::of(&mut station, &what.elements, what.seed, &clock)?;
+        let units = Arc::new(units);
+        for fault in &what.faults {
+            units.suffer(fault, what.from, &clock)?;
+        }
+        let path = folder.path().join("station.toml");
+        station::save(&station, &path)?;
+        let (reports, told) = mpsc::channel(REPORTS);
+        let settings = Settings {
+            path: Some(path),
+            library: Some(folder.path().join("elements")),
+            upload_places: Some(upload_places(folder.path())),
+            elements: Some(Arc::clone(&what.elements)),
+            reports: Some(reports),
+            ..Settings::default()
+        };
+        let (running, run) = InPlace::start(&settings, units.outside(&clock))?;
+        let client = running.client().clone();
+        switch_on(&client, &station.antennas);
+        let passes = Passes::new(what.from, add_seconds(what.from, what.hours * 3600.0));
+        let watch = Watch { client, told, passes, pace: Pace::new(start, what.speed) };
+        let mut run = pin!(run);
+        tokio::select! {
+            biased;
+            watched = watch.until_the_end(tell, is_cancelled) => {
+                watched.map(|passes| passes.rehearsed(what, &station, left_out))
+            }
+            () = &mut run => Err(RehearsalError::BrokeDown),
+        }
+    });
+    // The sessions have nobody to end for.
+    runtime.shutdown_background();
+    rehearsed
+}
+
+/// Nothing is uploaded in a rehearsal, and nothing of the user's is read.
+fn upload_places(folder: &std::path::Path) -> uploads::Places {
+    let session = Arc::<MemoryKeyring>::default();
+    uploads::Places {
+        known_hosts: KnownHosts::new(folder.join("known_hosts")),
+        kept: KeptFiles::new(folder.join("uploads")),
+        keyring: session.clone(),
+        session,
+        limits: Limits::default(),
+    }
+}
+
+/// Connects the antennas, and switches their automatic operation on.
+fn switch_on(client: &Client, antennas: &[Antenna]) {
+    for antenna in antennas {
+        let waits = antenna.connection.variant().capabilities.waits_for_word;
+        let connect = Command::Antenna(antenna.id, driver::Command::Connect);
+        let switch_on = Command::SetAutomatic { antenna: antenna.id, is_on: true };
+        for command in waits.then_some(connect).into_iter().chain([switch_on]) {
+            // The queue is long enough for any station.
+            if client.send(command).is_err() {
+                tracing::error!(antenna = antenna.name, "not switched on for the rehearsal");
+            }
+        }
+    }
+}
+
+/// Watches a rehearsed station.
+struct Watch {
+    client: Client,
+    told: mpsc::Receiver<PassNote>,
+    passes: Passes,
+    pace: Pace,
+}
+
+impl Watch {
+    async fn until_the_end(
+        mut self,
+        tell: &dyn Fn(Timestamp),
+        is_cancelled: &dyn Fn() -> bool,
+    ) -> Result<Passes, RehearsalError> {
+        while self.client.changed().await {
+            if is_cancelled() {
+                return Err(RehearsalError::Cancelled);
+            }
+            let snapshot = self.client.snapshot();
+            self.look(&snapshot);
+            let now = snapshot.at.utc;
+            let over_s = seconds_between(self.passes.until(), now);
+            if over_s > LONGEST_PASS_S || over_s > 0.0 && self.passes.are_over(now) {
+                return Ok(self.passes);
+            }
+            tell(now);
+            self.pace.keep(now);
+        }
+        Err(RehearsalError::BrokeDown)
+    }
+
+    fn look(&mut self, snapshot: &Snapshot) {
+        self.passes.take_plan(snapshot);
+        self.passes.take_day(&snapshot.day);
+        while let Ok(note) = self.told.try_recv() {
+            self.passes.take_report(note);
+        }
+    }
+}
+
+/// Keeps a rehearsal at its speed.
+struct Pace {
+    start: Timestamp,
+    begun: Instant,
+    speed: Option<NonZeroU32>,
+}
+
+impl Pace {
+    fn new(start: Timestamp, speed: Option<NonZeroU32>) -> Self {
+        Self { start, begun: Instant::now(), speed }
+    }
+
+    /// Holds the thread, and with it the time of the rehearsal, until `now` is due.
+    fn keep(&self, now: Timestamp) {
+        let Some(speed) = self.speed else { return };
+        let passed_s = seconds_between(self.start, now) / f64::from(speed.get());
+        let due = Duration::try_from_secs_f64(passed_s).unwrap_or_default();
+        thread::sleep(due.saturating_sub(self.begun.elapsed()));
+    }
+}

@@ -1,0 +1,196 @@
+//! What became of each pass of the plan.
+
+use jiff::Timestamp;
+use serde::{Deserialize, Serialize};
+
+use super::Rehearsal;
+use crate::{
+    astro::time::seconds_between,
+    engine::{
+        Snapshot,
+        automatic::{DayEvent, DayLine, Flown},
+    },
+    plan::schedule::{Entry, PassKey},
+    record::{PassNote, RecordedReport},
+    station::{AntennaId, Station},
+};
+
+/// By newer elements or another search, the AOS of a pass may differ by less.
+const SAME_AOS_S: f64 = 60.0;
+/// Time from the end of a pass to its report, seconds.
+const REPORTED_AFTER_S: f64 = 10.0;
+
+/// A rehearsal that is over.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Rehearsed {
+    pub from: Timestamp,
+    pub hours: f64,
+    pub seed: u64,
+    /// By start, then by antenna.
+    pub passes: Vec<RehearsedPass>,
+    /// Names of the antennas whose make has no simulator.
+    pub left_out: Vec<String>,
+}
+
+/// A pass of the plan, and what became of it.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct RehearsedPass {
+    pub antenna: AntennaId,
+    pub antenna_name: String,
+    pub satellite: u32,
+    pub satellite_name: String,
+    pub aos: Timestamp,
+    pub los: Timestamp,
+    /// When the antenna was to track it.
+    pub from: Timestamp,
+    pub to: Timestamp,
+    /// Seconds inside half of the beam that the plan promised, when it first named the pass.
+    pub promised_s: f64,
+    /// A newer plan left it out before it began.
+    pub is_given_up: bool,
+    /// What automatic operation tells of it; `None` where it never set out.
+    pub flown: Option<Flown>,
+    /// Where the antenna pointed; `None` where it never tracked.
+    pub report: Option<RecordedReport>,
+}
+
+impl RehearsedPass {
+    /// Seconds inside half of the beam.
+    pub fn got_s(&self) -> f64 {
+        self.flown.as_ref().map_or(0.0, |flown| flown.in_beam_s)
+    }
+
+    /// Seconds of the promise that were lost.
+    pub fn lost_s(&self) -> f64 {
+        (self.promised_s - self.got_s()).max(0.0)
+    }
+
+    pub fn rms_deg(&self) -> Option<f64> {
+        self.report.as_ref()?.report.rms.map(|rms| rms.off_deg)
+    }
+
+    pub fn worst_deg(&self) -> Option<f64> {
+        self.report.as_ref()?.report.worst.map(|worst| worst.error.off_deg)
+    }
+
+    fn is(&self, antenna: AntennaId, satellite: u32, aos: Timestamp) -> bool {
+        let is_same_aos = || seconds_between(self.aos, aos).abs() < SAME_AOS_S;
+        self.antenna == antenna && self.satellite == satellite && is_same_aos()
+    }
+}
+
+/// The passes of a rehearsal that goes on.
+pub(super) struct Passes {
+    from: Timestamp,
+    until: Timestamp,
+    list: Vec<RehearsedPass>,
+    /// Revision of the plan that was looked at last.
+    revision: u64,
+    /// When the last line of the day that was looked at was written.
+    day_until: Option<Timestamp>,
+}
+
+impl Passes {
+    pub(super) fn new(from: Timestamp, until: Timestamp) -> Self {
+        Self { from, until, list: Vec::new(), revision: 0, day_until: None }
+    }
+
+    pub(super) fn until(&self) -> Timestamp {
+        self.until
+    }
+
+    /// Returns `true` if no pass goes on at `now`.
+    pub(super) fn are_over(&self, now: Timestamp) -> bool {
+        let is_over = |it: &RehearsedPass| {
+            it.is_given_up || seconds_between(it.to.max(it.los), now) > REPORTED_AFTER_S
+        };
+        self.list.iter().all(is_over)
+    }
+
+    /// Takes a new plan.
+    pub(super) fn take_plan(&mut self, snapshot: &Snapshot) {
+        let planned = &snapshot.schedule;
+        if planned.revision == self.revision {
+            return;
+        }
+        self.revision = planned.revision;
+        for pass in self.list.iter_mut().filter(|pass| pass.from > snapshot.at.utc) {
+            pass.is_given_up = true;
+        }
+        let entries = planned.schedule.entries.iter();
+        for entry in entries.filter(|it| self.from <= it.from && it.from < self.until) {
+            let PassKey { satellite, aos } = entry.pass;
+            match self.list.iter_mut().find(|it| it.is(entry.antenna, satellite, aos)) {
+                Some(known) => {
+                    (known.from, known.to) = (entry.from, entry.to);
+                    known.is_given_up = false;
+                }
+                None => self.list.push(new(entry, snapshot)),
+            }
+        }
+    }
+
+    /// Takes what is new in the list of the day.
+    pub(super) fn take_day(&mut self, day: &[DayLine]) {
+        // Lines of one turn have the same time, and come together.
+        let since = self.day_until;
+        let news = day.iter().filter(|line| since.is_none_or(|since| line.at > since));
+        for line in news {
+            let DayEvent::Flown(flown) = &line.what else { continue };
+            let (satellite, aos) = flown.pass;
+            if let Some(pass) = self.list.iter_mut().find(|it| it.is(line.antenna, satellite, aos))
+            {
+                pass.flown = Some(flown.clone());
+            }
+        }
+        self.day_until = day.last().map(|line| line.at).or(since);
+    }
+
+    pub(super) fn take_report(&mut self, note: PassNote) {
+        let report = note.report;
+        let is_its = |it: &&mut RehearsedPass| {
+            it.antenna == note.antenna
+                && it.satellite == report.elements.catalog_number()
+                && it.from < report.until
+                && report.from < it.to
+        };
+        if let Some(pass) = self.list.iter_mut().find(is_its) {
+            pass.report = Some(report);
+        }
+    }
+
+    pub(super) fn rehearsed(
+        self,
+        what: &Rehearsal,
+        station: &Station,
+        left_out: Vec<String>,
+    ) -> Rehearsed {
+        let Self { list: mut passes, .. } = self;
+        for pass in &mut passes {
+            let antenna = station.antennas.iter().find(|antenna| antenna.id == pass.antenna);
+            pass.antenna_name = antenna.map(|antenna| antenna.name.clone()).unwrap_or_default();
+        }
+        passes.sort_by_key(|pass| (pass.from, pass.antenna, pass.satellite));
+        Rehearsed { from: what.from, hours: what.hours, seed: what.seed, passes, left_out }
+    }
+}
+
+fn new(entry: &Entry, snapshot: &Snapshot) -> RehearsedPass {
+    let PassKey { satellite, aos } = entry.pass;
+    let predicted = snapshot.pass_lists.find((satellite, aos));
+    let name = predicted.map(|of| of.satellite.short_name().to_owned());
+    RehearsedPass {
+        antenna: entry.antenna,
+        antenna_name: String::new(),
+        satellite,
+        satellite_name: name.unwrap_or_else(|| satellite.to_string()),
+        aos,
+        los: predicted.map_or(entry.to, |of| of.pass.los.time),
+        from: entry.from,
+        to: entry.to,
+        promised_s: entry.counted_s,
+        is_given_up: false,
+        flown: None,
+        report: None,
+    }
+}

@@ -1,0 +1,149 @@
+//! The simulated units of a rehearsed station, and their links, which lead nowhere else.
+
+use std::{
+    io,
+    sync::{
+        Arc,
+        atomic::{AtomicBool, Ordering},
+    },
+};
+
+use jiff::Timestamp;
+
+use super::{Fault, FaultKind, RehearsalError};
+use crate::{
+    astro::time::{add_seconds, seconds_between},
+    clock::Clock,
+    driver::{Dial, Outside, Stream},
+    makes::{self, Surroundings},
+    orbit::{Catalog, Elements},
+    sim::InMemory,
+    station::{Antenna, AntennaId, Station},
+};
+
+/// Size of a link's buffer, bytes.
+const BUFFER: usize = 4096;
+
+/// A unit and the link to it.
+#[derive(Clone)]
+struct Linked {
+    id: AntennaId,
+    antenna: String,
+    unit: Arc<dyn InMemory>,
+    is_down: Arc<AtomicBool>,
+}
+
+pub(super) struct Units(Vec<Linked>);
+
+impl Units {
+    /// Units for the antennas of a station. Antennas of a make without a simulator are taken from the
+    /// station; their names are returned.
+    pub(super) fn of(
+        station: &mut Station,
+        catalog: &Catalog,
+        seed: u64,
+        clock: &Clock,
+    ) -> Result<(Self, Vec<String>), RehearsalError> {
+        let numbers = station.favourites.numbers();
+        let elements: Vec<Elements> =
+            numbers.iter().filter_map(|number| catalog.get(*number).cloned()).collect();
+        let (mut units, mut left_out) = (Vec::new(), Vec::new());
+        let site = station.site;
+        station.antennas.retain_mut(|antenna| {
+            // Each has other numbers than its neighbour.
+            let seed = seed.rotate_left(16) ^ u64::from(antenna.id.0);
+            let around = Surroundings { site, clock: clock.clone(), elements: &elements, seed };
+            let unit = makes::unit_in_memory(antenna, &around);
+            let (id, name) = (antenna.id, antenna.name.clone());
+            let has_unit = unit.is_some();
+            match unit {
+                Some(unit) => {
+                    units.push(Linked { id, antenna: name, unit, is_down: Arc::default() });
+                }
+                None => left_out.push(name),
+            }
+            has_unit
+        });
+        if units.is_empty() {
+            return Err(RehearsalError::NoAntenna);
+        }
+        Ok((Self(units), left_out))
+    }
+
+    /// What the sessions of the rehearsed station take from outside: these units alone.
+    pub(super) fn outside(self: &Arc<Self>, clock: &Clock) -> Outside {
+        let units = Arc::clone(self);
+        let dial = Arc::new(move |antenna: &Antenna| {
+            let linked = units.0.iter().find(|linked| linked.id == antenna.id).cloned();
+            let dial: Dial = Box::new(move || {
+                let linked = linked.clone().filter(|it| !it.is_down.load(Ordering::Relaxed));
+                Box::pin(async move { linked.map(Linked::connected).ok_or_else(refused) })
+            });
+            dial
+        });
+        Outside { clock: clock.clone(), dial }
+    }
+
+    /// Lets units have a fault when its time comes. `from` is the start of the rehearsal.
+    pub(super) fn suffer(
+        &self,
+        fault: &Fault,
+        from: Timestamp,
+        clock: &Clock,
+    ) -> Result<(), RehearsalError> {
+        let name = fault.antenna.as_deref();
+        let is_meant = |linked: &&Linked| name.is_none_or(|name| linked.antenna == name);
+        let meant: Vec<&Linked> = self.0.iter().filter(is_meant).collect();
+        if let Some(name) = name.filter(|_| meant.is_empty()) {
+            return Err(RehearsalError::UnknownAntenna(name.to_owned()));
+        }
+        let can_all: Vec<&Linked> =
+            meant.into_iter().filter(|linked| linked.set(fault.kind, false)).collect();
+        if can_all.is_empty() {
+            let name = name.unwrap_or("any antenna").to_owned();
+            return Err(RehearsalError::ImpossibleFault(name));
+        }
+        let begins = add_seconds(from, fault.after.as_secs_f64());
+        for linked in can_all {
+            let (linked, fault, clock) = (linked.clone(), fault.clone(), clock.clone());
+            tokio::spawn(async move {
+                let left_s = seconds_between(clock.utc(), begins);
+                clock
+                    .sleep(std::time::Duration::try_from_secs_f64(left_s).unwrap_or_default())
+                    .await;
+                linked.set(fault.kind, true);
+                if let Some(lasts) = fault.lasts {
+                    clock.sleep(lasts).await;
+                    linked.set(fault.kind, false);
+                }
+            });
+        }
+        Ok(())
+    }
+}
+
+impl Linked {
+    fn connected(self) -> Box<dyn Stream> {
+        let (near, far) = tokio::io::duplex(BUFFER);
+        tokio::spawn(self.unit.serve(far));
+        Box::new(near)
+    }
+
+    /// Begins or ends a fault; returns `false` for one that the unit cannot have.
+    fn set(&self, kind: FaultKind, is_on: bool) -> bool {
+        match kind {
+            FaultKind::LinkLost => {
+                self.is_down.store(is_on, Ordering::Relaxed);
+                if is_on {
+                    self.unit.drop_clients();
+                }
+                true
+            }
+            FaultKind::OfUnit(trouble) => self.unit.set_trouble(trouble, is_on),
+        }
+    }
+}
+
+fn refused() -> io::Error {
+    io::Error::new(io::ErrorKind::ConnectionRefused, "the link is down")
+}
