@@ -7,6 +7,7 @@ mod no_window;
 mod passes;
 mod plan;
 mod record;
+mod rehearse;
 #[cfg(unix)]
 mod remote;
 pub mod serve;
@@ -53,6 +54,8 @@ enum Command {
     Look(Box<look::Options>),
     /// Plan which antenna takes which pass, and say why the others are left out
     Plan(Box<plan::Options>),
+    /// Carry out the plan against simulated units, as fast as it can, and report on each pass
+    Rehearse(Box<rehearse::Options>),
     /// Run the station without a window, until SIGTERM or Ctrl C
     Serve(serve::Options),
     /// Write the record of the station as lines of JSON
@@ -121,6 +124,9 @@ impl Cli {
             }
             Some(Command::Plan(options)) => {
                 return told(plan::run(self.station.as_deref(), &options));
+            }
+            Some(Command::Rehearse(options)) => {
+                return told(rehearse::run(self.station.as_deref(), &options));
             }
             Some(Command::Serve(options)) => {
                 return serve::run(

@@ -19,7 +19,7 @@ use glam::DVec3;
 use jiff::{Timestamp, tz::TimeZone};
 use rayon::prelude::*;
 
-pub(super) use self::csv::{io_error, plain};
+pub(crate) use self::csv::{io_error, plain};
 pub use self::looks::{LookFormat, LookList};
 use crate::{
     astro::{HorizonMask, Site, frames, sun_moon, time},
@@ -195,14 +195,14 @@ impl PassList<'_> {
 }
 
 /// RFC 3339, UTC, with milliseconds.
-pub(super) fn rfc3339(time: Timestamp) -> String {
+pub(crate) fn rfc3339(time: Timestamp) -> String {
     let mut text = Vec::new();
     digits::push_time(&mut text, time);
     String::from_utf8(text).unwrap_or_default()
 }
 
 /// To the nearest second, in UTC.
-pub(super) fn civil(time: Timestamp, format: &str) -> String {
+pub(crate) fn civil(time: Timestamp, format: &str) -> String {
     let rounded = time.round(jiff::Unit::Second).unwrap_or(time);
     rounded.to_zoned(TimeZone::UTC).strftime(format).to_string()
 }

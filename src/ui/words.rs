@@ -9,6 +9,7 @@ mod notices;
 mod on_board;
 pub mod record;
 mod refusals;
+pub mod rehearsal;
 mod safety;
 pub mod schedule;
 mod site;

@@ -109,7 +109,7 @@ fn push_text(text: &mut Vec<u8>, field: &str) {
 
 /// The original error of the output: its kind distinguishes a reader that has stopped
 /// from a full disk.
-pub(in crate::plan) fn io_error(error: csv::Error) -> io::Error {
+pub(crate) fn io_error(error: csv::Error) -> io::Error {
     match error.into_kind() {
         csv::ErrorKind::Io(error) => error,
         other => io::Error::other(format!("{other:?}")),
@@ -124,7 +124,7 @@ pub(super) fn text_of<T: ToString>(value: Option<T>) -> String {
 /// Text that no spreadsheet takes for a formula: names come from files that others wrote.
 ///
 /// Source: OWASP, "CSV Injection".
-pub(in crate::plan) fn plain(text: &str) -> String {
+pub(crate) fn plain(text: &str) -> String {
     if text.starts_with(['=', '+', '-', '@', '\t', '\r']) {
         format!("'{text}")
     } else {

@@ -78,7 +78,7 @@ pub(super) fn head(
 }
 
 pub(super) fn verdict_height(ui: &Ui, width: f32, model: &Model, pass: &RecordedPass) -> f32 {
-    let words = words::verdict_sentence(pass, model.now);
+    let words = words::verdict_sentence(&pass.report, model.now);
     let room = width - 2.0 * PADDING - 2.0 * INSET;
     let galley = ui.painter().layout(words, text::body(), theme::tokens(ui).t1, room);
     galley.size().y + 4.0 * INSET
@@ -90,7 +90,7 @@ pub(super) fn verdict(ui: &Ui, rect: Rect, model: &Model, pass: &RecordedPass) {
     ui.painter().rect_filled(card, 4.0, t.bg2);
     let (_, colour) = list::mark(pass.report.report.verdict, t);
     ui.painter().rect_filled(card.with_max_x(card.left() + 3.0), 1.0, colour);
-    let words = words::verdict_sentence(pass, model.now);
+    let words = words::verdict_sentence(&pass.report, model.now);
     let at = card.min + vec2(INSET + 2.0, INSET);
     let place = paint::paragraph(ui, at, card.width() - 2.0 * INSET, &words, text::body(), t.t1);
     paint::name_text(ui, "verdict", place, &words);

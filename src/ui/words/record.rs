@@ -4,7 +4,7 @@ use jiff::Timestamp;
 
 use crate::{
     plan::pass_report::{Cause, Explanation, LossCause, LostStretch, PassReport, PassVerdict},
-    record::{RecordedPass, TrackedBy},
+    record::{RecordedPass, RecordedReport, TrackedBy},
     ui::format,
 };
 
@@ -152,8 +152,8 @@ fn cause_as_subject(of: &Cause) -> String {
 }
 
 /// The report in one line: how much, the worst, what explains it, and what else was lost.
-pub fn verdict_sentence(pass: &RecordedPass, now: Timestamp) -> String {
-    let report = &pass.report.report;
+pub fn verdict_sentence(pass: &RecordedReport, now: Timestamp) -> String {
+    let report = &pass.report;
     let Some(worst) = &report.worst else {
         return "No position was measured in this pass.".to_owned();
     };
@@ -164,7 +164,7 @@ pub fn verdict_sentence(pass: &RecordedPass, now: Timestamp) -> String {
         format::degrees(worst.error.off_deg, 2),
         format::moment(worst.at, now),
     );
-    let explained = pass.report.explanations.first().map(|best| {
+    let explained = pass.explanations.first().map(|best| {
         let share = whole_share(best.share);
         format!(" {}; that explains {share} of the error.", cause_as_subject(&best.cause))
     });

@@ -1,0 +1,195 @@
+//! The plan of a station carried out against simulated units.
+
+use std::{
+    io::{self, Write},
+    num::NonZeroU32,
+    path::Path,
+    process::ExitCode,
+    sync::Arc,
+};
+
+use anyhow::Context as _;
+use clap::{Args, ValueEnum};
+use jiff::Timestamp;
+
+use super::{
+    input::{self, EXIT_CODES, InputOptions, Satellites},
+    passes::written,
+};
+use crate::{
+    astro::time,
+    makes,
+    orbit::{Catalog, ReadReport},
+    plan::pass_export::{civil, io_error, plain, rfc3339},
+    rehearsal::{self, Fault, Rehearsal, Rehearsed, RehearsedPass},
+    station::{self, Station},
+    ui::words::rehearsal::{outcome, verdict},
+};
+
+/// Highest speed besides the highest possible, in multiples of real time.
+const MAX_SPEED: u32 = 200;
+
+#[derive(Debug, Args)]
+#[command(after_help = EXIT_CODES)]
+pub(super) struct Options {
+    #[command(flatten)]
+    input: InputOptions,
+    /// Start of the rehearsal: `now`, a date (0 h UTC), or a time with Z or an offset
+    #[arg(long, value_name = "TIME", default_value = "now", value_parser = input::instant)]
+    from: Timestamp,
+    /// Length of the rehearsal in hours; passes that have begun by then are rehearsed to their end
+    #[arg(long, value_name = "H", default_value_t = 24.0, value_parser = input::hours, allow_negative_numbers = true)]
+    hours: f64,
+    /// Seed of all randomness: the same seed gives the same rehearsal
+    #[arg(long, value_name = "N", default_value_t = 1)]
+    seed: u64,
+    /// Speed in multiples of real time, 1 to 200, or `max`; the result is the same
+    #[arg(long, value_name = "SPEED", default_value = "max", value_parser = speed)]
+    speed: Speed,
+    /// Fault to add; may be repeated. Its kind first: link-lost, silence, noise, refusal,
+    /// slow-drives=SHARE or clock-late=MS; then, each after a comma, antenna=NAME (or all),
+    /// after=MIN from the start and for=S (or to the end)
+    #[arg(long = "fault", value_name = "FAULT")]
+    faults: Vec<Fault>,
+    /// How the passes are written
+    #[arg(long, value_enum, default_value_t = Format::Table)]
+    format: Format,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum Format {
+    /// For people
+    Table,
+    Csv,
+    Json,
+}
+
+/// `None` for as fast as it can.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+struct Speed(Option<NonZeroU32>);
+
+fn speed(text: &str) -> Result<Speed, String> {
+    if text == "max" {
+        return Ok(Speed(None));
+    }
+    let read = text.parse::<NonZeroU32>().ok().filter(|speed| speed.get() <= MAX_SPEED);
+    read.map(|speed| Speed(Some(speed))).ok_or_else(|| format!("not max, or 1 to {MAX_SPEED}"))
+}
+
+pub(super) fn run(station: Option<&Path>, options: &Options) -> anyhow::Result<ExitCode> {
+    let own = station::settings_path().filter(|_| station.is_none());
+    let path = station.or(own.as_deref()).context("this user has no folder for settings")?;
+    let unusable = || format!("The station file {} cannot be used", path.display());
+    let place = options.input.place(Some(path))?;
+    let station = station::load(path, makes::SPECS).with_context(unusable)?.station;
+    let Satellites { list, is_complete } = options.input.satellites(Some(path))?;
+    let to = time::add_seconds(options.from, options.hours * 3600.0);
+    input::caution(&list, options.from, to);
+    let mut elements = Catalog::default();
+    let read = list.into_iter().map(|satellite| satellite.elements).collect();
+    elements.merge(ReadReport { elements: read, ..ReadReport::default() }, "rehearsal");
+    let rehearsed = rehearsal::run(
+        &Rehearsal {
+            station: Station { site: place.site, ..station },
+            elements: Arc::new(elements),
+            from: options.from,
+            hours: options.hours,
+            seed: options.seed,
+            faults: options.faults.clone(),
+            speed: options.speed.0,
+        },
+        &|_| (),
+        &|| false,
+    )
+    .context("The rehearsal came to nothing")?;
+    input::note("Rehearsal against simulated units: no antenna has moved.");
+    for name in &rehearsed.left_out {
+        input::note(&format!("{name} is left out: there is no simulated unit of its make."));
+    }
+    let written = match options.format {
+        Format::Table => written(|out| table(&rehearsed, out)),
+        Format::Csv => written(|out| csv(&rehearsed, out)),
+        Format::Json => written(|out| {
+            serde_json::to_writer_pretty(&mut *out, &rehearsed)?;
+            writeln!(out)
+        }),
+    };
+    written.context("The rehearsal cannot be written")?;
+    Ok(input::exit_code(is_complete && rehearsed.left_out.is_empty()))
+}
+
+fn table(rehearsed: &Rehearsed, out: &mut impl Write) -> io::Result<()> {
+    let width = |name: fn(&RehearsedPass) -> &str| {
+        rehearsed.passes.iter().map(|pass| name(pass).chars().count()).max().unwrap_or(0).max(9)
+    };
+    let (antennas, names) = (width(|it| &it.antenna_name), width(|it| &it.satellite_name));
+    writeln!(
+        out,
+        "{:<antennas$}  {:<names$}  {:<19}  {:<8}  {:>7}  {:>6}  {:>6}  {:>6}  {:<8}  Outcome",
+        "Antenna", "Satellite", "AOS (UTC)", "LOS", "promise", "got", "rms", "worst", "Verdict"
+    )?;
+    let degrees = |deg: Option<f64>| deg.map_or_else(String::new, |deg| format!("{deg:.2}"));
+    for pass in &rehearsed.passes {
+        writeln!(
+            out,
+            "{:<antennas$}  {:<names$}  {}  {}  {:>7}  {:>6}  {:>6}  {:>6}  {:<8}  {}",
+            pass.antenna_name,
+            pass.satellite_name,
+            civil(pass.aos, "%Y-%m-%d %H:%M:%S"),
+            civil(pass.los, "%H:%M:%S"),
+            minutes(pass.promised_s),
+            minutes(pass.got_s()),
+            degrees(pass.rms_deg()),
+            degrees(pass.worst_deg()),
+            verdict(pass),
+            outcome(pass, rehearsed.from),
+        )?;
+    }
+    Ok(())
+}
+
+const HEADER: [&str; 13] = [
+    "antenna",
+    "catalog_number",
+    "name",
+    "aos_time",
+    "los_time",
+    "from_time",
+    "to_time",
+    "promised_s",
+    "got_s",
+    "rms_deg",
+    "worst_deg",
+    "verdict",
+    "outcome",
+];
+
+fn csv(rehearsed: &Rehearsed, out: &mut impl Write) -> io::Result<()> {
+    let mut table = csv::Writer::from_writer(out);
+    table.write_record(HEADER).map_err(io_error)?;
+    let number = |value: Option<f64>| value.map(|value| value.to_string()).unwrap_or_default();
+    for pass in &rehearsed.passes {
+        let fields: [String; 13] = [
+            plain(&pass.antenna_name),
+            pass.satellite.to_string(),
+            plain(&pass.satellite_name),
+            rfc3339(pass.aos),
+            rfc3339(pass.los),
+            rfc3339(pass.from),
+            rfc3339(pass.to),
+            pass.promised_s.to_string(),
+            pass.got_s().to_string(),
+            number(pass.rms_deg()),
+            number(pass.worst_deg()),
+            verdict(pass).to_owned(),
+            plain(&outcome(pass, rehearsed.from)),
+        ];
+        table.write_record(fields).map_err(io_error)?;
+    }
+    table.flush()
+}
+
+fn minutes(seconds: f64) -> String {
+    let whole = seconds.round() as i64;
+    format!("{}:{:02}", whole / 60, whole % 60)
+}
