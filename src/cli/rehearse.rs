@@ -177,8 +177,8 @@ fn csv(rehearsed: &Rehearsed, out: &mut impl Write) -> io::Result<()> {
             rfc3339(pass.los),
             rfc3339(pass.from),
             rfc3339(pass.to),
-            pass.promised_s.to_string(),
-            pass.got_s().to_string(),
+            milliseconds(pass.promised_s),
+            milliseconds(pass.got_s()),
             number(pass.rms_deg()),
             number(pass.worst_deg()),
             verdict(pass).to_owned(),
@@ -187,6 +187,11 @@ fn csv(rehearsed: &Rehearsed, out: &mut impl Write) -> io::Result<()> {
         table.write_record(fields).map_err(io_error)?;
     }
     table.flush()
+}
+
+/// Seconds to the millisecond.
+fn milliseconds(seconds: f64) -> String {
+    format!("{seconds:.3}")
 }
 
 fn minutes(seconds: f64) -> String {
