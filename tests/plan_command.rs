@@ -24,7 +24,7 @@ fn plan(folder: &Path, arguments: &[&str]) -> Output {
 }
 
 /// A folder with the demo station and elements of its favourites.
-fn folder() -> tempfile::TempDir {
+pub(super) fn folder() -> tempfile::TempDir {
     let folder = tempfile::tempdir().unwrap();
     let address = |port: u16| format!("127.0.0.1:{port}");
     let addresses =
@@ -43,7 +43,7 @@ fn folder() -> tempfile::TempDir {
     folder
 }
 
-fn text(bytes: &[u8]) -> String {
+pub(super) fn text(bytes: &[u8]) -> String {
     String::from_utf8_lossy(bytes).into_owned()
 }
 

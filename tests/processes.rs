@@ -22,6 +22,7 @@ mod plan_command;
 mod real_peers;
 #[cfg(target_os = "linux")]
 mod real_window;
+mod rehearse_command;
 #[cfg(unix)]
 mod rehearsed;
 #[cfg(unix)]

@@ -4,6 +4,7 @@
 mod automatic;
 mod prices;
 mod recorded;
+mod rehearsal;
 mod scene;
 mod unattended;
 

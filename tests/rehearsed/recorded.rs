@@ -21,7 +21,7 @@ use super::{
 
 const ISS: u32 = 25_544;
 
-fn rows(scene: &Scene, what: RowKind) -> Vec<Row> {
+pub(super) fn rows(scene: &Scene, what: RowKind) -> Vec<Row> {
     let station = scene.folder().join("station.toml");
     record::rows(&record_path(&scene.folder().join("records"), &station), what)
 }
