@@ -17,6 +17,7 @@ mod mask_file;
 mod memory;
 pub mod notifier;
 mod place;
+mod rehearsal;
 
 use std::{
     io,
@@ -41,6 +42,7 @@ use self::{
     memory::Keeper,
     notifier::Notifier,
     place::PlaceWatch,
+    rehearsal::RehearsalWork,
 };
 use crate::{
     clock::Clock,
@@ -78,6 +80,7 @@ pub struct App {
     log_work: LogWork,
     mask_work: MaskWork,
     known_work: KnownWork,
+    rehearsal_work: RehearsalWork,
     station_dialog: Option<FileDialog>,
     /// The change to another station.
     change: Option<Change>,
@@ -144,6 +147,7 @@ impl App {
             log_work,
             mask_work,
             known_work,
+            rehearsal_work: RehearsalWork::default(),
             station_dialog: None,
             change: None,
             keeper,
@@ -219,6 +223,7 @@ impl App {
         self.work_on_effects();
         self.work_on_catalog();
         self.take_intake();
+        self.take_rehearsal();
         self.model.refresh_sky();
         self.remember();
     }

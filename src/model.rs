@@ -13,6 +13,7 @@ mod joinings;
 mod line;
 pub mod object_detail;
 pub mod plan;
+pub mod rehearsal;
 mod sky;
 mod stations;
 mod theme_name;
@@ -38,6 +39,7 @@ use self::{
     globe::Globe,
     intake::Intake,
     joinings::Joinings,
+    rehearsal::RehearsalState,
 };
 use crate::{
     astro::{HorizonMask, MaskForm},
@@ -167,6 +169,8 @@ pub struct Model {
     pub swap: Option<Arc<Swap>>,
     /// When antennas would join passes that are under way.
     pub joinings: Joinings,
+    /// The last rehearsal of the plan.
+    pub rehearsal: RehearsalState,
     /// What became of the passes of this day.
     pub day: Arc<Vec<DayLine>>,
     /// What the desktop cannot do with alarms and reminders.
@@ -218,6 +222,7 @@ impl Model {
             schedule: Arc::default(),
             swap: None,
             joinings: Joinings::default(),
+            rehearsal: RehearsalState::None,
             day: Arc::default(),
             outlets: Outlets::default(),
             copies: Arc::default(),

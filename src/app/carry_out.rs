@@ -93,6 +93,8 @@ impl App {
                 self.send(Command::ListOlderSets(number));
             }
             UiCommand::Save(export) => self.save_export(export),
+            UiCommand::Rehearse(pass) => self.rehearse(pass),
+            UiCommand::EndRehearsal => self.end_rehearsal(),
             UiCommand::OpenFolder(folder) => self.open_folder(folder),
             UiCommand::ChooseStation(next) => self.choose_station(next),
             UiCommand::ChooseStationFile => self.choose_station_file(),

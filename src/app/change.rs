@@ -211,6 +211,7 @@ impl App {
         self.mask_work = MaskWork::beside(library);
         (self.effects_jobs, self.catalog_work) = Default::default();
         self.intake_work = super::IntakeWork::default();
+        self.rehearsal_work = super::RehearsalWork::default();
         let known = std::mem::take(&mut self.model.stations.known);
         self.model = Model::before_anything(self.clock.now());
         (self.model.list, self.model.view) = (keeper.memory.list, keeper.memory.view);

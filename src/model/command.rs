@@ -78,6 +78,10 @@ pub enum UiCommand {
     ShowTracked(Box<mounts::Question>),
     /// Work out the passes to come over an edited site.
     ShowMoved(Box<sites::Question>),
+    /// Rehearse the plan, or this pass of it, against simulated units.
+    Rehearse(Option<PassKey>),
+    /// Cancel the rehearsal, or forget the last one.
+    EndRehearsal,
     /// Show this folder in the file manager of the desktop.
     OpenFolder(PathBuf),
     /// Read a horizon mask from this file into the form.

@@ -10,11 +10,12 @@ use azel::{
         passes::PassKey,
         schedule::{Planned, Swap},
     },
-    model::{UiCommand, View, export::Export},
+    model::{UiCommand, View, export::Export, rehearsal::RehearsalState},
     plan::{
         schedule::{Class, Conflict, Entry, LeftOut, PassKey as Key, Schedule, Why},
         schedule_export::ScheduleFormat,
     },
+    rehearsal::{Rehearsed, RehearsedPass},
     station::{AntennaId, ChooseBy, Priority, Take},
 };
 use egui::{Key as Press, Role};
@@ -375,4 +376,67 @@ fn the_hand_over_sheet_is_saved_to_a_file() {
         window.get_by_label("Hand-over sheet (SVG)…").click();
         assert_eq!(rig::asked(&mut window), [UiCommand::Save(Export::HandOverSheet)]);
     }
+}
+
+#[test]
+fn the_plan_is_rehearsed_and_what_came_of_it_stands_beside_the_pass_as_a_rehearsal() {
+    for size in SIZES {
+        let mut window = view(size);
+        window.get_by_role_and_label(Role::Button, "Rehearse").click();
+        assert_eq!(rig::asked(&mut window), [UiCommand::Rehearse(None)]);
+        window.state_mut().model.rehearsal = RehearsalState::UnderWay(0.456);
+        settle(&mut window);
+        assert!(says(&window, "Rehearsal under way"));
+        window.get_by_role_and_label(Role::Button, "Cancel, 45 %").click();
+        assert_eq!(rig::asked(&mut window), [UiCommand::EndRehearsal]);
+    }
+    let mut window = view(LARGE);
+    let (satellite, aos) = select(&mut window, 0);
+    window.get_by_role_and_label(Role::Button, "Rehearse this pass").click();
+    assert_eq!(rig::asked(&mut window), [UiCommand::Rehearse(Some((satellite, aos)))]);
+    let antenna = window.state().model.antennas[0].id();
+    let cause = Some(MissCause::LinkLost);
+    let flown = Flown {
+        pass: (satellite, aos),
+        name: "NOAA 20".to_owned(),
+        of_s: 600.0,
+        in_beam_s: 540.0,
+        proved_at: None,
+        cause,
+    };
+    let rehearsed = RehearsedPass {
+        antenna,
+        antenna_name: "Satrak".to_owned(),
+        satellite,
+        satellite_name: "NOAA 20".to_owned(),
+        aos,
+        los: add_seconds(aos, 600.0),
+        from: aos,
+        to: add_seconds(aos, 600.0),
+        promised_s: 600.0,
+        is_given_up: false,
+        flown: Some(flown),
+        report: None,
+    };
+    let whole = Rehearsed {
+        from: rig::now(),
+        hours: 24.0,
+        seed: 1,
+        passes: vec![rehearsed],
+        left_out: Vec::new(),
+    };
+    window.state_mut().model.rehearsal =
+        RehearsalState::Done { rehearsed: Arc::new(whole), at: rig::now() };
+    settle(&mut window);
+    assert!(says(&window, "0 of 1 good"));
+    let told = "Rehearsal, Satrak: 9:00 of 10:00. 1:00 lost: The unit did not answer.";
+    assert!(says(&window, told));
+    let key = pass(&window, 2);
+    window.state_mut().model.selected = Some(key);
+    settle(&mut window);
+    assert!(!says(&window, "Rehearsal, Satrak"), "it is of another pass");
+    let why = "the rehearsed station broke down".to_owned();
+    window.state_mut().model.rehearsal = RehearsalState::Failed(why);
+    settle(&mut window);
+    assert!(says(&window, "Rehearsal: the rehearsed station broke down"));
 }

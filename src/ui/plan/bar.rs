@@ -5,7 +5,7 @@ use egui::{Align2, Rect, Ui, pos2, vec2};
 use super::{PADDING, PlanState};
 use crate::{
     engine,
-    model::{Model, UiCommand, export::Export},
+    model::{Model, UiCommand, export::Export, rehearsal::RehearsalState},
     plan::schedule_export::ScheduleFormat,
     station::{ChooseBy, Scheduling},
     ui::{
@@ -51,6 +51,7 @@ pub(super) fn show(
     save(ui, &mut right, inner, model, commands);
     choose_by(ui, &mut right, inner, model, state, commands);
     spans(ui, &mut right, inner, model, state, commands);
+    rehearse(ui, &mut right, inner, model, commands);
     title(ui, inner.with_max_x(right.max(inner.left() + TITLE)), model, state, commands);
 }
 
@@ -89,7 +90,8 @@ fn title(ui: &Ui, rect: Rect, model: &Model, state: &mut PlanState, commands: &m
             1 => ", 1 pass changed".to_owned(),
             count => format!(", {count} passes changed"),
         };
-        format!("{times}{changes}")
+        let rehearsed = words::rehearsal::in_short(&model.rehearsal, model.now);
+        format!("{times}{changes}{}", rehearsed.map(|it| format!(". {it}")).unwrap_or_default())
     };
     paint::text_in(ui, second, left, &words, small, t.t2);
     let changed: Vec<String> =
@@ -146,6 +148,23 @@ fn choose_by(
     });
     if let Some(choose_by) = chosen {
         set(model, Scheduling { choose_by, ..scheduling }, "Another rule", state, commands);
+    }
+}
+
+/// Rehearses the whole plan, or cancels that.
+fn rehearse(ui: &Ui, right: &mut f32, inner: Rect, model: &Model, commands: &mut Vec<UiCommand>) {
+    let is_planned = model.schedule.made_at.is_some();
+    let (words, command) = match model.rehearsal {
+        RehearsalState::UnderWay(share) => {
+            let percent = format::number((100.0 * share).floor(), 0);
+            (format!("Cancel, {percent} %"), UiCommand::EndRehearsal)
+        }
+        _ => ("Rehearse".to_owned(), UiCommand::Rehearse(None)),
+    };
+    let button = Button::normal(&words).locked(!is_planned);
+    let place = before(ui, right, inner, button.width(ui));
+    if button.show(ui, "rehearse plan", place).clicked() {
+        commands.push(command);
     }
 }
 

@@ -6,7 +6,7 @@ use super::{PADDING, PlanState};
 use crate::{
     astro::time::seconds_between,
     engine::{self, antenna::AntennaModel, automatic::Operation, passes::PredictedPass},
-    model::{Model, UiCommand, View, plan::PlannedPass},
+    model::{Model, UiCommand, View, plan::PlannedPass, rehearsal::RehearsalState},
     orbit::PassPoint,
     plan::schedule::Entry,
     station::{Priority, Take},
@@ -129,6 +129,7 @@ fn parts(
             pair(ui, row, label, &value);
         }
     }
+    rehearsal(ui, width, model, planned, commands);
     let title = place(ui, 28.0);
     let font = text::sized(13.0, Weight::SemiBold);
     paint::text_in(ui, title, Align2::LEFT_CENTER, "Antennas", font, t.t1);
@@ -149,6 +150,47 @@ fn parts(
         let number = planned.predicted.number();
         pass_limits::show(ui, width - 2.0 * PADDING, model, number, true, commands);
     });
+}
+
+/// What became of the pass in the last rehearsal, which is no record, and the button for another.
+fn rehearsal(
+    ui: &mut Ui,
+    width: f32,
+    model: &Model,
+    planned: &PlannedPass<'_>,
+    commands: &mut Vec<UiCommand>,
+) {
+    if planned.entries.is_empty() {
+        return;
+    }
+    let t = theme::tokens(ui);
+    let key = planned.predicted.key();
+    let told: Vec<String> = model
+        .rehearsed(key)
+        .map(|of| {
+            let beside = words::rehearsal::beside_promise(of);
+            let outcome = words::rehearsal::outcome(of, model.now);
+            format!("Rehearsal, {}: {beside}. {outcome}", of.antenna_name)
+        })
+        .collect();
+    for (index, words) in told.iter().enumerate() {
+        let room = width - 2.0 * PADDING - 24.0;
+        let galley = ui.painter().layout(words.clone(), text::small(), t.t1, room);
+        let size = vec2(width, galley.size().y + 28.0);
+        let (rect, _) = ui.allocate_exact_size(size, Sense::hover());
+        let note = rect.shrink2(vec2(PADDING, 6.0));
+        ui.painter().rect_filled(note, 5.0, t.bg2);
+        ui.painter().galley(note.min + vec2(12.0, 8.0), galley, t.t1);
+        paint::name_text(ui, ("rehearsed", index), note, words);
+    }
+    let (row, _) = ui.allocate_exact_size(vec2(width, BUTTON + GAP), Sense::hover());
+    let is_free = !matches!(model.rehearsal, RehearsalState::UnderWay(_));
+    let button = Button::quiet("Rehearse this pass").locked(!is_free);
+    let at = row.min + vec2(PADDING, GAP / 2.0);
+    let place = Rect::from_min_size(at, vec2(button.width(ui), BUTTON));
+    if button.show(ui, "rehearse pass", place).clicked() {
+        commands.push(UiCommand::Rehearse(Some(key)));
+    }
 }
 
 fn sighting(ui: &Ui, row: Rect, words: [&str; 4], colour: egui::Color32) {

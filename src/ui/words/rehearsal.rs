@@ -3,7 +3,10 @@
 use jiff::Timestamp;
 
 use super::{automatic, record};
-use crate::{rehearsal::RehearsedPass, ui::format};
+use crate::{
+    model::rehearsal::RehearsalState, plan::pass_report::PassVerdict, rehearsal::RehearsedPass,
+    ui::format,
+};
 
 /// What became of a pass, and what was lost of it, in sentences.
 pub fn outcome(pass: &RehearsedPass, now: Timestamp) -> String {
@@ -19,6 +22,31 @@ pub fn outcome(pass: &RehearsedPass, now: Timestamp) -> String {
     };
     let told: Vec<String> = cause.into_iter().chain(tracked).collect();
     told.join(" ")
+}
+
+/// How the last rehearsal went; `None` without one.
+pub fn in_short(of: &RehearsalState, now: Timestamp) -> Option<String> {
+    match of {
+        RehearsalState::None => None,
+        RehearsalState::UnderWay(_) => Some("Rehearsal under way".to_owned()),
+        RehearsalState::Failed(why) => Some(format!("Rehearsal: {why}")),
+        RehearsalState::Done { rehearsed, at } => {
+            let is_good = |of: &&RehearsedPass| {
+                let report = of.report.as_ref();
+                report.is_some_and(|report| report.report.verdict == PassVerdict::Good)
+            };
+            let good = rehearsed.passes.iter().filter(is_good).count();
+            let (all, at) = (rehearsed.passes.len(), format::moment(*at, now));
+            Some(format!("Rehearsal of {at}: {good} of {all} good"))
+        }
+    }
+}
+
+/// What a pass came to beside its promise, for a row.
+pub fn beside_promise(pass: &RehearsedPass) -> String {
+    let [got, promised] = [pass.got_s(), pass.promised_s].map(format::duration);
+    let worst = pass.worst_deg().map(|deg| format!(", worst {}", format::degrees(deg, 2)));
+    format!("{got} of {promised}{}", worst.unwrap_or_default())
 }
 
 /// How good a pass was, in a word.

@@ -1,0 +1,102 @@
+//! Rehearses the plan on a thread. It has links to simulated units alone.
+
+use std::sync::{
+    Arc,
+    atomic::{AtomicU64, Ordering},
+};
+
+use jiff::Timestamp;
+
+use super::App;
+use crate::{
+    astro::time::seconds_between,
+    engine::{CatalogState, passes::PassKey},
+    job::Job,
+    model::rehearsal::RehearsalState,
+    rehearsal::{Rehearsal, RehearsalError, Rehearsed, run},
+    station::Station,
+};
+
+/// Seed of the rehearsals of the window: the same plan gives the same.
+const SEED: u64 = 1;
+/// Time before AOS at which the rehearsal of one pass begins, seconds.
+const BEFORE_S: f64 = 300.0;
+/// Shortest rehearsal, hours.
+const SHORTEST_H: f64 = 0.01;
+
+/// The rehearsal under way. Dropping it cancels it.
+#[derive(Default)]
+pub(super) struct RehearsalWork {
+    job: Option<Job<Result<Rehearsed, RehearsalError>>>,
+    /// Share that is done, as bits of a number from 0 to 1.
+    share: Arc<AtomicU64>,
+}
+
+impl App {
+    /// Begins to rehearse the whole plan, or a pass of it.
+    pub(super) fn rehearse(&mut self, pass: Option<PassKey>) {
+        let model = &self.model;
+        let CatalogState::Ready(catalog) = &model.catalog else { return };
+        let predicted = pass.and_then(|key| model.pass_lists.find(key));
+        if pass.is_some() && predicted.is_none() {
+            return;
+        }
+        let from = predicted.map_or(model.now, |it| {
+            let before = crate::astro::time::add_seconds(it.pass.aos.time, -BEFORE_S);
+            before.max(model.now)
+        });
+        let until = predicted.map_or_else(|| model.plan_until(), |it| it.pass.los.time);
+        let hours = (seconds_between(from, until) / 3600.0).max(SHORTEST_H);
+        let what = Rehearsal {
+            station: Station::clone(&model.station),
+            elements: Arc::clone(catalog),
+            from,
+            hours,
+            seed: SEED,
+            faults: Vec::new(),
+            speed: None,
+        };
+        let share = Arc::<AtomicU64>::default();
+        let told = Arc::clone(&share);
+        let work = move |is_cancelled: &(dyn Fn() -> bool + Sync)| {
+            let tell = |now: Timestamp| {
+                let share = seconds_between(what.from, now) / (what.hours * 3600.0);
+                told.store(share.clamp(0.0, 1.0).to_bits(), Ordering::Relaxed);
+            };
+            run(&what, &tell, is_cancelled)
+        };
+        match Job::start("azel-rehearsal", Arc::clone(&self.wake), work) {
+            Ok(job) => {
+                self.rehearsal_work = RehearsalWork { job: Some(job), share };
+                self.model.rehearsal = RehearsalState::UnderWay(0.0);
+            }
+            Err(error) => {
+                let why = format!("no thread for the rehearsal: {error}");
+                self.model.rehearsal = RehearsalState::Failed(why);
+            }
+        }
+    }
+
+    /// Cancels the rehearsal, or forgets the last one.
+    pub(super) fn end_rehearsal(&mut self) {
+        self.rehearsal_work = RehearsalWork::default();
+        self.model.rehearsal = RehearsalState::None;
+    }
+
+    pub(super) fn take_rehearsal(&mut self) {
+        let work = &mut self.rehearsal_work;
+        let end = Job::take(&mut work.job);
+        if work.job.is_some() {
+            let share = f64::from_bits(work.share.load(Ordering::Relaxed));
+            self.model.rehearsal = RehearsalState::UnderWay(share);
+        }
+        self.model.rehearsal = match end {
+            None => return,
+            Some(Ok(Ok(rehearsed))) => {
+                RehearsalState::Done { rehearsed: Arc::new(rehearsed), at: self.model.now }
+            }
+            Some(Ok(Err(error))) => RehearsalState::Failed(error.to_string()),
+            Some(Err(broke_off)) => RehearsalState::Failed(broke_off.to_string()),
+        };
+    }
+}

@@ -1,0 +1,42 @@
+//! A rehearsal of the plan as its view shows it.
+
+use std::sync::Arc;
+
+use jiff::Timestamp;
+
+use super::Model;
+use crate::{
+    astro::time::seconds_between,
+    engine::passes::PassKey,
+    rehearsal::{Rehearsed, RehearsedPass},
+};
+
+/// Largest difference in AOS of one pass between the list and the rehearsal, seconds.
+const SAME_AOS_S: f64 = 60.0;
+
+/// The last rehearsal of this window.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub enum RehearsalState {
+    #[default]
+    None,
+    /// It has come to this share, 0 to 1.
+    UnderWay(f64),
+    Done {
+        rehearsed: Arc<Rehearsed>,
+        at: Timestamp,
+    },
+    Failed(String),
+}
+
+impl Model {
+    /// What became of a pass in the rehearsal; two where it is handed over.
+    pub fn rehearsed(&self, key: PassKey) -> impl Iterator<Item = &RehearsedPass> {
+        let passes = match &self.rehearsal {
+            RehearsalState::Done { rehearsed, .. } => &rehearsed.passes[..],
+            _ => &[],
+        };
+        passes.iter().filter(move |it| {
+            it.satellite == key.0 && seconds_between(it.aos, key.1).abs() < SAME_AOS_S
+        })
+    }
+}
