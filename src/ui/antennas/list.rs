@@ -16,7 +16,7 @@ use crate::{
     },
 };
 
-pub(super) const WIDTH: f32 = 232.0;
+pub(super) const WIDTH: f32 = 208.0;
 const ANTENNA: f32 = 56.0;
 const SECTION: f32 = 32.0;
 const PADDING: f32 = 16.0;

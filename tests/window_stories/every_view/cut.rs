@@ -57,6 +57,25 @@ fn the_seconds_of_a_unit_are_whole_on_any_day() {
 }
 
 #[test]
+fn the_seconds_of_a_new_start_and_stop_are_within_their_fields_at_any_width() {
+    for width in [1024.0, 1360.0, 1419.0, 1436.0, 1440.0, 1480.0, 1530.0, 1920.0, 2200.0] {
+        let mut window = settings_rig::opened([width, 900.0], settings_rig::read());
+        // A changed value is written in a bold font.
+        for field in ["Start", "Stop"] {
+            settings_rig::write(&mut window, field, "2026-08-28 20:58:58");
+        }
+        let typed = |run: &painted::Run| run.text == "2026-08-2820:58:58";
+        let places: Vec<_> = painted::runs(&window).into_iter().filter(typed).collect();
+        assert_eq!(places.len(), 2, "{width}");
+        for run in places {
+            let room = run.clip.x_range();
+            let is_whole = room.contains(run.rect.left()) && room.contains(run.rect.right());
+            assert!(is_whole, "{width}: {:?} in {room:?}", run.rect.x_range());
+        }
+    }
+}
+
+#[test]
 fn raw_bytes_that_have_no_room_end_with_an_ellipsis() {
     let window = in_view(SMALL, View::Console, {
         let model = rig::model(states::holding());
