@@ -9,7 +9,7 @@ use std::{
     thread,
 };
 
-use jiff::Timestamp;
+use jiff::{SignedDuration, Timestamp};
 
 use crate::{
     makes::DemoAddresses,
@@ -33,6 +33,8 @@ impl Demo {
     pub(super) fn start(station: &Station, elements: Vec<Elements>) -> io::Result<Self> {
         let satrak = satrak::Options {
             elements: BTreeMap::from([(satrak::BUNDLED_FILE.to_owned(), elements)]),
+            // Those bundled with the program are as old as it is; the window says so.
+            outdated_after: SignedDuration::MAX,
             ..satrak::Options::new(station.site, Timestamp::now())
         };
         let runtime = tokio::runtime::Builder::new_current_thread().enable_all().build()?;

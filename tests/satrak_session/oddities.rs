@@ -9,6 +9,7 @@ use azel::{
     driver::{Command, Event, LinkLoss, LinkState, Snapshot},
     sim::satrak::{Fault, Options, Quirk},
 };
+use jiff::SignedDuration;
 
 use super::rig::{Rig, antenna, iss, options, track};
 
@@ -181,4 +182,21 @@ async fn a_silent_unit_is_lost_and_tried_again() {
         matches!(shown.link, LinkState::Lost { reason: LinkLoss::Silent, .. })
     })
     .await;
+}
+
+/// What the unit says of the age of the elements that it tracks with.
+async fn age_of_elements(outdated_after: SignedDuration) -> CheckState {
+    let mut rig = Rig::connected(&Options { outdated_after, ..options() }, &antenna()).await;
+    rig.send(track(iss()));
+    rig.until_event(60, |event| matches!(event, Event::Tracking(_))).await;
+    rig.seconds(10.0).await;
+    let shown = rig.shown();
+    let mut checks = shown.state.checks.iter();
+    checks.find(|check| check.name == "Age of the elements").unwrap().state
+}
+
+#[tokio::test(start_paused = true)]
+async fn elements_are_out_of_date_at_the_age_that_the_unit_is_set_to() {
+    assert_eq!(age_of_elements(SignedDuration::ZERO).await, CheckState::Caution);
+    assert_eq!(age_of_elements(SignedDuration::MAX).await, CheckState::Good);
 }

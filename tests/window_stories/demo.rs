@@ -10,7 +10,7 @@ use azel::{
     driver::{Command, LinkState, StopState},
     engine::{self, alarms::AlarmKind},
     makes,
-    model::{Model, View},
+    model::{Model, UiCommand, View},
     station,
 };
 use egui::{Key, Role};
@@ -104,6 +104,30 @@ fn an_rc2000c_that_tracks_by_itself_is_compared_with_nothing_and_that_is_an_alar
         })
     };
     step_until(&mut window, "it is told", is_told);
+}
+
+#[test]
+fn the_first_track_raises_no_alarm_about_the_unit_however_old_the_bundled_elements_are() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut window = open_demo(&folder);
+    step_until(&mut window, "it is measured", |model| measured(model, SATRAK).is_some());
+    step_until(&mut window, "a pass is ahead", |model| model.next_pass().is_some());
+    window.key_press(Key::N);
+    step_until(&mut window, "it is selected", |model| model.selected_pass().is_some());
+    let track = UiCommand::track_selected(window.state().model());
+    let Some(UiCommand::Station(track)) = track else { panic!("{track:?}") };
+    assert!(window.state().station().client().send(track).is_ok());
+    let state = |model: &Model| model.antennas[SATRAK].snapshot.state.clone();
+    step_until(&mut window, "the unit holds it", |model| {
+        state(model).on_board.satellite.is_some_and(|held| held.catalog_number > 0)
+    });
+    let heard = window.state().model().wires[SATRAK].next_number();
+    step_until(&mut window, "it has told its faults, if any", |model| {
+        model.wires[SATRAK].next_number() > heard + 60
+    });
+    let alarms = &window.state().model().alarms;
+    let of_unit = alarms.list().iter().find(|alarm| matches!(alarm.kind, AlarmKind::Check(_)));
+    assert!(of_unit.is_none(), "{of_unit:?}");
 }
 
 #[test]

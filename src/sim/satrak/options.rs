@@ -7,7 +7,7 @@ use std::ops::RangeInclusive;
 use std::path::PathBuf;
 use std::time::Duration;
 
-use jiff::Timestamp;
+use jiff::{SignedDuration, Timestamp};
 
 use super::{Control, Fault, Quirk, Simulator, unit::Satrak};
 use crate::orbit::Elements;
@@ -16,6 +16,9 @@ use crate::{
     astro::{Angle, Site},
     clock::Clock,
 };
+
+/// Usual age beyond which elements count as out of date. The document names none.
+const OUTDATED_AFTER: SignedDuration = SignedDuration::from_hours(30 * 24);
 
 /// Options of a simulated unit.
 #[derive(Debug, Clone)]
@@ -29,6 +32,8 @@ pub struct Options {
     /// A folder on disk whose files the unit has too, read anew whenever the unit is told to
     /// use one, as a real unit does.
     pub element_folder: Option<PathBuf>,
+    /// Age beyond which elements count as out of date.
+    pub outdated_after: SignedDuration,
     /// Oddities of the firmware.
     pub quirks: BTreeSet<Quirk>,
     /// Failures.
@@ -56,13 +61,14 @@ pub struct Options {
 impl Options {
     /// A well-behaved unit at `site` that starts at `utc_origin`: one client, replies after 5
     /// to 30 ms, lower axis to the north, travel from 5 to 175 degrees at 5 degrees a second, GPS
-    /// locked after 8 s, no elements.
+    /// locked after 8 s, no elements, which count as out of date after 30 days.
     pub fn new(site: Site, utc_origin: Timestamp) -> Self {
         Self {
             site,
             utc_origin,
             elements: BTreeMap::new(),
             element_folder: None,
+            outdated_after: OUTDATED_AFTER,
             quirks: BTreeSet::new(),
             faults: BTreeSet::new(),
             reply_delay: Duration::from_millis(5)..=Duration::from_millis(30),

@@ -24,8 +24,6 @@ use crate::sim::harness::{self, Switches};
 const STEP: Duration = Duration::from_millis(50);
 /// Longest absence that is caught up with; a longer one is skipped.
 const LONGEST_CATCH_UP: Duration = Duration::from_mins(10);
-/// Age beyond which elements count as out of date. The simulator's own choice.
-const OUTDATED: SignedDuration = SignedDuration::from_hours(30 * 24);
 
 /// Beliefs and activity of the unit, for tests and displays.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -53,6 +51,7 @@ pub struct Satrak {
     lower_axis: Angle,
     elements: BTreeMap<String, Vec<Elements>>,
     pub(super) element_folder: Option<PathBuf>,
+    outdated_after: SignedDuration,
     utc_origin: Timestamp,
     gps_lock_after: Duration,
     /// Time since the start of the unit.
@@ -90,6 +89,7 @@ impl Satrak {
             lower_axis: options.lower_axis,
             elements: options.elements.clone(),
             element_folder: options.element_folder.clone(),
+            outdated_after: options.outdated_after,
             utc_origin: options.utc_origin,
             gps_lock_after: options.gps_lock_after,
             elapsed: Duration::ZERO,
@@ -205,8 +205,8 @@ impl Satrak {
     /// Whether this fault is reported.
     fn has_fault(&self, kind: FaultKind) -> bool {
         let is_outdated = || {
-            let target = self.tracking.target.as_ref();
-            target.is_some_and(|target| self.rtc().duration_since(target.epoch) > OUTDATED)
+            let age = self.tracking.target.as_ref().map(|of| self.rtc().duration_since(of.epoch));
+            age.is_some_and(|age| age > self.outdated_after)
         };
         self.injected.contains(&kind)
             || self.found.contains(&kind)
