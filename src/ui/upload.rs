@@ -116,7 +116,7 @@ fn content(
     let file = match &model.catalog {
         CatalogState::Ready(catalog) => {
             let held = antenna.snapshot.state.on_board.satellite.as_ref();
-            chosen::show(ui, model, catalog, held.filter(|held| held.catalog_number > 0), form);
+            chosen::show(ui, model, catalog, held, form);
             form.chosen_file(catalog, &model.station.favourites.numbers())
         }
         CatalogState::Loading | CatalogState::Failed => Err("there are no elements".to_owned()),

@@ -84,9 +84,11 @@ fn the_satellite_on_the_unit_stays_marked_until_the_operator_marks_another() {
         click(window, "Upload and prove");
         begun(window).satellite
     };
+    let unread = "Which satellite the unit holds now is not read yet.";
+    assert!(says(&window, unread));
     holds(&mut window, ISS, "ISS (ZARYA)");
     assert_eq!(to_follow(&mut window), Some(ISS));
-    assert!(!says(&window, "The unit holds"));
+    assert!(!says(&window, "The unit holds") && !says(&window, unread));
     holds(&mut window, 38_771, "METOP-B");
     assert_eq!(to_follow(&mut window), Some(NOAA_20), "what it holds is not in the file");
     assert!(says(&window, "The unit holds METOP-B now, and will follow the marked one."));

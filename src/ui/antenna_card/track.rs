@@ -25,8 +25,8 @@ use crate::{
 pub struct TrackModel<'a> {
     /// Caption of the satellite on the left.
     pub head: &'a str,
-    /// The satellite whose elements the unit holds, or what program track follows, or that there
-    /// is none.
+    /// The satellite whose elements the unit holds, or what program track follows; or that there
+    /// is none, or that it was not read yet.
     pub held: &'a str,
     /// The satellite that is selected in the window.
     pub selected: Option<&'a str>,

@@ -91,7 +91,7 @@ fn holds(
         return (Tone::Plain, "Holds no elements: Azel uses the set in use.".to_owned());
     }
     let Some(held) = &antenna.snapshot.state.on_board.satellite else {
-        return (Tone::Plain, "Does not say what it holds.".to_owned());
+        return (Tone::Plain, "What it holds is not read yet.".to_owned());
     };
     if held.catalog_number == 0 && held.name.is_empty() {
         return (Tone::Plain, "Holds no satellite.".to_owned());

@@ -14,7 +14,7 @@ use super::antenna_card::{
 };
 use crate::{
     astro::Angle,
-    device::{Capabilities, HeldSatellite, Pointing},
+    device::{Capabilities, Pointing},
     driver::{Intent, LinkState},
     engine::{CatalogState, antenna::AntennaModel},
     model::{Model, UiCommand, View},
@@ -287,12 +287,16 @@ fn track<'a>(
         let of_it = followed.and_then(|followed| followed.catalog_number);
         ("Azel follows", name.map_or("nothing", short), of_it.is_some() && of_it == number)
     } else {
-        // A fresh unit names no satellite, and an unreadable reply may pass for a name.
-        let names_one = |held: &&HeldSatellite| !held.name.is_empty() && state.unreadable.is_none();
-        let held = state.on_board.satellite.as_ref().filter(names_one);
+        // An unreadable reply may pass for a name.
+        let held = state.on_board.satellite.as_ref().filter(|_| state.unreadable.is_none());
         let of_it = held.map(|held| held.catalog_number);
         let is_tracked = of_it.is_some() && of_it == number && antenna.tracked_number() == number;
-        ("On the unit", held.map_or("no satellite", |held| short(&held.name)), is_tracked)
+        let name = match held.map(|held| held.name.as_str()) {
+            None => "not read yet",
+            Some("") => "no satellite",
+            Some(name) => short(name),
+        };
+        ("On the unit", name, is_tracked)
     };
     TrackModel {
         head,

@@ -34,7 +34,7 @@ enum Change {
 }
 
 /// `held` is the satellite on the unit: it stays the one to follow until the operator marks
-/// another.
+/// another. `None` if it was not read yet.
 pub(super) fn show(
     ui: &mut Ui,
     model: &Model,
@@ -48,6 +48,8 @@ pub(super) fn show(
         let is_own = form.numbers.is_some();
         let marked = form.marked;
         let chosen = form.chosen(catalog, favourites);
+        let is_unread = held.is_none();
+        let held = held.filter(|held| held.catalog_number > 0);
         let held_number = held.map(|held| held.catalog_number);
         let known = [marked, held_number].into_iter().flatten();
         let followed = known.clone().find(|number| is_chosen(chosen, *number));
@@ -60,6 +62,9 @@ pub(super) fn show(
             let name = &held.name;
             let words = format!("The unit holds {name} now, and will follow the marked one.");
             line(ui, Tone::Caution, &words);
+        }
+        if is_unread {
+            line(ui, Tone::Plain, "Which satellite the unit holds now is not read yet.");
         }
         search(ui, catalog, form, &mut change);
         form.satellite = followed;

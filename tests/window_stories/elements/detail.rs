@@ -46,7 +46,7 @@ fn the_detail_says_what_each_antenna_holds() {
     for size in SIZES {
         let mut window = view(size, Vec::new());
         detail(&mut window, size);
-        assert!(says(&window, "Satrak: Does not say what it holds."));
+        assert!(says(&window, "Satrak: What it holds is not read yet."));
         let hold = |window: &mut Window, number: u32, name: &str| {
             let antenna = &mut window.state_mut().model.antennas[0];
             Arc::make_mut(&mut antenna.snapshot).state.on_board.satellite = Some(HeldSatellite {
@@ -74,7 +74,7 @@ fn the_detail_lists_the_next_passes_and_opens_one_on_the_sky_plot() {
     for size in SIZES {
         let mut window = view(size, Vec::new());
         detail(&mut window, size);
-        assert!(says(&window, "Next passes, max ≥ 10°"));
+        assert!(says(&window, "Next passes, floor 10°"));
         let key = window.state().model.catalog_table.detail.as_ref().unwrap().passes[0].key();
         let passes: Vec<_> = window.query_all_by_label_contains("Pass at ").collect();
         assert_eq!(passes.len(), 3);
