@@ -178,7 +178,7 @@ fn n_jumps_to_the_pass_under_way_and_not_to_what_never_sets() {
 #[test]
 fn the_lowest_elevation_is_chosen_above_the_list() {
     let mut window = window(LARGE);
-    window.get_by_label("Lowest maximum elevation: max ≥ 10°").click();
+    window.get_by_label("Elevation floor: 10°").click();
     settle(&mut window);
     let choices = window.get_all_by_label_contains("30°");
     let choice = choices.into_iter().find(|node| node.rect().left() < 392.0).unwrap();

@@ -35,7 +35,7 @@ pub(super) fn show(
     let room = head.shrink2(vec2(PADDING, 0.0));
     let font = text::sized(13.0, Weight::SemiBold);
     paint::text_in(ui, room, Align2::LEFT_CENTER, "Next passes", font, t.t1);
-    let floor = format!("max ≥ {}", format::degrees(model.station.elevation_floor_deg, 0));
+    let floor = format!("floor {}", format::degrees(model.station.elevation_floor_deg, 0));
     paint::text_in(ui, room, Align2::RIGHT_CENTER, &floor, text::small(), t.t2);
     paint::name_text(ui, "element passes", room, &format!("Next passes, {floor}"));
     let words = match passes {

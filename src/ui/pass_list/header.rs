@@ -31,6 +31,9 @@ const LEAST_GAP: f32 = 2.0;
 const LINES: [f32; 2] = [20.0, 52.0];
 /// Width of the choice of satellites.
 const SCOPES: f32 = 116.0;
+const FLOOR: &str = "Elevation floor: passes with a lower maximum elevation are not listed. \
+                     It counts for the whole station.";
+const SPAN: &str = "How far ahead passes are listed";
 /// Floors closer than this count as equal.
 const SAME_DEG: f64 = 0.05;
 
@@ -85,8 +88,10 @@ pub(super) fn show(
 
 fn floors(ui: &Ui, line: Rect, model: &PassListModel<'_>, commands: &mut Vec<UiCommand>) -> Rect {
     let same = |floor_deg: &f64| (floor_deg - model.floor_deg).abs() < SAME_DEG;
-    let words = |floor_deg: f64| format!("max ≥ {}", format::degrees(floor_deg, 0));
-    let menu = Menu { salt: "floor", name: "Lowest maximum elevation", line };
+    let angle = |floor_deg: f64| format::degrees(floor_deg, 0);
+    let words = |floor_deg: f64| format!("Floor {}", angle(floor_deg));
+    let name = format!("Elevation floor: {}", angle(model.floor_deg));
+    let menu = Menu { salt: "floor", name: &name, about: FLOOR, line };
     menu.show(ui, &words(model.floor_deg), |ui| {
         for floor_deg in FLOORS_DEG {
             let choice = egui::Button::selectable(same(&floor_deg), words(floor_deg));
@@ -99,7 +104,8 @@ fn floors(ui: &Ui, line: Rect, model: &PassListModel<'_>, commands: &mut Vec<UiC
 
 fn spans(ui: &Ui, line: Rect, model: &PassListModel<'_>, commands: &mut Vec<UiCommand>) -> Rect {
     let words = |span_h: u32| format!("{span_h} h");
-    let menu = Menu { salt: "span", name: "How far ahead", line };
+    let name = format!("How far ahead: {}", words(model.span_h));
+    let menu = Menu { salt: "span", name: &name, about: SPAN, line };
     menu.show(ui, &words(model.span_h), |ui| {
         for span_h in SPANS_H {
             let choice = egui::Button::selectable(span_h == model.span_h, words(span_h));
@@ -162,18 +168,20 @@ fn save(ui: &Ui, place: Rect, model: &PassListModel<'_>, commands: &mut Vec<UiCo
 }
 
 /// A drop-down button at the right end of a line.
-struct Menu {
+struct Menu<'a> {
     salt: &'static str,
-    name: &'static str,
+    /// Subject and current choice, for screen readers.
+    name: &'a str,
+    /// The hover text.
+    about: &'static str,
     line: Rect,
 }
 
-impl Menu {
+impl Menu<'_> {
     fn show(self, ui: &Ui, chosen: &str, choices: impl FnOnce(&mut Ui)) -> Rect {
-        let name = format!("{}: {chosen}", self.name);
-        let list = DropDown { button: Button::quiet(chosen), salt: self.salt, name: &name };
+        let list = DropDown { button: Button::quiet(chosen), salt: self.salt, name: self.name };
         let place = self.line.with_min_x(self.line.right() - list.width(ui));
-        list.show(ui, place, choices);
+        list.show(ui, place, choices).on_hover_text(self.about);
         place
     }
 }

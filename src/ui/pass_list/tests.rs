@@ -195,15 +195,15 @@ fn tab_walks_from_the_drop_down_to_the_rows() {
 #[test]
 fn another_floor_is_chosen_from_the_drop_down() {
     let mut window = window(Fixture::with(8));
-    window.get_by_role_and_label(Role::ComboBox, "Lowest maximum elevation: max ≥ 10°").click();
+    window.get_by_role_and_label(Role::ComboBox, "Elevation floor: 10°").click();
     window.run();
-    window.get_by_label("max ≥ 30°").click();
+    window.get_by_label("Floor 30°").click();
     window.run();
     assert_eq!(
         window.state().actions,
         [UiCommand::Station(engine::Command::SetElevationFloor(30.0))]
     );
-    window.get_by_role_and_label(Role::ComboBox, "Lowest maximum elevation: max ≥ 30°");
+    window.get_by_role_and_label(Role::ComboBox, "Elevation floor: 30°");
 }
 
 #[test]
@@ -297,7 +297,7 @@ fn the_choices_in_the_head_never_touch() {
         let window = window(fixture);
         let place = |name| window.get_by_label(name).rect();
         let count = place("Next passes, 98\u{2009}765 · AOS at 5°");
-        assert!(count.right() < place("Lowest maximum elevation: max ≥ 10°").left());
+        assert!(count.right() < place("Elevation floor: 10°").left());
         assert!(place("All").right() < place("Filter the list").left());
         assert!(place("Filter the list").right() < place("How far ahead: 48 h").left());
     }

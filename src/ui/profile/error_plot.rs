@@ -13,6 +13,9 @@ use crate::ui::{format, text, theme, widgets::paint};
 pub(super) const HEIGHT: f32 = 32.0;
 /// Dash and gap of the line at half the beam.
 const DASH: (f32, f32) = (4.0, 4.0);
+/// What the plot shows.
+const ABOUT: &str = "Pointing error: the measured angle between the antenna's direction and the \
+                     satellite. The dashed line is half of the beam width.";
 /// Gap between the plot and the words beside it.
 const GAP: f32 = 6.0;
 
@@ -28,7 +31,8 @@ pub(super) fn show(
     ui.painter().rect_filled(rect, 0.0, t.bg0);
     ui.painter().hline(rect.x_range(), rect.bottom(), (1.0, t.line));
     let name = pos2(rect.left() - GAP, rect.center().y);
-    paint::text(ui, name, Align2::RIGHT_CENTER, "err", text::caption(), t.t2);
+    let name = paint::text(ui, name, Align2::RIGHT_CENTER, "err", text::caption(), t.t2);
+    paint::name_text(ui, "pointing error", name.expand(3.0), ABOUT).on_hover_text(ABOUT);
 
     let errors = || {
         let on_axis = measured.iter().filter(|(time, _)| axis.contains(*time));

@@ -12,6 +12,7 @@ use crate::ui::{
 
 /// In a plot below this height a button opens the legend, points.
 const LEGEND_HEIGHT: f32 = 500.0;
+const KEYHOLES: &str = "Keyholes";
 /// Distance of the texts from the edges of the plot, points.
 pub(super) const EDGE: f32 = 16.0;
 
@@ -30,12 +31,15 @@ pub(super) fn upper_right(ui: &Ui, rect: Rect, layers: &mut Layers, t: &Tokens) 
                 (&mut layers.others, "Other satellites"),
                 (&mut layers.names, "Names"),
                 (&mut layers.sun_and_moon, "Sun and Moon"),
-                (&mut layers.keyholes, "Keyholes"),
+                (&mut layers.keyholes, KEYHOLES),
                 (&mut layers.mask, "Horizon mask"),
                 (&mut layers.keep_outs, "Keep-outs"),
                 (&mut layers.antennas, "Other antennas"),
             ] {
-                ui.add(CheckBox::new(on, name));
+                let response = ui.add(CheckBox::new(on, name));
+                if name == KEYHOLES {
+                    response.on_hover_text(legend::KEYHOLE);
+                }
             }
             close_key::show(ui);
         });
@@ -72,7 +76,7 @@ pub(super) fn lower_left(
         if over_sky {
             ui.painter().rect_filled(place.expand(4.0), 0.0, t.bg0);
         }
-        legend::paint(ui.painter(), place.min, scene, t);
+        legend::paint(ui, place.min, scene, t);
         return;
     }
     let button = legend_button(rect);
@@ -87,7 +91,7 @@ pub(super) fn lower_left(
         .show(|ui| {
             let size = vec2(legend::WIDTH, legend::height(scene));
             let (place, _) = ui.allocate_exact_size(size, egui::Sense::hover());
-            legend::paint(ui.painter(), place.min, scene, t);
+            legend::paint(ui, place.min, scene, t);
             close_key::show(ui);
         });
 }

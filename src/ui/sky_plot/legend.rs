@@ -1,13 +1,13 @@
 //! The legend of the plot.
 
-use egui::{Align2, Color32, Painter, Pos2, Rect, Shape, Stroke, vec2};
+use egui::{Align2, Color32, Painter, Pos2, Rect, Shape, Stroke, Ui, vec2};
 
 use super::{
     geometry::{dashed, hatch},
     marks,
     scene::SkyScene,
 };
-use crate::ui::{text, tokens::Tokens};
+use crate::ui::{text, tokens::Tokens, widgets::paint};
 
 /// Width of the legend, points.
 pub(super) const WIDTH: f32 = 134.0;
@@ -15,6 +15,11 @@ pub(super) const WIDTH: f32 = 134.0;
 const ROW: f32 = 18.0;
 /// Half the width of a sample, points.
 const HALF: f32 = 10.0;
+
+const KEYHOLE_NAME: &str = "Keyhole";
+/// What a keyhole is.
+pub(super) const KEYHOLE: &str = "Keyhole: the sky around an end of the lower axis, where an X/Y \
+                                  mount cannot point or cannot turn fast enough.";
 
 /// Paints the sample of a row around its centre.
 type Sample = fn(&Painter, Pos2, &Tokens);
@@ -25,12 +30,16 @@ pub(super) fn height(scene: &SkyScene<'_>) -> f32 {
 }
 
 /// Paints the legend with its upper left corner at `at`.
-pub(super) fn paint(painter: &Painter, at: Pos2, scene: &SkyScene<'_>, t: &Tokens) {
+pub(super) fn paint(ui: &Ui, at: Pos2, scene: &SkyScene<'_>, t: &Tokens) {
     for (index, (name, sample)) in rows(scene).enumerate() {
         let middle = at + vec2(HALF, ROW * (index as f32 + 0.5));
-        sample(painter, middle, t);
+        sample(ui.painter(), middle, t);
         let beside = middle + vec2(HALF + 10.0, 0.0);
-        painter.text(beside, Align2::LEFT_CENTER, name, text::small(), t.t2);
+        let words = paint::text(ui, beside, Align2::LEFT_CENTER, name, text::small(), t.t2);
+        if name == KEYHOLE_NAME {
+            let row = words.with_min_x(at.x);
+            paint::name_text(ui, "keyhole", row, KEYHOLE).on_hover_text(KEYHOLE);
+        }
     }
 }
 
@@ -59,17 +68,26 @@ fn rows(scene: &SkyScene<'_>) -> impl Iterator<Item = (&'static str, Sample)> {
     ];
     let planned = scene.then.map(|_| ("Planned antenna", planned as Sample));
     let mask = scene.mask.map(|_| ("Horizon mask", mask as Sample));
-    let keyhole = scene.keyholes.map(|_| ("Keyhole", keyhole as Sample));
+    let keyhole = scene.keyholes.map(|_| (KEYHOLE_NAME, keyhole as Sample));
     let mut keep_outs = scene.keep_outs.iter();
     let margin = keep_outs
         .any(|mark| mark.margin.degrees() > 0.0)
         .then_some(("Safety margin", margin as Sample));
     let keep_out = (!scene.keep_outs.is_empty()).then_some(("Keep-out", keep_out as Sample));
-    always.into_iter().chain(planned).chain(mask).chain(keyhole).chain(keep_out).chain(margin)
+    let stop = (!scene.stops.is_empty()).then_some(("Azimuth stop", stop as Sample));
+    let areas = mask.into_iter().chain(keyhole).chain(keep_out).chain(margin);
+    always.into_iter().chain(planned).chain(areas).chain(stop)
 }
 
 fn planned(painter: &Painter, at: Pos2, t: &Tokens) {
     marks::planned(painter, at, 6.5, t);
+}
+
+fn stop(painter: &Painter, at: Pos2, t: &Tokens) {
+    let stroke = Stroke::new(3.0, t.bad);
+    let bar = at - vec2(HALF - 1.5, 0.0);
+    painter.line_segment([bar - vec2(0.0, 6.0), bar + vec2(0.0, 6.0)], stroke);
+    painter.line_segment([bar, at + vec2(HALF, 0.0)], stroke);
 }
 
 pub(in crate::ui) fn mask(painter: &Painter, at: Pos2, t: &Tokens) {

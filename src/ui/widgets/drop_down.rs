@@ -1,6 +1,6 @@
 //! A button that opens a list of choices below it.
 
-use egui::{Popup, Rect, Role, ScrollArea, TextWrapMode, Ui, WidgetInfo};
+use egui::{Popup, Rect, Response, Role, ScrollArea, TextWrapMode, Ui, WidgetInfo};
 
 use super::button::Button;
 
@@ -25,7 +25,7 @@ impl DropDown<'_> {
 
     /// Shows the button in `rect`, and `choices` while it is open; a click on one
     /// closes it.
-    pub fn show(self, ui: &Ui, rect: Rect, choices: impl FnOnce(&mut Ui)) {
+    pub fn show(self, ui: &Ui, rect: Rect, choices: impl FnOnce(&mut Ui)) -> Response {
         let response = self.button.chevron().show(ui, self.salt, rect);
         response.widget_info(|| WidgetInfo::labeled(Role::ComboBox, true, self.name));
         Popup::menu(&response).width(rect.width()).accessible_name(self.name).show(|ui| {
@@ -36,6 +36,7 @@ impl DropDown<'_> {
                 choices(ui);
             });
         });
+        response
     }
 }
 
