@@ -7,8 +7,9 @@ use crate::{
     device::{Capabilities, Pointing},
 };
 pub use times::{
-    clock, copied, date, dated, day, hour_of_day, is_today, local_clock, millisecond, minute,
-    minute_of_day, minutes, moment, second_of_day, stretch, weekday,
+    clock, copied, date, dated, day, hour_of_day, is_today, iso_date, local_clock, millisecond,
+    minute, minute_in_plot, minute_of_day, minutes, moment, on_axis, second_of_day, stretch,
+    weekday,
 };
 
 /// Typographic minus sign.

@@ -187,7 +187,7 @@ fn all_lanes(
         standing.push((place, bars));
     }
     lane_name(ui, rect.left() + MARGIN, sun, "Sun", false);
-    sun::show(ui, scale, model.sun, sun, words);
+    sun::show(ui, scale, model.now, model.sun, sun, words);
     axis::time_lines(ui, scale, model, Rangef::new(room.top() - 4.0, sun.bottom()));
     for (place, bars) in &standing {
         let room = place.with_min_x(place.left() - REACH);
@@ -226,13 +226,13 @@ fn full(
     bars::show(ui, &main, of, model, commands);
     if two_lanes {
         ui.painter().hline(x, out.top(), (1.0, theme::tokens(ui).line));
-        let name = if model.is_planned { "Left out" } else { "Not possible" };
+        let name = if model.is_planned { "Left out" } else { "Out of reach" };
         lane_name(ui, rect.left() + MARGIN, out, name, false);
         let others = bars::stand(&shown.bars, |bar| !bar.is_taken(), scale, out, &OUT_HEIGHTS);
         bars::show(ui, &others, of, model, commands);
     }
     lane_name(ui, rect.left() + MARGIN, sun, "Sun", false);
-    sun::show(ui, scale, model.sun, sun, words);
+    sun::show(ui, scale, model.now, model.sun, sun, words);
     axis::time_lines(ui, scale, model, Rangef::new(lane.top() - 4.0, sun.bottom()));
     let room = lane.with_min_x(lane.left() - REACH);
     bars::show_names(ui, &main, model.selected, room);

@@ -223,7 +223,7 @@ fn held(source: &Source, report: &SourceReport, now: Timestamp) -> (Tone, String
     }
     let newest = report.newest_epoch.map_or_else(String::new, |epoch| {
         let age = format::age(seconds_between(epoch, now));
-        format!(", newest epoch {}, {age} old", epoch.strftime("%Y-%m-%d"))
+        format!(", newest epoch {}, {age} old", format::iso_date(epoch))
     });
     let word = match source.place {
         SourcePlace::Web(_) => "Sent or confirmed",

@@ -24,6 +24,17 @@ pub fn minute(at: Timestamp, now: Timestamp) -> String {
     on_its_day(at, now, "%H:%MZ")
 }
 
+/// A [`moment`] to the minute within a plot, whose times are all UTC: hh:mm.
+pub fn minute_in_plot(at: Timestamp, now: Timestamp) -> String {
+    on_its_day(at, now, "%H:%M")
+}
+
+/// A mark of a time axis: UTC as hh:mm, and at midnight the day that begins.
+pub fn on_axis(at: Timestamp) -> String {
+    let at = utc(at);
+    at.strftime(if at.hour() == 0 && at.minute() == 0 { "%-d %b" } else { "%H:%M" }).to_string()
+}
+
 /// Whether both are on the same day of UTC.
 pub fn is_today(at: Timestamp, now: Timestamp) -> bool {
     utc(at).date() == utc(now).date()
@@ -57,6 +68,11 @@ pub fn copied(at: Timestamp) -> String {
 /// UTC as weekday and ISO date, such as Sat 2026-11-14.
 pub fn date(at: Timestamp) -> String {
     utc(at).strftime("%a %Y-%m-%d").to_string()
+}
+
+/// UTC as ISO date, such as 2026-11-14.
+pub fn iso_date(at: Timestamp) -> String {
+    utc(at).strftime("%Y-%m-%d").to_string()
 }
 
 /// A day such as 14 Nov.
@@ -115,6 +131,8 @@ mod tests {
         assert_eq!(millisecond(time, later), "14 Nov 11:06:12");
         assert_eq!(dated(time), "Sat 2026-11-14 11:06:12Z");
         assert_eq!(copied(time), "2026-11-14 11:06:12Z");
+        assert_eq!([minute_in_plot(time, today), on_axis(time)], ["11:06", "11:06"]);
+        assert_eq!([minute_in_plot(time, later), on_axis(later)], ["14 Nov 11:06", "15 Nov"]);
     }
 
     #[test]

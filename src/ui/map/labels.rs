@@ -76,7 +76,7 @@ pub(super) fn add(
         });
     }
     for tick in tracks.into_iter().flat_map(|tracks| &tracks.ticks) {
-        let time = format::minute_of_day(tick.time);
+        let time = format::minute_in_plot(tick.time, model.now);
         let lines = [(time.as_str(), text::caption(), t.sat)];
         let key = Key::Minute(tick.time.as_second() / 60);
         add_one(labels, key, &lines, tick.at, 7.0, TOLERANCE);

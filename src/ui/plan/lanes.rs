@@ -150,7 +150,7 @@ fn marks(place: Rect, span: Span) -> Vec<(f32, String)> {
     let first = start + (-start).rem_euclid(step_s);
     let times = (0..).map_while(|step| jiff::Timestamp::from_second(first + step * step_s).ok());
     let within = times.take_while(|at| *at < span.to());
-    within.map(|at| (span.x(at, place), format::minute_of_day(at))).collect()
+    within.map(|at| (span.x(at, place), format::on_axis(at))).collect()
 }
 
 fn label(

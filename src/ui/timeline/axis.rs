@@ -43,7 +43,7 @@ pub(super) fn show(ui: &Ui, scale: &Scale, lanes: Rect, names: Rect) {
 fn hour_names(ui: &Ui, scale: &Scale, names: Rect) -> Vec<(f32, String)> {
     let every_s = named_every_hours(scale.hour_width()) * HOUR_S;
     let hours = scale.multiples(every_s).filter(|at| is_full_hour(*at));
-    let named = hours.map(|at| (scale.x(at), format::minute_of_day(at)));
+    let named = hours.map(|at| (scale.x(at), format::on_axis(at)));
     let fits = |(x, name): &(f32, String)| {
         x + paint::text_width(ui, name, text::caption()) / 2.0 <= names.right()
     };

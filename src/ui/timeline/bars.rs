@@ -216,7 +216,7 @@ fn node(
 fn remarks(bar: &Bar<'_>, antenna: &str, model: &TimelineModel<'_>) -> String {
     let stands = match bar.state {
         State::Mount { can_track: true } => None,
-        State::Mount { can_track: false } => Some("not possible".to_owned()),
+        State::Mount { can_track: false } => Some("out of reach".to_owned()),
         State::Plan(standing) => Some((model.says)(standing, antenna)),
     };
     let lost = (bar.loses && bar.is_taken()).then(|| "seconds lost".to_owned());

@@ -29,7 +29,7 @@ fn legend(model: &TimelineModel<'_>) -> Vec<(Mark, &'static str)> {
     let lost = (Mark::Triangle, "seconds lost");
     if !model.is_planned {
         let filled = (Mark::Bar(BarForm::Planned), "trackable, height = max elevation");
-        return vec![lost, (Mark::Bar(BarForm::LeftOut), "not possible"), filled];
+        return vec![lost, (Mark::Bar(BarForm::LeftOut), "out of reach"), filled];
     }
     let bars = || model.lanes.iter().flat_map(|lane| &lane.bars);
     let flown = |is_missed: bool| {

@@ -1,6 +1,7 @@
 //! The lane that shows day and night.
 
 use egui::{Align2, Rect, Stroke, StrokeKind, Ui, pos2};
+use jiff::Timestamp;
 
 use super::{SunSpan, scale::Scale};
 use crate::ui::{format, text, theme, widgets::paint};
@@ -9,7 +10,14 @@ use crate::ui::{format, text, theme, widgets::paint};
 const GAP: f32 = 8.0;
 
 /// Shows the spans in `bar`, and their captions in `words`, the band below.
-pub(super) fn show(ui: &Ui, scale: &Scale, spans: &[SunSpan], bar: Rect, words: Rect) {
+pub(super) fn show(
+    ui: &Ui,
+    scale: &Scale,
+    now: Timestamp,
+    spans: &[SunSpan],
+    bar: Rect,
+    words: Rect,
+) {
     let t = theme::tokens(ui);
     let mut free_from = words.left();
     for span in spans {
@@ -19,7 +27,7 @@ pub(super) fn show(ui: &Ui, scale: &Scale, spans: &[SunSpan], bar: Rect, words: 
         let rect = Rect::from_x_y_ranges(x, bar.y_range());
         let (fill, line) = if span.up { (t.bg1, t.sun) } else { (t.bg3, t.line) };
         ui.painter().rect(rect, 0, fill, Stroke::new(1.0, line), StrokeKind::Inside);
-        let word = caption(span, scale);
+        let word = caption(span, scale, now);
         let width = paint::text_width(ui, &word, text::caption());
         let left = x.min.min(words.right() - width);
         if left < free_from {
@@ -35,8 +43,8 @@ pub(super) fn show(ui: &Ui, scale: &Scale, spans: &[SunSpan], bar: Rect, words: 
 
 /// The caption of a span: the state at the start of the window, or the change that begins
 /// the span.
-fn caption(span: &SunSpan, scale: &Scale) -> String {
-    let began = format::minute_of_day(span.from);
+fn caption(span: &SunSpan, scale: &Scale, now: Timestamp) -> String {
+    let began = format::minute(span.from, now);
     match (span.from > scale.from(), span.up) {
         (false, true) => "day".to_owned(),
         (false, false) => "night".to_owned(),
