@@ -8,7 +8,12 @@ use std::{
 
 use jiff::Timestamp;
 
-use crate::{engine::passes::PassKey, plan::schedule::Joining, station::AntennaId};
+use super::Model;
+use crate::{
+    engine::{antenna::AntennaModel, passes::PassKey},
+    plan::schedule::{Joining, PlannedAntenna, Reach},
+    station::AntennaId,
+};
 
 /// More than a list shows at once.
 const KEPT: usize = 200;
@@ -41,6 +46,20 @@ impl Joinings {
         }
         found.insert((antenna, pass), (second, joining));
         joining
+    }
+}
+
+impl Model {
+    /// An antenna as it is planned for, from where it stands now; `None` if that is not known.
+    pub fn planned_from_here(&self, antenna: &AntennaModel) -> Option<PlannedAntenna> {
+        let has_elevation = antenna.variant().capabilities.has_elevation();
+        let measured = antenna.snapshot.state.measured.filter(|_| antenna.is_live())?;
+        let reach = Reach::of(&self.station, &antenna.config, antenna.snapshot.rates_deg_s);
+        Some(PlannedAntenna {
+            stands_deg: Some(measured.axes_deg(has_elevation)?),
+            reach,
+            ..PlannedAntenna::of(&self.station, &antenna.config, self.now)
+        })
     }
 }
 

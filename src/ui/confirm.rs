@@ -1,9 +1,15 @@
 //! The confirmation of a command that moves metal and was given by a key.
 
-use egui::{Key, Modal, Ui};
+use egui::{Frame, Key, Modal, Ui};
 
-use super::text;
+use super::{
+    text,
+    widgets::button::{self, Button},
+};
 use crate::model::UiCommand;
+
+/// Padding of a question.
+pub(super) const PADDING: i8 = 16;
 
 /// A question, and the command for a yes.
 #[derive(Debug, Clone, PartialEq)]
@@ -21,20 +27,19 @@ impl Question {
     pub fn show(question: &mut Option<Self>, ui: &Ui, commands: &mut Vec<UiCommand>) {
         let Some(asked) = question else { return };
         let mut answer = None;
-        let modal = Modal::new(egui::Id::unique("question")).show(ui.ctx(), |ui| {
+        let frame = Frame::popup(ui.style()).inner_margin(PADDING);
+        let modal = Modal::new(egui::Id::unique("question")).frame(frame).show(ui.ctx(), |ui| {
             ui.set_width(320.0);
             ui.label(egui::RichText::new(&asked.text).font(text::body()));
-            ui.add_space(8.0);
-            ui.horizontal(|ui| {
-                let yes = ui.button(format!("{} (Enter)", asked.yes));
-                let cancel = ui.button("Cancel");
-                let enter = ui.input(|input| input.key_pressed(Key::Enter));
-                if cancel.clicked() {
-                    answer = Some(false);
-                } else if yes.clicked() || enter && !cancel.has_focus() {
-                    answer = Some(true);
-                }
-            });
+            ui.add_space(12.0);
+            let yes = format!("{} (Enter)", asked.yes);
+            let [yes, cancel] = button::pair(ui, Button::primary(&yes), Button::normal("Cancel"));
+            let enter = ui.input(|input| input.key_pressed(Key::Enter));
+            if cancel.clicked() {
+                answer = Some(false);
+            } else if yes.clicked() || enter && !cancel.has_focus() {
+                answer = Some(true);
+            }
         });
         if modal.should_close() {
             answer = answer.or(Some(false));

@@ -5,15 +5,18 @@ pub mod closing;
 mod maintenance;
 mod password;
 
-use egui::{Id, Key, Label, Modal, RichText, Ui};
+use egui::{Frame, Id, Key, Label, Modal, RichText, Ui};
 
 pub use maintenance::MaintenanceDialog;
 pub use password::{PasswordDialog, SecretAnswer};
 
 use super::{
-    confirm::Question,
+    confirm::{self, Question},
     text, theme,
-    widgets::told::{Tone, fact, line},
+    widgets::{
+        button::{self, Button},
+        told::{Tone, fact, line},
+    },
 };
 use crate::{engine::host_keys::DoubtfulKey, model::UiCommand};
 
@@ -89,20 +92,20 @@ fn ask(
     content: impl FnOnce(&mut Ui),
 ) -> Option<Answer> {
     let mut answer = None;
-    let modal = Modal::new(Id::unique(id)).show(ui.ctx(), |ui| {
+    let frame = Frame::popup(ui.style()).inner_margin(confirm::PADDING);
+    let modal = Modal::new(Id::unique(id)).frame(frame).show(ui.ctx(), |ui| {
         ui.set_width(WIDTH.min(ui.ctx().content_rect().width() - 64.0));
         content(ui);
-        ui.add_space(8.0);
-        ui.horizontal(|ui| {
-            let word = if enter_says_yes { format!("{yes} (Enter)") } else { yes.to_owned() };
-            let enter = enter_says_yes && ui.input(|input| input.key_pressed(Key::Enter));
-            let (yes, no) = (ui.button(word), ui.button("No"));
-            if no.clicked() {
-                answer = Some(Answer::No);
-            } else if yes.clicked() || enter && !no.has_focus() {
-                answer = Some(Answer::Yes);
-            }
-        });
+        ui.add_space(12.0);
+        let word = if enter_says_yes { format!("{yes} (Enter)") } else { yes.to_owned() };
+        let enter = enter_says_yes && ui.input(|input| input.key_pressed(Key::Enter));
+        let yes = if enter_says_yes { Button::primary(&word) } else { Button::normal(&word) };
+        let [yes, no] = button::pair(ui, yes, Button::normal("No"));
+        if no.clicked() {
+            answer = Some(Answer::No);
+        } else if yes.clicked() || enter && !no.has_focus() {
+            answer = Some(Answer::Yes);
+        }
     });
     if modal.should_close() {
         answer = answer.or(Some(Answer::No));

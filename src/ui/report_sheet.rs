@@ -80,7 +80,7 @@ fn verdict(svg: &mut Svg, y: f64, opened: &OpenedPass) -> f64 {
     let pass = &opened.pass;
     let word = record::verdict(pass.report.report.verdict);
     let mut y = section(svg, y, &format!("Verdict: {}", word.to_lowercase()), "");
-    let sentence = record::verdict_sentence(pass, pass.report.from);
+    let sentence = record::verdict_sentence(&pass.report, pass.report.from);
     for line in wrapped(&sentence, RIGHT - LEFT, TEXT, LINES) {
         y += LINE;
         svg.text([LEFT, y], RIGHT - LEFT, TEXT, &line);

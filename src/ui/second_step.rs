@@ -5,8 +5,13 @@
 use super::{confirm::Question, format, state_sentence::short, words};
 use crate::{
     astro::time::seconds_between,
+    device::Pointing,
     driver,
-    engine::{self, antenna::AntennaModel, passes::PassKey},
+    engine::{
+        self,
+        antenna::AntennaModel,
+        passes::{PassKey, PredictedPass},
+    },
     model::{Model, UiCommand},
 };
 
@@ -71,14 +76,32 @@ fn before_a_track(model: &Model, pass: PassKey) -> Option<Question> {
     let track = UiCommand::Station(track);
     let usual = || Question {
         text: format!(
-            "Track {} with {}? The antenna moves.",
+            "Track {} with {}? The antenna moves{}.",
             predicted.satellite.short_name(),
-            antenna.config.name
+            antenna.config.name,
+            way_there(model, antenna, predicted).unwrap_or_default()
         ),
         yes: "Track",
         command: track.clone(),
     };
     Some(question(model, &track).unwrap_or_else(usual))
+}
+
+/// The way to the begin of a pass, or to where the antenna would meet one under way.
+fn way_there(model: &Model, antenna: &AntennaModel, predicted: &PredictedPass) -> Option<String> {
+    let can = antenna.variant().capabilities;
+    let measured = antenna.snapshot.state.measured.filter(|_| antenna.is_live())?;
+    let track = predicted.track();
+    let (met, seconds) = model.planned_from_here(antenna)?.slew_to(track)?;
+    let to = track.iter().find(|sample| sample.time >= met)?.direction;
+    let elevation = can.has_elevation().then_some(to.elevation);
+    let to = Pointing { azimuth: Some(to.azimuth), elevation };
+    Some(format!(
+        " from {} to {}, in {}",
+        format::pointing(measured.pointing, can),
+        format::pointing(to, can),
+        format::duration(seconds)
+    ))
 }
 
 /// What a command that would end a track leads to, and the words of its button.

@@ -61,7 +61,7 @@ fn a_bar_and_a_row_offer_what_can_be_done_with_their_pass() {
         // A track is asked for first.
         window.get_by_label(place).click_secondary();
         assert_eq!(choose(&mut window, "Track with Satrak…"), []);
-        window.get_by_label("Track METEOR-M2 4 with Satrak? The antenna moves.");
+        window.get_by_label_contains("Track METEOR-M2 4 with Satrak? The antenna moves");
         window.key_press(Key::Enter);
         let track = engine::Command::Track { antenna: AntennaId(1), pass, is_agreed: false };
         assert_eq!(asked(&mut window), [UiCommand::Station(track)]);

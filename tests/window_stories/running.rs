@@ -154,7 +154,7 @@ fn esc_stops_from_a_text_field_from_a_question_and_from_another_view() {
     assert!(far_from(&window, 90.0, 30.0), "stopped, not arrived");
 
     for (modifiers, key, sign) in
-        [(Modifiers::NONE, Key::T, "The antenna moves."), (Modifiers::COMMAND, Key::Num6, "Revert")]
+        [(Modifiers::NONE, Key::T, "The antenna moves"), (Modifiers::COMMAND, Key::Num6, "Revert")]
     {
         window.get_by_role_and_label(Role::RadioButton, "Position").click();
         step_until(&mut window, "position", |model| intent(model) == Some(Intent::Position));
@@ -168,7 +168,7 @@ fn esc_stops_from_a_text_field_from_a_question_and_from_another_view() {
         window.key_press(Key::Escape);
         step_until(&mut window, "it is stopped", is_stopped);
         assert!(far_from(&window, 270.0, 30.0), "stopped, not arrived");
-        assert!(window.query_by_label_contains("The antenna moves.").is_none());
+        assert!(window.query_by_label_contains("The antenna moves").is_none());
     }
 }
 

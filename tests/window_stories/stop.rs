@@ -80,7 +80,7 @@ fn stop_goes_out_while_a_question_is_asked() {
         let mut window = rig::window(size, rig::model(states::holding()));
         window.key_press(Key::T);
         settle(&mut window);
-        window.get_by_label("Track NOAA 20 with Satrak? The antenna moves.");
+        window.get_by_label_contains("Track NOAA 20 with Satrak? The antenna moves");
         stop_stops(&mut window, "STOP");
     }
 }

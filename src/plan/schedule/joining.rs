@@ -1,9 +1,11 @@
 //! When an antenna that stands somewhere joins a pass.
 
+use jiff::Timestamp;
+
 use super::{
     PlannedAntenna,
     legs::set_up_ms,
-    way::{Span, Way, ms},
+    way::{Span, Way, at_ms, ms},
 };
 use crate::plan::Sample;
 
@@ -25,16 +27,33 @@ impl PlannedAntenna {
     /// first, if it sets out from where it stands as soon as it is free and set up. `None` if that
     /// is not before LOS, if no way leads there, or if it is not known where it stands.
     pub fn joining(&self, samples: &[Sample]) -> Option<Joining> {
-        let (stands_deg, free_ms) = (self.stands_deg?, ms(self.free_from));
-        let ready_ms = free_ms + set_up_ms(self);
-        let way = self.reach.rest(samples, stands_deg, (self.free_from, ready_ms))?;
-        let starts_ms = way.span().from_ms;
-        let at_ms = self.met_ms(&way, stands_deg, ready_ms)?;
-        let left = Span { from_ms: at_ms, to_ms: way.span().to_ms };
+        let (way, met_ms) = self.met(samples)?;
+        let left = Span { from_ms: met_ms, to_ms: way.span().to_ms };
         Some(Joining {
-            late_s: (at_ms - starts_ms) as f64 / 1000.0,
+            late_s: (met_ms - way.span().from_ms) as f64 / 1000.0,
             left_s: way.counted_ms(left) as f64 / 1000.0,
         })
+    }
+
+    /// The moment at which this antenna is on the pass as [`Self::joining`] tells, and how long it
+    /// slews there, seconds.
+    pub fn slew_to(&self, samples: &[Sample]) -> Option<(Timestamp, f64)> {
+        let (way, met_ms) = self.met(samples)?;
+        let slew_ms = self.reach.leg_ms(self.stands_deg?, way.axes_deg(met_ms), self.ready_ms())?;
+        Some((at_ms(met_ms), slew_ms as f64 / 1000.0))
+    }
+
+    /// The rest of a pass, and the moment at which this antenna is on it.
+    fn met(&self, samples: &[Sample]) -> Option<(Way, i64)> {
+        let (stands_deg, ready_ms) = (self.stands_deg?, self.ready_ms());
+        let way = self.reach.rest(samples, stands_deg, (self.free_from, ready_ms))?;
+        let met_ms = self.met_ms(&way, stands_deg, ready_ms)?;
+        Some((way, met_ms))
+    }
+
+    /// When it is free and set up.
+    fn ready_ms(&self) -> i64 {
+        ms(self.free_from) + set_up_ms(self)
     }
 
     /// The first moment that counts at which the axes can be where `way` has them, if they set out

@@ -16,7 +16,7 @@ use crate::{
     orbit::Pass,
     plan::{
         Sample, Trackability,
-        schedule::{Conflict, Joining, PlannedAntenna, Reach, Refusal, Why},
+        schedule::{Conflict, Joining, Refusal, Why},
     },
     ui::{
         format, menus,
@@ -197,17 +197,9 @@ fn late(
         return None;
     }
     let has_elevation = antenna.variant().capabilities.has_elevation();
-    let axes_deg = antenna.snapshot.state.measured?.axes_deg(has_elevation)?;
-    let (now, station) = (model.now, &model.station);
-    let find = || {
-        let planned = PlannedAntenna {
-            stands_deg: Some(axes_deg),
-            reach: Reach::of(station, config, antenna.snapshot.rates_deg_s),
-            ..PlannedAntenna::of(station, config, now)
-        };
-        planned.joining(predicted.track())
-    };
-    match model.joinings.of(antenna.id(), predicted.key(), now, find) {
+    antenna.snapshot.state.measured?.axes_deg(has_elevation)?;
+    let find = || model.planned_from_here(antenna)?.joining(predicted.track());
+    match model.joinings.of(antenna.id(), predicted.key(), model.now, find) {
         None => Some(Verdict::TooLate),
         Some(Joining { late_s, left_s }) => {
             (late_s >= 1.0).then_some(Verdict::Late { seconds: late_s, left_s })

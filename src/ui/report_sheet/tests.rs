@@ -53,7 +53,15 @@ fn opened(late_s: f64, is_measured: impl Fn(u32) -> bool) -> OpenedPass {
         min_elevation: Angle::from_degrees(0.0),
     };
     let trackability = Trackability::Whole;
-    let tracked = TrackedPass { propagator: &propagator, site, from, until, limits, trackability };
+    let tracked = TrackedPass {
+        propagator: &propagator,
+        site,
+        from,
+        until,
+        limits,
+        trackability,
+        ended: None,
+    };
     let points = positions.iter().map(|at| TrackPoint::new(&propagator, site, true, *at));
     let track: Vec<TrackPoint> = points.flatten().collect();
     let measured = track.iter().map(|point| (point.time, point.antenna));

@@ -12,6 +12,8 @@ pub const HEIGHT: f32 = 32.0;
 pub const SMALL_HEIGHT: f32 = 24.0;
 /// Width of an icon with the gap behind it.
 const ICON: f32 = 24.0;
+/// Gap between two answers to a question.
+const PAIR_GAP: f32 = 8.0;
 /// Corner radius of buttons and jog keys.
 pub const RADIUS: u8 = 5;
 
@@ -114,6 +116,16 @@ impl<'a> Button<'a> {
         paint::focus_ring(ui, &response, RADIUS);
         response
     }
+}
+
+/// Shows the two answers to a question side by side.
+pub fn pair(ui: &mut Ui, first: Button<'_>, second: Button<'_>) -> [Response; 2] {
+    let [left_width, right_width] = [first, second].map(|button| button.width(ui));
+    let size = vec2(left_width + PAIR_GAP + right_width, HEIGHT);
+    let (rect, _) = ui.allocate_exact_size(size, egui::Sense::hover());
+    let left = rect.with_max_x(rect.left() + left_width);
+    let right = rect.with_min_x(left.right() + PAIR_GAP);
+    [first.show(ui, "first answer", left), second.show(ui, "second answer", right)]
 }
 
 #[cfg(test)]
