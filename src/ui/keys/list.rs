@@ -1,6 +1,8 @@
 //! The list of keys, drawn from the table.
 
-use egui::{Align2, Frame, Key, Modal, Modifiers, Sense, Ui, vec2};
+use std::sync::Arc;
+
+use egui::{Align2, Frame, Galley, Key, Modal, Modifiers, Rect, Sense, Ui, pos2, vec2};
 
 use super::{ALL, Binding, own::OwnKeys};
 use crate::ui::{
@@ -8,9 +10,16 @@ use crate::ui::{
     widgets::{button::Button, paint},
 };
 
-const WIDTH: f32 = 648.0;
-const KEYS: f32 = 176.0;
-const ROW: f32 = 15.5;
+/// Width of one of the two columns.
+const COLUMN: f32 = 464.0;
+/// Gap between the columns.
+const GAP: f32 = 24.0;
+const WIDTH: f32 = 2.0 * COLUMN + GAP;
+const KEYS: f32 = 150.0;
+const ROW: f32 = 24.0;
+const HEAD: f32 = 36.0;
+/// By this the list stands below the middle of the window, so that it leaves the top bar free.
+const DOWN: f32 = 24.0;
 
 /// Shows the list until Esc, `?`, a click outside or its button closes it.
 pub fn show(ui: &Ui, open: &mut bool, own: &OwnKeys) {
@@ -20,30 +29,50 @@ pub fn show(ui: &Ui, open: &mut bool, own: &OwnKeys) {
     let again =
         |ui: &Ui| ui.input_mut(|input| input.consume_key(Modifiers::NONE, Key::Questionmark));
     let frame = Frame::popup(ui.style()).inner_margin(16);
-    let modal = Modal::new(egui::Id::unique("keys")).frame(frame).show(ui.ctx(), |ui| {
+    let id = egui::Id::unique("keys");
+    let area = Modal::default_area(id).anchor(Align2::CENTER_CENTER, vec2(0.0, DOWN));
+    let modal = Modal::new(id).area(area).frame(frame).show(ui.ctx(), |ui| {
         let t = theme::tokens(ui);
         ui.spacing_mut().item_spacing.y = 0.0;
-        let (head, _) = ui.allocate_exact_size(vec2(WIDTH, 36.0), Sense::hover());
+        let (head, _) = ui.allocate_exact_size(vec2(WIDTH, HEAD), Sense::hover());
         paint::text(ui, head.left_top(), Align2::LEFT_TOP, "Keys", text::title(), t.t1);
         paint::name_text(ui, "head", head, "Keys");
         let close = Button::normal("Close");
         let place = head.with_min_x(head.right() - close.width(ui)).with_max_y(head.top() + 24.0);
         let closed = close.show(ui, "close", place).clicked();
-        for (index, binding) in ALL.iter().enumerate() {
-            let (row, _) = ui.allocate_exact_size(vec2(WIDTH, ROW), Sense::hover());
+        let rows: Vec<_> = ALL.iter().map(|binding| (binding, does(ui, binding))).collect();
+        let height_of = |does: &Galley| (does.size().y + 8.0).max(ROW);
+        let whole: f32 = rows.iter().map(|(_, does)| height_of(does)).sum();
+        let mut at = head.left_bottom();
+        let mut lowest = at.y;
+        for (index, (binding, does)) in rows.into_iter().enumerate() {
+            if at.x == head.left() && at.y - head.bottom() >= whole / 2.0 {
+                at = pos2(head.left() + COLUMN + GAP, head.bottom());
+            }
+            let row = Rect::from_min_size(at, vec2(COLUMN, height_of(&does)));
             ui.painter().hline(row.x_range(), row.top(), (1.0, t.line));
-            let (keys, does) = row.split_left_right_at_x(row.left() + KEYS);
+            let (keys, rest) = row.split_left_right_at_x(row.left() + KEYS);
             let words = in_words(binding, own);
             let font = text::body_medium();
             paint::text_in(ui, keys, Align2::LEFT_CENTER, &words, font, t.t1);
-            paint::text_in(ui, does, Align2::LEFT_CENTER, binding.does, text::body(), t.t2);
+            let place = Align2::LEFT_CENTER.align_size_within_rect(does.size(), rest);
+            ui.painter().galley(place.min, does, t.t2);
             paint::name_text(ui, ("key", index), row, &format!("{words}: {}", binding.does));
+            at.y = row.bottom();
+            lowest = lowest.max(at.y);
         }
+        ui.allocate_exact_size(vec2(WIDTH, lowest - head.bottom()), Sense::hover());
         closed
     });
     if modal.inner || modal.should_close() || again(ui) {
         *open = false;
     }
+}
+
+/// What a line does, wrapped in its column.
+fn does(ui: &Ui, binding: &Binding) -> Arc<Galley> {
+    let colour = theme::tokens(ui).t2;
+    ui.painter().layout(binding.does.to_owned(), text::small(), colour, COLUMN - KEYS)
 }
 
 /// The keys of a line as labelled on the keyboard, such as "Ctrl 1, 6".

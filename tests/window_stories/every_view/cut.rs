@@ -2,11 +2,24 @@
 
 use azel::model::View;
 
+use egui::accesskit::Role;
+use egui_kittest::{
+    Node,
+    kittest::{NodeT as _, Queryable as _},
+};
+
 use crate::window_stories::{
     every_view::{SCENES, in_view, painted},
     rig::{self, LARGE, SIZES, SMALL},
     settings_rig, states,
 };
+
+/// Whether it is a line of the list of keys.
+fn is_key(node: &Node<'_>) -> bool {
+    let words = node.accesskit_node().label().or(node.accesskit_node().value());
+    let words = words.unwrap_or_default();
+    azel::ui::keys::ALL.iter().any(|of| words.ends_with(&format!(": {}", of.does)))
+}
 
 fn scene(name: &str, size: [f32; 2]) -> rig::Window {
     SCENES.iter().find(|scene| scene.name == name).expect("a scene of this name").open(size)
@@ -20,6 +33,12 @@ fn the_list_of_keys_and_the_head_of_a_card_are_whole() {
         let cut: Vec<_> =
             painted::cut(&list).into_iter().filter(|words| !before.contains(words)).collect();
         assert!(cut.is_empty(), "{size:?}: {cut:?}");
+        let rows: Vec<_> = list.query_all_by_role(Role::Label).filter(is_key).collect();
+        assert_eq!(rows.len(), azel::ui::keys::ALL.len());
+        for row in rows.iter().map(|row| row.rect()) {
+            let is_clear = row.top() > 56.0 && row.bottom() < size[1];
+            assert!(is_clear && row.height() >= 24.0, "{size:?}: {row:?}");
+        }
     }
     for name in ["Operate, tracking", "Operate, three antennas of the demo"] {
         let cut = painted::cut(&scene(name, LARGE));
