@@ -20,7 +20,7 @@ use egui::{Align2, Pos2, Rect, ScrollArea, Ui, UiBuilder, pos2, vec2};
 
 use super::{
     dialogs::MaintenanceDialog,
-    icons::Icon,
+    icons::{self, Icon},
     text, theme,
     widgets::{
         axes_table::{self, AxesTable},
@@ -56,6 +56,8 @@ pub const WIDTH: f32 = 344.0;
 pub const SMALL_WIDTH: f32 = 304.0;
 /// In a card below this height travel and faults fold to one line each.
 pub const FULL_HEIGHT: f32 = 740.0;
+/// A card that hides less than this below its edge does not say so.
+const LEAST_HIDDEN: f32 = 4.0;
 
 /// Content of the card. An unknown number is `None` and shown as a dash.
 #[derive(Debug, Clone, Copy)]
@@ -299,7 +301,7 @@ fn fill(
 
     let below = rect.with_min_y(at.y);
     ui.scope_builder(UiBuilder::new().id_salt("lower").max_rect(below), |ui| {
-        ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
+        let shown = ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
             let top = ui.cursor().top();
             at.y = top;
             lower::show(ui, rect, &mut at, model, state, actions, short);
@@ -308,7 +310,23 @@ fn fill(
                 egui::Sense::hover(),
             );
         });
+        let hidden =
+            shown.content_size.y - shown.state.clamped_offset().y - shown.inner_rect.height();
+        if hidden > LEAST_HIDDEN {
+            more_below(ui, below);
+        }
     });
+}
+
+/// Shows that the card goes on below `room`.
+fn more_below(ui: &Ui, room: Rect) {
+    let t = theme::tokens(ui);
+    let at = room.center_bottom() - vec2(0.0, 10.0);
+    let place = Rect::from_center_size(at, vec2(32.0, 14.0));
+    ui.painter().rect(place, 7.0, t.bg3, (1.0, t.edge), egui::StrokeKind::Inside);
+    icons::paint(ui.painter(), paint::square(at, 12.0), Icon::ChevronDown, t.t1);
+    let words = "More below: scroll";
+    paint::name_text(ui, "more below", place, words).on_hover_text(words);
 }
 
 /// The icon of a check.

@@ -24,7 +24,7 @@ const DENSE_LINE: f32 = 16.0;
 /// operator's hand when it changes: four lines, or six dense ones.
 const ROOM: f32 = 96.0;
 /// [`ROOM`] in a small window: four lines, or five dense ones.
-const SMALL_ROOM: f32 = 88.0;
+const SMALL_ROOM: f32 = 80.0;
 /// A narrower block belongs to a small window.
 const SMALL: f32 = 300.0;
 
