@@ -34,6 +34,8 @@ use crate::{
     },
 };
 
+/// Width from which the title is as large as that of the other pages.
+const TITLE_FROM: f32 = 260.0;
 /// Width from which plot and table are side by side.
 const BESIDE_FROM: f32 = 1000.0;
 const PANE: f32 = 472.0;
@@ -310,7 +312,9 @@ fn view_bar(
     }
     let words = bar.with_max_x(right).shrink2(vec2(PADDING, 8.0));
     let (above, below) = words.split_top_bottom_at_fraction(0.5);
-    paint::text_in(ui, above, Align2::LEFT_CENTER, "Horizon and keep-outs", text::value(), t.t1);
+    // As the other pages, where it has room.
+    let font = if above.width() < TITLE_FROM { text::value() } else { text::title() };
+    paint::text_in(ui, above, Align2::LEFT_CENTER, "Horizon and keep-outs", font, t.t1);
     let what = state.shown(model).map_or_else(
         || "No antenna yet".to_owned(),
         |antenna| {

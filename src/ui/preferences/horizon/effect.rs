@@ -54,16 +54,18 @@ pub(super) fn lines(effect: &Effect<Question>, zone: Option<&str>) -> [String; 2
         };
         format!("{skyline} Saving does not change that.")
     } else {
-        format!(
-            "All together {} passes, {} lost, skyline cuts {}; as saved {} passes, {} lost, \
-             skyline cuts {}.",
-            new.touched,
-            format::duration(new.lost_s),
-            new.masked,
-            old.touched,
-            format::duration(old.lost_s),
-            old.masked
-        )
+        format!("As edited, {}. As saved, {}.", in_all(new), in_all(old))
     };
     [blocks + &impossible, before]
+}
+
+/// What all keep-outs and the skyline take.
+fn in_all(tally: &Tally) -> String {
+    let plural = if tally.touched == 1 { "" } else { "es" };
+    format!(
+        "{} pass{plural} blocked for {} in all and {} cut by the skyline",
+        tally.touched,
+        format::duration(tally.lost_s),
+        tally.masked
+    )
 }

@@ -108,7 +108,7 @@ pub(super) fn direction((azimuth_deg, elevation_deg): (f64, f64)) -> String {
 
 fn show_legend(ui: &Ui, rect: Rect, dome: Dome, t: &Tokens) {
     type Sample = fn(&egui::Painter, Pos2, &Tokens);
-    let rows: [(&str, Sample); 6] = [
+    let rows: [(&str, Sample); 7] = [
         ("Horizon mask", legend::mask),
         ("Keep-out", legend::keep_out),
         ("Safety margin", legend::margin),
@@ -118,6 +118,10 @@ fn show_legend(ui: &Ui, rect: Rect, dome: Dome, t: &Tokens) {
         }),
         ("Sun avoidance", |painter, at, t| {
             painter.extend(dashed(&circle(at, 6.0), 3.0, 2.0, Stroke::new(1.25, t.sun)));
+        }),
+        ("Path of the Sun today", |painter, at, t| {
+            let line = [at - vec2(10.0, 0.0), at + vec2(10.0, 0.0)];
+            painter.extend(dashed(&line, 1.5, 4.0, Stroke::new(1.0, t.sun)));
         }),
         ("Blocked part of a pass", |painter, at, t| {
             let line = [at - vec2(10.0, 0.0), at + vec2(10.0, 0.0)];
