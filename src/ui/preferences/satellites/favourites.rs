@@ -20,6 +20,7 @@ use crate::{
 
 pub(super) const TITLE: &str = "Priorities of the favourites";
 const ROW: f32 = 32.0;
+const HEAD: f32 = 20.0;
 const PRIORITY: f32 = 176.0;
 /// Width of what holds for a favourite without a priority of its own.
 const USUAL: f32 = 88.0;
@@ -36,6 +37,9 @@ pub(super) fn show(
 ) {
     form::card(ui, TITLE, |ui| {
         note(ui, "1 is taken first. A favourite without its own priority has its group's, else 3.");
+        if !around.favourites.is_empty() {
+            head(ui);
+        }
         for number in &around.favourites {
             ui.push_id(number, |ui| row(ui, around, *number, (draft, before), state));
         }
@@ -46,6 +50,31 @@ pub(super) fn show(
             );
         }
     });
+}
+
+/// The columns in `row`: name, priority of its own, what holds without one, limits.
+fn columns(row: Rect) -> [Rect; 4] {
+    let from_right = |right: f32, width: f32| {
+        let centre = egui::pos2(row.right() - right - width / 2.0, row.center().y);
+        Rect::from_center_size(centre, vec2(width, SMALL_HEIGHT))
+    };
+    let [usual_limits, wide_limits] = LIMITS;
+    let limits = if row.width() < WIDE { usual_limits } else { wide_limits };
+    let priority = from_right(limits + USUAL + 2.0 * GAP, PRIORITY);
+    let name = row.with_max_x(priority.left() - GAP);
+    [name, priority, from_right(limits + GAP, USUAL), from_right(0.0, limits)]
+}
+
+/// Column headings.
+fn head(ui: &mut Ui) {
+    let t = theme::tokens(ui);
+    let (rect, _) = ui.allocate_exact_size(vec2(ui.available_width(), HEAD), Sense::hover());
+    for (place, word) in
+        columns(rect).into_iter().zip(["Satellite", "Its own priority", "Else", "Limits"])
+    {
+        paint::text_in(ui, place, Align2::LEFT_CENTER, word, text::caption(), t.t3);
+        paint::name_text(ui, ("head", word), place, word);
+    }
 }
 
 fn row(
@@ -61,16 +90,7 @@ fn row(
     let width = ui.available_width();
     let (row, _) = ui.allocate_exact_size(vec2(width, ROW), Sense::hover());
     ui.painter().hline(row.x_range(), row.top(), (1.0, t.line));
-    let from_right = |right: f32, width: f32| {
-        let centre = egui::pos2(row.right() - right - width / 2.0, row.center().y);
-        Rect::from_center_size(centre, vec2(width, SMALL_HEIGHT))
-    };
-    let [usual_limits, wide_limits] = LIMITS;
-    let limits = if width < WIDE { usual_limits } else { wide_limits };
-    let limits_at = from_right(0.0, limits);
-    let usual_at = from_right(limits + GAP, USUAL);
-    let priority_at = from_right(limits + USUAL + 2.0 * GAP, PRIORITY);
-    let name_at = row.with_max_x(priority_at.left() - GAP);
+    let [name_at, priority_at, usual_at, limits_at] = columns(row);
     paint::text_in(ui, name_at, Align2::LEFT_CENTER, &name, text::body_medium(), t.t1);
     paint::name_text(ui, "name", name_at, &name).on_hover_text(format!("{name}, {number}"));
 
