@@ -391,8 +391,11 @@ fn a_unit_without_settings_offers_nothing_to_do_with_them() {
     for size in SIZES {
         let mut model = makes::model(makes::rc2000c(), makes::rc2000c_at(Intent::Manual));
         model.view = View::Antennas;
-        let window = rig::window(size, model);
+        let mut window = rig::window(size, model);
         assert!(says(&window, "This unit keeps no settings"));
+        press(&mut window, "Open Preferences");
+        assert_eq!(asked(&mut window), [UiCommand::Show(View::Preferences)]);
+        assert!(window.query_by_label("Connect").is_none(), "it has a link");
         for words in ["Save copy", "Compare with file", "Read again", "Revert"] {
             assert!(window.query_by_label(words).is_none(), "{words}");
         }

@@ -3,8 +3,8 @@
 pub(super) mod service;
 
 use egui::{
-    Align, Frame, Layout, Margin, RichText, Role, Stroke, Ui, UiBuilder, style::ScrollAnimation,
-    vec2,
+    Align, Frame, Layout, Margin, RichText, Role, Sense, Stroke, Ui, UiBuilder,
+    style::ScrollAnimation, vec2,
 };
 
 use super::{
@@ -16,8 +16,13 @@ use super::{
 };
 use crate::{
     device::settings::{Access, Field},
-    model::UiCommand,
-    ui::{icons::Icon, text, theme},
+    driver::{Command, LinkState},
+    model::{UiCommand, View},
+    ui::{
+        icons::Icon,
+        text, theme,
+        widgets::button::{Button, HEIGHT},
+    },
 };
 
 const NONE: &str = "This unit keeps no settings that can be read or changed over its link. Mount, \
@@ -47,7 +52,7 @@ pub(super) fn show(
     let room = ui.available_width();
     let all = Section::of(&unit.antenna.config.connection);
     if all.is_empty() {
-        return row::note(ui, Some(Icon::Info), NONE, theme::tokens(ui).t2);
+        return none(ui, unit, effects.commands);
     }
     let least = row::MIN_WIDTH + 2.0 * f32::from(PADDING) + 2.0;
     let fitting = ((room + GAP) / (least + GAP)) as usize;
@@ -64,6 +69,26 @@ pub(super) fn show(
             });
         }
     });
+}
+
+/// Says where the settings of a unit without groups are, with the ways on.
+fn none(ui: &mut Ui, unit: &ShownUnit<'_>, commands: &mut Vec<UiCommand>) {
+    row::note(ui, Some(Icon::Info), NONE, theme::tokens(ui).t2);
+    ui.add_space(8.0);
+    let (line, _) = ui.allocate_exact_size(vec2(ui.available_width(), HEIGHT), Sense::hover());
+    let preferences = Button::normal("Open Preferences");
+    let place = line.with_max_x(line.left() + preferences.width(ui));
+    if preferences.show(ui, "open preferences", place).clicked() {
+        commands.push(UiCommand::Show(View::Preferences));
+    }
+    if unit.antenna.snapshot.link == LinkState::Off {
+        let connect = Button::primary("Connect");
+        let left = place.right() + 8.0;
+        let place = line.with_min_x(left).with_max_x(left + connect.width(ui));
+        if connect.show(ui, "connect", place).clicked() {
+            commands.push(UiCommand::antenna(unit.antenna.id(), Command::Connect));
+        }
+    }
 }
 
 /// Splits the cards into columns, of which at most `fitting` have room. The third one takes the

@@ -57,7 +57,11 @@ pub(super) fn show(ui: &Ui, rect: Rect, unit: &ShownUnit<'_>, commands: &mut Vec
     let (words, colour) = match saved(unit) {
         Some(Ok(words)) => (words, t.ok),
         Some(Err(words)) => (words, t.bad),
-        None => (format!("{}, {}", unit.antenna.config.connection.address, read(unit)), t.t2),
+        None => {
+            let address = unit.antenna.config.connection.address.as_str();
+            let words = read(unit).map_or_else(String::new, |read| format!(", {read}"));
+            (format!("{address}{words}"), t.t2)
+        }
     };
     let down = room.translate(vec2(0.0, 13.0));
     paint::text_in(ui, down, Align2::LEFT_CENTER, &words, text::small(), colour);
@@ -79,22 +83,22 @@ fn is_read(unit: &ShownUnit<'_>) -> bool {
     unit.antenna.groups().iter().any(|group| unit.values(group.key).is_some())
 }
 
-/// How much of the unit is read.
-fn read(unit: &ShownUnit<'_>) -> String {
+/// How much of the unit is read; `None` for one without groups of settings.
+fn read(unit: &ShownUnit<'_>) -> Option<String> {
     let groups = unit.antenna.groups();
     if groups.is_empty() {
-        return "keeps no settings that can be read from here".to_owned();
+        return None;
     }
     if !unit.is_open() {
         let words =
             if is_read(unit) { "what was read before is shown" } else { "nothing is read yet" };
-        return format!("no link, {words}");
+        return Some(format!("no link, {words}"));
     }
     let missing: Vec<&str> =
         groups.iter().filter(|group| !unit.is_fresh(group.key)).map(|group| group.title).collect();
     let oldest = groups.iter().filter_map(|group| unit.read_at(group.key)).min();
-    match (missing.as_slice(), oldest) {
+    Some(match (missing.as_slice(), oldest) {
         ([], Some(oldest)) => format!("all groups read {}", format::moment(oldest, unit.model.now)),
         (missing, _) => format!("not read: {}", missing.join(", ")),
-    }
+    })
 }
