@@ -61,7 +61,7 @@ pub static FILE: Group = Group {
             .about("Its unit is not documented here; days for web and FTP."),
         continue_tracking(),
         Field::read(CATALOG_NUMBER, "Catalogue number")
-            .about("Of the satellite that the unit found in the file; 0 for none."),
+            .about("Of the satellite that the unit found in the file."),
         Field::read(MAXIMUM_ELEVATION_DEG, "Maximum elevation").in_unit("°"),
     ],
 };
@@ -106,13 +106,19 @@ fn password(text: &str) -> Result<(), Unfit> {
 
 pub(super) fn file(reply: &Reply) -> Option<Values> {
     let Reply::Satellite(satellite) = reply else { return None };
-    Some(Values::from([
+    let mut values = Values::from([
         FILE_NAME.with(satellite.file.clone()),
         SATELLITE_NAME.with(satellite.name.clone()),
         PERIOD.with(satellite.period.into()),
-        CATALOG_NUMBER.with(satellite.catalog_number.into()),
-        MAXIMUM_ELEVATION_DEG.with(satellite.maximum_elevation_deg),
-    ]))
+    ]);
+    // Both are 0 while the unit has found no satellite.
+    if satellite.catalog_number > 0 {
+        values.extend([
+            CATALOG_NUMBER.with(satellite.catalog_number.into()),
+            MAXIMUM_ELEVATION_DEG.with(satellite.maximum_elevation_deg),
+        ]);
+    }
+    Some(values)
 }
 
 pub(super) fn web(reply: &Reply) -> Option<Values> {
