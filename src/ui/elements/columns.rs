@@ -172,8 +172,7 @@ fn min_width(columns: &[Column]) -> f32 {
 /// How much of the free room a column gets: texts more than numbers.
 fn weight(column: Column) -> f32 {
     match column {
-        Column::Name => 3.0,
-        Column::From => 2.0,
+        Column::Name | Column::From => 3.0,
         Column::MaxElevation => 0.0,
         _ => 1.0,
     }

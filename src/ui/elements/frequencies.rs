@@ -1,6 +1,6 @@
 //! The frequencies of the selected object, which can be changed here.
 
-use egui::{RichText, Role, TextEdit, Ui, WidgetInfo};
+use egui::{Align, Layout, RichText, Role, TextEdit, Ui, WidgetInfo};
 
 use super::ElementsState;
 use crate::{
@@ -33,7 +33,15 @@ pub(super) fn show(
     ui.spacing_mut().item_spacing.y = 4.0;
     let own = || model.station.frequencies.iter().filter(|of| of.satellite == number);
     let title = RichText::new("Frequencies").font(text::sized(13.0, Weight::SemiBold));
-    ui.label(title.color(t.t1));
+    let is_edited = state.frequencies.as_ref().is_some_and(|edit| edit.number == number);
+    let mut is_asked = false;
+    ui.horizontal(|ui| {
+        ui.label(title.color(t.t1));
+        // Beside the title: below the lines the foot of the inspector would cut it.
+        ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
+            is_asked = can_change && !is_edited && ui.button("Edit frequencies").clicked();
+        });
+    });
     let Some(edit) = state.frequencies.as_mut().filter(|edit| edit.number == number) else {
         for of in own() {
             let words = format!("{} MHz {}", format::number(of.mhz, 3), of.name);
@@ -43,7 +51,7 @@ pub(super) fn show(
             let words = "None: no Doppler shift is shown.";
             ui.label(RichText::new(words).font(text::small()).color(t.t2));
         }
-        if can_change && ui.button("Edit frequencies").clicked() {
+        if is_asked {
             let lines: Vec<String> =
                 own().map(|of| format!("{} {}", of.mhz, of.name).trim_end().to_owned()).collect();
             state.frequencies = Some(Edit { number, text: lines.join("\n") });

@@ -37,7 +37,7 @@ const WIDTH: f32 = 1024.0;
 
 /// Ends of the columns.
 const NAME: f32 = 38.0;
-const WHERE: f32 = 170.0;
+const WHERE: f32 = 196.0;
 const STATE: f32 = 384.0;
 const NEWEST: f32 = 676.0;
 const OBJECTS: f32 = 748.0;
