@@ -13,7 +13,7 @@ use egui_kittest::kittest::{NodeT as _, Queryable as _};
 
 use crate::window_stories::{
     on_board::found,
-    rig::{self, SIZES, asked},
+    rig::{self, LARGE, SIZES, asked},
     states,
 };
 
@@ -111,4 +111,27 @@ fn a_header_that_is_cut_keeps_what_matters_and_loses_the_age_of_the_elements_fir
         let light = header.find("sunlit").unwrap_or_else(|| place("in eclipse"));
         assert!(other < light && light < place("lements "), "{header}");
     }
+}
+
+#[test]
+fn the_head_of_a_card_has_the_name_that_the_unit_gives_itself() {
+    for size in SIZES {
+        let mut snapshot = states::holding();
+        snapshot.state.unit_name = Some("ROOF 2".to_owned());
+        let window = rig::window(size, rig::model(snapshot));
+        window.get_by_label_contains("Satrak, X/Y mount, ROOF 2, link");
+    }
+}
+
+#[test]
+fn a_unit_that_was_not_asked_yet_is_not_said_to_hold_nothing() {
+    let window = rig::window(LARGE, rig::model(rig::quiet()));
+    window.get_by_label("On the unit: not read yet");
+    let mut snapshot = states::tracking(0.0);
+    if let Some(held) = &mut snapshot.state.on_board.satellite {
+        held.catalog_number = 0;
+        held.name.clear();
+    }
+    let window = rig::window(LARGE, rig::model(snapshot));
+    window.get_by_label("On the unit: no satellite");
 }

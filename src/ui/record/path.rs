@@ -178,3 +178,32 @@ fn legend(ui: &Ui, rect: Rect) {
     let words = "ticks: full minutes";
     paint::text_in(ui, place, Align2::LEFT_CENTER, words, text::caption(), t.t3);
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{
+        astro::{AzEl, time::add_seconds},
+        plan::pass_report::PointingError,
+    };
+
+    #[test]
+    fn the_flown_path_is_broken_where_nothing_was_measured() {
+        let dome = Dome { centre: pos2(300.0, 300.0), radius: 200.0 };
+        let point = |seconds: f64| TrackPoint {
+            time: add_seconds(Timestamp::UNIX_EPOCH, seconds),
+            antenna: AzEl::from_degrees(seconds, 45.0),
+            satellite: AzEl::from_degrees(seconds, 45.0),
+            error: PointingError {
+                off_deg: 0.0,
+                azimuth_deg: 0.0,
+                elevation_deg: 0.0,
+                along_deg: 0.0,
+                across_deg: 0.0,
+            },
+        };
+        let track = [0.0, 1.0, 2.0, 10.0, 11.0, 20.0].map(point);
+        let pieces: Vec<usize> = flown(dome, &track, 1).iter().map(Vec::len).collect();
+        assert_eq!(pieces, [3, 2], "a point alone makes no line");
+    }
+}
