@@ -13,12 +13,16 @@ use azel::{
     },
     model::{Model, UiCommand, View, effects},
     station::{Antenna, AntennaId},
-    ui::keys::{ALL, list::in_words, own::OwnKeys},
+    ui::{
+        keys::{ALL, list::in_words, own::OwnKeys},
+        theme,
+    },
 };
 use egui::{Event, Key, Modifiers, Role};
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
 
 use crate::window_stories::{
+    every_view::painted,
     preferences::{antenna_form, asked, form, open, saved, write},
     rig::{self, LARGE, SIZES, SMALL, Window, says, settle},
     states,
@@ -437,6 +441,28 @@ fn the_outcome_of_a_test_moves_no_field() {
 fn an_edit_is_marked_by_its_border_and_the_focus_by_a_ring_and_an_invalid_field_says_why_below() {
     for size in SIZES {
         let mut window = form(size);
+        let field = |window: &Window, name: &str| {
+            window.get_by_role_and_label(Role::TextInput, name).rect()
+        };
+        let t = theme::tokens(&window.ctx);
+        // Whether the border is that of a field as it was, and that of an edited one.
+        let border = |window: &Window| {
+            let colours = painted::around(window, field(window, "Latitude"), 1.5);
+            [colours.contains(&t.edge), colours.contains(&t.sat)]
+        };
+        let has_ring = |window: &Window| {
+            let ring = field(window, "Latitude").expand(2.0);
+            painted::around(window, ring, 0.5).contains(&t.sat)
+        };
+        assert_eq!((border(&window), has_ring(&window)), ([true, false], false));
+        window.get_by_role_and_label(Role::TextInput, "Latitude").focus();
+        settle(&mut window);
+        assert_eq!((border(&window), has_ring(&window)), ([true, false], true), "looked at");
+        write(&mut window, "Latitude", "47");
+        assert_eq!((border(&window), has_ring(&window)), ([false, true], true), "edited");
+        window.get_by_role_and_label(Role::TextInput, "Name").focus();
+        settle(&mut window);
+        assert_eq!((border(&window), has_ring(&window)), ([false, true], false), "left");
         write(&mut window, "Latitude", "91");
         let why = "Latitude must be a number from −90 to 90°. Use 90.";
         assert!(says(&window, why), "below the field that has the focus");

@@ -96,6 +96,36 @@ pub(crate) fn cut(window: &Window) -> Vec<String> {
     cut
 }
 
+/// Colours of the fills and borders, and of the rings of a focus, of which each edge is nearer than
+/// `reach` to that of `place`.
+pub(crate) fn around(window: &Window, place: Rect, reach: f32) -> Vec<Color32> {
+    let mut found = Vec::new();
+    for ClippedShape { shape, .. } in &window.output().shapes {
+        add_around(shape, place, reach, &mut found);
+    }
+    found
+}
+
+fn add_around(shape: &Shape, place: Rect, reach: f32, found: &mut Vec<Color32>) {
+    let is_near = |rect: Rect| {
+        let off = [rect.min - place.min, rect.max - place.max];
+        off.iter().all(|off| off.abs().max_elem() < reach)
+    };
+    match shape {
+        Shape::Vec(shapes) => {
+            for shape in shapes {
+                add_around(shape, place, reach, found);
+            }
+        }
+        Shape::Rect(rect) if is_near(rect.rect) => found.push(rect.stroke.color),
+        Shape::Mesh(mesh) if is_near(mesh.calc_bounds()) => {
+            let colours = mesh.vertices.iter().map(|of| of.color);
+            found.extend(colours.filter(|of| of.is_opaque()).take(1));
+        }
+        _ => {}
+    }
+}
+
 fn add_cut(shape: &Shape, cut: &mut Vec<String>) {
     match shape {
         Shape::Vec(shapes) => shapes.iter().for_each(|shape| add_cut(shape, cut)),
