@@ -6,6 +6,7 @@ mod look;
 mod no_window;
 mod passes;
 mod plan;
+mod pointing;
 mod record;
 mod rehearse;
 #[cfg(unix)]
@@ -60,6 +61,8 @@ enum Command {
     Serve(serve::Options),
     /// Write the record of the station as lines of JSON
     Log(record::Options),
+    /// Fit a pointing model to the recorded passes of an antenna
+    Pointing(Box<pointing::Options>),
     /// Stop the antennas of the Azel that has the station open, and wait for the proof
     #[cfg(unix)]
     Stop(remote::StopOptions),
@@ -138,6 +141,9 @@ impl Cli {
                 );
             }
             Some(Command::Log(options)) => return record::run(self.station, &options),
+            Some(Command::Pointing(options)) => {
+                return told(pointing::run(self.station.as_deref(), &options));
+            }
             #[cfg(unix)]
             Some(Command::Stop(options)) => return remote::stop(self.station, &options),
             #[cfg(unix)]

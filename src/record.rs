@@ -20,7 +20,7 @@ mod writer;
 
 pub use entry::{Entry, Kind};
 pub use pass::{AboutTrack, PassNote, RecordedReport, TrackedBy};
-pub use past::{OpenedPass, PassPage, PassQuery, RecordedPass, open_pass, passes};
+pub use past::{OpenedPass, PassPage, PassQuery, RecordedPass, open_pass, passes, track};
 pub use read::{Query, Record, Row, RowKind};
 pub use recorder::{Failing, RecordedSession, Recorder, Status};
 

@@ -18,6 +18,7 @@ mod link_sockets;
 mod owed_stop;
 mod passes_command;
 mod plan_command;
+mod pointing_command;
 #[cfg(target_os = "linux")]
 mod real_peers;
 #[cfg(target_os = "linux")]

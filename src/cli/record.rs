@@ -133,11 +133,19 @@ fn line(out: &mut impl io::Write, row: &Row) -> io::Result<()> {
 }
 
 fn place(station: Option<PathBuf>, of_demo: bool) -> anyhow::Result<PathBuf> {
-    let folder = records_folder().context("this user has no folder for records")?;
     if of_demo {
-        return Ok(demo_record_path(&folder));
+        return Ok(demo_record_path(&folder()?));
     }
+    record_of(station)
+}
+
+fn folder() -> anyhow::Result<PathBuf> {
+    records_folder().context("this user has no folder for records")
+}
+
+/// The record of the station of this file, or of the user's own.
+pub(super) fn record_of(station: Option<PathBuf>) -> anyhow::Result<PathBuf> {
     let station = Settings { path: station, ..Settings::default() }.station_path();
     let station = station.context("this user has no folder for settings")?;
-    Ok(record_path(&folder, &station))
+    Ok(record_path(&folder()?, &station))
 }

@@ -89,17 +89,14 @@ pub fn passes(path: &Path, query: &PassQuery) -> Result<PassPage, RecordError> {
 pub fn open_pass(path: &Path, id: i64, site: Site) -> Result<Option<OpenedPass>, RecordError> {
     let passes = Passes { db: file::open_to_read(path)? };
     let Some(pass) = passes.pass(id)? else { return Ok(None) };
-    let flown = passes.points(id)?;
     let report = &pass.report;
     let site = report.site.unwrap_or(site);
-    let (mut track, mut predicted) = (Vec::new(), Vec::new());
-    if let Ok(propagator) = Propagator::new(&report.elements) {
-        let has_elevation = flown.iter().any(|flown| flown.pointing.elevation.is_some());
-        let point =
-            |flown: &MeasuredPosition| TrackPoint::new(&propagator, site, has_elevation, *flown);
-        track = flown.iter().filter_map(point).collect();
-        predicted = path_of(&propagator, site, report);
-    }
+    let (track, predicted) = match Propagator::new(&report.elements) {
+        Ok(propagator) => {
+            (track_of(&passes.points(id)?, &propagator, site), path_of(&propagator, site, report))
+        }
+        Err(_) => (Vec::new(), Vec::new()),
+    };
     let mut entries = Vec::new();
     let query = Query {
         from: report.from.min(report.about.begun).checked_sub(BEFORE).ok(),
@@ -112,6 +109,20 @@ pub fn open_pass(path: &Path, id: i64, site: Site) -> Result<Option<OpenedPass>,
         true
     })?;
     Ok(Some(OpenedPass { pass, track, path: predicted, entries }))
+}
+
+/// The measured track of a pass beside the predicted one, from the record at `path`; `site` as for
+/// [`open_pass`]. Elements that cannot be propagated give none.
+pub fn track(path: &Path, pass: &RecordedPass, site: Site) -> Result<Vec<TrackPoint>, RecordError> {
+    let passes = Passes { db: file::open_to_read(path)? };
+    let Ok(propagator) = Propagator::new(&pass.report.elements) else { return Ok(Vec::new()) };
+    Ok(track_of(&passes.points(pass.id)?, &propagator, pass.report.site.unwrap_or(site)))
+}
+
+fn track_of(flown: &[MeasuredPosition], propagator: &Propagator, site: Site) -> Vec<TrackPoint> {
+    let has_elevation = flown.iter().any(|flown| flown.pointing.elevation.is_some());
+    let point = |flown: &MeasuredPosition| TrackPoint::new(propagator, site, has_elevation, *flown);
+    flown.iter().filter_map(point).collect()
 }
 
 fn path_of(propagator: &Propagator, site: Site, report: &RecordedReport) -> Vec<Sample> {
