@@ -236,14 +236,14 @@ impl Engine {
         let clock = outside.clock.clone();
         let link_test_runner = link_tests::Runner::new(outside, Arc::clone(&wake));
         let places = Places::new(settings_path.as_deref(), settings.library.clone());
-        let (catalog, elements_job) = match &settings.elements {
-            Some(given) => (CatalogState::Ready(Arc::clone(given)), None),
-            None => {
-                let (task, now) = (Task::default(), clock.utc());
-                let job = sources::start(&places, task, None, now, Arc::clone(&wake))?;
-                (CatalogState::Loading, Some(job))
-            }
+        let given = settings.elements.clone();
+        let elements_job = if given.is_none() {
+            let (task, now) = (Task::default(), clock.utc());
+            Some(sources::start(&places, task, None, now, Arc::clone(&wake))?)
+        } else {
+            None
         };
+        let catalog = given.map_or(CatalogState::Loading, CatalogState::Ready);
         let upload_places = settings.upload_places.clone().or_else(uploads::Places::of_this_user);
         let upload_runner =
             uploads::Runner::new(upload_places.clone(), clock.clone(), Arc::clone(&wake));

@@ -83,6 +83,8 @@ pub fn run(
     is_cancelled: &dyn Fn() -> bool,
 ) -> Result<Rehearsed, RehearsalError> {
     let _jobs = job::InPlace::begin();
+    // What is logged here is of no real unit.
+    let _said = tracing::error_span!("rehearsal").entered();
     let runtime =
         tokio::runtime::Builder::new_current_thread().enable_time().start_paused(true).build()?;
     let folder = tempfile::tempdir()?;

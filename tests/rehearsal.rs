@@ -5,7 +5,7 @@
 use std::{
     num::NonZeroU32,
     sync::{Arc, LazyLock},
-    time::{Duration, Instant},
+    time::Instant,
 };
 
 use azel::{
@@ -69,7 +69,7 @@ fn the_same_seed_gives_the_same_bytes_at_any_speed_and_another_seed_does_not() {
     let speed = NonZeroU32::new(200);
     let begun = Instant::now();
     assert_eq!(once, text(&rehearsed(&Rehearsal { speed, ..what.clone() })));
-    assert!(begun.elapsed() > Duration::from_secs_f64(0.2 * 3600.0 / 200.0), "it kept its speed");
+    assert!(begun.elapsed().as_secs_f64() > 0.2 * 3600.0 / 200.0, "it kept its speed");
     let other = rehearsed(&Rehearsal { seed: 2, ..what });
     assert_ne!(once, text(&Rehearsed { seed: 1, ..other }));
 }
