@@ -45,8 +45,10 @@ pub fn show(ui: &Ui, open: &mut bool, own: &OwnKeys) {
         let whole: f32 = rows.iter().map(|(_, does)| height_of(does)).sum();
         let mut at = head.left_bottom();
         let mut lowest = at.y;
+        let mut is_second = false;
         for (index, (binding, does)) in rows.into_iter().enumerate() {
-            if at.x == head.left() && at.y - head.bottom() >= whole / 2.0 {
+            if !is_second && at.y - head.bottom() >= whole / 2.0 {
+                is_second = true;
                 at = pos2(head.left() + COLUMN + GAP, head.bottom());
             }
             let row = Rect::from_min_size(at, vec2(COLUMN, height_of(&does)));
