@@ -157,7 +157,7 @@ fn min_width_of(column: Column) -> f32 {
         Column::Inclination => 46.0,
         Column::Heights => 84.0,
         Column::Age => 80.0,
-        Column::From => 88.0,
+        Column::From => 118.0,
         Column::NextPass => 92.0,
         Column::MaxElevation => BAR + BAR_NUMBER,
     };
