@@ -25,7 +25,7 @@ pub(super) fn show(ui: &mut Ui, unit: &ShownUnit<'_>, form: &mut Form) {
     let t = theme::tokens(ui);
     let station = format::degrees(station_deg, 1);
     let why = format!(
-        "The unit points down to {} by itself, the station allows {station}.",
+        "Minimum elevation: the unit points down to {} by itself, the station allows {station}.",
         format::degrees(unit_deg, 1)
     );
     row::note(ui, Some(Icon::Warning), &why, t.warn);
