@@ -102,7 +102,9 @@ fn alone(
     // A value that is never reported is known as far as its group is.
     let is_known = is_told || (field.access == Access::Write && held.is_some());
     if field.access == Access::Read {
-        return (if is_known { FieldState::ReadOnly } else { FieldState::Unknown }, None);
+        // What is missing of a group that was read is not there to be told.
+        let is_read = held.is_some();
+        return (if is_read { FieldState::ReadOnly } else { FieldState::Unknown }, None);
     }
     if draft.is_sending(field.key) {
         return (FieldState::Sending, None);

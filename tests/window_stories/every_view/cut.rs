@@ -35,7 +35,7 @@ fn the_list_of_keys_and_the_head_of_a_card_are_whole() {
         assert!(cut.is_empty(), "{size:?}: {cut:?}");
         let rows: Vec<_> = list.query_all_by_role(Role::Label).filter(is_key).collect();
         assert_eq!(rows.len(), azel::ui::keys::ALL.len());
-        for row in rows.iter().map(|row| row.rect()) {
+        for row in rows.iter().map(Node::rect) {
             let is_clear = row.top() > 56.0 && row.bottom() < size[1];
             assert!(is_clear && row.height() >= 24.0, "{size:?}: {row:?}");
         }

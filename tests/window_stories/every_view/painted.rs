@@ -120,7 +120,7 @@ fn add_around(shape: &Shape, place: Rect, reach: f32, found: &mut Vec<Color32>) 
         Shape::Rect(rect) if is_near(rect.rect) => found.push(rect.stroke.color),
         Shape::Mesh(mesh) if is_near(mesh.calc_bounds()) => {
             let colours = mesh.vertices.iter().map(|of| of.color);
-            found.extend(colours.filter(|of| of.is_opaque()).take(1));
+            found.extend(colours.filter(Color32::is_opaque).take(1));
         }
         _ => {}
     }
