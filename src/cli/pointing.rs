@@ -186,12 +186,12 @@ fn thinned(track: &[TrackPoint]) -> Vec<Point> {
 struct Told<'a> {
     antenna: &'a str,
     passes: usize,
-    noise: Vec<Noise>,
+    noise: Vec<OfKind>,
     terms: Vec<ToldTerm>,
 }
 
 #[derive(Serialize)]
-struct Noise {
+struct OfKind {
     of: Kind,
     points: usize,
     noise_deg: f64,
@@ -221,7 +221,7 @@ impl<'a> Told<'a> {
                 not_told_from: alike.map(|alike| alike.with.clone()).unwrap_or_default(),
             }
         };
-        let noise = |found: &pointing::Found| Noise {
+        let noise = |found: &pointing::Found| OfKind {
             of: found.kind,
             points: found.points,
             noise_deg: found.noise_deg,
