@@ -8,7 +8,7 @@ use crate::{
     astro::time::seconds_between,
     engine::{
         Snapshot,
-        automatic::{DayEvent, DayLine, Flown},
+        automatic::{DayEvent, DayLine, Flown, OffBecause},
     },
     plan::schedule::{Entry, PassKey},
     record::{PassNote, RecordedReport},
@@ -50,6 +50,8 @@ pub struct RehearsedPass {
     pub is_given_up: bool,
     /// What automatic operation tells of it; `None` where it never set out.
     pub flown: Option<Flown>,
+    /// Why automatic operation of its antenna was off by then; `None` where it set out.
+    pub off: Option<OffBecause>,
     /// Where the antenna pointed; `None` where it never tracked.
     pub report: Option<RecordedReport>,
 }
@@ -86,13 +88,15 @@ pub(super) struct Passes {
     list: Vec<RehearsedPass>,
     /// Revision of the plan that was looked at last.
     revision: u64,
+    /// When automatic operation of an antenna went off, and why.
+    off: Vec<(AntennaId, Timestamp, OffBecause)>,
     /// When the last line of the day that was looked at was written.
     day_until: Option<Timestamp>,
 }
 
 impl Passes {
     pub(super) fn new(from: Timestamp, until: Timestamp) -> Self {
-        Self { from, until, list: Vec::new(), revision: 0, day_until: None }
+        Self { from, until, list: Vec::new(), revision: 0, off: Vec::new(), day_until: None }
     }
 
     pub(super) fn until(&self) -> Timestamp {
@@ -136,6 +140,9 @@ impl Passes {
         let since = self.day_until;
         let news = day.iter().filter(|line| since.is_none_or(|since| line.at > since));
         for line in news {
+            if let DayEvent::SwitchedOff(because) = line.what {
+                self.off.push((line.antenna, line.at, because));
+            }
             let DayEvent::Flown(flown) = &line.what else { continue };
             let (satellite, aos) = flown.pass;
             if let Some(pass) = self.list.iter_mut().find(|it| it.is(line.antenna, satellite, aos))
@@ -165,9 +172,13 @@ impl Passes {
         station: &Station,
         left_out: Vec<String>,
     ) -> Rehearsed {
-        let Self { list: mut passes, .. } = self;
+        let Self { list: mut passes, off, .. } = self;
         for pass in &mut passes {
             let antenna = station.antennas.iter().find(|antenna| antenna.id == pass.antenna);
+            let is_its =
+                |of: &&(AntennaId, Timestamp, OffBecause)| of.0 == pass.antenna && of.1 <= pass.to;
+            let last = off.iter().rfind(is_its).map(|(_, _, because)| *because);
+            pass.off = last.filter(|_| pass.flown.is_none());
             pass.antenna_name = antenna.map(|antenna| antenna.name.clone()).unwrap_or_default();
         }
         passes.sort_by_key(|pass| (pass.from, pass.antenna, pass.satellite));
@@ -191,6 +202,7 @@ fn new(entry: &Entry, snapshot: &Snapshot) -> RehearsedPass {
         promised_s: entry.counted_s,
         is_given_up: false,
         flown: None,
+        off: None,
         report: None,
     }
 }

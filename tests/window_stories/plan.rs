@@ -416,6 +416,7 @@ fn the_plan_is_rehearsed_and_what_came_of_it_stands_beside_the_pass_as_a_rehears
         promised_s: 600.0,
         is_given_up: false,
         flown: Some(flown),
+        off: None,
         report: None,
     };
     let whole = Rehearsed {

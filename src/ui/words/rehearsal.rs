@@ -15,7 +15,12 @@ pub fn outcome(pass: &RehearsedPass, now: Timestamp) -> String {
     }
     let tracked = pass.report.as_ref().map(|report| record::verdict_sentence(report, now));
     let cause = match &pass.flown {
-        None => Some("The antenna never set out for it.".to_owned()),
+        None => Some(match pass.off {
+            Some(because) => {
+                format!("Automatic operation was off by then: {}", automatic::off(because))
+            }
+            None => "The antenna never set out for it.".to_owned(),
+        }),
         Some(flown) => flown.cause.map(|cause| {
             format!("{} lost: {}", format::duration(pass.lost_s()), automatic::miss_cause(cause))
         }),
