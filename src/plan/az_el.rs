@@ -61,12 +61,16 @@ impl AzElAxes {
         prefer: Flip,
     ) -> Planned {
         let mut best = self.along(samples, step_s, start, prefer);
+        let flips = std::iter::once(Flip::None).chain(self.others(samples));
+        let flips: Vec<Flip> = flips.filter(|flip| *flip != prefer).collect();
+        if flips.is_empty() {
+            return best;
+        }
         let mut best_deg = self.error_deg(samples, step_s, start, &best) - WORTH_DEG;
         if best_deg <= 0.0 {
             return best;
         }
-        let flips = std::iter::once(Flip::None).chain(self.others(samples));
-        for flip in flips.filter(|flip| *flip != prefer) {
+        for flip in flips {
             let planned = self.along(samples, step_s, start, flip);
             let error_deg = self.error_deg(samples, step_s, start, &planned);
             if error_deg < best_deg {

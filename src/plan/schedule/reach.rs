@@ -137,11 +137,11 @@ impl Reach {
         if clear.is_empty() {
             return Verdict::Impossible(Impossible::Hidden);
         }
-        let coarse = sight.samples(span, false);
+        let coarse = sight.coarse(span);
         if let Some(ways) = self.easy_ways(coarse, &clear) {
             return Verdict::Possible(ways);
         }
-        self.ways(sight.samples(span, true), &clear)
+        self.ways(sight.fine(span), &clear)
     }
 
     /// The ways of a pass that the axes follow without effort; `None` for one that has to be

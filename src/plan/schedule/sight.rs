@@ -2,8 +2,8 @@
 
 use super::way::{Span, at_ms, ms};
 use crate::{
-    astro::{Angle, HorizonMask, Site},
-    orbit::{Pass, Propagator, clear_stretches},
+    astro::{Angle, HorizonMask, Site, frames::MEAN_RADIUS_KM},
+    orbit::{Pass, Propagator, State, clear_stretches},
     plan::Sample,
 };
 
@@ -12,6 +12,10 @@ const FINE_S: f64 = 2.0;
 const COARSE_S: f64 = 20.0;
 const MAX_FINE: f64 = 600.0;
 const MAX_COARSE: f64 = 60.0;
+/// Gravitational parameter of the Earth, km³/s².
+const GRAVITY_KM3_S2: f64 = 398_600.4;
+/// Largest error of a direction between two known states, radians: nothing beside any beam.
+const SAME_RAD: f64 = 5e-7;
 /// Halvings that find when a height is crossed, to some milliseconds.
 const HALVINGS: usize = 18;
 
@@ -22,14 +26,22 @@ pub(super) struct Samples {
     pub(super) step_s: f64,
 }
 
+/// The few states of a pass between which the others are found.
+struct Nodes {
+    span: Span,
+    states: Vec<(i64, State)>,
+    samples: Samples,
+}
+
 /// One pass, prepared for all antennas of a site.
 pub struct Sight<'a> {
     propagator: &'a Propagator,
     site: Site,
     mask: Option<&'a HorizonMask>,
     pass: &'a Pass,
-    /// What was sampled last, coarse and fine.
-    kept: [Option<(Span, Samples)>; 2],
+    /// What was sampled last.
+    coarse: Option<Nodes>,
+    fine: Option<(Span, Samples)>,
     clear: Option<Vec<Span>>,
 }
 
@@ -40,7 +52,7 @@ impl<'a> Sight<'a> {
         mask: Option<&'a HorizonMask>,
         pass: &'a Pass,
     ) -> Self {
-        Self { propagator, site, mask, pass, kept: [None, None], clear: None }
+        Self { propagator, site, mask, pass, coarse: None, fine: None, clear: None }
     }
 
     /// From the first to the last moment at `elevation` or higher; `None` if the pass stays below.
@@ -83,30 +95,136 @@ impl<'a> Sight<'a> {
         Span::both(clear, &[span])
     }
 
-    pub(super) fn samples(&mut self, span: Span, fine: bool) -> &Samples {
-        let (propagator, site) = (self.propagator, self.site);
-        let [coarse, dense] = &mut self.kept;
-        let kept = if fine { dense } else { coarse };
-        if kept.as_ref().is_some_and(|(of, _)| *of != span) {
-            *kept = None;
-        }
-        let kept = kept.get_or_insert_with(|| (span, sampled(propagator, site, span, fine)));
-        &kept.1
+    /// Few samples.
+    pub(super) fn coarse(&mut self, span: Span) -> &Samples {
+        &self.nodes(span).samples
+    }
+
+    /// Samples as close as positions are judged.
+    pub(super) fn fine(&mut self, span: Span) -> &Samples {
+        let kept = self.fine.take().filter(|(of, _)| *of == span);
+        let (_, samples) = kept.unwrap_or_else(|| {
+            let (propagator, site) = (self.propagator, self.site);
+            (span, self.nodes(span).fine(propagator, site))
+        });
+        &self.fine.insert((span, samples)).1
+    }
+
+    /// As [`Self::fine`], each by the whole propagation.
+    #[cfg(test)]
+    pub(super) fn exact(&self, span: Span) -> Samples {
+        let (times, step_s) = times(span, FINE_S, MAX_FINE);
+        let sample = |at: i64| {
+            let look = self.propagator.look_from(self.site, at_ms(at)).ok()?;
+            Some(Sample { time: at_ms(at), direction: look.direction })
+        };
+        Samples { list: times.filter_map(sample).collect(), step_s }
+    }
+
+    fn nodes(&mut self, span: Span) -> &Nodes {
+        let kept = self.coarse.take().filter(|nodes| nodes.span == span);
+        let nodes = kept.unwrap_or_else(|| Nodes::new(self.propagator, self.site, span));
+        self.coarse.insert(nodes)
     }
 }
 
-fn sampled(propagator: &Propagator, site: Site, span: Span, fine: bool) -> Samples {
+impl Nodes {
+    fn new(propagator: &Propagator, site: Site, span: Span) -> Self {
+        let (times, step_s) = times(span, COARSE_S, MAX_COARSE);
+        let state = |at: i64| Some((at, propagator.state_at(at_ms(at)).ok()?));
+        let states: Vec<(i64, State)> = times.filter_map(state).collect();
+        let sample = |(at, state): &(i64, State)| {
+            let time = at_ms(*at);
+            Sample { time, direction: state.look_from(site, time).direction }
+        };
+        let samples = Samples { list: states.iter().map(sample).collect(), step_s };
+        Self { span, states, samples }
+    }
+
+    fn fine(&self, propagator: &Propagator, site: Site) -> Samples {
+        let (times, step_s) = times(self.span, FINE_S, MAX_FINE);
+        let mut pairs = self.states.iter().zip(self.states.iter().skip(1)).peekable();
+        let list = times.filter_map(|at| {
+            while pairs.next_if(|(_, (end, _))| *end < at).is_some() {}
+            let between = pairs.peek().and_then(|(a, b)| between(a, b, at));
+            let state = between.map_or_else(|| propagator.state_at(at_ms(at)), Ok).ok()?;
+            let time = at_ms(at);
+            Some(Sample { time, direction: state.look_from(site, time).direction })
+        });
+        Samples { list: list.collect(), step_s }
+    }
+}
+
+/// Times of samples and the seconds between them.
+fn times(span: Span, least_s: f64, most: f64) -> (impl Iterator<Item = i64>, f64) {
     let seconds = span.length_ms() as f64 / 1000.0;
-    let (least_s, most) = if fine { (FINE_S, MAX_FINE) } else { (COARSE_S, MAX_COARSE) };
-    let step_s = least_s.max(seconds / most);
-    let steps = (seconds / step_s).ceil().max(1.0);
+    let steps = (seconds / least_s.max(seconds / most)).ceil().max(1.0);
     let step_s = seconds / steps;
-    let list = (0..=steps as i64)
-        .map(|step| at_ms(span.from_ms + (step as f64 * step_s * 1000.0).round() as i64))
-        .filter_map(|time| {
-            let direction = propagator.look_from(site, time).ok()?.direction;
-            Some(Sample { time, direction })
-        })
-        .collect();
-    Samples { list, step_s }
+    let time = move |step: i64| span.from_ms + (step as f64 * step_s * 1000.0).round() as i64;
+    ((0..=steps as i64).map(time), step_s)
+}
+
+/// The state between two others, by the cubic through their positions and velocities; `None` where
+/// they are too far apart for that.
+fn between((from, a): &(i64, State), (to, b): &(i64, State), at: i64) -> Option<State> {
+    if !(*from..=*to).contains(&at) {
+        return None;
+    }
+    let span_s = (to - from) as f64 / 1000.0;
+    let radius_km = a.position_km.length().min(b.position_km.length());
+    // A cubic is off by a part of the fourth derivative, which is that of a circular orbit there.
+    let off_km = span_s.powi(4) / 384.0 * GRAVITY_KM3_S2.powi(2) / radius_km.powi(5);
+    if off_km > SAME_RAD * (radius_km - MEAN_RADIUS_KM) {
+        return None;
+    }
+    let share = (at - from) as f64 / 1000.0 / span_s;
+    let rest = 1.0 - share;
+    let position_km = a.position_km * (rest * rest * (1.0 + 2.0 * share))
+        + b.position_km * (share * share * (1.0 + 2.0 * rest))
+        + (a.velocity_km_s * rest - b.velocity_km_s * share) * (share * rest * span_s);
+    let velocity_km_s = a.velocity_km_s * rest + b.velocity_km_s * share;
+    Some(State { position_km, velocity_km_s })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{
+        astro::time::add_seconds,
+        orbit::{PassSearch, bundled, passes},
+        plan::schedule::testing::noon,
+        station::Station,
+    };
+
+    #[test]
+    fn between_few_states_every_satellite_is_where_its_orbit_is() {
+        let (station, catalog) = (Station::default(), bundled().unwrap());
+        let end = add_seconds(noon(), 86_400.0);
+        let search = PassSearch {
+            aos_elevation: station.aos_elevation(),
+            ..PassSearch::new(station.site, noon(), end)
+        };
+        let (mut compared, mut worst_deg) = (0, 0.0_f64);
+        // Each orbit of the catalogue stands for some hundred others.
+        for elements in catalog.iter().step_by(97) {
+            let Ok(propagator) = Propagator::new(elements) else { continue };
+            for pass in passes(&propagator, &search, &|| false).iter().take(2) {
+                let mut sight = Sight::new(&propagator, station.site, None, pass);
+                let span = Span { from_ms: ms(pass.aos.time), to_ms: ms(pass.los.time) };
+                let exact = sight.exact(span);
+                let fine = sight.fine(span);
+                assert_eq!(fine.list.len(), exact.list.len());
+                for (fine, exact) in fine.list.iter().zip(&exact.list) {
+                    assert_eq!(fine.time, exact.time);
+                    let off_deg = fine.direction.separation(exact.direction).degrees();
+                    let name = elements.short_name();
+                    assert!(off_deg < 1e-3, "{name} {}: {off_deg}", exact.time);
+                    worst_deg = worst_deg.max(off_deg);
+                    compared += 1;
+                }
+            }
+        }
+        println!("{compared} directions, at most {worst_deg:.6} degrees apart");
+        assert!(compared > 10_000, "{compared}");
+    }
 }

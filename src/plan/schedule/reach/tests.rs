@@ -39,14 +39,14 @@ fn each_pass(
 fn by_many(reach: &Reach, sight: &mut Sight<'_>) -> Option<Verdict> {
     let span = sight.above(reach.min_elevation())?;
     let clear = sight.clear(span);
-    Some(reach.ways(sight.samples(span, true), &clear))
+    Some(reach.ways(sight.fine(span), &clear))
 }
 
 /// Judges by few samples alone, where they are enough.
 fn by_few(reach: &Reach, sight: &mut Sight<'_>) -> Option<Vec<Way>> {
     let span = sight.above(reach.min_elevation())?;
     let clear = sight.clear(span);
-    reach.easy_ways(sight.samples(span, false), &clear)
+    reach.easy_ways(sight.coarse(span), &clear)
 }
 
 fn assert_alike(few: &[Way], many: &Verdict, what: &str) {
@@ -83,6 +83,37 @@ fn what_few_samples_tell_of_a_pass_is_what_many_tell() {
     }
     println!("seed {SEED}: {compared:?} passes compared, {turns} of them on more than one turn");
     assert!(compared.iter().all(|count| *count > 100) && turns > 100, "{compared:?} {turns}");
+}
+
+#[test]
+fn directions_between_few_states_are_judged_as_those_of_the_orbit() {
+    let (mut judged, mut random) = (0, Random::new(SEED + 2));
+    for case in 0..4 {
+        let mut station = any_three_antennas(&mut random);
+        if case % 2 == 1 {
+            add_barriers(&mut station, &mut random);
+        }
+        each_pass(&station, &mut random, 6, |place, reach, sight| {
+            let Some(span) = sight.above(reach.min_elevation()) else { return };
+            let clear = sight.clear(span);
+            let exact = sight.exact(span);
+            let [of_states, of_orbit] =
+                [reach.ways(sight.fine(span), &clear), reach.ways(&exact, &clear)];
+            let what = format!("seed {SEED}, case {case}, antenna {place}");
+            match (of_states, of_orbit) {
+                (Verdict::Possible(of_states), Verdict::Possible(of_orbit)) => {
+                    assert_eq!(of_states.len(), of_orbit.len(), "{what}");
+                    for (one, other) in of_states.iter().zip(&of_orbit) {
+                        assert_eq!((one.span(), one.lost), (other.span(), other.lost), "{what}");
+                        assert_eq!(one.counted_ms(span), other.counted_ms(span), "{what}");
+                    }
+                }
+                (of_states, of_orbit) => assert_eq!(of_states, of_orbit, "{what}"),
+            }
+            judged += 1;
+        });
+    }
+    assert!(judged > 100, "{judged}");
 }
 
 #[test]
