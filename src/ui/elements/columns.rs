@@ -157,7 +157,7 @@ fn min_width_of(column: Column) -> f32 {
         Column::Inclination => 46.0,
         Column::Heights => 84.0,
         Column::Age => 80.0,
-        Column::From => 118.0,
+        Column::From => 88.0,
         Column::NextPass => 92.0,
         Column::MaxElevation => BAR + BAR_NUMBER,
     };
@@ -172,7 +172,8 @@ fn min_width(columns: &[Column]) -> f32 {
 /// How much of the free room a column gets: texts more than numbers.
 fn weight(column: Column) -> f32 {
     match column {
-        Column::Name | Column::From => 3.0,
+        Column::Name => 3.0,
+        Column::From => 4.0,
         Column::MaxElevation => 0.0,
         _ => 1.0,
     }
