@@ -163,7 +163,6 @@ fn rehearsal(
     if planned.entries.is_empty() {
         return;
     }
-    let t = theme::tokens(ui);
     let key = planned.predicted.key();
     let told: Vec<String> = model
         .rehearsed(key)
@@ -174,14 +173,7 @@ fn rehearsal(
         })
         .collect();
     for (index, words) in told.iter().enumerate() {
-        let room = width - 2.0 * PADDING - 24.0;
-        let galley = ui.painter().layout(words.clone(), text::small(), t.t1, room);
-        let size = vec2(width, galley.size().y + 28.0);
-        let (rect, _) = ui.allocate_exact_size(size, Sense::hover());
-        let note = rect.shrink2(vec2(PADDING, 6.0));
-        ui.painter().rect_filled(note, 5.0, t.bg2);
-        ui.painter().galley(note.min + vec2(12.0, 8.0), galley, t.t1);
-        paint::name_text(ui, ("rehearsed", index), note, words);
+        note(ui, width, ("rehearsed", index), words);
     }
     let (row, _) = ui.allocate_exact_size(vec2(width, BUTTON + GAP), Sense::hover());
     let is_free = !matches!(model.rehearsal, RehearsalState::UnderWay(_));
@@ -292,15 +284,20 @@ fn price(
         }
         "What it would cost is being worked out.".to_owned()
     };
+    note(ui, width, "plan price", &words);
+}
+
+/// Words in a box of their own.
+fn note(ui: &mut Ui, width: f32, salt: impl egui::AsIdSalt, words: &str) {
     let t = theme::tokens(ui);
     let room = width - 2.0 * PADDING - 24.0;
-    let galley = ui.painter().layout(words.clone(), text::small(), t.t1, room);
+    let galley = ui.painter().layout(words.to_owned(), text::small(), t.t1, room);
     let size = vec2(width, galley.size().y + 28.0);
     let (rect, _) = ui.allocate_exact_size(size, Sense::hover());
-    let note = rect.shrink2(vec2(PADDING, 6.0));
-    ui.painter().rect_filled(note, 5.0, t.bg2);
-    ui.painter().galley(note.min + vec2(12.0, 8.0), galley, t.t1);
-    paint::name_text(ui, "plan price", note, &words);
+    let place = rect.shrink2(vec2(PADDING, 6.0));
+    ui.painter().rect_filled(place, 5.0, t.bg2);
+    ui.painter().galley(place.min + vec2(12.0, 8.0), galley, t.t1);
+    paint::name_text(ui, salt, place, words);
 }
 
 /// The operator's choice for this pass, and the priority of its satellite.
