@@ -19,7 +19,7 @@ use crate::{
 
 /// How far a motion may go beyond an edge, degrees; the margins of keep-outs and of the Sun are
 /// widened by the same angle.
-const FINEST_DEG: f64 = 0.05;
+pub(super) const FINEST_DEG: f64 = 0.05;
 
 /// One of the bounds: minimum elevation, a keep-out or the Sun.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
@@ -201,6 +201,13 @@ impl BoundsAt<'_> {
     #[must_use]
     pub fn above_the_floor(self) -> Self {
         Self { minimum_elevation: None, ..self }
+    }
+
+    /// The same bounds with the minimum elevation lower by this angle.
+    #[must_use]
+    pub fn with_floor_lower_by(self, dip: Angle) -> Self {
+        let minimum_elevation = self.minimum_elevation.map(|minimum| minimum - dip);
+        Self { minimum_elevation, ..self }
     }
 
     /// The bounds without the barriers that the axes are inside of.

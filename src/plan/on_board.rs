@@ -9,6 +9,7 @@ use jiff::Timestamp;
 use serde::{Deserialize, Serialize};
 
 pub use cause::{Cause, Ranked, Unknown};
+pub(crate) use clear::ALONG_DEG;
 pub use clear::{OffLimits, Trespass, path_is_clear};
 
 use crate::{
@@ -163,9 +164,10 @@ impl Judge {
         unit.either_way().try_for_each(|unit| path_is_clear(self.path(unit), &self.ability, bounds))
     }
 
-    /// The direction in which the unit will wait for the window.
-    pub fn start(&self, unit: &OnBoard) -> Option<AzEl> {
-        self.path(UnitPath::of(unit, self)).next().map(|first| first.direction)
+    /// Where the unit goes if it is started at `at`: to where it waits for the window, or to the
+    /// satellite within it.
+    pub fn start(&self, unit: &OnBoard, at: Timestamp) -> Option<AzEl> {
+        UnitPath::of(unit, self).direction(at)
     }
 
     /// The real track according to the report of the unit, from where the unit waits to where it

@@ -35,21 +35,32 @@ fn elements() -> Vec<Elements> {
 
 /// A pass high enough to be worth tracking.
 pub(super) fn pass() -> Pass {
+    first_pass(10.0, |pass| pass.max_elevation().degrees() > 40.0)
+}
+
+/// The first pass of this kind in three days.
+fn first_pass(aos_elevation_deg: f64, is_wanted: impl Fn(&Pass) -> bool) -> Pass {
     let iss = &elements()[0];
     let propagator = Propagator::new(iss).unwrap();
     let from = iss.epoch();
     let to = time::add_seconds(from, 3.0 * time::DAY_S);
-    let aos_elevation = Angle::from_degrees(10.0);
+    let aos_elevation = Angle::from_degrees(aos_elevation_deg);
     let search = PassSearch { aos_elevation, ..PassSearch::new(site(), from, to) };
-    passes(&propagator, &search, &|| false)
-        .into_iter()
-        .find(|pass| pass.max_elevation().degrees() > 40.0)
-        .unwrap()
+    passes(&propagator, &search, &|| false).into_iter().find(is_wanted).unwrap()
 }
 
 /// The ISS for the whole of [`pass`].
 pub(super) fn iss() -> TrackTarget {
-    let pass = pass();
+    whole(&pass())
+}
+
+/// The ISS for a whole pass that begins low in the west.
+pub(super) fn from_the_west() -> TrackTarget {
+    let is_west = |pass: &Pass| (250.0..290.0).contains(&pass.aos.direction.azimuth_deg());
+    whole(&first_pass(5.2, is_west))
+}
+
+fn whole(pass: &Pass) -> TrackTarget {
     TrackTarget {
         catalog_number: 25_544,
         name: "ISS (ZARYA)".into(),

@@ -1,12 +1,17 @@
 //! On-board track.
 
 use azel::{
+    astro::Angle,
     device::{Phase, PrepareError, TrackTarget},
     driver::{Command, Event, Intent},
+    sim::satrak::Options,
 };
 use jiff::SignedDuration;
 
-use super::rig::{Rig, antenna, iss, options, track, twin};
+use super::{
+    rig::{Rig, antenna, iss, options, track, twin},
+    scene::from_the_west,
+};
 
 fn window_of(target: &TrackTarget) -> String {
     let text = |time| {
@@ -220,4 +225,31 @@ async fn a_unit_that_starts_to_track_by_itself_is_told_once_and_can_be_stopped()
     assert!(!rig.control.state().is_tracking && !rig.control.state().is_moving);
     assert_eq!(rig.shown().state.program.unwrap().auto, Some(false));
     assert_eq!(rig.events(), []);
+}
+
+/// Both axes turn at once on the unit's own way to a pass, and an X/Y mount dips between.
+#[tokio::test(start_paused = true)]
+async fn on_the_way_to_a_pass_the_antenna_keeps_above_its_minimum_elevation() {
+    let target = from_the_west();
+    let early = target.from - SignedDuration::from_mins(3);
+    let early = Options { utc_origin: early, ..options() };
+    let mut went_first = 0;
+    for azimuth_deg in (5..360).step_by(15) {
+        let mut rig = Rig::connected(&early, &antenna()).await;
+        let angle = |deg: f64| Some(Angle::from_degrees(deg));
+        let azimuth = angle(f64::from(azimuth_deg));
+        rig.send(Command::Position { azimuth, elevation: angle(5.6) });
+        rig.until_event(60, |event| matches!(event, Event::Arrived(_))).await;
+        let gone = rig.sent("GOTO=").len();
+        rig.send(track(target.clone()));
+        // The unit sets out some time before its window.
+        for _ in 0..900 {
+            rig.seconds(0.2).await;
+            let lowest_deg = rig.control.state().el_deg;
+            assert!(lowest_deg > 4.5, "from {azimuth_deg}: {lowest_deg}");
+        }
+        went_first += usize::from(rig.sent("GOTO=").len() > gone);
+        assert_eq!(rig.events(), [Event::Tracking(target.clone())]);
+    }
+    assert!((1..24).contains(&went_first), "{went_first}");
 }

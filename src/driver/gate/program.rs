@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use super::{Gate, Refusal};
-use crate::{clock::Moment, device::Motion, driver::Intent, plan::on_board::Judge};
+use crate::{astro::Angle, clock::Moment, device::Motion, driver::Intent, plan::on_board::Judge};
 
 /// What a unit would track by itself.
 #[derive(Debug, Clone)]
@@ -49,6 +49,30 @@ impl Gate {
         checked
     }
 
+    /// As [`Self::check_pass`], but where only the way to the start of the pass is not clear that
+    /// the unit would take by itself, returns the motion to take the antenna there first.
+    pub(in crate::driver) fn way_to_pass(
+        &mut self,
+        judge: &Arc<Judge>,
+        now: Moment,
+    ) -> Result<Option<Motion>, Refusal> {
+        let refusal = match self.check_pass(judge, now) {
+            Ok(()) => return Ok(None),
+            Err(refusal @ Refusal::Forbidden { .. }) => refusal,
+            Err(other) => return Err(other),
+        };
+        let Some(start) = judge.start(&self.state().on_board, now.utc) else {
+            return Err(refusal);
+        };
+        let lowest = Angle::from_degrees(self.limits.minimum_elevation_deg);
+        let elevation = if start.elevation < lowest { lowest } else { start.elevation };
+        let to = Motion::Position { azimuth: Some(start.azimuth), elevation: Some(elevation) };
+        let route = self.nearest(to).and_then(|to| self.route(to, Intent::Track, now));
+        route.map_err(|_| refusal)?;
+        self.program = Some(Arc::clone(judge));
+        Ok(Some(to))
+    }
+
     /// Checks whether the whole way of the unit's program, by what the unit reports now, keeps
     /// to the bounds; also everything that its axes can sweep on the way to the start of the
     /// pass.
@@ -59,6 +83,6 @@ impl Gate {
     fn path_is_clear(&self, judge: &Judge, now: Moment) -> Result<(), Refusal> {
         let unit = &self.state().on_board;
         judge.is_clear(unit, &self.bounds).map_err(Refusal::Path)?;
-        judge.start(unit).map_or(Ok(()), |start| self.slew_is_clear(start, now))
+        judge.start(unit, now.utc).map_or(Ok(()), |start| self.slew_is_clear(start, now))
     }
 }

@@ -10,6 +10,7 @@ use crate::{
     plan::{
         Barrier, BoundsAt,
         detour::{self, AxisLimits},
+        on_board::ALONG_DEG,
     },
 };
 
@@ -338,14 +339,16 @@ impl Gate {
     }
 
     /// Refuses a way to `to` that the unit takes by itself, at its own rates. The unit keeps
-    /// to its own minimum elevation.
+    /// to its own minimum elevation at the end, but not between: where both axes of an X/Y mount
+    /// turn, the antenna may dip.
     pub(super) fn slew_is_clear(&self, to: AzEl, now: Moment) -> Result<(), Refusal> {
         let situation = self.situation(Intent::Track, false, now);
         let Some(from_deg) = axes(&situation) else { return Ok(()) };
         let to_deg = target(Some(to.azimuth), Some(to.elevation), from_deg, &situation);
         let Some(to_deg) = to_deg else { return Ok(()) };
         let sweep = sweep_between(from_deg, to_deg, &situation);
-        blocked(sweep, from_deg, &self.bounds.at(now.utc).above_the_floor())
+        let along = Angle::from_degrees(ALONG_DEG);
+        blocked(sweep, from_deg, &self.bounds.at(now.utc).with_floor_lower_by(along))
     }
 
     /// The lead of an action as a motion to a position; `None` where it leads nowhere or is

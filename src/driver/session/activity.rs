@@ -1,11 +1,17 @@
 //! What an antenna is doing for the operator, and how far it has got.
 
+use std::time::Duration;
+
 use super::{on_board::Watch, program_track::Tracking};
 use crate::{
+    astro::Angle,
     clock::Instant,
-    device::{Motion, Pointing, TrackTarget},
+    device::{Measured, Motion, Pointing, TrackTarget},
     driver::Intent,
 };
+
+/// Time within which an accepted command must show in the unit's state.
+const EFFECT: Duration = Duration::from_secs(5);
 
 /// One at a time: starting another ends the present one.
 pub(super) enum Activity {
@@ -22,12 +28,18 @@ pub(super) enum Activity {
 
 pub(super) struct GoTo {
     pub(super) parks: bool,
+    pub(super) slew: Slew,
+}
+
+/// A way to a direction, in one or more motions.
+#[derive(Clone, Copy)]
+pub(super) struct Slew {
     pub(super) aim: Option<Pointing>,
-    pub(super) stage: GoToStage,
+    pub(super) stage: SlewStage,
 }
 
 #[derive(Clone, Copy)]
-pub(super) enum GoToStage {
+pub(super) enum SlewStage {
     /// Will be sent as soon as the antenna stands.
     Queued { motion: Motion, leg: Option<Leg> },
     /// Under way; `since` is when it was sent, or last seen to turn.
@@ -36,7 +48,7 @@ pub(super) enum GoToStage {
     Over,
 }
 
-/// The first of two motions to a position, one axis after the other.
+/// A motion to a position that is followed by another one, such as the other axis.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Leg {
     pub(super) aim: Pointing,
@@ -52,6 +64,8 @@ pub(super) struct OnBoardTrack {
 /// Progress towards the start of the unit's own program.
 #[derive(Clone, Copy)]
 pub(super) enum OnBoardStage {
+    /// The antenna is taken to where the unit will begin: the unit's own way there is not clear.
+    Slewing(Slew),
     /// The target will be sent to the unit as soon as the antenna stands.
     LoadQueued,
     /// The target is being sent to the unit and read back.
@@ -84,7 +98,7 @@ impl Activity {
     /// Returns `true` until the antenna has been seen doing it.
     pub(super) fn is_pending(&self) -> bool {
         match self {
-            Self::GoTo(go_to) => !matches!(go_to.stage, GoToStage::Over),
+            Self::GoTo(go_to) => !matches!(go_to.slew.stage, SlewStage::Over),
             Self::OnBoardTrack(track) => !matches!(track.stage, OnBoardStage::Tracking),
             _ => false,
         }
@@ -98,8 +112,30 @@ impl Activity {
     /// The direction it leads to, if that direction is fixed.
     pub(super) fn aim(&self) -> Option<Pointing> {
         match self {
-            Self::GoTo(go_to) => go_to.aim,
             Self::ProgramTrack(track) => track.aim,
+            _ => self.slew().and_then(|slew| slew.aim),
+        }
+    }
+
+    /// The way that it has to go, or has gone.
+    pub(super) fn slew(&self) -> Option<&Slew> {
+        match self {
+            Self::GoTo(go_to) => Some(&go_to.slew),
+            Self::OnBoardTrack(track) => match &track.stage {
+                OnBoardStage::Slewing(slew) => Some(slew),
+                _ => None,
+            },
+            _ => None,
+        }
+    }
+
+    pub(super) fn slew_mut(&mut self) -> Option<&mut Slew> {
+        match self {
+            Self::GoTo(go_to) => Some(&mut go_to.slew),
+            Self::OnBoardTrack(track) => match &mut track.stage {
+                OnBoardStage::Slewing(slew) => Some(slew),
+                _ => None,
+            },
             _ => None,
         }
     }
@@ -158,12 +194,12 @@ impl Activity {
 
     /// Takes what waits for standstill; it counts as sent `now`.
     pub(super) fn take_queued(&mut self, now: Instant) -> Option<Queued> {
+        if let Some(slew) = self.slew_mut() {
+            let SlewStage::Queued { motion, leg } = slew.stage else { return None };
+            slew.stage = SlewStage::UnderWay { since: now, leg };
+            return Some(Queued::Motion(motion));
+        }
         match self {
-            Self::GoTo(go_to) => {
-                let GoToStage::Queued { motion, leg } = go_to.stage else { return None };
-                go_to.stage = GoToStage::UnderWay { since: now, leg };
-                Some(Queued::Motion(motion))
-            }
             Self::OnBoardTrack(track) => match track.stage {
                 OnBoardStage::LoadQueued => {
                     track.stage = OnBoardStage::Loading { since: now };
@@ -180,18 +216,60 @@ impl Activity {
     }
 
     pub(super) fn is_queued(&self) -> bool {
-        match self {
-            Self::GoTo(go_to) => matches!(go_to.stage, GoToStage::Queued { .. }),
-            Self::OnBoardTrack(track) => {
-                matches!(track.stage, OnBoardStage::LoadQueued | OnBoardStage::StartQueued)
-            }
-            _ => false,
+        if let Some(slew) = self.slew() {
+            return matches!(slew.stage, SlewStage::Queued { .. });
         }
+        self.on_board().is_some_and(|track| {
+            matches!(track.stage, OnBoardStage::LoadQueued | OnBoardStage::StartQueued)
+        })
     }
 
     /// After a lost link: what waits is not sent on the next link, but its outcome is still
     /// reported.
     pub(super) fn drop_queued(&mut self, now: Instant) {
         self.take_queued(now);
+    }
+}
+
+/// What has come of a slew.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) enum Arrival {
+    /// This motion is the next one.
+    Leg(Motion),
+    At(Pointing),
+    /// The antenna stands elsewhere.
+    Short {
+        aim: Pointing,
+    },
+}
+
+impl Slew {
+    /// Compares the motion under way with a position. The time limit for its first effect starts
+    /// anew while the antenna `turns`.
+    pub(super) fn watch(
+        &mut self,
+        measured: &Measured,
+        turns: bool,
+        within: Angle,
+        now: Instant,
+    ) -> Option<Arrival> {
+        let SlewStage::UnderWay { since, leg } = self.stage else { return None };
+        let aim = leg.map(|leg| leg.aim).or(self.aim)?;
+        if turns {
+            self.stage = SlewStage::UnderWay { since: now, leg };
+            return None;
+        }
+        if measured.asked <= since {
+            return None;
+        }
+        let is_near = measured.pointing.separation(aim).is_some_and(|off| off <= within);
+        let arrival = match leg {
+            Some(leg) if is_near => Arrival::Leg(leg.then),
+            None if is_near => Arrival::At(aim),
+            _ if now.saturating_duration_since(since) >= EFFECT => Arrival::Short { aim },
+            _ => return None,
+        };
+        self.stage = SlewStage::Over;
+        Some(arrival)
     }
 }

@@ -5,7 +5,7 @@ use smol_str::SmolStr;
 
 use super::{
     Event, Session,
-    activity::{Activity, GoTo, GoToStage, Leg, OnBoardStage, OnBoardTrack, Queued},
+    activity::{Activity, GoTo, Leg, OnBoardStage, OnBoardTrack, Queued, Slew, SlewStage},
     jog::JogKey,
     wanted::Wanted,
 };
@@ -208,36 +208,43 @@ impl Session {
 
     /// Checks the motion before it ends anything for it.
     pub(super) fn go_to(&mut self, motion: Motion, intent: Intent, now: Moment) {
-        let checked = self.gate.nearest(motion).and_then(|motion| {
-            let route = self.gate.route(motion, intent, now)?;
-            Ok((motion, route))
-        });
-        let (motion, route) = match checked {
-            Ok(checked) => checked,
+        let slew = match self.slew(motion, intent, now) {
+            Ok(slew) => slew,
             Err(refusal) => return self.tell(Event::NotSent(refusal)),
         };
-        let aim = self.gate.aim(&motion);
-        let first_aim = self.gate.aim(&route.first);
         if self.may_move() {
             self.halt_quietly(now);
         }
+        self.activity = Activity::GoTo(GoTo { parks: intent == Intent::Park, slew });
+    }
+
+    /// The way to the end of `motion`, not sent yet.
+    pub(super) fn slew(
+        &self,
+        motion: Motion,
+        intent: Intent,
+        now: Moment,
+    ) -> Result<Slew, Refusal> {
+        let motion = self.gate.nearest(motion)?;
+        let route = self.gate.route(motion, intent, now)?;
+        let first_aim = self.gate.aim(&route.first);
         let leg = first_aim.zip(route.then).map(|(aim, then)| Leg { aim, then });
-        let stage = GoToStage::Queued { motion: route.first, leg };
-        self.activity = Activity::GoTo(GoTo { parks: intent == Intent::Park, aim, stage });
+        let stage = SlewStage::Queued { motion: route.first, leg };
+        Ok(Slew { aim: self.gate.aim(&motion), stage })
     }
 
     fn track(&mut self, pass: OnBoardPass, now: Moment) {
         let target = pass.target.clone();
         tracing::info!(antenna = self.name, ?target, is_agreed = pass.is_agreed, "track");
-        let watch = match self.examine_pass(pass, now) {
-            Ok(watch) => watch,
+        let (watch, slew) = match self.examine_pass(pass, now) {
+            Ok(examined) => examined,
             Err(event) => return self.tell(event),
         };
         if self.may_move() {
             self.halt_quietly(now);
         }
         self.unasked = None;
-        let stage = OnBoardStage::LoadQueued;
+        let stage = slew.map_or(OnBoardStage::LoadQueued, OnBoardStage::Slewing);
         self.activity = Activity::OnBoardTrack(Box::new(OnBoardTrack { target, watch, stage }));
     }
 

@@ -2,7 +2,10 @@
 
 use std::{collections::VecDeque, time::Duration};
 
-use super::{Event, Session, activity::Activity};
+use super::{
+    Event, Session,
+    activity::{Activity, SlewStage},
+};
 use crate::{
     astro::Angle,
     clock::{Instant, Moment},
@@ -110,8 +113,7 @@ impl Session {
         let state = self.gate.state();
         let by_azel = match &self.activity {
             Activity::ProgramTrack(_) => true,
-            Activity::GoTo(_) => self.activity.is_pending(),
-            _ => false,
+            _ => self.activity.slew().is_some_and(|slew| !matches!(slew.stage, SlewStage::Over)),
         };
         let by_azel = by_azel || self.acts || self.key.held().is_some() || self.stepping.is_some();
         if by_azel {

@@ -3,12 +3,12 @@
 
 use std::{sync::Arc, time::Duration};
 
-use super::{Event, Session};
+use super::{Event, Session, activity::Slew};
 use crate::{
     astro::{Angle, time::add_seconds},
     clock::{Instant, Moment},
     device::OnBoard,
-    driver::{OnBoardView, TrackProblem, gate::Held},
+    driver::{Intent, OnBoardView, TrackProblem, gate::Held},
     plan::{OnBoardPass, Supervision, on_board::Judge},
 };
 
@@ -85,8 +85,13 @@ impl Watch {
 }
 
 impl Session {
-    /// Checks a pass before the unit is started on it. The error is the event to report.
-    pub(super) fn examine_pass(&mut self, pass: OnBoardPass, now: Moment) -> Result<Watch, Event> {
+    /// Checks a pass before the unit is started on it, and finds the way to where it begins if the
+    /// antenna has to be taken there. The error is the event to report.
+    pub(super) fn examine_pass(
+        &mut self,
+        pass: OnBoardPass,
+        now: Moment,
+    ) -> Result<(Watch, Option<Slew>), Event> {
         let name = pass.target.name.clone();
         let judge = Judge::new(pass, self.setup.ability)
             .map_err(|error| Event::CannotProgramTrack(name, TrackProblem::Orbit(error)))?;
@@ -94,8 +99,9 @@ impl Session {
         if let Some(event) = watch.objection() {
             return Err(event);
         }
-        self.gate.check_pass(&watch.judge, now).map_err(Event::NotSent)?;
-        Ok(watch)
+        let to = self.gate.way_to_pass(&watch.judge, now).map_err(Event::NotSent)?;
+        let slew = to.map(|to| self.slew(to, Intent::Track, now)).transpose();
+        Ok((watch, slew.map_err(Event::NotSent)?))
     }
 
     /// The objection to the pass now that the unit holds it and has been read again.

@@ -5,17 +5,16 @@ use std::time::Duration;
 
 use super::{
     Event, Session,
-    activity::{Activity, GoTo, GoToStage, OnBoardStage, OnBoardTrack},
+    activity::{Activity, Arrival, GoTo, OnBoardStage, OnBoardTrack, Slew, SlewStage},
 };
 use crate::{
+    astro::Angle,
     clock::{Instant, Moment},
     device::{Asked, ControllerEvent, Motion, Phase, Pointing, TrackTarget},
     driver::{Found, Intent},
 };
 
-/// Time within which an accepted command must show in the unit's state.
-const EFFECT: Duration = Duration::from_secs(5);
-/// The same for tracking, which takes several steps.
+/// Time within which an accepted command to track must show in the unit's state.
 const TRACK_EFFECT: Duration = Duration::from_secs(15);
 /// An axis that has turned by less may not have been moved at all, degrees.
 const TURNED_DEG: f64 = 0.05;
@@ -50,11 +49,11 @@ impl Session {
         self.watch_auto_track(now);
         self.forget_old_stop(now);
         self.start_queued(now);
+        self.watch_slew(now);
         match self.activity {
-            Activity::GoTo(_) => self.watch_go_to(now),
             Activity::ProgramTrack(_) => self.watch_follow(now),
             Activity::OnBoardTrack(_) => self.watch_track(now),
-            Activity::Standby | Activity::Manual | Activity::Hold(_) => {}
+            Activity::Standby | Activity::Manual | Activity::Hold(_) | Activity::GoTo(_) => {}
         }
         self.watch_on_board(now);
         self.watch_silence(now);
@@ -192,16 +191,20 @@ impl Session {
         let lost = away + std::mem::take(&mut self.contact.slept);
         let is_as_left = self.is_as_left(found, measured.pointing, now);
         self.follow_on(lost, measured.pointing, now);
-        match &mut self.activity {
-            Activity::OnBoardTrack(track) if found == Found::Tracking => {
-                track.stage = OnBoardStage::Tracking;
+        // A slew is watched further; its outcome is still to be reported.
+        if let Some(Slew { stage: SlewStage::UnderWay { since, .. }, .. }) =
+            self.activity.slew_mut()
+        {
+            *since = now.steady;
+        }
+        if let Activity::OnBoardTrack(track) = &mut self.activity {
+            match track.stage {
+                _ if found == Found::Tracking => track.stage = OnBoardStage::Tracking,
+                OnBoardStage::Slewing(slew) => {
+                    self.activity = Activity::GoTo(GoTo { parks: false, slew });
+                }
+                _ => self.activity = Activity::Standby,
             }
-            Activity::OnBoardTrack(_) => self.activity = Activity::Standby,
-            // It is watched further; its outcome is still to be reported.
-            Activity::GoTo(GoTo { stage: GoToStage::UnderWay { since, .. }, .. }) => {
-                *since = now.steady;
-            }
-            _ => {}
         }
         let event = match self.contact.away_since.take() {
             None => Event::Connected(found),
@@ -220,6 +223,16 @@ impl Session {
         let left = self.contact.left_at;
         let is_at = |place: Option<Pointing>| place.is_none_or(|place| self.is_near(place, at));
         let stands_as_left = found == Found::Still && is_at(left);
+        if let Some(Slew { aim, stage: SlewStage::UnderWay { .. } }) = self.activity.slew() {
+            return match found {
+                Found::Tracking => false,
+                Found::Still => stands_as_left || is_at(*aim),
+                Found::Moving => {
+                    let way = left.zip(*aim);
+                    way.is_none_or(|(left, aim)| self.is_between(left, aim, at))
+                }
+            };
+        }
         match &self.activity {
             // Compared by itself.
             Activity::ProgramTrack(_) => true,
@@ -231,14 +244,6 @@ impl Session {
                     _ => stands_as_left,
                 }
             }
-            Activity::GoTo(GoTo { aim, stage: GoToStage::UnderWay { .. }, .. }) => match found {
-                Found::Tracking => false,
-                Found::Still => stands_as_left || is_at(*aim),
-                Found::Moving => {
-                    let way = left.zip(*aim);
-                    way.is_none_or(|(left, aim)| self.is_between(left, aim, at))
-                }
-            },
             Activity::GoTo(_) | Activity::Standby | Activity::Manual | Activity::Hold(_) => {
                 stands_as_left
             }
@@ -256,35 +261,34 @@ impl Session {
         }
     }
 
-    fn watch_go_to(&mut self, now: Moment) {
-        let turns = self.turns();
-        let Activity::GoTo(go_to) = &mut self.activity else { return };
-        let GoToStage::UnderWay { since, leg } = go_to.stage else { return };
-        let aim = leg.map(|leg| leg.aim).or(go_to.aim);
-        let (Some(aim), Some(measured)) = (aim, self.gate.state().measured) else { return };
-        if measured.asked <= since || turns {
-            // Still under way: the time limit for its first effect starts anew.
-            if turns {
-                go_to.stage = GoToStage::UnderWay { since: now.steady, leg };
+    /// Sends the next motion of a slew, or reports how it has ended.
+    fn watch_slew(&mut self, now: Moment) {
+        let (turns, within_deg) = (self.turns(), self.variant.capabilities.arrives_within_deg);
+        let Some(measured) = self.gate.state().measured else { return };
+        let Some(slew) = self.activity.slew_mut() else { return };
+        let within = Angle::from_degrees(within_deg);
+        let Some(arrival) = slew.watch(&measured, turns, within, now.steady) else { return };
+        match arrival {
+            Arrival::Leg(then) => match self.slew(then, self.activity.intent(), now) {
+                Ok(next) => {
+                    if let Some(slew) = self.activity.slew_mut() {
+                        *slew = next;
+                    }
+                }
+                Err(refusal) => self.give_up(Event::NotSent(refusal), now),
+            },
+            Arrival::At(aim) => match self.activity.on_board_mut() {
+                Some(track) => track.stage = OnBoardStage::LoadQueued,
+                None => self.tell(Event::Arrived(aim)),
+            },
+            Arrival::Short { aim } => {
+                let event = Event::EndedShort { aim, at: measured.pointing };
+                match self.activity.on_board() {
+                    Some(_) => self.give_up(event, now),
+                    None => self.tell(event),
+                }
             }
-            return;
         }
-        let within_deg = self.variant.capabilities.arrives_within_deg;
-        let off = measured.pointing.separation(aim);
-        let is_near = off.is_some_and(|off| off.degrees() <= within_deg);
-        let event = match leg {
-            Some(leg) if is_near => {
-                go_to.stage = GoToStage::Queued { motion: leg.then, leg: None };
-                return;
-            }
-            None if is_near => Event::Arrived(aim),
-            _ if now.steady.saturating_duration_since(since) >= EFFECT => {
-                Event::EndedShort { aim, at: measured.pointing }
-            }
-            _ => return,
-        };
-        go_to.stage = GoToStage::Over;
-        self.tell(event);
     }
 
     fn watch_track(&mut self, now: Moment) {
@@ -299,7 +303,10 @@ impl Session {
             OnBoardStage::Tracking if ended => {
                 self.give_up(Event::TrackingEnded { completed }, now);
             }
-            OnBoardStage::Tracking | OnBoardStage::LoadQueued | OnBoardStage::StartQueued => {}
+            OnBoardStage::Tracking
+            | OnBoardStage::Slewing(_)
+            | OnBoardStage::LoadQueued
+            | OnBoardStage::StartQueued => {}
             OnBoardStage::Loading { .. } | OnBoardStage::Starting { .. }
                 if self.stop.is_under_way() => {}
             OnBoardStage::Starting { since }

@@ -12,7 +12,7 @@ use crate::{
 
 /// The clock, location and whole seconds of a unit shift its path by about this much, degrees: a
 /// path that exceeds a bound by less counts as running along it.
-const ALONG_DEG: f64 = 0.5;
+pub(crate) const ALONG_DEG: f64 = 0.5;
 
 /// The first position at which a path leaves the limits.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]

@@ -81,7 +81,7 @@ impl<'a> Legs<'a> {
         };
         let (reach, [_, end], [start, _]) = (&antenna.reach, before.ends_deg, after.ends_deg);
         if !reach.has_barriers() {
-            return reach.straight_ms(end, start);
+            return reach.leg_ms(end, start, before.to_ms).unwrap_or_default();
         }
         if let Some(found) = self.found.borrow().get(&(from, to)) {
             return *found;

@@ -13,7 +13,9 @@ use crate::{
     plan::{
         Barrier, Bounds, Loss, Sample, Sweep,
         az_el::{Choice, Flip, Planned, Start},
+        bounds::FINEST_DEG,
         detour,
+        on_board::ALONG_DEG,
         program_track::Drives,
     },
     station::{Antenna, Mount, Station},
@@ -324,7 +326,7 @@ impl Reach {
         off <= self.half_beam
     }
 
-    /// The longest leg between any two of these places, without detours, milliseconds.
+    /// The longest leg between any two of these places, without keep-outs, milliseconds.
     pub(super) fn widest_ms(&self, places: impl Iterator<Item = [f64; 2]>) -> i64 {
         let none = (f64::INFINITY, f64::NEG_INFINITY);
         let ends = places.chain([self.park_deg]).fold([none; 2], |ends, place| {
@@ -332,7 +334,11 @@ impl Reach {
             let [first, second] = place;
             [(a.min(first), b.max(first)), (c.min(second), d.max(second))]
         });
-        self.straight_ms(ends.map(|end| end.0), ends.map(|end| end.1))
+        let [from_deg, to_deg] = [ends.map(|end| end.0), ends.map(|end| end.1)];
+        match self.drives.mount {
+            Mount::AzEl { .. } => self.straight_ms(from_deg, to_deg),
+            Mount::Xy { .. } => self.by_corner_ms(from_deg, to_deg),
+        }
     }
 
     /// Time from one place of the axes to another along the straight way, milliseconds.
@@ -342,12 +348,34 @@ impl Reach {
         (limits.seconds(second(from_deg), second(to_deg)) * 1000.0).ceil() as i64
     }
 
+    /// Time from one place to another if one axis turns after the other, milliseconds.
+    fn by_corner_ms(&self, from_deg: [f64; 2], to_deg: [f64; 2]) -> i64 {
+        let corner_deg = [to_deg[0], from_deg[1]];
+        self.straight_ms(from_deg, corner_deg) + self.straight_ms(corner_deg, to_deg)
+    }
+
+    /// Returns `true` if an X/Y mount may dip below its minimum elevation while both axes turn. The
+    /// sine of the elevation is the product of the cosines of both axes from the zenith: it is
+    /// least in a corner, and in one of the two corners no less than at one of the ends.
+    fn may_dip(&self, from_deg: [f64; 2], to_deg: [f64; 2]) -> bool {
+        let Mount::Xy { .. } = self.drives.mount else { return false };
+        let along_deg = if self.on_board { ALONG_DEG } else { FINEST_DEG };
+        let ends_deg =
+            [from_deg, to_deg].map(|axes_deg| self.bounds.direction(axes_deg).elevation_deg());
+        let end_deg = self.min_elevation().degrees().min(ends_deg[0]).min(ends_deg[1]);
+        let corners_deg = [[from_deg[0], to_deg[1]], [to_deg[0], from_deg[1]]];
+        corners_deg.into_iter().any(|corner_deg| {
+            self.bounds.direction(corner_deg).elevation_deg() < end_deg - along_deg
+        })
+    }
+
     /// Time from one place of the axes to another at `at_ms`, round what must not be entered;
     /// `None` where no way leads.
     pub(super) fn leg_ms(&self, from_deg: [f64; 2], to_deg: [f64; 2], at: i64) -> Option<i64> {
         let straight_ms = self.straight_ms(from_deg, to_deg);
         if !self.has_barriers() {
-            return Some(straight_ms);
+            let dips = self.may_dip(from_deg, to_deg);
+            return Some(if dips { self.by_corner_ms(from_deg, to_deg) } else { straight_ms });
         }
         let (at, sweep) = (at_ms(at), Sweep::between(from_deg, to_deg));
         if self.bounds.at(at).blocks(sweep, from_deg).is_none() {

@@ -2,6 +2,8 @@
 
 mod milp;
 
+use std::cell::Cell;
+
 use super::{testing::*, *};
 use crate::{
     astro::time::{add_seconds, seconds_between},
@@ -252,19 +254,19 @@ fn every_reason_holds_when_the_pass_is_always_taken() {
 
 #[test]
 fn conflicts_name_entries_that_are_really_in_the_way() {
-    each_day(1, |request| {
+    let checked = Cell::new(0);
+    each_day(2, |request| {
         let schedule = plan(request);
         let conflicts = schedule.left_out.iter().flat_map(|left| &left.by_antenna);
-        let mut checked = 0;
         for (antenna, why) in conflicts {
             let (Why::Overlaps(conflict) | Why::SlewTooShort(conflict)) = why else { continue };
             let mut entries = schedule.entries_of(conflict.with);
             assert!(entries.any(|entry| entry.antenna == *antenna), "{conflict:?}");
             assert!(conflict.missing_s > 0.0);
-            checked += 1;
+            checked.set(checked.get() + 1);
         }
-        assert!(checked > 0);
     });
+    assert!(checked.get() > 0);
 }
 
 #[test]
