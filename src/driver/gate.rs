@@ -62,9 +62,9 @@ pub(super) struct Gate {
     bounds: Bounds,
     /// Overrun: how long the axes turn on at their rate after a STOP, seconds.
     overrun_s: f64,
-    /// End of the last motion to a position, degrees as the mount counts; `None` after any
-    /// other motion.
-    to_deg: Option<[f64; 2]>,
+    /// Where the last motion sent each axis, degrees as the mount counts; `None` where that is
+    /// nowhere or not known.
+    to_deg: [Option<f64>; 2],
     /// Angles of the axes when the last motion passed, degrees as the mount counts.
     started_from_deg: Option<[f64; 2]>,
     /// Only questions and halts go to the unit.
@@ -90,7 +90,7 @@ impl Gate {
             mount: bounds.mount(),
             bounds,
             overrun_s: variant.capabilities.standstill.overrun_s,
-            to_deg: None,
+            to_deg: [None; 2],
             started_from_deg: None,
             lock_out: None,
             unproved_since: None,
@@ -194,7 +194,7 @@ impl Gate {
         now: Moment,
     ) -> Result<(), Refusal> {
         self.examine(motion.into(), intent, stopping, now)?;
-        self.to_deg = self.ends(motion, now).map(|(_, to_deg)| to_deg);
+        self.to_deg = self.sent_to(motion, now);
         self.started_from_deg = self.axes_deg();
         self.unproved_since = Some(now.steady);
         self.controller.start(motion);

@@ -94,29 +94,41 @@ impl Axes {
     }
 
     /// The move to a direction. Both axes always move: one that should stay is sent to its
-    /// present counts.
+    /// present counts, or to the end of its travel if it stands at that limit and tells none.
     pub(super) fn auto_move(
         &self,
         azimuth: Option<Angle>,
         elevation: Option<Angle>,
         status: Option<&Status>,
+        mount: &Mount,
     ) -> Result<AutoMove, String> {
         let [az_line, el_line] = self.lines;
-        let counts = |name, angle: Option<Angle>, line: Option<CountLine>, at| {
-            let Some(angle) = angle else {
-                let Some(Position::Counts(counts)) = at else {
-                    return Err(format!("the {name} is to stay, but its counts are not known"));
+        let [az_travel_deg, el_travel_deg] = mount.travel_deg();
+        let counts =
+            |name, angle: Option<Angle>, line: Option<CountLine>, at, (from_deg, to_deg)| {
+                let degrees = match (angle, at) {
+                    (Some(angle), _) => angle.degrees(),
+                    (None, Some(Position::Counts(counts))) => return Ok(counts),
+                    (None, Some(Position::Limit(end))) => {
+                        let is_reversed = line.is_some_and(|line| line.is_reversed());
+                        if (sense_of(end) == Sense::Positive) == is_reversed {
+                            from_deg
+                        } else {
+                            to_deg
+                        }
+                    }
+                    (None, _) => {
+                        return Err(format!("the {name} is to stay, but its counts are not known"));
+                    }
                 };
-                return Ok(counts);
+                let line = line.ok_or_else(|| format!("the {name} is not calibrated"))?;
+                line.counts(degrees)
+                    .ok_or_else(|| format!("the {name} has no counts for {degrees:.1}°"))
             };
-            let line = line.ok_or_else(|| format!("the {name} is not calibrated"))?;
-            let degrees = angle.degrees();
-            line.counts(degrees)
-                .ok_or_else(|| format!("the {name} has no counts for {degrees:.1}°"))
-        };
-        let az_counts = counts("azimuth", azimuth, az_line, status.map(|status| status.azimuth))?;
-        let el_counts =
-            counts("elevation", elevation, el_line, status.map(|status| status.elevation))?;
+        let az_at = status.map(|status| status.azimuth);
+        let el_at = status.map(|status| status.elevation);
+        let az_counts = counts("azimuth", azimuth, az_line, az_at, az_travel_deg)?;
+        let el_counts = counts("elevation", elevation, el_line, el_at, el_travel_deg)?;
         Ok(AutoMove::position(az_counts, el_counts))
     }
 

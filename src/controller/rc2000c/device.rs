@@ -208,7 +208,8 @@ impl Controller for Rc2000c {
                 let request = if self.status.as_ref().is_some_and(is_tracking) {
                     Err("TRACK is active on the unit".to_owned())
                 } else {
-                    let target = self.axes.auto_move(azimuth, elevation, self.status.as_ref());
+                    let status = self.status.as_ref();
+                    let target = self.axes.auto_move(azimuth, elevation, status, &self.mount);
                     target.map(|target| Request::Motion(UnitMotion::AutoMove(target)))
                 };
                 self.order(motion.into(), request);

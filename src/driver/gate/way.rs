@@ -302,9 +302,9 @@ impl Gate {
     /// position ends there.
     pub(in crate::driver) fn ahead_of(&self, axes_deg: [f64; 2], ahead_deg: [f64; 2]) -> [f64; 2] {
         let mut reached = [axes_deg[0] + ahead_deg[0], axes_deg[1] + ahead_deg[1]];
-        let Some(to_deg) = self.to_deg else { return reached };
         let overrun_deg = self.variant.capabilities.arrives_within_deg * 2.0;
-        for ((reached, from_deg), to_deg) in reached.iter_mut().zip(axes_deg).zip(to_deg) {
+        for ((reached, from_deg), to_deg) in reached.iter_mut().zip(axes_deg).zip(self.to_deg) {
+            let Some(to_deg) = to_deg else { continue };
             let passes =
                 (from_deg..=*reached).contains(&to_deg) || (*reached..=from_deg).contains(&to_deg);
             if passes {
@@ -325,6 +325,20 @@ impl Gate {
         let situation = self.situation(Intent::Position, false, now);
         let from_deg = axes(&situation).filter(|_| situation.can.has_elevation())?;
         Some((from_deg, target(azimuth, elevation, from_deg, &situation)?))
+    }
+
+    /// Where each axis will stand after a motion to a position. An axis that is sent somewhere
+    /// ends there, also from its limit, where it has no angle.
+    pub(super) fn sent_to(&self, motion: Motion, now: Moment) -> [Option<f64>; 2] {
+        match self.controller.as_sent(motion) {
+            Motion::Position { azimuth, elevation } if matches!(self.mount, Mount::AzEl { .. }) => {
+                let stands = self.state().measured.map(|measured| measured.axes);
+                let stands_deg = |axis: usize| stands.and_then(|axes| axes.get(axis)?.angle_deg);
+                let degrees = |angle: Option<Angle>| angle.map(Angle::degrees);
+                [degrees(azimuth).or(stands_deg(0)), degrees(elevation).or(stands_deg(1))]
+            }
+            _ => self.ends(motion, now).map_or([None; 2], |(_, to_deg)| to_deg.map(Some)),
+        }
     }
 
     fn to_axes(&self, axes_deg: [f64; 2]) -> Motion {
@@ -366,8 +380,10 @@ impl Gate {
     }
 
     /// Angles of the axes at the end of an action, as far as they are known.
-    pub(super) fn end_of(&self, act: &Act) -> Option<[f64; 2]> {
-        let Lead::To([first, second]) = self.controller.lead_of(act) else { return None };
-        Some([first?, second?])
+    pub(super) fn end_of(&self, act: &Act) -> [Option<f64>; 2] {
+        match self.controller.lead_of(act) {
+            Lead::To(to_deg) => to_deg,
+            Lead::Nowhere | Lead::Unseen(_) | Lead::Unknown(_) => [None; 2],
+        }
     }
 }

@@ -93,9 +93,9 @@ fn shown_angles_are_taken_without_a_calibration_but_make_no_counts() {
     let axes = unknown.read(&shown, None);
     assert_eq!(axes.map(|axis| axis.angle_deg), [Some(178.4), Some(-0.3)]);
     let angle = Some(Angle::from_degrees(180.0));
-    let refused = unknown.auto_move(angle, angle, Some(&shown)).unwrap_err();
+    let refused = unknown.auto_move(angle, angle, Some(&shown), &mount(90.0)).unwrap_err();
     assert_eq!(refused, "the azimuth is not calibrated");
-    let refused = calibrated().auto_move(angle, None, Some(&shown)).unwrap_err();
+    let refused = calibrated().auto_move(angle, None, Some(&shown), &mount(90.0)).unwrap_err();
     assert!(refused.contains("elevation") && refused.contains("not known"), "{refused}");
 }
 
@@ -103,11 +103,29 @@ fn shown_angles_are_taken_without_a_calibration_but_make_no_counts() {
 fn an_axis_that_stays_is_sent_to_its_present_counts() {
     let axes = calibrated();
     let angle = |degrees| Some(Angle::from_degrees(degrees));
-    let both = axes.auto_move(angle(390.0), angle(45.0), None).unwrap();
+    let both = axes.auto_move(angle(390.0), angle(45.0), None, &mount(90.0)).unwrap();
     assert_eq!(both.to_position(), Some((6030, 930)));
-    let one = axes.auto_move(None, angle(45.0), Some(&status(IDLE))).unwrap();
+    let one = axes.auto_move(None, angle(45.0), Some(&status(IDLE)), &mount(90.0)).unwrap();
     assert_eq!(one.to_position(), Some((1525, 930)));
-    assert!(axes.auto_move(angle(88.0), angle(45.0), None).unwrap_err().contains("no counts"));
+    let beyond = axes.auto_move(angle(88.0), angle(45.0), None, &mount(90.0)).unwrap_err();
+    assert!(beyond.contains("no counts"), "{beyond}");
+}
+
+#[test]
+fn an_axis_that_stays_at_its_limit_is_sent_to_that_end_of_its_travel() {
+    let up = Some(Angle::from_degrees(45.0));
+    let sent = |axes: Axes, (from_deg, to_deg), end| {
+        let at_end = Status { azimuth: Position::Limit(end), ..status(IDLE) };
+        let mut mount = mount(90.0);
+        if let Mount::AzEl { azimuth_from_deg, azimuth_to_deg, .. } = &mut mount {
+            (*azimuth_from_deg, *azimuth_to_deg) = (from_deg, to_deg);
+        }
+        axes.auto_move(None, up, Some(&at_end), &mount).unwrap().to_position().unwrap().0
+    };
+    let ends = [LimitEnd::CounterClockwise, LimitEnd::Clockwise];
+    assert_eq!(ends.map(|end| sent(calibrated(), (90.0, 540.0), end)), [30, 9030]);
+    // Counter-clockwise is where the counts begin, whichever way the angle grows.
+    assert_eq!(ends.map(|end| sent(reversed(), (270.0, 450.0), end)), [30, 3630]);
 }
 
 #[test]
