@@ -9,6 +9,7 @@ mod locator;
 mod site;
 pub mod sun_moon;
 pub mod time;
+mod track_offsets;
 pub mod xy_mount;
 mod zone;
 
@@ -20,4 +21,5 @@ pub use horizon_mask::{
 };
 pub use locator::{LocatorError, LocatorSquare, read_locator};
 pub use site::{Site, SiteError};
+pub use track_offsets::{MAX_ANGLE_OFFSET, MAX_TIME_OFFSET, Offset, TrackOffsets};
 pub use zone::{MAX_CORNERS, MIN_CORNERS, Zone, ZoneError};

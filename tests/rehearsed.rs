@@ -34,11 +34,7 @@ fn two_stations_live_in_one_process_one_of_them_at_200_times_real_time() {
     }
     let before = here.now().steady;
     let went = there.now().steady;
-    let sun = ProgramTrack {
-        target: Target::Sun,
-        site: there.snapshot().station.site,
-        passes: Vec::new(),
-    };
+    let sun = ProgramTrack::new(Target::Sun, there.snapshot().station.site, Vec::new());
     move_by(&there, "Mast", &driver::Command::ProgramTrack(Box::new(sun)));
     until("ten minutes", || ((there.now().steady - went).as_secs() > 600).then_some(()));
     assert!((here.now().steady - before).as_secs() < 60, "{:?}", here.now().steady - before);
@@ -136,7 +132,7 @@ fn a_served_station_lives_an_hour_with_trouble_on_the_lines() {
     let written = thread::Builder::new().name("writes".to_owned()).spawn(|| write_down(witness));
     let driving = thread::Builder::new().name("drives".to_owned()).spawn(move || {
         let site = client.snapshot().station.site;
-        let sun = || ProgramTrack { target: Target::Sun, site, passes: Vec::new() };
+        let sun = || ProgramTrack::new(Target::Sun, site, Vec::new());
         move_by(&client, "Mast", &driver::Command::ProgramTrack(Box::new(sun())));
         measured(&client, "Horn");
         let mut count = 0;

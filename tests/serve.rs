@@ -201,7 +201,7 @@ fn track_on_board(client: &Client) {
 fn lead_to_the_sun(client: &Client) {
     wait_for("the mast", || is_measured(client, "Mast"));
     let site = client.snapshot().station.site;
-    let follow = ProgramTrack { target: Target::Sun, site, passes: Vec::new() };
+    let follow = ProgramTrack::new(Target::Sun, site, Vec::new());
     send(client, id(client, "Mast"), driver::Command::ProgramTrack(Box::new(follow)));
     wait_for("the mast moves", || (status(client, "Mast").moves == Some(true)).then_some(()));
 }
@@ -320,7 +320,7 @@ fn a_second_one_drives_nothing_until_the_first_has_ended() {
     };
     assert!(told.alarms.list().iter().any(says_so));
     // A motion requested there goes nowhere.
-    let follow = ProgramTrack { target: Target::Sun, site: told.station.site, passes: Vec::new() };
+    let follow = ProgramTrack::new(Target::Sun, told.station.site, Vec::new());
     send(client, id(client, "Mast"), driver::Command::ProgramTrack(Box::new(follow)));
     wait_for("the refusal", || {
         let station = client.snapshot();

@@ -40,10 +40,12 @@ fn commands_of_antennas() -> Vec<driver::Command> {
     use driver::Command as C;
     let elements = bundled().unwrap().get(25_544).unwrap().clone();
     let site = Station::default().site;
-    let track = || ProgramTrack {
-        target: Target::Satellite(Box::new(elements.clone())),
-        site,
-        passes: vec![(noon(), Timestamp::MAX)],
+    let track = || {
+        ProgramTrack::new(
+            Target::Satellite(Box::new(elements.clone())),
+            site,
+            vec![(noon(), Timestamp::MAX)],
+        )
     };
     let pass = OnBoardPass {
         target: TrackTarget {

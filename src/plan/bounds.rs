@@ -7,7 +7,7 @@
 mod sun;
 mod way_out;
 
-use glam::DVec3;
+use glam::{DQuat, DVec3};
 use jiff::Timestamp;
 use serde::{Deserialize, Serialize};
 use smol_str::SmolStr;
@@ -132,7 +132,8 @@ impl Bounds {
 
     pub fn at(&self, utc: Timestamp) -> BoundsAt<'_> {
         let suns = self.suns(utc).into_iter().map(AzEl::to_enu).collect();
-        BoundsAt { bounds: self, minimum_elevation: self.minimum_elevation, suns }
+        let minimum_elevation = self.minimum_elevation;
+        BoundsAt { bounds: self, minimum_elevation, suns, to_sky: None }
     }
 
     /// Returns `true` if any keep-out or the Sun refuses motion.
@@ -161,6 +162,8 @@ pub struct BoundsAt<'a> {
     minimum_elevation: Option<Angle>,
     /// Unit vectors to the Sun, from this time to the end of the time ahead.
     suns: Vec<DVec3>,
+    /// From where the axes point to where that is on the sky, if the two differ.
+    to_sky: Option<DQuat>,
 }
 
 impl BoundsAt<'_> {
@@ -208,6 +211,13 @@ impl BoundsAt<'_> {
     pub fn with_floor_lower_by(self, dip: Angle) -> Self {
         let minimum_elevation = self.minimum_elevation.map(|minimum| minimum - dip);
         Self { minimum_elevation, ..self }
+    }
+
+    /// The same barriers on the sky, for axes that point elsewhere by `to_sky`. The minimum
+    /// elevation is left out: it holds for the axes.
+    #[must_use]
+    pub fn on_the_sky(self, to_sky: DQuat) -> Self {
+        Self { to_sky: Some(to_sky), ..self.above_the_floor() }
     }
 
     /// The bounds without the barriers that the axes are inside of.
@@ -268,6 +278,8 @@ impl BoundsAt<'_> {
     }
 
     fn each(&self, direction: AzEl) -> impl Iterator<Item = (Named<'_>, Angle, bool)> {
+        let on_sky = |to_sky: DQuat| AzEl::from_enu(to_sky * direction.to_enu());
+        let direction = self.to_sky.map_or(direction, on_sky);
         let floor = self
             .minimum_elevation
             .map(|minimum| (Named::MinimumElevation, direction.elevation - minimum, false));

@@ -108,7 +108,7 @@ pub struct PointingError {
     pub elevation_deg: f64,
     /// Along the satellite's way; positive where the antenna is ahead.
     pub along_deg: f64,
-    /// Across it; positive to the left of the way as seen from the site.
+    /// Across it; positive to the right of the way as seen from the site.
     pub across_deg: f64,
 }
 

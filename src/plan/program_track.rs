@@ -19,7 +19,7 @@ pub use planner::{Next, Planner};
 pub use stats::TrackStats;
 pub use target::{Course, Target};
 
-use crate::astro::Site;
+use crate::astro::{Site, TrackOffsets};
 
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct ProgramTrack {
@@ -27,6 +27,9 @@ pub struct ProgramTrack {
     pub site: Site,
     /// AOS and LOS of the passes of the target, in order; empty for a target that is always up.
     pub passes: Vec<(Timestamp, Timestamp)>,
+    /// Offsets with which each pass begins.
+    #[serde(default)]
+    pub offsets: TrackOffsets,
 }
 
 /// The phase of a target in its passes.
@@ -40,7 +43,22 @@ pub enum TrackPhase {
     Over,
 }
 
+impl TrackPhase {
+    /// Now, or the AOS that is waited for.
+    pub fn begins(self, now: Timestamp) -> Timestamp {
+        match self {
+            Self::Waiting { aos } => aos,
+            Self::Tracking | Self::Over => now,
+        }
+    }
+}
+
 impl ProgramTrack {
+    /// Without offsets.
+    pub fn new(target: Target, site: Site, passes: Vec<(Timestamp, Timestamp)>) -> Self {
+        Self { target, site, passes, offsets: TrackOffsets::NONE }
+    }
+
     pub fn phase(&self, now: Timestamp) -> TrackPhase {
         if self.passes.is_empty() {
             return TrackPhase::Tracking;
@@ -75,11 +93,11 @@ mod tests {
     }
 
     fn follow(passes: &[(i64, i64)]) -> ProgramTrack {
-        ProgramTrack {
-            target: Target::Sun,
-            site: Site::new(41.0, 29.0, 100.0).unwrap(),
-            passes: passes.iter().map(|(aos, los)| (at(*aos), at(*los))).collect(),
-        }
+        ProgramTrack::new(
+            Target::Sun,
+            Site::new(41.0, 29.0, 100.0).unwrap(),
+            passes.iter().map(|(aos, los)| (at(*aos), at(*los))).collect(),
+        )
     }
 
     #[test]

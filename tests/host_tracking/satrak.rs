@@ -408,7 +408,7 @@ async fn a_direction_the_sun_and_the_moon_are_followed_too() {
     let scene = sky::usual();
     for target in [Target::Fixed(AzEl::from_degrees(200.0, 40.0)), Target::Sun, Target::Moon] {
         let (mut rig, control) = connected(&antenna(), &scene, 60.0).await;
-        let follow = ProgramTrack { target: target.clone(), site: site(), passes: Vec::new() };
+        let follow = ProgramTrack::new(target.clone(), site(), Vec::new());
         rig.send(Command::ProgramTrack(Box::new(follow)));
         rig.seconds(4000.0).await;
         assert_eq!(rig.phase(), Some(TrackPhase::Tracking));

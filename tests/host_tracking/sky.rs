@@ -20,11 +20,11 @@ pub(super) struct Scene {
 impl Scene {
     /// Program track of this pass alone.
     pub(super) fn follow(&self) -> ProgramTrack {
-        ProgramTrack {
-            target: Target::Satellite(Box::new(self.elements.clone())),
-            site: site(),
-            passes: vec![(self.pass.aos.time, self.pass.los.time)],
-        }
+        ProgramTrack::new(
+            Target::Satellite(Box::new(self.elements.clone())),
+            site(),
+            vec![(self.pass.aos.time, self.pass.los.time)],
+        )
     }
 
     /// Azimuths at equal intervals, degrees.

@@ -116,11 +116,11 @@ async fn carry_out(scene: &mut Scene, dice: &mut Dice, deeds: &[Deed]) {
         Deed::Follow(azimuth_deg, elevation_deg) => {
             let target = Target::Fixed(AzEl::from_degrees(azimuth_deg, elevation_deg));
             let site = scene.world.station.site;
-            scene.send(Command::ProgramTrack(Box::new(ProgramTrack {
+            scene.send(Command::ProgramTrack(Box::new(ProgramTrack::new(
                 target,
                 site,
-                passes: Vec::new(),
-            })));
+                Vec::new(),
+            ))));
         }
         Deed::Stop => scene.stop(),
         Deed::Standby => scene.send(Command::Standby),

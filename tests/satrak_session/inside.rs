@@ -180,7 +180,7 @@ async fn the_park_position_is_taken_where_it_is_nearer() {
 async fn the_sun_is_followed_by_the_operators_word_and_the_avoidance_lifted_for_that_alone() {
     let mut rig = Rig::connected(&Options::new(site(), morning()), &antenna()).await;
     rig.handle().keep_within(within(&sunny()));
-    let follow = || ProgramTrack { target: Target::Sun, site: site(), passes: Vec::new() };
+    let follow = || ProgramTrack::new(Target::Sun, site(), Vec::new());
     rig.send(Command::ProgramTrack(Box::new(follow())));
     let refused = rig.until_event(5, |event| matches!(event, Event::CannotProgramTrack(..))).await;
     let Event::CannotProgramTrack(_, TrackProblem::Refused(Refusal::Forbidden { barrier, .. })) =

@@ -46,7 +46,7 @@ fn others(rig: &Rig) -> Vec<String> {
 fn commands() -> Vec<Command> {
     let angle = |degrees| Some(Angle::from_degrees(degrees));
     let target = Target::Fixed(AzEl::from_degrees(180.0, 45.0));
-    let follow = ProgramTrack { target, site: site(), passes: Vec::new() };
+    let follow = ProgramTrack::new(target, site(), Vec::new());
     vec![
         Command::Manual,
         Command::Hold,

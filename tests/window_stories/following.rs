@@ -202,7 +202,7 @@ fn sun_moon_and_a_direction_are_followed_by_one_click() {
     let genius = || Antenna::genius("Mast", "192.168.1.250:9006");
     for size in rig::SIZES {
         let site = rig::station().site;
-        let always = |target| ProgramTrack { target, site, passes: Vec::new() };
+        let always = |target| ProgramTrack::new(target, site, Vec::new());
         assert_eq!(followed(size, genius(), "Follow the Sun"), always(Target::Sun));
         assert_eq!(followed(size, genius(), "Follow the Moon"), always(Target::Moon));
         let kept = followed(size, genius(), "Keep pointing to 343°, 5°");

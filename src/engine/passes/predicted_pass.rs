@@ -116,7 +116,7 @@ impl PredictedPass {
         }
         let elements = Box::new(self.satellite.elements.clone());
         let target = Target::Satellite(elements);
-        ProgramTrack { target, site: self.observer.site, passes: spans }
+        ProgramTrack::new(target, self.observer.site, spans)
     }
 
     /// Catalog number of its satellite.

@@ -4,7 +4,10 @@ use jiff::Timestamp;
 
 use super::{drives::Drives, round::round, target::Course};
 use crate::{
-    astro::time::{add_seconds, seconds_between},
+    astro::{
+        TrackOffsets,
+        time::{add_seconds, seconds_between},
+    },
     plan::{
         Bounds, Sample,
         az_el::{Choice, Flip, Planned, Start},
@@ -34,11 +37,11 @@ pub(super) struct Path {
 }
 
 impl Path {
-    /// The path of [`Drives::along`] along `course` between `from` and `to`, with detours round
-    /// the keep-outs of `bounds`. The path ends early if the target decays; `None` if it has
-    /// decayed already.
+    /// The path of [`Drives::along`] along `course` with `offsets` between `from` and `to`, with
+    /// detours round the keep-outs of `bounds`. The path ends early if the target decays; `None`
+    /// if it has decayed already.
     pub(super) fn along(
-        course: &Course,
+        (course, offsets): (&Course, TrackOffsets),
         drives: &Drives,
         bounds: &Bounds,
         (from, to): (Timestamp, Timestamp),
@@ -51,7 +54,7 @@ impl Path {
         let samples: Vec<Sample> = (0..=steps)
             .map_while(|step| {
                 let time = add_seconds(from, f64::from(step) * step_s);
-                course.direction(time).map(|direction| Sample { time, direction })
+                course.demanded(time, offsets).map(|direction| Sample { time, direction })
             })
             .collect();
         let max_deg = drives.rates_deg_s.map(|rate_deg_s| rate_deg_s * step_s);

@@ -1,5 +1,6 @@
 //! The planner of position commands.
 
+use glam::DQuat;
 use jiff::Timestamp;
 
 use super::{
@@ -11,7 +12,7 @@ use super::{
 };
 use crate::{
     astro::{
-        AzEl,
+        AzEl, TrackOffsets,
         time::{add_seconds, seconds_between},
     },
     clock::Instant,
@@ -39,12 +40,13 @@ pub struct Next {
 pub struct Planner {
     follow: ProgramTrack,
     course: Course,
+    offsets: TrackOffsets,
     drives: Drives,
     settings: TrackSettings,
     bounds: Bounds,
     /// The path, and the end of its pass.
     path: Option<(Path, Timestamp)>,
-    /// The path was planned within other bounds; its flip still holds.
+    /// The path was planned within other bounds or with other offsets; its flip still holds.
     is_stale: bool,
     axes: [Axis; 2],
 }
@@ -59,7 +61,20 @@ impl Planner {
     ) -> Result<Self, PropagationError> {
         let course = Course::new(&follow.target, follow.site)?;
         let axes = [0, 1].map(|index| Axis::new(index, drives, settings));
-        Ok(Self { follow, course, drives, settings, bounds, path: None, is_stale: false, axes })
+        let offsets = follow.offsets;
+        let (path, is_stale) = (None, false);
+        Ok(Self { follow, course, offsets, drives, settings, bounds, path, is_stale, axes })
+    }
+
+    pub fn offsets(&self) -> TrackOffsets {
+        self.offsets
+    }
+
+    pub fn set_offsets(&mut self, offsets: TrackOffsets) {
+        if offsets != self.offsets {
+            self.offsets = offsets;
+            self.is_stale = true;
+        }
     }
 
     pub fn keep_within(&mut self, bounds: Bounds) {
@@ -73,10 +88,26 @@ impl Planner {
         &self.follow
     }
 
-    /// Direction of the target at `at`, unless it is below the minimum elevation or has
-    /// decayed.
+    /// Direction to point in at `at` with these offsets; `None` once the target has decayed.
+    pub fn demanded(&self, at: Timestamp, offsets: TrackOffsets) -> Option<AzEl> {
+        self.course.demanded(at, offsets)
+    }
+
+    /// From where the axes point with these offsets at `at` to where that is on the sky, if the
+    /// offsets of the axes make up for an error of the mount; `None` without such offsets.
+    pub fn to_sky(&self, at: Timestamp, offsets: TrackOffsets) -> Option<DQuat> {
+        let on_sky = offsets.on_the_sky();
+        if on_sky == offsets {
+            return None;
+        }
+        let [axes, sky] = [offsets, on_sky].map(|offsets| self.demanded(at, offsets));
+        Some(DQuat::from_rotation_arc(axes?.to_enu(), sky?.to_enu()))
+    }
+
+    /// Direction to point in at `at`, offsets included, unless it is below the minimum elevation
+    /// or the target has decayed.
     pub fn reachable(&self, at: Timestamp) -> Option<AzEl> {
-        self.course.direction(at).filter(|direction| self.drives.may_reach(*direction))
+        self.demanded(at, self.offsets).filter(|direction| self.drives.may_reach(*direction))
     }
 
     /// The command at `now` that has the antenna on the target by the next look; `None` while the
@@ -180,7 +211,7 @@ impl Planner {
         let start = Start { axes_deg, lead_s: seconds_between(now, from) };
         Some((
             Path::along(
-                &self.course,
+                (&self.course, self.offsets),
                 &self.drives,
                 &self.bounds,
                 (from, to),

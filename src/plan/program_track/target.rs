@@ -6,9 +6,12 @@ use jiff::Timestamp;
 use serde::{Deserialize, Serialize};
 
 use crate::{
-    astro::{AzEl, Site, sun_moon},
+    astro::{AzEl, Site, TrackOffsets, sun_moon, time::add_seconds},
     orbit::{Elements, PropagationError, Propagator},
 };
+
+/// Half of the time that gives the way of a target over the sky, seconds.
+const WAY_S: f64 = 0.5;
 
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub enum Target {
@@ -37,6 +40,11 @@ impl Target {
             Self::Satellite(elements) => Some(elements.catalog_number()),
             Self::Sun | Self::Moon | Self::Fixed(_) => None,
         }
+    }
+
+    /// Returns `true` if it has a way over the sky.
+    pub fn moves(&self) -> bool {
+        !matches!(self, Self::Fixed(_))
     }
 }
 
@@ -77,5 +85,66 @@ impl Course {
             Body::Moon => Some(sun_moon::moon(self.site, at)),
             Body::Fixed(direction) => Some(*direction),
         }
+    }
+
+    /// Direction to point in at `at` with these offsets; `None` once the target has decayed.
+    pub fn demanded(&self, at: Timestamp, offsets: TrackOffsets) -> Option<AzEl> {
+        let at = offsets.time_of(at);
+        let direction = self.direction(at)?;
+        let way = || {
+            let [before, after] =
+                [-WAY_S, WAY_S].map(|beside_s| self.direction(add_seconds(at, beside_s)));
+            Some(after?.to_enu() - before?.to_enu())
+        };
+        let way = if offsets.needs_motion() { way() } else { None };
+        Some(offsets.added_to(direction, way))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use jiff::SignedDuration;
+
+    use super::*;
+    use crate::{
+        astro::{Angle, Offset},
+        orbit::{PassSearch, bundled, passes},
+    };
+
+    fn with(step: Offset) -> TrackOffsets {
+        TrackOffsets::NONE.plus(step).unwrap()
+    }
+
+    #[test]
+    fn ahead_in_time_and_ahead_along_the_track_lead_the_same_way() {
+        let elements = bundled().unwrap().get(25_544).unwrap().clone();
+        let site = Site::new(41.01, 29.17, 100.0).unwrap();
+        let propagator = Propagator::new(&elements).unwrap();
+        let from = elements.epoch();
+        let search = PassSearch::new(site, from, add_seconds(from, 86_400.0));
+        let pass = passes(&propagator, &search, &|| false)[0].clone();
+        let course = Course::new(&Target::Satellite(Box::new(elements)), site).unwrap();
+        for share in [0.1, 0.5, 0.9] {
+            let at = add_seconds(pass.aos.time, pass.duration_s() * share);
+            let plain = course.demanded(at, TrackOffsets::NONE).unwrap();
+            assert_eq!(Some(plain), course.direction(at));
+            let time = with(Offset::Time(SignedDuration::from_secs(2)));
+            let later = course.demanded(at, time).unwrap();
+            assert_eq!(Some(later), course.direction(add_seconds(at, 2.0)));
+            let ahead_deg = plain.separation(later).degrees();
+            let along = with(Offset::Along(Angle::from_degrees(ahead_deg)));
+            let along = course.demanded(at, along).unwrap();
+            assert!(along.separation(later).degrees() < 0.02 * ahead_deg, "{along:?} {later:?}");
+        }
+    }
+
+    #[test]
+    fn a_direction_that_stands_has_no_way() {
+        let target = Target::Fixed(AzEl::from_degrees(180.0, 30.0));
+        let course = Course::new(&target, Site::new(0.0, 0.0, 0.0).unwrap()).unwrap();
+        let along = with(Offset::Along(Angle::from_degrees(1.0)));
+        let at = Timestamp::UNIX_EPOCH;
+        assert_eq!(course.demanded(at, along), course.direction(at));
+        assert!(!target.moves() && Target::Sun.moves());
     }
 }

@@ -2,7 +2,7 @@ use std::{collections::VecDeque, time::Duration};
 
 use super::*;
 use crate::{
-    astro::{Angle, Site},
+    astro::{Angle, Offset, Site},
     clock::Instant,
     orbit::{Pass, PassSearch, Propagator, bundled, passes},
     plan::{Target, TrackStats},
@@ -150,7 +150,7 @@ fn run_on(
     metal: &Metal,
 ) -> Run {
     let passes = vec![(pass.aos.time, pass.los.time)];
-    let follow = ProgramTrack { target, site: site(), passes };
+    let follow = ProgramTrack::new(target, site(), passes);
     let planner = Planner::new(follow, drives, settings, free()).unwrap();
     run_planner(planner, pass, settings, metal, |_, _| {})
 }
@@ -315,8 +315,7 @@ fn a_planner_keeps_the_side_for_the_pass() {
     let (target, pass) = pass_where(|propagator, pass| {
         max_deg(pass) > 20.0 && max_deg(pass) < 60.0 && goes_through_north(propagator, pass)
     });
-    let follow =
-        ProgramTrack { target, site: site(), passes: vec![(pass.aos.time, pass.los.time)] };
+    let follow = ProgramTrack::new(target, site(), vec![(pass.aos.time, pass.los.time)]);
     let drives = over(azel((0.0, 360.0), 4.0, 0.0));
     let mut planner = Planner::new(follow, drives, settings(1.0, 0.2), free()).unwrap();
     let axes = [20.0, 10.0].map(|at| AxisNow { position_deg: Some(at), stands: true });
@@ -328,6 +327,34 @@ fn a_planner_keeps_the_side_for_the_pass() {
     assert!(elevation_deg(add_seconds(pass.aos.time, 1.0)) > 90.0);
     // For the rest of the pass, plain would be as good, and another path is due.
     assert!(elevation_deg(add_seconds(pass.los.time, -10.0)) > 90.0);
+}
+
+#[test]
+fn with_an_offset_the_antenna_is_sent_beside_its_target_and_without_it_back() {
+    let (target, pass) = pass_where(|propagator, pass| {
+        max_deg(pass) > 20.0 && max_deg(pass) < 60.0 && !goes_through_north(propagator, pass)
+    });
+    let follow = ProgramTrack::new(target, site(), vec![(pass.aos.time, pass.los.time)]);
+    let drives = azel((0.0, 360.0), 4.0, 0.0);
+    let mut planner = Planner::new(follow, drives, settings(1.0, 0.2), free()).unwrap();
+    let axes = [20.0, 10.0].map(|at| AxisNow { position_deg: Some(at), stands: true });
+    let now = pass.tca.time;
+    let mut sent = |planner: &mut Planner| {
+        planner.forget_sent();
+        planner.update(now, axes).unwrap().unwrap().set_point
+    };
+    let plain = sent(&mut planner);
+    let step = Offset::Azimuth(Angle::from_degrees(3.0));
+    planner.set_offsets(TrackOffsets::NONE.plus(step).unwrap());
+    let beside = sent(&mut planner);
+    let turned = (beside.azimuth.unwrap() - plain.azimuth.unwrap()).wrapped_180().degrees();
+    // The way is longer, so the target is met at another time.
+    assert!((2.5..3.5).contains(&turned), "{plain:?} {beside:?}");
+    let at = pass.tca.time;
+    let demanded = planner.reachable(at).unwrap();
+    assert!((demanded.azimuth - pass.tca.direction.azimuth).wrapped_180().degrees() > 2.9);
+    planner.set_offsets(TrackOffsets::NONE);
+    assert_eq!(sent(&mut planner), plain);
 }
 
 /// A keep-out to be gone round, from the ground to `around_deg` above the middle of the pass, and
@@ -362,8 +389,7 @@ fn a_mast_in_the_middle_of_a_pass_is_gone_round_along_its_margin() {
         let course = Course::new(&target, site()).unwrap();
         let drives = azel((-180.0, 540.0), rate_deg_s, step_deg);
         let settings = settings(0.5, 0.2);
-        let follow =
-            ProgramTrack { target, site: site(), passes: vec![(pass.aos.time, pass.los.time)] };
+        let follow = ProgramTrack::new(target, site(), vec![(pass.aos.time, pass.los.time)]);
         let planner = Planner::new(follow, drives, settings, bounds.clone()).unwrap();
         let (mut nearest_deg, mut behind_s, mut worst_deg) = (f64::MAX, 0.0, 0.0_f64);
         run_planner(planner, &pass, settings, &metal(drives, settings), |now, axes_deg| {
@@ -402,8 +428,7 @@ fn what_sets_behind_a_mast_is_waited_for_at_its_edge() {
     let bounds = Bounds::of(&station, &antenna);
     let drives = azel((-180.0, 540.0), 6.0, 0.0);
     let settings = settings(0.5, 0.2);
-    let follow =
-        ProgramTrack { target, site: site(), passes: vec![(pass.aos.time, pass.los.time)] };
+    let follow = ProgramTrack::new(target, site(), vec![(pass.aos.time, pass.los.time)]);
     let planner = Planner::new(follow, drives, settings, bounds.clone()).unwrap();
     let mut last_deg = f64::MAX;
     run_planner(planner, &pass, settings, &metal(drives, settings), |now, axes_deg| {

@@ -107,7 +107,7 @@ impl CardHandler<'_> {
             }
         };
         let site = self.model.station.site;
-        let follow = Box::new(ProgramTrack { target, site, passes: Vec::new() });
+        let follow = Box::new(ProgramTrack::new(target, site, Vec::new()));
         let command = match choice {
             FollowChoice::IntoSun => Command::ProgramTrackIntoSun(follow),
             _ => Command::ProgramTrack(follow),

@@ -1,0 +1,194 @@
+//! Offsets of a track: what is added to where its target is computed to be.
+
+use std::ops::Neg;
+
+use glam::DVec3;
+use jiff::{SignedDuration, Timestamp};
+use serde::{Deserialize, Serialize};
+
+use super::{Angle, AzEl, time::add_seconds};
+
+/// Largest offset of the time.
+pub const MAX_TIME_OFFSET: SignedDuration = SignedDuration::from_secs(300);
+/// Largest offset of an angle.
+pub const MAX_ANGLE_OFFSET: Angle = Angle::from_degrees(10.0);
+
+/// One offset.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub enum Offset {
+    /// Positive: the antenna points where the target is predicted to be so much later.
+    Time(SignedDuration),
+    /// Along the target's way over the sky, positive ahead of it.
+    Along(Angle),
+    /// Across that way, positive to the right as seen from the site.
+    Across(Angle),
+    Azimuth(Angle),
+    Elevation(Angle),
+}
+
+impl Offset {
+    /// Returns `true` if it means something only for a target that moves.
+    pub fn needs_motion(self) -> bool {
+        matches!(self, Self::Along(_) | Self::Across(_))
+    }
+}
+
+impl Neg for Offset {
+    type Output = Self;
+
+    fn neg(self) -> Self {
+        match self {
+            Self::Time(time) => Self::Time(-time),
+            Self::Along(angle) => Self::Along(-angle),
+            Self::Across(angle) => Self::Across(-angle),
+            Self::Azimuth(angle) => Self::Azimuth(-angle),
+            Self::Elevation(angle) => Self::Elevation(-angle),
+        }
+    }
+}
+
+/// All offsets of a track: the time in whole milliseconds, angles in thousandths of a degree.
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
+#[serde(try_from = "Written", into = "Written")]
+pub struct TrackOffsets {
+    time: SignedDuration,
+    along: Angle,
+    across: Angle,
+    azimuth: Angle,
+    elevation: Angle,
+}
+
+impl TrackOffsets {
+    pub const NONE: Self = Self {
+        time: SignedDuration::ZERO,
+        along: Angle::ZERO,
+        across: Angle::ZERO,
+        azimuth: Angle::ZERO,
+        elevation: Angle::ZERO,
+    };
+
+    pub fn is_none(self) -> bool {
+        self == Self::NONE
+    }
+
+    /// Each of them.
+    pub fn each(self) -> [Offset; 5] {
+        [
+            Offset::Time(self.time),
+            Offset::Along(self.along),
+            Offset::Across(self.across),
+            Offset::Azimuth(self.azimuth),
+            Offset::Elevation(self.elevation),
+        ]
+    }
+
+    /// With one of them changed by `step`; `None` if it would be too large.
+    #[must_use]
+    pub fn plus(mut self, step: Offset) -> Option<Self> {
+        let (angle, by) = match step {
+            Offset::Time(by) => {
+                let sum = self.time.checked_add(by)?;
+                self.time = SignedDuration::from_millis(i64::try_from(sum.as_millis()).ok()?);
+                return (self.time.abs() <= MAX_TIME_OFFSET).then_some(self);
+            }
+            Offset::Along(by) => (&mut self.along, by),
+            Offset::Across(by) => (&mut self.across, by),
+            Offset::Azimuth(by) => (&mut self.azimuth, by),
+            Offset::Elevation(by) => (&mut self.elevation, by),
+        };
+        let thousandths = ((*angle + by).degrees() * 1000.0).round();
+        // Not a negative zero, nor what steps of a tenth leave of one.
+        *angle = Angle::from_degrees(thousandths / 1000.0 + 0.0);
+        (angle.abs() <= MAX_ANGLE_OFFSET).then_some(self)
+    }
+
+    /// The time for which the target is computed.
+    pub fn time_of(self, at: Timestamp) -> Timestamp {
+        add_seconds(at, self.time.as_secs_f64())
+    }
+
+    /// Returns `true` if the way of the target over the sky is needed.
+    pub fn needs_motion(self) -> bool {
+        self.along != Angle::ZERO || self.across != Angle::ZERO
+    }
+
+    /// The direction to point in for a target in `direction`, which moves along `way`; without
+    /// a way nothing is added along or across it.
+    #[must_use]
+    pub fn added_to(self, direction: AzEl, way: Option<DVec3>) -> AzEl {
+        let beside = self.beside(direction, way);
+        if self.azimuth == Angle::ZERO && self.elevation == Angle::ZERO {
+            return beside;
+        }
+        AzEl::of_axes(beside.azimuth + self.azimuth, beside.elevation + self.elevation)
+    }
+
+    /// The same without the offsets of azimuth and elevation: where the antenna points on the
+    /// sky if these two make up for an error of its mount.
+    #[must_use]
+    pub fn on_the_sky(self) -> Self {
+        Self { azimuth: Angle::ZERO, elevation: Angle::ZERO, ..self }
+    }
+
+    /// The time alone: where the antenna points if the target is there earlier or later.
+    #[must_use]
+    pub fn of_time(self) -> Self {
+        Self { time: self.time, ..Self::NONE }
+    }
+
+    fn beside(self, direction: AzEl, way: Option<DVec3>) -> AzEl {
+        let at = direction.to_enu();
+        let ahead = way.and_then(|way| way.reject_from_normalized(at).try_normalize());
+        let Some(ahead) = ahead.filter(|_| self.needs_motion()) else { return direction };
+        let right = at.cross(ahead);
+        let (sin, cos) = self.along.radians().sin_cos();
+        let along = at * cos + ahead * sin;
+        let (sin, cos) = self.across.radians().sin_cos();
+        AzEl::from_enu(along * cos + right * sin)
+    }
+}
+
+/// The form in files and messages.
+#[derive(Debug, Clone, Copy, Serialize, Deserialize)]
+struct Written {
+    time_s: f64,
+    along_deg: f64,
+    across_deg: f64,
+    azimuth_deg: f64,
+    elevation_deg: f64,
+}
+
+impl From<TrackOffsets> for Written {
+    fn from(offsets: TrackOffsets) -> Self {
+        Self {
+            time_s: offsets.time.as_secs_f64(),
+            along_deg: offsets.along.degrees(),
+            across_deg: offsets.across.degrees(),
+            azimuth_deg: offsets.azimuth.degrees(),
+            elevation_deg: offsets.elevation.degrees(),
+        }
+    }
+}
+
+#[derive(Debug, thiserror::Error)]
+#[error("an offset of the time is at most 300 s, one of an angle at most 10 degrees")]
+struct TooLarge;
+
+impl TryFrom<Written> for TrackOffsets {
+    type Error = TooLarge;
+
+    fn try_from(written: Written) -> Result<Self, TooLarge> {
+        let time = SignedDuration::try_from_secs_f64(written.time_s).map_err(|_| TooLarge)?;
+        let each = [
+            Offset::Time(time),
+            Offset::Along(Angle::from_degrees(written.along_deg)),
+            Offset::Across(Angle::from_degrees(written.across_deg)),
+            Offset::Azimuth(Angle::from_degrees(written.azimuth_deg)),
+            Offset::Elevation(Angle::from_degrees(written.elevation_deg)),
+        ];
+        each.into_iter().try_fold(Self::NONE, Self::plus).ok_or(TooLarge)
+    }
+}
+
+#[cfg(test)]
+mod tests;
