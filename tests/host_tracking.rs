@@ -5,5 +5,6 @@ mod sky;
 
 mod genius;
 mod go_round;
+mod offsets;
 mod rc2000c;
 mod satrak;

@@ -1,13 +1,13 @@
 //! Every command and event of a station survives serialization.
 
 use azel::{
-    astro::Angle,
+    astro::{Angle, Offset},
     device::{
         Pointing, TrackTarget,
         panel::Act,
         settings::{Change, Value, Values},
     },
-    driver,
+    driver::{self, OffsetChange},
     engine::{
         Attention, Command, Event,
         alarms::ShelveTime,
@@ -91,6 +91,8 @@ fn commands_of_antennas() -> Vec<driver::Command> {
         C::ProgramTrack(Box::new(track())),
         C::ProgramTrackIntoSun(Box::new(track())),
         C::Resume,
+        C::Offset(OffsetChange::Step(Offset::Along(Angle::from_degrees(-0.1)))),
+        C::Offset(OffsetChange::Zero),
         C::SeenStanding,
         C::Park,
         C::Preview(Some(Pointing { azimuth: Some(Angle::from_degrees(0.1)), elevation: None })),
@@ -123,6 +125,7 @@ fn commands_of_antennas() -> Vec<driver::Command> {
             | C::ProgramTrack(_)
             | C::ProgramTrackIntoSun(_)
             | C::Resume
+            | C::Offset(_)
             | C::SeenStanding
             | C::Park
             | C::Preview(_)

@@ -12,6 +12,8 @@ use super::{Angle, AzEl, time::add_seconds};
 pub const MAX_TIME_OFFSET: SignedDuration = SignedDuration::from_secs(300);
 /// Largest offset of an angle.
 pub const MAX_ANGLE_OFFSET: Angle = Angle::from_degrees(10.0);
+/// Half of the time that gives the way of a target over the sky, seconds.
+const WAY_S: f64 = 0.5;
 
 /// One offset.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
@@ -27,9 +29,14 @@ pub enum Offset {
 }
 
 impl Offset {
-    /// Returns `true` if it means something only for a target that moves.
-    pub fn needs_motion(self) -> bool {
-        matches!(self, Self::Along(_) | Self::Across(_))
+    pub fn is_zero(self) -> bool {
+        match self {
+            Self::Time(time) => time.is_zero(),
+            Self::Along(angle)
+            | Self::Across(angle)
+            | Self::Azimuth(angle)
+            | Self::Elevation(angle) => angle == Angle::ZERO,
+        }
     }
 }
 
@@ -102,20 +109,36 @@ impl TrackOffsets {
         (angle.abs() <= MAX_ANGLE_OFFSET).then_some(self)
     }
 
+    /// Direction to point in at `at` for a target that is in the directions `target`; `None` where
+    /// it has none.
+    pub fn demanded(
+        self,
+        at: Timestamp,
+        target: impl Fn(Timestamp) -> Option<AzEl>,
+    ) -> Option<AzEl> {
+        let at = self.time_of(at);
+        let direction = target(at)?;
+        let way = || {
+            let [before, after] = [-WAY_S, WAY_S].map(|beside_s| target(add_seconds(at, beside_s)));
+            Some(after?.to_enu() - before?.to_enu())
+        };
+        let way = if self.needs_motion() { way() } else { None };
+        Some(self.added_to(direction, way))
+    }
+
     /// The time for which the target is computed.
-    pub fn time_of(self, at: Timestamp) -> Timestamp {
+    fn time_of(self, at: Timestamp) -> Timestamp {
         add_seconds(at, self.time.as_secs_f64())
     }
 
     /// Returns `true` if the way of the target over the sky is needed.
-    pub fn needs_motion(self) -> bool {
+    fn needs_motion(self) -> bool {
         self.along != Angle::ZERO || self.across != Angle::ZERO
     }
 
     /// The direction to point in for a target in `direction`, which moves along `way`; without
     /// a way nothing is added along or across it.
-    #[must_use]
-    pub fn added_to(self, direction: AzEl, way: Option<DVec3>) -> AzEl {
+    fn added_to(self, direction: AzEl, way: Option<DVec3>) -> AzEl {
         let beside = self.beside(direction, way);
         if self.azimuth == Angle::ZERO && self.elevation == Angle::ZERO {
             return beside;

@@ -4,6 +4,7 @@
 //! code can start a motion. A new rule is one more entry of [`RULES`], and one more case of
 //! the table that proves it necessary (`tests/each_rule.rs`).
 
+mod offsets;
 mod preview;
 mod program;
 mod refusal;
@@ -13,6 +14,8 @@ mod way;
 mod word;
 
 use std::sync::Arc;
+
+use glam::DQuat;
 
 use super::intent::Intent;
 use crate::{
@@ -25,6 +28,7 @@ use crate::{
     plan::{Bounds, Sweep, on_board::Judge},
     station::{Antenna, LockOut, MotionLimits, Mount},
 };
+pub(super) use offsets::Demand;
 pub use preview::{Preview, Way};
 pub(super) use program::Held;
 pub use refusal::Refusal;
@@ -47,6 +51,8 @@ struct Situation<'a> {
     limits: MotionLimits,
     mount: Mount,
     bounds: &'a Bounds,
+    /// From where the axes point to where that is on the sky, if the two differ.
+    to_sky: Option<DQuat>,
     /// How far ahead of the last position a jog is judged, seconds.
     ahead_s: f64,
     lock_out: Option<&'a LockOut>,
@@ -77,6 +83,9 @@ pub(super) struct Gate {
     held: Held,
     /// The operator's permissions.
     word: Word,
+    /// From where the axes of an antenna in program track point to where that is on the sky, if
+    /// offsets of its axes are on.
+    to_sky: Option<DQuat>,
 }
 
 impl Gate {
@@ -97,6 +106,7 @@ impl Gate {
             program: None,
             held: Held::Unread,
             word: Word::default(),
+            to_sky: None,
         }
     }
 
@@ -237,6 +247,7 @@ impl Gate {
             limits: self.limits,
             mount: self.mount,
             bounds: self.bounds_in(intent),
+            to_sky: self.to_sky.filter(|_| intent == Intent::Track),
             ahead_s: self.ahead_s(now),
             lock_out: self.lock_out.as_ref(),
             now,

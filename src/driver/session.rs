@@ -15,6 +15,7 @@ mod liveness;
 mod lock_out;
 mod marking;
 mod monitor;
+mod offsets;
 mod on_board;
 mod program_track;
 mod shutdown;
@@ -44,6 +45,7 @@ use tokio::{
 pub use command::Command;
 pub(super) use io_loop::{CONNECT, MIN_WAIT, WRITE, in_words};
 pub use jog::LEASE as JOG_LEASE;
+pub use offsets::OffsetChange;
 
 use super::{
     AntennaHandle, COMMANDS, Clock, Dial, EVENTS, Event, Intent, LinkState, Numbered, Orbits,

@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 
 use super::{Intent, Preview, Refusal, Safety};
 use crate::{
-    astro::Angle,
+    astro::{Angle, TrackOffsets},
     clock::Instant,
     device::{
         AntennaState, Asked, Capabilities, Pointing, PrepareError, TrackTarget,
@@ -207,9 +207,15 @@ pub struct TrackView {
     pub next_update: Option<Instant>,
     /// The last commanded position; `None` before the first.
     pub commanded: Option<Pointing>,
-    /// Direction of the target at the time of the last measurement; `None` unless it is
-    /// tracked right now.
+    /// Direction in which to point at the time of the last measurement, offsets included;
+    /// `None` unless the target is tracked right now.
     pub predicted: Option<Sample>,
+    /// Offsets from the target.
+    pub offsets: TrackOffsets,
+    /// They were changed in this pass.
+    pub can_undo: bool,
+    /// The target has a way over the sky, so that something is along and across it.
+    pub target_moves: bool,
 }
 
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]

@@ -145,6 +145,7 @@ impl Engine {
             Command::Antenna(_, command) => !matches!(
                 command,
                 driver::Command::Connect
+                    | driver::Command::Offset(_)
                     | driver::Command::ReadGroup(_)
                     | driver::Command::Preview(_)
                     | driver::Command::Ask(_)

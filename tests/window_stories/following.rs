@@ -2,7 +2,7 @@
 
 use azel::{
     astro::{
-        Angle, AzEl,
+        Angle, AzEl, TrackOffsets,
         time::{add_seconds, seconds_between},
     },
     clock::Instant,
@@ -36,6 +36,9 @@ fn following(phase: TrackPhase, off_deg: f64, motion: AxisMotion) -> Model {
         next_update: None,
         commanded: is_up.then_some(WANTED.into()),
         predicted: is_up.then_some(predicted),
+        offsets: TrackOffsets::NONE,
+        can_undo: false,
+        target_moves: true,
     };
     let intent = if phase == TrackPhase::Over { Intent::Position } else { Intent::Track };
     let mut snapshot = Snapshot { intent, program_track: Some(view), ..rig::quiet() };

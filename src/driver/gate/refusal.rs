@@ -5,7 +5,7 @@ use std::time::Duration;
 use serde::{Deserialize, Serialize};
 
 use crate::{
-    astro::AzEl,
+    astro::{AzEl, Offset},
     device::{panel::Act, settings::Hindrance},
     driver::Intent,
     name::{self, Name},
@@ -111,6 +111,14 @@ pub enum Refusal {
     Unguarded,
     #[error("the pass is not known")]
     PassUnknown,
+    /// An offset needs a track that runs from here.
+    #[error("nothing is tracked from here")]
+    NoTrack,
+    /// Along and across the way of a target that stands.
+    #[error("the target does not move")]
+    TargetStands,
+    #[error("the offset would be larger than {most:?}")]
+    OffsetTooLarge { most: Offset },
     /// The unit holds a satellite without known elements.
     #[error("the orbit of {name} is not known")]
     OrbitUnknown {

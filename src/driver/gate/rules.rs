@@ -234,7 +234,7 @@ fn within_travel(motion: &Motion, situation: &Situation<'_>) -> Result<(), Refus
     Ok(())
 }
 
-fn within_reach(motion: &Motion, situation: &Situation<'_>) -> Result<(), Refusal> {
+pub(super) fn within_reach(motion: &Motion, situation: &Situation<'_>) -> Result<(), Refusal> {
     let Motion::Position { azimuth, elevation } = *motion else { return Ok(()) };
     let lowest_deg = situation.limits.minimum_elevation_deg;
     if let Some(asked) = elevation {

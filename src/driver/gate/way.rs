@@ -64,6 +64,7 @@ fn to_position(
             return Ok(());
         };
         let sweep = sweep_between(axes_deg, to_deg, situation);
+        on_the_sky(sweep, axes_deg, situation)?;
         return away_from_the_sun(sweep, axes_deg, to_deg, situation)
             .unwrap_or_else(|| blocked(sweep, axes_deg, &situation.bounds_now()));
     }
@@ -78,6 +79,7 @@ fn to_position(
     let reach = |(from, to): (f64, f64), end: f64| (from.min(end), to.max(end));
     let second = if situation.can.has_elevation() { reach(second, to_deg[1]) } else { (0.0, 90.0) };
     let sweep = Sweep([reach(first, to_deg[0]), second]);
+    on_the_sky(sweep, to_deg, situation)?;
     // The end is judged by its reach; the start may be below the floor.
     blocked(sweep, to_deg, &situation.bounds_now().above_the_floor())
 }
@@ -97,6 +99,13 @@ impl Situation<'_> {
             if rate == 0.0 { 0.0 } else { rate.abs().max(named_deg_s).copysign(rate) }
         })
     }
+}
+
+/// Refuses a way of the axes during which the antenna may point into a barrier on the sky, if its
+/// axes point elsewhere than they count.
+fn on_the_sky(sweep: Sweep, from_deg: [f64; 2], situation: &Situation<'_>) -> Result<(), Refusal> {
+    let Some(to_sky) = situation.to_sky else { return Ok(()) };
+    blocked(sweep, from_deg, &situation.bounds_now().on_the_sky(to_sky))
 }
 
 /// The operator may leave the surroundings of the Sun by a go-to that comes no nearer to it

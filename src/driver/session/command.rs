@@ -7,6 +7,7 @@ use super::{
     Event, Session,
     activity::{Activity, GoTo, Leg, OnBoardStage, OnBoardTrack, Queued, Slew, SlewStage},
     jog::JogKey,
+    offsets::OffsetChange,
     wanted::Wanted,
 };
 use crate::{
@@ -67,6 +68,8 @@ pub enum Command {
     /// Program track of a target that leads to the Sun: the operator lifts the Sun avoidance
     /// for this track alone.
     ProgramTrackIntoSun(Box<ProgramTrack>),
+    /// Change the offsets of the program track that runs.
+    Offset(OffsetChange),
     /// Resume a program track that waits for the operator.
     Resume,
     /// The operator has seen that the antenna stands: no STOP is owed any more.
@@ -125,6 +128,7 @@ impl Session {
             Command::MoveAway => self.move_away(now),
             Command::SeenStanding => self.take_word_for_standstill(),
             Command::Resume => self.resume(),
+            Command::Offset(change) => self.change_offsets(change, now),
             Command::Standby => self.leave_for(Activity::Standby, now),
             Command::Manual => self.leave_for(Activity::Manual, now),
             Command::Hold => self.leave_for(Activity::Hold(None), now),
@@ -319,6 +323,8 @@ impl Session {
             Command::Resume => self.resume(),
             Command::Standby => self.activity = Activity::Standby,
             Command::AutoTrack(false) => self.end_auto_track(),
+            // The track goes on with the offsets that it has.
+            Command::Offset(_) => self.tell(Event::NotSent(Refusal::PositionUnknown)),
             _ => {
                 // An operator who wants something else does not want this to go on.
                 if self.activity.program().is_some() {

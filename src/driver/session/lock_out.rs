@@ -114,6 +114,7 @@ impl Session {
             | Command::ProgramTrack(_)
             | Command::ProgramTrackIntoSun(_)
             | Command::MoveAway
+            | Command::Offset(_)
             | Command::Park
             | Command::TakeOver
             | Command::AutoTrack(_) => true,

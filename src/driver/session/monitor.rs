@@ -55,9 +55,15 @@ impl Session {
         let ahead_s = self.gate.ahead_s(now);
         let bounds = self.bounds_now().at(now.utc);
         let ahead_deg = self.gate.ahead_of(axes_deg, rates.map(|rate| rate * ahead_s));
-        let [here, there] = [axes_deg, ahead_deg]
-            .map(|axes_deg| bounds.clearances(self.gate.bounds().direction(axes_deg)));
-        let ways_deg = [axes_deg, ahead_deg].map(|axes_deg| bounds.way_out_deg(axes_deg));
+        let on_sky = self.gate.to_sky().map(|to_sky| bounds.clone().on_the_sky(to_sky));
+        let [here, there] = [axes_deg, ahead_deg].map(|axes_deg| {
+            let direction = self.gate.bounds().direction(axes_deg);
+            let by_axes = bounds.clearances(direction);
+            let on_sky = on_sky.as_ref().map(|bounds| bounds.clearances(direction));
+            lesser(by_axes, &on_sky.unwrap_or_default())
+        });
+        let way_deg = |axes_deg| bounds.way_out_deg(axes_deg).filter(|_| on_sky.is_none());
+        let ways_deg = [axes_deg, ahead_deg].map(way_deg);
         for (here, there) in here.into_iter().zip(there) {
             // Where no axis leads out by itself, the depth inside each barrier counts.
             let deeper_deg = match ways_deg {
@@ -124,6 +130,17 @@ impl Session {
             Mover::Somebody
         }
     }
+}
+
+/// The clearance from each barrier by the axes, or on the sky where that is less.
+fn lesser(mut by_axes: Vec<Clearance>, on_sky: &[Clearance]) -> Vec<Clearance> {
+    for clearance in &mut by_axes {
+        let other = on_sky.iter().find(|other| other.barrier == clearance.barrier);
+        if let Some(other) = other.filter(|other| other.angle < clearance.angle) {
+            clearance.angle = other.angle;
+        }
+    }
+    by_axes
 }
 
 /// Rates of the axes, degrees a second; zero between positions that cannot be compared.

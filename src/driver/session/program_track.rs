@@ -15,7 +15,7 @@ use crate::{
     driver::{Intent, Refusal, Safety, TrackProblem, Unlike},
     plan::{
         Bounds, ProgramTrack, TrackPhase,
-        program_track::{AxisNow, Next, Planner},
+        program_track::{Next, Planner},
     },
     station::{AfterPass, Antenna, Resume},
 };
@@ -62,6 +62,10 @@ impl Session {
             let bounds = self.gate.bounds_in(Intent::Track).clone();
             Planner::new(follow, drives, settings, bounds).map_err(TrackProblem::Orbit)
         };
+        if let Ok(planner) = &planned {
+            let to_sky = planner.to_sky(phase.begins(now.utc), planner.offsets());
+            self.gate.set_to_sky(to_sky);
+        }
         // Checked before it ends anything.
         let checked = planned.and_then(|planner| self.check_first(planner, now));
         let planner = match checked {
@@ -83,9 +87,7 @@ impl Session {
 
     /// Checks whether the first position may be sent.
     fn check_first(&self, mut planner: Planner, now: Moment) -> Result<Planner, TrackProblem> {
-        let axes = self.gate.state().measured.map(|measured| measured.axes);
-        let position_deg = |axis: usize| axes.and_then(|axes| axes.get(axis)?.angle_deg);
-        let axes = [0, 1].map(|axis| AxisNow { position_deg: position_deg(axis), stands: false });
+        let axes = Tracking::turning(self.gate.state().measured);
         if let Some(next) = planner.update(now.utc, axes)? {
             self.gate.route(motion(next), Intent::Track, now)?;
         }
@@ -138,6 +140,10 @@ impl Session {
         let mut over = None;
         if before == TrackPhase::Tracking {
             track.predicted = None;
+            // They were for the pass.
+            let begins_with = track.planner.follow().offsets;
+            track.planner.set_offsets(begins_with);
+            track.earlier.clear();
             let stats = std::mem::take(&mut track.stats);
             over = Some(Event::ProgramTrackOver { name: name.clone(), stats });
         }
@@ -351,6 +357,6 @@ impl Session {
     }
 }
 
-fn motion(next: Next) -> Motion {
+pub(super) fn motion(next: Next) -> Motion {
     Motion::Position { azimuth: next.set_point.azimuth, elevation: next.set_point.elevation }
 }

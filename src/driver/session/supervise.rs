@@ -43,6 +43,7 @@ impl Session {
         self.let_sleep();
         self.watch_rest();
         self.watch_place(now);
+        self.watch_offsets(now);
         self.watch_bounds(now);
         self.watch_standstill();
         self.watch_lock_out(now);

@@ -5,6 +5,7 @@ use jiff::Timestamp;
 use serde::Serialize;
 
 use crate::{
+    astro::TrackOffsets,
     device::{Phase, panel::CheckState},
     driver::{Inside, Intent, StopState},
     engine::{antenna::AntennaModel, automatic::Operation, status::LinkStatus},
@@ -23,6 +24,8 @@ pub(super) struct State {
     /// Name and catalog number of what is tracked.
     tracks: Option<(Option<String>, Option<u32>)>,
     program_track: Option<TrackPhase>,
+    /// Offsets of program track.
+    offsets: Option<TrackOffsets>,
     on_board_track: Option<Phase>,
     auto_track: Option<bool>,
     stop: &'static str,
@@ -53,6 +56,7 @@ impl State {
             tracks: is_tracked
                 .then(|| (antenna.tracked_name().map(str::to_owned), antenna.tracked_number())),
             program_track: snapshot.program_track.as_ref().map(|view| view.phase),
+            offsets: snapshot.program_track.as_ref().map(|view| view.offsets),
             on_board_track: program.filter(|it| it.enabled).map(|program| program.phase),
             auto_track: program.and_then(|program| program.auto),
             stop: match snapshot.stop {

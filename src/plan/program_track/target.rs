@@ -6,12 +6,9 @@ use jiff::Timestamp;
 use serde::{Deserialize, Serialize};
 
 use crate::{
-    astro::{AzEl, Site, TrackOffsets, sun_moon, time::add_seconds},
+    astro::{AzEl, Site, TrackOffsets, sun_moon},
     orbit::{Elements, PropagationError, Propagator},
 };
-
-/// Half of the time that gives the way of a target over the sky, seconds.
-const WAY_S: f64 = 0.5;
 
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub enum Target {
@@ -89,15 +86,7 @@ impl Course {
 
     /// Direction to point in at `at` with these offsets; `None` once the target has decayed.
     pub fn demanded(&self, at: Timestamp, offsets: TrackOffsets) -> Option<AzEl> {
-        let at = offsets.time_of(at);
-        let direction = self.direction(at)?;
-        let way = || {
-            let [before, after] =
-                [-WAY_S, WAY_S].map(|beside_s| self.direction(add_seconds(at, beside_s)));
-            Some(after?.to_enu() - before?.to_enu())
-        };
-        let way = if offsets.needs_motion() { way() } else { None };
-        Some(offsets.added_to(direction, way))
+        offsets.demanded(at, |at| self.direction(at))
     }
 }
 
@@ -107,7 +96,7 @@ mod tests {
 
     use super::*;
     use crate::{
-        astro::{Angle, Offset},
+        astro::{Angle, Offset, time::add_seconds},
         orbit::{PassSearch, bundled, passes},
     };
 

@@ -3,6 +3,7 @@
 use std::time::Duration;
 
 use crate::{
+    astro::TrackOffsets,
     clock::Instant,
     device::{AxisMotion, Capabilities, Measured, Pointing},
     driver::{TrackView, session::likeness::Recheck},
@@ -45,10 +46,12 @@ impl TrackConfig {
 }
 
 pub(in crate::driver::session) struct Tracking {
-    pub(super) planner: Planner,
-    pub(super) phase: TrackPhase,
+    pub(in crate::driver::session) planner: Planner,
+    pub(in crate::driver::session) phase: TrackPhase,
+    /// Offsets before each change of the pass, the oldest first.
+    pub(in crate::driver::session) earlier: Vec<TrackOffsets>,
     pub(super) stats: TrackStats,
-    pub(super) next_update: Instant,
+    pub(in crate::driver::session) next_update: Instant,
     /// A position is due, but something else must end first, which then brings it.
     pub(super) is_held_up: bool,
     /// When the last command went to the gate.
@@ -76,6 +79,7 @@ impl Tracking {
         Self {
             planner,
             phase,
+            earlier: Vec::new(),
             stats: TrackStats::default(),
             next_update: now,
             is_held_up: false,
@@ -102,6 +106,9 @@ impl Tracking {
             next_update: (self.phase != TrackPhase::Over).then_some(self.next_update),
             commanded: self.commanded,
             predicted: self.predicted,
+            offsets: self.planner.offsets(),
+            can_undo: !self.earlier.is_empty(),
+            target_moves: target.moves(),
         }
     }
 
@@ -124,6 +131,13 @@ impl Tracking {
         {
             self.stats.take(off);
         }
+    }
+
+    /// The axes, of which none is taken for at rest.
+    pub(in crate::driver::session) fn turning(measured: Option<Measured>) -> [AxisNow; 2] {
+        let axes = measured.map(|measured| measured.axes);
+        let position_deg = |axis: usize| axes.and_then(|axes| axes.get(axis)?.angle_deg);
+        [0, 1].map(|axis| AxisNow { position_deg: position_deg(axis), stands: false })
     }
 
     /// The axes, as far as they show the effect of the last command.

@@ -339,7 +339,7 @@ fn with_an_offset_the_antenna_is_sent_beside_its_target_and_without_it_back() {
     let mut planner = Planner::new(follow, drives, settings(1.0, 0.2), free()).unwrap();
     let axes = [20.0, 10.0].map(|at| AxisNow { position_deg: Some(at), stands: true });
     let now = pass.tca.time;
-    let mut sent = |planner: &mut Planner| {
+    let sent = |planner: &mut Planner| {
         planner.forget_sent();
         planner.update(now, axes).unwrap().unwrap().set_point
     };

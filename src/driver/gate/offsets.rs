@@ -1,0 +1,80 @@
+//! Judges the offsets of a program track.
+
+use glam::DQuat;
+use jiff::Timestamp;
+
+use super::{Gate, Refusal, rules};
+use crate::{
+    astro::{Angle, AzEl},
+    clock::Moment,
+    device::Motion,
+    driver::Intent,
+    station::Mount,
+};
+
+/// Where a program track points with some offsets at one time.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(in crate::driver) struct Demand {
+    pub(in crate::driver) at: Timestamp,
+    /// By the axes.
+    pub(in crate::driver) axes: AzEl,
+    /// On the sky, if the offsets of the axes make up for an error of the mount.
+    pub(in crate::driver) sky: AzEl,
+    /// With an offset of the time alone.
+    pub(in crate::driver) plain: AzEl,
+}
+
+impl Gate {
+    /// From where the axes of an antenna in program track point to where that is on the sky.
+    pub(in crate::driver) fn to_sky(&self) -> Option<DQuat> {
+        self.to_sky
+    }
+
+    pub(in crate::driver) fn set_to_sky(&mut self, to_sky: Option<DQuat>) {
+        self.to_sky = to_sky;
+    }
+
+    /// Checks where offsets would lead a program track: a plan keeps to the bounds and waits at
+    /// their edge, which is not what a step across it asks for.
+    pub(in crate::driver) fn demand_is_clear(
+        &self,
+        demand: Demand,
+        now: Moment,
+    ) -> Result<(), Refusal> {
+        let Demand { at, axes, sky, plain } = demand;
+        let bounds = self.bounds_in(Intent::Track);
+        for direction in [axes, sky] {
+            if let Some(barrier) = bounds.at(at).forbids(direction) {
+                return Err(Refusal::Forbidden { barrier, at: direction });
+            }
+        }
+        let has_elevation = self.variant.capabilities.has_elevation();
+        // A pass begins and ends below the minimum elevation of some antennas.
+        let lowest_deg = self.limits.minimum_elevation_deg;
+        let floor_deg = lowest_deg.min(plain.elevation_deg());
+        if has_elevation && axes.elevation_deg() < floor_deg - 1e-9 {
+            return Err(Refusal::Elevation { asked_deg: axes.elevation_deg(), lowest_deg });
+        }
+        let Mount::AzEl { elevation_from_deg, .. } = self.mount else {
+            // The axes wait at the minimum elevation, wherever a pass begins.
+            let elevation = Angle::from_degrees(axes.elevation_deg().max(lowest_deg));
+            let to = Motion::Position { azimuth: Some(axes.azimuth), elevation: Some(elevation) };
+            return rules::within_reach(&to, &self.situation(Intent::Track, false, now));
+        };
+        let mount = self.mount.within(self.state().travel_deg);
+        let wanted_deg = if has_elevation { axes.elevation_deg() } else { elevation_from_deg };
+        let elevation = Angle::from_degrees(wanted_deg.max(lowest_deg).max(elevation_from_deg));
+        if mount.reaches(AzEl { elevation, ..axes }) {
+            return Ok(());
+        }
+        let asked_deg = [mount.axis_azimuth(axes.azimuth, None).degrees(), elevation.degrees()];
+        let each = asked_deg.into_iter().zip(mount.travel_deg());
+        let mut each = each.zip(self.variant.capabilities.axes);
+        let is_out = |((asked_deg, (from_deg, to_deg)), _): &((f64, (f64, f64)), _)| {
+            !(*from_deg..=*to_deg).contains(asked_deg)
+        };
+        each.find(is_out).map_or(Ok(()), |((asked_deg, (from_deg, to_deg)), axis)| {
+            Err(Refusal::Travel { axis, asked_deg, from_deg, to_deg })
+        })
+    }
+}

@@ -1,0 +1,125 @@
+//! Offsets of a program track, changed while it runs.
+
+use serde::{Deserialize, Serialize};
+
+use super::{
+    Event, Session,
+    program_track::{Tracking, motion},
+};
+use crate::{
+    astro::{MAX_ANGLE_OFFSET, MAX_TIME_OFFSET, Offset, TrackOffsets},
+    clock::Moment,
+    driver::{Intent, Refusal, gate::Demand},
+};
+
+/// So many changes can be undone.
+const MAX_UNDO: usize = 100;
+
+/// A change of the offsets of a track. Each is judged like a motion; one that is refused leaves
+/// them as they were.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub enum OffsetChange {
+    /// One of them grows by this much.
+    Step(Offset),
+    /// All of them end.
+    Zero,
+    /// Back to those before the last change that was not undone.
+    Undo,
+}
+
+impl Session {
+    pub(super) fn change_offsets(&mut self, change: OffsetChange, now: Moment) {
+        if let Err(refusal) = self.try_offsets(change, now) {
+            self.tell(Event::NotSent(refusal));
+        }
+    }
+
+    fn try_offsets(&mut self, change: OffsetChange, now: Moment) -> Result<(), Refusal> {
+        let track = self.activity.program().ok_or(Refusal::NoTrack)?;
+        let before = track.planner.offsets();
+        let offsets = match change {
+            OffsetChange::Step(step) => {
+                self.offers(step, track)?;
+                before.plus(step).ok_or_else(|| Refusal::OffsetTooLarge { most: most(step) })?
+            }
+            OffsetChange::Zero => TrackOffsets::NONE,
+            OffsetChange::Undo => track.earlier.last().copied().ok_or(Refusal::Nothing)?,
+        };
+        let axes = Tracking::turning(self.gate.state().measured);
+        let demand = demand(track, offsets, now).ok_or(Refusal::PassUnknown)?;
+        // Without offsets the track goes on as it was asked for, and waits at an edge.
+        if !offsets.is_none() {
+            self.gate.demand_is_clear(demand, now)?;
+        }
+        self.take_offsets(offsets, now);
+        let Some(track) = self.activity.program_mut() else { return Ok(()) };
+        let sent = track.planner.update(now.utc, axes).map_err(|_| Refusal::PassUnknown);
+        let route = |next| self.gate.route(motion(next), Intent::Track, now);
+        let passed = sent.and_then(|next| next.map(route).transpose());
+        if let Err(refusal) = passed
+            && !offsets.is_none()
+        {
+            self.take_offsets(before, now);
+            return Err(refusal);
+        }
+        let Some(track) = self.activity.program_mut() else { return Ok(()) };
+        match change {
+            OffsetChange::Undo => drop(track.earlier.pop()),
+            OffsetChange::Step(_) | OffsetChange::Zero if offsets == before => {}
+            OffsetChange::Step(_) | OffsetChange::Zero => {
+                if track.earlier.len() >= MAX_UNDO {
+                    track.earlier.remove(0);
+                }
+                track.earlier.push(before);
+            }
+        }
+        track.next_update = now.steady;
+        Ok(())
+    }
+
+    /// Checks whether the track can have an offset of this kind.
+    fn offers(&self, step: Offset, track: &Tracking) -> Result<(), Refusal> {
+        let has_elevation = self.variant.capabilities.has_elevation();
+        match step {
+            Offset::Along(_) | Offset::Across(_) if !track.planner.follow().target.moves() => {
+                Err(Refusal::TargetStands)
+            }
+            Offset::Elevation(_) if !has_elevation => Err(Refusal::NotOffered),
+            _ => Ok(()),
+        }
+    }
+
+    fn take_offsets(&mut self, offsets: TrackOffsets, now: Moment) {
+        if let Some(track) = self.activity.program_mut() {
+            track.planner.set_offsets(offsets);
+        }
+        self.watch_offsets(now);
+    }
+
+    /// Tells the gate where the axes point on the sky.
+    pub(super) fn watch_offsets(&mut self, now: Moment) {
+        let track = self.activity.program();
+        let to_sky = track.and_then(|track| {
+            track.planner.to_sky(track.phase.begins(now.utc), track.planner.offsets())
+        });
+        self.gate.set_to_sky(to_sky);
+    }
+}
+
+fn most(step: Offset) -> Offset {
+    match step {
+        Offset::Time(_) => Offset::Time(MAX_TIME_OFFSET),
+        Offset::Along(_) => Offset::Along(MAX_ANGLE_OFFSET),
+        Offset::Across(_) => Offset::Across(MAX_ANGLE_OFFSET),
+        Offset::Azimuth(_) => Offset::Azimuth(MAX_ANGLE_OFFSET),
+        Offset::Elevation(_) => Offset::Elevation(MAX_ANGLE_OFFSET),
+    }
+}
+
+/// Where the track leads with these offsets, now or at the start of its pass.
+fn demand(track: &Tracking, offsets: TrackOffsets, now: Moment) -> Option<Demand> {
+    let at = track.phase.begins(now.utc);
+    let [axes, sky, plain] = [offsets, offsets.on_the_sky(), offsets.of_time()]
+        .map(|offsets| track.planner.demanded(at, offsets));
+    Some(Demand { at, axes: axes?, sky: sky?, plain: plain? })
+}

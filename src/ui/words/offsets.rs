@@ -1,0 +1,49 @@
+//! Offsets of a track.
+
+use crate::{
+    astro::{Offset, TrackOffsets},
+    ui::format,
+};
+
+/// Name of an offset, as its line on the card says.
+pub fn offset_name(offset: Offset) -> &'static str {
+    match offset {
+        Offset::Time(_) => "Time",
+        Offset::Along(_) => "Along track",
+        Offset::Across(_) => "Across track",
+        Offset::Azimuth(_) => "Azimuth",
+        Offset::Elevation(_) => "Elevation",
+    }
+}
+
+/// Its value with sign and unit.
+pub fn offset_value(offset: Offset) -> String {
+    match offset {
+        Offset::Time(time) => format!("{} s", format::signed(time.as_secs_f64(), 2)),
+        Offset::Along(angle)
+        | Offset::Across(angle)
+        | Offset::Azimuth(angle)
+        | Offset::Elevation(angle) => format!("{}°", format::signed(angle.degrees(), 2)),
+    }
+}
+
+/// All that are not zero, in one line.
+pub fn offsets(offsets: TrackOffsets) -> String {
+    let each = offsets.each().into_iter().filter(|offset| !offset.is_zero());
+    let each = each
+        .map(|offset| format!("{} {}", offset_name(offset).to_lowercase(), offset_value(offset)));
+    let words: Vec<String> = each.collect();
+    if words.is_empty() { "none".to_owned() } else { words.join(", ") }
+}
+
+/// The offset in the middle of a sentence.
+pub fn offset(offset: Offset) -> String {
+    let value = offset_value(offset);
+    match offset {
+        Offset::Time(_) => format!("of {value}"),
+        Offset::Along(_) => format!("of {value} along the track"),
+        Offset::Across(_) => format!("of {value} across the track"),
+        Offset::Azimuth(_) => format!("of {value} in azimuth"),
+        Offset::Elevation(_) => format!("of {value} in elevation"),
+    }
+}
