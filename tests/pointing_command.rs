@@ -14,7 +14,7 @@ use azel::{
     orbit::{PassSearch, Propagator, bundled, passes},
     plan::{
         MountLimits, Trackability,
-        pass_report::{MeasuredPosition, TrackedPass},
+        pass_report::{FlownOffsets, MeasuredPosition, TrackedPass},
         pointing::PointingModel,
     },
     record::{AboutTrack, PassNote, RecordedReport, Recorder, TrackedBy},
@@ -92,6 +92,7 @@ fn fly(recorder: &Recorder, antenna: &Antenna, site: Site, number: u32, seed: &m
                     begun: from,
                     tracked_by: TrackedBy::ProgramTrack,
                     sent: None,
+                    offsets: FlownOffsets::default(),
                     unit_clock_ahead_s: None,
                     sync: TimeSync::Synchronised,
                 },

@@ -1,10 +1,12 @@
 //! Report of a pass that an antenna tracked: where it pointed, beside where the satellite was.
 
 mod explain;
+mod flown_offsets;
 #[cfg(test)]
 mod tests;
 
 pub use explain::{Cause, Evidence, Explanation};
+pub use flown_offsets::FlownOffsets;
 
 use jiff::Timestamp;
 use serde::{Deserialize, Serialize};

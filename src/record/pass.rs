@@ -7,7 +7,7 @@ use crate::{
     astro::Site,
     driver::TimeSync,
     orbit::Elements,
-    plan::pass_report::{Explanation, MeasuredPosition, PassReport},
+    plan::pass_report::{Explanation, FlownOffsets, MeasuredPosition, PassReport},
     station::AntennaId,
 };
 
@@ -50,6 +50,9 @@ pub struct AboutTrack {
     pub tracked_by: TrackedBy,
     /// Positions that were sent, with program track.
     pub sent: Option<u32>,
+    /// Offsets of program track.
+    #[serde(default)]
+    pub offsets: FlownOffsets,
     /// The unit's clock against that of this computer, seconds.
     pub unit_clock_ahead_s: Option<f64>,
     /// Whether a time service keeps the clock of this computer.

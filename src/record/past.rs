@@ -16,7 +16,7 @@ use crate::{
     orbit::Propagator,
     plan::{
         Sample,
-        pass_report::{MeasuredPosition, PassVerdict, TrackPoint},
+        pass_report::{FlownOffsets, MeasuredPosition, PassVerdict, TrackPoint},
     },
     station::AntennaId,
 };
@@ -93,7 +93,9 @@ pub fn open_pass(path: &Path, id: i64, site: Site) -> Result<Option<OpenedPass>,
     let site = report.site.unwrap_or(site);
     let (track, predicted) = match Propagator::new(&report.elements) {
         Ok(propagator) => {
-            (track_of(&passes.points(id)?, &propagator, site), path_of(&propagator, site, report))
+            let offsets = &report.about.offsets;
+            let track = track_of(&passes.points(id)?, &propagator, site, offsets);
+            (track, path_of(&propagator, site, report))
         }
         Err(_) => (Vec::new(), Vec::new()),
     };
@@ -116,12 +118,24 @@ pub fn open_pass(path: &Path, id: i64, site: Site) -> Result<Option<OpenedPass>,
 pub fn track(path: &Path, pass: &RecordedPass, site: Site) -> Result<Vec<TrackPoint>, RecordError> {
     let passes = Passes { db: file::open_to_read(path)? };
     let Ok(propagator) = Propagator::new(&pass.report.elements) else { return Ok(Vec::new()) };
-    Ok(track_of(&passes.points(pass.id)?, &propagator, pass.report.site.unwrap_or(site)))
+    let (points, site) = (passes.points(pass.id)?, pass.report.site.unwrap_or(site));
+    Ok(track_of(&points, &propagator, site, &pass.report.about.offsets))
 }
 
-fn track_of(flown: &[MeasuredPosition], propagator: &Propagator, site: Site) -> Vec<TrackPoint> {
+/// Where the antenna pointed, with its error from where it should have pointed.
+fn track_of(
+    flown: &[MeasuredPosition],
+    propagator: &Propagator,
+    site: Site,
+    offsets: &FlownOffsets,
+) -> Vec<TrackPoint> {
     let has_elevation = flown.iter().any(|flown| flown.pointing.elevation.is_some());
-    let point = |flown: &MeasuredPosition| TrackPoint::new(propagator, site, has_elevation, *flown);
+    let point = |flown: &MeasuredPosition| {
+        let compared = |flown| TrackPoint::new(propagator, site, has_elevation, flown);
+        let TrackPoint { antenna, .. } = compared(*flown)?;
+        let beside = compared(offsets.taken_off(propagator, site, *flown))?;
+        Some(TrackPoint { antenna, ..beside })
+    };
     flown.iter().filter_map(point).collect()
 }
 

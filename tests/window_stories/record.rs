@@ -18,8 +18,8 @@ use azel::{
     plan::{
         Sample,
         pass_report::{
-            Evidence, LossCause, LostStretch, MeasuredPosition, PassReport, PassVerdict,
-            PointingError, TrackPoint, WorstError,
+            Evidence, FlownOffsets, LossCause, LostStretch, MeasuredPosition, PassReport,
+            PassVerdict, PointingError, TrackPoint, WorstError,
         },
     },
     record::{
@@ -116,6 +116,7 @@ fn opened(model: &Model, id: i64, pass: &Pass, verdict: PassVerdict) -> OpenedPa
             begun: add_seconds(from, -30.0),
             tracked_by: TrackedBy::OnBoard,
             sent: None,
+            offsets: FlownOffsets::default(),
             unit_clock_ahead_s: Some(-LATE_S),
             sync: TimeSync::Synchronised,
         },

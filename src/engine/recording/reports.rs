@@ -18,7 +18,7 @@ use crate::{
     orbit::{Elements, PassSearch, Propagator, passes},
     plan::{
         MountLimits, Sample, TrackPhase, Trackability,
-        pass_report::{Evidence, MeasuredPosition, TrackedPass},
+        pass_report::{Evidence, FlownOffsets, MeasuredPosition, TrackedPass},
         trackability,
     },
     record::{AboutTrack, PassNote, RecordedReport, TrackedBy},
@@ -110,7 +110,7 @@ impl Engine {
     fn look_at_passes(&mut self) {
         for pass in &mut self.recording.followed {
             let antenna = self.antennas.iter().find(|of| of.shown.id() == pass.antenna);
-            pass.look(antenna, self.time_sync);
+            pass.look(antenna, self.time_sync, self.now);
         }
     }
 
@@ -191,12 +191,13 @@ fn about(antenna: &AntennaModel, begun: Timestamp, sync: TimeSync) -> AboutTrack
         () if antenna.tracks_unasked() => TrackedBy::Elsewhere,
         () => TrackedBy::OnBoard,
     };
-    AboutTrack { begun, tracked_by, sent: None, unit_clock_ahead_s: None, sync }
+    let offsets = FlownOffsets::default();
+    AboutTrack { begun, tracked_by, sent: None, offsets, unit_clock_ahead_s: None, sync }
 }
 
 impl Followed {
     /// Takes what is new of the pass.
-    fn look(&mut self, antenna: Option<&Antenna>, sync: TimeSync) {
+    fn look(&mut self, antenna: Option<&Antenna>, sync: TimeSync, now: Timestamp) {
         if let Some(antenna) = antenna {
             let positions = antenna.handle.positions();
             if !positions.is_same(&self.positions) {
@@ -212,6 +213,7 @@ impl Followed {
             };
             if let Some(view) = view.filter(is_of_this) {
                 self.about.sent = Some(view.stats.commands);
+                self.about.offsets.note(now, view.offsets);
             }
             let clock = snapshot.state.on_board.clock.filter(|clock| clock.is_set);
             self.about.unit_clock_ahead_s =
@@ -234,6 +236,9 @@ impl Followed {
     }
 
     fn note(self, history: Option<&History>) -> PassNote {
+        let (of, site) = (&self.propagator, self.site);
+        let taken_off = |flown| self.about.offsets.taken_off(of, site, flown);
+        let flown: Vec<MeasuredPosition> = self.flown.iter().copied().map(taken_off).collect();
         let report = TrackedPass {
             propagator: &self.propagator,
             site: self.site,
@@ -243,9 +248,9 @@ impl Followed {
             trackability: self.trackability(),
             ended: self.ended,
         }
-        .report(&self.flown);
+        .report(&flown);
         let has_elevation = self.limits.has_elevation;
-        let measured = self.flown.iter().filter_map(|flown| {
+        let measured = flown.iter().filter_map(|flown| {
             let azimuth = flown.pointing.azimuth?;
             let elevation = flown.pointing.elevation.or((!has_elevation).then_some(Angle::ZERO))?;
             Some((flown.time, AzEl { azimuth, elevation }))

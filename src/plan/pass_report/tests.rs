@@ -1,11 +1,13 @@
 //! Reports of passes whose errors are known.
 
-use jiff::Timestamp;
+use jiff::{SignedDuration, Timestamp};
 
-use super::{LossCause, LostStretch, MeasuredPosition, PassReport, PassVerdict, TrackedPass};
+use super::{
+    FlownOffsets, LossCause, LostStretch, MeasuredPosition, PassReport, PassVerdict, TrackedPass,
+};
 use crate::{
     astro::{
-        Angle, AzEl, Site,
+        Angle, AzEl, Offset, Site, TrackOffsets,
         time::{add_seconds, seconds_between},
     },
     orbit::{Pass, PassSearch, Propagator, bundled, passes},
@@ -238,4 +240,41 @@ fn what_comes_late_leaves_early_or_wanders_is_told_apart() {
     let unmeasured = scene.report(|_, _| None);
     assert_eq!((unmeasured.verdict, unmeasured.known_s), (PassVerdict::Poor, 0.0));
     assert_eq!(causes(&unmeasured), [LossCause::NotMeasured]);
+}
+
+#[test]
+fn an_offset_is_no_error_and_what_the_antenna_misses_beside_it_is() {
+    let scene = Scene::new();
+    let offset = |step| TrackOffsets::NONE.plus(step).unwrap();
+    let [steps, half] = [
+        [
+            Offset::Azimuth(Angle::from_degrees(3.0)),
+            Offset::Across(Angle::from_degrees(2.0)),
+            Offset::Time(SignedDuration::from_secs(5)),
+        ],
+        [Offset::Azimuth(Angle::from_degrees(-2.0)); 3],
+    ];
+    let changed_at = scene.pass.tca.time;
+    for (first, second) in steps.into_iter().zip(half) {
+        let mut offsets = FlownOffsets::default();
+        offsets.note(scene.pass.aos.time, offset(first));
+        offsets.note(scene.pass.tca.time, offset(second));
+        offsets.note(scene.pass.los.time, offset(second));
+        assert_eq!(offsets.changes().len(), 2);
+        let demanded = |at| {
+            let now = offset(if at < changed_at { first } else { second });
+            now.demanded(at, |at| Some(scene.direction(at))).unwrap()
+        };
+        let flown = |by_deg: f64| {
+            let flown = scene.flown(|_, at| Some(demanded(at).towards(30.0, by_deg)));
+            let of =
+                |flown: MeasuredPosition| offsets.taken_off(&scene.propagator, scene.site, flown);
+            flown.into_iter().map(of).collect::<Vec<_>>()
+        };
+        let report = scene.flown_pass().report(&flown(0.0));
+        assert!(report.rms.unwrap().off_deg < 1e-6, "{:?}", report.rms);
+        let report = scene.flown_pass().report(&flown(0.5));
+        let worst = report.worst.unwrap().error.off_deg;
+        assert!(is_close(worst, 0.5, 1e-6), "{worst}");
+    }
 }

@@ -6,7 +6,7 @@ use crate::{
     orbit::{PassSearch, Propagator, bundled, passes},
     plan::{
         MountLimits, Sample, Trackability,
-        pass_report::{Evidence, MeasuredPosition, TrackPoint, TrackedPass},
+        pass_report::{Evidence, FlownOffsets, MeasuredPosition, TrackPoint, TrackedPass},
     },
     record::{AboutTrack, RecordedPass, RecordedReport, TrackedBy},
     station::{AntennaId, Mount},
@@ -86,6 +86,7 @@ fn opened(late_s: f64, is_measured: impl Fn(u32) -> bool) -> OpenedPass {
                     begun: add_seconds(from, -30.0),
                     tracked_by: TrackedBy::ProgramTrack,
                     sent: Some(640),
+                    offsets: FlownOffsets::default(),
                     unit_clock_ahead_s: Some(-late_s),
                     sync: TimeSync::Synchronised,
                 },

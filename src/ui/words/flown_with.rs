@@ -41,6 +41,12 @@ pub fn facts(report: &RecordedReport, now: Timestamp) -> Vec<Fact> {
     if let Some(sent) = about.sent {
         facts.push(plain("Positions sent", sent.to_string()));
     }
+    if let Some((from, offsets)) = about.offsets.changes().last() {
+        let changes = about.offsets.changes().len();
+        let and = if changes > 1 { format!("the last of {changes}, ") } else { String::new() };
+        let since = format::second_of_day(*from);
+        facts.push(plain("Offsets", format!("{} ({and}from {since})", super::offsets(*offsets))));
+    }
     if let Some(ahead_s) = about.unit_clock_ahead_s {
         let kind = if is_off(ahead_s) { FactKind::Caution } else { FactKind::Plain };
         let way = if ahead_s < 0.0 { "late" } else { "early" };
