@@ -25,6 +25,7 @@ mod map;
 mod mask;
 mod menus;
 mod notices;
+mod offsets;
 mod on_board;
 mod panel;
 mod panel_layout;

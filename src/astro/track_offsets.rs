@@ -38,6 +38,19 @@ impl Offset {
             | Self::Elevation(angle) => angle == Angle::ZERO,
         }
     }
+
+    /// One of the same kind: thousandths of a second or of a degree.
+    #[must_use]
+    pub fn with_thousandths(self, thousandths: i32) -> Self {
+        let angle = Angle::from_degrees(f64::from(thousandths) / 1000.0);
+        match self {
+            Self::Time(_) => Self::Time(SignedDuration::from_millis(thousandths.into())),
+            Self::Along(_) => Self::Along(angle),
+            Self::Across(_) => Self::Across(angle),
+            Self::Azimuth(_) => Self::Azimuth(angle),
+            Self::Elevation(_) => Self::Elevation(angle),
+        }
+    }
 }
 
 impl Neg for Offset {

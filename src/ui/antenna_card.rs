@@ -9,6 +9,7 @@ mod lock_out;
 mod lower;
 mod more;
 mod offer;
+mod offsets;
 mod others;
 mod readings;
 mod released;
@@ -36,7 +37,7 @@ use super::{
 };
 use crate::{
     device::panel::{Act, CheckState, Reading},
-    driver::Intent,
+    driver::{Intent, OffsetChange},
 };
 pub use drive::{DriveModel, DriveState};
 pub use faults::FaultsModel;
@@ -47,6 +48,7 @@ pub use lock_out::LockOutModel;
 pub use more::MoreModel;
 use more::MoreState;
 pub use offer::Offer;
+pub use offsets::{OffsetStep, OffsetsModel, OffsetsState};
 pub use others::OtherAntenna;
 pub use track::{TrackModel, TrackState};
 
@@ -77,6 +79,8 @@ pub struct CardModel<'a> {
     pub modes: ModeModel<'a>,
     /// Target of the tracking; none for a unit that cannot track.
     pub track: Option<TrackModel<'a>>,
+    /// Offsets of the track that runs; none while nothing is tracked from here.
+    pub offsets: Option<OffsetsModel<'a>>,
     /// Jogging and going to a direction.
     pub drive: DriveModel<'a>,
     /// Readings that the unit reports about itself.
@@ -105,6 +109,8 @@ pub struct CardState {
     pub drive: DriveState,
     /// Questions that are open below the mode.
     pub track: TrackState,
+    /// Offsets while tracking.
+    pub offsets: OffsetsState,
     /// The travel gauges are unfolded in a small window.
     pub travel_open: bool,
     /// The faults are unfolded in a small window.
@@ -197,6 +203,8 @@ pub enum CardAction {
     TrackAnyway,
     /// Program-track this target.
     Follow(FollowChoice),
+    /// Change the offsets of the track.
+    Offset(OffsetChange),
     /// Switch automatic starting of passes by the unit.
     SetAutoTrack(bool),
     /// Start an action of this make.

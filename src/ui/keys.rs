@@ -11,10 +11,11 @@ use super::{
     operate::OperateState, plan::PlanState, preferences::PreferencesState, record::RecordState,
 };
 use crate::{
+    astro::{Angle, Offset},
     model::{Model, UiCommand, View, globe::Towards},
     station::Take,
 };
-use act::Act;
+use act::{Act, OffsetKey};
 
 /// One line of the list of keys.
 #[derive(Debug, Clone, Copy)]
@@ -72,8 +73,10 @@ const fn with(modifiers: Modifiers, binding: Binding) -> Binding {
     Binding { modifiers, ..binding }
 }
 
+const CTRL_SHIFT: Modifiers = Modifiers::COMMAND.plus(Modifiers::SHIFT);
+
 /// All keys, in the order of the list. The app handles the key of STOP before anything else.
-pub const ALL: [Binding; 36] = [
+pub const ALL: [Binding; 39] = [
     row(KeyScope::Focus, &[(Key::Escape, Act::There)], "STOP, everywhere; closes what is open"),
     with(
         Modifiers::COMMAND,
@@ -151,6 +154,43 @@ pub const ALL: [Binding; 36] = [
                 (Key::ArrowDown, Act::There),
             ],
             "one step, in Manual with the pad or a step key focused",
+        ),
+    ),
+    row(
+        KeyScope::Operate,
+        &[
+            (Key::OpenBracket, Act::Offset(OffsetKey::Time { is_more: false })),
+            (Key::CloseBracket, Act::Offset(OffsetKey::Time { is_more: true })),
+            (Key::Backspace, Act::Offset(OffsetKey::TimeToZero)),
+            (Key::U, Act::Offset(OffsetKey::Undo)),
+        ],
+        "while tracking: time offset −/+ 100 ms, to 0; undo an offset",
+    ),
+    // More modifiers come first: fewer of them fit as well.
+    with(
+        CTRL_SHIFT,
+        row(
+            KeyScope::Operate,
+            &[
+                (Key::ArrowLeft, Act::Offset(OffsetKey::Less(Offset::Across(Angle::ZERO)))),
+                (Key::ArrowRight, Act::Offset(OffsetKey::More(Offset::Across(Angle::ZERO)))),
+                (Key::ArrowUp, Act::Offset(OffsetKey::More(Offset::Along(Angle::ZERO)))),
+                (Key::ArrowDown, Act::Offset(OffsetKey::Less(Offset::Along(Angle::ZERO)))),
+            ],
+            "while tracking: one step across the track, one along it",
+        ),
+    ),
+    with(
+        Modifiers::COMMAND,
+        row(
+            KeyScope::Operate,
+            &[
+                (Key::ArrowLeft, Act::Offset(OffsetKey::Less(Offset::Azimuth(Angle::ZERO)))),
+                (Key::ArrowRight, Act::Offset(OffsetKey::More(Offset::Azimuth(Angle::ZERO)))),
+                (Key::ArrowUp, Act::Offset(OffsetKey::More(Offset::Elevation(Angle::ZERO)))),
+                (Key::ArrowDown, Act::Offset(OffsetKey::Less(Offset::Elevation(Angle::ZERO)))),
+            ],
+            "while tracking: one step in azimuth, one in elevation",
         ),
     ),
     row(

@@ -14,7 +14,7 @@ use azel::{
     station::{Antenna, AntennaId, Mount},
     ui::bar::activity,
 };
-use std::time::Duration;
+use std::{sync::Arc, time::Duration};
 
 use egui::Role;
 use egui_kittest::kittest::Queryable as _;
@@ -47,6 +47,17 @@ fn following(phase: TrackPhase, off_deg: f64, motion: AxisMotion) -> Model {
     let mut antenna = rig::antenna(Antenna::genius("Mast", "192.168.1.250:9006"), snapshot);
     antenna.refresh(model.station.site, |number| model.pass_lists.satellite(number));
     model.antennas = vec![antenna];
+    model
+}
+
+/// A Genius that tracks NOAA 20 with these offsets.
+pub(super) fn tracking(offsets: TrackOffsets) -> Model {
+    let mut model = following(TrackPhase::Tracking, 0.0, AxisMotion::Plus);
+    let snapshot = Arc::make_mut(&mut model.antennas[0].snapshot);
+    if let Some(view) = &mut snapshot.program_track {
+        view.offsets = offsets;
+        view.can_undo = !offsets.is_none();
+    }
     model
 }
 

@@ -8,7 +8,7 @@ use std::{
 
 use azel::{
     astro::{
-        Angle,
+        Angle, TrackOffsets,
         xy_mount::{AxisAngles, azel_from_axes},
     },
     driver,
@@ -24,7 +24,7 @@ use egui::{Key, Modifiers, Role};
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
 
 use crate::window_stories::{
-    plan,
+    following, plan,
     rig::{self, LARGE, SIZES, SMALL, Window, asked, settle},
     sky_time, states,
 };
@@ -143,6 +143,10 @@ fn every_key_of_the_list_does_something() {
             }
             if key == Key::Home {
                 window = sky_time::later(SMALL);
+            }
+            if binding.does.starts_with("while tracking") {
+                let model = following::tracking(TrackOffsets::NONE);
+                window = rig::window(SMALL, model);
             }
             let other = match binding.place {
                 KeyScope::Plan => Some(View::Plan),

@@ -6,7 +6,7 @@ use egui::{Align2, Rect, Ui};
 
 use super::{
     CardAction, CardModel, CardState, Cursor, LinkStatus, WayOutModel, drive, faults, holds, more,
-    others, readings, released, track,
+    offsets, others, readings, released, track,
 };
 use crate::ui::{
     text, theme,
@@ -38,6 +38,15 @@ pub(super) fn show(
     track::notes(ui, at, model.track.as_ref(), said, &state.track, actions);
     if !short {
         at.skip(4.0);
+    }
+    if let Some(shown) = &model.offsets {
+        let value = words::offsets(shown.offsets);
+        let line = offsets::line(ui, shown, &value);
+        let opened = fold_line(ui, at, card, &line, &mut state.offsets.open);
+        if state.offsets.open {
+            offsets::show(ui, at, shown, &mut state.offsets, actions);
+        }
+        bring_into_sight(ui, at, opened);
     }
     if short && !model.travel.is_empty() {
         let value = travel_in_words(model.travel);

@@ -96,6 +96,7 @@ fn model() -> CardModel<'static> {
             ends: None,
             follow: None,
         }),
+        offsets: None,
         drive: DriveModel {
             keys: JogKeys::Xy { x_plus: "E", x_minus: "W", y_plus: "N", y_minus: "S" },
             jog_locked: None,

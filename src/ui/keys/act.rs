@@ -4,11 +4,12 @@ use egui::{FocusDirection, Ui};
 
 use super::KeyTargets;
 use crate::{
-    driver::{self, Intent},
+    astro::Offset,
+    driver::{self, Intent, OffsetChange},
     engine::{self, antenna::AntennaModel, passes::PredictedPass},
     model::{Model, UiCommand, View, globe::Towards},
     station::Take,
-    ui::{elements, operate::LONG_STEP_S, second_step, theme},
+    ui::{antenna_card::OffsetStep, elements, operate::LONG_STEP_S, second_step, theme},
 };
 
 /// Effect of a key.
@@ -27,6 +28,8 @@ pub(super) enum Act {
     Park,
     GoTo,
     Manual,
+    /// Changes the offsets of the track of the selected antenna.
+    Offset(OffsetKey),
     /// Moves the jog rate by this many steps up.
     Rate(i32),
     /// Shows the sky of now.
@@ -73,6 +76,7 @@ impl Act {
                 | Self::Park
                 | Self::GoTo
                 | Self::Manual
+                | Self::Offset(_)
                 | Self::Rate(_)
                 | Self::List
         )
@@ -93,6 +97,7 @@ impl Act {
                 !matches!(model.view, View::Antennas | View::Map | View::Plan | View::Setup)
             }
             Self::RefreshElements => model.sources.is_free(),
+            Self::Offset(_) => model.antenna().is_some_and(AntennaModel::follows),
             _ => true,
         }
     }
@@ -128,6 +133,16 @@ impl Act {
             }
             Self::GoTo => go_to(model, targets, commands),
             Self::Manual => manual(model, targets, commands),
+            Self::Offset(key) => {
+                let step = targets.operate.card.offsets.step;
+                let antenna = model.antenna().filter(|of| of.follows());
+                let asked = antenna.and_then(|of| Some((of.id(), key.change(of, step)?)));
+                commands.extend(
+                    asked.map(|(id, change)| {
+                        UiCommand::antenna(id, driver::Command::Offset(change))
+                    }),
+                );
+            }
             Self::Rate(by) if targets.operate.sky_time.has_focus => {
                 targets.operate.sky_time.step(model, f64::from(by) * LONG_STEP_S);
             }
@@ -183,6 +198,37 @@ impl Act {
             Self::NextTheme => commands.push(UiCommand::SetTheme(theme::name(ui).next())),
             Self::List => *targets.list_open = true,
         }
+    }
+}
+
+/// A key for the offsets of a track.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) enum OffsetKey {
+    /// Less or more of the time, by a tenth of a second.
+    Time {
+        is_more: bool,
+    },
+    TimeToZero,
+    /// Less or more of another, by the step chosen on the card.
+    Less(Offset),
+    More(Offset),
+    Undo,
+}
+
+impl OffsetKey {
+    fn change(self, antenna: &AntennaModel, step: OffsetStep) -> Option<OffsetChange> {
+        let now = antenna.snapshot.program_track.as_ref()?.offsets;
+        let [time, ..] = now.each();
+        Some(match self {
+            Self::Time { is_more } => {
+                let step = OffsetStep::Medium.of(time);
+                OffsetChange::Step(if is_more { step } else { -step })
+            }
+            Self::TimeToZero => OffsetChange::Step(-time),
+            Self::Less(offset) => OffsetChange::Step(-step.of(offset)),
+            Self::More(offset) => OffsetChange::Step(step.of(offset)),
+            Self::Undo => OffsetChange::Undo,
+        })
     }
 }
 

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use egui::{Align2, Frame, Galley, Key, Modal, Modifiers, Rect, Sense, Ui, pos2, vec2};
 
-use super::{ALL, Binding, own::OwnKeys};
+use super::{ALL, Binding, CTRL_SHIFT, own::OwnKeys};
 use crate::ui::{
     text, theme,
     widgets::{button::Button, paint},
@@ -16,7 +16,7 @@ const COLUMN: f32 = 464.0;
 const GAP: f32 = 24.0;
 const WIDTH: f32 = 2.0 * COLUMN + GAP;
 const KEYS: f32 = 150.0;
-const ROW: f32 = 24.0;
+const ROW: f32 = 22.0;
 const HEAD: f32 = 36.0;
 /// By this the list stands below the middle of the window, so that it leaves the top bar free.
 const DOWN: f32 = 24.0;
@@ -41,7 +41,7 @@ pub fn show(ui: &Ui, open: &mut bool, own: &OwnKeys) {
         let place = head.with_min_x(head.right() - close.width(ui)).with_max_y(head.top() + 24.0);
         let closed = close.show(ui, "close", place).clicked();
         let rows: Vec<_> = ALL.iter().map(|binding| (binding, does(ui, binding))).collect();
-        let height_of = |does: &Galley| (does.size().y + 8.0).max(ROW);
+        let height_of = |does: &Galley| (does.size().y + 6.0).max(ROW);
         let whole: f32 = rows.iter().map(|(_, does)| height_of(does)).sum();
         let mut at = head.left_bottom();
         let mut lowest = at.y;
@@ -83,6 +83,7 @@ pub fn in_words(binding: &Binding, own: &OwnKeys) -> String {
         Modifiers::COMMAND => "Ctrl ",
         Modifiers::SHIFT => "Shift ",
         Modifiers::ALT => "Alt ",
+        CTRL_SHIFT => "Ctrl Shift ",
         _ => "",
     };
     let words: Vec<&str> = own.keys(binding).map(word).collect();

@@ -10,7 +10,8 @@ use self::asked::CardHandler;
 pub(super) use self::locks::Locks;
 use super::antenna_card::{
     self, CardAction, CardModel, CardState, DriveModel, FaultsModel, FollowModel, HeaderModel,
-    LinkStatus, LockOutModel, MoreModel, Offer, OtherAntenna, TrackModel, WayOutModel,
+    LinkStatus, LockOutModel, MoreModel, Offer, OffsetsModel, OtherAntenna, TrackModel,
+    WayOutModel,
 };
 use crate::{
     astro::Angle,
@@ -122,6 +123,7 @@ pub(super) fn show(
                 parks_at: &parks_at,
                 ..track(model, antenna, &locks, sun_avoidance.as_deref())
             }),
+            offsets: offsets(antenna, &locks),
             drive: DriveModel {
                 commanded_deg: commanded.into(),
                 commanded_decimals: wanted.decimals(decimals, predicted_decimals),
@@ -321,6 +323,18 @@ fn track<'a>(
             sun_avoidance,
         }),
     }
+}
+
+/// Offsets of the track that runs from here.
+fn offsets<'a>(antenna: &AntennaModel, locks: &Locks) -> Option<OffsetsModel<'a>> {
+    let track = antenna.snapshot.program_track.as_ref().filter(|_| antenna.follows())?;
+    Some(OffsetsModel {
+        offsets: track.offsets,
+        can_undo: track.can_undo,
+        target_moves: track.target_moves,
+        has_elevation: antenna.variant().capabilities.has_elevation(),
+        locked: locks.link,
+    })
 }
 
 /// The reason why the unit would miss the selected satellite, and a further note on its

@@ -50,8 +50,9 @@ fn following(antenna: &AntennaModel, view: &TrackView, name: &str) -> Spoken {
     } else {
         (SentenceKind::Caution, "outside")
     };
+    let beside = if view.offsets.is_none() { "" } else { " with offsets" };
     lead(kind).plain(format!(
-        ", sent from position to position. The antenna is {} off, {side} its {} beam.",
+        ", sent from position to position{beside}. The antenna is {} off, {side} its {} beam.",
         format::degrees(off_deg, 2),
         format::degrees(beam_deg, 2)
     ))

@@ -30,8 +30,14 @@ pub fn offset_value(offset: Offset) -> String {
 /// All that are not zero, in one line.
 pub fn offsets(offsets: TrackOffsets) -> String {
     let each = offsets.each().into_iter().filter(|offset| !offset.is_zero());
-    let each = each
-        .map(|offset| format!("{} {}", offset_name(offset).to_lowercase(), offset_value(offset)));
+    let short = |offset| match offset {
+        Offset::Time(_) => "time",
+        Offset::Along(_) => "along",
+        Offset::Across(_) => "across",
+        Offset::Azimuth(_) => "az",
+        Offset::Elevation(_) => "el",
+    };
+    let each = each.map(|offset| format!("{} {}", short(offset), offset_value(offset)));
     let words: Vec<String> = each.collect();
     if words.is_empty() { "none".to_owned() } else { words.join(", ") }
 }

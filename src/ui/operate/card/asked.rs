@@ -45,6 +45,7 @@ impl CardHandler<'_> {
                 let track = |pass| engine::Command::Track { antenna, pass, is_agreed: false };
                 return self.commands.extend(pass.map(track).map(UiCommand::Station));
             }
+            CardAction::Offset(change) => Command::Offset(change),
             CardAction::TakeOver => Command::TakeOver,
             CardAction::GoOn => {
                 let go_on = engine::Command::GoOn(self.antenna.id());

@@ -1,0 +1,136 @@
+//! Offsets while tracking.
+
+use azel::{
+    astro::{Angle, Offset, TrackOffsets},
+    driver::{Command, LinkState, OffsetChange},
+    model::UiCommand,
+    station::AntennaId,
+};
+use egui::{Key, Modifiers, Role};
+use egui_kittest::kittest::Queryable as _;
+use jiff::SignedDuration;
+
+use crate::window_stories::{
+    following,
+    rig::{self, SIZES, Window, asked, settle},
+    states,
+};
+
+fn deg(degrees: f64) -> Angle {
+    Angle::from_degrees(degrees)
+}
+
+fn with(steps: &[Offset]) -> TrackOffsets {
+    steps.iter().copied().try_fold(TrackOffsets::NONE, TrackOffsets::plus).unwrap()
+}
+
+fn change(change: OffsetChange) -> UiCommand {
+    UiCommand::antenna(AntennaId(1), Command::Offset(change))
+}
+
+fn step(offset: Offset) -> UiCommand {
+    change(OffsetChange::Step(offset))
+}
+
+/// A window whose antenna tracks with these offsets, with the section open.
+fn opened(size: [f32; 2], offsets: TrackOffsets, line: &str) -> Window {
+    let mut window = rig::window(size, following::tracking(offsets));
+    window.get_by_role_and_label(Role::Button, line).click();
+    settle(&mut window);
+    asked(&mut window);
+    window
+}
+
+fn click(window: &mut Window, name: &str) -> Vec<UiCommand> {
+    window.get_by_role_and_label(Role::Button, name).scroll_to_me();
+    settle(window);
+    window.get_by_role_and_label(Role::Button, name).click();
+    asked(window)
+}
+
+#[test]
+fn each_offset_has_its_value_and_keys_for_less_and_more() {
+    let on = with(&[Offset::Time(SignedDuration::from_millis(-300)), Offset::Across(deg(0.25))]);
+    for size in SIZES {
+        let line = "Offsets: time −0.30 s, across +0.25°";
+        let mut window = opened(size, on, line);
+        window.get_by_label_contains("sent from position to position with offsets.");
+        for said in
+            ["Time offset: −0.30 s", "Across track offset: +0.25°", "Azimuth offset: +0.00°"]
+        {
+            window.get_by_label(said);
+        }
+        let tenth = deg(0.1);
+        for (name, offset) in [
+            ("Time", Offset::Time(SignedDuration::from_millis(100))),
+            ("Along track", Offset::Along(tenth)),
+            ("Across track", Offset::Across(tenth)),
+            ("Azimuth", Offset::Azimuth(tenth)),
+            ("Elevation", Offset::Elevation(tenth)),
+        ] {
+            assert_eq!(click(&mut window, &format!("{name} offset, more")), [step(offset)]);
+            assert_eq!(click(&mut window, &format!("{name} offset, less")), [step(-offset)]);
+        }
+        assert_eq!(click(&mut window, "All offsets to zero"), [change(OffsetChange::Zero)]);
+        assert_eq!(click(&mut window, "Undo the last offset"), [change(OffsetChange::Undo)]);
+        window.get_by_role_and_label(Role::RadioButton, "1").click();
+        settle(&mut window);
+        let whole = step(Offset::Azimuth(deg(1.0)));
+        assert_eq!(click(&mut window, "Azimuth offset, more"), [whole.clone()]);
+        // The keys take the step of the card, too.
+        window.key_press_modifiers(Modifiers::COMMAND, Key::ArrowRight);
+        assert_eq!(asked(&mut window), [whole]);
+    }
+}
+
+#[test]
+fn without_offsets_there_is_nothing_to_undo_or_to_set_to_zero() {
+    for size in SIZES {
+        let mut window = opened(size, TrackOffsets::NONE, "Offsets: none");
+        assert_eq!(click(&mut window, "All offsets to zero"), []);
+        assert_eq!(click(&mut window, "Undo the last offset"), []);
+    }
+}
+
+#[test]
+fn brackets_change_the_time_and_backspace_ends_it() {
+    let time = |ms| Offset::Time(SignedDuration::from_millis(ms));
+    let mut window = rig::window(SIZES[0], following::tracking(with(&[time(700)])));
+    for (modifiers, key, wanted) in [
+        (Modifiers::NONE, Key::OpenBracket, time(-100)),
+        (Modifiers::NONE, Key::CloseBracket, time(100)),
+        (Modifiers::NONE, Key::Backspace, time(-700)),
+        (Modifiers::COMMAND, Key::ArrowUp, Offset::Elevation(deg(0.1))),
+        (Modifiers::COMMAND, Key::ArrowLeft, Offset::Azimuth(deg(-0.1))),
+        (Modifiers::COMMAND | Modifiers::SHIFT, Key::ArrowUp, Offset::Along(deg(0.1))),
+        (Modifiers::COMMAND | Modifiers::SHIFT, Key::ArrowLeft, Offset::Across(deg(-0.1))),
+    ] {
+        window.key_press_modifiers(modifiers, key);
+        assert_eq!(asked(&mut window), [step(wanted)], "{key:?}");
+    }
+    window.key_press(Key::U);
+    assert_eq!(asked(&mut window), [change(OffsetChange::Undo)]);
+}
+
+#[test]
+fn while_nothing_is_tracked_there_are_none_and_their_keys_are_left_alone() {
+    for size in SIZES {
+        let mut window = rig::window(size, rig::model(states::manual()));
+        assert!(window.query_by_label_contains("Offsets:").is_none());
+        window.key_press(Key::CloseBracket);
+        assert_eq!(asked(&mut window), []);
+    }
+}
+
+#[test]
+fn without_a_link_they_are_shown_and_locked_with_the_reason() {
+    let mut model = following::tracking(with(&[Offset::Azimuth(deg(0.5))]));
+    let snapshot = std::sync::Arc::make_mut(&mut model.antennas[0].snapshot);
+    snapshot.link = LinkState::Connecting { since: model.steady };
+    let mut window = rig::window(SIZES[1], model);
+    window.get_by_role_and_label(Role::Button, "Offsets: az +0.50°").click();
+    settle(&mut window);
+    asked(&mut window);
+    assert_eq!(click(&mut window, "Azimuth offset, more"), []);
+    assert!(window.query_all_by_label("Locked: the unit does not answer.").next().is_some());
+}
