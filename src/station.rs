@@ -11,6 +11,7 @@ mod frequency;
 mod hours_of_day;
 mod keep_out;
 mod keeping;
+mod kept_offsets;
 mod lock_outs;
 mod mount;
 mod notices;
@@ -36,6 +37,7 @@ pub use frequency::Frequency;
 pub use hours_of_day::HoursOfDay;
 pub use keep_out::{Entered, KeepOut, SunAvoidance};
 pub use keeping::Retention;
+pub use kept_offsets::{KeptOffsets, OffsetsOf};
 pub use lock_outs::{LOCK_OUTS_FILE, LockOut, LockOuts};
 pub use mount::Mount;
 pub use notices::{Notices, Tones};
@@ -95,6 +97,9 @@ pub struct Station {
     /// Frequencies of satellites, of which each may have several.
     #[serde(rename = "frequency", skip_serializing_if = "Vec::is_empty")]
     pub frequencies: Vec<Frequency>,
+    /// Offsets that are remembered, each of a satellite or an antenna.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub offsets: Vec<KeptOffsets>,
     /// Alarms and reminders that the desktop shows and sounds.
     #[serde(skip_serializing_if = "is_default")]
     pub notices: Notices,
@@ -221,6 +226,7 @@ impl Default for Station {
             pass_choices: Vec::new(),
             rules: Vec::new(),
             frequencies: Vec::new(),
+            offsets: Vec::new(),
             notices: Notices::default(),
             record: Retention::default(),
             on_close: None,

@@ -1,7 +1,7 @@
 //! Every command and event of a station survives serialization.
 
 use azel::{
-    astro::{Angle, Offset},
+    astro::{Angle, Offset, TrackOffsets},
     device::{
         Pointing, TrackTarget,
         panel::Act,
@@ -22,7 +22,7 @@ use azel::{
     orbit::{Elements, PassSearch, Propagator, RefreshHours, Source, bundled, passes},
     plan::{OnBoardPass, ProgramTrack, Target},
     secret::Secret,
-    station::{Antenna, AntennaId, Frequency, LockOut, Priority, Station},
+    station::{Antenna, AntennaId, Frequency, LockOut, OffsetsOf, Priority, Station},
     transfer::{FileName, Peer, TleFile},
 };
 use jiff::{Timestamp, ToSpan as _};
@@ -93,6 +93,9 @@ fn commands_of_antennas() -> Vec<driver::Command> {
         C::Resume,
         C::Offset(OffsetChange::Step(Offset::Along(Angle::from_degrees(-0.1)))),
         C::Offset(OffsetChange::Zero),
+        C::FirstOffsets(
+            TrackOffsets::NONE.plus(Offset::Azimuth(Angle::from_degrees(0.1))).unwrap(),
+        ),
         C::SeenStanding,
         C::Park,
         C::Preview(Some(Pointing { azimuth: Some(Angle::from_degrees(0.1)), elevation: None })),
@@ -126,6 +129,7 @@ fn commands_of_antennas() -> Vec<driver::Command> {
             | C::ProgramTrackIntoSun(_)
             | C::Resume
             | C::Offset(_)
+            | C::FirstOffsets(_)
             | C::SeenStanding
             | C::Park
             | C::Preview(_)
@@ -204,6 +208,7 @@ fn what_is_asked_of_a_station_comes_back() {
             satellite: 25_544,
             frequencies: Frequency::read_list("25544 145.8 Voice").unwrap(),
         },
+        Command::KeepOffsets { of: OffsetsOf::Antenna(ANTENNA), offsets: TrackOffsets::NONE },
         Command::SetPriority { numbers: vec![25_544], priority: Priority::default() },
         Command::AddSource(Source::celestrak("weather")),
         Command::RemoveSource("weather".to_owned()),

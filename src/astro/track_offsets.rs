@@ -163,7 +163,19 @@ impl TrackOffsets {
     /// sky if these two make up for an error of its mount.
     #[must_use]
     pub fn on_the_sky(self) -> Self {
-        Self { azimuth: Angle::ZERO, elevation: Angle::ZERO, ..self }
+        self.with_axes_of(Self::NONE)
+    }
+
+    /// Those of azimuth and elevation alone.
+    #[must_use]
+    pub fn of_the_axes(self) -> Self {
+        Self::NONE.with_axes_of(self)
+    }
+
+    /// The same with azimuth and elevation of `other`.
+    #[must_use]
+    pub fn with_axes_of(self, other: Self) -> Self {
+        Self { azimuth: other.azimuth, elevation: other.elevation, ..self }
     }
 
     /// The time alone: where the antenna points if the target is there earlier or later.
@@ -185,23 +197,40 @@ impl TrackOffsets {
 }
 
 /// The form in files and messages.
-#[derive(Debug, Clone, Copy, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, Default, Serialize, Deserialize)]
+#[serde(default)]
 struct Written {
+    #[serde(skip_serializing_if = "is_zero")]
     time_s: f64,
+    #[serde(skip_serializing_if = "is_zero")]
     along_deg: f64,
+    #[serde(skip_serializing_if = "is_zero")]
     across_deg: f64,
+    #[serde(skip_serializing_if = "is_zero")]
     azimuth_deg: f64,
+    #[serde(skip_serializing_if = "is_zero")]
     elevation_deg: f64,
+}
+
+// The signature is serde's.
+#[allow(clippy::trivially_copy_pass_by_ref)]
+fn is_zero(value: &f64) -> bool {
+    *value == 0.0
+}
+
+/// A file of operators has no digits that stand for nothing.
+fn rounded_deg(angle: Angle) -> f64 {
+    (angle.degrees() * 1000.0).round() / 1000.0
 }
 
 impl From<TrackOffsets> for Written {
     fn from(offsets: TrackOffsets) -> Self {
         Self {
             time_s: offsets.time.as_secs_f64(),
-            along_deg: offsets.along.degrees(),
-            across_deg: offsets.across.degrees(),
-            azimuth_deg: offsets.azimuth.degrees(),
-            elevation_deg: offsets.elevation.degrees(),
+            along_deg: rounded_deg(offsets.along),
+            across_deg: rounded_deg(offsets.across),
+            azimuth_deg: rounded_deg(offsets.azimuth),
+            elevation_deg: rounded_deg(offsets.elevation),
         }
     }
 }

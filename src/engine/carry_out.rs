@@ -17,6 +17,7 @@ use jiff::Timestamp;
 use crate::{
     astro::time::seconds_between,
     driver,
+    plan::ProgramTrack,
     station::{self, AntennaId, Station},
 };
 
@@ -42,7 +43,12 @@ impl Engine {
             Command::Antenna(id, driver::Command::Unlock) => {
                 self.with(id, |engine, index| engine.set_lock_out(index, None));
             }
-            Command::Antenna(id, command) => {
+            Command::Antenna(id, mut command) => {
+                if let driver::Command::ProgramTrack(follow)
+                | driver::Command::ProgramTrackIntoSun(follow) = &mut command
+                {
+                    self.begin_with_offsets(id, follow);
+                }
                 self.with(id, |engine, index| engine.send(index, command));
             }
             Command::Track { antenna, pass, is_agreed } => {
@@ -95,6 +101,10 @@ impl Engine {
                 station.frequencies.retain(|of| of.satellite != satellite);
                 station.frequencies.extend(frequencies);
             }),
+            Command::KeepOffsets { of, offsets } => {
+                self.change_station(|station| station.keep_offsets(of, offsets));
+                self.tell_first_offsets();
+            }
             Command::CopyElements { name, from } => {
                 let copy = Some((name, from));
                 self.begin_elements(Task { copy, ..Task::default() });
@@ -249,6 +259,7 @@ impl Engine {
         }
         let mut track = predicted.follow(config, self.station.elevation_floor()).one_pass(now);
         track.passes.iter_mut().for_each(|span| *span = cut(*span));
+        self.begin_with_offsets(config.id, &mut track);
         self.send(index, driver::Command::ProgramTrack(Box::new(track)));
     }
 
@@ -264,8 +275,26 @@ impl Engine {
         // A pass that has ended since the request is not replaced by another.
         let Some(predicted) = self.pass(pass) else { return };
         let Some(antenna) = self.antennas.get(index) else { return };
-        let follow = predicted.follow(&antenna.shown.config, self.station.elevation_floor());
+        let config = &antenna.shown.config;
+        let mut follow = predicted.follow(config, self.station.elevation_floor());
+        self.begin_with_offsets(config.id, &mut follow);
         self.send(index, driver::Command::ProgramTrack(Box::new(follow)));
+    }
+
+    /// A track begins with the offsets that are remembered of its satellite and its antenna.
+    fn begin_with_offsets(&self, antenna: AntennaId, follow: &mut ProgramTrack) {
+        follow.offsets = self.station.first_offsets(antenna, follow.target.catalog_number());
+    }
+
+    /// Tells the sessions with what offsets the next passes of their tracks begin.
+    fn tell_first_offsets(&mut self) {
+        for index in 0..self.antennas.len() {
+            let Some(antenna) = self.antennas.get(index) else { continue };
+            let Some(track) = &antenna.shown.snapshot.program_track else { continue };
+            let id = antenna.shown.id();
+            let offsets = self.station.first_offsets(id, track.catalog_number);
+            self.send(index, driver::Command::FirstOffsets(offsets));
+        }
     }
 
     /// A listed pass that is not over.

@@ -16,9 +16,12 @@ use super::{
     uploads, written,
 };
 use crate::{
+    astro::TrackOffsets,
     driver,
     orbit::{RefreshHours, Source},
-    station::{Antenna, AntennaId, Frequency, PassLimits, Priority, Scheduling, Station, Take},
+    station::{
+        Antenna, AntennaId, Frequency, OffsetsOf, PassLimits, Priority, Scheduling, Station, Take,
+    },
 };
 
 /// A command of a client to a station. STOP is not one: it bypasses the queue of commands.
@@ -85,6 +88,11 @@ pub enum Command {
         /// Catalog number.
         satellite: u32,
         frequencies: Vec<Frequency>,
+    },
+    /// Remember these offsets: tracks begin with them.
+    KeepOffsets {
+        of: OffsetsOf,
+        offsets: TrackOffsets,
     },
     /// Add a source of elements.
     AddSource(Source),
@@ -184,6 +192,7 @@ impl Command {
                 | Self::SetFavourites { .. }
                 | Self::SetPriority { .. }
                 | Self::SetFrequencies { .. }
+                | Self::KeepOffsets { .. }
         )
     }
 

@@ -3,6 +3,7 @@
 mod file;
 mod keep_out;
 mod notices;
+mod offsets;
 mod schedule;
 
 use super::*;

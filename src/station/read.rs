@@ -6,6 +6,7 @@ mod favourites;
 mod keep_out;
 mod keeping;
 mod notices;
+mod offsets;
 mod schedule;
 
 use std::ops::RangeInclusive;
@@ -63,6 +64,7 @@ pub fn from_toml(mut table: Table, specs: &[&'static ControllerSpec]) -> (Statio
         pass_choices: fields.list("pass", |pass| pass.pass_choice()),
         rules: Vec::new(),
         frequencies: fields.frequencies(),
+        offsets: Vec::new(),
         notices: fields.notices(),
         record: fields.keeping(),
         on_close: fields.on_close(),
@@ -82,6 +84,7 @@ pub fn from_toml(mut table: Table, specs: &[&'static ControllerSpec]) -> (Statio
     let antennas: Vec<AntennaId> = station.antennas.iter().map(|antenna| antenna.id).collect();
     station.favourites = fields.favourites(default.favourites, &antennas);
     station.groups = fields.list("group", |group| group.satellite_group(&antennas));
+    station.offsets = fields.list("offsets", |offsets| offsets.kept_offsets(&antennas));
     let groups: Vec<&str> = station.groups.iter().map(|group| &*group.name).collect();
     station.rules = fields.list("rule", |rule| rule.automation_rule(&antennas, &groups));
     fields.name_the_unknown();

@@ -38,6 +38,7 @@ use super::{
 use crate::{
     device::panel::{Act, CheckState, Reading},
     driver::{Intent, OffsetChange},
+    station::OffsetsOf,
 };
 pub use drive::{DriveModel, DriveState};
 pub use faults::FaultsModel;
@@ -205,6 +206,8 @@ pub enum CardAction {
     Follow(FollowChoice),
     /// Change the offsets of the track.
     Offset(OffsetChange),
+    /// Remember the offsets that are on.
+    KeepOffsets(OffsetsOf),
     /// Switch automatic starting of passes by the unit.
     SetAutoTrack(bool),
     /// Start an action of this make.

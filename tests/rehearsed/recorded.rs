@@ -3,6 +3,7 @@
 use std::num::NonZeroU32;
 
 use azel::{
+    astro::{Angle, Offset, TrackOffsets},
     engine::{
         Client, Command, record_path,
         recorded::{Found, RecordLook},
@@ -10,9 +11,9 @@ use azel::{
     orbit::{Pass, PassSearch, Propagator, bundled, passes},
     plan::pass_report::{LossCause, PassReport, PassVerdict},
     record::{Kind, PassQuery, Row, RowKind},
-    station::Station,
+    station::{OffsetsOf, Station},
 };
-use jiff::ToSpan as _;
+use jiff::{SignedDuration, ToSpan as _};
 
 use super::{
     super::serve::record,
@@ -104,6 +105,31 @@ fn a_pass_that_was_tracked_is_reported_when_it_is_over() {
     let is_poor = u32::from(report.verdict == PassVerdict::Poor);
     let found = look(&client, &RecordLook { query: poor, opened: None });
     assert_eq!(found.page.matching, is_poor);
+}
+
+#[test]
+fn a_pass_is_flown_with_the_offsets_that_are_remembered_and_reported_beside_them() {
+    let mut station = Station { favourites: [ISS].into(), ..scene::station() };
+    let mast = station.antennas.iter().find(|of| of.name == "Mast").unwrap().id;
+    let with = |step| TrackOffsets::NONE.plus(step).unwrap();
+    let azimuth = with(Offset::Azimuth(Angle::from_degrees(6.0)));
+    station.keep_offsets(OffsetsOf::Antenna(mast), azimuth);
+    let pass = next_pass(&station);
+    let scene = Scene::with(pass.aos.time - 4.minutes(), NonZeroU32::new(40).unwrap(), &station);
+    let client = scene.client();
+    track(&client, "Mast");
+    let time = with(Offset::Time(SignedDuration::from_secs(2)));
+    let of = OffsetsOf::Satellite(ISS);
+    client.send(Command::KeepOffsets { of, offsets: time }).unwrap();
+    until("its report", || (!rows(&scene, RowKind::Pass).is_empty()).then_some(()));
+    let row = rows(&scene, RowKind::Pass).remove(0);
+    let told = &row.data["report"];
+    assert_eq!(told["offsets"][0][1]["azimuth_deg"], 6.0, "{told}");
+    let report: PassReport = serde_json::from_value(told.clone()).unwrap();
+    let rms = report.rms.unwrap();
+    assert!(rms.off_deg < 2.0, "whole degrees beside where it should point: {rms:?}");
+    let shown = client.snapshot();
+    assert_eq!(shown.station.first_offsets(mast, Some(ISS)), time.with_axes_of(azimuth));
 }
 
 #[test]

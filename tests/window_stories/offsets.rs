@@ -3,8 +3,9 @@
 use azel::{
     astro::{Angle, Offset, TrackOffsets},
     driver::{Command, LinkState, OffsetChange},
+    engine,
     model::UiCommand,
-    station::AntennaId,
+    station::{AntennaId, OffsetsOf},
 };
 use egui::{Key, Modifiers, Role};
 use egui_kittest::kittest::Queryable as _;
@@ -54,7 +55,8 @@ fn each_offset_has_its_value_and_keys_for_less_and_more() {
     for size in SIZES {
         let line = "Offsets: time −0.30 s, across +0.25°";
         let mut window = opened(size, on, line);
-        window.get_by_label_contains("sent from position to position with offsets.");
+        let said = "sent from position to position with offsets.";
+        assert!(window.query_all_by_label_contains(said).next().is_some());
         for said in
             ["Time offset: −0.30 s", "Across track offset: +0.25°", "Azimuth offset: +0.00°"]
         {
@@ -80,6 +82,23 @@ fn each_offset_has_its_value_and_keys_for_less_and_more() {
         // The keys take the step of the card, too.
         window.key_press_modifiers(Modifiers::COMMAND, Key::ArrowRight);
         assert_eq!(asked(&mut window), [whole]);
+    }
+}
+
+#[test]
+fn they_are_remembered_of_the_satellite_or_the_antenna() {
+    let on = with(&[Offset::Along(deg(0.2)), Offset::Elevation(deg(0.3))]);
+    for size in SIZES {
+        let mut window = opened(size, on, "Offsets: along +0.20°, el +0.30°");
+        let keep = |of| UiCommand::Station(engine::Command::KeepOffsets { of, offsets: on });
+        let of_satellite = "Remember time, along and across the track for NOAA 20";
+        assert_eq!(click(&mut window, of_satellite), [keep(OffsetsOf::Satellite(rig::NOAA_20))]);
+        let of_antenna = "Remember azimuth and elevation for Mast";
+        assert_eq!(click(&mut window, of_antenna), [keep(OffsetsOf::Antenna(AntennaId(1)))]);
+        let station = std::sync::Arc::make_mut(&mut window.state_mut().model.station);
+        station.keep_offsets(OffsetsOf::Antenna(AntennaId(1)), on);
+        settle(&mut window);
+        assert_eq!(click(&mut window, &format!("{of_antenna}: nothing new")), []);
     }
 }
 

@@ -11,7 +11,7 @@ use super::{
     wanted::Wanted,
 };
 use crate::{
-    astro::Angle,
+    astro::{Angle, TrackOffsets},
     clock::Moment,
     device::{
         Motion, Pointing,
@@ -70,6 +70,8 @@ pub enum Command {
     ProgramTrackIntoSun(Box<ProgramTrack>),
     /// Change the offsets of the program track that runs.
     Offset(OffsetChange),
+    /// Begin the next passes of the program track with these offsets; the present ones stay.
+    FirstOffsets(TrackOffsets),
     /// Resume a program track that waits for the operator.
     Resume,
     /// The operator has seen that the antenna stands: no STOP is owed any more.
@@ -129,6 +131,7 @@ impl Session {
             Command::SeenStanding => self.take_word_for_standstill(),
             Command::Resume => self.resume(),
             Command::Offset(change) => self.change_offsets(change, now),
+            Command::FirstOffsets(offsets) => self.begin_with(offsets),
             Command::Standby => self.leave_for(Activity::Standby, now),
             Command::Manual => self.leave_for(Activity::Manual, now),
             Command::Hold => self.leave_for(Activity::Hold(None), now),
@@ -323,6 +326,7 @@ impl Session {
             Command::Resume => self.resume(),
             Command::Standby => self.activity = Activity::Standby,
             Command::AutoTrack(false) => self.end_auto_track(),
+            Command::FirstOffsets(offsets) => self.begin_with(offsets),
             // The track goes on with the offsets that it has.
             Command::Offset(_) => self.tell(Event::NotSent(Refusal::PositionUnknown)),
             _ => {

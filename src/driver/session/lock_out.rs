@@ -128,6 +128,7 @@ impl Session {
             | Command::AllowWayOut
             | Command::SeenStanding
             | Command::Resume
+            | Command::FirstOffsets(_)
             | Command::WriteSettings(_)
             | Command::Disconnect
             | Command::Preview(_)

@@ -34,6 +34,13 @@ impl Session {
         }
     }
 
+    /// The passes of the track that are still to come begin with these.
+    pub(super) fn begin_with(&mut self, offsets: TrackOffsets) {
+        if let Some(track) = self.activity.program_mut() {
+            track.planner.begin_with(offsets);
+        }
+    }
+
     fn try_offsets(&mut self, change: OffsetChange, now: Moment) -> Result<(), Refusal> {
         let track = self.activity.program().ok_or(Refusal::NoTrack)?;
         let before = track.planner.offsets();

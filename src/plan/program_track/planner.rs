@@ -66,6 +66,11 @@ impl Planner {
         Ok(Self { follow, course, offsets, drives, settings, bounds, path, is_stale, axes })
     }
 
+    /// The next passes begin with these offsets.
+    pub fn begin_with(&mut self, offsets: TrackOffsets) {
+        self.follow.offsets = offsets;
+    }
+
     pub fn offsets(&self) -> TrackOffsets {
         self.offsets
     }

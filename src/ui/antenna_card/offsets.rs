@@ -6,6 +6,7 @@ use super::{CardAction, Cursor};
 use crate::{
     astro::{Offset, TrackOffsets},
     driver::OffsetChange,
+    station::OffsetsOf,
     ui::{
         icons::{self, Icon},
         text, theme,
@@ -35,6 +36,9 @@ pub struct OffsetsModel<'a> {
     pub has_elevation: bool,
     /// The reason why nothing is changed now.
     pub locked: Option<&'a str>,
+    /// What they can be remembered of: its name, and whether what is on differs from what is
+    /// remembered.
+    pub keep: &'a [(OffsetsOf, &'a str, bool)],
 }
 
 /// Size of a step, in thousandths of a degree or of a second.
@@ -120,6 +124,8 @@ pub(super) fn show(
         }
     }
     at.skip(GAP);
+    keep(ui, at.take(SMALL_HEIGHT), model, actions);
+    at.skip(GAP);
     if let Some(why) = model.locked {
         let glyph = paint::square(pos2(at.left + 7.0, at.y + 8.0), 13.0);
         icons::paint(ui.painter(), glyph, Icon::Lock, t.t2);
@@ -129,6 +135,32 @@ pub(super) fn show(
         at.y = taken.bottom() + 1.0;
     }
     at.skip(4.0);
+}
+
+/// A button for each that the offsets can be remembered of.
+fn keep(ui: &Ui, row: Rect, model: &OffsetsModel<'_>, actions: &mut Vec<CardAction>) {
+    let t = theme::tokens(ui);
+    let words = "Remember for";
+    let head = paint::text(ui, row.left_center(), Align2::LEFT_CENTER, words, text::small(), t.t2);
+    let room = row.with_min_x(head.right() + 8.0);
+    let width = (room.width() - GAP) / 2.0;
+    let mut left = room.left();
+    for (of, name, differs) in model.keep {
+        let place = room.with_min_x(left).with_max_x(left + width);
+        left = place.right() + GAP;
+        let about = match of {
+            OffsetsOf::Satellite(_) => {
+                format!("Remember time, along and across the track for {name}")
+            }
+            OffsetsOf::Antenna(_) => format!("Remember azimuth and elevation for {name}"),
+        };
+        let said = if *differs { about } else { format!("{about}: nothing new") };
+        let response = Button::normal(name).locked(!differs).show(ui, ("keep", *name), place);
+        let response = response.on_hover_text(&said).accessible_name(said);
+        if response.clicked() {
+            actions.push(CardAction::KeepOffsets(*of));
+        }
+    }
 }
 
 /// Name, less, value and more.

@@ -19,7 +19,7 @@ use crate::{
     driver::{Intent, LinkState},
     engine::{CatalogState, antenna::AntennaModel},
     model::{Model, UiCommand, View},
-    station::{AntennaId, Mount},
+    station::{AntennaId, Mount, OffsetsOf},
     ui::{
         bar,
         confirm::Question,
@@ -84,6 +84,7 @@ pub(super) fn show(
     let sun_avoidance = sun_avoidance(model, antenna);
     let parks_at = words::parks_at(antenna);
     let go_on = switches::go_on(model, antenna);
+    let keep = kept(model, antenna);
     state_sentence(model, antenna).with(|sentence| {
         let card = CardModel {
             header: HeaderModel {
@@ -123,7 +124,7 @@ pub(super) fn show(
                 parks_at: &parks_at,
                 ..track(model, antenna, &locks, sun_avoidance.as_deref())
             }),
-            offsets: offsets(antenna, &locks),
+            offsets: offsets(antenna, &locks, &keep),
             drive: DriveModel {
                 commanded_deg: commanded.into(),
                 commanded_decimals: wanted.decimals(decimals, predicted_decimals),
@@ -325,8 +326,23 @@ fn track<'a>(
     }
 }
 
+/// What the offsets that are on can be remembered of, and whether that would be new.
+fn kept<'a>(model: &Model, antenna: &'a AntennaModel) -> Vec<(OffsetsOf, &'a str, bool)> {
+    let Some(track) = &antenna.snapshot.program_track else { return Vec::new() };
+    let of_satellite =
+        track.catalog_number.map(|number| (OffsetsOf::Satellite(number), short(&track.name)));
+    let of_antenna = (OffsetsOf::Antenna(antenna.id()), &*antenna.config.name);
+    let each = of_satellite.into_iter().chain([of_antenna]);
+    let differs = |of: OffsetsOf| of.part(track.offsets) != model.station.kept_offsets(of);
+    each.map(|(of, name)| (of, name, differs(of))).collect()
+}
+
 /// Offsets of the track that runs from here.
-fn offsets<'a>(antenna: &AntennaModel, locks: &Locks) -> Option<OffsetsModel<'a>> {
+fn offsets<'a>(
+    antenna: &AntennaModel,
+    locks: &Locks,
+    keep: &'a [(OffsetsOf, &'a str, bool)],
+) -> Option<OffsetsModel<'a>> {
     let track = antenna.snapshot.program_track.as_ref().filter(|_| antenna.follows())?;
     Some(OffsetsModel {
         offsets: track.offsets,
@@ -334,6 +350,7 @@ fn offsets<'a>(antenna: &AntennaModel, locks: &Locks) -> Option<OffsetsModel<'a>
         target_moves: track.target_moves,
         has_elevation: antenna.variant().capabilities.has_elevation(),
         locked: locks.link,
+        keep,
     })
 }
 

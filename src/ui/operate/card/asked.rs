@@ -45,6 +45,12 @@ impl CardHandler<'_> {
                 let track = |pass| engine::Command::Track { antenna, pass, is_agreed: false };
                 return self.commands.extend(pass.map(track).map(UiCommand::Station));
             }
+            CardAction::KeepOffsets(of) => {
+                let track = self.antenna.snapshot.program_track.as_ref();
+                let keep = |offsets| engine::Command::KeepOffsets { of, offsets };
+                let keep = track.map(|track| UiCommand::Station(keep(track.offsets)));
+                return self.commands.extend(keep);
+            }
             CardAction::Offset(change) => Command::Offset(change),
             CardAction::TakeOver => Command::TakeOver,
             CardAction::GoOn => {

@@ -1,0 +1,84 @@
+//! Offsets that the operator wants to be remembered.
+
+use serde::{Deserialize, Serialize};
+
+use super::{AntennaId, Station};
+use crate::astro::TrackOffsets;
+
+/// Offsets with which tracks begin.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct KeptOffsets {
+    #[serde(flatten)]
+    pub of: OffsetsOf,
+    #[serde(flatten)]
+    pub offsets: TrackOffsets,
+}
+
+/// What the offsets make up for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum OffsetsOf {
+    /// The elements of a satellite, by its catalog number: time, along and across.
+    Satellite(u32),
+    /// The mount of an antenna: azimuth and elevation.
+    Antenna(AntennaId),
+}
+
+impl OffsetsOf {
+    /// Those of its kinds.
+    #[must_use]
+    pub fn part(self, offsets: TrackOffsets) -> TrackOffsets {
+        match self {
+            Self::Satellite(_) => offsets.on_the_sky(),
+            Self::Antenna(_) => offsets.of_the_axes(),
+        }
+    }
+}
+
+impl Station {
+    /// The offsets that are remembered of a satellite or an antenna.
+    pub fn kept_offsets(&self, of: OffsetsOf) -> TrackOffsets {
+        let kept = self.offsets.iter().find(|kept| kept.of == of);
+        of.part(kept.map(|kept| kept.offsets).unwrap_or_default())
+    }
+
+    /// The offsets with which an antenna begins a track.
+    pub fn first_offsets(&self, antenna: AntennaId, satellite: Option<u32>) -> TrackOffsets {
+        let of_satellite = satellite.map(|number| self.kept_offsets(OffsetsOf::Satellite(number)));
+        let of_antenna = self.kept_offsets(OffsetsOf::Antenna(antenna));
+        of_satellite.unwrap_or_default().with_axes_of(of_antenna)
+    }
+
+    /// Remembers these offsets in place of earlier ones; none are forgotten.
+    pub fn keep_offsets(&mut self, of: OffsetsOf, offsets: TrackOffsets) {
+        self.offsets.retain(|kept| kept.of != of);
+        let offsets = of.part(offsets);
+        self.offsets.extend((!offsets.is_none()).then_some(KeptOffsets { of, offsets }));
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::astro::{Angle, Offset};
+
+    #[test]
+    fn a_track_begins_with_those_of_its_satellite_and_of_its_antenna() {
+        let deg = Angle::from_degrees;
+        let with = |steps: &[Offset]| {
+            steps.iter().copied().try_fold(TrackOffsets::NONE, TrackOffsets::plus).unwrap()
+        };
+        let all = with(&[Offset::Along(deg(0.1)), Offset::Elevation(deg(0.2))]);
+        let mut station = Station::default();
+        let (antenna, other) = (AntennaId(1), AntennaId(2));
+        station.keep_offsets(OffsetsOf::Satellite(25_544), all);
+        station.keep_offsets(OffsetsOf::Antenna(antenna), all);
+        assert_eq!(station.first_offsets(antenna, Some(25_544)), all, "not twice");
+        let along = with(&[Offset::Along(deg(0.1))]);
+        assert_eq!(station.first_offsets(other, Some(25_544)), along);
+        let elevation = with(&[Offset::Elevation(deg(0.2))]);
+        assert_eq!(station.first_offsets(antenna, None), elevation);
+        station.keep_offsets(OffsetsOf::Satellite(25_544), TrackOffsets::NONE);
+        assert_eq!(station.offsets.len(), 1, "forgotten");
+    }
+}

@@ -1,0 +1,37 @@
+//! Reads remembered offsets. What cannot be read is left out with a note: it would lead an antenna
+//! elsewhere.
+
+use toml::{Table, Value};
+
+use super::{Fields, catalog_number};
+use crate::{
+    astro::TrackOffsets,
+    station::{AntennaId, KeptOffsets, OffsetsOf},
+};
+
+const KINDS: [&str; 5] = ["time_s", "along_deg", "across_deg", "azimuth_deg", "elevation_deg"];
+
+impl Fields<'_> {
+    pub(super) fn kept_offsets(&mut self, antennas: &[AntennaId]) -> Option<KeptOffsets> {
+        let mut table = Table::new();
+        for kind in KINDS {
+            table.extend(self.table.remove(kind).map(|value| (kind.to_owned(), value)));
+        }
+        let offsets: Result<TrackOffsets, toml::de::Error> = Value::Table(table).try_into();
+        let offsets = offsets.map_err(|error| self.invalid("", error.message())).ok()?;
+        let satellite = self.table.remove("satellite");
+        let antenna = self.table.remove("antenna");
+        let of = match (satellite, antenna) {
+            (Some(number), None) => catalog_number(&number).map(OffsetsOf::Satellite),
+            (None, Some(id)) => catalog_number(&id)
+                .map(AntennaId)
+                .filter(|id| antennas.contains(id))
+                .map(OffsetsOf::Antenna),
+            _ => None,
+        };
+        if of.is_none() {
+            self.invalid("satellite", "must be a catalogue number, or antenna the id of one");
+        }
+        Some(KeptOffsets { of: of?, offsets })
+    }
+}
