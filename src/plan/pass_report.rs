@@ -13,7 +13,10 @@ use serde::{Deserialize, Serialize};
 
 use super::trackability::{Loss, MountLimits, Trackability};
 use crate::{
-    astro::{Angle, AzEl, Site, time::seconds_between},
+    astro::{
+        Angle, AzEl, Site,
+        time::{add_seconds, seconds_between},
+    },
     device::Pointing,
     orbit::Propagator,
 };
@@ -64,7 +67,8 @@ pub struct PassReport {
     pub known_s: f64,
     /// Seconds of them inside half of the beam.
     pub in_beam_s: f64,
-    /// Root of the mean square over all positions; `None` without one.
+    /// Root of the mean square over the positions while the satellite was within reach of the
+    /// mount, and the largest of them; `None` without one.
     pub rms: Option<PointingError>,
     pub worst: Option<WorstError>,
     /// Stretches outside half of the beam or without positions, in order.
@@ -81,9 +85,9 @@ impl PassReport {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum PassVerdict {
-    /// At least 99.5 %, and never outside half of the beam; or all that was lost could not be had.
+    /// At least 99.5 % of what could be had, and never outside half of the beam for another reason.
     Good,
-    /// At least 95 %.
+    /// At least 95 % of what could be had.
     Fair,
     /// Less, or more than 10 s are not known.
     Poor,
@@ -176,7 +180,7 @@ impl TrackPoint {
     ) -> Option<Self> {
         let direction = |at| propagator.look_from(site, at).ok().map(|look| look.direction);
         let satellite = direction(flown.time)?;
-        let ahead = direction(crate::astro::time::add_seconds(flown.time, MOTION_S))?;
+        let ahead = direction(add_seconds(flown.time, MOTION_S))?;
         let azimuth = flown.pointing.azimuth?;
         let elevation =
             flown.pointing.elevation.or((!has_elevation).then_some(satellite.elevation))?;
@@ -208,22 +212,26 @@ impl TrackedPass<'_> {
             flown.iter().filter(within).filter_map(|flown| self.compare(*flown)).collect();
         let (known_s, in_beam_s) = self.times(&compared);
         let losses = self.losses(&compared);
-        let by_size =
-            |a: &&TrackPoint, b: &&TrackPoint| a.error.off_deg.total_cmp(&b.error.off_deg);
-        let worst = compared.iter().max_by(by_size);
+        let is_reached = |point: &&TrackPoint| self.limits.mount.reaches(point.satellite);
+        let reached: Vec<&TrackPoint> = compared.iter().filter(is_reached).collect();
+        let worst = reached.iter().max_by(|a, b| a.error.off_deg.total_cmp(&b.error.off_deg));
         let worst = worst.map(|worst| WorstError { at: worst.time, error: worst.error });
         let is_planned = |loss: &&LostStretch| {
             matches!(loss.cause, LossCause::OutOfReach | LossCause::RateOfMount | LossCause::Slew)
         };
         let planned_s: f64 = losses.iter().filter(is_planned).map(LostStretch::seconds).sum();
+        let excused_s = if planned_s <= self.allowed_s() { planned_s } else { 0.0 };
         let could_not_be_had =
-            losses.iter().all(|loss| is_planned(&loss)) && planned_s <= self.allowed_s();
-        let not_known_s = counted_s - known_s;
-        let share = if counted_s > 0.0 { in_beam_s / counted_s } else { 0.0 };
-        let is_unknown = |loss: &LostStretch| {
+            losses.iter().all(|loss| is_planned(&loss)) && excused_s >= planned_s;
+        let is_unknown = |loss: &&LostStretch| {
             matches!(loss.cause, LossCause::NotMeasured | LossCause::ProgramEnded)
         };
-        let stays_in_beam = losses.iter().all(is_unknown);
+        let not_known_s: f64 = losses.iter().filter(is_unknown).map(LostStretch::seconds).sum();
+        let could_s = counted_s - excused_s;
+        let share = if could_s > 0.0 { in_beam_s / could_s } else { 0.0 };
+        let is_excused =
+            |loss: &LostStretch| is_unknown(&loss) || is_planned(&loss) && excused_s >= planned_s;
+        let stays_in_beam = losses.iter().all(is_excused);
         let verdict = if not_known_s > NOT_KNOWN_S || compared.is_empty() {
             PassVerdict::Poor
         } else if share >= GOOD && stays_in_beam || could_not_be_had {
@@ -233,7 +241,7 @@ impl TrackedPass<'_> {
         } else {
             PassVerdict::Poor
         };
-        PassReport { verdict, counted_s, known_s, in_beam_s, rms: rms(&compared), worst, losses }
+        PassReport { verdict, counted_s, known_s, in_beam_s, rms: rms(&reached), worst, losses }
     }
 
     /// Seconds that this mount may lose: an antenna needs some to come back to its satellite.
@@ -243,6 +251,30 @@ impl TrackedPass<'_> {
             Trackability::Loses { seconds, .. } => MORE * seconds + COMES_BACK_S,
             Trackability::Nothing | Trackability::TooLow => f64::INFINITY,
         }
+    }
+
+    /// Returns `true` if the mount can point at the satellite then.
+    pub fn is_in_reach(&self, at: Timestamp) -> bool {
+        self.direction(at).is_none_or(|direction| self.limits.mount.reaches(direction))
+    }
+
+    /// A stretch of which no direction is known, for this reason. What is out of reach of the mount
+    /// is lost whatever was measured: an axis at its limit may tell no angle.
+    fn not_known(&self, from: Timestamp, until: Timestamp, why: LossCause) -> Vec<LostStretch> {
+        let mut found: Vec<LostStretch> = Vec::new();
+        let seconds = seconds_between(from, until).ceil().max(0.0) as u32;
+        for second in 0..seconds {
+            let at = |second: u32| add_seconds(from, f64::from(second)).min(until);
+            let cause = if self.is_in_reach(at(second)) { why } else { LossCause::OutOfReach };
+            match found.last_mut() {
+                Some(last) if last.cause == cause => last.until = at(second + 1),
+                _ => found.push(LostStretch { from: at(second), until: at(second + 1), cause }),
+            }
+        }
+        if found.len() > 1 {
+            found.retain(|loss| loss.cause == LossCause::OutOfReach || loss.seconds() > APART_S);
+        }
+        found
     }
 
     fn direction(&self, at: Timestamp) -> Option<AzEl> {
@@ -299,7 +331,7 @@ impl TrackedPass<'_> {
                 losses
                     .extend(out_since.take().map(|since| end(since, seen_to, has_arrived, false)));
                 let (from, until) = (seen_to, position.time);
-                losses.push(LostStretch { from, until, cause: LossCause::NotMeasured });
+                losses.extend(self.not_known(from, until, LossCause::NotMeasured));
                 seen_to = position.time;
             }
             if self.is_in_beam(position) {
@@ -318,13 +350,12 @@ impl TrackedPass<'_> {
         losses.extend(out_since.map(|since| end(since, until, has_arrived, self.ended.is_none())));
         if !is_measured {
             let (from, until) = (seen_to, last);
-            losses.push(LostStretch { from, until, cause: LossCause::NotMeasured });
+            losses.extend(self.not_known(from, until, LossCause::NotMeasured));
         }
-        losses.extend(self.ended.map(|from| LostStretch {
-            from,
-            until: self.until,
-            cause: LossCause::ProgramEnded,
-        }));
+        let ended = self.ended.into_iter();
+        losses.extend(
+            ended.flat_map(|from| self.not_known(from, self.until, LossCause::ProgramEnded)),
+        );
         losses
     }
 
@@ -336,7 +367,7 @@ impl TrackedPass<'_> {
         has_arrived: bool,
         is_over: bool,
     ) -> LossCause {
-        let middle = crate::astro::time::add_seconds(from, seconds_between(from, until) / 2.0);
+        let middle = add_seconds(from, seconds_between(from, until) / 2.0);
         let times = [from, middle, until];
         let mut directions = times.iter().filter_map(|at| self.direction(*at));
         if directions.any(|direction| !self.limits.mount.reaches(direction)) {
@@ -361,7 +392,7 @@ impl TrackedPass<'_> {
     }
 }
 
-fn rms(compared: &[TrackPoint]) -> Option<PointingError> {
+fn rms(compared: &[&TrackPoint]) -> Option<PointingError> {
     let count = compared.len();
     if count == 0 {
         return None;

@@ -239,7 +239,7 @@ impl Followed {
         let (of, site) = (&self.propagator, self.site);
         let taken_off = |flown| self.about.offsets.taken_off(of, site, flown);
         let flown: Vec<MeasuredPosition> = self.flown.iter().copied().map(taken_off).collect();
-        let report = TrackedPass {
+        let tracked = TrackedPass {
             propagator: &self.propagator,
             site: self.site,
             from: self.from,
@@ -247,10 +247,11 @@ impl Followed {
             limits: self.limits,
             trackability: self.trackability(),
             ended: self.ended,
-        }
-        .report(&flown);
+        };
+        let report = tracked.report(&flown);
         let has_elevation = self.limits.has_elevation;
-        let measured = flown.iter().filter_map(|flown| {
+        let reached = flown.iter().filter(|flown| tracked.is_in_reach(flown.time));
+        let measured = reached.filter_map(|flown| {
             let azimuth = flown.pointing.azimuth?;
             let elevation = flown.pointing.elevation.or((!has_elevation).then_some(Angle::ZERO))?;
             Some((flown.time, AzEl { azimuth, elevation }))

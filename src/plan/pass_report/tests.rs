@@ -174,6 +174,47 @@ fn what_the_mount_had_to_lose_is_no_fault_and_no_excuse_for_more() {
     assert_eq!((more.verdict, causes(&more)), (PassVerdict::Poor, vec![LossCause::NotExplained]));
 }
 
+/// An axis at its limit tells no angle, so that there is no position beyond it.
+#[test]
+fn what_is_out_of_reach_is_no_fault_whatever_was_measured_there() {
+    let scene = Scene::new();
+    // Until TCA the satellite is on one side, and the mount ends somewhat further.
+    let middle_s = seconds_between(scene.pass.aos.time, scene.pass.tca.time) + 10.0;
+    let [begin, end] = [0.0, middle_s]
+        .map(|second| scene.direction(add_seconds(scene.pass.aos.time, second)).azimuth);
+    let way_deg = (end - begin).wrapped_180().degrees();
+    let low = if way_deg > 0.0 { begin } else { end };
+    let mount = Mount::AzEl {
+        azimuth_from_deg: low.degrees() - 1.0,
+        azimuth_to_deg: low.degrees() + way_deg.abs(),
+        elevation_from_deg: 0.0,
+        elevation_to_deg: 90.0,
+    };
+    let tracked = scene.flown_pass();
+    let lost_s = scene.duration_s() - middle_s;
+    let trackability = Trackability::Loses { seconds: lost_s, at: Loss::OutOfReach };
+    let limits = MountLimits { mount, ..tracked.limits };
+    let tracked = TrackedPass { limits, trackability, ..tracked };
+    let at_its_end = scene.direction(add_seconds(scene.pass.aos.time, middle_s));
+    for stays_in_sight in [false, true] {
+        let flown = scene.flown(|second, at| match second {
+            second if second < middle_s => Some(scene.direction(at)),
+            _ => stays_in_sight.then_some(at_its_end),
+        });
+        let report = tracked.report(&flown);
+        assert_eq!(report.verdict, PassVerdict::Good, "{report:?}");
+        assert_eq!(causes(&report), [LossCause::OutOfReach]);
+        assert!(is_close(report.losses[0].seconds(), lost_s, 3.0), "{report:?}");
+        let worst = report.worst.unwrap().error.off_deg;
+        assert!(worst < 0.1, "{worst}: what is out of reach says nothing of the pointing");
+    }
+    // What could be had and was not is a loss as ever.
+    let idle = tracked
+        .report(&scene.flown(|second, at| (second < middle_s / 2.0).then(|| scene.direction(at))));
+    assert_eq!(idle.verdict, PassVerdict::Poor);
+    assert_eq!(causes(&idle), [LossCause::NotMeasured, LossCause::OutOfReach]);
+}
+
 #[test]
 fn seconds_are_lost_once_also_where_positions_come_back_outside_of_the_beam() {
     let scene = Scene::new();
