@@ -183,10 +183,14 @@ fn what_is_out_of_reach_is_no_fault_whatever_was_measured_there() {
     let [begin, end] = [0.0, middle_s]
         .map(|second| scene.direction(add_seconds(scene.pass.aos.time, second)).azimuth);
     let way_deg = (end - begin).wrapped_180().degrees();
-    let low = if way_deg > 0.0 { begin } else { end };
+    let (from_deg, to_deg) = if way_deg > 0.0 {
+        (begin.degrees() - 1.0, begin.degrees() + way_deg)
+    } else {
+        (end.degrees(), end.degrees() - way_deg + 1.0)
+    };
     let mount = Mount::AzEl {
-        azimuth_from_deg: low.degrees() - 1.0,
-        azimuth_to_deg: low.degrees() + way_deg.abs(),
+        azimuth_from_deg: from_deg,
+        azimuth_to_deg: to_deg,
         elevation_from_deg: 0.0,
         elevation_to_deg: 90.0,
     };
