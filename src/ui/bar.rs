@@ -4,7 +4,7 @@ use egui::{Rect, Ui};
 
 use super::{
     format, state_sentence, top_bar,
-    top_bar::{ClockHealth, ClockModel, ClockMood, TopBarModel},
+    top_bar::{ClockHealth, ClockModel, ClockMood, StopLeftOut, TopBarModel},
     widgets::{
         alarm_list::{AlarmModel, AlarmRow, Section},
         link_chip::{AutomaticTag, ChipModel, LinkGlyph},
@@ -71,8 +71,8 @@ pub fn show(ui: &mut Ui, rect: Rect, model: &Model, commands: &mut Vec<UiCommand
         chips: &chips,
         alarms: AlarmModel { rows: &rows, unopened: model.alarms.unopened },
         stop: stop_look(model, unproved.as_deref()),
-        stop_about: &stop_about(model, &left_out),
-        stop_left_out: &left_out,
+        stop_about: &stop_about(model, left_out.as_ref()),
+        stop_left_out: left_out.as_ref().map(|(count, sentence)| StopLeftOut { count, sentence }),
     };
     commands.extend(top_bar::show(ui, rect, &bar));
 }
@@ -149,26 +149,31 @@ fn is_left_to_the_sun(kind: &AlarmKind, antenna: &AntennaModel) -> bool {
 }
 
 /// The effect of STOP, with its further effects on some antennas.
-fn stop_about(model: &Model, left_out: &str) -> String {
+fn stop_about(model: &Model, left_out: Option<&(String, String)>) -> String {
     let note = |antenna: &AntennaModel| {
         Some(format!(" {}: {}", antenna.config.name, antenna.variant().capabilities.stop_note?))
     };
     let notes: String = model.antennas.iter().filter_map(note).collect();
-    let space = if left_out.is_empty() { "" } else { " " };
-    format!("Stops every antenna.{notes}{space}{left_out}")
+    match left_out {
+        Some((count, sentence)) => format!("Stops {count} antennas.{notes} {sentence}"),
+        None => format!("Stops every antenna.{notes}"),
+    }
 }
 
-/// The names of the antennas that STOP leaves to others; empty if there are none.
-fn left_out_of_stop(model: &Model) -> String {
+/// How many antennas STOP stops, and the names of those that it leaves to others, if any.
+fn left_out_of_stop(model: &Model) -> Option<(String, String)> {
     let is_left_out = |of: &&AntennaModel| of.held_by.is_none() && !of.snapshot.wants_stop();
     let left_out = model.antennas.iter().filter(is_left_out);
     let names: Vec<&str> = left_out.map(|antenna| antenna.config.name.as_str()).collect();
     let verb = match *names {
-        [] => return String::new(),
+        [] => return None,
         [_] => "is",
         _ => "are",
     };
-    format!("{} {verb} not connected: not stopped from here.", format::list(&names))
+    let of = model.antennas.len();
+    let count = format!("{} of {of}", of - names.len());
+    let names = format::list(&names);
+    Some((count, format!("{names} {verb} not connected: not stopped from here.")))
 }
 
 fn clock_health(sync: TimeSync) -> ClockHealth<'static> {

@@ -30,8 +30,8 @@ const DATE_FROM: f32 = 1360.0;
 const TWO_LINES_FROM: f32 = 1200.0;
 /// Side of the mark of an antenna that STOP leaves alone.
 const MARK: f32 = 12.0;
-/// Width of this mark with its word.
-const LEFT_OUT: f32 = 52.0;
+/// Width of this mark with its words.
+const LEFT_OUT: f32 = 48.0;
 
 /// Content of the bar.
 #[derive(Debug, Clone, Copy)]
@@ -52,8 +52,17 @@ pub struct TopBarModel<'a> {
     pub stop: StopLook<'a>,
     /// Effect of STOP, in a sentence or more.
     pub stop_about: &'a str,
-    /// The antennas that STOP leaves alone, and why; empty if none.
-    pub stop_left_out: &'a str,
+    /// The antennas that STOP leaves alone, if any.
+    pub stop_left_out: Option<StopLeftOut<'a>>,
+}
+
+/// The antennas that STOP leaves alone.
+#[derive(Debug, Clone, Copy)]
+pub struct StopLeftOut<'a> {
+    /// How many of all the antennas STOP stops.
+    pub count: &'a str,
+    /// Which it leaves alone, and why.
+    pub sentence: &'a str,
 }
 
 /// The height for a window of this height.
@@ -102,18 +111,17 @@ fn fill(ui: &mut Ui, rect: Rect, model: &TopBarModel<'_>, commands: &mut Vec<UiC
 
     let alarm_width = if wide { 104.0 } else { 48.0 };
     let control = if small { 32.0 } else { 40.0 };
-    let gap = match (model.stop_left_out.is_empty(), wide) {
-        (true, true) => 16.0,
-        (true, false) => 12.0,
-        (false, true) => LEFT_OUT,
-        (false, false) => MARK + 8.0,
+    let gap = match (model.stop_left_out, wide) {
+        (None, true) => 16.0,
+        (None, false) => 12.0,
+        (Some(_), _) => LEFT_OUT,
     };
     let min = pos2(stop.left() - gap - alarm_width, rect.center().y - control / 2.0);
     let alarms = Rect::from_min_size(min, vec2(alarm_width, control));
 
-    if !model.stop_left_out.is_empty() {
+    if let Some(left_out) = model.stop_left_out {
         let beside = Rect::from_min_max(alarms.right_top(), stop.left_bottom());
-        mark_left_out(ui, beside, wide, model.stop_left_out);
+        mark_left_out(ui, beside, left_out);
     }
 
     let clock = clock::show(ui, rect.with_min_x(left), &model.clock, wide);
@@ -131,15 +139,15 @@ fn fill(ui: &mut Ui, rect: Rect, model: &TopBarModel<'_>, commands: &mut Vec<UiC
     if let StopLook::NotConfirmed { text } = model.stop {
         clock::not_confirmed(ui, free.with_min_x(clock.utc.right() + 10.0), text);
     }
-    let says_left_out = match model.stop {
-        StopLook::Stopping | StopLook::AllStopped => !model.stop_left_out.is_empty(),
-        StopLook::Ready | StopLook::NotConfirmed { .. } => false,
+    let said_left_out = match model.stop {
+        StopLook::Stopping | StopLook::AllStopped => model.stop_left_out,
+        StopLook::Ready | StopLook::NotConfirmed { .. } => None,
     };
-    if says_left_out {
-        clock::left_out(ui, free.with_min_x(clock.utc.right() + 10.0), model.stop_left_out);
+    if let Some(left_out) = said_left_out {
+        clock::left_out(ui, free.with_min_x(clock.utc.right() + 10.0), left_out.sentence);
     }
     let has_date = rect.width() >= DATE_FROM
-        && !says_left_out
+        && said_left_out.is_none()
         && !matches!(model.stop, StopLook::NotConfirmed { .. });
     let date = free.with_min_x(clock.time + 10.0);
     let told = has_date && clock::date(ui, date, &model.clock);
@@ -151,17 +159,15 @@ fn fill(ui: &mut Ui, rect: Rect, model: &TopBarModel<'_>, commands: &mut Vec<UiC
 }
 
 /// Shows a mark between the alarms and STOP: STOP does not stop every antenna.
-fn mark_left_out(ui: &Ui, rect: Rect, has_word: bool, words: &str) {
+fn mark_left_out(ui: &Ui, rect: Rect, left_out: StopLeftOut<'_>) {
     let t = theme::tokens(ui);
-    let mut at = rect.center();
-    if has_word {
-        at.y -= 8.0;
-        let line = rect.with_min_y(at.y + 6.0);
-        paint::text_in(ui, line, Align2::CENTER_CENTER, "not all", text::caption(), t.warn);
-    }
+    let at = rect.center() - vec2(0.0, 8.0);
+    let line = rect.with_min_y(at.y + 6.0);
+    paint::text_in(ui, line, Align2::CENTER_CENTER, left_out.count, text::caption(), t.warn);
     let place = paint::square(at, MARK);
     icons::paint(ui.painter(), place, icons::Icon::OpenRing, t.warn);
-    paint::name_text(ui, "left out of stop", rect, words).on_hover_text(words);
+    let words = format!("STOP stops {}. {}", left_out.count, left_out.sentence);
+    paint::name_text(ui, "left out of stop", rect, &words).on_hover_text(left_out.sentence);
 }
 
 /// Shows STOP in a layer of its own above everything, so that it works while a dialog is

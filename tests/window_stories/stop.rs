@@ -178,8 +178,8 @@ fn what_stop_leaves_alone_is_named_beside_it_and_has_a_stop_of_its_own() {
         let mut window = rig::window(size, model);
         let stop = window.get_by_role_and_label(Role::Button, "STOP");
         let about = stop.accesskit_node().description().unwrap();
-        assert_eq!(about, format!("Stops every antenna. {left_out}"));
-        assert!(window.get_all_by_label(left_out).count() >= 1, "beside it");
+        assert_eq!(about, format!("Stops 1 of 2 antennas. {left_out}"));
+        window.get_by_label(&format!("STOP stops 1 of 2. {left_out}"));
         stop_stops(&mut window, "STOP");
 
         let own = window.get_by_role_and_label(Role::Button, "Connect and STOP RC2000C");
@@ -220,7 +220,8 @@ fn after_a_stop_the_bar_says_in_words_what_was_left_alone() {
         model.antennas.push(rig::antenna(makes::pair(), Snapshot { unproved: true, ..off() }));
         let window = rig::window(size, model);
         let said = "RC2000C is not connected: not stopped from here.";
-        assert_eq!(window.get_all_by_label(said).count(), 2, "the mark and the words");
+        window.get_by_label(said);
+        window.get_by_label(&format!("STOP stops 2 of 3. {said}"));
         window.get_by_role_and_label(Role::Button, "STOP, all stopped");
     }
 }

@@ -67,7 +67,7 @@ fn show_bar(ui: &mut Ui, stop: StopLook<'_>) -> Vec<UiCommand> {
         alarms: AlarmModel { rows: &[ALARM], unopened: false },
         stop,
         stop_about: "Stops every antenna.",
-        stop_left_out: "",
+        stop_left_out: None,
     };
     show(ui, rect, &model)
 }
