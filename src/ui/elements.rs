@@ -29,7 +29,7 @@ pub(super) use self::{
     words::{objects, sentences as source_words},
 };
 use self::{selection::Selection, words::Form};
-use super::{confirm::Question, theme, widgets::button::Button};
+use super::{confirm::Question, theme, upload::Choice, widgets::button::Button};
 use crate::{
     engine::CatalogState,
     model::{Model, UiCommand, catalog_table},
@@ -64,15 +64,15 @@ pub struct ElementsState {
     hovered: Vec<std::path::PathBuf>,
     /// Places of the offers that were taken.
     taken: Vec<usize>,
-    /// Objects to be chosen for the upload.
-    uploads: Option<Vec<u32>>,
+    /// What is to be chosen for the upload.
+    uploads: Option<Choice>,
 }
 
 /// Where the upload to the selected unit is drawn, in place of the inspector.
 pub struct UploadPlace {
     pub rect: Rect,
-    /// Catalog numbers to choose for it, when it was just opened for them.
-    pub numbers: Option<Vec<u32>>,
+    /// What to choose for it, when it was just opened.
+    pub choice: Option<Choice>,
 }
 
 impl ElementsState {
@@ -81,11 +81,11 @@ impl ElementsState {
         self.wants_search = true;
     }
 
-    /// Opens the upload, of these objects or of those chosen before.
-    fn upload(&mut self, numbers: Option<Vec<u32>>) {
+    /// Opens the upload with this choice.
+    fn upload(&mut self, choice: Choice) {
         self.upload_is_open = true;
         self.inspector_is_open = true;
-        self.uploads = numbers;
+        self.uploads = Some(choice);
     }
 }
 
@@ -193,7 +193,7 @@ fn show_upload(ui: &Ui, rect: Rect, state: &mut ElementsState) -> UploadPlace {
         state.upload_is_open = false;
     }
     let rect = inner.with_min_y(place.bottom() + 8.0);
-    UploadPlace { rect, numbers: state.uploads.take() }
+    UploadPlace { rect, choice: state.uploads.take() }
 }
 
 /// Copies the elements of these objects.

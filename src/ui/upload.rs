@@ -42,18 +42,27 @@ const FOOT: f32 = 64.0;
 #[derive(Default)]
 pub struct UploadState {
     forms: BTreeMap<String, Form>,
-    /// Catalog numbers to choose in the form that is shown next.
-    chosen: Option<Vec<u32>>,
+    /// What to choose in the form that is shown next.
+    choice: Option<Choice>,
     /// The stage that was shown last; a new one is scrolled into sight.
     stage: Option<Discriminant<Stage>>,
     questions: questions::Questions,
     question: Option<Question>,
 }
 
+/// Satellites for the file, by catalog number.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum Choice {
+    /// These alone.
+    These(Vec<u32>),
+    /// This one beside those chosen before.
+    Also(u32),
+}
+
 impl UploadState {
-    /// Chooses these satellites for the file.
-    pub fn choose(&mut self, numbers: Vec<u32>) {
-        self.chosen = Some(numbers);
+    /// Chooses satellites for the file.
+    pub fn choose(&mut self, choice: Choice) {
+        self.choice = Some(choice);
     }
 }
 
@@ -76,8 +85,8 @@ pub fn show(
         return line(ui, Tone::Plain, &words);
     };
     let form = state.forms.entry(name.clone()).or_insert_with(|| Form::of(&antenna.config, takes));
-    if let Some(numbers) = state.chosen.take() {
-        form.numbers = Some(numbers);
+    if let Some(choice) = state.choice.take() {
+        form.choose(choice, &model.station.favourites.numbers());
     }
     let room = ui.available_rect_before_wrap();
     let (above, foot) = room.split_top_bottom_at_y(room.bottom() - FOOT);

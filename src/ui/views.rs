@@ -165,8 +165,8 @@ impl Views {
                 let (state, question) = (&mut self.elements, &mut self.question);
                 let upload = elements::show(ui, rest, model, is_edited, state, question, commands);
                 if let Some(place) = upload {
-                    if let Some(numbers) = place.numbers {
-                        self.upload.choose(numbers);
+                    if let Some(choice) = place.choice {
+                        self.upload.choose(choice);
                     }
                     show_upload(ui, place.rect, model, &mut self.upload, commands);
                 }

@@ -11,6 +11,7 @@ use crate::{
         icons::Icon,
         text::{self, Weight},
         theme,
+        upload::Choice,
         widgets::{
             button::{Button, SMALL_HEIGHT},
             drop_down::DropDown,
@@ -58,7 +59,7 @@ pub(super) fn show(
     if model.antenna().is_some_and(|antenna| antenna.spec().element_files.is_some()) {
         let upload = Button::normal("Upload…").icon(Icon::Upload);
         if upload.show(ui, "upload marked", place(upload.width(ui))).clicked() {
-            state.upload(Some(marked.clone()));
+            state.upload(Choice::These(marked.clone()));
         }
     }
     if can_mark {

@@ -17,6 +17,7 @@ use crate::{
         pass_limits,
         text::{self, Weight},
         theme,
+        upload::Choice,
         widgets::{
             button::{Button, HEIGHT as BUTTON, SMALL_HEIGHT},
             paint,
@@ -199,7 +200,7 @@ fn show_foot(
         let upload = Button::primary(&word).icon(Icon::Upload).locked(!takes);
         let place = first(inner.left(), inner.left() + half);
         if upload.show(ui, "upload selected", place).clicked() {
-            state.upload(None);
+            state.upload(Choice::Also(number));
         }
     }
     if model.pass_of(number).is_some() {

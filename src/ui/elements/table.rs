@@ -26,6 +26,7 @@ use crate::{
         icons::{self, Icon},
         text::{self, Weight},
         theme,
+        upload::Choice,
         widgets::paint,
     },
 };
@@ -386,7 +387,7 @@ fn keys(
     if pressed(Modifiers::NONE, Key::U) {
         let takes = |antenna: &AntennaModel| antenna.spec().element_files.is_some();
         if model.antenna().is_some_and(takes) {
-            state.upload(Some(state.selection.chosen()));
+            state.upload(Choice::These(state.selection.chosen()));
         }
     }
     if pressed(Modifiers::NONE, Key::Space) {

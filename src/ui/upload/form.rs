@@ -4,6 +4,7 @@ use std::{net::SocketAddr, path::PathBuf, sync::Arc};
 
 use egui::{Align, Button, Layout, RichText, Role, TextEdit, Ui, WidgetInfo, vec2};
 
+use super::Choice;
 use crate::{
     device::ElementFiles,
     engine::uploads::{Cargo, Chosen, Order},
@@ -68,6 +69,18 @@ impl Form {
             satellite: None,
             search: String::new(),
             checked: None,
+        }
+    }
+
+    pub(super) fn choose(&mut self, choice: Choice, favourites: &[u32]) {
+        match choice {
+            Choice::These(numbers) => self.numbers = Some(numbers),
+            Choice::Also(number) => {
+                let before = self.numbers.as_deref().unwrap_or(favourites);
+                if !before.contains(&number) {
+                    self.numbers = Some([before, &[number]].concat());
+                }
+            }
         }
     }
 

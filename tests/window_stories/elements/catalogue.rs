@@ -318,3 +318,20 @@ fn a_key_opens_the_upload_of_the_selected_row() {
     settle(&mut window);
     window.get_by_role_and_label(Role::Button, "Back to the elements");
 }
+
+#[test]
+fn the_inspector_uploads_its_satellite_beside_the_followed_ones() {
+    let mut window = view(rig::LARGE, Vec::new());
+    let followed = window.state().model.station.favourites.numbers().len();
+    write(&mut window, "Search the catalogue", "meteor-m2 3");
+    window.get_by_label_contains("METEOR-M2 3, 57166, elements ").click();
+    settle(&mut window);
+    click(&mut window, "Upload to Satrak");
+    assert!(says(&window, &format!("{} satellites to send", followed + 1)));
+    let leave_out = |node: &Node<'_>| {
+        node.accesskit_node()
+            .label()
+            .is_some_and(|label| label.starts_with("Leave out METEOR-M2 3"))
+    };
+    assert_eq!(window.query_all_by_role(Role::Button).filter(leave_out).count(), 1);
+}
