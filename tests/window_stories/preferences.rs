@@ -298,6 +298,25 @@ fn the_demo_station_is_taken_over_without_its_antennas() {
 }
 
 #[test]
+fn a_page_that_is_used_at_once_has_nothing_to_save() {
+    for is_demo in [true, false] {
+        let mut model = rig::model(states::holding());
+        (model.demo, model.view) = (is_demo, View::Preferences);
+        let mut window = rig::window(rig::LARGE, model);
+        for page in ["Appearance", "Keys"] {
+            open(&mut window, page);
+            assert!(is_disabled(&window, "Save and use"), "{page}");
+            assert!(says(&window, "Changes on this page are used at once."), "{page}");
+        }
+        open(&mut window, "Site");
+        write(&mut window, "Name", "Şile 2");
+        open(&mut window, "Appearance");
+        assert!(!is_disabled(&window, "Save and use"), "of another page");
+        assert!(says(&window, "1 change"));
+    }
+}
+
+#[test]
 fn a_letter_that_is_typed_is_no_command() {
     for size in SIZES {
         let mut window = form(size);

@@ -34,6 +34,11 @@ impl Page {
         all
     }
 
+    /// What is chosen on the page is used at once, without saving.
+    pub(super) fn is_used_at_once(self) -> bool {
+        matches!(self, Self::Appearance | Self::Keys)
+    }
+
     /// The page after this one, and the first after the last.
     pub(super) fn next(self, draft: &Draft) -> Self {
         let all = Self::all(draft);

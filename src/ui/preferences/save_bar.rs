@@ -51,9 +51,12 @@ pub(super) fn show(
     let read = draft.read();
     let is_edited = draft != before;
     let checks = Checks::of(model, station, read.as_ref(), (draft, before));
-    let can_save = read.is_some() && (is_edited || model.demo) && checks.busy.is_none();
+    // The demo station can be replaced as it is proposed, where the page is about the station.
+    let replaces_demo = model.demo && !state.page.is_used_at_once();
+    let can_save = read.is_some() && (is_edited || replaces_demo) && checks.busy.is_none();
     let holds = can_save && checks.inside.is_some();
-    let save = Button::primary("Save and use").locked(!can_save);
+    let save = if is_edited { Button::primary } else { Button::normal };
+    let save = save("Save and use").locked(!can_save);
     let revert = Button::normal("Revert").locked(!is_edited);
     let place = |right: f32, width: f32| {
         let min = pos2(right - width, rect.center().y - HEIGHT / 2.0);
@@ -165,6 +168,9 @@ fn outcome(
             (format!("{}. {ENDS_THE_DEMO}", changes(draft, before)), t.t1)
         }
         _ if draft != before => (changes(draft, before), t.t1),
+        _ if state.page.is_used_at_once() => {
+            ("Changes on this page are used at once.".to_owned(), t.t3)
+        }
         Some(Ok(at)) => (format!("Saved {}.", format::moment(*at, model.now)), t.ok),
         None if model.demo => (ENDS_THE_DEMO.to_owned(), t.t2),
         None => ("Nothing to save.".to_owned(), t.t3),
