@@ -154,7 +154,7 @@ pub fn countdown(seconds: f64) -> String {
     }
 }
 
-/// An age: 0.3 s, 14 s, 3 min, 8 h 52 min, 12 d.
+/// An age: 0.3 s, 14 s, 3 min, 8 h 52 min, 1 d 3 h, 12 d.
 pub fn age(seconds: f64) -> String {
     let seconds = seconds.max(0.0);
     let whole = seconds as u64;
@@ -162,7 +162,8 @@ pub fn age(seconds: f64) -> String {
         0..10 => format!("{seconds:.1} s"),
         10..120 => format!("{whole} s"),
         120..7200 => format!("{} min", whole / 60),
-        7200..172_800 => format!("{} h {} min", whole / 3600, whole / 60 % 60),
+        7200..86_400 => format!("{} h {} min", whole / 3600, whole / 60 % 60),
+        86_400..604_800 => format!("{} d {} h", whole / 86_400, whole / 3600 % 24),
         _ => format!("{} d", whole / 86_400),
     }
 }
@@ -254,6 +255,8 @@ mod tests {
         assert_eq!(age(0.34), "0.3 s");
         assert_eq!(age(14.9), "14 s");
         assert_eq!(age(31_920.0), "8 h 52 min");
+        assert_eq!(age(99_600.0), "1 d 3 h");
+        assert_eq!(age(7.0 * 86_400.0), "7 d");
         assert_eq!(age(102.0 * 86_400.0), "102 d");
         assert_eq!(age(-1.0), "0.0 s");
     }

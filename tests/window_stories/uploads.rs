@@ -161,7 +161,7 @@ fn proof_is_told_with_file_hash_time_and_ages() {
             "The unit uses weather.txt and has found NOAA 20 (JPSS-1) (43013) in it.",
             &hash,
             "192.168.10.21:22",
-            "ISS (ZARYA) 31 h 40 min old",
+            "ISS (ZARYA) 1 d 7 h old",
             "every unit has from its maker",
         ] {
             assert!(says(&window, words), "{words}");

@@ -253,6 +253,6 @@ fn look(state: &FieldState, t: &Tokens) -> (Option<Icon>, Color32) {
         FieldState::Rejected | FieldState::Invalid(_) => (Some(Icon::Cross), t.bad),
         FieldState::Unknown => (Some(Icon::Dash), t.t3),
         FieldState::Locked => (Some(Icon::Lock), t.t3),
-        FieldState::Unchanged | FieldState::ReadOnly => (None, t.t3),
+        FieldState::Unchanged | FieldState::ReadOnly | FieldState::Read(_) => (None, t.t3),
     }
 }

@@ -7,7 +7,8 @@ use super::{
     unit::ShownUnit,
 };
 use crate::{
-    device::settings::{Access, Field, Group, Guard, Unfit, Value},
+    astro::time::seconds_between,
+    device::settings::{Access, Field, Group, Guard, Kind, Unfit, Value},
     ui::format,
 };
 
@@ -30,6 +31,8 @@ pub(super) enum FieldState {
     /// The value goes out with that of the field with this label, which cannot be sent.
     HeldBackBy(&'static str),
     ReadOnly,
+    /// A time that the unit told then, as of its clock.
+    Read(Timestamp),
     Locked,
 }
 
@@ -49,13 +52,17 @@ impl FieldState {
             Self::Invalid(_) => "Invalid".to_owned(),
             Self::HeldBackBy(_) => "Held back".to_owned(),
             Self::ReadOnly => "Read only".to_owned(),
+            Self::Read(at) => format!("Read {} ago", format::age(seconds_between(*at, now))),
             Self::Locked => "Locked".to_owned(),
         }
     }
 
     /// Whether the operator may type into the field.
     pub(super) fn is_editable(&self) -> bool {
-        !matches!(self, Self::Unknown | Self::Sending | Self::ReadOnly | Self::Locked)
+        !matches!(
+            self,
+            Self::Unknown | Self::Sending | Self::ReadOnly | Self::Read(_) | Self::Locked
+        )
     }
 
     /// Whether the field holds a value that is not on the unit.
@@ -103,8 +110,12 @@ fn alone(
     let is_known = is_told || (field.access == Access::Write && held.is_some());
     if field.access == Access::Read {
         // What is missing of a group that was read is not there to be told.
-        let is_read = held.is_some();
-        return (if is_read { FieldState::ReadOnly } else { FieldState::Unknown }, None);
+        let state = match (unit.read_at(group.key), &field.kind) {
+            (None, _) => FieldState::Unknown,
+            (Some(at), Kind::Time) => FieldState::Read(at),
+            (Some(_), _) => FieldState::ReadOnly,
+        };
+        return (state, None);
     }
     if draft.is_sending(field.key) {
         return (FieldState::Sending, None);

@@ -71,17 +71,9 @@ pub(super) fn heights(heights: Heights) -> String {
     format!("{} × {}", format::number(apogee_km, 0), format::number(perigee_km, 0))
 }
 
-/// An age in a table: 42 min, 6 h 11, 1 d 3 h, 95 d.
+/// An age of elements, whose epoch may be ahead.
 pub(super) fn age(seconds: f64) -> String {
-    let minutes = (seconds / 60.0).max(0.0) as u64;
-    let (days, hours, rest) = (minutes / 1440, minutes / 60 % 24, minutes % 60);
-    match (days, hours) {
-        _ if seconds < 0.0 => "ahead".to_owned(),
-        (0, 0) => format!("{rest} min"),
-        (0, _) => format!("{hours} h {rest:02}"),
-        (1..30, _) => format!("{days} d {hours} h"),
-        _ => format!("{days} d"),
-    }
+    if seconds < 0.0 { "ahead".to_owned() } else { format::age(seconds) }
 }
 
 /// Whether the age of elements needs a look: sooner in low orbits, which drag changes.
@@ -343,7 +335,7 @@ mod tests {
     fn ages_and_numbers_fit_into_a_column() {
         for (seconds, words) in [
             (2_520.0, "42 min"),
-            (22_260.0, "6 h 11"),
+            (22_260.0, "6 h 11 min"),
             (99_600.0, "1 d 3 h"),
             (95.5 * DAY_S, "95 d"),
             (-5.0, "ahead"),

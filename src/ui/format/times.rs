@@ -1,5 +1,6 @@
 //! Times for the operator. A time carries its day unless that is the day of the time it is read
-//! against: the present, or the time before it in the same sentence.
+//! against: the present, or the time before it in the same sentence. The day carries its year
+//! in the same way.
 
 use jiff::{Timestamp, Zoned, tz::TimeZone};
 
@@ -10,7 +11,11 @@ fn utc(at: Timestamp) -> Zoned {
 /// `form` of the time of day, after its day where that is not the day of `now`.
 fn on_its_day(at: Timestamp, now: Timestamp, form: &str) -> String {
     let (at, now) = (utc(at), utc(now));
-    let day = if at.date() == now.date() { "" } else { "%-d %b " };
+    let day = match at.date() {
+        date if date == now.date() => "",
+        date if date.year() == now.year() => "%-d %b ",
+        _ => "%-d %b %Y ",
+    };
     at.strftime(&format!("{day}{form}")).to_string()
 }
 
@@ -127,6 +132,8 @@ mod tests {
             [moment(time, later), minute(time, later)],
             ["14 Nov 11:06:12Z", "14 Nov 11:06Z"]
         );
+        let next_year = at("2027-01-01T00:00:00Z");
+        assert_eq!(moment(time, next_year), "14 Nov 2026 11:06:12Z");
         assert_eq!(millisecond(time, today), "11:06:12.900");
         assert_eq!(millisecond(time, later), "14 Nov 11:06:12");
         assert_eq!(dated(time), "Sat 2026-11-14 11:06:12Z");

@@ -96,8 +96,5 @@ fn age_in_words(seconds: f64) -> String {
     if seconds < 0.0 {
         return format!("in {}", format::age(-seconds));
     }
-    match seconds / DAY_S {
-        days if days < 2.0 => format!("{} h", format::number(seconds / 3600.0, 0)),
-        days => format!("{} d", format::number(days, 1)),
-    }
+    format::age(seconds)
 }
