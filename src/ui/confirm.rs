@@ -1,15 +1,15 @@
 //! The confirmation of a command that moves metal and was given by a key.
 
-use egui::{Frame, Key, Modal, Ui};
+use egui::{Key, Ui};
 
 use super::{
     text,
-    widgets::button::{self, Button},
+    widgets::{
+        button::{self, Button},
+        modal::modal,
+    },
 };
 use crate::model::UiCommand;
-
-/// Padding of a question.
-pub(super) const PADDING: i8 = 16;
 
 /// A question, and the command for a yes.
 #[derive(Debug, Clone, PartialEq)]
@@ -27,8 +27,7 @@ impl Question {
     pub fn show(question: &mut Option<Self>, ui: &Ui, commands: &mut Vec<UiCommand>) {
         let Some(asked) = question else { return };
         let mut answer = None;
-        let frame = Frame::popup(ui.style()).inner_margin(PADDING);
-        let modal = Modal::new(egui::Id::unique("question")).frame(frame).show(ui.ctx(), |ui| {
+        let modal = modal(ui, "question").show(ui.ctx(), |ui| {
             ui.set_width(320.0);
             ui.label(egui::RichText::new(&asked.text).font(text::body()));
             ui.add_space(12.0);

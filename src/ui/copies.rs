@@ -3,9 +3,12 @@
 
 use std::{collections::BTreeSet, path::Path, path::PathBuf};
 
-use egui::{Align, Grid, Layout, Modal, RichText, ScrollArea, TextEdit, Ui};
+use egui::{Align, Grid, Layout, RichText, ScrollArea, TextEdit, Ui};
 
-use super::{format, text, theme, widgets::check_box::CheckBox};
+use super::{
+    format, text, theme,
+    widgets::{check_box::CheckBox, modal::modal},
+};
 use crate::{
     device::settings::{Difference, Field, Group, SettingsCopy, Value, Verdict},
     engine::{self, antenna::AntennaModel, copies::OpenCopy},
@@ -46,7 +49,7 @@ pub fn show(
     let mut taken = Vec::new();
     let mut closed = false;
     let room = ui.ctx().content_rect().width() - 64.0;
-    let modal = Modal::new(egui::Id::unique("compare settings")).show(ui.ctx(), |ui| {
+    let modal = modal(ui, "compare settings").show(ui.ctx(), |ui| {
         ui.set_width(WIDTH.min(room));
         let title = format!("Compare the settings of {} with a file", open.antenna);
         ui.label(RichText::new(title).font(text::value()));

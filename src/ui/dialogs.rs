@@ -5,16 +5,17 @@ pub mod closing;
 mod maintenance;
 mod password;
 
-use egui::{Frame, Id, Key, Label, Modal, RichText, Ui};
+use egui::{Key, Label, RichText, Ui};
 
 pub use maintenance::MaintenanceDialog;
 pub use password::{PasswordDialog, SecretAnswer};
 
 use super::{
-    confirm::{self, Question},
+    confirm::Question,
     text, theme,
     widgets::{
         button::{self, Button},
+        modal::modal,
         told::{Tone, fact, line},
     },
 };
@@ -92,8 +93,7 @@ fn ask(
     content: impl FnOnce(&mut Ui),
 ) -> Option<Answer> {
     let mut answer = None;
-    let frame = Frame::popup(ui.style()).inner_margin(confirm::PADDING);
-    let modal = Modal::new(Id::unique(id)).frame(frame).show(ui.ctx(), |ui| {
+    let modal = modal(ui, id).show(ui.ctx(), |ui| {
         ui.set_width(WIDTH.min(ui.ctx().content_rect().width() - 64.0));
         content(ui);
         ui.add_space(12.0);

@@ -86,6 +86,10 @@ pub struct Tokens {
     pub other: Color32,
 }
 
+/// Over what cannot be used while a question is open, in every theme: positions, links and states
+/// can still be read through it.
+pub const VEIL: Color32 = Color32::from_black_alpha(26);
+
 const fn rgb(hex: u32) -> Color32 {
     let [_, r, g, b] = hex.to_be_bytes();
     // The one place where a literal becomes a colour.

@@ -1,6 +1,6 @@
 //! Dialog that asks for the name of the station before the service functions open.
 
-use egui::{Frame, Modal, RichText, Sense, TextEdit, Ui, vec2};
+use egui::{RichText, Sense, TextEdit, Ui, vec2};
 
 use super::{unit::ShownUnit, unlock};
 use crate::ui::{
@@ -8,6 +8,7 @@ use crate::ui::{
     widgets::{
         button::{Button, HEIGHT},
         hold_button::{self, HoldState},
+        modal::modal,
     },
 };
 
@@ -33,9 +34,7 @@ pub(super) enum UnlockAnswer {
 impl UnlockDialog {
     /// Shows the dialog in the middle of the window. Esc closes it and is STOP.
     pub(super) fn show(&mut self, ui: &Ui, unit: &ShownUnit<'_>) -> UnlockAnswer {
-        let frame = Frame::popup(ui.style()).inner_margin(16);
-        let modal = Modal::new(egui::Id::unique("unlock")).frame(frame);
-        let shown = modal.show(ui.ctx(), |ui| self.fill(ui, unit));
+        let shown = modal(ui, "unlock").show(ui.ctx(), |ui| self.fill(ui, unit));
         if shown.should_close() && shown.inner == UnlockAnswer::Open {
             return UnlockAnswer::Closed;
         }

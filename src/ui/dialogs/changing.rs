@@ -1,12 +1,15 @@
 //! What is told of a change to another station.
 
-use egui::{Id, Key, Modal, RichText, Ui};
+use egui::{Key, RichText, Ui};
 
 use crate::{
     model::{Model, UiCommand},
     ui::{
         text,
-        widgets::told::{Tone, line},
+        widgets::{
+            modal::modal,
+            told::{Tone, line},
+        },
         words::sentence,
     },
 };
@@ -23,7 +26,7 @@ pub fn show(ui: &Ui, model: &Model, commands: &mut Vec<UiCommand>) {
 
 /// Nothing can be asked of either station meanwhile but STOP.
 fn under_way(ui: &Ui, model: &Model) {
-    Modal::new(Id::unique("changing")).show(ui.ctx(), |ui| {
+    modal(ui, "changing").show(ui.ctx(), |ui| {
         ui.set_width(WIDTH);
         let next = model.stations.next.as_deref().unwrap_or_default();
         ui.label(RichText::new(format!("Changing to {next}")).font(text::value()));
@@ -32,7 +35,7 @@ fn under_way(ui: &Ui, model: &Model) {
 }
 
 fn refused(ui: &Ui, model: &Model, why: &str, commands: &mut Vec<UiCommand>) {
-    let modal = Modal::new(Id::unique("not opened")).show(ui.ctx(), |ui| {
+    let modal = modal(ui, "not opened").show(ui.ctx(), |ui| {
         ui.set_width(WIDTH);
         ui.label(RichText::new("The station is not opened").font(text::value()));
         line(ui, Tone::Bad, &sentence(why));

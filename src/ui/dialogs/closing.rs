@@ -1,6 +1,6 @@
 //! The question what happens to moving antennas when the window closes.
 
-use egui::{Button, Id, Modal, RichText, Ui, vec2};
+use egui::{Button, RichText, Ui, vec2};
 
 use crate::{
     engine::{
@@ -11,7 +11,10 @@ use crate::{
     model::{Model, UiCommand},
     ui::{
         format, text, theme,
-        widgets::told::{Tone, line},
+        widgets::{
+            modal::modal,
+            told::{Tone, line},
+        },
         words,
     },
 };
@@ -37,7 +40,7 @@ impl ClosingDialog {
     /// Shows the question until it is answered. Esc or a click outside keeps the window open.
     pub fn show(dialog: &mut Option<Self>, ui: &Ui, model: &Model, commands: &mut Vec<UiCommand>) {
         let Some(open) = dialog else { return };
-        let modal = Modal::new(Id::unique("closing")).show(ui.ctx(), |ui| {
+        let modal = modal(ui, "closing").show(ui.ctx(), |ui| {
             ui.set_width(WIDTH);
             ui.label(RichText::new(title(model)).font(text::value()));
             for words in stakes(model) {
@@ -123,7 +126,7 @@ pub fn waiting(ui: &Ui, model: &Model, commands: &mut Vec<UiCommand>) {
         let waits = closing.waits_for.iter().filter(|(_, of)| *of == wanted);
         waits.filter_map(|(id, _)| Some(model.antenna_of(*id)?.config.name.as_str())).collect()
     };
-    let modal = Modal::new(Id::unique("closing waits")).show(ui.ctx(), |ui| {
+    let modal = modal(ui, "closing waits").show(ui.ctx(), |ui| {
         ui.set_width(WIDTH);
         let next = model.stations.next.as_ref();
         let title = next.map_or("Azel closes".to_owned(), |next| format!("Azel changes to {next}"));

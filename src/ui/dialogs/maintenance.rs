@@ -1,6 +1,6 @@
 //! The dialog that locks a unit out for maintenance, or ends the lock-out.
 
-use egui::{Frame, Id, Modal, RichText, Sense, TextEdit, Ui, vec2};
+use egui::{RichText, Sense, TextEdit, Ui, vec2};
 
 use crate::{
     driver::Command,
@@ -13,6 +13,7 @@ use crate::{
         widgets::{
             button::{Button, HEIGHT},
             hold_button::{self, HoldState},
+            modal::modal,
             told::{Tone, line},
         },
         words,
@@ -50,9 +51,7 @@ impl MaintenanceDialog {
         let (Some(open), Some(antenna)) = (dialog.as_mut(), model.antenna()) else { return };
         let for_antenna = |command| UiCommand::antenna(antenna.id(), command);
         let lock_out = antenna.snapshot.lock_out.clone();
-        let frame = Frame::popup(ui.style()).inner_margin(16);
-        let modal = Modal::new(Id::unique("maintenance")).frame(frame);
-        let shown = modal.show(ui.ctx(), |ui| {
+        let shown = modal(ui, "maintenance").show(ui.ctx(), |ui| {
             ui.set_width(WIDTH);
             match &lock_out {
                 Some(lock_out) => open.take_off(ui, antenna, lock_out),

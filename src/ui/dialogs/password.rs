@@ -1,6 +1,6 @@
 //! The dialog for a password or a passphrase.
 
-use egui::{Id, Key, Modal, RichText, TextEdit, Ui, text_edit::TextEditState};
+use egui::{Id, Key, RichText, TextEdit, Ui, text_edit::TextEditState};
 
 use super::WIDTH;
 use crate::{
@@ -10,6 +10,7 @@ use crate::{
         text, theme,
         widgets::{
             check_box::CheckBox,
+            modal::modal,
             told::{Tone, line},
         },
         words::sentence,
@@ -40,7 +41,7 @@ impl PasswordDialog {
     /// Shows the question until it is answered. Enter submits the input.
     pub fn show(&mut self, ui: &Ui, wanted: &SecretWanted) -> Option<SecretAnswer> {
         let mut answer = None;
-        let modal = Modal::new(Id::unique("password")).show(ui.ctx(), |ui| {
+        let modal = modal(ui, "password").show(ui.ctx(), |ui| {
             ui.set_width(WIDTH.min(ui.ctx().content_rect().width() - 64.0));
             answer = self.content(ui, wanted);
         });

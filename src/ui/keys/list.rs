@@ -2,24 +2,35 @@
 
 use std::sync::Arc;
 
-use egui::{Align2, Frame, Galley, Key, Modal, Modifiers, Rect, Sense, Ui, pos2, vec2};
+use egui::{Align2, Galley, Id, Key, Modal, Modifiers, Rect, Sense, Ui, pos2, vec2};
 
 use super::{ALL, Binding, CTRL_SHIFT, own::OwnKeys};
 use crate::ui::{
-    text, theme,
-    widgets::{button::Button, paint},
+    antenna_card, text, theme,
+    widgets::{button::Button, modal::modal, paint},
 };
 
 /// Width of one of the two columns.
-const COLUMN: f32 = 464.0;
+const COLUMN: f32 = 472.0;
 /// Gap between the columns.
-const GAP: f32 = 24.0;
+const GAP: f32 = 16.0;
 const WIDTH: f32 = 2.0 * COLUMN + GAP;
-const KEYS: f32 = 150.0;
+const KEYS: f32 = 158.0;
 const ROW: f32 = 22.0;
 const HEAD: f32 = 36.0;
+/// Width of the border of the list with its padding.
+const BORDER: f32 = 17.0;
+const ID: &str = "keys";
 /// By this the list stands below the middle of the window, so that it leaves the top bar free.
 const DOWN: f32 = 24.0;
+
+/// How far a list of this width stands left of the middle of the window, so that the antenna card of
+/// Operate stays free; in a window that has no room for both, not at all.
+fn aside(window: f32, width: f32) -> f32 {
+    let room = (window - width) / 2.0;
+    let aside = (antenna_card::WIDTH + GAP - room).max(0.0);
+    if aside <= room { aside } else { 0.0 }
+}
 
 /// Shows the list until Esc, `?`, a click outside or its button closes it.
 pub fn show(ui: &Ui, open: &mut bool, own: &OwnKeys) {
@@ -28,10 +39,11 @@ pub fn show(ui: &Ui, open: &mut bool, own: &OwnKeys) {
     }
     let again =
         |ui: &Ui| ui.input_mut(|input| input.consume_key(Modifiers::NONE, Key::Questionmark));
-    let frame = Frame::popup(ui.style()).inner_margin(16);
-    let id = egui::Id::unique("keys");
-    let area = Modal::default_area(id).anchor(Align2::CENTER_CENTER, vec2(0.0, DOWN));
-    let modal = Modal::new(id).area(area).frame(frame).show(ui.ctx(), |ui| {
+    let window = ui.ctx().content_rect().width();
+    let aside = aside(window, WIDTH + 2.0 * BORDER);
+    let area = Modal::default_area(Id::unique(ID));
+    let area = area.anchor(Align2::CENTER_CENTER, vec2(-aside, DOWN));
+    let modal = modal(ui, ID).area(area).show(ui.ctx(), |ui| {
         let t = theme::tokens(ui);
         ui.spacing_mut().item_spacing.y = 0.0;
         let (head, _) = ui.allocate_exact_size(vec2(WIDTH, HEAD), Sense::hover());

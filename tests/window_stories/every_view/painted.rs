@@ -20,6 +20,8 @@ pub(super) struct Run {
     pub(super) ground: Color32,
     pub(super) rect: Rect,
     pub(super) clip: Rect,
+    /// It is seen through a veil, such as that below a question.
+    pub(super) is_veiled: bool,
 }
 
 /// Opacity from which a fill hides the text below it.
@@ -47,7 +49,22 @@ pub(super) fn runs(window: &Window) -> Vec<Run> {
     }
     // The window is cleared in this colour.
     let clear = window.ctx.global_style().visuals.panel_fill;
-    found.into_iter().map(|(below, run)| with_ground(run, &layers[..below], clear)).collect()
+    let whole = window.ctx.content_rect();
+    let seen = |(below, run): (usize, Run)| {
+        let (below, above) = layers.split_at(below);
+        under_veils(with_ground(run, below, clear), above, whole)
+    };
+    found.into_iter().map(seen).collect()
+}
+
+/// As seen through fills over all of the window, such as below a question.
+fn under_veils(mut run: Run, above: &[Layer<'_>], whole: Rect) -> Run {
+    for layer in above.iter().filter(|layer| layer.area.contains_rect(whole)) {
+        let Some(veil) = fill_at(layer.shape, whole.center()) else { continue };
+        [run.colour, run.ground] = [run.colour, run.ground].map(|colour| colour.blend(veil));
+        run.is_veiled = true;
+    }
+    run
 }
 
 /// Texts of the last frame that lie on each other, with nothing painted between them.
@@ -206,6 +223,7 @@ fn pieces(text: &TextShape, clip: Rect) -> Vec<Run> {
                 ground: Color32::TRANSPARENT,
                 rect,
                 clip,
+                is_veiled: false,
             });
         }
         if row.ends_with_newline {
