@@ -66,6 +66,13 @@ pub struct Outlets {
     pub sounds: Option<Missing>,
 }
 
+impl Outlets {
+    /// Whether this computer could play a sound, even if the last one was not played.
+    pub fn has_player(&self) -> bool {
+        !matches!(self.sounds, Some(Missing::Player(_) | Missing::Elsewhere))
+    }
+}
+
 /// The desktop of this session.
 #[derive(Default)]
 pub struct Desktop {

@@ -119,11 +119,14 @@ fn a_favourite_is_marked_for_a_reminder() {
 fn what_the_desktop_lacks_is_said_where_it_is_set() {
     let mut window = page(SIZES[0]);
     assert!(!says(&window, "There is no sound"));
+    window.get_by_role_and_label(Role::RadioGroup, "Warnings");
     window.state_mut().model.outlets = Outlets {
         notifications: Some(Missing::Bus("no address".to_owned())),
         sounds: Some(Missing::Elsewhere),
     };
     settle(&mut window);
+    assert!(window.query_by_label("Try falling tones").is_none(), "there is nothing to try");
+    assert!(window.query_by_role_and_label(Role::RadioGroup, "Warnings").is_none());
     assert!(says(&window, "The desktop shows no notifications: Azel does not run in a desktop"));
     assert!(says(&window, "Start it from the desktop"), "with what to do");
     let raw = "The answer of the system: no address";

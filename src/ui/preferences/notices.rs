@@ -31,6 +31,12 @@ use crate::{
 const TELLING: &str = "Notifications and sounds";
 const REMINDING: &str = "Reminders";
 
+/// Choices of tones.
+const TONES: [&str; 3] = [WARNINGS, CAUTIONS, BEFORE_PASSES];
+const WARNINGS: &str = "Warnings";
+const CAUTIONS: &str = "Cautions";
+const BEFORE_PASSES: &str = "Reminders before passes";
+
 /// Draft of the notices.
 #[derive(PartialEq)]
 pub(super) struct NoticesDraft {
@@ -129,12 +135,12 @@ fn telling_fields() -> Vec<Placed<Telling>> {
         }),
         flag("Sounds", |telling| &mut telling.sounds)
             .noted(|_| Some("Alarms of the first rank always sound.".to_owned())),
-        tones("Warnings", |telling| &mut telling.warning)
+        tones(WARNINGS, |telling| &mut telling.warning)
             .noted(|_| Some("Alarms about something that is wrong now.".to_owned())),
-        tones("Cautions", |telling| &mut telling.caution).noted(|_| {
+        tones(CAUTIONS, |telling| &mut telling.caution).noted(|_| {
             Some("Alarms about something that was not done or will go wrong.".to_owned())
         }),
-        tones("Reminders before passes", |telling| &mut telling.reminder),
+        tones(BEFORE_PASSES, |telling| &mut telling.reminder),
         flag("Quiet hours", |telling| &mut telling.is_quiet).noted(|_| {
             let words = "No notifications and no sounds then, except for alarms of the first rank. \
                          The window shows all alarms.";
@@ -207,7 +213,13 @@ fn telling(
     commands: &mut Vec<UiCommand>,
 ) {
     let telling = &mut draft.notices.telling;
-    let standings = telling.read().1;
+    let mut standings = telling.read().1;
+    let has_player = model.outlets.has_player();
+    if !has_player {
+        for (field, standing) in telling.fields.iter().zip(&mut standings) {
+            standing.is_used &= !TONES.contains(&&*field.description.label);
+        }
+    }
     form::section(ui, "telling", (telling, &standings), TELLING, sought, |ui| {
         for missing in words::missing_outlets(&model.outlets) {
             match missing.raw {
@@ -217,6 +229,9 @@ fn telling(
                 }
                 None => told::line(ui, Tone::Caution, &missing.words),
             }
+        }
+        if !has_player {
+            return;
         }
         ui.add_space(4.0);
         ui.horizontal(|ui| {
