@@ -14,6 +14,7 @@ pub mod rehearsal;
 mod safety;
 pub mod schedule;
 mod site;
+mod way_there;
 
 pub use alarms::{alarm, alarm_state, alarm_times};
 pub use link_tests::{link_test, link_test_state, place};
@@ -29,6 +30,7 @@ pub use safety::{
     safety, stopping_way, sun_lifted, way_out,
 };
 pub use site::{off_the_told, sun_there};
+pub use way_there::WayThere;
 
 use crate::{
     device::{Asked, Motion, SecondAxis, settings::Unfit},

@@ -7,11 +7,13 @@ use azel::{
     engine::automatic::{DayEvent, DayLine, Flown, MissCause},
     model::{Model, UiCommand},
     station::AntennaId,
+    ui::theme,
 };
 use egui::{Key, Role};
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
 
 use crate::window_stories::{
+    every_view::painted,
     makes, plan,
     rig::{self, LARGE, SIZES, Window, asked, settle},
     states,
@@ -126,6 +128,33 @@ fn each_lane_of_a_high_strip_says_which_antenna_takes_a_pass() {
 }
 
 #[test]
+fn track_is_no_main_action_for_a_pass_that_the_antenna_cannot_get_to() {
+    let meteor_at = |seconds: f64| {
+        let mut model = rig::model(states::holding());
+        let passes = model.pass_lists.favourites.upcoming(model.now);
+        let meteor = passes.iter().find(|of| of.satellite.short_name() == "METEOR-M2 4").unwrap();
+        let (key, los) = (meteor.key(), meteor.pass.los.time);
+        model.selected = Some(key);
+        model.now = add_seconds(los, -seconds);
+        rig::window(LARGE, model)
+    };
+    let is_main = |window: &Window| {
+        let place = window.get_by_role_and_label(Role::Button, "Track METEOR-M2 4").rect();
+        painted::around(window, place, 1.0).contains(&theme::tokens(&window.ctx).sat)
+    };
+    let in_time = meteor_at(120.0);
+    assert!(is_main(&in_time));
+    assert!(in_time.query_by_label_contains("is not there before LOS").is_none());
+    let too_late = meteor_at(10.0);
+    assert!(!is_main(&too_late));
+    too_late.get_by_label("Satrak is not there before LOS of METEOR-M2 4.");
+    let rows = too_late.query_all_by_role(Role::ListBoxOption);
+    let rows: Vec<String> = rows.filter_map(|node| node.accesskit_node().label()).collect();
+    let is_it = |row: &String| row.starts_with("METEOR-M2 4, LOS") && row.contains("Is not there");
+    assert!(rows.iter().any(is_it), "the row says the same: {rows:?}");
+}
+
+#[test]
 fn a_row_of_the_list_says_that_the_schedule_leaves_the_pass_out_and_why() {
     let window = with_plan(LARGE);
     let rows = window.query_all_by_role(Role::ListBoxOption);
@@ -135,6 +164,9 @@ fn a_row_of_the_list_says_that_the_schedule_leaves_the_pass_out_and_why() {
     };
     assert!(of("NOAA 20, LOS", "Left out: overlaps METEOR-M2 4"), "{names:?}");
     assert!(of("METEOR-M2 4, AOS", "Trackable"), "taken: {names:?}");
-    assert!(of("METEOR-M2 4, LOS", "0:37 late, 0:05 left"), "is set up and slews: {names:?}");
+    assert!(
+        of("METEOR-M2 4, LOS", "Needs 0:37 to get there, 0:05 left"),
+        "is set up and slews: {names:?}"
+    );
     assert!(of("EUTELSAT 7C, up all the time", "Trackable"), "{names:?}");
 }

@@ -90,6 +90,7 @@ fn model() -> CardModel<'static> {
             tracks_selected: false,
             refusal: None,
             misses: None,
+            nothing_left: None,
             note: None,
             auto_track: Some(true),
             parks_at: "",

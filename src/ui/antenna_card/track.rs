@@ -36,6 +36,8 @@ pub struct TrackModel<'a> {
     pub refusal: Option<&'a str>,
     /// The reason why the unit would miss the selected satellite; tracking then takes a hold.
     pub misses: Option<&'a str>,
+    /// The reason why nothing of the selected pass is left for the antenna.
+    pub nothing_left: Option<&'a str>,
     /// A further note on how the unit tracks.
     pub note: Option<&'a str>,
     /// The unit starts passes by itself; none if it cannot.
@@ -109,7 +111,12 @@ pub(super) fn notes(
     if let Some(refusal) = model.refusal.filter(|refusal| Some(*refusal) != said) {
         caution_row(ui, at, "track refusal", refusal);
     }
-    for (salt, words) in [("misses", model.misses), ("track note", model.note)] {
+    let cautions = [
+        ("nothing left", model.nothing_left),
+        ("misses", model.misses),
+        ("track note", model.note),
+    ];
+    for (salt, words) in cautions {
         if let Some(words) = words.filter(|_| model.refusal.is_none()) {
             caution_row(ui, at, salt, words);
         }
@@ -188,7 +195,8 @@ fn satellite_row(
     let misses = model.misses.is_some() && model.refusal.is_none();
     let selected = model.selected.filter(|_| !model.tracks_selected);
     let words = selected.map(|selected| format!("Track {selected}")).unwrap_or_default();
-    let button = Button::primary(&words).locked(model.refusal.is_some());
+    let button = if model.nothing_left.is_some() { Button::normal } else { Button::primary };
+    let button = button(&words).locked(model.refusal.is_some());
     let held_width = match selected {
         // The text on the hold button is long.
         Some(_) if misses => 0.36 * row.width(),

@@ -8,10 +8,13 @@ use egui::{Align2, Rect, Ui};
 
 use self::asked::CardHandler;
 pub(super) use self::locks::Locks;
-use super::antenna_card::{
-    self, CardAction, CardModel, CardState, DriveModel, FaultsModel, FollowModel, HeaderModel,
-    LinkStatus, LockOutModel, MoreModel, Offer, OffsetsModel, OtherAntenna, TrackModel,
-    WayOutModel,
+use super::{
+    antenna_card::{
+        self, CardAction, CardModel, CardState, DriveModel, FaultsModel, FollowModel, HeaderModel,
+        LinkStatus, LockOutModel, MoreModel, Offer, OffsetsModel, OtherAntenna, TrackModel,
+        WayOutModel,
+    },
+    passes,
 };
 use crate::{
     astro::Angle,
@@ -77,6 +80,7 @@ pub(super) fn show(
     let mode = if is_foreign { Intent::Track } else { snapshot.intent };
     let commanded = [0, 1].map(|index| table.get(index).and_then(|row: &axes::Row| row.wanted_deg));
     let [misses, note] = on_board(model, antenna);
+    let nothing_left = passes::nothing_left(model, antenna);
     let asks_unseen = antenna.asks_unseen.as_ref().and_then(|act| make.action(act.action));
     let note = snapshot.sun_lifted.then(|| words::SUN_IS_LIFTED.to_owned()).or(note);
     let asks_standing = words::asks_standing(snapshot, model.now);
@@ -120,6 +124,7 @@ pub(super) fn show(
             },
             track: modes.contains(&Intent::Track).then(|| TrackModel {
                 misses: misses.as_deref(),
+                nothing_left: nothing_left.as_deref(),
                 note: note.as_deref(),
                 parks_at: &parks_at,
                 ..track(model, antenna, &locks, sun_avoidance.as_deref())
@@ -310,6 +315,7 @@ fn track<'a>(
         ends: antenna.tracked_name().map(short),
         refusal: locks.track,
         misses: None,
+        nothing_left: None,
         note: None,
         auto_track: state
             .program

@@ -16,7 +16,7 @@ use crate::{
     orbit::Pass,
     plan::{
         Sample, Trackability,
-        schedule::{Conflict, Joining, Refusal, Why},
+        schedule::{Conflict, Refusal, Why},
     },
     ui::{
         format, menus,
@@ -24,7 +24,7 @@ use crate::{
         pass_list::{self, Arrangement, LeftOut, PassListModel, PassListState, PassRow, Verdict},
         profile::{self, PastModel, ProfileModel, ProfileState},
         state_sentence::short,
-        words,
+        words::{self, WayThere},
     },
 };
 
@@ -124,9 +124,13 @@ pub(in crate::ui) fn pass_row<'a>(model: &'a Model, predicted: &'a PredictedPass
                 _ => Verdict::Trackable,
             };
             let antenna = antenna.filter(|antenna| !is_taken(antenna, predicted));
-            let left_out = antenna.and_then(|antenna| left_out(model, antenna, predicted));
-            let late = || antenna.and_then(|antenna| late(model, antenna, predicted));
-            left_out.map(Verdict::LeftOut).or_else(late).unwrap_or(in_part)
+            let way = || Some(Verdict::Way(way_there(model, antenna?, predicted)?));
+            match antenna.and_then(|antenna| left_out(model, antenna, predicted)) {
+                // The way there says the same and what it leaves.
+                Some(why @ LeftOut::TooFar) => way().unwrap_or(Verdict::LeftOut(why)),
+                Some(why) => Verdict::LeftOut(why),
+                None => way().unwrap_or(in_part),
+            }
         }
     });
     PassRow {
@@ -176,17 +180,14 @@ fn left_out<'a>(
         Why::Refused(_) | Why::Impossible(_) | Why::OtherAntennas | Why::MaxPerDay(_) => {
             LeftOut::Limit
         }
-        Why::Off(_) => LeftOut::AntennaOff,
+        Why::Off(off) => LeftOut::Off(*off),
         Why::NotFound => LeftOut::WorthLess,
     })
 }
 
-/// What is left of a pass under way, or about to begin, for an antenna that has to slew there.
-fn late(
-    model: &Model,
-    antenna: &AntennaModel,
-    predicted: &PredictedPass,
-) -> Option<Verdict<'static>> {
+/// What the way there leaves of a pass under way, or about to begin, for an antenna that has to
+/// slew.
+fn way_there(model: &Model, antenna: &AntennaModel, predicted: &PredictedPass) -> Option<WayThere> {
     let until_s = seconds_between(model.now, predicted.pass.aos.time);
     let config = &antenna.config;
     if predicted.is_always_up()
@@ -199,10 +200,25 @@ fn late(
     let has_elevation = antenna.variant().capabilities.has_elevation();
     antenna.snapshot.state.measured?.axes_deg(has_elevation)?;
     let find = || model.planned_from_here(antenna)?.joining(predicted.track());
-    match model.joinings.of(antenna.id(), predicted.key(), model.now, find) {
-        None => Some(Verdict::TooLate),
-        Some(Joining { late_s, left_s }) => {
-            (late_s >= 1.0).then_some(Verdict::Late { seconds: late_s, left_s })
+    let joining = model.joinings.of(antenna.id(), predicted.key(), model.now, find);
+    let is_in_time = joining.is_some_and(|joining| joining.late_s < 1.0);
+    (!is_in_time).then_some(WayThere { joining, until_s })
+}
+
+/// Why an antenna gets nothing of the selected pass, as a sentence.
+pub(super) fn nothing_left(model: &Model, antenna: &AntennaModel) -> Option<String> {
+    let predicted = model.selected_pass().filter(|of| !is_taken(antenna, of))?;
+    let name = predicted.satellite.short_name();
+    let place = model.antennas.iter().position(|of| of.id() == antenna.id())?;
+    match predicted.trackability(place)? {
+        Trackability::Nothing => Some(format!("{name} is out of the mount's reach.")),
+        Trackability::TooLow => {
+            Some(format!("{name} stays below the antenna's minimum elevation."))
+        }
+        Trackability::Whole | Trackability::Loses { .. } => {
+            let way = way_there(model, antenna, predicted)?;
+            let is_lost = way.joining.is_none();
+            is_lost.then(|| format!("{} {} of {name}.", antenna.config.name, way.words()))
         }
     }
 }
@@ -285,23 +301,14 @@ fn second_line(model: &Model, predicted: &PredictedPass) -> [String; 2] {
         let parts: Vec<&str> = parts.iter().flatten().map(String::as_str).collect();
         parts.join(" · ")
     };
-    let way = model.antenna().and_then(|antenna| way_there(model, antenna, predicted));
+    let way = model.antenna().and_then(|antenna| {
+        let way = way_there(model, antenna, predicted)?;
+        Some(format!("{} {}", antenna.config.name, way.words()))
+    });
     let warning = words::capitalised(&joined(&[way, old, blocked]));
     let rest = joined(&[other, mask, same, light.map(str::to_owned), young]);
     let rest = if warning.is_empty() { words::capitalised(&rest) } else { rest };
     [warning, rest]
-}
-
-/// What the way there costs of a pass under way, or about to begin.
-fn way_there(model: &Model, antenna: &AntennaModel, predicted: &PredictedPass) -> Option<String> {
-    let name = &antenna.config.name;
-    match late(model, antenna, predicted)? {
-        Verdict::Late { seconds, left_s } => {
-            let [late, left] = [seconds, left_s].map(format::duration);
-            Some(format!("{name} would join {late} late, {left} left"))
-        }
-        _ => Some(format!("{name} does not get there before LOS")),
-    }
 }
 
 /// The times in which a pass is clear of the horizon mask.

@@ -15,6 +15,7 @@ use crate::ui::{
     theme,
     tokens::Tokens,
     widgets::paint,
+    words::WayThere,
 };
 
 /// Height of a row, with its divider.
@@ -139,9 +140,11 @@ pub(super) fn verdict_in(ui: &Ui, rect: Rect, verdict: Verdict<'_>, t: &Tokens) 
         Verdict::Trackable => (Icon::Check, t.ok, t.t2),
         Verdict::Loses { .. }
         | Verdict::Blocked { .. }
-        | Verdict::Late { .. }
+        | Verdict::Way(WayThere { joining: Some(_), .. })
         | Verdict::Misses => (Icon::Warning, t.warn, t.warn),
-        Verdict::TooLate | Verdict::OutOfReach | Verdict::TooLow => (Icon::Cross, t.bad, t.bad),
+        Verdict::Way(WayThere { joining: None, .. }) | Verdict::OutOfReach | Verdict::TooLow => {
+            (Icon::Cross, t.bad, t.bad)
+        }
         Verdict::LeftOut(_) => (Icon::Dash, t.t2, t.t2),
         Verdict::InMaintenance => (Icon::Lock, t.warn, t.warn),
     };

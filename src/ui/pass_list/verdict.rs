@@ -2,7 +2,13 @@
 
 use std::borrow::Cow;
 
-use crate::{plan::Loss, ui::format};
+use crate::{
+    plan::{Loss, schedule::Off},
+    ui::{
+        format,
+        words::{self, WayThere},
+    },
+};
 
 /// What the selected antenna can take of a pass, and whether the schedule wants it to.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -24,14 +30,7 @@ pub enum Verdict<'a> {
         is_whole: bool,
     },
     /// The antenna could track it, but not before it has slewed there from where it stands.
-    Late {
-        /// Lost time.
-        seconds: f64,
-        /// Time from then to LOS.
-        left_s: f64,
-    },
-    /// The antenna cannot get there before LOS.
-    TooLate,
+    Way(WayThere),
     /// The mount can follow, but the unit would miss according to its own settings.
     Misses,
     /// All of the pass is out of the reach of the mount.
@@ -58,8 +57,8 @@ pub enum LeftOut<'a> {
     Never,
     /// A limit of the satellite or of the station.
     Limit,
-    /// The antenna is locked out or not connected.
-    AntennaOff,
+    /// The antenna takes no passes.
+    Off(Off),
     /// No schedule with it is known to be worth more.
     WorthLess,
 }
@@ -71,10 +70,11 @@ impl LeftOut<'_> {
             Self::Overlaps(name) => format!("overlaps {name}").into(),
             Self::TooClose(name) => format!("close to {name}").into(),
             Self::TakenBy(name) => format!("{name} takes it").into(),
-            Self::TooFar => "slew too long".into(),
+            Self::TooFar => "not there at AOS".into(),
             Self::Never => "as you chose".into(),
             Self::Limit => "a limit".into(),
-            Self::AntennaOff => "antenna off".into(),
+            Self::Off(Off::LockedOut) => "in maintenance".into(),
+            Self::Off(Off::SwitchedOff) => "not connected".into(),
             Self::WorthLess => "worth less".into(),
         }
     }
@@ -104,11 +104,7 @@ impl Verdict<'_> {
             Self::OutOfReach => "Out of the mount's reach".into(),
             Self::TooLow => "Below the antenna's minimum elevation".into(),
             Self::InMaintenance => "In maintenance".into(),
-            Self::Late { seconds, left_s } => {
-                let [late, left] = [seconds, left_s].map(format::duration);
-                format!("{late} late, {left} left").into()
-            }
-            Self::TooLate => "Sets before it gets there".into(),
+            Self::Way(way) => words::capitalised(&way.words()).into(),
             Self::LeftOut(why) => format!("Left out: {}", why.reason()).into(),
             Self::Loses { seconds, at } => {
                 let lost = format::age(seconds.ceil());
@@ -134,14 +130,8 @@ impl Verdict<'_> {
             }
             Self::OutOfReach => "Out of reach".into(),
             Self::TooLow => "Stays too low".into(),
-            Self::TooLate => "Sets before".into(),
-            Self::Late { seconds, .. } => format!("{} late", format::duration(seconds)).into(),
-            Self::LeftOut(why) => {
-                let reason = why.reason();
-                let mut letters = reason.chars();
-                let first = letters.next().map(|letter| letter.to_ascii_uppercase());
-                first.into_iter().chain(letters).collect::<String>().into()
-            }
+            Self::Way(way) => words::capitalised(&way.short()).into(),
+            Self::LeftOut(why) => words::capitalised(&why.reason()).into(),
             Self::Loses { seconds, at } => {
                 let lost = format::age(seconds.ceil());
                 match at {

@@ -61,7 +61,7 @@ pub fn why(names: &dyn Fn(PassKey) -> String, why: &Why) -> String {
             let against = against.trim_end_matches(',');
             format!("Too close to {against}: {by} short for slew and set-up")
         }
-        Why::TooFar => "The antenna cannot be there in time from where it stands".to_owned(),
+        Why::TooFar => "From where it stands, the antenna is not there at AOS".to_owned(),
         Why::MaxPerDay(most) => match most {
             1 => "One pass of the satellite is taken on this day already".to_owned(),
             most => format!("{most} passes of the satellite are taken on this day already"),
