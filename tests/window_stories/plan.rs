@@ -212,8 +212,30 @@ fn a_pass_that_no_antenna_can_take_is_not_swapped() {
     window.state_mut().model.swap = Some(Arc::new(swap));
     settle(&mut window);
     assert!(says(&window, "Always: not possible."));
-    window.get_by_role_and_label(Role::Button, "Swap").click();
+    let always = window.get_by_role_and_label(Role::RadioButton, "Always");
+    assert!(always.accesskit_node().is_disabled());
+    let swaps = |window: &Window, is_disabled| {
+        let buttons = window.get_all_by_role(Role::Button).filter(|button| {
+            let button = button.accesskit_node();
+            let is_swap = button.label().is_some_and(|label| label.starts_with("Swap for "));
+            is_swap && button.is_disabled() == is_disabled
+        });
+        buttons.map(|button| button.rect().center()).collect::<Vec<_>>()
+    };
+    let [locked] = swaps(&window, true)[..] else { panic!("one is known to be impossible") };
+    window.drag_at(locked);
+    window.drop_at(locked);
     assert_eq!(commands(&mut window), []);
+    let other = swaps(&window, false)[0];
+    window.drag_at(other);
+    window.drop_at(other);
+    assert!(
+        matches!(
+            &commands(&mut window)[..],
+            [Command::ChoosePass { take: Some(Take::Always), .. }]
+        ),
+        "each row that is left out has its own"
+    );
 }
 
 #[test]

@@ -315,8 +315,15 @@ fn controls(
     paint::text_in(ui, row, Align2::LEFT_CENTER, "This pass", text::small(), t.t2);
     let choices = [(None, "By plan"), (Some(Take::Always), "Always"), (Some(Take::Never), "Never")];
     let present = planned.choice.map(|choice| choice.take);
-    let segments = choices
-        .map(|(take, word)| (word, if take == present { Segment::Chosen } else { Segment::Free }));
+    let cannot = model.swap_of(planned.predicted.key()).is_some_and(|swap| swap.changes.is_none());
+    let segments = choices.map(|(take, word)| {
+        let state = match take {
+            take if take == present => Segment::Chosen,
+            Some(Take::Always) if cannot => Segment::Locked,
+            _ => Segment::Free,
+        };
+        (word, state)
+    });
     let place = row.with_min_x(row.left() + LABEL);
     let clicked = segmented::show(ui, "this pass", place, "This pass", &segments);
     if let Some((take, _)) = clicked.and_then(|index| choices.get(index)) {

@@ -8,6 +8,7 @@ use egui::{
 use super::{PADDING, PlanState, Span, legend, switches};
 use crate::{
     astro::time::{add_seconds, seconds_between},
+    driver::LinkState,
     engine::{
         self,
         antenna::AntennaModel,
@@ -16,7 +17,7 @@ use crate::{
     model::{Model, UiCommand, plan::PlannedSatellite},
     plan::schedule::Entry,
     ui::{
-        format,
+        bar, format, icons,
         pass_bar::{self, BarForm},
         text::{self, Weight},
         theme,
@@ -179,7 +180,10 @@ fn label(
     ui.painter().hline(rect.x_range(), rect.bottom() - 0.5, (1.0, t.line));
     let inner = rect.shrink2(vec2(PADDING, 6.0));
     let (first, second) = inner.split_top_bottom_at_fraction(0.5);
-    let room = first.with_max_x(switch.left() - 70.0);
+    let (glyph, colour) = bar::glyph(antenna).look(t);
+    let at = paint::square(pos2(first.left() + 6.0, first.center().y), 12.0);
+    icons::paint(ui.painter(), at, glyph, colour);
+    let room = first.with_min_x(at.right() + 6.0).with_max_x(switch.left() - 70.0);
     let font = text::sized(13.0, Weight::SemiBold);
     paint::text_in(ui, room, Align2::LEFT_CENTER, name, font, t.t1);
     let colour = match antenna.operation {
@@ -249,6 +253,8 @@ fn lane(
     if entries.is_empty() {
         let words = if antenna.snapshot.lock_out.is_some() {
             "Locked out: nothing is planned."
+        } else if antenna.snapshot.link == LinkState::Off {
+            "Not connected: nothing is planned."
         } else {
             "Nothing is planned."
         };

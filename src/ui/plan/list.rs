@@ -247,11 +247,7 @@ fn state(
             (Icon::Clock, words::schedule::sets_out(antenna, at, model.now), t.t1)
         }
         Standing::Planned(_) => (Icon::Clock, "Planned".to_owned(), t.t1),
-        Standing::TakenBy(other) => {
-            let name = words::schedule::antenna_name(model, other);
-            (Icon::Dash, format!("Left out, {name} takes it"), t.t2)
-        }
-        Standing::LeftOut(_) => (Icon::Dash, "Left out".to_owned(), t.t2),
+        Standing::TakenBy(_) | Standing::LeftOut(_) => (Icon::Dash, "Left out".to_owned(), t.t2),
         Standing::NotKnown => (Icon::Dash, "Not planned yet".to_owned(), t.t3),
     }
 }
@@ -267,7 +263,10 @@ fn reason(model: &Model, listed: &ListedPass<'_>) -> (String, bool) {
         Standing::LeftOut(why) => {
             (format!("{}.", words::schedule::why_left_out(model, why)), false)
         }
-        Standing::TakenBy(_) | Standing::NotKnown => (String::new(), false),
+        Standing::TakenBy(other) => {
+            (format!("{} takes it.", words::schedule::antenna_name(model, other)), false)
+        }
+        Standing::NotKnown => (String::new(), false),
         Standing::Running | Standing::Proved(_) | Standing::Sent(_) | Standing::Planned(_) => {
             let Some(entry) = listed.entry else { return (String::new(), false) };
             if let Some(lost) = entry.lost {
@@ -366,13 +365,16 @@ fn show_row(
     }
     let mut end = row.right() - PADDING;
     let can_swap = matches!(listed.standing, Standing::LeftOut(_));
-    if let (true, Some(planned)) = (can_swap && is_selected, &listed.planned) {
+    if let (true, Some(planned)) = (can_swap, &listed.planned) {
         // Known as soon as the inspector has shown the price.
         let cannot = model.swap_of(listed.key).is_some_and(|swap| swap.changes.is_none());
         let button = Button::normal("Swap").locked(cannot);
         let width = button.width(ui);
         let place = Rect::from_min_size(pos2(end - width, row.top() + 2.0), vec2(width, ROW - 4.0));
-        if button.show(ui, ("swap", listed.key), place).clicked() {
+        let response = button.show(ui, ("swap", listed.key), place);
+        let named = format!("Swap for {}, {aos}", listed.name);
+        response.widget_info(|| WidgetInfo::labeled(Role::Button, !cannot, &named));
+        if response.clicked() {
             plan.choose_for(model, planned, Some(Take::Always), commands);
         }
         end = place.left() - 8.0;

@@ -50,8 +50,7 @@ pub fn in_short(of: &RehearsalState, now: Timestamp) -> Option<String> {
 /// What a pass came to beside its promise, for a row.
 pub fn beside_promise(pass: &RehearsedPass) -> String {
     let [got, promised] = [pass.got_s(), pass.promised_s].map(format::duration);
-    let worst = pass.worst_deg().map(|deg| format!(", worst {}", format::degrees(deg, 2)));
-    format!("{got} of {promised}{}", worst.unwrap_or_default())
+    format!("{got} of {promised}")
 }
 
 /// How good a pass was, in a word.
