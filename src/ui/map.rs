@@ -38,6 +38,9 @@ const INSPECTOR: f32 = 344.0;
 const PADDING: f32 = 16.0;
 /// Rows for which the table must have room beside the map; else it is a drawer over it.
 const ROWS: f32 = 3.0;
+/// Rows of the table for which the map gives way, down to this part of its height.
+const WANTED_ROWS: usize = 8;
+const LEAST_MAP: f32 = 0.85;
 
 /// Layers of the map.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize)]
@@ -176,6 +179,8 @@ impl Areas {
         let map = rest.width() / 2.0;
         let spare = rest.height() - map;
         if spare >= table::BAR + table::height(ROWS) {
+            let wanted = table::BAR + table::height(rows.min(WANTED_ROWS) as f32);
+            let map = map.min((rest.height() - wanted).max(LEAST_MAP * map));
             let (map, table) = rest.split_top_bottom_at_y(rest.top() + map);
             return Self { map, table, is_drawer: false };
         }

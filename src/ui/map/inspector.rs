@@ -129,9 +129,13 @@ fn parts(
     if let Some(antenna) = speaker(model, of) {
         let room = ui.available_rect_before_wrap();
         let at = pos2(room.left() + PADDING, room.top() + GAP);
+        let name = &antenna.config.name;
+        let font = text::sized(13.0, Weight::SemiBold);
+        let head = paint::text(ui, at, Align2::LEFT_TOP, name, font, t.t1);
+        let at = pos2(at.x, head.bottom() + GAP / 2.0);
         let spoken = state_sentence(model, antenna);
         let block = spoken.with(|words| sentence::show_short(ui, at, width - 2.0 * PADDING, words));
-        place(ui, block.height() + GAP);
+        place(ui, block.bottom() - room.top() + GAP);
     }
     let passes = upcoming::passes(model, of.number());
     let list = place(ui, upcoming::height(passes.len()));
