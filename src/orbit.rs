@@ -13,7 +13,7 @@ mod simd;
 mod sources;
 mod writer;
 
-pub use bundled::{BUNDLED_SOURCE, BundledError, bundled};
+pub use bundled::{BUNDLED_NEWEST, BUNDLED_SOURCE, BundledError, bundled};
 pub use catalog::{Catalog, MergeSummary};
 pub use elements::{EPOCH_YEARS, Elements, ElementsError, Heights};
 pub use ground::{SubPoint, TrackPoint};

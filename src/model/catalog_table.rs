@@ -44,9 +44,9 @@ pub enum Among {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Column {
-    /// Favourites by priority.
-    Star,
+    /// Favourites by priority, before the others.
     #[default]
+    Star,
     Name,
     Number,
     Period,

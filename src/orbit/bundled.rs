@@ -2,10 +2,15 @@
 
 use std::io::Read;
 
+use jiff::Timestamp;
+
 use super::{Catalog, Refusal, read_elements};
 
 /// Name of the source of the bundled elements.
 pub const BUNDLED_SOURCE: &str = "bundled, 2026-08-11";
+
+/// The newest epoch of the bundled elements.
+pub const BUNDLED_NEWEST: Timestamp = Timestamp::constant(1_786_596_111, 0);
 
 /// Compressed TLE text, see `assets/elements/README.md`.
 const COMPRESSED: &[u8] = include_bytes!("../../assets/elements/active_2026-08-11.tle.gz");
@@ -44,5 +49,7 @@ mod tests {
         let catalog = bundled().unwrap();
         assert_eq!(catalog.len(), 16_089);
         assert_eq!(catalog.get(25_544).unwrap().name(), "ISS (ZARYA)");
+        let newest = catalog.newest_epoch().unwrap();
+        assert_eq!(newest.as_second(), BUNDLED_NEWEST.as_second());
     }
 }

@@ -12,7 +12,7 @@ use crate::{
     astro::time::seconds_between,
     engine::{self, CatalogState, passes::ListedSatellite},
     model::{Model, UiCommand},
-    orbit::{BUNDLED_SOURCE, RefreshHours, Source, SourcePlace, SourceReport},
+    orbit::{BUNDLED_NEWEST, BUNDLED_SOURCE, RefreshHours, Source, SourcePlace, SourceReport},
     ui::{
         confirm::Question,
         format,
@@ -385,7 +385,7 @@ fn bundled(ui: &Ui, row: Rect, in_use: usize, model: &Model) {
         name: BUNDLED_SOURCE,
         place: "comes with Azel",
         state: (Tone::Plain, "not fetched".to_owned()),
-        newest: None,
+        newest: Some(BUNDLED_NEWEST),
         objects,
         in_use,
         next: "never",
