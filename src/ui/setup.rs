@@ -134,7 +134,7 @@ pub fn show(
                 Step::Satellites => {
                     satellites::show(ui, model, &mut draft, &mut state.satellites);
                 }
-                Step::Elements => elements::show(ui, model, &mut state.add, commands),
+                Step::Elements => elements::show(ui, model, &draft, &mut state.add, commands),
                 Step::End => end::show(ui, model, &draft, state),
             }
             ui.add_space(16.0);

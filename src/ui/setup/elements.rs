@@ -2,6 +2,7 @@
 
 use egui::{RichText, Ui};
 
+use super::draft::SetupDraft;
 use crate::{
     engine::sources::SourceWork,
     model::{Model, UiCommand},
@@ -18,11 +19,12 @@ const CARD: f32 = 638.0;
 pub(super) fn show(
     ui: &mut Ui,
     model: &Model,
+    draft: &SetupDraft,
     state: &mut AddState,
     commands: &mut Vec<UiCommand>,
 ) {
     let t = theme::tokens(ui);
-    let (tone, words) = super::so_far::elements(model);
+    let (tone, words) = super::so_far::elements(model, draft);
     card::show(ui, CARD, |ui| {
         ui.label(RichText::new("In use").font(text::value()));
         line(ui, tone, &format!("{}.", crate::ui::words::capitalised(&words)));

@@ -196,7 +196,7 @@ fn detail(step: Step, model: &Model, draft: &SetupDraft, state: &SetupState) -> 
             }
         }
         Step::Satellites => crate::ui::words::capitalised(&so_far::satellites(draft).1),
-        Step::Elements => crate::ui::words::capitalised(&so_far::elements(model).1),
+        Step::Elements => crate::ui::words::capitalised(&so_far::elements(model, draft).1),
         Step::End => String::new(),
     }
 }

@@ -8,7 +8,6 @@ use super::{
     steps::{Passed, Progress},
 };
 use crate::{
-    astro::time::seconds_between,
     driver::TimeSync,
     engine::CatalogState,
     model::Model,
@@ -54,7 +53,7 @@ pub(super) fn parts(model: &Model, draft: &SetupDraft, progress: Progress) -> Ve
         parts.push(part("Antennas", (Tone::Plain, "none".to_owned())));
     }
     parts.push(part("Satellites", satellites(draft)));
-    parts.push(part("Elements", elements(model)));
+    parts.push(part("Elements", elements(model, draft)));
     parts
 }
 
@@ -83,21 +82,20 @@ pub(super) fn satellites(draft: &SetupDraft) -> (Tone, String) {
     }
 }
 
-pub(super) fn elements(model: &Model) -> (Tone, String) {
+/// What there is of elements, with the greatest age among those of the chosen satellites.
+pub(super) fn elements(model: &Model, draft: &SetupDraft) -> (Tone, String) {
     let catalog = match &model.catalog {
         CatalogState::Loading => return (Tone::Plain, "being read".to_owned()),
         CatalogState::Failed => return (Tone::Bad, "none could be read".to_owned()),
         CatalogState::Ready(catalog) => catalog,
     };
-    let age_s = catalog.newest_epoch().map(|newest| seconds_between(newest, model.now));
     let objects = crate::ui::elements::objects(catalog.len());
-    match age_s {
-        Some(age_s) if age_s > OLD_ELEMENTS_S => {
-            (Tone::Caution, format!("{objects}, {} old", format::age(age_s)))
-        }
-        Some(age_s) => (Tone::Good, format!("{objects}, {} old", format::age(age_s))),
-        None => (Tone::Good, objects),
-    }
+    let chosen = draft.favourites.numbers().into_iter().filter_map(|number| catalog.get(number));
+    let Some(age_s) = chosen.map(|of| of.age_s(model.now)).reduce(f64::max) else {
+        return (Tone::Good, objects);
+    };
+    let tone = if age_s > OLD_ELEMENTS_S { Tone::Caution } else { Tone::Good };
+    (tone, format!("{objects}, those chosen up to {} old", format::age(age_s)))
 }
 
 pub(super) fn show(ui: &Ui, rect: Rect, model: &Model, draft: &SetupDraft, progress: Progress) {

@@ -6,10 +6,8 @@ use crate::{astro::LocatorSquare, ui::format};
 const KM_A_DEGREE: f64 = 111.2;
 
 pub(super) fn missing(labels: &[&str]) -> String {
-    match labels {
-        [only] => format!("Site: {only} is missing."),
-        labels => format!("Site: {} fields are empty.", labels.len()),
-    }
+    let verb = if labels.len() == 1 { "is" } else { "are" };
+    format!("Site: {} {verb} missing.", format::list(labels))
 }
 
 /// Size of the square of a locator.
