@@ -111,7 +111,7 @@ fn a_favourite_gives_its_priority_back_to_its_group() {
     let mut window = page(rig::LARGE, SATELLITES, Vec::new());
     choose(&mut window, "Priority of NOAA 20", "5");
     assert!(!says(&window, "Priority of NOAA 20: 2, Weather"));
-    choose(&mut window, "Priority of NOAA 20", "None");
+    choose(&mut window, "Priority of NOAA 20", "Default");
     assert!(says(&window, "Priority of NOAA 20: 2, Weather"));
     assert!(says(&window, "Nothing to save."));
 }

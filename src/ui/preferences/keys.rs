@@ -17,7 +17,7 @@ use crate::ui::{
 
 const ROW: f32 = 22.0;
 /// Width of the column of the keys.
-const KEYS: f32 = 148.0;
+const KEYS: f32 = 160.0;
 const GAP: f32 = 4.0;
 /// What a key says that waits for another one.
 const WAITING: &str = "Press a key";
@@ -120,11 +120,21 @@ pub(super) fn card_of(ui: &mut Ui, card: usize, state: &mut KeysState) {
 
 fn row(ui: &mut Ui, binding: &Binding, state: &mut KeysState) {
     let t = theme::tokens(ui);
-    let (rect, _) = ui.allocate_exact_size(vec2(ui.available_width(), ROW), Sense::hover());
-    ui.painter().hline(rect.x_range(), rect.top(), (1.0, t.line));
-    let place = rect.with_max_x(rect.left() + KEYS);
     let slots: Vec<Slot> = binding.slots().collect();
     let words = in_words(binding, &state.own);
+    let refused = state.refused.filter(|(slot, ..)| slots.contains(slot));
+    let (said, colour) = match refused {
+        Some((_, refusal)) => (refusal_in_words(refusal), t.bad),
+        None => (binding.does.to_owned(), t.t2),
+    };
+    let width = ui.available_width();
+    let keys: f32 = slots.iter().map(|slot| key_width(ui, *slot, state) + GAP).sum();
+    let keys = KEYS.max(keys + GAP);
+    let does = ui.painter().layout(said.clone(), text::body(), colour, width - keys);
+    let height = ROW.max(does.size().y + 4.0);
+    let (rect, _) = ui.allocate_exact_size(vec2(width, height), Sense::hover());
+    ui.painter().hline(rect.x_range(), rect.top(), (1.0, t.line));
+    let place = rect.with_max_x(rect.left() + KEYS);
     if slots.is_empty() {
         let keys =
             paint::text_in(ui, place, Align2::LEFT_CENTER, &words, text::body_medium(), t.t1);
@@ -137,15 +147,11 @@ fn row(ui: &mut Ui, binding: &Binding, state: &mut KeysState) {
     for slot in &slots {
         left = key(ui, pos2(left, place.center().y), *slot, binding.does, state) + GAP;
     }
-    let does = Rect::from_min_max(pos2(place.right().max(left + GAP), place.top()), rect.max);
-    let refused = state.refused.filter(|(slot, ..)| slots.contains(slot));
-    let (said, colour) = match refused {
-        Some((_, refusal)) => (refusal_in_words(refusal), t.bad),
-        None => (binding.does.to_owned(), t.t2),
-    };
-    paint::text_in(ui, does, Align2::LEFT_CENTER, &said, text::body(), colour);
+    let room = rect.with_min_x(rect.left() + keys);
+    let at = Align2::LEFT_CENTER.align_size_within_rect(does.size(), room);
+    ui.painter().galley(at.min, does, colour);
     let spoken = format!("{words}: {said}");
-    paint::name_text(ui, ("key", binding.does), does, &spoken).on_hover_text(&spoken);
+    paint::name_text(ui, ("key", binding.does), room, &spoken);
 }
 
 fn refusal_in_words(refusal: Refusal) -> String {
@@ -158,13 +164,22 @@ fn refusal_in_words(refusal: Refusal) -> String {
     }
 }
 
+/// The words on a key that can be changed.
+fn on_key(slot: Slot, state: &KeysState) -> &'static str {
+    if state.waiting == Some(slot) { WAITING } else { word(state.own.of_slot(slot)) }
+}
+
+fn key_width(ui: &Ui, slot: Slot, state: &KeysState) -> f32 {
+    (paint::text_width(ui, on_key(slot, state), text::body_medium()) + 12.0).max(ROW)
+}
+
 /// A key that can be changed; returns its right end.
 fn key(ui: &Ui, left: egui::Pos2, slot: Slot, does: &str, state: &mut KeysState) -> f32 {
     let t = theme::tokens(ui);
     let waits = state.waiting == Some(slot);
     let now = word(state.own.of_slot(slot));
-    let words = if waits { WAITING } else { now };
-    let width = (paint::text_width(ui, words, text::body_medium()) + 12.0).max(ROW);
+    let words = on_key(slot, state);
+    let width = key_width(ui, slot, state);
     let rect = Rect::from_min_size(left - vec2(0.0, 9.0), vec2(width, 18.0));
     let name = if waits {
         format!("{WAITING} in place of {now}")

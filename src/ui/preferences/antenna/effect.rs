@@ -20,7 +20,11 @@ pub(super) fn in_short(effect: &Effect<Question>) -> String {
 /// Shows the numbers. An antenna that is new has none as saved.
 pub(super) fn numbers(ui: &mut Ui, effect: Option<&Effect<Question>>, is_new: bool) {
     let t = theme::tokens(ui);
-    ui.label(RichText::new("Favourites, next 48 h").font(text::body_medium()).color(t.t1));
+    ui.label(
+        RichText::new("Favourites, next 48 h, each pass alone")
+            .font(text::body_medium())
+            .color(t.t1),
+    );
     let Some(effect) = effect else {
         ui.label(RichText::new("Being worked out.").font(text::small()).color(t.t3));
         return;

@@ -110,7 +110,7 @@ fn fields() -> Vec<Placed<Named>> {
         Description::text("Name", not_empty, |named: &mut Named| Some(&mut named.name)),
         Description::choice(
             "Priority",
-            &[(0, "None"), (1, "1"), (2, "2"), (3, "3"), (4, "4"), (5, "5")],
+            &[(0, "Default"), (1, "1"), (2, "2"), (3, "3"), (4, "4"), (5, "5")],
             &PRIORITIES,
             |named: &mut Named| &mut named.priority,
         )

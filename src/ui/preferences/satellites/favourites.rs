@@ -23,9 +23,9 @@ const ROW: f32 = 32.0;
 const HEAD: f32 = 20.0;
 const PRIORITY: f32 = 176.0;
 /// Width of what holds for a favourite without a priority of its own.
-const USUAL: f32 = 88.0;
+const USUAL: f32 = 76.0;
 /// Width of the limits, and in a wide row.
-const LIMITS: [f32; 2] = [120.0, 240.0];
+const LIMITS: [f32; 2] = [112.0, 240.0];
 const WIDE: f32 = 640.0;
 const GAP: f32 = 8.0;
 
@@ -147,7 +147,7 @@ pub(super) fn limits_form<'a>(ui: &Ui, around: &'a Around<'_>) -> LimitsForm<'a>
 }
 
 fn choose_priority(ui: &Ui, place: Rect, name: &str, priority: &mut Option<Priority>) {
-    let choices: Vec<(Option<Priority>, String)> = std::iter::once((None, "None".to_owned()))
+    let choices: Vec<(Option<Priority>, String)> = std::iter::once((None, "Default".to_owned()))
         .chain(Priority::ALL.map(|of| (Some(of), of.number().to_string())))
         .collect();
     let state = |of| if of == *priority { Segment::Chosen } else { Segment::Free };
