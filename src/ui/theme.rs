@@ -54,6 +54,7 @@ fn apply(style: &mut egui::Style, t: &Tokens) {
     let scroll = &mut style.spacing.scroll;
     scroll.dormant_handle_opacity = 0.5;
     scroll.floating_width = 4.0;
+    scroll.bar_width = 8.0;
     scroll.fade.strength = 0.9;
 
     let visuals = &mut style.visuals;

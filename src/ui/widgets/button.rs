@@ -89,7 +89,7 @@ impl<'a> Button<'a> {
                 Weight::Normal => (if down { t.bgsel } else { t.bg3 }, t.edge, t.t1),
                 Weight::Quiet => {
                     let fill = if down { t.bg3 } else { Color32::TRANSPARENT };
-                    (fill, t.line, t.t1)
+                    (fill, t.edge, t.t1)
                 }
             };
             let border =
