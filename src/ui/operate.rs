@@ -7,7 +7,7 @@ mod filter;
 mod ghost;
 mod layout;
 pub(super) mod passes;
-mod second_card;
+mod side_card;
 pub(super) mod sky;
 mod sky_time;
 mod strip;
@@ -38,8 +38,8 @@ use crate::{
     station::AntennaId,
 };
 use ghost::GhostState;
-use layout::Areas;
-use second_card::SecondCard;
+use layout::{Areas, SIDE_CARDS};
+use side_card::SideCard;
 use sky_time::SkyTime;
 
 pub use sky_time::row::LONG_STEP_S;
@@ -72,8 +72,8 @@ pub struct OperateState {
     found: filter::FoundPasses,
     /// The antenna whose card was shown last.
     shown_antenna: Option<AntennaId>,
-    /// The card beside it in a wide window.
-    second: SecondCard,
+    /// The cards beside it in a wide window.
+    side_cards: [SideCard; SIDE_CARDS],
 }
 
 impl OperateState {
@@ -106,7 +106,9 @@ impl OperateState {
     /// Call when the card disappears. Releases a key that is held there.
     pub fn leave_card(&mut self, commands: &mut Vec<UiCommand>) {
         self.ghost.leave(commands);
-        self.second.leave(commands);
+        for card in &mut self.side_cards {
+            card.leave(commands);
+        }
         if self.card.hide().is_some()
             && let Some(antenna) = self.shown_antenna
         {
@@ -133,10 +135,22 @@ pub fn show(
     if state.shown_antenna != shown {
         state.leave_card(commands);
         state.card.change_antenna();
-        state.second.turn_to(model, state.shown_antenna, commands);
+        if let Some(card) = state.side_cards.first_mut() {
+            card.turn_to(state.shown_antenna);
+        }
         state.shown_antenna = shown;
     }
-    let second = areas.second_card.and_then(|_| state.second.antenna(model, commands));
+    let mut on_cards: Vec<AntennaId> = shown.into_iter().collect();
+    let beside: [Option<&AntennaModel>; SIDE_CARDS] = std::array::from_fn(|index| {
+        let card = state.side_cards.get_mut(index)?;
+        if areas.side_cards.get(index).copied().flatten().is_none() {
+            card.leave(commands);
+            return None;
+        }
+        let antenna = card.antenna(model, &on_cards, commands)?;
+        on_cards.push(antenna.id());
+        Some(antenna)
+    });
     if let Some(strip) = areas.banner {
         banner::show(ui, strip, model, commands);
     }
@@ -172,12 +186,13 @@ pub fn show(
         passes::list(ui, list, model, areas.thumbnails, list_state, found, commands);
     }
     if let Some(antenna) = model.antenna() {
-        let beside = second.map(AntennaModel::id);
-        card::show(ui, areas.card, model, antenna, beside, &mut state.card, question, commands);
-        if let (Some(place), Some(second)) = (areas.second_card, second) {
-            let card = state.second.card();
-            let beside = Some(antenna.id());
-            card::show(ui, place, model, second, beside, card, question, commands);
+        card::show(ui, areas.card, model, antenna, &on_cards, &mut state.card, question, commands);
+        let places = areas.side_cards.into_iter().zip(beside).zip(&mut state.side_cards);
+        for ((place, antenna), card) in places {
+            if let (Some(place), Some(antenna)) = (place, antenna) {
+                let card = card.card();
+                card::show(ui, place, model, antenna, &on_cards, card, question, commands);
+            }
         }
     } else {
         card::none(ui, areas.card, model, commands);

@@ -44,7 +44,7 @@ use crate::{
     },
 };
 
-/// Draws the card of `antenna`; the card of the antenna `beside` stands beside it.
+/// Draws the card of `antenna`; `on_cards` are all antennas with a card.
 // The card, whose it is, and who takes what is asked.
 #[allow(clippy::too_many_arguments)]
 pub(super) fn show(
@@ -52,7 +52,7 @@ pub(super) fn show(
     rect: Rect,
     model: &Model,
     antenna: &AntennaModel,
-    beside: Option<AntennaId>,
+    on_cards: &[AntennaId],
     state: &mut CardState,
     question: &mut Option<Question>,
     commands: &mut Vec<UiCommand>,
@@ -70,7 +70,7 @@ pub(super) fn show(
     let checks = &antenna.snapshot.state.checks;
     let checked_at = antenna.snapshot.state.checked_at;
     let checked_at = checked_at.map(|at| format::moment(at, model.now)).unwrap_or_default();
-    let others = others(model, [Some(antenna.id()), beside]);
+    let others = others(model, on_cards);
     let locks = Locks::of(antenna, !checks.is_empty());
     let blocked = measured.map(|measured| axes::blocked(measured, can)).unwrap_or_default();
     let jog_note = axes::unseen(antenna);
@@ -378,9 +378,9 @@ fn on_board(model: &Model, antenna: &AntennaModel) -> [Option<String>; 2] {
 }
 
 /// All antennas but those whose cards are shown.
-fn others(model: &Model, shown: [Option<AntennaId>; 2]) -> Vec<OtherAntenna> {
+fn others(model: &Model, on_cards: &[AntennaId]) -> Vec<OtherAntenna> {
     let antennas = model.antennas.iter().enumerate();
-    let others = antennas.filter(|(_, antenna)| !shown.contains(&Some(antenna.id())));
+    let others = antennas.filter(|(_, antenna)| !on_cards.contains(&antenna.id()));
     let in_short = |(index, antenna): (usize, &AntennaModel)| {
         let measured = antenna.snapshot.state.measured;
         let at = measured

@@ -27,8 +27,10 @@ const TALL_FROM: f32 = 800.0;
 /// In a window from this height on the strip has room for a lane of each antenna.
 const HIGH_FROM: f32 = 1000.0;
 const HIGH_STRIP: f32 = 272.0;
-/// In a window from this width on two cards stand side by side.
-const TWO_CARDS_FROM: f32 = 1800.0;
+/// Number of cards that can stand beside that of the selected antenna.
+pub(super) const SIDE_CARDS: usize = 2;
+/// In a window from this width on there is the first of them, and the second.
+const SIDE_CARDS_FROM: [f32; SIDE_CARDS] = [1800.0, 2400.0];
 
 /// The parts of the view.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -38,8 +40,8 @@ pub(super) struct Areas {
     /// The row below the plot with the time that it shows.
     pub(super) sky_time: Rect,
     pub(super) card: Rect,
-    /// The card of a second antenna, at the right of the first.
-    pub(super) second_card: Option<Rect>,
+    /// The cards of further antennas, at the right of the first.
+    pub(super) side_cards: [Option<Rect>; SIDE_CARDS],
     /// The strip of the demo station, if it is beside the card.
     pub(super) banner: Option<Rect>,
     pub(super) list: Option<Rect>,
@@ -64,10 +66,14 @@ impl Areas {
         let small = window.width() < DRAWER_BELOW;
         let tall = window.height() >= TALL_FROM;
         let card_width = if small { antenna_card::SMALL_WIDTH } else { antenna_card::WIDTH };
+        let fitting = SIDE_CARDS_FROM.iter().filter(|from| window.width() >= **from).count();
+        let count = fitting.min(antennas.saturating_sub(1));
         let last = rect.with_min_x(rect.right() - card_width);
-        let has_two = window.width() >= TWO_CARDS_FROM && antennas > 1;
-        let second_card = has_two.then_some(last);
-        let card = if has_two { last.translate(vec2(-card_width, 0.0)) } else { last };
+        let card = last.translate(vec2(-card_width * count as f32, 0.0));
+        let side_cards = std::array::from_fn(|index| {
+            let place = card.translate(vec2(card_width * (index + 1) as f32, 0.0));
+            (index < count).then_some(place)
+        });
         let left = rect.with_max_x(card.left());
         let banner = (has_banner && window.height() < top_bar::SMALL_BELOW)
             .then(|| left.with_max_y(left.top() + banner::LOW_HEIGHT));
@@ -116,7 +122,7 @@ impl Areas {
             sky,
             sky_time,
             card,
-            second_card,
+            side_cards,
             banner,
             list,
             list_widths,
@@ -161,7 +167,7 @@ mod tests {
         let window = Rect::from_min_size(pos2(0.0, 0.0), vec2(width, height));
         let (bar, rail) =
             (if height < 800.0 { 48.0 } else { 56.0 }, if width < 1200.0 { 48.0 } else { 72.0 });
-        Areas::of(window, window.with_min_x(rail).with_min_y(bar), false, false, 2, list)
+        Areas::of(window, window.with_min_x(rail).with_min_y(bar), false, false, 3, list)
     }
 
     #[test]
@@ -203,18 +209,23 @@ mod tests {
     }
 
     #[test]
-    fn a_wide_window_has_two_cards_and_a_high_one_lanes_for_all() {
-        for (width, height) in [(1920.0, 1080.0), (2560.0, 1440.0), (1800.0, 900.0)] {
+    fn a_wide_window_has_more_cards_and_a_high_one_lanes_for_all() {
+        for (width, height, count) in [(1920.0, 1080.0, 1), (2560.0, 1440.0, 2), (1800.0, 900.0, 1)]
+        {
             let areas = areas(width, height);
-            let second = areas.second_card.expect("two cards");
-            assert_eq!(areas.card.size(), second.size());
-            assert!((areas.card.right() - second.left()).abs() < 1e-3);
-            assert!((second.right() - width).abs() < 1e-3);
+            let mut right = areas.card.right();
+            for place in areas.side_cards.into_iter().flatten() {
+                assert_eq!(areas.card.size(), place.size());
+                assert!((right - place.left()).abs() < 1e-3);
+                right = place.right();
+            }
+            assert!((right - width).abs() < 1e-3);
+            assert_eq!(areas.side_cards.iter().flatten().count(), count);
             assert!(areas.sky.right() <= areas.card.left() && areas.sky.width() >= MIN_SKY);
             let strip = areas.timeline.unwrap().height();
             assert_eq!(strip > STRIP, height >= HIGH_FROM, "{strip}");
         }
-        assert_eq!(areas(1799.0, 1080.0).second_card, None);
+        assert_eq!(areas(1799.0, 1080.0).side_cards, [None; SIDE_CARDS]);
     }
 
     #[test]

@@ -1,4 +1,4 @@
-//! The card of one more antenna beside the selected one, in a wide window.
+//! The card of one more antenna beside that of the selected one, in a wide window.
 
 use crate::{
     driver::Command,
@@ -10,33 +10,28 @@ use crate::{
 
 /// The antenna of the card, and its state.
 #[derive(Default)]
-pub(super) struct SecondCard {
-    /// The antenna that the operator had selected before.
+pub(super) struct SideCard {
+    /// The antenna that the operator had selected before, on the first of these cards.
     before: Option<AntennaId>,
     shown: Option<AntennaId>,
     card: CardState,
 }
 
-impl SecondCard {
+impl SideCard {
     /// Call when another antenna is selected; `before` was selected until now.
-    pub(super) fn turn_to(
-        &mut self,
-        model: &Model,
-        before: Option<AntennaId>,
-        commands: &mut Vec<UiCommand>,
-    ) {
+    pub(super) fn turn_to(&mut self, before: Option<AntennaId>) {
         self.before = before;
-        self.antenna(model, commands);
     }
 
-    /// The antenna of the card: the one that was selected before, else the next of the station.
+    /// The antenna of the card: the one that was selected before, else the next of the station that
+    /// no card shows yet.
     pub(super) fn antenna<'a>(
         &mut self,
         model: &'a Model,
+        shown: &[AntennaId],
         commands: &mut Vec<UiCommand>,
     ) -> Option<&'a AntennaModel> {
-        let selected = model.antenna()?.id();
-        let is_other = |of: &&AntennaModel| of.id() != selected;
+        let is_other = |of: &&AntennaModel| !shown.contains(&of.id());
         let before = self.before.and_then(|id| model.antenna_of(id)).filter(is_other);
         let behind = model.antennas.iter().skip(model.selected_antenna);
         let antenna = before.or_else(|| behind.chain(&model.antennas).find(is_other));
