@@ -19,7 +19,7 @@ use super::{
 use crate::{
     astro::Angle,
     device::{Capabilities, Pointing},
-    driver::{Intent, LinkState},
+    driver::{Intent, LinkState, Snapshot},
     engine::{CatalogState, antenna::AntennaModel},
     model::{Model, UiCommand, View},
     station::{AntennaId, Mount, OffsetsOf},
@@ -142,10 +142,7 @@ pub(super) fn show(
                 locked: locks.link,
                 moves_locked: locks.action,
             },
-            lock_out: snapshot
-                .lock_out
-                .as_ref()
-                .map(|lock_out| LockOutModel { by: &lock_out.by, locking: snapshot.locking }),
+            lock_out: lock_out(snapshot),
             asks_standing: asks_standing.as_deref(),
             asks_unseen: asks_unseen.map(|action| action.about),
             way_out: way_out
@@ -192,6 +189,11 @@ fn offer<'a>(antenna: &'a AntennaModel, go_on: Option<&'a str>) -> Option<Offer<
     // Where the elements are not known here, there is nothing to watch it by.
     let taken = name.filter(|_| antenna.snapshot.on_board.is_some());
     again.or(taken.map(|name| Offer::TakeOver(short(name)))).or(go_on.map(Offer::GoOn))
+}
+
+fn lock_out(snapshot: &Snapshot) -> Option<LockOutModel<'_>> {
+    let lock_out = snapshot.lock_out.as_ref()?;
+    Some(LockOutModel { by: &lock_out.by, locking: snapshot.locking })
 }
 
 /// The age of measured values that are old.
