@@ -130,7 +130,8 @@ fn show_head(ui: &Ui, rect: Rect, rows: &[u32], state: &mut ElementsState) {
             (text::caption(), if response.hovered() { t.t1 } else { t.t3 })
         };
         if column == Column::Star {
-            icons::paint(ui.painter(), paint::square(place.center(), 14.0), Icon::OpenStar, colour);
+            let icon = if is_sorted { Icon::Star } else { Icon::OpenStar };
+            icons::paint(ui.painter(), paint::square(place.center(), 14.0), icon, colour);
         } else {
             let anchor =
                 if columns::is_left(column) { Align2::LEFT_CENTER } else { Align2::RIGHT_CENTER };
