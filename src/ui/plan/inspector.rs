@@ -5,10 +5,11 @@ use egui::{Align2, Frame, Margin, Rect, RichText, ScrollArea, Sense, Ui, UiBuild
 use super::{PADDING, PlanState};
 use crate::{
     astro::time::seconds_between,
+    driver::LinkState,
     engine::{self, antenna::AntennaModel, automatic::Operation, passes::PredictedPass},
     model::{Model, UiCommand, View, plan::PlannedPass, rehearsal::RehearsalState},
     orbit::PassPoint,
-    plan::schedule::Entry,
+    plan::schedule::{Entry, Off, Why},
     station::{Priority, Take},
     ui::{
         format,
@@ -249,8 +250,13 @@ fn verdict(
     });
     match left_out {
         Some(why) => (Icon::Dash, t.t2, format!("{}.", words::schedule::why_left_out(model, why))),
-        None if !planned.entries.is_empty() => {
-            (Icon::Dash, t.t2, "leaves it to the other.".to_owned())
+        None if antenna.snapshot.link == LinkState::Off => {
+            let why = words::schedule::why_left_out(model, &Why::Off(Off::SwitchedOff));
+            (Icon::Dash, t.t2, format!("{why}."))
+        }
+        None if let Some(entry) = planned.entries.first() => {
+            let other = words::schedule::antenna_name(model, entry.antenna);
+            (Icon::Dash, t.t2, format!("{other} takes it."))
         }
         None => (Icon::Dash, t.t3, "not planned yet.".to_owned()),
     }
