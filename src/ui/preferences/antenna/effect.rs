@@ -12,6 +12,8 @@ use crate::{
     ui::{format, preferences::preview, text, theme},
 };
 
+const EACH_ALONE: &str = "Each pass counts alone: slews between passes are left to the Plan.";
+
 /// The most important number, for a fold.
 pub(super) fn in_short(effect: &Effect<Question>) -> String {
     format!("{} of {} passes tracked whole", effect.after.whole, effect.ways.len())
@@ -20,11 +22,7 @@ pub(super) fn in_short(effect: &Effect<Question>) -> String {
 /// Shows the numbers. An antenna that is new has none as saved.
 pub(super) fn numbers(ui: &mut Ui, effect: Option<&Effect<Question>>, is_new: bool) {
     let t = theme::tokens(ui);
-    ui.label(
-        RichText::new("Favourites, next 48 h, each pass alone")
-            .font(text::body_medium())
-            .color(t.t1),
-    );
+    ui.label(RichText::new("Favourites, next 48 h").font(text::body_medium()).color(t.t1));
     let Some(effect) = effect else {
         ui.label(RichText::new("Being worked out.").font(text::small()).color(t.t3));
         return;
@@ -54,6 +52,8 @@ pub(super) fn numbers(ui: &mut Ui, effect: Option<&Effect<Question>>, is_new: bo
 pub(super) fn words(ui: &mut Ui, effect: &Effect<Question>, is_new: bool) {
     let t = theme::tokens(ui);
     let words = RichText::new(sentence(effect, is_new)).font(text::body()).color(t.t1);
+    ui.add(Label::new(words).wrap());
+    let words = RichText::new(EACH_ALONE).font(text::small()).color(t.t3);
     ui.add(Label::new(words).wrap());
 }
 
