@@ -82,20 +82,19 @@ pub(super) fn satellites(draft: &SetupDraft) -> (Tone, String) {
     }
 }
 
-/// What there is of elements, with the greatest age among those of the chosen satellites.
+/// The greatest age among the elements of the chosen satellites, or how many there are for none.
 pub(super) fn elements(model: &Model, draft: &SetupDraft) -> (Tone, String) {
     let catalog = match &model.catalog {
         CatalogState::Loading => return (Tone::Plain, "being read".to_owned()),
         CatalogState::Failed => return (Tone::Bad, "none could be read".to_owned()),
         CatalogState::Ready(catalog) => catalog,
     };
-    let objects = crate::ui::elements::objects(catalog.len());
     let chosen = draft.favourites.numbers().into_iter().filter_map(|number| catalog.get(number));
     let Some(age_s) = chosen.map(|of| of.age_s(model.now)).reduce(f64::max) else {
-        return (Tone::Good, objects);
+        return (Tone::Good, crate::ui::elements::objects(catalog.len()));
     };
     let tone = if age_s > OLD_ELEMENTS_S { Tone::Caution } else { Tone::Good };
-    (tone, format!("{objects}, those chosen up to {} old", format::age(age_s)))
+    (tone, format!("up to {} old", format::age(age_s)))
 }
 
 pub(super) fn show(ui: &Ui, rect: Rect, model: &Model, draft: &SetupDraft, progress: Progress) {
