@@ -49,7 +49,7 @@ pub use lock_out::LockOutModel;
 pub use more::MoreModel;
 use more::MoreState;
 pub use offer::Offer;
-pub use offsets::{OffsetStep, OffsetsModel, OffsetsState};
+pub use offsets::{OffsetPad, OffsetStep, OffsetsModel, OffsetsState};
 pub use others::OtherAntenna;
 pub use track::{TrackModel, TrackState};
 
@@ -80,7 +80,7 @@ pub struct CardModel<'a> {
     pub modes: ModeModel<'a>,
     /// Target of the tracking; none for a unit that cannot track.
     pub track: Option<TrackModel<'a>>,
-    /// Offsets of the track that runs; none while nothing is tracked from here.
+    /// Offsets of the track that runs; none while nothing is tracked.
     pub offsets: Option<OffsetsModel<'a>>,
     /// Jogging and going to a direction.
     pub drive: DriveModel<'a>,

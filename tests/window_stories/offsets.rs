@@ -153,3 +153,19 @@ fn without_a_link_they_are_shown_and_locked_with_the_reason() {
     assert_eq!(click(&mut window, "Azimuth offset, more"), []);
     assert!(window.query_all_by_label("Locked: the unit does not answer.").next().is_some());
 }
+
+#[test]
+fn a_unit_that_tracks_by_itself_shows_its_own_and_says_why_there_is_no_pad() {
+    let mut snapshot = states::tracking(0.04);
+    let held = azel::device::Offsets { azimuth_deg: -0.5, ..azel::device::Offsets::default() };
+    snapshot.state.on_board.offsets = Some(held);
+    for size in SIZES {
+        let mut window = rig::window(size, rig::model(snapshot.clone()));
+        window.get_by_role_and_label(Role::Button, "Offsets: az −0.50°").click();
+        settle(&mut window);
+        window.get_by_label_contains("follow the satellite from here");
+        assert!(window.query_by_label("Azimuth offset, more").is_none());
+        window.key_press(Key::CloseBracket);
+        assert_eq!(asked(&mut window), []);
+    }
+}

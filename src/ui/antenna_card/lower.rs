@@ -40,8 +40,8 @@ pub(super) fn show(
         at.skip(4.0);
     }
     if let Some(shown) = &model.offsets {
-        let value = words::offsets(shown.offsets);
-        let line = offsets::line(ui, shown, &value);
+        let (value, mark) = offsets::in_words(ui, shown);
+        let line = FoldModel { title: "Offsets", value: &value, mark };
         let opened = fold_line(ui, at, card, &line, &mut state.offsets.open);
         if state.offsets.open {
             offsets::show(ui, at, shown, &mut state.offsets, actions);

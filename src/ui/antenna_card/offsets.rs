@@ -1,6 +1,6 @@
 //! Offsets while tracking: a line each with keys for less and more, zero and undo.
 
-use egui::{Align2, Rect, Ui, pos2, vec2};
+use egui::{Align2, Color32, Rect, Ui, pos2, vec2};
 
 use super::{CardAction, Cursor};
 use crate::{
@@ -12,7 +12,6 @@ use crate::{
         text, theme,
         widgets::{
             button::{Button, SMALL_HEIGHT},
-            fold::FoldModel,
             paint,
             segmented::{self, Segment},
         },
@@ -25,9 +24,18 @@ const GAP: f32 = 4.0;
 /// Width of the choice of steps.
 const STEPS: f32 = 132.0;
 
-/// Content of the section: what can be added to the track that runs.
+/// Content of the section.
 #[derive(Debug, Clone, Copy)]
-pub struct OffsetsModel<'a> {
+pub enum OffsetsModel<'a> {
+    /// Those of a track that runs from here.
+    FromHere(OffsetPad<'a>),
+    /// Those that a unit adds to its own track, in words.
+    OnUnit(&'a str),
+}
+
+/// What can be added to a track that runs from here.
+#[derive(Debug, Clone, Copy)]
+pub struct OffsetPad<'a> {
     pub offsets: TrackOffsets,
     /// There is a change to be undone.
     pub can_undo: bool,
@@ -71,11 +79,15 @@ pub struct OffsetsState {
     pub step: OffsetStep,
 }
 
-/// The line of the section, with the offsets that are on as its value.
-pub(super) fn line<'a>(ui: &Ui, model: &OffsetsModel<'_>, value: &'a str) -> FoldModel<'a> {
-    let t = theme::tokens(ui);
-    let mark = (!model.offsets.is_none()).then_some((Icon::Sliders, t.cmd));
-    FoldModel { title: "Offsets", value, mark }
+/// The value and mark of the section's line.
+pub(super) fn in_words(ui: &Ui, model: &OffsetsModel<'_>) -> (String, Option<(Icon, Color32)>) {
+    match model {
+        OffsetsModel::OnUnit(words) => ((*words).to_owned(), None),
+        OffsetsModel::FromHere(pad) => {
+            let mark = (Icon::Sliders, theme::tokens(ui).cmd);
+            (words::offsets(pad.offsets), (!pad.offsets.is_none()).then_some(mark))
+        }
+    }
 }
 
 pub(super) fn show(
@@ -87,6 +99,13 @@ pub(super) fn show(
 ) {
     let t = theme::tokens(ui);
     at.skip(4.0);
+    let OffsetsModel::FromHere(model) = model else {
+        let words = words::OFFSETS_ON_UNIT;
+        let taken = paint::paragraph(ui, at.at(), at.width(), words, text::small(), t.t2);
+        paint::name_text(ui, "offsets on the unit", taken, words);
+        at.y = taken.bottom() + 8.0;
+        return;
+    };
     for offset in model.offsets.each() {
         let is_offered = match offset {
             Offset::Along(_) | Offset::Across(_) => model.target_moves,
@@ -138,7 +157,7 @@ pub(super) fn show(
 }
 
 /// A button for each that the offsets can be remembered of.
-fn keep(ui: &Ui, row: Rect, model: &OffsetsModel<'_>, actions: &mut Vec<CardAction>) {
+fn keep(ui: &Ui, row: Rect, model: &OffsetPad<'_>, actions: &mut Vec<CardAction>) {
     let t = theme::tokens(ui);
     let words = "Remember for";
     let head = paint::text(ui, row.left_center(), Align2::LEFT_CENTER, words, text::small(), t.t2);
@@ -168,7 +187,7 @@ fn row(
     ui: &Ui,
     row: Rect,
     offset: Offset,
-    model: &OffsetsModel<'_>,
+    model: &OffsetPad<'_>,
     step: OffsetStep,
     actions: &mut Vec<CardAction>,
 ) {

@@ -11,8 +11,8 @@ pub(super) use self::locks::Locks;
 use super::{
     antenna_card::{
         self, CardAction, CardModel, CardState, DriveModel, FaultsModel, FollowModel, HeaderModel,
-        LinkStatus, LockOutModel, MoreModel, Offer, OffsetsModel, OtherAntenna, TrackModel,
-        WayOutModel,
+        LinkStatus, LockOutModel, MoreModel, Offer, OffsetPad, OffsetsModel, OtherAntenna,
+        TrackModel, WayOutModel,
     },
     passes,
 };
@@ -89,6 +89,7 @@ pub(super) fn show(
     let parks_at = words::parks_at(antenna);
     let go_on = switches::go_on(model, antenna);
     let keep = kept(model, antenna);
+    let on_unit = words::offsets_on_unit(snapshot.state.on_board.offsets.as_ref());
     state_sentence(model, antenna).with(|sentence| {
         let card = CardModel {
             header: HeaderModel {
@@ -129,7 +130,7 @@ pub(super) fn show(
                 parks_at: &parks_at,
                 ..track(model, antenna, &locks, sun_avoidance.as_deref())
             }),
-            offsets: offsets(antenna, &locks, &keep),
+            offsets: offsets(antenna, &locks, &keep, &on_unit),
             drive: DriveModel {
                 commanded_deg: commanded.into(),
                 commanded_decimals: wanted.decimals(decimals, predicted_decimals),
@@ -345,21 +346,26 @@ fn kept<'a>(model: &Model, antenna: &'a AntennaModel) -> Vec<(OffsetsOf, &'a str
     each.map(|(of, name)| (of, name, differs(of))).collect()
 }
 
-/// Offsets of the track that runs from here.
+/// Offsets of the track that runs, from here or on board.
 fn offsets<'a>(
     antenna: &AntennaModel,
     locks: &Locks,
     keep: &'a [(OffsetsOf, &'a str, bool)],
+    on_unit: &'a str,
 ) -> Option<OffsetsModel<'a>> {
-    let track = antenna.snapshot.program_track.as_ref().filter(|_| antenna.follows())?;
-    Some(OffsetsModel {
+    let can = antenna.variant().capabilities;
+    if !antenna.follows() {
+        return (can.has_program && antenna.tracks()).then_some(OffsetsModel::OnUnit(on_unit));
+    }
+    let track = antenna.snapshot.program_track.as_ref()?;
+    Some(OffsetsModel::FromHere(OffsetPad {
         offsets: track.offsets,
         can_undo: track.can_undo,
         target_moves: track.target_moves,
-        has_elevation: antenna.variant().capabilities.has_elevation(),
+        has_elevation: can.has_elevation(),
         locked: locks.link,
         keep,
-    })
+    }))
 }
 
 /// The reason why the unit would miss the selected satellite, and a further note on its

@@ -1,9 +1,29 @@
 //! Offsets of a track.
 
+use jiff::SignedDuration;
+
 use crate::{
-    astro::{Offset, TrackOffsets},
+    astro::{Angle, Offset, TrackOffsets},
+    device,
     ui::format,
 };
+
+/// Why there is no pad for a unit that tracks by itself.
+pub const OFFSETS_ON_UNIT: &str = "The unit tracks by itself and adds these. They are set under Antennas, while it stands. To \
+     lead the antenna in a pass, follow the satellite from here: in the menu beside Track.";
+
+/// The offsets that a unit adds to its own track.
+pub fn offsets_on_unit(unit: Option<&device::Offsets>) -> String {
+    let Some(unit) = unit else { return "not read yet".to_owned() };
+    let step =
+        |offset: Offset, value: f64| offset.with_thousandths((value * 1000.0).round() as i32);
+    let each = [
+        step(Offset::Time(SignedDuration::ZERO), unit.time_s),
+        step(Offset::Azimuth(Angle::ZERO), unit.azimuth_deg),
+        step(Offset::Elevation(Angle::ZERO), unit.elevation_deg),
+    ];
+    listed(each.into_iter())
+}
 
 /// Name of an offset, as its line on the card says.
 pub fn offset_name(offset: Offset) -> &'static str {
@@ -29,7 +49,11 @@ pub fn offset_value(offset: Offset) -> String {
 
 /// All that are not zero, in one line.
 pub fn offsets(offsets: TrackOffsets) -> String {
-    let each = offsets.each().into_iter().filter(|offset| !offset.is_zero());
+    listed(offsets.each().into_iter())
+}
+
+fn listed(offsets: impl Iterator<Item = Offset>) -> String {
+    let each = offsets.filter(|offset| !offset.is_zero());
     let short = |offset| match offset {
         Offset::Time(_) => "time",
         Offset::Along(_) => "along",
