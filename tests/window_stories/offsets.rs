@@ -78,7 +78,7 @@ fn each_offset_has_its_value_and_keys_for_less_and_more() {
         window.get_by_role_and_label(Role::RadioButton, "1").click();
         settle(&mut window);
         let whole = step(Offset::Azimuth(deg(1.0)));
-        assert_eq!(click(&mut window, "Azimuth offset, more"), [whole.clone()]);
+        assert_eq!(click(&mut window, "Azimuth offset, more"), std::slice::from_ref(&whole));
         // The keys take the step of the card, too.
         window.key_press_modifiers(Modifiers::COMMAND, Key::ArrowRight);
         assert_eq!(asked(&mut window), [whole]);

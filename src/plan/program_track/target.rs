@@ -111,7 +111,7 @@ mod tests {
         let propagator = Propagator::new(&elements).unwrap();
         let from = elements.epoch();
         let search = PassSearch::new(site, from, add_seconds(from, 86_400.0));
-        let pass = passes(&propagator, &search, &|| false)[0].clone();
+        let pass = passes(&propagator, &search, &|| false)[0];
         let course = Course::new(&Target::Satellite(Box::new(elements)), site).unwrap();
         for share in [0.1, 0.5, 0.9] {
             let at = add_seconds(pass.aos.time, pass.duration_s() * share);
