@@ -27,7 +27,7 @@ use crate::{
     clock::Instant,
     device::{Measured, Phase, Variant, panel::Act, settings::Group},
     driver::{Event, Intent, LinkState, Snapshot, StopState},
-    plan::{Sample, TrackPhase, on_board::KnownOrbit},
+    plan::{Sample, TrackPhase, on_board::KnownOrbit, pass_report::Explained},
     station::{Antenna, AntennaId, ControllerSpec},
 };
 
@@ -54,6 +54,8 @@ pub struct AntennaModel {
     pub prediction: Option<Prediction>,
     /// Errors of the present track, oldest first.
     pub errors: Errors,
+    /// What explains the error of the pass under way, if one cause does so well.
+    pub explained: Option<Explained>,
     /// Target of the present track.
     pub errors_of: Option<String>,
     /// Errors of the last tracks.
@@ -94,6 +96,7 @@ impl AntennaModel {
             snapshot,
             prediction: None,
             errors: Errors::default(),
+            explained: None,
             errors_of: None,
             past_tracks: PastTracks::default(),
             rates_deg_s: None,

@@ -2,6 +2,7 @@
 //! turn. Lines and positions go there from the sessions' own logs.
 
 mod differences;
+mod live;
 mod reports;
 mod state;
 

@@ -5,7 +5,7 @@ mod flown_offsets;
 #[cfg(test)]
 mod tests;
 
-pub use explain::{Cause, Evidence, Explanation};
+pub use explain::{Cause, Evidence, Explained, Explanation};
 pub use flown_offsets::FlownOffsets;
 
 use jiff::Timestamp;

@@ -1,6 +1,6 @@
 //! What a station leaves in its record, in memory at many times real time.
 
-use std::num::NonZeroU32;
+use std::{num::NonZeroU32, time::Duration};
 
 use azel::{
     astro::{Angle, Offset, TrackOffsets},
@@ -9,8 +9,9 @@ use azel::{
         recorded::{Found, RecordLook},
     },
     orbit::{Pass, PassSearch, Propagator, bundled, passes},
-    plan::pass_report::{LossCause, PassReport, PassVerdict},
+    plan::pass_report::{Cause, LossCause, PassReport, PassVerdict},
     record::{Kind, PassQuery, Row, RowKind},
+    sim::{InMemory as _, Trouble},
     station::{OffsetsOf, Station},
 };
 use jiff::{SignedDuration, ToSpan as _};
@@ -130,6 +131,34 @@ fn a_pass_is_flown_with_the_offsets_that_are_remembered_and_reported_beside_them
     assert!(rms.off_deg < 2.0, "whole degrees beside where it should point: {rms:?}");
     let shown = client.snapshot();
     assert_eq!(shown.station.first_offsets(mast, Some(ISS)), time.with_axes_of(azimuth));
+}
+
+#[test]
+fn while_a_unit_tracks_by_itself_its_late_clock_is_told_by_the_error() {
+    let station = Station { favourites: [ISS].into(), ..scene::station() };
+    let pass = next_pass(&station);
+    let scene = Scene::with(pass.aos.time - 4.minutes(), NonZeroU32::new(40).unwrap(), &station);
+    let client = scene.client();
+    let dish = measured(&client, "Dish");
+    let late = Trouble::ClockLate(Duration::from_millis(300));
+    assert!(scene.units.dish.set_trouble(late, true));
+    let pass = until("the pass", || {
+        let lists = client.snapshot().pass_lists.clone();
+        let list = lists.favourites.passes.iter().find(|pass| pass.number() == ISS)?.key();
+        Some(list)
+    });
+    until("the track", || {
+        let _ = client.send(Command::Track { antenna: dish, pass, is_agreed: true });
+        antenna(&client, "Dish")?.1.tracks
+    });
+    let explained = until("its explanation", || {
+        let snapshot = client.snapshot();
+        snapshot.antennas.iter().find(|of| of.id() == dish)?.explained
+    });
+    let Cause::Late { late_s } = explained.cause else { panic!("{explained:?}") };
+    // The drives lag a little, too.
+    assert!((0.2..0.6).contains(&late_s) && explained.share > 0.8, "{explained:?}");
+    assert!(rows(&scene, RowKind::Pass).is_empty(), "the pass goes on");
 }
 
 #[test]

@@ -5,7 +5,7 @@ use std::time::{Duration, Instant};
 
 use jiff::Timestamp;
 
-use super::Recording;
+use super::{Recording, live::Live};
 use crate::{
     astro::{
         Angle, AzEl, Site,
@@ -41,21 +41,23 @@ const POINT_S: f64 = 0.95;
 
 /// A pass that an antenna tracks, or has tracked, until it is over.
 pub(super) struct Followed {
-    antenna: AntennaId,
+    pub(super) antenna: AntennaId,
     elements: Elements,
-    propagator: Propagator,
-    site: Site,
+    pub(super) propagator: Propagator,
+    pub(super) site: Site,
     /// What counts, above the antenna's own minimum elevation.
     from: Timestamp,
-    until: Timestamp,
+    pub(super) until: Timestamp,
     max_elevation_deg: f64,
     /// When the program ended, if that was before the pass was over.
     ended: Option<Timestamp>,
-    limits: MountLimits,
-    about: AboutTrack,
+    pub(super) limits: MountLimits,
+    pub(super) about: AboutTrack,
     positions: PositionLog,
     next_position: u64,
-    flown: Vec<MeasuredPosition>,
+    pub(super) flown: Vec<MeasuredPosition>,
+    /// What explains its error so far.
+    pub(super) live: Live,
 }
 
 impl Engine {
@@ -83,6 +85,7 @@ impl Engine {
         }
         let now = self.now;
         self.look_at_passes();
+        self.explain_passes();
         self.begin_reports(|pass| seconds_between(pass.until, now) > AFTER_S);
     }
 
@@ -179,9 +182,22 @@ impl Engine {
             positions: antenna.handle.positions().clone(),
             next_position: 0,
             flown: Vec::new(),
+            live: Live::default(),
         };
         self.recording.followed.push(followed);
     }
+}
+
+/// The measured directions; an antenna without an elevation axis has one of zero.
+pub(super) fn directions(
+    flown: &[MeasuredPosition],
+    has_elevation: bool,
+) -> impl Iterator<Item = (Timestamp, AzEl)> {
+    flown.iter().filter_map(move |flown| {
+        let azimuth = flown.pointing.azimuth?;
+        let elevation = flown.pointing.elevation.or((!has_elevation).then_some(Angle::ZERO))?;
+        Some((flown.time, AzEl { azimuth, elevation }))
+    })
 }
 
 /// What is told of a track that begins now.
@@ -250,12 +266,9 @@ impl Followed {
         };
         let report = tracked.report(&flown);
         let has_elevation = self.limits.has_elevation;
-        let reached = flown.iter().filter(|flown| tracked.is_in_reach(flown.time));
-        let measured = reached.filter_map(|flown| {
-            let azimuth = flown.pointing.azimuth?;
-            let elevation = flown.pointing.elevation.or((!has_elevation).then_some(Angle::ZERO))?;
-            Some((flown.time, AzEl { azimuth, elevation }))
-        });
+        let is_reached = |flown: &&MeasuredPosition| tracked.is_in_reach(flown.time);
+        let reached: Vec<MeasuredPosition> = flown.iter().filter(is_reached).copied().collect();
+        let measured = directions(&reached, has_elevation);
         let evidence = Evidence::new(&self.propagator, self.site, measured, has_elevation);
         let sets = history.map_or_else(Vec::new, |of| of.of(self.elements.catalog_number()));
         let others = sets.iter().filter(|set| set.elements.epoch() != self.elements.epoch());

@@ -26,6 +26,8 @@ const FEWEST: usize = 20;
 const ROUNDS: usize = 8;
 /// A cause that explains less is none.
 const LEAST_SHARE: f64 = 0.3;
+/// A cause that explains as much is told while a pass goes on.
+const WELL: f64 = 0.8;
 /// Two causes whose sums of squares differ by less than this many times the square of the noise
 /// are not told apart: one in a hundred by chance (chi-squared, two degrees of freedom).
 const ALIKE: f64 = 9.2;
@@ -84,6 +86,16 @@ pub struct Explanation {
     pub share: f64,
     /// These positions do not tell it from the best one.
     pub is_alike: bool,
+}
+
+/// The one cause that explains an error well, while a pass goes on.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct Explained {
+    pub cause: Cause,
+    /// Share of the error that it explains, 0 to 1.
+    pub share: f64,
+    /// The error, root mean square, degrees.
+    pub error_deg: f64,
 }
 
 /// A position with its satellite.
@@ -224,6 +236,20 @@ impl<'a> Evidence<'a> {
             is_alike: left - best <= ALIKE * square,
         });
         explained.filter(|it| it.share >= LEAST_SHARE).collect()
+    }
+
+    /// The cause of an error of at least `least_deg`, if there is one that explains it well and
+    /// that the positions tell from all others.
+    pub fn explained(&self, least_deg: f64) -> Option<Explained> {
+        let square = self.sum(|point| Some(point.satellite)) / self.points.len().max(1) as f64;
+        let error_deg = square.sqrt().to_degrees();
+        if error_deg < least_deg {
+            return None;
+        }
+        let found = self.explanations(&[]);
+        let (best, others) = found.split_first()?;
+        let is_alone = best.share >= WELL && !others.iter().any(|other| other.is_alike);
+        is_alone.then_some(Explained { cause: best.cause, share: best.share, error_deg })
     }
 
     /// Sum of the squares of what differs from one position to the next: an error that lasts

@@ -3,16 +3,16 @@
 mod asked;
 mod axes;
 mod locks;
+mod offsets;
 
 use egui::{Align2, Rect, Ui};
 
-use self::asked::CardHandler;
 pub(super) use self::locks::Locks;
+use self::{asked::CardHandler, offsets::CardOffsets};
 use super::{
     antenna_card::{
         self, CardAction, CardModel, CardState, DriveModel, FaultsModel, FollowModel, HeaderModel,
-        LinkStatus, LockOutModel, MoreModel, Offer, OffsetPad, OffsetsModel, OtherAntenna,
-        TrackModel, WayOutModel,
+        LinkStatus, LockOutModel, MoreModel, Offer, OtherAntenna, TrackModel, WayOutModel,
     },
     passes,
 };
@@ -22,7 +22,7 @@ use crate::{
     driver::{Intent, LinkState, Snapshot},
     engine::{CatalogState, antenna::AntennaModel},
     model::{Model, UiCommand, View},
-    station::{AntennaId, Mount, OffsetsOf},
+    station::{AntennaId, Mount},
     ui::{
         bar,
         confirm::Question,
@@ -58,21 +58,19 @@ pub(super) fn show(
     commands: &mut Vec<UiCommand>,
 ) {
     let snapshot = &antenna.snapshot;
-    let make = antenna.variant();
-    let can = make.capabilities;
-    let measured = snapshot.state.measured;
+    let (make, can) = (antenna.variant(), antenna.variant().capabilities);
     let second_line = second_line(antenna);
     let table = axes::table(antenna);
     let age = age_of_old(model, antenna);
     let wanted = wanted(antenna);
     let predicted_decimals = model.appearance.angle_decimals as usize;
     let decimals = format::decimals(can, predicted_decimals);
-    let checks = &antenna.snapshot.state.checks;
-    let checked_at = antenna.snapshot.state.checked_at;
-    let checked_at = checked_at.map(|at| format::moment(at, model.now)).unwrap_or_default();
+    let checks = &snapshot.state.checks;
+    let checked_at = snapshot.state.checked_at.map(|at| format::moment(at, model.now));
+    let checked_at = checked_at.unwrap_or_default();
     let others = others(model, on_cards);
     let locks = Locks::of(antenna, !checks.is_empty());
-    let blocked = measured.map(|measured| axes::blocked(measured, can)).unwrap_or_default();
+    let blocked = snapshot.state.measured.map(|at| axes::blocked(at, can)).unwrap_or_default();
     let jog_note = axes::unseen(antenna);
     let travel = axes::travel(antenna);
     let modes = modes(can);
@@ -88,8 +86,7 @@ pub(super) fn show(
     let sun_avoidance = sun_avoidance(model, antenna);
     let parks_at = words::parks_at(antenna);
     let go_on = switches::go_on(model, antenna);
-    let keep = kept(model, antenna);
-    let on_unit = words::offsets_on_unit(snapshot.state.on_board.offsets.as_ref());
+    let offsets = CardOffsets::of(model, antenna);
     state_sentence(model, antenna).with(|sentence| {
         let card = CardModel {
             header: HeaderModel {
@@ -130,7 +127,7 @@ pub(super) fn show(
                 parks_at: &parks_at,
                 ..track(model, antenna, &locks, sun_avoidance.as_deref())
             }),
-            offsets: offsets(antenna, &locks, &keep, &on_unit),
+            offsets: offsets.model(antenna, &locks),
             drive: DriveModel {
                 commanded_deg: commanded.into(),
                 commanded_decimals: wanted.decimals(decimals, predicted_decimals),
@@ -335,43 +332,11 @@ fn track<'a>(
     }
 }
 
-/// What the offsets that are on can be remembered of, and whether that would be new.
-fn kept<'a>(model: &Model, antenna: &'a AntennaModel) -> Vec<(OffsetsOf, &'a str, bool)> {
-    let Some(track) = &antenna.snapshot.program_track else { return Vec::new() };
-    let of_satellite =
-        track.catalog_number.map(|number| (OffsetsOf::Satellite(number), short(&track.name)));
-    let of_antenna = (OffsetsOf::Antenna(antenna.id()), &*antenna.config.name);
-    let each = of_satellite.into_iter().chain([of_antenna]);
-    let differs = |of: OffsetsOf| of.part(track.offsets) != model.station.kept_offsets(of);
-    each.map(|(of, name)| (of, name, differs(of))).collect()
-}
-
-/// Offsets of the track that runs, from here or on board.
-fn offsets<'a>(
-    antenna: &AntennaModel,
-    locks: &Locks,
-    keep: &'a [(OffsetsOf, &'a str, bool)],
-    on_unit: &'a str,
-) -> Option<OffsetsModel<'a>> {
-    let can = antenna.variant().capabilities;
-    if !antenna.follows() {
-        return (can.has_program && antenna.tracks()).then_some(OffsetsModel::OnUnit(on_unit));
-    }
-    let track = antenna.snapshot.program_track.as_ref()?;
-    Some(OffsetsModel::FromHere(OffsetPad {
-        offsets: track.offsets,
-        can_undo: track.can_undo,
-        target_moves: track.target_moves,
-        has_elevation: can.has_elevation(),
-        locked: locks.link,
-        keep,
-    }))
-}
-
 /// The reason why the unit would miss the selected satellite, and a further note on its
 /// on-board track.
 fn on_board(model: &Model, antenna: &AntennaModel) -> [Option<String>; 2] {
-    let Some(found) = antenna.supervision() else { return [None, None] };
+    let explained = antenna.explained.as_ref().map(words::record::explained);
+    let Some(found) = antenna.supervision() else { return [None, explained] };
     let name = model.selected_pass().map(|predicted| predicted.satellite.short_name());
     let is_missed = !found.is_within_beam;
     let misses = name.filter(|_| is_missed).map(|name| {
@@ -381,7 +346,8 @@ fn on_board(model: &Model, antenna: &AntennaModel) -> [Option<String>; 2] {
     let lowest_deg = antenna.config.limits.minimum_elevation_deg;
     let lower = found.lower_minimum_deg.map(|deg| words::lower_minimum(deg, lowest_deg));
     let off = words::within_beam(found).filter(|_| !is_missed);
-    let said: Vec<String> = off.into_iter().chain(lower).chain(words::not_known(found)).collect();
+    let said = explained.into_iter().chain(off).chain(lower).chain(words::not_known(found));
+    let said: Vec<String> = said.collect();
     [misses, (!said.is_empty()).then(|| said.join(" "))]
 }
 

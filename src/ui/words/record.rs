@@ -3,7 +3,9 @@
 use jiff::Timestamp;
 
 use crate::{
-    plan::pass_report::{Cause, Explanation, LossCause, LostStretch, PassReport, PassVerdict},
+    plan::pass_report::{
+        Cause, Explained, Explanation, LossCause, LostStretch, PassReport, PassVerdict,
+    },
     record::{RecordedPass, RecordedReport, TrackedBy},
     ui::format,
 };
@@ -149,6 +151,29 @@ fn cause_as_subject(of: &Cause) -> String {
         }
         Cause::SlowDrives { .. } => format!("The drives turn no faster than {}", size(of)),
     }
+}
+
+/// What explains the error of a pass under way.
+pub fn explained(explained: &Explained) -> String {
+    let deg = |value: f64| format!("{}°", format::signed(value, 2));
+    let cause = match &explained.cause {
+        Cause::Late { late_s } => {
+            let way = if *late_s < 0.0 { "early" } else { "late" };
+            format!("The antenna is {} s {way}", format::number(late_s.abs(), 2))
+        }
+        Cause::AzimuthOffset { offset_deg } => {
+            format!("The azimuth is off by {}", deg(*offset_deg))
+        }
+        Cause::ElevationOffset { offset_deg } => {
+            format!("The elevation is off by {}", deg(*offset_deg))
+        }
+        of => cause_as_subject(of),
+    };
+    format!(
+        "{cause}: that explains {} of the error of {}.",
+        whole_share(explained.share),
+        format::degrees(explained.error_deg, 2)
+    )
 }
 
 /// The report in one line: how much, the worst, what explains it, and what else was lost.

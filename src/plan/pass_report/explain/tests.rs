@@ -251,6 +251,26 @@ fn an_error_of_noise_alone_is_not_explained() {
 }
 
 #[test]
+fn a_late_antenna_is_explained_while_its_pass_goes_on_and_a_small_error_is_not() {
+    let flight = &flights()[0];
+    let mut random = Random::new(SEED);
+    for late_s in [0.5, 0.0] {
+        let exact = flight.times().map(|time| (time, flight.at(add_seconds(time, -late_s))));
+        let seen = noisy(&exact.collect::<Vec<_>>(), &mut random);
+        let evidence = Evidence::new(&flight.propagator, flight.site, seen.into_iter(), true);
+        let found = evidence.explained(0.05);
+        if late_s < 0.1 {
+            assert_eq!(found, None);
+            continue;
+        }
+        let found = found.unwrap();
+        let Cause::Late { late_s: told_s } = found.cause else { panic!("{found:?}") };
+        assert!((told_s - late_s).abs() < 0.1 && found.share > 0.8, "{found:?}");
+        assert_eq!(evidence.explained(found.error_deg + 0.01), None, "too small to be told");
+    }
+}
+
+#[test]
 fn a_rotator_of_azimuth_alone_has_no_error_of_its_elevation() {
     let flights = flights();
     let flight = &flights[0];

@@ -1,0 +1,76 @@
+//! What explains the error of a pass while an antenna tracks it.
+
+use jiff::Timestamp;
+
+use super::reports::{Followed, directions};
+use crate::{
+    astro::time::{add_seconds, seconds_between},
+    engine::Engine,
+    job::{Job, Wake},
+    plan::pass_report::{Evidence, Explained, MeasuredPosition},
+};
+
+/// Time between two looks, seconds.
+const EVERY_S: f64 = 10.0;
+/// Only positions as young as this count, seconds: what was wrong before them may be mended.
+const SINCE_S: f64 = 180.0;
+/// An error below this share of half of the beam needs no cause.
+const LEAST_SHARE: f64 = 0.2;
+
+/// The search for a cause, again and again.
+#[derive(Default)]
+pub(super) struct Live {
+    job: Option<Job<Option<Explained>>>,
+    begun: Option<Timestamp>,
+    found: Option<Explained>,
+}
+
+impl Engine {
+    /// Looks for what explains the errors of the passes under way, and shows it.
+    pub(super) fn explain_passes(&mut self) {
+        // A rehearsal shows nobody a card.
+        if self.recording.recorder.is_none() {
+            return;
+        }
+        let (now, wake) = (self.now, &self.wake);
+        for pass in &mut self.recording.followed {
+            pass.explain(now, wake);
+        }
+        for antenna in &mut self.antennas {
+            let shown = &mut antenna.shown;
+            let of = |pass: &&Followed| pass.antenna == shown.id() && now <= pass.until;
+            let pass = self.recording.followed.iter().find(of).filter(|_| shown.tracks());
+            shown.explained = pass.and_then(|pass| pass.live.found);
+        }
+    }
+}
+
+impl Followed {
+    fn explain(&mut self, now: Timestamp, wake: &Wake) {
+        if let Some(end) = Job::take(&mut self.live.job) {
+            self.live.found = end.ok().flatten();
+        }
+        let is_due = self.live.begun.is_none_or(|at| seconds_between(at, now) >= EVERY_S);
+        if !is_due || self.live.job.is_some() || now > self.until {
+            return;
+        }
+        self.live.begun = Some(now);
+        let since = add_seconds(now, -SINCE_S);
+        let young = self.flown.iter().rev().take_while(|flown| flown.time >= since).copied();
+        let mut young: Vec<MeasuredPosition> = young.collect();
+        young.reverse();
+        let (propagator, site) = (self.propagator.clone(), self.site);
+        let offsets = self.about.offsets.clone();
+        let has_elevation = self.limits.has_elevation;
+        let least_deg = self.limits.half_beam.degrees() * LEAST_SHARE;
+        let started = Job::start("azel-explain", Wake::clone(wake), move |_| {
+            for flown in &mut young {
+                *flown = offsets.taken_off(&propagator, site, *flown);
+            }
+            let measured = directions(&young, has_elevation);
+            Evidence::new(&propagator, site, measured, has_elevation).explained(least_deg)
+        });
+        self.live.job =
+            started.inspect_err(|error| tracing::error!(%error, "an error is not explained")).ok();
+    }
+}
