@@ -19,6 +19,7 @@ use crate::{
     },
     device::Pointing,
     orbit::Propagator,
+    station::Mount,
 };
 
 /// Positions that are further apart tell nothing of the time between, seconds.
@@ -255,7 +256,7 @@ impl TrackedPass<'_> {
 
     /// Returns `true` if the mount can point at the satellite then.
     pub fn is_in_reach(&self, at: Timestamp) -> bool {
-        self.direction(at).is_none_or(|direction| self.limits.mount.reaches(direction))
+        is_in_reach(self.propagator, self.site, self.limits.mount, at)
     }
 
     /// A stretch of which no direction is known, for this reason. What is out of reach of the mount
@@ -390,6 +391,11 @@ impl TrackedPass<'_> {
             (true, false) => LossCause::NotExplained,
         }
     }
+}
+
+/// Returns `true` if a mount can point at a satellite then. An error says nothing where it cannot.
+pub fn is_in_reach(propagator: &Propagator, site: Site, mount: Mount, at: Timestamp) -> bool {
+    propagator.look_from(site, at).is_ok_and(|look| mount.reaches(look.direction))
 }
 
 fn rms(compared: &[&TrackPoint]) -> Option<PointingError> {

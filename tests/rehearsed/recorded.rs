@@ -140,7 +140,7 @@ fn while_a_unit_tracks_by_itself_its_late_clock_is_told_by_the_error() {
     let scene = Scene::with(pass.aos.time - 4.minutes(), NonZeroU32::new(40).unwrap(), &station);
     let client = scene.client();
     let dish = measured(&client, "Dish");
-    let late = Trouble::ClockLate(Duration::from_millis(300));
+    let late = Trouble::ClockLate(Duration::from_millis(1500));
     assert!(scene.units.dish.set_trouble(late, true));
     let pass = until("the pass", || {
         let lists = client.snapshot().pass_lists.clone();
@@ -156,8 +156,8 @@ fn while_a_unit_tracks_by_itself_its_late_clock_is_told_by_the_error() {
         snapshot.antennas.iter().find(|of| of.id() == dish)?.explained
     });
     let Cause::Late { late_s } = explained.cause else { panic!("{explained:?}") };
-    // The drives lag a little, too.
-    assert!((0.2..0.6).contains(&late_s) && explained.share > 0.8, "{explained:?}");
+    // At 40 times real time, the milliseconds until a position is read count as well.
+    assert!((1.3..2.6).contains(&late_s) && explained.share > 0.8, "{explained:?}");
     assert!(rows(&scene, RowKind::Pass).is_empty(), "the pass goes on");
 }
 

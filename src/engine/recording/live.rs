@@ -7,7 +7,7 @@ use crate::{
     astro::time::{add_seconds, seconds_between},
     engine::Engine,
     job::{Job, Wake},
-    plan::pass_report::{Evidence, Explained, MeasuredPosition},
+    plan::pass_report::{Evidence, Explained, MeasuredPosition, is_in_reach},
 };
 
 /// Time between two looks, seconds.
@@ -61,9 +61,10 @@ impl Followed {
         young.reverse();
         let (propagator, site) = (self.propagator.clone(), self.site);
         let offsets = self.about.offsets.clone();
-        let has_elevation = self.limits.has_elevation;
+        let (has_elevation, mount) = (self.limits.has_elevation, self.limits.mount);
         let least_deg = self.limits.half_beam.degrees() * LEAST_SHARE;
         let started = Job::start("azel-explain", Wake::clone(wake), move |_| {
+            young.retain(|flown| is_in_reach(&propagator, site, mount, flown.time));
             for flown in &mut young {
                 *flown = offsets.taken_off(&propagator, site, *flown);
             }

@@ -388,7 +388,12 @@ fn keys(
     if pressed(Modifiers::NONE, Key::U) {
         let takes = |antenna: &AntennaModel| antenna.spec().element_files.is_some();
         if model.antenna().is_some_and(takes) {
-            state.upload(Choice::These(state.selection.chosen()));
+            let marked = state.selection.marked();
+            let choice = match state.selection.row() {
+                Some(number) if marked.is_empty() => Choice::Also(number),
+                _ => Choice::These(marked.iter().copied().collect()),
+            };
+            state.upload(choice);
         }
     }
     if pressed(Modifiers::NONE, Key::Space) {
