@@ -37,7 +37,7 @@ fn the_list_of_keys_and_the_head_of_a_card_are_whole() {
         assert_eq!(rows.len(), azel::ui::keys::ALL.len());
         for row in rows.iter().map(Node::rect) {
             let is_clear = row.top() > 56.0 && row.bottom() < size[1];
-            assert!(is_clear && row.height() >= 24.0, "{size:?}: {row:?}");
+            assert!(is_clear && row.height() >= 22.0, "{size:?}: {row:?}");
         }
     }
     for name in ["Operate, tracking", "Operate, three antennas of the demo"] {
