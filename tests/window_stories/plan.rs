@@ -22,6 +22,7 @@ use egui::{Key as Press, Role};
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
 
 use crate::window_stories::{
+    every_view::painted,
     preferences,
     rig::{self, LARGE, SIZES, Window, settle, window},
     states,
@@ -133,6 +134,20 @@ fn rows_say_what_is_taken_and_why_others_are_left_out() {
         assert!(rows.iter().any(|row| row.contains(overlaps) && row.contains("priority 3")));
         assert!(window.query_by_label_contains("STOP").is_some());
     }
+}
+
+/// Times after midnight would lack their day.
+#[test]
+fn shortly_before_midnight_the_day_that_begins_is_named() {
+    let mut window = view(LARGE);
+    let model = &mut window.state_mut().model;
+    let day = |at: jiff::Timestamp| at.strftime("%a %-d %b").to_string();
+    let to_midnight_s = 86_400 - model.now.as_second().rem_euclid(86_400);
+    let late = add_seconds(model.now, to_midnight_s as f64 - 2.0 * 3600.0);
+    model.now = late;
+    settle(&mut window);
+    let texts = painted::texts(&window);
+    assert!(texts.contains(&day(add_seconds(late, 7200.0))), "{texts:?}");
 }
 
 #[test]

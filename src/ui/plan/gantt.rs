@@ -114,17 +114,22 @@ fn heads(ui: &Ui, head: Rect, place: Rect, span: Span) {
             paint::text(ui, pos2(x, y), centre, word, text::caption(), t.t3);
         }
     }
+    let font = text::sized(12.0, Weight::SemiBold);
+    let y = head.top() + HEAD / 4.0;
     let days = std::iter::once(span.from).chain(multiples(span, DAY_S));
-    let mut free = place.left();
-    for at in days {
-        let x = span.x(at, place).max(place.left());
-        let word = format::weekday(at);
-        let font = text::sized(12.0, Weight::SemiBold);
-        let width = paint::text_width(ui, &word, font.clone());
-        if x >= free && x + width <= place.right() {
-            let y = head.top() + HEAD / 4.0;
-            paint::text(ui, pos2(x, y), left, word, font, t.t1);
-            free = x + width + 8.0;
+    let labels: Vec<_> = days
+        .map(|at| {
+            let word = format::weekday(at);
+            let width = paint::text_width(ui, &word, font.clone());
+            (span.x(at, place).max(place.left()), width, word)
+        })
+        .collect();
+    // Of two days without room for both, the times of the one that begins would lack theirs.
+    let mut end = place.right();
+    for (x, width, word) in labels.into_iter().rev() {
+        if x + width <= end {
+            paint::text(ui, pos2(x, y), left, &word, font.clone(), t.t1);
+            end = x - 8.0;
         }
     }
 }
