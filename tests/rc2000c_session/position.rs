@@ -50,10 +50,8 @@ async fn an_axis_that_stays_is_told_its_present_counts() {
     assert_eq!(rig.orders(), ["2 0152500830"]);
 }
 
-/// An axis at its limit tells no counts.
-#[tokio::test(start_paused = true)]
-async fn an_axis_at_its_limit_stays_there_while_the_other_one_turns() {
-    let mut rig = in_position().await;
+/// Takes the azimuth to an end of its travel, where the unit tells no counts of it.
+async fn go_to_the_limit(rig: &mut Rig) {
     rig.send(to(90.0, 40.0));
     rig.until("the limit", 60, |shown| {
         shown.state.measured.is_some_and(|it| it.axes[0].minus_limit && !it.moving())
@@ -61,6 +59,12 @@ async fn an_axis_at_its_limit_stays_there_while_the_other_one_turns() {
     .await;
     rig.seconds(6.0).await;
     rig.events();
+}
+
+#[tokio::test(start_paused = true)]
+async fn an_axis_at_its_limit_stays_there_while_the_other_one_turns() {
+    let mut rig = in_position().await;
+    go_to_the_limit(&mut rig).await;
     rig.send(Command::Position { azimuth: None, elevation: Some(Angle::from_degrees(50.0)) });
     rig.seconds(20.0).await;
     assert_eq!(rig.orders().last().map(String::as_str), Some("2 0003001030"));
@@ -72,13 +76,7 @@ async fn a_way_from_a_limit_down_to_the_minimum_elevation_is_not_stopped() {
     let mut low = antenna();
     low.limits.minimum_elevation_deg = 10.0;
     let mut rig = Rig::connected(&Options::default(), &low).await;
-    rig.send(to(90.0, 40.0));
-    rig.until("the limit", 60, |shown| {
-        shown.state.measured.is_some_and(|it| it.axes[0].minus_limit && !it.moving())
-    })
-    .await;
-    rig.seconds(6.0).await;
-    rig.events();
+    go_to_the_limit(&mut rig).await;
     rig.send(to(200.0, 10.0));
     let told = rig.until_event(80, |event| !matches!(event, Event::EndedShort { .. })).await;
     assert!(matches!(told, Event::Arrived(_)), "{told:?}");

@@ -116,7 +116,7 @@ pub fn refusal(refusal: &Refusal, now: Timestamp) -> String {
                 .to_owned()
         }
         Refusal::OffsetTooLarge { most } => {
-            format!("Not sent: the largest offset is one {}.", super::offset(*most))
+            format!("Not sent: an offset {} is the largest.", super::offset(*most))
         }
         Refusal::OrbitUnknown { name } => format!(
             "Not sent: the unit holds {name}, and Azel has no elements of it: where it would point \
