@@ -17,7 +17,7 @@ pub use bundled::{BUNDLED_NEWEST, BUNDLED_SOURCE, BundledError, bundled};
 pub use catalog::{Catalog, MergeSummary};
 pub use elements::{EPOCH_YEARS, Elements, ElementsError, Heights};
 pub use ground::{SubPoint, TrackPoint};
-pub use look::{Distance, LookAngles};
+pub use look::{Distance, Local, LookAngles};
 pub use passes::{
     Pass, PassPoint, PassSearch, clear_stretches, pass_batches, passes, passes_and_effort,
     passes_of_all,

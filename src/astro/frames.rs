@@ -63,6 +63,20 @@ pub fn ecef_to_enu(site: Site) -> DMat3 {
     DMat3::from_cols(east, north, up).transpose()
 }
 
+/// Place and axes of a site, worked out once for many looks.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct SiteFrame {
+    pub ecef_km: DVec3,
+    /// From Earth-fixed vectors to east, north, up.
+    pub to_enu: DMat3,
+}
+
+impl From<Site> for SiteFrame {
+    fn from(site: Site) -> Self {
+        Self { ecef_km: site_ecef_km(site), to_enu: ecef_to_enu(site) }
+    }
+}
+
 pub fn teme_to_ecef(at: Timestamp) -> DMat3 {
     DMat3::from_rotation_z(-time::gmst(at).radians())
 }

@@ -16,7 +16,10 @@ use glam::DVec3;
 use jiff::Timestamp;
 
 use super::{PropagationError, Propagator, State};
-use crate::astro::{AzEl, Site, frames};
+use crate::astro::{
+    AzEl, Site,
+    frames::{self, SiteFrame},
+};
 
 /// Speed of light in km/s.
 const LIGHT_KM_S: f64 = 299_792.458;
@@ -50,6 +53,11 @@ impl LookAngles {
 }
 
 impl Distance {
+    fn of(line_km: DVec3, velocity_km_s: DVec3) -> Self {
+        let range_km = line_km.length();
+        Self { range_km, range_rate_km_s: line_km.dot(velocity_km_s) / range_km }
+    }
+
     /// Doppler shift in Hz of a carrier of `carrier_hz` that the satellite sends: positive when
     /// approaching. First order in v/c.
     pub fn doppler_hz(self, carrier_hz: f64) -> f64 {
@@ -57,31 +65,44 @@ impl Distance {
     }
 }
 
+/// Where a satellite is from a site, and how it moves there: east, north, up.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Local {
+    pub position_km: DVec3,
+    /// Over the ground.
+    pub velocity_km_s: DVec3,
+}
+
 impl State {
     /// Look angles from `site` at `at`, the time of this state.
     pub fn look_from(&self, site: Site, at: Timestamp) -> LookAngles {
-        let (line_km, distance) = self.line_from(frames::site_ecef_km(site), at);
+        let (line_km, velocity_km_s) = self.line_from(frames::site_ecef_km(site), at);
         let direction = AzEl::from_enu(frames::ecef_to_enu(site) * line_km);
-        let Distance { range_km, range_rate_km_s } = distance;
+        let Distance { range_km, range_rate_km_s } = Distance::of(line_km, velocity_km_s);
         LookAngles { direction, range_km, range_rate_km_s }
     }
 
     /// Distance from a site, given in Earth-fixed axes, at `at`, the time of this state. Takes half
     /// the time of [`Self::look_from`].
     pub fn distance_from(&self, site_ecef_km: DVec3, at: Timestamp) -> Distance {
-        self.line_from(site_ecef_km, at).1
+        let (line_km, velocity_km_s) = self.line_from(site_ecef_km, at);
+        Distance::of(line_km, velocity_km_s)
     }
 
-    /// The Earth-fixed vector from a site to the satellite, and its length.
-    fn line_from(&self, site_ecef_km: DVec3, at: Timestamp) -> (DVec3, Distance) {
+    /// As seen from a site at `at`, the time of this state.
+    pub fn local(&self, site: &SiteFrame, at: Timestamp) -> Local {
+        let (line_km, velocity_km_s) = self.line_from(site.ecef_km, at);
+        let [position_km, velocity_km_s] = [line_km, velocity_km_s].map(|it| site.to_enu * it);
+        Local { position_km, velocity_km_s }
+    }
+
+    /// The Earth-fixed vector from a site to the satellite, and its change.
+    fn line_from(&self, site_ecef_km: DVec3, at: Timestamp) -> (DVec3, DVec3) {
         let to_ecef = frames::teme_to_ecef(at);
         let position_km = to_ecef * self.position_km;
         let velocity_km_s =
             frames::velocity_over_ground_km_s(position_km, to_ecef * self.velocity_km_s);
-        let line_km = position_km - site_ecef_km;
-        let range_km = line_km.length();
-        let range_rate_km_s = line_km.dot(velocity_km_s) / range_km;
-        (line_km, Distance { range_km, range_rate_km_s })
+        (position_km - site_ecef_km, velocity_km_s)
     }
 }
 

@@ -53,18 +53,23 @@ impl AzimuthWrap {
     /// The positions along `azimuths_deg`, which are unwrapped and a few degrees apart, with the
     /// fewest slews of a whole turn. `axis_now_deg` is where the axis stands: of two wraps with the
     /// same number of slews, the one that begins nearer is taken. Where no position of the axis
-    /// points to an azimuth, the axis waits at the nearer end.
+    /// points to an azimuth, the axis waits at an end: before the first azimuth that it reaches and
+    /// after the last at the one next to that, else at the nearer one.
     pub(super) fn along(
         azimuths_deg: &[f64],
         range: AzimuthRange,
         axis_now_deg: Option<f64>,
     ) -> Self {
+        let is_reached = |azimuth_deg: &f64| range.positions(*azimuth_deg).next().is_some();
+        let reached = azimuths_deg.iter().position(is_reached);
+        let reached = reached.zip(azimuths_deg.iter().rposition(is_reached));
         let mut wrap = Self::default();
         let mut start = 0;
         while let Some(first) = azimuths_deg.get(start) {
             let rest = azimuths_deg.get(start..).unwrap_or_default();
-            if range.positions(*first).next().is_none() {
-                wrap.go_on(range.nearest_end(*first));
+            if !is_reached(first) {
+                let next_to = reached.map_or(start, |(first, last)| start.clamp(first, last));
+                wrap.go_on(range.nearest_end(*azimuths_deg.get(next_to).unwrap_or(first)));
                 start += 1;
                 continue;
             }
@@ -175,6 +180,22 @@ mod tests {
         assert!(degrees[51..=80].iter().all(|axis| *axis == 0), "{degrees:?}");
         assert_eq!(degrees[80..], (0..=80).collect::<Vec<_>>());
         assert_eq!(wrap.slews.len(), 1);
+    }
+
+    #[test]
+    fn before_and_after_what_it_reaches_an_axis_stands_at_the_end_that_is_next_to_it() {
+        const SECTOR: (f64, f64) = (90.0, 270.0);
+        // From 275 through north to the end at 90, and back.
+        let (there, back) = (sweep(275, 460), sweep(460, 275));
+        let waits = |wrap: &AzimuthWrap| {
+            let at_end = wrap.positions_deg.iter().filter(|axis| **axis == 90.0).count();
+            (at_end, wrap.slews.len())
+        };
+        assert_eq!(waits(&wrap(&there, SECTOR, None)), (176, 0));
+        assert_eq!(waits(&wrap(&back, SECTOR, None)), (176, 0));
+        // What lies wholly beyond has no such end.
+        let beyond = wrap(&sweep(280, 440), SECTOR, None);
+        assert_eq!((start(&beyond), beyond.positions_deg.last()), (Some(270.0), Some(&90.0)));
     }
 
     #[test]

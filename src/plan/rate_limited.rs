@@ -20,6 +20,10 @@ pub(super) fn rate_limited<P, C: Fn(&P) -> f64>(
     prepare: impl Fn(f64) -> P,
     cost: impl Fn(usize) -> C,
 ) -> Vec<f64> {
+    let steps = wanted.iter().zip(wanted.iter().skip(1));
+    if steps.map(|(from, to)| (to - from).abs()).all(|step_deg| step_deg <= max_deg) {
+        return wanted.to_vec();
+    }
     let bounds = Envelope::around(wanted, max_deg);
     let mut way = bounds.low.clone();
     if max_deg <= SAME_DEG {
@@ -52,9 +56,9 @@ struct Envelope {
 
 impl Envelope {
     fn around(wanted: &[f64], max_deg: f64) -> Self {
-        let negated: Vec<f64> = wanted.iter().map(|place| -place).collect();
-        let high = lowest(&negated, max_deg).into_iter().map(|place| -place).collect();
-        Self { low: lowest(wanted, max_deg), high }
+        let mut high = lowest(wanted.iter().map(|place| -place).collect(), max_deg);
+        high.iter_mut().for_each(|place| *place = -*place);
+        Self { low: lowest(wanted.to_vec(), max_deg), high }
     }
 
     /// The stretches in which the axis does not keep up.
@@ -74,8 +78,7 @@ impl Envelope {
 }
 
 /// The highest path of the axis that is nowhere above the course.
-fn lowest(wanted: &[f64], max_deg: f64) -> Vec<f64> {
-    let mut way = wanted.to_vec();
+fn lowest(mut way: Vec<f64>, max_deg: f64) -> Vec<f64> {
     let mut before = f64::INFINITY;
     for place in &mut way {
         *place = place.min(before + max_deg);

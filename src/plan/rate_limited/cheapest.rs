@@ -11,6 +11,10 @@ const MAX_PLACES: f64 = 240.0;
 const FULL: usize = 2;
 /// Cost of turning by one grid position, so that the axis does not turn needlessly.
 const TURN_COST: f64 = 1e-9;
+/// The grid positions from which a position is reached, counted from `FULL` below it, and the cost
+/// of the turn.
+const TURNS: [(u64, f64); 2 * FULL + 1] =
+    [(0, 2.0 * TURN_COST), (1, TURN_COST), (2, 0.0), (3, TURN_COST), (4, 2.0 * TURN_COST)];
 
 /// A path on the grid.
 pub(super) struct Rough {
@@ -40,45 +44,57 @@ pub(super) fn between<P, C: Fn(&P) -> f64>(
     let below = ((before_deg - min_deg) / cell_deg).ceil() as usize;
     let places = below + ((greatest_deg - before_deg) / cell_deg).ceil() as usize + 1;
     let place_deg = |place: usize| before_deg + (place as f64 - below as f64) * cell_deg;
+    let lowest_deg = place_deg(0);
     let prepared: Vec<P> = (0..places).map(|place| prepare(place_deg(place))).collect();
 
-    let mut sums = vec![f64::INFINITY; places];
-    if let Some(start) = sums.get_mut(below) {
+    // Beyond either end, nothing is ever cheap.
+    let mut sums = vec![f64::INFINITY; places + 2 * FULL];
+    let mut next = sums.clone();
+    if let Some(start) = sums.get_mut(below + FULL) {
         *start = 0.0;
     }
-    // The best predecessor of each position, one list per time.
-    let mut came: Vec<Vec<usize>> = Vec::new();
+    // By how many positions the axis turned to come to each, plus `FULL`; one list per time.
+    let mut came: Vec<Vec<u64>> = Vec::new();
     let looks = slew.len().div_ceil(stride);
     for look in 1..=looks {
         let index = look.saturating_mul(stride).saturating_add(slew.start).min(slew.end);
         let index = index.saturating_sub(1);
-        let lowest_deg = at(&bounds.low, index) - cell_deg;
-        let highest_deg = at(&bounds.high, index) + cell_deg;
-        let cost = cost(index);
-        let best = |(place, prepared): (usize, &P)| {
-            let deg = place_deg(place);
-            if deg < lowest_deg || deg > highest_deg {
-                return (place, f64::INFINITY);
+        // The places between the bounds, widened by a cell.
+        let place = |deg: f64| (deg - lowest_deg) / cell_deg;
+        let first = (place(at(&bounds.low, index)) - 1.0).ceil().max(0.0) as usize;
+        let after = (place(at(&bounds.high, index)) + 2.0).floor().max(0.0) as usize;
+        let reach = first.min(places)..after.min(places);
+        let mut from = vec![FULL as u64; places];
+        next.fill(f64::INFINITY);
+        if let (Some(least), Some(from), Some(prepared)) = (
+            next.get_mut(reach.start + FULL..reach.end + FULL),
+            from.get_mut(reach.clone()),
+            prepared.get(reach.clone()),
+        ) {
+            for (turn, turn_cost) in TURNS {
+                let before = sums.get(reach.start + turn as usize..).unwrap_or_default();
+                for ((least, from), sum) in least.iter_mut().zip(from.iter_mut()).zip(before) {
+                    let sum = sum + turn_cost;
+                    let is_less = sum < *least;
+                    *from = if is_less { turn } else { *from };
+                    *least = if is_less { sum } else { *least };
+                }
             }
-            let nearby = place.saturating_sub(FULL)..=place + FULL;
-            let from = nearby.filter_map(|from| {
-                let turn_cost = TURN_COST * from.abs_diff(place) as f64;
-                Some((from, sums.get(from)? + turn_cost))
-            });
-            let (from, sum) =
-                from.min_by(|a, b| a.1.total_cmp(&b.1)).unwrap_or((place, f64::INFINITY));
-            (from, sum + cost(prepared))
-        };
-        let (from, next): (Vec<usize>, Vec<f64>) = prepared.iter().enumerate().map(best).unzip();
+            let cost = cost(index);
+            for (sum, prepared) in least.iter_mut().zip(prepared) {
+                *sum += cost(prepared);
+            }
+        }
         came.push(from);
-        sums = next;
+        std::mem::swap(&mut sums, &mut next);
     }
 
-    let last = sums.iter().enumerate().min_by(|a, b| a.1.total_cmp(b.1));
+    let last = sums.iter().skip(FULL).take(places).enumerate().min_by(|a, b| a.1.total_cmp(b.1));
     let mut place = last.map_or(below, |(place, _)| place);
     let mut at_looks = vec![place_deg(place)];
     for from in came.iter().rev() {
-        place = from.get(place).copied().unwrap_or(place);
+        let turned = from.get(place).copied().map_or(FULL, |turn| turn as usize);
+        place = (place + turned).saturating_sub(FULL).min(places.saturating_sub(1));
         at_looks.push(place_deg(place));
     }
     at_looks.reverse();

@@ -1,6 +1,8 @@
 //! What one antenna can take: where its axes have to stand along a pass, and how long they take
 //! from one place to another.
 
+mod travel;
+
 use jiff::Timestamp;
 
 use super::{
@@ -27,6 +29,8 @@ const SAME_DEG: f64 = 0.5;
 const TURN_DEG: f64 = 360.0;
 /// Share of the rate of an axis below which it keeps up with few samples of a pass.
 const SLOW: f64 = 0.4;
+/// An axis of an X/Y mount at the zenith, degrees as the mount counts.
+const ZENITH_DEG: f64 = 90.0;
 /// Elevation from which a loss counts as overhead, degrees.
 const OVERHEAD_FROM_DEG: f64 = 60.0;
 /// Angle from the direction in which the first axis turns on the spot (the zenith, or an end of
@@ -143,7 +147,11 @@ impl Reach {
         if let Some(ways) = self.easy_ways(coarse, &clear) {
             return Verdict::Possible(ways);
         }
-        self.ways(sight.fine(span), &clear)
+        let Some(part) = self.within_travel(coarse, span) else {
+            let seconds = Span::total_ms(&clear) as f64 / 1000.0;
+            return Verdict::Impossible(Impossible::Lost(Lost { seconds, at: Loss::OutOfReach }));
+        };
+        self.ways(sight.fine(span, part), &clear)
     }
 
     /// The ways of a pass that the axes follow without effort; `None` for one that has to be
@@ -208,7 +216,9 @@ impl Reach {
         let places = first.iter().zip(second).map(|(first, second)| [*first, *second]);
         let slews = slews.iter().filter_map(|slew| samples.list.get(*slew));
         let slews: Vec<Timestamp> = slews.map(|sample| sample.time).collect();
-        let (mut held, mut entered, mut lost_at): (Vec<Span>, _, _) = (Vec::new(), None, None);
+        let (mut held, mut entered): (Vec<Span>, _) = (Vec::new(), None);
+        let [is_late, is_early] = samples.leave_out(clear);
+        let mut lost_at = is_late.then_some(Loss::OutOfReach);
         // As trackability has it, what lies between two samples is judged by the later one.
         let later = samples.list.iter().zip(places).skip(1);
         for (before, (sample, axes_deg)) in samples.list.iter().zip(later) {
@@ -229,6 +239,7 @@ impl Reach {
                 _ => held.push(span),
             }
         }
+        let lost_at = lost_at.or(is_early.then_some(Loss::OutOfReach));
         let counted = Span::both(&held, clear);
         let lost_ms = Span::total_ms(clear) - Span::total_ms(&counted);
         let lost = lost_at.filter(|_| lost_ms > 0);
@@ -315,9 +326,10 @@ impl Reach {
                 (points.azimuth - direction.azimuth).wrapped_180().abs(),
                 (points.elevation - direction.elevation).abs(),
             ];
-            // No direction is farther away than both differences together.
-            if azimuth + elevation <= self.half_beam {
-                return true;
+            // No direction is farther away than both differences together, nor nearer than that of
+            // the elevations.
+            if azimuth + elevation <= self.half_beam || elevation > self.half_beam {
+                return elevation <= self.half_beam;
             }
             points.separation(direction)
         } else {
@@ -359,14 +371,17 @@ impl Reach {
     /// least in a corner, and in one of the two corners no less than at one of the ends.
     fn may_dip(&self, from_deg: [f64; 2], to_deg: [f64; 2]) -> bool {
         let Mount::Xy { .. } = self.drives.mount else { return false };
+        let [from, to] = [from_deg, to_deg]
+            .map(|axes_deg| axes_deg.map(|axis_deg| (axis_deg - ZENITH_DEG).to_radians().cos()));
+        let corner = (from[0] * to[1]).min(to[0] * from[1]);
+        let ends = (from[0] * from[1]).min(to[0] * to[1]);
+        let end = ends.min(self.min_elevation().radians().sin());
+        // Most legs end here: the arcs of sines take longer.
+        if corner >= end {
+            return false;
+        }
         let along_deg = if self.on_board { ALONG_DEG } else { FINEST_DEG };
-        let ends_deg =
-            [from_deg, to_deg].map(|axes_deg| self.bounds.direction(axes_deg).elevation_deg());
-        let end_deg = self.min_elevation().degrees().min(ends_deg[0]).min(ends_deg[1]);
-        let corners_deg = [[from_deg[0], to_deg[1]], [to_deg[0], from_deg[1]]];
-        corners_deg.into_iter().any(|corner_deg| {
-            self.bounds.direction(corner_deg).elevation_deg() < end_deg - along_deg
-        })
+        (end.asin() - corner.asin()).to_degrees() > along_deg
     }
 
     /// Time from one place of the axes to another at `at_ms`, round what must not be entered;

@@ -1,9 +1,14 @@
 //! A pass as seen from the site: when it is above a height and the horizon mask, and where it is.
 
+use glam::DVec3;
+
 use super::way::{Span, at_ms, ms};
 use crate::{
-    astro::{Angle, HorizonMask, Site, frames::MEAN_RADIUS_KM},
-    orbit::{Pass, Propagator, State, clear_stretches},
+    astro::{
+        Angle, AzEl, HorizonMask, Site,
+        frames::{EARTH_RATE_RAD_S, SiteFrame},
+    },
+    orbit::{Local, Pass, Propagator, clear_stretches},
     plan::Sample,
 };
 
@@ -14,7 +19,7 @@ const MAX_FINE: f64 = 600.0;
 const MAX_COARSE: f64 = 60.0;
 /// Gravitational parameter of the Earth, km³/s².
 const GRAVITY_KM3_S2: f64 = 398_600.4;
-/// Largest error of a direction between two known states, radians: nothing beside any beam.
+/// Largest error of a direction between two known places, radians: nothing beside any beam.
 const SAME_RAD: f64 = 5e-7;
 /// Halvings that find when a height is crossed, to some milliseconds.
 const HALVINGS: usize = 18;
@@ -26,10 +31,21 @@ pub(super) struct Samples {
     pub(super) step_s: f64,
 }
 
-/// The few states of a pass between which the others are found.
+impl Samples {
+    /// Whether they begin after the first of `spans`, and whether they end before the last.
+    pub(super) fn leave_out(&self, spans: &[Span]) -> [bool; 2] {
+        let [first, last] =
+            [self.list.first(), self.list.last()].map(|it| it.map(|it| ms(it.time)));
+        let is_late = spans.first().zip(first).is_some_and(|(span, first)| span.from_ms < first);
+        let is_early = spans.last().zip(last).is_some_and(|(span, last)| last < span.to_ms);
+        [is_late, is_early]
+    }
+}
+
+/// The few places of a pass between which the others are found.
 struct Nodes {
     span: Span,
-    states: Vec<(i64, State)>,
+    places: Vec<(i64, Local)>,
     samples: Samples,
 }
 
@@ -37,11 +53,12 @@ struct Nodes {
 pub struct Sight<'a> {
     propagator: &'a Propagator,
     site: Site,
+    frame: SiteFrame,
     mask: Option<&'a HorizonMask>,
     pass: &'a Pass,
     /// What was sampled last.
     coarse: Option<Nodes>,
-    fine: Option<(Span, Samples)>,
+    fine: Option<([Span; 2], Samples)>,
     clear: Option<Vec<Span>>,
 }
 
@@ -52,7 +69,8 @@ impl<'a> Sight<'a> {
         mask: Option<&'a HorizonMask>,
         pass: &'a Pass,
     ) -> Self {
-        Self { propagator, site, mask, pass, coarse: None, fine: None, clear: None }
+        let frame = site.into();
+        Self { propagator, site, frame, mask, pass, coarse: None, fine: None, clear: None }
     }
 
     /// From the first to the last moment at `elevation` or higher; `None` if the pass stays below.
@@ -100,17 +118,17 @@ impl<'a> Sight<'a> {
         &self.nodes(span).samples
     }
 
-    /// Samples as close as positions are judged.
-    pub(super) fn fine(&mut self, span: Span) -> &Samples {
-        let kept = self.fine.take().filter(|(of, _)| *of == span);
+    /// Samples as close as positions are judged, of a part of `span`.
+    pub(super) fn fine(&mut self, span: Span, part: Span) -> &Samples {
+        let kept = self.fine.take().filter(|(of, _)| *of == [span, part]);
         let (_, samples) = kept.unwrap_or_else(|| {
-            let (propagator, site) = (self.propagator, self.site);
-            (span, self.nodes(span).fine(propagator, site))
+            let (propagator, frame) = (self.propagator, self.frame);
+            ([span, part], self.nodes(span).fine(propagator, &frame, part))
         });
-        &self.fine.insert((span, samples)).1
+        &self.fine.insert(([span, part], samples)).1
     }
 
-    /// As [`Self::fine`], each by the whole propagation.
+    /// As [`Self::fine`] of all of `span`, each by the whole propagation.
     #[cfg(test)]
     pub(super) fn exact(&self, span: Span) -> Samples {
         let (times, step_s) = times(span, FINE_S, MAX_FINE);
@@ -123,36 +141,42 @@ impl<'a> Sight<'a> {
 
     fn nodes(&mut self, span: Span) -> &Nodes {
         let kept = self.coarse.take().filter(|nodes| nodes.span == span);
-        let nodes = kept.unwrap_or_else(|| Nodes::new(self.propagator, self.site, span));
+        let nodes = kept.unwrap_or_else(|| Nodes::new(self.propagator, &self.frame, span));
         self.coarse.insert(nodes)
     }
 }
 
 impl Nodes {
-    fn new(propagator: &Propagator, site: Site, span: Span) -> Self {
+    fn new(propagator: &Propagator, site: &SiteFrame, span: Span) -> Self {
         let (times, step_s) = times(span, COARSE_S, MAX_COARSE);
-        let state = |at: i64| Some((at, propagator.state_at(at_ms(at)).ok()?));
-        let states: Vec<(i64, State)> = times.filter_map(state).collect();
-        let sample = |(at, state): &(i64, State)| {
-            let time = at_ms(*at);
-            Sample { time, direction: state.look_from(site, time).direction }
-        };
-        let samples = Samples { list: states.iter().map(sample).collect(), step_s };
-        Self { span, states, samples }
+        let place = |at| Some((at, place(propagator, site, at)?));
+        let places: Vec<(i64, Local)> = times.filter_map(place).collect();
+        let list = places.iter().map(|(at, place)| sample(*at, place.position_km)).collect();
+        Self { span, places, samples: Samples { list, step_s } }
     }
 
-    fn fine(&self, propagator: &Propagator, site: Site) -> Samples {
+    fn fine(&self, propagator: &Propagator, site: &SiteFrame, part: Span) -> Samples {
         let (times, step_s) = times(self.span, FINE_S, MAX_FINE);
-        let mut pairs = self.states.iter().zip(self.states.iter().skip(1)).peekable();
+        let times = times.filter(|at| (part.from_ms..=part.to_ms).contains(at));
+        let centre_km = site.to_enu * site.ecef_km;
+        let mut pairs = self.places.iter().zip(self.places.iter().skip(1)).peekable();
         let list = times.filter_map(|at| {
             while pairs.next_if(|(_, (end, _))| *end < at).is_some() {}
-            let between = pairs.peek().and_then(|(a, b)| between(a, b, at));
-            let state = between.map_or_else(|| propagator.state_at(at_ms(at)), Ok).ok()?;
-            let time = at_ms(at);
-            Some(Sample { time, direction: state.look_from(site, time).direction })
+            let between = pairs.peek().and_then(|(a, b)| between(a, b, centre_km, at));
+            let known = || place(propagator, site, at).map(|place| place.position_km);
+            Some(sample(at, between.or_else(known)?))
         });
         Samples { list: list.collect(), step_s }
     }
+}
+
+fn place(propagator: &Propagator, site: &SiteFrame, at: i64) -> Option<Local> {
+    let time = at_ms(at);
+    Some(propagator.state_at(time).ok()?.local(site, time))
+}
+
+fn sample(at: i64, position_km: DVec3) -> Sample {
+    Sample { time: at_ms(at), direction: AzEl::from_enu(position_km) }
 }
 
 /// Times of samples and the seconds between them.
@@ -164,17 +188,25 @@ fn times(span: Span, least_s: f64, most: f64) -> (impl Iterator<Item = i64>, f64
     ((0..=steps as i64).map(time), step_s)
 }
 
-/// The state between two others, by the cubic through their positions and velocities; `None` where
-/// they are too far apart for that.
-fn between((from, a): &(i64, State), (to, b): &(i64, State), at: i64) -> Option<State> {
+/// The position between two places, by the cubic through their positions and velocities; `None`
+/// where they are too far apart for that. The site is at `centre_km` from the centre of the Earth.
+fn between(
+    (from, a): &(i64, Local),
+    (to, b): &(i64, Local),
+    centre_km: DVec3,
+    at: i64,
+) -> Option<DVec3> {
     if !(*from..=*to).contains(&at) {
         return None;
     }
     let span_s = (to - from) as f64 / 1000.0;
-    let radius_km = a.position_km.length().min(b.position_km.length());
-    // A cubic is off by a part of the fourth derivative, which is that of a circular orbit there.
-    let off_km = span_s.powi(4) / 384.0 * GRAVITY_KM3_S2.powi(2) / radius_km.powi(5);
-    if off_km > SAME_RAD * (radius_km - MEAN_RADIUS_KM) {
+    let radius_km = [a, b].map(|it| (it.position_km + centre_km).length());
+    let radius_km = radius_km[0].min(radius_km[1]);
+    // A cubic is off by a part of the fourth derivative, here that of a circular orbit over ground
+    // that turns the other way.
+    let rate_rad_s = (GRAVITY_KM3_S2 / radius_km.powi(3)).sqrt() + EARTH_RATE_RAD_S;
+    let off_km = (span_s * rate_rad_s).powi(4) / 384.0 * radius_km;
+    if off_km > SAME_RAD * a.position_km.length().min(b.position_km.length()) {
         return None;
     }
     let share = (at - from) as f64 / 1000.0 / span_s;
@@ -182,8 +214,7 @@ fn between((from, a): &(i64, State), (to, b): &(i64, State), at: i64) -> Option<
     let position_km = a.position_km * (rest * rest * (1.0 + 2.0 * share))
         + b.position_km * (share * share * (1.0 + 2.0 * rest))
         + (a.velocity_km_s * rest - b.velocity_km_s * share) * (share * rest * span_s);
-    let velocity_km_s = a.velocity_km_s * rest + b.velocity_km_s * share;
-    Some(State { position_km, velocity_km_s })
+    Some(position_km)
 }
 
 #[cfg(test)]
@@ -212,7 +243,7 @@ mod tests {
                 let mut sight = Sight::new(&propagator, station.site, None, pass);
                 let span = Span { from_ms: ms(pass.aos.time), to_ms: ms(pass.los.time) };
                 let exact = sight.exact(span);
-                let fine = sight.fine(span);
+                let fine = sight.fine(span, span);
                 assert_eq!(fine.list.len(), exact.list.len());
                 for (fine, exact) in fine.list.iter().zip(&exact.list) {
                     assert_eq!(fine.time, exact.time);

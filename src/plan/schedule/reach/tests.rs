@@ -39,7 +39,7 @@ fn each_pass(
 fn by_many(reach: &Reach, sight: &mut Sight<'_>) -> Option<Verdict> {
     let span = sight.above(reach.min_elevation())?;
     let clear = sight.clear(span);
-    Some(reach.ways(sight.fine(span), &clear))
+    Some(reach.ways(sight.fine(span, span), &clear))
 }
 
 /// Judges by few samples alone, where they are enough.
@@ -98,7 +98,7 @@ fn directions_between_few_states_are_judged_as_those_of_the_orbit() {
             let clear = sight.clear(span);
             let exact = sight.exact(span);
             let [of_states, of_orbit] =
-                [reach.ways(sight.fine(span), &clear), reach.ways(&exact, &clear)];
+                [reach.ways(sight.fine(span, span), &clear), reach.ways(&exact, &clear)];
             let what = format!("seed {SEED}, case {case}, antenna {place}");
             match (of_states, of_orbit) {
                 (Verdict::Possible(of_states), Verdict::Possible(of_orbit)) => {
@@ -114,6 +114,63 @@ fn directions_between_few_states_are_judged_as_those_of_the_orbit() {
         });
     }
     assert!(judged > 100, "{judged}");
+}
+
+/// A part that is out of reach is that, and no slew, even if the axis changes ends meanwhile.
+fn assert_same_loss(judged: Option<Lost>, many: Option<Lost>, what: &str) {
+    assert_eq!(judged.map(|lost| lost.seconds), many.map(|lost| lost.seconds), "{what}");
+    let [judged, many] = [judged, many].map(|lost| lost.map(|lost| lost.at));
+    let changes_ends = (judged, many) == (Some(Loss::OutOfReach), Some(Loss::Slew));
+    assert!(judged == many || changes_ends, "{what}: {judged:?} {many:?}");
+}
+
+#[test]
+fn what_lies_beyond_the_travel_of_an_axis_needs_no_closer_look() {
+    let (mut cut, mut none, mut random) = (0, 0, Random::new(SEED + 3));
+    for case in 0..20 {
+        let mut station = three_antennas();
+        for antenna in &mut station.antennas {
+            if let Mount::AzEl { azimuth_from_deg, azimuth_to_deg, .. } = &mut antenna.mount {
+                *azimuth_from_deg = f64::from(random.below(360));
+                *azimuth_to_deg = *azimuth_from_deg + f64::from(10 + random.below(320));
+            }
+            antenna.beam_width_deg = f64::from(1 + random.below(40));
+        }
+        each_pass(&station, &mut random, 6, |place, reach, sight| {
+            let Some(many) = by_many(reach, sight) else { return };
+            let what = format!("seed {}, case {case}, antenna {place}", SEED + 3);
+            let span = sight.above(reach.min_elevation()).unwrap();
+            let part = reach.within_travel(sight.coarse(span), span);
+            cut += usize::from(part.is_some_and(|part| part != span));
+            none += usize::from(part.is_none());
+            if by_few(reach, sight).is_some() {
+                return;
+            }
+            match (reach.judge(sight), many) {
+                (Verdict::Possible(judged), Verdict::Possible(many)) => {
+                    assert_eq!(judged.len(), many.len(), "{what}");
+                    for (one, other) in judged.iter().zip(&many) {
+                        assert_eq!(one.span(), other.span(), "{what}");
+                        assert_eq!(one.counted_ms(span), other.counted_ms(span), "{what}");
+                        assert_same_loss(one.lost, other.lost, &what);
+                        let Span { from_ms, to_ms } = one.span();
+                        for at in [from_ms, to_ms] {
+                            let pairs = one.axes_deg(at).into_iter().zip(other.axes_deg(at));
+                            let apart = pairs.map(|(one, other)| (one - other).abs());
+                            assert!(apart.fold(0.0, f64::max) < 0.01, "{what}");
+                        }
+                    }
+                }
+                (
+                    Verdict::Impossible(Impossible::Lost(judged)),
+                    Verdict::Impossible(Impossible::Lost(many)),
+                ) => assert_same_loss(Some(judged), Some(many), &what),
+                (judged, many) => assert_eq!(judged, many, "{what}"),
+            }
+        });
+    }
+    println!("seed {}: {cut} passes cut, {none} never near", SEED + 3);
+    assert!(cut > 100 && none > 10, "{cut} {none}");
 }
 
 #[test]

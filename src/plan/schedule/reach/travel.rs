@@ -1,0 +1,58 @@
+//! The part of a pass that an azimuth axis of less than a turn can have to do with. The rest is
+//! lost without a closer look.
+
+use super::{Reach, TURN_DEG};
+use crate::{
+    astro::Angle,
+    plan::{
+        Sample,
+        schedule::{
+            sight::Samples,
+            way::{Span, ms},
+        },
+    },
+    station::Mount,
+};
+
+/// Below this elevation at two samples, the satellite stays below [`TOP_DEG`] between them.
+const HIGH_DEG: f64 = 45.0;
+const TOP_DEG: f64 = 60.0;
+
+impl Reach {
+    /// From the first to the last of `samples` near which the beam can hold the satellite. `None`
+    /// if it can near none.
+    pub(super) fn within_travel(&self, samples: &Samples, span: Span) -> Option<Span> {
+        // An axis that waits outside may wait in a keep-out.
+        let Some(touches) = self.touches().filter(|_| !self.has_barriers()) else {
+            return Some(span);
+        };
+        let pairs = samples.list.iter().zip(samples.list.iter().skip(1));
+        let touched = pairs.filter(|(from, to)| touches(from, to));
+        touched
+            .map(|(from, to)| Span { from_ms: ms(from.time), to_ms: ms(to.time) })
+            .reduce(|first, last| Span { to_ms: last.to_ms, ..first })
+    }
+
+    /// Whether the beam may hold the satellite between two samples; `None` if the axes reach all of
+    /// the sky.
+    fn touches(&self) -> Option<impl Fn(&Sample, &Sample) -> bool> {
+        let Mount::AzEl { azimuth_from_deg, azimuth_to_deg, elevation_to_deg, .. } =
+            self.drives.mount
+        else {
+            return None;
+        };
+        // Up to an elevation, a direction is no nearer to the meridian of an azimuth than this.
+        let sin_beam = self.half_beam.radians().sin() / TOP_DEG.to_radians().cos();
+        let beam_deg = if sin_beam < 1.0 { sin_beam.asin().to_degrees() } else { TURN_DEG };
+        let half_deg = (azimuth_to_deg - azimuth_from_deg) / 2.0 + beam_deg;
+        let middle = Angle::from_degrees(f64::midpoint(azimuth_from_deg, azimuth_to_deg));
+        let off_deg = |a: Angle, b: Angle| (a - b).wrapped_180().abs().degrees();
+        (half_deg < TURN_DEG / 2.0 && elevation_to_deg <= 90.0).then_some(
+            move |from: &Sample, to: &Sample| {
+                let [from, to] = [from.direction, to.direction];
+                from.elevation_deg().max(to.elevation_deg()) > HIGH_DEG
+                    || off_deg(from.azimuth, middle) <= half_deg + off_deg(from.azimuth, to.azimuth)
+            },
+        )
+    }
+}
