@@ -49,6 +49,12 @@ impl WireLine {
             is_poll: false,
         }
     }
+
+    /// Returns `true` for a routine question or answer with nothing unusual in it.
+    pub fn is_usual_poll(&self) -> bool {
+        let is_calm = |of: &Meaning| matches!(of.tone, Tone::Plain | Tone::Good);
+        self.is_poll && self.finding.is_good() && self.meaning.as_ref().is_none_or(is_calm)
+    }
 }
 
 /// Meaning of a line, as a sentence.

@@ -34,8 +34,16 @@ struct Ring {
     lines: VecDeque<Arc<Recorded>>,
     bytes: usize,
     next: u64,
-    /// Somebody has read everything and waits for more.
-    is_watched: bool,
+    /// Somebody has read everything and waits for such lines.
+    awaited: Option<Awaited>,
+}
+
+/// The lines that a reader waits for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Awaited {
+    Any,
+    /// All but [usual polls](WireLine::is_usual_poll).
+    Unusual,
 }
 
 impl Ring {
@@ -52,6 +60,7 @@ impl WireLog {
     pub fn push(&self, line: WireLine) -> bool {
         let mut ring = self.ring();
         ring.bytes += line.bytes.len();
+        let is_usual_poll = line.is_usual_poll();
         let number = ring.next;
         ring.next += 1;
         ring.lines.push_back(Arc::new(Recorded { number, line }));
@@ -59,15 +68,15 @@ impl WireLog {
             let Some(oldest) = ring.lines.pop_front() else { break };
             ring.bytes -= oldest.line.bytes.len();
         }
-        std::mem::take(&mut ring.is_watched)
+        ring.awaited.take_if(|awaited| *awaited == Awaited::Any || !is_usual_poll).is_some()
     }
 
     /// The lines from `number` on, oldest first, at most 1,000; empty when there are no newer
-    /// ones. The next line wakes the station.
-    pub fn read_from(&self, number: u64) -> Vec<Arc<Recorded>> {
+    /// ones. The next `awaited` line wakes the station.
+    pub fn read_from(&self, number: u64, awaited: Awaited) -> Vec<Arc<Recorded>> {
         let mut ring = self.ring();
         let lines = ring.from(number);
-        ring.is_watched = lines.len() < MAX_READ;
+        ring.awaited = (lines.len() < MAX_READ).then_some(awaited);
         lines
     }
 
@@ -117,7 +126,7 @@ mod tests {
     }
 
     fn numbers(log: &WireLog, from: u64) -> Vec<u64> {
-        log.read_from(from).iter().map(|recorded| recorded.number).collect()
+        log.copy_from(from).iter().map(|recorded| recorded.number).collect()
     }
 
     #[test]
@@ -143,7 +152,7 @@ mod tests {
         assert_eq!(numbers(&log, 0).first(), Some(&5));
         let mut next = 0;
         let mut count = 0;
-        while let Some(last) = log.read_from(next).last() {
+        while let Some(last) = log.copy_from(next).last() {
             count += numbers(&log, next).len();
             next = last.number + 1;
         }
@@ -164,8 +173,22 @@ mod tests {
     fn only_a_reader_who_has_read_everything_is_woken_and_once() {
         let log = WireLog::default();
         assert!(!log.push(line(1)), "nobody looks");
-        log.read_from(0);
+        log.read_from(0, Awaited::Any);
         assert!(log.push(line(1)));
         assert!(!log.push(line(1)));
+    }
+
+    #[test]
+    fn a_reader_who_hides_usual_polls_is_woken_by_what_he_shows() {
+        let log = WireLog::default();
+        let poll = || WireLine { is_poll: true, ..line(1) };
+        log.read_from(0, Awaited::Unusual);
+        assert!(!log.push(poll()));
+        assert!(log.push(WireLine { finding: Finding::NoChecksum, ..poll() }));
+        log.read_from(0, Awaited::Unusual);
+        assert!(!log.push(poll()));
+        assert!(log.push(line(1)));
+        log.read_from(0, Awaited::Any);
+        assert!(log.push(poll()));
     }
 }

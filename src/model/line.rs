@@ -37,12 +37,6 @@ impl ConsoleLine {
         &self.recorded.line
     }
 
-    /// Returns `true` for a routine question or answer with nothing unusual in it.
-    pub fn is_usual_poll(&self) -> bool {
-        let is_calm = matches!(self.meaning.tone, Tone::Plain | Tone::Good);
-        self.wire().is_poll && self.wire().finding.is_good() && is_calm
-    }
-
     /// Returns `true` if `needle`, in lower case, is in the bytes, the meaning or the name of the
     /// antenna.
     pub fn has(&self, needle: &str) -> bool {
@@ -202,11 +196,11 @@ mod tests {
     #[test]
     fn only_usual_polls_are_polls() {
         let mut wire = wire(1, Direction::Received, "$TIME?,ERR,7*4D");
-        assert!(!line(0, wire.clone()).is_usual_poll());
+        assert!(!wire.is_usual_poll());
         wire.is_poll = true;
-        assert!(!line(0, wire.clone()).is_usual_poll(), "a refusal is worth a look");
+        assert!(!wire.is_usual_poll(), "a refusal is worth a look");
         let question = testing::wire(1, Direction::Sent, "$STATUS?*2B");
-        assert!(line(0, WireLine { is_poll: true, ..question }).is_usual_poll());
+        assert!(WireLine { is_poll: true, ..question }.is_usual_poll());
     }
 
     #[test]

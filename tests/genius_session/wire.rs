@@ -12,7 +12,7 @@ use super::{
 };
 
 fn lines(handle: &azel::driver::AntennaHandle) -> Vec<WireLine> {
-    handle.wire().read_from(0).iter().map(|recorded| recorded.line.clone()).collect()
+    handle.wire().copy_from(0).iter().map(|recorded| recorded.line.clone()).collect()
 }
 
 #[tokio::test(start_paused = true)]

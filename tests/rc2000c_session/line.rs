@@ -85,7 +85,7 @@ async fn the_log_shows_every_frame_and_what_is_wrong_with_it() {
     rig.control.set_fault(Fault::Garbage, true);
     rig.seconds(5.0).await;
     let lines: Vec<azel::device::WireLine> =
-        rig.wire().read_from(0).iter().map(|recorded| recorded.line.clone()).collect();
+        rig.wire().copy_from(0).iter().map(|recorded| recorded.line.clone()).collect();
     let sent = |line: &&azel::device::WireLine| line.direction == Direction::Sent;
     assert!(lines.iter().filter(sent).all(|line| line.bytes[0] == 0x02));
     assert_eq!(&*lines[0].bytes, b"\x02\x32\x30\x03\x03");
@@ -103,12 +103,12 @@ async fn the_log_shows_every_frame_and_what_is_wrong_with_it() {
 async fn questions_by_hand_go_out_once_and_are_no_usual_polls() {
     let mut rig = Rig::in_manual().await;
     rig.seconds(5.0).await;
-    let first = rig.wire().read_from(0).len() as u64;
+    let first = rig.wire().copy_from(0).len() as u64;
     rig.send(Command::Ask("STATUS".into()));
     rig.send(Command::Ask("DEVICE TYPE".into()));
     rig.send(Command::Ask("HELLO".into()));
     rig.seconds(3.0).await;
-    let lines = rig.wire().read_from(first);
+    let lines = rig.wire().copy_from(first);
     let by_hand = lines.iter().map(|recorded| &recorded.line).filter(|line| !line.is_poll);
     let said: Vec<_> = by_hand.map(|line| line.meaning.clone().unwrap().text).collect();
     let wanted =

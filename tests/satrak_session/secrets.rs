@@ -81,7 +81,7 @@ async fn no_password_is_left_behind() {
     };
     let copy = SettingsCopy::text(&head, GROUPS, &shown.state.held);
     drop(guard);
-    let wire: String = all(|from| rig.wire().read_from(from)).iter().map(line_text).collect();
+    let wire: String = all(|from| rig.wire().copy_from(from)).iter().map(line_text).collect();
     assert!(wire.contains("$SATELLITE_FTP=(hidden)") && wire.contains("$SATELLITE_FTP?(hidden)"));
     let logged = String::from_utf8(log.0.lock().unwrap().clone()).unwrap();
     assert!(logged.contains("settings group=\"ftp\""), "the log is not empty: {logged}");

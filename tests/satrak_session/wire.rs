@@ -51,7 +51,7 @@ async fn both_directions_are_recorded_in_order_with_time_and_round_trip() {
     rig.seconds(1.0).await;
     rig.stop();
     rig.seconds(1.0).await;
-    let lines = all(|from| rig.wire().read_from(from));
+    let lines = all(|from| rig.wire().copy_from(from));
     let sent: Vec<String> =
         lines.iter().filter(|line| line.direction == Direction::Sent).map(line_text).collect();
     let received: Vec<String> = rig.payloads();
@@ -73,7 +73,7 @@ async fn both_directions_are_recorded_in_order_with_time_and_round_trip() {
 #[tokio::test(start_paused = true)]
 async fn damaged_lines_are_recorded_with_what_is_wrong() {
     let rig = rig_with(Fault::BadChecksum).await;
-    let lines = all(|from| rig.wire().read_from(from));
+    let lines = all(|from| rig.wire().copy_from(from));
     let bad: Vec<_> =
         lines.iter().filter(|l| matches!(l.finding, Finding::BadChecksum { .. })).collect();
     assert_eq!(bad.len() as u64, rig.shown().state.traffic.damaged);
@@ -83,7 +83,7 @@ async fn damaged_lines_are_recorded_with_what_is_wrong() {
     assert_eq!(missing as u64, rig.shown().state.traffic.unanswered);
 
     let rig = rig_with(Fault::Garbage).await;
-    let lines = all(|from| rig.wire().read_from(from));
+    let lines = all(|from| rig.wire().copy_from(from));
     let damaged = lines.iter().filter(|line| line.finding != Finding::Good);
     assert_eq!(damaged.count() as u64, rig.shown().state.traffic.damaged);
 }
@@ -91,7 +91,7 @@ async fn damaged_lines_are_recorded_with_what_is_wrong() {
 #[tokio::test(start_paused = true)]
 async fn a_question_that_is_repeated_is_no_usual_poll() {
     let rig = rig_with(Fault::DropReply).await;
-    let lines = all(|from| rig.wire().read_from(from));
+    let lines = all(|from| rig.wire().copy_from(from));
     let lost = |line: &WireLine| matches!(line.finding, Finding::NoReply { is_repeated: true, waited } if waited.as_secs() == 2);
     let at = lines.iter().position(lost).expect("a reply is missing");
     assert!(lines[..at].iter().any(|line| line.is_poll));
@@ -104,7 +104,7 @@ async fn a_query_by_hand_is_sent_in_its_turn_and_its_answer_recorded() {
     for (_, word) in Query::ALL {
         rig.send(Command::Ask(format!("{word}?").into()));
         rig.seconds(0.5).await;
-        let lines = all(|from| rig.wire().read_from(from));
+        let lines = all(|from| rig.wire().copy_from(from));
         let by_hand: Vec<_> =
             with(&lines, &format!("${word}?")).into_iter().filter(|line| !line.is_poll).collect();
         let directions: Vec<_> = by_hand.iter().map(|line| line.direction).collect();
@@ -121,7 +121,7 @@ async fn only_one_request_is_outstanding_and_a_flood_is_cut() {
         rig.send(Command::Ask("REDUCTION?".into()));
     }
     rig.seconds(5.0).await;
-    let lines = all(|from| rig.wire().read_from(from));
+    let lines = all(|from| rig.wire().copy_from(from));
     let asked = rig.sent("REDUCTION?").len();
     assert!((1..=40).contains(&asked), "{asked}");
     let mut waits = false;
@@ -165,7 +165,7 @@ async fn the_password_of_the_unit_is_in_no_recorded_line() {
     unit.seconds(3.0).await;
     unit.handle.send(Command::Ask("SATELLITE_FTP?".into())).unwrap();
     unit.seconds(5.0).await;
-    let lines = all(|from| unit.handle.wire().read_from(from));
+    let lines = all(|from| unit.handle.wire().copy_from(from));
     let answers = with(&lines, "$SATELLITE_FTP?(hidden)");
     assert!(answers.len() > 2 && answers.iter().all(|line| line.is_shortened));
     assert!(answers.iter().any(|line| line.reply_after.is_some()));
@@ -188,7 +188,7 @@ async fn no_piece_of_the_password_is_recorded_however_the_line_is_cut() {
             let holds_some = (20..good.len() - 1).contains(&at) && name != "headless";
             let mut unit = Scripted::raw(bytes);
             unit.seconds(1.0).await;
-            let lines = all(|from| unit.handle.wire().read_from(from));
+            let lines = all(|from| unit.handle.wire().copy_from(from));
             let is_shortened = lines.iter().any(|line| line.is_shortened);
             assert!(is_shortened || !holds_some, "{name} {at}");
             let leak = lines
@@ -204,7 +204,7 @@ async fn no_piece_of_the_password_is_recorded_however_the_line_is_cut() {
 async fn what_has_come_without_an_end_is_recorded_when_the_link_goes() {
     let mut unit = Scripted::raw(b"$STATUS?,0,299.49".to_vec());
     unit.seconds(10.0).await;
-    let lines = all(|from| unit.handle.wire().read_from(from));
+    let lines = all(|from| unit.handle.wire().copy_from(from));
     let unfinished: Vec<_> =
         lines.iter().filter(|line| line.finding == Finding::Unfinished).map(line_text).collect();
     assert_eq!(unfinished, ["$STATUS?,0,299.49"]);

@@ -3,7 +3,7 @@
 use std::{collections::VecDeque, sync::Arc};
 
 use crate::device::Direction;
-use crate::driver::{MAX_LINES, WireLog};
+use crate::driver::{Awaited, MAX_LINES, WireLog};
 use crate::model::ConsoleLine;
 
 /// The filter of the log.
@@ -32,7 +32,7 @@ impl Filter {
         let is_other_way = self.direction.is_some_and(|way| way != line.wire().direction);
         if is_other || is_other_way || !(needle.is_empty() || line.has(needle)) {
             LineVerdict::Other
-        } else if self.hides_polls && line.is_usual_poll() {
+        } else if self.hides_polls && line.wire().is_usual_poll() {
             LineVerdict::Poll
         } else {
             LineVerdict::Shown
@@ -76,8 +76,9 @@ impl Log {
     pub(super) fn pull<'a>(&mut self, logs: impl Iterator<Item = (&'a str, &'a WireLog)>) -> bool {
         self.take_up(logs);
         let mut batch = Vec::new();
+        let awaited = if self.filter.hides_polls { Awaited::Unusual } else { Awaited::Any };
         for source in &mut self.sources {
-            for recorded in source.log.read_from(source.next) {
+            for recorded in source.log.read_from(source.next, awaited) {
                 source.next = recorded.number + 1;
                 batch.push((Arc::clone(&source.antenna), recorded));
             }
