@@ -16,6 +16,7 @@ use egui::{Event, Key, Modifiers, Role};
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
 
 use crate::window_stories::{
+    every_view::painted,
     rig::{self, SIZES, Window, says, settle},
     states,
 };
@@ -196,6 +197,17 @@ fn an_antenna_is_added_and_removed() {
         assert!(says(&window, "Satrak is removed from the station with its settings."));
         press(&mut window, "Save and use");
         assert_eq!(saved(asked(&mut window)).antennas.len(), 0);
+    }
+}
+
+#[test]
+fn the_fields_of_a_new_antenna_are_new() {
+    for size in SIZES {
+        let mut window = form(size);
+        add(&mut window, "Add SVS Satrak");
+        let texts = painted::texts(&window);
+        assert!(texts.iter().filter(|of| *of == "New").count() > 5, "{texts:?}");
+        assert!(!texts.iter().any(|of| of == "Unchanged"), "{texts:?}");
     }
 }
 

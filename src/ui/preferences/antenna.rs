@@ -59,7 +59,7 @@ pub(super) fn show(
         after: mount_limits(&antenna.read().0),
     };
     let is_edited = Page::Antenna(id).counts(draft, before).edited > 0;
-    let is_new = before.index(id).is_none();
+    let is_new = antenna.is_new;
     columns::show(ui, rect, ("antenna", id.0), &rows, true, |ui, part| match part {
         Part::Card(card) => {
             let Some(antenna) = draft.antennas.get_mut(index) else { return };

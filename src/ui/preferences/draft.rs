@@ -74,7 +74,9 @@ impl Draft {
         let ids: Vec<AntennaId> = self.antennas.iter().map(|of| of.before().id).collect();
         let second = u32::try_from(now.as_second()).unwrap_or(AntennaId::FIRST.0);
         let id = AntennaId::free(AntennaId(second), &ids);
-        self.antennas.push(typed(Antenna { id, name, ..antenna }));
+        let mut antenna = typed(Antenna { id, name, ..antenna });
+        antenna.is_new = true;
+        self.antennas.push(antenna);
         id
     }
 
@@ -97,14 +99,14 @@ impl Draft {
     }
 
     /// Edits of an antenna, of which its removal is one, and its unusable fields.
-    pub(super) fn antenna_counts(&self, id: AntennaId, before: &Self) -> Counts {
+    pub(super) fn antenna_counts(&self, id: AntennaId) -> Counts {
         let found = self.index(id).and_then(|index| Some((index, self.antennas.get(index)?)));
         let Some((index, antenna)) = found else { return Counts::default() };
         if self.is_removed(index) {
-            return Counts { edited: usize::from(before.index(id).is_some()), wrong: 0 };
+            return Counts { edited: usize::from(!antenna.is_new), wrong: 0 };
         }
         let standings = self.antenna_standings(index);
-        let added = Counts { edited: usize::from(before.index(id).is_none()), wrong: 0 };
+        let added = Counts { edited: usize::from(antenna.is_new), wrong: 0 };
         Counts::of(antenna.fields.iter().zip(&standings)).and(added)
     }
 

@@ -290,6 +290,8 @@ impl Counts {
 #[derive(Debug, Clone, PartialEq, Default)]
 pub(in crate::ui) struct Standing {
     pub(super) is_used: bool,
+    /// The field of something that the station does not have yet.
+    pub(super) is_new: bool,
     pub(in crate::ui) problem: Option<Problem>,
     /// What a test has shown of the value.
     pub(super) proved: Option<String>,
@@ -300,6 +302,8 @@ pub(in crate::ui) struct Standing {
 /// Draft of a `T`: all its fields.
 pub(in crate::ui) struct Typed<T: 'static> {
     base: T,
+    /// The station does not have it yet.
+    pub(super) is_new: bool,
     pub(in crate::ui) fields: Vec<Field<T>>,
 }
 
@@ -314,7 +318,7 @@ impl<T: Clone> Typed<T> {
                 Some(Field { section, description, text: before.clone(), before })
             })
             .collect();
-        Self { base, fields }
+        Self { base, is_new: false, fields }
     }
 
     /// Types `text` into the field with this label.
@@ -395,7 +399,8 @@ impl<T: Clone> Typed<T> {
                 }
                 let together = || (of.check)(&whole).err().filter(|_| is_whole);
                 let problem = problem.clone().or_else(|| together().map(Problem::of));
-                Standing { is_used: true, problem, proved: None, note: (of.note)(&whole) }
+                let (is_new, note) = (self.is_new, (of.note)(&whole));
+                Standing { is_used: true, is_new, problem, proved: None, note }
             })
             .collect();
         (whole, standings)

@@ -255,6 +255,7 @@ fn state<T>(ui: &Ui, salt: (&str, &str), room: Rect, field: &Field<T>, standing:
             (Some(Icon::Warning), problem.short.clone(), whole, t.bad)
         }
         (None, Some(proved)) => (Some(Icon::Check), proved.clone(), proved.clone(), t.ok),
+        (None, None) if standing.is_new => (None, "New".to_owned(), "New".to_owned(), t.t3),
         (None, None) if field.is_edited() => {
             let was = if field.before().is_empty() { "empty" } else { field.before() };
             let short = format!("Edited, was {was}").replace('-', "−");

@@ -83,7 +83,7 @@ impl Page {
                 edited: draft.skies.edits(&before.skies),
                 wrong: draft.skies.problems(&draft.antenna_names()).len(),
             },
-            Self::Antenna(id) => draft.antenna_counts(id, before),
+            Self::Antenna(id) => draft.antenna_counts(id),
             Self::Notices => draft.notices.counts(&before.notices),
             Self::Appearance | Self::Keys => Counts::default(),
         }
