@@ -38,8 +38,9 @@ pub(super) fn show(ui: &Ui, rect: Rect, model: &Model, commands: &mut Vec<UiComm
     paint::text_in(ui, line(0.0), left, "Station file", text::small(), t.t3);
     let Some(path) = &model.stations.open else {
         let words = "This user has no folder for settings.";
-        paint::text_in(ui, line(1.0), left, words, text::small(), t.warn);
-        paint::name_text(ui, "station file", line(1.0), words).on_hover_text(words);
+        let room = line(1.0).union(line(2.0));
+        paint::paragraph_in(ui, room, words, text::small(), t.warn);
+        paint::name_text(ui, "station file", room, words);
         return;
     };
     let name = path.file_name().map_or_else(String::new, |name| name.to_string_lossy().into());

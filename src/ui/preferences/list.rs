@@ -197,10 +197,10 @@ fn pages(
 
 fn no_antenna(ui: &mut Ui) {
     let t = theme::tokens(ui);
-    let (row, _) = ui.allocate_exact_size(vec2(ui.available_width(), ANTENNA), Sense::hover());
-    let room = row.shrink2(vec2(PADDING, 0.0));
+    let (row, _) = ui.allocate_exact_size(vec2(ui.available_width(), ROW), Sense::hover());
+    let room = row.with_min_x(row.left() + PADDING);
     let words = "No antenna yet. Add one.";
-    paint::text_in(ui, room, Align2::LEFT_CENTER, words, text::small(), t.t2);
+    paint::paragraph_in(ui, room, words, text::small(), t.t2);
     paint::name_text(ui, "no antenna", room, words);
 }
 
@@ -258,7 +258,7 @@ fn page_row(
     let counts = page.counts(draft, before);
     room = room.with_max_x(tags(ui, room, &title, counts) - 4.0);
     let font = if is_chosen { text::body_medium() } else { text::body() };
-    paint::text_in(ui, room, Align2::LEFT_CENTER, &title, font, colour);
+    paint::paragraph_in(ui, room, &title, font, colour);
     response.clicked()
 }
 

@@ -50,6 +50,14 @@ pub fn paragraph(ui: &Ui, at: Pos2, width: f32, text: &str, font: FontId, colour
     rect
 }
 
+/// Paints text at the left of `rect`, wrapped at its width and centred in its height.
+pub fn paragraph_in(ui: &Ui, rect: Rect, text: &str, font: FontId, colour: Color32) -> Rect {
+    let galley = ui.painter().layout(text.to_owned(), font, colour, rect.width());
+    let place = Align2::LEFT_CENTER.align_size_within_rect(galley.size(), rect);
+    ui.painter().galley(place.min, galley, colour);
+    place
+}
+
 /// Width of one line of text, in points.
 pub fn text_width(ui: &Ui, text: &str, font: FontId) -> f32 {
     ui.painter().layout_no_wrap(text.to_owned(), font, Color32::PLACEHOLDER).size().x
