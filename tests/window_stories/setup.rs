@@ -128,7 +128,7 @@ fn enter_goes_on_alt_left_goes_back_and_a_skipped_step_says_so() {
         window.key_press(Key::Enter);
         settle(&mut window);
         assert!(is_at(&window, "Site"), "the site is missing");
-        assert!(says(&window, "Site: Name, Latitude, Longitude, east and Altitude are missing."));
+        assert!(says(&window, "Site: Name, Latitude, Longitude and Altitude are missing."));
         write_site(&mut window);
         for step in ["Antennas", "Satellites", "Elements", "Check and finish"] {
             window.key_press(Key::Enter);

@@ -242,9 +242,9 @@ pub(super) fn show_foot(
         None if step == Step::End => (String::new(), t.t2),
         None => (format!("Step {} of {}", step.number(), Step::NUMBERED.len()), t.t2),
     };
-    paint::text_in(ui, room, Align2::LEFT_CENTER, &words, text::body(), colour);
     if !words.is_empty() {
-        paint::name_text(ui, "progress", room, &words).on_hover_text(&words);
+        paint::paragraph_in(ui, room, &words, text::body(), colour);
+        paint::name_text(ui, "progress", room, &words);
     }
     if goes_back {
         state.go_back();

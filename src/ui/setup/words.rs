@@ -7,7 +7,10 @@ const KM_A_DEGREE: f64 = 111.2;
 
 pub(super) fn missing(labels: &[&str]) -> String {
     let verb = if labels.len() == 1 { "is" } else { "are" };
-    format!("Site: {} {verb} missing.", format::list(labels))
+    // The commas of a label would be read as those of the list.
+    let before_comma = |label: &&str| label.split(',').next().unwrap_or_default().to_owned();
+    let names: Vec<String> = labels.iter().map(before_comma).collect();
+    format!("Site: {} {verb} missing.", format::list(&names))
 }
 
 /// Size of the square of a locator.
