@@ -318,15 +318,15 @@ fn edit<T>(
     border: Option<Color32>,
     reasons: Reasons,
 ) -> Response {
-    let plain = Stroke::new(1.0, theme::tokens(ui).edge);
+    let t = theme::tokens(ui);
+    let (stroke, margin) =
+        border.map_or((Stroke::new(1.0, t.edge), (11, 3)), |of| (Stroke::new(2.0, of), (10, 2)));
     // The focus has a ring of its own around the border.
-    ui.visuals_mut().selection.stroke = border.map_or(plain, |colour| Stroke::new(2.0, colour));
-    if let Some(colour) = border {
-        let widgets = &mut ui.visuals_mut().widgets;
-        for widget in [&mut widgets.inactive, &mut widgets.hovered] {
-            widget.bg_stroke = Stroke::new(2.0, colour);
-        }
-    }
+    let frame = Frame::new()
+        .fill(t.field)
+        .stroke(stroke)
+        .corner_radius(4)
+        .inner_margin(Margin::symmetric(margin.0, margin.1));
     let is_edited = field.is_edited();
     let [beside, alone] = WORDS;
     let width = if reasons == Reasons::Beside { beside } else { alone };
@@ -352,7 +352,7 @@ fn edit<T>(
         },
     };
     let weight = if is_edited { Weight::SemiBold } else { Weight::Regular };
-    let edit = edit.font(text::sized(13.0, weight));
+    let edit = edit.frame(frame).font(text::sized(13.0, weight));
     let response = ui.add(edit.id_salt((group, label)));
     paint::focus_ring(ui, &response, 4);
     select_when_tabbed(ui, &response, &field.text);

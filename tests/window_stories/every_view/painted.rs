@@ -211,8 +211,11 @@ fn pieces(text: &TextShape, clip: Rect) -> Vec<Run> {
             }
             last = Some(index);
             let format = &job.sections[index].format;
-            let is_own = format.color != Color32::PLACEHOLDER;
-            let own = if is_own { format.color } else { text.fallback_color };
+            // A selection changes the colours of the glyphs alone.
+            let painted = row.row.visuals.mesh.vertices.get(glyph.first_vertex as usize);
+            let painted = painted.map_or(format.color, |vertex| vertex.color);
+            let is_own = painted != Color32::PLACEHOLDER;
+            let own = if is_own { painted } else { text.fallback_color };
             let colour = text.override_text_color.unwrap_or(own);
             let family = &format.font_id.family;
             runs.push(Run {
