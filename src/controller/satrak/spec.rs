@@ -82,12 +82,7 @@ pub static ELEMENT_FILE: Setting = Setting::new(
     Field::edit(Key::text("element_file", |_| Ok(())), "Element file on the unit"),
     || Value::Text(String::new()),
 )
-.noted(|value| match value {
-    Value::Text(name) if name.is_empty() => {
-        Some("Empty: the file that the unit uses. A new unit uses none and cannot track yet.")
-    }
-    _ => None,
-});
+.noted(|_| Some("Empty: the file that the unit uses. A new unit uses none and cannot track yet."));
 
 impl Antenna {
     /// A Satrak at `address` with default figures.
