@@ -13,7 +13,7 @@ use std::{
     mem::{self, Discriminant},
 };
 
-use egui::{Align, Align2, Rect, RichText, ScrollArea, Ui, UiBuilder, pos2, vec2};
+use egui::{Align, Rect, RichText, ScrollArea, Ui, UiBuilder, vec2};
 
 use super::{
     confirm::Question,
@@ -35,8 +35,8 @@ use crate::{
 };
 use form::Form;
 
-/// Height of the foot: the button, and why nothing can be sent.
-const FOOT: f32 = 64.0;
+/// Height of the foot: the button, and in two lines why nothing can be sent.
+const FOOT: f32 = 80.0;
 
 /// Input and choices for every antenna, by its name. A failure leaves them as they are.
 #[derive(Default)]
@@ -166,11 +166,11 @@ fn send(
     }
     if let Err(problem) = order {
         let words = format!("This cannot be uploaded yet: {problem}.");
-        let below = foot.with_min_y(place.bottom());
-        let glyph = paint::square(pos2(below.left() + 7.0, below.center().y), 13.0);
+        let at = place.left_bottom() + vec2(20.0, 6.0);
+        let glyph = paint::square(at + vec2(-13.0, 8.0), 13.0);
         icons::paint(ui.painter(), glyph, Icon::Warning, t.warn);
-        let room = below.with_min_x(below.left() + 20.0);
-        paint::text_in(ui, room, Align2::LEFT_CENTER, &words, text::small(), t.warn);
-        paint::name_text(ui, "no upload", room, &words).on_hover_text(&words);
+        let width = foot.right() - at.x;
+        let place = paint::paragraph(ui, at, width, &words, text::small(), t.warn);
+        paint::name_text(ui, "no upload", place, &words);
     }
 }
