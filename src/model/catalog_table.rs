@@ -23,6 +23,8 @@ pub const OLD_S: f64 = 7.0 * DAY_S;
 pub const NEXT_PASSES_H: u32 = 24;
 /// Time after which the next passes are searched for anew.
 pub const NEXT_PASSES_STALE_S: f64 = 60.0;
+/// Passes kept of each satellite: the first may be over before they are searched for anew.
+const PASSES_AHEAD: usize = 2;
 /// A pass under way began at most so long ago, except of satellites that hardly move.
 const LOOK_BACK_S: f64 = 3600.0;
 
@@ -93,7 +95,8 @@ pub struct Answer {
 pub struct NextPasses {
     pub key: NextKey,
     pub made_at: Timestamp,
-    of: HashMap<u32, NextPass>,
+    /// The first passes of each satellite, by time.
+    of: HashMap<u32, Vec<NextPass>>,
 }
 
 /// What next passes depend on, except the time.
@@ -179,8 +182,10 @@ impl NextPasses {
             if pass.los.time <= now {
                 continue;
             }
-            if let Some(number) = numbers.get(index) {
-                of.entry(*number).or_insert(NextPass {
+            let Some(number) = numbers.get(index) else { continue };
+            let first: &mut Vec<NextPass> = of.entry(*number).or_default();
+            if first.len() < PASSES_AHEAD {
+                first.push(NextPass {
                     aos: pass.aos.time,
                     los: pass.los.time,
                     max_elevation: pass.max_elevation(),
@@ -193,7 +198,7 @@ impl NextPasses {
 
     /// The pass of a satellite that is under way at `now` or comes next.
     pub fn get(&self, number: u32, now: Timestamp) -> Option<NextPass> {
-        self.of.get(&number).copied().filter(|pass| pass.los > now)
+        self.of.get(&number)?.iter().copied().find(|pass| pass.los > now)
     }
 }
 
@@ -423,7 +428,8 @@ mod tests {
             let pass = next.get(number, now()).unwrap();
             assert!(pass.aos < pass.los && pass.los > now());
             assert!(pass.max_elevation >= station.aos_elevation());
-            assert!(next.get(number, pass.los).is_none(), "it is over");
+            let later = next.get(number, pass.los).unwrap();
+            assert!(later.aos > pass.los, "that one is over");
         }
         assert!(next.get(44_334, now()).unwrap().is_always_up);
     }
