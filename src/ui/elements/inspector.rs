@@ -136,7 +136,7 @@ fn head(
     };
     let is_favourite = model.station.favourites.contains(number);
     let name = if is_favourite { "No favourite any more" } else { "Make it a favourite" };
-    let place = paint::square(pos2(inner.left() + 9.0, rect.top() + 19.0), 22.0);
+    let place = paint::square(pos2(inner.left() + 9.0, rect.top() + 17.0), 22.0);
     let response = paint::control(ui, "inspector star", place, Role::Button, can_mark, name);
     let (icon, colour) = if is_favourite { (Icon::Star, t.sat) } else { (Icon::OpenStar, t.t3) };
     icons::paint(ui.painter(), place.shrink(2.0), icon, colour);
@@ -158,14 +158,14 @@ fn head(
     let right = Align2::RIGHT_CENTER;
     let up = paint::text_in(ui, line(16.0), right, event, text::small(), t.t3);
     let font = text::sized(20.0, Weight::SemiBold);
-    let down = paint::text_in(ui, line(37.0), right, &countdown, font, t.t1);
+    let down = paint::text_in(ui, line(41.0), right, &countdown, font, t.t1);
     if !countdown.is_empty() {
         let words = format!("{event} {countdown}");
         paint::name_text(ui, "element countdown", up.union(down), words.trim());
     }
     let left = Align2::LEFT_CENTER;
     let label = elements.label();
-    let room = line(19.0).with_min_x(place.right() + 4.0).with_max_x(down.left() - GAP);
+    let room = line(17.0).with_min_x(place.right() + 4.0).with_max_x(up.left() - GAP);
     paint::text_in(ui, room, left, &label, text::title(), t.t1);
     let designator = elements.international_designator().unwrap_or("no designator");
     let detail = format!("{number}, {designator}");
