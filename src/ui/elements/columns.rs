@@ -26,7 +26,7 @@ const NAME: f32 = PADDING + 54.0;
 /// Width of the stars.
 const STAR: f32 = 20.0;
 /// Minimum width of the names.
-const MIN_NAME: f32 = 140.0;
+const MIN_NAME: f32 = 154.0;
 
 /// The columns behind the names, which the operator chooses and orders.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize)]
@@ -155,9 +155,9 @@ fn min_width_of(column: Column) -> f32 {
         Column::Number => 64.0,
         Column::Period => 62.0,
         Column::Inclination => 46.0,
-        Column::Heights => 84.0,
+        Column::Heights => 100.0,
         Column::Age => 80.0,
-        Column::From => 88.0,
+        Column::From => 122.0,
         Column::NextPass => 92.0,
         Column::MaxElevation => BAR + BAR_NUMBER,
     };
@@ -172,8 +172,8 @@ fn min_width(columns: &[Column]) -> f32 {
 /// How much of the free room a column gets: texts more than numbers.
 fn weight(column: Column) -> f32 {
     match column {
-        Column::Name => 3.0,
-        Column::From => 4.0,
+        Column::Name => 6.0,
+        Column::From => 3.0,
         Column::MaxElevation => 0.0,
         _ => 1.0,
     }
@@ -359,10 +359,10 @@ mod tests {
         let usual = ChosenColumns::default();
         assert_eq!(shown(1024.0, &usual).len(), 10);
         let narrow = shown(684.0, &usual);
-        for column in [Column::Number, Column::Age, Column::From, Column::NextPass] {
+        for column in [Column::Number, Column::Age, Column::NextPass, Column::MaxElevation] {
             assert!(narrow.contains(&column), "{narrow:?}");
         }
-        assert!(!narrow.contains(&Column::Period));
+        assert!(!narrow.contains(&Column::Period) && !narrow.contains(&Column::From));
         let few: ChosenColumns = [Column::Period, Column::Age].into_iter().collect();
         assert_eq!(
             shown(684.0, &few),

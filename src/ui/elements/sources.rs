@@ -40,9 +40,9 @@ const NAME: f32 = 38.0;
 const WHERE: f32 = 196.0;
 const STATE: f32 = 384.0;
 const NEWEST: f32 = 676.0;
-const OBJECTS: f32 = 748.0;
-const IN_USE: f32 = 820.0;
-const NEXT: f32 = 838.0;
+const OBJECTS: f32 = 754.0;
+const IN_USE: f32 = 812.0;
+const NEXT: f32 = 826.0;
 const ASK: f32 = 940.0;
 const REMOVE: f32 = 996.0;
 
@@ -185,9 +185,9 @@ fn show_head(ui: &Ui, rect: Rect) {
     };
     head("Name", NAME, WHERE, Align2::LEFT_CENTER);
     head("Where", WHERE, STATE, Align2::LEFT_CENTER);
-    head("Last fetch", STATE, NEWEST - 90.0, Align2::LEFT_CENTER);
-    head("Newest epoch", NEWEST - 90.0, NEWEST, Align2::RIGHT_CENTER);
-    head("Objects", OBJECTS - 56.0, OBJECTS, Align2::RIGHT_CENTER);
+    head("Last fetch", STATE, NEWEST - 124.0, Align2::LEFT_CENTER);
+    head("Newest epoch", NEWEST - 124.0, NEWEST, Align2::RIGHT_CENTER);
+    head("Objects", OBJECTS - 76.0, OBJECTS, Align2::RIGHT_CENTER);
     head("In use", IN_USE - 50.0, IN_USE, Align2::RIGHT_CENTER);
     head("Next", NEXT, ASK, Align2::LEFT_CENTER);
 }
