@@ -96,7 +96,7 @@ fn m_gives_the_arrows_to_the_jog_pad_and_moves_nothing_itself() {
             window.key_press(Key::M);
             settle(&mut window);
             if answers {
-                assert!(!window.get_by_label(pad).is_focused());
+                assert!(window.query_by_label(pad).is_none_or(|pad| !pad.is_focused()));
                 window.key_press(Key::Enter);
             }
             assert_eq!(asked(&mut window), [antenna(Command::Manual)]);
@@ -233,12 +233,15 @@ fn another_view_and_another_antenna_end_the_jog() {
 fn outside_manual_a_jog_key_does_nothing_and_says_why() {
     for size in SIZES {
         for (snapshot, reason) in [
-            (states::holding(), "Jog is locked. Choose Manual."),
+            (states::holding(), "Locked in Standby. Choose Manual or Position."),
             (states::tracking(0.0), "Locked while tracking. Choose Manual or Position."),
         ] {
             let mut window = rig::window(size, rig::model(snapshot));
             window.get_by_label(reason);
-            window.drag_at(window.get_by_label("Jog X+").rect().center());
+            // A low card has no pad while a target is tracked.
+            if let Some(key) = window.query_by_label("Jog X+") {
+                window.drag_at(key.rect().center());
+            }
             assert_eq!(asked(&mut window), []);
         }
     }

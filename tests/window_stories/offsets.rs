@@ -86,6 +86,20 @@ fn each_offset_has_its_value_and_keys_for_less_and_more() {
 }
 
 #[test]
+fn a_low_card_has_its_folded_lines_in_sight_while_it_tracks() {
+    let by_azel = following::tracking(TrackOffsets::NONE);
+    let on_board = rig::model(states::tracking(0.0));
+    for (model, lines) in [(by_azel, &["Offsets: "][..]), (on_board, &["Travel: ", "Faults: "])] {
+        let window = rig::window(rig::SMALL, model);
+        for line in lines {
+            let mut found = window.query_all_by_label_contains(line);
+            let place = found.next().unwrap_or_else(|| panic!("no line {line:?}")).rect();
+            assert!(place.bottom() <= rig::SMALL[1], "{line:?} at {place:?}");
+        }
+    }
+}
+
+#[test]
 fn they_are_remembered_of_the_satellite_or_the_antenna() {
     let on = with(&[Offset::Along(deg(0.2)), Offset::Elevation(deg(0.3))]);
     for size in SIZES {

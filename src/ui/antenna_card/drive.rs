@@ -31,6 +31,8 @@ const MESSAGE: f32 = 17.0;
 pub struct DriveModel<'a> {
     /// Names of the jog keys.
     pub keys: JogKeys,
+    /// A target is tracked: nothing moves by hand, and a low card leaves these controls out.
+    pub is_tracking: bool,
     /// The reason why jogging is refused now.
     pub jog_locked: Option<&'a str>,
     /// The reason why jogging waits for the operator's permission.
@@ -111,6 +113,12 @@ pub(super) fn show(
     actions: &mut Vec<CardAction>,
     short: bool,
 ) {
+    if short && model.is_tracking {
+        if std::mem::take(&mut state.jogging) {
+            actions.push(CardAction::JogReleased);
+        }
+        return;
+    }
     let t = theme::tokens(ui);
     if !short {
         let head = at.take(20.0);

@@ -100,6 +100,7 @@ fn model() -> CardModel<'static> {
         offsets: None,
         drive: DriveModel {
             keys: JogKeys::Xy { x_plus: "E", x_minus: "W", y_plus: "N", y_minus: "S" },
+            is_tracking: false,
             jog_locked: None,
             jog_note: None,
             unguarded: None,

@@ -251,6 +251,7 @@ fn drive<'a>(
     let is_unguarded = antenna.snapshot.unguarded && antenna.asks_unguarded;
     DriveModel {
         keys: axes::keys(antenna),
+        is_tracking: [locks.jog, locks.go_to] == [Some(locks::TRACKING); 2],
         jog_locked: locks.jog,
         unguarded: is_unguarded.then_some(words::UNGUARDED),
         jog_note,

@@ -5,6 +5,11 @@ use crate::{
     engine::antenna::AntennaModel,
 };
 
+/// The lock of all controls for moving by hand while a target is tracked.
+pub(in crate::ui::operate) const TRACKING: &str =
+    "Locked while tracking. Choose Manual or Position.";
+const STANDBY: &str = "Locked in Standby. Choose Manual or Position.";
+
 /// The reasons why controls are locked, each in a sentence.
 pub(in crate::ui::operate) struct Locks {
     /// For all controls.
@@ -39,16 +44,17 @@ impl Locks {
         let link = maintenance.or(link);
         let common = link.or(fault);
         let jog = match intent {
-            _ if program => Some("Locked while tracking. Choose Manual or Position."),
+            _ if program => Some(TRACKING),
             Intent::Manual => None,
-            Intent::Track => Some("Locked while tracking. Choose Manual or Position."),
-            _ => Some("Jog is locked. Choose Manual."),
+            Intent::Track => Some(TRACKING),
+            Intent::Standby => Some(STANDBY),
+            Intent::Position | Intent::Park => Some("Jog is locked. Choose Manual."),
         };
         let go_to = match intent {
-            _ if program => Some("Locked while tracking. Choose Manual or Position."),
+            _ if program => Some(TRACKING),
             Intent::Position | Intent::Park | Intent::Manual => None,
-            Intent::Track => Some("Locked while tracking. Choose Manual or Position."),
-            Intent::Standby => Some("Go to is locked. Choose Position."),
+            Intent::Track => Some(TRACKING),
+            Intent::Standby => Some(STANDBY),
         };
         let action = match intent {
             Intent::Manual | Intent::Position => None,
