@@ -125,6 +125,7 @@ pub fn show(
         .close_behavior(PopupCloseBehavior::CloseOnClickOutside)
         .accessible_name("Alarms")
         .show(|ui| {
+            ui.set_min_width(LIST_WIDTH);
             list(ui, model, commands);
             close_key::show(ui);
         });
