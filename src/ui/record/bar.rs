@@ -146,7 +146,7 @@ fn search(ui: &mut Ui, place: Rect, state: &mut RecordState) {
     let t = theme::tokens(ui);
     let edit = TextEdit::singleline(&mut state.query.text)
         .id_salt("search the record")
-        .hint_text(RichText::new("Satellite or 2026-11-30").color(t.t3))
+        .hint_text(RichText::new("Name or 2026-11-30").color(t.t3))
         .align(Align2::LEFT_CENTER)
         .min_size(place.size())
         .desired_width(place.width());

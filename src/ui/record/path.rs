@@ -152,6 +152,10 @@ fn label(
 ) {
     let galley = painter.layout_no_wrap(words.to_owned(), text::small(), colour);
     let place = anchor.anchor_size(at, galley.size());
+    // Shifted to where all of it can be seen.
+    let seen = painter.clip_rect().shrink(4.0);
+    let x = place.left().min(seen.right() - place.width()).max(seen.left());
+    let place = place.translate(egui::vec2(x - place.left(), 0.0));
     painter.rect_filled(place.expand2(egui::vec2(3.0, 0.0)), 3.0, t.bg0.gamma_multiply(0.75));
     painter.galley(place.min, galley, colour);
 }
