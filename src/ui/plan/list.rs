@@ -34,6 +34,8 @@ const SEGMENTS: f32 = 236.0;
 const SHORT_S: f64 = 60.0;
 /// Minimum width for all columns: the smallest window has less.
 const ALL_FROM: f32 = 1000.0;
+/// Minimum width for the column of LOS: beside the drawer there is less.
+const LOS_FROM: f32 = 760.0;
 /// From this width on the column of the slew grows, by at most so much.
 const WIDE_FROM: f32 = 1024.0;
 const MORE_SLEW: f32 = 120.0;
@@ -48,7 +50,7 @@ pub(super) fn least_height() -> f32 {
 struct Columns {
     state: f32,
     aos: f32,
-    los: f32,
+    los: Option<f32>,
     name: f32,
     max: f32,
     /// Left end of the slew and right end of the spare time, where there is room.
@@ -59,22 +61,17 @@ struct Columns {
 impl Columns {
     fn of(width: f32) -> Self {
         if width < ALL_FROM {
-            return Self {
-                state: 16.0,
-                aos: 240.0,
-                los: 354.0,
-                name: 370.0,
-                max: 498.0,
-                slew: None,
-                text: 514.0,
-            };
+            let los = (width >= LOS_FROM).then_some(354.0);
+            let name = los.unwrap_or(240.0) + 16.0;
+            let (max, text) = (name + 128.0, name + 144.0);
+            return Self { state: 16.0, aos: 240.0, los, name, max, slew: None, text };
         }
         // The names of satellites are shown whole where there is room.
         let more = (width - WIDE_FROM).clamp(0.0, MORE_SLEW);
         Self {
             state: 16.0,
             aos: 288.0,
-            los: 402.0,
+            los: Some(402.0),
             name: 418.0,
             max: 562.0,
             slew: Some((578.0, 778.0 + more)),
@@ -101,8 +98,8 @@ pub(super) fn show(
         |of: &ListedPass<'_>| of.entry.is_some() || matches!(of.standing, Standing::Flown(_));
     let taken = all.iter().filter(|of| is_taken(of)).count();
     let counts = [all.len(), taken, all.len() - taken];
-    show_bar(ui, bar, antenna, counts, state);
     let columns = Columns::of(rect.width());
+    show_bar(ui, bar, antenna, counts, columns, state);
     heads(ui, head, columns);
     ui.painter().rect_filled(body, 0.0, theme::tokens(ui).field);
     let rows: Vec<&ListedPass<'_>> = all
@@ -143,6 +140,7 @@ fn show_bar(
     bar: Rect,
     antenna: &AntennaModel,
     [all, taken, left_out]: [usize; 3],
+    columns: Columns,
     state: &mut PlanState,
 ) {
     let t = theme::tokens(ui);
@@ -167,6 +165,9 @@ fn show_bar(
     let clicked = segmented::show(ui, "plan shown", place, "Passes in the list", &segments);
     if let Some((shown, _)) = clicked.and_then(|index| choices.get(index)) {
         state.shown = *shown;
+    }
+    if columns.slew.is_none() {
+        return;
     }
     let room = inner.with_min_x(place.right() + 16.0);
     let set_up = format::duration(antenna.config.set_up_s());
@@ -195,7 +196,9 @@ fn heads(ui: &Ui, head: Rect, columns: Columns) {
     };
     cell(columns.state, left, "State");
     cell(columns.aos, right, "AOS");
-    cell(columns.los, right, "LOS");
+    if let Some(los) = columns.los {
+        cell(los, right, "LOS");
+    }
     cell(columns.name, left, "Satellite");
     cell(columns.max, right, "Max el");
     if let Some((slew, spare)) = columns.slew {
@@ -337,7 +340,9 @@ fn show_row(
     let room = room.with_max_x(at(columns.aos) - aos_width - 8.0);
     paint::text_in(ui, room, left, &words, small.clone(), colour);
     paint::text_in(ui, row.with_max_x(at(columns.aos)), right, &aos_words, small.clone(), t.t1);
-    paint::text_in(ui, row.with_max_x(at(columns.los)), right, &los_words, small.clone(), t.t2);
+    if let Some(los) = columns.los {
+        paint::text_in(ui, row.with_max_x(at(los)), right, &los_words, small.clone(), t.t2);
+    }
     let is_out = listed.entry.is_none() && !matches!(listed.standing, Standing::Flown(_));
     let room = row.with_min_x(at(columns.name)).with_max_x(at(columns.max) - 30.0);
     let (font, name_colour) =
