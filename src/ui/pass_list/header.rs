@@ -36,6 +36,8 @@ const FLOOR: &str = "Elevation floor: passes with a lower maximum elevation are 
 const SPAN: &str = "How far ahead passes are listed";
 /// Floors closer than this count as equal.
 const SAME_DEG: f64 = 0.05;
+/// A list below this width has a short title.
+const NARROW: f32 = 250.0;
 
 pub(super) fn show(
     ui: &Ui,
@@ -51,7 +53,8 @@ pub(super) fn show(
         Rect::from_min_size(pos2(room.left(), at), vec2(room.width(), SMALL_HEIGHT))
     });
     let at = first.left_center();
-    let title = paint::text(ui, at, Align2::LEFT_CENTER, "Next passes", text::small_strong(), t.t1);
+    let title = if room.width() < NARROW { "Passes" } else { "Next passes" };
+    let title = paint::text(ui, at, Align2::LEFT_CENTER, title, text::small_strong(), t.t1);
     let floor = floors(ui, first, model, commands);
     let mut count = format::number(model.rows as f64, 0);
     if model.rows < model.of {
@@ -59,9 +62,11 @@ pub(super) fn show(
     }
     let decimals = usize::from(model.aos_elevation_deg.fract() != 0.0);
     let aos = format::degrees(model.aos_elevation_deg, decimals);
-    let count = format!("{count} · AOS at {aos}");
+    let (aos, count) = (format!("AOS at {aos}"), format!("{count} · AOS at {aos}"));
     let left = first.with_min_x(title.right() + GAP).with_max_x(floor.left() - GAP / 2.0);
-    let count_place = paint::text_in(ui, left, Align2::LEFT_CENTER, &count, text::small(), t.t3);
+    let fits = paint::text_width(ui, &count, text::small()) <= left.width();
+    let words = if fits { &count } else { &aos };
+    let count_place = paint::text_in(ui, left, Align2::LEFT_CENTER, words, text::small(), t.t3);
     paint::name_text(ui, "title", title | count_place, &format!("Next passes, {count}"));
 
     let segment = |scope| if scope == model.scope { Segment::Chosen } else { Segment::Free };
