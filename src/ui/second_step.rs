@@ -97,7 +97,7 @@ fn way_there(model: &Model, antenna: &AntennaModel, predicted: &PredictedPass) -
     let elevation = can.has_elevation().then_some(to.elevation);
     let to = Pointing { azimuth: Some(to.azimuth), elevation };
     Some(format!(
-        " from {} to {}, in {}",
+        " from {} to {}, a slew of {}",
         format::pointing(measured.pointing, can),
         format::pointing(to, can),
         format::duration(seconds)
