@@ -304,7 +304,7 @@ fn next_words(
         Some((satellite, _, los)) if los > now => {
             format!("{} is up but is not being tracked.", satellite.short_name())
         }
-        _ => "Nothing is selected.".to_owned(),
+        _ => "No pass is selected.".to_owned(),
     }
 }
 

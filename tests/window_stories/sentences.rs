@@ -130,7 +130,7 @@ fn standing_says_where_and_what_comes_next() {
         told(states::holding(), coming),
         "Holding at 343.1°, 5.0°. SUOMI NPP rises in 1:16:28."
     );
-    assert_eq!(told(states::holding(), nothing), "Holding at 343.1°, 5.0°. Nothing is selected.");
+    assert_eq!(told(states::holding(), nothing), "Holding at 343.1°, 5.0°. No pass is selected.");
     let parked = Snapshot { intent: Intent::Park, ..states::holding() };
     assert!(told(parked, nothing).starts_with("Parked, holding at 343.1°, 5.0°."));
     let at = rig::model(rig::quiet()).steady;
