@@ -29,7 +29,7 @@ pub static POSITION: Group = Group {
             .in_unit("°")
             .about("X as the document says; its example rather looks like an azimuth."),
         Field::read(Y_DEG, "Second angle").in_unit("°"),
-        Field::read(TIME, "Measured at").in_unit("UTC"),
+        Field::read(TIME, "Measured at"),
     ],
 };
 

@@ -59,7 +59,7 @@ pub static CLOCK: Group = Group {
     title: "Clock",
     is_service: false,
     fields: &[
-        Field::read(TIME, "Unit clock").in_unit("UTC"),
+        Field::read(TIME, "Unit clock"),
         Field::read(AHEAD_S, "Ahead of this PC").in_unit("s"),
         Field::write(SET_FROM, "Set from").moving().about("The unit tracks by its clock."),
     ],
