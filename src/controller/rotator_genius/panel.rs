@@ -5,9 +5,7 @@ use std::time::Duration;
 use super::roles::Roles;
 use crate::{
     device::panel::{Check, CheckState, Reading, Tone},
-    protocol::rotator_genius::{
-        Layout, Moving, Rotator, RotatorKind, RotatorNumber, Status, WholeDegrees,
-    },
+    protocol::rotator_genius::{Moving, Rotator, RotatorKind, RotatorNumber, Status, WholeDegrees},
 };
 
 struct Names {
@@ -82,13 +80,7 @@ pub(super) fn readings(
         .panic
         .filter(|code| *code != 0)
         .map(|code| Reading::new("Panic code", format!("0x{code:02X}")).in_tone(Tone::Caution));
-    let form = match status.layout {
-        Layout::Wide => "72 bytes",
-        Layout::Narrow => "64 bytes",
-    };
-    let active = Reading::new("Active byte", format!("0x{:02X}", status.active));
-    let rest = [Reading::new("Status format", form), active];
-    rescue.into_iter().chain(of_rotators).chain(panic).chain(rest).collect()
+    rescue.into_iter().chain(of_rotators).chain(panic).collect()
 }
 
 fn of_rotator(status: &Status, roles: Roles, number: RotatorNumber) -> Vec<Reading> {
