@@ -33,7 +33,7 @@ pub(super) fn numbers(ui: &mut Ui, effect: Option<&Effect<Question>>, is_new: bo
     let rows = [
         ("Tracked whole", count(old.whole), count(new.whole), new.whole.cmp(&old.whole)),
         ("Tracked in part", count(old.in_part), count(new.in_part), Ordering::Equal),
-        ("Time lost in these", lost(old), lost(new), old.lost_s.total_cmp(&new.lost_s)),
+        ("Time lost", lost(old), lost(new), old.lost_s.total_cmp(&new.lost_s)),
         ("Not tracked", count(old.not), count(new.not), old.not.cmp(&new.not)),
     ];
     for (label, was, now, gain) in rows {
