@@ -243,6 +243,8 @@ fn switch(ui: &Ui, rect: Rect, number: &str, is_on: &mut bool, index: usize) {
 fn grip(ui: &Ui, rect: Rect, index: usize, state: &mut RulesState) {
     let t = theme::tokens(ui);
     let response = ui.interact(rect, ui.make_persistent_id(("grip", index)), Sense::drag());
+    let name = format!("Drag rule {} to another place", index + 1);
+    response.widget_info(|| WidgetInfo::labeled(Role::Button, true, &name));
     let ink = if response.hovered() || state.dragged == Some(index) { t.t1 } else { t.t3 };
     for x in [-3.0, 3.0] {
         for y in [-5.0, 0.0, 5.0] {
