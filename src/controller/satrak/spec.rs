@@ -82,7 +82,9 @@ pub static ELEMENT_FILE: Setting = Setting::new(
     Field::edit(Key::text("element_file", |_| Ok(())), "Element file on the unit"),
     || Value::Text(String::new()),
 )
-.noted(|_| Some("Empty: the file that the unit uses. A new unit uses none and cannot track yet."));
+.noted(|_| {
+    Some("Left empty: the file that the unit uses. A new unit uses none and cannot track yet.")
+});
 
 impl Antenna {
     /// A Satrak at `address` with default figures.
