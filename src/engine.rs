@@ -13,6 +13,7 @@ pub mod closing;
 mod command;
 pub mod copies;
 mod demo;
+pub mod film;
 mod handle;
 pub mod host_keys;
 pub mod in_place;
@@ -478,6 +479,7 @@ impl Engine {
             });
             ends.collect()
         };
+        self.recording.film(&snapshot);
         self.publish.send_replace(Published { snapshot, ends });
         // The published snapshot now shows what the events are about.
         for event in std::mem::take(&mut self.told) {

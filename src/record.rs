@@ -7,6 +7,7 @@
 
 mod entry;
 mod file;
+mod film;
 mod keeping;
 mod pass;
 mod past;
@@ -19,6 +20,7 @@ mod way_out;
 mod writer;
 
 pub use entry::{Entry, Kind};
+pub use film::{Film, FilmError, Parts, Picture, Shown};
 pub use pass::{AboutTrack, PassNote, RecordedReport, TrackedBy};
 pub use past::{OpenedPass, PassPage, PassQuery, RecordedPass, open_pass, passes, track};
 pub use read::{Query, Record, Row, RowKind};

@@ -5,6 +5,7 @@ mod automatic;
 mod prices;
 mod recorded;
 mod rehearsal;
+mod replay;
 mod scene;
 mod unattended;
 

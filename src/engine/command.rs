@@ -196,6 +196,23 @@ impl Command {
         )
     }
 
+    /// Returns `true` if the command lets a jog go.
+    pub fn ends_jog(&self) -> bool {
+        matches!(self, Self::Antenna(_, driver::Command::EndJog))
+    }
+
+    /// Returns `true` if the command asks to be shown something, and changes nothing.
+    pub fn only_looks(&self) -> bool {
+        use driver::Command::Preview;
+        matches!(
+            self,
+            Self::Look(_)
+                | Self::LookAtRecord(_)
+                | Self::OpenedAlarms
+                | Self::Antenna(_, Preview(_))
+        )
+    }
+
     /// Returns `true` if the command may move an antenna. A later STOP voids it.
     pub fn may_move(&self) -> bool {
         match self {

@@ -25,7 +25,7 @@ use self::{
 use crate::{
     astro::{AzEl, Site, time::add_seconds},
     job::Wake,
-    orbit::Catalog,
+    orbit::{Catalog, Elements},
     station::Station,
 };
 
@@ -62,13 +62,7 @@ impl Searches {
         now: Timestamp,
         wake: &Wake,
     ) {
-        let key = SearchKey {
-            catalog: Arc::clone(catalog),
-            scope: SearchScope::Favourites(station.favourites.numbers()),
-            observer: Arc::new(Observer::of(station)),
-            floor: station.elevation_floor(),
-            span_h: FAVOURITES_H.max(station.scheduling.span_h.ceil() as u32),
-        };
+        let key = SearchKey::of_favourites(catalog, station);
         self.favourites.refresh(&key, now, wake);
         let key = SearchKey { scope: SearchScope::All, span_h: choice.all_h, ..key };
         match choice.scope {
@@ -94,7 +88,30 @@ impl Searches {
     }
 }
 
+impl SearchKey {
+    fn of_favourites(catalog: &Arc<Catalog>, station: &Station) -> Self {
+        Self {
+            catalog: Arc::clone(catalog),
+            scope: SearchScope::Favourites(station.favourites.numbers()),
+            observer: Arc::new(Observer::of(station)),
+            floor: station.elevation_floor(),
+            span_h: FAVOURITES_H.max(station.scheduling.span_h.ceil() as u32),
+        }
+    }
+}
+
 impl PassLists {
+    /// The lists that were made at `made_at` of these elements of the favourites, predicted anew.
+    pub(in crate::engine) fn again(
+        catalog: &Arc<Catalog>,
+        elements: &[Elements],
+        station: &Station,
+        made_at: Option<Timestamp>,
+    ) -> Self {
+        let key = SearchKey::of_favourites(catalog, station);
+        Self { favourites: PassList::again(&key, elements, made_at), all: PassList::default() }
+    }
+
     pub fn of(&self, scope: Scope) -> &PassList {
         match scope {
             Scope::Favourites => &self.favourites,

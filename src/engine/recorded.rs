@@ -37,6 +37,14 @@ pub struct Found {
     pub opened: Option<OpenedPass>,
 }
 
+impl Recorded {
+    /// Reads the record at `path`. Reports without a site are of an antenna at `site`.
+    pub fn read(path: &Path, look: RecordLook, site: Site) -> Self {
+        let found = read(path, &look, site).map_err(|error| error.to_string());
+        Self { look, found }
+    }
+}
+
 /// The reading of a record.
 #[derive(Default)]
 pub(super) struct RecordReading {
@@ -74,8 +82,7 @@ impl Engine {
         };
         let site = self.station.site;
         let job = Job::start("azel-look-back", Arc::clone(&self.wake), move |_| {
-            let found = read(&path, &look, site).map_err(|error| error.to_string());
-            Recorded { look, found }
+            Recorded::read(&path, look, site)
         });
         self.record_reading.job =
             job.inspect_err(|error| tracing::error!(%error, "no thread to read the record")).ok();

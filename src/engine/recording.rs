@@ -19,7 +19,7 @@ use tokio::sync::mpsc;
 
 use self::{differences::differences, reports::Followed, state::State};
 use super::{
-    Antenna, Command, Engine,
+    Antenna, Command, Engine, Snapshot,
     alarms::{Alarm, AlarmKind},
     automatic::DayLine,
     claim::{digest, whole_path},
@@ -133,6 +133,13 @@ impl Recording {
         self.note(at, Some(antenna), kind_of(event), event);
     }
 
+    /// Films what is published.
+    pub(super) fn film(&self, snapshot: &Arc<Snapshot>) {
+        if let Some((_, recorder)) = &self.recorder {
+            recorder.film(snapshot.clone());
+        }
+    }
+
     fn note(
         &self,
         at: Moment,
@@ -195,10 +202,7 @@ impl Engine {
     /// Records a command of a client. A held jog key counts once.
     pub(super) fn note_command(&mut self, command: &Command, by: By) {
         match command {
-            Command::Look(_)
-            | Command::LookAtRecord(_)
-            | Command::OpenedAlarms
-            | Command::Antenna(_, driver::Command::Preview(_)) => return,
+            command if command.only_looks() => return,
             Command::Antenna(id, driver::Command::Jog { .. }) => {
                 let held = self.recording.jog.replace((*id, self.steady));
                 let lease = driver::JOG_LEASE;

@@ -7,7 +7,7 @@ use rusqlite::{Connection, OpenFlags};
 use super::RecordError;
 
 /// Version of the schema (`PRAGMA user_version`).
-pub(super) const VERSION: i64 = 1;
+pub(super) const VERSION: i64 = 2;
 /// Marks the file as a record (`PRAGMA application_id`): "Azel" in ASCII.
 const APPLICATION: i64 = 0x417a_656c;
 /// How long a reader and the writer wait for each other.
@@ -104,6 +104,28 @@ CREATE VIEW events AS SELECT
     FROM event;
 ";
 
+/// The film of what the station showed. New in version 2.
+const FILM: &str = "
+CREATE TABLE reel (
+    run INTEGER NOT NULL,
+    number INTEGER NOT NULL,
+    piece INTEGER NOT NULL,
+    from_us INTEGER NOT NULL,
+    until_us INTEGER NOT NULL,
+    pictures BLOB NOT NULL,
+    PRIMARY KEY (run, number, piece)
+);
+CREATE INDEX reel_time ON reel (from_us);
+CREATE TABLE part (
+    run INTEGER NOT NULL,
+    number INTEGER NOT NULL,
+    until_us INTEGER NOT NULL,
+    content BLOB NOT NULL,
+    PRIMARY KEY (run, number)
+);
+CREATE INDEX part_time ON part (until_us);
+";
+
 /// Opens the record at `path` to write to it; makes it where there is none.
 pub(super) fn open(path: &Path) -> Result<Connection, RecordError> {
     if let Some(folder) = path.parent() {
@@ -124,9 +146,16 @@ pub(super) fn open(path: &Path) -> Result<Connection, RecordError> {
             db.pragma_update(None, "auto_vacuum", "INCREMENTAL")?;
             let of_new = db.transaction()?;
             of_new.execute_batch(SCHEMA)?;
+            of_new.execute_batch(FILM)?;
             of_new.pragma_update(None, "application_id", APPLICATION)?;
             of_new.pragma_update(None, "user_version", VERSION)?;
             of_new.commit()?;
+        }
+        1 => {
+            let of_old = db.transaction()?;
+            of_old.execute_batch(FILM)?;
+            of_old.pragma_update(None, "user_version", VERSION)?;
+            of_old.commit()?;
         }
         VERSION => {}
         newer => return Err(RecordError::Newer(newer)),
@@ -143,7 +172,7 @@ pub(super) fn open_to_read(path: &Path) -> Result<Connection, RecordError> {
     let db = Connection::open_with_flags(path, OpenFlags::SQLITE_OPEN_READ_ONLY)?;
     db.busy_timeout(BUSY)?;
     match version(&db)? {
-        VERSION => Ok(db),
+        1..=VERSION => Ok(db),
         0 => Err(RecordError::NoRecord),
         newer => Err(RecordError::Newer(newer)),
     }

@@ -13,6 +13,9 @@ const YEAR_D: f64 = 365.25;
 const SLICE_US: i64 = 600_000_000;
 /// Rows of events that are removed at once.
 const SLICE_ROWS: i64 = 2000;
+/// Reels, and parts, that are removed at once.
+const SLICE_FILM: i64 = 30;
+const MINUTE_US: i64 = 60_000_000;
 /// Empty pages that the file keeps: what comes next fills them.
 const SPARE: i64 = 256;
 /// Pages that are given back to the disk at once.
@@ -40,6 +43,7 @@ pub(super) fn remove_old(
             is_more |= remove_raw(db, table, *antenna, raw_before)?;
         }
     }
+    is_more |= remove_film(db, raw_before)?;
     let removed = db
         .prepare_cached(
             "DELETE FROM event WHERE id IN \
@@ -64,6 +68,21 @@ pub(super) fn remove_old(
         while pages.next()?.is_some() {}
     }
     Ok(is_more)
+}
+
+/// Removes some reels that began before, and parts that none has shown since.
+fn remove_film(db: &Connection, before: i64) -> Result<bool, RecordError> {
+    let mut removed = 0;
+    for (table, time) in [("reel", "from_us"), ("part", "until_us")] {
+        let sql = format!(
+            "DELETE FROM {table} WHERE rowid IN \
+             (SELECT rowid FROM {table} WHERE {time} < ?1 ORDER BY {time} LIMIT ?2)"
+        );
+        // A reel shows its parts for a minute longer than they are known to be shown.
+        let before = if table == "part" { before - 2 * MINUTE_US } else { before };
+        removed += db.prepare_cached(&sql)?.execute(params![before, SLICE_FILM])?;
+    }
+    Ok(removed > 0)
 }
 
 fn remove_raw(

@@ -15,7 +15,7 @@ use std::{
 use jiff::Timestamp;
 use serde::{Deserialize, Serialize};
 
-use super::{Entry, PassNote, writer::Writer};
+use super::{Entry, PassNote, Picture, writer::Writer};
 use crate::{
     clock::{Clock, Moment},
     driver::{PositionLog, WireLog},
@@ -50,6 +50,7 @@ pub struct Failing {
 pub(super) enum Order {
     Entry(Box<Entry>),
     Pass(Box<PassNote>),
+    Picture(Arc<dyn Picture>),
     /// Write at once, then answer.
     Flush(mpsc::SyncSender<()>),
 }
@@ -75,6 +76,8 @@ pub(super) struct Shared {
     pub(super) keeping: Mutex<Retention>,
     /// Entries for which there was no room.
     pub(super) turned_away: AtomicU64,
+    /// Pictures for which there was no room.
+    pub(super) not_filmed: AtomicU64,
 }
 
 /// Locks what both ends share. No code panics while it holds the lock.
@@ -101,6 +104,7 @@ impl Recorder {
             begun: Mutex::default(),
             keeping: Mutex::new(keeping),
             turned_away: AtomicU64::default(),
+            not_filmed: AtomicU64::default(),
         });
         let writer = Writer::new(clock, Arc::clone(&shared));
         thread::Builder::new().name("azel-record".to_owned()).spawn(move || {
@@ -120,10 +124,19 @@ impl Recorder {
         self.order(Order::Pass(Box::new(pass)));
     }
 
+    /// Films a picture. One that the writer has no room for is counted.
+    pub fn film(&self, picture: Arc<dyn Picture>) {
+        self.order(Order::Picture(picture));
+    }
+
     fn order(&self, order: Order) {
         let Some(orders) = &self.orders else { return };
-        if orders.try_send(order).is_err() {
-            self.shared.turned_away.fetch_add(1, Ordering::Relaxed);
+        if let Err(mpsc::TrySendError::Full(order)) = orders.try_send(order) {
+            let missed = match order {
+                Order::Picture(_) => &self.shared.not_filmed,
+                _ => &self.shared.turned_away,
+            };
+            missed.fetch_add(1, Ordering::Relaxed);
         }
     }
 

@@ -94,9 +94,10 @@ impl Tables<'_> {
         since: Timestamp,
         at: Moment,
     ) -> Result<(), RecordError> {
-        let Missed { entries, positions, frames } = missed;
+        let Missed { entries, positions, frames, pictures } = missed;
         let data = json!({
             "since": since, "entries": entries, "positions": positions, "frames": frames,
+            "pictures": pictures,
         });
         self.entry(&Entry { at, antenna: None, kind: Kind::Gap, data })
     }

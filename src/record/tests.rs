@@ -1,5 +1,7 @@
 //! The record as it is written and read.
 
+mod film;
+
 use std::{fs, path::Path, time::Duration};
 
 use jiff::Timestamp;
@@ -271,15 +273,15 @@ fn a_record_of_a_newer_program_is_left_as_it_is() {
     let path = folder.path().join("a.sqlite");
     drop(recorder(&path));
     let db = rusqlite::Connection::open(&path).unwrap();
-    db.pragma_update(None, "user_version", 2).unwrap();
+    db.pragma_update(None, "user_version", 3).unwrap();
     drop(db);
     let before = fs::read(&path).unwrap();
     let recorder = recorder(&path);
     recorder.note(entry(1));
     recorder.flush();
     let failing = recorder.status().failing.unwrap();
-    assert!(failing.why.starts_with("the record was written by a newer Azel (schema 2; "));
-    assert!(matches!(Record::open(&path), Err(RecordError::Newer(2))));
+    assert!(failing.why.starts_with("the record was written by a newer Azel (schema 3; "));
+    assert!(matches!(Record::open(&path), Err(RecordError::Newer(3))));
     drop(recorder);
     assert_eq!(fs::read(&path).unwrap(), before);
 }

@@ -12,7 +12,9 @@ use rusqlite::{Connection, params};
 use serde_json::json;
 
 use super::{
-    Entry, Kind, PassNote, RecordError, file, keeping,
+    Entry, Kind, PassNote, RecordError, file,
+    film::Camera,
+    keeping,
     recorder::{Failing, Order, RecordedSession, Shared, locked},
     tables::Tables,
 };
@@ -61,6 +63,7 @@ pub(super) struct Missed {
     pub(super) entries: u64,
     pub(super) positions: u64,
     pub(super) frames: u64,
+    pub(super) pictures: u64,
 }
 
 pub(super) struct Writer {
@@ -73,6 +76,7 @@ pub(super) struct Writer {
     sources: Vec<Source>,
     waiting: Vec<Entry>,
     passes: Vec<PassNote>,
+    camera: Camera,
     /// Entries dropped here since the last write.
     dropped: u64,
     written_at: Timestamp,
@@ -98,6 +102,7 @@ impl Writer {
             sources: Vec::new(),
             waiting: Vec::new(),
             passes: Vec::new(),
+            camera: Camera::default(),
             dropped: 0,
             written_at: begun.utc,
             looked_at: None,
@@ -127,6 +132,7 @@ impl Writer {
                 Ok(Order::Entry(entry)) => self.queue(*entry),
                 // There are some dozens a day: they need no limit.
                 Ok(Order::Pass(pass)) => self.passes.push(*pass),
+                Ok(Order::Picture(picture)) => self.camera.take(&*picture),
                 Ok(Order::Flush(done)) => {
                     self.write();
                     // Nobody may be waiting any more.
@@ -202,7 +208,12 @@ impl Writer {
         let (db, run) = self.open.insert(open);
         let news: Vec<News> = self.sources.iter().map(Source::news).collect();
         let turned_away = self.shared.turned_away.load(Ordering::Relaxed);
-        let mut missed = Missed { entries: self.dropped + turned_away, ..Missed::default() };
+        let not_filmed = self.shared.not_filmed.load(Ordering::Relaxed);
+        let mut missed = Missed {
+            entries: self.dropped + turned_away,
+            pictures: self.camera.dropped + not_filmed,
+            ..Missed::default()
+        };
         for (source, news) in self.sources.iter().zip(&news) {
             let first_line = news.lines.first().map_or(source.next_line, |line| line.number);
             missed.frames += first_line - source.next_line;
@@ -226,9 +237,12 @@ impl Writer {
         for pass in &self.passes {
             to.pass(pass)?;
         }
+        self.camera.write(&tx, *run)?;
         tx.commit()?;
         // Only now: what could not be written is tried again.
         self.shared.turned_away.fetch_sub(turned_away, Ordering::Relaxed);
+        self.shared.not_filmed.fetch_sub(not_filmed, Ordering::Relaxed);
+        self.camera.is_written();
         self.dropped = 0;
         self.waiting.clear();
         self.passes.clear();
@@ -260,6 +274,7 @@ impl Writer {
                 )?;
                 // A new file knows no names of antennas.
                 self.sources.iter_mut().for_each(|source| source.is_named = false);
+                self.camera.begin_anew();
                 db.last_insert_rowid()
             }
         };

@@ -21,14 +21,14 @@ use super::{
     scene::{self, Scene, antenna, measured, operation, set_automatic, start, until},
 };
 
-const ISS: u32 = 25_544;
+pub(super) const ISS: u32 = 25_544;
 
 pub(super) fn rows(scene: &Scene, what: RowKind) -> Vec<Row> {
     let station = scene.folder().join("station.toml");
     record::rows(&record_path(&scene.folder().join("records"), &station), what)
 }
 
-fn next_pass(station: &Station) -> Pass {
+pub(super) fn next_pass(station: &Station) -> Pass {
     let propagator = Propagator::new(bundled().unwrap().get(ISS).unwrap()).unwrap();
     let search = PassSearch {
         aos_elevation: station.aos_elevation(),
@@ -39,7 +39,7 @@ fn next_pass(station: &Station) -> Pass {
 }
 
 /// Tracks the next pass of the ISS that is listed, with the antenna of this name.
-fn track(client: &Client, name: &str) {
+pub(super) fn track(client: &Client, name: &str) {
     let id = measured(client, name);
     let pass = until("the pass", || {
         let lists = client.snapshot().pass_lists.clone();

@@ -42,6 +42,23 @@ impl Errors {
         self.chunks.back().and_then(|chunk| chunk.last())
     }
 
+    /// The chunks that are whole, and the samples after them.
+    pub(in crate::engine) fn chunks(
+        &self,
+    ) -> (impl Iterator<Item = &Arc<Vec<ErrorSample>>>, &[ErrorSample]) {
+        let whole = self.chunks.iter().take(self.chunks.len().saturating_sub(1));
+        (whole, self.chunks.back().map(|newest| &newest[..]).unwrap_or_default())
+    }
+
+    /// The errors in these chunks, and those after them.
+    pub(in crate::engine) fn of_chunks(
+        whole: Vec<Arc<Vec<ErrorSample>>>,
+        newest: Vec<ErrorSample>,
+    ) -> Self {
+        let newest = (!newest.is_empty()).then(|| Arc::new(newest));
+        Self { chunks: whole.into_iter().chain(newest).collect() }
+    }
+
     /// Adds an error and drops old ones, a chunk at a time.
     pub(super) fn push(&mut self, sample: ErrorSample) {
         match self.chunks.back_mut().filter(|chunk| chunk.len() < CHUNK) {

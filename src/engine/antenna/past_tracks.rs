@@ -49,6 +49,13 @@ impl PastTrack {
 #[derive(Debug, Clone, Default, Serialize, Deserialize)]
 pub struct PastTracks(VecDeque<Arc<PastTrack>>);
 
+/// Newest first.
+impl FromIterator<Arc<PastTrack>> for PastTracks {
+    fn from_iter<I: IntoIterator<Item = Arc<PastTrack>>>(tracks: I) -> Self {
+        Self(tracks.into_iter().collect())
+    }
+}
+
 impl PastTracks {
     /// Newest first.
     pub fn iter(&self) -> impl Iterator<Item = &Arc<PastTrack>> {

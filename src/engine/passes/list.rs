@@ -12,12 +12,12 @@ use serde::{Deserialize, Serialize};
 use super::{
     PassKey,
     predicted_pass::{ListedSatellite, PredictedPass},
-    search::{Found, Progress, SearchKey, search},
+    search::{Found, Progress, SearchKey, prepared, search},
 };
 use crate::{
     astro::time::{add_seconds, seconds_between},
     job::{Job, Wake},
-    orbit::Pass,
+    orbit::{Elements, Pass},
 };
 
 /// Age at which a list is made anew.
@@ -191,6 +191,24 @@ impl Search {
 }
 
 impl PassList {
+    /// The list that a search for `key` at `made_at` makes of these elements, on this thread.
+    pub(super) fn again(
+        key: &SearchKey,
+        elements: &[Elements],
+        made_at: Option<Timestamp>,
+    ) -> Self {
+        let satellites = Arc::new(elements.iter().filter_map(prepared).collect());
+        let Some(at) = made_at else { return Self { satellites, ..Self::default() } };
+        let nobody: Wake = Arc::new(|| {});
+        let found = search(key, Some(satellites), at, &Progress::default(), &nobody, &|| false);
+        Self {
+            satellites: found.satellites,
+            passes: Arc::new(found.passes),
+            made_at,
+            ..Self::default()
+        }
+    }
+
     /// The passes at these places, each with its catalog number.
     pub fn range(&self, places: Range<usize>) -> impl Iterator<Item = (u32, Pass)> {
         let passes = self.passes.iter().take(places.end).skip(places.start);

@@ -70,7 +70,7 @@ impl SearchKey {
     }
 }
 
-fn prepared(elements: &Elements) -> Option<Arc<ListedSatellite>> {
+pub(super) fn prepared(elements: &Elements) -> Option<Arc<ListedSatellite>> {
     match Propagator::new(elements) {
         Ok(propagator) => {
             Some(Arc::new(ListedSatellite { elements: elements.clone(), propagator }))

@@ -1,0 +1,80 @@
+//! The film of a station: what it showed, picture by picture, as it was published.
+//!
+//! A picture is kept as what has changed since the one before. A reel is a minute of them and begins
+//! with a whole one. Large parts that seldom change are kept once, and pictures refer to them.
+
+mod camera;
+mod patch;
+mod reels;
+
+use std::{any::Any, collections::HashMap, sync::Arc};
+
+use serde::Serialize;
+use serde_json::Value;
+
+pub(super) use camera::Camera;
+pub use reels::{Film, FilmError, Shown};
+
+use crate::clock::Moment;
+
+/// What a station shows at one moment.
+pub trait Picture: Send + Sync {
+    fn at(&self) -> Moment;
+
+    /// All of it as JSON, with the numbers of its large parts in their places.
+    fn draw(&self, parts: &mut Parts) -> serde_json::Result<Value>;
+}
+
+/// The large parts of pictures, each kept once under a number for as long as it is shown.
+#[derive(Default)]
+pub struct Parts {
+    /// By address, which nothing else has while the part is held here.
+    known: HashMap<usize, Known>,
+    last: i64,
+    /// Parts that are not written yet.
+    new: Vec<(i64, Vec<u8>)>,
+}
+
+struct Known {
+    number: i64,
+    is_shown: bool,
+    _held: Arc<dyn Any + Send + Sync>,
+}
+
+impl Parts {
+    /// The number of a part.
+    pub fn number<T>(&mut self, part: &Arc<T>) -> serde_json::Result<i64>
+    where
+        T: Serialize + Send + Sync + 'static,
+    {
+        self.number_with(part, |part| serde_json::to_vec(part))
+    }
+
+    /// The number of a part that is written by `write`.
+    pub fn number_with<T: Send + Sync + 'static>(
+        &mut self,
+        part: &Arc<T>,
+        write: impl FnOnce(&T) -> serde_json::Result<Vec<u8>>,
+    ) -> serde_json::Result<i64> {
+        let address = Arc::as_ptr(part).addr();
+        if let Some(known) = self.known.get_mut(&address) {
+            known.is_shown = true;
+            return Ok(known.number);
+        }
+        let content = write(part)?;
+        self.last += 1;
+        self.new.push((self.last, content));
+        let known = Known { number: self.last, is_shown: true, _held: part.clone() };
+        self.known.insert(address, known);
+        Ok(self.last)
+    }
+
+    /// Lets go of the parts that the last picture does not show.
+    fn next_picture(&mut self) {
+        self.known.retain(|_, known| std::mem::take(&mut known.is_shown));
+    }
+
+    fn numbers(&self) -> impl Iterator<Item = i64> {
+        self.known.values().map(|known| known.number)
+    }
+}

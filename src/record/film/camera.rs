@@ -1,0 +1,152 @@
+//! Writes the film.
+
+use std::io::Write as _;
+
+use flate2::{Compression, write::DeflateEncoder};
+use rusqlite::{Transaction, params};
+use serde_json::Value;
+
+use super::{Parts, Picture, patch::Patch};
+use crate::record::RecordError;
+
+/// Length of a reel, seconds: a moment in it is found from its first picture on.
+const REEL_S: f64 = 60.0;
+/// Most bytes of pictures that wait for a disk.
+const MAX_WAITING: usize = 16 << 20;
+
+/// The camera of one run.
+#[derive(Default)]
+pub(in crate::record) struct Camera {
+    parts: Parts,
+    /// The last picture; null before the first of a reel.
+    last: Value,
+    /// Number of the reel in this run.
+    reel: i64,
+    /// Number of the next piece of the reel.
+    piece: i64,
+    begun_us: i64,
+    /// Time of the last picture.
+    until_us: i64,
+    /// Lines of this reel that are written already, and those that wait.
+    written: Vec<u8>,
+    waiting: Vec<u8>,
+    /// Reels that are over, whole, with their numbers and times.
+    over: Vec<(i64, [i64; 2], Vec<u8>)>,
+    /// Pictures that were dropped since the last write.
+    pub(in crate::record) dropped: u64,
+    /// Pictures since the last write.
+    count: u64,
+}
+
+impl Camera {
+    /// Takes a picture.
+    pub(in crate::record) fn take(&mut self, picture: &dyn Picture) {
+        let at = picture.at().utc;
+        let at_us = at.as_microsecond();
+        let has_jumped = at_us < self.until_us;
+        let is_over = (at_us - self.begun_us) as f64 > REEL_S * 1e6;
+        if !self.last.is_null() && (has_jumped || is_over) {
+            self.end_reel();
+        }
+        let drawn = match picture.draw(&mut self.parts) {
+            Ok(drawn) => drawn,
+            Err(error) => {
+                tracing::error!(%error, "a picture cannot be written down");
+                self.dropped += 1;
+                return;
+            }
+        };
+        self.parts.next_picture();
+        if self.last.is_null() {
+            (self.begun_us, self.until_us) = (at_us, at_us);
+        }
+        if let Some(patch) = Patch::between(&self.last, &drawn) {
+            let nanosecond = i64::try_from(at.as_nanosecond()).unwrap_or(i64::MAX);
+            // Neither can fail: a vector takes everything, and the patch is JSON already.
+            let _ = serde_json::to_writer(&mut self.waiting, &(nanosecond, patch));
+            self.waiting.push(b'\n');
+        }
+        self.last = drawn;
+        self.until_us = at_us;
+        self.count += 1;
+        let parts: usize = self.parts.new.iter().map(|(_, content)| content.len()).sum();
+        let over: usize = self.over.iter().map(|(.., lines)| lines.len()).sum();
+        if self.waiting.len() + parts + over > MAX_WAITING {
+            self.dropped += self.count;
+            self.begin_anew();
+        }
+    }
+
+    /// A file comes into use that has nothing of this film, or something is missing in it.
+    pub(in crate::record) fn begin_anew(&mut self) {
+        *self = Self {
+            parts: Parts { last: self.parts.last, ..Parts::default() },
+            reel: self.reel + 1,
+            dropped: self.dropped,
+            ..Self::default()
+        };
+    }
+
+    fn end_reel(&mut self) {
+        let mut lines = std::mem::take(&mut self.written);
+        lines.append(&mut self.waiting);
+        self.over.push((self.reel, [self.begun_us, self.until_us], lines));
+        self.last = Value::Null;
+        self.reel += 1;
+        self.piece = 0;
+    }
+
+    /// Writes what is new.
+    pub(in crate::record) fn write(
+        &self,
+        tx: &Transaction<'_>,
+        run: i64,
+    ) -> Result<(), RecordError> {
+        let mut part = tx.prepare_cached(
+            "INSERT INTO part (run, number, until_us, content) VALUES (?1, ?2, ?3, ?4)",
+        )?;
+        for (number, content) in &self.parts.new {
+            part.execute(params![run, number, self.until_us, deflated(content)?])?;
+        }
+        let mut piece = tx.prepare_cached(
+            "INSERT INTO reel (run, number, piece, from_us, until_us, pictures) \
+             VALUES (?1, ?2, ?3, ?4, ?5, ?6)",
+        )?;
+        for (number, [from_us, until_us], lines) in &self.over {
+            // All at once takes less than its pieces.
+            tx.prepare_cached("DELETE FROM reel WHERE run = ?1 AND number = ?2")?
+                .execute(params![run, number])?;
+            piece.execute(params![run, number, 0, from_us, until_us, deflated(lines)?])?;
+        }
+        if !self.waiting.is_empty() {
+            let (from_us, until_us) = (self.begun_us, self.until_us);
+            let lines = deflated(&self.waiting)?;
+            piece.execute(params![run, self.reel, self.piece, from_us, until_us, lines])?;
+        }
+        if !self.over.is_empty() {
+            let mut shown =
+                tx.prepare_cached("UPDATE part SET until_us = ?1 WHERE run = ?2 AND number = ?3")?;
+            for number in self.parts.numbers() {
+                shown.execute(params![self.until_us, run, number])?;
+            }
+        }
+        Ok(())
+    }
+
+    /// What was to be written is on the disk.
+    pub(in crate::record) fn is_written(&mut self) {
+        self.parts.new.clear();
+        self.over.clear();
+        if !self.waiting.is_empty() {
+            self.written.append(&mut self.waiting);
+            self.piece += 1;
+        }
+        (self.dropped, self.count) = (0, 0);
+    }
+}
+
+fn deflated(bytes: &[u8]) -> Result<Vec<u8>, RecordError> {
+    let mut encoder = DeflateEncoder::new(Vec::new(), Compression::fast());
+    encoder.write_all(bytes)?;
+    Ok(encoder.finish()?)
+}

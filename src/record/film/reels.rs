@@ -1,0 +1,245 @@
+//! Reads the film.
+
+use std::{io::Read as _, path::Path, time::Duration};
+
+use flate2::read::DeflateDecoder;
+use jiff::Timestamp;
+use rusqlite::{Connection, OptionalExtension as _, params};
+use serde_json::Value;
+
+use super::patch::{Misfit, Patch};
+use crate::{
+    device::{Direction, Finding, Meaning, WireLine, panel::Tone},
+    record::{RecordError, file},
+    station::AntennaId,
+};
+
+/// Why a moment cannot be shown.
+#[derive(Debug, thiserror::Error)]
+pub enum FilmError {
+    #[error(transparent)]
+    Record(#[from] RecordError),
+    /// An older program recorded, and nothing since.
+    #[error("nothing was filmed yet")]
+    None,
+    #[error("the film is damaged there")]
+    Damaged,
+}
+
+impl From<rusqlite::Error> for FilmError {
+    fn from(error: rusqlite::Error) -> Self {
+        RecordError::from(error).into()
+    }
+}
+
+impl From<serde_json::Error> for FilmError {
+    fn from(_: serde_json::Error) -> Self {
+        Self::Damaged
+    }
+}
+
+impl From<Misfit> for FilmError {
+    fn from(Misfit: Misfit) -> Self {
+        Self::Damaged
+    }
+}
+
+/// A film to be read.
+pub struct Film {
+    db: Connection,
+    reel: Option<Reel>,
+}
+
+/// A reel, wound to one of its pictures.
+struct Reel {
+    run: i64,
+    number: i64,
+    /// Number of pieces that were read of it.
+    pieces: i64,
+    /// The pictures with their times, nanoseconds of UTC.
+    pictures: Vec<(i64, Patch)>,
+    /// How many of them have made `picture`.
+    place: usize,
+    picture: Value,
+}
+
+/// A picture of the film.
+#[derive(Debug)]
+pub struct Shown<'a> {
+    /// Number of the run that it is of, for its parts.
+    pub run: i64,
+    pub picture: &'a Value,
+}
+
+impl Film {
+    /// Opens the film in the record at `path`.
+    pub fn open(path: &Path) -> Result<Self, FilmError> {
+        let db = file::open_to_read(path)?;
+        if !db.table_exists(None, "reel")? {
+            return Err(FilmError::None);
+        }
+        Ok(Self { db, reel: None })
+    }
+
+    /// Times of the first and the last picture.
+    pub fn span(&self) -> Result<Option<(Timestamp, Timestamp)>, FilmError> {
+        let sql = "SELECT min(from_us), (SELECT until_us FROM reel ORDER BY from_us DESC, piece DESC \
+                   LIMIT 1) FROM reel";
+        let ends: (Option<i64>, Option<i64>) =
+            self.db.query_row(sql, [], |row| Ok((row.get(0)?, row.get(1)?)))?;
+        let time = |us: Option<i64>| us.and_then(|us| Timestamp::from_microsecond(us).ok());
+        Ok(time(ends.0).zip(time(ends.1)))
+    }
+
+    /// What was shown at `at`: the last picture that is not later.
+    pub fn at(&mut self, at: Timestamp) -> Result<Option<Shown<'_>>, FilmError> {
+        let at_ns = i64::try_from(at.as_nanosecond()).unwrap_or(i64::MAX);
+        let holds = |reel: &Reel| {
+            let first = reel.pictures.first().is_some_and(|(first, _)| *first <= at_ns);
+            first && reel.pictures.last().is_some_and(|(last, _)| *last > at_ns)
+        };
+        if !self.reel.as_ref().is_some_and(holds) {
+            self.load(at)?;
+        }
+        let Some(reel) = &mut self.reel else { return Ok(None) };
+        reel.wind_to(at_ns)?;
+        Ok((reel.place > 0).then_some(Shown { run: reel.run, picture: &reel.picture }))
+    }
+
+    /// Takes the reel of a moment, or what was added to it since.
+    fn load(&mut self, at: Timestamp) -> Result<(), FilmError> {
+        // A clock that was read to the nanosecond is a little before its microsecond.
+        let sql = "SELECT run, number, (SELECT count(*) FROM reel AS of WHERE of.run = reel.run AND \
+                   of.number = reel.number) FROM reel WHERE from_us <= ?1 ORDER BY from_us DESC LIMIT 1";
+        let found = self
+            .db
+            .prepare_cached(sql)?
+            .query_row([at.as_microsecond()], |row| Ok((row.get(0)?, row.get(1)?, row.get(2)?)))
+            .optional()?;
+        let Some((run, number, pieces)) = found else {
+            self.reel = None;
+            return Ok(());
+        };
+        let is_known = |reel: &Reel| (reel.run, reel.number, reel.pieces) == (run, number, pieces);
+        if self.reel.as_ref().is_some_and(is_known) {
+            return Ok(());
+        }
+        let mut pictures = Vec::new();
+        let mut statement = self.db.prepare_cached(
+            "SELECT pictures FROM reel WHERE run = ?1 AND number = ?2 ORDER BY piece",
+        )?;
+        let mut rows = statement.query(params![run, number])?;
+        while let Some(row) = rows.next()? {
+            for line in inflated(row.get_ref(0)?.as_blob().map_err(|_| FilmError::Damaged)?)?
+                .split(|byte| *byte == b'\n')
+                .filter(|line| !line.is_empty())
+            {
+                pictures.push(serde_json::from_slice(line)?);
+            }
+        }
+        self.reel = Some(Reel { run, number, pieces, pictures, place: 0, picture: Value::Null });
+        Ok(())
+    }
+
+    /// A large part of a picture of this run.
+    pub fn part(&self, run: i64, number: i64) -> Result<Vec<u8>, FilmError> {
+        let mut statement =
+            self.db.prepare_cached("SELECT content FROM part WHERE run = ?1 AND number = ?2")?;
+        let content: Option<Vec<u8>> =
+            statement.query_row(params![run, number], |row| row.get(0)).optional()?;
+        inflated(&content.ok_or(FilmError::Damaged)?)
+    }
+
+    /// Time of the first event after `at`, or of the last one before it.
+    pub fn event(&self, at: Timestamp, is_after: bool) -> Result<Option<Timestamp>, FilmError> {
+        let sql = if is_after {
+            "SELECT min(utc_us) FROM event WHERE utc_us > ?1"
+        } else {
+            "SELECT max(utc_us) FROM event WHERE utc_us < ?1"
+        };
+        let us: Option<i64> =
+            self.db.prepare_cached(sql)?.query_row([at.as_microsecond()], |row| row.get(0))?;
+        Ok(us.and_then(|us| Timestamp::from_microsecond(us).ok()))
+    }
+
+    /// Time of the first picture that shows what was recorded at `at`.
+    pub fn shown_from(&mut self, at: Timestamp) -> Result<Timestamp, FilmError> {
+        self.load(at)?;
+        let at_ns = i64::try_from(at.as_nanosecond()).unwrap_or(i64::MAX);
+        let in_reel = self.reel.as_ref().and_then(|reel| {
+            let place = reel.pictures.partition_point(|(time, _)| *time < at_ns);
+            reel.pictures.get(place).map(|(time, _)| *time)
+        });
+        let shown = in_reel.and_then(|ns| Timestamp::from_nanosecond(ns.into()).ok());
+        if let Some(shown) = shown {
+            return Ok(shown);
+        }
+        let next: Option<i64> = self
+            .db
+            .prepare_cached("SELECT min(from_us) FROM reel WHERE from_us > ?1")?
+            .query_row([at.as_microsecond()], |row| row.get(0))?;
+        // Its first picture is within this microsecond.
+        Ok(next.and_then(|us| Timestamp::from_microsecond(us + 1).ok()).unwrap_or(at))
+    }
+
+    /// The lines on the link of an antenna after `from`, up to `until`, oldest first.
+    pub fn lines(
+        &self,
+        antenna: AntennaId,
+        from: Timestamp,
+        until: Timestamp,
+    ) -> Result<Vec<WireLine>, FilmError> {
+        let mut statement = self.db.prepare_cached(
+            "SELECT utc_us, is_sent, bytes, length, fault, meaning, reply_us FROM frame \
+             WHERE antenna = ?1 AND utc_us > ?2 AND utc_us <= ?3 ORDER BY utc_us, number",
+        )?;
+        let span = params![antenna.0, from.as_microsecond(), until.as_microsecond()];
+        let mut rows = statement.query(span)?;
+        let mut lines = Vec::new();
+        while let Some(row) = rows.next()? {
+            let at = Timestamp::from_microsecond(row.get(0)?).unwrap_or_default();
+            let bytes: Vec<u8> = row.get(2)?;
+            let length: Option<i64> = row.get(3)?;
+            let fault: Option<String> = row.get(4)?;
+            let meaning: Option<String> = row.get(5)?;
+            let reply_us: Option<i64> = row.get(6)?;
+            let is_sent: bool = row.get(1)?;
+            // Which good lines had a checksum is not kept.
+            let good = Ok(Finding::Unchecked);
+            let finding = fault.map_or(good, |fault| serde_json::from_str(&fault))?;
+            lines.push(WireLine {
+                at,
+                direction: if is_sent { Direction::Sent } else { Direction::Received },
+                length: length.and_then(|of| of.try_into().ok()).unwrap_or(bytes.len()),
+                is_shortened: length.is_some(),
+                bytes: bytes.into(),
+                finding,
+                is_poll: meaning.is_none() && finding.is_good(),
+                meaning: meaning.map(|text| Meaning { tone: Tone::Plain, text: text.into() }),
+                reply_after: reply_us.and_then(|us| us.try_into().ok()).map(Duration::from_micros),
+            });
+        }
+        Ok(lines)
+    }
+}
+
+impl Reel {
+    /// Makes the last picture that is not later than `at_ns`.
+    fn wind_to(&mut self, at_ns: i64) -> Result<(), FilmError> {
+        let place = self.pictures.partition_point(|(time, _)| *time <= at_ns);
+        if place < self.place {
+            (self.place, self.picture) = (0, Value::Null);
+        }
+        for (_, patch) in self.pictures.iter().take(place).skip(self.place) {
+            patch.clone().apply(&mut self.picture)?;
+        }
+        self.place = place;
+        Ok(())
+    }
+}
+
+fn inflated(bytes: &[u8]) -> Result<Vec<u8>, FilmError> {
+    let mut content = Vec::new();
+    DeflateDecoder::new(bytes).read_to_end(&mut content).map_err(|_| FilmError::Damaged)?;
+    Ok(content)
+}

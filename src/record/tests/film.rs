@@ -1,0 +1,126 @@
+//! The film as it is written and read.
+
+use std::{path::Path, sync::Arc};
+
+use jiff::ToSpan as _;
+use serde_json::{Value, json};
+
+use super::{recorder, start};
+use crate::{
+    clock::{Instant, Moment},
+    record::{Film, Parts, Picture, file, keeping},
+    station::Retention,
+};
+
+/// A picture of two figures and a part.
+struct Figures {
+    second: f64,
+    value: i64,
+    part: Arc<String>,
+}
+
+fn at(second: f64) -> jiff::Timestamp {
+    crate::astro::time::add_seconds(start(), second)
+}
+
+impl Picture for Figures {
+    fn at(&self) -> Moment {
+        Moment { utc: at(self.second), steady: Instant::now() }
+    }
+
+    fn draw(&self, parts: &mut Parts) -> serde_json::Result<Value> {
+        let part = parts.number(&self.part)?;
+        Ok(json!({ "second": self.second, "value": self.value, "part": part }))
+    }
+}
+
+/// Records a picture a second.
+fn film(path: &Path, seconds: std::ops::Range<u32>, part: &Arc<String>) {
+    let recorder = recorder(path);
+    for second in seconds {
+        let (second, value) = (f64::from(second), i64::from(second / 10));
+        recorder.film(Arc::new(Figures { second, value, part: Arc::clone(part) }));
+        if value % 3 == 0 {
+            recorder.flush();
+        }
+    }
+}
+
+fn seen(film: &mut Film, second: f64) -> Option<(f64, i64, String)> {
+    let shown = film.at(at(second)).unwrap()?;
+    let (run, picture) = (shown.run, shown.picture.clone());
+    let part = film.part(run, picture["part"].as_i64().unwrap()).unwrap();
+    let part: String = serde_json::from_slice(&part).unwrap();
+    Some((picture["second"].as_f64()?, picture["value"].as_i64()?, part))
+}
+
+#[test]
+fn every_moment_is_shown_again_whichever_way_it_is_come_by() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("record.sqlite");
+    film(&path, 0..200, &Arc::new("first".to_owned()));
+    film(&path, 300..320, &Arc::new("second".to_owned()));
+    let mut film = Film::open(&path).unwrap();
+    assert_eq!(film.span().unwrap(), Some((at(0.0), at(319.0))));
+    assert_eq!(seen(&mut film, -1.0), None);
+    for second in (0..200).chain((0..200).rev()).chain([7, 180, 61, 60, 62]) {
+        let second = f64::from(second);
+        let shown = seen(&mut film, second + 0.5).unwrap();
+        assert_eq!(shown, (second, (second / 10.0) as i64, "first".to_owned()));
+    }
+    assert_eq!(seen(&mut film, 250.0).unwrap().1, 19, "the last one before");
+    assert_eq!(seen(&mut film, 310.2).unwrap(), (310.0, 31, "second".to_owned()));
+}
+
+#[test]
+fn the_film_goes_on_while_it_is_read() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("record.sqlite");
+    let recorder = recorder(&path);
+    let part = Arc::new(String::new());
+    let take = |second| {
+        let value = second as i64;
+        recorder.film(Arc::new(Figures { second, value, part: Arc::clone(&part) }));
+        recorder.flush();
+    };
+    take(0.0);
+    let mut film = Film::open(&path).unwrap();
+    assert_eq!(seen(&mut film, 5.0).unwrap().1, 0);
+    take(1.0);
+    assert_eq!(seen(&mut film, 5.0).unwrap().1, 1);
+    take(90.0);
+    assert_eq!(seen(&mut film, 5.0).unwrap().1, 1);
+    assert_eq!(seen(&mut film, 95.0).unwrap().1, 90);
+}
+
+#[test]
+fn what_is_older_than_it_is_kept_goes_and_the_rest_can_be_shown() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("record.sqlite");
+    film(&path, 0..400, &Arc::new("part".to_owned()));
+    let db = file::open(&path).unwrap();
+    let keeping = Retention { raw_days: 1.0, ..Retention::default() };
+    let now = (at(150.0) + 24.hours()).as_microsecond();
+    while keeping::remove_old(&db, keeping, now).unwrap() {}
+    let mut film = Film::open(&path).unwrap();
+    let (first, _) = film.span().unwrap().unwrap();
+    assert!((at(120.0)..at(190.0)).contains(&first), "{first}");
+    assert_eq!(seen(&mut film, 60.0), None);
+    assert_eq!(seen(&mut film, 399.0).unwrap().2, "part");
+    let much_later = now + 24 * 3_600_000_000;
+    while keeping::remove_old(&db, keeping, much_later).unwrap() {}
+    let left: i64 = db.query_row("SELECT count(*) FROM part", [], |row| row.get(0)).unwrap();
+    assert_eq!((left, film.span().unwrap()), (0, None));
+}
+
+#[test]
+fn a_record_from_before_the_film_goes_on() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("record.sqlite");
+    let db = file::open(&path).unwrap();
+    db.execute_batch("DROP TABLE reel; DROP TABLE part; PRAGMA user_version = 1").unwrap();
+    drop(db);
+    assert!(Film::open(&path).is_err());
+    film(&path, 0..11, &Arc::default());
+    assert_eq!(seen(&mut Film::open(&path).unwrap(), 10.0).unwrap().1, 1);
+}
