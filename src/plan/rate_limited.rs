@@ -57,7 +57,9 @@ struct Envelope {
 impl Envelope {
     fn around(wanted: &[f64], max_deg: f64) -> Self {
         let mut high = lowest(wanted.iter().map(|place| -place).collect(), max_deg);
-        high.iter_mut().for_each(|place| *place = -*place);
+        for place in &mut high {
+            *place = -*place;
+        }
         Self { low: lowest(wanted.to_vec(), max_deg), high }
     }
 

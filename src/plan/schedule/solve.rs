@@ -138,6 +138,15 @@ impl Problem<'_> {
         (earlier.to_ms + needs_ms <= later.from_ms).then_some(slew_ms)
     }
 
+    /// Returns `true` if each antenna is at all of its takes in time.
+    fn is_in_time(&self, takes: &[Vec<u32>]) -> bool {
+        takes.iter().all(|takes| {
+            let mut pairs = takes.iter().zip(takes.iter().skip(1));
+            takes.first().is_none_or(|first| self.slews.first_ms(*first as usize).is_some())
+                && pairs.all(|(before, take)| self.fits(*before, *take))
+        })
+    }
+
     fn keeps_limits(&self, takes: &[Vec<u32>]) -> bool {
         let used = self.used(takes.iter().flatten());
         used.iter().zip(self.limits).all(|(used, most)| used <= most)

@@ -333,15 +333,13 @@ fn show_row(
         icon,
         colour,
     );
-    let [aos_words, los_words] =
-        [listed.key.1, listed.los].map(|time| format::moment(time, model.now));
     let room = row.with_min_x(at(columns.state) + 20.0);
-    let aos_width = paint::text_width(ui, &aos_words, small.clone());
+    let aos_width = paint::text_width(ui, &aos, small.clone());
     let room = room.with_max_x(at(columns.aos) - aos_width - 8.0);
     paint::text_in(ui, room, left, &words, small.clone(), colour);
-    paint::text_in(ui, row.with_max_x(at(columns.aos)), right, &aos_words, small.clone(), t.t1);
-    if let Some(los) = columns.los {
-        paint::text_in(ui, row.with_max_x(at(los)), right, &los_words, small.clone(), t.t2);
+    paint::text_in(ui, row.with_max_x(at(columns.aos)), right, &aos, small.clone(), t.t1);
+    if let Some(end) = columns.los {
+        paint::text_in(ui, row.with_max_x(at(end)), right, &los, small.clone(), t.t2);
     }
     let is_out = listed.entry.is_none() && !matches!(listed.standing, Standing::Flown(_));
     let room = row.with_min_x(at(columns.name)).with_max_x(at(columns.max) - 30.0);

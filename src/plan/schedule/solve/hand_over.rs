@@ -30,15 +30,10 @@ impl Problem<'_> {
             for takes in &mut without {
                 takes.retain(|take| self.take(*take).is_some_and(|it| it.pass != pass));
             }
-            // The neighbours of what was taken out may be too near to each other.
-            let mut pairs = without.iter().flat_map(|takes| takes.iter().zip(takes.iter().skip(1)));
-            if without != takes && !pairs.all(|(a, b)| self.fits(*a, *b)) {
-                continue;
-            }
             for (first, second) in first.iter().flat_map(|a| second.iter().map(move |b| (a, b))) {
                 let Some(found) = self.with_parts(&without, *first, *second) else { continue };
                 let new_row = self.row(&found);
-                if new_row > row && self.keeps_limits(&found) {
+                if new_row > row && self.keeps_limits(&found) && self.is_in_time(&found) {
                     (takes, row) = (found, new_row);
                 }
             }
@@ -51,23 +46,13 @@ impl Problem<'_> {
         if a.antenna == b.antenna || a.to_ms > b.from_ms {
             return None;
         }
-        let places = [(first, a), (second, b)].map(|(take, it)| {
-            let own = takes.get(it.antenna as usize)?;
+        let mut takes = takes.to_vec();
+        for (take, it) in [(first, a), (second, b)] {
+            let own = takes.get_mut(it.antenna as usize)?;
             let place = own.partition_point(|other| {
                 self.take(*other).is_some_and(|other| other.from_ms <= it.from_ms)
             });
-            let before = place.checked_sub(1).and_then(|before| own.get(before));
-            let fits = match before {
-                None => self.slews.first_ms(take as usize).is_some(),
-                Some(before) => self.fits(*before, take),
-            };
-            let fits = fits && own.get(place).is_none_or(|after| self.fits(take, *after));
-            fits.then_some((it.antenna as usize, place, take))
-        });
-        let [Some(first), Some(second)] = places else { return None };
-        let mut takes = takes.to_vec();
-        for (antenna, place, take) in [first, second] {
-            takes.get_mut(antenna)?.insert(place, take);
+            own.insert(place, take);
         }
         Some(takes)
     }

@@ -244,3 +244,36 @@ fn prices_bound_what_can_be_reached_and_often_reach_it() {
     println!("{} cases of seed {}, best reached in {reached}", cases() / 4, SEED + 2);
     assert!(reached * 10 > cases() / 4 * 7, "{reached}");
 }
+
+#[test]
+fn a_hand_over_leaves_no_take_that_its_antenna_cannot_begin_with() {
+    let take = |pass, antenna, part, from_ms, to_ms, worth| Take {
+        pass,
+        antenna,
+        limit: None,
+        part,
+        from_ms,
+        to_ms,
+        share: if part == Part::Alone { 1000 } else { 500 },
+        is_whole: false,
+        row: Row::of(Class::Priority(Priority::default()), worth),
+    };
+    // The first antenna can be at the second pass only by way of the first one, which would be
+    // worth more if the others took it in two parts.
+    let takes = vec![
+        take(0, 0, Part::Alone, 0, 20, 3),
+        take(1, 0, Part::Alone, 50, 70, 3),
+        take(0, 1, Part::First, 0, 10, 4),
+        take(0, 2, Part::Second, 10, 20, 4),
+    ];
+    let leg = Leg { needs_ms: 0, slew_ms: 0 };
+    let first_ms = vec![Some(0), None, Some(0), Some(0)];
+    let slews = Table { legs: vec![leg; 16], first_ms, takes: 4 };
+    let case = Case { antennas: 3, passes: 2, takes, limits: Vec::new(), slews };
+    let problem = case.problem(0);
+    let lines: Vec<Line> = (0..3).map(|antenna| Line::new(&problem, antenna)).collect();
+    let alone = vec![vec![0, 1], vec![], vec![]];
+    let row = problem.row(&alone);
+    let (takes, row) = problem.handed_over(&lines, (alone, row));
+    assert_eq!(case.worth(&takes), Some(row));
+}
