@@ -18,6 +18,7 @@ mod memory;
 pub mod notifier;
 mod place;
 mod rehearsal;
+mod replay;
 
 use std::{
     io,
@@ -43,6 +44,7 @@ use self::{
     notifier::Notifier,
     place::PlaceWatch,
     rehearsal::RehearsalWork,
+    replay::Replay,
 };
 use crate::{
     clock::Clock,
@@ -57,6 +59,9 @@ use crate::{
 
 /// Interval between frames while an antenna moves.
 const MOVING_FRAME: Duration = Duration::from_millis(100);
+
+/// Interval between frames while the record is played.
+const REPLAY_FRAME: Duration = Duration::from_millis(50);
 
 /// The app behind the window.
 pub struct App {
@@ -81,6 +86,8 @@ pub struct App {
     mask_work: MaskWork,
     known_work: KnownWork,
     rehearsal_work: RehearsalWork,
+    /// The record shown again; `None` while the live station is shown.
+    replay: Option<Replay>,
     station_dialog: Option<FileDialog>,
     /// The change to another station.
     change: Option<Change>,
@@ -148,6 +155,7 @@ impl App {
             mask_work,
             known_work,
             rehearsal_work: RehearsalWork::default(),
+            replay: None,
             station_dialog: None,
             change: None,
             keeper,
@@ -180,6 +188,11 @@ impl App {
         &self.model
     }
 
+    /// The model of the replay, while one is shown.
+    pub fn replay(&self) -> Option<&Model> {
+        self.replay.as_ref().map(Replay::model)
+    }
+
     /// The station behind the window.
     pub fn station(&self) -> &Handle {
         &self.station
@@ -195,7 +208,8 @@ impl App {
         if self.station.take() {
             let before: Vec<_> = self.model.antennas.iter().map(AntennaModel::id).collect();
             let was_demo = self.model.demo;
-            self.model.take(&self.station);
+            let (shown, station) = (Arc::clone(self.station.snapshot()), &self.station);
+            self.model.take(&shown, |antenna| station.wire(antenna));
             if self.model.demo && !was_demo && self.opens_set_up {
                 self.model.view = View::Setup;
             }
@@ -220,11 +234,12 @@ impl App {
         self.take_folder();
         self.take_log_file();
         self.take_mask_file();
-        self.work_on_effects();
-        self.work_on_catalog();
+        self.effects_jobs.work(&mut self.model, &self.wake);
+        self.catalog_work.work(&mut self.model, &self.wake);
         self.take_intake();
         self.take_rehearsal();
         self.model.refresh_sky();
+        self.go_on_with_replay();
         self.remember();
     }
 
@@ -291,6 +306,8 @@ impl App {
         let into_second = self.model.now.subsec_nanosecond();
         let to_next = Duration::from_nanos(1_000_000_000 - u64::from(into_second.unsigned_abs()));
         let wait = if lively { MOVING_FRAME.min(to_next) } else { to_next };
+        let plays = self.replay.as_ref().is_some_and(Replay::plays);
+        let wait = if plays { REPLAY_FRAME.min(wait) } else { wait };
         // If a frame comes slightly before the full second, the wait would be zero again and
         // again.
         let wait = wait.max(Duration::from_millis(5));
@@ -368,6 +385,9 @@ impl eframe::App for App {
         }
         let mut commands = Vec::new();
         let closes = ui.input(|input| input.viewport().close_requested());
+        if closes || self.is_between_stations() {
+            self.leave_replay(None);
+        }
         if closes && !self.may_close.load(Ordering::Relaxed) && !self.is_between_stations() {
             self.stay();
             if self.views.ask_before_closing(&self.model, &mut commands) {
@@ -375,6 +395,13 @@ impl eframe::App for App {
             }
         }
         self.ask_before_change(&mut commands);
+        if let Some(replay) = &mut self.replay {
+            replay.show(ui, &self.model, &mut commands);
+            for command in commands {
+                self.carry_out_in_replay(command, ui.ctx());
+            }
+            return;
+        }
         self.views.show(ui, &self.model, &mut commands);
         let stops =
             |command: &UiCommand| matches!(command, UiCommand::Stop | UiCommand::StopAntenna(_));

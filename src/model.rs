@@ -14,6 +14,7 @@ mod line;
 pub mod object_detail;
 pub mod plan;
 pub mod rehearsal;
+pub mod replay;
 mod sky;
 mod stations;
 mod theme_name;
@@ -40,6 +41,7 @@ use self::{
     intake::Intake,
     joinings::Joinings,
     rehearsal::RehearsalState,
+    replay::Replayed,
 };
 use crate::{
     astro::{HorizonMask, MaskForm},
@@ -47,7 +49,7 @@ use crate::{
     desktop::Outlets,
     driver::{TimeSync, WireLog},
     engine::{
-        CatalogState, Handle,
+        CatalogState, Snapshot,
         alarms::{AlarmKind, Alarms},
         antenna::AntennaModel,
         automatic::DayLine,
@@ -183,6 +185,8 @@ pub struct Model {
     pub view: View,
     /// What a closing window waits for; `None` while it is not closing.
     pub closing: Option<Closing>,
+    /// The replay that this model is of; `None` for the live station.
+    pub replay: Option<Replayed>,
 }
 
 impl Model {
@@ -229,6 +233,7 @@ impl Model {
             record: None,
             view: View::Operate,
             closing: None,
+            replay: None,
         }
     }
 
@@ -282,9 +287,8 @@ impl Model {
         }
     }
 
-    /// Takes the state published by the station.
-    pub fn take(&mut self, station: &Handle) {
-        let shown = Arc::clone(station.snapshot());
+    /// Takes the state published by the station, and the logs of its links.
+    pub fn take(&mut self, shown: &Snapshot, wire: impl Fn(AntennaId) -> Option<WireLog>) {
         let renewed = self.pass_lists.favourites.revision != shown.pass_lists.favourites.revision;
         self.time_sync = shown.time_sync;
         self.station = Arc::clone(&shown.station);
@@ -312,7 +316,7 @@ impl Model {
             antenna.keep_pressed(known.and_then(|known| known.stop_pressed));
         }
         self.antennas = antennas;
-        let wire = |antenna: &AntennaModel| station.wire(antenna.id()).unwrap_or_default();
+        let wire = |antenna: &AntennaModel| wire(antenna.id()).unwrap_or_default();
         self.wires = self.antennas.iter().map(wire).collect();
         if renewed && self.selected_pass().is_none() {
             self.selected = self.next_pass().map(PredictedPass::key);

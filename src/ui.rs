@@ -30,6 +30,7 @@ pub mod profile;
 pub mod rail;
 pub mod record;
 mod recorded_track;
+pub mod replay;
 pub mod report_sheet;
 mod second_step;
 pub mod setup;

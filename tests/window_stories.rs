@@ -39,6 +39,7 @@ mod preferences_pages;
 mod preferences_rules;
 mod preferences_watch;
 mod record;
+mod replay;
 mod rig;
 mod running;
 mod saving;

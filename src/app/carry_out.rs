@@ -6,7 +6,10 @@ use super::App;
 use crate::{
     driver,
     engine::{Command, Stopped, passes::PredictedPass},
-    model::{Appearance, UiCommand},
+    model::{
+        Appearance, UiCommand, View,
+        replay::{ReplayCommand, ReplayEnd},
+    },
     station::AntennaId,
 };
 
@@ -14,12 +17,14 @@ impl App {
     /// Sends STOP past every queue, to every antenna that it concerns.
     pub(super) fn stop_all(&mut self) {
         let stopped = self.station.client().stop_all();
+        self.leave_replay(Some(ReplayEnd::Stop));
         self.show_stopped(&stopped);
     }
 
     /// Sends STOP past every queue, also to a unit that must be connected for it.
-    fn stop_one(&mut self, antenna: AntennaId) {
+    pub(super) fn stop_one(&mut self, antenna: AntennaId) {
         let stopped = self.station.client().stop(antenna);
+        self.leave_replay(Some(ReplayEnd::Stop));
         self.show_stopped(&stopped);
     }
 
@@ -41,8 +46,9 @@ impl App {
                 ctx.send_viewport_cmd(egui::ViewportCommand::Close);
             }
             UiCommand::SelectPass(key) => model.selected = Some(key),
-            // The views have asked, or there is nothing to track it with.
-            UiCommand::AskToTrack(_) => {}
+            UiCommand::Replay(ReplayCommand::Begin(stretch, at)) => self.begin_replay(stretch, at),
+            // The views have asked, or there is nothing to track it with; there is no replay to change.
+            UiCommand::AskToTrack(_) | UiCommand::Replay(_) => {}
             UiCommand::SelectSatellite(number) => {
                 model.selected = model.pass_of(number).map(PredictedPass::key).or(model.selected);
             }
@@ -60,10 +66,7 @@ impl App {
                 self.keeper.memory.list = model.list;
             }
             UiCommand::SaveLog(lines) => self.save_log(lines),
-            UiCommand::Show(view) => {
-                model.view = view;
-                self.keeper.memory.keep_view(view);
-            }
+            UiCommand::Show(view) => self.show_view(view),
             UiCommand::SetTheme(name) => {
                 let appearance = self.keeper.memory.appearance;
                 let chosen = Appearance { theme: name, light_by_day: false, ..appearance };
@@ -105,6 +108,11 @@ impl App {
             UiCommand::Station(command) => self.send(command),
         }
         (self.wake)();
+    }
+
+    pub(super) fn show_view(&mut self, view: View) {
+        self.model.view = view;
+        self.keeper.memory.keep_view(view);
     }
 
     fn send(&mut self, command: Command) {

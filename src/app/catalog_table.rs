@@ -2,13 +2,12 @@
 
 use std::sync::Arc;
 
-use super::App;
 use crate::{
     astro::time::seconds_between,
     engine::CatalogState,
-    job::Job,
+    job::{Job, Wake},
     model::{
-        View,
+        Model, View,
         catalog_table::{Answer, Inputs, NEXT_PASSES_STALE_S, NextKey, NextPasses, arrange},
         object_detail::{DetailKey, ObjectDetail},
     },
@@ -22,72 +21,70 @@ pub(super) struct CatalogWork {
     detail: Option<(DetailKey, Option<Job<ObjectDetail>>)>,
 }
 
-impl App {
+impl CatalogWork {
     /// Brings the table up to date while it is shown.
-    pub(super) fn work_on_catalog(&mut self) {
-        self.take_catalog();
-        let CatalogState::Ready(catalog) = &self.model.catalog else { return };
-        if self.model.view != View::Elements {
+    pub(super) fn work(&mut self, model: &mut Model, wake: &Wake) {
+        self.take(model);
+        let CatalogState::Ready(catalog) = &model.catalog else { return };
+        if model.view != View::Elements {
             // Replaced jobs are cancelled.
-            self.catalog_work = CatalogWork::default();
+            *self = Self::default();
             return;
         }
-        let (model, work) = (&self.model, &mut self.catalog_work);
         let inputs = model.catalog_table.inputs(catalog, &model.station);
         let is_known =
             model.catalog_table.answer.as_ref().is_some_and(|known| known.inputs == inputs);
-        if !is_known && work.rows.as_ref().is_none_or(|(begun, _)| *begun != inputs) {
+        if !is_known && self.rows.as_ref().is_none_or(|(begun, _)| *begun != inputs) {
             let (asked, now) = (inputs.clone(), model.now);
-            let job =
-                Job::start("azel-catalog", Arc::clone(&self.wake), move |_| arrange(asked, now));
-            work.rows = Some((inputs, started(job)));
+            let job = Job::start("azel-catalog", Arc::clone(wake), move |_| arrange(asked, now));
+            self.rows = Some((inputs, started(job)));
         }
         let key = NextKey::new(catalog, &model.station);
         let is_young = |next: &Arc<NextPasses>| {
             next.key == key && seconds_between(next.made_at, model.now).abs() < NEXT_PASSES_STALE_S
         };
         let is_known = model.catalog_table.next.as_ref().is_some_and(is_young);
-        if !is_known && work.next.as_ref().is_none_or(|(begun, _)| *begun != key) {
+        if !is_known && self.next.as_ref().is_none_or(|(begun, _)| *begun != key) {
             let (asked, now) = (key.clone(), model.now);
-            let job = Job::start("azel-next-passes", Arc::clone(&self.wake), move |cancelled| {
+            let job = Job::start("azel-next-passes", Arc::clone(wake), move |cancelled| {
                 NextPasses::search(asked, now, cancelled)
             });
-            work.next = Some((key, started(job)));
+            self.next = Some((key, started(job)));
         }
         let inspected = model.catalog_table.inspected.and_then(|number| catalog.get(number));
         let Some(elements) = inspected else { return };
         let key = DetailKey::new(elements, &model.station, model.older_sets.as_ref());
         let detail = model.catalog_table.detail.as_ref();
         let is_known = detail.is_some_and(|detail| detail.is_of(&key, model.now));
-        if !is_known && work.detail.as_ref().is_none_or(|(begun, _)| *begun != key) {
+        if !is_known && self.detail.as_ref().is_none_or(|(begun, _)| *begun != key) {
             let (asked, now) = (key.clone(), model.now);
-            let job = Job::start("azel-object", Arc::clone(&self.wake), move |cancelled| {
+            let job = Job::start("azel-object", Arc::clone(wake), move |cancelled| {
                 ObjectDetail::new(asked, now, cancelled)
             });
-            work.detail = Some((key, started(job)));
+            self.detail = Some((key, started(job)));
         }
     }
 
-    fn take_catalog(&mut self) {
-        let (table, work) = (&mut self.model.catalog_table, &mut self.catalog_work);
+    fn take(&mut self, model: &mut Model) {
+        let table = &mut model.catalog_table;
         // Work that broke off stays noted: the same would break off again.
-        if let Some((_, job)) = &mut work.rows
+        if let Some((_, job)) = &mut self.rows
             && let Some(Ok(answer)) = Job::take(job)
         {
             table.answer = Some(answer);
-            work.rows = None;
+            self.rows = None;
         }
-        if let Some((_, job)) = &mut work.next
+        if let Some((_, job)) = &mut self.next
             && let Some(Ok(next)) = Job::take(job)
         {
             table.next = Some(Arc::new(next));
-            work.next = None;
+            self.next = None;
         }
-        if let Some((_, job)) = &mut work.detail
+        if let Some((_, job)) = &mut self.detail
             && let Some(Ok(detail)) = Job::take(job)
         {
             table.detail = Some(detail);
-            work.detail = None;
+            self.detail = None;
         }
     }
 }

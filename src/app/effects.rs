@@ -2,12 +2,14 @@
 
 use std::sync::Arc;
 
-use super::App;
 use crate::{
     clock::Moment,
     engine::passes::PassList,
     job::{Job, Wake},
-    model::effects::{Compare, DEBOUNCE, Effect, Effects, mounts, obstacles, sites, ways},
+    model::{
+        Model,
+        effects::{Compare, DEBOUNCE, Effect, Effects, mounts, obstacles, sites, ways},
+    },
 };
 
 /// A running computation, with its question and the revision of the pass list.
@@ -21,11 +23,10 @@ pub(super) struct EffectsJobs {
     sites: Option<EffectsJob<sites::Question>>,
 }
 
-impl App {
-    pub(super) fn work_on_effects(&mut self) {
-        let EffectsJobs { obstacles, mounts, sites } = &mut self.effects_jobs;
-        let model = &mut self.model;
-        let (passes, wake) = (&model.pass_lists.favourites, &self.wake);
+impl EffectsJobs {
+    pub(super) fn work(&mut self, model: &mut Model, wake: &Wake) {
+        let Self { obstacles, mounts, sites } = self;
+        let passes = &model.pass_lists.favourites;
         let now = Moment { utc: model.now, steady: model.steady };
         work(&mut model.obstacle_effects, obstacles, passes, now, wake);
         work(&mut model.mount_effects, mounts, passes, now, wake);

@@ -7,6 +7,7 @@ use super::{
     effects::{mounts, obstacles, sites},
     export::Export,
     intake::Offer,
+    replay::ReplayCommand,
 };
 use crate::{
     astro::HorizonMask,
@@ -82,6 +83,8 @@ pub enum UiCommand {
     Rehearse(Option<PassKey>),
     /// Cancel the rehearsal, or forget the last one.
     EndRehearsal,
+    /// Show the record again, or change how it is shown.
+    Replay(ReplayCommand),
     /// Show this folder in the file manager of the desktop.
     OpenFolder(PathBuf),
     /// Read a horizon mask from this file into the form.

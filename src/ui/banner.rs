@@ -1,9 +1,9 @@
-//! The strip that marks the demo station.
+//! The strip that marks the demo station, or a replay.
 
 use egui::{Align2, Rect, Ui, pos2, vec2};
 
 use super::{
-    text, theme,
+    replay, text, theme,
     widgets::{
         button::{Button, SMALL_HEIGHT},
         paint,
@@ -17,6 +17,11 @@ use crate::{
 
 /// Height of the strip.
 pub const HEIGHT: f32 = 32.0;
+/// Height of the strip of `model`, in a window that is not low.
+pub fn height(model: &Model) -> f32 {
+    if model.replay.is_some() { replay::HEIGHT } else { HEIGHT }
+}
+
 /// Height of the strip in a low window, where its text is shorter and its button follows that: all
 /// of it stands at one place in a narrow and in a wide view.
 pub const LOW_HEIGHT: f32 = 28.0;
@@ -32,7 +37,7 @@ pub struct BannerRoom {
 impl BannerRoom {
     /// Whether the strip, or its room, is in the view of `model`.
     pub fn is_taken(&mut self, model: &Model) -> bool {
-        if model.demo {
+        if model.demo || model.replay.is_some() {
             self.kept_for = Some(model.view);
         } else if self.kept_for != Some(model.view) {
             self.kept_for = None;
@@ -43,6 +48,9 @@ impl BannerRoom {
 
 /// Shows the strip; after the demonstration it names the station in use.
 pub fn show(ui: &mut Ui, rect: Rect, model: &Model, commands: &mut Vec<UiCommand>) {
+    if let Some(replayed) = &model.replay {
+        return replay::show(ui, rect, model, replayed, commands);
+    }
     let t = theme::tokens(ui);
     let whole = rect.shrink2(vec2(PADDING, 0.0));
     if !model.demo {

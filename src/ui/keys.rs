@@ -45,6 +45,8 @@ pub enum KeyScope {
     Record,
     /// In the Map view, but not while typing.
     Map,
+    /// In a replay, in every view, but not while typing.
+    Replay,
     /// In the Elements view, also while typing.
     Elements,
     /// In the Preferences view, also while typing.
@@ -76,7 +78,7 @@ const fn with(modifiers: Modifiers, binding: Binding) -> Binding {
 const CTRL_SHIFT: Modifiers = Modifiers::COMMAND.plus(Modifiers::SHIFT);
 
 /// All keys, in the order of the list. The app handles the key of STOP before anything else.
-pub const ALL: [Binding; 39] = [
+pub const ALL: [Binding; 40] = [
     row(KeyScope::Focus, &[(Key::Escape, Act::There)], "STOP, everywhere; closes what is open"),
     with(
         Modifiers::COMMAND,
@@ -114,6 +116,16 @@ pub const ALL: [Binding; 39] = [
         KeyScope::Record,
         &[(Key::ArrowUp, Act::RecordedPass(-1)), (Key::ArrowDown, Act::RecordedPass(1))],
         "the recorded pass before or after",
+    ),
+    row(
+        KeyScope::Replay,
+        &[
+            (Key::Space, Act::PlayOrPause),
+            (Key::Comma, Act::RecordedEvent { is_next: false }),
+            (Key::Period, Act::RecordedEvent { is_next: true }),
+            (Key::Q, Act::LeaveReplay),
+        ],
+        "in a replay: play, the event before, after, leave",
     ),
     row(KeyScope::Focus, &[(Key::Enter, Act::There)], "select what has the focus"),
     row(KeyScope::Operate, &[(Key::N, Act::NextPass)], "the pass in progress or the next one"),
@@ -368,6 +380,7 @@ pub fn take(ui: &Ui, model: &Model, targets: &mut KeyTargets<'_>, commands: &mut
         KeyScope::Record => !typing && model.view == View::Record,
         KeyScope::Map => !typing && model.view == View::Map,
         KeyScope::Plan => !typing && model.view == View::Plan,
+        KeyScope::Replay => !typing && model.replay.is_some(),
         KeyScope::Elements => model.view == View::Elements,
         KeyScope::Preferences => model.view == View::Preferences,
         KeyScope::Focus => false,

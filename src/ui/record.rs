@@ -93,7 +93,7 @@ fn show_report(
             let side = (0.344 * width).clamp(280.0, 400.0);
             let (left, right) = place.split_left_right_at_x(place.left() + side);
             path::show(ui, left, model, opened, state);
-            curves::show(ui, right, model, opened, state);
+            curves::show(ui, right, model, opened, state, commands);
             let is_wide = window.width() >= DRAWER_BELOW;
             let rows = explain::height(opened);
             let spare = rest.height() - verdict - DRAWINGS;

@@ -24,7 +24,7 @@ use super::{
     pass_list::Arrangement,
     plan, preferences, rail,
     rail::RailEntry,
-    record, second_step, setup,
+    record, replay, second_step, setup,
     sky_plot::Layers,
     timeline::Zoom,
     top_bar,
@@ -35,7 +35,7 @@ use crate::{
     desktop::file_dialog::NoDialog,
     driver::Command,
     engine::{self, closing::CloseHow},
-    model::{MaskNews, Model, UiCommand, View, export::SavedFile},
+    model::{MaskNews, Model, UiCommand, View, export::SavedFile, replay::ReplayEnd},
 };
 
 /// Input, open parts and folds of all views.
@@ -115,9 +115,33 @@ impl Views {
 
     /// Draws everything and collects the operator's commands.
     pub fn show(&mut self, ui: &mut Ui, model: &Model, commands: &mut Vec<UiCommand>) {
+        self.show_below_bar_of(model, ui, model, commands);
+    }
+
+    /// The same for the replay in `model`: the bar stays that of the live station, with STOP, and
+    /// what would act is refused.
+    pub fn show_replay(
+        &mut self,
+        ui: &mut Ui,
+        live: &Model,
+        model: &Model,
+        commands: &mut Vec<UiCommand>,
+    ) {
+        let window = ui.max_rect();
+        self.show_below_bar_of(live, ui, model, commands);
+        replay::frame(ui, window.with_min_y(window.top() + top_bar::height(window.height())));
+    }
+
+    fn show_below_bar_of(
+        &mut self,
+        live: &Model,
+        ui: &mut Ui,
+        model: &Model,
+        commands: &mut Vec<UiCommand>,
+    ) {
         let (window, before) = (ui.max_rect(), commands.len());
         let top = window.with_max_y(window.top() + top_bar::height(window.height()));
-        bar::show(ui, top, model, commands);
+        bar::show(ui, top, live, commands);
         if model.view != View::Preferences {
             self.preferences.leave();
         }
@@ -140,7 +164,7 @@ impl Views {
         let has_banner = self.banner.is_taken(model);
         self.operate.has_banner = has_banner;
         if has_banner && !is_low {
-            let strip = body.with_max_y(body.top() + banner::HEIGHT);
+            let strip = body.with_max_y(body.top() + banner::height(model));
             banner::show(ui, strip, model, commands);
             body = body.with_min_y(strip.bottom());
         }
@@ -194,6 +218,9 @@ impl Views {
             }
         }
         self.keep_edits(commands, before);
+        if model.replay.is_some() && self.refuse_in_replay(commands, before) {
+            self.notes.news = Some(Err(replay::REFUSED.to_owned()));
+        }
         self.notes.show(ui, rest, model, commands);
         if let Some(question) = second_step::ask(model, before, commands) {
             self.question = Some(question);
@@ -203,8 +230,8 @@ impl Views {
         let answered = commands.len();
         Question::show(&mut self.question, ui, commands);
         ClosingDialog::show(&mut self.closing, ui, model, commands);
-        closing::waiting(ui, model, commands);
-        changing::show(ui, model, commands);
+        closing::waiting(ui, live, commands);
+        changing::show(ui, live, commands);
         let is_manual = |command: &UiCommand| {
             matches!(command, UiCommand::Station(engine::Command::Antenna(_, Command::Manual)))
         };
@@ -237,6 +264,23 @@ impl Views {
             self.notes.news = Some(Err(text.to_owned()));
             self.plan.was_not_changed();
         }
+    }
+
+    /// Takes what would act out of the commands since `before`, and the question before it. Returns
+    /// `true` if the operator has to be told.
+    fn refuse_in_replay(&mut self, commands: &mut Vec<UiCommand>, before: usize) -> bool {
+        let acts = |command: &UiCommand| match command {
+            UiCommand::Station(command) => !command.only_looks() && !command.ends_jog(),
+            UiCommand::AskToTrack(_) | UiCommand::Rehearse(_) => true,
+            _ => false,
+        };
+        let asked = self.question.take_if(|question| acts(&question.command)).is_some();
+        commands.extract_if(before.., |command| acts(command)).count() > 0 || asked
+    }
+
+    /// Tells why a replay ended.
+    pub fn replay_ended(&mut self, why: &ReplayEnd, now: Timestamp) {
+        self.notes.news = Some(Err(replay::ended(why, now)));
     }
 
     /// Asks before the window closes or changes to another station if something would be lost with

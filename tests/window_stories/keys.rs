@@ -24,7 +24,7 @@ use egui::{Key, Modifiers, Role};
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
 
 use crate::window_stories::{
-    following, plan,
+    following, plan, replay,
     rig::{self, LARGE, SIZES, SMALL, Window, asked, settle},
     sky_time, states,
 };
@@ -141,6 +141,9 @@ fn every_key_of_the_list_does_something() {
                 window.key_press(Key::Plus);
                 asked(&mut window);
             }
+            if binding.place == KeyScope::Replay {
+                window = rig::window(SMALL, replay::model());
+            }
             if key == Key::Home {
                 window = sky_time::later(SMALL);
             }
@@ -184,7 +187,7 @@ const VIEWS: [View; 9] = [
 /// Whether the keys work in the view without the focus on a control of their own.
 fn is_live(binding: &Binding, view: View) -> bool {
     match binding.place {
-        KeyScope::Everywhere | KeyScope::Views => true,
+        KeyScope::Everywhere | KeyScope::Views | KeyScope::Replay => true,
         KeyScope::Operate => view == View::Operate,
         KeyScope::Record => view == View::Record,
         KeyScope::Map => view == View::Map,
@@ -278,7 +281,8 @@ fn views_of(place: &str) -> Vec<View> {
 
 #[test]
 fn no_control_takes_a_key_that_means_something_else_in_its_view() {
-    let arrows = [Key::ArrowLeft, Key::ArrowRight, Key::ArrowUp, Key::ArrowDown];
+    // In a view they work only while nothing has the focus.
+    let unfocused = [Key::ArrowLeft, Key::ArrowRight, Key::ArrowUp, Key::ArrowDown, Key::Space];
     let found = keys_of_controls();
     assert!(found.len() > 40, "{found:?}");
     for Taken { place, key, is_with_ctrl } in found {
@@ -286,8 +290,7 @@ fn no_control_takes_a_key_that_means_something_else_in_its_view() {
             let modifiers = if is_with_ctrl { Modifiers::COMMAND } else { Modifiers::NONE };
             let live = ALL.iter().filter(|of| of.modifiers == modifiers && is_live(of, view));
             let same = live.filter(|of| of.keys().any(|of| of == key)).map(line).next();
-            // The arrows of a view work only while nothing has the focus.
-            assert!(same.is_none() || arrows.contains(&key), "{place}: {key:?}, {same:?}");
+            assert!(same.is_none() || unfocused.contains(&key), "{place}: {key:?}, {same:?}");
         }
     }
 }

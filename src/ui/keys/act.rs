@@ -7,7 +7,7 @@ use crate::{
     astro::Offset,
     driver::{self, Intent, OffsetChange},
     engine::{self, antenna::AntennaModel, passes::PredictedPass},
-    model::{Model, UiCommand, View, globe::Towards},
+    model::{Model, UiCommand, View, globe::Towards, replay::ReplayCommand},
     station::Take,
     ui::{antenna_card::OffsetStep, elements, operate::LONG_STEP_S, second_step, theme},
 };
@@ -47,6 +47,12 @@ pub(super) enum Act {
     PlannedPass(isize),
     /// Shows the pass so many rows further down in the record.
     RecordedPass(isize),
+    PlayOrPause,
+    /// Stands at the recorded event before or after.
+    RecordedEvent {
+        is_next: bool,
+    },
+    LeaveReplay,
     /// Chooses the selected pass for the schedule, or against it.
     ChoosePass(Option<Take>),
     /// Asks whether a pass that is left out is to be taken.
@@ -93,6 +99,8 @@ impl Act {
                 let plain = ui.input(|input| input.modifiers.is_none());
                 plain && ui.memory(|memory| memory.focused().is_none())
             }
+            // A button with the focus takes it.
+            Self::PlayOrPause => ui.memory(|memory| memory.focused().is_none()),
             Self::Search => {
                 !matches!(model.view, View::Antennas | View::Map | View::Plan | View::Setup)
             }
@@ -117,6 +125,11 @@ impl Act {
                 ui.memory_mut(|memory| memory.move_focus(FocusDirection::None));
                 commands.extend(targets.operate.neighbour(model, down).map(UiCommand::SelectPass));
             }
+            Self::PlayOrPause => commands.push(UiCommand::Replay(ReplayCommand::PlayOrPause)),
+            Self::RecordedEvent { is_next } => {
+                commands.push(UiCommand::Replay(ReplayCommand::Event { is_next }));
+            }
+            Self::LeaveReplay => commands.push(UiCommand::Replay(ReplayCommand::Leave)),
             Self::RecordedPass(down) => targets.record.step(model, down),
             Self::NextPass => {
                 commands.extend(model.next_pass().map(|next| UiCommand::SelectPass(next.key())));

@@ -120,6 +120,8 @@ pub fn word(key: Key) -> &'static str {
         Key::ArrowRight => "Right",
         Key::PageUp => "Page Up",
         Key::PageDown => "Page Down",
+        Key::Comma => "comma",
+        Key::Period => "period",
         other => other.symbol_or_name(),
     }
 }

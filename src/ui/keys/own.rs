@@ -134,6 +134,7 @@ impl KeyScope {
             Self::Plan => "plan",
             Self::Record => "record",
             Self::Map => "map",
+            Self::Replay => "replay",
             Self::Elements => "elements",
             Self::Preferences => "preferences",
             Self::Focus => "focus",
@@ -143,7 +144,7 @@ impl KeyScope {
 
 /// Whether a key works in both of them at once.
 fn overlap(a: KeyScope, b: KeyScope) -> bool {
-    let everywhere = |of| matches!(of, KeyScope::Everywhere | KeyScope::Views);
+    let everywhere = |of| matches!(of, KeyScope::Everywhere | KeyScope::Views | KeyScope::Replay);
     a == b || everywhere(a) || everywhere(b)
 }
 

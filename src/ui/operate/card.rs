@@ -69,7 +69,7 @@ pub(super) fn show(
     let checked_at = snapshot.state.checked_at.map(|at| format::moment(at, model.now));
     let checked_at = checked_at.unwrap_or_default();
     let others = others(model, on_cards);
-    let locks = Locks::of(antenna, !checks.is_empty());
+    let locks = Locks::of(model, antenna, !checks.is_empty());
     let blocked = snapshot.state.measured.map(|at| axes::blocked(at, can)).unwrap_or_default();
     let jog_note = axes::unseen(antenna);
     let travel = axes::travel(antenna);
@@ -117,7 +117,7 @@ pub(super) fn show(
                 offered: &modes,
                 current: (!snapshot.pending && snapshot.link != LinkState::Off).then_some(mode),
                 is_foreign,
-                is_locked: snapshot.link == LinkState::Off,
+                is_locked: model.replay.is_some() || snapshot.link == LinkState::Off,
                 pending: snapshot.pending.then_some(mode),
             },
             track: modes.contains(&Intent::Track).then(|| TrackModel {

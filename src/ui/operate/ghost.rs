@@ -4,7 +4,6 @@
 use std::fmt::Write as _;
 
 use egui::{Key, Pos2, Rect, Role, Sense, Stroke, StrokeKind, Ui, WidgetInfo, pos2, vec2};
-use jiff::Timestamp;
 
 use super::{OperateState, card::Locks};
 use crate::{
@@ -134,14 +133,14 @@ pub(super) fn shown<'a>(antenna: &'a AntennaModel, state: &OperateState) -> Opti
 }
 
 /// What stands in the note: the sentence, and whether the antenna can be sent.
-fn found(antenna: &AntennaModel, target: Target, now: Timestamp) -> (String, bool) {
+fn found(model: &Model, antenna: &AntennaModel, target: Target) -> (String, bool) {
     let has_checks = !antenna.snapshot.state.checks.is_empty();
-    if let Some(lock) = Locks::of(antenna, has_checks).track {
+    if let Some(lock) = Locks::of(model, antenna, has_checks).track {
         return (lock.to_owned(), false);
     }
     let way = match judged(antenna, target).map(|preview| &preview.way) {
         None => return ("The way is being judged.".to_owned(), false),
-        Some(Err(refusal)) => return (words::not_possible(refusal, now), false),
+        Some(Err(refusal)) => return (words::not_possible(refusal, model.now), false),
         Some(Ok(way)) => way,
     };
     let mut said = match way.arrives_s {
@@ -174,7 +173,7 @@ pub(super) fn note(
     let t = theme::tokens(ui);
     let can = antenna.variant().capabilities;
     let head = format!("{} to {}", antenna.config.name, format::pointing(pointing(target), can));
-    let (said, is_possible) = found(antenna, target, model.now);
+    let (said, is_possible) = found(model, antenna, target);
     let width = WIDTH - 2.0 * PADDING;
     let layout =
         |words: &str, font, colour| ui.painter().layout(words.to_owned(), font, colour, width);

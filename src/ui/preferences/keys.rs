@@ -23,13 +23,14 @@ const GAP: f32 = 4.0;
 const WAITING: &str = "Press a key";
 
 /// The cards, each with its title and its scopes.
-const CARDS: [(&str, &[KeyScope]); 7] = [
+const CARDS: [(&str, &[KeyScope]); 8] = [
     ("In every view", &[KeyScope::Everywhere, KeyScope::Views]),
     ("In the focused control", &[KeyScope::Focus]),
     ("In Operate", &[KeyScope::Operate]),
     ("In Plan", &[KeyScope::Plan]),
     ("In Record", &[KeyScope::Record]),
     ("In Map", &[KeyScope::Map]),
+    ("In a replay", &[KeyScope::Replay]),
     ("In Elements and Preferences", &[KeyScope::Elements, KeyScope::Preferences]),
 ];
 

@@ -4,8 +4,12 @@ use egui::{Align2, Rect, RichText, Role, TextEdit, Ui, WidgetInfo, pos2, vec2};
 
 use super::{PADDING, RecordState};
 use crate::{
+    astro::time::add_seconds,
     engine::antenna::AntennaModel,
-    model::{Model, UiCommand},
+    model::{
+        Model, UiCommand,
+        replay::{ReplayCommand, Stretch},
+    },
     plan::pass_report::PassVerdict,
     ui::{
         format,
@@ -29,6 +33,8 @@ const SEARCH: f32 = 208.0;
 /// In a bar below this width the recording state is a mark, and the title has no second line.
 const WIDE: f32 = 1150.0;
 const ANTENNA: f32 = 84.0;
+/// The last hour is shown again from so long ago on, seconds.
+const LAST_S: f64 = 60.0;
 const VERDICTS: [PassVerdict; 3] = [PassVerdict::Good, PassVerdict::Fair, PassVerdict::Poor];
 
 pub(super) fn show(
@@ -37,7 +43,7 @@ pub(super) fn show(
     model: &Model,
     has_drawer: bool,
     state: &mut RecordState,
-    _commands: &mut Vec<UiCommand>,
+    commands: &mut Vec<UiCommand>,
 ) {
     let t = theme::tokens(ui);
     ui.painter().rect_filled(rect, 0.0, t.bg1);
@@ -63,7 +69,9 @@ pub(super) fn show(
     let at = place(if is_wide { SEARCH } else { SEARCH - 48.0 });
     search(ui, at, state);
     verdicts(ui, &mut place, state);
-    recording(ui, inner.with_min_x(left + GAP), model);
+    let room = inner.with_min_x(left + GAP);
+    let rest = last_hour(ui, room, model, commands);
+    recording(ui, rest, model);
 }
 
 fn title(ui: &Ui, rect: Rect, model: &Model, is_wide: bool, state: &RecordState) {
@@ -166,6 +174,26 @@ fn verdicts(ui: &Ui, place: &mut impl FnMut(f32) -> Rect, state: &mut RecordStat
             ui.selectable_value(&mut state.query.verdict, Some(verdict), words::verdict(verdict));
         }
     });
+}
+
+/// Shows the last hour again. Returns the room at the left of its button.
+fn last_hour(ui: &Ui, room: Rect, model: &Model, commands: &mut Vec<UiCommand>) -> Rect {
+    let is_possible = model.record.is_some() && model.replay.is_none();
+    let button = Button::normal("Replay the last hour").locked(!is_possible);
+    let size = vec2(button.width(ui), BUTTON);
+    let min = pos2(room.right() - size.x, room.center().y - BUTTON / 2.0);
+    let response = button.show(ui, "replay the last hour", Rect::from_min_size(min, size));
+    if response.clicked() {
+        let from = add_seconds(model.now, -3600.0);
+        let name = "the last hour".to_owned();
+        let stretch = Stretch { name, satellite: None, from, until: model.now };
+        let at = add_seconds(model.now, -LAST_S);
+        commands.push(UiCommand::Replay(ReplayCommand::Begin(stretch, at)));
+    }
+    let why =
+        if model.record.is_none() { "Nothing is recorded." } else { "It begins a minute ago." };
+    response.on_hover_text(why);
+    room.with_max_x(min.x - 2.0 * GAP)
 }
 
 /// Whether the record is written, at the right.

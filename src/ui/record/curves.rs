@@ -3,10 +3,10 @@
 use egui::{Align2, Color32, Rect, Role, Sense, Stroke, Ui, WidgetInfo, pos2, vec2};
 use jiff::{SignedDuration, Timestamp};
 
-use super::{PADDING, RecordState, cursor, events};
+use super::{PADDING, RecordState, cursor, events, report};
 use crate::{
     astro::time::{add_seconds, seconds_between},
-    model::Model,
+    model::{Model, UiCommand},
     plan::pass_report::{PointingError, TrackPoint},
     record::OpenedPass,
     ui::{
@@ -44,6 +44,7 @@ pub(super) fn show(
     model: &Model,
     opened: &OpenedPass,
     state: &mut RecordState,
+    commands: &mut Vec<UiCommand>,
 ) {
     let t = theme::tokens(ui);
     ui.painter().vline(rect.left() + 0.5, rect.y_range(), (1.0, t.line));
@@ -78,7 +79,10 @@ pub(super) fn show(
     events::show(ui, lanes, plots, &axis, model, opened, state);
 
     let whole = plots.with_min_y(direction.top()).with_max_y(error.bottom());
-    follow_pointer(ui, whole, &axis, opened, model.now, state);
+    let replays = follow_pointer(ui, whole, &axis, opened, model.now, state);
+    if replays && model.replay.is_none() {
+        commands.push(report::replay(&opened.pass, state.cursor));
+    }
     let point = cursor::point(opened, state);
     if let Some(at) = state.cursor.or(point.map(|point| point.time)) {
         let x = axis.x(at);
@@ -90,7 +94,8 @@ pub(super) fn show(
     }
 }
 
-/// Moves the cursor with the pointer and the arrow keys.
+/// Moves the cursor with the pointer and the arrow keys. Returns `true` when the moment at the cursor
+/// is to be shown again: by a double click, or by Enter.
 fn follow_pointer(
     ui: &Ui,
     rect: Rect,
@@ -98,7 +103,7 @@ fn follow_pointer(
     opened: &OpenedPass,
     now: Timestamp,
     state: &mut RecordState,
-) {
+) -> bool {
     let id = ui.make_persistent_id("record cursor");
     let response = ui.interact(rect, id, Sense::click_and_drag());
     if let Some(at) = response.hover_pos().or(response.interact_pointer_pos()) {
@@ -131,6 +136,9 @@ fn follow_pointer(
     };
     response.widget_info(|| WidgetInfo::labeled(Role::Slider, true, &words));
     paint::focus_ring(ui, &response, 2);
+    let enter = response.has_focus() && ui.input(|input| input.key_pressed(egui::Key::Enter));
+    let response = response.on_hover_text("Double-click, or Enter: replay from this moment");
+    response.double_clicked() || enter
 }
 
 fn title(ui: &Ui, rect: Rect, words: &str, note: &str, legend: &[(&str, Color32, bool)]) {

@@ -2,11 +2,15 @@
 
 use egui::{Align2, Popup, Rect, Ui, pos2, vec2};
 
+use jiff::Timestamp;
+
 use super::{PADDING, list};
 use crate::{
+    astro::time::add_seconds,
     model::{
         Model, UiCommand,
         export::{Export, ReportFormat},
+        replay::{ReplayCommand, Stretch},
     },
     record::RecordedPass,
     ui::{
@@ -20,6 +24,9 @@ use crate::{
 };
 
 pub(super) const HEAD: f32 = 56.0;
+/// A replay of a pass shows so much before and after it, seconds.
+const BEFORE_S: f64 = 30.0;
+const AFTER_S: f64 = 60.0;
 /// Room above, below and beside the sentence in its box.
 const INSET: f32 = 12.0;
 const FORMATS: [(ReportFormat, &str); 3] = [
@@ -51,6 +58,13 @@ pub(super) fn head(
             }
         }
     });
+    let button = Button::primary("Replay").locked(model.replay.is_some() || model.record.is_none());
+    let size = vec2(button.width(ui), BUTTON);
+    let at =
+        Rect::from_min_size(pos2(at.left() - 8.0 - size.x, rect.center().y - BUTTON / 2.0), size);
+    if button.show(ui, "replay", at).clicked() {
+        commands.push(replay(pass, None));
+    }
     let room = inner.with_max_x(at.left() - PADDING);
     let line = |y: f32| {
         Rect::from_x_y_ranges(room.x_range(), rect.top() + y - 12.0..=rect.top() + y + 12.0)
@@ -75,6 +89,19 @@ pub(super) fn head(
     );
     paint::text_in(ui, line(40.0), left, &when, text::small(), t.t2);
     paint::name_text(ui, "report head", room, &format!("{name}, {by}, {when}"));
+}
+
+/// Shows the pass again, from `at` on or from shortly before its track.
+pub(super) fn replay(pass: &RecordedPass, at: Option<Timestamp>) -> UiCommand {
+    let report = &pass.report;
+    let from = add_seconds(report.from.min(report.about.begun), -BEFORE_S);
+    let stretch = Stretch {
+        name: report.elements.short_name().to_owned(),
+        satellite: Some(report.elements.catalog_number()),
+        from,
+        until: add_seconds(report.until, AFTER_S),
+    };
+    UiCommand::Replay(ReplayCommand::Begin(stretch, at.unwrap_or(from)))
 }
 
 pub(super) fn verdict_height(ui: &Ui, width: f32, model: &Model, pass: &RecordedPass) -> f32 {

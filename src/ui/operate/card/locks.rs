@@ -3,6 +3,8 @@
 use crate::{
     driver::{Intent, LinkState},
     engine::antenna::AntennaModel,
+    model::Model,
+    ui::replay,
 };
 
 /// The lock of all controls for moving by hand while a target is tracked.
@@ -22,8 +24,24 @@ pub(in crate::ui::operate) struct Locks {
 }
 
 impl Locks {
+    /// Those of a replay, in which nothing can be asked of a unit.
+    const REPLAY: Self = Self {
+        link: Some(replay::LOCKED),
+        jog: Some(replay::LOCKED),
+        go_to: Some(replay::LOCKED),
+        track: Some(replay::LOCKED),
+        action: Some(replay::LOCKED),
+    };
+
     /// `has_checks`: the card has a section that names faults.
-    pub(in crate::ui::operate) fn of(antenna: &AntennaModel, has_checks: bool) -> Self {
+    pub(in crate::ui::operate) fn of(
+        model: &Model,
+        antenna: &AntennaModel,
+        has_checks: bool,
+    ) -> Self {
+        if model.replay.is_some() {
+            return Self::REPLAY;
+        }
         let snapshot = &antenna.snapshot;
         let intent = snapshot.intent;
         let program = snapshot.state.program.is_some_and(|program| program.enabled);

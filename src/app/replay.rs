@@ -1,0 +1,388 @@
+//! The record shown again in the window, while the live station goes on.
+//!
+//! Invariant: nothing here can reach a unit. A replay has a model and views of its own, and no handle
+//! on a station. What its views ask for ends here, but for [`Beyond`], which holds no command.
+
+mod room;
+
+use std::{path::PathBuf, sync::Arc};
+
+use jiff::Timestamp;
+
+use self::room::{Answer, Room, Scene, Wanted};
+use super::{App, catalog_table::CatalogWork, effects::EffectsJobs};
+use crate::{
+    astro::time::add_seconds,
+    clock::{Instant, Moment},
+    engine::{
+        Command,
+        alarms::{Alarm, Priority},
+        passes::{PredictedPass, Scope},
+        recorded::RecordLook,
+    },
+    job::{Job, Wake},
+    model::{
+        Appearance, Model, UiCommand, View,
+        replay::{ReplayCommand, ReplayEnd, ReplayProblem, Replayed, Stretch},
+    },
+    plan::schedule::Entry,
+    station::AntennaId,
+    ui,
+};
+
+/// Least time between two moments that are shown while it plays, seconds.
+const STEP_S: f64 = 0.05;
+
+/// A replay ends so long before a pass that the station will track, seconds.
+const BEFORE_PASS_S: f64 = 120.0;
+
+impl App {
+    /// Shows a stretch of the record again, from `at` on.
+    pub(super) fn begin_replay(&mut self, stretch: Stretch, at: Timestamp) {
+        let Some(record) = &self.model.record else { return };
+        let views = ui::Views::with(self.views.kept());
+        let (path, wake) = (record.path.clone(), Arc::clone(&self.wake));
+        self.replay = Some(Replay::begin(path, stretch, at, &self.model, views, wake));
+    }
+
+    /// Shows the live station again, and why.
+    pub(super) fn leave_replay(&mut self, why: Option<ReplayEnd>) {
+        let Some(replay) = self.replay.take() else { return };
+        replay.end();
+        if let Some(why) = why {
+            self.views.replay_ended(&why, self.model.now);
+        }
+    }
+
+    pub(super) fn go_on_with_replay(&mut self) {
+        let Some(replay) = &mut self.replay else { return };
+        replay.think(self.model.steady);
+        let why = replay.why_over(&self.model);
+        if why.is_some() {
+            self.leave_replay(why);
+        }
+    }
+
+    /// Carries out a command of the views of a replay: there, or what leads out of it.
+    pub(super) fn carry_out_in_replay(&mut self, command: UiCommand, ctx: &egui::Context) {
+        let Some(replay) = &mut self.replay else { return };
+        match replay.carry_out(command) {
+            None => {}
+            Some(Beyond::Stop) => self.stop_all(),
+            Some(Beyond::StopAntenna(antenna)) => self.stop_one(antenna),
+            Some(Beyond::Leave) => self.leave_replay(None),
+            Some(Beyond::Show(view)) => self.show_view(view),
+            Some(Beyond::Appear(appearance)) => {
+                replay.appear(appearance);
+                self.change_appearance(appearance, ctx);
+            }
+        }
+    }
+}
+
+/// What leads out of a replay.
+pub(super) enum Beyond {
+    /// STOP of the live station.
+    Stop,
+    /// STOP of one of its antennas.
+    StopAntenna(AntennaId),
+    Leave,
+    Show(View),
+    Appear(Appearance),
+}
+
+/// A stretch of the record shown again.
+pub(super) struct Replay {
+    model: Model,
+    views: ui::Views,
+    /// UTC of the live station when it began.
+    begun_at: Timestamp,
+    projection: Projection,
+    /// The moment to show next.
+    wanted: Option<Wanted>,
+    /// When the moment that is shown moved on last, by the clock of the window.
+    moved_at: Instant,
+    /// What is looked at of the record.
+    look: Option<RecordLook>,
+    catalog_work: CatalogWork,
+    effects_jobs: EffectsJobs,
+    wake: Wake,
+}
+
+/// The projector, on the thread that uses it or at rest.
+enum Projection {
+    Idle(Box<Room>),
+    Busy(Job<(Box<Room>, Answer)>),
+    BrokeDown,
+}
+
+impl Replay {
+    /// Begins to show a stretch of the record at `path`, in the window that shows `live`.
+    pub(super) fn begin(
+        path: PathBuf,
+        stretch: Stretch,
+        at: Timestamp,
+        live: &Model,
+        views: ui::Views,
+        wake: Wake,
+    ) -> Self {
+        let now = Moment { utc: at, steady: live.steady };
+        let mut model = Model::before_anything(now);
+        (model.view, model.appearance, model.list) = (live.view, live.appearance, live.list);
+        // The film has the elements of the favourites.
+        model.list.scope = Scope::Favourites;
+        model.selected_antenna = live.selected_antenna;
+        model.replay = Some(Replayed { stretch, at, speed: 1, plays: true, problem: None });
+        Self {
+            model,
+            views,
+            begun_at: live.now,
+            projection: Projection::Idle(Box::new(Room::new(path))),
+            wanted: Some(Wanted::At(at)),
+            moved_at: live.steady,
+            look: None,
+            catalog_work: CatalogWork::default(),
+            effects_jobs: EffectsJobs::default(),
+            wake,
+        }
+    }
+
+    pub(super) fn model(&self) -> &Model {
+        &self.model
+    }
+
+    pub(super) fn plays(&self) -> bool {
+        self.model.replay.as_ref().is_some_and(|replay| replay.plays)
+    }
+
+    /// Takes what was found, and moves on. `now`: the clock of the window.
+    pub(super) fn think(&mut self, now: Instant) {
+        self.take_answer();
+        self.move_on(now);
+        self.ask();
+        self.effects_jobs.work(&mut self.model, &self.wake);
+        self.catalog_work.work(&mut self.model, &self.wake);
+        self.model.refresh_sky();
+    }
+
+    /// Why it ends by itself, by what happens at the live station.
+    fn why_over(&self, live: &Model) -> Option<ReplayEnd> {
+        let is_grave = |alarm: &Alarm| {
+            alarm.priority() == Priority::First && !alarm.seen && alarm.last > self.begun_at
+        };
+        if live.alarms.list().iter().any(is_grave) {
+            return Some(ReplayEnd::Alarm);
+        }
+        let is_near = |entry: &&Entry| {
+            let ends_at = add_seconds(entry.from, -BEFORE_PASS_S);
+            let is_taken = live.antenna_of(entry.antenna).is_some_and(|of| of.operation.is_on());
+            is_taken && self.begun_at < ends_at && ends_at <= live.now && live.now < entry.from
+        };
+        let entry = live.schedule.schedule.entries.iter().find(is_near)?;
+        let satellite = live.pass_lists.satellite(entry.pass.satellite);
+        let name = satellite.map_or_else(String::new, |of| of.short_name().to_owned());
+        Some(ReplayEnd::Pass { name, from: entry.from })
+    }
+
+    /// Ends it. The file is closed elsewhere: that takes a disk.
+    fn end(self) {
+        if let Projection::Idle(room) = self.projection {
+            let closed = Job::start("azel-replay", self.wake, move |_| drop(room));
+            if let Err(error) = closed {
+                tracing::error!(%error, "no thread to close the film");
+            }
+        }
+    }
+
+    pub(super) fn show(&mut self, ui: &mut egui::Ui, live: &Model, commands: &mut Vec<UiCommand>) {
+        self.views.show_replay(ui, live, &self.model, commands);
+    }
+
+    /// Carries out a command of the views of the replay, or returns what leads out of it. All others
+    /// end here.
+    pub(super) fn carry_out(&mut self, command: UiCommand) -> Option<Beyond> {
+        let model = &mut self.model;
+        match command {
+            UiCommand::Stop => return Some(Beyond::Stop),
+            UiCommand::StopAntenna(antenna) => return Some(Beyond::StopAntenna(antenna)),
+            UiCommand::Replay(ReplayCommand::Leave) => return Some(Beyond::Leave),
+            UiCommand::Replay(command) => self.change(command),
+            // The set-up is of the live station.
+            UiCommand::Show(View::Setup) => {}
+            UiCommand::Show(view) => {
+                model.view = view;
+                return Some(Beyond::Show(view));
+            }
+            UiCommand::SetTheme(theme) => {
+                let appearance = Appearance { theme, light_by_day: false, ..model.appearance };
+                return Some(Beyond::Appear(appearance));
+            }
+            UiCommand::SetAppearance(appearance) => return Some(Beyond::Appear(appearance)),
+            UiCommand::SelectPass(pass) => model.selected = Some(pass),
+            UiCommand::SelectSatellite(number) => {
+                model.selected = model.pass_of(number).map(PredictedPass::key).or(model.selected);
+            }
+            UiCommand::SelectAntenna(index) => model.selected_antenna = index,
+            UiCommand::SetSpan(span_h) => model.list.set_span_h(span_h),
+            UiCommand::ShowEffects(asked) => model.obstacle_effects.ask(*asked, model.steady),
+            UiCommand::ShowTracked(asked) => model.mount_effects.ask(*asked, model.steady),
+            UiCommand::ShowMoved(asked) => model.site_effects.ask(*asked, model.steady),
+            UiCommand::ShowCatalog(asked) => model.catalog_table.asked = asked,
+            UiCommand::InspectObject(number) => model.catalog_table.inspected = Some(number),
+            UiCommand::Station(Command::LookAtRecord(look)) => {
+                if look.is_none() {
+                    model.recorded = None;
+                }
+                self.look = look;
+            }
+            _ => {}
+        }
+        (self.wake)();
+        None
+    }
+
+    pub(super) fn appear(&mut self, appearance: Appearance) {
+        self.model.appearance = appearance;
+    }
+
+    fn change(&mut self, command: ReplayCommand) {
+        let Some(replay) = &mut self.model.replay else { return };
+        match command {
+            ReplayCommand::Begin(stretch, at) => {
+                *replay = Replayed { stretch, at, plays: true, ..replay.clone() };
+                self.model.selected = None;
+                self.wanted = Some(Wanted::At(at));
+            }
+            ReplayCommand::PlayOrPause => {
+                if !replay.plays && replay.is_at_end() {
+                    let stretch = &replay.stretch;
+                    let start = if replay.speed < 0 { stretch.until } else { stretch.from };
+                    self.wanted = Some(Wanted::At(start));
+                }
+                replay.plays = !replay.plays;
+            }
+            ReplayCommand::Speed(speed) => replay.speed = speed,
+            ReplayCommand::Event { is_next } => {
+                replay.plays = false;
+                self.wanted = Some(Wanted::Event { from: replay.at, is_next });
+            }
+            ReplayCommand::To(at) => {
+                let at = at.clamp(replay.stretch.from, replay.stretch.until);
+                self.wanted = Some(Wanted::At(at));
+            }
+            ReplayCommand::Leave => {}
+        }
+    }
+
+    fn take_answer(&mut self) {
+        let idle = Projection::BrokeDown;
+        let answer = match std::mem::replace(&mut self.projection, idle) {
+            Projection::Busy(job) => {
+                let mut job = Some(job);
+                match Job::take(&mut job) {
+                    None => {
+                        if let Some(job) = job {
+                            self.projection = Projection::Busy(job);
+                        }
+                        return;
+                    }
+                    Some(Ok((room, answer))) => {
+                        self.projection = Projection::Idle(room);
+                        answer
+                    }
+                    Some(Err(broke_off)) => {
+                        return self.tell(ReplayProblem::Failed(broke_off.to_string()));
+                    }
+                }
+            }
+            projection => {
+                self.projection = projection;
+                return;
+            }
+        };
+        if answer.recorded.is_some() {
+            self.model.recorded = answer.recorded.map(Arc::new);
+        }
+        let Some(at) = answer.at else { return };
+        if let Some(replay) = &mut self.model.replay {
+            replay.at = at;
+            replay.stretch = replay.stretch.clone().around(at);
+            replay.problem = None;
+        }
+        match answer.scene {
+            Ok(Some(scene)) => self.take_scene(at, scene),
+            Ok(None) => self.tell(ReplayProblem::NothingYet),
+            Err(error) => self.tell(ReplayProblem::Failed(error.to_string())),
+        }
+    }
+
+    fn take_scene(&mut self, at: Timestamp, Scene { shown, wires }: Scene) {
+        let model = &mut self.model;
+        let recorded = model.recorded.take();
+        model.take(&shown, |antenna| {
+            wires.iter().find(|(of, _)| *of == antenna).map(|(_, wire)| wire.clone())
+        });
+        // The record is read by itself, and a closing is of the live station.
+        (model.recorded, model.closing) = (recorded, None);
+        // Ages are those of that moment.
+        let passed = at.duration_since(shown.at.utc).try_into().unwrap_or_default();
+        (model.now, model.steady) = (at, shown.at.steady + passed);
+        if model.selected_pass().is_none() {
+            let satellite = model.replay.as_ref().and_then(|replay| replay.stretch.satellite);
+            let pass = satellite.and_then(|number| model.pass_of(number));
+            model.selected = pass.or_else(|| model.next_pass()).map(PredictedPass::key);
+        }
+    }
+
+    fn tell(&mut self, problem: ReplayProblem) {
+        if let Some(replay) = &mut self.model.replay {
+            replay.problem = Some(problem);
+            replay.plays = false;
+        }
+    }
+
+    fn move_on(&mut self, now: Instant) {
+        let passed_s = now.saturating_duration_since(self.moved_at).as_secs_f64();
+        let Some(replay) = &mut self.model.replay else { return };
+        if !replay.plays || self.wanted.is_some() {
+            self.moved_at = now;
+            return;
+        }
+        if passed_s < STEP_S || !matches!(self.projection, Projection::Idle(_)) {
+            return;
+        }
+        self.moved_at = now;
+        if replay.is_at_end() {
+            replay.plays = false;
+            return;
+        }
+        let at = add_seconds(replay.at, passed_s * f64::from(replay.speed));
+        let at = at.clamp(replay.stretch.from, replay.stretch.until);
+        self.wanted = Some(Wanted::At(at));
+    }
+
+    /// Hands the projector what is wanted, if it has nothing to do.
+    fn ask(&mut self) {
+        let is_read =
+            |of: &RecordLook| self.model.recorded.as_ref().is_some_and(|it| it.look == *of);
+        let look = self.look.as_ref().filter(|look| !is_read(look)).cloned();
+        if self.wanted.is_none() && look.is_none() {
+            return;
+        }
+        let Projection::Idle(_) = self.projection else { return };
+        let Projection::Idle(room) = std::mem::replace(&mut self.projection, Projection::BrokeDown)
+        else {
+            return;
+        };
+        let (wanted, site) = (self.wanted.take(), self.model.station.site);
+        let job = Job::start("azel-replay", Arc::clone(&self.wake), move |_| {
+            let mut room = room;
+            let answer = room.answer(wanted, look, site);
+            (room, answer)
+        });
+        match job {
+            Ok(job) => self.projection = Projection::Busy(job),
+            Err(error) => self.tell(ReplayProblem::Failed(error.to_string())),
+        }
+    }
+}

@@ -1,0 +1,320 @@
+//! The strip over a replay: what is shown, and how it goes on.
+
+use egui::{
+    Align2, Color32, EventFilter, Key, Rect, Response, Role, Sense, Shape, Stroke, StrokeKind, Ui,
+    WidgetInfo, pos2, vec2,
+};
+use jiff::Timestamp;
+
+use super::{
+    format, text, theme,
+    tokens::Tokens,
+    widgets::{
+        button::{Button, HEIGHT as BUTTON, RADIUS, SMALL_HEIGHT},
+        paint,
+        segmented::{self, Segment},
+    },
+    words,
+};
+use crate::{
+    astro::time::{add_seconds, seconds_between},
+    model::{
+        Model, UiCommand,
+        replay::{ReplayCommand, ReplayEnd, ReplayProblem, Replayed, SPEEDS},
+    },
+};
+
+pub const HEIGHT: f32 = 56.0;
+/// The reason why controls are locked.
+pub const LOCKED: &str = "Locked: this is a replay. Leave it to command the station.";
+/// The answer to a command.
+pub const REFUSED: &str = "Not done: this is a replay. Leave it to command the station.";
+const GOES_ON: &str = "The live station goes on. STOP works.";
+
+/// In a strip of this width there is room for everything.
+const WIDE: f32 = 1200.0;
+const HATCHED: f32 = 72.0;
+const GAP: f32 = 8.0;
+const TAG: f32 = 76.0;
+const TIME: f32 = 104.0;
+const SMALL_TIME: f32 = 72.0;
+const ABOUT: f32 = 236.0;
+const KEY: f32 = 36.0;
+const SMALL_KEY: f32 = 26.0;
+const SPEEDS_WIDTH: f32 = 270.0;
+const SPEED: f32 = 52.0;
+/// Thickness of the frame around a replay.
+const FRAME: f32 = 3.0;
+
+/// Why a replay ended by itself, in a sentence.
+pub fn ended(why: &ReplayEnd, now: Timestamp) -> String {
+    match why {
+        ReplayEnd::Stop => "Replay ended: STOP was pressed.".to_owned(),
+        ReplayEnd::Alarm => "Replay ended: there is an alarm of the first priority.".to_owned(),
+        ReplayEnd::Pass { name, from } => {
+            let name = if name.is_empty() { "a satellite" } else { name };
+            format!("Replay ended: {name} is tracked from {} on.", format::moment(*from, now))
+        }
+    }
+}
+
+/// Shows the strip.
+pub fn show(
+    ui: &mut Ui,
+    rect: Rect,
+    live: &Model,
+    replay: &Replayed,
+    commands: &mut Vec<UiCommand>,
+) {
+    let t = theme::tokens(ui);
+    ui.painter().rect_filled(rect, 0.0, t.warnbg);
+    let is_high = rect.height() >= HEIGHT;
+    let is_wide = is_high && rect.width() >= WIDE;
+    let mut left = rect.left() + GAP;
+    ui.painter().hline(rect.x_range(), rect.top() + 0.5, (1.0, t.warn));
+    if is_wide {
+        hatch(ui, rect.with_max_x(rect.left() + HATCHED), t);
+        left = rect.left() + HATCHED + GAP;
+    }
+    let height = if is_high { BUTTON } else { SMALL_HEIGHT };
+    let mut place = |width: f32| {
+        let at =
+            Rect::from_min_size(pos2(left, rect.center().y - height / 2.0), vec2(width, height));
+        left += width + GAP;
+        at
+    };
+    let centre = Align2::CENTER_CENTER;
+    let tag = place(TAG);
+    ui.painter().rect_filled(tag, RADIUS, t.warn);
+    paint::text_in(ui, tag, centre, "REPLAY", text::body_medium(), t.bg0);
+    let clock = place(if is_high { TIME } else { SMALL_TIME });
+    let font = if is_high { text::clock() } else { text::value() };
+    let font = if is_high { egui::FontId { size: 20.0, ..font } } else { font };
+    paint::text_in(ui, clock, centre, &format::clock(replay.at), font, t.t1);
+    let about = about(replay, live.now);
+    paint::name_text(ui, "replay", tag.union(clock), &format!("Replay, {about}"))
+        .on_hover_text(GOES_ON);
+    if is_wide {
+        let room = place(ABOUT);
+        let line = |y: f32| {
+            Rect::from_x_y_ranges(
+                room.x_range(),
+                room.center().y + y - 9.0..=room.center().y + y + 9.0,
+            )
+        };
+        let left = Align2::LEFT_CENTER;
+        let of = format!("{}, {}", format::date(replay.at), replay.stretch.name);
+        paint::text_in(ui, line(-9.0), left, &of, text::small(), t.t1);
+        let said = problem(replay).unwrap_or_else(|| GOES_ON.to_owned());
+        paint::text_in(ui, line(9.0), left, &said, text::small(), t.warn);
+        paint::name_text(ui, "about the replay", line(9.0), &said).on_hover_text(&said);
+    }
+    let key = if is_high { KEY } else { SMALL_KEY };
+    transport(ui, &mut || place(key), replay, commands);
+    speeds(ui, &mut place, is_wide, replay, commands);
+    let leave = Button::normal(if is_high { "Leave replay (Q)" } else { "Leave (Q)" });
+    let size = vec2(leave.width(ui), height);
+    let min = pos2(rect.right() - 2.0 * GAP - size.x, rect.center().y - height / 2.0);
+    let at = Rect::from_min_size(min, size);
+    let rest = rect.with_min_x(left + GAP).with_max_x(at.left() - 2.0 * GAP);
+    match problem(replay).filter(|_| !is_wide) {
+        Some(said) => {
+            paint::text_in(ui, rest, Align2::LEFT_CENTER, &said, text::small(), t.warn);
+            paint::name_text(ui, "about the replay", rest, &said).on_hover_text(&said);
+        }
+        None => scrubber(ui, rest, replay, commands),
+    }
+    if leave.show(ui, "leave replay", at).clicked() {
+        commands.push(UiCommand::Replay(ReplayCommand::Leave));
+    }
+}
+
+/// Draws the frame around a replay; its strip is the upper side.
+pub fn frame(ui: &Ui, rect: Rect) {
+    let stroke = Stroke::new(FRAME, theme::tokens(ui).warn);
+    let inner = rect.shrink(FRAME / 2.0);
+    for x in [inner.left(), inner.right()] {
+        ui.painter().vline(x, rect.y_range(), stroke);
+    }
+    ui.painter().hline(rect.x_range(), inner.bottom(), stroke);
+}
+
+fn about(replay: &Replayed, now: Timestamp) -> String {
+    let speed = in_words(replay.speed);
+    let goes = if replay.plays { format!("plays at {speed}") } else { "stands".to_owned() };
+    let said = problem(replay).unwrap_or_else(|| GOES_ON.to_owned());
+    format!("{} of {}, {goes}. {said}", format::moment(replay.at, now), replay.stretch.name)
+}
+
+fn in_words(speed: i32) -> String {
+    format!("{speed}×")
+}
+
+fn problem(replay: &Replayed) -> Option<String> {
+    Some(match replay.problem.as_ref()? {
+        ReplayProblem::NothingYet => "Nothing was filmed at this moment.".to_owned(),
+        ReplayProblem::Failed(why) => format!("Not shown. {}", words::sentence(why)),
+    })
+}
+
+fn hatch(ui: &Ui, rect: Rect, t: &Tokens) {
+    let painter = ui.painter().with_clip_rect(rect);
+    let mut x = rect.left() - rect.height();
+    while x < rect.right() {
+        let line = [pos2(x, rect.bottom()), pos2(x + rect.height(), rect.top())];
+        painter.line_segment(line, (3.0, t.warn));
+        x += 12.0;
+    }
+}
+
+/// The event before, backward, forward, the event after.
+fn transport(
+    ui: &Ui,
+    place: &mut dyn FnMut() -> Rect,
+    replay: &Replayed,
+    commands: &mut Vec<UiCommand>,
+) {
+    let t = theme::tokens(ui);
+    let event = |is_next| UiCommand::Replay(ReplayCommand::Event { is_next });
+    let at = place();
+    if key(ui, "event before", at, "The event before (comma)", false).clicked() {
+        commands.push(event(false));
+    }
+    triangle(ui, at, -1.0, true, t.t1);
+    for (sign, salt) in [(-1, "play backward"), (1, "play forward")] {
+        let at = place();
+        let goes = replay.plays && replay.speed.signum() == sign;
+        let name = match (goes, sign) {
+            (true, _) => "Pause (Space)",
+            (false, 1) => "Play",
+            (false, _) => "Play backward",
+        };
+        if key(ui, salt, at, name, goes).clicked() {
+            if replay.speed.signum() != sign {
+                commands.push(UiCommand::Replay(ReplayCommand::Speed(-replay.speed)));
+            }
+            if goes || !replay.plays {
+                commands.push(UiCommand::Replay(ReplayCommand::PlayOrPause));
+            }
+        }
+        if goes {
+            for x in [-3.5, 3.5] {
+                let bar = Rect::from_center_size(at.center() + vec2(x, 0.0), vec2(3.5, 12.0));
+                ui.painter().rect_filled(bar, 0.0, t.onsat);
+            }
+        } else {
+            triangle(ui, at, sign as f32, false, t.t1);
+        }
+    }
+    let at = place();
+    if key(ui, "event after", at, "The event after (period)", false).clicked() {
+        commands.push(event(true));
+    }
+    triangle(ui, at, 1.0, true, t.t1);
+}
+
+fn key(ui: &Ui, salt: &str, rect: Rect, name: &str, is_on: bool) -> Response {
+    let t = theme::tokens(ui);
+    let response = paint::control(ui, salt, rect, Role::Button, true, name);
+    let fill = match (is_on, response.is_pointer_button_down_on()) {
+        (true, _) => t.sat,
+        (false, true) => t.bgsel,
+        (false, false) => t.bg3,
+    };
+    let border = if response.hovered() { t.t2 } else { t.edge };
+    ui.painter().rect(rect, RADIUS, fill, Stroke::new(1.0, border), StrokeKind::Inside);
+    paint::focus_ring(ui, &response, RADIUS);
+    response.on_hover_text(name)
+}
+
+/// A triangle that points to the left below zero; `to_stop`: with a bar at its tip.
+fn triangle(ui: &Ui, rect: Rect, towards: f32, to_stop: bool, colour: Color32) {
+    let (at, size) = (rect.center(), 5.0);
+    let tip = at + vec2(towards * size, 0.0);
+    let base = at.x - towards * size;
+    let corners = vec![tip, pos2(base, at.y - size), pos2(base, at.y + size)];
+    ui.painter().add(Shape::convex_polygon(corners, colour, Stroke::NONE));
+    if to_stop {
+        let bar = Rect::from_center_size(tip + vec2(towards, 0.0), vec2(2.0, 2.0 * size));
+        ui.painter().rect_filled(bar, 0.0, colour);
+    }
+}
+
+/// The speeds, or in a narrow strip the one in use, which steps to the next.
+fn speeds(
+    ui: &Ui,
+    place: &mut dyn FnMut(f32) -> Rect,
+    is_wide: bool,
+    replay: &Replayed,
+    commands: &mut Vec<UiCommand>,
+) {
+    let (speed, sign) = (replay.speed.abs(), replay.speed.signum());
+    let index = SPEEDS.iter().position(|of| *of == speed).unwrap_or_default();
+    let chosen = if is_wide {
+        let at = place(SPEEDS_WIDTH);
+        let words = SPEEDS.map(in_words);
+        let segments = std::array::from_fn::<_, { SPEEDS.len() }, _>(|of| {
+            let state = if of == index { Segment::Chosen } else { Segment::Free };
+            (words.get(of).map_or("", String::as_str), state)
+        });
+        segmented::show(ui, "replay speed", at, "Speed of the replay", &segments)
+    } else {
+        let at = place(SPEED);
+        let word = in_words(speed);
+        let clicked = Button::normal(&word).show(ui, "replay speed", at).clicked();
+        clicked.then_some((index + 1) % SPEEDS.len())
+    };
+    if let Some(speed) = chosen.and_then(|of| SPEEDS.get(of)) {
+        commands.push(UiCommand::Replay(ReplayCommand::Speed(sign * speed)));
+    }
+}
+
+/// The stretch as a bar, with the moment that is shown.
+fn scrubber(ui: &Ui, rect: Rect, replay: &Replayed, commands: &mut Vec<UiCommand>) {
+    if rect.width() < 40.0 {
+        return;
+    }
+    let t = theme::tokens(ui);
+    let (from, until) = (replay.stretch.from, replay.stretch.until);
+    let whole_s = seconds_between(from, until).max(1.0);
+    let is_high = rect.height() >= HEIGHT;
+    let y = rect.center().y + if is_high { 6.0 } else { 0.0 };
+    let bar = Rect::from_x_y_ranges(rect.x_range(), y - 4.0..=y + 4.0);
+    let id = ui.make_persistent_id("replay moment");
+    let response = ui.interact(bar.expand2(vec2(0.0, 8.0)), id, Sense::click_and_drag());
+    let words = format!("Moment of the replay, {}", format::moment(replay.at, replay.at));
+    response.widget_info(|| WidgetInfo::labeled(Role::Slider, true, &words));
+    let mut wanted = response.interact_pointer_pos().map(|at| {
+        let share = f64::from((at.x - bar.left()) / bar.width()).clamp(0.0, 1.0);
+        add_seconds(from, share * whole_s)
+    });
+    if response.has_focus() {
+        wanted = wanted.or(ui.input(|input| {
+            let step = if input.modifiers.shift { 10.0 } else { 1.0 };
+            let by_s = match () {
+                () if input.key_pressed(Key::ArrowLeft) => -step,
+                () if input.key_pressed(Key::ArrowRight) => step,
+                () => return None,
+            };
+            Some(add_seconds(replay.at, by_s))
+        }));
+        let filter = EventFilter { horizontal_arrows: true, ..EventFilter::default() };
+        ui.memory_mut(|memory| memory.set_focus_lock_filter(id, filter));
+    }
+    commands.extend(wanted.map(|at| UiCommand::Replay(ReplayCommand::To(at))));
+    let share = (seconds_between(from, replay.at) / whole_s).clamp(0.0, 1.0) as f32;
+    let x = bar.left() + share * bar.width();
+    ui.painter().rect(bar, 0.0, t.bg0, (1.0, t.edge), StrokeKind::Inside);
+    ui.painter().rect_filled(bar.with_max_x(x), 0.0, t.warn);
+    let handle = Rect::from_center_size(pos2(x, y), vec2(6.0, 22.0));
+    ui.painter().rect_filled(handle, 1.0, t.ant);
+    if is_high {
+        let line = Rect::from_x_y_ranges(rect.x_range(), rect.top() + 4.0..=rect.top() + 22.0);
+        let (font, colour) = (text::caption(), t.t2);
+        paint::text_in(ui, line, Align2::LEFT_CENTER, &format::clock(from), font.clone(), colour);
+        if rect.width() > 140.0 {
+            paint::text_in(ui, line, Align2::RIGHT_CENTER, &format::clock(until), font, colour);
+        }
+    }
+    paint::focus_ring(ui, &response, 2);
+}

@@ -1,0 +1,214 @@
+//! The record shown again.
+
+use azel::{
+    app::App,
+    astro::{Angle, time::add_seconds},
+    device::AxisMotion,
+    driver::{self, Intent, StopState},
+    engine::{Command, Settings},
+    model::{
+        Model, UiCommand, View,
+        replay::{ReplayCommand, Replayed, Stretch},
+    },
+    station,
+};
+use egui::{Key, Modifiers, Role};
+use egui_kittest::{
+    Harness,
+    kittest::{NodeT as _, Queryable as _},
+};
+
+use crate::window_stories::{
+    extremes::{nothing_is_cut, nothing_overlaps},
+    rig::{self, NOAA_20, SIZES, Window, asked, sent, settle},
+    states,
+    unit::{RealWindow, Unit, clock_from, step_until, wait_until},
+};
+
+/// A replay that plays.
+pub(crate) fn model() -> Model {
+    let mut model = rig::model(states::manual());
+    let at = model.now;
+    let stretch = Stretch {
+        name: "NOAA 20".to_owned(),
+        satellite: Some(NOAA_20),
+        from: add_seconds(at, -300.0),
+        until: add_seconds(at, 600.0),
+    };
+    model.replay = Some(Replayed { stretch, at, speed: 10, plays: true, problem: None });
+    model
+}
+
+fn replayed(command: ReplayCommand) -> UiCommand {
+    UiCommand::Replay(command)
+}
+
+fn click(window: &mut Window, name: &str) -> Vec<UiCommand> {
+    window.state_mut().commands.clear();
+    window.get_by_role_and_label(Role::Button, name).click();
+    asked(window)
+}
+
+#[test]
+fn a_replay_is_marked_in_every_view_and_its_strip_plays_it() {
+    for size in SIZES {
+        for view in [View::Operate, View::Plan, View::Console, View::Record, View::Map] {
+            let mut model = model();
+            model.view = view;
+            model.refresh_sky();
+            let mut window = rig::window(size, model);
+            window.get_by_label_contains("Replay, 11:15:30Z of NOAA 20, plays at 10×.");
+            nothing_is_cut(&window, size);
+            nothing_overlaps(&window);
+            let event = |is_next| replayed(ReplayCommand::Event { is_next });
+            assert_eq!(click(&mut window, "The event before (comma)"), [event(false)]);
+            assert_eq!(click(&mut window, "The event after (period)"), [event(true)]);
+            let pause = [replayed(ReplayCommand::PlayOrPause)];
+            assert_eq!(click(&mut window, "Pause (Space)"), pause);
+            let back = [replayed(ReplayCommand::Speed(-10))];
+            assert_eq!(click(&mut window, "Play backward"), back);
+            let leave = if size == rig::SMALL { "Leave (Q)" } else { "Leave replay (Q)" };
+            assert_eq!(click(&mut window, leave), [replayed(ReplayCommand::Leave)]);
+        }
+    }
+}
+
+#[test]
+fn stop_is_there_and_all_that_would_act_is_locked_or_refused() {
+    for size in SIZES {
+        let mut window = rig::window(size, model());
+        for mode in ["Standby", "Manual", "Position", "Track"] {
+            let node = window.get_by_role_and_label(Role::RadioButton, mode);
+            assert!(node.accesskit_node().is_disabled(), "{mode}");
+        }
+        window.get_by_label_contains("Locked: this is a replay.");
+        for key in [Key::T, Key::K, Key::G, Key::M, Key::A] {
+            window.key_press(key);
+            assert_eq!(sent(&mut window), [], "{key:?}");
+            assert!(window.query_by_label("Cancel").is_none(), "{key:?}: nothing is asked");
+        }
+        window.get_by_label_contains("Not done: this is a replay.");
+        window.state_mut().commands.clear();
+        window.get_by_role_and_label(Role::Button, "STOP").click();
+        assert_eq!(asked(&mut window), [UiCommand::Stop]);
+    }
+}
+
+#[test]
+fn the_moment_is_moved_by_the_bar_and_the_keys() {
+    for size in SIZES {
+        let mut window = rig::window(size, model());
+        let at = window.state().model.now;
+        let bar = window.get_by_role_and_label(Role::Slider, "Moment of the replay, 11:15:30Z");
+        let rect = bar.rect();
+        bar.focus();
+        settle(&mut window);
+        window.state_mut().commands.clear();
+        let to = |by_s| replayed(ReplayCommand::To(add_seconds(at, by_s)));
+        window.key_press(Key::ArrowRight);
+        assert_eq!(asked(&mut window), [to(1.0)]);
+        window.key_press_modifiers(Modifiers::SHIFT, Key::ArrowLeft);
+        assert_eq!(asked(&mut window), [to(-10.0)]);
+        window.drag_at(rect.left_center());
+        window.drop_at(rect.left_center());
+        assert!(asked(&mut window).contains(&to(-300.0)));
+    }
+}
+
+/// The real window on a station with a unit, and a record.
+fn open(folder: &tempfile::TempDir, unit: &Unit) -> RealWindow {
+    let path = folder.path().join("station.toml");
+    station::save(&unit.station(), &path).unwrap();
+    let settings = Settings {
+        path: Some(path),
+        library: Some(folder.path().join("elements")),
+        records: Some(folder.path().join("records")),
+        dead_man: Some(env!("CARGO_BIN_EXE_azel").into()),
+        ..Settings::default()
+    };
+    let clock = clock_from(rig::now());
+    Harness::builder()
+        .with_size(rig::LARGE)
+        .build_eframe(move |cc| App::new(&cc.egui_ctx, &settings, clock).unwrap())
+}
+
+fn again(window: &RealWindow) -> &Model {
+    window.state().replay().unwrap()
+}
+
+#[test]
+fn while_the_record_is_shown_again_no_command_passes_and_stop_reaches_the_unit() {
+    let folder = tempfile::tempdir().unwrap();
+    let unit = Unit::start(rig::now());
+    let mut window = open(&folder, &unit);
+    let measured = |model: &Model| {
+        model.antenna().is_some_and(|antenna| antenna.snapshot.state.measured.is_some())
+    };
+    step_until(&mut window, "the antenna", measured);
+    let id = window.state().model().antenna().unwrap().id();
+    let moves = |model: &Model| {
+        let measured = model.antenna().and_then(|antenna| antenna.snapshot.state.measured);
+        measured.is_some_and(|at| at.axes.iter().any(|axis| axis.motion != AxisMotion::Still))
+    };
+    let client = window.state().station().client().clone();
+    let to = |deg| Some(Angle::from_degrees(deg));
+    let go = driver::Command::Position { azimuth: to(90.0), elevation: to(30.0) };
+    step_until(&mut window, "motion", |model| {
+        let is_idle = model.antenna().is_some_and(|of| of.snapshot.intent != Intent::Position);
+        if is_idle {
+            client.send(Command::Antenna(id, go.clone())).unwrap();
+        }
+        moves(model)
+    });
+    window.key_press_modifiers(Modifiers::COMMAND, Key::Num7);
+    step_until(&mut window, "the record", |model| {
+        model.view == View::Record && model.record.is_some()
+    });
+    window.get_by_role_and_label(Role::Button, "Replay the last hour").click();
+    wait_until("the replay", || {
+        window.step();
+        window.state().replay().is_some()
+    });
+    // The last hour began before the record.
+    wait_until("the first moment", || {
+        window.step();
+        again(&window).replay.as_ref().is_some_and(|replay| replay.problem.is_some())
+    });
+    window.step();
+    window.get_by_label("Nothing was filmed at this moment.");
+    window.key_press(Key::Period);
+    wait_until("the first event", || {
+        window.step();
+        let model = again(&window);
+        model.replay.as_ref().is_some_and(|replay| replay.problem.is_none())
+    });
+    wait_until("the antenna as it was", || {
+        window.key_press(Key::Period);
+        window.step();
+        again(&window).antenna().is_some()
+    });
+    let shown = again(&window);
+    assert!(shown.now < window.state().model().now);
+    assert!(shown.antenna().unwrap().snapshot.intent != Intent::Position, "it stood then");
+    window.key_press_modifiers(Modifiers::COMMAND, Key::Num1);
+    window.step();
+    for key in [Key::T, Key::K] {
+        window.key_press(key);
+        window.step();
+        window.key_press(Key::Enter);
+        window.step();
+    }
+    assert!(window.state().replay().is_some());
+    let live = window.state().model().antenna().unwrap();
+    assert_eq!(live.snapshot.intent, Intent::Position, "the live station goes on");
+    window.key_press(Key::Escape);
+    window.step();
+    assert!(window.state().replay().is_none());
+    window.get_by_label_contains("Replay ended: STOP was pressed.");
+    step_until(&mut window, "standstill", |model| {
+        let antenna = model.antenna().unwrap();
+        matches!(antenna.snapshot.stop, StopState::Stopped { .. })
+    });
+    assert_eq!(window.state().model().view, View::Operate, "the view stays");
+    assert!(!moves(window.state().model()));
+}
