@@ -15,7 +15,7 @@ use super::{
 use crate::{
     astro::time::{add_seconds, seconds_between},
     clock::Moment,
-    driver::WireLog,
+    driver::{self, LinkState, WireLog},
     orbit::{Catalog, Elements, ReadReport},
     record::{Film, FilmError, Parts, Picture},
     station::{AntennaId, Station},
@@ -82,18 +82,21 @@ impl Picture for Snapshot {
             source_tests: parts.number(&self.source_tests)?,
             link_tests: parts.number(&self.link_tests)?,
             copies: parts.number(&self.copies)?,
-            shown: self.without_parts(),
+            shown: self.without_parts(parts),
         };
         serde_json::to_value(drawn)
     }
 }
 
 impl Snapshot {
-    /// Without its large parts, and without what a client looks at of the record, which is in there
-    /// already.
-    fn without_parts(&self) -> Self {
+    /// Without its large parts and what of its antennas stands in the last picture; and without what
+    /// a client looks at of the record, which is in there already.
+    fn without_parts(&self, parts: &mut Parts) -> Self {
         let mut antennas = self.antennas.clone();
-        for antenna in &mut antennas {
+        for (index, antenna) in antennas.iter_mut().enumerate() {
+            if parts.is_same(format!("/shown/antennas/{index}/snapshot"), &antenna.snapshot) {
+                antenna.snapshot = Arc::new(driver::Snapshot::before_anything(LinkState::Off));
+            }
             antenna.errors = Errors::default();
             antenna.past_tracks = PastTracks::default();
         }

@@ -33,12 +33,22 @@ pub struct Parts {
     last: i64,
     /// Parts that are not written yet.
     new: Vec<(i64, Vec<u8>)>,
+    /// What stood at these places of the last picture.
+    placed: HashMap<String, Placed>,
+    /// Places of the present picture at which the same stands.
+    same: Vec<String>,
 }
 
 struct Known {
     number: i64,
     is_shown: bool,
     _held: Arc<dyn Any + Send + Sync>,
+}
+
+/// What stands at a place of the last picture.
+struct Placed {
+    what: Arc<dyn Any + Send + Sync>,
+    is_shown: bool,
 }
 
 impl Parts {
@@ -69,9 +79,23 @@ impl Parts {
         Ok(self.last)
     }
 
-    /// Lets go of the parts that the last picture does not show.
+    /// Whether the last picture of the reel had the same at this place (a JSON pointer): then it need
+    /// not be drawn, and anything may stand there.
+    pub fn is_same<T: Send + Sync + 'static>(&mut self, place: String, what: &Arc<T>) -> bool {
+        let address = Arc::as_ptr(what).addr();
+        let before = self.placed.get(&place);
+        let is_same = before.is_some_and(|of| Arc::as_ptr(&of.what).addr() == address);
+        if is_same {
+            self.same.push(place.clone());
+        }
+        self.placed.insert(place, Placed { what: what.clone(), is_shown: true });
+        is_same
+    }
+
+    /// Lets go of what the last picture does not show.
     fn next_picture(&mut self) {
         self.known.retain(|_, known| std::mem::take(&mut known.is_shown));
+        self.placed.retain(|_, placed| std::mem::take(&mut placed.is_shown));
     }
 
     fn numbers(&self) -> impl Iterator<Item = i64> {

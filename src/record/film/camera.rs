@@ -48,15 +48,23 @@ impl Camera {
         if !self.last.is_null() && (has_jumped || is_over) {
             self.end_reel();
         }
-        let drawn = match picture.draw(&mut self.parts) {
+        let mut drawn = match picture.draw(&mut self.parts) {
             Ok(drawn) => drawn,
             Err(error) => {
                 tracing::error!(%error, "a picture cannot be written down");
                 self.dropped += 1;
-                return;
+                return self.begin_anew();
             }
         };
         self.parts.next_picture();
+        // What stands there is the same, so that neither the one nor the other is looked at.
+        let same: Vec<(String, Value)> = (self.parts.same.drain(..))
+            .filter_map(|place| {
+                drawn.pointer_mut(&place)?.take();
+                let standing = self.last.pointer_mut(&place)?.take();
+                Some((place, standing))
+            })
+            .collect();
         if self.last.is_null() {
             (self.begun_us, self.until_us) = (at_us, at_us);
         }
@@ -65,6 +73,11 @@ impl Camera {
             // Neither can fail: a vector takes everything, and the patch is JSON already.
             let _ = serde_json::to_writer(&mut self.waiting, &(nanosecond, patch));
             self.waiting.push(b'\n');
+        }
+        for (place, standing) in same {
+            if let Some(at) = drawn.pointer_mut(&place) {
+                *at = standing;
+            }
         }
         self.last = drawn;
         self.until_us = at_us;
@@ -92,6 +105,7 @@ impl Camera {
         lines.append(&mut self.waiting);
         self.over.push((self.reel, [self.begun_us, self.until_us], lines));
         self.last = Value::Null;
+        self.parts.placed.clear();
         self.reel += 1;
         self.piece = 0;
     }

@@ -12,11 +12,12 @@ use crate::{
     station::Retention,
 };
 
-/// A picture of two figures and a part.
+/// A picture of two figures, a part, and what stands at a place for ten seconds.
 struct Figures {
     second: f64,
     value: i64,
     part: Arc<String>,
+    stands: Arc<i64>,
 }
 
 fn at(second: f64) -> jiff::Timestamp {
@@ -30,16 +31,25 @@ impl Picture for Figures {
 
     fn draw(&self, parts: &mut Parts) -> serde_json::Result<Value> {
         let part = parts.number(&self.part)?;
-        Ok(json!({ "second": self.second, "value": self.value, "part": part }))
+        let is_same = parts.is_same("/stands".to_owned(), &self.stands);
+        let stands = if is_same { Value::from("not drawn") } else { json!(*self.stands) };
+        Ok(json!({
+            "second": self.second, "value": self.value, "part": part, "stands": stands,
+        }))
     }
 }
 
 /// Records a picture a second.
 fn film(path: &Path, seconds: std::ops::Range<u32>, part: &Arc<String>) {
     let recorder = recorder(path);
+    let mut stands = Arc::new(-1);
     for second in seconds {
         let (second, value) = (f64::from(second), i64::from(second / 10));
-        recorder.film(Arc::new(Figures { second, value, part: Arc::clone(part) }));
+        if *stands != value {
+            stands = Arc::new(value);
+        }
+        let (part, stands) = (Arc::clone(part), Arc::clone(&stands));
+        recorder.film(Arc::new(Figures { second, value, part, stands }));
         if value % 3 == 0 {
             recorder.flush();
         }
@@ -51,6 +61,7 @@ fn seen(film: &mut Film, second: f64) -> Option<(f64, i64, String)> {
     let (run, picture) = (shown.run, shown.picture.clone());
     let part = film.part(run, picture["part"].as_i64().unwrap()).unwrap();
     let part: String = serde_json::from_slice(&part).unwrap();
+    assert_eq!(picture["stands"], picture["value"]);
     Some((picture["second"].as_f64()?, picture["value"].as_i64()?, part))
 }
 
@@ -80,7 +91,8 @@ fn the_film_goes_on_while_it_is_read() {
     let part = Arc::new(String::new());
     let take = |second| {
         let value = second as i64;
-        recorder.film(Arc::new(Figures { second, value, part: Arc::clone(&part) }));
+        let (part, stands) = (Arc::clone(&part), Arc::new(value));
+        recorder.film(Arc::new(Figures { second, value, part, stands }));
         recorder.flush();
     };
     take(0.0);
