@@ -196,9 +196,11 @@ impl Command {
         )
     }
 
-    /// Returns `true` if the command lets a jog go.
-    pub fn ends_jog(&self) -> bool {
-        matches!(self, Self::Antenna(_, driver::Command::EndJog))
+    /// Returns `true` if a view may give the command by itself, without a wish of the operator.
+    pub fn is_unasked(&self) -> bool {
+        use driver::Command::{EndJog, ReadGroup};
+        let is_read = matches!(self, Self::ListOlderSets(_) | Self::PriceSwap(_));
+        is_read || self.only_looks() || matches!(self, Self::Antenna(_, EndJog | ReadGroup(_)))
     }
 
     /// Returns `true` if the command asks to be shown something, and changes nothing.

@@ -270,7 +270,7 @@ impl Views {
     /// `true` if the operator has to be told.
     fn refuse_in_replay(&mut self, commands: &mut Vec<UiCommand>, before: usize) -> bool {
         let acts = |command: &UiCommand| match command {
-            UiCommand::Station(command) => !command.only_looks() && !command.ends_jog(),
+            UiCommand::Station(command) => !command.is_unasked(),
             UiCommand::AskToTrack(_) | UiCommand::Rehearse(_) => true,
             _ => false,
         };
