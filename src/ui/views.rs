@@ -271,7 +271,18 @@ impl Views {
     fn refuse_in_replay(&mut self, commands: &mut Vec<UiCommand>, before: usize) -> bool {
         let acts = |command: &UiCommand| match command {
             UiCommand::Station(command) => !command.is_unasked(),
-            UiCommand::AskToTrack(_) | UiCommand::Rehearse(_) => true,
+            UiCommand::AskToTrack(_)
+            | UiCommand::Rehearse(_)
+            | UiCommand::ChooseStation(_)
+            | UiCommand::ChooseStationFile
+            | UiCommand::ChooseElementFiles
+            | UiCommand::Save(_)
+            | UiCommand::SaveLog(_)
+            | UiCommand::OpenFolder(_)
+            | UiCommand::ImportMask(_)
+            | UiCommand::ExportMask(_)
+            | UiCommand::TryNotice(_)
+            | UiCommand::SetScope(_) => true,
             _ => false,
         };
         let asked = self.question.take_if(|question| acts(&question.command)).is_some();

@@ -82,7 +82,7 @@ fn stop_is_there_and_all_that_would_act_is_locked_or_refused() {
             assert!(node.accesskit_node().is_disabled(), "{mode}");
         }
         window.get_by_label_contains("Locked: this is a replay.");
-        let refused = "Not done: this is a replay. Leave it to command the station.";
+        let refused = "Not done: this is a replay. Leave it first.";
         for view in [View::Antennas, View::Elements, View::Plan, View::Operate] {
             window.state_mut().model.view = view;
             settle(&mut window);
