@@ -153,11 +153,11 @@ fn min_width_of(column: Column) -> f32 {
     let width = match column {
         Column::Star | Column::Name => 0.0,
         Column::Number => 64.0,
-        Column::Period => 62.0,
+        Column::Period => 60.0,
         Column::Inclination => 46.0,
-        Column::Heights => 100.0,
-        Column::Age => 80.0,
-        Column::From => 122.0,
+        Column::Heights => 98.0,
+        Column::Age => 78.0,
+        Column::From => 128.0,
         Column::NextPass => 92.0,
         Column::MaxElevation => BAR + BAR_NUMBER,
     };
