@@ -4,7 +4,8 @@ use std::borrow::Cow;
 
 use egui::{
     Align, Align2, Color32, Frame, Label, Layout, Margin, Rect, Response, RichText, Role,
-    ScrollArea, Sense, Stroke, StrokeKind, TextEdit, Tooltip, Ui, UiBuilder, pos2, vec2,
+    ScrollArea, Sense, Stroke, StrokeKind, TextEdit, Tooltip, Ui, UiBuilder, accesskit::Action,
+    pos2, vec2,
 };
 
 use super::fields::{Field, Problem, Standing, TextShape, Typed};
@@ -380,7 +381,14 @@ fn lines(
         .hint_text(hint)
         .desired_rows(3)
         .desired_width(WORDS[1]);
+    // The area of the field scrolls its text alone: the page has to be scrolled by itself.
+    let is_asked_for =
+        ui.input(|input| input.has_accesskit_action_request(id, Action::ScrollIntoView));
     let shown = frame.show(ui, |ui| area.id_salt(salt).show(ui, |ui| ui.add(edit)).inner);
+    let is_by_key = shown.inner.gained_focus() && !ui.input(|input| input.pointer.any_down());
+    if is_asked_for || is_by_key {
+        shown.response.scroll_to_me(None);
+    }
     if shown.inner.has_focus() {
         paint::ring_around(ui, shown.response.rect, 4);
     }
