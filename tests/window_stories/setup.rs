@@ -316,3 +316,17 @@ fn letters_of_a_name_are_no_commands() {
     assert_eq!(asked(&mut window), []);
     assert_eq!(field(&window, "Name"), "atp", "Tab leads from the head to the first field");
 }
+
+#[test]
+fn the_note_of_a_field_that_is_filled_stays_and_moves_no_button() {
+    for size in SIZES {
+        let mut window = window(size);
+        write_site(&mut window);
+        press(&mut window, NEXT[0]);
+        press(&mut window, &format!("Add {}", makes::SPECS[0].name));
+        let place = |window: &Window| window.get_by_label("Test link of Satrak").rect();
+        let before = place(&window);
+        write(&mut window, "Element file on the unit", "active.txt");
+        assert_eq!(place(&window), before);
+    }
+}
