@@ -531,3 +531,14 @@ fn the_station_file_is_told_with_its_age_and_its_folder_opened() {
         assert!(says(&window, "station.toml, not saved yet"));
     }
 }
+
+#[test]
+fn each_word_of_elevation_is_explained_at_its_field() {
+    for size in SIZES {
+        let mut window = form(size);
+        assert!(says(&window, "A pass begins and ends there."));
+        assert!(says(&window, "A pass whose maximum stays below it is not listed."));
+        open(&mut window, "Satrak");
+        assert!(says(&window, "The antenna is never sent below it."));
+    }
+}

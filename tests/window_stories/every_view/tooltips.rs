@@ -6,7 +6,7 @@ use egui_kittest::kittest::{NodeT as _, Queryable as _};
 
 use crate::window_stories::{
     every_view::{demo, in_view},
-    rig::{self, SMALL, Window, settle},
+    rig::{self, LARGE, SMALL, Window, settle},
     states,
 };
 
@@ -53,4 +53,22 @@ fn a_tooltip_covers_no_part_of_its_subject() {
     let mut map = in_view(SMALL, View::Map, rig::model(states::holding()));
     let told = point_at_all(&mut operate) + point_at_all(&mut map);
     assert!(told > 20, "{told} tooltips");
+}
+
+#[test]
+fn short_words_are_explained_under_the_pointer() {
+    let mut window = rig::window(LARGE, rig::model(states::holding()));
+    for about in ["Keyhole: ", "Elevation floor: ", "Pointing error: "] {
+        let mut found = window.query_all_by_label_contains(about);
+        let place = found.next().unwrap_or_else(|| panic!("nothing about {about:?}")).rect();
+        drop(found);
+        window.hover_at(place.center());
+        settle(&mut window);
+        let tips = window.query_all_by_role(Role::Tooltip);
+        let mut texts = tips.flat_map(|tip| tip.children_recursive().collect::<Vec<_>>());
+        let is_told = texts.any(|of| {
+            of.accesskit_node().value().is_some_and(|words| words.len() > about.len() + 20)
+        });
+        assert!(is_told, "{about:?}");
+    }
 }
