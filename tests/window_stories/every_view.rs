@@ -17,13 +17,13 @@ use azel::{
     model::{Model, UiCommand, View},
     station::AntennaId,
 };
-use egui::{Event, Key, Role};
+use egui::{Event, HoveredFile, Key, Role};
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
 
 use crate::window_stories::{
     closing, console, elements, horizon, maintenance, makes, plan,
     preferences::{self, write},
-    record,
+    preferences_rules, record,
     rig::{self, Window, asked, settle},
     settings_rig, setup, states, wide,
 };
@@ -44,7 +44,7 @@ const fn scene(name: &'static str, open: fn([f32; 2]) -> Window) -> Scene {
     Scene { name, open }
 }
 
-pub(crate) const SCENES: [Scene; 42] = [
+pub(crate) const SCENES: [Scene; 49] = [
     scene("Operate, tracking", |size| rig::window(size, rig::model(states::tracking(0.04)))),
     scene("Operate, three antennas of the demo", |size| rig::window(size, demo())),
     scene("Operate, jog", |size| rig::window(size, rig::model(states::manual()))),
@@ -123,6 +123,13 @@ pub(crate) const SCENES: [Scene; 42] = [
         settle(&mut window);
         window
     }),
+    scene("Elements, a file held over it", |size| {
+        let mut window = elements::view(size, Vec::new());
+        let held = HoveredFile { path: Some("own.json".into()), ..HoveredFile::default() };
+        window.input_mut().hovered_files = vec![held];
+        settle(&mut window);
+        window
+    }),
     scene("Upload", |size| {
         let mut window = elements::view(size, Vec::new());
         click_if_there(&mut window, "Details");
@@ -146,9 +153,27 @@ pub(crate) const SCENES: [Scene; 42] = [
         write(&mut window, "Latitude", "91");
         window
     }),
+    scene("Preferences, a selected value", |size| {
+        let mut window = preferences::form(size);
+        window.get_by_role_and_label(Role::TextInput, "Name").focus();
+        settle(&mut window);
+        window.key_press(Key::Tab);
+        settle(&mut window);
+        window
+    }),
+    scene("Preferences, an antenna", preferences::antenna_form),
     scene("Horizon and keep-outs", horizon::page),
+    scene("Satellites and priorities", |size| {
+        opened_by(preferences::form(size), "Satellites and priorities")
+    }),
+    scene("Automation rules", preferences_rules::view),
     scene("Alarms and sounds", |size| opened_by(preferences::form(size), "Alarms and sounds")),
     scene("Appearance", |size| opened_by(preferences::form(size), "Appearance")),
+    scene("Keys", |size| {
+        let mut window = preferences::form(size);
+        preferences::open(&mut window, "Keys");
+        window
+    }),
     scene("Set-up, site", setup::window),
     scene("Set-up, antennas", |size| {
         let mut window = at_step(size, 1);
@@ -157,6 +182,7 @@ pub(crate) const SCENES: [Scene; 42] = [
         window
     }),
     scene("Set-up, satellites", |size| at_step(size, 2)),
+    scene("Set-up, elements", |size| at_step(size, 3)),
     scene("Set-up, check and finish", |size| at_step(size, 4)),
 ];
 

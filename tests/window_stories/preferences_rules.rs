@@ -61,6 +61,11 @@ fn page(size: [f32; 2], page: &str, rules: Vec<AutomationRule>) -> Window {
     window
 }
 
+/// Rules of which the first is chosen.
+pub(crate) fn view(size: [f32; 2]) -> Window {
+    page(size, RULES, vec![of_weather(), of_iss()])
+}
+
 fn press(window: &mut Window, role: Role, name: &str) {
     window.get_by_role_and_label(role, name).scroll_to_me();
     settle(window);

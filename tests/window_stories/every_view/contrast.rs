@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use egui::{Pos2, Rect, Role, pos2, vec2};
-use egui_kittest::kittest::Queryable as _;
+use egui_kittest::kittest::{NodeT as _, Queryable as _};
 
 use azel::{
     model::ThemeName,
@@ -15,7 +15,7 @@ use crate::window_stories::{
         SCENES,
         painted::{self, Run},
     },
-    rig::{LARGE, settle},
+    rig::{LARGE, Window, settle},
 };
 
 /// Contrast that text needs.
@@ -28,6 +28,17 @@ fn needed(run: &Run, safety_data: &[Rect]) -> f64 {
     let is_large = run.size >= 24.0 || (run.is_bold && run.size >= 18.66);
     let is_safety_data = safety_data.iter().any(|place| place.contains(run.rect.center()));
     if is_large || (run.is_veiled && !is_safety_data) { LARGE_TEXT } else { TEXT }
+}
+
+/// Places of the buttons that egui fades because they can do nothing now, of which the guidelines
+/// ask no contrast. Those that are locked have a dashed border and whole colours.
+fn disabled(window: &Window) -> Vec<Rect> {
+    let names = ["Add source", "Move up", "Move down"];
+    let buttons = window.query_all_by_role(Role::Button).filter(|of| {
+        let node = of.accesskit_node();
+        node.is_disabled() && names.contains(&node.label().unwrap_or_default().as_str())
+    });
+    buttons.map(|of| of.rect()).collect()
 }
 
 #[test]
@@ -61,8 +72,12 @@ fn every_text_can_be_read_on_its_ground() {
         for name in [ThemeName::Dark, ThemeName::Light, ThemeName::Night] {
             theme::set(&window.ctx, name);
             settle(&mut window);
+            let faded = disabled(&window);
             for run in painted::runs(&window) {
                 count += 1;
+                if faded.iter().any(|place| place.contains(run.rect.center())) {
+                    continue;
+                }
                 let ratio = tokens::contrast(run.colour, run.ground);
                 if ratio < needed(&run, &safety_data) {
                     let pair = format!(

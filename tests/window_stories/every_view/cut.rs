@@ -107,3 +107,37 @@ fn raw_bytes_that_have_no_room_end_with_an_ellipsis() {
     let cut = painted::cut(&window);
     assert!(cut.iter().any(|words| words.starts_with("$SATELLITE?,aaa")), "{cut:?}");
 }
+
+/// Texts that end with an ellipsis where there is no room, as the pointer shows them whole.
+const MAY_BE_CUT: [&str; 10] = [
+    // The second line of the header: the least important stands last.
+    "Same satellite on Satrak",
+    " · sunlit",
+    // What another antenna does, below the card.
+    "Holding at ",
+    // What a fold holds.
+    "Go to a stored satellite",
+    "Send the other rotator",
+    // Where a source is, and its name.
+    "celestrak.org/",
+    "bundled, ",
+    // What was not read of a unit.
+    "192.168.10.21:4001, not read: ",
+    // Reasons of the Plan beside its drawer, which has that of the selected pass.
+    "SUOMI NPP, priority 3",
+    "METEOR-M2 4, priority 3",
+];
+
+#[test]
+fn nothing_else_is_cut_in_any_view() {
+    let mut found = Vec::new();
+    for size in SIZES {
+        for scene in &SCENES {
+            let cut = painted::cut(&scene.open(size));
+            let may_be = |words: &&String| MAY_BE_CUT.iter().any(|of| words.starts_with(of));
+            let cut = cut.iter().filter(|words| !may_be(words));
+            found.extend(cut.map(|words| format!("{} {size:?}: {words:?}", scene.name)));
+        }
+    }
+    assert!(found.is_empty(), "{}", found.join("\n"));
+}

@@ -2,6 +2,7 @@
 
 use std::collections::BTreeMap;
 
+use azel::ui::{rail, top_bar};
 use egui::{Role, accesskit::Action};
 use egui_kittest::kittest::{AccessKitNode, NodeT as _, Queryable as _};
 
@@ -65,6 +66,18 @@ fn first(window: &Window) -> Option<String> {
     (!first.starts_with("STOP")).then(|| format!("the first control is {first:?}"))
 }
 
+/// Controls of the top bar that come after one of the rail.
+fn out_of_order(window: &Window, [width, height]: [f32; 2]) -> Vec<String> {
+    let (bar, rail) = (f64::from(top_bar::height(height)), f64::from(rail::width(width)));
+    let nodes = in_order(window);
+    let is_below = |node: &AccessKitNode<'_>| node.raw_bounds().is_some_and(|at| at.y0 >= bar);
+    let of_rail =
+        |of: &AccessKitNode<'_>| is_below(of) && of.raw_bounds().is_some_and(|at| at.x1 <= rail);
+    let after = nodes.iter().filter(|of| is_control(of)).skip_while(|of| !of_rail(of));
+    let late = after.filter(|of| !is_hidden(of) && of.raw_bounds().is_some_and(|at| at.y1 <= bar));
+    late.map(|of| format!("{:?} comes after the rail", name(of))).collect()
+}
+
 /// Marks in a drawing that are no children of its node.
 fn strays(window: &Window) -> Vec<String> {
     let mut faults = Vec::new();
@@ -92,6 +105,7 @@ fn every_control_is_named_in_its_group_stop_is_first_and_marks_belong_to_their_d
             let mut found = names(&window);
             found.extend(first(&window));
             found.extend(strays(&window));
+            found.extend(out_of_order(&window, size));
             marked += window.query_all_by_role(Role::Canvas).count();
             faults.extend(found.into_iter().map(|of| format!("{} {size:?}: {of}", scene.name)));
         }
