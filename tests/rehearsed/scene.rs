@@ -121,6 +121,7 @@ pub(super) struct Scene {
     clock: Clock,
     folder: tempfile::TempDir,
     has_marks: bool,
+    has_record: bool,
 }
 
 impl Scene {
@@ -143,14 +144,22 @@ impl Scene {
         let units = Units::new(&clock, start);
         let folder = tempfile::tempdir().unwrap();
         station::save(station, &folder.path().join("station.toml")).unwrap();
-        Self::begin(units, clock, folder, has_marks)
+        Self::begin(units, clock, folder, has_marks, speed < FAST)
     }
 
-    fn begin(units: Units, clock: Clock, folder: tempfile::TempDir, has_marks: bool) -> Self {
+    /// `has_record`: at the highest speed, the film of some thousand pictures a second would leave
+    /// the sessions no processor.
+    fn begin(
+        units: Units,
+        clock: Clock,
+        folder: tempfile::TempDir,
+        has_marks: bool,
+        has_record: bool,
+    ) -> Self {
         let settings = Settings {
             path: Some(folder.path().join("station.toml")),
             library: Some(folder.path().join("elements")),
-            records: Some(folder.path().join("records")),
+            records: has_record.then(|| folder.path().join("records")),
             marks: has_marks.then(|| folder.path().join("marks")),
             ..Settings::default()
         };
@@ -163,19 +172,19 @@ impl Scene {
             let _ = by_station.try_send(Wake::Station);
         });
         let station = Handle::start(settings, outside, wake).unwrap();
-        Self { units, station, end, woken, clock, folder, has_marks }
+        Self { units, station, end, woken, clock, folder, has_marks, has_record }
     }
 
     /// The station ends as it should, or as in a crash, and is started again; the units go on.
     pub(super) fn started_again(self, is_crash: bool) -> Self {
-        let Self { units, station, clock, folder, has_marks, .. } = self;
+        let Self { units, station, clock, folder, has_marks, has_record, .. } = self;
         let left = folder.path().join("station.automatic.toml");
         let while_running = fs::read(&left).unwrap();
         drop(station);
         if is_crash {
             fs::write(&left, while_running).unwrap();
         }
-        Self::begin(units, clock, folder, has_marks)
+        Self::begin(units, clock, folder, has_marks, has_record)
     }
 
     pub(super) fn folder(&self) -> &Path {
