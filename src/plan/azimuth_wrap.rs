@@ -188,7 +188,8 @@ mod tests {
         // From 275 through north to the end at 90, and back.
         let (there, back) = (sweep(275, 460), sweep(460, 275));
         let waits = |wrap: &AzimuthWrap| {
-            let at_end = wrap.positions_deg.iter().filter(|axis| (**axis - 90.0).abs() < 1e-9).count();
+            let at_end =
+                wrap.positions_deg.iter().filter(|axis| (**axis - 90.0).abs() < 1e-9).count();
             (at_end, wrap.slews.len())
         };
         assert_eq!(waits(&wrap(&there, SECTOR, None)), (176, 0));
