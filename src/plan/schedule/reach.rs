@@ -371,15 +371,19 @@ impl Reach {
     /// least in a corner, and in one of the two corners no less than at one of the ends.
     fn may_dip(&self, from_deg: [f64; 2], to_deg: [f64; 2]) -> bool {
         let Mount::Xy { .. } = self.drives.mount else { return false };
-        let [from, to] = [from_deg, to_deg]
-            .map(|axes_deg| axes_deg.map(|axis_deg| (axis_deg - ZENITH_DEG).to_radians().cos()));
-        let corner = (from[0] * to[1]).min(to[0] * from[1]);
-        let ends = (from[0] * from[1]).min(to[0] * to[1]);
-        let end = ends.min(self.min_elevation().radians().sin());
-        // Most legs end here: the arcs of sines take longer.
-        if corner >= end {
+        let [from, to] = [from_deg, to_deg].map(|axes| axes.map(|deg| (deg - ZENITH_DEG).abs()));
+        // In one corner, each axis is as far from the zenith as at the farther end: where that is
+        // one end for both axes, it is no corner.
+        if (from[0] >= to[0]) == (from[1] >= to[1]) {
             return false;
         }
+        let sine = |off_deg: [f64; 2]| off_deg.map(|deg| deg.to_radians().cos()).iter().product();
+        let corner: f64 = sine([from[0].max(to[0]), from[1].max(to[1])]);
+        let minimum = self.min_elevation().radians().sin();
+        if corner >= minimum {
+            return false;
+        }
+        let end: f64 = minimum.min(sine(from)).min(sine(to));
         let along_deg = if self.on_board { ALONG_DEG } else { FINEST_DEG };
         (end.asin() - corner.asin()).to_degrees() > along_deg
     }
