@@ -10,11 +10,11 @@ mod list;
 mod state;
 pub(super) mod switches;
 
-use egui::{Rect, Ui};
+use egui::{EventFilter, Rect, Response, Ui};
 use jiff::Timestamp;
 
 pub use self::state::PlanState;
-use super::theme;
+use super::{theme, widgets::paint};
 use crate::{
     astro::time::{add_seconds, seconds_between},
     engine,
@@ -30,6 +30,9 @@ const DRAWER_BELOW: f32 = 1100.0;
 const LOW_BELOW: f32 = 800.0;
 /// Widest Gantt labels, and those of the lanes.
 const LABELS: f32 = 208.0;
+
+/// The ring of a focused list lies so far within it.
+const RING: f32 = 4.0;
 
 /// Draws the view. The inspector has room beside it if `window` is wide enough.
 pub fn show(
@@ -100,6 +103,20 @@ impl Span {
         let left = self.x(from, place).max(place.left());
         let right = self.x(to, place).min(place.right()).max(left + 3.0);
         Some(egui::Rangef::new(left, right))
+    }
+}
+
+/// Shows that a list of passes has the focus. It is one stop of Tab, and the arrows go through the
+/// passes as they do anywhere in the view.
+fn show_focus(ui: &Ui, list: &Response) {
+    if list.has_focus() {
+        let arrows = EventFilter {
+            horizontal_arrows: true,
+            vertical_arrows: true,
+            ..EventFilter::default()
+        };
+        ui.memory_mut(|memory| memory.set_focus_lock_filter(list.id, arrows));
+        paint::ring_around(ui, list.rect.shrink(RING), 0);
     }
 }
 

@@ -478,3 +478,22 @@ fn the_plan_is_rehearsed_and_what_came_of_it_stands_beside_the_pass_as_a_rehears
     settle(&mut window);
     assert!(says(&window, "Rehearsal: the rehearsed station broke down"));
 }
+
+#[test]
+fn tab_leads_from_the_passes_to_automatic_operation_in_a_few_steps() {
+    let mut window = view(LARGE);
+    window.get_by_role_and_label(Role::ListBox, "Passes by satellite").focus();
+    settle(&mut window);
+    // Arrows stay in the list.
+    window.key_press(Press::ArrowDown);
+    settle(&mut window);
+    assert!(window.get_by_role_and_label(Role::ListBox, "Passes by satellite").is_focused());
+    let off = "Automatic operation of Satrak, off: hold 1 s to switch it on";
+    let is_there = |window: &Window| window.get_by_role_and_label(Role::Button, off).is_focused();
+    let steps = (0..6).find(|_| {
+        window.key_press(Press::Tab);
+        settle(&mut window);
+        is_there(&window)
+    });
+    assert!(steps.is_some(), "not within six steps");
+}

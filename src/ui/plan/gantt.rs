@@ -6,7 +6,7 @@ use egui::{
 };
 use jiff::Timestamp;
 
-use super::{LABELS, PADDING, PlanState, Span};
+use super::{LABELS, PADDING, PlanState, Span, show_focus};
 use crate::{
     astro::time::seconds_between,
     engine::passes::PredictedPass,
@@ -55,7 +55,8 @@ pub(super) fn show(
     let span = span(model);
     let time = |place: Rect| place.with_min_x(rect.left() + LABELS);
     heads(ui, head, time(head), span);
-    let list = ui.interact(body, ui.make_persistent_id("plan passes"), Sense::hover());
+    // One stop of Tab: arrows go through the passes.
+    let list = ui.interact(body, ui.make_persistent_id("plan passes"), Sense::FOCUSABLE);
     list.widget_info(|| WidgetInfo::labeled(Role::ListBox, true, "Passes by satellite"));
     if satellites.is_empty() {
         let words = "No satellite is planned. Mark favourites in Elements.";
@@ -82,6 +83,7 @@ pub(super) fn show(
     frame(ui, time(rect).with_min_y(head.bottom()), model, span, state);
     let x = span.x(model.now, time(rect));
     ui.painter().vline(x, body.y_range(), (1.75, t.t1));
+    show_focus(ui, &list);
 }
 
 /// The day is a little lighter than the night.
@@ -213,7 +215,7 @@ fn bar(
     let is_selected = selected == Some(predicted.key());
     let name = spoken(model, planned);
     let id = ui.make_persistent_id(("plan bar", predicted.key()));
-    let response = ui.interact(rect.expand(1.0), id, Sense::click());
+    let response = ui.interact(rect.expand(1.0), id, Sense::CLICK);
     response.widget_info(|| WidgetInfo::selected(Role::ListBoxOption, true, is_selected, &name));
     ui.ctx().accesskit_node_builder(response.id, |node| node.set_selected(is_selected));
     if planned.entries.is_empty() {
@@ -235,7 +237,6 @@ fn bar(
         let frame = rect.expand(2.5);
         ui.painter().rect_stroke(frame, 1.0, Stroke::new(1.5, t.ant), StrokeKind::Outside);
     }
-    paint::focus_ring(ui, &response, 1);
     if response.clicked() {
         commands.push(UiCommand::SelectPass(predicted.key()));
     }

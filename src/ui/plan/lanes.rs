@@ -324,7 +324,7 @@ fn bar(
         ui.painter().rect_stroke(frame, 2.0, Stroke::new(1.5, t.ant), StrokeKind::Outside);
     }
     let id = ui.make_persistent_id(("lane bar", antenna.id().0, key));
-    let response = ui.interact(rect, id, Sense::click());
+    let response = ui.interact(rect, id, Sense::CLICK);
     let lost = entry.lost.map(|lost| format!(" {}.", words::schedule::lost(lost)));
     let spoken = format!(
         "{name} with {}, {}, {max}, {state}.{}",
@@ -348,7 +348,6 @@ fn bar(
     if response.clicked() {
         commands.push(UiCommand::SelectPass(key));
     }
-    paint::focus_ring(ui, &response, 1);
     response.on_hover_text(spoken);
     used
 }

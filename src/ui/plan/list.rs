@@ -3,7 +3,7 @@
 
 use egui::{Align2, Color32, Rect, Role, ScrollArea, Sense, Ui, UiBuilder, WidgetInfo, pos2, vec2};
 
-use super::{PADDING, PlanState, state::Shown};
+use super::{PADDING, PlanState, show_focus, state::Shown};
 use crate::{
     engine::antenna::AntennaModel,
     model::{
@@ -110,7 +110,7 @@ pub(super) fn show(
             Shown::LeftOut => !is_taken(of),
         })
         .collect();
-    let list = ui.interact(body, ui.make_persistent_id("plan list"), Sense::hover());
+    let list = ui.interact(body, ui.make_persistent_id("plan list"), Sense::FOCUSABLE);
     let title = title(antenna);
     list.widget_info(|| WidgetInfo::labeled(Role::ListBox, true, &title));
     if rows.is_empty() {
@@ -133,6 +133,7 @@ pub(super) fn show(
             }
         });
     });
+    show_focus(ui, &list);
 }
 
 fn show_bar(
@@ -306,7 +307,7 @@ fn show_row(
     let (icon, words, colour) = state(model, antenna, listed, t);
     let (why, is_caution) = reason(model, listed);
     let id = ui.make_persistent_id(("plan list row", listed.key));
-    let response = ui.interact(row, id, Sense::click());
+    let response = ui.interact(row, id, Sense::CLICK);
     let max = listed.max_elevation_deg.map(|deg| format::degrees(deg, 0)).unwrap_or_default();
     let [aos, los] = [listed.key.1, listed.los].map(|at| format::moment(at, model.now));
     let spoken = format!("{}, {aos} to {los}, {max}. {words}. {why}", listed.name);
@@ -391,7 +392,6 @@ fn show_row(
         t.t2
     };
     paint::text_in(ui, room, left, &why, small, colour);
-    paint::focus_ring(ui, &response, 0);
     if response.clicked() {
         commands.push(UiCommand::SelectPass(listed.key));
     }
