@@ -35,7 +35,11 @@ impl Binding {
                 self.place,
                 KeyScope::Everywhere | KeyScope::Focus | KeyScope::Elements | KeyScope::Preferences
             );
-        let keys = self.keys.iter().filter(move |(_, act)| is_free && !act.is_fixed());
+        // Space belongs to whatever control has the focus.
+        let keys = self
+            .keys
+            .iter()
+            .filter(move |(usual, act)| is_free && !act.is_fixed() && *usual != Key::Space);
         keys.map(|(usual, _)| Slot { place: self.place, usual: *usual })
     }
 }
