@@ -56,8 +56,8 @@ pub(super) fn track(client: &Client, name: &str) {
 fn a_pass_that_was_tracked_is_reported_when_it_is_over() {
     let station = Station { favourites: [ISS].into(), ..scene::station() };
     let pass = next_pass(&station);
-    let speed = NonZeroU32::new(40).unwrap();
-    let scene = Scene::with(pass.aos.time - 4.minutes(), speed, &station);
+    let speed = NonZeroU32::new(20).unwrap();
+    let scene = Scene::recorded(pass.aos.time - 4.minutes(), speed, &station);
     let client = scene.client();
     track(&client, "Mast");
     until("its report", || {
@@ -116,7 +116,8 @@ fn a_pass_is_flown_with_the_offsets_that_are_remembered_and_reported_beside_them
     let azimuth = with(Offset::Azimuth(Angle::from_degrees(6.0)));
     station.keep_offsets(OffsetsOf::Antenna(mast), azimuth);
     let pass = next_pass(&station);
-    let scene = Scene::with(pass.aos.time - 4.minutes(), NonZeroU32::new(40).unwrap(), &station);
+    let scene =
+        Scene::recorded(pass.aos.time - 4.minutes(), NonZeroU32::new(20).unwrap(), &station);
     let client = scene.client();
     track(&client, "Mast");
     let time = with(Offset::Time(SignedDuration::from_secs(2)));
@@ -137,7 +138,8 @@ fn a_pass_is_flown_with_the_offsets_that_are_remembered_and_reported_beside_them
 fn while_a_unit_tracks_by_itself_its_late_clock_is_told_by_the_error() {
     let station = Station { favourites: [ISS].into(), ..scene::station() };
     let pass = next_pass(&station);
-    let scene = Scene::with(pass.aos.time - 4.minutes(), NonZeroU32::new(40).unwrap(), &station);
+    let scene =
+        Scene::recorded(pass.aos.time - 4.minutes(), NonZeroU32::new(20).unwrap(), &station);
     let client = scene.client();
     let dish = measured(&client, "Dish");
     let late = Trouble::ClockLate(Duration::from_millis(1500));
@@ -165,8 +167,8 @@ fn while_a_unit_tracks_by_itself_its_late_clock_is_told_by_the_error() {
 fn a_pass_under_way_is_reported_when_the_program_ends() {
     let station = Station { favourites: [ISS].into(), ..scene::station() };
     let pass = next_pass(&station);
-    let speed = NonZeroU32::new(40).unwrap();
-    let scene = Scene::with(pass.aos.time - 4.minutes(), speed, &station);
+    let speed = NonZeroU32::new(20).unwrap();
+    let scene = Scene::recorded(pass.aos.time - 4.minutes(), speed, &station);
     let client = scene.client();
     track(&client, "Mast");
     until("the middle of the pass", || (client.now().utc > pass.tca.time).then_some(()));
@@ -195,8 +197,8 @@ fn look(client: &Client, look: &RecordLook) -> Found {
 fn what_automatic_operation_does_is_in_the_record() {
     let station = Station { favourites: [ISS].into(), ..scene::station() };
     let pass = next_pass(&station);
-    let speed = NonZeroU32::new(40).unwrap();
-    let scene = Scene::with(pass.aos.time - 6.minutes(), speed, &station);
+    let speed = NonZeroU32::new(20).unwrap();
+    let scene = Scene::recorded(pass.aos.time - 6.minutes(), speed, &station);
     let client = scene.client();
     let mast = measured(&client, "Mast");
     set_automatic(&client, mast, true);

@@ -60,7 +60,7 @@ fn what_was_rehearsed_is_what_then_happens() {
     assert!(rehearsed.passes.iter().all(|pass| pass.report.is_some()), "{rehearsed:?}");
 
     // To read the elements takes long by a clock at speed.
-    let scene = Scene::with(from - 10.minutes(), speed, &station());
+    let scene = Scene::recorded(from - 10.minutes(), speed, &station());
     let client = scene.client();
     for name in ["Dish", "Mast"] {
         let antenna = measured(&client, name);

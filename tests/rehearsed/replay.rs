@@ -48,7 +48,7 @@ fn a_pass_is_shown_again_as_it_was_at_every_recorded_event() {
     let station = Station { favourites: [ISS].into(), ..scene::station() };
     let pass = next_pass(&station);
     let speed = NonZeroU32::new(30).unwrap();
-    let scene = Scene::with(pass.aos.time - 3.minutes(), speed, &station);
+    let scene = Scene::recorded(pass.aos.time - 3.minutes(), speed, &station);
     let client = scene.client();
     let witness = client.clone();
     let watching = thread::Builder::new().name("watches".to_owned()).spawn(|| watch(witness));

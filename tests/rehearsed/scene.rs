@@ -130,31 +130,39 @@ impl Scene {
     }
 
     pub(super) fn with(start: Timestamp, speed: NonZeroU32, station: &Station) -> Self {
-        Self::made(start, speed, station, false)
+        Self::made(start, speed, station, [false; 2])
+    }
+
+    /// One that is recorded. At a high speed, the film of some thousand pictures a second would
+    /// leave the sessions no processor.
+    pub(super) fn recorded(start: Timestamp, speed: NonZeroU32, station: &Station) -> Self {
+        Self::made(start, speed, station, [false, true])
     }
 
     /// One that keeps records of what is owed to units.
     pub(super) fn marking(start: Timestamp, speed: NonZeroU32, station: &Station) -> Self {
-        Self::made(start, speed, station, true)
+        Self::made(start, speed, station, [true, false])
     }
 
-    fn made(start: Timestamp, speed: NonZeroU32, station: &Station, has_marks: bool) -> Self {
+    fn made(
+        start: Timestamp,
+        speed: NonZeroU32,
+        station: &Station,
+        [has_marks, has_record]: [bool; 2],
+    ) -> Self {
         LazyLock::force(&FAVOURITES);
         let clock = Clock::at_speed(start, speed);
         let units = Units::new(&clock, start);
         let folder = tempfile::tempdir().unwrap();
         station::save(station, &folder.path().join("station.toml")).unwrap();
-        Self::begin(units, clock, folder, has_marks, speed < FAST)
+        Self::begin(units, clock, folder, [has_marks, has_record])
     }
 
-    /// `has_record`: at the highest speed, the film of some thousand pictures a second would leave
-    /// the sessions no processor.
     fn begin(
         units: Units,
         clock: Clock,
         folder: tempfile::TempDir,
-        has_marks: bool,
-        has_record: bool,
+        [has_marks, has_record]: [bool; 2],
     ) -> Self {
         let settings = Settings {
             path: Some(folder.path().join("station.toml")),
@@ -184,7 +192,7 @@ impl Scene {
         if is_crash {
             fs::write(&left, while_running).unwrap();
         }
-        Self::begin(units, clock, folder, has_marks, has_record)
+        Self::begin(units, clock, folder, [has_marks, has_record])
     }
 
     pub(super) fn folder(&self) -> &Path {
