@@ -121,7 +121,7 @@ pub fn word(key: Key) -> &'static str {
         Key::PageUp => "Page Up",
         Key::PageDown => "Page Down",
         Key::Comma => "comma",
-        Key::Period => "period",
+        Key::Period => "dot",
         other => other.symbol_or_name(),
     }
 }
