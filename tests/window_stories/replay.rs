@@ -182,8 +182,9 @@ fn while_the_record_is_shown_again_no_command_passes_and_stop_reaches_the_unit()
     });
     window.step();
     window.get_by_label("Nothing was filmed at this moment.");
-    window.key_press(Key::Period);
+    // What has just happened is written within a second.
     wait_until("the first event", || {
+        window.key_press(Key::Period);
         window.step();
         let model = again(&window);
         model.replay.as_ref().is_some_and(|replay| replay.problem.is_none())
