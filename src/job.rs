@@ -44,6 +44,11 @@ impl Drop for InPlace {
     }
 }
 
+/// Returns `true` if an [`InPlace`] lives on this thread.
+pub fn is_in_place() -> bool {
+    RUNS_IN_PLACE.get()
+}
+
 /// A piece of work under way. Dropping it cancels it.
 pub struct Job<T> {
     result: mpsc::Receiver<T>,
@@ -70,7 +75,7 @@ impl<T: Send + 'static> Job<T> {
             // Nobody may be waiting any more.
             let _ = send.send(outcome);
         };
-        if RUNS_IN_PLACE.get() {
+        if is_in_place() {
             // Whoever asks for the result learns that it broke off.
             panic::catch_unwind(AssertUnwindSafe(whole)).ok();
         } else {

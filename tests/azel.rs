@@ -30,6 +30,7 @@ mod rc2000c_session;
 mod rc2000c_simulator;
 mod rc2000c_vectors;
 mod rehearsal;
+mod rehearsed;
 mod rotator_genius_any;
 mod rotator_genius_vectors;
 mod safety_properties;

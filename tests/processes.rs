@@ -15,6 +15,7 @@ mod command_line;
 mod dead_man;
 #[cfg(unix)]
 mod link_sockets;
+mod live_stations;
 mod owed_stop;
 mod passes_command;
 mod plan_command;
@@ -25,9 +26,9 @@ mod real_peers;
 mod real_window;
 mod rehearse_command;
 #[cfg(unix)]
-mod rehearsed;
-#[cfg(unix)]
 mod serve;
+#[path = "common/units.rs"]
+mod units;
 #[cfg(unix)]
 mod unread_log;
 mod web_source;

@@ -24,14 +24,15 @@ impl InPlace {
     pub fn start(
         settings: &Settings,
         outside: Outside,
-    ) -> io::Result<(Self, impl Future<Output = ()>)> {
+    ) -> io::Result<(Self, impl Future<Output = ()> + use<>)> {
         let runtime = tokio::runtime::Handle::try_current().map_err(io::Error::other)?;
         let (requests, inbox) = mpsc::channel(REQUESTS);
         let (tell, mut events) = mpsc::channel::<Event>(EVENTS);
         // What they tell stands in the snapshots too.
         runtime.spawn(async move { while events.recv().await.is_some() {} });
         let woken = Arc::new(Notify::new());
-        let driver = Driver::within(runtime, outside.clone(), wake_of(&woken));
+        let driver = Driver::within(runtime, outside.clone(), wake_of(&woken))
+            .marking_in(settings.marks.clone());
         let outbox = Outbox { events: tell, wake: Arc::new(|| {}) };
         let weak = requests.downgrade();
         let (engine, client) = Engine::over(driver, woken, settings, outside, outbox, weak)?;

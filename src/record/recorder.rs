@@ -14,11 +14,13 @@ use std::{
 
 use jiff::Timestamp;
 use serde::{Deserialize, Serialize};
+use tokio::runtime::Handle;
 
 use super::{Entry, PassNote, Picture, writer::Writer};
 use crate::{
     clock::{Clock, Moment},
     driver::{PositionLog, WireLog},
+    job,
     station::{AntennaId, Retention},
 };
 
@@ -91,6 +93,8 @@ pub struct Recorder {
     orders: Option<mpsc::SyncSender<Order>>,
     shared: Arc<Shared>,
     ended: mpsc::Receiver<()>,
+    /// The time of the station stands while something is written.
+    is_in_place: bool,
 }
 
 impl Recorder {
@@ -107,11 +111,15 @@ impl Recorder {
             not_filmed: AtomicU64::default(),
         });
         let writer = Writer::new(clock, Arc::clone(&shared));
+        // Its time is that of the station, which may be paused.
+        let runtime = Handle::try_current();
         thread::Builder::new().name("azel-record".to_owned()).spawn(move || {
+            let _entered = runtime.as_ref().map(Handle::enter);
             writer.run(&inbox);
             let _ = tell_ended.send(());
         })?;
-        Ok(Self { orders: Some(orders), shared, ended })
+        let is_in_place = job::is_in_place();
+        Ok(Self { orders: Some(orders), shared, ended, is_in_place })
     }
 
     /// Records an entry. One that the writer has no room for is counted.
@@ -127,6 +135,9 @@ impl Recorder {
     /// Films a picture. One that the writer has no room for is counted.
     pub fn film(&self, picture: Arc<dyn Picture>) {
         self.order(Order::Picture(picture));
+        if self.is_in_place {
+            self.flush();
+        }
     }
 
     fn order(&self, order: Order) {

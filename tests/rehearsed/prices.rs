@@ -1,6 +1,6 @@
 //! What it costs to take a pass that the schedule leaves out, beside what happens when it is taken.
 
-use std::{num::NonZeroU32, sync::Arc};
+use std::sync::Arc;
 
 use azel::{
     engine::{Client, Command, passes::PassKey, schedule::Planned},
@@ -8,16 +8,18 @@ use azel::{
     station::{PassLimits, Station, Take},
 };
 
-use super::scene::{self, Scene, start, until};
+use super::scene::Scene;
+use crate::common::units::{measured, start, station, until};
 
 /// Left out passes that are looked at.
 const LOOKED_AT: usize = 6;
 
-fn planned(client: &Client, after: u64) -> Arc<Planned> {
+async fn planned(client: &Client, after: u64) -> Arc<Planned> {
     until("a schedule", || {
         let planned = Arc::clone(&client.snapshot().schedule);
         (planned.made_at.is_some() && planned.revision > after).then_some(planned)
     })
+    .await
 }
 
 fn choose(client: &Client, pass: PassKey, take: Option<Take>) {
@@ -39,30 +41,30 @@ fn in_short(changes: &[Change]) -> Vec<String> {
     short
 }
 
-#[test]
-fn the_price_of_a_pass_is_what_changes_when_it_is_always_taken() {
-    let mut station = scene::station();
+#[tokio::test(start_paused = true)]
+async fn the_price_of_a_pass_is_what_changes_when_it_is_always_taken() {
+    let mut station = station();
     // One satellite has a limit that leaves out its passes.
     let limited = station.favourites.numbers()[0];
     let limits = PassLimits { min_max_elevation_deg: Some(89.9), ..PassLimits::default() };
     station.favourites.set_limits(limited, limits);
-    check(&station);
+    check(&station).await;
 }
 
-fn check(station: &Station) {
-    let scene = Scene::with(start(), NonZeroU32::MIN, station);
+async fn check(station: &Station) {
+    let scene = Scene::new(start(), station);
     let client = scene.client();
     for name in ["Dish", "Mast", "Horn"] {
-        scene::measured(&client, name);
+        measured(&client, name).await;
     }
-    let mut now = planned(&client, 0);
+    let mut now = planned(&client, 0).await;
     let (mut priced, mut by_rule) = (0, 0);
     let mut seen: Vec<PassKey> = Vec::new();
     while seen.len() < LOOKED_AT {
         let is_rule =
             |why: &Why| matches!(why, Why::Refused(Refusal::Rule(Rule::MinElevation { .. })));
         // Where antennas have come to be known where they stand, it is planned anew.
-        now = planned(&client, now.revision - 1);
+        now = planned(&client, now.revision - 1).await;
         let mut left_out: Vec<_> = now.schedule.left_out.iter().collect();
         left_out.sort_by_key(|left| !is_rule(&left.why) || by_rule > 1);
         let keys = left_out.iter().map(|left| ((left.pass.satellite, left.pass.aos), &left.why));
@@ -82,9 +84,10 @@ fn check(station: &Station) {
             }
             let swap = snapshot.swap.clone()?;
             (swap.pass == pass && swap.revision == revision).then_some((revision, swap))
-        });
+        })
+        .await;
         choose(&client, pass, Some(Take::Always));
-        let made = planned(&client, was);
+        let made = planned(&client, was).await;
         let key = |of: &azel::plan::schedule::Entry| (of.pass.satellite, of.pass.aos);
         let is_taken = made.schedule.entries.iter().any(|entry| key(entry) == pass);
         assert_eq!(swap.changes.is_some(), is_taken, "{pass:?} {why:?}");
@@ -94,7 +97,7 @@ fn check(station: &Station) {
             by_rule += usize::from(is_rule(&why));
         }
         choose(&client, pass, None);
-        now = planned(&client, made.revision);
+        now = planned(&client, made.revision).await;
     }
     println!("{priced} prices of {} passes, {by_rule} beyond a limit", seen.len());
     assert!(priced > 2 && by_rule > 0, "{priced} {by_rule}");

@@ -1,50 +1,39 @@
-//! A rehearsal beside what then happens with the same station. Here its clock runs at 10 times real
-//! time, at which a busy computer takes the time of a position too late, so that only what is far off
-//! is found. `AZEL_SPEED=1 cargo test --test processes rehearsed::rehearsal -- --nocapture` takes 25
-//! minutes of real time and compares as closely as a rehearsal has to be.
+//! A rehearsal beside what then happens with the same station, in paused time here.
+//! `AZEL_REAL_TIME=1 cargo test --test azel rehearsed::rehearsal -- --nocapture` takes 25 minutes of
+//! real time, with a station on threads of its own.
 
-use std::{
-    num::NonZeroU32,
-    sync::Arc,
-    thread,
-    time::{Duration, Instant},
-};
+use std::{num::NonZeroU32, path::Path, sync::Arc};
 
 use azel::{
+    clock::Clock,
+    engine::{Client, Handle, Settings},
     orbit::bundled,
     record::RowKind,
-    rehearsal::{Rehearsal, run},
-    station::Station,
+    rehearsal::{Rehearsal, Rehearsed, run},
+    station::{self, Station},
 };
 use jiff::{Timestamp, ToSpan as _};
 
 use super::{
-    recorded::rows,
-    scene::{self, Scene, measured, set_automatic, until},
+    recorded::rows_in,
+    scene::{Scene, set_automatic},
 };
+use crate::common::units::{self, Units, measured, until};
 
-const USUAL_SPEED: u32 = 10;
-/// Difference in real time from which two errors are not the same, degrees.
+/// Difference from which two errors are not the same, degrees.
 const ALIKE_DEG: f64 = 0.02;
 /// Share of an error that is not the same either.
 const ALIKE_SHARE: f64 = 0.2;
-/// What a busy computer adds to both for each multiple of real time.
-const BUSY_DEG: f64 = 0.005;
-const BUSY_SHARE: f64 = 0.03;
 
 /// One pass of the dish and one of the mast at the same time: METEOR-M2 4 and NOAA 20.
 fn station() -> Station {
-    let mut station = Station { favourites: [59_051, 43_013].into(), ..scene::station() };
+    let mut station = Station { favourites: [59_051, 43_013].into(), ..units::station() };
     station.antennas.retain(|antenna| antenna.name != "Horn");
     station
 }
 
-#[test]
-fn what_was_rehearsed_is_what_then_happens() {
-    let speed = std::env::var("AZEL_SPEED").map_or(USUAL_SPEED, |text| text.parse().unwrap());
-    let speed = NonZeroU32::new(speed).unwrap();
-    let busy = f64::from(speed.get() - 1);
-    let (alike_deg, share) = (ALIKE_DEG + BUSY_DEG * busy, ALIKE_SHARE + BUSY_SHARE * busy);
+#[tokio::test(start_paused = true)]
+async fn what_was_rehearsed_is_what_then_happens() {
     let from: Timestamp = "2026-08-12T11:04:00Z".parse().unwrap();
     let what = Rehearsal {
         station: station(),
@@ -55,31 +44,56 @@ fn what_was_rehearsed_is_what_then_happens() {
         faults: Vec::new(),
         speed: None,
     };
-    let rehearsed = run(&what, &|_| (), &|| false).unwrap();
+    // It has a runtime of its own.
+    let run = move || run(&what, &|_| (), &|| false);
+    let rehearsed = std::thread::spawn(run).join().unwrap().unwrap();
     assert_eq!(rehearsed.passes.len(), 2, "{rehearsed:?}");
     assert!(rehearsed.passes.iter().all(|pass| pass.report.is_some()), "{rehearsed:?}");
 
-    // To read the elements takes long by a clock at speed.
-    let scene = Scene::recorded(from - 10.minutes(), speed, &station());
-    let client = scene.client();
+    let start = from - 10.minutes();
+    if std::env::var_os("AZEL_REAL_TIME").is_some() {
+        tokio::time::resume();
+        let folder = tempfile::tempdir().unwrap();
+        let station = live(start, folder.path());
+        compare(&rehearsed, station.client(), folder.path()).await;
+    } else {
+        let scene = Scene::recorded(start, &station());
+        compare(&rehearsed, &scene.client(), scene.folder()).await;
+    }
+}
+
+/// A station with threads of its own, recorded.
+fn live(start: Timestamp, folder: &Path) -> Handle {
+    let clock = Clock::at_speed(start, NonZeroU32::MIN);
+    let path = folder.join("station.toml");
+    station::save(&station(), &path).unwrap();
+    let settings = Settings {
+        path: Some(path),
+        library: Some(folder.join("elements")),
+        records: Some(folder.join("records")),
+        ..Settings::default()
+    };
+    let units = Units::new(&clock, start);
+    Handle::start(settings, units.outside(&clock), Arc::new(|| {})).unwrap()
+}
+
+/// Holds what was rehearsed against what happens with the station whose files are in `folder`.
+async fn compare(rehearsed: &Rehearsed, client: &Client, folder: &Path) {
     for name in ["Dish", "Mast"] {
-        let antenna = measured(&client, name);
-        set_automatic(&client, antenna, true);
+        let antenna = measured(client, name).await;
+        set_automatic(client, antenna, true).await;
     }
     let last = rehearsed.passes.iter().map(|pass| pass.los).max().unwrap();
-    let patience = Instant::now() + Duration::from_mins(40);
-    while client.now().utc < last {
-        assert!(Instant::now() < patience);
-        thread::sleep(scene::LOOK);
-    }
+    until("the last pass", || (client.now().utc > last).then_some(())).await;
     for pass in &rehearsed.passes {
         let report = until("the report", || {
-            let mut reports = rows(&scene, RowKind::Pass).into_iter();
+            let mut reports = rows_in(folder, RowKind::Pass).into_iter();
             reports.find(|row| {
                 row.antenna.as_deref() == Some(&pass.antenna_name)
                     && row.data["satellite"] == pass.satellite
             })
-        });
+        })
+        .await;
         let report = &report.data["report"];
         let [rms, worst] = [&report["rms"]["off_deg"], &report["worst"]["error"]["off_deg"]]
             .map(|value| value.as_f64().unwrap());
@@ -89,7 +103,10 @@ fn what_was_rehearsed_is_what_then_happens() {
                 "{} {}: {before:.3} then {then:.3} deg",
                 pass.antenna_name, pass.satellite_name
             );
-            assert!((before - then).abs() <= f64::max(share * then, alike_deg), "{before} {then}");
+            assert!(
+                (before - then).abs() <= f64::max(ALIKE_SHARE * then, ALIKE_DEG),
+                "{before} {then}"
+            );
         }
     }
 }

@@ -1,7 +1,5 @@
 //! What ends automatic operation, and what does not: one antenna, some minutes before a pass.
 
-use std::num::NonZeroU32;
-
 use azel::{
     astro::time::{add_seconds, seconds_between},
     driver::{self, LinkState},
@@ -19,15 +17,18 @@ use azel::{
 use jiff::{Timestamp, ToSpan as _};
 use tokio::io::AsyncWriteExt as _;
 
-use super::scene::{self, Scene, flown, measured, operation, set_automatic, start, until};
+use super::{
+    flown,
+    scene::{Scene, operation, set_automatic},
+};
+use crate::common::units::{self, measured, start, until};
 
-const SPEED: NonZeroU32 = NonZeroU32::new(50).unwrap();
 /// The station starts so long before the pass, seconds.
 const BEFORE_S: f64 = 240.0;
 
 /// A station with this antenna alone.
 fn station(antenna: &str, set: impl FnOnce(&mut Antenna)) -> Station {
-    let mut station = scene::station();
+    let mut station = units::station();
     station.antennas.retain(|of| of.name == antenna);
     if let Some(antenna) = station.antennas.first_mut() {
         set(antenna);
@@ -54,26 +55,18 @@ fn before_a_pass() -> Timestamp {
     add_seconds(first, -BEFORE_S)
 }
 
-fn scene_of(antenna: &str, set: impl FnOnce(&mut Antenna)) -> (Scene, Client, AntennaId) {
-    scene_at(SPEED, antenna, set)
-}
-
-fn scene_at(
-    speed: NonZeroU32,
-    antenna: &str,
-    set: impl FnOnce(&mut Antenna),
-) -> (Scene, Client, AntennaId) {
-    let scene = Scene::with(before_a_pass(), speed, &station(antenna, set));
+async fn scene_of(antenna: &str, set: impl FnOnce(&mut Antenna)) -> (Scene, Client, AntennaId) {
+    let scene = Scene::new(before_a_pass(), &station(antenna, set));
     let client = scene.client();
-    let id = measured(&client, antenna);
-    until("the schedule", || client.snapshot().schedule.made_at);
+    let id = measured(&client, antenna).await;
+    until("the schedule", || client.snapshot().schedule.made_at).await;
     (scene, client, id)
 }
 
 /// The antenna is on its way to its first pass, and the unit is proved to hold it.
-fn proved(client: &Client, id: AntennaId) {
-    set_automatic(client, id, true);
-    until("the proof", || operation(client, id).taking()?.proved_at);
+async fn proved(client: &Client, id: AntennaId) {
+    set_automatic(client, id, true).await;
+    until("the proof", || operation(client, id).taking()?.proved_at).await;
 }
 
 fn auto_track(client: &Client, id: AntennaId) -> Option<bool> {
@@ -82,12 +75,12 @@ fn auto_track(client: &Client, id: AntennaId) -> Option<bool> {
     antenna.snapshot.state.program?.auto
 }
 
-fn until_auto_track(client: &Client, id: AntennaId, is_on: bool) {
-    until("auto-track", || (auto_track(client, id) == Some(is_on)).then_some(()));
+async fn until_auto_track(client: &Client, id: AntennaId, is_on: bool) {
+    until("auto-track", || (auto_track(client, id) == Some(is_on)).then_some(())).await;
 }
 
-fn until_off(client: &Client, id: AntennaId, because: OffBecause) {
-    until("its end", || (operation(client, id) == Operation::Off(because)).then_some(()));
+async fn until_off(client: &Client, id: AntennaId, because: OffBecause) {
+    until("its end", || (operation(client, id) == Operation::Off(because)).then_some(())).await;
 }
 
 fn stands(client: &Client, is_that: impl Fn(&AlarmKind) -> bool) -> bool {
@@ -96,151 +89,156 @@ fn stands(client: &Client, is_that: impl Fn(&AlarmKind) -> bool) -> bool {
     standing.any(|alarm| is_that(&alarm.kind))
 }
 
-fn until_lost(client: &Client, id: AntennaId) {
+async fn until_lost(client: &Client, id: AntennaId) {
     until("the loss of the link", || {
         let snapshot = client.snapshot();
         let antenna = snapshot.antennas.iter().find(|of| of.id() == id)?;
         matches!(antenna.snapshot.link, LinkState::Lost { .. }).then_some(())
-    });
+    })
+    .await;
 }
 
 /// Another program sends the unit of the dish elsewhere.
-fn send_elsewhere(scene: &Scene) {
+async fn send_elsewhere(scene: &Scene) {
     let goto = Goto::new(Some(200.0), Some(60.0)).unwrap();
-    by_another(scene, &Request::Motion(Motion::Goto(goto)).to_bytes());
+    by_another(scene, &Request::Motion(Motion::Goto(goto)).to_bytes()).await;
 }
 
 /// Another program sends this to the unit of the dish.
-fn by_another(scene: &Scene, bytes: &[u8]) {
-    let runtime = tokio::runtime::Builder::new_current_thread().enable_all().build().unwrap();
-    let unit = scene.units.dish.clone();
-    runtime.block_on(async {
-        let (mut near, far) = tokio::io::duplex(4096);
-        near.write_all(bytes).await.unwrap();
-        near.shutdown().await.unwrap();
-        let _ = unit.serve(far).await;
-    });
+async fn by_another(scene: &Scene, bytes: &[u8]) {
+    let (mut near, far) = tokio::io::duplex(4096);
+    near.write_all(bytes).await.unwrap();
+    near.shutdown().await.unwrap();
+    let _ = scene.units.dish.serve(far).await;
 }
 
-#[test]
-fn stop_ends_it_and_auto_track_with_it() {
-    let (scene, client, id) = scene_of("Dish", |dish| dish.automatic.uses_auto_track = true);
+#[tokio::test(start_paused = true)]
+async fn stop_ends_it_and_auto_track_with_it() {
+    let (scene, client, id) = scene_of("Dish", |dish| dish.automatic.uses_auto_track = true).await;
     assert_eq!(auto_track(&client, id), Some(false));
-    proved(&client, id);
-    until_auto_track(&client, id, true);
+    proved(&client, id).await;
+    until_auto_track(&client, id, true).await;
     client.stop_all();
-    until_off(&client, id, OffBecause::Stop);
-    until_auto_track(&client, id, false);
-    until("standstill", || scene.units.all_stand().then_some(()));
+    until_off(&client, id, OffBecause::Stop).await;
+    until_auto_track(&client, id, false).await;
+    until("standstill", || scene.units.all_stand().then_some(())).await;
     assert!(!stands(&client, |kind| matches!(kind, AlarmKind::AutomaticOff(_))), "by the operator");
     let stopped_at = client.now().utc;
-    until("minutes", || (seconds_between(stopped_at, client.now().utc) > 400.0).then_some(()));
+    until("minutes", || (seconds_between(stopped_at, client.now().utc) > 400.0).then_some(()))
+        .await;
     assert!(scene.units.all_stand(), "the pass does not start it again");
     assert_eq!(auto_track(&client, id), Some(false));
 }
 
-#[test]
-fn auto_track_of_a_unit_out_of_reach_is_switched_off_once_it_answers() {
-    let (scene, client, id) = scene_of("Dish", |dish| dish.automatic.uses_auto_track = true);
-    proved(&client, id);
-    until_auto_track(&client, id, true);
+#[tokio::test(start_paused = true)]
+async fn auto_track_of_a_unit_out_of_reach_is_switched_off_once_it_answers() {
+    let (scene, client, id) = scene_of("Dish", |dish| dish.automatic.uses_auto_track = true).await;
+    proved(&client, id).await;
+    until_auto_track(&client, id, true).await;
     scene.units.dish.set_fault(satrak::Fault::Silence, true);
-    until_lost(&client, id);
-    set_automatic(&client, id, false);
+    until_lost(&client, id).await;
+    set_automatic(&client, id, false).await;
     scene.units.dish.set_fault(satrak::Fault::Silence, false);
-    until_auto_track(&client, id, false);
+    until_auto_track(&client, id, false).await;
 }
 
-#[test]
-fn a_unit_that_cannot_tell_whether_auto_track_is_off_is_an_alarm() {
-    let (scene, client, id) = scene_of("Dish", |dish| dish.automatic.uses_auto_track = true);
+#[tokio::test(start_paused = true)]
+async fn a_unit_that_cannot_tell_whether_auto_track_is_off_is_an_alarm() {
+    let (scene, client, id) = scene_of("Dish", |dish| dish.automatic.uses_auto_track = true).await;
     scene.units.dish.set_quirk(satrak::Quirk::Fields15, true);
-    proved(&client, id);
-    until("auto-track", || scene.units.dish.state().is_auto.then_some(()));
-    set_automatic(&client, id, false);
-    until("its end", || (!scene.units.dish.state().is_auto).then_some(()));
-    until("the alarm", || stands(&client, |of| *of == AlarmKind::AutoTrackNotKnown).then_some(()));
+    proved(&client, id).await;
+    until("auto-track", || scene.units.dish.state().is_auto.then_some(())).await;
+    set_automatic(&client, id, false).await;
+    until("its end", || (!scene.units.dish.state().is_auto).then_some(())).await;
+    until("the alarm", || stands(&client, |of| *of == AlarmKind::AutoTrackNotKnown).then_some(()))
+        .await;
 }
 
-#[test]
-fn stop_after_another_start_ends_the_auto_track_of_the_run_before() {
-    let (scene, client, id) = scene_of("Dish", |dish| dish.automatic.uses_auto_track = true);
-    proved(&client, id);
-    until_auto_track(&client, id, true);
-    let scene = scene.started_again(false);
+#[tokio::test(start_paused = true)]
+async fn stop_after_another_start_ends_the_auto_track_of_the_run_before() {
+    let (scene, client, id) = scene_of("Dish", |dish| dish.automatic.uses_auto_track = true).await;
+    proved(&client, id).await;
+    until_auto_track(&client, id, true).await;
+    let scene = scene.started_again(false).await;
     let client = scene.client();
-    measured(&client, "Dish");
-    until_auto_track(&client, id, true);
+    measured(&client, "Dish").await;
+    until_auto_track(&client, id, true).await;
     client.stop_all();
-    until_auto_track(&client, id, false);
+    until_auto_track(&client, id, false).await;
 }
 
-#[test]
-fn what_the_operator_then_makes_of_auto_track_stays() {
-    let (_scene, client, id) = scene_of("Dish", |dish| dish.automatic.uses_auto_track = true);
-    proved(&client, id);
-    until_auto_track(&client, id, true);
-    set_automatic(&client, id, false);
-    until_auto_track(&client, id, false);
+#[tokio::test(start_paused = true)]
+async fn what_the_operator_then_makes_of_auto_track_stays() {
+    let (_scene, client, id) = scene_of("Dish", |dish| dish.automatic.uses_auto_track = true).await;
+    proved(&client, id).await;
+    until_auto_track(&client, id, true).await;
+    set_automatic(&client, id, false).await;
+    until_auto_track(&client, id, false).await;
     until("the operator's choice", || {
         let _ = client.send(Command::Antenna(id, driver::Command::AutoTrack(true)));
         auto_track(&client, id).filter(|is_on| *is_on)
-    });
+    })
+    .await;
     let at = client.now().utc;
-    until("a minute", || (seconds_between(at, client.now().utc) > 60.0).then_some(()));
+    until("a minute", || (seconds_between(at, client.now().utc) > 60.0).then_some(())).await;
     assert_eq!(auto_track(&client, id), Some(true));
 }
 
-#[test]
-fn an_antenna_that_another_program_moves_is_left_to_it_until_the_operator_comes() {
-    let (scene, client, id) = scene_of("Dish", |_| {});
-    set_automatic(&client, id, true);
-    send_elsewhere(&scene);
+#[tokio::test(start_paused = true)]
+async fn an_antenna_that_another_program_moves_is_left_to_it_until_the_operator_comes() {
+    let (scene, client, id) = scene_of("Dish", |_| {}).await;
+    set_automatic(&client, id, true).await;
+    send_elsewhere(&scene).await;
     let by = Interruption::Elsewhere;
     until("the suspension", || {
         let is_that = |of| matches!(of, Operation::Suspended { by: found, .. } if found == by);
         is_that(operation(&client, id)).then_some(())
-    });
-    until("the alarm", || stands(&client, |of| *of == AlarmKind::AutomaticSuspended).then_some(()));
-    until("standstill", || scene.units.all_stand().then_some(()));
+    })
+    .await;
+    until("the alarm", || stands(&client, |of| *of == AlarmKind::AutomaticSuspended).then_some(()))
+        .await;
+    until("standstill", || scene.units.all_stand().then_some(())).await;
     assert!(!operation(&client, id).is_on(), "its end ends no suspension");
     let _ = client.send(Command::GoOn(id));
-    until("it to go on", || operation(&client, id).is_on().then_some(()));
+    until("it to go on", || operation(&client, id).is_on().then_some(())).await;
     until("the end", || {
         (!stands(&client, |of| *of == AlarmKind::AutomaticSuspended)).then_some(())
-    });
+    })
+    .await;
 }
 
-#[test]
-fn a_unit_that_is_given_another_satellite_is_left_to_whoever_did_it() {
+#[tokio::test(start_paused = true)]
+async fn a_unit_that_is_given_another_satellite_is_left_to_whoever_did_it() {
     for is_in_pass in [false, true] {
         // The other satellite may be below the horizon.
-        let (scene, client, id) = scene_of("Dish", |dish| dish.monitor = Monitor::Alarm);
-        proved(&client, id);
+        let (scene, client, id) = scene_of("Dish", |dish| dish.monitor = Monitor::Alarm).await;
+        proved(&client, id).await;
         let taken = operation(&client, id).taking().copied().unwrap();
         if is_in_pass {
             let middle = add_seconds(taken.from, 60.0);
-            until("the pass", || (client.now().utc > middle).then_some(()));
+            until("the pass", || (client.now().utc > middle).then_some(())).await;
         }
         let favourites = Station::default().favourites.numbers();
         let number = favourites.into_iter().find(|number| *number != taken.pass.0).unwrap();
         let catalog = bundled().unwrap();
         let name = catalog.get(number).unwrap().name().trim();
-        by_another(&scene, &encode(&format!("SATELLITE=,{},{name},1,1", satrak::BUNDLED_FILE)));
+        by_another(&scene, &encode(&format!("SATELLITE=,{},{name},1,1", satrak::BUNDLED_FILE)))
+            .await;
         let by = Interruption::Elsewhere;
         until("the suspension", || {
             let is_that = |of| matches!(of, Operation::Suspended { by: found, .. } if found == by);
             is_that(operation(&client, id)).then_some(())
-        });
+        })
+        .await;
     }
 }
 
-#[test]
-fn an_antenna_that_is_nudged_at_its_panel_is_left_to_whoever_did_it() {
-    let (scene, client, id) = scene_of("Dish", |_| {});
-    set_automatic(&client, id, true);
+#[tokio::test(start_paused = true)]
+async fn an_antenna_that_is_nudged_at_its_panel_is_left_to_whoever_did_it() {
+    let (scene, client, id) = scene_of("Dish", |_| {}).await;
+    set_automatic(&client, id, true).await;
     let at = client.now().utc;
-    until("it to stand", || (seconds_between(at, client.now().utc) > 30.0).then_some(()));
+    until("it to stand", || (seconds_between(at, client.now().utc) > 30.0).then_some(())).await;
     assert!(operation(&client, id).is_on());
     let [x_deg, y_deg] = scene.units.dish.state().metal_deg;
     scene.units.dish.place([x_deg + 0.5, y_deg]);
@@ -248,137 +246,136 @@ fn an_antenna_that_is_nudged_at_its_panel_is_left_to_whoever_did_it() {
     until("the suspension", || {
         let is_that = |of| matches!(of, Operation::Suspended { by: found, .. } if found == by);
         is_that(operation(&client, id)).then_some(())
-    });
+    })
+    .await;
     let _ = client.send(Command::GoOn(id));
-    proved(&client, id);
+    proved(&client, id).await;
 }
 
-#[test]
-fn after_an_outage_it_goes_on_only_with_a_unit_that_is_as_it_was_left() {
+#[tokio::test(start_paused = true)]
+async fn after_an_outage_it_goes_on_only_with_a_unit_that_is_as_it_was_left() {
     for is_moved in [false, true] {
-        let (scene, client, id) = scene_of("Dish", |_| {});
-        set_automatic(&client, id, true);
+        let (scene, client, id) = scene_of("Dish", |_| {}).await;
+        set_automatic(&client, id, true).await;
         scene.units.dish.set_fault(satrak::Fault::Silence, true);
-        until_lost(&client, id);
+        until_lost(&client, id).await;
         if is_moved {
-            send_elsewhere(&scene);
-            until("standstill", || scene.units.all_stand().then_some(()));
+            send_elsewhere(&scene).await;
+            until("standstill", || scene.units.all_stand().then_some(())).await;
         }
         scene.units.dish.set_fault(satrak::Fault::Silence, false);
         if is_moved {
-            until_off(&client, id, OffBecause::NotAsLeft);
+            until_off(&client, id, OffBecause::NotAsLeft).await;
             let is_that = |of: &AlarmKind| *of == AlarmKind::AutomaticOff(OffBecause::NotAsLeft);
-            until("the alarm", || stands(&client, is_that).then_some(()));
+            until("the alarm", || stands(&client, is_that).then_some(())).await;
         } else {
-            until("the pass", || operation(&client, id).taking()?.proved_at);
+            until("the pass", || operation(&client, id).taking()?.proved_at).await;
         }
     }
 }
 
-#[test]
-fn two_passes_that_the_unit_refuses_end_it_and_both_are_in_the_list_of_the_day() {
-    let (scene, client, id) = scene_at(scene::FAST, "Dish", |_| {});
+#[tokio::test(start_paused = true)]
+async fn two_passes_that_the_unit_refuses_end_it_and_both_are_in_the_list_of_the_day() {
+    let (scene, client, id) = scene_of("Dish", |_| {}).await;
     scene.units.dish.set_fault(satrak::Fault::RefuseSettings, true);
-    set_automatic(&client, id, true);
-    until_off(&client, id, OffBecause::Failures);
+    set_automatic(&client, id, true).await;
+    until_off(&client, id, OffBecause::Failures).await;
     let is_that = |of: &AlarmKind| *of == AlarmKind::AutomaticOff(OffBecause::Failures);
-    until("the alarm", || stands(&client, is_that).then_some(()));
-    until("both passes", || (flown(&client).len() >= 2).then_some(()));
+    until("the alarm", || stands(&client, is_that).then_some(())).await;
+    until("both passes", || (flown(&client).len() >= 2).then_some(())).await;
     let causes: Vec<_> = flown(&client).iter().map(|(_, of)| of.cause).collect();
     let ended = MissCause::Off(OffBecause::Failures);
     assert_eq!(causes[..2], [Some(MissCause::Refused), Some(ended)]);
     assert!(scene.units.all_stand());
 }
 
-#[test]
-fn it_is_on_at_the_start_only_after_an_end_in_order_and_where_nothing_had_ended_it() {
-    let (scene, client, id) = scene_of("Dish", |dish| dish.automatic.is_on_at_start = true);
+#[tokio::test(start_paused = true)]
+async fn it_is_on_at_the_start_only_after_an_end_in_order_and_where_nothing_had_ended_it() {
+    let (scene, client, id) = scene_of("Dish", |dish| dish.automatic.is_on_at_start = true).await;
     assert!(!operation(&client, id).is_on(), "nothing is known of an earlier run");
-    set_automatic(&client, id, true);
-    let again = |scene: Scene, is_crash: bool| {
-        let scene = scene.started_again(is_crash);
+    set_automatic(&client, id, true).await;
+    let again = async |scene: Scene, is_crash: bool| {
+        let scene = scene.started_again(is_crash).await;
         let client = scene.client();
-        measured(&client, "Dish");
+        measured(&client, "Dish").await;
         let is_on = operation(&client, id).is_on();
         (scene, client, is_on)
     };
-    let (scene, client, is_on) = again(scene, false);
+    let (scene, client, is_on) = again(scene, false).await;
     assert!(is_on, "after an end in order");
     drop(client);
-    let (scene, client, is_on) = again(scene, true);
+    let (scene, client, is_on) = again(scene, true).await;
     assert!(!is_on, "after a crash");
-    set_automatic(&client, id, true);
-    set_automatic(&client, id, false);
-    let (scene, client, is_on) = again(scene, false);
+    set_automatic(&client, id, true).await;
+    set_automatic(&client, id, false).await;
+    let (scene, client, is_on) = again(scene, false).await;
     assert!(!is_on, "the operator had switched it off");
-    set_automatic(&client, id, true);
+    set_automatic(&client, id, true).await;
     client.stop_all();
-    until_off(&client, id, OffBecause::Stop);
-    let (scene, client, is_on) = again(scene, false);
+    until_off(&client, id, OffBecause::Stop).await;
+    let (scene, client, is_on) = again(scene, false).await;
     assert!(!is_on, "STOP had ended it");
-    set_automatic(&client, id, true);
+    set_automatic(&client, id, true).await;
     let _ = client.send(Command::Antenna(id, driver::Command::Standby));
-    until("the suspension", || (!operation(&client, id).is_on()).then_some(()));
-    let (scene, client, is_on) = again(scene, false);
+    until("the suspension", || (!operation(&client, id).is_on()).then_some(())).await;
+    let (scene, client, is_on) = again(scene, false).await;
     assert!(!is_on, "the operator had not let it go on");
-    set_automatic(&client, id, true);
-    let (_scene, _, is_on) = again(scene, false);
+    set_automatic(&client, id, true).await;
+    let (_scene, _, is_on) = again(scene, false).await;
     assert!(is_on, "the operator had switched it on again");
 }
 
-#[test]
-fn a_pass_that_the_unit_tracks_through_another_start_is_taken_over_without_a_motion() {
-    let (scene, client, id) = scene_of("Dish", |dish| dish.automatic.is_on_at_start = true);
-    proved(&client, id);
+#[tokio::test(start_paused = true)]
+async fn a_pass_that_the_unit_tracks_through_another_start_is_taken_over_without_a_motion() {
+    let (scene, client, id) = scene_of("Dish", |dish| dish.automatic.is_on_at_start = true).await;
+    proved(&client, id).await;
     let taken = operation(&client, id).taking().copied().unwrap();
-    until("the pass", || (client.now().utc > add_seconds(taken.from, 60.0)).then_some(()));
+    until("the pass", || (client.now().utc > add_seconds(taken.from, 60.0)).then_some(())).await;
     let is_start = |(_, payload): &(_, String)| payload.starts_with("TRACK=");
     let starts =
         |scene: &Scene| scene.units.dish.received().iter().filter(|one| is_start(one)).count();
     let before = starts(&scene);
-    let scene = scene.started_again(false);
+    let scene = scene.started_again(false).await;
     let client = scene.client();
-    until("the pass again", || operation(&client, id).taking()?.proved_at);
+    until("the pass again", || operation(&client, id).taking()?.proved_at).await;
     assert!(scene.units.dish.state().is_tracking);
     assert_eq!(starts(&scene), before);
-    until("LOS", || flown(&client).first().cloned());
+    until("LOS", || flown(&client).first().cloned()).await;
     let (_, of) = &flown(&client)[0];
     assert!(of.in_beam_s > 0.5 * of.of_s, "{of:?}");
     assert!(operation(&client, id).is_on());
 }
 
-#[test]
-fn new_settings_end_it_with_an_alarm_and_a_line_and_auto_track_with_it() {
-    let (scene, client, id) = scene_of("Dish", |dish| dish.automatic.uses_auto_track = true);
-    proved(&client, id);
-    until_auto_track(&client, id, true);
+#[tokio::test(start_paused = true)]
+async fn new_settings_end_it_with_an_alarm_and_a_line_and_auto_track_with_it() {
+    let (scene, client, id) = scene_of("Dish", |dish| dish.automatic.uses_auto_track = true).await;
+    proved(&client, id).await;
+    until_auto_track(&client, id, true).await;
     let mut station = Station::clone(&client.snapshot().station);
     station.antennas[0].automatic.uses_auto_track = false;
     let _ = client.send(Command::SaveStation(Box::new(station)));
-    until_off(&client, id, OffBecause::Changed);
+    until_off(&client, id, OffBecause::Changed).await;
     let is_that = |of: &AlarmKind| *of == AlarmKind::AutomaticOff(OffBecause::Changed);
-    until("the alarm", || stands(&client, is_that).then_some(()));
-    until_auto_track(&client, id, false);
+    until("the alarm", || stands(&client, is_that).then_some(())).await;
+    until_auto_track(&client, id, false).await;
     let day = client.snapshot().day.clone();
     assert!(day.iter().any(|line| line.what == DayEvent::SwitchedOff(OffBecause::Changed)));
-    let (_scene, is_on) = {
-        let scene = scene.started_again(false);
-        let client = scene.client();
-        measured(&client, "Dish");
-        let is_on = operation(&client, id).is_on();
-        (scene, is_on)
-    };
-    assert!(!is_on);
+    drop(client);
+    let scene = scene.started_again(false).await;
+    let client = scene.client();
+    measured(&client, "Dish").await;
+    assert!(!operation(&client, id).is_on());
 }
 
-#[test]
-fn auto_track_of_a_unit_that_the_station_no_longer_has_is_switched_off_once_it_answers() {
+#[tokio::test(start_paused = true)]
+async fn auto_track_of_a_unit_that_the_station_no_longer_has_is_switched_off_once_it_answers() {
     for is_moved in [false, true] {
-        let (scene, client, id) = scene_of("Dish", |dish| dish.automatic.uses_auto_track = true);
-        proved(&client, id);
-        until_auto_track(&client, id, true);
+        let (scene, client, id) =
+            scene_of("Dish", |dish| dish.automatic.uses_auto_track = true).await;
+        proved(&client, id).await;
+        until_auto_track(&client, id, true).await;
         scene.units.dish.set_fault(satrak::Fault::Silence, true);
-        until_lost(&client, id);
+        until_lost(&client, id).await;
         let mut station = Station::clone(&client.snapshot().station);
         if is_moved {
             // To a unit that does not understand it.
@@ -389,55 +386,55 @@ fn auto_track_of_a_unit_that_the_station_no_longer_has_is_switched_off_once_it_a
         }
         let _ = client.send(Command::SaveStation(Box::new(station)));
         let is_owed = |of: &AlarmKind| matches!(of, AlarmKind::AutoTrackOwed(_));
-        until("the alarm", || stands(&client, is_owed).then_some(()));
+        until("the alarm", || stands(&client, is_owed).then_some(())).await;
         scene.units.dish.set_fault(satrak::Fault::Silence, false);
-        until("its end", || (!stands(&client, is_owed)).then_some(()));
+        until("its end", || (!stands(&client, is_owed)).then_some(())).await;
         assert!(!scene.units.dish.state().is_auto);
     }
 }
 
-#[test]
-fn auto_track_that_is_to_be_off_is_switched_off_after_the_next_start() {
+#[tokio::test(start_paused = true)]
+async fn auto_track_that_is_to_be_off_is_switched_off_after_the_next_start() {
     let alone = station("Dish", |dish| dish.automatic.uses_auto_track = true);
-    let scene = Scene::marking(before_a_pass(), SPEED, &alone);
+    let scene = Scene::marking(before_a_pass(), &alone);
     let client = scene.client();
-    let id = measured(&client, "Dish");
-    until("the schedule", || client.snapshot().schedule.made_at);
-    proved(&client, id);
-    until_auto_track(&client, id, true);
+    let id = measured(&client, "Dish").await;
+    until("the schedule", || client.snapshot().schedule.made_at).await;
+    proved(&client, id).await;
+    until_auto_track(&client, id, true).await;
     scene.units.dish.set_fault(satrak::Fault::Silence, true);
-    until_lost(&client, id);
+    until_lost(&client, id).await;
     let mut station = Station::clone(&client.snapshot().station);
     station.antennas.clear();
     let _ = client.send(Command::SaveStation(Box::new(station)));
     let is_owed = |of: &AlarmKind| matches!(of, AlarmKind::AutoTrackOwed(_));
-    until("the alarm", || stands(&client, is_owed).then_some(()));
+    until("the alarm", || stands(&client, is_owed).then_some(())).await;
     drop(client);
-    let scene = scene.started_again(false);
+    let scene = scene.started_again(false).await;
     let client = scene.client();
-    until("the alarm of the next run", || stands(&client, is_owed).then_some(()));
+    until("the alarm of the next run", || stands(&client, is_owed).then_some(())).await;
     scene.units.dish.set_fault(satrak::Fault::Silence, false);
-    until("its end", || (!stands(&client, is_owed)).then_some(()));
+    until("its end", || (!stands(&client, is_owed)).then_some(())).await;
     assert!(!scene.units.dish.state().is_auto);
     drop(client);
-    let scene = scene.started_again(false);
+    let scene = scene.started_again(false).await;
     let marks = scene.folder().join("marks");
     assert_eq!(std::fs::read_dir(marks).unwrap().count(), 0, "paid");
 }
 
-#[test]
-fn parking_for_the_end_is_not_taken_over_by_the_pass() {
-    let (scene, client, id) = scene_of("Dish", |_| {});
-    proved(&client, id);
+#[tokio::test(start_paused = true)]
+async fn parking_for_the_end_is_not_taken_over_by_the_pass() {
+    let (scene, client, id) = scene_of("Dish", |_| {}).await;
+    proved(&client, id).await;
     let taken = operation(&client, id).taking().copied().unwrap();
-    until("the pass", || (client.now().utc > taken.from).then_some(()));
+    until("the pass", || (client.now().utc > taken.from).then_some(())).await;
     let _ = client.send(Command::CloseAfter(CloseHow::Park));
     let is_suspended = || {
         let by_hand = Interruption::ByHand;
         matches!(operation(&client, id), Operation::Suspended { by, .. } if by == by_hand)
     };
-    until("the suspension", || is_suspended().then_some(()));
-    until("standstill", || scene.units.all_stand().then_some(()));
-    until("LOS", || (client.now().utc > taken.until).then_some(()));
+    until("the suspension", || is_suspended().then_some(())).await;
+    until("standstill", || scene.units.all_stand().then_some(())).await;
+    until("LOS", || (client.now().utc > taken.until).then_some(())).await;
     assert!(is_suspended() && scene.units.all_stand());
 }
