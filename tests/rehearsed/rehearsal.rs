@@ -46,7 +46,7 @@ async fn what_was_rehearsed_is_what_then_happens() {
     };
     // It has a runtime of its own.
     let run = move || run(&what, &|_| (), &|| false);
-    let rehearsed = std::thread::spawn(run).join().unwrap().unwrap();
+    let rehearsed = tokio::task::spawn_blocking(run).await.unwrap().unwrap();
     assert_eq!(rehearsed.passes.len(), 2, "{rehearsed:?}");
     assert!(rehearsed.passes.iter().all(|pass| pass.report.is_some()), "{rehearsed:?}");
 
