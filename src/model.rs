@@ -4,6 +4,7 @@
 mod appearance;
 pub mod catalog_table;
 pub mod command;
+pub mod correction;
 pub mod daylight;
 pub mod effects;
 pub mod export;

@@ -21,7 +21,7 @@ use std::{collections::VecDeque, time::Duration};
 
 pub use checks::checks;
 pub use element_files::ELEMENT_FILES;
-use settings::GROUPS;
+use settings::{GROUPS, TRACK_OFFSETS};
 pub use spec::{ELEMENT_FILE, SPEC, VARIANT};
 pub use words::meaning;
 

@@ -66,6 +66,19 @@ pub struct Offsets {
     pub lead_s: f64,
 }
 
+/// The settings by which the operator shifts the tracks that a unit computes: the key of their
+/// group, and of each.
+#[derive(Debug)]
+pub struct TrackOffsetFields {
+    pub group: &'static str,
+    /// Of an integer, milliseconds.
+    pub time_ms: &'static str,
+    /// Of a decimal, degrees, added to the azimuth.
+    pub azimuth_deg: &'static str,
+    /// Of a decimal, degrees, added to the elevation.
+    pub elevation_deg: &'static str,
+}
+
 /// Satellite that a unit holds. The unit does not report the epoch of its elements.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct HeldSatellite {

@@ -1,7 +1,7 @@
 //! Capabilities, settings and actions of a unit, as the settings of its connection
 //! determine them.
 
-use super::{Capabilities, panel::Action, settings::Group};
+use super::{Capabilities, TrackOffsetFields, panel::Action, settings::Group};
 
 /// Capabilities, settings and actions of a unit. A make has several variants where the
 /// settings of the connection change them, such as for a rotator without elevation.
@@ -12,6 +12,8 @@ pub struct Variant {
     pub groups: &'static [&'static Group],
     /// Actions that only this unit has.
     pub actions: &'static [Action],
+    /// `None` for a unit that computes no tracks, or whose tracks cannot be shifted.
+    pub track_offsets: Option<&'static TrackOffsetFields>,
 }
 
 impl Variant {

@@ -33,7 +33,7 @@ use self::{
     unlock_dialog::{UnlockAnswer, UnlockDialog},
 };
 use super::{
-    copies::{self, CompareState},
+    copies::{self, CompareState, Taken},
     text, theme,
     widgets::{
         button::{Button, HEIGHT},
@@ -64,6 +64,17 @@ impl AntennasState {
             form.take_outcomes(&unit);
             form.unlock = form.unlock.filter(|unlock| unlock.holds(&unit));
         }
+    }
+
+    /// Takes this value over into the form of the antenna at `place`, as if it had been typed, and
+    /// shows it.
+    pub fn type_in(&mut self, model: &Model, place: usize, taken: Taken) {
+        let Some(unit) = ShownUnit::of(model, place) else { return };
+        let sections = Section::of(&unit.antenna.config.connection).into_iter();
+        let holds = |section: &Section| section.keys.contains(&taken.group);
+        self.scroll_to = sections.into_iter().find(holds);
+        let form = self.forms.entry(unit.name().to_owned()).or_default();
+        form.take_over(&unit, vec![taken]);
     }
 
     /// Number of typed values that are not on their unit.

@@ -1,6 +1,7 @@
 //! The Record view: the passes that antennas have tracked, and what became of each.
 
 mod bar;
+mod correct;
 mod cursor;
 mod curves;
 mod events;
@@ -13,15 +14,17 @@ mod state;
 
 use egui::{Rect, RichText, ScrollArea, Ui, UiBuilder, vec2};
 
-pub use self::state::RecordState;
+pub use self::{correct::take_over, state::RecordState};
 use super::{text, theme};
 use crate::model::{Model, UiCommand};
 
 const PADDING: f32 = 16.0;
 /// Width of the list of passes.
 const LIST: f32 = 320.0;
-/// In a window below this width the list is a drawer, and the tables stand below the curves.
+/// In a window below this width the list is a drawer.
 const DRAWER_BELOW: f32 = 1100.0;
+/// In a report below this width the tables stand one below the other.
+const TABLES_BELOW: f32 = 1000.0;
 /// Height of the path and the curves.
 const DRAWINGS: f32 = 384.0;
 /// Least height of the tables below them.
@@ -52,7 +55,7 @@ pub fn show(
     match state.opened(model) {
         Some(opened) => {
             let opened = opened.clone();
-            show_report(ui, body, window, model, &opened, state, commands);
+            show_report(ui, body, model, &opened, state, commands);
         }
         None => nothing(ui, body, model),
     }
@@ -73,7 +76,6 @@ fn nothing(ui: &mut Ui, rect: Rect, model: &Model) {
 fn show_report(
     ui: &mut Ui,
     rect: Rect,
-    window: Rect,
     model: &Model,
     opened: &crate::record::OpenedPass,
     state: &mut RecordState,
@@ -94,7 +96,7 @@ fn show_report(
             let (left, right) = place.split_left_right_at_x(place.left() + side);
             path::show(ui, left, model, opened, state);
             curves::show(ui, right, model, opened, state, commands);
-            let is_wide = window.width() >= DRAWER_BELOW;
+            let is_wide = width >= TABLES_BELOW;
             let rows = explain::height(opened);
             let spare = rest.height() - verdict - DRAWINGS;
             if is_wide {
@@ -102,11 +104,11 @@ fn show_report(
                 let (_, place) = ui.allocate_space(vec2(width, height));
                 let side = (0.375 * width).clamp(340.0, 420.0);
                 let (left, right) = place.split_left_right_at_x(place.right() - side);
-                explain::show(ui, left, opened);
+                explain::show(ui, left, model, opened, state);
                 facts::show(ui, right, model, opened, commands);
             } else {
                 let (_, place) = ui.allocate_space(vec2(width, rows));
-                explain::show(ui, place, opened);
+                explain::show(ui, place, model, opened, state);
                 let (_, place) = ui.allocate_space(vec2(width, facts::HEIGHT));
                 facts::show(ui, place, model, opened, commands);
             }

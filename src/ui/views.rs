@@ -207,7 +207,13 @@ impl Views {
                 }
             }
             View::Console => console::show(ui, window, rest, model, &mut self.console, commands),
-            View::Record => record::show(ui, window, rest, model, &mut self.record, commands),
+            View::Record => {
+                record::show(ui, window, rest, model, &mut self.record, commands);
+                if let Some(correction) = self.record.correction.take() {
+                    let (antennas, question) = (&mut self.antennas, &mut self.question);
+                    record::take_over(correction, model, antennas, question, commands);
+                }
+            }
             View::Map => map::show(ui, window, rest, model, &mut self.map, commands),
             View::Preferences => {
                 preferences::show(ui, rest, model, &mut self.preferences, commands);

@@ -24,7 +24,7 @@ use egui::{Key, Modifiers, Role};
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
 
 use crate::window_stories::{
-    following, plan, replay,
+    following, plan, record, replay,
     rig::{self, LARGE, SIZES, SMALL, Window, asked, settle},
     sky_time, states,
 };
@@ -140,6 +140,15 @@ fn every_key_of_the_list_does_something() {
                 Arc::make_mut(&mut model.station).choose_pass(satellite, tca, Some(take), now);
                 window.key_press(Key::Plus);
                 asked(&mut window);
+            }
+            if binding.place == KeyScope::Record {
+                window = record::to_correct(SMALL);
+                asked(&mut window);
+                // The last row has none after it.
+                if key == Key::ArrowUp {
+                    window.key_press(Key::ArrowDown);
+                    asked(&mut window);
+                }
             }
             if binding.place == KeyScope::Replay {
                 window = rig::window(SMALL, replay::model());

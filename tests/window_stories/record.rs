@@ -3,9 +3,12 @@
 use std::sync::Arc;
 
 use azel::{
-    astro::{AzEl, time::add_seconds},
-    device::Pointing,
-    driver::TimeSync,
+    astro::{Angle, AzEl, Offset, TrackOffsets, time::add_seconds},
+    device::{
+        Pointing,
+        settings::{Change, Value, Written},
+    },
+    driver::{self, TimeSync},
     engine::{
         Command,
         recorded::{Found, RecordLook, Recorded},
@@ -18,13 +21,14 @@ use azel::{
     plan::{
         Sample,
         pass_report::{
-            Evidence, FlownOffsets, LossCause, LostStretch, MeasuredPosition, PassReport,
-            PassVerdict, PointingError, TrackPoint, WorstError,
+            Cause, Evidence, Explanation, FlownOffsets, LossCause, LostStretch, MeasuredPosition,
+            PassReport, PassVerdict, PointingError, TrackPoint, WorstError,
         },
     },
     record::{
         AboutTrack, OpenedPass, PassPage, PassQuery, RecordedPass, RecordedReport, TrackedBy,
     },
+    station::OffsetsOf,
 };
 use egui::{Key, Modifiers, Role};
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
@@ -33,7 +37,7 @@ use jiff::ToSpan as _;
 use crate::window_stories::{
     extremes::{nothing_is_cut, nothing_overlaps},
     rig::{self, LARGE, NOAA_20, SIZES, Window, asked, says, settle},
-    states,
+    settings_rig, states,
 };
 
 /// The antenna is where the satellite was so long before, seconds.
@@ -270,6 +274,109 @@ fn a_report_is_saved_for_other_programs() {
     let json: serde_json::Value = serde_json::from_str(&flown[0].json().unwrap()).unwrap();
     assert_eq!(json["satellite"], NOAA_20);
     assert_eq!(json["report"]["verdict"], "fair");
+}
+
+/// The record of a station whose unit was read, with the newest pass flown as `about` says and
+/// explained by `cause` alone.
+fn explained_by(cause: Cause, set: impl FnOnce(&mut AboutTrack)) -> Model {
+    let mut model = rig::model(settings_rig::read());
+    let mut flown = flown(&model);
+    let report = &mut flown[0].pass.report;
+    report.explanations = vec![Explanation { cause, left_deg: 0.01, share: 0.9, is_alike: false }];
+    set(&mut report.about);
+    model.recorded = Some(Arc::new(recorded(&flown, 0)));
+    model.view = View::Record;
+    model
+}
+
+/// A report whose best explanation can be corrected.
+pub(super) fn to_correct(size: [f32; 2]) -> Window {
+    let mut window =
+        rig::window(size, explained_by(Cause::AzimuthOffset { offset_deg: 0.25 }, |_| ()));
+    settle(&mut window);
+    window
+}
+
+#[test]
+fn a_correction_of_a_unit_is_typed_into_its_form_and_nothing_is_sent() {
+    for size in SIZES {
+        let model = explained_by(Cause::AzimuthOffset { offset_deg: 0.25 }, |_| ());
+        let held = &model.antennas[0].snapshot.state.held["general"].held;
+        let Value::Decimal(held_deg) = held.as_ref().unwrap().values["azimuth_offset_deg"] else {
+            panic!("{held:?}")
+        };
+        let mut window = rig::window(size, model);
+        settle(&mut window);
+        window.get_by_label("Apply…").scroll_to_me();
+        settle(&mut window);
+        let _ = asked(&mut window);
+        window.get_by_label("Apply…").click();
+        let led = [UiCommand::SelectAntenna(0), UiCommand::Show(View::Antennas)];
+        let all = asked(&mut window);
+        assert!(all.ends_with(&led), "{all:?}");
+        window.state_mut().model.view = View::Antennas;
+        settle(&mut window);
+        let named = "Azimuth offset, new value";
+        let field = window.get_by_role_and_label(Role::TextInput, named);
+        let typed: f64 = field.accesskit_node().value().unwrap().parse().unwrap();
+        assert!((typed - (held_deg - 0.25)).abs() < 1e-9, "{typed}");
+        assert_eq!(settings_rig::state_of(&window, "Azimuth offset"), "Edited");
+        let sent = asked(&mut window);
+        let writes = |command: &UiCommand| {
+            matches!(
+                command,
+                UiCommand::Station(Command::Antenna(_, driver::Command::WriteSettings(_)))
+            )
+        };
+        assert!(!sent.iter().any(writes), "{sent:?}");
+    }
+}
+
+#[test]
+fn a_correction_of_what_azel_sends_is_asked_about_with_the_key() {
+    let by_program = |about: &mut AboutTrack| {
+        about.tracked_by = TrackedBy::ProgramTrack;
+        let with = Offset::Elevation(Angle::from_degrees(0.5));
+        about.offsets.note(rig::now(), TrackOffsets::NONE.plus(with).unwrap());
+    };
+    let model = explained_by(Cause::ElevationOffset { offset_deg: 0.2 }, by_program);
+    let of = OffsetsOf::Antenna(model.antennas[0].id());
+    let mut window = rig::window(LARGE, model);
+    settle(&mut window);
+    let _ = asked(&mut window);
+    window.key_press(Key::C);
+    settle(&mut window);
+    assert!(says(&window, "el +0.30°, in place of none?"));
+    assert_eq!(asked(&mut window), []);
+    window.key_press(Key::Enter);
+    let with = Offset::Elevation(Angle::from_degrees(0.3));
+    let offsets = TrackOffsets::NONE.plus(with).unwrap();
+    let keep = UiCommand::Station(Command::KeepOffsets { of, offsets });
+    assert_eq!(asked(&mut window), [keep]);
+    let station = &mut window.state_mut().model.station;
+    Arc::make_mut(station).keep_offsets(of, offsets);
+    settle(&mut window);
+    assert!(window.query_by_label("Apply…").is_none(), "it is remembered");
+}
+
+#[test]
+fn what_nothing_here_corrects_has_no_correction_and_neither_has_a_setting_written_since() {
+    let tilt = Cause::Tilt { north_deg: 0.1, east_deg: 0.2 };
+    let mut window = rig::window(LARGE, explained_by(tilt, |_| ()));
+    settle(&mut window);
+    assert!(window.query_by_label("Apply…").is_none());
+    let offset = Cause::AzimuthOffset { offset_deg: 0.25 };
+    let mut model = explained_by(offset, |_| ());
+    let antenna = &mut model.antennas[0];
+    let group = Arc::make_mut(&mut Arc::make_mut(&mut antenna.snapshot).state.held)
+        .get_mut("general")
+        .unwrap();
+    let values = group.held.as_ref().unwrap().values.clone();
+    let change = Change { ticket: 1, group: "general", values, seen: None, is_unlocked: false };
+    group.written = Some(Arc::new(Written { change, at: rig::now(), result: Ok(()) }));
+    let mut window = rig::window(LARGE, model);
+    settle(&mut window);
+    assert!(window.query_by_label("Apply…").is_none(), "it may be corrected already");
 }
 
 #[test]

@@ -73,6 +73,7 @@ pub static VARIANT: Variant = Variant {
         standstill: Standstill { resolution_deg: 0.1, slowest_deg_s: 0.3, overrun_s: 0.6 },
         stop_note: None,
     },
+    track_offsets: None,
     groups: &[],
     actions: actions::ACTIONS,
 };

@@ -77,6 +77,7 @@ pub static PAIR: Variant = Variant {
         stop_note: Some("STOP stops both rotators."),
     },
     groups: GROUPS,
+    track_offsets: None,
     actions: &[actions::ARM_RESCUE],
 };
 
@@ -88,6 +89,7 @@ pub static ALONE: Variant = Variant {
         ..PAIR.capabilities
     },
     groups: GROUPS,
+    track_offsets: None,
     actions: &[actions::SEND_OTHER, actions::ARM_RESCUE],
 };
 

@@ -1,6 +1,6 @@
 //! The description of a Satrak.
 
-use super::{ELEMENT_FILES, GROUPS, Satrak, words};
+use super::{ELEMENT_FILES, GROUPS, Satrak, TRACK_OFFSETS, words};
 use crate::{
     device::{
         Capabilities, JogSpeeds, SecondAxis, Standstill, Variant,
@@ -75,6 +75,7 @@ pub static VARIANT: Variant = Variant {
     },
     groups: GROUPS,
     actions: &[],
+    track_offsets: Some(&TRACK_OFFSETS),
 };
 
 /// The element file on the unit from which satellites are chosen; empty for the file in use.

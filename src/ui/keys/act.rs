@@ -7,7 +7,12 @@ use crate::{
     astro::Offset,
     driver::{self, Intent, OffsetChange},
     engine::{self, antenna::AntennaModel, passes::PredictedPass},
-    model::{Model, UiCommand, View, globe::Towards, replay::ReplayCommand},
+    model::{
+        Model, UiCommand, View,
+        export::{Export, ReportFormat},
+        globe::Towards,
+        replay::ReplayCommand,
+    },
     station::Take,
     ui::{antenna_card::OffsetStep, elements, operate::LONG_STEP_S, second_step, theme},
 };
@@ -47,6 +52,10 @@ pub(super) enum Act {
     PlannedPass(isize),
     /// Shows the pass so many rows further down in the record.
     RecordedPass(isize),
+    /// Takes over what would correct the best explanation of the report.
+    Correct,
+    /// Saves the page of the report.
+    ExportReport,
     PlayOrPause,
     /// Stands at the recorded event before or after.
     RecordedEvent {
@@ -130,6 +139,11 @@ impl Act {
                 commands.push(UiCommand::Replay(ReplayCommand::Event { is_next }));
             }
             Self::LeaveReplay => commands.push(UiCommand::Replay(ReplayCommand::Leave)),
+            Self::Correct => targets.record.correct(model),
+            Self::ExportReport => {
+                let format = ReportFormat::Svg;
+                commands.push(UiCommand::Save(Export::Report { format }));
+            }
             Self::RecordedPass(down) => targets.record.step(model, down),
             Self::NextPass => {
                 commands.extend(model.next_pass().map(|next| UiCommand::SelectPass(next.key())));

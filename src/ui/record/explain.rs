@@ -2,11 +2,19 @@
 
 use egui::{Align2, Rect, Ui, pos2, vec2};
 
-use super::PADDING;
+use super::{PADDING, RecordState};
 use crate::{
+    model::{Model, correction::correction},
     plan::pass_report::Explanation,
     record::OpenedPass,
-    ui::{format, text, theme, widgets::paint, words::record as words},
+    ui::{
+        format, text, theme,
+        widgets::{
+            button::{Button, SMALL_HEIGHT},
+            paint,
+        },
+        words::record as words,
+    },
 };
 
 const BAR: f32 = 32.0;
@@ -14,13 +22,20 @@ const HEAD: f32 = 22.0;
 const ROW: f32 = 29.0;
 const FOOT: f32 = 40.0;
 const SHARE_BAR: f32 = 108.0;
+const CORRECTION: f32 = 72.0;
 
 pub(super) fn height(opened: &OpenedPass) -> f32 {
     let rows = opened.pass.report.explanations.len() + 2;
     BAR + HEAD + rows as f32 * ROW + FOOT
 }
 
-pub(super) fn show(ui: &Ui, rect: Rect, opened: &OpenedPass) {
+pub(super) fn show(
+    ui: &Ui,
+    rect: Rect,
+    model: &Model,
+    opened: &OpenedPass,
+    state: &mut RecordState,
+) {
     let t = theme::tokens(ui);
     ui.painter().rect_filled(rect, 0.0, t.field);
     let report = &opened.pass.report;
@@ -41,6 +56,7 @@ pub(super) fn show(ui: &Ui, rect: Rect, opened: &OpenedPass) {
         (columns.size, "Best value", Align2::RIGHT_CENTER),
         (columns.left, "Rms left °", Align2::RIGHT_CENTER),
         (columns.bar, "Explained", Align2::LEFT_CENTER),
+        (columns.correction, "Correction", Align2::LEFT_CENTER),
     ] {
         let cell = head.with_min_x(place.0).with_max_x(place.1);
         paint::text_in(ui, cell, anchor, word, text::caption(), t.t3);
@@ -70,6 +86,21 @@ pub(super) fn show(ui: &Ui, rect: Rect, opened: &OpenedPass) {
             ui.painter().rect_filled(row.with_max_x(row.left() + 3.0), 0.0, t.sat);
         }
         explained(ui, row, place, &columns, explanation);
+        let cell = row.with_min_x(columns.correction.0).with_max_x(columns.correction.1);
+        match correction(model, &opened.pass, &explanation.cause) {
+            Some(correction) => {
+                let at = Rect::from_center_size(cell.center(), vec2(cell.width(), SMALL_HEIGHT));
+                let button = Button::normal("Apply…");
+                let response = button.show(ui, ("correct", place), at);
+                let words = words::correction(&correction.how, place == 0);
+                if response.on_hover_text(words).clicked() {
+                    state.correction = Some(correction);
+                }
+            }
+            None => {
+                paint::text_in(ui, cell, Align2::LEFT_CENTER, "–", text::small(), t.t3);
+            }
+        }
     }
     if let Some(words) = words::alike(explanations) {
         let at = rest.min + vec2(PADDING, 8.0);
@@ -86,11 +117,13 @@ struct Columns {
     left: (f32, f32),
     bar: (f32, f32),
     share: (f32, f32),
+    correction: (f32, f32),
 }
 
 impl Columns {
     fn of(rect: Rect) -> Self {
-        let share = (rect.right() - PADDING - 48.0, rect.right() - PADDING);
+        let correction = (rect.right() - PADDING - CORRECTION, rect.right() - PADDING);
+        let share = (correction.0 - 12.0 - 48.0, correction.0 - 12.0);
         let bar = (share.0 - 8.0 - SHARE_BAR, share.0 - 8.0);
         let left = (bar.0 - 16.0 - 64.0, bar.0 - 16.0);
         let cause_end = rect.left() + PADDING + 0.34 * (left.0 - rect.left());
@@ -100,6 +133,7 @@ impl Columns {
             left,
             bar,
             share,
+            correction,
         }
     }
 }

@@ -7,7 +7,10 @@ use crate::{
         self,
         recorded::{Found, RecordLook},
     },
-    model::{Model, UiCommand},
+    model::{
+        Model, UiCommand,
+        correction::{Correction, correction},
+    },
     record::{OpenedPass, PassPage, PassQuery, RecordedPass},
     ui::words::sentence,
 };
@@ -28,6 +31,8 @@ pub struct RecordState {
     pub(super) list_is_open: bool,
     /// The list scrolls to the chosen pass.
     pub(super) scrolls: bool,
+    /// A correction that the operator takes over.
+    pub correction: Option<Correction>,
 }
 
 impl Default for RecordState {
@@ -39,6 +44,7 @@ impl Default for RecordState {
             cursor: None,
             list_is_open: false,
             scrolls: false,
+            correction: None,
         }
     }
 }
@@ -80,6 +86,13 @@ impl RecordState {
             self.choose(pass.id);
             (self.list_is_open, self.scrolls) = (list_is_open, true);
         }
+    }
+
+    /// Takes over what would correct the best explanation of the report.
+    pub fn correct(&mut self, model: &Model) {
+        let Some(OpenedPass { pass, .. }) = self.opened(model) else { return };
+        let best = pass.report.explanations.first();
+        self.correction = best.and_then(|best| correction(model, pass, &best.cause));
     }
 
     pub(super) fn list_more(&mut self) {

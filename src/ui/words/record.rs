@@ -3,6 +3,7 @@
 use jiff::Timestamp;
 
 use crate::{
+    model::correction::How,
     plan::pass_report::{
         Cause, Explained, Explanation, LossCause, LostStretch, PassReport, PassVerdict,
     },
@@ -229,6 +230,20 @@ fn loss_in_sentence(cause: LossCause) -> &'static str {
 /// The share that a cause explains, without a decimal.
 pub fn whole_share(share: f64) -> String {
     format!("{} %", format::number((share * 100.0).floor(), 0))
+}
+
+/// What taking a correction over does. `is_best`: of the best explanation.
+pub fn correction(how: &How, is_best: bool) -> String {
+    let key = if is_best { " (C)" } else { "" };
+    match how {
+        How::Setting { .. } => format!(
+            "Types the value into the settings of the unit{key}. Nothing is sent before you apply \
+             it there."
+        ),
+        How::Remembered(offsets) => {
+            format!("Asks whether to remember {} for this antenna{key}", super::offsets(*offsets))
+        }
+    }
 }
 
 /// Why the table of causes is empty.

@@ -71,6 +71,7 @@ static VARIANT: Variant = Variant {
     },
     groups: &[],
     actions: &[],
+    track_offsets: None,
 };
 
 /// Variant on one shaft, which turns the azimuth alone.
@@ -82,6 +83,7 @@ static LEVEL: Variant = Variant {
     },
     groups: &[],
     actions: &[],
+    track_offsets: None,
 };
 
 /// Command at which the controller panics instead of sending it.

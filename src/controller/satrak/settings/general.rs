@@ -2,7 +2,10 @@
 
 use super::desired::{Desired, cannot};
 use crate::{
-    device::settings::{Field, Group, Guard, Key, Value, Values, WriteError},
+    device::{
+        TrackOffsetFields,
+        settings::{Field, Group, Guard, Key, Value, Values, WriteError},
+    },
     protocol::satrak::{
         PositionBase, Reply, Setting, SettingsChange, SettingsRequest, SspaAutoRule, SspaMode,
     },
@@ -22,6 +25,13 @@ const SSPA_RULE: Key<i64> =
     Key::choice("sspa_rule", &[(0, "Tracking"), (1, "Carrier lock"), (2, "Both"), (3, "Either")]);
 pub const TLE_SOURCE: Key<i64> = Key::choice("tle_source", &[(0, "File"), (1, "Web"), (2, "FTP")]);
 const ELEVATION_THRESHOLD_DEG: Key<f64> = Key::decimal("elevation_threshold_deg", 0.0, 90.0, 1);
+
+pub static TRACK_OFFSETS: TrackOffsetFields = TrackOffsetFields {
+    group: GENERAL.key,
+    time_ms: TIME_OFFSET_MS.name,
+    azimuth_deg: AZIMUTH_OFFSET_DEG.name,
+    elevation_deg: ELEVATION_OFFSET_DEG.name,
+};
 
 pub static GENERAL: Group = Group {
     key: "general",
