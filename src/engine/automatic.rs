@@ -14,7 +14,7 @@ use jiff::Timestamp;
 pub(super) use self::{at_start::LastRun, operation::is_same_pass};
 use self::{
     day::Flight,
-    operation::{Act, LATE_S, Outcome, Seen, Wishes},
+    operation::{Act, LATE_S, Outcome, Seen, WINDOW_STEP_S, Wishes},
     seen::seen,
     stance::Stance,
 };
@@ -337,7 +337,8 @@ impl Engine {
         let late = flight.as_ref().filter(|flight| {
             let until_s = seconds_between(now, flight.duty.from);
             let is_on_its_way = seen.takes == Some(flight.duty.pass.0);
-            shown.operation.is_on() && until_s <= LATE_S && !is_on_its_way
+            let has_time_left = seconds_between(now, flight.duty.until) > WINDOW_STEP_S;
+            shown.operation.is_on() && until_s <= LATE_S && has_time_left && !is_on_its_way
         });
         let late = late.map(|flight| (flight.duty.pass, flight.name().to_owned()));
         let of = Some(shown.id());

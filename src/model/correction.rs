@@ -57,6 +57,9 @@ fn remembered(
     (model.station.kept_offsets(of) != offsets).then_some(How::Remembered(offsets))
 }
 
+/// What of an offset is too small for a setting, degrees.
+const LEAST_DEG: f64 = 0.005;
+
 /// What the unit holds, less the error. What was written after the pass may correct it already.
 fn setting(antenna: &AntennaModel, pass: &RecordedPass, cause: &Cause) -> Option<How> {
     let fields = antenna.variant().track_offsets?;
@@ -66,7 +69,9 @@ fn setting(antenna: &AntennaModel, pass: &RecordedPass, cause: &Cause) -> Option
     }
     let held = &state.held.as_ref()?.values;
     let degrees = |field: &'static str, offset_deg: f64| match held.get(field)? {
-        Value::Decimal(held_deg) => Some((field, Value::Decimal(held_deg - offset_deg))),
+        Value::Decimal(held_deg) if offset_deg.abs() >= LEAST_DEG => {
+            Some((field, Value::Decimal(held_deg - offset_deg)))
+        }
         _ => None,
     };
     let (field, value) = match *cause {

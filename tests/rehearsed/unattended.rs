@@ -347,6 +347,18 @@ async fn a_pass_that_the_unit_tracks_through_another_start_is_taken_over_without
 }
 
 #[tokio::test(start_paused = true)]
+async fn a_pass_that_was_tracked_to_its_end_raises_no_alarm() {
+    let (_scene, client, id) = scene_of("Dish", |_| {}).await;
+    proved(&client, id).await;
+    let (_, of) = until("LOS", || flown(&client).first().cloned()).await;
+    assert!(of.in_beam_s > of.of_s - 2.0, "{of:?}");
+    let shown = client.snapshot();
+    let raised = |kind: &AlarmKind| !matches!(kind, AlarmKind::AutomaticMoves { .. });
+    let raised: Vec<_> = shown.alarms.list().iter().filter(|of| raised(&of.kind)).collect();
+    assert!(raised.is_empty(), "{raised:?}");
+}
+
+#[tokio::test(start_paused = true)]
 async fn new_settings_end_it_with_an_alarm_and_a_line_and_auto_track_with_it() {
     let (scene, client, id) = scene_of("Dish", |dish| dish.automatic.uses_auto_track = true).await;
     proved(&client, id).await;

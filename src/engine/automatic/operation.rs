@@ -22,6 +22,8 @@ const COASTS_S: f64 = 5.0;
 /// An antenna that is not on its way this many seconds before its pass raises an alarm. Also the
 /// least time between two requests for one pass.
 pub(super) const LATE_S: f64 = 30.0;
+/// A unit that tracks by itself may end so long before LOS: its window has whole seconds.
+pub(super) const WINDOW_STEP_S: f64 = 1.0;
 
 /// Automatic operation of one antenna. Only the operator switches it on, and lets it go on.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
