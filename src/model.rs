@@ -28,7 +28,7 @@ use serde::{Deserialize, Serialize};
 #[cfg(test)]
 pub(crate) use self::line::testing;
 pub use self::{
-    appearance::Appearance,
+    appearance::{Appearance, DistanceUnit},
     command::UiCommand,
     line::{ConsoleLine, Piece, pieces},
     sky::{Seen, Selected, Sky},

@@ -14,7 +14,7 @@ use super::place::Place;
 use crate::{
     engine::passes::{ListChoice, SPANS_H, Scope},
     job::{Job, Wake},
-    model::{Appearance, ThemeName, View, catalog_table::Column},
+    model::{Appearance, DistanceUnit, ThemeName, View, catalog_table::Column},
     ui::{
         Kept, elements::ChosenColumns, keys::own::OwnKeys, map::MapLayers, pass_list::Arrangement,
         sky_plot::Layers,
@@ -77,6 +77,7 @@ impl Memory {
                 angle_decimals: number("angle_decimals")
                     .filter(|decimals| Appearance::ANGLE_DECIMALS.contains(decimals))
                     .unwrap_or(Appearance::default().angle_decimals),
+                distances: word(&table, "distances"),
             },
             list: ListChoice {
                 scope: word(&table, "pass_scope"),
@@ -117,6 +118,7 @@ impl Memory {
             scale_percent: u32,
             local_time: bool,
             angle_decimals: u32,
+            distances: DistanceUnit,
             #[serde(skip_serializing_if = "Option::is_none")]
             antenna: Option<&'a str>,
             view: View,
@@ -143,6 +145,7 @@ impl Memory {
             scale_percent: self.appearance.scale_percent,
             local_time: self.appearance.local_time,
             angle_decimals: self.appearance.angle_decimals,
+            distances: self.appearance.distances,
             antenna: self.antenna.as_deref(),
             view: self.view,
             pass_scope: self.list.scope,
@@ -320,6 +323,7 @@ mod tests {
                 scale_percent: 150,
                 local_time: false,
                 angle_decimals: 3,
+                distances: DistanceUnit::NauticalMiles,
             },
             antenna: Some("Şile \"2\"".to_owned()),
             view: View::Map,

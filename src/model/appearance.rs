@@ -1,10 +1,23 @@
 //! How the window looks.
 
+use serde::{Deserialize, Serialize};
+
 use super::ThemeName;
 use crate::astro::AzEl;
 
 /// Elevation of the Sun's centre at sunrise and sunset, with refraction and half its width.
 const SUNRISE_DEG: f64 = -0.833;
+
+/// The unit in which the window shows distances.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum DistanceUnit {
+    #[default]
+    Kilometres,
+    /// Statute miles.
+    Miles,
+    NauticalMiles,
+}
 
 /// How the window looks, as the operator has chosen.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -19,6 +32,7 @@ pub struct Appearance {
     /// Most decimals of the angles of an antenna and of the selected satellite; one of
     /// [`Self::ANGLE_DECIMALS`].
     pub angle_decimals: u32,
+    pub distances: DistanceUnit,
 }
 
 impl Default for Appearance {
@@ -29,6 +43,7 @@ impl Default for Appearance {
             scale_percent: 100,
             local_time: true,
             angle_decimals: 2,
+            distances: DistanceUnit::default(),
         }
     }
 }

@@ -1,11 +1,13 @@
 //! The formats of numbers and times.
 
+mod distances;
 mod times;
 
 use crate::{
     astro::{Angle, AzEl},
     device::{Capabilities, Pointing},
 };
+pub use distances::{distance, distance_number, distance_unit, range_rate, speed};
 pub use times::{
     clock, copied, date, dated, day, hour_of_day, is_today, iso_date, local_clock, millisecond,
     minute, minute_in_plot, minute_of_day, minutes, moment, on_axis, second_of_day, stretch,

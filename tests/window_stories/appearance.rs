@@ -3,7 +3,7 @@
 use std::fs;
 
 use azel::{
-    model::{Appearance, ThemeName, UiCommand, View},
+    model::{Appearance, DistanceUnit, ThemeName, UiCommand, View},
     station,
     ui::theme,
 };
@@ -12,6 +12,7 @@ use egui_kittest::kittest::{NodeT as _, Queryable as _};
 use jiff::Timestamp;
 
 use crate::window_stories::{
+    every_view::words,
     rig::{self, LARGE, SMALL, Window, asked, says, settle},
     states,
     unit::{Unit, clock_from, open, step_until},
@@ -70,6 +71,34 @@ fn angles_have_the_decimals_that_are_chosen_and_no_more_than_the_unit_gives() {
         decimals.unwrap_or_default().len()
     };
     assert_eq!([1, 2, 3].map(axes), [1, 2, 3]);
+}
+
+#[test]
+fn distances_are_shown_in_the_unit_that_is_chosen() {
+    let mut window = page(LARGE);
+    let miles = Appearance { distances: DistanceUnit::Miles, ..Appearance::default() };
+    assert_eq!(chosen(&mut window, "Miles"), miles);
+    let heard = |view, appearance| {
+        let mut model = rig::model(states::holding());
+        (model.view, model.appearance) = (view, appearance);
+        model.refresh_sky();
+        words(&rig::window(LARGE, model))
+    };
+    for (view, before) in [(View::Operate, "Range"), (View::Map, "From the station: ")] {
+        let figure = |appearance| {
+            let words = heard(view, appearance);
+            let at = words.iter().position(|of| of.starts_with(before)).expect("a range");
+            let words = words[at..].iter().find(|of| of.ends_with("km") || of.ends_with("mi"));
+            let words: Vec<_> = words.expect("a distance").rsplit([' ', ',']).collect();
+            let number: String = words[1].chars().filter(char::is_ascii_digit).collect();
+            (number.parse::<f64>().unwrap(), words[0].to_owned())
+        };
+        let [(km, of_km), (in_miles, of_miles)] = [Appearance::default(), miles].map(figure);
+        assert_eq!((&*of_km, &*of_miles), ("km", "mi"), "{view:?}");
+        assert!((km / in_miles - 1.609_344).abs() < 0.01, "{view:?}: {km} km, {in_miles} mi");
+    }
+    let model = Appearance { distances: DistanceUnit::NauticalMiles, ..Appearance::default() };
+    assert!(heard(View::Elements, model).contains(&"Apo × per nmi".to_owned()));
 }
 
 #[test]

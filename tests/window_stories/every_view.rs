@@ -8,6 +8,9 @@ pub(crate) mod painted;
 mod scale;
 mod tooltips;
 mod tree;
+mod units;
+
+pub(crate) use days::words;
 
 use std::sync::Arc;
 

@@ -1,5 +1,7 @@
 //! The columns of the table of the catalog.
 
+use std::borrow::Cow;
+
 use egui::{Align, Button, Layout, Rect, Role, Ui, WidgetInfo};
 use jiff::Timestamp;
 use serde::Serialize;
@@ -7,7 +9,7 @@ use serde::Serialize;
 use super::{PADDING, words};
 use crate::{
     model::{
-        Model,
+        DistanceUnit, Model,
         catalog_table::{Column, Question},
         globe::NextPass,
     },
@@ -204,19 +206,20 @@ pub(super) fn places(row: Rect, chosen: &ChosenColumns) -> Vec<(Column, Rect)> {
     places
 }
 
-pub(super) fn head(column: Column) -> &'static str {
-    match column {
+pub(super) fn head(column: Column, unit: DistanceUnit) -> Cow<'static, str> {
+    let words = match column {
         Column::Star => "",
         Column::Name => "Name",
         Column::Number => "Number",
         Column::Period => "Period min",
         Column::Inclination => "Incl. °",
-        Column::Heights => "Apo × per km",
+        Column::Heights => return format!("Apo × per {}", format::distance_unit(unit)).into(),
         Column::Age => "Epoch age",
         Column::From => "From",
         Column::NextPass => "Next pass",
         Column::MaxElevation => "Max el",
-    }
+    };
+    words.into()
 }
 
 /// The column for screen readers.
@@ -261,6 +264,7 @@ pub(super) struct Row<'a> {
     pub(super) is_older_set: bool,
     pub(super) next: Next,
     pub(super) now: Timestamp,
+    pub(super) unit: DistanceUnit,
 }
 
 impl<'a> Row<'a> {
@@ -275,6 +279,7 @@ impl<'a> Row<'a> {
                 next.get(number, model.now).map_or(Next::Never, Next::At)
             }),
             now: model.now,
+            unit: model.appearance.distances,
         }
     }
 
@@ -287,7 +292,7 @@ impl<'a> Row<'a> {
             Column::Number => words::number(elements.catalog_number()),
             Column::Period => format::number(elements.period_s() / 60.0, 1),
             Column::Inclination => format::number(elements.inclination().degrees(), 2),
-            Column::Heights => words::heights(elements.heights()),
+            Column::Heights => words::heights(elements.heights(), self.unit),
             Column::Age => words::age(elements.age_s(self.now)),
             Column::From => self.from.to_owned(),
             Column::NextPass => words::next_pass(self.next, self.now),
@@ -318,12 +323,13 @@ impl<'a> Row<'a> {
         let cell = |column| self.cell(column);
         let designator = self.elements.international_designator().unwrap_or("no designator");
         format!(
-            "{}\n{}, {designator}\nPeriod {} min, inclination {}°\nApogee × perigee {} km",
+            "{}\n{}, {designator}\nPeriod {} min, inclination {}°\nApogee × perigee {} {}",
             cell(Column::Name),
             self.elements.catalog_number(),
             cell(Column::Period),
             cell(Column::Inclination),
             cell(Column::Heights),
+            format::distance_unit(self.unit),
         )
     }
 }

@@ -58,7 +58,9 @@ pub(super) fn show(ui: &Ui, rect: Rect, model: &Model, elements: &Elements, cata
         icons::paint(ui.painter(), paint::square(at, 12.0), icon, colour);
     }
     fact(ui, line(2), "Held by", &groups.join(", "), t.t1);
-    let heights = format!("{} km", words::heights(elements.heights()));
+    let unit = model.appearance.distances;
+    let heights = words::heights(elements.heights(), unit);
+    let heights = format!("{heights} {}", format::distance_unit(unit));
     fact(ui, line(3), "Apogee × perigee", &heights, t.t1);
     let figures = figures(elements);
     let half = (inner.width() - 20.0) / 2.0;

@@ -17,7 +17,7 @@ use super::{
 use crate::{
     engine::{self, CatalogState, antenna::AntennaModel},
     model::{
-        Model, UiCommand,
+        DistanceUnit, Model, UiCommand,
         catalog_table::{Answer, Column},
     },
     orbit::Catalog,
@@ -47,7 +47,7 @@ pub(super) fn show(
 ) {
     let (top, body) = rect.split_top_bottom_at_y(rect.top() + HEAD);
     let rows = shown(model).map(|answer| Arc::clone(&answer.rows)).unwrap_or_default();
-    show_head(ui, top, &rows, state);
+    show_head(ui, top, &rows, model.appearance.distances, state);
     ui.painter().rect_filled(body, 0.0, theme::tokens(ui).field);
     let id = ui.make_persistent_id("catalogue");
     let list = ui.interact(body, id, Sense::CLICK | Sense::FOCUSABLE);
@@ -101,7 +101,7 @@ fn nothing(ui: &Ui, rect: Rect, words: &str) {
     paint::name_text(ui, "no objects", place, words);
 }
 
-fn show_head(ui: &Ui, rect: Rect, rows: &[u32], state: &mut ElementsState) {
+fn show_head(ui: &Ui, rect: Rect, rows: &[u32], unit: DistanceUnit, state: &mut ElementsState) {
     let t = theme::tokens(ui);
     ui.painter().rect_filled(rect, 0.0, t.bg1);
     ui.painter().hline(rect.x_range(), rect.bottom() - 0.5, (1.0, t.line));
@@ -116,14 +116,15 @@ fn show_head(ui: &Ui, rect: Rect, rows: &[u32], state: &mut ElementsState) {
     }
     for (column, place) in columns::places(rect, &state.columns) {
         let is_sorted = state.question.sort == column;
-        let (name, words) = (columns::spoken(column), columns::head(column));
+        let what = columns::spoken(column);
+        let words = columns::head(column, unit);
         let way = match (is_sorted, state.question.is_descending) {
             (true, false) => ", ascending",
             (true, true) => ", descending",
             (false, _) => "",
         };
-        let name = format!("Sort by {name}{way}");
-        let response = paint::control(ui, ("sort", words), place, Role::Button, true, &name);
+        let name = format!("Sort by {what}{way}");
+        let response = paint::control(ui, ("sort", what), place, Role::Button, true, &name);
         let (font, colour) = if is_sorted {
             (text::sized(11.0, Weight::SemiBold), t.t1)
         } else {
@@ -135,7 +136,7 @@ fn show_head(ui: &Ui, rect: Rect, rows: &[u32], state: &mut ElementsState) {
         } else {
             let anchor =
                 if columns::is_left(column) { Align2::LEFT_CENTER } else { Align2::RIGHT_CENTER };
-            let drawn = paint::text_in(ui, place, anchor, words, font, colour);
+            let drawn = paint::text_in(ui, place, anchor, &words, font, colour);
             if is_sorted {
                 let x =
                     if columns::is_left(column) { drawn.right() + 8.0 } else { drawn.left() - 8.0 };

@@ -6,7 +6,10 @@ use jiff::Timestamp;
 use super::columns::Next;
 use crate::{
     astro::time::{DAY_S, seconds_between},
-    model::catalog_table::{Among, NEXT_PASSES_H, Question},
+    model::{
+        DistanceUnit,
+        catalog_table::{Among, NEXT_PASSES_H, Question},
+    },
     orbit::{
         Elements, FETCH_PAUSE, Heights, RefreshHours, Source, SourcePlace, SourceReport, tle_lines,
         write_omm_json,
@@ -65,10 +68,11 @@ pub(super) fn number(number: u32) -> String {
     if number < 100_000 { number.to_string() } else { format::number(f64::from(number), 0) }
 }
 
-/// Heights of apogee and perigee, km.
-pub(super) fn heights(heights: Heights) -> String {
+/// Heights of apogee and perigee, without their unit.
+pub(super) fn heights(heights: Heights, unit: DistanceUnit) -> String {
     let Heights { apogee_km, perigee_km } = heights;
-    format!("{} × {}", format::number(apogee_km, 0), format::number(perigee_km, 0))
+    let [apogee, perigee] = [apogee_km, perigee_km].map(|of| format::distance_number(of, 0, unit));
+    format!("{apogee} × {perigee}")
 }
 
 /// An age of elements, whose epoch may be ahead.

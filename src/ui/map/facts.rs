@@ -32,19 +32,22 @@ pub(super) fn show(ui: &Ui, rect: Rect, model: &Model, of: &GlobeSatellite) {
 fn facts(model: &Model, of: &GlobeSatellite) -> [(&'static str, String); COUNT] {
     let direction = of.look.direction;
     let elevation = words::elevation(model.globe.aos_elevation);
-    let speed = format::number(of.speed_km_s, 2);
+    let unit = model.appearance.distances;
+    let distance = |km| format::distance(km, 0, unit);
+    let (height, speed) = (distance(of.below.height_km), format::speed(of.speed_km_s, unit));
+    let radius = distance(of.footprint.radius_km());
     let minutes = format::number(of.satellite.elements.period_s() / 60.0, 1);
     [
         ("Below it", words::place(of.below.point)),
-        ("Height, speed", format!("{} km, {speed} km/s", words::km(of.below.height_km))),
-        ("Footprint radius", format!("{} km at {elevation}", words::km(of.footprint.radius_km()))),
+        ("Height, speed", format!("{height}, {speed}")),
+        ("Footprint radius", format!("{radius} at {elevation}")),
         (
             "From the station",
             format!(
-                "az {}, el {}, {} km",
+                "az {}, el {}, {}",
                 format::degrees(direction.azimuth_deg(), 1),
                 format::degrees(direction.elevation_deg(), 1),
-                words::km(of.look.range_km),
+                distance(of.look.range_km),
             ),
         ),
         ("Goes", format!("{}, period {minutes} min", words::goes(of.heading))),

@@ -9,6 +9,7 @@ use crate::{
         globe::{AHEAD_MIN, GlobeSatellite},
     },
     ui::{
+        format,
         sky_plot::geometry::{circle, dashed},
         text, theme,
         tokens::Tokens,
@@ -61,8 +62,10 @@ fn entries(
         let elevation = words::elevation(model.globe.aos_elevation);
         entries.push((footprint, format!("sees the satellite at {elevation}")));
         if let Some(of) = selected {
-            let (name, height) = (&model.station.name, words::km(of.below.height_km));
-            entries.push((rises, format!("seen from {name} at {height} km")));
+            let unit = model.appearance.distances;
+            let height = format::distance(of.below.height_km, 0, unit);
+            let name = &model.station.name;
+            entries.push((rises, format!("seen from {name} at {height}")));
         }
     }
     if layers.terminator {

@@ -1,5 +1,7 @@
 //! The table of where the satellites are, below the map or as a drawer over it.
 
+use std::borrow::Cow;
+
 use egui::{
     Align2, Color32, FontId, Rect, Role, ScrollArea, Sense, Ui, UiBuilder, WidgetInfo, pos2, vec2,
 };
@@ -7,7 +9,7 @@ use egui::{
 use super::{MapState, PADDING, Shown, legend, nodes, words};
 use crate::{
     engine::CatalogState,
-    model::{Model, UiCommand, globe::GlobeSatellite},
+    model::{DistanceUnit, Model, UiCommand, globe::GlobeSatellite},
     ui::{
         format,
         icons::{self, Icon},
@@ -81,33 +83,36 @@ impl Column {
         matches!(self, Self::Satellite | Self::Goes | Self::Light)
     }
 
-    fn head(self) -> &'static str {
-        match self {
+    fn head(self, unit: DistanceUnit) -> Cow<'static, str> {
+        let in_unit = |of: &str| Cow::from(format!("{of} {}", format::distance_unit(unit)));
+        let words = match self {
             Self::Satellite => "Satellite",
             Self::Latitude => "Latitude",
             Self::Longitude => "Longitude",
-            Self::Height => "Height km",
+            Self::Height => return in_unit("Height"),
             Self::Azimuth => "Azimuth",
             Self::Elevation => "Elevation",
-            Self::Range => "Range km",
+            Self::Range => return in_unit("Range"),
             Self::Goes => "Goes",
             Self::Next => "Next here",
             Self::Max => "Max el",
             Self::Light => "Light",
-        }
+        };
+        words.into()
     }
 
     fn cell(self, of: &GlobeSatellite, model: &Model) -> String {
         let direction = of.look.direction;
+        let distance = |km| format::distance_number(km, 0, model.appearance.distances);
         let max = of.next.map(|next| format::degrees(next.max_elevation.degrees(), 0));
         match self {
             Self::Satellite => of.satellite.short_name().to_owned(),
             Self::Latitude => words::latitude(of.below.point),
             Self::Longitude => words::longitude(of.below.point),
-            Self::Height => words::km(of.below.height_km),
+            Self::Height => distance(of.below.height_km),
             Self::Azimuth => format::azimuth(direction.azimuth_deg()),
             Self::Elevation => format::degrees(direction.elevation_deg(), 1),
-            Self::Range if direction.elevation_deg() >= 0.0 => words::km(of.look.range_km),
+            Self::Range if direction.elevation_deg() >= 0.0 => distance(of.look.range_km),
             Self::Range => "–".to_owned(),
             Self::Goes => words::goes(of.heading).to_owned(),
             Self::Next => words::next(of.next, model.now),
@@ -162,7 +167,7 @@ pub(super) fn show(
     legend::show(ui, room, model, state.layers);
     if is_open {
         let (head, body) = rest.split_top_bottom_at_y(rest.top() + HEAD);
-        show_head(ui, head);
+        show_head(ui, head, model.appearance.distances);
         show_rows(ui, body, model, shown, state, commands);
     }
     is_toggled
@@ -214,12 +219,12 @@ fn columns(row: Rect) -> impl Iterator<Item = (Column, Rect)> {
     })
 }
 
-fn show_head(ui: &Ui, rect: Rect) {
+fn show_head(ui: &Ui, rect: Rect, unit: DistanceUnit) {
     let t = theme::tokens(ui);
     ui.painter().rect_filled(rect, 0.0, t.bg1);
     ui.painter().hline(rect.x_range(), rect.bottom() - 0.5, (1.0, t.line));
     for (column, place) in columns(rect) {
-        let words = column.head();
+        let words = column.head(unit);
         let anchor = if column.is_left() { Align2::LEFT_CENTER } else { Align2::RIGHT_CENTER };
         // The rows are sorted by it.
         let (font, colour) = if column == Column::Elevation {
@@ -229,7 +234,7 @@ fn show_head(ui: &Ui, rect: Rect) {
         } else {
             (text::caption(), t.t3)
         };
-        paint::text_in(ui, place, anchor, words, font, colour);
+        paint::text_in(ui, place, anchor, &words, font, colour);
     }
 }
 
@@ -314,11 +319,12 @@ fn show_row(
 fn spoken(of: &GlobeSatellite, model: &Model) -> String {
     let cell = |column: Column| column.cell(of, model);
     format!(
-        "{}, {}, {}, height {} km, azimuth {}, elevation {}, {}, next {}, {}",
+        "{}, {}, {}, height {} {}, azimuth {}, elevation {}, {}, next {}, {}",
         cell(Column::Satellite),
         cell(Column::Latitude),
         cell(Column::Longitude),
         cell(Column::Height),
+        format::distance_unit(model.appearance.distances),
         cell(Column::Azimuth),
         cell(Column::Elevation),
         words::motion(of.heading),

@@ -73,11 +73,6 @@ pub(super) fn light(is_sunlit: bool) -> &'static str {
     if is_sunlit { "sunlit" } else { "in shadow" }
 }
 
-/// Kilometres without decimals.
-pub(super) fn km(km: f64) -> String {
-    format::number(km, 0)
-}
-
 /// When the next pass begins, or until when it lasts.
 pub(super) fn next(pass: Option<NextPass>, now: Timestamp) -> String {
     match pass {
@@ -92,10 +87,10 @@ pub(super) fn next(pass: Option<NextPass>, now: Timestamp) -> String {
 pub(super) fn tip(of: &GlobeSatellite, model: &Model) -> String {
     let direction = of.look.direction;
     format!(
-        "{}\n{}\nHeight {} km\nAz {}  El {}\nNext: {}",
+        "{}\n{}\nHeight {}\nAz {}  El {}\nNext: {}",
         of.satellite.short_name(),
         place(of.below.point),
-        km(of.below.height_km),
+        format::distance(of.below.height_km, 0, model.appearance.distances),
         format::azimuth(direction.azimuth_deg()),
         format::degrees(direction.elevation_deg(), 1),
         next(of.next, model.now),

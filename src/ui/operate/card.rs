@@ -341,12 +341,12 @@ fn on_board(model: &Model, antenna: &AntennaModel) -> [Option<String>; 2] {
     let name = model.selected_pass().map(|predicted| predicted.satellite.short_name());
     let is_missed = !found.is_within_beam;
     let misses = name.filter(|_| is_missed).map(|name| {
-        let why = words::would_miss(name, found, model.now);
+        let why = words::would_miss(name, found, model.now, model.appearance.distances);
         format!("{why} Follow it from here instead.")
     });
     let lowest_deg = antenna.config.limits.minimum_elevation_deg;
     let lower = found.lower_minimum_deg.map(|deg| words::lower_minimum(deg, lowest_deg));
-    let off = words::within_beam(found).filter(|_| !is_missed);
+    let off = words::within_beam(found, model.appearance.distances).filter(|_| !is_missed);
     let said = explained.into_iter().chain(off).chain(lower).chain(words::not_known(found));
     let said: Vec<String> = said.collect();
     [misses, (!said.is_empty()).then(|| said.join(" "))]

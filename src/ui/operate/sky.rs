@@ -189,9 +189,10 @@ fn readout(model: &Model, selected: Option<Selected>, full: bool) -> Vec<(&'stat
         ("Az", format::degrees(look.direction.azimuth_deg(), decimals)),
         ("El", format::degrees(look.direction.elevation_deg(), decimals)),
     ];
+    let unit = model.appearance.distances;
     let motion = [
-        ("Range", format!("{} km", format::number(look.range_km, 0))),
-        ("Rate", format!("{} km/s", format::signed(look.range_rate_km_s, 2))),
+        ("Range", format::distance(look.range_km, 0, unit)),
+        ("Rate", format::range_rate(look.range_rate_km_s, unit)),
     ];
     let number = model.selected_pass().map(PredictedPass::number);
     let carriers = model.station.frequencies.iter().filter(|of| Some(of.satellite) == number);

@@ -4,26 +4,27 @@
 use egui::Ui;
 
 use super::form::{self, choice, note};
-use crate::model::{Appearance, Model, ThemeName, UiCommand};
+use crate::model::{Appearance, DistanceUnit, Model, ThemeName, UiCommand};
 
 /// The least size of the window at which all views work, points.
 const LEAST: [f32; 2] = [960.0, 540.0];
 /// Cards of the page with the numbers of their rows.
-pub(super) const CARDS: [usize; 3] = [6, 3, 3];
+pub(super) const CARDS: [usize; 3] = [6, 3, 6];
 /// Labels of the choices.
-pub(super) const LABELS: [&str; 5] = [THEME, SUN, SCALE, CLOCK, DECIMALS];
+pub(super) const LABELS: [&str; 6] = [THEME, SUN, SCALE, CLOCK, DECIMALS, DISTANCES];
 const THEME: &str = "Theme";
 const SUN: &str = "With the Sun";
 const SCALE: &str = "Scale";
 const CLOCK: &str = "Local time";
-const DECIMALS: &str = "Decimals";
+const DECIMALS: &str = "Decimals of angles";
+const DISTANCES: &str = "Distances";
 
 pub(super) fn card_of(ui: &mut Ui, card: usize, model: &Model, commands: &mut Vec<UiCommand>) {
     let mut wanted = model.appearance;
     match card {
         0 => theme_and_size(ui, &mut wanted),
         1 => times(ui, &mut wanted),
-        _ => angles(ui, &mut wanted),
+        _ => units(ui, &mut wanted),
     }
     if wanted != model.appearance {
         commands.push(UiCommand::SetAppearance(wanted));
@@ -62,8 +63,8 @@ fn times(ui: &mut Ui, wanted: &mut Appearance) {
     });
 }
 
-fn angles(ui: &mut Ui, wanted: &mut Appearance) {
-    form::card(ui, "Angles", |ui| {
+fn units(ui: &mut Ui, wanted: &mut Appearance) {
+    form::card(ui, "Units", |ui| {
         let [one, two, three] = Appearance::ANGLE_DECIMALS;
         let choices = [("0.1°", one), ("0.01°", two), ("0.001°", three)];
         choice(ui, DECIMALS, &choices, &mut wanted.angle_decimals);
@@ -71,6 +72,17 @@ fn angles(ui: &mut Ui, wanted: &mut Appearance) {
             ui,
             "For the angles of the antenna's axes and of the selected satellite. The angles of a \
              unit with a coarser resolution have fewer.",
+        );
+        let of_distances = [
+            ("Kilometres", DistanceUnit::Kilometres),
+            ("Miles", DistanceUnit::Miles),
+            ("Nautical miles", DistanceUnit::NauticalMiles),
+        ];
+        choice(ui, DISTANCES, &of_distances, &mut wanted.distances);
+        note(
+            ui,
+            "For heights, ranges and their rates. Alarms, files and the altitude of the site stay \
+             in kilometres and metres.",
         );
     });
 }

@@ -17,7 +17,7 @@ use crate::{
     astro::{Site, sun_moon},
     engine::{alarms::AlarmKind, antenna::AntennaModel},
     model::{
-        Model, UiCommand,
+        DistanceUnit, Model, UiCommand,
         effects::{
             DEBOUNCE,
             sites::{Question, Standpoint, Tally},
@@ -183,15 +183,15 @@ fn about(ui: &mut Ui, site: Option<Site>, model: &Model) {
     told::line(ui, Tone::Plain, &there);
     told::line(ui, Tone::Now, &words::sun_there(sun_moon::sun(site, model.now)));
     for antenna in &model.antennas {
-        let (tone, words) = distance(site, antenna);
+        let (tone, words) = distance(site, antenna, model.appearance.distances);
         told::line(ui, tone, &words);
     }
 }
 
-fn distance(site: Site, antenna: &AntennaModel) -> (Tone, String) {
+fn distance(site: Site, antenna: &AntennaModel, unit: DistanceUnit) -> (Tone, String) {
     let name = &antenna.config.name;
     let Some(told) = antenna.snapshot.state.on_board.place else {
         return (Tone::Plain, format!("{name} reports no position."));
     };
-    words::off_the_told(name, told.km_from(site))
+    words::off_the_told(name, told.km_from(site), unit)
 }

@@ -5,7 +5,7 @@ use egui::{Align, Label, Layout, RichText, TextEdit, Ui, vec2};
 use super::{draft::SetupDraft, words};
 use crate::{
     astro::{read_locator, sun_moon},
-    model::Model,
+    model::{DistanceUnit, Model},
     ui::{
         preferences::form,
         text, theme,
@@ -25,7 +25,7 @@ const OF_UNIT: usize = 5;
 pub(super) fn show(ui: &mut Ui, model: &Model, draft: &mut SetupDraft) {
     card::show(ui, CARD, |ui| {
         fields(ui, draft, 0..1);
-        locator(ui, draft);
+        locator(ui, draft, model.appearance.distances);
         fields(ui, draft, 1..super::draft::SITE_FIELDS);
     });
     for (name, place) in draft.places(model) {
@@ -42,7 +42,8 @@ pub(super) fn show(ui: &mut Ui, model: &Model, draft: &mut SetupDraft) {
         ui.label(RichText::new(there).font(text::value()).color(t.t1));
         line(ui, Tone::Now, &crate::ui::words::sun_there(sun_moon::sun(site, model.now)));
         if let Some((name, km)) = draft.off_the_told_km(model) {
-            let (tone, words) = crate::ui::words::off_the_told(&name, km);
+            let (tone, words) =
+                crate::ui::words::off_the_told(&name, km, model.appearance.distances);
             line(ui, tone, &words);
         }
     });
@@ -56,7 +57,7 @@ fn fields(ui: &mut Ui, draft: &mut SetupDraft, which: std::ops::Range<usize>) {
 }
 
 /// The locator as a field, which fills latitude and longitude.
-fn locator(ui: &mut Ui, draft: &mut SetupDraft) {
+fn locator(ui: &mut Ui, draft: &mut SetupDraft, unit: DistanceUnit) {
     let t = theme::tokens(ui);
     ui.horizontal_top(|ui| {
         let left = Layout::left_to_right(Align::Center);
@@ -82,7 +83,7 @@ fn locator(ui: &mut Ui, draft: &mut SetupDraft) {
         _ if draft.locator.trim().is_empty() => {
             ("A Maidenhead locator fills latitude and longitude.".to_owned(), t.t3)
         }
-        Ok(square) => (words::square(square), t.t3),
+        Ok(square) => (words::square(square, unit), t.t3),
         Err(why) => (format!("Locator {why}."), t.bad),
     };
     ui.horizontal_top(|ui| {

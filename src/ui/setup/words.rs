@@ -1,6 +1,6 @@
 //! Sentences of the set-up.
 
-use crate::{astro::LocatorSquare, ui::format};
+use crate::{astro::LocatorSquare, model::DistanceUnit, ui::format};
 
 /// Length of a degree of latitude.
 const KM_A_DEGREE: f64 = 111.2;
@@ -14,9 +14,11 @@ pub(super) fn missing(labels: &[&str]) -> String {
 }
 
 /// Size of the square of a locator.
-pub(super) fn square(square: LocatorSquare) -> String {
+pub(super) fn square(square: LocatorSquare, unit: DistanceUnit) -> String {
     let height_km = square.height_deg * KM_A_DEGREE;
     let width_km = 2.0 * height_km * square.centre.latitude.degrees().to_radians().cos();
-    let km = |length: f64| format::number(length, usize::from(length < 10.0));
-    format!("The centre of a square of {} by {} km.", km(width_km), km(height_km))
+    let decimals = |km: f64| usize::from(km < 10.0);
+    let width = format::distance_number(width_km, decimals(width_km), unit);
+    let height = format::distance(height_km, decimals(height_km), unit);
+    format!("The centre of a square of {width} by {height}.")
 }

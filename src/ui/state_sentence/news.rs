@@ -65,7 +65,7 @@ pub(super) fn sentence(model: &Model, antenna: &AntennaModel) -> Option<Spoken> 
             .plain(format!(": {}.", words::prepare_error(reason))),
         Event::WouldMiss { name, found } => caution.plain(format!(
             "Not tracking. {} Hold Track anyway, or follow from here.",
-            words::would_miss(short(name), found, now)
+            words::would_miss(short(name), found, now, model.appearance.distances)
         )),
         Event::ProgramTrackOver { name, stats } => follow_over(name, *stats),
         Event::CannotProgramTrack(target, problem) => caution

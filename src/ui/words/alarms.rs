@@ -5,6 +5,8 @@ use jiff::Timestamp;
 use crate::{
     driver::LinkLoss,
     engine::alarms::{Alarm, AlarmKind, AlarmState, Work},
+    model::DistanceUnit,
+    plan::on_board::Ranked,
     station::NoteReason,
     ui::format,
 };
@@ -33,6 +35,11 @@ pub fn alarm_state(state: AlarmState, now: Timestamp) -> String {
 
 /// An alarm in words. `antenna` is the name of its antenna, if it has one.
 // One arm a kind.
+/// The cause in kilometres, in the window too: the desktop and the record have the same words.
+fn cause_of(ranked: &Ranked) -> String {
+    super::cause(ranked, DistanceUnit::Kilometres)
+}
+
 #[allow(clippy::too_many_lines)]
 pub fn alarm(kind: &AlarmKind, antenna: &str, now: Timestamp) -> String {
     match kind {
@@ -100,7 +107,7 @@ pub fn alarm(kind: &AlarmKind, antenna: &str, now: Timestamp) -> String {
             let off = format::degrees(off.degrees(), 1);
             match cause {
                 Some(cause) => {
-                    format!("{antenna} is {off} off its satellite: {}.", super::cause(cause))
+                    format!("{antenna} is {off} off its satellite: {}.", cause_of(cause))
                 }
                 None => format!(
                     "{antenna} is {off} off its satellite. What the unit tells does not explain \
@@ -109,7 +116,7 @@ pub fn alarm(kind: &AlarmKind, antenna: &str, now: Timestamp) -> String {
             }
         }
         AlarmKind::UnitDiffers(ranked) => {
-            let why = super::cause(ranked);
+            let why = cause_of(ranked);
             format!("{antenna} would miss by its own program: {why}.")
         }
         AlarmKind::NotCompared { satellite: Some(name) } => format!(

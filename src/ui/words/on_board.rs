@@ -5,6 +5,7 @@ use jiff::Timestamp;
 use crate::{
     astro::AzEl,
     device::Place,
+    model::DistanceUnit,
     plan::{
         Supervision,
         on_board::{Cause, OffLimits, Ranked, Trespass, Unknown},
@@ -13,11 +14,11 @@ use crate::{
 };
 
 /// The reason why a unit misses, as a clause that begins with the unit.
-pub fn cause(ranked: &Ranked) -> String {
+pub fn cause(ranked: &Ranked, unit: DistanceUnit) -> String {
     match &ranked.cause {
         Cause::Place { place, away_km } => format!(
-            "the unit stands {} km from this station: its place is {}",
-            format::number(*away_km, usize::from(*away_km < 100.0)),
+            "the unit stands {} from this station: its place is {}",
+            format::distance(*away_km, usize::from(*away_km < 100.0), unit),
             place_words(*place)
         ),
         Cause::Clock { ahead_s } => {
@@ -62,12 +63,12 @@ fn place_words(place: Place) -> String {
 }
 
 /// The amount by which a unit would miss `name`, and the reason.
-pub fn would_miss(name: &str, found: &Supervision, now: Timestamp) -> String {
+pub fn would_miss(name: &str, found: &Supervision, now: Timestamp, unit: DistanceUnit) -> String {
     let off = format::degrees(found.worst.off.degrees(), 1);
     let at = format::moment(found.worst.at, now);
     match found.causes.first() {
         Some(first) => {
-            let why = super::capitalised(&cause(first));
+            let why = super::capitalised(&cause(first, unit));
             format!("{why}. It would miss {name} by up to {off} at {at}.")
         }
         None => format!("By its own settings the unit would miss {name} by up to {off} at {at}."),
@@ -87,10 +88,10 @@ pub fn not_known(found: &Supervision) -> Option<String> {
 }
 
 /// The note on a unit that tracks well enough.
-pub fn within_beam(found: &Supervision) -> Option<String> {
+pub fn within_beam(found: &Supervision, unit: DistanceUnit) -> Option<String> {
     let first = found.causes.first()?;
     let off = format::degrees(found.worst.off.degrees(), 2);
-    Some(format!("Up to {off} off: {}.", cause(first)))
+    Some(format!("Up to {off} off: {}.", cause(first, unit)))
 }
 
 /// The note on a unit whose minimum elevation is below that of the station.

@@ -2,6 +2,7 @@
 
 use crate::{
     astro::AzEl,
+    model::DistanceUnit,
     ui::{format, widgets::told::Tone},
 };
 
@@ -23,13 +24,12 @@ pub fn sun_there(sun: AzEl) -> String {
 }
 
 /// How far a typed place is from the one that a unit told.
-pub fn off_the_told(name: &str, km: f64) -> (Tone, String) {
-    let far = format::number(km, usize::from(km < 10.0));
+pub fn off_the_told(name: &str, km: f64, unit: DistanceUnit) -> (Tone, String) {
+    let far = format::distance(km, usize::from(km < 10.0), unit);
     if km < AGREES_KM {
-        (Tone::Good, format!("Agrees with the position that {name} reports: {far} km apart."))
+        (Tone::Good, format!("Agrees with the position that {name} reports: {far} apart."))
     } else {
-        let words =
-            format!("{far} km from the position that {name} reports. Which of them is right?");
+        let words = format!("{far} from the position that {name} reports. Which of them is right?");
         (Tone::Caution, words)
     }
 }

@@ -16,7 +16,7 @@ const MONTHS: [&str; 12] =
     ["Jan", "Feb", "Mar", "Apr", "May", "Jun", "Jul", "Aug", "Sep", "Oct", "Nov", "Dec"];
 
 /// All words that can be seen or heard.
-fn words(window: &Window) -> Vec<String> {
+pub(crate) fn words(window: &Window) -> Vec<String> {
     let nodes = window.query_all(By::new()).flat_map(|node| {
         let node = node.accesskit_node();
         [node.label(), node.value()]

@@ -33,7 +33,8 @@ fn site_check(ui: &mut Ui, unit: &ShownUnit<'_>) {
     let Some(away_km) = place(unit).map(|place| distance_km(place, unit.model.station.site)) else {
         return row::plain(ui, "Distance to site", "not known", None);
     };
-    let words = format!("{} km from the station's site", format::number(away_km, 1));
+    let away = format::distance(away_km, 1, unit.model.appearance.distances);
+    let words = format!("{away} from the station's site");
     if away_km <= FAR_KM {
         let verdict = Some((Some(Icon::Check), "Agrees", t.t3));
         return row::plain(ui, "Distance to site", &words, verdict);

@@ -1,0 +1,56 @@
+//! Distances in the unit that the operator has chosen.
+
+use super::{number, signed};
+use crate::model::DistanceUnit;
+
+/// The symbol of a unit.
+pub fn distance_unit(unit: DistanceUnit) -> &'static str {
+    match unit {
+        DistanceUnit::Kilometres => "km",
+        DistanceUnit::Miles => "mi",
+        DistanceUnit::NauticalMiles => "nmi",
+    }
+}
+
+fn in_unit(km: f64, unit: DistanceUnit) -> f64 {
+    match unit {
+        DistanceUnit::Kilometres => km,
+        DistanceUnit::Miles => km / 1.609_344,
+        DistanceUnit::NauticalMiles => km / 1.852,
+    }
+}
+
+/// A distance, with its unit.
+pub fn distance(km: f64, decimals: usize, unit: DistanceUnit) -> String {
+    format!("{} {}", distance_number(km, decimals, unit), distance_unit(unit))
+}
+
+/// A distance for a place where the unit stands beside it.
+pub fn distance_number(km: f64, decimals: usize, unit: DistanceUnit) -> String {
+    number(in_unit(km, unit), decimals)
+}
+
+/// A speed, with its unit.
+pub fn speed(km_s: f64, unit: DistanceUnit) -> String {
+    format!("{}/s", distance(km_s, 2, unit))
+}
+
+/// The speed at which a range grows, with its sign and unit.
+pub fn range_rate(km_s: f64, unit: DistanceUnit) -> String {
+    format!("{} {}/s", signed(in_unit(km_s, unit), 2), distance_unit(unit))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_distance_has_the_figure_of_its_unit() {
+        use DistanceUnit::{Kilometres, Miles, NauticalMiles};
+        let said = [Kilometres, Miles, NauticalMiles].map(|of| distance(1852.0, 0, of));
+        assert_eq!(said, ["1852 km", "1151 mi", "1000 nmi"]);
+        let rates = [Kilometres, Miles, NauticalMiles].map(|of| range_rate(-7.0, of));
+        assert_eq!(rates, ["−7.00 km/s", "−4.35 mi/s", "−3.78 nmi/s"]);
+        assert_eq!(speed(7.5, Miles), "4.66 mi/s");
+    }
+}
