@@ -318,6 +318,31 @@ fn letters_of_a_name_are_no_commands() {
 }
 
 #[test]
+fn the_reason_why_a_field_cannot_be_used_moves_nothing_below_it() {
+    for size in SIZES {
+        let mut window = window(size);
+        write_site(&mut window);
+        let places = |window: &Window, below: &[&str]| -> Vec<_> {
+            below.iter().map(|label| window.get_by_label(label).rect()).collect()
+        };
+        let below = ["Longitude, east", "Altitude", NEXT[0]];
+        let before = places(&window, &below);
+        write(&mut window, "Latitude", "91");
+        assert!(says(&window, "Latitude must be"), "{size:?}");
+        assert_eq!(places(&window, &below), before, "{size:?}");
+        write(&mut window, "Latitude", "41");
+        press(&mut window, NEXT[0]);
+        press(&mut window, &format!("Add {}", makes::SPECS[0].name));
+        let below = ["Test link of Satrak", "Remove Satrak"];
+        write(&mut window, "Address of the Satrak", "unit.local:4001");
+        let before = places(&window, &below);
+        write(&mut window, "Address of the Satrak", "unit.local:");
+        assert!(says(&window, "Address of the Satrak "), "{size:?}");
+        assert_eq!(places(&window, &below), before, "{size:?}");
+    }
+}
+
+#[test]
 fn the_note_of_a_field_that_is_filled_stays_and_moves_no_button() {
     for size in SIZES {
         let mut window = window(size);

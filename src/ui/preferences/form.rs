@@ -31,7 +31,7 @@ pub(in crate::ui) const ROW: f32 = 24.0;
 pub(super) const GAP: f32 = 8.0;
 /// Width of a number with its unit.
 const NUMBER: f32 = 108.0;
-/// Width of a name or an address, and with the room of the state.
+/// Width of a name or an address beside its state, and in the set-up.
 const WORDS: [f32; 2] = [160.0, 240.0];
 /// Left end of the state, from that of the label.
 const STATE: f32 = 360.0;
@@ -42,13 +42,13 @@ const SEGMENT: f32 = 20.0;
 /// Height beyond which a long text is scrolled.
 const LINES: f32 = 140.0;
 
-/// Where the reason stands why a field cannot be used.
+/// What stands beside a field. No row moves when it comes or goes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(in crate::ui) enum Reasons {
-    /// Below the field.
-    Below,
-    /// Beside it in a few words: no row moves when one comes or goes.
-    Beside,
+enum Beside {
+    /// Its state: unchanged, edited, or why it cannot be used.
+    State,
+    /// Why it cannot be used, and nothing while it can.
+    Reason,
 }
 
 /// The field that a search leads to, until it has the focus.
@@ -101,7 +101,7 @@ pub(super) fn rows<T: Clone>(
 ) {
     for (field, standing) in typed.fields.iter_mut().zip(standings) {
         if standing.is_used && field.section == section {
-            let response = row(ui, group, field, standing, Reasons::Beside);
+            let response = row(ui, group, field, standing, Beside::State);
             if sought.takes(&field.description.label) {
                 focus_to_replace(ui, &response, &field.text);
                 response.scroll_to_me(Some(Align::Center));
@@ -110,8 +110,8 @@ pub(super) fn rows<T: Clone>(
     }
 }
 
-/// Shows the fields that are used, with reasons below them; returns what their input fields
-/// respond.
+/// Shows the fields that are used, each with the reason beside it why it cannot be; returns what
+/// their input fields respond.
 pub(in crate::ui) fn fields<T>(
     ui: &mut Ui,
     group: &str,
@@ -119,7 +119,7 @@ pub(in crate::ui) fn fields<T>(
     standings: &[Standing],
 ) -> Vec<Response> {
     let used = fields.iter_mut().zip(standings).filter(|(_, standing)| standing.is_used);
-    used.map(|(field, standing)| row(ui, group, field, standing, Reasons::Below)).collect()
+    used.map(|(field, standing)| row(ui, group, field, standing, Beside::Reason)).collect()
 }
 
 /// A row of a form; returns what `content` returns and the place of the whole row.
@@ -143,10 +143,7 @@ pub(super) fn labelled<R>(
 
 /// A note in the column of the fields.
 pub(super) fn note(ui: &mut Ui, words: &str) {
-    note_in(ui, words, theme::tokens(ui).t3);
-}
-
-fn note_in(ui: &mut Ui, words: &str, colour: Color32) {
+    let colour = theme::tokens(ui).t3;
     ui.horizontal_top(|ui| {
         ui.add_space(LABEL + GAP);
         let words = RichText::new(words).font(text::small()).color(colour);
@@ -187,7 +184,7 @@ fn row<T>(
     group: &str,
     field: &mut Field<T>,
     standing: &Standing,
-    reasons: Reasons,
+    beside: Beside,
 ) -> Response {
     let t = theme::tokens(ui);
     let border = match standing {
@@ -198,7 +195,7 @@ fn row<T>(
     let (label, unit) = (field.description.label.clone(), field.description.unit);
     let ((response, end), place) = labelled(ui, &label, |ui, name| {
         let response =
-            ui.scope(|ui| edit(ui, group, field, border, reasons).labelled_by(name)).inner;
+            ui.scope(|ui| edit(ui, group, field, border, beside).labelled_by(name)).inner;
         let end = response.rect.right();
         if unit.is_empty() {
             return (response, end);
@@ -208,27 +205,20 @@ fn row<T>(
         let unit = ui.allocate_ui_with_layout(vec2(0.0, ROW), left, |ui| ui.label(words));
         (response, unit.response.rect.right())
     });
-    match (&standing.problem, reasons) {
-        (Some(problem), Reasons::Below) => {
-            note_in(ui, &format!("{label} {}.", problem.why), t.bad);
-            return response;
-        }
-        (_, Reasons::Beside) => {
-            let left = (place.left() + STATE).max(end + GAP);
-            let right = ui.max_rect().right();
-            let room = Rect::from_min_max(
-                pos2(left.min(right - 14.0), place.top()),
-                pos2(right, place.top() + ROW),
-            );
-            state(ui, (group, &*label), room, field, standing);
-            if let Some(problem) = standing.problem.as_ref().filter(|_| response.has_focus()) {
-                why_below(&response, &label, problem);
-            }
-        }
-        (None, Reasons::Below) => {}
+    if beside == Beside::State || standing.problem.is_some() {
+        let left = (place.left() + STATE).max(end + GAP);
+        let right = ui.max_rect().right();
+        let room = Rect::from_min_max(
+            pos2(left.min(right - 14.0), place.top()),
+            pos2(right, place.top() + ROW),
+        );
+        state(ui, (group, &*label), room, field, standing);
+    }
+    if let Some(problem) = standing.problem.as_ref().filter(|_| response.has_focus()) {
+        why_below(&response, &label, problem);
     }
     if let Some(words) = &standing.note {
-        note_in(ui, words, t.t3);
+        note(ui, words);
     }
     response
 }
@@ -317,7 +307,7 @@ fn edit<T>(
     group: &str,
     field: &mut Field<T>,
     border: Option<Color32>,
-    reasons: Reasons,
+    beside: Beside,
 ) -> Response {
     let t = theme::tokens(ui);
     let (stroke, margin) =
@@ -329,8 +319,8 @@ fn edit<T>(
         .corner_radius(4)
         .inner_margin(Margin::symmetric(margin.0, margin.1));
     let is_edited = field.is_edited();
-    let [beside, alone] = WORDS;
-    let width = if reasons == Reasons::Beside { beside } else { alone };
+    let [narrow, wide] = WORDS;
+    let width = if beside == Beside::State { narrow } else { wide };
     let label = &*field.description.label;
     let text = &mut field.text;
     if let Some(words) = field.description.kind.choices() {
