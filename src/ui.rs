@@ -28,6 +28,7 @@ pub mod plan;
 pub mod preferences;
 pub mod profile;
 pub mod rail;
+mod reading_order;
 pub mod record;
 mod recorded_track;
 pub mod replay;

@@ -3,6 +3,7 @@
 mod contrast;
 mod cut;
 mod days;
+mod order;
 mod overlaps;
 pub(crate) mod painted;
 mod scale;

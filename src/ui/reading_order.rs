@@ -1,0 +1,175 @@
+//! The tree for screen readers in the order in which the window is read.
+//!
+//! A view draws first what has a fixed size, such as the buttons at the right of a bar, and then what
+//! gets the rest. The tree has what was drawn first at its beginning; here, what stands together is
+//! put into the order of the window: down each column, along each row.
+
+use std::collections::HashMap;
+
+use egui::{
+    Context, FullOutput, LayerId, Plugin, Rect, Role,
+    accesskit::{Node, NodeId},
+};
+
+/// Points by which two places may lie on each other and still stand beside each other.
+const NEAR: f32 = 0.5;
+
+/// Orders the tree of every frame.
+#[derive(Debug, Default)]
+pub(super) struct ReadingOrder;
+
+impl Plugin for ReadingOrder {
+    fn debug_name(&self) -> &'static str {
+        "reading order"
+    }
+
+    fn output_hook(&mut self, ctx: &Context, output: &mut FullOutput) {
+        let Some(update) = &mut output.platform_output.accesskit_update else { return };
+        let spots = Spots::of(ctx, &update.nodes);
+        for (_, node) in &mut update.nodes {
+            // The marks of a drawing have an order of their own, such as that of time.
+            if node.role() != Role::Canvas && node.children().len() > 1 {
+                let children = spots.in_order(node.children());
+                node.set_children(children);
+            }
+        }
+    }
+}
+
+/// The part of a node that can be seen.
+#[derive(Debug, Clone, Copy)]
+struct Spot {
+    layer: LayerId,
+    place: Rect,
+}
+
+impl Spot {
+    /// Whether it is read before `other`: it is above it in its column or left of it in its row.
+    fn is_before(self, other: Self) -> bool {
+        let (a, b) = (self.place, other.place);
+        let columns = a.x_range().intersection(b.x_range()).span();
+        let rows = a.y_range().intersection(b.y_range()).span();
+        let is_above = a.bottom() < b.top() + NEAR && columns > NEAR;
+        let is_left = a.right() < b.left() + NEAR && rows > 0.5 * a.height().min(b.height());
+        self.layer == other.layer && (is_above || is_left)
+    }
+}
+
+/// What can be seen of all nodes.
+struct Spots(HashMap<NodeId, Spot>);
+
+impl Spots {
+    fn of(ctx: &Context, nodes: &[(NodeId, Node)]) -> Self {
+        let of_widgets: HashMap<NodeId, Spot> = ctx.viewport(|viewport| {
+            let layers = viewport.this_pass.widgets.layers();
+            let widgets = layers.flat_map(|(_, widgets)| widgets);
+            let spot = |of: &egui::WidgetRect| Spot { layer: of.layer_id, place: of.interact_rect };
+            widgets.map(|of| (of.id.accesskit_id(), spot(of))).collect()
+        });
+        let nodes: HashMap<NodeId, &Node> = nodes.iter().map(|(id, node)| (*id, node)).collect();
+        let mut spots = Self(HashMap::new());
+        for id in nodes.keys() {
+            spots.add(*id, &nodes, &of_widgets);
+        }
+        spots
+    }
+
+    /// Adds a node with what it holds. A container is where its content is, whatever room it has.
+    fn add(
+        &mut self,
+        id: NodeId,
+        nodes: &HashMap<NodeId, &Node>,
+        of_widgets: &HashMap<NodeId, Spot>,
+    ) -> Option<Spot> {
+        if let Some(spot) = self.0.get(&id) {
+            return Some(*spot);
+        }
+        let (node, mut spot) = (nodes.get(&id)?, *of_widgets.get(&id)?);
+        if matches!(node.role(), Role::GenericContainer | Role::Group) {
+            spot.place = Rect::NOTHING;
+        }
+        for child in node.children() {
+            let child = self.add(*child, nodes, of_widgets);
+            if let Some(child) = child.filter(|of| of.layer == spot.layer && of.place.is_positive())
+            {
+                spot.place = spot.place.union(child.place);
+            }
+        }
+        self.0.insert(id, spot);
+        Some(spot)
+    }
+
+    /// Nodes in the order in which they are read. Those between which there is no order keep theirs,
+    /// and what follows on each other stays together.
+    fn in_order(&self, nodes: &[NodeId]) -> Vec<NodeId> {
+        struct Left {
+            id: NodeId,
+            spot: Option<Spot>,
+            /// How many of the others that are left are read before it.
+            before: usize,
+        }
+        let spot = |id: &NodeId| self.0.get(id).copied();
+        let is_before =
+            |a: Option<Spot>, b: Option<Spot>| a.zip(b).is_some_and(|(a, b)| a.is_before(b));
+        let before = |id: &NodeId| nodes.iter().filter(|of| is_before(spot(of), spot(id))).count();
+        let mut left: Vec<Left> =
+            nodes.iter().map(|id| Left { id: *id, spot: spot(id), before: before(id) }).collect();
+        let (mut order, mut from) = (Vec::with_capacity(nodes.len()), 0);
+        while !left.is_empty() {
+            let is_free = |(index, of): (usize, &Left)| (of.before == 0).then_some(index);
+            let later = left.iter().enumerate().skip(from).find_map(is_free);
+            let next = later.or_else(|| left.iter().enumerate().find_map(is_free));
+            from = next.unwrap_or_default();
+            let taken = left.remove(from);
+            for other in left.iter_mut().filter(|of| is_before(taken.spot, of.spot)) {
+                other.before -= 1;
+            }
+            order.push(taken.id);
+        }
+        order
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use egui::{Align, Layout, UiBuilder, pos2, vec2};
+    use egui_kittest::kittest::NodeT as _;
+
+    use super::*;
+    use crate::ui::widgets::testing;
+
+    fn read(mut draw: impl FnMut(&mut egui::Ui)) -> Vec<String> {
+        let window = testing::window([400.0, 300.0], (), move |ui, ()| draw(ui));
+        let nodes = window.root().children_recursive();
+        let buttons = nodes.filter(|node| node.accesskit_node().role() == Role::Button);
+        buttons.filter_map(|node| node.accesskit_node().label()).collect()
+    }
+
+    #[test]
+    fn buttons_from_the_right_are_read_from_the_left() {
+        let words = read(|ui| {
+            ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
+                for name in ["save", "copy", "open"] {
+                    let _ = ui.button(name);
+                }
+            });
+        });
+        assert_eq!(words, ["open", "copy", "save"]);
+    }
+
+    #[test]
+    fn a_column_is_read_to_its_end() {
+        let words = read(|ui| {
+            for (left, name) in [(200.0, "right"), (0.0, "left")] {
+                for row in 0..3_u8 {
+                    let min = pos2(left, f32::from(row) * 40.0);
+                    let place = Rect::from_min_size(min, vec2(100.0, 30.0));
+                    ui.scope_builder(UiBuilder::new().max_rect(place), |ui| {
+                        let _ = ui.button(format!("{name} {row}"));
+                    });
+                }
+            }
+        });
+        assert_eq!(words, ["left 0", "left 1", "left 2", "right 0", "right 1", "right 2"]);
+    }
+}
