@@ -11,11 +11,12 @@ use azel::{
     station::{AntennaId, Note, NoteReason},
     ui::{format, theme, words},
 };
-use egui::{Key, Modifiers, Role};
+use egui::{Key, Modifiers, Order, Role};
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
 use jiff::ToSpan as _;
 
 use crate::window_stories::{
+    every_view::scene,
     rig::{self, SIZES, Window, asked, says, settle},
     states,
 };
@@ -42,6 +43,25 @@ fn carry_out(window: &mut Window) -> Vec<UiCommand> {
     }
     settle(window);
     commands
+}
+
+#[test]
+fn the_alarm_list_leaves_the_countdown_of_the_pass_free() {
+    for size in SIZES {
+        let window = scene("Alarms", size);
+        let countdown = window.get_by_label("LOS T−05:57").rect();
+        let open = window.ctx.memory(|memory| {
+            let mut layers = memory.areas().visible_layer_ids().into_iter();
+            let list = layers.find(|layer| layer.order == Order::Foreground)?;
+            memory.area_rect(list.id)
+        });
+        let list = open.expect("the list is open");
+        assert!(window.ctx.content_rect().contains_rect(list), "{list:?}");
+        assert!(list.left() >= countdown.right(), "{size:?}: {list:?} {countdown:?}");
+        for button in window.query_all_by_label_contains("Acknowledge: ") {
+            assert!(list.contains_rect(button.rect()), "{size:?}: {:?} {list:?}", button.rect());
+        }
+    }
 }
 
 #[test]

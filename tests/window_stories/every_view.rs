@@ -44,76 +44,81 @@ impl Scene {
     }
 }
 
-const fn scene(name: &'static str, open: fn([f32; 2]) -> Window) -> Scene {
+/// The view of one of [`SCENES`].
+pub(crate) fn scene(name: &str, size: [f32; 2]) -> Window {
+    SCENES.iter().find(|scene| scene.name == name).expect("a scene of this name").open(size)
+}
+
+const fn named(name: &'static str, open: fn([f32; 2]) -> Window) -> Scene {
     Scene { name, open }
 }
 
 pub(crate) const SCENES: [Scene; 49] = [
-    scene("Operate, tracking", |size| rig::window(size, rig::model(states::tracking(0.04)))),
-    scene("Operate, three antennas of the demo", |size| rig::window(size, demo())),
-    scene("Operate, jog", |size| rig::window(size, rig::model(states::manual()))),
-    scene("Operate, a pair of rotators", |size| {
+    named("Operate, tracking", |size| rig::window(size, rig::model(states::tracking(0.04)))),
+    named("Operate, three antennas of the demo", |size| rig::window(size, demo())),
+    named("Operate, jog", |size| rig::window(size, rig::model(states::manual()))),
+    named("Operate, a pair of rotators", |size| {
         rig::window(size, makes::model(makes::pair(), makes::pair_at(Intent::Position)))
     }),
-    scene("Operate, a rotator alone", |size| {
+    named("Operate, a rotator alone", |size| {
         rig::window(size, makes::model(makes::alone(), makes::alone_at(Intent::Manual, true)))
     }),
-    scene("Operate, a unit with alarms", |size| {
+    named("Operate, a unit with alarms", |size| {
         let snapshot = makes::rc2000c_alarmed(Intent::Manual);
         rig::window(size, makes::model(makes::rc2000c(), snapshot))
     }),
-    scene("Operate, a unit to be connected", |size| {
+    named("Operate, a unit to be connected", |size| {
         rig::window(size, makes::model(makes::rc2000c(), makes::rc2000c_off()))
     }),
-    scene("Operate, link lost", |size| rig::window(size, lost())),
-    scene("Operate, locked out", |size| {
+    named("Operate, link lost", |size| rig::window(size, lost())),
+    named("Operate, locked out", |size| {
         rig::window(size, rig::model(maintenance::locked(states::holding())))
     }),
-    scene("Operate, no antennas", |size| rig::window(size, without_antennas())),
-    scene("Operate, drawer of passes", |size| {
+    named("Operate, no antennas", |size| rig::window(size, without_antennas())),
+    named("Operate, drawer of passes", |size| {
         let mut window = rig::window(size, rig::model(states::holding()));
         press(&mut window, Key::P);
         window
     }),
-    scene("Operate, layers of the sky", |size| {
+    named("Operate, layers of the sky", |size| {
         opened_by(rig::window(size, rig::model(states::holding())), "Layers")
     }),
-    scene("Operate, menu of the station", |size| {
+    named("Operate, menu of the station", |size| {
         opened_by(rig::window(size, rig::model(states::holding())), "Station Şile 1")
     }),
-    scene("Operate, menu of the link", |size| {
+    named("Operate, menu of the link", |size| {
         opened_by(rig::window(size, rig::model(states::holding())), "Link of Satrak")
     }),
-    scene("Operate, what else is followed", |size| {
+    named("Operate, what else is followed", |size| {
         opened_by(rig::window(size, rig::model(states::holding())), "Follow something else")
     }),
-    scene("Alarms", |size| opened_by(rig::window(size, alarmed()), "alarm")),
-    scene("List of keys", |size| {
+    named("Alarms", |size| opened_by(rig::window(size, alarmed()), "alarm")),
+    named("List of keys", |size| {
         let mut window = rig::window(size, rig::model(states::holding()));
         press(&mut window, Key::Questionmark);
         window
     }),
-    scene("Question", |size| {
+    named("Question", |size| {
         let mut window = rig::window(size, rig::model(states::tracking(0.04)));
         press(&mut window, Key::M);
         window
     }),
-    scene("Question before closing", |size| {
+    named("Question before closing", |size| {
         closing::asked_about(size, rig::model(states::tracking(0.1)))
     }),
-    scene("Plan", plan::view),
-    scene("Plan, details", |size| {
+    named("Plan", plan::view),
+    named("Plan, details", |size| {
         let mut window = plan::view(size);
         click_if_there(&mut window, "Details");
         window
     }),
-    scene("Elements", |size| elements::view(size, sources())),
-    scene("Elements, details", |size| {
+    named("Elements", |size| elements::view(size, sources())),
+    named("Elements, details", |size| {
         let mut window = elements::view(size, Vec::new());
         click_if_there(&mut window, "Details");
         window
     }),
-    scene("Elements, selected rows", |size| {
+    named("Elements, selected rows", |size| {
         let mut window = elements::view(size, Vec::new());
         window.get_by_role_and_label(Role::ListBox, "Catalogue").focus();
         settle(&mut window);
@@ -121,43 +126,43 @@ pub(crate) const SCENES: [Scene; 49] = [
         settle(&mut window);
         window
     }),
-    scene("Elements, pasted", |size| {
+    named("Elements, pasted", |size| {
         let mut window = elements::view(size, Vec::new());
         window.event(Event::Paste("hello".to_owned()));
         settle(&mut window);
         window
     }),
-    scene("Elements, a file held over it", |size| {
+    named("Elements, a file held over it", |size| {
         let mut window = elements::view(size, Vec::new());
         let held = HoveredFile { path: Some("own.json".into()), ..HoveredFile::default() };
         window.input_mut().hovered_files = vec![held];
         settle(&mut window);
         window
     }),
-    scene("Upload", |size| {
+    named("Upload", |size| {
         let mut window = elements::view(size, Vec::new());
         click_if_there(&mut window, "Details");
         opened_by(window, "Upload to")
     }),
-    scene("Antennas", |size| settings_rig::opened(size, settings_rig::read())),
-    scene("Antennas, unread", |size| settings_rig::opened(size, rig::quiet())),
-    scene("Antennas, a Rotator Genius", |size| {
+    named("Antennas", |size| settings_rig::opened(size, settings_rig::read())),
+    named("Antennas, unread", |size| settings_rig::opened(size, rig::quiet())),
+    named("Antennas, a Rotator Genius", |size| {
         in_view(size, View::Antennas, makes::model(makes::pair(), makes::pair_at(Intent::Standby)))
     }),
-    scene("Antennas, an RC2000C", |size| {
+    named("Antennas, an RC2000C", |size| {
         let snapshot = makes::rc2000c_at(Intent::Standby);
         in_view(size, View::Antennas, makes::model(makes::rc2000c(), snapshot))
     }),
-    scene("Console", console::view),
-    scene("Record", record::view),
-    scene("Map", |size| in_view(size, View::Map, rig::model(states::holding()))),
-    scene("Preferences", preferences::form),
-    scene("Preferences, a wrong field", |size| {
+    named("Console", console::view),
+    named("Record", record::view),
+    named("Map", |size| in_view(size, View::Map, rig::model(states::holding()))),
+    named("Preferences", preferences::form),
+    named("Preferences, a wrong field", |size| {
         let mut window = preferences::form(size);
         write(&mut window, "Latitude", "91");
         window
     }),
-    scene("Preferences, a selected value", |size| {
+    named("Preferences, a selected value", |size| {
         let mut window = preferences::form(size);
         window.get_by_role_and_label(Role::TextInput, "Name").focus();
         settle(&mut window);
@@ -165,29 +170,29 @@ pub(crate) const SCENES: [Scene; 49] = [
         settle(&mut window);
         window
     }),
-    scene("Preferences, an antenna", preferences::antenna_form),
-    scene("Horizon and keep-outs", horizon::page),
-    scene("Satellites and priorities", |size| {
+    named("Preferences, an antenna", preferences::antenna_form),
+    named("Horizon and keep-outs", horizon::page),
+    named("Satellites and priorities", |size| {
         opened_by(preferences::form(size), "Satellites and priorities")
     }),
-    scene("Automation rules", preferences_rules::view),
-    scene("Alarms and sounds", |size| opened_by(preferences::form(size), "Alarms and sounds")),
-    scene("Appearance", |size| opened_by(preferences::form(size), "Appearance")),
-    scene("Keys", |size| {
+    named("Automation rules", preferences_rules::view),
+    named("Alarms and sounds", |size| opened_by(preferences::form(size), "Alarms and sounds")),
+    named("Appearance", |size| opened_by(preferences::form(size), "Appearance")),
+    named("Keys", |size| {
         let mut window = preferences::form(size);
         preferences::open(&mut window, "Keys");
         window
     }),
-    scene("Set-up, site", setup::window),
-    scene("Set-up, antennas", |size| {
+    named("Set-up, site", setup::window),
+    named("Set-up, antennas", |size| {
         let mut window = at_step(size, 1);
         let antenna = setup::add_and_test(&mut window, "unit.local:4001");
         setup::tell(&mut window, &antenna, setup::reached());
         window
     }),
-    scene("Set-up, satellites", |size| at_step(size, 2)),
-    scene("Set-up, elements", |size| at_step(size, 3)),
-    scene("Set-up, check and finish", |size| at_step(size, 4)),
+    named("Set-up, satellites", |size| at_step(size, 2)),
+    named("Set-up, elements", |size| at_step(size, 3)),
+    named("Set-up, check and finish", |size| at_step(size, 4)),
 ];
 
 fn press(window: &mut Window, key: Key) {

@@ -5,8 +5,8 @@ mod row;
 use std::time::Duration;
 
 use egui::{
-    Align2, Popup, PopupCloseBehavior, Rect, Response, Role, Sense, Stroke, StrokeKind, Ui,
-    ViewportId, WidgetInfo, pos2, vec2,
+    Align2, Popup, PopupCloseBehavior, Rect, RectAlign, Response, Role, Sense, Stroke, StrokeKind,
+    Ui, ViewportId, WidgetInfo, pos2, vec2,
 };
 
 use super::{
@@ -28,7 +28,10 @@ use crate::{
 };
 
 const RADIUS: u8 = 6;
-const LIST_WIDTH: f32 = 360.0;
+/// Widths of the list in a small and in the usual window: it leaves the countdown of the pass free.
+const WIDTHS: [f32; 2] = [288.0, 328.0];
+/// Distance of the list from the edge of the window.
+const EDGE: f32 = 8.0;
 /// Height of the line with the button for all alarms, and of a heading.
 const HEADER_HEIGHT: f32 = 30.0;
 const ALL_BUTTON: f32 = 140.0;
@@ -120,12 +123,17 @@ pub fn show(
     if response.clicked() && !was_open {
         commands.push(UiCommand::Station(engine::Command::OpenedAlarms));
     }
+    let [small, usual] = WIDTHS;
+    let width = if one_line { small } else { usual };
+    let right = ui.ctx().content_rect().right() - EDGE;
     Popup::from_toggle_button_response(&response)
-        .width(LIST_WIDTH)
+        .anchor(rect.with_max_x(right))
+        .align(RectAlign::BOTTOM_END)
+        .width(width)
         .close_behavior(PopupCloseBehavior::CloseOnClickOutside)
         .accessible_name("Alarms")
         .show(|ui| {
-            ui.set_min_width(LIST_WIDTH);
+            ui.set_min_width(width);
             list(ui, model, commands);
             close_key::show(ui);
         });
@@ -189,7 +197,8 @@ fn list(ui: &mut Ui, model: &AlarmModel<'_>, commands: &mut Vec<UiCommand>) {
         return;
     }
     if model.unacknowledged() > 1 {
-        let (rect, _) = ui.allocate_exact_size(vec2(LIST_WIDTH, HEADER_HEIGHT), Sense::hover());
+        let size_of_line = vec2(ui.available_width(), HEADER_HEIGHT);
+        let (rect, _) = ui.allocate_exact_size(size_of_line, Sense::hover());
         let size = vec2(ALL_BUTTON, SMALL_HEIGHT);
         let at = Rect::from_min_size(pos2(rect.right() - size.x, rect.top()), size);
         if Button::normal("Acknowledge all").show(ui, "acknowledge all", at).clicked()
@@ -207,11 +216,7 @@ fn list(ui: &mut Ui, model: &AlarmModel<'_>, commands: &mut Vec<UiCommand>) {
             } else if index > 0 {
                 let line = ui.available_rect_before_wrap();
                 let t = theme::tokens(ui);
-                ui.painter().hline(
-                    line.left()..=line.left() + LIST_WIDTH,
-                    line.top(),
-                    (1.0, t.line),
-                );
+                ui.painter().hline(line.x_range(), line.top(), (1.0, t.line));
             }
             row::show(ui, alarm, commands);
         }
@@ -221,7 +226,8 @@ fn list(ui: &mut Ui, model: &AlarmModel<'_>, commands: &mut Vec<UiCommand>) {
 fn heading(ui: &mut Ui, section: Section) {
     if let Some(words) = section.heading() {
         let t = theme::tokens(ui);
-        let (rect, _) = ui.allocate_exact_size(vec2(LIST_WIDTH, HEADER_HEIGHT), Sense::hover());
+        let size = vec2(ui.available_width(), HEADER_HEIGHT);
+        let (rect, _) = ui.allocate_exact_size(size, Sense::hover());
         let strong = text::sized(12.0, Weight::SemiBold);
         paint::text(ui, rect.left_center(), Align2::LEFT_CENTER, words, strong, t.t2);
         ui.painter().hline(rect.x_range(), rect.bottom(), (1.0, t.line));

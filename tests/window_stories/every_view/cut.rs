@@ -9,7 +9,7 @@ use egui_kittest::{
 };
 
 use crate::window_stories::{
-    every_view::{SCENES, in_view, painted},
+    every_view::{SCENES, in_view, painted, scene},
     rig::{self, LARGE, SIZES, SMALL},
     settings_rig, states,
 };
@@ -19,10 +19,6 @@ fn is_key(node: &Node<'_>) -> bool {
     let words = node.accesskit_node().label().or(node.accesskit_node().value());
     let words = words.unwrap_or_default();
     azel::ui::keys::ALL.iter().any(|of| words.ends_with(&format!(": {}", of.does)))
-}
-
-fn scene(name: &str, size: [f32; 2]) -> rig::Window {
-    SCENES.iter().find(|scene| scene.name == name).expect("a scene of this name").open(size)
 }
 
 #[test]

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use egui::{Color32, Galley, Id, Rect, Sense, Ui, pos2, vec2};
 
-use super::{AlarmRow, LIST_WIDTH};
+use super::AlarmRow;
 use crate::{
     driver::Command,
     engine::{
@@ -49,7 +49,8 @@ struct RowButton {
 pub(super) fn show(ui: &mut Ui, row: &AlarmRow<'_>, commands: &mut Vec<UiCommand>) {
     let t = theme::tokens(ui);
     let indent = if row.follows { INDENT } else { 0.0 };
-    let width = LIST_WIDTH - TEXT_LEFT - indent - BUTTON - RIGHT - 8.0;
+    let whole = ui.available_width();
+    let width = whole - TEXT_LEFT - indent - BUTTON - RIGHT - 8.0;
     let (weight, ink) =
         if row.is_new() { (Weight::SemiBold, t.t1) } else { (Weight::Regular, t.t2) };
     let lay = |words: String, font, ink| ui.painter().layout(words, font, ink, width);
@@ -60,7 +61,7 @@ pub(super) fn show(ui: &mut Ui, row: &AlarmRow<'_>, commands: &mut Vec<UiCommand
     let of_buttons = count * (SMALL_HEIGHT + BUTTON_GAP) - BUTTON_GAP;
     let of_text = words.size().y + GAP + times.size().y;
     let wanted = of_text.max(of_buttons) + 2.0 * PADDING;
-    let size = vec2(LIST_WIDTH, wanted.max(HEIGHT));
+    let size = vec2(whole, wanted.max(HEIGHT));
     let (rect, _) = ui.allocate_exact_size(size, Sense::hover());
     mark(ui, rect.translate(vec2(indent, 0.0)), row, t);
     let room = Rect::from_min_size(
@@ -128,9 +129,9 @@ fn buttons(row: &AlarmRow<'_>) -> Vec<RowButton> {
 
 /// Shows the times for which an alarm can be shelved. Returns `true` once one was chosen.
 fn choose_time(ui: &mut Ui, row: &AlarmRow<'_>, commands: &mut Vec<UiCommand>) -> bool {
-    let (rect, _) =
-        ui.allocate_exact_size(vec2(LIST_WIDTH, SMALL_HEIGHT + PADDING), Sense::hover());
-    let width = (LIST_WIDTH - TEXT_LEFT - RIGHT - 2.0 * BUTTON_GAP) / 3.0;
+    let size = vec2(ui.available_width(), SMALL_HEIGHT + PADDING);
+    let (rect, _) = ui.allocate_exact_size(size, Sense::hover());
+    let width = (rect.width() - TEXT_LEFT - RIGHT - 2.0 * BUTTON_GAP) / 3.0;
     let mut is_chosen = false;
     let mut left = rect.left() + TEXT_LEFT;
     for time in ShelveTime::ALL {
