@@ -34,8 +34,8 @@ const SEGMENTS: f32 = 236.0;
 const SHORT_S: f64 = 60.0;
 /// Minimum width for all columns: the smallest window has less.
 const ALL_FROM: f32 = 1000.0;
-/// Minimum width for the column of LOS: beside the drawer there is less.
-const LOS_FROM: f32 = 760.0;
+/// Below this width, beside the drawer, a row has no room but for what cannot be read elsewhere.
+const LEAN_BELOW: f32 = 760.0;
 /// From this width on the column of the slew grows, by at most so much.
 const WIDE_FROM: f32 = 1024.0;
 const MORE_SLEW: f32 = 120.0;
@@ -52,19 +52,24 @@ struct Columns {
     aos: f32,
     los: Option<f32>,
     name: f32,
-    max: f32,
+    max: Option<f32>,
     /// Left end of the slew and right end of the spare time, where there is room.
     slew: Option<(f32, f32)>,
     text: f32,
+    /// The rows have *Swap*. The drawer has it for the selected pass.
+    swaps: bool,
 }
 
 impl Columns {
     fn of(width: f32) -> Self {
         if width < ALL_FROM {
-            let los = (width >= LOS_FROM).then_some(354.0);
-            let name = los.unwrap_or(240.0) + 16.0;
-            let (max, text) = (name + 128.0, name + 144.0);
-            return Self { state: 16.0, aos: 240.0, los, name, max, slew: None, text };
+            let is_lean = width < LEAN_BELOW;
+            let of_room = |x: f32| (!is_lean).then_some(x);
+            let (aos, los) = (240.0, of_room(354.0));
+            let name = los.unwrap_or(aos) + 16.0;
+            let max = of_room(name + 128.0);
+            let text = max.unwrap_or(name + 92.0) + 16.0;
+            return Self { state: 16.0, aos, los, name, max, slew: None, text, swaps: !is_lean };
         }
         // The names of satellites are shown whole where there is room.
         let more = (width - WIDE_FROM).clamp(0.0, MORE_SLEW);
@@ -73,10 +78,15 @@ impl Columns {
             aos: 288.0,
             los: Some(402.0),
             name: 418.0,
-            max: 562.0,
+            max: Some(562.0),
             slew: Some((578.0, 778.0 + more)),
             text: 794.0 + more,
+            swaps: true,
         }
+    }
+
+    fn name_end(self) -> f32 {
+        self.max.map_or(self.text - 8.0, |max| max - 30.0)
     }
 }
 
@@ -201,7 +211,9 @@ fn heads(ui: &Ui, head: Rect, columns: Columns) {
         cell(los, right, "LOS");
     }
     cell(columns.name, left, "Satellite");
-    cell(columns.max, right, "Max el");
+    if let Some(max) = columns.max {
+        cell(max, right, "Max el");
+    }
     if let Some((slew, spare)) = columns.slew {
         cell(slew, left, "Slew in");
         cell(spare, right, "Spare");
@@ -339,15 +351,16 @@ fn show_row(
     let room = room.with_max_x(at(columns.aos) - aos_width - 8.0);
     paint::text_in(ui, room, left, &words, small.clone(), colour);
     paint::text_in(ui, row.with_max_x(at(columns.aos)), right, &aos, small.clone(), t.t1);
-    if let Some(end) = columns.los {
-        paint::text_in(ui, row.with_max_x(at(end)), right, &los, small.clone(), t.t2);
+    for (end, words, colour) in [(columns.los, &los, t.t2), (columns.max, &max, t.t1)] {
+        if let Some(end) = end {
+            paint::text_in(ui, row.with_max_x(at(end)), right, words, small.clone(), colour);
+        }
     }
     let is_out = listed.entry.is_none() && !matches!(listed.standing, Standing::Flown(_));
-    let room = row.with_min_x(at(columns.name)).with_max_x(at(columns.max) - 30.0);
+    let room = row.with_min_x(at(columns.name)).with_max_x(at(columns.name_end()));
     let (font, name_colour) =
         if is_out { (text::small(), t.t2) } else { (text::sized(13.0, Weight::SemiBold), t.t1) };
     paint::text_in(ui, room, left, listed.name, font, name_colour);
-    paint::text_in(ui, row.with_max_x(at(columns.max)), right, &max, small.clone(), t.t1);
     let mut text_from = at(columns.text);
     match (columns.slew, listed.entry) {
         (Some((slew, spare)), Some(entry)) => {
@@ -368,7 +381,7 @@ fn show_row(
         _ => {}
     }
     let mut end = row.right() - PADDING;
-    let can_swap = matches!(listed.standing, Standing::LeftOut(_));
+    let can_swap = columns.swaps && matches!(listed.standing, Standing::LeftOut(_));
     if let (true, Some(planned)) = (can_swap, &listed.planned) {
         // Known as soon as the inspector has shown the price.
         let cannot = model.swap_of(listed.key).is_some_and(|swap| swap.changes.is_none());
