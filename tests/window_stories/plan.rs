@@ -264,6 +264,31 @@ fn arrows_go_through_the_passes() {
 }
 
 #[test]
+fn the_part_of_the_lanes_is_moved_by_arrow_keys_while_its_grip_has_the_focus() {
+    let mut window = view(LARGE);
+    let part = |window: &Window| {
+        let grip = window.get_by_role(Role::Splitter);
+        (grip.accesskit_node().label().unwrap_or_default(), grip.rect())
+    };
+    let (start, place) = part(&window);
+    assert_eq!(start, "Part of the lanes, from 10:55:30Z");
+    let edges = painted::around(&window, place, 4.0).len();
+    window.get_by_role(Role::Splitter).focus();
+    settle(&mut window);
+    assert!(painted::around(&window, place, 4.0).len() > edges, "no ring");
+    for (key, from) in [
+        (Press::ArrowRight, "11:55:30Z"),
+        (Press::ArrowRight, "12:55:30Z"),
+        (Press::ArrowLeft, "11:55:30Z"),
+    ] {
+        window.key_press(key);
+        settle(&mut window);
+        assert_eq!(part(&window).0, format!("Part of the lanes, from {from}"));
+    }
+    assert_eq!(commands(&mut window), [], "the selected pass stays");
+}
+
+#[test]
 fn rule_and_span_are_chosen_and_undone() {
     let mut window = view(LARGE);
     window.get_by_role_and_label(Role::RadioButton, "48 h").click();

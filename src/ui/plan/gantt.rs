@@ -1,8 +1,8 @@
 //! The passes of each satellite over the whole plan.
 
 use egui::{
-    Align2, Rect, Role, ScrollArea, Sense, Stroke, StrokeKind, Ui, UiBuilder, WidgetInfo, pos2,
-    vec2,
+    Align2, EventFilter, Key, Modifiers, Rect, Response, Role, ScrollArea, Sense, Stroke,
+    StrokeKind, Ui, UiBuilder, WidgetInfo, pos2, vec2,
 };
 use jiff::Timestamp;
 
@@ -31,6 +31,8 @@ const BARS: std::ops::RangeInclusive<f32> = 7.0..=19.0;
 /// Minimum distance between two hours with their numbers.
 const HOUR_APART: f32 = 36.0;
 const DAY_S: i64 = 86_400;
+/// By how much an arrow key moves the part of the lanes, seconds.
+const KEY_S: f64 = 3600.0;
 
 pub(super) fn height(rows: usize) -> f32 {
     HEAD + rows.max(1) as f32 * ROW
@@ -270,7 +272,7 @@ fn spoken(model: &Model, planned: &PlannedPass<'_>) -> String {
     format!("{name}, {times}, {max}. {what}{choice}")
 }
 
-/// The frame of the part that the lanes show; drag it to move that.
+/// The frame of the part that the lanes show; its grip or the arrow keys move that.
 fn frame(ui: &Ui, place: Rect, model: &Model, span: Span, state: &mut PlanState) {
     let t = theme::tokens(ui);
     let lanes = super::lanes::span(model, state);
@@ -285,9 +287,13 @@ fn frame(ui: &Ui, place: Rect, model: &Model, span: Span, state: &mut PlanState)
     let words = format!("Part of the lanes, from {}", format::moment(lanes.from, model.now));
     response.widget_info(|| WidgetInfo::labeled(Role::Splitter, true, &words));
     ui.painter().rect_filled(grip.shrink2(vec2(4.0, 2.0)), 2.0, t.sat);
-    if response.dragged() {
+    let by_s = if response.dragged() {
         let moved = span.at(place.left() + response.drag_delta().x, place);
-        let by_s = seconds_between(span.from, moved);
+        seconds_between(span.from, moved)
+    } else {
+        f64::from(by_keys(ui, &response)) * KEY_S
+    };
+    if by_s != 0.0 {
         let most = (span.seconds - lanes.seconds).max(0.0);
         state.lanes_after_s = (state.lanes_after_s + by_s).clamp(0.0, most);
         ui.ctx().request_repaint_after_for(
@@ -298,4 +304,18 @@ fn frame(ui: &Ui, place: Rect, model: &Model, span: Span, state: &mut PlanState)
     if response.hovered() || response.dragged() {
         ui.ctx().set_cursor_icon(egui::CursorIcon::ResizeHorizontal);
     }
+    paint::focus_ring(ui, &response, 2);
+}
+
+/// How many steps the grip was moved by keys while it has the focus.
+fn by_keys(ui: &Ui, response: &Response) -> i32 {
+    if !response.has_focus() {
+        return 0;
+    }
+    let filter = EventFilter { horizontal_arrows: true, ..EventFilter::default() };
+    ui.memory_mut(|memory| memory.set_focus_lock_filter(response.id, filter));
+    ui.input_mut(|input| {
+        i32::from(input.consume_key(Modifiers::NONE, Key::ArrowRight))
+            - i32::from(input.consume_key(Modifiers::NONE, Key::ArrowLeft))
+    })
 }
