@@ -198,7 +198,7 @@ fn pages(
 fn no_antenna(ui: &mut Ui) {
     let t = theme::tokens(ui);
     let (row, _) = ui.allocate_exact_size(vec2(ui.available_width(), ROW), Sense::hover());
-    let room = row.with_min_x(row.left() + PADDING);
+    let room = row.shrink2(vec2(PADDING, 0.0));
     let words = "No antenna yet. Add one.";
     paint::paragraph_in(ui, room, words, text::small(), t.t2);
     paint::name_text(ui, "no antenna", room, words);
