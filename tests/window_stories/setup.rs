@@ -3,7 +3,7 @@
 use std::{sync::Arc, time::Duration};
 
 use azel::{
-    device::{AntennaState, OnBoard, Place},
+    device::{AntennaState, OnBoard, Place, UnitClock},
     driver::{LinkFault, LinkFinding},
     engine::{
         self,
@@ -80,9 +80,10 @@ pub(crate) fn tell(window: &mut Window, antenna: &Antenna, finding: LinkFinding)
 
 pub(crate) fn reached() -> LinkFinding {
     let place = Place { latitude_deg: 41.176, longitude_deg: 29.613, step_deg: 1e-4 };
+    let clock = UnitClock { ahead_s: -0.02, is_set: true, read_at: rig::now() };
     let state = AntennaState {
         identity: Some("SATRAK CU V1.2".to_owned()),
-        on_board: OnBoard { place: Some(place), ..OnBoard::default() },
+        on_board: OnBoard { place: Some(place), clock: Some(clock), ..OnBoard::default() },
         ..AntennaState::default()
     };
     LinkFinding::Reached { after: Duration::from_millis(12), state: Box::new(state) }
@@ -224,6 +225,7 @@ fn the_place_of_a_reached_unit_can_be_taken() {
         let antenna = add_and_test(&mut window, "unit.local:4001");
         tell(&mut window, &antenna, reached());
         assert!(says(&window, "Reached, SATRAK CU V1.2, 12 ms."));
+        assert!(says(&window, "Its clock agrees with this computer's."));
         window.key_press_modifiers(Modifiers::ALT, Key::ArrowLeft);
         settle(&mut window);
         assert!(says(&window, "km from the position that Satrak reports. Which of them is right?"));

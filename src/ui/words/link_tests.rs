@@ -8,6 +8,9 @@ use crate::{
     ui::{format, widgets::told::Tone, words::sentence},
 };
 
+/// Difference of a clock that can come from the link.
+const AGREES_S: f64 = 0.05;
+
 /// A place on the ground, by its coordinates.
 pub fn place(latitude_deg: f64, longitude_deg: f64) -> String {
     format!("{}, {}", format::latitude(latitude_deg, 3), format::longitude(longitude_deg, 3))
@@ -142,8 +145,13 @@ fn reached(after_ms: u128, state: &AntennaState, spec: &ControllerSpec) -> Vec<(
         facts.push(format!("Its own place: {there}."));
     }
     if let Some(clock) = state.on_board.clock.filter(|clock| clock.is_set) {
+        let off_s = clock.ahead_s.abs();
         let side = if clock.ahead_s < 0.0 { "behind" } else { "ahead" };
-        facts.push(format!("Its clock is {} s {side}.", format::number(clock.ahead_s.abs(), 1)));
+        facts.push(if off_s < AGREES_S {
+            "Its clock agrees with this computer's.".to_owned()
+        } else {
+            format!("Its clock is {} s {side}.", format::number(off_s, 1))
+        });
     }
     if !facts.is_empty() {
         lines.push((Tone::Plain, facts.join(" ")));
