@@ -128,7 +128,7 @@ pub(crate) fn check_address(address: &str) -> Result<(), &'static str> {
     }
     match port.parse::<u16>() {
         Ok(1..) => Ok(()),
-        _ => Err("must have a port from 1 to 65535 behind the host"),
+        _ => Err("must have a port from 1 to 65535 after the host"),
     }
 }
 

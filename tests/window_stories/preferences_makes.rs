@@ -184,7 +184,7 @@ fn wrong_fields_of_an_rc2000c_are_named_and_its_table_is_kept_as_typed() {
         let mut window = bare(size);
         add(&mut window, RC2000C);
         write(&mut window, "Port or address", "host:x");
-        assert!(says(&window, "Port or address must have a port from 1 to 65535 behind the host."));
+        assert!(says(&window, "Port or address must have a port from 1 to 65535 after the host."));
         write(&mut window, "Port or address", "COM3");
         write(&mut window, "Bus address", "48");
         assert!(says(&window, "Bus address must be a whole number from 49 to 111."));

@@ -339,7 +339,9 @@ fn the_reason_why_a_field_cannot_be_used_moves_nothing_below_it() {
         write(&mut window, "Address of the Satrak", "unit.local:4001");
         let before = places(&window, &below);
         write(&mut window, "Address of the Satrak", "unit.local:");
-        assert!(says(&window, "Address of the Satrak "), "{size:?}");
+        let why = "Address of the Satrak must have a port from 1 to 65535 after the host.";
+        assert!(says(&window, why), "{size:?}");
+        assert!(!says(&window, &format!("{why} Use")), "an address of nobody is no cure");
         assert_eq!(places(&window, &below), before, "{size:?}");
     }
 }

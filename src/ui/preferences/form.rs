@@ -8,7 +8,7 @@ use egui::{
     pos2, vec2,
 };
 
-use super::fields::{Field, Problem, Standing, TextShape, Typed};
+use super::fields::{Field, Standing, TextShape, Typed};
 use crate::{
     device::settings::Kind,
     ui::{
@@ -215,7 +215,9 @@ fn row<T>(
         state(ui, (group, &*label), room, field, standing);
     }
     if let Some(problem) = standing.problem.as_ref().filter(|_| response.has_focus()) {
-        why_below(&response, &label, problem);
+        // What would do is the value before, which a new station does not have.
+        let cure = problem.would_do.as_ref().filter(|_| beside == Beside::State);
+        why_below(&response, &label, &problem.why, cure);
     }
     if let Some(words) = &standing.note {
         note(ui, words);
@@ -225,9 +227,9 @@ fn row<T>(
 
 /// Says below a field that has the focus why it cannot be used. It lies over the rows, so that
 /// none of them moves.
-fn why_below(response: &Response, label: &str, problem: &Problem) {
-    let cure = problem.would_do.as_ref().map(|text| format!(" Use {text}."));
-    let words = format!("{label} {}.{}", problem.why, cure.unwrap_or_default());
+fn why_below(response: &Response, label: &str, why: &str, cure: Option<&String>) {
+    let cure = cure.map(|text| format!(" Use {text}."));
+    let words = format!("{label} {why}.{}", cure.unwrap_or_default());
     let (ctx, layer) = (response.ctx.clone(), response.layer_id);
     let below = Tooltip::always_open(ctx, layer, response.id.with("why"), response.rect);
     below.show(|ui| {

@@ -51,7 +51,7 @@ impl Step {
                 "Which units move your antennas, and where do they answer? A test only asks; it \
                  moves nothing."
             }
-            Self::Satellites => "Which satellites shall the list of passes show?",
+            Self::Satellites => "Which satellites should the list of passes show?",
             Self::Elements => {
                 "Orbits change: predictions are as good as the elements are fresh. Sources can \
                  wait; those added here are kept at once, as in Elements."
