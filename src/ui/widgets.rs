@@ -19,6 +19,7 @@ pub mod hold_button;
 pub mod input;
 pub mod jog_pad;
 pub mod link_chip;
+pub mod menu;
 pub mod modal;
 pub mod mode_selector;
 pub mod paint;

@@ -7,7 +7,7 @@ use crate::ui::{
     format,
     icons::{self, Icon},
     theme,
-    widgets::{go_to::Target, paint},
+    widgets::{go_to::Target, menu, paint},
 };
 
 /// Width of the button.
@@ -59,7 +59,7 @@ pub(super) fn show(
     }
     icons::paint(ui.painter(), paint::square(rect.center(), 12.0), Icon::ChevronDown, t.t2);
     paint::focus_ring(ui, &response, 4);
-    Popup::menu(&response).accessible_name(name).show(|ui| {
+    menu::show(&response, Popup::menu(&response).accessible_name(name), |ui| {
         let mut choices = vec![
             ("Follow the Sun".to_owned(), FollowChoice::Sun),
             ("Follow the Moon".to_owned(), FollowChoice::Moon),

@@ -7,7 +7,7 @@ use crate::ui::{
     icons::{self, Icon},
     text::{self, Weight},
     theme,
-    widgets::{link_chip::LinkGlyph, paint},
+    widgets::{link_chip::LinkGlyph, menu, paint},
 };
 
 /// Side of the button that opens the link menu.
@@ -93,7 +93,7 @@ fn link_menu(ui: &Ui, rect: Rect, model: &HeaderModel<'_>, actions: &mut Vec<Car
     }
     icons::paint(ui.painter(), paint::square(rect.center(), 12.0), Icon::ChevronDown, t.t2);
     paint::focus_ring(ui, &response, 4);
-    Popup::menu(&response).accessible_name(name).show(|ui| {
+    menu::show(&response, Popup::menu(&response).accessible_name(name), |ui| {
         let about = "Closes the link, so that another program may have the unit.";
         if model.status != LinkStatus::NotConnected
             && ui.button("Disconnect").on_hover_text(about).clicked()

@@ -15,7 +15,11 @@ use crate::{
         object_detail::{ObjectDetail, SetShift},
     },
     orbit::Elements,
-    ui::{confirm::Question, format, text, theme, widgets::close_key},
+    ui::{
+        confirm::Question,
+        format, text, theme,
+        widgets::{close_key, menu},
+    },
 };
 
 /// Width of the menu.
@@ -38,10 +42,14 @@ pub(super) fn show(
     shift: &SetShift,
     question: &mut Option<Question>,
 ) {
-    Popup::menu(response).width(WIDTH).accessible_name("Menu of the set").show(|ui| {
-        menu.contents(ui, shift, question);
-        close_key::show(ui);
-    });
+    menu::show(
+        response,
+        Popup::menu(response).width(WIDTH).accessible_name("Menu of the set"),
+        |ui| {
+            menu.contents(ui, shift, question);
+            close_key::show(ui);
+        },
+    );
 }
 
 impl Menu<'_> {

@@ -19,7 +19,7 @@ use crate::{
         icons::{self, Icon},
         text::{self, Weight},
         theme,
-        widgets::{button::Button, paint, told::Tone},
+        widgets::{button::Button, menu, paint, told::Tone},
     },
 };
 
@@ -308,7 +308,7 @@ impl Row<'_> {
         let at = pos2(place.right() - 8.0, place.center().y);
         icons::paint(ui.painter(), paint::square(at, 10.0), Icon::ChevronDown, t.t2);
         paint::focus_ring(ui, &response, 4);
-        Popup::menu(&response).accessible_name(&spoken).show(|ui| {
+        menu::show(&response, Popup::menu(&response).accessible_name(&spoken), |ui| {
             let hours = REFRESH_HOURS.map(|hours| Some(RefreshHours::from(hours)));
             for hours in [None].into_iter().chain(hours) {
                 let choice = egui::Button::selectable(hours == *refresh, words::refresh(hours));

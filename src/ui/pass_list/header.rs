@@ -15,7 +15,7 @@ use crate::{
         widgets::{
             button::{Button, RADIUS, SMALL_HEIGHT},
             drop_down::DropDown,
-            paint,
+            menu, paint,
             segmented::{self, Segment},
         },
     },
@@ -146,7 +146,7 @@ fn save(ui: &Ui, place: Rect, model: &PassListModel<'_>, commands: &mut Vec<UiCo
     icons::paint(ui.painter(), paint::square(place.center(), 14.0), Icon::Download, t.t1);
     paint::focus_ring(ui, &response, RADIUS);
     let response = response.on_hover_text("Save passes to a file");
-    Popup::menu(&response).accessible_name("Save passes to a file").show(|ui| {
+    menu::show(&response, Popup::menu(&response).accessible_name("Save passes to a file"), |ui| {
         ui.style_mut().wrap_mode = Some(TextWrapMode::Extend);
         let forms = [
             ("Listed passes as CSV…", PassFormat::Csv),

@@ -14,7 +14,7 @@ use crate::{
         format,
         icons::{self, Icon},
         text, theme,
-        widgets::{close_key, paint},
+        widgets::{close_key, menu, paint},
     },
 };
 
@@ -72,7 +72,7 @@ pub(super) fn choice(
     icons::paint(ui.painter(), paint::square(place.center(), 14.0), Icon::Clock, t.t1);
     paint::focus_ring(ui, &response, 5);
     let response = response.on_hover_text(name);
-    Popup::menu(&response).accessible_name(name).show(|ui| {
+    menu::show(&response, Popup::menu(&response).accessible_name(name), |ui| {
         ui.style_mut().wrap_mode = Some(TextWrapMode::Extend);
         ui.selectable_value(chosen, None, "The selected pass");
         for track in past {

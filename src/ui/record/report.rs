@@ -17,7 +17,7 @@ use crate::{
         format, text, theme,
         widgets::{
             button::{Button, HEIGHT as BUTTON},
-            paint,
+            menu, paint,
         },
         words::record as words,
     },
@@ -51,7 +51,7 @@ pub(super) fn head(
     let at =
         Rect::from_min_size(pos2(inner.right() - size.x, rect.center().y - BUTTON / 2.0), size);
     let response = button.show(ui, "export report", at);
-    Popup::menu(&response).accessible_name("Export report").show(|ui| {
+    menu::show(&response, Popup::menu(&response).accessible_name("Export report"), |ui| {
         for (format, word) in FORMATS {
             if ui.button(word).clicked() {
                 commands.push(UiCommand::Save(Export::Report { format }));

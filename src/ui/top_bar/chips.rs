@@ -10,7 +10,7 @@ use crate::{
         theme,
         widgets::{
             link_chip::{self, ChipForm, ChipModel, LinkGlyph, TWO_LINES_WIDTH},
-            paint,
+            menu, paint,
         },
     },
 };
@@ -50,16 +50,20 @@ pub(super) fn show(
     if !hidden.is_empty() {
         let place = Rect::from_min_size(pos2(x, rect.top()), vec2(MORE_WIDTH, rect.height()));
         let response = more_chip(ui, place, hidden);
-        Popup::menu(&response).width(TWO_LINES_WIDTH).accessible_name("More antennas").show(|ui| {
-            for (index, chip) in hidden.iter().enumerate() {
-                let (place, _) =
-                    ui.allocate_exact_size(vec2(TWO_LINES_WIDTH, 40.0), egui::Sense::hover());
-                if link_chip::show(ui, place, chip, ChipForm::TwoLines).clicked() {
-                    commands.push(UiCommand::SelectAntenna(shown + index));
-                    ui.close();
+        menu::show(
+            &response,
+            Popup::menu(&response).width(TWO_LINES_WIDTH).accessible_name("More antennas"),
+            |ui| {
+                for (index, chip) in hidden.iter().enumerate() {
+                    let (place, _) =
+                        ui.allocate_exact_size(vec2(TWO_LINES_WIDTH, 40.0), egui::Sense::hover());
+                    if link_chip::show(ui, place, chip, ChipForm::TwoLines).clicked() {
+                        commands.push(UiCommand::SelectAntenna(shown + index));
+                        ui.close();
+                    }
                 }
-            }
-        });
+            },
+        );
     }
     start
 }

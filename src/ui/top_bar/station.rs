@@ -9,7 +9,7 @@ use crate::{
         icons::{self, Icon},
         text::{self, Weight},
         theme,
-        widgets::paint,
+        widgets::{menu, paint},
     },
 };
 
@@ -46,9 +46,13 @@ pub(super) fn show(
     let at = pos2(rect.right() - 22.0, rect.center().y);
     icons::paint(ui.painter(), paint::square(at, 14.0), Icon::ChevronDown, t.t2);
     paint::focus_ring(ui, &response, 5);
-    Popup::menu(&response).width(180.0).accessible_name("Station menu").show(|ui| {
-        menu(ui, model, commands);
-    });
+    menu::show(
+        &response,
+        Popup::menu(&response).width(180.0).accessible_name("Station menu"),
+        |ui| {
+            menu(ui, model, commands);
+        },
+    );
 }
 
 fn menu(ui: &mut Ui, model: &TopBarModel<'_>, commands: &mut Vec<UiCommand>) {

@@ -3,7 +3,7 @@
 
 use egui::{Id, Key, Modifiers, Popup, Response, SetOpenCommand, Ui};
 
-use super::close_key;
+use super::{close_key, menu};
 
 /// The menu was opened by a key, and its first entry has no focus yet.
 fn wants_focus(response: Id) -> Id {
@@ -37,7 +37,7 @@ pub fn show(ui: &Ui, response: &Response, contents: impl FnOnce(&mut Ui)) {
     let by_key = ui.data(|data| data.get_temp(opened_by_key(id)).unwrap_or(false));
     let popup = Popup::menu(response).open_memory(opens);
     let popup = if by_key { popup } else { popup.at_pointer_fixed() };
-    popup.accessible_name("Menu").show(|ui| {
+    menu::show(response, popup.accessible_name("Menu"), |ui| {
         contents(ui);
         close_key::show(ui);
     });

@@ -2,7 +2,7 @@
 
 use egui::{Popup, Rect, Response, Role, ScrollArea, TextWrapMode, Ui, WidgetInfo};
 
-use super::button::Button;
+use super::{button::Button, menu};
 
 /// A higher list scrolls.
 const MAX_HEIGHT: f32 = 400.0;
@@ -28,14 +28,18 @@ impl DropDown<'_> {
     pub fn show(self, ui: &Ui, rect: Rect, choices: impl FnOnce(&mut Ui)) -> Response {
         let response = self.button.chevron().show(ui, self.salt, rect);
         response.widget_info(|| WidgetInfo::labeled(Role::ComboBox, true, self.name));
-        Popup::menu(&response).width(rect.width()).accessible_name(self.name).show(|ui| {
-            ui.set_min_width(ui.available_width());
-            ScrollArea::vertical().max_height(MAX_HEIGHT).show(ui, |ui| {
-                // A choice may be longer than the button is wide.
-                ui.style_mut().wrap_mode = Some(TextWrapMode::Extend);
-                choices(ui);
-            });
-        });
+        menu::show(
+            &response,
+            Popup::menu(&response).width(rect.width()).accessible_name(self.name),
+            |ui| {
+                ui.set_min_width(ui.available_width());
+                ScrollArea::vertical().max_height(MAX_HEIGHT).show(ui, |ui| {
+                    // A choice may be longer than the button is wide.
+                    ui.style_mut().wrap_mode = Some(TextWrapMode::Extend);
+                    choices(ui);
+                });
+            },
+        );
         response
     }
 }
@@ -44,7 +48,7 @@ impl DropDown<'_> {
 mod tests {
     use super::*;
     use crate::ui::widgets::{button::SMALL_HEIGHT, testing};
-    use egui::{pos2, vec2};
+    use egui::{Key, pos2, vec2};
     use egui_kittest::kittest::Queryable as _;
 
     #[test]
@@ -70,5 +74,28 @@ mod tests {
         window.run();
         window.get_by_role_and_label(Role::ComboBox, &format!("Protocol, {long}"));
         assert!(window.query_by_role_and_label(Role::Button, "FTP").is_none());
+    }
+
+    #[test]
+    fn a_choice_by_keys_closes_the_list_and_gives_the_focus_back() {
+        let mut window = testing::window([600.0, 200.0], "FTP", move |ui, chosen| {
+            let name = format!("Protocol, {chosen}");
+            let list = DropDown { button: Button::normal(chosen), salt: "list", name: &name };
+            let rect = Rect::from_min_size(pos2(10.0, 10.0), vec2(120.0, SMALL_HEIGHT));
+            list.show(ui, rect, |ui| {
+                for word in ["FTP", "SFTP"] {
+                    ui.selectable_value(chosen, word, word);
+                }
+            });
+        });
+        window.get_by_role(Role::ComboBox).focus();
+        window.run();
+        for key in [Key::Enter, Key::ArrowDown, Key::ArrowDown, Key::Enter] {
+            window.key_press(key);
+            window.run();
+        }
+        assert_eq!(*window.state(), "SFTP");
+        assert!(window.query_by_role_and_label(Role::Button, "SFTP").is_none(), "it is closed");
+        assert!(window.get_by_role(Role::ComboBox).is_focused());
     }
 }

@@ -5,7 +5,7 @@ use egui::{
     pos2, text::CCursorRange, text_edit::TextEditState, vec2,
 };
 
-use super::paint;
+use super::{menu, paint};
 use crate::ui::{
     icons::{self, Icon},
     text::{self, Weight},
@@ -80,15 +80,19 @@ impl Input<'_> {
         paint::text_in(ui, room, Align2::LEFT_CENTER, chosen, self.font(), t.t1);
         paint::focus_ring(ui, &response, RADIUS);
         let mut other = None;
-        Popup::menu(&response).width(self.rect.width()).accessible_name(self.name).show(|ui| {
-            ui.set_min_width(ui.available_width());
-            for word in offered {
-                let button = egui::Button::selectable(*word == chosen, *word);
-                if ui.add(button).clicked() && *word != chosen {
-                    other = Some((*word).to_owned());
+        menu::show(
+            &response,
+            Popup::menu(&response).width(self.rect.width()).accessible_name(self.name),
+            |ui| {
+                ui.set_min_width(ui.available_width());
+                for word in offered {
+                    let button = egui::Button::selectable(*word == chosen, *word);
+                    if ui.add(button).clicked() && *word != chosen {
+                        other = Some((*word).to_owned());
+                    }
                 }
-            }
-        });
+            },
+        );
         other
     }
 
