@@ -61,6 +61,7 @@ const ELEMENTS: Act = Press("ctrl+3", Modifiers::COMMAND, Key::Num3);
 const ANTENNAS: Act = Press("ctrl+4", Modifiers::COMMAND, Key::Num4);
 const CONSOLE: Act = Press("ctrl+5", Modifiers::COMMAND, Key::Num5);
 const PREFERENCES: Act = Press("ctrl+6", Modifiers::COMMAND, Key::Num6);
+const RECORD: Act = Press("ctrl+7", Modifiers::COMMAND, Key::Num7);
 const MAP: Act = Press("ctrl+8", Modifiers::COMMAND, Key::Num8);
 const FIRST_ANTENNA: Act = Press("F1", Modifiers::NONE, Key::F1);
 const SECOND_ANTENNA: Act = Press("F2", Modifiers::NONE, Key::F2);
@@ -90,7 +91,7 @@ const fn sight(
     Sight { name, view, open, leave }
 }
 
-const SIGHTS: [Sight; 23] = [
+const SIGHTS: [Sight; 24] = [
     sight("operate", View::Operate, &[OPERATE, FIRST_ANTENNA], &[]),
     sight("operate-genius", View::Operate, &[SECOND_ANTENNA], &[]),
     sight("operate-rc2000c", View::Operate, &[THIRD_ANTENNA], &[FIRST_ANTENNA]),
@@ -109,6 +110,7 @@ const SIGHTS: [Sight; 23] = [
     sight("antennas-genius", View::Antennas, &[SECOND_ANTENNA], &[]),
     sight("antennas-rc2000c", View::Antennas, &[THIRD_ANTENNA], &[FIRST_ANTENNA]),
     sight("console", View::Console, &[CONSOLE], &[]),
+    sight("record", View::Record, &[RECORD], &[]),
     sight("map", View::Map, &[MAP], &[]),
     sight("preferences-site", View::Preferences, &[PREFERENCES, Page("Site")], &[]),
     sight(
