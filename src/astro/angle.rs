@@ -30,6 +30,10 @@ impl Angle {
     /// The same direction in the range from 0 up to, not including, 360 degrees.
     #[must_use]
     pub fn wrapped_360(self) -> Self {
+        // Most are in that range, and a division takes long.
+        if (0.0..std::f64::consts::TAU).contains(&self.0) {
+            return self;
+        }
         let turned = self.0.rem_euclid(std::f64::consts::TAU);
         // A tiny negative angle rounds up to the full turn.
         Self(if turned >= std::f64::consts::TAU { 0.0 } else { turned })
