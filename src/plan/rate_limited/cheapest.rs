@@ -11,10 +11,9 @@ const MAX_PLACES: f64 = 240.0;
 const FULL: usize = 2;
 /// Cost of turning by one grid position, so that the axis does not turn needlessly.
 const TURN_COST: f64 = 1e-9;
-/// The grid positions from which a position is reached, counted from `FULL` below it, and the cost
-/// of the turn.
-const TURNS: [(u64, f64); 2 * FULL + 1] =
-    [(0, 2.0 * TURN_COST), (1, TURN_COST), (2, 0.0), (3, TURN_COST), (4, 2.0 * TURN_COST)];
+/// Costs of the turns to a grid position, from `FULL` below it to as many above.
+const TURN_COSTS: [f64; 2 * FULL + 1] =
+    [2.0 * TURN_COST, TURN_COST, 0.0, TURN_COST, 2.0 * TURN_COST];
 
 /// A path on the grid.
 pub(super) struct Rough {
@@ -47,54 +46,47 @@ pub(super) fn between<P, C: Fn(&P) -> f64>(
     let lowest_deg = place_deg(0);
     let prepared: Vec<P> = (0..places).map(|place| prepare(place_deg(place))).collect();
 
-    // Beyond either end, nothing is ever cheap.
-    let mut sums = vec![f64::INFINITY; places + 2 * FULL];
-    let mut next = sums.clone();
+    // What the cheapest path to each place costs, one row per time. Beyond either end, nothing is
+    // ever cheap.
+    let looks = slew.len().div_ceil(stride);
+    let width = places + 2 * FULL;
+    let mut sums = vec![f64::INFINITY; (looks + 1) * width];
     if let Some(start) = sums.get_mut(below + FULL) {
         *start = 0.0;
     }
-    // By how many positions the axis turned to come to each, plus `FULL`; one list per time.
-    let mut came: Vec<Vec<u64>> = Vec::new();
-    let looks = slew.len().div_ceil(stride);
-    for look in 1..=looks {
-        let index = look.saturating_mul(stride).saturating_add(slew.start).min(slew.end);
+    let mut rows = sums.chunks_exact_mut(width);
+    let mut before: &[f64] = rows.next().unwrap_or_default();
+    for (look, row) in (1..).zip(rows) {
+        let index = stride.saturating_mul(look).saturating_add(slew.start).min(slew.end);
         let index = index.saturating_sub(1);
         // The places between the bounds, widened by a cell.
         let place = |deg: f64| (deg - lowest_deg) / cell_deg;
         let first = (place(at(&bounds.low, index)) - 1.0).ceil().max(0.0) as usize;
         let after = (place(at(&bounds.high, index)) + 2.0).floor().max(0.0) as usize;
         let reach = first.min(places)..after.min(places);
-        let mut from = vec![FULL as u64; places];
-        next.fill(f64::INFINITY);
-        if let (Some(least), Some(from), Some(prepared)) = (
-            next.get_mut(reach.start + FULL..reach.end + FULL),
-            from.get_mut(reach.clone()),
-            prepared.get(reach.clone()),
-        ) {
-            for (turn, turn_cost) in TURNS {
-                let before = sums.get(reach.start + turn as usize..).unwrap_or_default();
-                for ((least, from), sum) in least.iter_mut().zip(from.iter_mut()).zip(before) {
-                    let sum = sum + turn_cost;
-                    let is_less = sum < *least;
-                    *from = if is_less { turn } else { *from };
-                    *least = if is_less { sum } else { *least };
-                }
+        if let (Some(sums), Some(prepared)) =
+            (row.get_mut(reach.start + FULL..reach.end + FULL), prepared.get(reach.clone()))
+        {
+            let near = before.get(reach.start..).unwrap_or_default().array_windows();
+            for (sum, near) in sums.iter_mut().zip(near) {
+                *sum = cheapest_turn(near).1;
             }
             let cost = cost(index);
-            for (sum, prepared) in least.iter_mut().zip(prepared) {
+            for (sum, prepared) in sums.iter_mut().zip(prepared) {
                 *sum += cost(prepared);
             }
         }
-        came.push(from);
-        std::mem::swap(&mut sums, &mut next);
+        before = row;
     }
 
-    let last = sums.iter().skip(FULL).take(places).enumerate().min_by(|a, b| a.1.total_cmp(b.1));
+    let last = before.iter().skip(FULL).take(places).enumerate();
+    let last = last.min_by(|a, b| a.1.total_cmp(b.1));
     let mut place = last.map_or(below, |(place, _)| place);
     let mut at_looks = vec![place_deg(place)];
-    for from in came.iter().rev() {
-        let turned = from.get(place).copied().map_or(FULL, |turn| turn as usize);
-        place = (place + turned).saturating_sub(FULL).min(places.saturating_sub(1));
+    for before in sums.chunks_exact(width).rev().skip(1) {
+        let near = before.get(place..).and_then(|near| near.first_chunk());
+        let turn = near.map_or(FULL, |near| cheapest_turn(near).0);
+        place = (place + turn).saturating_sub(FULL).min(places.saturating_sub(1));
         at_looks.push(place_deg(place));
     }
     at_looks.reverse();
@@ -104,4 +96,11 @@ pub(super) fn between<P, C: Fn(&P) -> f64>(
         before + (at_looks.get(look + 1).copied().unwrap_or(before) - before) * share
     };
     Rough { places_deg: (1..=slew.len()).map(place_at).collect(), cell_deg }
+}
+
+/// The cheapest way to a place from those `near` it, of which the sums are given: the index of one
+/// of them, and the sum with the turn.
+fn cheapest_turn(near: &[f64; TURN_COSTS.len()]) -> (usize, f64) {
+    let turns = near.iter().zip(TURN_COSTS).map(|(sum, cost)| sum + cost).enumerate();
+    turns.fold((FULL, f64::INFINITY), |least, turn| if turn.1 < least.1 { turn } else { least })
 }
