@@ -15,7 +15,7 @@ use super::{
 };
 use crate::astro::{Angle, AzEl};
 pub(super) use flip::{Choice, Flip};
-use seen::{Seen, SinCos, sin_cos};
+use seen::{Ends, Seen, SinCos, sin_cos};
 
 /// Smallest improvement in pointing, degrees, for which a flip other than the preferred one is
 /// taken: it is not worth moving the elevation over the zenith for less.
@@ -100,10 +100,11 @@ impl AzElAxes {
     ) -> Planned {
         let [azimuth_max_deg, elevation_max_deg] = self.rates_deg_s.map(|rate| rate * step_s);
         let flipped = flip.flipped(samples);
+        let ends = self.elevation_deg.map(Ends::new);
         // The sines and cosines are needed only where an axis does not keep up.
         let seen = |index: usize| {
             let (sample, is_flipped) = samples.get(index).zip(flipped.get(index))?;
-            Some(Seen::new(sample.direction, *is_flipped, self.elevation_deg))
+            Some(Seen::new(sample.direction, *is_flipped, ends))
         };
         let cost = |index: usize| {
             let seen = seen(index);
@@ -131,11 +132,7 @@ impl AzElAxes {
             .zip(&flipped)
             .zip(&azimuths)
             .map(|((sample, is_flipped), azimuth_deg)| {
-                Seen::elevation_deg(
-                    (sample.direction, *is_flipped),
-                    self.elevation_deg,
-                    *azimuth_deg,
-                )
+                Seen::elevation_deg((sample.direction, *is_flipped), ends, *azimuth_deg)
             })
             .collect();
         let cost = |index: usize| {

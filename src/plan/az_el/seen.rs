@@ -19,47 +19,67 @@ pub(super) fn sin_cos(deg: f64) -> SinCos {
     deg.to_radians().sin_cos()
 }
 
+/// Ends of an elevation axis.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Ends {
+    deg: (f64, f64),
+    sin_cos: [SinCos; 2],
+}
+
+impl Ends {
+    pub(super) fn new(deg: (f64, f64)) -> Self {
+        Self { deg, sin_cos: [deg.0, deg.1].map(sin_cos) }
+    }
+}
+
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Seen {
     azimuth: SinCos,
     height: SinCos,
-    /// The elevation axis where it does not make up for the azimuth.
-    usual: SinCos,
-    /// Ends of the elevation axis where it makes up for the azimuth.
-    ends: Option<[SinCos; 2]>,
+    elevation: Elevation,
+}
+
+/// What the elevation axis does while the azimuth does not keep up.
+#[derive(Debug, Clone, Copy)]
+enum Elevation {
+    /// It makes up for the azimuth between its ends.
+    Helps([SinCos; 2]),
+    Stays(SinCos),
 }
 
 /// Position of the elevation axis where it does not make up for the azimuth, degrees.
-fn usual_deg(direction: AzEl, is_flipped: bool, ends_deg: Option<(f64, f64)>) -> f64 {
+fn usual_deg(direction: AzEl, is_flipped: bool, ends: Option<Ends>) -> f64 {
     let elevation_deg = direction.elevation_deg();
     let side_deg = if is_flipped { 180.0 - elevation_deg } else { elevation_deg };
-    let (from_deg, to_deg) = ends_deg.unwrap_or((-90.0, 90.0));
+    let (from_deg, to_deg) = ends.map_or((-90.0, 90.0), |ends| ends.deg);
     side_deg.min(to_deg).max(from_deg)
 }
 
 impl Seen {
-    /// Prepares `direction` for an elevation axis between `ends_deg`, flipped or not.
-    pub(super) fn new(direction: AzEl, is_flipped: bool, ends_deg: Option<(f64, f64)>) -> Self {
-        let helps = ends_deg.filter(|_| is_overhead(direction));
+    /// Prepares `direction` for an elevation axis between `ends`, flipped or not.
+    pub(super) fn new(direction: AzEl, is_flipped: bool, ends: Option<Ends>) -> Self {
+        let helps = ends.filter(|_| is_overhead(direction));
         Self {
             azimuth: direction.azimuth.radians().sin_cos(),
             height: direction.elevation.radians().sin_cos(),
-            usual: sin_cos(usual_deg(direction, is_flipped, ends_deg)),
-            ends: helps.map(|(from_deg, to_deg)| [from_deg, to_deg].map(sin_cos)),
+            elevation: helps.map_or_else(
+                || Elevation::Stays(sin_cos(usual_deg(direction, is_flipped, ends))),
+                |ends| Elevation::Helps(ends.sin_cos),
+            ),
         }
     }
 
     /// The best position of the elevation axis for a position of the azimuth axis, in degrees.
     pub(super) fn elevation_deg(
         (direction, is_flipped): (AzEl, bool),
-        ends_deg: Option<(f64, f64)>,
+        ends: Option<Ends>,
         azimuth_deg: f64,
     ) -> f64 {
-        let usual_deg = usual_deg(direction, is_flipped, ends_deg);
-        let Some((from_deg, to_deg)) = ends_deg.filter(|_| is_overhead(direction)) else {
-            return usual_deg;
+        let Some(Ends { deg: (from_deg, to_deg), .. }) = ends.filter(|_| is_overhead(direction))
+        else {
+            return usual_deg(direction, is_flipped, ends);
         };
-        let (up, along) = Self::new(direction, is_flipped, ends_deg).in_plane(sin_cos(azimuth_deg));
+        let (up, along) = Self::new(direction, is_flipped, ends).in_plane(sin_cos(azimuth_deg));
         up.atan2(along).to_degrees().min(to_deg).max(from_deg)
     }
 
@@ -74,7 +94,10 @@ impl Seen {
     pub(super) fn azimuth_cost(&self, azimuth: SinCos) -> f64 {
         let (up, along) = self.in_plane(azimuth);
         let towards = |(sin, cos): SinCos| up * sin + along * cos;
-        let Some([from, to]) = self.ends else { return 1.0 - towards(self.usual) };
+        let [from, to] = match self.elevation {
+            Elevation::Helps(ends) => ends,
+            Elevation::Stays(usual) => return 1.0 - towards(usual),
+        };
         // The sign of the cross product tells on which side of an end the direction lies.
         let is_beyond = |(sin, cos): SinCos| up * cos - along * sin > 0.0;
         if is_beyond(to) {

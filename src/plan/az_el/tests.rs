@@ -114,11 +114,11 @@ fn the_best_elevation_costs_least() {
         for elevation_deg in [62.0, 75.0, 89.0] {
             for to_deg in [90.0, 110.0, 180.0] {
                 let direction = AzEl::from_degrees(123.0, elevation_deg);
-                let ends_deg = Some((10.0, to_deg));
-                let seen = Seen::new(direction, false, ends_deg);
+                let ends = Some(Ends::new((10.0, to_deg)));
+                let seen = Seen::new(direction, false, ends);
                 let azimuth_deg = f64::from(azimuth_deg);
                 let azimuth = sin_cos(azimuth_deg);
-                let best_deg = Seen::elevation_deg((direction, false), ends_deg, azimuth_deg);
+                let best_deg = Seen::elevation_deg((direction, false), ends, azimuth_deg);
                 let best = seen.cost(azimuth, sin_cos(best_deg));
                 assert!((best - seen.azimuth_cost(azimuth)).abs() < 1e-12);
                 let others = (10..=180).map(f64::from).filter(|at| *at <= to_deg);
