@@ -159,10 +159,11 @@ impl Nodes {
         let (times, step_s) = times(self.span, FINE_S, MAX_FINE);
         let times = times.filter(|at| (part.from_ms..=part.to_ms).contains(at));
         let centre_km = site.to_enu * site.ecef_km;
-        let mut pairs = self.places.iter().zip(self.places.iter().skip(1)).peekable();
+        let pairs = self.places.iter().zip(self.places.iter().skip(1));
+        let mut cubics = pairs.map(|(from, to)| Cubic::new(*from, *to, centre_km)).peekable();
         let list = times.filter_map(|at| {
-            while pairs.next_if(|(_, (end, _))| *end < at).is_some() {}
-            let between = pairs.peek().and_then(|(a, b)| between(a, b, centre_km, at));
+            while cubics.next_if(|cubic| cubic.to_ms < at).is_some() {}
+            let between = cubics.peek().and_then(|cubic| cubic.position_km(at));
             let known = || place(propagator, site, at).map(|place| place.position_km);
             Some(sample(at, between.or_else(known)?))
         });
@@ -188,33 +189,43 @@ fn times(span: Span, least_s: f64, most: f64) -> (impl Iterator<Item = i64>, f64
     ((0..=steps as i64).map(time), step_s)
 }
 
-/// The position between two places, by the cubic through their positions and velocities; `None`
-/// where they are too far apart for that. The site is at `centre_km` from the centre of the Earth.
-fn between(
-    (from, a): &(i64, Local),
-    (to, b): &(i64, Local),
-    centre_km: DVec3,
-    at: i64,
-) -> Option<DVec3> {
-    if !(*from..=*to).contains(&at) {
-        return None;
+/// The way between two places, by the cubic through their positions and velocities.
+struct Cubic {
+    from_ms: i64,
+    to_ms: i64,
+    ends: [Local; 2],
+    /// They are close enough for that.
+    is_exact: bool,
+}
+
+impl Cubic {
+    /// Seen from a site at `centre_km` from the centre of the Earth.
+    fn new((from_ms, a): (i64, Local), (to_ms, b): (i64, Local), centre_km: DVec3) -> Self {
+        let ends = [a, b];
+        let radius_km = ends.map(|it| (it.position_km + centre_km).length());
+        let radius_km = radius_km[0].min(radius_km[1]);
+        // A cubic is off by a part of the fourth derivative, here that of a circular orbit over
+        // ground that turns the other way.
+        let rate_rad_s = (GRAVITY_KM3_S2 / radius_km.powi(3)).sqrt() + EARTH_RATE_RAD_S;
+        let span_s = (to_ms - from_ms) as f64 / 1000.0;
+        let off_km = (span_s * rate_rad_s).powi(4) / 384.0 * radius_km;
+        let near_km = a.position_km.length().min(b.position_km.length());
+        Self { from_ms, to_ms, ends, is_exact: off_km <= SAME_RAD * near_km }
     }
-    let span_s = (to - from) as f64 / 1000.0;
-    let radius_km = [a, b].map(|it| (it.position_km + centre_km).length());
-    let radius_km = radius_km[0].min(radius_km[1]);
-    // A cubic is off by a part of the fourth derivative, here that of a circular orbit over ground
-    // that turns the other way.
-    let rate_rad_s = (GRAVITY_KM3_S2 / radius_km.powi(3)).sqrt() + EARTH_RATE_RAD_S;
-    let off_km = (span_s * rate_rad_s).powi(4) / 384.0 * radius_km;
-    if off_km > SAME_RAD * a.position_km.length().min(b.position_km.length()) {
-        return None;
+
+    fn position_km(&self, at: i64) -> Option<DVec3> {
+        if !self.is_exact || !(self.from_ms..=self.to_ms).contains(&at) {
+            return None;
+        }
+        let [a, b] = self.ends;
+        let span_s = (self.to_ms - self.from_ms) as f64 / 1000.0;
+        let share = (at - self.from_ms) as f64 / 1000.0 / span_s;
+        let rest = 1.0 - share;
+        let position_km = a.position_km * (rest * rest * (1.0 + 2.0 * share))
+            + b.position_km * (share * share * (1.0 + 2.0 * rest))
+            + (a.velocity_km_s * rest - b.velocity_km_s * share) * (share * rest * span_s);
+        Some(position_km)
     }
-    let share = (at - from) as f64 / 1000.0 / span_s;
-    let rest = 1.0 - share;
-    let position_km = a.position_km * (rest * rest * (1.0 + 2.0 * share))
-        + b.position_km * (share * share * (1.0 + 2.0 * rest))
-        + (a.velocity_km_s * rest - b.velocity_km_s * share) * (share * rest * span_s);
-    Some(position_km)
 }
 
 #[cfg(test)]
