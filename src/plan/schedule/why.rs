@@ -111,6 +111,10 @@ impl Board<'_> {
                 overlaps.push((common_ms, *fact));
                 continue;
             }
+            // So far apart, any leg fits.
+            if common_ms <= -self.legs.longest_ms(it.antenna as usize) {
+                continue;
+            }
             let missing_ms = self.missing_ms((*entry, other), (take, it));
             if missing_ms > 0 {
                 too_short.push((missing_ms, *fact));

@@ -12,12 +12,8 @@ pub(super) struct Line {
     /// Positions in `by_start`, by end.
     by_end: Vec<u32>,
     /// For each position in `by_start`: how many of `by_end` have ended so early that any leg
-    /// fits.
-    far: Vec<u32>,
-    /// For each position, the range of `near`.
-    near_of: Vec<(u32, u32)>,
-    /// Positions before, of which the leg just fits, and its slew.
-    near: Vec<(u32, u32)>,
+    /// fits, and how many have ended at all.
+    ended: Vec<(u32, u32)>,
 }
 
 /// The best sequence.
@@ -47,23 +43,13 @@ impl Line {
         by_end.sort_by_key(|position| (end(position), *position));
 
         let longest_ms = problem.slews.longest_ms(antenna);
-        let (mut far, mut near_of, mut near) = (Vec::new(), Vec::new(), Vec::new());
-        for take in &by_start {
+        let ended = |take: &u32| {
             let (from_ms, _) = span(take);
-            let first = by_end.partition_point(|before| end(before) + longest_ms <= from_ms);
-            let last = by_end.partition_point(|before| end(before) <= from_ms);
-            far.push(first as u32);
-            let start = near.len() as u32;
-            for before in by_end.get(first..last).unwrap_or_default() {
-                let Some(earlier) = by_start.get(*before as usize) else { continue };
-                let leg = problem.slews.between(*earlier as usize, *take as usize);
-                if end(before) + leg.needs_ms <= from_ms {
-                    near.push((*before, leg.slew_ms as u32));
-                }
-            }
-            near_of.push((start, near.len() as u32));
-        }
-        Self { antenna, by_start, by_end, far, near_of, near }
+            let until = |ms: i64| by_end.partition_point(|before| end(before) <= ms) as u32;
+            (until(from_ms - longest_ms), until(from_ms))
+        };
+        let ended = by_start.iter().map(ended).collect();
+        Self { antenna, by_start, by_end, ended }
     }
 
     /// The sequence that is worth most; `worth` is the row of a take, `None` for one that is out.
@@ -75,8 +61,7 @@ impl Line {
         let mut best: Vec<Option<Best>> = Vec::with_capacity(self.by_start.len());
         let mut ahead = Ahead::new(problem.slews.longest_ms(self.antenna));
         let mut passed = 0;
-        let each = self.by_start.iter().zip(&self.far).zip(&self.near_of);
-        for ((take, far), near) in each {
+        for (take, (far, near)) in self.by_start.iter().zip(&self.ended) {
             for before in self.by_end.get(passed..*far as usize).unwrap_or_default() {
                 if let Some(Some(of_before)) = best.get(*before as usize) {
                     ahead.add(*before, of_before.row);
@@ -86,20 +71,26 @@ impl Line {
             let own = problem.take(*take).and_then(|it| worth(*take, it));
             let found = own.and_then(|own| {
                 let first = problem.slews.first_ms(*take as usize);
-                let first = first.map(|ms| Best { row: Row::ZERO.slewed(ms), before: None });
-                let far = ahead.best.iter().filter_map(|(before, row)| {
-                    let earlier = self.by_start.get(*before as usize)?;
-                    let leg = problem.slews.between(*earlier as usize, *take as usize);
-                    Some(Best { row: row.slewed(leg.slew_ms), before: Some(*before) })
+                let mut most = first.map(|ms| Best { row: Row::ZERO.slewed(ms), before: None });
+                let near = self.by_end.get(passed..*near as usize).unwrap_or_default();
+                // The latest are likely to be worth most.
+                let near = near.iter().rev().filter_map(|before| {
+                    Some((*before, best.get(*before as usize)?.as_ref()?.row))
                 });
-                let near = self.near.get(near.0 as usize..near.1 as usize).unwrap_or_default();
-                let near = near.iter().filter_map(|(before, slew_ms)| {
-                    let row = best.get(*before as usize)?.as_ref()?.row;
-                    Some(Best { row: row.slewed((*slew_ms).into()), before: Some(*before) })
-                });
-                let all = first.into_iter().chain(far).chain(near);
-                let best = all.reduce(|a, b| if b.row > a.row { b } else { a })?;
-                Some(Best { row: best.row + own, ..best })
+                for (before, row) in ahead.best.iter().copied().chain(near) {
+                    // A slew only makes it less, so that few legs need be known.
+                    if most.is_some_and(|most| row <= most.row) {
+                        continue;
+                    }
+                    let earlier = self.by_start.get(before as usize)?;
+                    let Some(slew_ms) = problem.slew_ms(*earlier, *take) else { continue };
+                    let row = row.slewed(slew_ms);
+                    if most.is_none_or(|most| row > most.row) {
+                        most = Some(Best { row, before: Some(before) });
+                    }
+                }
+                let most = most?;
+                Some(Best { row: most.row + own, ..most })
             });
             best.push(found);
         }
