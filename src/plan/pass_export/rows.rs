@@ -1,16 +1,33 @@
 //! Rows as text: made by all threads, and written in their order.
 
-use std::io::{self, Write};
+use std::{
+    io::{self, Write},
+    ptr,
+};
 
 use rayon::prelude::*;
 
 use super::ExportedPass;
 
-/// Number of rows that one thread takes at a time: some 100 kB of text, for which the allocator
-/// need not ask the operating system each time.
+/// Number of rows that are made before any of them is written, some 4 MB of text.
+const AT_ONCE: usize = 1 << 14;
+/// Number of rows that one thread takes at a time.
 const CHUNK: usize = 256;
-/// Number of chunks for each thread between two writes.
-const CHUNKS_AHEAD: usize = 16;
+
+/// The text of some rows, and where in it each of them ends.
+#[derive(Default)]
+struct Text {
+    bytes: Vec<u8>,
+    ends: Vec<usize>,
+}
+
+impl Text {
+    fn rows(&self) -> impl Iterator<Item = &[u8]> {
+        let starts = std::iter::once(&0).chain(&self.ends);
+        let spans = starts.zip(&self.ends);
+        spans.map(|(start, end)| self.bytes.get(*start..*end).unwrap_or_default())
+    }
+}
 
 /// Writes `rows` in their order, each as `push` appends it to a buffer. The work is shared by the
 /// threads of the rayon pool in which this is called.
@@ -19,15 +36,33 @@ pub(super) fn write_rows(
     rows: &[ExportedPass<'_>],
     push: impl Fn(&mut Vec<u8>, &ExportedPass<'_>) -> io::Result<()> + Sync,
 ) -> io::Result<()> {
-    let text_of = |rows: &[ExportedPass<'_>]| {
-        let mut text = Vec::new();
-        rows.iter().try_for_each(|row| push(&mut text, row)).map(|()| text)
-    };
-    for rows in rows.chunks(CHUNK * CHUNKS_AHEAD * rayon::current_num_threads()) {
-        let texts: Vec<_> = rows.par_chunks(CHUNK).map(text_of).collect();
-        for text in texts {
-            out.write_all(&text?)?;
+    // Used again, so that the allocator need not ask the operating system each time.
+    let mut texts: Vec<Text> = Vec::new();
+    for rows in rows.chunks(AT_ONCE) {
+        // They are made as they lie in memory, where the passes of one satellite follow each other:
+        // in the order of time, much of the work would be to wait for memory.
+        let place =
+            |(row, index): (&ExportedPass<'_>, u32)| (ptr::from_ref(row.pass).addr(), index);
+        let mut places: Vec<(usize, u32)> = rows.iter().zip(0..).map(place).collect();
+        places.par_sort_unstable();
+        texts.resize_with(places.len().div_ceil(CHUNK), Text::default);
+        let made = texts.par_iter_mut().zip(places.par_chunks(CHUNK)).map(|(text, places)| {
+            text.bytes.clear();
+            text.ends.clear();
+            places.iter().filter_map(|(_, index)| rows.get(*index as usize)).try_for_each(|row| {
+                push(&mut text.bytes, row)?;
+                text.ends.push(text.bytes.len());
+                Ok(())
+            })
+        });
+        made.collect::<io::Result<()>>()?;
+        let mut in_order: Vec<&[u8]> = vec![&[]; rows.len()];
+        for ((_, index), text) in places.iter().zip(texts.iter().flat_map(Text::rows)) {
+            if let Some(place) = in_order.get_mut(*index as usize) {
+                *place = text;
+            }
         }
+        in_order.into_iter().try_for_each(|text| out.write_all(text))?;
     }
     Ok(())
 }
@@ -60,7 +95,7 @@ mod tests {
 
     #[test]
     fn rows_are_in_order_whatever_thread_made_them() {
-        let count = 3 * CHUNK * CHUNKS_AHEAD + 7;
+        let count = 2 * AT_ONCE + 7;
         let one = written(count, 1);
         let text = String::from_utf8(one.clone()).unwrap();
         let seconds: Vec<i64> = text.lines().map(|line| line.parse().unwrap()).collect();
