@@ -88,12 +88,15 @@ pub(super) fn row(
     if let Some(question) = state.question(model) {
         return question_row(ui, row, question, model.ends, state, actions);
     }
-    if let Some(follow) = model.follow.as_ref().filter(|_| model.refusal.is_none()) {
-        let key = row.with_min_x(row.right() - follow::WIDTH);
-        follow::show(ui, key, follow, typed, &mut state.asks_sun, actions);
+    let key = row.with_min_x(row.right() - follow::WIDTH);
+    let follow = model.follow.as_ref().filter(|_| model.refusal.is_none());
+    if follow.is_some() {
         row.max.x -= follow::WIDTH + 4.0;
     }
     satellite_row(ui, row, model, &mut state.tracking, actions);
+    if let Some(follow) = follow {
+        follow::show(ui, key, follow, typed, &mut state.asks_sun, actions);
+    }
 }
 
 /// Shows the notes on tracking, and the switch for automatic starting. A refusal equal to

@@ -79,15 +79,15 @@ pub(super) fn show(
     {
         commands.push(UiCommand::SetScope(*scope));
     }
-    let span = spans(ui, second, model, commands);
+    let span = second.with_min_x(second.right() - span_menu(model).width(ui));
     // In the narrowest list the buttons are narrower and stand closer together.
     let free = span.left() - second.left() - SCOPES;
     let side = vec2((free / 2.0 - 1.5 * LEAST_GAP).min(SMALL_HEIGHT), SMALL_HEIGHT);
     let gap = ((free - 2.0 * side.x) / 3.0).clamp(LEAST_GAP, GAP);
     let place = Rect::from_min_size(pos2(span.left() - gap - side.x, span.top()), side);
+    save(ui, place.translate(vec2(-gap - side.x, 0.0)), model, commands);
     search(ui, place, filter);
-    let place = place.translate(vec2(-gap - side.x, 0.0));
-    save(ui, place, model, commands);
+    spans(ui, span, model, commands);
     ui.painter().hline(rect.x_range(), rect.bottom() - 0.5, (1.0, t.line));
 }
 
@@ -96,29 +96,37 @@ fn floors(ui: &Ui, line: Rect, model: &PassListModel<'_>, commands: &mut Vec<UiC
     let angle = |floor_deg: f64| format::degrees(floor_deg, 0);
     let words = |floor_deg: f64| format!("Floor {}", angle(floor_deg));
     let name = format!("Elevation floor: {}", angle(model.floor_deg));
-    let menu = Menu { salt: "floor", name: &name, about: FLOOR, line };
-    menu.show(ui, &words(model.floor_deg), |ui| {
+    let menu = Menu { salt: "floor", name, chosen: words(model.floor_deg), about: FLOOR };
+    let place = line.with_min_x(line.right() - menu.width(ui));
+    menu.show(ui, place, |ui| {
         for floor_deg in FLOORS_DEG {
             let choice = egui::Button::selectable(same(&floor_deg), words(floor_deg));
             if ui.add(choice).clicked() && !same(&floor_deg) {
                 commands.push(UiCommand::Station(engine::Command::SetElevationFloor(floor_deg)));
             }
         }
-    })
+    });
+    place
 }
 
-fn spans(ui: &Ui, line: Rect, model: &PassListModel<'_>, commands: &mut Vec<UiCommand>) -> Rect {
-    let words = |span_h: u32| format!("{span_h} h");
-    let name = format!("How far ahead: {}", words(model.span_h));
-    let menu = Menu { salt: "span", name: &name, about: SPAN, line };
-    menu.show(ui, &words(model.span_h), |ui| {
+fn hours(span_h: u32) -> String {
+    format!("{span_h} h")
+}
+
+fn span_menu(model: &PassListModel<'_>) -> Menu {
+    let chosen = hours(model.span_h);
+    Menu { salt: "span", name: format!("How far ahead: {chosen}"), chosen, about: SPAN }
+}
+
+fn spans(ui: &Ui, place: Rect, model: &PassListModel<'_>, commands: &mut Vec<UiCommand>) {
+    span_menu(model).show(ui, place, |ui| {
         for span_h in SPANS_H {
-            let choice = egui::Button::selectable(span_h == model.span_h, words(span_h));
+            let choice = egui::Button::selectable(span_h == model.span_h, hours(span_h));
             if ui.add(choice).clicked() && span_h != model.span_h {
                 commands.push(UiCommand::SetSpan(span_h));
             }
         }
-    })
+    });
 }
 
 /// Shows the button that opens the filter.
@@ -172,21 +180,26 @@ fn save(ui: &Ui, place: Rect, model: &PassListModel<'_>, commands: &mut Vec<UiCo
     });
 }
 
-/// A drop-down button at the right end of a line.
-struct Menu<'a> {
+/// A drop-down button.
+struct Menu {
     salt: &'static str,
     /// Subject and current choice, for screen readers.
-    name: &'a str,
+    name: String,
+    chosen: String,
     /// The hover text.
     about: &'static str,
-    line: Rect,
 }
 
-impl Menu<'_> {
-    fn show(self, ui: &Ui, chosen: &str, choices: impl FnOnce(&mut Ui)) -> Rect {
-        let list = DropDown { button: Button::quiet(chosen), salt: self.salt, name: self.name };
-        let place = self.line.with_min_x(self.line.right() - list.width(ui));
-        list.show(ui, place, choices).on_hover_text(self.about);
-        place
+impl Menu {
+    fn list(&self) -> DropDown<'_> {
+        DropDown { button: Button::quiet(&self.chosen), salt: self.salt, name: &self.name }
+    }
+
+    fn width(&self, ui: &Ui) -> f32 {
+        self.list().width(ui)
+    }
+
+    fn show(&self, ui: &Ui, place: Rect, choices: impl FnOnce(&mut Ui)) {
+        self.list().show(ui, place, choices).on_hover_text(self.about);
     }
 }

@@ -2,12 +2,16 @@
 
 use std::collections::BTreeMap;
 
-use egui::{LayerId, Rect, Role, accesskit::NodeId, emath::Rangef};
-use egui_kittest::kittest::{AccessKitNode, NodeT as _};
+use egui::{Key, LayerId, Rect, Role, accesskit::NodeId, emath::Rangef};
+use egui_kittest::{
+    Node,
+    kittest::{AccessKitNode, NodeT as _},
+};
 
 use crate::window_stories::{
     every_view::SCENES,
-    rig::{SIZES, SMALL, Window},
+    rig::{self, SIZES, SMALL, Window, settle},
+    states,
 };
 
 /// Something that is read, where it is seen.
@@ -89,4 +93,34 @@ fn nothing_is_read_after_what_stands_behind_it() {
     }
     assert!(count > 3000, "{count} nodes");
     assert!(faults.is_empty(), "{} times\n{}", faults.len(), faults.join("\n"));
+}
+
+#[test]
+fn tab_goes_along_the_rows_of_operate() {
+    for size in SIZES {
+        let mut window = rig::window(size, rig::model(states::holding()));
+        let mut before: Option<Read> = None;
+        let mut names = Vec::new();
+        loop {
+            window.key_press(Key::Tab);
+            settle(&mut window);
+            let (places, now) = (places(&window), focused(&window));
+            let Some((id, name)) = now.filter(|(_, name)| !names.contains(name)) else { break };
+            names.push(name.clone());
+            let Some((layer, place)) = places.get(&id).copied() else { continue };
+            let now = Read { name, place, layer };
+            if let Some(before) = before.filter(|of| goes_back(of, &now)) {
+                panic!("{size:?}: {:?} is reached before {:?}", before.name, now.name);
+            }
+            before = Some(now);
+        }
+        assert!(names.len() > 20, "{size:?}: {names:?}");
+        assert!(names[0].starts_with("STOP"), "{names:?}");
+    }
+}
+
+/// The node that has the focus, with its name.
+fn focused(window: &Window) -> Option<(NodeId, String)> {
+    let node = window.root().children_recursive().find(Node::is_focused)?.accesskit_node();
+    Some((node.locate().0, node.label().or(node.value()).unwrap_or_default()))
 }
