@@ -11,7 +11,7 @@ use crate::{
     ui::{
         format, text, theme,
         widgets::{
-            button::{Button, HEIGHT as BUTTON},
+            button::{self, Button},
             paint,
         },
     },
@@ -30,24 +30,23 @@ pub(super) fn show(ui: &Ui, rect: Rect, unit: &ShownUnit<'_>, commands: &mut Vec
     let groups = unit.antenna.groups();
     let is_read = is_read(unit);
     let mut right = rect.right() - PADDING;
-    let mut button = |words: &'static str, can: bool| {
-        let button = Button::normal(words).locked(!can);
-        let min = pos2(right - button.width(ui), rect.center().y - BUTTON / 2.0);
-        let place = Rect::from_min_max(min, pos2(right, min.y + BUTTON));
-        right = place.left() - 8.0;
-        button.show(ui, words, place).clicked()
-    };
     if !groups.is_empty() {
-        if button("Save copy", is_read) {
-            commands.push(UiCommand::Station(engine::Command::SaveSettings(antenna)));
-        }
-        if button("Compare with file", is_read) {
-            commands.push(UiCommand::Station(engine::Command::CompareSettings(antenna)));
-        }
-        if button("Read again", unit.is_open()) {
+        let read = Button::normal("Read again").locked(!unit.is_open());
+        let compare = Button::normal("Compare with file").locked(!is_read);
+        let save = Button::normal("Save copy").locked(!is_read);
+        let widths = [read, compare, save].map(|button| button.width(ui));
+        let [of_read, of_compare, of_save] = button::row(pos2(right, rect.center().y), widths);
+        if read.show(ui, "Read again", of_read).clicked() {
             let read = |key| UiCommand::antenna(antenna, Command::ReadGroup(key));
             commands.extend(groups.iter().map(|group| read(group.key)));
         }
+        if compare.show(ui, "Compare with file", of_compare).clicked() {
+            commands.push(UiCommand::Station(engine::Command::CompareSettings(antenna)));
+        }
+        if save.show(ui, "Save copy", of_save).clicked() {
+            commands.push(UiCommand::Station(engine::Command::SaveSettings(antenna)));
+        }
+        right = of_read.left() - button::GAP;
     }
     let room = rect.with_min_x(rect.left() + PADDING).with_max_x(right);
     let title = format!("{} settings", unit.name());

@@ -1,7 +1,7 @@
 //! The controls above the log, and the status line below it.
 
 use egui::{
-    Align, Align2, Layout, Rect, RichText, Role, Sense, TextEdit, Ui, UiBuilder, WidgetInfo, pos2,
+    Align, Align2, Layout, Pos2, Rect, RichText, Role, Sense, TextEdit, Ui, UiBuilder, WidgetInfo,
     vec2,
 };
 
@@ -12,7 +12,7 @@ use crate::{
     ui::{
         format, text, theme,
         widgets::{
-            button::{Button, HEIGHT as BUTTON},
+            button::{self, Button, HEIGHT as BUTTON},
             check_box::CheckBox,
             drop_down::DropDown,
             paint,
@@ -46,8 +46,9 @@ pub(super) fn show(
     ui.painter().hline(rect.x_range(), rect.bottom() - 0.5, (1.0, t.line));
     let inner = rect.shrink2(vec2(PADDING, 0.0));
     paint::text_in(ui, inner, Align2::LEFT_CENTER, "Console", text::title(), t.t1);
-    let right = buttons(ui, inner, has_drawer, state, commands);
-    let room = inner.with_min_x(inner.left() + TITLE).with_max_x(right - GAP);
+    let buttons = Buttons::of(state, has_drawer);
+    let places = buttons.places(ui, inner.right_center());
+    let room = inner.with_min_x(inner.left() + TITLE).with_max_x(places.pause.left() - GAP);
     let layout = Layout::left_to_right(Align::Center);
     ui.scope_builder(UiBuilder::new().id_salt("console bar").max_rect(room).layout(layout), |ui| {
         antenna(ui, model, state);
@@ -64,6 +65,7 @@ pub(super) fn show(
             edit.request_focus();
         }
     });
+    show_buttons(ui, buttons, places, state, commands);
 }
 
 fn antenna(ui: &mut Ui, model: &Model, state: &mut ConsoleState) {
@@ -100,45 +102,73 @@ fn direction(ui: &mut Ui, state: &mut ConsoleState) {
     });
 }
 
-/// Draws the buttons from the right end and returns their left end.
-fn buttons(
-    ui: &Ui,
-    inner: Rect,
-    has_drawer: bool,
-    state: &mut ConsoleState,
-    commands: &mut Vec<UiCommand>,
-) -> f32 {
-    let mut right = inner.right();
-    let mut button = |button: Button<'_>, salt: &str| {
-        let width = button.width(ui);
-        let min = pos2(right - width, inner.center().y - BUTTON / 2.0);
-        right = min.x - GAP;
-        button.show(ui, salt, Rect::from_min_size(min, vec2(width, BUTTON))).clicked()
-    };
-    let nothing_chosen = state.selection.among(state.log.shown()).next().is_none();
-    if has_drawer {
-        let word = if state.inspector_is_open { "Close details" } else { "Details" };
-        if button(Button::normal(word), "details") {
-            state.inspector_is_open = !state.inspector_is_open;
+/// One of each for the buttons at the right end, from the left.
+#[derive(Clone, Copy)]
+struct Each<T> {
+    pause: T,
+    newest: T,
+    copy: T,
+    save: T,
+    /// Where the inspector is a drawer.
+    details: Option<T>,
+}
+
+type Buttons = Each<Button<'static>>;
+
+impl Buttons {
+    fn of(state: &ConsoleState, has_drawer: bool) -> Self {
+        let nothing_chosen = state.selection.among(state.log.shown()).next().is_none();
+        let details = if state.inspector_is_open { "Close details" } else { "Details" };
+        Self {
+            pause: if state.is_paused {
+                Button::primary("Resume")
+            } else {
+                Button::normal("Pause")
+            },
+            newest: Button::normal("Newest").locked(state.table.follows()),
+            copy: Button::normal("Copy").locked(nothing_chosen),
+            save: Button::normal("Save").locked(state.log.shown().is_empty()),
+            details: has_drawer.then(|| Button::normal(details)),
         }
     }
-    let nothing_shown = state.log.shown().is_empty();
-    if button(Button::normal("Save").locked(nothing_shown), "save log") {
+
+    fn places(&self, ui: &Ui, right: Pos2) -> Each<Rect> {
+        let details = self.details.map(|of| {
+            let [place] = button::row(right, [of.width(ui)]);
+            place
+        });
+        let right = details.map_or(right, |place| place.left_center() - vec2(GAP, 0.0));
+        let widths = [self.pause, self.newest, self.copy, self.save].map(|of| of.width(ui));
+        let [pause, newest, copy, save] = button::row(right, widths);
+        Each { pause, newest, copy, save, details }
+    }
+}
+
+fn show_buttons(
+    ui: &Ui,
+    buttons: Buttons,
+    places: Each<Rect>,
+    state: &mut ConsoleState,
+    commands: &mut Vec<UiCommand>,
+) {
+    if buttons.pause.show(ui, "pause", places.pause).clicked() {
+        state.is_paused = !state.is_paused;
+    }
+    if buttons.newest.show(ui, "newest", places.newest).clicked() {
+        state.table.follow();
+    }
+    if buttons.copy.show(ui, "copy lines", places.copy).clicked() {
+        state.copy(ui);
+    }
+    if buttons.save.show(ui, "save log", places.save).clicked() {
         let lines = state.log.all_shown().cloned().collect();
         commands.push(UiCommand::SaveLog(lines));
     }
-    if button(Button::normal("Copy").locked(nothing_chosen), "copy lines") {
-        state.copy(ui);
+    if let Some((details, place)) = buttons.details.zip(places.details)
+        && details.show(ui, "details", place).clicked()
+    {
+        state.inspector_is_open = !state.inspector_is_open;
     }
-    if button(Button::normal("Newest").locked(state.table.follows()), "newest") {
-        state.table.follow();
-    }
-    let word = if state.is_paused { "Resume" } else { "Pause" };
-    let pause = if state.is_paused { Button::primary(word) } else { Button::normal(word) };
-    if button(pause, "pause") {
-        state.is_paused = !state.is_paused;
-    }
-    right
 }
 
 /// Shows the number of lines and the outcome of the last saving.

@@ -1,7 +1,8 @@
 //! The controls above the sources.
 
 use egui::{
-    Align2, Popup, PopupCloseBehavior, Rect, RichText, Role, TextEdit, Ui, WidgetInfo, pos2, vec2,
+    Align2, Popup, PopupCloseBehavior, Rect, Response, RichText, Role, TextEdit, Ui, WidgetInfo,
+    pos2, vec2,
 };
 
 use super::{ElementsState, PADDING, add, words};
@@ -13,7 +14,7 @@ use crate::{
         icons::Icon,
         text, theme,
         widgets::{
-            button::{Button, HEIGHT as BUTTON},
+            button::{self, Button, HEIGHT as BUTTON},
             close_key, paint,
         },
         words::sentence,
@@ -43,7 +44,25 @@ pub(super) fn show(
     ui.painter().rect_filled(rect, 0.0, t.bg1);
     ui.painter().hline(rect.x_range(), rect.bottom() - 0.5, (1.0, t.line));
     let inner = rect.shrink2(vec2(PADDING, 0.0));
-    let left = buttons(ui, inner, model, has_drawer, state, commands);
+    let due = due(model);
+    let word = match due.len() {
+        0 => "Read again".to_owned(),
+        count => format!("Refresh {count} due"),
+    };
+    let can = model.sources.is_free() && !model.sources.list.is_empty();
+    let refresh = if due.is_empty() { Button::normal(&word) } else { Button::primary(&word) };
+    let refresh = refresh.icon(Icon::Refresh).locked(!can);
+    let add = Button::normal("Add a source").icon(Icon::Plus);
+    let word = if state.inspector_is_open { "Close details" } else { "Details" };
+    let details = has_drawer.then(|| Button::normal(word));
+    let mut right = inner.right_center();
+    let of_details = details.map(|button| {
+        let [place] = button::row(right, [button.width(ui)]);
+        right.x = place.left() - GAP;
+        place
+    });
+    let [of_add, of_refresh] = button::row(right, [add.width(ui), refresh.width(ui)]);
+    let left = of_add.left();
     let has_sentence = rect.height() >= HEIGHT;
     let title_room = TITLE.map(|width| inner.left() + width);
     let least = if has_sentence { title_room[1] } else { title_room[0] };
@@ -54,6 +73,23 @@ pub(super) fn show(
         pos2(left - GAP, rect.center().y + BUTTON / 2.0),
     );
     search(ui, place, state);
+    add_source(&add.show(ui, "add a source", of_add), model, state, commands);
+    let refresh = refresh.show(ui, "refresh", of_refresh);
+    let refresh = match next_due(model) {
+        Some(next) if due.is_empty() => refresh.on_hover_text(format!(
+            "Reads all files and folders. No server is due before {}.",
+            format::moment(next, model.now)
+        )),
+        _ => refresh,
+    };
+    if refresh.clicked() {
+        commands.push(refresh_due(model));
+    }
+    if let Some((details, place)) = details.zip(of_details)
+        && details.show(ui, "element details", place).clicked()
+    {
+        state.inspector_is_open = !state.inspector_is_open;
+    }
 }
 
 fn title(ui: &Ui, rect: Rect, model: &Model, has_sentence: bool) {
@@ -113,54 +149,14 @@ fn search(ui: &mut Ui, place: Rect, state: &mut ElementsState) {
     }
 }
 
-/// Draws the buttons from the right end and returns their left end.
-fn buttons(
-    ui: &mut Ui,
-    inner: Rect,
+/// The form for a new source, below the button that opens it.
+fn add_source(
+    button: &Response,
     model: &Model,
-    has_drawer: bool,
     state: &mut ElementsState,
     commands: &mut Vec<UiCommand>,
-) -> f32 {
-    let mut right = inner.right();
-    let mut place = |ui: &Ui, button: &Button<'_>| {
-        let width = button.width(ui);
-        let min = pos2(right - width, inner.center().y - BUTTON / 2.0);
-        right = min.x - GAP;
-        Rect::from_min_size(min, vec2(width, BUTTON))
-    };
-    if has_drawer {
-        let word = if state.inspector_is_open { "Close details" } else { "Details" };
-        let details = Button::normal(word);
-        let at = place(ui, &details);
-        if details.show(ui, "element details", at).clicked() {
-            state.inspector_is_open = !state.inspector_is_open;
-        }
-    }
-    let due = due(model);
-    let can = model.sources.is_free() && !model.sources.list.is_empty();
-    let word = match due.len() {
-        0 => "Read again".to_owned(),
-        count => format!("Refresh {count} due"),
-    };
-    let refresh = if due.is_empty() { Button::normal(&word) } else { Button::primary(&word) };
-    let refresh = refresh.icon(Icon::Refresh).locked(!can);
-    let at = place(ui, &refresh);
-    let refresh = refresh.show(ui, "refresh", at);
-    let refresh = match next_due(model) {
-        Some(next) if due.is_empty() => refresh.on_hover_text(format!(
-            "Reads all files and folders. No server is due before {}.",
-            format::moment(next, model.now)
-        )),
-        _ => refresh,
-    };
-    if refresh.clicked() {
-        commands.push(refresh_due(model));
-    }
-    let add = Button::normal("Add a source").icon(Icon::Plus);
-    let at = place(ui, &add);
-    let add = add.show(ui, "add a source", at);
-    Popup::from_toggle_button_response(&add)
+) {
+    Popup::from_toggle_button_response(button)
         .accessible_name("Add a source")
         .width(FORM)
         .close_behavior(PopupCloseBehavior::CloseOnClickOutside)
@@ -169,7 +165,6 @@ fn buttons(
             add::show(ui, &model.sources, &mut state.add, commands);
             close_key::show(ui);
         });
-    right + GAP
 }
 
 /// Names of the servers that may be asked now.

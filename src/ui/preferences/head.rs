@@ -12,7 +12,7 @@ use crate::{
         preferences::antenna_fields::has_elevation,
         text, theme,
         widgets::{
-            button::{Button, HEIGHT},
+            button::{self, Button, HEIGHT},
             paint,
         },
     },
@@ -103,28 +103,24 @@ fn buttons(
     let Some(index) = draft.index(id) else { return rect.right() };
     let is_removed = draft.is_removed(index);
     let as_typed = draft.antenna(index).filter(|_| !is_removed);
-    let mut right = rect.right() - PADDING;
-    let mut place = |width: f32| {
-        let min = pos2(right - width, rect.center().y - HEIGHT / 2.0);
-        right = min.x - 8.0;
-        Rect::from_min_size(min, vec2(width, HEIGHT))
-    };
-    // Both words have the same width: the place stays under the pointer.
-    let width = Button::quiet("Remove antenna").width(ui);
-    let word = if is_removed { "Undo: keep it" } else { "Remove antenna" };
-    if Button::quiet(word).show(ui, "remove antenna", place(width)).clicked() {
-        draft.toggle_removed(index);
-    }
+    let test = Button::normal("Test link").locked(as_typed.is_none());
     let duplicate = Button::normal("Duplicate").locked(is_removed);
-    if duplicate.show(ui, "duplicate", place(duplicate.width(ui))).clicked()
+    // Both words have the same width: the place stays under the pointer.
+    let remove_width = Button::quiet("Remove antenna").width(ui);
+    let word = if is_removed { "Undo: keep it" } else { "Remove antenna" };
+    let right = rect.right_center() - vec2(PADDING, 0.0);
+    let widths = [test.width(ui), duplicate.width(ui), remove_width];
+    let [of_test, of_duplicate, of_remove] = button::row(right, widths);
+    if let (true, Some(antenna)) = (test.show(ui, "test link", of_test).clicked(), as_typed) {
+        commands.push(UiCommand::Station(engine::Command::TestLink(Box::new(antenna))));
+    }
+    if duplicate.show(ui, "duplicate", of_duplicate).clicked()
         && let Some(added) = draft.duplicate(index, model.now)
     {
         state.page = Page::Antenna(added);
     }
-    let test = Button::normal("Test link").locked(as_typed.is_none());
-    let testing = place(test.width(ui));
-    if let (true, Some(antenna)) = (test.show(ui, "test link", testing).clicked(), as_typed) {
-        commands.push(UiCommand::Station(engine::Command::TestLink(Box::new(antenna))));
+    if Button::quiet(word).show(ui, "remove antenna", of_remove).clicked() {
+        draft.toggle_removed(index);
     }
-    right
+    of_test.left() - button::GAP
 }

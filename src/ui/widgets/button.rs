@@ -1,6 +1,6 @@
 //! Push buttons.
 
-use egui::{Align2, Color32, Rect, Response, Role, Stroke, StrokeKind, Ui, pos2, vec2};
+use egui::{Align2, Color32, Pos2, Rect, Response, Role, Stroke, StrokeKind, Ui, pos2, vec2};
 
 use super::paint;
 use crate::ui::{
@@ -12,8 +12,8 @@ pub const HEIGHT: f32 = 32.0;
 pub const SMALL_HEIGHT: f32 = 24.0;
 /// Width of an icon with the gap behind it.
 const ICON: f32 = 24.0;
-/// Gap between two answers to a question.
-const PAIR_GAP: f32 = 8.0;
+/// Gap between two buttons side by side.
+pub const GAP: f32 = 8.0;
 /// Corner radius of buttons and jog keys.
 pub const RADIUS: u8 = 5;
 
@@ -121,11 +121,23 @@ impl<'a> Button<'a> {
 /// Shows the two answers to a question side by side.
 pub fn pair(ui: &mut Ui, first: Button<'_>, second: Button<'_>) -> [Response; 2] {
     let [left_width, right_width] = [first, second].map(|button| button.width(ui));
-    let size = vec2(left_width + PAIR_GAP + right_width, HEIGHT);
+    let size = vec2(left_width + GAP + right_width, HEIGHT);
     let (rect, _) = ui.allocate_exact_size(size, egui::Sense::hover());
     let left = rect.with_max_x(rect.left() + left_width);
-    let right = rect.with_min_x(left.right() + PAIR_GAP);
+    let right = rect.with_min_x(left.right() + GAP);
     [first.show(ui, "first answer", left), second.show(ui, "second answer", right)]
+}
+
+/// Places for buttons of these widths side by side, of which the last ends at `right`, the middle
+/// of its edge. They are to be shown in this order, in which Tab leads along them.
+pub fn row<const N: usize>(right: Pos2, widths: [f32; N]) -> [Rect; N] {
+    let whole = widths.iter().sum::<f32>() + GAP * N.saturating_sub(1) as f32;
+    let mut left = right.x - whole;
+    widths.map(|width| {
+        let min = pos2(left, right.y - HEIGHT / 2.0);
+        left += width + GAP;
+        Rect::from_min_size(min, vec2(width, HEIGHT))
+    })
 }
 
 #[cfg(test)]
