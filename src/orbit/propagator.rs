@@ -98,6 +98,26 @@ impl Propagator {
         self.state_after(time::seconds_between(self.epoch, at), &mut Resumable::default())
     }
 
+    /// The states at several times, each later than the one before. Those of near-circular orbits
+    /// are computed eight at once, within 2e-8 km of [`Self::state_at`].
+    pub fn states_at(&self, times: &[Timestamp]) -> Vec<Option<State>> {
+        let since_epoch_s = |at: &Timestamp| time::seconds_between(self.epoch, *at);
+        let is_round = |secular: &&Secular| {
+            times.first().into_iter().chain(times.last()).map(since_epoch_s).all(|at_s| {
+                secular.is_near_circular_at(at_s / 60.0)
+                    && !self.may_be_down_at(at_s)
+                    && at_s.abs() <= FARTHEST_DAYS * time::DAY_S
+            })
+        };
+        match self.secular().filter(is_round) {
+            Some(secular) => {
+                let minutes: Vec<f64> = times.iter().map(|at| since_epoch_s(at) / 60.0).collect();
+                secular.states(&minutes).map(Some).collect()
+            }
+            None => times.iter().map(|at| self.state_at(*at).ok()).collect(),
+        }
+    }
+
     /// The instant that [`Self::state_after`] counts from.
     pub(super) fn epoch(&self) -> Timestamp {
         self.epoch
@@ -237,6 +257,30 @@ mod tests {
                 let said_km_s = propagator.drift_km_s(at_s);
                 // One set in five hundred drifts faster than `said_km_s`.
                 assert!(drift_km_s < 2.5 * said_km_s, "{elements:?}: {drift_km_s} {said_km_s}");
+            }
+        }
+    }
+
+    #[test]
+    fn several_states_are_those_of_each_time() {
+        // Low, and about to come down; of half a day, geosynchronous, and far and eccentric.
+        for number in [25_544, 43_881, 24_876, 54_743, 25_867] {
+            let catalog = bundled().unwrap();
+            let propagator = Propagator::new(catalog.get(number).unwrap()).unwrap();
+            for (days, count) in [(-2.0, 1), (0.0, 8), (1.5, 13), (60.0, 3), (40_000.0, 2)] {
+                let at = |step: u32| {
+                    let seconds = days * time::DAY_S + f64::from(step) * 500.0;
+                    time::add_seconds(propagator.epoch, seconds)
+                };
+                let times: Vec<Timestamp> = (0..count).map(at).collect();
+                let several = propagator.states_at(&times);
+                assert_eq!(several.len(), times.len());
+                for (at, several) in times.iter().zip(several) {
+                    let one = propagator.state_at(*at).ok();
+                    assert_eq!(several.is_some(), one.is_some(), "{number} {at}");
+                    let off_km = several.zip(one).map(|(a, b)| a.position_km - b.position_km);
+                    assert!(off_km.is_none_or(|off| off.length() < 2e-8), "{number} {at}");
+                }
             }
         }
     }

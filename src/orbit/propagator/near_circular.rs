@@ -10,8 +10,8 @@
 
 use sgp4::WGS72;
 
-use super::secular::Secular;
-use crate::orbit::simd::{Number, Vector, series};
+use super::{State, secular::Secular};
+use crate::orbit::simd::{LANES, Lanes, Number, Vector, series, set};
 
 /// Smallest eccentricity in the theory; rounder orbits get this one.
 const MIN_ECCENTRICITY: f64 = 1e-6;
@@ -25,6 +25,23 @@ impl<N: Number> Secular<N> {
     /// [is near-circular](Secular::is_near_circular_at).
     pub(in crate::orbit) fn motion(&self, minutes: N, turn: N) -> Motion<N> {
         motion(self, minutes, turn)
+    }
+}
+
+impl Secular {
+    /// The states at these minutes after the epoch, in TEME; valid like [`Self::motion`].
+    pub(super) fn states(&self, minutes: &[f64]) -> impl Iterator<Item = State> {
+        let mut lanes = Secular::default();
+        (0..LANES).for_each(|lane| lanes.set(lane, self));
+        minutes.chunks(LANES).flat_map(move |chunk| {
+            let mut at = Lanes::ZERO;
+            chunk.iter().enumerate().for_each(|(lane, minutes)| set(&mut at, lane, *minutes));
+            let (positions, velocities) = lanes.motion(at, Lanes::ZERO);
+            (0..chunk.len()).map(move |lane| State {
+                position_km: positions.lane(lane).into(),
+                velocity_km_s: velocities.lane(lane).into(),
+            })
+        })
     }
 }
 
@@ -134,11 +151,7 @@ fn turned<N: Number>(sine: N, cosine: N, turn: N) -> (N, N) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::orbit::{
-        Propagator, bundled,
-        propagator::Resumable,
-        simd::{LANES, Lanes},
-    };
+    use crate::orbit::{Propagator, bundled, propagator::Resumable};
 
     #[test]
     fn states_agree_with_the_library_over_the_whole_catalog() {

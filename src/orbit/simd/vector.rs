@@ -53,6 +53,12 @@ impl<N: Number> From<DVec3> for Vector<N> {
     }
 }
 
+impl From<Vector<f64>> for DVec3 {
+    fn from(Vector { x, y, z }: Vector<f64>) -> Self {
+        Self::new(x, y, z)
+    }
+}
+
 impl<N: Number> Add for Vector<N> {
     type Output = Self;
     fn add(self, other: Self) -> Self {

@@ -1,6 +1,7 @@
 //! A pass as seen from the site: when it is above a height and the horizon mask, and where it is.
 
 use glam::DVec3;
+use jiff::Timestamp;
 
 use super::way::{Span, at_ms, ms};
 use crate::{
@@ -8,7 +9,7 @@ use crate::{
         Angle, AzEl, HorizonMask, Site,
         frames::{EARTH_RATE_RAD_S, SiteFrame},
     },
-    orbit::{Local, Pass, Propagator, clear_stretches},
+    orbit::{Local, Pass, Propagator, State, clear_stretches},
     plan::Sample,
 };
 
@@ -149,8 +150,13 @@ impl<'a> Sight<'a> {
 impl Nodes {
     fn new(propagator: &Propagator, site: &SiteFrame, span: Span) -> Self {
         let (times, step_s) = times(span, COARSE_S, MAX_COARSE);
-        let place = |at| Some((at, place(propagator, site, at)?));
-        let places: Vec<(i64, Local)> = times.filter_map(place).collect();
+        let times: Vec<i64> = times.collect();
+        let stamps: Vec<Timestamp> = times.iter().map(|at| at_ms(*at)).collect();
+        let states = times.iter().zip(&stamps).zip(propagator.states_at(&stamps));
+        let place = |((at, time), state): ((&i64, &Timestamp), Option<State>)| {
+            Some((*at, state?.local(site, *time)))
+        };
+        let places: Vec<(i64, Local)> = states.filter_map(place).collect();
         let list = places.iter().map(|(at, place)| sample(*at, place.position_km)).collect();
         Self { span, places, samples: Samples { list, step_s } }
     }
