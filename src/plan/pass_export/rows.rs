@@ -9,8 +9,8 @@ use rayon::prelude::*;
 
 use super::ExportedPass;
 
-/// Number of rows that are made before any of them is written, some 4 MB of text.
-const AT_ONCE: usize = 1 << 14;
+/// Number of rows that are made before any of them is written, some 2 MB of CSV.
+const AT_ONCE: usize = 1 << 13;
 /// Number of rows that one thread takes at a time.
 const CHUNK: usize = 256;
 
