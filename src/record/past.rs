@@ -132,6 +132,9 @@ fn track_of(
     let has_elevation = flown.iter().any(|flown| flown.pointing.elevation.is_some());
     let point = |flown: &MeasuredPosition| {
         let compared = |flown| TrackPoint::new(propagator, site, has_elevation, flown);
+        if offsets.changes().is_empty() {
+            return compared(*flown);
+        }
         let TrackPoint { antenna, .. } = compared(*flown)?;
         let beside = compared(offsets.taken_off(propagator, site, *flown))?;
         Some(TrackPoint { antenna, ..beside })

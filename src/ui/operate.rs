@@ -38,6 +38,7 @@ use crate::{
     station::AntennaId,
 };
 use ghost::GhostState;
+pub(super) use layout::side_cards;
 use layout::{Areas, SIDE_CARDS};
 use side_card::SideCard;
 use sky_time::SkyTime;

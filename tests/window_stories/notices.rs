@@ -127,7 +127,7 @@ fn what_the_desktop_lacks_is_said_where_it_is_set() {
     settle(&mut window);
     assert!(window.query_by_label("Try falling tones").is_none(), "there is nothing to try");
     assert!(window.query_by_role_and_label(Role::RadioGroup, "Warnings").is_none());
-    assert!(says(&window, "The desktop shows no notifications: Azel does not run in a desktop"));
+    assert!(says(&window, "The desktop shows no notifications: Azel is not running in a desktop"));
     assert!(says(&window, "Start it from the desktop"), "with what to do");
     let raw = "The answer of the system: no address";
     assert!(!says(&window, raw));

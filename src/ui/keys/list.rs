@@ -6,7 +6,7 @@ use egui::{Align2, Galley, Id, Key, Modal, Modifiers, Rect, Sense, Ui, pos2, vec
 
 use super::{ALL, Binding, CTRL_SHIFT, own::OwnKeys};
 use crate::ui::{
-    antenna_card, text, theme,
+    antenna_card, operate, text, theme,
     widgets::{button::Button, modal::modal, paint},
 };
 
@@ -24,11 +24,12 @@ const ID: &str = "keys";
 /// By this the list stands below the middle of the window, so that it leaves the top bar free.
 const DOWN: f32 = 24.0;
 
-/// How far a list of this width stands left of the middle of the window, so that the antenna card of
-/// Operate stays free; in a window that has no room for both, not at all.
+/// How far a list of this width stands left of the middle of the window, so that the antenna cards of
+/// Operate stay free; in a window that has no room for both, not at all.
 fn aside(window: f32, width: f32) -> f32 {
     let room = (window - width) / 2.0;
-    let aside = (antenna_card::WIDTH + GAP - room).max(0.0);
+    let cards = antenna_card::WIDTH * (1 + operate::side_cards(window)) as f32;
+    let aside = (cards + GAP - room).max(0.0);
     if aside <= room { aside } else { 0.0 }
 }
 

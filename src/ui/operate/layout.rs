@@ -32,6 +32,11 @@ pub(super) const SIDE_CARDS: usize = 2;
 /// In a window from this width on there is the first of them, and the second.
 const SIDE_CARDS_FROM: [f32; SIDE_CARDS] = [1800.0, 2400.0];
 
+/// How many cards can stand beside that of the selected antenna in a window of this width.
+pub(in crate::ui) fn side_cards(window: f32) -> usize {
+    SIDE_CARDS_FROM.iter().filter(|from| window >= **from).count()
+}
+
 /// The parts of the view.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Areas {
@@ -66,8 +71,7 @@ impl Areas {
         let small = window.width() < DRAWER_BELOW;
         let tall = window.height() >= TALL_FROM;
         let card_width = if small { antenna_card::SMALL_WIDTH } else { antenna_card::WIDTH };
-        let fitting = SIDE_CARDS_FROM.iter().filter(|from| window.width() >= **from).count();
-        let count = fitting.min(antennas.saturating_sub(1));
+        let count = side_cards(window.width()).min(antennas.saturating_sub(1));
         let last = rect.with_min_x(rect.right() - card_width);
         let card = last.translate(vec2(-card_width * count as f32, 0.0));
         let side_cards = std::array::from_fn(|index| {

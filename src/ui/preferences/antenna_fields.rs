@@ -180,14 +180,14 @@ fn outage() -> [Of; 2] {
 fn watch() -> [Of; 2] {
     [
         Of::choice(
-            "If others drive it in",
+            "If others drive it into a keep-out",
             &[(0, "STOP and alarm"), (1, "Alarm only")],
             &[Monitor::Stop, Monitor::Alarm],
             |antenna| &mut antenna.monitor,
         )
         .noted(|_| {
-            let words = "Into a keep-out or too close to the Sun, by the panel, another program or \
-                         the unit's own. What Azel moves is stopped in any case.";
+            let words = "Or too close to the Sun: by the panel, another program or the unit's own. \
+                         What Azel moves is stopped in any case.";
             Some(words.to_owned())
         }),
         Of::number("Sway allowed", ranges::SWAY_DEG, "°", |antenna| Some(&mut antenna.sway_deg))

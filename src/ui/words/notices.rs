@@ -77,7 +77,7 @@ pub struct MissingOutlet {
 fn why_and_cure(missing: &Missing) -> (&'static str, String) {
     match missing {
         Missing::Bus(_) => (
-            "Azel does not run in a desktop session",
+            "Azel is not running in a desktop session",
             "Start it from the desktop, not over a remote shell or as another user.".to_owned(),
         ),
         Missing::Service(_) => (

@@ -78,13 +78,13 @@ pub fn would_miss(name: &str, found: &Supervision, now: Timestamp, unit: Distanc
 /// Unknown facts about a unit; `None` if nothing or only its elements are unknown.
 pub fn not_known(found: &Supervision) -> Option<String> {
     let word = |unknown: &Unknown| match unknown {
-        Unknown::Place => Some("where it stands"),
+        Unknown::Place => Some("its site"),
         Unknown::Clock => Some("its clock"),
         Unknown::Offsets => Some("its offsets"),
         Unknown::Elements => None,
     };
     let words: Vec<&str> = found.unknown.iter().filter_map(word).collect();
-    (!words.is_empty()).then(|| format!("The unit does not tell {}.", format::list(&words)))
+    (!words.is_empty()).then(|| format!("The unit has not told {} yet.", format::list(&words)))
 }
 
 /// The note on a unit that tracks well enough.

@@ -53,15 +53,15 @@ pub fn why(names: &dyn Fn(PassKey) -> String, why: &Why) -> String {
         Why::OtherAntennas => "A limit or a rule excludes this antenna".to_owned(),
         Why::Overlaps(conflict) => {
             let by = format::duration(conflict.missing_s);
-            format!("{} overlaps by {by}", against(names, conflict))
+            let verb = if conflict.others.is_empty() { "overlaps" } else { "overlap" };
+            format!("{} {verb} by {by}", against(names, conflict))
         }
         Why::SlewTooShort(conflict) => {
             let by = format::duration(conflict.missing_s);
             let against = against(names, conflict);
-            let against = against.trim_end_matches(',');
             format!("Too close to {against}: {by} short for slew and set-up")
         }
-        Why::TooFar => "From where it stands, the antenna is not there at AOS".to_owned(),
+        Why::TooFar => "The antenna cannot be there at AOS".to_owned(),
         Why::MaxPerDay(most) => match most {
             1 => "One pass of the satellite is taken on this day already".to_owned(),
             most => format!("{most} passes of the satellite are taken on this day already"),
@@ -118,15 +118,15 @@ fn not_possible(impossible: &Impossible) -> String {
 fn against(names: &dyn Fn(PassKey) -> String, conflict: &Conflict) -> String {
     let name = names((conflict.with.satellite, conflict.with.aos));
     let class = match conflict.class {
-        Class::Always => ", always,".to_owned(),
-        Class::Priority(priority) => format!(", priority {},", priority.number()),
-        Class::Fixed => ", under way,".to_owned(),
+        Class::Always => " (always)".to_owned(),
+        Class::Priority(priority) => format!(" (priority {})", priority.number()),
+        Class::Fixed => " (under way)".to_owned(),
         Class::All | Class::Kept => String::new(),
     };
     match conflict.others.len() {
         0 => format!("{name}{class}"),
-        1 => format!("{name}{class} with one more"),
-        others => format!("{name}{class} with {others} more"),
+        1 => format!("{name}{class} and one more"),
+        others => format!("{name}{class} and {others} more"),
     }
 }
 
