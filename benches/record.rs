@@ -143,7 +143,7 @@ fn timed(what: &str, mut run: impl FnMut()) {
         })
         .collect();
     taken_ms.sort_by(f64::total_cmp);
-    let (median, longest) = (taken_ms[RUNS / 2], taken_ms[RUNS - 1]);
+    let [median, longest] = [RUNS / 2, RUNS - 1].map(|place| *taken_ms.get(place).unwrap());
     println!("{what}: {median:.1} ms, at most {longest:.1} ms");
 }
 
@@ -159,7 +159,7 @@ fn main() {
 
     let newest = PassQuery { count: 200, ..PassQuery::default() };
     let all = record::passes(&path, &newest).unwrap().all;
-    let a_month_ago = i64::from(all) - 30 * a_day as i64;
+    let a_month_ago = i64::from(all) - 30 * i64::try_from(a_day).unwrap();
     assert!(open_pass(&path, a_month_ago, site).unwrap().is_some());
     timed("open a pass of a month ago", || {
         black_box(open_pass(&path, black_box(a_month_ago), site).unwrap());

@@ -209,10 +209,7 @@ impl Views {
             View::Console => console::show(ui, window, rest, model, &mut self.console, commands),
             View::Record => {
                 record::show(ui, window, rest, model, &mut self.record, commands);
-                if let Some(correction) = self.record.correction.take() {
-                    let (antennas, question) = (&mut self.antennas, &mut self.question);
-                    record::take_over(correction, model, antennas, question, commands);
-                }
+                self.take_correction(model, commands);
             }
             View::Map => map::show(ui, window, rest, model, &mut self.map, commands),
             View::Preferences => {
@@ -245,6 +242,14 @@ impl Views {
             self.operate.card.drive.focus_pad();
         }
         keys::list::show(ui, &mut self.keys_open, self.preferences.own_keys());
+    }
+
+    /// Takes a correction over that the operator has chosen in the record.
+    fn take_correction(&mut self, model: &Model, commands: &mut Vec<UiCommand>) {
+        if let Some(correction) = self.record.correction.take() {
+            let (antennas, question) = (&mut self.antennas, &mut self.question);
+            record::take_over(correction, model, antennas, question, commands);
+        }
     }
 
     /// Ends what only a view that is shown goes on with.
