@@ -85,6 +85,11 @@ impl Dome {
         corners.iter().all(|corner| corner.distance(self.centre) < self.radius)
     }
 
+    /// Whether a part of a rectangle lies within the rim or on its line.
+    pub(in crate::ui) fn touches(&self, rect: Rect) -> bool {
+        rect.clamp(self.centre).distance(self.centre) < self.radius + 1.0
+    }
+
     /// The circle of `radius` points around the zenith, as a closed path.
     pub(in crate::ui) fn circle(&self, radius: f32) -> Vec<Pos2> {
         circle(self.centre, radius)
@@ -249,7 +254,10 @@ mod tests {
         let ground = dome.clipped(across).unwrap();
         assert!(ground.iter().all(|point| point.to_vec2().length() < 99.01));
         assert!(near(ground[0], pos2(65.0, -5.0)));
-        assert_eq!(dome.clipped(across.translate(vec2(20.0, 0.0))), None);
+        let further = across.translate(vec2(20.0, 0.0));
+        assert_eq!(dome.clipped(further), None);
+        assert!(dome.touches(further) && !dome.holds(further), "the rim still runs through it");
+        assert!(!dome.touches(across.translate(vec2(40.0, 0.0))));
     }
 
     #[test]

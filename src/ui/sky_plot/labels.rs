@@ -187,19 +187,17 @@ impl<'a> Labels<'a> {
         };
         let galley = self.painter.layout_job(job(label, align));
         let inner = place.rect.shrink(PADDING);
-        match self.dome.map(|dome| dome.clipped(place.rect)) {
-            Some(Some(ground)) => {
+        let on = |colour| Shape::rect_filled(place.rect, 0.0, colour);
+        match self.dome {
+            Some(dome) => {
                 // Outside of the rim, too: what a label lies on must not run through it.
-                let beyond = |dome: Dome| !dome.holds(place.rect);
-                if self.dome.is_some_and(beyond) {
-                    self.grounds.push(Shape::rect_filled(place.rect, 0.0, self.tokens.bg0));
-                }
-                self.grounds.push(Shape::convex_polygon(ground, self.tokens.sky, Stroke::NONE));
+                let is_across = dome.touches(place.rect) && !dome.holds(place.rect);
+                self.grounds.extend(is_across.then(|| on(self.tokens.bg0)));
+                let inside = dome.clipped(place.rect);
+                let sky = |inside| Shape::convex_polygon(inside, self.tokens.sky, Stroke::NONE);
+                self.grounds.extend(inside.map(sky));
             }
-            Some(None) => {}
-            None => {
-                self.grounds.push(Shape::rect_filled(place.rect, 0.0, self.tokens.sky));
-            }
+            None => self.grounds.push(on(self.tokens.sky)),
         }
         // A galley that is not aligned to the left lies around its origin.
         let shift = inner.min - galley.rect.min.to_vec2();

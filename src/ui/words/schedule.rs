@@ -264,7 +264,7 @@ mod tests {
         };
         let end = ": 1:20 short for slew and set-up";
         let priority = Class::Priority(Priority::default());
-        assert_eq!(said(priority), format!("Too close to TERRA, priority 3{end}"));
+        assert_eq!(said(priority), format!("Too close to TERRA (priority 3){end}"));
         assert_eq!(said(Class::All), format!("Too close to TERRA{end}"));
     }
 }
