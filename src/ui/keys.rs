@@ -78,7 +78,7 @@ const fn with(modifiers: Modifiers, binding: Binding) -> Binding {
 const CTRL_SHIFT: Modifiers = Modifiers::COMMAND.plus(Modifiers::SHIFT);
 
 /// All keys, in the order of the list. The app handles the key of STOP before anything else.
-pub const ALL: [Binding; 41] = [
+pub const ALL: [Binding; 40] = [
     row(KeyScope::Focus, &[(Key::Escape, Act::There)], "STOP, everywhere; closes what is open"),
     with(
         Modifiers::COMMAND,
@@ -114,13 +114,13 @@ pub const ALL: [Binding; 41] = [
     ),
     row(
         KeyScope::Record,
-        &[(Key::ArrowUp, Act::RecordedPass(-1)), (Key::ArrowDown, Act::RecordedPass(1))],
-        "the recorded pass before or after",
-    ),
-    row(
-        KeyScope::Record,
-        &[(Key::C, Act::Correct), (Key::E, Act::ExportReport)],
-        "correct the best explanation, export the report",
+        &[
+            (Key::ArrowUp, Act::RecordedPass(-1)),
+            (Key::ArrowDown, Act::RecordedPass(1)),
+            (Key::C, Act::Correct),
+            (Key::E, Act::ExportReport),
+        ],
+        "recorded pass before, after; correct; export",
     ),
     row(
         KeyScope::Replay,
