@@ -8,6 +8,7 @@ mod recorded;
 mod rehearsal;
 mod replay;
 mod scene;
+mod trouble;
 mod unattended;
 
 use std::sync::Arc;
