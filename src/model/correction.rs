@@ -57,7 +57,7 @@ fn remembered(
     (model.station.kept_offsets(of) != offsets).then_some(How::Remembered(offsets))
 }
 
-/// What of an offset is too small for a setting, degrees.
+/// An offset below this changes no setting, degrees.
 const LEAST_DEG: f64 = 0.005;
 
 /// What the unit holds, less the error. What was written after the pass may correct it already.
