@@ -2,6 +2,7 @@
 
 use azel::{
     astro::time::{add_seconds, seconds_between},
+    device::Phase,
     driver::{self, LinkState},
     engine::{
         Client, Command,
@@ -10,7 +11,10 @@ use azel::{
         closing::CloseHow,
     },
     orbit::{PassSearch, Propagator, bundled, passes},
-    protocol::satrak::{Goto, Motion, Request, encode},
+    protocol::{
+        rotator_genius::WholeDegrees,
+        satrak::{Goto, Motion, Request, encode},
+    },
     sim::satrak,
     station::{Antenna, AntennaId, Monitor, Station},
 };
@@ -250,6 +254,59 @@ async fn an_antenna_that_is_nudged_at_its_panel_is_left_to_whoever_did_it() {
     .await;
     let _ = client.send(Command::GoOn(id));
     proved(&client, id).await;
+}
+
+#[tokio::test(start_paused = true)]
+async fn an_antenna_that_is_turned_while_it_tracks_or_waits_is_left_to_whoever_did_it() {
+    for (name, waits) in [("Dish", true), ("Dish", false), ("Mast", true), ("Mast", false)] {
+        let (scene, client, id) = scene_of(name, |_| {}).await;
+        proved(&client, id).await;
+        let is_on_its_path = || {
+            let snapshot = client.snapshot();
+            let antenna = snapshot.antennas.iter().find(|of| of.id() == id)?;
+            if waits {
+                let measured = antenna.snapshot.state.measured?;
+                let view = antenna.snapshot.program_track.as_ref();
+                let is_due = view.is_none_or(|view| {
+                    view.commanded.is_some_and(|to| {
+                        to.separation(measured.pointing).is_some_and(|off| off.degrees() < 2.0)
+                    })
+                });
+                let program = antenna.snapshot.state.program;
+                let is_at_start = program.is_none_or(|it| it.phase == Phase::AtStart);
+                return (is_due && is_at_start && !measured.moving()).then_some(());
+            }
+            let error = antenna.error().filter(|_| antenna.tracks())?;
+            (error.off_beam.degrees() < 2.0).then_some(())
+        };
+        until("the path", is_on_its_path).await;
+        let (at, rest_s) = (client.now().utc, if waits { 5.0 } else { 60.0 });
+        until("seconds", || (seconds_between(at, client.now().utc) > rest_s).then_some(())).await;
+        assert!(operation(&client, id).is_on(), "{name}");
+        if name == "Dish" {
+            let [x_deg, y_deg] = scene.units.dish.state().metal_deg;
+            scene.units.dish.place([x_deg, if y_deg > 90.0 { y_deg - 20.0 } else { y_deg + 20.0 }]);
+        } else {
+            let angles = scene.units.mast.state().rotators.map(|rotator| rotator.angle_deg);
+            let [azimuth_deg, elevation_deg] = angles;
+            let turned_deg = azimuth_deg + if azimuth_deg > 180.0 { -30.0 } else { 30.0 };
+            let place = [turned_deg, elevation_deg].map(|deg| WholeDegrees::nearest(deg).unwrap());
+            scene.units.mast.place(place);
+        }
+        let by = Interruption::Elsewhere;
+        until("the suspension", || {
+            let is_that = |of| matches!(of, Operation::Suspended { by: found, .. } if found == by);
+            is_that(operation(&client, id)).then_some(())
+        })
+        .await;
+        assert!(stands(&client, |kind| *kind == AlarmKind::AutomaticSuspended), "{name}");
+        until("standstill", || scene.units.all_stand().then_some(())).await;
+        let at = client.now().utc;
+        until("a minute", || (seconds_between(at, client.now().utc) > 60.0).then_some(())).await;
+        assert!(scene.units.all_stand(), "{name}: nothing takes it back");
+        let _ = client.send(Command::GoOn(id));
+        until("the path", is_on_its_path).await;
+    }
 }
 
 #[tokio::test(start_paused = true)]

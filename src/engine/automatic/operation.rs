@@ -143,7 +143,7 @@ pub(super) struct Seen {
     pub(super) moves: bool,
     /// It moves or tracks, and not by this station.
     pub(super) is_moved_elsewhere: bool,
-    /// It stood, and its angles show that somebody else has turned it.
+    /// Its angles show that somebody else has turned it, at rest or while it tracked.
     pub(super) is_turned: bool,
 }
 
@@ -167,6 +167,8 @@ pub(super) enum Act {
     /// The unit tracks the pass already, and nothing moves.
     TakeOver(Duty),
     Park,
+    /// Somebody else has a hand on the antenna, which must not work against them.
+    EndTrack,
 }
 
 /// What became of a request for a pass, as the session tells it.
@@ -280,7 +282,7 @@ impl Operation {
         }
         if seen.is_turned {
             self.suspend(Interruption::Elsewhere, now);
-            return None;
+            return seen.takes.map(|_| Act::EndTrack);
         }
         if seen.is_moved_elsewhere {
             if on.is_moved_for_long(now) && !seen.may_be_planned {

@@ -1,0 +1,193 @@
+//! Whether somebody else turns an antenna away from the satellite that it tracks. Its drives turn
+//! it only towards the satellite, so that it falls behind by what the satellite moves, and by no
+//! more.
+
+use std::{collections::VecDeque, time::Duration};
+
+use crate::{
+    astro::Angle,
+    clock::Instant,
+    device::{Phase, Pointing},
+    engine::antenna::AntennaModel,
+    plan::TrackPhase,
+};
+
+/// An antenna that follows a path leaves it by no more than this, degrees: it swings, and gusts
+/// push it.
+const SWINGS_DEG: f64 = 3.0;
+/// Looks are compared within this time.
+const KEPT: Duration = Duration::from_secs(10);
+/// So near to an end of its travel, in degrees, an azimuth axis may have to turn the long way.
+const NEAR_END_DEG: f64 = 10.0;
+
+/// The last looks at an antenna that follows its satellite, or waits for it.
+#[derive(Default)]
+pub(super) struct Course {
+    looks: VecDeque<Look>,
+    /// Where the unit waits for its satellite.
+    start: Option<Pointing>,
+    /// The last look was too far off.
+    is_off: bool,
+    /// When the last position that was looked at had been asked for.
+    looked: Option<Instant>,
+}
+
+#[derive(Debug, Clone, Copy)]
+struct Look {
+    asked: Instant,
+    off: Angle,
+    target: Pointing,
+}
+
+impl Course {
+    /// Looks at the last position. Returns `true`, once, when somebody else has turned the
+    /// antenna.
+    pub(super) fn look(&mut self, antenna: &AntennaModel) -> bool {
+        let measured = antenna.snapshot.state.measured;
+        let target = self.target(antenna).filter(|_| antenna.is_live() && !is_near_end(antenna));
+        let (Some(target), Some(measured)) = (target, measured) else {
+            *self = Self { start: self.start, ..Self::default() };
+            return false;
+        };
+        if self.looked.replace(measured.asked) == Some(measured.asked) {
+            return false;
+        }
+        let has_elevation = measured.pointing.elevation.is_some();
+        let target = Pointing { elevation: target.elevation.filter(|_| has_elevation), ..target };
+        let Some(off) = measured.pointing.separation(target) else { return false };
+        let swing_deg = SWINGS_DEG + antenna.config.sway_deg;
+        let follows_within_deg = antenna.config.beam_width().degrees() * 0.5 + swing_deg;
+        self.take(Look { asked: measured.asked, off, target }, swing_deg, follows_within_deg)
+    }
+
+    /// Where the antenna is to point at the last position: to its satellite, or, before AOS, to
+    /// the start of the pass.
+    fn target(&mut self, antenna: &AntennaModel) -> Option<Pointing> {
+        let snapshot = &antenna.snapshot;
+        let measured = snapshot.state.measured?;
+        let waits = snapshot.state.program.is_some_and(|it| it.phase == Phase::AtStart);
+        // The unit does not say where the start is.
+        let stands = waits && self.start.is_none() && !measured.moving();
+        self.start = self.start.filter(|_| waits).or(stands.then_some(measured.pointing));
+        let track = snapshot.program_track.as_ref();
+        match track.map(|track| track.phase) {
+            Some(TrackPhase::Waiting { .. }) => track?.commanded,
+            _ if waits => self.start,
+            _ => {
+                let prediction = antenna.prediction.filter(|_| antenna.tracks())?;
+                (prediction.at == measured.at).then(|| prediction.direction.into())
+            }
+        }
+    }
+
+    /// An antenna that is off by more than `follows_within_deg` does not follow.
+    fn take(&mut self, look: Look, swing_deg: f64, follows_within_deg: f64) -> bool {
+        self.looks.retain(|from| look.asked.saturating_duration_since(from.asked) <= KEPT);
+        if self.looks.iter().any(|from| look.is_turned_since(from, swing_deg)) {
+            // One position alone may be misread.
+            let is_turned = std::mem::replace(&mut self.is_off, true);
+            if is_turned {
+                self.looks.clear();
+            }
+            return is_turned;
+        }
+        self.is_off = false;
+        if look.off.degrees() > follows_within_deg {
+            self.looks.clear();
+        } else {
+            self.looks.push_back(look);
+        }
+        false
+    }
+}
+
+impl Look {
+    /// Further off than an antenna that has stood still since `from`.
+    fn is_turned_since(&self, from: &Self, swing_deg: f64) -> bool {
+        let moved = self.target.separation(from.target).unwrap_or(Angle::ZERO);
+        self.off.degrees() > from.off.degrees() + moved.degrees() + swing_deg
+    }
+}
+
+/// Returns `true` if the next turn of the azimuth axis may be the long one.
+fn is_near_end(antenna: &AntennaModel) -> bool {
+    let state = &antenna.snapshot.state;
+    let [(from_deg, to_deg), _] = antenna.config.mount.within(state.travel_deg).travel_deg();
+    let angle_deg = state.measured.and_then(|measured| measured.axes.first()?.angle_deg);
+    to_deg - from_deg > 180.0
+        && angle_deg.is_some_and(|at| at - from_deg < NEAR_END_DEG || to_deg - at < NEAR_END_DEG)
+}
+
+#[cfg(test)]
+mod tests {
+    use proptest::prelude::*;
+
+    use super::*;
+    use crate::astro::AzEl;
+
+    /// Interval of looks, seconds.
+    const LOOK_S: f64 = 0.5;
+
+    fn course(offs_deg: impl IntoIterator<Item = (f64, f64)>) -> Option<usize> {
+        let (mut course, began) = (Course::default(), Instant::now());
+        offs_deg.into_iter().enumerate().position(|(look, (azimuth_deg, off_deg))| {
+            let look = Look {
+                asked: began + Duration::from_secs_f64(LOOK_S * look as f64),
+                off: Angle::from_degrees(off_deg),
+                target: AzEl::from_degrees(azimuth_deg, 0.0).into(),
+            };
+            course.take(look, SWINGS_DEG, 2.0 + SWINGS_DEG)
+        })
+    }
+
+    proptest! {
+        #[test]
+        fn drives_that_turn_towards_the_satellite_are_nobody_elses(
+            rate_deg_s in 0.0..3.0_f64,
+            start_deg in -40.0..40.0_f64,
+            most_deg_s in prop::collection::vec(0.0..6.0_f64, 200),
+        ) {
+            // Also with drives that are too weak, or that stop, and by any way to the satellite.
+            let mut at_deg = start_deg;
+            let looks = most_deg_s.iter().enumerate().map(|(look, most_deg_s)| {
+                let satellite_deg = rate_deg_s * LOOK_S * look as f64;
+                let most_deg = most_deg_s * LOOK_S;
+                at_deg += (satellite_deg - at_deg).clamp(-most_deg, most_deg);
+                (satellite_deg, (satellite_deg - at_deg).abs())
+            });
+            prop_assert_eq!(course(looks), None);
+        }
+
+        #[test]
+        fn one_that_is_turned_away_is_seen_within_two_looks(
+            rate_deg_s in 0.0..1.0_f64,
+            error_deg in 0.0..2.0_f64,
+            turned_deg in 8.0..90.0_f64,
+        ) {
+            let looks = (0..30).map(|look| {
+                let off_deg = if look < 10 { error_deg } else { turned_deg };
+                (rate_deg_s * LOOK_S * f64::from(look), off_deg)
+            });
+            prop_assert_eq!(course(looks), Some(11));
+        }
+
+        #[test]
+        fn one_that_is_turned_away_slowly_is_seen_once_it_is_off_its_path(
+            rate_deg_s in 0.0..0.5_f64,
+            turns_deg_s in 1.5..6.0_f64,
+        ) {
+            let looks = (0..60).map(|look| {
+                let turned_s = LOOK_S * f64::from((look - 20).max(0));
+                (rate_deg_s * LOOK_S * f64::from(look), turns_deg_s * turned_s)
+            });
+            let seen = course(looks);
+            prop_assert!(seen.is_some_and(|look| look < 40), "{seen:?}");
+        }
+    }
+
+    #[test]
+    fn one_position_that_is_misread_turns_nothing() {
+        let looks = (0..100).map(|look| (0.0, if look % 20 == 19 { 70.0 } else { 0.1 }));
+        assert_eq!(course(looks), None);
+    }
+}
