@@ -9,6 +9,7 @@ use egui::{Key, Modifiers, Ui};
 use super::{
     confirm::Question, console::ConsoleState, elements::ElementsState, map::MapState,
     operate::OperateState, plan::PlanState, preferences::PreferencesState, record::RecordState,
+    widgets::menu,
 };
 use crate::{
     astro::{Angle, Offset},
@@ -373,8 +374,9 @@ pub struct KeyTargets<'a> {
 
 /// Handles the keys of this frame.
 pub fn take(ui: &Ui, model: &Model, targets: &mut KeyTargets<'_>, commands: &mut Vec<UiCommand>) {
-    // A typed letter is no shortcut, and a dialog has keys of its own.
+    // A typed letter is no shortcut, and a dialog and a menu have keys of their own.
     let typing = ui.text_edit_focused()
+        || menu::is_open(ui)
         || targets.question.is_some()
         || *targets.list_open
         || targets.preferences.waits_for_key();

@@ -430,6 +430,37 @@ fn the_plan_is_saved_to_a_file() {
 }
 
 #[test]
+fn the_arrows_lead_through_a_menu_and_not_through_the_list_behind_it() {
+    let mut window = view(LARGE);
+    window.get_by_role_and_label(Role::ComboBox, "Export the plan").click();
+    settle(&mut window);
+    window.state_mut().commands.clear();
+    let focused = |window: &Window| {
+        window
+            .query_all_by_role(Role::Button)
+            .find(|entry| entry.is_focused())
+            .and_then(|entry| entry.accesskit_node().label())
+    };
+    for (key, entry) in [
+        (Press::ArrowDown, "Hand-over sheet (SVG)…"),
+        (Press::ArrowDown, "Plan as a table…"),
+        (Press::ArrowDown, "Plan as CSV…"),
+        (Press::ArrowUp, "Plan as a table…"),
+    ] {
+        window.key_press(key);
+        settle(&mut window);
+        assert_eq!(focused(&window).as_deref(), Some(entry));
+    }
+    // Swaps a pass where no menu is open.
+    window.key_press(Press::S);
+    settle(&mut window);
+    assert_eq!(window.query_all_by_label_contains("Take it (Enter)").count(), 0);
+    window.key_press(Press::Enter);
+    let wanted = Export::Schedule { format: ScheduleFormat::Table };
+    assert_eq!(rig::asked(&mut window), [UiCommand::Save(wanted)], "and no other pass is selected");
+}
+
+#[test]
 fn the_hand_over_sheet_is_saved_to_a_file() {
     for size in SIZES {
         let mut window = view(size);

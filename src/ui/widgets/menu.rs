@@ -1,13 +1,17 @@
 //! The menu that a control opens.
 
-use egui::{Popup, Response, Ui};
+use egui::{FocusDirection, Id, Key, Popup, Response, Ui};
 
 /// Shows `popup` with the menu of `opener`. An entry that is chosen closes it, by keys as by the
 /// pointer, and by keys the focus goes back to `opener`.
 pub fn show(opener: &Response, popup: Popup<'_>, contents: impl FnOnce(&mut Ui)) {
     let shown = popup.show(|ui| {
         contents(ui);
-        let is_chosen = chosen_by_key(ui);
+        let entries = entries(ui);
+        take_arrows(ui, &entries);
+        let pass = ui.cumulative_pass_nr();
+        ui.data_mut(|data| data.insert_temp(shown_in(), pass));
+        let is_chosen = chosen_by_key(ui, &entries);
         if is_chosen {
             ui.close();
         }
@@ -18,15 +22,51 @@ pub fn show(opener: &Response, popup: Popup<'_>, contents: impl FnOnce(&mut Ui))
     }
 }
 
-/// Whether an entry was chosen without the pointer, whose clicks close the menu anyway.
-fn chosen_by_key(ui: &Ui) -> bool {
-    if ui.input(|input| input.pointer.any_click()) {
-        return false;
-    }
+/// The pass in which a menu was shown last.
+fn shown_in() -> Id {
+    Id::unique("menu shown in")
+}
+
+/// Whether a menu is open. Its keys are not those of the view behind it.
+pub fn is_open(ui: &Ui) -> bool {
+    let pass = ui.data(|data| data.get_temp::<u64>(shown_in()));
+    pass.is_some_and(|pass| pass + 1 >= ui.cumulative_pass_nr())
+}
+
+/// The entries that can be chosen, in their order.
+fn entries(ui: &Ui) -> Vec<Id> {
     let layer = ui.layer_id();
-    let entries: Vec<_> = ui.viewport(|viewport| {
+    ui.viewport(|viewport| {
         let widgets = viewport.this_pass.widgets.get_layer(layer);
-        widgets.filter(|of| of.enabled && of.sense.senses_click()).map(|of| of.id).collect()
+        widgets.filter(|of| of.enabled && of.sense.is_focusable()).map(|of| of.id).collect()
+    })
+}
+
+/// The arrows lead from entry to entry, also in a menu that the pointer has opened.
+fn take_arrows(ui: &Ui, entries: &[Id]) {
+    let [up, down] =
+        [Key::ArrowUp, Key::ArrowDown].map(|key| ui.input(|input| input.key_pressed(key)));
+    if up == down {
+        return;
+    }
+    let focused = ui.memory(|memory| memory.focused());
+    let place = focused.and_then(|id| entries.iter().position(|entry| *entry == id));
+    let next = match place {
+        Some(place) if up => place.checked_sub(1),
+        Some(place) => place.checked_add(1).filter(|next| *next < entries.len()),
+        None if up => entries.len().checked_sub(1),
+        None => Some(0),
+    };
+    ui.memory_mut(|memory| {
+        memory.move_focus(FocusDirection::None);
+        if let Some(next) = next.and_then(|next| entries.get(next)) {
+            memory.request_focus(*next);
+        }
     });
-    entries.into_iter().any(|id| ui.read_response(id).is_some_and(|entry| entry.clicked()))
+}
+
+/// Whether an entry was chosen without the pointer, whose clicks close the menu anyway.
+fn chosen_by_key(ui: &Ui, entries: &[Id]) -> bool {
+    let is_clicked = |id: &Id| ui.read_response(*id).is_some_and(|entry| entry.clicked());
+    !ui.input(|input| input.pointer.any_click()) && entries.iter().any(is_clicked)
 }
