@@ -11,7 +11,7 @@
 use std::{hint::black_box, path::Path, time::Instant};
 
 use azel::{
-    astro::{Angle, Site, time::add_seconds},
+    astro::{Angle, PointingModel, Site, time::add_seconds},
     clock::Clock,
     device::Pointing,
     driver::TimeSync,
@@ -88,6 +88,7 @@ fn note(
             tracked_by: TrackedBy::OnBoard,
             sent: None,
             offsets: FlownOffsets::default(),
+            pointing_model: PointingModel::default(),
             unit_clock_ahead_s: Some(-0.3),
             sync: TimeSync::Synchronised,
         },

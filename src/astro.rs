@@ -6,6 +6,7 @@ pub mod frames;
 mod ground;
 mod horizon_mask;
 mod locator;
+mod pointing_model;
 mod site;
 pub mod sun_moon;
 pub mod time;
@@ -20,6 +21,7 @@ pub use horizon_mask::{
     HorizonMask, MAX_MASK_POINTS, MaskError, MaskForm, MaskImportError, MaskTextError,
 };
 pub use locator::{LocatorError, LocatorSquare, read_locator};
+pub use pointing_model::{PointingModel, Term};
 pub use site::{Site, SiteError};
 pub use track_offsets::{MAX_ANGLE_OFFSET, MAX_TIME_OFFSET, Offset, TrackOffsets};
 pub use zone::{MAX_CORNERS, MIN_CORNERS, Zone, ZoneError};

@@ -6,7 +6,7 @@ use std::{
 };
 
 use azel::{
-    astro::{Angle, AzEl, Site, time::add_seconds},
+    astro::{Angle, AzEl, PointingModel, Site, time::add_seconds},
     clock::Clock,
     device::Pointing,
     driver::TimeSync,
@@ -15,7 +15,6 @@ use azel::{
     plan::{
         MountLimits, Trackability,
         pass_report::{FlownOffsets, MeasuredPosition, TrackedPass},
-        pointing::PointingModel,
     },
     record::{AboutTrack, PassNote, RecordedReport, Recorder, TrackedBy},
     station::{Antenna, Retention, load},
@@ -93,6 +92,7 @@ fn fly(recorder: &Recorder, antenna: &Antenna, site: Site, number: u32, seed: &m
                     tracked_by: TrackedBy::ProgramTrack,
                     sent: None,
                     offsets: FlownOffsets::default(),
+                    pointing_model: PointingModel::default(),
                     unit_clock_ahead_s: None,
                     sync: TimeSync::Synchronised,
                 },

@@ -13,11 +13,11 @@ use serde::Serialize;
 
 use super::{input, passes::written, record::record_of};
 use crate::{
-    astro::{AzEl, Site, time::seconds_between},
+    astro::{AzEl, PointingModel, Site, Term, time::seconds_between},
     makes,
     plan::{
         pass_report::TrackPoint,
-        pointing::{self, Fit, Kind, Point, Term},
+        pointing::{self, Fit, Kind, Point},
     },
     record::{self, PassQuery},
     station::{self, Antenna, Mount, Station},
@@ -117,7 +117,10 @@ pub(super) fn run(station: Option<&Path>, options: &Options) -> anyhow::Result<E
         }),
     };
     written.context("The pointing model cannot be written")?;
-    input::note("Nothing of it is applied, here or by the window.");
+    input::note(
+        "Nothing of it is applied. Preferences, the page of the antenna, takes it over for the tracks \
+         that Azel leads.",
+    );
     Ok(ExitCode::SUCCESS)
 }
 
@@ -156,13 +159,14 @@ fn recorded(
     let (mut count, mut points) = (0, Vec::new());
     for pass in page.passes.iter().filter(|pass| counts(pass.report.until)) {
         let before = points.len();
-        points.extend(thinned(&record::track(path, pass, site).with_context(unread)?));
+        let model = &pass.report.about.pointing_model;
+        points.extend(thinned(&record::track(path, pass, site).with_context(unread)?, model));
         count += usize::from(points.len() > before);
     }
     Ok((count, points))
 }
 
-fn thinned(track: &[TrackPoint]) -> Vec<Point> {
+fn thinned(track: &[TrackPoint], flown_with: &PointingModel) -> Vec<Point> {
     let mut last: Option<Timestamp> = None;
     let near = track.iter().filter(|point| point.error.off_deg <= NEAR_DEG);
     let apart = near.filter(|point| {
@@ -175,7 +179,8 @@ fn thinned(track: &[TrackPoint]) -> Vec<Point> {
     let point = |point: &TrackPoint| Point {
         kind: Kind::Satellite,
         wanted: point.satellite,
-        measured: point.antenna,
+        // What the axes read.
+        measured: flown_with.reading(point.antenna).unwrap_or(point.antenna),
         weight: 1.0,
     };
     apart.map(point).collect()
@@ -249,10 +254,10 @@ fn table(told: &Told<'_>, out: &mut impl Write) -> io::Result<()> {
     writeln!(out, "\n{:<20}  {:>11}  {:>9}", "Term", "Value", "95 %")?;
     for of in &told.terms {
         write!(out, "{:<20}", name(of.term))?;
-        let (unit, times) =
-            if of.term == Term::ElevationScale { ("%", 100.0) } else { ("°", 1.0) };
+        // As in the fields of Preferences.
+        let (unit, digits) = if of.term == Term::ElevationScale { ("°/°", 6) } else { ("°", 4) };
         if let (Some(value), Some(half)) = (of.value, of.half_of_95_percent) {
-            writeln!(out, "  {:>+10.4}{unit}  ±{:.4}{unit}", value * times, half * times)?;
+            writeln!(out, "  {value:>+10.digits$}{unit}  ±{half:.digits$}{unit}")?;
         } else {
             let with: Vec<&str> = of.not_told_from.iter().map(|term| name(*term)).collect();
             writeln!(out, "  not told from: {}", with.join(", "))?;

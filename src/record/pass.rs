@@ -4,7 +4,8 @@ use jiff::Timestamp;
 use serde::{Deserialize, Serialize};
 
 use crate::{
-    astro::Site,
+    astro::{Angle, AzEl, PointingModel, Site},
+    device::Pointing,
     driver::TimeSync,
     orbit::Elements,
     plan::pass_report::{Explanation, FlownOffsets, MeasuredPosition, PassReport},
@@ -53,10 +54,34 @@ pub struct AboutTrack {
     /// Offsets of program track.
     #[serde(default)]
     pub offsets: FlownOffsets,
+    /// Pointing model of program track.
+    #[serde(default, skip_serializing_if = "PointingModel::is_none")]
+    pub pointing_model: PointingModel,
     /// The unit's clock against that of this computer, seconds.
     pub unit_clock_ahead_s: Option<f64>,
     /// Whether a time service keeps the clock of this computer.
     pub sync: TimeSync,
+}
+
+impl AboutTrack {
+    /// Where the antenna pointed on the sky at a position of its axes.
+    #[must_use]
+    pub fn on_the_sky(&self, flown: MeasuredPosition) -> MeasuredPosition {
+        let model = &self.pointing_model;
+        let pointing = match flown.pointing {
+            pointing if model.is_none() => pointing,
+            Pointing { azimuth: Some(azimuth), elevation: Some(elevation) } => {
+                model.direction(AzEl { azimuth, elevation }).into()
+            }
+            // Only an offset is applied to an azimuth axis alone.
+            Pointing { azimuth, elevation } => {
+                let offset = Angle::from_degrees(model.azimuth_offset_deg);
+                let azimuth = azimuth.map(|azimuth| (azimuth - offset).wrapped_360());
+                Pointing { azimuth, elevation }
+            }
+        };
+        MeasuredPosition { pointing, ..flown }
+    }
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]

@@ -7,7 +7,7 @@ use rusqlite::{Connection, Row as SqlRow, named_params};
 use serde::{Deserialize, Serialize};
 
 use super::{
-    Kind, Query, Record, RecordError, RecordedReport, Row, RowKind,
+    AboutTrack, Kind, Query, Record, RecordError, RecordedReport, Row, RowKind,
     file::{self, PER_DEGREE},
 };
 use crate::{
@@ -16,7 +16,7 @@ use crate::{
     orbit::Propagator,
     plan::{
         Sample,
-        pass_report::{FlownOffsets, MeasuredPosition, PassVerdict, TrackPoint},
+        pass_report::{MeasuredPosition, PassVerdict, TrackPoint},
     },
     station::AntennaId,
 };
@@ -93,8 +93,7 @@ pub fn open_pass(path: &Path, id: i64, site: Site) -> Result<Option<OpenedPass>,
     let site = report.site.unwrap_or(site);
     let (track, predicted) = match Propagator::new(&report.elements) {
         Ok(propagator) => {
-            let offsets = &report.about.offsets;
-            let track = track_of(&passes.points(id)?, &propagator, site, offsets);
+            let track = track_of(&passes.points(id)?, &propagator, site, &report.about);
             (track, path_of(&propagator, site, report))
         }
         Err(_) => (Vec::new(), Vec::new()),
@@ -119,7 +118,7 @@ pub fn track(path: &Path, pass: &RecordedPass, site: Site) -> Result<Vec<TrackPo
     let passes = Passes { db: file::open_to_read(path)? };
     let Ok(propagator) = Propagator::new(&pass.report.elements) else { return Ok(Vec::new()) };
     let (points, site) = (passes.points(pass.id)?, pass.report.site.unwrap_or(site));
-    Ok(track_of(&points, &propagator, site, &pass.report.about.offsets))
+    Ok(track_of(&points, &propagator, site, &pass.report.about))
 }
 
 /// Where the antenna pointed, with its error from where it should have pointed.
@@ -127,16 +126,17 @@ fn track_of(
     flown: &[MeasuredPosition],
     propagator: &Propagator,
     site: Site,
-    offsets: &FlownOffsets,
+    about: &AboutTrack,
 ) -> Vec<TrackPoint> {
     let has_elevation = flown.iter().any(|flown| flown.pointing.elevation.is_some());
     let point = |flown: &MeasuredPosition| {
         let compared = |flown| TrackPoint::new(propagator, site, has_elevation, flown);
-        if offsets.changes().is_empty() {
-            return compared(*flown);
+        let flown = about.on_the_sky(*flown);
+        if about.offsets.changes().is_empty() {
+            return compared(flown);
         }
-        let TrackPoint { antenna, .. } = compared(*flown)?;
-        let beside = compared(offsets.taken_off(propagator, site, *flown))?;
+        let TrackPoint { antenna, .. } = compared(flown)?;
+        let beside = compared(about.offsets.taken_off(propagator, site, flown))?;
         Some(TrackPoint { antenna, ..beside })
     };
     flown.iter().filter_map(point).collect()

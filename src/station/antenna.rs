@@ -9,7 +9,7 @@ use super::{
     TrackSettings, is_default,
 };
 use crate::{
-    astro::{Angle, AzEl},
+    astro::{Angle, AzEl, PointingModel},
     device::Controller,
 };
 
@@ -51,6 +51,9 @@ pub struct Antenna {
     pub poll: PollRates,
     /// Settings for program track.
     pub follow: TrackSettings,
+    /// Pointing model of an az/el mount, for program track.
+    #[serde(skip_serializing_if = "PointingModel::is_none")]
+    pub pointing_model: PointingModel,
     /// Reaction of the monitor when somebody else drives the antenna into a forbidden
     /// direction.
     #[serde(skip_serializing_if = "is_default")]
@@ -123,6 +126,28 @@ impl Antenna {
     pub fn longest_slew_s(&self) -> f64 {
         let spans = self.mount.travel_deg().map(|(from_deg, to_deg)| to_deg - from_deg);
         spans.into_iter().fold(0.0, f64::max) / self.limits.maximum_rate_deg_s
+    }
+
+    /// The mount as program track uses it. A pointing model holds on this side of the zenith.
+    pub fn track_mount(&self) -> Mount {
+        let Mount::AzEl { .. } = self.mount else { return self.mount };
+        let ends_deg = (f64::MIN, if self.pointing_model.is_none() { f64::MAX } else { 90.0 });
+        self.mount.within([None, Some(ends_deg)])
+    }
+
+    /// The pointing model that program track applies.
+    pub fn track_model(&self) -> PointingModel {
+        match self.mount {
+            Mount::AzEl { .. } if self.connection.variant().capabilities.has_elevation() => {
+                self.pointing_model
+            }
+            // Without an elevation axis nothing tells the other terms.
+            Mount::AzEl { .. } => PointingModel {
+                azimuth_offset_deg: self.pointing_model.azimuth_offset_deg,
+                ..PointingModel::default()
+            },
+            Mount::Xy { .. } => PointingModel::default(),
+        }
     }
 
     /// Time from the end of one pass until it can go to the next, seconds.

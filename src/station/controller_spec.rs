@@ -8,7 +8,10 @@ use super::{
     Monitor, MotionLimits, Mount, PollRates, Resume, Setting, TrackSettings,
     connection::{check_address, check_line},
 };
-use crate::device::{Controller, ElementFiles, Explained, Variant, WireLine};
+use crate::{
+    astro::PointingModel,
+    device::{Controller, ElementFiles, Explained, Variant, WireLine},
+};
 
 /// A make of controller. Everything that an antenna of it needs follows from
 /// here, but for its simulator, which is no part of a station.
@@ -99,6 +102,7 @@ impl ControllerSpec {
             poll,
             follow,
             monitor: Monitor::default(),
+            pointing_model: PointingModel::default(),
             sway_deg: DEFAULT_SWAY_DEG,
             resume: Resume::default(),
             resume_after_s: DEFAULT_RESUME_AFTER_S,

@@ -82,3 +82,8 @@ pub const SET_UP_S: RangeInclusive<f64> = 0.0..=600.0;
 pub const RAW_DAYS: RangeInclusive<f64> = 0.04..=3650.0;
 /// How long everything else is kept, years.
 pub const RECORD_YEARS: RangeInclusive<f64> = 0.1..=100.0;
+
+/// A term of a pointing model, degrees.
+pub const POINTING_TERM_DEG: RangeInclusive<f64> = -10.0..=10.0;
+/// Its scale of the elevation, degrees a degree.
+pub const POINTING_SCALE: RangeInclusive<f64> = -0.05..=0.05;

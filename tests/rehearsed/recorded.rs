@@ -6,22 +6,23 @@ use std::{
 };
 
 use azel::{
-    astro::{Angle, Offset, TrackOffsets},
+    astro::{Angle, Offset, PointingModel, TrackOffsets},
     engine::{
         Client, Command, record_path,
         recorded::{Found, RecordLook},
     },
+    makes,
     orbit::{Pass, PassSearch, Propagator, bundled, passes},
     plan::pass_report::{Cause, LossCause, PassReport, PassVerdict},
     record::{Kind, PassQuery, Query, Record, Row, RowKind},
     sim::{InMemory as _, Trouble},
-    station::{OffsetsOf, Station},
+    station::{self, OffsetsOf, Station},
 };
 use jiff::{SignedDuration, ToSpan as _};
 use tokio::time::sleep;
 
 use super::scene::{Scene, operation, set_automatic};
-use crate::common::units::{antenna, measured, start, station, until};
+use crate::common::units::{self, antenna, measured, start, until};
 
 pub(super) const ISS: u32 = 25_544;
 
@@ -85,7 +86,7 @@ pub(super) async fn track(client: &Client, name: &str) {
 
 #[tokio::test(start_paused = true)]
 async fn a_pass_that_was_tracked_is_reported_when_it_is_over() {
-    let station = Station { favourites: [ISS].into(), ..station() };
+    let station = Station { favourites: [ISS].into(), ..units::station() };
     let pass = next_pass(&station);
     let scene = Scene::recorded(pass.aos.time - 4.minutes(), &station);
     let client = scene.client();
@@ -136,8 +137,53 @@ async fn a_pass_that_was_tracked_is_reported_when_it_is_over() {
 }
 
 #[tokio::test(start_paused = true)]
+async fn with_a_pointing_model_the_axes_read_otherwise_and_the_report_tells_no_error_of_it() {
+    let model = PointingModel {
+        azimuth_offset_deg: 4.0,
+        elevation_offset_deg: -1.5,
+        tilt_east_deg: 0.8,
+        ..PointingModel::default()
+    };
+    let mut station = Station { favourites: [ISS].into(), ..units::station() };
+    let mast = station.antennas.iter_mut().find(|of| of.name == "Mast").unwrap();
+    mast.pointing_model = model;
+    let pass = next_pass(&station);
+    let scene = Scene::recorded(pass.aos.time - 4.minutes(), &station);
+    let file = scene.folder().join("station.toml");
+    let read = station::load(&file, makes::SPECS).unwrap().station;
+    assert!(read.antennas.iter().any(|of| of.name == "Mast" && of.pointing_model == model));
+    let client = scene.client();
+    track(&client, "Mast").await;
+    let propagator = Propagator::new(bundled().unwrap().get(ISS).unwrap()).unwrap();
+    let [read, on_sky] = until("the track", || {
+        let snapshot = client.snapshot();
+        let mast = snapshot.antennas.iter().find(|of| of.config.name == "Mast")?;
+        mast.error().filter(|error| error.off_beam.degrees() < 1.5)?;
+        let at = mast.snapshot.state.measured?;
+        let read = at.direction()?;
+        let satellite = propagator.look_from(station.site, at.at).ok()?.direction;
+        let is_high = satellite.elevation_deg() > 6.0;
+        is_high
+            .then_some([read, model.direction(read)].map(|of| of.separation(satellite).degrees()))
+    })
+    .await;
+    assert!(read > 2.5 && on_sky < 1.5, "{read} {on_sky}");
+    let reports = reports(&scene).await;
+    let told = &reports[0].data["report"];
+    assert_eq!(told["pointing_model"], serde_json::to_value(model).unwrap());
+    let report: PassReport = serde_json::from_value(told.clone()).unwrap();
+    assert!(report.share() > 0.9 && report.rms.unwrap().off_deg < 1.5, "{report:?}");
+    let query = PassQuery { count: 10, ..PassQuery::default() };
+    let listed = look(&client, &RecordLook { query: query.clone(), opened: None }).await;
+    let opened = Some(listed.page.passes[0].id);
+    let opened = look(&client, &RecordLook { query, opened }).await.opened.unwrap();
+    let median = &opened.track[opened.track.len() / 2];
+    assert!(median.antenna.separation(median.satellite).degrees() < 1.5, "{median:?}");
+}
+
+#[tokio::test(start_paused = true)]
 async fn a_pass_is_flown_with_the_offsets_that_are_remembered_and_reported_beside_them() {
-    let mut station = Station { favourites: [ISS].into(), ..station() };
+    let mut station = Station { favourites: [ISS].into(), ..units::station() };
     let mast = station.antennas.iter().find(|of| of.name == "Mast").unwrap().id;
     let with = |step| TrackOffsets::NONE.plus(step).unwrap();
     let azimuth = with(Offset::Azimuth(Angle::from_degrees(6.0)));
@@ -161,7 +207,7 @@ async fn a_pass_is_flown_with_the_offsets_that_are_remembered_and_reported_besid
 
 #[tokio::test(start_paused = true)]
 async fn while_a_unit_tracks_by_itself_its_late_clock_is_told_by_the_error() {
-    let station = Station { favourites: [ISS].into(), ..station() };
+    let station = Station { favourites: [ISS].into(), ..units::station() };
     let pass = next_pass(&station);
     let scene = Scene::recorded(pass.aos.time - 4.minutes(), &station);
     let client = scene.client();
@@ -188,7 +234,7 @@ async fn while_a_unit_tracks_by_itself_its_late_clock_is_told_by_the_error() {
 
 #[tokio::test(start_paused = true)]
 async fn a_pass_under_way_is_reported_when_the_program_ends() {
-    let station = Station { favourites: [ISS].into(), ..station() };
+    let station = Station { favourites: [ISS].into(), ..units::station() };
     let pass = next_pass(&station);
     let scene = Scene::recorded(pass.aos.time - 4.minutes(), &station);
     let client = scene.client();
@@ -216,7 +262,7 @@ async fn look(client: &Client, look: &RecordLook) -> Found {
 
 #[tokio::test(start_paused = true)]
 async fn what_automatic_operation_does_is_in_the_record() {
-    let station = Station { favourites: [ISS].into(), ..station() };
+    let station = Station { favourites: [ISS].into(), ..units::station() };
     let pass = next_pass(&station);
     let scene = Scene::recorded(pass.aos.time - 6.minutes(), &station);
     let client = scene.client();

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use azel::{
-    astro::{Angle, AzEl, Offset, TrackOffsets, time::add_seconds},
+    astro::{Angle, AzEl, Offset, PointingModel, TrackOffsets, time::add_seconds},
     device::{
         Pointing,
         settings::{Change, Value, Written},
@@ -121,6 +121,7 @@ fn opened(model: &Model, id: i64, pass: &Pass, verdict: PassVerdict) -> OpenedPa
             tracked_by: TrackedBy::OnBoard,
             sent: None,
             offsets: FlownOffsets::default(),
+            pointing_model: PointingModel::default(),
             unit_clock_ahead_s: Some(-LATE_S),
             sync: TimeSync::Synchronised,
         },

@@ -18,9 +18,9 @@ pub(in crate::driver) struct Demand {
     pub(in crate::driver) at: Timestamp,
     /// By the axes.
     pub(in crate::driver) axes: AzEl,
-    /// On the sky, if the offsets of the axes make up for an error of the mount.
+    /// On the sky, if the offsets of the axes and the pointing model make up for errors of the mount.
     pub(in crate::driver) sky: AzEl,
-    /// With an offset of the time alone.
+    /// By the axes, with an offset of the time alone.
     pub(in crate::driver) plain: AzEl,
 }
 

@@ -126,7 +126,8 @@ fn most(step: Offset) -> Offset {
 /// Where the track leads with these offsets, now or at the start of its pass.
 fn demand(track: &Tracking, offsets: TrackOffsets, now: Moment) -> Option<Demand> {
     let at = track.phase.begins(now.utc);
-    let [axes, sky, plain] = [offsets, offsets.on_the_sky(), offsets.of_time()]
-        .map(|offsets| track.planner.demanded(at, offsets));
+    let [axes, plain] =
+        [offsets, offsets.of_time()].map(|offsets| track.planner.demanded(at, offsets));
+    let sky = track.planner.on_the_sky(at, offsets);
     Some(Demand { at, axes: axes?, sky: sky?, plain: plain? })
 }

@@ -51,7 +51,7 @@ impl Session {
     pub(super) fn follow(&mut self, follow: ProgramTrack, now: Moment) -> bool {
         let name = follow.target.name().into_owned();
         tracing::info!(antenna = self.name, name, passes = follow.passes.len(), "follow");
-        let TrackConfig { mut drives, settings } = self.setup.track_config;
+        let TrackConfig { mut drives, settings, model } = self.setup.track_config;
         drives.mount = drives.mount.within(self.gate.state().travel_deg);
         let follow =
             if settings.after == AfterPass::Next { follow } else { follow.one_pass(now.utc) };
@@ -60,7 +60,8 @@ impl Session {
             Err(TrackProblem::NoPass)
         } else {
             let bounds = self.gate.bounds_in(Intent::Track).clone();
-            Planner::new(follow, drives, settings, bounds).map_err(TrackProblem::Orbit)
+            let planner = Planner::new(follow, drives, settings, bounds);
+            planner.map(|planner| planner.with_model(model)).map_err(TrackProblem::Orbit)
         };
         if let Ok(planner) = &planned {
             let to_sky = planner.to_sky(phase.begins(now.utc), planner.offsets());

@@ -210,7 +210,7 @@ impl PredictedPass {
 /// What the trackability of a pass depends on.
 pub fn mount_limits(antenna: &Antenna) -> MountLimits {
     MountLimits {
-        mount: antenna.mount,
+        mount: antenna.track_mount(),
         maximum_rate_deg_s: antenna.limits.maximum_rate_deg_s,
         half_beam: Angle::from_degrees(antenna.beam_width_deg / 2.0),
         has_elevation: antenna.connection.variant().capabilities.has_elevation(),

@@ -60,13 +60,13 @@ impl Followed {
         let mut young: Vec<MeasuredPosition> = young.collect();
         young.reverse();
         let (propagator, site) = (self.propagator.clone(), self.site);
-        let offsets = self.about.offsets.clone();
+        let about = self.about.clone();
         let (has_elevation, mount) = (self.limits.has_elevation, self.limits.mount);
         let least_deg = self.limits.half_beam.degrees() * LEAST_SHARE;
         let started = Job::start("azel-explain", Wake::clone(wake), move |_| {
             young.retain(|flown| is_in_reach(&propagator, site, mount, flown.time));
             for flown in &mut young {
-                *flown = offsets.taken_off(&propagator, site, *flown);
+                *flown = about.offsets.taken_off(&propagator, site, about.on_the_sky(*flown));
             }
             let measured = directions(&young, has_elevation);
             Evidence::new(&propagator, site, measured, has_elevation).explained(least_deg)

@@ -8,7 +8,7 @@ use jiff::Timestamp;
 use super::{Recording, live::Live};
 use crate::{
     astro::{
-        Angle, AzEl, Site,
+        Angle, AzEl, PointingModel, Site,
         time::{add_seconds, seconds_between},
     },
     driver::{PositionLog, TimeSync, TrackView},
@@ -207,8 +207,19 @@ fn about(antenna: &AntennaModel, begun: Timestamp, sync: TimeSync) -> AboutTrack
         () if antenna.tracks_unasked() => TrackedBy::Elsewhere,
         () => TrackedBy::OnBoard,
     };
-    let offsets = FlownOffsets::default();
-    AboutTrack { begun, tracked_by, sent: None, offsets, unit_clock_ahead_s: None, sync }
+    let pointing_model = match tracked_by {
+        TrackedBy::ProgramTrack => antenna.config.track_model(),
+        TrackedBy::OnBoard | TrackedBy::Elsewhere => PointingModel::default(),
+    };
+    AboutTrack {
+        begun,
+        tracked_by,
+        sent: None,
+        offsets: FlownOffsets::default(),
+        pointing_model,
+        unit_clock_ahead_s: None,
+        sync,
+    }
 }
 
 impl Followed {
@@ -253,7 +264,8 @@ impl Followed {
 
     fn note(self, history: Option<&History>) -> PassNote {
         let (of, site) = (&self.propagator, self.site);
-        let taken_off = |flown| self.about.offsets.taken_off(of, site, flown);
+        let taken_off =
+            |flown| self.about.offsets.taken_off(of, site, self.about.on_the_sky(flown));
         let flown: Vec<MeasuredPosition> = self.flown.iter().copied().map(taken_off).collect();
         let tracked = TrackedPass {
             propagator: &self.propagator,

@@ -3,11 +3,8 @@
 use jiff::Timestamp;
 use serde::{Deserialize, Serialize};
 
-use super::{
-    PointingModel, Term,
-    least_squares::{Normal, Square},
-};
-use crate::astro::{AzEl, Site, sun_moon};
+use super::least_squares::{Normal, Square};
+use crate::astro::{AzEl, PointingModel, Site, Term, sun_moon};
 
 /// Rounds of a fit: each leaves less than a tenth of what was there, and terms of some degrees are
 /// found to a millionth.

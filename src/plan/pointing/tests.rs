@@ -4,7 +4,7 @@ use jiff::Timestamp;
 
 use super::*;
 use crate::{
-    astro::{Site, sun_moon},
+    astro::{Angle, AzEl, PointingModel, Site, Term, sun_moon},
     plan::schedule::testing::Random,
 };
 

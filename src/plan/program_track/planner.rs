@@ -12,7 +12,7 @@ use super::{
 };
 use crate::{
     astro::{
-        AzEl, TrackOffsets,
+        AzEl, PointingModel, TrackOffsets,
         time::{add_seconds, seconds_between},
     },
     clock::Instant,
@@ -66,6 +66,12 @@ impl Planner {
         Ok(Self { follow, course, offsets, drives, settings, bounds, path, is_stale, axes })
     }
 
+    /// The same for an antenna with this pointing model.
+    #[must_use]
+    pub fn with_model(self, model: PointingModel) -> Self {
+        Self { course: self.course.with_model(model), ..self }
+    }
+
     /// The next passes begin with these offsets.
     pub fn begin_with(&mut self, offsets: TrackOffsets) {
         self.follow.offsets = offsets;
@@ -93,23 +99,28 @@ impl Planner {
         &self.follow
     }
 
-    /// Direction to point in at `at` with these offsets; `None` once the target has decayed.
+    /// What the axes have to read at `at` with these offsets; `None` once the target has decayed.
     pub fn demanded(&self, at: Timestamp, offsets: TrackOffsets) -> Option<AzEl> {
         self.course.demanded(at, offsets)
     }
 
-    /// From where the axes point with these offsets at `at` to where that is on the sky, if the
-    /// offsets of the axes make up for an error of the mount; `None` without such offsets.
-    pub fn to_sky(&self, at: Timestamp, offsets: TrackOffsets) -> Option<DQuat> {
-        let on_sky = offsets.on_the_sky();
-        if on_sky == offsets {
-            return None;
-        }
-        let [axes, sky] = [offsets, on_sky].map(|offsets| self.demanded(at, offsets));
-        Some(DQuat::from_rotation_arc(axes?.to_enu(), sky?.to_enu()))
+    /// Direction on the sky at `at` with these offsets; `None` once the target has decayed.
+    pub fn on_the_sky(&self, at: Timestamp, offsets: TrackOffsets) -> Option<AzEl> {
+        self.course.on_the_sky(at, offsets)
     }
 
-    /// Direction to point in at `at`, offsets included, unless it is below the minimum elevation
+    /// From where the axes point with these offsets at `at` to where that is on the sky, if the
+    /// offsets of the axes and the pointing model make up for errors of the mount; `None` without
+    /// such offsets and without a model.
+    pub fn to_sky(&self, at: Timestamp, offsets: TrackOffsets) -> Option<DQuat> {
+        if !self.course.reads_otherwise(offsets) {
+            return None;
+        }
+        let (axes, sky) = (self.demanded(at, offsets)?, self.on_the_sky(at, offsets)?);
+        Some(DQuat::from_rotation_arc(axes.to_enu(), sky.to_enu()))
+    }
+
+    /// What the axes have to read at `at`, offsets included, unless it is below the minimum elevation
     /// or the target has decayed.
     pub fn reachable(&self, at: Timestamp) -> Option<AzEl> {
         self.demanded(at, self.offsets).filter(|direction| self.drives.may_reach(*direction))

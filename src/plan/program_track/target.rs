@@ -6,7 +6,7 @@ use jiff::Timestamp;
 use serde::{Deserialize, Serialize};
 
 use crate::{
-    astro::{AzEl, Site, TrackOffsets, sun_moon},
+    astro::{AzEl, PointingModel, Site, TrackOffsets, sun_moon},
     orbit::{Elements, PropagationError, Propagator},
 };
 
@@ -50,6 +50,7 @@ impl Target {
 pub struct Course {
     site: Site,
     body: Body,
+    model: PointingModel,
 }
 
 #[derive(Debug, Clone)]
@@ -69,7 +70,13 @@ impl Course {
             Target::Moon => Body::Moon,
             Target::Fixed(direction) => Body::Fixed(*direction),
         };
-        Ok(Self { site, body })
+        Ok(Self { site, body, model: PointingModel::default() })
+    }
+
+    /// The same, followed by an antenna with this pointing model.
+    #[must_use]
+    pub fn with_model(self, model: PointingModel) -> Self {
+        Self { model, ..self }
     }
 
     /// Geometric direction at `at`; `None` once the target has decayed.
@@ -84,9 +91,22 @@ impl Course {
         }
     }
 
-    /// Direction to point in at `at` with these offsets; `None` once the target has decayed.
+    /// What the axes have to read at `at` with these offsets; `None` once the target has decayed.
     pub fn demanded(&self, at: Timestamp, offsets: TrackOffsets) -> Option<AzEl> {
-        offsets.demanded(at, |at| self.direction(at))
+        let direction = offsets.demanded(at, |at| self.direction(at))?;
+        // So near to the zenith that the model has no reading, the axes go to the direction itself.
+        Some(self.model.reading(direction).unwrap_or(direction))
+    }
+
+    /// Direction on the sky at `at` with these offsets, if those of the axes and the pointing model
+    /// make up for errors of the mount; `None` once the target has decayed.
+    pub fn on_the_sky(&self, at: Timestamp, offsets: TrackOffsets) -> Option<AzEl> {
+        offsets.on_the_sky().demanded(at, |at| self.direction(at))
+    }
+
+    /// Returns `true` if the axes do not read where that is on the sky.
+    pub fn reads_otherwise(&self, offsets: TrackOffsets) -> bool {
+        !self.model.is_none() || offsets.on_the_sky() != offsets
     }
 }
 

@@ -61,7 +61,7 @@ impl Reach {
     pub fn of(station: &Station, antenna: &Antenna, rates_deg_s: Option<[f64; 2]>) -> Self {
         let can = antenna.connection.variant().capabilities;
         let drives = Drives {
-            mount: antenna.mount,
+            mount: antenna.track_mount(),
             limits: antenna.limits,
             rates_deg_s: rates_deg_s.unwrap_or([antenna.limits.maximum_rate_deg_s; 2]),
             step_deg: can.position_step_deg,

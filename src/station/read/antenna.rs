@@ -5,9 +5,12 @@ use std::ops::RangeInclusive;
 use toml::Value;
 
 use super::Fields;
-use crate::station::{
-    AfterPass, Antenna, AntennaId, Connection, ControllerSpec, Direction, Monitor, MotionLimits,
-    Mount, PollRates, Resume, Setting, TrackSettings, ranges,
+use crate::{
+    astro::PointingModel,
+    station::{
+        AfterPass, Antenna, AntennaId, Connection, ControllerSpec, Direction, Monitor,
+        MotionLimits, Mount, PollRates, Resume, Setting, TrackSettings, ranges,
+    },
 };
 
 impl Fields<'_> {
@@ -33,6 +36,8 @@ impl Fields<'_> {
             limits: self.inner("limits", |limits| limits.limits(default.limits)),
             poll: self.inner("poll", |poll| poll.poll(default.poll)),
             follow: self.inner("follow", |follow| follow.following(default.follow)),
+            pointing_model: self
+                .inner("pointing_model", |model| model.pointing_model(default.pointing_model)),
             monitor: self.one_of(
                 "monitor",
                 &[("stop", Monitor::Stop), ("alarm", Monitor::Alarm)],
@@ -140,6 +145,27 @@ impl Fields<'_> {
             dead_band_deg: self.number("dead_band_deg", &ranges::DEAD_BAND_DEG, dead_band_deg),
             latency_s: self.number("latency_s", &ranges::LATENCY_S, latency_s),
             after: self.one_of("after", &after, default.after),
+        }
+    }
+
+    fn pointing_model(&mut self, default: PointingModel) -> PointingModel {
+        let mut angle = |key, default| self.number(key, &ranges::POINTING_TERM_DEG, default);
+        PointingModel {
+            azimuth_offset_deg: angle("azimuth_offset_deg", default.azimuth_offset_deg),
+            elevation_offset_deg: angle("elevation_offset_deg", default.elevation_offset_deg),
+            tilt_north_deg: angle("tilt_north_deg", default.tilt_north_deg),
+            tilt_east_deg: angle("tilt_east_deg", default.tilt_east_deg),
+            collimation_deg: angle("collimation_deg", default.collimation_deg),
+            non_perpendicularity_deg: angle(
+                "non_perpendicularity_deg",
+                default.non_perpendicularity_deg,
+            ),
+            sag_deg: angle("sag_deg", default.sag_deg),
+            elevation_scale: self.number(
+                "elevation_scale",
+                &ranges::POINTING_SCALE,
+                default.elevation_scale,
+            ),
         }
     }
 

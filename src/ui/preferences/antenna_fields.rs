@@ -3,14 +3,18 @@
 
 use super::{
     connection_fields,
-    fields::{Description, Placed, placed},
+    fields::{Description, Place, Placed, placed},
 };
-use crate::station::{AfterPass, Antenna, ControllerSpec, Monitor, Mount, Resume, ranges};
+use crate::{
+    astro::PointingModel,
+    station::{AfterPass, Antenna, ControllerSpec, Monitor, Mount, Resume, ranges},
+};
 
 type Of = Description<Antenna>;
 
 /// Sections of the page, each of which is a card.
 const MOUNT: &str = "Mount and travel";
+const POINTING: &str = "Pointing model";
 const FOLLOWING: &str = "Following and outages";
 pub(super) const WATCH: &str = "Polling and watch";
 
@@ -21,6 +25,7 @@ pub(super) fn all(spec: &'static ControllerSpec) -> Vec<Placed<Antenna>> {
     all.extend(placed(MOUNT, beam()));
     all.extend(placed(MOUNT, limits()));
     all.extend(connection_fields::tables(spec));
+    all.extend(placed(POINTING, pointing()));
     all.extend(placed(FOLLOWING, follow()));
     all.extend(placed(FOLLOWING, outage()));
     all.extend(placed(WATCH, poll()));
@@ -130,6 +135,50 @@ fn poll() -> [Of; 2] {
             Some(&mut antenna.poll.moving_hz)
         }),
     ]
+}
+
+/// What the axes of an az/el mount read beyond the direction of the beam.
+fn pointing() -> [Of; 8] {
+    [
+        Of::number("Azimuth offset", ranges::POINTING_TERM_DEG, "°", |antenna| {
+            Some(&mut model(antenna)?.azimuth_offset_deg)
+        })
+        .noted(|antenna| Some(about_model(antenna).to_owned())),
+        of_elevation("Elevation offset", |antenna| Some(&mut model(antenna)?.elevation_offset_deg)),
+        of_elevation("Tilt to the north", |antenna| Some(&mut model(antenna)?.tilt_north_deg)),
+        of_elevation("Tilt to the east", |antenna| Some(&mut model(antenna)?.tilt_east_deg)),
+        of_elevation("Collimation", |antenna| Some(&mut model(antenna)?.collimation_deg)),
+        of_elevation("Non-perpendicularity", |antenna| {
+            Some(&mut model(antenna)?.non_perpendicularity_deg)
+        }),
+        Of::number("Elevation scale", ranges::POINTING_SCALE, "°/°", |antenna| {
+            Some(&mut model(antenna)?.elevation_scale)
+        })
+        .when(has_elevation),
+        of_elevation("Sag", |antenna| Some(&mut model(antenna)?.sag_deg)),
+    ]
+}
+
+fn of_elevation(label: &'static str, term: Place<Antenna, f64>) -> Of {
+    Of::number(label, ranges::POINTING_TERM_DEG, "°", term).when(has_elevation)
+}
+
+/// The model of an antenna whose tracks Azel leads by an azimuth axis.
+fn model(antenna: &mut Antenna) -> Option<&mut PointingModel> {
+    let has_model = takes_positions(antenna) && matches!(antenna.mount, Mount::AzEl { .. });
+    has_model.then_some(&mut antenna.pointing_model)
+}
+
+fn about_model(antenna: &Antenna) -> &'static str {
+    let can_flip = antenna.mount.can_flip();
+    match antenna.pointing_model.is_none() {
+        false if can_flip => {
+            "Applied to every track that Azel leads. With a model the antenna is not tipped over \
+             the zenith."
+        }
+        false => "Applied to every track that Azel leads.",
+        true => "What the axes read beyond the direction of the beam. `azel pointing` finds it.",
+    }
 }
 
 fn follow() -> [Of; 4] {

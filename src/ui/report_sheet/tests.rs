@@ -1,6 +1,6 @@
 use super::*;
 use crate::{
-    astro::{Angle, AzEl, Site, time::add_seconds},
+    astro::{Angle, AzEl, PointingModel, Site, time::add_seconds},
     device::Pointing,
     driver::TimeSync,
     orbit::{PassSearch, Propagator, bundled, passes},
@@ -87,6 +87,7 @@ fn opened(late_s: f64, is_measured: impl Fn(u32) -> bool) -> OpenedPass {
                     tracked_by: TrackedBy::ProgramTrack,
                     sent: Some(640),
                     offsets: FlownOffsets::default(),
+                    pointing_model: PointingModel::default(),
                     unit_clock_ahead_s: Some(-late_s),
                     sync: TimeSync::Synchronised,
                 },

@@ -47,6 +47,9 @@ pub fn facts(report: &RecordedReport, now: Timestamp) -> Vec<Fact> {
         let since = format::second_of_day(*from);
         facts.push(plain("Offsets", format!("{} ({and}from {since})", super::offsets(*offsets))));
     }
+    if !about.pointing_model.is_none() {
+        facts.push(plain("Pointing model", "applied".to_owned()));
+    }
     if let Some(ahead_s) = about.unit_clock_ahead_s {
         let kind = if is_off(ahead_s) { FactKind::Caution } else { FactKind::Plain };
         let way = if ahead_s < 0.0 { "late" } else { "early" };

@@ -3,7 +3,7 @@
 use std::time::Duration;
 
 use crate::{
-    astro::TrackOffsets,
+    astro::{PointingModel, TrackOffsets},
     clock::Instant,
     device::{AxisMotion, Capabilities, Measured, Pointing},
     driver::{TrackView, session::likeness::Recheck},
@@ -19,6 +19,7 @@ use crate::{
 pub(in crate::driver::session) struct TrackConfig {
     pub(super) drives: Drives,
     pub(super) settings: station::TrackSettings,
+    pub(super) model: PointingModel,
 }
 
 impl TrackConfig {
@@ -29,14 +30,14 @@ impl TrackConfig {
 
     pub(in crate::driver::session) fn of(antenna: &Antenna, can: Capabilities) -> Self {
         let drives = Drives {
-            mount: antenna.mount,
+            mount: antenna.track_mount(),
             limits: antenna.limits,
             rates_deg_s: [antenna.limits.maximum_rate_deg_s; 2],
             step_deg: can.position_step_deg,
             arrives_within_deg: can.arrives_within_deg,
             has_elevation: can.has_elevation(),
         };
-        Self { drives, settings: antenna.follow }
+        Self { drives, settings: antenna.follow, model: antenna.track_model() }
     }
 
     /// The operator's limit, degrees a second.

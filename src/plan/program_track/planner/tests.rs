@@ -330,6 +330,44 @@ fn a_planner_keeps_the_side_for_the_pass() {
 }
 
 #[test]
+fn with_a_pointing_model_the_axes_are_sent_to_what_they_have_to_read() {
+    let (target, pass) = pass_where(|propagator, pass| {
+        max_deg(pass) > 20.0 && max_deg(pass) < 60.0 && !goes_through_north(propagator, pass)
+    });
+    let follow = ProgramTrack::new(target.clone(), site(), vec![(pass.aos.time, pass.los.time)]);
+    let model = PointingModel {
+        azimuth_offset_deg: 3.0,
+        elevation_offset_deg: -1.0,
+        tilt_north_deg: 0.7,
+        sag_deg: 0.5,
+        ..PointingModel::default()
+    };
+    let drives = azel((0.0, 360.0), 4.0, 0.0);
+    let planner = Planner::new(follow, drives, settings(1.0, 0.2), free()).unwrap();
+    assert_eq!(planner.to_sky(pass.tca.time, TrackOffsets::NONE), None);
+    let mut planner = planner.with_model(model);
+    let axes = [20.0, 10.0].map(|at| AxisNow { position_deg: Some(at), stands: true });
+    let now = pass.tca.time;
+    let sent = planner.update(now, axes).unwrap().unwrap().set_point;
+    let reading = AzEl { azimuth: sent.azimuth.unwrap(), elevation: sent.elevation.unwrap() };
+    // The command leads by the latency and half of the period.
+    let course = Course::new(&target, site()).unwrap();
+    let directions =
+        (0..40).map(|tenth| course.direction(add_seconds(now, f64::from(tenth) * 0.1)));
+    let off_deg = |reading: AzEl| {
+        let beam = model.direction(reading);
+        let each = directions.clone().flatten().map(|it| it.separation(beam).degrees());
+        each.fold(f64::INFINITY, f64::min)
+    };
+    assert!(off_deg(reading) < 0.05, "{} beside {reading:?}", off_deg(reading));
+    let to_sky = planner.to_sky(now, TrackOffsets::NONE).unwrap();
+    let demanded = planner.demanded(now, TrackOffsets::NONE).unwrap();
+    let sky = AzEl::from_enu(to_sky * demanded.to_enu());
+    assert!(sky.separation(course.direction(now).unwrap()).degrees() < 1e-9);
+    assert!(demanded.separation(sky).degrees() > 1.0);
+}
+
+#[test]
 fn with_an_offset_the_antenna_is_sent_beside_its_target_and_without_it_back() {
     let (target, pass) = pass_where(|propagator, pass| {
         max_deg(pass) > 20.0 && max_deg(pass) < 60.0 && !goes_through_north(propagator, pass)

@@ -1,0 +1,163 @@
+//! A pointing model: by how much the axes of an az/el mount have to read otherwise than the
+//! direction in which they point.
+
+use glam::{DMat3, DVec3};
+use serde::{Deserialize, Serialize};
+
+use super::{Angle, AzEl};
+
+/// Rounds of the inverse of the elevation scale and sag: each gains two digits at least.
+const ROUNDS: usize = 8;
+
+/// One term of the model.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Term {
+    AzimuthOffset,
+    ElevationOffset,
+    /// The azimuth axis leans to the north.
+    TiltNorth,
+    /// The azimuth axis leans to the east.
+    TiltEast,
+    /// The beam lies to the left of the direction in which the mount points.
+    Collimation,
+    /// The elevation axis is higher at its right end.
+    NonPerpendicularity,
+    /// The reading grows by so much more for each degree of elevation.
+    ElevationScale,
+    /// The reading is higher by so much at the horizon, and by its cosine at an elevation.
+    Sag,
+}
+
+impl Term {
+    pub const COUNT: usize = 8;
+    /// Of terms that cannot be told apart, those that come first are kept.
+    pub const ALL: [Self; Self::COUNT] = [
+        Self::AzimuthOffset,
+        Self::ElevationOffset,
+        Self::TiltNorth,
+        Self::TiltEast,
+        Self::Collimation,
+        Self::NonPerpendicularity,
+        Self::ElevationScale,
+        Self::Sag,
+    ];
+
+    /// By how much the readings change with this term at a direction, azimuth on the sky and
+    /// elevation: degrees per degree, for the scale per unit.
+    pub fn effect(self, at: AzEl) -> [f64; 2] {
+        let (sin_az, cos_az) = at.azimuth.radians().sin_cos();
+        let (sin_el, cos_el) = at.elevation.radians().sin_cos();
+        match self {
+            Self::AzimuthOffset => [cos_el, 0.0],
+            Self::ElevationOffset => [0.0, 1.0],
+            Self::TiltNorth => [sin_el * sin_az, cos_az],
+            Self::TiltEast => [-sin_el * cos_az, sin_az],
+            Self::Collimation => [1.0, 0.0],
+            Self::NonPerpendicularity => [sin_el, 0.0],
+            Self::ElevationScale => [0.0, at.elevation_deg()],
+            Self::Sag => [0.0, cos_el],
+        }
+    }
+}
+
+/// The terms of an antenna: degrees, but for the scale.
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
+pub struct PointingModel {
+    pub azimuth_offset_deg: f64,
+    pub elevation_offset_deg: f64,
+    pub tilt_north_deg: f64,
+    pub tilt_east_deg: f64,
+    pub collimation_deg: f64,
+    pub non_perpendicularity_deg: f64,
+    pub elevation_scale: f64,
+    pub sag_deg: f64,
+}
+
+impl PointingModel {
+    /// Returns `true` if the axes read what they point to.
+    pub fn is_none(&self) -> bool {
+        *self == Self::default()
+    }
+
+    pub fn term(&self, term: Term) -> f64 {
+        let mut copy = *self;
+        *copy.place(term)
+    }
+
+    pub fn place(&mut self, term: Term) -> &mut f64 {
+        match term {
+            Term::AzimuthOffset => &mut self.azimuth_offset_deg,
+            Term::ElevationOffset => &mut self.elevation_offset_deg,
+            Term::TiltNorth => &mut self.tilt_north_deg,
+            Term::TiltEast => &mut self.tilt_east_deg,
+            Term::Collimation => &mut self.collimation_deg,
+            Term::NonPerpendicularity => &mut self.non_perpendicularity_deg,
+            Term::ElevationScale => &mut self.elevation_scale,
+            Term::Sag => &mut self.sag_deg,
+        }
+    }
+
+    /// What the axes have to read for the beam to point in `direction`; `None` so near to the
+    /// zenith that no position of the axes does.
+    pub fn reading(&self, direction: AzEl) -> Option<AzEl> {
+        let sky = direction.to_enu();
+        let [east, north, up] = self.mount_axes();
+        let mount = AzEl::from_enu(DVec3::new(sky.dot(east), sky.dot(north), sky.dot(up)));
+        let (height, flat) = mount.elevation.radians().sin_cos();
+        let (sin_p, cos_p) = self.non_perpendicularity_deg.to_radians().sin_cos();
+        let (sin_c, _) = self.collimation_deg.to_radians().sin_cos();
+        let aside = (-sin_c - height * sin_p) / (flat * cos_p);
+        if !(-1.0..=1.0).contains(&aside) {
+            return None;
+        }
+        let azimuth = mount.azimuth - Angle::from_radians(aside.asin());
+        let ahead = flat * (1.0 - aside * aside).sqrt();
+        let across = height * cos_p - flat * aside * sin_p;
+        let elevation_deg = across.atan2(ahead).to_degrees();
+        Some(AzEl {
+            azimuth: (azimuth + Angle::from_degrees(self.azimuth_offset_deg)).wrapped_360(),
+            elevation: Angle::from_degrees(self.elevation_reading_deg(elevation_deg)),
+        })
+    }
+
+    /// The direction in which the beam points when the axes read so: the inverse of
+    /// [`Self::reading`].
+    pub fn direction(&self, reading: AzEl) -> AzEl {
+        let azimuth = reading.azimuth - Angle::from_degrees(self.azimuth_offset_deg);
+        let read_deg = reading.elevation_deg();
+        let mut elevation_deg = read_deg;
+        for _ in 0..ROUNDS {
+            elevation_deg += read_deg - self.elevation_reading_deg(elevation_deg);
+        }
+        let (sin_az, cos_az) = azimuth.radians().sin_cos();
+        let (sin_el, cos_el) = elevation_deg.to_radians().sin_cos();
+        let (sin_p, cos_p) = self.non_perpendicularity_deg.to_radians().sin_cos();
+        let (sin_c, cos_c) = self.collimation_deg.to_radians().sin_cos();
+        // Ahead of the mount, to its right, and up.
+        let ahead = cos_c * cos_el;
+        let right = -cos_c * sin_el * sin_p - sin_c * cos_p;
+        let height = cos_c * sin_el * cos_p - sin_c * sin_p;
+        let [east, north, up] = self.mount_axes();
+        let sky = east * (ahead * sin_az + right * cos_az)
+            + north * (ahead * cos_az - right * sin_az)
+            + up * height;
+        AzEl::from_enu(sky)
+    }
+
+    fn elevation_reading_deg(&self, elevation_deg: f64) -> f64 {
+        elevation_deg * (1.0 + self.elevation_scale)
+            + self.elevation_offset_deg
+            + self.sag_deg * elevation_deg.to_radians().cos()
+    }
+
+    /// East, north and up of the leaning mount, in those of the site.
+    fn mount_axes(&self) -> [DVec3; 3] {
+        let lean = DVec3::new(self.tilt_east_deg, self.tilt_north_deg, 0.0);
+        let angle = lean.length().to_radians();
+        // It turns about the horizontal axis across the lean.
+        let about = lean.cross(DVec3::NEG_Z).normalize_or_zero();
+        let turn = if angle > 0.0 { DMat3::from_axis_angle(about, angle) } else { DMat3::IDENTITY };
+        [turn.x_axis, turn.y_axis, turn.z_axis]
+    }
+}
