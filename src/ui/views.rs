@@ -246,9 +246,13 @@ impl Views {
 
     /// Takes a correction over that the operator has chosen in the record.
     fn take_correction(&mut self, model: &Model, commands: &mut Vec<UiCommand>) {
-        if let Some(correction) = self.record.correction.take() {
-            let (antennas, question) = (&mut self.antennas, &mut self.question);
-            record::take_over(correction, model, antennas, question, commands);
+        match self.record.correction.take() {
+            Some(Ok(correction)) => {
+                let (antennas, question) = (&mut self.antennas, &mut self.question);
+                record::take_over(correction, model, antennas, question, commands);
+            }
+            Some(Err(why)) => self.notes.news = Some(Err(why)),
+            None => {}
         }
     }
 

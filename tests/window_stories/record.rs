@@ -366,6 +366,9 @@ fn what_nothing_here_corrects_has_no_correction_and_neither_has_a_setting_writte
     let mut window = rig::window(LARGE, explained_by(tilt, |_| ()));
     settle(&mut window);
     assert!(window.query_by_label("Apply…").is_none());
+    window.key_press(Key::C);
+    settle(&mut window);
+    assert!(says(&window, "Nothing to apply: no setting or offset corrects"), "C tells why");
     let offset = Cause::AzimuthOffset { offset_deg: 0.25 };
     let mut model = explained_by(offset, |_| ());
     let antenna = &mut model.antennas[0];

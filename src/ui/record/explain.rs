@@ -94,7 +94,7 @@ pub(super) fn show(
                 let response = button.show(ui, ("correct", place), at);
                 let words = words::correction(&correction.how, place == 0);
                 if response.on_hover_text(words).clicked() {
-                    state.correction = Some(correction);
+                    state.correction = Some(Ok(correction));
                 }
             }
             None => {

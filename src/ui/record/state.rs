@@ -12,7 +12,10 @@ use crate::{
         correction::{Correction, correction},
     },
     record::{OpenedPass, PassPage, PassQuery, RecordedPass},
-    ui::words::sentence,
+    ui::{
+        replay,
+        words::{record::no_correction, sentence},
+    },
 };
 
 /// Passes that are listed at first, and as many more at a time.
@@ -31,8 +34,8 @@ pub struct RecordState {
     pub(super) list_is_open: bool,
     /// The list scrolls to the chosen pass.
     pub(super) scrolls: bool,
-    /// A correction that the operator takes over.
-    pub correction: Option<Correction>,
+    /// A correction that the operator takes over, or why there is none.
+    pub correction: Option<Result<Correction, String>>,
 }
 
 impl Default for RecordState {
@@ -90,9 +93,16 @@ impl RecordState {
 
     /// Takes over what would correct the best explanation of the report.
     pub fn correct(&mut self, model: &Model) {
-        let Some(OpenedPass { pass, .. }) = self.opened(model) else { return };
-        let best = pass.report.explanations.first();
-        self.correction = best.and_then(|best| correction(model, pass, &best.cause));
+        if model.replay.is_some() {
+            self.correction = Some(Err(replay::REFUSED.to_owned()));
+            return;
+        }
+        let opened = self.opened(model);
+        let best = opened.and_then(|opened| opened.pass.report.explanations.first());
+        let found = opened.zip(best);
+        let found = found.and_then(|(opened, best)| correction(model, &opened.pass, &best.cause));
+        let cause = best.map(|best| &best.cause);
+        self.correction = Some(found.ok_or_else(|| no_correction(cause)));
     }
 
     pub(super) fn list_more(&mut self) {

@@ -246,6 +246,14 @@ pub fn correction(how: &How, is_best: bool) -> String {
     }
 }
 
+/// Why nothing can be taken over for the best explanation, if there is one.
+pub fn no_correction(best: Option<&Cause>) -> String {
+    best.map_or("Nothing to apply: the error of this pass is not explained.".to_owned(), |best| {
+        let cause = cause(best);
+        format!("Nothing to apply: no setting or offset corrects \u{201c}{cause}\u{201d}, or one does already.")
+    })
+}
+
 /// Why the table of causes is empty.
 pub fn not_explained(is_measured: bool) -> &'static str {
     if is_measured {
