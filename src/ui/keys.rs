@@ -111,7 +111,7 @@ pub const ALL: [Binding; 40] = [
     row(
         KeyScope::Operate,
         &[(Key::ArrowUp, Act::MoveInList(-1)), (Key::ArrowDown, Act::MoveInList(1))],
-        "the pass before or after, unless the focus is elsewhere",
+        "previous, next pass, unless the focus is elsewhere",
     ),
     row(
         KeyScope::Record,
@@ -121,7 +121,7 @@ pub const ALL: [Binding; 40] = [
             (Key::C, Act::Correct),
             (Key::E, Act::ExportReport),
         ],
-        "recorded pass before, after; correct; export",
+        "previous, next recorded pass; correct; export",
     ),
     row(
         KeyScope::Replay,
@@ -131,7 +131,7 @@ pub const ALL: [Binding; 40] = [
             (Key::Period, Act::RecordedEvent { is_next: true }),
             (Key::Q, Act::LeaveReplay),
         ],
-        "in a replay: play, the event before, after, leave",
+        "in a replay: play, previous event, next, leave",
     ),
     row(KeyScope::Focus, &[(Key::Enter, Act::There)], "select what has the focus"),
     row(KeyScope::Operate, &[(Key::N, Act::NextPass)], "the pass in progress or the next one"),
@@ -144,7 +144,7 @@ pub const ALL: [Binding; 40] = [
     row(
         KeyScope::Operate,
         &[(Key::G, Act::GoTo)],
-        "Position: type a direction, Enter shows it, Enter again goes",
+        "Position: type a direction; Enter previews it, Enter again goes",
     ),
     row(
         KeyScope::Operate,
@@ -219,17 +219,17 @@ pub const ALL: [Binding; 40] = [
     row(
         KeyScope::Operate,
         &[(Key::Home, Act::SkyOfNow)],
-        "sky of now; on its slider: Left, Right 1 min, Page 10 min",
+        "sky now; on its slider: Left, Right 1 min, Page 10 min",
     ),
     row(
         KeyScope::Operate,
         &[(Key::Plus, Act::Zoom(1)), (Key::Minus, Act::Zoom(-1))],
-        "fewer, more hours; sky plot with the focus: closer, further",
+        "fewer, more hours; in the focused sky plot: zoom in, out",
     ),
     row(
         KeyScope::Operate,
         &[(Key::Num0, Act::UsualZoom)],
-        "the usual hours; sky plot with the focus: the whole sky",
+        "the usual hours; in the focused sky plot: the whole sky",
     ),
     row(
         KeyScope::Map,
@@ -239,7 +239,7 @@ pub const ALL: [Binding; 40] = [
             (Key::ArrowUp, Act::Nearest(Towards::North)),
             (Key::ArrowDown, Act::Nearest(Towards::South)),
         ],
-        "in Map: the next satellite on that side",
+        "in Map: the next satellite in that direction",
     ),
     row(
         KeyScope::Map,
@@ -248,7 +248,7 @@ pub const ALL: [Binding; 40] = [
             (Key::Minus, Act::MapZoom(false)),
             (Key::Num0, Act::WholeMap),
         ],
-        "in Map: closer, further away, the whole map",
+        "in Map: zoom in, zoom out, the whole map",
     ),
     row(KeyScope::Map, &[(Key::L, Act::MapLayers)], "in Map: layers"),
     row(
@@ -259,7 +259,7 @@ pub const ALL: [Binding; 40] = [
             (Key::ArrowUp, Act::PlannedPass(-1)),
             (Key::ArrowDown, Act::PlannedPass(1)),
         ],
-        "in Plan: the pass before or after",
+        "in Plan: previous, next pass",
     ),
     row(
         KeyScope::Plan,
@@ -301,7 +301,7 @@ pub const ALL: [Binding; 40] = [
         row(
             KeyScope::Focus,
             &[(Key::Z, Act::There)],
-            "undo; with Shift again, in Horizon and keep-outs",
+            "undo; with Shift redo, in Horizon and keep-outs",
         ),
     ),
     row(
@@ -345,7 +345,7 @@ pub const ALL: [Binding; 40] = [
         row(
             KeyScope::Focus,
             &[(Key::ArrowLeft, Act::There)],
-            "in Set up: the step before; Enter goes on",
+            "in Set up: previous step; Enter goes on",
         ),
     ),
     row(KeyScope::Views, &[(Key::A, Act::Acknowledge)], "acknowledge the newest alarm"),

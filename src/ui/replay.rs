@@ -50,7 +50,7 @@ const FRAME: f32 = 3.0;
 pub fn ended(why: &ReplayEnd, now: Timestamp) -> String {
     match why {
         ReplayEnd::Stop => "Replay ended: STOP was pressed.".to_owned(),
-        ReplayEnd::Alarm => "Replay ended: there is an alarm of the first priority.".to_owned(),
+        ReplayEnd::Alarm => "Replay ended: there is a top-priority alarm.".to_owned(),
         ReplayEnd::Pass { name, from } => {
             let name = if name.is_empty() { "a satellite" } else { name };
             format!("Replay ended: {name} is tracked from {} on.", format::moment(*from, now))
@@ -152,7 +152,7 @@ fn in_words(speed: i32) -> String {
 
 fn problem(replay: &Replayed) -> Option<String> {
     Some(match replay.problem.as_ref()? {
-        ReplayProblem::NothingYet => "Nothing was filmed at this moment.".to_owned(),
+        ReplayProblem::NothingYet => "Nothing was recorded at this moment.".to_owned(),
         ReplayProblem::Failed(why) => format!("Not shown. {}", words::sentence(why)),
     })
 }
@@ -177,7 +177,7 @@ fn transport(
     let t = theme::tokens(ui);
     let event = |is_next| UiCommand::Replay(ReplayCommand::Event { is_next });
     let at = place();
-    if key(ui, "event before", at, "The event before (comma)", false).clicked() {
+    if key(ui, "event before", at, "Previous event (comma)", false).clicked() {
         commands.push(event(false));
     }
     triangle(ui, at, -1.0, true, t.t1);
@@ -207,7 +207,7 @@ fn transport(
         }
     }
     let at = place();
-    if key(ui, "event after", at, "The event after (period)", false).clicked() {
+    if key(ui, "event after", at, "Next event (full stop)", false).clicked() {
         commands.push(event(true));
     }
     triangle(ui, at, 1.0, true, t.t1);

@@ -62,7 +62,7 @@ fn a_replay_is_marked_in_every_view_and_its_strip_plays_it() {
             nothing_overlaps(&window);
             let event = |is_next| replayed(ReplayCommand::Event { is_next });
             assert_eq!(click(&mut window, "The event before (comma)"), [event(false)]);
-            assert_eq!(click(&mut window, "The event after (period)"), [event(true)]);
+            assert_eq!(click(&mut window, "The event after (full stop)"), [event(true)]);
             let pause = [replayed(ReplayCommand::PlayOrPause)];
             assert_eq!(click(&mut window, "Pause (Space)"), pause);
             let back = [replayed(ReplayCommand::Speed(-10))];

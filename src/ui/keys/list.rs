@@ -122,7 +122,7 @@ pub fn word(key: Key) -> &'static str {
         Key::PageUp => "Page Up",
         Key::PageDown => "Page Down",
         Key::Comma => "comma",
-        Key::Period => "dot",
+        Key::Period => "full stop",
         other => other.symbol_or_name(),
     }
 }

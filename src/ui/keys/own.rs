@@ -30,17 +30,21 @@ impl Binding {
     /// The keys that can be changed: single ones that neither move an antenna nor belong to a
     /// control.
     pub fn slots(&self) -> impl Iterator<Item = Slot> {
+        self.with_slots().filter_map(|(_, slot)| slot)
+    }
+
+    /// All keys, each with its slot if it can be changed.
+    pub fn with_slots(&self) -> impl Iterator<Item = (Key, Option<Slot>)> {
         let is_free = self.modifiers == Modifiers::NONE
             && !matches!(
                 self.place,
                 KeyScope::Everywhere | KeyScope::Focus | KeyScope::Elements | KeyScope::Preferences
             );
         // Space belongs to whatever control has the focus.
-        let keys = self
-            .keys
-            .iter()
-            .filter(move |(usual, act)| is_free && !act.is_fixed() && *usual != Key::Space);
-        keys.map(|(usual, _)| Slot { place: self.place, usual: *usual })
+        self.keys.iter().map(move |(usual, act)| {
+            let has_slot = is_free && !act.is_fixed() && *usual != Key::Space;
+            (*usual, has_slot.then_some(Slot { place: self.place, usual: *usual }))
+        })
     }
 }
 

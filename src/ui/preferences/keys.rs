@@ -1,7 +1,7 @@
 //! The page of the keys: which key does what, and where, and the choice of other keys. A choice
 //! is used at once and belongs to this window.
 
-use egui::{Align2, Color32, Event, Key, Rect, Role, Sense, Stroke, StrokeKind, Ui, pos2, vec2};
+use egui::{Align2, Color32, Event, Key, Rect, Role, Sense, Stroke, StrokeKind, Ui, vec2};
 
 use super::form;
 use crate::ui::{
@@ -122,6 +122,7 @@ pub(super) fn card_of(ui: &mut Ui, card: usize, state: &mut KeysState) {
 fn row(ui: &mut Ui, binding: &Binding, state: &mut KeysState) {
     let t = theme::tokens(ui);
     let slots: Vec<Slot> = binding.slots().collect();
+    let keys: Vec<(Key, Option<Slot>)> = binding.with_slots().collect();
     let words = in_words(binding, &state.own);
     let refused = state.refused.filter(|(slot, ..)| slots.contains(slot));
     let (said, colour) = match refused {
@@ -129,9 +130,10 @@ fn row(ui: &mut Ui, binding: &Binding, state: &mut KeysState) {
         None => (binding.does.to_owned(), t.t2),
     };
     let width = ui.available_width();
-    let keys: f32 = slots.iter().map(|slot| key_width(ui, *slot, state) + GAP).sum();
-    let keys = KEYS.max(keys + GAP);
-    let does = ui.painter().layout(said.clone(), text::body(), colour, width - keys);
+    let boxes: f32 =
+        keys.iter().map(|(usual, slot)| key_width(ui, on_key(*usual, *slot, state)) + GAP).sum();
+    let column = if slots.is_empty() { KEYS } else { KEYS.max(boxes + GAP) };
+    let does = ui.painter().layout(said.clone(), text::body(), colour, width - column);
     let height = ROW.max(does.size().y + 4.0);
     let (rect, _) = ui.allocate_exact_size(vec2(width, height), Sense::hover());
     ui.painter().hline(rect.x_range(), rect.top(), (1.0, t.line));
@@ -144,11 +146,15 @@ fn row(ui: &mut Ui, binding: &Binding, state: &mut KeysState) {
             icons::paint(ui.painter(), lock, Icon::Lock, t.t3);
         }
     }
-    let mut left = place.left();
-    for slot in &slots {
-        left = key(ui, pos2(left, place.center().y), *slot, binding.does, state) + GAP;
+    let mut at = place.left_center();
+    for (usual, slot) in keys.into_iter().filter(|_| !slots.is_empty()) {
+        let right = match slot {
+            Some(slot) => key(ui, at, slot, binding.does, state),
+            None => fixed_key(ui, at, usual),
+        };
+        at.x = right + GAP;
     }
-    let room = rect.with_min_x(rect.left() + keys);
+    let room = rect.with_min_x(rect.left() + column);
     let at = Align2::LEFT_CENTER.align_size_within_rect(does.size(), room);
     ui.painter().galley(at.min, does, colour);
     let spoken = format!("{words}: {said}");
@@ -165,13 +171,24 @@ fn refusal_in_words(refusal: Refusal) -> String {
     }
 }
 
-/// The words on a key that can be changed.
-fn on_key(slot: Slot, state: &KeysState) -> &'static str {
+/// The words on a key.
+fn on_key(usual: Key, slot: Option<Slot>, state: &KeysState) -> &'static str {
+    let Some(slot) = slot else { return word(usual) };
     if state.waiting == Some(slot) { WAITING } else { word(state.own.of_slot(slot)) }
 }
 
-fn key_width(ui: &Ui, slot: Slot, state: &KeysState) -> f32 {
-    (paint::text_width(ui, on_key(slot, state), text::body_medium()) + 12.0).max(ROW)
+fn key_width(ui: &Ui, words: &str) -> f32 {
+    (paint::text_width(ui, words, text::body_medium()) + 12.0).max(ROW)
+}
+
+/// A key that cannot be changed, without a box; returns its right end.
+fn fixed_key(ui: &Ui, left: egui::Pos2, usual: Key) -> f32 {
+    let t = theme::tokens(ui);
+    let size = vec2(key_width(ui, word(usual)), 18.0);
+    let rect = Rect::from_min_size(left - vec2(0.0, 9.0), size);
+    let font = text::body_medium();
+    paint::text_in(ui, rect, Align2::CENTER_CENTER, word(usual), font, t.t1);
+    rect.right()
 }
 
 /// A key that can be changed; returns its right end.
@@ -179,8 +196,8 @@ fn key(ui: &Ui, left: egui::Pos2, slot: Slot, does: &str, state: &mut KeysState)
     let t = theme::tokens(ui);
     let waits = state.waiting == Some(slot);
     let now = word(state.own.of_slot(slot));
-    let words = on_key(slot, state);
-    let width = key_width(ui, slot, state);
+    let words = if waits { WAITING } else { now };
+    let width = key_width(ui, words);
     let rect = Rect::from_min_size(left - vec2(0.0, 9.0), vec2(width, 18.0));
     let name = if waits {
         format!("{WAITING} in place of {now}")
