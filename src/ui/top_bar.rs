@@ -31,7 +31,7 @@ const TWO_LINES_FROM: f32 = 1200.0;
 /// Side of the mark of an antenna that STOP leaves alone.
 const MARK: f32 = 12.0;
 /// Width of this mark with its words.
-const LEFT_OUT: f32 = 48.0;
+const LEFT_OUT: f32 = 56.0;
 
 /// Content of the bar.
 #[derive(Debug, Clone, Copy)]
@@ -161,12 +161,14 @@ fn fill(ui: &mut Ui, rect: Rect, model: &TopBarModel<'_>, commands: &mut Vec<UiC
 /// Shows a mark between the alarms and STOP: STOP does not stop every antenna.
 fn mark_left_out(ui: &Ui, rect: Rect, left_out: StopLeftOut<'_>) {
     let t = theme::tokens(ui);
-    let at = rect.center() - vec2(0.0, 8.0);
-    let line = rect.with_min_y(at.y + 6.0);
-    paint::text_in(ui, line, Align2::CENTER_CENTER, left_out.count, text::caption(), t.warn);
-    let place = paint::square(at, MARK);
-    icons::paint(ui.painter(), place, icons::Icon::OpenRing, t.warn);
-    let words = format!("STOP stops {}. {}", left_out.count, left_out.sentence);
+    let mark = paint::square(rect.center() - vec2(0.0, 15.0), MARK);
+    icons::paint(ui.painter(), mark, icons::Icon::OpenRing, t.warn);
+    for (words, down) in [(left_out.count, 0.0), ("antennas", 13.0)] {
+        let line =
+            Rect::from_center_size(rect.center() + vec2(0.0, down), vec2(rect.width(), 13.0));
+        paint::text_in(ui, line, Align2::CENTER_CENTER, words, text::caption(), t.warn);
+    }
+    let words = format!("STOP stops {} antennas. {}", left_out.count, left_out.sentence);
     paint::name_text(ui, "left out of stop", rect, &words).on_hover_text(left_out.sentence);
 }
 

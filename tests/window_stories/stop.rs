@@ -179,7 +179,7 @@ fn what_stop_leaves_alone_is_named_beside_it_and_has_a_stop_of_its_own() {
         let stop = window.get_by_role_and_label(Role::Button, "STOP");
         let about = stop.accesskit_node().description().unwrap();
         assert_eq!(about, format!("Stops 1 of 2 antennas. {left_out}"));
-        window.get_by_label(&format!("STOP stops 1 of 2. {left_out}"));
+        window.get_by_label(&format!("STOP stops 1 of 2 antennas. {left_out}"));
         stop_stops(&mut window, "STOP");
 
         let own = window.get_by_role_and_label(Role::Button, "Connect and STOP RC2000C");
@@ -221,7 +221,7 @@ fn after_a_stop_the_bar_says_in_words_what_was_left_alone() {
         let window = rig::window(size, model);
         let said = "RC2000C is not connected: not stopped from here.";
         window.get_by_label(said);
-        window.get_by_label(&format!("STOP stops 2 of 3. {said}"));
+        window.get_by_label(&format!("STOP stops 2 of 3 antennas. {said}"));
         window.get_by_role_and_label(Role::Button, "STOP, all stopped");
     }
 }
