@@ -64,7 +64,7 @@ pub enum CalibrationError {
     #[error("two points are needed")]
     TooFew,
     /// Two points have the same counts.
-    #[error("{0} counts stand there twice")]
+    #[error("{0} counts appear twice")]
     SameCounts(u16),
     /// The degrees do not change with the counts, or are no numbers.
     #[error("the degrees do not change with the counts")]

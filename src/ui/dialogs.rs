@@ -69,9 +69,9 @@ pub fn changed_key(
     }
     fact(ui, "Now", &key.fingerprint);
     fact(ui, "Kind", &key.algorithm);
-    let words = "Either the unit was replaced or set up anew, or another computer stands in \
-                 between. Nothing was sent. Ask the person who maintains the unit; on it ssh-keygen -l \
-                 shows the right fingerprint.";
+    let words = "Either the unit was replaced or set up anew, or another computer sits in \
+                 between. Nothing was sent. Ask the person who maintains the unit; on it \
+                 ssh-keygen -l shows the right fingerprint.";
     line(ui, Tone::Plain, words);
     if ui.button("Forget the known key…").clicked() {
         *question = Some(Question {

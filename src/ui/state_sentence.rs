@@ -91,7 +91,7 @@ fn stop(model: &Model, antenna: &AntennaModel) -> Option<Spoken> {
         StopState::NotConfirmed { since } => {
             let age = model.steady.saturating_duration_since(since).as_secs_f64();
             Some(Spoken::new(SentenceKind::Fault).plain(format!(
-                "{name} is not known to stand {} after STOP. Use the local panel.",
+                "{name} is not known to have stopped, {} after STOP. Use the local panel.",
                 format::age(age)
             )))
         }

@@ -92,7 +92,7 @@ pub fn stake(antenna: &str, stake: &Stake) -> String {
         Stake::ProgramTracked(name) => format!("Azel tracks {} with {antenna}.", short(name)),
         Stake::Moves => format!("{antenna} moves."),
         Stake::OwesStop => format!("STOP of {antenna} is not proved."),
-        Stake::Unproved => format!("{antenna} was moved and is not known to stand."),
+        Stake::Unproved => format!("{antenna} was moved and is not known to have stopped."),
     }
 }
 

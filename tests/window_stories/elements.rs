@@ -144,7 +144,7 @@ fn a_source_says_what_is_wrong_and_what_is_true_meanwhile() {
         silent.fetch_problem = Some(FetchProblem::Answer(403));
         let window = view(size, vec![(own, lost), (weather, silent)]);
         assert!(says(&window, "Cannot be read: No such file: /var/elements/own.tle."));
-        assert!(says(&window, "The server answered 403. What was held stays."));
+        assert!(says(&window, "The server answered 403. The elements held before stay in use."));
         let new = Source::celestrak("geo");
         let never = SourceReport { files: Vec::new(), ..report(&new, 0) };
         let window = view(size, vec![(new, never)]);

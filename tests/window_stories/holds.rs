@@ -21,8 +21,8 @@ use crate::window_stories::{
     states,
 };
 
-const STANDS: &str = "Hold 1 s: I have seen that it stands";
-const UNGUARDED: &str = "Hold 1 s to move without dead-man";
+const STANDS: &str = "Hold 1 s: I have seen that it is at rest";
+const UNGUARDED: &str = "Hold 1 s to move without the dead-man timer";
 
 fn shows(snapshot: Snapshot) -> Model {
     let mut model = rig::model(states::holding());

@@ -78,7 +78,7 @@ fn the_results_of_a_search_are_gone_through_with_arrows_or_clicked() {
         let mut window = form(size);
         press(&mut window, Role::TextInput, FIND);
         type_words(&mut window, "poll");
-        let rows = ["Poll while standing, Satrak", "Poll while moving, Satrak"];
+        let rows = ["Poll at rest, Satrak", "Poll while moving, Satrak"];
         for row in rows {
             window.get_by_role_and_label(Role::ListBoxOption, row);
         }

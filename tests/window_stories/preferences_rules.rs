@@ -213,7 +213,7 @@ fn the_rules_of_the_file_are_shown_in_their_order_with_what_hinders_them() {
 fn a_rule_is_made_by_mouse() {
     for size in SIZES {
         let mut window = page(size, RULES, Vec::new());
-        assert!(says(&window, "There are no rules: priorities and limits decide alone."));
+        assert!(says(&window, "There are no rules: only priorities and limits decide."));
         press(&mut window, Role::Button, "Add rule");
         press(&mut window, Role::ComboBox, "Antenna, All");
         window.get_by_role_and_label(Role::Button, "Satrak").click();

@@ -289,7 +289,7 @@ fn what_has_just_happened_is_told_first_and_for_a_while() {
     for (event, wanted) in [
         (
             Event::Back { after, found: Found::Still, is_as_left: true },
-            "Satrak answers again after 42 s. It stands still and tracks nothing.",
+            "Satrak answers again after 42 s. It is at rest and tracks nothing.",
         ),
         (Event::NotSent(Refusal::Stopping), "Not sent: a stop is under way."),
         (

@@ -195,10 +195,7 @@ fn apply_sends_what_was_changed_with_what_was_seen_and_proves_it() {
         change(&mut window, 0, |of| group(of, "general").step = None);
         end(&mut window, change_of_general, Err(WriteError::ChangedMeanwhile));
         assert_eq!(state_of(&window, "Minimum elevation"), "Rejected");
-        assert!(says(
-            &window,
-            "On the unit Go to start before was 1 ms and is 90\u{2009}000 ms now."
-        ));
+        assert!(says(&window, "On the unit Lead time was 1 ms and is 90\u{2009}000 ms now."));
         apply(&mut window);
         let again = settles(asked(&mut window)).remove(0);
         assert_eq!(again.seen.as_ref().unwrap()["lead_ms"], Value::Integer(90_000));

@@ -55,7 +55,7 @@ fn it_opens_by_the_name_of_the_station_while_the_antenna_stands() {
     snapshot.state.measured = states::moving().state.measured;
     let mut window = opened(LARGE, snapshot);
     press(&mut window, "Unlock");
-    assert!(says(&window, "The antenna has to stand, and tracking has to be off."));
+    assert!(says(&window, "The antenna must be at rest, and tracking must be off."));
 }
 
 #[test]

@@ -15,10 +15,10 @@ const RECENT: Duration = Duration::from_secs(5);
 /// Why a setting that decides where the antenna points is not sent now.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error, Serialize, Deserialize)]
 pub enum Hindrance {
-    #[error("a stop is under way: wait until the antenna stands")]
+    #[error("a stop is under way: wait until the antenna has stopped")]
     Stopping,
     /// On this link, the position was not read lately, or the unit's program was not read.
-    #[error("it is not known whether the antenna stands: wait until its position is read")]
+    #[error("it is not known whether the antenna is at rest: wait until its position is read")]
     Unknown,
     /// The unit tracks by itself.
     #[error("the unit tracks: stop it first")]

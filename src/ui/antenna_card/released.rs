@@ -45,7 +45,7 @@ pub(super) fn about(ui: &Ui, at: &mut Cursor, model: &HeaderModel<'_>) {
 
 fn about_stop(model: &HeaderModel<'_>) -> String {
     let panel = if model.takes_panel {
-        " and takes the panel from anybody who stands in front of the unit"
+        " and takes the panel from anybody working at the unit"
     } else {
         ""
     };

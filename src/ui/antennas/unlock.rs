@@ -43,7 +43,7 @@ pub(super) fn refusal(unit: &ShownUnit<'_>) -> Option<&'static str> {
     if !unit.is_open() {
         Some("There is no link to the unit.")
     } else if !unit.stands() {
-        Some("The antenna has to stand, and tracking has to be off.")
+        Some("The antenna must be at rest, and tracking must be off.")
     } else {
         None
     }

@@ -131,9 +131,10 @@ pub fn waiting(ui: &Ui, model: &Model, commands: &mut Vec<UiCommand>) {
         let next = model.stations.next.as_ref();
         let title = next.map_or("Azel closes".to_owned(), |next| format!("Azel changes to {next}"));
         ui.label(RichText::new(title).font(text::value()));
-        for (wanted, words) in
-            [(Wanted::Still, "once it is proved to stand"), (Wanted::Parked, "once it is parked")]
-        {
+        for (wanted, words) in [
+            (Wanted::Still, "once it is known to be at rest"),
+            (Wanted::Parked, "once it is parked"),
+        ] {
             let names = names(wanted);
             if !names.is_empty() {
                 line(ui, Tone::Now, &format!("{}: {words}.", format::list(&names)));

@@ -88,11 +88,11 @@ pub(super) fn figures(elements: &Elements) -> [(&'static str, String); 7] {
     let angle = |of: crate::astro::Angle| format::degrees(of.degrees(), 4);
     [
         ("Inclination", angle(elements.inclination())),
-        ("Node", angle(elements.node())),
+        ("RAAN", angle(elements.node())),
         ("Eccentricity", format!("{:.7}", elements.eccentricity())),
-        ("Perigee", angle(elements.argument_of_perigee())),
+        ("Arg. of perigee", angle(elements.argument_of_perigee())),
         ("Mean motion", format!("{:.5}", elements.mean_motion_rev_day())),
-        ("Anomaly", angle(elements.mean_anomaly())),
+        ("Mean anomaly", angle(elements.mean_anomaly())),
         ("B*", format!("{:.2e}", elements.bstar()).replace('-', "\u{2212}")),
     ]
 }

@@ -88,7 +88,7 @@ fn holds(
         if antenna.tracked_number() == Some(elements.catalog_number()) {
             return (Tone::Good, "Azel tracks it with this antenna now.".to_owned());
         }
-        return (Tone::Plain, "Holds no elements: Azel uses the set in use.".to_owned());
+        return (Tone::Plain, "Stores no elements: Azel tracks with the set in use.".to_owned());
     }
     let Some(held) = &antenna.snapshot.state.on_board.satellite else {
         return (Tone::Plain, "What it holds is not read yet.".to_owned());

@@ -202,7 +202,8 @@ pub(in crate::ui) fn sentences(
         lines.push((Tone::Plain, format!("{refused} refused: unreadable.")));
     }
     if let Some(problem) = &report.fetch_problem {
-        let stays = if report.objects() > 0 { " What was held stays." } else { "" };
+        let stays =
+            if report.objects() > 0 { " The elements held before stay in use." } else { "" };
         lines.push((Tone::Bad, format!("{}{stays}", sentence(&problem.to_string()))));
     }
     lines.extend(asked(report, now).map(|words| (Tone::Plain, words)));

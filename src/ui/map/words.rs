@@ -58,7 +58,7 @@ pub(super) fn elevation(elevation: Angle) -> String {
 }
 
 pub(super) fn goes(heading: Option<Angle>) -> &'static str {
-    let Some(heading) = heading else { return "stands still" };
+    let Some(heading) = heading else { return "stationary" };
     let wind = (heading.wrapped_360().degrees() / 45.0).round() as usize;
     WINDS.get(wind % WINDS.len()).copied().unwrap_or_default()
 }
@@ -112,7 +112,7 @@ mod tests {
         ] {
             assert_eq!(goes(Some(Angle::from_degrees(degrees))), wanted, "{degrees}");
         }
-        assert_eq!(goes(None), "stands still");
+        assert_eq!(goes(None), "stationary");
     }
 
     #[test]

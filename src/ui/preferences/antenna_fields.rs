@@ -128,7 +128,7 @@ fn limits() -> [Of; 3] {
 
 fn poll() -> [Of; 2] {
     [
-        Of::number("Poll while standing", ranges::POLL_HZ, "Hz", |antenna| {
+        Of::number("Poll at rest", ranges::POLL_HZ, "Hz", |antenna| {
             Some(&mut antenna.poll.idle_hz)
         }),
         Of::number("Poll while moving", ranges::POLL_HZ, "Hz", |antenna| {
@@ -216,7 +216,7 @@ fn outage() -> [Of; 2] {
         .when(takes_positions)
         .noted(|antenna| {
             let words = match antenna.resume {
-                Resume::Ask => "The antenna stands until you let it go on.",
+                Resume::Ask => "The antenna stays stopped until you let it go on.",
                 Resume::Continue => {
                     "Goes on by itself if the antenna is where it was left. Otherwise it asks."
                 }
@@ -241,7 +241,10 @@ fn watch() -> [Of; 2] {
         }),
         Of::number("Sway allowed", ranges::SWAY_DEG, "°", |antenna| Some(&mut antenna.sway_deg))
             .noted(|_| {
-                Some("How much the angle may change between two readings of an antenna that stands still.".to_owned())
+                Some(
+                    "How much the angle may change between two readings of an antenna at rest."
+                        .to_owned(),
+                )
             }),
     ]
 }

@@ -154,7 +154,7 @@ fn inside(model: &Model, before: &Station, after: &Station) -> Option<String> {
         let name = &antenna.config.name;
         is_new.then(|| {
             format!(
-                "{name} stands inside \u{201c}{zone}\u{201d} now. It can be moved out by hand once \
+                "{name} is inside \u{201c}{zone}\u{201d} now. It can be moved out by hand once \
                  you allow it."
             )
         })

@@ -129,12 +129,12 @@ impl NoticesDraft {
 fn telling_fields() -> Vec<Placed<Telling>> {
     let fields = [
         flag("Notifications", |telling| &mut telling.notifications).noted(|_| {
-            let words = "The desktop shows new alarms and reminders. Alarms of the first rank are \
+            let words = "The desktop shows new alarms and reminders. Top-priority alarms are \
                          always shown.";
             Some(words.to_owned())
         }),
         flag("Sounds", |telling| &mut telling.sounds)
-            .noted(|_| Some("Alarms of the first rank always sound.".to_owned())),
+            .noted(|_| Some("Top-priority alarms always sound.".to_owned())),
         tones(WARNINGS, |telling| &mut telling.warning)
             .noted(|_| Some("Alarms about something that is wrong now.".to_owned())),
         tones(CAUTIONS, |telling| &mut telling.caution).noted(|_| {
@@ -142,8 +142,8 @@ fn telling_fields() -> Vec<Placed<Telling>> {
         }),
         tones(BEFORE_PASSES, |telling| &mut telling.reminder),
         flag("Quiet hours", |telling| &mut telling.is_quiet).noted(|_| {
-            let words = "No notifications and no sounds then, except for alarms of the first rank. \
-                         The window shows all alarms.";
+            let words = "No notifications or sounds then, except for top-priority alarms. The \
+                         window shows all alarms.";
             Some(words.to_owned())
         }),
         Description::time("Quiet from", |telling: &mut Telling| &mut telling.hours.from)
@@ -250,9 +250,10 @@ fn never_silenced(ui: &mut Ui) {
     form::card(ui, "Never silenced", |ui| {
         note(
             ui,
-            "Alarms of the first rank are shown and sounded at any hour, whatever is set here: a \
-             STOP not confirmed or still owed, an antenna where it must not point, a dead-man \
-             that stopped an antenna, a unit that moves although it reports that it stands.",
+            "Top-priority alarms are shown and sounded at any hour, whatever is set here: a STOP \
+             that is not confirmed or not yet sent, an antenna that points where it must not, a \
+             motion stopped by the dead-man timer, a unit that moves although it reports that it \
+             is at rest.",
         );
     });
 }

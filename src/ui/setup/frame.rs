@@ -181,7 +181,7 @@ fn detail(step: Step, model: &Model, draft: &SetupDraft, state: &SetupState) -> 
             Some((name, _)) => {
                 format!("{name}, {}", so_far::site(draft, state.progress).1)
             }
-            None => "Where the antennas stand".to_owned(),
+            None => "Where the antennas are".to_owned(),
         },
         Step::Antennas => {
             let count = draft.form.antennas.len();

@@ -45,7 +45,7 @@ impl Step {
     pub(super) fn title(self) -> (&'static str, &'static str) {
         let about = match self {
             Self::Site => {
-                "Where do the antennas stand? Passes and directions are computed for this place."
+                "Where are the antennas? Passes and directions are computed for this place."
             }
             Self::Antennas => {
                 "Which units move your antennas, and where do they answer? A test only asks; it \

@@ -59,7 +59,7 @@ fn off(antenna: &AntennaModel) -> String {
     if antenna.variant().capabilities.waits_for_word {
         return format!(
             "Not known: {name} is not connected. Azel sends it nothing before Connect, because \
-             that may take its panel from whoever stands in front of it."
+             that may take its panel from somebody working at it."
         );
     }
     format!(

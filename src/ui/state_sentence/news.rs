@@ -45,7 +45,7 @@ pub(super) fn sentence(model: &Model, antenna: &AntennaModel) -> Option<Spoken> 
                     .bold(held.map_or("a satellite", |held| short(&held.name)))
                     .plain("."),
                 Found::Moving => spoken.plain("It moves, and not by its tracking program."),
-                Found::Still => spoken.plain("It stands still and tracks nothing."),
+                Found::Still => spoken.plain("It is at rest and tracks nothing."),
             }
         }
         Event::NotSent(refusal) => {
@@ -77,7 +77,7 @@ pub(super) fn sentence(model: &Model, antenna: &AntennaModel) -> Option<Spoken> 
             caution.plain("The unit ended tracking before LOS.")
         }
         Event::EndedShort { aim, at } => caution.plain(format!(
-            "Stands at {} and not at {}.",
+            "Stopped at {} instead of {}.",
             format::pointing(*at, can),
             format::pointing(*aim, can)
         )),

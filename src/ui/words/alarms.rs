@@ -67,7 +67,7 @@ pub fn alarm(kind: &AlarmKind, antenna: &str, now: Timestamp) -> String {
             format!("{antenna} does not reply: {}.", super::link_loss(loss))
         }
         AlarmKind::StopNotConfirmed => {
-            format!("{antenna} is still not known to stand after STOP. Use the local panel.")
+            format!("{antenna} is still not known to have stopped after STOP. Use the local panel.")
         }
         AlarmKind::StopRefused(answer) => {
             format!("{antenna} answered {answer} to STOP. Use the local panel.")

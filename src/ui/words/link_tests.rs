@@ -138,7 +138,7 @@ fn reached(after_ms: u128, state: &AntennaState, spec: &ControllerSpec) -> Vec<(
     let mut lines = vec![(Tone::Good, format!("Reached{said}, {after_ms} ms."))];
     let mut facts = Vec::new();
     if let Some(direction) = state.measured.and_then(|measured| measured.direction()) {
-        facts.push(format!("Stands at {}.", format::pointing_at(direction)));
+        facts.push(format!("Points at {}.", format::pointing_at(direction)));
     }
     if let Some(own) = state.on_board.place {
         let there = place(own.latitude_deg, own.longitude_deg);

@@ -17,7 +17,7 @@ use crate::{
 pub fn cause(ranked: &Ranked, unit: DistanceUnit) -> String {
     match &ranked.cause {
         Cause::Place { place, away_km } => format!(
-            "the unit stands {} from this station: its place is {}",
+            "the unit's location is {} from this station: {}",
             format::distance(*away_km, usize::from(*away_km < 100.0), unit),
             place_words(*place)
         ),

@@ -13,7 +13,7 @@ pub const HOLD_UNSEEN: &str = "Hold 1 s to start it without knowing its end";
 /// Text of the button that allows moving an antenna out of a forbidden zone.
 pub const HOLD_WAY_OUT: &str = "Hold 1 s to move out by hand";
 /// Text of the button that allows motion without a dead-man.
-pub const HOLD_UNGUARDED: &str = "Hold 1 s to move without dead-man";
+pub const HOLD_UNGUARDED: &str = "Hold 1 s to move without the dead-man timer";
 
 /// The reason why a motion was not sent.
 // One arm a kind.
@@ -99,7 +99,7 @@ pub fn refusal(refusal: &Refusal, now: Timestamp) -> String {
             )
         }
         Refusal::StillMoving => {
-            "Not sent: the antenna still moves. Step again when it stands.".to_owned()
+            "Not sent: the antenna is still moving. Step again when it has stopped.".to_owned()
         }
         Refusal::Unguarded => format!(
             "Not sent: nothing would stop the antenna if Azel ended. Use \

@@ -33,13 +33,13 @@ pub fn way_out(antenna: &str, Inside { barrier, may_leave }: &Inside) -> String 
     let place = inside(barrier);
     match (may_leave, barrier) {
         (false, Barrier::Sun) => {
-            format!("{antenna} stands {place} now. It may move away from it, not nearer.")
+            format!("{antenna} is {place} now. It may move away from it, not nearer.")
         }
         (false, _) => {
-            format!("{antenna} stands {place} now. It can be moved out by hand once you allow it.")
+            format!("{antenna} is {place} now. It can be moved out by hand once you allow it.")
         }
         (true, _) => format!(
-            "{antenna} stands {place}. You have allowed it to be moved out by hand for a minute, \
+            "{antenna} is {place}. You have allowed it to be moved out by hand for a minute, \
              slowly and outwards only."
         ),
     }
@@ -81,25 +81,25 @@ pub fn stopping_way(StoppingWay { overrun_s, stops, is_learned }: StoppingWay) -
 }
 
 /// The reason why jogging waits for the operator's permission.
-pub const UNGUARDED: &str = "The dead-man could not be started: if Azel ended while the key is held, nothing would stop \
-     the antenna.";
+pub const UNGUARDED: &str = "The dead-man timer could not be started: if Azel ended while the \
+     key is held, nothing would stop the antenna.";
 
 /// The reason for asking the operator to confirm that the antenna stands still.
 pub fn asks_standing(snapshot: &Snapshot, now: Timestamp) -> Option<String> {
     if let StopState::NotConfirmed { .. } = snapshot.stop {
-        let why = "STOP is repeated until it is known to stand. Look at the antenna before you confirm it.";
+        let why = "STOP is repeated until the antenna is known to be at rest. Look at it before you confirm.";
         return Some(why.to_owned());
     }
     let since = format::moment(snapshot.left_moving?, now);
     Some(format!(
-        "Azel ended at {since} while it was moved. Look at the antenna before you confirm it."
+        "Azel ended at {since} while the antenna was moved. Look at it before you confirm."
     ))
 }
 
 /// The sentence about a STOP owed to a unit that belongs to no antenna any more.
 pub fn owed(unit: &Unit) -> String {
     format!(
-        "{} may still move: a STOP is owed to it, and no antenna of this station uses this unit \
+        "{} may still move: STOP is not confirmed, and no antenna of this station uses this unit \
          any more. Azel keeps trying. Look at the antenna.",
         at_its_address(unit)
     )
@@ -138,15 +138,15 @@ fn unlike(unlike: Unlike) -> &'static str {
 pub fn safety(matter: &Safety, antenna: &str, now: Timestamp) -> String {
     match matter {
         Safety::DeadManFired => format!(
-            "{antenna} was stopped by the dead-man: Azel was late. Press the key again to move it."
+            "{antenna} was stopped by the dead-man timer: Azel was late. Press the key again to move it."
         ),
         Safety::LeftMoving { since, asks: false } => format!(
             "Azel ended at {} while {antenna} was moved by hand. STOP was sent first.",
             format::moment(*since, now)
         ),
         Safety::LeftMoving { since, asks: true } => format!(
-            "Azel ended at {} while {antenna} was moved by hand, and nobody has seen it stand \
-             since. Press STOP, or say that you have seen it stand.",
+            "Azel ended at {} while {antenna} was moved by hand, and nobody has seen it at rest \
+             since. Press STOP, or confirm that you have seen it at rest.",
             format::moment(*since, now)
         ),
         Safety::NoMark => format!(
@@ -154,10 +154,10 @@ pub fn safety(matter: &Safety, antenna: &str, now: Timestamp) -> String {
              its next start would not know. Look at the free space and rights of the disk."
         ),
         Safety::StoppedByFlags { axis } => format!(
-            "{antenna} says that it stands. {axis} tells no angle, so nothing else proves it."
+            "{antenna} reports that it is at rest. {axis} reports no angle, so nothing else proves it."
         ),
         Safety::FlagsContradict { axis, turned_deg } => format!(
-            "{antenna} says that it stands, but {axis} has turned by {}. Look at the antenna.",
+            "{antenna} reports that it is at rest, but {axis} has turned by {}. Look at the antenna.",
             format::degrees(turned_deg.abs(), 1)
         ),
         Safety::SilentInMotion => format!(
@@ -195,8 +195,8 @@ pub fn safety(matter: &Safety, antenna: &str, now: Timestamp) -> String {
             format::age(lasted.as_secs_f64())
         ),
         Safety::AsksToResume { name, lost, unlike } => format!(
-            "{antenna} was tracking {name} and was out of sight for {}.{} It stands until you \
-             track it again.",
+            "{antenna} was tracking {name} and was out of sight for {}.{} It stays stopped until \
+             you track it again.",
             format::age(lost.as_secs_f64()),
             unlike.map(self::unlike).unwrap_or_default()
         ),

@@ -65,7 +65,7 @@ fn the_detail_says_what_each_antenna_holds() {
         genius.id = station::AntennaId(7);
         model.antennas.push(rig::antenna(genius, rig::quiet()));
         settle(&mut window);
-        assert!(says(&window, "Genius: Holds no elements: Azel uses the set in use."));
+        assert!(says(&window, "Genius: Stores no elements: Azel tracks with the set in use."));
     }
 }
 

@@ -53,10 +53,10 @@ pub static GENERAL: Group = Group {
             .in_unit("°")
             .moving()
             .about("Added to the elevation while the unit tracks."),
-        Field::edit(LEAD_MS, "Go to start before")
+        Field::edit(LEAD_MS, "Lead time")
             .in_unit("ms")
             .moving()
-            .about("So long before the window begins the unit goes to the start of the track."),
+            .about("How long before the window begins the unit goes to the start of the track."),
         Field::edit(POSITION_BASE, "Position base")
             .moving()
             .about("The sensors from which the unit takes its position."),

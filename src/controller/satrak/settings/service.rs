@@ -37,9 +37,9 @@ pub static ANGLES: Group = Group {
             .moving()
             .about("Present position: the unit takes the references from where it stands."),
         Field::edit(X_SENSOR, "X sensor reference").part_of(X_REFERENCE).moving(),
-        Field::edit(X_DEG, "X angle at it").part_of(X_REFERENCE).moving().in_unit("°"),
+        Field::edit(X_DEG, "X angle at reference").part_of(X_REFERENCE).moving().in_unit("°"),
         Field::edit(Y_SENSOR, "Y sensor reference").part_of(Y_REFERENCE).moving(),
-        Field::edit(Y_DEG, "Y angle at it").part_of(Y_REFERENCE).moving().in_unit("°"),
+        Field::edit(Y_DEG, "Y angle at reference").part_of(Y_REFERENCE).moving().in_unit("°"),
     ],
 };
 

@@ -237,8 +237,8 @@ fn margin_sum(antenna: Option<&AntennaModel>, own_deg: f64) -> (String, String) 
     let words =
         format!("°   beam {} + overshoot {overshoot} + {own}", format::degrees(half_deg, 2));
     let about = format!(
-        "A standing antenna is kept {} away: half of the beam and what you add. A moving one is \
-         stopped earlier by what it runs on after STOP, {overshoot} at its fastest. {}",
+        "An antenna at rest is kept {} away: half of the beam and what you add. A moving one is \
+         stopped earlier, by as much as it coasts after STOP, {overshoot} at full speed. {}",
         format::degrees(half_deg + own_deg, 2),
         words::stopping_way(stopping_way)
     );

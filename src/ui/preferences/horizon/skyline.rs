@@ -105,7 +105,7 @@ fn markable(model: &Model, state: &HorizonState) -> Result<AzEl, String> {
     }
     let measured = snapshot.state.measured.ok_or_else(|| format!("{name} has no position yet."))?;
     if measured.moving() {
-        return Err(format!("{name} moves. Let it stand, then mark."));
+        return Err(format!("{name} is moving. Mark when it has stopped."));
     }
     measured.direction().ok_or_else(|| format!("{name} reports no elevation."))
 }

@@ -24,7 +24,7 @@ use crate::{
 
 const HEAD: f32 = 24.0;
 const ROW: f32 = 33.0;
-const EMPTY: &str = "There are no rules: priorities and limits decide alone.";
+const EMPTY: &str = "There are no rules: only priorities and limits decide.";
 const SWITCH: [f32; 2] = [36.0, 20.0];
 
 /// The columns of the table.
