@@ -75,6 +75,6 @@ fn read(path: &std::path::Path) -> Result<(HorizonMask, MaskForm), String> {
         return Err(format!("the file has {size} bytes, a mask has {MAX} at most"));
     }
     let bytes = fs::read(path).map_err(|error| error.to_string())?;
-    let text = String::from_utf8(bytes).map_err(|_| "the file is no text".to_owned())?;
+    let text = String::from_utf8(bytes).map_err(|_| "the file is not text".to_owned())?;
     HorizonMask::import(&text).map_err(|error| error.to_string())
 }

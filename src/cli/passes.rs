@@ -148,7 +148,7 @@ fn write_passes(
 fn read_mask(path: &PathBuf) -> anyhow::Result<HorizonMask> {
     let text = std::fs::read_to_string(path)
         .with_context(|| format!("The horizon mask {} cannot be read", path.display()))?;
-    HorizonMask::parse(&text).with_context(|| format!("{} is no horizon mask", path.display()))
+    HorizonMask::parse(&text).with_context(|| format!("{} is not a horizon mask", path.display()))
 }
 
 /// Size of the buffer in front of standard output, bytes.

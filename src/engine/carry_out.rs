@@ -376,7 +376,7 @@ impl Engine {
             }
             // What stands there by now is somebody's station, not what the operator has seen.
             Some(path) if self.demo.is_some() && path.exists() => Err(format!(
-                "there is a station by now, from elsewhere: open it in the station menu: {}",
+                "a station has been set up elsewhere meanwhile: open it in the station menu: {}",
                 path.display()
             )),
             Some(path) => station::save(&station, path).map_err(|error| error.to_string()),

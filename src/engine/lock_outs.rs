@@ -19,8 +19,8 @@ impl Engine {
         if let Some(problem) = problem {
             tracing::error!("{LOCK_OUTS_FILE} cannot be read: {problem}");
             let text = format!(
-                "every unit is locked out until you take it off, because the list of lock-outs \
-                 cannot be read: {problem}"
+                "every unit is locked out until you remove its lock-out, because the list of \
+                 lock-outs cannot be read: {problem}"
             );
             self.alarms.raise(None, AlarmKind::LockOuts(text), self.now);
         }

@@ -105,6 +105,6 @@ pub enum KeyFileProblem {
     #[error("the passphrase does not open it; type it again")]
     WrongPassphrase,
     /// Not a private key of a known kind.
-    #[error("it is no private key of a kind known here; use one made by ssh-keygen")]
+    #[error("it is not a private key of a kind known here; use one made by ssh-keygen")]
     Form,
 }

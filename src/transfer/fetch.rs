@@ -97,7 +97,7 @@ pub enum FetchError {
     #[error("no answer ({0}); check address and link")]
     NoAnswer(String),
     /// The server redirects the request; it is unknown whether the unit would follow.
-    #[error("the server sends the asker on to {to}; give the unit that address")]
+    #[error("the server redirects to {to}; give the unit that address")]
     Redirected {
         /// New address.
         to: String,

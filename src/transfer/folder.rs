@@ -47,7 +47,8 @@ pub(super) trait Folder {
 pub enum FolderError {
     /// The user lacks the right for it.
     #[error(
-        "the user has no right to do this in the folder; log in as another user, or let the unit's keeper allow it"
+        "the user has no right to do this in the folder; log in as another user, or ask the \
+         person who maintains the unit for it"
     )]
     Denied,
     /// The folder or a required file in it is missing.

@@ -87,7 +87,7 @@ fn told(error: &Error) -> KeyringError {
         Error::NoDefaultStore => KeyringError::Missing("none answers".to_owned()),
         Error::NoStorageAccess(cause) => KeyringError::Refused(cause.to_string()),
         Error::BadEncoding(_) | Error::BadDataFormat(..) => {
-            KeyringError::Refused("the entry is no text".to_owned())
+            KeyringError::Refused("the entry is not text".to_owned())
         }
         Error::Ambiguous(_) => KeyringError::Refused("there are several entries".to_owned()),
         Error::TooLong(what, most) => {

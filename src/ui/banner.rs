@@ -68,8 +68,8 @@ pub fn show(ui: &mut Ui, rect: Rect, model: &Model, commands: &mut Vec<UiCommand
     let is_low = rect.height() < HEIGHT;
     let words = match &model.catalog {
         _ if model.view == View::Setup => {
-            "Demo station: the antennas are simulated, no metal moves. It goes on while you set \
-             up yours."
+            "Demo station: the antennas are simulated, no metal moves. It keeps running while \
+             you set up yours."
                 .to_owned()
         }
         CatalogState::Loading => "Demo station: the elements are being read.".to_owned(),

@@ -181,19 +181,19 @@ fn clock_health(sync: TimeSync) -> ClockHealth<'static> {
         TimeSync::Synchronised => ClockHealth {
             mood: ClockMood::Good,
             words: "synchronised",
-            sentence: "A time service keeps the clock of this computer.",
+            sentence: "A time service synchronises this computer's clock.",
         },
         TimeSync::NotSynchronised => ClockHealth {
             mood: ClockMood::Bad,
             words: "not synchronised",
-            sentence: "No time service keeps the clock of this computer. Overhead a low \
-                       satellite moves by about 1° in a second, so the predictions are wrong by \
-                       as much for each second that the clock is off.",
+            sentence: "No time service synchronises this computer's clock. A low satellite \
+                       overhead moves about 1° a second, so predictions are off by as much for \
+                       each second that the clock is off.",
         },
         TimeSync::NotKnown => ClockHealth {
             mood: ClockMood::Unknown,
             words: "sync not known",
-            sentence: "Whether a time service keeps the clock of this computer is not known.",
+            sentence: "It is not known whether a time service synchronises this computer's clock.",
         },
     }
 }

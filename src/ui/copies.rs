@@ -78,7 +78,7 @@ fn choose(ui: &mut Ui, open: &OpenCopy, state: &mut CompareState) -> Option<Path
     let t = theme::tokens(ui);
     let mut read = None;
     if open.listed.is_empty() {
-        let words = "No copy of this antenna was saved on this computer yet.";
+        let words = "No settings of this antenna have been saved on this computer yet.";
         ui.label(RichText::new(words).font(text::body()).color(t.t2));
     }
     ScrollArea::vertical().id_salt("copies").max_height(96.0).show(ui, |ui| {

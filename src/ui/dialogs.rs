@@ -45,8 +45,8 @@ pub fn host_key(ui: &Ui, key: &DoubtfulKey) -> Option<Answer> {
         let t = theme::tokens(ui);
         let words = format!("{} is new here", key.address);
         ui.label(RichText::new(words).font(text::value()));
-        let words = "Compare its key with the one that ssh-keygen -l shows on the unit. It is \
-                     asked about once; another key will be refused from then on.";
+        let words = "Compare its key with the one that ssh-keygen -l shows on the unit. You are \
+                     asked once; any other key is refused from then on.";
         ui.label(RichText::new(words).font(text::body()));
         for line in [&key.algorithm, &key.fingerprint] {
             ui.add(Label::new(RichText::new(line).font(text::raw()).color(t.t1)).wrap());
@@ -69,9 +69,9 @@ pub fn changed_key(
     }
     fact(ui, "Now", &key.fingerprint);
     fact(ui, "Kind", &key.algorithm);
-    let words = "Either the unit was replaced or set up anew, or another computer sits in \
-                 between. Nothing was sent. Ask the person who maintains the unit; on it \
-                 ssh-keygen -l shows the right fingerprint.";
+    let words = "Either the unit was replaced or reinstalled, or another computer sits in \
+                 between. Nothing was sent. Ask the person who maintains the unit; ssh-keygen -l \
+                 on the unit shows the right fingerprint.";
     line(ui, Tone::Plain, words);
     if ui.button("Forget the known key…").clicked() {
         *question = Some(Question {

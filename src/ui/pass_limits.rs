@@ -86,7 +86,7 @@ impl LimitsForm<'_> {
             choose_antennas(ui, self.antennas, own);
         });
         if is_partly_of_a_group {
-            let words = "Where it has no limit of its own, that of its group holds.";
+            let words = "Where it has no limit of its own, its group's applies.";
             ui.label(RichText::new(words).font(text::small()).color(t.t2));
         }
     }

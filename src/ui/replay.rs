@@ -53,7 +53,7 @@ pub fn ended(why: &ReplayEnd, now: Timestamp) -> String {
         ReplayEnd::Alarm => "Replay ended: there is a top-priority alarm.".to_owned(),
         ReplayEnd::Pass { name, from } => {
             let name = if name.is_empty() { "a satellite" } else { name };
-            format!("Replay ended: {name} is tracked from {} on.", format::moment(*from, now))
+            format!("Replay ended: {name} is tracked from {}.", format::moment(*from, now))
         }
     }
 }

@@ -87,7 +87,7 @@ pub fn show(
             push(commands, TestAsk::Begin(Box::new(order.clone())));
         }
         if let Err(problem) = &order {
-            let words = format!("Not to be tested yet: {problem}.");
+            let words = format!("Cannot be tested yet: {problem}.");
             ui.label(RichText::new(words).font(text::small()).color(theme::tokens(ui).warn));
         }
     });
@@ -128,7 +128,7 @@ fn order(
         }
         TypedSource::Server { address, port, user, password, file, satellite } => {
             let host = present(address, "the address is missing")?;
-            let port: u16 = port.trim().parse().map_err(|_| "the port is no number")?;
+            let port: u16 = port.trim().parse().map_err(|_| "the port is not a number")?;
             let source = TestedSource::Server {
                 peer: Peer { host, port },
                 protocol: state.protocol.unwrap_or_else(|| FileProtocol::of_port(port)),
@@ -159,7 +159,7 @@ fn satellite(ui: &mut Ui, held: Option<&str>, state: &mut SourceTestState) {
 
 fn protocol(ui: &mut Ui, chosen: &mut Option<FileProtocol>) {
     let word = |protocol: Option<FileProtocol>| match protocol {
-        None => "As the port says",
+        None => "Set by the port",
         Some(FileProtocol::Ftp) => "FTP",
         Some(FileProtocol::FtpTls) => "FTP with TLS",
         Some(FileProtocol::Sftp) => "SFTP",

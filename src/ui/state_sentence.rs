@@ -186,7 +186,7 @@ fn tracking(model: &Model, antenna: &AntennaModel, name: &str) -> Spoken {
             .plain("Tracking ")
             .bold(name)
             .plain(own)
-            .plain("We have no elements of it to compare with.");
+            .plain("Azel has no elements of it to compare with.");
     };
     let off_deg = error.off_beam.degrees();
     let after = match antenna.snapshot.state.on_board.window {
@@ -266,7 +266,8 @@ fn standing(model: &Model, antenna: &AntennaModel) -> Spoken {
     }
     if state.measured.is_some_and(|measured| measured.moving()) {
         return Spoken::new(SentenceKind::Caution).plain(
-            "Moving, not by this console: somebody else drives it, or it is coasting to a stop.",
+            "Moving, not by this console: somebody else is driving it, or it is coasting to a \
+             stop.",
         );
     }
     let next = next_words(

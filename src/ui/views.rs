@@ -274,8 +274,7 @@ impl Views {
         }
         let changes = |command: &mut UiCommand| matches!(command, UiCommand::Station(command) if command.changes_station());
         if commands.extract_if(before.., changes).count() > 0 {
-            let text = "Not changed: Preferences has changes that are not saved. Save or revert \
-                        them first.";
+            let text = "Not changed: Preferences has unsaved changes. Save or revert them first.";
             self.notes.news = Some(Err(text.to_owned()));
             self.plan.was_not_changed();
         }
@@ -315,8 +314,8 @@ impl Views {
         let mut lost = Vec::new();
         match self.antennas.edited(model) {
             0 => {}
-            1 => lost.push("1 change of a unit's settings is not applied.".to_owned()),
-            edited => lost.push(format!("{edited} changes of units' settings are not applied.")),
+            1 => lost.push("1 change to a unit's settings is not applied.".to_owned()),
+            edited => lost.push(format!("{edited} changes to units' settings are not applied.")),
         }
         if self.preferences.is_edited() {
             lost.push("The station settings are not saved.".to_owned());
@@ -355,7 +354,7 @@ impl Views {
             None => ("Close", UiCommand::Close),
             Some(_) => ("Change", UiCommand::ChangeNow),
         };
-        let text = format!("{} {yes} all the same?", lost.join(" "));
+        let text = format!("{} {yes} anyway?", lost.join(" "));
         self.question = Some(Question { text, yes, command });
         true
     }

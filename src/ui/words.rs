@@ -91,7 +91,7 @@ pub fn stake(antenna: &str, stake: &Stake) -> String {
         Stake::OnBoard(None) => format!("{antenna} tracks by itself."),
         Stake::ProgramTracked(name) => format!("Azel tracks {} with {antenna}.", short(name)),
         Stake::Moves => format!("{antenna} moves."),
-        Stake::OwesStop => format!("STOP of {antenna} is not proved."),
+        Stake::OwesStop => format!("STOP of {antenna} is not confirmed."),
         Stake::Unproved => format!("{antenna} was moved and is not known to have stopped."),
     }
 }

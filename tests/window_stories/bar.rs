@@ -69,7 +69,10 @@ fn alarms_are_told_in_words_with_their_antenna() {
     let note = |reason| AlarmKind::Setting(Note { place: "antenna.park".to_owned(), reason });
     for (kind, wanted) in [
         (AlarmKind::LinkLost(LinkLoss::Closed), "Satrak does not reply: the unit closed"),
-        (AlarmKind::StopNotConfirmed, "Satrak is still not known to stand after STOP. Use the"),
+        (
+            AlarmKind::StopNotConfirmed,
+            "Satrak is still not known to have stopped after STOP. Use the",
+        ),
         (
             AlarmKind::StopRefused("ERR,7".to_owned()),
             "Satrak answered ERR,7 to STOP. Use the local",
@@ -89,7 +92,7 @@ fn alarms_are_told_in_words_with_their_antenna() {
         ),
         (
             AlarmKind::LinkLost(LinkLoss::Unreadable),
-            "Satrak answers, but what it says cannot be read.",
+            "Satrak answers, but its answers cannot be read.",
         ),
         (
             AlarmKind::DriverStands(std::time::Duration::from_millis(600)),
@@ -97,12 +100,12 @@ fn alarms_are_told_in_words_with_their_antenna() {
         ),
         (
             AlarmKind::BrokeOff(Work::Elements),
-            "The reading of the elements broke off inside Azel. What was held stays in use;",
+            "Reading the elements failed inside Azel. The elements held before stay in use;",
         ),
-        (AlarmKind::BrokeOff(Work::Passes), "The search for passes broke off inside Azel."),
+        (AlarmKind::BrokeOff(Work::Passes), "The search for passes failed inside Azel."),
         (
             AlarmKind::SourceSetAside("noaa".to_owned()),
-            "The source noaa is not read: Azel ended while it read it.",
+            "The source noaa is not read: Azel ended while reading it.",
         ),
         (AlarmKind::ClockOff(-2.0), "The clock of Satrak is 2.0 s behind."),
         (note(NoteReason::Unknown), "Setting antenna.park is not known."),
@@ -201,7 +204,7 @@ fn a_seen_alarm_is_shelved_and_taken_back_but_none_of_the_first_rank() {
         assert_eq!(carry_out(&mut window), [UiCommand::Station(wanted)]);
         window.get_by_label("1 alarm, seen");
         window.get_by_label(&format!("{text}, 11:15:30Z, shelved to 12:15:30Z"));
-        window.get_by_label(&format!("Take back: {text}")).click();
+        window.get_by_label(&format!("Unshelve: {text}")).click();
         let wanted = engine::Command::UnshelveAlarm(0);
         assert_eq!(carry_out(&mut window), [UiCommand::Station(wanted)]);
         window.get_by_label(&format!("{text}, 11:15:30Z, seen"));

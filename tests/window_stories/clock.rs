@@ -53,6 +53,6 @@ fn the_tool_tip_says_what_it_means() {
         rig::settle(&mut window);
         // A tool-tip waits for a pointer at rest.
         window.run_steps(40);
-        window.get_by_label_contains("Overhead a low satellite moves by about 1°");
+        window.get_by_label_contains("A low satellite overhead moves about 1°");
     }
 }

@@ -57,7 +57,7 @@ fn a_window_with_nothing_to_lose_closes_at_once() {
     let folder = tempfile::tempdir().unwrap();
     let mut window = open(&folder.path().join("station.toml"), Clock::system());
     assert_eq!(close(&mut window), []);
-    assert!(!says(&window, "Close all the same?"));
+    assert!(!says(&window, "Close anyway?"));
 }
 
 #[test]
@@ -67,10 +67,10 @@ fn a_window_with_unsaved_settings_asks_first() {
     rename_the_station(&mut window);
     assert_eq!(close(&mut window), [ViewportCommand::CancelClose]);
     window.run_steps(2);
-    assert!(says(&window, "The station settings are not saved. Close all the same?"));
+    assert!(says(&window, "The station settings are not saved. Close anyway?"));
 
     press(&mut window, "Cancel");
-    assert!(!says(&window, "Close all the same?"));
+    assert!(!says(&window, "Close anyway?"));
     assert!(says(&window, "Hill"), "what was typed is there");
 
     assert_eq!(close(&mut window), [ViewportCommand::CancelClose]);
@@ -109,10 +109,10 @@ fn antennas_that_move_or_are_tracked_are_asked_about_by_name() {
             let mut window = asked_about(size, model());
             for told in [
                 "Satrak tracks NOAA 20 by itself.",
-                "RC2000C was moved and is not known to stand.",
+                "RC2000C was moved and is not known to have stopped.",
                 "STOP goes to Satrak and RC2000C first.",
-                "Satrak to the park position; all stays until then.",
-                "Satrak left to track; nobody here watches. STOP goes to the others first.",
+                "Satrak to the park position; everything else stays until then.",
+                "Satrak left to track, with nobody watching here. STOP goes to the others first.",
             ] {
                 assert!(rig::says(&window, told), "{told}");
             }
@@ -166,7 +166,7 @@ fn an_answer_that_means_nothing_is_not_offered() {
         owed.stop = StopState::NotConfirmed { since: azel::clock::Instant::now() };
         owed.link = LinkState::Connecting { since: azel::clock::Instant::now() };
         let window = asked_about(size, rig::model(owed));
-        assert!(rig::says(&window, "STOP of Satrak is not proved."));
+        assert!(rig::says(&window, "STOP of Satrak is not confirmed."));
         assert!(window.query_by_label("Close and park").is_none(), "there is no link");
     }
 }

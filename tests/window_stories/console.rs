@@ -318,7 +318,7 @@ fn hidden_values_are_said_to_be_hidden() {
             click(&mut window, "Details");
         }
         assert!(says(&window, "1 values with a password: (hidden)"));
-        assert!(says(&window, "Some are not kept"));
+        assert!(says(&window, "Some bytes are not kept"));
         assert!(!says(&window, "0000 24"), "bytes that did not come are not shown as such");
     }
 }

@@ -162,7 +162,7 @@ fn a_station_of_somebody_else_is_not_overwritten_by_the_set_up() {
     window.get_by_role_and_label(Role::Button, "Save and use").click();
     wait_until("it is told", || {
         window.step();
-        says(&window, "Not saved: there is a station by now, from elsewhere")
+        says(&window, "Not saved: a station has been set up elsewhere meanwhile")
     });
     assert!(window.state().model().demo, "it goes on");
     assert_eq!(fs::read_to_string(&path).unwrap(), theirs);

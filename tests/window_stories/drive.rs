@@ -300,7 +300,7 @@ fn a_fault_that_locks_motion_locks_the_card_and_not_stop() {
     snapshot.state.motion_lock = Some(true);
     for size in SIZES {
         let mut window = rig::window(size, rig::model(snapshot.clone()));
-        assert!(says(&window, "Locked by a fault. Look at Faults."));
+        assert!(says(&window, "Locked by a fault. See Faults."));
         window.drag_at(window.get_by_label("Jog X+").rect().center());
         settle(&mut window);
         window.drop_at(window.get_by_label("Jog X+").rect().center());

@@ -162,16 +162,16 @@ fn a_source_says_what_is_wrong_and_what_is_true_meanwhile() {
 fn a_server_is_asked_at_once_when_it_may_be_and_else_after_a_question() {
     for size in SIZES {
         let mut window = view(size, vec![server(3.0)]);
-        click(&mut window, "Ask weather");
+        click(&mut window, "Fetch weather");
         assert_eq!(asked(&mut window), [refresh(&["weather"], false)]);
 
         let mut window = view(size, vec![server(0.5)]);
-        click(&mut window, "Ask weather");
+        click(&mut window, "Fetch weather");
         assert_eq!(asked(&mut window), []);
         assert!(says(&window, "The server of weather was asked 30 min ago."));
         click(&mut window, "Cancel");
         assert_eq!(asked(&mut window), []);
-        click(&mut window, "Ask weather");
+        click(&mut window, "Fetch weather");
         window.key_press(Key::Enter);
         assert_eq!(asked(&mut window), [refresh(&["weather"], true)]);
         click(&mut window, "Read again");
@@ -289,7 +289,7 @@ fn nothing_is_taken_while_servers_are_asked_or_the_list_is_unreadable() {
             settle(&mut window);
             assert!(says(&window, words));
             click(&mut window, "Add a source");
-            for button in ["Ask weather", "Remove weather", "Refresh 1 due", "Add source"] {
+            for button in ["Fetch weather", "Remove weather", "Refresh 1 due", "Add source"] {
                 assert!(is_disabled(&window, button), "{button}");
             }
         }

@@ -144,7 +144,7 @@ fn after_a_lost_link_it_is_said_to_follow_on() {
         Event::Back { after: Duration::from_secs(20), found: Found::Still, is_as_left: true };
     model.antennas[0].news = Some((back, model.now));
     let said = states::sentence(&model);
-    assert!(said.ends_with("It follows on."), "{said}");
+    assert!(said.ends_with("It is still following."), "{said}");
 }
 
 #[test]
@@ -219,7 +219,7 @@ fn sun_moon_and_a_direction_are_followed_by_one_click() {
         let always = |target| ProgramTrack::new(target, site, Vec::new());
         assert_eq!(followed(size, genius(), "Follow the Sun"), always(Target::Sun));
         assert_eq!(followed(size, genius(), "Follow the Moon"), always(Target::Moon));
-        let kept = followed(size, genius(), "Keep pointing to 343°, 5°");
+        let kept = followed(size, genius(), "Keep pointing at 343°, 5°");
         let Target::Fixed(direction) = kept.target else { panic!("{kept:?}") };
         assert!(direction.separation(AzEl::from_degrees(343.1, 5.0)).degrees() < 1e-6);
     }

@@ -61,12 +61,12 @@ fn a_click_in_the_sky_is_judged_told_and_only_then_sent() {
         for before in [states::holding(), states::manual(), rig::quiet()] {
             let mut window = rig::window(size, rig::model(before));
             let to = click_the_south(&mut window);
-            assert!(note(&window).unwrap().ends_with("The way is being judged."));
+            assert!(note(&window).unwrap().ends_with("The path is being checked."));
             window.get_by_role_and_label(Role::Button, "Point here").click();
             assert_eq!(asked(&mut window), [], "not before the way is known");
             answer(&mut window, to, Ok(clear()));
             let told = note(&window).unwrap();
-            assert!(told.ends_with("Arrives in about 0:34. The way is clear."), "{told}");
+            assert!(told.ends_with("Arrives in about 0:34. The path is clear."), "{told}");
             window.get_by_role_and_label(Role::Button, "Point here").click();
             let Pointing { azimuth, elevation } = to;
             let go = antenna(Command::Position { azimuth, elevation });
@@ -106,7 +106,7 @@ fn a_limit_in_the_way_is_named_and_nothing_is_sent() {
         let told = note(&window).unwrap();
         assert!(
             told.ends_with(
-                "Not possible: Y would have to go to 171.0°, it travels 10.0° to 170.0°."
+                "Not possible: Y would have to go to 171.0°; it travels from 10.0° to 170.0°."
             ),
             "{told}"
         );
@@ -163,7 +163,7 @@ fn what_is_typed_is_judged_as_it_stands_until_it_is_sent() {
         assert_eq!(commands.last(), Some(&antenna(Command::Preview(Some(to)))), "{commands:?}");
         assert!(commands.iter().all(|command| !command.may_move()), "{commands:?}");
         answer(&mut window, to, Ok(clear()));
-        assert!(note(&window).unwrap().ends_with("Arrives in about 0:34. The way is clear."));
+        assert!(note(&window).unwrap().ends_with("Arrives in about 0:34. The path is clear."));
         assert!(window.query_by_label("Point here").is_none(), "Enter twice goes");
         window.key_press(Key::Enter);
         settle(&mut window);

@@ -59,8 +59,8 @@ fn who_sees_an_antenna_stand_says_so_by_holding() {
             Snapshot { stop: StopState::NotConfirmed { since }, ..states::moving() };
         let left = Snapshot { left_moving: Some(rig::now()), ..states::holding() };
         for (snapshot, why) in [
-            (not_confirmed, "STOP is repeated until it is known to stand."),
-            (left, "Azel ended at 11:15:30Z while it was moved."),
+            (not_confirmed, "STOP is repeated until the antenna is known to be at rest."),
+            (left, "Azel ended at 11:15:30Z while the antenna was moved."),
         ] {
             let mut window = rig::window(size, shows(snapshot));
             assert!(says(&window, why), "{why}");
@@ -86,8 +86,7 @@ fn inside(barrier: Barrier, may_leave: bool) -> Snapshot {
 fn the_way_out_of_a_keep_out_is_allowed_by_holding_only() {
     let mast = || Barrier::KeepOut("mast".into());
     for size in SIZES {
-        let words =
-            "Satrak stands inside “mast” now. It can be moved out by hand once you allow it.";
+        let words = "Satrak is inside “mast” now. It can be moved out by hand once you allow it.";
         let mut window = rig::window(size, shows(inside(mast(), false)));
         assert!(says(&window, words));
         window.get_by_label(OUT).click();
@@ -198,7 +197,7 @@ fn a_keep_out_is_told_of_with_its_reason() {
 
 #[test]
 fn an_action_whose_end_nobody_here_knows_is_started_by_holding_only() {
-    const UNSEEN: &str = "Hold 1 s to start it without knowing its end";
+    const UNSEEN: &str = "Hold 1 s to start it without knowing where it ends";
     let dish = Antenna::rc2000c("Dish", "in memory");
     let action = dish.connection.variant().actions.iter().find(|action| action.moves).unwrap();
     let act = Act { action: action.key, values: Values::default() };

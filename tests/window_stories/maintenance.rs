@@ -23,7 +23,7 @@ use crate::window_stories::{
 };
 
 const HOLD: &str = "Hold 1 s to lock out";
-const TAKE_OFF: &str = "Hold 1 s to take off the lock-out";
+const TAKE_OFF: &str = "Hold 1 s to remove the lock-out";
 
 fn lock_out() -> LockOut {
     let since = "2026-08-12T09:30:00Z".parse().unwrap();
@@ -88,7 +88,7 @@ fn what_ends_is_named_and_asked_about() {
         settle(&mut window);
         hold(&mut window, HOLD);
         assert_eq!(asked(&mut window), [], "asked first");
-        assert!(rig::says(&window, &format!("{what} Lock out Satrak all the same?")));
+        assert!(rig::says(&window, &format!("{what} Lock out Satrak anyway?")));
         press(&mut window, "Lock out (Enter)");
         let asked = asked(&mut window);
         assert!(
@@ -112,7 +112,7 @@ fn it_is_shown_on_chip_card_and_lists_and_taken_off_by_a_hold() {
             window.get_by_label(chip);
         }
         let words = "In maintenance, locked out by Ada since Wed 2026-08-12 09:30:00Z: gear box \
-                     open. Nothing but questions and STOP goes to it.";
+                     open. Only queries and STOP go to it.";
         assert!(rig::says(&window, words));
         assert!(rig::says(&window, "In maintenance by Ada"));
         if window.query_all_by_label_contains(", max ").next().is_none() {
@@ -127,7 +127,7 @@ fn it_is_shown_on_chip_card_and_lists_and_taken_off_by_a_hold() {
             settle(&mut window);
         }
 
-        press(&mut window, "Take off…");
+        press(&mut window, "Remove…");
         settle(&mut window);
         for told in ["Ada", "gear box open", "Wed 2026-08-12 09:30:00Z"] {
             assert!(rig::says(&window, told), "{told}");
@@ -135,7 +135,7 @@ fn it_is_shown_on_chip_card_and_lists_and_taken_off_by_a_hold() {
         window.get_by_label(TAKE_OFF);
         press(&mut window, "Cancel");
         assert_eq!(asked(&mut window), []);
-        press(&mut window, "Take off…");
+        press(&mut window, "Remove…");
         settle(&mut window);
         hold(&mut window, TAKE_OFF);
         assert_eq!(asked(&mut window), [UiCommand::antenna(AntennaId(1), Command::Unlock)]);
@@ -195,7 +195,7 @@ fn it_is_kept_across_a_restart_and_moves_again_when_it_is_taken_off() {
     assert_eq!(window.state().model().antenna().unwrap().snapshot.intent, Intent::Standby);
     assert_eq!(received().filter(moves).count(), before);
 
-    press(&mut window, "Take off…");
+    press(&mut window, "Remove…");
     window.run_steps(2);
     hold(&mut window, TAKE_OFF);
     step_until(&mut window, "it is taken off", |model| {
@@ -263,7 +263,7 @@ fn a_list_that_cannot_be_read_locks_out_everything_and_says_so() {
         .collect();
     assert!(alarms.iter().any(|words| words.starts_with("Every unit is locked out")), "{alarms:?}");
     window.run_steps(2);
-    press(&mut window, "Take off…");
+    press(&mut window, "Remove…");
     window.run_steps(2);
     hold(&mut window, TAKE_OFF);
     step_until(&mut window, "it is taken off", |model| {

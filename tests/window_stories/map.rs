@@ -208,16 +208,16 @@ fn the_selected_satellite_stands_in_the_inspector() {
         select(&mut model, METEOR);
         let mut window = rig::window(size, model);
         if size == SMALL {
-            assert!(window.query_by_label_contains("Below it").is_none());
+            assert!(window.query_by_label_contains("Sub-satellite point").is_none());
             window.get_by_role_and_label(Role::Button, "Details").click();
             settle(&mut window);
             nothing_overlaps(&window);
         }
-        for words in ["METEOR-M2 4, 59051, elements", "LOS T", "Below it: ", "Height, speed: 8"] {
+        for words in ["METEOR-M2 4, 59051, elements", "LOS T", "Sub-satellite point: ", "Height, speed: 8"] {
             assert!(says(&window, words), "{words}");
         }
         assert!(says(&window, "Footprint radius: 2"));
-        assert!(says(&window, "Goes: "));
+        assert!(says(&window, "Heading: "));
         assert!(says(&window, "Next at Şile 1"));
         let passes = named(&window, Role::ListBoxOption, "Pass at ");
         assert!(!passes.is_empty());

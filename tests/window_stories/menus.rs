@@ -133,5 +133,5 @@ fn the_sky_itself_has_a_menu_where_the_pointer_is() {
     let to = AzEl { azimuth: to.azimuth.unwrap(), elevation: to.elevation.unwrap() };
     assert!((to.azimuth_deg() - 180.0).abs() < 0.1 && to.elevation_deg() > 60.0, "{to:?}");
     let note = window.get_by_label_contains("Satrak to 180").accesskit_node().value();
-    assert!(note.unwrap().contains("The way is being judged."));
+    assert!(note.unwrap().contains("The path is being checked."));
 }

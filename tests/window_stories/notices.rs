@@ -90,7 +90,7 @@ fn a_wrong_time_says_why_and_cannot_be_saved() {
     choose(&mut window, "Quiet hours", "On");
     for (typed, why) in [
         ("25:00", "Quiet from must be a time of the day such as 22:00."),
-        ("06:00", "Quiet to must be another time than Quiet from."),
+        ("06:00", "Quiet to must differ from Quiet from."),
     ] {
         write(&mut window, "Quiet from", typed);
         assert!(says(&window, why), "{typed}");

@@ -112,7 +112,7 @@ fn they_are_remembered_of_the_satellite_or_the_antenna() {
         let station = std::sync::Arc::make_mut(&mut window.state_mut().model.station);
         station.keep_offsets(OffsetsOf::Antenna(AntennaId(1)), on);
         settle(&mut window);
-        assert_eq!(click(&mut window, &format!("{of_antenna}: nothing new")), []);
+        assert_eq!(click(&mut window, &format!("{of_antenna}: remembered already")), []);
     }
 }
 

@@ -59,7 +59,7 @@ pub(crate) fn told(found: Supervision) -> Snapshot {
 #[test]
 fn a_unit_that_would_miss_is_started_by_holding_only() {
     let mut window = rig::window(LARGE, rig::model(told(found(23.0))));
-    assert!(says(&window, "The unit stands 1596 km from this station: its place is 12.30"));
+    assert!(says(&window, "The unit's location is 1596 km from this station: 12.30"));
     assert!(says(&window, "Follow it from here instead."));
     assert!(!texts(&window).iter().any(|text| text.ends_with(", Trackable")));
     assert!(texts(&window).iter().any(|text| text.ends_with(", The unit would miss")));
@@ -82,7 +82,7 @@ fn a_unit_that_would_miss_is_started_by_holding_only() {
 fn a_unit_that_is_a_little_off_or_points_lower_is_told_of() {
     let lower = Supervision { lower_minimum_deg: Some(3.0), ..found(0.2) };
     let window = rig::window(LARGE, rig::model(told(lower)));
-    assert!(says(&window, "Up to 0.20° off: the unit stands 1596 km"));
+    assert!(says(&window, "Up to 0.20° off: the unit's location is 1596 km"));
     assert!(says(&window, "The unit's minimum elevation is 3.0°, the station's 5.0°."));
     assert!(texts(&window).iter().any(|text| text.ends_with(", Trackable")));
 }
@@ -90,7 +90,7 @@ fn a_unit_that_is_a_little_off_or_points_lower_is_told_of() {
 #[test]
 fn the_minimum_of_the_station_is_filled_in_to_be_applied() {
     let mut window = opened(LARGE, read());
-    press(&mut window, "Take 5.0° from the station");
+    press(&mut window, "Use the station's 5.0°");
     assert_eq!(asked(&mut window), [], "filled in, not sent");
     assert_eq!(state_of(&window, "Minimum elevation"), "Edited");
     apply(&mut window);
@@ -103,7 +103,7 @@ fn a_missed_satellite_is_told_with_the_likeliest_cause() {
     let off = Angle::from_degrees(23.04);
     let missed = AlarmKind::OffTarget { off, cause: Some(elsewhere(23.0)) };
     let said = words::alarm(&missed, "Satrak", rig::now());
-    assert!(said.starts_with("Satrak is 23.0° off its satellite: the unit stands 1596 km"));
+    assert!(said.starts_with("Satrak is 23.0° off its satellite: the unit's location is 1596 km"));
     let unexplained = AlarmKind::OffTarget { off, cause: None };
     let said = words::alarm(&unexplained, "Satrak", rig::now());
     assert!(said.contains("the age of its elements is not known"), "{said}");

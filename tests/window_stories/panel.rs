@@ -61,8 +61,8 @@ fn rc2000c(intent: Intent) -> Model {
 fn nothing_is_asked_of_an_rc2000c_before_connect() {
     for size in SIZES {
         let mut window = rig::window(size, makes::model(makes::rc2000c(), makes::rc2000c_off()));
-        assert!(says(&window, "Azel sends it nothing before Connect"));
-        assert!(says(&window, "take its panel from whoever"));
+        assert!(says(&window, "Azel sends nothing to it before Connect"));
+        assert!(says(&window, "take its panel from somebody"));
         assert!(says(&window, "Locked: not connected."));
         window.get_by_label_contains("RC2000C: Not connected");
         window.get_by_role_and_label(Role::Button, "Link of RC2000C").click_accesskit();
@@ -107,7 +107,7 @@ fn letting_go_of_what_moves_is_asked_about() {
         settle(&mut window);
         window.get_by_role_and_label(Role::Button, "Disconnect").click();
         assert_eq!(asked(&mut window), []);
-        assert!(says(&window, "Disconnect from Satrak? It moves or tracks."));
+        assert!(says(&window, "Disconnect from Satrak? It is moving or tracking,"));
         window.key_press(Key::Enter);
         assert_eq!(asked(&mut window), [antenna(Command::Disconnect)]);
     }
@@ -117,7 +117,7 @@ fn letting_go_of_what_moves_is_asked_about() {
 fn after_letting_go_of_a_satrak_it_can_be_taken_up_again() {
     for size in SIZES {
         let mut window = rig::window(size, rig::model(makes::rc2000c_off()));
-        assert!(says(&window, "Another program may use it. Connect takes up the link again."));
+        assert!(says(&window, "Another program may use it. Connect opens the link again."));
         window.get_by_role_and_label(Role::Button, "Connect").click();
         assert_eq!(asked(&mut window), [antenna(Command::Connect)]);
     }
@@ -250,7 +250,7 @@ fn alarms_lock_what_moves_and_say_what_to_do() {
         let snapshot = makes::rc2000c_alarmed(Intent::Manual);
         let mut window = rig::window(size, makes::model(makes::rc2000c(), snapshot));
         assert!(says(&window, "Motion is locked by a fault: Elevation drive. The sensor did not"));
-        assert!(says(&window, "Locked by a fault. Look at Faults."));
+        assert!(says(&window, "Locked by a fault. See Faults."));
         assert_eq!(hold(&mut window, "Jog up"), []);
         if let Some(folded) = window.query_by_label("Faults: 1 fault: Elevation drive") {
             folded.click();
@@ -325,8 +325,8 @@ fn no_other_view_shows_what_only_a_satrak_has() {
             asked(&mut window);
             window.state_mut().model.view = View::Console;
             settle(&mut window);
-            let words = "Questions can be sent, such as STATUS. Settings are changed under Antennas, \
-                         motion in Operate.";
+            let words = "Queries can be sent, such as STATUS. Settings are changed under \
+                         Antennas, motion in Operate.";
             assert!(says(&window, words));
             type_into(&mut window, "Query to send", "status");
             assert!(says(&window, "Asks for the status. The answer comes in the log."));

@@ -319,7 +319,7 @@ fn chips_filter_and_sort_the_list_and_stay_when_it_is_closed() {
         settle(&mut window);
         window.get_by_label("Highest first").click();
         settle(&mut window);
-        window.get_by_role_and_label(Role::CheckBox, "To come").click();
+        window.get_by_role_and_label(Role::CheckBox, "Upcoming").click();
         settle(&mut window);
         let listed = rows(&window);
         let highest = |row: &String| -> f64 {
@@ -334,7 +334,7 @@ fn chips_filter_and_sort_the_list_and_stay_when_it_is_closed() {
 
         window.get_by_role_and_label(Role::Button, "Close").click();
         settle(&mut window);
-        assert!(says(&window, "Filtered: Highest first · To come"));
+        assert!(says(&window, "Filtered: Highest first · Upcoming"));
         window.get_by_role_and_label(Role::Button, "Clear").click();
         settle(&mut window);
         assert_eq!(window.state().views.kept().passes, Arrangement::default());

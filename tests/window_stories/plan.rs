@@ -184,7 +184,7 @@ fn a_choice_waits_for_edits_of_the_preferences_which_stay() {
     settle(&mut window);
     window.key_press(Press::V);
     assert_eq!(commands(&mut window), []);
-    assert!(says(&window, "Not changed: Preferences has changes that are not saved."));
+    assert!(says(&window, "Not changed: Preferences has unsaved changes."));
     assert!(window.query_by_role_and_label(Role::Button, "Undo").is_none());
     window.state_mut().model.view = View::Preferences;
     settle(&mut window);

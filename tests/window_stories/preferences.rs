@@ -238,7 +238,7 @@ fn press(window: &mut Window, button: &str) {
 fn a_duplicate_has_all_but_the_name_and_the_address() {
     for size in SIZES {
         let mut window = antenna_form(size);
-        write(&mut window, "Beam width", "1.7");
+        write(&mut window, "Beamwidth", "1.7");
         press(&mut window, "Duplicate");
         press(&mut window, "Save and use");
         let station = saved(asked(&mut window));
@@ -267,7 +267,7 @@ fn a_link_is_tested_as_it_is_typed() {
         let done = LinkTestStage::Done { finding, at: rig::now() };
         for (stage, words) in [
             (done, "tower:4001 refuses the connection."),
-            (LinkTestStage::InUse, "Not asked: an antenna of this station has the unit."),
+            (LinkTestStage::InUse, "Not asked: an antenna of this station uses the unit."),
         ] {
             let test = LinkTest { antenna: (**antenna).clone(), stage };
             window.state_mut().model.link_tests = Arc::new(vec![test]);
@@ -318,7 +318,7 @@ fn a_page_that_is_used_at_once_has_nothing_to_save() {
         for page in ["Appearance", "Keys"] {
             open(&mut window, page);
             assert!(is_disabled(&window, "Save and use"), "{page}");
-            assert!(says(&window, "Changes on this page are used at once."), "{page}");
+            assert!(says(&window, "Changes on this page are applied at once."), "{page}");
         }
         open(&mut window, "Site");
         write(&mut window, "Name", "Şile 2");
@@ -388,7 +388,7 @@ fn an_antenna_that_moves_is_not_let_go_by_saving() {
         model.view = View::Preferences;
         let mut window = rig::window(SIZES[0], model);
         open(&mut window, "Satrak");
-        write(&mut window, "Beam width", "3");
+        write(&mut window, "Beamwidth", "3");
         window
     };
     for snapshot in [states::moving(), states::tracking(0.1)] {

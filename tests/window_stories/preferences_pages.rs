@@ -131,7 +131,7 @@ fn edits_and_unusable_fields_of_each_page_are_counted_and_ctrl_enter_saves_them_
         let mut window = form(size);
         write(&mut window, "Altitude", "12");
         open(&mut window, "Satrak");
-        write(&mut window, "Beam width", "1.7");
+        write(&mut window, "Beamwidth", "1.7");
         write(&mut window, "Poll while moving", "11");
         assert!(says(&window, "Site: 1 edited") && says(&window, "Satrak: 2 edited, 1 not valid"));
         assert!(says(&window, "3 changes in 2 sections"));
@@ -426,7 +426,7 @@ fn the_outcome_of_a_test_moves_no_field() {
     };
     let finding = LinkFinding::Reached { state: Box::default(), after: Duration::from_millis(12) };
     for (stage, words) in [
-        (LinkTestStage::Working, "is being asked."),
+        (LinkTestStage::Working, "Asking "),
         (LinkTestStage::Done { finding, at: rig::now() }, "Reached, 12 ms"),
     ] {
         let test = LinkTest { antenna: (**antenna).clone(), stage };

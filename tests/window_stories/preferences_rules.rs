@@ -179,7 +179,7 @@ fn a_removed_group_can_be_kept_and_a_rule_that_names_it_cannot_be_saved() {
         key(&mut window, Modifiers::COMMAND, Key::Enter);
         assert_eq!(asked(&mut window), []);
         open(&mut window, RULES);
-        assert!(says(&window, "it names no group that is there"));
+        assert!(says(&window, "it names a group that does not exist"));
         open(&mut window, SATELLITES);
         press(&mut window, Role::Button, "Undo: keep it: group Weather");
         assert!(says(&window, "Nothing to save."));
@@ -219,7 +219,7 @@ fn a_rule_is_made_by_mouse() {
         window.get_by_role_and_label(Role::Button, "Satrak").click();
         settle(&mut window);
         choose(&mut window, "Satellites", "Group");
-        assert!(says(&window, "it names no group that is there"));
+        assert!(says(&window, "it names a group that does not exist"));
         press(&mut window, Role::ComboBox, "Group, Choose a group");
         window.get_by_label("Weather").click();
         settle(&mut window);
@@ -238,7 +238,7 @@ fn hours_that_are_empty_or_no_times_are_explained_and_not_saved() {
     for size in SIZES {
         let mut window = page(size, RULES, vec![of_weather()]);
         write(&mut window, "To", "22:00");
-        assert!(says(&window, "To must be another time than From."));
+        assert!(says(&window, "To must differ from From."));
         assert!(says(&window, "Automation rules: 1 edited, 1 not valid"));
         write(&mut window, "To", "7 o'clock");
         assert!(says(&window, "To must be a time of the day such as 22:00."));

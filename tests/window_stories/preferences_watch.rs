@@ -29,8 +29,8 @@ fn what_is_done_by_itself_is_chosen_and_saved() {
         for word in ["Alarm only", "Keep tracking"] {
             choose(&mut window, word);
         }
-        assert!(says(&window, "Goes on by itself if the antenna is where it was left."));
-        write(&mut window, "Sway allowed", "0,25");
+        assert!(says(&window, "Continues by itself if the antenna is where it was left."));
+        write(&mut window, "Allowed sway", "0,25");
         write(&mut window, "Keeps tracking through", "601");
         assert!(says(&window, "Keeps tracking through must be a number from 0 to 600 s."));
         write(&mut window, "Keeps tracking through", "20");
@@ -62,7 +62,7 @@ fn the_way_after_stop_is_the_makes_until_it_was_seen_often_enough() {
         window
     };
     let window = shown(StoppingWay { overrun_s: 0.4, stops: 1, is_learned: false });
-    assert!(says(&window, "Runs on for 0.4 s by its make: 1 of 3 STOPs seen."));
+    assert!(says(&window, "Coasts for 0.4 s, assumed for its make: 1 of 3 STOPs seen."));
     let window = shown(StoppingWay { overrun_s: 0.62, stops: 7, is_learned: true });
-    assert!(says(&window, "Runs on for 0.6 s: the longest of the last 3 of 7 STOPs."));
+    assert!(says(&window, "Coasts for 0.6 s: the longest of the last 3 of 7 STOPs."));
 }

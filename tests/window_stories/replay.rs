@@ -61,8 +61,8 @@ fn a_replay_is_marked_in_every_view_and_its_strip_plays_it() {
             nothing_is_cut(&window, size);
             nothing_overlaps(&window);
             let event = |is_next| replayed(ReplayCommand::Event { is_next });
-            assert_eq!(click(&mut window, "The event before (comma)"), [event(false)]);
-            assert_eq!(click(&mut window, "The event after (full stop)"), [event(true)]);
+            assert_eq!(click(&mut window, "Previous event (comma)"), [event(false)]);
+            assert_eq!(click(&mut window, "Next event (full stop)"), [event(true)]);
             let pause = [replayed(ReplayCommand::PlayOrPause)];
             assert_eq!(click(&mut window, "Pause (Space)"), pause);
             let back = [replayed(ReplayCommand::Speed(-10))];
@@ -181,7 +181,7 @@ fn while_the_record_is_shown_again_no_command_passes_and_stop_reaches_the_unit()
         again(&window).replay.as_ref().is_some_and(|replay| replay.problem.is_some())
     });
     window.step();
-    window.get_by_label("Nothing was filmed at this moment.");
+    window.get_by_label("Nothing was recorded at this moment.");
     // What has just happened is written within a second.
     wait_until("the first event", || {
         window.key_press(Key::Period);

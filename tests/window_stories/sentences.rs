@@ -62,7 +62,7 @@ fn tracking_says_how_far_off_and_when_it_ends() {
     let unknown = told(states::tracking(0.04), |model, _| {
         Arc::make_mut(&mut model.pass_lists.favourites.satellites).clear();
     });
-    assert!(unknown.ends_with("We have no elements of it to compare with."), "{unknown}");
+    assert!(unknown.ends_with("Azel has no elements of it to compare with."), "{unknown}");
 }
 
 #[test]
@@ -158,7 +158,7 @@ fn moving_says_who_moves_it_and_where_to() {
     }
     assert_eq!(
         told(states::moving(), unchanged),
-        "Moving, not by this console: somebody else drives it, or it is coasting to a stop."
+        "Moving, not by this console: somebody else is driving it, or it is coasting to a stop."
     );
     let target = Some(states::target());
     let asked = Snapshot { intent: Intent::Track, pending: true, target, ..states::holding() };
@@ -206,7 +206,10 @@ fn a_stop_says_what_is_not_proved() {
     let unproved = told(states::moving(), |model, snapshot| {
         snapshot.stop = StopState::NotConfirmed { since: rig::ago(model, 4) };
     });
-    assert_eq!(unproved, "Satrak is not known to stand 4.0 s after STOP. Use the local panel.");
+    assert_eq!(
+        unproved,
+        "Satrak is not known to have stopped, 4.0 s after STOP. Use the local panel."
+    );
 }
 
 #[test]
@@ -222,7 +225,7 @@ fn without_a_reply_it_says_since_when_and_what_was_going_on() {
     for (link, wanted) in [
         (
             LinkState::Off,
-            "Not known: Satrak is not connected. Another program may use it. Connect takes up the \
+            "Not known: Satrak is not connected. Another program may use it. Connect opens the \
              link again.",
         ),
         (

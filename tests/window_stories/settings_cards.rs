@@ -38,7 +38,7 @@ fn automatic_tracking_is_switched_on_after_a_question_and_off_at_once() {
         window.key_press(Key::Enter);
         let asked_for = |on| UiCommand::antenna(AntennaId(1), Command::AutoTrack(on));
         assert_eq!(asked(&mut window), [asked_for(true)]);
-        for (auto, wanted) in [(Some(true), "On"), (None, "Not told")] {
+        for (auto, wanted) in [(Some(true), "On"), (None, "Not reported")] {
             change(&mut window, 0, |snapshot| {
                 let program = snapshot.state.program.unwrap();
                 snapshot.state.program = Some(Program { auto, ..program });

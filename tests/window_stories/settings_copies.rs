@@ -77,7 +77,7 @@ fn another_file_is_refused_with_the_reason() {
     scene.window.get_by_label("Path").type_text(path.to_str().unwrap());
     scene.window.run_steps(2);
     press(&mut scene.window, "Read");
-    scene.until_said("it is no TOML");
+    scene.until_said("it is not TOML");
 }
 
 #[test]

@@ -229,7 +229,7 @@ fn the_place_of_a_reached_unit_can_be_taken() {
         window.key_press_modifiers(Modifiers::ALT, Key::ArrowLeft);
         settle(&mut window);
         assert!(says(&window, "km from the position that Satrak reports. Which of them is right?"));
-        press(&mut window, "Take the place of Satrak: 41.176° N, 29.613° E");
+        press(&mut window, "Use the location of Satrak: 41.176° N, 29.613° E");
         assert_eq!(field(&window, "Latitude"), "41.17600");
         assert!(says(&window, "Agrees with the position that Satrak reports: 0.0 km apart."));
     }
@@ -245,7 +245,7 @@ fn each_outcome_of_a_test_says_what_to_check() {
         let text = "SSH-2.0-OpenSSH_9.2".to_owned();
         for (finding, words) in [
             (LinkFinding::Silent, "Nothing came from unit.local:4001 in 2 s."),
-            (LinkFinding::Closed, "unit.local:4001 closed the connection and said nothing."),
+            (LinkFinding::Closed, "unit.local:4001 closed the connection without an answer."),
             (
                 LinkFinding::SomethingElse { text },
                 "Something else answers at unit.local:4001: SSH-2.0-OpenSSH_9.2",

@@ -127,7 +127,7 @@ fn the_typed_address_is_tested_for_the_satellite_that_the_unit_holds() {
         assert_eq!(asked(&mut window), [TestAsk::Begin(Box::new(web_order()))]);
         window.state_mut().url.clear();
         window.run_steps(2);
-        assert!(says(&window, "Not to be tested yet: the address is missing."));
+        assert!(says(&window, "Cannot be tested yet: the address is missing."));
         let button = window.get_by_role_and_label(Role::Button, "Test from here");
         assert!(button.accesskit_node().is_disabled());
     }
@@ -146,7 +146,7 @@ fn a_server_is_spoken_to_as_its_port_says_or_as_the_operator_wants() {
     let order = |protocol| SourceOrder { source: source(protocol), ..web_order() };
     click(&mut window, "Test from here");
     assert_eq!(asked(&mut window), [TestAsk::Begin(Box::new(order(FileProtocol::Sftp)))]);
-    let combo = "Protocol of the test, As the port says";
+    let combo = "Protocol of the test, Set by the port";
     window.get_by_role_and_label(Role::ComboBox, combo).click();
     window.run_steps(3);
     window.get_by_label("FTP with TLS").click();
@@ -158,7 +158,7 @@ fn a_server_is_spoken_to_as_its_port_says_or_as_the_operator_wants() {
     assert!(!format!("{:?}", window.root()).contains(SECRET));
     window.state_mut().port = "x".to_owned();
     window.run_steps(2);
-    assert!(says(&window, "the port is no number"));
+    assert!(says(&window, "the port is not a number"));
 }
 
 #[test]
@@ -180,7 +180,7 @@ fn what_the_unit_will_see_is_told() {
     let view = Box::new(what_a_unit_sees(b"<html>gone</html>", NAME));
     let window = form(300.0, true, tested(TestStage::Seen { view, at: rig::now() }));
     assert!(says(&window, "The unit will not find NOAA 20 (JPSS-1)"));
-    assert!(says(&window, "The file is no TLE"));
+    assert!(says(&window, "The file is not in TLE format"));
 }
 
 #[test]

@@ -261,12 +261,12 @@ fn a_change_with_something_typed_asks_first() {
     two.window.event(egui::Event::Text("Other".to_owned()));
     two.window.run_steps(2);
     two.pick(NAMES[1]);
-    two.until_it_says("The station settings are not saved. Change all the same?");
+    two.until_it_says("The station settings are not saved. Change anyway?");
     press(&mut two.window, "Cancel");
     two.window.run_steps(3);
     assert!(says(&two.window, "Other"), "what was typed is there");
     two.pick(NAMES[1]);
-    two.until_it_says("The station settings are not saved. Change all the same?");
+    two.until_it_says("The station settings are not saved. Change anyway?");
     press(&mut two.window, "Change (Enter)");
     two.wait_for(NAMES[1]);
     let saved = fs::read_to_string(two.folder.path().join(FILES[0])).unwrap();

@@ -168,5 +168,5 @@ fn a_row_of_the_list_says_that_the_schedule_leaves_the_pass_out_and_why() {
         of("METEOR-M2 4, LOS", "Needs 0:37 to get there, 0:05 left"),
         "is set up and slews: {names:?}"
     );
-    assert!(of("EUTELSAT 7C, up all the time", "Trackable"), "{names:?}");
+    assert!(of("EUTELSAT 7C, always up", "Trackable"), "{names:?}");
 }

@@ -145,7 +145,7 @@ fn each_step_is_shown_and_can_be_cancelled_until_the_file_takes_its_place() {
 
         let window = part(width, working(UploadStep::Replace));
         assert!(is_disabled(&window, "Cancel upload"));
-        assert!(says(&window, "From here on it is carried to its end."));
+        assert!(says(&window, "It can no longer be cancelled."));
 
         let window = part(width, at(Stage::Selecting(Box::new(uploaded()))));
         assert!(says(&window, "8 Tell the unit"));

@@ -65,7 +65,7 @@ fn satellites_are_added_left_out_and_marked() {
         assert!(file.objects().iter().all(|object| object.catalog_number != NOAA_20));
         write(&mut window, "Add a satellite", "no such thing");
         assert!(says(&window, "No other object has this number or name."));
-        click(&mut window, "Take the followed ones");
+        click(&mut window, "Take the favourites");
         assert!(window.query_by_label("Leave out NOAA 20 (JPSS-1)").is_some());
     }
 }
@@ -126,7 +126,7 @@ fn each_field_says_what_is_missing() {
         ("File", "a/b", "slash", FILE),
         ("Folder", "", "the folder is missing", "/svs/satrak/tle"),
         ("Host", "", "the host is missing", "unit.local"),
-        ("Port", "0", "the port is no number", "2222"),
+        ("Port", "0", "the port is not a number", "2222"),
         ("User", "", "the user name for the unit, under On the unit, is missing", "op"),
     ] {
         write(&mut window, field, wrong);
@@ -162,7 +162,7 @@ fn proof_is_told_with_file_hash_time_and_ages() {
             &hash,
             "192.168.10.21:22",
             "ISS (ZARYA) 1 d 7 h old",
-            "every unit has from its maker",
+            "factory password of every unit",
         ] {
             assert!(says(&window, words), "{words}");
         }

@@ -42,11 +42,11 @@ const EVEN_DURING_TRACK: Field = Field::write(END_TRACK, "Even during TRACK")
     .about("While the unit tracks by itself, a move is sent only with this.");
 
 const NAMES_ONLY: &str = "the unit tells the names of its satellites and not their places, so \
-                          where it runs to is known to it alone";
-const OWN_SEARCH: &str = "the unit searches for the signal by itself, so where it runs to is known \
-                          to it alone";
-const NOT_CALIBRATED: &str = "what these counts mean is not known, so nobody can tell where the \
-                              antenna would point: enter two points or more for azimuth and \
+                          only the unit knows where it will go";
+const OWN_SEARCH: &str = "the unit searches for the signal by itself, so only the unit knows \
+                          where it will go";
+const NOT_CALIBRATED: &str = "the meaning of these counts is not known, so nobody can tell where \
+                              the antenna would point: enter two points or more for azimuth and \
                               elevation in Preferences";
 const UNHEARD_OF: &str = "where this leads is not known";
 
@@ -61,8 +61,8 @@ pub(super) const ACTIONS: &[Action] = &[
         ..moving(
             TO_SATELLITE,
             "Go to a stored satellite",
-            "The unit runs to the place that it has stored. One with an inclined orbit leads to \
-             TRACK: the unit then moves by itself until it is stopped.",
+            "The unit goes to the position that it has stored. An inclined orbit leads to TRACK: \
+             the unit then moves by itself until it is stopped.",
         )
     },
     Action {
@@ -71,7 +71,7 @@ pub(super) const ACTIONS: &[Action] = &[
             Field::write(EL_COUNTS, "Elevation").in_unit("counts"),
             EVEN_DURING_TRACK,
         ],
-        ..moving(TO_COUNTS, "Go to counts", "Both axes run to these counts of their sensors.")
+        ..moving(TO_COUNTS, "Go to counts", "Both axes go to these counts of their sensors.")
     },
     Action {
         fields: &[Field::write(UNITS, "Polarization").about(
@@ -79,10 +79,10 @@ pub(super) const ACTIONS: &[Action] = &[
         )],
         ..moving(TO_POLARIZATION, "Turn polarization to", "The polarization alone turns.")
     },
-    moving(POLARIZATION_CW, "Polarization CW", "Turns for the moment that is set in the unit."),
-    moving(POLARIZATION_CCW, "Polarization CCW", "Turns for the moment that is set in the unit."),
-    moving(POLARITY_H, "Polarity H", "To the H of the stored satellite nearest in azimuth."),
-    moving(POLARITY_V, "Polarity V", "To the V of the stored satellite nearest in azimuth."),
+    moving(POLARIZATION_CW, "Polarization CW", "Turns for the time that is set in the unit."),
+    moving(POLARIZATION_CCW, "Polarization CCW", "Turns for the time that is set in the unit."),
+    moving(POLARITY_H, "Polarity H", "Turns to the H of the stored satellite nearest in azimuth."),
+    moving(POLARITY_V, "Polarity V", "Turns to the V of the stored satellite nearest in azimuth."),
     moving(
         AUTO_POLARIZATION_ON,
         "Automatic polarization on",
@@ -93,7 +93,7 @@ pub(super) const ACTIONS: &[Action] = &[
     resetting(RESET_ELEVATION, "Reset elevation drive"),
     resetting(RESET_POLARIZATION, "Reset polarization drive"),
     Action {
-        question: Some("The unit begins to track anew and moves by itself. Reset TRACK?"),
+        question: Some("The unit starts to track again and moves by itself. Reset TRACK?"),
         ..moving(RESTART_TRACK, "Reset TRACK", "Clears the error of the track mode.")
     },
     still(
@@ -106,7 +106,7 @@ pub(super) const ACTIONS: &[Action] = &[
         "TRACK in K band",
         "For a satellite with both bands, while TRACK is active.",
     ),
-    still(READ_LIST, "Read the list", "Reads the names of the stored satellites anew."),
+    still(READ_LIST, "Read the list", "Reads the names of the stored satellites again."),
 ];
 
 const fn still(key: &'static str, label: &'static str, about: &'static str) -> Action {
@@ -121,7 +121,10 @@ const fn moving(key: &'static str, label: &'static str, about: &'static str) -> 
 /// something pending goes on.
 const fn resetting(key: &'static str, label: &'static str) -> Action {
     Action {
-        question: Some("The drive takes power again. Is its cause mended, and nobody near?"),
+        question: Some(
+            "The drive gets power again. Is the cause of its alarm fixed, and nobody near the \
+             antenna?",
+        ),
         ..still(key, label, "Stops the axes, then clears the alarm of this drive.")
     }
 }

@@ -23,8 +23,8 @@ pub(super) fn checks(
         checks.push(Check::new(
             "Calibration",
             CheckState::Caution,
-            "What the counts mean is not known. Enter two points or more for azimuth and \
-                     elevation in Preferences; until then no direction can be sent.",
+            "The meaning of the counts is not known. Enter two points or more for \
+                     azimuth and elevation in Preferences; until then no direction can be sent.",
         ));
     }
     checks
@@ -51,8 +51,8 @@ fn remote_mode(status: Option<&Status>, is_offline: bool) -> Check {
     let (state, advice) = match (is_offline, status) {
         (true, _) => (
             CheckState::Fault,
-            "Remote mode is disabled on the unit. Set Remote Mode Enable to 1 in its CONFIG mode; \
-             until then it takes no command, STOP neither.",
+            "Remote mode is disabled on the unit. Set Remote Mode Enable to 1 in its CONFIG \
+             mode; until then it takes no command, not even STOP.",
         ),
         (false, Some(_)) => (CheckState::Good, ""),
         (false, None) => (CheckState::Unknown, ""),
@@ -76,7 +76,7 @@ fn drive(name: &'static str, drive: AxisDrive) -> Check {
         }
         AxisDrive::Overcurrent => (
             CheckState::Fault,
-            "It took too much current. Look for what blocks the axis, then reset it.",
+            "It drew too much current. Look for what blocks the axis, then reset it.",
         ),
         AxisDrive::Unknown(_) => {
             (CheckState::Caution, "It reports a state that the manual does not name.")
@@ -95,25 +95,27 @@ pub(super) fn alarm(alarm: Alarm) -> Option<Check> {
         Alarm::None => return None,
         Alarm::LowBattery => (
             "Low battery",
-            "The battery of the memory is low. Write down the settings and exchange it.",
+            "The battery of the memory is low. Write down the settings and replace it.",
         ),
-        Alarm::Azimuth => ("Azimuth alarm", "Its drive tells which. Reset it when it is mended."),
+        Alarm::Azimuth => {
+            ("Azimuth alarm", "Its drive reports which. Fix the cause, then reset it.")
+        }
         Alarm::Elevation => {
-            ("Elevation alarm", "Its drive tells which. Reset it when it is mended.")
+            ("Elevation alarm", "Its drive reports which. Fix the cause, then reset it.")
         }
         Alarm::AzimuthCount => (
             "Azimuth count",
-            "The count does not fit the position any more. Set the limits of the unit anew.",
+            "The count no longer fits the position. Set the limits of the unit again.",
         ),
         Alarm::ElevationCount => (
             "Elevation count",
-            "The count does not fit the position any more. Set the limits of the unit anew.",
+            "The count no longer fits the position. Set the limits of the unit again.",
         ),
         Alarm::AzimuthLimits => {
-            ("Azimuth limits", "The limits are corrupt. Set them anew at the unit.")
+            ("Azimuth limits", "The limits are corrupt. Set them again at the unit.")
         }
         Alarm::ElevationLimits => {
-            ("Elevation limits", "The limits are corrupt. Set them anew at the unit.")
+            ("Elevation limits", "The limits are corrupt. Set them again at the unit.")
         }
         Alarm::AutoPolarizationData => ("Automatic polarization data", enter_again),
         Alarm::SimultaneousAxes => ("Simultaneous azimuth and elevation", enter_again),
@@ -154,7 +156,7 @@ fn kind(device: DeviceType) -> Option<Check> {
     let advice = match device.mount {
         MountKind::ElevationOverAzimuth | MountKind::AzimuthOverElevation => return None,
         MountKind::Polar => "It is made for a polar mount: its axes are not azimuth and elevation.",
-        MountKind::Other(_) => "It is no RC2000C: its alarms may mean something else.",
+        MountKind::Other(_) => "It is not an RC2000C: its alarms may mean something else.",
     };
     Some(Check::new("Kind of unit", CheckState::Caution, advice))
 }

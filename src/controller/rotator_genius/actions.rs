@@ -21,7 +21,9 @@ pub(super) const SEND_OTHER: Action = Action {
     key: OTHER,
     label: "Send the other rotator",
     about: "Turns the rotator that is not this antenna's. STOP stops both.",
-    fields: &[Field::edit(DIRECTION, "Direction").in_unit("°").about("As that rotator counts.")],
+    fields: &[Field::edit(DIRECTION, "Direction")
+        .in_unit("°")
+        .about("In that rotator's own degrees.")],
     moves: true,
     question: None,
 };

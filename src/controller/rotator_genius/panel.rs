@@ -106,7 +106,8 @@ fn of_rotator(status: &Status, roles: Roles, number: RotatorNumber) -> Vec<Readi
     };
     let limits =
         format!("{} to {}{}", degrees(rotator.limit_ccw), degrees(rotator.limit_cw), outside.0);
-    let offset = rotator.offset_deg.map_or("not told".to_owned(), |offset| format!("{offset}°"));
+    let offset =
+        rotator.offset_deg.map_or("not reported".to_owned(), |offset| format!("{offset}°"));
     let mut readings = vec![
         Reading::new(label("Rotator"), format!("{name}, {kind}")),
         heading,

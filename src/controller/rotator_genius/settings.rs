@@ -33,8 +33,8 @@ const fn fields() -> [Field; 5] {
             .about("The end of the travel counter-clockwise."),
         Field::edit(KIND, "Axis"),
         Field::write(STOP_OFFSET, "Stop offset").in_unit("°").about(
-            "How early the drive is cut off before a target. The unit never tells it, so it must \
-             be given with every change.",
+            "How early the drive is cut off before a target. The unit never reports it, so it \
+             must be given with every change.",
         ),
         Field::edit(NAME, "Name").about("At most 10 characters are taken."),
     ]

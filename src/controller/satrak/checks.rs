@@ -70,20 +70,20 @@ fn when_good(kind: FaultKind) -> &'static str {
 fn advice(kind: FaultKind) -> &'static str {
     match kind {
         FaultKind::InternalLink => {
-            "Control and drive unit do not talk: check the cable between them."
+            "Control and drive unit do not communicate: check the cable between them."
         }
         FaultKind::TleOutdated => "Give the unit newer elements before the next pass.",
         FaultKind::TleMissing => "Upload the element file or choose another one.",
-        FaultKind::SatelliteMissing => "The name must stand in the file exactly as it is set.",
+        FaultKind::SatelliteMissing => "The name in the file must match the one set exactly.",
         FaultKind::WebTle => "Check the web address and the unit's network.",
         FaultKind::TrackingStopped => {
             "Find the cause in the other checks, then start tracking again."
         }
-        FaultKind::Setup => "Let the service look at the unit's setup.",
+        FaultKind::Setup => "Have the service check the unit's setup.",
         FaultKind::XMotor => "Do not move X: check motor, brake and drive.",
         FaultKind::YMotor => "Do not move Y: check motor, brake and drive.",
         FaultKind::XSensor => "The X angle cannot be trusted: check the sensor and its cable.",
         FaultKind::YSensor => "The Y angle cannot be trusted: check the sensor and its cable.",
-        FaultKind::GpsLink => "Check the GPS receiver, or set place and time by hand.",
+        FaultKind::GpsLink => "Check the GPS receiver, or set location and time by hand.",
     }
 }

@@ -79,10 +79,10 @@ pub enum Verdict {
 /// Why a file is not a copy of settings.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 pub enum CopyError {
-    #[error("it is no TOML: {0}")]
+    #[error("it is not TOML: {0}")]
     Syntax(String),
     /// Another file, or a damaged one.
-    #[error("it is no copy of settings: {0} is missing")]
+    #[error("it is not a copy of settings: {0} is missing")]
     NoCopy(&'static str),
     /// A newer program wrote the file.
     #[error("it has version {0}, this program knows {VERSION}; use the newer program")]

@@ -65,7 +65,7 @@ fn in_words(error: io::Error) -> io::Error {
             "no permission to use the serial port: on Linux, add the user to the dialout group"
         }
         io::ErrorKind::ResourceBusy => "another program uses the serial port",
-        io::ErrorKind::IsADirectory => "this is a folder, no serial port",
+        io::ErrorKind::IsADirectory => "this is a folder, not a serial port",
         _ => return error,
     };
     io::Error::new(error.kind(), words)

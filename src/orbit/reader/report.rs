@@ -81,7 +81,7 @@ pub enum RefusalReason {
         line: u8,
     },
     /// Column 69 of a TLE line is neither a digit nor blank.
-    #[error("the checksum of line {line} is no digit")]
+    #[error("the checksum of line {line} is not a digit")]
     ChecksumNotDigit {
         /// The line of the set, 1 or 2.
         line: u8,

@@ -64,8 +64,10 @@ pub(super) fn show(
             ("Follow the Sun".to_owned(), FollowChoice::Sun),
             ("Follow the Moon".to_owned(), FollowChoice::Moon),
         ];
-        let directions =
-            [("Keep pointing to", model.here, model.here_decimals), ("Follow the typed", typed, 1)];
+        let directions = [
+            ("Keep pointing at", model.here, model.here_decimals),
+            ("Follow the typed direction", typed, 1),
+        ];
         for (words, direction, decimals) in directions {
             choices.extend(direction.map(|target| {
                 (format!("{words} {}", in_words(target, decimals)), FollowChoice::Direction(target))

@@ -94,13 +94,13 @@ fn link_menu(ui: &Ui, rect: Rect, model: &HeaderModel<'_>, actions: &mut Vec<Car
     icons::paint(ui.painter(), paint::square(rect.center(), 12.0), Icon::ChevronDown, t.t2);
     paint::focus_ring(ui, &response, 4);
     menu::show(&response, Popup::menu(&response).accessible_name(name), |ui| {
-        let about = "Closes the link, so that another program may have the unit.";
+        let about = "Closes the link, so that another program may use the unit.";
         if model.status != LinkStatus::NotConnected
             && ui.button("Disconnect").on_hover_text(about).clicked()
         {
             actions.push(CardAction::Disconnect);
         }
-        let about = "For work at the antenna: nothing but questions and STOP goes to the unit.";
+        let about = "For work at the antenna: only queries and STOP go to the unit.";
         if !model.in_maintenance && ui.button("Lock out…").on_hover_text(about).clicked() {
             actions.push(CardAction::Maintenance);
         }

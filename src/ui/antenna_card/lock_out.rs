@@ -24,7 +24,7 @@ pub(super) fn band(ui: &Ui, rect: Rect, model: &LockOutModel<'_>, actions: &mut 
     ui.painter().rect(rect, 5.0, t.warnbg, Stroke::new(1.0, t.warn), StrokeKind::Inside);
     let glyph = paint::square(pos2(rect.left() + 16.0, rect.center().y), 15.0);
     icons::paint(ui.painter(), glyph, Icon::Lock, t.warn);
-    let button = Button::quiet("Take off…");
+    let button = Button::quiet("Remove…");
     let key = rect.shrink(4.0).with_min_x(rect.right() - 4.0 - button.width(ui));
     let state = if model.locking { "Being locked out" } else { "In maintenance" };
     let words = format!("{state} by {}", model.by);

@@ -173,7 +173,7 @@ fn keep(ui: &Ui, row: Rect, model: &OffsetPad<'_>, actions: &mut Vec<CardAction>
             }
             OffsetsOf::Antenna(_) => format!("Remember azimuth and elevation for {name}"),
         };
-        let said = if *differs { about } else { format!("{about}: nothing new") };
+        let said = if *differs { about } else { format!("{about}: remembered already") };
         let response = Button::normal(name).locked(!differs).show(ui, ("keep", *name), place);
         let response = response.on_hover_text(&said).accessible_name(said);
         if response.clicked() {

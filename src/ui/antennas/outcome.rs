@@ -26,7 +26,7 @@ pub(super) fn shown(field: &Field, value: &Value) -> String {
 
 /// A value with its unit of measure, if any.
 fn with_unit(field: &Field, value: Option<&Value>) -> String {
-    let Some(value) = value else { return "not told".to_owned() };
+    let Some(value) = value else { return "not reported".to_owned() };
     let value = shown(field, value);
     match field.unit {
         "" => value,
@@ -73,7 +73,7 @@ pub(super) fn sentence(
             format!("{subject}: not sent, the unit is in maintenance. The edit stays.")
         }
         WriteError::Moving => {
-            format!("{subject}: not sent, the antenna moves. Apply when it stands.")
+            format!("{subject}: not sent, the antenna is moving. Apply when it has stopped.")
         }
         WriteError::Hindered { field, hindrance } => {
             let label = group.field(field).map_or(subject, |field| field.label);

@@ -47,7 +47,7 @@ impl UnlockDialog {
         let station = unit.model.station.name.trim();
         ui.label(RichText::new("Unlock the service functions").font(text::value()));
         let words = format!(
-            "A wrong value there points {} wrong or moves it. Type the name of the station, \
+            "A wrong value there makes {} point wrongly, or move. Type the name of the station, \
              {station}.",
             unit.name()
         );

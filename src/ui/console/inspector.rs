@@ -104,7 +104,7 @@ fn title(line: &ConsoleLine, explained: Option<&Explained>) -> String {
     match explained {
         Some(Explained { name: Some(name), .. }) => format!("{name} {kind}"),
         None if line.wire().finding.is_good() => words::capitalised(kind),
-        _ => "No known frame".to_owned(),
+        _ => "Unknown frame".to_owned(),
     }
 }
 
@@ -151,7 +151,8 @@ fn bytes(ui: &mut Ui, line: &ConsoleLine) {
     let small = |words: String| RichText::new(words).font(text::small());
     ui.label(small(format!("Bytes, {length}{sum}")).color(t.t3));
     if wire.is_shortened {
-        let words = "Some are not kept: they may hold the FTP password, or are too many.";
+        let words =
+            "Some bytes are not kept: they may hold the FTP password, or there are too many.";
         ui.label(small(words.to_owned()).color(t.warn));
         ui.label(RichText::new(&line.raw).font(text::raw()).color(t.t2));
         return;

@@ -71,7 +71,7 @@ pub(super) fn show(
         (None, _) => {
             let such =
                 questions.first().map_or_else(String::new, |one| format!(", such as {}", one.key));
-            let words = format!("Questions can be sent{such}. {ELSEWHERE}");
+            let words = format!("Queries can be sent{such}. {ELSEWHERE}");
             (Icon::Info, words, t.t2)
         }
         (Some(Ok(_)), None) => (Icon::Lock, "Not sent. There is no link.".to_owned(), t.warn),

@@ -57,7 +57,7 @@ impl ClosingDialog {
                     answer = Some(Some(how));
                 }
             }
-            if answer_key(ui, "Stay", "Nothing is sent, all stays as it is.") {
+            if answer_key(ui, "Stay", "Nothing is sent; everything stays as it is.") {
                 answer = Some(None);
             }
             answer
@@ -89,7 +89,8 @@ fn answers(model: &Model) -> Vec<(&'static str, String, CloseHow)> {
     let parked: Vec<&str> =
         staked().filter(|(of, _)| of.can_park()).map(|(of, _)| of.config.name.as_str()).collect();
     if !parked.is_empty() {
-        let about = format!("{} to the park position; all stays until then.", names(parked));
+        let about =
+            format!("{} to the park position; everything else stays until then.", names(parked));
         answers.push(("and park", about, CloseHow::Park));
     }
     let on_board = |stake: &Stake| matches!(stake, Stake::OnBoard(_));
@@ -100,7 +101,7 @@ fn answers(model: &Model) -> Vec<(&'static str, String, CloseHow)> {
     if !left.is_empty() {
         let others = staked().any(|(_, stake)| !on_board(&stake));
         let others = if others { " STOP goes to the others first." } else { "" };
-        let about = format!("{} left to track; nobody here watches.{others}", names(left));
+        let about = format!("{} left to track, with nobody watching here.{others}", names(left));
         answers.push(("and let it finish", about, CloseHow::Leave));
     }
     answers

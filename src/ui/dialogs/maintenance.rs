@@ -22,7 +22,7 @@ use crate::{
 
 const WIDTH: f32 = 380.0;
 const LOCK: &str = "Hold 1 s to lock out";
-const TAKE_OFF: &str = "Hold 1 s to take off the lock-out";
+const TAKE_OFF: &str = "Hold 1 s to remove the lock-out";
 
 /// Input of the dialog.
 #[derive(Debug, Clone, Default)]
@@ -69,7 +69,7 @@ impl MaintenanceDialog {
                     None => commands.push(command),
                     Some(what_ends) => {
                         let name = &antenna.config.name;
-                        let text = format!("{what_ends} Lock out {name} all the same?");
+                        let text = format!("{what_ends} Lock out {name} anyway?");
                         *question = Some(Question { text, yes: "Lock out", command });
                     }
                 }
@@ -83,8 +83,8 @@ impl MaintenanceDialog {
         let t = theme::tokens(ui);
         let name = &antenna.config.name;
         ui.label(RichText::new(format!("Lock out {name}")).font(text::value()));
-        let words = "For work at the antenna. Until the lock-out is taken off nothing but \
-                     questions and STOP goes to the unit, also after a restart.";
+        let words = "For work at the antenna. Until the lock-out is removed, only queries and \
+                     STOP go to the unit, even after a restart.";
         ui.label(RichText::new(words).font(text::body()).color(t.t2));
         for (label, typed) in [("Your name", &mut self.by), ("Reason", &mut self.reason)] {
             let label = ui.label(RichText::new(label).font(text::small()).color(t.t3)).id;
@@ -113,7 +113,7 @@ impl MaintenanceDialog {
     ) -> MaintenanceAnswer {
         let t = theme::tokens(ui);
         let LockOut { by, reason, since } = lock_out;
-        let title = format!("Take off the lock-out of {}", antenna.config.name);
+        let title = format!("Remove the lock-out of {}", antenna.config.name);
         ui.label(RichText::new(title).font(text::value()));
         for (label, told) in [
             ("Locked out by", by.clone()),
@@ -124,8 +124,8 @@ impl MaintenanceDialog {
             ui.label(RichText::new(told).font(text::body_medium()).color(t.t1));
         }
         ui.add_space(4.0);
-        let words = "Make sure that nobody is at the antenna any more. It may move again from \
-                     then on.";
+        let words = "Make sure that nobody is still at the antenna. From then on it may move \
+                     again.";
         line(ui, Tone::Caution, words);
         self.keys(ui, TAKE_OFF, true)
     }

@@ -74,13 +74,12 @@ impl PasswordDialog {
         match &wanted.keyring_problem {
             None => {
                 ui.add(CheckBox::new(&mut self.keep, "Keep it in the keyring of this computer"));
-                let words = "Without that it is asked for once in each session of Azel.";
+                let words = "Otherwise Azel asks for it once in each session.";
                 ui.label(RichText::new(words).font(text::small()).color(t.t3));
             }
             Some(problem) => {
                 line(ui, Tone::Caution, &sentence(problem));
-                let words =
-                    "It is asked for once in each session of Azel and written down nowhere.";
+                let words = "Azel asks for it once in each session and stores it nowhere.";
                 ui.label(RichText::new(words).font(text::small()).color(t.t3));
             }
         }

@@ -87,7 +87,7 @@ pub(in crate::ui) fn show(
         let place = match state.kind {
             Kind::Web => ("Address", "https://…"),
             Kind::File => ("Path", "/… or C:\\…"),
-            Kind::Folder => ("Path", "/… or C:\\…, all files of elements in it"),
+            Kind::Folder => ("Path", "/… or C:\\…, all element files in it"),
         };
         field(ui, ("Name", "also the name of the group"), NAME, &mut state.name);
         field(ui, place, f32::INFINITY, &mut state.place);

@@ -116,7 +116,8 @@ fn summary(model: &Model) -> String {
     let sources = &model.sources;
     match sources.work {
         SourceWork::Asking => {
-            return "The servers are being asked. The elements in use stay meanwhile.".to_owned();
+            return "The servers are being asked. The elements in use stay in use meanwhile."
+                .to_owned();
         }
         SourceWork::Reading => return "The sources are being read.".to_owned(),
         SourceWork::Nothing => {}

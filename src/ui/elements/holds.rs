@@ -91,7 +91,7 @@ fn holds(
         return (Tone::Plain, "Stores no elements: Azel tracks with the set in use.".to_owned());
     }
     let Some(held) = &antenna.snapshot.state.on_board.satellite else {
-        return (Tone::Plain, "What it holds is not read yet.".to_owned());
+        return (Tone::Plain, "What it holds has not been read yet.".to_owned());
     };
     if held.catalog_number == 0 && held.name.is_empty() {
         return (Tone::Plain, "Holds no satellite.".to_owned());
@@ -100,7 +100,7 @@ fn holds(
         return (Tone::Plain, format!("Holds another satellite, {}.", held.name));
     }
     let Some(epoch) = uploaded else {
-        let words = "Holds this satellite; it does not tell the epoch of its set.";
+        let words = "Holds this satellite; it does not report the epoch of its set.";
         return (Tone::Plain, words.to_owned());
     };
     let older_s = seconds_between(epoch, elements.epoch());

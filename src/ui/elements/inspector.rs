@@ -135,7 +135,7 @@ fn head(
         Rect::from_x_y_ranges(inner.x_range(), rect.top() + y - 12.0..=rect.top() + y + 12.0)
     };
     let is_favourite = model.station.favourites.contains(number);
-    let name = if is_favourite { "No favourite any more" } else { "Make it a favourite" };
+    let name = if is_favourite { "Remove from favourites" } else { "Add to favourites" };
     let place = paint::square(pos2(inner.left() + 9.0, rect.top() + 17.0), 22.0);
     let response = paint::control(ui, "inspector star", place, Role::Button, can_mark, name);
     let (icon, colour) = if is_favourite { (Icon::Star, t.sat) } else { (Icon::OpenStar, t.t3) };

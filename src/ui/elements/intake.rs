@@ -89,8 +89,8 @@ pub(super) fn show(
         (false, true) => "What should be imported?".to_owned(),
     };
     let more = if intake.is_dropped {
-        "Keep a file as a source, which is read again when you ask for it, or take what it holds \
-         now. Nothing changes before that."
+        "Keep a file as a source, to be read again whenever you ask, or take what it holds now. \
+         Nothing changes before that."
     } else {
         "Then you choose for each. Nothing changes before that. Move the files out of the window \
          to cancel."

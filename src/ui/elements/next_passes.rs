@@ -39,7 +39,7 @@ pub(super) fn show(
     paint::text_in(ui, room, Align2::RIGHT_CENTER, &floor, text::small(), t.t2);
     paint::name_text(ui, "element passes", room, &format!("Next passes, {floor}"));
     let words = match passes {
-        None => "They are being worked out.",
+        None => "The passes are being computed.",
         Some([]) => "No pass in the next 7 d.",
         Some(_) => "",
     };

@@ -92,7 +92,7 @@ impl Menu<'_> {
             let choice = SetChoice::Newest { catalog_number };
             ("newest set", "", "Use the newest", choice)
         } else {
-            let until = " It stays in use until newer elements come or you end it.";
+            let until = " It stays in use until newer elements arrive or you end it.";
             let choice = SetChoice::Older { catalog_number, epoch };
             ("set", until, "Use this set", choice)
         };
@@ -127,7 +127,7 @@ impl Menu<'_> {
             let half_deg = antenna.config.beam_width_deg / 2.0;
             let side = if off.degrees() > half_deg { "more" } else { "less" };
             format!(
-                ", {side} than half the beam width of {} ({})",
+                ", {side} than half the beamwidth of {} ({})",
                 antenna.config.name,
                 format::degrees(half_deg, 2)
             )

@@ -169,7 +169,7 @@ fn one(
         (None, Some(off)) => {
             format!("no such pass, {}{beam}", format::degrees(off.degrees(), 2))
         }
-        (_, None) => "not to be compared".to_owned(),
+        (_, None) => "cannot be compared".to_owned(),
     };
     let words = format!("Set of {when} from {}: {against}", set.source);
     response.widget_info(|| WidgetInfo::labeled(Role::Button, true, &words));

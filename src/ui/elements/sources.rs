@@ -137,7 +137,7 @@ fn worst(model: &Model) -> (Tone, String) {
         let names: Vec<&str> =
             states.iter().filter(|(of, _)| *of == tone).map(|(_, name)| *name).collect();
         if !names.is_empty() {
-            let words = if names.len() == 1 { "needs a look" } else { "need a look" };
+            let words = if names.len() == 1 { "needs attention" } else { "need attention" };
             return (tone, format!("{} {words}", format::list(&names)));
         }
     }
@@ -258,7 +258,7 @@ impl Row<'_> {
             Rect::from_min_size(min, vec2(width, 20.0))
         };
         let (word, spoken) = match self.source.place {
-            SourcePlace::Web(_) => ("Ask", format!("Ask {name}")),
+            SourcePlace::Web(_) => ("Fetch", format!("Fetch {name}")),
             SourcePlace::File(_) | SourcePlace::Folder(_) => ("Read", format!("Read {name} again")),
         };
         if small_button(ui, at(ASK, 48.0), is_free, word, &spoken) {
@@ -269,7 +269,7 @@ impl Row<'_> {
                 forced,
             });
             match again {
-                Some(text) => *question = Some(Question { text, yes: "Ask", command }),
+                Some(text) => *question = Some(Question { text, yes: "Fetch", command }),
                 None => commands.push(command),
             }
         }
@@ -285,7 +285,7 @@ impl Row<'_> {
         paint::focus_ring(ui, &response, 3);
         if response.on_hover_text(&spoken).clicked() {
             *question = Some(Question {
-                text: format!("Remove the source {name}? Its elements are used no longer."),
+                text: format!("Remove the source {name}? Its elements are no longer used."),
                 yes: "Remove",
                 command: UiCommand::Station(engine::Command::RemoveSource(name.clone())),
             });

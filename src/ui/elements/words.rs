@@ -256,8 +256,8 @@ pub(super) fn ask_again(
     let last = next.checked_sub(FETCH_PAUSE).ok()?;
     let ago = format::age(seconds_between(last, now));
     Some(format!(
-        "The server of {name} was asked {ago} ago. Servers shut out who asks more often than \
-         every 2 h. Ask again all the same?"
+        "The server of {name} was asked {ago} ago. Servers block clients that ask more often \
+         than every 2 h. Ask again anyway?"
     ))
 }
 
@@ -274,8 +274,8 @@ pub(super) fn next(source: &Source, report: Option<&SourceReport>, now: Timestam
     }
     match report.and_then(|report| report.next_fetch) {
         _ if source.refresh.is_some() => match source.next_by_itself(report) {
-            Some(next) if next > now => format!("by itself {}", until_minute(next, now)),
-            _ => "by itself, now".to_owned(),
+            Some(next) if next > now => format!("automatically {}", until_minute(next, now)),
+            _ => "automatically, now".to_owned(),
         },
         None => "due".to_owned(),
         Some(next) if next <= now => format!("due since {}", until_minute(next, now)),

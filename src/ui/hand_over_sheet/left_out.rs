@@ -87,7 +87,7 @@ impl List {
         let said = match self.passes {
             0 => "No pass is left out".to_owned(),
             1 => "1 pass".to_owned(),
-            passes => format!("{passes} passes, those that lost against others first"),
+            passes => format!("{passes} passes, those that lost to others first"),
         };
         let mut at = section(svg, y, "Left out", &said);
         if self.passes == 0 {

@@ -38,7 +38,7 @@ fn facts(model: &Model, of: &GlobeSatellite) -> [(&'static str, String); COUNT] 
     let radius = distance(of.footprint.radius_km());
     let minutes = format::number(of.satellite.elements.period_s() / 60.0, 1);
     [
-        ("Below it", words::place(of.below.point)),
+        ("Sub-satellite point", words::place(of.below.point)),
         ("Height, speed", format!("{height}, {speed}")),
         ("Footprint radius", format!("{radius} at {elevation}")),
         (
@@ -50,7 +50,7 @@ fn facts(model: &Model, of: &GlobeSatellite) -> [(&'static str, String); COUNT] 
                 distance(of.look.range_km),
             ),
         ),
-        ("Goes", format!("{}, period {minutes} min", words::goes(of.heading))),
+        ("Heading", format!("{}, period {minutes} min", words::goes(of.heading))),
         ("Light", words::light(of.is_sunlit).to_owned()),
     ]
 }

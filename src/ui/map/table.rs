@@ -93,7 +93,7 @@ impl Column {
             Self::Azimuth => "Azimuth",
             Self::Elevation => "Elevation",
             Self::Range => return in_unit("Range"),
-            Self::Goes => "Goes",
+            Self::Goes => "Heading",
             Self::Next => "Next here",
             Self::Max => "Max el",
             Self::Light => "Light",

@@ -66,7 +66,7 @@ pub(super) fn goes(heading: Option<Angle>) -> &'static str {
 /// A [`goes`] that needs no head.
 pub(super) fn motion(heading: Option<Angle>) -> String {
     let goes = goes(heading);
-    if heading.is_some() { format!("goes {goes}") } else { goes.to_owned() }
+    if heading.is_some() { format!("heading {goes}") } else { goes.to_owned() }
 }
 
 pub(super) fn light(is_sunlit: bool) -> &'static str {

@@ -139,7 +139,7 @@ fn found(model: &Model, antenna: &AntennaModel, target: Target) -> (String, bool
         return (lock.to_owned(), false);
     }
     let way = match judged(antenna, target).map(|preview| &preview.way) {
-        None => return ("The way is being judged.".to_owned(), false),
+        None => return ("The path is being checked.".to_owned(), false),
         Some(Err(refusal)) => return (words::not_possible(refusal, model.now), false),
         Some(Ok(way)) => way,
     };
@@ -148,9 +148,9 @@ fn found(model: &Model, antenna: &AntennaModel, target: Target) -> (String, bool
         None => "How long it takes is not known.".to_owned(),
     };
     said += if way.is_round_a_corner {
-        " One axis after the other, to stay clear of what is forbidden."
+        " One axis after the other, to stay clear of forbidden directions."
     } else {
-        " The way is clear."
+        " The path is clear."
     };
     if let Some(tracked) = antenna.tracked_name() {
         // Writing to a string cannot fail.

@@ -98,7 +98,7 @@ impl Arrangement {
 
 const SUNLIT: &str = "Sunlit";
 const TRACKABLE: &str = "Trackable";
-const TO_COME: &str = "To come";
+const TO_COME: &str = "Upcoming";
 const ANY_GROUP: &str = "All groups";
 
 /// A chip and its width.

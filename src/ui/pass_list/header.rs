@@ -31,8 +31,8 @@ const LEAST_GAP: f32 = 2.0;
 const LINES: [f32; 2] = [20.0, 52.0];
 /// Width of the choice of satellites.
 const SCOPES: f32 = 116.0;
-const FLOOR: &str = "Elevation floor: passes with a lower maximum elevation are not listed. \
-                     It counts for the whole station.";
+const FLOOR: &str = "Elevation floor: passes with a lower maximum elevation are not listed. It \
+                     applies to the whole station.";
 const SPAN: &str = "How far ahead passes are listed";
 /// Floors closer than this count as equal.
 const SAME_DEG: f64 = 0.05;

@@ -40,7 +40,7 @@ pub(super) fn countdown(row: &PassRow<'_>, phase: Phase, now: Timestamp) -> (&'s
         Phase::Upcoming => ("", format::countdown(seconds_between(now, row.aos))),
         Phase::InProgress => ("LOS", format::countdown(seconds_between(now, row.los))),
         Phase::NoLos => ("LOS", "later".to_owned()),
-        Phase::AllTheTime => ("", "up all the time".to_owned()),
+        Phase::AllTheTime => ("", "always up".to_owned()),
         Phase::Over => ("LOS", "over".to_owned()),
     }
 }
@@ -100,8 +100,8 @@ pub(super) fn copied(row: &PassRow<'_>) -> String {
     let aos = format!("AOS {} at {}", format::copied(row.aos), azimuth(row.aos_azimuth_deg));
     let los = format!("LOS {} at {}", format::copied(row.los), azimuth(row.los_azimuth_deg));
     let [aos, los] = match (row.starts_before, row.ends_after) {
-        (true, true) => ["up all the time".to_owned(), String::new()],
-        (true, false) => ["up already".to_owned(), los],
+        (true, true) => ["always up".to_owned(), String::new()],
+        (true, false) => ["already up".to_owned(), los],
         (false, true) => [aos, "no LOS".to_owned()],
         (false, false) => [aos, los],
     };
@@ -203,7 +203,7 @@ mod tests {
     fn a_satellite_without_aos_and_los_is_up_all_the_time() {
         let row = row(true, true);
         for seconds in [-10.0, 300.0, 700.0] {
-            assert!(spoken_at(&row, seconds).starts_with("ISS, up all the time, max 52°"));
+            assert!(spoken_at(&row, seconds).starts_with("ISS, always up, max 52°"));
         }
         assert_eq!(azimuths(&row) + &duration(&row) + &aos_time(&row, AOS), "");
         assert_eq!(Phase::of(&row, AOS), Phase::AllTheTime);

@@ -288,7 +288,7 @@ fn price(
             ui.data_mut(|data| data.insert_temp(id, asked));
             commands.push(ask);
         }
-        "What it would cost is being worked out.".to_owned()
+        "Its cost is being worked out.".to_owned()
     };
     note(ui, width, "plan price", &words);
 }

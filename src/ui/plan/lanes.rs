@@ -106,7 +106,7 @@ fn title(ui: &Ui, bar: Rect, model: &Model, satellites: &[PlannedSatellite<'_>],
     let t = theme::tokens(ui);
     let inner = bar.shrink2(vec2(PADDING, 0.0));
     let left = Align2::LEFT_CENTER;
-    let words = format!("Sequences {}", format::minutes(span.from, span.to(), model.now));
+    let words = format!("Antennas, {}", format::minutes(span.from, span.to(), model.now));
     let font = text::sized(13.0, Weight::SemiBold);
     let drawn = paint::text_in(ui, inner, left, &words, font, t.t1);
     let all: usize = satellites.iter().map(|satellite| satellite.passes.len()).sum();

@@ -124,7 +124,7 @@ pub(super) fn show(
     let title = title(antenna);
     list.widget_info(|| WidgetInfo::labeled(Role::ListBox, true, &title));
     if rows.is_empty() {
-        let words = "No such pass in this time.";
+        let words = "No such pass in this period.";
         let at = body.left_top() + vec2(PADDING, 8.0);
         let place = paint::paragraph(ui, at, body.width() - 32.0, words, text::body(), t.t2);
         paint::name_text(ui, "no rows", place, words);

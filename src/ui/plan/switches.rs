@@ -107,7 +107,7 @@ pub(super) fn show(
         if response.clicked() {
             commands.push(set(false));
         }
-        response.on_hover_text("Click to switch it off. A pass under way goes on.")
+        response.on_hover_text("Click to switch it off. A pass under way continues.")
     } else {
         let words = format!("Automatic operation of {name}, off: hold 1 s to switch it on");
         let hold = state.hold(id);

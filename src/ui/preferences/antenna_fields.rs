@@ -97,7 +97,7 @@ fn az_el(antenna: &mut Antenna) -> Option<[&mut f64; 4]> {
 
 fn beam() -> [Of; 3] {
     [
-        Of::number("Beam width", ranges::BEAM_WIDTH_DEG, "°", |antenna| {
+        Of::number("Beamwidth", ranges::BEAM_WIDTH_DEG, "°", |antenna| {
             Some(&mut antenna.beam_width_deg)
         }),
         Of::number("Park azimuth", ranges::AZIMUTH_DEG, "°", |antenna| {
@@ -216,9 +216,9 @@ fn outage() -> [Of; 2] {
         .when(takes_positions)
         .noted(|antenna| {
             let words = match antenna.resume {
-                Resume::Ask => "The antenna stays stopped until you let it go on.",
+                Resume::Ask => "The antenna stays stopped until you let it continue.",
                 Resume::Continue => {
-                    "Goes on by itself if the antenna is where it was left. Otherwise it asks."
+                    "Continues by itself if the antenna is where it was left. Otherwise it asks."
                 }
             };
             Some(words.to_owned())
@@ -235,11 +235,11 @@ fn watch() -> [Of; 2] {
             |antenna| &mut antenna.monitor,
         )
         .noted(|_| {
-            let words = "Or too close to the Sun: by the panel, another program or the unit's own. \
-                         What Azel moves is stopped in any case.";
+            let words = "Or too close to the Sun: by the panel, another program or the unit's \
+                         own program. Motion by Azel is always stopped.";
             Some(words.to_owned())
         }),
-        Of::number("Sway allowed", ranges::SWAY_DEG, "°", |antenna| Some(&mut antenna.sway_deg))
+        Of::number("Allowed sway", ranges::SWAY_DEG, "°", |antenna| Some(&mut antenna.sway_deg))
             .noted(|_| {
                 Some(
                     "How much the angle may change between two readings of an antenna at rest."

@@ -59,8 +59,8 @@ fn about(page: Page, model: &Model, draft: &Draft) -> String {
         Page::Satellites => "Which passes come first, and which are taken at all",
         Page::Rules => "The first rule that fits decides, in the plan and in automatic operation",
         Page::Notices => "What the desktop announces, and when",
-        Page::Appearance => "Of this window, used at once",
-        Page::Keys => "Click a boxed key, then press the new one. Used at once, in this window",
+        Page::Appearance => "For this window, applied at once",
+        Page::Keys => "Click a boxed key, then press the new one. Applied at once, in this window",
     };
     about.to_owned()
 }

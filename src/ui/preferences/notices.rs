@@ -152,7 +152,7 @@ fn telling_fields() -> Vec<Placed<Telling>> {
             .when(|telling| telling.is_quiet)
             .checked(|telling| {
                 let HoursOfDay { from, to } = telling.hours;
-                if from == to { Err("must be another time than Quiet from") } else { Ok(()) }
+                if from == to { Err("must differ from Quiet from") } else { Ok(()) }
             })
             .noted(|_| Some("By the local time of this computer.".to_owned())),
     ];

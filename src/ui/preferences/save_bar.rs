@@ -169,7 +169,7 @@ fn outcome(
         }
         _ if draft != before => (changes(draft, before), t.t1),
         _ if state.page.is_used_at_once() => {
-            ("Changes on this page are used at once.".to_owned(), t.t3)
+            ("Changes on this page are applied at once.".to_owned(), t.t3)
         }
         Some(Ok(at)) => (format!("Saved {}.", format::moment(*at, model.now)), t.ok),
         None if model.demo => (ENDS_THE_DEMO.to_owned(), t.t2),

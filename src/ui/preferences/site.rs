@@ -176,7 +176,7 @@ fn sun_in_short(site: Site, model: &Model) -> String {
 /// The Sun at the site, and how far it is from where each unit believes to stand.
 fn about(ui: &mut Ui, site: Option<Site>, model: &Model) {
     let Some(site) = site else {
-        told::line(ui, Tone::Plain, "Latitude and longitude do not name a place yet.");
+        told::line(ui, Tone::Plain, "Latitude and longitude do not give a location yet.");
         return;
     };
     let there = words::place(site.latitude().degrees(), site.longitude().degrees());

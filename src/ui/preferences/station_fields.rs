@@ -191,8 +191,8 @@ fn about_closing(on_close: Option<OnClose>) -> &'static str {
              the system, Azel stops it."
         }
         Some(OnClose::Leave) => {
-            "What a unit tracks by itself goes on, and nobody here watches it. What else moves is \
-             stopped."
+            "What a unit tracks by itself goes on, and nobody here watches it. Anything else \
+             that moves is stopped."
         }
     }
 }
@@ -209,7 +209,7 @@ fn put_favourites(ground: &mut Ground, value: Value) -> Result<(), String> {
     let numbers: Option<Vec<u32>> =
         parts.map(|part| part.parse().ok().filter(|number| *number <= 999_999_999)).collect();
     let numbers =
-        numbers.ok_or("must be catalogue numbers with commas between, such as 43013, 25544")?;
+        numbers.ok_or("must be catalogue numbers separated by commas, such as 43013, 25544")?;
     ground.favourites = ground.favourites.with_numbers(&numbers);
     Ok(())
 }

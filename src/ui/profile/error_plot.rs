@@ -15,7 +15,7 @@ pub(super) const HEIGHT: f32 = 32.0;
 const DASH: (f32, f32) = (4.0, 4.0);
 /// What the plot shows.
 const ABOUT: &str = "Pointing error: the measured angle between the antenna's direction and the \
-                     satellite. The dashed line is half of the beam width.";
+                     satellite. The dashed line is half the beamwidth.";
 /// Gap between the plot and the words beside it.
 const GAP: f32 = 6.0;
 

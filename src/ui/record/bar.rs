@@ -190,8 +190,11 @@ fn last_hour(ui: &Ui, room: Rect, model: &Model, commands: &mut Vec<UiCommand>) 
         let at = add_seconds(model.now, -LAST_S);
         commands.push(UiCommand::Replay(ReplayCommand::Begin(stretch, at)));
     }
-    let why =
-        if model.record.is_none() { "Nothing is recorded." } else { "It begins a minute ago." };
+    let why = if model.record.is_none() {
+        "Nothing is recorded."
+    } else {
+        "The replay begins a minute before the end."
+    };
     response.on_hover_text(why);
     room.with_max_x(min.x - 2.0 * GAP)
 }

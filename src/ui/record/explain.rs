@@ -54,7 +54,7 @@ pub(super) fn show(
     for (place, word, anchor) in [
         (columns.cause, "Cause", Align2::LEFT_CENTER),
         (columns.size, "Best value", Align2::RIGHT_CENTER),
-        (columns.left, "Rms left °", Align2::RIGHT_CENTER),
+        (columns.left, "Residual °", Align2::RIGHT_CENTER),
         (columns.bar, "Explained", Align2::LEFT_CENTER),
         (columns.correction, "Correction", Align2::LEFT_CENTER),
     ] {
@@ -160,7 +160,7 @@ fn explained(ui: &Ui, row: Rect, place: usize, columns: &Columns, of: &Explanati
     let words = words::whole_share(of.share);
     let cell = row.with_min_x(columns.share.0).with_max_x(columns.share.1);
     paint::text_in(ui, cell, Align2::RIGHT_CENTER, &words, text::small_strong(), t.t1);
-    let alike = if of.is_alike { ", not told from the best one" } else { "" };
+    let alike = if of.is_alike { ", not distinguishable from the best one" } else { "" };
     let spoken = format!("{cause} {size}: explains {words}, {left}° left{alike}");
     paint::name_text(ui, ("explanation", place), row, &spoken);
 }

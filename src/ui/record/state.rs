@@ -144,7 +144,7 @@ impl RecordState {
                     .to_owned(),
             ),
             Ok(found) if found.page.passes.is_empty() => {
-                ("No pass is found", "Another antenna, verdict or text finds more.".to_owned())
+                ("No pass found", "Try another antenna, verdict or text.".to_owned())
             }
             Ok(_) => ("Record", "The pass is being read.".to_owned()),
         }

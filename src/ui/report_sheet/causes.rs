@@ -28,7 +28,7 @@ pub(super) fn draw(svg: &mut Svg, y: f64, opened: &OpenedPass) {
     let right = CAPTION.anchored(Anchor::End);
     svg.text([LEFT, y + 5.0], CAUSE - LEFT, CAPTION, "Cause");
     svg.text([SIZE, y + 5.0], SIZE - CAUSE, right, "Best value");
-    svg.text([REST, y + 5.0], REST - SIZE, right, "Rms left °");
+    svg.text([REST, y + 5.0], REST - SIZE, right, "Residual °");
     svg.text([RIGHT, y + 5.0], RIGHT - REST, right, "Explained");
     y += 7.0;
     let rms = opened.pass.report.report.rms;

@@ -30,7 +30,7 @@ pub(super) fn show(ui: &mut Ui, model: &Model, draft: &mut SetupDraft) {
     });
     for (name, place) in draft.places(model) {
         let there = crate::ui::words::place(place.latitude_deg, place.longitude_deg);
-        if ui.button(format!("Take the place of {name}: {there}")).clicked() {
+        if ui.button(format!("Use the location of {name}: {there}")).clicked() {
             draft.put_place(place.latitude_deg, place.longitude_deg, OF_UNIT);
             draft.locator.clear();
         }

@@ -45,7 +45,7 @@ impl Step {
     pub(super) fn title(self) -> (&'static str, &'static str) {
         let about = match self {
             Self::Site => {
-                "Where are the antennas? Passes and directions are computed for this place."
+                "Where are the antennas? Passes and directions are computed for this location."
             }
             Self::Antennas => {
                 "Which units move your antennas, and where do they answer? A test only asks; it \
@@ -54,7 +54,7 @@ impl Step {
             Self::Satellites => "Which satellites should the list of passes show?",
             Self::Elements => {
                 "Orbits change: predictions are as good as the elements are fresh. Sources can \
-                 wait; those added here are kept at once, as in Elements."
+                 be added later; those added here are kept at once, as in Elements."
             }
             Self::End => "Nothing has been saved yet. This is what Finish does.",
         };

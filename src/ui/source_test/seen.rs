@@ -32,7 +32,7 @@ fn sentences(
 ) -> Vec<(Tone, String)> {
     let mut lines = vec![found(view, satellite, now)];
     if !view.is_tle {
-        let words = "The file is no TLE, the only form that units are known to read.";
+        let words = "The file is not in TLE format, the only one that units are known to read.";
         lines.push((Tone::Bad, words.to_owned()));
     }
     let refused = view.refused.len() + view.refused_unlisted;
@@ -70,7 +70,10 @@ fn found(view: &UnitView, satellite: &str, now: Timestamp) -> (Tone, String) {
         }
         Seen::Several(objects) => {
             let list: Vec<String> = objects.iter().map(|object| of(object, now)).collect();
-            let words = format!("Several have this name, the unit takes one: {}.", list.join("; "));
+            let words = format!(
+                "Several objects have this name; the unit takes one of them: {}.",
+                list.join("; ")
+            );
             (Tone::Caution, words)
         }
         Seen::Missing { similar } if similar.is_empty() => {
@@ -78,8 +81,7 @@ fn found(view: &UnitView, satellite: &str, now: Timestamp) -> (Tone, String) {
         }
         Seen::Missing { similar } => {
             let words = format!(
-                "The unit will not find {satellite}. The file has {}; names must be the same to \
-                 the letter.",
+                "The unit will not find {satellite}. The file has {}; names must match exactly.",
                 similar.join(", ")
             );
             (Tone::Bad, words)
@@ -134,7 +136,7 @@ mod tests {
     fn what_is_wrong_is_said() {
         let (bytes, _) = file();
         let (tone, words) = first(&bytes, "noaa 20", 0.0);
-        assert!(tone == Tone::Bad && words.contains("to the letter"), "{words}");
+        assert!(tone == Tone::Bad && words.contains("must match exactly"), "{words}");
         let (tone, words) = first(b"<html>gone</html>", NAME, 0.0);
         assert!(tone == Tone::Bad && words.contains("not in the file"), "{words}");
         let twice = [bytes.clone(), bytes].concat();

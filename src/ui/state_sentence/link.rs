@@ -58,13 +58,13 @@ fn off(antenna: &AntennaModel) -> String {
     }
     if antenna.variant().capabilities.waits_for_word {
         return format!(
-            "Not known: {name} is not connected. Azel sends it nothing before Connect, because \
-             that may take its panel from somebody working at it."
+            "Not known: {name} is not connected. Azel sends nothing to it before Connect, \
+             because that may take its panel from somebody working at it."
         );
     }
     format!(
-        "Not known: {name} is not connected. Another program may use it. Connect takes up the \
-         link again."
+        "Not known: {name} is not connected. Another program may use it. Connect opens the link \
+         again."
     )
 }
 

@@ -18,14 +18,14 @@ pub(super) fn sentence(antenna: &AntennaModel) -> Option<Spoken> {
     let after = match snapshot.link {
         LinkState::Off => " It is not connected.",
         LinkState::Connecting { .. } | LinkState::Lost { .. } => " It does not answer.",
-        _ if moves => " It moves, and not by this console.",
+        _ if moves => " It is moving, but not by this console.",
         _ if snapshot.locking => " The unit has not confirmed yet that auto-track is off.",
         _ => "",
     };
     let lead =
         if snapshot.locking { "Being locked out by " } else { "In maintenance, locked out by " };
     Some(Spoken::new(SentenceKind::Caution).plain(lead).bold(&lock_out.by).plain(format!(
-        " since {}: {}. Nothing but questions and STOP goes to it.{after}",
+        " since {}: {}. Only queries and STOP go to it.{after}",
         since(antenna),
         lock_out.reason.trim_end_matches('.'),
     )))

@@ -29,7 +29,8 @@ pub(super) fn sentence(model: &Model, antenna: &AntennaModel) -> Option<Spoken> 
             if antenna.follows() {
                 return Some(
                     Spoken::new(SentenceKind::Tracking)
-                        .plain(format!("{name} answers again after {silent}. It follows on.")),
+                        .plain(format!("{name} answers again after {silent}. It is still \
+                                        following.")),
                 );
             }
             let held = antenna.snapshot.state.on_board.satellite.as_ref();
@@ -44,7 +45,7 @@ pub(super) fn sentence(model: &Model, antenna: &AntennaModel) -> Option<Spoken> 
                     .plain("It is still tracking ")
                     .bold(held.map_or("a satellite", |held| short(&held.name)))
                     .plain("."),
-                Found::Moving => spoken.plain("It moves, and not by its tracking program."),
+                Found::Moving => spoken.plain("It is moving, but not by its tracking program."),
                 Found::Still => spoken.plain("It is at rest and tracks nothing."),
             }
         }
@@ -99,7 +100,8 @@ pub(super) fn sentence(model: &Model, antenna: &AntennaModel) -> Option<Spoken> 
              tracking by itself. Check auto-track at the unit.",
         ),
         Event::LockOutUnproved => caution.plain(
-            "Locked out, but that auto-track is off cannot be read back. Switch it off at the unit.",
+            "Locked out, but it cannot be read back that auto-track is off. Switch it off at the \
+             unit.",
         ),
         Event::StartedByItself => caution.plain("The unit has begun to track by itself."),
         Event::LinkLost(_)

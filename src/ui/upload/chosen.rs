@@ -105,7 +105,7 @@ fn head(ui: &mut Ui, chosen: &Chosen, is_own: bool, change: &mut Option<Change>)
     ui.horizontal_wrapped(|ui| {
         let words = "With the age of their elements. The unit is told to follow the marked one.";
         ui.label(RichText::new(words).font(text::small()).color(t.t3));
-        if is_own && ui.button("Take the followed ones").clicked() {
+        if is_own && ui.button("Take the favourites").clicked() {
             *change = Some(Change::Favourites);
         }
     });

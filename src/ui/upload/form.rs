@@ -121,10 +121,10 @@ impl Form {
     pub(super) fn peer(&self) -> Result<Peer, String> {
         let host = self.host.trim();
         if host.is_empty() || host.contains(char::is_whitespace) {
-            return Err("the host is missing or has a blank in it".to_owned());
+            return Err("the host is missing or contains a space".to_owned());
         }
         let port = self.port.trim().parse().ok().filter(|port| *port > 0);
-        let port = port.ok_or("the port is no number from 1 to 65535")?;
+        let port = port.ok_or("the port is not a number from 1 to 65535")?;
         Ok(Peer { host: host.to_owned(), port })
     }
 

@@ -120,8 +120,8 @@ fn warnings(ui: &mut Ui, model: &Model) {
     for warning in &model.uploads.warnings {
         let words = match warning {
             Warning::FactoryPassword => {
-                "This is the password that every unit has from its maker. Whoever has the \
-                 document of the protocol knows it: give the unit another one."
+                "This is the factory password of every unit, printed in the document of the \
+                 protocol: give the unit another one."
                     .to_owned()
             }
             Warning::NotKept(problem) => format!("The password was not kept: {problem}."),

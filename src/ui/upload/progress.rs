@@ -86,8 +86,10 @@ fn cancel(ui: &mut Ui, stage: &Stage, commands: &mut Vec<UiCommand>) {
             commands.push(UiCommand::Station(engine::Command::Upload(Ask::Cancel)));
         }
         let words = match stage {
-            Stage::Working { is_cancelled: true, .. } => "Ends as soon as the unit lets go.",
-            Stage::Working { .. } if !can => "From here on it is carried to its end.",
+            Stage::Working { is_cancelled: true, .. } => {
+                "Cancelling: ends as soon as the unit allows."
+            }
+            Stage::Working { .. } if !can => "It can no longer be cancelled.",
             Stage::Selecting(_) => "The file is on the unit.",
             _ => "The old file stays on the unit until the new one is proved.",
         };

@@ -42,7 +42,8 @@ fn yes_or_no(answer: Option<Answer>, yes: Ask) -> Option<Ask> {
 fn about_tracking(busy: Busy) -> &'static str {
     match busy {
         Busy::Tracks => {
-            "The unit tracks. Its tracking is stopped before it is told to use the new file. Go on?"
+            "The unit is tracking. Its tracking is stopped before it is told to use the new file. \
+             Go on?"
         }
         Busy::MayTrack => {
             "Auto-track is on: the antenna may move by itself. It is switched off before the unit \

@@ -44,8 +44,8 @@ fn cause_of(ranked: &Ranked) -> String {
 pub fn alarm(kind: &AlarmKind, antenna: &str, now: Timestamp) -> String {
     match kind {
         AlarmKind::StationStands(stood) => format!(
-            "What is shown is {} old: the part of Azel that runs the station does not respond. \
-             STOP goes past it.",
+            "What is shown is {} old: the part of Azel that runs the station is not responding. \
+             STOP bypasses it.",
             format::age(stood.as_secs_f64())
         ),
         AlarmKind::StationElsewhere(by) => format!(
@@ -61,7 +61,7 @@ pub fn alarm(kind: &AlarmKind, antenna: &str, now: Timestamp) -> String {
             format!("{antenna} is driven by {by}: nothing goes to it from here.")
         }
         AlarmKind::LinkLost(LinkLoss::Unreadable) => {
-            format!("{antenna} answers, but what it says cannot be read.")
+            format!("{antenna} answers, but its answers cannot be read.")
         }
         AlarmKind::LinkLost(loss) => {
             format!("{antenna} does not reply: {}.", super::link_loss(loss))
@@ -110,8 +110,8 @@ pub fn alarm(kind: &AlarmKind, antenna: &str, now: Timestamp) -> String {
                     format!("{antenna} is {off} off its satellite: {}.", cause_of(cause))
                 }
                 None => format!(
-                    "{antenna} is {off} off its satellite. What the unit tells does not explain \
-                     it; the age of its elements is not known."
+                    "{antenna} is {off} off its satellite. What the unit reports does not \
+                     explain it; the age of its elements is not known."
                 ),
             }
         }
@@ -124,7 +124,7 @@ pub fn alarm(kind: &AlarmKind, antenna: &str, now: Timestamp) -> String {
              tell whether it is on its satellite: add a source that has them."
         ),
         AlarmKind::NotCompared { satellite: None } => format!(
-            "{antenna} tracks by its own program and does not tell what. Azel cannot tell \
+            "{antenna} tracks by its own program and does not report what. Azel cannot tell \
              whether it is on its satellite; its limits and keep-outs are watched."
         ),
         AlarmKind::NoAntennaFor { pass: (_, aos), name } => format!(
@@ -133,7 +133,7 @@ pub fn alarm(kind: &AlarmKind, antenna: &str, now: Timestamp) -> String {
             format::moment(*aos, now)
         ),
         AlarmKind::NotOnItsWay { pass: (_, aos), name } => format!(
-            "{antenna} is not on its way to {name}, AOS {}, which the schedule gives to it.",
+            "{antenna} is not on its way to {name}, AOS {}, which the schedule assigns to it.",
             format::moment(*aos, now)
         ),
         AlarmKind::AutomaticMoves { at, name } => format!(
@@ -153,7 +153,7 @@ pub fn alarm(kind: &AlarmKind, antenna: &str, now: Timestamp) -> String {
         AlarmKind::StartedByItself => {
             format!("{antenna} tracks by its own program, not by this console.")
         }
-        AlarmKind::MovesByItself => format!("{antenna} moves, and not by this console."),
+        AlarmKind::MovesByItself => format!("{antenna} is moving, but not by this console."),
         AlarmKind::Safety(matter) => super::safety(matter, antenna, now),
         AlarmKind::Owed(unit) => super::owed(unit),
         AlarmKind::DriverStands(stood) => format!(
@@ -166,26 +166,26 @@ pub fn alarm(kind: &AlarmKind, antenna: &str, now: Timestamp) -> String {
              every 2 s."
         ),
         AlarmKind::BrokeOff(Work::Elements) => {
-            "The reading of the elements broke off inside Azel. What was held stays in use; \
-             the view Elements reads them again."
+            "Reading the elements failed inside Azel. The elements held before stay in use; \
+             Elements can read them again."
                 .to_owned()
         }
         AlarmKind::BrokeOff(Work::Schedule) => {
-            "The planning of the passes broke off inside Azel. The schedule stays as it was; it is \
-             made again when something changes."
+            "Planning the passes failed inside Azel. The schedule stays as it was; it is made \
+             again when something changes."
                 .to_owned()
         }
         AlarmKind::BrokeOff(Work::Passes) => {
-            "The search for passes broke off inside Azel. The list before stays; Search begins \
-             it again."
+            "The search for passes failed inside Azel. The previous list stays; Search starts it \
+             again."
                 .to_owned()
         }
         AlarmKind::SourceSetAside(name) => format!(
-            "The source {name} is not read: Azel ended while it read it. Look at what it holds; \
-             the view Elements reads it again."
+            "The source {name} is not read: Azel ended while reading it. Check what it holds; \
+             Elements can read it again."
         ),
         AlarmKind::NotTaken => {
-            format!("{antenna} is too busy: what was asked for was not sent. Ask again.")
+            format!("{antenna} is too busy: the command was not sent. Try again.")
         }
         AlarmKind::Check(check) => format!("{antenna}: {}. {}", check.name, check.advice),
         AlarmKind::ClockOff(ahead_s) => {
@@ -202,7 +202,7 @@ pub fn alarm(kind: &AlarmKind, antenna: &str, now: Timestamp) -> String {
             }
             NoteReason::Unknown => format!("Setting {} is not known.", note.place),
             NoteReason::DoesNotHold { name, why } => {
-                format!("{name} does not hold: {why}. It is {} in the settings.", note.place)
+                format!("{name} does not apply: {why}. It is {} in the settings.", note.place)
             }
         },
         AlarmKind::Settings(text) | AlarmKind::Elements(text) | AlarmKind::LockOuts(text) => {

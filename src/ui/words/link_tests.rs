@@ -43,9 +43,9 @@ pub fn link_test(test: &LinkTest, is_demo: bool) -> Vec<(Tone, String)> {
     let connection = &test.antenna.connection;
     let (spec, address) = (connection.spec(), connection.address.as_str());
     match &test.stage {
-        LinkTestStage::Working => vec![(Tone::Now, format!("{address} is being asked."))],
+        LinkTestStage::Working => vec![(Tone::Now, format!("Asking {address}."))],
         LinkTestStage::InUse if !is_demo => {
-            let words = "Not asked: an antenna of this station has the unit. Its card shows it.";
+            let words = "Not asked: an antenna of this station uses the unit. See its card.";
             vec![(Tone::Plain, words.to_owned())]
         }
         LinkTestStage::InUse => vec![
@@ -71,8 +71,8 @@ fn finding_words(
              holds the unit."
         }
         Link::Line { .. } => {
-            "The line opens. Compare the settings above with the menu of the unit, check the \
-             cable, and that nobody uses its panel."
+            "The line opens. Compare the settings above with the unit's menu, check the cable, \
+             and make sure that nobody uses its panel."
         }
     };
     let bad = |what: String, check: String| vec![(Tone::Bad, what), (Tone::Plain, check)];
@@ -82,7 +82,7 @@ fn finding_words(
             bad(format!("Nothing came from {address} in 2 s."), port_opens.to_owned())
         }
         LinkFinding::Closed => bad(
-            format!("{address} closed the connection and said nothing."),
+            format!("{address} closed the connection without an answer."),
             spec.closed_note.map_or_else(|| port_opens.to_owned(), sentence),
         ),
         LinkFinding::SomethingElse { text } if text.is_empty() => {
@@ -131,7 +131,7 @@ fn reached(after_ms: u128, state: &AntennaState, spec: &ControllerSpec) -> Vec<(
     let said = state.identity.as_deref().or(state.unit_name.as_deref());
     let said = said.map(|said| format!(", {said}")).unwrap_or_default();
     if state.is_other_device {
-        let what = format!("Reached{said}, {after_ms} ms, but this is not the unit expected.");
+        let what = format!("Reached{said}, {after_ms} ms, but this is not the expected unit.");
         let check = format!("Check that a {} answers there and that it needs no code.", spec.name);
         return vec![(Tone::Caution, what), (Tone::Plain, check)];
     }
@@ -142,7 +142,7 @@ fn reached(after_ms: u128, state: &AntennaState, spec: &ControllerSpec) -> Vec<(
     }
     if let Some(own) = state.on_board.place {
         let there = place(own.latitude_deg, own.longitude_deg);
-        facts.push(format!("Its own place: {there}."));
+        facts.push(format!("Its own location: {there}."));
     }
     if let Some(clock) = state.on_board.clock.filter(|clock| clock.is_set) {
         let off_s = clock.ahead_s.abs();

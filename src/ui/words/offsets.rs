@@ -11,7 +11,7 @@ use crate::{
 /// Why there is no pad for a unit that tracks by itself.
 pub const OFFSETS_ON_UNIT: &str = "The unit tracks by itself and adds these. Set them under \
      Antennas while it is at rest. For offsets during a pass, \
-     follow the satellite from here: in the menu beside Track.";
+     follow the satellite from here, with the menu beside Track.";
 
 /// The offsets that a unit adds to its own track.
 pub fn offsets_on_unit(unit: Option<&device::Offsets>) -> String {

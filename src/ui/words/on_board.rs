@@ -84,7 +84,7 @@ pub fn not_known(found: &Supervision) -> Option<String> {
         Unknown::Elements => None,
     };
     let words: Vec<&str> = found.unknown.iter().filter_map(word).collect();
-    (!words.is_empty()).then(|| format!("The unit has not told {} yet.", format::list(&words)))
+    (!words.is_empty()).then(|| format!("The unit has not reported {} yet.", format::list(&words)))
 }
 
 /// The note on a unit that tracks well enough.

@@ -144,7 +144,7 @@ fn cause_as_subject(of: &Cause) -> String {
         Cause::ElevationOffset { offset_deg } => {
             format!("The elevation was off by {}", deg(*offset_deg))
         }
-        Cause::Tilt { .. } => format!("The azimuth axis leans by {}", size(of)),
+        Cause::Tilt { .. } => format!("The azimuth axis is tilted by {}", size(of)),
         Cause::AzimuthScale { .. } => format!("The azimuth scale is off by {}", size(of)),
         Cause::ElevationScale { .. } => format!("The elevation scale is off by {}", size(of)),
         Cause::OtherElements { epoch } => {
@@ -237,7 +237,7 @@ pub fn correction(how: &How, is_best: bool) -> String {
     let key = if is_best { " (C)" } else { "" };
     match how {
         How::Setting { .. } => format!(
-            "Types the value into the settings of the unit{key}. Nothing is sent before you apply \
+            "Types the value into the settings of the unit{key}. Nothing is sent until you apply \
              it there."
         ),
         How::Remembered(offsets) => {
@@ -256,11 +256,7 @@ pub fn no_correction(best: Option<&Cause>) -> String {
 
 /// Why the table of causes is empty.
 pub fn not_explained(is_measured: bool) -> &'static str {
-    if is_measured {
-        "Not explained: no cause explains three tenths of it"
-    } else {
-        "Nothing was measured"
-    }
+    if is_measured { "Not explained: no cause explains 30 % of it" } else { "Nothing was measured" }
 }
 
 /// What the data cannot tell apart, as a sentence; `None` where the best cause stands alone.

@@ -9,7 +9,7 @@ use crate::{
 };
 
 /// Text of the button that starts an action whose end only the unit knows.
-pub const HOLD_UNSEEN: &str = "Hold 1 s to start it without knowing its end";
+pub const HOLD_UNSEEN: &str = "Hold 1 s to start it without knowing where it ends";
 /// Text of the button that allows moving an antenna out of a forbidden zone.
 pub const HOLD_WAY_OUT: &str = "Hold 1 s to move out by hand";
 /// Text of the button that allows motion without a dead-man.
@@ -24,8 +24,9 @@ pub fn refusal(refusal: &Refusal, now: Timestamp) -> String {
             format!("Not sent: in maintenance, locked out by {by}: {reason}.")
         }
         Refusal::PanelLockedOut { by } => format!(
-            "Not connected: in maintenance by {by}, and even a question would take the panel of \
-             this unit from the person working at it. STOP still goes out. Take off the lock-out first."
+            "Not connected: in maintenance by {by}, and even a query would take the panel of \
+             this unit from the person working at it. STOP still goes out. Remove the lock-out \
+             first."
         ),
         Refusal::Elsewhere(by) => format!("Not sent: {by} drives this unit."),
         Refusal::PositionUnknown => {
@@ -37,11 +38,9 @@ pub fn refusal(refusal: &Refusal, now: Timestamp) -> String {
         Refusal::Intent(intent) => {
             format!("Not sent: not possible in {}. Choose another mode.", super::intent(*intent))
         }
-        Refusal::Fault => {
-            "Not sent: a fault of the unit forbids motion. Look at Faults.".to_owned()
-        }
+        Refusal::Fault => "Not sent: a fault of the unit forbids motion. See Faults.".to_owned(),
         Refusal::FaultsUnknown => {
-            "Not sent: the unit has not said yet which faults it has. Try again.".to_owned()
+            "Not sent: the unit has not reported its faults yet. Try again.".to_owned()
         }
         Refusal::Limit { axis, plus } => {
             let (end, back) = (super::way(axis, *plus), super::way(axis, !*plus));
@@ -64,18 +63,18 @@ pub fn refusal(refusal: &Refusal, now: Timestamp) -> String {
             format::degrees(*lowest_deg, 1)
         ),
         Refusal::Travel { axis, asked_deg, from_deg, to_deg } => format!(
-            "Not sent: {axis} would have to go to {}, it travels {} to {}.",
+            "Not sent: {axis} would have to go to {}; it travels from {} to {}.",
             format::degrees(*asked_deg, 1),
             format::degrees(*from_deg, 1),
             format::degrees(*to_deg, 1)
         ),
         Refusal::NotOffered => "Not sent: this controller cannot do that.".to_owned(),
         Refusal::AngleUnknown { axis } => {
-            format!("Not sent: the angle of {axis} is not known, nobody would see it turn.")
+            format!("Not sent: the angle of {axis} is not known, so nobody would see it turn.")
         }
         Refusal::OneAxis => "Not sent: this controller turns one axis at a time.".to_owned(),
         Refusal::Forbidden { barrier, at } => format!(
-            "Not sent: the way leads {}, at {}.",
+            "Not sent: the path leads {}, at {}.",
             super::forbidden(barrier),
             format::pointing_at(*at)
         ),
@@ -84,18 +83,19 @@ pub fn refusal(refusal: &Refusal, now: Timestamp) -> String {
              minute.",
             super::inside(barrier)
         ),
-        Refusal::NoRefuge => "Not sent: no direction was found that stays clear and that a clear \
-                              way leads to. Move the antenna by hand."
+        Refusal::NoRefuge => "Not sent: no clear direction with a clear path to it was found. \
+                              Move the antenna by hand."
             .to_owned(),
         Refusal::Controller(why) => format!("Not sent: {why}."),
         Refusal::Unseen { why, is_watched, .. } => {
             let watched = if *is_watched {
-                "Azel stops the antenna before what is forbidden"
+                "Azel stops the antenna before a forbidden direction"
             } else {
                 "its angles are not known, so somebody has to look at the antenna"
             };
             format!(
-                "Not sent: {why}. Use \u{201c}{HOLD_UNSEEN}\u{201d} on its card to start it all the same: {watched}."
+                "Not sent: {why}. Use \u{201c}{HOLD_UNSEEN}\u{201d} on its card to start it \
+                 anyway: {watched}."
             )
         }
         Refusal::StillMoving => {
@@ -123,7 +123,7 @@ pub fn refusal(refusal: &Refusal, now: Timestamp) -> String {
              is not known. Load its elements, or choose another satellite."
         ),
         Refusal::TooLow { highest_deg, lowest_deg } => format!(
-            "Not sent: what is left of the pass is not above the {} of this antenna; the pass \
+            "Not sent: the rest of the pass is not above the {} of this antenna; the pass \
              reaches {}.",
             format::degrees(*lowest_deg, 1),
             format::degrees(*highest_deg, 1)
@@ -167,7 +167,7 @@ pub fn link_loss(loss: &LinkLoss) -> String {
         LinkLoss::Closed => "the unit closed the connection".to_owned(),
         LinkLoss::Broken(why) => format!("the connection broke ({why})"),
         LinkLoss::Slept => "this computer slept; the unit is being read again".to_owned(),
-        LinkLoss::Unreadable => "what the unit answers cannot be read".to_owned(),
+        LinkLoss::Unreadable => "the unit's answers cannot be read".to_owned(),
         LinkLoss::OtherDevice => {
             "another device answers there, or one that asks for a code first".to_owned()
         }
@@ -188,6 +188,6 @@ pub fn prepare_error(error: &PrepareError) -> String {
         PrepareError::NoElementFile => {
             "the unit uses no element file yet, name one in Preferences".to_owned()
         }
-        PrepareError::Stopped => "a stop came in between".to_owned(),
+        PrepareError::Stopped => "STOP came in between".to_owned(),
     }
 }

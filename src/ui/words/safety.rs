@@ -72,12 +72,12 @@ pub fn reason(barrier: &Barrier, station: &Station) -> String {
 
 /// The overrun of an antenna, and the source of that value.
 pub fn stopping_way(StoppingWay { overrun_s, stops, is_learned }: StoppingWay) -> String {
-    let overrun = format!("Runs on for {} s", format::number(overrun_s, 1));
+    let overrun = format!("Coasts for {} s", format::number(overrun_s, 1));
     let enough = StoppingWay::ENOUGH;
     if is_learned {
         return format!("{overrun}: the longest of the last {enough} of {stops} STOPs.");
     }
-    format!("{overrun} by its make: {stops} of {enough} STOPs seen.")
+    format!("{overrun}, assumed for its make: {stops} of {enough} STOPs seen.")
 }
 
 /// The reason why jogging waits for the operator's permission.
@@ -87,7 +87,8 @@ pub const UNGUARDED: &str = "The dead-man timer could not be started: if Azel en
 /// The reason for asking the operator to confirm that the antenna stands still.
 pub fn asks_standing(snapshot: &Snapshot, now: Timestamp) -> Option<String> {
     if let StopState::NotConfirmed { .. } = snapshot.stop {
-        let why = "STOP is repeated until the antenna is known to be at rest. Look at it before you confirm.";
+        let why = "STOP is repeated until the antenna is known to be at rest. Look at it before \
+                   you confirm.";
         return Some(why.to_owned());
     }
     let since = format::moment(snapshot.left_moving?, now);
@@ -127,7 +128,7 @@ fn unlike(unlike: Unlike) -> &'static str {
              unit."
         }
         Unlike::Limits => " Its limits have changed: check its settings.",
-        Unlike::Place => " The place it reports has changed: check its settings.",
+        Unlike::Place => " The location it reports has changed: check its settings.",
         Unlike::Position => " It does not point where it was left.",
         Unlike::Offsets => " Its offsets have changed: check its settings.",
         Unlike::Unread => " It has not reported again what it reported before.",
@@ -138,7 +139,8 @@ fn unlike(unlike: Unlike) -> &'static str {
 pub fn safety(matter: &Safety, antenna: &str, now: Timestamp) -> String {
     match matter {
         Safety::DeadManFired => format!(
-            "{antenna} was stopped by the dead-man timer: Azel was late. Press the key again to move it."
+            "{antenna} was stopped by the dead-man timer: Azel was late. Press the key again to \
+             move it."
         ),
         Safety::LeftMoving { since, asks: false } => format!(
             "Azel ended at {} while {antenna} was moved by hand. STOP was sent first.",
@@ -151,13 +153,15 @@ pub fn safety(matter: &Safety, antenna: &str, now: Timestamp) -> String {
         ),
         Safety::NoMark => format!(
             "It could not be written to disk that {antenna} is moved by hand: if Azel ended now, \
-             its next start would not know. Look at the free space and rights of the disk."
+             its next start would not know. Check the free space and permissions of the disk."
         ),
         Safety::StoppedByFlags { axis } => format!(
-            "{antenna} reports that it is at rest. {axis} reports no angle, so nothing else proves it."
+            "{antenna} reports that it is at rest. {axis} reports no angle, so nothing else \
+             proves it."
         ),
         Safety::FlagsContradict { axis, turned_deg } => format!(
-            "{antenna} reports that it is at rest, but {axis} has turned by {}. Look at the antenna.",
+            "{antenna} reports that it is at rest, but {axis} has turned by {}. Look at the \
+             antenna.",
             format::degrees(turned_deg.abs(), 1)
         ),
         Safety::SilentInMotion => format!(
@@ -183,12 +187,13 @@ pub fn safety(matter: &Safety, antenna: &str, now: Timestamp) -> String {
             }
         }
         Safety::ClockStepped { by_s } => format!(
-            "The clock of this computer was set by {} s. {antenna} does not go on by itself with \
-             what depends on it.",
+            "The clock of this computer was changed by {} s. {antenna} does not continue by \
+             itself with anything that depends on it.",
             format::signed(*by_s, 1)
         ),
         Safety::EndedForSleep => format!(
-            "This computer goes to sleep: the jog of {antenna} was ended. Press the key again to move it."
+            "This computer is going to sleep: the jog of {antenna} was ended. Press the key again \
+             to move it."
         ),
         Safety::Slept { lasted } => format!(
             "This computer slept for {}. {antenna} is being read again.",
@@ -200,8 +205,8 @@ pub fn safety(matter: &Safety, antenna: &str, now: Timestamp) -> String {
             format::age(lost.as_secs_f64()),
             unlike.map(self::unlike).unwrap_or_default()
         ),
-        Safety::SessionBroke => format!(
-            "The connection to {antenna} broke down inside Azel and was started again with STOP."
-        ),
+        Safety::SessionBroke => {
+            format!("The connection to {antenna} failed inside Azel and was restarted with STOP.")
+        }
     }
 }

@@ -46,7 +46,7 @@ fn the_detail_says_what_each_antenna_holds() {
     for size in SIZES {
         let mut window = view(size, Vec::new());
         detail(&mut window, size);
-        assert!(says(&window, "Satrak: What it holds is not read yet."));
+        assert!(says(&window, "Satrak: What it holds has not been read yet."));
         let hold = |window: &mut Window, number: u32, name: &str| {
             let antenna = &mut window.state_mut().model.antennas[0];
             Arc::make_mut(&mut antenna.snapshot).state.on_board.satellite = Some(HeldSatellite {
@@ -59,7 +59,7 @@ fn the_detail_says_what_each_antenna_holds() {
         hold(&mut window, METEOR_M2_3, "METEOR-M2 3");
         assert!(says(&window, "Satrak: Holds another satellite, METEOR-M2 3."));
         hold(&mut window, NOAA_20, "NOAA 20");
-        assert!(says(&window, "Satrak: Holds this satellite; it does not tell the epoch"));
+        assert!(says(&window, "Satrak: Holds this satellite; it does not report the epoch"));
         let model = &mut window.state_mut().model;
         let mut genius = station::Antenna::genius("Genius", "192.168.1.250:9006");
         genius.id = station::AntennaId(7);

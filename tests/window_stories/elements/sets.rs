@@ -79,8 +79,8 @@ fn an_older_set_stands_against_the_one_in_use_and_is_used_after_a_question() {
         assert_eq!(asked(&mut window), []);
         assert!(says(&window, "Use the set of 10 Aug 02:04Z for NOAA 20"));
         assert!(says(&window, "At the next pass, "), "with what it changes");
-        assert!(says(&window, "than half the beam width of "));
-        assert!(says(&window, "until newer elements come or you end it."));
+        assert!(says(&window, "than half the beamwidth of "));
+        assert!(says(&window, "until newer elements arrive or you end it."));
         window.key_press(Key::Enter);
         let choice = SetChoice::Older { catalog_number: NOAA_20, epoch };
         assert_eq!(asked(&mut window), [use_set(choice)]);

@@ -41,10 +41,10 @@ pub static GENERAL: Group = Group {
         Field::edit(CLOCK_FROM_GPS, "Clock from GPS")
             .moving()
             .about("The unit sets its clock from GPS by itself."),
-        Field::edit(TIME_OFFSET_MS, "Tracking time offset")
-            .in_unit("ms")
-            .moving()
-            .about("Shifts the track in time. Whether more is ahead or behind is not documented."),
+        Field::edit(TIME_OFFSET_MS, "Tracking time offset").in_unit("ms").moving().about(
+            "Shifts the track in time. Whether a larger value is ahead or behind is not \
+                    documented.",
+        ),
         Field::edit(AZIMUTH_OFFSET_DEG, "Azimuth offset")
             .in_unit("°")
             .moving()
@@ -63,7 +63,7 @@ pub static GENERAL: Group = Group {
         Field::edit(MINIMUM_ELEVATION_DEG, "Minimum elevation")
             .in_unit("°")
             .moving()
-            .about("The unit does not point lower."),
+            .about("The unit does not point lower than this."),
         Field::edit(NORTH_OFFSET_DEG, "North offset")
             .in_unit("°")
             .moving()

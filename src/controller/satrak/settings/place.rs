@@ -22,7 +22,7 @@ pub static GPS: Group = Group {
     fields: &[
         Field::edit(IS_AUTOMATIC, "Position from GPS")
             .moving()
-            .about("On: the unit uses its receiver. Off: it uses the place below."),
+            .about("On: the unit uses its receiver. Off: it uses the location below."),
         Field::edit(LATITUDE_DEG, "Latitude")
             .part_of(PLACE)
             .moving()

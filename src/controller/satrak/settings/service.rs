@@ -35,7 +35,7 @@ pub static ANGLES: Group = Group {
     fields: &[
         Field::write(REFERENCE, "Sensor references")
             .moving()
-            .about("Present position: the unit takes the references from where it stands."),
+            .about("Present position: the unit takes the references from its present position."),
         Field::edit(X_SENSOR, "X sensor reference").part_of(X_REFERENCE).moving(),
         Field::edit(X_DEG, "X angle at reference").part_of(X_REFERENCE).moving().in_unit("°"),
         Field::edit(Y_SENSOR, "Y sensor reference").part_of(Y_REFERENCE).moving(),
@@ -59,7 +59,7 @@ pub static IMAGE: Group = Group {
     is_service: true,
     fields: &[
         Field::read(STATUS, "Update status")
-            .about("As the unit says it: its values are not documented."),
+            .about("As the unit reports it: its values are not documented."),
         Field::write(FILE, "Image file")
             .moving()
             .about("On the unit. Presumably firmware or configuration."),

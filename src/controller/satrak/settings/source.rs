@@ -88,7 +88,7 @@ pub static FTP: Group = Group {
         Field::edit(PASSWORD, "Password")
             .part_of(SERVER)
             .moving()
-            .about("The unit sends it in clear, also when it is asked."),
+            .about("The unit sends it in clear text, also when it is queried."),
         Field::edit(PORT, "Port").part_of(SERVER).moving().about("22 is SFTP, 21 is FTP."),
         Field::edit(FILE_NAME, "TLE file").part_of(SATELLITE_OF_FILE).moving(),
         Field::edit(SATELLITE, "Satellite")

@@ -150,7 +150,7 @@ impl Density {
             (cells.name, "Satellite"),
             (cells.priority, priority),
             (cells.antenna, "Antenna"),
-            (cells.counts, "Counts"),
+            (cells.counts, "In beam"),
             (cells.spare, "Spare"),
         ];
         let shortened = cells.shortened.map(|(cell, _)| (cell, "Shortened"));

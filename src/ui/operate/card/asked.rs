@@ -132,7 +132,8 @@ impl CardHandler<'_> {
             return self.commands.push(command);
         }
         let text = format!(
-            "Disconnect from {}? It moves or tracks. Nobody here watches it from then on.",
+            "Disconnect from {}? It is moving or tracking, and nobody here watches it from then \
+             on.",
             self.antenna.config.name
         );
         *self.question = Some(Question { text, yes: "Disconnect", command });

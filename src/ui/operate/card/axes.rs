@@ -126,14 +126,14 @@ pub(super) fn unseen(antenna: &AntennaModel) -> Option<String> {
     let axis = match (measured.axes.map(|axis| axis.angle_deg.is_none()), can.second_axis) {
         ([false, false], _) | ([false, _], SecondAxis::Absent) => return None,
         ([true, true], SecondAxis::Elevation | SecondAxis::Other(_)) => {
-            return Some("No angle is known, so neither axis is turned by hand.".to_owned());
+            return Some("No angle is known, so neither axis can be turned by hand.".to_owned());
         }
         ([true, _], SecondAxis::Absent) => "azimuth",
         ([true, false], _) => "first axis",
         ([false, true], SecondAxis::Elevation) => "elevation",
         ([false, true], SecondAxis::Other(name)) => name,
     };
-    Some(format!("The {axis} has no known angle and is not turned by hand."))
+    Some(format!("The {axis} has no known angle and cannot be turned by hand."))
 }
 
 /// The signed rate of the jogged axis, degrees per second: measured for named speeds,

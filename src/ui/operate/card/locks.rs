@@ -53,9 +53,9 @@ impl Locks {
             }
         };
         let fault = (snapshot.state.motion_lock == Some(true)).then_some(if has_checks {
-            "Locked by a fault. Look at Faults."
+            "Locked by a fault. See Faults."
         } else {
-            "Locked by the unit. Look at what it tells."
+            "Locked by the unit. See what it reports."
         });
         let maintenance =
             snapshot.lock_out.is_some().then_some("Locked: the unit is in maintenance.");

@@ -12,7 +12,7 @@ use crate::{
     ui::{format, preferences::preview, text, theme},
 };
 
-const EACH_ALONE: &str = "Each pass counts alone: slews between passes are left to the Plan.";
+const EACH_ALONE: &str = "Each pass is judged alone: slews between passes are left to the Plan.";
 
 /// The most important number, for a fold.
 pub(super) fn in_short(effect: &Effect<Question>) -> String {

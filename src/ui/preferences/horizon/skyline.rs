@@ -101,7 +101,7 @@ fn markable(model: &Model, state: &HorizonState) -> Result<AzEl, String> {
         return Err(format!("{name} is not connected."));
     }
     if snapshot.intent != Intent::Manual {
-        return Err(format!("{name} has to be in Manual: choose it in Operate."));
+        return Err(format!("{name} must be in Manual: choose it in Operate."));
     }
     let measured = snapshot.state.measured.ok_or_else(|| format!("{name} has no position yet."))?;
     if measured.moving() {
@@ -121,7 +121,7 @@ pub(super) fn record(ui: &mut Ui, model: &Model, skies: &mut Skies, state: &mut 
     paint::text_in(ui, head, Align2::LEFT_CENTER, title, text::body_medium(), t.t1);
     let count = recording.marks.len();
     if recording.is_over {
-        let words = format!("{count} points recorded. Which skyline is to be kept?");
+        let words = format!("{count} points recorded. Which skyline do you want to keep?");
         says(ui, "recorded", &words, (Icon::Info, t.sat), t.t1);
         let buttons = row(ui, HEIGHT + 8.0);
         let (new, old) = (Button::primary("Keep the new one"), Button::normal("Keep the old one"));
@@ -141,7 +141,10 @@ pub(super) fn record(ui: &mut Ui, model: &Model, skies: &mut Skies, state: &mut 
     let (words, icon) = match &at {
         Ok(at) => {
             let here = plot::direction((at.azimuth_deg(), at.elevation_deg()));
-            (format!("Mark it, Enter. It is at {here}. {count} marked."), (Icon::CrossHair, t.cmd))
+            (
+                format!("Mark it with Enter. It is at {here}. {count} marked."),
+                (Icon::CrossHair, t.cmd),
+            )
         }
         Err(why) => (format!("{why} {count} marked."), (Icon::Warning, t.warn)),
     };

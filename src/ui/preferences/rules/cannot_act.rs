@@ -66,8 +66,8 @@ impl CannotAct {
         match self {
             Self::NoAntenna => "its antenna is removed".to_owned(),
             Self::NoSatellite => "it names no satellite".to_owned(),
-            Self::NoGroup => "it names no group that is there".to_owned(),
-            Self::Hours => "its hours cannot be used".to_owned(),
+            Self::NoGroup => "it names a group that does not exist".to_owned(),
+            Self::Hours => "its hours are not valid".to_owned(),
             Self::EmptyGroup(group) => {
                 let name = around.group(group).unwrap_or_default();
                 format!("the group {name} has no satellites")

@@ -240,7 +240,7 @@ fn fields() -> Vec<Placed<Conditions>> {
                 .when(|conditions| conditions.is_by_hours)
                 .checked(|conditions| {
                     let HoursOfDay { from, to } = conditions.hours;
-                    if from == to { Err("must be another time than From") } else { Ok(()) }
+                    if from == to { Err("must differ from From") } else { Ok(()) }
                 }),
         ],
     );

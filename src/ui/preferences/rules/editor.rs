@@ -219,7 +219,7 @@ pub(super) fn decided(
     form::card(ui, "Passes that it decides, 48 h", |ui| {
         let passes = shown.decided(state);
         let words = match passes {
-            None => "Not known while a field cannot be used, or the rule is removed.",
+            None => "Not known while a field is not valid, or the rule is removed.",
             Some([]) if !shown.is_on => "None: the rule is off.",
             Some([]) => "None.",
             Some(_) => "Sun and hours count at the middle of a pass, its TCA.",

@@ -101,6 +101,6 @@ pub(super) fn then_in_short(rule: &RuleDraft) -> &'static str {
         (Then::Take, _) => "take, whatever the limits",
         (Then::Leave, _) => "leave out",
         (Then::Park, Of::All) => "park, take nothing",
-        (Then::Park, _) => "leave out, park not",
+        (Then::Park, _) => "leave out, do not park",
     }
 }

@@ -158,7 +158,8 @@ fn members(ui: &mut Ui, around: &Around<'_>, group: &str, satellites: &mut Vec<u
                 egui::WidgetInfo::labeled(egui::Role::Button, true, spoken)
             });
             let is_favourite = around.favourites.contains(number);
-            let more = if is_favourite { "" } else { ". No favourite: its passes are not planned" };
+            let more =
+                if is_favourite { "" } else { ". Not a favourite: its passes are not planned" };
             if response.on_hover_text(format!("{number}, click to remove{more}")).clicked() {
                 removed = Some(*number);
             }

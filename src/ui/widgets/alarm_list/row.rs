@@ -119,7 +119,7 @@ fn buttons(row: &AlarmRow<'_>) -> Vec<RowButton> {
     }
     if let AlarmState::Shelved { .. } = row.state {
         let command = station(engine::Command::UnshelveAlarm(row.id));
-        buttons.push(RowButton { words: "Take back", command });
+        buttons.push(RowButton { words: "Unshelve", command });
     }
     if row.can_be_shelved() {
         buttons.push(RowButton { words: "Shelve", command: None });

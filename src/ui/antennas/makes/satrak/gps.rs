@@ -40,8 +40,8 @@ fn site_check(ui: &mut Ui, unit: &ShownUnit<'_>) {
         return row::plain(ui, "Distance to site", &words, verdict);
     }
     row::plain(ui, "Distance to site", &words, Some((Some(Icon::Warning), "Differs", t.warn)));
-    let why = "The unit tracks from its own place and Azel predicts from the station's: one of \
-               them is wrong.";
+    let why = "The unit tracks from its own location and Azel predicts from the station's: one \
+               of them is wrong.";
     row::note(ui, Some(Icon::Warning), why, t.warn);
 }
 

@@ -25,13 +25,13 @@ pub(super) fn show(ui: &mut Ui, unit: &ShownUnit<'_>, form: &mut Form) {
     let t = theme::tokens(ui);
     let station = format::degrees(station_deg, 1);
     let why = format!(
-        "Minimum elevation: the unit points down to {} by itself, the station allows {station}.",
+        "Minimum elevation: the unit itself points down to {}, the station allows {station}.",
         format::degrees(unit_deg, 1)
     );
     row::note(ui, Some(Icon::Warning), &why, t.warn);
     let (rect, _) =
         ui.allocate_exact_size(vec2(ui.available_width(), SMALL_HEIGHT), Sense::hover());
-    let words = format!("Take {station} from the station");
+    let words = format!("Use the station's {station}");
     let button = Button::normal(&words);
     let place = rect.with_max_x(rect.left() + button.width(ui));
     if let Some(field) = GENERAL.field(MINIMUM_ELEVATION_DEG.name)

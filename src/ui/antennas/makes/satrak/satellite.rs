@@ -46,7 +46,7 @@ pub(super) fn show(
     fields(ui, unit, form, shown, |_| true);
     let t = theme::tokens(ui);
     if shown == FTP.key {
-        let words = "The unit sends this password in clear. Azel never logs it.";
+        let words = "The unit sends this password in clear text. Azel never logs it.";
         row::note(ui, Some(Icon::Info), words, t.t2);
     }
     if let Some(group) = source(shown).filter(|_| used != Some(shown)) {
@@ -129,10 +129,10 @@ fn tabs(
         .map(|group| group.title)
         .collect();
     let said = match used {
-        _ if !edited.is_empty() => format!("Edits under {} too", edited.join(" and ")),
+        _ if !edited.is_empty() => format!("Also edited: {}", edited.join(" and ")),
         Some(used) if used == shown => format!("{} is in use", word(used)),
         Some(used) => format!("{} is in use, not {}", word(used), word(shown)),
-        None => "Which one is in use is not known".to_owned(),
+        None => "It is not known which is in use".to_owned(),
     };
     let room = Rect::from_min_max(place.right_top() + vec2(12.0, 0.0), rect.max);
     let (icon, colour) = match used {

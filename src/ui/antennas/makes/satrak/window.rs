@@ -51,7 +51,7 @@ fn automatic(ui: &mut Ui, unit: &ShownUnit<'_>, form: &mut Form, commands: &mut 
     let value = match auto {
         Some(Some(true)) => "On",
         Some(Some(false)) => "Off",
-        Some(None) => "Not told",
+        Some(None) => "Not reported",
         None => "–",
     };
     let name = format!("{AUTO}, on the unit: {value}");
@@ -74,7 +74,7 @@ fn automatic(ui: &mut Ui, unit: &ShownUnit<'_>, form: &mut Form, commands: &mut 
     }
     let note = match auto {
         Some(Some(true)) => "On: the antenna starts by itself when the window begins.",
-        Some(None) => "This unit does not tell whether it starts by itself.",
+        Some(None) => "This unit does not report whether it starts by itself.",
         _ => "",
     };
     if !note.is_empty() {
