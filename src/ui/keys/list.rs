@@ -104,7 +104,9 @@ pub fn in_words(binding: &Binding, own: &OwnKeys) -> String {
     if words.len() == 4 && own.keys(binding).all(is_arrow) {
         return if before.is_empty() { "Arrows".to_owned() } else { format!("{before}arrows") };
     }
-    format!("{before}{}", words.join(", "))
+    // A comma is a key too.
+    let between = if words.contains(&",") { "   " } else { ", " };
+    format!("{before}{}", words.join(between))
 }
 
 fn is_arrow(key: Key) -> bool {
@@ -121,8 +123,8 @@ pub fn word(key: Key) -> &'static str {
         Key::ArrowRight => "Right",
         Key::PageUp => "Page Up",
         Key::PageDown => "Page Down",
-        Key::Comma => "comma",
-        Key::Period => "full stop",
+        Key::Comma => ",",
+        Key::Period => ".",
         other => other.symbol_or_name(),
     }
 }
