@@ -63,10 +63,11 @@ pub(super) fn show(ui: &Ui, rect: Rect, model: &Model, elements: &Elements, cata
     let heights = format!("{heights} {}", format::distance_unit(unit));
     fact(ui, line(3), "Apogee × perigee", &heights, t.t1);
     let figures = figures(elements);
-    let half = (inner.width() - 20.0) / 2.0;
+    // The longer names stand at the right.
+    let (left, right) = (inner.width() * 0.45, inner.width() * 0.52);
     for (index, pair) in figures.chunks(2).enumerate() {
         let line = line(WIDE + index);
-        let halves = [line.with_max_x(line.left() + half), line.with_min_x(line.right() - half)];
+        let halves = [line.with_max_x(line.left() + left), line.with_min_x(line.right() - right)];
         for ((name, value), place) in pair.iter().zip(halves) {
             fact(ui, place, name, value, t.t1);
         }

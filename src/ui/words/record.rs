@@ -91,7 +91,7 @@ pub fn cause(cause: &Cause) -> &'static str {
         Cause::Late { .. } => "Time offset",
         Cause::AzimuthOffset { .. } => "Azimuth offset",
         Cause::ElevationOffset { .. } => "Elevation offset",
-        Cause::Tilt { .. } => "Tilt of the azimuth axis",
+        Cause::Tilt { .. } => "Azimuth axis tilt",
         Cause::AzimuthScale { .. } => "Azimuth scale",
         Cause::ElevationScale { .. } => "Elevation scale",
         Cause::OtherElements { .. } => "Other elements",
