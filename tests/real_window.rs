@@ -6,6 +6,7 @@
 mod deaths;
 mod pictures;
 mod processes;
+mod recorded;
 mod screen;
 mod stories;
 mod unit;

@@ -1,4 +1,4 @@
-//! Pictures of every view, taken from the real window on the demo station.
+//! Pictures of every view, taken from the real window on the demo station with a recorded pass.
 //!
 //! The test takes all of them at one size in one theme. The long form takes every size in every
 //! theme and keeps them as `target/pictures/<view>-<size>-<theme>.png`:
@@ -27,7 +27,10 @@ use egui_kittest::{
     kittest::{NodeT as _, Queryable as _},
 };
 
-use super::screen::{Running, Screen, wait_for};
+use super::{
+    recorded::Tracked,
+    screen::{Running, Screen, wait_for},
+};
 
 const SIZES: [[u32; 2]; 4] = [[1024, 640], [1440, 900], [1920, 1080], [2560, 1440]];
 const THEMES: [(ThemeName, &str); 3] =
@@ -44,7 +47,7 @@ const LEAST_COLOURS: usize = 60;
 enum Act {
     /// A key, as xdotool and as egui name it.
     Press(&'static str, Modifiers, Key),
-    /// A click on the first control whose name contains this.
+    /// A click on the control of this name, else on the first whose name contains it.
     Click(&'static str),
     /// A click on the control, where there is one.
     ClickIfThere(&'static str),
@@ -68,6 +71,7 @@ const SECOND_ANTENNA: Act = Press("F2", Modifiers::NONE, Key::F2);
 const THIRD_ANTENNA: Act = Press("F3", Modifiers::NONE, Key::F3);
 const KEYS: Act = Press("question", Modifiers::NONE, Key::Questionmark);
 const TRACK: Act = Press("t", Modifiers::NONE, Key::T);
+const LEAVE_REPLAY: Act = Press("q", Modifiers::NONE, Key::Q);
 const NEXT_THEME: Act = Press("ctrl+l", Modifiers::COMMAND, Key::L);
 
 const CONTROLS: [Role; 5] =
@@ -91,7 +95,7 @@ const fn sight(
     Sight { name, view, open, leave }
 }
 
-const SIGHTS: [Sight; 24] = [
+const SIGHTS: [Sight; 26] = [
     sight("operate", View::Operate, &[OPERATE, FIRST_ANTENNA], &[]),
     sight("operate-genius", View::Operate, &[SECOND_ANTENNA], &[]),
     sight("operate-rc2000c", View::Operate, &[THIRD_ANTENNA], &[FIRST_ANTENNA]),
@@ -111,6 +115,8 @@ const SIGHTS: [Sight; 24] = [
     sight("antennas-rc2000c", View::Antennas, &[THIRD_ANTENNA], &[FIRST_ANTENNA]),
     sight("console", View::Console, &[CONSOLE], &[]),
     sight("record", View::Record, &[RECORD], &[]),
+    sight("record-replay", View::Record, &[Click("Replay")], &[]),
+    sight("replay", View::Operate, &[OPERATE], &[LEAVE_REPLAY]),
     sight("map", View::Map, &[MAP], &[]),
     sight("preferences-site", View::Preferences, &[PREFERENCES, Page("Site")], &[]),
     sight(
@@ -135,9 +141,12 @@ struct Twin {
 }
 
 impl Twin {
-    fn new([width, height]: [u32; 2]) -> Self {
+    fn new([width, height]: [u32; 2], tracked: &Tracked) -> Self {
         let folder = tempfile::tempdir().expect("a folder");
+        let records = folder.path().join("records");
+        tracked.put(&records);
         let settings = Settings {
+            records: Some(records),
             path: Some(folder.path().join("station.toml")),
             library: Some(folder.path().join("elements")),
             dead_man: Some(env!("CARGO_BIN_EXE_azel").into()),
@@ -175,8 +184,14 @@ impl Twin {
         // What comes from another thread may take some frames.
         for _ in 0..50 {
             self.window.step();
-            let mut found = self.window.query_all_by_label_contains(words);
-            if let Some(node) = found.find(|node| roles.contains(&node.accesskit_node().role())) {
+            let is_control = |role: Role| roles.contains(&role);
+            let found: Vec<_> = self
+                .window
+                .query_all_by_label_contains(words)
+                .filter(|node| is_control(node.accesskit_node().role()))
+                .collect();
+            let is_named = |node: &&_| is_named(node, words);
+            if let Some(node) = found.iter().find(is_named).or(found.first()) {
                 return Some(node.rect().center());
             }
             thread::sleep(Duration::from_millis(10));
@@ -193,11 +208,20 @@ impl Twin {
         page.accesskit_node().toggled() == Some(egui::accesskit::Toggled::True)
     }
 
+    fn view(&self) -> View {
+        let app = self.window.state();
+        app.replay().unwrap_or(app.model()).view
+    }
+
     fn stop(&self) -> Rect {
         let mut stops = self.window.get_all_by_label_contains("STOP");
         let is_stop = |role| role == Role::Button;
         stops.find(|node| is_stop(node.accesskit_node().role())).expect("STOP").rect()
     }
+}
+
+fn is_named(node: &egui_kittest::Node<'_>, words: &str) -> bool {
+    node.accesskit_node().label().as_deref() == Some(words)
 }
 
 fn is_ready(model: &Model) -> bool {
@@ -238,9 +262,10 @@ struct Scene {
 }
 
 impl Scene {
-    fn new(number: u32, size: [u32; 2]) -> Self {
+    fn new(number: u32, size: [u32; 2], tracked: &Tracked) -> Self {
         let [width, height] = size.map(|side| side.to_string());
         let screen = Screen::new(number, &format!("{width}x{height}"));
+        tracked.put(&screen.folder.path().join(".local/share/azel/records"));
         let (azel, window) = screen.azel(&["--demo"]);
         screen.xdotool(&["windowmove", &window, "0", "0"]);
         screen.xdotool(&["windowsize", &window, &width, &height]);
@@ -248,7 +273,7 @@ impl Scene {
         wait_for("the size of the window", || {
             screen.xdotool(&["getwindowgeometry", &window]).contains(&wanted).then_some(())
         });
-        let mut scene = Self { _azel: azel, screen, size, twin: Twin::new(size) };
+        let mut scene = Self { _azel: azel, screen, size, twin: Twin::new(size, tracked) };
         scene.point_away();
         let (theme, _) = THEMES[0];
         wait_for("the first picture", || scene.is_drawn(theme).then_some(()));
@@ -312,7 +337,7 @@ impl Scene {
             for act in sight.open {
                 self.act(*act);
             }
-            assert_eq!(self.twin.window.state().model().view, sight.view, "{}", sight.name);
+            assert_eq!(self.twin.view(), sight.view, "{}", sight.name);
             for (theme, word) in themes {
                 let what = format!("{} in the {word} theme", sight.name);
                 self.wait_for_theme(*theme, &what);
@@ -377,7 +402,7 @@ fn folder() -> PathBuf {
 #[ignore = "needs Xvfb, xdotool, ImageMagick and OpenGL"]
 fn every_view_shows_itself_and_stop() {
     let wanted = std::env::var(LONG_FORM).ok();
-    let folder = folder();
+    let (folder, tracked) = (folder(), Tracked::new());
     let mut taken = 0;
     for (number, size) in SIZES.into_iter().enumerate() {
         let word = format!("{}x{}", size[0], size[1]);
@@ -387,7 +412,7 @@ fn every_view_shows_itself_and_stop() {
             Some(sizes) => (sizes.split(',').any(|of| of == word), &THEMES[..]),
         };
         if is_taken {
-            taken += Scene::new(171 + number as u32, size).take(themes, &folder);
+            taken += Scene::new(171 + number as u32, size, &tracked).take(themes, &folder);
         }
     }
     println!("{taken} pictures in {}", folder.display());
