@@ -239,8 +239,8 @@ fn paint_sky(
     if let Some(mask) = scene.mask.filter(|_| layers.mask) {
         mask::paint(painter, dome, mask, t);
     }
-    let mut reserved = grid::rings(painter, dome, t).to_vec();
-    reserved.extend(grid::rim(painter, dome, scene.minimum_elevation, t));
+    grid::rings(painter, dome, t);
+    let mut reserved = grid::rim(painter, dome, scene.minimum_elevation, t);
     if layers.keep_outs {
         keep_outs::paint(painter, dome, scene.keep_outs, t);
         reserved.extend(keep_outs::words(painter, dome, scene.keep_outs, t));
@@ -291,10 +291,11 @@ fn paint_sky(
     label_selected(&mut labels, dome, scene, t);
     planned::label(&mut labels, dome, scene, t);
     track::label_events(&mut labels, dome, &events, scene.now, t);
-    track::label_minutes(&mut labels, &ticks, &events, scene.now, t);
     if layers.sun_and_moon {
         bodies::label_sun_and_moon(&mut labels, dome, scene, t);
     }
+    grid::label_rings(&mut labels, dome);
+    track::label_minutes(&mut labels, &ticks, &events, scene.now, t);
     other_antennas::label(&mut labels, dome, scene, t);
     if layers.others && layers.names {
         bodies::label_others(&mut labels, dome, scene, t);

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use azel::{
-    astro::time::add_seconds,
+    astro::{GroundPoint, time::add_seconds},
     engine::passes::{ListedSatellite, PassLists, PredictedPass},
     model::{Model, UiCommand, View, globe::Towards},
     orbit::{Propagator, bundled},
@@ -12,6 +12,7 @@ use egui::{Event, Key, Modifiers, PointerButton, Role, pos2};
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
 
 use crate::window_stories::{
+    every_view::painted,
     extremes::{nothing_is_cut, nothing_overlaps},
     rig::{self, LARGE, NOAA_20, SIZES, SMALL, Window, asked, says, settle},
     states,
@@ -94,6 +95,38 @@ fn the_map_and_the_table_name_every_satellite_and_the_station() {
         let place = format!("{:.1}° ", of.below.point.latitude.degrees().abs());
         let row = rows.iter().find(|row| row.starts_with(of.satellite.short_name()));
         assert!(row.is_some_and(|row| row.contains(&place)), "{place} {rows:?}");
+    }
+}
+
+#[test]
+fn a_name_keeps_off_the_numbers_of_the_grid() {
+    let is_number = |words: &str| words.ends_with("°W") || words.ends_with("°S");
+    for size in [SMALL, LARGE, FULL, [2560.0, 1440.0]] {
+        let mut window = view(size);
+        let globe = &window.state().model.globe;
+        let place = globe.satellites.iter().position(|of| of.is_selected).expect("one is selected");
+        let name = globe.satellites[place].satellite.short_name().replace(' ', "");
+        let mut seen = 0;
+        for longitude_deg in (-84..=-36).step_by(3) {
+            for latitude_deg in [-86.0, -80.0, -74.0] {
+                let point = GroundPoint::from_degrees(latitude_deg, f64::from(longitude_deg));
+                window.state_mut().model.globe.satellites[place].below.point = point;
+                settle(&mut window);
+                let texts = painted::placed(&window);
+                let map = window.get_by_role(Role::Canvas).rect();
+                let on_map = || texts.iter().filter(|(_, at)| map.contains_rect(*at));
+                let named = on_map().filter(|(words, _)| *words == name);
+                for (_, at) in named {
+                    seen += 1;
+                    let touches =
+                        |of: &egui::Rect| of.expand2(egui::vec2(4.0, 0.0)).intersects(*at);
+                    let number =
+                        on_map().find(|(words, number)| is_number(words) && touches(number));
+                    assert_eq!(number, None, "{size:?} {longitude_deg} {latitude_deg}: {at:?}");
+                }
+            }
+        }
+        assert!(seen > 20, "{size:?}: {seen} names");
     }
 }
 
@@ -213,7 +246,9 @@ fn the_selected_satellite_stands_in_the_inspector() {
             settle(&mut window);
             nothing_overlaps(&window);
         }
-        for words in ["METEOR-M2 4, 59051, elements", "LOS T", "Sub-satellite point: ", "Height, speed: 8"] {
+        for words in
+            ["METEOR-M2 4, 59051, elements", "LOS T", "Sub-satellite point: ", "Height, speed: 8"]
+        {
             assert!(says(&window, words), "{words}");
         }
         assert!(says(&window, "Footprint radius: 2"));

@@ -26,15 +26,17 @@ use azel::{
         },
     },
     record::{
-        AboutTrack, OpenedPass, PassPage, PassQuery, RecordedPass, RecordedReport, TrackedBy,
+        AboutTrack, OpenedPass, PassPage, PassQuery, RecordedPass, RecordedReport, Row, TrackedBy,
     },
     station::OffsetsOf,
+    ui::theme,
 };
 use egui::{Key, Modifiers, Role};
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
 use jiff::ToSpan as _;
 
 use crate::window_stories::{
+    every_view::painted,
     extremes::{nothing_is_cut, nothing_overlaps},
     rig::{self, LARGE, NOAA_20, SIZES, Window, asked, says, settle},
     settings_rig, states,
@@ -381,6 +383,62 @@ fn what_nothing_here_corrects_has_no_correction_and_neither_has_a_setting_writte
     let mut window = rig::window(LARGE, model);
     settle(&mut window);
     assert!(window.query_by_label("Apply…").is_none(), "it may be corrected already");
+}
+
+/// The lines that were painted with this width.
+fn lines(shape: &egui::Shape, width: f32, found: &mut Vec<Vec<egui::Pos2>>) {
+    match shape {
+        egui::Shape::Vec(shapes) => shapes.iter().for_each(|of| lines(of, width, found)),
+        egui::Shape::Path(path) if (path.stroke.width - width).abs() < 0.01 && !path.closed => {
+            found.push(path.points.clone());
+        }
+        _ => {}
+    }
+}
+
+#[test]
+fn the_times_of_aos_and_los_do_not_lie_on_the_path() {
+    for size in [LARGE, [1920.0, 1080.0], [2560.0, 1440.0]] {
+        let mut window = view(size);
+        settle(&mut window);
+        let sky = window.get_by_label_contains("Sky plot of the pass.").rect();
+        let mut found = Vec::new();
+        for clipped in &window.output().shapes {
+            lines(&clipped.shape, 2.0, &mut found);
+        }
+        found.retain(|line| line.iter().all(|at| sky.contains(*at)));
+        assert!(!found.is_empty(), "a path");
+        let texts = painted::placed(&window);
+        let ends = texts.iter().filter(|(words, at)| {
+            sky.expand(30.0).contains_rect(*at)
+                && ["AOS", "LOS"].iter().any(|of| words.starts_with(of))
+        });
+        assert_eq!(ends.clone().count(), 2, "{size:?}");
+        for (words, at) in ends {
+            let letters = at.shrink(1.0);
+            let is_crossed = found.iter().flat_map(|line| line.windows(2)).any(|pair| {
+                (0..=20).any(|step| letters.contains(pair[0].lerp(pair[1], step as f32 / 20.0)))
+            });
+            assert!(!is_crossed, "{size:?}: {words} at {at:?}");
+        }
+    }
+}
+
+#[test]
+fn the_bar_of_the_link_runs_below_its_words_and_a_loss_of_no_length_is_not_told() {
+    let (mut model, mut flown) = model();
+    let report = &mut flown[0].pass.report;
+    let (time, data) = (report.from, serde_json::Value::from("Connected"));
+    let until = add_seconds(time, 0.4);
+    report.report.losses.push(LostStretch { from: time, until, cause: LossCause::EarlyEnd });
+    let row = Row { time, run: 1, steady_s: None, antenna: None, kind: "link".to_owned(), data };
+    flown[0].entries.push(row);
+    model.recorded = Some(Arc::new(recorded(&flown, 0)));
+    let mut window = rig::window(LARGE, model);
+    settle(&mut window);
+    let ground = theme::tokens(&window.ctx).bg0;
+    assert_eq!(painted::ground_of(&window, "Connected"), Some(ground));
+    assert!(!painted::texts(&window).iter().any(|words| words.contains("half of the beam 0:00")));
 }
 
 #[test]

@@ -18,6 +18,8 @@ use crate::{
 
 /// Share of the fill of the selected footprint.
 const FILL: f32 = 0.6;
+/// Distance of names from the numbers of the grid, points.
+const BESIDE: f32 = 3.0;
 
 /// Draws the map of the whole world into `rect`, of which `visible` is not covered.
 pub(super) fn show(
@@ -101,13 +103,12 @@ fn paint_map(
         labels::reserve(&mut labels, world, &tracks.ahead, 6.0);
     }
     if layers.grid {
-        for number in grid::numbers(painter, *projection, t) {
-            labels.reserve(number);
+        let marks: Vec<Rect> = marks(projection, model, shown).collect();
+        for number in grid::numbers(painter, *projection, &marks, t) {
+            labels.keep_off(number.expand(BESIDE));
         }
     }
-    for of in shown {
-        labels.reserve(paint::square(projection.point(of.below.point), 8.0));
-    }
+    marks(projection, model, shown).for_each(|mark| labels.reserve(mark));
     labels::add(&mut labels, projection, model, shown, laid_out.as_ref(), layers.names, t);
     state.labels = labels.finish();
 
@@ -119,6 +120,17 @@ fn paint_map(
     if let Some(of) = selected {
         marks::selected(painter, projection.point(of.below.point), t);
     }
+}
+
+/// The boxes of the satellites and the station.
+fn marks<'a>(
+    projection: &'a Projection,
+    model: &Model,
+    shown: &'a [&GlobeSatellite],
+) -> impl Iterator<Item = Rect> + 'a {
+    let home = paint::square(projection.point(model.station.site.point()), 16.0);
+    let satellites = shown.iter().map(|of| paint::square(projection.point(of.below.point), 8.0));
+    satellites.chain([home])
 }
 
 fn outline(ui: &Ui, projection: &Projection, cap: &Cap, width: f32, colour: Color32) {

@@ -62,15 +62,21 @@ pub(super) fn lines(projection: Projection, colour: Color32) -> Mesh {
     mesh
 }
 
-/// Paints the numbers at the left and the lower edge. Returns their boxes.
-pub(super) fn numbers(painter: &Painter, projection: Projection, t: &Tokens) -> Vec<Rect> {
+/// Paints the numbers at the left and the lower edge, but for those below a mark. Returns their
+/// boxes.
+pub(super) fn numbers(
+    painter: &Painter,
+    projection: Projection,
+    marks: &[Rect],
+    t: &Tokens,
+) -> Vec<Rect> {
     let world = projection.world;
     let mut boxes = Vec::new();
     let mut number = |at: Pos2, anchor: Align2, words: String| {
         let galley = painter.layout_no_wrap(words, text::caption(), t.t3);
         let place = anchor.anchor_size(at, galley.size());
         let ground = place.expand2(vec2(3.0, 0.0));
-        if world.contains_rect(ground) {
+        if world.contains_rect(ground) && !marks.iter().any(|mark| mark.intersects(ground)) {
             painter.rect_filled(ground, 0.0, t.sky);
             painter.galley(place.min, galley, t.t3);
             boxes.push(ground);

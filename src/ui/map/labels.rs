@@ -13,7 +13,6 @@ use crate::{
         },
         text::{self, Weight},
         tokens::Tokens,
-        widgets::paint,
     },
 };
 
@@ -50,7 +49,6 @@ pub(super) fn add(
     let (selected, others): (Vec<&GlobeSatellite>, Vec<_>) =
         shown.iter().copied().partition(|of| of.is_selected);
     let home = projection.point(model.station.site.point());
-    labels.reserve(paint::square(home, 16.0));
     for of in selected {
         let name = of.satellite.short_name();
         let lines = [(name, text::sized(13.0, Weight::SemiBold), t.sat)];

@@ -25,6 +25,8 @@ const GAP: f32 = 6.0;
 const BEYOND: f32 = 80.0;
 /// In less room words would say nothing.
 const LEAST_ROOM: f32 = 24.0;
+/// A shorter loss would be told as 0:00, seconds.
+const LEAST_S: f64 = 1.0;
 const LANES: [&str; 4] = ["Pass", "Sent", "Link", "Alarm"];
 
 /// Draws the lanes into `rect`; times lie as in `plots` above.
@@ -122,8 +124,10 @@ fn events(model: &Model, opened: &OpenedPass) -> [Vec<Moment>; 4] {
             lane.push(Moment { at: row.time, words, colour });
         }
     }
-    let longest =
-        report.report.losses.iter().filter(|lost| !matches!(lost.cause, LossCause::NotMeasured));
+    let is_told =
+        |cause: LossCause, seconds: f64| cause != LossCause::NotMeasured && seconds >= LEAST_S;
+    let longest = report.report.losses.iter();
+    let longest = longest.filter(|lost| is_told(lost.cause, lost.seconds()));
     if let Some(alarms) = lanes.last_mut() {
         alarms.extend(longest.map(|lost| Moment {
             at: lost.from,
@@ -212,6 +216,9 @@ fn marks(
             lane.with_min_x(x + GAP).with_max_x(free_to.max(x + GAP))
         };
         if room.width() >= LEAST_ROOM {
+            let letters = room.shrink2(egui::vec2(-2.0, 3.0));
+            let letters = letters.with_max_x(letters.right().min(letters.left() + width + 4.0));
+            ui.painter().rect_filled(letters, 0.0, theme::tokens(ui).bg0);
             paint::text_in(ui, room, Align2::LEFT_CENTER, &moment.words, font, colour);
         }
         free_to = room.left().min(mark.left()) - GAP;

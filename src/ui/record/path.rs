@@ -1,5 +1,7 @@
 //! The path over the sky, with the error of the antenna enlarged.
 
+use std::collections::HashMap;
+
 use egui::{Align2, Painter, Pos2, Rect, Sense, Stroke, Ui, WidgetInfo, pos2};
 use jiff::Timestamp;
 
@@ -15,6 +17,8 @@ use crate::{
         sky_plot::{
             geometry::{Dome, usable},
             grid,
+            labels::{Key, Label, Labels},
+            placement::Side,
         },
         text, theme,
         tokens::Tokens,
@@ -49,15 +53,23 @@ pub(super) fn show(ui: &Ui, rect: Rect, model: &Model, opened: &OpenedPass, stat
     }
     let predicted = dome.path(opened.path.iter().map(|sample| sample.direction));
     dashes::paint(&painter, &predicted, Stroke::new(1.5, t.sat), DASH);
-    for piece in flown(dome, &opened.track, factor) {
-        painter.line(piece, Stroke::new(2.0, t.ant));
+    let pieces = flown(dome, &opened.track, factor);
+    for piece in &pieces {
+        painter.line(piece.clone(), Stroke::new(2.0, t.ant));
     }
     ticks(&painter, dome, opened, factor, t);
-    ends(ui, &painter, dome, &opened.path, model.now, t);
-    if let Some(point) = cursor::point(opened, state)
-        && let (Some(at), Some(off)) =
-            (dome.visible(point.satellite), enlarged_at(dome, point, factor))
-    {
+    let mut labels = Labels::new(&painter, t, Some(dome), plot.shrink(4.0), HashMap::new());
+    for path in pieces.iter().chain([&predicted]) {
+        labels.reserve_path(path, 6.0);
+    }
+    let cursor = cursor::point(opened, state);
+    let cursor = cursor
+        .and_then(|of| Some((of, [dome.visible(of.satellite)?, enlarged_at(dome, of, factor)?])));
+    for mark in cursor.into_iter().flat_map(|(_, marks)| marks) {
+        labels.reserve(paint::square(mark, 10.0));
+    }
+    ends(ui, &mut labels, &painter, dome, &opened.path, model.now, t);
+    if let Some((point, [at, off])) = cursor {
         painter.line_segment([at, off], Stroke::new(2.5, t.warn));
         painter.circle_filled(at, 4.0, t.sat);
         painter.circle_stroke(off, 4.0, Stroke::new(1.5, t.ant));
@@ -66,14 +78,10 @@ pub(super) fn show(ui: &Ui, rect: Rect, model: &Model, opened: &OpenedPass, stat
             format::degrees(point.error.off_deg, 2),
             format::moment(point.time, model.now)
         );
-        // Towards the middle of the plot there is room.
-        let (anchor, x) = if off.x > dome.centre.x {
-            (Align2::RIGHT_CENTER, at.x.min(off.x) - 10.0)
-        } else {
-            (Align2::LEFT_CENTER, at.x.max(off.x) + 10.0)
-        };
-        label(&painter, pos2(x, off.y), anchor, &words, t.warn, t);
+        label(&mut labels, Key::Cursor, dome, off, &words, t.warn);
     }
+    grid::label_rings(&mut labels, dome);
+    labels.finish();
     legend(ui, foot);
     let id = ui.make_persistent_id("recorded path");
     let spoken = format!("Sky plot of the pass. {words}");
@@ -125,39 +133,47 @@ fn ticks(painter: &Painter, dome: Dome, opened: &OpenedPass, factor: u16, t: &To
 }
 
 /// Marks AOS and LOS with their times.
-fn ends(ui: &Ui, painter: &Painter, dome: Dome, path: &[Sample], now: Timestamp, t: &Tokens) {
+fn ends(
+    ui: &Ui,
+    labels: &mut Labels<'_>,
+    painter: &Painter,
+    dome: Dome,
+    path: &[Sample],
+    now: Timestamp,
+    t: &Tokens,
+) {
     let (Some(first), Some(last)) = (path.first(), path.last()) else { return };
-    for (word, sample) in [("AOS", first), ("LOS", last)] {
-        let Some(at) = dome.visible(sample.direction) else { continue };
+    let ends = [(Key::Aos, "AOS", first), (Key::Los, "LOS", last)];
+    let places = ends.map(|(_, _, sample)| dome.point(sample.direction));
+    for at in places.into_iter().flatten() {
+        labels.reserve(paint::square(at, 12.0));
+    }
+    for ((key, word, sample), at) in ends.into_iter().zip(places) {
+        let Some(at) = at else { continue };
         painter.circle(at, 4.5, t.bg0, Stroke::new(1.5, t.sat));
         let words = format!("{word} {}", format::moment(sample.time, now));
-        let is_right = at.x > dome.centre.x;
-        let (anchor, x) = if is_right {
-            (Align2::RIGHT_CENTER, at.x - 10.0)
-        } else {
-            (Align2::LEFT_CENTER, at.x + 10.0)
-        };
-        label(painter, pos2(x, at.y), anchor, &words, t.t1, t);
+        label(labels, key, dome, at, &words, t.t1);
         paint::name_text(ui, ("recorded end", word), paint::square(at, 12.0), &words);
     }
 }
 
+/// Towards the middle of the plot there is room.
 fn label(
-    painter: &Painter,
-    at: Pos2,
-    anchor: Align2,
+    labels: &mut Labels<'_>,
+    key: Key,
+    dome: Dome,
+    mark: Pos2,
     words: &str,
     colour: egui::Color32,
-    t: &Tokens,
 ) {
-    let galley = painter.layout_no_wrap(words.to_owned(), text::small(), colour);
-    let place = anchor.anchor_size(at, galley.size());
-    // Shifted to where all of it can be seen.
-    let seen = painter.clip_rect().shrink(4.0);
-    let x = place.left().min(seen.right() - place.width()).max(seen.left());
-    let place = place.translate(egui::vec2(x - place.left(), 0.0));
-    painter.rect_filled(place.expand2(egui::vec2(3.0, 0.0)), 3.0, t.bg0.gamma_multiply(0.75));
-    painter.galley(place.min, galley, colour);
+    labels.add(&Label {
+        key,
+        lines: &[(words, text::small(), colour)],
+        mark,
+        clearance: 9.0,
+        order: &Side::towards(dome.centre - mark),
+        tolerance: 1.0,
+    });
 }
 
 fn legend(ui: &Ui, rect: Rect) {

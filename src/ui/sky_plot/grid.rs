@@ -4,6 +4,7 @@ use egui::{Align2, Painter, Pos2, Rect, Shape, Stroke, Vec2, vec2};
 
 use super::{
     geometry::{Dome, dashed, hatch, outward},
+    labels::Labels,
     scene::Keyholes,
 };
 use crate::{
@@ -14,6 +15,8 @@ use crate::{
     },
 };
 
+/// Elevations of the rings, degrees.
+const RINGS: [f32; 2] = [30.0, 60.0];
 /// Elevation at which the spokes begin, degrees.
 const SPOKE_TOP_DEG: f32 = 87.0;
 /// Distance of the azimuth names from the rim, points.
@@ -28,10 +31,10 @@ pub(in crate::ui) fn disc(painter: &Painter, dome: Dome, t: &Tokens) {
     painter.circle_filled(dome.centre, dome.radius, t.sky);
 }
 
-/// Paints the rings and the spokes. Returns the boxes of the numbers.
-pub(in crate::ui) fn rings(painter: &Painter, dome: Dome, t: &Tokens) -> [Rect; 2] {
+/// Paints the rings and the spokes, without the numbers of the rings.
+pub(in crate::ui) fn rings(painter: &Painter, dome: Dome, t: &Tokens) {
     let thin = Stroke::new(1.0, t.grid);
-    for elevation in [30.0, 60.0] {
+    for elevation in RINGS {
         painter.circle_stroke(dome.centre, dome.ring(elevation), thin);
     }
     for (index, azimuth_deg) in (0..360_u16).step_by(30).enumerate() {
@@ -47,15 +50,27 @@ pub(in crate::ui) fn rings(painter: &Painter, dome: Dome, t: &Tokens) -> [Rect; 
     for arm in [vec2(5.0, 0.0), vec2(0.0, 5.0)] {
         painter.line_segment([dome.centre - arm, dome.centre + arm], cross);
     }
-    [30.0, 60.0].map(|elevation| {
+}
+
+/// Paints the numbers of the rings, where nothing else has a place.
+pub(in crate::ui) fn ring_numbers(painter: &Painter, dome: Dome, t: &Tokens) {
+    for elevation in RINGS {
         let at = dome.at(std::f32::consts::FRAC_PI_2, elevation);
-        let name = format!("{elevation}°");
-        let galley = painter.layout_no_wrap(name, text::caption(), t.t3);
+        let galley = painter.layout_no_wrap(format!("{elevation}°"), text::caption(), t.t3);
         let place = Rect::from_center_size(at, galley.size());
         painter.rect_filled(place.expand2(vec2(3.0, 0.0)), 0.0, t.sky);
         painter.galley(place.min, galley, t.t3);
-        place
-    })
+    }
+}
+
+/// Places the numbers of the rings among labels: at the east, else on another spoke.
+pub(in crate::ui) fn label_rings(labels: &mut Labels<'_>, dome: Dome) {
+    const SPOKES_DEG: [f32; 10] =
+        [90.0, 270.0, 60.0, 120.0, 240.0, 300.0, 30.0, 150.0, 210.0, 330.0];
+    for elevation in RINGS {
+        let places = SPOKES_DEG.map(|azimuth_deg| dome.at(azimuth_deg.to_radians(), elevation));
+        labels.add_number(format!("{elevation}°"), &places);
+    }
 }
 
 /// Paints the rim with its ticks and names, and the ring of the minimum

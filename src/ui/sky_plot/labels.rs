@@ -4,14 +4,14 @@ use std::collections::HashMap;
 
 use egui::{
     Align, Color32, FontId, Painter, Pos2, Rect, Shape, Stroke, Vec2, layers::ShapeIdx,
-    text::LayoutJob, text::TextFormat,
+    text::LayoutJob, text::TextFormat, vec2,
 };
 
 use super::{
     geometry::Dome,
-    placement::{Memory, Obstacle, Placement, Side, place},
+    placement::{Memory, Obstacle, Placement, Side, covered, place},
 };
-use crate::ui::tokens::Tokens;
+use crate::ui::{text, tokens::Tokens};
 
 /// Padding between a text and the edge of its background, points.
 const PADDING: f32 = 2.0;
@@ -33,6 +33,8 @@ pub(in crate::ui) enum Key {
     Aos,
     Tca,
     Los,
+    /// The chosen moment of a recorded pass.
+    Cursor,
     /// A full minute of the pass, as minutes since 1970.
     Minute(i64),
     Sun,
@@ -114,6 +116,32 @@ impl<'a> Labels<'a> {
     /// Keeps labels away from a mark or a number.
     pub(in crate::ui) fn reserve(&mut self, rect: Rect) {
         self.avoid(rect, MARK);
+    }
+
+    /// Lets no label lie on a text.
+    pub(in crate::ui) fn keep_off(&mut self, text: Rect) {
+        self.texts.push(text);
+    }
+
+    /// Paints a number at the first of these places that is free, else at the least covered one,
+    /// and lets no later label lie on it.
+    pub(super) fn add_number(&mut self, words: String, places: &[Pos2]) {
+        let t = self.tokens;
+        let galley = self.painter.layout_no_wrap(words, text::caption(), t.t3);
+        let on = |at: &Pos2| Rect::from_center_size(*at, galley.size() + vec2(6.0, 0.0));
+        let is_free = |rect: &Rect| {
+            self.bounds.contains_rect(*rect) && !self.texts.iter().any(|of| of.intersects(*rect))
+        };
+        let best = places
+            .iter()
+            .map(on)
+            .filter(is_free)
+            .map(|rect| (rect, covered(rect, self.bounds, &self.obstacles)))
+            .reduce(|best, next| if next.1 + 1e-3 < best.1 { next } else { best });
+        let Some((rect, _)) = best else { return };
+        self.grounds.push(Shape::rect_filled(rect, 0.0, t.sky));
+        self.painter.galley(rect.min + vec2(3.0, 0.0), galley, t.t3);
+        self.texts.push(rect);
     }
 
     /// Keeps labels away from a box, by its weight.
@@ -222,7 +250,7 @@ mod tests {
         theme,
         widgets::testing::window,
     };
-    use egui::{pos2, vec2};
+    use egui::pos2;
 
     /// The keys of the labels of the pass on a disc of this radius; asserts that none overlap.
     fn labelled(radius: f32) -> Vec<Key> {

@@ -5,6 +5,8 @@ use egui::{Pos2, Rect, Vec2, vec2};
 /// A label leaves its side of the mark when the covered share of its area has grown by more
 /// than this.
 const PATIENCE: f32 = 0.3;
+/// For a side that is free it leaves when more of it is covered than this.
+const LITTLE: f32 = 0.02;
 
 /// A side of a mark.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
@@ -99,7 +101,7 @@ pub(in crate::ui) struct Obstacle {
 
 /// The share of `rect` that lies over obstacles, each by its weight, or outside `bounds`. Above 1
 /// where there is much to cover.
-fn covered(rect: Rect, bounds: Rect, obstacles: &[Obstacle]) -> f32 {
+pub(super) fn covered(rect: Rect, bounds: Rect, obstacles: &[Obstacle]) -> f32 {
     let area = rect.area().max(f32::EPSILON);
     let shared = |other: Rect| {
         let both = rect.intersect(other);
@@ -110,8 +112,8 @@ fn covered(rect: Rect, bounds: Rect, obstacles: &[Obstacle]) -> f32 {
 }
 
 /// Chooses the first free side in the given order, otherwise the least covered one. A label
-/// stays on its side until clearly more of it is covered than when the side was chosen.
-/// Returns `None` if `order` is empty.
+/// stays on its side until clearly more of it is covered than when the side was chosen, or more
+/// than a little while another side is free. Returns `None` if `order` is empty.
 pub(in crate::ui) fn place(
     mark: Pos2,
     size: Vec2,
@@ -125,17 +127,16 @@ pub(in crate::ui) fn place(
         let rect = side.rect(mark, size, clearance);
         Placement { side, rect, covered: covered(rect, bounds, obstacles) }
     };
-    if let Some(memory) = before {
-        let now = on(memory.side);
-        if order.contains(&memory.side) && now.covered <= memory.covered + PATIENCE {
-            return Some(now);
-        }
-    }
     // The first of equals wins: `order` decides between free sides.
-    order
+    let best = order
         .iter()
         .map(|side| on(*side))
-        .reduce(|best, next| if next.covered + 1e-3 < best.covered { next } else { best })
+        .reduce(|best, next| if next.covered + 1e-3 < best.covered { next } else { best })?;
+    let kept = before.filter(|memory| order.contains(&memory.side)).filter(|memory| {
+        let now = on(memory.side).covered;
+        now <= memory.covered + PATIENCE && (now <= LITTLE || best.covered > 1e-3)
+    });
+    Some(kept.map_or(best, |memory| on(memory.side)))
 }
 
 #[cfg(test)]
@@ -212,10 +213,19 @@ mod tests {
         let rect = Side::West.rect(MARK, SIZE, 8.0);
         let over =
             |share: f32| [Rect::from_min_size(rect.min, vec2(rect.width() * share, rect.height()))];
-        assert_eq!(placed(&over(0.25), Some(west)).side, Side::West);
-        assert_eq!(placed(&over(0.35), Some(west)).side, Side::East);
+        assert_eq!(placed(&over(0.02), Some(west)).side, Side::West);
+        assert_eq!(placed(&over(0.15), Some(west)).side, Side::East, "a free side");
+        let with_all = |share: f32| {
+            let others = Side::ORDER.into_iter().filter(|side| *side != Side::West);
+            let little = |side: Side| {
+                Rect::from_center_size(side.rect(MARK, SIZE, 8.0).center(), vec2(4.0, 4.0))
+            };
+            [over(share).to_vec(), others.map(little).collect()].concat()
+        };
+        assert_eq!(placed(&with_all(0.25), Some(west)).side, Side::West);
+        assert_ne!(placed(&with_all(0.35), Some(west)).side, Side::West);
         let used_to_it = Memory { side: Side::West, covered: 0.2 };
-        assert_eq!(placed(&over(0.35), Some(used_to_it)).side, Side::West);
+        assert_eq!(placed(&with_all(0.35), Some(used_to_it)).side, Side::West);
     }
 
     #[test]

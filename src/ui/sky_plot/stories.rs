@@ -1,5 +1,7 @@
 //! Tests of the sky plot from the operator's view.
 
+mod crowded;
+
 use egui::{Key as Press, Role, Vec2, vec2};
 use egui_kittest::{
     Harness,
@@ -305,86 +307,5 @@ fn the_name_of_an_azimuth_stop_stands_outside_of_the_disc() {
         let nearest = name.shrink2(vec2(0.0, 3.0)).clamp(dome.centre);
         let least = dome.radius - 4.0;
         assert!(nearest.distance(dome.centre) > least, "{azimuth}: {name:?}");
-    }
-}
-
-/// A crowded sky: a pass, two satellites, the Moon, an antenna at the zenith and one at the rim.
-fn crowded(turn: i16) -> Harness<'static, Story> {
-    let turned =
-        move |of: AzEl| AzEl::from_degrees(of.azimuth_deg() + f64::from(turn), of.elevation_deg());
-    let samples: Vec<_> = testing::pass()
-        .into_iter()
-        .map(|sample| crate::plan::Sample { direction: turned(sample.direction), ..sample })
-        .collect();
-    let mut harness = window(vec2(672.0, 412.0), Story::default(), move |ui, story: &mut Story| {
-        let antenna = |index, name, azimuth, elevation| OtherAntenna {
-            index,
-            name,
-            commanded: None,
-            measured: Some(Measured {
-                direction: AzEl::from_degrees(azimuth, elevation),
-                lost: None,
-            }),
-            bearing: None,
-        };
-        let scene = SkyScene {
-            track: Some(testing::track(&samples)),
-            moon: Some(AzEl::from_degrees(32.0, 20.0)),
-            antennas: &[antenna(0, "Satrak", 0.0, 90.0), antenna(1, "Genius", 173.0, 0.0)],
-            keyholes: Some(Keyholes {
-                lower_axis_azimuth: crate::astro::Angle::ZERO,
-                radius: crate::astro::Angle::from_degrees(5.0),
-            }),
-            ..sky()
-        };
-        show(ui, ui.max_rect(), &scene, &mut story.plot, &mut |_, _, _| {});
-    });
-    harness.run();
-    harness
-}
-
-#[test]
-fn no_text_of_a_crowded_sky_lies_on_another() {
-    for turn in (0..360_i16).step_by(10) {
-        let all = texts(&crowded(turn));
-        for (index, (words, place)) in all.iter().enumerate() {
-            for (other, at) in &all[index + 1..] {
-                // Letters are lower than their line.
-                let [one, two] = [place, at].map(|of| of.shrink2(vec2(2.0, 3.5)));
-                assert!(!one.intersect(two).is_positive(), "{turn}: {words:?} on {other:?}");
-            }
-        }
-    }
-}
-
-#[test]
-fn the_ground_of_a_label_covers_no_mark() {
-    for turn in (0..360_i16).step_by(30) {
-        let harness = crowded(turn);
-        let t = theme::tokens(&harness.ctx);
-        let mut flat = Vec::new();
-        for clipped in &harness.output().shapes {
-            flatten(&clipped.shape, &mut flat);
-        }
-        let of_mark = |mesh: &egui::Mesh| mesh.vertices.iter().any(|of| of.color == t.moon);
-        let first_mark = flat.iter().position(|shape| match shape {
-            egui::Shape::Circle(circle) => circle.fill == t.other,
-            egui::Shape::Mesh(mesh) => of_mark(mesh),
-            _ => false,
-        });
-        let places: Vec<Rect> = texts(&harness).into_iter().map(|(_, place)| place).collect();
-        for shape in &flat[first_mark.expect("a mark")..] {
-            let egui::Shape::Rect(ground) = shape else { continue };
-            let is_ground = ground.fill == t.sky && ground.stroke.width == 0.0;
-            let names = places.iter().any(|place| ground.rect.contains_rect(*place));
-            assert!(!(is_ground && names), "{turn}: {:?}", ground.rect);
-        }
-    }
-}
-
-fn flatten(shape: &egui::Shape, found: &mut Vec<egui::Shape>) {
-    match shape {
-        egui::Shape::Vec(shapes) => shapes.iter().for_each(|of| flatten(of, found)),
-        other => found.push(other.clone()),
     }
 }

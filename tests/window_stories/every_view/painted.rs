@@ -95,6 +95,16 @@ pub(super) fn on_each_other(window: &Window) -> Vec<[String; 2]> {
     pairs
 }
 
+/// The colour behind this text, which has no blanks.
+pub(crate) fn ground_of(window: &Window, words: &str) -> Option<Color32> {
+    runs(window).into_iter().find(|run| run.text == words).map(|run| run.ground)
+}
+
+/// All text of the last frame of which something can be seen, without blanks, with its places.
+pub(crate) fn placed(window: &Window) -> Vec<(String, Rect)> {
+    runs(window).into_iter().map(|run| (run.text.clone(), run.letters())).collect()
+}
+
 /// All texts of the last frame, each with its blanks and whole if it was cut.
 pub(crate) fn texts(window: &Window) -> Vec<String> {
     let mut texts = Vec::new();

@@ -38,6 +38,7 @@ pub(super) fn plot(ui: &mut Ui, was: &Antenna, new: &Antenna) {
         painter.add(travel.area(dome, t));
     }
     grid::rings(&painter, dome, t);
+    grid::ring_numbers(&painter, dome, t);
     if let Some(holes) = Keyholes::of(&new.mount) {
         grid::keyholes(&painter, dome, &holes, t);
     }
