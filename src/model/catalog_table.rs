@@ -90,7 +90,7 @@ pub struct Answer {
     pub old: usize,
 }
 
-/// The next pass of every satellite that has one.
+/// The next pass of every satellite that has one which reaches the elevation floor.
 #[derive(Debug)]
 pub struct NextPasses {
     pub key: NextKey,
@@ -105,6 +105,7 @@ pub struct NextKey {
     pub catalog: Arc<Catalog>,
     site: Site,
     aos_elevation: Angle,
+    floor: Angle,
 }
 
 /// The table with what was asked last.
@@ -148,6 +149,7 @@ impl PartialEq for NextKey {
         Arc::ptr_eq(&self.catalog, &other.catalog)
             && self.site == other.site
             && self.aos_elevation == other.aos_elevation
+            && self.floor == other.floor
     }
 }
 
@@ -157,12 +159,13 @@ impl NextKey {
             catalog: Arc::clone(catalog),
             site: station.site,
             aos_elevation: station.aos_elevation(),
+            floor: station.elevation_floor(),
         }
     }
 }
 
 impl NextPasses {
-    /// Searches for the first pass of every satellite that is not over at `now`.
+    /// Searches for the first passes of every satellite that are not over at `now`.
     pub fn search(key: NextKey, now: Timestamp, cancelled: &(dyn Fn() -> bool + Sync)) -> Self {
         let all: Vec<&Elements> = key.catalog.iter().collect();
         let prepared: Vec<(u32, Propagator)> = all
@@ -174,7 +177,7 @@ impl NextPasses {
         let to = add_seconds(now, f64::from(NEXT_PASSES_H) * 3600.0);
         let window = PassSearch {
             aos_elevation: key.aos_elevation,
-            floor: key.aos_elevation,
+            floor: key.floor,
             ..PassSearch::new(key.site, add_seconds(now, -LOOK_BACK_S), to)
         };
         let mut of = HashMap::new();
@@ -421,16 +424,23 @@ mod tests {
         let few = [ISS, NOAA_20, 44_334].map(|number| bundled.get(number).unwrap());
         crate::orbit::write_omm_json(few, &mut text).unwrap();
         catalog.merge(crate::orbit::read_element_bytes(&text), "few");
-        let station = Station::default();
-        let key = NextKey::new(&Arc::new(catalog), &station);
-        let next = NextPasses::search(key, now(), &|| false);
+        let (catalog, mut station) = (Arc::new(catalog), Station::default());
+        let next = NextPasses::search(NextKey::new(&catalog, &station), now(), &|| false);
         for number in [ISS, NOAA_20] {
             let pass = next.get(number, now()).unwrap();
             assert!(pass.aos < pass.los && pass.los > now());
-            assert!(pass.max_elevation >= station.aos_elevation());
+            assert!(pass.max_elevation >= station.elevation_floor());
             let later = next.get(number, pass.los).unwrap();
             assert!(later.aos > pass.los, "that one is over");
         }
         assert!(next.get(44_334, now()).unwrap().is_always_up);
+
+        station.elevation_floor_deg = 60.0;
+        let high = NextPasses::search(NextKey::new(&catalog, &station), now(), &|| false);
+        assert!(high.key != next.key, "another floor asks for another search");
+        for number in [ISS, NOAA_20, 44_334] {
+            let highest = high.get(number, now()).map(|pass| pass.max_elevation.degrees());
+            assert!(highest.is_none_or(|degrees| degrees >= 60.0), "{number} {highest:?}");
+        }
     }
 }

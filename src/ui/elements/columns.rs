@@ -308,13 +308,16 @@ impl<'a> Row<'a> {
         let cell = |column| self.cell(column);
         let star = priority.map(|of| format!(", favourite of priority {of}")).unwrap_or_default();
         let choice = if self.is_older_set { ", an older set by choice" } else { "" };
+        let next = match self.next {
+            Next::Unknown => "being computed".to_owned(),
+            Next::Never | Next::At(_) => cell(Column::NextPass),
+        };
         format!(
-            "{}, {}, elements {} old, from {}{choice}, next pass {}{star}",
+            "{}, {}, elements {} old, from {}{choice}, next pass {next}{star}",
             cell(Column::Name),
             self.elements.catalog_number(),
             cell(Column::Age),
             self.from,
-            cell(Column::NextPass),
         )
     }
 

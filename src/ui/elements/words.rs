@@ -105,7 +105,7 @@ pub(in crate::ui) fn age_look(tone: Tone, t: &Tokens) -> (Option<Icon>, Color32)
 /// When the next pass begins.
 pub(super) fn next_pass(next: Next, now: Timestamp) -> String {
     match next {
-        Next::Unknown => "–".to_owned(),
+        Next::Unknown => "…".to_owned(),
         Next::Never => format!("none in {NEXT_PASSES_H} h"),
         Next::At(pass) if pass.is_always_up => "always up".to_owned(),
         Next::At(pass) if pass.aos <= now => {
@@ -361,7 +361,7 @@ mod tests {
             Next::At(NextPass { aos, los, max_elevation, is_always_up: false })
         };
         for (next, words) in [
-            (Next::Unknown, "–"),
+            (Next::Unknown, "…"),
             (Next::Never, "none in 24 h"),
             (pass(-408.0), "up, 3:12"),
             (pass(280.0), "in 4:40"),
