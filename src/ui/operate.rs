@@ -158,6 +158,7 @@ pub fn show(
     if passes::header(ui, areas.header, model, areas.small) {
         state.drawer_open = !state.drawer_open;
     }
+    state.sky.folds_legend = areas.small && areas.list.is_some();
     let pointed = sky::show(ui, areas.sky, model, state, commands);
     sky_time::row::show(ui, areas.sky_time, model, &mut state.sky_time);
     let then = state.sky_time.at();

@@ -45,6 +45,7 @@ use super::{
 };
 use crate::astro::AzEl;
 
+pub(in crate::ui) use corners::LEGEND_FOOT;
 pub use scene::{
     AzimuthStop, Bearing, Ghost, KeepOutMark, Keyholes, Measured, OtherAntenna, OtherSatellite,
     PlannedAntenna, SkyScene, Then, Track,
@@ -57,6 +58,8 @@ pub use zoom::Zoom;
 pub struct SkyPlotState {
     pub layers: Layers,
     pub zoom: Zoom,
+    /// A drawer lies over the place of the legend: only the button below the drawer is shown.
+    pub folds_legend: bool,
     /// The plot had the keyboard focus in the last frame.
     pub has_focus: bool,
     labels: HashMap<Key, Memory>,
@@ -165,7 +168,7 @@ pub fn show(
     // The corners keep their places in a magnified sky.
     readout::paint(ui.painter(), rect, whole, scene, !state.zoom.is_whole(), t);
     corners::upper_right(ui, rect, &mut state.layers, t);
-    corners::lower_left(ui, rect, whole, scene, !state.zoom.is_whole(), t);
+    corners::lower_left(ui, rect, whole, scene, state, t);
     let pointed = point_out(ui, rect, dome, &canvas, scene, t);
     state.has_focus = canvas.has_focus();
     if state.has_focus {
@@ -250,7 +253,7 @@ fn paint_sky(
         reserved.extend(outlines.iter().map(|outline| Rect::from_points(outline)));
     }
     let whole = Dome::fitted(rect);
-    reserved.extend(corners::reserved(rect, whole, scene));
+    reserved.extend(corners::reserved(rect, whole, scene, state));
     reserved.extend(readout::reserved(painter, rect, whole, scene, t));
     if layers.others {
         bodies::paths(painter, dome, scene.others, t);

@@ -3,7 +3,7 @@
 use egui::{Rangef, Rect, pos2, vec2};
 
 use super::{antenna_card, pass_header};
-use crate::ui::{banner, top_bar};
+use crate::ui::{banner, sky_plot::LEGEND_FOOT, top_bar};
 
 const LIST: f32 = 320.0;
 const NARROW_LIST: f32 = 264.0;
@@ -105,10 +105,10 @@ impl Areas {
         let (sky, sky_time) =
             beside.with_min_y(header.bottom()).split_top_bottom_at_y(beside.bottom() - sky_time);
         let list = if small {
-            // Never over the card or STOP.
+            // Never over the card, STOP or the button of the legend.
             let drawer = Rect::from_min_size(
                 pos2(sky.left(), sky.top()),
-                vec2(NARROW_LIST + 8.0, sky.height()),
+                vec2(NARROW_LIST + 8.0, sky.height() - LEGEND_FOOT),
             );
             drawer_open.then_some(drawer)
         } else {

@@ -2,7 +2,7 @@
 
 use egui::{Align2, Popup, PopupCloseBehavior, Rect, Response, Role, Stroke, StrokeKind, Ui, vec2};
 
-use super::{Layers, beam_view, geometry::Dome, legend, scene::SkyScene};
+use super::{Layers, SkyPlotState, beam_view, geometry::Dome, legend, scene::SkyScene};
 use crate::ui::{
     icons::{self, Icon},
     text,
@@ -13,6 +13,8 @@ use crate::ui::{
 /// In a plot below this height a button opens the legend, points.
 const LEGEND_HEIGHT: f32 = 500.0;
 const KEYHOLES: &str = "Keyholes";
+/// Height at the foot of a plot that the legend button takes, with its margins, points.
+pub(in crate::ui) const LEGEND_FOOT: f32 = 48.0;
 /// Distance of the texts from the edges of the plot, points.
 pub(super) const EDGE: f32 = 16.0;
 
@@ -52,28 +54,35 @@ pub(super) fn upper_right(ui: &Ui, rect: Rect, layers: &mut Layers, t: &Tokens) 
     paint::text(ui, beside, Align2::RIGHT_CENTER, words, text::small(), t.t2);
 }
 
-/// The rectangle of the legend, if the plot is high enough and the legend clears the disc.
-fn legend_place(rect: Rect, dome: Dome, scene: &SkyScene<'_>) -> Option<Rect> {
+/// The rectangle of the legend, if nothing lies over it, the plot is high enough and the legend clears
+/// the disc.
+fn legend_place(
+    rect: Rect,
+    dome: Dome,
+    scene: &SkyScene<'_>,
+    state: &SkyPlotState,
+) -> Option<Rect> {
     let size = vec2(legend::WIDTH, legend::height(scene));
     let corner = rect.left_bottom() + vec2(EDGE, -12.0);
     let place = Rect::from_min_size(corner - vec2(0.0, size.y), size);
     let nearest = place.clamp(dome.centre);
     let is_free = nearest.distance(dome.centre) >= dome.radius;
-    (is_free && rect.height() >= LEGEND_HEIGHT).then_some(place)
+    let is_shown = is_free && rect.height() >= LEGEND_HEIGHT && !state.folds_legend;
+    is_shown.then_some(place)
 }
 
-/// Shows the legend in the lower left corner, `over_sky` on a ground of its own, or the button
-/// that opens it.
+/// Shows the legend in the lower left corner, in a magnified sky on a ground of its own, or the
+/// button that opens it.
 pub(super) fn lower_left(
     ui: &Ui,
     rect: Rect,
     dome: Dome,
     scene: &SkyScene<'_>,
-    over_sky: bool,
+    state: &SkyPlotState,
     t: &Tokens,
 ) {
-    if let Some(place) = legend_place(rect, dome, scene) {
-        if over_sky {
+    if let Some(place) = legend_place(rect, dome, scene, state) {
+        if !state.zoom.is_whole() {
             ui.painter().rect_filled(place.expand(4.0), 0.0, t.bg0);
         }
         legend::paint(ui, place.min, scene, t);
@@ -109,10 +118,15 @@ fn icon_button(ui: &Ui, salt: &str, rect: Rect, name: &str, t: &Tokens) -> Respo
 }
 
 /// The boxes in the corners that labels avoid.
-pub(super) fn reserved(rect: Rect, dome: Dome, scene: &SkyScene<'_>) -> Vec<Rect> {
+pub(super) fn reserved(
+    rect: Rect,
+    dome: Dome,
+    scene: &SkyScene<'_>,
+    state: &SkyPlotState,
+) -> Vec<Rect> {
     let right =
         Rect::from_min_max(rect.right_top() - vec2(140.0, 0.0), rect.right_top() + vec2(0.0, 40.0));
-    let legend = legend_place(rect, dome, scene).unwrap_or_else(|| legend_button(rect));
+    let legend = legend_place(rect, dome, scene, state).unwrap_or_else(|| legend_button(rect));
     let mut boxes = vec![right, legend];
     boxes.extend(scene.predicted.map(|_| beam_view::reserved(rect)));
     boxes
