@@ -32,6 +32,8 @@ use crate::model::{
     globe::{GlobeSatellite, Towards},
 };
 
+/// Largest height of the bar below the map.
+pub(super) const FOOT: f32 = table::MAX_BAR;
 /// In a window below this width the inspector is a drawer.
 const DRAWER_BELOW: f32 = 1100.0;
 const INSPECTOR: f32 = 344.0;

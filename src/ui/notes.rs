@@ -4,7 +4,7 @@
 
 use egui::{Align2, Area, Frame, Label, Margin, Order, Rect, RichText, Stroke, Ui, vec2};
 
-use super::{text, theme, words};
+use super::{map, text, theme, words};
 use crate::{
     engine::{passes::PassKey, reminders::Reminder},
     model::{Model, UiCommand, View, export::SavedFile},
@@ -71,7 +71,8 @@ fn frame(ui: &Ui, room: Rect, view: View, lines: impl FnOnce(&mut Ui)) {
 /// Height left free below, for the bars at the foot of the views.
 fn below(view: View) -> f32 {
     match view {
-        View::Operate | View::Plan | View::Elements | View::Record | View::Map => GAP,
+        View::Operate | View::Plan | View::Elements | View::Record => GAP,
+        View::Map => map::FOOT + GAP,
         View::Antennas | View::Preferences | View::Setup => 80.0,
         View::Console => 128.0,
     }

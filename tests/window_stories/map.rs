@@ -298,6 +298,16 @@ fn the_table_of_a_small_window_is_a_drawer() {
 }
 
 #[test]
+fn a_note_leaves_the_bar_of_the_table() {
+    let mut window = view(SMALL);
+    window.state_mut().views.file_saved(Err("the disk is full".to_owned()));
+    settle(&mut window);
+    let note = window.get_by_role_and_label(Role::Button, "Close the note of the file").rect();
+    let bar = window.get_by_role_and_label(Role::Button, "Where they are").rect();
+    assert!(note.bottom() < bar.top(), "{note:?} {bar:?}");
+}
+
+#[test]
 fn the_arrows_lead_from_satellite_to_satellite() {
     for (key, towards) in [
         (Key::ArrowUp, Towards::North),
