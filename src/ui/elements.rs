@@ -116,11 +116,11 @@ pub fn show(
     let is_low = rect.height() < LOW_BELOW;
     let bar = if is_low { bar::LOW_HEIGHT } else { bar::HEIGHT };
     let (head, rest) = main.split_top_bottom_at_y(main.top() + bar);
+    intake::take(ui, model, state, commands);
     bar::show(ui, head, model, has_drawer, state, commands);
     // A drawer over the table takes the pointer.
     let rest = if has_drawer { rest.with_max_x(right.left()) } else { rest };
 
-    intake::take(ui, model, state, commands);
     if let Some(intake) = &model.intake {
         intake::show(ui, rest, model, intake, state, commands);
     } else {

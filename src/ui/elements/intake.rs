@@ -3,7 +3,7 @@
 
 use std::path::{Path, PathBuf};
 
-use egui::{Align2, Event, Rect, Shape, Stroke, Ui, pos2, vec2};
+use egui::{Align2, Event, Key, Popup, Rect, Shape, Stroke, Ui, pos2, vec2};
 
 use super::{ElementsState, PADDING, words};
 use crate::{
@@ -33,7 +33,8 @@ const LINE: f32 = 18.0;
 const WIDEST: f32 = 900.0;
 const CHOICES: f32 = 260.0;
 
-/// Takes files held over the window or dropped, and pasted text.
+/// Takes files held over the window or dropped, and pasted text; Esc, which is also STOP, closes the
+/// card when nothing is open above it.
 pub(super) fn take(
     ui: &Ui,
     model: &Model,
@@ -64,6 +65,11 @@ pub(super) fn take(
         });
     }
     state.hovered = hovered;
+    let is_above =
+        || Popup::is_any_open(ui) || ui.memory(|memory| memory.top_modal_layer().is_some());
+    if is_open && ui.input(|input| input.key_pressed(Key::Escape)) && !is_above() {
+        commands.push(UiCommand::LeaveElements);
+    }
 }
 
 /// Draws the card into the main part of the view.

@@ -107,6 +107,23 @@ fn pasted_elements_are_told_with_their_refusals_and_taken_once() {
 }
 
 #[test]
+fn esc_closes_what_is_to_be_imported_after_what_is_open_above_it() {
+    for size in SIZES {
+        let mut window = view(size, Vec::new());
+        window.event(Event::Paste("hello".to_owned()));
+        settle(&mut window);
+        click(&mut window, "Add a source");
+        for (is_form, is_card) in [(true, true), (false, true), (false, false)] {
+            assert_eq!(window.query_by_label("Add source").is_some(), is_form);
+            assert_eq!(says(&window, "None of these holds elements"), is_card);
+            window.key_press(Key::Escape);
+            settle(&mut window);
+        }
+        assert_eq!(asked(&mut window), []);
+    }
+}
+
+#[test]
 fn files_are_chosen_by_a_key_and_in_the_form() {
     let mut window = view(rig::LARGE, vec![server(3.0)]);
     window.key_press_modifiers(Modifiers::COMMAND, Key::O);
