@@ -140,6 +140,7 @@ pub fn show(
             ui.add_space(16.0);
         });
     });
+            paint::follow_focus(ui);
     frame::show_foot(ui, foot, model, &mut draft, state, commands);
     state.draft = Some(draft);
 }

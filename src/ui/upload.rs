@@ -93,7 +93,12 @@ pub fn show(
     let order = ui
         .scope_builder(UiBuilder::new().max_rect(above), |ui| {
             let area = ScrollArea::vertical().auto_shrink(false);
-            area.show(ui, |ui| content(ui, model, antenna, state, commands)).inner
+            let shown = area.show(ui, |ui| {
+                let order = content(ui, model, antenna, state, commands);
+                paint::follow_focus(ui);
+                order
+            });
+            shown.inner
         })
         .inner;
     send(ui, foot, model, order.as_ref().map_err(String::as_str), commands);

@@ -71,12 +71,14 @@ pub(super) fn show(
     paint::text(ui, unit, Align2::LEFT_CENTER, "°", text::small(), t.t2);
     let mut focused = jog.has_focus();
     let mut asked = None;
-    let mut right = row.right();
-    for direction in ORDER.into_iter().rev() {
-        let Some(label) = model.keys.label(direction) else { continue };
-        let min = pos2(right - KEY, row.top());
-        let place = Rect::from_min_size(min, vec2(KEY, SMALL_HEIGHT));
-        right = place.left() - GAP;
+    let keys: Vec<_> = ORDER
+        .into_iter()
+        .filter_map(|direction| Some((direction, model.keys.label(direction)?)))
+        .collect();
+    let mut left = row.right() + GAP - keys.len() as f32 * (KEY + GAP);
+    for (direction, label) in keys {
+        let place = Rect::from_min_size(pos2(left, row.top()), vec2(KEY, SMALL_HEIGHT));
+        left = place.right() + GAP;
         let free = size.is_ok() && !model.blocked.contains(&direction);
         let button = Button::normal(label.word).locked(!free);
         let response = button.show(ui, ("step", direction), place);

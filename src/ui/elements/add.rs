@@ -9,7 +9,10 @@ use crate::{
     library::check_source,
     model::UiCommand,
     orbit::{Source, SourcePlace},
-    ui::{text, theme, widgets::input::select_when_tabbed},
+    ui::{
+        text, theme,
+        widgets::{input::select_when_tabbed, radio},
+    },
 };
 
 const LABEL: f32 = 72.0;
@@ -78,7 +81,7 @@ pub(in crate::ui) fn show(
             for (kind, word) in
                 [(Kind::Web, "Server"), (Kind::File, "File"), (Kind::Folder, "Folder")]
             {
-                ui.radio_value(&mut state.kind, kind, word);
+                radio::show(ui, &mut state.kind, kind, word);
             }
         });
         if state.kind == Kind::Web {

@@ -1,6 +1,6 @@
 //! What can be done with the marked objects.
 
-use egui::{Align2, Rect, Ui, pos2, vec2};
+use egui::{Align2, Rect, Ui, vec2};
 
 use super::{ElementsState, PADDING, copy, table, words, words::Form};
 use crate::{
@@ -13,7 +13,7 @@ use crate::{
         theme,
         upload::Choice,
         widgets::{
-            button::{Button, SMALL_HEIGHT},
+            button::{self, Button, SMALL_HEIGHT},
             drop_down::DropDown,
             paint,
         },
@@ -21,7 +21,6 @@ use crate::{
 };
 
 pub(super) const HEIGHT: f32 = 40.0;
-const GAP: f32 = 8.0;
 
 /// Draws the bar. `can_mark`: favourites may change now.
 pub(super) fn show(
@@ -37,38 +36,32 @@ pub(super) fn show(
     ui.painter().hline(rect.x_range(), rect.top() + 0.5, (1.0, t.sat));
     let inner = rect.shrink2(vec2(PADDING, 0.0));
     let marked = state.selection.chosen();
-    let mut right = inner.right();
-    let mut place = |width: f32| {
-        let min = pos2(right - width, rect.center().y - SMALL_HEIGHT / 2.0);
-        right = min.x - GAP;
-        Rect::from_min_size(min, vec2(width, SMALL_HEIGHT))
+    let favourites = &model.station.favourites;
+    let are_all = marked.iter().all(|number| favourites.contains(*number));
+    let word = if are_all { "No favourites" } else { "Favourites" };
+    let star = Button::normal(word).icon(if are_all { Icon::OpenStar } else { Icon::Star });
+    let priorities = DropDown {
+        button: Button::normal("Priority"),
+        salt: "priority of marked",
+        name: "Priority of the marked",
     };
-    let clear = Button::quiet("Clear");
-    if clear.show(ui, "clear marks", place(clear.width(ui))).clicked() {
-        state.selection.unmark_all();
-    }
-    let list =
+    let upload = Button::normal("Upload…").icon(Icon::Upload);
+    let forms =
         DropDown { button: Button::normal("Copy"), salt: "copy marked", name: "Copy the marked" };
-    list.show(ui, place(list.width(ui)), |ui| {
-        for (word, form) in [("As TLE", Form::Tle), ("As OMM, JSON", Form::Omm)] {
-            if ui.button(word).clicked() {
-                copy(ui, model, &marked, form);
-            }
+    let clear = Button::quiet("Clear");
+    let can_upload = model.antenna().is_some_and(|antenna| antenna.spec().element_files.is_some());
+    let mut right = inner.right_center();
+    let widths = [forms.width(ui), clear.width(ui)];
+    let [forms_at, clear_at] = button::row_before(&mut right, SMALL_HEIGHT, widths);
+    let upload_at =
+        can_upload.then(|| button::row_before(&mut right, SMALL_HEIGHT, [upload.width(ui)]));
+    let widths = [star.width(ui), priorities.width(ui)];
+    let mark_at = can_mark.then(|| button::row_before(&mut right, SMALL_HEIGHT, widths));
+    if let Some([star_at, priorities_at]) = mark_at {
+        if star.show(ui, "star marked", star_at).clicked() {
+            table::favour(marked.clone(), !are_all, commands);
         }
-    });
-    if model.antenna().is_some_and(|antenna| antenna.spec().element_files.is_some()) {
-        let upload = Button::normal("Upload…").icon(Icon::Upload);
-        if upload.show(ui, "upload marked", place(upload.width(ui))).clicked() {
-            state.upload(Choice::These(marked.clone()));
-        }
-    }
-    if can_mark {
-        let priority = DropDown {
-            button: Button::normal("Priority"),
-            salt: "priority of marked",
-            name: "Priority of the marked",
-        };
-        priority.show(ui, place(priority.width(ui)), |ui| {
+        priorities.show(ui, priorities_at, |ui| {
             for priority in Priority::ALL {
                 let word = words::priority(priority);
                 if ui.button(word).clicked() {
@@ -78,15 +71,23 @@ pub(super) fn show(
                 }
             }
         });
-        let favourites = &model.station.favourites;
-        let are_all = marked.iter().all(|number| favourites.contains(*number));
-        let word = if are_all { "No favourites" } else { "Favourites" };
-        let star = Button::normal(word).icon(if are_all { Icon::OpenStar } else { Icon::Star });
-        if star.show(ui, "star marked", place(star.width(ui))).clicked() {
-            table::favour(marked.clone(), !are_all, commands);
-        }
     }
-    let room = inner.with_max_x(right);
+    if let Some([upload_at]) = upload_at
+        && upload.show(ui, "upload marked", upload_at).clicked()
+    {
+        state.upload(Choice::These(marked.clone()));
+    }
+    forms.show(ui, forms_at, |ui| {
+        for (word, form) in [("As TLE", Form::Tle), ("As OMM, JSON", Form::Omm)] {
+            if ui.button(word).clicked() {
+                copy(ui, model, &marked, form);
+            }
+        }
+    });
+    if clear.show(ui, "clear marks", clear_at).clicked() {
+        state.selection.unmark_all();
+    }
+    let room = inner.with_max_x(right.x);
     let count = format!("{} selected", words::plain(marked.len()));
     let font = text::sized(13.0, Weight::SemiBold);
     let first = paint::text_in(ui, room, Align2::LEFT_CENTER, &count, font, t.t1);

@@ -3,8 +3,8 @@
 use std::collections::BTreeSet;
 
 use egui::{
-    Align2, Color32, Popup, PopupCloseBehavior, Rect, Role, Stroke, StrokeKind, Ui, WidgetInfo,
-    pos2, vec2,
+    Align2, Color32, Popup, PopupCloseBehavior, Rect, Response, Role, Stroke, StrokeKind, Ui,
+    WidgetInfo, pos2, vec2,
 };
 
 use super::{ElementsState, PADDING, columns, table, words};
@@ -17,7 +17,12 @@ use crate::{
     },
     ui::{
         format, text, theme,
-        widgets::{button::Button, close_key, drop_down::DropDown, paint},
+        widgets::{
+            button::{self, Button},
+            close_key,
+            drop_down::DropDown,
+            paint,
+        },
     },
 };
 
@@ -27,8 +32,7 @@ const GAP: f32 = 8.0;
 /// Width of the list of columns.
 const COLUMNS: f32 = 300.0;
 
-/// Draws the groups, and what is done with the whole table. Groups without room stand behind a
-/// button.
+/// Draws the groups, and what is done with the whole table.
 pub(super) fn show(
     ui: &Ui,
     rect: Rect,
@@ -45,15 +49,27 @@ pub(super) fn show(
         state.question.among = Among::All;
     }
     let inner = rect.shrink2(vec2(PADDING, 0.0));
-    let inner = inner.with_max_x(lists(ui, inner, model, state, commands));
+    let exported = Exported::of(model, state);
+    let columns = Button::quiet("Columns").chevron();
+    let widths = [exported.list().width(ui), columns.width(ui)];
+    let mut right = inner.right_center();
+    let [export_at, columns_at] = button::row_before(&mut right, CHIP, widths);
+    groups(ui, inner.with_max_x(right.x), &chips, state);
+    exported.show(ui, export_at, commands);
+    choose_columns(&columns.show(ui, "columns", columns_at), state);
+}
+
+/// Draws the chips, and the button behind which those without room stand.
+fn groups(ui: &Ui, inner: Rect, chips: &[(Among, usize)], state: &mut ElementsState) {
     let widths: Vec<f32> = chips.iter().map(|chip| width(ui, chip)).collect();
     let more = 72.0;
     let all: f32 = widths.iter().map(|width| width + GAP).sum();
     let most = if all - GAP <= inner.width() { inner.right() } else { inner.right() - more };
     let mut x = inner.left();
     let mut hidden = Vec::new();
+    let top = inner.center().y - CHIP / 2.0;
     for (chip, width) in chips.iter().zip(widths) {
-        let place = Rect::from_min_size(pos2(x, rect.center().y - CHIP / 2.0), vec2(width, CHIP));
+        let place = Rect::from_min_size(pos2(x, top), vec2(width, CHIP));
         if place.right() > most || !hidden.is_empty() {
             hidden.push(chip);
             continue;
@@ -70,11 +86,8 @@ pub(super) fn show(
     let shown = active.map_or("More", |(among, _)| word(among));
     let name = format!("More groups, {}", word(&state.question.among));
     let list = DropDown { button: Button::quiet(shown), salt: "more groups", name: &name };
-    let place = Rect::from_min_max(
-        pos2(x, rect.center().y - CHIP / 2.0),
-        pos2(inner.right(), rect.center().y + CHIP / 2.0),
-    );
-    let place = place.with_max_x((x + list.width(ui)).min(inner.right()));
+    let right = (x + list.width(ui)).min(inner.right());
+    let place = Rect::from_min_max(pos2(x, top), pos2(right, top + CHIP));
     list.show(ui, place, |ui| {
         for (among, count) in hidden {
             let words = format!("{}, {}", word(among), format::number(*count as f64, 0));
@@ -83,22 +96,54 @@ pub(super) fn show(
     });
 }
 
-/// Draws what is done with the whole table from the right end on, and returns the left end.
-fn lists(
-    ui: &Ui,
-    inner: Rect,
-    model: &Model,
-    state: &mut ElementsState,
-    commands: &mut Vec<UiCommand>,
-) -> f32 {
-    let place = |right: f32, width: f32| {
-        let min = pos2(right - width, inner.center().y - CHIP / 2.0);
-        Rect::from_min_size(min, vec2(width, CHIP))
-    };
-    let columns = Button::quiet("Columns").chevron();
-    let at = place(inner.right(), columns.width(ui));
-    let response = columns.show(ui, "columns", at);
-    Popup::from_toggle_button_response(&response)
+/// The rows that can be saved.
+struct Exported {
+    numbers: Vec<u32>,
+    name: String,
+}
+
+impl Exported {
+    /// The marked rows, or all if none is.
+    fn of(model: &Model, state: &ElementsState) -> Self {
+        let marked = state.selection.marked();
+        let (numbers, which): (Vec<u32>, _) = if marked.is_empty() {
+            let rows = table::shown(model).map(|answer| answer.rows.to_vec());
+            (rows.unwrap_or_default(), "listed")
+        } else {
+            (marked.iter().copied().collect(), "marked")
+        };
+        let name = format!("Export the {} {which}", words::plain(numbers.len()));
+        Self { numbers, name }
+    }
+
+    fn list(&self) -> DropDown<'_> {
+        DropDown {
+            button: Button::quiet("Export").locked(self.numbers.is_empty()),
+            salt: "export elements",
+            name: &self.name,
+        }
+    }
+
+    fn show(&self, ui: &Ui, place: Rect, commands: &mut Vec<UiCommand>) {
+        self.list().show(ui, place, |ui| {
+            ui.label(&self.name);
+            for (word, form) in [
+                ("TLE\u{2026}", ElementForm::Tle),
+                ("OMM, JSON\u{2026}", ElementForm::OmmJson),
+                ("OMM, CSV\u{2026}", ElementForm::OmmCsv),
+            ] {
+                if ui.button(word).clicked() {
+                    let numbers = self.numbers.clone().into();
+                    commands.push(UiCommand::Save(Export::Elements { numbers, form }));
+                }
+            }
+        });
+    }
+}
+
+/// The choice of columns, in a list below its button.
+fn choose_columns(button: &Response, state: &mut ElementsState) {
+    Popup::from_toggle_button_response(button)
         .accessible_name("Columns of the catalogue")
         .width(COLUMNS)
         .close_behavior(PopupCloseBehavior::CloseOnClickOutside)
@@ -107,34 +152,6 @@ fn lists(
             columns::choose(ui, &mut state.columns, &mut state.question);
             close_key::show(ui);
         });
-    let marked = state.selection.marked();
-    let (numbers, which): (Vec<u32>, _) = if marked.is_empty() {
-        let rows = table::shown(model).map(|answer| answer.rows.to_vec());
-        (rows.unwrap_or_default(), "listed")
-    } else {
-        (marked.iter().copied().collect(), "marked")
-    };
-    let name = format!("Export the {} {which}", words::plain(numbers.len()));
-    let export = DropDown {
-        button: Button::quiet("Export").locked(numbers.is_empty()),
-        salt: "export elements",
-        name: &name,
-    };
-    let at = place(at.left() - GAP, export.width(ui));
-    export.show(ui, at, |ui| {
-        ui.label(&name);
-        for (word, form) in [
-            ("TLE\u{2026}", ElementForm::Tle),
-            ("OMM, JSON\u{2026}", ElementForm::OmmJson),
-            ("OMM, CSV\u{2026}", ElementForm::OmmCsv),
-        ] {
-            if ui.button(word).clicked() {
-                let numbers = numbers.clone().into();
-                commands.push(UiCommand::Save(Export::Elements { numbers, form }));
-            }
-        }
-    });
-    at.left() - GAP
 }
 
 /// The groups with the numbers of their objects.

@@ -68,6 +68,7 @@ pub(super) fn show(
         area.show(ui, |ui| {
             let object = Object { model, elements, catalog, can_mark };
             object.parts(ui, body.width(), state, question, commands);
+            paint::follow_focus(ui);
         });
     });
     show_foot(ui, foot, model, elements, can_mark, state, commands);

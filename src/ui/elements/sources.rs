@@ -257,6 +257,9 @@ impl Row<'_> {
             let min = pos2(self.place.left() + x * scale, self.place.center().y - 10.0);
             Rect::from_min_size(min, vec2(width, 20.0))
         };
+        if matches!(self.source.place, SourcePlace::Web(_)) && is_free {
+            self.refresh(ui, commands);
+        }
         let (word, spoken) = match self.source.place {
             SourcePlace::Web(_) => ("Fetch", format!("Fetch {name}")),
             SourcePlace::File(_) | SourcePlace::Folder(_) => ("Read", format!("Read {name} again")),
@@ -272,9 +275,6 @@ impl Row<'_> {
                 Some(text) => *question = Some(Question { text, yes: "Fetch", command }),
                 None => commands.push(command),
             }
-        }
-        if matches!(self.source.place, SourcePlace::Web(_)) && is_free {
-            self.refresh(ui, commands);
         }
         let place = at(REMOVE, 20.0);
         let spoken = format!("Remove {name}");

@@ -1,6 +1,8 @@
 //! The controls above the map.
 
-use egui::{Align, Align2, Layout, Popup, PopupCloseBehavior, Rect, Ui, UiBuilder, pos2, vec2};
+use egui::{
+    Align, Align2, Layout, Popup, PopupCloseBehavior, Rect, Response, Ui, UiBuilder, pos2, vec2,
+};
 
 use super::{MapLayers, MapState, PADDING, Shown, words};
 use crate::{
@@ -9,7 +11,7 @@ use crate::{
         icons::Icon,
         text, theme,
         widgets::{
-            button::{Button, HEIGHT as BUTTON},
+            button::{self, Button, HEIGHT as BUTTON},
             check_box::{self, CheckBox},
             close_key, paint,
             segmented::{self, Segment},
@@ -34,7 +36,14 @@ pub(super) fn show(ui: &mut Ui, rect: Rect, model: &Model, has_drawer: bool, sta
     ui.painter().rect_filled(rect, 0.0, t.bg1);
     ui.painter().hline(rect.x_range(), rect.bottom() - 0.5, (1.0, t.line));
     let inner = rect.shrink2(vec2(PADDING, 0.0));
-    let right = buttons(ui, inner, has_drawer, state);
+    let layers = Button::normal("Layers").icon(Icon::Layers);
+    let word = if state.inspector_is_open { "Close details" } else { "Details" };
+    let details = Button::normal(word);
+    let mut right = inner.right_center();
+    let details_at =
+        has_drawer.then(|| button::row_before(&mut right, BUTTON, [details.width(ui)]));
+    let [layers_at] = button::row_before(&mut right, BUTTON, [layers.width(ui)]);
+    let right = right.x;
     let boxes = boxes_width(ui);
     let has_boxes = inner.left() + TITLE + SEGMENTS + 2.0 * GAP + boxes <= right;
     let segments = if has_boxes { right - boxes - GAP } else { right };
@@ -56,6 +65,12 @@ pub(super) fn show(ui: &mut Ui, rect: Rect, model: &Model, has_drawer: bool, sta
                 ui.add(CheckBox::new(on, name));
             }
         });
+    }
+    choose_layers(&layers.show(ui, "map layers", layers_at), state);
+    if let Some([place]) = details_at
+        && details.show(ui, "map details", place).clicked()
+    {
+        state.inspector_is_open = !state.inspector_is_open;
     }
 }
 
@@ -81,26 +96,12 @@ fn scope(ui: &Ui, place: Rect, shown: &mut Shown) {
     }
 }
 
-/// Draws the buttons from the right end and returns their left end.
-fn buttons(ui: &Ui, inner: Rect, has_drawer: bool, state: &mut MapState) -> f32 {
-    let mut right = inner.right();
-    let mut button = |button: Button<'_>, salt: &str| {
-        let width = button.width(ui);
-        let min = pos2(right - width, inner.center().y - BUTTON / 2.0);
-        right = min.x - GAP;
-        button.show(ui, salt, Rect::from_min_size(min, vec2(width, BUTTON)))
-    };
-    if has_drawer {
-        let word = if state.inspector_is_open { "Close details" } else { "Details" };
-        if button(Button::normal(word), "map details").clicked() {
-            state.inspector_is_open = !state.inspector_is_open;
-        }
-    }
-    let layers = button(Button::normal("Layers").icon(Icon::Layers), "map layers");
+/// All layers, in a list below their button or by its key.
+fn choose_layers(button: &Response, state: &mut MapState) {
     if std::mem::take(&mut state.layers_key) {
-        Popup::toggle_id(ui.ctx(), Popup::default_response_id(&layers));
+        Popup::toggle_id(&button.ctx, Popup::default_response_id(button));
     }
-    Popup::from_toggle_button_response(&layers)
+    Popup::from_toggle_button_response(button)
         .accessible_name("Layers of the map")
         .close_behavior(PopupCloseBehavior::CloseOnClickOutside)
         .show(|ui| {
@@ -111,7 +112,6 @@ fn buttons(ui: &Ui, inner: Rect, has_drawer: bool, state: &mut MapState) -> f32 
             ui.add(CheckBox::new(&mut state.layers.grid, "Grid"));
             close_key::show(ui);
         });
-    right
 }
 
 /// The layers that have a check box of their own.

@@ -11,7 +11,7 @@ use crate::{
     ui::{
         format, text, theme,
         widgets::{
-            button::{Button, HEIGHT as BUTTON},
+            button::{self, Button, HEIGHT as BUTTON},
             drop_down::DropDown,
             paint,
             segmented::{self, Segment},
@@ -39,27 +39,34 @@ pub(super) fn show(
     ui.painter().rect_filled(rect, 0.0, t.bg1);
     ui.painter().hline(rect.x_range(), rect.bottom() - 0.5, (1.0, t.line));
     let inner = rect.shrink2(vec2(PADDING, 0.0));
-    let mut right = inner.right();
-    if has_drawer {
-        let word = if state.inspector_is_open { "Close details" } else { "Details" };
-        let button = Button::normal(word);
-        let place = before(ui, &mut right, inner, button.width(ui));
-        if button.show(ui, "plan details", place).clicked() {
-            state.inspector_is_open = !state.inspector_is_open;
-        }
+    let (words, rehearse) = rehearsal(model);
+    let can_rehearse = model.schedule.made_at.is_some();
+    let of_rehearsal = Button::normal(&words).locked(!can_rehearse);
+    let word = words::schedule::choose_by(model.station.scheduling.choose_by);
+    let name = format!("Choose by, {word}");
+    let rules = DropDown { button: Button::normal(word), salt: "choose by", name: &name };
+    let forms =
+        DropDown { button: Button::normal("Export"), salt: "export plan", name: "Export the plan" };
+    let word = if state.inspector_is_open { "Close details" } else { "Details" };
+    let details = Button::normal(word);
+    let mut right = inner.right_center();
+    let details_at =
+        has_drawer.then(|| button::row_before(&mut right, BUTTON, [details.width(ui)]));
+    let widths = [of_rehearsal.width(ui), SPANS, rules.width(ui), forms.width(ui)];
+    let [rehearsal_at, spans_at, rules_at, forms_at] =
+        button::row_before(&mut right, BUTTON, widths);
+    title(ui, inner.with_max_x(right.x.max(inner.left() + TITLE)), model, state, commands);
+    if of_rehearsal.show(ui, "rehearse plan", rehearsal_at).clicked() {
+        commands.push(rehearse);
     }
-    save(ui, &mut right, inner, model, commands);
-    choose_by(ui, &mut right, inner, model, state, commands);
-    spans(ui, &mut right, inner, model, state, commands);
-    rehearse(ui, &mut right, inner, model, commands);
-    title(ui, inner.with_max_x(right.max(inner.left() + TITLE)), model, state, commands);
-}
-
-/// The place of a control that ends at `right`, which moves to its left.
-fn before(_ui: &Ui, right: &mut f32, inner: Rect, width: f32) -> Rect {
-    let min = pos2(*right - width, inner.center().y - BUTTON / 2.0);
-    *right = min.x - GAP;
-    Rect::from_min_size(min, vec2(width, BUTTON))
+    spans(ui, spans_at, model, state, commands);
+    choose_by(ui, rules, rules_at, model, state, commands);
+    save(ui, forms, forms_at, model, commands);
+    if let Some([place]) = details_at
+        && details.show(ui, "plan details", place).clicked()
+    {
+        state.inspector_is_open = !state.inspector_is_open;
+    }
 }
 
 fn title(ui: &Ui, rect: Rect, model: &Model, state: &mut PlanState, commands: &mut Vec<UiCommand>) {
@@ -104,13 +111,11 @@ fn title(ui: &Ui, rect: Rect, model: &Model, state: &mut PlanState, commands: &m
 
 fn spans(
     ui: &Ui,
-    right: &mut f32,
-    inner: Rect,
+    place: Rect,
     model: &Model,
     state: &mut PlanState,
     commands: &mut Vec<UiCommand>,
 ) {
-    let place = before(ui, right, inner, SPANS);
     let scheduling = model.station.scheduling;
     let is_chosen = |hours: f64| (scheduling.span_h - hours).abs() < 0.5;
     let segments = SPANS_H.map(|(hours, word)| {
@@ -124,8 +129,8 @@ fn spans(
 
 fn choose_by(
     ui: &Ui,
-    right: &mut f32,
-    inner: Rect,
+    list: DropDown<'_>,
+    place: Rect,
     model: &Model,
     state: &mut PlanState,
     commands: &mut Vec<UiCommand>,
@@ -133,10 +138,6 @@ fn choose_by(
     const ALL: [ChooseBy; 4] =
         [ChooseBy::Elevation, ChooseBy::Duration, ChooseBy::MostPasses, ChooseBy::MostMinutes];
     let scheduling = model.station.scheduling;
-    let word = words::schedule::choose_by(scheduling.choose_by);
-    let name = format!("Choose by, {word}");
-    let list = DropDown { button: Button::normal(word), salt: "choose by", name: &name };
-    let place = before(ui, right, inner, list.width(ui));
     let mut chosen = None;
     list.show(ui, place, |ui| {
         for rule in ALL {
@@ -151,24 +152,18 @@ fn choose_by(
     }
 }
 
-/// Rehearses the whole plan, or cancels that.
-fn rehearse(ui: &Ui, right: &mut f32, inner: Rect, model: &Model, commands: &mut Vec<UiCommand>) {
-    let is_planned = model.schedule.made_at.is_some();
-    let (words, command) = match model.rehearsal {
+/// Words and command of the button that rehearses the whole plan or cancels that.
+fn rehearsal(model: &Model) -> (String, UiCommand) {
+    match model.rehearsal {
         RehearsalState::UnderWay(share) => {
             let percent = format::number((100.0 * share).floor(), 0);
             (format!("Cancel, {percent} %"), UiCommand::EndRehearsal)
         }
         _ => ("Rehearse".to_owned(), UiCommand::Rehearse(None)),
-    };
-    let button = Button::normal(&words).locked(!is_planned);
-    let place = before(ui, right, inner, button.width(ui));
-    if button.show(ui, "rehearse plan", place).clicked() {
-        commands.push(command);
     }
 }
 
-fn save(ui: &Ui, right: &mut f32, inner: Rect, model: &Model, commands: &mut Vec<UiCommand>) {
+fn save(ui: &Ui, list: DropDown<'_>, place: Rect, model: &Model, commands: &mut Vec<UiCommand>) {
     let plan = |format| Export::Schedule { format };
     let forms = [
         ("Hand-over sheet (SVG)…", Export::HandOverSheet),
@@ -177,9 +172,6 @@ fn save(ui: &Ui, right: &mut f32, inner: Rect, model: &Model, commands: &mut Vec
         ("Plan as JSON…", plan(ScheduleFormat::Json)),
         ("Plan as iCalendar…", plan(ScheduleFormat::Ics)),
     ];
-    let list =
-        DropDown { button: Button::normal("Export"), salt: "export plan", name: "Export the plan" };
-    let place = before(ui, right, inner, list.width(ui));
     list.show(ui, place, |ui| {
         for (word, export) in forms {
             let is_planned = model.schedule.made_at.is_some();

@@ -57,6 +57,8 @@ pub(super) fn show(
     let span = span(model);
     let time = |place: Rect| place.with_min_x(rect.left() + LABELS);
     heads(ui, head, time(head), span);
+    let framed = time(rect).with_min_y(head.bottom());
+    let frame = if satellites.is_empty() { None } else { frame(ui, framed, model, span, state) };
     // One stop of Tab: arrows go through the passes.
     let list = ui.interact(body, ui.make_persistent_id("plan passes"), Sense::FOCUSABLE);
     list.widget_info(|| WidgetInfo::labeled(Role::ListBox, true, "Passes by satellite"));
@@ -82,7 +84,10 @@ pub(super) fn show(
             }
         });
     });
-    frame(ui, time(rect).with_min_y(head.bottom()), model, span, state);
+    if let Some(frame) = frame {
+        let stroke = Stroke::new(1.0, theme::tokens(ui).sat);
+        ui.painter().rect_stroke(frame, 0.0, stroke, StrokeKind::Inside);
+    }
     let x = span.x(model.now, time(rect));
     ui.painter().vline(x, body.y_range(), (1.75, t.t1));
     show_focus(ui, &list);
@@ -272,16 +277,16 @@ fn spoken(model: &Model, planned: &PlannedPass<'_>) -> String {
     format!("{name}, {times}, {max}. {what}{choice}")
 }
 
-/// The frame of the part that the lanes show; its grip or the arrow keys move that.
-fn frame(ui: &Ui, place: Rect, model: &Model, span: Span, state: &mut PlanState) {
+/// Draws the grip above the frame of the part that the lanes show; it or the arrow keys move that.
+/// Returns the frame.
+fn frame(ui: &Ui, place: Rect, model: &Model, span: Span, state: &mut PlanState) -> Option<Rect> {
     let t = theme::tokens(ui);
     let lanes = super::lanes::span(model, state);
-    let Some(x) = span.range(lanes.from, lanes.to(), place) else { return };
+    let x = span.range(lanes.from, lanes.to(), place)?;
     let rect = Rect::from_x_y_ranges(x, place.y_range()).shrink(0.5);
-    ui.painter().rect_stroke(rect, 0.0, Stroke::new(1.0, t.sat), StrokeKind::Inside);
-    // The grip leaves the bars to clicks.
+    // The grip stands wholly above the rows: it leaves the bars to clicks, and is read before them.
     let grip = rect.with_max_y(rect.top() + 8.0);
-    let grip = grip.expand2(vec2(4.0, 0.0)).translate(vec2(0.0, -8.0));
+    let grip = grip.expand2(vec2(4.0, 0.0)).translate(vec2(0.0, -8.5));
     let id = ui.make_persistent_id("lanes frame");
     let response = ui.interact(grip, id, Sense::drag());
     let words = format!("Part of the lanes, from {}", format::moment(lanes.from, model.now));
@@ -305,6 +310,7 @@ fn frame(ui: &Ui, place: Rect, model: &Model, span: Span, state: &mut PlanState)
         ui.ctx().set_cursor_icon(egui::CursorIcon::ResizeHorizontal);
     }
     paint::focus_ring(ui, &response, 2);
+    Some(rect)
 }
 
 /// How many steps the grip was moved by keys while it has the focus.

@@ -3,6 +3,7 @@
 use egui::{Align, Layout, Rect, ScrollArea, Ui, UiBuilder, vec2};
 
 use super::PADDING;
+use crate::ui::widgets::paint;
 
 /// Gap between two columns. The first part of it belongs to the scroll bar.
 const GAP: f32 = 16.0;
@@ -91,6 +92,7 @@ fn scrolled(ui: &mut Ui, place: Rect, salt: impl egui::AsIdSalt, content: impl F
         ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
             ui.add_space(PADDING);
             content(ui);
+            paint::follow_focus(ui);
             ui.add_space(8.0);
         });
     });

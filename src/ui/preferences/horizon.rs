@@ -9,7 +9,7 @@ mod pane;
 mod plot;
 mod skyline;
 
-use egui::{Align2, Key, Modifiers, Rect, Ui, pos2, vec2};
+use egui::{Align2, Key, Modifiers, Rect, Ui, vec2};
 use jiff::Timestamp;
 
 use self::{draft::Skies, history::History, skyline::Recording};
@@ -26,7 +26,7 @@ use crate::{
         icons::{self, Icon},
         text, theme,
         widgets::{
-            button::{Button, SMALL_HEIGHT},
+            button::{self, Button, HEIGHT as BUTTON, SMALL_HEIGHT},
             check_box::{self, CheckBox},
             paint,
             segmented::{self, Segment},
@@ -41,6 +41,8 @@ const BESIDE_FROM: f32 = 1000.0;
 const PANE: f32 = 472.0;
 const BAR: f32 = 56.0;
 const TOOLS: f32 = 40.0;
+/// Width of the tabs.
+const TABS: f32 = 130.0;
 const EFFECT: f32 = 72.0;
 const PADDING: f32 = 16.0;
 /// Interval between the points of the Sun's path, seconds.
@@ -265,33 +267,13 @@ fn view_bar(
     commands: &mut Vec<UiCommand>,
 ) {
     let t = theme::tokens(ui);
-    let mut right = bar.right() - PADDING;
-    let mut place = |width: f32| from_right(&mut right, bar, width);
-    let export = Button::normal("Export").locked(skies.skyline().is_empty());
-    if export.show(ui, "export", place(export.width(ui))).clicked() {
-        let mask = skies.read_mask().ok().flatten();
-        commands.extend(mask.map(|mask| UiCommand::ExportMask(Box::new(mask))));
-    }
-    let import = Button::normal("Import");
-    if import.show(ui, "import", place(import.width(ui))).clicked() {
-        state.told = None;
-        state.import = if state.import.is_some() { None } else { Some(String::new()) };
-    }
     let record = Button::normal(if is_wide { "Record the skyline" } else { "Record" });
-    if record.show(ui, "record", place(record.width(ui))).clicked() && state.recording.is_none() {
-        state.recording = Some(Recording::over(&skies.mask));
-        state.choose(Chosen::Skyline);
-        state.tab = Tab::Table;
-    }
-    if !is_wide {
-        let tabs = [("Plot", state.tab == Tab::Plot), ("Table", state.tab == Tab::Table)];
-        let tabs = tabs.map(|(word, is_on)| (word, chosen(is_on)));
-        match segmented::show(ui, "horizon tab", place(130.0), "Shown", &tabs) {
-            Some(0) => state.tab = Tab::Plot,
-            Some(_) => state.tab = Tab::Table,
-            None => {}
-        }
-    }
+    let import = Button::normal("Import");
+    let export = Button::normal("Export").locked(skies.skyline().is_empty());
+    let mut right = bar.right_center() - vec2(PADDING, 0.0);
+    let widths = [record, import, export].map(|button| button.width(ui));
+    let [record_at, import_at, export_at] = button::row_before(&mut right, BUTTON, widths);
+    let tabs_at = (!is_wide).then(|| button::row_before(&mut right, BUTTON, [TABS]));
     let shown = state.antenna.unwrap_or(model.selected_antenna);
     if model.antennas.len() > 1 {
         let names: Vec<(&str, Segment)> = model
@@ -304,13 +286,35 @@ fn view_bar(
             .iter()
             .map(|(name, _)| paint::text_width(ui, name, text::body_medium()) + 28.0)
             .sum();
-        let width = wanted.min(right - bar.left() - 240.0).max(60.0);
-        let room = from_right(&mut right, bar, width);
+        let width = wanted.min(right.x - bar.left() - 240.0).max(60.0);
+        let [room] = button::row_before(&mut right, BUTTON, [width]);
         if let Some(index) = segmented::show(ui, "horizon antenna", room, "Antenna", &names) {
             state.antenna = Some(index);
         }
     }
-    let words = bar.with_max_x(right).shrink2(vec2(PADDING, 8.0));
+    if let Some([place]) = tabs_at {
+        let tabs = [("Plot", state.tab == Tab::Plot), ("Table", state.tab == Tab::Table)];
+        let tabs = tabs.map(|(word, is_on)| (word, chosen(is_on)));
+        match segmented::show(ui, "horizon tab", place, "Shown", &tabs) {
+            Some(0) => state.tab = Tab::Plot,
+            Some(_) => state.tab = Tab::Table,
+            None => {}
+        }
+    }
+    if record.show(ui, "record", record_at).clicked() && state.recording.is_none() {
+        state.recording = Some(Recording::over(&skies.mask));
+        state.choose(Chosen::Skyline);
+        state.tab = Tab::Table;
+    }
+    if import.show(ui, "import", import_at).clicked() {
+        state.told = None;
+        state.import = if state.import.is_some() { None } else { Some(String::new()) };
+    }
+    if export.show(ui, "export", export_at).clicked() {
+        let mask = skies.read_mask().ok().flatten();
+        commands.extend(mask.map(|mask| UiCommand::ExportMask(Box::new(mask))));
+    }
+    let words = bar.with_max_x(right.x).shrink2(vec2(PADDING, 8.0));
     let (above, below) = words.split_top_bottom_at_fraction(0.5);
     // As the other pages, where it has room.
     let font = if above.width() < TITLE_FROM { text::value() } else { text::title() };
@@ -327,14 +331,6 @@ fn view_bar(
         },
     );
     paint::text_in(ui, below, Align2::LEFT_CENTER, &what, text::small(), t.t2);
-}
-
-/// Place for a button of this width, taken from the right end of a bar.
-fn from_right(right: &mut f32, bar: Rect, width: f32) -> Rect {
-    let middle = bar.center().y;
-    let rect = Rect::from_min_max(pos2(*right - width, middle - 16.0), pos2(*right, middle + 16.0));
-    *right -= width + 8.0;
-    rect
 }
 
 fn chosen(is_on: bool) -> Segment {
@@ -361,10 +357,6 @@ fn tool_bar(ui: &mut Ui, bar: Rect, skies: &mut Skies, state: &mut HorizonState)
     let undo = Button::normal("Undo").locked(!state.history.can_undo());
     let undoing = row.with_min_x(row.right() - undo.width(ui));
     let undoing = Rect::from_center_size(undoing.center(), vec2(undoing.width(), SMALL_HEIGHT));
-    if undo.show(ui, "undo", undoing).clicked() {
-        state.history.undo(skies);
-        state.corner = None;
-    }
     let mut left = place.right() + 12.0;
     for (on, word) in [(&mut state.snaps, "Snap 0.5°"), (&mut state.shows_passes, "Passes of 48 h")]
     {
@@ -377,6 +369,10 @@ fn tool_bar(ui: &mut Ui, bar: Rect, skies: &mut Skies, state: &mut HorizonState)
     }
 }
 
+    if undo.show(ui, "undo", undoing).clicked() {
+        state.history.undo(skies);
+        state.corner = None;
+    }
 fn effect_lines(ui: &Ui, rect: Rect, model: &Model, skies: &Skies, state: &HorizonState) {
     let t = theme::tokens(ui);
     ui.painter().rect_filled(rect, 0.0, t.bg2);

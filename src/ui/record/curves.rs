@@ -76,10 +76,10 @@ pub(super) fn show(
     let note = "all recorded lines: azel log";
     title(ui, head, "Events", note, &[]);
     let lanes = Rect::from_min_max(pos2(rect.left(), head.bottom()), rect.max);
-    events::show(ui, lanes, plots, &axis, model, opened, state);
-
     let whole = plots.with_min_y(direction.top()).with_max_y(error.bottom());
     let replays = follow_pointer(ui, whole, &axis, opened, model.now, state);
+    events::show(ui, lanes, plots, &axis, model, opened, state);
+
     if replays && model.replay.is_none() {
         commands.push(report::replay(&opened.pass, state.cursor));
     }

@@ -1,6 +1,6 @@
 //! What happened in a pass, in lanes below its curves.
 
-use egui::{Align2, Color32, Rect, Role, Sense, Stroke, Ui, WidgetInfo, pos2};
+use egui::{Align2, Color32, Rect, Role, Sense, Ui, WidgetInfo, pos2};
 use jiff::Timestamp;
 
 use super::{PADDING, RecordState, curves};
@@ -58,7 +58,8 @@ pub(super) fn show(
     }
     link(ui, lane(2), axis, opened);
     for (index, of_lane) in events(model, opened).into_iter().enumerate() {
-        marks(ui, lane(index), axis, &of_lane, model.now, state);
+        controls(ui, (index, lane(index)), axis, &of_lane, model.now, state);
+        marks(ui, lane(index), axis, &of_lane);
     }
 }
 
@@ -187,29 +188,49 @@ fn link(ui: &Ui, lane: Rect, axis: &TimeAxis, opened: &OpenedPass) {
     }
 }
 
-/// Draws the moments of a lane; words only where they do not reach the next.
-fn marks(
+fn mark(lane: Rect, axis: &TimeAxis, at: Timestamp) -> Rect {
+    let x = axis.x(at).clamp(lane.left(), lane.right());
+    Rect::from_center_size(pos2(x, lane.center().y), egui::vec2(3.0, 13.0))
+}
+
+/// The moments of a lane as controls, in their order.
+fn controls(
     ui: &Ui,
-    lane: Rect,
+    (number, lane): (usize, Rect),
     axis: &TimeAxis,
     moments: &[Moment],
     now: Timestamp,
     state: &mut RecordState,
 ) {
-    let clamped = |at: Timestamp| axis.x(at).clamp(lane.left(), lane.right());
+    for (index, moment) in moments.iter().enumerate() {
+        let mark = mark(lane, axis, moment.at);
+        let id = ui.make_persistent_id(("recorded event", number, index));
+        let response = ui.interact(mark.expand(4.0), id, Sense::click());
+        let spoken = format!("{}: {}", format::moment(moment.at, now), moment.words);
+        response.widget_info(|| WidgetInfo::labeled(Role::Button, true, &spoken));
+        paint::focus_ring(ui, &response, 1);
+        if response.clicked() {
+            state.cursor = Some(moment.at);
+        }
+        response.on_hover_text(&spoken);
+    }
+}
+
+/// Draws the moments of a lane; words only where they do not reach the next.
+fn marks(ui: &Ui, lane: Rect, axis: &TimeAxis, moments: &[Moment]) {
     // From the right: the words of a moment end before those of the next begin.
     let mut free_to = lane.right() + BEYOND;
     for (index, moment) in moments.iter().enumerate().rev() {
-        let x = clamped(moment.at);
         let colour = moment.colour.of(ui);
-        let mark = Rect::from_center_size(pos2(x, lane.center().y), egui::vec2(3.0, 13.0));
-        ui.painter().rect_filled(mark, 0.0, colour);
+        let place = mark(lane, axis, moment.at);
+        let x = place.center().x;
+        ui.painter().rect_filled(place, 0.0, colour);
         let font = text::caption();
         let width = paint::text_width(ui, &moment.words, font.clone());
         let before = moments
             .get(..index)
             .and_then(<[Moment]>::last)
-            .map_or(lane.left(), |before| clamped(before.at));
+            .map_or(lane.left(), |before| mark(lane, axis, before.at).center().x);
         let room = if x + GAP + width > free_to && x - GAP - width > before + GAP {
             lane.with_min_x(x - GAP - width).with_max_x(x - GAP)
         } else {
@@ -221,22 +242,6 @@ fn marks(
             ui.painter().rect_filled(letters, 0.0, theme::tokens(ui).bg0);
             paint::text_in(ui, room, Align2::LEFT_CENTER, &moment.words, font, colour);
         }
-        free_to = room.left().min(mark.left()) - GAP;
-        let id = ui.make_persistent_id(("recorded event", lane.top() as i32, index));
-        let response = ui.interact(mark.expand(4.0), id, Sense::click());
-        let spoken = format!("{}: {}", format::moment(moment.at, now), moment.words);
-        response.widget_info(|| WidgetInfo::labeled(Role::Button, true, &spoken));
-        if response.has_focus() {
-            ui.painter().rect_stroke(
-                mark.expand(3.0),
-                1.0,
-                Stroke::new(1.5, theme::tokens(ui).t1),
-                egui::StrokeKind::Outside,
-            );
-        }
-        if response.clicked() {
-            state.cursor = Some(moment.at);
-        }
-        response.on_hover_text(&spoken);
+        free_to = room.left().min(place.left()) - GAP;
     }
 }

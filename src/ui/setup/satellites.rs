@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use egui::{
-    Align, Button, Key, Layout, RichText, Role, ScrollArea, TextEdit, Ui, WidgetInfo, vec2,
+    Align, Button, Key, Layout, Rect, RichText, Role, ScrollArea, TextEdit, Ui, WidgetInfo, vec2,
 };
 
 use super::draft::SetupDraft;
@@ -130,10 +130,16 @@ fn list(
     mut one: impl FnMut(&mut Ui, u32, &str),
 ) {
     ui.spacing_mut().item_spacing.y = 0.0;
-    let area = ScrollArea::vertical().id_salt(salt).max_height(LIST).auto_shrink(false);
+    // Whole rows, so that Tab meets none that cannot be seen.
+    let height = (ui.available_height() / ROW).floor() * ROW;
+    let area = ScrollArea::vertical().id_salt(salt).max_height(height).auto_shrink(false);
     area.show_rows(ui, ROW, objects.len(), |ui, range| {
         for (number, name) in objects.get(range).unwrap_or_default() {
-            one(ui, *number, name);
+            let row = Rect::from_min_size(ui.cursor().min, vec2(ui.available_width(), ROW));
+            // One row more than can be seen is asked for.
+            if ui.clip_rect().intersect(row).height() > 4.0 {
+                one(ui, *number, name);
+            }
         }
     });
 }

@@ -15,7 +15,8 @@ use crate::{
         elements::words::{age_look, age_tone},
         format, icons, text, theme,
         widgets::{
-            card,
+            button::RADIUS,
+            card, paint,
             told::{Tone, line},
         },
         words::sentence,
@@ -25,6 +26,9 @@ use crate::{
 /// Maximum number of search results.
 const OFFERED: usize = 5;
 const ROW: f32 = 24.0;
+/// Side of the mark of an age.
+const MARK: f32 = 12.0;
+const OMIT: &str = "Omit";
 
 enum Change {
     Remove(u32),
@@ -122,26 +126,26 @@ fn row(
     let t = theme::tokens(ui);
     let number = object.catalog_number;
     let name = if object.name.is_empty() { number.to_string() } else { object.name.clone() };
-    let size = vec2(ui.available_width(), ROW);
-    ui.allocate_ui_with_layout(size, Layout::right_to_left(Align::Center), |ui| {
-        if named(ui, true, "Omit", &format!("Leave out {name}")) {
-            *change = Some(Change::Remove(number));
-        }
-        let age_s = object.epoch.map(|epoch| seconds_between(epoch, model.now));
-        let words = age_s.map_or_else(|| "no elements".to_owned(), format::age);
-        // As in the table of the elements.
-        let tone =
-            catalog.get(number).map_or(Tone::Caution, |elements| age_tone(elements, model.now));
-        let (mark, colour) = age_look(tone, t);
-        ui.label(RichText::new(words).font(text::small()).color(colour));
-        if let Some(mark) = mark {
-            let (place, _) = ui.allocate_exact_size(vec2(12.0, 12.0), Sense::hover());
-            icons::paint(ui.painter(), place, mark, colour);
-        }
-        ui.with_layout(Layout::left_to_right(Align::Center), |ui| {
+    let age_s = object.epoch.map(|epoch| seconds_between(epoch, model.now));
+    let age = age_s.map_or_else(|| "no elements".to_owned(), format::age);
+    // As in the table of the elements.
+    let tone = catalog.get(number).map_or(Tone::Caution, |elements| age_tone(elements, model.now));
+    let (mark, colour) = age_look(tone, t);
+    let spacing = ui.spacing().item_spacing.x;
+    let of_mark = if mark.is_some() { MARK + spacing } else { 0.0 };
+    let of_age = paint::text_width(ui, &age, text::small()) + spacing;
+    let of_omit = paint::text_width(ui, OMIT, text::body_medium())
+        + 2.0 * ui.spacing().button_padding.x
+        + spacing;
+    let (width, left_to_right) = (ui.available_width(), Layout::left_to_right(Align::Center));
+    ui.allocate_ui_with_layout(vec2(width, ROW), left_to_right, |ui| {
+        let room = vec2((width - of_mark - of_age - of_omit).max(0.0).floor(), ROW);
+        ui.allocate_ui_with_layout(room, left_to_right, |ui| {
+            ui.set_min_width(room.x);
             let can = is_sent(object);
             ui.add_enabled_ui(can, |ui| {
                 let radio = ui.radio(is_followed, "");
+                paint::focus_ring(ui, &radio, RADIUS);
                 let spoken = format!("The unit follows {name}");
                 radio.widget_info(|| {
                     WidgetInfo::selected(Role::RadioButton, can, is_followed, &spoken)
@@ -153,6 +157,14 @@ fn row(
             let words = RichText::new(&name).font(text::body_medium());
             ui.add(Label::new(words).truncate()).on_hover_text(&name);
         });
+        if let Some(mark) = mark {
+            let (place, _) = ui.allocate_exact_size(vec2(MARK, MARK), Sense::hover());
+            icons::paint(ui.painter(), place, mark, colour);
+        }
+        ui.label(RichText::new(age).font(text::small()).color(colour));
+        if named(ui, true, OMIT, &format!("Leave out {name}")) {
+            *change = Some(Change::Remove(number));
+        }
     });
     if let Some(problem) = &object.problem {
         line(ui, Tone::Bad, &sentence(&problem.to_string()));

@@ -13,7 +13,7 @@ use crate::{
     transfer::{FileName, FileNameError, Peer, TleFile},
     ui::{
         text, theme,
-        widgets::{card, input::select_when_tabbed},
+        widgets::{card, input::select_when_tabbed, radio},
     },
 };
 
@@ -184,8 +184,9 @@ pub(super) fn show(ui: &mut Ui, form: &mut Form) {
             if response.on_hover_text(name).clicked() {
                 factory_user.clone_into(&mut form.user);
             }
-            ui.radio_value(&mut form.uses_key, false, "Password");
-            ui.radio_value(&mut form.uses_key, true, "Key file");
+            for (uses_key, word) in [(false, "Password"), (true, "Key file")] {
+                radio::show(ui, &mut form.uses_key, uses_key, word);
+            }
         });
         if form.uses_key {
             field(ui, ("Key file", "/home/…/.ssh/id_ed25519"), &mut form.key_file);

@@ -130,13 +130,19 @@ pub fn pair(ui: &mut Ui, first: Button<'_>, second: Button<'_>) -> [Response; 2]
 
 /// Places for buttons of these widths side by side, of which the last ends at `right`, the middle
 /// of its edge. They are to be shown in this order, in which Tab leads along them.
-pub fn row<const N: usize>(right: Pos2, widths: [f32; N]) -> [Rect; N] {
-    let whole = widths.iter().sum::<f32>() + GAP * N.saturating_sub(1) as f32;
-    let mut left = right.x - whole;
+pub fn row<const N: usize>(mut right: Pos2, widths: [f32; N]) -> [Rect; N] {
+    row_before(&mut right, HEIGHT, widths)
+}
+
+/// Like [`row`], for buttons of this height. Moves `right` to where what stands before them ends.
+pub fn row_before<const N: usize>(right: &mut Pos2, height: f32, widths: [f32; N]) -> [Rect; N] {
+    let whole = widths.iter().map(|width| width + GAP).sum::<f32>();
+    right.x -= whole;
+    let mut left = right.x + GAP;
     widths.map(|width| {
-        let min = pos2(left, right.y - HEIGHT / 2.0);
+        let min = pos2(left, right.y - height / 2.0);
         left += width + GAP;
-        Rect::from_min_size(min, vec2(width, HEIGHT))
+        Rect::from_min_size(min, vec2(width, height))
     })
 }
 

@@ -2,6 +2,7 @@
 
 use egui::{Checkbox, Response, Stroke, Ui, Widget};
 
+use super::{button::RADIUS, paint};
 use crate::ui::theme;
 
 /// Side of the box.
@@ -44,7 +45,9 @@ impl Widget for CheckBox<'_> {
                     look.bg_fill = t.field;
                 }
             }
-            ui.add(Checkbox::new(is_on, words))
+            let response = ui.add(Checkbox::new(is_on, words));
+            paint::focus_ring(ui, &response, RADIUS);
+            response
         })
         .inner
     }

@@ -99,6 +99,18 @@ pub fn focus_ring(ui: &Ui, response: &Response, radius: u8) {
     }
 }
 
+/// Scrolls to the control in `ui` that gained the focus by a key, for controls that [`focus_ring`] does
+/// not bring into sight. Call at the end of what scrolls.
+pub fn follow_focus(ui: &Ui) {
+    let focused = ui.memory(egui::Memory::focused);
+    let Some(response) = focused.and_then(|id| ui.ctx().read_response(id)) else { return };
+    let is_inside =
+        response.layer_id == ui.layer_id() && ui.min_rect().contains(response.rect.center());
+    if is_inside && response.gained_focus() && !ui.input(|input| input.pointer.any_down()) {
+        ui.scroll_to_rect(response.rect, None);
+    }
+}
+
 /// The ring of a focus around `rect`.
 pub fn ring_around(ui: &Ui, rect: Rect, radius: u8) {
     let stroke = Stroke::new(FOCUS, theme::tokens(ui).sat);

@@ -2,15 +2,20 @@
 
 use std::collections::BTreeMap;
 
-use egui::{Key, LayerId, Rect, Role, accesskit::NodeId, emath::Rangef};
+use azel::ui::theme;
+use egui::{
+    Key, LayerId, Modifiers, Rect, Role,
+    accesskit::{Action, NodeId},
+    emath::Rangef,
+};
 use egui_kittest::{
     Node,
     kittest::{AccessKitNode, NodeT as _},
 };
 
 use crate::window_stories::{
-    every_view::{SCENES, scene},
-    rig::{SIZES, SMALL, Window, settle},
+    every_view::{SCENES, painted, scene},
+    rig::{LARGE, SIZES, SMALL, Window},
 };
 
 /// Something that is read, where it is seen.
@@ -94,36 +99,122 @@ fn nothing_is_read_after_what_stands_behind_it() {
     assert!(faults.is_empty(), "{} times\n{}", faults.len(), faults.join("\n"));
 }
 
-/// Scenes in which Tab is held to the rows.
-const BY_TAB: [&str; 4] = ["Operate, tracking", "Antennas", "Console", "Preferences, an antenna"];
+/// A stop of Tab, with what it is called.
+type Stop = (NodeId, String);
 
-#[test]
-fn tab_goes_along_the_rows() {
-    for (name, size) in BY_TAB.into_iter().flat_map(|name| SIZES.map(|size| (name, size))) {
-        let mut window = scene(name, size);
-        let mut stops: Vec<(NodeId, String)> = Vec::new();
-        loop {
-            window.key_press(Key::Tab);
-            settle(&mut window);
+/// The stops of one way round with Tab, from STOP on, and what is wrong with them.
+fn stops(window: &mut Window, modifiers: Modifiers, faults: &mut Vec<String>) -> Vec<Stop> {
+    let ring = theme::tokens(&window.ctx).sat;
+    let mut stops: Vec<Stop> = Vec::new();
+    while stops.len() < 400 {
+        window.key_press_modifiers(modifiers, Key::Tab);
+        window.run_steps(2);
+        let Some((place, now)) = focused(window) else {
+            faults.push(format!("nothing has the focus after {:?}", stops.last()));
+            break;
+        };
+        if stops.contains(&now) {
+            if stops.first() != Some(&now) {
+                faults.push(format!("{:?} comes again after {:?}", now.1, stops.last()));
+            }
+            break;
+        }
+        // A ring stands around the control, around the row that has it, or inside of a drawing.
+        let is_ringed = (0..8).any(|off| {
+            let place = place.expand(4.0 - off as f32);
+            painted::around(window, place, 1.5).contains(&ring)
+        });
+        if !is_ringed {
+            faults.push(format!("no ring around {:?}", now.1));
+        }
+        if modifiers == Modifiers::NONE {
             // The view may have been scrolled: both places are of now.
-            let places = places(&window);
-            let read = |(id, name): &(NodeId, String)| {
+            let places = places(window);
+            let read = |(id, name): &Stop| {
                 let (layer, place) = *places.get(id)?;
                 Some(Read { name: name.clone(), place, layer })
             };
-            let Some(now) = focused(&window).filter(|now| !stops.contains(now)) else { break };
-            if let Some((before, now)) = stops.last().and_then(read).zip(read(&now)) {
-                let (from, to) = (&before.name, &now.name);
-                assert!(!goes_back(&before, &now), "{name} {size:?}: {from:?} before {to:?}");
+            let is_seen = |of: &Read| of.place.is_positive();
+            let pair = stops.last().and_then(read).filter(is_seen).zip(read(&now).filter(is_seen));
+            if let Some((before, now)) = pair
+                && goes_back(&before, &now)
+            {
+                faults.push(format!("{:?} comes before {:?}", before.name, now.name));
             }
-            stops.push(now);
         }
-        assert!(stops.len() > 15, "{name} {size:?}: {} stops", stops.len());
+        stops.push(now);
     }
+    stops
 }
 
-/// The node that has the focus, with its name.
-fn focused(window: &Window) -> Option<(NodeId, String)> {
-    let node = window.root().children_recursive().find(Node::is_focused)?.accesskit_node();
-    Some((node.locate().0, node.label().or(node.value()).unwrap_or_default()))
+#[test]
+fn tab_goes_along_the_rows_to_every_control_and_back() {
+    let mut all = Vec::new();
+    for (name, size) in BY_TAB {
+        let mut faults = Vec::new();
+        let mut window = scene(name, size);
+        let wanted = focusable(&window);
+        let forward = stops(&mut window, Modifiers::NONE, &mut faults);
+        let mut back = stops(&mut window, Modifiers::SHIFT, &mut Vec::new());
+        back.reverse();
+        for (id, name) in &wanted {
+            if !forward.iter().any(|(of, _)| of == id) {
+                faults.push(format!("Tab never comes to {name:?}"));
+            }
+        }
+        for (id, name) in &forward {
+            if !back.iter().any(|(of, _)| of == id) {
+                faults.push(format!("Shift Tab never comes to {name:?}"));
+            }
+        }
+        if forward.len() < 10 {
+            faults.push(format!("only {} stops", forward.len()));
+        }
+        all.extend(faults.into_iter().map(|fault| format!("{name} {size:?}: {fault}")));
+    }
+    assert!(all.is_empty(), "{} times\n{}", all.len(), all.join("\n"));
 }
+
+/// The controls that can have the focus.
+fn focusable(window: &Window) -> Vec<Stop> {
+    let nodes = window.root().children_recursive().map(|node| node.accesskit_node());
+    let can = nodes.filter(|node| {
+        node.data().supports_action(Action::Focus) && !node.is_disabled() && !node.is_hidden()
+    });
+    can.map(|node| (node.locate().0, node.label().or(node.value()).unwrap_or_default())).collect()
+}
+
+/// The place of the node that has the focus, and the node with its name.
+fn focused(window: &Window) -> Option<(Rect, Stop)> {
+    let node = window.root().children_recursive().find(Node::is_focused)?;
+    let place = node.rect();
+    let node = node.accesskit_node();
+    let name = node.label().or(node.value()).unwrap_or_default();
+    Some((place, (node.locate().0, name)))
+}
+
+/// The main views, and what opens in them, each in a window in which it has the most or the least room.
+const BY_TAB: [(&str, [f32; 2]); 22] = [
+    ("Operate, tracking", LARGE),
+    ("Operate, jog", LARGE),
+    ("Operate, jog", SMALL),
+    ("Operate, a pair of rotators", SMALL),
+    ("Operate, drawer of passes", SMALL),
+    ("Plan", LARGE),
+    ("Plan, details", SMALL),
+    ("Elements", LARGE),
+    ("Elements, details", SMALL),
+    ("Elements, selected rows", LARGE),
+    ("Upload", SMALL),
+    ("Antennas", LARGE),
+    ("Console", SMALL),
+    ("Record", LARGE),
+    ("Record", SMALL),
+    ("Map", LARGE),
+    ("Preferences", SMALL),
+    ("Preferences, an antenna", LARGE),
+    ("Horizon and keep-outs", SMALL),
+    ("Satellites and priorities", LARGE),
+    ("Automation rules", LARGE),
+    ("Set-up, satellites", LARGE),
+];

@@ -65,6 +65,7 @@ pub(super) fn show(
                 Chosen::Zone(index) => zone(ui, model, antennas, index, skies, state),
                 Chosen::Sun => sun(ui, skies),
             }
+            paint::follow_focus(ui);
             ui.add_space(12.0);
         });
     });
@@ -476,20 +477,19 @@ fn sun(ui: &mut Ui, skies: &mut Skies) {
 pub(super) fn lines(ui: &mut Ui, name: &str, hint: &str, typed: &mut String, is_wrong: bool) {
     let t = theme::tokens(ui);
     let border = if is_wrong { (2.0, t.bad) } else { (1.0, t.edge) };
-    Frame::new()
-        .fill(t.field)
-        .stroke(border)
-        .corner_radius(4)
-        .inner_margin(Margin::symmetric(2, 2))
-        .show(ui, |ui| {
-            ScrollArea::vertical().id_salt(name).max_height(260.0).show(ui, |ui| {
-                let edit = TextEdit::multiline(typed)
-                    .frame(Frame::new().inner_margin(Margin::symmetric(6, 4)))
-                    .font(text::small())
-                    .hint_text(hint)
-                    .desired_rows(8)
-                    .desired_width(f32::INFINITY);
-                ui.add(edit).accessible_name(name);
-            });
-        });
+    let frame = Frame::new().fill(t.field).stroke(border).corner_radius(4);
+    let field = frame.inner_margin(Margin::symmetric(2, 2)).show(ui, |ui| {
+        ScrollArea::vertical().id_salt(name).max_height(260.0).show(ui, |ui| {
+            let edit = TextEdit::multiline(typed)
+                .frame(Frame::new().inner_margin(Margin::symmetric(6, 4)))
+                .font(text::small())
+                .hint_text(hint)
+                .desired_rows(8)
+                .desired_width(f32::INFINITY);
+            ui.add(edit).accessible_name(name).has_focus()
+        })
+    });
+    if field.inner.inner {
+        paint::ring_around(ui, field.response.rect, 4);
+    }
 }

@@ -49,7 +49,9 @@ pub(super) fn show(
     ui.painter().rect_filled(rect, 0.0, t.bg0);
     let antenna = state.shown(model);
 
-    let canvas = ui.interact(rect, ui.make_persistent_id("canvas"), Sense::click_and_drag());
+    // For the pointer alone: Tab leads to the points, which the keys move.
+    let id = ui.make_persistent_id("canvas");
+    let canvas = ui.interact(rect, id, Sense::CLICK | Sense::DRAG);
     let name = "Horizon and keep-outs of the site";
     canvas.widget_info(|| WidgetInfo::labeled(Role::Canvas, true, name));
     scene::paint_sky(ui, rect, dome, model, skies, state, antenna);

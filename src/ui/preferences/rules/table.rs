@@ -242,7 +242,8 @@ fn switch(ui: &Ui, rect: Rect, number: &str, is_on: &mut bool, index: usize) {
 /// The part of a row by which it is dragged to another place.
 fn grip(ui: &Ui, rect: Rect, index: usize, state: &mut RulesState) {
     let t = theme::tokens(ui);
-    let response = ui.interact(rect, ui.make_persistent_id(("grip", index)), Sense::drag());
+    // For the pointer alone: Tab skips it, and Alt with the arrows moves the row that has the focus.
+    let response = ui.interact(rect, ui.make_persistent_id(("grip", index)), Sense::DRAG);
     let name = format!("Drag rule {} to another place", index + 1);
     response.widget_info(|| WidgetInfo::labeled(Role::Button, true, &name));
     let ink = if response.hovered() || state.dragged == Some(index) { t.t1 } else { t.t3 };
