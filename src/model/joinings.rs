@@ -72,9 +72,9 @@ mod tests {
         let joinings = Joinings::default();
         let at = |ms: i64| Timestamp::from_millisecond(ms).unwrap();
         let of = |antenna: u32, satellite: u32, now: Timestamp, late_s: f64| {
-            let joining = Some(Joining { late_s, left_s: 1.0 });
+            let joining = Joining { met: now, needs_s: late_s, late_s, left_s: 1.0 };
             let pass = (satellite, Timestamp::UNIX_EPOCH);
-            joinings.of(AntennaId(antenna), pass, now, || joining).unwrap().late_s as i64
+            joinings.of(AntennaId(antenna), pass, now, || Some(joining)).unwrap().late_s as i64
         };
         assert_eq!(of(1, 7, at(1_000), 10.0), 10);
         assert_eq!(of(1, 7, at(1_900), 11.0), 10);

@@ -92,15 +92,15 @@ fn way_there(model: &Model, antenna: &AntennaModel, predicted: &PredictedPass) -
     let can = antenna.variant().capabilities;
     let measured = antenna.snapshot.state.measured.filter(|_| antenna.is_live())?;
     let track = predicted.track();
-    let (met, seconds) = model.planned_from_here(antenna)?.slew_to(track)?;
-    let to = track.iter().find(|sample| sample.time >= met)?.direction;
+    let joining = model.planned_from_here(antenna)?.joining(track)?;
+    let to = track.iter().find(|sample| sample.time >= joining.met)?.direction;
     let elevation = can.has_elevation().then_some(to.elevation);
     let to = Pointing { azimuth: Some(to.azimuth), elevation };
     Some(format!(
-        " from {} to {}, a slew of {}",
+        " from {} to {} and {}",
         format::pointing(measured.pointing, can),
         format::pointing(to, can),
-        format::duration(seconds)
+        words::needs(joining)
     ))
 }
 

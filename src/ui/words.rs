@@ -30,7 +30,7 @@ pub use safety::{
     safety, stopping_way, sun_lifted, way_out,
 };
 pub use site::{off_the_told, sun_there};
-pub use way_there::WayThere;
+pub use way_there::{WayThere, needs};
 
 use crate::{
     device::{Asked, Motion, SecondAxis, settings::Unfit},

@@ -7,7 +7,7 @@ use azel::{
     station::AntennaId,
 };
 use egui::{Key, Role};
-use egui_kittest::kittest::Queryable as _;
+use egui_kittest::kittest::{NodeT as _, Queryable as _};
 
 use crate::window_stories::{
     rig::{self, SIZES, Window, asked, says, settle},
@@ -47,15 +47,28 @@ fn while_it_is_tracked_there_is_nothing_to_ask_for() {
     }
 }
 
+/// The time that the antenna needs to get to the pass, by the text that contains `words`.
+fn needs(window: &Window, words: &str) -> String {
+    let mut texts = window.query_all_by_label_contains(words).filter_map(|node| {
+        let node = node.accesskit_node();
+        let text = node.label().or(node.value())?;
+        let (time, _) = text.split_once("eeds ")?.1.split_once(" to get there")?;
+        Some(time.to_owned())
+    });
+    texts.next_back().unwrap_or_else(|| panic!("nothing with {words:?}"))
+}
+
 #[test]
 fn t_asks_and_only_enter_tracks() {
     // From where it stands to where it meets the satellite, and how long that takes.
     let question = "Track NOAA 20 with Satrak? The antenna moves from 343.1°, 5.0° to ";
     for size in SIZES {
         let mut window = rig::window(size, rig::model(states::holding()));
+        let header = needs(&window, "eeds ");
         window.key_press(Key::T);
         assert_eq!(asked(&mut window), [], "only asks");
         window.get_by_label_contains(question);
+        assert_eq!(needs(&window, question), header, "as the header tells it");
         window.key_press(Key::Escape);
         assert_eq!(asked(&mut window), []);
         assert!(window.query_by_label_contains(question).is_none());

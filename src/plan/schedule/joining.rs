@@ -15,6 +15,10 @@ const EXACT_MS: i64 = 500;
 /// What is left of a pass once the antenna has slewed there.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Joining {
+    /// When it is there.
+    pub met: Timestamp,
+    /// What it needs to get there: its set-up and the slew, seconds.
+    pub needs_s: f64,
     /// From when it could have been there, or from now where that has passed, until it is there,
     /// seconds.
     pub late_s: f64,
@@ -27,28 +31,16 @@ impl PlannedAntenna {
     /// first, if it sets out from where it stands as soon as it is free and set up. `None` if that
     /// is not before LOS, if no way leads there, or if it is not known where it stands.
     pub fn joining(&self, samples: &[Sample]) -> Option<Joining> {
-        let (way, met_ms) = self.met(samples)?;
+        let (stands_deg, ready_ms) = (self.stands_deg?, self.ready_ms());
+        let way = self.reach.rest(samples, stands_deg, (self.free_from, ready_ms))?;
+        let (met_ms, leg_ms) = self.met_ms(&way, stands_deg, ready_ms)?;
         let left = Span { from_ms: met_ms, to_ms: way.span().to_ms };
         Some(Joining {
+            met: at_ms(met_ms),
+            needs_s: (set_up_ms(self) + leg_ms) as f64 / 1000.0,
             late_s: (met_ms - way.span().from_ms) as f64 / 1000.0,
             left_s: way.counted_ms(left) as f64 / 1000.0,
         })
-    }
-
-    /// The moment at which this antenna is on the pass as [`Self::joining`] tells, and how long it
-    /// slews there, seconds.
-    pub fn slew_to(&self, samples: &[Sample]) -> Option<(Timestamp, f64)> {
-        let (way, met_ms) = self.met(samples)?;
-        let slew_ms = self.reach.leg_ms(self.stands_deg?, way.axes_deg(met_ms), self.ready_ms())?;
-        Some((at_ms(met_ms), slew_ms as f64 / 1000.0))
-    }
-
-    /// The rest of a pass, and the moment at which this antenna is on it.
-    fn met(&self, samples: &[Sample]) -> Option<(Way, i64)> {
-        let (stands_deg, ready_ms) = (self.stands_deg?, self.ready_ms());
-        let way = self.reach.rest(samples, stands_deg, (self.free_from, ready_ms))?;
-        let met_ms = self.met_ms(&way, stands_deg, ready_ms)?;
-        Some((way, met_ms))
     }
 
     /// When it is free and set up.
@@ -57,8 +49,8 @@ impl PlannedAntenna {
     }
 
     /// The first moment that counts at which the axes can be where `way` has them, if they set out
-    /// at `ready_ms`.
-    fn met_ms(&self, way: &Way, stands_deg: [f64; 2], ready_ms: i64) -> Option<i64> {
+    /// at `ready_ms`, and how long they turn.
+    fn met_ms(&self, way: &Way, stands_deg: [f64; 2], ready_ms: i64) -> Option<(i64, i64)> {
         let mut at_ms = way.next_counted_ms(ready_ms)?;
         loop {
             let to_deg = way.axes_deg(at_ms);
@@ -73,7 +65,7 @@ impl PlannedAntenna {
             }
             let missing_ms = ready_ms + leg_ms - at_ms;
             if missing_ms <= EXACT_MS {
-                return Some(at_ms);
+                return Some((at_ms, leg_ms));
             }
             // In a second the leg becomes shorter by a second at most, because `way` keeps to the
             // rates of the axes: half of what is missing never skips the moment.
@@ -137,7 +129,10 @@ mod tests {
         samples: &[Sample],
     ) -> Option<(i64, i64)> {
         let antenna = PlannedAntenna { stands_deg: Some(stands_deg), ..antenna.clone() };
-        let Joining { late_s, left_s } = antenna.joining(samples)?;
+        let Joining { met, needs_s, late_s, left_s } = antenna.joining(samples)?;
+        let until_met_s = met.duration_since(antenna.free_from).as_secs_f64();
+        // Nothing between delays it but the pass itself, which may begin later.
+        assert!(needs_s <= until_met_s + 1.0, "{needs_s} {until_met_s}");
         Some((late_s.round() as i64, left_s.round() as i64))
     }
 
@@ -168,6 +163,9 @@ mod tests {
     fn a_unit_is_set_up_before_it_moves() {
         let slow = PlannedAntenna { set_up_s: 25.0, ..plain(20.0) };
         assert_eq!(join(&slow, [60.0, 45.0], &in_the_east()), Some((55, 125)));
+        let slow_there = PlannedAntenna { stands_deg: Some([60.0, 45.0]), ..slow.clone() };
+        let needs_s = slow_there.joining(&in_the_east()).map(|joining| joining.needs_s.round());
+        assert_eq!(needs_s, Some(55.0), "it is not there before");
         assert_eq!(join(&slow, [90.0, 45.0], &in_the_east()), Some((25, 155)));
     }
 

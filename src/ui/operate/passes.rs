@@ -202,7 +202,7 @@ fn way_there(model: &Model, antenna: &AntennaModel, predicted: &PredictedPass) -
     let find = || model.planned_from_here(antenna)?.joining(predicted.track());
     let joining = model.joinings.of(antenna.id(), predicted.key(), model.now, find);
     let is_in_time = joining.is_some_and(|joining| joining.late_s < 1.0);
-    (!is_in_time).then_some(WayThere { joining, until_s })
+    (!is_in_time).then_some(WayThere { joining })
 }
 
 /// Why an antenna gets nothing of the selected pass, as a sentence.

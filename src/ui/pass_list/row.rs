@@ -140,9 +140,9 @@ pub(super) fn verdict_in(ui: &Ui, rect: Rect, verdict: Verdict<'_>, t: &Tokens) 
         Verdict::Trackable => (Icon::Check, t.ok, t.t2),
         Verdict::Loses { .. }
         | Verdict::Blocked { .. }
-        | Verdict::Way(WayThere { joining: Some(_), .. })
+        | Verdict::Way(WayThere { joining: Some(_) })
         | Verdict::Misses => (Icon::Warning, t.warn, t.warn),
-        Verdict::Way(WayThere { joining: None, .. }) | Verdict::OutOfReach | Verdict::TooLow => {
+        Verdict::Way(WayThere { joining: None }) | Verdict::OutOfReach | Verdict::TooLow => {
             (Icon::Cross, t.bad, t.bad)
         }
         Verdict::LeftOut(_) => (Icon::Dash, t.t2, t.t2),
