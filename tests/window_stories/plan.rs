@@ -88,6 +88,22 @@ pub(crate) fn view(size: [f32; 2]) -> Window {
     window
 }
 
+#[test]
+fn the_spare_time_runs_down_with_the_countdown() {
+    let mut window = view(LARGE);
+    let model = &mut window.state_mut().model;
+    let first = model.schedule.schedule.entries.iter().find(|of| of.from > model.now).unwrap();
+    let (key, from) = ((first.pass.satellite, first.pass.aos), first.from);
+    model.selected = Some(key);
+    // 41 s of slew and 12 s of set-up come before it.
+    for (before_s, spare) in [(600.0, "5:00"), (253.0, "3:20"), (60.0, "0:07"), (50.0, "0:00")] {
+        window.state_mut().model.now = add_seconds(from, -before_s);
+        settle(&mut window);
+        window.get_by_label(&format!("Spare before: {spare}"));
+        assert!(painted::texts(&window).contains(&spare.to_owned()), "{spare} in the list");
+    }
+}
+
 fn commands(window: &mut Window) -> Vec<Command> {
     settle(window);
     let commands = std::mem::take(&mut window.state_mut().commands);

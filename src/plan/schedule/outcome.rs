@@ -8,7 +8,7 @@ use super::{
     row::Class,
     way::{Impossible, Lost},
 };
-use crate::station::AntennaId;
+use crate::{astro::time::seconds_between, station::AntennaId};
 
 /// The passes that all antennas will take, and those that none will.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
@@ -50,11 +50,21 @@ pub struct Entry {
     pub slew_s: f64,
     pub set_up_s: f64,
     /// Time that is left between the entry before and this one; `None` for a first entry of which
-    /// nothing is known before.
+    /// nothing is known before. See [`Self::spare_at`].
     pub spare_s: Option<f64>,
     /// The antenna that takes the other part of a pass that is handed over.
     pub shared_with: Option<AntennaId>,
     pub is_fixed: bool,
+}
+
+impl Entry {
+    /// What is left of the spare time at `now`: the schedule was made some time ago. `None` from the
+    /// start of the entry on.
+    pub fn spare_at(&self, now: Timestamp) -> Option<f64> {
+        let until_s = seconds_between(now, self.from);
+        let left_s = until_s - self.slew_s - self.set_up_s;
+        self.spare_s.filter(|_| until_s > 0.0).map(|spare_s| spare_s.min(left_s).max(0.0))
+    }
 }
 
 /// A pass that no antenna will take.

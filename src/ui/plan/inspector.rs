@@ -220,7 +220,7 @@ fn facts(model: &Model, entry: &Entry) -> Vec<(&'static str, String)> {
         ("Inside the beam", format::duration(entry.counted_s)),
         ("Slew and set-up before", format::duration(entry.slew_s + entry.set_up_s)),
     ];
-    if let Some(spare_s) = entry.spare_s {
+    if let Some(spare_s) = entry.spare_at(model.now) {
         facts.push(("Spare before", format::duration(spare_s)));
     }
     facts

@@ -371,7 +371,8 @@ fn show_row(
             let words = format!("{}{}", format::duration(entry.slew_s), from.unwrap_or_default());
             let room = row.with_min_x(at(slew)).with_max_x(at(spare) - 48.0);
             paint::text_in(ui, room, left, &words, small.clone(), t.cmd);
-            if let Some(spare_s) = entry.spare_s.filter(|_| entry.from > model.now) {
+            let waits = matches!(listed.standing, Standing::Planned(_));
+            if let Some(spare_s) = entry.spare_at(model.now).filter(|_| waits) {
                 let colour = if spare_s < SHORT_S { t.warn } else { t.t1 };
                 let words = format::duration(spare_s);
                 paint::text_in(ui, row.with_max_x(at(spare)), right, &words, small.clone(), colour);
