@@ -13,7 +13,7 @@ use egui::{Event, Key, Modifiers, Role};
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
 
 use crate::window_stories::{
-    makes,
+    every_view, makes,
     rig::{self, LARGE, SIZES, Window, asked, settle},
     settings_rig::{
         ON_UNIT, apply, change, choose, hold, opened, press, read, says, state_of, texts, write,
@@ -64,7 +64,15 @@ fn the_view_opens_from_rail_and_key_and_leads_to_the_preferences() {
 }
 
 #[test]
-fn what_is_not_read_is_asked_for_once_and_shown_as_a_dash() {
+fn a_setting_that_the_unit_never_tells_says_so() {
+    for size in SIZES {
+        let window = every_view::scene("Antennas, a Rotator Genius", size);
+        assert!(says(&window, "Stop offset, on the unit: not told"));
+    }
+}
+
+#[test]
+fn what_is_not_read_is_asked_for_once_and_says_so() {
     let mut snapshot = read();
     for key in ["general", "web"] {
         *group(&mut snapshot, key) = GroupState::default();
@@ -75,7 +83,7 @@ fn what_is_not_read_is_asked_for_once_and_shown_as_a_dash() {
     assert_eq!(asked(&mut window), [read("general"), read("web")]);
     assert_eq!(asked(&mut window), []);
     assert!(says(&window, "not read: General, Web"));
-    assert!(says(&window, "Minimum elevation, on the unit: –"));
+    assert!(says(&window, "Minimum elevation, on the unit: not read"));
     assert_eq!(state_of(&window, "Minimum elevation"), "Not read");
     let inputs: Vec<_> = window.query_all_by_label("Minimum elevation, new value").collect();
     assert!(inputs.is_empty(), "it cannot be typed over");

@@ -99,13 +99,10 @@ fn paint_unit(ui: &Ui, at: &Columns, field: &Field) {
 
 /// Value on the unit, hollow if it is not current.
 fn on_unit(ui: &Ui, unit: &ShownUnit<'_>, group: &Group, field: &Field, at: &Columns) {
-    if field.access == Access::Write {
-        return;
-    }
     let t = theme::tokens(ui);
     let value = unit.values(group.key).and_then(|held| held.get(field.key));
     let full = value.map(|value| outcome::shown(field, value)).filter(|shown| !shown.is_empty());
-    let full = full.unwrap_or_else(|| UNKNOWN.to_owned());
+    let full = full.unwrap_or_else(|| missing(unit, group, field).to_owned());
     let short = match value {
         Some(Value::Time(time)) => format::moment(*time, unit.model.now),
         _ => full.clone(),
@@ -131,6 +128,12 @@ fn on_unit(ui: &Ui, unit: &ShownUnit<'_>, group: &Group, field: &Field, at: &Col
     };
     let colour = if is_old { t.t3 } else { t.t2 };
     row::said(ui, room, &short, text::small(), colour, &name);
+}
+
+/// What stands in place of a value that is not there: one that the unit never tells, or did not.
+fn missing(unit: &ShownUnit<'_>, group: &Group, field: &Field) -> &'static str {
+    let is_read = unit.read_at(group.key).is_some();
+    if is_read || field.access == Access::Write { outcome::NOT_REPORTED } else { "not read" }
 }
 
 fn edit(

@@ -9,6 +9,9 @@ use crate::{
 /// Text in place of a value that must not be read.
 pub(super) const HIDDEN: &str = "hidden";
 
+/// Text in place of a value that the unit never reports, or did not report.
+pub(super) const NOT_REPORTED: &str = "not reported";
+
 /// A value beside its field, without its unit of measure.
 pub(super) fn shown(field: &Field, value: &Value) -> String {
     match (field.kind, value) {
@@ -26,7 +29,7 @@ pub(super) fn shown(field: &Field, value: &Value) -> String {
 
 /// A value with its unit of measure, if any.
 fn with_unit(field: &Field, value: Option<&Value>) -> String {
-    let Some(value) = value else { return "not reported".to_owned() };
+    let Some(value) = value else { return NOT_REPORTED.to_owned() };
     let value = shown(field, value);
     match field.unit {
         "" => value,
