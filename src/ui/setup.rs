@@ -126,38 +126,43 @@ pub fn show(
         ui.set_clip_rect(body.intersect(ui.clip_rect()));
         ScrollArea::vertical().id_salt(("step", shown)).auto_shrink(false).show(ui, |ui| {
             ui.add_space(16.0);
-            show_head(ui, head, shown, &mut state.wants_focus);
+            show_head(ui, head, shown);
             ui.add_space(8.0);
             match shown {
-                Step::Site => site::show(ui, model, &mut draft),
-                Step::Antennas => antennas::show(ui, model, &mut draft, commands),
+                Step::Site => site::show(ui, model, &mut draft, &mut state.wants_focus),
+                Step::Antennas => {
+                    antennas::show(ui, model, &mut draft, &mut state.wants_focus, commands);
+                }
                 Step::Satellites => {
-                    satellites::show(ui, model, &mut draft, &mut state.satellites);
+                    let (search, wants_focus) = (&mut state.satellites, &mut state.wants_focus);
+                    satellites::show(ui, model, &mut draft, search, wants_focus);
                 }
                 Step::Elements => elements::show(ui, model, &draft, &mut state.add, commands),
                 Step::End => end::show(ui, model, &draft, state),
             }
+            paint::follow_focus(ui);
             ui.add_space(16.0);
         });
     });
-            paint::follow_focus(ui);
+    if std::mem::take(&mut state.wants_focus) {
+        ui.memory_mut(|memory| memory.request_focus(head));
+    }
     frame::show_foot(ui, foot, model, &mut draft, state, commands);
     state.draft = Some(draft);
 }
 
-/// The head has the focus first: Enter goes on from there, and Tab leads to the first field.
-fn show_head(ui: &mut Ui, id: egui::Id, step: Step, wants_focus: &mut bool) {
+/// The head has the focus first where no field has it, for Tab to lead on from there; Tab never leads
+/// to it.
+fn show_head(ui: &mut Ui, id: egui::Id, step: Step) {
     let t = theme::tokens(ui);
     let (title, about) = step.title();
     let galley = ui.painter().layout_no_wrap(title.to_owned(), text::title(), t.t1);
     let (place, _) = ui.allocate_exact_size(galley.size(), Sense::hover());
     ui.painter().galley(place.min, galley, t.t1);
-    let response = ui.interact(place, id, Sense::focusable_noninteractive());
+    let has_focus = ui.memory(|memory| memory.has_focus(id));
+    let sense = if has_focus { Sense::focusable_noninteractive() } else { Sense::hover() };
+    let response = ui.interact(place, id, sense);
     response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Heading, true, title));
-    if std::mem::take(wants_focus) {
-        response.request_focus();
-    }
-    paint::focus_ring(ui, &response, 3);
     let about = RichText::new(about).font(text::body()).color(t.t2);
     ui.add(egui::Label::new(about).wrap());
 }
@@ -174,10 +179,15 @@ fn take_keys(
         state.go_back();
         return;
     }
-    // On a button, Enter presses the button; a search field takes it too.
+    // On a button, Enter presses the button; a search takes it for what it finds.
     let focused = ui.memory(egui::Memory::focused);
     let is_free = focused.is_none_or(|id| id == head);
-    let ends_typing = ui.text_edit_focused() && matches!(state.step, Step::Site | Step::Antennas);
+    let is_for_step = match state.step {
+        Step::Site | Step::Antennas => true,
+        Step::Satellites => state.satellites.typed.trim().is_empty(),
+        Step::Elements | Step::End => false,
+    };
+    let ends_typing = ui.text_edit_focused() && is_for_step;
     let enter = |ui: &Ui| ui.input_mut(|input| input.consume_key(Modifiers::NONE, Key::Enter));
     if (is_free || ends_typing) && enter(ui) {
         state.go_on(draft, model, commands);

@@ -30,13 +30,14 @@ pub(super) fn show(
     ui: &mut Ui,
     model: &Model,
     draft: &mut SetupDraft,
+    wants_focus: &mut bool,
     commands: &mut Vec<UiCommand>,
 ) {
     let t = theme::tokens(ui);
     let mut removed = None;
     for index in 0..draft.form.antennas.len() {
         card::show(ui, CARD, |ui| {
-            if one(ui, model, draft, index, commands) {
+            if one(ui, model, draft, index, wants_focus, commands) {
                 removed = Some(index);
             }
         });
@@ -76,6 +77,7 @@ fn one(
     model: &Model,
     draft: &mut SetupDraft,
     index: usize,
+    wants_focus: &mut bool,
     commands: &mut Vec<UiCommand>,
 ) -> bool {
     let t = theme::tokens(ui);
@@ -102,6 +104,11 @@ fn one(
     let count = typed.fields.iter().take_while(|field| field.section == CONNECTION).count();
     let fields = typed.fields.get_mut(..count).unwrap_or_default();
     let responses = form::fields(ui, &format!("set-up {index}"), fields, &standings);
+    if let (Some(response), Some(field)) = (responses.first(), fields.first())
+        && std::mem::take(wants_focus)
+    {
+        focus_to_replace(ui, response, &field.text);
+    }
     if draft.wants_address == Some(id)
         && let (Some(response), Some(field)) = (responses.get(ADDRESS), fields.get(ADDRESS))
     {

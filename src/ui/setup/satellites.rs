@@ -25,7 +25,13 @@ const LIST: f32 = 300.0;
 const ROW: f32 = 26.0;
 const CARD: f32 = 638.0;
 
-pub(super) fn show(ui: &mut Ui, model: &Model, draft: &mut SetupDraft, state: &mut ObjectSearch) {
+pub(super) fn show(
+    ui: &mut Ui,
+    model: &Model,
+    draft: &mut SetupDraft,
+    state: &mut ObjectSearch,
+    wants_focus: &mut bool,
+) {
     let t = theme::tokens(ui);
     let CatalogState::Ready(catalog) = &model.catalog else {
         let words = "There are no elements to choose from. You can go on and choose later.";
@@ -38,7 +44,9 @@ pub(super) fn show(ui: &mut Ui, model: &Model, draft: &mut SetupDraft, state: &m
             let half = (ui.available_width() - 16.0) / 2.0;
             let column = vec2(half, LIST);
             let down = Layout::top_down(Align::Min);
-            ui.allocate_ui_with_layout(column, down, |ui| search(ui, catalog, draft, state));
+            ui.allocate_ui_with_layout(column, down, |ui| {
+                search(ui, catalog, draft, state, wants_focus);
+            });
             ui.add_space(8.0);
             ui.allocate_ui_with_layout(column, down, |ui| chosen(ui, catalog, draft));
         });
@@ -69,12 +77,21 @@ fn groups(ui: &mut Ui, catalog: &Catalog, draft: &mut SetupDraft) {
     ui.add_space(4.0);
 }
 
-fn search(ui: &mut Ui, catalog: &Arc<Catalog>, draft: &mut SetupDraft, state: &mut ObjectSearch) {
+fn search(
+    ui: &mut Ui,
+    catalog: &Arc<Catalog>,
+    draft: &mut SetupDraft,
+    state: &mut ObjectSearch,
+    wants_focus: &mut bool,
+) {
     let t = theme::tokens(ui);
     let hint = RichText::new("Number or name; Enter adds the first").color(t.t3);
     let edit = TextEdit::singleline(&mut state.typed).id_salt("search").hint_text(hint);
     let edit = ui.add(edit.desired_width(f32::INFINITY));
     edit.widget_info(|| WidgetInfo::labeled(Role::TextInput, true, "Search the catalogue"));
+    if std::mem::take(wants_focus) {
+        edit.request_focus();
+    }
     let is_entered = edit.lost_focus() && ui.input(|input| input.key_pressed(Key::Enter));
     if is_entered && !state.typed.trim().is_empty() {
         let first = state.objects(catalog).first().map(|(number, _)| *number);

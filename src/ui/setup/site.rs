@@ -1,6 +1,6 @@
 //! The step about the site.
 
-use egui::{Align, Label, Layout, RichText, TextEdit, Ui, vec2};
+use egui::{Align, Label, Layout, Response, RichText, TextEdit, Ui, vec2};
 
 use super::{draft::SetupDraft, words};
 use crate::{
@@ -11,7 +11,7 @@ use crate::{
         text, theme,
         widgets::{
             card,
-            input::select_when_tabbed,
+            input::{focus_to_replace, select_when_tabbed},
             told::{Tone, line},
         },
     },
@@ -22,9 +22,15 @@ const CARD: f32 = 638.0;
 const OF_LOCATOR: usize = 4;
 const OF_UNIT: usize = 5;
 
-pub(super) fn show(ui: &mut Ui, model: &Model, draft: &mut SetupDraft) {
+pub(super) fn show(ui: &mut Ui, model: &Model, draft: &mut SetupDraft, wants_focus: &mut bool) {
     card::show(ui, CARD, |ui| {
-        fields(ui, draft, 0..1);
+        let name = fields(ui, draft, 0..1);
+        if let Some(name) = name.first()
+            && std::mem::take(wants_focus)
+        {
+            let typed = draft.form.ground.fields.first().map_or("", |field| &field.text);
+            focus_to_replace(ui, name, typed);
+        }
         locator(ui, draft, model.appearance.distances);
         fields(ui, draft, 1..super::draft::SITE_FIELDS);
     });
@@ -49,11 +55,11 @@ pub(super) fn show(ui: &mut Ui, model: &Model, draft: &mut SetupDraft) {
     });
 }
 
-fn fields(ui: &mut Ui, draft: &mut SetupDraft, which: std::ops::Range<usize>) {
+fn fields(ui: &mut Ui, draft: &mut SetupDraft, which: std::ops::Range<usize>) -> Vec<Response> {
     let standings = draft.site_standings();
     let standings = standings.get(which.clone()).unwrap_or_default();
     let fields = draft.form.ground.fields.get_mut(which).unwrap_or_default();
-    form::fields(ui, "site", fields, standings);
+    form::fields(ui, "site", fields, standings)
 }
 
 /// The locator as a field, which fills latitude and longitude.
