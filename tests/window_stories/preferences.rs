@@ -310,6 +310,24 @@ fn the_demo_station_is_taken_over_without_its_antennas() {
 }
 
 #[test]
+fn in_the_demo_all_pages_are_about_the_new_station() {
+    for size in SIZES {
+        let mut model: Model = rig::model(states::holding());
+        (model.demo, model.view) = (true, View::Preferences);
+        let mut window = rig::window(size, model);
+        assert!(says(&window, "Preferences of your new station"));
+        open(&mut window, "Site");
+        for of_the_demo in ["Satrak", "demo, not saved", "Recording", "Nothing is recorded"] {
+            assert!(!says(&window, of_the_demo), "{of_the_demo}");
+        }
+        open(&mut window, "Horizon and keep-outs");
+        let texts = painted::texts(&window);
+        assert!(texts.iter().any(|text| text == "No antenna yet"));
+        assert!(!texts.iter().any(|text| text.starts_with("Shown: Satrak")));
+    }
+}
+
+#[test]
 fn a_page_that_is_used_at_once_has_nothing_to_save() {
     for is_demo in [true, false] {
         let mut model = rig::model(states::holding());

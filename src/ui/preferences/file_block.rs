@@ -73,7 +73,6 @@ pub(super) fn show(ui: &Ui, rect: Rect, model: &Model, commands: &mut Vec<UiComm
 
 fn saved(model: &Model) -> String {
     match model.station_saved_at {
-        _ if model.demo => "demo, not saved".to_owned(),
         Some(at) => format!("saved {}", format::moment(at, model.now)),
         None => "not saved yet".to_owned(),
     }

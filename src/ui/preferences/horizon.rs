@@ -141,9 +141,11 @@ impl HorizonState {
         self.drag = at.map(|at| (index, at));
     }
 
-    /// Antenna whose beam and travel are shown.
+    /// Antenna whose beam and travel are shown: none of the demonstration, since the page is about
+    /// a new station.
     fn shown<'a>(&self, model: &'a Model) -> Option<&'a AntennaModel> {
-        model.antennas.get(self.antenna.unwrap_or(model.selected_antenna))
+        let place = self.antenna.unwrap_or(model.selected_antenna);
+        model.antennas.get(place).filter(|_| !model.demo)
     }
 
     /// Drops the history, whose steps belong to an old draft.
@@ -275,7 +277,7 @@ fn view_bar(
     let [record_at, import_at, export_at] = button::row_before(&mut right, BUTTON, widths);
     let tabs_at = (!is_wide).then(|| button::row_before(&mut right, BUTTON, [TABS]));
     let shown = state.antenna.unwrap_or(model.selected_antenna);
-    if model.antennas.len() > 1 {
+    if model.antennas.len() > 1 && !model.demo {
         let names: Vec<(&str, Segment)> = model
             .antennas
             .iter()
@@ -367,12 +369,12 @@ fn tool_bar(ui: &mut Ui, bar: Rect, skies: &mut Skies, state: &mut HorizonState)
         }
         left += width;
     }
-}
-
     if undo.show(ui, "undo", undoing).clicked() {
         state.history.undo(skies);
         state.corner = None;
     }
+}
+
 fn effect_lines(ui: &Ui, rect: Rect, model: &Model, skies: &Skies, state: &HorizonState) {
     let t = theme::tokens(ui);
     ui.painter().rect_filled(rect, 0.0, t.bg2);

@@ -55,7 +55,16 @@ pub(super) fn show(
     let (title, below) = rect.split_top_bottom_at_y(rect.top() + places.head);
     ui.painter().hline(title.x_range(), title.bottom() - 0.5, (1.0, t.line));
     let words = title.shrink2(vec2(PADDING, 0.0));
-    paint::text_in(ui, words, Align2::LEFT_CENTER, "Preferences", text::value(), t.t1);
+    if model.demo {
+        // All pages are about one station, which is not that of the other views.
+        let (above, below) = words.shrink2(vec2(0.0, 4.0)).split_top_bottom_at_fraction(0.5);
+        paint::text_in(ui, above, Align2::LEFT_CENTER, "Preferences", text::value(), t.t1);
+        let of = "of your new station";
+        paint::text_in(ui, below, Align2::LEFT_CENTER, of, text::small(), t.t2);
+        paint::name_text(ui, "preferences of", words, &format!("Preferences {of}"));
+    } else {
+        paint::text_in(ui, words, Align2::LEFT_CENTER, "Preferences", text::value(), t.t1);
+    }
     let field = below.with_max_y(below.top() + FIELD + 16.0).shrink(8.0);
     let takes_keys = search_field(ui, field, &mut state.search);
     let file = below.with_min_y(below.bottom() - file_block::height(below.width()));

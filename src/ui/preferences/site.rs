@@ -44,7 +44,7 @@ pub(super) fn show(
         sections.into_iter().filter(|(section, _)| Page::of_section(section) == page).collect();
     // The record has three lines more.
     let rows_of = |(section, rows): &(&str, usize)| {
-        if *section == RECORD { rows + 3 } else { *rows }
+        if *section == RECORD && !model.demo { rows + 3 } else { *rows }
     };
     let rows: Vec<usize> = sections.iter().map(rows_of).collect();
     let standings = draft.ground_standings();
@@ -61,7 +61,8 @@ pub(super) fn show(
                 section,
                 &mut state.sought,
                 |ui| {
-                    if section == RECORD {
+                    // What runs is the record of the demonstration.
+                    if section == RECORD && !model.demo {
                         about_record(ui, model);
                     }
                 },
@@ -182,7 +183,8 @@ fn about(ui: &mut Ui, site: Option<Site>, model: &Model) {
     let there = words::place(site.latitude().degrees(), site.longitude().degrees());
     told::line(ui, Tone::Plain, &there);
     told::line(ui, Tone::Now, &words::sun_there(sun_moon::sun(site, model.now)));
-    for antenna in &model.antennas {
+    // The antennas of the demonstration do not stand at the new station.
+    for antenna in model.antennas.iter().filter(|_| !model.demo) {
         let (tone, words) = distance(site, antenna, model.appearance.distances);
         told::line(ui, tone, &words);
     }
