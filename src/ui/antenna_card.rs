@@ -27,6 +27,7 @@ use super::{
         axes_table::{self, AxesTable},
         beam_bar::{self, BeamModel},
         button,
+        fold::Fold,
         go_to::Target,
         hold_button::HoldState,
         mode_selector::{self, ModeModel},
@@ -59,6 +60,8 @@ pub const WIDTH: f32 = 344.0;
 pub const SMALL_WIDTH: f32 = 304.0;
 /// In a card below this height travel and faults fold to one line each.
 pub const FULL_HEIGHT: f32 = 740.0;
+/// Height at the foot of a card that is kept free for the mark that it goes on below.
+const MORE_BELOW: f32 = 20.0;
 /// A card that hides less than this below its edge does not say so.
 const LEAST_HIDDEN: f32 = 4.0;
 
@@ -118,8 +121,10 @@ pub struct CardState {
     pub faults_open: bool,
     /// The readings are unfolded in a small window.
     pub readings_open: bool,
-    /// The actions are unfolded.
-    pub more_open: bool,
+    /// The actions of the make.
+    pub more_fold: Fold,
+    /// Something is hidden below the edge of the card.
+    goes_on_below: bool,
     /// The open lock-out dialog.
     pub maintenance: Option<MaintenanceDialog>,
     standing: HoldState,
@@ -136,6 +141,8 @@ impl CardState {
         self.drive = DriveState::default();
         self.track = TrackState::default();
         self.more = MoreState::default();
+        self.more_fold.forget_height();
+        self.offsets.fold.forget_height();
         self.maintenance = None;
         self.standing = HoldState::default();
         self.unseen = HoldState::default();
@@ -311,8 +318,17 @@ fn fill(
     drive::show(ui, &mut at, &model.drive, &mut state.drive, actions, short);
 
     let below = rect.with_min_y(at.y);
-    ui.scope_builder(UiBuilder::new().id_salt("lower").max_rect(below), |ui| {
-        let shown = ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
+    let foot = if state.goes_on_below { MORE_BELOW } else { 0.0 };
+    let (seen, strip) = below.split_top_bottom_at_y(below.bottom() - foot);
+    ui.scope_builder(UiBuilder::new().id_salt("lower").max_rect(seen), |ui| {
+        // However little room there is, it ends above the mark.
+        let area = ScrollArea::vertical().min_scrolled_height(0.0).auto_shrink(false);
+        let shown = area.show(ui, |ui| {
+            if ui.ctx().rect_contains_pointer(ui.layer_id(), strip) {
+                // The wheel turns what goes on below the mark as well.
+                let by = ui.input(|input| input.smooth_scroll_delta().y);
+                ui.scroll_with_delta(vec2(0.0, by));
+            }
             let top = ui.cursor().top();
             at.y = top;
             lower::show(ui, rect, &mut at, model, state, actions, short);
@@ -321,18 +337,23 @@ fn fill(
                 egui::Sense::hover(),
             );
         });
-        let hidden =
-            shown.content_size.y - shown.state.clamped_offset().y - shown.inner_rect.height();
-        if hidden > LEAST_HIDDEN {
-            more_below(ui, below);
+        let hidden = shown.content_size.y - shown.state.clamped_offset().y - below.height();
+        // In less room the line that is cut says it.
+        let goes_on = hidden > LEAST_HIDDEN && below.height() > 2.0 * MORE_BELOW;
+        let folds = lower::settle(model, state, below.height() - shown.content_size.y);
+        if std::mem::replace(&mut state.goes_on_below, goes_on) != goes_on || folds {
+            ui.request_discard("the lower part of a card has another height");
         }
     });
+    if state.goes_on_below {
+        more_below(ui, strip);
+    }
 }
 
-/// Shows that the card goes on below `room`.
-fn more_below(ui: &Ui, room: Rect) {
+/// Shows in the `strip` at the foot of the card that it goes on below.
+fn more_below(ui: &Ui, strip: Rect) {
     let t = theme::tokens(ui);
-    let at = room.center_bottom() - vec2(0.0, 10.0);
+    let at = strip.center();
     let place = Rect::from_center_size(at, vec2(32.0, 14.0));
     ui.painter().rect(place, 7.0, t.bg3, (1.0, t.edge), egui::StrokeKind::Inside);
     icons::paint(ui.painter(), paint::square(at, 12.0), Icon::ChevronDown, t.t1);

@@ -1,5 +1,7 @@
 //! The card of every make fits every window in every theme.
 
+use std::collections::HashMap;
+
 use azel::{
     astro::AzEl,
     driver::{Command, Event, Inside, Intent, Refusal, Snapshot, StopState},
@@ -9,7 +11,7 @@ use azel::{
     station::Antenna,
     ui::theme,
 };
-use egui::{Rect, Role, pos2, vec2};
+use egui::{Rect, Role, accesskit::NodeId, pos2, vec2};
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
 
 use crate::window_stories::{
@@ -80,6 +82,35 @@ fn nothing_of_the_card_lies_on_something_else_when_all_is_unfolded() {
         // Scrolled lines are under the upper part of the card.
         rig::scroll(&mut window, pos2(870.0, rig::SMALL[1] - 8.0), 5000.0);
         nothing_overlaps(&window);
+    }
+}
+
+#[test]
+fn the_mark_that_a_card_goes_on_below_lies_on_no_row() {
+    for size in SIZES {
+        let mut found = 0;
+        for (config, snapshot) in cases() {
+            let window = rig::window(size, makes::model(config, snapshot));
+            let seen: HashMap<NodeId, Rect> = window.ctx.viewport(|viewport| {
+                let layers = viewport.this_pass.widgets.layers();
+                let widgets = layers.flat_map(|(_, widgets)| widgets);
+                widgets.map(|of| (of.id.accesskit_id(), of.interact_rect)).collect()
+            });
+            let Some(mark) = window.query_by_label("More below: scroll") else { continue };
+            let mark = mark.rect();
+            for role in [Role::Button, Role::Label, Role::RadioButton, Role::TextInput] {
+                for node in window.query_all_by_role(role) {
+                    let node = node.accesskit_node();
+                    let name = node.label().or(node.value()).unwrap_or_default();
+                    let place = seen.get(&node.locate().0).copied().unwrap_or(Rect::NOTHING);
+                    let is_free =
+                        name.starts_with("More below") || !place.intersects(mark.shrink(1.0));
+                    assert!(is_free, "{size:?}: {name:?} at {place:?}");
+                }
+            }
+            found += 1;
+        }
+        assert!(found > 0, "{size:?}");
     }
 }
 

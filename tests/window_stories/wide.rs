@@ -58,6 +58,24 @@ fn more_cards_and_all_lanes_stand_in_a_wide_window_and_in_no_other() {
 }
 
 #[test]
+fn what_unfolds_is_open_where_it_has_room_unless_the_operator_closes_it() {
+    // What the RC2000C can do takes 500 points.
+    let mut window = rig::window([2560.0, 1600.0], three());
+    let folds = |window: &Window| -> Vec<Option<bool>> {
+        let lines = window.get_all_by_label_contains("More: ");
+        lines.map(|line| line.accesskit_node().data().is_expanded()).collect()
+    };
+    assert_eq!(folds(&window), [Some(true), Some(true)]);
+    assert!(window.query_by_label("More below: scroll").is_none());
+    window.get_all_by_label_contains("More: ").next().unwrap().click();
+    settle(&mut window);
+    assert_eq!(folds(&window), [Some(false), Some(true)], "the operator's choice");
+    window.set_size(egui::vec2(2560.0, 800.0));
+    settle(&mut window);
+    assert_eq!(folds(&window), [Some(false), Some(false)], "no room");
+}
+
+#[test]
 fn each_card_drives_its_own_antenna() {
     let mut window = rig::window(WIDE[0], three());
     let cards = |window: &Window| {

@@ -11,7 +11,7 @@ use super::{
 use crate::ui::{
     text, theme,
     widgets::{
-        fold::{self, FoldModel},
+        fold::{self, Fold, FoldModel},
         paint,
         travel_gauge::{self, TravelModel},
     },
@@ -42,9 +42,11 @@ pub(super) fn show(
     if let Some(shown) = &model.offsets {
         let (value, mark) = offsets::in_words(ui, shown);
         let line = FoldModel { title: "Offsets", value: &value, mark };
-        let opened = fold_line(ui, at, card, &line, &mut state.offsets.open);
-        if state.offsets.open {
+        let opened = own_fold_line(ui, at, card, &line, &mut state.offsets.fold);
+        if state.offsets.fold.is_open() {
+            let top = at.y;
             offsets::show(ui, at, shown, &mut state.offsets, actions);
+            state.offsets.fold.drawn(at.y - top);
         }
         bring_into_sight(ui, at, opened);
     }
@@ -87,12 +89,26 @@ pub(super) fn show(
     if !model.more.actions.is_empty() {
         let value = more::in_words(&model.more);
         let more_line = FoldModel { title: "More", value: &value, mark: None };
-        let opened = fold_line(ui, at, card, &more_line, &mut state.more_open);
-        if state.more_open {
+        let opened = own_fold_line(ui, at, card, &more_line, &mut state.more_fold);
+        if state.more_fold.is_open() {
+            let top = at.y;
             more::show(ui, at, &model.more, &mut state.more, actions);
+            state.more_fold.drawn(at.y - top);
         }
         bring_into_sight(ui, at, opened);
     }
+}
+
+/// Opens what has room in the `free` points that are left in the card, and closes what has none.
+/// Returns `true` if something changed.
+pub(super) fn settle(model: &CardModel<'_>, state: &mut CardState, mut free: f32) -> bool {
+    let offsets = model.offsets.is_some().then_some(&mut state.offsets.fold);
+    let more = (!model.more.actions.is_empty()).then_some(&mut state.more_fold);
+    let mut has_changed = false;
+    for fold in offsets.into_iter().chain(more) {
+        has_changed |= fold.settle(&mut free);
+    }
+    has_changed
 }
 
 /// Shows the hold buttons that the operator is asked to press.
@@ -142,6 +158,22 @@ fn fold_line(
 ) -> Option<Rect> {
     let line = at.take(fold::HEIGHT).with_min_x(card.left()).with_max_x(card.right());
     fold::show(ui, line, model, open).then_some(line)
+}
+
+/// [`fold_line`] of a section that is open where it has room.
+fn own_fold_line(
+    ui: &Ui,
+    at: &mut Cursor,
+    card: Rect,
+    model: &FoldModel<'_>,
+    fold: &mut Fold,
+) -> Option<Rect> {
+    let mut is_open = fold.is_open();
+    let opened = fold_line(ui, at, card, model, &mut is_open);
+    if is_open != fold.is_open() {
+        fold.choose(is_open);
+    }
+    opened
 }
 
 /// Scrolls to an opened section, which may lie below the lower end of the card. Its line

@@ -12,6 +12,7 @@ use crate::{
         text, theme,
         widgets::{
             button::{Button, SMALL_HEIGHT},
+            fold::Fold,
             paint,
             segmented::{self, Segment},
         },
@@ -72,10 +73,10 @@ impl OffsetStep {
     }
 }
 
-/// The fold, and the chosen step.
+/// The section, and the chosen step.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct OffsetsState {
-    pub(super) open: bool,
+    pub(super) fold: Fold,
     pub step: OffsetStep,
 }
 

@@ -20,6 +20,48 @@ pub struct FoldModel<'a> {
     pub mark: Option<(Icon, Color32)>,
 }
 
+/// A section that is open where it has room, unless the operator has opened or closed it.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct Fold {
+    chosen: Option<bool>,
+    has_room: bool,
+    /// Height of its content when it was drawn last; 0 if that is not known.
+    height: f32,
+}
+
+impl Fold {
+    pub fn is_open(&self) -> bool {
+        self.chosen.unwrap_or(self.has_room)
+    }
+
+    /// What the operator wants.
+    pub fn choose(&mut self, is_open: bool) {
+        self.chosen = Some(is_open);
+    }
+
+    /// Takes the height of the content that was drawn.
+    pub fn drawn(&mut self, height: f32) {
+        self.height = height;
+    }
+
+    /// The content becomes another one.
+    pub fn forget_height(&mut self) {
+        (self.has_room, self.height) = (false, 0.0);
+    }
+
+    /// Opens where `free` points are left after all that is drawn, or closes where some are missing.
+    /// Returns `true` if it changed.
+    pub fn settle(&mut self, free: &mut f32) -> bool {
+        let fits = if self.has_room { *free >= 0.0 } else { *free > self.height };
+        if self.chosen.is_some() || fits == self.has_room {
+            return false;
+        }
+        *free += if fits { -self.height } else { self.height };
+        self.has_room = fits;
+        true
+    }
+}
+
 /// Shows the line in `rect` and flips `open` on a click. Returns `true` if the click
 /// opened the section; the caller then scrolls its content into sight.
 pub fn show(ui: &Ui, rect: Rect, model: &FoldModel<'_>, open: &mut bool) -> bool {
@@ -59,6 +101,22 @@ mod tests {
     use crate::ui::widgets::testing;
     use egui::vec2;
     use egui_kittest::kittest::Queryable as _;
+
+    #[test]
+    fn a_section_opens_where_it_has_room_and_does_not_flutter() {
+        let mut fold = Fold::default();
+        // Its height shows only once it is drawn: 60 of 50 free points.
+        assert!(fold.settle(&mut 50.0) && fold.is_open());
+        fold.drawn(60.0);
+        assert!(fold.settle(&mut -10.0) && !fold.is_open());
+        assert!(!fold.settle(&mut 50.0) && !fold.is_open());
+        assert!(fold.settle(&mut 61.0) && fold.is_open());
+        assert!(!fold.settle(&mut 1.0) && fold.is_open());
+        fold.choose(false);
+        assert!(!fold.settle(&mut 500.0) && !fold.is_open());
+        fold.choose(true);
+        assert!(!fold.settle(&mut -500.0) && fold.is_open());
+    }
 
     #[test]
     fn a_click_opens_and_the_next_one_closes() {
