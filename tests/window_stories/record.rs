@@ -442,6 +442,20 @@ fn the_bar_of_the_link_runs_below_its_words_and_a_loss_of_no_length_is_not_told(
 }
 
 #[test]
+fn half_of_a_wide_beam_is_named_within_the_margin() {
+    for size in SIZES {
+        let (mut model, mut flown) = model();
+        flown[0].pass.report.half_beam_deg = 10.0;
+        model.recorded = Some(Arc::new(recorded(&flown, 0)));
+        let window = rig::window(size, model);
+        let runs = painted::runs(&window);
+        // Blanks are not painted.
+        let name = runs.iter().find(|run| run.text == "10.00halfbeam").expect("it is whole");
+        assert!(name.rect.right() <= size[0] - 16.0, "{:?}", name.rect);
+    }
+}
+
+#[test]
 fn nothing_lies_on_another_and_in_a_usual_window_nothing_is_cut() {
     for size in SIZES {
         let mut window = view(size);

@@ -28,7 +28,7 @@ const DIRECTION: f32 = 78.0;
 const ERROR: f32 = 104.0;
 /// Room for the numbers at the left and at the right.
 const LEFT: f32 = 60.0;
-const RIGHT: f32 = 96.0;
+const RIGHT: f32 = 120.0;
 const GAP: f32 = 6.0;
 const DOTS: (f32, f32) = (1.5, 3.5);
 const DASH: (f32, f32) = (6.0, 4.0);
@@ -261,7 +261,10 @@ fn errors(ui: &Ui, rect: Rect, axis: &TimeAxis, opened: &OpenedPass) {
     let line = [pos2(rect.left(), edge), pos2(rect.right(), edge)];
     dashes::paint(ui.painter(), &line, Stroke::new(1.5, t.cmd), DASH);
     let words = format!("{} half beam", format::number(half_beam_deg, 2));
-    let room = Rect::from_min_size(pos2(rect.right() + GAP, edge - 8.0), vec2(RIGHT - GAP, 16.0));
+    let room = Rect::from_min_size(
+        pos2(rect.right() + GAP, edge - 8.0),
+        vec2(RIGHT - GAP - PADDING, 16.0),
+    );
     paint::text_in(ui, room, Align2::LEFT_CENTER, &words, text::caption(), t.cmd);
     let painter = ui.painter_at(rect);
     let curve = |part: Part| -> Vec<Vec<egui::Pos2>> {

@@ -11,14 +11,14 @@ use egui::{
 use crate::window_stories::rig::Window;
 
 /// A piece of one line in one colour.
-pub(super) struct Run {
-    pub(super) text: String,
+pub(crate) struct Run {
+    pub(crate) text: String,
     pub(super) size: f32,
     pub(super) is_bold: bool,
     pub(super) colour: Color32,
     /// The colour behind its middle.
     pub(super) ground: Color32,
-    pub(super) rect: Rect,
+    pub(crate) rect: Rect,
     pub(super) clip: Rect,
     /// It is seen through a veil, such as that below a question.
     pub(super) is_veiled: bool,
@@ -41,7 +41,7 @@ struct Layer<'a> {
 }
 
 /// All text of the last frame of which something can be seen.
-pub(super) fn runs(window: &Window) -> Vec<Run> {
+pub(crate) fn runs(window: &Window) -> Vec<Run> {
     let mut layers = Vec::new();
     let mut found = Vec::new();
     for ClippedShape { clip_rect, shape, .. } in &window.output().shapes {
