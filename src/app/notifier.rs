@@ -164,7 +164,7 @@ mod tests {
         let mut notifier = Notifier::start(station.client().clone(), desktop, wake).unwrap();
         let call = calls.recv_timeout(PATIENCE).unwrap();
         assert_eq!((&*call.title, call.urgency), ("Alarm, Şile 1", 2));
-        assert!(call.text.starts_with("mast does not hold: it has no corners."), "{}", call.text);
+        assert!(call.text.starts_with("mast does not apply: it has no corners."), "{}", call.text);
         woken.recv_timeout(PATIENCE).unwrap();
         notifier.try_out(Sound::Rising);
         let trial = calls.recv_timeout(PATIENCE).unwrap();

@@ -67,7 +67,7 @@ fn the_view_opens_from_rail_and_key_and_leads_to_the_preferences() {
 fn a_setting_that_the_unit_never_tells_says_so() {
     for size in SIZES {
         let window = every_view::scene("Antennas, a Rotator Genius", size);
-        assert!(says(&window, "Stop offset, on the unit: not told"));
+        assert!(says(&window, "Stop offset, on the unit: not reported"));
     }
 }
 

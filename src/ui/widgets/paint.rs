@@ -103,11 +103,18 @@ pub fn focus_ring(ui: &Ui, response: &Response, radius: u8) {
 /// not bring into sight. Call at the end of what scrolls.
 pub fn follow_focus(ui: &Ui) {
     let focused = ui.memory(egui::Memory::focused);
-    let Some(response) = focused.and_then(|id| ui.ctx().read_response(id)) else { return };
-    let is_inside =
-        response.layer_id == ui.layer_id() && ui.min_rect().contains(response.rect.center());
-    if is_inside && response.gained_focus() && !ui.input(|input| input.pointer.any_down()) {
-        ui.scroll_to_rect(response.rect, None);
+    let key = ui.id().with("followed focus");
+    let before = ui.data_mut(|data| {
+        let before = data.get_temp::<Option<egui::Id>>(key).flatten();
+        data.insert_temp(key, focused);
+        before
+    });
+    let Some(id) = focused.filter(|_| focused != before) else { return };
+    let widget = ui.ctx().viewport(|viewport| viewport.this_pass.widgets.get(id).copied());
+    let Some(widget) = widget.filter(|of| of.layer_id == ui.layer_id()) else { return };
+    let is_inside = ui.min_rect().contains(widget.rect.center());
+    if is_inside && !ui.input(|input| input.pointer.any_down()) {
+        ui.scroll_to_rect(widget.rect, None);
     }
 }
 
