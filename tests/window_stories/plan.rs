@@ -454,7 +454,7 @@ fn the_arrows_lead_through_a_menu_and_not_through_the_list_behind_it() {
     let focused = |window: &Window| {
         window
             .query_all_by_role(Role::Button)
-            .find(|entry| entry.is_focused())
+            .find(egui_kittest::Node::is_focused)
             .and_then(|entry| entry.accesskit_node().label())
     };
     for (key, entry) in [

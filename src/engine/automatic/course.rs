@@ -127,12 +127,13 @@ mod tests {
 
     /// Interval of looks, seconds.
     const LOOK_S: f64 = 0.5;
+    const LOOK: Duration = Duration::from_millis(500);
 
     fn course(offs_deg: impl IntoIterator<Item = (f64, f64)>) -> Option<usize> {
         let (mut course, began) = (Course::default(), Instant::now());
         offs_deg.into_iter().enumerate().position(|(look, (azimuth_deg, off_deg))| {
             let look = Look {
-                asked: began + Duration::from_secs_f64(LOOK_S * look as f64),
+                asked: began + LOOK * look as u32,
                 off: Angle::from_degrees(off_deg),
                 target: AzEl::from_degrees(azimuth_deg, 0.0).into(),
             };

@@ -49,7 +49,7 @@ fn take_arrows(ui: &Ui, entries: &[Id]) {
     if up == down {
         return;
     }
-    let focused = ui.memory(|memory| memory.focused());
+    let focused = ui.memory(egui::Memory::focused);
     let place = focused.and_then(|id| entries.iter().position(|entry| *entry == id));
     let next = match place {
         Some(place) if up => place.checked_sub(1),

@@ -103,7 +103,7 @@ pub fn focus_ring(ui: &Ui, response: &Response, radius: u8) {
 /// not bring into sight. Call at the end of what scrolls.
 pub fn follow_focus(ui: &Ui) {
     let focused = ui.memory(egui::Memory::focused);
-    let key = ui.id().with("followed focus");
+    let key = ui.scope_id().with("followed focus");
     let before = ui.data_mut(|data| {
         let before = data.get_temp::<Option<egui::Id>>(key).flatten();
         data.insert_temp(key, focused);

@@ -346,12 +346,14 @@ fn with_a_pointing_model_the_axes_are_sent_to_what_they_have_to_read() {
     let planner = Planner::new(follow, drives, settings(1.0, 0.2), free()).unwrap();
     assert_eq!(planner.to_sky(pass.tca.time, TrackOffsets::NONE), None);
     let mut planner = planner.with_model(model);
-    let axes = [20.0, 10.0].map(|at| AxisNow { position_deg: Some(at), stands: true });
     let now = pass.tca.time;
+    let course = Course::new(&target, site()).unwrap();
+    // It stands on the satellite itself, as if there were no model.
+    let at = course.direction(now).unwrap();
+    let axes = [at.azimuth_deg(), at.elevation_deg()]
+        .map(|at| AxisNow { position_deg: Some(at), stands: true });
     let sent = planner.update(now, axes).unwrap().unwrap().set_point;
     let reading = AzEl { azimuth: sent.azimuth.unwrap(), elevation: sent.elevation.unwrap() };
-    // The command leads by the latency and half of the period.
-    let course = Course::new(&target, site()).unwrap();
     let directions =
         (0..40).map(|tenth| course.direction(add_seconds(now, f64::from(tenth) * 0.1)));
     let off_deg = |reading: AzEl| {
@@ -359,7 +361,8 @@ fn with_a_pointing_model_the_axes_are_sent_to_what_they_have_to_read() {
         let each = directions.clone().flatten().map(|it| it.separation(beam).degrees());
         each.fold(f64::INFINITY, f64::min)
     };
-    assert!(off_deg(reading) < 0.05, "{} beside {reading:?}", off_deg(reading));
+    // A command leads over the time to the next look.
+    assert!(off_deg(reading) < 0.3, "{} beside {reading:?}", off_deg(reading));
     let to_sky = planner.to_sky(now, TrackOffsets::NONE).unwrap();
     let demanded = planner.demanded(now, TrackOffsets::NONE).unwrap();
     let sky = AzEl::from_enu(to_sky * demanded.to_enu());
