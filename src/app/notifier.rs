@@ -1,6 +1,6 @@
 //! Tells the news of a station through the desktop, on a thread of its own. It is one more client
 //! of the station: it waits for no window, and nobody waits for it. While it is busy, news stay in
-//! the snapshots, where no alarm of the first rank is lost.
+//! the snapshots, where no top-priority alarm is lost.
 
 use std::{io, thread, time::Duration};
 
@@ -108,7 +108,7 @@ fn notifications(news: &[Notice], station: &Snapshot) -> Vec<Notification> {
 
 fn notification(about: &About, station: &Snapshot) -> Notification {
     let (title, text) = words::notice(about, station);
-    let urgency = if about.is_of_first_rank() { Urgency::Critical } else { Urgency::Normal };
+    let urgency = if about.has_top_priority() { Urgency::Critical } else { Urgency::Normal };
     let number = match about {
         About::Alarm(alarm) => Some(alarm.row),
         About::StationStands(_) | About::Reminder(_) => None,
@@ -153,7 +153,7 @@ mod tests {
     }
 
     #[test]
-    fn an_alarm_of_the_first_rank_reaches_the_desktop_whatever_is_set() {
+    fn a_top_priority_alarm_reaches_the_desktop_whatever_is_set() {
         let (desktop, _server, calls) = testing::desktop();
         let (station, _folder) = station(
             "name = 'Şile 1'\nsound = 3\n[notices]\nnotifications = false\nsounds = false\n\

@@ -210,7 +210,7 @@ impl Alarms {
     }
 
     /// Keeps an alarm quiet for a time, and what comes of the same matter meanwhile. Alarms of
-    /// the first rank are not shelved.
+    /// top priority are not shelved.
     pub fn shelve(&mut self, id: u64, time: ShelveTime, now: Timestamp) {
         self.change(
             |alarm| alarm.id == id && alarm.priority() < Priority::First,

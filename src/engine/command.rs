@@ -129,7 +129,7 @@ pub enum Command {
     AcknowledgeAlarms {
         newest: u64,
     },
-    /// Keep this alarm quiet for a time; refused for the first rank.
+    /// Keep this alarm quiet for a time; refused for a top-priority alarm.
     ShelveAlarm {
         id: u64,
         time: ShelveTime,

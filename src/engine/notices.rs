@@ -1,5 +1,5 @@
 //! What of the alarms and reminders is told through the desktop, and how. Everything is told
-//! once, and nothing keeps an alarm of the first rank quiet.
+//! once, and nothing keeps a top-priority alarm quiet.
 
 #[cfg(test)]
 mod tests;
@@ -34,7 +34,7 @@ pub enum About {
 }
 
 impl About {
-    pub fn is_of_first_rank(&self) -> bool {
+    pub fn has_top_priority(&self) -> bool {
         matches!(self, Self::Alarm(alarm) if alarm.priority() == Priority::First)
     }
 }
@@ -42,7 +42,7 @@ impl About {
 /// News since the last look.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct News {
-    /// What is to be told, alarms of the first rank first.
+    /// What is to be told, top-priority alarms first.
     pub told: Vec<Notice>,
     /// Rows of alarms that stood at the last look and are over.
     pub over: Vec<u64>,
@@ -80,7 +80,7 @@ impl Teller {
             notices.quiet.is_some_and(|hours: HoursOfDay| hours.contain(station.at.utc, zone));
         let mut told: Vec<Notice> = about
             .map(|about| {
-                let is_told = |wanted: bool| about.is_of_first_rank() || wanted && !is_quiet;
+                let is_told = |wanted: bool| about.has_top_priority() || wanted && !is_quiet;
                 Notice {
                     is_shown: is_told(notices.notifications),
                     tones: if is_told(notices.sounds) {
@@ -93,7 +93,7 @@ impl Teller {
             })
             .filter(|notice| notice.is_shown || notice.tones != Tones::None)
             .collect();
-        told.sort_by_key(|notice| Reverse(notice.about.is_of_first_rank()));
+        told.sort_by_key(|notice| Reverse(notice.about.has_top_priority()));
         self.stood = stood.is_some();
         self.new = alarms.map(|alarm| alarm.id).collect();
         let stand = station.alarms.list().iter().filter(|alarm| !alarm.is_over());
@@ -105,7 +105,7 @@ impl Teller {
     }
 }
 
-/// The sound of a notice. That of the first rank is not to be chosen.
+/// The sound of a notice. That of a top-priority alarm is not to be chosen.
 fn tones(about: &About, notices: &Notices) -> Tones {
     match about {
         About::Alarm(alarm) => match alarm.priority() {

@@ -24,7 +24,7 @@ impl Tones {
 }
 
 /// Settings for notices: alarms and reminders that the desktop shows and sounds. Alarms of the
-/// first rank ignore them.
+/// top priority ignore them.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Notices {
     /// The desktop shows new alarms and reminders.

@@ -68,14 +68,14 @@ pub fn show(ui: &mut Ui, rect: Rect, model: &Model, commands: &mut Vec<UiCommand
     let is_low = rect.height() < HEIGHT;
     let words = match &model.catalog {
         _ if model.view == View::Setup => {
-            "Demo station: the antennas are simulated, no metal moves. It keeps running while \
+            "Demo station: the antennas are simulated, no hardware moves. It keeps running while \
              you set up yours."
                 .to_owned()
         }
         CatalogState::Loading => "Demo station: the elements are being read.".to_owned(),
         CatalogState::Failed => "Demo station without elements: they could not be read.".to_owned(),
         CatalogState::Ready(_) if is_low => {
-            "Demo station: the antennas are simulated, no metal moves.".to_owned()
+            "Demo station: the antennas are simulated, no hardware moves.".to_owned()
         }
         CatalogState::Ready(_) => {
             let elements = if model.sources.list.is_empty() {
@@ -83,7 +83,7 @@ pub fn show(ui: &mut Ui, rect: Rect, model: &Model, commands: &mut Vec<UiCommand
             } else {
                 String::new()
             };
-            format!("Demo station: the antennas are simulated, no metal moves.{elements}")
+            format!("Demo station: the antennas are simulated, no hardware moves.{elements}")
         }
     };
     let button = Button::normal(word);

@@ -80,7 +80,11 @@ const CTRL_SHIFT: Modifiers = Modifiers::COMMAND.plus(Modifiers::SHIFT);
 
 /// All keys, in the order of the list. The app handles the key of STOP before anything else.
 pub const ALL: [Binding; 40] = [
-    row(KeyScope::Focus, &[(Key::Escape, Act::There)], "STOP, everywhere; closes what is open"),
+    row(
+        KeyScope::Focus,
+        &[(Key::Escape, Act::There)],
+        "STOP in every view; also closes what is open",
+    ),
     with(
         Modifiers::COMMAND,
         row(

@@ -184,7 +184,7 @@ fn all_alarms_are_acknowledged_at_once() {
 }
 
 #[test]
-fn a_seen_alarm_is_shelved_and_taken_back_but_none_of_the_first_rank() {
+fn a_seen_alarm_is_shelved_and_taken_back_but_no_top_priority_one() {
     for size in SIZES {
         let mut model = rig::model(states::holding());
         let of = Some(AntennaId::FIRST);

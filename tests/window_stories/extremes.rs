@@ -138,7 +138,7 @@ fn the_demo_station_says_that_no_metal_moves() {
         let mut model = rig::model(states::holding());
         model.demo = true;
         let mut window = rig::window(size, model);
-        assert!(says(&window, "Demo station: the antennas are simulated, no metal moves."));
+        assert!(says(&window, "Demo station: the antennas are simulated, no hardware moves."));
         nothing_is_cut(&window, size);
         // The card is as high as without the banner.
         let faults =

@@ -189,6 +189,24 @@ fn the_tracks_of_a_long_list_come_little_by_little() {
 }
 
 #[test]
+fn only_where_passes_were_searched_for_is_it_said_that_there_is_none() {
+    let said = |change: fn(&mut Model)| {
+        let mut model = model();
+        model.pass_lists.favourites.passes = Arc::default();
+        change(&mut model);
+        model.refresh_sky();
+        let window = rig::window(FULL, model);
+        ["none in 48 h", "not computed", "…"].map(|words| says(&window, words))
+    };
+    assert_eq!(said(|_| {}), [true, false, false]);
+    assert_eq!(said(|model| model.pass_lists.favourites.made_at = None), [false, false, true]);
+    let not_followed = |model: &mut Model| {
+        Arc::make_mut(&mut model.station).favourites = std::iter::empty().collect();
+    };
+    assert_eq!(said(not_followed), [false, true, false]);
+}
+
+#[test]
 fn a_mask_decides_what_is_up() {
     let mut model = model();
     let mask = azel::astro::HorizonMask::from_degrees([(0.0, 89.0)]).unwrap();

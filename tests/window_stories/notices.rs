@@ -80,7 +80,7 @@ fn each_kind_of_notice_gets_a_sound_or_none() {
         choose(&mut window, "Sounds", "Off");
         let groups = window.query_all_by_role(Role::RadioGroup);
         let mut names = groups.map(|node| node.accesskit_node().label().unwrap_or_default());
-        assert!(!names.any(|name| name == "Cautions"), "nothing sounds but the first rank");
+        assert!(!names.any(|name| name == "Cautions"), "nothing sounds but a top-priority alarm");
     }
 }
 

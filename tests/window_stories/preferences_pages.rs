@@ -138,7 +138,7 @@ fn edits_and_unusable_fields_of_each_page_are_counted_and_ctrl_enter_saves_them_
         window.key_press_modifiers(Modifiers::COMMAND, Key::Enter);
         assert_eq!(asked(&mut window), [], "a field is not valid");
         press(&mut window, Role::Button, "Use 10");
-        assert!(says(&window, "All fields can be used."));
+        assert!(says(&window, "All fields are valid."));
         assert!(says(&window, "Satrak does not move. Saving reconnects it."));
         window.key_press_modifiers(Modifiers::COMMAND, Key::Enter);
         let station = saved(asked(&mut window));

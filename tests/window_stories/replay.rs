@@ -82,6 +82,8 @@ fn stop_is_there_and_all_that_would_act_is_locked_or_refused() {
             assert!(node.accesskit_node().is_disabled(), "{mode}");
         }
         window.get_by_label_contains("Locked: this is a replay.");
+        let auto_track = window.get_by_role_and_label(Role::Button, "Auto-track: switch on");
+        assert!(auto_track.accesskit_node().is_disabled());
         let refused = "Not done: this is a replay. Leave it first.";
         for view in [View::Antennas, View::Elements, View::Plan, View::Operate] {
             window.state_mut().model.view = view;

@@ -91,7 +91,7 @@ fn the_satellite_on_the_unit_stays_marked_until_the_operator_marks_another() {
     assert!(!says(&window, "The unit holds") && !says(&window, unread));
     holds(&mut window, 38_771, "METOP-B");
     assert_eq!(to_follow(&mut window), Some(NOAA_20), "what it holds is not in the file");
-    assert!(says(&window, "The unit holds METOP-B now, and will follow the marked one."));
+    assert!(says(&window, "The unit holds METOP-B now, and will follow the one marked here."));
     let radio = "The unit follows ISS (ZARYA)";
     window.get_by_role_and_label(Role::RadioButton, radio).click();
     settle(&mut window);

@@ -140,7 +140,7 @@ fn an_alarm_on_the_shelf_is_quiet_and_comes_back_when_its_time_is_up() {
 }
 
 #[test]
-fn the_first_rank_is_never_shelved() {
+fn a_top_priority_alarm_is_never_shelved() {
     for kind in [
         AlarmKind::StopNotConfirmed,
         AlarmKind::StopRefused("ERR,7".to_owned()),
@@ -202,7 +202,7 @@ fn alarms_of_a_removed_antenna_go_but_for_what_its_unit_is_owed() {
 }
 
 #[test]
-fn a_full_list_keeps_the_first_rank() {
+fn a_full_list_keeps_top_priority_alarms() {
     let mut alarms = Alarms::default();
     alarms.raise(LOST_OF, AlarmKind::StopNotConfirmed, time());
     for number in 0..1000_u32 {

@@ -133,7 +133,7 @@ fn each_kind_of_notice_has_a_sound_of_its_own_or_none() {
     assert_eq!(told(caution.clone(), &notices), Some(Tones::None), "shown all the same");
     let silent = Notices { notifications: false, ..notices };
     assert_eq!(told(caution, &silent), None);
-    assert_eq!(told(STOP, &silent), Some(Tones::Falling), "of the first rank");
+    assert_eq!(told(STOP, &silent), Some(Tones::Falling), "top priority");
 }
 
 #[test]
@@ -192,7 +192,7 @@ fn a_reminder_is_told_once_before_aos() {
     let mut teller = Teller::default();
     let station = Arc::default();
     let told = look(&mut teller, time(), &station);
-    assert!(told[0].about.is_of_first_rank() && told.len() == 2, "{told:?}");
+    assert!(told[0].about.has_top_priority() && told.len() == 2, "{told:?}");
     assert_eq!(told[1].about, About::Reminder(reminder.clone()));
     assert_eq!(look(&mut teller, time(), &station), []);
     let late = look(&mut Teller::default(), time() + 5.minutes(), &station);
@@ -219,7 +219,7 @@ fn a_station_that_stands_is_told_once_until_it_goes_on() {
 }
 
 #[test]
-fn nothing_silences_the_first_rank() {
+fn nothing_silences_a_top_priority_alarm() {
     let silent = Notices {
         notifications: false,
         sounds: false,

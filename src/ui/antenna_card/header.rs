@@ -40,6 +40,8 @@ pub struct HeaderModel<'a> {
     pub takes_panel: bool,
     /// The unit is locked out for maintenance.
     pub in_maintenance: bool,
+    /// It is shown as recorded, and commands nothing.
+    pub is_replayed: bool,
 }
 
 pub(super) fn show(

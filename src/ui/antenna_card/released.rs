@@ -23,12 +23,13 @@ pub(super) fn show(
     let row = at.take(button::HEIGHT);
     let (connect, stop) = row.split_left_right_at_fraction(0.4);
     if Button::primary("Connect")
+        .locked(model.is_replayed)
         .show(ui, "connect", connect.with_max_x(connect.right() - 4.0))
         .clicked()
     {
         actions.push(CardAction::Connect);
     }
-    if stop_key(ui, stop.with_min_x(stop.left() + 4.0), model.name, &about_stop(model)) {
+    if stop_key(ui, stop.with_min_x(stop.left() + 4.0), model) {
         actions.push(CardAction::Stop);
     }
     at.skip(6.0);
@@ -44,30 +45,35 @@ pub(super) fn about(ui: &Ui, at: &mut Cursor, model: &HeaderModel<'_>) {
 }
 
 fn about_stop(model: &HeaderModel<'_>) -> String {
-    let panel = if model.takes_panel {
-        " and takes the panel from anybody working at the unit"
+    let does = if model.takes_panel {
+        "takes the panel from anybody working at the unit, and disconnects"
     } else {
-        ""
+        "disconnects again"
     };
-    format!("STOP connects{panel}; it disconnects when the antenna has stopped.")
+    format!(
+        "Connect and STOP {does} when the antenna has stopped. STOP at the top does not reach this \
+         unit."
+    )
 }
 
-fn stop_key(ui: &Ui, rect: egui::Rect, antenna: &str, about: &str) -> bool {
+fn stop_key(ui: &Ui, rect: egui::Rect, model: &HeaderModel<'_>) -> bool {
     let t = theme::tokens(ui);
-    let name = format!("Connect and STOP {antenna}");
-    let response = paint::control(ui, "stop a released unit", rect, Role::Button, true, &name);
-    ui.ctx().accesskit_node_builder(response.id, |node| node.set_description(about));
+    let (name, about) = (format!("Connect and STOP {}", model.name), about_stop(model));
+    let (is_enabled, colour) = if model.is_replayed { (false, t.t3) } else { (true, t.bad) };
+    let response =
+        paint::control(ui, "stop a released unit", rect, Role::Button, is_enabled, &name);
+    ui.ctx().accesskit_node_builder(response.id, |node| node.set_description(&*about));
     // The fill of STOP is that of the one in the top bar alone.
-    let border = Stroke::new(2.0, t.bad);
+    let border = Stroke::new(2.0, colour);
     ui.painter().rect(rect, button::RADIUS, t.bg3, border, StrokeKind::Inside);
     let words = "Connect and STOP";
     let font = text::sized(13.0, Weight::SemiBold);
     let width = paint::text_width(ui, words, font.clone()) + 22.0;
     let left = rect.center().x - width / 2.0;
     let glyph = paint::square(pos2(left + 8.0, rect.center().y), 16.0);
-    icons::paint(ui.painter(), glyph, Icon::Octagon, t.bad);
+    icons::paint(ui.painter(), glyph, Icon::Octagon, colour);
     let room = rect.with_min_x(left + 22.0).shrink2(vec2(0.0, 2.0));
-    paint::text_in(ui, room, Align2::LEFT_CENTER, words, font, t.bad);
+    paint::text_in(ui, room, Align2::LEFT_CENTER, words, font, colour);
     paint::focus_ring(ui, &response, button::RADIUS);
     response.on_hover_text(about).clicked()
 }

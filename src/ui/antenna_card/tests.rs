@@ -46,6 +46,7 @@ fn model() -> CardModel<'static> {
         header: HeaderModel {
             takes_panel: false,
             in_maintenance: false,
+            is_replayed: false,
             name: "Satrak",
             second_line: "3.0 m X/Y, on-board tracking",
             link: LinkGlyph::Live,
@@ -93,6 +94,7 @@ fn model() -> CardModel<'static> {
             nothing_left: None,
             note: None,
             auto_track: Some(true),
+            is_replayed: false,
             parks_at: "",
             ends: None,
             follow: None,

@@ -42,6 +42,8 @@ pub struct TrackModel<'a> {
     pub note: Option<&'a str>,
     /// The unit starts passes by itself; none if it cannot.
     pub auto_track: Option<bool>,
+    /// It is shown as recorded, and commands nothing.
+    pub is_replayed: bool,
     /// Park position of the antenna in words.
     pub parks_at: &'a str,
     /// Target of the track that parking would end.
@@ -126,7 +128,8 @@ pub(super) fn notes(
     }
     if let Some(on) = model.auto_track {
         at.skip(4.0);
-        auto_track_row(ui, at.take(button::SMALL_HEIGHT), on, actions);
+        let row = at.take(button::SMALL_HEIGHT);
+        auto_track_row(ui, row, on, model.is_replayed, actions);
     }
 }
 
@@ -249,18 +252,18 @@ fn caution_row(ui: &Ui, at: &mut Cursor, salt: &str, words: &str) {
     at.y = taken.bottom();
 }
 
-fn auto_track_row(ui: &Ui, row: Rect, on: bool, actions: &mut Vec<CardAction>) {
+fn auto_track_row(ui: &Ui, row: Rect, on: bool, is_locked: bool, actions: &mut Vec<CardAction>) {
     let t = theme::tokens(ui);
     let (state, word) =
         if on { ("Auto-track: on", "Switch off") } else { ("Auto-track: off", "Switch on…") };
     paint::text(ui, row.left_center(), Align2::LEFT_CENTER, state, text::small(), t.t2);
-    let button = Button::normal(word);
+    let button = Button::normal(word).locked(is_locked);
     let place = row.with_min_x(row.right() - button.width(ui));
     let said = Rect::from_min_max(row.min, pos2(place.left() - 8.0, row.bottom()));
     paint::name_text(ui, "auto-track state", said, state);
     let response = button.show(ui, "auto-track", place);
     let said = format!("Auto-track: {}", if on { "switch off" } else { "switch on" });
-    response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Button, true, &said));
+    response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Button, !is_locked, &said));
     if response.clicked() {
         actions.push(CardAction::SetAutoTrack(!on));
     }

@@ -115,7 +115,7 @@ impl Column {
             Self::Range if direction.elevation_deg() >= 0.0 => distance(of.look.range_km),
             Self::Range => "–".to_owned(),
             Self::Goes => words::goes(of.heading).to_owned(),
-            Self::Next => words::next(of.next, model.now),
+            Self::Next => words::next(of, model),
             Self::Max => max.unwrap_or_else(|| "–".to_owned()),
             Self::Light => words::light(of.is_sunlit).to_owned(),
         }

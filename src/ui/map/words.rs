@@ -74,12 +74,26 @@ pub(super) fn light(is_sunlit: bool) -> &'static str {
 }
 
 /// When the next pass begins, or until when it lasts.
-pub(super) fn next(pass: Option<NextPass>, now: Timestamp) -> String {
-    match pass {
+pub(super) fn next(of: &GlobeSatellite, model: &Model) -> String {
+    let number = of.number();
+    let list = &model.pass_lists.favourites;
+    let mut listed = list.satellites.iter().map(|of| of.elements.catalog_number());
+    let is_searched = list.made_at.is_some() && listed.any(|listed| listed == number);
+    match of.next {
+        Some(pass) => times(pass, model.now),
+        None if !of.is_favourite => "not computed".to_owned(),
+        None if !is_searched => "…".to_owned(),
         None => "none in 48 h".to_owned(),
-        Some(pass) if pass.is_always_up => "always up".to_owned(),
-        Some(pass) if pass.aos <= now => format!("until {}", format::minute(pass.los, now)),
-        Some(pass) => format::minute(pass.aos, now),
+    }
+}
+
+fn times(pass: NextPass, now: Timestamp) -> String {
+    if pass.is_always_up {
+        "always up".to_owned()
+    } else if pass.aos <= now {
+        format!("until {}", format::minute(pass.los, now))
+    } else {
+        format::minute(pass.aos, now)
     }
 }
 
@@ -93,7 +107,7 @@ pub(super) fn tip(of: &GlobeSatellite, model: &Model) -> String {
         format::distance(of.below.height_km, 0, model.appearance.distances),
         format::azimuth(direction.azimuth_deg()),
         format::degrees(direction.elevation_deg(), 1),
-        next(of.next, model.now),
+        next(of, model),
     )
 }
 
@@ -125,14 +139,13 @@ mod tests {
             is_always_up: false,
         };
         let today = pass("2026-11-14T23:20Z", "2026-11-14T23:31:00Z");
-        assert_eq!(next(Some(today), now), "23:20Z");
+        assert_eq!(times(today, now), "23:20Z");
         let running = pass("2026-11-14T18:08:00Z", "2026-11-14T18:21Z");
-        assert_eq!(next(Some(running), now), "until 18:21Z");
+        assert_eq!(times(running, now), "until 18:21Z");
         let tomorrow = pass("2026-11-15T00:13:10Z", "2026-11-15T00:20:00Z");
-        assert_eq!(next(Some(tomorrow), now), "15 Nov 00:13Z");
+        assert_eq!(times(tomorrow, now), "15 Nov 00:13Z");
         let standing = NextPass { is_always_up: true, ..running };
-        assert_eq!(next(Some(standing), now), "always up");
-        assert_eq!(next(None, now), "none in 48 h");
+        assert_eq!(times(standing, now), "always up");
     }
 
     #[test]

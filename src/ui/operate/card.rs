@@ -96,6 +96,7 @@ pub(super) fn show(
                 status: link_status(antenna),
                 takes_panel: can.waits_for_word,
                 in_maintenance: snapshot.lock_out.is_some(),
+                is_replayed: model.replay.is_some(),
             },
             sentence: *sentence,
             offer: offer(antenna, go_on.as_deref()),
@@ -318,6 +319,7 @@ fn track<'a>(
         misses: None,
         nothing_left: None,
         note: None,
+        is_replayed: model.replay.is_some(),
         auto_track: state
             .program
             .filter(|_| antenna.snapshot.link.is_open())

@@ -296,7 +296,7 @@ fn second_line(model: &Model, predicted: &PredictedPass) -> [String; 2] {
     let (blocked, mask) = if is_blocked { (mask, None) } else { (None, mask) };
     let age = Some(format!("elements {} old", format::age(age_s)));
     let (old, young) = if age_s > words::OLD_ELEMENTS_S { (age, None) } else { (None, age) };
-    let light = model.sky.selected.map(|of| if of.sunlit { "sunlit" } else { "in eclipse" });
+    let light = model.sky.selected.map(|of| if of.sunlit { "sunlit" } else { "in shadow" });
     let joined = |parts: &[Option<String>]| {
         let parts: Vec<&str> = parts.iter().flatten().map(String::as_str).collect();
         parts.join(" · ")

@@ -139,7 +139,7 @@ impl Verdict<'_> {
                         format!("{lost}: keyhole {}", towards(azimuth.degrees()))
                     }
                     Loss::Overhead => format!("{lost} overhead"),
-                    Loss::Slew => format!("{lost}: unwrap"),
+                    Loss::Slew => format!("{lost} unwrapping"),
                     Loss::OutOfReach => format!("{lost} out of reach"),
                 }
                 .into()

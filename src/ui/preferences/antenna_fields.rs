@@ -229,14 +229,14 @@ fn outage() -> [Of; 2] {
 fn watch() -> [Of; 2] {
     [
         Of::choice(
-            "If others drive it into a keep-out",
+            "If others enter a keep-out",
             &[(0, "STOP and alarm"), (1, "Alarm only")],
             &[Monitor::Stop, Monitor::Alarm],
             |antenna| &mut antenna.monitor,
         )
         .noted(|_| {
             let words = "Or too close to the Sun: by the panel, another program or the unit's \
-                         own program. Motion by Azel is always stopped.";
+                         own program. Motion commanded by Azel is always stopped.";
             Some(words.to_owned())
         }),
         Of::number("Allowed sway", ranges::SWAY_DEG, "°", |antenna| Some(&mut antenna.sway_deg))

@@ -13,7 +13,7 @@ pub(super) const CARDS: [usize; 3] = [6, 3, 6];
 /// Labels of the choices.
 pub(super) const LABELS: [&str; 6] = [THEME, SUN, SCALE, CLOCK, DECIMALS, DISTANCES];
 const THEME: &str = "Theme";
-const SUN: &str = "With the Sun";
+const SUN: &str = "Follow the Sun";
 const SCALE: &str = "Scale";
 const CLOCK: &str = "Local time";
 const DECIMALS: &str = "Decimals of angles";
@@ -37,8 +37,8 @@ fn theme_and_size(ui: &mut Ui, wanted: &mut Appearance) {
         let themes =
             [("Dark", ThemeName::Dark), ("Light", ThemeName::Light), ("Night", ThemeName::Night)];
         choice(ui, THEME, &themes, &mut wanted.theme);
-        note(ui, "Night has one red hue, for eyes that are used to the dark.");
-        let by_day = [("No", false), ("Light by day", true)];
+        note(ui, "Night is red only, for dark-adapted eyes.");
+        let by_day = [("Off", false), ("Light by day", true)];
         choice(ui, SUN, &by_day, &mut wanted.light_by_day);
         note(ui, "While the Sun is up over the station the theme is light.");
         let words = Appearance::SCALES_PERCENT.map(|percent| (format!("{percent} %"), percent));

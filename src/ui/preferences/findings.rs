@@ -13,7 +13,7 @@ pub(super) fn show(ui: &mut Ui, page: Page, draft: &mut Draft) {
     let mut taken = None;
     form::card(ui, "Validation of this page", |ui| {
         if findings.is_empty() {
-            told::line(ui, Tone::Good, "All fields can be used.");
+            told::line(ui, Tone::Good, "All fields are valid.");
         }
         for finding in &findings {
             told::line(ui, Tone::Bad, &finding.sentence());

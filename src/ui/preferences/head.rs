@@ -53,11 +53,11 @@ fn about(page: Page, model: &Model, draft: &Draft) -> String {
             let end = if is_removed { ". It is removed when you save." } else { "" };
             return antenna.map_or_else(String::new, |of| kind(&of.read().0) + end);
         }
-        Page::Site if model.demo => "Of your new station: the demonstration is not changed here",
+        Page::Site if model.demo => "For your new station; the demo is not changed",
         Page::Site => "Where the station is, and which passes it lists",
         Page::Horizon => "Obstructions of the sky, and where no antenna may point",
         Page::Satellites => "Which passes come first, and which are taken at all",
-        Page::Rules => "The first rule that fits decides, in the plan and in automatic operation",
+        Page::Rules => "The first matching rule applies, in the plan and in automatic operation",
         Page::Notices => "What the desktop announces, and when",
         Page::Appearance => "For this window, applied at once",
         Page::Keys => "Click a boxed key, then press the new one. Applied at once, in this window",

@@ -265,8 +265,8 @@ fn reminders(ui: &mut Ui, model: &Model, draft: &mut Draft, sought: &mut Sought)
     form::section(ui, "reminding", (reminding, &standings), REMINDING, sought, |ui| {
         note(
             ui,
-            "For the passes of the favourites marked here. Where no antenna tracks such a \
-             satellite 30 s before its AOS, an alarm says so.",
+            "For the passes of the favourites marked here. An alarm is raised where no \
+             antenna is on its way to such a satellite 30 s before its AOS.",
         );
         ui.add_space(4.0);
         for number in &ground.favourites() {

@@ -165,7 +165,7 @@ fn closing() -> Of {
 
 fn record() -> [Of; 2] {
     [
-        Of::number("Keep positions and lines for", ranges::RAW_DAYS, "days", |ground| {
+        Of::number("Keep positions and link traffic for", ranges::RAW_DAYS, "days", |ground| {
             Some(&mut ground.record.raw_days)
         })
         .noted(|_| Some("What was measured, and what went over the links.".to_owned())),
@@ -184,7 +184,9 @@ const ON_CLOSE: [Option<OnClose>; 4] =
 
 fn about_closing(on_close: Option<OnClose>) -> &'static str {
     match on_close {
-        None => "Asks while an antenna moves or tracks. If the system ends Azel, they are stopped.",
+        None => {
+            "Asks while an antenna moves or tracks. If the system ends Azel, what moves is stopped."
+        }
         Some(OnClose::Hold) => "What moves or is tracked is stopped; the window waits for that.",
         Some(OnClose::Park) => {
             "What moves or is tracked is parked first, or stopped where it cannot be. Ended by \

@@ -64,7 +64,7 @@ pub(super) fn show(
         }
         if let Some(held) = held.filter(|held| followed != Some(held.catalog_number)) {
             let name = &held.name;
-            let words = format!("The unit holds {name} now, and will follow the marked one.");
+            let words = format!("The unit holds {name} now, and will follow the one marked here.");
             line(ui, Tone::Caution, &words);
         }
         if is_unread {
@@ -107,7 +107,7 @@ fn head(ui: &mut Ui, chosen: &Chosen, is_own: bool, change: &mut Option<Change>)
     let plural = if count == 1 { "" } else { "s" };
     ui.label(RichText::new(format!("{count} satellite{plural} to send")).font(text::value()));
     ui.horizontal_wrapped(|ui| {
-        let words = "With the age of their elements. The unit is told to follow the marked one.";
+        let words = "The unit will follow the one marked here.";
         ui.label(RichText::new(words).font(text::small()).color(t.t3));
         if is_own && ui.button("Take the favourites").clicked() {
             *change = Some(Change::Favourites);

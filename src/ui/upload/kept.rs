@@ -45,7 +45,7 @@ pub(super) fn show(
             None => line(ui, Tone::Plain, "The list is being read."),
             Some(Err(problem)) => line(ui, Tone::Bad, &sentence(problem)),
             Some(Ok(list)) if list.is_empty() => {
-                let words = format!("Nothing yet of {} on {}.", kept.of.1, kept.of.0);
+                let words = format!("No earlier copy of {} from {}.", kept.of.1, kept.of.0);
                 ui.label(RichText::new(words).font(text::small()).color(t.t3));
             }
             Some(Ok(list)) => {

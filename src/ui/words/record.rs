@@ -81,7 +81,7 @@ pub fn loss(cause: LossCause) -> &'static str {
         LossCause::Slew => "Azimuth unwrap",
         LossCause::LateStart => "Late start",
         LossCause::EarlyEnd => "Early end",
-        LossCause::NotExplained => "Not explained",
+        LossCause::NotExplained => "Pointing error",
     }
 }
 
@@ -223,7 +223,7 @@ fn loss_in_sentence(cause: LossCause) -> &'static str {
         LossCause::Slew => "at the azimuth unwrap",
         LossCause::LateStart => "until the antenna had arrived",
         LossCause::EarlyEnd => "after the antenna had left",
-        LossCause::NotExplained => "without a known cause",
+        LossCause::NotExplained => "by an error of the pointing",
     }
 }
 

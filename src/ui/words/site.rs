@@ -16,11 +16,11 @@ pub fn sun_there(sun: AzEl) -> String {
     if elevation_deg < 0.0 {
         let below = format::degrees(-elevation_deg, 0);
         return format!(
-            "The Sun is {below} below the horizon there now, at {azimuth}. Is that so?"
+            "The Sun is {below} below the horizon there now, at {azimuth}. Does that match?"
         );
     }
     let elevation = format::degrees(elevation_deg, 0);
-    format!("The Sun is at {azimuth}, {elevation} there now. Is that so?")
+    format!("The Sun is at {azimuth}, {elevation} there now. Does that match?")
 }
 
 /// How far a typed place is from the one that a unit told.

@@ -14,8 +14,8 @@ use crate::ui::{
     },
 };
 
-const ABOUT: &str = "A wrong value here makes the antenna point wrongly, or move. Opens for 10 \
-                     minutes after the station name is typed, while the antenna is at rest.";
+const ABOUT: &str = "A wrong value here makes the antenna point wrongly, or move. Type the station \
+                     name to unlock for 10 minutes; the antenna has to be at rest.";
 
 pub(in crate::ui::antennas) fn show(
     ui: &mut Ui,
