@@ -344,7 +344,7 @@ fn a_keep_out_around_an_antenna_is_saved_by_a_hold() {
         field(&mut window, &format!("Azimuth of corner {}", corner + 1), &azimuth.to_string());
         field(&mut window, &format!("Elevation of corner {}", corner + 1), &elevation.to_string());
     }
-    let words = "Satrak stands inside “mast” now. It can be moved out by hand once you allow it.";
+    let words = "Satrak is inside “mast” now. It can be moved out by hand once you allow it.";
     window.get_by_label(words);
     let button = window.get_by_role_and_label(Role::Button, "Hold 1 s to save").rect().center();
     window.drag_at(button);
@@ -425,7 +425,7 @@ fn each_mark_takes_what_was_measured_of_an_antenna_that_stands_in_manual() {
     settle(&mut window);
     window.get_by_label_contains("Nothing is marked from");
     point(&mut window, states::moving());
-    window.get_by_label_contains("Satrak has to be in Manual");
+    window.get_by_label_contains("Satrak must be in Manual");
     assert!(window.get_by_role_and_label(Role::Button, "Mark").accesskit_node().is_disabled());
     click(&mut window, "End");
     click(&mut window, "Keep the new one");

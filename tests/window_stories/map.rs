@@ -193,17 +193,21 @@ fn only_where_passes_were_searched_for_is_it_said_that_there_is_none() {
     let said = |change: fn(&mut Model)| {
         let mut model = model();
         model.pass_lists.favourites.passes = Arc::default();
+        model.pass_lists.favourites.revision += 1;
+        model.pass_lists.favourites.made_at = Some(model.now);
         change(&mut model);
         model.refresh_sky();
         let window = rig::window(FULL, model);
-        ["none in 48 h", "not computed", "…"].map(|words| says(&window, words))
+        let texts = painted::texts(&window);
+        let is_painted = |words: &str| texts.iter().any(|text| text == words);
+        ["none in 48 h", "not computed", "…", "No later pass in the next 48 h."].map(is_painted)
     };
-    assert_eq!(said(|_| {}), [true, false, false]);
-    assert_eq!(said(|model| model.pass_lists.favourites.made_at = None), [false, false, true]);
+    assert_eq!(said(|_| {}), [true, false, false, true]);
+    assert_eq!(said(|model| model.pass_lists.favourites.made_at = None), [false, false, true, false]);
     let not_followed = |model: &mut Model| {
         Arc::make_mut(&mut model.station).favourites = std::iter::empty().collect();
     };
-    assert_eq!(said(not_followed), [false, true, false]);
+    assert_eq!(said(not_followed), [false, true, false, false]);
 }
 
 #[test]

@@ -175,9 +175,13 @@ fn a_unit_that_tracks_by_itself_shows_its_own_and_says_why_there_is_no_pad() {
     snapshot.state.on_board.offsets = Some(held);
     for size in SIZES {
         let mut window = rig::window(size, rig::model(snapshot.clone()));
-        window.get_by_role_and_label(Role::Button, "Offsets: az −0.50°").click();
-        settle(&mut window);
-        window.get_by_label_contains("follow the satellite from here");
+        let about = "follow the satellite from here";
+        // Open where there is room.
+        if !rig::says(&window, about) {
+            window.get_by_role_and_label(Role::Button, "Offsets: az −0.50°").click();
+            settle(&mut window);
+        }
+        window.get_by_label_contains(about);
         assert!(window.query_by_label("Azimuth offset, more").is_none());
         window.key_press(Key::CloseBracket);
         assert_eq!(asked(&mut window), []);

@@ -103,7 +103,7 @@ fn questions_and_dialogs_close_by_a_click_outside_and_by_a_key() {
                     window.drop_at(corner);
                 }
                 settle(&mut window);
-                assert!(!is_open(&window, inside), "{inside}, by its key: {by_key}");
+                assert!(!is_open(&window, inside), "{inside}, by its key: {by_key}, {size:?}");
                 assert_eq!(asked(&mut window), [], "{inside}");
             }
         }

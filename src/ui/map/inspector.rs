@@ -139,7 +139,7 @@ fn parts(
     }
     let passes = upcoming::passes(model, of.number());
     let list = place(ui, upcoming::height(passes.len()));
-    upcoming::show(ui, list, model, &passes, commands);
+    upcoming::show(ui, list, model, of, &passes, commands);
 }
 
 /// The antenna whose sentence is shown: that which tracks the satellite, else the selected one.

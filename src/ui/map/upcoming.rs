@@ -2,10 +2,10 @@
 
 use egui::{Align2, Rect, Ui, pos2, vec2};
 
-use super::PADDING;
+use super::{PADDING, words};
 use crate::{
     engine::passes::PredictedPass,
-    model::{Model, UiCommand},
+    model::{Model, UiCommand, globe::GlobeSatellite},
     ui::{
         format,
         operate::passes::pass_row,
@@ -41,6 +41,7 @@ pub(super) fn show(
     ui: &Ui,
     rect: Rect,
     model: &Model,
+    of: &GlobeSatellite,
     passes: &[&PredictedPass],
     commands: &mut Vec<UiCommand>,
 ) {
@@ -52,7 +53,7 @@ pub(super) fn show(
     paint::text_in(ui, room, Align2::LEFT_CENTER, &words, font, t.t1);
     paint::name_text(ui, "next passes", room, &words);
     if passes.is_empty() {
-        let words = "No later pass in the next 48 h.";
+        let words = words::no_later_pass(of, model);
         let at = body.left_top() + vec2(PADDING, 4.0);
         let width = body.width() - 2.0 * PADDING;
         let place = paint::paragraph(ui, at, width, words, text::body(), t.t2);

@@ -75,15 +75,43 @@ pub(super) fn light(is_sunlit: bool) -> &'static str {
 
 /// When the next pass begins, or until when it lasts.
 pub(super) fn next(of: &GlobeSatellite, model: &Model) -> String {
-    let number = of.number();
-    let list = &model.pass_lists.favourites;
-    let mut listed = list.satellites.iter().map(|of| of.elements.catalog_number());
-    let is_searched = list.made_at.is_some() && listed.any(|listed| listed == number);
     match of.next {
         Some(pass) => times(pass, model.now),
-        None if !of.is_favourite => "not computed".to_owned(),
-        None if !is_searched => "…".to_owned(),
-        None => "none in 48 h".to_owned(),
+        None => match Search::of(of, model) {
+            Search::None => "not computed".to_owned(),
+            Search::UnderWay => "…".to_owned(),
+            Search::Done => "none in 48 h".to_owned(),
+        },
+    }
+}
+
+/// That there is no later pass, or that none was searched for.
+pub(super) fn no_later_pass(of: &GlobeSatellite, model: &Model) -> &'static str {
+    match Search::of(of, model) {
+        Search::None => "Passes are computed for favourites alone.",
+        Search::UnderWay => "Passes are being computed.",
+        Search::Done => "No later pass in the next 48 h.",
+    }
+}
+
+/// The search for the passes of a satellite.
+enum Search {
+    None,
+    UnderWay,
+    Done,
+}
+
+impl Search {
+    fn of(of: &GlobeSatellite, model: &Model) -> Self {
+        let list = &model.pass_lists.favourites;
+        let mut listed = list.satellites.iter().map(|of| of.elements.catalog_number());
+        match () {
+            () if !of.is_favourite => Self::None,
+            () if list.made_at.is_some() && listed.any(|number| number == of.number()) => {
+                Self::Done
+            }
+            () => Self::UnderWay,
+        }
     }
 }
 
