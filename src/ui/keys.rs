@@ -148,12 +148,12 @@ pub const ALL: [Binding; 40] = [
     row(
         KeyScope::Operate,
         &[(Key::G, Act::GoTo)],
-        "Position: type a direction; Enter previews it, Enter again goes",
+        "Position: type a direction; Enter shows it, again goes",
     ),
     row(
         KeyScope::Operate,
         &[(Key::M, Act::Manual)],
-        "Manual, with the arrows on the jog pad (asks while tracking)",
+        "Manual, arrows on the jog pad (asks while tracking)",
     ),
     row(
         KeyScope::Focus,
@@ -186,7 +186,7 @@ pub const ALL: [Binding; 40] = [
             (Key::Backspace, Act::Offset(OffsetKey::TimeToZero)),
             (Key::U, Act::Offset(OffsetKey::Undo)),
         ],
-        "while tracking: time offset −/+ 100 ms, to 0; undo an offset",
+        "while tracking: time −/+ 100 ms, to 0; undo",
     ),
     // More modifiers come first: fewer of them fit as well.
     with(
@@ -273,7 +273,7 @@ pub const ALL: [Binding; 40] = [
             (Key::V, Act::ChoosePass(Some(Take::Never))),
             (Key::S, Act::SwapPass),
         ],
-        "in Plan: take the pass always, by plan, never; take one left out (asks)",
+        "in Plan: always, by plan, never; swap (asks)",
     ),
     row(
         KeyScope::Plan,
@@ -297,7 +297,7 @@ pub const ALL: [Binding; 40] = [
         row(
             KeyScope::Focus,
             &[(Key::Enter, Act::There)],
-            "apply the settings of a unit, in Antennas; save, in Preferences",
+            "in Antennas: apply; in Preferences: save",
         ),
     ),
     with(
@@ -311,7 +311,7 @@ pub const ALL: [Binding; 40] = [
     row(
         KeyScope::Focus,
         &[(Key::Insert, Act::There), (Key::Delete, Act::There)],
-        "add, remove a corner; arrows move it (Shift 5°, Ctrl 0.1°)",
+        "add, remove a corner; arrows move it",
     ),
     with(
         Modifiers::COMMAND,

@@ -203,7 +203,10 @@ fn only_where_passes_were_searched_for_is_it_said_that_there_is_none() {
         ["none in 48 h", "not computed", "…", "No later pass in the next 48 h."].map(is_painted)
     };
     assert_eq!(said(|_| {}), [true, false, false, true]);
-    assert_eq!(said(|model| model.pass_lists.favourites.made_at = None), [false, false, true, false]);
+    assert_eq!(
+        said(|model| model.pass_lists.favourites.made_at = None),
+        [false, false, true, false]
+    );
     let not_followed = |model: &mut Model| {
         Arc::make_mut(&mut model.station).favourites = std::iter::empty().collect();
     };
