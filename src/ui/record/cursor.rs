@@ -15,7 +15,11 @@ const NEAR_S: f64 = 2.0;
 pub(super) fn point<'a>(opened: &'a OpenedPass, state: &RecordState) -> Option<&'a TrackPoint> {
     match state.cursor {
         Some(at) => nearest(&opened.track, at),
-        None => recorded_track::worst(&opened.track),
+        None => {
+            let worst = opened.pass.report.report.worst;
+            let told = worst.and_then(|worst| nearest(&opened.track, worst.at));
+            told.or_else(|| recorded_track::worst(&opened.track))
+        }
     }
 }
 

@@ -73,11 +73,12 @@ pub(super) fn show(ui: &Ui, rect: Rect, model: &Model, opened: &OpenedPass, stat
         painter.line_segment([at, off], Stroke::new(2.5, t.warn));
         painter.circle_filled(at, 4.0, t.sat);
         painter.circle_stroke(off, 4.0, Stroke::new(1.5, t.ant));
-        let words = format!(
-            "{}, {}",
-            format::degrees(point.error.off_deg, 2),
-            format::moment(point.time, model.now)
-        );
+        // The track has a point a second, and the report looked at every position.
+        let worst = opened.pass.report.report.worst.filter(|_| state.cursor.is_none());
+        let (off_deg, at_time) = worst
+            .map_or((point.error.off_deg, point.time), |worst| (worst.error.off_deg, worst.at));
+        let words =
+            format!("{}, {}", format::degrees(off_deg, 2), format::moment(at_time, model.now));
         label(&mut labels, Key::Cursor, dome, off, &words, t.warn);
     }
     grid::label_rings(&mut labels, dome);

@@ -173,11 +173,14 @@ impl<'a> Labels<'a> {
         }
         let measure = job(label, Align::LEFT);
         let size = self.painter.layout_job(measure).size() + Vec2::splat(2.0 * PADDING);
-        let is_free = |side: &Side| {
-            let rect = side.rect(label.mark, size, label.clearance);
-            !self.texts.iter().any(|text| text.intersects(rect))
-        };
-        let free: Vec<Side> = label.order.iter().copied().filter(is_free).collect();
+        let rect = |side: &Side| side.rect(label.mark, size, label.clearance);
+        let is_free = |side: &Side| !self.texts.iter().any(|text| text.intersects(rect(side)));
+        let is_whole = |side: &Side| self.bounds.contains_rect(rect(side));
+        let mut free: Vec<Side> = label.order.iter().copied().filter(is_free).collect();
+        // What is shown in any case rather covers a line than loses letters at the edge.
+        if label.tolerance >= 1.0 && free.iter().any(is_whole) {
+            free.retain(is_whole);
+        }
         let place = place(
             label.mark,
             size,
@@ -272,6 +275,31 @@ mod tests {
         });
         harness.run();
         harness.state().clone()
+    }
+
+    #[test]
+    fn a_label_that_is_always_shown_rather_covers_a_line_than_loses_letters() {
+        let bounds = Rect::from_min_size(Pos2::ZERO, vec2(400.0, 400.0));
+        let mut harness = window(bounds.size(), None, move |ui, found| {
+            let t = theme::tokens(ui.ctx());
+            let mut labels = Labels::new(ui.painter(), t, None, bounds, HashMap::new());
+            let mark = pos2(30.0, 200.0);
+            for x in (40_u8..200).step_by(8) {
+                let x = f32::from(x);
+                labels.reserve_path(&[pos2(x, 100.0), pos2(x, 300.0)], 6.0);
+            }
+            *found = labels.add(&Label {
+                key: Key::Cursor,
+                lines: &[("1.78°, 01:22:10Z", text::small(), t.t1)],
+                mark,
+                clearance: 9.0,
+                order: &Side::towards(vec2(-1.0, 0.0)),
+                tolerance: 1.0,
+            });
+        });
+        harness.run();
+        let placed = harness.state().as_ref().map(|placed| placed.rect);
+        assert!(placed.is_some_and(|rect| bounds.contains_rect(rect)), "{placed:?}");
     }
 
     #[test]
