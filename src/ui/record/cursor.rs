@@ -13,14 +13,12 @@ const NEAR_S: f64 = 2.0;
 
 /// The point of the track at the cursor; that of the worst error until the operator moves it.
 pub(super) fn point<'a>(opened: &'a OpenedPass, state: &RecordState) -> Option<&'a TrackPoint> {
-    match state.cursor {
-        Some(at) => nearest(&opened.track, at),
-        None => {
-            let worst = opened.pass.report.report.worst;
-            let told = worst.and_then(|worst| nearest(&opened.track, worst.at));
-            told.or_else(|| recorded_track::worst(&opened.track))
-        }
+    if let Some(at) = state.cursor {
+        return nearest(&opened.track, at);
     }
+    let worst = opened.pass.report.report.worst;
+    let told = worst.and_then(|worst| nearest(&opened.track, worst.at));
+    told.or_else(|| recorded_track::worst(&opened.track))
 }
 
 fn nearest(track: &[TrackPoint], at: Timestamp) -> Option<&TrackPoint> {
