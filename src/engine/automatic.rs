@@ -7,6 +7,7 @@ mod day;
 mod operation;
 mod seen;
 mod stance;
+mod way;
 
 use std::path::PathBuf;
 

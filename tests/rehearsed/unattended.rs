@@ -2,7 +2,7 @@
 
 use azel::{
     astro::time::{add_seconds, seconds_between},
-    device::Phase,
+    device::{Measured, Phase},
     driver::{self, LinkState},
     engine::{
         Client, Command,
@@ -306,6 +306,63 @@ async fn an_antenna_that_is_turned_while_it_tracks_or_waits_is_left_to_whoever_d
         assert!(scene.units.all_stand(), "{name}: nothing takes it back");
         let _ = client.send(Command::GoOn(id));
         until("the path", is_on_its_path).await;
+    }
+}
+
+#[tokio::test(start_paused = true)]
+async fn an_antenna_that_is_turned_on_its_way_to_a_pass_is_left_to_whoever_did_it() {
+    for name in ["Dish", "Mast"] {
+        let (scene, client, id) = scene_of(name, |_| {}).await;
+        if name == "Dish" {
+            scene.units.dish.place([130.0, 50.0]);
+        } else {
+            let place = [350.0, 80.0].map(|deg| WholeDegrees::nearest(deg).unwrap());
+            scene.units.mast.place(place);
+        }
+        let at = client.now().utc;
+        until("seconds", || (seconds_between(at, client.now().utc) > 5.0).then_some(())).await;
+        set_automatic(&client, id, true).await;
+        let turned_deg = || {
+            let snapshot = client.snapshot();
+            let antenna = snapshot.antennas.iter().find(|of| of.id() == id)?;
+            let measured = antenna.snapshot.state.measured.filter(Measured::moving)?;
+            Some(measured.axes.map(|axis| axis.angle_deg))
+        };
+        let began = until("the slew", turned_deg).await;
+        let changed = || {
+            let now = turned_deg()?;
+            let turned = now.into_iter().zip(began).map(|(now, began)| Some(now? - began?));
+            let turned_deg = turned.map(Option::unwrap_or_default).collect::<Vec<_>>();
+            turned_deg.iter().any(|turned| turned.abs() > 15.0).then_some(turned_deg)
+        };
+        let way_deg = until("15 deg of the way", changed).await;
+        assert!(operation(&client, id).is_on(), "{name}");
+        // Back, the axis that has turned most.
+        let back = |at_deg: [f64; 2]| {
+            let axis = usize::from(way_deg[1].abs() > way_deg[0].abs());
+            let mut to_deg = at_deg;
+            to_deg[axis] -= 10.0 * way_deg[axis].signum();
+            to_deg
+        };
+        if name == "Dish" {
+            scene.units.dish.place(back(scene.units.dish.state().metal_deg));
+        } else {
+            let angles = scene.units.mast.state().rotators.map(|rotator| rotator.angle_deg);
+            scene.units.mast.place(back(angles).map(|deg| WholeDegrees::nearest(deg).unwrap()));
+        }
+        let by = Interruption::Elsewhere;
+        until("the suspension", || {
+            let is_that = |of| matches!(of, Operation::Suspended { by: found, .. } if found == by);
+            is_that(operation(&client, id)).then_some(())
+        })
+        .await;
+        let duty = client.snapshot();
+        let antenna = duty.antennas.iter().find(|of| of.id() == id).unwrap();
+        assert!(!antenna.tracks(), "{name}: on the way");
+        until("standstill", || scene.units.all_stand().then_some(())).await;
+        let at = client.now().utc;
+        until("a minute", || (seconds_between(at, client.now().utc) > 60.0).then_some(())).await;
+        assert!(scene.units.all_stand(), "{name}: nothing takes it back");
     }
 }
 

@@ -1,13 +1,14 @@
-//! Whether somebody else turns an antenna away from the satellite that it tracks. Its drives turn
-//! it only towards the satellite, so that it falls behind by what the satellite moves, and by no
-//! more.
+//! Whether somebody else turns an antenna that tracks a satellite, waits for it, or is on its way.
+//! Its drives turn it only towards the satellite, so that it falls behind by what the satellite
+//! moves, and by no more.
 
 use std::{collections::VecDeque, time::Duration};
 
+use super::way::{Goal, Way};
 use crate::{
     astro::Angle,
     clock::Instant,
-    device::{Phase, Pointing},
+    device::{Measured, Phase, Pointing},
     engine::antenna::AntennaModel,
     plan::TrackPhase,
 };
@@ -20,9 +21,12 @@ const KEPT: Duration = Duration::from_secs(10);
 /// So near to an end of its travel, in degrees, an azimuth axis may have to turn the long way.
 const NEAR_END_DEG: f64 = 10.0;
 
-/// The last looks at an antenna that follows its satellite, or waits for it.
+/// The last looks at an antenna that has a pass to take.
 #[derive(Default)]
 pub(super) struct Course {
+    /// On its way there.
+    way: Option<Way>,
+    /// While it follows its satellite, or waits for it.
     looks: VecDeque<Look>,
     /// Where the unit waits for its satellite.
     start: Option<Pointing>,
@@ -32,44 +36,53 @@ pub(super) struct Course {
     looked: Option<Instant>,
 }
 
-#[derive(Debug, Clone, Copy)]
-struct Look {
-    asked: Instant,
-    off: Angle,
-    target: Pointing,
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Look {
+    pub(super) asked: Instant,
+    pub(super) off: Angle,
+    pub(super) target: Pointing,
 }
 
 impl Course {
     /// Looks at the last position. Returns `true`, once, when somebody else has turned the
     /// antenna.
     pub(super) fn look(&mut self, antenna: &AntennaModel) -> bool {
-        let measured = antenna.snapshot.state.measured;
-        let target = self.target(antenna).filter(|_| antenna.is_live() && !is_near_end(antenna));
-        let (Some(target), Some(measured)) = (target, measured) else {
+        let measured = antenna.snapshot.state.measured.filter(|_| antenna.is_live());
+        let Some(measured) = measured else {
             *self = Self { start: self.start, ..Self::default() };
             return false;
         };
         if self.looked.replace(measured.asked) == Some(measured.asked) {
             return false;
         }
-        let has_elevation = measured.pointing.elevation.is_some();
-        let target = Pointing { elevation: target.elevation.filter(|_| has_elevation), ..target };
-        let Some(off) = measured.pointing.separation(target) else { return false };
         let swing_deg = SWINGS_DEG + antenna.config.sway_deg;
         let follows_within_deg = antenna.config.beam_width().degrees() * 0.5 + swing_deg;
-        self.take(Look { asked: measured.asked, off, target }, swing_deg, follows_within_deg)
+        let target = self.target(antenna, measured);
+        let look = target.and_then(|target| Look::new(measured, target));
+        let look = look.filter(|_| !is_near_end(antenna, measured));
+        let goes_to = place(antenna).or_else(|| {
+            look.filter(|look| look.off.degrees() > follows_within_deg).map(Goal::Satellite)
+        });
+        let is_turned_back = goes_to.is_some_and(|goal| {
+            let way = self.way.get_or_insert_with(|| Way::new(goal, measured));
+            way.look(goal, measured, swing_deg)
+        });
+        self.way.take_if(|_| goes_to.is_none() || is_turned_back);
+        let Some(look) = look else {
+            (self.is_off, self.looks) = Default::default();
+            return is_turned_back;
+        };
+        self.take(look, swing_deg, follows_within_deg) || is_turned_back
     }
 
     /// Where the antenna is to point at the last position: to its satellite, or, before AOS, to
     /// the start of the pass.
-    fn target(&mut self, antenna: &AntennaModel) -> Option<Pointing> {
-        let snapshot = &antenna.snapshot;
-        let measured = snapshot.state.measured?;
-        let waits = snapshot.state.program.is_some_and(|it| it.phase == Phase::AtStart);
+    fn target(&mut self, antenna: &AntennaModel, measured: Measured) -> Option<Pointing> {
+        let waits = waits_by_itself(antenna);
         // The unit does not say where the start is.
         let stands = waits && self.start.is_none() && !measured.moving();
         self.start = self.start.filter(|_| waits).or(stands.then_some(measured.pointing));
-        let track = snapshot.program_track.as_ref();
+        let track = antenna.snapshot.program_track.as_ref();
         match track.map(|track| track.phase) {
             Some(TrackPhase::Waiting { .. }) => track?.commanded,
             _ if waits => self.start,
@@ -101,19 +114,43 @@ impl Course {
     }
 }
 
+/// Where the antenna was sent to wait for its pass.
+fn place(antenna: &AntennaModel) -> Option<Goal> {
+    let track = antenna.snapshot.program_track.as_ref();
+    let track = track.filter(|track| matches!(track.phase, TrackPhase::Waiting { .. }));
+    let of = antenna.tracked_number();
+    match track {
+        Some(track) => Some(Goal::Place { of, at: Some(track.commanded?) }),
+        None => waits_by_itself(antenna).then_some(Goal::Place { of, at: None }),
+    }
+}
+
+/// Returns `true` if the unit waits at the start of a pass, or goes there, by its own program.
+fn waits_by_itself(antenna: &AntennaModel) -> bool {
+    let program = antenna.snapshot.state.program;
+    program.is_some_and(|it| it.enabled && it.phase == Phase::AtStart)
+}
+
 impl Look {
+    fn new(measured: Measured, target: Pointing) -> Option<Self> {
+        let has_elevation = measured.pointing.elevation.is_some();
+        let target = Pointing { elevation: target.elevation.filter(|_| has_elevation), ..target };
+        let off = measured.pointing.separation(target)?;
+        Some(Self { asked: measured.asked, off, target })
+    }
+
     /// Further off than an antenna that has stood still since `from`.
-    fn is_turned_since(&self, from: &Self, swing_deg: f64) -> bool {
+    pub(super) fn is_turned_since(&self, from: &Self, swing_deg: f64) -> bool {
         let moved = self.target.separation(from.target).unwrap_or(Angle::ZERO);
         self.off.degrees() > from.off.degrees() + moved.degrees() + swing_deg
     }
 }
 
 /// Returns `true` if the next turn of the azimuth axis may be the long one.
-fn is_near_end(antenna: &AntennaModel) -> bool {
-    let state = &antenna.snapshot.state;
-    let [(from_deg, to_deg), _] = antenna.config.mount.within(state.travel_deg).travel_deg();
-    let angle_deg = state.measured.and_then(|measured| measured.axes.first()?.angle_deg);
+fn is_near_end(antenna: &AntennaModel, measured: Measured) -> bool {
+    let mount = antenna.config.mount.within(antenna.snapshot.state.travel_deg);
+    let [(from_deg, to_deg), _] = mount.travel_deg();
+    let angle_deg = measured.axes.first().and_then(|axis| axis.angle_deg);
     to_deg - from_deg > 180.0
         && angle_deg.is_some_and(|at| at - from_deg < NEAR_END_DEG || to_deg - at < NEAR_END_DEG)
 }
