@@ -25,6 +25,7 @@ pub mod on_board;
 mod opening;
 mod owed;
 pub mod passes;
+pub mod pointing_fit;
 pub mod recorded;
 mod recording;
 pub mod reminders;
@@ -62,6 +63,7 @@ use self::{
     link_tests::LinkTest,
     older_sets::OlderSets,
     passes::{PassLists, Searches},
+    pointing_fit::PointingFitted,
     recorded::{RecordReading, Recorded},
     recording::Recording,
     reminders::Reminder,
@@ -147,6 +149,8 @@ struct Engine {
     older_reading: older_sets::Reading,
     recorded: Option<Arc<Recorded>>,
     record_reading: RecordReading,
+    pointing_fitted: Option<Arc<PointingFitted>>,
+    pointing_job: Option<Job<PointingFitted>>,
     /// The last reading of the elements broke off.
     elements_broke_off: bool,
     copy_work: CopyWork,
@@ -310,6 +314,8 @@ impl Engine {
             older_reading: older_sets::Reading::default(),
             recorded: None,
             record_reading: RecordReading::default(),
+            pointing_fitted: None,
+            pointing_job: None,
             elements_broke_off: false,
             upload_runner,
             source_test_runner,
@@ -454,6 +460,7 @@ impl Engine {
             day: shared(&self.day, &last.day),
             older_sets: self.older_sets.clone(),
             recorded: self.recorded.clone(),
+            pointing_fitted: self.pointing_fitted.clone(),
             uploads: shared(&self.uploads, &last.uploads),
             source_tests: shared(&self.source_tests, &last.source_tests),
             link_tests: shared(&self.link_tests, &last.link_tests),

@@ -59,6 +59,7 @@ use crate::{
         link_tests::LinkTest,
         older_sets::OlderSets,
         passes::{ListChoice, PassKey, PassLists, PredictedPass, Scope, UpcomingPasses},
+        pointing_fit::PointingFitted,
         recorded::Recorded,
         reminders::Reminder,
         schedule::{Planned, Swap},
@@ -130,6 +131,8 @@ pub struct Model {
     pub older_sets: Option<Arc<OlderSets>>,
     /// Passes of the record, where they are looked at.
     pub recorded: Option<Arc<Recorded>>,
+    /// The fit of a pointing model that was asked for last.
+    pub pointing_fitted: Option<Arc<PointingFitted>>,
     /// The table of the catalog.
     pub catalog_table: CatalogTable,
     /// The antennas of the station.
@@ -206,6 +209,7 @@ impl Model {
             intake: None,
             older_sets: None,
             recorded: None,
+            pointing_fitted: None,
             catalog_table: CatalogTable::default(),
             antennas: Vec::new(),
             wires: Vec::new(),
@@ -299,6 +303,7 @@ impl Model {
         self.sources = Arc::clone(&shown.sources);
         self.older_sets.clone_from(&shown.older_sets);
         self.recorded.clone_from(&shown.recorded);
+        self.pointing_fitted.clone_from(&shown.pointing_fitted);
         self.pass_lists = shown.pass_lists.clone();
         self.uploads = Arc::clone(&shown.uploads);
         self.source_tests = Arc::clone(&shown.source_tests);

@@ -11,6 +11,7 @@ mod film;
 mod keeping;
 mod pass;
 mod past;
+mod pointing;
 mod read;
 mod recorder;
 mod tables;
@@ -23,6 +24,7 @@ pub use entry::{Entry, Kind};
 pub use film::{Film, FilmError, Parts, Picture, Shown};
 pub use pass::{AboutTrack, PassNote, RecordedReport, TrackedBy};
 pub use past::{OpenedPass, PassPage, PassQuery, RecordedPass, open_pass, passes, track};
+pub use pointing::{CannotFitPointing, FittedTerm, NoiseOf, PointingFit, fit_pointing};
 pub use read::{Query, Record, Row, RowKind};
 pub use recorder::{Failing, RecordedSession, Recorder, Status};
 

@@ -13,21 +13,13 @@ use serde::Serialize;
 
 use super::{input, passes::written, record::record_of};
 use crate::{
-    astro::{AzEl, PointingModel, Site, Term, time::seconds_between},
+    astro::{AzEl, Site, Term},
     makes,
-    plan::{
-        pass_report::TrackPoint,
-        pointing::{self, Fit, Kind, Point},
-    },
-    record::{self, PassQuery},
+    plan::pointing::{Kind, Point},
+    record::{PointingFit, fit_pointing},
     station::{self, Antenna, Mount, Station},
+    ui::words::pointing::pointing_term,
 };
-
-/// Time between two points of a pass that are used, seconds: what a drive is off by changes little
-/// in less, and points that are alike would make the model look surer than it is.
-const APART_S: f64 = 10.0;
-/// Positions further from the satellite are a slew, or no track at all, degrees.
-const NEAR_DEG: f64 = 10.0;
 
 #[derive(Debug, Args)]
 pub(super) struct Options {
@@ -99,16 +91,14 @@ pub(super) fn run(station: Option<&Path>, options: &Options) -> anyhow::Result<E
         Some(file) => file.clone(),
         None => record_of(Some(path.to_owned()))?,
     };
-    let (passes, mut points) = recorded(&record, antenna, of.site, options)?;
     let peaks = |kind: fn(Site, Timestamp, AzEl, f64) -> Point, of_body: &[Peak]| {
         of_body.iter().map(|peak| kind(of.site, peak.at, peak.axes, 1.0)).collect::<Vec<_>>()
     };
-    points.extend(peaks(Point::of_sun, &options.sun));
-    points.extend(peaks(Point::of_moon, &options.moon));
-    let fit = pointing::fit(&points).with_context(|| {
-        format!("{} has no pointing model in {passes} recorded passes", antenna.name)
-    })?;
-    let told = Told::of(&antenna.name, passes, &fit);
+    let peaks = [peaks(Point::of_sun, &options.sun), peaks(Point::of_moon, &options.moon)].concat();
+    let within = options.from.unwrap_or(Timestamp::MIN)..options.to.unwrap_or(Timestamp::MAX);
+    let fit = fit_pointing(&record, antenna.id, of.site, within, peaks)
+        .with_context(|| format!("{} has no pointing model", antenna.name))?;
+    let told = Told { antenna: &antenna.name, fit: &fit };
     let written = match options.format {
         Format::Table => written(|out| table(&told, out)),
         Format::Json => written(|out| {
@@ -118,8 +108,8 @@ pub(super) fn run(station: Option<&Path>, options: &Options) -> anyhow::Result<E
     };
     written.context("The pointing model cannot be written")?;
     input::note(
-        "Nothing of it is applied. Preferences, the page of the antenna, takes it over for the tracks \
-         that Azel leads.",
+        "Nothing of it is applied. Preferences, the page of the antenna, fits it as well, and takes it \
+         over for the tracks that Azel leads.",
     );
     Ok(ExitCode::SUCCESS)
 }
@@ -140,141 +130,37 @@ fn chosen<'a>(station: &'a Station, name: Option<&str>) -> anyhow::Result<&'a An
     }
 }
 
-/// The number of passes that count, and their points.
-fn recorded(
-    path: &Path,
-    antenna: &Antenna,
-    site: Site,
-    options: &Options,
-) -> anyhow::Result<(usize, Vec<Point>)> {
-    if !path.exists() {
-        return Ok((0, Vec::new()));
-    }
-    let unread = || format!("The record at {} cannot be read", path.display());
-    let query = PassQuery { antenna: Some(antenna.id), count: u32::MAX, ..PassQuery::default() };
-    let page = record::passes(path, &query).with_context(unread)?;
-    let counts = |until: Timestamp| {
-        options.from.is_none_or(|from| until >= from) && options.to.is_none_or(|to| until < to)
-    };
-    let (mut count, mut points) = (0, Vec::new());
-    for pass in page.passes.iter().filter(|pass| counts(pass.report.until)) {
-        let before = points.len();
-        let model = &pass.report.about.pointing_model;
-        points.extend(thinned(&record::track(path, pass, site).with_context(unread)?, model));
-        count += usize::from(points.len() > before);
-    }
-    Ok((count, points))
-}
-
-fn thinned(track: &[TrackPoint], flown_with: &PointingModel) -> Vec<Point> {
-    let mut last: Option<Timestamp> = None;
-    let near = track.iter().filter(|point| point.error.off_deg <= NEAR_DEG);
-    let apart = near.filter(|point| {
-        let is_apart = last.is_none_or(|last| seconds_between(last, point.time) >= APART_S);
-        if is_apart {
-            last = Some(point.time);
-        }
-        is_apart
-    });
-    let point = |point: &TrackPoint| Point {
-        kind: Kind::Satellite,
-        wanted: point.satellite,
-        // What the axes read.
-        measured: flown_with.reading(point.antenna).unwrap_or(point.antenna),
-        weight: 1.0,
-    };
-    apart.map(point).collect()
-}
-
 /// The model as it is written.
 #[derive(Serialize)]
 struct Told<'a> {
     antenna: &'a str,
-    passes: usize,
-    noise: Vec<OfKind>,
-    terms: Vec<ToldTerm>,
+    #[serde(flatten)]
+    fit: &'a PointingFit,
 }
 
-#[derive(Serialize)]
-struct OfKind {
-    of: Kind,
-    points: usize,
-    noise_deg: f64,
-}
-
-/// By how much the axes read more than the direction in which the beam points.
-#[derive(Serialize)]
-struct ToldTerm {
-    term: Term,
-    /// Degrees; for the scale, degrees a degree. `None` where the points cannot tell it.
-    value: Option<f64>,
-    /// Half of the width of the interval that holds it in 95 of 100 cases.
-    half_of_95_percent: Option<f64>,
-    /// Terms that the points cannot tell it from.
-    not_told_from: Vec<Term>,
-}
-
-impl<'a> Told<'a> {
-    fn of(antenna: &'a str, passes: usize, fit: &Fit) -> Self {
-        let term = |term: Term| {
-            let interval = fit.interval(term);
-            let alike = fit.alike.iter().find(|alike| alike.term == term);
-            ToldTerm {
-                term,
-                value: interval.map(|interval| interval.value),
-                half_of_95_percent: interval.map(|interval| interval.half),
-                not_told_from: alike.map(|alike| alike.with.clone()).unwrap_or_default(),
-            }
-        };
-        let noise = |found: &pointing::Found| OfKind {
-            of: found.kind,
-            points: found.points,
-            noise_deg: found.noise_deg,
-        };
-        Self {
-            antenna,
-            passes,
-            noise: fit.noise.iter().map(noise).collect(),
-            terms: Term::ALL.map(term).into(),
-        }
-    }
-}
-
-fn table(told: &Told<'_>, out: &mut impl Write) -> io::Result<()> {
+fn table(Told { antenna, fit }: &Told<'_>, out: &mut impl Write) -> io::Result<()> {
     let of = |kind: Kind| match kind {
         Kind::Satellite => "satellites",
         Kind::Sun => "Sun",
         Kind::Moon => "Moon",
     };
-    writeln!(out, "{}, recorded passes: {}", told.antenna, told.passes)?;
-    for noise in &told.noise {
+    writeln!(out, "{antenna}, recorded passes: {}", fit.passes)?;
+    for noise in &fit.noise {
         let (of, points, noise_deg) = (of(noise.of), noise.points, noise.noise_deg);
         writeln!(out, "Points on {of}: {points}, noise of an axis {noise_deg:.4}°")?;
     }
     writeln!(out, "\n{:<20}  {:>11}  {:>9}", "Term", "Value", "95 %")?;
-    for of in &told.terms {
-        write!(out, "{:<20}", name(of.term))?;
+    for of in &fit.terms {
+        write!(out, "{:<20}", pointing_term(of.term))?;
         // As in the fields of Preferences.
         let (unit, digits) = if of.term == Term::ElevationScale { ("°/°", 6) } else { ("°", 4) };
         if let (Some(value), Some(half)) = (of.value, of.half_of_95_percent) {
             writeln!(out, "  {value:>+10.digits$}{unit}  ±{half:.digits$}{unit}")?;
         } else {
-            let with: Vec<&str> = of.not_told_from.iter().map(|term| name(*term)).collect();
+            let with: Vec<&str> =
+                of.not_told_from.iter().map(|term| pointing_term(*term)).collect();
             writeln!(out, "  not told from: {}", with.join(", "))?;
         }
     }
     Ok(())
-}
-
-fn name(term: Term) -> &'static str {
-    match term {
-        Term::AzimuthOffset => "Azimuth offset",
-        Term::ElevationOffset => "Elevation offset",
-        Term::TiltNorth => "Tilt to the north",
-        Term::TiltEast => "Tilt to the east",
-        Term::Collimation => "Collimation",
-        Term::NonPerpendicularity => "Non-perpendicularity",
-        Term::ElevationScale => "Elevation scale",
-        Term::Sag => "Sag",
-    }
 }

@@ -118,6 +118,7 @@ impl Engine {
             }
             Command::ListOlderSets(number) => self.list_older_sets(number),
             Command::LookAtRecord(look) => self.look_at_record(look),
+            Command::FitPointing(antenna) => self.fit_pointing(antenna),
             Command::UseSet(choice) => {
                 self.begin_elements(Task { set: Some(choice), ..Task::default() });
             }

@@ -112,6 +112,8 @@ pub enum Command {
     ListOlderSets(u32),
     /// Publish what the record holds of this; `None` ends it.
     LookAtRecord(Option<RecordLook>),
+    /// Publish the pointing model that fits the record of this antenna.
+    FitPointing(AntennaId),
     /// Use this set of elements of an object.
     UseSet(SetChoice),
     /// Read all sources anew, and ask the servers of some.
@@ -210,6 +212,7 @@ impl Command {
             self,
             Self::Look(_)
                 | Self::LookAtRecord(_)
+                | Self::FitPointing(_)
                 | Self::OpenedAlarms
                 | Self::Antenna(_, Preview(_))
         )

@@ -14,6 +14,7 @@ use super::{
     link_tests::LinkTest,
     older_sets::OlderSets,
     passes::PassLists,
+    pointing_fit::PointingFitted,
     recorded::Recorded,
     reminders::Reminder,
     schedule::{Planned, Swap},
@@ -58,6 +59,8 @@ pub struct Snapshot {
     pub older_sets: Option<Arc<OlderSets>>,
     /// Passes of the record, where they are looked at.
     pub recorded: Option<Arc<Recorded>>,
+    /// The fit of a pointing model that was asked for last.
+    pub pointing_fitted: Option<Arc<PointingFitted>>,
     /// The antennas of the station, in its order.
     pub antennas: Vec<AntennaModel>,
     pub pass_lists: PassLists,
@@ -97,6 +100,7 @@ impl Snapshot {
             sources: Arc::default(),
             older_sets: None,
             recorded: None,
+            pointing_fitted: None,
             antennas: Vec::new(),
             pass_lists: PassLists::default(),
             reminders: Arc::default(),

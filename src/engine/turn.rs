@@ -34,6 +34,7 @@ impl Engine {
         self.refresh_by_itself();
         self.take_older_sets();
         self.take_recorded();
+        self.take_pointing_fit();
         self.take_copies();
         self.look_for_passes();
         self.look_after_schedule();

@@ -8,6 +8,7 @@ mod link_tests;
 mod notices;
 mod offsets;
 mod on_board;
+pub mod pointing;
 pub mod record;
 mod refusals;
 pub mod rehearsal;

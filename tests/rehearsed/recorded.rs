@@ -6,7 +6,7 @@ use std::{
 };
 
 use azel::{
-    astro::{Angle, Offset, PointingModel, TrackOffsets},
+    astro::{Angle, Offset, PointingModel, Term, TrackOffsets},
     engine::{
         Client, Command, record_path,
         recorded::{Found, RecordLook},
@@ -179,6 +179,19 @@ async fn with_a_pointing_model_the_axes_read_otherwise_and_the_report_tells_no_e
     let opened = look(&client, &RecordLook { query, opened }).await.opened.unwrap();
     let median = &opened.track[opened.track.len() / 2];
     assert!(median.antenna.separation(median.satellite).degrees() < 1.5, "{median:?}");
+    let id = measured(&client, "Mast").await;
+    client.send(Command::FitPointing(id)).unwrap();
+    let fit = until("its fit", || {
+        let fitted = client.snapshot().pointing_fitted.clone()?;
+        fitted.found.clone().filter(|_| fitted.antenna == id)
+    })
+    .await
+    .unwrap();
+    // The model was flown with, and is found again.
+    let offset = &fit.terms[0];
+    let (value, half) = (offset.value.unwrap(), offset.half_of_95_percent.unwrap());
+    assert_eq!((fit.passes, offset.term), (1, Term::AzimuthOffset));
+    assert!((value - model.azimuth_offset_deg).abs() < half.max(1.0), "{offset:?}");
 }
 
 #[tokio::test(start_paused = true)]

@@ -3,16 +3,20 @@
 use std::{sync::Arc, time::Duration};
 
 use azel::{
+    astro::{PointingModel, Term},
     device::{OnBoard, Place},
-    driver::{LinkFinding, Snapshot},
+    driver::{Intent, LinkFinding, Snapshot},
     engine::{
         self,
         alarms::AlarmKind,
         claim::HeldBy,
         link_tests::{LinkTest, LinkTestStage},
+        pointing_fit::PointingFitted,
     },
     model::{Model, UiCommand, View, effects},
-    station::{Antenna, AntennaId},
+    plan::pointing::Kind,
+    record::{FittedTerm, NoiseOf, PointingFit},
+    station::{Antenna, AntennaId, Station},
     ui::{
         keys::{ALL, list::in_words, own::OwnKeys},
         theme,
@@ -23,6 +27,7 @@ use egui_kittest::kittest::{NodeT as _, Queryable as _};
 
 use crate::window_stories::{
     every_view::painted,
+    makes,
     preferences::{antenna_form, asked, form, open, saved, write},
     rig::{self, LARGE, SIZES, SMALL, Window, says, settle},
     states,
@@ -540,5 +545,52 @@ fn each_word_of_elevation_is_explained_at_its_field() {
         assert!(says(&window, "A pass whose maximum stays below it is not listed."));
         open(&mut window, "Satrak");
         assert!(says(&window, "The antenna is never sent below it."));
+    }
+}
+
+#[test]
+fn a_pointing_model_is_fitted_to_the_record_and_filled_in_and_used_only_once_saved() {
+    for size in SIZES {
+        let mut model = makes::model(makes::pair(), makes::pair_at(Intent::Standby));
+        let mut station = Station::clone(&model.station);
+        let antenna = model.antennas[0].config.clone();
+        let (id, name) = (antenna.id, antenna.name.clone());
+        station.antennas = vec![antenna];
+        (model.station, model.view) = (Arc::new(station), View::Preferences);
+        let mut window = rig::window(size, model);
+        open(&mut window, &name);
+        press(&mut window, Role::Button, "Fit to recorded passes");
+        let fit = engine::Command::FitPointing(id);
+        assert_eq!(asked(&mut window), [UiCommand::Station(fit)]);
+        let term = |term| {
+            let value = match term {
+                Term::AzimuthOffset => Some(1.23456),
+                Term::TiltEast => Some(-0.00002),
+                _ => None,
+            };
+            let not_told_from = if value.is_none() { vec![Term::AzimuthOffset] } else { vec![] };
+            FittedTerm { term, value, half_of_95_percent: value.map(|_| 0.02), not_told_from }
+        };
+        let noise = NoiseOf { of: Kind::Satellite, points: 340, noise_deg: 0.0312 };
+        let fit = PointingFit { passes: 12, noise: vec![noise], terms: Term::ALL.map(term).into() };
+        let tell = |window: &mut Window, found| {
+            let fitted = PointingFitted { antenna: id, found };
+            window.state_mut().model.pointing_fitted = Some(Arc::new(fitted));
+            settle(window);
+        };
+        tell(&mut window, Some(Err("2 usable points are too few in 1 recorded passes".into())));
+        assert!(says(&window, "No model: 2 usable points are too few in 1 recorded passes."));
+        tell(&mut window, Some(Ok(fit)));
+        let words = "12 passes, 340 points, each axis within 0.031° of the model (1 σ).";
+        assert!(says(&window, words));
+        assert!(says(&window, "± 0.0200° with 95 % confidence"));
+        press(&mut window, Role::Button, "Fill in");
+        assert!(asked(&mut window).is_empty(), "nothing is used yet");
+        let field = window.get_by_role_and_label(Role::TextInput, "Azimuth offset");
+        assert_eq!(field.value().as_deref(), Some("1.2346"));
+        press(&mut window, Role::Button, "Save and use");
+        let saved = saved(asked(&mut window));
+        let expected = PointingModel { azimuth_offset_deg: 1.2346, ..PointingModel::default() };
+        assert_eq!(saved.antennas[0].pointing_model, expected);
     }
 }

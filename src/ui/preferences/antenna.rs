@@ -1,13 +1,14 @@
 //! The page of one antenna: its fields, and what they change of the passes to come.
 
 mod effect;
+mod pointing;
 mod reach;
 
 use egui::{Align, Layout, Rect, Ui, vec2};
 
 use super::{
     FormState,
-    antenna_fields::WATCH,
+    antenna_fields::{POINTING, WATCH},
     columns::{self, Part},
     connection_fields::ADDRESS,
     draft::Draft,
@@ -66,6 +67,7 @@ pub(super) fn show(
             let Some((section, _)) = sections.get(card) else { return };
             let group = format!("antenna {}", id.0);
             let config = antenna.before().clone();
+            let mut fit = None;
             let (form, sought) = ((antenna, &standings[..]), &mut state.sought);
             ui.add_enabled_ui(!is_removed, |ui| {
                 form::section(ui, &group, form, section, sought, |ui| {
@@ -74,8 +76,14 @@ pub(super) fn show(
                         let words = words::stopping_way(known.snapshot.stopping_way);
                         form::told(ui, "Travel after STOP", &words);
                     }
+                    if *section == POINTING && !is_new {
+                        fit = pointing::show(ui, model, id, &config, commands);
+                    }
                 });
             });
+            if let (Some(fit), Some(antenna)) = (fit, draft.antennas.get_mut(index)) {
+                pointing::fill_in(antenna, &fit);
+            }
         }
         Part::Preview { is_fold } => {
             let effect = model.mount_effects.effect.as_ref();

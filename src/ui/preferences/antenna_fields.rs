@@ -6,15 +6,16 @@ use super::{
     fields::{Description, Place, Placed, placed},
 };
 use crate::{
-    astro::PointingModel,
+    astro::{PointingModel, Term},
     station::{AfterPass, Antenna, ControllerSpec, Monitor, Mount, Resume, ranges},
+    ui::words::pointing::pointing_term,
 };
 
 type Of = Description<Antenna>;
 
 /// Sections of the page, each of which is a card.
 const MOUNT: &str = "Mount and travel";
-const POINTING: &str = "Pointing model";
+pub(super) const POINTING: &str = "Pointing model";
 const FOLLOWING: &str = "Following and outages";
 pub(super) const WATCH: &str = "Polling and watch";
 
@@ -140,22 +141,33 @@ fn poll() -> [Of; 2] {
 /// What the axes of an az/el mount read beyond the direction of the beam.
 fn pointing() -> [Of; 8] {
     [
-        Of::number("Azimuth offset", ranges::POINTING_TERM_DEG, "°", |antenna| {
+        Of::number(pointing_term(Term::AzimuthOffset), ranges::POINTING_TERM_DEG, "°", |antenna| {
             Some(&mut model(antenna)?.azimuth_offset_deg)
         })
         .noted(|antenna| Some(about_model(antenna).to_owned())),
-        of_elevation("Elevation offset", |antenna| Some(&mut model(antenna)?.elevation_offset_deg)),
-        of_elevation("Tilt to the north", |antenna| Some(&mut model(antenna)?.tilt_north_deg)),
-        of_elevation("Tilt to the east", |antenna| Some(&mut model(antenna)?.tilt_east_deg)),
-        of_elevation("Collimation", |antenna| Some(&mut model(antenna)?.collimation_deg)),
-        of_elevation("Non-perpendicularity", |antenna| {
+        of_elevation(pointing_term(Term::ElevationOffset), |antenna| {
+            Some(&mut model(antenna)?.elevation_offset_deg)
+        }),
+        of_elevation(pointing_term(Term::TiltNorth), |antenna| {
+            Some(&mut model(antenna)?.tilt_north_deg)
+        }),
+        of_elevation(pointing_term(Term::TiltEast), |antenna| {
+            Some(&mut model(antenna)?.tilt_east_deg)
+        }),
+        of_elevation(pointing_term(Term::Collimation), |antenna| {
+            Some(&mut model(antenna)?.collimation_deg)
+        }),
+        of_elevation(pointing_term(Term::NonPerpendicularity), |antenna| {
             Some(&mut model(antenna)?.non_perpendicularity_deg)
         }),
-        Of::number("Elevation scale", ranges::POINTING_SCALE, "°/°", |antenna| {
-            Some(&mut model(antenna)?.elevation_scale)
-        })
+        Of::number(
+            pointing_term(Term::ElevationScale),
+            ranges::POINTING_SCALE,
+            "°/°",
+            |antenna| Some(&mut model(antenna)?.elevation_scale),
+        )
         .when(has_elevation),
-        of_elevation("Sag", |antenna| Some(&mut model(antenna)?.sag_deg)),
+        of_elevation(pointing_term(Term::Sag), |antenna| Some(&mut model(antenna)?.sag_deg)),
     ]
 }
 
@@ -164,7 +176,7 @@ fn of_elevation(label: &'static str, term: Place<Antenna, f64>) -> Of {
 }
 
 /// The model of an antenna whose tracks Azel leads by an azimuth axis.
-fn model(antenna: &mut Antenna) -> Option<&mut PointingModel> {
+pub(super) fn model(antenna: &mut Antenna) -> Option<&mut PointingModel> {
     let has_model = takes_positions(antenna) && matches!(antenna.mount, Mount::AzEl { .. });
     has_model.then_some(&mut antenna.pointing_model)
 }
@@ -177,7 +189,7 @@ fn about_model(antenna: &Antenna) -> &'static str {
              the zenith."
         }
         false => "Applied to every track that Azel leads.",
-        true => "What the axes read beyond the direction of the beam. `azel pointing` finds it.",
+        true => "What the axes read beyond the direction of the beam.",
     }
 }
 

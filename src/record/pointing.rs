@@ -1,0 +1,129 @@
+//! The pointing model of an antenna, fitted to the passes that its record holds.
+
+use std::{ops::Range, path::Path};
+
+use jiff::Timestamp;
+use serde::{Deserialize, Serialize};
+
+use super::{PassQuery, RecordError, passes, track};
+use crate::{
+    astro::{PointingModel, Site, Term, time::seconds_between},
+    plan::{
+        pass_report::TrackPoint,
+        pointing::{self, CannotFit, Fit, Kind, Point},
+    },
+    station::AntennaId,
+};
+
+/// Time between two points of a pass that are used, seconds: what a drive is off by changes little
+/// in less, and points that are alike would make the model look surer than it is.
+const APART_S: f64 = 10.0;
+/// Positions further from the satellite are a slew, or no track at all, degrees.
+const NEAR_DEG: f64 = 10.0;
+
+/// The model that fits best. Nothing of it is applied.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct PointingFit {
+    /// Number of passes with a point that counts.
+    pub passes: usize,
+    pub noise: Vec<NoiseOf>,
+    /// One a term, in the order of [`Term::ALL`].
+    pub terms: Vec<FittedTerm>,
+}
+
+/// Points of a kind.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct NoiseOf {
+    pub of: Kind,
+    pub points: usize,
+    /// Standard deviation of one axis, degrees.
+    pub noise_deg: f64,
+}
+
+/// By how much the axes read more than the direction in which the beam points.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct FittedTerm {
+    pub term: Term,
+    /// Degrees; for the scale, degrees a degree. `None` where the points cannot tell it.
+    pub value: Option<f64>,
+    /// Half of the width of the interval that holds it in 95 of 100 cases.
+    pub half_of_95_percent: Option<f64>,
+    /// Terms that the points cannot tell it from.
+    pub not_told_from: Vec<Term>,
+}
+
+#[derive(Debug, thiserror::Error)]
+pub enum CannotFitPointing {
+    #[error("the record cannot be read: {0}")]
+    Record(#[from] RecordError),
+    #[error("{why} in {passes} recorded passes")]
+    Points { passes: usize, why: CannotFit },
+}
+
+/// Fits the model of `antenna` to its passes in the record at `path` that end `within` a time, and
+/// to `peaks`. Reports without a site are of an antenna at `site`.
+pub fn fit_pointing(
+    path: &Path,
+    antenna: AntennaId,
+    site: Site,
+    within: Range<Timestamp>,
+    peaks: Vec<Point>,
+) -> Result<PointingFit, CannotFitPointing> {
+    let (mut count, mut points) = (0, peaks);
+    let query = PassQuery { antenna: Some(antenna), count: u32::MAX, ..PassQuery::default() };
+    let recorded = if path.exists() { passes(path, &query)?.passes } else { Vec::new() };
+    for pass in recorded.iter().filter(|pass| within.contains(&pass.report.until)) {
+        let before = points.len();
+        let model = &pass.report.about.pointing_model;
+        points.extend(thinned(&track(path, pass, site)?, model));
+        count += usize::from(points.len() > before);
+    }
+    let fit =
+        pointing::fit(&points).map_err(|why| CannotFitPointing::Points { passes: count, why })?;
+    Ok(PointingFit::new(count, &fit))
+}
+
+fn thinned(track: &[TrackPoint], flown_with: &PointingModel) -> Vec<Point> {
+    let mut last: Option<Timestamp> = None;
+    let near = track.iter().filter(|point| point.error.off_deg <= NEAR_DEG);
+    let apart = near.filter(|point| {
+        let is_apart = last.is_none_or(|last| seconds_between(last, point.time) >= APART_S);
+        if is_apart {
+            last = Some(point.time);
+        }
+        is_apart
+    });
+    let point = |point: &TrackPoint| Point {
+        kind: Kind::Satellite,
+        wanted: point.satellite,
+        // What the axes read.
+        measured: flown_with.reading(point.antenna).unwrap_or(point.antenna),
+        weight: 1.0,
+    };
+    apart.map(point).collect()
+}
+
+impl PointingFit {
+    fn new(passes: usize, fit: &Fit) -> Self {
+        let term = |term: Term| {
+            let interval = fit.interval(term);
+            let alike = fit.alike.iter().find(|alike| alike.term == term);
+            FittedTerm {
+                term,
+                value: interval.map(|interval| interval.value),
+                half_of_95_percent: interval.map(|interval| interval.half),
+                not_told_from: alike.map(|alike| alike.with.clone()).unwrap_or_default(),
+            }
+        };
+        let noise = |found: &pointing::Found| NoiseOf {
+            of: found.kind,
+            points: found.points,
+            noise_deg: found.noise_deg,
+        };
+        Self {
+            passes,
+            noise: fit.noise.iter().map(noise).collect(),
+            terms: Term::ALL.map(term).into(),
+        }
+    }
+}
