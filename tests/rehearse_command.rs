@@ -46,7 +46,7 @@ fn each_pass_stands_in_every_form_beside_its_promise_and_no_file_is_touched() {
     let csv = text(&rehearse(folder.path(), &["--format", "csv"]).stdout);
     let rows: Vec<&str> = csv.lines().collect();
     assert_eq!(rows.len(), 1 + passes.len(), "{csv}");
-    assert!(rows[1..].iter().all(|row| row.contains("Inside half of the beam")), "{csv}");
+    assert!(rows[1..].iter().all(|row| row.contains("Within half the beamwidth")), "{csv}");
     let table = text(&rehearse(folder.path(), &[]).stdout);
     assert_eq!(table.lines().count(), rows.len(), "{table}");
 }

@@ -456,7 +456,7 @@ fn the_program_serves_is_asked_from_a_second_shell_and_ends_by_a_signal() {
     served.until(|told| told["antenna"] == "Dish" && told["about"] == "lock_out");
 
     served.signal("USR1");
-    served.until(|told| told["antenna"] == "Mast" && told["text"] == "STOP is proved.");
+    served.until(|told| told["antenna"] == "Mast" && told["text"] == "STOP is confirmed.");
 
     let asked = Instant::now();
     served.signal("TERM");

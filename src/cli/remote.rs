@@ -162,7 +162,7 @@ pub(super) fn lock_out(
                 (true, _) => say(&format!("{antenna} is not locked out any more."))?,
                 (false, true) => say(&format!("{antenna} is locked out and stands."))?,
                 (false, false) => say(&format!(
-                    "{antenna} is locked out, but it is NOT proved that it stands and does not \
+                    "{antenna} is locked out, but it is NOT confirmed that it stands and does not \
                      start by itself."
                 ))?,
             }

@@ -299,7 +299,7 @@ fn changes(before: Option<&AntennaStatus>, now: &AntennaStatus) -> Vec<(About, S
         before.is_some_and(|before| differs(before, now))
     };
     if was(|before, now| before.owes_stop != now.owes_stop) {
-        let text = if now.owes_stop { "STOP, not proved yet." } else { "STOP is proved." };
+        let text = if now.owes_stop { "STOP, not confirmed yet." } else { "STOP is confirmed." };
         told.push((About::Stop, text.to_owned()));
     }
     if !known || was(|before, now| before.locked_out != now.locked_out) {

@@ -28,7 +28,7 @@ use crate::{
 const APART_S: f64 = 2.0;
 /// Time between the two directions that give the direction of motion, seconds.
 const MOTION_S: f64 = 0.5;
-/// Share of a pass inside half of the beam from which it is good.
+/// Share of a pass within half the beamwidth from which it is good.
 const GOOD: f64 = 0.995;
 /// Share from which it is fair.
 const FAIR: f64 = 0.95;
@@ -68,18 +68,18 @@ pub struct PassReport {
     pub counted_s: f64,
     /// Seconds of them with positions.
     pub known_s: f64,
-    /// Seconds of them inside half of the beam.
+    /// Seconds of them within half the beamwidth.
     pub in_beam_s: f64,
     /// Root of the mean square over the positions while the satellite was within reach of the
     /// mount, and the largest of them; `None` without one.
     pub rms: Option<PointingError>,
     pub worst: Option<WorstError>,
-    /// Stretches outside half of the beam or without positions, in order.
+    /// Stretches beyond half the beamwidth or without positions, in order.
     pub losses: Vec<LostStretch>,
 }
 
 impl PassReport {
-    /// Share of the pass inside half of the beam.
+    /// Share of the pass within half the beamwidth.
     pub fn share(&self) -> f64 {
         if self.counted_s > 0.0 { self.in_beam_s / self.counted_s } else { 0.0 }
     }
@@ -88,7 +88,7 @@ impl PassReport {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum PassVerdict {
-    /// At least 99.5 % of what could be had, and never outside half of the beam for another reason.
+    /// At least 99.5 % of what could be had, and never beyond half the beamwidth for other reasons.
     Good,
     /// At least 95 % of what could be had.
     Fair,
@@ -238,7 +238,7 @@ impl TrackedPass<'_> {
         point.error.off_deg <= self.limits.half_beam.degrees()
     }
 
-    /// Seconds with positions, and seconds of them inside half of the beam.
+    /// Seconds with positions, and seconds of them within half the beamwidth.
     fn times(&self, compared: &[TrackPoint]) -> (f64, f64) {
         let (mut known_s, mut in_beam_s) = (0.0, 0.0);
         // Before the first and after the last position the pass is as it was seen there.

@@ -44,7 +44,7 @@ pub struct RehearsedPass {
     /// When the antenna was to track it.
     pub from: Timestamp,
     pub to: Timestamp,
-    /// Seconds inside half of the beam that the plan promised, when it first named the pass.
+    /// Seconds within half the beamwidth that the plan promised, when it first named the pass.
     pub promised_s: f64,
     /// A newer plan left it out before it began.
     pub is_given_up: bool,
@@ -57,7 +57,7 @@ pub struct RehearsedPass {
 }
 
 impl RehearsedPass {
-    /// Seconds inside half of the beam.
+    /// Seconds within half the beamwidth.
     pub fn got_s(&self) -> f64 {
         self.flown.as_ref().map_or(0.0, |flown| flown.in_beam_s)
     }

@@ -17,7 +17,7 @@ pub struct KeepOut {
     /// Name of the antenna it holds for; `None` for the whole site.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub antenna: Option<String>,
-    /// Margin that the operator adds to half of the beam and to the overrun of the drives,
+    /// Margin that the operator adds to half the beamwidth and to the overrun of the drives,
     /// degrees, 0 to 30.
     pub margin_deg: f64,
     /// Edges of the zone. In the file a list of corners, each an azimuth and an elevation.

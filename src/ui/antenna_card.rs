@@ -357,7 +357,7 @@ fn more_below(ui: &Ui, strip: Rect) {
     let place = Rect::from_center_size(at, vec2(32.0, 14.0));
     ui.painter().rect(place, 7.0, t.bg3, (1.0, t.edge), egui::StrokeKind::Inside);
     icons::paint(ui.painter(), paint::square(at, 12.0), Icon::ChevronDown, t.t1);
-    let words = "More below: scroll";
+    let words = "Scroll for more";
     paint::name_text(ui, "more below", place, words).on_hover_text(words);
 }
 

@@ -55,7 +55,7 @@ pub fn show(ui: &mut Ui, rect: Rect, model: &Model, commands: &mut Vec<UiCommand
     let whole = rect.shrink2(vec2(PADDING, 0.0));
     if !model.demo {
         ui.painter().rect_filled(rect, 0.0, t.bg1);
-        let words = format!("The demo is over. {} is in use.", model.station.name);
+        let words = format!("The demo has ended. {} is now in use.", model.station.name);
         paint::text_in(ui, whole, Align2::LEFT_CENTER, &words, text::body(), t.t2);
         paint::name_text(ui, "after the demo", whole, &words);
         return;
@@ -68,14 +68,14 @@ pub fn show(ui: &mut Ui, rect: Rect, model: &Model, commands: &mut Vec<UiCommand
     let is_low = rect.height() < HEIGHT;
     let words = match &model.catalog {
         _ if model.view == View::Setup => {
-            "Demo station: the antennas are simulated, no hardware moves. It keeps running while \
-             you set up yours."
+            "Demo station: the antennas are simulated, no real antenna moves. It keeps running \
+             while you set up yours."
                 .to_owned()
         }
-        CatalogState::Loading => "Demo station: the elements are being read.".to_owned(),
-        CatalogState::Failed => "Demo station without elements: they could not be read.".to_owned(),
+        CatalogState::Loading => "Demo station: reading the elements.".to_owned(),
+        CatalogState::Failed => "Demo station: the elements could not be read.".to_owned(),
         CatalogState::Ready(_) if is_low => {
-            "Demo station: the antennas are simulated, no hardware moves.".to_owned()
+            "Demo station: the antennas are simulated, no real antenna moves.".to_owned()
         }
         CatalogState::Ready(_) => {
             let elements = if model.sources.list.is_empty() {
@@ -83,7 +83,7 @@ pub fn show(ui: &mut Ui, rect: Rect, model: &Model, commands: &mut Vec<UiCommand
             } else {
                 String::new()
             };
-            format!("Demo station: the antennas are simulated, no hardware moves.{elements}")
+            format!("Demo station: the antennas are simulated, no real antenna moves.{elements}")
         }
     };
     let button = Button::normal(word);

@@ -165,15 +165,15 @@ fn left_out_of_stop(model: &Model) -> Option<(String, String)> {
     let is_left_out = |of: &&AntennaModel| of.held_by.is_none() && !of.snapshot.wants_stop();
     let left_out = model.antennas.iter().filter(is_left_out);
     let names: Vec<&str> = left_out.map(|antenna| antenna.config.name.as_str()).collect();
-    let verb = match *names {
+    let (verb, them) = match *names {
         [] => return None,
-        [_] => "is",
-        _ => "are",
+        [_] => ("is", "it"),
+        _ => ("are", "them"),
     };
     let of = model.antennas.len();
     let count = format!("{} of {of}", of - names.len());
     let names = format::list(&names);
-    Some((count, format!("{names} {verb} not connected: not stopped from here.")))
+    Some((count, format!("{names} {verb} not connected: STOP does not reach {them}.")))
 }
 
 fn clock_health(sync: TimeSync) -> ClockHealth<'static> {
@@ -187,13 +187,13 @@ fn clock_health(sync: TimeSync) -> ClockHealth<'static> {
             mood: ClockMood::Bad,
             words: "not synchronised",
             sentence: "No time service synchronises this computer's clock. A low satellite \
-                       overhead moves about 1° a second, so predictions are off by as much for \
-                       each second that the clock is off.",
+                       overhead moves about 1° a second, so each second of clock error puts \
+                       predictions off by about 1°.",
         },
         TimeSync::NotKnown => ClockHealth {
             mood: ClockMood::Unknown,
-            words: "sync not known",
-            sentence: "It is not known whether a time service synchronises this computer's clock.",
+            words: "sync unknown",
+            sentence: "Azel cannot tell whether a time service synchronises this computer's clock.",
         },
     }
 }
@@ -237,7 +237,7 @@ pub fn activity(antenna: &AntennaModel) -> &'static str {
         LinkState::Off => return "Not connected",
         LinkState::Connecting { .. } => return "Connecting",
         LinkState::Lost { .. } => return "No reply",
-        LinkState::Stale { .. } => return "Slow reply",
+        LinkState::Stale { .. } => return "Slow",
         LinkState::Up { .. } => {}
     }
     let moving = state.measured.is_some_and(|measured| measured.moving());

@@ -127,12 +127,12 @@ fn compared(
     );
     ui.label(RichText::new(words).font(text::small()).color(t.t2));
     if !copy.unknown.is_empty() {
-        let words = format!("Not known and left out: {}.", copy.unknown.join(", "));
+        let words = format!("Unknown settings, left out: {}.", copy.unknown.join(", "));
         ui.label(RichText::new(words).font(text::small()).color(t.warn));
     }
     let differences = copy.differences(antenna.groups(), &antenna.snapshot.state.held);
     if differences.is_empty() {
-        let words = "Every value in the file is on the unit.";
+        let words = "The unit already holds every value in the file.";
         ui.label(RichText::new(words).font(text::body()).color(t.ok));
         return Vec::new();
     }
@@ -151,11 +151,11 @@ fn compared(
     let mut taken = Vec::new();
     ui.with_layout(Layout::left_to_right(Align::Center), |ui| {
         let chosen: Vec<_> = differences.iter().filter_map(|it| chosen(it, state)).collect();
-        let word = format!("Take over {}", chosen.len());
+        let word = format!("Copy {} to the form", chosen.len());
         if ui.add_enabled(!chosen.is_empty(), egui::Button::new(word)).clicked() {
             taken = chosen;
         }
-        let words = "They go into the form as edits. Apply sends them.";
+        let words = "They become edits in the form; Apply sends them.";
         ui.label(RichText::new(words).font(text::small()).color(t.t2));
     });
     taken

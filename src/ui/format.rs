@@ -3,6 +3,8 @@
 mod distances;
 mod times;
 
+use jiff::Timestamp;
+
 use crate::{
     astro::{Angle, AzEl},
     device::{Capabilities, Pointing},
@@ -136,18 +138,22 @@ pub fn duration(seconds: f64) -> String {
     }
 }
 
-/// The time until something, as a [`duration`] that agrees with its
-/// [`countdown`].
-pub fn time_left(seconds: f64) -> String {
-    duration(seconds.max(0.0).ceil())
+/// Seconds from the time that the clock shows at `now` to the time that is written for `at`.
+/// Both are cut to whole seconds; so the clock and a countdown add up to the time beside them.
+fn seconds_left(now: Timestamp, at: Timestamp) -> i64 {
+    at.as_second() - now.as_second()
+}
+
+/// The time until `at`, as a [`duration`] that agrees with its [`countdown`].
+pub fn time_left(now: Timestamp, at: Timestamp) -> String {
+    duration(seconds_left(now, at).max(0) as f64)
 }
 
 /// A countdown: T−mm:ss, from one hour T−h:mm:ss; T+ once the time is past.
-pub fn countdown(seconds: f64) -> String {
-    // Rounds up, so that zero is shown at zero.
-    let left = seconds.ceil();
-    let sign = if left < 0.0 { '+' } else { MINUS };
-    let whole = left.abs() as u64;
+pub fn countdown(now: Timestamp, at: Timestamp) -> String {
+    let left = seconds_left(now, at);
+    let sign = if left < 0 { '+' } else { MINUS };
+    let whole = left.unsigned_abs();
     let (hours, minutes, rest) = (whole / 3600, whole / 60 % 60, whole % 60);
     if hours == 0 {
         format!("T{sign}{minutes:02}:{rest:02}")
@@ -240,16 +246,37 @@ mod tests {
 
     #[test]
     fn times_left_and_passed() {
-        assert_eq!(countdown(513.0), "T−08:33");
-        assert_eq!(countdown(5395.0), "T−1:29:55");
-        assert_eq!(countdown(86_399.0), "T−23:59:59");
-        assert_eq!(countdown(0.0), "T−00:00");
-        assert_eq!(countdown(-61.0), "T+01:01");
+        let now = Timestamp::UNIX_EPOCH;
+        let told = |left_s| {
+            let at = Timestamp::from_second(left_s).unwrap();
+            (countdown(now, at), time_left(now, at))
+        };
+        assert_eq!(told(513), ("T−08:33".to_owned(), "8:33".to_owned()));
+        assert_eq!(told(5395), ("T−1:29:55".to_owned(), "1:29:55".to_owned()));
+        assert_eq!(told(86_399).0, "T−23:59:59");
+        assert_eq!(told(0), ("T−00:00".to_owned(), "0:00".to_owned()));
+        assert_eq!(told(-61), ("T+01:01".to_owned(), "0:00".to_owned()));
         assert_eq!(duration(772.0), "12:52");
         assert_eq!(duration(3600.0), "1:00:00");
         assert_eq!(duration(48.0), "0:48");
-        assert_eq!((time_left(512.2), countdown(512.2)), ("8:33".to_owned(), "T−08:33".to_owned()));
-        assert_eq!(time_left(-3.0), "0:00");
+    }
+
+    #[test]
+    fn the_clock_and_a_countdown_add_up_to_the_time_written_beside_them() {
+        let midnight: Timestamp = "2026-11-14T00:00:00Z".parse().unwrap();
+        let after = |ms: i64| midnight + std::time::Duration::from_millis(ms.unsigned_abs());
+        let written_s = |text: &str| -> i64 {
+            let parts = text.trim_end_matches('Z').split(':');
+            parts.fold(0, |sum, part| 60 * sum + part.parse::<i64>().unwrap())
+        };
+        for (now_ms, at_ms) in [(600, 12_900), (900, 12_100), (0, 12_999), (12_950, 12_050)] {
+            let (now, at) = (after(now_ms), after(at_ms));
+            let (shown, left) = (countdown(now, at), time_left(now, at));
+            let left_s = written_s(shown.trim_start_matches("T−"));
+            assert_eq!(written_s(&clock(now)) + left_s, written_s(&moment(at, now)));
+            assert_eq!(left_s, written_s(&left));
+        }
+        assert_eq!(countdown(after(13_000), after(12_999)), "T+00:01");
     }
 
     #[test]

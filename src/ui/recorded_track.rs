@@ -34,7 +34,7 @@ pub(super) fn enlargement(factor: u16) -> String {
 
 /// Half of the height of the scale of errors, degrees.
 pub(super) fn error_top_deg(half_beam_deg: f64, track: &[TrackPoint]) -> f64 {
-    /// The scale reaches so far beyond half of the beam, and at most so many times as far.
+    /// The scale reaches so far beyond half the beamwidth, and at most so many times as far.
     const LEAST: f64 = 1.25;
     const MOST: f64 = 4.0;
     let worst_deg = worst(track).map_or(0.0, |worst| worst.error.off_deg);

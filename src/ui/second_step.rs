@@ -4,7 +4,6 @@
 
 use super::{confirm::Question, format, state_sentence::short, words};
 use crate::{
-    astro::time::seconds_between,
     device::Pointing,
     driver,
     engine::{
@@ -135,9 +134,8 @@ fn tracking(model: &Model, pass: PassKey) -> String {
     let (_, aos) = pass;
     let listed = model.pass_lists.find(pass);
     let name = listed.map_or("the other pass", |listed| listed.satellite.short_name());
-    let wait_s = seconds_between(model.now, aos);
-    if wait_s > 0.0 {
-        format!("Tracking {name}, which rises in {},", format::time_left(wait_s))
+    if aos > model.now {
+        format!("Tracking {name}, which rises in {},", format::time_left(model.now, aos))
     } else {
         format!("Tracking {name}")
     }

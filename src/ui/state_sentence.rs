@@ -13,7 +13,6 @@ use super::{
     words,
 };
 use crate::{
-    astro::time::seconds_between,
     device::{JogSpeeds, Phase, Pointing},
     driver::{Intent, StopState},
     engine::{antenna::AntennaModel, passes::ListedSatellite},
@@ -152,9 +151,9 @@ fn program(model: &Model, antenna: &AntennaModel) -> Option<Spoken> {
             };
             Some(match starts {
                 Some(start) => spoken.plain(format!(
-                    ". Its tracking starts at {} in {}.",
+                    ". Its tracking starts at {}, in {}.",
                     format::moment(start, model.now),
-                    format::time_left(seconds_between(model.now, start))
+                    format::time_left(model.now, start)
                 )),
                 None => spoken.plain(". Its tracking window is not open."),
             })
@@ -167,7 +166,7 @@ fn program(model: &Model, antenna: &AntennaModel) -> Option<Spoken> {
         ),
         Phase::Unknown(code) => Some(
             Spoken::new(SentenceKind::Caution)
-                .plain(format!("Not known: the unit reports tracking state {code} for "))
+                .plain(format!("The unit reports the unknown tracking state {code} for "))
                 .bold(name)
                 .plain("."),
         ),
@@ -297,11 +296,9 @@ fn next_words(
     now: Timestamp,
 ) -> String {
     match selected {
-        Some((satellite, aos, _)) if aos > now => format!(
-            "{} rises in {}.",
-            satellite.short_name(),
-            format::time_left(seconds_between(now, aos))
-        ),
+        Some((satellite, aos, _)) if aos > now => {
+            format!("{} rises in {}.", satellite.short_name(), format::time_left(now, aos))
+        }
         Some((satellite, _, los)) if los > now => {
             format!("{} is up but is not being tracked.", satellite.short_name())
         }

@@ -112,7 +112,7 @@ pub fn unfit(why: &Unfit, unit: &str) -> String {
 pub fn unfit_in_short(why: &Unfit, unit: &str) -> String {
     let only = |min: f64, max: f64| {
         let gap = if unit == "°" || unit.is_empty() { "" } else { " " };
-        format!("Only {min} to {max}{gap}{unit}").replace('-', "−")
+        format!("Must be {min} to {max}{gap}{unit}").replace('-', "−")
     };
     match *why {
         Unfit::Number { min, max } => only(min, max),

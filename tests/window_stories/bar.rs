@@ -49,7 +49,7 @@ fn carry_out(window: &mut Window) -> Vec<UiCommand> {
 fn the_alarm_list_leaves_the_countdown_of_the_pass_free() {
     for size in SIZES {
         let window = scene("Alarms", size);
-        let countdown = window.get_by_label("LOS T−05:57").rect();
+        let countdown = window.get_by_label("LOS T−05:56").rect();
         let open = window.ctx.memory(|memory| {
             let mut layers = memory.areas().visible_layer_ids().into_iter();
             let list = layers.find(|layer| layer.order == Order::Foreground)?;
@@ -100,7 +100,7 @@ fn alarms_are_told_in_words_with_their_antenna() {
         ),
         (
             AlarmKind::BrokeOff(Work::Elements),
-            "Reading the elements failed inside Azel. The elements held before stay in use;",
+            "Reading the elements failed inside Azel. The previous elements stay in use;",
         ),
         (AlarmKind::BrokeOff(Work::Passes), "The search for passes failed inside Azel."),
         (
@@ -243,8 +243,8 @@ fn a_chip_says_in_words_how_its_link_stands() {
             (LinkState::Off, "Satrak: Not connected, link off"),
             (LinkState::Connecting { since: now }, "Satrak: Connecting, link off"),
             (LinkState::Up { since: now }, "Satrak: Holding, link live"),
-            (LinkState::Stale { last_reply: now }, "Satrak: Slow reply, link late"),
-            (lost.clone(), "Satrak: No reply, 0.0 s, link lost"),
+            (LinkState::Stale { last_reply: now }, "Satrak: Slow, link late"),
+            (lost.clone(), "Satrak: No reply for 0.0 s, link lost"),
         ] {
             let mut model = rig::model(Snapshot { link, ..states::holding() });
             model.steady = now;

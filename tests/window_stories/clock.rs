@@ -19,7 +19,7 @@ fn the_large_window_says_how_the_clock_is_kept() {
     for (sync, words) in [
         (TimeSync::Synchronised, "Clock: synchronised"),
         (TimeSync::NotSynchronised, "Clock: not synchronised"),
-        (TimeSync::NotKnown, "Clock: sync not known"),
+        (TimeSync::NotKnown, "Clock: sync unknown"),
     ] {
         with(LARGE, sync).get_by_label(words);
     }

@@ -111,8 +111,8 @@ fn antennas_that_move_or_are_tracked_are_asked_about_by_name() {
                 "Satrak tracks NOAA 20 by itself.",
                 "RC2000C was moved and is not known to have stopped.",
                 "STOP goes to Satrak and RC2000C first.",
-                "Satrak to the park position; everything else stays until then.",
-                "Satrak left to track, with nobody watching here. STOP goes to the others first.",
+                "Satrak to the park position; everything else is kept until then.",
+                "Satrak left tracking, with nobody watching here. STOP goes to the others first.",
             ] {
                 assert!(rig::says(&window, told), "{told}");
             }

@@ -49,7 +49,11 @@ fn a_query_is_sent_once_its_frame_stands_there() {
         write(&mut window, "Query to send", "tpos?");
         let frame = String::from_utf8(encode("TPOS?")).unwrap();
         assert!(says(&window, &format!("sends {}", frame.trim_end())));
-        assert!(says(&window, "Asks for the position with its time. The answer comes in the log."));
+        assert!(says(
+            &window,
+            "Asks for the position with its time. The answer will appear in the \
+                               log."
+        ));
         click(&mut window, "Send");
         assert_eq!(asked(&mut window), [ask("TPOS?")]);
         write(&mut window, "Query to send", "REDUCTION");

@@ -42,7 +42,7 @@ fn while_it_is_tracked_there_is_nothing_to_ask_for() {
     for size in SIZES {
         let window = rig::window(size, rig::model(states::tracking(0.0)));
         window.get_by_label("On the unit: NOAA 20");
-        window.get_by_label("Selected, is tracked: NOAA 20");
+        window.get_by_label("Selected and tracked: NOAA 20");
         assert!(window.query_by_label("Track NOAA 20").is_none());
     }
 }

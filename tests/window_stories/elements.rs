@@ -144,7 +144,7 @@ fn a_source_says_what_is_wrong_and_what_is_true_meanwhile() {
         silent.fetch_problem = Some(FetchProblem::Answer(403));
         let window = view(size, vec![(own, lost), (weather, silent)]);
         assert!(says(&window, "Cannot be read: No such file: /var/elements/own.tle."));
-        assert!(says(&window, "The server answered 403. The elements held before stay in use."));
+        assert!(says(&window, "The server answered 403. The previous elements stay in use."));
         let new = Source::celestrak("geo");
         let never = SourceReport { files: Vec::new(), ..report(&new, 0) };
         let window = view(size, vec![(new, never)]);
@@ -152,7 +152,7 @@ fn a_source_says_what_is_wrong_and_what_is_true_meanwhile() {
         let own = file_source();
         let aside = SourceReport { is_set_aside: true, files: Vec::new(), ..report(&own, 0) };
         let mut window = view(size, vec![(own, aside)]);
-        assert!(says(&window, "Set aside: Azel ended while it read this source."));
+        assert!(says(&window, "Set aside: Azel ended while reading this source."));
         click(&mut window, "Read own again");
         assert_eq!(asked(&mut window), [refresh(&["own"], false)]);
     }

@@ -138,7 +138,7 @@ fn the_demo_station_says_that_no_metal_moves() {
         let mut model = rig::model(states::holding());
         model.demo = true;
         let mut window = rig::window(size, model);
-        assert!(says(&window, "Demo station: the antennas are simulated, no hardware moves."));
+        assert!(says(&window, "Demo station: the antennas are simulated, no real antenna moves."));
         nothing_is_cut(&window, size);
         // The card is as high as without the banner.
         let faults =
@@ -202,7 +202,7 @@ fn the_demo_station_without_elements_says_so() {
         Arc::make_mut(&mut model.station).antennas.clear();
         model.antennas.clear();
         let window = rig::window(size, model);
-        assert!(says(&window, "Demo station without elements: they could not be read."));
+        assert!(says(&window, "Demo station: the elements could not be read."));
         nothing_is_cut(&window, size);
     }
 }

@@ -66,26 +66,26 @@ fn the_sentence_says_what_is_waited_for_followed_and_over() {
     use AxisMotion::{Plus, Still};
     let waiting = TrackPhase::Waiting { aos: add_seconds(rig::now(), 192.0) };
     for (phase, off_deg, motion, wanted) in [
-        (waiting, 0.0, Plus, "Moving to meet NOAA 20, which rises at 11:18:42Z in 3:12."),
+        (waiting, 0.0, Plus, "Moving to meet NOAA 20, which rises at 11:18:42Z, in 3:12."),
         (
             waiting,
             0.0,
             Still,
-            "Waiting at 134°, 20° for NOAA 20, which rises at 11:18:42Z in 3:12.",
+            "Waiting at 134°, 20° for NOAA 20, which rises at 11:18:42Z, in 3:12.",
         ),
         (
             TrackPhase::Tracking,
             0.4,
             Plus,
-            "Following NOAA 20, sent from position to position. The antenna is 0.40° off, inside \
-             its 20.00° beam.",
+            "Following NOAA 20 position by position. The antenna is 0.40° off, inside its 20.00° \
+             beam.",
         ),
         (
             TrackPhase::Tracking,
             11.0,
             Plus,
-            "Following NOAA 20, sent from position to position. The antenna is 11.00° off, \
-             outside its 20.00° beam.",
+            "Following NOAA 20 position by position. The antenna is 11.00° off, outside its 20.00° \
+             beam.",
         ),
         (TrackPhase::Over, 0.0, Still, "The pass of NOAA 20 is over. Holding at 134°, 20°."),
     ] {
@@ -156,8 +156,8 @@ fn after_the_pass_it_is_told_how_well_it_was_followed() {
     let mut model = following(TrackPhase::Over, 0.0, AxisMotion::Still);
     let over = Event::ProgramTrackOver { name: "NOAA 20 (JPSS-1)".to_owned(), stats };
     model.antennas[0].news = Some((over, model.now));
-    let wanted = "The pass of NOAA 20 is over. It was followed to 0.71° rms, 0.80° at worst, with \
-                  206 commands.";
+    let wanted = "The pass of NOAA 20 is over. It was followed with an error of 0.71° rms, 0.80° \
+                  at worst, using 206 commands.";
     assert_eq!(states::sentence(&model), wanted);
 }
 

@@ -21,7 +21,7 @@ use crate::window_stories::{
     states,
 };
 
-const STANDS: &str = "Hold 1 s: I have seen that it is at rest";
+const STANDS: &str = "Hold 1 s: I have seen it at rest";
 const UNGUARDED: &str = "Hold 1 s to move without the dead-man timer";
 
 fn shows(snapshot: Snapshot) -> Model {

@@ -89,7 +89,7 @@ fn a_wrong_time_says_why_and_cannot_be_saved() {
     let mut window = page(SIZES[0]);
     choose(&mut window, "Quiet hours", "On");
     for (typed, why) in [
-        ("25:00", "Quiet from must be a time of the day such as 22:00."),
+        ("25:00", "Quiet from must be a time of day such as 22:00."),
         ("06:00", "Quiet to must differ from Quiet from."),
     ] {
         write(&mut window, "Quiet from", typed);
@@ -129,7 +129,7 @@ fn what_the_desktop_lacks_is_said_where_it_is_set() {
     assert!(window.query_by_role_and_label(Role::RadioGroup, "Warnings").is_none());
     assert!(says(&window, "The desktop shows no notifications: Azel is not running in a desktop"));
     assert!(says(&window, "Start it from the desktop"), "with what to do");
-    let raw = "The answer of the system: no address";
+    let raw = "The system answered: no address";
     assert!(!says(&window, raw));
     window.get_by_label_contains("The desktop shows no notifications").hover();
     window.run_steps(8);

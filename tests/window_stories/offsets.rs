@@ -55,7 +55,7 @@ fn each_offset_has_its_value_and_keys_for_less_and_more() {
     for size in SIZES {
         let line = "Offsets: time −0.30 s, across +0.25°";
         let mut window = opened(size, on, line);
-        let said = "sent from position to position with offsets.";
+        let said = "position by position with offsets.";
         assert!(window.query_all_by_label_contains(said).next().is_some());
         for said in
             ["Time offset: −0.30 s", "Across track offset: +0.25°", "Azimuth offset: +0.00°"]

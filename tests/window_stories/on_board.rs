@@ -62,7 +62,7 @@ fn a_unit_that_would_miss_is_started_by_holding_only() {
     assert!(says(&window, "The unit's location is 1596 km from this station: 12.30"));
     assert!(says(&window, "Follow it from here instead."));
     assert!(!texts(&window).iter().any(|text| text.ends_with(", Trackable")));
-    assert!(texts(&window).iter().any(|text| text.ends_with(", The unit would miss")));
+    assert!(texts(&window).iter().any(|text| text.ends_with(", The unit would miss it")));
     hold(&mut window, "Hold 1 s to track anyway");
     let asked = asked(&mut window);
     assert!(

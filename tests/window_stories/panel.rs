@@ -61,7 +61,7 @@ fn rc2000c(intent: Intent) -> Model {
 fn nothing_is_asked_of_an_rc2000c_before_connect() {
     for size in SIZES {
         let mut window = rig::window(size, makes::model(makes::rc2000c(), makes::rc2000c_off()));
-        assert!(says(&window, "Azel sends nothing to it before Connect"));
+        assert!(says(&window, "Azel sends it nothing until you press Connect"));
         assert!(says(&window, "take its panel from somebody"));
         assert!(says(&window, "Locked: not connected."));
         window.get_by_label_contains("RC2000C: Not connected");
@@ -117,7 +117,10 @@ fn letting_go_of_what_moves_is_asked_about() {
 fn after_letting_go_of_a_satrak_it_can_be_taken_up_again() {
     for size in SIZES {
         let mut window = rig::window(size, rig::model(makes::rc2000c_off()));
-        assert!(says(&window, "Another program may use it. Connect opens the link again."));
+        assert!(says(
+            &window,
+            "so another program can use it. Press Connect to open the link again."
+        ));
         window.get_by_role_and_label(Role::Button, "Connect").click();
         assert_eq!(asked(&mut window), [antenna(Command::Connect)]);
     }
@@ -325,11 +328,11 @@ fn no_other_view_shows_what_only_a_satrak_has() {
             asked(&mut window);
             window.state_mut().model.view = View::Console;
             settle(&mut window);
-            let words = "Queries can be sent, such as STATUS. Settings are changed under \
-                         Antennas, motion in Operate.";
+            let words = "Queries can be sent, such as STATUS. Change settings in Antennas; move \
+                         antennas in Operate.";
             assert!(says(&window, words));
             type_into(&mut window, "Query to send", "status");
-            assert!(says(&window, "Asks for the status. The answer comes in the log."));
+            assert!(says(&window, "Asks for the status. The answer will appear in the log."));
             window.key_press(Key::Enter);
             let question = UiCommand::antenna(AntennaId(1), Command::Ask("STATUS".into()));
             assert_eq!(asked(&mut window), [question]);
@@ -337,7 +340,7 @@ fn no_other_view_shows_what_only_a_satrak_has() {
             assert!(says(&window, "Not sent. The unit does not answer this query"));
             window.state_mut().model.view = View::Elements;
             settle(&mut window);
-            assert!(window.query_by_label("Upload and prove").is_none());
+            assert!(window.query_by_label("Upload and verify").is_none());
         }
     }
 }

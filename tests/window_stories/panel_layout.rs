@@ -96,15 +96,14 @@ fn the_mark_that_a_card_goes_on_below_lies_on_no_row() {
                 let widgets = layers.flat_map(|(_, widgets)| widgets);
                 widgets.map(|of| (of.id.accesskit_id(), of.interact_rect)).collect()
             });
-            let Some(mark) = window.query_by_label("More below: scroll") else { continue };
+            let Some(mark) = window.query_by_label("Scroll for more") else { continue };
             let mark = mark.rect();
             for role in [Role::Button, Role::Label, Role::RadioButton, Role::TextInput] {
                 for node in window.query_all_by_role(role) {
                     let node = node.accesskit_node();
                     let name = node.label().or(node.value()).unwrap_or_default();
                     let place = seen.get(&node.locate().0).copied().unwrap_or(Rect::NOTHING);
-                    let is_free =
-                        name.starts_with("More below") || !place.intersects(mark.shrink(1.0));
+                    let is_free = name == "Scroll for more" || !place.intersects(mark.shrink(1.0));
                     assert!(is_free, "{size:?}: {name:?} at {place:?}");
                 }
             }
@@ -170,7 +169,7 @@ fn track_jog_and_stop_stay_in_sight_however_far_the_card_is_scrolled() {
             let tracks = window.query_by_label_contains("Locked while tracking").is_some();
             let has_none = starts.contains(&"Track ")
                 && (window.query_by_role_and_label(Role::RadioButton, "Track").is_none()
-                    || window.query_by_label_contains("Selected, is tracked").is_some())
+                    || window.query_by_label_contains("Selected and tracked").is_some())
                 || tracks && starts.contains(&"Jog ");
             assert!(has_none || stays(&window, rig::SMALL, is_it), "case {case}: {starts:?}");
         }

@@ -120,7 +120,7 @@ fn what_moves_metal_is_locked_outside_of_its_modes_and_the_rest_is_not() {
                 assert_eq!(commands, wanted, "{}", action.key);
             }
             if actions.iter().any(|action| action.moves) {
-                assert!(says(&window, "What moves the antenna is locked."));
+                assert!(says(&window, "Motion is locked."));
             }
         }
     }

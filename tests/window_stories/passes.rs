@@ -411,7 +411,7 @@ fn the_header_counts_to_los_while_the_satellite_is_up_and_to_aos_before() {
     for size in SIZES {
         let mut model = rig::model(states::holding());
         let window = rig::window(size, rig::model(states::holding()));
-        assert!(says(&window, "LOS T−05:57"));
+        assert!(says(&window, "LOS T−05:56"));
         assert_eq!(model.selected.map(|(number, _)| number), Some(NOAA_20));
         model.selected = Some(coming(&model, METEOR_M2_4).key());
         model.refresh_sky();

@@ -209,7 +209,7 @@ fn what_an_edit_changes_of_the_passes_is_asked_for_and_shown_beside_what_was() {
         model.mount_effects.ask(question, model.steady);
         model.mount_effects.effect = Some(effect);
         settle(&mut window);
-        let row = format!("Tracked whole: was {}, new {}", was.whole, new.whole);
+        let row = format!("Tracked in full: was {}, new {}", was.whole, new.whole);
         assert!(says(&window, &row), "{row}");
         window.get_by_label_contains("fewer than as saved.");
         window.get_by_label_contains("are not reached.");

@@ -241,7 +241,7 @@ fn hours_that_are_empty_or_no_times_are_explained_and_not_saved() {
         assert!(says(&window, "To must differ from From."));
         assert!(says(&window, "Automation rules: 1 edited, 1 not valid"));
         write(&mut window, "To", "7 o'clock");
-        assert!(says(&window, "To must be a time of the day such as 22:00."));
+        assert!(says(&window, "To must be a time of day such as 22:00."));
         key(&mut window, Modifiers::COMMAND, Key::Enter);
         assert_eq!(asked(&mut window), []);
         write(&mut window, "To", "07:30");

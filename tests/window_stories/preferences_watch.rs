@@ -31,9 +31,9 @@ fn what_is_done_by_itself_is_chosen_and_saved() {
         }
         assert!(says(&window, "Continues by itself if the antenna is where it was left."));
         write(&mut window, "Allowed sway", "0,25");
-        write(&mut window, "Keeps tracking through", "601");
-        assert!(says(&window, "Keeps tracking through must be a number from 0 to 600 s."));
-        write(&mut window, "Keeps tracking through", "20");
+        write(&mut window, "Resume after outages up to", "601");
+        assert!(says(&window, "Resume after outages up to must be a number from 0 to 600 s."));
+        write(&mut window, "Resume after outages up to", "20");
         press(&mut window, "Save and use");
         let station = saved(asked(&mut window));
         let [antenna] = &station.antennas[..] else { panic!("{:?}", station.antennas) };
@@ -47,7 +47,7 @@ fn what_is_done_by_itself_is_chosen_and_saved() {
 fn a_station_that_asks_says_so_and_comes_back_from_another_choice() {
     let mut window = form(rig::LARGE);
     choose(&mut window, "Let finish");
-    assert!(says(&window, "What a unit tracks by itself goes on, and nobody here watches it."));
+    assert!(says(&window, "A unit that tracks by itself goes on, with nobody watching here."));
     choose(&mut window, "Ask");
     assert!(says(&window, "Nothing to save."));
 }

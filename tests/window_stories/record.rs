@@ -438,7 +438,7 @@ fn the_bar_of_the_link_runs_below_its_words_and_a_loss_of_no_length_is_not_told(
     settle(&mut window);
     let ground = theme::tokens(&window.ctx).bg0;
     assert_eq!(painted::ground_of(&window, "Connected"), Some(ground));
-    assert!(!painted::texts(&window).iter().any(|words| words.contains("half of the beam 0:00")));
+    assert!(!painted::texts(&window).iter().any(|words| words.contains("half the beamwidth 0:00")));
 }
 
 #[test]

@@ -71,12 +71,12 @@ fn before_and_after_the_pass_it_says_where_it_waits_and_holds() {
         (
             Phase::OutOfWindow,
             AxisMotion::Plus,
-            "Moving to the start of the pass of NOAA 20. Its tracking starts at 11:18:42Z in 3:12.",
+            "Moving to the start of the pass of NOAA 20. Its tracking starts at 11:18:42Z, in 3:12.",
         ),
         (
             Phase::AtStart,
             AxisMotion::Still,
-            "Waiting at 205.0°, 5.0° for NOAA 20. Its tracking starts at 11:18:42Z in 3:12.",
+            "Waiting at 205.0°, 5.0° for NOAA 20. Its tracking starts at 11:18:42Z, in 3:12.",
         ),
         (
             Phase::Completed,
@@ -86,7 +86,7 @@ fn before_and_after_the_pass_it_says_where_it_waits_and_holds() {
         (
             Phase::Unknown(9),
             AxisMotion::Still,
-            "Not known: the unit reports tracking state 9 for NOAA 20.",
+            "The unit reports the unknown tracking state 9 for NOAA 20.",
         ),
     ] {
         assert_eq!(told(states::program(phase, motion), unchanged), wanted);
@@ -128,7 +128,7 @@ fn standing_says_where_and_what_comes_next() {
     );
     assert_eq!(
         told(states::holding(), coming),
-        "Holding at 343.1°, 5.0°. SUOMI NPP rises in 1:16:28."
+        "Holding at 343.1°, 5.0°. SUOMI NPP rises in 1:16:27."
     );
     assert_eq!(told(states::holding(), nothing), "Holding at 343.1°, 5.0°. No pass is selected.");
     let parked = Snapshot { intent: Intent::Park, ..states::holding() };
@@ -216,8 +216,8 @@ fn a_stop_says_what_is_not_proved() {
 fn without_a_reply_it_says_since_when_and_what_was_going_on() {
     let silent = "No reply from Satrak for 42 s: the connection is open, but the unit is silent. ";
     for (snapshot, did) in [
-        (states::tracking(0.0), "It was tracking NOAA 20 and probably still moves. "),
-        (states::moving(), "It was moving and probably still moves. "),
+        (states::tracking(0.0), "It was tracking NOAA 20 and is probably still moving. "),
+        (states::moving(), "It was moving and is probably still moving. "),
         (states::holding(), ""),
     ] {
         assert_eq!(told(snapshot, lost), format!("{silent}{did}Next try in 3.0 s."));
@@ -225,17 +225,17 @@ fn without_a_reply_it_says_since_when_and_what_was_going_on() {
     for (link, wanted) in [
         (
             LinkState::Off,
-            "Not known: Satrak is not connected. Another program may use it. Connect opens the \
+            "Satrak is not connected, so another program can use it. Press Connect to open the \
              link again.",
         ),
         (
             LinkState::Connecting { since: rig::model(rig::quiet()).steady },
-            "Not known: connecting to Satrak at 192.168.10.21:4001.",
+            "Connecting to Satrak at 192.168.10.21:4001.",
         ),
     ] {
         assert_eq!(told(Snapshot::before_anything(link), unchanged), wanted);
     }
-    assert_eq!(told(rig::quiet(), unchanged), "Not known: Satrak is connected and being read.");
+    assert_eq!(told(rig::quiet(), unchanged), "Satrak is connected and is being read.");
 }
 
 #[test]
@@ -316,7 +316,7 @@ fn what_has_just_happened_is_told_first_and_for_a_while() {
 fn numbers_that_cannot_be_read_are_told_with_the_likely_cause() {
     let commas = |snapshot: &mut Snapshot| snapshot.state.unreadable = Some("Decimal commas.");
     let cause = "Decimal commas.";
-    let unread = format!("Not known: the position of Satrak cannot be read. {cause}");
+    let unread = format!("The position of Satrak cannot be read. {cause}");
     assert_eq!(told(rig::quiet(), |_, snapshot| commas(snapshot)), unread);
     let lost = |model: &mut Model, snapshot: &mut Snapshot| {
         lost(model, snapshot);
@@ -324,7 +324,7 @@ fn numbers_that_cannot_be_read_are_told_with_the_likely_cause() {
     };
     assert_eq!(told(rig::quiet(), lost), format!("{unread} Next try in 3.0 s."));
     let tracked = told(states::tracking(0.0), lost);
-    assert!(tracked.contains("It was tracking NOAA 20 and probably still moves."), "{tracked}");
+    assert!(tracked.contains("It was tracking NOAA 20 and is probably still moving."), "{tracked}");
     let stopping = told(rig::quiet(), |model, snapshot| {
         commas(snapshot);
         snapshot.stop = StopState::NotConfirmed { since: rig::ago(model, 4) };
@@ -353,7 +353,7 @@ fn an_antenna_that_another_azel_drives_names_it() {
     model.antennas[0].held_by = Some(HeldBy(Some(holder)));
     assert_eq!(
         states::sentence(&model),
-        "Not known: azel serve (process 4242, since 2026-08-12 09:00Z) drives Satrak. Nothing \
-         goes to it from here."
+        "Satrak is driven by azel serve (process 4242, since 2026-08-12 09:00Z). Nothing goes to \
+         it from here."
     );
 }

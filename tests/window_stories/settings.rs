@@ -89,7 +89,7 @@ fn what_is_not_read_is_asked_for_once_and_says_so() {
     assert!(inputs.is_empty(), "it cannot be typed over");
     window.get_by_role_and_label(Role::RadioButton, "Web").click();
     settle(&mut window);
-    assert!(says(&window, "Web: not known, the unit answered ERR,1."));
+    assert!(says(&window, "Web: not read: the unit answered ERR,1."));
     press(&mut window, "Read again");
     assert_eq!(asked(&mut window).len(), 13);
 }
@@ -110,7 +110,7 @@ fn a_wrong_value_is_refused_at_its_field_and_the_typing_stays() {
             assert_eq!(field.value().as_deref(), Some(typed));
         }
         write(&mut window, "North offset", "1.5");
-        assert!(says(&window, "2 changes not sent, 1 cannot be used"));
+        assert!(says(&window, "2 changes not sent, 1 invalid"));
         apply(&mut window);
         let changes = settles(asked(&mut window));
         let values = &changes[0].values;
@@ -134,10 +134,7 @@ fn half_of_what_belongs_together_is_not_sent_without_the_other_half() {
         let why =
             format!("{good} is not sent until {bad} can be sent too: both are sent together.");
         assert!(says(&window, &why));
-        assert!(says(
-            &window,
-            "2 changes not sent, 1 cannot be used, 1 held back by another field"
-        ));
+        assert!(says(&window, "2 changes not sent, 1 invalid, 1 held back by another field"));
         write(&mut window, "North offset", "1.5");
         apply(&mut window);
         let sent: Vec<_> = settles(asked(&mut window)).iter().map(|of| of.group).collect();
@@ -203,7 +200,7 @@ fn apply_sends_what_was_changed_with_what_was_seen_and_proves_it() {
         change(&mut window, 0, |of| group(of, "general").step = None);
         end(&mut window, change_of_general, Err(WriteError::ChangedMeanwhile));
         assert_eq!(state_of(&window, "Minimum elevation"), "Rejected");
-        assert!(says(&window, "On the unit Lead time was 1 ms and is 90\u{2009}000 ms now."));
+        assert!(says(&window, "On the unit: Lead time was 1 ms and is now 90\u{2009}000 ms."));
         apply(&mut window);
         let again = settles(asked(&mut window)).remove(0);
         assert_eq!(again.seen.as_ref().unwrap()["lead_ms"], Value::Integer(90_000));
@@ -288,7 +285,7 @@ fn without_a_link_the_old_values_stand_hollow_and_the_edits_stay() {
             snapshot.link = LinkState::Lost { since: now, reason, retry_at: now };
         });
         assert!(says(&window, "Minimum elevation, on the unit, old: 3.0"));
-        assert!(says(&window, "General: as read 0.0 s ago."));
+        assert!(says(&window, "General: values read 0.0 s ago."));
         assert!(says(&window, "Minimum elevation, new value: 5"));
         assert!(says(&window, "1 change not sent, no link"));
         apply(&mut window);

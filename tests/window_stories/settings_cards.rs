@@ -58,7 +58,7 @@ fn the_clock_is_not_set_while_the_unit_tracks() {
     snapshot.state.link_since = read().state.link_since;
     snapshot.state.held = read().state.held;
     let mut window = opened(LARGE, snapshot);
-    assert!(says(&window, "Not while the unit tracks."));
+    assert!(says(&window, "Not while the unit is tracking."));
     press(&mut window, "Set from this PC");
     assert_eq!(asked(&mut window), []);
     // 3.0 s ahead is several beam widths of a low satellite.

@@ -50,7 +50,7 @@ fn a_copy_tells_what_has_changed_since_and_gives_it_back() {
         scene.window.get_by_role_and_label(Role::CheckBox, name).click_accesskit();
         scene.window.run_steps(2);
     }
-    press(&mut scene.window, "Take over 2");
+    press(&mut scene.window, "Copy 2 to the form");
     scene.window.run_steps(2);
     assert_eq!(state_of(&scene.window, "Minimum elevation"), "Edited");
     scene.apply_until("Elevation threshold", "Verified");
@@ -62,7 +62,7 @@ fn a_copy_tells_what_has_changed_since_and_gives_it_back() {
         scene.window.query_by_role(Role::Link).is_some()
     });
     scene.window.get_by_role(Role::Link).click_accesskit();
-    scene.until_said("Every value in the file is on the unit.");
+    scene.until_said("The unit already holds every value in the file.");
 }
 
 #[test]

@@ -132,7 +132,7 @@ fn drive(story: &Story) {
     if story.is_service {
         scene.open_service();
     }
-    let done = if story.group == "image" { "Taken" } else { "Verified" };
+    let done = if story.group == "image" { "Accepted" } else { "Verified" };
     let [first, second, third] = story.rounds;
 
     let before = ask(&control, story.query);
@@ -154,7 +154,7 @@ fn drive(story: &Story) {
         assert!(ask(&control, foreign).contains(",OK"), "{foreign}");
         let theirs = ask(&control, story.query);
         scene.apply_until(field, "Rejected");
-        assert!(says(&scene.window, " was ") && says(&scene.window, " now."));
+        assert!(says(&scene.window, " was ") && says(&scene.window, " and is now "));
         assert_eq!(ask(&control, story.query), theirs, "nothing was sent");
     }
     scene.apply_until(field, done);
@@ -236,11 +236,11 @@ fn clock() {
     control.set_fault(Fault::RefuseSettings, false);
     assert!(ask(&control, "TIME=,1,2,3,4,5,2020").contains(",OK"));
     press(&mut scene.window, "Set from this PC");
-    scene.until_said("Set and read again");
+    scene.until_said("Set and read back");
     assert!(ask(&control, "TIME?").contains(",12,8,2026"));
     scene.lose_link_while_sending("clock", |window| press(window, "Set from this PC"));
     assert!(says(&scene.window, "There is no link."));
     scene.link_is_back();
     press(&mut scene.window, "Set from this PC");
-    scene.until_said("Set and read again");
+    scene.until_said("Set and read back");
 }

@@ -255,7 +255,7 @@ fn each_outcome_of_a_test_says_what_to_check() {
         ] {
             tell(&mut window, &antenna, finding);
             assert!(says(&window, words), "{words}");
-            assert!(says(&window, "Satrak: you can go on."), "{words}");
+            assert!(says(&window, "Satrak: you can continue."), "{words}");
         }
         // The outcome is about what was tested.
         write(&mut window, "Address of the Satrak", "other.local:4001");

@@ -127,7 +127,7 @@ fn set_up_and_track(keys_alone: bool) {
     operator.go_on("Next: Antennas (Enter)");
     operator.press(&format!("Add {}", makes::SPECS[0].name));
     operator.write("Address of the Satrak", &unit.address.to_string());
-    assert!(says(&operator.window, "A new unit uses none and cannot track yet."));
+    assert!(says(&operator.window, "A new unit has none and cannot track."));
     operator.write("Element file on the unit", BUNDLED_FILE);
     operator.press("Test link of Satrak");
     step_until(&mut operator.window, "the unit answers", is_reached);

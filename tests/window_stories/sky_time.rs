@@ -88,7 +88,7 @@ fn keys_move_the_sky_on_and_home_is_now() {
         focus(&mut window);
         press(&mut window, Key::ArrowRight);
         press(&mut window, Key::ArrowRight);
-        assert!(says(&window, "Sky at 11:17:30Z, in 2:00. The slider moves nothing."));
+        assert!(says(&window, "Sky at 11:17:30Z, in 2:00. The slider moves no antenna."));
         assert_ne!(noaa_20(&window).expect("still up"), now);
         press(&mut window, Key::PageUp);
         assert!(says(&window, "Sky at 11:27:30Z, in 12:00."));
@@ -109,7 +109,7 @@ fn the_slider_is_dragged_and_its_button_returns_to_now() {
     for size in SIZES {
         let mut window = window(size);
         drag(&mut window);
-        assert!(says(&window, ". The slider moves nothing."));
+        assert!(says(&window, ". The slider moves no antenna."));
         assert!(says(&window, "Satrak planned, "));
         let slider = window.get_by_role_and_label(Role::Slider, "Time of the sky");
         let value = slider.accesskit_node().value().unwrap();
@@ -182,7 +182,7 @@ fn stop_and_the_card_stay_live() {
         assert_eq!(asked(&mut window), [UiCommand::Stop]);
         window.get_by_role_and_label(Role::RadioButton, "Manual").click();
         assert_eq!(asked(&mut window), [UiCommand::antenna(AntennaId(1), Command::Manual)]);
-        assert!(says(&window, ". The slider moves nothing."), "the sky stays where it was");
+        assert!(says(&window, ". The slider moves no antenna."), "the sky stays where it was");
         assert!(says(&window, "Antenna, azimuth"), "the live mark as well");
     }
 }
@@ -216,7 +216,7 @@ fn a_time_that_has_come_is_now() {
 #[test]
 fn without_a_schedule_there_is_only_now() {
     let mut window = rig::window(LARGE, rig::model(states::holding()));
-    assert!(says(&window, "There is no plan yet to look ahead in."));
+    assert!(says(&window, "There is no plan yet to look ahead with."));
     drag(&mut window);
     assert!(says(&window, "Sky now."));
 }

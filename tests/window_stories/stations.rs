@@ -93,7 +93,7 @@ fn a_station_that_is_not_opened_says_why_and_goes_with_enter() {
         let mut model = rig::model(rig::quiet());
         model.stations.refused = Some("the file is gone: /a.toml".to_owned());
         let mut window = rig::window(size, model);
-        for words in ["The station is not opened", "The file is gone: /a.toml", "Şile 1 stays"] {
+        for words in ["The station was not opened", "The file is gone: /a.toml", "Şile 1 stays"] {
             assert!(rig::says(&window, words), "{words}");
         }
         window.get_by_role_and_label(Role::Button, "Close (Enter)");

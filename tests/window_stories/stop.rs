@@ -168,7 +168,7 @@ fn stop_shows_as_pressed_while_the_session_says_nothing() {
 
 #[test]
 fn what_stop_leaves_alone_is_named_beside_it_and_has_a_stop_of_its_own() {
-    let left_out = "RC2000C is not connected: not stopped from here.";
+    let left_out = "RC2000C is not connected: STOP does not reach it.";
     for size in SIZES {
         let mut model = rig::model(states::holding());
         let off = Snapshot::before_anything(LinkState::Off);
@@ -219,7 +219,7 @@ fn after_a_stop_the_bar_says_in_words_what_was_left_alone() {
         model.antennas.push(rig::antenna(makes::rc2000c(), off()));
         model.antennas.push(rig::antenna(makes::pair(), Snapshot { unproved: true, ..off() }));
         let window = rig::window(size, model);
-        let said = "RC2000C is not connected: not stopped from here.";
+        let said = "RC2000C is not connected: STOP does not reach it.";
         window.get_by_label(said);
         window.get_by_label(&format!("STOP stops 2 of 3 antennas. {said}"));
         window.get_by_role_and_label(Role::Button, "STOP, all stopped");

@@ -84,7 +84,10 @@ pub static ELEMENT_FILE: Setting = Setting::new(
     || Value::Text(String::new()),
 )
 .noted(|_| {
-    Some("Left empty: the file that the unit uses. A new unit uses none and cannot track yet.")
+    Some(
+        "If left empty, the unit keeps using its present file. A new unit has none and cannot \
+          track.",
+    )
 });
 
 impl Antenna {

@@ -15,7 +15,7 @@ use crate::{
 const MAX: usize = 400;
 /// A direction that was measured longer ago tells nothing of now, seconds.
 const FRESH_S: f64 = 3.0;
-/// Share of a pass inside half of the beam from which it counts as tracked.
+/// Share of a pass within half the beamwidth from which it counts as tracked.
 const TRACKED: f64 = 0.995;
 
 /// A line of the list.
@@ -44,7 +44,7 @@ pub struct Flown {
     pub name: String,
     /// Seconds that were to be had.
     pub of_s: f64,
-    /// Seconds of them inside half of the beam.
+    /// Seconds of them within half the beamwidth.
     pub in_beam_s: f64,
     pub proved_at: Option<Timestamp>,
     /// Why most of the rest was lost; `None` where all of it was tracked.

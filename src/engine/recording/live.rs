@@ -14,7 +14,7 @@ use crate::{
 const EVERY_S: f64 = 10.0;
 /// Only positions as young as this count, seconds: what was wrong before them may be mended.
 const SINCE_S: f64 = 180.0;
-/// An error below this share of half of the beam needs no cause.
+/// An error below this share of half the beamwidth needs no cause.
 const LEAST_SHARE: f64 = 0.2;
 
 /// The search for a cause, again and again.

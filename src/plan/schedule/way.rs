@@ -80,7 +80,7 @@ pub struct Lost {
 /// One way of taking a pass: from the first second that counts to the last.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Way {
-    /// What counts: within half of the beam, above the mask and the minimum elevation.
+    /// What counts: within half the beamwidth, above the mask and the minimum elevation.
     counted: Vec<Span>,
     /// Where the axes stand at equal intervals, degrees as the mount counts.
     axes_deg: [Vec<f64>; 2],

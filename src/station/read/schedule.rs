@@ -150,7 +150,7 @@ impl Fields<'_> {
         let value = self.table.remove(key);
         let time = value.as_ref().and_then(Value::as_str).and_then(HoursOfDay::read_time);
         if time.is_none() {
-            self.invalid(key, "must be a time of the day such as \"22:00\"");
+            self.invalid(key, "must be a time of day such as \"22:00\"");
         }
         time
     }

@@ -96,7 +96,7 @@ fn link_menu(ui: &Ui, rect: Rect, model: &HeaderModel<'_>, actions: &mut Vec<Car
     icons::paint(ui.painter(), paint::square(rect.center(), 12.0), Icon::ChevronDown, t.t2);
     paint::focus_ring(ui, &response, 4);
     menu::show(&response, Popup::menu(&response).accessible_name(name), |ui| {
-        let about = "Closes the link, so that another program may use the unit.";
+        let about = "Closes the link, so that another program can use the unit.";
         if model.status != LinkStatus::NotConnected
             && ui.button("Disconnect").on_hover_text(about).clicked()
         {

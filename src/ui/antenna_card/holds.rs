@@ -14,7 +14,7 @@ use crate::ui::{
 };
 
 /// Confirms that the antenna stands still.
-pub(super) const SEEN_STANDING: &str = "Hold 1 s: I have seen that it is at rest";
+pub(super) const SEEN_STANDING: &str = "Hold 1 s: I have seen it at rest";
 
 /// An antenna that points where it must not.
 #[derive(Debug, Clone, Copy)]

@@ -280,7 +280,7 @@ mod tests {
 
     #[test]
     fn what_moves_is_locked_with_its_reason_and_the_rest_is_not() {
-        let reason = "What moves the antenna is locked. Choose Manual or Position.";
+        let reason = "Motion is locked. Choose Manual or Position.";
         let mut window = section(Story { moves_locked: Some(reason), ..Story::default() });
         window.get_by_label(reason);
         window.get_by_label("Turn the other").click();

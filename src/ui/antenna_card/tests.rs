@@ -293,7 +293,7 @@ fn what_the_unit_tracks_already_has_no_button() {
     });
     let window = card(LARGE, &model);
     assert!(window.query_by_label("Track NOAA 20").is_none());
-    window.get_by_label("Selected, is tracked: NOAA 20");
+    window.get_by_label("Selected and tracked: NOAA 20");
 }
 
 #[test]

@@ -174,7 +174,7 @@ fn question_row(
         Question::Sun => ("Hold 1 s to follow the Sun", CardAction::Follow(FollowChoice::IntoSun)),
     };
     let words = match ends {
-        Some(name) => format!("{words}, ends {name}"),
+        Some(name) => format!("{words}, ending {name}"),
         None => words.to_owned(),
     };
     let cancel = Button::quiet("Cancel");
@@ -214,7 +214,7 @@ fn satellite_row(
     let rest = row.with_min_x(held.right() + 8.0);
     let Some(selected) = selected else {
         let name = model.selected.unwrap_or("none");
-        let head = if model.selected.is_some() { "Selected, is tracked" } else { "Selected" };
+        let head = if model.selected.is_some() { "Selected and tracked" } else { "Selected" };
         two_lines(ui, "selected", rest, Align2::RIGHT_CENTER, head, name);
         return;
     };

@@ -50,11 +50,11 @@ fn old_or_unread(ui: &mut Ui, unit: &ShownUnit<'_>, group: &Group) {
     let words = match (unit.read_at(group.key), unit.is_open(), why) {
         (Some(at), _, _) => {
             let age = format::age(seconds_between(at, unit.model.now));
-            format!("{}: as read {age} ago.", group.title)
+            format!("{}: values read {age} ago.", group.title)
         }
-        (None, _, Some(why)) => format!("{}: not known, {why}.", group.title),
+        (None, _, Some(why)) => format!("{}: not read: {why}.", group.title),
         (None, true, None) => format!("{}: being read.", group.title),
-        (None, false, None) => format!("{}: never read, there is no link.", group.title),
+        (None, false, None) => format!("{}: not read yet; there is no link.", group.title),
     };
     row::note(ui, Some(Icon::OpenRing), &words, t.t3);
 }

@@ -47,7 +47,7 @@ impl FieldState {
             Self::NeedsService => "Service locked".to_owned(),
             Self::Sending => "Sending".to_owned(),
             Self::Verified(at) => format!("Verified {}", format::moment(*at, now)),
-            Self::Taken(at) => format!("Taken {}", format::moment(*at, now)),
+            Self::Taken(at) => format!("Accepted {}", format::moment(*at, now)),
             Self::Rejected => "Rejected".to_owned(),
             Self::Invalid(_) => "Invalid".to_owned(),
             Self::HeldBackBy(_) => "Held back".to_owned(),

@@ -150,7 +150,7 @@ fn pending(ui: &Ui, unit: &ShownUnit<'_>, form: &Form) -> (String, Color32) {
     for (number, words) in [
         (count.to_confirm, format!("{needs} confirmation")),
         (count.locked, "locked by Service".to_owned()),
-        (count.invalid, "cannot be used".to_owned()),
+        (count.invalid, "invalid".to_owned()),
         (count.held_back, "held back by another field".to_owned()),
     ] {
         if number > 0 {

@@ -63,7 +63,7 @@ impl Report {
         });
         let taken = self.taken.iter().map(|(title, at)| {
             let at = format::moment(*at, now);
-            (true, format!("{title}: the unit said OK, and was read again {at}"))
+            (true, format!("{title}: accepted by the unit and read back {at}"))
         });
         let failures = self.failures.iter().map(|words| (false, words.clone()));
         verified.chain(taken).chain(failures).collect()

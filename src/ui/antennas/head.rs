@@ -89,8 +89,7 @@ fn read(unit: &ShownUnit<'_>) -> Option<String> {
         return None;
     }
     if !unit.is_open() {
-        let words =
-            if is_read(unit) { "what was read before is shown" } else { "nothing is read yet" };
+        let words = if is_read(unit) { "showing values read earlier" } else { "nothing read yet" };
         return Some(format!("no link, {words}"));
     }
     let missing: Vec<&str> =

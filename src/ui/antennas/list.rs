@@ -12,7 +12,7 @@ use crate::{
         icons::{self, Icon},
         text::{self, Weight},
         theme,
-        widgets::paint,
+        widgets::{link_chip, paint},
     },
 };
 
@@ -99,7 +99,7 @@ fn antenna_line(
     paint::text_in(ui, up, Align2::LEFT_CENTER, &antenna.config.name, font, t.t1);
     let down = room.translate(vec2(0.0, 8.0));
     let age = bar::age(model, antenna);
-    let second = if age.is_empty() { activity.to_owned() } else { format!("{activity}, {age}") };
+    let second = link_chip::with_age(activity, &age, bar::glyph(antenna));
     paint::text_in(ui, down, Align2::LEFT_CENTER, &second, text::small(), t.t2);
     paint::focus_ring(ui, &response, 0);
     response.clicked()

@@ -63,24 +63,24 @@ pub(super) fn sentence(
     };
     let kept = || kept(&fields, held);
     match error {
-        WriteError::NoLink => format!("{subject}: not sent, there is no link. The edit stays."),
+        WriteError::NoLink => format!("{subject}: not sent, there is no link. Your edit is kept."),
         WriteError::LinkLost => format!(
-            "{subject}: the link was lost before it was read back. What the unit holds is not \
-             known until it is read again."
+            "{subject}: the link was lost before it was read back. The unit's value is unknown \
+             until it is read again."
         ),
         WriteError::NoSuchSetting => format!("{subject}: not sent, the unit has no such setting."),
         WriteError::Locked => {
             format!("{subject}: not sent, the service functions are locked. Unlock Service.")
         }
         WriteError::LockedOut => {
-            format!("{subject}: not sent, the unit is in maintenance. The edit stays.")
+            format!("{subject}: not sent, the unit is in maintenance. Your edit is kept.")
         }
         WriteError::Moving => {
             format!("{subject}: not sent, the antenna is moving. Apply when it has stopped.")
         }
         WriteError::Hindered { field, hindrance } => {
             let label = group.field(field).map_or(subject, |field| field.label);
-            format!("{label}: not sent. {} The edit stays.", words::hindrance(*hindrance))
+            format!("{label}: not sent. {} Your edit is kept.", words::hindrance(*hindrance))
         }
         WriteError::Unread(failure) => format!(
             "{subject}: not sent, its present value cannot be read: {}. Read again.",
@@ -101,13 +101,13 @@ pub(super) fn sentence(
             format!("{subject}: the unit did not answer and kept {}. Apply again.", kept())
         }
         WriteError::NotReadBack(failure) => format!(
-            "{subject}: sent, but not read back: {}. What the unit holds is not known. Read again.",
+            "{subject}: sent, but not read back: {}. The unit's value is unknown. Read again.",
             read_failure(failure)
         ),
         WriteError::Differs(keys) => {
             let fields: Vec<&Field> = keys.iter().filter_map(|key| group.field(key)).collect();
             let holds = self::kept(&fields, held);
-            format!("{subject}: the unit said OK, but holds {holds}. Read again.")
+            format!("{subject}: the unit accepted it, but holds {holds}. Read again.")
         }
         WriteError::Useless(why) => format!("{subject}: set, but {why}."),
     }
@@ -132,13 +132,13 @@ fn changed(group: &Group, seen: Option<&Values>, held: Option<&Values>) -> Strin
             (was, is) => was.is_some() == is.is_some(),
         };
         let (was, is) = (with_unit(field, was), with_unit(field, is));
-        (!same).then(|| format!("{} was {was} and is {is} now", field.label))
+        (!same).then(|| format!("{} was {was} and is now {is}", field.label))
     });
     let changes: Vec<String> = changes.collect();
     if changes.is_empty() {
         return "Its values on the unit have changed meanwhile.".to_owned();
     }
-    format!("On the unit {}.", changes.join(", "))
+    format!("On the unit: {}.", changes.join(", "))
 }
 
 #[cfg(test)]
@@ -165,8 +165,8 @@ mod tests {
         );
         assert_eq!(
             said(values, &WriteError::ChangedMeanwhile, 2.0, 7.5),
-            "General: not sent. On the unit Elevation threshold was 2.0° and is 7.5° now. \
-             Apply again to send yours."
+            "General: not sent. On the unit: Elevation threshold was 2.0° and is now 7.5°. Apply \
+             again to send yours."
         );
     }
 

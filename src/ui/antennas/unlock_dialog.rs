@@ -47,8 +47,8 @@ impl UnlockDialog {
         let station = unit.model.station.name.trim();
         ui.label(RichText::new("Unlock the service functions").font(text::value()));
         let words = format!(
-            "A wrong value there makes {} point wrongly, or move. Type the name of the station, \
-             {station}.",
+            "A wrong value can make {} point wrongly, or move. To unlock, type the name of the \
+             station, {station}.",
             unit.name()
         );
         ui.label(RichText::new(words).font(text::body()).color(t.t2));

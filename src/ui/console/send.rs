@@ -27,7 +27,7 @@ use crate::{
 /// Height of the line with the note below it.
 pub(super) const HEIGHT: f32 = 88.0;
 /// Where the rest is done.
-const ELSEWHERE: &str = "Settings are changed under Antennas, motion in Operate.";
+const ELSEWHERE: &str = "Change settings in Antennas; move antennas in Operate.";
 const GAP: f32 = 8.0;
 const ANTENNA: f32 = 112.0;
 const PICK: f32 = 96.0;
@@ -66,7 +66,7 @@ pub(super) fn show(
     let (icon, words, colour) = match (&read, ready) {
         (Some(Err(reason)), _) => (Icon::Lock, format!("Not sent. {reason}"), t.warn),
         (_, Some(question)) => {
-            (Icon::Check, format!("{}. The answer comes in the log.", question.about), t.t2)
+            (Icon::Check, format!("{}. The answer will appear in the log.", question.about), t.t2)
         }
         (None, _) => {
             let such =

@@ -37,7 +37,7 @@ fn under_way(ui: &Ui, model: &Model) {
 fn refused(ui: &Ui, model: &Model, why: &str, commands: &mut Vec<UiCommand>) {
     let modal = modal(ui, "not opened").show(ui.ctx(), |ui| {
         ui.set_width(WIDTH);
-        ui.label(RichText::new("The station is not opened").font(text::value()));
+        ui.label(RichText::new("The station was not opened").font(text::value()));
         line(ui, Tone::Bad, &sentence(why));
         line(ui, Tone::Plain, &format!("{} stays as it is.", model.station.name));
         ui.add_space(4.0);

@@ -90,7 +90,7 @@ fn answers(model: &Model) -> Vec<(&'static str, String, CloseHow)> {
         staked().filter(|(of, _)| of.can_park()).map(|(of, _)| of.config.name.as_str()).collect();
     if !parked.is_empty() {
         let about =
-            format!("{} to the park position; everything else stays until then.", names(parked));
+            format!("{} to the park position; everything else is kept until then.", names(parked));
         answers.push(("and park", about, CloseHow::Park));
     }
     let on_board = |stake: &Stake| matches!(stake, Stake::OnBoard(_));
@@ -101,7 +101,7 @@ fn answers(model: &Model) -> Vec<(&'static str, String, CloseHow)> {
     if !left.is_empty() {
         let others = staked().any(|(_, stake)| !on_board(&stake));
         let others = if others { " STOP goes to the others first." } else { "" };
-        let about = format!("{} left to track, with nobody watching here.{others}", names(left));
+        let about = format!("{} left tracking, with nobody watching here.{others}", names(left));
         answers.push(("and let it finish", about, CloseHow::Leave));
     }
     answers

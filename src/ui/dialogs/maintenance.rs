@@ -100,7 +100,7 @@ impl MaintenanceDialog {
         }
         let is_told = !self.by.trim().is_empty() && !self.reason.trim().is_empty();
         if !is_told {
-            line(ui, Tone::Plain, "Both are needed: the next person at the antenna has to know.");
+            line(ui, Tone::Plain, "Both are required: the next person at the antenna has to know.");
         }
         self.keys(ui, LOCK, is_told)
     }
@@ -124,8 +124,8 @@ impl MaintenanceDialog {
             ui.label(RichText::new(told).font(text::body_medium()).color(t.t1));
         }
         ui.add_space(4.0);
-        let words = "Make sure that nobody is still at the antenna. From then on it may move \
-                     again.";
+        let words = "Make sure that nobody is still at the antenna: once the lock-out is removed, \
+                     it may move again.";
         line(ui, Tone::Caution, words);
         self.keys(ui, TAKE_OFF, true)
     }

@@ -116,7 +116,7 @@ fn summary(model: &Model) -> String {
     let sources = &model.sources;
     match sources.work {
         SourceWork::Asking => {
-            return "The servers are being asked. The elements in use stay in use meanwhile."
+            return "The servers are being asked. Meanwhile the present elements stay in use."
                 .to_owned();
         }
         SourceWork::Reading => return "The sources are being read.".to_owned(),

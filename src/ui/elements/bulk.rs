@@ -38,7 +38,7 @@ pub(super) fn show(
     let marked = state.selection.chosen();
     let favourites = &model.station.favourites;
     let are_all = marked.iter().all(|number| favourites.contains(*number));
-    let word = if are_all { "No favourites" } else { "Favourites" };
+    let word = if are_all { "Unfavourite" } else { "Favourite" };
     let star = Button::normal(word).icon(if are_all { Icon::OpenStar } else { Icon::Star });
     let priorities = DropDown {
         button: Button::normal("Priority"),

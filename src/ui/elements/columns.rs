@@ -215,7 +215,7 @@ pub(super) fn head(column: Column, unit: DistanceUnit) -> Cow<'static, str> {
         Column::Inclination => "Incl. °",
         Column::Heights => return format!("Apo × per {}", format::distance_unit(unit)).into(),
         Column::Age => "Epoch age",
-        Column::From => "From",
+        Column::From => "Source",
         Column::NextPass => "Next pass",
         Column::MaxElevation => "Max el",
     };

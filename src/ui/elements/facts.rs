@@ -57,7 +57,7 @@ pub(super) fn show(ui: &Ui, rect: Rect, model: &Model, elements: &Elements, cata
         let at = pos2(place.left() - 11.0, place.center().y);
         icons::paint(ui.painter(), paint::square(at, 12.0), icon, colour);
     }
-    fact(ui, line(2), "Held by", &groups.join(", "), t.t1);
+    fact(ui, line(2), "Groups", &groups.join(", "), t.t1);
     let unit = model.appearance.distances;
     let heights = words::heights(elements.heights(), unit);
     let heights = format!("{heights} {}", format::distance_unit(unit));

@@ -152,8 +152,7 @@ fn head(
         Some(next) => {
             let (event, at) =
                 if next.aos <= model.now { ("LOS", next.los) } else { ("AOS", next.aos) };
-            let left_s = crate::astro::time::seconds_between(model.now, at);
-            (event, format::countdown(left_s))
+            (event, format::countdown(model.now, at))
         }
     };
     let right = Align2::RIGHT_CENTER;

@@ -90,7 +90,7 @@ pub(super) fn show(
     dashes(ui, field, Stroke::new(2.0, border));
     let count = words::counted(intake.offers.len(), "file");
     let title = match (is_useless, intake.is_dropped) {
-        (true, _) => "None of these holds elements".to_owned(),
+        (true, _) => "None of these files holds elements".to_owned(),
         (false, false) => format!("Release to read {count}"),
         (false, true) => "What should be imported?".to_owned(),
     };

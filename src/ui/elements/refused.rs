@@ -52,7 +52,7 @@ pub(super) fn show(ui: &mut Ui, rect: Rect, model: &Model, state: &mut ElementsS
     ui.painter().rect_filled(rect, 0.0, t.bg0);
     ui.painter().hline(rect.x_range(), rect.top() + 0.5, (1.0, t.line));
     let title = words::counted(count, "refused record");
-    let more = "What was held before stays in use.";
+    let more = "The previous elements stay in use.";
     let name = format!("{title}. {more}");
     let response = paint::control(ui, "refused records", bar, Role::Button, true, &name);
     let is_open = state.refused_are_open;

@@ -112,10 +112,10 @@ impl Menu<'_> {
 
     /// What changes at the next pass with the set of this epoch.
     fn effect(&self, epoch: Timestamp) -> String {
-        let unknown = || "What it changes at the next pass is not known yet.".to_owned();
+        let unknown = || "Its effect on the next pass is not known yet.".to_owned();
         let Some(detail) = self.detail else { return unknown() };
         let Some(pass) = detail.passes.first() else {
-            return "There is no pass in the next 7 days that it would change.".to_owned();
+            return "It changes no pass in the next 7 days.".to_owned();
         };
         let shift = detail.sets.iter().find(|shift| shift.set.elements.epoch() == epoch);
         let Some((shift, off)) = shift.and_then(|shift| Some((shift, shift.off?))) else {

@@ -55,21 +55,26 @@ pub(super) fn show(
     let inner = rect.shrink2(vec2(PADDING, 0.0));
     let title = inner.with_max_y(inner.top() + TITLE);
     let font = text::sized(13.0, Weight::SemiBold);
-    paint::text_in(ui, title, Align2::LEFT_CENTER, "Sets held", font, t.t1);
+    paint::text_in(ui, title, Align2::LEFT_CENTER, "Stored sets", font, t.t1);
     let pass = detail.and_then(|detail| detail.passes.first());
     let against = pass.map_or_else(
-        || "no pass to compare at".to_owned(),
-        |of| format!("against the one in use, at {}", format::moment(of.pass.tca.time, model.now)),
+        || "no pass to compare them at".to_owned(),
+        |of| {
+            format!(
+                "compared with the one in use, at {}",
+                format::moment(of.pass.tca.time, model.now)
+            )
+        },
     );
     let room = title.with_min_x(title.left() + 80.0);
     paint::text_in(ui, room, Align2::RIGHT_CENTER, &against, text::caption(), t.t2);
-    paint::name_text(ui, "sets held", title, &format!("Sets held, {against}"));
+    paint::name_text(ui, "sets held", title, &format!("Stored sets, {against}"));
     let line = |index: f32| {
         let min = pos2(inner.left(), title.bottom() + index);
         Rect::from_min_size(min, vec2(inner.width(), LINE))
     };
     let head = line(0.0);
-    cells(ui, head, ["Epoch", "From", "Time s", "Angle °"], [t.t3; 4]);
+    cells(ui, head, ["Epoch", "Source", "Time s", "Angle °"], [t.t3; 4]);
     let from = catalog.source_of(elements.catalog_number()).unwrap_or_default();
     let first = line(HEAD);
     let newest = catalog.set_aside(elements.catalog_number());

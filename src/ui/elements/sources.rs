@@ -144,7 +144,7 @@ fn worst(model: &Model) -> (Tone, String) {
     if sources.list.is_empty() {
         return state_of_bundled(model);
     }
-    (Tone::Plain, "A server is asked at most once in 2 h.".to_owned())
+    (Tone::Plain, "A server is asked at most once every 2 h.".to_owned())
 }
 
 /// The state of the elements that come with the program, by what they are used for.
@@ -285,7 +285,7 @@ impl Row<'_> {
         paint::focus_ring(ui, &response, 3);
         if response.on_hover_text(&spoken).clicked() {
             *question = Some(Question {
-                text: format!("Remove the source {name}? Its elements are no longer used."),
+                text: format!("Remove the source {name}? Its elements will no longer be used."),
                 yes: "Remove",
                 command: UiCommand::Station(engine::Command::RemoveSource(name.clone())),
             });

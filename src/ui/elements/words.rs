@@ -59,7 +59,7 @@ pub(super) fn marked(old: usize, can_mark: bool) -> String {
     if can_mark {
         return age;
     }
-    let words = "Save or revert the preferences before the favourites change.";
+    let words = "Save or revert the preferences before you change favourites.";
     format!("{age} {words}").trim().to_owned()
 }
 
@@ -109,12 +109,11 @@ pub(super) fn next_pass(next: Next, now: Timestamp) -> String {
         Next::Never => format!("none in {NEXT_PASSES_H} h"),
         Next::At(pass) if pass.is_always_up => "always up".to_owned(),
         Next::At(pass) if pass.aos <= now => {
-            format!("up, {}", format::time_left(seconds_between(now, pass.los)))
+            format!("up, {}", format::time_left(now, pass.los))
         }
         Next::At(pass) => {
-            let left_s = seconds_between(now, pass.aos);
-            if left_s < 600.0 {
-                return format!("in {}", format::time_left(left_s));
+            if seconds_between(now, pass.aos) < 600.0 {
+                return format!("in {}", format::time_left(now, pass.aos));
             }
             format::minute(pass.aos, now)
         }
@@ -180,8 +179,8 @@ pub(in crate::ui) fn sentences(
         return vec![(Tone::Caution, "Not read.".to_owned())];
     };
     if report.is_set_aside {
-        let words = "Set aside: Azel ended while it read this source. It is read again when you \
-                     ask for it.";
+        let words = "Set aside: Azel ended while reading this source. It is read again only when \
+                     you ask.";
         return vec![(Tone::Bad, words.to_owned())];
     }
     let mut lines: Vec<(Tone, String)> = (report.files.iter())
@@ -202,8 +201,7 @@ pub(in crate::ui) fn sentences(
         lines.push((Tone::Plain, format!("{refused} refused: unreadable.")));
     }
     if let Some(problem) = &report.fetch_problem {
-        let stays =
-            if report.objects() > 0 { " The elements held before stay in use." } else { "" };
+        let stays = if report.objects() > 0 { " The previous elements stay in use." } else { "" };
         lines.push((Tone::Bad, format!("{}{stays}", sentence(&problem.to_string()))));
     }
     lines.extend(asked(report, now).map(|words| (Tone::Plain, words)));
@@ -256,8 +254,8 @@ pub(super) fn ask_again(
     let last = next.checked_sub(FETCH_PAUSE).ok()?;
     let ago = format::age(seconds_between(last, now));
     Some(format!(
-        "The server of {name} was asked {ago} ago. Servers block clients that ask more often \
-         than every 2 h. Ask again anyway?"
+        "The server of {name} was asked {ago} ago. Servers block clients that ask more often than \
+         once every 2 h. Ask again anyway?"
     ))
 }
 

@@ -93,7 +93,7 @@ impl List {
         if self.passes == 0 {
             return at;
         }
-        let heads = ["AOS", "Satellite", "Prio", "Max", "Why", "What taking it by hand would cost"];
+        let heads = ["AOS", "Satellite", "Prio", "Max", "Why", "Cost of taking it by hand"];
         let edges = COLUMNS.iter().zip(COLUMNS.iter().skip(1));
         for (word, (x, end)) in heads.into_iter().zip(edges) {
             svg.text([*x, at + 5.5], end - x, CAPTION, word);

@@ -4,7 +4,6 @@ use egui::{Align2, Rect, RichText, ScrollArea, Sense, Ui, UiBuilder, pos2, vec2}
 
 use super::{PADDING, facts, upcoming};
 use crate::{
-    astro::time::seconds_between,
     engine::{antenna::AntennaModel, passes::PredictedPass},
     model::{Model, UiCommand, View, globe::GlobeSatellite},
     ui::{
@@ -102,7 +101,7 @@ fn until(predicted: &PredictedPass, model: &Model) -> (&'static str, String) {
     } else {
         ("AOS", pass.aos.time)
     };
-    (event, format::countdown(seconds_between(model.now, at)))
+    (event, format::countdown(model.now, at))
 }
 
 fn parts(

@@ -88,7 +88,7 @@ pub(super) fn next(of: &GlobeSatellite, model: &Model) -> String {
 /// That there is no later pass, or that none was searched for.
 pub(super) fn no_later_pass(of: &GlobeSatellite, model: &Model) -> &'static str {
     match Search::of(of, model) {
-        Search::None => "Passes are computed for favourites alone.",
+        Search::None => "Passes are computed for favourites only.",
         Search::UnderWay => "Passes are being computed.",
         Search::Done => "No later pass in the next 48 h.",
     }

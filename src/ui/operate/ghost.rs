@@ -148,7 +148,7 @@ fn found(model: &Model, antenna: &AntennaModel, target: Target) -> (String, bool
         None => "How long it takes is not known.".to_owned(),
     };
     said += if way.is_round_a_corner {
-        " One axis after the other, to stay clear of forbidden directions."
+        " The axes move one after the other, to stay clear of forbidden directions."
     } else {
         " The path is clear."
     };

@@ -72,7 +72,7 @@ pub(super) fn list(
         }
         CatalogState::Ready(_) if work == Work::Cancelled => "The search was cancelled.",
         CatalogState::Ready(_) if found.is_some_and(|found| !found.is_whole()) => {
-            "The passes are being judged."
+            "Checking which passes can be tracked."
         }
         CatalogState::Ready(_) if state.filter.arrangement != Arrangement::default() => {
             "No listed pass fits the filters."
@@ -243,7 +243,7 @@ pub(super) fn header(ui: &mut Ui, rect: Rect, model: &Model, small: bool) -> boo
         elements.name().split_once(" (").map_or("", |(_, rest)| rest.trim_end_matches(')'));
     let detail = format!("{other_name} {}", elements.catalog_number());
     let pass = &predicted.pass;
-    let until = |time: Timestamp| format::countdown(seconds_between(model.now, time));
+    let until = |time: Timestamp| format::countdown(model.now, time);
     let (event, at) = if predicted.in_progress(model.now) {
         ("LOS", pass.los.time)
     } else {

@@ -6,10 +6,7 @@ pub(super) mod row;
 use jiff::Timestamp;
 
 use crate::{
-    astro::{
-        Site,
-        time::{add_seconds, seconds_between},
-    },
+    astro::{Site, time::add_seconds},
     engine::passes::{PassKey, PredictedPass},
     model::{Model, Sky},
     ui::{format, sky_plot::PlannedAntenna, words},
@@ -95,7 +92,7 @@ impl SkyTime {
     pub(super) fn words(&self, model: &Model) -> Option<String> {
         let at = self.at?;
         let moment = format::moment(at, model.now);
-        Some(format!("Sky at {moment}, in {}", format::time_left(seconds_between(model.now, at))))
+        Some(format!("Sky at {moment}, in {}", format::time_left(model.now, at)))
     }
 }
 

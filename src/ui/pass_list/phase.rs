@@ -37,8 +37,8 @@ impl Phase {
 /// The countdown of the row: a word before the time, which may be empty, and the time.
 pub(super) fn countdown(row: &PassRow<'_>, phase: Phase, now: Timestamp) -> (&'static str, String) {
     match phase {
-        Phase::Upcoming => ("", format::countdown(seconds_between(now, row.aos))),
-        Phase::InProgress => ("LOS", format::countdown(seconds_between(now, row.los))),
+        Phase::Upcoming => ("", format::countdown(now, row.aos)),
+        Phase::InProgress => ("LOS", format::countdown(now, row.los)),
         Phase::NoLos => ("LOS", "later".to_owned()),
         Phase::AllTheTime => ("", "always up".to_owned()),
         Phase::Over => ("LOS", "over".to_owned()),

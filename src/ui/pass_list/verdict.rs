@@ -100,7 +100,7 @@ impl Verdict<'_> {
             Self::Blocked { seconds, .. } => {
                 format!("Blocked by the mask for {}", format::duration(seconds)).into()
             }
-            Self::Misses => "The unit would miss".into(),
+            Self::Misses => "The unit would miss it".into(),
             Self::OutOfReach => "Out of the mount's reach".into(),
             Self::TooLow => "Below the antenna's minimum elevation".into(),
             Self::InMaintenance => "In maintenance".into(),
@@ -113,7 +113,7 @@ impl Verdict<'_> {
                         format!("Loses {lost} at keyhole {}", towards(azimuth.degrees()))
                     }
                     Loss::Overhead => format!("Loses {lost} overhead"),
-                    Loss::Slew => format!("Loses {lost} at azimuth unwrap"),
+                    Loss::Slew => format!("Loses {lost} at the azimuth unwrap"),
                     Loss::OutOfReach => format!("Loses {lost} out of reach"),
                 }
                 .into()

@@ -121,9 +121,9 @@ fn spans(
     let segments = SPANS_H.map(|(hours, word)| {
         (word, if is_chosen(hours) { Segment::Chosen } else { Segment::Free })
     });
-    let clicked = segmented::show(ui, "plan span", place, "Time that is planned", &segments);
+    let clicked = segmented::show(ui, "plan span", place, "Planned period", &segments);
     if let Some((hours, _)) = clicked.and_then(|index| SPANS_H.get(index)) {
-        set(model, Scheduling { span_h: *hours, ..scheduling }, "Another span", state, commands);
+        set(model, Scheduling { span_h: *hours, ..scheduling }, "Another period", state, commands);
     }
 }
 

@@ -4,7 +4,6 @@ use egui::{Align2, Frame, Margin, Rect, RichText, ScrollArea, Sense, Ui, UiBuild
 
 use super::{PADDING, PlanState};
 use crate::{
-    astro::time::seconds_between,
     driver::LinkState,
     engine::{self, antenna::AntennaModel, automatic::Operation, passes::PredictedPass},
     model::{Model, UiCommand, View, plan::PlannedPass, rehearsal::RehearsalState},
@@ -83,7 +82,7 @@ fn head(ui: &Ui, rect: Rect, model: &Model, planned: &PlannedPass<'_>) {
     let is_up = predicted.in_progress(model.now);
     let (event, at) =
         if is_up { ("LOS", predicted.pass.los.time) } else { ("AOS", predicted.pass.aos.time) };
-    let countdown = format::countdown(seconds_between(model.now, at));
+    let countdown = format::countdown(model.now, at);
     let (left, right) = (Align2::LEFT_CENTER, Align2::RIGHT_CENTER);
     paint::text_in(ui, line(16.0), right, event, text::small(), t.t3);
     let font = text::sized(20.0, Weight::SemiBold);

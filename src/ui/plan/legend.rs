@@ -20,7 +20,7 @@ type Mark = fn(&Ui, Rect, &Tokens);
 const ENTRIES: [(Mark, &str); 6] = [
     (|ui, rect, _| pass_bar::paint(ui, rect, BarForm::Missed), "missed"),
     (|ui, rect, _| pass_bar::paint(ui, rect, BarForm::Done), "done"),
-    (|ui, rect, _| pass_bar::paint(ui, rect, BarForm::Proved), "proved"),
+    (|ui, rect, _| pass_bar::paint(ui, rect, BarForm::Proved), "verified"),
     (|ui, rect, _| pass_bar::paint(ui, rect, BarForm::Sent), "sent"),
     (
         |ui, rect, t| {

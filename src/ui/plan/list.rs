@@ -218,7 +218,7 @@ fn heads(ui: &Ui, head: Rect, columns: Columns) {
         cell(slew, left, "Slew in");
         cell(spare, right, "Spare");
     }
-    cell(columns.text, left, "What is lost, or why it is left out");
+    cell(columns.text, left, "Notes");
 }
 
 /// Icon, words and colour of a state.
@@ -255,7 +255,7 @@ fn state(
             (Icon::Lock, format!("{what}, {}", format::moment(at, model.now)), t.ok)
         }
         Standing::Sent(at) => {
-            let words = format!("Sent {}, not proved", format::moment(at, model.now));
+            let words = format!("Sent {}, not verified", format::moment(at, model.now));
             (Icon::ChevronRight, words, t.cmd)
         }
         Standing::Planned(entry) if antenna.operation.is_on() => {
@@ -290,7 +290,7 @@ fn reason(model: &Model, listed: &ListedPass<'_>) -> (String, bool) {
             }
             let cut = entry.late_s + entry.early_s;
             if cut > 0.0 {
-                return (format!("In part: {} less.", format::duration(cut)), true);
+                return (format!("Shortened by {}.", format::duration(cut)), true);
             }
             match always.filter(|choice| choice.take == Take::Always) {
                 Some(choice) => {

@@ -34,10 +34,10 @@ pub(in crate::ui) fn go_on(model: &Model, antenna: &AntennaModel) -> Option<Stri
     let entries = model.schedule.schedule.entries.iter();
     let mut own = entries.filter(|entry| entry.antenna == antenna.id() && entry.to > model.now);
     Some(own.next().map_or_else(
-        || "Go on".to_owned(),
+        || "Resume".to_owned(),
         |entry| {
             let name = words::schedule::pass_name(model, (entry.pass.satellite, entry.pass.aos));
-            format!("Go on with {name}, {}", format::moment(entry.from, model.now))
+            format!("Resume with {name}, {}", format::moment(entry.from, model.now))
         },
     ))
 }
@@ -61,8 +61,8 @@ pub(super) fn sentence(model: &Model, antenna: &AntennaModel) -> String {
             Doing::Takes(taking) => {
                 let name = words::schedule::pass_name(model, taking.pass);
                 let proved = taking.proved_at.map_or_else(
-                    || format!("asked for {}", format::moment(taking.asked_at, model.now)),
-                    |at| format!("proved {}", format::moment(at, model.now)),
+                    || format!("sent {}", format::moment(taking.asked_at, model.now)),
+                    |at| format!("verified {}", format::moment(at, model.now)),
                 );
                 format!("On. {name}, {proved}.")
             }

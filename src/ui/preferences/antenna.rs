@@ -74,7 +74,7 @@ pub(super) fn show(
                     let known = model.antennas.iter().find(|of| of.config == config);
                     if let Some(known) = known.filter(|_| *section == WATCH) {
                         let words = words::stopping_way(known.snapshot.stopping_way);
-                        form::told(ui, "Travel after STOP", &words);
+                        form::told(ui, "Coasting after STOP", &words);
                     }
                     if *section == POINTING && !is_new {
                         fit = pointing::show(ui, model, id, &config, commands);

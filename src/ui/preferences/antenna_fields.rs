@@ -17,7 +17,7 @@ type Of = Description<Antenna>;
 const MOUNT: &str = "Mount and travel";
 pub(super) const POINTING: &str = "Pointing model";
 const FOLLOWING: &str = "Following and outages";
-pub(super) const WATCH: &str = "Polling and watch";
+pub(super) const WATCH: &str = "Polling and supervision";
 
 /// All fields that an antenna of this make may have.
 pub(super) fn all(spec: &'static ControllerSpec) -> Vec<Placed<Antenna>> {
@@ -215,7 +215,7 @@ fn follow() -> [Of; 4] {
 
 fn outage() -> [Of; 2] {
     [
-        Of::number("Keeps tracking through", ranges::RESUME_AFTER_S, "s", |antenna| {
+        Of::number("Resume after outages up to", ranges::RESUME_AFTER_S, "s", |antenna| {
             Some(&mut antenna.resume_after_s)
         })
         .when(takes_positions),
@@ -247,8 +247,8 @@ fn watch() -> [Of; 2] {
             |antenna| &mut antenna.monitor,
         )
         .noted(|_| {
-            let words = "Or too close to the Sun: by the panel, another program or the unit's \
-                         own program. Motion commanded by Azel is always stopped.";
+            let words = "Or come too close to the Sun: from the panel, another program or the \
+                         unit's own program. Motion commanded by Azel is always stopped.";
             Some(words.to_owned())
         }),
         Of::number("Allowed sway", ranges::SWAY_DEG, "°", |antenna| Some(&mut antenna.sway_deg))

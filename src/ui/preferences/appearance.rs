@@ -59,7 +59,7 @@ fn times(ui: &mut Ui, wanted: &mut Appearance) {
     form::card(ui, "Times", |ui| {
         let shown = [("Beside UTC", true), ("Not shown", false)];
         choice(ui, CLOCK, &shown, &mut wanted.local_time);
-        note(ui, "In the top bar alone. Every other time is UTC.");
+        note(ui, "In the top bar only. Every other time is UTC.");
     });
 }
 
@@ -70,8 +70,8 @@ fn units(ui: &mut Ui, wanted: &mut Appearance) {
         choice(ui, DECIMALS, &choices, &mut wanted.angle_decimals);
         note(
             ui,
-            "For the angles of the antenna's axes and of the selected satellite. The angles of a \
-             unit with a coarser resolution have fewer.",
+            "For the angles of the antenna's axes and of the selected satellite. A unit with a \
+             coarser resolution shows fewer.",
         );
         let of_distances = [
             ("Kilometres", DistanceUnit::Kilometres),

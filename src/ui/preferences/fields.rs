@@ -145,7 +145,7 @@ impl<T> Description<T> {
     where
         T: 'static,
     {
-        const NO_TIME: &str = "must be a time of the day such as 22:00";
+        const NO_TIME: &str = "must be a time of day such as 22:00";
         let check = |text: &str| match HoursOfDay::read_time(text) {
             Some(_) => Ok(()),
             None => Err(Unfit::Text(NO_TIME.to_owned())),

@@ -394,7 +394,7 @@ fn effect_lines(ui: &Ui, rect: Rect, model: &Model, skies: &Skies, state: &Horiz
         let icon = paint::square(inner.left_top() + vec2(7.0, 9.0), 14.0);
         icons::paint(ui.painter(), icon, Icon::Eye, t.sat);
         let head = inner.with_max_y(inner.top() + 18.0).with_min_x(inner.left() + 24.0);
-        let title = "What it does to the next 48 h";
+        let title = "Effect on the next 48 h";
         paint::text_in(ui, head, Align2::LEFT_CENTER, title, text::body_medium(), t.t1);
         for (line, colour, offset) in
             lines.iter().zip([t.t1, t.t2]).zip([20.0, 40.0]).map(|((a, b), c)| (a, b, c))

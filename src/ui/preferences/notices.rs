@@ -224,7 +224,7 @@ fn telling(
         for missing in words::missing_outlets(&model.outlets) {
             match missing.raw {
                 Some(raw) => {
-                    let tip = format!("The answer of the system: {raw}");
+                    let tip = format!("The system answered: {raw}");
                     told::line_with_tip(ui, Tone::Caution, &missing.words, &tip);
                 }
                 None => told::line(ui, Tone::Caution, &missing.words),

@@ -185,15 +185,18 @@ const ON_CLOSE: [Option<OnClose>; 4] =
 fn about_closing(on_close: Option<OnClose>) -> &'static str {
     match on_close {
         None => {
-            "Asks while an antenna moves or tracks. If the system ends Azel, what moves is stopped."
+            "Asks while an antenna moves or tracks. If the system ends Azel, moving antennas \
+                 are stopped."
         }
-        Some(OnClose::Hold) => "What moves or is tracked is stopped; the window waits for that.",
+        Some(OnClose::Hold) => {
+            "Antennas that move or track are stopped; the window waits for that."
+        }
         Some(OnClose::Park) => {
-            "What moves or is tracked is parked first, or stopped where it cannot be. Ended by \
-             the system, Azel stops it."
+            "Antennas that move or track are parked first, or stopped if they cannot be parked. If \
+             the system ends Azel, they are stopped."
         }
         Some(OnClose::Leave) => {
-            "What a unit tracks by itself goes on, and nobody here watches it. Anything else \
+            "A unit that tracks by itself goes on, with nobody watching here. Any other antenna \
              that moves is stopped."
         }
     }

@@ -99,8 +99,8 @@ fn the_pass_is_told_in_a_sentence() {
     let window = window([392.0, 208.0], Some(model(&track, &errors)));
     window.get_by_role_and_label(
         Role::Image,
-        "NOAA 20 profile: AOS 11:01:53Z at azimuth 300°, TCA 11:06:53Z at elevation 65.0°, \
-         LOS 11:11:53Z at azimuth 060°. Last error 0.04°, half the beam is 0.44°.",
+        "NOAA 20 profile: AOS 11:01:53Z at azimuth 300°, TCA 11:06:53Z at elevation 65.0°, LOS \
+         11:11:53Z at azimuth 060°. Last error 0.04°, half the beamwidth is 0.44°.",
     );
 }
 

@@ -74,7 +74,7 @@ pub(super) fn sentence(axis: &TimeAxis, model: &ProfileModel<'_>) -> String {
         // Writing to a string cannot fail.
         let _ = write!(
             sentence,
-            " Last error {}, half the beam is {}.",
+            " Last error {}, half the beamwidth is {}.",
             format::degrees(f64::from(*error_deg), 2),
             format::degrees(model.half_beam_deg, 2),
         );

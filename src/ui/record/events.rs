@@ -133,7 +133,7 @@ fn events(model: &Model, opened: &OpenedPass) -> [Vec<Moment>; 4] {
         alarms.extend(longest.map(|lost| Moment {
             at: lost.from,
             words: format!(
-                "Outside half of the beam {}: {}",
+                "Beyond half the beamwidth for {}: {}",
                 format::duration(lost.seconds()),
                 words::loss(lost.cause).to_lowercase()
             ),

@@ -46,7 +46,7 @@ pub(super) fn show(
     let left = Align2::LEFT_CENTER;
     let drawn =
         paint::text_in(ui, inner, left, "What would explain the error", text::small_strong(), t.t1);
-    let note = format!("each fitted alone to {} points", opened.track.len());
+    let note = format!("each fitted on its own to {} points", opened.track.len());
     paint::text_in(ui, inner.with_min_x(drawn.right() + 12.0), left, &note, text::small(), t.t3);
     let (head, mut rest) = rest.split_top_bottom_at_y(rest.top() + HEAD);
     ui.painter().hline(head.x_range(), head.bottom() - 0.5, (1.0, t.line));

@@ -23,7 +23,7 @@ const SHARE_BAR: f64 = 100.0;
 /// Draws the table with as many rows as there are.
 pub(super) fn draw(svg: &mut Svg, y: f64, opened: &OpenedPass) {
     let explanations = &opened.pass.report.explanations;
-    let said = format!("each fitted alone to {} points", opened.track.len());
+    let said = format!("each fitted on its own to {} points", opened.track.len());
     let mut y = section(svg, y, "Causes of the error", &said);
     let right = CAPTION.anchored(Anchor::End);
     svg.text([LEFT, y + 5.0], CAUSE - LEFT, CAPTION, "Cause");

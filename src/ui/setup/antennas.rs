@@ -66,7 +66,7 @@ pub(super) fn show(
     if !silent.is_empty() {
         ui.add_space(4.0);
         let names = crate::ui::format::list(&silent);
-        let words = format!("{names}: you can go on. Azel tries again once you finish.");
+        let words = format!("{names}: you can continue. Azel tries again once you finish.");
         line(ui, Tone::Caution, &words);
     }
 }

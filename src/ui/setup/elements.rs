@@ -36,7 +36,7 @@ pub(super) fn show(
         }
         let work = match model.sources.work {
             SourceWork::Reading => "The sources are being read.",
-            SourceWork::Asking => "The servers are being asked. You can go on meanwhile.",
+            SourceWork::Asking => "The servers are being asked. You can continue meanwhile.",
             SourceWork::Nothing => "",
         };
         if !work.is_empty() {

@@ -55,7 +55,7 @@ fn links(draft: &SetupDraft) -> Vec<String> {
     }
     if !waiting.is_empty() {
         let names = format::list(&waiting);
-        words.push(format!("{names}: left alone until you press Connect on its card."));
+        words.push(format!("{names}: left alone until you press Connect on the antenna's card."));
     }
     if words.is_empty() {
         words.push("Azel predicts passes. Preferences can add antennas.".to_owned());

@@ -34,7 +34,7 @@ pub(super) fn show(
 ) {
     let t = theme::tokens(ui);
     let CatalogState::Ready(catalog) = &model.catalog else {
-        let words = "There are no elements to choose from. You can go on and choose later.";
+        let words = "There are no elements to choose from. You can continue and choose later.";
         ui.label(RichText::new(words).font(text::body()).color(t.warn));
         return;
     };

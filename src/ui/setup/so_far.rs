@@ -39,7 +39,7 @@ pub(super) fn parts(model: &Model, draft: &SetupDraft, progress: Progress) -> Ve
     let clock = match model.time_sync {
         TimeSync::Synchronised => (Tone::Good, "synchronised"),
         TimeSync::NotSynchronised => (Tone::Bad, "not synchronised"),
-        TimeSync::NotKnown => (Tone::Plain, "sync not known"),
+        TimeSync::NotKnown => (Tone::Plain, "sync unknown"),
     };
     let mut parts =
         vec![part("Clock", (clock.0, clock.1.to_owned())), part("Site", site(draft, progress))];

@@ -19,13 +19,12 @@ pub(super) fn sentence(model: &Model, antenna: &AntennaModel) -> Option<Spoken> 
     match &antenna.snapshot.link {
         LinkState::Up { .. } if state.measured.is_none() => Some(
             Spoken::new(SentenceKind::Holding)
-                .plain(format!("Not known: {name} is connected and being read.")),
+                .plain(format!("{name} is connected and is being read.")),
         ),
         LinkState::Up { .. } | LinkState::Stale { .. } => None,
         LinkState::Off => Some(Spoken::new(SentenceKind::Holding).plain(off(antenna))),
         LinkState::Connecting { .. } => Some(
-            Spoken::new(SentenceKind::Holding)
-                .plain(format!("Not known: connecting to {name} at {address}.")),
+            Spoken::new(SentenceKind::Holding).plain(format!("Connecting to {name} at {address}.")),
         ),
         LinkState::Lost { since, reason, retry_at } => {
             let silent_s = model.steady.saturating_duration_since(*since).as_secs_f64();
@@ -54,16 +53,16 @@ pub(super) fn sentence(model: &Model, antenna: &AntennaModel) -> Option<Spoken> 
 fn off(antenna: &AntennaModel) -> String {
     let name = &antenna.config.name;
     if let Some(by) = &antenna.held_by {
-        return format!("Not known: {by} drives {name}. Nothing goes to it from here.");
+        return format!("{name} is driven by {by}. Nothing goes to it from here.");
     }
     if antenna.variant().capabilities.waits_for_word {
         return format!(
-            "Not known: {name} is not connected. Azel sends nothing to it before Connect, \
-             because that may take its panel from somebody working at it."
+            "{name} is not connected. Azel sends it nothing until you press Connect: connecting \
+             can take its panel from somebody working at it."
         );
     }
     format!(
-        "Not known: {name} is not connected. Another program may use it. Connect opens the link \
+        "{name} is not connected, so another program can use it. Press Connect to open the link \
          again."
     )
 }
@@ -86,7 +85,7 @@ fn unreadable(model: &Model, antenna: &AntennaModel, why: &str) -> Option<Spoken
         }
     };
     let spoken = Spoken::new(SentenceKind::Fault)
-        .plain(format!("Not known: the position of {} cannot be read. ", antenna.config.name));
+        .plain(format!("The position of {} cannot be read. ", antenna.config.name));
     Some(what_it_did(spoken, antenna).plain(format!("{why}{again}")))
 }
 
@@ -99,10 +98,10 @@ fn what_it_did(spoken: Spoken, antenna: &AntennaModel) -> Spoken {
         return spoken
             .plain("It was tracking ")
             .bold(held.map_or("a satellite", |held| short(&held.name)))
-            .plain(" and probably still moves. ");
+            .plain(" and is probably still moving. ");
     }
     if moving {
-        return spoken.plain("It was moving and probably still moves. ");
+        return spoken.plain("It was moving and is probably still moving. ");
     }
     spoken
 }

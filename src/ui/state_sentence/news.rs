@@ -100,8 +100,7 @@ pub(super) fn sentence(model: &Model, antenna: &AntennaModel) -> Option<Spoken> 
              tracking by itself. Check auto-track at the unit.",
         ),
         Event::LockOutUnproved => caution.plain(
-            "Locked out, but it cannot be read back that auto-track is off. Switch it off at the \
-             unit.",
+            "Locked out, but auto-track could not be confirmed off. Switch it off at the unit.",
         ),
         Event::StartedByItself => caution.plain("The unit has begun to track by itself."),
         Event::LinkLost(_)
@@ -123,7 +122,7 @@ fn follow_over(name: &str, stats: TrackStats) -> Spoken {
         .plain(" is over.");
     let Some((rms, worst)) = stats.rms().zip(stats.worst()) else { return spoken };
     spoken.plain(format!(
-        " It was followed to {} rms, {} at worst, with {} commands.",
+        " It was followed with an error of {} rms, {} at worst, using {} commands.",
         format::degrees(rms.degrees(), 2),
         format::degrees(worst.degrees(), 2),
         stats.commands

@@ -2,7 +2,6 @@
 
 use super::{Spoken, place, short};
 use crate::{
-    astro::time::seconds_between,
     driver::TrackView,
     engine::antenna::AntennaModel,
     model::Model,
@@ -23,9 +22,9 @@ pub(super) fn sentence(model: &Model, antenna: &AntennaModel) -> Option<Spoken> 
                 spoken.plain(format!("Waiting{} for ", place(antenna)))
             };
             spoken.bold(name).plain(format!(
-                ", which rises at {} in {}.",
+                ", which rises at {}, in {}.",
                 format::moment(aos, model.now),
-                format::time_left(seconds_between(model.now, aos))
+                format::time_left(model.now, aos)
             ))
         }
         TrackPhase::Tracking => following(antenna, view, name),
@@ -52,7 +51,7 @@ fn following(antenna: &AntennaModel, view: &TrackView, name: &str) -> Spoken {
     };
     let beside = if view.offsets.is_none() { "" } else { " with offsets" };
     lead(kind).plain(format!(
-        ", sent from position to position{beside}. The antenna is {} off, {side} its {} beam.",
+        " position by position{beside}. The antenna is {} off, {side} its {} beam.",
         format::degrees(off_deg, 2),
         format::degrees(beam_deg, 2)
     ))

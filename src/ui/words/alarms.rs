@@ -53,8 +53,8 @@ pub fn alarm(kind: &AlarmKind, antenna: &str, now: Timestamp) -> String {
              there."
         ),
         AlarmKind::StopNotElsewhere => {
-            "STOP is not known to have been carried out by the Azel that drives the antenna. Use \
-             its window or the local panel."
+            "The Azel that drives the antenna has not confirmed STOP. Use its window or the local \
+             panel."
                 .to_owned()
         }
         AlarmKind::UnitElsewhere(by) => {
@@ -117,7 +117,7 @@ pub fn alarm(kind: &AlarmKind, antenna: &str, now: Timestamp) -> String {
         }
         AlarmKind::UnitDiffers(ranked) => {
             let why = cause_of(ranked);
-            format!("{antenna} would miss by its own program: {why}.")
+            format!("{antenna}, tracking by itself, would miss its satellite: {why}.")
         }
         AlarmKind::NotCompared { satellite: Some(name) } => format!(
             "{antenna} tracks {name} by its own program. Azel has no elements of it and cannot \
@@ -141,8 +141,8 @@ pub fn alarm(kind: &AlarmKind, antenna: &str, now: Timestamp) -> String {
             format::moment(*at, now)
         ),
         AlarmKind::AutomaticSuspended => format!(
-            "Automatic operation of {antenna} is suspended: the antenna was moved by its panel or by \
-             another program. Let it go on in Plan."
+            "Automatic operation of {antenna} is suspended: the antenna was moved by its panel or \
+             by another program. Resume it in Plan."
         ),
         AlarmKind::AutomaticOff(because) => format!(
             "Automatic operation of {antenna} is off. {} Switch it on again in Plan.",
@@ -166,8 +166,8 @@ pub fn alarm(kind: &AlarmKind, antenna: &str, now: Timestamp) -> String {
              every 2 s."
         ),
         AlarmKind::BrokeOff(Work::Elements) => {
-            "Reading the elements failed inside Azel. The elements held before stay in use; \
-             Elements can read them again."
+            "Reading the elements failed inside Azel. The previous elements stay in use; Elements \
+             can read the sources again."
                 .to_owned()
         }
         AlarmKind::BrokeOff(Work::Schedule) => {

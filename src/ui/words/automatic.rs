@@ -19,7 +19,7 @@ pub fn off(because: OffBecause) -> &'static str {
         OffBecause::LockedOut => "The unit is locked out.",
         OffBecause::Changed => "The settings of the antenna were changed.",
         OffBecause::NotAsLeft => "After an outage the unit was not as it had been left.",
-        OffBecause::Failures => "Two passes in a row could not be loaded or proved.",
+        OffBecause::Failures => "Two passes in a row could not be loaded or verified.",
     }
 }
 
@@ -52,9 +52,9 @@ pub fn miss_cause(cause: MissCause) -> String {
         MissCause::Suspended(by) => interruption(by),
         MissCause::LinkLost => "The unit did not answer.",
         MissCause::NotResumed => {
-            "After an outage Azel asked whether to go on tracking, and nobody answered."
+            "After an outage Azel asked whether to continue tracking, and nobody answered."
         }
-        MissCause::Refused => "The unit or the gate did not take it, or it was not proved.",
+        MissCause::Refused => "It was refused, or could not be verified.",
         MissCause::OutsideBeam => "The antenna was outside its beam.",
     };
     sentence.to_owned()
@@ -86,7 +86,7 @@ pub fn day_line(line: &DayLine, now: Timestamp) -> String {
         DayEvent::Suspended(by) => {
             format!("Automatic operation is suspended. {}", interruption(*by))
         }
-        DayEvent::WentOn => "Automatic operation goes on.".to_owned(),
+        DayEvent::WentOn => "Automatic operation resumed.".to_owned(),
         DayEvent::Flown(of) => flown(of, now),
     }
 }

@@ -4,7 +4,6 @@ use jiff::Timestamp;
 
 use super::{alarm, alarm_times};
 use crate::{
-    astro::time::seconds_between,
     desktop::{Missing, Outlets, Sound},
     engine::{
         Snapshot, alarms::AlarmKind, antenna::AntennaModel, notices::About, reminders::Reminder,
@@ -38,7 +37,7 @@ pub fn reminder(of: &Reminder, antennas: &[AntennaModel], now: Timestamp) -> Str
     format!(
         "{} AOS in {} at {}, max {}, {names} can track it.",
         of.name,
-        format::time_left(seconds_between(now, of.aos())),
+        format::time_left(now, of.aos()),
         format::moment(of.aos(), now),
         format::degrees(of.max_elevation.degrees(), 0),
     )

@@ -32,7 +32,7 @@ pub fn verdict(verdict: PassVerdict) -> &'static str {
     }
 }
 
-/// Share inside half of the beam and the worst error, for a row.
+/// Share within half the beamwidth and the worst error, for a row.
 pub fn in_short(report: &PassReport) -> String {
     let share = share(report.share());
     let not_known_s = report.counted_s - report.known_s;
@@ -76,8 +76,8 @@ pub fn loss(cause: LossCause) -> &'static str {
     match cause {
         LossCause::NotMeasured => "No positions",
         LossCause::ProgramEnded => "Azel ended",
-        LossCause::OutOfReach => "Out of reach of the mount",
-        LossCause::RateOfMount => "Rate of the mount",
+        LossCause::OutOfReach => "Out of the mount's reach",
+        LossCause::RateOfMount => "Mount too slow",
         LossCause::Slew => "Azimuth unwrap",
         LossCause::LateStart => "Late start",
         LossCause::EarlyEnd => "Early end",
@@ -184,7 +184,7 @@ pub fn verdict_sentence(pass: &RecordedReport, now: Timestamp) -> String {
         return "No position was measured in this pass.".to_owned();
     };
     let inside = format!(
-        "Inside half of the beam {} of {}, worst {} at {}.",
+        "Within half the beamwidth for {} of {}, worst {} at {}.",
         share(report.share()),
         format::duration(report.counted_s),
         format::degrees(worst.error.off_deg, 2),
@@ -217,13 +217,13 @@ fn losses_sentence(losses: &[LostStretch]) -> String {
 fn loss_in_sentence(cause: LossCause) -> &'static str {
     match cause {
         LossCause::NotMeasured => "without positions",
-        LossCause::ProgramEnded => "after Azel had ended",
-        LossCause::OutOfReach => "out of reach of the mount",
+        LossCause::ProgramEnded => "after Azel ended",
+        LossCause::OutOfReach => "out of the mount's reach",
         LossCause::RateOfMount => "where the mount is too slow",
         LossCause::Slew => "at the azimuth unwrap",
-        LossCause::LateStart => "until the antenna had arrived",
-        LossCause::EarlyEnd => "after the antenna had left",
-        LossCause::NotExplained => "by an error of the pointing",
+        LossCause::LateStart => "until the antenna arrived",
+        LossCause::EarlyEnd => "after the antenna left",
+        LossCause::NotExplained => "to pointing errors",
     }
 }
 
@@ -237,7 +237,7 @@ pub fn correction(how: &How, is_best: bool) -> String {
     let key = if is_best { " (C)" } else { "" };
     match how {
         How::Setting { .. } => format!(
-            "Types the value into the settings of the unit{key}. Nothing is sent until you apply \
+            "Enters the value in the settings of the unit{key}. Nothing is sent until you apply \
              it there."
         ),
         How::Remembered(offsets) => {
@@ -256,7 +256,11 @@ pub fn no_correction(best: Option<&Cause>) -> String {
 
 /// Why the table of causes is empty.
 pub fn not_explained(is_measured: bool) -> &'static str {
-    if is_measured { "Not explained: no cause explains 30 % of it" } else { "Nothing was measured" }
+    if is_measured {
+        "Not explained: no single cause explains 30 % of it"
+    } else {
+        "Nothing was measured"
+    }
 }
 
 /// What the data cannot tell apart, as a sentence; `None` where the best cause stands alone.

@@ -108,7 +108,7 @@ pub fn refusal(refusal: &Refusal, now: Timestamp) -> String {
         Refusal::Stopping => "Not sent: a stop is under way.".to_owned(),
         Refusal::PassUnknown => "Not sent: the pass is not known. Choose it again.".to_owned(),
         Refusal::NoTrack => {
-            "Not sent: nothing is tracked from here that an offset could be added to.".to_owned()
+            "Not sent: Azel is tracking nothing that an offset could be added to.".to_owned()
         }
         Refusal::TargetStands => {
             "Not sent: the target does not move, so nothing is along or across its track. Use \
@@ -116,7 +116,7 @@ pub fn refusal(refusal: &Refusal, now: Timestamp) -> String {
                 .to_owned()
         }
         Refusal::OffsetTooLarge { most } => {
-            format!("Not sent: an offset {} is the largest.", super::offset(*most))
+            format!("Not sent: an offset {} is the largest allowed.", super::offset(*most))
         }
         Refusal::OrbitUnknown { name } => format!(
             "Not sent: the unit holds {name}, and Azel has no elements of it: where it would point \

@@ -157,7 +157,7 @@ pub fn safety(matter: &Safety, antenna: &str, now: Timestamp) -> String {
         ),
         Safety::StoppedByFlags { axis } => format!(
             "{antenna} reports that it is at rest. {axis} reports no angle, so nothing else \
-             proves it."
+             confirms it."
         ),
         Safety::FlagsContradict { axis, turned_deg } => format!(
             "{antenna} reports that it is at rest, but {axis} has turned by {}. Look at the \

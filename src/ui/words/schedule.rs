@@ -63,12 +63,10 @@ pub fn why(names: &dyn Fn(PassKey) -> String, why: &Why) -> String {
         }
         Why::TooFar => "The antenna cannot be there at AOS".to_owned(),
         Why::MaxPerDay(most) => match most {
-            1 => "One pass of the satellite is taken on this day already".to_owned(),
-            most => format!("{most} passes of the satellite are taken on this day already"),
+            1 => "One pass of the satellite is already taken that day".to_owned(),
+            most => format!("{most} passes of the satellite are already taken that day"),
         },
-        Why::NotFound => {
-            "It would fit, but no schedule with it was found that is worth more".to_owned()
-        }
+        Why::NotFound => "It would fit, but no better schedule was found with it".to_owned(),
     }
 }
 
@@ -108,7 +106,7 @@ fn not_possible(impossible: &Impossible) -> String {
             "Not possible: all of it lies in the keyhole".to_owned()
         }
         Impossible::Lost(_) => "Not possible: the mount cannot follow it".to_owned(),
-        Impossible::NoWay => "Not possible: no way leads there past the keep-outs".to_owned(),
+        Impossible::NoWay => "Not possible: no path leads there around the keep-outs".to_owned(),
         Impossible::KeepOut(barrier) => {
             format!("Not possible: it leads {}", super::forbidden(barrier))
         }
@@ -140,8 +138,8 @@ pub fn standing(model: &Model, standing: Standing<'_>, antenna: &str) -> String 
     match standing {
         Standing::Flown(flown) => super::automatic::flown_part(flown),
         Standing::Running => format!("running on {antenna}"),
-        Standing::Proved(_) => format!("planned on {antenna}, proved"),
-        Standing::Sent(_) => format!("planned on {antenna}, sent, not proved"),
+        Standing::Proved(_) => format!("planned on {antenna}, verified"),
+        Standing::Sent(_) => format!("planned on {antenna}, sent, not verified"),
         Standing::Planned(_) => format!("planned on {antenna}"),
         Standing::TakenBy(other) => format!("planned on {}", antenna_name(model, other)),
         Standing::LeftOut(why) => format!("left out: {}", why_left_out(model, why)),
@@ -205,9 +203,9 @@ pub fn change(model: &Model, change: &Change) -> String {
 /// How good a schedule is known to be, in a few words.
 pub fn proof(schedule: &Schedule) -> String {
     match most_below_best(schedule) {
-        None => "Proved: no schedule is worth more.".to_owned(),
+        None => "No better schedule exists.".to_owned(),
         Some(percent) => {
-            format!("At most {percent:.1} % below the best in the first class not proved.")
+            format!("At most {percent:.1} % below the best possible.")
         }
     }
 }

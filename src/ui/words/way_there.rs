@@ -15,18 +15,19 @@ pub struct WayThere {
 }
 
 impl WayThere {
-    /// The rest of a sentence about the antenna, such as "needs 0:37 to get there, 2:05 left".
+    /// The rest of a sentence about the antenna, such as "needs 0:37 to get there, leaving 2:05 to
+    /// track".
     pub fn words(self) -> String {
         let Some(joining) = self.joining else {
             return "is not there before LOS".to_owned();
         };
-        format!("{}, {} left", needs(joining), format::duration(joining.left_s))
+        format!("{}, leaving {} to track", needs(joining), format::duration(joining.left_s))
     }
 
     /// [`Self::words`] where they have no room.
     pub fn short(self) -> String {
         match self.joining {
-            Some(joining) => format!("{} left", format::duration(joining.left_s)),
+            Some(joining) => format!("{} trackable", format::duration(joining.left_s)),
             None => "not there".to_owned(),
         }
     }

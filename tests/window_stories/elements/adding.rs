@@ -102,7 +102,7 @@ fn pasted_elements_are_told_with_their_refusals_and_taken_once() {
         let mut window = view(size, Vec::new());
         window.event(Event::Paste("hello".to_owned()));
         settle(&mut window);
-        assert!(says(&window, "None of these holds elements"));
+        assert!(says(&window, "None of these files holds elements"));
     }
 }
 
@@ -115,7 +115,7 @@ fn esc_closes_what_is_to_be_imported_after_what_is_open_above_it() {
         click(&mut window, "Add a source");
         for (is_form, is_card) in [(true, true), (false, true), (false, false)] {
             assert_eq!(window.query_by_label("Add source").is_some(), is_form);
-            assert_eq!(says(&window, "None of these holds elements"), is_card);
+            assert_eq!(says(&window, "None of these files holds elements"), is_card);
             window.key_press(Key::Escape);
             settle(&mut window);
         }

@@ -171,7 +171,7 @@ fn refused_records_have_their_place_and_reason() {
         }];
         let mut window = view(size, vec![(own, held)]);
         assert!(!says(&window, "own, line 1207"));
-        window.get_by_label_contains("1 refused record. What was held before stays").click();
+        window.get_by_label_contains("1 refused record. The previous elements stay").click();
         settle(&mut window);
         let words = "own, line 1207, OBJECT M: The checksum of line 2 is 7, the line gives 4.";
         assert!(says(&window, words));
@@ -190,7 +190,7 @@ fn what_is_typed_in_the_preferences_is_not_overtaken() {
     assert!(is_disabled(&window, "Remove NOAA 20 (JPSS-1) from the favourites"));
     window.get_by_role_and_label(Role::CheckBox, "Mark all that are shown").click();
     settle(&mut window);
-    assert!(says(&window, "Save or revert the preferences before the favourites change."));
+    assert!(says(&window, "Save or revert the preferences before you change favourites."));
 }
 
 #[test]

@@ -14,8 +14,8 @@ use crate::ui::{
     },
 };
 
-const ABOUT: &str = "A wrong value here makes the antenna point wrongly, or move. Type the station \
-                     name to unlock for 10 minutes; the antenna has to be at rest.";
+const ABOUT: &str = "A wrong value here can make the antenna point wrongly, or move. To unlock for \
+                     10 minutes, type the station name while the antenna is at rest.";
 
 pub(in crate::ui::antennas) fn show(
     ui: &mut Ui,

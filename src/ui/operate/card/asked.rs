@@ -132,8 +132,8 @@ impl CardHandler<'_> {
             return self.commands.push(command);
         }
         let text = format!(
-            "Disconnect from {}? It is moving or tracking, and nobody here watches it from then \
-             on.",
+            "Disconnect from {}? It is moving or tracking, and nobody will be watching it from \
+             here.",
             self.antenna.config.name
         );
         *self.question = Some(Question { text, yes: "Disconnect", command });

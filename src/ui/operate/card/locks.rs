@@ -76,7 +76,7 @@ impl Locks {
         };
         let action = match intent {
             Intent::Manual | Intent::Position => None,
-            _ => Some("What moves the antenna is locked. Choose Manual or Position."),
+            _ => Some("Motion is locked. Choose Manual or Position."),
         };
         let blind = no_direction(antenna);
         Self {

@@ -32,7 +32,7 @@ const STEP_S: f64 = 60.0;
 /// Step of Page Up and Page Down.
 pub const LONG_STEP_S: f64 = 600.0;
 
-const MOVES_NOTHING: &str = "The slider moves nothing. To point an antenna, go back to now.";
+const MOVES_NOTHING: &str = "The slider moves no antenna. To point an antenna, go back to now.";
 
 /// Shows the row in `rect`.
 pub(in crate::ui::operate) fn show(ui: &Ui, rect: Rect, model: &Model, state: &mut SkyTime) {
@@ -71,7 +71,7 @@ fn say(ui: &Ui, room: Rect, model: &Model, state: &SkyTime) {
     let Some(words) = state.words(model) else {
         let words = match model.schedule_until() {
             Some(_) => "Sky now. Drag to see the planned sky and antennas.",
-            None => "Sky now. There is no plan yet to look ahead in.",
+            None => "Sky now. There is no plan yet to look ahead with.",
         };
         paint::text_in(ui, room, left, words, text::small(), t.t2);
         paint::name_text(ui, "sky time", room, words);

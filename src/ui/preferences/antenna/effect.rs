@@ -12,11 +12,11 @@ use crate::{
     ui::{format, preferences::preview, text, theme},
 };
 
-const EACH_ALONE: &str = "Each pass is judged alone: slews between passes are left to the Plan.";
+const EACH_ALONE: &str = "Each pass is judged alone: slews between passes belong to the Plan.";
 
 /// The most important number, for a fold.
 pub(super) fn in_short(effect: &Effect<Question>) -> String {
-    format!("{} of {} passes tracked whole", effect.after.whole, effect.ways.len())
+    format!("{} of {} passes tracked in full", effect.after.whole, effect.ways.len())
 }
 
 /// Shows the numbers. An antenna that is new has none as saved.
@@ -31,7 +31,7 @@ pub(super) fn numbers(ui: &mut Ui, effect: Option<&Effect<Question>>, is_new: bo
     preview::heads(ui);
     let count = |count: usize| count.to_string();
     let rows = [
-        ("Tracked whole", count(old.whole), count(new.whole), new.whole.cmp(&old.whole)),
+        ("Tracked in full", count(old.whole), count(new.whole), new.whole.cmp(&old.whole)),
         ("Tracked in part", count(old.in_part), count(new.in_part), Ordering::Equal),
         ("Time lost", lost(old), lost(new), old.lost_s.total_cmp(&new.lost_s)),
         ("Not tracked", count(old.not), count(new.not), old.not.cmp(&new.not)),
@@ -67,7 +67,7 @@ fn sentence(effect: &Effect<Question>, is_new: bool) -> String {
     if of == 0 {
         return "No pass of a favourite in the next 48 h.".to_owned();
     }
-    let now = format!("{} of {of} passes are tracked whole", new.whole);
+    let now = format!("{} of {of} passes are tracked in full", new.whole);
     let passes = |count| if count == 1 { "1 pass".to_owned() } else { format!("{count} passes") };
     let gained_s = old.lost_s - new.lost_s;
     match new.whole.cmp(&old.whole) {

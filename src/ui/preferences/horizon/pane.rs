@@ -238,8 +238,8 @@ fn margin_sum(antenna: Option<&AntennaModel>, own_deg: f64) -> (String, String) 
     let words =
         format!("°   beam {} + overshoot {overshoot} + {own}", format::degrees(half_deg, 2));
     let about = format!(
-        "An antenna at rest is kept {} away: half of the beam and what you add. A moving one is \
-         stopped earlier, by as much as it coasts after STOP, {overshoot} at full speed. {}",
+        "An antenna at rest is kept {} away: half the beamwidth plus your margin. A moving one is \
+         stopped earlier, by the angle that it coasts after STOP: {overshoot} at full speed. {}",
         format::degrees(half_deg + own_deg, 2),
         words::stopping_way(stopping_way)
     );

@@ -136,7 +136,7 @@ pub(super) fn record(ui: &mut Ui, model: &Model, skies: &mut Skies, state: &mut 
         }
         return;
     }
-    let words = "Point by hand to where the sky begins: by camera or by the noise.";
+    let words = "Point the antenna by hand to where the sky begins, by camera or by noise level.";
     says(ui, "step 1", words, (Icon::Check, t.ok), t.t2);
     let (words, icon) = match &at {
         Ok(at) => {
@@ -152,8 +152,9 @@ pub(super) fn record(ui: &mut Ui, model: &Model, skies: &mut Skies, state: &mut 
     let words = "Jog to the next azimuth in Operate. Azel moves nothing by itself here.";
     says(ui, "step 3", words, (Icon::Dash, t.t3), t.t2);
     if let Some((from, to)) = recording.gap().filter(|_| count > 1) {
-        let words =
-            format!("Nothing is marked from {from:.0}° to {to:.0}°: a straight line there.");
+        let words = format!(
+            "Nothing is marked from {from:.0}° to {to:.0}°: a straight line is drawn there."
+        );
         says(ui, "gap", &words, (Icon::Warning, t.warn), t.warn);
     }
     let buttons = row(ui, HEIGHT + 8.0);

@@ -216,13 +216,13 @@ pub(super) fn decided(
     around: &Around<'_>,
     state: &RulesState,
 ) {
-    form::card(ui, "Passes that it decides, 48 h", |ui| {
+    form::card(ui, "Passes it decides, next 48 h", |ui| {
         let passes = shown.decided(state);
         let words = match passes {
             None => "Not known while a field is not valid, or the rule is removed.",
             Some([]) if !shown.is_on => "None: the rule is off.",
             Some([]) => "None.",
-            Some(_) => "Sun and hours count at the middle of a pass, its TCA.",
+            Some(_) => "Sun and hours are those at TCA, the middle of the pass.",
         };
         told::line(ui, Tone::Plain, words);
         let passes = passes.unwrap_or_default();

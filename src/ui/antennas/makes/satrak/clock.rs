@@ -42,7 +42,7 @@ fn effect(ui: &mut Ui, unit: &ShownUnit<'_>) {
     let rate_deg_s = predicted.and_then(|predicted| rate_at_tca(unit.model, predicted));
     let (Some(ahead_s), Some(predicted), Some(rate_deg_s)) = (ahead_s, predicted, rate_deg_s)
     else {
-        return row::plain(ui, LABEL, "not known without clock and pass", None);
+        return row::plain(ui, LABEL, "unknown without a clock reading and a pass", None);
     };
     let off_deg = (ahead_s * rate_deg_s).abs();
     let off = format::degrees(off_deg, 1);
@@ -79,7 +79,7 @@ fn set(ui: &mut Ui, unit: &ShownUnit<'_>, form: &mut Form, commands: &mut Vec<Ui
     let refusal = if !unit.is_open() {
         Some("There is no link.")
     } else if unit.tracks() {
-        Some("Not while the unit tracks.")
+        Some("Not while the unit is tracking.")
     } else if is_sending {
         Some("Sending.")
     } else {
@@ -103,7 +103,7 @@ fn set(ui: &mut Ui, unit: &ShownUnit<'_>, form: &mut Form, commands: &mut Vec<Ui
     let said = match (refusal, mark) {
         (Some(refusal), _) => refusal.to_owned(),
         (None, Some(Mark::Taken(at) | Mark::Verified(at))) => {
-            format!("Set and read again {}", format::moment(at, unit.model.now))
+            format!("Set and read back {}", format::moment(at, unit.model.now))
         }
         (None, Some(Mark::Rejected)) => "Not set. See below.".to_owned(),
         (None, None) => String::new(),

@@ -25,7 +25,7 @@ pub(super) fn show(ui: &mut Ui, unit: &ShownUnit<'_>, form: &mut Form) {
     let t = theme::tokens(ui);
     let station = format::degrees(station_deg, 1);
     let why = format!(
-        "Minimum elevation: the unit itself points down to {}, the station allows {station}.",
+        "Minimum elevation: the unit points as low as {}, but the station's minimum is {station}.",
         format::degrees(unit_deg, 1)
     );
     row::note(ui, Some(Icon::Warning), &why, t.warn);

@@ -132,7 +132,7 @@ fn tabs(
         _ if !edited.is_empty() => format!("Also edited: {}", edited.join(" and ")),
         Some(used) if used == shown => format!("{} is in use", word(used)),
         Some(used) => format!("{} is in use, not {}", word(used), word(shown)),
-        None => "It is not known which is in use".to_owned(),
+        None => "Source in use unknown".to_owned(),
     };
     let room = Rect::from_min_max(place.right_top() + vec2(12.0, 0.0), rect.max);
     let (icon, colour) = match used {
@@ -167,9 +167,9 @@ fn use_it(
     let refusal = if let Some(why) = &hindrance {
         Some(why.as_str())
     } else if !is_free {
-        Some("Apply selects it, together with the edits.")
+        Some("Apply selects it and sends the edits.")
     } else if !unit.is_fresh(group.key) || values.is_empty() {
-        Some("Its values are not known yet.")
+        Some("Its values have not been read yet.")
     } else {
         None
     };
@@ -181,7 +181,7 @@ fn use_it(
         form.send(unit, group, values, effects.commands);
     }
     let room = place.with_min_x(place.right() + 8.0).with_max_x(rect.right());
-    let said = refusal.unwrap_or("Sends it unchanged, which selects it as the source.");
+    let said = refusal.unwrap_or("Sends its values unchanged, which selects it as the source.");
     row::said(ui, room, said, text::small(), t.t3, said);
 }
 
