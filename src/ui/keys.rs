@@ -19,7 +19,7 @@ use crate::{
 use act::{Act, OffsetKey};
 
 /// One line of the list of keys.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Binding {
     /// Modifiers held with each of the keys.
     pub modifiers: Modifiers,
@@ -27,7 +27,7 @@ pub struct Binding {
     keys: &'static [(Key, Act)],
     /// Scope of the keys.
     pub place: KeyScope,
-    /// Description for the list of keys.
+    /// What they do, below a heading that names their scope.
     pub does: &'static str,
 }
 
@@ -57,6 +57,24 @@ pub enum KeyScope {
 }
 
 impl Binding {
+    /// What its keys do, with the view that they work in.
+    pub fn does_where(&self) -> String {
+        let place = match self.place {
+            KeyScope::Plan => "in Plan: ",
+            KeyScope::Record => "in Record: ",
+            KeyScope::Map => "in Map: ",
+            KeyScope::Replay => "in a replay: ",
+            // Operate is the view that Azel opens with; the others name their views themselves.
+            KeyScope::Everywhere
+            | KeyScope::Views
+            | KeyScope::Operate
+            | KeyScope::Elements
+            | KeyScope::Preferences
+            | KeyScope::Focus => "",
+        };
+        format!("{place}{}", self.does)
+    }
+
     /// Keys of the binding.
     pub fn keys(&self) -> impl Iterator<Item = Key> {
         self.keys.iter().map(|(key, _)| *key)
@@ -115,7 +133,7 @@ pub const ALL: [Binding; 40] = [
     row(
         KeyScope::Operate,
         &[(Key::ArrowUp, Act::MoveInList(-1)), (Key::ArrowDown, Act::MoveInList(1))],
-        "previous, next pass, unless the focus is elsewhere",
+        "previous, next pass, unless something else has the focus",
     ),
     row(
         KeyScope::Record,
@@ -125,7 +143,7 @@ pub const ALL: [Binding; 40] = [
             (Key::C, Act::Correct),
             (Key::E, Act::ExportReport),
         ],
-        "previous, next recorded pass; correct; export",
+        "previous, next pass; correct; export",
     ),
     row(
         KeyScope::Replay,
@@ -135,9 +153,9 @@ pub const ALL: [Binding; 40] = [
             (Key::Period, Act::RecordedEvent { is_next: true }),
             (Key::Q, Act::LeaveReplay),
         ],
-        "in a replay: play, previous event, next, leave",
+        "play, previous event, next, leave",
     ),
-    row(KeyScope::Focus, &[(Key::Enter, Act::There)], "select what has the focus"),
+    row(KeyScope::Focus, &[(Key::Enter, Act::There)], "press what has the focus"),
     row(KeyScope::Operate, &[(Key::N, Act::NextPass)], "the pass in progress or the next one"),
     row(KeyScope::Operate, &[(Key::P, Act::Drawer)], "pass list, in small windows"),
     row(
@@ -148,7 +166,7 @@ pub const ALL: [Binding; 40] = [
     row(
         KeyScope::Operate,
         &[(Key::G, Act::GoTo)],
-        "Position: type a direction; Enter shows it, again goes",
+        "Position: type a direction; Enter shows it, again goes there",
     ),
     row(
         KeyScope::Operate,
@@ -199,7 +217,7 @@ pub const ALL: [Binding; 40] = [
                 (Key::ArrowUp, Act::Offset(OffsetKey::More(Offset::Along(Angle::ZERO)))),
                 (Key::ArrowDown, Act::Offset(OffsetKey::Less(Offset::Along(Angle::ZERO)))),
             ],
-            "while tracking: one step across the track, one along it",
+            "while tracking: a step across the track or along it",
         ),
     ),
     with(
@@ -212,7 +230,7 @@ pub const ALL: [Binding; 40] = [
                 (Key::ArrowUp, Act::Offset(OffsetKey::More(Offset::Elevation(Angle::ZERO)))),
                 (Key::ArrowDown, Act::Offset(OffsetKey::Less(Offset::Elevation(Angle::ZERO)))),
             ],
-            "while tracking: one step in azimuth, one in elevation",
+            "while tracking: a step in azimuth or elevation",
         ),
     ),
     row(
@@ -223,7 +241,7 @@ pub const ALL: [Binding; 40] = [
     row(
         KeyScope::Operate,
         &[(Key::Home, Act::SkyOfNow)],
-        "sky now; on its slider: Left, Right 1 min, Page 10 min",
+        "sky now; on its slider: Left, Right 1 min, Page Up, Down 10 min",
     ),
     row(
         KeyScope::Operate,
@@ -243,7 +261,7 @@ pub const ALL: [Binding; 40] = [
             (Key::ArrowUp, Act::Nearest(Towards::North)),
             (Key::ArrowDown, Act::Nearest(Towards::South)),
         ],
-        "in Map: the next satellite in that direction",
+        "the next satellite in that direction",
     ),
     row(
         KeyScope::Map,
@@ -252,9 +270,9 @@ pub const ALL: [Binding; 40] = [
             (Key::Minus, Act::MapZoom(false)),
             (Key::Num0, Act::WholeMap),
         ],
-        "in Map: zoom in, zoom out, the whole map",
+        "zoom in, zoom out, the whole map",
     ),
-    row(KeyScope::Map, &[(Key::L, Act::MapLayers)], "in Map: layers"),
+    row(KeyScope::Map, &[(Key::L, Act::MapLayers)], "layers"),
     row(
         KeyScope::Plan,
         &[
@@ -263,7 +281,7 @@ pub const ALL: [Binding; 40] = [
             (Key::ArrowUp, Act::PlannedPass(-1)),
             (Key::ArrowDown, Act::PlannedPass(1)),
         ],
-        "in Plan: previous, next pass",
+        "previous, next pass",
     ),
     row(
         KeyScope::Plan,
@@ -273,7 +291,7 @@ pub const ALL: [Binding; 40] = [
             (Key::V, Act::ChoosePass(Some(Take::Never))),
             (Key::S, Act::SwapPass),
         ],
-        "in Plan: always, by plan, never; swap (asks)",
+        "always, by plan, never; swap (asks)",
     ),
     row(
         KeyScope::Plan,
@@ -282,7 +300,7 @@ pub const ALL: [Binding; 40] = [
             (Key::Minus, Act::PlanZoom(false)),
             (Key::Num0, Act::UsualPlan),
         ],
-        "in Plan: fewer, more hours in the lanes; from now on",
+        "fewer, more hours in the lanes; from now on",
     ),
     with(
         Modifiers::COMMAND,
@@ -331,6 +349,9 @@ pub const ALL: [Binding; 40] = [
             (Key::Space, Act::There),
             (Key::F, Act::There),
             (Key::Num1, Act::There),
+            (Key::Num2, Act::There),
+            (Key::Num3, Act::There),
+            (Key::Num4, Act::There),
             (Key::Num5, Act::There),
             (Key::U, Act::There),
         ],
@@ -341,7 +362,7 @@ pub const ALL: [Binding; 40] = [
         row(
             KeyScope::Focus,
             &[(Key::ArrowUp, Act::There), (Key::ArrowDown, Act::There)],
-            "on an automation rule: move it",
+            "on an automation rule: move it up, down",
         ),
     ),
     with(
@@ -349,7 +370,7 @@ pub const ALL: [Binding; 40] = [
         row(
             KeyScope::Focus,
             &[(Key::ArrowLeft, Act::There)],
-            "in Set up: previous step; Enter goes on",
+            "in Set up: previous step; Enter for the next",
         ),
     ),
     row(KeyScope::Views, &[(Key::A, Act::Acknowledge)], "acknowledge the newest alarm"),

@@ -58,7 +58,7 @@ fn all_words(window: &Window) -> Vec<String> {
 }
 
 fn line(binding: &Binding) -> String {
-    format!("{}: {}", in_words(binding, &OwnKeys::default()), binding.does)
+    format!("{}: {}", in_words(binding, &OwnKeys::default()), binding.does_where())
 }
 
 #[test]

@@ -72,7 +72,12 @@ pub fn show(ui: &Ui, open: &mut bool, own: &OwnKeys) {
             paint::text_in(ui, keys, Align2::LEFT_CENTER, &words, font, t.t1);
             let place = Align2::LEFT_CENTER.align_size_within_rect(does.size(), rest);
             ui.painter().galley(place.min, does, t.t2);
-            paint::name_text(ui, ("key", index), row, &format!("{words}: {}", binding.does));
+            paint::name_text(
+                ui,
+                ("key", index),
+                row,
+                &format!("{words}: {}", binding.does_where()),
+            );
             at.y = row.bottom();
             lowest = lowest.max(at.y);
         }
@@ -87,10 +92,10 @@ pub fn show(ui: &Ui, open: &mut bool, own: &OwnKeys) {
 /// What a line does, wrapped in its column.
 fn does(ui: &Ui, binding: &Binding) -> Arc<Galley> {
     let colour = theme::tokens(ui).t2;
-    ui.painter().layout(binding.does.to_owned(), text::small(), colour, COLUMN - KEYS)
+    ui.painter().layout(binding.does_where(), text::small(), colour, COLUMN - KEYS)
 }
 
-/// The keys of a line as labelled on the keyboard, such as "Ctrl 1, 6".
+/// The keys of a line as labelled on the keyboard, such as "Ctrl 1 to 8".
 pub fn in_words(binding: &Binding, own: &OwnKeys) -> String {
     let before = match binding.modifiers {
         Modifiers::COMMAND => "Ctrl ",
@@ -106,7 +111,23 @@ pub fn in_words(binding: &Binding, own: &OwnKeys) -> String {
     }
     // A comma is a key too.
     let between = if words.contains(&",") { "   " } else { ", " };
-    format!("{before}{}", words.join(between))
+    let runs = words.chunk_by(|one, next| follows(one, next)).flat_map(|run| match run {
+        [first, _, .., last] => vec![format!("{first} to {last}")],
+        few => few.iter().map(|word| (*word).to_owned()).collect(),
+    });
+    format!("{before}{}", runs.collect::<Vec<_>>().join(between))
+}
+
+/// Whether two keys with numbers are next to each other, such as F1 and F2.
+fn follows(one: &str, next: &str) -> bool {
+    let numbered = |word: &str| -> Option<(bool, u32)> {
+        let number = word.strip_prefix('F');
+        Some((number.is_some(), number.unwrap_or(word).parse().ok()?))
+    };
+    match (numbered(one), numbered(next)) {
+        (Some((row, one)), Some((next_row, next))) => row == next_row && one + 1 == next,
+        _ => false,
+    }
 }
 
 fn is_arrow(key: Key) -> bool {
@@ -126,5 +147,18 @@ pub fn word(key: Key) -> &'static str {
         Key::Comma => ",",
         Key::Period => ".",
         other => other.symbol_or_name(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn keys_in_a_row_are_named_by_the_first_and_the_last() {
+        let all: Vec<String> = ALL.iter().map(|of| in_words(of, &OwnKeys::default())).collect();
+        for words in ["Ctrl 1 to 8", "F1 to F4", "Space, F, 1 to 5, U", "Up, Down", "T, K"] {
+            assert!(all.iter().any(|of| of == words), "{words}: {all:?}");
+        }
     }
 }

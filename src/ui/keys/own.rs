@@ -12,12 +12,12 @@ pub struct Slot {
 }
 
 /// Why a key cannot be chosen.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Clash {
     /// It is no letter, no digit and none of F5 to F12.
     NoShortcut,
     /// It does this already.
-    Taken(&'static str),
+    Taken(&'static Binding),
 }
 
 /// The chosen keys.
@@ -78,7 +78,7 @@ impl OwnKeys {
             return Err(Clash::NoShortcut);
         }
         if let Some(holder) = self.holder(slot, key) {
-            return Err(Clash::Taken(holder.does));
+            return Err(Clash::Taken(holder));
         }
         self.put(slot, key);
         Ok(())
@@ -178,11 +178,12 @@ mod tests {
     fn a_key_is_chosen_unless_it_does_something_else_there() {
         let next = slot(KeyScope::Operate, Key::N);
         let mut own = OwnKeys::default();
-        assert_eq!(
-            own.choose(next, Key::T),
-            Err(Clash::Taken("track the selected pass, park the antenna (both ask)"))
-        );
-        assert_eq!(own.choose(next, Key::A), Err(Clash::Taken("acknowledge the newest alarm")));
+        let mut holder = |key| match own.choose(next, key) {
+            Err(Clash::Taken(by)) => by.does_where(),
+            other => format!("{other:?}"),
+        };
+        assert_eq!(holder(Key::T), "track the selected pass, park the antenna (both ask)");
+        assert_eq!(holder(Key::A), "acknowledge the newest alarm");
         assert_eq!(own.choose(next, Key::Escape), Err(Clash::NoShortcut));
         assert_eq!(own.choose(next, Key::Space), Err(Clash::NoShortcut));
         assert_eq!(own.choose(next, Key::L), Ok(()), "it is a key of the map alone");
@@ -191,6 +192,9 @@ mod tests {
         let taken = own.choose(slot(KeyScope::Views, Key::A), Key::L);
         assert!(matches!(taken, Err(Clash::Taken(_))), "in one of the views: {taken:?}");
         assert!(matches!(own.choose(next, Key::N), Err(Clash::Taken(_))), "P has it");
+        let taken = own.choose(slot(KeyScope::Views, Key::A), Key::Y);
+        let Err(Clash::Taken(by)) = taken else { panic!("{taken:?}") };
+        assert!(by.does_where().starts_with("in Plan: always"), "it says in which view");
     }
 
     #[test]

@@ -167,7 +167,9 @@ fn refusal_in_words(refusal: Refusal) -> String {
         Refusal::Clash(key, Clash::NoShortcut) => {
             format!("{} cannot be used here: choose a letter, a digit or F5 to F12.", word(key))
         }
-        Refusal::Clash(key, Clash::Taken(does)) => format!("{} is taken: {does}.", word(key)),
+        Refusal::Clash(key, Clash::Taken(by)) => {
+            format!("{} is taken: {}.", word(key), by.does_where())
+        }
     }
 }
 
