@@ -45,6 +45,8 @@ use sky_time::SkyTime;
 
 pub use sky_time::row::LONG_STEP_S;
 
+/// Height of the edge that marks the card of the selected antenna among several.
+const SELECTED_EDGE: f32 = 3.0;
 /// Wait for one more frame.
 const NEXT_FRAME: Duration = Duration::from_millis(1);
 
@@ -187,13 +189,22 @@ pub fn show(
         let (list_state, found) = (&mut state.passes, &mut state.found);
         passes::list(ui, list, model, areas.thumbnails, list_state, found, commands);
     }
-    if let Some(antenna) = model.antenna() {
-        card::show(ui, areas.card, model, antenna, &on_cards, &mut state.card, question, commands);
-        let places = areas.side_cards.into_iter().zip(beside).zip(&mut state.side_cards);
-        for ((place, antenna), card) in places {
-            if let (Some(place), Some(antenna)) = (place, antenna) {
-                let card = card.card();
-                card::show(ui, place, model, antenna, &on_cards, card, question, commands);
+    if let Some(selected) = model.antenna() {
+        let beside = beside.into_iter().zip(&mut state.side_cards);
+        let beside = beside.filter_map(|(antenna, card)| Some((antenna?, card.card())));
+        let mut cards: Vec<_> =
+            std::iter::once((selected, &mut state.card)).chain(beside).collect();
+        // As in the station: selecting another antenna makes no two cards change places.
+        cards.sort_by_key(|(antenna, _)| {
+            model.antennas.iter().position(|of| of.id() == antenna.id())
+        });
+        let places = std::iter::once(areas.card).chain(areas.side_cards.into_iter().flatten());
+        let is_one_of_several = cards.len() > 1;
+        for (place, (antenna, card)) in places.zip(cards) {
+            card::show(ui, place, model, antenna, &on_cards, card, question, commands);
+            if is_one_of_several && antenna.id() == selected.id() {
+                let edge = place.with_max_y(place.top() + SELECTED_EDGE);
+                ui.painter().rect_filled(edge, 0.0, t.sat);
             }
         }
     } else {

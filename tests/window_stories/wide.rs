@@ -66,7 +66,7 @@ fn what_unfolds_is_open_where_it_has_room_unless_the_operator_closes_it() {
         lines.map(|line| line.accesskit_node().data().is_expanded()).collect()
     };
     assert_eq!(folds(&window), [Some(true), Some(true)]);
-    assert!(window.query_by_label("More below: scroll").is_none());
+    assert!(window.query_by_label("Scroll for more").is_none());
     window.get_all_by_label_contains("More: ").next().unwrap().click();
     settle(&mut window);
     assert_eq!(folds(&window), [Some(false), Some(true)], "the operator's choice");
@@ -104,14 +104,16 @@ fn each_card_drives_its_own_antenna() {
         panic!("{commands:?}")
     };
     assert_eq!((*antenna, pass.0), (AntennaId(2), NOAA_20));
-    // The antenna that was selected before keeps its card beside the new one.
-    window.state_mut().model.selected_antenna = 2;
-    settle(&mut window);
-    let [first, second] = cards(&window)[..] else { panic!("two cards") };
-    for (place, id) in [(first, AntennaId(3)), (second, AntennaId(1))] {
-        window.drag_at(place);
-        window.drop_at(place);
-        assert_eq!(asked(&mut window), [UiCommand::antenna(id, Command::Standby)]);
+    // The antenna that was selected before keeps its card beside the new one, and its place.
+    for (selected, shown) in [(2, [1, 3]), (0, [1, 3]), (1, [1, 2]), (2, [2, 3])] {
+        window.state_mut().model.selected_antenna = selected;
+        settle(&mut window);
+        let [first, second] = cards(&window)[..] else { panic!("two cards") };
+        for (place, id) in [first, second].into_iter().zip(shown.map(AntennaId)) {
+            window.drag_at(place);
+            window.drop_at(place);
+            assert_eq!(asked(&mut window), [UiCommand::antenna(id, Command::Standby)]);
+        }
     }
 }
 
