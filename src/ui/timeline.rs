@@ -4,7 +4,7 @@
 mod axis;
 mod bars;
 mod head;
-mod labels;
+pub(super) mod labels;
 mod scale;
 mod sun;
 mod zoom;

@@ -21,6 +21,7 @@ use crate::{
         pass_bar::{self, BarForm},
         text::{self, Weight},
         theme,
+        timeline::labels::{self, Placed, Wish},
         widgets::{button::Button, paint},
         words,
     },
@@ -34,6 +35,9 @@ const LABEL: f32 = 252.0;
 /// Time before now in the lanes, so that a pass under way keeps its bar, seconds.
 const PAST_S: f64 = 1200.0;
 const ENTRY: f32 = 22.0;
+/// Height of a name above a bar, and the room at each of its sides.
+const NAME: f32 = 13.0;
+const NAME_GAP: f32 = 3.0;
 
 pub(super) fn height(lanes: usize) -> f32 {
     BAR + AXIS + lanes as f32 * LANE
@@ -235,12 +239,13 @@ fn lane(
         model.schedule.schedule.entries.iter().filter(|entry| entry.antenna == id).collect();
     let ahead = entries.iter().filter(|entry| entry.to > model.now);
     let mut before = model.now;
-    let mut free = place.left();
+    let mut bars = Vec::new();
     for entry in ahead {
         way(ui, place, middle, before, entry, span);
-        free = bar(ui, band, place, model, antenna, entry, span, free, commands);
+        bars.extend(bar(ui, band, place, model, antenna, entry, span, commands));
         before = entry.to;
     }
+    names(ui, place, &bars);
     if let Some(words) = switches::go_on(model, antenna) {
         let button = Button::primary(&words);
         let width = button.width(ui).min(place.width() - 16.0);
@@ -287,6 +292,37 @@ fn way(ui: &Ui, place: Rect, y: f32, before: jiff::Timestamp, entry: &Entry, spa
     }
 }
 
+/// A bar in the lane, with the name of its satellite.
+struct NamedBar {
+    rect: Rect,
+    name: String,
+}
+
+/// Writes the names above the bars, short ones where bars are close to each other.
+fn names(ui: &Ui, place: Rect, bars: &[NamedBar]) {
+    let t = theme::tokens(ui);
+    let shorts: Vec<String> = bars.iter().map(|bar| labels::short_name(&bar.name)).collect();
+    let room = |bar: &NamedBar, name: &str| {
+        let size = vec2(paint::text_width(ui, name, text::caption()) + 2.0 * NAME_GAP, NAME);
+        let half = size.x / 2.0;
+        let left_most = place.left() + half;
+        let x = bar.rect.center().x.clamp(left_most, (place.right() - half).max(left_most));
+        Align2::CENTER_BOTTOM.anchor_size(pos2(x, bar.rect.top() - 2.0), size)
+    };
+    let wishes = bars.iter().zip(&shorts);
+    let wishes =
+        wishes.map(|(bar, short)| Wish { short: room(bar, short), full: room(bar, &bar.name) });
+    let placed = labels::place(&wishes.collect::<Vec<_>>(), &[], place);
+    for ((bar, short), placed) in bars.iter().zip(&shorts).zip(placed) {
+        let (name, rect) = match placed {
+            Placed::Out => continue,
+            Placed::Short(rect) => (short, rect),
+            Placed::Full(rect) => (&bar.name, rect),
+        };
+        paint::text(ui, rect.center(), Align2::CENTER_CENTER, name, text::caption(), t.t1);
+    }
+}
+
 #[allow(clippy::too_many_arguments)]
 fn bar(
     ui: &Ui,
@@ -296,12 +332,10 @@ fn bar(
     antenna: &AntennaModel,
     entry: &Entry,
     span: Span,
-    free: f32,
     commands: &mut Vec<UiCommand>,
-) -> f32 {
+) -> Option<NamedBar> {
     let t = theme::tokens(ui);
-    let Some(x) = span.range(entry.from, entry.to, place) else { return free };
-    let rect = band(x);
+    let rect = band(span.range(entry.from, entry.to, place)?);
     let key = (entry.pass.satellite, entry.pass.aos);
     let name = words::schedule::pass_name(model, key);
     let found = model.pass_lists.find(key);
@@ -314,9 +348,9 @@ fn bar(
     let taking = taking.filter(|taking| taking.from < entry.to && entry.from < taking.until);
     let (form, state) = match taking {
         None => (BarForm::Planned, "planned"),
-        Some(taking) if taking.proved_at.is_none() => (BarForm::Sent, "sent, not proved"),
+        Some(taking) if taking.proved_at.is_none() => (BarForm::Sent, "sent, not verified"),
         Some(taking) if taking.from <= model.now => (BarForm::Running, "running"),
-        Some(_) => (BarForm::Proved, "proved"),
+        Some(_) => (BarForm::Proved, "verified"),
     };
     pass_bar::paint(ui, rect, form);
     if is_selected {
@@ -337,17 +371,9 @@ fn bar(
         let centre = Align2::CENTER_CENTER;
         paint::text(ui, rect.center(), centre, &max, text::caption(), t.onsat);
     }
-    let width = paint::text_width(ui, &name, text::caption());
-    let start = (rect.center().x - width / 2.0).max(place.left() + 2.0);
-    let mut used = free;
-    if start >= free && start + width <= place.right() {
-        let at = pos2(start, rect.top() - 3.0);
-        paint::text(ui, at, Align2::LEFT_BOTTOM, &name, text::caption(), t.t1);
-        used = start + width + 6.0;
-    }
     if response.clicked() {
         commands.push(UiCommand::SelectPass(key));
     }
     response.on_hover_text(spoken);
-    used
+    Some(NamedBar { rect, name })
 }

@@ -4,7 +4,7 @@ use egui::{Rect, vec2};
 
 /// The wanted place of a name, in its two lengths.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Wish {
+pub(in crate::ui) struct Wish {
     /// Room for the short name.
     pub short: Rect,
     /// Room for the full name.
@@ -13,7 +13,7 @@ pub(super) struct Wish {
 
 /// Outcome of a wish.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) enum Placed {
+pub(in crate::ui) enum Placed {
     /// No name fits.
     Out,
     /// The short name and its place.
@@ -31,7 +31,7 @@ const AIR: f32 = 4.0;
 /// Assigns the room above the bars: first as many short names as fit, earlier wishes first,
 /// then full names where room remains. No two names overlap, and none covers an obstacle or
 /// leaves `room`.
-pub(super) fn place(wishes: &[Wish], obstacles: &[Rect], room: Rect) -> Vec<Placed> {
+pub(in crate::ui) fn place(wishes: &[Wish], obstacles: &[Rect], room: Rect) -> Vec<Placed> {
     let clear = |rect: Rect| !obstacles.iter().any(|obstacle| overlap(*obstacle, rect));
     let open = |rect: Rect| room.contains_rect(rect) && clear(rect);
     let mut placed: Vec<Placed> = Vec::with_capacity(wishes.len());
@@ -72,7 +72,7 @@ fn overlap(a: Rect, b: Rect) -> bool {
 /// Shortens a name to two to five characters: "NOAA 20" to N20, "METOP-B" to MB, "TERRA" to
 /// TE. Short words and digits stay whole, the M of "METEOR-M2" appears once, and text in
 /// brackets is dropped.
-pub(super) fn short_name(name: &str) -> String {
+pub(in crate::ui) fn short_name(name: &str) -> String {
     let before_brackets = name.split('(').next().unwrap_or(name);
     let words: Vec<&str> =
         before_brackets.split([' ', '-', '_']).filter(|word| !word.is_empty()).collect();
