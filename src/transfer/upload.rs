@@ -67,7 +67,7 @@ pub async fn upload(
         tracing::warn!(%error, file = name, "the uploaded file was not kept on this computer");
     }
     let sha256 = elements.hash();
-    tracing::info!(unit = address, file = name, %sha256, "elements uploaded and proved");
+    tracing::info!(unit = address, file = name, %sha256, "elements uploaded and verified");
     Ok(Uploaded {
         bytes: elements.bytes().len() as u64,
         sha256,

@@ -24,6 +24,7 @@ use super::{
         paint,
         told::{Tone, line},
     },
+    words::sentence,
 };
 use crate::{
     engine::{
@@ -105,7 +106,7 @@ pub fn show(
     Question::show(&mut state.question, ui, commands);
 }
 
-/// Shows all that scrolls above the button. Returns the order, or why there is none.
+/// Shows all that scrolls above the button. Returns the order, or what to do for one.
 fn content(
     ui: &mut Ui,
     model: &Model,
@@ -133,7 +134,9 @@ fn content(
             chosen::show(ui, model, catalog, held, form);
             form.chosen_file(catalog, &model.station.favourites.numbers())
         }
-        CatalogState::Loading | CatalogState::Failed => Err("there are no elements".to_owned()),
+        CatalogState::Loading | CatalogState::Failed => {
+            Err("there are no elements to upload".to_owned())
+        }
     };
     form::show(ui, form);
     let order = form.order(name, file.map(Cargo::New));
@@ -160,7 +163,7 @@ fn send(
     let t = theme::tokens(ui);
     ui.painter().hline(foot.x_range(), foot.top() + 0.5, (1.0, t.line));
     let can = order.is_ok() && !model.uploads.stage.is_open();
-    let button = Button::primary("Upload and prove").locked(!can);
+    let button = Button::primary("Upload and verify").locked(!can);
     let min = foot.min + vec2(0.0, 8.0);
     let place = Rect::from_min_size(min, vec2(button.width(ui), HEIGHT));
     if button.show(ui, "upload", place).clicked()
@@ -170,7 +173,7 @@ fn send(
         commands.push(UiCommand::Station(engine::Command::Upload(begin)));
     }
     if let Err(problem) = order {
-        let words = format!("This cannot be uploaded yet: {problem}.");
+        let words = sentence(problem);
         let at = place.left_bottom() + vec2(20.0, 6.0);
         let glyph = paint::square(at + vec2(-13.0, 8.0), 13.0);
         icons::paint(ui.painter(), glyph, Icon::Warning, t.warn);

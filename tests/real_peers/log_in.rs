@@ -178,7 +178,7 @@ fn no_password_is_left_in_log_or_folder() {
         tracing::warn!(%error, ?error, "as the window logs it");
     });
     let mut all = log.0.lock().unwrap().clone();
-    assert!(String::from_utf8_lossy(&all).contains("uploaded and proved"));
+    assert!(String::from_utf8_lossy(&all).contains("uploaded and verified"));
     all.extend(all_bytes(&unit.home.path().join("console")));
     let all = String::from_utf8_lossy(&all);
     assert!(all.contains("ssh-ed25519") && all.contains("sha256"));

@@ -153,7 +153,7 @@ impl Fixture {
     fn assert_proved(&mut self) {
         let stage = self.end();
         assert!(matches!(stage, Stage::Proved(_)), "{stage:?}");
-        assert!(self.says("Proved") || self.says("proved"));
+        assert!(self.says("Verified") || self.says("verified"));
     }
 
     fn says(&self, words: &str) -> bool {
@@ -215,7 +215,7 @@ fn simulate(files: &Unit) -> (String, Control, oneshot::Sender<()>) {
 fn from_the_first_click_to_the_unit_s_own_word_and_back() {
     let log = log();
     let mut fixture = Fixture::typed(Unit::unpinned("ed25519", "internal-sftp"));
-    fixture.click("Upload and prove");
+    fixture.click("Upload and verify");
     fixture.until("the host key is asked about", |model| {
         matches!(model.uploads.stage, Stage::AsksAboutHostKey(_))
     });
@@ -242,7 +242,7 @@ fn from_the_first_click_to_the_unit_s_own_word_and_back() {
 
     // Another file, without a question, and the first one back.
     fixture.click("Leave out ISS (ZARYA)");
-    fixture.click("Upload and prove");
+    fixture.click("Upload and verify");
     fixture.assert_proved();
     assert_ne!(fixture.files.files(), first);
     let put_back = fixture
@@ -258,7 +258,7 @@ fn from_the_first_click_to_the_unit_s_own_word_and_back() {
     fixture.click(&put_back);
     fixture.click("Put back (Enter)");
     fixture.assert_proved();
-    assert!(fixture.says("Rolled back and proved"));
+    assert!(fixture.says("Rolled back and verified"));
     assert_eq!(fixture.files.files(), first);
     assert_eq!(fixture.sent().len(), 3);
     fixture.assert_silent();
@@ -266,7 +266,7 @@ fn from_the_first_click_to_the_unit_s_own_word_and_back() {
     written.extend(all_bytes(&fixture.files.home.path().join("console")));
     written.extend_from_slice(&log.0.lock().unwrap());
     let written = String::from_utf8_lossy(&written);
-    assert!(written.contains("ssh-ed25519") && written.contains("uploaded and proved"));
+    assert!(written.contains("ssh-ed25519") && written.contains("uploaded and verified"));
     assert!(!written.contains(PASSWORD) && !written.contains(WRONG));
 }
 
@@ -276,7 +276,7 @@ fn a_changed_host_key_is_refused_and_forgotten_only_on_purpose() {
     let mut fixture = Fixture::typed(Unit::new());
     let before = fixture.files.fingerprint();
     fixture.files.make_host_key("ed25519");
-    fixture.click("Upload and prove");
+    fixture.click("Upload and verify");
     assert!(fixture.failure().changed_key.is_some());
     assert!(fixture.says(&before) && fixture.says(&fixture.files.fingerprint()));
     fixture.files.assert_as_before();
@@ -295,7 +295,7 @@ fn a_changed_host_key_is_refused_and_forgotten_only_on_purpose() {
 fn what_goes_wrong_on_the_way_is_told_and_typing_stays() {
     use std::os::unix::fs::PermissionsExt as _;
     let mut fixture = Fixture::typed(Unit::new());
-    fixture.click("Upload and prove");
+    fixture.click("Upload and verify");
     fs::set_permissions(fixture.files.folder(), fs::Permissions::from_mode(0o555)).unwrap();
     fixture.log_in(PASSWORD);
     let failure = fixture.failure();
@@ -306,7 +306,7 @@ fn what_goes_wrong_on_the_way_is_told_and_typing_stays() {
     assert_eq!(user.as_deref(), Some(fixture.files.user.name.as_str()));
     // The password is asked for once a session: now the upload goes through by itself.
     fs::set_permissions(fixture.files.folder(), fs::Permissions::from_mode(0o755)).unwrap();
-    fixture.click("Upload and prove");
+    fixture.click("Upload and verify");
     fixture.assert_proved();
 }
 
@@ -322,7 +322,7 @@ fn a_link_that_is_cut_or_stalls_ends_in_an_error_with_the_old_file_there() {
         let account =
             Account { user: fixture.files.user.name.clone(), address: link.address().to_string() };
         fixture.keyring.set(&account, &SecretString::from(PASSWORD)).unwrap();
-        fixture.click("Upload and prove");
+        fixture.click("Upload and verify");
         let failure = fixture.failure();
         assert!(!failure.is_cancel && failure.text.contains("check the link"), "{}", failure.text);
         let old = fixture.files.files().into_iter().find(|(name, _)| name == FILE);
@@ -340,7 +340,7 @@ fn a_unit_that_does_not_see_the_file_is_no_success() {
     fs::create_dir(&other).unwrap();
     fixture.files.user.own(&other);
     fixture.write("Folder", other.to_str().unwrap());
-    fixture.click("Upload and prove");
+    fixture.click("Upload and verify");
     fixture.log_in(PASSWORD);
     let failure = fixture.failure();
     assert!(failure.uploaded.is_some(), "{failure:?}");

@@ -126,7 +126,7 @@ fn the_operator_agrees_before_the_unit_s_tracking_ends() {
     {
         let mut window = part(WIDTHS[0], at(Stage::AsksAboutTracking(busy)));
         assert!(says(&window, words));
-        click(&mut window, "Go on (Enter)");
+        click(&mut window, "Continue (Enter)");
         assert_eq!(asked(&mut window), [Ask::AgreeToTracking]);
         click(&mut window, "No");
         assert_eq!(asked(&mut window), [Ask::Cancel]);
@@ -141,7 +141,7 @@ fn each_step_is_shown_and_can_be_cancelled_until_the_file_takes_its_place() {
         window.get_by_role(Role::ProgressIndicator);
         click(&mut window, "Cancel upload");
         assert_eq!(asked(&mut window), [Ask::Cancel]);
-        assert!(is_disabled(&window, "Upload and prove"));
+        assert!(is_disabled(&window, "Upload and verify"));
 
         let window = part(width, working(UploadStep::Replace));
         assert!(is_disabled(&window, "Cancel upload"));
@@ -149,6 +149,6 @@ fn each_step_is_shown_and_can_be_cancelled_until_the_file_takes_its_place() {
 
         let window = part(width, at(Stage::Selecting(Box::new(uploaded()))));
         assert!(says(&window, "8 Tell the unit"));
-        assert!(window.query_by_label_contains("Proved").is_none(), "not yet");
+        assert!(window.query_by_label_contains("Verified").is_none(), "not yet");
     }
 }

@@ -27,11 +27,11 @@ fn what_is_followed_is_sent_to_where_the_antenna_is() {
     for width in WIDTHS {
         let mut window = part(width, Uploads::default());
         assert!(says(&window, "5 satellites to send"));
-        assert!(is_disabled(&window, "Upload and prove"));
-        assert!(says(&window, "This cannot be uploaded yet"));
+        assert!(is_disabled(&window, "Upload and verify"));
+        assert!(says(&window, "Enter the name of the file on the unit to upload."));
         write(&mut window, "File", FILE);
         click(&mut window, &format!("Take the factory user {}", ELEMENT_FILES.factory_user));
-        click(&mut window, "Upload and prove");
+        click(&mut window, "Upload and verify");
         let order = begun(&mut window);
         assert_eq!((order.unit, order.user.as_str()), (peer(), ELEMENT_FILES.factory_user));
         assert_eq!((order.antenna.as_str(), order.file.as_str()), ("Satrak", FILE));
@@ -57,7 +57,7 @@ fn satellites_are_added_left_out_and_marked() {
         let radio = "The unit follows ISS (ZARYA)";
         window.get_by_role_and_label(Role::RadioButton, radio).click();
         settle(&mut window);
-        click(&mut window, "Upload and prove");
+        click(&mut window, "Upload and verify");
         let order = begun(&mut window);
         assert_eq!(order.satellite, Some(ISS));
         let Cargo::New(file) = order.cargo else { panic!("{:?}", order.cargo) };
@@ -65,13 +65,14 @@ fn satellites_are_added_left_out_and_marked() {
         assert!(file.objects().iter().all(|object| object.catalog_number != NOAA_20));
         write(&mut window, "Add a satellite", "no such thing");
         assert!(says(&window, "No other object has this number or name."));
-        click(&mut window, "Take the favourites");
+        click(&mut window, "Use the favourites");
         assert!(window.query_by_label("Leave out NOAA 20 (JPSS-1)").is_some());
     }
 }
 
 #[test]
 fn the_satellite_on_the_unit_stays_marked_until_the_operator_marks_another() {
+    const SUOMI: u32 = 37_849;
     let mut window = typed(WIDTHS[0], Uploads::default());
     let holds = |window: &mut Window, catalog_number, name: &str| {
         let antenna = window.state_mut().model.antennas.first_mut().unwrap();
@@ -81,16 +82,22 @@ fn the_satellite_on_the_unit_stays_marked_until_the_operator_marks_another() {
         settle(window);
     };
     let to_follow = |window: &mut Window| {
-        click(window, "Upload and prove");
+        click(window, "Upload and verify");
         begun(window).satellite
     };
-    let unread = "Which satellite the unit holds now is not read yet.";
+    let unread = "The satellite on the unit has not been read yet.";
     assert!(says(&window, unread));
     holds(&mut window, ISS, "ISS (ZARYA)");
     assert_eq!(to_follow(&mut window), Some(ISS));
     assert!(!says(&window, "The unit holds") && !says(&window, unread));
     holds(&mut window, 38_771, "METOP-B");
     assert_eq!(to_follow(&mut window), Some(NOAA_20), "what it holds is not in the file");
+    window.state_mut().model.catalog_table.inspected = Some(57_166);
+    settle(&mut window);
+    assert_eq!(to_follow(&mut window), Some(NOAA_20), "nor is the selected satellite");
+    window.state_mut().model.catalog_table.inspected = Some(SUOMI);
+    settle(&mut window);
+    assert_eq!(to_follow(&mut window), Some(SUOMI), "the selected satellite is in it");
     assert!(says(&window, "The unit holds METOP-B now, and will follow the one marked here."));
     let radio = "The unit follows ISS (ZARYA)";
     window.get_by_role_and_label(Role::RadioButton, radio).click();
@@ -114,9 +121,9 @@ fn an_object_that_a_tle_cannot_carry_is_refused_at_its_line_before_anything_is_t
     Arc::make_mut(&mut model.station).favourites.mark(340_000, true);
     settle(&mut window);
     assert!(says(&window, "Object 340000: a TLE carries"));
-    assert!(is_disabled(&window, "Upload and prove"));
+    assert!(is_disabled(&window, "Upload and verify"));
     click(&mut window, "Leave out NEW ONE");
-    assert!(!is_disabled(&window, "Upload and prove"));
+    assert!(!is_disabled(&window, "Upload and verify"));
 }
 
 #[test]
@@ -124,21 +131,21 @@ fn each_field_says_what_is_missing() {
     let mut window = typed(WIDTHS[0], Uploads::default());
     for (field, wrong, problem, right) in [
         ("File", "a/b", "slash", FILE),
-        ("Folder", "", "the folder is missing", "/svs/satrak/tle"),
-        ("Host", "", "the host is missing", "unit.local"),
-        ("Port", "0", "the port is not a number", "2222"),
-        ("User", "", "the user name for the unit, under On the unit, is missing", "op"),
+        ("Folder", "", "Enter the folder on the unit to upload.", "/svs/satrak/tle"),
+        ("Host", "", "Enter the unit's host name or IP address, without spaces.", "unit.local"),
+        ("Port", "0", "Enter a port from 1 to 65535.", "2222"),
+        ("User", "", "Enter the unit's user name to upload.", "op"),
     ] {
         write(&mut window, field, wrong);
-        assert!(says(&window, problem) && is_disabled(&window, "Upload and prove"), "{field}");
+        assert!(says(&window, problem) && is_disabled(&window, "Upload and verify"), "{field}");
         write(&mut window, field, right);
-        assert!(!is_disabled(&window, "Upload and prove"), "{field}");
+        assert!(!is_disabled(&window, "Upload and verify"), "{field}");
     }
     window.get_by_role_and_label(Role::RadioButton, "Key file").click();
     settle(&mut window);
-    assert!(says(&window, "the path of the key file is missing"));
+    assert!(says(&window, "Enter the path of the key file to upload."));
     write(&mut window, "Key file", "/home/op/key");
-    click(&mut window, "Upload and prove");
+    click(&mut window, "Upload and verify");
     let order = begun(&mut window);
     assert_eq!(order.key_file, Some("/home/op/key".into()));
     assert_eq!(order.unit, Peer { host: "unit.local".to_owned(), port: 2222 });
@@ -157,7 +164,7 @@ fn proof_is_told_with_file_hash_time_and_ages() {
         let mut window = part(width, uploads);
         let hash = proved.uploaded.sha256.to_string();
         for words in [
-            "Proved 11:15:30Z",
+            "Verified 11:15:30Z",
             "The unit uses weather.txt and has found NOAA 20 (JPSS-1) (43013) in it.",
             &hash,
             "192.168.10.21:22",
@@ -186,7 +193,7 @@ fn what_went_wrong_is_told_and_what_was_typed_stays() {
         assert!(says(&window, words.get(1..).unwrap()), "{words}");
         let user = window.get_by_role_and_label(Role::TextInput, "User").value();
         assert_eq!(user.as_deref(), Some("op"));
-        click(&mut window, "Upload and prove");
+        click(&mut window, "Upload and verify");
         assert_eq!(begun(&mut window).user, "op");
     }
 }
@@ -204,7 +211,7 @@ fn a_cancel_and_a_satellite_that_was_not_found_are_told_apart_from_success() {
     let window = part(WIDTHS[0], at(Stage::Failed(failure)));
     assert!(says(&window, "Not in use: The unit does not find the satellite in the file."));
     assert!(says(&window, "The new file is on the unit, read back and compared."));
-    assert!(!says(&window, "Proved"));
+    assert!(!says(&window, "Verified"));
 }
 
 #[test]
@@ -252,7 +259,7 @@ fn an_order_of_another_antenna_is_told_and_waited_for() {
     let uploads = Uploads { antenna: "North".to_owned(), ..working(UploadStep::Write) };
     let window = typed(WIDTHS[0], uploads);
     assert!(says(&window, "An upload to North is under way."));
-    assert!(is_disabled(&window, "Upload and prove"));
+    assert!(is_disabled(&window, "Upload and verify"));
 }
 
 #[test]
@@ -265,7 +272,7 @@ fn without_elements_an_old_file_can_still_be_put_back() {
     let list = Some(Ok(vec![entry]));
     Arc::make_mut(&mut window.state_mut().model.uploads).kept = Kept { of, list };
     settle(&mut window);
-    assert!(is_disabled(&window, "Upload and prove"));
+    assert!(is_disabled(&window, "Upload and verify"));
     assert!(!is_disabled(&window, &back));
 }
 
@@ -329,12 +336,12 @@ fn opened_small(uploads: Uploads) -> rig::Window {
 fn the_button_and_the_proof_are_in_sight_in_the_smallest_window() {
     let whole = egui::Rect::from_min_size(egui::Pos2::ZERO, rig::SMALL.into());
     let window = opened_small(Uploads::default());
-    let button = window.get_by_role_and_label(Role::Button, "Upload and prove").rect();
+    let button = window.get_by_role_and_label(Role::Button, "Upload and verify").rect();
     assert!(whole.contains_rect(button), "{button:?}");
     let uploaded = uploaded();
     let satellite: FileObject = uploaded.objects[1].clone();
     let proved = Proved { uploaded, satellite, at: rig::now() };
     let window = opened_small(at(Stage::Proved(Box::new(proved))));
-    let proof = window.get_by_label_contains("Proved 11:15:30Z").rect();
+    let proof = window.get_by_label_contains("Verified 11:15:30Z").rect();
     assert!(whole.contains_rect(proof), "{proof:?}");
 }

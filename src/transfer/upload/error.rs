@@ -101,7 +101,7 @@ impl fmt::Display for FolderState {
                 )
             }
             Self::NewUnproved => f.write_str(
-                "the new file is in its place but not proved; upload again or roll back",
+                "the new file is in its place but not verified; upload again or roll back",
             ),
         }
     }

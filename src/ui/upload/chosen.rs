@@ -38,7 +38,8 @@ enum Change {
 }
 
 /// `held` is the satellite on the unit: it stays the one to follow until the operator marks
-/// another. `None` if it was not read yet.
+/// another. `None` if it was not read yet. Where it is not in the file, the selected satellite is
+/// to be followed, else the first.
 pub(super) fn show(
     ui: &mut Ui,
     model: &Model,
@@ -55,7 +56,7 @@ pub(super) fn show(
         let is_unread = held.is_none();
         let held = held.filter(|held| held.catalog_number > 0);
         let held_number = held.map(|held| held.catalog_number);
-        let known = [marked, held_number].into_iter().flatten();
+        let known = [marked, held_number, model.catalog_table.inspected].into_iter().flatten();
         let followed = known.clone().find(|number| is_chosen(chosen, *number));
         let followed = followed.or_else(|| first(chosen));
         head(ui, chosen, is_own, &mut change);
@@ -68,7 +69,7 @@ pub(super) fn show(
             line(ui, Tone::Caution, &words);
         }
         if is_unread {
-            line(ui, Tone::Plain, "Which satellite the unit holds now is not read yet.");
+            line(ui, Tone::Plain, "The satellite on the unit has not been read yet.");
         }
         search(ui, catalog, form, &mut change);
         form.satellite = followed;
@@ -109,7 +110,7 @@ fn head(ui: &mut Ui, chosen: &Chosen, is_own: bool, change: &mut Option<Change>)
     ui.horizontal_wrapped(|ui| {
         let words = "The unit will follow the one marked here.";
         ui.label(RichText::new(words).font(text::small()).color(t.t3));
-        if is_own && ui.button("Take the favourites").clicked() {
+        if is_own && ui.button("Use the favourites").clicked() {
             *change = Some(Change::Favourites);
         }
     });

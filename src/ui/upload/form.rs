@@ -121,29 +121,30 @@ impl Form {
     pub(super) fn peer(&self) -> Result<Peer, String> {
         let host = self.host.trim();
         if host.is_empty() || host.contains(char::is_whitespace) {
-            return Err("the host is missing or contains a space".to_owned());
+            return Err("enter the unit's host name or IP address, without spaces".to_owned());
         }
         let port = self.port.trim().parse().ok().filter(|port| *port > 0);
-        let port = port.ok_or("the port is not a number from 1 to 65535")?;
+        let port = port.ok_or("enter a port from 1 to 65535")?;
         Ok(Peer { host: host.to_owned(), port })
     }
 
-    /// The order, or what is missing for it.
+    /// The order, or what the operator has to do for it.
     pub(super) fn order(
         &self,
         antenna: &str,
         cargo: Result<Cargo, String>,
     ) -> Result<Order, String> {
         let cargo = cargo?;
+        let missing = |typed: &str, what: &str| {
+            if typed.trim().is_empty() { Err(format!("enter {what} to upload")) } else { Ok(()) }
+        };
+        missing(&self.file, "the name of the file on the unit")?;
         let file = self.file_name().map_err(|error| error.to_string())?;
         let unit = self.peer()?;
-        let missing = |typed: &str, what: &str| {
-            if typed.trim().is_empty() { Err(format!("the {what} is missing")) } else { Ok(()) }
-        };
-        missing(&self.user, "user name for the unit, under On the unit,")?;
-        missing(&self.folder, "folder")?;
+        missing(&self.user, "the unit's user name")?;
+        missing(&self.folder, "the folder on the unit")?;
         if self.uses_key {
-            missing(&self.key_file, "path of the key file")?;
+            missing(&self.key_file, "the path of the key file")?;
         }
         Ok(Order {
             antenna: antenna.to_owned(),

@@ -95,7 +95,7 @@ fn one(
         && let Ok(order) = order
     {
         let text = format!(
-            "Put {} of {at} back on {}? It is uploaded, compared and proved like any other.",
+            "Put {} of {at} back on {}? It is uploaded, compared and verified like any other.",
             file.file, order.unit
         );
         let begin = Ask::Begin(Box::new(order));

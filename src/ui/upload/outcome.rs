@@ -54,7 +54,7 @@ pub(super) fn show(
 }
 
 fn proved(ui: &mut Ui, model: &Model, proved: &Proved) {
-    let what = if model.uploads.is_roll_back { "Rolled back and proved" } else { "Proved" };
+    let what = if model.uploads.is_roll_back { "Rolled back and verified" } else { "Verified" };
     let words = format!("{what} {}", format::moment(proved.at, model.now));
     line(ui, Tone::Good, &words);
     let satellite = &proved.satellite;
@@ -120,8 +120,8 @@ fn warnings(ui: &mut Ui, model: &Model) {
     for warning in &model.uploads.warnings {
         let words = match warning {
             Warning::FactoryPassword => {
-                "This is the factory password of every unit, printed in the document of the \
-                 protocol: give the unit another one."
+                "This is the factory password of every unit, printed in the protocol document: \
+                 change it."
                     .to_owned()
             }
             Warning::NotKept(problem) => format!("The password was not kept: {problem}."),

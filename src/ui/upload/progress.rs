@@ -91,7 +91,7 @@ fn cancel(ui: &mut Ui, stage: &Stage, commands: &mut Vec<UiCommand>) {
             }
             Stage::Working { .. } if !can => "It can no longer be cancelled.",
             Stage::Selecting(_) => "The file is on the unit.",
-            _ => "The old file stays on the unit until the new one is proved.",
+            _ => "The old file stays on the unit until the new one is verified.",
         };
         ui.label(RichText::new(words).font(text::small()).color(t.t3));
     });

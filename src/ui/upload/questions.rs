@@ -18,9 +18,10 @@ pub(super) struct Questions {
 /// Shows the open question, if any. Esc says no.
 pub(super) fn show(ui: &Ui, model: &Model, state: &mut Questions, commands: &mut Vec<UiCommand>) {
     let ask = match &model.uploads.stage {
-        Stage::AsksAboutTracking(busy) => {
-            yes_or_no(dialogs::question(ui, about_tracking(*busy), "Go on"), Ask::AgreeToTracking)
-        }
+        Stage::AsksAboutTracking(busy) => yes_or_no(
+            dialogs::question(ui, about_tracking(*busy), "Continue"),
+            Ask::AgreeToTracking,
+        ),
         Stage::AsksAboutHostKey(key) => yes_or_no(dialogs::host_key(ui, key), Ask::TrustHostKey),
         Stage::AsksForSecret(wanted) => match state.password.show(ui, wanted) {
             None => None,
@@ -43,11 +44,11 @@ fn about_tracking(busy: Busy) -> &'static str {
     match busy {
         Busy::Tracks => {
             "The unit is tracking. Its tracking is stopped before it is told to use the new file. \
-             Go on?"
+             Continue?"
         }
         Busy::MayTrack => {
             "Auto-track is on: the antenna may move by itself. It is switched off before the unit \
-             is told to use the new file, and stays off. Go on?"
+             is told to use the new file, and stays off. Continue?"
         }
     }
 }
