@@ -88,7 +88,9 @@ fn distances_are_shown_in_the_unit_that_is_chosen() {
         let figure = |appearance| {
             let words = heard(view, appearance);
             let at = words.iter().position(|of| of.starts_with(before)).expect("a range");
-            let words = words[at..].iter().find(|of| of.ends_with("km") || of.ends_with("mi"));
+            // The rate of the range stands in a line below it.
+            let mut lines = words[at..].iter().filter_map(|of| of.lines().next());
+            let words = lines.find(|of| of.ends_with("km") || of.ends_with("mi"));
             let words: Vec<_> = words.expect("a distance").rsplit([' ', ',']).collect();
             let number: String = words[1].chars().filter(char::is_ascii_digit).collect();
             (number.parse::<f64>().unwrap(), words[0].to_owned())

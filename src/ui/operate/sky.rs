@@ -190,10 +190,9 @@ fn readout(model: &Model, selected: Option<Selected>, full: bool) -> Vec<(&'stat
         ("El", format::degrees(look.direction.elevation_deg(), decimals)),
     ];
     let unit = model.appearance.distances;
-    let motion = [
-        ("Range", format::distance(look.range_km, 0, unit)),
-        ("Rate", format::range_rate(look.range_rate_km_s, unit)),
-    ];
+    let range = format::distance(look.range_km, 0, unit);
+    let rate = format::range_rate(look.range_rate_km_s, unit);
+    let range = ("Range", format!("{range}\n{rate}"));
     let number = model.selected_pass().map(PredictedPass::number);
     let carriers = model.station.frequencies.iter().filter(|of| Some(of.satellite) == number);
     let doppler = carriers.map(|of| {
@@ -201,7 +200,7 @@ fn readout(model: &Model, selected: Option<Selected>, full: bool) -> Vec<(&'stat
         let carrier = format!("{} {} MHz", of.name, of.mhz);
         ("Doppler", format!("{} kHz\n{}", format::signed(shift_khz, 2), carrier.trim()))
     });
-    let further = motion.into_iter().chain(doppler).filter(|_| full);
+    let further = std::iter::once(range).chain(doppler).filter(|_| full);
     direction.into_iter().chain(further).collect()
 }
 
