@@ -85,12 +85,25 @@ pub enum AutomaticTag {
     Suspended,
 }
 
+/// An activity with the age of the last good reply, or how long there has been none.
+pub fn with_age(activity: &str, age: &str, link: LinkGlyph) -> String {
+    match link {
+        _ if age.is_empty() => activity.to_owned(),
+        LinkGlyph::Lost => format!("{activity} for {age}"),
+        LinkGlyph::Live | LinkGlyph::Late | LinkGlyph::Off => format!("{activity}, {}", ago(age)),
+    }
+}
+
+fn ago(age: &str) -> String {
+    if age.is_empty() { String::new() } else { format!("{age} ago") }
+}
+
 impl ChipModel<'_> {
     fn second_line(&self) -> String {
-        if self.maintenance || self.age.is_empty() {
+        if self.maintenance {
             self.activity.to_owned()
         } else {
-            format!("{}, {}", self.activity, self.age)
+            with_age(self.activity, self.age, self.link)
         }
     }
 
@@ -99,7 +112,7 @@ impl ChipModel<'_> {
         match form {
             ChipForm::TwoLines => TWO_LINES_WIDTH,
             ChipForm::OneLine => {
-                let age = paint::text_width(ui, self.age, text::small());
+                let age = paint::text_width(ui, &ago(self.age), text::small());
                 let age = if self.maintenance { age.max(12.0) } else { age };
                 (26.0 + name + 6.0 + age + 10.0).ceil()
             }
@@ -163,7 +176,7 @@ pub fn show(ui: &Ui, rect: Rect, model: &ChipModel<'_>, form: ChipForm) -> Respo
         let name = paint::text_in(ui, room, Align2::LEFT_CENTER, model.name, strong, t.t1);
         if form == ChipForm::OneLine && !model.maintenance {
             let room = room.with_min_x(name.right() + 6.0);
-            paint::text_in(ui, room, Align2::LEFT_CENTER, model.age, text::small(), t.t3);
+            paint::text_in(ui, room, Align2::LEFT_CENTER, &ago(model.age), text::small(), t.t3);
         }
     }
     paint::focus_ring(ui, &response, RADIUS);
@@ -207,7 +220,7 @@ mod tests {
                 *clicks += 1;
             }
         });
-        window.get_by_label("RC2000C: No reply, 14 s, link lost").click();
+        window.get_by_label("RC2000C: No reply for 14 s, link lost").click();
         window.run();
         assert_eq!(*window.state(), 1);
     }
