@@ -113,7 +113,7 @@ async fn a_rotator_without_a_sensor_is_told_and_not_sent_anywhere() {
 async fn both_rotators_are_shown_with_all_that_they_tell() {
     let mut rig = Rig::pair().await;
     assert_eq!(rig.reading("Rotator 1"), "Tower, azimuth");
-    assert_eq!(rig.reading("Rotator 2"), "Elevation, elevation");
+    assert_eq!(rig.reading("Rotator 2"), "elevation", "named after its axis");
     assert_eq!(rig.reading("Limits 1"), "0° to 359°");
     assert_eq!(rig.reading("Offset 1"), "0°");
     rig.send(to(Some(213.0), None));

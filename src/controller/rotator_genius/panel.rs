@@ -90,7 +90,12 @@ fn of_rotator(status: &Status, roles: Roles, number: RotatorNumber) -> Vec<Readi
         RotatorKind::Azimuth => "azimuth",
         RotatorKind::Elevation => "elevation",
     };
-    let name = if rotator.name.is_empty() { "no name" } else { &rotator.name };
+    // A rotator is often named after its axis.
+    let name = match rotator.name.as_str() {
+        "" => format!("no name, {kind}"),
+        name if name.eq_ignore_ascii_case(kind) => kind.to_owned(),
+        name => format!("{name}, {kind}"),
+    };
     let heading = match &rotator.position {
         Ok(angle) => Reading::new(label("Heading"), format!("{angle}°{}", turning(rotator.moving))),
         // Usual for a unit with one rotator.
@@ -109,7 +114,7 @@ fn of_rotator(status: &Status, roles: Roles, number: RotatorNumber) -> Vec<Readi
     let offset =
         rotator.offset_deg.map_or("not reported".to_owned(), |offset| format!("{offset}°"));
     let mut readings = vec![
-        Reading::new(label("Rotator"), format!("{name}, {kind}")),
+        Reading::new(label("Rotator"), name),
         heading,
         Reading::new(label("Limits"), limits).in_tone(outside.1),
         Reading::new(label("Offset"), offset),
