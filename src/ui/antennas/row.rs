@@ -43,7 +43,7 @@ impl Columns {
 
     /// Field and unit column together, for a long value without a unit of measure.
     pub(super) fn wide(&self) -> Rect {
-        self.new.with_max_x(self.unit.right() + 2.0)
+        self.new.with_max_x(self.unit.right() - 4.0)
     }
 }
 
