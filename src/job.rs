@@ -20,7 +20,7 @@ pub type Wake = Arc<dyn Fn() + Send + Sync>;
 
 /// The work panicked; the log has the reason.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
-#[error("the work broke off inside Azel")]
+#[error("the work failed inside Azel")]
 pub struct BrokeOff;
 
 thread_local! {

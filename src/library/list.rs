@@ -25,7 +25,7 @@ pub enum SourceProblem {
     #[error("another source has this name")]
     NameTaken,
     /// A relative path, which would depend on the folder in which the program was started.
-    #[error("the path does not start at the root")]
+    #[error("the path is not absolute")]
     RelativePath,
     /// Not an `https` address, or one with a user name in it.
     #[error("the address is not a plain https address")]

@@ -81,7 +81,7 @@ impl<T> Drop for Transfer<T> {
 
 /// A transfer ended without a result: a fault of this program.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
-#[error("the transfer broke off inside this program; look at the unit's folder and try again")]
+#[error("the transfer failed inside Azel; look at the unit's folder and try again")]
 pub struct BrokenOff;
 
 #[cfg(test)]

@@ -97,7 +97,7 @@ pub enum ConnectError {
 /// Reason why a private key cannot be used.
 #[derive(Debug, thiserror::Error)]
 pub enum KeyFileProblem {
-    #[error("{0}; check path and rights")]
+    #[error("{0}; check the path and its permissions")]
     Disk(io::Error),
     /// The key is locked and no passphrase was given.
     #[error("it is locked; type its passphrase")]

@@ -88,7 +88,7 @@ pub enum FetchError {
     #[error(transparent)]
     Connect(#[from] ConnectError),
     /// Cancelled, or not complete in time.
-    #[error("the file did not come: {0}; check the link and try again")]
+    #[error("the file did not arrive: {0}; check the link and try again")]
     Interrupted(#[from] Interruption),
     /// Not a web address.
     #[error("not an http or https address, or one with a user name in it; correct the address")]
@@ -113,10 +113,10 @@ pub enum FetchError {
     #[error("cannot read the file: {0}")]
     Folder(#[from] FolderError),
     /// No agreement on TLS.
-    #[error("no safe connection ({0}); check the server's certificate")]
+    #[error("no secure connection ({0}); check the server's certificate")]
     Tls(String),
     /// The server refused, in its own words.
-    #[error("the server refused ({0}); check the file and the rights of the user")]
+    #[error("the server refused ({0}); check the file and the user's permissions")]
     Refused(String),
     /// The file is larger than this program's limit.
     #[error("the file is larger than {0} bytes; this is not a file of elements for a unit")]

@@ -47,8 +47,8 @@ pub(super) trait Folder {
 pub enum FolderError {
     /// The user lacks the right for it.
     #[error(
-        "the user has no right to do this in the folder; log in as another user, or ask the \
-         person who maintains the unit for it"
+        "the user may not do this in the folder; log in as another user, or ask the person who \
+         maintains the unit for permission"
     )]
     Denied,
     /// The folder or a required file in it is missing.
@@ -64,7 +64,7 @@ pub enum FolderError {
     #[error("the file is larger than {0} bytes; this is not a file of elements")]
     TooLarge(u64),
     /// The host refused, in its own words.
-    #[error("it refused ({0}); check folder, rights and free space there")]
+    #[error("it refused ({0}); check the folder, its permissions and the free space there")]
     Refused(String),
     /// This time limit was exceeded.
     #[error("no answer within {} s; check the link and try again", .0.as_secs_f64())]

@@ -72,10 +72,10 @@ pub enum KeyVerdict {
 /// Reason why the file cannot be used. It stays unchanged.
 #[derive(Debug, thiserror::Error)]
 pub enum KnownHostsError {
-    #[error("the known host keys cannot be used: {source}; mend the access to {}", path.display())]
+    #[error("the known host keys cannot be used: {source}; fix the access to {}", path.display())]
     Disk { source: io::Error, path: PathBuf },
     /// An unreadable line, which may hold the key of any host.
-    #[error("line {line} of the known host keys cannot be read; mend or remove it in {}", path.display())]
+    #[error("line {line} of the known host keys cannot be read; fix or remove it in {}", path.display())]
     Line {
         /// Line number, from 1.
         line: usize,

@@ -57,7 +57,7 @@ struct List {
 /// Reason why a file was not kept, or cannot be restored.
 #[derive(Debug, thiserror::Error)]
 pub enum KeptError {
-    #[error("{source}; make room or mend the rights on this computer: {}", path.display())]
+    #[error("{source}; make room or fix the permissions on this computer: {}", path.display())]
     Disk { source: io::Error, path: PathBuf },
     /// The list is no valid TOML any more.
     #[error("the list of kept files cannot be read: {source}; move it away: {}", path.display())]

@@ -99,7 +99,7 @@ pub fn show(
     if let Some(tested) = tests.order.as_ref().filter(|tested| is_ours(tested)) {
         if order.as_ref() != Ok(tested) && !tests.stage.is_open() && tests.stage != TestStage::Idle
         {
-            let words = "This was tested before something was changed above.";
+            let words = "Tested before the fields above were changed.";
             ui.label(RichText::new(words).font(text::small()).color(theme::tokens(ui).warn));
         }
         outcome(ui, model, tested, state, commands);

@@ -229,7 +229,7 @@ fn a_typed_source_is_added_once_it_is_right_and_stays_typed_until_it_is_there() 
         settle(&mut window);
         write(&mut window, "Name", "own");
         write(&mut window, "Path", "own.tle");
-        assert!(says(&window, "Cannot be added: the path does not start at the root."));
+        assert!(says(&window, "Cannot be added: the path is not absolute."));
         write(&mut window, "Path", "/var/elements/own.tle");
         window.get_by_role_and_label(Role::Button, "Add source").scroll_to_me();
         settle(&mut window);

@@ -219,7 +219,7 @@ fn points_that_do_not_fit_are_seen_beside_the_table() {
         write(&mut window, "Elevation counts", "1000 0\n2000 46\n3000 90");
         assert!(says(
             &window,
-            "Off a straight line by −0.33°, +0.67°, −0.33°, the most at 2000 counts."
+            "Off a straight line by −0.33°, +0.67°, −0.33°, most at 2000 counts."
         ));
     }
 }

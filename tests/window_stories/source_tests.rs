@@ -175,7 +175,7 @@ fn what_the_unit_will_see_is_told() {
         assert!(says(&window, "1 objects, SHA-256"));
         window.state_mut().url.push('x');
         window.run_steps(2);
-        assert!(says(&window, "This was tested before something was changed above."));
+        assert!(says(&window, "Tested before the fields above were changed."));
     }
     let view = Box::new(what_a_unit_sees(b"<html>gone</html>", NAME));
     let window = form(300.0, true, tested(TestStage::Seen { view, at: rig::now() }));

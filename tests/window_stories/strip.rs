@@ -165,7 +165,7 @@ fn a_row_of_the_list_says_that_the_schedule_leaves_the_pass_out_and_why() {
     assert!(of("NOAA 20, LOS", "Left out: overlaps METEOR-M2 4"), "{names:?}");
     assert!(of("METEOR-M2 4, AOS", "Trackable"), "taken: {names:?}");
     assert!(
-        of("METEOR-M2 4, LOS", "Needs 0:39 to get there, 0:05 left"),
+        of("METEOR-M2 4, LOS", "Needs 0:39 to get there, leaving 0:05 to track"),
         "is set up and slews: {names:?}"
     );
     assert!(of("EUTELSAT 7C, always up", "Trackable"), "{names:?}");

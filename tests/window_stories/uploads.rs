@@ -185,7 +185,7 @@ fn what_went_wrong_is_told_and_what_was_typed_stays() {
          file, nothing was changed)",
         "the connection was lost; check the link and try again",
         "no answer within 10 s; check the link and try again",
-        "the user has no right to do this in the folder",
+        "the user may not do this in the folder",
     ] {
         let mut window = typed(WIDTHS[0], Uploads::default());
         window.state_mut().model.uploads = failed(words).into();

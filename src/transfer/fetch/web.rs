@@ -31,7 +31,7 @@ pub(super) async fn fetch(
     let asking = tokio::task::spawn_blocking(move || ask(&uri, limits));
     within(limits.file, cancel, asking)
         .await?
-        .unwrap_or_else(|_| Err(FetchError::NoAnswer("the fetch broke off".to_owned())))
+        .unwrap_or_else(|_| Err(FetchError::NoAnswer("the fetch was interrupted".to_owned())))
 }
 
 fn ask(uri: &Uri, limits: Limits) -> Result<Vec<u8>, FetchError> {

@@ -97,7 +97,7 @@ impl fmt::Display for FolderState {
             Self::OldAside { name } => {
                 write!(
                     f,
-                    "the old file is whole on the unit, maybe as {name}; upload again to mend it"
+                    "the old file is whole on the unit, maybe as {name}; upload again to repair it"
                 )
             }
             Self::NewUnproved => f.write_str(

@@ -67,7 +67,7 @@ impl<F: Folder> Put<'_, F> {
         let old = self.read(UploadStep::ReadOld, &aside).await?;
         if old.is_some() {
             self.folder.rename(&aside, self.file).await?;
-            tracing::info!(file = self.file, "an upload that broke off was mended on the unit");
+            tracing::info!(file = self.file, "an interrupted upload was repaired on the unit");
         }
         Ok(old)
     }

@@ -191,7 +191,7 @@ pub(in crate::ui) fn sentences(
         .collect();
     lines.extend(report.files.iter().filter_map(|file| {
         let (why, place) = (file.merge.nothing?, file.path.display());
-        Some((Tone::Caution, format!("No elements, {why}: {place}.")))
+        Some((Tone::Caution, format!("No elements: {why}: {place}.")))
     }));
     if report.objects() > 0 || lines.is_empty() {
         lines.insert(0, held(source, report, now));

@@ -84,5 +84,5 @@ fn fit(points: &[CountPoint]) -> Option<String> {
         points.iter().zip(&residuals).max_by(|(_, a), (_, b)| a.abs().total_cmp(&b.abs()));
     let (point, _) = largest?;
     let all = all.join("°, ");
-    Some(format!("Off a straight line by up to {all}°, most at {} counts.", point.counts))
+    Some(format!("Off a straight line by {all}°, most at {} counts.", point.counts))
 }

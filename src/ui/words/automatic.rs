@@ -40,7 +40,7 @@ pub fn standing(operation: &Operation) -> &'static str {
             Doing::Rests => "on",
             Doing::Announces { .. } => "on, about to move",
             Doing::Parks => "on, parking",
-            Doing::Takes(_) => "on, at work",
+            Doing::Takes(_) => "on, running",
         },
     }
 }

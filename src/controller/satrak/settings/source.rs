@@ -40,7 +40,7 @@ const SERVER: &str = "server";
 const fn continue_tracking() -> Field {
     Field::write(CONTINUE_TRACKING, "Keep the present track")
         .moving()
-        .about("Off: what the unit tracks now is stopped. On: it goes on until its end.")
+        .about("Off: the present track is stopped. On: it runs to its end.")
 }
 
 pub static FILE: Group = Group {

@@ -24,7 +24,7 @@ pub(super) fn sentence(
         (None, Then::Park) if rule.of == Of::All => {
             "all antennas are parked and take no passes".to_owned()
         }
-        (None, Then::Park) => format!("no antenna takes {passes}, and none is parked for that"),
+        (None, Then::Park) => format!("no antenna takes {passes}, but none is parked"),
         (Some(antenna), then) => {
             let antenna = antenna.unwrap_or("an antenna that is removed");
             match then {
@@ -33,7 +33,7 @@ pub(super) fn sentence(
                 Then::Park if rule.of == Of::All => {
                     format!("{antenna} is parked and takes no passes")
                 }
-                Then::Park => format!("{antenna} leaves {passes} out, and is not parked for that"),
+                Then::Park => format!("{antenna} leaves {passes} out, but is not parked"),
             }
         }
     };

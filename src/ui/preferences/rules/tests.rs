@@ -105,11 +105,11 @@ fn a_rule_is_one_sentence_made_from_its_fields() {
         ),
         (
             AutomationRule { antenna: genius, then: Then::Park, ..of_satellite(ISS) },
-            "Genius leaves passes of ISS out, and is not parked for that.",
+            "Genius leaves passes of ISS out, but is not parked.",
         ),
         (
             AutomationRule { then: Then::Park, ..of_satellite(ISS) },
-            "No antenna takes passes of ISS, and none is parked for that.",
+            "No antenna takes passes of ISS, but none is parked.",
         ),
     ] {
         assert_eq!(said(rule), wanted);
