@@ -133,7 +133,7 @@ pub const ALL: [Binding; 40] = [
     row(
         KeyScope::Operate,
         &[(Key::ArrowUp, Act::MoveInList(-1)), (Key::ArrowDown, Act::MoveInList(1))],
-        "previous, next pass, unless something else has the focus",
+        "previous, next pass, unless the focus is elsewhere",
     ),
     row(
         KeyScope::Record,
@@ -166,7 +166,7 @@ pub const ALL: [Binding; 40] = [
     row(
         KeyScope::Operate,
         &[(Key::G, Act::GoTo)],
-        "Position: type a direction; Enter shows it, again goes there",
+        "Position: type a direction; Enter shows, then goes",
     ),
     row(
         KeyScope::Operate,
@@ -241,7 +241,7 @@ pub const ALL: [Binding; 40] = [
     row(
         KeyScope::Operate,
         &[(Key::Home, Act::SkyOfNow)],
-        "sky now; on its slider: Left, Right 1 min, Page Up, Down 10 min",
+        "sky now; on its slider: Left, Right 1 min, Page 10 min",
     ),
     row(
         KeyScope::Operate,

@@ -29,7 +29,7 @@ pub const HEIGHT: f32 = 56.0;
 pub const LOCKED: &str = "Locked: this is a replay. Leave it to command the station.";
 /// The answer to a command.
 pub const REFUSED: &str = "Not done: this is a replay. Leave it first.";
-const GOES_ON: &str = "The live station keeps running. STOP works.";
+const GOES_ON: &str = "The station is live; STOP works.";
 
 /// In a strip of this width there is room for everything.
 const WIDE: f32 = 1200.0;

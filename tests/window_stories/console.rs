@@ -191,7 +191,7 @@ fn one_way_of_the_link_can_be_read_alone() {
             settle(&mut window);
             rows(&window).len()
         };
-        let sent = choose("Both directions", "Sent");
+        let sent = choose("Both ways", "Sent");
         let received = choose("Sent", "Received");
         assert!(sent > 0 && received > 0 && sent + received == all, "{sent} {received} {all}");
     }

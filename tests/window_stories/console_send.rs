@@ -45,7 +45,7 @@ fn a_query_is_sent_once_its_frame_stands_there() {
     for size in SIZES {
         let mut window = view(size);
         assert!(is_disabled(&window, "Send"));
-        assert!(says(&window, "Queries can be sent"));
+        assert!(says(&window, "can be sent. Change settings"));
         write(&mut window, "Query to send", "tpos?");
         let frame = String::from_utf8(encode("TPOS?")).unwrap();
         assert!(says(&window, &format!("sends {}", frame.trim_end())));

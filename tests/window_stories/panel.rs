@@ -328,7 +328,7 @@ fn no_other_view_shows_what_only_a_satrak_has() {
             asked(&mut window);
             window.state_mut().model.view = View::Console;
             settle(&mut window);
-            let words = "Queries can be sent, such as STATUS. Change settings in Antennas; move \
+            let words = "Queries, such as STATUS, can be sent. Change settings in Antennas; move \
                          antennas in Operate.";
             assert!(says(&window, words));
             type_into(&mut window, "Query to send", "status");

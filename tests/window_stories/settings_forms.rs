@@ -66,7 +66,7 @@ pub(crate) const FILE: Story = Story {
     group: "file",
     tab: Some("File"),
     is_service: false,
-    choice: Some(("Keep the present track", "On")),
+    choice: Some(("Keep present track", "On")),
     rounds: [
         (
             &[("TLE file", "active.txt"), ("Satellite", "NOAA 20 (JPSS-1)")],

@@ -86,7 +86,7 @@ fn antenna(ui: &mut Ui, model: &Model, state: &mut ConsoleState) {
 
 fn direction(ui: &mut Ui, state: &mut ConsoleState) {
     const WAYS: [(Option<Direction>, &str); 3] = [
-        (None, "Both directions"),
+        (None, "Both ways"),
         (Some(Direction::Sent), "Sent"),
         (Some(Direction::Received), "Received"),
     ];

@@ -70,8 +70,8 @@ pub(super) fn show(
         }
         (None, _) => {
             let such =
-                questions.first().map_or_else(String::new, |one| format!(", such as {}", one.key));
-            let words = format!("Queries can be sent{such}. {ELSEWHERE}");
+                questions.first().map_or_else(String::new, |one| format!(", such as {},", one.key));
+            let words = format!("Queries{such} can be sent. {ELSEWHERE}");
             (Icon::Info, words, t.t2)
         }
         (Some(Ok(_)), None) => (Icon::Lock, "Not sent. There is no link.".to_owned(), t.warn),

@@ -57,18 +57,17 @@ pub(super) fn show(
     let font = text::sized(13.0, Weight::SemiBold);
     paint::text_in(ui, title, Align2::LEFT_CENTER, "Stored sets", font, t.t1);
     let pass = detail.and_then(|detail| detail.passes.first());
-    let against = pass.map_or_else(
-        || "no pass to compare them at".to_owned(),
-        |of| {
-            format!(
-                "compared with the one in use, at {}",
-                format::moment(of.pass.tca.time, model.now)
-            )
-        },
-    );
+    let at = pass.map(|of| format::moment(of.pass.tca.time, model.now));
+    let [shown, spoken] = match at {
+        None => ["no pass to compare them at"; 2].map(str::to_owned),
+        Some(at) => {
+            [format!("differences at {at}"), format!("differences from the one in use at {at}")]
+        }
+    };
     let room = title.with_min_x(title.left() + 80.0);
-    paint::text_in(ui, room, Align2::RIGHT_CENTER, &against, text::caption(), t.t2);
-    paint::name_text(ui, "sets held", title, &format!("Stored sets, {against}"));
+    paint::text_in(ui, room, Align2::RIGHT_CENTER, &shown, text::caption(), t.t2);
+    let spoken = format!("Stored sets, {spoken}");
+    paint::name_text(ui, "sets held", title, &spoken).on_hover_text(&spoken);
     let line = |index: f32| {
         let min = pos2(inner.left(), title.bottom() + index);
         Rect::from_min_size(min, vec2(inner.width(), LINE))

@@ -109,7 +109,7 @@ pub(super) fn next_pass(next: Next, now: Timestamp) -> String {
         Next::Never => format!("none in {NEXT_PASSES_H} h"),
         Next::At(pass) if pass.is_always_up => "always up".to_owned(),
         Next::At(pass) if pass.aos <= now => {
-            format!("up, {}", format::time_left(now, pass.los))
+            format!("up for {}", format::time_left(now, pass.los))
         }
         Next::At(pass) => {
             if seconds_between(now, pass.aos) < 600.0 {
@@ -361,7 +361,7 @@ mod tests {
         for (next, words) in [
             (Next::Unknown, "…"),
             (Next::Never, "none in 24 h"),
-            (pass(-408.0), "up, 3:12"),
+            (pass(-408.0), "up for 3:12"),
             (pass(280.0), "in 4:40"),
             (pass(1200.0), "12:35Z"),
             (pass(43_200.0), "15 Nov 00:15Z"),

@@ -144,7 +144,8 @@ impl Verdict<'_> {
                 }
                 .into()
             }
-            Self::Trackable | Self::Misses | Self::InMaintenance => self.sentence(),
+            Self::Misses => "Unit misses it".into(),
+            Self::Trackable | Self::InMaintenance => self.sentence(),
         }
     }
 }

@@ -25,6 +25,8 @@ use crate::{
 };
 
 const HEAD: f32 = 40.0;
+/// Height of the middle of the hours above the rows; the grip of the lanes has its room below them.
+const HOURS_UP: f32 = 14.0;
 const ROW: f32 = 21.0;
 /// Heights of the bars for 0° and 90° of maximum elevation.
 const BARS: std::ops::RangeInclusive<f32> = 7.0..=19.0;
@@ -109,7 +111,7 @@ fn heads(ui: &Ui, head: Rect, place: Rect, span: Span) {
     let t = theme::tokens(ui);
     ui.painter().hline(head.x_range(), head.bottom() - 0.5, (1.0, t.line));
     let labels = head.with_max_x(place.left());
-    let inner = labels.shrink2(vec2(PADDING, 0.0)).with_min_y(labels.top() + HEAD / 2.0);
+    let inner = labels.shrink2(vec2(PADDING, 0.0)).with_min_y(labels.bottom() - 2.0 * HOURS_UP);
     let (left, right) = (Align2::LEFT_CENTER, Align2::RIGHT_CENTER);
     paint::text_in(ui, inner, left, "Priority", text::caption(), t.t3);
     paint::text_in(ui, inner, right, "taken", text::caption(), t.t3);
@@ -117,7 +119,7 @@ fn heads(ui: &Ui, head: Rect, place: Rect, span: Span) {
     let every = [1, 2, 3, 6, 12].into_iter().find(|of| hour_width * *of as f32 >= HOUR_APART);
     for at in multiples(span, every.unwrap_or(24) * 3600) {
         let x = span.x(at, place);
-        let (word, y) = (format::hour_of_day(at), head.bottom() - HEAD / 4.0);
+        let (word, y) = (format::hour_of_day(at), head.bottom() - HOURS_UP);
         if x + 10.0 < place.right() {
             let centre = Align2::CENTER_CENTER;
             paint::text(ui, pos2(x, y), centre, word, text::caption(), t.t3);

@@ -39,6 +39,8 @@ const LEAN_BELOW: f32 = 760.0;
 /// From this width on the column of the slew grows, by at most so much.
 const WIDE_FROM: f32 = 1024.0;
 const MORE_SLEW: f32 = 120.0;
+/// Width of the notes, with *Swap*, from which any reason has room in their column.
+const WIDE_NOTES: f32 = 460.0;
 
 /// The least height: some rows below the heads.
 pub(super) fn least_height() -> f32 {
@@ -56,6 +58,8 @@ struct Columns {
     /// Left end of the slew and right end of the spare time, where there is room.
     slew: Option<(f32, f32)>,
     text: f32,
+    /// A reason has room in the column of the notes; else it begins in that of the slew.
+    has_wide_notes: bool,
     /// The rows have *Swap*. The drawer has it for the selected pass.
     swaps: bool,
 }
@@ -69,10 +73,13 @@ impl Columns {
             let name = los.unwrap_or(aos) + 16.0;
             let max = of_room(name + 128.0);
             let text = max.unwrap_or(name + 92.0) + 16.0;
-            return Self { state: 16.0, aos, los, name, max, slew: None, text, swaps: !is_lean };
+            let (slew, has_wide_notes) = (None, true);
+            let swaps = !is_lean;
+            return Self { state: 16.0, aos, los, name, max, slew, text, has_wide_notes, swaps };
         }
         // The names of satellites are shown whole where there is room.
         let more = (width - WIDE_FROM).clamp(0.0, MORE_SLEW);
+        let text = 794.0 + more;
         Self {
             state: 16.0,
             aos: 288.0,
@@ -80,7 +87,8 @@ impl Columns {
             name: 418.0,
             max: Some(562.0),
             slew: Some((578.0, 778.0 + more)),
-            text: 794.0 + more,
+            text,
+            has_wide_notes: width - text >= WIDE_NOTES,
             swaps: true,
         }
     }
@@ -378,7 +386,7 @@ fn show_row(
                 paint::text_in(ui, row.with_max_x(at(spare)), right, &words, small.clone(), colour);
             }
         }
-        (Some((slew, _)), None) if is_out => text_from = at(slew),
+        (Some((slew, _)), None) if is_out && !columns.has_wide_notes => text_from = at(slew),
         _ => {}
     }
     let mut end = row.right() - PADDING;

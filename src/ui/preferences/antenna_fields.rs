@@ -247,8 +247,9 @@ fn watch() -> [Of; 2] {
             |antenna| &mut antenna.monitor,
         )
         .noted(|_| {
-            let words = "Or come too close to the Sun: from the panel, another program or the \
-                         unit's own program. Motion commanded by Azel is always stopped.";
+            let words = "Also if they come too close to the Sun. Others are the panel, other \
+                         programs and the unit's own program; motion commanded by Azel is always \
+                         stopped.";
             Some(words.to_owned())
         }),
         Of::number("Allowed sway", ranges::SWAY_DEG, "°", |antenna| Some(&mut antenna.sway_deg))

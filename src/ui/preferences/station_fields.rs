@@ -165,11 +165,11 @@ fn closing() -> Of {
 
 fn record() -> [Of; 2] {
     [
-        Of::number("Keep positions and link traffic for", ranges::RAW_DAYS, "days", |ground| {
+        Of::number("Keep positions and traffic", ranges::RAW_DAYS, "days", |ground| {
             Some(&mut ground.record.raw_days)
         })
         .noted(|_| Some("What was measured, and what went over the links.".to_owned())),
-        Of::number("Keep the rest for", ranges::RECORD_YEARS, "years", |ground| {
+        Of::number("Keep the rest", ranges::RECORD_YEARS, "years", |ground| {
             Some(&mut ground.record.years)
         })
         .noted(|_| {

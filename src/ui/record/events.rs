@@ -238,7 +238,8 @@ fn marks(ui: &Ui, lane: Rect, axis: &TimeAxis, moments: &[Moment]) {
         };
         if room.width() >= LEAST_ROOM {
             let letters = room.shrink2(egui::vec2(-2.0, 3.0));
-            let letters = letters.with_max_x(letters.right().min(letters.left() + width + 4.0));
+            let letters =
+                letters.with_max_x(letters.right().min(letters.left() + width + 2.0 + GAP));
             ui.painter().rect_filled(letters, 0.0, theme::tokens(ui).bg0);
             paint::text_in(ui, room, Align2::LEFT_CENTER, &moment.words, font, colour);
         }

@@ -66,7 +66,7 @@ pub fn why(names: &dyn Fn(PassKey) -> String, why: &Why) -> String {
             1 => "One pass of the satellite is already taken that day".to_owned(),
             most => format!("{most} passes of the satellite are already taken that day"),
         },
-        Why::NotFound => "It would fit, but no better schedule was found with it".to_owned(),
+        Why::NotFound => "It would fit, but no better plan was found with it".to_owned(),
     }
 }
 
@@ -203,7 +203,7 @@ pub fn change(model: &Model, change: &Change) -> String {
 /// How good a schedule is known to be, in a few words.
 pub fn proof(schedule: &Schedule) -> String {
     match most_below_best(schedule) {
-        None => "No better schedule exists.".to_owned(),
+        None => "No better plan exists.".to_owned(),
         Some(percent) => {
             format!("At most {percent:.1} % below the best possible.")
         }

@@ -67,7 +67,7 @@ fn an_older_set_stands_against_the_one_in_use_and_is_used_after_a_question() {
     for size in SIZES {
         let mut window = view(size, Vec::new());
         detail(&mut window, size);
-        assert!(says(&window, "Stored sets, compared with the one in use, at "));
+        assert!(says(&window, "Stored sets, differences from the one in use at "));
         let older = with_epoch(&window.state().model, "2026-08-10T02:04:00");
         let epoch = older.epoch();
         hold(&mut window, [older]);

@@ -38,7 +38,7 @@ const SATELLITE_OF_FILE: &str = "satellite_of_file";
 const SERVER: &str = "server";
 
 const fn continue_tracking() -> Field {
-    Field::write(CONTINUE_TRACKING, "Keep the present track")
+    Field::write(CONTINUE_TRACKING, "Keep present track")
         .moving()
         .about("Off: the present track is stopped. On: it runs to its end.")
 }
