@@ -19,7 +19,7 @@ use crate::window_stories::{
 const METEOR_M2_4: u32 = 59_051;
 const EUTELSAT_7C: u32 = 44_334;
 const BAR: &str = "METEOR-M2 4, 12:44Z to 12:56Z, max 49°";
-const ROW: &str = "METEOR-M2 4, AOS T−1:28:52, max 49°, Trackable";
+const ROW: &str = "METEOR-M2 4, AOS T−1:28:51, max 49°, Trackable";
 
 fn window(size: [f32; 2]) -> Window {
     rig::window(size, rig::model(states::holding()))

@@ -29,7 +29,7 @@ impl Columns {
     /// Columns of a line in `rect`; the values share any width beyond the minimum.
     pub(super) fn of(rect: Rect) -> Self {
         let spare = (rect.width() - MIN_WIDTH).max(0.0);
-        let widths = [131.0, 108.0 + spare * 0.5, 112.0 + spare * 0.3, 30.0, 125.0 + spare * 0.2];
+        let widths = [127.0, 108.0 + spare * 0.5, 112.0 + spare * 0.3, 34.0, 125.0 + spare * 0.2];
         let mut left = rect.left();
         let [label, on_unit, new, unit, state] = widths.map(|width| {
             let column =
@@ -43,7 +43,7 @@ impl Columns {
 
     /// Field and unit column together, for a long value without a unit of measure.
     pub(super) fn wide(&self) -> Rect {
-        self.new.with_max_x(self.unit.right() - 4.0)
+        self.new.with_max_x(self.unit.right() - 2.0)
     }
 }
 
