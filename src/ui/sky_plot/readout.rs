@@ -22,9 +22,10 @@ const CLEARANCE: f32 = 4.0;
 /// Number of large lines, from the first.
 const LARGE: usize = 2;
 
-/// A line with its place.
+/// A line with its places.
 struct ReadoutLine {
-    rect: Rect,
+    /// That of the label with the first row of the value, and that of further rows.
+    places: Vec<Rect>,
     label: (Pos2, Arc<Galley>),
     value: (Pos2, Arc<Galley>),
 }
@@ -39,8 +40,8 @@ pub(super) fn paint(
     t: &Tokens,
 ) {
     for line in lines(painter, rect, dome, scene, t) {
-        if over_sky {
-            painter.rect_filled(line.rect.expand(CLEARANCE), 0.0, t.bg0);
+        for place in line.places.iter().filter(|_| over_sky) {
+            painter.rect_filled(place.expand(CLEARANCE), 0.0, t.bg0);
         }
         painter.galley(line.label.0, line.label.1, t.t2);
         painter.galley(line.value.0, line.value.1, t.t1);
@@ -55,7 +56,8 @@ pub(super) fn reserved(
     scene: &SkyScene<'_>,
     t: &Tokens,
 ) -> Vec<Rect> {
-    lines(painter, rect, dome, scene, t).iter().map(|line| line.rect.expand(4.0)).collect()
+    let lines = lines(painter, rect, dome, scene, t);
+    lines.iter().flat_map(|line| &line.places).map(|place| place.expand(4.0)).collect()
 }
 
 /// Lays the lines out from the left corner downwards until one would meet the disc, then in
@@ -68,11 +70,11 @@ fn lines(
     t: &Tokens,
 ) -> Vec<ReadoutLine> {
     let names = grid::name_boxes(dome);
-    let is_free = |line: &ReadoutLine| {
-        let nearest = line.rect.clamp(dome.centre);
-        nearest.distance(dome.centre) >= dome.radius + CLEARANCE
-            && names.iter().all(|name| !name.expand(CLEARANCE / 2.0).intersects(line.rect))
+    let is_open = |place: &Rect| {
+        place.clamp(dome.centre).distance(dome.centre) >= dome.radius + CLEARANCE
+            && names.iter().all(|name| !name.expand(CLEARANCE / 2.0).intersects(*place))
     };
+    let is_free = |line: &ReadoutLine| line.places.iter().all(is_open);
     let mut placed: Vec<ReadoutLine> = Vec::new();
     let (mut y, mut on_left) = (rect.top() + LEFT_TOP, true);
     for (index, (label, value)) in scene.readout.iter().enumerate() {
@@ -87,7 +89,7 @@ fn lines(
         if !is_free(&line) {
             continue;
         }
-        y = line.rect.bottom() + LINE_GAP;
+        y = line.places.last().map_or(y, |place| place.bottom() + LINE_GAP);
         placed.push(line);
     }
     placed
@@ -103,15 +105,18 @@ fn line(
     value: &Arc<Galley>,
 ) -> ReadoutLine {
     let label_width = if on_left { LABELS } else { label.size().x + LABEL_GAP };
-    let size = vec2(label_width + value.size().x, value.size().y);
-    let left = if on_left { rect.left() + EDGE } else { rect.right() - EDGE - size.x };
-    // The label stands on the first line of its value.
+    let width = label_width + value.size().x;
+    let left = if on_left { rect.left() + EDGE } else { rect.right() - EDGE - width };
+    // The label stands on the first row of its value.
     let first = value.rows.first().map_or(0.0, |row| row.height());
     let label_at = pos2(left, top + (first - label.size().y) / 2.0);
+    let value_at = pos2(left + label_width, top);
+    let head = Rect::from_min_size(pos2(left, top), vec2(width, first));
+    let further = Rect::from_min_size(value_at, value.size()).with_min_y(head.bottom());
     ReadoutLine {
-        rect: Rect::from_min_size(pos2(left, top), size),
+        places: std::iter::once(head).chain((value.rows.len() > 1).then_some(further)).collect(),
         label: (label_at, Arc::clone(label)),
-        value: (pos2(left + label_width, top), Arc::clone(value)),
+        value: (value_at, Arc::clone(value)),
     }
 }
 
@@ -130,15 +135,15 @@ mod tests {
     }
 
     /// The places of the lines in a plot of this size.
-    fn places(width: f32, height: f32) -> Vec<Rect> {
+    fn places(width: f32, height: f32) -> Vec<Vec<Rect>> {
         let size = vec2(width, height);
-        let mut harness = window(size, Vec::new(), move |ui, places: &mut Vec<Rect>| {
+        let mut harness = window(size, Vec::new(), move |ui, places: &mut Vec<Vec<Rect>>| {
             let scene_readout = readout();
             let scene = SkyScene { readout: &scene_readout, ..testing::empty() };
             let rect = Rect::from_min_size(Pos2::ZERO, size);
             let t = theme::tokens(ui);
             let lines = lines(ui.painter(), rect, Dome::fitted(rect), &scene, t);
-            *places = lines.iter().map(|line| line.rect).collect();
+            *places = lines.into_iter().map(|line| line.places).collect();
         });
         harness.run();
         harness.state().clone()
@@ -156,7 +161,7 @@ mod tests {
             let places = places(width, height);
             assert_eq!(places.len(), count, "{width} x {height} {places:?}");
             let dome = Dome::fitted(Rect::from_min_size(Pos2::ZERO, vec2(width, height)));
-            for place in &places {
+            for place in places.iter().flatten() {
                 assert!(place.clamp(dome.centre).distance(dome.centre) > dome.radius);
                 let beyond = place.right() > width || place.left() < 0.0;
                 assert!(!beyond, "{place} in {width} x {height}");
@@ -166,7 +171,7 @@ mod tests {
 
     #[test]
     fn a_plot_of_the_usual_width_keeps_them_together() {
-        assert!(places(704.0, 580.0).iter().all(|place| place.left() < 20.0));
+        assert!(places(704.0, 580.0).iter().all(|line| line[0].left() < 20.0));
     }
 
     #[test]
