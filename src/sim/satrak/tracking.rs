@@ -147,6 +147,8 @@ impl Tracking {
     }
 }
 
+/// The document names the offsets and says no more: they are read as added to what is computed, at
+/// once and not only from the next window on, and the minimum elevation holds after them.
 fn with_offsets(direction: AzEl, settings: &Settings) -> AzEl {
     let elevation = direction.elevation_deg() + settings.el_offset_deg;
     AzEl {

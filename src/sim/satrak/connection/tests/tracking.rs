@@ -163,3 +163,28 @@ async fn a_move_while_tracking_lasts_a_second() {
     let back = control.state().x_deg - tracked.x_deg;
     assert!(back > pulled + 1.0, "{back}");
 }
+
+#[tokio::test(start_paused = true)]
+async fn offsets_act_at_once_on_a_track_that_runs() {
+    let (mut client, control, pass) = before_pass().await;
+    let start = time::add_seconds(pass.aos.time, -90.0);
+    let started = Instant::now();
+    client.done("TRACK=,1").await;
+    let propagator = Propagator::new(&iss()).unwrap();
+    seconds(180).await;
+    let (azimuth_deg, elevation_deg) = (0.8, -0.6);
+    for (request, azimuth_deg, elevation_deg) in [
+        ("SETTINGS=,?,?,0.8,-0.6,?,?,?,?,?,?,?", azimuth_deg, elevation_deg),
+        ("SETTINGS=,?,?,0,0,?,?,?,?,?,?,?", 0.0, 0.0),
+    ] {
+        client.done(request).await;
+        seconds(2).await;
+        let at = time::add_seconds(start, started.elapsed().as_secs_f64());
+        let wanted = propagator.look_from(site(), at).unwrap().direction;
+        let seen = control.state();
+        let beside = (Angle::from_degrees(seen.az_deg) - wanted.azimuth).wrapped_180();
+        assert!((beside.degrees() - azimuth_deg).abs() < 0.2, "{request}: {beside:?}");
+        let above_deg = seen.el_deg - wanted.elevation_deg();
+        assert!((above_deg - elevation_deg).abs() < 0.2, "{request}: {above_deg}");
+    }
+}
