@@ -307,6 +307,11 @@ pub trait Controller: Device {
     /// appear in [`AntennaState::held`].
     fn write_settings(&mut self, _change: Change, _now: Moment) {}
 
+    /// Writes offsets of the track that the unit computes, also while it tracks, and reads them
+    /// back. Progress and outcome appear in [`AntennaState::held`]; a halt voids what is not sent.
+    /// Not called without [`Variant::track_offsets`].
+    fn shift_track(&mut self, _change: Change, _now: Moment) {}
+
     /// Queues a motion. It is sent once, or not at all when a halt comes first. Without a
     /// link it is refused, or forgotten when the link comes up. The gate passes no motion
     /// that [`Variant::capabilities`] exclude; one that comes anyway is refused with a

@@ -43,8 +43,8 @@ pub use position_log::PositionLog;
 pub use safety::{Mover, Response, Safety, Unlike};
 pub use session::{Command, JOG_LEASE, OffsetChange, Session, Wires};
 pub use snapshot::{
-    Event, Found, Inside, LinkLoss, LinkState, OnBoardView, Snapshot, StopState, StoppingWay,
-    TrackProblem, TrackView,
+    Event, Found, Inside, LeftOffsets, LinkLoss, LinkState, OnBoardView, Snapshot, StopState,
+    StoppingWay, TrackProblem, TrackView, UnitOffsetsView,
 };
 pub use time_sync::{TimeSync, time_sync};
 pub use wire_log::{Awaited, MAX_LINES, Recorded, WireLog};

@@ -29,4 +29,5 @@ mod track;
 mod two;
 #[cfg(unix)]
 mod unguarded;
+mod unit_offsets;
 mod wire;

@@ -122,6 +122,26 @@ impl TrackOffsets {
         (angle.abs() <= MAX_ANGLE_OFFSET).then_some(self)
     }
 
+    pub fn azimuth(self) -> Angle {
+        self.azimuth
+    }
+
+    pub fn elevation(self) -> Angle {
+        self.elevation
+    }
+
+    /// Both together; `None` if one of them would be too large.
+    #[must_use]
+    pub fn and(self, other: Self) -> Option<Self> {
+        other.each().into_iter().try_fold(self, Self::plus)
+    }
+
+    /// What is left without `other`; `None` if one of them would be too large.
+    #[must_use]
+    pub fn less(self, other: Self) -> Option<Self> {
+        other.each().into_iter().try_fold(self, |rest, offset| rest.plus(-offset))
+    }
+
     /// Direction to point in at `at` for a target that is in the directions `target`; `None` where
     /// it has none.
     pub fn demanded(

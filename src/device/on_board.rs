@@ -3,7 +3,8 @@
 use jiff::Timestamp;
 use serde::{Deserialize, Serialize};
 
-use crate::astro::{GroundPoint, Site, frames::MEAN_RADIUS_KM};
+use super::settings::{Value, Values};
+use crate::astro::{Angle, GroundPoint, Offset, Site, TrackOffsets, frames::MEAN_RADIUS_KM};
 
 /// On-board track of a unit, each part as last read. `None` means not read, or not
 /// reported.
@@ -66,6 +67,34 @@ pub struct Offsets {
     pub lead_s: f64,
 }
 
+impl Offsets {
+    /// What it adds to azimuth and elevation; `None` where that is more than an offset can be.
+    pub fn of_the_axes(&self) -> Option<TrackOffsets> {
+        let azimuth = Offset::Azimuth(Angle::from_degrees(self.azimuth_deg));
+        let elevation = Offset::Elevation(Angle::from_degrees(self.elevation_deg));
+        TrackOffsets::NONE.plus(azimuth)?.plus(elevation)
+    }
+
+    /// The same with these in azimuth and elevation.
+    #[must_use]
+    pub fn with_axes_of(self, offsets: TrackOffsets) -> Self {
+        Self {
+            azimuth_deg: offsets.azimuth().degrees(),
+            elevation_deg: offsets.elevation().degrees(),
+            ..self
+        }
+    }
+}
+
+impl OnBoard {
+    /// The same without offsets in azimuth and elevation that are meant to be on.
+    #[must_use]
+    pub fn without(&self, meant: TrackOffsets) -> Self {
+        let less = |unit: Offsets| Some(unit.with_axes_of(unit.of_the_axes()?.less(meant)?));
+        Self { offsets: self.offsets.map(|unit| less(unit).unwrap_or(unit)), ..self.clone() }
+    }
+}
+
 /// The settings by which the operator shifts the tracks that a unit computes: the key of their
 /// group, and of each.
 #[derive(Debug)]
@@ -77,6 +106,19 @@ pub struct TrackOffsetFields {
     pub azimuth_deg: &'static str,
     /// Of a decimal, degrees, added to the elevation.
     pub elevation_deg: &'static str,
+}
+
+impl TrackOffsetFields {
+    /// Values that make the offsets in azimuth and elevation `to`, where those in force are
+    /// `from`.
+    pub fn values(&self, from: TrackOffsets, to: TrackOffsets) -> Values {
+        let each = [
+            (self.azimuth_deg, from.azimuth(), to.azimuth()),
+            (self.elevation_deg, from.elevation(), to.elevation()),
+        ];
+        let changed = each.into_iter().filter(|(_, from, to)| from != to);
+        changed.map(|(key, _, to)| (key, Value::Decimal(to.degrees()))).collect()
+    }
 }
 
 /// Satellite that a unit holds. The unit does not report the epoch of its elements.

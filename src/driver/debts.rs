@@ -3,6 +3,8 @@
 //! on disk, this program. Auto-track has such a record only where no antenna is left that would be
 //! looked after at the next start.
 
+mod shifted_track;
+
 use std::{
     collections::{BTreeMap, BTreeSet},
     fs, io,
@@ -16,6 +18,7 @@ use sha2::{Digest as _, Sha256};
 use tokio::sync::Notify;
 
 use crate::{clock::Instant, station::Antenna, whole_file};
+pub(super) use shifted_track::ShiftedTrack;
 
 /// End of the names of records of auto-track.
 const AUTO_TRACK: &str = ".auto-track.toml";
@@ -78,7 +81,8 @@ pub struct Debts {
     /// Folder of the records; `None` for none.
     folder: Option<Arc<Path>>,
     ledger: Arc<Mutex<Ledger>>,
-    /// Held while records of auto-track are written or removed, and never with the ledger.
+    /// Held while records of auto-track and offsets are written or removed. The ledger is taken
+    /// after it, and never before.
     files: Arc<Mutex<()>>,
 }
 
@@ -93,14 +97,18 @@ struct Ledger {
     auto_track: BTreeSet<Unit>,
     /// Units that were moved from here since then and are not known to stand.
     unproved: BTreeMap<Unit, Instant>,
+    /// Units that may hold offsets of a pass that were written from here.
+    shifted: BTreeMap<Unit, ShiftedTrack>,
 }
 
 impl Debts {
-    /// With records in `folder`, and the auto-track that an earlier run recorded there.
+    /// With records in `folder`, and what an earlier run recorded there of auto-track and offsets.
     pub fn marked_in(folder: Option<PathBuf>) -> Self {
         let debts = Self { folder: folder.map(Arc::from), ..Self::default() };
         let found = debts.folder.as_deref().map_or_else(Vec::new, with_auto_track);
         debts.ledger().auto_track.extend(found);
+        let shifted = debts.folder.as_deref().map_or_else(Vec::new, shifted_track::found);
+        debts.ledger().shifted.extend(shifted);
         debts
     }
 

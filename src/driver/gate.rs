@@ -33,6 +33,7 @@ pub use preview::{Preview, Way};
 pub(super) use program::Held;
 pub use refusal::Refusal;
 use rules::{Check, RULES, Rule};
+pub(super) use settings::Shift;
 use word::Word;
 
 const HALF_TURN: Angle = Angle::from_degrees(180.0);

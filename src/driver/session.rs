@@ -26,6 +26,7 @@ mod stop;
 mod supervise;
 #[cfg(test)]
 pub(in crate::driver) mod testing;
+mod unit_offsets;
 mod unproved;
 mod wanted;
 mod write_settings;
@@ -74,6 +75,7 @@ use standstill::{Figures, Rest};
 use step::Stepping;
 use stop::Stop;
 use supervise::Doubt;
+use unit_offsets::UnitOffsets;
 use wanted::Wanted;
 
 /// The session's ends of the channels to the station. A session that breaks down leaves them
@@ -290,6 +292,8 @@ pub struct Session {
     locking: Option<Locking>,
     /// A motion whose answer was lost.
     doubt: Option<Doubt>,
+    /// Offsets added to the track that the unit computes.
+    unit_offsets: UnitOffsets,
     /// Bytes of a halt, to be written before anything else.
     stop_bytes: Vec<u8>,
 }
@@ -378,6 +382,7 @@ impl Session {
             stop: Stop::Ready,
             locking: None,
             doubt: None,
+            unit_offsets: UnitOffsets::default(),
             stop_bytes: Vec::new(),
         }
     }
@@ -405,6 +410,7 @@ impl Session {
             target: self.activity.on_board().map(|track| track.target.clone()),
             on_board: self.on_board_watch().map(on_board::Watch::view),
             program_track: self.activity.last_program().map(Tracking::view),
+            unit_offsets: self.unit_offsets_view(),
             rates_deg_s: Some(self.setup.track_config.rates_deg_s()),
             unproved: self.is_unproved(),
             lock_out: self.gate.lock_out().cloned(),

@@ -11,7 +11,7 @@ use crate::{
     clock::Instant,
     device::{
         AntennaState, Asked, Capabilities, Pointing, PrepareError, TrackTarget,
-        settings::{GroupState, Held, Hindrance},
+        settings::{GroupState, Held, Hindrance, WriteError},
     },
     orbit::PropagationError,
     plan::{Barrier, Sample, Supervision, TrackPhase, TrackStats},
@@ -34,6 +34,8 @@ pub struct Snapshot {
     /// The on-board track, as it is supervised.
     pub on_board: Option<OnBoardView>,
     pub program_track: Option<TrackView>,
+    /// What was added from here to the offsets of the unit's own track.
+    pub unit_offsets: Option<UnitOffsetsView>,
     /// Rates of the axes as learned from long slews, degrees per second; `None` before the
     /// session runs. Until a slew they are those of the settings.
     pub rates_deg_s: Option<[f64; 2]>,
@@ -77,6 +79,7 @@ impl Snapshot {
             target: None,
             on_board: None,
             program_track: None,
+            unit_offsets: None,
             rates_deg_s: None,
             unproved: false,
             lock_out: None,
@@ -104,6 +107,12 @@ impl Snapshot {
     pub fn wants_stop(&self) -> bool {
         let owed = matches!(self.stop, StopState::Stopping { .. } | StopState::NotConfirmed { .. });
         self.link != LinkState::Off || self.unproved || owed
+    }
+
+    /// What is meant to be added to the track that the unit computes.
+    pub fn meant_offsets(&self) -> TrackOffsets {
+        let meant = self.unit_offsets.as_ref().filter(|unit| unit.left.is_none());
+        meant.map(|unit| unit.offsets).unwrap_or_default()
     }
 
     /// The reason why the gate would refuse, at `now`, a setting that decides where the
@@ -190,6 +199,27 @@ pub struct OnBoardView {
     pub found: Arc<Supervision>,
     /// Angle off the satellite, where it has lasted longer than a slew explains.
     pub missing: Option<Angle>,
+}
+
+/// What was added from here to the offsets of the unit's own track.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct UnitOffsetsView {
+    /// In force: read back.
+    pub offsets: TrackOffsets,
+    /// Others are on their way to the unit.
+    pub is_changing: bool,
+    pub can_undo: bool,
+    /// Why they are still there although no track needs them.
+    pub left: Option<LeftOffsets>,
+}
+
+/// Why offsets of a track are still on a unit.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub enum LeftOffsets {
+    /// An earlier run of the program wrote them, at that time or soon after.
+    Found { since: Timestamp },
+    /// They were not taken back.
+    Failed(WriteError),
 }
 
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -296,6 +326,8 @@ pub enum Event {
     NotSent(Refusal),
     /// The unit refused it, with this code as received.
     Refused(Asked, String),
+    /// An offset of the unit's own track was not written.
+    OffsetNotTaken(WriteError),
     /// No answer to a motion, which is not sent again.
     Unanswered(Asked),
     CannotTrack(TrackTarget, PrepareError),

@@ -171,11 +171,14 @@ impl AntennaModel {
             // A satellite that the unit does not track yet, or that has not risen, is no
             // error.
             self.tracked_number().filter(|_| self.is_on_course()).and_then(|number| {
-                let look = followed(number)?.propagator.look_from(site, measured.at).ok()?;
-                (look.direction.elevation_deg() >= 0.0).then_some(Prediction {
+                let propagator = &followed(number)?.propagator;
+                let satellite = |at| Some(propagator.look_from(site, at).ok()?.direction);
+                let is_up = satellite(measured.at)?.elevation_deg() >= 0.0;
+                let direction = self.snapshot.meant_offsets().demanded(measured.at, satellite)?;
+                is_up.then_some(Prediction {
                     catalog_number: Some(number),
                     at: measured.at,
-                    direction: look.direction,
+                    direction,
                 })
             })
         };

@@ -125,7 +125,8 @@ impl Engine {
 
     /// The judgement of the unit of `antenna`, kept where nothing has changed.
     fn judged(&self, antenna: &AntennaModel) -> Option<Judged> {
-        let unit = &antenna.snapshot.state.on_board;
+        // What was added for the track that runs is taken back after it.
+        let unit = &antenna.snapshot.state.on_board.without(antenna.snapshot.meant_offsets());
         let is_told = unit.place.is_some() || unit.clock.is_some() || unit.offsets.is_some();
         let can = antenna.variant().capabilities.has_program && antenna.snapshot.link.is_open();
         if !can || !is_told {
@@ -183,6 +184,12 @@ impl Engine {
         match differs {
             Some(cause) => alarms.raise(of, AlarmKind::UnitDiffers(cause), now),
             None => alarms.clear(of, now, |kind| matches!(kind, AlarmKind::UnitDiffers(_))),
+        }
+        let left = antenna.snapshot.unit_offsets.as_ref();
+        let left = left.and_then(|unit| Some((unit.offsets, unit.left.clone()?)));
+        match left.filter(|(offsets, _)| !offsets.is_none()) {
+            Some((offsets, why)) => alarms.raise(of, AlarmKind::OffsetsLeft { offsets, why }, now),
+            None => alarms.clear(of, now, |kind| matches!(kind, AlarmKind::OffsetsLeft { .. })),
         }
         let is_loading = matches!(self.catalog, CatalogState::Loading);
         match antenna.not_compared().filter(|_| !is_loading) {

@@ -50,7 +50,7 @@ pub use lock_out::LockOutModel;
 pub use more::MoreModel;
 use more::MoreState;
 pub use offer::Offer;
-pub use offsets::{OffsetPad, OffsetStep, OffsetsModel, OffsetsState};
+pub use offsets::{OffsetStep, OffsetsIn, OffsetsModel, OffsetsState};
 pub use others::OtherAntenna;
 pub use track::{TrackModel, TrackState};
 

@@ -175,10 +175,12 @@ fn program(model: &Model, antenna: &AntennaModel) -> Option<Spoken> {
 
 fn tracking(model: &Model, antenna: &AntennaModel, name: &str) -> Spoken {
     let half_beam_deg = antenna.config.beam_width_deg / 2.0;
-    let own = if antenna.snapshot.intent == Intent::Track {
-        " with the elements stored on the unit. "
-    } else {
-        " by its own program. "
+    let has_offsets = !antenna.snapshot.meant_offsets().is_none();
+    let own = match (antenna.snapshot.intent == Intent::Track, has_offsets) {
+        (true, false) => " with the elements stored on the unit. ",
+        (true, true) => " with the elements stored on the unit, and with offsets. ",
+        (false, false) => " by its own program. ",
+        (false, true) => " by its own program, and with offsets. ",
     };
     let Some(error) = antenna.error() else {
         return Spoken::new(SentenceKind::Tracking)

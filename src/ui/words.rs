@@ -20,7 +20,10 @@ mod way_there;
 pub use alarms::{alarm, alarm_state, alarm_times};
 pub use link_tests::{link_test, link_test_state, place};
 pub use notices::{missing_outlets, notice, reminder, trial};
-pub use offsets::{OFFSETS_ON_UNIT, offset, offset_name, offset_value, offsets, offsets_on_unit};
+pub use offsets::{
+    OFFSETS_NEED_ELEMENTS, offset, offset_name, offset_not_taken, offset_value, offsets,
+    offsets_left, offsets_on_unit, offsets_on_unit_about,
+};
 pub use on_board::{cause, lower_minimum, not_known, trespass, within_beam, would_miss};
 pub use refusals::{
     HOLD_UNGUARDED, HOLD_UNSEEN, HOLD_WAY_OUT, hindrance, link_loss, not_possible, prepare_error,

@@ -7,8 +7,12 @@ use std::{
 
 use azel::{
     astro::{Angle, Offset, PointingModel, Term, TrackOffsets},
+    driver::{self, OffsetChange},
     engine::{
-        Client, Command, record_path,
+        Client, Command,
+        alarms::AlarmKind,
+        passes::PredictedPass,
+        record_path,
         recorded::{Found, RecordLook},
     },
     makes,
@@ -216,6 +220,48 @@ async fn a_pass_is_flown_with_the_offsets_that_are_remembered_and_reported_besid
     assert!(rms.off_deg < 2.0, "whole degrees beside where it should point: {rms:?}");
     let shown = client.snapshot();
     assert_eq!(shown.station.first_offsets(mast, Some(ISS)), time.with_axes_of(azimuth));
+}
+
+#[tokio::test(start_paused = true)]
+async fn a_pass_of_a_unit_is_reported_beside_the_offset_that_was_added_to_it() {
+    let station = Station { favourites: [ISS].into(), ..units::station() };
+    let pass = next_pass(&station);
+    let scene = Scene::recorded(pass.aos.time - 4.minutes(), &station);
+    let client = scene.client();
+    let dish = measured(&client, "Dish").await;
+    let key = until("the pass", || {
+        let lists = client.snapshot().pass_lists.clone();
+        lists.favourites.passes.iter().find(|pass| pass.number() == ISS).map(PredictedPass::key)
+    })
+    .await;
+    client.send(Command::Track { antenna: dish, pass: key, is_agreed: false }).unwrap();
+    let dish_of = |snapshot: &azel::engine::Snapshot| {
+        let found = snapshot.antennas.iter().find(|of| of.id() == dish)?;
+        Some(std::sync::Arc::clone(&found.snapshot))
+    };
+    until("the track", || {
+        let shown = dish_of(&client.snapshot())?;
+        let is_on = shown.state.program.is_some_and(|program| program.enabled);
+        (is_on && !shown.pending).then_some(())
+    })
+    .await;
+    let azimuth = Offset::Azimuth(Angle::from_degrees(2.0));
+    let step = driver::Command::Offset(OffsetChange::Step(azimuth));
+    client.send(Command::Antenna(dish, step)).unwrap();
+    let row = reports(&scene).await.remove(0);
+    let told = &row.data["report"];
+    assert_eq!(told["tracked_by"], "on_board");
+    assert_eq!(told["offsets"][0][1]["azimuth_deg"], 2.0, "{told}");
+    let report: PassReport = serde_json::from_value(told.clone()).unwrap();
+    let rms = report.rms.unwrap();
+    assert!(rms.off_deg < 0.3, "beside where it should point: {rms:?}");
+    until("it is taken back", || dish_of(&client.snapshot())?.unit_offsets.is_none().then_some(()))
+        .await;
+    let alarms = client.snapshot().alarms.clone();
+    assert!(!alarms.list().iter().any(|alarm| matches!(
+        alarm.kind,
+        AlarmKind::OffTarget { .. } | AlarmKind::UnitDiffers(_) | AlarmKind::OffsetsLeft { .. }
+    )));
 }
 
 #[tokio::test(start_paused = true)]

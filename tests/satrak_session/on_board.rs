@@ -43,7 +43,7 @@ async fn stand_elsewhere(rig: &mut Rig) {
 }
 
 /// Sends a payload as another client.
-async fn by_another(rig: &Rig, payload: &str) {
+pub(super) async fn by_another(rig: &Rig, payload: &str) {
     let (mut near, far) = tokio::io::duplex(4096);
     let control = rig.control.clone();
     tokio::spawn(async move { control.serve(far).await });

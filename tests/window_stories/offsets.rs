@@ -1,11 +1,17 @@
 //! Offsets while tracking.
 
+use std::sync::Arc;
+
 use azel::{
     astro::{Angle, Offset, TrackOffsets},
-    driver::{Command, LinkState, OffsetChange},
-    engine,
+    device::settings::WriteError,
+    driver::{
+        Command, LeftOffsets, LinkState, OffsetChange, OnBoardView, Snapshot, UnitOffsetsView,
+    },
+    engine::{self, alarms::AlarmKind},
     model::UiCommand,
     station::{AntennaId, OffsetsOf},
+    ui::words,
 };
 use egui::{Key, Modifiers, Role};
 use egui_kittest::kittest::Queryable as _;
@@ -13,6 +19,7 @@ use jiff::SignedDuration;
 
 use crate::window_stories::{
     following,
+    on_board::found,
     rig::{self, SIZES, Window, asked, settle},
     states,
 };
@@ -168,22 +175,91 @@ fn without_a_link_they_are_shown_and_locked_with_the_reason() {
     assert!(window.query_all_by_label("Locked: the unit does not answer.").next().is_some());
 }
 
-#[test]
-fn a_unit_that_tracks_by_itself_shows_its_own_and_says_why_there_is_no_pad() {
+/// An on-board track with these offsets added, of a unit that held -0.5 degrees of azimuth before.
+fn on_board(added: TrackOffsets, left: Option<LeftOffsets>) -> Snapshot {
     let mut snapshot = states::tracking(0.04);
     let held = azel::device::Offsets { azimuth_deg: -0.5, ..azel::device::Offsets::default() };
     snapshot.state.on_board.offsets = Some(held);
+    snapshot.on_board = Some(OnBoardView { found: Arc::new(found(0.0)), missing: None });
+    snapshot.unit_offsets = (!added.is_none() || left.is_some()).then_some(UnitOffsetsView {
+        offsets: added,
+        is_changing: false,
+        can_undo: true,
+        left,
+    });
+    snapshot
+}
+
+/// Opens the section, where it is not open already.
+fn unfold(window: &mut Window, line: &str) {
+    if window.query_by_label("Azimuth offset, more").is_none() {
+        window.get_by_role_and_label(Role::Button, line).click();
+        settle(window);
+    }
+    asked(window);
+}
+
+#[test]
+fn a_unit_that_tracks_by_itself_has_a_pad_of_what_it_can_hold() {
+    let added = with(&[Offset::Azimuth(deg(0.2))]);
     for size in SIZES {
-        let mut window = rig::window(size, rig::model(snapshot.clone()));
-        let about = "follow the satellite from here";
-        // Open where there is room.
-        if !rig::says(&window, about) {
-            window.get_by_role_and_label(Role::Button, "Offsets: az −0.50°").click();
-            settle(&mut window);
+        let mut window = rig::window(size, rig::model(on_board(added, None)));
+        assert!(rig::says(&window, "stored on the unit, and with offsets."));
+        unfold(&mut window, "Offsets: az +0.20°");
+        assert!(rig::says(&window, "The unit adds in all: az −0.50°."));
+        for (name, offset) in
+            [("Azimuth", Offset::Azimuth(deg(0.1))), ("Elevation", Offset::Elevation(deg(0.1)))]
+        {
+            assert_eq!(click(&mut window, &format!("{name} offset, more")), [step(offset)]);
+            assert_eq!(click(&mut window, &format!("{name} offset, less")), [step(-offset)]);
         }
-        window.get_by_label_contains(about);
-        assert!(window.query_by_label("Azimuth offset, more").is_none());
+        assert_eq!(click(&mut window, "All offsets to zero"), [change(OffsetChange::Zero)]);
+        assert_eq!(click(&mut window, "Undo the last offset"), [change(OffsetChange::Undo)]);
+        for other in ["Time offset, more", "Along track offset, more"] {
+            assert!(window.query_by_label(other).is_none(), "{other}");
+        }
         window.key_press(Key::CloseBracket);
         assert_eq!(asked(&mut window), []);
+        window.key_press_modifiers(Modifiers::COMMAND, Key::ArrowUp);
+        assert_eq!(asked(&mut window), [step(Offset::Elevation(deg(0.1)))]);
+    }
+}
+
+#[test]
+fn an_offset_on_its_way_to_the_unit_is_said_to_be() {
+    let mut snapshot = on_board(with(&[Offset::Azimuth(deg(0.2))]), None);
+    snapshot.unit_offsets.as_mut().unwrap().is_changing = true;
+    let window = rig::window(SIZES[0], rig::model(snapshot));
+    window.get_by_role_and_label(Role::Button, "Offsets: az +0.20°, being set");
+}
+
+#[test]
+fn without_elements_of_what_the_unit_tracks_its_pad_is_locked_with_the_reason() {
+    let snapshot = Snapshot { on_board: None, ..on_board(TrackOffsets::NONE, None) };
+    let mut window = rig::window(SIZES[1], rig::model(snapshot));
+    unfold(&mut window, "Offsets: none");
+    assert_eq!(click(&mut window, "Azimuth offset, more"), []);
+    assert!(rig::says(&window, "Azel has no elements of what the unit tracks"));
+}
+
+#[test]
+fn offsets_that_were_left_on_the_unit_are_taken_back_with_one_click() {
+    let added = with(&[Offset::Azimuth(deg(0.2))]);
+    let at_rest = |left| Snapshot {
+        unit_offsets: on_board(added, Some(left)).unit_offsets,
+        ..states::holding()
+    };
+    for left in [
+        LeftOffsets::Found { since: rig::now() },
+        LeftOffsets::Failed(WriteError::Refused("ERR,4".to_owned())),
+    ] {
+        for size in SIZES {
+            let mut window = rig::window(size, rig::model(at_rest(left.clone())));
+            assert!(rig::says(&window, "Left on the unit: az +0.20°."));
+            assert_eq!(click(&mut window, "Take back az +0.20°"), [change(OffsetChange::Zero)]);
+        }
+        let said =
+            words::alarm(&AlarmKind::OffsetsLeft { offsets: added, why: left }, "Dish", rig::now());
+        assert!(said.starts_with("The unit of Dish ") && said.contains("az +0.20°"), "{said}");
     }
 }

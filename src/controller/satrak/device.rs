@@ -113,9 +113,13 @@ impl Device for Satrak {
         let ends_track = extent != Extent::Motion || self.program_may_run();
         let ends_auto_track = extent == Extent::Everything;
         self.motions.clear();
+        let is_void = self.changes.void_judged(&mut self.state, now);
         self.fail_preparation(PrepareError::Stopped);
         if let Some(outstanding) = &mut self.outstanding {
             outstanding.disown();
+            if is_void {
+                outstanding.disown_look();
+            }
         }
         self.halts.retain(|(_, until)| *until > now.steady);
         // STOP alone may leave the tracking switched on, and auto-track may switch it on again:
@@ -201,6 +205,13 @@ impl Controller for Satrak {
             return self.changes.refuse(change, WriteError::NoLink, &mut self.state, now);
         }
         self.changes.push(change, &mut self.state);
+    }
+
+    fn shift_track(&mut self, change: Change, now: Moment) {
+        if self.schedule.is_none() {
+            return self.changes.refuse(change, WriteError::NoLink, &mut self.state, now);
+        }
+        self.changes.push_judged(change, &mut self.state);
     }
 
     fn start(&mut self, motion: Motion) {

@@ -80,6 +80,13 @@ impl Outstanding {
         }
     }
 
+    /// The change for which it looks at the present values is over.
+    pub(super) fn disown_look(&mut self) {
+        if self.purpose == Purpose::WriteSettings {
+            self.purpose = Purpose::Disowned;
+        }
+    }
+
     /// Returns `true` for a poll that is not the repetition of one.
     pub(super) fn is_usual_poll(&self) -> bool {
         !self.clock.is_repeated() && matches!(self.purpose, Purpose::Poll(_))

@@ -102,6 +102,9 @@ pub enum WriteError {
     LockedOut,
     #[error("the antenna moves")]
     Moving,
+    /// STOP came first. Nothing was sent.
+    #[error("it was stopped before it was sent")]
+    Stopped,
     /// The change decides where the antenna points, and this is a bad moment. Nothing was
     /// sent.
     #[error("{hindrance}")]

@@ -10,9 +10,16 @@ use crate::{clock::Moment, device::AntennaState};
 pub(crate) struct ChangeQueue {
     groups: &'static [&'static Group],
     under_way: Option<SettingsWrite>,
-    waiting: VecDeque<Change>,
+    waiting: VecDeque<Waiting>,
     /// The unit is locked out: no setting is sent to it.
     are_locked: bool,
+}
+
+#[derive(Debug)]
+struct Waiting {
+    change: Change,
+    /// As of [`SettingsWrite::is_judged`].
+    is_judged: bool,
 }
 
 impl ChangeQueue {
@@ -39,16 +46,40 @@ impl ChangeQueue {
     }
 
     pub(crate) fn push(&mut self, change: Change, state: &mut AntennaState) {
-        state.group(change.group).step = Some(WriteStep::Waiting);
-        self.waiting.push_back(change);
+        self.push_back(Waiting { change, is_judged: false }, state);
+    }
+
+    /// Takes a change that the gate has judged as a motion.
+    pub(crate) fn push_judged(&mut self, change: Change, state: &mut AntennaState) {
+        self.push_back(Waiting { change, is_judged: true }, state);
+    }
+
+    fn push_back(&mut self, waiting: Waiting, state: &mut AntennaState) {
+        state.group(waiting.change.group).step = Some(WriteStep::Waiting);
+        self.waiting.push_back(waiting);
+    }
+
+    /// A halt has come: ends what the gate has judged as a motion and is not sent. Returns `true`
+    /// if that was the change under way.
+    pub(crate) fn void_judged(&mut self, state: &mut AntennaState, now: Moment) -> bool {
+        let is_void = |write: &mut SettingsWrite| write.is_judged() && !write.may_be_sent();
+        let begun = self.under_way.take_if(is_void).map(|write| write.change);
+        let was_under_way = begun.is_some();
+        let (void, others): (VecDeque<_>, _) =
+            self.waiting.drain(..).partition(|waiting| waiting.is_judged);
+        self.waiting = others;
+        for change in begun.into_iter().chain(void.into_iter().map(|waiting| waiting.change)) {
+            self.written(change, Err(WriteError::Stopped), state, now);
+        }
+        was_under_way
     }
 
     /// Starts the next change if none is under way.
     pub(crate) fn begin(&mut self, state: &mut AntennaState, now: Moment) {
         while self.under_way.is_none()
-            && let Some(change) = self.waiting.pop_front()
+            && let Some(Waiting { change, is_judged }) = self.waiting.pop_front()
         {
-            match SettingsWrite::new(&change, self.groups) {
+            match SettingsWrite::new(&change, self.groups, is_judged) {
                 Ok(settings_write) => {
                     self.under_way = Some(settings_write);
                     self.show(state);
@@ -107,7 +138,7 @@ impl ChangeQueue {
             let error = if is_lost { WriteError::LinkLost } else { WriteError::NoLink };
             self.written(settings_write.change, Err(error), state, now);
         }
-        while let Some(change) = self.waiting.pop_front() {
+        while let Some(Waiting { change, .. }) = self.waiting.pop_front() {
             self.written(change, Err(WriteError::NoLink), state, now);
         }
     }
@@ -119,7 +150,7 @@ impl ChangeQueue {
         state: &mut AntennaState,
         now: Moment,
     ) {
-        let is_followed = self.waiting.iter().any(|other| other.group == change.group);
+        let is_followed = self.waiting.iter().any(|other| other.change.group == change.group);
         state.end_change(change, result, is_followed, now);
     }
 

@@ -15,6 +15,8 @@ pub(crate) struct SettingsWrite {
     result: Result<(), WriteError>,
     /// Number of finished questions after the read-back.
     checked: usize,
+    /// The gate has judged where it leads an antenna that tracks.
+    is_judged: bool,
 }
 
 /// The answer that a change waits for.
@@ -35,6 +37,7 @@ impl SettingsWrite {
     pub(crate) fn new(
         change: &Change,
         groups: &'static [&'static Group],
+        is_judged: bool,
     ) -> Result<Self, WriteError> {
         let group = groups.iter().find(|group| group.key == change.group);
         let group = *group.ok_or(WriteError::NoSuchSetting)?;
@@ -47,7 +50,8 @@ impl SettingsWrite {
             return Err(WriteError::Locked);
         }
         let (before, step) = (Values::new(), Step::Look);
-        Ok(Self { change: change.clone(), group, step, before, result: Ok(()), checked: 0 })
+        let change = change.clone();
+        Ok(Self { change, group, step, before, result: Ok(()), checked: 0, is_judged })
     }
 
     pub(crate) fn step(&self) -> Step {
@@ -68,9 +72,16 @@ impl SettingsWrite {
         self.group.guard(&self.change.values) == Guard::Service
     }
 
-    /// Key of the first field of the change that decides where the antenna points.
+    /// Key of the first field of the change that decides where the antenna points and may be
+    /// sent only while it stands.
     pub(crate) fn moving_field(&self) -> Option<&'static str> {
-        self.group.moving_field(&self.change.values).map(|field| field.key)
+        let field = self.group.moving_field(&self.change.values).map(|field| field.key);
+        field.filter(|_| !self.is_judged)
+    }
+
+    /// Returns `true` for a motion: a change that the gate has judged while the antenna tracks.
+    pub(crate) fn is_judged(&self) -> bool {
+        self.is_judged
     }
 
     /// Returns `true` if the unit may have taken any of the change.

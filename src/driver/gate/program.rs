@@ -3,7 +3,13 @@
 use std::sync::Arc;
 
 use super::{Gate, Refusal};
-use crate::{astro::Angle, clock::Moment, device::Motion, driver::Intent, plan::on_board::Judge};
+use crate::{
+    astro::Angle,
+    clock::Moment,
+    device::{Motion, OnBoard},
+    driver::Intent,
+    plan::on_board::Judge,
+};
 
 /// What a unit would track by itself.
 #[derive(Debug, Clone)]
@@ -81,7 +87,16 @@ impl Gate {
     }
 
     fn path_is_clear(&self, judge: &Judge, now: Moment) -> Result<(), Refusal> {
-        let unit = &self.state().on_board;
+        self.path_of_is_clear(judge, &self.state().on_board, now)
+    }
+
+    /// [`Self::path_is_clear`] of a unit that would report `unit`.
+    pub(super) fn path_of_is_clear(
+        &self,
+        judge: &Judge,
+        unit: &OnBoard,
+        now: Moment,
+    ) -> Result<(), Refusal> {
         judge.is_clear(unit, &self.bounds).map_err(Refusal::Path)?;
         judge.start(unit, now.utc).map_or(Ok(()), |start| self.slew_is_clear(start, now))
     }

@@ -111,9 +111,15 @@ pub enum Refusal {
     Unguarded,
     #[error("the pass is not known")]
     PassUnknown,
-    /// An offset needs a track that runs from here.
-    #[error("nothing is tracked from here")]
+    /// An offset needs a track.
+    #[error("nothing is tracked")]
     NoTrack,
+    /// What the unit adds to its own track was not read.
+    #[error("the offsets of the unit are not known")]
+    OffsetsUnknown,
+    /// What the unit held before could not be recorded on disk.
+    #[error("what the unit held before could not be recorded on disk")]
+    NoOffsetsRecord,
     /// Along and across the way of a target that stands.
     #[error("the target does not move")]
     TargetStands,

@@ -4,13 +4,68 @@ use super::{Check, Gate, Refusal, Situation};
 use crate::{
     clock::Moment,
     device::{
-        Motion, TrackTarget,
+        Motion, OnBoard, TrackTarget,
         settings::{Change, WriteError},
     },
     driver::Intent,
+    plan::on_board::Judge,
 };
 
+/// What a unit that tracks by itself would do with other offsets.
+#[derive(Debug, Clone)]
+pub(in crate::driver) struct Shift {
+    /// The pass, from now on.
+    pub(in crate::driver) judge: Judge,
+    /// What it would report.
+    pub(in crate::driver) axes: OnBoard,
+    /// The same without the offsets that were added from here: where the beam points, if they make
+    /// up for errors of the mount.
+    pub(in crate::driver) sky: OnBoard,
+}
+
 impl Gate {
+    /// Checks whether a unit that tracks may get other offsets: a motion, whose whole way from now
+    /// on is looked at, by the axes and on the sky.
+    pub(in crate::driver) fn shift_is_clear(
+        &self,
+        shift: &Shift,
+        stopping: bool,
+        now: Moment,
+    ) -> Result<(), Refusal> {
+        let situation = self.situation(Intent::Track, stopping, now);
+        self.ask_rules(|check| match check {
+            Check::Moving(check) => check(&Motion::StartProgram.into(), &situation),
+            Check::AnySetting(check) => check(&situation),
+            _ => Ok(()),
+        })?;
+        self.path_of_is_clear(&shift.judge, &shift.axes, now)?;
+        shift.judge.is_clear(&shift.sky, &self.bounds).map_err(Refusal::Path)
+    }
+
+    /// Writes offsets of the unit's own track, or returns the reason not to. `shift` is what comes
+    /// of them; without one they are back to what the unit held before its track was shifted.
+    pub(in crate::driver) fn shift_track(
+        &mut self,
+        change: Change,
+        shift: Option<&Shift>,
+        stopping: bool,
+        now: Moment,
+    ) -> Result<(), Refusal> {
+        let situation = self.situation(Intent::Track, stopping, now);
+        self.ask_rules(|check| match check {
+            Check::AnySetting(check) => check(&situation),
+            _ => Ok(()),
+        })?;
+        if stopping {
+            return Err(Refusal::Stopping);
+        }
+        if let Some(shift) = shift {
+            self.shift_is_clear(shift, stopping, now)?;
+        }
+        self.controller.shift_track(change, now);
+        Ok(())
+    }
+
     /// Writes a change of settings to the unit, or returns the reason not to: a setting that
     /// decides where the antenna points waits until it stands and would not start by itself. A
     /// refusal also appears among the outcomes of the settings. `may_move`: a motion was

@@ -68,7 +68,7 @@ pub enum Command {
     /// Program track of a target that leads to the Sun: the operator lifts the Sun avoidance
     /// for this track alone.
     ProgramTrackIntoSun(Box<ProgramTrack>),
-    /// Change the offsets of the program track that runs.
+    /// Change the offsets of the track that runs.
     Offset(OffsetChange),
     /// Begin the next passes of the program track with these offsets; the present ones stay.
     FirstOffsets(TrackOffsets),
@@ -277,7 +277,7 @@ impl Session {
 
     /// Sends what waited for a halt to end.
     pub(super) fn start_queued(&mut self, now: Moment) {
-        if self.stop.is_under_way() {
+        if self.stop.is_under_way() || self.takes_offsets_back() {
             return;
         }
         let intent = self.activity.intent();

@@ -313,6 +313,7 @@ impl Session {
             .supervise_due()
             .into_iter()
             .chain(self.marking_due(now.steady))
+            .chain(self.shift_due(now.steady))
             .chain(self.link_due())
             .chain(self.silence_due())
             .chain([due])

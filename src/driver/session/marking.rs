@@ -150,7 +150,7 @@ impl Session {
 }
 
 /// The outcome of a task that has ended.
-fn take_now(ended: &mut JoinHandle<io::Result<()>>) -> Option<io::Result<()>> {
+pub(super) fn take_now(ended: &mut JoinHandle<io::Result<()>>) -> Option<io::Result<()>> {
     use std::{
         future::Future as _,
         pin::Pin,

@@ -1,4 +1,4 @@
-//! Offsets of a program track, changed while it runs.
+//! Offsets of a track, changed while it runs.
 
 use serde::{Deserialize, Serialize};
 
@@ -29,7 +29,12 @@ pub enum OffsetChange {
 
 impl Session {
     pub(super) fn change_offsets(&mut self, change: OffsetChange, now: Moment) {
-        if let Err(refusal) = self.try_offsets(change, now) {
+        let changed = if self.activity.program().is_some() {
+            self.try_offsets(change, now)
+        } else {
+            self.change_unit_offsets(change, now)
+        };
+        if let Err(refusal) = changed {
             self.tell(Event::NotSent(refusal));
         }
     }
@@ -109,11 +114,11 @@ impl Session {
         let to_sky = track.and_then(|track| {
             track.planner.to_sky(track.phase.begins(now.utc), track.planner.offsets())
         });
-        self.gate.set_to_sky(to_sky);
+        self.gate.set_to_sky(to_sky.or_else(|| self.unit_to_sky(now)));
     }
 }
 
-fn most(step: Offset) -> Offset {
+pub(super) fn most(step: Offset) -> Offset {
     match step {
         Offset::Time(_) => Offset::Time(MAX_TIME_OFFSET),
         Offset::Along(_) => Offset::Along(MAX_ANGLE_OFFSET),

@@ -95,7 +95,8 @@ impl Session {
         let name = pass.target.name.clone();
         let judge = Judge::new(pass, self.setup.ability)
             .map_err(|error| Event::CannotProgramTrack(name, TrackProblem::Orbit(error)))?;
-        let watch = Watch::new(Arc::new(judge), &self.gate.state().on_board);
+        // What was added for another track is taken back before this one begins.
+        let watch = Watch::new(Arc::new(judge), &self.plain_unit());
         if let Some(event) = watch.objection() {
             return Err(event);
         }
@@ -172,17 +173,18 @@ impl Session {
         if !is_on || self.activity.is_pending() {
             return;
         }
+        let (unit, meant, measured) = (self.plain_unit(), self.meant_offsets(), state.measured);
         let asked = self.activity.on_board_mut().map(|track| &mut track.watch);
         let Some(watch) = asked.or(self.unasked.as_mut()) else { return };
-        watch.judge_again(&state.on_board, true);
-        let Some(measured) = state.measured else { return };
+        watch.judge_again(&unit, true);
+        let Some(measured) = measured else { return };
         let target = &watch.judge.pass().target;
         let is_up = (target.from..target.until).contains(&measured.at);
         if !is_up || watch.compared == Some(measured.received) {
             return;
         }
         watch.compared = Some(measured.received);
-        let predicted = watch.judge.direction(measured.at);
+        let predicted = meant.demanded(measured.at, |at| watch.judge.direction(at));
         let off = predicted.and_then(|predicted| measured.pointing.separation(predicted.into()));
         let Some(off) = off else { return };
         if off <= self.setup.ability.half_beam {

@@ -33,9 +33,10 @@ impl Session {
         let mut buffer = [0; 4096];
         let clock = self.clock.clone();
         let until = start.steady + STANDSTILL_WITHIN + self.setup.figures.gap();
-        while self.is_in_debt() && self.now().steady < until {
+        while (self.is_in_debt() || self.owes_offsets()) && self.now().steady < until {
             let now = self.now();
             self.watch_auto_track(now);
+            self.watch_unit_offsets(now);
             if let Err(loss) = self.send(writer).await {
                 return tracing::error!(
                     antenna = self.name,

@@ -114,6 +114,7 @@ impl Session {
         self.key.end();
         self.stepping = None;
         self.doubt = None;
+        self.void_shift();
         self.activity.halt();
         if pressed {
             self.end_auto_track();

@@ -48,6 +48,7 @@ impl Session {
         self.watch_standstill();
         self.watch_lock_out(now);
         self.watch_auto_track(now);
+        self.watch_unit_offsets(now);
         self.forget_old_stop(now);
         self.start_queued(now);
         self.watch_slew(now);

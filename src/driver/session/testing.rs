@@ -25,21 +25,32 @@ pub(in crate::driver) fn start(
     debts: Debts,
     wired: impl FnOnce(Wires) -> Wires,
 ) -> (Control, AntennaHandle) {
-    let antenna = antenna();
     let control = Control::new(&Options::new(Station::default().site, START));
-    let serve = control.clone();
+    let handle = over(control.clone(), START, debts, wired);
+    (control, handle)
+}
+
+/// Starts a session with a unit that runs already, whose time is `now`.
+pub(in crate::driver) fn over(
+    control: Control,
+    now: Timestamp,
+    debts: Debts,
+    wired: impl FnOnce(Wires) -> Wires,
+) -> AntennaHandle {
+    let antenna = antenna();
+    let serve = control;
     let dial: Dial = Box::new(move || {
         let (near, far) = tokio::io::duplex(4096);
         let control = serve.clone();
         tokio::spawn(async move { control.serve(far).await });
         Box::pin(async { Ok(Box::new(near) as Box<dyn Stream>) })
     });
-    let clock = Clock::at_speed(START, NonZeroU32::MIN);
+    let clock = Clock::at_speed(now, NonZeroU32::MIN);
     let bounds = Bounds::of_antenna(&antenna);
     let (wires, handle) =
         Wires::new(&antenna, bounds, clock.now().steady, Arc::new(|| {}), &Orders::default());
     let satrak = Box::new(Satrak::new(antenna.poll, "stations.txt".to_owned()));
     let session = Session::over(satrak, &antenna, dial, clock, wired(wires), debts);
     tokio::spawn(session.run());
-    (control, handle)
+    handle
 }

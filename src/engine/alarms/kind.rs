@@ -6,12 +6,13 @@ use jiff::Timestamp;
 use serde::{Deserialize, Serialize};
 
 use crate::{
-    astro::Angle,
+    astro::{Angle, TrackOffsets},
     device::{
         Asked, PrepareError, TrackTarget,
         panel::{Check, CheckState},
+        settings::WriteError,
     },
-    driver::{Event, Found, LinkLoss, Safety, TrackProblem, Unit},
+    driver::{Event, Found, LeftOffsets, LinkLoss, Safety, TrackProblem, Unit},
     engine::{automatic::OffBecause, claim::HeldBy, passes::PassKey},
     name::{self, Name},
     plan::on_board::Ranked,
@@ -71,6 +72,13 @@ pub enum AlarmKind {
     },
     /// By the unit's own settings it would miss a pass; with the likeliest cause.
     UnitDiffers(Ranked),
+    /// The unit still adds offsets that were written for a track.
+    OffsetsLeft {
+        offsets: TrackOffsets,
+        why: LeftOffsets,
+    },
+    /// An offset of the unit's own track was not written.
+    OffsetNotTaken(WriteError),
     /// The unit tracks on board, but its target direction is unknown here.
     NotCompared {
         /// Name of the satellite that the unit reports, without known elements; `None`
@@ -183,6 +191,7 @@ impl AlarmKind {
             | Self::JogPositionOld
             | Self::AutoTrackOwed(_)
             | Self::OffTarget { .. }
+            | Self::OffsetsLeft { why: LeftOffsets::Failed(_), .. }
             | Self::NotOnItsWay { .. }
             | Self::AutomaticMoves { .. }
             | Self::AutomaticOff(_)
@@ -212,6 +221,7 @@ impl AlarmKind {
                 | Self::Check(_)
                 | Self::ClockOff(_)
                 | Self::OffTarget { .. }
+                | Self::OffsetsLeft { .. }
                 | Self::UnitDiffers(_)
                 | Self::NotCompared { .. }
                 | Self::NoAntennaFor { .. }
@@ -302,6 +312,7 @@ pub fn alarm_of(event: &Event) -> Option<AlarmKind> {
         Event::LockOutUnproved => AlarmKind::LockOutUnproved,
         Event::Refused(asked, code) => AlarmKind::Refused(asked, code),
         Event::Unanswered(asked) => AlarmKind::Unanswered(asked),
+        Event::OffsetNotTaken(error) => AlarmKind::OffsetNotTaken(error),
         Event::CannotTrack(target, reason) => AlarmKind::CannotTrack(target, reason),
         Event::CannotProgramTrack(name, problem) => AlarmKind::CannotProgramTrack(name, problem),
         Event::TrackingEnded { completed: false } => AlarmKind::TrackingEnded,

@@ -4,13 +4,14 @@ use jiff::{Timestamp, ToSpan as _, tz};
 
 use super::*;
 use crate::{
-    astro::Angle,
+    astro::{Angle, TrackOffsets},
     clock::{Instant, Moment},
     device::{
         Asked, PrepareError, TrackTarget,
         panel::{Check, CheckState},
+        settings::WriteError,
     },
-    driver::{LinkLoss, Mover, Response, Safety, TrackProblem, Unit},
+    driver::{LeftOffsets, LinkLoss, Mover, Response, Safety, TrackProblem, Unit},
     engine::{
         alarms::{AlarmKind, Alarms, ShelveTime, Work},
         automatic::OffBecause,
@@ -265,6 +266,8 @@ fn every_kind() -> Vec<AlarmKind> {
         K::CannotTrack(target, PrepareError::CannotBeSent(text())),
         K::CannotProgramTrack(text(), TrackProblem::NoPass),
         K::OffTarget { off: Angle::from_degrees(1.0), cause: None },
+        K::OffsetsLeft { offsets: TrackOffsets::NONE, why: LeftOffsets::Found { since: time() } },
+        K::OffsetNotTaken(WriteError::Unanswered),
         K::UnitDiffers(ranked()),
         K::NotCompared { satellite: None },
         K::NoAntennaFor { pass: (25_544, time()), name: text() },
@@ -321,6 +324,8 @@ fn is_listed(kind: &AlarmKind) {
         | K::CannotTrack(..)
         | K::CannotProgramTrack(..)
         | K::OffTarget { .. }
+        | K::OffsetsLeft { .. }
+        | K::OffsetNotTaken(_)
         | K::UnitDiffers(_)
         | K::NotCompared { .. }
         | K::NoAntennaFor { .. }

@@ -242,6 +242,10 @@ impl Followed {
                 self.about.sent = Some(view.stats.commands);
                 self.about.offsets.note(now, view.offsets);
             }
+            let shown = &antenna.shown;
+            if !shown.follows() && shown.tracks() && shown.tracked_number() == Some(number) {
+                self.about.offsets.note(now, snapshot.meant_offsets());
+            }
             let clock = snapshot.state.on_board.clock.filter(|clock| clock.is_set);
             self.about.unit_clock_ahead_s =
                 clock.map(|clock| clock.ahead_s).or(self.about.unit_clock_ahead_s);

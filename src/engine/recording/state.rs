@@ -24,7 +24,7 @@ pub(super) struct State {
     /// Name and catalog number of what is tracked.
     tracks: Option<(Option<String>, Option<u32>)>,
     program_track: Option<TrackPhase>,
-    /// Offsets of program track.
+    /// Offsets of program track, or added from here to those of the unit.
     offsets: Option<TrackOffsets>,
     on_board_track: Option<Phase>,
     auto_track: Option<bool>,
@@ -56,7 +56,8 @@ impl State {
             tracks: is_tracked
                 .then(|| (antenna.tracked_name().map(str::to_owned), antenna.tracked_number())),
             program_track: snapshot.program_track.as_ref().map(|view| view.phase),
-            offsets: snapshot.program_track.as_ref().map(|view| view.offsets),
+            offsets: (snapshot.program_track.as_ref().map(|view| view.offsets))
+                .or(snapshot.unit_offsets.as_ref().map(|unit| unit.offsets)),
             on_board_track: program.filter(|it| it.enabled).map(|program| program.phase),
             auto_track: program.and_then(|program| program.auto),
             stop: match snapshot.stop {

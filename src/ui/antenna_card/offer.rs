@@ -1,18 +1,21 @@
-//! The line below the sentence that offers to track again after STOP, or to take over what
-//! the unit tracks by itself.
+//! The line below the sentence that offers to track again after STOP, to take over what the unit
+//! tracks by itself, or to take back offsets that were left on it.
 
 use egui::{Align2, Rect, Ui, vec2};
 
 use super::CardAction;
-use crate::ui::{
-    text, theme,
-    widgets::{
-        button::{self, Button},
-        paint,
+use crate::{
+    driver::OffsetChange,
+    ui::{
+        text, theme,
+        widgets::{
+            button::{self, Button},
+            paint,
+        },
     },
 };
 
-/// A track that one click takes up, by the name of its target.
+/// What one click does; a track by the name of its target.
 #[derive(Debug, Clone, Copy)]
 pub enum Offer<'a> {
     /// It was tracked until STOP.
@@ -21,6 +24,8 @@ pub enum Offer<'a> {
     TakeOver(&'a str),
     /// Automatic operation is suspended; it would go on with this pass.
     GoOn(&'a str),
+    /// The unit still adds these offsets of an earlier pass.
+    TakeBack(&'a str),
 }
 
 /// Height of the line, with the space above it.
@@ -44,6 +49,12 @@ pub(super) fn show(ui: &Ui, block: Rect, offer: Offer<'_>, actions: &mut Vec<Car
             pass,
             format!("{pass}: automatic operation is suspended"),
             CardAction::GoOn,
+        ),
+        Offer::TakeBack(added) => (
+            format!("Left on the unit: {added}."),
+            "Take back",
+            format!("Take back {added}"),
+            CardAction::Offset(OffsetChange::Zero),
         ),
         Offer::TakeOver(name) => (
             "Not by this console.".to_owned(),

@@ -25,29 +25,45 @@ const GAP: f32 = 4.0;
 /// Width of the choice of steps.
 const STEPS: f32 = 132.0;
 
-/// Content of the section.
+/// Content of the section: what can be added to a track.
 #[derive(Debug, Clone, Copy)]
-pub enum OffsetsModel<'a> {
-    /// Those of a track that runs from here.
-    FromHere(OffsetPad<'a>),
-    /// Those that a unit adds to its own track, in words.
-    OnUnit(&'a str),
-}
-
-/// What can be added to a track that runs from here.
-#[derive(Debug, Clone, Copy)]
-pub struct OffsetPad<'a> {
+pub struct OffsetsModel<'a> {
+    /// In force.
     pub offsets: TrackOffsets,
     /// There is a change to be undone.
     pub can_undo: bool,
-    /// The target has a way over the sky, so that something is along and across it.
-    pub target_moves: bool,
-    pub has_elevation: bool,
     /// The reason why nothing is changed now.
     pub locked: Option<&'a str>,
-    /// What they can be remembered of: its name, and whether what is on differs from what is
-    /// remembered.
-    pub keep: &'a [(OffsetsOf, &'a str, bool)],
+    pub of: OffsetsIn<'a>,
+}
+
+/// What holds the offsets.
+#[derive(Debug, Clone, Copy)]
+pub enum OffsetsIn<'a> {
+    /// Azel, which sends position after position.
+    Azel {
+        /// The target has a way over the sky, so that something is along and across it.
+        target_moves: bool,
+        has_elevation: bool,
+        /// What they can be remembered of: its name, and whether what is on differs from what is
+        /// remembered.
+        keep: &'a [(OffsetsOf, &'a str, bool)],
+    },
+    /// The unit, which tracks by itself; with what it adds in all, in words.
+    Unit { held: &'a str, is_changing: bool },
+}
+
+impl OffsetsIn<'_> {
+    fn offers(self, offset: Offset) -> bool {
+        match self {
+            Self::Azel { target_moves, has_elevation, .. } => match offset {
+                Offset::Along(_) | Offset::Across(_) => target_moves,
+                Offset::Elevation(_) => has_elevation,
+                Offset::Time(_) | Offset::Azimuth(_) => true,
+            },
+            Self::Unit { .. } => matches!(offset, Offset::Azimuth(_) | Offset::Elevation(_)),
+        }
+    }
 }
 
 /// Size of a step, in thousandths of a degree or of a second.
@@ -82,12 +98,11 @@ pub struct OffsetsState {
 
 /// The value and mark of the section's line.
 pub(super) fn in_words(ui: &Ui, model: &OffsetsModel<'_>) -> (String, Option<(Icon, Color32)>) {
-    match model {
-        OffsetsModel::OnUnit(words) => ((*words).to_owned(), None),
-        OffsetsModel::FromHere(pad) => {
-            let mark = (Icon::Sliders, theme::tokens(ui).cmd);
-            (words::offsets(pad.offsets), (!pad.offsets.is_none()).then_some(mark))
-        }
+    let mark = (Icon::Sliders, theme::tokens(ui).cmd);
+    let (said, mark) = (words::offsets(model.offsets), (!model.offsets.is_none()).then_some(mark));
+    match model.of {
+        OffsetsIn::Unit { is_changing: true, .. } => (format!("{said}, being set"), mark),
+        OffsetsIn::Unit { .. } | OffsetsIn::Azel { .. } => (said, mark),
     }
 }
 
@@ -100,23 +115,9 @@ pub(super) fn show(
 ) {
     let t = theme::tokens(ui);
     at.skip(4.0);
-    let OffsetsModel::FromHere(model) = model else {
-        let words = words::OFFSETS_ON_UNIT;
-        let taken = paint::paragraph(ui, at.at(), at.width(), words, text::small(), t.t2);
-        paint::name_text(ui, "offsets on the unit", taken, words);
-        at.y = taken.bottom() + 8.0;
-        return;
-    };
-    for offset in model.offsets.each() {
-        let is_offered = match offset {
-            Offset::Along(_) | Offset::Across(_) => model.target_moves,
-            Offset::Elevation(_) => model.has_elevation,
-            Offset::Time(_) | Offset::Azimuth(_) => true,
-        };
-        if is_offered {
-            row(ui, at.take(SMALL_HEIGHT), offset, model, state.step, actions);
-            at.skip(GAP);
-        }
+    for offset in model.offsets.each().into_iter().filter(|offset| model.of.offers(*offset)) {
+        row(ui, at.take(SMALL_HEIGHT), offset, model, state.step, actions);
+        at.skip(GAP);
     }
     let row = at.take(SMALL_HEIGHT);
     let head = paint::text(ui, row.left_center(), Align2::LEFT_CENTER, "Step", text::small(), t.t2);
@@ -144,8 +145,18 @@ pub(super) fn show(
         }
     }
     at.skip(GAP);
-    keep(ui, at.take(SMALL_HEIGHT), model, actions);
-    at.skip(GAP);
+    match model.of {
+        OffsetsIn::Azel { keep, .. } => {
+            self::keep(ui, at.take(SMALL_HEIGHT), keep, actions);
+            at.skip(GAP);
+        }
+        OffsetsIn::Unit { held, .. } => {
+            let words = words::offsets_on_unit_about(held);
+            let taken = paint::paragraph(ui, at.at(), at.width(), &words, text::small(), t.t2);
+            paint::name_text(ui, "offsets on the unit", taken, &words);
+            at.y = taken.bottom() + GAP;
+        }
+    }
     if let Some(why) = model.locked {
         let glyph = paint::square(pos2(at.left + 7.0, at.y + 8.0), 13.0);
         icons::paint(ui.painter(), glyph, Icon::Lock, t.t2);
@@ -158,14 +169,14 @@ pub(super) fn show(
 }
 
 /// A button for each that the offsets can be remembered of.
-fn keep(ui: &Ui, row: Rect, model: &OffsetPad<'_>, actions: &mut Vec<CardAction>) {
+fn keep(ui: &Ui, row: Rect, kept: &[(OffsetsOf, &str, bool)], actions: &mut Vec<CardAction>) {
     let t = theme::tokens(ui);
     let words = "Remember for";
     let head = paint::text(ui, row.left_center(), Align2::LEFT_CENTER, words, text::small(), t.t2);
     let room = row.with_min_x(head.right() + 8.0);
     let width = (room.width() - GAP) / 2.0;
     let mut left = room.left();
-    for (of, name, differs) in model.keep {
+    for (of, name, differs) in kept {
         let place = room.with_min_x(left).with_max_x(left + width);
         left = place.right() + GAP;
         let about = match of {
@@ -188,7 +199,7 @@ fn row(
     ui: &Ui,
     row: Rect,
     offset: Offset,
-    model: &OffsetPad<'_>,
+    model: &OffsetsModel<'_>,
     step: OffsetStep,
     actions: &mut Vec<CardAction>,
 ) {

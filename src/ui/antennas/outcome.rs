@@ -78,6 +78,7 @@ pub(super) fn sentence(
         WriteError::Moving => {
             format!("{subject}: not sent, the antenna is moving. Apply when it has stopped.")
         }
+        WriteError::Stopped => format!("{subject}: not sent, STOP came first."),
         WriteError::Hindered { field, hindrance } => {
             let label = group.field(field).map_or(subject, |field| field.label);
             format!("{label}: not sent. {} Your edit is kept.", words::hindrance(*hindrance))

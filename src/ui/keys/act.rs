@@ -4,7 +4,7 @@ use egui::{FocusDirection, Ui};
 
 use super::KeyTargets;
 use crate::{
-    astro::Offset,
+    astro::{Offset, TrackOffsets},
     driver::{self, Intent, OffsetChange},
     engine::{self, antenna::AntennaModel, passes::PredictedPass},
     model::{
@@ -114,7 +114,7 @@ impl Act {
                 !matches!(model.view, View::Antennas | View::Map | View::Plan | View::Setup)
             }
             Self::RefreshElements => model.sources.is_free(),
-            Self::Offset(_) => model.antenna().is_some_and(AntennaModel::follows),
+            Self::Offset(key) => model.antenna().is_some_and(|of| key.offsets(of).is_some()),
             _ => true,
         }
     }
@@ -162,8 +162,7 @@ impl Act {
             Self::Manual => manual(model, targets, commands),
             Self::Offset(key) => {
                 let step = targets.operate.card.offsets.step;
-                let antenna = model.antenna().filter(|of| of.follows());
-                let asked = antenna.and_then(|of| Some((of.id(), key.change(of, step)?)));
+                let asked = model.antenna().and_then(|of| Some((of.id(), key.change(of, step)?)));
                 commands.extend(
                     asked.map(|(id, change)| {
                         UiCommand::antenna(id, driver::Command::Offset(change))
@@ -243,9 +242,25 @@ pub(super) enum OffsetKey {
 }
 
 impl OffsetKey {
+    /// Those that are on, where the key can change them.
+    fn offsets(self, antenna: &AntennaModel) -> Option<TrackOffsets> {
+        let snapshot = &antenna.snapshot;
+        if antenna.follows() {
+            return Some(snapshot.program_track.as_ref()?.offsets);
+        }
+        antenna.variant().track_offsets.filter(|_| antenna.tracks())?;
+        let is_held = match self {
+            Self::Less(offset) | Self::More(offset) => {
+                matches!(offset, Offset::Azimuth(_) | Offset::Elevation(_))
+            }
+            Self::Undo => true,
+            Self::Time { .. } | Self::TimeToZero => false,
+        };
+        is_held.then(|| snapshot.meant_offsets())
+    }
+
     fn change(self, antenna: &AntennaModel, step: OffsetStep) -> Option<OffsetChange> {
-        let now = antenna.snapshot.program_track.as_ref()?.offsets;
-        let [time, ..] = now.each();
+        let [time, ..] = self.offsets(antenna)?.each();
         Some(match self {
             Self::Time { is_more } => {
                 let step = OffsetStep::Medium.of(time);

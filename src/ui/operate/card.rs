@@ -99,7 +99,7 @@ pub(super) fn show(
                 is_replayed: model.replay.is_some(),
             },
             sentence: *sentence,
-            offer: offer(antenna, go_on.as_deref()),
+            offer: offer(antenna, go_on.as_deref(), offsets.left()),
 
             axes: AxesTable {
                 wanted,
@@ -180,9 +180,16 @@ pub(super) fn none(ui: &mut Ui, rect: Rect, model: &Model, commands: &mut Vec<Ui
     }
 }
 
-/// The line below the sentence: a track to take up again or to take over, or automatic operation
-/// that is suspended.
-fn offer<'a>(antenna: &'a AntennaModel, go_on: Option<&'a str>) -> Option<Offer<'a>> {
+/// The line below the sentence: offsets to take back, a track to take up again or to take over, or
+/// automatic operation that is suspended.
+fn offer<'a>(
+    antenna: &'a AntennaModel,
+    go_on: Option<&'a str>,
+    left: Option<&'a str>,
+) -> Option<Offer<'a>> {
+    if let Some(added) = left {
+        return Some(Offer::TakeBack(added));
+    }
     let again = antenna.track_again.as_ref().map(|again| Offer::TrackAgain(short(&again.name)));
     let name = antenna.tracked_name().filter(|_| antenna.tracks_unasked());
     // Where the elements are not known here, there is nothing to watch it by.

@@ -18,8 +18,7 @@ pub(super) fn sentence(model: &Model, antenna: &AntennaModel) -> Option<Spoken> 
     if seconds_between(*at, model.now) > SHOWN_S {
         return None;
     }
-    let now = model.now;
-    let name = &antenna.config.name;
+    let (now, name) = (model.now, &antenna.config.name);
     let can = antenna.variant().capabilities;
     let caution = Spoken::new(SentenceKind::Caution);
     let reason = |of| words::reason(of, &model.station);
@@ -60,6 +59,7 @@ pub(super) fn sentence(model: &Model, antenna: &AntennaModel) -> Option<Spoken> 
             "{}: the unit did not answer and does not move. It is not sent again.",
             words::asked(*asked)
         )),
+        Event::OffsetNotTaken(error) => caution.plain(words::offset_not_taken(error)),
         Event::CannotTrack(target, reason) => caution
             .plain("Not tracking ")
             .bold(short(&target.name))

@@ -115,6 +115,10 @@ pub fn alarm(kind: &AlarmKind, antenna: &str, now: Timestamp) -> String {
                 ),
             }
         }
+        AlarmKind::OffsetsLeft { offsets, why } => super::offsets_left(antenna, *offsets, why, now),
+        AlarmKind::OffsetNotTaken(error) => {
+            format!("{antenna}: {}", super::offset_not_taken(error))
+        }
         AlarmKind::UnitDiffers(ranked) => {
             let why = cause_of(ranked);
             format!("{antenna}, tracking by itself, would miss its satellite: {why}.")

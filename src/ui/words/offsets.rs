@@ -1,17 +1,26 @@
 //! Offsets of a track.
 
-use jiff::SignedDuration;
+use jiff::{SignedDuration, Timestamp};
 
 use crate::{
     astro::{Angle, Offset, TrackOffsets},
-    device,
+    device::{self, settings::WriteError},
+    driver::LeftOffsets,
     ui::format,
 };
 
-/// Why there is no pad for a unit that tracks by itself.
-pub const OFFSETS_ON_UNIT: &str = "The unit tracks by itself and adds these. Set them under \
-     Antennas while it is at rest. For offsets during a pass, \
-     follow the satellite from here, with the menu beside Track.";
+/// Why a unit that tracks by itself gets no offsets.
+pub const OFFSETS_NEED_ELEMENTS: &str =
+    "Azel has no elements of what the unit tracks, and cannot judge where an offset would lead.";
+
+/// What becomes of offsets that a unit adds to its own track, which it adds `held` to in all.
+pub fn offsets_on_unit_about(held: &str) -> String {
+    format!(
+        "Each step is written to the unit, read back, and taken back after the track. The unit adds \
+         in all: {held}. It holds nothing along or across, and the sign of its time is not \
+         documented: for these, follow from here."
+    )
+}
 
 /// The offsets that a unit adds to its own track.
 pub fn offsets_on_unit(unit: Option<&device::Offsets>) -> String {
@@ -24,6 +33,32 @@ pub fn offsets_on_unit(unit: Option<&device::Offsets>) -> String {
         step(Offset::Elevation(Angle::ZERO), unit.elevation_deg),
     ];
     listed(each.into_iter())
+}
+
+/// An offset that was not added to the track of a unit.
+pub fn offset_not_taken(error: &WriteError) -> String {
+    format!("The offset is not in force: {error}.")
+}
+
+/// Offsets of a track that are still on a unit.
+pub fn offsets_left(
+    antenna: &str,
+    added: TrackOffsets,
+    why: &LeftOffsets,
+    now: Timestamp,
+) -> String {
+    let added = offsets(added);
+    match why {
+        LeftOffsets::Found { since } => format!(
+            "The unit of {antenna} still adds {added} to its tracks, written for a pass at {}. Take \
+             it back.",
+            format::moment(*since, now)
+        ),
+        LeftOffsets::Failed(error) => format!(
+            "The unit of {antenna} may still add {added} to its tracks: it was not taken back, since \
+             {error}. Take it back, or set it under Antennas."
+        ),
+    }
 }
 
 /// Name of an offset, as its line on the card says.

@@ -108,7 +108,15 @@ pub fn refusal(refusal: &Refusal, now: Timestamp) -> String {
         Refusal::Stopping => "Not sent: a stop is under way.".to_owned(),
         Refusal::PassUnknown => "Not sent: the pass is not known. Choose it again.".to_owned(),
         Refusal::NoTrack => {
-            "Not sent: Azel is tracking nothing that an offset could be added to.".to_owned()
+            "Not sent: nothing is tracked that an offset could be added to.".to_owned()
+        }
+        Refusal::OffsetsUnknown => {
+            "Not sent: what the unit adds to its track has not been read yet. Try again.".to_owned()
+        }
+        Refusal::NoOffsetsRecord => {
+            "Not sent: what the unit held before could not be recorded on disk, and would be lost if \
+             Azel ended. Make room on the disk."
+                .to_owned()
         }
         Refusal::TargetStands => {
             "Not sent: the target does not move, so nothing is along or across its track. Use \

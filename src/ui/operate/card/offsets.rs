@@ -6,7 +6,7 @@ use crate::{
     model::Model,
     station::OffsetsOf,
     ui::{
-        antenna_card::{OffsetPad, OffsetsModel},
+        antenna_card::{OffsetsIn, OffsetsModel},
         state_sentence::short,
         words,
     },
@@ -18,30 +18,57 @@ pub(super) struct CardOffsets<'a> {
     keep: Vec<(OffsetsOf, &'a str, bool)>,
     /// Those of the unit, in words.
     on_unit: String,
+    /// Those that are still on the unit although no track needs them, in words.
+    left: Option<String>,
 }
 
 impl<'a> CardOffsets<'a> {
     pub(super) fn of(model: &Model, antenna: &'a AntennaModel) -> Self {
         let of_unit = antenna.snapshot.state.on_board.offsets.as_ref();
-        Self { keep: kept(model, antenna), on_unit: words::offsets_on_unit(of_unit) }
+        Self {
+            keep: kept(model, antenna),
+            on_unit: words::offsets_on_unit(of_unit),
+            left: left(antenna),
+        }
+    }
+
+    pub(super) fn left(&self) -> Option<&str> {
+        self.left.as_deref()
     }
 
     /// The offsets of the track that runs, from here or on board.
     pub(super) fn model(&self, antenna: &AntennaModel, locks: &Locks) -> Option<OffsetsModel<'_>> {
         let can = antenna.variant().capabilities;
         if !antenna.follows() {
-            let is_on_board = can.has_program && antenna.tracks();
-            return is_on_board.then_some(OffsetsModel::OnUnit(&self.on_unit));
+            return self.on_unit(antenna, locks);
         }
         let track = antenna.snapshot.program_track.as_ref()?;
-        Some(OffsetsModel::FromHere(OffsetPad {
+        Some(OffsetsModel {
             offsets: track.offsets,
             can_undo: track.can_undo,
-            target_moves: track.target_moves,
-            has_elevation: can.has_elevation(),
             locked: locks.link,
-            keep: &self.keep,
-        }))
+            of: OffsetsIn::Azel {
+                target_moves: track.target_moves,
+                has_elevation: can.has_elevation(),
+                keep: &self.keep,
+            },
+        })
+    }
+
+    fn on_unit(&self, antenna: &AntennaModel, locks: &Locks) -> Option<OffsetsModel<'_>> {
+        antenna.variant().track_offsets.filter(|_| antenna.tracks())?;
+        let snapshot = &antenna.snapshot;
+        let added = snapshot.unit_offsets.as_ref();
+        let unknown = snapshot.on_board.is_none().then_some(words::OFFSETS_NEED_ELEMENTS);
+        Some(OffsetsModel {
+            offsets: added.map(|unit| unit.offsets).unwrap_or_default(),
+            can_undo: added.is_some_and(|unit| unit.can_undo),
+            locked: locks.link.or(unknown),
+            of: OffsetsIn::Unit {
+                held: &self.on_unit,
+                is_changing: added.is_some_and(|unit| unit.is_changing),
+            },
+        })
     }
 }
 
@@ -53,4 +80,10 @@ fn kept<'a>(model: &Model, antenna: &'a AntennaModel) -> Vec<(OffsetsOf, &'a str
     let each = of_satellite.into_iter().chain([of_antenna]);
     let differs = |of: OffsetsOf| of.part(track.offsets) != model.station.kept_offsets(of);
     each.map(|(of, name)| (of, name, differs(of))).collect()
+}
+
+fn left(antenna: &AntennaModel) -> Option<String> {
+    let unit = antenna.snapshot.unit_offsets.as_ref()?;
+    let is_left = unit.left.is_some() && !unit.offsets.is_none() && !unit.is_changing;
+    is_left.then(|| words::offsets(unit.offsets))
 }

@@ -1,0 +1,325 @@
+//! Offsets of a track that the unit computes: added from here while it tracks, read back, and taken
+//! back once the track is over.
+
+mod added;
+
+use std::{io, time::Duration};
+
+use jiff::Timestamp;
+use tokio::task::{JoinHandle, spawn_blocking};
+
+use super::{Event, OffsetChange, Session, marking::take_now, offsets::most};
+use crate::{
+    astro::{Offset, TrackOffsets},
+    clock::{Instant, Moment},
+    device::{
+        OnBoard, TrackOffsetFields,
+        settings::{Change, WriteError},
+    },
+    driver::{LeftOffsets, Refusal, debts::ShiftedTrack, gate::Shift},
+    plan::{OnBoardPass, on_board::Judge},
+};
+
+/// Tickets from here on are those of sessions.
+const TICKETS: u64 = 1 << 62;
+/// Interval at which the write of a record is checked.
+const LOOK: Duration = Duration::from_millis(2);
+
+/// What is under way.
+#[derive(Default)]
+pub(super) struct UnitOffsets {
+    step: Step,
+    /// What the operator wants to be added, until it is.
+    wanted: Option<TrackOffsets>,
+    /// Those before each change, the oldest first.
+    earlier: Vec<TrackOffsets>,
+    /// Catalog number and window of the track that was shifted.
+    of: Option<TrackOf>,
+    /// After a change that was not read back, the unit has to be read again: when it was read last.
+    unread_since: Option<Timestamp>,
+    /// Why what was written is still there.
+    left: Option<LeftOffsets>,
+    tickets: u64,
+}
+
+type TrackOf = (u32, Option<(Timestamp, Timestamp)>);
+
+#[derive(Default)]
+enum Step {
+    #[default]
+    None,
+    /// What the unit held before, and what it will hold with `wanted`, is being recorded on disk.
+    Marking { wanted: TrackOffsets, writing: JoinHandle<io::Result<()>> },
+    /// On its way to the unit.
+    Writing { ticket: u64 },
+}
+
+impl Session {
+    /// Changes what is added to the offsets of the unit's own track.
+    pub(super) fn change_unit_offsets(
+        &mut self,
+        change: OffsetChange,
+        now: Moment,
+    ) -> Result<(), Refusal> {
+        let fields = self.variant.track_offsets.ok_or(Refusal::NoTrack)?;
+        let in_force = self.added_offsets();
+        let is_running = self.on_board_is_running();
+        if !is_running && in_force.is_none_or(TrackOffsets::is_none) {
+            return Err(Refusal::NoTrack);
+        }
+        let before = self.unit_offsets.wanted.or(in_force).ok_or(Refusal::OffsetsUnknown)?;
+        let wanted = match change {
+            OffsetChange::Step(step) => {
+                if !is_running || !matches!(step, Offset::Azimuth(_) | Offset::Elevation(_)) {
+                    return Err(Refusal::NotOffered);
+                }
+                before.plus(step).ok_or_else(|| Refusal::OffsetTooLarge { most: most(step) })?
+            }
+            OffsetChange::Zero => TrackOffsets::NONE,
+            OffsetChange::Undo => {
+                self.unit_offsets.earlier.last().copied().ok_or(Refusal::Nothing)?
+            }
+        };
+        if let Some(shift) = self.shift(wanted, now)? {
+            self.gate.shift_is_clear(&shift, self.stop.is_under_way(), now)?;
+        }
+        match change {
+            OffsetChange::Undo => drop(self.unit_offsets.earlier.pop()),
+            _ if wanted == before => return Ok(()),
+            _ => self.unit_offsets.earlier.push(before),
+        }
+        self.unit_offsets.left = None;
+        self.unit_offsets.wanted = Some(wanted);
+        if let Some(shifted) = self.owed.debts.shifted(&self.owed.unit) {
+            let shifted = ShiftedTrack { is_found: false, ..shifted };
+            self.owed.debts.set_shifted(&self.owed.unit, Some(shifted));
+        }
+        self.begin_shift(fields, now);
+        Ok(())
+    }
+
+    /// What the unit would do with `wanted` added; `None` where it would do what it did before.
+    fn shift(&self, wanted: TrackOffsets, now: Moment) -> Result<Option<Shift>, Refusal> {
+        if wanted.is_none() {
+            return Ok(None);
+        }
+        let unit = &self.gate.state().on_board;
+        let held = self.held_offsets().ok_or(Refusal::OffsetsUnknown)?;
+        let shifted = self.owed.debts.shifted(&self.owed.unit);
+        let before = shifted.map_or(held, |shifted| shifted.before);
+        let after = before.and(wanted).ok_or(Refusal::NotOffered)?;
+        let with = |offsets| OnBoard {
+            offsets: unit.offsets.map(|unit| unit.with_axes_of(offsets)),
+            ..unit.clone()
+        };
+        let watch = self.on_board_watch().ok_or(Refusal::PassUnknown)?;
+        let mut pass = OnBoardPass::clone(watch.judge().pass());
+        pass.target.from = pass.target.from.max(now.utc).min(pass.target.until);
+        let judge = Judge::new(pass, self.setup.ability).map_err(|_| Refusal::PassUnknown)?;
+        Ok(Some(Shift { judge, axes: with(after), sky: with(before) }))
+    }
+
+    /// Records what is about to be written. Back to what the unit held before needs no record.
+    fn begin_shift(&mut self, fields: &TrackOffsetFields, now: Moment) {
+        let Some(wanted) = self.unit_offsets.wanted else { return };
+        if !matches!(self.unit_offsets.step, Step::None) {
+            return;
+        }
+        let Some(held) = self.held_offsets() else { return self.forget_wanted() };
+        let (debts, unit) = (self.owed.debts.clone(), self.owed.unit.clone());
+        let before = debts.shifted(&unit).map(|shifted| (shifted.since, shifted.before));
+        let (since, before) = before.unwrap_or((now.utc, held));
+        if wanted.is_none() {
+            return self.write_shift(fields, now);
+        }
+        let Some(after) = before.and(wanted) else { return };
+        let put = vec![held, after];
+        debts.set_shifted(&unit, Some(ShiftedTrack { since, before, put, is_found: false }));
+        self.unit_offsets.of = self.track_of();
+        if debts.has_marks() {
+            let writing = spawn_blocking(move || debts.keep_shifted(&unit));
+            self.unit_offsets.step = Step::Marking { wanted, writing };
+        } else {
+            self.write_shift(fields, now);
+        }
+    }
+
+    /// Sends what is wanted through the gate.
+    fn write_shift(&mut self, fields: &TrackOffsetFields, now: Moment) {
+        self.unit_offsets.step = Step::None;
+        let written = self.try_write_shift(fields, now);
+        match written {
+            Ok(Some(ticket)) => self.unit_offsets.step = Step::Writing { ticket },
+            Ok(None) => self.unit_offsets.wanted = None,
+            Err(refusal) => {
+                self.forget_wanted();
+                self.tell(Event::NotSent(refusal));
+            }
+        }
+    }
+
+    /// Returns the ticket of the change; `None` where the unit holds that already.
+    fn try_write_shift(
+        &mut self,
+        fields: &TrackOffsetFields,
+        now: Moment,
+    ) -> Result<Option<u64>, Refusal> {
+        let Some(wanted) = self.unit_offsets.wanted else { return Ok(None) };
+        let held = self.held_offsets().ok_or(Refusal::OffsetsUnknown)?;
+        let Some(shifted) = self.owed.debts.shifted(&self.owed.unit) else { return Ok(None) };
+        let after = shifted.before.and(wanted).ok_or(Refusal::NotOffered)?;
+        let values = fields.values(held, after);
+        if values.is_empty() {
+            return Ok(None);
+        }
+        let shift = self.shift(wanted, now)?;
+        self.unit_offsets.tickets += 1;
+        let ticket = TICKETS + self.unit_offsets.tickets;
+        let group = self.gate.state().held.get(fields.group);
+        let seen = group.and_then(|group| Some(group.held.as_ref()?.values.clone()));
+        let change = Change { ticket, group: fields.group, values, seen, is_unlocked: false };
+        self.gate.shift_track(change, shift.as_ref(), self.stop.is_under_way(), now)?;
+        Ok(Some(ticket))
+    }
+
+    /// Follows a change to its end, and takes back what is added once the track is over.
+    pub(super) fn watch_unit_offsets(&mut self, now: Moment) {
+        let Some(fields) = self.variant.track_offsets else { return };
+        match &mut self.unit_offsets.step {
+            Step::None => {}
+            Step::Marking { writing, .. } if !writing.is_finished() => return,
+            Step::Marking { wanted, writing } => {
+                let (marked, is_marked) = (*wanted, matches!(take_now(writing), Some(Ok(()))));
+                self.unit_offsets.step = Step::None;
+                if !is_marked {
+                    self.forget_wanted();
+                    self.tell(Event::NotSent(Refusal::NoOffsetsRecord));
+                } else if self.unit_offsets.wanted == Some(marked) {
+                    self.write_shift(fields, now);
+                } else {
+                    // Another step has come meanwhile.
+                    self.begin_shift(fields, now);
+                }
+            }
+            &mut Step::Writing { ticket } => self.watch_write(fields, ticket, now),
+        }
+        if matches!(self.unit_offsets.step, Step::None) {
+            self.watch_shifted(fields, now);
+        }
+    }
+
+    fn watch_write(&mut self, fields: &TrackOffsetFields, ticket: u64, now: Moment) {
+        let group = self.gate.state().held.get(fields.group);
+        let written = group.and_then(|group| group.written.clone());
+        let Some(written) = written.filter(|written| written.change.ticket == ticket) else {
+            return;
+        };
+        self.unit_offsets.step = Step::None;
+        let was_taken_back = self.unit_offsets.wanted.is_some_and(TrackOffsets::is_none);
+        match &written.result {
+            Ok(()) if self.unit_offsets.wanted == self.added_offsets() => {
+                self.unit_offsets.wanted = None;
+            }
+            // Another step has come meanwhile.
+            Ok(()) => self.begin_shift(fields, now),
+            Err(error) => {
+                self.forget_wanted();
+                if !matches!(error, WriteError::Stopped | WriteError::ChangedMeanwhile) {
+                    self.unit_offsets.unread_since = self.read_at();
+                    self.gate.device().read_group(fields.group);
+                }
+                match error {
+                    // It was not sent, and is owed as before.
+                    WriteError::Stopped => {}
+                    WriteError::ChangedMeanwhile if was_taken_back => {}
+                    error if was_taken_back => {
+                        self.unit_offsets.left = Some(LeftOffsets::Failed(error.clone()));
+                    }
+                    error => self.tell(Event::OffsetNotTaken(error.clone())),
+                }
+            }
+        }
+    }
+
+    /// Takes back what is added once the track is over, and forgets what is taken back.
+    fn watch_shifted(&mut self, fields: &TrackOffsetFields, now: Moment) {
+        let (debts, unit) = (self.owed.debts.clone(), self.owed.unit.clone());
+        let is_over = !self.contact.unread
+            && (!self.program_is_on()
+                || self.unit_offsets.of.zip(self.track_of()).is_some_and(differs));
+        let Some(shifted) = debts.shifted(&unit) else {
+            if is_over {
+                self.unit_offsets.earlier.clear();
+            }
+            return;
+        };
+        let Some(held) = self.held_offsets() else { return };
+        let Some(added) = shifted.added(held) else {
+            tracing::warn!(antenna = self.name, "somebody else has set the offsets of the unit");
+            return self.forget_shifted();
+        };
+        if added.is_none() {
+            if is_over || shifted.is_found {
+                self.forget_shifted();
+            }
+            return;
+        }
+        let waits = self.stop.is_under_way() || self.gate.lock_out().is_some();
+        if is_over && !waits && !shifted.is_found && self.unit_offsets.left.is_none() {
+            self.unit_offsets.wanted = Some(TrackOffsets::NONE);
+            self.begin_shift(fields, now);
+        }
+    }
+
+    /// The unit holds nothing of ours any more.
+    fn forget_shifted(&mut self) {
+        let (debts, unit) = (self.owed.debts.clone(), self.owed.unit.clone());
+        debts.set_shifted(&unit, None);
+        let tickets = self.unit_offsets.tickets;
+        self.unit_offsets = UnitOffsets { tickets, ..UnitOffsets::default() };
+        if debts.has_marks() {
+            drop(spawn_blocking(move || {
+                debts.keep_shifted(&unit).inspect_err(|error| {
+                    tracing::error!(%error, "a record of offsets stays on the disk");
+                })
+            }));
+        }
+    }
+
+    /// What was wanted does not come about.
+    fn forget_wanted(&mut self) {
+        self.unit_offsets.wanted = None;
+        let in_force = self.added_offsets();
+        let earlier = &mut self.unit_offsets.earlier;
+        while earlier.last().is_some_and(|last| Some(*last) == in_force) {
+            earlier.pop();
+        }
+    }
+
+    /// A halt voids a change that is not on its way to the unit.
+    pub(super) fn void_shift(&mut self) {
+        if let Step::Marking { .. } = self.unit_offsets.step {
+            self.unit_offsets.step = Step::None;
+        }
+        self.forget_wanted();
+    }
+
+    /// Returns `true` while what was added for a track is being taken back: the next one waits for
+    /// that.
+    pub(super) fn takes_offsets_back(&self) -> bool {
+        !self.program_is_on() && matches!(self.unit_offsets.step, Step::Writing { .. })
+    }
+
+    /// When to check again whether the record is on the disk.
+    pub(super) fn shift_due(&self, now: Instant) -> Option<Instant> {
+        matches!(self.unit_offsets.step, Step::Marking { .. }).then_some(now + LOOK)
+    }
+}
+
+fn differs((before, now): (TrackOf, TrackOf)) -> bool {
+    let windows = before.1.zip(now.1);
+    before.0 != now.0 || windows.is_some_and(|(before, now)| before != now)
+}
+
+#[cfg(test)]
+mod tests;

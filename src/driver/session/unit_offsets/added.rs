@@ -1,0 +1,98 @@
+//! What is added to the offsets of the unit, by what it reports.
+
+use glam::DQuat;
+use jiff::Timestamp;
+
+use super::{Step, TrackOf};
+use crate::{
+    astro::TrackOffsets,
+    clock::Moment,
+    device::{OnBoard, Phase},
+    driver::{LeftOffsets, UnitOffsetsView, session::Session},
+};
+
+impl Session {
+    /// What is added to what the unit held before, as it was read last; `None` while that is not
+    /// known.
+    pub(in crate::driver::session) fn added_offsets(&self) -> Option<TrackOffsets> {
+        let held = self.held_offsets()?;
+        match self.owed.debts.shifted(&self.owed.unit) {
+            Some(shifted) => shifted.added(held),
+            None => Some(TrackOffsets::NONE),
+        }
+    }
+
+    /// What the unit adds in azimuth and elevation, as it was read last.
+    pub(in crate::driver::session) fn held_offsets(&self) -> Option<TrackOffsets> {
+        let read = self.unit_offsets.unread_since.is_none_or(|last| self.read_at() != Some(last));
+        self.gate.state().on_board.offsets.filter(|_| read)?.of_the_axes()
+    }
+
+    /// When the offsets of the unit were read last.
+    pub(in crate::driver::session) fn read_at(&self) -> Option<Timestamp> {
+        let group = self.gate.state().held.get(self.variant.track_offsets?.group)?;
+        Some(group.held.as_ref()?.read_at)
+    }
+
+    /// Offsets that are meant to be on: the antenna should point so far beside its target.
+    pub(in crate::driver::session) fn meant_offsets(&self) -> TrackOffsets {
+        let is_meant = self.unit_offsets.left.is_none()
+            && self.owed.debts.shifted(&self.owed.unit).is_some_and(|shifted| !shifted.is_found);
+        self.added_offsets().filter(|_| is_meant).unwrap_or_default()
+    }
+
+    /// What the unit reports, without the offsets that are meant to be on.
+    pub(in crate::driver::session) fn plain_unit(&self) -> OnBoard {
+        self.gate.state().on_board.without(self.meant_offsets())
+    }
+
+    /// From where the unit points to where that is on the sky, if what was added makes up for
+    /// errors of the mount.
+    pub(in crate::driver::session) fn unit_to_sky(&self, now: Moment) -> Option<DQuat> {
+        let meant = Some(self.meant_offsets()).filter(|meant| !meant.is_none())?;
+        let judge = self.on_board_watch().filter(|_| self.program_is_on())?.judge();
+        let axes = meant.demanded(now.utc, |at| judge.direction(at))?;
+        Some(DQuat::from_rotation_arc(axes.to_enu(), judge.direction(now.utc)?.to_enu()))
+    }
+
+    pub(in crate::driver::session) fn unit_offsets_view(&self) -> Option<UnitOffsetsView> {
+        let shifted = self.owed.debts.shifted(&self.owed.unit);
+        let pad = &self.unit_offsets;
+        let offsets = self.added_offsets().unwrap_or_default();
+        let is_changing = pad.wanted.is_some() || !matches!(pad.step, Step::None);
+        let found = shifted.filter(|shifted| shifted.is_found && !offsets.is_none());
+        let found = found.map(|shifted| LeftOffsets::Found { since: shifted.since });
+        let is_told = is_changing || !offsets.is_none() || !pad.earlier.is_empty();
+        is_told.then(|| UnitOffsetsView {
+            offsets,
+            is_changing,
+            can_undo: !pad.earlier.is_empty(),
+            left: found.or(pad.left.clone()),
+        })
+    }
+
+    /// Returns `true` while the unit tracks by itself, or is about to, and it is known what.
+    pub(in crate::driver::session) fn on_board_is_running(&self) -> bool {
+        self.program_is_on() && !self.activity.is_pending() && self.on_board_watch().is_some()
+    }
+
+    pub(in crate::driver::session) fn program_is_on(&self) -> bool {
+        let program = self.gate.state().program.filter(|_| !self.contact.unread);
+        program.is_some_and(|program| program.enabled && program.phase != Phase::Completed)
+    }
+
+    pub(in crate::driver::session) fn track_of(&self) -> Option<TrackOf> {
+        let unit = &self.gate.state().on_board;
+        Some((unit.satellite.as_ref()?.catalog_number, unit.window))
+    }
+
+    /// Returns `true` if the track is over and what was added for it is still on the unit.
+    pub(in crate::driver::session) fn owes_offsets(&self) -> bool {
+        let shifted = self.owed.debts.shifted(&self.owed.unit);
+        let is_owed = shifted.is_some_and(|shifted| !shifted.is_found)
+            && self.unit_offsets.left.is_none()
+            && !self.contact.unread
+            && !self.program_is_on();
+        is_owed && self.added_offsets().is_some_and(|added| !added.is_none())
+    }
+}

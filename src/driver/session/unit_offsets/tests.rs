@@ -1,0 +1,230 @@
+//! What is on disk, and what an earlier run has left on the unit.
+
+use std::{collections::BTreeMap, path::Path, sync::Arc};
+
+use tokio::{io::AsyncWriteExt as _, time::sleep};
+
+use super::*;
+use crate::{
+    astro::{Angle, Site, time::add_seconds},
+    device::TrackTarget,
+    driver::{
+        AntennaHandle, Command, Debts, Snapshot, Unit,
+        session::testing::{self, antenna},
+    },
+    orbit::{PassSearch, Propagator, passes, read_elements},
+    plan::on_board::KnownOrbit,
+    protocol::satrak::encode,
+    sim::satrak::{Control, Options},
+};
+
+/// The ISS in 2008, a published example.
+const ELEMENTS: &str = "ISS (ZARYA)
+1 25544U 98067A   08264.51782528 -.00002182  00000-0 -11606-4 0  2927
+2 25544  51.6416 247.4627 0006703 130.5360 325.0288 15.72125391563537
+";
+
+fn site() -> Site {
+    Site::new(41.01, 29.17, 100.0).unwrap()
+}
+
+/// A high pass of it.
+fn pass() -> OnBoardPass {
+    let elements = read_elements(ELEMENTS).elements.swap_remove(0);
+    let (propagator, from) = (Propagator::new(&elements).unwrap(), elements.epoch());
+    let aos_elevation = Angle::from_degrees(10.0);
+    let search = PassSearch {
+        aos_elevation,
+        ..PassSearch::new(site(), from, add_seconds(from, 3.0 * 86_400.0))
+    };
+    let is_high = |pass: &crate::orbit::Pass| pass.max_elevation().degrees() > 40.0;
+    let pass = passes(&propagator, &search, &|| false).into_iter().find(is_high).unwrap();
+    let target = TrackTarget {
+        catalog_number: 25_544,
+        name: "ISS (ZARYA)".into(),
+        from: pass.aos.time,
+        until: pass.los.time,
+    };
+    OnBoardPass { target, elements, site: site(), is_agreed: false }
+}
+
+/// A unit that comes to life this long after AOS.
+fn unit(after_s: f64) -> (Control, Timestamp) {
+    let pass = pass();
+    let now = add_seconds(pass.target.from, after_s);
+    let elements = BTreeMap::from([("stations.txt".to_owned(), vec![pass.elements])]);
+    (Control::new(&Options { elements, ..Options::new(site(), now) }), now)
+}
+
+/// A new run of the program, at `now`.
+fn run(control: &Control, now: Timestamp, folder: &Path) -> AntennaHandle {
+    let debts = Debts::marked_in(Some(folder.to_owned()));
+    let handle = testing::over(control.clone(), now, debts, |wires| wires);
+    let OnBoardPass { elements, site, .. } = pass();
+    handle.know_orbit(Some(Arc::new(KnownOrbit { elements, site })));
+    handle
+}
+
+fn mark(folder: &Path) -> Option<ShiftedTrack> {
+    Debts::marked_in(Some(folder.to_owned())).shifted(&Unit::of(&antenna()))
+}
+
+fn azimuth(degrees: f64) -> TrackOffsets {
+    TrackOffsets::NONE.plus(Offset::Azimuth(Angle::from_degrees(degrees))).unwrap()
+}
+
+async fn until(handle: &AntennaHandle, what: &str, is_so: impl Fn(&Snapshot) -> bool) {
+    for _ in 0..6000 {
+        if is_so(&handle.snapshot()) {
+            return;
+        }
+        sleep(Duration::from_millis(10)).await;
+    }
+    panic!("not {what}: {:?}", handle.snapshot().unit_offsets);
+}
+
+fn is_read(shown: &Snapshot) -> bool {
+    shown.state.on_board.offsets.is_some() && shown.state.on_board.satellite.is_some()
+}
+
+fn holds(shown: &Snapshot, azimuth_deg: f64) -> bool {
+    let held = shown.state.on_board.offsets;
+    held.is_some_and(|unit| (unit.azimuth_deg - azimuth_deg).abs() < 1e-9)
+}
+
+/// Sends a payload as another client.
+async fn by_another(control: &Control, payload: &str) {
+    let (mut near, far) = tokio::io::duplex(4096);
+    let serve = control.clone();
+    tokio::spawn(async move { serve.serve(far).await });
+    near.write_all(&encode(payload)).await.unwrap();
+    sleep(Duration::from_secs(1)).await;
+}
+
+fn sent(control: &Control) -> Vec<String> {
+    let received = control.received().into_iter().map(|(_, payload)| payload);
+    received.filter(|payload| payload.starts_with("SETTINGS=")).collect()
+}
+
+/// A session whose unit tracks the pass.
+async fn tracking(control: &Control, now: Timestamp, folder: &Path) -> AntennaHandle {
+    let handle = run(control, now, folder);
+    until(&handle, "read", is_read).await;
+    handle.send(Command::Track(Box::new(pass()))).unwrap();
+    until(&handle, "tracking", |shown| {
+        shown.state.program.is_some_and(|program| program.enabled) && !shown.pending
+    })
+    .await;
+    handle
+}
+
+/// Lets the unit track the pass with 0.2 degrees added, and ends the program.
+async fn left_in_a_pass(folder: &Path) -> (Control, Timestamp) {
+    let (control, now) = unit(30.0);
+    let handle = tracking(&control, now, folder).await;
+    let step = Offset::Azimuth(Angle::from_degrees(0.2));
+    handle.send(Command::Offset(OffsetChange::Step(step))).unwrap();
+    while sent(&control).is_empty() {
+        sleep(Duration::from_millis(1)).await;
+    }
+    let mark = mark(folder).expect("it is on the disk before it is on the unit");
+    assert_eq!((mark.before, mark.put.last()), (TrackOffsets::NONE, Some(&azimuth(0.2))));
+    until(&handle, "in force", |shown| {
+        shown.unit_offsets.as_ref().is_some_and(|unit| unit.offsets == azimuth(0.2))
+    })
+    .await;
+    drop(handle);
+    sleep(Duration::from_secs(5)).await;
+    (control, add_seconds(now, 60.0))
+}
+
+#[tokio::test(start_paused = true)]
+async fn what_an_earlier_run_left_is_shown_and_taken_back_on_the_operators_word() {
+    let folder = tempfile::tempdir().unwrap();
+    let (control, now) = left_in_a_pass(folder.path()).await;
+    by_another(&control, "TRACK=,0").await;
+    let handle = run(&control, now, folder.path());
+    until(&handle, "told", |shown| {
+        let unit = shown.unit_offsets.as_ref().filter(|unit| unit.offsets == azimuth(0.2));
+        unit.is_some_and(|unit| matches!(unit.left, Some(LeftOffsets::Found { .. })))
+    })
+    .await;
+    sleep(Duration::from_mins(1)).await;
+    assert_eq!(sent(&control).len(), 1, "nothing by itself");
+    handle.send(Command::Offset(OffsetChange::Zero)).unwrap();
+    until(&handle, "taken back", |shown| shown.unit_offsets.is_none() && holds(shown, 0.0)).await;
+    sleep(Duration::from_secs(1)).await;
+    assert_eq!(mark(folder.path()), None);
+}
+
+#[tokio::test(start_paused = true)]
+async fn steps_that_come_while_one_is_recorded_are_recorded_too() {
+    let folder = tempfile::tempdir().unwrap();
+    let (control, now) = unit(30.0);
+    let handle = tracking(&control, now, folder.path()).await;
+    let step = Offset::Azimuth(Angle::from_degrees(0.1));
+    for _ in 0..5 {
+        handle.send(Command::Offset(OffsetChange::Step(step))).unwrap();
+    }
+    until(&handle, "in force", |shown| {
+        let unit = shown.unit_offsets.as_ref();
+        unit.is_some_and(|unit| unit.offsets == azimuth(0.5) && !unit.is_changing)
+    })
+    .await;
+    assert!(mark(folder.path()).unwrap().put.contains(&azimuth(0.5)));
+    handle.stop();
+    until(&handle, "taken back", |shown| shown.unit_offsets.is_none() && holds(shown, 0.0)).await;
+}
+
+#[tokio::test(start_paused = true)]
+async fn in_the_pass_that_goes_on_they_are_found_too() {
+    let folder = tempfile::tempdir().unwrap();
+    let (control, now) = left_in_a_pass(folder.path()).await;
+    let handle = run(&control, now, folder.path());
+    until(&handle, "told", |shown| {
+        shown.unit_offsets.as_ref().is_some_and(|unit| unit.left.is_some())
+    })
+    .await;
+    let until_watched = |shown: &Snapshot| shown.on_board.is_some();
+    until(&handle, "watched", until_watched).await;
+    let step = Offset::Azimuth(Angle::from_degrees(0.1));
+    handle.send(Command::Offset(OffsetChange::Step(step))).unwrap();
+    until(&handle, "taken up", |shown| {
+        let unit = shown.unit_offsets.as_ref();
+        unit.is_some_and(|unit| unit.offsets == azimuth(0.3) && unit.left.is_none())
+    })
+    .await;
+    handle.stop();
+    until(&handle, "taken back", |shown| shown.unit_offsets.is_none() && holds(shown, 0.0)).await;
+}
+
+#[tokio::test(start_paused = true)]
+async fn what_the_unit_does_not_hold_any_more_is_not_offered() {
+    for azimuth_deg in [0.0, 0.5] {
+        let folder = tempfile::tempdir().unwrap();
+        let (control, now) = left_in_a_pass(folder.path()).await;
+        by_another(&control, "TRACK=,0").await;
+        by_another(&control, &format!("SETTINGS=,?,?,{azimuth_deg},?,?,?,?,?,?,?,?")).await;
+        let handle = run(&control, now, folder.path());
+        until(&handle, "read", |shown| holds(shown, azimuth_deg)).await;
+        sleep(Duration::from_secs(1)).await;
+        assert_eq!(handle.snapshot().unit_offsets, None);
+        assert_eq!(mark(folder.path()), None, "{azimuth_deg}");
+    }
+}
+
+#[tokio::test(start_paused = true)]
+async fn without_a_record_nothing_is_written() {
+    let folder = tempfile::tempdir().unwrap();
+    // A file where the folder should be.
+    let blocked = folder.path().join("marks");
+    std::fs::write(&blocked, "").unwrap();
+    let (control, now) = unit(30.0);
+    let mut handle = tracking(&control, now, &blocked).await;
+    let step = Offset::Azimuth(Angle::from_degrees(0.2));
+    handle.send(Command::Offset(OffsetChange::Step(step))).unwrap();
+    sleep(Duration::from_secs(5)).await;
+    let told: Vec<Event> = std::iter::from_fn(|| handle.next_event()).collect();
+    assert!(told.contains(&Event::NotSent(Refusal::NoOffsetsRecord)), "{told:?}");
+    assert_eq!((sent(&control).len(), handle.snapshot().unit_offsets.clone()), (0, None));
+}
