@@ -3,7 +3,9 @@
 use std::sync::Arc;
 
 use azel::{
-    astro::{Angle, AzEl, Offset, PointingModel, TrackOffsets, time::add_seconds},
+    astro::{
+        Angle, AzEl, HorizonMask, Offset, PointingModel, Site, TrackOffsets, time::add_seconds,
+    },
     device::{
         Pointing,
         settings::{Change, Value, Written},
@@ -28,7 +30,7 @@ use azel::{
     record::{
         AboutTrack, OpenedPass, PassPage, PassQuery, RecordedPass, RecordedReport, Row, TrackedBy,
     },
-    station::OffsetsOf,
+    station::{self, OffsetsOf},
     ui::theme,
 };
 use egui::{Key, Modifiers, Role};
@@ -439,6 +441,25 @@ fn the_bar_of_the_link_runs_below_its_words_and_a_loss_of_no_length_is_not_told(
     let ground = theme::tokens(&window.ctx).bg0;
     assert_eq!(painted::ground_of(&window, "Connected"), Some(ground));
     assert!(!painted::texts(&window).iter().any(|words| words.contains("half the beamwidth 0:00")));
+}
+
+#[test]
+fn what_stood_in_the_way_is_on_the_path_where_it_is_known() {
+    let named = |has_mask: bool, site: Site| {
+        let (mut model, flown) = model();
+        model.antennas[0].config = station::Antenna::satrak("Dish", "10.0.0.5:4001");
+        model.antennas[0].config.id = flown[0].pass.antenna;
+        let mask = HorizonMask::from_degrees([(0.0, 5.0), (90.0, 30.0), (180.0, 5.0)]).unwrap();
+        let station = Arc::make_mut(&mut model.station);
+        (station.horizon_mask, station.site) = (has_mask.then_some(mask), site);
+        let window = rig::window(LARGE, model);
+        ["mask", "keyhole"].map(|word| window.query_by_label(word).is_some())
+    };
+    let here = rig::station().site;
+    assert_eq!(named(false, here), [false, true], "of an X/Y mount");
+    assert_eq!(named(true, here), [true, true]);
+    let elsewhere = Site::new(-30.0, 20.0, 0.0).unwrap();
+    assert_eq!(named(true, elsewhere), [false, true], "the mask of another site");
 }
 
 #[test]

@@ -1,4 +1,4 @@
-//! The path over the sky, with the error of the antenna enlarged.
+//! The path over the sky, with the error of the antenna enlarged, and what stands in its way.
 
 use std::collections::HashMap;
 
@@ -7,6 +7,7 @@ use jiff::Timestamp;
 
 use super::{PADDING, RecordState, cursor};
 use crate::{
+    astro::HorizonMask,
     model::Model,
     plan::{Sample, pass_report::TrackPoint},
     record::OpenedPass,
@@ -15,9 +16,11 @@ use crate::{
         profile::dashes,
         recorded_track,
         sky_plot::{
+            Keyholes,
             geometry::{Dome, usable},
             grid,
             labels::{Key, Label, Labels},
+            legend, mask,
             placement::Side,
         },
         text, theme,
@@ -29,6 +32,8 @@ use crate::{
 const TITLE: f32 = 32.0;
 const LEGEND: f32 = 28.0;
 const DASH: (f32, f32) = (6.0, 4.0);
+/// Paints a sample of an area around a place.
+type AreaSample = fn(&Painter, Pos2, &Tokens);
 /// Length of the tick of a minute.
 const TICK: f32 = 6.0;
 
@@ -37,7 +42,9 @@ pub(super) fn show(ui: &Ui, rect: Rect, model: &Model, opened: &OpenedPass, stat
     let (title, rest) = rect.split_top_bottom_at_y(rect.top() + TITLE);
     let factor = recorded_track::enlarged(&opened.track);
     let words = format!("Path, {}", recorded_track::enlargement(factor));
+    let in_the_way = InTheWay::of(model, opened);
     let room = title.shrink2(egui::vec2(PADDING, 0.0));
+    let room = room.with_max_x(in_the_way.legend(ui, room));
     paint::text_in(ui, room, Align2::LEFT_CENTER, &words, text::small_strong(), t.t1);
     let (plot, foot) = rest.split_top_bottom_at_y(rest.bottom() - LEGEND);
     if !usable(plot) {
@@ -46,7 +53,13 @@ pub(super) fn show(ui: &Ui, rect: Rect, model: &Model, opened: &OpenedPass, stat
     let dome = Dome::fitted(plot);
     let painter = ui.painter_at(rect);
     grid::disc(&painter, dome, t);
+    if let Some(mask) = in_the_way.mask {
+        mask::paint(&painter, dome, mask, t);
+    }
     grid::rings(&painter, dome, t);
+    if let Some(holes) = in_the_way.keyholes {
+        grid::keyholes(&painter, dome, &holes, t);
+    }
     for (name, azimuth_deg) in [("N", 0.0_f32), ("E", 90.0), ("S", 180.0), ("W", 270.0)] {
         let at = dome.at(azimuth_deg.to_radians(), -11.0);
         painter.text(at, Align2::CENTER_CENTER, name, text::small_strong(), t.t1);
@@ -83,11 +96,55 @@ pub(super) fn show(ui: &Ui, rect: Rect, model: &Model, opened: &OpenedPass, stat
     }
     grid::label_rings(&mut labels, dome);
     labels.finish();
-    legend(ui, foot);
+    lines(ui, foot);
     let id = ui.make_persistent_id("recorded path");
     let spoken = format!("Sky plot of the pass. {words}");
     ui.interact(plot, id, Sense::hover())
         .widget_info(|| WidgetInfo::labeled(egui::Role::Image, true, &spoken));
+}
+
+/// What the station and the antenna have in the way, as they are set now.
+struct InTheWay<'a> {
+    mask: Option<&'a HorizonMask>,
+    keyholes: Option<Keyholes>,
+}
+
+impl<'a> InTheWay<'a> {
+    /// Of another site than that of the pass the mask says nothing, and of an antenna that is gone
+    /// nothing is known.
+    fn of(model: &'a Model, opened: &OpenedPass) -> Self {
+        let is_here = opened.pass.report.site.is_none_or(|site| site == model.station.site);
+        let antenna = model.antennas.iter().find(|of| of.id() == opened.pass.antenna);
+        Self {
+            mask: model.station.horizon_mask.as_ref().filter(|_| is_here),
+            keyholes: antenna.and_then(|antenna| Keyholes::of(&antenna.config.mount)),
+        }
+    }
+
+    /// Names them at the right end of `row`. Returns where the room before them ends.
+    fn legend(&self, ui: &Ui, row: Rect) -> f32 {
+        let t = theme::tokens(ui);
+        let mask = self.mask.map(|_| ("mask", legend::mask as AreaSample));
+        let keyholes = self.keyholes.map(|_| ("keyhole", legend::keyhole as AreaSample));
+        let mut right = row.right();
+        for (word, sample) in keyholes.into_iter().chain(mask) {
+            let place = row.with_max_x(right);
+            let drawn = paint::text(
+                ui,
+                place.right_center(),
+                Align2::RIGHT_CENTER,
+                word,
+                text::caption(),
+                t.t2,
+            );
+            let whole = drawn.with_min_x(drawn.left() - 26.0);
+            sample(ui.painter(), pos2(whole.left() + 10.0, row.center().y), t);
+            paint::name_text(ui, ("in the way", word), whole, word)
+                .on_hover_text("As the station is set now.");
+            right = whole.left() - 12.0;
+        }
+        right
+    }
 }
 
 /// The place of the antenna, with its error enlarged; `None` outside of the plot.
@@ -177,7 +234,7 @@ fn label(
     });
 }
 
-fn legend(ui: &Ui, rect: Rect) {
+fn lines(ui: &Ui, rect: Rect) {
     let t = theme::tokens(ui);
     let mut x = rect.left() + PADDING;
     let y = rect.center().y;
