@@ -362,7 +362,7 @@ fn a_suspended_antenna_goes_on_by_a_button_that_names_the_pass() {
         let button = window
             .query_all_by_role(Role::Button)
             .find(|node| {
-                node.accesskit_node().label().is_some_and(|text| text.starts_with("Resume with "))
+                node.accesskit_node().label().is_some_and(|text| text.starts_with("Go on with "))
             })
             .unwrap();
         button.click();

@@ -37,7 +37,7 @@ pub(in crate::ui) fn go_on(model: &Model, antenna: &AntennaModel) -> Option<Stri
         || "Resume".to_owned(),
         |entry| {
             let name = words::schedule::pass_name(model, (entry.pass.satellite, entry.pass.aos));
-            format!("Resume with {name}, {}", format::moment(entry.from, model.now))
+            format!("Go on with {name}, {}", format::moment(entry.from, model.now))
         },
     ))
 }
