@@ -1,5 +1,5 @@
-//! STOPs and ends of auto-track that are owed to units that no antenna of the station has: the
-//! antenna was deleted, or given another address, while it moved or tracked by itself.
+//! STOPs, ends of auto-track and offsets that are owed to units that no antenna of the station has:
+//! the antenna was deleted, or given another address, while it moved or tracked by itself.
 
 use jiff::Timestamp;
 
@@ -46,13 +46,18 @@ pub(super) fn strangers<'a>(
     let is_strange = |unit: &Unit| !known.contains(unit);
     let stops = debts.units().into_iter().filter(is_strange).map(AlarmKind::Owed);
     let auto_track = debts.with_auto_track().into_iter().filter(is_strange);
-    stops.chain(auto_track.map(AlarmKind::AutoTrackOwed)).collect()
+    let offsets = debts.with_offsets().into_iter().filter(is_strange);
+    let owed = stops.chain(auto_track.map(AlarmKind::AutoTrackOwed));
+    owed.chain(offsets.map(AlarmKind::OffsetsOwed)).collect()
 }
 
 /// Raises these alarms, and clears those whose debt is paid.
 pub(super) fn tell(alarms: &mut Alarms, strangers: Vec<AlarmKind>, now: Timestamp) {
     alarms.clear(None, now, |kind| {
-        let is_that = matches!(kind, AlarmKind::Owed(_) | AlarmKind::AutoTrackOwed(_));
+        let is_that = matches!(
+            kind,
+            AlarmKind::Owed(_) | AlarmKind::AutoTrackOwed(_) | AlarmKind::OffsetsOwed(_)
+        );
         is_that && !strangers.contains(kind)
     });
     for kind in strangers {
@@ -93,5 +98,27 @@ mod tests {
         assert!(told[1].starts_with("The SVS Satrak at 10.0.0.7:4001"), "{told:?}");
         tell(&mut alarms, Vec::new(), Timestamp::UNIX_EPOCH);
         assert_eq!(standing(&alarms), [""; 0]);
+    }
+
+    #[test]
+    fn a_unit_of_no_antenna_that_may_hold_offsets_of_a_pass_is_named() {
+        let folder = tempfile::tempdir().unwrap();
+        let left = |address: &str| {
+            let text = format!(
+                "make = 'satrak'\naddress = '{address}'\nsince = '2026-08-12T01:02:03Z'\n\
+                 put = [{{ azimuth_deg = 0.2 }}]\nbefore = {{}}\n"
+            );
+            std::fs::write(folder.path().join(format!("{}.offsets.toml", &address[7..8])), text)
+        };
+        left("10.0.0.5:4001").unwrap();
+        left("10.0.0.7:4001").unwrap();
+        let debts = Debts::marked_in(Some(folder.path().to_owned()));
+        let kept = Antenna::satrak("Dish", "10.0.0.5:4001");
+        let mut alarms = Alarms::default();
+        let strangers = strangers(&debts, std::iter::once(&kept));
+        tell(&mut alarms, strangers, Timestamp::UNIX_EPOCH);
+        let told = standing(&alarms);
+        let [said] = &told[..] else { panic!("{told:?}") };
+        assert!(said.starts_with("The SVS Satrak at 10.0.0.7:4001 may still add"), "{said}");
     }
 }

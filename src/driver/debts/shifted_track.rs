@@ -52,6 +52,11 @@ impl Debts {
         self.ledger().shifted.get(unit).cloned()
     }
 
+    /// The units that may still hold offsets of a track.
+    pub fn with_offsets(&self) -> Vec<Unit> {
+        self.ledger().shifted.keys().cloned().collect()
+    }
+
     /// What was written to the unit, or is about to be; `None` once it is taken back. It is on the
     /// disk after [`Self::keep_shifted`].
     pub(in crate::driver) fn set_shifted(&self, unit: &Unit, shifted: Option<ShiftedTrack>) {
@@ -125,6 +130,7 @@ mod tests {
         let second = debts();
         let found = ShiftedTrack { is_found: true, ..shifted };
         assert_eq!(second.shifted(&unit), Some(found.clone()));
+        assert_eq!(second.with_offsets(), std::slice::from_ref(&unit));
         assert_eq!(found.added(azimuth(0.2)), Some(azimuth(0.3)));
         assert_eq!(found.added(azimuth(-0.1)), Some(TrackOffsets::NONE));
         assert_eq!(found.added(azimuth(0.5)), None, "somebody else's");

@@ -51,6 +51,8 @@ pub enum AlarmKind {
     AutoTrackNotKnown,
     /// Auto-track is to be switched off at a unit that belongs to no antenna of the station.
     AutoTrackOwed(Unit),
+    /// A unit that belongs to no antenna of the station may still add offsets of a track.
+    OffsetsOwed(Unit),
     /// The unit is locked out, but no read-back proves that it does not start by itself.
     LockOutUnproved,
     /// The list of locked-out units could not be read or written; in words.
@@ -190,6 +192,7 @@ impl AlarmKind {
             | Self::Unreadable(_)
             | Self::JogPositionOld
             | Self::AutoTrackOwed(_)
+            | Self::OffsetsOwed(_)
             | Self::OffTarget { .. }
             | Self::OffsetsLeft { why: LeftOffsets::Failed(_), .. }
             | Self::NotOnItsWay { .. }
@@ -210,6 +213,7 @@ impl AlarmKind {
                 | Self::Safety(Safety::LeftMoving { asks: true, .. } | Safety::SilentInMotion)
                 | Self::Owed(_)
                 | Self::AutoTrackOwed(_)
+                | Self::OffsetsOwed(_)
                 | Self::DriverStands(_)
                 | Self::StationStands(_)
                 | Self::StationElsewhere(_)

@@ -259,6 +259,7 @@ fn every_kind() -> Vec<AlarmKind> {
         K::AutoStaysOn,
         K::AutoTrackNotKnown,
         K::AutoTrackOwed(Unit::of(&Antenna::satrak("Dish", "10.0.0.5:4001"))),
+        K::OffsetsOwed(Unit::of(&Antenna::satrak("Dish", "10.0.0.5:4001"))),
         K::LockOutUnproved,
         K::LockOuts(text()),
         K::Refused(Asked::Action("park"), text()),
@@ -317,6 +318,7 @@ fn is_listed(kind: &AlarmKind) {
         | K::AutoStaysOn
         | K::AutoTrackNotKnown
         | K::AutoTrackOwed(_)
+        | K::OffsetsOwed(_)
         | K::LockOutUnproved
         | K::LockOuts(_)
         | K::Refused(..)

@@ -87,6 +87,7 @@ pub fn alarm(kind: &AlarmKind, antenna: &str, now: Timestamp) -> String {
              it may start tracking by itself. Check auto-track at the unit."
         ),
         AlarmKind::AutoTrackOwed(unit) => super::auto_track_owed(unit),
+        AlarmKind::OffsetsOwed(unit) => super::offsets_owed(unit),
         AlarmKind::LockOutUnproved => format!(
             "{antenna} is locked out, but it is not confirmed that its auto-track is off: it may \
              start by itself. Switch it off at the unit."

@@ -115,6 +115,15 @@ pub fn auto_track_owed(unit: &Unit) -> String {
     )
 }
 
+/// The sentence about offsets on a unit that belongs to no antenna any more.
+pub fn offsets_owed(unit: &Unit) -> String {
+    format!(
+        "{} may still add offsets that were written for a pass. No antenna of this station uses this \
+         unit any more. Add one with this address to take them back, or set them at the unit.",
+        at_its_address(unit)
+    )
+}
+
 fn at_its_address(Unit { make, address }: &Unit) -> String {
     let known = makes::SPECS.iter().find(|known| known.key == make);
     format!("The {} at {address}", known.map_or(make.as_str(), |known| known.name))
