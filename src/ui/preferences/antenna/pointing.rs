@@ -1,6 +1,6 @@
 //! The pointing model that fits the record of the antenna, to be filled into the fields.
 
-use egui::{Label, RichText, Ui};
+use egui::{Grid, Label, RichText, Ui};
 
 use crate::{
     astro::Term,
@@ -9,12 +9,17 @@ use crate::{
     record::{FittedTerm, PointingFit},
     station::{Antenna, AntennaId},
     ui::{
-        preferences::{fields::Typed, preview},
+        preferences::fields::Typed,
         text, theme,
         widgets::told::{self, Tone},
         words::pointing::{fitted_to, pointing_term},
     },
 };
+
+/// Least width of a column.
+const NUMBER: f32 = 80.0;
+const UNCERTAIN: &str = "Some terms may as well be zero. Passes at other elevations and azimuths settle them: \
+     a model with such terms points worse there.";
 
 /// Shows the fit below the fields of the model. Nothing of it is used before it is saved.
 pub(super) fn show(
@@ -53,30 +58,52 @@ fn why_not(is_at_work: bool) -> &'static str {
 /// Returns `true` if the operator wants the terms in the fields.
 fn terms(ui: &mut Ui, antenna: &Antenna, fit: &PointingFit) -> bool {
     let t = theme::tokens(ui);
-    let line = |ui: &mut Ui, words: String| {
+    let line = |ui: &mut Ui, words: &str| {
         let words = RichText::new(words).font(text::small()).color(t.t2);
         ui.add(Label::new(words).wrap());
     };
-    line(ui, fitted_to(fit));
-    preview::heads(ui);
-    for of in &fit.terms {
-        let was = written(of.term, antenna.pointing_model.term(of.term));
-        let new = of.value.map_or_else(|| "–".to_owned(), |value| written(of.term, value));
-        preview::cells(ui, pointing_term(of.term), (was, t.t2), (new, t.t1));
-        line(ui, certainty(of));
+    line(ui, &fitted_to(fit));
+    let grid = Grid::new("fitted terms").num_columns(4).min_col_width(NUMBER).striped(false);
+    grid.show(ui, |ui| {
+        for head in ["Term", "Now", "Fitted", "± (95 %)"] {
+            ui.label(RichText::new(head).font(text::small()).color(t.t3));
+        }
+        ui.end_row();
+        for of in &fit.terms {
+            let now = written(of.term, antenna.pointing_model.term(of.term));
+            let value = of.value.map_or_else(|| "–".to_owned(), |value| written(of.term, value));
+            let half = of.half_of_95_percent;
+            let half = half.map_or_else(|| "–".to_owned(), |half| written(of.term, half));
+            let colour = if may_be_zero(of) { t.warn } else { t.t1 };
+            let cells =
+                [(pointing_term(of.term), t.t2), (&*now, t.t2), (&*value, t.t1), (&*half, colour)];
+            for (words, colour) in cells {
+                ui.label(RichText::new(words).font(text::small()).color(colour));
+            }
+            ui.end_row();
+        }
+    });
+    for words in fit.terms.iter().filter_map(not_told) {
+        line(ui, &words);
+    }
+    if fit.terms.iter().any(may_be_zero) {
+        told::line(ui, Tone::Caution, UNCERTAIN);
     }
     ui.button("Fill in").on_hover_text("Nothing is used before you save.").clicked()
 }
 
-fn certainty(of: &FittedTerm) -> String {
-    match of.half_of_95_percent {
-        Some(half) => format!("± {} with 95 % confidence", written(of.term, half)),
-        None => {
-            let with: Vec<&str> =
-                of.not_told_from.iter().map(|term| pointing_term(*term)).collect();
-            format!("cannot be told from: {}", with.join(", ").to_lowercase())
-        }
+/// The terms of such a fit may have errors that cancel each other in these passes alone.
+fn may_be_zero(of: &FittedTerm) -> bool {
+    of.value.zip(of.half_of_95_percent).is_some_and(|(value, half)| value.abs() < half)
+}
+
+fn not_told(of: &FittedTerm) -> Option<String> {
+    if of.value.is_some() {
+        return None;
     }
+    let with: Vec<&str> = of.not_told_from.iter().map(|term| pointing_term(*term)).collect();
+    let (term, with) = (pointing_term(of.term), with.join(", ").to_lowercase());
+    Some(format!("{term} cannot be told from {with} in these passes: it is left at 0."))
 }
 
 /// Types the terms into the fields of the model. One that the record cannot tell is zero.
