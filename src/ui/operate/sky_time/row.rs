@@ -70,7 +70,7 @@ fn say(ui: &Ui, room: Rect, model: &Model, state: &SkyTime) {
     let left = Align2::LEFT_CENTER;
     let Some(words) = state.words(model) else {
         let words = match model.schedule_until() {
-            Some(_) => "Sky now. Drag to see the planned sky and antennas.",
+            Some(_) => "Sky now. Drag to see what is planned.",
             None => "Sky now. There is no plan yet to look ahead with.",
         };
         paint::text_in(ui, room, left, words, text::small(), t.t2);
