@@ -155,7 +155,7 @@ fn fill(ui: &mut Ui, rect: Rect, model: &TopBarModel<'_>, commands: &mut Vec<UiC
         clock::warn(ui, clock.utc, &model.clock.health);
     }
 
-    alarm_list::show(ui, alarms, &model.alarms, !wide, commands);
+    alarm_list::show(ui, (alarms, rect.bottom()), &model.alarms, !wide, commands);
 }
 
 /// Shows a mark between the alarms and STOP: STOP does not stop every antenna.

@@ -58,6 +58,9 @@ fn the_alarm_list_leaves_the_countdown_of_the_pass_free() {
         let list = open.expect("the list is open");
         assert!(window.ctx.content_rect().contains_rect(list), "{list:?}");
         assert!(list.left() >= countdown.right(), "{size:?}: {list:?} {countdown:?}");
+        // Its first pixels are a shadow.
+        let bar = if size[1] < 720.0 { 48.0 } else { 56.0 };
+        assert!(list.top() >= bar, "{size:?}: {list:?} is over the bar");
         for button in window.query_all_by_label_contains("Acknowledge: ") {
             assert!(list.contains_rect(button.rect()), "{size:?}: {:?} {list:?}", button.rect());
         }

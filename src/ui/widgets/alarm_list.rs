@@ -110,10 +110,11 @@ impl AlarmModel<'_> {
     }
 }
 
-/// Shows the button in `rect` and, when it was clicked, the list below it.
+/// Shows the button in `rect` and, when it was clicked, the list below the bar, which ends at
+/// `below`.
 pub fn show(
     ui: &Ui,
-    rect: Rect,
+    (rect, below): (Rect, f32),
     model: &AlarmModel<'_>,
     one_line: bool,
     commands: &mut Vec<UiCommand>,
@@ -127,7 +128,7 @@ pub fn show(
     let width = if one_line { small } else { usual };
     let right = ui.ctx().content_rect().right() - EDGE;
     Popup::from_toggle_button_response(&response)
-        .anchor(rect.with_max_x(right))
+        .anchor(rect.with_max_x(right).with_max_y(below))
         .align(RectAlign::BOTTOM_END)
         .width(width)
         .close_behavior(PopupCloseBehavior::CloseOnClickOutside)
@@ -269,7 +270,7 @@ mod tests {
         let mut window = testing::window([500.0, 300.0], (), move |ui, ()| {
             let rect = Rect::from_min_size(pos2(10.0, 10.0), vec2(104.0, 40.0));
             let model = AlarmModel { rows: &[row], unopened: false };
-            show(ui, rect, &model, false, &mut Vec::new());
+            show(ui, (rect, rect.bottom()), &model, false, &mut Vec::new());
         });
         window.get_by_label("1 alarm, 1 new").click();
         window.run();
@@ -290,7 +291,7 @@ mod tests {
         let mut window = testing::window([500.0, 300.0], Vec::new(), |ui, commands| {
             let model = AlarmModel { rows: &ROWS, unopened: false };
             let rect = Rect::from_min_size(pos2(10.0, 10.0), vec2(104.0, 40.0));
-            show(ui, rect, &model, false, commands);
+            show(ui, (rect, rect.bottom()), &model, false, commands);
         });
         window.get_by_label("2 alarms, 1 new").click();
         window.run();
