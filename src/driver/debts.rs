@@ -1,7 +1,7 @@
-//! STOPs that are owed, and auto-track that is to be off. A debt belongs to a unit, not to a row of
-//! the settings: it outlives the session, the name and the address of its antenna and, as a record
-//! on disk, this program. Auto-track has such a record only where no antenna is left that would be
-//! looked after at the next start.
+//! STOPs that are owed, auto-track that is to be off, and offsets of shifted tracks. A debt belongs
+//! to a unit, not to a row of the settings: it outlives the session, the name and the address of its
+//! antenna and, as a record on disk, this program. Auto-track has such a record only where no antenna
+//! is left that would be looked after at the next start.
 
 mod shifted_track;
 

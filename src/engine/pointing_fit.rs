@@ -20,31 +20,48 @@ pub struct PointingFitted {
     pub found: Option<Result<PointingFit, String>>,
 }
 
+/// The fit that is worked out, or was last.
+#[derive(Default)]
+pub(super) struct PointingWork {
+    pub(super) fitted: Option<Arc<PointingFitted>>,
+    job: Option<Job<PointingFitted>>,
+}
+
+impl PointingWork {
+    fn tell(&mut self, antenna: AntennaId, found: Option<Result<PointingFit, String>>) {
+        self.fitted = Some(Arc::new(PointingFitted { antenna, found }));
+    }
+}
+
 impl Engine {
     /// Publishes the pointing model that fits the recorded passes of `antenna`.
     pub(super) fn fit_pointing(&mut self, antenna: AntennaId) {
-        let tell = |found| Some(Arc::new(PointingFitted { antenna, found }));
+        self.pointing_work.job = None;
         let Some(path) = self.record_file() else {
             let found = Err("this user has no folder for records".to_owned());
-            self.pointing_fitted = tell(Some(found));
-            return;
+            return self.pointing_work.tell(antenna, Some(found));
         };
-        self.pointing_fitted = tell(None);
         let site = self.station.site;
         let job = Job::start("azel-fit-pointing", Arc::clone(&self.wake), move |_| {
             let all = Timestamp::MIN..Timestamp::MAX;
             let fit = record::fit_pointing(&path, antenna, site, all, Vec::new());
             PointingFitted { antenna, found: Some(fit.map_err(|error| error.to_string())) }
         });
-        match job {
-            Ok(job) => self.pointing_job = Some(job),
-            Err(error) => self.pointing_fitted = tell(Some(Err(error.to_string()))),
-        }
+        let found = job.as_ref().err().map(|error| Err(error.to_string()));
+        self.pointing_work.job = job.ok();
+        self.pointing_work.tell(antenna, found);
     }
 
     pub(super) fn take_pointing_fit(&mut self) {
-        if let Some(Ok(fitted)) = Job::take(&mut self.pointing_job) {
-            self.pointing_fitted = Some(Arc::new(fitted));
+        let work = &mut self.pointing_work;
+        match Job::take(&mut work.job) {
+            None => {}
+            Some(Ok(fitted)) => work.fitted = Some(Arc::new(fitted)),
+            Some(Err(error)) => {
+                if let Some(antenna) = work.fitted.as_ref().map(|fitted| fitted.antenna) {
+                    work.tell(antenna, Some(Err(error.to_string())));
+                }
+            }
         }
     }
 }
