@@ -48,6 +48,7 @@ impl Recorded {
 /// The reading of a record.
 #[derive(Default)]
 pub(super) struct RecordReading {
+    pub(super) found: Option<Arc<Recorded>>,
     wanted: Option<RecordLook>,
     job: Option<Job<Recorded>>,
     /// When a new pass will be in the file.
@@ -58,7 +59,7 @@ impl Engine {
     /// Publishes what the record holds of `look`, and keeps it up to date; nothing for `None`.
     pub(super) fn look_at_record(&mut self, look: Option<RecordLook>) {
         if look.is_none() {
-            self.recorded = None;
+            self.record_reading.found = None;
         }
         self.record_reading.wanted = look;
         self.read_record();
@@ -77,7 +78,7 @@ impl Engine {
         };
         let Some(path) = self.record_file() else {
             let found = Err("this user has no folder for records".to_owned());
-            self.recorded = Some(Arc::new(Recorded { look, found }));
+            self.record_reading.found = Some(Arc::new(Recorded { look, found }));
             return;
         };
         let site = self.station.site;
@@ -93,7 +94,7 @@ impl Engine {
             self.read_record();
         }
         if let Some(Ok(recorded)) = Job::take(&mut self.record_reading.job) {
-            self.recorded = Some(Arc::new(recorded));
+            self.record_reading.found = Some(Arc::new(recorded));
         }
     }
 }
