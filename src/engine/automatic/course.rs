@@ -18,8 +18,9 @@ use crate::{
 const SWINGS_DEG: f64 = 3.0;
 /// Looks are compared within this time.
 const KEPT: Duration = Duration::from_secs(10);
-/// So near to an end of its travel, in degrees, an azimuth axis may have to turn the long way.
-const NEAR_END_DEG: f64 = 10.0;
+/// To a satellite so near to an end of its travel, in degrees, an azimuth axis may turn the long
+/// way: its unit may keep off the end.
+const NEAR_END_DEG: f64 = 3.0;
 
 /// The last looks at an antenna that has a pass to take.
 #[derive(Default)]
@@ -59,7 +60,7 @@ impl Course {
         let follows_within_deg = antenna.config.beam_width().degrees() * 0.5 + swing_deg;
         let target = self.target(antenna, measured);
         let look = target.and_then(|target| Look::new(measured, target));
-        let look = look.filter(|_| !is_near_end(antenna, measured));
+        let look = look.filter(|look| !may_turn_round(antenna, measured, look.target));
         let goes_to = place(antenna).or_else(|| {
             look.filter(|look| look.off.degrees() > follows_within_deg).map(Goal::Satellite)
         });
@@ -146,13 +147,21 @@ impl Look {
     }
 }
 
-/// Returns `true` if the next turn of the azimuth axis may be the long one.
-fn is_near_end(antenna: &AntennaModel, measured: Measured) -> bool {
+/// Returns `true` if the azimuth axis may have to turn the long way to `target`.
+fn may_turn_round(antenna: &AntennaModel, measured: Measured, target: Pointing) -> bool {
     let mount = antenna.config.mount.within(antenna.snapshot.state.travel_deg);
-    let [(from_deg, to_deg), _] = mount.travel_deg();
-    let angle_deg = measured.axes.first().and_then(|axis| axis.angle_deg);
+    let [travel_deg, _] = mount.travel_deg();
+    let at_deg = measured.axes.first().and_then(|axis| axis.angle_deg);
+    let ends = at_deg.zip(target.azimuth).map(|(at_deg, to)| (at_deg, to.degrees()));
+    ends.is_some_and(|(at_deg, to_deg)| is_beyond(travel_deg, at_deg, to_deg))
+}
+
+/// Returns `true` if the shorter way from `at_deg` to `azimuth_deg` leads out of the travel of the
+/// axis, or close to its end.
+fn is_beyond((from_deg, to_deg): (f64, f64), at_deg: f64, azimuth_deg: f64) -> bool {
+    let goes_to_deg = at_deg + (azimuth_deg - at_deg + 180.0).rem_euclid(360.0) - 180.0;
     to_deg - from_deg > 180.0
-        && angle_deg.is_some_and(|at| at - from_deg < NEAR_END_DEG || to_deg - at < NEAR_END_DEG)
+        && !(from_deg + NEAR_END_DEG..=to_deg - NEAR_END_DEG).contains(&goes_to_deg)
 }
 
 #[cfg(test)]
@@ -221,6 +230,16 @@ mod tests {
             let seen = course(looks);
             prop_assert!(seen.is_some_and(|look| look < 40), "{seen:?}");
         }
+    }
+
+    #[test]
+    fn an_axis_turns_round_only_for_what_lies_at_or_beyond_an_end() {
+        let whole = (0.0, 360.0);
+        assert!(!is_beyond(whole, 350.0, 340.0), "back from the end");
+        assert!(!is_beyond(whole, 355.0, 356.0));
+        assert!(is_beyond(whole, 355.0, 2.0) && is_beyond(whole, 350.0, 358.0));
+        assert!(!is_beyond((-90.0, 450.0), 355.0, 2.0) && is_beyond((-90.0, 450.0), 440.0, 91.0));
+        assert!(!is_beyond((5.0, 175.0), 10.0, 4.0), "a crossed axis");
     }
 
     #[test]
