@@ -27,8 +27,8 @@ pub(super) fn enlarged(track: &[TrackPoint]) -> u16 {
 /// What the path over the sky shows, after its title.
 pub(super) fn enlargement(factor: u16) -> String {
     match factor {
-        1 => "predicted and flown".to_owned(),
-        factor => format!("error drawn {factor} times larger"),
+        1 => "predicted and actual".to_owned(),
+        factor => format!("error drawn ×{factor}"),
     }
 }
 

@@ -26,10 +26,14 @@ use crate::{
 
 pub const HEIGHT: f32 = 56.0;
 /// The reason why controls are locked.
-pub const LOCKED: &str = "Locked: this is a replay. Leave it to command the station.";
+pub const LOCKED: &str = "Locked: leave the replay to command the station.";
 /// The answer to a command.
 pub const REFUSED: &str = "Not done: this is a replay. Leave it first.";
-const GOES_ON: &str = "The station is live; STOP works.";
+/// A replay takes nothing from STOP.
+const STOP_WORKS: &str = "STOP stops the live antennas.";
+const STOP_IN_SHORT: &str = "STOP is live";
+/// Least width of the bar of the stretch, beside words.
+const LEAST_BAR: f32 = 80.0;
 
 /// In a strip of this width there is room for everything.
 const WIDE: f32 = 1200.0;
@@ -93,7 +97,7 @@ pub fn show(
     paint::text_in(ui, clock, centre, &format::clock(replay.at), font, t.t1);
     let about = about(replay, live.now);
     paint::name_text(ui, "replay", tag.union(clock), &format!("Replay, {about}"))
-        .on_hover_text(GOES_ON);
+        .on_hover_text(STOP_WORKS);
     if is_wide {
         let room = place(ABOUT);
         let line = |y: f32| {
@@ -105,7 +109,7 @@ pub fn show(
         let left = Align2::LEFT_CENTER;
         let of = format!("{}, {}", format::date(replay.at), replay.stretch.name);
         paint::text_in(ui, line(-9.0), left, &of, text::small(), t.t1);
-        let said = problem(replay).unwrap_or_else(|| GOES_ON.to_owned());
+        let said = problem(replay).unwrap_or_else(|| STOP_WORKS.to_owned());
         paint::text_in(ui, line(9.0), left, &said, text::small(), t.warn);
         paint::name_text(ui, "about the replay", line(9.0), &said).on_hover_text(&said);
     }
@@ -122,11 +126,26 @@ pub fn show(
             paint::text_in(ui, rest, Align2::LEFT_CENTER, &said, text::small(), t.warn);
             paint::name_text(ui, "about the replay", rest, &said).on_hover_text(&said);
         }
-        None => scrubber(ui, rest, replay, commands),
+        None => {
+            let bar = if is_wide { rest } else { after_stop_works(ui, rest) };
+            scrubber(ui, bar, replay, commands);
+        }
     }
     if leave.show(ui, "leave replay", at).clicked() {
         commands.push(UiCommand::Replay(ReplayCommand::Leave));
     }
+}
+
+/// Says in a narrow strip that STOP works, and returns the room after the words.
+fn after_stop_works(ui: &Ui, rect: Rect) -> Rect {
+    let font = text::small();
+    let has_room =
+        paint::text_width(ui, STOP_WORKS, font.clone()) + GAP + LEAST_BAR <= rect.width();
+    let words = if has_room { STOP_WORKS } else { STOP_IN_SHORT };
+    let left = Align2::LEFT_CENTER;
+    let drawn = paint::text_in(ui, rect, left, words, font, theme::tokens(ui).warn);
+    paint::name_text(ui, "about the replay", drawn, STOP_WORKS).on_hover_text(STOP_WORKS);
+    rect.with_min_x(drawn.right() + GAP)
 }
 
 /// Draws the frame around a replay; its strip is the upper side.
@@ -142,7 +161,7 @@ pub fn frame(ui: &Ui, rect: Rect) {
 fn about(replay: &Replayed, now: Timestamp) -> String {
     let speed = in_words(replay.speed);
     let goes = if replay.plays { format!("plays at {speed}") } else { "stands".to_owned() };
-    let said = problem(replay).unwrap_or_else(|| GOES_ON.to_owned());
+    let said = problem(replay).unwrap_or_else(|| STOP_WORKS.to_owned());
     format!("{} of {}, {goes}. {said}", format::moment(replay.at, now), replay.stretch.name)
 }
 

@@ -224,12 +224,12 @@ fn rows_tell_verdict_and_cause_and_the_arrows_lead_through_them() {
     let rows: Vec<String> = window
         .query_all_by_role(Role::ListBoxOption)
         .filter_map(|node| node.accesskit_node().label())
-        .filter(|label| label.contains("inside"))
+        .filter(|label| label.contains("in beam"))
         .collect();
     assert_eq!(rows.len(), flown.len(), "{rows:?}");
-    assert!(rows[0].contains("Fair, 98.0 % inside"), "{}", rows[0]);
+    assert!(rows[0].contains("Fair, 98.0 % in beam"), "{}", rows[0]);
     assert!(rows[0].contains("0.80 s late"), "{}", rows[0]);
-    assert!(rows[1].contains("Good, 100 % inside"), "{}", rows[1]);
+    assert!(rows[1].contains("Good, 100 % in beam"), "{}", rows[1]);
     assert!(rows[2].contains("not known, No positions 1:30"), "{}", rows[2]);
     let _ = asked(&mut window);
     window.key_press(Key::ArrowDown);

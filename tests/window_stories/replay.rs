@@ -19,8 +19,9 @@ use egui_kittest::{
 };
 
 use crate::window_stories::{
+    every_view::painted,
     extremes::{nothing_is_cut, nothing_overlaps},
-    rig::{self, NOAA_20, SIZES, Window, asked, sent, settle},
+    rig::{self, NOAA_20, SIZES, SMALL, Window, asked, sent, settle},
     states,
     unit::{RealWindow, Unit, clock_from, step_until, wait_until},
 };
@@ -58,6 +59,17 @@ fn a_replay_is_marked_in_every_view_and_its_strip_plays_it() {
             model.refresh_sky();
             let mut window = rig::window(size, model);
             window.get_by_label_contains("Replay, 11:15:30Z of NOAA 20, plays at 10×.");
+            let full = "STOP stops the live antennas.";
+            let says_stop =
+                |words: &&String| *words == full || size == SMALL && *words == "STOP is live";
+            let texts = painted::texts(&window);
+            assert!(texts.iter().any(|words| says_stop(&words)), "{size:?} {view:?}: {texts:?}");
+            window.get_by_label(full);
+            let cut = painted::cut(&window);
+            assert!(
+                !cut.iter().any(|words| words.starts_with("STOP")),
+                "{size:?} {view:?}: {cut:?}"
+            );
             nothing_is_cut(&window, size);
             nothing_overlaps(&window);
             let event = |is_next| replayed(ReplayCommand::Event { is_next });
@@ -67,7 +79,7 @@ fn a_replay_is_marked_in_every_view_and_its_strip_plays_it() {
             assert_eq!(click(&mut window, "Pause (Space)"), pause);
             let back = [replayed(ReplayCommand::Speed(-10))];
             assert_eq!(click(&mut window, "Play backward"), back);
-            let leave = if size == rig::SMALL { "Leave (Q)" } else { "Leave replay (Q)" };
+            let leave = if size == SMALL { "Leave (Q)" } else { "Leave replay (Q)" };
             assert_eq!(click(&mut window, leave), [replayed(ReplayCommand::Leave)]);
         }
     }
@@ -81,7 +93,7 @@ fn stop_is_there_and_all_that_would_act_is_locked_or_refused() {
             let node = window.get_by_role_and_label(Role::RadioButton, mode);
             assert!(node.accesskit_node().is_disabled(), "{mode}");
         }
-        window.get_by_label_contains("Locked: this is a replay.");
+        window.get_by_label_contains("Locked: leave the replay to command the station.");
         let auto_track = window.get_by_role_and_label(Role::Button, "Auto-track: switch on");
         assert!(auto_track.accesskit_node().is_disabled());
         let refused = "Not done: this is a replay. Leave it first.";

@@ -63,17 +63,17 @@ pub(super) fn show(
     let titled =
         |place: Rect| place.with_min_x(rect.left() + PADDING).with_max_x(rect.right() - PADDING);
     let head = titled(part(TITLE));
-    let entries = [("elevation", t.sat, false), ("azimuth", t.t2, true), ("flown", t.ant, false)];
+    let entries = [("elevation", t.sat, false), ("azimuth", t.t2, true), ("actual", t.ant, false)];
     title(ui, head, "Azimuth and elevation", "", &entries);
     let direction = part(DIRECTION);
     directions(ui, direction, &axis, opened);
     let head = titled(part(TITLE));
-    let entries = [("off axis", t.ant, false), ("el", t.sat, false), ("az cos el", t.t2, true)];
-    title(ui, head, "Off the beam axis", "and along the axes, degrees", &entries);
+    let entries = [("off axis", t.ant, false), ("el", t.sat, false), ("cross-el", t.t2, true)];
+    title(ui, head, "Pointing error, degrees", "off the beam axis, and by axis", &entries);
     let error = part(ERROR);
     errors(ui, error, &axis, opened);
     let head = titled(part(TITLE));
-    let note = "all recorded lines: azel log";
+    let note = "Full log: azel log";
     title(ui, head, "Events", note, &[]);
     let lanes = Rect::from_min_max(pos2(rect.left(), head.bottom()), rect.max);
     let whole = plots.with_min_y(direction.top()).with_max_y(error.bottom());
@@ -293,7 +293,7 @@ fn readout(ui: &Ui, rect: Rect, x: f32, point: &TrackPoint, now: Timestamp) {
     ui.painter().rect_filled(place, 4.0, t.bg2.gamma_multiply(0.92));
     let both = |name: &str, satellite: f64, antenna: f64| {
         let two = |value| format::degrees(value, 2);
-        format!("{name} {}  flown {}", two(satellite), two(antenna))
+        format!("{name} {}  actual {}", two(satellite), two(antenna))
     };
     let lines = [
         (format::moment(point.time, now), text::small_strong()),

@@ -5,7 +5,7 @@ use jiff::Timestamp;
 
 use super::{PADDING, RecordState, curves};
 use crate::{
-    engine::alarms::Alarm,
+    engine::{By, alarms::Alarm},
     model::Model,
     plan::pass_report::LossCause,
     record::{OpenedPass, Row},
@@ -146,11 +146,24 @@ fn events(model: &Model, opened: &OpenedPass) -> [Vec<Moment>; 4] {
 
 /// A command in words: what, and who gave it.
 fn command(row: &Row) -> String {
-    let by = row.data.get("by").and_then(serde_json::Value::as_str).unwrap_or_default();
+    let by = row.data.get("by").cloned().and_then(|by| serde_json::from_value(by).ok());
     let command = row.data.get("command");
     let of_antenna = command.and_then(|command| command.get("Antenna")).and_then(|of| of.get(1));
     let what = of_antenna.or(command).and_then(variant).unwrap_or_default();
-    format!("{what}, {by}")
+    match by.map(given_by) {
+        Some(by) => format!("{what} (from {by})"),
+        None => what,
+    }
+}
+
+fn given_by(by: By) -> &'static str {
+    match by {
+        By::Window => "the window",
+        By::Serve => "azel serve",
+        By::Program => "another program",
+        By::Signal => "a signal",
+        By::Station => "the station",
+    }
 }
 
 /// The name of a variant as words.

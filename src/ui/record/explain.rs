@@ -70,8 +70,8 @@ pub(super) fn show(
     let rms =
         report.report.rms.map_or_else(|| "–".to_owned(), |rms| format::number(rms.off_deg, 3));
     let row = next();
-    cells(ui, row, &columns, ["As flown", "–", &rms]);
-    paint::name_text(ui, "as flown", row, &format!("As flown, root mean square {rms}°"));
+    cells(ui, row, &columns, ["As recorded", "–", &rms]);
+    paint::name_text(ui, "as recorded", row, &format!("As recorded, root mean square {rms}°"));
     if explanations.is_empty() {
         let row = next();
         let words = words::not_explained(!opened.track.is_empty());

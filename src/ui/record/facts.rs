@@ -34,7 +34,14 @@ pub(super) fn show(
     ui.painter().rect_filled(bar, 0.0, t.bg2);
     let inner = rect.shrink2(vec2(PADDING, 0.0));
     let title = bar.with_min_x(inner.left());
-    paint::text_in(ui, title, Align2::LEFT_CENTER, "Flown with", text::small_strong(), t.t1);
+    paint::text_in(
+        ui,
+        title,
+        Align2::LEFT_CENTER,
+        "Tracking conditions",
+        text::small_strong(),
+        t.t1,
+    );
     if let Some(place) = model.place(opened.pass.antenna) {
         let button = Button::normal("Unit settings");
         let size = vec2(button.width(ui), SMALL_HEIGHT);

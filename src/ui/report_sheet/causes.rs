@@ -33,7 +33,7 @@ pub(super) fn draw(svg: &mut Svg, y: f64, opened: &OpenedPass) {
     y += 7.0;
     let rms = opened.pass.report.report.rms;
     let rms = rms.map_or_else(|| "–".to_owned(), |rms| format::number(rms.off_deg, 3));
-    row(svg, &mut y, ["As flown", "–", &rms, ""], None);
+    row(svg, &mut y, ["As recorded", "–", &rms, ""], None);
     if explanations.is_empty() {
         let words = words::not_explained(!opened.track.is_empty());
         y += ROW;

@@ -65,7 +65,7 @@ fn beside(svg: &mut Svg, y: f64, words: &str) {
 
 /// Returns where the curves end.
 pub(super) fn draw(svg: &mut Svg, y: f64, opened: &OpenedPass) -> f64 {
-    let said = "dashed: predicted; solid: flown";
+    let said = "dashed: predicted; solid: actual";
     let mut y = section(svg, y, "Over time", said) + 4.0;
     let report = &opened.pass.report;
     let plot =
@@ -119,7 +119,7 @@ fn errors(svg: &mut Svg, plot: &Plot, half_beam_deg: f64, opened: &OpenedPass) {
     let edge = plot.y(half_beam_deg);
     svg.dashed(&[[LEFT + NUMBERS, edge], [RIGHT - WORDS, edge]], 0.8, [6.0, 3.0]);
     beside(svg, edge + 2.3, &format!("half beam {}", format::degrees(half_beam_deg, 2)));
-    for (line, words) in [(0, "solid: off axis"), (1, "dashed: el"), (2, "dots: az cos el")] {
+    for (line, words) in [(0, "solid: off axis"), (1, "dashed: el"), (2, "dots: cross-el")] {
         beside(svg, plot.y(0.0) + 9.0 * f64::from(line) + 2.3, words);
     }
     for piece in recorded_track::pieces(&opened.track) {

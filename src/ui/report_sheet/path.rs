@@ -51,7 +51,7 @@ pub(super) fn draw(svg: &mut Svg, y: f64, opened: &OpenedPass) -> f64 {
         svg.dot(to, 1.4);
     }
     let bottom = middle + RADIUS + ABOVE;
-    let words = "dashed: predicted; solid: flown; dots: the worst error; ticks: full minutes";
+    let words = "dashed: predicted; solid: actual; dots: the worst error; ticks: whole minutes";
     svg.text([LEFT, bottom + 8.0], WIDTH, CAPTION, words);
     let ends = opened.path.first().zip(opened.path.last());
     if let Some((first, last)) = ends {

@@ -34,7 +34,7 @@ pub fn facts(report: &RecordedReport, now: Timestamp) -> Vec<Fact> {
     let about = &report.about;
     let mut facts = vec![
         plain("Elements of", format::copied(report.elements.epoch())),
-        plain("Their age at the pass", format::age(report.age_days * DAY_S)),
+        plain("Element age at the pass", format::age(report.age_days * DAY_S)),
         plain("Tracked by", record::tracked_by(about.tracked_by).to_owned()),
         plain("Tracked since", format::moment(about.begun, now)),
     ];
@@ -67,7 +67,7 @@ pub fn facts(report: &RecordedReport, now: Timestamp) -> Vec<Fact> {
         format::duration(report.report.known_s),
         format::duration(report.report.counted_s)
     );
-    facts.push(plain("Positions known for", known));
+    facts.push(plain("Position data for", known));
     if let Some(rms) = report.report.rms {
         let two = |a: f64, b: f64| format!("{}, {}", format::degrees(a, 3), format::degrees(b, 3));
         facts.push(plain("Rms in azimuth, elevation", two(rms.azimuth_deg, rms.elevation_deg)));

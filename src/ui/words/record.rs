@@ -39,10 +39,10 @@ pub fn in_short(report: &PassReport) -> String {
     match &report.worst {
         None => "No position was measured".to_owned(),
         Some(_) if not_known_s > UNTOLD_S => {
-            format!("{share} inside, {} not known", format::duration(not_known_s))
+            format!("{share} in beam, {} not known", format::duration(not_known_s))
         }
         Some(worst) => {
-            format!("{share} inside, worst {}", format::degrees(worst.error.off_deg, 2))
+            format!("{share} in beam, worst {}", format::degrees(worst.error.off_deg, 2))
         }
     }
 }
@@ -91,7 +91,7 @@ pub fn cause(cause: &Cause) -> &'static str {
         Cause::Late { .. } => "Time offset",
         Cause::AzimuthOffset { .. } => "Azimuth offset",
         Cause::ElevationOffset { .. } => "Elevation offset",
-        Cause::Tilt { .. } => "Azimuth axis tilt",
+        Cause::Tilt { .. } => "Mount tilt",
         Cause::AzimuthScale { .. } => "Azimuth scale",
         Cause::ElevationScale { .. } => "Elevation scale",
         Cause::OtherElements { .. } => "Other elements",
@@ -144,7 +144,7 @@ fn cause_as_subject(of: &Cause) -> String {
         Cause::ElevationOffset { offset_deg } => {
             format!("The elevation was off by {}", deg(*offset_deg))
         }
-        Cause::Tilt { .. } => format!("The azimuth axis is tilted by {}", size(of)),
+        Cause::Tilt { .. } => format!("The mount is tilted by {}", size(of)),
         Cause::AzimuthScale { .. } => format!("The azimuth scale is off by {}", size(of)),
         Cause::ElevationScale { .. } => format!("The elevation scale is off by {}", size(of)),
         Cause::OtherElements { epoch } => {
@@ -208,20 +208,21 @@ fn losses_sentence(losses: &[LostStretch]) -> String {
             None => causes.push((lost.cause, lost.seconds())),
         }
     }
-    let told = causes.into_iter().map(|(cause, seconds)| {
-        format!("{} {}", format::duration(seconds), loss_in_sentence(cause))
+    let told = causes.into_iter().enumerate().map(|(place, (cause, seconds))| {
+        let lost = if place == 0 { " lost" } else { "" };
+        format!("{}{lost} {}", format::duration(seconds), loss_in_sentence(cause))
     });
-    format!(" Lost: {}.", format::list(&told.collect::<Vec<_>>()))
+    format!(" {}.", format::list(&told.collect::<Vec<_>>()))
 }
 
 fn loss_in_sentence(cause: LossCause) -> &'static str {
     match cause {
-        LossCause::NotMeasured => "without positions",
+        LossCause::NotMeasured => "for lack of positions",
         LossCause::ProgramEnded => "after Azel ended",
         LossCause::OutOfReach => "out of the mount's reach",
         LossCause::RateOfMount => "where the mount is too slow",
         LossCause::Slew => "at the azimuth unwrap",
-        LossCause::LateStart => "until the antenna arrived",
+        LossCause::LateStart => "before the antenna arrived",
         LossCause::EarlyEnd => "after the antenna left",
         LossCause::NotExplained => "to pointing errors",
     }
