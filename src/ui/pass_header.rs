@@ -26,6 +26,8 @@ const WORD_GAP: f32 = 7.0;
 /// Downward shift of a smaller text to align its baseline with a larger one, for each point of
 /// difference in size.
 const DOWN_PER_SIZE: f32 = 0.22;
+/// Stands between the clauses of the second line.
+pub const BETWEEN: &str = " · ";
 /// Minimum width of a text; with less room it is left out.
 const MIN_TEXT: f32 = 24.0;
 /// Minimum width of the texts for a countdown to TCA.
@@ -122,9 +124,13 @@ fn second_line(ui: &Ui, rect: Rect, model: &PassHeaderModel<'_>) {
         let drawn =
             paint::text_in(ui, rect, Align2::LEFT_CENTER, model.warning, text::small(), t.warn);
         room = rect.with_min_x(drawn.right());
-        words = format!(" · {words}");
+        words = format!("{BETWEEN}{words}");
     }
-    if room.width() >= MIN_TEXT && !model.second_line.is_empty() {
+    // A clause that has no room is left out whole, with those behind it.
+    while !words.is_empty() && paint::text_width(ui, &words, text::small()) > room.width() {
+        words = words.rsplit_once(BETWEEN).map_or("", |(first, _)| first).to_owned();
+    }
+    if room.width() >= MIN_TEXT && !words.is_empty() {
         paint::text_in(ui, room, Align2::LEFT_CENTER, &words, text::small(), t.t2);
     }
 }

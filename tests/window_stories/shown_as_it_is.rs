@@ -107,7 +107,7 @@ fn a_header_that_is_cut_keeps_what_matters_and_loses_the_age_of_the_elements_fir
         let header = window.get_by_label_contains("JPSS-1 43013").accesskit_node();
         let header = header.value().or_else(|| header.label()).unwrap();
         let place = |words: &str| header.find(words).unwrap_or_else(|| panic!("{header}"));
-        let other = place("nother satellite on Satrak");
+        let other = place("Satrak has another satellite");
         let light = header.find("sunlit").unwrap_or_else(|| place("in shadow"));
         assert!(other < light && light < place("lements "), "{header}");
     }

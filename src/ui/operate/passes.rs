@@ -280,11 +280,11 @@ fn second_line(model: &Model, predicted: &PredictedPass) -> [String; 2] {
         let held = antenna.snapshot.state.on_board.satellite.as_ref()?;
         let is_same = !held.name.is_empty() && held.catalog_number == number;
         let word = match (held.name.is_empty(), is_same) {
-            (true, _) => "no satellite",
-            (false, true) => "same satellite",
-            (false, false) => "another satellite",
+            (true, _) => "has no satellite",
+            (false, true) => "has the same satellite",
+            (false, false) => "has another satellite",
         };
-        Some((is_same, format!("{word} on {}", antenna.config.name)))
+        Some((is_same, format!("{} {word}", antenna.config.name)))
     });
     let (same, other) = match held {
         Some((true, words)) => (Some(words), None),
@@ -299,7 +299,7 @@ fn second_line(model: &Model, predicted: &PredictedPass) -> [String; 2] {
     let light = model.sky.selected.map(|of| if of.sunlit { "sunlit" } else { "in shadow" });
     let joined = |parts: &[Option<String>]| {
         let parts: Vec<&str> = parts.iter().flatten().map(String::as_str).collect();
-        parts.join(" · ")
+        parts.join(pass_header::BETWEEN)
     };
     let way = model.antenna().and_then(|antenna| {
         let way = way_there(model, antenna, predicted)?;

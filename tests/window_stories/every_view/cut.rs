@@ -105,10 +105,7 @@ fn raw_bytes_that_have_no_room_end_with_an_ellipsis() {
 }
 
 /// Texts that end with an ellipsis where there is no room, as the pointer shows them whole.
-const MAY_BE_CUT: [&str; 8] = [
-    // The second line of the header: the least important stands last.
-    "Same satellite on Satrak",
-    " · sunlit",
+const MAY_BE_CUT: [&str; 6] = [
     // What another antenna does, below the card.
     "Holding at ",
     // What a fold holds.
