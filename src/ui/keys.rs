@@ -155,23 +155,23 @@ pub const ALL: [Binding; 40] = [
         ],
         "play, previous event, next, leave",
     ),
-    row(KeyScope::Focus, &[(Key::Enter, Act::There)], "press what has the focus"),
+    row(KeyScope::Focus, &[(Key::Enter, Act::There)], "press the focused button"),
     row(KeyScope::Operate, &[(Key::N, Act::NextPass)], "the pass in progress or the next one"),
     row(KeyScope::Operate, &[(Key::P, Act::Drawer)], "pass list, in small windows"),
     row(
         KeyScope::Operate,
         &[(Key::T, Act::Track), (Key::K, Act::Park)],
-        "track the selected pass, park the antenna (both ask)",
+        "track the selected pass, park the antenna (asks first)",
     ),
     row(
         KeyScope::Operate,
         &[(Key::G, Act::GoTo)],
-        "Position: type a direction; Enter shows, then goes",
+        "Position: type a direction; Enter previews, Enter again moves the antenna",
     ),
     row(
         KeyScope::Operate,
         &[(Key::M, Act::Manual)],
-        "Manual, arrows on the jog pad (asks while tracking)",
+        "Manual, arrows jog (asks first while tracking)",
     ),
     row(
         KeyScope::Focus,
@@ -204,7 +204,7 @@ pub const ALL: [Binding; 40] = [
             (Key::Backspace, Act::Offset(OffsetKey::TimeToZero)),
             (Key::U, Act::Offset(OffsetKey::Undo)),
         ],
-        "while tracking: time −/+ 100 ms, to 0; undo",
+        "while tracking: time offset −100, +100 ms, reset, undo",
     ),
     // More modifiers come first: fewer of them fit as well.
     with(
@@ -241,17 +241,17 @@ pub const ALL: [Binding; 40] = [
     row(
         KeyScope::Operate,
         &[(Key::Home, Act::SkyOfNow)],
-        "sky now; on its slider: Left, Right 1 min, Page 10 min",
+        "sky now; on the time slider: Left, Right 1 min, Page 10 min",
     ),
     row(
         KeyScope::Operate,
         &[(Key::Plus, Act::Zoom(1)), (Key::Minus, Act::Zoom(-1))],
-        "fewer, more hours; in the focused sky plot: zoom in, out",
+        "shorter, longer time span; in the focused sky plot: zoom in, out",
     ),
     row(
         KeyScope::Operate,
         &[(Key::Num0, Act::UsualZoom)],
-        "the usual hours; in the focused sky plot: the whole sky",
+        "default span; in the focused sky plot: the whole sky",
     ),
     row(
         KeyScope::Map,
@@ -291,7 +291,7 @@ pub const ALL: [Binding; 40] = [
             (Key::V, Act::ChoosePass(Some(Take::Never))),
             (Key::S, Act::SwapPass),
         ],
-        "always, by plan, never; swap (asks)",
+        "the selected pass always, by plan, never; swap it in (asks first)",
     ),
     row(
         KeyScope::Plan,
@@ -300,7 +300,7 @@ pub const ALL: [Binding; 40] = [
             (Key::Minus, Act::PlanZoom(false)),
             (Key::Num0, Act::UsualPlan),
         ],
-        "fewer, more hours in the lanes; from now on",
+        "shorter, longer time span; back to now",
     ),
     with(
         Modifiers::COMMAND,
@@ -329,7 +329,7 @@ pub const ALL: [Binding; 40] = [
     row(
         KeyScope::Focus,
         &[(Key::Insert, Act::There), (Key::Delete, Act::There)],
-        "add, remove a corner; arrows move it",
+        "add, remove a horizon point or zone corner; arrows move it",
     ),
     with(
         Modifiers::COMMAND,

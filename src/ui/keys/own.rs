@@ -182,7 +182,7 @@ mod tests {
             Err(Clash::Taken(by)) => by.does_where(),
             other => format!("{other:?}"),
         };
-        assert_eq!(holder(Key::T), "track the selected pass, park the antenna (both ask)");
+        assert_eq!(holder(Key::T), "track the selected pass, park the antenna (asks first)");
         assert_eq!(holder(Key::A), "acknowledge the newest alarm");
         assert_eq!(own.choose(next, Key::Escape), Err(Clash::NoShortcut));
         assert_eq!(own.choose(next, Key::Space), Err(Clash::NoShortcut));
@@ -194,7 +194,10 @@ mod tests {
         assert!(matches!(own.choose(next, Key::N), Err(Clash::Taken(_))), "P has it");
         let taken = own.choose(slot(KeyScope::Views, Key::A), Key::Y);
         let Err(Clash::Taken(by)) = taken else { panic!("{taken:?}") };
-        assert!(by.does_where().starts_with("in Plan: always"), "it says in which view");
+        assert!(
+            by.does_where().starts_with("in Plan: the selected pass always"),
+            "it says in which view"
+        );
     }
 
     #[test]
