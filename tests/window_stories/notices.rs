@@ -118,7 +118,7 @@ fn a_favourite_is_marked_for_a_reminder() {
 #[test]
 fn what_the_desktop_lacks_is_said_where_it_is_set() {
     let mut window = page(SIZES[0]);
-    assert!(!says(&window, "There is no sound"));
+    assert!(!says(&window, "Azel cannot play sounds"));
     window.get_by_role_and_label(Role::RadioGroup, "Warnings");
     window.state_mut().model.outlets = Outlets {
         notifications: Some(Missing::Bus("no address".to_owned())),
@@ -136,7 +136,7 @@ fn what_the_desktop_lacks_is_said_where_it_is_set() {
     assert!(says(&window, raw), "as it came, where it is asked for");
     assert!(says(
         &window,
-        "There is no sound: Azel does not support this on this operating system."
+        "Azel cannot play sounds: Azel does not support this on this operating system."
     ));
 }
 

@@ -85,7 +85,7 @@ pub static ELEMENT_FILE: Setting = Setting::new(
 )
 .noted(|_| {
     Some(
-        "If left empty, the unit keeps using its present file. A new unit has none and cannot \
+        "If left empty, the unit keeps using its current file. A new unit has none and cannot \
           track.",
     )
 });

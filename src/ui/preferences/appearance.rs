@@ -50,7 +50,7 @@ fn theme_and_size(ui: &mut Ui, wanted: &mut Appearance) {
             .collect();
         choice(ui, SCALE, &scales, &mut wanted.scale_percent);
         if scales.len() < words.len() {
-            note(ui, "A larger scale needs a larger window: part of the views would be cut off.");
+            note(ui, "A larger scale needs a larger window, or part of the view is cut off.");
         }
     });
 }

@@ -58,7 +58,7 @@ fn about(page: Page, model: &Model, draft: &Draft) -> String {
         Page::Horizon => "Obstructions of the sky, and where no antenna may point",
         Page::Satellites => "Which passes come first, and which are taken at all",
         Page::Rules => "The first matching rule applies, in the plan and in automatic operation",
-        Page::Notices => "What the desktop announces, and when",
+        Page::Notices => "What is announced on the desktop, and when",
         Page::Appearance => "For this window, applied at once",
         Page::Keys => "Click a boxed key, then press the new one. Applied at once, in this window",
     };
@@ -68,12 +68,12 @@ fn about(page: Page, model: &Model, draft: &Draft) -> String {
 /// Make and mount of an antenna, and who tracks with it.
 fn kind(antenna: &Antenna) -> String {
     let mount = match antenna.mount {
-        Mount::Xy { .. } => "X/Y",
-        Mount::AzEl { .. } if has_elevation(antenna) => "az/el",
+        Mount::Xy { .. } => "X/Y mount",
+        Mount::AzEl { .. } if has_elevation(antenna) => "az/el mount",
         Mount::AzEl { .. } => "azimuth only",
     };
     let can = antenna.connection.variant().capabilities;
-    let tracks = if can.takes_positions { ", Azel can track with it" } else { "" };
+    let tracks = if can.takes_positions { "; follows positions sent by Azel" } else { "" };
     format!("{}, {mount}{tracks}", antenna.connection.spec().name)
 }
 

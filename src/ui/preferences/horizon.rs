@@ -360,7 +360,8 @@ fn tool_bar(ui: &mut Ui, bar: Rect, skies: &mut Skies, state: &mut HorizonState)
     let undoing = row.with_min_x(row.right() - undo.width(ui));
     let undoing = Rect::from_center_size(undoing.center(), vec2(undoing.width(), SMALL_HEIGHT));
     let mut left = place.right() + 12.0;
-    for (on, word) in [(&mut state.snaps, "Snap 0.5°"), (&mut state.shows_passes, "Passes of 48 h")]
+    for (on, word) in
+        [(&mut state.snaps, "Snap 0.5°"), (&mut state.shows_passes, "Passes in the next 48 h")]
     {
         let width = paint::text_width(ui, word, text::body()) + check_box::WIDTH + 14.0;
         if left + width < undoing.left() {

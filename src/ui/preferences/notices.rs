@@ -129,12 +129,12 @@ impl NoticesDraft {
 fn telling_fields() -> Vec<Placed<Telling>> {
     let fields = [
         flag("Notifications", |telling| &mut telling.notifications).noted(|_| {
-            let words = "The desktop shows new alarms and reminders. Top-priority alarms are \
-                         always shown.";
+            let words = "The desktop shows new alarms and reminders, and top-priority alarms \
+                         even if this is off.";
             Some(words.to_owned())
         }),
         flag("Sounds", |telling| &mut telling.sounds)
-            .noted(|_| Some("Top-priority alarms always sound.".to_owned())),
+            .noted(|_| Some("Top-priority alarms sound even if this is off.".to_owned())),
         tones(WARNINGS, |telling| &mut telling.warning)
             .noted(|_| Some("Alarms about something that is wrong now.".to_owned())),
         tones(CAUTIONS, |telling| &mut telling.caution).noted(|_| {
@@ -265,8 +265,8 @@ fn reminders(ui: &mut Ui, model: &Model, draft: &mut Draft, sought: &mut Sought)
     form::section(ui, "reminding", (reminding, &standings), REMINDING, sought, |ui| {
         note(
             ui,
-            "For the passes of the favourites marked here. An alarm is raised where no \
-             antenna is on its way to such a satellite 30 s before its AOS.",
+            "For the passes of the favourites marked here. An alarm is raised if no antenna is on \
+             its way 30 s before AOS.",
         );
         ui.add_space(4.0);
         for number in &ground.favourites() {

@@ -116,7 +116,7 @@ fn passes() -> [Of; 2] {
         })
         .noted(|_| {
             let words = "A pass begins and ends there. The mask and an antenna's own minimum \
-                         elevation cut it further.";
+                         elevation shorten it.";
             Some(words.to_owned())
         }),
         Of::number("Elevation floor", ranges::ELEVATION_FLOOR_DEG, "°", |ground| {

@@ -60,7 +60,7 @@ pub fn missing_outlets(outlets: &Outlets) -> Vec<MissingOutlet> {
         Some(MissingOutlet { words: format!("{what}: {why}. {cure}"), raw: raw(missing) })
     };
     let notifications = of("The desktop shows no notifications", &outlets.notifications);
-    let sounds = of("There is no sound", &outlets.sounds);
+    let sounds = of("Azel cannot play sounds", &outlets.sounds);
     notifications.into_iter().chain(sounds).collect()
 }
 

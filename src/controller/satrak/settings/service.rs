@@ -15,7 +15,7 @@ const GIVEN: i64 = 0;
 const PRESENT: i64 = 1;
 
 const REFERENCE: Key<i64> =
-    Key::choice("reference", &[(GIVEN, "As given"), (PRESENT, "Present position")]);
+    Key::choice("reference", &[(GIVEN, "As entered below"), (PRESENT, "Present position")]);
 const X_SENSOR: Key<i64> = Key::integer("x_sensor", 0, 65_535);
 const X_DEG: Key<f64> = Key::decimal("x_deg", -360.0, 360.0, 1);
 const Y_SENSOR: Key<i64> = Key::integer("y_sensor", 0, 65_535);

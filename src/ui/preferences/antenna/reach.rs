@@ -119,7 +119,7 @@ fn sentence(antenna: &Antenna) -> String {
     let is_within = antenna.mount.reaches(antenna.park_direction());
     let park = if is_within { "" } else { " The park position lies outside the travel." };
     let Some(travel) = Travel::of(antenna) else {
-        return format!("An X/Y mount: it is too slow in the hatched keyholes.{park}");
+        return format!("An X/Y mount: it is too slow inside the hatched keyholes.{park}");
     };
     let (from, to) = travel.azimuth;
     let [from, to] = [from, to].map(|deg| format::degrees(deg, 0));

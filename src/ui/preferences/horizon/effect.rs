@@ -26,13 +26,13 @@ pub(super) fn lines(effect: &Effect<Question>, zone: Option<&str>) -> [String; 2
         (format!("Keep-outs{sun} block"), (effect.after.touched, effect.after.lost_s))
     };
     let blocks = match passes {
-        0 => format!("{who} none of the {of} passes of the next 48 h."),
+        0 => format!("{who} none of the {of} passes in the next 48 h."),
         1 => format!(
-            "{who} part of 1 of the {of} passes of the next 48 h, {}.",
+            "{who} part of 1 of the {of} passes in the next 48 h, {}.",
             format::duration(time_s)
         ),
         _ => format!(
-            "{who} part of {passes} of the {of} passes of the next 48 h, about {} each.",
+            "{who} part of {passes} of the {of} passes in the next 48 h, about {} each.",
             format::duration(time_s / passes as f64)
         ),
     };
@@ -48,11 +48,11 @@ pub(super) fn lines(effect: &Effect<Question>, zone: Option<&str>) -> [String; 2
         && (old.lost_s - new.lost_s).abs() < 0.5
     {
         let skyline = match new.masked {
-            0 => "The skyline cuts none.".to_owned(),
-            1 => "The skyline cuts 1.".to_owned(),
-            many => format!("The skyline cuts {many}."),
+            0 => "no pass, before or after saving".to_owned(),
+            1 => "1 pass, before and after saving".to_owned(),
+            many => format!("{many} passes, before and after saving"),
         };
-        format!("{skyline} Saving does not change that.")
+        format!("The skyline cuts {skyline}.")
     } else {
         format!("As edited, {}. As saved, {}.", in_all(new), in_all(old))
     };

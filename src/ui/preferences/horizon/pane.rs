@@ -128,7 +128,7 @@ fn table(ui: &mut Ui, model: &Model, skies: &mut Skies, state: &mut HorizonState
     }
     let kind = match skies.sun.kept() {
         Some(sun) => format!("Keep away, {}", format::degrees(sun.radius_deg, 1)),
-        None => "Off".to_owned(),
+        None => "Keep away, off".to_owned(),
     };
     let toll = effect.filter(|_| skies.sun.is_on).and_then(|effect| effect.after.of_sun.as_ref());
     let touched = toll.map_or_else(dash, |toll| toll.passes.to_string());
