@@ -155,7 +155,7 @@ fn stop_about(model: &Model, left_out: Option<&(String, String)>) -> String {
     };
     let notes: String = model.antennas.iter().filter_map(note).collect();
     match left_out {
-        Some((count, sentence)) => format!("Stops {count} antennas.{notes} {sentence}"),
+        Some((count, sentence)) => format!("Reaches {count} antennas.{notes} {sentence}"),
         None => format!("Stops every antenna.{notes}"),
     }
 }

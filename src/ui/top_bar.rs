@@ -163,12 +163,12 @@ fn mark_left_out(ui: &Ui, rect: Rect, left_out: StopLeftOut<'_>) {
     let t = theme::tokens(ui);
     let mark = paint::square(rect.center() - vec2(0.0, 15.0), MARK);
     icons::paint(ui.painter(), mark, icons::Icon::OpenRing, t.warn);
-    for (words, down) in [("stops", 0.0), (left_out.count, 13.0)] {
+    for (words, down) in [("reaches", 0.0), (left_out.count, 13.0)] {
         let line =
             Rect::from_center_size(rect.center() + vec2(0.0, down), vec2(rect.width(), 13.0));
         paint::text_in(ui, line, Align2::CENTER_CENTER, words, text::caption(), t.warn);
     }
-    let words = format!("STOP stops {} antennas. {}", left_out.count, left_out.sentence);
+    let words = format!("STOP reaches {} antennas. {}", left_out.count, left_out.sentence);
     paint::name_text(ui, "left out of stop", rect, &words).on_hover_text(&words);
 }
 

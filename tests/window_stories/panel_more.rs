@@ -200,7 +200,7 @@ fn the_checks_of_every_make_say_when_they_were_read() {
         (makes::model(makes::rc2000c(), makes::rc2000c_at(Intent::Manual)), 3),
     ] {
         let window = rig::window(rig::LARGE, model);
-        let words = format!("No faults. All {count} checks good, 11:15:30Z.");
+        let words = format!("No faults. All {count} checks passed, 11:15:30Z.");
         assert!(says(&window, &words), "{words}");
     }
 }

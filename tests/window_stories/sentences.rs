@@ -97,10 +97,10 @@ fn before_and_after_the_pass_it_says_where_it_waits_and_holds() {
 fn only_while_it_tracks_it_is_compared_with_the_satellite() {
     let wrong_elevation = states::tracking(20.0);
     for (phase, error) in [
-        (Phase::OutOfWindow, "– of 0.44°, not known"),
-        (Phase::AtStart, "– of 0.44°, not known"),
-        (Phase::Completed, "– of 0.44°, not known"),
-        (Phase::Tracking, "20.00° of 0.44°, outside the beam"),
+        (Phase::OutOfWindow, "– (half beam 0.44°), not known"),
+        (Phase::AtStart, "– (half beam 0.44°), not known"),
+        (Phase::Completed, "– (half beam 0.44°), not known"),
+        (Phase::Tracking, "20.00° (half beam 0.44°), outside the beam"),
     ] {
         for size in rig::SIZES {
             // NOAA 20 is up all the time.

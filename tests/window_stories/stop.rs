@@ -178,13 +178,13 @@ fn what_stop_leaves_alone_is_named_beside_it_and_has_a_stop_of_its_own() {
         let mut window = rig::window(size, model);
         let stop = window.get_by_role_and_label(Role::Button, "STOP");
         let about = stop.accesskit_node().description().unwrap();
-        assert_eq!(about, format!("Stops 1 of 2 antennas. {left_out}"));
-        window.get_by_label(&format!("STOP stops 1 of 2 antennas. {left_out}"));
+        assert_eq!(about, format!("Reaches 1 of 2 antennas. {left_out}"));
+        window.get_by_label(&format!("STOP reaches 1 of 2 antennas. {left_out}"));
         stop_stops(&mut window, "STOP");
 
         let own = window.get_by_role_and_label(Role::Button, "Connect and STOP RC2000C");
         let about = own.accesskit_node().description().unwrap();
-        assert!(about.contains("takes the panel"), "{about}");
+        assert!(about.contains("takes control from anybody at its panel"), "{about}");
         own.click();
         assert_eq!(asked(&mut window), [UiCommand::StopAntenna(AntennaId(2))]);
     }
@@ -221,7 +221,7 @@ fn after_a_stop_the_bar_says_in_words_what_was_left_alone() {
         let window = rig::window(size, model);
         let said = "RC2000C is not connected: STOP does not reach it.";
         window.get_by_label(said);
-        window.get_by_label(&format!("STOP stops 2 of 3 antennas. {said}"));
+        window.get_by_label(&format!("STOP reaches 2 of 3 antennas. {said}"));
         window.get_by_role_and_label(Role::Button, "STOP, all stopped");
     }
 }

@@ -73,7 +73,7 @@ impl FaultsModel<'_> {
             format!(", {}", self.checked_at)
         };
         match (worst, self.count(worst)) {
-            (CheckState::Good, _) => ("No faults".into(), format!("All {all} checks good{at}")),
+            (CheckState::Good, _) => ("No faults".into(), format!("All {all} checks passed{at}")),
             (CheckState::Unknown, 0) => ("Not known".into(), "The unit reports no checks".into()),
             (CheckState::Unknown, count) => {
                 ("Not known".into(), format!("{count} of {all} checks have no answer{at}"))
@@ -186,7 +186,7 @@ mod tests {
         let of = |checks: &[Check]| FaultsModel { checks, checked_at: "11:06:08Z" }.summary();
         assert_eq!(
             of(&[good.clone(), good.clone()]),
-            ("No faults".into(), "All 2 checks good, 11:06:08Z".into())
+            ("No faults".into(), "All 2 checks passed, 11:06:08Z".into())
         );
         assert_eq!(
             of(&[good.clone(), unknown.clone(), fault]),

@@ -190,7 +190,7 @@ pub(super) fn travel(ui: &Ui, at: &mut Cursor, axes: &[TravelModel<'_>], with_he
     let t = theme::tokens(ui);
     if with_head {
         let head = at.take(18.0);
-        let words = "Travel of the axes";
+        let words = "Axis travel";
         paint::text(ui, head.left_center(), Align2::LEFT_CENTER, words, text::caption(), t.t3);
         if let Some(range) = common_range(axes) {
             paint::text(

@@ -46,7 +46,7 @@ pub(super) fn about(ui: &Ui, at: &mut Cursor, model: &HeaderModel<'_>) {
 
 fn about_stop(model: &HeaderModel<'_>) -> String {
     let does = if model.takes_panel {
-        "takes the panel from anybody working at the unit, and disconnects"
+        "takes control from anybody at its panel, and disconnects"
     } else {
         "disconnects again"
     };

@@ -58,7 +58,7 @@ fn off(antenna: &AntennaModel) -> String {
     if antenna.variant().capabilities.waits_for_word {
         return format!(
             "{name} is not connected. Azel sends it nothing until you press Connect: connecting \
-             can take its panel from somebody working at it."
+             may lock out somebody at its panel."
         );
     }
     format!(

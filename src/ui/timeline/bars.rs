@@ -219,7 +219,7 @@ fn remarks(bar: &Bar<'_>, antenna: &str, model: &TimelineModel<'_>) -> String {
         State::Mount { can_track: false } => Some("out of reach".to_owned()),
         State::Plan(standing) => Some((model.says)(standing, antenna)),
     };
-    let lost = (bar.loses && bar.is_taken()).then(|| "seconds lost".to_owned());
+    let lost = (bar.loses && bar.is_taken()).then(|| "part lost".to_owned());
     let mut remarks = String::new();
     for remark in stands.into_iter().chain(lost) {
         remarks += ", ";

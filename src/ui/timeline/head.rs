@@ -26,7 +26,7 @@ enum Mark {
 /// Entries from right to left; those without room beside the title are left out, from the
 /// left.
 fn legend(model: &TimelineModel<'_>) -> Vec<(Mark, &'static str)> {
-    let lost = (Mark::Triangle, "seconds lost");
+    let lost = (Mark::Triangle, "part lost");
     if !model.is_planned {
         let filled = (Mark::Bar(BarForm::Planned), "trackable, height = max elevation");
         return vec![lost, (Mark::Bar(BarForm::LeftOut), "out of reach"), filled];

@@ -88,7 +88,7 @@ fn a_bar_is_found_by_name_and_a_click_selects_it() {
 #[test]
 fn names_tell_what_the_mount_cannot_do() {
     let window = window(FULL, bars());
-    window.get_by_label("METEOR-M2 4, 11:34Z to 11:46Z, max 34°, seconds lost");
+    window.get_by_label("METEOR-M2 4, 11:34Z to 11:46Z, max 34°, part lost");
     window.get_by_label("ISS, 12:36Z to 12:43Z, max 52°, out of reach");
     assert!(window.query_by_label_contains("SUOMI").is_none(), "begins after the strip");
 }
@@ -138,7 +138,7 @@ fn pointing_at_a_bar_tells_its_times() {
     let mut window = window(FULL, bars());
     window.get_by_label_contains("METEOR").hover();
     window.run_steps(8);
-    window.get_by_label("METEOR-M2 4\n11:34:54Z to 11:46:45Z\nmax 34°, seconds lost");
+    window.get_by_label("METEOR-M2 4\n11:34:54Z to 11:46:45Z\nmax 34°, part lost");
 }
 
 #[test]

@@ -83,7 +83,8 @@ pub(super) fn date(ui: &Ui, rect: Rect, model: &ClockModel<'_>) -> bool {
     let gap = if local.is_empty() { 0.0 } else { HEALTH_GAP };
     let width = |words: &str| paint::text_width(ui, words, text::small());
     let bad = model.health.mood == ClockMood::Bad;
-    let room_for_health = width(local) + gap + width(model.health.words) <= rect.width();
+    let has_room = |words: &str| width(local) + gap + width(words) <= rect.width();
+    let room_for_health = has_room(model.health.words);
     if UTC_WIDTH + width(model.date) > rect.width() || (bad && !room_for_health) {
         return false;
     }
@@ -103,7 +104,8 @@ pub(super) fn date(ui: &Ui, rect: Rect, model: &ClockModel<'_>) -> bool {
             ClockMood::Unknown => t.t3,
         };
         let rest = below.with_min_x(place.right() + gap);
-        let words = model.health.words;
+        let full = format!("clock {}", model.health.words);
+        let words = if has_room(&full) { &full } else { model.health.words };
         let place = paint::text_in(ui, rest, Align2::LEFT_CENTER, words, text::small(), colour);
         name_health(ui, place, &model.health);
     }

@@ -51,14 +51,25 @@ fn filled_part(error_deg: f64, half_beam_deg: f64) -> f32 {
     }
 }
 
+/// Room for the number with half the beam, and from which width of the bar on it has a name.
+const NUMBER: f32 = 99.0;
+const NAMED_NUMBER: f32 = 156.0;
+const NAMED_FROM: f32 = 320.0;
+
 /// Shows words, bar and number in `rect`.
 pub fn show(ui: &Ui, rect: Rect, model: &BeamModel) {
     let t = theme::tokens(ui);
     let y = rect.center().y;
     let words = "Off beam axis";
     paint::text(ui, rect.left_center(), Align2::LEFT_CENTER, words, text::small(), t.t2);
+    let half_beam = format!("{}°", axes_table::angle(Some(model.half_beam_deg), 2));
+    let (limit, number) = if rect.width() < NAMED_FROM {
+        (format!(" of {half_beam}"), NUMBER)
+    } else {
+        (format!(" (half beam {half_beam})"), NAMED_NUMBER)
+    };
     let bar_left = rect.left() + 92.0;
-    let bar = Rect::from_min_max(pos2(bar_left, y - 3.0), pos2(rect.right() - 99.0, y + 3.0));
+    let bar = Rect::from_min_max(pos2(bar_left, y - 3.0), pos2(rect.right() - number, y + 3.0));
     ui.painter().rect_filled(bar, 0.0, t.bg3);
     if let Some(error_deg) = model.error_deg {
         let (colour, _) = look(place(error_deg, model.half_beam_deg), t);
@@ -68,7 +79,6 @@ pub fn show(ui: &Ui, rect: Rect, model: &BeamModel) {
     let tick = bar.left() + TICK_PART as f32 * bar.width();
     ui.painter().vline(tick, (y - 7.0)..=(y + 7.0), (2.0, t.cmd));
 
-    let limit = format!(" of {}°", axes_table::angle(Some(model.half_beam_deg), 2));
     let limit_box =
         paint::text(ui, rect.right_center(), Align2::RIGHT_CENTER, &limit, text::small(), t.t2);
     let error = model.error_deg.map_or_else(
@@ -85,7 +95,7 @@ pub fn show(ui: &Ui, rect: Rect, model: &BeamModel) {
         ui,
         "beam",
         rect.shrink2(vec2(0.0, 1.0)),
-        &format!("{words} {error}{limit}, {said}"),
+        &format!("{words} {error} (half beam {half_beam}), {said}"),
     );
 }
 
