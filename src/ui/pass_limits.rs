@@ -39,7 +39,7 @@ pub(super) fn show(
 ) {
     let Some(favourite) = model.station.favourites.get(number) else { return };
     let t = theme::tokens(ui);
-    let title = RichText::new("Limits for its passes");
+    let title = RichText::new("Limits for this satellite");
     ui.label(title.font(text::sized(13.0, Weight::SemiBold)).color(t.t1));
     let antennas: Vec<(AntennaId, String)> =
         model.antennas.iter().map(|of| (of.id(), of.config.name.clone())).collect();

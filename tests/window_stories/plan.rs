@@ -242,7 +242,7 @@ fn a_pass_that_no_antenna_can_take_is_not_swapped() {
     let swap = Swap { pass: key, revision: 4, changes: None };
     window.state_mut().model.swap = Some(Arc::new(swap));
     settle(&mut window);
-    assert!(says(&window, "Always: not possible."));
+    assert!(says(&window, "Always is not available: no antenna can track enough of this pass."));
     let always = window.get_by_role_and_label(Role::RadioButton, "Always");
     assert!(always.accesskit_node().is_disabled());
     let swaps = |window: &Window, is_disabled| {

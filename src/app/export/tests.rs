@@ -144,7 +144,7 @@ fn the_plan_is_written_with_names_and_reasons() {
     assert_eq!(rows.len(), 3, "{rows:#?}");
     let antenna = &csv.station.antennas[0].name;
     assert!(rows[1].starts_with(&format!("taken,{antenna},25544,ISS")), "{}", rows[1]);
-    let reason = "The antenna cannot be there at AOS";
+    let reason = "The antenna cannot be there in time";
     assert!(rows[2].contains("ISS") && rows[2].ends_with(reason), "{}", rows[2]);
     let calendar = lines(&of(ScheduleFormat::Ics));
     assert_eq!(calendar.iter().filter(|line| *line == "BEGIN:VEVENT").count(), 1);

@@ -10,7 +10,7 @@ use crate::{
 
 /// Height of a line.
 const LINE: f32 = 20.0;
-const COUNT: usize = 6;
+const COUNT: usize = 7;
 
 /// Height of all lines.
 pub(super) const HEIGHT: f32 = COUNT as f32 * LINE;
@@ -50,7 +50,8 @@ fn facts(model: &Model, of: &GlobeSatellite) -> [(&'static str, String); COUNT] 
                 distance(of.look.range_km),
             ),
         ),
-        ("Heading", format!("{}, period {minutes} min", words::goes(of.heading))),
+        ("Heading", words::goes(of.heading).to_owned()),
+        ("Period", format!("{minutes} min")),
         ("Light", words::light(of.is_sunlit).to_owned()),
     ]
 }

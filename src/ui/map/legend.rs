@@ -60,12 +60,12 @@ fn entries(
     }
     if layers.footprints {
         let elevation = words::elevation(model.globe.aos_elevation);
-        entries.push((footprint, format!("satellite at {elevation} or higher")));
+        entries.push((footprint, format!("sees the satellite at {elevation} or higher")));
         if let Some(of) = selected {
             let unit = model.appearance.distances;
             let height = format::distance(of.below.height_km, 0, unit);
             let name = &model.station.name;
-            entries.push((rises, format!("in view of {name} at {height}")));
+            entries.push((rises, format!("{name} sees a satellite at {height} height")));
         }
     }
     if layers.terminator {

@@ -276,7 +276,7 @@ fn price(
     let words = if let Some(swap) = model.swap_of(key) {
         match swap.changes {
             Some(_) => format!("If it is always taken: {}", words::schedule::price(model, swap)),
-            None => "Always: not possible. No antenna can take enough of it.".to_owned(),
+            None => "Always is not available: no antenna can track enough of this pass.".to_owned(),
         }
     } else {
         let ask = UiCommand::Station(engine::Command::PriceSwap(key));

@@ -190,7 +190,7 @@ fn show_bar(
     }
     let room = inner.with_min_x(place.right() + 16.0);
     let set_up = format::duration(antenna.config.set_up_s());
-    let note = format!("Spare: after the slew and {set_up} of set-up.");
+    let note = format!("Spare: time left before AOS after slew and {set_up} of set-up.");
     paint::text_in(ui, room, Align2::LEFT_CENTER, &note, text::small(), t.t2);
 }
 
