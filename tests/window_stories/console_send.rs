@@ -188,7 +188,7 @@ fn the_app_records_asks_and_saves() {
     window.key_press(Key::Enter);
     wait_until("the answer", || {
         window.step();
-        window.query_by_label_contains("Scales of the drives").is_some()
+        window.query_by_label_contains("Drive scales").is_some()
     });
     window.get_by_role_and_label(Role::Button, "Save").click();
     wait_until("the file", || {

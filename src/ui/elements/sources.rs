@@ -186,7 +186,7 @@ fn show_head(ui: &Ui, rect: Rect) {
     head("Name", NAME, WHERE, Align2::LEFT_CENTER);
     head("Where", WHERE, STATE, Align2::LEFT_CENTER);
     head("Last fetch", STATE, NEWEST - 124.0, Align2::LEFT_CENTER);
-    head("Newest epoch", NEWEST - 124.0, NEWEST, Align2::RIGHT_CENTER);
+    head("Newest set", NEWEST - 124.0, NEWEST, Align2::RIGHT_CENTER);
     head("Objects", OBJECTS - 76.0, OBJECTS, Align2::RIGHT_CENTER);
     head("In use", IN_USE - 50.0, IN_USE, Align2::RIGHT_CENTER);
     head("Next", NEXT, ASK, Align2::LEFT_CENTER);

@@ -87,7 +87,7 @@ fn locator(ui: &mut Ui, draft: &mut SetupDraft, unit: DistanceUnit) {
     let (words, colour) = match read_locator(&draft.locator) {
         // The line stays, so that no field moves under the pointer.
         _ if draft.locator.trim().is_empty() => {
-            ("A Maidenhead locator fills latitude and longitude.".to_owned(), t.t3)
+            ("A Maidenhead locator fills in latitude and longitude.".to_owned(), t.t3)
         }
         Ok(square) => (words::square(square, unit), t.t3),
         Err(why) => (format!("Locator {why}."), t.bad),

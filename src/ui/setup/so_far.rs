@@ -71,7 +71,7 @@ pub(super) fn site(draft: &SetupDraft, progress: Progress) -> (Tone, String) {
                 crate::ui::words::place(site.latitude().degrees(), site.longitude().degrees());
             (Tone::Good, words)
         }
-        (_, None) => (Tone::Plain, "step 1".to_owned()),
+        (_, None) => (Tone::Plain, "to do".to_owned()),
     }
 }
 

@@ -108,7 +108,7 @@ fn head(ui: &mut Ui, chosen: &Chosen, is_own: bool, change: &mut Option<Change>)
     let plural = if count == 1 { "" } else { "s" };
     ui.label(RichText::new(format!("{count} satellite{plural} to send")).font(text::value()));
     ui.horizontal_wrapped(|ui| {
-        let words = "The unit will follow the one marked here.";
+        let words = "The unit tracks the one selected here.";
         ui.label(RichText::new(words).font(text::small()).color(t.t3));
         if is_own && ui.button("Use the favourites").clicked() {
             *change = Some(Change::Favourites);

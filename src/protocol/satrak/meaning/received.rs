@@ -71,7 +71,7 @@ fn reply(reply: &Reply) -> Meaning {
             _ => "No GPS fix".to_owned(),
         },
         Reply::TimedPosition(position) => format!(
-            "{}, {} at {}",
+            "X {}, Y {} at {}",
             degrees(position.x_deg),
             degrees(position.y_deg),
             date_time(position.time)
@@ -93,7 +93,7 @@ fn reply(reply: &Reply) -> Meaning {
         Reply::SatelliteFtp(_) => "FTP source of the elements, values hidden".to_owned(),
         Reply::ImageStatus(status) => format!("Image file: {}", status.raw),
         Reply::Reduction(scales) => {
-            format!("Scales of the drives: X {}, Y {}", plain(scales.x()), plain(scales.y()))
+            format!("Drive scales: X {}, Y {}", plain(scales.x()), plain(scales.y()))
         }
     };
     Meaning::new(Tone::Plain, text)

@@ -29,7 +29,7 @@ const fn question(query: Query) -> &'static str {
         Query::Clock => "Asks for the clock",
         Query::StartStopTime => "Asks for the tracking window",
         Query::Settings => "Asks for the settings",
-        Query::AngleSettings => "Asks for the calibration of the angles",
+        Query::AngleSettings => "Asks for the angle calibration",
         Query::GpsData => "Asks for the GPS receiver",
         Query::TimedPosition => "Asks for the position with its time",
         Query::GpsSettings => "Asks for the place",
