@@ -54,7 +54,7 @@ fn filled_part(error_deg: f64, half_beam_deg: f64) -> f32 {
 /// Room for the number with half the beam, and from which width of the bar on it has a name.
 const NUMBER: f32 = 99.0;
 const NAMED_NUMBER: f32 = 156.0;
-const NAMED_FROM: f32 = 320.0;
+const NAMED_FROM: f32 = 300.0;
 
 /// Shows words, bar and number in `rect`.
 pub fn show(ui: &Ui, rect: Rect, model: &BeamModel) {
