@@ -121,15 +121,12 @@ pub fn show(
     let min = pos2(rect.right() - 2.0 * GAP - size.x, rect.center().y - height / 2.0);
     let at = Rect::from_min_size(min, size);
     let rest = rect.with_min_x(left + GAP).with_max_x(at.left() - 2.0 * GAP);
-    match problem(replay).filter(|_| !is_wide) {
-        Some(said) => {
-            paint::text_in(ui, rest, Align2::LEFT_CENTER, &said, text::small(), t.warn);
-            paint::name_text(ui, "about the replay", rest, &said).on_hover_text(&said);
-        }
-        None => {
-            let bar = if is_wide { rest } else { after_stop_works(ui, rest) };
-            scrubber(ui, bar, replay, commands);
-        }
+    if let Some(said) = problem(replay).filter(|_| !is_wide) {
+        paint::text_in(ui, rest, Align2::LEFT_CENTER, &said, text::small(), t.warn);
+        paint::name_text(ui, "about the replay", rest, &said).on_hover_text(&said);
+    } else {
+        let bar = if is_wide { rest } else { after_stop_works(ui, rest) };
+        scrubber(ui, bar, replay, commands);
     }
     if leave.show(ui, "leave replay", at).clicked() {
         commands.push(UiCommand::Replay(ReplayCommand::Leave));

@@ -91,7 +91,7 @@ pub(super) fn in_words(ui: &Ui, model: &FaultsModel<'_>) -> (String, (Icon, Colo
     let worst = model.worst();
     let (good, all) = (model.count(CheckState::Good), model.checks.len());
     let words = match worst {
-        CheckState::Good => format!("none, {good} of {all} good"),
+        CheckState::Good => format!("none, {good} of {all} passed"),
         CheckState::Unknown => "not known".to_owned(),
         CheckState::Caution | CheckState::Fault => {
             let (first, named) = model.summary();
