@@ -239,7 +239,7 @@ fn lines(ui: &Ui, rect: Rect) {
     let mut x = rect.left() + PADDING;
     let y = rect.center().y;
     for (word, colour, is_dashed) in
-        [("predicted", t.sat, true), ("flown", t.ant, false), ("error", t.warn, false)]
+        [("predicted", t.sat, true), ("actual", t.ant, false), ("error", t.warn, false)]
     {
         let line = [pos2(x, y), pos2(x + 18.0, y)];
         let stroke = Stroke::new(2.0, colour);
@@ -253,7 +253,7 @@ fn lines(ui: &Ui, rect: Rect) {
         x = drawn.right() + 16.0;
     }
     let place = rect.with_min_x(x).with_max_x(rect.right() - 4.0);
-    let words = "ticks: full minutes";
+    let words = "ticks: whole minutes";
     paint::text_in(ui, place, Align2::LEFT_CENTER, words, text::caption(), t.t3);
 }
 
