@@ -2,7 +2,7 @@
 
 use azel::{
     astro::{Angle, AzEl, Offset, TrackOffsets},
-    device::settings::Value,
+    device::settings::{Value, WriteError},
     driver::{Command, Event, Intent, LeftOffsets, OffsetChange, Refusal},
     plan::{
         Bounds,
@@ -245,6 +245,28 @@ async fn a_lost_link_leaves_them_in_force_and_they_are_taken_back_after_it() {
         shown.unit_offsets.is_none() && shown.state.on_board.offsets.is_some()
     })
     .await;
+    assert_eq!(held(&rig), (-0.1, 0.0));
+}
+
+#[tokio::test(start_paused = true)]
+async fn a_link_lost_while_they_are_taken_back_holds_nothing_up() {
+    let mut rig = in_a_pass().await;
+    offset(&rig, OffsetChange::Step(azimuth(0.2)));
+    until_added(&mut rig, with(&[azimuth(0.2)])).await;
+    rig.send(Command::Standby);
+    rig.until("on its way", 20, |shown| {
+        shown.unit_offsets.as_ref().is_some_and(|unit| unit.is_changing)
+    })
+    .await;
+    rig.set_off(true);
+    rig.until("lost", 20, |shown| !shown.link.is_open()).await;
+    // Its refusal is the last outcome of the group.
+    let other = change("general", [("azimuth_offset_deg", Value::Decimal(0.3))]);
+    assert_eq!(write_settings(&mut rig, other).await, Err(WriteError::NoLink));
+    rig.set_off(false);
+    rig.until("taken back", 60, |shown| shown.link.is_open() && shown.unit_offsets.is_none()).await;
+    rig.send(Command::Park);
+    rig.until_event(200, |event| matches!(event, Event::Arrived(_))).await;
     assert_eq!(held(&rig), (-0.1, 0.0));
 }
 

@@ -99,6 +99,7 @@ impl Session {
         let now = self.now();
         self.contact.left_at = self.gate.state().measured.map(|measured| measured.pointing);
         self.gate.device().link_down(now);
+        self.lose_shift();
         self.record();
         end
     }

@@ -132,7 +132,7 @@ impl Session {
         if wanted.is_none() {
             return self.write_shift(fields, now);
         }
-        let Some(after) = before.and(wanted) else { return };
+        let Some(after) = before.and(wanted) else { return self.forget_wanted() };
         let put = vec![held, after];
         debts.set_shifted(&unit, Some(ShiftedTrack { since, before, put, is_found: false }));
         self.unit_offsets.of = self.track_of();
@@ -238,6 +238,20 @@ impl Session {
                     error => self.tell(Event::OffsetNotTaken(error.clone())),
                 }
             }
+        }
+    }
+
+    /// The link is lost: what became of a change shows when the unit is read again.
+    pub(super) fn lose_shift(&mut self) {
+        if matches!(std::mem::take(&mut self.unit_offsets.step), Step::None) {
+            return;
+        }
+        let was_taken_back = self.unit_offsets.wanted.is_some_and(TrackOffsets::is_none);
+        self.unit_offsets.unread_since = self.read_at();
+        self.forget_wanted();
+        // What is to be taken back is owed as before.
+        if !was_taken_back {
+            self.tell(Event::OffsetNotTaken(WriteError::LinkLost));
         }
     }
 
