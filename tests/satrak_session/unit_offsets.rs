@@ -202,8 +202,24 @@ async fn a_step_is_judged_by_the_direction_on_the_sky_too() {
     rig.handle().keep_within(keep_out([-2.0, 2.0]));
     offset(&rig, OffsetChange::Step(azimuth(0.1)));
     until_forbidden(&mut rig).await;
-    offset(&rig, OffsetChange::Zero);
-    until_added(&mut rig, TrackOffsets::NONE).await;
+}
+
+#[tokio::test(start_paused = true)]
+async fn back_to_what_was_there_before_is_judged_too_while_the_unit_tracks() {
+    let mut rig = in_a_pass().await;
+    offset(&rig, OffsetChange::Step(elevation(6.0)));
+    until_added(&mut rig, with(&[elevation(6.0)])).await;
+    rig.handle().keep_within(keep_out([-2.0, 2.0]));
+    let orders = rig.orders().len();
+    for back in [OffsetChange::Zero, OffsetChange::Undo] {
+        offset(&rig, back);
+        until_forbidden(&mut rig).await;
+    }
+    assert_eq!(added(&rig), with(&[elevation(6.0)]), "what was on stays on");
+    assert_eq!(rig.orders().len(), orders);
+    rig.stop();
+    rig.until("taken back", 20, |shown| shown.unit_offsets.is_none()).await;
+    assert_eq!(held(&rig), (-0.1, 0.0), "it moves nothing any more");
 }
 
 #[tokio::test(start_paused = true)]

@@ -43,7 +43,7 @@ impl Gate {
     }
 
     /// Writes offsets of the unit's own track, or returns the reason not to. `shift` is what comes
-    /// of them; without one they are back to what the unit held before its track was shifted.
+    /// of them; without one the unit does not track, and they move nothing.
     pub(in crate::driver) fn shift_track(
         &mut self,
         change: Change,

@@ -33,16 +33,12 @@ pub(super) struct UnitOffsets {
     wanted: Option<TrackOffsets>,
     /// Those before each change, the oldest first.
     earlier: Vec<TrackOffsets>,
-    /// Catalog number and window of the track that was shifted.
-    of: Option<TrackOf>,
     /// After a change that was not read back, the unit has to be read again: when it was read last.
     unread_since: Option<Timestamp>,
     /// Why what was written is still there.
     left: Option<LeftOffsets>,
     tickets: u64,
 }
-
-type TrackOf = (u32, Option<(Timestamp, Timestamp)>);
 
 #[derive(Default)]
 enum Step {
@@ -98,9 +94,9 @@ impl Session {
         Ok(())
     }
 
-    /// What the unit would do with `wanted` added; `None` where it would do what it did before.
+    /// What the unit would do with `wanted` added; `None` where taking back moves nothing.
     fn shift(&self, wanted: TrackOffsets, now: Moment) -> Result<Option<Shift>, Refusal> {
-        if wanted.is_none() {
+        if wanted.is_none() && !self.may_track() {
             return Ok(None);
         }
         let unit = &self.gate.state().on_board;
@@ -135,7 +131,6 @@ impl Session {
         let Some(after) = before.and(wanted) else { return self.forget_wanted() };
         let put = vec![held, after];
         debts.set_shifted(&unit, Some(ShiftedTrack { since, before, put, is_found: false }));
-        self.unit_offsets.of = self.track_of();
         if debts.has_marks() {
             let writing = spawn_blocking(move || debts.keep_shifted(&unit));
             self.unit_offsets.step = Step::Marking { wanted, writing };
@@ -258,9 +253,8 @@ impl Session {
     /// Takes back what is added once the track is over, and forgets what is taken back.
     fn watch_shifted(&mut self, fields: &TrackOffsetFields, now: Moment) {
         let (debts, unit) = (self.owed.debts.clone(), self.owed.unit.clone());
-        let is_over = !self.contact.unread
-            && (!self.program_is_on()
-                || self.unit_offsets.of.zip(self.track_of()).is_some_and(differs));
+        // On the next track it would move the antenna: it waits for the operator or the end.
+        let is_over = !self.may_track();
         let Some(shifted) = debts.shifted(&unit) else {
             if is_over {
                 self.unit_offsets.earlier.clear();
@@ -328,11 +322,6 @@ impl Session {
     pub(super) fn shift_due(&self, now: Instant) -> Option<Instant> {
         matches!(self.unit_offsets.step, Step::Marking { .. }).then_some(now + LOOK)
     }
-}
-
-fn differs((before, now): (TrackOf, TrackOf)) -> bool {
-    let windows = before.1.zip(now.1);
-    before.0 != now.0 || windows.is_some_and(|(before, now)| before != now)
 }
 
 #[cfg(test)]

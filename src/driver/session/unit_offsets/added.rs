@@ -3,12 +3,15 @@
 use glam::DQuat;
 use jiff::Timestamp;
 
-use super::{Step, TrackOf};
+use super::Step;
 use crate::{
     astro::TrackOffsets,
     clock::Moment,
     device::{OnBoard, Phase},
-    driver::{LeftOffsets, UnitOffsetsView, session::Session},
+    driver::{
+        LeftOffsets, UnitOffsetsView,
+        session::{Session, activity::OnBoardStage},
+    },
 };
 
 impl Session {
@@ -81,9 +84,12 @@ impl Session {
         program.is_some_and(|program| program.enabled && program.phase != Phase::Completed)
     }
 
-    pub(in crate::driver::session) fn track_of(&self) -> Option<TrackOf> {
-        let unit = &self.gate.state().on_board;
-        Some((unit.satellite.as_ref()?.catalog_number, unit.window))
+    /// Returns `true` unless it is known that the unit does not track: other offsets would move
+    /// the antenna.
+    pub(in crate::driver::session) fn may_track(&self) -> bool {
+        let stage = self.activity.on_board().map(|track| track.stage);
+        let is_starting = matches!(stage, Some(OnBoardStage::Starting { .. }));
+        self.contact.unread || self.program_is_on() || is_starting
     }
 
     /// Returns `true` if the track is over and what was added for it is still on the unit.
@@ -91,8 +97,7 @@ impl Session {
         let shifted = self.owed.debts.shifted(&self.owed.unit);
         let is_owed = shifted.is_some_and(|shifted| !shifted.is_found)
             && self.unit_offsets.left.is_none()
-            && !self.contact.unread
-            && !self.program_is_on();
+            && !self.may_track();
         is_owed && self.added_offsets().is_some_and(|added| !added.is_none())
     }
 }
