@@ -113,7 +113,8 @@ impl Device for Satrak {
         let ends_track = extent != Extent::Motion || self.program_may_run();
         let ends_auto_track = extent == Extent::Everything;
         self.motions.clear();
-        let is_void = self.changes.void_judged(&mut self.state, now);
+        let is_sent = self.outstanding.as_ref().is_some_and(Outstanding::is_setting);
+        let is_void = self.changes.void_judged(is_sent, &mut self.state, now);
         self.fail_preparation(PrepareError::Stopped);
         if let Some(outstanding) = &mut self.outstanding {
             outstanding.disown();

@@ -73,6 +73,11 @@ impl Outstanding {
         matches!(self.purpose, Purpose::Motion(_))
     }
 
+    /// Returns `true` for the command of a change of settings.
+    pub(super) fn is_setting(&self) -> bool {
+        self.purpose == Purpose::WriteSettings && self.request.verb() == Verb::Set
+    }
+
     /// A halt or a newer request has overtaken it. Settings move nothing.
     pub(super) fn disown(&mut self) {
         if !matches!(self.purpose, Purpose::Poll(_) | Purpose::Asked(_) | Purpose::WriteSettings) {

@@ -2,7 +2,7 @@
 
 use std::collections::VecDeque;
 
-use super::{Change, Group, SettingsWrite, WriteError, WriteStep};
+use super::{Change, Group, SettingsWrite, Step, WriteError, WriteStep};
 use crate::{clock::Moment, device::AntennaState};
 
 /// The changes of one unit. [`AntennaState::held`] shows the step of each.
@@ -59,10 +59,19 @@ impl ChangeQueue {
         self.waiting.push_back(waiting);
     }
 
-    /// A halt has come: ends what the gate has judged as a motion and is not sent. Returns `true`
-    /// if that was the change under way.
-    pub(crate) fn void_judged(&mut self, state: &mut AntennaState, now: Moment) -> bool {
-        let is_void = |write: &mut SettingsWrite| write.is_judged() && !write.may_be_sent();
+    /// A halt has come: ends what the gate has judged as a motion and is not sent. `is_sent`: the
+    /// unit owes an answer to the command of the change under way. Returns `true` if that was
+    /// ended.
+    pub(crate) fn void_judged(
+        &mut self,
+        is_sent: bool,
+        state: &mut AntennaState,
+        now: Moment,
+    ) -> bool {
+        let is_void = |write: &mut SettingsWrite| {
+            let waits = write.step() == Step::Send && !is_sent;
+            write.is_judged() && (waits || !write.may_be_sent())
+        };
         let begun = self.under_way.take_if(is_void).map(|write| write.change);
         let was_under_way = begun.is_some();
         let (void, others): (VecDeque<_>, _) =
