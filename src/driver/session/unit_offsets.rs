@@ -218,6 +218,9 @@ impl Session {
             // Another step has come meanwhile.
             Ok(()) => self.begin_shift(fields, now),
             Err(error) => {
+                if let WriteError::Differs(_) = error {
+                    self.own_read_back();
+                }
                 self.forget_wanted();
                 if !matches!(error, WriteError::Stopped | WriteError::ChangedMeanwhile) {
                     self.unit_offsets.unread_since = self.read_at();
@@ -279,16 +282,33 @@ impl Session {
         }
     }
 
+    /// What the unit has made of what was written is from here too.
+    fn own_read_back(&self) {
+        let (debts, unit) = (&self.owed.debts, &self.owed.unit);
+        let held = self.held_offsets();
+        let Some((mut shifted, held)) = debts.shifted(unit).zip(held) else { return };
+        if shifted.added(held).is_none() {
+            shifted.put.push(held);
+            debts.set_shifted(unit, Some(shifted));
+            self.keep_shifted();
+        }
+    }
+
     /// The unit holds nothing of ours any more.
     fn forget_shifted(&mut self) {
-        let (debts, unit) = (self.owed.debts.clone(), self.owed.unit.clone());
-        debts.set_shifted(&unit, None);
+        self.owed.debts.set_shifted(&self.owed.unit, None);
         let tickets = self.unit_offsets.tickets;
         self.unit_offsets = UnitOffsets { tickets, ..UnitOffsets::default() };
+        self.keep_shifted();
+    }
+
+    /// Makes the record on disk say what is known now.
+    fn keep_shifted(&self) {
+        let (debts, unit) = (self.owed.debts.clone(), self.owed.unit.clone());
         if debts.has_marks() {
             drop(spawn_blocking(move || {
                 debts.keep_shifted(&unit).inspect_err(|error| {
-                    tracing::error!(%error, "a record of offsets stays on the disk");
+                    tracing::error!(%error, "the record of offsets on the disk is out of date");
                 })
             }));
         }

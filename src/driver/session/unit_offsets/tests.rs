@@ -177,6 +177,32 @@ async fn steps_that_come_while_one_is_recorded_are_recorded_too() {
 }
 
 #[tokio::test(start_paused = true)]
+async fn what_the_unit_makes_of_an_offset_is_known_and_taken_back() {
+    let folder = tempfile::tempdir().unwrap();
+    let (control, now) = unit(30.0);
+    let mut handle = tracking(&control, now, folder.path()).await;
+    let step = Offset::Azimuth(Angle::from_degrees(0.2));
+    handle.send(Command::Offset(OffsetChange::Step(step))).unwrap();
+    while sent(&control).is_empty() {
+        sleep(Duration::from_millis(1)).await;
+    }
+    // As a unit that keeps other values than it gets.
+    by_another(&control, "SETTINGS=,?,?,0.25,?,?,?,?,?,?,?,?").await;
+    until(&handle, "known", |shown| {
+        let unit = shown.unit_offsets.as_ref();
+        unit.is_some_and(|unit| unit.offsets == azimuth(0.25) && !unit.is_changing)
+    })
+    .await;
+    let told: Vec<Event> = std::iter::from_fn(|| handle.next_event()).collect();
+    let is_differing =
+        |event: &Event| matches!(event, Event::OffsetNotTaken(WriteError::Differs(_)));
+    assert!(told.iter().any(is_differing), "{told:?}");
+    assert!(mark(folder.path()).unwrap().put.contains(&azimuth(0.25)));
+    handle.stop();
+    until(&handle, "taken back", |shown| shown.unit_offsets.is_none() && holds(shown, 0.0)).await;
+}
+
+#[tokio::test(start_paused = true)]
 async fn in_the_pass_that_goes_on_they_are_found_too() {
     let folder = tempfile::tempdir().unwrap();
     let (control, now) = left_in_a_pass(folder.path()).await;
