@@ -326,7 +326,7 @@ pub enum Event {
     NotSent(Refusal),
     /// The unit refused it, with this code as received.
     Refused(Asked, String),
-    /// An offset of the unit's own track was not written.
+    /// An offset of the unit's own track is not in force.
     OffsetNotTaken(WriteError),
     /// No answer to a motion, which is not sent again.
     Unanswered(Asked),

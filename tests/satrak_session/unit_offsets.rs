@@ -314,6 +314,7 @@ async fn what_somebody_else_sets_meanwhile_is_left_alone() {
         (held.azimuth_deg - 0.7).abs() < 1e-9
     })
     .await;
+    assert_eq!(rig.events(), [Event::OffsetNotTaken(WriteError::ChangedMeanwhile)]);
     rig.send(Command::Standby);
     rig.seconds(60.0).await;
     assert_eq!(held(&rig), (0.7, 0.0));

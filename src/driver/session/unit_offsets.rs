@@ -267,6 +267,9 @@ impl Session {
         let Some(held) = self.held_offsets() else { return };
         let Some(added) = shifted.added(held) else {
             tracing::warn!(antenna = self.name, "somebody else has set the offsets of the unit");
+            if !shifted.is_found {
+                self.tell(Event::OffsetNotTaken(WriteError::ChangedMeanwhile));
+            }
             return self.forget_shifted();
         };
         if added.is_none() {
