@@ -262,6 +262,22 @@ async fn what_cannot_be_taken_back_is_told_until_it_is() {
 }
 
 #[tokio::test(start_paused = true)]
+async fn what_cannot_be_taken_back_in_mid_pass_is_taken_back_at_its_end() {
+    let mut rig = in_a_pass().await;
+    offset(&rig, OffsetChange::Step(azimuth(0.2)));
+    until_added(&mut rig, with(&[azimuth(0.2)])).await;
+    rig.control.set_fault(Fault::RefuseSettings, true);
+    offset(&rig, OffsetChange::Zero);
+    rig.until_event(10, |event| matches!(event, Event::OffsetNotTaken(_))).await;
+    rig.control.set_fault(Fault::RefuseSettings, false);
+    until_added(&mut rig, with(&[azimuth(0.2)])).await;
+    assert_eq!(rig.shown().unit_offsets.as_ref().unwrap().left, None, "they are meant to be on");
+    rig.send(Command::Standby);
+    rig.until("taken back", 20, |shown| shown.unit_offsets.is_none()).await;
+    assert_eq!(held(&rig), (-0.1, 0.0));
+}
+
+#[tokio::test(start_paused = true)]
 async fn a_lost_link_leaves_them_in_force_and_they_are_taken_back_after_it() {
     let mut rig = in_a_pass().await;
     offset(&rig, OffsetChange::Step(azimuth(0.2)));
