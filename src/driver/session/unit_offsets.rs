@@ -10,7 +10,7 @@ use tokio::task::{JoinHandle, spawn_blocking};
 
 use super::{Event, OffsetChange, Session, marking::take_now, offsets::most};
 use crate::{
-    astro::{Offset, TrackOffsets},
+    astro::{Offset, TrackOffsets, time::add_seconds},
     clock::{Instant, Moment},
     device::{
         OnBoard, TrackOffsetFields,
@@ -110,7 +110,9 @@ impl Session {
         };
         let watch = self.on_board_watch().ok_or(Refusal::PassUnknown)?;
         let mut pass = OnBoardPass::clone(watch.judge().pass());
-        pass.target.from = pass.target.from.max(now.utc).min(pass.target.until);
+        // The unit runs through the window by its own clock.
+        let own_now = add_seconds(now.utc, unit.clock.map_or(0.0, |clock| clock.ahead_s));
+        pass.target.from = pass.target.from.max(own_now).min(pass.target.until);
         let judge = Judge::new(pass, self.setup.ability).map_err(|_| Refusal::PassUnknown)?;
         Ok(Some(Shift { judge, axes: with(after), sky: with(before) }))
     }
