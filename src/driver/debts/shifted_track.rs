@@ -71,7 +71,7 @@ impl Debts {
     pub(in crate::driver) fn keep_shifted(&self, unit: &Unit) -> io::Result<()> {
         let Some(folder) = &self.folder else { return Ok(()) };
         let _files = self.files();
-        let path = folder.join(format!("{}{SHIFTED}", unit.stem()));
+        let path = path_in(folder, unit);
         match self.shifted(unit) {
             Some(shifted) => {
                 let mark = Mark { unit: unit.clone(), shifted };
@@ -86,22 +86,48 @@ impl Debts {
     }
 }
 
+impl Debts {
+    /// Looks again for what an earlier run left, since another Azel may have driven the unit
+    /// meanwhile; what was written from here is known better. Blocks.
+    pub(in crate::driver) fn find_shifted(&self, unit: &Unit) {
+        let Some(folder) = &self.folder else { return };
+        let _files = self.files();
+        let path = path_in(folder, unit);
+        let found = match fs::exists(&path) {
+            Ok(false) => None,
+            // One that cannot be read says nothing new.
+            _ => match read(&path) {
+                Some((_, shifted)) => Some(shifted),
+                None => return,
+            },
+        };
+        if self.shifted(unit).is_none_or(|shifted| shifted.is_found) {
+            self.set_shifted(unit, found);
+        }
+    }
+}
+
+fn path_in(folder: &Path, unit: &Unit) -> PathBuf {
+    folder.join(format!("{}{SHIFTED}", unit.stem()))
+}
+
 /// What earlier runs left in `folder`. A record that cannot be read names no unit: it stays, and
 /// the log says so.
 pub(super) fn found(folder: &Path) -> Vec<(Unit, ShiftedTrack)> {
     let Ok(files) = fs::read_dir(folder) else { return Vec::new() };
     let paths = files.filter_map(|file| Some(file.ok()?.path()));
     let is_one = |path: &PathBuf| path.to_string_lossy().ends_with(SHIFTED);
-    let read = |path: PathBuf| {
-        let text = fs::read_to_string(&path).map_err(io::Error::other);
-        let mark = text.and_then(|text| toml::from_str::<Mark>(&text).map_err(io::Error::other));
-        let told = mark.inspect_err(|error| {
-            tracing::error!(%error, path = %path.display(), "a unit may still hold offsets of a pass");
-        });
-        let Mark { unit, shifted } = told.ok()?;
-        Some((unit, ShiftedTrack { is_found: true, ..shifted }))
-    };
-    paths.filter(is_one).filter_map(read).collect()
+    paths.filter(is_one).filter_map(|path| read(&path)).collect()
+}
+
+fn read(path: &Path) -> Option<(Unit, ShiftedTrack)> {
+    let text = fs::read_to_string(path).map_err(io::Error::other);
+    let mark = text.and_then(|text| toml::from_str::<Mark>(&text).map_err(io::Error::other));
+    let told = mark.inspect_err(|error| {
+        tracing::error!(%error, path = %path.display(), "a unit may still hold offsets of a pass");
+    });
+    let Mark { unit, shifted } = told.ok()?;
+    Some((unit, ShiftedTrack { is_found: true, ..shifted }))
 }
 
 #[cfg(test)]
@@ -138,6 +164,30 @@ mod tests {
         second.keep_shifted(&unit).unwrap();
         second.keep_shifted(&unit).unwrap();
         assert_eq!(debts().shifted(&unit), None);
+    }
+
+    #[test]
+    fn what_another_azel_has_recorded_or_taken_back_meanwhile_is_found() {
+        let folder = tempfile::tempdir().unwrap();
+        let [here, there] = [(); 2].map(|()| Debts::marked_in(Some(folder.path().to_owned())));
+        let unit = Unit { make: "satrak".to_owned(), address: "a:1".to_owned() };
+        let put = |degrees| ShiftedTrack {
+            since: Timestamp::UNIX_EPOCH,
+            before: TrackOffsets::NONE,
+            put: vec![azimuth(degrees)],
+            is_found: false,
+        };
+        there.set_shifted(&unit, Some(put(0.1)));
+        there.keep_shifted(&unit).unwrap();
+        here.find_shifted(&unit);
+        assert_eq!(here.shifted(&unit), Some(ShiftedTrack { is_found: true, ..put(0.1) }));
+        there.set_shifted(&unit, None);
+        there.keep_shifted(&unit).unwrap();
+        here.find_shifted(&unit);
+        assert_eq!(here.shifted(&unit), None);
+        here.set_shifted(&unit, Some(put(0.2)));
+        here.find_shifted(&unit);
+        assert_eq!(here.shifted(&unit), Some(put(0.2)), "it is about to be recorded");
     }
 
     #[test]

@@ -113,14 +113,18 @@ impl Session {
         }
     }
 
-    /// Checks whether an earlier run left the unit moving. STOP is then sent first, unless the
-    /// operator must decide.
+    /// Checks what an earlier run left on the unit. If that may be moving, STOP is sent first,
+    /// unless the operator must decide.
     pub(super) async fn look_for_mark(&mut self) {
         if !self.owed.debts.has_marks() {
             return;
         }
         let (debts, unit) = (self.owed.debts.clone(), self.owed.unit.clone());
-        let Ok(Some(since)) = spawn_blocking(move || debts.marked(&unit)).await else { return };
+        let looking = spawn_blocking(move || {
+            debts.find_shifted(&unit);
+            debts.marked(&unit)
+        });
+        let Ok(Some(since)) = looking.await else { return };
         let now = self.now();
         let asks = self.variant.capabilities.waits_for_word
             || seconds_between(since, now.utc).abs() > OLD_S;
