@@ -48,7 +48,11 @@ impl Course {
     /// Looks at the last position. Returns `true`, once, when somebody else has turned the
     /// antenna.
     pub(super) fn look(&mut self, antenna: &AntennaModel) -> bool {
-        let measured = antenna.snapshot.state.measured.filter(|_| antenna.is_live());
+        // New offsets of the unit's own track turn the antenna off the path that is known here.
+        let is_shifted =
+            antenna.snapshot.unit_offsets.as_ref().is_some_and(|unit| unit.is_changing);
+        let is_known = antenna.is_live() && !is_shifted;
+        let measured = antenna.snapshot.state.measured.filter(|_| is_known);
         let Some(measured) = measured else {
             *self = Self { start: self.start, ..Self::default() };
             return false;
