@@ -326,6 +326,8 @@ pub enum Event {
     NotSent(Refusal),
     /// The unit refused it, with this code as received.
     Refused(Asked, String),
+    /// Offsets of a track stay as they are, and the track goes on.
+    OffsetRefused(Refusal),
     /// An offset of the unit's own track is not in force.
     OffsetNotTaken(WriteError),
     /// No answer to a motion, which is not sent again.

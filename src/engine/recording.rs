@@ -361,6 +361,7 @@ fn kind_of(event: &Event) -> Kind {
     match event {
         Event::LinkLost(_) | Event::Connected(_) | Event::Back { .. } => Kind::Link,
         Event::NotSent(_)
+        | Event::OffsetRefused(_)
         | Event::Refused(..)
         | Event::Unanswered(_)
         | Event::CannotTrack(..)

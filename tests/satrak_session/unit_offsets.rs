@@ -92,8 +92,8 @@ async fn steps_are_written_read_back_and_then_shown() {
     offset(&rig, OffsetChange::Undo);
     until_added(&mut rig, TrackOffsets::NONE).await;
     offset(&rig, OffsetChange::Undo);
-    let told = rig.until_event(2, |event| matches!(event, Event::NotSent(_))).await;
-    assert_eq!(told, Event::NotSent(Refusal::Nothing));
+    let told = rig.until_event(2, |event| matches!(event, Event::OffsetRefused(_))).await;
+    assert_eq!(told, Event::OffsetRefused(Refusal::Nothing));
     assert_eq!(held(&rig), (-0.1, 0.0));
     assert_eq!(rig.shown().intent, Intent::Track);
 }
@@ -172,11 +172,11 @@ async fn a_step_that_leads_too_low_is_refused_and_nothing_is_sent() {
     let mut rig = in_a_pass().await;
     let before = rig.orders().len();
     offset(&rig, OffsetChange::Step(elevation(-9.0)));
-    let told = rig.until_event(2, |event| matches!(event, Event::NotSent(_))).await;
-    assert!(matches!(told, Event::NotSent(Refusal::Path(_))), "{told:?}");
+    let told = rig.until_event(2, |event| matches!(event, Event::OffsetRefused(_))).await;
+    assert!(matches!(told, Event::OffsetRefused(Refusal::Path(_))), "{told:?}");
     offset(&rig, OffsetChange::Step(Offset::Along(Angle::from_degrees(0.1))));
-    let told = rig.until_event(2, |event| matches!(event, Event::NotSent(_))).await;
-    assert_eq!(told, Event::NotSent(Refusal::NotOffered), "not constant along the pass");
+    let told = rig.until_event(2, |event| matches!(event, Event::OffsetRefused(_))).await;
+    assert_eq!(told, Event::OffsetRefused(Refusal::NotOffered), "not constant along the pass");
     rig.seconds(5.0).await;
     assert_eq!(rig.orders().len(), before);
     assert_eq!(rig.shown().unit_offsets, None);
@@ -194,8 +194,8 @@ fn keep_out(above_deg: [f64; 2]) -> Bounds {
 }
 
 async fn until_forbidden(rig: &mut Rig) {
-    let told = rig.until_event(2, |event| matches!(event, Event::NotSent(_))).await;
-    let Event::NotSent(Refusal::Path(Trespass { limit, .. })) = &told else { panic!("{told:?}") };
+    let told = rig.until_event(2, |event| matches!(event, Event::OffsetRefused(_))).await;
+    let Event::OffsetRefused(Refusal::Path(Trespass { limit, .. })) = &told else { panic!("{told:?}") };
     assert!(matches!(limit, OffLimits::Forbidden(_)), "{told:?}");
 }
 

@@ -328,7 +328,7 @@ impl Session {
             Command::AutoTrack(false) => self.end_auto_track(),
             Command::FirstOffsets(offsets) => self.begin_with(offsets),
             // The track goes on with the offsets that it has.
-            Command::Offset(_) => self.tell(Event::NotSent(Refusal::PositionUnknown)),
+            Command::Offset(_) => self.tell(Event::OffsetRefused(Refusal::PositionUnknown)),
             _ => {
                 // An operator who wants something else does not want this to go on.
                 if self.activity.program().is_some() {

@@ -35,7 +35,7 @@ impl Session {
             self.change_unit_offsets(change, now)
         };
         if let Err(refusal) = changed {
-            self.tell(Event::NotSent(refusal));
+            self.tell(Event::OffsetRefused(refusal));
         }
     }
 

@@ -150,7 +150,7 @@ impl Session {
             Ok(None) => self.unit_offsets.wanted = None,
             Err(refusal) => {
                 self.forget_wanted();
-                self.tell(Event::NotSent(refusal));
+                self.tell(Event::OffsetRefused(refusal));
             }
         }
     }
@@ -190,7 +190,7 @@ impl Session {
                 self.unit_offsets.step = Step::None;
                 if !is_marked {
                     self.forget_wanted();
-                    self.tell(Event::NotSent(Refusal::NoOffsetsRecord));
+                    self.tell(Event::OffsetRefused(Refusal::NoOffsetsRecord));
                 } else if self.unit_offsets.wanted == Some(marked) {
                     self.write_shift(fields, now);
                 } else {

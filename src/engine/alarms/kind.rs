@@ -327,6 +327,7 @@ pub fn alarm_of(event: &Event) -> Option<AlarmKind> {
         | Event::Connected(Found::Still)
         | Event::Back { .. }
         | Event::NotSent(_)
+        | Event::OffsetRefused(_)
         | Event::Safety(_)
         | Event::WouldMiss { .. }
         | Event::Tracking(_)

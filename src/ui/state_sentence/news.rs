@@ -48,7 +48,7 @@ pub(super) fn sentence(model: &Model, antenna: &AntennaModel) -> Option<Spoken> 
                 Found::Still => spoken.plain("It is at rest and tracks nothing."),
             }
         }
-        Event::NotSent(refusal) => {
+        Event::NotSent(refusal) | Event::OffsetRefused(refusal) => {
             let reason = refusal.barrier().map(reason);
             caution.plain(words::refusal(refusal, now) + &reason.unwrap_or_default())
         }

@@ -251,6 +251,6 @@ async fn without_a_record_nothing_is_written() {
     handle.send(Command::Offset(OffsetChange::Step(step))).unwrap();
     sleep(Duration::from_secs(5)).await;
     let told: Vec<Event> = std::iter::from_fn(|| handle.next_event()).collect();
-    assert!(told.contains(&Event::NotSent(Refusal::NoOffsetsRecord)), "{told:?}");
+    assert!(told.contains(&Event::OffsetRefused(Refusal::NoOffsetsRecord)), "{told:?}");
     assert_eq!((sent(&control).len(), handle.snapshot().unit_offsets.clone()), (0, None));
 }
