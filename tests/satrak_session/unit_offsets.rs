@@ -195,7 +195,9 @@ fn keep_out(above_deg: [f64; 2]) -> Bounds {
 
 async fn until_forbidden(rig: &mut Rig) {
     let told = rig.until_event(2, |event| matches!(event, Event::OffsetRefused(_))).await;
-    let Event::OffsetRefused(Refusal::Path(Trespass { limit, .. })) = &told else { panic!("{told:?}") };
+    let Event::OffsetRefused(Refusal::Path(Trespass { limit, .. })) = &told else {
+        panic!("{told:?}")
+    };
     assert!(matches!(limit, OffLimits::Forbidden(_)), "{told:?}");
 }
 

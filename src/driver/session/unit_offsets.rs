@@ -213,8 +213,8 @@ impl Session {
         };
         self.unit_offsets.step = Step::None;
         // In mid-track the operator may try again, and the end of the track takes it back.
-        let was_taken_back = !self.may_track()
-            && self.unit_offsets.wanted.is_some_and(TrackOffsets::is_none);
+        let was_taken_back =
+            !self.may_track() && self.unit_offsets.wanted.is_some_and(TrackOffsets::is_none);
         match &written.result {
             Ok(()) if self.unit_offsets.wanted == self.added_offsets() => {
                 self.unit_offsets.wanted = None;
