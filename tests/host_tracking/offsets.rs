@@ -60,7 +60,7 @@ async fn tracking<U: Unit>(rig: &mut Rig<Control<U>>, scene: &Scene) {
 fn refusals(events: &[Event]) -> Vec<&Refusal> {
     let mut refused = Vec::new();
     for event in events {
-        if let Event::OffsetRefused(refusal) = event {
+        if let Event::NotSent(refusal) | Event::OffsetRefused(refusal) = event {
             refused.push(refusal);
         }
     }

@@ -151,23 +151,6 @@ async fn stop_overtakes_an_offset_that_is_on_its_way() {
 }
 
 #[tokio::test(start_paused = true)]
-async fn no_offset_follows_a_stop_if_the_unit_has_to_be_asked_twice() {
-    for pause_ms in (0..2400).step_by(60) {
-        let mut rig = in_a_pass().await;
-        rig.control.set_fault(Fault::DropReply, true);
-        offset(&rig, OffsetChange::Step(azimuth(1.0)));
-        rig.seconds(f64::from(pause_ms) / 1000.0).await;
-        let before = rig.orders().len();
-        rig.stop();
-        rig.seconds(4.0).await;
-        let orders = rig.orders().split_off(before);
-        assert_eq!(orders[0], "STOP=", "after {pause_ms} ms");
-        let is_offset = |order: &String| order.contains("0.9");
-        assert!(!orders.iter().any(is_offset), "after {pause_ms} ms: {orders:?}");
-    }
-}
-
-#[tokio::test(start_paused = true)]
 async fn a_step_that_leads_too_low_is_refused_and_nothing_is_sent() {
     let mut rig = in_a_pass().await;
     let before = rig.orders().len();

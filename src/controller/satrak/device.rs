@@ -221,3 +221,40 @@ impl Controller for Satrak {
         self.motions.push_back(motion);
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::{super::exchange::Purpose, *};
+    use crate::{
+        device::settings::{Value, Values},
+        station::Antenna,
+    };
+
+    /// A unit that has answered what it holds, so that the offset is the next thing to be sent.
+    fn about_to_shift(now: Moment) -> Satrak {
+        let poll = Antenna::satrak("Dish", "in memory").poll;
+        let mut satrak = Satrak::new(poll, "stations.txt".to_owned());
+        satrak.link_up(now);
+        let values = [("azimuth_offset_deg", Value::Decimal(0.2))].into();
+        let (ticket, group) = (1, "general");
+        satrak.shift_track(Change { ticket, group, values, seen: None, is_unlocked: false }, now);
+        satrak.changes.begin(&mut satrak.state, now);
+        satrak.changes.advance(&mut satrak.state, now, |write| write.looked(Values::new()));
+        satrak
+    }
+
+    #[test]
+    fn a_halt_voids_an_offset_until_it_is_sent() {
+        let now = crate::clock::Clock::system().now();
+        let mut satrak = about_to_shift(now);
+        satrak.halt(Extent::Motion, now);
+        assert!(satrak.write_request(now).is_none());
+        let written = satrak.state.group("general").written.clone().unwrap();
+        assert_eq!(written.result, Err(WriteError::Stopped));
+        let mut satrak = about_to_shift(now);
+        let request = satrak.write_request(now).unwrap();
+        satrak.outstanding = Some(satrak.outstanding_of(request, Purpose::WriteSettings, now));
+        satrak.halt(Extent::Motion, now);
+        assert!(satrak.changes.under_way().is_some(), "it is read back");
+    }
+}
