@@ -241,7 +241,7 @@ pub const ALL: [Binding; 40] = [
     row(
         KeyScope::Operate,
         &[(Key::Home, Act::SkyOfNow)],
-        "sky now; on the time slider: Left, Right 1 min, Page 10 min",
+        "sky now; time slider: arrows 1 min, Page keys 10 min",
     ),
     row(
         KeyScope::Operate,
@@ -291,7 +291,7 @@ pub const ALL: [Binding; 40] = [
             (Key::V, Act::ChoosePass(Some(Take::Never))),
             (Key::S, Act::SwapPass),
         ],
-        "the selected pass always, by plan, never; swap it in (asks first)",
+        "take the selected pass always, by plan, never; swap it in (asks first)",
     ),
     row(
         KeyScope::Plan,
@@ -329,7 +329,7 @@ pub const ALL: [Binding; 40] = [
     row(
         KeyScope::Focus,
         &[(Key::Insert, Act::There), (Key::Delete, Act::There)],
-        "add, remove a horizon point or zone corner; arrows move it",
+        "add, remove a horizon point or zone corner; arrows move one",
     ),
     with(
         Modifiers::COMMAND,

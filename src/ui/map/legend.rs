@@ -60,7 +60,7 @@ fn entries(
     }
     if layers.footprints {
         let elevation = words::elevation(model.globe.aos_elevation);
-        entries.push((footprint, format!("satellite above {elevation}")));
+        entries.push((footprint, format!("footprint at {elevation}")));
         if let Some(of) = selected {
             let unit = model.appearance.distances;
             let height = format::distance(of.below.height_km, 0, unit);

@@ -144,7 +144,7 @@ impl Verdict<'_> {
                 }
                 .into()
             }
-            Self::Misses => "Unit misses it".into(),
+            Self::Misses => "Would miss it".into(),
             Self::Trackable | Self::InMaintenance => self.sentence(),
         }
     }

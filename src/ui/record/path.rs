@@ -253,7 +253,7 @@ fn lines(ui: &Ui, rect: Rect) {
         x = drawn.right() + 16.0;
     }
     let place = rect.with_min_x(x).with_max_x(rect.right() - 4.0);
-    let words = "ticks: whole minutes";
+    let words = "ticks: minutes";
     paint::text_in(ui, place, Align2::LEFT_CENTER, words, text::caption(), t.t3);
 }
 

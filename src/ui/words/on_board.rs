@@ -97,7 +97,7 @@ pub fn within_beam(found: &Supervision, unit: DistanceUnit) -> Option<String> {
 /// The note on a unit whose minimum elevation is below that of the station.
 pub fn lower_minimum(unit_deg: f64, station_deg: f64) -> String {
     format!(
-        "The unit's minimum elevation is {}, the station's {}. Change the unit's under Antennas.",
+        "The unit's minimum elevation is {}, the station's {}. Change the unit's minimum under Antennas.",
         format::degrees(unit_deg, 1),
         format::degrees(station_deg, 1)
     )

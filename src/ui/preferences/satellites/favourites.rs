@@ -70,7 +70,7 @@ fn head(ui: &mut Ui) {
     let t = theme::tokens(ui);
     let (rect, _) = ui.allocate_exact_size(vec2(ui.available_width(), HEAD), Sense::hover());
     for (place, word) in
-        columns(rect).into_iter().zip(["Satellite", "Own priority", "If default", "Limits"])
+        columns(rect).into_iter().zip(["Satellite", "Own priority", "Inherited", "Limits"])
     {
         paint::text_in(ui, place, Align2::LEFT_CENTER, word, text::caption(), t.t3);
         paint::name_text(ui, ("head", word), place, word);
