@@ -62,7 +62,7 @@ fn nothing_is_asked_of_an_rc2000c_before_connect() {
     for size in SIZES {
         let mut window = rig::window(size, makes::model(makes::rc2000c(), makes::rc2000c_off()));
         assert!(says(&window, "Azel sends it nothing until you press Connect"));
-        assert!(says(&window, "take its panel from somebody"));
+        assert!(says(&window, "may lock out somebody at its panel"));
         assert!(says(&window, "Locked: not connected."));
         window.get_by_label_contains("RC2000C: Not connected");
         window.get_by_role_and_label(Role::Button, "Link of RC2000C").click_accesskit();

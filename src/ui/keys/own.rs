@@ -195,7 +195,7 @@ mod tests {
         let taken = own.choose(slot(KeyScope::Views, Key::A), Key::Y);
         let Err(Clash::Taken(by)) = taken else { panic!("{taken:?}") };
         assert!(
-            by.does_where().starts_with("in Plan: the selected pass always"),
+            by.does_where().starts_with("in Plan: take the selected pass always"),
             "it says in which view"
         );
     }
