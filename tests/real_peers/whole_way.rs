@@ -299,7 +299,7 @@ fn what_goes_wrong_on_the_way_is_told_and_typing_stays() {
     fs::set_permissions(fixture.files.folder(), fs::Permissions::from_mode(0o555)).unwrap();
     fixture.log_in(PASSWORD);
     let failure = fixture.failure();
-    assert!(failure.text.contains("no right"), "{}", failure.text);
+    assert!(failure.text.contains("for permission"), "{}", failure.text);
     fixture.files.assert_as_before();
     assert!(fixture.sent().is_empty(), "the unit was told nothing");
     let user = fixture.window.get_by_role_and_label(Role::TextInput, "User").value();
