@@ -20,8 +20,8 @@ const SAME_PLACE_DEG: f64 = 1.0;
 /// What an antenna is on its way to.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum Goal {
-    /// A place, such as where a pass begins, and the satellite. `None`: the unit does not say
-    /// which.
+    /// The place where a pass of the satellite `of` begins; `at` is `None` where the unit does not
+    /// say where that is.
     Place { of: Option<u32>, at: Option<Pointing> },
     /// The satellite. A unit may change the way round when it moves.
     Satellite(Look),
