@@ -5,6 +5,7 @@
 //! their own, the station queues its entries, and one thread writes both. What it could not keep
 //! is counted and marked in the record itself.
 
+mod causes;
 mod entry;
 mod file;
 mod film;
@@ -20,6 +21,7 @@ mod tests;
 mod way_out;
 mod writer;
 
+pub use causes::{ExplainedPasses, explain_passes};
 pub use entry::{Entry, Kind};
 pub use film::{Film, FilmError, Parts, Picture, Shown};
 pub use pass::{AboutTrack, PassNote, RecordedReport, TrackedBy};

@@ -152,10 +152,20 @@ fn the_model_of_recorded_passes_is_told_with_what_it_is_sure_of() {
     let noise_deg = told["noise"][0]["noise_deg"].as_f64().unwrap();
     assert!((noise_deg - NOISE_DEG / 3.0_f64.sqrt()).abs() < 0.001, "{noise_deg}");
 
+    // The offset of the azimuth is the greatest error; the tilt acts with it.
+    let best = &told["causes"]["explanations"][0];
+    let kinds = ["cause", "with"].map(|key| match &best[key] {
+        Value::Object(second) => second["cause"].as_str().unwrap().to_owned(),
+        first => first.as_str().unwrap().to_owned(),
+    });
+    assert_eq!(kinds, ["azimuth_offset", "tilt"], "{told}");
+    assert!(best["share"].as_f64().unwrap() > 0.9, "{best}");
+
     let sun = "2026-08-12T12:00:00Z,180.0,60.0";
     let table = pointing(folder.path(), &["--antenna", "RC2000C", "--sun", sun]);
     let table = text(&table.stdout);
     assert!(table.contains("Tilt to the north") && table.contains("Points on Sun: 1,"), "{table}");
+    assert!(table.contains("Azimuth offset +0.3"), "{table}");
     let none = pointing(folder.path(), &["--antenna", "RC2000C", "--to", "2026-08-12"]);
     assert_eq!(none.status.code(), Some(1));
     assert!(text(&none.stderr).contains("too few"), "{}", text(&none.stderr));

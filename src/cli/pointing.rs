@@ -16,9 +16,9 @@ use crate::{
     astro::{AzEl, Site, Term},
     makes,
     plan::pointing::{Kind, Point},
-    record::{PointingFit, fit_pointing},
+    record::{ExplainedPasses, PointingFit, explain_passes, fit_pointing},
     station::{self, Antenna, Mount, Station},
-    ui::words::pointing::pointing_term,
+    ui::words::{pointing::pointing_term, record as words},
 };
 
 #[derive(Debug, Args)]
@@ -96,9 +96,11 @@ pub(super) fn run(station: Option<&Path>, options: &Options) -> anyhow::Result<E
     };
     let peaks = [peaks(Point::of_sun, &options.sun), peaks(Point::of_moon, &options.moon)].concat();
     let within = options.from.unwrap_or(Timestamp::MIN)..options.to.unwrap_or(Timestamp::MAX);
-    let fit = fit_pointing(&record, antenna.id, of.site, within, peaks)
+    let fit = fit_pointing(&record, antenna.id, of.site, within.clone(), peaks)
         .with_context(|| format!("{} has no pointing model", antenna.name))?;
-    let told = Told { antenna: &antenna.name, fit: &fit };
+    let causes = explain_passes(&record, antenna.id, of.site, &within)
+        .with_context(|| format!("The passes of {} cannot be read", antenna.name))?;
+    let told = Told { antenna: &antenna.name, fit: &fit, causes };
     let written = match options.format {
         Format::Table => written(|out| table(&told, out)),
         Format::Json => written(|out| {
@@ -136,9 +138,10 @@ struct Told<'a> {
     antenna: &'a str,
     #[serde(flatten)]
     fit: &'a PointingFit,
+    causes: ExplainedPasses,
 }
 
-fn table(Told { antenna, fit }: &Told<'_>, out: &mut impl Write) -> io::Result<()> {
+fn table(Told { antenna, fit, causes }: &Told<'_>, out: &mut impl Write) -> io::Result<()> {
     let of = |kind: Kind| match kind {
         Kind::Satellite => "satellites",
         Kind::Sun => "Sun",
@@ -161,6 +164,16 @@ fn table(Told { antenna, fit }: &Told<'_>, out: &mut impl Write) -> io::Result<(
                 of.not_told_from.iter().map(|term| pointing_term(*term)).collect();
             writeln!(out, "  not told from: {}", with.join(", "))?;
         }
+    }
+    writeln!(out, "\nCauses in the last {} of these passes", causes.passes)?;
+    writeln!(out, "{:<40}  {:>9}  {:>9}", "Cause", "Residual", "Explained")?;
+    for of in &causes.explanations {
+        let (left, share) = (of.left_deg, words::whole_share(of.share));
+        let mark = if of.is_alike { "" } else { "  (excluded)" };
+        writeln!(out, "{:<40}  {left:>8.3}°  {share:>9}{mark}", words::causes(of))?;
+    }
+    if causes.explanations.is_empty() {
+        writeln!(out, "{}", words::not_explained(causes.passes > 0))?;
     }
     Ok(())
 }

@@ -2,6 +2,7 @@
 
 use std::{path::Path, sync::Arc, time::Duration};
 
+use jiff::Timestamp;
 use serde::{Deserialize, Serialize};
 
 use super::Engine;
@@ -9,7 +10,7 @@ use crate::{
     astro::Site,
     clock::Instant,
     job::Job,
-    record::{self, OpenedPass, PassPage, PassQuery, RecordError},
+    record::{self, ExplainedPasses, OpenedPass, PassPage, PassQuery, RecordError},
 };
 
 /// Time from the end of the work on a report until it can be read from the file.
@@ -29,6 +30,8 @@ pub struct Recorded {
     pub look: RecordLook,
     /// Or why the record cannot be read.
     pub found: Result<Found, String>,
+    /// What explains the opened pass and those before it together. It takes longer than the rest.
+    pub together: Option<ExplainedPasses>,
 }
 
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -41,7 +44,7 @@ impl Recorded {
     /// Reads the record at `path`. Reports without a site are of an antenna at `site`.
     pub fn read(path: &Path, look: RecordLook, site: Site) -> Self {
         let found = read(path, &look, site).map_err(|error| error.to_string());
-        Self { look, found }
+        Self { look, found, together: None }
     }
 }
 
@@ -51,6 +54,7 @@ pub(super) struct RecordReading {
     pub(super) found: Option<Arc<Recorded>>,
     wanted: Option<RecordLook>,
     job: Option<Job<Recorded>>,
+    explaining: Option<Job<Option<ExplainedPasses>>>,
     /// When a new pass will be in the file.
     due: Option<Instant>,
 }
@@ -78,7 +82,7 @@ impl Engine {
         };
         let Some(path) = self.record_file() else {
             let found = Err("this user has no folder for records".to_owned());
-            self.record_reading.found = Some(Arc::new(Recorded { look, found }));
+            self.record_reading.found = Some(Arc::new(Recorded { look, found, together: None }));
             return;
         };
         let site = self.station.site;
@@ -95,7 +99,29 @@ impl Engine {
         }
         if let Some(Ok(recorded)) = Job::take(&mut self.record_reading.job) {
             self.record_reading.found = Some(Arc::new(recorded));
+            self.explain_together();
         }
+        if let Some(Ok(together)) = Job::take(&mut self.record_reading.explaining)
+            && let Some(found) = &mut self.record_reading.found
+        {
+            Arc::make_mut(found).together = together;
+        }
+    }
+
+    fn explain_together(&mut self) {
+        let reading = &mut self.record_reading;
+        reading.explaining = None;
+        let found = reading.found.as_ref().and_then(|of| of.found.as_ref().ok());
+        let Some(opened) = found.and_then(|found| found.opened.as_ref()) else { return };
+        let (antenna, until) = (opened.pass.antenna, opened.pass.report.until);
+        let Some(path) = self.record_file() else { return };
+        let site = self.station.site;
+        let job = Job::start("azel-explain-passes", Arc::clone(&self.wake), move |_| {
+            let explained = record::explain_passes(&path, antenna, site, &(Timestamp::MIN..until));
+            explained.inspect_err(|error| tracing::error!(%error, "passes not explained")).ok()
+        });
+        self.record_reading.explaining =
+            job.inspect_err(|error| tracing::error!(%error, "no thread to explain passes")).ok();
     }
 }
 

@@ -60,6 +60,15 @@ pub struct MeasuredPosition {
     pub pointing: Pointing,
 }
 
+impl MeasuredPosition {
+    /// Its direction; an antenna without an elevation axis has an elevation of zero.
+    pub fn direction(self, has_elevation: bool) -> Option<AzEl> {
+        let Pointing { azimuth, elevation } = self.pointing;
+        let elevation = elevation.or((!has_elevation).then_some(Angle::ZERO))?;
+        Some(AzEl { azimuth: azimuth?, elevation })
+    }
+}
+
 /// Report of a pass.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct PassReport {

@@ -1,6 +1,6 @@
 //! Passes of a record, as somebody looks back at them.
 
-use std::path::Path;
+use std::{ops::Range, path::Path};
 
 use jiff::{SignedDuration, Timestamp};
 use rusqlite::{Connection, Row as SqlRow, named_params};
@@ -81,13 +81,13 @@ pub struct OpenedPass {
 
 /// The passes that `query` finds in the record at `path`.
 pub fn passes(path: &Path, query: &PassQuery) -> Result<PassPage, RecordError> {
-    Passes { db: file::open_to_read(path)? }.page(query)
+    Passes::open(path)?.page(query)
 }
 
 /// The pass with this number, if the record at `path` has it. Reports without a site are of an
 /// antenna at `site`.
 pub fn open_pass(path: &Path, id: i64, site: Site) -> Result<Option<OpenedPass>, RecordError> {
-    let passes = Passes { db: file::open_to_read(path)? };
+    let passes = Passes::open(path)?;
     let Some(pass) = passes.pass(id)? else { return Ok(None) };
     let report = &pass.report;
     let site = report.site.unwrap_or(site);
@@ -115,7 +115,7 @@ pub fn open_pass(path: &Path, id: i64, site: Site) -> Result<Option<OpenedPass>,
 /// The measured track of a pass beside the predicted one, from the record at `path`; `site` as for
 /// [`open_pass`]. Elements that cannot be propagated give none.
 pub fn track(path: &Path, pass: &RecordedPass, site: Site) -> Result<Vec<TrackPoint>, RecordError> {
-    let passes = Passes { db: file::open_to_read(path)? };
+    let passes = Passes::open(path)?;
     let Ok(propagator) = Propagator::new(&pass.report.elements) else { return Ok(Vec::new()) };
     let (points, site) = (passes.points(pass.id)?, pass.report.site.unwrap_or(site));
     Ok(track_of(&points, &propagator, site, &pass.report.about))
@@ -156,7 +156,7 @@ fn path_of(propagator: &Propagator, site: Site, report: &RecordedReport) -> Vec<
 }
 
 /// The passes of an open record.
-struct Passes {
+pub(super) struct Passes {
     db: Connection,
 }
 
@@ -165,6 +165,30 @@ const COLUMNS: &str = "id, antenna, (SELECT name FROM antenna AS a WHERE a.id = 
     ORDER BY since_us > pass.until_us, abs(since_us - pass.until_us) LIMIT 1), report";
 
 impl Passes {
+    pub(super) fn open(path: &Path) -> Result<Self, RecordError> {
+        Ok(Self { db: file::open_to_read(path)? })
+    }
+
+    /// The newest passes of an antenna that end `within` a time and can be read, the newest first.
+    pub(super) fn newest(
+        &self,
+        antenna: AntennaId,
+        within: &Range<Timestamp>,
+        count: u32,
+    ) -> Result<Vec<RecordedPass>, RecordError> {
+        let mut statement = self.db.prepare(&format!(
+            "SELECT {COLUMNS} FROM pass WHERE antenna = ?1 AND until_us BETWEEN ?2 AND ?3 \
+             ORDER BY until_us DESC LIMIT ?4"
+        ))?;
+        let (from, to) = (within.start.as_microsecond(), within.end.as_microsecond());
+        let mut rows = statement.query((antenna.0, from, to, count))?;
+        let mut passes = Vec::new();
+        while let Some(row) = rows.next()? {
+            passes.extend(read_pass(row)?);
+        }
+        Ok(passes)
+    }
+
     fn page(&self, query: &PassQuery) -> Result<PassPage, RecordError> {
         let wanted = "(:antenna IS NULL OR antenna = :antenna) \
             AND (:verdict IS NULL OR verdict = :verdict) \
@@ -210,7 +234,7 @@ impl Passes {
         rows.next()?.map_or(Ok(None), read_pass)
     }
 
-    fn points(&self, id: i64) -> Result<Vec<MeasuredPosition>, RecordError> {
+    pub(super) fn points(&self, id: i64) -> Result<Vec<MeasuredPosition>, RecordError> {
         let mut statement = self.db.prepare(
             "SELECT utc_us, azimuth, elevation FROM pass_point WHERE pass = ?1 ORDER BY utc_us",
         )?;

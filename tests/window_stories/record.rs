@@ -28,7 +28,8 @@ use azel::{
         },
     },
     record::{
-        AboutTrack, OpenedPass, PassPage, PassQuery, RecordedPass, RecordedReport, Row, TrackedBy,
+        AboutTrack, ExplainedPasses, OpenedPass, PassPage, PassQuery, RecordedPass, RecordedReport,
+        Row, TrackedBy,
     },
     station::{self, OffsetsOf},
     ui::theme,
@@ -107,7 +108,7 @@ fn opened(model: &Model, id: i64, pass: &Pass, verdict: PassVerdict) -> OpenedPa
             .collect(),
     };
     let measured = track.iter().map(|point| (point.time, point.antenna));
-    let explanations = Evidence::new(&propagator, site, measured, true).explanations(&[]);
+    let explanations = Evidence::new(true).and(&propagator, site, measured).explanations(&[]);
     let step = |step: u32| {
         let time = add_seconds(from, 2.0 * f64::from(step)).min(until);
         Sample { time, direction: at(time) }
@@ -157,7 +158,7 @@ fn recorded(flown: &[OpenedPass], place: usize) -> Recorded {
         query: PassQuery { count: 200, ..PassQuery::default() },
         opened: opened.as_ref().map(|opened| opened.pass.id),
     };
-    Recorded { look, found: Ok(Found { page, opened }) }
+    Recorded { look, found: Ok(Found { page, opened }), together: None }
 }
 
 fn model() -> (Model, Vec<OpenedPass>) {
@@ -287,7 +288,8 @@ fn explained_by(cause: Cause, set: impl FnOnce(&mut AboutTrack)) -> Model {
     let mut model = rig::model(settings_rig::read());
     let mut flown = flown(&model);
     let report = &mut flown[0].pass.report;
-    report.explanations = vec![Explanation { cause, left_deg: 0.01, share: 0.9, is_alike: false }];
+    report.explanations =
+        vec![Explanation { cause, left_deg: 0.01, share: 0.9, with: None, is_alike: false }];
     set(&mut report.about);
     model.recorded = Some(Arc::new(recorded(&flown, 0)));
     model.view = View::Record;
@@ -486,4 +488,41 @@ fn nothing_lies_on_another_and_in_a_usual_window_nothing_is_cut() {
     let mut window = view(LARGE);
     settle(&mut window);
     nothing_is_cut(&window, LARGE);
+}
+
+#[test]
+fn two_causes_that_act_together_stand_together_and_the_passes_before_are_told() {
+    for size in SIZES {
+        let mut model = rig::model(settings_rig::read());
+        let mut flown = flown(&model);
+        let mixed = Explanation {
+            cause: Cause::ElevationOffset { offset_deg: 0.25 },
+            with: Some(Cause::AzimuthOffset { offset_deg: -0.5 }),
+            left_deg: 0.01,
+            share: 0.97,
+            is_alike: true,
+        };
+        let cause = Cause::AzimuthScale { per_mille: 7.0 };
+        let excluded = Explanation { cause, with: None, share: 0.4, is_alike: false, ..mixed };
+        flown[0].pass.report.explanations = vec![mixed, excluded];
+        let mut found = recorded(&flown, 0);
+        let explanations = vec![Explanation { with: None, share: 0.92, ..mixed }];
+        found.together = Some(ExplainedPasses { passes: 12, since: None, explanations });
+        model.recorded = Some(Arc::new(found));
+        model.view = View::Record;
+        let name = model.antennas[0].config.name.clone();
+        let mut window = rig::window(size, model);
+        settle(&mut window);
+        window.get_by_label(
+            "Elevation offset +0.25° with azimuth offset −0.50°: explains 97 %, 0.010° left",
+        );
+        let said = format!(
+            "The last 12 passes of {name} together: Elevation offset +0.25°; that explains 92 % of \
+             their error."
+        );
+        window.get_by_label(&said);
+        // Each of the two has its own correction.
+        let buttons: Vec<_> = window.get_all_by_label("Apply…").collect();
+        assert_eq!(buttons.len(), 2);
+    }
 }

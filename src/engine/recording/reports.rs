@@ -188,16 +188,12 @@ impl Engine {
     }
 }
 
-/// The measured directions; an antenna without an elevation axis has one of zero.
+/// The measured directions.
 pub(super) fn directions(
     flown: &[MeasuredPosition],
     has_elevation: bool,
 ) -> impl Iterator<Item = (Timestamp, AzEl)> {
-    flown.iter().filter_map(move |flown| {
-        let azimuth = flown.pointing.azimuth?;
-        let elevation = flown.pointing.elevation.or((!has_elevation).then_some(Angle::ZERO))?;
-        Some((flown.time, AzEl { azimuth, elevation }))
-    })
+    flown.iter().filter_map(move |flown| Some((flown.time, flown.direction(has_elevation)?)))
 }
 
 /// What is told of a track that begins now.
@@ -285,7 +281,7 @@ impl Followed {
         let is_reached = |flown: &&MeasuredPosition| tracked.is_in_reach(flown.time);
         let reached: Vec<MeasuredPosition> = flown.iter().filter(is_reached).copied().collect();
         let measured = directions(&reached, has_elevation);
-        let evidence = Evidence::new(&self.propagator, self.site, measured, has_elevation);
+        let evidence = Evidence::new(has_elevation).and(&self.propagator, self.site, measured);
         let sets = history.map_or_else(Vec::new, |of| of.of(self.elements.catalog_number()));
         let others = sets.iter().filter(|set| set.elements.epoch() != self.elements.epoch());
         let others = others

@@ -1,18 +1,20 @@
-//! What would explain the pointing error of a pass: each cause is fitted alone, by least squares
-//! on the sphere, to all positions near the satellite.
+//! What would explain the pointing error of one pass or of several: each cause is fitted alone,
+//! and where none suffices with a second one, by least squares on the sphere, to all positions
+//! near the satellite.
 
+mod fit;
 #[cfg(test)]
 mod tests;
+
+use std::mem::discriminant;
 
 use glam::DVec3;
 use jiff::Timestamp;
 use serde::{Deserialize, Serialize};
 
+use self::fit::{Family, Found};
 use crate::{
-    astro::{
-        Angle, AzEl, Site,
-        time::{add_seconds, seconds_between},
-    },
+    astro::{AzEl, Site, time::seconds_between},
     orbit::Propagator,
 };
 
@@ -22,8 +24,9 @@ const NEAR_DEG: f64 = 10.0;
 const STEP_S: f64 = 0.95;
 /// Fewer positions explain nothing.
 const FEWEST: usize = 20;
-/// Most rounds of a fit; most need three.
-const ROUNDS: usize = 8;
+/// An antenna that comes closer to its satellite faster than this is on its way to it, degrees per
+/// second. No cause changes an error so fast but drives, and those let it grow first.
+const ARRIVES_DEG_S: f64 = 0.1;
 /// A cause that explains less is none.
 const LEAST_SHARE: f64 = 0.3;
 /// A cause that explains as much is told while a pass goes on.
@@ -34,8 +37,8 @@ const ALIKE: f64 = 9.2;
 /// A cause that improves the sum of squares by less than this many times the square of the noise may
 /// be chance, of which there are several causes' worth.
 const SURE: f64 = 30.0;
-/// Slowest and fastest drive that is looked for, degrees per second.
-const RATES_DEG_S: (f64, f64) = (0.05, 20.0);
+/// A second cause is offered where it makes what is left smaller by this share of the error.
+const LEAST_MORE: f64 = 0.03;
 
 /// A cause with its size.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
@@ -80,6 +83,9 @@ pub enum Cause {
 pub struct Explanation {
     #[serde(flatten)]
     pub cause: Cause,
+    /// What acts together with it; `None` where it was fitted alone.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub with: Option<Cause>,
     /// Root mean square of what is left, degrees.
     pub left_deg: f64,
     /// Share of the mean square that it explains of what is not noise, 0 to 1.
@@ -88,19 +94,26 @@ pub struct Explanation {
     pub is_alike: bool,
 }
 
-/// The one cause that explains an error well, while a pass goes on.
+impl Explanation {
+    /// Its one cause or two.
+    pub fn causes(&self) -> impl Iterator<Item = &Cause> {
+        std::iter::once(&self.cause).chain(&self.with)
+    }
+}
+
+/// What explains an error well, while a pass goes on.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Explained {
-    pub cause: Cause,
-    /// Share of the error that it explains, 0 to 1.
-    pub share: f64,
+    pub by: Explanation,
     /// The error, root mean square, degrees.
     pub error_deg: f64,
 }
 
 /// A position with its satellite.
 #[derive(Debug, Clone, Copy)]
-struct Point {
+struct Point<'a> {
+    propagator: &'a Propagator,
+    site: Site,
     time: Timestamp,
     satellite: AzEl,
     /// Azimuth of the satellite, continued over north, degrees.
@@ -110,78 +123,36 @@ struct Point {
     measured: AzEl,
 }
 
-/// The positions of a pass, and what the satellite did.
+/// The positions of passes, and what their satellites did.
 pub struct Evidence<'a> {
-    propagator: &'a Propagator,
-    site: Site,
-    points: Vec<Point>,
+    /// Each in the order of time.
+    passes: Vec<Vec<Point<'a>>>,
     has_elevation: bool,
 }
 
-/// A family of causes with up to two sizes.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Family {
-    Late,
-    Azimuth,
-    Elevation,
-    Tilt,
-    AzimuthScale,
-    ElevationScale,
-}
-
-impl Family {
-    const ALL: [Self; 6] = [
-        Self::Late,
-        Self::Azimuth,
-        Self::Elevation,
-        Self::Tilt,
-        Self::AzimuthScale,
-        Self::ElevationScale,
-    ];
-
-    /// Small steps of its sizes.
-    fn steps(self) -> &'static [f64] {
-        match self {
-            Self::Late => &[0.01],
-            Self::Tilt => &[1e-3, 1e-3],
-            _ => &[1e-3],
-        }
-    }
-
-    fn needs_elevation(self) -> bool {
-        matches!(self, Self::Elevation | Self::Tilt | Self::ElevationScale)
-    }
-
-    fn cause(self, sizes: [f64; 2]) -> Cause {
-        let [first, second] = sizes;
-        match self {
-            Self::Late => Cause::Late { late_s: first },
-            Self::Azimuth => Cause::AzimuthOffset { offset_deg: first },
-            Self::Elevation => Cause::ElevationOffset { offset_deg: first },
-            Self::Tilt => Cause::Tilt { north_deg: first, east_deg: second },
-            Self::AzimuthScale => Cause::AzimuthScale { per_mille: first },
-            Self::ElevationScale => Cause::ElevationScale { per_mille: first },
-        }
-    }
-}
-
 impl<'a> Evidence<'a> {
-    /// Evidence of measured directions, oldest first. `has_elevation`: the antenna measures its
-    /// elevation; else that of the satellite stands in its place.
-    pub fn new(
+    /// No evidence yet. `has_elevation`: the antenna measures its elevation; else that of the
+    /// satellite stands in its place.
+    pub fn new(has_elevation: bool) -> Self {
+        Self { passes: Vec::new(), has_elevation }
+    }
+
+    /// With the measured directions of a pass, oldest first.
+    #[must_use]
+    pub fn and(
+        mut self,
         propagator: &'a Propagator,
         site: Site,
         measured: impl Iterator<Item = (Timestamp, AzEl)>,
-        has_elevation: bool,
     ) -> Self {
-        let mut points: Vec<Point> = Vec::new();
+        let mut points: Vec<Point<'a>> = Vec::new();
         for (time, mut measured) in measured {
             if points.last().is_some_and(|last| seconds_between(last.time, time) < STEP_S) {
                 continue;
             }
             let Ok(look) = propagator.look_from(site, time) else { continue };
             let satellite = look.direction;
-            if !has_elevation {
+            if !self.has_elevation {
                 measured.elevation = satellite.elevation;
             }
             if measured.separation(satellite).degrees() > NEAR_DEG {
@@ -195,67 +166,104 @@ impl<'a> Evidence<'a> {
                 }
             };
             let error = measured.to_enu() - satellite.to_enu();
-            points.push(Point { time, satellite, azimuth_deg, error, measured });
+            points.push(Point { propagator, site, time, satellite, azimuth_deg, error, measured });
         }
-        Self { propagator, site, points, has_elevation }
+        let arrives = |pair: &&[Point<'_>]| {
+            let [before, after] = pair else { return false };
+            let closer = before.error.length() - after.error.length();
+            closer.to_degrees() > ARRIVES_DEG_S * seconds_between(before.time, after.time)
+        };
+        let on_its_way = points.windows(2).take_while(arrives).count();
+        self.passes.push(points.split_off(on_its_way));
+        self
+    }
+
+    fn points(&self) -> impl Iterator<Item = &Point<'a>> {
+        self.passes.iter().flatten()
     }
 
     /// All causes that explain a good part of the error, the best first; empty where none does.
+    /// Two causes together are among them only where they explain more than any single one.
     /// `others`: other elements of the satellite with their epochs.
     pub fn explanations(&self, others: &[(Timestamp, Propagator)]) -> Vec<Explanation> {
+        let count = self.points().count();
         let whole = self.sum(|point| Some(point.satellite));
-        if self.points.len() < FEWEST || whole <= 0.0 {
+        if count < FEWEST || whole <= 0.0 {
             return Vec::new();
         }
-        let mut found: Vec<(Cause, f64)> = Family::ALL
-            .into_iter()
-            .filter(|family| self.has_elevation || !family.needs_elevation())
-            .map(|family| {
-                let sizes = self.fitted(family);
-                (family.cause(sizes), self.sum(|point| self.modelled(family, sizes, point)))
-            })
-            .collect();
-        found.extend(others.iter().map(|(epoch, other)| {
-            let look = |point: &Point| Some(other.look_from(self.site, point.time).ok()?.direction);
-            (Cause::OtherElements { epoch: *epoch }, self.sum(look))
-        }));
-        let rate_deg_s = self.fitted_rate();
-        found.push((Cause::SlowDrives { rate_deg_s }, self.sum_of_slow(rate_deg_s)));
-        found.sort_by(|(_, a), (_, b)| a.total_cmp(b));
-        let count = self.points.len() as f64;
-        let best = found.first().map_or(whole, |(_, left)| *left);
-        let noise = self.noise().min(best);
-        let systematic = whole - noise;
+        let count = count as f64;
+        let families = Family::ALL.into_iter();
+        let families = families.filter(|of| self.has_elevation || !of.needs_elevation());
+        let families = families.chain(others.iter().map(Family::Elements));
+        let mut alone: Vec<(Family<'_>, Found)> =
+            families.map(|family| (family, self.fitted(family, None))).collect();
+        alone.sort_by(|(_, a), (_, b)| a.left.total_cmp(&b.left));
+        let mut found: Vec<Found> = alone.iter().map(|(_, found)| *found).collect();
+        found.push(self.slow_drives());
+        let single = found.iter().fold(whole, |best, found| best.min(found.left));
+        let noise = self.noise();
+        let is_less = |left: f64| single.sqrt() - left.sqrt() > LEAST_MORE * whole.sqrt();
+        if is_less(noise.min(single)) {
+            let mixed = self.mixed(&alone);
+            let best = mixed.iter().fold(single, |best, found| best.min(found.left));
+            let square = best / (2.0 * count);
+            if is_less(best) && single - best > SURE * square {
+                found.extend(mixed.into_iter().filter(|it| it.left - best <= ALIKE * square));
+            }
+        }
+        found.sort_by(|a, b| a.left.total_cmp(&b.left));
+        let best = found.first().map_or(whole, |best| best.left);
+        let systematic = whole - noise.min(best);
         // Of one of two measured angles of a position; what no cause explains blurs as noise does.
         let square = best / (2.0 * count);
-        let sure = found.into_iter().filter(|(_, left)| whole - left > SURE * square);
-        let explained = sure.map(|(cause, left)| Explanation {
-            cause,
-            left_deg: (left / count).sqrt().to_degrees(),
-            share: if systematic > 0.0 { (whole - left) / systematic } else { 0.0 },
-            is_alike: left - best <= ALIKE * square,
+        let sure = found.into_iter().filter(|it| whole - it.left > SURE * square);
+        let explained = sure.map(|it| Explanation {
+            cause: it.cause,
+            with: it.with,
+            left_deg: (it.left / count).sqrt().to_degrees(),
+            share: if systematic > 0.0 { (whole - it.left) / systematic } else { 0.0 },
+            is_alike: it.left - best <= ALIKE * square,
         });
         explained.filter(|it| it.share >= LEAST_SHARE).collect()
     }
 
-    /// The cause of an error of at least `least_deg`, if there is one that explains it well and
-    /// that the positions tell from all others.
+    /// Two causes together, each pair once. `alone`: what each explains, the best first.
+    fn mixed(&self, alone: &[(Family<'_>, Found)]) -> Vec<Found> {
+        let is_set = |family: &Family<'_>| matches!(family, Family::Elements(_));
+        // Another set is told by what it explains alone; two of them are none.
+        let set = alone.iter().map(|(family, _)| *family).find(is_set);
+        let families = alone.iter().map(|(family, _)| *family).filter(|of| !is_set(of));
+        let families: Vec<Family<'_>> = set.into_iter().chain(families).collect();
+        let pairs = families.iter().enumerate().flat_map(|(place, first)| {
+            families.iter().skip(place + 1).map(move |second| (*first, *second))
+        });
+        pairs.map(|(first, second)| self.fitted(first, Some(second))).collect()
+    }
+
+    /// What explains an error of at least `least_deg` well, if the positions tell it from all
+    /// else. Where they leave several pairs open, it is the cause that all of these share.
     pub fn explained(&self, least_deg: f64) -> Option<Explained> {
-        let square = self.sum(|point| Some(point.satellite)) / self.points.len().max(1) as f64;
+        let square = self.sum(|point| Some(point.satellite)) / self.points().count().max(1) as f64;
         let error_deg = square.sqrt().to_degrees();
         if error_deg < least_deg {
             return None;
         }
         let found = self.explanations(&[]);
-        let (best, others) = found.split_first()?;
-        let is_alone = best.share >= WELL && !others.iter().any(|other| other.is_alike);
-        is_alone.then_some(Explained { cause: best.cause, share: best.share, error_deg })
+        let alike: Vec<&Explanation> = found.iter().filter(|it| it.is_alike).collect();
+        let by = match alike[..] {
+            [one] => one,
+            _ => found.iter().find(|it| {
+                let is_same = |other: &Cause| discriminant(other) == discriminant(&it.cause);
+                it.with.is_none() && alike.iter().all(|alike| alike.causes().any(is_same))
+            })?,
+        };
+        (by.share >= WELL).then_some(Explained { by: *by, error_deg })
     }
 
     /// Sum of the squares of what differs from one position to the next: an error that lasts
     /// hardly does.
     fn noise(&self) -> f64 {
-        let pairs = self.points.windows(2);
+        let pairs = self.passes.iter().flat_map(|points| points.windows(2));
         let between = pairs.filter_map(|pair| match pair {
             [before, after] => Some((after.error - before.error).length_squared() / 2.0),
             _ => None,
@@ -264,140 +272,11 @@ impl<'a> Evidence<'a> {
     }
 
     /// Sum of the squares that are left where the antenna is taken to point as `model` says.
-    fn sum(&self, model: impl Fn(&Point) -> Option<AzEl>) -> f64 {
-        let left = |point: &Point| {
+    fn sum(&self, model: impl Fn(&Point<'_>) -> Option<AzEl>) -> f64 {
+        let left = |point: &Point<'_>| {
             let model = model(point).unwrap_or(point.satellite);
             (point.error - (model.to_enu() - point.satellite.to_enu())).length_squared()
         };
-        self.points.iter().map(left).sum()
+        self.points().map(left).sum()
     }
-
-    /// Direction in which an antenna with this cause points.
-    fn modelled(&self, family: Family, sizes: [f64; 2], point: &Point) -> Option<AzEl> {
-        let [first, second] = sizes;
-        let AzEl { azimuth, elevation } = point.satellite;
-        let deg = Angle::from_degrees;
-        let to = |azimuth: Angle, elevation: Angle| Some(AzEl { azimuth, elevation });
-        match family {
-            Family::Late => {
-                let look = self.propagator.look_from(self.site, add_seconds(point.time, -first));
-                look.ok().map(|look| look.direction)
-            }
-            Family::Azimuth => to(azimuth + deg(first), elevation),
-            Family::Elevation => to(azimuth, elevation + deg(first)),
-            Family::Tilt => {
-                // The axis leans: what it reads is the sky turned about the horizontal.
-                let (north, east) = (deg(first).radians(), deg(second).radians());
-                let lean = DVec3::new(-north, east, 0.0);
-                let at = point.satellite.to_enu();
-                Some(AzEl::from_enu(at + lean.cross(at)))
-            }
-            Family::AzimuthScale => {
-                to(azimuth + deg(point.azimuth_deg * first / 1000.0), elevation)
-            }
-            Family::ElevationScale => {
-                to(azimuth, elevation + deg(elevation.degrees() * first / 1000.0))
-            }
-        }
-    }
-
-    /// Sizes of a cause by least squares (Gauss and Newton).
-    fn fitted(&self, family: Family) -> [f64; 2] {
-        let mut sizes = [0.0; 2];
-        let steps = family.steps();
-        for _ in 0..ROUNDS {
-            let mut normal = [[0.0; 2]; 2];
-            let mut right = [0.0; 2];
-            for point in &self.points {
-                let model = |sizes: [f64; 2]| {
-                    let direction = self.modelled(family, sizes, point);
-                    direction.unwrap_or(point.satellite).to_enu() - point.satellite.to_enu()
-                };
-                let here = model(sizes);
-                let left = point.error - here;
-                let slope = |place: usize| {
-                    let step = steps.get(place)?;
-                    let mut ahead = sizes;
-                    *ahead.get_mut(place)? += step;
-                    Some((model(ahead) - here) / *step)
-                };
-                let slopes = [slope(0), slope(1)].map(Option::unwrap_or_default);
-                for (row, of) in normal.iter_mut().zip(slopes) {
-                    for (cell, with) in row.iter_mut().zip(slopes) {
-                        *cell += of.dot(with);
-                    }
-                }
-                for (cell, of) in right.iter_mut().zip(slopes) {
-                    *cell += of.dot(left);
-                }
-            }
-            let [change, other] = solved(normal, right);
-            sizes = [sizes[0] + change, sizes[1] + other];
-            let is_still = |change: f64, place: usize| {
-                steps.get(place).is_none_or(|step| change.abs() < step / 10.0)
-            };
-            if is_still(change, 0) && is_still(other, 1) {
-                break;
-            }
-        }
-        sizes
-    }
-
-    /// The rate of drives that explains most, degrees per second.
-    fn fitted_rate(&self) -> f64 {
-        let (mut low, mut high) = (RATES_DEG_S.0.ln(), RATES_DEG_S.1.ln());
-        // Coarse, because the sum has flat parts; then between the neighbours of the best.
-        let count = 40;
-        let at = |step: u32, low: f64, high: f64| {
-            low + (high - low) * f64::from(step) / f64::from(count)
-        };
-        for _ in 0..3 {
-            let sums = (0..=count).map(|step| (step, self.sum_of_slow(at(step, low, high).exp())));
-            let best = sums.min_by(|(_, a), (_, b)| a.total_cmp(b)).map_or(0, |(step, _)| step);
-            let around = (best.saturating_sub(1), (best + 1).min(count));
-            (low, high) = (at(around.0, low, high), at(around.1, low, high));
-        }
-        f64::midpoint(low, high).exp()
-    }
-
-    /// Sum of the squares that are left beside an antenna whose axes follow the satellite at this
-    /// rate at most.
-    fn sum_of_slow(&self, rate_deg_s: f64) -> f64 {
-        let mut before: Option<(Timestamp, f64, f64)> = None;
-        let mut sum = 0.0;
-        for point in &self.points {
-            let aim = (point.azimuth_deg, point.satellite.elevation_deg());
-            let (azimuth_deg, elevation_deg) = match before {
-                None => {
-                    let off = (point.measured.azimuth - point.satellite.azimuth).wrapped_180();
-                    (aim.0 + off.degrees(), point.measured.elevation_deg())
-                }
-                Some((time, azimuth_deg, elevation_deg)) => {
-                    let most = rate_deg_s * seconds_between(time, point.time);
-                    let turned = |from: f64, to: f64| from + (to - from).clamp(-most, most);
-                    (turned(azimuth_deg, aim.0), turned(elevation_deg, aim.1))
-                }
-            };
-            before = Some((point.time, azimuth_deg, elevation_deg));
-            let direction = AzEl {
-                azimuth: Angle::from_degrees(azimuth_deg),
-                elevation: Angle::from_degrees(elevation_deg),
-            };
-            let model = direction.to_enu() - point.satellite.to_enu();
-            sum += (point.error - model).length_squared();
-        }
-        sum
-    }
-}
-
-/// Solution of two equations, or of the first alone where the second is empty.
-fn solved([[a, b], [c, d]]: [[f64; 2]; 2], [right, other]: [f64; 2]) -> [f64; 2] {
-    let determinant = a * d - b * c;
-    if d == 0.0 {
-        return [if a > 0.0 { right / a } else { 0.0 }, 0.0];
-    }
-    if determinant.abs() < 1e-12 * a * d {
-        return [0.0; 2];
-    }
-    [(right * d - b * other) / determinant, (a * other - c * right) / determinant]
 }

@@ -4,8 +4,11 @@ use egui::{Align2, Rect, Ui, pos2, vec2};
 
 use super::{PADDING, RecordState};
 use crate::{
-    model::{Model, correction::correction},
-    plan::pass_report::Explanation,
+    model::{
+        Model,
+        correction::{Correction, correction},
+    },
+    plan::pass_report::{Cause, Explanation},
     record::OpenedPass,
     ui::{
         format, text, theme,
@@ -20,12 +23,13 @@ use crate::{
 const BAR: f32 = 32.0;
 const HEAD: f32 = 22.0;
 const ROW: f32 = 29.0;
-const FOOT: f32 = 40.0;
+const FOOT: f32 = 80.0;
 const SHARE_BAR: f32 = 108.0;
 const CORRECTION: f32 = 72.0;
 
 pub(super) fn height(opened: &OpenedPass) -> f32 {
-    let rows = opened.pass.report.explanations.len() + 2;
+    let explanations = &opened.pass.report.explanations;
+    let rows = explanations.iter().map(|of| of.causes().count()).sum::<usize>() + 2;
     BAR + HEAD + rows as f32 * ROW + FOOT
 }
 
@@ -46,7 +50,7 @@ pub(super) fn show(
     let left = Align2::LEFT_CENTER;
     let drawn =
         paint::text_in(ui, inner, left, "What would explain the error", text::small_strong(), t.t1);
-    let note = format!("each fitted on its own to {} points", opened.track.len());
+    let note = words::fitted_to(explanations, opened.track.len());
     paint::text_in(ui, inner.with_min_x(drawn.right() + 12.0), left, &note, text::small(), t.t3);
     let (head, mut rest) = rest.split_top_bottom_at_y(rest.top() + HEAD);
     ui.painter().hline(head.x_range(), head.bottom() - 0.5, (1.0, t.line));
@@ -86,28 +90,50 @@ pub(super) fn show(
             ui.painter().rect_filled(row.with_max_x(row.left() + 3.0), 0.0, t.sat);
         }
         explained(ui, row, place, &columns, explanation);
-        let cell = row.with_min_x(columns.correction.0).with_max_x(columns.correction.1);
-        match correction(model, &opened.pass, &explanation.cause) {
-            Some(correction) => {
-                let at = Rect::from_center_size(cell.center(), vec2(cell.width(), SMALL_HEIGHT));
-                let button = Button::normal("Apply…");
-                let response = button.show(ui, ("correct", place), at);
-                let words = words::correction(&correction.how, place == 0);
-                if response.on_hover_text(words).clicked() {
-                    state.correction = Some(Ok(correction));
-                }
+        let mut offer = |row: Rect, cause: &Cause, is_best: bool| {
+            let cell = row.with_min_x(columns.correction.0).with_max_x(columns.correction.1);
+            let correction = correction(model, &opened.pass, cause);
+            let id = ("correct", place, words::cause(cause));
+            if let Some(taken) = offered(ui, cell, id, correction, is_best) {
+                state.correction = Some(Ok(taken));
             }
-            None => {
-                paint::text_in(ui, cell, Align2::LEFT_CENTER, "–", text::small(), t.t3);
-            }
+        };
+        offer(row, &explanation.cause, place == 0);
+        if let Some(with) = &explanation.with {
+            let row = next();
+            cells(ui, row, &columns, [&words::second_cause(with), &words::size(with), ""]);
+            offer(row, with, false);
         }
     }
-    if let Some(words) = words::alike(explanations) {
-        let at = rest.min + vec2(PADDING, 8.0);
+    let together = model.recorded.as_ref().and_then(|recorded| recorded.together.as_ref());
+    let together = together.and_then(|of| words::explained_together(of, &opened.pass));
+    let mut at = rest.min + vec2(PADDING, 8.0);
+    for (id, words) in [("alike", words::alike(explanations)), ("together", together)] {
+        let Some(words) = words else { continue };
         let width = rest.width() - 2.0 * PADDING;
         let place = paint::paragraph(ui, at, width, &words, text::small(), t.t3);
-        paint::name_text(ui, "alike", place, &words);
+        paint::name_text(ui, id, place, &words);
+        at.y = place.bottom() + 4.0;
     }
+}
+
+/// The button of a correction, or a dash where there is none; returns it if it was pressed.
+fn offered(
+    ui: &Ui,
+    cell: Rect,
+    id: impl std::hash::Hash + std::fmt::Debug,
+    correction: Option<Correction>,
+    is_best: bool,
+) -> Option<Correction> {
+    let Some(correction) = correction else {
+        let t3 = theme::tokens(ui).t3;
+        paint::text_in(ui, cell, Align2::LEFT_CENTER, "–", text::small(), t3);
+        return None;
+    };
+    let at = Rect::from_center_size(cell.center(), vec2(cell.width(), SMALL_HEIGHT));
+    let response = Button::normal("Apply…").show(ui, id, at);
+    let words = words::correction(&correction.how, is_best);
+    response.on_hover_text(words).clicked().then_some(correction)
 }
 
 /// Ranges of x.
@@ -160,7 +186,11 @@ fn explained(ui: &Ui, row: Rect, place: usize, columns: &Columns, of: &Explanati
     let words = words::whole_share(of.share);
     let cell = row.with_min_x(columns.share.0).with_max_x(columns.share.1);
     paint::text_in(ui, cell, Align2::RIGHT_CENTER, &words, text::small_strong(), t.t1);
-    let alike = if of.is_alike { ", not distinguishable from the best one" } else { "" };
-    let spoken = format!("{cause} {size}: explains {words}, {left}° left{alike}");
+    let alike =
+        if of.is_alike && place > 0 { ", not distinguishable from the best one" } else { "" };
+    let with = of.with.as_ref();
+    let with = with.map(|of| format!(" {} {}", words::second_cause(of), words::size(of)));
+    let with = with.unwrap_or_default();
+    let spoken = format!("{cause} {size}{with}: explains {words}, {left}° left{alike}");
     paint::name_text(ui, ("explanation", place), row, &spoken);
 }

@@ -23,7 +23,7 @@ const SHARE_BAR: f64 = 100.0;
 /// Draws the table with as many rows as there are.
 pub(super) fn draw(svg: &mut Svg, y: f64, opened: &OpenedPass) {
     let explanations = &opened.pass.report.explanations;
-    let said = format!("each fitted on its own to {} points", opened.track.len());
+    let said = words::fitted_to(explanations, opened.track.len());
     let mut y = section(svg, y, "Causes of the error", &said);
     let right = CAPTION.anchored(Anchor::End);
     svg.text([LEFT, y + 5.0], CAUSE - LEFT, CAPTION, "Cause");
@@ -40,9 +40,14 @@ pub(super) fn draw(svg: &mut Svg, y: f64, opened: &OpenedPass) {
         svg.text([LEFT, y], RIGHT - LEFT, TEXT, words);
     }
     for of in explanations {
-        let (size, left) = (words::size(&of.cause), format::number(of.left_deg, 3));
+        let left = format::number(of.left_deg, 3);
         let share = words::whole_share(of.share);
+        let size = words::size(&of.cause);
         row(svg, &mut y, [words::cause(&of.cause), &size, &left, &share], Some(of.share));
+        if let Some(with) = &of.with {
+            let (cause, size) = (words::second_cause(with), words::size(with));
+            row(svg, &mut y, [&cause, &size, "", ""], None);
+        }
     }
     if let Some(words) = words::alike(explanations) {
         y += 2.0;

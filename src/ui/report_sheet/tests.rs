@@ -92,7 +92,9 @@ fn opened(late_s: f64, is_measured: impl Fn(u32) -> bool) -> OpenedPass {
                     sync: TimeSync::Synchronised,
                 },
                 report: tracked.report(&positions),
-                explanations: Evidence::new(&propagator, site, measured, true).explanations(&[]),
+                explanations: Evidence::new(true)
+                    .and(&propagator, site, measured)
+                    .explanations(&[]),
                 elements,
             },
         },

@@ -79,7 +79,8 @@ pub fn facts(report: &RecordedReport, now: Timestamp) -> Vec<Fact> {
 /// What to do first where the error is explained by the time, and the clock of the unit was off
 /// by then.
 pub fn clock_first(report: &RecordedReport) -> Option<&'static str> {
-    let is_time = |explanation: &Explanation| matches!(explanation.cause, Cause::Late { .. });
+    let is_time =
+        |explanation: &Explanation| explanation.causes().any(|of| matches!(of, Cause::Late { .. }));
     let is_late = report.explanations.first().is_some_and(is_time)
         && report.about.unit_clock_ahead_s.is_some_and(is_off);
     is_late.then_some(

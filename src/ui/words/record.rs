@@ -7,7 +7,7 @@ use crate::{
     plan::pass_report::{
         Cause, Explained, Explanation, LossCause, LostStretch, PassReport, PassVerdict,
     },
-    record::{RecordedPass, RecordedReport, TrackedBy},
+    record::{ExplainedPasses, RecordedPass, RecordedReport, TrackedBy},
     ui::format,
 };
 
@@ -65,7 +65,7 @@ pub fn cause_in_short(pass: &RecordedPass) -> Option<String> {
         return Some(format!("{} {}", loss(lost.cause), format::duration(lost.seconds())));
     }
     match pass.report.explanations.first() {
-        Some(explanation) => Some(cause_with_size(&explanation.cause)),
+        Some(explanation) => Some(causes(explanation)),
         None if report.verdict == PassVerdict::Good => None,
         None => Some("Not explained".to_owned()),
     }
@@ -99,6 +99,18 @@ pub fn cause(cause: &Cause) -> &'static str {
     }
 }
 
+/// A cause that acts together with the one above it.
+pub fn second_cause(second: &Cause) -> String {
+    format!("with {}", cause(second).to_lowercase())
+}
+
+/// How the causes were fitted.
+pub fn fitted_to(explanations: &[Explanation], points: usize) -> String {
+    let pairs =
+        if explanations.iter().any(|of| of.with.is_some()) { ", or with one other," } else { "" };
+    format!("each fitted on its own{pairs} to {points} points")
+}
+
 /// The size of a cause that fits best.
 pub fn size(cause: &Cause) -> String {
     let deg = |value: f64| format!("{}°", format::signed(value, 2));
@@ -116,6 +128,11 @@ pub fn size(cause: &Cause) -> String {
         Cause::OtherElements { epoch } => format!("of {}", format::copied(*epoch)),
         Cause::SlowDrives { rate_deg_s } => format!("{}°/s", format::number(*rate_deg_s, 2)),
     }
+}
+
+/// Causes that act together, with their sizes.
+pub fn causes(of: &Explanation) -> String {
+    together(of.causes().map(cause_with_size))
 }
 
 fn cause_with_size(of: &Cause) -> String {
@@ -154,10 +171,42 @@ fn cause_as_subject(of: &Cause) -> String {
     }
 }
 
+/// Causes that act together.
+fn together(causes: impl Iterator<Item = String>) -> String {
+    let mut whole = String::new();
+    for cause in causes {
+        if whole.is_empty() {
+            whole = cause;
+        } else {
+            let mut letters = cause.chars();
+            let first = letters.next().into_iter().flat_map(char::to_lowercase);
+            whole.extend(" and ".chars().chain(first).chain(letters));
+        }
+    }
+    whole
+}
+
+/// How much of the error these causes explain, after them.
+fn explains(by: &Explanation) -> String {
+    let share = whole_share(by.share);
+    if by.with.is_some() {
+        format!("together they explain {share}")
+    } else {
+        format!("that explains {share}")
+    }
+}
+
 /// What explains the error of a pass under way.
 pub fn explained(explained: &Explained) -> String {
+    let causes = together(explained.by.causes().map(cause_now));
+    let explains = explains(&explained.by);
+    format!("{causes}: {explains} of the error of {}.", format::degrees(explained.error_deg, 2))
+}
+
+/// A cause of a pass under way as the subject of a sentence.
+fn cause_now(of: &Cause) -> String {
     let deg = |value: f64| format!("{}°", format::signed(value, 2));
-    let cause = match &explained.cause {
+    match of {
         Cause::Late { late_s } => {
             let way = if *late_s < 0.0 { "early" } else { "late" };
             format!("The antenna is {} s {way}", format::number(late_s.abs(), 2))
@@ -169,12 +218,7 @@ pub fn explained(explained: &Explained) -> String {
             format!("The elevation is off by {}", deg(*offset_deg))
         }
         of => cause_as_subject(of),
-    };
-    format!(
-        "{cause}: that explains {} of the error of {}.",
-        whole_share(explained.share),
-        format::degrees(explained.error_deg, 2)
-    )
+    }
 }
 
 /// The report in one line: how much, the worst, what explains it, and what else was lost.
@@ -191,8 +235,8 @@ pub fn verdict_sentence(pass: &RecordedReport, now: Timestamp) -> String {
         format::moment(worst.at, now),
     );
     let explained = pass.explanations.first().map(|best| {
-        let share = whole_share(best.share);
-        format!(" {}; that explains {share} of the error.", cause_as_subject(&best.cause))
+        let causes = together(best.causes().map(cause_as_subject));
+        format!(" {causes}; {} of the error.", explains(best))
     });
     inside + &explained.unwrap_or_default() + &losses_sentence(&report.losses)
 }
@@ -255,32 +299,45 @@ pub fn no_correction(best: Option<&Cause>) -> String {
     })
 }
 
+/// What explains this pass and those before it together; `None` where it is the only one.
+pub fn explained_together(of: &ExplainedPasses, pass: &RecordedPass) -> Option<String> {
+    let last = format!("The last {} passes of {} together", of.passes, pass.antenna_name);
+    let Some(best) = of.explanations.first() else {
+        return (of.passes > 1).then(|| format!("{last}: no cause explains 30 % of their error."));
+    };
+    let causes = causes(best);
+    let alike = of.explanations.iter().skip(1).filter(|of| of.is_alike);
+    let alike: Vec<String> = alike.map(names).collect();
+    let open = match &alike[..] {
+        [] => String::new(),
+        alike => format!(" They cannot tell this from {}.", format::list(alike)),
+    };
+    let explains = explains(best);
+    (of.passes > 1).then(|| format!("{last}: {causes}; {explains} of their error.{open}"))
+}
+
 /// Why the table of causes is empty.
 pub fn not_explained(is_measured: bool) -> &'static str {
-    if is_measured {
-        "Not explained: no single cause explains 30 % of it"
-    } else {
-        "Nothing was measured"
-    }
+    if is_measured { "Not explained: no cause explains 30 % of it" } else { "Nothing was measured" }
+}
+
+/// The names of causes that act together.
+fn names(of: &Explanation) -> String {
+    together(of.causes().map(|of| cause(of).to_owned()))
 }
 
 /// What the data cannot tell apart, as a sentence; `None` where the best cause stands alone.
 pub fn alike(explanations: &[Explanation]) -> Option<String> {
-    let mut names: Vec<&str> = Vec::new();
-    for explanation in explanations.iter().filter(|explanation| explanation.is_alike) {
-        let name = cause(&explanation.cause);
-        if !names.contains(&name) {
-            names.push(name);
+    let mut told = vec![names(explanations.first()?)];
+    for alike in explanations.iter().filter(|explanation| explanation.is_alike).map(names) {
+        if !told.contains(&alike) {
+            told.push(alike);
         }
     }
-    let first = cause(&explanations.first()?.cause);
-    if !names.contains(&first) {
-        names.insert(0, first);
-    }
-    (names.len() > 1).then(|| {
+    (told.len() > 1).then(|| {
         format!(
             "This pass cannot tell these apart: {}. A pass in another part of the sky can.",
-            format::list(&names)
+            format::list(&told)
         )
     })
 }

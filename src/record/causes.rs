@@ -1,0 +1,80 @@
+//! What explains the errors of several passes together.
+
+use std::{ops::Range, path::Path};
+
+use jiff::Timestamp;
+use serde::{Deserialize, Serialize};
+
+use super::{RecordError, RecordedPass, RecordedReport, past::Passes};
+use crate::{
+    astro::{Site, time::seconds_between},
+    orbit::Propagator,
+    plan::pass_report::{Evidence, Explanation, LossCause, MeasuredPosition},
+    station::AntennaId,
+};
+
+/// Most passes that are taken together.
+const PASSES: u32 = 30;
+/// Time between two positions that are used, seconds.
+const APART_S: f64 = 5.0;
+
+/// What explains the errors of passes of an antenna together.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct ExplainedPasses {
+    /// Number of passes.
+    pub passes: usize,
+    /// LOS of the first of them; `None` where there is none.
+    pub since: Option<Timestamp>,
+    /// Causes that these passes share, the best first.
+    pub explanations: Vec<Explanation>,
+}
+
+/// What explains the newest passes of `antenna` in the record at `path` that end `within` a time.
+/// Reports without a site are of an antenna at `site`.
+pub fn explain_passes(
+    path: &Path,
+    antenna: AntennaId,
+    site: Site,
+    within: &Range<Timestamp>,
+) -> Result<ExplainedPasses, RecordError> {
+    let record = Passes::open(path)?;
+    let mut flown: Vec<(Propagator, Site, Vec<MeasuredPosition>)> = Vec::new();
+    let mut since = None;
+    for RecordedPass { id, report, .. } in record.newest(antenna, within, PASSES)? {
+        let Ok(propagator) = Propagator::new(&report.elements) else { continue };
+        let site = report.site.unwrap_or(site);
+        let points = thinned(&report, &record.points(id)?);
+        let points = points.into_iter().map(|flown| {
+            let flown = report.about.on_the_sky(flown);
+            report.about.offsets.taken_off(&propagator, site, flown)
+        });
+        let points = points.collect();
+        since = Some(report.until);
+        flown.push((propagator, site, points));
+    }
+    let positions = || flown.iter().flat_map(|(_, _, points)| points);
+    let has_elevation = positions().any(|flown| flown.pointing.elevation.is_some());
+    let evidence =
+        flown.iter().fold(Evidence::new(has_elevation), |evidence, (propagator, site, points)| {
+            let measured = points
+                .iter()
+                .filter_map(|flown| Some((flown.time, flown.direction(has_elevation)?)));
+            evidence.and(propagator, *site, measured)
+        });
+    Ok(ExplainedPasses { passes: flown.len(), since, explanations: evidence.explanations(&[]) })
+}
+
+/// Positions in which the antenna should have been on the satellite.
+fn thinned(report: &RecordedReport, points: &[MeasuredPosition]) -> Vec<MeasuredPosition> {
+    let is_elsewhere = |at: Timestamp| {
+        let lost = report.report.losses.iter().filter(|lost| lost.from <= at && at <= lost.until);
+        lost.into_iter().any(|lost| lost.cause != LossCause::NotExplained)
+    };
+    let mut used: Vec<MeasuredPosition> = Vec::new();
+    for point in points.iter().filter(|point| !is_elsewhere(point.time)) {
+        if used.last().is_none_or(|last| seconds_between(last.time, point.time) >= APART_S) {
+            used.push(*point);
+        }
+    }
+    used
+}
