@@ -9,5 +9,5 @@ pub mod rotator_genius;
 pub mod satrak;
 
 pub use command_line::{Command, Serving, StartError, Starting};
-pub use harness::{Control, InMemory, Simulator, Trouble, Unit};
+pub use harness::{Control, InMemory, Misreading, Simulator, Trouble, Unit};
 pub use names::UnknownName;

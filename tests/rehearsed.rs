@@ -3,6 +3,7 @@
 //! time.
 
 mod automatic;
+mod explained;
 mod prices;
 mod recorded;
 mod rehearsal;

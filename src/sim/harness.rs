@@ -12,7 +12,7 @@ pub(super) mod testing;
 
 pub(super) use connection::{Replies, serve};
 pub use control::Control;
-pub use in_memory::{InMemory, Trouble};
+pub use in_memory::{InMemory, Misreading, Trouble};
 pub(super) use simulator::HEARTBEAT;
 pub use simulator::Simulator;
 
@@ -53,6 +53,11 @@ pub trait Unit: fmt::Debug + Send + Sized + 'static {
 
     /// Sets the unit's own clock back by so much. Returns `false` if it has none that matters.
     fn set_clock_late(&mut self, _late: Duration) -> bool {
+        false
+    }
+
+    /// Makes the sensors of the axes read something else. Returns `false` if they cannot.
+    fn set_misreading(&mut self, _misreading: Misreading) -> bool {
         false
     }
 

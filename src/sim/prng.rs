@@ -22,6 +22,12 @@ impl Prng {
         let span = most.saturating_sub(least).saturating_add(1);
         least.saturating_add(self.next() % span)
     }
+
+    /// From the normal distribution of standard deviation 1, nearly: the sum of twelve even ones.
+    pub(super) fn normal(&mut self) -> f64 {
+        let even = |_| self.between(0, 1_000_000) as f64 / 1e6;
+        (0..12).map(even).sum::<f64>() - 6.0
+    }
 }
 
 #[cfg(test)]
@@ -41,5 +47,10 @@ mod tests {
         }
         assert!(draw(1).iter().all(|number| (3..=9).contains(number)));
         assert_eq!(Prng::new(1).between(5, 5), 5);
+        let mut prng = Prng::new(1);
+        let normal: Vec<f64> = (0..2000).map(|_| prng.normal()).collect();
+        let mean = normal.iter().sum::<f64>() / 2000.0;
+        let square = normal.iter().map(|number| number.powi(2)).sum::<f64>() / 2000.0;
+        assert!(mean.abs() < 0.1 && (square - 1.0).abs() < 0.1, "{mean} {square}");
     }
 }

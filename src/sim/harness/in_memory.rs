@@ -5,6 +5,7 @@ use std::{future::Future, pin::Pin, time::Duration};
 use tokio::io::DuplexStream;
 
 use super::{Control, Unit};
+use crate::astro::PointingModel;
 
 /// Trouble that a unit of any make can be given.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -19,6 +20,16 @@ pub enum Trouble {
     SlowDrives(f64),
     /// The unit's own clock is late.
     ClockLate(Duration),
+    /// The sensors of the axes read something else.
+    Misreads(Misreading),
+}
+
+/// What the sensors of an antenna's axes do wrong. The drives are led by the true angles.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Misreading {
+    pub model: PointingModel,
+    /// Standard deviation of either angle on the sky, degrees.
+    pub noise_deg: f64,
 }
 
 /// A simulated unit of any make, without a port.
@@ -62,6 +73,10 @@ where
             Trouble::ClockLate(late) => {
                 let late = if is_on { late } else { Duration::ZERO };
                 return self.with_unit(|unit| unit.set_clock_late(late));
+            }
+            Trouble::Misreads(misreading) => {
+                let misreading = if is_on { misreading } else { Misreading::default() };
+                return self.with_unit(|unit| unit.set_misreading(misreading));
             }
         }
         true

@@ -18,7 +18,8 @@ use super::{Fault, Options, Quirk};
 use crate::astro::{Angle, AzEl, Site};
 use crate::orbit::Elements;
 use crate::protocol::satrak::{Decoder, FaultKind};
-use crate::sim::harness::{self, Switches};
+use crate::sim::harness::{self, Misreading, Switches};
+use crate::sim::prng::Prng;
 
 /// Time between two steps of mount and tracking.
 const STEP: Duration = Duration::from_millis(50);
@@ -60,6 +61,8 @@ pub struct Satrak {
     clock_error: SignedDuration,
     /// How far what GPS tells is behind UTC.
     late: Duration,
+    misreading: Misreading,
+    noise: Prng,
     is_clock_from_gps: bool,
     had_gps_lock: bool,
     mount: Mount,
@@ -100,6 +103,8 @@ impl Satrak {
             tracking: Tracking::default(),
             memory: Memory::default(),
             late: Duration::ZERO,
+            misreading: Misreading::default(),
+            noise: Prng::new(1),
             injected: BTreeSet::new(),
             refuses_settings: false,
             has_frozen_angles: false,
@@ -141,7 +146,7 @@ impl Satrak {
             None => {}
         }
         self.mount.advance(step_s);
-        let measured = self.measured_xy_deg();
+        let measured = self.misread_xy_deg(self.measured_xy_deg());
         for ((last, now), sensor) in
             self.last_xy_deg.iter_mut().zip(measured).zip([FaultKind::XSensor, FaultKind::YSensor])
         {
@@ -195,6 +200,23 @@ impl Satrak {
     fn measured_xy_deg(&self) -> [f64; 2] {
         let [x_shift, y_shift] = self.memory.shifts_deg();
         [self.mount.x.angle_deg() + x_shift, self.mount.y.angle_deg() + y_shift]
+    }
+
+    /// What the sensors make of angles.
+    fn misread_xy_deg(&mut self, xy_deg: [f64; 2]) -> [f64; 2] {
+        let Misreading { model, noise_deg } = self.misreading;
+        if self.misreading == Misreading::default() {
+            return xy_deg;
+        }
+        let true_direction = azel_from_xy(xy_deg, self.north());
+        let AzEl { azimuth, elevation } = model.reading(true_direction).unwrap_or(true_direction);
+        let [across_deg, up_deg] = [(), ()].map(|()| self.noise.normal() * noise_deg);
+        let turned_deg = across_deg / elevation.radians().cos().max(0.02);
+        let read = AzEl {
+            azimuth: azimuth + Angle::from_degrees(turned_deg),
+            elevation: elevation + Angle::from_degrees(up_deg),
+        };
+        xy_from_azel(read, self.north())
     }
 
     /// Measured direction.
@@ -258,6 +280,11 @@ impl harness::Unit for Satrak {
 
     fn set_clock_late(&mut self, late: Duration) -> bool {
         self.late = late;
+        true
+    }
+
+    fn set_misreading(&mut self, misreading: Misreading) -> bool {
+        self.misreading = misreading;
         true
     }
 
