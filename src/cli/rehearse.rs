@@ -170,9 +170,9 @@ fn csv(rehearsed: &Rehearsed, out: &mut impl Write) -> io::Result<()> {
     let number = |value: Option<f64>| value.map(|value| value.to_string()).unwrap_or_default();
     for pass in &rehearsed.passes {
         let fields: [String; 13] = [
-            plain(&pass.antenna_name),
+            plain(&pass.antenna_name).into_owned(),
             pass.satellite.to_string(),
-            plain(&pass.satellite_name),
+            plain(&pass.satellite_name).into_owned(),
             rfc3339(pass.aos),
             rfc3339(pass.los),
             rfc3339(pass.from),
@@ -182,7 +182,7 @@ fn csv(rehearsed: &Rehearsed, out: &mut impl Write) -> io::Result<()> {
             number(pass.rms_deg()),
             number(pass.worst_deg()),
             verdict(pass).to_owned(),
-            plain(&outcome(pass, rehearsed.from)),
+            plain(&outcome(pass, rehearsed.from)).into_owned(),
         ];
         table.write_record(fields).map_err(io_error)?;
     }

@@ -62,8 +62,8 @@ struct View {
 }
 
 impl View {
-    fn seen(&self, state: &State, at: Timestamp) -> Seen {
-        Seen::new(state.distance_from(self.site_ecef_km, at), self.carrier_hz)
+    fn distance(&self, state: &State, at: Timestamp) -> Distance {
+        state.distance_from(self.site_ecef_km, at)
     }
 }
 

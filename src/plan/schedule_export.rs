@@ -134,9 +134,9 @@ impl ScheduleList<'_> {
             let fields: [String; 13] = match row {
                 Row::Taken(entry) => [
                     "taken".to_owned(),
-                    plain(self.antenna(entry.antenna)),
+                    plain(self.antenna(entry.antenna)).into_owned(),
                     entry.pass.satellite.to_string(),
-                    plain(&self.satellite(entry.pass.satellite)),
+                    plain(&self.satellite(entry.pass.satellite)).into_owned(),
                     rfc3339(entry.pass.aos),
                     rfc3339(entry.from),
                     rfc3339(entry.to),
@@ -153,14 +153,14 @@ impl ScheduleList<'_> {
                         "left out".to_owned(),
                         String::new(),
                         left.pass.satellite.to_string(),
-                        plain(&self.satellite(left.pass.satellite)),
+                        plain(&self.satellite(left.pass.satellite)).into_owned(),
                         rfc3339(left.pass.aos),
                     ];
                     for (field, said) in fields.iter_mut().zip(said) {
                         *field = said;
                     }
                     if let Some(reason) = fields.last_mut() {
-                        *reason = plain(&(self.reason)(left));
+                        *reason = plain(&(self.reason)(left)).into_owned();
                     }
                     fields
                 }

@@ -1,6 +1,9 @@
 //! Passes as comma-separated values.
 
-use std::io::{self, Write};
+use std::{
+    borrow::Cow,
+    io::{self, Write},
+};
 
 use super::{
     ExportedPass, PassList, View,
@@ -39,68 +42,61 @@ pub(super) fn write(out: &mut impl Write, list: &PassList<'_>) -> io::Result<()>
     let names: Vec<&str> = HEADER.iter().chain(doppler).copied().collect();
     writeln!(out, "{}", names.join(","))?;
     let view = list.view();
-    write_rows(out, list.rows, |text, row| {
-        push_row(text, &view, row);
-        Ok(())
-    })
+    write_rows(out, list.rows, |text, row| push_row(text, &view, row))
 }
 
 fn push_row(text: &mut Vec<u8>, view: &View, row: &ExportedPass<'_>) {
     let ExportedPass { satellite, pass } = row;
     let elements = &satellite.elements;
     push_whole(text, elements.catalog_number());
-    text.push(b',');
-    push_text(text, elements.name());
+    push_text(next(text), elements.name());
     for point in [pass.aos, pass.tca, pass.los] {
-        text.push(b',');
-        push_time(text, point.time);
-        push_number(text, Some(point.direction.azimuth_deg()), 6);
-        push_number(text, Some(point.direction.elevation_deg()), 6);
+        push_time(next(text), point.time);
+        push_shortest::<6>(next(text), point.direction.azimuth_deg());
+        push_shortest::<6>(next(text), point.direction.elevation_deg());
     }
-    push_number(text, Some(pass.max_elevation().degrees()), 6);
-    text.push(b',');
-    push_fixed(text, pass.duration_s(), 3);
-    push_flag(text, Some(pass.starts_before));
-    push_flag(text, Some(pass.ends_after));
-    text.push(b',');
-    text.extend_from_slice(satellite.epoch.as_bytes());
-    push_number(text, Some(satellite.age_days(pass.aos.time)), 4);
+    push_shortest::<6>(next(text), pass.max_elevation().degrees());
+    push_fixed::<3>(next(text), pass.duration_s());
+    push_flag(next(text), pass.starts_before);
+    push_flag(next(text), pass.ends_after);
+    next(text).extend_from_slice(satellite.epoch.as_bytes());
+    push_shortest::<4>(next(text), satellite.age_days(pass.aos.time));
     let tca = pass.tca.time;
     let state = satellite.propagator.state_at(tca).ok();
-    push_number(text, state.map(|state| view.seen(&state, tca).range_km), 3);
-    push_flag(text, state.map(|state| is_sunlit(&state, tca)));
-    text.push(b',');
-    push_text(text, elements.international_designator().unwrap_or_default());
-    if view.carrier_hz.is_some() {
+    next(text);
+    if let Some(state) = state {
+        push_shortest::<3>(text, view.distance(&state, tca).range_km);
+    }
+    next(text);
+    if let Some(state) = state {
+        push_flag(text, is_sunlit(&state, tca));
+    }
+    push_text(next(text), elements.international_designator().unwrap_or_default());
+    if let Some(carrier_hz) = view.carrier_hz {
         for at in [pass.aos.time, tca, pass.los.time] {
-            let seen = satellite.propagator.state_at(at).ok().map(|state| view.seen(&state, at));
-            push_number(text, seen.and_then(|seen| seen.doppler_hz), 1);
+            next(text);
+            if let Ok(state) = satellite.propagator.state_at(at) {
+                push_shortest::<1>(text, view.distance(&state, at).doppler_hz(carrier_hz));
+            }
         }
     }
     text.push(b'\n');
 }
 
-/// Appends a comma, and the number if there is one.
-fn push_number(text: &mut Vec<u8>, number: Option<f64>, decimals: u32) {
+/// Begins the next field.
+fn next(text: &mut Vec<u8>) -> &mut Vec<u8> {
     text.push(b',');
-    if let Some(number) = number {
-        push_shortest(text, number, decimals);
-    }
+    text
 }
 
-/// Appends a comma, and the flag if there is one.
-fn push_flag(text: &mut Vec<u8>, flag: Option<bool>) {
-    text.extend_from_slice(match flag {
-        Some(true) => b",true",
-        Some(false) => b",false",
-        None => b",",
-    });
+fn push_flag(text: &mut Vec<u8>, flag: bool) {
+    text.extend_from_slice(if flag { b"true" } else { b"false" });
 }
 
 /// Appends a field that others wrote, in quotation marks where it needs them.
 fn push_text(text: &mut Vec<u8>, field: &str) {
     let field = plain(field);
-    if field.contains(['"', ',', '\r', '\n']) {
+    if field.bytes().any(|byte| matches!(byte, b'"' | b',' | b'\r' | b'\n')) {
         text.extend_from_slice(format!("\"{}\"", field.replace('"', "\"\"")).as_bytes());
     } else {
         text.extend_from_slice(field.as_bytes());
@@ -124,11 +120,11 @@ pub(super) fn text_of<T: ToString>(value: Option<T>) -> String {
 /// Text that no spreadsheet takes for a formula: names come from files that others wrote.
 ///
 /// Source: OWASP, "CSV Injection".
-pub(crate) fn plain(text: &str) -> String {
-    if text.starts_with(['=', '+', '-', '@', '\t', '\r']) {
-        format!("'{text}")
+pub(crate) fn plain(text: &str) -> Cow<'_, str> {
+    if matches!(text.as_bytes(), [b'=' | b'+' | b'-' | b'@' | b'\t' | b'\r', ..]) {
+        Cow::Owned(format!("'{text}"))
     } else {
-        text.to_owned()
+        Cow::Borrowed(text)
     }
 }
 

@@ -4,90 +4,110 @@ use std::io::{self, Write};
 
 use serde::Serialize;
 
-use super::{ExportedPass, PassList, View, degrees, rfc3339, rounded, rows::write_rows};
+use super::{
+    ExportedPass, PassList, View,
+    digits::{parts, push_at_least, push_time, push_whole},
+    rows::write_rows,
+};
 use crate::orbit::{PassPoint, State, is_sunlit};
-
-#[derive(Serialize)]
-struct Point {
-    time: String,
-    azimuth_deg: f64,
-    elevation_deg: f64,
-    range_km: Option<f64>,
-    range_rate_km_s: Option<f64>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    doppler_hz: Option<f64>,
-}
-
-#[derive(Serialize)]
-struct Row<'a> {
-    catalog_number: u32,
-    name: &'a str,
-    aos: Point,
-    tca: Point,
-    los: Point,
-    max_elevation_deg: f64,
-    duration_s: f64,
-    starts_before: bool,
-    ends_after: bool,
-    epoch: &'a str,
-    age_days: f64,
-    designator: Option<&'a str>,
-    sunlit: Option<bool>,
-    dark_at_site: bool,
-}
-
-fn point(view: &View, point: PassPoint, state: Option<State>) -> Point {
-    let seen = state.map(|state| view.seen(&state, point.time));
-    Point {
-        time: rfc3339(point.time),
-        azimuth_deg: degrees(point.direction.azimuth_deg()),
-        elevation_deg: degrees(point.direction.elevation_deg()),
-        range_km: seen.map(|seen| seen.range_km),
-        range_rate_km_s: seen.map(|seen| seen.range_rate_km_s),
-        doppler_hz: seen.and_then(|seen| seen.doppler_hz),
-    }
-}
-
-impl<'a> Row<'a> {
-    fn new(list: &PassList<'_>, view: &View, row: &ExportedPass<'a>) -> Self {
-        let ExportedPass { satellite, pass } = row;
-        let elements = &satellite.elements;
-        let state = |point: PassPoint| satellite.propagator.state_at(point.time).ok();
-        let tca = state(pass.tca);
-        Self {
-            catalog_number: elements.catalog_number(),
-            name: elements.name(),
-            aos: point(view, pass.aos, state(pass.aos)),
-            tca: point(view, pass.tca, tca),
-            los: point(view, pass.los, state(pass.los)),
-            max_elevation_deg: degrees(pass.max_elevation().degrees()),
-            duration_s: rounded(pass.duration_s(), 1e3),
-            starts_before: pass.starts_before,
-            ends_after: pass.ends_after,
-            epoch: &satellite.epoch,
-            age_days: satellite.age_days(pass.aos.time),
-            designator: elements.international_designator(),
-            sunlit: tca.map(|state| is_sunlit(&state, pass.tca.time)),
-            dark_at_site: list.is_dark(pass.tca.time),
-        }
-    }
-}
 
 /// Writes one object per line, so that the list can also be compared and cut by lines.
 pub(super) fn write(out: &mut impl Write, list: &PassList<'_>) -> io::Result<()> {
     let view = list.view();
-    let push = |text: &mut Vec<u8>, before: &[u8], row: &ExportedPass<'_>| {
-        text.extend_from_slice(before);
-        Ok(serde_json::to_writer(text, &Row::new(list, &view, row))?)
-    };
     write!(out, "[")?;
     if let Some((first, rest)) = list.rows.split_first() {
-        let mut text = Vec::new();
-        push(&mut text, b"\n", first)?;
+        let mut text = vec![b'\n'];
+        push_row(&mut text, list, &view, first);
         out.write_all(&text)?;
-        write_rows(out, rest, |text, row| push(text, b",\n", row))?;
+        write_rows(out, rest, |text, row| {
+            text.extend_from_slice(b",\n");
+            push_row(text, list, &view, row);
+        })?;
     }
     writeln!(out, "\n]")
+}
+
+fn push_row(text: &mut Vec<u8>, list: &PassList<'_>, view: &View, row: &ExportedPass<'_>) {
+    let ExportedPass { satellite, pass } = row;
+    let elements = &satellite.elements;
+    let state = |point: PassPoint| satellite.propagator.state_at(point.time).ok();
+    let tca = state(pass.tca);
+    text.extend_from_slice(br#"{"catalog_number":"#);
+    push_whole(text, elements.catalog_number());
+    text.extend_from_slice(br#","name":"#);
+    push_text(text, Some(elements.name()));
+    text.extend_from_slice(br#","aos":"#);
+    push_point(text, view, pass.aos, state(pass.aos));
+    text.extend_from_slice(br#","tca":"#);
+    push_point(text, view, pass.tca, tca);
+    text.extend_from_slice(br#","los":"#);
+    push_point(text, view, pass.los, state(pass.los));
+    text.extend_from_slice(br#","max_elevation_deg":"#);
+    push_number::<6>(text, Some(pass.max_elevation().degrees()));
+    text.extend_from_slice(br#","duration_s":"#);
+    push_number::<3>(text, Some(pass.duration_s()));
+    text.extend_from_slice(br#","starts_before":"#);
+    push_flag(text, Some(pass.starts_before));
+    text.extend_from_slice(br#","ends_after":"#);
+    push_flag(text, Some(pass.ends_after));
+    text.extend_from_slice(br#","epoch":""#);
+    text.extend_from_slice(satellite.epoch.as_bytes());
+    text.extend_from_slice(br#"","age_days":"#);
+    push_number::<4>(text, Some(satellite.age_days(pass.aos.time)));
+    text.extend_from_slice(br#","designator":"#);
+    push_text(text, elements.international_designator());
+    text.extend_from_slice(br#","sunlit":"#);
+    push_flag(text, tca.map(|state| is_sunlit(&state, pass.tca.time)));
+    text.extend_from_slice(br#","dark_at_site":"#);
+    push_flag(text, Some(list.is_dark(pass.tca.time)));
+    text.push(b'}');
+}
+
+fn push_point(text: &mut Vec<u8>, view: &View, point: PassPoint, state: Option<State>) {
+    let distance = state.map(|state| view.distance(&state, point.time));
+    text.extend_from_slice(br#"{"time":""#);
+    push_time(text, point.time);
+    text.extend_from_slice(br#"","azimuth_deg":"#);
+    push_number::<6>(text, Some(point.direction.azimuth_deg()));
+    text.extend_from_slice(br#","elevation_deg":"#);
+    push_number::<6>(text, Some(point.direction.elevation_deg()));
+    text.extend_from_slice(br#","range_km":"#);
+    push_number::<3>(text, distance.map(|distance| distance.range_km));
+    text.extend_from_slice(br#","range_rate_km_s":"#);
+    push_number::<6>(text, distance.map(|distance| distance.range_rate_km_s));
+    if let (Some(distance), Some(carrier_hz)) = (distance, view.carrier_hz) {
+        text.extend_from_slice(br#","doppler_hz":"#);
+        push_number::<1>(text, Some(distance.doppler_hz(carrier_hz)));
+    }
+    text.push(b'}');
+}
+
+const NULL: &[u8] = b"null";
+
+/// Appends a number as `serde_json` writes it once it is rounded to this number of decimals.
+fn push_number<const DECIMALS: usize>(text: &mut Vec<u8>, number: Option<f64>) {
+    let Some(number) = number else { return text.extend_from_slice(NULL) };
+    match parts::<DECIMALS>(number) {
+        // Below a hundred-thousandth, it writes a power of ten.
+        millionths @ (-9..=-1 | 1..=9) if DECIMALS == 6 => {
+            text.extend_from_slice(format!("{millionths}e-6").as_bytes());
+        }
+        _ => push_at_least::<DECIMALS>(text, number, 1),
+    }
+}
+
+fn push_flag(text: &mut Vec<u8>, flag: Option<bool>) {
+    text.extend_from_slice(match flag {
+        Some(true) => b"true",
+        Some(false) => b"false",
+        None => NULL,
+    });
+}
+
+/// Appends a text that others wrote, escaped.
+fn push_text(text: &mut Vec<u8>, given: Option<&str>) {
+    // Appending to a buffer cannot fail.
+    let _ = serde_json::to_writer(text, &given);
 }
 
 /// Writes a list of `rows`, one per line.
@@ -105,9 +125,16 @@ pub(super) fn write_lines(
 
 #[cfg(test)]
 mod tests {
+    use proptest::prelude::*;
     use serde_json::Value;
 
-    use super::super::testing::{example, written, written_with};
+    use super::{
+        super::{
+            rounded,
+            testing::{example, written, written_with},
+        },
+        *,
+    };
     use crate::plan::pass_export::PassFormat;
 
     /// Returns `true` if `whole` contains all of `part` unchanged.
@@ -152,5 +179,23 @@ mod tests {
         let (elements, _) = example();
         let text = written(PassFormat::Json, elements, &[]);
         assert_eq!(serde_json::from_str::<Vec<u8>>(&text).unwrap(), Vec::<u8>::new());
+    }
+
+    proptest! {
+        #[test]
+        fn numbers_are_those_of_their_library(
+            value in prop_oneof![-1e6..1e6_f64, -1.5e-5..1.5e-5, Just(0.0), Just(-0.0), Just(350.0)],
+        ) {
+            let written = |push: fn(&mut Vec<u8>, Option<f64>)| {
+                let mut text = Vec::new();
+                push(&mut text, Some(value));
+                String::from_utf8(text).unwrap()
+            };
+            let expected = |parts| serde_json::to_string(&rounded(value, parts)).unwrap();
+            prop_assert_eq!(written(push_number::<1>), expected(1e1));
+            prop_assert_eq!(written(push_number::<3>), expected(1e3));
+            prop_assert_eq!(written(push_number::<4>), expected(1e4));
+            prop_assert_eq!(written(push_number::<6>), expected(1e6));
+        }
     }
 }

@@ -34,7 +34,7 @@ impl Text {
 pub(super) fn write_rows(
     out: &mut impl Write,
     rows: &[ExportedPass<'_>],
-    push: impl Fn(&mut Vec<u8>, &ExportedPass<'_>) -> io::Result<()> + Sync,
+    push: impl Fn(&mut Vec<u8>, &ExportedPass<'_>) + Sync,
 ) -> io::Result<()> {
     // Used again, so that the allocator need not ask the operating system each time.
     let mut texts: Vec<Text> = Vec::new();
@@ -46,16 +46,14 @@ pub(super) fn write_rows(
         let mut places: Vec<(usize, u32)> = rows.iter().zip(0..).map(place).collect();
         places.par_sort_unstable();
         texts.resize_with(places.len().div_ceil(CHUNK), Text::default);
-        let made = texts.par_iter_mut().zip(places.par_chunks(CHUNK)).map(|(text, places)| {
+        texts.par_iter_mut().zip(places.par_chunks(CHUNK)).for_each(|(text, places)| {
             text.bytes.clear();
             text.ends.clear();
-            places.iter().filter_map(|(_, index)| rows.get(*index as usize)).try_for_each(|row| {
-                push(&mut text.bytes, row)?;
+            for row in places.iter().filter_map(|(_, index)| rows.get(*index as usize)) {
+                push(&mut text.bytes, row);
                 text.ends.push(text.bytes.len());
-                Ok(())
-            })
+            }
         });
-        made.collect::<io::Result<()>>()?;
         let mut in_order: Vec<&[u8]> = vec![&[]; rows.len()];
         for ((_, index), text) in places.iter().zip(texts.iter().flat_map(Text::rows)) {
             if let Some(place) = in_order.get_mut(*index as usize) {
@@ -86,7 +84,7 @@ mod tests {
         let rows = in_order(&satellites, &found);
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
         let push = |text: &mut Vec<u8>, row: &ExportedPass<'_>| {
-            writeln!(text, "{}", row.pass.aos.time.as_second())
+            writeln!(text, "{}", row.pass.aos.time.as_second()).unwrap();
         };
         let mut out = Vec::new();
         pool.install(|| write_rows(&mut out, &rows, push)).unwrap();
