@@ -19,8 +19,8 @@ pub use elements::{EPOCH_YEARS, Elements, ElementsError, Heights};
 pub use ground::{SubPoint, TrackPoint};
 pub use look::{Distance, Local, LookAngles};
 pub use passes::{
-    Pass, PassPoint, PassSearch, clear_stretches, pass_batches, passes, passes_and_effort,
-    passes_of_all,
+    FoundPasses, Pass, PassPoint, PassSearch, clear_stretches, found_passes, passes,
+    passes_and_effort, passes_of_all,
 };
 pub use propagator::{PropagationError, Propagator, State};
 pub use reader::{

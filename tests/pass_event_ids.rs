@@ -53,10 +53,9 @@ fn calendar(elements: &[Elements], query: &PassQuery) -> Calendar {
     found.sort_by_key(|(_, pass)| pass.aos.time);
     let rows: Vec<ExportedPass<'_>> = found
         .iter()
-        .map(|(index, pass)| ExportedPass { satellite: &satellites[*index], pass })
+        .map(|(index, pass)| ExportedPass { satellite: &satellites[*index], pass: *pass })
         .collect();
     let list = PassList {
-        rows: &rows,
         query,
         place: None,
         carrier_hz: None,
@@ -64,13 +63,13 @@ fn calendar(elements: &[Elements], query: &PassQuery) -> Calendar {
         now: start(),
     };
     let mut text = Vec::new();
-    list.write(&mut text, PassFormat::Ics).unwrap();
+    list.write(&mut text, PassFormat::Ics, rows.iter().copied()).unwrap();
     let text = String::from_utf8(text).unwrap().replace("\r\n ", "");
     let ids: Vec<&str> = text.lines().filter_map(|line| line.strip_prefix("UID:")).collect();
     assert_eq!(ids.len(), rows.len());
     assert_eq!(ids.iter().collect::<BTreeSet<_>>().len(), ids.len(), "two events share one");
     let number = |row: &ExportedPass<'_>| row.satellite.elements.catalog_number();
-    let events = rows.iter().zip(ids).map(|(row, id)| (number(row), *row.pass, id.to_owned()));
+    let events = rows.iter().zip(ids).map(|(row, id)| (number(row), row.pass, id.to_owned()));
     Calendar { events: events.collect() }
 }
 

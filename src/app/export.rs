@@ -219,11 +219,10 @@ impl Order {
                 place.insert(satellite(predicted)?);
             }
         }
-        let with_satellite = found.iter().filter_map(|predicted| {
+        let rows = found.iter().filter_map(|predicted| {
             let satellite = satellites.get(&predicted.number())?;
-            Some(ExportedPass { satellite, pass: &predicted.pass })
+            Some(ExportedPass { satellite, pass: predicted.pass })
         });
-        let rows: Vec<_> = with_satellite.collect();
         let station = &self.station;
         let hours = jiff::SignedDuration::from_hours(i64::from(self.span_h));
         let to = self.now.saturating_add(hours).unwrap_or(Timestamp::MAX);
@@ -233,7 +232,6 @@ impl Order {
             ..PassSearch::new(station.site, self.now, to)
         };
         let list = PassList {
-            rows: &rows,
             // The mask moves no AOS in a list.
             query: &PassQuery { search, mask: None },
             place: Some(&station.name),
@@ -241,7 +239,7 @@ impl Order {
             alarm_before_s: None,
             now: self.now,
         };
-        Ok(list.write(out, format))
+        Ok(list.write(out, format, rows))
     }
 
     fn write_looks(

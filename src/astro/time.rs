@@ -12,6 +12,8 @@ const J2000_JD: f64 = 2_451_545.0;
 /// More seconds than the calendar spans.
 const FARTHEST_S: f64 = 1e12;
 pub const DAY_S: f64 = 86_400.0;
+/// Nanoseconds in a second.
+pub const SECOND_NS: i64 = 1_000_000_000;
 
 /// Seconds from `from` to `to`, negative if `to` is earlier. Exact to the nanosecond over decades.
 pub fn seconds_between(from: Timestamp, to: Timestamp) -> f64 {
@@ -28,6 +30,18 @@ pub fn add_seconds(time: Timestamp, seconds: f64) -> Timestamp {
     let nanoseconds = ((moved - whole as f64) * 1e9 + 0.5) as i32;
     let (carry, nanoseconds) = (nanoseconds / 1_000_000_000, nanoseconds % 1_000_000_000);
     Timestamp::new(time.as_second() + whole + i64::from(carry), nanoseconds).unwrap_or(time)
+}
+
+/// Nanoseconds since 1970; the nearest that can be counted for a year before 1678 or after 2261.
+pub fn nanoseconds(time: Timestamp) -> i64 {
+    let whole = time.as_second().saturating_mul(SECOND_NS);
+    whole.saturating_add(i64::from(time.subsec_nanosecond()))
+}
+
+/// The instant so many nanoseconds after 1970.
+pub fn from_nanoseconds(since_1970: i64) -> Timestamp {
+    let rest = since_1970.rem_euclid(SECOND_NS) as i32;
+    Timestamp::new(since_1970.div_euclid(SECOND_NS), rest).unwrap_or_default()
 }
 
 /// Days since 2000-01-01T12:00Z, exact to about a microsecond.
@@ -61,6 +75,17 @@ mod tests {
         // Vallado, example 3-5: 1992-08-20T12:14:00 UT1, GMST 152.578 787 810 degrees.
         let time: Timestamp = "1992-08-20T12:14:00Z".parse().unwrap();
         assert!((gmst(time).degrees() - 152.578_787_810).abs() < 1e-6, "{}", gmst(time).degrees());
+    }
+
+    #[test]
+    fn nanoseconds_come_back() {
+        for text in ["2026-08-12T00:00:00.250000001Z", "1957-10-04T19:28:33.999999999Z"] {
+            let time: Timestamp = text.parse().unwrap();
+            assert_eq!(from_nanoseconds(nanoseconds(time)), time);
+        }
+        assert_eq!(nanoseconds(Timestamp::MAX), i64::MAX);
+        assert_eq!(nanoseconds(Timestamp::MIN), i64::MIN);
+        assert!(from_nanoseconds(i64::MAX) > from_nanoseconds(i64::MIN));
     }
 
     #[test]

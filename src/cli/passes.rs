@@ -11,14 +11,13 @@ use std::{
 use anyhow::Context as _;
 use clap::Args;
 use jiff::Timestamp;
-use rayon::prelude::*;
 
 use self::progress::Progress;
 use super::input::{self, EXIT_CODES, InputOptions, Place, Satellites};
 use crate::{
     astro::{Angle, HorizonMask, time},
-    orbit::{Pass, PassSearch, pass_batches},
-    plan::pass_export::{PassFormat, PassList, PassQuery, in_order},
+    orbit::{PassSearch, found_passes},
+    plan::pass_export::{ExportedPass, PassFormat, PassList, PassQuery},
 };
 
 /// Limits of the predictions, for `--help`.
@@ -115,33 +114,29 @@ fn write_passes(
     let Satellites { list: satellites, is_complete } = options.input.satellites(station)?;
     input::caution(&satellites, search.from, search.to);
     let progress = Progress::new(satellites.len());
-    let mut found = pass_batches(&satellites, search, &|done| progress.show(done), &|| false);
-    let parts = |(index, pass): (usize, Pass)| {
-        let satellite = satellites.get(index);
-        let parts = satellite.map(|satellite| query.parts(&satellite.propagator, pass));
-        parts.into_iter().flatten().map(move |part| (index, part))
-    };
-    found.par_iter_mut().for_each(|batch| {
-        if mask.is_some() {
-            *batch = batch.drain(..).flat_map(parts).collect();
-        }
-        batch.retain(|(_, pass)| pass.duration_s() >= options.min_duration);
-    });
+    let mut found = found_passes(&satellites, search, &|done| progress.show(done), &|| false);
+    if mask.is_some() {
+        found.divide(|index, pass| {
+            let satellite = satellites.get(index);
+            satellite.map_or_else(Vec::new, |satellite| query.parts(&satellite.propagator, pass))
+        });
+    }
+    found.retain(|pass| pass.duration_s() >= options.min_duration);
     progress.end();
 
-    let mut rows = in_order(&satellites, &found);
-    if let Some(most) = options.max_passes {
-        rows.truncate(most as usize);
-    }
+    let most = options.max_passes.map_or(usize::MAX, |most| most as usize);
+    let rows = found.in_order().take(most).filter_map(|(index, pass)| {
+        let satellite = satellites.get(index)?;
+        Some(ExportedPass { satellite, pass })
+    });
     let list = PassList {
-        rows: &rows,
         query,
         place: place.name.as_deref(),
         carrier_hz: options.doppler.map(|megahertz| megahertz * 1e6),
         alarm_before_s: options.alarm.map(|minutes| minutes * 60.0),
         now: Timestamp::now(),
     };
-    written(|out| list.write(out, options.format)).context("The passes cannot be written")?;
+    written(|out| list.write(out, options.format, rows)).context("The passes cannot be written")?;
     Ok(input::exit_code(is_complete))
 }
 

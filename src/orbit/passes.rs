@@ -4,6 +4,7 @@
 //! by [`sampled`] (`reach`) for all others; both by `LocalSeries::crossing`
 //! (`local_series.rs`), or by halving in `Track::crossing` where that does not settle.
 
+mod compact;
 mod geosynchronous;
 mod local_series;
 mod mask;
@@ -23,8 +24,8 @@ use jiff::Timestamp;
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
-pub use self::mask::clear_stretches;
-use self::{near_circular::NearCircular, track::Track, window::Window};
+pub use self::{compact::FoundPasses, mask::clear_stretches};
+use self::{compact::CompactPass, near_circular::NearCircular, track::Track, window::Window};
 use super::Propagator;
 use crate::astro::{Angle, AzEl, Site, time};
 
@@ -107,7 +108,7 @@ pub fn passes_and_effort(
 ) -> (Vec<Pass>, u64) {
     let of_one = |window| passes_in(&window, &[propagator], 0, cancelled);
     let (found, effort) = Window::new(search).map(of_one).unwrap_or_default();
-    (found.into_iter().map(|(_, pass)| pass).collect(), effort)
+    (found.into_iter().map(Pass::from).collect(), effort)
 }
 
 /// The passes of many satellites, each with the index of its satellite, ordered by
@@ -122,20 +123,20 @@ pub fn passes_of_all<P: Borrow<Propagator> + Sync>(
     progress: &(dyn Fn(usize) + Sync),
     cancelled: &(dyn Fn() -> bool + Sync),
 ) -> impl Iterator<Item = (usize, Pass)> + use<P> {
-    pass_batches(propagators, search, progress, cancelled).into_iter().flatten()
+    found_passes(propagators, search, progress, cancelled).into_passes()
 }
 
-/// Like [`passes_of_all`], in batches as they were found. Copying them into one list would take
-/// another tenth of the time, and twice the memory.
-pub fn pass_batches<P: Borrow<Propagator> + Sync>(
+/// Like [`passes_of_all`], kept in little memory.
+pub fn found_passes<P: Borrow<Propagator> + Sync>(
     propagators: &[P],
     search: &PassSearch,
     progress: &(dyn Fn(usize) + Sync),
     cancelled: &(dyn Fn() -> bool + Sync),
-) -> Vec<Vec<(usize, Pass)>> {
+) -> FoundPasses {
     let done = AtomicUsize::new(0);
     let of_batch = |window: &Window, batch: usize, propagators: &[P]| {
-        let (found, _) = passes_in(window, propagators, batch * BATCH, cancelled);
+        let first = (batch * BATCH) as u32;
+        let (found, _) = passes_in(window, propagators, first, cancelled);
         progress(done.fetch_add(propagators.len(), Ordering::Relaxed) + propagators.len());
         found
     };
@@ -143,7 +144,7 @@ pub fn pass_batches<P: Borrow<Propagator> + Sync>(
         let batches = propagators.par_chunks(BATCH).enumerate();
         batches.map(|(batch, propagators)| of_batch(&window, batch, propagators)).collect()
     };
-    Window::new(search).map_or_else(Vec::new, of_all)
+    FoundPasses::new(Window::new(search).map_or_else(Vec::new, of_all))
 }
 
 /// The passes of a few satellites, of which the first has the index `first`, and the number of
@@ -151,25 +152,25 @@ pub fn pass_batches<P: Borrow<Propagator> + Sync>(
 fn passes_in<P: Borrow<Propagator>>(
     window: &Window,
     propagators: &[P],
-    first: usize,
+    first: u32,
     cancelled: &dyn Fn() -> bool,
-) -> (Vec<(usize, Pass)>, u64) {
+) -> (Vec<CompactPass>, u64) {
     if cancelled() {
         return (Vec::new(), 0);
     }
+    let indexed = propagators.iter().zip(first..);
     let tracks: Vec<Track<'_>> =
-        propagators.iter().map(|propagator| Track::new(window, propagator.borrow())).collect();
+        indexed.map(|(propagator, index)| Track::new(window, index, propagator.borrow())).collect();
     let near_circular: Vec<Option<NearCircular<'_>>> =
-        tracks.iter().zip(first..).map(|(track, index)| NearCircular::new(index, track)).collect();
+        tracks.iter().map(NearCircular::new).collect();
     let mut found = near_circular::passes(window, near_circular.iter().flatten(), cancelled);
-    let mut others = Vec::new();
-    for ((track, near_circular), index) in tracks.iter().zip(&near_circular).zip(first..) {
+    for (track, near_circular) in tracks.iter().zip(&near_circular) {
         if near_circular.is_none() && !cancelled() && !geosynchronous::never_rises(track) {
-            sampled::passes(track, cancelled, &mut others);
-            found.extend(others.drain(..).map(|pass| (index, pass)));
+            sampled::passes(track, cancelled, &mut found);
         }
     }
-    found.sort_by_key(|(index, _)| *index);
+    found.sort_by_key(|pass| pass.satellite);
+    found.shrink_to_fit();
     (found, tracks.iter().map(Track::propagations).sum())
 }
 

@@ -17,7 +17,6 @@ use std::{
 
 use glam::DVec3;
 use jiff::{Timestamp, tz::TimeZone};
-use rayon::prelude::*;
 
 pub(crate) use self::csv::{io_error, plain};
 pub use self::looks::{LookFormat, LookList};
@@ -119,30 +118,12 @@ impl PassQuery {
 #[derive(Debug, Clone, Copy)]
 pub struct ExportedPass<'a> {
     pub satellite: &'a Satellite,
-    pub pass: &'a Pass,
+    pub pass: Pass,
 }
 
-/// The passes of `satellites` that a search found, in order of AOS, then of satellite.
-pub fn in_order<'a>(
-    satellites: &'a [Satellite],
-    found: &'a [Vec<(usize, Pass)>],
-) -> Vec<ExportedPass<'a>> {
-    let passes: Vec<&(usize, Pass)> = found.iter().flatten().collect();
-    // Sorting moves and compares these alone, and does not look for the passes.
-    let aos_and_place = |((_, pass), place): (&&(usize, Pass), u32)| (pass.aos.time, place);
-    let mut order: Vec<(Timestamp, u32)> = passes.iter().zip(0..).map(aos_and_place).collect();
-    order.par_sort_unstable();
-    let row = |(_, place): (Timestamp, u32)| {
-        let (index, pass) = passes.get(place as usize)?;
-        Some(ExportedPass { satellite: satellites.get(*index)?, pass })
-    };
-    order.into_iter().filter_map(row).collect()
-}
-
-/// Passes to write, in this order.
+/// What belongs to a list of passes besides the passes.
 #[derive(Debug, Clone, Copy)]
 pub struct PassList<'a> {
-    pub rows: &'a [ExportedPass<'a>],
     pub query: &'a PassQuery,
     /// Name of the site, for calendars.
     pub place: Option<&'a str>,
@@ -168,14 +149,19 @@ pub enum PassFormat {
 }
 
 impl PassList<'_> {
-    /// Writes the list. All times are UTC. Rows of CSV and JSON are made by the threads of the rayon
-    /// pool in which this is called.
-    pub fn write(&self, out: &mut impl Write, format: PassFormat) -> io::Result<()> {
+    /// Writes the list of `rows`, in their order. All times are UTC. Rows of CSV and JSON are made by
+    /// the threads of the rayon pool in which this is called, some thousand at a time.
+    pub fn write<'a>(
+        &self,
+        out: &mut impl Write,
+        format: PassFormat,
+        rows: impl Iterator<Item = ExportedPass<'a>>,
+    ) -> io::Result<()> {
         match format {
-            PassFormat::Table => table::write(out, self.rows),
-            PassFormat::Csv => csv::write(out, self),
-            PassFormat::Json => json::write(out, self),
-            PassFormat::Ics => calendar::write(out, self),
+            PassFormat::Table => table::write(out, &rows.collect::<Vec<_>>()),
+            PassFormat::Csv => csv::write(out, self, rows),
+            PassFormat::Json => json::write(out, self, rows),
+            PassFormat::Ics => calendar::write(out, self, &rows.collect::<Vec<_>>()),
         }
     }
 

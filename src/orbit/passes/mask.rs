@@ -43,7 +43,7 @@ pub fn clear_stretches(
 ) -> Vec<Pass> {
     let search = PassSearch::new(site, pass.aos.time, pass.los.time);
     let Some(window) = Window::new(&search) else { return Vec::new() };
-    let track = Track::new(&window, propagator);
+    let track = Track::new(&window, 0, propagator);
     let points = mask.points_deg().iter().map(|(azimuth, _)| azimuth.to_radians());
     let follower = Follower {
         track: &track,
@@ -89,7 +89,7 @@ struct Follower<'a> {
 impl Follower<'_> {
     fn look(&self, at_s: f64) -> Option<Look> {
         let place = self.track.place(at_s)?;
-        let AzEl { azimuth, elevation } = self.track.window.point(&place).direction;
+        let AzEl { azimuth, elevation } = Sighting::new(&place).direction();
         let clearance = (elevation - self.mask.elevation_at(azimuth)).radians();
         Some(Look { place, azimuth: azimuth.radians(), elevation: elevation.radians(), clearance })
     }
@@ -266,7 +266,8 @@ impl Stretches<'_> {
         let tca = crest.unwrap_or(highest);
         let [aos, los] = ends;
         let sightings = [aos, &tca, los].map(Sighting::new);
-        let mut stretch = self.track.pass(sightings.each_ref(), [open.starts_before, ends_after]);
+        let marks = [open.starts_before, ends_after];
+        let mut stretch: Pass = self.track.pass(sightings.each_ref(), marks).into();
         // Points of the pass itself stay as they are, to the last digit.
         let (from_s, end_s) = (aos.at_s, self.track.window.length_s);
         if from_s <= 0.0 {

@@ -35,8 +35,6 @@ const RADIUS_MARGIN_KM: f64 = 15.0;
 
 /// The track of a satellite on a near-circular orbit.
 pub(super) struct NearCircular<'a> {
-    /// Index among the satellites of the search.
-    pub(super) index: usize,
     pub(super) track: &'a Track<'a>,
     pub(super) secular: &'a Secular,
     arcs: Arcs,
@@ -47,7 +45,7 @@ pub(super) struct NearCircular<'a> {
 impl<'a> NearCircular<'a> {
     /// `None` if the orbit, or what it becomes within the window, is not near-circular and
     /// near-earth, or if the horizon is too low.
-    pub(super) fn new(index: usize, track: &'a Track<'a>) -> Option<Self> {
+    pub(super) fn new(track: &'a Track<'a>) -> Option<Self> {
         let window = track.window;
         let secular = track.propagator.secular()?;
         if track.propagator.may_be_down_at(track.start_since_epoch_s + window.length_s) {
@@ -80,7 +78,6 @@ impl<'a> NearCircular<'a> {
             && sin_inclination >= 0.0
             && cos_inclination > LEAST_COS_INCLINATION;
         possible.then(|| Self {
-            index,
             track,
             secular,
             arcs: Arcs::new(

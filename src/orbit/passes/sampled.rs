@@ -8,7 +8,7 @@
 //! horizon once or not at all.
 
 use super::{
-    Pass,
+    compact::CompactPass,
     local_series::{Bend, GRAVITY_KM3_S2, Height, LocalSeries, LocalState},
     sighting::Sighting,
     track::Track,
@@ -30,7 +30,7 @@ const GAP_STEP_S: f64 = 60.0;
 const END_TOLERANCE_S: f64 = 1e-3;
 
 /// Adds all passes of the window, in order.
-pub(super) fn passes(track: &Track<'_>, cancelled: &dyn Fn() -> bool, found: &mut Vec<Pass>) {
+pub(super) fn passes(track: &Track<'_>, cancelled: &dyn Fn() -> bool, found: &mut Vec<CompactPass>) {
     let mut finder = Finder { track, last: None, guess_s: None, open: None, found };
     let end_s = track.window.length_s;
     let mut from_s = 0.0;
@@ -56,7 +56,7 @@ struct Finder<'a> {
     /// Where the polynomial has crossed the horizon since then.
     guess_s: Option<f64>,
     open: Option<Open>,
-    found: &'a mut Vec<Pass>,
+    found: &'a mut Vec<CompactPass>,
 }
 
 #[derive(Clone, Copy)]

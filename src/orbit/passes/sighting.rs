@@ -2,9 +2,9 @@
 
 use std::f64::consts::TAU;
 
-use super::{PassPoint, local_series::LocalState, window::Window};
+use super::{compact::CompactPoint, local_series::LocalState, window::Window};
 use crate::{
-    astro::{Angle, AzEl, time},
+    astro::{Angle, AzEl},
     orbit::simd::{Lanes, Number, Vector, lane_of},
 };
 
@@ -30,6 +30,14 @@ impl<N: Number> Sighting<N> {
     }
 }
 
+impl Sighting {
+    pub(super) fn direction(&self) -> AzEl {
+        let Self { azimuth, elevation, .. } = *self;
+        let azimuth = if azimuth < 0.0 { azimuth + TAU } else { azimuth };
+        AzEl { azimuth: Angle::from_radians(azimuth), elevation: Angle::from_radians(elevation) }
+    }
+}
+
 impl Sighting<Lanes> {
     pub(super) fn lane(&self, lane: usize) -> Sighting {
         let of = |numbers| lane_of(numbers, lane);
@@ -42,21 +50,8 @@ impl Sighting<Lanes> {
 }
 
 impl Window {
-    /// Time and direction of a place.
-    pub(super) fn point(&self, place: &LocalState) -> PassPoint {
-        self.point_of(&Sighting::new(place))
-    }
-
-    /// The sighting in calendar time.
-    pub(super) fn point_of(&self, sighting: &Sighting) -> PassPoint {
-        let Sighting { at_s, azimuth, elevation } = *sighting;
-        let azimuth = if azimuth < 0.0 { azimuth + TAU } else { azimuth };
-        PassPoint {
-            time: time::add_seconds(self.from, at_s),
-            direction: AzEl {
-                azimuth: Angle::from_radians(azimuth),
-                elevation: Angle::from_radians(elevation),
-            },
-        }
+    /// The sighting as a pass keeps it.
+    pub(super) fn point(&self, sighting: &Sighting) -> CompactPoint {
+        CompactPoint { at_ns: self.at_ns(sighting.at_s), direction: sighting.direction() }
     }
 }

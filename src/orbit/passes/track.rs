@@ -5,7 +5,7 @@ use std::cell::Cell;
 use glam::DVec3;
 
 use super::{
-    Pass,
+    compact::CompactPass,
     local_series::{Bend, EarthFixed, LocalSeries, LocalState},
     sighting::Sighting,
     window::Window,
@@ -61,6 +61,8 @@ impl<N: Number> Exactness<N> {
 /// A satellite as seen from the site of a window.
 pub(super) struct Track<'a> {
     pub(super) window: &'a Window,
+    /// Index among the satellites of the search.
+    pub(super) satellite: u32,
     pub(super) propagator: &'a Propagator,
     /// Time from the epoch of the elements to the start of the window.
     pub(super) start_since_epoch_s: f64,
@@ -70,10 +72,11 @@ pub(super) struct Track<'a> {
 }
 
 impl<'a> Track<'a> {
-    pub(super) fn new(window: &'a Window, propagator: &'a Propagator) -> Self {
+    pub(super) fn new(window: &'a Window, satellite: u32, propagator: &'a Propagator) -> Self {
         let start_since_epoch_s = time::seconds_between(propagator.epoch(), window.from);
         Self {
             window,
+            satellite,
             propagator,
             start_since_epoch_s,
             exactness: Exactness {
@@ -245,7 +248,7 @@ impl<'a> Track<'a> {
         aos: &LocalState,
         crest: &LocalState,
         los: &LocalState,
-    ) -> Option<Pass> {
+    ) -> Option<CompactPass> {
         let length_s = self.window.length_s;
         if los.at_s <= 0.0 || aos.at_s >= length_s {
             return None;
@@ -266,8 +269,9 @@ impl<'a> Track<'a> {
         &self,
         [aos, tca, los]: [&Sighting; 3],
         [starts_before, ends_after]: [bool; 2],
-    ) -> Pass {
-        let point = |sighting: &Sighting| self.window.point_of(sighting);
-        Pass { aos: point(aos), tca: point(tca), los: point(los), starts_before, ends_after }
+    ) -> CompactPass {
+        let satellite = self.satellite;
+        let [aos, tca, los] = [aos, tca, los].map(|sighting| self.window.point(sighting));
+        CompactPass { satellite, starts_before, ends_after, aos, tca, los }
     }
 }

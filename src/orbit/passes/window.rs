@@ -1,7 +1,7 @@
 //! What all satellites of one search share: the site, the span of time and the elevations.
 //!
 //! Inside the search, a time is a number of seconds from the start of the span; calendar arithmetic
-//! is done only at the two ends.
+//! is done only at the start and when a pass is told.
 
 use std::f64::consts::FRAC_PI_2;
 
@@ -18,6 +18,8 @@ use crate::{
 #[derive(Debug, Clone)]
 pub(super) struct Window {
     pub(super) from: Timestamp,
+    /// The same, since 1970.
+    from_ns: i64,
     pub(super) length_s: f64,
     /// Greenwich sidereal time at the start, radians.
     sidereal: f64,
@@ -56,6 +58,7 @@ impl Window {
         let radius_km = site_ecef_km.length();
         Some(Self {
             from: search.from,
+            from_ns: time::nanoseconds(search.from),
             length_s,
             sidereal: time::gmst(search.from).radians(),
             longitude: site_ecef_km.y.atan2(site_ecef_km.x),
@@ -70,6 +73,13 @@ impl Window {
             floor,
             sin_floor: floor.sin(),
         })
+    }
+
+    /// A time that is not before the start, since 1970.
+    pub(super) fn at_ns(&self, at_s: f64) -> i64 {
+        let whole = at_s as i64;
+        let rest = (at_s - whole as f64) * time::SECOND_NS as f64 + 0.5;
+        self.from_ns + whole * time::SECOND_NS + rest as i64
     }
 
     /// Greenwich sidereal time in radians, not wrapped.

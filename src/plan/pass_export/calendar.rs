@@ -9,13 +9,17 @@ use jiff::{SignedDuration, Timestamp, Unit};
 use super::{ExportedPass, PassList, civil, event_ids::event_ids};
 use crate::{astro::Site, orbit::PassPoint};
 
-pub(super) fn write(out: &mut impl Write, list: &PassList<'_>) -> io::Result<()> {
+pub(super) fn write(
+    out: &mut impl Write,
+    list: &PassList<'_>,
+    rows: &[ExportedPass<'_>],
+) -> io::Result<()> {
     let mut calendar = Calendar::empty();
     calendar.append_property(("VERSION", "2.0"));
     calendar.append_property(("PRODID", "-//Azel//Passes//EN"));
     calendar.append_property(("CALSCALE", "GREGORIAN"));
     let location = list.place.map_or_else(|| coordinates(list.site()), str::to_owned);
-    for (row, id) in list.rows.iter().zip(event_ids(list.rows, list.query)) {
+    for (row, id) in rows.iter().zip(event_ids(rows, list.query)) {
         calendar.push(event(list, row, &id, &location));
     }
     write!(out, "{calendar}")

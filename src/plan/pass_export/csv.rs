@@ -37,12 +37,16 @@ const HEADER: [&str; 20] = [
 ];
 const DOPPLER_HEADER: [&str; 3] = ["aos_doppler_hz", "tca_doppler_hz", "los_doppler_hz"];
 
-pub(super) fn write(out: &mut impl Write, list: &PassList<'_>) -> io::Result<()> {
+pub(super) fn write<'a>(
+    out: &mut impl Write,
+    list: &PassList<'_>,
+    rows: impl Iterator<Item = ExportedPass<'a>>,
+) -> io::Result<()> {
     let doppler: &[&str] = if list.carrier_hz.is_some() { &DOPPLER_HEADER } else { &[] };
     let names: Vec<&str> = HEADER.iter().chain(doppler).copied().collect();
     writeln!(out, "{}", names.join(","))?;
     let view = list.view();
-    write_rows(out, list.rows, |text, row| push_row(text, &view, row))
+    write_rows(out, rows, |text, row| push_row(text, &view, row))
 }
 
 fn push_row(text: &mut Vec<u8>, view: &View, row: &ExportedPass<'_>) {

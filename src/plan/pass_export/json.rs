@@ -12,14 +12,18 @@ use super::{
 use crate::orbit::{PassPoint, State, is_sunlit};
 
 /// Writes one object per line, so that the list can also be compared and cut by lines.
-pub(super) fn write(out: &mut impl Write, list: &PassList<'_>) -> io::Result<()> {
+pub(super) fn write<'a>(
+    out: &mut impl Write,
+    list: &PassList<'_>,
+    mut rows: impl Iterator<Item = ExportedPass<'a>>,
+) -> io::Result<()> {
     let view = list.view();
     write!(out, "[")?;
-    if let Some((first, rest)) = list.rows.split_first() {
+    if let Some(first) = rows.next() {
         let mut text = vec![b'\n'];
-        push_row(&mut text, list, &view, first);
+        push_row(&mut text, list, &view, &first);
         out.write_all(&text)?;
-        write_rows(out, rest, |text, row| {
+        write_rows(out, rows, |text, row| {
             text.extend_from_slice(b",\n");
             push_row(text, list, &view, row);
         })?;

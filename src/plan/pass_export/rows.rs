@@ -2,17 +2,26 @@
 
 use std::{
     io::{self, Write},
-    ptr,
+    mem, ptr,
 };
 
 use rayon::prelude::*;
 
 use super::ExportedPass;
 
-/// Number of rows that are made before any of them is written, some 2 MB of CSV.
+/// Number of rows that are made while as many before them are written, some 1.4 MB of CSV.
 const AT_ONCE: usize = 1 << 13;
 /// Number of rows that one thread takes at a time.
 const CHUNK: usize = 256;
+
+/// Rows as text. They are made in the order in which their satellites lie in memory: in that of
+/// time, much of the work would be to wait for memory.
+#[derive(Default)]
+struct Made {
+    /// Where a satellite lies, and the place of its row in the order of time.
+    places: Vec<(usize, u32)>,
+    texts: Vec<Text>,
+}
 
 /// The text of some rows, and where in it each of them ends.
 #[derive(Default)]
@@ -29,22 +38,18 @@ impl Text {
     }
 }
 
-/// Writes `rows` in their order, each as `push` appends it to a buffer. The work is shared by the
-/// threads of the rayon pool in which this is called.
-pub(super) fn write_rows(
-    out: &mut impl Write,
-    rows: &[ExportedPass<'_>],
-    push: impl Fn(&mut Vec<u8>, &ExportedPass<'_>) + Sync,
-) -> io::Result<()> {
-    // Used again, so that the allocator need not ask the operating system each time.
-    let mut texts: Vec<Text> = Vec::new();
-    for rows in rows.chunks(AT_ONCE) {
-        // They are made as they lie in memory, where the passes of one satellite follow each other:
-        // in the order of time, much of the work would be to wait for memory.
-        let place =
-            |(row, index): (&ExportedPass<'_>, u32)| (ptr::from_ref(row.pass).addr(), index);
-        let mut places: Vec<(usize, u32)> = rows.iter().zip(0..).map(place).collect();
-        places.par_sort_unstable();
+impl Made {
+    /// Makes these rows in place of those before. The memory of those is used again, so that the
+    /// allocator need not ask the operating system each time.
+    fn make(
+        &mut self,
+        rows: &[ExportedPass<'_>],
+        push: &(impl Fn(&mut Vec<u8>, &ExportedPass<'_>) + Sync),
+    ) {
+        let Self { places, texts } = self;
+        places.clear();
+        places.extend(rows.iter().map(|row| ptr::from_ref(row.satellite).addr()).zip(0..));
+        places.sort_unstable();
         texts.resize_with(places.len().div_ceil(CHUNK), Text::default);
         texts.par_iter_mut().zip(places.par_chunks(CHUNK)).for_each(|(text, places)| {
             text.bytes.clear();
@@ -54,15 +59,42 @@ pub(super) fn write_rows(
                 text.ends.push(text.bytes.len());
             }
         });
-        let mut in_order: Vec<&[u8]> = vec![&[]; rows.len()];
-        for ((_, index), text) in places.iter().zip(texts.iter().flat_map(Text::rows)) {
+    }
+
+    fn write(&self, out: &mut impl Write) -> io::Result<()> {
+        let mut in_order: Vec<&[u8]> = vec![&[]; self.places.len()];
+        for ((_, index), text) in self.places.iter().zip(self.texts.iter().flat_map(Text::rows)) {
             if let Some(place) = in_order.get_mut(*index as usize) {
                 *place = text;
             }
         }
-        in_order.into_iter().try_for_each(|text| out.write_all(text))?;
+        in_order.into_iter().try_for_each(|text| out.write_all(text))
     }
-    Ok(())
+}
+
+/// Writes `rows` in their order, each as `push` appends it to a buffer. The work is shared by the
+/// threads of the rayon pool in which this is called; some rows at a time are held as text.
+pub(super) fn write_rows<'a>(
+    out: &mut impl Write,
+    mut rows: impl Iterator<Item = ExportedPass<'a>>,
+    push: impl Fn(&mut Vec<u8>, &ExportedPass<'_>) + Sync,
+) -> io::Result<()> {
+    let mut take = || rows.by_ref().take(AT_ONCE).collect::<Vec<_>>();
+    let (mut made, mut next) = (Made::default(), Made::default());
+    let mut taken = take();
+    loop {
+        // One thread writes and takes while the others make.
+        let (written, ahead) = rayon::in_place_scope(|scope| {
+            scope.spawn(|_| next.make(&taken, &push));
+            (made.write(out), take())
+        });
+        written?;
+        if taken.is_empty() {
+            return Ok(());
+        }
+        taken = ahead;
+        mem::swap(&mut made, &mut next);
+    }
 }
 
 #[cfg(test)]
@@ -70,24 +102,23 @@ mod tests {
     use jiff::SignedDuration;
 
     use super::{super::testing::example, *};
-    use crate::plan::pass_export::{Satellite, in_order};
+    use crate::plan::pass_export::Satellite;
 
-    /// Rows in the order of their AOS, of passes that were found in another.
+    /// Rows in the order of their AOS, of satellites that lie in another in memory.
     fn written(count: usize, threads: usize) -> Vec<u8> {
         let (elements, pass) = example();
-        let satellites = [Satellite::new(elements).unwrap()];
-        let mut passes = vec![(0, pass); count];
-        for ((_, pass), second) in passes.iter_mut().zip((0..i64::try_from(count).unwrap()).rev()) {
-            pass.aos.time += SignedDuration::from_secs(second);
-        }
-        let found: Vec<_> = passes.chunks(100).map(<[_]>::to_vec).collect();
-        let rows = in_order(&satellites, &found);
+        let satellites = vec![Satellite::new(elements).unwrap(); 7];
+        let rows = (0..count).zip(satellites.iter().rev().cycle()).map(|(second, satellite)| {
+            let mut pass = pass;
+            pass.aos.time += SignedDuration::from_secs(second as i64);
+            ExportedPass { satellite, pass }
+        });
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
         let push = |text: &mut Vec<u8>, row: &ExportedPass<'_>| {
             writeln!(text, "{}", row.pass.aos.time.as_second()).unwrap();
         };
         let mut out = Vec::new();
-        pool.install(|| write_rows(&mut out, &rows, push)).unwrap();
+        pool.in_place_scope(|_| write_rows(&mut out, rows, push)).unwrap();
         out
     }
 

@@ -12,7 +12,7 @@ const DATE_AND_TIME: &str = "%Y-%m-%d %H:%M:%S";
 pub(super) fn write(out: &mut impl Write, rows: &[ExportedPass<'_>]) -> io::Result<()> {
     // A column is as wide as its widest entry.
     let time_width = |time: fn(&Pass) -> Timestamp| {
-        if rows.iter().any(|row| is_of_another_day(row.pass, time(row.pass))) { 19 } else { 8 }
+        if rows.iter().any(|row| is_of_another_day(&row.pass, time(&row.pass))) { 19 } else { 8 }
     };
     let tca_width = time_width(|pass| pass.tca.time);
     let los_width = time_width(|pass| pass.los.time);

@@ -61,12 +61,11 @@ pub(super) fn write_to(
     carrier_hz: Option<f64>,
 ) -> io::Result<()> {
     let satellite = Satellite::new(elements).unwrap();
-    let rows: Vec<_> =
-        passes.iter().map(|pass| ExportedPass { satellite: &satellite, pass }).collect();
+    let rows = passes.iter().map(|pass| ExportedPass { satellite: &satellite, pass: *pass });
     let at = |text: &str| -> Timestamp { text.parse().unwrap() };
     let (now, to) = (at("2026-08-11T00:00:00Z"), at("2026-08-13T00:00:00Z"));
     let query = PassQuery { search: PassSearch::new(Site::default(), now, to), mask: None };
     let (place, alarm_before_s) = (None, None);
-    let list = PassList { rows: &rows, query: &query, place, carrier_hz, alarm_before_s, now };
-    list.write(out, format)
+    let list = PassList { query: &query, place, carrier_hz, alarm_before_s, now };
+    list.write(out, format, rows)
 }

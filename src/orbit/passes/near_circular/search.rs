@@ -14,7 +14,7 @@ use super::{
 };
 use crate::orbit::{
     passes::{
-        Pass,
+        compact::CompactPass,
         local_series::{Bend, LocalSeries, LocalState},
         sighting::Sighting,
         two_body::TwoBody,
@@ -38,13 +38,12 @@ struct Edges {
     sightings: Sighting<Lanes>,
 }
 
-/// The passes of near-circular orbits, cut to the window, each with the index of its satellite,
-/// ordered by satellite, then by time.
+/// The passes of near-circular orbits, cut to the window, ordered by satellite, then by time.
 pub(in crate::orbit::passes) fn passes<'a>(
     window: &Window,
     satellites: impl Iterator<Item = &'a NearCircular<'a>>,
     cancelled: &dyn Fn() -> bool,
-) -> Vec<(usize, Pass)> {
+) -> Vec<CompactPass> {
     let mut batch = Batch::default();
     let mut guesses = fly_bys::guesses(window, satellites, &mut batch, cancelled);
     let mut found = Vec::with_capacity(guesses.len());
@@ -72,7 +71,7 @@ fn passes_at(
     at_s: Lanes,
     fly_bys: &[SatelliteAt<'_>],
     last: Option<SatelliteAt<'_>>,
-    found: &mut Vec<(usize, Pass)>,
+    found: &mut Vec<CompactPass>,
 ) {
     let series = batch.series(window, at_s);
     let crests = series.turning();
@@ -108,9 +107,7 @@ fn passes_at(
             let crest = holds_in(is_crest, lane).then(|| crests.lane(lane));
             alone(satellite, &series, crest, [&rising, &setting], lane)
         };
-        if let Some(pass) = pass {
-            found.push((satellite.index, pass));
-        }
+        found.extend(pass);
     }
 }
 
@@ -149,7 +146,7 @@ fn alone(
     crest: Option<LocalState>,
     [rising, setting]: [&Edges; 2],
     lane: usize,
-) -> Option<Pass> {
+) -> Option<CompactPass> {
     let NearCircular { track, half_pass_s, .. } = *satellite;
     let series = series.lane(lane);
     let (series, crest) = match crest {

@@ -1,0 +1,127 @@
+//! The passes of a search as they are kept: a week of the whole catalogue has some 700,000, and in
+//! calendar time they would take half as much memory again.
+
+use rayon::prelude::*;
+
+use super::{Pass, PassPoint};
+use crate::astro::{AzEl, time};
+
+/// Number of passes in a stretch of time on the way to their order.
+const STRETCH: usize = 1 << 13;
+
+/// A pass and the index of its satellite.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct CompactPass {
+    pub(super) satellite: u32,
+    pub(super) starts_before: bool,
+    pub(super) ends_after: bool,
+    pub(super) aos: CompactPoint,
+    pub(super) tca: CompactPoint,
+    pub(super) los: CompactPoint,
+}
+
+#[derive(Debug, Clone, Copy)]
+pub(super) struct CompactPoint {
+    /// Since 1970.
+    pub(super) at_ns: i64,
+    pub(super) direction: AzEl,
+}
+
+impl CompactPass {
+    fn new(satellite: u32, pass: &Pass) -> Self {
+        let Pass { aos, tca, los, starts_before, ends_after } = *pass;
+        let [aos, tca, los] = [aos, tca, los].map(|PassPoint { time, direction }| CompactPoint {
+            at_ns: time::nanoseconds(time),
+            direction,
+        });
+        Self { satellite, starts_before, ends_after, aos, tca, los }
+    }
+
+    fn indexed(&self) -> (usize, Pass) {
+        (self.satellite as usize, (*self).into())
+    }
+}
+
+impl From<CompactPass> for Pass {
+    fn from(compact: CompactPass) -> Self {
+        let CompactPass { aos, tca, los, starts_before, ends_after, .. } = compact;
+        let [aos, tca, los] = [aos, tca, los].map(|CompactPoint { at_ns, direction }| PassPoint {
+            time: time::from_nanoseconds(at_ns),
+            direction,
+        });
+        Self { aos, tca, los, starts_before, ends_after }
+    }
+}
+
+/// The passes of many satellites. Each is given with the index of its satellite.
+#[derive(Debug, Clone, Default)]
+pub struct FoundPasses {
+    /// As they were found, ordered by satellite, then by time: copying them into one list would
+    /// take another tenth of the time, and twice the memory.
+    batches: Vec<Vec<CompactPass>>,
+}
+
+impl FoundPasses {
+    pub(super) fn new(batches: Vec<Vec<CompactPass>>) -> Self {
+        Self { batches }
+    }
+
+    /// The passes in the order of [`Self::batches`].
+    pub(super) fn into_passes(self) -> impl Iterator<Item = (usize, Pass)> {
+        self.batches.into_iter().flatten().map(|compact| compact.indexed())
+    }
+
+    fn len(&self) -> usize {
+        self.batches.iter().map(Vec::len).sum()
+    }
+
+    /// Puts those that `parts` makes of it, in their order, in place of each pass. The work is
+    /// shared by the threads of the rayon pool in which this is called.
+    pub fn divide(&mut self, parts: impl Fn(usize, Pass) -> Vec<Pass> + Sync) {
+        let of_one = |compact: &CompactPass| {
+            let (satellite, pass) = compact.indexed();
+            let parts = parts(satellite, pass);
+            parts.into_iter().map(|part| CompactPass::new(compact.satellite, &part)).collect()
+        };
+        self.batches.par_iter_mut().for_each(|batch| {
+            *batch = batch.iter().flat_map::<Vec<_>, _>(of_one).collect();
+        });
+    }
+
+    /// Keeps the passes that are wanted.
+    pub fn retain(&mut self, is_wanted: impl Fn(&Pass) -> bool + Sync) {
+        self.batches.par_iter_mut().for_each(|batch| {
+            batch.retain(|compact| is_wanted(&(*compact).into()));
+        });
+    }
+
+    /// The passes in order of AOS, then of satellite.
+    ///
+    /// They are put in order one stretch of time after the other, which takes hardly any memory.
+    pub fn in_order(&self) -> impl Iterator<Item = (usize, Pass)> {
+        let mut rest = self.by_satellite();
+        let aos_ns = |compact: &CompactPass| compact.aos.at_ns;
+        let first_ns = rest.iter().filter_map(|of| of.first()).map(aos_ns).min().unwrap_or(0);
+        let last_ns = rest.iter().filter_map(|of| of.last()).map(aos_ns).max().unwrap_or(0);
+        let stretches = self.len() / STRETCH + 1;
+        let length_ns = (last_ns - first_ns) / stretches as i64 + 1;
+        (1..=stretches as i64).flat_map(move |stretch| {
+            let end_ns = first_ns + stretch * length_ns;
+            let mut passes: Vec<&CompactPass> = Vec::with_capacity(2 * STRETCH);
+            for of_one in &mut rest {
+                let count = of_one.iter().take_while(|compact| aos_ns(compact) < end_ns).count();
+                let (now, later) = of_one.split_at(count);
+                passes.extend(now);
+                *of_one = later;
+            }
+            passes.sort_by_key(|compact| aos_ns(compact));
+            passes.into_iter().map(CompactPass::indexed)
+        })
+    }
+
+    /// The passes of each satellite that has any, in order of time.
+    fn by_satellite(&self) -> Vec<&[CompactPass]> {
+        let is_same = |a: &CompactPass, b: &CompactPass| a.satellite == b.satellite;
+        self.batches.iter().flat_map(|batch| batch.chunk_by(is_same)).collect()
+    }
+}
