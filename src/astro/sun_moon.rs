@@ -52,8 +52,10 @@ fn sun_teme_km(at: Timestamp) -> DVec3 {
     let days = days_tt(at);
     let mean_longitude_deg = 280.460 + 0.985_647_4 * days;
     let anomaly = (357.528 + 0.985_600_3 * days).to_radians();
-    let longitude_deg = mean_longitude_deg + 1.915 * anomaly.sin() + 0.020 * (2.0 * anomaly).sin();
-    let distance_au = 1.000_14 - 0.016_71 * anomaly.cos() - 0.000_14 * (2.0 * anomaly).cos();
+    let (sin, cos) = anomaly.sin_cos();
+    let (sin_double, cos_double) = (2.0 * sin * cos, 1.0 - 2.0 * sin * sin);
+    let longitude_deg = mean_longitude_deg + 1.915 * sin + 0.020 * sin_double;
+    let distance_au = 1.000_14 - 0.016_71 * cos - 0.000_14 * cos_double;
     equatorial(days, longitude_deg.to_radians(), 0.0) * (distance_au * ASTRONOMICAL_UNIT_KM)
 }
 

@@ -59,7 +59,7 @@ pub fn gmst(time: Timestamp) -> Angle {
     let centuries = days / 36_525.0;
     // Each whole day adds a whole turn to the fast term, so whole days are removed first to keep
     // the term's precision.
-    let turn_of_day = (days + 0.5).rem_euclid(1.0);
+    let turn_of_day = days + 0.5 - (days + 0.5).floor();
     let slow_s = 67_310.548_41
         + (8_640_184.812_866 + (0.093_104 - 6.2e-6 * centuries) * centuries) * centuries;
     let turns = turn_of_day - 0.5 + slow_s / DAY_S;

@@ -11,7 +11,10 @@ use jiff::Timestamp;
 use serde::{Deserialize, Serialize};
 
 pub(super) use self::secular::{Plane, Secular, expand};
-use super::Elements;
+use super::{
+    Elements,
+    simd::{LANES, Lanes, set},
+};
 use crate::astro::time;
 
 /// Equatorial radius in WGS72, the constants with which SGP4 is defined, in km.
@@ -101,21 +104,50 @@ impl Propagator {
     /// The states at several times, each later than the one before. Those of near-circular orbits
     /// are computed eight at once, within 2e-8 km of [`Self::state_at`].
     pub fn states_at(&self, times: &[Timestamp]) -> Vec<Option<State>> {
-        let since_epoch_s = |at: &Timestamp| time::seconds_between(self.epoch, *at);
-        let is_round = |secular: &&Secular| {
-            times.first().into_iter().chain(times.last()).map(since_epoch_s).all(|at_s| {
-                secular.is_near_circular_at(at_s / 60.0)
-                    && !self.may_be_down_at(at_s)
-                    && at_s.abs() <= FARTHEST_DAYS * time::DAY_S
-            })
-        };
-        match self.secular().filter(is_round) {
+        let is_round = |at: &Timestamp| self.near_circular_at(*at).is_some();
+        let ends = times.first().into_iter().chain(times.last());
+        match self.secular().filter(|_| ends.clone().all(is_round)) {
             Some(secular) => {
-                let minutes: Vec<f64> = times.iter().map(|at| since_epoch_s(at) / 60.0).collect();
+                let minutes = |at: &Timestamp| time::seconds_between(self.epoch, *at) / 60.0;
+                let minutes: Vec<f64> = times.iter().map(minutes).collect();
                 secular.states(&minutes).map(Some).collect()
             }
             None => times.iter().map(|at| self.state_at(*at).ok()).collect(),
         }
+    }
+
+    /// The states of several satellites, each at a time of its own. Those of near-circular orbits
+    /// are computed eight at once, within 2e-8 km of [`Self::state_at`].
+    pub fn states_of(wanted: &[(&Self, Timestamp)]) -> Vec<Option<State>> {
+        let mut states = vec![None; wanted.len()];
+        let mut near_circular = Vec::with_capacity(wanted.len());
+        for ((propagator, at), state) in wanted.iter().zip(&mut states) {
+            match propagator.near_circular_at(*at) {
+                Some((secular, minutes)) => near_circular.push((secular, minutes, state)),
+                None => *state = propagator.state_at(*at).ok(),
+            }
+        }
+        let mut lanes = Secular::default();
+        for chunk in near_circular.chunks_mut(LANES) {
+            let mut minutes = Lanes::ZERO;
+            for (lane, (secular, at, _)) in chunk.iter().enumerate() {
+                lanes.set(lane, secular);
+                set(&mut minutes, lane, *at);
+            }
+            for ((_, _, state), of_lane) in chunk.iter_mut().zip(lanes.states_at(minutes)) {
+                **state = Some(of_lane);
+            }
+        }
+        states
+    }
+
+    /// The long-term motion, and the minutes since the epoch, if the orbit is near-circular at `at`.
+    fn near_circular_at(&self, at: Timestamp) -> Option<(&Secular, f64)> {
+        let since_epoch_s = time::seconds_between(self.epoch, at);
+        let minutes = since_epoch_s / 60.0;
+        let secular = self.secular().filter(|secular| secular.is_near_circular_at(minutes))?;
+        let is_known = since_epoch_s.abs() <= FARTHEST_DAYS * time::DAY_S;
+        (is_known && !self.may_be_down_at(since_epoch_s)).then_some((secular, minutes))
     }
 
     /// The instant that [`Self::state_after`] counts from.
@@ -282,6 +314,28 @@ mod tests {
                     assert!(off_km.is_none_or(|off| off.length() < 2e-8), "{number} {at}");
                 }
             }
+        }
+    }
+
+    #[test]
+    fn states_of_several_satellites_are_those_of_each() {
+        let catalog = bundled().unwrap();
+        let propagators: Vec<Propagator> = [25_544, 43_881, 24_876, 54_743, 25_867]
+            .into_iter()
+            .chain(catalog.iter().map(Elements::catalog_number).step_by(1000))
+            .map(|number| Propagator::new(catalog.get(number).unwrap()).unwrap())
+            .collect();
+        let near = propagators.iter().zip(0..).map(|(propagator, hour)| {
+            (propagator, time::add_seconds(propagator.epoch, 5000.0 * f64::from(hour)))
+        });
+        let wanted: Vec<_> = near.chain([(&propagators[0], Timestamp::MAX)]).collect();
+        let states = Propagator::states_of(&wanted);
+        assert_eq!(states.len(), wanted.len());
+        for ((propagator, at), found) in wanted.into_iter().zip(states) {
+            let one = propagator.state_at(at).ok();
+            assert_eq!(found.is_some(), one.is_some(), "{at}");
+            let off_km = found.zip(one).map(|(a, b)| a.position_km - b.position_km);
+            assert!(off_km.is_none_or(|off| off.length() < 2e-8), "{at}");
         }
     }
 

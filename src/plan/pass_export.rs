@@ -19,6 +19,7 @@ use glam::DVec3;
 use jiff::{Timestamp, tz::TimeZone};
 
 pub(crate) use self::csv::{io_error, plain};
+use self::digits::parts;
 pub use self::looks::{LookFormat, LookList};
 use crate::{
     astro::{HorizonMask, Site, frames, sun_moon, time},
@@ -36,15 +37,12 @@ const DARK_SUN_DEG: f64 = -6.0;
 pub struct Satellite {
     pub elements: Elements,
     pub propagator: Propagator,
-    /// Epoch in RFC 3339, formatted once for all rows.
-    epoch: String,
 }
 
 impl Satellite {
     pub fn new(elements: Elements) -> Result<Self, PropagationError> {
         let propagator = Propagator::new(&elements)?;
-        let epoch = format!("{:.6}", elements.epoch());
-        Ok(Self { elements, propagator, epoch })
+        Ok(Self { elements, propagator })
     }
 
     /// Age of the elements at `time` in days, negative before their epoch.
@@ -52,6 +50,11 @@ impl Satellite {
         rounded(self.elements.age_s(time) / time::DAY_S, 1e4)
     }
 }
+
+/// Range and range rate from states of [`Propagator::states_of`] are nearer than this to those from
+/// [`Propagator::state_at`], at 70 km and beyond.
+const NEAR_KM: f64 = 1e-6;
+const NEAR_KM_S: f64 = 1e-8;
 
 /// What a satellite is seen from.
 #[derive(Debug, Clone, Copy)]
@@ -61,8 +64,28 @@ struct View {
 }
 
 impl View {
-    fn distance(&self, state: &State, at: Timestamp) -> Distance {
-        state.distance_from(self.site_ecef_km, at)
+    /// The distance that follows from the state that [`Propagator::state_at`] gives, to the last
+    /// digit that is written; `near` is almost that state, and nearly always enough.
+    fn distance(&self, satellite: &Satellite, near: &State, at: Timestamp) -> Distance {
+        let distance = near.distance_from(self.site_ecef_km, at);
+        if self.is_written_alike(distance) {
+            return distance;
+        }
+        let exact = satellite.propagator.state_at(at);
+        exact.map_or(distance, |exact| exact.distance_from(self.site_ecef_km, at))
+    }
+
+    /// Whether rounding for export gives the same for all that is as near as [`NEAR_KM`] and
+    /// [`NEAR_KM_S`].
+    fn is_written_alike(&self, distance: Distance) -> bool {
+        let written = |side: f64| {
+            let range_km = distance.range_km + side * NEAR_KM;
+            let range_rate_km_s = distance.range_rate_km_s + side * NEAR_KM_S;
+            let near = Distance { range_km, range_rate_km_s };
+            let doppler_hz = self.carrier_hz.map(|carrier_hz| near.doppler_hz(carrier_hz));
+            (parts::<3>(range_km), parts::<6>(range_rate_km_s), doppler_hz.map(parts::<1>))
+        };
+        written(-1.0) == written(1.0)
     }
 }
 
@@ -178,6 +201,11 @@ impl PassList<'_> {
     fn is_dark(&self, at: Timestamp) -> bool {
         sun_moon::sun(self.site(), at).elevation_deg() < DARK_SUN_DEG
     }
+}
+
+/// The times of AOS, TCA and LOS.
+fn times(pass: &Pass) -> [Timestamp; 3] {
+    [pass.aos.time, pass.tca.time, pass.los.time]
 }
 
 /// RFC 3339, UTC, with milliseconds.

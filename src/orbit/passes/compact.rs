@@ -99,20 +99,17 @@ impl FoundPasses {
     ///
     /// They are put in order one stretch of time after the other, which takes hardly any memory.
     pub fn in_order(&self) -> impl Iterator<Item = (usize, Pass)> {
-        let mut rest = self.by_satellite();
-        let aos_ns = |compact: &CompactPass| compact.aos.at_ns;
-        let first_ns = rest.iter().filter_map(|of| of.first()).map(aos_ns).min().unwrap_or(0);
-        let last_ns = rest.iter().filter_map(|of| of.last()).map(aos_ns).max().unwrap_or(0);
+        let mut rest: Vec<Rest<'_>> = self.by_satellite().map(Rest::new).collect();
+        let first_ns = rest.iter().map(|of_one| of_one.next_ns).min().unwrap_or(0);
+        let last_ns = self.by_satellite().filter_map(|of_one| of_one.last()).map(aos_ns).max();
+        let last_ns = last_ns.unwrap_or(first_ns);
         let stretches = self.len() / STRETCH + 1;
         let length_ns = (last_ns - first_ns) / stretches as i64 + 1;
         (1..=stretches as i64).flat_map(move |stretch| {
             let end_ns = first_ns + stretch * length_ns;
             let mut passes: Vec<&CompactPass> = Vec::with_capacity(2 * STRETCH);
-            for of_one in &mut rest {
-                let count = of_one.iter().take_while(|compact| aos_ns(compact) < end_ns).count();
-                let (now, later) = of_one.split_at(count);
-                passes.extend(now);
-                *of_one = later;
+            for of_one in rest.iter_mut().filter(|of_one| of_one.next_ns < end_ns) {
+                passes.extend(of_one.take_before(end_ns));
             }
             passes.sort_by_key(|compact| aos_ns(compact));
             passes.into_iter().map(CompactPass::indexed)
@@ -120,8 +117,33 @@ impl FoundPasses {
     }
 
     /// The passes of each satellite that has any, in order of time.
-    fn by_satellite(&self) -> Vec<&[CompactPass]> {
+    fn by_satellite(&self) -> impl Iterator<Item = &[CompactPass]> {
         let is_same = |a: &CompactPass, b: &CompactPass| a.satellite == b.satellite;
-        self.batches.iter().flat_map(|batch| batch.chunk_by(is_same)).collect()
+        self.batches.iter().flat_map(move |batch| batch.chunk_by(is_same))
+    }
+}
+
+fn aos_ns(compact: &CompactPass) -> i64 {
+    compact.aos.at_ns
+}
+
+/// Passes of one satellite that are not yet in their order.
+struct Rest<'a> {
+    /// AOS of the first, so that one who only asks for it need not wait for memory.
+    next_ns: i64,
+    passes: &'a [CompactPass],
+}
+
+impl<'a> Rest<'a> {
+    fn new(passes: &'a [CompactPass]) -> Self {
+        Self { next_ns: passes.first().map_or(i64::MAX, aos_ns), passes }
+    }
+
+    /// Takes those with AOS before `end_ns`.
+    fn take_before(&mut self, end_ns: i64) -> &'a [CompactPass] {
+        let count = self.passes.iter().take_while(|compact| aos_ns(compact) < end_ns).count();
+        let (taken, rest) = self.passes.split_at(count);
+        *self = Self::new(rest);
+        taken
     }
 }

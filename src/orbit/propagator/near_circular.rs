@@ -36,11 +36,18 @@ impl Secular {
         minutes.chunks(LANES).flat_map(move |chunk| {
             let mut at = Lanes::ZERO;
             chunk.iter().enumerate().for_each(|(lane, minutes)| set(&mut at, lane, *minutes));
-            let (positions, velocities) = lanes.motion(at, Lanes::ZERO);
-            (0..chunk.len()).map(move |lane| State {
-                position_km: positions.lane(lane).into(),
-                velocity_km_s: velocities.lane(lane).into(),
-            })
+            lanes.states_at(at).take(chunk.len())
+        })
+    }
+}
+
+impl Secular<Lanes> {
+    /// The state of each lane at its minutes after its epoch, in TEME; valid like [`Self::motion`].
+    pub(super) fn states_at(&self, minutes: Lanes) -> impl Iterator<Item = State> + use<> {
+        let (positions, velocities) = self.motion(minutes, Lanes::ZERO);
+        (0..LANES).map(move |lane| State {
+            position_km: positions.lane(lane).into(),
+            velocity_km_s: velocities.lane(lane).into(),
         })
     }
 }

@@ -7,10 +7,11 @@ use std::{
 
 use super::{
     ExportedPass, PassList, View,
-    digits::{push_fixed, push_shortest, push_time, push_whole},
+    digits::{push_fixed, push_shortest, push_time, push_time_us, push_whole},
     rows::write_rows,
+    times,
 };
-use crate::orbit::is_sunlit;
+use crate::orbit::{Pass, State, is_sunlit};
 
 /// New columns are added at the end, so that programs that count columns keep working.
 const HEADER: [&str; 20] = [
@@ -46,10 +47,22 @@ pub(super) fn write<'a>(
     let names: Vec<&str> = HEADER.iter().chain(doppler).copied().collect();
     writeln!(out, "{}", names.join(","))?;
     let view = list.view();
-    write_rows(out, rows, |text, row| push_row(text, &view, row))
+    if view.carrier_hz.is_some() {
+        write_rows(out, rows, times, |text, row, states| push_row(text, &view, row, states))
+    } else {
+        let at_tca = |pass: &Pass| [pass.tca.time];
+        write_rows(out, rows, at_tca, |text, row, [tca]| push_row(text, &view, row, [None, tca, None]))
+    }
 }
 
-fn push_row(text: &mut Vec<u8>, view: &View, row: &ExportedPass<'_>) {
+/// Appends a row, with the states at AOS, TCA and LOS; those at AOS and LOS are for their Doppler
+/// shifts.
+fn push_row(
+    text: &mut Vec<u8>,
+    view: &View,
+    row: &ExportedPass<'_>,
+    [aos, tca, los]: [Option<State>; 3],
+) {
     let ExportedPass { satellite, pass } = row;
     let elements = &satellite.elements;
     push_whole(text, elements.catalog_number());
@@ -63,24 +76,23 @@ fn push_row(text: &mut Vec<u8>, view: &View, row: &ExportedPass<'_>) {
     push_fixed::<3>(next(text), pass.duration_s());
     push_flag(next(text), pass.starts_before);
     push_flag(next(text), pass.ends_after);
-    next(text).extend_from_slice(satellite.epoch.as_bytes());
+    push_time_us(next(text), elements.epoch());
     push_shortest::<4>(next(text), satellite.age_days(pass.aos.time));
-    let tca = pass.tca.time;
-    let state = satellite.propagator.state_at(tca).ok();
     next(text);
-    if let Some(state) = state {
-        push_shortest::<3>(text, view.distance(&state, tca).range_km);
+    if let Some(state) = &tca {
+        push_shortest::<3>(text, view.distance(satellite, state, pass.tca.time).range_km);
     }
     next(text);
-    if let Some(state) = state {
-        push_flag(text, is_sunlit(&state, tca));
+    if let Some(state) = &tca {
+        push_flag(text, is_sunlit(state, pass.tca.time));
     }
     push_text(next(text), elements.international_designator().unwrap_or_default());
     if let Some(carrier_hz) = view.carrier_hz {
-        for at in [pass.aos.time, tca, pass.los.time] {
+        for (state, at) in [aos, tca, los].iter().zip(times(pass)) {
             next(text);
-            if let Ok(state) = satellite.propagator.state_at(at) {
-                push_shortest::<1>(text, view.distance(&state, at).doppler_hz(carrier_hz));
+            if let Some(state) = state {
+                let distance = view.distance(satellite, state, at);
+                push_shortest::<1>(text, distance.doppler_hz(carrier_hz));
             }
         }
     }

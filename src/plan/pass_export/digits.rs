@@ -3,28 +3,37 @@
 
 use jiff::{Timestamp, fmt::temporal::DateTimePrinter, tz::Offset};
 
-const PRINTER: DateTimePrinter = DateTimePrinter::new().precision(Some(3));
-
 /// Appends `time` in RFC 3339, UTC, with milliseconds.
 pub(super) fn push_time(text: &mut Vec<u8>, time: Timestamp) {
-    let time = to_millisecond(time);
+    push_timestamp::<3>(text, to_millisecond(time));
+}
+
+/// Appends `time` in RFC 3339, UTC, with microseconds; it has no digits beyond them.
+pub(super) fn push_time_us(text: &mut Vec<u8>, time: Timestamp) {
+    push_timestamp::<6>(text, time);
+}
+
+fn push_timestamp<const DECIMALS: usize>(text: &mut Vec<u8>, time: Timestamp) {
     let at = Offset::UTC.to_datetime(time);
     let Ok(year) = u16::try_from(at.year()) else {
         // A year before 0 has a sign and six digits. Appending to a buffer cannot fail.
-        let _ = PRINTER.print_timestamp(&time, text);
+        let printer = DateTimePrinter::new().precision(Some(DECIMALS as u8));
+        let _ = printer.print_timestamp(&time, text);
         return;
     };
-    let [_, y1, y2, y3, y4] = digits(year);
+    let [y1, y2, y3, y4] = digits(u32::from(year));
     let [mo1, mo2] = two_digits(at.month());
     let [d1, d2] = two_digits(at.day());
     let [h1, h2] = two_digits(at.hour());
     let [mi1, mi2] = two_digits(at.minute());
     let [s1, s2] = two_digits(at.second());
-    let [_, _, f1, f2, f3] = digits(at.millisecond().unsigned_abs());
     text.extend_from_slice(&[
         y1, y2, y3, y4, b'-', mo1, mo2, b'-', d1, d2, b'T', h1, h2, b':', mi1, mi2, b':', s1, s2,
-        b'.', f1, f2, f3, b'Z',
+        b'.',
     ]);
+    let parts = at.subsec_nanosecond().unsigned_abs() / 10_u32.pow(9 - DECIMALS as u32);
+    text.extend_from_slice(&digits::<DECIMALS>(parts));
+    text.push(b'Z');
 }
 
 /// The nearest millisecond; half of one is rounded away from 1970.
@@ -35,8 +44,15 @@ fn to_millisecond(time: Timestamp) -> Timestamp {
     Timestamp::from_millisecond(since_1970).unwrap_or(time)
 }
 
-fn digits(number: u16) -> [u8; 5] {
-    [10_000, 1000, 100, 10, 1].map(|unit| b'0' + (number / unit % 10) as u8)
+/// The last digits of `number`.
+fn digits<const COUNT: usize>(number: u32) -> [u8; COUNT] {
+    let mut digits = [b'0'; COUNT];
+    let mut rest = number;
+    for digit in digits.iter_mut().rev() {
+        *digit += (rest % 10) as u8;
+        rest /= 10;
+    }
+    digits
 }
 
 fn two_digits(number: i8) -> [u8; 2] {
@@ -173,6 +189,8 @@ mod tests {
             let time = Timestamp::new(second, nanosecond).unwrap();
             let expected = format!("{:.3}", time.round(Unit::Millisecond).unwrap_or(time));
             prop_assert_eq!(pushed(|text| push_time(text, time)), expected);
+            let micro = Timestamp::from_microsecond(time.as_microsecond()).unwrap();
+            prop_assert_eq!(pushed(|text| push_time_us(text, micro)), format!("{micro:.6}"));
         }
     }
 }

@@ -5,9 +5,10 @@ use std::io::{self, Write};
 use serde::Serialize;
 
 use super::{
-    ExportedPass, PassList, View,
-    digits::{parts, push_at_least, push_time, push_whole},
+    ExportedPass, PassList, Satellite, View,
+    digits::{parts, push_at_least, push_time, push_time_us, push_whole},
     rows::write_rows,
+    times,
 };
 use crate::orbit::{PassPoint, State, is_sunlit};
 
@@ -19,33 +20,35 @@ pub(super) fn write<'a>(
 ) -> io::Result<()> {
     let view = list.view();
     write!(out, "[")?;
-    if let Some(first) = rows.next() {
-        let mut text = vec![b'\n'];
-        push_row(&mut text, list, &view, &first);
-        out.write_all(&text)?;
-        write_rows(out, rows, |text, row| {
-            text.extend_from_slice(b",\n");
-            push_row(text, list, &view, row);
+    // No comma stands before the first.
+    for (before, count) in [(&b"\n"[..], 1), (b",\n", usize::MAX)] {
+        write_rows(out, rows.by_ref().take(count), times, |text, row, states| {
+            text.extend_from_slice(before);
+            push_row(text, list, &view, row, states);
         })?;
     }
     writeln!(out, "\n]")
 }
 
-fn push_row(text: &mut Vec<u8>, list: &PassList<'_>, view: &View, row: &ExportedPass<'_>) {
+fn push_row(
+    text: &mut Vec<u8>,
+    list: &PassList<'_>,
+    view: &View,
+    row: &ExportedPass<'_>,
+    [aos, tca, los]: [Option<State>; 3],
+) {
     let ExportedPass { satellite, pass } = row;
     let elements = &satellite.elements;
-    let state = |point: PassPoint| satellite.propagator.state_at(point.time).ok();
-    let tca = state(pass.tca);
     text.extend_from_slice(br#"{"catalog_number":"#);
     push_whole(text, elements.catalog_number());
     text.extend_from_slice(br#","name":"#);
     push_text(text, Some(elements.name()));
     text.extend_from_slice(br#","aos":"#);
-    push_point(text, view, pass.aos, state(pass.aos));
+    push_point(text, view, satellite, pass.aos, aos);
     text.extend_from_slice(br#","tca":"#);
-    push_point(text, view, pass.tca, tca);
+    push_point(text, view, satellite, pass.tca, tca);
     text.extend_from_slice(br#","los":"#);
-    push_point(text, view, pass.los, state(pass.los));
+    push_point(text, view, satellite, pass.los, los);
     text.extend_from_slice(br#","max_elevation_deg":"#);
     push_number::<6>(text, Some(pass.max_elevation().degrees()));
     text.extend_from_slice(br#","duration_s":"#);
@@ -55,7 +58,7 @@ fn push_row(text: &mut Vec<u8>, list: &PassList<'_>, view: &View, row: &Exported
     text.extend_from_slice(br#","ends_after":"#);
     push_flag(text, Some(pass.ends_after));
     text.extend_from_slice(br#","epoch":""#);
-    text.extend_from_slice(satellite.epoch.as_bytes());
+    push_time_us(text, elements.epoch());
     text.extend_from_slice(br#"","age_days":"#);
     push_number::<4>(text, Some(satellite.age_days(pass.aos.time)));
     text.extend_from_slice(br#","designator":"#);
@@ -67,8 +70,14 @@ fn push_row(text: &mut Vec<u8>, list: &PassList<'_>, view: &View, row: &Exported
     text.push(b'}');
 }
 
-fn push_point(text: &mut Vec<u8>, view: &View, point: PassPoint, state: Option<State>) {
-    let distance = state.map(|state| view.distance(&state, point.time));
+fn push_point(
+    text: &mut Vec<u8>,
+    view: &View,
+    satellite: &Satellite,
+    point: PassPoint,
+    state: Option<State>,
+) {
+    let distance = state.map(|state| view.distance(satellite, &state, point.time));
     text.extend_from_slice(br#"{"time":""#);
     push_time(text, point.time);
     text.extend_from_slice(br#"","azimuth_deg":"#);

@@ -5,9 +5,11 @@ use std::{
     mem, ptr,
 };
 
+use jiff::Timestamp;
 use rayon::prelude::*;
 
 use super::ExportedPass;
+use crate::orbit::{Pass, Propagator, State};
 
 /// Number of rows that are made while as many before them are written, some 1.4 MB of CSV.
 const AT_ONCE: usize = 1 << 13;
@@ -41,10 +43,11 @@ impl Text {
 impl Made {
     /// Makes these rows in place of those before. The memory of those is used again, so that the
     /// allocator need not ask the operating system each time.
-    fn make(
+    fn make<const STATES: usize>(
         &mut self,
         rows: &[ExportedPass<'_>],
-        push: &(impl Fn(&mut Vec<u8>, &ExportedPass<'_>) + Sync),
+        times: &(impl Fn(&Pass) -> [Timestamp; STATES] + Sync),
+        push: &(impl Fn(&mut Vec<u8>, &ExportedPass<'_>, [Option<State>; STATES]) + Sync),
     ) {
         let Self { places, texts } = self;
         places.clear();
@@ -54,8 +57,14 @@ impl Made {
         texts.par_iter_mut().zip(places.par_chunks(CHUNK)).for_each(|(text, places)| {
             text.bytes.clear();
             text.ends.clear();
-            for row in places.iter().filter_map(|(_, index)| rows.get(*index as usize)) {
-                push(&mut text.bytes, row);
+            let rows = || places.iter().filter_map(|(_, index)| rows.get(*index as usize));
+            let mut wanted = Vec::with_capacity(STATES * places.len());
+            for ExportedPass { satellite, pass } in rows() {
+                wanted.extend(times(pass).map(|at| (&satellite.propagator, at)));
+            }
+            let states = Propagator::states_of(&wanted);
+            for (row, states) in rows().zip(states.as_chunks().0) {
+                push(&mut text.bytes, row, *states);
                 text.ends.push(text.bytes.len());
             }
         });
@@ -72,12 +81,14 @@ impl Made {
     }
 }
 
-/// Writes `rows` in their order, each as `push` appends it to a buffer. The work is shared by the
-/// threads of the rayon pool in which this is called; some rows at a time are held as text.
-pub(super) fn write_rows<'a>(
+/// Writes `rows` in their order, each as `push` appends it to a buffer, given the states of its
+/// satellite at its `times` (see [`Propagator::states_of`]). The work is shared by the threads of
+/// the rayon pool in which this is called; some rows at a time are held as text.
+pub(super) fn write_rows<'a, const STATES: usize>(
     out: &mut impl Write,
     mut rows: impl Iterator<Item = ExportedPass<'a>>,
-    push: impl Fn(&mut Vec<u8>, &ExportedPass<'_>) + Sync,
+    times: impl Fn(&Pass) -> [Timestamp; STATES] + Sync,
+    push: impl Fn(&mut Vec<u8>, &ExportedPass<'_>, [Option<State>; STATES]) + Sync,
 ) -> io::Result<()> {
     let mut take = || rows.by_ref().take(AT_ONCE).collect::<Vec<_>>();
     let (mut made, mut next) = (Made::default(), Made::default());
@@ -85,7 +96,7 @@ pub(super) fn write_rows<'a>(
     loop {
         // One thread writes and takes while the others make.
         let (written, ahead) = rayon::in_place_scope(|scope| {
-            scope.spawn(|_| next.make(&taken, &push));
+            scope.spawn(|_| next.make(&taken, &times, &push));
             (made.write(out), take())
         });
         written?;
@@ -114,11 +125,17 @@ mod tests {
             ExportedPass { satellite, pass }
         });
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
-        let push = |text: &mut Vec<u8>, row: &ExportedPass<'_>| {
+        let times = |pass: &Pass| [pass.aos.time, pass.los.time];
+        let push = |text: &mut Vec<u8>, row: &ExportedPass<'_>, states: [Option<State>; 2]| {
+            let propagator = &row.satellite.propagator;
+            for (at, state) in times(&row.pass).into_iter().zip(states) {
+                let off = state.unwrap().position_km - propagator.state_at(at).unwrap().position_km;
+                assert!(off.length() < 2e-8, "{off}");
+            }
             writeln!(text, "{}", row.pass.aos.time.as_second()).unwrap();
         };
         let mut out = Vec::new();
-        pool.in_place_scope(|_| write_rows(&mut out, rows, push)).unwrap();
+        pool.in_place_scope(|_| write_rows(&mut out, rows, times, push)).unwrap();
         out
     }
 
