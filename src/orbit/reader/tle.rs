@@ -2,6 +2,8 @@
 
 mod columns;
 
+use rayon::prelude::*;
+
 pub(in crate::orbit) use self::columns::checksum;
 use self::columns::{Columns, elements};
 use super::{ReadReport, RefusalReason, report::NoteKind};
@@ -26,58 +28,89 @@ impl TleLine<'_> {
 }
 
 pub(super) fn read(text: &str) -> ReadReport {
+    let sets: Vec<TleSet<'_>> = sets(text).collect();
+    let mut read: Vec<Result<Read, RefusalReason>> = Vec::new();
+    sets.par_iter().with_min_len(LEAST_FOR_A_THREAD).map(TleSet::read).collect_into_vec(&mut read);
     let mut report = ReadReport::default();
-    let mut lines = text
-        .lines()
-        .enumerate()
-        .map(|(index, text)| TleLine { place: index + 1, text: text.trim() })
-        .filter(|line| !line.text.is_empty() && !line.text.starts_with('#'))
-        .peekable();
-    // Only the last line before a set can be its name; all other lines are remarks.
-    let mut name = "";
-    while let Some(line) = lines.next() {
-        let refused = if line.is_numbered('1') {
-            match lines.next_if(|next| next.is_numbered('2')) {
-                Some(second) => set(name, line, second, &mut report).err(),
-                None => Some(RefusalReason::MissingLine { missing: 2 }),
+    report.elements.reserve_exact(read.len());
+    for (set, read) in sets.iter().zip(read) {
+        match read {
+            Ok(Read { elements, unprotected }) => {
+                for line in unprotected.into_iter().flatten() {
+                    report.note(set.place, set.object(), NoteKind::BlankChecksum { line });
+                }
+                report.elements.push(elements);
             }
-        } else if line.is_numbered('2') {
-            Some(RefusalReason::MissingLine { missing: 1 })
-        } else {
-            // Space-Track also starts name lines with a line number.
-            name = line.text.strip_prefix("0 ").unwrap_or(line.text).trim();
-            continue;
-        };
-        if let Some(reason) = refused {
-            report.refuse(line.place, object(name, line.text), reason);
+            Err(reason) => report.refuse(set.place, set.object(), reason),
         }
-        name = "";
     }
     report
 }
 
-/// The name by which a refusal calls a set: its name, or else its number as written.
-fn object<'a>(name: &'a str, line: &'a str) -> Option<&'a str> {
-    let number = || line.get(2..7).map(str::trim);
-    Some(name).filter(|name| !name.is_empty()).or_else(number).filter(|text| !text.is_empty())
+/// Number of sets below which another thread is not worth its start.
+const LEAST_FOR_A_THREAD: usize = 64;
+
+/// The lines of a set, at least one of the two.
+struct TleSet<'a> {
+    name: &'a str,
+    /// The number of its first line in the text, from 1.
+    place: usize,
+    first: Option<&'a str>,
+    second: Option<&'a str>,
 }
 
-fn set(
-    name: &str,
-    first: TleLine<'_>,
-    second: TleLine<'_>,
-    report: &mut ReadReport,
-) -> Result<(), RefusalReason> {
-    let lines = [Columns::new(1, first.text)?, Columns::new(2, second.text)?];
-    let elements: Elements = elements(name, &lines)?;
-    for (line, columns) in [1, 2].into_iter().zip(&lines) {
-        if !columns.has_checksum {
-            let object = object(name, first.text);
-            report.note(first.place, object, NoteKind::BlankChecksum { line });
+/// What a set holds, and those of its lines that have no checksum.
+struct Read {
+    elements: Elements,
+    unprotected: [Option<u8>; 2],
+}
+
+/// All sets of a text, in its order.
+fn sets(text: &str) -> impl Iterator<Item = TleSet<'_>> {
+    let mut lines = text
+        .lines()
+        .zip(1..)
+        .map(|(text, place)| TleLine { place, text: text.trim() })
+        .filter(|line| !line.text.is_empty() && !line.text.starts_with('#'))
+        .peekable();
+    // Only the last line before a set can be its name; all other lines are remarks.
+    let mut name = "";
+    std::iter::from_fn(move || {
+        loop {
+            let TleLine { place, text } = lines.next()?;
+            let line = TleLine { place, text };
+            let (first, second) = if line.is_numbered('1') {
+                let second = lines.next_if(|next| next.is_numbered('2'));
+                (Some(text), second.map(|line| line.text))
+            } else if line.is_numbered('2') {
+                (None, Some(text))
+            } else {
+                // Space-Track also starts name lines with a line number.
+                name = text.strip_prefix("0 ").unwrap_or(text).trim();
+                continue;
+            };
+            return Some(TleSet { name: std::mem::take(&mut name), place, first, second });
         }
+    })
+}
+
+impl<'a> TleSet<'a> {
+    /// The name by which a refusal calls a set: its name, or else its number as written.
+    fn object(&self) -> Option<&'a str> {
+        let line = self.first.or(self.second);
+        let number = || line?.get(2..7).map(str::trim);
+        Some(self.name).filter(|name| !name.is_empty()).or_else(number).filter(|it| !it.is_empty())
     }
-    report.elements.push(elements);
-    Ok(())
+
+    fn read(&self) -> Result<Read, RefusalReason> {
+        let missing = |missing| RefusalReason::MissingLine { missing };
+        let (first, second) = (self.first.ok_or(missing(1))?, self.second.ok_or(missing(2))?);
+        let lines = [Columns::new(1, first)?, Columns::new(2, second)?];
+        let [first, second] = &lines;
+        let unprotected = [(1, first), (2, second)]
+            .map(|(line, columns)| (!columns.has_checksum).then_some(line));
+        Ok(Read { elements: elements(self.name, &lines)?, unprotected })
+    }
 }
 
 #[cfg(test)]

@@ -2,10 +2,10 @@
 //!
 //! Source: `CelesTrak`, "NORAD Two-Line Element Set Format". Columns count from 1.
 
-use std::ops::RangeInclusive;
+use std::{borrow::Cow, ops::RangeInclusive};
 
-use jiff::{SignedDuration, Timestamp, civil, tz::TimeZone};
-use smol_str::SmolStr;
+use jiff::{SignedDuration, Timestamp, civil, tz::Offset};
+use smol_str::{SmolStr, format_smolstr};
 
 use super::super::{RefusalReason, clean, numbers};
 use crate::orbit::{
@@ -17,68 +17,67 @@ use crate::orbit::{
 const COLUMNS: usize = 69;
 /// Columns of lines 1 and 2 that are always blank.
 const BLANK: [&[usize]; 2] = [&[2, 9, 18, 33, 44, 53, 62, 64], &[2, 8, 17, 26, 34, 43, 52]];
-/// The last digit of the epoch of a TLE, 1e-8 days, in microseconds.
+/// Digits of the fraction of a day in the epoch.
+const EPOCH_DIGITS: usize = 8;
+/// The last of them, 1e-8 days, in microseconds.
 const EPOCH_STEP_US: i64 = 864;
 
 /// One line of a set, known to be ASCII and to match its checksum.
-pub(super) struct Columns {
-    bytes: [u8; COLUMNS],
+pub(super) struct Columns<'a> {
+    /// 68 columns or all.
+    text: Cow<'a, str>,
     /// Column 69 holds a digit.
     pub(super) has_checksum: bool,
 }
 
-impl Columns {
+impl<'a> Columns<'a> {
     /// Checks line `line` (1 or 2) of a set.
-    pub(super) fn new(line: u8, text: &str) -> Result<Self, RefusalReason> {
-        let mut bytes = [b' '; COLUMNS];
-        let given = text.as_bytes();
+    pub(super) fn new(line: u8, given: &'a str) -> Result<Self, RefusalReason> {
         if given.len() < COLUMNS - 1 {
             return Err(RefusalReason::TooShort { line, columns: given.len() });
         }
-        for (column, byte) in bytes.iter_mut().zip(given) {
-            // A tab is read as one blank; if it replaced more than one, the columns
-            // after it are wrong.
-            *column = if *byte == b'\t' { b' ' } else { *byte };
-        }
-        if !bytes.is_ascii() {
+        // Not at a boundary of letters, it is not ASCII.
+        let Some(text) = given.get(..COLUMNS.min(given.len())).filter(|text| text.is_ascii())
+        else {
             return Err(RefusalReason::NotAscii { line });
-        }
-        let [content @ .., check] = &bytes;
-        let has_checksum = *check != b' ';
-        if has_checksum {
-            if !check.is_ascii_digit() {
-                return Err(RefusalReason::ChecksumNotDigit { line });
+        };
+        // A tab is read as one blank; if it replaced more than one, the columns after it are wrong.
+        let text = if text.contains('\t') { text.replace('\t', " ").into() } else { text.into() };
+        let columns = Self { text, has_checksum: false };
+        let (content, check) = columns.text.as_bytes().split_at(COLUMNS - 1);
+        let has_checksum = match check {
+            [] | [b' '] => false,
+            [check @ b'0'..=b'9'] => {
+                let (found, expected) = (check - b'0', checksum(content));
+                if found != expected {
+                    return Err(RefusalReason::Checksum { line, found, expected });
+                }
+                true
             }
-            let (found, expected) = (check - b'0', checksum(content));
-            if found != expected {
-                return Err(RefusalReason::Checksum { line, found, expected });
-            }
-        }
+            _ => return Err(RefusalReason::ChecksumNotDigit { line }),
+        };
         let [first, second] = BLANK;
         for &column in if line == 1 { first } else { second } {
-            if bytes.get(column - 1) != Some(&b' ') {
+            if content.get(column - 1) != Some(&b' ') {
                 return Err(RefusalReason::Shifted { line, column });
             }
         }
-        Ok(Self { bytes, has_checksum })
+        Ok(Self { has_checksum, ..columns })
     }
 
     fn raw(&self, columns: RangeInclusive<usize>) -> &str {
-        self.bytes
-            .get(columns.start() - 1..*columns.end())
-            .and_then(|bytes| str::from_utf8(bytes).ok())
-            .unwrap_or_default()
+        self.text.get(columns.start() - 1..*columns.end()).unwrap_or_default()
     }
 
     /// The text in `columns`, trimmed.
     fn text(&self, columns: RangeInclusive<usize>) -> &str {
-        self.raw(columns).trim()
+        self.raw(columns).trim_ascii()
     }
 
     /// Text that ends in the last of its columns. A whole number with a blank in place of its
     /// last digit would be read as a tenth of itself.
     fn right_aligned(&self, columns: RangeInclusive<usize>) -> &str {
-        self.raw(columns).trim_start()
+        self.raw(columns).trim_ascii_start()
     }
 
     /// A number with a decimal point; `None` if the columns are blank.
@@ -115,17 +114,14 @@ impl Columns {
         }
     }
 
-    /// A fraction without its point: `0.0001771` for `0001771`.
+    /// The digits of a fraction without its point: 1771 for `0001771`, which means 0.0001771. Old
+    /// sets leave leading zeros blank.
     fn fraction(
         &self,
         columns: RangeInclusive<usize>,
         field: &'static str,
-    ) -> Result<String, RefusalReason> {
-        let width = columns.end() - columns.start() + 1;
-        let text = self.right_aligned(columns);
-        numbers::digits(text).ok_or(RefusalReason::Field(field))?;
-        // Old sets leave leading zeros blank.
-        Ok(format!("0.{text:0>width$}"))
+    ) -> Result<u64, RefusalReason> {
+        numbers::digits(self.right_aligned(columns)).ok_or(RefusalReason::Field(field))
     }
 
     /// A number of the form `-12345-6`, which means -0.12345e-6. All blank is 0.
@@ -133,14 +129,15 @@ impl Columns {
         if self.text(start..=start + 7).is_empty() {
             return Ok(0.0);
         }
-        let sign @ ("" | "+" | "-") = self.text(start..=start) else {
-            return Err(RefusalReason::Field(field));
+        let sign = match self.text(start..=start) {
+            "" | "+" => 1.0,
+            "-" => -1.0,
+            _ => return Err(RefusalReason::Field(field)),
         };
         let fraction = self.fraction(start + 1..=start + 5, field)?;
         let exponent = self.right_aligned(start + 6..=start + 7).parse::<i8>();
         let exponent = exponent.map_err(|_| RefusalReason::Field(field))?;
-        // Parsed as one decimal number, so that it equals that of an OMM.
-        format!("{sign}{fraction}e{exponent}").parse().map_err(|_| RefusalReason::Field(field))
+        Ok(sign * decimal(fraction, exponent - 5))
     }
 
     fn catalog_number(&self) -> Result<u64, RefusalReason> {
@@ -151,7 +148,7 @@ impl Columns {
     /// Such as `1998-067A` for `98067A`.
     fn international_designator(&self) -> SmolStr {
         match full_year(self.right_aligned(10..=11)) {
-            Some(launch_year) => clean(&format!("{launch_year}-{}", self.text(12..=17))),
+            Some(launch_year) => clean(&format_smolstr!("{launch_year}-{}", self.text(12..=17))),
             None => SmolStr::default(),
         }
     }
@@ -164,12 +161,25 @@ impl Columns {
         if !(1..=i64::from(new_year.days_in_year())).contains(&day) {
             return None;
         }
-        let fraction = fraction.get(..8).unwrap_or(fraction);
-        let steps = i64::try_from(numbers::digits(&format!("{fraction:0<8}"))?).ok()?;
+        let fraction = fraction.get(..EPOCH_DIGITS).unwrap_or(fraction);
+        let digits =
+            if fraction.is_empty() { 0 } else { i64::try_from(numbers::digits(fraction)?).ok()? };
+        let steps = digits * 10_i64.pow((EPOCH_DIGITS - fraction.len()) as u32);
         let since_new_year = SignedDuration::from_hours(24 * (day - 1))
             + SignedDuration::from_micros(steps * EPOCH_STEP_US);
-        let start = new_year.to_zoned(TimeZone::UTC).ok()?.timestamp();
+        let start = Offset::UTC.to_timestamp(new_year.into()).ok()?;
         start.checked_add(since_new_year).ok()
+    }
+}
+
+/// `digits` times a power of ten, from 1e-14 to 1e94, as near as the number that an OMM writes in
+/// one piece.
+fn decimal(digits: u64, exponent: i8) -> f64 {
+    let size = 10_f64.powi(i32::from(exponent).abs());
+    match exponent {
+        // Both are exact, so the division rounds but once.
+        -22..=0 => digits as f64 / size,
+        _ => format!("{digits}e{exponent}").parse().unwrap_or(f64::NAN),
     }
 }
 
@@ -195,7 +205,7 @@ fn full_year(two_digits: &str) -> Option<i16> {
 
 pub(super) fn elements(
     name: &str,
-    [first, second]: &[Columns; 2],
+    [first, second]: &[Columns<'_>; 2],
 ) -> Result<Elements, RefusalReason> {
     let number = first.catalog_number()?;
     if number != second.catalog_number()? {
@@ -218,7 +228,7 @@ pub(super) fn elements(
         bstar: first.assumed_point(54, "BSTAR")?,
         inclination_deg: second.needed(9..=16, "INCLINATION")?,
         node_deg: second.needed(18..=25, "RA_OF_ASC_NODE")?,
-        eccentricity: eccentricity.parse().map_err(|_| RefusalReason::Field("ECCENTRICITY"))?,
+        eccentricity: decimal(eccentricity, -7),
         perigee_deg: second.needed(35..=42, "ARG_OF_PERICENTER")?,
         mean_anomaly_deg: second.needed(44..=51, "MEAN_ANOMALY")?,
         set_number: first.count(65..=68, "ELEMENT_SET_NO")?,
