@@ -55,13 +55,8 @@ fn calendar(elements: &[Elements], query: &PassQuery) -> Calendar {
         .iter()
         .map(|(index, pass)| ExportedPass { satellite: &satellites[*index], pass: *pass })
         .collect();
-    let list = PassList {
-        query,
-        place: None,
-        carrier_hz: None,
-        alarm_before_s: None,
-        now: start(),
-    };
+    let list =
+        PassList { query, place: None, carrier_hz: None, alarm_before_s: None, now: start() };
     let mut text = Vec::new();
     list.write(&mut text, PassFormat::Ics, rows.iter().copied()).unwrap();
     let text = String::from_utf8(text).unwrap().replace("\r\n ", "");

@@ -1,6 +1,6 @@
 //! The elements of one orbit.
 
-use jiff::{Timestamp, civil, tz::TimeZone};
+use jiff::{Timestamp, civil, tz::Offset};
 use serde::{Deserialize, Deserializer, Serialize, Serializer, de::Error as _};
 use sgp4::chrono::{DateTime, TimeDelta};
 use smol_str::SmolStr;
@@ -189,19 +189,17 @@ impl Elements {
         }
         // The fraction of a day in a TLE leaves noise below the digits that an OMM writes. Without
         // the noise, both forms of one set have the same epoch.
-        let as_written = self.epoch.to_zoned(TimeZone::UTC).datetime();
+        let utc = |time| Offset::UTC.to_datetime(time);
+        let as_written = utc(self.epoch);
         self.epoch = self
             .epoch
             .round(jiff::Unit::Microsecond)
             .ok()
             // The library computes with unsigned years, so that a year before 1 would
             // end the program.
-            .filter(|epoch| EPOCH_YEARS.contains(&epoch.to_zoned(TimeZone::UTC).year()))
+            .filter(|epoch| EPOCH_YEARS.contains(&utc(*epoch).year()))
             .ok_or(ElementsError::Epoch(as_written))?;
-        Propagator::new(&self)
-            .and_then(|propagator| propagator.state_at(self.epoch))
-            .map_err(|_| ElementsError::Decayed)?;
-        Ok(self)
+        if Propagator::is_up_at_epoch(&self) { Ok(self) } else { Err(ElementsError::Decayed) }
     }
 
     /// Empty if the source gave none.

@@ -24,8 +24,8 @@ use jiff::Timestamp;
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
-pub use self::{compact::FoundPasses, mask::clear_stretches};
 use self::{compact::CompactPass, near_circular::NearCircular, track::Track, window::Window};
+pub use self::{compact::FoundPasses, mask::clear_stretches};
 use super::Propagator;
 use crate::astro::{Angle, AzEl, Site, time};
 

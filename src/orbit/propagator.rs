@@ -81,9 +81,8 @@ impl Propagator {
     /// elements were fitted.
     pub fn new(elements: &Elements) -> Result<Self, PropagationError> {
         let numbers = elements.sgp4();
-        let constants = sgp4::Constants::from_elements_afspc_compatibility_mode(&numbers)
-            .map_err(|_| PropagationError::Elements)?;
-        let secular = Secular::new(&numbers);
+        let (orbit, constants) = start(&numbers)?;
+        let secular = Secular::new(&orbit, numbers.drag_term);
         let eccentricity = elements.eccentricity();
         let drift_km_s = DRIFT_KM_S + ECCENTRIC_DRIFT_KM_S * eccentricity;
         let low_after_min = match &secular {
@@ -94,6 +93,14 @@ impl Propagator {
         };
         let (epoch, down_min) = (elements.epoch(), OnceLock::new());
         Ok(Self { constants, epoch, secular, drift_km_s, low_after_min, down_min })
+    }
+
+    /// Whether SGP4 finds the object above the ground at the epoch of `elements`; takes half the
+    /// time of a propagator and a state.
+    pub(super) fn is_up_at_epoch(elements: &Elements) -> bool {
+        let state = start(&elements.sgp4())
+            .and_then(|(_, constants)| sgp4_state(&constants, 0.0, &mut Resumable::default()));
+        state.is_ok()
     }
 
     /// The state at `at`, in TEME.
@@ -183,7 +190,7 @@ impl Propagator {
         {
             return Err(PropagationError::Decayed);
         }
-        self.sgp4_state(since_epoch_min, resumable)
+        sgp4_state(&self.constants, since_epoch_min, resumable)
     }
 
     /// Returns `true` if the orbit may have met the ground by this time.
@@ -198,38 +205,57 @@ impl Propagator {
         let mut resumable = Resumable::default();
         (1..=MAX_DOWN_LOOKS)
             .map(|look| self.low_after_min + f64::from(look) * DOWN_STEP_MIN)
-            .find(|at_min| self.sgp4_state(*at_min, &mut resumable).is_err())
+            .find(|at_min| sgp4_state(&self.constants, *at_min, &mut resumable).is_err())
             .unwrap_or(f64::INFINITY)
     }
+}
 
-    /// The state by SGP4, whether or not the object has decayed before.
-    fn sgp4_state(
-        &self,
-        since_epoch_min: f64,
-        resumable: &mut Resumable,
-    ) -> Result<State, PropagationError> {
-        // The library ends the program when the time goes back towards or across the epoch.
-        let resumed = resumable.0.take().filter(|state| {
-            let reached_min = state.t();
-            reached_min * since_epoch_min > 0.0 && since_epoch_min.abs() >= reached_min.abs()
-        });
-        resumable.0 = resumed.or_else(|| self.constants.initial_state());
-        let prediction = self
-            .constants
-            .propagate_from_state(
-                sgp4::MinutesSinceEpoch(since_epoch_min),
-                resumable.0.as_mut(),
-                false,
-            )
-            .map_err(|_| PropagationError::Decayed)?;
-        let position_km = DVec3::from_array(prediction.position);
-        let velocity_km_s = DVec3::from_array(prediction.velocity);
-        let above_ground = position_km.length_squared() >= WGS72_RADIUS_KM * WGS72_RADIUS_KM;
-        if above_ground && position_km.is_finite() && velocity_km_s.is_finite() {
-            Ok(State { position_km, velocity_km_s })
-        } else {
-            Err(PropagationError::Decayed)
-        }
+/// What SGP4 works out once for an orbit.
+fn start(numbers: &sgp4::Elements) -> Result<(sgp4::Orbit, sgp4::Constants), PropagationError> {
+    let orbit = sgp4::Orbit::from_kozai_elements(
+        &sgp4::WGS72,
+        numbers.inclination.to_radians(),
+        numbers.right_ascension.to_radians(),
+        numbers.eccentricity,
+        numbers.argument_of_perigee.to_radians(),
+        numbers.mean_anomaly.to_radians(),
+        numbers.mean_motion * (TAU / 1440.0),
+    )
+    .map_err(|_| PropagationError::Elements)?;
+    let constants = sgp4::Constants::new(
+        sgp4::WGS72,
+        sgp4::afspc_epoch_to_sidereal_time,
+        numbers.epoch_afspc_compatibility_mode(),
+        numbers.drag_term,
+        orbit.clone(),
+    )
+    .map_err(|_| PropagationError::Elements)?;
+    Ok((orbit, constants))
+}
+
+/// The state by SGP4, whether or not the object has decayed before.
+fn sgp4_state(
+    constants: &sgp4::Constants,
+    since_epoch_min: f64,
+    resumable: &mut Resumable,
+) -> Result<State, PropagationError> {
+    // The library ends the program when the time goes back towards or across the epoch.
+    let resumed = resumable.0.take().filter(|state| {
+        let reached_min = state.t();
+        reached_min * since_epoch_min > 0.0 && since_epoch_min.abs() >= reached_min.abs()
+    });
+    resumable.0 = resumed.or_else(|| constants.initial_state());
+    let at = sgp4::MinutesSinceEpoch(since_epoch_min);
+    let prediction = constants
+        .propagate_from_state(at, resumable.0.as_mut(), false)
+        .map_err(|_| PropagationError::Decayed)?;
+    let position_km = DVec3::from_array(prediction.position);
+    let velocity_km_s = DVec3::from_array(prediction.velocity);
+    let above_ground = position_km.length_squared() >= WGS72_RADIUS_KM * WGS72_RADIUS_KM;
+    if above_ground && position_km.is_finite() && velocity_km_s.is_finite() {
+        Ok(State { position_km, velocity_km_s })
+    } else {
+        Err(PropagationError::Decayed)
     }
 }
 
@@ -314,6 +340,16 @@ mod tests {
                     assert!(off_km.is_none_or(|off| off.length() < 2e-8), "{number} {at}");
                 }
             }
+        }
+    }
+
+    #[test]
+    fn an_orbit_starts_as_the_library_starts_it() {
+        for elements in bundled().unwrap().iter() {
+            let numbers = elements.sgp4();
+            let (_, constants) = start(&numbers).unwrap();
+            let theirs = sgp4::Constants::from_elements_afspc_compatibility_mode(&numbers);
+            assert_eq!(constants, theirs.unwrap());
         }
     }
 

@@ -30,7 +30,11 @@ const GAP_STEP_S: f64 = 60.0;
 const END_TOLERANCE_S: f64 = 1e-3;
 
 /// Adds all passes of the window, in order.
-pub(super) fn passes(track: &Track<'_>, cancelled: &dyn Fn() -> bool, found: &mut Vec<CompactPass>) {
+pub(super) fn passes(
+    track: &Track<'_>,
+    cancelled: &dyn Fn() -> bool,
+    found: &mut Vec<CompactPass>,
+) {
     let mut finder = Finder { track, last: None, guess_s: None, open: None, found };
     let end_s = track.window.length_s;
     let mut from_s = 0.0;

@@ -56,20 +56,10 @@ pub(in crate::orbit) struct Plane<N = f64> {
 }
 
 impl Secular {
-    /// The slow motion of `elements`; `None` for deep space.
-    pub(super) fn new(elements: &sgp4::Elements) -> Option<Self> {
-        let orbit = sgp4::Orbit::from_kozai_elements(
-            &WGS72,
-            elements.inclination.to_radians(),
-            elements.right_ascension.to_radians(),
-            elements.eccentricity,
-            elements.argument_of_perigee.to_radians(),
-            elements.mean_anomaly.to_radians(),
-            elements.mean_motion * (TAU / 1440.0),
-        )
-        .ok()?;
-        (orbit.mean_motion > TAU / DEEP_SPACE_PERIOD_MIN)
-            .then(|| Self::of_near_earth(&orbit, elements.drag_term))
+    /// The slow motion of an orbit at its epoch; `None` for deep space.
+    pub(super) fn new(orbit: &sgp4::Orbit, bstar: f64) -> Option<Self> {
+        let is_near_earth = orbit.mean_motion > TAU / DEEP_SPACE_PERIOD_MIN;
+        is_near_earth.then(|| Self::of_near_earth(orbit, bstar))
     }
 
     /// Semi-major axis in Earth radii, and eccentricity, `minutes` after the epoch.

@@ -51,7 +51,9 @@ pub(super) fn write<'a>(
         write_rows(out, rows, times, |text, row, states| push_row(text, &view, row, states))
     } else {
         let at_tca = |pass: &Pass| [pass.tca.time];
-        write_rows(out, rows, at_tca, |text, row, [tca]| push_row(text, &view, row, [None, tca, None]))
+        write_rows(out, rows, at_tca, |text, row, [tca]| {
+            push_row(text, &view, row, [None, tca, None])
+        })
     }
 }
 
