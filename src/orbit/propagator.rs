@@ -4,7 +4,10 @@ mod near_circular;
 mod secular;
 mod waves;
 
-use std::{f64::consts::TAU, sync::OnceLock};
+use std::{
+    f64::consts::TAU,
+    sync::atomic::{AtomicU32, Ordering},
+};
 
 use glam::DVec3;
 use jiff::Timestamp;
@@ -66,9 +69,19 @@ pub struct Propagator {
     drift_km_s: f64,
     /// The orbit may have met the ground from this time on, minutes after the epoch.
     low_after_min: f64,
-    /// The time at which it has met the ground, minutes after the epoch. Computed on the first
-    /// request for a state later than `low_after_min`.
-    down_min: OnceLock<f64>,
+    descent: Descent,
+}
+
+/// How far it is known that an orbit that may have met the ground has not: the number of looks, in
+/// steps of [`DOWN_STEP_MIN`] from `low_after_min` on, that have found a state. They go as far as
+/// somebody has asked.
+#[derive(Debug, Default)]
+struct Descent(AtomicU32);
+
+impl Clone for Descent {
+    fn clone(&self) -> Self {
+        Self(self.0.load(Ordering::Relaxed).into())
+    }
 }
 
 /// How far the integration of a resonant orbit has come, so that the next state need not start from
@@ -91,8 +104,8 @@ impl Propagator {
             None if lowest_km(&numbers) < LOW_PERIGEE_KM => 0.0,
             None => f64::INFINITY,
         };
-        let (epoch, down_min) = (elements.epoch(), OnceLock::new());
-        Ok(Self { constants, epoch, secular, drift_km_s, low_after_min, down_min })
+        let (epoch, descent) = (elements.epoch(), Descent::default());
+        Ok(Self { constants, epoch, secular, drift_km_s, low_after_min, descent })
     }
 
     /// Whether SGP4 finds the object above the ground at the epoch of `elements`; takes half the
@@ -185,9 +198,7 @@ impl Propagator {
             return Err(PropagationError::TooFarFromEpoch);
         }
         let since_epoch_min = since_epoch_s / 60.0;
-        if self.may_be_down_at(since_epoch_s)
-            && since_epoch_min >= *self.down_min.get_or_init(|| self.find_down_min())
-        {
+        if self.may_be_down_at(since_epoch_s) && self.is_down_at(since_epoch_min) {
             return Err(PropagationError::Decayed);
         }
         sgp4_state(&self.constants, since_epoch_min, resumable)
@@ -198,15 +209,21 @@ impl Propagator {
         since_epoch_s > self.low_after_min * 60.0
     }
 
-    /// Minutes after the epoch at which SGP4 first brings the object down. Later, its equations
-    /// continue below the ground and may bring the object up again. Infinity if the object does not
-    /// come down in the time that is searched.
-    fn find_down_min(&self) -> f64 {
+    /// Whether SGP4 has brought the object down by then. Later, its equations continue below the
+    /// ground and may bring the object up again.
+    fn is_down_at(&self, since_epoch_min: f64) -> bool {
+        let at_min = |look: u32| self.low_after_min + f64::from(look) * DOWN_STEP_MIN;
+        let Descent(looked) = &self.descent;
         let mut resumable = Resumable::default();
-        (1..=MAX_DOWN_LOOKS)
-            .map(|look| self.low_after_min + f64::from(look) * DOWN_STEP_MIN)
-            .find(|at_min| sgp4_state(&self.constants, *at_min, &mut resumable).is_err())
-            .unwrap_or(f64::INFINITY)
+        (looked.load(Ordering::Relaxed) + 1..=MAX_DOWN_LOOKS)
+            .take_while(|look| at_min(*look) <= since_epoch_min)
+            .any(|look| {
+                let is_down = sgp4_state(&self.constants, at_min(look), &mut resumable).is_err();
+                if !is_down {
+                    looked.fetch_max(look, Ordering::Relaxed);
+                }
+                is_down
+            })
     }
 }
 
