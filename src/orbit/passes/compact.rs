@@ -7,7 +7,7 @@ use super::{Pass, PassPoint};
 use crate::astro::{AzEl, time};
 
 /// Number of passes in a stretch of time on the way to their order.
-const STRETCH: usize = 1 << 13;
+const STRETCH: usize = 1 << 12;
 
 /// A pass and the index of its satellite.
 #[derive(Debug, Clone, Copy)]

@@ -67,7 +67,7 @@ fn push_row(
 ) {
     let ExportedPass { satellite, pass } = row;
     let elements = &satellite.elements;
-    push_whole(text, elements.catalog_number());
+    push_whole(text, elements.catalog_number().into());
     push_text(next(text), elements.name());
     for point in [pass.aos, pass.tca, pass.los] {
         push_time(next(text), point.time);

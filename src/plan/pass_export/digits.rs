@@ -60,8 +60,12 @@ fn two_digits(number: i8) -> [u8; 2] {
     [b'0' + number / 10, b'0' + number % 10]
 }
 
-pub(super) fn push_whole(text: &mut Vec<u8>, number: u32) {
-    push_digits::<0>(text, u64::from(number), 0);
+/// Appends the digits of `number`.
+pub(super) fn push_whole(text: &mut Vec<u8>, number: u64) {
+    if number >= 10 {
+        push_whole(text, number / 10);
+    }
+    text.push(b'0' + (number % 10) as u8);
 }
 
 /// Appends `value`, rounded to this number of decimals.
@@ -74,14 +78,25 @@ pub(super) fn push_shortest<const DECIMALS: usize>(text: &mut Vec<u8>, value: f6
     push_at_least::<DECIMALS>(text, value, 0);
 }
 
-/// Appends `value`, rounded to this number of decimals, of which `least` are written even if they
-/// are zeros at its end.
+/// Appends `value`, rounded to this number of decimals, of which zeros at the end are left out
+/// beyond the first `least`.
 pub(super) fn push_at_least<const DECIMALS: usize>(text: &mut Vec<u8>, value: f64, least: usize) {
     let parts = parts::<DECIMALS>(value);
     if parts < 0 {
         text.push(b'-');
     }
-    push_digits::<DECIMALS>(text, parts.unsigned_abs(), least);
+    let (parts, unit) = (parts.unsigned_abs(), 10_u64.pow(DECIMALS as u32));
+    push_whole(text, parts / unit);
+    let decimals: [u8; DECIMALS] = digits((parts % unit) as u32);
+    let last = decimals.iter().rposition(|digit| *digit != b'0');
+    let kept = last.map_or(0, |last| last + 1).max(least);
+    if kept > 0 {
+        text.push(b'.');
+        let start = text.len();
+        // All of them, whose number is known beforehand, are appended faster than some.
+        text.extend_from_slice(&decimals);
+        text.truncate(start + kept);
+    }
 }
 
 /// `value` in units of its last decimal, to the nearest; halves are rounded away from zero, as
@@ -91,46 +106,6 @@ pub(super) fn parts<const DECIMALS: usize>(value: f64) -> i64 {
     let whole = value as i64;
     let rest = value - whole as f64;
     whole.saturating_add(i64::from(rest >= 0.5) - i64::from(rest <= -0.5))
-}
-
-/// The digits of any number, and a point.
-const MOST_DIGITS: usize = 21;
-
-/// Appends the digits of `parts`, with a point before the last `DECIMALS` of them, of which the
-/// zeros at the end are left out beyond the first `least`.
-fn push_digits<const DECIMALS: usize>(text: &mut Vec<u8>, parts: u64, least: usize) {
-    let mut written = [0; MOST_DIGITS];
-    let mut free = written.iter_mut().rev();
-    let mut put = |byte| free.next().into_iter().for_each(|place| *place = byte);
-    let mut rest = parts;
-    let mut next = || {
-        let digit = (rest % 10) as u8;
-        rest /= 10;
-        (b'0' + digit, rest)
-    };
-    for _ in 0..DECIMALS {
-        put(next().0);
-    }
-    if DECIMALS > 0 {
-        put(b'.');
-    }
-    loop {
-        let (digit, rest) = next();
-        put(digit);
-        if rest == 0 {
-            break;
-        }
-    }
-    let start = free.len();
-    let mut end = MOST_DIGITS;
-    let mut decimals = DECIMALS;
-    while decimals > least && written.get(end - 1) == Some(&b'0') {
-        (end, decimals) = (end - 1, decimals - 1);
-    }
-    if DECIMALS > 0 && decimals == 0 {
-        end -= 1;
-    }
-    text.extend_from_slice(written.get(start..end).unwrap_or_default());
 }
 
 #[cfg(test)]

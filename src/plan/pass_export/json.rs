@@ -40,7 +40,7 @@ fn push_row(
     let ExportedPass { satellite, pass } = row;
     let elements = &satellite.elements;
     text.extend_from_slice(br#"{"catalog_number":"#);
-    push_whole(text, elements.catalog_number());
+    push_whole(text, elements.catalog_number().into());
     text.extend_from_slice(br#","name":"#);
     push_text(text, Some(elements.name()));
     text.extend_from_slice(br#","aos":"#);

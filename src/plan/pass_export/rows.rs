@@ -11,8 +11,8 @@ use rayon::prelude::*;
 use super::ExportedPass;
 use crate::orbit::{Pass, Propagator, State};
 
-/// Number of rows that are made while as many before them are written, some 1.4 MB of CSV.
-const AT_ONCE: usize = 1 << 13;
+/// Number of rows that are made while as many before them are written, some 0.7 MB of CSV.
+const AT_ONCE: usize = 1 << 12;
 /// Number of rows that one thread takes at a time.
 const CHUNK: usize = 256;
 
