@@ -8,7 +8,11 @@
 use glam::{DMat3, DVec3};
 use jiff::Timestamp;
 
-use super::{Angle, AzEl, Cap, GroundPoint, Site, frames, time};
+use super::{
+    Angle, AzEl, Cap, GroundPoint, Site,
+    frames::{self, SiteFrame},
+    time,
+};
 
 /// Terrestrial Time minus UTC since 2017. The Moon moves 0.01 degrees in that time.
 const TT_MINUS_UTC_S: f64 = 69.184;
@@ -19,12 +23,17 @@ const ASTRONOMICAL_UNIT_KM: f64 = 149_597_870.7;
 
 /// Geometric direction of the Sun, seen from `site`.
 pub fn sun(site: Site, at: Timestamp) -> AzEl {
+    AzEl::from_enu(sun_enu_km(&site.into(), at))
+}
+
+/// From the site to the Sun: east, north, up.
+pub fn sun_enu_km(site: &SiteFrame, at: Timestamp) -> DVec3 {
     seen_from(site, at, sun_teme_km(at))
 }
 
 /// Geometric direction of the Moon, seen from `site`, with parallax.
 pub fn moon(site: Site, at: Timestamp) -> AzEl {
-    seen_from(site, at, moon_teme_km(at))
+    AzEl::from_enu(seen_from(&site.into(), at, moon_teme_km(at)))
 }
 
 /// Unit vector from the centre of the Earth to the Sun, in TEME.
@@ -43,9 +52,8 @@ pub fn night(at: Timestamp) -> Cap {
     Cap { centre: subsolar_point(at).antipode(), radius }
 }
 
-fn seen_from(site: Site, at: Timestamp, position_km: DVec3) -> AzEl {
-    let ground_km = frames::teme_to_ecef(at) * position_km;
-    AzEl::from_enu(frames::ecef_to_enu(site) * (ground_km - frames::site_ecef_km(site)))
+fn seen_from(site: &SiteFrame, at: Timestamp, teme_km: DVec3) -> DVec3 {
+    site.to_enu * (frames::teme_to_ecef(at) * teme_km - site.ecef_km)
 }
 
 fn sun_teme_km(at: Timestamp) -> DVec3 {

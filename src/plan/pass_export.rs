@@ -15,14 +15,13 @@ use std::{
     io::{self, Write},
 };
 
-use glam::DVec3;
 use jiff::{Timestamp, tz::TimeZone};
 
 pub(crate) use self::csv::{io_error, plain};
 use self::digits::parts;
 pub use self::looks::{LookFormat, LookList};
 use crate::{
-    astro::{HorizonMask, Site, frames, sun_moon, time},
+    astro::{HorizonMask, Site, frames::SiteFrame, sun_moon, time},
     orbit::{
         Distance, Elements, Pass, PassSearch, PropagationError, Propagator, State, clear_stretches,
         passes,
@@ -59,7 +58,7 @@ const NEAR_KM_S: f64 = 1e-8;
 /// What a satellite is seen from.
 #[derive(Debug, Clone, Copy)]
 struct View {
-    site_ecef_km: DVec3,
+    site: SiteFrame,
     carrier_hz: Option<f64>,
 }
 
@@ -67,12 +66,18 @@ impl View {
     /// The distance that follows from the state that [`Propagator::state_at`] gives, to the last
     /// digit that is written; `near` is almost that state, and nearly always enough.
     fn distance(&self, satellite: &Satellite, near: &State, at: Timestamp) -> Distance {
-        let distance = near.distance_from(self.site_ecef_km, at);
+        let distance = near.distance_from(self.site.ecef_km, at);
         if self.is_written_alike(distance) {
             return distance;
         }
         let exact = satellite.propagator.state_at(at);
-        exact.map_or(distance, |exact| exact.distance_from(self.site_ecef_km, at))
+        exact.map_or(distance, |exact| exact.distance_from(self.site.ecef_km, at))
+    }
+
+    /// Returns `true` if the sky over the site is dark enough to see a satellite in sunlight.
+    fn is_dark(&self, at: Timestamp) -> bool {
+        let sun_km = sun_moon::sun_enu_km(&self.site, at);
+        sun_km.z < sun_km.length() * DARK_SUN_DEG.to_radians().sin()
     }
 
     /// Whether rounding for export gives the same for all that is as near as [`NEAR_KM`] and
@@ -193,13 +198,7 @@ impl PassList<'_> {
     }
 
     fn view(&self) -> View {
-        let site_ecef_km = frames::site_ecef_km(self.site());
-        View { site_ecef_km, carrier_hz: self.carrier_hz }
-    }
-
-    /// Returns `true` if the sky over the site is dark enough to see a satellite in sunlight.
-    fn is_dark(&self, at: Timestamp) -> bool {
-        sun_moon::sun(self.site(), at).elevation_deg() < DARK_SUN_DEG
+        View { site: self.site().into(), carrier_hz: self.carrier_hz }
     }
 }
 

@@ -24,7 +24,7 @@ pub(super) fn write<'a>(
     for (before, count) in [(&b"\n"[..], 1), (b",\n", usize::MAX)] {
         write_rows(out, rows.by_ref().take(count), times, |text, row, states| {
             text.extend_from_slice(before);
-            push_row(text, list, &view, row, states);
+            push_row(text, &view, row, states);
         })?;
     }
     writeln!(out, "\n]")
@@ -32,7 +32,6 @@ pub(super) fn write<'a>(
 
 fn push_row(
     text: &mut Vec<u8>,
-    list: &PassList<'_>,
     view: &View,
     row: &ExportedPass<'_>,
     [aos, tca, los]: [Option<State>; 3],
@@ -66,7 +65,7 @@ fn push_row(
     text.extend_from_slice(br#","sunlit":"#);
     push_flag(text, tca.map(|state| is_sunlit(&state, pass.tca.time)));
     text.extend_from_slice(br#","dark_at_site":"#);
-    push_flag(text, Some(list.is_dark(pass.tca.time)));
+    push_flag(text, Some(view.is_dark(pass.tca.time)));
     text.push(b'}');
 }
 
