@@ -42,7 +42,7 @@ use self::{
     intake::Intake,
     joinings::Joinings,
     rehearsal::RehearsalState,
-    replay::Replayed,
+    replay::{EndedReplay, ReplayEnd, Replayed},
 };
 use crate::{
     astro::{HorizonMask, MaskForm},
@@ -191,6 +191,8 @@ pub struct Model {
     pub closing: Option<Closing>,
     /// The replay that this model is of; `None` for the live station.
     pub replay: Option<Replayed>,
+    /// The last replay, where that ended by itself.
+    pub ended_replay: Option<EndedReplay>,
 }
 
 impl Model {
@@ -239,12 +241,19 @@ impl Model {
             view: View::Operate,
             closing: None,
             replay: None,
+            ended_replay: None,
         }
     }
 
     /// The selected antenna.
     pub fn antenna(&self) -> Option<&AntennaModel> {
         self.antennas.get(self.selected_antenna)
+    }
+
+    /// Why a replay has just ended by itself, while it is told.
+    pub fn replay_end(&self) -> Option<&ReplayEnd> {
+        let ended = self.ended_replay.as_ref()?;
+        (self.steady < ended.until).then_some(&ended.why)
     }
 
     /// The index of an antenna, if the station still has it.

@@ -5,6 +5,7 @@
 //! their own, the station queues its entries, and one thread writes both. What it could not keep
 //! is counted and marked in the record itself.
 
+mod along;
 mod causes;
 mod entry;
 mod file;
@@ -17,10 +18,13 @@ mod read;
 mod recorder;
 mod tables;
 #[cfg(test)]
+pub(crate) mod testing;
+#[cfg(test)]
 mod tests;
 mod way_out;
 mod writer;
 
+pub use along::{Beside, PassMarks, marks_between, marks_of_pass, neighbour};
 pub use causes::{ExplainedPasses, explain_passes};
 pub use entry::{Entry, Kind};
 pub use film::{Film, FilmError, Parts, Picture, Shown};

@@ -4,12 +4,14 @@
 //! on a station. What its views ask for ends here, but for [`Beyond`], which holds no command.
 
 mod room;
+#[cfg(test)]
+mod tests;
 
-use std::{path::PathBuf, sync::Arc};
+use std::{path::PathBuf, sync::Arc, time::Duration};
 
 use jiff::Timestamp;
 
-use self::room::{Answer, Room, Scene, Wanted};
+use self::room::{Answer, Asked, Found, Room, Scene, Wanted};
 use super::{App, catalog_table::CatalogWork, effects::EffectsJobs};
 use crate::{
     astro::time::add_seconds,
@@ -23,9 +25,10 @@ use crate::{
     job::{Job, Wake},
     model::{
         Appearance, Model, UiCommand, View,
-        replay::{ReplayCommand, ReplayEnd, ReplayProblem, Replayed, Stretch},
+        replay::{EndedReplay, ReplayCommand, ReplayEnd, ReplayProblem, Replayed, Stretch},
     },
     plan::schedule::Entry,
+    record::Beside,
     station::AntennaId,
     ui,
 };
@@ -33,8 +36,10 @@ use crate::{
 /// Least time between two moments that are shown while it plays, seconds.
 const STEP_S: f64 = 0.05;
 
-/// A replay ends so long before a pass that the station will track, seconds.
+/// A replay ends so long before an antenna is to track a pass, seconds.
 const BEFORE_PASS_S: f64 = 120.0;
+/// How long it is told why a replay has ended by itself.
+const TOLD: Duration = Duration::from_secs(10);
 
 impl App {
     /// Shows a stretch of the record again, from `at` on.
@@ -42,6 +47,7 @@ impl App {
         let Some(record) = &self.model.record else { return };
         let views = ui::Views::with(self.views.kept());
         let (path, wake) = (record.path.clone(), Arc::clone(&self.wake));
+        self.model.ended_replay = None;
         self.replay = Some(Replay::begin(path, stretch, at, &self.model, views, wake));
     }
 
@@ -49,15 +55,14 @@ impl App {
     pub(super) fn leave_replay(&mut self, why: Option<ReplayEnd>) {
         let Some(replay) = self.replay.take() else { return };
         replay.end();
-        if let Some(why) = why {
-            self.views.replay_ended(&why, self.model.now);
-        }
+        let until = self.model.steady + TOLD;
+        self.model.ended_replay = why.map(|why| EndedReplay { why, until });
     }
 
     pub(super) fn go_on_with_replay(&mut self) {
         let Some(replay) = &mut self.replay else { return };
         replay.think(self.model.steady);
-        let why = replay.why_over(&self.model);
+        let why = why_over(replay.begun_at, &self.model);
         if why.is_some() {
             self.leave_replay(why);
         }
@@ -100,6 +105,8 @@ pub(super) struct Replay {
     projection: Projection,
     /// The moment to show next.
     wanted: Option<Wanted>,
+    /// The stretch whose passes are marked.
+    marked: Option<Stretch>,
     /// When the moment that is shown moved on last, by the clock of the window.
     moved_at: Instant,
     /// What is looked at of the record.
@@ -132,13 +139,14 @@ impl Replay {
         // The film has the elements of the favourites.
         model.list.scope = Scope::Favourites;
         model.selected_antenna = live.selected_antenna;
-        model.replay = Some(Replayed { stretch, at, speed: 1, plays: true, problem: None });
+        model.replay = Some(Replayed::begin(stretch, at));
         Self {
             model,
             views,
             begun_at: live.now,
             projection: Projection::Idle(Box::new(Room::new(path))),
             wanted: Some(Wanted::At(at)),
+            marked: None,
             moved_at: live.steady,
             look: None,
             catalog_work: CatalogWork::default(),
@@ -163,25 +171,6 @@ impl Replay {
         self.effects_jobs.work(&mut self.model, &self.wake);
         self.catalog_work.work(&mut self.model, &self.wake);
         self.model.refresh_sky();
-    }
-
-    /// Why it ends by itself, by what happens at the live station.
-    fn why_over(&self, live: &Model) -> Option<ReplayEnd> {
-        let is_grave = |alarm: &Alarm| {
-            alarm.priority() == Priority::First && !alarm.seen && alarm.last > self.begun_at
-        };
-        if live.alarms.list().iter().any(is_grave) {
-            return Some(ReplayEnd::Alarm);
-        }
-        let is_near = |entry: &&Entry| {
-            let ends_at = add_seconds(entry.from, -BEFORE_PASS_S);
-            let is_taken = live.antenna_of(entry.antenna).is_some_and(|of| of.operation.is_on());
-            is_taken && self.begun_at < ends_at && ends_at <= live.now && live.now < entry.from
-        };
-        let entry = live.schedule.schedule.entries.iter().find(is_near)?;
-        let satellite = live.pass_lists.satellite(entry.pass.satellite);
-        let name = satellite.map_or_else(String::new, |of| of.short_name().to_owned());
-        Some(ReplayEnd::Pass { name, from: entry.from })
     }
 
     /// Ends it. The file is closed elsewhere: that takes a disk.
@@ -249,9 +238,14 @@ impl Replay {
         let Some(replay) = &mut self.model.replay else { return };
         match command {
             ReplayCommand::Begin(stretch, at) => {
-                *replay = Replayed { stretch, at, plays: true, ..replay.clone() };
+                *replay = Replayed { speed: replay.speed, ..Replayed::begin(stretch, at) };
                 self.model.selected = None;
                 self.wanted = Some(Wanted::At(at));
+            }
+            ReplayCommand::Pass { is_next } => {
+                let pass = replay.stretch.pass.map(|pass| Beside::Pass(pass.id));
+                let of = pass.unwrap_or(Beside::Moment(replay.at));
+                self.wanted = Some(Wanted::Pass { of, is_next });
             }
             ReplayCommand::PlayOrPause => {
                 if !replay.plays && replay.is_at_end() {
@@ -300,16 +294,32 @@ impl Replay {
                 return;
             }
         };
-        if answer.recorded.is_some() {
-            self.model.recorded = answer.recorded.map(Arc::new);
+        let Answer { found, recorded, marks } = answer;
+        if recorded.is_some() {
+            self.model.recorded = recorded.map(Arc::new);
         }
-        let Some(at) = answer.at else { return };
+        if let Some(replay) = &mut self.model.replay
+            && let Some((stretch, marks)) = marks
+            && replay.stretch == stretch
+        {
+            replay.marks = marks;
+        }
+        if let Some(found) = found {
+            self.take_moment(found);
+        }
+    }
+
+    fn take_moment(&mut self, Found { at, stretch, skipped, scene }: Found) {
+        if stretch.is_some() {
+            self.model.selected = None;
+        }
         if let Some(replay) = &mut self.model.replay {
             replay.at = at;
-            replay.stretch = replay.stretch.clone().around(at);
+            replay.stretch = stretch.unwrap_or_else(|| replay.stretch.clone().around(at));
+            replay.skipped = skipped;
             replay.problem = None;
         }
-        match answer.scene {
+        match scene {
             Ok(Some(scene)) => self.take_scene(at, scene),
             Ok(None) => self.tell(ReplayProblem::NothingYet),
             Err(error) => self.tell(ReplayProblem::Failed(error.to_string())),
@@ -328,8 +338,8 @@ impl Replay {
         let passed = at.duration_since(shown.at.utc).try_into().unwrap_or_default();
         (model.now, model.steady) = (at, shown.at.steady + passed);
         if model.selected_pass().is_none() {
-            let satellite = model.replay.as_ref().and_then(|replay| replay.stretch.satellite);
-            let pass = satellite.and_then(|number| model.pass_of(number));
+            let of = model.replay.as_ref().and_then(|replay| replay.stretch.pass);
+            let pass = of.and_then(|of| model.pass_of(of.satellite));
             model.selected = pass.or_else(|| model.next_pass()).map(PredictedPass::key);
         }
     }
@@ -366,7 +376,9 @@ impl Replay {
         let is_read =
             |of: &RecordLook| self.model.recorded.as_ref().is_some_and(|it| it.look == *of);
         let look = self.look.as_ref().filter(|look| !is_read(look)).cloned();
-        if self.wanted.is_none() && look.is_none() {
+        let stretch = self.model.replay.as_ref().map(|replay| &replay.stretch);
+        let unmarked = stretch.filter(|stretch| self.marked.as_ref() != Some(stretch)).cloned();
+        if self.wanted.is_none() && look.is_none() && unmarked.is_none() {
             return;
         }
         let Projection::Idle(_) = self.projection else { return };
@@ -374,10 +386,12 @@ impl Replay {
         else {
             return;
         };
-        let (wanted, site) = (self.wanted.take(), self.model.station.site);
+        self.marked = unmarked.clone().or(self.marked.take());
+        let asked = Asked { wanted: self.wanted.take(), look, unmarked };
+        let site = self.model.station.site;
         let job = Job::start("azel-replay", Arc::clone(&self.wake), move |_| {
             let mut room = room;
-            let answer = room.answer(wanted, look, site);
+            let answer = room.answer(asked, site);
             (room, answer)
         });
         match job {
@@ -385,4 +399,21 @@ impl Replay {
             Err(error) => self.tell(ReplayProblem::Failed(error.to_string())),
         }
     }
+}
+
+/// Why a replay that began at `begun_at` ends by itself.
+fn why_over(begun_at: Timestamp, live: &Model) -> Option<ReplayEnd> {
+    let is_grave =
+        |alarm: &Alarm| alarm.priority() == Priority::First && !alarm.seen && alarm.last > begun_at;
+    if live.alarms.list().iter().any(is_grave) {
+        return Some(ReplayEnd::Alarm);
+    }
+    let is_near = |entry: &&Entry| {
+        let ends_at = add_seconds(entry.from, -BEFORE_PASS_S);
+        begun_at < ends_at && ends_at <= live.now && live.now < entry.from
+    };
+    let entry = live.schedule.schedule.entries.iter().find(is_near)?;
+    let satellite = live.pass_lists.satellite(entry.pass.satellite);
+    let name = satellite.map_or_else(String::new, |of| of.short_name().to_owned());
+    Some(ReplayEnd::Pass { name, from: entry.from })
 }

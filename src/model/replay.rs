@@ -2,20 +2,48 @@
 
 use jiff::Timestamp;
 
-use crate::astro::time::{add_seconds, seconds_between};
+use crate::{
+    astro::time::{add_seconds, seconds_between},
+    clock::Instant,
+    record::{PassMarks, RecordedPass},
+};
+
+/// A replay of a pass shows so much before and after it, seconds.
+const BEFORE_S: f64 = 30.0;
+const AFTER_S: f64 = 60.0;
 
 /// A stretch of the record that is shown again.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Stretch {
     /// What it is of, such as the name of a satellite.
     pub name: String,
-    /// Catalog number of the satellite, if it is of one.
-    pub satellite: Option<u32>,
+    /// The pass that it is of, if it is of one.
+    pub pass: Option<StretchPass>,
     pub from: Timestamp,
     pub until: Timestamp,
 }
 
+/// A pass of the record.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct StretchPass {
+    /// Number in the record.
+    pub id: i64,
+    /// Catalog number of the satellite.
+    pub satellite: u32,
+}
+
 impl Stretch {
+    /// A pass, from shortly before its track to shortly after its LOS.
+    pub fn of(pass: &RecordedPass) -> Self {
+        let report = &pass.report;
+        Self {
+            name: report.elements.short_name().to_owned(),
+            pass: Some(StretchPass { id: pass.id, satellite: report.elements.catalog_number() }),
+            from: add_seconds(report.from.min(report.about.begun), -BEFORE_S),
+            until: add_seconds(report.until, AFTER_S),
+        }
+    }
+
     /// The same stretch, or one as long around `at` where that is outside.
     #[must_use]
     pub fn around(self, at: Timestamp) -> Self {
@@ -23,7 +51,12 @@ impl Stretch {
             return self;
         }
         let half_s = seconds_between(self.from, self.until) / 2.0;
-        Self { from: add_seconds(at, -half_s), until: add_seconds(at, half_s), ..self }
+        Self {
+            name: "the record".to_owned(),
+            pass: None,
+            from: add_seconds(at, -half_s),
+            until: add_seconds(at, half_s),
+        }
     }
 }
 
@@ -35,6 +68,10 @@ pub enum ReplayCommand {
     PlayOrPause,
     /// Play at this speed, in multiples of real time; below zero backward.
     Speed(i32),
+    /// Show the next recorded pass, or the one before.
+    Pass {
+        is_next: bool,
+    },
     /// Stand at the next recorded event, or at the one before.
     Event {
         is_next: bool,
@@ -57,6 +94,10 @@ pub struct Replayed {
     /// In multiples of real time; below zero backward.
     pub speed: i32,
     pub plays: bool,
+    /// The passes in the stretch.
+    pub marks: Vec<PassMarks>,
+    /// What was passed over on the way here, because there is no film of it.
+    pub skipped: Option<(Timestamp, Timestamp)>,
     /// Why this moment is not shown.
     pub problem: Option<ReplayProblem>,
 }
@@ -75,14 +116,27 @@ pub enum ReplayEnd {
     Stop,
     /// An alarm of the first priority came.
     Alarm,
-    /// The station will track this satellite from then on.
+    /// An antenna is to track this satellite from then on.
     Pass {
         name: String,
         from: Timestamp,
     },
 }
 
+/// A replay that has ended by itself.
+#[derive(Debug, Clone, PartialEq)]
+pub struct EndedReplay {
+    pub why: ReplayEnd,
+    /// It is told until then.
+    pub until: Instant,
+}
+
 impl Replayed {
+    /// A replay that begins to play.
+    pub fn begin(stretch: Stretch, at: Timestamp) -> Self {
+        Self { stretch, at, speed: 1, plays: true, marks: Vec::new(), skipped: None, problem: None }
+    }
+
     /// Whether it would not move on if it played.
     pub fn is_at_end(&self) -> bool {
         self.at == if self.speed < 0 { self.stretch.from } else { self.stretch.until }

@@ -142,7 +142,7 @@ fn track_of(
     flown.iter().filter_map(point).collect()
 }
 
-fn path_of(propagator: &Propagator, site: Site, report: &RecordedReport) -> Vec<Sample> {
+pub(super) fn path_of(propagator: &Propagator, site: Site, report: &RecordedReport) -> Vec<Sample> {
     let count = (seconds_between(report.from, report.until) / STEP_S).ceil().max(0.0) as u32;
     let times = (0..=count).map(|step| {
         let time = crate::astro::time::add_seconds(report.from, f64::from(step) * STEP_S);
@@ -157,11 +157,11 @@ fn path_of(propagator: &Propagator, site: Site, report: &RecordedReport) -> Vec<
 
 /// The passes of an open record.
 pub(super) struct Passes {
-    db: Connection,
+    pub(super) db: Connection,
 }
 
 /// Columns of a pass.
-const COLUMNS: &str = "id, antenna, (SELECT name FROM antenna AS a WHERE a.id = pass.antenna \
+pub(super) const COLUMNS: &str = "id, antenna, (SELECT name FROM antenna AS a WHERE a.id = pass.antenna \
     ORDER BY since_us > pass.until_us, abs(since_us - pass.until_us) LIMIT 1), report";
 
 impl Passes {
@@ -227,7 +227,7 @@ impl Passes {
         Ok(page)
     }
 
-    fn pass(&self, id: i64) -> Result<Option<RecordedPass>, RecordError> {
+    pub(super) fn pass(&self, id: i64) -> Result<Option<RecordedPass>, RecordError> {
         let mut statement =
             self.db.prepare(&format!("SELECT {COLUMNS} FROM pass WHERE id = ?1"))?;
         let mut rows = statement.query([id])?;
@@ -253,7 +253,7 @@ impl Passes {
 }
 
 /// The pass of a row; `None` where its report cannot be read.
-fn read_pass(row: &SqlRow<'_>) -> Result<Option<RecordedPass>, RecordError> {
+pub(super) fn read_pass(row: &SqlRow<'_>) -> Result<Option<RecordedPass>, RecordError> {
     let report: String = row.get(3)?;
     let Ok(report) = serde_json::from_str(&report) else { return Ok(None) };
     Ok(Some(RecordedPass {

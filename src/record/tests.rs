@@ -1,5 +1,6 @@
 //! The record as it is written and read.
 
+mod along;
 mod film;
 
 use std::{fs, path::Path, time::Duration};

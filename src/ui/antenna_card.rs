@@ -5,6 +5,7 @@ mod faults;
 mod follow;
 mod header;
 mod holds;
+mod live;
 mod lock_out;
 mod lower;
 mod more;
@@ -46,6 +47,7 @@ pub use faults::FaultsModel;
 pub use follow::{FollowChoice, FollowModel};
 pub use header::{HeaderModel, LinkStatus};
 pub use holds::WayOutModel;
+pub use live::{LiveAntenna, LiveNow};
 pub use lock_out::LockOutModel;
 pub use more::MoreModel;
 use more::MoreState;
@@ -87,6 +89,8 @@ pub struct CardModel<'a> {
     pub offsets: Option<OffsetsModel<'a>>,
     /// Jogging and going to a direction.
     pub drive: DriveModel<'a>,
+    /// In a replay: the live station, in place of the controls for moving by hand.
+    pub live: Option<&'a LiveNow>,
     /// Readings that the unit reports about itself.
     pub readings: &'a [Reading],
     /// Checks of the unit; none for a unit without checks.
@@ -315,7 +319,10 @@ fn fill(
     let typed = state.drive.go_to.previewed();
     track::row(ui, &mut at, model.track.as_ref(), typed, &mut state.track, actions);
     at.skip(if short { 6.0 } else { 12.0 });
-    drive::show(ui, &mut at, &model.drive, &mut state.drive, actions, short);
+    match model.live {
+        Some(live) => live::show(ui, &mut at, live, short),
+        None => drive::show(ui, &mut at, &model.drive, &mut state.drive, actions, short),
+    }
 
     let below = rect.with_min_y(at.y);
     let foot = if state.goes_on_below { MORE_BELOW } else { 0.0 };

@@ -1,4 +1,4 @@
-//! The strip that marks the demo station, or a replay.
+//! The strip that marks the demo station or a replay, and says why a replay has ended.
 
 use egui::{Align2, Rect, Ui, pos2, vec2};
 
@@ -19,7 +19,11 @@ use crate::{
 pub const HEIGHT: f32 = 32.0;
 /// Height of the strip of `model`, in a window that is not low.
 pub fn height(model: &Model) -> f32 {
-    if model.replay.is_some() { replay::HEIGHT } else { HEIGHT }
+    if has_replay(model) { replay::HEIGHT } else { HEIGHT }
+}
+
+fn has_replay(model: &Model) -> bool {
+    model.replay.is_some() || model.replay_end().is_some()
 }
 
 /// Height of the strip in a low window, where its text is shorter and its button follows that: all
@@ -37,12 +41,12 @@ pub struct BannerRoom {
 impl BannerRoom {
     /// Whether the strip, or its room, is in the view of `model`.
     pub fn is_taken(&mut self, model: &Model) -> bool {
-        if model.demo || model.replay.is_some() {
+        if model.demo {
             self.kept_for = Some(model.view);
         } else if self.kept_for != Some(model.view) {
             self.kept_for = None;
         }
-        self.kept_for.is_some()
+        self.kept_for.is_some() || has_replay(model)
     }
 }
 
@@ -50,6 +54,9 @@ impl BannerRoom {
 pub fn show(ui: &mut Ui, rect: Rect, model: &Model, commands: &mut Vec<UiCommand>) {
     if let Some(replayed) = &model.replay {
         return replay::show(ui, rect, model, replayed, commands);
+    }
+    if let Some(why) = model.replay_end() {
+        return replay::show_end(ui, rect, why, model.now);
     }
     let t = theme::tokens(ui);
     let whole = rect.shrink2(vec2(PADDING, 0.0));

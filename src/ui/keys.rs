@@ -7,8 +7,15 @@ pub mod own;
 use egui::{Key, Modifiers, Ui};
 
 use super::{
-    confirm::Question, console::ConsoleState, elements::ElementsState, map::MapState,
-    operate::OperateState, plan::PlanState, preferences::PreferencesState, record::RecordState,
+    confirm::Question,
+    console::ConsoleState,
+    elements::ElementsState,
+    map::MapState,
+    operate::OperateState,
+    plan::PlanState,
+    preferences::PreferencesState,
+    record::RecordState,
+    replay::{LONG_STEP_S, STEP_S},
     widgets::menu,
 };
 use crate::{
@@ -97,7 +104,7 @@ const fn with(modifiers: Modifiers, binding: Binding) -> Binding {
 const CTRL_SHIFT: Modifiers = Modifiers::COMMAND.plus(Modifiers::SHIFT);
 
 /// All keys, in the order of the list. The app handles the key of STOP before anything else.
-pub const ALL: [Binding; 40] = [
+pub const ALL: [Binding; 42] = [
     row(
         KeyScope::Focus,
         &[(Key::Escape, Act::There)],
@@ -140,10 +147,11 @@ pub const ALL: [Binding; 40] = [
         &[
             (Key::ArrowUp, Act::RecordedPass(-1)),
             (Key::ArrowDown, Act::RecordedPass(1)),
+            (Key::Enter, Act::ReplayReport),
             (Key::C, Act::Correct),
             (Key::E, Act::ExportReport),
         ],
-        "previous, next pass; correct; export",
+        "previous, next pass; replay; correct; export",
     ),
     row(
         KeyScope::Replay,
@@ -154,6 +162,28 @@ pub const ALL: [Binding; 40] = [
             (Key::Q, Act::LeaveReplay),
         ],
         "play, previous event, next, leave",
+    ),
+    // They come before those of the views, which have the same keys.
+    with(
+        Modifiers::SHIFT,
+        row(
+            KeyScope::Replay,
+            &[
+                (Key::ArrowLeft, Act::ReplayBy(-LONG_STEP_S)),
+                (Key::ArrowRight, Act::ReplayBy(LONG_STEP_S)),
+            ],
+            "10 s back, 10 s on",
+        ),
+    ),
+    row(
+        KeyScope::Replay,
+        &[
+            (Key::ArrowLeft, Act::ReplayBy(-STEP_S)),
+            (Key::ArrowRight, Act::ReplayBy(STEP_S)),
+            (Key::Home, Act::ReplayFrom { end: false }),
+            (Key::End, Act::ReplayFrom { end: true }),
+        ],
+        "1 s back, 1 s on, beginning, end",
     ),
     row(KeyScope::Focus, &[(Key::Enter, Act::There)], "press the focused button"),
     row(KeyScope::Operate, &[(Key::N, Act::NextPass)], "the pass in progress or the next one"),

@@ -18,7 +18,7 @@ use egui::{Rect, Role, Sense, Ui, WidgetInfo};
 use jiff::Timestamp;
 
 use super::{
-    antenna_card::{self, CardState},
+    antenna_card::{self, CardState, LiveNow},
     banner,
     confirm::Question,
     pass_header,
@@ -57,6 +57,8 @@ pub struct OperateState {
     pub card: CardState,
     /// The strip of the demo station, or its room, is in the window.
     pub has_banner: bool,
+    /// In a replay: the live station.
+    pub live: Option<LiveNow>,
     /// The pass list lies over the plot, in a small window.
     pub drawer_open: bool,
     /// Number of hours in the timeline.
@@ -201,8 +203,10 @@ pub fn show(
         let places = std::iter::once(areas.card).chain(areas.side_cards.into_iter().flatten());
         let is_one_of_several = cards.len() > 1;
         for (place, (antenna, card)) in places.zip(cards) {
-            card::show(ui, place, model, antenna, &on_cards, card, question, commands);
-            if is_one_of_several && antenna.id() == selected.id() {
+            let is_selected = antenna.id() == selected.id();
+            let live = state.live.as_ref().filter(|_| is_selected);
+            card::show(ui, place, model, antenna, &on_cards, live, card, question, commands);
+            if is_one_of_several && is_selected {
                 let edge = place.with_max_y(place.top() + SELECTED_EDGE);
                 ui.painter().rect_filled(edge, 0.0, t.sat);
             }

@@ -1,10 +1,11 @@
 //! The strip over a replay: what is shown, and how it goes on.
 
-use egui::{
-    Align2, Color32, EventFilter, Key, Rect, Response, Role, Sense, Shape, Stroke, StrokeKind, Ui,
-    WidgetInfo, pos2, vec2,
-};
+mod scrubber;
+
+use egui::{Align2, Color32, Rect, Response, Role, Shape, Stroke, StrokeKind, Ui, pos2, vec2};
 use jiff::Timestamp;
+
+use self::scrubber::scrubber;
 
 use super::{
     format, text, theme,
@@ -17,7 +18,7 @@ use super::{
     words,
 };
 use crate::{
-    astro::time::{add_seconds, seconds_between},
+    astro::time::seconds_between,
     model::{
         Model, UiCommand,
         replay::{ReplayCommand, ReplayEnd, ReplayProblem, Replayed, SPEEDS},
@@ -25,8 +26,9 @@ use crate::{
 };
 
 pub const HEIGHT: f32 = 56.0;
-/// The reason why controls are locked.
-pub const LOCKED: &str = "Locked: leave the replay to command the station.";
+/// Steps of the arrows, seconds; the long one with Shift.
+pub const STEP_S: f64 = 1.0;
+pub const LONG_STEP_S: f64 = 10.0;
 /// The answer to a command.
 pub const REFUSED: &str = "Not done: this is a replay. Leave it first.";
 /// A replay takes nothing from STOP.
@@ -35,14 +37,16 @@ const STOP_IN_SHORT: &str = "STOP is live";
 /// Least width of the bar of the stretch, beside words.
 const LEAST_BAR: f32 = 80.0;
 
-/// In a strip of this width there is room for everything.
-const WIDE: f32 = 1200.0;
+/// In a strip of this width there is room for everything,
+const WIDE: f32 = 1360.0;
+/// and from this width on for the keys of passes.
+const PASS_KEYS_FROM: f32 = 720.0;
 const HATCHED: f32 = 72.0;
 const GAP: f32 = 8.0;
 const TAG: f32 = 76.0;
 const TIME: f32 = 104.0;
 const SMALL_TIME: f32 = 72.0;
-const ABOUT: f32 = 236.0;
+const ABOUT: f32 = 184.0;
 const KEY: f32 = 36.0;
 const SMALL_KEY: f32 = 26.0;
 const SPEEDS_WIDTH: f32 = 270.0;
@@ -50,14 +54,36 @@ const SPEED: f32 = 52.0;
 /// Thickness of the frame around a replay.
 const FRAME: f32 = 3.0;
 
+/// The reason why the controls of an antenna are locked.
+pub fn locked(antenna: &str) -> String {
+    format!("Replay. Leave it to command {antenna}.")
+}
+
+/// Whether the keys of a replay work: no control has the focus that takes some of them itself.
+pub fn takes_keys(ui: &Ui) -> bool {
+    ui.memory(egui::Memory::focused).is_none_or(|focused| focused == scrubber::id())
+}
+
+/// Shows in place of the strip why a replay has ended by itself.
+pub fn show_end(ui: &Ui, rect: Rect, why: &ReplayEnd, now: Timestamp) {
+    let t = theme::tokens(ui);
+    ui.painter().rect_filled(rect, 0.0, t.warnbg);
+    ui.painter().hline(rect.x_range(), rect.top() + 0.5, (1.0, t.warn));
+    let words = ended(why, now);
+    let room = rect.shrink2(vec2(2.0 * GAP, 0.0));
+    let font = if rect.height() >= HEIGHT { text::value() } else { text::body_medium() };
+    paint::text_in(ui, room, Align2::LEFT_CENTER, &words, font, t.warn);
+    paint::name_text(ui, "end of the replay", room, &words);
+}
+
 /// Why a replay ended by itself, in a sentence.
-pub fn ended(why: &ReplayEnd, now: Timestamp) -> String {
+fn ended(why: &ReplayEnd, now: Timestamp) -> String {
     match why {
         ReplayEnd::Stop => "Replay ended: STOP was pressed.".to_owned(),
         ReplayEnd::Alarm => "Replay ended: there is a top-priority alarm.".to_owned(),
         ReplayEnd::Pass { name, from } => {
             let name = if name.is_empty() { "a satellite" } else { name };
-            format!("Replay ended: {name} is tracked from {}.", format::moment(*from, now))
+            format!("Replay ended: {name} rises in {}.", format::time_left(now, *from))
         }
     }
 }
@@ -109,21 +135,24 @@ pub fn show(
         let left = Align2::LEFT_CENTER;
         let of = format!("{}, {}", format::date(replay.at), replay.stretch.name);
         paint::text_in(ui, line(-9.0), left, &of, text::small(), t.t1);
-        let said = problem(replay).unwrap_or_else(|| STOP_WORKS.to_owned());
+        let said = news(replay).unwrap_or_else(|| STOP_WORKS.to_owned());
         paint::text_in(ui, line(9.0), left, &said, text::small(), t.warn);
-        paint::name_text(ui, "about the replay", line(9.0), &said).on_hover_text(&said);
+        let whole = whole_news(replay).unwrap_or(said);
+        paint::name_text(ui, "about the replay", line(9.0), &whole).on_hover_text(&whole);
     }
     let key = if is_high { KEY } else { SMALL_KEY };
-    transport(ui, &mut || place(key), replay, commands);
+    let has_pass_keys = rect.width() >= PASS_KEYS_FROM;
+    transport(ui, &mut || place(key), has_pass_keys, replay, commands);
     speeds(ui, &mut place, is_wide, replay, commands);
     let leave = Button::normal(if is_high { "Leave replay (Q)" } else { "Leave (Q)" });
     let size = vec2(leave.width(ui), height);
     let min = pos2(rect.right() - 2.0 * GAP - size.x, rect.center().y - height / 2.0);
     let at = Rect::from_min_size(min, size);
     let rest = rect.with_min_x(left + GAP).with_max_x(at.left() - 2.0 * GAP);
-    if let Some(said) = problem(replay).filter(|_| !is_wide) {
+    if let Some(said) = news(replay).filter(|_| !is_wide) {
         paint::text_in(ui, rest, Align2::LEFT_CENTER, &said, text::small(), t.warn);
-        paint::name_text(ui, "about the replay", rest, &said).on_hover_text(&said);
+        let whole = whole_news(replay).unwrap_or(said);
+        paint::name_text(ui, "about the replay", rest, &whole).on_hover_text(&whole);
     } else {
         let bar = if is_wide { rest } else { after_stop_works(ui, rest) };
         scrubber(ui, bar, replay, commands);
@@ -158,7 +187,7 @@ pub fn frame(ui: &Ui, rect: Rect) {
 fn about(replay: &Replayed, now: Timestamp) -> String {
     let speed = in_words(replay.speed);
     let goes = if replay.plays { format!("plays at {speed}") } else { "stands".to_owned() };
-    let said = problem(replay).unwrap_or_else(|| STOP_WORKS.to_owned());
+    let said = news(replay).unwrap_or_else(|| STOP_WORKS.to_owned());
     format!("{} of {}, {goes}. {said}", format::moment(replay.at, now), replay.stretch.name)
 }
 
@@ -166,11 +195,28 @@ fn in_words(speed: i32) -> String {
     format!("{speed}×")
 }
 
-fn problem(replay: &Replayed) -> Option<String> {
-    Some(match replay.problem.as_ref()? {
+/// Why the moment is not shown, or how much was passed over on the way to it.
+fn news(replay: &Replayed) -> Option<String> {
+    let skipped = replay.skipped.map(|(from, until)| {
+        format!("Skipped {}: no film.", format::age(seconds_between(from, until)))
+    });
+    let Some(problem) = &replay.problem else { return skipped };
+    Some(match problem {
         ReplayProblem::NothingYet => "Nothing was recorded at this moment.".to_owned(),
         ReplayProblem::Failed(why) => format!("Not shown. {}", words::sentence(why)),
     })
+}
+
+/// The whole of the news, for whoever points at it.
+fn whole_news(replay: &Replayed) -> Option<String> {
+    let skipped = replay.skipped.filter(|_| replay.problem.is_none());
+    let told = skipped.map(|(from, until)| {
+        let stretch = format::stretch(from, until, replay.at);
+        format!(
+            "There is no film of {stretch}: Azel did not run, or what it showed is not kept any more."
+        )
+    });
+    told.or_else(|| news(replay))
 }
 
 fn hatch(ui: &Ui, rect: Rect, t: &Tokens) {
@@ -183,20 +229,20 @@ fn hatch(ui: &Ui, rect: Rect, t: &Tokens) {
     }
 }
 
-/// The event before, backward, forward, the event after.
+/// The pass before and the event before, backward, forward, the event after and the pass after.
 fn transport(
     ui: &Ui,
     place: &mut dyn FnMut() -> Rect,
+    has_pass_keys: bool,
     replay: &Replayed,
     commands: &mut Vec<UiCommand>,
 ) {
     let t = theme::tokens(ui);
-    let event = |is_next| UiCommand::Replay(ReplayCommand::Event { is_next });
-    let at = place();
-    if key(ui, "event before", at, "Previous event (comma)", false).clicked() {
-        commands.push(event(false));
+    if has_pass_keys {
+        jump(ui, place(), "Previous pass", ReplayCommand::Pass { is_next: false }, commands);
     }
-    triangle(ui, at, -1.0, true, t.t1);
+    let before = ReplayCommand::Event { is_next: false };
+    jump(ui, place(), "Previous event (comma)", before, commands);
     for (sign, salt) in [(-1, "play backward"), (1, "play forward")] {
         let at = place();
         let goes = replay.plays && replay.speed.signum() == sign;
@@ -222,11 +268,30 @@ fn transport(
             triangle(ui, at, sign as f32, false, t.t1);
         }
     }
-    let at = place();
-    if key(ui, "event after", at, "Next event (full stop)", false).clicked() {
-        commands.push(event(true));
+    let after = ReplayCommand::Event { is_next: true };
+    jump(ui, place(), "Next event (full stop)", after, commands);
+    if has_pass_keys {
+        jump(ui, place(), "Next pass", ReplayCommand::Pass { is_next: true }, commands);
     }
-    triangle(ui, at, 1.0, true, t.t1);
+}
+
+/// A key that goes to an event, or to a pass.
+fn jump(ui: &Ui, at: Rect, name: &str, command: ReplayCommand, commands: &mut Vec<UiCommand>) {
+    let t = theme::tokens(ui);
+    let clicked = key(ui, name, at, name, false).clicked();
+    let (triangles, is_next): (&[f32], bool) = match command {
+        ReplayCommand::Pass { is_next } => (&[-5.0, 4.0], is_next),
+        ReplayCommand::Event { is_next } => (&[0.0], is_next),
+        _ => return,
+    };
+    let towards = if is_next { 1.0 } else { -1.0 };
+    for (place, aside) in triangles.iter().enumerate() {
+        let at = at.translate(vec2(aside * towards, 0.0));
+        triangle(ui, at, towards, place + 1 == triangles.len(), t.t1);
+    }
+    if clicked {
+        commands.push(UiCommand::Replay(command));
+    }
 }
 
 fn key(ui: &Ui, salt: &str, rect: Rect, name: &str, is_on: bool) -> Response {
@@ -283,54 +348,4 @@ fn speeds(
     if let Some(speed) = chosen.and_then(|of| SPEEDS.get(of)) {
         commands.push(UiCommand::Replay(ReplayCommand::Speed(sign * speed)));
     }
-}
-
-/// The stretch as a bar, with the moment that is shown.
-fn scrubber(ui: &Ui, rect: Rect, replay: &Replayed, commands: &mut Vec<UiCommand>) {
-    if rect.width() < 40.0 {
-        return;
-    }
-    let t = theme::tokens(ui);
-    let (from, until) = (replay.stretch.from, replay.stretch.until);
-    let whole_s = seconds_between(from, until).max(1.0);
-    let is_high = rect.height() >= HEIGHT;
-    let y = rect.center().y + if is_high { 6.0 } else { 0.0 };
-    let bar = Rect::from_x_y_ranges(rect.x_range(), y - 4.0..=y + 4.0);
-    let id = ui.make_persistent_id("replay moment");
-    let response = ui.interact(bar.expand2(vec2(0.0, 8.0)), id, Sense::click_and_drag());
-    let words = format!("Moment of the replay, {}", format::moment(replay.at, replay.at));
-    response.widget_info(|| WidgetInfo::labeled(Role::Slider, true, &words));
-    let mut wanted = response.interact_pointer_pos().map(|at| {
-        let share = f64::from((at.x - bar.left()) / bar.width()).clamp(0.0, 1.0);
-        add_seconds(from, share * whole_s)
-    });
-    if response.has_focus() {
-        wanted = wanted.or(ui.input(|input| {
-            let step = if input.modifiers.shift { 10.0 } else { 1.0 };
-            let by_s = match () {
-                () if input.key_pressed(Key::ArrowLeft) => -step,
-                () if input.key_pressed(Key::ArrowRight) => step,
-                () => return None,
-            };
-            Some(add_seconds(replay.at, by_s))
-        }));
-        let filter = EventFilter { horizontal_arrows: true, ..EventFilter::default() };
-        ui.memory_mut(|memory| memory.set_focus_lock_filter(id, filter));
-    }
-    commands.extend(wanted.map(|at| UiCommand::Replay(ReplayCommand::To(at))));
-    let share = (seconds_between(from, replay.at) / whole_s).clamp(0.0, 1.0) as f32;
-    let x = bar.left() + share * bar.width();
-    ui.painter().rect(bar, 0.0, t.bg0, (1.0, t.edge), StrokeKind::Inside);
-    ui.painter().rect_filled(bar.with_max_x(x), 0.0, t.warn);
-    let handle = Rect::from_center_size(pos2(x, y), vec2(6.0, 22.0));
-    ui.painter().rect_filled(handle, 1.0, t.ant);
-    if is_high {
-        let line = Rect::from_x_y_ranges(rect.x_range(), rect.top() + 4.0..=rect.top() + 22.0);
-        let (font, colour) = (text::caption(), t.t2);
-        paint::text_in(ui, line, Align2::LEFT_CENTER, &format::clock(from), font.clone(), colour);
-        if rect.width() > 140.0 {
-            paint::text_in(ui, line, Align2::RIGHT_CENTER, &format::clock(until), font, colour);
-        }
-    }
-    paint::focus_ring(ui, &response, 2);
 }

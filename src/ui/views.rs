@@ -6,6 +6,7 @@ use egui::{Rect, Ui, UiBuilder, pos2};
 use jiff::Timestamp;
 
 use super::{
+    antenna_card::LiveNow,
     antennas,
     banner::{self, BannerRoom},
     bar,
@@ -35,7 +36,7 @@ use crate::{
     desktop::file_dialog::NoDialog,
     driver::Command,
     engine::{self, closing::CloseHow},
-    model::{MaskNews, Model, UiCommand, View, export::SavedFile, replay::ReplayEnd},
+    model::{MaskNews, Model, UiCommand, View, export::SavedFile},
 };
 
 /// Input, open parts and folds of all views.
@@ -163,6 +164,7 @@ impl Views {
         let is_low = window.height() < top_bar::SMALL_BELOW;
         let has_banner = self.banner.is_taken(model);
         self.operate.has_banner = has_banner;
+        self.operate.live = model.replay.as_ref().map(|_| LiveNow::of(live));
         if has_banner && !is_low {
             let strip = body.with_max_y(body.top() + banner::height(model));
             banner::show(ui, strip, model, commands);
@@ -301,11 +303,6 @@ impl Views {
         };
         let asked = self.question.take_if(|question| acts(&question.command)).is_some();
         commands.extract_if(before.., |command| acts(command)).count() > 0 || asked
-    }
-
-    /// Tells why a replay ended.
-    pub fn replay_ended(&mut self, why: &ReplayEnd, now: Timestamp) {
-        self.notes.news = Some(Err(replay::ended(why, now)));
     }
 
     /// Asks before the window closes or changes to another station if something would be lost with

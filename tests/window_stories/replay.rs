@@ -1,5 +1,7 @@
 //! The record shown again.
 
+use std::{sync::Arc, time::Duration};
+
 use azel::{
     app::App,
     astro::{Angle, time::add_seconds},
@@ -8,8 +10,9 @@ use azel::{
     engine::{Command, Settings},
     model::{
         Model, UiCommand, View,
-        replay::{ReplayCommand, Replayed, Stretch},
+        replay::{EndedReplay, ReplayCommand, ReplayEnd, Replayed, Stretch, StretchPass},
     },
+    record::PassMarks,
     station,
 };
 use egui::{Key, Modifiers, Role};
@@ -32,12 +35,25 @@ pub(crate) fn model() -> Model {
     let at = model.now;
     let stretch = Stretch {
         name: "NOAA 20".to_owned(),
-        satellite: Some(NOAA_20),
+        pass: Some(StretchPass { id: 7, satellite: NOAA_20 }),
         from: add_seconds(at, -300.0),
         until: add_seconds(at, 600.0),
     };
-    model.replay = Some(Replayed { stretch, at, speed: 10, plays: true, problem: None });
+    let marks = vec![marks(&model, "NOAA 20", -200.0)];
+    model.replay = Some(Replayed { speed: 10, marks, ..Replayed::begin(stretch, at) });
     model
+}
+
+/// A pass of ten minutes that begins so long after the moment that is shown.
+fn marks(model: &Model, name: &str, begins_s: f64) -> PassMarks {
+    let at = |second: f64| add_seconds(model.now, begins_s + second);
+    PassMarks {
+        name: name.to_owned(),
+        aos: at(0.0),
+        tca: Some(at(290.0)),
+        los: at(600.0),
+        lost: vec![(at(100.0), at(130.0)), (at(500.0), at(501.0))],
+    }
 }
 
 fn replayed(command: ReplayCommand) -> UiCommand {
@@ -75,6 +91,13 @@ fn a_replay_is_marked_in_every_view_and_its_strip_plays_it() {
             let event = |is_next| replayed(ReplayCommand::Event { is_next });
             assert_eq!(click(&mut window, "Previous event (comma)"), [event(false)]);
             assert_eq!(click(&mut window, "Next event (full stop)"), [event(true)]);
+            // Operate leaves the strip of a small window too little room.
+            if size != SMALL || view != View::Operate {
+                let pass = |is_next| replayed(ReplayCommand::Pass { is_next });
+                assert_eq!(click(&mut window, "Previous pass"), [pass(false)]);
+                assert_eq!(click(&mut window, "Next pass"), [pass(true)]);
+            }
+            window.get_by_label("NOAA 20: AOS 11:12:10Z, TCA 11:17:00Z, LOS 11:22:10Z, 0:31 lost");
             let pause = [replayed(ReplayCommand::PlayOrPause)];
             assert_eq!(click(&mut window, "Pause (Space)"), pause);
             let back = [replayed(ReplayCommand::Speed(-10))];
@@ -93,7 +116,8 @@ fn stop_is_there_and_all_that_would_act_is_locked_or_refused() {
             let node = window.get_by_role_and_label(Role::RadioButton, mode);
             assert!(node.accesskit_node().is_disabled(), "{mode}");
         }
-        window.get_by_label_contains("Locked: leave the replay to command the station.");
+        let locked = format!("Replay. Leave it to command {}.", rig_name(&window));
+        window.get_by_label(&locked);
         let auto_track = window.get_by_role_and_label(Role::Button, "Auto-track: switch on");
         assert!(auto_track.accesskit_node().is_disabled());
         let refused = "Not done: this is a replay. Leave it first.";
@@ -114,6 +138,115 @@ fn stop_is_there_and_all_that_would_act_is_locked_or_refused() {
     }
 }
 
+fn rig_name(window: &Window) -> String {
+    window.state().model.antenna().unwrap().config.name.clone()
+}
+
+#[test]
+fn the_card_says_what_the_live_antenna_does_meanwhile() {
+    for size in SIZES {
+        let mut model = model();
+        let replied = model.steady;
+        model.steady += Duration::from_millis(400);
+        Arc::make_mut(&mut model.antennas[0].snapshot).state.traffic.last_reply = Some(replied);
+        let window = rig::window(size, model);
+        let name = rig_name(&window);
+        window.get_by_label("Live now, not recorded");
+        let line = format!("{name}: Holding at ");
+        window.get_by_label_contains(&line);
+        window.get_by_label("Next: no pass is planned");
+        assert!(window.query_by_label_contains("Jog ").is_none(), "nothing moves by hand");
+        let texts = painted::texts(&window);
+        assert!(texts.iter().any(|words| words == "LIVE"), "{texts:?}");
+        let has_age = |of: &String| of.starts_with("Holding at ") && of.ends_with(" s ago");
+        assert!(texts.iter().any(has_age), "{texts:?}");
+        nothing_is_cut(&window, size);
+        nothing_overlaps(&window);
+    }
+}
+
+#[test]
+fn several_passes_are_named_below_the_bar_and_one_has_its_events() {
+    let mut window = rig::window(rig::LARGE, model());
+    let has = |window: &Window, words: &str| painted::texts(window).iter().any(|of| of == words);
+    for words in ["AOS", "TCA", "LOS"] {
+        assert!(has(&window, words), "{words}");
+    }
+    let model = &mut window.state_mut().model;
+    let second = marks(model, "METOP-B", 400.0);
+    model.replay.as_mut().unwrap().marks.push(second);
+    settle(&mut window);
+    assert!(has(&window, "METOP-B") && !has(&window, "TCA"));
+}
+
+#[test]
+fn a_jump_over_what_was_not_filmed_is_told() {
+    for size in SIZES {
+        let mut model = model();
+        let at = model.now;
+        let skipped = (add_seconds(at, -86_400.0), add_seconds(at, -60.0));
+        model.replay.as_mut().unwrap().skipped = Some(skipped);
+        model.view = View::Plan;
+        let window = rig::window(size, model);
+        let whole = "There is no film of 11 Aug 11:15:30Z to 12 Aug 11:14:30Z: ";
+        window.get_by_label_contains(whole);
+        let texts = painted::texts(&window);
+        assert!(texts.iter().any(|of| of == "Skipped 23 h 59 min: no film."), "{texts:?}");
+    }
+}
+
+#[test]
+fn why_a_replay_has_ended_is_told_for_ten_seconds() {
+    for size in SIZES {
+        for view in [View::Operate, View::Plan] {
+            let mut model = rig::model(states::holding());
+            model.view = view;
+            model.refresh_sky();
+            let from = add_seconds(model.now, 119.0);
+            let why = ReplayEnd::Pass { name: "METOP-B".to_owned(), from };
+            let until = model.steady + Duration::from_secs(10);
+            model.ended_replay = Some(EndedReplay { why, until });
+            let mut window = rig::window(size, model);
+            window.get_by_label("Replay ended: METOP-B rises in 1:59.");
+            let model = &mut window.state_mut().model;
+            model.ended_replay.as_mut().unwrap().until = model.steady;
+            settle(&mut window);
+            assert!(window.query_by_label_contains("Replay ended").is_none());
+            assert!(window.query_by_label_contains("The demo has ended").is_none());
+        }
+    }
+}
+
+#[test]
+fn the_keys_of_a_replay_come_before_those_of_the_view() {
+    for view in [View::Operate, View::Plan, View::Map, View::Record] {
+        let mut shown = model();
+        shown.view = view;
+        shown.refresh_sky();
+        let mut window = rig::window(rig::LARGE, shown);
+        let at = window.state().model.now;
+        let stretch = window.state().model.replay.as_ref().unwrap().stretch.clone();
+        let _ = asked(&mut window);
+        let by = |by_s| replayed(ReplayCommand::To(add_seconds(at, by_s)));
+        let keys = [
+            (Modifiers::NONE, Key::ArrowLeft, by(-1.0)),
+            (Modifiers::NONE, Key::ArrowRight, by(1.0)),
+            (Modifiers::SHIFT, Key::ArrowLeft, by(-10.0)),
+            (Modifiers::SHIFT, Key::ArrowRight, by(10.0)),
+            (Modifiers::NONE, Key::Home, replayed(ReplayCommand::To(stretch.from))),
+            (Modifiers::NONE, Key::End, replayed(ReplayCommand::To(stretch.until))),
+            (Modifiers::NONE, Key::Space, replayed(ReplayCommand::PlayOrPause)),
+            (Modifiers::NONE, Key::Comma, replayed(ReplayCommand::Event { is_next: false })),
+            (Modifiers::NONE, Key::Period, replayed(ReplayCommand::Event { is_next: true })),
+            (Modifiers::NONE, Key::Q, replayed(ReplayCommand::Leave)),
+        ];
+        for (modifiers, key, command) in keys {
+            window.key_press_modifiers(modifiers, key);
+            assert_eq!(asked(&mut window), [command], "{view:?} {key:?}");
+        }
+    }
+}
+
 #[test]
 fn the_moment_is_moved_by_the_bar_and_the_keys() {
     for size in SIZES {
@@ -129,6 +262,10 @@ fn the_moment_is_moved_by_the_bar_and_the_keys() {
         assert_eq!(asked(&mut window), [to(1.0)]);
         window.key_press_modifiers(Modifiers::SHIFT, Key::ArrowLeft);
         assert_eq!(asked(&mut window), [to(-10.0)]);
+        window.key_press(Key::Home);
+        assert_eq!(asked(&mut window), [to(-300.0)]);
+        window.key_press(Key::End);
+        assert_eq!(asked(&mut window), [to(600.0)]);
         window.drag_at(rect.left_center());
         window.drop_at(rect.left_center());
         assert!(asked(&mut window).contains(&to(-300.0)));

@@ -12,7 +12,8 @@ use crate::{
         film::Projector,
         recorded::{RecordLook, Recorded},
     },
-    record::FilmError,
+    model::replay::Stretch,
+    record::{self, Beside, FilmError, PassMarks},
     station::AntennaId,
 };
 
@@ -25,6 +26,11 @@ pub(super) enum Wanted {
         from: Timestamp,
         is_next: bool,
     },
+    /// The beginning of the next pass, or of the one before.
+    Pass {
+        of: Beside,
+        is_next: bool,
+    },
 }
 
 /// A projector for the record at `path`.
@@ -34,12 +40,32 @@ pub(super) struct Room {
     projector: Option<Projector>,
 }
 
+/// What is asked for.
+#[derive(Default)]
+pub(super) struct Asked {
+    pub(super) wanted: Option<Wanted>,
+    pub(super) look: Option<RecordLook>,
+    /// The stretch whose passes are to be marked.
+    pub(super) unmarked: Option<Stretch>,
+}
+
 /// What was found.
+#[derive(Default)]
 pub(super) struct Answer {
-    /// The moment that was found; `None` where there is no further event.
-    pub(super) at: Option<Timestamp>,
-    pub(super) scene: Result<Option<Scene>, FilmError>,
+    /// The moment that was found; `None` where there is no further event or pass.
+    pub(super) found: Option<Found>,
     pub(super) recorded: Option<Recorded>,
+    pub(super) marks: Option<(Stretch, Vec<PassMarks>)>,
+}
+
+/// A moment.
+pub(super) struct Found {
+    pub(super) at: Timestamp,
+    /// The stretch that is shown from then on, where that is another one.
+    pub(super) stretch: Option<Stretch>,
+    /// What was passed over, because there is no film of it.
+    pub(super) skipped: Option<(Timestamp, Timestamp)>,
+    pub(super) scene: Result<Option<Scene>, FilmError>,
 }
 
 /// What the station showed, and the lines on its links.
@@ -53,24 +79,29 @@ impl Room {
         Self { path, projector: None }
     }
 
-    pub(super) fn answer(
-        &mut self,
-        wanted: Option<Wanted>,
-        look: Option<RecordLook>,
-        site: Site,
-    ) -> Answer {
-        let recorded = look.map(|look| Recorded::read(&self.path, look, site));
-        let found = wanted.map_or(Ok(None), |wanted| self.find(wanted));
-        match found {
-            Ok(None) => Answer { at: None, scene: Ok(None), recorded },
-            Ok(Some(at)) => Answer { at: Some(at), scene: self.scene(at), recorded },
-            Err(error) => {
-                let at = wanted.map(|wanted| match wanted {
-                    Wanted::At(at) | Wanted::Event { from: at, .. } => at,
-                });
-                Answer { at, scene: Err(error), recorded }
-            }
+    pub(super) fn answer(&mut self, asked: Asked, site: Site) -> Answer {
+        let Asked { wanted, look, unmarked } = asked;
+        Answer {
+            recorded: look.map(|look| Recorded::read(&self.path, look, site)),
+            found: wanted.and_then(|wanted| self.find(wanted)),
+            marks: unmarked.map(|stretch| {
+                let marks = self.marks(&stretch, site);
+                (stretch, marks)
+            }),
         }
+    }
+
+    /// The passes of a stretch. Without them it can be shown as well.
+    fn marks(&self, stretch: &Stretch, site: Site) -> Vec<PassMarks> {
+        let marks = match stretch.pass {
+            Some(pass) => record::marks_of_pass(&self.path, pass.id, site)
+                .map(|marks| marks.into_iter().collect()),
+            None => record::marks_between(&self.path, stretch.from, stretch.until, site),
+        };
+        marks.unwrap_or_else(|error| {
+            tracing::warn!(%error, "the passes of a replay are not marked");
+            Vec::new()
+        })
     }
 
     fn projector(&mut self) -> Result<&mut Projector, FilmError> {
@@ -81,17 +112,46 @@ impl Room {
         Ok(self.projector.insert(projector))
     }
 
-    fn find(&mut self, wanted: Wanted) -> Result<Option<Timestamp>, FilmError> {
-        match wanted {
-            Wanted::At(at) => Ok(Some(at)),
+    fn find(&mut self, wanted: Wanted) -> Option<Found> {
+        let (stretch, moment) = match wanted {
+            Wanted::At(at) => (None, Ok(Some((at, None)))),
             Wanted::Event { from, is_next } => {
-                let film = self.projector()?.film();
-                let Some(event) = film.event(from, is_next)? else { return Ok(None) };
-                let shown = film.shown_from(event)?;
-                // The picture that shows an event shows the ones shortly before it as well.
-                Ok(Some(if is_next || shown < from { shown } else { event }))
+                let moment = self.event(from, is_next);
+                // Where the film cannot be read, it stands still and says so.
+                (None, moment.map_err(|error| (from, error)))
             }
-        }
+            Wanted::Pass { of, is_next } => {
+                let pass = record::neighbour(&self.path, of, is_next);
+                let pass = pass.inspect_err(|error| {
+                    tracing::warn!(%error, "the passes of the record cannot be read");
+                });
+                let stretch = Stretch::of(&pass.ok()??);
+                let from = stretch.from;
+                (Some(stretch), Ok(Some((from, None))))
+            }
+        };
+        Some(match moment {
+            Ok(moment) => {
+                let (at, skipped) = moment?;
+                Found { at, stretch, skipped, scene: self.scene(at) }
+            }
+            Err((at, error)) => Found { at, stretch, skipped: None, scene: Err(error) },
+        })
+    }
+
+    /// The moment of the next event, or of the one before, and what was passed over on the way.
+    fn event(
+        &mut self,
+        from: Timestamp,
+        is_next: bool,
+    ) -> Result<Option<(Timestamp, Option<(Timestamp, Timestamp)>)>, FilmError> {
+        let film = self.projector()?.film();
+        let Some(event) = film.event(from, is_next)? else { return Ok(None) };
+        let shown = film.shown_from(event)?;
+        // The picture that shows an event shows the ones shortly before it as well.
+        let at = if is_next || shown < from { shown } else { event };
+        let skipped = film.hole(from.min(at), from.max(at))?;
+        Ok(Some((at, skipped)))
     }
 
     fn scene(&mut self, at: Timestamp) -> Result<Option<Scene>, FilmError> {

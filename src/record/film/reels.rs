@@ -182,6 +182,30 @@ impl Film {
         Ok(next.and_then(|us| Timestamp::from_microsecond(us + 1).ok()).unwrap_or(at))
     }
 
+    /// The last stretch between two moments of which there is no film: the program did not run, or the
+    /// film of that run is not kept any more.
+    pub fn hole(
+        &self,
+        from: Timestamp,
+        until: Timestamp,
+    ) -> Result<Option<(Timestamp, Timestamp)>, FilmError> {
+        let us = |sql: &str, at: i64| -> Result<Option<i64>, FilmError> {
+            Ok(self.db.prepare_cached(sql)?.query_row([at], |row| row.get(0)).optional()?)
+        };
+        let last_run = "SELECT run FROM reel WHERE from_us <= ?1 ORDER BY from_us DESC LIMIT 1";
+        let Some(run) = us(last_run, until.as_microsecond())? else { return Ok(None) };
+        let begin = "SELECT from_us FROM reel WHERE run = ?1 ORDER BY number, piece LIMIT 1";
+        let Some(begin) = us(begin, run)?.filter(|begin| *begin > from.as_microsecond()) else {
+            return Ok(None);
+        };
+        let end = "SELECT until_us FROM reel WHERE from_us < ?1 ORDER BY from_us DESC, piece DESC \
+                   LIMIT 1";
+        let end =
+            us(end, begin)?.map_or(from.as_microsecond(), |end| end.max(from.as_microsecond()));
+        let time = |us| Timestamp::from_microsecond(us).ok();
+        Ok(time(end).zip(time(begin)))
+    }
+
     /// The lines on the link of an antenna after `from`, up to `until`, oldest first.
     pub fn lines(
         &self,

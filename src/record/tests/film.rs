@@ -84,6 +84,23 @@ fn every_moment_is_shown_again_whichever_way_it_is_come_by() {
 }
 
 #[test]
+fn a_hole_in_the_film_is_told() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("record.sqlite");
+    let part = Arc::new(String::new());
+    film(&path, 0..200, &part);
+    film(&path, 300..420, &part);
+    let film = Film::open(&path).unwrap();
+    let hole = |from: f64, until: f64| film.hole(at(from), at(until)).unwrap();
+    assert_eq!(hole(100.0, 310.0), Some((at(199.0), at(300.0))));
+    assert_eq!(hole(250.0, 310.0), Some((at(250.0), at(300.0))));
+    assert_eq!(hole(100.0, 250.0), None, "it stands there");
+    assert_eq!(hole(20.0, 190.0), None);
+    assert_eq!(hole(305.0, 419.0), None);
+    assert_eq!(hole(-50.0, 5.0), Some((at(-50.0), at(0.0))), "nothing is kept from before");
+}
+
+#[test]
 fn the_film_goes_on_while_it_is_read() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("record.sqlite");

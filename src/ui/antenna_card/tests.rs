@@ -126,6 +126,7 @@ fn model() -> CardModel<'static> {
         asks_unseen: None,
         way_out: None,
         offer: None,
+        live: None,
         others: &[],
     }
 }

@@ -1,20 +1,21 @@
 //! The effects of keys.
 
 use egui::{FocusDirection, Ui};
+use jiff::Timestamp;
 
 use super::KeyTargets;
 use crate::{
-    astro::{Offset, TrackOffsets},
+    astro::{Offset, TrackOffsets, time::add_seconds},
     driver::{self, Intent, OffsetChange},
     engine::{self, antenna::AntennaModel, passes::PredictedPass},
     model::{
         Model, UiCommand, View,
         export::{Export, ReportFormat},
         globe::Towards,
-        replay::ReplayCommand,
+        replay::{ReplayCommand, Replayed},
     },
     station::Take,
-    ui::{antenna_card::OffsetStep, elements, operate::LONG_STEP_S, second_step, theme},
+    ui::{antenna_card::OffsetStep, elements, operate::LONG_STEP_S, replay, second_step, theme},
 };
 
 /// Effect of a key.
@@ -54,12 +55,20 @@ pub(super) enum Act {
     RecordedPass(isize),
     /// Takes over what would correct the best explanation of the report.
     Correct,
+    /// Shows the pass of the report again.
+    ReplayReport,
     /// Saves the page of the report.
     ExportReport,
     PlayOrPause,
     /// Stands at the recorded event before or after.
     RecordedEvent {
         is_next: bool,
+    },
+    /// Moves a replay on by so many seconds.
+    ReplayBy(f64),
+    /// Goes to the beginning of what is replayed, or to its end.
+    ReplayFrom {
+        end: bool,
     },
     LeaveReplay,
     /// Chooses the selected pass for the schedule, or against it.
@@ -108,8 +117,11 @@ impl Act {
                 let plain = ui.input(|input| input.modifiers.is_none());
                 plain && ui.memory(|memory| memory.focused().is_none())
             }
+            Self::PlayOrPause | Self::ReplayBy(_) | Self::ReplayFrom { .. } => {
+                replay::takes_keys(ui)
+            }
             // A button with the focus takes it.
-            Self::PlayOrPause => ui.memory(|memory| memory.focused().is_none()),
+            Self::ReplayReport => ui.memory(|memory| memory.focused().is_none()),
             Self::Search => {
                 !matches!(model.view, View::Antennas | View::Map | View::Plan | View::Setup)
             }
@@ -138,12 +150,23 @@ impl Act {
             Self::RecordedEvent { is_next } => {
                 commands.push(UiCommand::Replay(ReplayCommand::Event { is_next }));
             }
+            Self::ReplayBy(seconds) => {
+                let to = |replay: &Replayed| add_seconds(replay.at, seconds);
+                commands.extend(go_to_moment(model, to));
+            }
+            Self::ReplayFrom { end } => {
+                let to = |Replayed { stretch, .. }: &Replayed| {
+                    if end { stretch.until } else { stretch.from }
+                };
+                commands.extend(go_to_moment(model, to));
+            }
             Self::LeaveReplay => commands.push(UiCommand::Replay(ReplayCommand::Leave)),
             Self::Correct => targets.record.correct(model),
             Self::ExportReport => {
                 let format = ReportFormat::Svg;
                 commands.push(UiCommand::Save(Export::Report { format }));
             }
+            Self::ReplayReport => commands.extend(targets.record.replay(model)),
             Self::RecordedPass(down) => targets.record.step(model, down),
             Self::NextPass => {
                 commands.extend(model.next_pass().map(|next| UiCommand::SelectPass(next.key())));
@@ -225,6 +248,10 @@ impl Act {
             Self::List => *targets.list_open = true,
         }
     }
+}
+
+fn go_to_moment(model: &Model, moment: impl Fn(&Replayed) -> Timestamp) -> Option<UiCommand> {
+    model.replay.as_ref().map(|replay| UiCommand::Replay(ReplayCommand::To(moment(replay))))
 }
 
 /// A key for the offsets of a track.

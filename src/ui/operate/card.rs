@@ -2,6 +2,7 @@
 
 mod asked;
 mod axes;
+mod live;
 mod locks;
 mod offsets;
 
@@ -12,7 +13,7 @@ use self::{asked::CardHandler, offsets::CardOffsets};
 use super::{
     antenna_card::{
         self, CardAction, CardModel, CardState, DriveModel, FaultsModel, FollowModel, HeaderModel,
-        LinkStatus, LockOutModel, MoreModel, Offer, OtherAntenna, TrackModel, WayOutModel,
+        LinkStatus, LiveNow, LockOutModel, MoreModel, Offer, OtherAntenna, TrackModel, WayOutModel,
     },
     passes,
 };
@@ -29,6 +30,7 @@ use crate::{
         dialogs::MaintenanceDialog,
         format,
         plan::switches,
+        replay,
         state_sentence::{short, state_sentence},
         text, theme,
         widgets::{
@@ -44,7 +46,8 @@ use crate::{
     },
 };
 
-/// Draws the card of `antenna`; `on_cards` are all antennas with a card.
+/// Draws the card of `antenna`; `on_cards` are all antennas with a card, `live` is what the card says
+/// of the live station.
 // The card, whose it is, and who takes what is asked.
 #[allow(clippy::too_many_arguments)]
 pub(super) fn show(
@@ -53,6 +56,7 @@ pub(super) fn show(
     model: &Model,
     antenna: &AntennaModel,
     on_cards: &[AntennaId],
+    live: Option<&LiveNow>,
     state: &mut CardState,
     question: &mut Option<Question>,
     commands: &mut Vec<UiCommand>,
@@ -69,7 +73,8 @@ pub(super) fn show(
     let checked_at = snapshot.state.checked_at.map(|at| format::moment(at, model.now));
     let checked_at = checked_at.unwrap_or_default();
     let others = others(model, on_cards);
-    let locks = Locks::of(model, antenna, !checks.is_empty());
+    let in_replay = replay::locked(&antenna.config.name);
+    let locks = Locks::of(model, antenna, !checks.is_empty(), &in_replay);
     let blocked = snapshot.state.measured.map(|at| axes::blocked(at, can)).unwrap_or_default();
     let jog_note = axes::unseen(antenna);
     let travel = axes::travel(antenna);
@@ -134,6 +139,7 @@ pub(super) fn show(
                 commanded_decimals: wanted.decimals(decimals, predicted_decimals),
                 ..drive(antenna, &locks, &blocked, jog_note.as_deref())
             },
+            live,
             readings: &snapshot.state.readings,
             faults: (!checks.is_empty()).then_some(FaultsModel { checks, checked_at: &checked_at }),
             more: MoreModel {
@@ -251,7 +257,7 @@ fn link_status(antenna: &AntennaModel) -> LinkStatus {
 /// The controls for moving by hand and to a direction.
 fn drive<'a>(
     antenna: &'a AntennaModel,
-    locks: &Locks,
+    locks: &Locks<'a>,
     blocked: &'a [JogDirection],
     jog_note: Option<&'a str>,
 ) -> DriveModel<'a> {
@@ -291,7 +297,7 @@ fn way_out(antenna: &AntennaModel) -> Option<(String, bool)> {
 fn track<'a>(
     model: &'a Model,
     antenna: &'a AntennaModel,
-    locks: &Locks,
+    locks: &Locks<'a>,
     sun_avoidance: Option<&'a str>,
 ) -> TrackModel<'a> {
     let state = &antenna.snapshot.state;

@@ -14,7 +14,7 @@ use crate::{
     model::{Model, UiCommand},
     station::AntennaId,
     ui::{
-        format,
+        format, replay,
         sky_plot::Ghost,
         state_sentence::short,
         text, theme,
@@ -135,7 +135,8 @@ pub(super) fn shown<'a>(antenna: &'a AntennaModel, state: &OperateState) -> Opti
 /// What stands in the note: the sentence, and whether the antenna can be sent.
 fn found(model: &Model, antenna: &AntennaModel, target: Target) -> (String, bool) {
     let has_checks = !antenna.snapshot.state.checks.is_empty();
-    if let Some(lock) = Locks::of(model, antenna, has_checks).track {
+    let in_replay = replay::locked(&antenna.config.name);
+    if let Some(lock) = Locks::of(model, antenna, has_checks, &in_replay).track {
         return (lock.to_owned(), false);
     }
     let way = match judged(antenna, target).map(|preview| &preview.way) {

@@ -2,7 +2,7 @@
 
 use egui::{Align2, Rect, RichText, Role, TextEdit, Ui, WidgetInfo, pos2, vec2};
 
-use super::{PADDING, RecordState};
+use super::{PADDING, RecordState, report};
 use crate::{
     astro::time::add_seconds,
     engine::antenna::AntennaModel,
@@ -178,7 +178,7 @@ fn verdicts(ui: &Ui, place: &mut impl FnMut(f32) -> Rect, state: &mut RecordStat
 
 /// Shows the last hour again. Returns the room at the left of its button.
 fn last_hour(ui: &Ui, room: Rect, model: &Model, commands: &mut Vec<UiCommand>) -> Rect {
-    let is_possible = model.record.is_some() && model.replay.is_none();
+    let is_possible = report::can_replay(model);
     let button = Button::normal("Replay the last hour").locked(!is_possible);
     let size = vec2(button.width(ui), BUTTON);
     let min = pos2(room.right() - size.x, room.center().y - BUTTON / 2.0);
@@ -186,7 +186,7 @@ fn last_hour(ui: &Ui, room: Rect, model: &Model, commands: &mut Vec<UiCommand>) 
     if response.clicked() {
         let from = add_seconds(model.now, -3600.0);
         let name = "the last hour".to_owned();
-        let stretch = Stretch { name, satellite: None, from, until: model.now };
+        let stretch = Stretch { name, pass: None, from, until: model.now };
         let at = add_seconds(model.now, -LAST_S);
         commands.push(UiCommand::Replay(ReplayCommand::Begin(stretch, at)));
     }

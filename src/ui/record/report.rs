@@ -6,7 +6,6 @@ use jiff::Timestamp;
 
 use super::{PADDING, list};
 use crate::{
-    astro::time::add_seconds,
     model::{
         Model, UiCommand,
         export::{Export, ReportFormat},
@@ -24,9 +23,6 @@ use crate::{
 };
 
 pub(super) const HEAD: f32 = 56.0;
-/// A replay of a pass shows so much before and after it, seconds.
-const BEFORE_S: f64 = 30.0;
-const AFTER_S: f64 = 60.0;
 /// Room above, below and beside the sentence in its box.
 const INSET: f32 = 12.0;
 const FORMATS: [(ReportFormat, &str); 3] = [
@@ -58,7 +54,7 @@ pub(super) fn head(
             }
         }
     });
-    let button = Button::primary("Replay").locked(model.replay.is_some() || model.record.is_none());
+    let button = Button::primary("Replay").locked(!can_replay(model));
     let size = vec2(button.width(ui), BUTTON);
     let at =
         Rect::from_min_size(pos2(at.left() - 8.0 - size.x, rect.center().y - BUTTON / 2.0), size);
@@ -93,15 +89,14 @@ pub(super) fn head(
 
 /// Shows the pass again, from `at` on or from shortly before its track.
 pub(super) fn replay(pass: &RecordedPass, at: Option<Timestamp>) -> UiCommand {
-    let report = &pass.report;
-    let from = add_seconds(report.from.min(report.about.begun), -BEFORE_S);
-    let stretch = Stretch {
-        name: report.elements.short_name().to_owned(),
-        satellite: Some(report.elements.catalog_number()),
-        from,
-        until: add_seconds(report.until, AFTER_S),
-    };
-    UiCommand::Replay(ReplayCommand::Begin(stretch, at.unwrap_or(from)))
+    let stretch = Stretch::of(pass);
+    let at = at.unwrap_or(stretch.from);
+    UiCommand::Replay(ReplayCommand::Begin(stretch, at))
+}
+
+/// Whether a pass can be shown again.
+pub(super) fn can_replay(model: &Model) -> bool {
+    model.replay.is_none() && model.record.is_some()
 }
 
 pub(super) fn verdict_height(ui: &Ui, width: f32, model: &Model, pass: &RecordedPass) -> f32 {

@@ -2,6 +2,7 @@
 
 use jiff::Timestamp;
 
+use super::report;
 use crate::{
     engine::{
         self,
@@ -89,6 +90,12 @@ impl RecordState {
             self.choose(pass.id);
             (self.list_is_open, self.scrolls) = (list_is_open, true);
         }
+    }
+
+    /// Shows the pass of the report again, if that is possible.
+    pub fn replay(&self, model: &Model) -> Option<UiCommand> {
+        let opened = self.opened(model).filter(|_| report::can_replay(model))?;
+        Some(report::replay(&opened.pass, None))
     }
 
     /// Takes over what would correct the best explanation of the report.

@@ -4,7 +4,6 @@ use crate::{
     driver::{Intent, LinkState},
     engine::antenna::AntennaModel,
     model::Model,
-    ui::replay,
 };
 
 /// The lock of all controls for moving by hand while a target is tracked.
@@ -13,34 +12,28 @@ pub(in crate::ui::operate) const TRACKING: &str =
 const STANDBY: &str = "Locked in Standby. Choose Manual or Position.";
 
 /// The reasons why controls are locked, each in a sentence.
-pub(in crate::ui::operate) struct Locks {
+pub(in crate::ui::operate) struct Locks<'a> {
     /// For all controls.
-    pub(in crate::ui::operate) link: Option<&'static str>,
-    pub(in crate::ui::operate) jog: Option<&'static str>,
-    pub(in crate::ui::operate) go_to: Option<&'static str>,
-    pub(in crate::ui::operate) track: Option<&'static str>,
+    pub(in crate::ui::operate) link: Option<&'a str>,
+    pub(in crate::ui::operate) jog: Option<&'a str>,
+    pub(in crate::ui::operate) go_to: Option<&'a str>,
+    pub(in crate::ui::operate) track: Option<&'a str>,
     /// For actions of the make that move metal.
-    pub(in crate::ui::operate) action: Option<&'static str>,
+    pub(in crate::ui::operate) action: Option<&'a str>,
 }
 
-impl Locks {
-    /// Those of a replay, in which nothing can be asked of a unit.
-    const REPLAY: Self = Self {
-        link: Some(replay::LOCKED),
-        jog: Some(replay::LOCKED),
-        go_to: Some(replay::LOCKED),
-        track: Some(replay::LOCKED),
-        action: Some(replay::LOCKED),
-    };
-
-    /// `has_checks`: the card has a section that names faults.
+impl<'a> Locks<'a> {
+    /// `has_checks`: the card has a section that names faults. `in_replay`: the reason in a replay,
+    /// in which nothing can be asked of a unit.
     pub(in crate::ui::operate) fn of(
         model: &Model,
         antenna: &AntennaModel,
         has_checks: bool,
+        in_replay: &'a str,
     ) -> Self {
         if model.replay.is_some() {
-            return Self::REPLAY;
+            let lock = Some(in_replay);
+            return Self { link: lock, jog: lock, go_to: lock, track: lock, action: lock };
         }
         let snapshot = &antenna.snapshot;
         let intent = snapshot.intent;

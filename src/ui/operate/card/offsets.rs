@@ -37,7 +37,11 @@ impl<'a> CardOffsets<'a> {
     }
 
     /// The offsets of the track that runs, from here or on board.
-    pub(super) fn model(&self, antenna: &AntennaModel, locks: &Locks) -> Option<OffsetsModel<'_>> {
+    pub(super) fn model<'b>(
+        &'b self,
+        antenna: &AntennaModel,
+        locks: &Locks<'b>,
+    ) -> Option<OffsetsModel<'b>> {
         let can = antenna.variant().capabilities;
         if !antenna.follows() {
             return self.on_unit(antenna, locks);
@@ -55,7 +59,11 @@ impl<'a> CardOffsets<'a> {
         })
     }
 
-    fn on_unit(&self, antenna: &AntennaModel, locks: &Locks) -> Option<OffsetsModel<'_>> {
+    fn on_unit<'b>(
+        &'b self,
+        antenna: &AntennaModel,
+        locks: &Locks<'b>,
+    ) -> Option<OffsetsModel<'b>> {
         antenna.variant().track_offsets.filter(|_| antenna.tracks())?;
         let snapshot = &antenna.snapshot;
         let added = snapshot.unit_offsets.as_ref();

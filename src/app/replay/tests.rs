@@ -1,0 +1,75 @@
+//! When a replay ends by itself.
+
+use jiff::{Timestamp, ToSpan as _};
+
+use super::*;
+use crate::{
+    engine::alarms::AlarmKind,
+    plan::schedule::{Class, PassKey},
+};
+
+fn at(second: i64) -> Timestamp {
+    let start: Timestamp = "2026-11-14T19:00:00Z".parse().unwrap();
+    start + second.seconds()
+}
+
+/// A live station at this second.
+fn live(second: i64) -> Model {
+    Model::before_anything(Moment { utc: at(second), steady: Instant::now() })
+}
+
+/// The same with a pass that an antenna is to track from `from` on.
+fn planned(second: i64, from: i64) -> Model {
+    let mut model = live(second);
+    let (from, to) = (at(from), at(from + 600));
+    let entry = Entry {
+        pass: PassKey { satellite: 43013, aos: from },
+        antenna: AntennaId(1),
+        class: Class::Always,
+        from,
+        to,
+        late_s: 0.0,
+        early_s: 0.0,
+        counted_s: 600.0,
+        worth: 0,
+        lost: None,
+        axes_deg: [[0.0; 2]; 2],
+        after: None,
+        slew_s: 0.0,
+        set_up_s: 0.0,
+        spare_s: None,
+        shared_with: None,
+        is_fixed: false,
+    };
+    Arc::make_mut(&mut model.schedule).schedule.entries.push(entry);
+    model
+}
+
+#[test]
+fn a_replay_ends_two_minutes_before_a_planned_pass() {
+    assert_eq!(why_over(at(0), &planned(500, 621)), None);
+    let over = why_over(at(0), &planned(501, 621));
+    assert_eq!(over, Some(ReplayEnd::Pass { name: String::new(), from: at(621) }));
+    assert_eq!(why_over(at(510), &planned(511, 621)), None, "the operator began it after that");
+    assert_eq!(why_over(at(0), &planned(700, 621)), None, "the pass has begun");
+    assert_eq!(why_over(at(0), &live(500)), None);
+}
+
+#[test]
+fn a_replay_ends_on_a_new_alarm_of_the_first_priority_alone() {
+    let with = |kind: AlarmKind, second| {
+        let mut model = live(20);
+        model.alarms.raise(None, kind, at(second));
+        model
+    };
+    let grave = AlarmKind::StopNotConfirmed;
+    assert_eq!(why_over(at(0), &with(grave.clone(), 10)), Some(ReplayEnd::Alarm));
+    assert_eq!(why_over(at(15), &with(grave.clone(), 10)), None, "it was there before");
+    let mut seen = with(grave, 10);
+    let id = seen.alarms.newest_unseen().unwrap();
+    seen.alarms.acknowledge(id, at(11));
+    assert_eq!(why_over(at(0), &seen), None);
+    let slight = AlarmKind::NoRecord("the disk is full".to_owned());
+    assert_ne!(with(slight.clone(), 10).alarms.list()[0].priority(), Priority::First);
+    assert_eq!(why_over(at(0), &with(slight, 10)), None);
+}

@@ -1,0 +1,116 @@
+//! The passes of a record along the time: their marks, and the way from one to the next.
+
+use std::path::Path;
+
+use jiff::{SignedDuration, Timestamp};
+use rusqlite::{OptionalExtension as _, named_params};
+
+use super::{
+    RecordError, RecordedPass, file,
+    past::{COLUMNS, Passes, path_of, read_pass},
+};
+use crate::{astro::Site, orbit::Propagator};
+
+/// No pass is sought that ends later than this after a stretch: the table is in order of LOS.
+const LONGEST: SignedDuration = SignedDuration::from_hours(24);
+
+/// What is marked of a pass on a time line.
+#[derive(Debug, Clone, PartialEq)]
+pub struct PassMarks {
+    /// Short name of the satellite.
+    pub name: String,
+    pub aos: Timestamp,
+    /// `None` where the elements cannot be propagated.
+    pub tca: Option<Timestamp>,
+    pub los: Timestamp,
+    /// When the satellite was outside half the beamwidth, or nothing was measured.
+    pub lost: Vec<(Timestamp, Timestamp)>,
+}
+
+/// From where the next pass is sought, or the one before.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Beside {
+    /// From the pass with this number. The same pass, tracked by another antenna, is passed over.
+    Pass(i64),
+    /// From a moment. A pass under way is the next one.
+    Moment(Timestamp),
+}
+
+/// The marks of the passes of the record at `path` between two times. Reports without a site are of
+/// an antenna at `site`.
+pub fn marks_between(
+    path: &Path,
+    from: Timestamp,
+    until: Timestamp,
+    site: Site,
+) -> Result<Vec<PassMarks>, RecordError> {
+    let db = file::open_to_read(path)?;
+    let latest = until.checked_add(LONGEST).unwrap_or(Timestamp::MAX);
+    let sql = format!(
+        "SELECT {COLUMNS} FROM pass WHERE until_us BETWEEN :from AND :latest AND from_us < :until \
+         ORDER BY until_us"
+    );
+    let mut statement = db.prepare(&sql)?;
+    let mut rows = statement.query(named_params! {
+        ":from": from.as_microsecond(),
+        ":until": until.as_microsecond(),
+        ":latest": latest.as_microsecond(),
+    })?;
+    let mut found = Vec::new();
+    while let Some(row) = rows.next()? {
+        found.extend(read_pass(row)?.map(|pass| marks_of(&pass, site)));
+    }
+    Ok(found)
+}
+
+/// The marks of the pass with this number.
+pub fn marks_of_pass(path: &Path, id: i64, site: Site) -> Result<Option<PassMarks>, RecordError> {
+    let passes = Passes { db: file::open_to_read(path)? };
+    Ok(passes.pass(id)?.map(|pass| marks_of(&pass, site)))
+}
+
+/// The pass after `of`, or before it, of any antenna.
+pub fn neighbour(
+    path: &Path,
+    of: Beside,
+    is_next: bool,
+) -> Result<Option<RecordedPass>, RecordError> {
+    let db = file::open_to_read(path)?;
+    let known = match of {
+        Beside::Moment(at) => Some((0, at.as_microsecond(), at.as_microsecond())),
+        Beside::Pass(id) => db
+            .query_row("SELECT satellite, from_us, until_us FROM pass WHERE id = ?1", [id], |row| {
+                Ok((row.get(0)?, row.get(1)?, row.get(2)?))
+            })
+            .optional()?,
+    };
+    let Some((satellite, from_us, until_us)) = known else { return Ok(None) };
+    let (side, order) = if is_next { (">", "ASC") } else { ("<", "DESC") };
+    let sql = format!(
+        "SELECT {COLUMNS} FROM pass WHERE until_us {side} :until \
+         AND NOT (satellite = :satellite AND from_us < :until AND until_us > :from) \
+         ORDER BY until_us {order} LIMIT 1"
+    );
+    let of = named_params! { ":satellite": satellite, ":from": from_us, ":until": until_us };
+    let mut statement = db.prepare(&sql)?;
+    let mut rows = statement.query(of)?;
+    rows.next()?.map_or(Ok(None), read_pass)
+}
+
+fn marks_of(pass: &RecordedPass, site: Site) -> PassMarks {
+    let report = &pass.report;
+    let site = report.site.unwrap_or(site);
+    let path = Propagator::new(&report.elements)
+        .map(|propagator| path_of(&propagator, site, report))
+        .unwrap_or_default();
+    let highest = path
+        .iter()
+        .max_by(|a, b| a.direction.elevation.radians().total_cmp(&b.direction.elevation.radians()));
+    PassMarks {
+        name: report.elements.short_name().to_owned(),
+        aos: report.from,
+        tca: highest.map(|sample| sample.time),
+        los: report.until,
+        lost: report.report.losses.iter().map(|lost| (lost.from, lost.until)).collect(),
+    }
+}

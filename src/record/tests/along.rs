@@ -1,0 +1,68 @@
+//! Passes of a record along the time.
+
+use jiff::{Timestamp, ToSpan as _};
+
+use super::{DISH, start};
+use crate::{
+    astro::Site,
+    record::{Beside, PassNote, marks_between, marks_of_pass, neighbour, testing},
+    station::AntennaId,
+};
+
+const NOAA_20: u32 = 43013;
+const ISS: u32 = 25544;
+
+fn at(minute: i64) -> Timestamp {
+    start() + minute.minutes()
+}
+
+/// A pass from `minute` on.
+fn note(antenna: AntennaId, satellite: u32, minute: i64) -> PassNote {
+    testing::note(antenna, satellite, at(minute))
+}
+
+#[test]
+fn each_pass_is_the_neighbour_of_the_next_and_other_antennas_count_once() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("record.sqlite");
+    let other = AntennaId(5);
+    // In the order in which they ended.
+    let notes = [
+        note(DISH, ISS, 0),
+        note(DISH, NOAA_20, 60),
+        note(other, NOAA_20, 61),
+        note(DISH, ISS, 95),
+    ];
+    testing::record(&path, notes);
+    let from = |of, is_next| {
+        let pass = neighbour(&path, of, is_next).unwrap();
+        pass.map(|pass| (pass.id, pass.report.from))
+    };
+    assert_eq!(from(Beside::Pass(1), true), Some((2, at(60))));
+    assert_eq!(from(Beside::Pass(2), true), Some((4, at(95))), "not the same pass again");
+    assert_eq!(from(Beside::Pass(4), false), Some((3, at(61))));
+    assert_eq!(from(Beside::Pass(3), false), Some((1, at(0))));
+    assert_eq!(from(Beside::Pass(1), false), None);
+    assert_eq!(from(Beside::Pass(4), true), None);
+    assert_eq!(from(Beside::Moment(at(65)), true), Some((2, at(60))), "the one under way");
+    assert_eq!(from(Beside::Moment(at(65)), false), Some((1, at(0))));
+    assert_eq!(from(Beside::Pass(77), true), None, "no such pass");
+}
+
+#[test]
+fn a_stretch_has_the_marks_of_the_passes_in_it() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("record.sqlite");
+    testing::record(&path, [note(DISH, ISS, 0), note(DISH, NOAA_20, 60), note(DISH, ISS, 95)]);
+    let site = Site::default();
+    let marks = marks_between(&path, at(5), at(65), site).unwrap();
+    let [iss, noaa] = &marks[..] else { panic!("{marks:?}") };
+    assert_eq!((&*iss.name, iss.aos, iss.los), ("ISS", at(0), at(10)));
+    assert_eq!(noaa.aos, at(60));
+    assert_eq!(noaa.lost, [(at(61), at(62))]);
+    let tca = noaa.tca.unwrap();
+    assert!((at(60)..=at(70)).contains(&tca), "{tca}");
+    assert_eq!(marks_between(&path, at(20), at(50), site).unwrap(), []);
+    assert_eq!(marks_of_pass(&path, 2, site).unwrap().as_ref(), Some(noaa));
+    assert_eq!(marks_of_pass(&path, 9, site).unwrap(), None);
+}

@@ -1,0 +1,44 @@
+//! What the live station does while the record is shown.
+
+use crate::{
+    engine::antenna::AntennaModel,
+    model::Model,
+    ui::{
+        antenna_card::{LiveAntenna, LiveNow},
+        bar, format,
+        widgets::link_chip,
+    },
+};
+
+impl LiveNow {
+    pub fn of(live: &Model) -> Self {
+        Self {
+            antennas: live.antennas.iter().map(|antenna| live_antenna(live, antenna)).collect(),
+            next: next(live),
+        }
+    }
+}
+
+fn live_antenna(live: &Model, antenna: &AntennaModel) -> LiveAntenna {
+    let link = bar::glyph(antenna);
+    let can = antenna.variant().capabilities;
+    let measured = antenna.snapshot.state.measured;
+    let at = measured.map(|measured| format!(" at {}", format::pointing(measured.pointing, can)));
+    let activity = format!("{}{}", bar::activity(antenna), at.unwrap_or_default());
+    LiveAntenna {
+        name: antenna.config.name.clone(),
+        link,
+        does: link_chip::with_age(&activity, &bar::age(live, antenna), link),
+    }
+}
+
+fn next(live: &Model) -> String {
+    let entries = live.schedule.schedule.entries.iter();
+    let next = entries.filter(|entry| entry.from > live.now).min_by_key(|entry| entry.from);
+    let Some(next) = next else { return "no pass is planned".to_owned() };
+    let satellite = live.pass_lists.satellite(next.pass.satellite);
+    let name =
+        satellite.map_or_else(|| next.pass.satellite.to_string(), |of| of.short_name().to_owned());
+    let at = format::moment(next.from, live.now);
+    format!("{name} at {at}, in {}", format::time_left(live.now, next.from))
+}
