@@ -11,6 +11,7 @@ mod entry;
 mod file;
 mod film;
 mod keeping;
+mod missed;
 mod pass;
 mod past;
 mod pointing;
@@ -28,8 +29,11 @@ pub use along::{Beside, PassMarks, marks_between, marks_of_pass, neighbour};
 pub use causes::{ExplainedPasses, explain_passes};
 pub use entry::{Entry, Kind};
 pub use film::{Film, FilmError, Parts, Picture, Shown};
+pub use missed::{MissedEntry, missed};
 pub use pass::{AboutTrack, PassNote, RecordedReport, TrackedBy};
-pub use past::{OpenedPass, PassPage, PassQuery, RecordedPass, open_pass, passes, track};
+pub use past::{
+    ListedKind, OpenedPass, PassPage, PassQuery, RecordedPass, open_pass, passes, track,
+};
 pub use pointing::{CannotFitPointing, FittedTerm, NoiseOf, PointingFit, fit_pointing};
 pub use read::{Query, Record, Row, RowKind};
 pub use recorder::{Failing, RecordedSession, Recorder, Status};

@@ -365,6 +365,7 @@ impl Engine {
         }
         if let (Some(flight), Some(id)) = (ended, of) {
             self.note_day(id, DayEvent::Flown(flight.end()));
+            self.record_has_grown();
         }
     }
 

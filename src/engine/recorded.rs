@@ -3,14 +3,16 @@
 use std::{path::Path, sync::Arc, time::Duration};
 
 use jiff::Timestamp;
+
 use serde::{Deserialize, Serialize};
 
-use super::Engine;
+use super::{Engine, automatic::Flown};
 use crate::{
     astro::Site,
     clock::Instant,
     job::Job,
-    record::{self, ExplainedPasses, OpenedPass, PassPage, PassQuery, RecordError},
+    record::{self, ExplainedPasses, MissedEntry, OpenedPass, PassPage, PassQuery, RecordError},
+    station::AntennaId,
 };
 
 /// Time from the end of the work on a report until it can be read from the file.
@@ -37,7 +39,33 @@ pub struct Recorded {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Found {
     pub page: PassPage,
+    /// Passes that automatic operation was to track in the time of the page, and that were not
+    /// tracked, the newest first.
+    pub missed: Vec<MissedPass>,
     pub opened: Option<OpenedPass>,
+}
+
+/// A pass that was to be tracked, and was not.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct MissedPass {
+    /// Number of its entry in the record.
+    pub id: i64,
+    /// When it was over for the antenna.
+    pub at: Timestamp,
+    pub antenna: AntennaId,
+    /// Name of the antenna at the time.
+    pub antenna_name: String,
+    pub flown: Flown,
+}
+
+impl MissedPass {
+    /// `None` for what an older program wrote in another way, and for a pass that was tracked while
+    /// nothing could be recorded.
+    fn of(entry: MissedEntry) -> Option<Self> {
+        let MissedEntry { id, at, antenna, antenna_name, flown } = entry;
+        let flown: Flown = serde_json::from_value(flown).ok()?;
+        (flown.in_beam_s <= 0.0).then_some(Self { id, at, antenna, antenna_name, flown })
+    }
 }
 
 impl Recorded {
@@ -69,7 +97,7 @@ impl Engine {
         self.read_record();
     }
 
-    /// A pass more is on its way into the record, or another record is in use.
+    /// A pass more, or one that was not tracked, is on its way into the record, or another record is in use.
     pub(super) fn record_has_grown(&mut self) {
         self.record_reading.due = Some(self.steady + UNTIL_WRITTEN);
     }
@@ -127,6 +155,48 @@ impl Engine {
 
 fn read(path: &Path, look: &RecordLook, site: Site) -> Result<Found, RecordError> {
     let page = record::passes(path, &look.query)?;
+    let missed = record::missed(path, &look.query, &page)?;
+    let missed = missed.into_iter().filter_map(MissedPass::of).collect();
     let opened = look.opened.map(|id| record::open_pass(path, id, site)).transpose()?.flatten();
-    Ok(Found { page, opened })
+    Ok(Found { page, missed, opened })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{
+        clock::Clock,
+        engine::automatic::{DayEvent, DayLine, MissCause},
+        record::{Entry, Kind, Recorder},
+        station::Retention,
+    };
+
+    #[test]
+    fn a_line_of_the_day_is_read_as_it_was_written() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("record.sqlite");
+        let clock = Clock::new(Timestamp::now);
+        let now = clock.now();
+        let missed = Flown {
+            pass: (7, now.utc),
+            name: "SAT".to_owned(),
+            of_s: 600.0,
+            in_beam_s: 0.0,
+            proved_at: None,
+            cause: Some(MissCause::LinkLost),
+        };
+        let in_part = Flown { pass: (8, now.utc), in_beam_s: 10.0, ..missed.clone() };
+        let antenna = AntennaId(3);
+        let recorder = Recorder::start(path.clone(), clock, Retention::default()).unwrap();
+        for of in [&missed, &in_part] {
+            let line = DayLine { at: now.utc, antenna, what: DayEvent::Flown(of.clone()) };
+            recorder.note(Entry::new(now, Some(antenna), Kind::Day, &line));
+        }
+        recorder.flush();
+        let query = PassQuery { count: 10, ..PassQuery::default() };
+        let look = RecordLook { query, opened: None };
+        let found = Recorded::read(&path, look, Site::default()).found.unwrap();
+        let [only] = &found.missed[..] else { panic!("{found:?}") };
+        assert_eq!((only.antenna, &only.flown), (antenna, &missed));
+    }
 }

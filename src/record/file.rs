@@ -126,6 +126,12 @@ CREATE TABLE part (
 CREATE INDEX part_time ON part (until_us);
 ";
 
+/// Entries that are sought by their kind, which few others have. A record of an older program gets
+/// this as well.
+const FEW: &str = "
+CREATE INDEX IF NOT EXISTS event_day ON event (utc_us) WHERE kind = 'day';
+";
+
 /// Opens the record at `path` to write to it; makes it where there is none.
 pub(super) fn open(path: &Path) -> Result<Connection, RecordError> {
     if let Some(folder) = path.parent() {
@@ -160,6 +166,7 @@ pub(super) fn open(path: &Path) -> Result<Connection, RecordError> {
         VERSION => {}
         newer => return Err(RecordError::Newer(newer)),
     }
+    db.execute_batch(FEW)?;
     // A reader disturbs no writer, and what was committed outlasts a loss of power.
     db.pragma_update(None, "journal_mode", "WAL")?;
     db.pragma_update(None, "synchronous", "FULL")?;

@@ -35,11 +35,30 @@ const TOLD: [Kind; 7] =
 #[derive(Debug, Clone, PartialEq, Eq, Default, Serialize, Deserialize)]
 pub struct PassQuery {
     pub antenna: Option<AntennaId>,
-    pub verdict: Option<PassVerdict>,
+    pub kind: Option<ListedKind>,
     /// Part of the name of the satellite, its catalog number, or the beginning of a date.
     pub text: String,
     /// So many at most, the newest.
     pub count: u32,
+}
+
+/// A kind of passes in a list.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+pub enum ListedKind {
+    /// Tracked, with this verdict.
+    Tracked(PassVerdict),
+    /// To be tracked by automatic operation, and not tracked.
+    NotTracked,
+}
+
+impl ListedKind {
+    /// As in the column of the verdict, which no pass that was not tracked has.
+    fn word(self) -> &'static str {
+        match self {
+            Self::Tracked(verdict) => verdict.word(),
+            Self::NotTracked => "",
+        }
+    }
 }
 
 /// A pass of the record.
@@ -191,13 +210,13 @@ impl Passes {
 
     fn page(&self, query: &PassQuery) -> Result<PassPage, RecordError> {
         let wanted = "(:antenna IS NULL OR antenna = :antenna) \
-            AND (:verdict IS NULL OR verdict = :verdict) \
+            AND (:kind IS NULL OR verdict = :kind) \
             AND (instr(lower(name), lower(:text)) > 0 OR CAST(satellite AS TEXT) = :text \
                  OR instr(strftime('%Y-%m-%d', from_us / 1000000, 'unixepoch'), :text) = 1)";
         let antenna = query.antenna.map(|antenna| antenna.0);
-        let verdict = query.verdict.map(PassVerdict::word);
+        let kind = query.kind.map(ListedKind::word);
         let text = query.text.trim();
-        let of_query = named_params! { ":antenna": antenna, ":verdict": verdict, ":text": text };
+        let of_query = named_params! { ":antenna": antenna, ":kind": kind, ":text": text };
         let matching = self.db.query_row(
             &format!("SELECT count(*) FROM pass WHERE {wanted}"),
             of_query,

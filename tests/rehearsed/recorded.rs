@@ -18,7 +18,7 @@ use azel::{
     makes,
     orbit::{Pass, PassSearch, Propagator, bundled, passes},
     plan::pass_report::{Cause, LossCause, PassReport, PassVerdict},
-    record::{Kind, PassQuery, Query, Record, Row, RowKind},
+    record::{Kind, ListedKind, PassQuery, Query, Record, Row, RowKind},
     sim::{InMemory as _, Trouble},
     station::{self, OffsetsOf, Station},
 };
@@ -134,7 +134,7 @@ async fn a_pass_that_was_tracked_is_reported_when_it_is_over() {
         let found = look(&client, &RecordLook { query, opened: None }).await;
         assert_eq!(found.page.matching, matching, "{text}");
     }
-    let poor = PassQuery { verdict: Some(PassVerdict::Poor), ..all };
+    let poor = PassQuery { kind: Some(ListedKind::Tracked(PassVerdict::Poor)), ..all };
     let is_poor = u32::from(report.verdict == PassVerdict::Poor);
     let found = look(&client, &RecordLook { query: poor, opened: None }).await;
     assert_eq!(found.page.matching, is_poor);

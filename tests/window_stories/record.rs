@@ -13,7 +13,8 @@ use azel::{
     driver::{self, TimeSync},
     engine::{
         Command,
-        recorded::{Found, RecordLook, Recorded},
+        automatic::{Flown, MissCause},
+        recorded::{Found, MissedPass, RecordLook, Recorded},
     },
     model::{
         Model, UiCommand, View,
@@ -28,11 +29,10 @@ use azel::{
         },
     },
     record::{
-        AboutTrack, ExplainedPasses, OpenedPass, PassPage, PassQuery, RecordedPass, RecordedReport,
-        Row, TrackedBy,
+        AboutTrack, ExplainedPasses, ListedKind, OpenedPass, PassPage, PassQuery, RecordedPass, RecordedReport, Row, TrackedBy,
     },
     station::{self, OffsetsOf},
-    ui::theme,
+    ui::{format, theme},
 };
 use egui::{Key, Modifiers, Role};
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
@@ -158,7 +158,7 @@ fn recorded(flown: &[OpenedPass], place: usize) -> Recorded {
         query: PassQuery { count: 200, ..PassQuery::default() },
         opened: opened.as_ref().map(|opened| opened.pass.id),
     };
-    Recorded { look, found: Ok(Found { page, opened }), together: None }
+    Recorded { look, found: Ok(Found { page, missed: Vec::new(), opened }), together: None }
 }
 
 fn model() -> (Model, Vec<OpenedPass>) {
@@ -302,6 +302,57 @@ pub(super) fn to_correct(size: [f32; 2]) -> Window {
         rig::window(size, explained_by(Cause::AzimuthOffset { offset_deg: 0.25 }, |_| ()));
     settle(&mut window);
     window
+}
+
+#[test]
+fn a_pass_that_was_not_tracked_stands_in_the_list_and_says_why() {
+    for size in SIZES {
+        let (mut model, flown) = model();
+        let of = &flown[1].pass;
+        let aos = of.report.from - 10.minutes();
+        let missed = MissedPass {
+            id: 77,
+            at: of.report.until + 1.minutes(),
+            antenna: of.antenna,
+            antenna_name: of.antenna_name.clone(),
+            flown: Flown {
+                pass: (43_689, aos),
+                name: "METOP-C".to_owned(),
+                of_s: 600.0,
+                in_beam_s: 0.0,
+                proved_at: None,
+                cause: Some(MissCause::LinkLost),
+            },
+        };
+        let mut recorded = recorded(&flown, 0);
+        recorded.found.as_mut().unwrap().missed.push(missed);
+        model.recorded = Some(Arc::new(recorded));
+        let now = model.now;
+        let mut window = rig::window(size, model);
+        if size != LARGE {
+            window.get_by_role_and_label(Role::Button, "Passes").click();
+            settle(&mut window);
+        }
+        let row = format!(
+            "METOP-C, {}, {}: not tracked. The unit did not answer.",
+            format::moment(aos, now),
+            of.antenna_name,
+        );
+        let node = window.get_by_label(&row);
+        let from = format!("NOAA 20, {}, ", format::moment(of.report.from, now));
+        let below = window.get_by_label_contains(&from);
+        assert!(node.rect().bottom() <= below.rect().top() + 1.0, "in the order of time");
+        window.get_by_label_contains("1 not tracked");
+        let texts = painted::texts(&window);
+        assert!(texts.iter().any(|of| of == "Not tracked"), "{texts:?}");
+        window.get_by_label("Verdict, All verdicts").click();
+        settle(&mut window);
+        let _ = asked(&mut window);
+        window.get_by_label("Not tracked").click();
+        let looks = looks(&asked(&mut window));
+        let kinds: Vec<_> = looks.iter().flatten().map(|look| look.query.kind).collect();
+        assert_eq!(kinds, [Some(ListedKind::NotTracked)]);
+    }
 }
 
 #[test]

@@ -1,11 +1,17 @@
 //! Passes of a record along the time.
 
 use jiff::{Timestamp, ToSpan as _};
+use serde_json::json;
 
-use super::{DISH, start};
+use super::{DISH, clock, recorder, start};
 use crate::{
     astro::Site,
-    record::{Beside, PassNote, marks_between, marks_of_pass, neighbour, testing},
+    clock::{Instant, Moment},
+    plan::pass_report::PassVerdict,
+    record::{
+        Beside, Entry, Kind, ListedKind, PassNote, PassQuery, marks_between, marks_of_pass, missed,
+        neighbour, passes, testing,
+    },
     station::AntennaId,
 };
 
@@ -65,4 +71,52 @@ fn a_stretch_has_the_marks_of_the_passes_in_it() {
     assert_eq!(marks_between(&path, at(20), at(50), site).unwrap(), []);
     assert_eq!(marks_of_pass(&path, 2, site).unwrap().as_ref(), Some(noaa));
     assert_eq!(marks_of_pass(&path, 9, site).unwrap(), None);
+}
+
+/// What became of a pass that began at `minute`, told eleven minutes later.
+fn day_line(satellite: u32, name: &str, minute: i64) -> Entry {
+    let over = Moment { utc: at(minute + 11), steady: Instant::now() };
+    let flown = json!({ "pass": [satellite, at(minute)], "name": name });
+    Entry::new(over, Some(DISH), Kind::Day, &json!({ "what": { "flown": flown } }))
+}
+
+#[test]
+fn a_pass_that_was_to_be_tracked_and_has_no_report_is_missed() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("record.sqlite");
+    let recorder = recorder(&path);
+    for entry in [
+        day_line(NOAA_20, "NOAA 20", -600),
+        day_line(ISS, "ISS", 0),
+        day_line(NOAA_20, "NOAA 20", 60),
+        Entry::new(clock().now(), Some(DISH), Kind::Day, &json!({ "what": "switched_on" })),
+    ] {
+        recorder.note(entry);
+    }
+    recorder.note_pass(note(DISH, ISS, 0));
+    recorder.note_pass(note(AntennaId(5), NOAA_20, 61));
+    recorder.flush();
+    let found = |query: PassQuery| {
+        let page = passes(&path, &query).unwrap();
+        let missed = missed(&path, &query, &page).unwrap();
+        missed.into_iter().map(|of| of.at).collect::<Vec<_>>()
+    };
+    let all = PassQuery { count: 10, ..PassQuery::default() };
+    let (old, new) = (at(-589), at(71));
+    assert_eq!(found(all.clone()), [new, old], "another antenna tracked the last one");
+    let page = PassQuery { count: 1, ..all.clone() };
+    assert_eq!(found(page), [new], "as far back as the page");
+    let kind = |kind| PassQuery { kind: Some(kind), ..all.clone() };
+    assert_eq!(found(kind(ListedKind::NotTracked)), [new, old]);
+    assert_eq!(found(kind(ListedKind::Tracked(PassVerdict::Poor))), []);
+    let tracked = passes(&path, &kind(ListedKind::NotTracked)).unwrap();
+    assert_eq!(tracked.passes, []);
+    for (text, count) in
+        [("noaa", 2), ("iss", 0), ("43013", 2), ("2026-03-01", 2), ("2026-03-02", 0)]
+    {
+        let query = PassQuery { text: text.to_owned(), ..all.clone() };
+        assert_eq!(found(query).len(), count, "{text}");
+    }
+    let of_other = PassQuery { antenna: Some(AntennaId(5)), ..all };
+    assert_eq!(found(of_other), []);
 }

@@ -11,6 +11,7 @@ use crate::{
         replay::{ReplayCommand, Stretch},
     },
     plan::pass_report::PassVerdict,
+    record::ListedKind,
     ui::{
         format,
         icons::{self, Icon},
@@ -35,7 +36,12 @@ const WIDE: f32 = 1150.0;
 const ANTENNA: f32 = 84.0;
 /// The last hour is shown again from so long ago on, seconds.
 const LAST_S: f64 = 60.0;
-const VERDICTS: [PassVerdict; 3] = [PassVerdict::Good, PassVerdict::Fair, PassVerdict::Poor];
+const KINDS: [ListedKind; 4] = [
+    ListedKind::Tracked(PassVerdict::Good),
+    ListedKind::Tracked(PassVerdict::Fair),
+    ListedKind::Tracked(PassVerdict::Poor),
+    ListedKind::NotTracked,
+];
 
 pub(super) fn show(
     ui: &mut Ui,
@@ -164,14 +170,14 @@ fn search(ui: &mut Ui, place: Rect, state: &mut RecordState) {
 }
 
 fn verdicts(ui: &Ui, place: &mut impl FnMut(f32) -> Rect, state: &mut RecordState) {
-    let word = state.query.verdict.map_or("All verdicts", words::verdict);
+    let word = state.query.kind.map_or("All verdicts", words::listed_kind);
     let name = format!("Verdict, {word}");
     let list = DropDown { button: Button::normal(word), salt: "record verdict", name: &name };
     let at = place(list.width(ui));
     list.show(ui, at, |ui| {
-        ui.selectable_value(&mut state.query.verdict, None, "All verdicts");
-        for verdict in VERDICTS {
-            ui.selectable_value(&mut state.query.verdict, Some(verdict), words::verdict(verdict));
+        ui.selectable_value(&mut state.query.kind, None, "All verdicts");
+        for kind in KINDS {
+            ui.selectable_value(&mut state.query.kind, Some(kind), words::listed_kind(kind));
         }
     });
 }

@@ -4,8 +4,9 @@ use egui::{Align2, Color32, Rect, Role, ScrollArea, Sense, Ui, UiBuilder, Widget
 
 use jiff::Timestamp;
 
-use super::{PADDING, RecordState};
+use super::{PADDING, RecordState, state::Listed};
 use crate::{
+    engine::recorded::MissedPass,
     model::Model,
     plan::pass_report::PassVerdict,
     record::RecordedPass,
@@ -16,7 +17,7 @@ use crate::{
         theme,
         tokens::Tokens,
         widgets::{button::Button, paint},
-        words::record as words,
+        words::{automatic, record as words},
     },
 };
 
@@ -40,12 +41,20 @@ pub(super) fn show(ui: &mut Ui, rect: Rect, model: &Model, state: &mut RecordSta
         ui.set_clip_rect(rect.intersect(ui.clip_rect()));
         ui.spacing_mut().item_spacing = vec2(0.0, 0.0);
         ScrollArea::vertical().id_salt("record list").auto_shrink(false).show(ui, |ui| {
-            let passes = RecordState::passes(model);
-            let day = |pass: &RecordedPass| format::date(pass.report.from);
-            for of_day in passes.chunk_by(|a, b| day(a) == day(b)) {
+            let listed = RecordState::listed(model);
+            let day = |of: &Listed<'_>| format::date(of.aos());
+            for of_day in listed.chunk_by(|a, b| day(a) == day(b)) {
                 let (_, place) = ui.allocate_space(vec2(rect.width(), DAY));
                 head(ui, place, of_day);
-                for pass in of_day {
+                for of in of_day {
+                    let pass = match of {
+                        Listed::Tracked(pass) => pass,
+                        Listed::NotTracked(pass) => {
+                            let (_, place) = ui.allocate_space(vec2(rect.width(), HIGH_ROW));
+                            missed(ui, place, model.now, pass);
+                            continue;
+                        }
+                    };
                     let cause = words::cause_in_short(pass);
                     let height = if cause.is_some() { HIGH_ROW } else { ROW };
                     let (_, place) = ui.allocate_space(vec2(rect.width(), height));
@@ -58,7 +67,7 @@ pub(super) fn show(ui: &mut Ui, rect: Rect, model: &Model, state: &mut RecordSta
                     }
                 }
             }
-            let left = RecordState::page(model).map_or(0, |page| page.matching - listed(page));
+            let left = RecordState::page(model).map_or(0, |page| page.matching - on_page(page));
             if left > 0 {
                 let (_, place) = ui.allocate_space(vec2(rect.width(), FOOT));
                 let word = format!("Older passes ({left})");
@@ -77,29 +86,47 @@ pub(super) fn show(ui: &mut Ui, rect: Rect, model: &Model, state: &mut RecordSta
 }
 
 /// Number of passes of the page, with those that cannot be read.
-fn listed(page: &crate::record::PassPage) -> u32 {
+fn on_page(page: &crate::record::PassPage) -> u32 {
     let passes = u32::try_from(page.passes.len()).unwrap_or(u32::MAX);
     passes.saturating_add(page.unreadable).min(page.matching)
 }
 
-fn head(ui: &Ui, rect: Rect, of_day: &[RecordedPass]) {
+fn head(ui: &Ui, rect: Rect, of_day: &[Listed<'_>]) {
     let t = theme::tokens(ui);
     ui.painter().rect_filled(rect, 0.0, t.bg2);
     let inner = rect.shrink2(vec2(PADDING, 0.0));
-    let day = of_day.first().map_or_else(String::new, |pass| format::date(pass.report.from));
-    let good = of_day.iter().filter(|pass| pass.report.report.verdict == PassVerdict::Good).count();
-    let count = of_day.len();
+    let day = of_day.first().map_or_else(String::new, |of| format::date(of.aos()));
+    let tracked = of_day.iter().filter_map(|of| match of {
+        Listed::Tracked(pass) => Some(pass.report.report.verdict),
+        Listed::NotTracked(_) => None,
+    });
+    let verdicts: Vec<PassVerdict> = tracked.collect();
+    let count = verdicts.len();
+    let good = verdicts.iter().filter(|verdict| **verdict == PassVerdict::Good).count();
     let passes = if count == 1 { "pass" } else { "passes" };
-    let words = if good == count {
-        format!("{count} {passes}, all good")
-    } else {
-        format!("{count} {passes}, {good} good")
+    let missed = of_day.len() - count;
+    let words = match (good == count, missed) {
+        (true, 0) => format!("{count} {passes}, all good"),
+        (false, 0) => format!("{count} {passes}, {good} good"),
+        (_, missed) => format!("{count} {passes}, {good} good, {missed} not tracked"),
     };
     let right = Align2::RIGHT_CENTER;
     let counted = paint::text_in(ui, inner, right, &words, text::small(), t.t3);
     let room = inner.with_max_x(counted.left() - 8.0);
     paint::text_in(ui, room, Align2::LEFT_CENTER, &day, text::small_strong(), t.t1);
     paint::name_text(ui, ("record day", &day), rect, &format!("{day}: {words}"));
+}
+
+/// The row of a pass that was to be tracked, and was not. There is nothing to open.
+fn missed(ui: &Ui, rect: Rect, now: Timestamp, pass: &MissedPass) {
+    let t = theme::tokens(ui);
+    let aos = format::moment(pass.flown.pass.1, now);
+    let cause = pass.flown.cause.map_or_else(String::new, automatic::miss_cause);
+    let lines = Lines { name: &pass.flown.name, max: "", aos: &aos, antenna: &pass.antenna_name };
+    lines.paint(ui, rect, (Icon::Dash, t.t3), (words::NOT_TRACKED, t.t2), Some(&cause));
+    let antenna = &pass.antenna_name;
+    let spoken = format!("{}, {aos}, {antenna}: not tracked. {cause}", pass.flown.name);
+    paint::name_text(ui, ("missed pass", pass.id), rect, &spoken).on_hover_text(&cause);
 }
 
 /// Mark and colour of a verdict.
@@ -141,32 +168,54 @@ fn row(
         (false, false) => Color32::TRANSPARENT,
     };
     ui.painter().rect_filled(rect, 0.0, ground);
-    ui.painter().hline(rect.x_range(), rect.bottom() - 0.5, (1.0, t.line));
     if is_shown {
         ui.painter().rect_filled(rect.with_max_x(rect.left() + 3.0), 0.0, t.sat);
     }
-    let inner = rect.shrink2(vec2(PADDING, 0.0));
-    let line = |y: f32| {
-        Rect::from_x_y_ranges(inner.x_range(), rect.top() + y - 9.0..=rect.top() + y + 9.0)
-    };
-    let (left, right) = (Align2::LEFT_CENTER, Align2::RIGHT_CENTER);
-    let time = paint::text_in(ui, line(16.0), right, &aos, text::small(), t.t1);
-    let room = line(16.0).with_max_x(time.left() - 16.0);
-    let high = paint::text_in(ui, room, right, &max, text::small(), t.t2);
-    let room = line(16.0).with_max_x(high.left() - 8.0);
-    paint::text_in(ui, room, left, name, text::sized(13.0, Weight::SemiBold), t.t1);
     let (icon, colour) = mark(report.report.verdict, t);
-    let at = pos2(inner.left() + 7.0, rect.top() + 35.0);
-    icons::paint(ui.painter(), paint::square(at, 13.0), icon, colour);
-    let indent = |y: f32| line(y).with_min_x(inner.left() + 20.0);
-    let of_antenna =
-        paint::text_in(ui, indent(35.0), right, &pass.antenna_name, text::small(), t.t3);
-    let room = indent(35.0).with_max_x(of_antenna.left() - 8.0);
-    let colour = if report.report.verdict == PassVerdict::Good { t.t1 } else { colour };
-    paint::text_in(ui, room, left, &said, text::small(), colour);
-    if let Some(cause) = cause {
-        paint::text_in(ui, indent(52.0), left, cause, text::small(), t.t2);
-    }
+    let said_in = if report.report.verdict == PassVerdict::Good { t.t1 } else { colour };
+    let lines = Lines { name, max: &max, aos: &aos, antenna: &pass.antenna_name };
+    lines.paint(ui, rect, (icon, colour), (&said, said_in), cause);
     paint::focus_ring(ui, &response, 0);
     response.clicked()
+}
+
+/// The words of a row.
+struct Lines<'a> {
+    name: &'a str,
+    max: &'a str,
+    aos: &'a str,
+    antenna: &'a str,
+}
+
+impl Lines<'_> {
+    fn paint(
+        &self,
+        ui: &Ui,
+        rect: Rect,
+        (icon, colour): (Icon, Color32),
+        (said, said_in): (&str, Color32),
+        cause: Option<&str>,
+    ) {
+        let t = theme::tokens(ui);
+        ui.painter().hline(rect.x_range(), rect.bottom() - 0.5, (1.0, t.line));
+        let inner = rect.shrink2(vec2(PADDING, 0.0));
+        let line = |y: f32| {
+            Rect::from_x_y_ranges(inner.x_range(), rect.top() + y - 9.0..=rect.top() + y + 9.0)
+        };
+        let (left, right) = (Align2::LEFT_CENTER, Align2::RIGHT_CENTER);
+        let time = paint::text_in(ui, line(16.0), right, self.aos, text::small(), t.t1);
+        let room = line(16.0).with_max_x(time.left() - 16.0);
+        let high = paint::text_in(ui, room, right, self.max, text::small(), t.t2);
+        let room = line(16.0).with_max_x(high.left() - 8.0);
+        paint::text_in(ui, room, left, self.name, text::sized(13.0, Weight::SemiBold), t.t1);
+        let at = pos2(inner.left() + 7.0, rect.top() + 35.0);
+        icons::paint(ui.painter(), paint::square(at, 13.0), icon, colour);
+        let indent = |y: f32| line(y).with_min_x(inner.left() + 20.0);
+        let antenna = paint::text_in(ui, indent(35.0), right, self.antenna, text::small(), t.t3);
+        let room = indent(35.0).with_max_x(antenna.left() - 8.0);
+        paint::text_in(ui, room, left, said, text::small(), said_in);
+        if let Some(cause) = cause {
+            paint::text_in(ui, indent(52.0), left, cause, text::small(), t.t2);
+        }
+    }
 }

@@ -6,7 +6,7 @@ use super::report;
 use crate::{
     engine::{
         self,
-        recorded::{Found, RecordLook},
+        recorded::{Found, MissedPass, RecordLook},
     },
     model::{
         Model, UiCommand,
@@ -39,6 +39,29 @@ pub struct RecordState {
     pub correction: Option<Result<Correction, String>>,
 }
 
+/// A row of the list.
+#[derive(Clone, Copy)]
+pub(super) enum Listed<'a> {
+    Tracked(&'a RecordedPass),
+    NotTracked(&'a MissedPass),
+}
+
+impl Listed<'_> {
+    pub(super) fn aos(self) -> Timestamp {
+        match self {
+            Self::Tracked(pass) => pass.report.from,
+            Self::NotTracked(pass) => pass.flown.pass.1,
+        }
+    }
+
+    fn over_at(self) -> Timestamp {
+        match self {
+            Self::Tracked(pass) => pass.report.until,
+            Self::NotTracked(pass) => pass.at,
+        }
+    }
+}
+
 impl Default for RecordState {
     fn default() -> Self {
         Self {
@@ -57,6 +80,15 @@ impl RecordState {
     /// The listed passes, the newest first.
     pub(super) fn passes(model: &Model) -> &[RecordedPass] {
         found(model).map_or(&[], |found| &found.page.passes)
+    }
+
+    /// What is listed, the newest first.
+    pub(super) fn listed(model: &Model) -> Vec<Listed<'_>> {
+        let missed = found(model).map_or(&[][..], |found| &found.missed);
+        let tracked = Self::passes(model).iter().map(Listed::Tracked);
+        let mut all: Vec<_> = tracked.chain(missed.iter().map(Listed::NotTracked)).collect();
+        all.sort_by_key(|listed| std::cmp::Reverse(listed.over_at()));
+        all
     }
 
     pub(super) fn page(model: &Model) -> Option<&PassPage> {
@@ -145,6 +177,9 @@ impl RecordState {
         };
         match &recorded.found {
             Err(why) => ("The record cannot be read", sentence(why)),
+            Ok(found) if found.page.passes.is_empty() && !found.missed.is_empty() => {
+                ("No report", "A pass that was not tracked has no report.".to_owned())
+            }
             Ok(found) if found.page.all == 0 => (
                 "No pass is recorded yet",
                 "The report of a pass appears here when an antenna has tracked it to its end."

@@ -7,7 +7,7 @@ use crate::{
     plan::pass_report::{
         Cause, Explained, Explanation, LossCause, LostStretch, PassReport, PassVerdict,
     },
-    record::{ExplainedPasses, RecordedPass, RecordedReport, TrackedBy},
+    record::{ExplainedPasses, ListedKind, RecordedPass, RecordedReport, TrackedBy},
     ui::format,
 };
 
@@ -20,6 +20,16 @@ pub fn tracked_by(by: TrackedBy) -> &'static str {
         TrackedBy::ProgramTrack => "program track",
         TrackedBy::OnBoard => "on-board tracking",
         TrackedBy::Elsewhere => "tracked by the unit, not by Azel",
+    }
+}
+
+pub const NOT_TRACKED: &str = "Not tracked";
+
+/// A kind of passes, as a choice of the list.
+pub fn listed_kind(kind: ListedKind) -> &'static str {
+    match kind {
+        ListedKind::Tracked(of) => verdict(of),
+        ListedKind::NotTracked => NOT_TRACKED,
     }
 }
 

@@ -1,0 +1,76 @@
+//! Passes that automatic operation was to track, and that no antenna tracked.
+
+use std::path::Path;
+
+use jiff::Timestamp;
+use rusqlite::named_params;
+use serde_json::Value;
+
+use super::{
+    RecordError, file,
+    past::{ListedKind, PassPage, PassQuery},
+};
+use crate::station::AntennaId;
+
+/// An entry of the list of the day about a pass without a report.
+#[derive(Debug, Clone, PartialEq)]
+pub struct MissedEntry {
+    /// Number of the entry.
+    pub id: i64,
+    /// When the pass was over for the antenna.
+    pub at: Timestamp,
+    pub antenna: AntennaId,
+    /// Name of the antenna at the time.
+    pub antenna_name: String,
+    /// What became of the pass; `docs/record.md` tells its fields.
+    pub flown: Value,
+}
+
+/// What the record at `path` has for `query` of such passes in the time of `page`, the newest first.
+pub fn missed(
+    path: &Path,
+    query: &PassQuery,
+    page: &PassPage,
+) -> Result<Vec<MissedEntry>, RecordError> {
+    if matches!(query.kind, Some(ListedKind::Tracked(_))) {
+        return Ok(Vec::new());
+    }
+    // Older ones come with the older passes.
+    let is_whole = page.matching <= query.count;
+    let since = page.passes.last().filter(|_| !is_whole).map(|pass| pass.report.until);
+    let db = file::open_to_read(path)?;
+    let mut statement = db.prepare(
+        "SELECT id, utc_us, antenna, (SELECT name FROM antenna AS a WHERE a.id = e.antenna \
+         ORDER BY since_us > e.utc_us, abs(since_us - e.utc_us) LIMIT 1), flown FROM \
+         (SELECT id, utc_us, antenna, json_extract(data, '$.what.flown') AS flown FROM event \
+          WHERE kind = 'day' AND utc_us >= :since) AS e \
+         WHERE flown IS NOT NULL AND (:antenna IS NULL OR antenna = :antenna) \
+         AND (instr(lower(flown ->> '$.name'), lower(:text)) > 0 \
+              OR CAST(flown ->> '$.pass[0]' AS TEXT) = :text \
+              OR instr(flown ->> '$.pass[1]', :text) = 1) \
+         AND NOT EXISTS (SELECT 1 FROM pass WHERE pass.antenna = e.antenna \
+             AND satellite = flown ->> '$.pass[0]' AND from_us < e.utc_us \
+             AND until_us BETWEEN unixepoch(flown ->> '$.pass[1]') * 1000000 \
+                 AND e.utc_us + 86400000000) \
+         ORDER BY utc_us DESC LIMIT :count",
+    )?;
+    let mut rows = statement.query(named_params! {
+        ":since": since.map_or(i64::MIN, Timestamp::as_microsecond),
+        ":antenna": query.antenna.map(|antenna| antenna.0),
+        ":text": query.text.trim(),
+        ":count": query.count,
+    })?;
+    let mut found = Vec::new();
+    while let Some(row) = rows.next()? {
+        let flown: String = row.get(4)?;
+        let Ok(flown) = serde_json::from_str(&flown) else { continue };
+        found.push(MissedEntry {
+            id: row.get(0)?,
+            at: Timestamp::from_microsecond(row.get(1)?).unwrap_or_default(),
+            antenna: AntennaId(row.get(2)?),
+            antenna_name: row.get::<_, Option<String>>(3)?.unwrap_or_default(),
+            flown,
+        });
+    }
+    Ok(found)
+}
