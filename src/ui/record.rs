@@ -25,8 +25,10 @@ const LIST: f32 = 320.0;
 const DRAWER_BELOW: f32 = 1100.0;
 /// In a report below this width the tables stand one below the other.
 const TABLES_BELOW: f32 = 1000.0;
-/// Height of the path and the curves.
+/// Least height of the path and the curves.
 const DRAWINGS: f32 = 384.0;
+/// Least and most width of the path, unless the drawings are higher.
+const PATH: (f32, f32) = (280.0, 400.0);
 /// Least height of the tables below them.
 const TABLES: f32 = 276.0;
 
@@ -91,17 +93,19 @@ fn show_report(
             let verdict = report::verdict_height(ui, width, model, &opened.pass);
             let (_, place) = ui.allocate_space(vec2(width, verdict));
             report::verdict(ui, place, model, &opened.pass);
-            let (_, place) = ui.allocate_space(vec2(width, DRAWINGS));
-            let side = (0.344 * width).clamp(280.0, 400.0);
+            let is_wide = width >= TABLES_BELOW;
+            let rows = explain::height(opened);
+            let tables =
+                if is_wide { rows.max(facts::HEIGHT).max(TABLES) } else { rows + facts::HEIGHT };
+            // What is left in a large window makes the drawings larger.
+            let drawings = (rest.height() - verdict - tables).max(DRAWINGS);
+            let (_, place) = ui.allocate_space(vec2(width, drawings));
+            let side = (0.344 * width).clamp(PATH.0, PATH.1.max(drawings));
             let (left, right) = place.split_left_right_at_x(place.left() + side);
             path::show(ui, left, model, opened, state);
             curves::show(ui, right, model, opened, state, commands);
-            let is_wide = width >= TABLES_BELOW;
-            let rows = explain::height(opened);
-            let spare = rest.height() - verdict - DRAWINGS;
             if is_wide {
-                let height = rows.max(facts::HEIGHT).max(TABLES).max(spare);
-                let (_, place) = ui.allocate_space(vec2(width, height));
+                let (_, place) = ui.allocate_space(vec2(width, tables));
                 let side = (0.375 * width).clamp(340.0, 420.0);
                 let (left, right) = place.split_left_right_at_x(place.right() - side);
                 explain::show(ui, left, model, opened, state);

@@ -24,6 +24,7 @@ use crate::{
 /// Time that is shown before AOS and after LOS.
 const AROUND: SignedDuration = SignedDuration::from_secs(60);
 const TITLE: f32 = 28.0;
+/// Least heights of both plots.
 const DIRECTION: f32 = 78.0;
 const ERROR: f32 = 104.0;
 /// Room for the numbers at the left and at the right.
@@ -65,12 +66,13 @@ pub(super) fn show(
     let head = titled(part(TITLE));
     let entries = [("elevation", t.sat, false), ("azimuth", t.t2, true), ("actual", t.ant, false)];
     title(ui, head, "Azimuth and elevation", "", &entries);
-    let direction = part(DIRECTION);
+    let spare = (rect.height() - super::DRAWINGS).max(0.0);
+    let direction = part(DIRECTION + DIRECTION / (DIRECTION + ERROR) * spare);
     directions(ui, direction, &axis, opened);
     let head = titled(part(TITLE));
     let entries = [("off axis", t.ant, false), ("el", t.sat, false), ("cross-el", t.t2, true)];
     title(ui, head, "Pointing error, degrees", "off the beam axis, and by axis", &entries);
-    let error = part(ERROR);
+    let error = part(ERROR + ERROR / (DIRECTION + ERROR) * spare);
     errors(ui, error, &axis, opened);
     let head = titled(part(TITLE));
     let note = "Full log: azel log";
