@@ -37,6 +37,7 @@ pub use past::{
 pub use pointing::{CannotFitPointing, FittedTerm, NoiseOf, PointingFit, fit_pointing};
 pub use read::{Query, Record, Row, RowKind};
 pub use recorder::{Failing, RecordedSession, Recorder, Status};
+pub use way_out::{csv_of, json_of};
 
 /// Why a record cannot be written or read.
 #[derive(Debug, thiserror::Error)]

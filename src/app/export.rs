@@ -7,10 +7,11 @@ mod tests;
 use std::{
     collections::{BTreeMap, btree_map::Entry},
     io::{self, Write as _},
+    path::PathBuf,
     sync::Arc,
 };
 
-use jiff::Timestamp;
+use jiff::{Timestamp, civil::Date, tz::TimeZone};
 
 use super::App;
 use crate::{
@@ -23,7 +24,7 @@ use crate::{
         schedule::Planned,
     },
     job::Job,
-    model::export::{ElementForm, Export, ReportFormat, SavedFile},
+    model::export::{DaysFormat, ElementForm, Export, ReportFormat, SavedFile},
     orbit::{PassSearch, write_omm_csv, write_omm_json, write_tle},
     plan::{
         pass_export::{
@@ -32,7 +33,7 @@ use crate::{
         schedule::LeftOut,
         schedule_export::{ScheduleFormat, ScheduleList},
     },
-    record::OpenedPass,
+    record::{self, OpenedPass, RecordedPass},
     station::Station,
     ui::{hand_over_sheet::HandOverSheet, report_sheet, words},
     whole_file,
@@ -58,6 +59,8 @@ struct Order {
     catalog: CatalogState,
     lists: PassLists,
     recorded: Option<Arc<Recorded>>,
+    /// The file of the record.
+    record: Option<PathBuf>,
     schedule: Arc<Planned>,
     station: Arc<Station>,
     span_h: u32,
@@ -77,6 +80,7 @@ impl App {
             catalog: model.catalog.clone(),
             lists: model.pass_lists.clone(),
             recorded: model.recorded.clone(),
+            record: model.record.as_ref().map(|record| record.path.clone()),
             schedule: Arc::clone(&model.schedule),
             station: Arc::clone(&model.station),
             span_h: model.list.span_h(),
@@ -109,6 +113,7 @@ impl Order {
             Export::Schedule { .. } => "Save the plan",
             Export::HandOverSheet => "Save the hand-over sheet",
             Export::Report { .. } => "Save the report",
+            Export::Days { .. } => "Save the reports",
         };
         let asked = file_dialog::file_to_save(title, &self.name());
         let Some(path) = asked.map_err(|error| error.to_string())? else { return Ok(None) };
@@ -145,6 +150,14 @@ impl Order {
                 };
                 format!("pass-{}.{extension}", stamp(from.unwrap_or(self.now)))
             }
+            Export::Days { first, last, format, .. } => {
+                let extension = match format {
+                    DaysFormat::Csv => "csv",
+                    DaysFormat::Json => "json",
+                };
+                let [first, last] = [first, last].map(|day| day.strftime("%Y%m%d"));
+                format!("passes-{first}-{last}.{extension}")
+            }
         }
     }
 
@@ -161,6 +174,15 @@ impl Order {
             Export::Schedule { format } => self.write_schedule(*format, &mut text),
             Export::HandOverSheet => self.write_sheet(&mut text),
             Export::Report { format } => self.write_report(*format, &mut text)?,
+            Export::Days { query, first, last, format } => {
+                let passes = self.passes_of(query, *first, *last)?;
+                let written = match format {
+                    DaysFormat::Csv => Ok(record::csv_of(&passes)),
+                    DaysFormat::Json => record::json_of(&passes),
+                };
+                text = written.map_err(|error| error.to_string())?.into_bytes();
+                Ok(())
+            }
         };
         written.map_err(|error| error.to_string())?;
         if left_out > 0 && text.is_empty() {
@@ -187,6 +209,29 @@ impl Order {
         };
         out.extend(text.into_bytes());
         Ok(Ok(()))
+    }
+
+    /// The recorded passes that `query` finds of these days, in order of time.
+    fn passes_of(
+        &self,
+        query: &record::PassQuery,
+        first: Date,
+        last: Date,
+    ) -> Result<Vec<OpenedPass>, String> {
+        let path = self.record.as_deref().ok_or("nothing is recorded")?;
+        let query = record::PassQuery { count: u32::MAX, ..query.clone() };
+        let page = record::passes(path, &query).map_err(|error| error.to_string())?;
+        let day = |pass: &RecordedPass| pass.report.from.to_zoned(TimeZone::UTC).date();
+        let wanted = page.passes.iter().rev().filter(|pass| (first..=last).contains(&day(pass)));
+        let open = |pass: &RecordedPass| record::open_pass(path, pass.id, self.station.site);
+        let opened: Vec<OpenedPass> = wanted
+            .filter_map(|pass| open(pass).transpose())
+            .collect::<Result<_, _>>()
+            .map_err(|error| error.to_string())?;
+        if opened.is_empty() {
+            return Err("no pass was recorded on these days".to_owned());
+        }
+        Ok(opened)
     }
 
     /// Returns the number of objects that the form cannot hold.

@@ -2,12 +2,15 @@
 
 use std::{path::PathBuf, sync::Arc};
 
+use jiff::civil::Date;
+
 use crate::{
     engine::passes::PassKey,
     plan::{
         pass_export::{LookFormat, PassFormat},
         schedule_export::ScheduleFormat,
     },
+    record::PassQuery,
 };
 
 /// A file that was saved.
@@ -37,6 +40,15 @@ pub enum ReportFormat {
     Svg,
 }
 
+/// The form of the passes of several days.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum DaysFormat {
+    /// The points of their tracks.
+    Csv,
+    /// Their reports and what happened in them.
+    Json,
+}
+
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Export {
     /// The elements in use of these objects, by catalog number.
@@ -51,4 +63,7 @@ pub enum Export {
     HandOverSheet,
     /// The pass of the record that is shown.
     Report { format: ReportFormat },
+    /// The passes of the record that `query` finds, whose AOS is from the first of these days to the
+    /// last.
+    Days { query: PassQuery, first: Date, last: Date, format: DaysFormat },
 }

@@ -434,7 +434,8 @@ pub fn take(ui: &Ui, model: &Model, targets: &mut KeyTargets<'_>, commands: &mut
         || menu::is_open(ui)
         || targets.question.is_some()
         || *targets.list_open
-        || targets.preferences.waits_for_key();
+        || targets.preferences.waits_for_key()
+        || targets.record.is_asking();
     let works = |place| match place {
         KeyScope::Everywhere => true,
         KeyScope::Views => !typing,

@@ -4,6 +4,7 @@ mod bar;
 mod correct;
 mod cursor;
 mod curves;
+mod days;
 mod events;
 mod explain;
 mod facts;
@@ -61,6 +62,7 @@ pub fn show(
         }
         None => nothing(ui, body, model),
     }
+    days::show(ui, state, commands);
     state.ask(model, commands);
 }
 

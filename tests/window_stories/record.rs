@@ -18,7 +18,7 @@ use azel::{
     },
     model::{
         Model, UiCommand, View,
-        export::{Export, ReportFormat},
+        export::{DaysFormat, Export, ReportFormat},
     },
     orbit::{Pass, PassSearch, Propagator, bundled, passes},
     plan::{
@@ -41,6 +41,7 @@ use jiff::ToSpan as _;
 use crate::window_stories::{
     every_view::painted,
     extremes::{nothing_is_cut, nothing_overlaps},
+    preferences,
     rig::{self, LARGE, NOAA_20, SIZES, Window, asked, says, settle},
     settings_rig, states,
 };
@@ -352,6 +353,49 @@ fn a_pass_that_was_not_tracked_stands_in_the_list_and_says_why() {
         let looks = looks(&asked(&mut window));
         let kinds: Vec<_> = looks.iter().flatten().map(|look| look.query.kind).collect();
         assert_eq!(kinds, [Some(ListedKind::NotTracked)]);
+    }
+}
+
+#[test]
+fn the_passes_of_chosen_days_are_exported_as_the_list_is_filtered() {
+    for size in SIZES {
+        let (mut model, _) = model();
+        model.record = Some(Arc::default());
+        let mut window = rig::window(size, model);
+        let press = |window: &mut Window, name: &str| {
+            window.get_by_role_and_label(Role::Button, name).click();
+            settle(window);
+        };
+        press(&mut window, "Export days");
+        assert!(says(&window, "All recorded passes of these days, in one file."));
+        let last = window.get_by_role_and_label(Role::TextInput, "Last day");
+        assert_eq!(last.value().as_deref(), Some("2026-08-12"));
+        preferences::write(&mut window, "First day", "2026-08-13");
+        assert!(says(&window, "The last day is before the first one."));
+        let json = window.get_by_role_and_label(Role::Button, "Reports (JSON)");
+        assert!(json.accesskit_node().is_disabled());
+        preferences::write(&mut window, "First day", "2026-08-01");
+        let _ = asked(&mut window);
+        press(&mut window, "Points (CSV)");
+        let day = |day| jiff::civil::date(2026, 8, day);
+        let days = |query, format| {
+            UiCommand::Save(Export::Days { query, first: day(1), last: day(12), format })
+        };
+        let all = PassQuery { count: 200, ..PassQuery::default() };
+        assert_eq!(asked(&mut window), [days(all.clone(), DaysFormat::Csv)]);
+        assert!(window.query_by_label("Points (CSV)").is_none(), "closed");
+
+        preferences::write(&mut window, "Satellite or date", "noaa");
+        press(&mut window, "Export days");
+        assert!(says(&window, "The passes that the list is filtered to, in one file."));
+        preferences::write(&mut window, "First day", "2026-08-01");
+        let _ = asked(&mut window);
+        window.key_press(Key::Enter);
+        let noaa = PassQuery { text: "noaa".to_owned(), ..all };
+        assert_eq!(asked(&mut window), [days(noaa, DaysFormat::Json)]);
+        press(&mut window, "Export days");
+        window.key_press(Key::E);
+        assert_eq!(asked(&mut window), [], "the keys of the view wait");
     }
 }
 

@@ -4,6 +4,7 @@ use crate::{
     makes::DemoAddresses,
     orbit::{Propagator, bundled, passes, read_elements},
     plan::schedule::{Class, Entry, PassKey as Key, Schedule, Why},
+    record::testing,
     station::{AntennaId, Frequency, Priority},
 };
 
@@ -35,7 +36,8 @@ fn order(export: impl Fn(&[PredictedPass]) -> Export) -> Order {
     let planned = schedule(&lists, station.antennas[0].id);
     let schedule = Arc::new(Planned { until: Some(to), ..planned });
     let (catalog, station) = (CatalogState::Ready(Arc::new(catalog)), Arc::new(station));
-    Order { export, catalog, lists, recorded: None, schedule, station, span_h: 24, now }
+    let (recorded, record) = (None, None);
+    Order { export, catalog, lists, recorded, record, schedule, station, span_h: 24, now }
 }
 
 /// The first pass of the lists is taken, the second is not.
@@ -170,4 +172,34 @@ fn a_pass_that_has_left_the_list_is_told() {
     let gone =
         order(|_| Export::Looks { pass: (ISS, Timestamp::UNIX_EPOCH), format: LookFormat::Json });
     assert_eq!(gone.text(), Err("the pass is not in the list any more".to_owned()));
+}
+
+#[test]
+fn the_passes_of_chosen_days_are_written_into_one_file() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("record.sqlite");
+    let start: Timestamp = "2026-11-14T23:00:00Z".parse().unwrap();
+    let from = |hours: i64| start + jiff::SignedDuration::from_hours(hours);
+    let notes = [0, 2, 30].map(|hours| testing::note(AntennaId(1), ISS, from(hours)));
+    testing::record(&path, notes);
+    let day = |text: &str| text.parse::<Date>().unwrap();
+    let of = |first: &str, last: &str, format| {
+        let (first, last) = (day(first), day(last));
+        let query = record::PassQuery::default();
+        let order = order(|_| Export::Days { query: query.clone(), first, last, format });
+        Order { record: Some(path.clone()), ..order }
+    };
+    let json = of("2026-11-15", "2026-11-16", DaysFormat::Json);
+    assert_eq!(json.name(), "passes-20261115-20261116.json");
+    let told: serde_json::Value = serde_json::from_slice(&json.text().unwrap().0).unwrap();
+    let told = told["passes"].as_array().unwrap();
+    let begun: Vec<_> = told.iter().map(|of| of["report"]["from"].as_str().unwrap()).collect();
+    assert_eq!(begun, ["2026-11-15T01:00:00Z", "2026-11-16T05:00:00Z"], "in order of time");
+    let csv = lines(&of("2026-11-14", "2026-11-14", DaysFormat::Csv));
+    assert!(csv[0].starts_with("antenna,satellite,name,time,azimuth_deg"), "{}", csv[0]);
+    assert_eq!(csv.len(), 1 + testing::POINTS);
+    let first = "Dish,25544,ISS (ZARYA),2026-11-14T23:00:00.000Z,";
+    assert!(csv[1].starts_with(first), "{}", csv[1]);
+    let none = of("2026-12-01", "2026-12-02", DaysFormat::Csv).text();
+    assert_eq!(none, Err("no pass was recorded on these days".to_owned()));
 }

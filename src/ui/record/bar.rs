@@ -2,7 +2,7 @@
 
 use egui::{Align2, Rect, RichText, Role, TextEdit, Ui, WidgetInfo, pos2, vec2};
 
-use super::{PADDING, RecordState, report};
+use super::{PADDING, RecordState, days::DaysDialog, report};
 use crate::{
     astro::time::add_seconds,
     engine::antenna::AntennaModel,
@@ -76,6 +76,7 @@ pub(super) fn show(
     search(ui, at, state);
     verdicts(ui, &mut place, state);
     let room = inner.with_min_x(left + GAP);
+    let room = export_days(ui, room, model, state);
     let rest = last_hour(ui, room, model, commands);
     recording(ui, rest, model);
 }
@@ -180,6 +181,20 @@ fn verdicts(ui: &Ui, place: &mut impl FnMut(f32) -> Rect, state: &mut RecordStat
             ui.selectable_value(&mut state.query.kind, Some(kind), words::listed_kind(kind));
         }
     });
+}
+
+/// Opens the dialog for the passes of several days. Returns the room at the left of its button.
+fn export_days(ui: &Ui, room: Rect, model: &Model, state: &mut RecordState) -> Rect {
+    let is_possible = model.record.is_some() && model.replay.is_none();
+    let button = Button::normal("Export days").locked(!is_possible);
+    let size = vec2(button.width(ui), BUTTON);
+    let min = pos2(room.right() - size.x, room.center().y - BUTTON / 2.0);
+    let response = button.show(ui, "export days", Rect::from_min_size(min, size));
+    if response.clicked() {
+        state.days = Some(DaysDialog::new(model));
+    }
+    response.on_hover_text("The passes of several days in one file");
+    room.with_max_x(min.x - GAP)
 }
 
 /// Shows the last hour again. Returns the room at the left of its button.

@@ -2,7 +2,7 @@
 
 use jiff::Timestamp;
 
-use super::report;
+use super::{days::DaysDialog, report};
 use crate::{
     engine::{
         self,
@@ -35,6 +35,8 @@ pub struct RecordState {
     pub(super) list_is_open: bool,
     /// The list scrolls to the chosen pass.
     pub(super) scrolls: bool,
+    /// The days that the operator exports.
+    pub(super) days: Option<DaysDialog>,
     /// A correction that the operator takes over, or why there is none.
     pub correction: Option<Result<Correction, String>>,
 }
@@ -71,6 +73,7 @@ impl Default for RecordState {
             cursor: None,
             list_is_open: false,
             scrolls: false,
+            days: None,
             correction: None,
         }
     }
@@ -146,6 +149,11 @@ impl RecordState {
 
     pub(super) fn list_more(&mut self) {
         self.query.count += PAGE;
+    }
+
+    /// Whether a dialog of this view is open.
+    pub fn is_asking(&self) -> bool {
+        self.days.is_some()
     }
 
     /// Returns `true` if the query leaves passes out.

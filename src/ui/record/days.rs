@@ -1,0 +1,108 @@
+//! The dialog for the passes of several days, which go into one file.
+
+use egui::{Key, RichText, TextEdit, Ui};
+use jiff::{ToSpan as _, civil::Date, tz::TimeZone};
+
+use super::RecordState;
+use crate::{
+    model::{
+        Model, UiCommand,
+        export::{DaysFormat, Export},
+    },
+    ui::{
+        text, theme,
+        widgets::{
+            button::{self, Button},
+            modal::modal,
+            told::{self, Tone},
+        },
+    },
+};
+
+const WIDTH: f32 = 360.0;
+/// Days that are offered.
+const DAYS: i64 = 7;
+
+/// The typed days.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(super) struct DaysDialog {
+    first: String,
+    last: String,
+}
+
+impl DaysDialog {
+    /// The last week.
+    pub(super) fn new(model: &Model) -> Self {
+        let last = model.now.to_zoned(TimeZone::UTC).date();
+        let first = last.checked_sub((DAYS - 1).days()).unwrap_or(last);
+        Self { first: first.to_string(), last: last.to_string() }
+    }
+
+    fn days(&self) -> Result<(Date, Date), &'static str> {
+        let day = |typed: &str| typed.trim().parse::<Date>().ok();
+        match (day(&self.first), day(&self.last)) {
+            (Some(first), Some(last)) if first <= last => Ok((first, last)),
+            (Some(_), Some(_)) => Err("The last day is before the first one."),
+            _ => Err("A day is written as 2026-11-30."),
+        }
+    }
+}
+
+/// Shows the dialog until it is answered.
+pub(super) fn show(ui: &Ui, state: &mut RecordState, commands: &mut Vec<UiCommand>) {
+    let (filters, query) = (state.filters(), state.query.clone());
+    let Some(dialog) = &mut state.days else { return };
+    let mut answer = None;
+    let modal = modal(ui, "days of the record").show(ui.ctx(), |ui| {
+        ui.set_width(WIDTH);
+        answer = content(ui, dialog, filters);
+    });
+    let answer = if modal.should_close() { answer.or(Some(None)) } else { answer };
+    if let Some(answer) = answer {
+        if let (Some(format), Ok((first, last))) = (answer, dialog.days()) {
+            let export = Export::Days { query, first, last, format };
+            commands.push(UiCommand::Save(export));
+        }
+        state.days = None;
+    }
+}
+
+/// Returns the form that the operator wants, or `None` for Cancel, once there is an answer.
+fn content(ui: &mut Ui, dialog: &mut DaysDialog, filters: bool) -> Option<Option<DaysFormat>> {
+    let t = theme::tokens(ui);
+    ui.label(RichText::new("Export the passes of several days").font(text::value()));
+    let which = if filters {
+        "The passes that the list is filtered to, in one file. Days are those of UTC."
+    } else {
+        "All recorded passes of these days, in one file. Days are those of UTC."
+    };
+    ui.label(RichText::new(which).font(text::small()).color(t.t2));
+    ui.add_space(8.0);
+    for (name, typed) in [("First day", &mut dialog.first), ("Last day", &mut dialog.last)] {
+        ui.horizontal(|ui| {
+            let label = ui.label(RichText::new(name).font(text::body()).color(t.t2));
+            let edit = TextEdit::singleline(typed).id_salt(name).desired_width(120.0);
+            ui.add(edit).labelled_by(label.id).accessible_name(name);
+        });
+    }
+    let problem = dialog.days().err();
+    // Kept free, so that the buttons stay where they are.
+    told::line(ui, Tone::Bad, problem.unwrap_or_default());
+    ui.add_space(8.0);
+    let is_locked = problem.is_some();
+    let json = Button::primary("Reports (JSON)").locked(is_locked);
+    let points = Button::normal("Points (CSV)").locked(is_locked);
+    let [json, points] = button::pair(ui, json, points);
+    ui.add_space(4.0);
+    let cancel = ui.button("Cancel");
+    let enter = !is_locked && ui.input(|input| input.key_pressed(Key::Enter));
+    if cancel.clicked() {
+        Some(None)
+    } else if points.clicked() {
+        Some(Some(DaysFormat::Csv))
+    } else if json.clicked() || enter && !points.has_focus() && !cancel.has_focus() {
+        Some(Some(DaysFormat::Json))
+    } else {
+        None
+    }
+}
