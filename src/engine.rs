@@ -457,6 +457,7 @@ impl Engine {
             older_sets: self.older_sets.clone(),
             recorded: self.record_reading.found.clone(),
             pointing_fitted: self.pointing_work.fitted.clone(),
+            peaks: Arc::clone(&self.pointing_work.peaks),
             uploads: shared(&self.uploads, &last.uploads),
             source_tests: shared(&self.source_tests, &last.source_tests),
             link_tests: shared(&self.link_tests, &last.link_tests),

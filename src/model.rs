@@ -67,7 +67,7 @@ use crate::{
         sources::Sources,
         uploads::Uploads,
     },
-    record,
+    record::{self, Peaks},
     station::{AntennaId, Station},
 };
 
@@ -133,6 +133,8 @@ pub struct Model {
     pub recorded: Option<Arc<Recorded>>,
     /// The fit of a pointing model that was asked for last.
     pub pointing_fitted: Option<Arc<PointingFitted>>,
+    /// Peaks of the Sun and the Moon that count in it.
+    pub peaks: Arc<Peaks>,
     /// The table of the catalog.
     pub catalog_table: CatalogTable,
     /// The antennas of the station.
@@ -212,6 +214,7 @@ impl Model {
             older_sets: None,
             recorded: None,
             pointing_fitted: None,
+            peaks: Arc::default(),
             catalog_table: CatalogTable::default(),
             antennas: Vec::new(),
             wires: Vec::new(),
@@ -313,6 +316,7 @@ impl Model {
         self.older_sets.clone_from(&shown.older_sets);
         self.recorded.clone_from(&shown.recorded);
         self.pointing_fitted.clone_from(&shown.pointing_fitted);
+        self.peaks = Arc::clone(&shown.peaks);
         self.pass_lists = shown.pass_lists.clone();
         self.uploads = Arc::clone(&shown.uploads);
         self.source_tests = Arc::clone(&shown.source_tests);

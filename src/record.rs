@@ -14,6 +14,7 @@ mod keeping;
 mod missed;
 mod pass;
 mod past;
+mod peaks;
 mod pointing;
 mod read;
 mod recorder;
@@ -34,6 +35,7 @@ pub use pass::{AboutTrack, PassNote, RecordedReport, TrackedBy};
 pub use past::{
     ListedKind, OpenedPass, PassPage, PassQuery, RecordedPass, open_pass, passes, track,
 };
+pub use peaks::{Peak, PeakChange, PeakOf, Peaks};
 pub use pointing::{CannotFitPointing, FittedTerm, NoiseOf, PointingFit, fit_pointing};
 pub use read::{Query, Record, Row, RowKind};
 pub use recorder::{Failing, RecordedSession, Recorder, Status};

@@ -16,8 +16,11 @@ use azel::{
         MountLimits, Trackability,
         pass_report::{FlownOffsets, MeasuredPosition, TrackedPass},
     },
-    record::{AboutTrack, PassNote, RecordedReport, Recorder, TrackedBy},
-    station::{Antenna, Retention, load},
+    record::{
+        AboutTrack, Entry, Kind, PassNote, Peak, PeakChange, PeakOf, RecordedReport, Recorder,
+        TrackedBy,
+    },
+    station::{Antenna, AntennaId, Retention, load},
 };
 use jiff::Timestamp;
 use serde_json::Value;
@@ -127,6 +130,13 @@ fn the_model_of_recorded_passes_is_told_with_what_it_is_sure_of() {
     for number in SATELLITES {
         fly(&recorder, antenna, station.site, number, &mut seed);
     }
+    // As it is entered in Preferences, for this antenna and for another one.
+    let at = "2026-08-12T10:00:00Z".parse().unwrap();
+    let peak = Peak { of: PeakOf::Moon, at, azimuth_deg: 180.0, elevation_deg: 60.0 };
+    for of in [antenna.id, AntennaId(99)] {
+        let now = Clock::new(|| "2026-08-13T00:00:00Z".parse().unwrap()).now();
+        recorder.note(Entry::new(now, Some(of), Kind::Peak, &PeakChange::Added(peak)));
+    }
     drop(recorder);
 
     let json = pointing(folder.path(), &["--antenna", "RC2000C", "--format", "json"]);
@@ -166,6 +176,7 @@ fn the_model_of_recorded_passes_is_told_with_what_it_is_sure_of() {
     let table = text(&table.stdout);
     assert!(table.contains("Tilt to the north") && table.contains("Points on Sun: 1,"), "{table}");
     assert!(table.contains("Azimuth offset +0.3"), "{table}");
+    assert!(table.contains("Points on Moon: 1,"), "the one that was entered: {table}");
     let none = pointing(folder.path(), &["--antenna", "RC2000C", "--to", "2026-08-12"]);
     assert_eq!(none.status.code(), Some(1));
     assert!(text(&none.stderr).contains("too few"), "{}", text(&none.stderr));

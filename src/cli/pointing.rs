@@ -2,6 +2,7 @@
 
 use std::{
     io::{self, Write},
+    ops::RangeInclusive,
     path::{Path, PathBuf},
     process::ExitCode,
 };
@@ -13,10 +14,10 @@ use serde::Serialize;
 
 use super::{input, passes::written, record::record_of};
 use crate::{
-    astro::{AzEl, Site, Term},
+    astro::Term,
     makes,
-    plan::pointing::{Kind, Point},
-    record::{ExplainedPasses, PointingFit, explain_passes, fit_pointing},
+    plan::pointing::Kind,
+    record::{ExplainedPasses, Peak, PeakOf, Peaks, PointingFit, explain_passes, fit_pointing},
     station::{self, Antenna, Mount, Station},
     ui::words::{pointing::pointing_term, record as words},
 };
@@ -26,18 +27,18 @@ pub(super) struct Options {
     /// The antenna [default: the only one]
     #[arg(long, value_name = "NAME")]
     antenna: Option<String>,
-    /// Only passes that end after this: `now`, a date (0 h UTC), or a time with Z or an offset
+    /// Only passes that end after this, and peaks that were entered: `now`, a date (0 h UTC), or a time with Z or an offset
     #[arg(long, value_name = "TIME", value_parser = input::instant)]
     from: Option<Timestamp>,
-    /// Only passes that end before this, in the same forms
+    /// Only those before this, in the same forms
     #[arg(long, value_name = "TIME", value_parser = input::instant)]
     to: Option<Timestamp>,
-    /// A peak of the Sun's noise: when it was, and the angles of the axes there, in degrees; may be
-    /// repeated
-    #[arg(long, value_name = "TIME,AZ,EL", value_parser = peak, allow_negative_numbers = true)]
+    /// A peak of the Sun's noise besides those entered in Preferences: when it was, and the angles of
+    /// the axes there, in degrees; may be repeated
+    #[arg(long, value_name = "TIME,AZ,EL", value_parser = sun_peak, allow_negative_numbers = true)]
     sun: Vec<Peak>,
     /// A peak of the Moon's noise, in the same form
-    #[arg(long, value_name = "TIME,AZ,EL", value_parser = peak, allow_negative_numbers = true)]
+    #[arg(long, value_name = "TIME,AZ,EL", value_parser = moon_peak, allow_negative_numbers = true)]
     moon: Vec<Peak>,
     /// Read this record file instead of the station's
     #[arg(long, value_name = "FILE")]
@@ -54,24 +55,31 @@ enum Format {
     Json,
 }
 
-/// Where the axes stood when the noise of the Sun or the Moon was greatest.
-#[derive(Debug, Clone, Copy)]
-struct Peak {
-    at: Timestamp,
-    axes: AzEl,
+fn sun_peak(text: &str) -> Result<Peak, String> {
+    peak(PeakOf::Sun, text)
 }
 
-fn peak(text: &str) -> Result<Peak, String> {
+fn moon_peak(text: &str) -> Result<Peak, String> {
+    peak(PeakOf::Moon, text)
+}
+
+fn peak(of: PeakOf, text: &str) -> Result<Peak, String> {
     let parts: Vec<&str> = text.split(',').collect();
     let [at, azimuth, elevation] = parts.as_slice() else {
         return Err("not a time, an azimuth and an elevation, with commas between".to_owned());
     };
-    let angle = |text: &str, from: f64, to: f64| {
-        let read = text.trim().parse::<f64>().ok().filter(|deg| (from..=to).contains(deg));
-        read.ok_or_else(|| format!("{text} is not an angle from {from} to {to}"))
+    let angle = |text: &str, range: RangeInclusive<f64>| {
+        let read = text.trim().parse::<f64>().ok().filter(|deg| range.contains(deg));
+        read.ok_or_else(|| {
+            format!("{text} is not an angle from {} to {}", range.start(), range.end())
+        })
     };
-    let axes = AzEl::from_degrees(angle(azimuth, -360.0, 720.0)?, angle(elevation, -10.0, 90.0)?);
-    Ok(Peak { at: input::instant(at.trim())?, axes })
+    Ok(Peak {
+        of,
+        at: input::instant(at.trim())?,
+        azimuth_deg: angle(azimuth, Peak::AZIMUTHS_DEG)?,
+        elevation_deg: angle(elevation, Peak::ELEVATIONS_DEG)?,
+    })
 }
 
 pub(super) fn run(station: Option<&Path>, options: &Options) -> anyhow::Result<ExitCode> {
@@ -91,12 +99,11 @@ pub(super) fn run(station: Option<&Path>, options: &Options) -> anyhow::Result<E
         Some(file) => file.clone(),
         None => record_of(Some(path.to_owned()))?,
     };
-    let peaks = |kind: fn(Site, Timestamp, AzEl, f64) -> Point, of_body: &[Peak]| {
-        of_body.iter().map(|peak| kind(of.site, peak.at, peak.axes, 1.0)).collect::<Vec<_>>()
-    };
-    let peaks = [peaks(Point::of_sun, &options.sun), peaks(Point::of_moon, &options.moon)].concat();
     let within = options.from.unwrap_or(Timestamp::MIN)..options.to.unwrap_or(Timestamp::MAX);
-    let fit = fit_pointing(&record, antenna.id, of.site, within.clone(), peaks)
+    let entered = Peaks::read(&record).context("The peaks in the record cannot be read")?;
+    let entered = entered.of(antenna.id).filter(|peak| within.contains(&peak.at));
+    let peaks: Vec<Peak> = entered.chain(&options.sun).chain(&options.moon).copied().collect();
+    let fit = fit_pointing(&record, antenna.id, of.site, within.clone(), &peaks, Vec::new())
         .with_context(|| format!("{} has no pointing model", antenna.name))?;
     let causes = explain_passes(&record, antenna.id, of.site, &within)
         .with_context(|| format!("The passes of {} cannot be read", antenna.name))?;

@@ -118,7 +118,8 @@ impl Engine {
             }
             Command::ListOlderSets(number) => self.list_older_sets(number),
             Command::LookAtRecord(look) => self.look_at_record(look),
-            Command::FitPointing(antenna) => self.fit_pointing(antenna),
+            Command::FitPointing(antenna, without) => self.fit_pointing(antenna, without),
+            Command::ChangePeaks(antenna, change) => self.change_peaks(antenna, change),
             Command::UseSet(choice) => {
                 self.begin_elements(Task { set: Some(choice), ..Task::default() });
             }

@@ -16,9 +16,10 @@ use super::{
     uploads, written,
 };
 use crate::{
-    astro::TrackOffsets,
+    astro::{Term, TrackOffsets},
     driver,
     orbit::{RefreshHours, Source},
+    record::PeakChange,
     station::{
         Antenna, AntennaId, Frequency, OffsetsOf, PassLimits, Priority, Scheduling, Station, Take,
     },
@@ -112,8 +113,10 @@ pub enum Command {
     ListOlderSets(u32),
     /// Publish what the record holds of this; `None` ends it.
     LookAtRecord(Option<RecordLook>),
-    /// Publish the pointing model that fits the record of this antenna.
-    FitPointing(AntennaId),
+    /// Publish the pointing model that fits the record of this antenna, without these terms.
+    FitPointing(AntennaId, Vec<Term>),
+    /// Enter a peak of the noise of the Sun or the Moon that an antenna was pointed to, or remove one.
+    ChangePeaks(AntennaId, PeakChange),
     /// Use this set of elements of an object.
     UseSet(SetChoice),
     /// Read all sources anew, and ask the servers of some.
@@ -212,7 +215,7 @@ impl Command {
             self,
             Self::Look(_)
                 | Self::LookAtRecord(_)
-                | Self::FitPointing(_)
+                | Self::FitPointing(..)
                 | Self::OpenedAlarms
                 | Self::Antenna(_, Preview(_))
         )

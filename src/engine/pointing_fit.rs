@@ -1,14 +1,15 @@
-//! The fit of a pointing model that a client asked for.
+//! The fit of a pointing model that a client asked for, and the peaks that count in it.
 
-use std::sync::Arc;
+use std::{path::PathBuf, sync::Arc};
 
 use jiff::Timestamp;
 use serde::{Deserialize, Serialize};
 
 use super::Engine;
 use crate::{
+    astro::Term,
     job::Job,
-    record::{self, PointingFit},
+    record::{self, Peak, PeakChange, Peaks, PointingFit, RecordError},
     station::AntennaId,
 };
 
@@ -25,6 +26,10 @@ pub struct PointingFitted {
 pub(super) struct PointingWork {
     pub(super) fitted: Option<Arc<PointingFitted>>,
     job: Option<Job<PointingFitted>>,
+    pub(super) peaks: Arc<Peaks>,
+    /// The record that they are of, and the work of reading it.
+    peaks_of: Option<PathBuf>,
+    reading: Option<Job<Result<Peaks, RecordError>>>,
 }
 
 impl PointingWork {
@@ -34,17 +39,40 @@ impl PointingWork {
 }
 
 impl Engine {
-    /// Publishes the pointing model that fits the recorded passes of `antenna`.
-    pub(super) fn fit_pointing(&mut self, antenna: AntennaId) {
+    /// Reads the peaks of the record in use, where that is another one.
+    pub(super) fn read_peaks(&mut self) {
+        let path = self.record_file();
+        if path == self.pointing_work.peaks_of {
+            return;
+        }
+        self.pointing_work.peaks = Arc::default();
+        self.pointing_work.peaks_of.clone_from(&path);
+        let Some(path) = path else { return };
+        let job = Job::start("azel-peaks", Arc::clone(&self.wake), move |_| Peaks::read(&path));
+        self.pointing_work.reading =
+            job.inspect_err(|error| tracing::error!(%error, "no thread to read the peaks")).ok();
+    }
+
+    /// Records a change of the peaks, from which on clients and fits see it.
+    pub(super) fn change_peaks(&mut self, antenna: AntennaId, change: PeakChange) {
+        if self.note_peak(antenna, change) {
+            Arc::make_mut(&mut self.pointing_work.peaks).change(antenna, change);
+        }
+    }
+
+    /// Publishes the pointing model that fits the recorded passes and the peaks of `antenna` best,
+    /// `without` some terms.
+    pub(super) fn fit_pointing(&mut self, antenna: AntennaId, without: Vec<Term>) {
         self.pointing_work.job = None;
         let Some(path) = self.record_file() else {
             let found = Err("this user has no folder for records".to_owned());
             return self.pointing_work.tell(antenna, Some(found));
         };
         let site = self.station.site;
+        let peaks: Vec<Peak> = self.pointing_work.peaks.of(antenna).copied().collect();
         let job = Job::start("azel-fit-pointing", Arc::clone(&self.wake), move |_| {
             let all = Timestamp::MIN..Timestamp::MAX;
-            let fit = record::fit_pointing(&path, antenna, site, all, Vec::new());
+            let fit = record::fit_pointing(&path, antenna, site, all, &peaks, without);
             PointingFitted { antenna, found: Some(fit.map_err(|error| error.to_string())) }
         });
         let found = job.as_ref().err().map(|error| Err(error.to_string()));
@@ -54,6 +82,16 @@ impl Engine {
 
     pub(super) fn take_pointing_fit(&mut self) {
         let work = &mut self.pointing_work;
+        match Job::take(&mut work.reading) {
+            None => {}
+            Some(Ok(Ok(mut read))) => {
+                // What was entered while it was read.
+                read.extend(&work.peaks);
+                work.peaks = Arc::new(read);
+            }
+            Some(Ok(Err(error))) => tracing::error!(%error, "the peaks are not read"),
+            Some(Err(error)) => tracing::error!(%error, "the peaks are not read"),
+        }
         match Job::take(&mut work.job) {
             None => {}
             Some(Ok(fitted)) => work.fitted = Some(Arc::new(fitted)),

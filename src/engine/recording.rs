@@ -30,7 +30,7 @@ use crate::{
     clock::{Clock, Instant, Moment},
     driver::{self, AntennaHandle, Event, TimeSync},
     job::Job,
-    record::{Entry, Kind, PassNote, RecordedSession, Recorder, Status},
+    record::{Entry, Kind, PassNote, PeakChange, RecordedSession, Recorder, Status},
     station::{self, AntennaId, Station},
 };
 
@@ -187,6 +187,7 @@ impl Engine {
             (None, _) => self.recording.recorder = None,
         }
         self.record_has_grown();
+        self.read_peaks();
         let at = self.clock.now();
         let now = serde_json::to_value(station).unwrap_or_default();
         let before = std::mem::replace(&mut self.recording.station, now);
@@ -232,6 +233,12 @@ impl Engine {
         let Some(id) = self.antennas.get(index).map(|antenna| antenna.shown.id()) else { return };
         let data = json!({ "by": by, "command": { "Antenna": [id, command] } });
         self.recording.note(self.clock.now(), Some(id), Kind::Command, &data);
+    }
+
+    /// Returns `false` where nothing is recorded.
+    pub(super) fn note_peak(&self, antenna: AntennaId, change: PeakChange) -> bool {
+        self.recording.note(self.clock.now(), Some(antenna), Kind::Peak, &change);
+        self.recording.recorder.is_some()
     }
 
     pub(super) fn note_pressed_stop(&self, stopped: &Stopped) {

@@ -23,7 +23,13 @@ use super::{
     uploads::Uploads,
     written,
 };
-use crate::{clock::Moment, driver::TimeSync, orbit::Catalog, record, station::Station};
+use crate::{
+    clock::Moment,
+    driver::TimeSync,
+    orbit::Catalog,
+    record::{self, Peaks},
+    station::Station,
+};
 
 /// State of the elements.
 #[derive(Debug, Clone, Serialize, Deserialize)]
@@ -61,6 +67,8 @@ pub struct Snapshot {
     pub recorded: Option<Arc<Recorded>>,
     /// The fit of a pointing model that was asked for last.
     pub pointing_fitted: Option<Arc<PointingFitted>>,
+    /// Peaks of the Sun and the Moon that count in it.
+    pub peaks: Arc<Peaks>,
     /// The antennas of the station, in its order.
     pub antennas: Vec<AntennaModel>,
     pub pass_lists: PassLists,
@@ -101,6 +109,7 @@ impl Snapshot {
             older_sets: None,
             recorded: None,
             pointing_fitted: None,
+            peaks: Arc::default(),
             antennas: Vec::new(),
             pass_lists: PassLists::default(),
             reminders: Arc::default(),

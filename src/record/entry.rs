@@ -55,12 +55,14 @@ pub enum Kind {
     Schedule,
     /// What became of a pass of the schedule, and of automatic operation.
     Day,
+    /// The operator has entered a peak of the noise of the Sun or the Moon, or removed one.
+    Peak,
     /// Something could not be recorded.
     Gap,
 }
 
 impl Kind {
-    pub const ALL: [Self; 14] = [
+    pub const ALL: [Self; 15] = [
         Self::Run,
         Self::Station,
         Self::Clock,
@@ -74,6 +76,7 @@ impl Kind {
         Self::Alarm,
         Self::Schedule,
         Self::Day,
+        Self::Peak,
         Self::Gap,
     ];
 
@@ -93,6 +96,7 @@ impl Kind {
             Self::Alarm => "alarm",
             Self::Schedule => "schedule",
             Self::Day => "day",
+            Self::Peak => "peak",
             Self::Gap => "gap",
         }
     }

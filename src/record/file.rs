@@ -130,6 +130,7 @@ CREATE INDEX part_time ON part (until_us);
 /// this as well.
 const FEW: &str = "
 CREATE INDEX IF NOT EXISTS event_day ON event (utc_us) WHERE kind = 'day';
+CREATE INDEX IF NOT EXISTS event_peak ON event (utc_us) WHERE kind = 'peak';
 ";
 
 /// Opens the record at `path` to write to it; makes it where there is none.

@@ -5,7 +5,7 @@ use std::{ops::Range, path::Path};
 use jiff::Timestamp;
 use serde::{Deserialize, Serialize};
 
-use super::{PassQuery, RecordError, passes, track};
+use super::{PassQuery, Peak, RecordError, passes, track};
 use crate::{
     astro::{PointingModel, Site, Term, time::seconds_between},
     plan::{
@@ -27,6 +27,9 @@ pub struct PointingFit {
     /// Number of passes with a point that counts.
     pub passes: usize,
     pub noise: Vec<NoiseOf>,
+    /// Terms that were not to be fitted. They are zero.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub without: Vec<Term>,
     /// One a term, in the order of [`Term::ALL`].
     pub terms: Vec<FittedTerm>,
 }
@@ -44,7 +47,8 @@ pub struct NoiseOf {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct FittedTerm {
     pub term: Term,
-    /// Degrees; for the scale, degrees a degree. `None` where the points cannot tell it.
+    /// Degrees; for the scale, degrees a degree. `None` where the points cannot tell it, and where it
+    /// was not to be fitted.
     pub value: Option<f64>,
     /// Half of the width of the interval that holds it in 95 of 100 cases.
     pub half_of_95_percent: Option<f64>,
@@ -60,16 +64,18 @@ pub enum CannotFitPointing {
     Points { passes: usize, why: CannotFit },
 }
 
-/// Fits the model of `antenna` to its passes in the record at `path` that end `within` a time, and
-/// to `peaks`. Reports without a site are of an antenna at `site`.
+/// Fits the model of `antenna`, `without` some terms, to its passes in the record at `path` that end
+/// `within` a time, and to `peaks`. Reports without a site are of an antenna at `site`.
 pub fn fit_pointing(
     path: &Path,
     antenna: AntennaId,
     site: Site,
     within: Range<Timestamp>,
-    peaks: Vec<Point>,
+    peaks: &[Peak],
+    without: Vec<Term>,
 ) -> Result<PointingFit, CannotFitPointing> {
-    let (mut count, mut points) = (0, peaks);
+    let (mut count, mut points) =
+        (0, peaks.iter().map(|peak| peak.point(site)).collect::<Vec<_>>());
     let query = PassQuery { antenna: Some(antenna), count: u32::MAX, ..PassQuery::default() };
     let recorded = if path.exists() { passes(path, &query)?.passes } else { Vec::new() };
     for pass in recorded.iter().filter(|pass| within.contains(&pass.report.until)) {
@@ -78,9 +84,10 @@ pub fn fit_pointing(
         points.extend(thinned(&track(path, pass, site)?, model));
         count += usize::from(points.len() > before);
     }
-    let fit =
-        pointing::fit(&points).map_err(|why| CannotFitPointing::Points { passes: count, why })?;
-    Ok(PointingFit::new(count, &fit))
+    let terms: Vec<Term> = Term::ALL.into_iter().filter(|term| !without.contains(term)).collect();
+    let fit = pointing::fit(&points, &terms)
+        .map_err(|why| CannotFitPointing::Points { passes: count, why })?;
+    Ok(PointingFit::new(count, &fit, without))
 }
 
 fn thinned(track: &[TrackPoint], flown_with: &PointingModel) -> Vec<Point> {
@@ -104,7 +111,7 @@ fn thinned(track: &[TrackPoint], flown_with: &PointingModel) -> Vec<Point> {
 }
 
 impl PointingFit {
-    fn new(passes: usize, fit: &Fit) -> Self {
+    fn new(passes: usize, fit: &Fit, without: Vec<Term>) -> Self {
         let term = |term: Term| {
             let interval = fit.interval(term);
             let alike = fit.alike.iter().find(|alike| alike.term == term);
@@ -123,6 +130,7 @@ impl PointingFit {
         Self {
             passes,
             noise: fit.noise.iter().map(noise).collect(),
+            without,
             terms: Term::ALL.map(term).into(),
         }
     }

@@ -72,6 +72,8 @@ struct FormState {
     preview_is_open: bool,
     satellites: SatellitesState,
     rules: RulesState,
+    /// A peak of the Sun or the Moon that is typed.
+    peak: antenna::peaks::TypedPeak,
 }
 
 /// The parts of the view.

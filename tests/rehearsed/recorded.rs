@@ -17,8 +17,13 @@ use azel::{
     },
     makes,
     orbit::{Pass, PassSearch, Propagator, bundled, passes},
-    plan::pass_report::{Cause, LossCause, PassReport, PassVerdict},
-    record::{Kind, ListedKind, PassQuery, Query, Record, Row, RowKind},
+    plan::{
+        pass_report::{Cause, LossCause, PassReport, PassVerdict},
+        pointing,
+    },
+    record::{
+        Kind, ListedKind, PassQuery, Peak, PeakChange, PeakOf, Peaks, Query, Record, Row, RowKind,
+    },
     sim::{InMemory as _, Trouble},
     station::{self, OffsetsOf, Station},
 };
@@ -184,7 +189,7 @@ async fn with_a_pointing_model_the_axes_read_otherwise_and_the_report_tells_no_e
     let median = &opened.track[opened.track.len() / 2];
     assert!(median.antenna.separation(median.satellite).degrees() < 1.5, "{median:?}");
     let id = measured(&client, "Mast").await;
-    client.send(Command::FitPointing(id)).unwrap();
+    client.send(Command::FitPointing(id, Vec::new())).unwrap();
     let fit = until("its fit", || {
         let fitted = client.snapshot().pointing_fitted.clone()?;
         fitted.found.clone().filter(|_| fitted.antenna == id)
@@ -196,6 +201,26 @@ async fn with_a_pointing_model_the_axes_read_otherwise_and_the_report_tells_no_e
     let (value, half) = (offset.value.unwrap(), offset.half_of_95_percent.unwrap());
     assert_eq!((fit.passes, offset.term), (1, Term::AzimuthOffset));
     assert!((value - model.azimuth_offset_deg).abs() < half.max(1.0), "{offset:?}");
+    let peak = Peak { of: PeakOf::Sun, at: start(), azimuth_deg: 100.0, elevation_deg: 20.0 };
+    let wrong = Peak { azimuth_deg: 10.0, ..peak };
+    for change in [PeakChange::Added(wrong), PeakChange::Added(peak), PeakChange::Removed(wrong)] {
+        client.send(Command::ChangePeaks(id, change)).unwrap();
+    }
+    let is_known = |peaks: &Peaks| peaks.of(id).eq([&peak]);
+    until("the peak", || is_known(&client.snapshot().peaks).then_some(())).await;
+    client.send(Command::FitPointing(id, vec![Term::Sag])).unwrap();
+    let fit = until("a fit with it", || {
+        let found = client.snapshot().pointing_fitted.clone()?.found.clone()?.unwrap();
+        (found.without == [Term::Sag]).then_some(found)
+    })
+    .await;
+    let of_sun = fit.noise.iter().find(|of| of.of == pointing::Kind::Sun).unwrap();
+    assert_eq!(of_sun.points, 1);
+    assert!(fit.terms.iter().any(|of| of.term == Term::Sag && of.value.is_none()), "{fit:?}");
+    drop(client);
+    let ended = scene.ended().await;
+    let kept = Peaks::read(&path_in(ended.path())).unwrap();
+    assert!(is_known(&kept), "{kept:?}");
 }
 
 #[tokio::test(start_paused = true)]

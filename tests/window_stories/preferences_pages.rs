@@ -15,7 +15,7 @@ use azel::{
     },
     model::{Model, UiCommand, View, effects},
     plan::pointing::Kind,
-    record::{FittedTerm, NoiseOf, PointingFit},
+    record::{FittedTerm, NoiseOf, Peak, PeakChange, PeakOf, Peaks, PointingFit},
     station::{Antenna, AntennaId, Station},
     ui::{
         keys::{ALL, list::in_words, own::OwnKeys},
@@ -560,8 +560,8 @@ fn a_pointing_model_is_fitted_to_the_record_and_filled_in_and_used_only_once_sav
         let mut window = rig::window(size, model);
         open(&mut window, &name);
         press(&mut window, Role::Button, "Fit to recorded passes");
-        let fit = engine::Command::FitPointing(id);
-        assert_eq!(asked(&mut window), [UiCommand::Station(fit)]);
+        let fit = |without| UiCommand::Station(engine::Command::FitPointing(id, without));
+        assert_eq!(asked(&mut window), [fit(Vec::new())]);
         let term = |term| {
             let value = match term {
                 Term::AzimuthOffset => Some(1.23456),
@@ -572,7 +572,8 @@ fn a_pointing_model_is_fitted_to_the_record_and_filled_in_and_used_only_once_sav
             FittedTerm { term, value, half_of_95_percent: value.map(|_| 0.02), not_told_from }
         };
         let noise = NoiseOf { of: Kind::Satellite, points: 340, noise_deg: 0.0312 };
-        let fit = PointingFit { passes: 12, noise: vec![noise], terms: Term::ALL.map(term).into() };
+        let terms = Term::ALL.map(term).into();
+        let found = PointingFit { passes: 12, noise: vec![noise], without: Vec::new(), terms };
         let tell = |window: &mut Window, found| {
             let fitted = PointingFitted { antenna: id, found };
             window.state_mut().model.pointing_fitted = Some(Arc::new(fitted));
@@ -580,11 +581,25 @@ fn a_pointing_model_is_fitted_to_the_record_and_filled_in_and_used_only_once_sav
         };
         tell(&mut window, Some(Err("2 usable points are too few in 1 recorded passes".into())));
         assert!(says(&window, "No model: 2 usable points are too few in 1 recorded passes."));
-        tell(&mut window, Some(Ok(fit)));
+        tell(&mut window, Some(Ok(found.clone())));
         let words = "12 passes, 340 points, each axis within 0.031° of the model (1 σ).";
         assert!(says(&window, words));
         assert!(says(&window, "0.0200°") && says(&window, "Some terms may as well be zero."));
         assert!(says(&window, "Sag cannot be told from azimuth offset in these passes"));
+        press(&mut window, Role::Button, "Fit without them");
+        assert_eq!(asked(&mut window), [fit(vec![Term::TiltEast])]);
+        let (mut terms, without) = (found.terms, vec![Term::TiltEast]);
+        terms.retain(|of| of.term != Term::TiltEast);
+        terms.push(FittedTerm {
+            term: Term::TiltEast,
+            value: None,
+            half_of_95_percent: None,
+            not_told_from: Vec::new(),
+        });
+        tell(&mut window, Some(Ok(PointingFit { without, terms, ..found })));
+        assert!(says(&window, "Left at 0, as you wanted: tilt to the east."));
+        assert!(!says(&window, "Tilt to the east cannot be told from"));
+        assert!(window.query_by_label("Fit without them").is_none());
         press(&mut window, Role::Button, "Fill in");
         assert!(asked(&mut window).is_empty(), "nothing is used yet");
         let field = window.get_by_role_and_label(Role::TextInput, "Azimuth offset");
@@ -593,5 +608,55 @@ fn a_pointing_model_is_fitted_to_the_record_and_filled_in_and_used_only_once_sav
         let saved = saved(asked(&mut window));
         let expected = PointingModel { azimuth_offset_deg: 1.2346, ..PointingModel::default() };
         assert_eq!(saved.antennas[0].pointing_model, expected);
+    }
+}
+
+#[test]
+fn a_peak_is_entered_as_measured_now_or_as_typed_and_removed() {
+    for size in SIZES {
+        let mut model = makes::model(makes::pair(), makes::pair_at(Intent::Standby));
+        let mut station = Station::clone(&model.station);
+        let antenna = model.antennas[0].config.clone();
+        let (id, name) = (antenna.id, antenna.name.clone());
+        station.antennas = vec![antenna];
+        (model.station, model.view) = (Arc::new(station), View::Preferences);
+        let pointing = model.antennas[0].snapshot.state.measured.unwrap().pointing;
+        let deg = |of: Option<azel::astro::Angle>| of.unwrap().degrees();
+        let now = model.now;
+        let mut window = rig::window(size, model);
+        open(&mut window, &name);
+        assert!(says(&window, "Nothing is recorded: no peak can be kept."));
+        window.state_mut().model.record = Some(Arc::default());
+        settle(&mut window);
+        press(&mut window, Role::Button, "Add peak");
+        let measured = Peak {
+            of: PeakOf::Sun,
+            at: now,
+            azimuth_deg: deg(pointing.azimuth),
+            elevation_deg: deg(pointing.elevation),
+        };
+        let change = |change| UiCommand::Station(engine::Command::ChangePeaks(id, change));
+        assert_eq!(asked(&mut window), [change(PeakChange::Added(measured))]);
+        press(&mut window, Role::RadioButton, "Moon");
+        let at = now - jiff::SignedDuration::from_hours(1);
+        let typed =
+            [("Time of the peak", format!("{at:.0}")), ("Azimuth at the peak", "120.5".to_owned())];
+        for (field, text) in typed {
+            write(&mut window, field, &text);
+        }
+        assert!(says(&window, "Type the elevation that the antenna showed at the peak."));
+        write(&mut window, "Elevation at the peak", "31");
+        press(&mut window, Role::Button, "Add peak");
+        let typed = Peak { of: PeakOf::Moon, at, azimuth_deg: 120.5, elevation_deg: 31.0 };
+        assert_eq!(asked(&mut window), [change(PeakChange::Added(typed))]);
+        let mut peaks = Peaks::default();
+        peaks.change(id, PeakChange::Added(typed));
+        peaks.change(AntennaId(99), PeakChange::Added(measured));
+        window.state_mut().model.peaks = Arc::new(peaks);
+        settle(&mut window);
+        let row = format!("Moon, {}: az 120.50°, el 31.00°", azel::ui::format::moment(at, now));
+        assert!(says(&window, &row), "{row}");
+        press(&mut window, Role::Button, &format!("Remove the peak of {row}"));
+        assert_eq!(asked(&mut window), [change(PeakChange::Removed(typed))]);
     }
 }

@@ -132,8 +132,11 @@ impl Fit {
     }
 }
 
-/// Fits all terms that `points` can tell apart.
-pub fn fit(points: &[Point]) -> Result<Fit, CannotFit> {
+/// Fits those of `terms` that `points` can tell apart. The others are zero.
+pub fn fit(points: &[Point], terms: &[Term]) -> Result<Fit, CannotFit> {
+    let is_wanted = |term: &Term| terms.contains(term);
+    let wanted: Vec<usize> =
+        (0..).zip(&Term::ALL).filter(|(_, term)| is_wanted(term)).map(|(place, _)| place).collect();
     let usable: Vec<Point> = points.iter().copied().filter(Point::is_usable).collect();
     if usable.len() < FEWEST {
         return Err(CannotFit::TooFew(usable.len()));
@@ -156,7 +159,7 @@ pub fn fit(points: &[Point]) -> Result<Fit, CannotFit> {
                 normal.add(&row, rest_deg, weight);
             }
         }
-        let (kept, alike) = normal.told_apart();
+        let (kept, alike) = normal.told_apart(&wanted);
         let (steps, covariance) = normal.solve(&kept);
         for (index, (term, step)) in Term::ALL.into_iter().zip(steps).enumerate() {
             let place = model.place(term);

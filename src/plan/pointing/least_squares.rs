@@ -37,10 +37,10 @@ impl<const N: usize> Normal<N> {
         self.products.get(a).and_then(|row| row.get(b)).copied().unwrap_or_default()
     }
 
-    /// The unknowns that can be told apart, the first ones first, and the others.
-    pub(super) fn told_apart(&self) -> (Vec<usize>, Vec<Alike>) {
+    /// Those of `wanted` that can be told apart, the first ones first, and the others.
+    pub(super) fn told_apart(&self, wanted: &[usize]) -> (Vec<usize>, Vec<Alike>) {
         let (mut kept, mut alike): (Vec<usize>, Vec<Alike>) = (Vec::new(), Vec::new());
-        for unknown in 0..N {
+        for unknown in wanted.iter().copied() {
             let own = self.product(unknown, unknown);
             let shares = self.solved(&kept, |other| self.product(other, unknown));
             let made: f64 =

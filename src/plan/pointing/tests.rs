@@ -124,7 +124,7 @@ fn intervals_hold_the_terms_and_are_as_small_as_they_can_be() {
         let model = any_model(&mut random);
         let noise_deg = between(&mut random, 0.01, 0.1);
         let points = points(&model, (80, noise_deg), (8.0, 82.0), &mut random);
-        let fit = fit(&points).unwrap();
+        let fit = fit(&points, &Term::ALL).unwrap();
         assert_eq!(fit.kept, Term::ALL, "seed {SEED}, case {case}");
         let found = fit.noise[0];
         assert_eq!((found.kind, found.points), (Kind::Satellite, 80));
@@ -151,7 +151,7 @@ fn without_noise_the_model_is_found_as_it_is() {
     let mut random = Random::new(SEED);
     for _ in 0..20 {
         let model = any_model(&mut random);
-        let fit = fit(&points(&model, (60, 0.0), (8.0, 82.0), &mut random)).unwrap();
+        let fit = fit(&points(&model, (60, 0.0), (8.0, 82.0), &mut random), &Term::ALL).unwrap();
         for term in Term::ALL {
             assert!((fit.model.term(term) - model.term(term)).abs() < 1e-6, "{term:?}");
         }
@@ -163,7 +163,7 @@ fn terms_that_the_points_do_not_tell_apart_are_named_and_left_out() {
     let mut random = Random::new(SEED);
     let model = any_model(&mut random);
     let level = points(&model, (60, 0.02), (30.0, 30.0), &mut random);
-    let fit = fit(&level).unwrap();
+    let fit = fit(&level, &Term::ALL).unwrap();
     let alike = |term: Term| fit.alike.iter().find(|alike| alike.term == term).map(|it| &*it.with);
     assert_eq!(alike(Term::Collimation), Some(&[Term::AzimuthOffset][..]));
     assert_eq!(alike(Term::NonPerpendicularity), Some(&[Term::AzimuthOffset][..]));
@@ -196,7 +196,7 @@ fn peaks_of_sun_and_moon_have_a_noise_of_their_own() {
             all.push(Point::of_moon(site, at, measured, 1.0));
         }
     }
-    let fit = fit(&all).unwrap();
+    let fit = fit(&all, &Term::ALL).unwrap();
     assert_eq!(fit.noise.len(), 3, "{:?}", fit.noise);
     for (found, noise_deg) in fit.noise.iter().zip([0.02, 0.3, 0.1]) {
         assert!((0.7..1.3).contains(&(found.noise_deg / noise_deg)), "{:?}", fit.noise);
@@ -211,12 +211,36 @@ fn peaks_of_sun_and_moon_have_a_noise_of_their_own() {
 fn few_points_or_such_without_numbers_are_refused() {
     let mut random = Random::new(SEED);
     let mut few = points(&PointingModel::default(), (7, 0.02), (8.0, 82.0), &mut random);
-    assert_eq!(fit(&few), Err(CannotFit::TooFew(7)));
+    assert_eq!(fit(&few, &Term::ALL), Err(CannotFit::TooFew(7)));
     let mut odd = few[0];
     odd.weight = f64::NAN;
     few.push(odd);
     odd = few[0];
     odd.measured.azimuth = Angle::from_radians(f64::INFINITY);
     few.push(odd);
-    assert_eq!(fit(&few), Err(CannotFit::TooFew(7)));
+    assert_eq!(fit(&few, &Term::ALL), Err(CannotFit::TooFew(7)));
+}
+
+#[test]
+fn a_term_that_is_not_wanted_is_zero_and_the_others_are_fitted() {
+    let mut random = Random::new(SEED);
+    let model = PointingModel {
+        azimuth_offset_deg: 0.4,
+        elevation_offset_deg: -0.2,
+        ..PointingModel::default()
+    };
+    let points = points(&model, (200, 0.02), (8.0, 82.0), &mut random);
+    let wanted = [Term::AzimuthOffset, Term::ElevationOffset];
+    let fit = fit(&points, &wanted).unwrap();
+    assert_eq!((&fit.kept[..], fit.alike.len()), (&wanted[..], 0));
+    for term in Term::ALL {
+        let Some(found) = fit.interval(term) else {
+            assert_eq!((fit.model.term(term), wanted.contains(&term)), (0.0, false), "{term:?}");
+            continue;
+        };
+        assert!((found.value - model.term(term)).abs() < 2.0 * found.half, "{term:?}");
+    }
+    let all = super::fit(&points, &Term::ALL).unwrap();
+    let half = |fit: &Fit| fit.interval(Term::AzimuthOffset).unwrap().half;
+    assert!(half(&fit) < half(&all), "fewer terms are known better");
 }

@@ -1,6 +1,7 @@
 //! The page of one antenna: its fields, and what they change of the passes to come.
 
 mod effect;
+pub(super) mod peaks;
 mod pointing;
 mod reach;
 
@@ -69,6 +70,7 @@ pub(super) fn show(
             let config = antenna.before().clone();
             let mut fit = None;
             let (form, sought) = ((antenna, &standings[..]), &mut state.sought);
+            let peak = &mut state.peak;
             ui.add_enabled_ui(!is_removed, |ui| {
                 form::section(ui, &group, form, section, sought, |ui| {
                     let known = model.antennas.iter().find(|of| of.config == config);
@@ -77,7 +79,7 @@ pub(super) fn show(
                         form::told(ui, "Coasting after STOP", &words);
                     }
                     if *section == POINTING && !is_new {
-                        fit = pointing::show(ui, model, id, &config, commands);
+                        fit = pointing::show(ui, model, id, &config, peak, commands);
                     }
                 });
             });

@@ -3,7 +3,7 @@
 use crate::{
     astro::Term,
     plan::pointing::Kind,
-    record::{NoiseOf, PointingFit},
+    record::{NoiseOf, PeakOf, PointingFit},
 };
 
 pub fn pointing_term(term: Term) -> &'static str {
@@ -19,12 +19,25 @@ pub fn pointing_term(term: Term) -> &'static str {
     }
 }
 
+pub fn peak_of(of: PeakOf) -> &'static str {
+    match of {
+        PeakOf::Sun => "Sun",
+        PeakOf::Moon => "Moon",
+    }
+}
+
 /// What a model was fitted to.
 pub fn fitted_to(fit: &PointingFit) -> String {
     let passes =
         if fit.passes == 1 { "1 pass".to_owned() } else { format!("{} passes", fit.passes) };
-    let noise = fit.noise.iter().find(|of| of.of == Kind::Satellite);
-    noise.map_or(passes.clone(), |NoiseOf { points, noise_deg, .. }| {
-        format!("{passes}, {points} points, each axis within {noise_deg:.3}° of the model (1 σ).")
-    })
+    let of = |NoiseOf { of, points, noise_deg }: &NoiseOf| {
+        let peaks = if *points == 1 { "1 peak".to_owned() } else { format!("{points} peaks") };
+        let what = match of {
+            Kind::Satellite => format!("{passes}, {points} points"),
+            Kind::Sun => format!("{peaks} of the Sun"),
+            Kind::Moon => format!("{peaks} of the Moon"),
+        };
+        format!("{what}, each axis within {noise_deg:.3}° of the model (1 σ).")
+    };
+    fit.noise.iter().map(of).collect::<Vec<_>>().join(" ")
 }

@@ -2,6 +2,7 @@
 
 use egui::{Grid, Label, RichText, Ui};
 
+use super::peaks::{self, TypedPeak};
 use crate::{
     astro::Term,
     engine::{self, pointing_fit::PointingFitted},
@@ -27,15 +28,17 @@ pub(super) fn show(
     model: &Model,
     id: AntennaId,
     antenna: &Antenna,
+    peak: &mut TypedPeak,
     commands: &mut Vec<UiCommand>,
 ) -> Option<PointingFit> {
+    peaks::show(ui, model, id, peak, commands);
     ui.add_space(6.0);
     let fitted = model.pointing_fitted.as_deref().filter(|fitted| fitted.antenna == id);
     let is_at_work = fitted.is_some_and(|fitted| fitted.found.is_none());
     let can_fit = model.replay.is_none() && !is_at_work;
     let button = ui.add_enabled(can_fit, egui::Button::new("Fit to recorded passes"));
     if button.on_disabled_hover_text(why_not(is_at_work)).clicked() {
-        commands.push(UiCommand::Station(engine::Command::FitPointing(id)));
+        commands.push(fit_without(id, Vec::new()));
     }
     let PointingFitted { found, .. } = fitted?;
     match found {
@@ -47,16 +50,32 @@ pub(super) fn show(
             told::line(ui, Tone::Bad, &format!("No model: {why}."));
             None
         }
-        Some(Ok(fit)) => terms(ui, antenna, fit).then(|| fit.clone()),
+        Some(Ok(fit)) => match terms(ui, antenna, fit, can_fit)? {
+            Wish::FillIn => Some(fit.clone()),
+            Wish::FitWithout(terms) => {
+                commands.push(fit_without(id, terms));
+                None
+            }
+        },
     }
+}
+
+fn fit_without(id: AntennaId, terms: Vec<Term>) -> UiCommand {
+    UiCommand::Station(engine::Command::FitPointing(id, terms))
+}
+
+/// What the operator wants of a fit.
+enum Wish {
+    FillIn,
+    /// The same without these terms.
+    FitWithout(Vec<Term>),
 }
 
 fn why_not(is_at_work: bool) -> &'static str {
     if is_at_work { "The record is being read." } else { "Not while a replay is shown." }
 }
 
-/// Returns `true` if the operator wants the terms in the fields.
-fn terms(ui: &mut Ui, antenna: &Antenna, fit: &PointingFit) -> bool {
+fn terms(ui: &mut Ui, antenna: &Antenna, fit: &PointingFit, can_fit: bool) -> Option<Wish> {
     let t = theme::tokens(ui);
     let line = |ui: &mut Ui, words: &str| {
         let words = RichText::new(words).font(text::small()).color(t.t2);
@@ -83,13 +102,34 @@ fn terms(ui: &mut Ui, antenna: &Antenna, fit: &PointingFit) -> bool {
             ui.end_row();
         }
     });
-    for words in fit.terms.iter().filter_map(not_told) {
+    let is_fitted = |of: &&FittedTerm| !fit.without.contains(&of.term);
+    for words in fit.terms.iter().filter(is_fitted).filter_map(not_told) {
         line(ui, &words);
     }
-    if fit.terms.iter().any(may_be_zero) {
+    if !fit.without.is_empty() {
+        let terms: Vec<&str> = fit.without.iter().map(|term| pointing_term(*term)).collect();
+        line(ui, &format!("Left at 0, as you wanted: {}.", terms.join(", ").to_lowercase()));
+    }
+    let may_go = without(fit);
+    if may_go.is_some() {
         told::line(ui, Tone::Caution, UNCERTAIN);
     }
-    ui.button("Fill in").on_hover_text("Nothing is used before you save.").clicked()
+    ui.horizontal(|ui| {
+        let fill_in = ui.button("Fill in").on_hover_text("Nothing is used before you save.");
+        let again = may_go.filter(|_| {
+            let button = ui.add_enabled(can_fit, egui::Button::new("Fit without them"));
+            button.on_hover_text("Fits again with only the terms that are not zero.").clicked()
+        });
+        let fill_in = fill_in.clicked().then_some(Wish::FillIn);
+        fill_in.or(again.map(Wish::FitWithout))
+    })
+    .inner
+}
+
+/// The terms to leave out so that none is left that may be zero, if there is one.
+fn without(fit: &PointingFit) -> Option<Vec<Term>> {
+    let zero: Vec<Term> = fit.terms.iter().filter(|of| may_be_zero(of)).map(|of| of.term).collect();
+    (!zero.is_empty()).then(|| [&fit.without[..], &zero].concat())
 }
 
 /// The terms of such a fit may have errors that cancel each other in these passes alone.

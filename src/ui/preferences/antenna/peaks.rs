@@ -1,0 +1,220 @@
+//! Peaks of the noise of the Sun and the Moon, entered by hand: points for the fit of a pointing
+//! model.
+
+use egui::{Label, RichText, TextEdit, Ui};
+use jiff::Timestamp;
+
+use crate::{
+    engine,
+    model::{Model, UiCommand},
+    record::{Peak, PeakChange, PeakOf},
+    station::AntennaId,
+    ui::{
+        format, text, theme,
+        widgets::told::{self, Tone},
+        words::pointing::peak_of,
+    },
+};
+
+/// A peak further from the Sun or the Moon than this has a typing error, degrees.
+const FAR_DEG: f64 = 20.0;
+const TIME: f32 = 172.0;
+const ANGLE: f32 = 72.0;
+
+/// A peak that is typed. What is empty is that of now.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(in crate::ui::preferences) struct TypedPeak {
+    of: PeakOf,
+    at: String,
+    azimuth: String,
+    elevation: String,
+}
+
+impl Default for TypedPeak {
+    fn default() -> Self {
+        let [at, azimuth, elevation] = [const { String::new() }; 3];
+        Self { of: PeakOf::Sun, at, azimuth, elevation }
+    }
+}
+
+impl TypedPeak {
+    /// The peak, with the time and the angles of now in place of what is empty; or why there is none.
+    fn read(&self, now: Timestamp, measured: Option<[f64; 2]>) -> Result<Peak, String> {
+        let at = match self.at.trim() {
+            "" => now,
+            typed => typed
+                .parse()
+                .map_err(|_| "A time is written as 2026-11-30 12:00:00Z.".to_owned())?,
+        };
+        if at > now {
+            return Err("This time is yet to come.".to_owned());
+        }
+        // What was measured is of now alone.
+        let [azimuth, elevation] = measured
+            .filter(|_| self.at.trim().is_empty())
+            .map_or([None; 2], |[azimuth, elevation]| [Some(azimuth), Some(elevation)]);
+        let azimuths = Peak::AZIMUTHS_DEG;
+        let elevations = Peak::ELEVATIONS_DEG;
+        Ok(Peak {
+            of: self.of,
+            at,
+            azimuth_deg: angle("azimuth", &self.azimuth, azimuth, &azimuths)?,
+            elevation_deg: angle("elevation", &self.elevation, elevation, &elevations)?,
+        })
+    }
+}
+
+fn angle(
+    name: &str,
+    typed: &str,
+    measured: Option<f64>,
+    range: &std::ops::RangeInclusive<f64>,
+) -> Result<f64, String> {
+    let read = match (typed.trim(), measured) {
+        ("", Some(measured)) => Some(measured),
+        ("", None) => return Err(format!("Type the {name} that the antenna showed at the peak.")),
+        (typed, _) => typed.parse().ok(),
+    };
+    read.filter(|deg| range.contains(deg)).ok_or_else(|| {
+        let (from, to) = (format::degrees(*range.start(), 0), format::degrees(*range.end(), 0));
+        format!("The {name} is a number from {from} to {to}.")
+    })
+}
+
+/// Shows the peaks of an antenna, and the fields for one more.
+pub(super) fn show(
+    ui: &mut Ui,
+    model: &Model,
+    id: AntennaId,
+    typed: &mut TypedPeak,
+    commands: &mut Vec<UiCommand>,
+) {
+    let t = theme::tokens(ui);
+    ui.add_space(6.0);
+    let head = "Peaks of the noise of the Sun and the Moon count in the fit.";
+    ui.add(Label::new(RichText::new(head).font(text::small()).color(t.t2)).wrap());
+    let is_recorded = model.record.is_some() && model.replay.is_none();
+    let mut change = |change| {
+        commands.push(UiCommand::Station(engine::Command::ChangePeaks(id, change)));
+    };
+    for peak in model.peaks.of(id) {
+        ui.horizontal(|ui| {
+            let words = in_words(peak, model);
+            ui.label(RichText::new(&words).font(text::small()).color(t.t1));
+            let remove = ui.add_enabled(is_recorded, egui::Button::new("Remove").small());
+            remove.widget_info(|| {
+                let name = format!("Remove the peak of {words}");
+                egui::WidgetInfo::labeled(egui::Role::Button, is_recorded, name)
+            });
+            if remove.clicked() {
+                change(PeakChange::Removed(*peak));
+            }
+        });
+    }
+    let measured = measured(model, id);
+    let hints =
+        measured.map_or([String::new(), String::new()], |deg| deg.map(|of| format!("{of:.2}")));
+    ui.horizontal_wrapped(|ui| {
+        for of in [PeakOf::Sun, PeakOf::Moon] {
+            ui.radio_value(&mut typed.of, of, peak_of(of));
+        }
+        let is_now = typed.at.trim().is_empty();
+        let [azimuth, elevation] = if is_now { hints } else { Default::default() };
+        for (name, text, hint, width) in [
+            ("Time of the peak", &mut typed.at, "now".to_owned(), TIME),
+            ("Azimuth at the peak", &mut typed.azimuth, azimuth, ANGLE),
+            ("Elevation at the peak", &mut typed.elevation, elevation, ANGLE),
+        ] {
+            let hint = RichText::new(hint).color(t.t3);
+            let edit =
+                TextEdit::singleline(text).id_salt(name).hint_text(hint).desired_width(width);
+            ui.add(edit).accessible_name(name).on_hover_text(name);
+        }
+        let read = typed.read(model.now, measured);
+        let add = ui.add_enabled(is_recorded && read.is_ok(), egui::Button::new("Add peak"));
+        if let Ok(peak) = read
+            && add.clicked()
+        {
+            change(PeakChange::Added(peak));
+            *typed = TypedPeak { of: typed.of, ..TypedPeak::default() };
+        }
+    });
+    match typed.read(model.now, measured) {
+        _ if model.replay.is_some() => {}
+        _ if !is_recorded => {
+            told::line(ui, Tone::Plain, "Nothing is recorded: no peak can be kept.")
+        }
+        Err(why) => told::line(ui, Tone::Plain, &why),
+        Ok(peak) => {
+            if let Some(far) = far(&peak, model) {
+                told::line(ui, Tone::Caution, &far);
+            }
+        }
+    }
+}
+
+/// What the axes of the antenna read now, degrees.
+fn measured(model: &Model, id: AntennaId) -> Option<[f64; 2]> {
+    let antenna = model.antenna_of(id).filter(|antenna| antenna.is_live())?;
+    let pointing = antenna.snapshot.state.measured?.pointing;
+    Some([pointing.azimuth?.degrees(), pointing.elevation?.degrees()])
+}
+
+fn in_words(peak: &Peak, model: &Model) -> String {
+    let (of, at) = (peak_of(peak.of), format::moment(peak.at, model.now));
+    let [azimuth, elevation] =
+        [peak.azimuth_deg, peak.elevation_deg].map(|deg| format::degrees(deg, 2));
+    format!("{of}, {at}: az {azimuth}, el {elevation}")
+}
+
+/// Says that a peak is far from where the Sun or the Moon was.
+fn far(peak: &Peak, model: &Model) -> Option<String> {
+    let point = peak.point(model.station.site);
+    let off_deg = point.wanted.separation(point.measured).degrees();
+    (off_deg > FAR_DEG).then(|| {
+        let of = peak_of(peak.of);
+        let (off, at) = (format::degrees(off_deg, 0), format::pointing_at(point.wanted));
+        format!("The {of} was at {at} then: that is {off} from there.")
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn now() -> Timestamp {
+        "2026-11-30T12:00:00Z".parse().unwrap()
+    }
+
+    fn typed(at: &str, azimuth: &str, elevation: &str) -> TypedPeak {
+        let [at, azimuth, elevation] = [at, azimuth, elevation].map(str::to_owned);
+        TypedPeak { of: PeakOf::Moon, at, azimuth, elevation }
+    }
+
+    #[test]
+    fn what_is_empty_is_that_of_now() {
+        let measured = Some([180.5, 30.25]);
+        let read = |typed: TypedPeak| typed.read(now(), measured);
+        let peak = Peak { of: PeakOf::Moon, at: now(), azimuth_deg: 180.5, elevation_deg: 30.25 };
+        assert_eq!(read(typed("", "", "")), Ok(peak));
+        assert_eq!(read(typed("", "181", "")), Ok(Peak { azimuth_deg: 181.0, ..peak }));
+        let at = "2026-11-30T11:00:00Z".parse().unwrap();
+        let earlier = Peak { at, azimuth_deg: -170.0, elevation_deg: 20.0, ..peak };
+        assert_eq!(read(typed("2026-11-30 11:00:00Z", "-170", " 20 ")), Ok(earlier));
+        assert!(read(typed("2026-11-30 11:00:00Z", "", "")).is_err(), "that is not of then");
+        assert!(typed("", "", "").read(now(), None).is_err());
+    }
+
+    #[test]
+    fn what_cannot_be_is_not_read() {
+        for (at, azimuth, elevation) in [
+            ("noon", "1", "2"),
+            ("2026-12-01 00:00:00Z", "1", "2"),
+            ("", "721", "2"),
+            ("", "1", "x"),
+        ] {
+            let read = typed(at, azimuth, elevation).read(now(), Some([1.0, 2.0]));
+            assert!(read.is_err(), "{at} {azimuth} {elevation}");
+        }
+    }
+}
