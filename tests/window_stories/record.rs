@@ -29,7 +29,8 @@ use azel::{
         },
     },
     record::{
-        AboutTrack, ExplainedPasses, ListedKind, OpenedPass, PassPage, PassQuery, RecordedPass, RecordedReport, Row, TrackedBy,
+        AboutTrack, ExplainedPasses, ListedKind, OpenedPass, PassPage, PassQuery, RecordedPass,
+        RecordedReport, Row, TrackedBy,
     },
     station::{self, OffsetsOf},
     ui::{format, theme},
