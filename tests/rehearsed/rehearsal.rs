@@ -105,9 +105,10 @@ async fn compare(rehearsed: &Rehearsed, client: &Client, folder: &Path) {
                 "{} {}: {before:.3} then {then:.3} deg",
                 pass.antenna_name, pass.satellite_name
             );
+            let (clock, by) = (&report["unit_clock_ahead_s"], &report["explanations"]);
             assert!(
                 (before - then).abs() <= f64::max(ALIKE_SHARE * then, ALIKE_DEG),
-                "{before} {then}"
+                "{before} {then}, the clock of the unit ahead by {clock}, explained by {by}"
             );
         }
     }
