@@ -1,60 +1,78 @@
 //! Cost of a frame without painting: logic, layout and tessellation of the Operate view on
-//! the demo station, while the antenna stands.
+//! the demo station while the antenna stands, and on a station without antennas and with 1,000
+//! favourites.
 
 // A bench prints to its user, and may panic.
 #![allow(clippy::print_stdout, clippy::unwrap_used, clippy::expect_used)]
 
 use std::time::{Duration, Instant};
 
-use azel::{app::App, clock::Clock, engine::Settings};
+use azel::{
+    app::App,
+    clock::Clock,
+    engine::Settings,
+    orbit::{Elements, bundled},
+    station::{self, Station},
+};
 
 const FRAMES: u32 = 500;
 
 fn main() {
     let folder = tempfile::tempdir().expect("a folder");
-    let settings = Settings {
-        path: Some(folder.path().join("none.toml")),
+    let settings = |name: &str| Settings {
+        path: Some(folder.path().join(name)),
         library: Some(folder.path().join("elements")),
         ..Settings::default()
     };
+    let is_measured = |app: &App| {
+        app.model().antenna().is_some_and(|antenna| antenna.snapshot.state.measured.is_some())
+    };
     for size in [[1440.0, 900.0], [1024.0, 640.0]] {
-        let mut harness = egui_kittest::Harness::builder().with_size(size).build_eframe(|cc| {
-            let app = App::new(&cc.egui_ctx, &settings, Clock::system()).expect("the app starts");
-            app.without_set_up()
-        });
-        let start = Instant::now();
-        let ready = |app: &App| {
-            app.model().antenna().is_some_and(|antenna| antenna.snapshot.state.measured.is_some())
-                && !app.model().pass_lists.favourites.passes.is_empty()
-        };
-        while !ready(harness.state()) {
-            assert!(start.elapsed() < Duration::from_secs(30), "the demo station does not start");
-            harness.step();
-        }
-        let mut frames = Duration::ZERO;
-        let mut tessellation = Duration::ZERO;
-        let mut vertices = 0;
-        for _ in 0..FRAMES {
-            let start = Instant::now();
-            harness.step();
-            frames += start.elapsed();
-            let shapes = harness.output().shapes.clone();
-            let start = Instant::now();
-            let primitives = harness.ctx.tessellate(shapes, 1.0);
-            tessellation += start.elapsed();
-            vertices = primitives
-                .iter()
-                .map(|clipped| match &clipped.primitive {
-                    egui::epaint::Primitive::Mesh(mesh) => mesh.vertices.len(),
-                    egui::epaint::Primitive::Callback(_) => 0,
-                })
-                .sum::<usize>();
-        }
-        let [width, height] = size;
-        println!(
-            "{width} x {height}: logic and layout {:?}, tessellation {:?}, {vertices} vertices",
-            frames / FRAMES,
-            tessellation / FRAMES
-        );
+        frames("demo", size, &settings("none.toml"), is_measured);
     }
+    let catalog = bundled().expect("a catalogue");
+    let numbers = catalog.iter().map(Elements::catalog_number).take(1000);
+    let station =
+        Station { antennas: Vec::new(), favourites: numbers.collect(), ..Station::default() };
+    station::save(&station, &folder.path().join("many.toml")).expect("a station file");
+    frames("1,000 favourites", [1440.0, 900.0], &settings("many.toml"), |_| true);
+}
+
+fn frames(name: &str, size: [f32; 2], settings: &Settings, is_ready: impl Fn(&App) -> bool) {
+    let mut harness = egui_kittest::Harness::builder().with_size(size).build_eframe(|cc| {
+        let app = App::new(&cc.egui_ctx, settings, Clock::system()).expect("the app starts");
+        app.without_set_up()
+    });
+    let start = Instant::now();
+    while !is_ready(harness.state())
+        || harness.state().model().pass_lists.favourites.passes.is_empty()
+    {
+        assert!(start.elapsed() < Duration::from_secs(30), "the station does not start");
+        harness.step();
+    }
+    let mut frames = Duration::ZERO;
+    let mut tessellation = Duration::ZERO;
+    let mut vertices = 0;
+    for _ in 0..FRAMES {
+        let start = Instant::now();
+        harness.step();
+        frames += start.elapsed();
+        let shapes = harness.output().shapes.clone();
+        let start = Instant::now();
+        let primitives = harness.ctx.tessellate(shapes, 1.0);
+        tessellation += start.elapsed();
+        vertices = primitives
+            .iter()
+            .map(|clipped| match &clipped.primitive {
+                egui::epaint::Primitive::Mesh(mesh) => mesh.vertices.len(),
+                egui::epaint::Primitive::Callback(_) => 0,
+            })
+            .sum::<usize>();
+    }
+    let [width, height] = size;
+    println!(
+        "{name}, {width} x {height}: logic and layout {:?}, tessellation {:?}, {vertices} vertices",
+        frames / FRAMES,
+        tessellation / FRAMES
+    );
 }

@@ -108,12 +108,15 @@ impl Spots {
             /// How many of the others that are left are read before it.
             before: usize,
         }
-        let spot = |id: &NodeId| self.0.get(id).copied();
         let is_before =
             |a: Option<Spot>, b: Option<Spot>| a.zip(b).is_some_and(|(a, b)| a.is_before(b));
-        let before = |id: &NodeId| nodes.iter().filter(|of| is_before(spot(of), spot(id))).count();
-        let mut left: Vec<Left> =
-            nodes.iter().map(|id| Left { id: *id, spot: spot(id), before: before(id) }).collect();
+        // Looked up once: each is compared with each.
+        let spots: Vec<Option<Spot>> = nodes.iter().map(|id| self.0.get(id).copied()).collect();
+        let before = |spot: Option<Spot>| spots.iter().filter(|of| is_before(**of, spot)).count();
+        let with_spots = nodes.iter().zip(&spots);
+        let mut left: Vec<Left> = with_spots
+            .map(|(id, spot)| Left { id: *id, spot: *spot, before: before(*spot) })
+            .collect();
         let (mut order, mut from) = (Vec::with_capacity(nodes.len()), 0);
         while !left.is_empty() {
             let is_free = |(index, of): (usize, &Left)| (of.before == 0).then_some(index);

@@ -1,5 +1,7 @@
 //! The placement of names above the bars.
 
+use std::ops::RangeInclusive;
+
 use egui::{Rect, vec2};
 
 /// The wanted place of a name, in its two lengths.
@@ -32,35 +34,65 @@ const AIR: f32 = 4.0;
 /// then full names where room remains. No two names overlap, and none covers an obstacle or
 /// leaves `room`.
 pub(in crate::ui) fn place(wishes: &[Wish], obstacles: &[Rect], room: Rect) -> Vec<Placed> {
-    let clear = |rect: Rect| !obstacles.iter().any(|obstacle| overlap(*obstacle, rect));
+    let mut in_the_way = Columns::new(room);
+    for obstacle in obstacles {
+        in_the_way.add(*obstacle);
+    }
+    let clear = |rect: Rect| in_the_way.leave(rect, None);
     let open = |rect: Rect| room.contains_rect(rect) && clear(rect);
+    let mut taken = Columns::new(room);
     let mut placed: Vec<Placed> = Vec::with_capacity(wishes.len());
     for wish in wishes {
         let mut places = ASIDE.iter().map(|step| wish.short.translate(vec2(*step, 0.0)));
-        let place = places.find(|rect| open(*rect) && placed.iter().all(|one| one.leaves(*rect)));
+        let place = places.find(|rect| open(*rect) && taken.leave(*rect, None));
+        if let Some(place) = place {
+            taken.add(place);
+        }
         placed.push(place.map_or(Placed::Out, Placed::Short));
     }
-    for (index, wish) in wishes.iter().enumerate() {
+    for (wish, one) in wishes.iter().zip(&mut placed) {
+        let Placed::Short(short) = *one else { continue };
         let airy = wish.full.expand2(vec2(AIR, 0.0));
-        let mut others = placed.iter().enumerate().filter(|(other, _)| *other != index);
-        let fits =
-            room.contains_rect(wish.full) && clear(airy) && others.all(|(_, one)| one.leaves(airy));
-        if let Some(one @ Placed::Short(_)) = placed.get_mut(index)
-            && fits
-        {
+        if room.contains_rect(wish.full) && clear(airy) && taken.leave(airy, Some(short)) {
+            taken.add(wish.full);
             *one = Placed::Full(wish.full);
         }
     }
     placed
 }
 
-impl Placed {
-    /// Returns `true` if the placed name leaves `rect` free.
-    fn leaves(&self, rect: Rect) -> bool {
-        match self {
-            Self::Out => true,
-            Self::Short(taken) | Self::Full(taken) => !overlap(*taken, rect),
+/// Rectangles by the columns of the room that they reach into, so that few are compared.
+struct Columns {
+    left: f32,
+    columns: Vec<Vec<Rect>>,
+}
+
+impl Columns {
+    const WIDTH: f32 = 32.0;
+
+    fn new(room: Rect) -> Self {
+        let count = (room.width() / Self::WIDTH).ceil().max(0.0) as usize + 1;
+        Self { left: room.left(), columns: vec![Vec::new(); count] }
+    }
+
+    /// The columns that `rect` reaches into; the first and the last go on beyond the room.
+    fn reached(&self, rect: Rect) -> RangeInclusive<usize> {
+        let column = |x: f32| ((x - self.left) / Self::WIDTH).floor().max(0.0) as usize;
+        let last = self.columns.len() - 1;
+        column(rect.left()).min(last)..=column(rect.right()).min(last)
+    }
+
+    fn add(&mut self, rect: Rect) {
+        let reached = self.reached(rect);
+        for column in self.columns.get_mut(reached).into_iter().flatten() {
+            column.push(rect);
         }
+    }
+
+    /// Returns `true` if no rectangle but `own` overlaps `rect`.
+    fn leave(&self, rect: Rect, own: Option<Rect>) -> bool {
+        let columns = self.columns.get(self.reached(rect)).into_iter().flatten();
+        !columns.flatten().any(|other| Some(*other) != own && overlap(*other, rect))
     }
 }
 
@@ -154,6 +186,51 @@ mod tests {
         assert_eq!(place(&[wish(2.0, 10.0)], &[], ROOM), [Placed::Out]);
         assert_eq!(place(&[wish(100.0, 3.0)], &[], ROOM), [Placed::Out]);
         assert_eq!(place(&[wish(15.0, 10.0)], &[], ROOM), [short(15.0, 10.0)]);
+    }
+
+    #[test]
+    fn no_two_of_many_names_overlap_and_whoever_is_out_had_no_room() {
+        let room = Rect::from_min_max(pos2(100.0, 0.0), pos2(1100.0, 300.0));
+        let mut state = 7_u32;
+        let mut drawn = |most: f32| {
+            state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+            (state >> 8) as f32 / (1 << 24) as f32 * most
+        };
+        let wishes: Vec<Wish> =
+            (0..400).map(|_| wish(100.0 + drawn(1000.0), drawn(300.0))).collect();
+        let bars: Vec<Rect> = (0..60)
+            .map(|_| {
+                Rect::from_min_size(pos2(drawn(1100.0), drawn(300.0)), vec2(drawn(200.0), 3.0))
+            })
+            .collect();
+        let placed = place(&wishes, &bars, room);
+        let rects: Vec<Option<Rect>> = placed
+            .iter()
+            .map(|one| match one {
+                Placed::Out => None,
+                Placed::Short(rect) | Placed::Full(rect) => Some(*rect),
+            })
+            .collect();
+        for (index, rect) in rects.iter().enumerate() {
+            let others = rects.iter().enumerate().filter(|(other, _)| *other != index);
+            let mut others = others.filter_map(|(_, other)| *other).chain(bars.iter().copied());
+            match rect {
+                Some(rect) => {
+                    assert!(room.contains_rect(*rect) && !others.any(|it| overlap(it, *rect)));
+                }
+                None => {
+                    let short = wishes[index].short;
+                    assert!(!room.contains_rect(short) || others.any(|it| overlap(it, short)));
+                }
+            }
+        }
+        let count = |of: fn(&Placed) -> bool| placed.iter().filter(|one| of(one)).count();
+        let counts = [
+            count(|one| matches!(one, Placed::Full(_))),
+            count(|one| matches!(one, Placed::Short(_))),
+            count(|one| matches!(one, Placed::Out)),
+        ];
+        assert!(counts.iter().all(|count| *count > 10), "{counts:?}");
     }
 
     #[test]
