@@ -23,7 +23,7 @@ use crate::{
     model::{Model, UiCommand, View, globe::Towards},
     station::Take,
 };
-use act::{Act, OffsetKey};
+use act::{Act, OffsetKey, ReplayKey};
 
 /// One line of the list of keys.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -156,10 +156,10 @@ pub const ALL: [Binding; 42] = [
     row(
         KeyScope::Replay,
         &[
-            (Key::Space, Act::PlayOrPause),
-            (Key::Comma, Act::RecordedEvent { is_next: false }),
-            (Key::Period, Act::RecordedEvent { is_next: true }),
-            (Key::Q, Act::LeaveReplay),
+            (Key::Space, Act::Replay(ReplayKey::Play)),
+            (Key::Comma, Act::Replay(ReplayKey::Event { is_next: false })),
+            (Key::Period, Act::Replay(ReplayKey::Event { is_next: true })),
+            (Key::Q, Act::Replay(ReplayKey::Leave)),
         ],
         "play, previous event, next, leave",
     ),
@@ -169,8 +169,8 @@ pub const ALL: [Binding; 42] = [
         row(
             KeyScope::Replay,
             &[
-                (Key::ArrowLeft, Act::ReplayBy(-LONG_STEP_S)),
-                (Key::ArrowRight, Act::ReplayBy(LONG_STEP_S)),
+                (Key::ArrowLeft, Act::Replay(ReplayKey::By(-LONG_STEP_S))),
+                (Key::ArrowRight, Act::Replay(ReplayKey::By(LONG_STEP_S))),
             ],
             "10 s back, 10 s on",
         ),
@@ -178,10 +178,10 @@ pub const ALL: [Binding; 42] = [
     row(
         KeyScope::Replay,
         &[
-            (Key::ArrowLeft, Act::ReplayBy(-STEP_S)),
-            (Key::ArrowRight, Act::ReplayBy(STEP_S)),
-            (Key::Home, Act::ReplayFrom { end: false }),
-            (Key::End, Act::ReplayFrom { end: true }),
+            (Key::ArrowLeft, Act::Replay(ReplayKey::By(-STEP_S))),
+            (Key::ArrowRight, Act::Replay(ReplayKey::By(STEP_S))),
+            (Key::Home, Act::Replay(ReplayKey::To { end: false })),
+            (Key::End, Act::Replay(ReplayKey::To { end: true })),
         ],
         "1 s back, 1 s on, beginning, end",
     ),

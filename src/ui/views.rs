@@ -163,8 +163,7 @@ impl Views {
         let mut body = window.with_min_y(top.bottom());
         let is_low = window.height() < top_bar::SMALL_BELOW;
         let has_banner = self.banner.is_taken(model);
-        self.operate.has_banner = has_banner;
-        self.operate.live = model.replay.as_ref().map(|_| LiveNow::of(live));
+        (self.operate.has_banner, self.operate.live) = (has_banner, LiveNow::of(live, model));
         if has_banner && !is_low {
             let strip = body.with_max_y(body.top() + banner::height(model));
             banner::show(ui, strip, model, commands);

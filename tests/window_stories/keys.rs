@@ -198,15 +198,14 @@ const VIEWS: [View; 9] = [
 fn is_live(binding: &Binding, view: View) -> bool {
     match binding.place {
         KeyScope::Everywhere | KeyScope::Views => true,
-        // While one is shown, its keys come before those of the views.
-        KeyScope::Replay => false,
         KeyScope::Operate => view == View::Operate,
         KeyScope::Record => view == View::Record,
         KeyScope::Map => view == View::Map,
         KeyScope::Plan => view == View::Plan,
         KeyScope::Elements => view == View::Elements,
         KeyScope::Preferences => view == View::Preferences,
-        KeyScope::Focus => false,
+        // The keys of a replay come before those of the views.
+        KeyScope::Focus | KeyScope::Replay => false,
     }
 }
 

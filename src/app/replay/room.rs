@@ -40,6 +40,9 @@ pub(super) struct Room {
     projector: Option<Projector>,
 }
 
+/// A stretch of which there is no film.
+type Hole = (Timestamp, Timestamp);
+
 /// What is asked for.
 #[derive(Default)]
 pub(super) struct Asked {
@@ -64,7 +67,7 @@ pub(super) struct Found {
     /// The stretch that is shown from then on, where that is another one.
     pub(super) stretch: Option<Stretch>,
     /// What was passed over, because there is no film of it.
-    pub(super) skipped: Option<(Timestamp, Timestamp)>,
+    pub(super) skipped: Option<Hole>,
     pub(super) scene: Result<Option<Scene>, FilmError>,
 }
 
@@ -144,7 +147,7 @@ impl Room {
         &mut self,
         from: Timestamp,
         is_next: bool,
-    ) -> Result<Option<(Timestamp, Option<(Timestamp, Timestamp)>)>, FilmError> {
+    ) -> Result<Option<(Timestamp, Option<Hole>)>, FilmError> {
         let film = self.projector()?.film();
         let Some(event) = film.event(from, is_next)? else { return Ok(None) };
         let shown = film.shown_from(event)?;

@@ -1,7 +1,6 @@
 //! The effects of keys.
 
 use egui::{FocusDirection, Ui};
-use jiff::Timestamp;
 
 use super::KeyTargets;
 use crate::{
@@ -59,18 +58,8 @@ pub(super) enum Act {
     ReplayReport,
     /// Saves the page of the report.
     ExportReport,
-    PlayOrPause,
-    /// Stands at the recorded event before or after.
-    RecordedEvent {
-        is_next: bool,
-    },
-    /// Moves a replay on by so many seconds.
-    ReplayBy(f64),
-    /// Goes to the beginning of what is replayed, or to its end.
-    ReplayFrom {
-        end: bool,
-    },
-    LeaveReplay,
+    /// Moves a replay, or ends it.
+    Replay(ReplayKey),
     /// Chooses the selected pass for the schedule, or against it.
     ChoosePass(Option<Take>),
     /// Asks whether a pass that is left out is to be taken.
@@ -117,7 +106,7 @@ impl Act {
                 let plain = ui.input(|input| input.modifiers.is_none());
                 plain && ui.memory(|memory| memory.focused().is_none())
             }
-            Self::PlayOrPause | Self::ReplayBy(_) | Self::ReplayFrom { .. } => {
+            Self::Replay(ReplayKey::Play | ReplayKey::By(_) | ReplayKey::To { .. }) => {
                 replay::takes_keys(ui)
             }
             // A button with the focus takes it.
@@ -146,21 +135,7 @@ impl Act {
                 ui.memory_mut(|memory| memory.move_focus(FocusDirection::None));
                 commands.extend(targets.operate.neighbour(model, down).map(UiCommand::SelectPass));
             }
-            Self::PlayOrPause => commands.push(UiCommand::Replay(ReplayCommand::PlayOrPause)),
-            Self::RecordedEvent { is_next } => {
-                commands.push(UiCommand::Replay(ReplayCommand::Event { is_next }));
-            }
-            Self::ReplayBy(seconds) => {
-                let to = |replay: &Replayed| add_seconds(replay.at, seconds);
-                commands.extend(go_to_moment(model, to));
-            }
-            Self::ReplayFrom { end } => {
-                let to = |Replayed { stretch, .. }: &Replayed| {
-                    if end { stretch.until } else { stretch.from }
-                };
-                commands.extend(go_to_moment(model, to));
-            }
-            Self::LeaveReplay => commands.push(UiCommand::Replay(ReplayCommand::Leave)),
+            Self::Replay(key) => commands.extend(key.command(model).map(UiCommand::Replay)),
             Self::Correct => targets.record.correct(model),
             Self::ExportReport => {
                 let format = ReportFormat::Svg;
@@ -250,8 +225,36 @@ impl Act {
     }
 }
 
-fn go_to_moment(model: &Model, moment: impl Fn(&Replayed) -> Timestamp) -> Option<UiCommand> {
-    model.replay.as_ref().map(|replay| UiCommand::Replay(ReplayCommand::To(moment(replay))))
+/// A key of a replay.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) enum ReplayKey {
+    /// Plays, or pauses.
+    Play,
+    /// Stands at the recorded event before or after.
+    Event {
+        is_next: bool,
+    },
+    /// Moves on by so many seconds.
+    By(f64),
+    /// Goes to the beginning of the stretch, or to its end.
+    To {
+        end: bool,
+    },
+    Leave,
+}
+
+impl ReplayKey {
+    fn command(self, model: &Model) -> Option<ReplayCommand> {
+        let Replayed { at, stretch, .. } = model.replay.as_ref()?;
+        Some(match self {
+            Self::Play => ReplayCommand::PlayOrPause,
+            Self::Event { is_next } => ReplayCommand::Event { is_next },
+            Self::By(seconds) => ReplayCommand::To(add_seconds(*at, seconds)),
+            Self::To { end: false } => ReplayCommand::To(stretch.from),
+            Self::To { end: true } => ReplayCommand::To(stretch.until),
+            Self::Leave => ReplayCommand::Leave,
+        })
+    }
 }
 
 /// A key for the offsets of a track.

@@ -65,8 +65,7 @@ pub(super) fn show(
     let (make, can) = (antenna.variant(), antenna.variant().capabilities);
     let second_line = second_line(antenna);
     let table = axes::table(antenna);
-    let age = age_of_old(model, antenna);
-    let wanted = wanted(antenna);
+    let (age, wanted) = (age_of_old(model, antenna), wanted(antenna));
     let predicted_decimals = model.appearance.angle_decimals as usize;
     let decimals = format::decimals(can, predicted_decimals);
     let checks = &snapshot.state.checks;
@@ -76,8 +75,7 @@ pub(super) fn show(
     let in_replay = replay::locked(&antenna.config.name);
     let locks = Locks::of(model, antenna, !checks.is_empty(), &in_replay);
     let blocked = snapshot.state.measured.map(|at| axes::blocked(at, can)).unwrap_or_default();
-    let jog_note = axes::unseen(antenna);
-    let travel = axes::travel(antenna);
+    let (jog_note, travel) = (axes::unseen(antenna), axes::travel(antenna));
     let modes = modes(can);
     let is_foreign = antenna.tracks_unasked();
     let mode = if is_foreign { Intent::Track } else { snapshot.intent };

@@ -1,6 +1,6 @@
 //! The dialog for the passes of several days, which go into one file.
 
-use egui::{Key, RichText, TextEdit, Ui};
+use egui::{Grid, Key, RichText, Sense, TextEdit, Ui, vec2};
 use jiff::{ToSpan as _, civil::Date, tz::TimeZone};
 
 use super::RecordState;
@@ -20,6 +20,8 @@ use crate::{
 };
 
 const WIDTH: f32 = 360.0;
+/// Width of the field of a day.
+const DAY: f32 = 120.0;
 /// Days that are offered.
 const DAYS: i64 = 7;
 
@@ -57,9 +59,9 @@ pub(super) fn show(ui: &Ui, state: &mut RecordState, commands: &mut Vec<UiComman
         ui.set_width(WIDTH);
         answer = content(ui, dialog, filters);
     });
-    let answer = if modal.should_close() { answer.or(Some(None)) } else { answer };
-    if let Some(answer) = answer {
-        if let (Some(format), Ok((first, last))) = (answer, dialog.days()) {
+    let closes = modal.should_close().then_some(Answer::Cancel);
+    if let Some(answer) = answer.or(closes) {
+        if let (Answer::Save(format), Ok((first, last))) = (answer, dialog.days()) {
             let export = Export::Days { query, first, last, format };
             commands.push(UiCommand::Save(export));
         }
@@ -67,8 +69,13 @@ pub(super) fn show(ui: &Ui, state: &mut RecordState, commands: &mut Vec<UiComman
     }
 }
 
-/// Returns the form that the operator wants, or `None` for Cancel, once there is an answer.
-fn content(ui: &mut Ui, dialog: &mut DaysDialog, filters: bool) -> Option<Option<DaysFormat>> {
+#[derive(Clone, Copy)]
+enum Answer {
+    Save(DaysFormat),
+    Cancel,
+}
+
+fn content(ui: &mut Ui, dialog: &mut DaysDialog, filters: bool) -> Option<Answer> {
     let t = theme::tokens(ui);
     ui.label(RichText::new("Export the passes of several days").font(text::value()));
     let which = if filters {
@@ -78,30 +85,37 @@ fn content(ui: &mut Ui, dialog: &mut DaysDialog, filters: bool) -> Option<Option
     };
     ui.label(RichText::new(which).font(text::small()).color(t.t2));
     ui.add_space(8.0);
-    for (name, typed) in [("First day", &mut dialog.first), ("Last day", &mut dialog.last)] {
-        ui.horizontal(|ui| {
+    Grid::new("days").num_columns(2).show(ui, |ui| {
+        for (name, typed) in [("First day", &mut dialog.first), ("Last day", &mut dialog.last)] {
             let label = ui.label(RichText::new(name).font(text::body()).color(t.t2));
-            let edit = TextEdit::singleline(typed).id_salt(name).desired_width(120.0);
+            let edit = TextEdit::singleline(typed).id_salt(name).desired_width(DAY);
             ui.add(edit).labelled_by(label.id).accessible_name(name);
-        });
-    }
+            ui.end_row();
+        }
+    });
     let problem = dialog.days().err();
-    // Kept free, so that the buttons stay where they are.
-    told::line(ui, Tone::Bad, problem.unwrap_or_default());
+    // Its room is kept free, so that the buttons stay where they are.
+    let tone = if problem.is_some() { Tone::Bad } else { Tone::Plain };
+    told::line(ui, tone, problem.unwrap_or_default());
     ui.add_space(8.0);
     let is_locked = problem.is_some();
     let json = Button::primary("Reports (JSON)").locked(is_locked);
     let points = Button::normal("Points (CSV)").locked(is_locked);
-    let [json, points] = button::pair(ui, json, points);
-    ui.add_space(4.0);
-    let cancel = ui.button("Cancel");
+    let cancel = Button::normal("Cancel");
+    let size = vec2(ui.available_width(), button::HEIGHT);
+    let (place, _) = ui.allocate_exact_size(size, Sense::hover());
+    let widths = [json.width(ui), points.width(ui), cancel.width(ui)];
+    let [json_at, points_at, cancel_at] = button::row(place.right_center(), widths);
+    let json = json.show(ui, "reports", json_at);
+    let points = points.show(ui, "points", points_at);
+    let cancel = cancel.show(ui, "cancel", cancel_at);
     let enter = !is_locked && ui.input(|input| input.key_pressed(Key::Enter));
     if cancel.clicked() {
-        Some(None)
+        Some(Answer::Cancel)
     } else if points.clicked() {
-        Some(Some(DaysFormat::Csv))
+        Some(Answer::Save(DaysFormat::Csv))
     } else if json.clicked() || enter && !points.has_focus() && !cancel.has_focus() {
-        Some(Some(DaysFormat::Json))
+        Some(Answer::Save(DaysFormat::Json))
     } else {
         None
     }

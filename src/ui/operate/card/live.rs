@@ -11,11 +11,11 @@ use crate::{
 };
 
 impl LiveNow {
-    pub fn of(live: &Model) -> Self {
-        Self {
-            antennas: live.antennas.iter().map(|antenna| live_antenna(live, antenna)).collect(),
-            next: next(live),
-        }
+    /// What `live` does while `model` is a replay.
+    pub fn of(live: &Model, model: &Model) -> Option<Self> {
+        model.replay.as_ref()?;
+        let antennas = live.antennas.iter().map(|antenna| live_antenna(live, antenna)).collect();
+        Some(Self { antennas, next: next(live) })
     }
 }
 

@@ -112,14 +112,14 @@ pub(super) fn show(
         });
     }
     let measured = measured(model, id);
-    let hints =
-        measured.map_or([String::new(), String::new()], |deg| deg.map(|of| format!("{of:.2}")));
+    let hints = measured.map(|deg| deg.map(|of| format::number(of, 2)));
     ui.horizontal_wrapped(|ui| {
         for of in [PeakOf::Sun, PeakOf::Moon] {
             ui.radio_value(&mut typed.of, of, peak_of(of));
         }
         let is_now = typed.at.trim().is_empty();
-        let [azimuth, elevation] = if is_now { hints } else { Default::default() };
+        let words = ["azimuth", "elevation"].map(str::to_owned);
+        let [azimuth, elevation] = hints.filter(|_| is_now).unwrap_or(words);
         for (name, text, hint, width) in [
             ("Time of the peak", &mut typed.at, "now".to_owned(), TIME),
             ("Azimuth at the peak", &mut typed.azimuth, azimuth, ANGLE),
@@ -142,7 +142,7 @@ pub(super) fn show(
     match typed.read(model.now, measured) {
         _ if model.replay.is_some() => {}
         _ if !is_recorded => {
-            told::line(ui, Tone::Plain, "Nothing is recorded: no peak can be kept.")
+            told::line(ui, Tone::Plain, "Nothing is recorded: no peak can be kept.");
         }
         Err(why) => told::line(ui, Tone::Plain, &why),
         Ok(peak) => {
