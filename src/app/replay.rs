@@ -3,22 +3,23 @@
 //! Invariant: nothing here can reach a unit. A replay has a model and views of its own, and no handle
 //! on a station. What its views ask for ends here, but for [`Beyond`], which holds no command.
 
+mod ending;
 mod room;
-#[cfg(test)]
-mod tests;
 
 use std::{path::PathBuf, sync::Arc, time::Duration};
 
 use jiff::Timestamp;
 
-use self::room::{Answer, Asked, Found, Room, Scene, Wanted};
+use self::{
+    ending::why_over,
+    room::{Answer, Asked, Found, Room, Scene, Wanted},
+};
 use super::{App, catalog_table::CatalogWork, effects::EffectsJobs};
 use crate::{
     astro::time::add_seconds,
     clock::{Instant, Moment},
     engine::{
         Command,
-        alarms::{Alarm, Priority},
         passes::{PredictedPass, Scope},
         recorded::RecordLook,
     },
@@ -27,7 +28,6 @@ use crate::{
         Appearance, Model, UiCommand, View,
         replay::{EndedReplay, ReplayCommand, ReplayEnd, ReplayProblem, Replayed, Stretch},
     },
-    plan::schedule::Entry,
     record::Beside,
     station::AntennaId,
     ui,
@@ -36,8 +36,6 @@ use crate::{
 /// Least time between two moments that are shown while it plays, seconds.
 const STEP_S: f64 = 0.05;
 
-/// A replay ends so long before an antenna is to track a pass, seconds.
-const BEFORE_PASS_S: f64 = 120.0;
 /// How long it is told why a replay has ended by itself.
 const TOLD: Duration = Duration::from_secs(10);
 
@@ -399,21 +397,4 @@ impl Replay {
             Err(error) => self.tell(ReplayProblem::Failed(error.to_string())),
         }
     }
-}
-
-/// Why a replay that began at `begun_at` ends by itself.
-fn why_over(begun_at: Timestamp, live: &Model) -> Option<ReplayEnd> {
-    let is_grave =
-        |alarm: &Alarm| alarm.priority() == Priority::First && !alarm.seen && alarm.last > begun_at;
-    if live.alarms.list().iter().any(is_grave) {
-        return Some(ReplayEnd::Alarm);
-    }
-    let is_near = |entry: &&Entry| {
-        let ends_at = add_seconds(entry.from, -BEFORE_PASS_S);
-        begun_at < ends_at && ends_at <= live.now && live.now < entry.from
-    };
-    let entry = live.schedule.schedule.entries.iter().find(is_near)?;
-    let satellite = live.pass_lists.satellite(entry.pass.satellite);
-    let name = satellite.map_or_else(String::new, |of| of.short_name().to_owned());
-    Some(ReplayEnd::Pass { name, from: entry.from })
 }

@@ -1,11 +1,15 @@
 //! When a replay ends by itself.
 
-use jiff::{Timestamp, ToSpan as _};
+use std::sync::Arc;
+
+use jiff::ToSpan as _;
 
 use super::*;
 use crate::{
+    clock::{Instant, Moment},
     engine::alarms::AlarmKind,
     plan::schedule::{Class, PassKey},
+    station::AntennaId,
 };
 
 fn at(second: i64) -> Timestamp {

@@ -1,0 +1,33 @@
+//! When a replay ends by itself, for the sake of the live station.
+
+#[cfg(test)]
+mod tests;
+
+use jiff::Timestamp;
+
+use crate::{
+    astro::time::add_seconds,
+    engine::alarms::{Alarm, Priority},
+    model::{Model, replay::ReplayEnd},
+    plan::schedule::Entry,
+};
+
+/// A replay ends so long before an antenna is to track a pass, seconds.
+const BEFORE_PASS_S: f64 = 120.0;
+
+/// Why a replay that began at `begun_at` ends by itself.
+pub(super) fn why_over(begun_at: Timestamp, live: &Model) -> Option<ReplayEnd> {
+    let is_grave =
+        |alarm: &Alarm| alarm.priority() == Priority::First && !alarm.seen && alarm.last > begun_at;
+    if live.alarms.list().iter().any(is_grave) {
+        return Some(ReplayEnd::Alarm);
+    }
+    let is_near = |entry: &&Entry| {
+        let ends_at = add_seconds(entry.from, -BEFORE_PASS_S);
+        begun_at < ends_at && ends_at <= live.now && live.now < entry.from
+    };
+    let entry = live.schedule.schedule.entries.iter().find(is_near)?;
+    let satellite = live.pass_lists.satellite(entry.pass.satellite);
+    let name = satellite.map_or_else(String::new, |of| of.short_name().to_owned());
+    Some(ReplayEnd::Pass { name, from: entry.from })
+}
