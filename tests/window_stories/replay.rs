@@ -143,6 +143,36 @@ fn rig_name(window: &Window) -> String {
 }
 
 #[test]
+fn what_commands_an_antenna_in_other_views_is_locked_too() {
+    for size in SIZES {
+        let mut window = rig::window(size, model());
+        let name = rig_name(&window);
+        let is_locked = |window: &Window, role: Role, label: &str| {
+            let found: Vec<bool> = window
+                .query_all_by_role(role)
+                .filter(|node| {
+                    node.accesskit_node().label().is_some_and(|of| of.starts_with(label))
+                })
+                .map(|node| node.accesskit_node().is_disabled())
+                .collect();
+            assert!(!found.is_empty() && found.iter().all(|of| *of), "{size:?} {label}: {found:?}");
+        };
+        let show = |window: &mut Window, view| {
+            window.state_mut().model.view = view;
+            settle(window);
+        };
+        show(&mut window, View::Plan);
+        is_locked(&window, Role::Button, &format!("Automatic operation of {name}, off"));
+        is_locked(&window, Role::Button, "Rehearse");
+        show(&mut window, View::Antennas);
+        is_locked(&window, Role::Button, "Apply");
+        show(&mut window, View::Console);
+        is_locked(&window, Role::Button, "Send");
+        assert!(rig::says(&window, &format!("Replay. Leave it to command {name}.")));
+    }
+}
+
+#[test]
 fn the_card_says_what_the_live_antenna_does_meanwhile() {
     for size in SIZES {
         let mut model = model();

@@ -9,7 +9,7 @@ use crate::{
     model::UiCommand,
     ui::{
         icons::{self, Icon},
-        text, theme,
+        replay, text, theme,
         widgets::{
             button::{Button, HEIGHT as BUTTON},
             paint,
@@ -80,6 +80,8 @@ pub(super) fn show(
     let count = form.count_all(unit);
     let hindrance = form.hindrance(unit);
     let can_apply = count.ready > 0 && count.sending == 0 && unit.is_open() && hindrance.is_none();
+    let is_replayed = unit.model.replay.is_some();
+    let can_apply = can_apply && !is_replayed;
     let changes = if count.ready == 1 { "change" } else { "changes" };
     let words = match count.ready {
         0 => "Apply (Ctrl Enter)".to_owned(),
@@ -106,7 +108,11 @@ pub(super) fn show(
     // Enter in a dialog belongs to the dialog.
     let is_free = ui.memory(|memory| memory.top_modal_layer().is_none());
     let key = is_free && ui.input_mut(|input| input.consume_key(Modifiers::COMMAND, Key::Enter));
-    let clicked = apply.show(ui, "apply settings", applying).clicked();
+    let applied = apply.show(ui, "apply settings", applying);
+    let clicked = applied.clicked();
+    if is_replayed {
+        applied.on_hover_text(replay::locked(unit.name()));
+    }
     if (clicked || key) && can_apply {
         form.apply(unit, commands);
     }

@@ -15,7 +15,7 @@ use crate::{
     ui::{
         bar::glyph,
         icons::{self, Icon},
-        text, theme,
+        replay, text, theme,
         widgets::{
             button::{Button, HEIGHT as BUTTON},
             drop_down::DropDown,
@@ -57,13 +57,17 @@ pub(super) fn show(
     let read = model.antenna().and_then(|antenna| read(antenna, &entry.text));
     let link = model.antenna().is_some_and(|antenna| antenna.snapshot.link.is_open());
     let ready = match &read {
-        Some(Ok(question)) if link => Some(*question),
+        Some(Ok(question)) if link && model.replay.is_none() => Some(*question),
         _ => None,
     };
     if let Some(Ok(question)) = &read {
         finished(ui, frame, question);
     }
     let (icon, words, colour) = match (&read, ready) {
+        _ if model.replay.is_some() => {
+            let name = model.antenna().map_or("the antennas", |antenna| &antenna.config.name);
+            (Icon::Lock, replay::locked(name), t.t2)
+        }
         (Some(Err(reason)), _) => (Icon::Lock, format!("Not sent. {reason}"), t.warn),
         (_, Some(question)) => {
             (Icon::Check, format!("{}. The answer will appear in the log.", question.about), t.t2)

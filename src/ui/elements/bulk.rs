@@ -45,7 +45,7 @@ pub(super) fn show(
         salt: "priority of marked",
         name: "Priority of the marked",
     };
-    let upload = Button::normal("Upload…").icon(Icon::Upload);
+    let upload = Button::normal("Upload…").icon(Icon::Upload).locked(model.replay.is_some());
     let forms =
         DropDown { button: Button::normal("Copy"), salt: "copy marked", name: "Copy the marked" };
     let clear = Button::quiet("Clear");

@@ -197,7 +197,8 @@ fn show_foot(
     if let Some(antenna) = model.antenna() {
         let word = format!("Upload to {}", antenna.config.name);
         let takes = antenna.spec().element_files.is_some();
-        let upload = Button::primary(&word).icon(Icon::Upload).locked(!takes);
+        let upload =
+            Button::primary(&word).icon(Icon::Upload).locked(!takes || model.replay.is_some());
         let place = first(inner.left(), inner.left() + half);
         if upload.show(ui, "upload selected", place).clicked() {
             state.upload(Choice::Also(number));

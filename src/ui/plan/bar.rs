@@ -40,7 +40,7 @@ pub(super) fn show(
     ui.painter().hline(rect.x_range(), rect.bottom() - 0.5, (1.0, t.line));
     let inner = rect.shrink2(vec2(PADDING, 0.0));
     let (words, rehearse) = rehearsal(model);
-    let can_rehearse = model.schedule.made_at.is_some();
+    let can_rehearse = model.schedule.made_at.is_some() && model.replay.is_none();
     let of_rehearsal = Button::normal(&words).locked(!can_rehearse);
     let word = words::schedule::choose_by(model.station.scheduling.choose_by);
     let name = format!("Choose by, {word}");

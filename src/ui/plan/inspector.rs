@@ -177,7 +177,7 @@ fn rehearsal(
     }
     let (row, _) = ui.allocate_exact_size(vec2(width, BUTTON + GAP), Sense::hover());
     let is_free = !matches!(model.rehearsal, RehearsalState::UnderWay(_));
-    let button = Button::quiet("Rehearse this pass").locked(!is_free);
+    let button = Button::quiet("Rehearse this pass").locked(!is_free || model.replay.is_some());
     let at = row.min + vec2(PADDING, GAP / 2.0);
     let place = Rect::from_min_size(at, vec2(button.width(ui), BUTTON));
     if button.show(ui, "rehearse pass", place).clicked() {
@@ -324,6 +324,7 @@ fn controls(
     let segments = choices.map(|(take, word)| {
         let state = match take {
             take if take == present => Segment::Chosen,
+            _ if model.replay.is_some() => Segment::Locked,
             Some(Take::Always) if cannot => Segment::Locked,
             _ => Segment::Free,
         };
@@ -343,8 +344,12 @@ fn controls(
         .iter()
         .zip(&words)
         .map(|(priority, word)| {
-            let is_it = *priority == planned.priority;
-            (word.as_str(), if is_it { Segment::Chosen } else { Segment::Free })
+            let state = match model.replay {
+                _ if *priority == planned.priority => Segment::Chosen,
+                Some(_) => Segment::Locked,
+                None => Segment::Free,
+            };
+            (word.as_str(), state)
         })
         .collect();
     let place = row.with_min_x(row.left() + LABEL);

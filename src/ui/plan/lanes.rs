@@ -202,7 +202,7 @@ fn label(
     }
     paint::focus_ring(ui, &response, 2);
     response.on_hover_text(spoken);
-    switches::show(ui, switch, antenna, state, commands);
+    switches::show(ui, switch, model, antenna, state, commands);
 }
 
 fn lane(
@@ -247,7 +247,7 @@ fn lane(
     }
     names(ui, place, &bars);
     if let Some(words) = switches::go_on(model, antenna) {
-        let button = Button::primary(&words);
+        let button = Button::primary(&words).locked(model.replay.is_some());
         let width = button.width(ui).min(place.width() - 16.0);
         let min = pos2(place.right() - width - 8.0, place.center().y - 12.0);
         let rect = Rect::from_min_size(min, vec2(width, 24.0));

@@ -5,7 +5,7 @@ use egui::{Align2, Color32, Rect, Role, ScrollArea, Sense, Ui, UiBuilder, Widget
 
 use super::{PADDING, PlanState, show_focus, state::Shown};
 use crate::{
-    engine::antenna::AntennaModel,
+    engine::{antenna::AntennaModel, passes::PassKey},
     model::{
         Model, UiCommand,
         plan::{ListedPass, Standing},
@@ -311,6 +311,11 @@ fn reason(model: &Model, listed: &ListedPass<'_>) -> (String, bool) {
     }
 }
 
+fn cannot_swap(model: &Model, pass: PassKey) -> bool {
+    let is_impossible = model.swap_of(pass).is_some_and(|swap| swap.changes.is_none());
+    is_impossible || model.replay.is_some()
+}
+
 #[allow(clippy::too_many_arguments)]
 fn show_row(
     ui: &Ui,
@@ -393,7 +398,7 @@ fn show_row(
     let can_swap = columns.swaps && matches!(listed.standing, Standing::LeftOut(_));
     if let (true, Some(planned)) = (can_swap, &listed.planned) {
         // Known as soon as the inspector has shown the price.
-        let cannot = model.swap_of(listed.key).is_some_and(|swap| swap.changes.is_none());
+        let cannot = cannot_swap(model, listed.key);
         let button = Button::normal("Swap").locked(cannot);
         let width = button.width(ui);
         let place = Rect::from_min_size(pos2(end - width, row.top() + 2.0), vec2(width, ROW - 4.0));

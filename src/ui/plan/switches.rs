@@ -11,7 +11,7 @@ use crate::{
     },
     model::{Model, UiCommand},
     ui::{
-        format, theme,
+        format, replay, theme,
         widgets::{hold_button, paint},
         words,
     },
@@ -88,6 +88,7 @@ fn next(model: &Model, antenna: &AntennaModel) -> String {
 pub(super) fn show(
     ui: &Ui,
     rect: Rect,
+    model: &Model,
     antenna: &AntennaModel,
     state: &mut PlanState,
     commands: &mut Vec<UiCommand>,
@@ -96,18 +97,23 @@ pub(super) fn show(
     let is_on = !matches!(antenna.operation, Operation::Off(_));
     let name = &antenna.config.name;
     let id = antenna.id();
-    let can = is_on || antenna.snapshot.lock_out.is_none() && antenna.held_by.is_none();
+    let is_replayed = model.replay.is_some();
+    let can = antenna.snapshot.lock_out.is_none() && antenna.held_by.is_none() && !is_replayed;
+    let locked = replay::locked(name);
+    let about = |words| if is_replayed { &*locked } else { words };
     let set = |is_on| UiCommand::Station(engine::Command::SetAutomatic { antenna: id, is_on });
     let (fill, line) = if is_on { (t.okbg, t.ok) } else { (t.bg0, t.edge) };
     let mut way = if is_on { 1.0 } else { 0.0 };
     let response = if is_on {
         let words = format!("Automatic operation of {name}, on");
-        let response = paint::control(ui, ("automatic", id.0), rect, Role::Switch, true, &words);
-        response.widget_info(|| WidgetInfo::selected(Role::Switch, true, true, &words));
-        if response.clicked() {
+        let response =
+            paint::control(ui, ("automatic", id.0), rect, Role::Switch, !is_replayed, &words);
+        let is_enabled = !is_replayed;
+        response.widget_info(|| WidgetInfo::selected(Role::Switch, is_enabled, true, &words));
+        if is_enabled && response.clicked() {
             commands.push(set(false));
         }
-        response.on_hover_text("Click to switch it off. A pass under way continues.")
+        response.on_hover_text(about("Click to switch it off. A pass under way continues."))
     } else {
         let words = format!("Automatic operation of {name}, off: hold 1 s to switch it on");
         let hold = state.hold(id);
@@ -116,11 +122,15 @@ pub(super) fn show(
             commands.push(set(true));
         }
         way = hold_button::part(ui, hold);
-        response.on_hover_text("Hold for a second to switch it on.")
+        response.on_hover_text(about("Hold for a second to switch it on."))
     };
     let knob = pos2(egui::lerp(rect.left() + 10.0..=rect.right() - 10.0, way), rect.center().y);
     ui.painter().rect_filled(rect, HEIGHT / 2.0, fill);
-    ui.painter().rect_stroke(rect, HEIGHT / 2.0, Stroke::new(1.0, line), StrokeKind::Inside);
+    if is_replayed {
+        paint::dashed_border(ui, rect, HEIGHT / 2.0, Stroke::new(1.0, t.edge));
+    } else {
+        ui.painter().rect_stroke(rect, HEIGHT / 2.0, Stroke::new(1.0, line), StrokeKind::Inside);
+    }
     ui.painter().circle_filled(knob, 7.0, line);
     paint::focus_ring(ui, &response, 10);
 }
