@@ -246,7 +246,11 @@ impl Replay {
                 self.wanted = Some(Wanted::Pass { of, is_next });
             }
             ReplayCommand::PlayOrPause => {
-                if !replay.plays && replay.is_at_end() {
+                let is_forward = replay.speed > 0;
+                if let Some(ReplayProblem::NoFilm { from, until }) = replay.problem {
+                    // On the other side it goes on.
+                    self.wanted = Some(Wanted::At(if is_forward { until } else { from }));
+                } else if !replay.plays && replay.is_at_end() {
                     let stretch = &replay.stretch;
                     let start = if replay.speed < 0 { stretch.until } else { stretch.from };
                     self.wanted = Some(Wanted::At(start));
@@ -307,7 +311,7 @@ impl Replay {
         }
     }
 
-    fn take_moment(&mut self, Found { at, stretch, skipped, scene }: Found) {
+    fn take_moment(&mut self, Found { at, stretch, hole, skipped, scene }: Found) {
         if stretch.is_some() {
             self.model.selected = None;
         }
@@ -318,7 +322,12 @@ impl Replay {
             replay.problem = None;
         }
         match scene {
-            Ok(Some(scene)) => self.take_scene(at, scene),
+            Ok(Some(scene)) => {
+                self.take_scene(at, scene);
+                if let Some((from, until)) = hole {
+                    self.tell(ReplayProblem::NoFilm { from, until });
+                }
+            }
             Ok(None) => self.tell(ReplayProblem::NothingYet),
             Err(error) => self.tell(ReplayProblem::Failed(error.to_string())),
         }

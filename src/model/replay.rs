@@ -107,6 +107,11 @@ pub struct Replayed {
 pub enum ReplayProblem {
     /// Nothing was recorded before it.
     NothingYet,
+    /// There is no film of it, between two runs. What was shown last stands there.
+    NoFilm {
+        from: Timestamp,
+        until: Timestamp,
+    },
     Failed(String),
 }
 

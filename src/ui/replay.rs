@@ -202,6 +202,9 @@ fn news(replay: &Replayed) -> Option<String> {
     });
     let Some(problem) = &replay.problem else { return skipped };
     Some(match problem {
+        ReplayProblem::NoFilm { from, until } => {
+            format!("No film here, for {}.", format::age(seconds_between(*from, *until)))
+        }
         ReplayProblem::NothingYet => "Nothing was recorded at this moment.".to_owned(),
         ReplayProblem::Failed(why) => format!("Not shown. {}", words::sentence(why)),
     })
@@ -209,8 +212,12 @@ fn news(replay: &Replayed) -> Option<String> {
 
 /// The whole of the news, for whoever points at it.
 fn whole_news(replay: &Replayed) -> Option<String> {
-    let skipped = replay.skipped.filter(|_| replay.problem.is_none());
-    let told = skipped.map(|(from, until)| {
+    let hole = match replay.problem {
+        None => replay.skipped,
+        Some(ReplayProblem::NoFilm { from, until }) => Some((from, until)),
+        Some(_) => None,
+    };
+    let told = hole.map(|(from, until)| {
         let stretch = format::stretch(from, until, replay.at);
         format!(
             "There is no film of {stretch}: Azel did not run, or what it showed is not kept any more."

@@ -10,7 +10,9 @@ use azel::{
     engine::{Command, Settings},
     model::{
         Model, UiCommand, View,
-        replay::{EndedReplay, ReplayCommand, ReplayEnd, Replayed, Stretch, StretchPass},
+        replay::{
+            EndedReplay, ReplayCommand, ReplayEnd, ReplayProblem, Replayed, Stretch, StretchPass,
+        },
     },
     record::PassMarks,
     station,
@@ -217,11 +219,18 @@ fn a_jump_over_what_was_not_filmed_is_told() {
         let skipped = (add_seconds(at, -86_400.0), add_seconds(at, -60.0));
         model.replay.as_mut().unwrap().skipped = Some(skipped);
         model.view = View::Plan;
-        let window = rig::window(size, model);
+        let mut window = rig::window(size, model);
         let whole = "There is no film of 11 Aug 11:15:30Z to 12 Aug 11:14:30Z: ";
         window.get_by_label_contains(whole);
         let texts = painted::texts(&window);
         assert!(texts.iter().any(|of| of == "Skipped 23 h 59 min: no film."), "{texts:?}");
+        let replay = window.state_mut().model.replay.as_mut().unwrap();
+        let (from, until) = skipped;
+        (replay.skipped, replay.problem) = (None, Some(ReplayProblem::NoFilm { from, until }));
+        settle(&mut window);
+        window.get_by_label_contains(whole);
+        let texts = painted::texts(&window);
+        assert!(texts.iter().any(|of| of == "No film here, for 23 h 59 min."), "{texts:?}");
     }
 }
 

@@ -66,6 +66,8 @@ pub(super) struct Found {
     pub(super) at: Timestamp,
     /// The stretch that is shown from then on, where that is another one.
     pub(super) stretch: Option<Stretch>,
+    /// The stretch around it of which there is no film.
+    pub(super) hole: Option<Hole>,
     /// What was passed over, because there is no film of it.
     pub(super) skipped: Option<Hole>,
     pub(super) scene: Result<Option<Scene>, FilmError>,
@@ -136,9 +138,10 @@ impl Room {
         Some(match moment {
             Ok(moment) => {
                 let (at, skipped) = moment?;
-                Found { at, stretch, skipped, scene: self.scene(at) }
+                let hole = self.projector().and_then(|projector| projector.film().hole_at(at));
+                Found { at, stretch, hole: hole.ok().flatten(), skipped, scene: self.scene(at) }
             }
-            Err((at, error)) => Found { at, stretch, skipped: None, scene: Err(error) },
+            Err((at, error)) => Found { at, stretch, hole: None, skipped: None, scene: Err(error) },
         })
     }
 

@@ -4,7 +4,7 @@ use std::{io::Read as _, path::Path, time::Duration};
 
 use flate2::read::DeflateDecoder;
 use jiff::Timestamp;
-use rusqlite::{Connection, OptionalExtension as _, params};
+use rusqlite::{Connection, OptionalExtension as _, Row as SqlRow, params};
 use serde_json::Value;
 
 use super::patch::{Misfit, Patch};
@@ -204,6 +204,29 @@ impl Film {
             us(end, begin)?.map_or(from.as_microsecond(), |end| end.max(from.as_microsecond()));
         let time = |us| Timestamp::from_microsecond(us).ok();
         Ok(time(end).zip(time(begin)))
+    }
+
+    /// The stretch around `at` of which there is no film, between two runs.
+    pub fn hole_at(&self, at: Timestamp) -> Result<Option<(Timestamp, Timestamp)>, FilmError> {
+        let at_us = at.as_microsecond();
+        let before = "SELECT of.run, max(of.until_us) FROM reel AS of JOIN (SELECT run, number FROM reel \
+                      WHERE from_us <= ?1 ORDER BY from_us DESC LIMIT 1) AS last \
+                      ON of.run = last.run AND of.number = last.number";
+        let after = "SELECT run, from_us FROM reel WHERE from_us > ?1 ORDER BY from_us LIMIT 1";
+        let found = |sql: &str| -> Result<Option<(i64, i64)>, FilmError> {
+            let mut statement = self.db.prepare_cached(sql)?;
+            let row = |row: &SqlRow<'_>| Ok((row.get::<_, Option<i64>>(0)?, row.get(1)?));
+            let (run, us) = statement.query_row([at_us], row).optional()?.unwrap_or_default();
+            Ok(run.zip(us))
+        };
+        let (Some((run, ended_us)), Some((next, begun_us))) = (found(before)?, found(after)?)
+        else {
+            return Ok(None);
+        };
+        let time = |us| Timestamp::from_microsecond(us).ok();
+        let is_between = run != next && ended_us < at_us;
+        // The first picture of a run is within this microsecond.
+        Ok(time(ended_us).zip(time(begun_us + 1)).filter(|_| is_between))
     }
 
     /// The lines on the link of an antenna after `from`, up to `until`, oldest first.

@@ -98,6 +98,12 @@ fn a_hole_in_the_film_is_told() {
     assert_eq!(hole(20.0, 190.0), None);
     assert_eq!(hole(305.0, 419.0), None);
     assert_eq!(hole(-50.0, 5.0), Some((at(-50.0), at(0.0))), "nothing is kept from before");
+    let around = |second: f64| film.hole_at(at(second)).unwrap();
+    let all = (at(199.0), at(300.0) + 1.microsecond());
+    assert_eq!((around(250.0), around(199.5)), (Some(all), Some(all)));
+    for second in [-1.0, 0.5, 59.7, 199.0, 300.0, 300.5, 419.0, 500.0] {
+        assert_eq!(around(second), None, "{second}");
+    }
 }
 
 #[test]
