@@ -147,3 +147,52 @@ impl<'a> Rest<'a> {
         taken
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::astro::Angle;
+
+    /// Passes of a few satellites at hand-made times, some at the same instant, in two batches.
+    fn found(count: i64) -> FoundPasses {
+        let pass = |satellite: u32, index: i64| {
+            // Now and then a whole day lies between two.
+            let aos_ns = index * 600 * time::SECOND_NS + index / 100 * 86_400 * time::SECOND_NS;
+            let point = |after_s: i64| PassPoint {
+                time: time::from_nanoseconds(aos_ns + after_s * time::SECOND_NS),
+                direction: AzEl::from_degrees(10.0, f64::from(satellite)),
+            };
+            let (aos, tca, los) = (point(0), point(60), point(120));
+            let pass = Pass { aos, tca, los, starts_before: index == 0, ends_after: false };
+            CompactPass::new(satellite, &pass)
+        };
+        let of = |satellite| (0..count).map(move |index| pass(satellite, index));
+        FoundPasses::new(vec![of(0).chain(of(3)).collect(), Vec::new(), of(7).collect()])
+    }
+
+    #[test]
+    fn passes_are_in_order_whatever_lies_between_them() {
+        for count in [0, 1, 3 * STRETCH as i64] {
+            let found = found(count);
+            let mut sorted: Vec<_> = found.clone().into_passes().collect();
+            sorted.sort_by_key(|(satellite, pass)| (pass.aos.time, *satellite));
+            assert_eq!(sorted.len() as i64, 3 * count);
+            assert!(found.in_order().eq(sorted));
+        }
+    }
+
+    #[test]
+    fn passes_come_back_as_they_were_divided() {
+        let mut found = found(10);
+        found.divide(|satellite, pass| match satellite {
+            0 => Vec::new(),
+            3 => vec![pass],
+            _ => vec![pass, Pass { starts_before: true, ..pass }],
+        });
+        found.retain(|pass| pass.max_elevation() > Angle::from_degrees(5.0));
+        let passes: Vec<_> = found.in_order().collect();
+        assert_eq!(passes.len(), 20);
+        assert!(passes.iter().all(|(satellite, _)| *satellite == 7));
+        assert!(passes.chunks(2).all(|two| two[0].1.aos == two[1].1.aos && two[1].1.starts_before));
+    }
+}
