@@ -238,11 +238,16 @@ fn recording(ui: &Ui, room: Rect, model: &Model) {
         return;
     }
     let width = paint::text_width(ui, &words, text::small()) + 20.0;
+    // Without room for the words the mark stands alone, unless they tell of a failure.
+    let has_words = width <= room.width() || failing.is_some();
+    let width = if has_words { width } else { 12.0 };
     let place = room.with_min_x((room.right() - width).max(room.left()));
     let at = pos2(place.left() + 6.0, place.center().y);
     icons::paint(ui.painter(), paint::square(at, 12.0), icon, colour);
     let rest = place.with_min_x(place.left() + 18.0);
-    paint::text_in(ui, rest, Align2::LEFT_CENTER, &words, text::small(), t.t2);
+    if has_words {
+        paint::text_in(ui, rest, Align2::LEFT_CENTER, &words, text::small(), t.t2);
+    }
     let response = paint::name_text(ui, "recording", place, &words);
     response.widget_info(|| WidgetInfo::labeled(Role::Status, true, &words));
     response.on_hover_text(&words);
