@@ -52,7 +52,7 @@ pub(super) fn write<'a>(
     } else {
         let at_tca = |pass: &Pass| [pass.tca.time];
         write_rows(out, rows, at_tca, |text, row, [tca]| {
-            push_row(text, &view, row, [None, tca, None])
+            push_row(text, &view, row, [None, tca, None]);
         })
     }
 }

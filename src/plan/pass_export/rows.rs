@@ -119,11 +119,12 @@ mod tests {
     fn written(count: usize, threads: usize) -> Vec<u8> {
         let (elements, pass) = example();
         let satellites = vec![Satellite::new(elements).unwrap(); 7];
-        let rows = (0..count).zip(satellites.iter().rev().cycle()).map(|(second, satellite)| {
-            let mut pass = pass;
-            pass.aos.time += SignedDuration::from_secs(second as i64);
-            ExportedPass { satellite, pass }
-        });
+        let rows =
+            (0..).take(count).zip(satellites.iter().rev().cycle()).map(|(second, satellite)| {
+                let mut pass = pass;
+                pass.aos.time += SignedDuration::from_secs(second);
+                ExportedPass { satellite, pass }
+            });
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
         let times = |pass: &Pass| [pass.aos.time, pass.los.time];
         let push = |text: &mut Vec<u8>, row: &ExportedPass<'_>, states: [Option<State>; 2]| {
