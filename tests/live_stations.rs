@@ -33,7 +33,7 @@ struct Live {
 /// A station and the folder of its files.
 fn begun(speed: NonZeroU32, wake: azel::job::Wake) -> (Live, tempfile::TempDir) {
     let clock = Clock::at_speed(start(), speed);
-    let units = Units::new(&clock, start());
+    let units = Units::new(&clock);
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("station.toml");
     station::save(&station(), &path).unwrap();

@@ -220,6 +220,8 @@ pub enum LeftOffsets {
     Found { since: Timestamp },
     /// They were not taken back.
     Failed(WriteError),
+    /// The unit has gone on to another pass, on which they cannot be taken back.
+    Refused(Refusal),
 }
 
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]

@@ -5,7 +5,7 @@ use crate::{
     astro::{Angle, Offset, TrackOffsets},
     device::settings::Value,
     engine::antenna::AntennaModel,
-    plan::pass_report::Cause,
+    plan::pass_report::{Cause, Explanation},
     record::{RecordedPass, TrackedBy},
     station::{AntennaId, OffsetsOf},
 };
@@ -19,19 +19,23 @@ pub struct Correction {
 
 #[derive(Debug, Clone, PartialEq)]
 pub enum How {
-    /// A value for a setting of the unit, by the keys of its group and itself.
-    Setting { group: &'static str, field: &'static str, value: Value },
+    /// Values for settings of the unit, by their keys and that of their group.
+    Settings { group: &'static str, values: Vec<(&'static str, Value)> },
     /// Offsets with which the antenna begins its tracks, in place of those that are remembered.
     Remembered(TrackOffsets),
 }
 
-/// What would correct `cause` in the passes to come; `None` where nothing here does, or where it
-/// seems to be corrected already.
-pub fn correction(model: &Model, pass: &RecordedPass, cause: &Cause) -> Option<Correction> {
+/// What would correct the causes of `explanation` in the passes to come, as far as anything here
+/// does; `None` where nothing does, or where they seem to be corrected already.
+pub fn correction(
+    model: &Model,
+    pass: &RecordedPass,
+    explanation: &Explanation,
+) -> Option<Correction> {
     let antenna = model.antennas.iter().find(|antenna| antenna.id() == pass.antenna)?;
     let how = match pass.report.about.tracked_by {
-        TrackedBy::ProgramTrack => remembered(model, antenna, pass, cause),
-        TrackedBy::OnBoard | TrackedBy::Elsewhere => setting(antenna, pass, cause),
+        TrackedBy::ProgramTrack => remembered(model, antenna, pass, explanation),
+        TrackedBy::OnBoard | TrackedBy::Elsewhere => settings(antenna, pass, explanation),
     };
     how.filter(|_| model.replay.is_none()).map(|how| Correction { antenna: antenna.id(), how })
 }
@@ -42,18 +46,20 @@ fn remembered(
     model: &Model,
     antenna: &AntennaModel,
     pass: &RecordedPass,
-    cause: &Cause,
+    explanation: &Explanation,
 ) -> Option<How> {
     let less = |offset_deg: f64| Angle::from_degrees(-offset_deg);
-    let step = match *cause {
-        Cause::AzimuthOffset { offset_deg } => Offset::Azimuth(less(offset_deg)),
-        Cause::ElevationOffset { offset_deg } => Offset::Elevation(less(offset_deg)),
-        _ => return None,
+    let step = |cause: &Cause| match *cause {
+        Cause::AzimuthOffset { offset_deg } => Some(Offset::Azimuth(less(offset_deg))),
+        Cause::ElevationOffset { offset_deg } => Some(Offset::Elevation(less(offset_deg))),
+        _ => None,
     };
+    let mut steps = explanation.causes().filter_map(step).peekable();
+    steps.peek()?;
     let flown = pass.report.about.offsets.changes().last();
     let flown = flown.map_or(TrackOffsets::NONE, |(_, offsets)| *offsets);
     let of = OffsetsOf::Antenna(antenna.id());
-    let offsets = of.part(flown).plus(step)?;
+    let offsets = steps.try_fold(of.part(flown), TrackOffsets::plus)?;
     (model.station.kept_offsets(of) != offsets).then_some(How::Remembered(offsets))
 }
 
@@ -61,7 +67,7 @@ fn remembered(
 const LEAST_DEG: f64 = 0.005;
 
 /// What the unit holds, less the error. What was written after the pass may correct it already.
-fn setting(antenna: &AntennaModel, pass: &RecordedPass, cause: &Cause) -> Option<How> {
+fn settings(antenna: &AntennaModel, pass: &RecordedPass, explanation: &Explanation) -> Option<How> {
     let fields = antenna.variant().track_offsets?;
     let state = antenna.snapshot.state.held.get(fields.group)?;
     if state.written.as_ref().is_some_and(|written| written.at > pass.report.from) {
@@ -74,17 +80,18 @@ fn setting(antenna: &AntennaModel, pass: &RecordedPass, cause: &Cause) -> Option
         }
         _ => None,
     };
-    let (field, value) = match *cause {
-        Cause::AzimuthOffset { offset_deg } => degrees(fields.azimuth_deg, offset_deg)?,
-        Cause::ElevationOffset { offset_deg } => degrees(fields.elevation_deg, offset_deg)?,
+    let value = |cause: &Cause| match *cause {
+        Cause::AzimuthOffset { offset_deg } => degrees(fields.azimuth_deg, offset_deg),
+        Cause::ElevationOffset { offset_deg } => degrees(fields.elevation_deg, offset_deg),
         Cause::Late { late_s } => match held.get(fields.time_ms)? {
             Value::Integer(held_ms) => {
                 let late_ms = (late_s * 1000.0).round() as i64;
-                (fields.time_ms, Value::Integer(held_ms.saturating_add(late_ms)))
+                Some((fields.time_ms, Value::Integer(held_ms.saturating_add(late_ms))))
             }
-            _ => return None,
+            _ => None,
         },
-        _ => return None,
+        _ => None,
     };
-    Some(How::Setting { group: fields.group, field, value })
+    let values: Vec<_> = explanation.causes().filter_map(value).collect();
+    (!values.is_empty()).then_some(How::Settings { group: fields.group, values })
 }

@@ -45,8 +45,10 @@ pub(crate) struct Units {
 }
 
 impl Units {
-    pub(crate) fn new(clock: &Clock, start: Timestamp) -> Self {
+    pub(crate) fn new(clock: &Clock) -> Self {
+        // Their clocks begin with what was read: by a clock that runs meanwhile they would be late.
         LazyLock::force(&FAVOURITES);
+        let start = clock.now().utc;
         let pair = rotator_genius::Options {
             rotators: [
                 rotator_genius::RotatorOptions::default(),

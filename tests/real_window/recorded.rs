@@ -80,7 +80,7 @@ fn last_pass(station: &Station) -> Pass {
 async fn track(station: &Station, settings: &Settings, record: &Path) {
     let from = last_pass(station).aos.time - BEFORE_AOS;
     let clock = Clock::at_speed(from, NonZeroU32::MIN);
-    let units = Units::new(&clock, from);
+    let units = Units::new(&clock);
     let _jobs = job::InPlace::begin();
     let (running, run) = InPlace::start(settings, units.outside(&clock)).expect("a station");
     let run = tokio::spawn(run);

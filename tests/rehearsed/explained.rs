@@ -79,7 +79,8 @@ fn pass(station: &Station, dice: &mut Dice) -> Option<(u32, Pass)> {
 
 /// What the report of a pass that the Satrak tracks makes of this trouble.
 async fn explained(trouble: Trouble, number: u32, pass: &Pass) -> Vec<Explanation> {
-    let station = Station { favourites: [number].into(), ..units::station() };
+    let mut station = Station { favourites: [number].into(), ..units::station() };
+    station.antennas.retain(|antenna| antenna.name == "Dish");
     let scene = Scene::recorded(pass.aos.time - 4.minutes(), &station);
     let client = scene.client();
     let dish = measured(&client, "Dish").await;

@@ -75,7 +75,7 @@ fn live(start: Timestamp, folder: &Path) -> Handle {
         records: Some(folder.join("records")),
         ..Settings::default()
     };
-    let units = Units::new(&clock, start);
+    let units = Units::new(&clock);
     Handle::start(settings, units.outside(&clock), Arc::new(|| {})).unwrap()
 }
 

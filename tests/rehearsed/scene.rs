@@ -49,7 +49,7 @@ impl Scene {
 
     fn keeping(start: Timestamp, station: &Station, keeps: Keeps) -> Self {
         let clock = Clock::at_speed(start, NonZeroU32::MIN);
-        let units = Units::new(&clock, start);
+        let units = Units::new(&clock);
         let folder = tempfile::tempdir().unwrap();
         station::save(station, &folder.path().join("station.toml")).unwrap();
         Self::begun(units, clock, folder, keeps)

@@ -44,10 +44,16 @@ async fn stand_elsewhere(rig: &mut Rig) {
 
 /// Sends a payload as another client.
 pub(super) async fn by_another(rig: &Rig, payload: &str) {
+    by_another_at_once(rig, &[payload]).await;
+}
+
+/// Sends payloads as another client, one right after the other.
+pub(super) async fn by_another_at_once(rig: &Rig, payloads: &[&str]) {
     let (mut near, far) = tokio::io::duplex(4096);
     let control = rig.control.clone();
     tokio::spawn(async move { control.serve(far).await });
-    near.write_all(&encode(payload)).await.unwrap();
+    let bytes: Vec<u8> = payloads.iter().flat_map(|payload| encode(payload)).collect();
+    near.write_all(&bytes).await.unwrap();
     tokio::time::sleep(std::time::Duration::from_secs(1)).await;
 }
 
@@ -225,15 +231,19 @@ async fn a_path_below_the_antennas_limit_is_refused_with_time_and_place() {
     assert!((29.9..31.0).contains(&lowest.elevation_deg()), "{lowest:?}");
 }
 
-/// Sets `target` and its window on the unit as another client.
-async fn chosen_by_another(rig: &mut Rig, target: &TrackTarget) {
-    by_another(rig, &format!("SATELLITE=,{},{},1,0", scene::FILE, target.name)).await;
+/// The setting of the window of `target`.
+pub(super) fn window(target: &TrackTarget) -> String {
     let text = |time| {
         let civil = jiff::tz::TimeZone::UTC.to_datetime(time);
         civil.strftime("%-H,%-M,%-S,%-d,%-m,%Y").to_string()
     };
-    let window = format!("START_STOP_TIME=,{},{}", text(target.from), text(target.until));
-    by_another(rig, &window).await;
+    format!("START_STOP_TIME=,{},{}", text(target.from), text(target.until))
+}
+
+/// Sets `target` and its window on the unit as another client.
+async fn chosen_by_another(rig: &mut Rig, target: &TrackTarget) {
+    by_another(rig, &format!("SATELLITE=,{},{},1,0", scene::FILE, target.name)).await;
+    by_another(rig, &window(target)).await;
     let number = target.catalog_number;
     rig.until("it is read", 32, |shown| {
         let told = &shown.state.on_board;

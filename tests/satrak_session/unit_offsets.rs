@@ -13,9 +13,9 @@ use azel::{
 };
 
 use super::{
-    on_board::by_another,
+    on_board::{by_another, by_another_at_once, window},
     rig::{Rig, antenna, iss, track},
-    scene,
+    scene::{self, orbit, twin},
     settings::{change, write_settings},
 };
 
@@ -320,6 +320,44 @@ async fn what_somebody_else_sets_meanwhile_is_left_alone() {
     rig.seconds(60.0).await;
     assert_eq!(held(&rig), (0.7, 0.0));
     assert_eq!(rig.shown().unit_offsets, None);
+}
+
+/// The unit tracks another satellite, and was never seen at rest between.
+async fn goes_on_to_the_twin(rig: &Rig) {
+    let choice = format!("SATELLITE=,{},{},1,0", scene::FILE, twin().name);
+    by_another_at_once(rig, &[&choice, &window(&twin()), "TRACK=,1"]).await;
+    rig.know_orbit(Some(orbit(25_545)));
+}
+
+#[tokio::test(start_paused = true)]
+async fn they_are_taken_back_when_the_unit_goes_straight_on_to_another_satellite() {
+    let mut rig = in_a_pass().await;
+    offset(&rig, OffsetChange::Step(azimuth(0.2)));
+    until_added(&mut rig, with(&[azimuth(0.2)])).await;
+    goes_on_to_the_twin(&rig).await;
+    rig.until("taken back", 60, |shown| {
+        let held = shown.state.on_board.offsets.unwrap();
+        shown.unit_offsets.is_none() && (held.azimuth_deg + 0.1).abs() < 1e-9
+    })
+    .await;
+    assert!(rig.control.state().is_tracking, "it goes on");
+}
+
+#[tokio::test(start_paused = true)]
+async fn what_cannot_be_taken_back_on_the_next_pass_is_told_and_taken_back_at_its_end() {
+    let mut rig = in_a_pass().await;
+    offset(&rig, OffsetChange::Step(elevation(6.0)));
+    until_added(&mut rig, with(&[elevation(6.0)])).await;
+    rig.handle().keep_within(keep_out([-2.0, 2.0]));
+    goes_on_to_the_twin(&rig).await;
+    rig.until("it is told", 60, |shown| {
+        let left = shown.unit_offsets.as_ref().and_then(|unit| unit.left.clone());
+        matches!(left, Some(LeftOffsets::Refused(_)))
+    })
+    .await;
+    rig.send(Command::Standby);
+    rig.until("taken back", 60, |shown| shown.unit_offsets.is_none()).await;
+    assert_eq!(held(&rig), (-0.1, 0.0));
 }
 
 #[tokio::test(start_paused = true)]

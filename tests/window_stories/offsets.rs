@@ -6,7 +6,8 @@ use azel::{
     astro::{Angle, Offset, TrackOffsets},
     device::settings::WriteError,
     driver::{
-        Command, LeftOffsets, LinkState, OffsetChange, OnBoardView, Snapshot, UnitOffsetsView,
+        Command, LeftOffsets, LinkState, OffsetChange, OnBoardView, Refusal, Snapshot,
+        UnitOffsetsView,
     },
     engine::{self, alarms::AlarmKind},
     model::UiCommand,
@@ -252,6 +253,7 @@ fn offsets_that_were_left_on_the_unit_are_taken_back_with_one_click() {
     for left in [
         LeftOffsets::Found { since: rig::now() },
         LeftOffsets::Failed(WriteError::Refused("ERR,4".to_owned())),
+        LeftOffsets::Refused(Refusal::PassUnknown),
     ] {
         for size in SIZES {
             let mut window = rig::window(size, rig::model(at_rest(left.clone())));

@@ -10,7 +10,7 @@ use tokio::task::{JoinHandle, spawn_blocking};
 
 use super::{Event, OffsetChange, Session, marking::take_now, offsets::most};
 use crate::{
-    astro::{Offset, TrackOffsets, time::add_seconds},
+    astro::{Offset, TrackOffsets},
     clock::{Instant, Moment},
     device::{
         OnBoard, TrackOffsetFields,
@@ -35,6 +35,9 @@ pub(super) struct UnitOffsets {
     earlier: Vec<TrackOffsets>,
     /// After a change that was not read back, the unit has to be read again: when it was read last.
     unread_since: Option<Timestamp>,
+    /// The track to which something was added: the satellite, and when the unit ends it by its own
+    /// clock.
+    added_to: Option<(u32, Timestamp)>,
     /// Why what was written is still there.
     left: Option<LeftOffsets>,
     tickets: u64,
@@ -111,8 +114,7 @@ impl Session {
         let watch = self.on_board_watch().ok_or(Refusal::PassUnknown)?;
         let mut pass = OnBoardPass::clone(watch.judge().pass());
         // The unit runs through the window by its own clock.
-        let own_now = add_seconds(now.utc, unit.clock.map_or(0.0, |clock| clock.ahead_s));
-        pass.target.from = pass.target.from.max(own_now).min(pass.target.until);
+        pass.target.from = pass.target.from.max(self.own_now(now)).min(pass.target.until);
         let judge = Judge::new(pass, self.setup.ability).map_err(|_| Refusal::PassUnknown)?;
         Ok(Some(Shift { judge, axes: with(after), sky: with(before) }))
     }
@@ -131,6 +133,7 @@ impl Session {
             return self.write_shift(fields, now);
         }
         let Some(after) = before.and(wanted) else { return self.forget_wanted() };
+        self.unit_offsets.added_to = self.told_track();
         let put = vec![held, after];
         debts.set_shifted(&unit, Some(ShiftedTrack { since, before, put, is_found: false }));
         if debts.has_marks() {
@@ -149,8 +152,13 @@ impl Session {
             Ok(Some(ticket)) => self.unit_offsets.step = Step::Writing { ticket },
             Ok(None) => self.unit_offsets.wanted = None,
             Err(refusal) => {
+                let was_taken_back = self.unit_offsets.wanted.is_some_and(TrackOffsets::is_none);
                 self.forget_wanted();
-                self.tell(Event::OffsetRefused(refusal));
+                if was_taken_back && self.added_track_is_over(now) {
+                    self.unit_offsets.left = Some(LeftOffsets::Refused(refusal));
+                } else {
+                    self.tell(Event::OffsetRefused(refusal));
+                }
             }
         }
     }
@@ -213,8 +221,8 @@ impl Session {
         };
         self.unit_offsets.step = Step::None;
         // In mid-track the operator may try again, and the end of the track takes it back.
-        let was_taken_back =
-            !self.may_track() && self.unit_offsets.wanted.is_some_and(TrackOffsets::is_none);
+        let was_taken_back = self.added_track_is_over(now)
+            && self.unit_offsets.wanted.is_some_and(TrackOffsets::is_none);
         match &written.result {
             Ok(()) if self.unit_offsets.wanted == self.added_offsets() => {
                 self.unit_offsets.wanted = None;
@@ -260,8 +268,7 @@ impl Session {
     /// Takes back what is added once the track is over, and forgets what is taken back.
     fn watch_shifted(&mut self, fields: &TrackOffsetFields, now: Moment) {
         let (debts, unit) = (self.owed.debts.clone(), self.owed.unit.clone());
-        // On the next track it would move the antenna: it waits for the operator or the end.
-        let is_over = !self.may_track();
+        let is_over = self.added_track_is_over(now);
         let Some(shifted) = debts.shifted(&unit) else {
             if is_over {
                 self.unit_offsets.earlier.clear();
@@ -283,7 +290,8 @@ impl Session {
             return;
         }
         let waits = self.stop.is_under_way() || self.gate.lock_out().is_some();
-        if is_over && !waits && !shifted.is_found && self.unit_offsets.left.is_none() {
+        if is_over && !waits && !shifted.is_found && self.may_take_back() {
+            self.unit_offsets.left = None;
             self.unit_offsets.wanted = Some(TrackOffsets::NONE);
             self.begin_shift(fields, now);
         }

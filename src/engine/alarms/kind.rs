@@ -194,7 +194,7 @@ impl AlarmKind {
             | Self::AutoTrackOwed(_)
             | Self::OffsetsOwed(_)
             | Self::OffTarget { .. }
-            | Self::OffsetsLeft { why: LeftOffsets::Failed(_), .. }
+            | Self::OffsetsLeft { why: LeftOffsets::Failed(_) | LeftOffsets::Refused(_), .. }
             | Self::NotOnItsWay { .. }
             | Self::AutomaticMoves { .. }
             | Self::AutomaticOff(_)

@@ -20,8 +20,10 @@ pub fn take_over(
 ) {
     let Some(place) = model.place(antenna) else { return };
     match how {
-        How::Setting { group, field, value } => {
-            antennas.type_in(model, place, Taken { group, field, value });
+        How::Settings { group, values } => {
+            for (field, value) in values {
+                antennas.type_in(model, place, Taken { group, field, value });
+            }
             commands.push(UiCommand::SelectAntenna(place));
             commands.push(UiCommand::Show(View::Antennas));
         }

@@ -8,7 +8,7 @@ use crate::{
         Model,
         correction::{Correction, correction},
     },
-    plan::pass_report::{Cause, Explanation},
+    plan::pass_report::Explanation,
     record::OpenedPass,
     ui::{
         format, text, theme,
@@ -90,19 +90,14 @@ pub(super) fn show(
             ui.painter().rect_filled(row.with_max_x(row.left() + 3.0), 0.0, t.sat);
         }
         explained(ui, row, place, &columns, explanation);
-        let mut offer = |row: Rect, cause: &Cause, is_best: bool| {
-            let cell = row.with_min_x(columns.correction.0).with_max_x(columns.correction.1);
-            let correction = correction(model, &opened.pass, cause);
-            let id = ("correct", place, words::cause(cause));
-            if let Some(taken) = offered(ui, cell, id, correction, is_best) {
-                state.correction = Some(Ok(taken));
-            }
-        };
-        offer(row, &explanation.cause, place == 0);
         if let Some(with) = &explanation.with {
             let row = next();
             cells(ui, row, &columns, [&words::second_cause(with), &words::size(with), ""]);
-            offer(row, with, false);
+        }
+        let cell = row.with_min_x(columns.correction.0).with_max_x(columns.correction.1);
+        let correction = correction(model, &opened.pass, explanation);
+        if let Some(taken) = offered(ui, cell, place, correction) {
+            state.correction = Some(Ok(taken));
         }
     }
     let together = model.recorded.as_ref().and_then(|recorded| recorded.together.as_ref());
@@ -117,13 +112,12 @@ pub(super) fn show(
     }
 }
 
-/// The button of a correction, or a dash where there is none; returns it if it was pressed.
+/// The button of the correction at this place, or a dash where there is none; returns it if it was pressed.
 fn offered(
     ui: &Ui,
     cell: Rect,
-    id: impl std::hash::Hash + std::fmt::Debug,
+    place: usize,
     correction: Option<Correction>,
-    is_best: bool,
 ) -> Option<Correction> {
     let Some(correction) = correction else {
         let t3 = theme::tokens(ui).t3;
@@ -131,8 +125,8 @@ fn offered(
         return None;
     };
     let at = Rect::from_center_size(cell.center(), vec2(cell.width(), SMALL_HEIGHT));
-    let response = Button::normal("Apply…").show(ui, id, at);
-    let words = words::correction(&correction.how, is_best);
+    let response = Button::normal("Apply…").show(ui, ("correct", place), at);
+    let words = words::correction(&correction.how, place == 0);
     response.on_hover_text(words).clicked().then_some(correction)
 }
 

@@ -142,9 +142,8 @@ impl RecordState {
         let opened = self.opened(model);
         let best = opened.and_then(|opened| opened.pass.report.explanations.first());
         let found = opened.zip(best);
-        let found = found.and_then(|(opened, best)| correction(model, &opened.pass, &best.cause));
-        let cause = best.map(|best| &best.cause);
-        self.correction = Some(found.ok_or_else(|| no_correction(cause)));
+        let found = found.and_then(|(opened, best)| correction(model, &opened.pass, best));
+        self.correction = Some(found.ok_or_else(|| no_correction(best)));
     }
 
     pub(super) fn list_more(&mut self) {

@@ -58,6 +58,11 @@ pub fn offsets_left(
             "The unit of {antenna} may still add {added} to its tracks: it was not taken back, since \
              {error}. Take it back, or set it under Antennas."
         ),
+        LeftOffsets::Refused(refusal) => format!(
+            "The unit of {antenna} has gone on to its next pass and still adds {added}: taking it back \
+             there is refused. {} It is taken back at the end of this pass.",
+            super::refusal(refusal, now)
+        ),
     }
 }
 

@@ -291,9 +291,10 @@ pub fn whole_share(share: f64) -> String {
 pub fn correction(how: &How, is_best: bool) -> String {
     let key = if is_best { " (C)" } else { "" };
     match how {
-        How::Setting { .. } => format!(
-            "Enters the value in the settings of the unit{key}. Nothing is sent until you apply \
-             it there."
+        How::Settings { values, .. } => format!(
+            "Enters the {} in the settings of the unit{key}. Nothing is sent until you apply \
+             it there.",
+            if values.len() == 1 { "value" } else { "values" }
         ),
         How::Remembered(offsets) => {
             format!("Asks whether to remember {} for this antenna{key}", super::offsets(*offsets))
@@ -302,9 +303,9 @@ pub fn correction(how: &How, is_best: bool) -> String {
 }
 
 /// Why nothing can be taken over for the best explanation, if there is one.
-pub fn no_correction(best: Option<&Cause>) -> String {
+pub fn no_correction(best: Option<&Explanation>) -> String {
     best.map_or("Nothing to apply: the error of this pass is not explained.".to_owned(), |best| {
-        let cause = cause(best);
+        let cause = names(best);
         format!("Nothing to apply: no setting or offset corrects \u{201c}{cause}\u{201d}, or one does already.")
     })
 }

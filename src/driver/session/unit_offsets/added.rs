@@ -5,7 +5,7 @@ use jiff::Timestamp;
 
 use super::Step;
 use crate::{
-    astro::TrackOffsets,
+    astro::{TrackOffsets, time::add_seconds},
     clock::Moment,
     device::{OnBoard, Phase},
     driver::{
@@ -13,6 +13,9 @@ use crate::{
         session::{Session, activity::OnBoardStage},
     },
 };
+
+/// Ends of windows that are further apart are those of two passes, seconds.
+const APART_S: f64 = 30.0;
 
 impl Session {
     /// What is added to what the unit held before, as it was read last; `None` while that is not
@@ -92,11 +95,46 @@ impl Session {
         self.contact.unread || self.program_is_on() || is_starting
     }
 
+    /// Returns `true` once the unit does not track any more, or goes on with another pass than the
+    /// one to whose track something was added.
+    pub(super) fn added_track_is_over(&self, now: Moment) -> bool {
+        let is_another = self.told_track().zip(self.unit_offsets.added_to).is_some_and(
+            |((number, until), (number_then, until_then))| {
+                // The unit may report the window of a pass a little otherwise.
+                let is_later = add_seconds(until_then, APART_S) < until;
+                number != number_then || is_later && until_then < self.own_now(now)
+            },
+        );
+        !self.may_track() || is_another && self.program_is_on() && !self.activity.is_pending()
+    }
+
+    /// The satellite that the unit says it tracks, and when it ends that by its own clock.
+    pub(super) fn told_track(&self) -> Option<(u32, Timestamp)> {
+        let told = &self.gate.state().on_board;
+        Some((told.satellite.as_ref()?.catalog_number, told.window?.1))
+    }
+
+    /// Returns `true` unless taking back has failed. What the gate refused on the next track is tried
+    /// again at its end.
+    pub(super) fn may_take_back(&self) -> bool {
+        match &self.unit_offsets.left {
+            None => true,
+            Some(LeftOffsets::Refused(_)) => !self.may_track(),
+            Some(LeftOffsets::Failed(_) | LeftOffsets::Found { .. }) => false,
+        }
+    }
+
+    /// UTC by the clock of the unit.
+    pub(super) fn own_now(&self, now: Moment) -> Timestamp {
+        let clock = self.gate.state().on_board.clock;
+        add_seconds(now.utc, clock.map_or(0.0, |clock| clock.ahead_s))
+    }
+
     /// Returns `true` if the track is over and what was added for it is still on the unit.
     pub(in crate::driver::session) fn owes_offsets(&self) -> bool {
         let shifted = self.owed.debts.shifted(&self.owed.unit);
         let is_owed = shifted.is_some_and(|shifted| !shifted.is_found)
-            && self.unit_offsets.left.is_none()
+            && self.may_take_back()
             && !self.may_track();
         is_owed && self.added_offsets().is_some_and(|added| !added.is_none())
     }
