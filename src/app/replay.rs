@@ -19,7 +19,7 @@ use crate::{
     astro::time::add_seconds,
     clock::{Instant, Moment},
     engine::{
-        Command,
+        Command, Snapshot,
         passes::{PredictedPass, Scope},
         recorded::RecordLook,
     },
@@ -328,7 +328,18 @@ impl Replay {
                     self.tell(ReplayProblem::NoFilm { from, until });
                 }
             }
-            Ok(None) => self.tell(ReplayProblem::NothingYet),
+            Ok(None) => {
+                // Nothing of another moment may stand under this time.
+                let moment = Moment { utc: at, steady: self.model.steady };
+                self.take_scene(
+                    at,
+                    Scene { shown: Snapshot::before_anything(moment), wires: Vec::new() },
+                );
+                self.tell(match hole {
+                    Some((from, until)) => ReplayProblem::NoFilm { from, until },
+                    None => ReplayProblem::NothingYet,
+                });
+            }
             Err(error) => self.tell(ReplayProblem::Failed(error.to_string())),
         }
     }

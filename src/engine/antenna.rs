@@ -54,7 +54,9 @@ pub struct AntennaModel {
     pub prediction: Option<Prediction>,
     /// Errors of the present track, oldest first.
     pub errors: Errors,
-    /// What explains the error of the pass under way, if one cause does so well.
+    /// What explains the error of the pass under way, if that is known. Films of before have it in
+    /// another form under its own name.
+    #[serde(default, rename = "explained_by")]
     pub explained: Option<Explained>,
     /// Target of the present track.
     pub errors_of: Option<String>,

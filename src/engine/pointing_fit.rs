@@ -30,6 +30,8 @@ pub(super) struct PointingWork {
     /// The record that they are of, and the work of reading it.
     peaks_of: Option<PathBuf>,
     reading: Option<Job<Result<Peaks, RecordError>>>,
+    /// Why they are not known.
+    unread: Option<String>,
 }
 
 impl PointingWork {
@@ -46,6 +48,7 @@ impl Engine {
             return;
         }
         self.pointing_work.peaks = Arc::default();
+        (self.pointing_work.reading, self.pointing_work.unread) = (None, None);
         self.pointing_work.peaks_of.clone_from(&path);
         let Some(path) = path else { return };
         let job = Job::start("azel-peaks", Arc::clone(&self.wake), move |_| Peaks::read(&path));
@@ -68,6 +71,10 @@ impl Engine {
             let found = Err("this user has no folder for records".to_owned());
             return self.pointing_work.tell(antenna, Some(found));
         };
+        if let Some(why) = &self.pointing_work.unread {
+            let found = Err(format!("the peaks of the Sun and the Moon cannot be read: {why}"));
+            return self.pointing_work.tell(antenna, Some(found));
+        }
         let site = self.station.site;
         let peaks: Vec<Peak> = self.pointing_work.peaks.of(antenna).copied().collect();
         let job = Job::start("azel-fit-pointing", Arc::clone(&self.wake), move |_| {
@@ -89,8 +96,8 @@ impl Engine {
                 read.extend(&work.peaks);
                 work.peaks = Arc::new(read);
             }
-            Some(Ok(Err(error))) => tracing::error!(%error, "the peaks are not read"),
-            Some(Err(error)) => tracing::error!(%error, "the peaks are not read"),
+            Some(Ok(Err(error))) => work.unread = Some(error.to_string()),
+            Some(Err(error)) => work.unread = Some(error.to_string()),
         }
         match Job::take(&mut work.job) {
             None => {}

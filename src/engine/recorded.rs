@@ -74,6 +74,12 @@ impl Recorded {
         let found = read(path, &look, site).map_err(|error| error.to_string());
         Self { look, found, together: None }
     }
+
+    /// Returns `true` if the same passes stand together.
+    fn explains_as(&self, other: &Self) -> bool {
+        let passes = |of: &Self| of.found.as_ref().ok().map(|found| found.page.all);
+        self.look.opened == other.look.opened && passes(self) == passes(other)
+    }
 }
 
 /// The reading of a record.
@@ -125,9 +131,14 @@ impl Engine {
         if self.record_reading.due.is_some_and(|due| due <= self.steady) {
             self.read_record();
         }
-        if let Some(Ok(recorded)) = Job::take(&mut self.record_reading.job) {
+        if let Some(Ok(mut recorded)) = Job::take(&mut self.record_reading.job) {
+            let before = self.record_reading.found.take();
+            let before = before.filter(|before| before.explains_as(&recorded));
+            recorded.together = before.as_ref().and_then(|before| before.together.clone());
             self.record_reading.found = Some(Arc::new(recorded));
-            self.explain_together();
+            if before.is_none() {
+                self.explain_together();
+            }
         }
         if let Some(Ok(together)) = Job::take(&mut self.record_reading.explaining)
             && let Some(found) = &mut self.record_reading.found

@@ -68,6 +68,7 @@ pub struct Snapshot {
     /// The fit of a pointing model that was asked for last.
     pub pointing_fitted: Option<Arc<PointingFitted>>,
     /// Peaks of the Sun and the Moon that count in it.
+    #[serde(default)]
     pub peaks: Arc<Peaks>,
     /// The antennas of the station, in its order.
     pub antennas: Vec<AntennaModel>,
@@ -96,7 +97,7 @@ pub struct Snapshot {
 
 impl Snapshot {
     /// The snapshot before the first turn.
-    pub(super) fn before_anything(at: Moment) -> Self {
+    pub(crate) fn before_anything(at: Moment) -> Self {
         Self {
             at,
             time_sync: TimeSync::NotKnown,

@@ -37,6 +37,9 @@ pub fn explain_passes(
     site: Site,
     within: &Range<Timestamp>,
 ) -> Result<ExplainedPasses, RecordError> {
+    if !path.exists() {
+        return Ok(ExplainedPasses { passes: 0, since: None, explanations: Vec::new() });
+    }
     let record = Passes::open(path)?;
     let mut flown: Vec<(Propagator, Site, Vec<MeasuredPosition>)> = Vec::new();
     let mut since = None;
@@ -48,9 +51,11 @@ pub fn explain_passes(
             let flown = report.about.on_the_sky(flown);
             report.about.offsets.taken_off(&propagator, site, flown)
         });
-        let points = points.collect();
-        since = Some(report.until);
-        flown.push((propagator, site, points));
+        let points: Vec<MeasuredPosition> = points.collect();
+        if !points.is_empty() {
+            since = Some(report.until);
+            flown.push((propagator, site, points));
+        }
     }
     let positions = || flown.iter().flat_map(|(_, _, points)| points);
     let has_elevation = positions().any(|flown| flown.pointing.elevation.is_some());

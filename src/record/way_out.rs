@@ -5,7 +5,7 @@ use std::fmt::Write as _;
 use serde::Serialize;
 
 use super::{OpenedPass, RecordedReport, Row};
-use crate::plan::pass_report::TrackPoint;
+use crate::plan::{pass_export::plain, pass_report::TrackPoint};
 
 /// Columns of the points. New ones stand at the end.
 const COLUMNS: &str = "time,azimuth_deg,elevation_deg,satellite_azimuth_deg,\
@@ -106,6 +106,7 @@ fn push_point(text: &mut String, point: &TrackPoint) {
 
 /// A text as a field of comma-separated values.
 fn quoted(text: &str) -> String {
+    let text = &*plain(text);
     if text.contains([',', '"', '\n', '\r']) {
         return format!("\"{}\"", text.replace('"', "\"\""));
     }

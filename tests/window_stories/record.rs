@@ -613,7 +613,7 @@ fn two_causes_that_act_together_stand_together_and_the_passes_before_are_told() 
             "Elevation offset +0.25° with azimuth offset −0.50°: explains 97 %, 0.010° left",
         );
         let said = format!(
-            "The last 12 passes of {name} together: Elevation offset +0.25°; that explains 92 % of \
+            "The 12 passes of {name} up to this one, together: Elevation offset +0.25°; that explains 92 % of \
              their error."
         );
         window.get_by_label(&said);

@@ -219,11 +219,13 @@ impl Film {
             let (run, us) = statement.query_row([at_us], row).optional()?.unwrap_or_default();
             Ok(run.zip(us))
         };
-        let (Some((run, ended_us)), Some((next, begun_us))) = (found(before)?, found(after)?)
-        else {
-            return Ok(None);
-        };
         let time = |us| Timestamp::from_microsecond(us).ok();
+        let (run, ended_us, next, begun_us) = match (found(before)?, found(after)?) {
+            (Some((run, ended_us)), Some((next, begun_us))) => (run, ended_us, next, begun_us),
+            // Before all film that is kept.
+            (None, Some((_, begun_us))) => return Ok(Some(at).zip(time(begun_us + 1))),
+            (_, None) => return Ok(None),
+        };
         let is_between = run != next && ended_us < at_us;
         // The first picture of a run is within this microsecond.
         Ok(time(ended_us).zip(time(begun_us + 1)).filter(|_| is_between))

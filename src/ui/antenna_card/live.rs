@@ -16,8 +16,8 @@ const TAG: f32 = 44.0;
 const GAP: f32 = 6.0;
 /// Most antennas that are listed; the bar at the top has them all.
 const MOST: usize = 4;
-const ENDS: &str = "The replay ends by itself 2 min before the next of these passes, on a top-priority \
-     alarm and on STOP.";
+const ENDS: &str = "The replay ends by itself 2 min before the next planned pass, on a top-priority alarm \
+     and on STOP.";
 
 /// The live station while the record is shown.
 #[derive(Debug, Clone, PartialEq)]
@@ -53,7 +53,7 @@ pub(super) fn show(ui: &Ui, at: &mut Cursor, live: &LiveNow, short: bool) {
     let more = live.antennas.len().saturating_sub(MOST);
     if more > 0 {
         let words = format!("{more} more in the bar at the top");
-        line(ui, at.take(ROW), (Icon::Dash, t.t3), "", &words);
+        line(ui, at.take(ROW), (Icon::Dash, t.t3), "And", &words);
     }
     line(ui, at.take(ROW), (Icon::Clock, t.t2), "Next", &live.next);
     if !short {

@@ -4,7 +4,10 @@ use egui::{Align2, Color32, Rect, Role, ScrollArea, Sense, Ui, UiBuilder, Widget
 
 use jiff::Timestamp;
 
-use super::{PADDING, RecordState, state::Listed};
+use super::{
+    PADDING, RecordState,
+    state::{Listed, found},
+};
 use crate::{
     engine::recorded::MissedPass,
     model::Model,
@@ -68,9 +71,14 @@ pub(super) fn show(ui: &mut Ui, rect: Rect, model: &Model, state: &mut RecordSta
                 }
             }
             let left = RecordState::page(model).map_or(0, |page| page.matching - on_page(page));
-            if left > 0 {
+            let missed = found(model).map_or(0, |found| found.missed.len());
+            let has_more = usize::try_from(state.query.count).is_ok_and(|count| count <= missed);
+            if left > 0 || has_more {
                 let (_, place) = ui.allocate_space(vec2(rect.width(), FOOT));
-                let word = format!("Older passes ({left})");
+                let word = match left {
+                    0 => "Older passes".to_owned(),
+                    left => format!("Older passes ({left})"),
+                };
                 let button = Button::normal(&word);
                 let size = vec2(button.width(ui), 32.0);
                 let at = Rect::from_min_size(place.min + vec2(PADDING, 6.0), size);

@@ -200,6 +200,6 @@ impl RecordState {
     }
 }
 
-fn found(model: &Model) -> Option<&Found> {
+pub(super) fn found(model: &Model) -> Option<&Found> {
     model.recorded.as_deref()?.found.as_ref().ok()
 }

@@ -6,7 +6,7 @@ use tokio::{io::AsyncWriteExt as _, time::sleep};
 
 use super::*;
 use crate::{
-    astro::{Angle, Site},
+    astro::{Angle, Site, time::add_seconds},
     device::TrackTarget,
     driver::{
         AntennaHandle, Command, Debts, Snapshot, Unit,
