@@ -44,7 +44,8 @@ pub fn missed(
          ORDER BY since_us > e.utc_us, abs(since_us - e.utc_us) LIMIT 1), flown FROM \
          (SELECT id, utc_us, antenna, json_extract(data, '$.what.flown') AS flown FROM event \
           WHERE kind = 'day' AND utc_us >= :since) AS e \
-         WHERE flown ->> '$.in_beam_s' <= 0 AND (:antenna IS NULL OR antenna = :antenna) \
+         WHERE flown IS NOT NULL AND coalesce(flown ->> '$.in_beam_s', 0) <= 0 \
+         AND (:antenna IS NULL OR antenna = :antenna) \
          AND (instr(lower(flown ->> '$.name'), lower(:text)) > 0 \
               OR CAST(flown ->> '$.pass[0]' AS TEXT) = :text \
               OR instr(flown ->> '$.pass[1]', :text) = 1) \

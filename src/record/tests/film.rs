@@ -101,7 +101,9 @@ fn a_hole_in_the_film_is_told() {
     let around = |second: f64| film.hole_at(at(second)).unwrap();
     let all = (at(199.0), at(300.0) + 1.microsecond());
     assert_eq!((around(250.0), around(199.5)), (Some(all), Some(all)));
-    for second in [-1.0, 0.5, 59.7, 199.0, 300.0, 300.5, 419.0, 500.0] {
+    let first = (at(-1.0), at(0.0) + 1.microsecond());
+    assert_eq!(around(-1.0), Some(first), "before all film that is kept");
+    for second in [0.5, 59.7, 199.0, 300.0, 300.5, 419.0, 500.0] {
         assert_eq!(around(second), None, "{second}");
     }
 }

@@ -214,14 +214,11 @@ mod tests {
         for (index, rect) in rects.iter().enumerate() {
             let others = rects.iter().enumerate().filter(|(other, _)| *other != index);
             let mut others = others.filter_map(|(_, other)| *other).chain(bars.iter().copied());
-            match rect {
-                Some(rect) => {
-                    assert!(room.contains_rect(*rect) && !others.any(|it| overlap(it, *rect)));
-                }
-                None => {
-                    let short = wishes[index].short;
-                    assert!(!room.contains_rect(short) || others.any(|it| overlap(it, short)));
-                }
+            if let Some(rect) = rect {
+                assert!(room.contains_rect(*rect) && !others.any(|it| overlap(it, *rect)));
+            } else {
+                let short = wishes[index].short;
+                assert!(!room.contains_rect(short) || others.any(|it| overlap(it, short)));
             }
         }
         let count = |of: fn(&Placed) -> bool| placed.iter().filter(|one| of(one)).count();
