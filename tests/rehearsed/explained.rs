@@ -1,11 +1,12 @@
 //! Errors of known causes in simulated units, and what the reports of their passes make of them.
+//! `AZEL_EXPLAIN_CASES=200 cargo test --test azel rehearsed::explained -- --nocapture` takes an hour.
 
 use std::{collections::BTreeMap, time::Duration};
 
 use azel::{
     astro::{Angle, PointingModel},
     engine::Command,
-    orbit::{Pass, PassSearch, Propagator, bundled, passes},
+    orbit::{Catalog, Pass, PassSearch, Propagator, bundled, passes},
     plan::pass_report::{Cause, Explanation},
     record::RowKind,
     sim::{InMemory as _, Misreading, Trouble},
@@ -21,7 +22,7 @@ use crate::common::{
 
 const SEED: u64 = 20_260_812;
 /// `AZEL_EXPLAIN_CASES` sets another number.
-const CASES: u32 = 5;
+const CASES: u32 = 2;
 /// Standard deviation of both angles, degrees.
 const NOISE_DEG: f64 = 0.02;
 
@@ -34,21 +35,21 @@ fn drawn(case: u32, dice: &mut Dice) -> (Cause, Trouble) {
     let misreads = |model| Trouble::Misreads(Misreading { model, noise_deg: NOISE_DEG });
     let none = PointingModel::default();
     match case % 5 {
-        0 => {
+        1 => {
             let late = Duration::from_millis(50 + dice.below(1950) as u64);
             (Cause::Late { late_s: late.as_secs_f64() }, Trouble::ClockLate(late))
         }
-        1 => {
+        2 => {
             let azimuth_offset_deg = signed(dice, 1.0);
             let cause = Cause::AzimuthOffset { offset_deg: azimuth_offset_deg };
             (cause, misreads(PointingModel { azimuth_offset_deg, ..none }))
         }
-        2 => {
+        3 => {
             let elevation_offset_deg = signed(dice, 1.0);
             let cause = Cause::ElevationOffset { offset_deg: elevation_offset_deg };
             (cause, misreads(PointingModel { elevation_offset_deg, ..none }))
         }
-        3 => {
+        0 => {
             let (tilt_north_deg, tilt_east_deg) = (signed(dice, 1.0), signed(dice, 1.0));
             let cause = Cause::Tilt { north_deg: tilt_north_deg, east_deg: tilt_east_deg };
             (cause, misreads(PointingModel { tilt_north_deg, tilt_east_deg, ..none }))
@@ -62,17 +63,17 @@ fn drawn(case: u32, dice: &mut Dice) -> (Cause, Trouble) {
 }
 
 /// A pass of one of the favourites that comes up well.
-fn pass(station: &Station, dice: &mut Dice) -> Option<(u32, Pass)> {
+fn pass(station: &Station, catalog: &Catalog, dice: &mut Dice) -> Option<(u32, Pass)> {
     let favourites = station.favourites.numbers();
     let number = *favourites.get(dice.below(favourites.len()))?;
-    let propagator = Propagator::new(bundled().ok()?.get(number)?).ok()?;
+    let propagator = Propagator::new(catalog.get(number)?).ok()?;
     let search = PassSearch {
         aos_elevation: station.aos_elevation(),
         floor: Angle::from_degrees(20.0),
         ..PassSearch::new(station.site, start(), start() + 24.hours())
     };
     let found = passes(&propagator, &search, &|| false);
-    let short: Vec<&Pass> = found.iter().filter(|pass| pass.duration_s() < 1200.0).collect();
+    let short: Vec<&Pass> = found.iter().filter(|pass| pass.duration_s() < 700.0).collect();
     let place = dice.below(short.len().max(1));
     short.get(place).map(|pass| (number, **pass))
 }
@@ -81,7 +82,7 @@ fn pass(station: &Station, dice: &mut Dice) -> Option<(u32, Pass)> {
 async fn explained(trouble: Trouble, number: u32, pass: &Pass) -> Vec<Explanation> {
     let mut station = Station { favourites: [number].into(), ..units::station() };
     station.antennas.retain(|antenna| antenna.name == "Dish");
-    let scene = Scene::recorded(pass.aos.time - 4.minutes(), &station);
+    let scene = Scene::recorded(pass.aos.time - 2.minutes(), &station);
     let client = scene.client();
     let dish = measured(&client, "Dish").await;
     let noise = Misreading { model: PointingModel::default(), noise_deg: NOISE_DEG };
@@ -116,12 +117,13 @@ fn sizes(cause: &Cause) -> Vec<(f64, f64)> {
 async fn the_cause_that_a_simulated_unit_was_given_is_named_in_the_report_of_its_pass() {
     let cases = std::env::var("AZEL_EXPLAIN_CASES").map_or(CASES, |cases| cases.parse().unwrap());
     let mut dice = Dice::new(SEED);
+    let catalog = bundled().unwrap();
     // By cause: cases, named, of the right size, lines with more than one cause.
     let mut table = BTreeMap::<String, [u32; 4]>::new();
     for case in 0..cases {
         let (cause, trouble) = drawn(case, &mut dice);
         let (number, pass) = loop {
-            if let Some(pass) = pass(&Station::default(), &mut dice) {
+            if let Some(pass) = pass(&Station::default(), &catalog, &mut dice) {
                 break pass;
             }
         };

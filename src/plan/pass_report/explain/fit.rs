@@ -90,8 +90,8 @@ impl Family<'_> {
                 AzEl { azimuth, elevation: elevation + deg(offset_deg) }
             }
             Cause::Tilt { north_deg, east_deg } => {
-                // The axis leans: what it reads is the sky turned about the horizontal.
-                let lean = DVec3::new(-deg(north_deg).radians(), deg(east_deg).radians(), 0.0);
+                // What it leans towards is nearer to it, and is read higher.
+                let lean = DVec3::new(deg(north_deg).radians(), -deg(east_deg).radians(), 0.0);
                 AzEl::from_enu(at.to_enu() + lean.cross(at.to_enu()))
             }
             Cause::AzimuthScale { per_mille } => {

@@ -146,7 +146,7 @@ fn measured_of(
                 AzEl { azimuth, elevation: elevation + deg(offset_deg) }
             }
             Cause::Tilt { north_deg, east_deg } => {
-                let lean = DVec3::new(-deg(north_deg).radians(), deg(east_deg).radians(), 0.0);
+                let lean = DVec3::new(deg(north_deg).radians(), -deg(east_deg).radians(), 0.0);
                 AzEl::from_enu(DQuat::from_scaled_axis(lean) * at.to_enu())
             }
             Cause::AzimuthScale { per_mille } => {
