@@ -1,6 +1,6 @@
 //! The fit of a pointing model that a client asked for, and the peaks that count in it.
 
-use std::{path::PathBuf, sync::Arc};
+use std::{path::PathBuf, sync::Arc, time::Duration};
 
 use jiff::Timestamp;
 use serde::{Deserialize, Serialize};
@@ -8,10 +8,14 @@ use serde::{Deserialize, Serialize};
 use super::Engine;
 use crate::{
     astro::Term,
+    clock::Instant,
     job::Job,
     record::{self, Peak, PeakChange, Peaks, PointingFit, RecordError},
     station::AntennaId,
 };
+
+/// Time until peaks that could not be read are read again.
+const AGAIN: Duration = Duration::from_secs(5);
 
 /// A fit to the record of an antenna. It changes nothing.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -30,8 +34,8 @@ pub(super) struct PointingWork {
     /// The record that they are of, and the work of reading it.
     peaks_of: Option<PathBuf>,
     reading: Option<Job<Result<Peaks, RecordError>>>,
-    /// Why they are not known.
-    unread: Option<String>,
+    /// Why they are not known, and when they are read again.
+    unread: Option<(Instant, String)>,
 }
 
 impl PointingWork {
@@ -44,12 +48,16 @@ impl Engine {
     /// Reads the peaks of the record in use, where that is another one.
     pub(super) fn read_peaks(&mut self) {
         let path = self.record_file();
-        if path == self.pointing_work.peaks_of {
+        let work = &mut self.pointing_work;
+        let is_due = work.unread.as_ref().is_some_and(|(due, _)| *due <= self.steady);
+        if path == work.peaks_of && !is_due {
             return;
         }
-        self.pointing_work.peaks = Arc::default();
-        (self.pointing_work.reading, self.pointing_work.unread) = (None, None);
-        self.pointing_work.peaks_of.clone_from(&path);
+        if path != work.peaks_of {
+            work.peaks = Arc::default();
+        }
+        (work.reading, work.unread) = (None, None);
+        work.peaks_of.clone_from(&path);
         let Some(path) = path else { return };
         let job = Job::start("azel-peaks", Arc::clone(&self.wake), move |_| Peaks::read(&path));
         self.pointing_work.reading =
@@ -71,7 +79,7 @@ impl Engine {
             let found = Err("this user has no folder for records".to_owned());
             return self.pointing_work.tell(antenna, Some(found));
         };
-        if let Some(why) = &self.pointing_work.unread {
+        if let Some((_, why)) = &self.pointing_work.unread {
             let found = Err(format!("the peaks of the Sun and the Moon cannot be read: {why}"));
             return self.pointing_work.tell(antenna, Some(found));
         }
@@ -88,6 +96,10 @@ impl Engine {
     }
 
     pub(super) fn take_pointing_fit(&mut self) {
+        if self.pointing_work.unread.is_some() {
+            self.read_peaks();
+        }
+        let again = self.steady + AGAIN;
         let work = &mut self.pointing_work;
         match Job::take(&mut work.reading) {
             None => {}
@@ -96,8 +108,9 @@ impl Engine {
                 read.extend(&work.peaks);
                 work.peaks = Arc::new(read);
             }
-            Some(Ok(Err(error))) => work.unread = Some(error.to_string()),
-            Some(Err(error)) => work.unread = Some(error.to_string()),
+            // The record may just be made.
+            Some(Ok(Err(error))) => work.unread = Some((again, error.to_string())),
+            Some(Err(error)) => work.unread = Some((again, error.to_string())),
         }
         match Job::take(&mut work.job) {
             None => {}

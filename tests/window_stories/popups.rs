@@ -98,7 +98,7 @@ fn questions_and_dialogs_close_by_a_click_outside_and_by_a_key() {
                 if by_key {
                     press(&mut window, close);
                 } else {
-                    let corner = pos2(200.0, window.ctx.content_rect().bottom() - 4.0);
+                    let corner = pos2(4.0, window.ctx.content_rect().bottom() - 4.0);
                     window.drag_at(corner);
                     window.drop_at(corner);
                 }

@@ -371,7 +371,9 @@ fn while_the_record_is_shown_again_no_command_passes_and_stop_reaches_the_unit()
         again(&window).replay.as_ref().is_some_and(|replay| replay.problem.is_some())
     });
     window.step();
-    window.get_by_label("Nothing was recorded at this moment.");
+    let label = "There is no film of 11:14:30Z to 11:15:30Z: Azel did not run, or what it showed is not \
+         kept any more.";
+    window.get_by_label(label);
     // What has just happened is written within a second.
     wait_until("the first event", || {
         window.key_press(Key::Period);
