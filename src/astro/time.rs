@@ -32,6 +32,23 @@ pub fn add_seconds(time: Timestamp, seconds: f64) -> Timestamp {
     Timestamp::new(time.as_second() + whole + i64::from(carry), nanoseconds).unwrap_or(time)
 }
 
+/// Those of `items`, oldest first, that are at least so many seconds after the one before.
+pub fn apart<T>(
+    items: impl Iterator<Item = T>,
+    least_s: f64,
+    time: impl Fn(&T) -> Timestamp,
+) -> impl Iterator<Item = T> {
+    let mut last: Option<Timestamp> = None;
+    items.filter(move |item| {
+        let at = time(item);
+        let is_apart = last.is_none_or(|last| seconds_between(last, at) >= least_s);
+        if is_apart {
+            last = Some(at);
+        }
+        is_apart
+    })
+}
+
 /// Nanoseconds since 1970; the nearest that can be counted for a year before 1678 or after 2261.
 pub fn nanoseconds(time: Timestamp) -> i64 {
     let whole = time.as_second().saturating_mul(SECOND_NS);

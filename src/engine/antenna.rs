@@ -54,8 +54,8 @@ pub struct AntennaModel {
     pub prediction: Option<Prediction>,
     /// Errors of the present track, oldest first.
     pub errors: Errors,
-    /// What explains the error of the pass under way, if that is known. Films of before have it in
-    /// another form under its own name.
+    /// What explains the error of the pass under way, if that is known.
+    // Older films hold another form of it by the name of the field, which is passed over.
     #[serde(default, rename = "explained_by")]
     pub explained: Option<Explained>,
     /// Target of the present track.

@@ -332,32 +332,15 @@ fn make(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::plan::schedule::Class;
+    use crate::plan::schedule::{Class, testing};
 
     fn at(second: f64) -> Timestamp {
         add_seconds(Timestamp::UNIX_EPOCH, second)
     }
 
     fn entry(antenna: u32, satellite: u32, to_s: f64) -> Entry {
-        Entry {
-            pass: schedule::PassKey { satellite, aos: at(100.0) },
-            antenna: AntennaId(antenna),
-            class: Class::Fixed,
-            from: at(100.0),
-            to: at(to_s),
-            late_s: 0.0,
-            early_s: 0.0,
-            counted_s: 100.0,
-            worth: 1,
-            lost: None,
-            axes_deg: [[0.0; 2]; 2],
-            after: None,
-            slew_s: 0.0,
-            set_up_s: 0.0,
-            spare_s: None,
-            shared_with: None,
-            is_fixed: false,
-        }
+        let pass = schedule::PassKey { satellite, aos: at(100.0) };
+        Entry { class: Class::Fixed, ..testing::entry(AntennaId(antenna), pass, at(to_s)) }
     }
 
     #[test]

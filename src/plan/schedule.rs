@@ -18,7 +18,7 @@ mod row;
 mod sight;
 mod solve;
 #[cfg(test)]
-pub(super) mod testing;
+pub(crate) mod testing;
 #[cfg(test)]
 mod tests;
 mod under_way;

@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 
 use super::{RecordError, RecordedPass, RecordedReport, past::Passes};
 use crate::{
-    astro::{Site, time::seconds_between},
+    astro::{Site, time::apart},
     orbit::Propagator,
     plan::pass_report::{Evidence, Explanation, LossCause, MeasuredPosition},
     station::AntennaId,
@@ -71,15 +71,10 @@ pub fn explain_passes(
 
 /// Positions in which the antenna should have been on the satellite.
 fn thinned(report: &RecordedReport, points: &[MeasuredPosition]) -> Vec<MeasuredPosition> {
-    let is_elsewhere = |at: Timestamp| {
-        let lost = report.report.losses.iter().filter(|lost| lost.from <= at && at <= lost.until);
-        lost.into_iter().any(|lost| lost.cause != LossCause::NotExplained)
+    let is_on_it = |point: &&MeasuredPosition| {
+        !report.report.losses.iter().any(|lost| {
+            lost.cause != LossCause::NotExplained && (lost.from..=lost.until).contains(&point.time)
+        })
     };
-    let mut used: Vec<MeasuredPosition> = Vec::new();
-    for point in points.iter().filter(|point| !is_elsewhere(point.time)) {
-        if used.last().is_none_or(|last| seconds_between(last.time, point.time) >= APART_S) {
-            used.push(*point);
-        }
-    }
-    used
+    apart(points.iter().filter(is_on_it).copied(), APART_S, |point| point.time).collect()
 }

@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 
 use super::{PassQuery, Peak, RecordError, passes, track};
 use crate::{
-    astro::{PointingModel, Site, Term, time::seconds_between},
+    astro::{PointingModel, Site, Term, time::apart},
     plan::{
         pass_report::TrackPoint,
         pointing::{self, CannotFit, Fit, Kind, Point},
@@ -91,15 +91,7 @@ pub fn fit_pointing(
 }
 
 fn thinned(track: &[TrackPoint], flown_with: &PointingModel) -> Vec<Point> {
-    let mut last: Option<Timestamp> = None;
     let near = track.iter().filter(|point| point.error.off_deg <= NEAR_DEG);
-    let apart = near.filter(|point| {
-        let is_apart = last.is_none_or(|last| seconds_between(last, point.time) >= APART_S);
-        if is_apart {
-            last = Some(point.time);
-        }
-        is_apart
-    });
     let point = |point: &TrackPoint| Point {
         kind: Kind::Satellite,
         wanted: point.satellite,
@@ -107,7 +99,7 @@ fn thinned(track: &[TrackPoint], flown_with: &PointingModel) -> Vec<Point> {
         measured: flown_with.reading(point.antenna).unwrap_or(point.antenna),
         weight: 1.0,
     };
-    apart.map(point).collect()
+    apart(near, APART_S, |point| point.time).map(point).collect()
 }
 
 impl PointingFit {

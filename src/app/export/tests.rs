@@ -3,9 +3,9 @@ use crate::{
     engine::passes::{ListedSatellite, Observer, PassList as Listed},
     makes::DemoAddresses,
     orbit::{Propagator, bundled, passes, read_elements},
-    plan::schedule::{Class, Entry, PassKey as Key, Schedule, Why},
+    plan::schedule::{Entry, PassKey as Key, Schedule, Why, testing::entry},
     record::testing,
-    station::{AntennaId, Frequency, Priority},
+    station::{AntennaId, Frequency},
 };
 
 const ISS: u32 = 25_544;
@@ -44,29 +44,12 @@ fn order(export: impl Fn(&[PredictedPass]) -> Export) -> Order {
 fn schedule(lists: &PassLists, antenna: AntennaId) -> Planned {
     let [taken, left_out, ..] = &lists.favourites.passes[..] else { panic!("two passes") };
     let key = |of: &PredictedPass| Key { satellite: of.number(), aos: of.pass.aos.time };
-    let entry = Entry {
-        pass: key(taken),
-        antenna,
-        class: Class::Priority(Priority::default()),
-        from: taken.pass.aos.time,
-        to: taken.pass.los.time,
-        late_s: 0.0,
-        early_s: 0.0,
-        counted_s: taken.pass.duration_s(),
-        worth: 1,
-        lost: None,
-        axes_deg: [[0.0; 2]; 2],
-        after: None,
-        slew_s: 12.0,
-        set_up_s: 10.0,
-        spare_s: None,
-        shared_with: None,
-        is_fixed: false,
-    };
+    let taken_by =
+        Entry { slew_s: 12.0, set_up_s: 10.0, ..entry(antenna, key(taken), taken.pass.los.time) };
     let why = Why::TooFar;
     let left_out = LeftOut { pass: key(left_out), why, by_antenna: vec![] };
     let schedule =
-        Schedule { entries: vec![entry], left_out: vec![left_out], ..Schedule::default() };
+        Schedule { entries: vec![taken_by], left_out: vec![left_out], ..Schedule::default() };
     Planned { schedule, ..Planned::default() }
 }
 

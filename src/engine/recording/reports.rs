@@ -9,7 +9,7 @@ use super::{Recording, live::Live};
 use crate::{
     astro::{
         Angle, AzEl, PointingModel, Site,
-        time::{add_seconds, seconds_between},
+        time::{add_seconds, apart, seconds_between},
     },
     driver::{PositionLog, TimeSync, TrackView},
     engine::{Antenna, CatalogState, Engine, antenna::AntennaModel, passes::mount_limits},
@@ -288,12 +288,7 @@ impl Followed {
             .filter_map(|set| Some((set.elements.epoch(), Propagator::new(&set.elements).ok()?)));
         let explanations = evidence.explanations(&others.collect::<Vec<_>>());
         let middle = add_seconds(self.from, seconds_between(self.from, self.until) / 2.0);
-        let mut points: Vec<MeasuredPosition> = Vec::new();
-        for flown in &self.flown {
-            if points.last().is_none_or(|last| seconds_between(last.time, flown.time) >= POINT_S) {
-                points.push(*flown);
-            }
-        }
+        let points = apart(self.flown.iter().copied(), POINT_S, |flown| flown.time).collect();
         let report = RecordedReport {
             from: self.from,
             until: self.until,

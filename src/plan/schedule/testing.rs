@@ -2,15 +2,41 @@
 
 use jiff::Timestamp;
 
-use super::{Candidate, Common, PlannedAntenna, Reach, Request, Sight, Steadiness, Wanted};
+use super::{
+    Candidate, Class, Common, Entry, PassKey, PlannedAntenna, Reach, Request, Sight, Steadiness,
+    Wanted,
+};
 use crate::{
-    astro::time::add_seconds,
+    astro::time::{add_seconds, seconds_between},
     orbit::{Catalog, Elements, Pass, PassSearch, Propagator, bundled, passes},
     station::{
         Antenna, AntennaId, BetweenPasses, ChooseBy, Entered, KeepOut, Mount, PassLimits, Priority,
         Station, SunAvoidance,
     },
 };
+
+/// A pass that an antenna is to track from AOS to LOS.
+pub(crate) fn entry(antenna: AntennaId, pass: PassKey, to: Timestamp) -> Entry {
+    Entry {
+        pass,
+        antenna,
+        class: Class::Priority(Priority::default()),
+        from: pass.aos,
+        to,
+        late_s: 0.0,
+        early_s: 0.0,
+        counted_s: seconds_between(pass.aos, to),
+        worth: 1,
+        lost: None,
+        axes_deg: [[0.0; 2]; 2],
+        after: None,
+        slew_s: 0.0,
+        set_up_s: 0.0,
+        spare_s: None,
+        shared_with: None,
+        is_fixed: false,
+    }
+}
 
 /// Splitmix64.
 pub(in crate::plan) struct Random(u64);

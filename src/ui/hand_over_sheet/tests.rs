@@ -6,7 +6,7 @@ use crate::ui::sheet::tests::check;
 use crate::{
     makes::DemoAddresses,
     orbit::{Catalog, PassSearch, bundled, passes, read_elements},
-    plan::schedule::{Class, Conflict, Entry, LeftOut, Why},
+    plan::schedule::{Class, Conflict, Entry, LeftOut, Why, testing},
     station::Priority,
 };
 
@@ -50,23 +50,12 @@ fn schedule(
         let class = Class::Priority(Priority::default());
         if schedule.entries.len() < taken {
             schedule.entries.push(Entry {
-                pass,
-                antenna,
-                class,
-                from: of.aos.time,
-                to: of.los.time,
                 late_s: if index % 3 == 0 { 73.0 } else { 0.0 },
                 early_s: if index % 4 == 0 { 586.0 } else { 0.0 },
-                counted_s: of.duration_s(),
-                worth: 1,
-                lost: None,
-                axes_deg: [[0.0; 2]; 2],
-                after: None,
                 slew_s: 41.0,
                 set_up_s: 12.0,
                 spare_s: Some(if index % 5 == 0 { 12.0 } else { 45_296.0 }),
-                shared_with: None,
-                is_fixed: false,
+                ..testing::entry(antenna, pass, of.los.time)
             });
         } else {
             let with = schedule.entries.last().map_or(pass, |entry| entry.pass);

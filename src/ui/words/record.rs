@@ -312,8 +312,9 @@ pub fn no_correction(best: Option<&Explanation>) -> String {
 
 /// What explains this pass and those before it together; `None` where it is the only one.
 pub fn explained_together(of: &ExplainedPasses, pass: &RecordedPass) -> Option<String> {
-    let last =
-        format!("The {} passes of {} up to this one, together", of.passes, pass.antenna_name);
+    let since = of.since.map(|since| format!(" from {}", format::date(since))).unwrap_or_default();
+    let (passes, antenna) = (of.passes, &pass.antenna_name);
+    let last = format!("The {passes} passes of {antenna}{since} up to this one, together");
     let Some(best) = of.explanations.first() else {
         return (of.passes > 1).then(|| format!("{last}: no cause explains 30 % of their error."));
     };

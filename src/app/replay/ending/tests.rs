@@ -8,7 +8,7 @@ use super::*;
 use crate::{
     clock::{Instant, Moment},
     engine::alarms::AlarmKind,
-    plan::schedule::{Class, PassKey},
+    plan::schedule::{PassKey, testing},
     station::AntennaId,
 };
 
@@ -26,25 +26,8 @@ fn live(second: i64) -> Model {
 fn planned(second: i64, from: i64) -> Model {
     let mut model = live(second);
     let (from, to) = (at(from), at(from + 600));
-    let entry = Entry {
-        pass: PassKey { satellite: 43013, aos: from },
-        antenna: AntennaId(1),
-        class: Class::Always,
-        from,
-        to,
-        late_s: 0.0,
-        early_s: 0.0,
-        counted_s: 600.0,
-        worth: 0,
-        lost: None,
-        axes_deg: [[0.0; 2]; 2],
-        after: None,
-        slew_s: 0.0,
-        set_up_s: 0.0,
-        spare_s: None,
-        shared_with: None,
-        is_fixed: false,
-    };
+    let pass = PassKey { satellite: 43013, aos: from };
+    let entry = testing::entry(AntennaId(1), pass, to);
     Arc::make_mut(&mut model.schedule).schedule.entries.push(entry);
     model
 }
