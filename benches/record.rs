@@ -73,7 +73,7 @@ fn note(
         let elevation: Angle = flown.pointing.elevation?;
         Some((flown.time, azel::astro::AzEl { azimuth, elevation }))
     });
-    let explanations = Evidence::new(true).and(propagator, site, measured).explanations(&[]);
+    let explanations = Evidence::new(true).with_pass(propagator, site, measured).explanations(&[]);
     let counted_s = pass.duration_s();
     let report = RecordedReport {
         from,

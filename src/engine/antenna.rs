@@ -55,7 +55,7 @@ pub struct AntennaModel {
     /// Errors of the present track, oldest first.
     pub errors: Errors,
     /// What explains the error of the pass under way, if that is known.
-    // Older films hold another form of it by the name of the field, which is passed over.
+    // Older films hold another form under the field's own name, which is ignored.
     #[serde(default, rename = "explained_by")]
     pub explained: Option<Explained>,
     /// Target of the present track.

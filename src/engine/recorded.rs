@@ -75,8 +75,9 @@ impl Recorded {
         Self { look, found, together: None }
     }
 
-    /// Returns `true` if the same passes stand together.
-    fn explains_as(&self, other: &Self) -> bool {
+    /// Returns `true` if the same pass is opened and the record has as many passes, so that what
+    /// explains them together is the same.
+    fn has_same_passes(&self, other: &Self) -> bool {
         let passes = |of: &Self| of.found.as_ref().ok().map(|found| found.page.all);
         self.look.opened == other.look.opened && passes(self) == passes(other)
     }
@@ -133,7 +134,7 @@ impl Engine {
         }
         if let Some(Ok(mut recorded)) = Job::take(&mut self.record_reading.job) {
             let before = self.record_reading.found.take();
-            let before = before.filter(|before| before.explains_as(&recorded));
+            let before = before.filter(|before| before.has_same_passes(&recorded));
             recorded.together = before.as_ref().and_then(|before| before.together.clone());
             self.record_reading.found = Some(Arc::new(recorded));
             if before.is_none() {

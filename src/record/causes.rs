@@ -64,7 +64,7 @@ pub fn explain_passes(
             let measured = points
                 .iter()
                 .filter_map(|flown| Some((flown.time, flown.direction(has_elevation)?)));
-            evidence.and(propagator, *site, measured)
+            evidence.with_pass(propagator, *site, measured)
         });
     Ok(ExplainedPasses { passes: flown.len(), since, explanations: evidence.explanations(&[]) })
 }

@@ -114,7 +114,7 @@ impl Session {
         let watch = self.on_board_watch().ok_or(Refusal::PassUnknown)?;
         let mut pass = OnBoardPass::clone(watch.judge().pass());
         // The unit runs through the window by its own clock.
-        pass.target.from = pass.target.from.max(self.own_now(now)).min(pass.target.until);
+        pass.target.from = pass.target.from.max(self.unit_time(now)).min(pass.target.until);
         let judge = Judge::new(pass, self.setup.ability).map_err(|_| Refusal::PassUnknown)?;
         Ok(Some(Shift { judge, axes: with(after), sky: with(before) }))
     }

@@ -137,9 +137,9 @@ impl<'a> Evidence<'a> {
         Self { passes: Vec::new(), has_elevation }
     }
 
-    /// With the measured directions of a pass, oldest first.
+    /// The same with the measured directions of one more pass, oldest first.
     #[must_use]
-    pub fn and(
+    pub fn with_pass(
         mut self,
         propagator: &'a Propagator,
         site: Site,
@@ -230,7 +230,7 @@ impl<'a> Evidence<'a> {
     /// Two causes together, each pair once. `alone`: what each explains, the best first.
     fn mixed(&self, alone: &[(Family<'_>, Found)]) -> Vec<Found> {
         let is_set = |family: &Family<'_>| matches!(family, Family::Elements(_));
-        // Another set is told by what it explains alone; two of them are none.
+        // An antenna follows one set of elements: only the one that explains most alone is paired.
         let set = alone.iter().map(|(family, _)| *family).find(is_set);
         let families = alone.iter().map(|(family, _)| *family).filter(|of| !is_set(of));
         let families: Vec<Family<'_>> = set.into_iter().chain(families).collect();

@@ -93,7 +93,7 @@ fn opened(late_s: f64, is_measured: impl Fn(u32) -> bool) -> OpenedPass {
                 },
                 report: tracked.report(&positions),
                 explanations: Evidence::new(true)
-                    .and(&propagator, site, measured)
+                    .with_pass(&propagator, site, measured)
                     .explanations(&[]),
                 elements,
             },

@@ -102,7 +102,7 @@ impl Session {
             |((number, until), (number_then, until_then))| {
                 // The unit may report the window of a pass a little otherwise.
                 let is_later = add_seconds(until_then, APART_S) < until;
-                number != number_then || is_later && until_then < self.own_now(now)
+                number != number_then || is_later && until_then < self.unit_time(now)
             },
         );
         !self.may_track() || is_another && self.program_is_on() && !self.activity.is_pending()
@@ -125,7 +125,7 @@ impl Session {
     }
 
     /// UTC by the clock of the unit.
-    pub(super) fn own_now(&self, now: Moment) -> Timestamp {
+    pub(super) fn unit_time(&self, now: Moment) -> Timestamp {
         let clock = self.gate.state().on_board.clock;
         add_seconds(now.utc, clock.map_or(0.0, |clock| clock.ahead_s))
     }

@@ -90,7 +90,7 @@ impl Family<'_> {
                 AzEl { azimuth, elevation: elevation + deg(offset_deg) }
             }
             Cause::Tilt { north_deg, east_deg } => {
-                // What it leans towards is nearer to it, and is read higher.
+                // What the axis leans towards is nearer to the axis, and so is read higher.
                 let lean = DVec3::new(deg(north_deg).radians(), -deg(east_deg).radians(), 0.0);
                 AzEl::from_enu(at.to_enu() + lean.cross(at.to_enu()))
             }
@@ -140,8 +140,8 @@ fn modelled(families: &[Family<'_>], sizes: DVec3, point: &Point<'_>) -> Option<
 }
 
 impl Evidence<'_> {
-    /// Up to two causes with their sizes by least squares (Gauss and Newton); of a tilt and one
-    /// more there are three.
+    /// Fits the sizes of one or two causes by least squares (Gauss-Newton). A tilt has two sizes,
+    /// another set of elements none, every other cause one.
     pub(super) fn fitted(&self, first: Family<'_>, second: Option<Family<'_>>) -> Found {
         let families: Vec<Family<'_>> = std::iter::once(first).chain(second).collect();
         let mut steps = DVec3::ZERO;

@@ -216,7 +216,8 @@ fn the_true_cause_of_an_error_is_named_first_or_with_those_that_look_alike() {
         let other = Propagator::new(&other).unwrap();
         let exact = measured(flight, &mut cause, &other);
         let seen = noisy(&exact, &mut random);
-        let evidence = Evidence::new(true).and(&flight.propagator, flight.site, seen.into_iter());
+        let evidence =
+            Evidence::new(true).with_pass(&flight.propagator, flight.site, seen.into_iter());
         let found = evidence.explanations(&[(flight.elements.epoch(), other)]);
         let line: Vec<&Explanation> = found.iter().filter(|it| it.is_alike).collect();
         let named = line.iter().find(|it| is_same_kind(&it.cause, &cause));
@@ -270,7 +271,8 @@ fn two_causes_that_act_together_are_named_together_with_their_sizes() {
         let once = measured(flight, &mut first, &other);
         let exact = measured_of(flight, &once, &mut second, &other);
         let seen = noisy(&exact, &mut random);
-        let evidence = Evidence::new(true).and(&flight.propagator, flight.site, seen.into_iter());
+        let evidence =
+            Evidence::new(true).with_pass(&flight.propagator, flight.site, seen.into_iter());
         let found = evidence.explanations(&[(flight.elements.epoch(), other)]);
         row[0] += 1;
         let by_one = found.iter().find(|it| it.with.is_none());
@@ -324,11 +326,14 @@ fn several_passes_tell_apart_what_one_does_not() {
         let flown: Vec<_> = flown.collect();
         let mut evidence = Evidence::new(true);
         for (flight, flown) in flights.iter().zip(&flown) {
-            let of_one =
-                Evidence::new(true).and(&flight.propagator, flight.site, flown.iter().copied());
+            let of_one = Evidence::new(true).with_pass(
+                &flight.propagator,
+                flight.site,
+                flown.iter().copied(),
+            );
             ambiguous +=
                 u32::from(of_one.explanations(&[]).iter().filter(|it| it.is_alike).count() > 1);
-            evidence = evidence.and(&flight.propagator, flight.site, flown.iter().copied());
+            evidence = evidence.with_pass(&flight.propagator, flight.site, flown.iter().copied());
         }
         let found = evidence.explanations(&[]);
         let Cause::Late { late_s: told_s } = found[0].cause else { panic!("{found:?}") };
@@ -353,7 +358,8 @@ fn the_way_to_a_pass_under_way_is_not_taken_for_slow_drives() {
             (time, AzEl { azimuth: azimuth + away, elevation })
         });
         let seen = noisy(&exact.collect::<Vec<_>>(), &mut random);
-        let evidence = Evidence::new(true).and(&flight.propagator, flight.site, seen.into_iter());
+        let evidence =
+            Evidence::new(true).with_pass(&flight.propagator, flight.site, seen.into_iter());
         let found = evidence.explanations(&[]);
         let is_of_drives = |it: &Explanation| matches!(it.cause, Cause::SlowDrives { .. });
         assert!(!found.iter().any(is_of_drives), "{found:?}");
@@ -367,13 +373,17 @@ fn an_error_of_noise_alone_is_not_explained() {
     for flight in &flights {
         let exact: Vec<_> = flight.times().map(|time| (time, flight.at(time))).collect();
         let seen = noisy(&exact, &mut random);
-        let evidence = Evidence::new(true).and(&flight.propagator, flight.site, seen.into_iter());
+        let evidence =
+            Evidence::new(true).with_pass(&flight.propagator, flight.site, seen.into_iter());
         let found = evidence.explanations(&[]);
         assert!(found.iter().all(|it| it.left_deg > 0.9 * NOISE_DEG), "{found:?}");
     }
     let flight = &flights[0];
     let few = flight.times().take(10).map(|time| (time, flight.at(time)));
-    assert_eq!(Evidence::new(true).and(&flight.propagator, flight.site, few).explanations(&[]), []);
+    assert_eq!(
+        Evidence::new(true).with_pass(&flight.propagator, flight.site, few).explanations(&[]),
+        []
+    );
 }
 
 #[test]
@@ -383,7 +393,8 @@ fn a_late_antenna_is_explained_while_its_pass_goes_on_and_a_small_error_is_not()
     for late_s in [0.5, 0.0] {
         let exact = flight.times().map(|time| (time, flight.at(add_seconds(time, -late_s))));
         let seen = noisy(&exact.collect::<Vec<_>>(), &mut random);
-        let evidence = Evidence::new(true).and(&flight.propagator, flight.site, seen.into_iter());
+        let evidence =
+            Evidence::new(true).with_pass(&flight.propagator, flight.site, seen.into_iter());
         let found = evidence.explained(0.05);
         if late_s < 0.1 {
             assert_eq!(found, None);
@@ -406,7 +417,7 @@ fn a_rotator_of_azimuth_alone_has_no_error_of_its_elevation() {
         at.elevation = Angle::ZERO;
         (time, at)
     });
-    let evidence = Evidence::new(false).and(&flight.propagator, flight.site, seen);
+    let evidence = Evidence::new(false).with_pass(&flight.propagator, flight.site, seen);
     let found = evidence.explanations(&[]);
     let Cause::AzimuthOffset { offset_deg } = found[0].cause else { panic!("{found:?}") };
     assert!((offset_deg - 0.5).abs() < 1e-6);

@@ -118,7 +118,7 @@ pub(super) fn show(
             ui.radio_value(&mut typed.of, of, peak_of(of));
         }
         let is_now = typed.at.trim().is_empty();
-        let words = ["azimuth", "elevation"].map(str::to_owned);
+        let words = ["az °", "el °"].map(str::to_owned);
         let [azimuth, elevation] = hints.filter(|_| is_now).unwrap_or(words);
         for (name, text, hint, width) in [
             ("Time of the peak", &mut typed.at, "now".to_owned(), TIME),

@@ -10,6 +10,7 @@ use crate::{
     record::{FittedTerm, PointingFit},
     station::{Antenna, AntennaId},
     ui::{
+        format,
         preferences::fields::Typed,
         text, theme,
         widgets::told::{self, Tone},
@@ -108,7 +109,7 @@ fn terms(ui: &mut Ui, antenna: &Antenna, fit: &PointingFit, can_fit: bool) -> Op
     }
     if !fit.without.is_empty() {
         let terms: Vec<&str> = fit.without.iter().map(|term| pointing_term(*term)).collect();
-        line(ui, &format!("Left at 0, as you wanted: {}.", terms.join(", ").to_lowercase()));
+        line(ui, &format!("Left at 0, as you wanted: {}.", format::list(&terms).to_lowercase()));
     }
     let may_go = without(fit);
     if may_go.is_some() {
@@ -142,7 +143,7 @@ fn not_told(of: &FittedTerm) -> Option<String> {
         return None;
     }
     let with: Vec<&str> = of.not_told_from.iter().map(|term| pointing_term(*term)).collect();
-    let (term, with) = (pointing_term(of.term), with.join(", ").to_lowercase());
+    let (term, with) = (pointing_term(of.term), format::list(&with).to_lowercase());
     Some(format!("{term} cannot be told from {with} in these passes: it is left at 0."))
 }
 
