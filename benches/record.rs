@@ -20,7 +20,7 @@ use azel::{
     record::{
         self, AboutTrack, PassNote, PassQuery, RecordedReport, Recorder, TrackedBy, open_pass,
     },
-    station::{AntennaId, Retention, Station},
+    station::{Antenna, AntennaId, Retention, Station},
 };
 use jiff::{Timestamp, ToSpan as _};
 
@@ -73,7 +73,9 @@ fn note(
         let elevation: Angle = flown.pointing.elevation?;
         Some((flown.time, azel::astro::AzEl { azimuth, elevation }))
     });
-    let explanations = Evidence::new(true).with_pass(propagator, site, measured).explanations(&[]);
+    let mount = Antenna::rc2000c("Horn", "/dev/ttyS0").mount;
+    let explanations =
+        Evidence::new(mount, true).with_pass(propagator, site, measured).explanations(&[]);
     let counted_s = pass.duration_s();
     let report = RecordedReport {
         from,

@@ -74,6 +74,9 @@ fn the_same_seed_gives_the_same_bytes_at_any_speed_and_another_seed_does_not() {
     assert_ne!(once, text(&Rehearsed { seed: 1, ..other }));
 }
 
+/// A satellite near the horizon takes as long through half of the beam.
+const AT_LIMIT_S: f64 = 3.5;
+
 #[test]
 fn a_day_of_three_antennas_has_a_report_of_each_pass_beside_its_promise() {
     let hours: f64 = std::env::var("AZEL_HOURS").map_or(2.0, |text| text.parse().unwrap());
@@ -100,8 +103,9 @@ fn a_day_of_three_antennas_has_a_report_of_each_pass_beside_its_promise() {
     for pass in passes.iter().filter(|pass| !pass.is_given_up) {
         let report = pass.report.as_ref().unwrap_or_else(|| panic!("no report: {pass:?}"));
         assert!(pass.flown.is_some() && report.report.rms.is_some(), "{pass:?}");
-        // What was promised can be had by units that do as they are told.
-        assert!(pass.got_s() > 0.97 * pass.promised_s, "{pass:?}");
+        // What was promised can be had by units that do as they are told. At a limit an RC2000C
+        // tells no angle: that the satellite is still within its beam there is not counted.
+        assert!(pass.got_s() > 0.97 * pass.promised_s - AT_LIMIT_S, "{pass:?}");
     }
 }
 

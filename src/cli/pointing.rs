@@ -105,7 +105,7 @@ pub(super) fn run(station: Option<&Path>, options: &Options) -> anyhow::Result<E
     let peaks: Vec<Peak> = entered.chain(&options.sun).chain(&options.moon).copied().collect();
     let fit = fit_pointing(&record, antenna.id, of.site, within.clone(), &peaks, Vec::new())
         .with_context(|| format!("{} has no pointing model", antenna.name))?;
-    let causes = explain_passes(&record, antenna.id, of.site, &within)
+    let causes = explain_passes(&record, antenna.id, antenna.mount, of.site, &within)
         .with_context(|| format!("The passes of {} cannot be read", antenna.name))?;
     let told = Told { antenna: &antenna.name, fit: &fit, causes };
     let written = match options.format {

@@ -154,10 +154,13 @@ impl Engine {
         let found = reading.found.as_ref().and_then(|of| of.found.as_ref().ok());
         let Some(opened) = found.and_then(|found| found.opened.as_ref()) else { return };
         let (antenna, until) = (opened.pass.antenna, opened.pass.report.until);
-        let Some(path) = self.record_file() else { return };
-        let site = self.station.site;
+        let configured = self.station.antennas.iter().find(|of| of.id == antenna);
+        // What left the station has no mount to explain it by.
+        let (Some(of), Some(path)) = (configured, self.record_file()) else { return };
+        let (mount, site) = (of.mount, self.station.site);
         let job = Job::start("azel-explain-passes", Arc::clone(&self.wake), move |_| {
-            let explained = record::explain_passes(&path, antenna, site, &(Timestamp::MIN..until));
+            let explained =
+                record::explain_passes(&path, antenna, mount, site, &(Timestamp::MIN..until));
             explained.inspect_err(|error| tracing::error!(%error, "passes not explained")).ok()
         });
         self.record_reading.explaining =

@@ -13,7 +13,7 @@ use serde::{Deserialize, Serialize};
 use smol_str::SmolStr;
 
 use crate::{
-    astro::{Angle, AzEl, Site, xy_mount},
+    astro::{Angle, AzEl, Site},
     station::{Antenna, Entered, KeepOut, Mount, Station, SunAvoidance},
 };
 
@@ -119,15 +119,7 @@ impl Bounds {
 
     /// The direction in which the axes point at `axes_deg`, degrees as the mount counts.
     pub fn direction(&self, axes_deg: [f64; 2]) -> AzEl {
-        let [first, second] = axes_deg.map(Angle::from_degrees);
-        match self.mount {
-            Mount::AzEl { .. } => AzEl::of_axes(first, second),
-            Mount::Xy { lower_axis_azimuth_deg, .. } => {
-                let zenith = Angle::from_degrees(90.0);
-                let axes = xy_mount::AxisAngles { lower: first - zenith, upper: second - zenith };
-                xy_mount::azel_from_axes(axes, Angle::from_degrees(lower_axis_azimuth_deg))
-            }
-        }
+        self.mount.direction(axes_deg)
     }
 
     pub fn at(&self, utc: Timestamp) -> BoundsAt<'_> {

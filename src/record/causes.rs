@@ -10,7 +10,7 @@ use crate::{
     astro::{Site, time::apart},
     orbit::Propagator,
     plan::pass_report::{Evidence, Explanation, LossCause, MeasuredPosition},
-    station::AntennaId,
+    station::{AntennaId, Mount},
 };
 
 /// Most passes that are taken together.
@@ -29,11 +29,12 @@ pub struct ExplainedPasses {
     pub explanations: Vec<Explanation>,
 }
 
-/// What explains the newest passes of `antenna` in the record at `path` that end `within` a time.
-/// Reports without a site are of an antenna at `site`.
+/// What explains the newest passes of `antenna`, on this mount, in the record at `path` that end
+/// `within` a time. Reports without a site are of an antenna at `site`.
 pub fn explain_passes(
     path: &Path,
     antenna: AntennaId,
+    mount: Mount,
     site: Site,
     within: &Range<Timestamp>,
 ) -> Result<ExplainedPasses, RecordError> {
@@ -59,13 +60,15 @@ pub fn explain_passes(
     }
     let positions = || flown.iter().flat_map(|(_, _, points)| points);
     let has_elevation = positions().any(|flown| flown.pointing.elevation.is_some());
-    let evidence =
-        flown.iter().fold(Evidence::new(has_elevation), |evidence, (propagator, site, points)| {
+    let evidence = flown.iter().fold(
+        Evidence::new(mount, has_elevation),
+        |evidence, (propagator, site, points)| {
             let measured = points
                 .iter()
                 .filter_map(|flown| Some((flown.time, flown.direction(has_elevation)?)));
             evidence.with_pass(propagator, *site, measured)
-        });
+        },
+    );
     Ok(ExplainedPasses { passes: flown.len(), since, explanations: evidence.explanations(&[]) })
 }
 

@@ -2,7 +2,10 @@
 
 use serde::Serialize;
 
-use crate::astro::{Angle, AzEl};
+use crate::astro::{
+    Angle, AzEl,
+    xy_mount::{self, AxisAngles},
+};
 
 /// Arrangement and travel of the axes.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
@@ -45,6 +48,19 @@ impl Mount {
                 elevation_from_deg,
                 elevation_to_deg,
             } => [(azimuth_from_deg, azimuth_to_deg), (elevation_from_deg, elevation_to_deg)],
+        }
+    }
+
+    /// The direction in which the axes point at `axes_deg`, degrees as the mount counts.
+    pub fn direction(&self, axes_deg: [f64; 2]) -> AzEl {
+        let [first, second] = axes_deg.map(Angle::from_degrees);
+        match *self {
+            Self::AzEl { .. } => AzEl::of_axes(first, second),
+            Self::Xy { lower_axis_azimuth_deg, .. } => {
+                let zenith = Angle::from_degrees(90.0);
+                let axes = AxisAngles { lower: first - zenith, upper: second - zenith };
+                xy_mount::azel_from_axes(axes, Angle::from_degrees(lower_axis_azimuth_deg))
+            }
         }
     }
 

@@ -46,6 +46,11 @@ pub(crate) struct Units {
 
 impl Units {
     pub(crate) fn new(clock: &Clock) -> Self {
+        Self::holding(clock, &FAVOURITES)
+    }
+
+    /// Those of which the Satrak has these elements in its file.
+    pub(crate) fn holding(clock: &Clock, elements: &[Elements]) -> Self {
         // Their clocks begin with what was read: by a clock that runs meanwhile they would be late.
         LazyLock::force(&FAVOURITES);
         let start = clock.now().utc;
@@ -57,7 +62,7 @@ impl Units {
             ..rotator_genius::Options::default()
         };
         let mut options = satrak::Options::new(Station::default().site, start);
-        options.elements.insert(BUNDLED_FILE.to_owned(), FAVOURITES.clone());
+        options.elements.insert(BUNDLED_FILE.to_owned(), elements.to_vec());
         Self {
             dish: satrak::Control::on_clock(&options, clock.clone()),
             mast: rotator_genius::Control::on_clock(&pair, clock.clone()),

@@ -4,15 +4,15 @@
 use std::{collections::BTreeMap, time::Duration};
 
 use azel::{
-    astro::{Angle, PointingModel},
+    astro::{Angle, PointingModel, xy_mount},
     engine::Command,
-    orbit::{Catalog, Pass, PassSearch, Propagator, bundled, passes},
+    orbit::{Catalog, Elements, Pass, PassSearch, Propagator, bundled, passes},
     plan::pass_report::{Cause, Explanation},
     record::RowKind,
     sim::{InMemory as _, Misreading, Trouble},
     station::Station,
 };
-use jiff::ToSpan as _;
+use jiff::{Timestamp, ToSpan as _};
 
 use super::{recorded::reports, scene::Scene};
 use crate::common::{
@@ -25,19 +25,35 @@ const SEED: u64 = 20_260_812;
 const CASES: u32 = 2;
 /// Standard deviation of both angles, degrees.
 const NOISE_DEG: f64 = 0.02;
+/// Of a simulated Satrak.
+const FULL_RATE_DEG_S: f64 = 5.0;
+
+/// What is wrong with a simulated Satrak.
+enum Wrong {
+    Unit(Trouble),
+    /// It tracks with these, which the station had before.
+    Elements(Elements),
+}
+
+/// A pass, and the elements that predict it.
+struct Flight {
+    elements: Elements,
+    pass: Pass,
+}
 
 /// A cause that a simulated Satrak can have, and what brings it about.
-fn drawn(case: u32, dice: &mut Dice) -> (Cause, Trouble) {
+fn drawn(case: u32, flight: &Flight, dice: &mut Dice) -> (Cause, Wrong) {
     let signed = |dice: &mut Dice, most: f64| {
         let size = most * dice.between(0.15, 1.0);
         if dice.chance(0.5) { size } else { -size }
     };
-    let misreads = |model| Trouble::Misreads(Misreading { model, noise_deg: NOISE_DEG });
+    let misreads =
+        |model| Wrong::Unit(Trouble::Misreads(Misreading { model, noise_deg: NOISE_DEG }));
     let none = PointingModel::default();
-    match case % 5 {
+    match case % 7 {
         1 => {
             let late = Duration::from_millis(50 + dice.below(1950) as u64);
-            (Cause::Late { late_s: late.as_secs_f64() }, Trouble::ClockLate(late))
+            (Cause::Late { late_s: late.as_secs_f64() }, Wrong::Unit(Trouble::ClockLate(late)))
         }
         2 => {
             let azimuth_offset_deg = signed(dice, 1.0);
@@ -54,6 +70,16 @@ fn drawn(case: u32, dice: &mut Dice) -> (Cause, Trouble) {
             let cause = Cause::Tilt { north_deg: tilt_north_deg, east_deg: tilt_east_deg };
             (cause, misreads(PointingModel { tilt_north_deg, tilt_east_deg, ..none }))
         }
+        4 => {
+            // Fast enough for all but the quickest part of the pass.
+            let rate_deg_s = 0.85 * flight.fastest_axis_deg_s();
+            let share = rate_deg_s / FULL_RATE_DEG_S;
+            (Cause::SlowDrives { rate_deg_s }, Wrong::Unit(Trouble::SlowDrives(share)))
+        }
+        5 => {
+            let old = flight.older(signed(dice, 0.3));
+            (Cause::OtherElements { epoch: old.epoch() }, Wrong::Elements(old))
+        }
         _ => {
             let elevation_scale = signed(dice, 0.02);
             let cause = Cause::ElevationScale { per_mille: 1000.0 * elevation_scale };
@@ -62,11 +88,45 @@ fn drawn(case: u32, dice: &mut Dice) -> (Cause, Trouble) {
     }
 }
 
+impl Flight {
+    /// Rate of the faster one of the axes of the Satrak's mount where it is greatest.
+    fn fastest_axis_deg_s(&self) -> f64 {
+        let propagator = Propagator::new(&self.elements).unwrap();
+        let axes = |time: Timestamp| {
+            let look = propagator.look_from(Station::default().site, time).unwrap();
+            let axes = xy_mount::axes_from_azel(look.direction, Angle::ZERO);
+            [axes.lower.degrees(), axes.upper.degrees()]
+        };
+        let seconds = 0..self.pass.duration_s() as i64;
+        let rate = seconds.map(|second| {
+            let time = self.pass.aos.time + second.seconds();
+            let (from, to) = (axes(time), axes(time + 1.second()));
+            from.iter().zip(to).map(|(from, to)| (to - from).abs()).fold(0.0, f64::max)
+        });
+        rate.fold(0.0, f64::max)
+    }
+
+    /// Elements of a second before, by which the satellite is this much further on, and its plane
+    /// half as much.
+    fn older(&self, by_deg: f64) -> Elements {
+        let mut written = serde_json::to_value(&self.elements).unwrap();
+        let epoch: Timestamp = serde_json::from_value(written["epoch"].clone()).unwrap();
+        written["epoch"] = serde_json::to_value(epoch - 1.second()).unwrap();
+        let moved_deg = written["mean_motion_rev_day"].as_f64().unwrap() * 360.0 / 86_400.0;
+        for (name, change) in [("mean_anomaly_deg", by_deg - moved_deg), ("node_deg", by_deg / 2.0)]
+        {
+            let changed = (written[name].as_f64().unwrap() + change).rem_euclid(360.0);
+            written[name] = changed.into();
+        }
+        serde_json::from_value(written).unwrap()
+    }
+}
+
 /// A pass of one of the favourites that comes up well.
-fn pass(station: &Station, catalog: &Catalog, dice: &mut Dice) -> Option<(u32, Pass)> {
+fn flight(station: &Station, catalog: &Catalog, dice: &mut Dice) -> Option<Flight> {
     let favourites = station.favourites.numbers();
-    let number = *favourites.get(dice.below(favourites.len()))?;
-    let propagator = Propagator::new(catalog.get(number)?).ok()?;
+    let elements = catalog.get(*favourites.get(dice.below(favourites.len()))?)?;
+    let propagator = Propagator::new(elements).ok()?;
     let search = PassSearch {
         aos_elevation: station.aos_elevation(),
         floor: Angle::from_degrees(20.0),
@@ -75,18 +135,25 @@ fn pass(station: &Station, catalog: &Catalog, dice: &mut Dice) -> Option<(u32, P
     let found = passes(&propagator, &search, &|| false);
     let short: Vec<&Pass> = found.iter().filter(|pass| pass.duration_s() < 700.0).collect();
     let place = dice.below(short.len().max(1));
-    short.get(place).map(|pass| (number, **pass))
+    short.get(place).map(|pass| Flight { elements: elements.clone(), pass: **pass })
 }
 
-/// What the report of a pass that the Satrak tracks makes of this trouble.
-async fn explained(trouble: Trouble, number: u32, pass: &Pass) -> Vec<Explanation> {
+/// What the report of a pass that the Satrak tracks makes of what is wrong.
+async fn explained(wrong: Wrong, flight: &Flight) -> Vec<Explanation> {
+    let number = flight.elements.catalog_number();
     let mut station = Station { favourites: [number].into(), ..units::station() };
     station.antennas.retain(|antenna| antenna.name == "Dish");
-    let scene = Scene::recorded(pass.aos.time - 2.minutes(), &station);
+    // Slow drives take some minutes to the place where the satellite rises.
+    let is_slow = matches!(wrong, Wrong::Unit(Trouble::SlowDrives(_)));
+    let start = flight.pass.aos.time - if is_slow { 8.minutes() } else { 2.minutes() };
+    let (scene, trouble) = match wrong {
+        Wrong::Unit(trouble) => (Scene::recorded(start, &station), Some(trouble)),
+        Wrong::Elements(old) => (Scene::with_old_elements(start, &station, &old), None),
+    };
     let client = scene.client();
     let dish = measured(&client, "Dish").await;
     let noise = Misreading { model: PointingModel::default(), noise_deg: NOISE_DEG };
-    for trouble in [Trouble::Misreads(noise), trouble] {
+    for trouble in std::iter::once(Trouble::Misreads(noise)).chain(trouble) {
         assert!(scene.units.dish.set_trouble(trouble, true));
     }
     let key = until("the pass", || {
@@ -109,7 +176,8 @@ fn sizes(cause: &Cause) -> Vec<(f64, f64)> {
         }
         Cause::Tilt { north_deg, east_deg } => vec![(north_deg, 0.03), (east_deg, 0.03)],
         Cause::ElevationScale { per_mille } => vec![(per_mille, 0.5)],
-        _ => Vec::new(),
+        Cause::SlowDrives { rate_deg_s } => vec![(rate_deg_s, 0.02)],
+        Cause::AzimuthScale { .. } | Cause::OtherElements { .. } => Vec::new(),
     }
 }
 
@@ -121,13 +189,13 @@ async fn the_cause_that_a_simulated_unit_was_given_is_named_in_the_report_of_its
     // By cause: cases, named, of the right size, lines with more than one cause.
     let mut table = BTreeMap::<String, [u32; 4]>::new();
     for case in 0..cases {
-        let (cause, trouble) = drawn(case, &mut dice);
-        let (number, pass) = loop {
-            if let Some(pass) = pass(&Station::default(), &catalog, &mut dice) {
-                break pass;
+        let flight = loop {
+            if let Some(flight) = flight(&Station::default(), &catalog, &mut dice) {
+                break flight;
             }
         };
-        let found = explained(trouble, number, &pass).await;
+        let (cause, wrong) = drawn(case, &flight, &mut dice);
+        let found = explained(wrong, &flight).await;
         let line: Vec<&Explanation> = found.iter().filter(|it| it.is_alike).collect();
         let kind = std::mem::discriminant(&cause);
         let named = line.iter().find(|it| std::mem::discriminant(&it.cause) == kind);
@@ -145,8 +213,9 @@ async fn the_cause_that_a_simulated_unit_was_given_is_named_in_the_report_of_its
         row[3] += u32::from(line.len() > 1);
         if !is_right {
             println!(
-                "case {case}, {cause:?} in a pass of {number} at {}: {found:?}",
-                pass.aos.time
+                "case {case}, {cause:?} in a pass of {} at {}: {found:?}",
+                flight.elements.catalog_number(),
+                flight.pass.aos.time
             );
         }
     }

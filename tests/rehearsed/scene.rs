@@ -1,11 +1,13 @@
 //! A station in tokio's paused time, and what is asked of it.
 
-use std::{fs, num::NonZeroU32, path::Path};
+use std::{fs, num::NonZeroU32, path::Path, slice};
 
 use azel::{
     clock::Clock,
     engine::{Client, Command, Settings, automatic::Operation, in_place::InPlace},
     job,
+    library::{History, OlderSet},
+    orbit::Elements,
     station::{self, AntennaId, Station},
 };
 use jiff::Timestamp;
@@ -47,12 +49,20 @@ impl Scene {
         Self::keeping(start, station, Keeps { marks: true, ..Keeps::default() })
     }
 
+    /// One that is recorded, whose Satrak tracks with elements that the station had before.
+    pub(super) fn with_old_elements(start: Timestamp, station: &Station, old: &Elements) -> Self {
+        let clock = Clock::at_speed(start, NonZeroU32::MIN);
+        let units = Units::holding(&clock, slice::from_ref(old));
+        let folder = folder_of(station);
+        let older = OlderSet { elements: old.clone(), source: "before".to_owned() };
+        History::beside(&folder.path().join("elements")).add(&[older]).unwrap();
+        Self::begun(units, clock, folder, Keeps { record: true, ..Keeps::default() })
+    }
+
     fn keeping(start: Timestamp, station: &Station, keeps: Keeps) -> Self {
         let clock = Clock::at_speed(start, NonZeroU32::MIN);
         let units = Units::new(&clock);
-        let folder = tempfile::tempdir().unwrap();
-        station::save(station, &folder.path().join("station.toml")).unwrap();
-        Self::begun(units, clock, folder, keeps)
+        Self::begun(units, clock, folder_of(station), keeps)
     }
 
     fn begun(units: Units, clock: Clock, folder: tempfile::TempDir, keeps: Keeps) -> Self {
@@ -95,6 +105,13 @@ impl Scene {
     pub(super) fn client(&self) -> Client {
         self.station.client().clone()
     }
+}
+
+/// A folder with the file of the station.
+fn folder_of(station: &Station) -> tempfile::TempDir {
+    let folder = tempfile::tempdir().unwrap();
+    station::save(station, &folder.path().join("station.toml")).unwrap();
+    folder
 }
 
 pub(super) fn operation(client: &Client, antenna: AntennaId) -> Operation {

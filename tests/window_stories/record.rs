@@ -110,7 +110,9 @@ fn opened(model: &Model, id: i64, pass: &Pass, verdict: PassVerdict) -> OpenedPa
             .collect(),
     };
     let measured = track.iter().map(|point| (point.time, point.antenna));
-    let explanations = Evidence::new(true).with_pass(&propagator, site, measured).explanations(&[]);
+    let explanations = Evidence::new(model.station.antennas[0].mount, true)
+        .with_pass(&propagator, site, measured)
+        .explanations(&[]);
     let step = |step: u32| {
         let time = add_seconds(from, 2.0 * f64::from(step)).min(until);
         Sample { time, direction: at(time) }

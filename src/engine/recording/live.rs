@@ -69,7 +69,9 @@ impl Followed {
                 *flown = about.offsets.taken_off(&propagator, site, about.on_the_sky(*flown));
             }
             let measured = directions(&young, has_elevation);
-            Evidence::new(has_elevation).with_pass(&propagator, site, measured).explained(least_deg)
+            Evidence::new(mount, has_elevation)
+                .with_pass(&propagator, site, measured)
+                .explained(least_deg)
         });
         self.live.job =
             started.inspect_err(|error| tracing::error!(%error, "an error is not explained")).ok();

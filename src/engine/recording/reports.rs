@@ -281,8 +281,11 @@ impl Followed {
         let is_reached = |flown: &&MeasuredPosition| tracked.is_in_reach(flown.time);
         let reached: Vec<MeasuredPosition> = flown.iter().filter(is_reached).copied().collect();
         let measured = directions(&reached, has_elevation);
-        let evidence =
-            Evidence::new(has_elevation).with_pass(&self.propagator, self.site, measured);
+        let evidence = Evidence::new(self.limits.mount, has_elevation).with_pass(
+            &self.propagator,
+            self.site,
+            measured,
+        );
         let sets = history.map_or_else(Vec::new, |of| of.of(self.elements.catalog_number()));
         let others = sets.iter().filter(|set| set.elements.epoch() != self.elements.epoch());
         let others = others

@@ -16,6 +16,7 @@ use self::fit::{Family, Found};
 use crate::{
     astro::{AzEl, Site, time::seconds_between},
     orbit::Propagator,
+    station::Mount,
 };
 
 /// Positions further from the satellite are a slew, or no track at all, degrees.
@@ -72,7 +73,7 @@ pub enum Cause {
     OtherElements {
         epoch: Timestamp,
     },
-    /// The drives turn no faster.
+    /// The drives turn neither axis faster.
     SlowDrives {
         rate_deg_s: f64,
     },
@@ -127,14 +128,15 @@ struct Point<'a> {
 pub struct Evidence<'a> {
     /// Each in the order of time.
     passes: Vec<Vec<Point<'a>>>,
+    mount: Mount,
     has_elevation: bool,
 }
 
 impl<'a> Evidence<'a> {
     /// No evidence yet. `has_elevation`: the antenna measures its elevation; else that of the
     /// satellite stands in its place.
-    pub fn new(has_elevation: bool) -> Self {
-        Self { passes: Vec::new(), has_elevation }
+    pub fn new(mount: Mount, has_elevation: bool) -> Self {
+        Self { passes: Vec::new(), mount, has_elevation }
     }
 
     /// The same with the measured directions of one more pass, oldest first.

@@ -92,7 +92,7 @@ fn opened(late_s: f64, is_measured: impl Fn(u32) -> bool) -> OpenedPass {
                     sync: TimeSync::Synchronised,
                 },
                 report: tracked.report(&positions),
-                explanations: Evidence::new(true)
+                explanations: Evidence::new(limits.mount, true)
                     .with_pass(&propagator, site, measured)
                     .explanations(&[]),
                 elements,

@@ -9,8 +9,10 @@ use crate::{
     astro::{
         Angle, AzEl,
         time::{add_seconds, seconds_between},
+        xy_mount,
     },
     orbit::Propagator,
+    station::Mount,
 };
 
 /// Most rounds of a fit; most need three.
@@ -203,32 +205,42 @@ impl Evidence<'_> {
     /// Sum of the squares that are left beside an antenna whose axes follow the satellite at this
     /// rate at most.
     fn sum_of_slow(&self, rate_deg_s: f64) -> f64 {
-        self.passes.iter().map(|points| sum_of_slow(points, rate_deg_s)).sum()
+        self.passes.iter().map(|points| sum_of_slow(points, self.mount, rate_deg_s)).sum()
     }
 }
 
-fn sum_of_slow(points: &[Point<'_>], rate_deg_s: f64) -> f64 {
-    let mut before: Option<(Timestamp, f64, f64)> = None;
+/// Angles of the axes that point at `direction`, degrees as the mount counts. `azimuth_deg`: its
+/// azimuth, continued over north.
+fn axes_deg(mount: Mount, direction: AzEl, azimuth_deg: f64) -> [f64; 2] {
+    match mount {
+        Mount::AzEl { .. } => [azimuth_deg, direction.elevation_deg()],
+        Mount::Xy { lower_axis_azimuth_deg, .. } => {
+            let lower_axis = Angle::from_degrees(lower_axis_azimuth_deg);
+            let axes = xy_mount::axes_from_azel(direction, lower_axis);
+            [axes.lower, axes.upper].map(|axis| axis.degrees() + 90.0)
+        }
+    }
+}
+
+fn sum_of_slow(points: &[Point<'_>], mount: Mount, rate_deg_s: f64) -> f64 {
+    let mut before: Option<(Timestamp, [f64; 2])> = None;
     let mut sum = 0.0;
     for point in points {
-        let aim = (point.azimuth_deg, point.satellite.elevation_deg());
-        let (azimuth_deg, elevation_deg) = match before {
+        let Point { time, satellite, azimuth_deg, measured, .. } = *point;
+        let at_deg = match before {
             None => {
-                let off = (point.measured.azimuth - point.satellite.azimuth).wrapped_180();
-                (aim.0 + off.degrees(), point.measured.elevation_deg())
+                let off = (measured.azimuth - satellite.azimuth).wrapped_180();
+                axes_deg(mount, measured, azimuth_deg + off.degrees())
             }
-            Some((time, azimuth_deg, elevation_deg)) => {
-                let most = rate_deg_s * seconds_between(time, point.time);
+            Some((before, [first, second])) => {
+                let most = rate_deg_s * seconds_between(before, time);
                 let turned = |from: f64, to: f64| from + (to - from).clamp(-most, most);
-                (turned(azimuth_deg, aim.0), turned(elevation_deg, aim.1))
+                let [to_first, to_second] = axes_deg(mount, satellite, azimuth_deg);
+                [turned(first, to_first), turned(second, to_second)]
             }
         };
-        before = Some((point.time, azimuth_deg, elevation_deg));
-        let direction = AzEl {
-            azimuth: Angle::from_degrees(azimuth_deg),
-            elevation: Angle::from_degrees(elevation_deg),
-        };
-        let model = direction.to_enu() - point.satellite.to_enu();
+        before = Some((time, at_deg));
+        let model = mount.direction(at_deg).to_enu() - satellite.to_enu();
         sum += (point.error - model).length_squared();
     }
     sum

@@ -7,10 +7,14 @@ use jiff::Timestamp;
 
 use super::{Cause, Evidence, Explanation};
 use crate::{
-    astro::{Angle, AzEl, Site, time::add_seconds},
+    astro::{
+        Angle, AzEl, Site,
+        time::add_seconds,
+        xy_mount::{self, AxisAngles},
+    },
     orbit::{Elements, Pass, PassSearch, Propagator, bundled, passes},
     plan::schedule::testing::Random,
-    station::Station,
+    station::{Mount, Station},
 };
 
 const SEED: u64 = 20_260_812;
@@ -20,6 +24,14 @@ const CASES_OF_TWO: u32 = 50;
 /// Standard deviation of both angles, degrees.
 const NOISE_DEG: f64 = 0.02;
 const STEP_S: f64 = 0.5;
+const AZ_EL: Mount = Mount::AzEl {
+    azimuth_from_deg: -180.0,
+    azimuth_to_deg: 540.0,
+    elevation_from_deg: 0.0,
+    elevation_to_deg: 90.0,
+};
+const XY: Mount =
+    Mount::Xy { lower_axis_azimuth_deg: 0.0, travel_from_deg: 5.0, travel_to_deg: 175.0 };
 
 struct Flight {
     elements: Elements,
@@ -217,7 +229,7 @@ fn the_true_cause_of_an_error_is_named_first_or_with_those_that_look_alike() {
         let exact = measured(flight, &mut cause, &other);
         let seen = noisy(&exact, &mut random);
         let evidence =
-            Evidence::new(true).with_pass(&flight.propagator, flight.site, seen.into_iter());
+            Evidence::new(AZ_EL, true).with_pass(&flight.propagator, flight.site, seen.into_iter());
         let found = evidence.explanations(&[(flight.elements.epoch(), other)]);
         let line: Vec<&Explanation> = found.iter().filter(|it| it.is_alike).collect();
         let named = line.iter().find(|it| is_same_kind(&it.cause, &cause));
@@ -272,7 +284,7 @@ fn two_causes_that_act_together_are_named_together_with_their_sizes() {
         let exact = measured_of(flight, &once, &mut second, &other);
         let seen = noisy(&exact, &mut random);
         let evidence =
-            Evidence::new(true).with_pass(&flight.propagator, flight.site, seen.into_iter());
+            Evidence::new(AZ_EL, true).with_pass(&flight.propagator, flight.site, seen.into_iter());
         let found = evidence.explanations(&[(flight.elements.epoch(), other)]);
         row[0] += 1;
         let by_one = found.iter().find(|it| it.with.is_none());
@@ -324,9 +336,9 @@ fn several_passes_tell_apart_what_one_does_not() {
             noisy(&exact.take(60).collect::<Vec<_>>(), &mut random)
         });
         let flown: Vec<_> = flown.collect();
-        let mut evidence = Evidence::new(true);
+        let mut evidence = Evidence::new(AZ_EL, true);
         for (flight, flown) in flights.iter().zip(&flown) {
-            let of_one = Evidence::new(true).with_pass(
+            let of_one = Evidence::new(AZ_EL, true).with_pass(
                 &flight.propagator,
                 flight.site,
                 flown.iter().copied(),
@@ -359,7 +371,7 @@ fn the_way_to_a_pass_under_way_is_not_taken_for_slow_drives() {
         });
         let seen = noisy(&exact.collect::<Vec<_>>(), &mut random);
         let evidence =
-            Evidence::new(true).with_pass(&flight.propagator, flight.site, seen.into_iter());
+            Evidence::new(AZ_EL, true).with_pass(&flight.propagator, flight.site, seen.into_iter());
         let found = evidence.explanations(&[]);
         let is_of_drives = |it: &Explanation| matches!(it.cause, Cause::SlowDrives { .. });
         assert!(!found.iter().any(is_of_drives), "{found:?}");
@@ -374,14 +386,16 @@ fn an_error_of_noise_alone_is_not_explained() {
         let exact: Vec<_> = flight.times().map(|time| (time, flight.at(time))).collect();
         let seen = noisy(&exact, &mut random);
         let evidence =
-            Evidence::new(true).with_pass(&flight.propagator, flight.site, seen.into_iter());
+            Evidence::new(AZ_EL, true).with_pass(&flight.propagator, flight.site, seen.into_iter());
         let found = evidence.explanations(&[]);
         assert!(found.iter().all(|it| it.left_deg > 0.9 * NOISE_DEG), "{found:?}");
     }
     let flight = &flights[0];
     let few = flight.times().take(10).map(|time| (time, flight.at(time)));
     assert_eq!(
-        Evidence::new(true).with_pass(&flight.propagator, flight.site, few).explanations(&[]),
+        Evidence::new(AZ_EL, true)
+            .with_pass(&flight.propagator, flight.site, few)
+            .explanations(&[]),
         []
     );
 }
@@ -394,7 +408,7 @@ fn a_late_antenna_is_explained_while_its_pass_goes_on_and_a_small_error_is_not()
         let exact = flight.times().map(|time| (time, flight.at(add_seconds(time, -late_s))));
         let seen = noisy(&exact.collect::<Vec<_>>(), &mut random);
         let evidence =
-            Evidence::new(true).with_pass(&flight.propagator, flight.site, seen.into_iter());
+            Evidence::new(AZ_EL, true).with_pass(&flight.propagator, flight.site, seen.into_iter());
         let found = evidence.explained(0.05);
         if late_s < 0.1 {
             assert_eq!(found, None);
@@ -417,7 +431,7 @@ fn a_rotator_of_azimuth_alone_has_no_error_of_its_elevation() {
         at.elevation = Angle::ZERO;
         (time, at)
     });
-    let evidence = Evidence::new(false).with_pass(&flight.propagator, flight.site, seen);
+    let evidence = Evidence::new(AZ_EL, false).with_pass(&flight.propagator, flight.site, seen);
     let found = evidence.explanations(&[]);
     let Cause::AzimuthOffset { offset_deg } = found[0].cause else { panic!("{found:?}") };
     assert!((offset_deg - 0.5).abs() < 1e-6);
@@ -428,4 +442,43 @@ fn a_rotator_of_azimuth_alone_has_no_error_of_its_elevation() {
         )
     };
     assert!(!found.iter().any(of_elevation), "{found:?}");
+}
+
+#[test]
+fn slow_drives_of_crossed_axes_are_told_by_the_rate_of_those_axes() {
+    let flights = flights();
+    let mut random = Random::new(SEED);
+    let lower_axis = Angle::ZERO;
+    let mut named = 0;
+    for flight in &flights {
+        let axes = |time| xy_mount::axes_from_azel(flight.at(time), lower_axis);
+        let turned = |time: Timestamp| {
+            let (from, to) = (axes(time), axes(add_seconds(time, 1.0)));
+            (to.lower - from.lower).degrees().abs().max((to.upper - from.upper).degrees().abs())
+        };
+        let rate_deg_s = 0.85 * flight.times().map(turned).fold(0.0, f64::max);
+        let most = rate_deg_s * STEP_S;
+        let mut at = axes(flight.pass.aos.time);
+        let mut off_deg = 0.0_f64;
+        let exact = flight.times().map(|time| {
+            let to = axes(time);
+            let step =
+                |from: Angle, to: Angle| from + deg((to - from).degrees().clamp(-most, most));
+            at = AxisAngles { lower: step(at.lower, to.lower), upper: step(at.upper, to.upper) };
+            let direction = xy_mount::azel_from_axes(at, lower_axis);
+            off_deg = off_deg.max(direction.separation(flight.at(time)).degrees());
+            (time, direction)
+        });
+        let seen = noisy(&exact.collect::<Vec<_>>(), &mut random);
+        if off_deg < 20.0 * NOISE_DEG {
+            continue;
+        }
+        named += 1;
+        let evidence =
+            Evidence::new(XY, true).with_pass(&flight.propagator, flight.site, seen.into_iter());
+        let found = evidence.explanations(&[]);
+        let Cause::SlowDrives { rate_deg_s: told } = found[0].cause else { panic!("{found:?}") };
+        assert!((told - rate_deg_s).abs() < 0.02 * rate_deg_s, "{told} for {rate_deg_s}");
+    }
+    assert!(named > 10, "{named}");
 }
