@@ -443,7 +443,7 @@ fn a_correction_of_a_unit_is_typed_into_its_form_and_nothing_is_sent() {
 }
 
 #[test]
-fn a_correction_of_what_azel_sends_is_asked_about_with_the_key() {
+fn a_correction_of_what_azel_sends_is_asked_about() {
     let by_program = |about: &mut AboutTrack| {
         about.tracked_by = TrackedBy::ProgramTrack;
         let with = Offset::Elevation(Angle::from_degrees(0.5));
@@ -458,6 +458,13 @@ fn a_correction_of_what_azel_sends_is_asked_about_with_the_key() {
     settle(&mut window);
     assert!(says(&window, "el +0.30°, in place of none?"));
     assert_eq!(asked(&mut window), []);
+    window.get_by_role_and_label(Role::Button, "Cancel").click();
+    settle(&mut window);
+    window.get_by_role_and_label(Role::Button, "Apply…").focus();
+    settle(&mut window);
+    window.key_press(Key::Enter);
+    assert_eq!(asked(&mut window), [], "the press that asks is no answer");
+    assert!(says(&window, "el +0.30°, in place of none?"));
     window.key_press(Key::Enter);
     let with = Offset::Elevation(Angle::from_degrees(0.3));
     let offsets = TrackOffsets::NONE.plus(with).unwrap();

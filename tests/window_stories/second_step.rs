@@ -60,6 +60,24 @@ fn a_click_on_a_mode_asks_while_a_track_runs_and_only_then() {
 }
 
 #[test]
+fn the_press_of_enter_that_asks_is_no_answer_however_long_it_lasts() {
+    for size in SIZES {
+        let mut window = rig::window(size, rig::model(states::tracking(0.0)));
+        window.get_by_role_and_label(Role::RadioButton, "Manual").focus();
+        settle(&mut window);
+        for held in ["pressed", "held"] {
+            window.key_down(Key::Enter);
+            assert_eq!(asked(&mut window), [], "{held}");
+            window.get_by_label_contains("Satrak tracks NOAA 20 until");
+        }
+        window.key_up(Key::Enter);
+        settle(&mut window);
+        window.key_press(Key::Enter);
+        assert_eq!(asked(&mut window), [antenna(Command::Manual)]);
+    }
+}
+
+#[test]
 fn another_track_names_the_one_that_it_ends() {
     for size in SIZES {
         for by_key in [false, true] {

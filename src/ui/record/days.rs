@@ -30,8 +30,6 @@ const DAYS: i64 = 7;
 pub(super) struct DaysDialog {
     first: String,
     last: String,
-    /// It was opened in this frame: the key that did so is no answer.
-    is_new: bool,
 }
 
 impl DaysDialog {
@@ -39,7 +37,7 @@ impl DaysDialog {
     pub(super) fn new(model: &Model) -> Self {
         let last = model.now.to_zoned(TimeZone::UTC).date();
         let first = last.checked_sub((DAYS - 1).days()).unwrap_or(last);
-        Self { first: first.to_string(), last: last.to_string(), is_new: true }
+        Self { first: first.to_string(), last: last.to_string() }
     }
 
     fn days(&self) -> Result<(Date, Date), &'static str> {
@@ -111,8 +109,7 @@ fn content(ui: &mut Ui, dialog: &mut DaysDialog, filters: bool) -> Option<Answer
     let json = json.show(ui, "reports", json_at);
     let points = points.show(ui, "points", points_at);
     let cancel = cancel.show(ui, "cancel", cancel_at);
-    let is_new = std::mem::take(&mut dialog.is_new);
-    let enter = !is_locked && !is_new && ui.input(|input| input.key_pressed(Key::Enter));
+    let enter = !is_locked && ui.input(|input| input.key_pressed(Key::Enter));
     if cancel.clicked() {
         Some(Answer::Cancel)
     } else if points.clicked() {

@@ -1,15 +1,23 @@
 //! A box over the window that waits for an answer.
 
-use egui::{Frame, Id, Modal, Ui};
+use egui::{Event, Frame, Id, Key, LayerId, Modal, Order, Ui};
 
 use crate::ui::tokens;
 
 /// Padding of the box.
 const PADDING: i8 = 16;
 
-/// A box with a veil over the rest of the window.
+/// A box with a veil over the rest of the window. The press of Enter that opened it is no answer, however long the
+/// key is held.
 pub fn modal(ui: &Ui, id: &str) -> Modal {
-    Modal::new(Id::unique(id))
+    let id = Id::unique(id);
+    let layer = LayerId::new(Order::Foreground, id);
+    let is_new = !ui.memory(|memory| memory.areas().visible_last_frame(&layer));
+    let opened_it = |event: &Event| {
+        matches!(event, Event::Key { key: Key::Enter, pressed: true, repeat, .. } if is_new || *repeat)
+    };
+    ui.input_mut(|input| input.events.retain(|event| !opened_it(event)));
+    Modal::new(id)
         .backdrop_color(tokens::VEIL)
         .frame(Frame::popup(ui.style()).inner_margin(PADDING))
 }
