@@ -121,9 +121,10 @@ pub enum ReplayEnd {
     Stop,
     /// An alarm of the first priority came.
     Alarm,
-    /// An antenna is to track this satellite from then on.
+    /// An antenna is to track a satellite from then on.
     Pass {
-        name: String,
+        antenna: String,
+        satellite: String,
         from: Timestamp,
     },
 }

@@ -81,9 +81,9 @@ fn ended(why: &ReplayEnd, now: Timestamp) -> String {
     match why {
         ReplayEnd::Stop => "Replay ended: STOP was pressed.".to_owned(),
         ReplayEnd::Alarm => "Replay ended: there is a top-priority alarm.".to_owned(),
-        ReplayEnd::Pass { name, from } => {
-            let name = if name.is_empty() { "a satellite" } else { name };
-            format!("Replay ended: {name} rises in {}.", format::time_left(now, *from))
+        ReplayEnd::Pass { antenna, satellite, from } => {
+            let left = format::time_left(now, *from);
+            format!("Replay ended: {antenna} is to track {satellite} in {left}.")
         }
     }
 }

@@ -242,11 +242,12 @@ fn why_a_replay_has_ended_is_told_for_ten_seconds() {
             model.view = view;
             model.refresh_sky();
             let from = add_seconds(model.now, 119.0);
-            let why = ReplayEnd::Pass { name: "METOP-B".to_owned(), from };
+            let (antenna, satellite) = ("Dish".to_owned(), "METOP-B".to_owned());
+            let why = ReplayEnd::Pass { antenna, satellite, from };
             let until = model.steady + Duration::from_secs(10);
             model.ended_replay = Some(EndedReplay { why, until });
             let mut window = rig::window(size, model);
-            window.get_by_label("Replay ended: METOP-B rises in 1:59.");
+            window.get_by_label("Replay ended: Dish is to track METOP-B in 1:59.");
             let model = &mut window.state_mut().model;
             model.ended_replay.as_mut().unwrap().until = model.steady;
             settle(&mut window);

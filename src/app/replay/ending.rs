@@ -10,6 +10,7 @@ use crate::{
     engine::alarms::{Alarm, Priority},
     model::{Model, replay::ReplayEnd},
     plan::schedule::Entry,
+    ui::words,
 };
 
 /// A replay ends so long before an antenna is to track a pass, seconds.
@@ -27,7 +28,9 @@ pub(super) fn why_over(begun_at: Timestamp, live: &Model) -> Option<ReplayEnd> {
         begun_at < ends_at && ends_at <= live.now && live.now < entry.from
     };
     let entry = live.schedule.schedule.entries.iter().find(is_near)?;
-    let satellite = live.pass_lists.satellite(entry.pass.satellite);
-    let name = satellite.map_or_else(String::new, |of| of.short_name().to_owned());
-    Some(ReplayEnd::Pass { name, from: entry.from })
+    let number = entry.pass.satellite;
+    let satellite = live.pass_lists.satellite(number);
+    let satellite = satellite.map_or_else(|| number.to_string(), |of| of.short_name().to_owned());
+    let antenna = words::schedule::antenna_name(live, entry.antenna).to_owned();
+    Some(ReplayEnd::Pass { antenna, satellite, from: entry.from })
 }
