@@ -42,7 +42,7 @@ use self::{
     intake::Intake,
     joinings::Joinings,
     rehearsal::RehearsalState,
-    replay::{EndedReplay, ReplayEnd, Replayed},
+    replay::{ReplayEnd, Replayed},
 };
 use crate::{
     astro::{HorizonMask, MaskForm},
@@ -193,8 +193,8 @@ pub struct Model {
     pub closing: Option<Closing>,
     /// The replay that this model is of; `None` for the live station.
     pub replay: Option<Replayed>,
-    /// The last replay, where that ended by itself.
-    pub ended_replay: Option<EndedReplay>,
+    /// Why the last replay ended by itself, until the operator closes that or opens another view.
+    pub replay_end: Option<ReplayEnd>,
 }
 
 impl Model {
@@ -244,19 +244,13 @@ impl Model {
             view: View::Operate,
             closing: None,
             replay: None,
-            ended_replay: None,
+            replay_end: None,
         }
     }
 
     /// The selected antenna.
     pub fn antenna(&self) -> Option<&AntennaModel> {
         self.antennas.get(self.selected_antenna)
-    }
-
-    /// Why a replay has just ended by itself, while it is told.
-    pub fn replay_end(&self) -> Option<&ReplayEnd> {
-        let ended = self.ended_replay.as_ref()?;
-        (self.steady < ended.until).then_some(&ended.why)
     }
 
     /// The index of an antenna, if the station still has it.

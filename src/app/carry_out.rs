@@ -47,6 +47,7 @@ impl App {
             }
             UiCommand::SelectPass(key) => model.selected = Some(key),
             UiCommand::Replay(ReplayCommand::Begin(stretch, at)) => self.begin_replay(stretch, at),
+            UiCommand::Replay(ReplayCommand::Leave) => model.replay_end = None,
             // The views have asked, or there is nothing to track it with; there is no replay to change.
             UiCommand::AskToTrack(_) | UiCommand::Replay(_) => {}
             UiCommand::SelectSatellite(number) => {
@@ -111,6 +112,9 @@ impl App {
     }
 
     pub(super) fn show_view(&mut self, view: View) {
+        if self.model.view != view {
+            self.model.replay_end = None;
+        }
         self.model.view = view;
         self.keeper.memory.keep_view(view);
     }

@@ -6,7 +6,7 @@
 mod ending;
 mod room;
 
-use std::{path::PathBuf, sync::Arc, time::Duration};
+use std::{path::PathBuf, sync::Arc};
 
 use jiff::Timestamp;
 
@@ -26,7 +26,7 @@ use crate::{
     job::{Job, Wake},
     model::{
         Appearance, Model, UiCommand, View,
-        replay::{EndedReplay, ReplayCommand, ReplayEnd, ReplayProblem, Replayed, Stretch},
+        replay::{ReplayCommand, ReplayEnd, ReplayProblem, Replayed, Stretch},
     },
     record::Beside,
     station::AntennaId,
@@ -36,16 +36,13 @@ use crate::{
 /// Least time between two moments that are shown while it plays, seconds.
 const STEP_S: f64 = 0.05;
 
-/// How long it is told why a replay has ended by itself.
-const TOLD: Duration = Duration::from_secs(10);
-
 impl App {
     /// Shows a stretch of the record again, from `at` on.
     pub(super) fn begin_replay(&mut self, stretch: Stretch, at: Timestamp) {
         let Some(record) = &self.model.record else { return };
         let views = ui::Views::with(self.views.kept());
         let (path, wake) = (record.path.clone(), Arc::clone(&self.wake));
-        self.model.ended_replay = None;
+        self.model.replay_end = None;
         self.replay = Some(Replay::begin(path, stretch, at, &self.model, views, wake));
     }
 
@@ -53,8 +50,7 @@ impl App {
     pub(super) fn leave_replay(&mut self, why: Option<ReplayEnd>) {
         let Some(replay) = self.replay.take() else { return };
         replay.end();
-        let until = self.model.steady + TOLD;
-        self.model.ended_replay = why.map(|why| EndedReplay { why, until });
+        self.model.replay_end = why;
     }
 
     pub(super) fn go_on_with_replay(&mut self) {

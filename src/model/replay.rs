@@ -4,7 +4,6 @@ use jiff::Timestamp;
 
 use crate::{
     astro::time::{add_seconds, seconds_between},
-    clock::Instant,
     record::{PassMarks, RecordedPass},
 };
 
@@ -78,7 +77,7 @@ pub enum ReplayCommand {
     },
     /// Go to this moment.
     To(Timestamp),
-    /// Show the present again.
+    /// Show the present again, and not why a replay has ended.
     Leave,
 }
 
@@ -127,14 +126,6 @@ pub enum ReplayEnd {
         satellite: String,
         from: Timestamp,
     },
-}
-
-/// A replay that has ended by itself.
-#[derive(Debug, Clone, PartialEq)]
-pub struct EndedReplay {
-    pub why: ReplayEnd,
-    /// It is told until then.
-    pub until: Instant,
 }
 
 impl Replayed {

@@ -23,7 +23,7 @@ pub fn height(model: &Model) -> f32 {
 }
 
 fn has_replay(model: &Model) -> bool {
-    model.replay.is_some() || model.replay_end().is_some()
+    model.replay.is_some() || model.replay_end.is_some()
 }
 
 /// Height of the strip in a low window, where its text is shorter and its button follows that: all
@@ -55,8 +55,8 @@ pub fn show(ui: &mut Ui, rect: Rect, model: &Model, commands: &mut Vec<UiCommand
     if let Some(replayed) = &model.replay {
         return replay::show(ui, rect, model, replayed, commands);
     }
-    if let Some(why) = model.replay_end() {
-        return replay::show_end(ui, rect, why, model.now);
+    if let Some(why) = &model.replay_end {
+        return replay::show_end(ui, rect, why, model.now, commands);
     }
     let t = theme::tokens(ui);
     let whole = rect.shrink2(vec2(PADDING, 0.0));

@@ -64,26 +64,42 @@ pub fn takes_keys(ui: &Ui) -> bool {
     ui.memory(egui::Memory::focused).is_none_or(|focused| focused == scrubber::id())
 }
 
-/// Shows in place of the strip why a replay has ended by itself.
-pub fn show_end(ui: &Ui, rect: Rect, why: &ReplayEnd, now: Timestamp) {
+/// Shows in place of the strip why a replay has ended by itself. It stands until the operator closes
+/// it or opens another view: without it every control would move under the pointer.
+pub fn show_end(
+    ui: &Ui,
+    rect: Rect,
+    why: &ReplayEnd,
+    now: Timestamp,
+    commands: &mut Vec<UiCommand>,
+) {
     let t = theme::tokens(ui);
     ui.painter().rect_filled(rect, 0.0, t.warnbg);
     ui.painter().hline(rect.x_range(), rect.top() + 0.5, (1.0, t.warn));
+    let close = Button::normal("Close");
+    let at = at_the_end(ui, rect, close);
     let words = ended(why, now);
-    let room = rect.shrink2(vec2(2.0 * GAP, 0.0));
+    let room = rect.shrink2(vec2(2.0 * GAP, 0.0)).with_max_x(at.left() - GAP);
     let font = if rect.height() >= HEIGHT { text::value() } else { text::body_medium() };
     paint::text_in(ui, room, Align2::LEFT_CENTER, &words, font, t.warn);
     paint::name_text(ui, "end of the replay", room, &words);
+    if close.show(ui, "close the end", at).clicked() {
+        commands.push(UiCommand::Replay(ReplayCommand::Leave));
+    }
 }
 
 /// Why a replay ended by itself, in a sentence.
 fn ended(why: &ReplayEnd, now: Timestamp) -> String {
     match why {
         ReplayEnd::Stop => "Replay ended: STOP was pressed.".to_owned(),
-        ReplayEnd::Alarm => "Replay ended: there is a top-priority alarm.".to_owned(),
-        ReplayEnd::Pass { antenna, satellite, from } => {
+        ReplayEnd::Alarm => "Replay ended: a top-priority alarm came.".to_owned(),
+        ReplayEnd::Pass { antenna, satellite, from } if *from > now => {
             let left = format::time_left(now, *from);
             format!("Replay ended: {antenna} is to track {satellite} in {left}.")
+        }
+        ReplayEnd::Pass { antenna, satellite, from } => {
+            let at = format::moment(*from, now);
+            format!("Replay ended: {antenna} was to track {satellite} from {at} on.")
         }
     }
 }
@@ -106,7 +122,7 @@ pub fn show(
         hatch(ui, rect.with_max_x(rect.left() + HATCHED), t);
         left = rect.left() + HATCHED + GAP;
     }
-    let height = if is_high { BUTTON } else { SMALL_HEIGHT };
+    let height = height_of_buttons(rect);
     let mut place = |width: f32| {
         let at =
             Rect::from_min_size(pos2(left, rect.center().y - height / 2.0), vec2(width, height));
@@ -145,9 +161,7 @@ pub fn show(
     transport(ui, &mut || place(key), has_pass_keys, replay, commands);
     speeds(ui, &mut place, is_wide, replay, commands);
     let leave = Button::normal(if is_high { "Leave replay (Q)" } else { "Leave (Q)" });
-    let size = vec2(leave.width(ui), height);
-    let min = pos2(rect.right() - 2.0 * GAP - size.x, rect.center().y - height / 2.0);
-    let at = Rect::from_min_size(min, size);
+    let at = at_the_end(ui, rect, leave);
     let rest = rect.with_min_x(left + GAP).with_max_x(at.left() - 2.0 * GAP);
     if let Some(said) = news(replay).filter(|_| !is_wide) {
         paint::text_in(ui, rest, Align2::LEFT_CENTER, &said, text::small(), t.warn);
@@ -160,6 +174,18 @@ pub fn show(
     if leave.show(ui, "leave replay", at).clicked() {
         commands.push(UiCommand::Replay(ReplayCommand::Leave));
     }
+}
+
+/// The place of the button at the right end of the strip.
+fn at_the_end(ui: &Ui, strip: Rect, button: Button<'_>) -> Rect {
+    let height = height_of_buttons(strip);
+    let size = vec2(button.width(ui), height);
+    let min = pos2(strip.right() - 2.0 * GAP - size.x, strip.center().y - height / 2.0);
+    Rect::from_min_size(min, size)
+}
+
+fn height_of_buttons(strip: Rect) -> f32 {
+    if strip.height() >= HEIGHT { BUTTON } else { SMALL_HEIGHT }
 }
 
 /// Says in a narrow strip that STOP works, and returns the room after the words.

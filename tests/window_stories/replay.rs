@@ -11,7 +11,7 @@ use azel::{
     model::{
         Model, UiCommand, View,
         replay::{
-            EndedReplay, ReplayCommand, ReplayEnd, ReplayProblem, Replayed, Stretch, StretchPass,
+            ReplayCommand, ReplayEnd, ReplayProblem, Replayed, Stretch, StretchPass,
         },
     },
     record::PassMarks,
@@ -235,21 +235,29 @@ fn a_jump_over_what_was_not_filmed_is_told() {
 }
 
 #[test]
-fn why_a_replay_has_ended_is_told_for_ten_seconds() {
+fn why_a_replay_has_ended_stands_until_the_operator_closes_it() {
     for size in SIZES {
-        for view in [View::Operate, View::Plan] {
+        for view in [View::Operate, View::Plan, View::Console] {
             let mut model = rig::model(states::holding());
             model.view = view;
             model.refresh_sky();
             let from = add_seconds(model.now, 119.0);
             let (antenna, satellite) = ("Dish".to_owned(), "METOP-B".to_owned());
-            let why = ReplayEnd::Pass { antenna, satellite, from };
-            let until = model.steady + Duration::from_secs(10);
-            model.ended_replay = Some(EndedReplay { why, until });
+            model.replay_end = Some(ReplayEnd::Pass { antenna, satellite, from });
             let mut window = rig::window(size, model);
             window.get_by_label("Replay ended: Dish is to track METOP-B in 1:59.");
+            let place = |window: &Window| window.get_by_label_contains("Replay ended: ").rect();
+            let before = place(&window);
             let model = &mut window.state_mut().model;
-            model.ended_replay.as_mut().unwrap().until = model.steady;
+            model.now = add_seconds(from, 600.0);
+            model.steady += Duration::from_secs(719);
+            settle(&mut window);
+            window.get_by_label("Replay ended: Dish was to track METOP-B from 11:17:29Z on.");
+            assert_eq!(place(&window), before, "nothing moves by itself");
+            nothing_is_cut(&window, size);
+            nothing_overlaps(&window);
+            assert_eq!(click(&mut window, "Close"), [replayed(ReplayCommand::Leave)]);
+            window.state_mut().model.replay_end = None;
             settle(&mut window);
             assert!(window.query_by_label_contains("Replay ended").is_none());
             assert!(window.query_by_label_contains("The demo has ended").is_none());
@@ -414,4 +422,11 @@ fn while_the_record_is_shown_again_no_command_passes_and_stop_reaches_the_unit()
     });
     assert_eq!(window.state().model().view, View::Operate, "the view stays");
     assert!(!moves(window.state().model()));
+    let is_told = |window: &RealWindow| window.query_by_label_contains("Replay ended").is_some();
+    window.key_press_modifiers(Modifiers::COMMAND, Key::Num1);
+    window.step();
+    assert!(is_told(&window), "the same view");
+    window.key_press_modifiers(Modifiers::COMMAND, Key::Num2);
+    window.run_steps(2);
+    assert!(!is_told(&window), "another view");
 }
