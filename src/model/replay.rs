@@ -82,7 +82,7 @@ pub enum ReplayCommand {
 }
 
 /// Speeds of a replay, forward or backward, in multiples of real time.
-pub const SPEEDS: [i32; 6] = [1, 2, 5, 10, 30, 60];
+pub const SPEEDS: [i32; 5] = [1, 5, 10, 20, 60];
 
 /// How a replay stands.
 #[derive(Debug, Clone, PartialEq)]

@@ -49,7 +49,7 @@ const SMALL_TIME: f32 = 72.0;
 const ABOUT: f32 = 184.0;
 const KEY: f32 = 36.0;
 const SMALL_KEY: f32 = 26.0;
-const SPEEDS_WIDTH: f32 = 270.0;
+const SPEEDS_WIDTH: f32 = 225.0;
 const SPEED: f32 = 52.0;
 /// Thickness of the frame around a replay.
 const FRAME: f32 = 3.0;

@@ -296,6 +296,19 @@ fn the_keys_of_a_replay_come_before_those_of_the_view() {
 }
 
 #[test]
+fn the_speed_is_one_of_five() {
+    let mut window = rig::window(rig::LARGE, model());
+    for speed in [1, 5, 20, 60] {
+        window.state_mut().commands.clear();
+        window.get_by_role_and_label(Role::RadioButton, &format!("{speed}×")).click();
+        assert_eq!(asked(&mut window), [replayed(ReplayCommand::Speed(speed))]);
+    }
+    // A narrow strip has the one in use, which steps to the next.
+    let mut window = rig::window(SMALL, model());
+    assert_eq!(click(&mut window, "10×"), [replayed(ReplayCommand::Speed(20))]);
+}
+
+#[test]
 fn the_moment_is_moved_by_the_bar_and_the_keys() {
     for size in SIZES {
         let mut window = rig::window(size, model());
