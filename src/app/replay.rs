@@ -26,7 +26,7 @@ use crate::{
     job::{Job, Wake},
     model::{
         Appearance, Model, UiCommand, View,
-        replay::{ReplayCommand, ReplayEnd, ReplayProblem, Replayed, Stretch},
+        replay::{JumpNews, ReplayCommand, ReplayEnd, ReplayProblem, Replayed, Stretch},
     },
     record::Beside,
     station::AntennaId,
@@ -230,6 +230,7 @@ impl Replay {
 
     fn change(&mut self, command: ReplayCommand) {
         let Some(replay) = &mut self.model.replay else { return };
+        replay.news = None;
         match command {
             ReplayCommand::Begin(stretch, at) => {
                 *replay = Replayed { speed: replay.speed, ..Replayed::begin(stretch, at) };
@@ -302,8 +303,14 @@ impl Replay {
         {
             replay.marks = marks;
         }
-        if let Some(found) = found {
-            self.take_moment(found);
+        match found {
+            None => {}
+            Some(Ok(found)) => self.take_moment(found),
+            Some(Err(news)) => {
+                if let Some(replay) = &mut self.model.replay {
+                    replay.news = Some(news);
+                }
+            }
         }
     }
 
@@ -314,7 +321,8 @@ impl Replay {
         if let Some(replay) = &mut self.model.replay {
             replay.at = at;
             replay.stretch = stretch.unwrap_or_else(|| replay.stretch.clone().around(at));
-            replay.skipped = skipped;
+            let skipped = skipped.map(|(from, until)| JumpNews::Skipped { from, until });
+            replay.news = skipped.or(replay.news.take());
             replay.problem = None;
         }
         match scene {

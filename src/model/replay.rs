@@ -95,10 +95,23 @@ pub struct Replayed {
     pub plays: bool,
     /// The passes in the stretch.
     pub marks: Vec<PassMarks>,
-    /// What was passed over on the way here, because there is no film of it.
-    pub skipped: Option<(Timestamp, Timestamp)>,
+    /// What came of the last jump besides the moment that is shown.
+    pub news: Option<JumpNews>,
     /// Why this moment is not shown.
     pub problem: Option<ReplayProblem>,
+}
+
+/// What came of a jump to an event or to a pass besides the moment that is shown.
+#[derive(Debug, Clone, PartialEq)]
+pub enum JumpNews {
+    /// There is no film of this stretch, which was passed over.
+    Skipped { from: Timestamp, until: Timestamp },
+    /// There is no event on this side.
+    NoEvent { is_next: bool },
+    /// There is no pass on this side.
+    NoPass { is_next: bool },
+    /// The record cannot be read.
+    Failed(String),
 }
 
 /// Why a moment cannot be shown again.
@@ -131,7 +144,7 @@ pub enum ReplayEnd {
 impl Replayed {
     /// A replay that begins to play.
     pub fn begin(stretch: Stretch, at: Timestamp) -> Self {
-        Self { stretch, at, speed: 1, plays: true, marks: Vec::new(), skipped: None, problem: None }
+        Self { stretch, at, speed: 1, plays: true, marks: Vec::new(), news: None, problem: None }
     }
 
     /// Whether it would not move on if it played.

@@ -21,7 +21,7 @@ use crate::{
     astro::time::seconds_between,
     model::{
         Model, UiCommand,
-        replay::{ReplayCommand, ReplayEnd, ReplayProblem, Replayed, SPEEDS},
+        replay::{JumpNews, ReplayCommand, ReplayEnd, ReplayProblem, Replayed, SPEEDS},
     },
 };
 
@@ -221,35 +221,41 @@ fn in_words(speed: i32) -> String {
     format!("{speed}×")
 }
 
-/// Why the moment is not shown, or how much was passed over on the way to it.
+/// What came of the last jump, or why the moment is not shown.
 fn news(replay: &Replayed) -> Option<String> {
-    let skipped = replay.skipped.map(|(from, until)| {
-        format!("Skipped {}: no film.", format::age(seconds_between(from, until)))
-    });
-    let Some(problem) = &replay.problem else { return skipped };
-    Some(match problem {
-        ReplayProblem::NoFilm { from, until } => {
-            format!("No film here, for {}.", format::age(seconds_between(*from, *until)))
+    let side = |is_next: bool| if is_next { "later" } else { "earlier" };
+    let age = |from, until| format::age(seconds_between(from, until));
+    Some(match (&replay.news, &replay.problem) {
+        (None, None) => return None,
+        (Some(JumpNews::NoEvent { is_next }), _) => {
+            format!("No {} event is recorded.", side(*is_next))
         }
-        ReplayProblem::NothingYet => "Nothing was recorded at this moment.".to_owned(),
-        ReplayProblem::Failed(why) => format!("Not shown. {}", words::sentence(why)),
+        (Some(JumpNews::NoPass { is_next }), _) => {
+            format!("No {} pass is recorded.", side(*is_next))
+        }
+        (Some(JumpNews::Failed(why)), _) => format!("Not found. {}", words::sentence(why)),
+        (_, Some(ReplayProblem::NoFilm { from, until })) => {
+            format!("No film here, for {}.", age(*from, *until))
+        }
+        (_, Some(ReplayProblem::NothingYet)) => "Nothing was recorded at this moment.".to_owned(),
+        (_, Some(ReplayProblem::Failed(why))) => format!("Not shown. {}", words::sentence(why)),
+        (Some(JumpNews::Skipped { from, until }), None) => {
+            format!("Skipped {}: no film.", age(*from, *until))
+        }
     })
 }
 
 /// The whole of the news, for whoever points at it.
 fn whole_news(replay: &Replayed) -> Option<String> {
-    let hole = match replay.problem {
-        None => replay.skipped,
-        Some(ReplayProblem::NoFilm { from, until }) => Some((from, until)),
-        Some(_) => None,
+    let (from, until) = match (&replay.news, &replay.problem) {
+        (None | Some(JumpNews::Skipped { .. }), Some(ReplayProblem::NoFilm { from, until }))
+        | (Some(JumpNews::Skipped { from, until }), None) => (*from, *until),
+        _ => return news(replay),
     };
-    let told = hole.map(|(from, until)| {
-        let stretch = format::stretch(from, until, replay.at);
-        format!(
-            "There is no film of {stretch}: Azel did not run, or what it showed is not kept any more."
-        )
-    });
-    told.or_else(|| news(replay))
+    let stretch = format::stretch(from, until, replay.at);
+    Some(format!(
+        "There is no film of {stretch}: Azel did not run, or what it showed is not kept any more."
+    ))
 }
 
 fn hatch(ui: &Ui, rect: Rect, t: &Tokens) {

@@ -11,7 +11,7 @@ use azel::{
     model::{
         Model, UiCommand, View,
         replay::{
-            ReplayCommand, ReplayEnd, ReplayProblem, Replayed, Stretch, StretchPass,
+            JumpNews, ReplayCommand, ReplayEnd, ReplayProblem, Replayed, Stretch, StretchPass,
         },
     },
     record::PassMarks,
@@ -216,8 +216,8 @@ fn a_jump_over_what_was_not_filmed_is_told() {
     for size in SIZES {
         let mut model = model();
         let at = model.now;
-        let skipped = (add_seconds(at, -86_400.0), add_seconds(at, -60.0));
-        model.replay.as_mut().unwrap().skipped = Some(skipped);
+        let (from, until) = (add_seconds(at, -86_400.0), add_seconds(at, -60.0));
+        model.replay.as_mut().unwrap().news = Some(JumpNews::Skipped { from, until });
         model.view = View::Plan;
         let mut window = rig::window(size, model);
         let whole = "There is no film of 11 Aug 11:15:30Z to 12 Aug 11:14:30Z: ";
@@ -225,12 +225,32 @@ fn a_jump_over_what_was_not_filmed_is_told() {
         let texts = painted::texts(&window);
         assert!(texts.iter().any(|of| of == "Skipped 23 h 59 min: no film."), "{texts:?}");
         let replay = window.state_mut().model.replay.as_mut().unwrap();
-        let (from, until) = skipped;
-        (replay.skipped, replay.problem) = (None, Some(ReplayProblem::NoFilm { from, until }));
+        (replay.news, replay.problem) = (None, Some(ReplayProblem::NoFilm { from, until }));
         settle(&mut window);
         window.get_by_label_contains(whole);
         let texts = painted::texts(&window);
         assert!(texts.iter().any(|of| of == "No film here, for 23 h 59 min."), "{texts:?}");
+    }
+}
+
+#[test]
+fn where_there_is_nothing_to_go_to_that_is_told() {
+    for size in SIZES {
+        for view in [View::Operate, View::Plan] {
+            for (news, told) in [
+                (JumpNews::NoPass { is_next: true }, "No later pass is recorded."),
+                (JumpNews::NoEvent { is_next: false }, "No earlier event is recorded."),
+            ] {
+                let mut model = model();
+                model.view = view;
+                model.replay.as_mut().unwrap().news = Some(news);
+                model.refresh_sky();
+                let window = rig::window(size, model);
+                let texts = painted::texts(&window);
+                assert!(texts.iter().any(|of| of == told), "{size:?} {view:?}: {texts:?}");
+                window.get_by_label(told);
+            }
+        }
     }
 }
 
@@ -410,6 +430,11 @@ fn while_the_record_is_shown_again_no_command_passes_and_stop_reaches_the_unit()
         window.key_press(Key::Period);
         window.step();
         again(&window).antenna().is_some()
+    });
+    window.get_by_role_and_label(Role::Button, "Next pass").click();
+    wait_until("the word that no pass was tracked", || {
+        window.step();
+        again(&window).replay.as_ref().unwrap().news == Some(JumpNews::NoPass { is_next: true })
     });
     let shown = again(&window);
     assert!(shown.now < window.state().model().now);

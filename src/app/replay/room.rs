@@ -12,7 +12,7 @@ use crate::{
         film::Projector,
         recorded::{RecordLook, Recorded},
     },
-    model::replay::Stretch,
+    model::replay::{JumpNews, Stretch},
     record::{self, Beside, FilmError, PassMarks},
     station::AntennaId,
 };
@@ -55,8 +55,8 @@ pub(super) struct Asked {
 /// What was found.
 #[derive(Default)]
 pub(super) struct Answer {
-    /// The moment that was found; `None` where there is no further event or pass.
-    pub(super) found: Option<Found>,
+    /// The moment that was found, or why there is none.
+    pub(super) found: Option<Result<Found, JumpNews>>,
     pub(super) recorded: Option<Recorded>,
     pub(super) marks: Option<(Stretch, Vec<PassMarks>)>,
 }
@@ -88,7 +88,7 @@ impl Room {
         let Asked { wanted, look, unmarked } = asked;
         Answer {
             recorded: look.map(|look| Recorded::read(&self.path, look, site)),
-            found: wanted.and_then(|wanted| self.find(wanted)),
+            found: wanted.map(|wanted| self.find(wanted)),
             marks: unmarked.map(|stretch| {
                 let marks = self.marks(&stretch, site);
                 (stretch, marks)
@@ -117,27 +117,24 @@ impl Room {
         Ok(self.projector.insert(projector))
     }
 
-    fn find(&mut self, wanted: Wanted) -> Option<Found> {
+    fn find(&mut self, wanted: Wanted) -> Result<Found, JumpNews> {
         let (stretch, moment) = match wanted {
-            Wanted::At(at) => (None, Ok(Some((at, None)))),
-            Wanted::Event { from, is_next } => {
-                let moment = self.event(from, is_next);
+            Wanted::At(at) => (None, Ok((at, None))),
+            Wanted::Event { from, is_next } => match self.event(from, is_next).transpose() {
+                None => return Err(JumpNews::NoEvent { is_next }),
                 // Where the film cannot be read, it stands still and says so.
-                (None, moment.map_err(|error| (from, error)))
-            }
+                Some(moment) => (None, moment.map_err(|error| (from, error))),
+            },
             Wanted::Pass { of, is_next } => {
                 let pass = record::neighbour(&self.path, of, is_next);
-                let pass = pass.inspect_err(|error| {
-                    tracing::warn!(%error, "the passes of the record cannot be read");
-                });
-                let stretch = Stretch::of(&pass.ok()??);
+                let pass = pass.map_err(|error| JumpNews::Failed(error.to_string()))?;
+                let stretch = Stretch::of(&pass.ok_or(JumpNews::NoPass { is_next })?);
                 let from = stretch.from;
-                (Some(stretch), Ok(Some((from, None))))
+                (Some(stretch), Ok((from, None)))
             }
         };
-        Some(match moment {
-            Ok(moment) => {
-                let (at, skipped) = moment?;
+        Ok(match moment {
+            Ok((at, skipped)) => {
                 let hole = self.projector().and_then(|projector| projector.film().hole_at(at));
                 Found { at, stretch, hole: hole.ok().flatten(), skipped, scene: self.scene(at) }
             }

@@ -13,9 +13,7 @@ pub fn modal(ui: &Ui, id: &str) -> Modal {
     let id = Id::unique(id);
     let layer = LayerId::new(Order::Foreground, id);
     let is_new = !ui.memory(|memory| memory.areas().visible_last_frame(&layer));
-    let opened_it = |event: &Event| {
-        matches!(event, Event::Key { key: Key::Enter, pressed: true, repeat, .. } if is_new || *repeat)
-    };
+    let opened_it = |event: &Event| matches!(event, Event::Key { key: Key::Enter, pressed: true, repeat, .. } if is_new || *repeat);
     ui.input_mut(|input| input.events.retain(|event| !opened_it(event)));
     Modal::new(id)
         .backdrop_color(tokens::VEIL)
