@@ -219,12 +219,15 @@ impl Order {
         last: Date,
     ) -> Result<Vec<OpenedPass>, String> {
         let path = self.record.as_deref().ok_or("nothing is recorded")?;
-        let query = record::PassQuery { count: u32::MAX, ..query.clone() };
-        let page = record::passes(path, &query).map_err(|error| error.to_string())?;
-        let day = |pass: &RecordedPass| pass.report.from.to_zoned(TimeZone::UTC).date();
-        let wanted = page.passes.iter().rev().filter(|pass| (first..=last).contains(&day(pass)));
+        let begins = |day: Date| day.to_zoned(TimeZone::UTC).map(|day| day.timestamp());
+        let within = begins(first)
+            .and_then(|from| Ok(from..begins(last.tomorrow()?)?))
+            .map_err(|error| error.to_string())?;
+        let passes = record::passes_within(path, query, &within);
+        let passes = passes.map_err(|error| error.to_string())?;
         let open = |pass: &RecordedPass| record::open_pass(path, pass.id, self.station.site);
-        let opened: Vec<OpenedPass> = wanted
+        let opened: Vec<OpenedPass> = passes
+            .iter()
             .filter_map(|pass| open(pass).transpose())
             .collect::<Result<_, _>>()
             .map_err(|error| error.to_string())?;

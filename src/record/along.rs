@@ -12,7 +12,7 @@ use super::{
 use crate::{astro::Site, orbit::Propagator};
 
 /// No pass is sought that ends later than this after a stretch: the table is in order of LOS.
-const LONGEST: SignedDuration = SignedDuration::from_hours(24);
+pub(super) const LONGEST: SignedDuration = SignedDuration::from_hours(24);
 
 /// What is marked of a pass on a time line.
 #[derive(Debug, Clone, PartialEq)]

@@ -8,6 +8,7 @@ use serde::{Deserialize, Serialize};
 
 use super::{
     AboutTrack, Kind, Query, Record, RecordError, RecordedReport, Row, RowKind,
+    along::LONGEST,
     file::{self, PER_DEGREE},
 };
 use crate::{
@@ -103,6 +104,16 @@ pub fn passes(path: &Path, query: &PassQuery) -> Result<PassPage, RecordError> {
     Passes::open(path)?.page(query)
 }
 
+/// The passes that `query` finds in the record at `path` with their AOS `within` a time, all that can
+/// be read, in order of AOS.
+pub fn passes_within(
+    path: &Path,
+    query: &PassQuery,
+    within: &Range<Timestamp>,
+) -> Result<Vec<RecordedPass>, RecordError> {
+    Passes::open(path)?.within(query, within)
+}
+
 /// The pass with this number, if the record at `path` has it. Reports without a site are of an
 /// antenna at `site`.
 pub fn open_pass(path: &Path, id: i64, site: Site) -> Result<Option<OpenedPass>, RecordError> {
@@ -183,6 +194,12 @@ pub(super) struct Passes {
 pub(super) const COLUMNS: &str = "id, antenna, (SELECT name FROM antenna AS a WHERE a.id = pass.antenna \
     ORDER BY since_us > pass.until_us, abs(since_us - pass.until_us) LIMIT 1), report";
 
+/// What a query wants of a pass.
+const WANTED: &str = "(:antenna IS NULL OR antenna = :antenna) \
+    AND (:kind IS NULL OR verdict = :kind) \
+    AND (instr(lower(name), lower(:text)) > 0 OR CAST(satellite AS TEXT) = :text \
+         OR instr(strftime('%Y-%m-%d', from_us / 1000000, 'unixepoch'), :text) = 1)";
+
 impl Passes {
     pub(super) fn open(path: &Path) -> Result<Self, RecordError> {
         Ok(Self { db: file::open_to_read(path)? })
@@ -208,17 +225,39 @@ impl Passes {
         Ok(passes)
     }
 
+    fn within(
+        &self,
+        query: &PassQuery,
+        within: &Range<Timestamp>,
+    ) -> Result<Vec<RecordedPass>, RecordError> {
+        // The table is in order of LOS.
+        let latest = within.end.checked_add(LONGEST).unwrap_or(Timestamp::MAX);
+        let mut statement = self.db.prepare(&format!(
+            "SELECT {COLUMNS} FROM pass WHERE until_us BETWEEN :from AND :latest \
+             AND from_us >= :from AND from_us < :to AND {WANTED} ORDER BY from_us"
+        ))?;
+        let mut rows = statement.query(named_params! {
+            ":from": within.start.as_microsecond(),
+            ":to": within.end.as_microsecond(),
+            ":latest": latest.as_microsecond(),
+            ":antenna": query.antenna.map(|antenna| antenna.0),
+            ":kind": query.kind.map(ListedKind::word),
+            ":text": query.text.trim(),
+        })?;
+        let mut passes = Vec::new();
+        while let Some(row) = rows.next()? {
+            passes.extend(read_pass(row)?);
+        }
+        Ok(passes)
+    }
+
     fn page(&self, query: &PassQuery) -> Result<PassPage, RecordError> {
-        let wanted = "(:antenna IS NULL OR antenna = :antenna) \
-            AND (:kind IS NULL OR verdict = :kind) \
-            AND (instr(lower(name), lower(:text)) > 0 OR CAST(satellite AS TEXT) = :text \
-                 OR instr(strftime('%Y-%m-%d', from_us / 1000000, 'unixepoch'), :text) = 1)";
         let antenna = query.antenna.map(|antenna| antenna.0);
         let kind = query.kind.map(ListedKind::word);
         let text = query.text.trim();
         let of_query = named_params! { ":antenna": antenna, ":kind": kind, ":text": text };
         let matching = self.db.query_row(
-            &format!("SELECT count(*) FROM pass WHERE {wanted}"),
+            &format!("SELECT count(*) FROM pass WHERE {WANTED}"),
             of_query,
             |row| row.get(0),
         )?;
@@ -233,7 +272,7 @@ impl Passes {
             ..PassPage::default()
         };
         let mut statement = self.db.prepare(&format!(
-            "SELECT {COLUMNS} FROM pass WHERE {wanted} ORDER BY until_us DESC LIMIT {}",
+            "SELECT {COLUMNS} FROM pass WHERE {WANTED} ORDER BY until_us DESC LIMIT {}",
             query.count
         ))?;
         let mut rows = statement.query(of_query)?;

@@ -10,7 +10,7 @@ use crate::{
     plan::pass_report::PassVerdict,
     record::{
         Beside, Entry, Kind, ListedKind, PassNote, PassQuery, marks_between, marks_of_pass, missed,
-        neighbour, passes, testing,
+        neighbour, passes, passes_within, testing,
     },
     station::AntennaId,
 };
@@ -119,4 +119,26 @@ fn a_pass_that_was_to_be_tracked_and_has_no_report_is_missed() {
     }
     let of_other = PassQuery { antenna: Some(AntennaId(5)), ..all };
     assert_eq!(found(of_other), []);
+}
+
+#[test]
+fn the_passes_within_a_time_are_found_by_their_aos_however_many() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("record.sqlite");
+    let recorder = recorder(&path);
+    for (antenna, satellite, from) in
+        [(5, NOAA_20, 900), (3, ISS, 300), (3, ISS, -1), (3, ISS, 1000), (3, NOAA_20, 0)]
+    {
+        recorder.note_pass(note(AntennaId(antenna), satellite, from));
+    }
+    recorder.flush();
+    let found = |query: PassQuery| {
+        let passes = passes_within(&path, &query, &(at(0)..at(1000))).unwrap();
+        passes.iter().map(|pass| pass.report.from).collect::<Vec<_>>()
+    };
+    let all = PassQuery { count: 1, ..PassQuery::default() };
+    assert_eq!(found(all.clone()), [at(0), at(300), at(900)], "in order, and not the newest alone");
+    let of_one = PassQuery { antenna: Some(AntennaId(5)), ..all.clone() };
+    assert_eq!(found(of_one), [at(900)]);
+    assert_eq!(found(PassQuery { text: "noaa".to_owned(), ..all }), [at(0), at(900)]);
 }
