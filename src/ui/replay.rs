@@ -54,6 +54,9 @@ const SPEED: f32 = 52.0;
 /// Thickness of the frame around a replay.
 const FRAME: f32 = 3.0;
 
+/// The reason why controls are locked that would change something or save a file.
+pub const LOCKED: &str = "Replay. Leave it first.";
+
 /// The reason why the controls of an antenna are locked.
 pub fn locked(antenna: &str) -> String {
     format!("Replay. Leave it to command {antenna}.")

@@ -404,7 +404,27 @@ fn the_passes_of_chosen_days_are_exported_as_the_list_is_filtered() {
         assert!(says(&window, "The passes that the list is filtered to, in one file."));
         window.key_press(Key::E);
         assert_eq!(asked(&mut window), [], "the keys of the view wait");
+        press(&mut window, "Cancel");
+        window.get_by_label("Verdict, All verdicts").click();
+        settle(&mut window);
+        window.get_by_label("Not tracked").click();
+        settle(&mut window);
+        let button = window.get_by_role_and_label(Role::Button, "Export days");
+        assert!(button.accesskit_node().is_disabled());
+        button.hover();
+        settle(&mut window);
+        window.get_by_label("A pass that was not tracked has no report.");
     }
+}
+
+#[test]
+fn without_a_report_there_is_nothing_to_export() {
+    let (mut model, _) = model();
+    model.recorded = Some(Arc::new(recorded(&[], 0)));
+    let mut window = rig::window(LARGE, model);
+    let _ = asked(&mut window);
+    window.key_press(Key::E);
+    assert_eq!(asked(&mut window), []);
 }
 
 #[test]

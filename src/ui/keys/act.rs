@@ -9,7 +9,6 @@ use crate::{
     engine::{self, antenna::AntennaModel, passes::PredictedPass},
     model::{
         Model, UiCommand, View,
-        export::{Export, ReportFormat},
         globe::Towards,
         replay::{ReplayCommand, Replayed},
     },
@@ -137,10 +136,7 @@ impl Act {
             }
             Self::Replay(key) => commands.extend(key.command(model).map(UiCommand::Replay)),
             Self::Correct => targets.record.correct(model),
-            Self::ExportReport => {
-                let format = ReportFormat::Svg;
-                commands.push(UiCommand::Save(Export::Report { format }));
-            }
+            Self::ExportReport => commands.extend(targets.record.export(model)),
             Self::ReplayReport => commands.extend(targets.record.replay(model)),
             Self::RecordedPass(down) => targets.record.step(model, down),
             Self::NextPass => {

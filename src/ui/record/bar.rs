@@ -15,7 +15,7 @@ use crate::{
     ui::{
         format,
         icons::{self, Icon},
-        text, theme,
+        replay, text, theme,
         widgets::{
             button::{Button, HEIGHT as BUTTON},
             drop_down::DropDown,
@@ -36,6 +36,7 @@ const WIDE: f32 = 1150.0;
 const ANTENNA: f32 = 84.0;
 /// The last hour is shown again from so long ago on, seconds.
 const LAST_S: f64 = 60.0;
+const NOTHING: &str = "Nothing is recorded.";
 const KINDS: [ListedKind; 4] = [
     ListedKind::Tracked(PassVerdict::Good),
     ListedKind::Tracked(PassVerdict::Fair),
@@ -185,15 +186,22 @@ fn verdicts(ui: &Ui, place: &mut impl FnMut(f32) -> Rect, state: &mut RecordStat
 
 /// Opens the dialog for the passes of several days. Returns the room at the left of its button.
 fn export_days(ui: &Ui, room: Rect, model: &Model, state: &mut RecordState) -> Rect {
-    let is_possible = model.record.is_some() && model.replay.is_none();
-    let button = Button::normal("Export days").locked(!is_possible);
+    let lock = match (model.replay.is_some(), model.record.is_some()) {
+        (true, _) => Some(replay::LOCKED),
+        (_, false) => Some(NOTHING),
+        _ if state.query.kind == Some(ListedKind::NotTracked) => {
+            Some("A pass that was not tracked has no report.")
+        }
+        _ => None,
+    };
+    let button = Button::normal("Export days").locked(lock.is_some());
     let size = vec2(button.width(ui), BUTTON);
     let min = pos2(room.right() - size.x, room.center().y - BUTTON / 2.0);
     let response = button.show(ui, "export days", Rect::from_min_size(min, size));
     if response.clicked() {
         state.days = Some(DaysDialog::new(model));
     }
-    response.on_hover_text("The passes of several days in one file");
+    response.on_hover_text(lock.unwrap_or("The passes of several days in one file"));
     room.with_max_x(min.x - GAP)
 }
 
@@ -211,10 +219,10 @@ fn last_hour(ui: &Ui, room: Rect, model: &Model, commands: &mut Vec<UiCommand>) 
         let at = add_seconds(model.now, -LAST_S);
         commands.push(UiCommand::Replay(ReplayCommand::Begin(stretch, at)));
     }
-    let why = if model.record.is_none() {
-        "Nothing is recorded."
-    } else {
-        "The replay begins a minute before the end."
+    let why = match (model.replay.is_some(), model.record.is_some()) {
+        (true, _) => replay::LOCKED,
+        (_, false) => NOTHING,
+        _ => "The replay begins a minute before the end.",
     };
     response.on_hover_text(why);
     room.with_max_x(min.x - 2.0 * GAP)

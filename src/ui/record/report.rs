@@ -13,7 +13,9 @@ use crate::{
     },
     record::RecordedPass,
     ui::{
-        format, text, theme,
+        format,
+        replay::LOCKED,
+        text, theme,
         widgets::{
             button::{Button, HEIGHT as BUTTON},
             menu, paint,
@@ -42,11 +44,15 @@ pub(super) fn head(
     ui.painter().rect_filled(rect, 0.0, t.bg1);
     ui.painter().hline(rect.x_range(), rect.bottom() - 0.5, (1.0, t.line));
     let inner = rect.shrink2(vec2(PADDING, 0.0));
-    let button = Button::normal("Export report").chevron();
+    let is_replayed = model.replay.is_some();
+    let button = Button::normal("Export report").chevron().locked(is_replayed);
     let size = vec2(button.width(ui), BUTTON);
     let at =
         Rect::from_min_size(pos2(inner.right() - size.x, rect.center().y - BUTTON / 2.0), size);
-    let response = button.show(ui, "export report", at);
+    let mut response = button.show(ui, "export report", at);
+    if is_replayed {
+        response = response.on_hover_text(LOCKED);
+    }
     menu::show(&response, Popup::menu(&response).accessible_name("Export report"), |ui| {
         for (format, word) in FORMATS {
             if ui.button(word).clicked() {

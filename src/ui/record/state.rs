@@ -11,6 +11,7 @@ use crate::{
     model::{
         Model, UiCommand,
         correction::{Correction, correction},
+        export::{Export, ReportFormat},
     },
     record::{OpenedPass, PassPage, PassQuery, RecordedPass},
     ui::{
@@ -131,6 +132,12 @@ impl RecordState {
     pub fn replay(&self, model: &Model) -> Option<UiCommand> {
         let opened = self.opened(model).filter(|_| report::can_replay(model))?;
         Some(report::replay(&opened.pass, None))
+    }
+
+    /// Saves the page of the report, if one is shown.
+    pub fn export(&self, model: &Model) -> Option<UiCommand> {
+        let format = ReportFormat::Svg;
+        self.opened(model).map(|_| UiCommand::Save(Export::Report { format }))
     }
 
     /// Takes over what would correct the best explanation of the report.
