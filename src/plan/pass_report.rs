@@ -6,7 +6,7 @@ mod losses;
 #[cfg(test)]
 mod tests;
 
-pub use explain::{Cause, Evidence, Explained, Explanation};
+pub use explain::{Cause, Evidence, Explained, Explanation, below_their_parts};
 pub use flown_offsets::FlownOffsets;
 pub use losses::{LossCause, LostStretch};
 

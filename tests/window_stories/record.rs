@@ -634,7 +634,8 @@ fn two_causes_that_act_together_stand_together_and_the_passes_before_are_told() 
         };
         let cause = Cause::AzimuthScale { per_mille: 7.0 };
         let excluded = Explanation { cause, with: None, share: 0.4, is_alike: false, ..mixed };
-        flown[0].pass.report.explanations = vec![mixed, excluded];
+        let part = Explanation { cause: mixed.cause, share: 0.6, ..excluded };
+        flown[0].pass.report.explanations = vec![mixed, part, excluded];
         let mut found = recorded(&flown, 0);
         let explanations = vec![Explanation { with: None, share: 0.92, ..mixed }];
         found.together = Some(ExplainedPasses { passes: 12, since: None, explanations });
@@ -643,8 +644,16 @@ fn two_causes_that_act_together_stand_together_and_the_passes_before_are_told() 
         let name = model.antennas[0].config.name.clone();
         let mut window = rig::window(size, model);
         settle(&mut window);
-        window.get_by_label(
+        let rows = [
+            "Elevation offset +0.25°: explains 60 %, 0.010° left",
             "Elevation offset +0.25° with azimuth offset −0.50°: explains 97 %, 0.010° left",
+            "Azimuth scale +0.70 %: explains 40 %, 0.010° left",
+        ];
+        let tops = rows.map(|row| window.get_by_label_contains(row).rect().top());
+        assert!(tops.is_sorted(), "two together stand below the better of them: {tops:?}");
+        assert!(
+            says(&window, "together they explain 97 % of the error"),
+            "the verdict tells the best"
         );
         let said = format!(
             "The 12 passes of {name} up to this one, together: Elevation offset +0.25°; that explains 92 % of \
@@ -652,10 +661,10 @@ fn two_causes_that_act_together_stand_together_and_the_passes_before_are_told() 
         );
         window.get_by_label(&said);
         // One correction types both in.
-        window.get_by_label("Apply…").scroll_to_me();
+        window.query_all_by_label("Apply…").nth(1).unwrap().scroll_to_me();
         settle(&mut window);
         let _ = asked(&mut window);
-        window.get_by_label("Apply…").click();
+        window.query_all_by_label("Apply…").nth(1).unwrap().click();
         let _ = asked(&mut window);
         window.state_mut().model.view = View::Antennas;
         settle(&mut window);

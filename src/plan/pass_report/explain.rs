@@ -102,6 +102,24 @@ impl Explanation {
     }
 }
 
+/// The explanations as a table has them, each with its place among all: two causes together stand below
+/// the better of the two, where that stands alone as well.
+pub fn below_their_parts(explanations: &[Explanation]) -> Vec<(usize, &Explanation)> {
+    let place_of_part = |of: &Explanation| {
+        let is_part = |it: &Explanation| {
+            let is_same = |cause: &Cause| discriminant(cause) == discriminant(&it.cause);
+            it.with.is_none() && of.causes().any(is_same)
+        };
+        of.with.and_then(|_| explanations.iter().position(is_part))
+    };
+    let mut rows: Vec<_> = explanations.iter().enumerate().collect();
+    rows.sort_by_key(|(place, of)| {
+        let part = place_of_part(of);
+        (part.unwrap_or(*place), part.is_some())
+    });
+    rows
+}
+
 /// What explains an error well, while a pass goes on.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Explained {

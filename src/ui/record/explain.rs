@@ -8,7 +8,7 @@ use crate::{
         Model,
         correction::{Correction, correction},
     },
-    plan::pass_report::Explanation,
+    plan::pass_report::{Explanation, below_their_parts},
     record::OpenedPass,
     ui::{
         format, text, theme,
@@ -83,7 +83,7 @@ pub(super) fn show(
         paint::text_in(ui, room, left, words, text::small(), t.t2);
         paint::name_text(ui, "not explained", row, words);
     }
-    for (place, explanation) in explanations.iter().enumerate() {
+    for (place, explanation) in below_their_parts(explanations) {
         let row = next();
         if place == 0 {
             ui.painter().rect_filled(row.shrink2(vec2(0.0, 1.0)), 0.0, t.bgsel);

@@ -2,6 +2,7 @@
 
 use super::TEXT;
 use crate::{
+    plan::pass_report::below_their_parts,
     record::OpenedPass,
     ui::{
         format,
@@ -39,7 +40,7 @@ pub(super) fn draw(svg: &mut Svg, y: f64, opened: &OpenedPass) {
         y += ROW;
         svg.text([LEFT, y], RIGHT - LEFT, TEXT, words);
     }
-    for of in explanations {
+    for (_, of) in below_their_parts(explanations) {
         let left = format::number(of.left_deg, 3);
         let share = words::whole_share(of.share);
         let size = words::size(&of.cause);
