@@ -183,6 +183,11 @@ fn the_card_says_what_the_live_antenna_does_meanwhile() {
         Arc::make_mut(&mut model.antennas[0].snapshot).state.traffic.last_reply = Some(replied);
         let window = rig::window(size, model);
         let name = rig_name(&window);
+        window.get_by_label_contains(&format!("{name}, as recorded at 11:15:30Z, "));
+        if size != SMALL {
+            let texts = painted::texts(&window);
+            assert!(texts.iter().any(|words| words == "as recorded at 11:15:30Z"), "{texts:?}");
+        }
         window.get_by_label("Live now, not recorded");
         let line = format!("{name}: Holding at ");
         window.get_by_label_contains(&line);

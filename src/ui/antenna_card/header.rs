@@ -40,8 +40,14 @@ pub struct HeaderModel<'a> {
     pub takes_panel: bool,
     /// The unit is locked out for maintenance.
     pub in_maintenance: bool,
-    /// It is shown as recorded, and commands nothing.
-    pub is_replayed: bool,
+    /// It is shown as recorded at this time, in words, and commands nothing.
+    pub recorded: Option<&'a str>,
+}
+
+impl HeaderModel<'_> {
+    pub(super) fn is_replayed(&self) -> bool {
+        self.recorded.is_some()
+    }
 }
 
 pub(super) fn show(
@@ -78,9 +84,13 @@ pub(super) fn show(
         let up = name_room.translate(vec2(0.0, -8.0));
         paint::text_in(ui, up, Align2::LEFT_CENTER, model.name, text::value(), t.t1);
         let down = room.translate(vec2(0.0, 11.0));
-        paint::text_in(ui, down, Align2::LEFT_CENTER, model.second_line, text::small(), t.t2);
+        let (second_line, colour) =
+            model.recorded.map_or((model.second_line, t.t2), |recorded| (recorded, t.warn));
+        paint::text_in(ui, down, Align2::LEFT_CENTER, second_line, text::small(), colour);
     }
-    let words = format!("{}, {}, link {}", model.name, model.second_line, model.link.word());
+    let recorded = model.recorded.map(|recorded| format!(", {recorded}")).unwrap_or_default();
+    let (about, link) = (model.second_line, model.link.word());
+    let words = format!("{}{recorded}, {about}, link {link}", model.name);
     let named = paint::name_text(ui, "header", name_room, &words);
     named.on_hover_text(format!("{}\n{}", model.name, model.second_line));
 }

@@ -35,7 +35,8 @@ pub(super) fn show(
     asked(ui, at, model, state, actions);
     drive::messages(ui, at, &model.drive, &state.drive);
     let said = model.drive.jog_locked;
-    track::notes(ui, at, model.track.as_ref(), said, &state.track, actions);
+    let is_replayed = model.header.is_replayed();
+    track::notes(ui, at, model.track.as_ref(), said, is_replayed, &state.track, actions);
     if !short {
         at.skip(4.0);
     }

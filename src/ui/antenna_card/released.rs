@@ -23,7 +23,7 @@ pub(super) fn show(
     let row = at.take(button::HEIGHT);
     let (connect, stop) = row.split_left_right_at_fraction(0.4);
     if Button::primary("Connect")
-        .locked(model.is_replayed)
+        .locked(model.is_replayed())
         .show(ui, "connect", connect.with_max_x(connect.right() - 4.0))
         .clicked()
     {
@@ -59,7 +59,7 @@ fn about_stop(model: &HeaderModel<'_>) -> String {
 fn stop_key(ui: &Ui, rect: egui::Rect, model: &HeaderModel<'_>) -> bool {
     let t = theme::tokens(ui);
     let (name, about) = (format!("Connect and STOP {}", model.name), about_stop(model));
-    let (is_enabled, colour) = if model.is_replayed { (false, t.t3) } else { (true, t.bad) };
+    let (is_enabled, colour) = if model.is_replayed() { (false, t.t3) } else { (true, t.bad) };
     let response =
         paint::control(ui, "stop a released unit", rect, Role::Button, is_enabled, &name);
     ui.ctx().accesskit_node_builder(response.id, |node| node.set_description(&*about));

@@ -46,7 +46,7 @@ fn model() -> CardModel<'static> {
         header: HeaderModel {
             takes_panel: false,
             in_maintenance: false,
-            is_replayed: false,
+            recorded: None,
             name: "Satrak",
             second_line: "3.0 m X/Y, on-board tracking",
             link: LinkGlyph::Live,
@@ -94,7 +94,6 @@ fn model() -> CardModel<'static> {
             nothing_left: None,
             note: None,
             auto_track: Some(true),
-            is_replayed: false,
             parks_at: "",
             ends: None,
             follow: None,

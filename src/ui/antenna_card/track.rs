@@ -42,8 +42,6 @@ pub struct TrackModel<'a> {
     pub note: Option<&'a str>,
     /// The unit starts passes by itself; none if it cannot.
     pub auto_track: Option<bool>,
-    /// It is shown as recorded, and commands nothing.
-    pub is_replayed: bool,
     /// Park position of the antenna in words.
     pub parks_at: &'a str,
     /// Target of the track that parking would end.
@@ -101,13 +99,14 @@ pub(super) fn row(
     }
 }
 
-/// Shows the notes on tracking, and the switch for automatic starting. A refusal equal to
-/// `said` is left out, as it is shown above.
+/// Shows the notes on tracking, and the switch for automatic starting, `is_locked` or not. A refusal
+/// equal to `said` is left out, as it is shown above.
 pub(super) fn notes(
     ui: &Ui,
     at: &mut Cursor,
     model: Option<&TrackModel<'_>>,
     said: Option<&str>,
+    is_locked: bool,
     state: &TrackState,
     actions: &mut Vec<CardAction>,
 ) {
@@ -129,7 +128,7 @@ pub(super) fn notes(
     if let Some(on) = model.auto_track {
         at.skip(4.0);
         let row = at.take(button::SMALL_HEIGHT);
-        auto_track_row(ui, row, on, model.is_replayed, actions);
+        auto_track_row(ui, row, on, is_locked, actions);
     }
 }
 

@@ -63,7 +63,7 @@ pub(super) fn show(
 ) {
     let snapshot = &antenna.snapshot;
     let (make, can) = (antenna.variant(), antenna.variant().capabilities);
-    let second_line = second_line(antenna);
+    let (second_line, recorded) = (second_line(antenna), recorded(model));
     let table = axes::table(antenna);
     let (age, wanted) = (age_of_old(model, antenna), wanted(antenna));
     let predicted_decimals = model.appearance.angle_decimals as usize;
@@ -99,7 +99,7 @@ pub(super) fn show(
                 status: link_status(antenna),
                 takes_panel: can.waits_for_word,
                 in_maintenance: snapshot.lock_out.is_some(),
-                is_replayed: model.replay.is_some(),
+                recorded: recorded.as_deref(),
             },
             sentence: *sentence,
             offer: offer(antenna, go_on.as_deref(), offsets.left()),
@@ -240,6 +240,12 @@ fn second_line(antenna: &AntennaModel) -> String {
     }
 }
 
+/// In a replay: of what time the card is.
+fn recorded(model: &Model) -> Option<String> {
+    let replay = model.replay.as_ref()?;
+    Some(format!("as recorded at {}", format::moment(replay.at, replay.at)))
+}
+
 fn link_status(antenna: &AntennaModel) -> LinkStatus {
     let snapshot = &antenna.snapshot;
     match snapshot.link {
@@ -330,7 +336,6 @@ fn track<'a>(
         misses: None,
         nothing_left: None,
         note: None,
-        is_replayed: model.replay.is_some(),
         auto_track: state
             .program
             .filter(|_| antenna.snapshot.link.is_open())
