@@ -29,7 +29,7 @@ pub(super) use self::{
     words::{objects, sentences as source_words},
 };
 use self::{selection::Selection, words::Form};
-use super::{confirm::Question, theme, upload::Choice, widgets::button::Button};
+use super::{confirm::Question, replay, theme, upload::Choice, widgets::button::Button};
 use crate::{
     engine::CatalogState,
     model::{Model, UiCommand, catalog_table},
@@ -108,7 +108,7 @@ pub fn show(
     {
         state.selection.select(number);
     }
-    let can_mark = !settings_are_edited;
+    let lock = replay::lock(model).or(settings_are_edited.then_some(words::EDITED));
     let has_drawer = rect.width() < DRAWER_BELOW;
     let side = if has_drawer && !state.inspector_is_open { 0.0 } else { inspector::WIDTH };
     let (left, right) = rect.split_left_right_at_x(rect.right() - side);
@@ -125,7 +125,7 @@ pub fn show(
         intake::show(ui, rest, model, intake, state, commands);
     } else {
         state.taken.clear();
-        show_main(ui, rest, rect.height(), model, can_mark, state, question, commands);
+        show_main(ui, rest, rect.height(), model, lock, state, question, commands);
     }
     if state.question != model.catalog_table.asked {
         commands.push(UiCommand::ShowCatalog(state.question.clone()));
@@ -140,7 +140,7 @@ pub fn show(
     if state.upload_is_open {
         return Some(show_upload(ui, side, state));
     }
-    inspector::show(ui, side, model, can_mark, state, question, commands);
+    inspector::show(ui, side, model, lock, state, question, commands);
     None
 }
 
@@ -160,7 +160,7 @@ fn show_main(
     rest: Rect,
     of: f32,
     model: &Model,
-    can_mark: bool,
+    lock: Option<&'static str>,
     state: &mut ElementsState,
     question: &mut Option<Question>,
     commands: &mut Vec<UiCommand>,
@@ -175,9 +175,9 @@ fn show_main(
     let is_marked = !state.selection.marked().is_empty();
     let bulk = if is_marked { bulk::HEIGHT } else { 0.0 };
     let (body, bottom) = rest.split_top_bottom_at_y(rest.bottom() - bulk);
-    table::show(ui, body, model, can_mark, state, commands);
+    table::show(ui, body, model, lock, state, commands);
     if is_marked {
-        bulk::show(ui, bottom, model, can_mark, state, commands);
+        bulk::show(ui, bottom, model, lock, state, commands);
     }
 }
 

@@ -2,7 +2,10 @@
 
 use egui::{Id, Ui};
 
-use super::{format, widgets::context_menu::entry};
+use super::{
+    format, replay,
+    widgets::context_menu::{entry, entry_locked_by},
+};
 use crate::{
     astro::AzEl,
     engine::{
@@ -55,7 +58,7 @@ pub(super) fn satellite(
 pub(super) fn sky(ui: &mut Ui, response: Id, model: &Model, direction: AzEl) -> bool {
     let looks = model.antenna().is_some_and(|antenna| {
         let words = format!("Point {} here\u{2026}", antenna.config.name);
-        entry(ui, response, &words)
+        entry_locked_by(ui, response, &words, replay::lock(model))
     });
     self::direction(ui, response, direction);
     looks
@@ -85,7 +88,7 @@ fn track(
         return;
     }
     let words = format!("Track with {}\u{2026}", antenna.config.name);
-    if entry(ui, response, &words) {
+    if entry_locked_by(ui, response, &words, replay::lock(model)) {
         commands.push(UiCommand::AskToTrack(predicted.key()));
     }
 }
@@ -103,7 +106,7 @@ fn of_satellite(
     }
     let is_favourite = model.station.favourites.numbers().contains(&number);
     let words = if is_favourite { "Remove from favourites" } else { "Add to favourites" };
-    if entry(ui, response, words) {
+    if entry_locked_by(ui, response, words, replay::lock(model)) {
         let is_favourite = !is_favourite;
         commands.push(UiCommand::Station(Command::SetFavourites {
             numbers: vec![number],

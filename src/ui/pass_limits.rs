@@ -27,14 +27,14 @@ const DURATIONS_S: [f64; 6] = [60.0, 120.0, 240.0, 360.0, 480.0, 600.0];
 const PER_DAY: [u32; 6] = [1, 2, 3, 4, 6, 8];
 const LIGHTS: [Light; 3] = [Light::Day, Light::Night, Light::Sunlit];
 
-/// Shows the limits of a favourite in `width` points; a choice changes them at once.
-/// `can_change`: the settings of the station may change now.
+/// Shows the limits of a favourite in `width` points; a choice changes them at once. `lock`: why the
+/// settings of the station may not change now.
 pub(super) fn show(
     ui: &mut Ui,
     width: f32,
     model: &Model,
     number: u32,
-    can_change: bool,
+    lock: Option<&str>,
     commands: &mut Vec<UiCommand>,
 ) {
     let Some(favourite) = model.station.favourites.get(number) else { return };
@@ -45,7 +45,7 @@ pub(super) fn show(
         model.antennas.iter().map(|of| (of.id(), of.config.name.clone())).collect();
     let all = model.station.pass_limits(number);
     let mut limits = favourite.limits.clone();
-    let form = LimitsForm { width, label_width: LABEL, antennas: &antennas, can_change };
+    let form = LimitsForm { width, label_width: LABEL, antennas: &antennas, lock };
     form.show(ui, &mut limits, &all);
     if favourite.limits != limits {
         let command = engine::Command::SetPassLimits { numbers: vec![number], limits };
@@ -59,7 +59,8 @@ pub(super) struct LimitsForm<'a> {
     pub(super) label_width: f32,
     /// The antennas that can be chosen.
     pub(super) antennas: &'a [(AntennaId, String)],
-    pub(super) can_change: bool,
+    /// Why the limits may not change now.
+    pub(super) lock: Option<&'a str>,
 }
 
 impl LimitsForm<'_> {
@@ -96,13 +97,9 @@ impl LimitsForm<'_> {
         let (rect, _) = ui.allocate_exact_size(vec2(self.width, ROW), Sense::hover());
         paint::text_in(ui, rect, Align2::LEFT_CENTER, label, text::small(), t.t2);
         let room = rect.with_min_x(rect.left() + self.label_width);
-        if !self.can_change {
-            paint::text_in(ui, room, Align2::LEFT_CENTER, value, text::small(), t.t1);
-            paint::name_text(ui, ("limit", label), rect, &format!("{label}: {value}"));
-            return;
-        }
         let name = format!("{label}, {value}");
-        let list_of = DropDown { button: Button::normal(value), salt: label, name: &name };
+        let button = Button::normal(value).locked_by(self.lock);
+        let list_of = DropDown { button, salt: label, name: &name };
         let size = vec2(list_of.width(ui).min(room.width()), SMALL_HEIGHT);
         let place = egui::Rect::from_min_size(room.left_center() - vec2(0.0, size.y / 2.0), size);
         list_of.show(ui, place, list);

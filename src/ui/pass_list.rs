@@ -88,6 +88,8 @@ pub struct PassListModel<'a> {
     pub work: Work,
     /// Number of satellites searched, and time of the search; `None` before the first search.
     pub made: Option<(usize, Timestamp)>,
+    /// Why the station and its list of satellites may not be changed, nor a file be saved.
+    pub lock: Option<&'static str>,
     /// Rows have thumbnails.
     pub thumbnails: bool,
     /// The sentence shown when there are no rows.

@@ -57,6 +57,11 @@ const FRAME: f32 = 3.0;
 /// The reason why controls are locked that would change something or save a file.
 pub const LOCKED: &str = "Replay. Leave it first.";
 
+/// That reason, in a replay.
+pub fn lock(model: &Model) -> Option<&'static str> {
+    model.replay.as_ref().map(|_| LOCKED)
+}
+
 /// The reason why the controls of an antenna are locked.
 pub fn locked(antenna: &str) -> String {
     format!("Replay. Leave it to command {antenna}.")

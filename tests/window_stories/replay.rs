@@ -163,9 +163,36 @@ fn what_commands_an_antenna_in_other_views_is_locked_too() {
             window.state_mut().model.view = view;
             settle(window);
         };
+        let says_why = |window: &mut Window, role, label: &str| {
+            window.get_by_role_and_label(role, label).hover();
+            settle(window);
+            assert!(rig::says(window, "Replay. Leave it first."), "{size:?} {label}");
+            window.hover_at(egui::pos2(1.0, 1.0));
+            settle(window);
+        };
+        // In a small window it is a drawer.
+        if size == rig::LARGE {
+            is_locked(&window, Role::Button, "Save passes to a file");
+            is_locked(&window, Role::ComboBox, "Elevation floor");
+            is_locked(&window, Role::RadioButton, "All");
+        }
         show(&mut window, View::Plan);
         is_locked(&window, Role::Button, &format!("Automatic operation of {name}, off"));
         is_locked(&window, Role::Button, "Rehearse");
+        is_locked(&window, Role::ComboBox, "Choose by");
+        is_locked(&window, Role::ComboBox, "Export the plan");
+        is_locked(&window, Role::RadioButton, "12 h");
+        says_why(&mut window, Role::Button, "Rehearse");
+        says_why(&mut window, Role::RadioButton, "12 h");
+        show(&mut window, View::Elements);
+        is_locked(&window, Role::Button, "Add a source");
+        is_locked(&window, Role::Button, "Read again");
+        if size == rig::LARGE {
+            is_locked(&window, Role::Button, "Remove from favourites");
+        }
+        says_why(&mut window, Role::Button, "Add a source");
+        show(&mut window, View::Preferences);
+        is_locked(&window, Role::Button, "Save and use");
         show(&mut window, View::Antennas);
         is_locked(&window, Role::Button, "Apply");
         show(&mut window, View::Console);

@@ -10,7 +10,7 @@ use crate::{
     device::Direction,
     model::{Model, UiCommand},
     ui::{
-        format, text, theme,
+        format, replay, text, theme,
         widgets::{
             button::{self, Button, HEIGHT as BUTTON},
             check_box::CheckBox,
@@ -46,7 +46,7 @@ pub(super) fn show(
     ui.painter().hline(rect.x_range(), rect.bottom() - 0.5, (1.0, t.line));
     let inner = rect.shrink2(vec2(PADDING, 0.0));
     paint::text_in(ui, inner, Align2::LEFT_CENTER, "Console", text::title(), t.t1);
-    let buttons = Buttons::of(state, has_drawer);
+    let buttons = Buttons::of(model, state, has_drawer);
     let places = buttons.places(ui, inner.right_center());
     let room = inner.with_min_x(inner.left() + TITLE).with_max_x(places.pause.left() - GAP);
     let layout = Layout::left_to_right(Align::Center);
@@ -116,7 +116,7 @@ struct Each<T> {
 type Buttons = Each<Button<'static>>;
 
 impl Buttons {
-    fn of(state: &ConsoleState, has_drawer: bool) -> Self {
+    fn of(model: &Model, state: &ConsoleState, has_drawer: bool) -> Self {
         let nothing_chosen = state.selection.among(state.log.shown()).next().is_none();
         let details = if state.inspector_is_open { "Close details" } else { "Details" };
         Self {
@@ -127,7 +127,9 @@ impl Buttons {
             },
             newest: Button::normal("Newest").locked(state.table.follows()),
             copy: Button::normal("Copy").locked(nothing_chosen),
-            save: Button::normal("Save").locked(state.log.shown().is_empty()),
+            save: Button::normal("Save")
+                .locked(state.log.shown().is_empty())
+                .locked_by(replay::lock(model)),
             details: has_drawer.then(|| Button::normal(details)),
         }
     }

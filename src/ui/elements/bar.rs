@@ -12,7 +12,7 @@ use crate::{
     ui::{
         format,
         icons::Icon,
-        text, theme,
+        replay, text, theme,
         widgets::{
             button::{self, Button, HEIGHT as BUTTON},
             close_key, paint,
@@ -49,10 +49,11 @@ pub(super) fn show(
         0 => "Read again".to_owned(),
         count => format!("Refresh {count} due"),
     };
-    let can = model.sources.is_free() && !model.sources.list.is_empty();
+    let lock = words::sources_lock(model);
+    let has_sources = !model.sources.list.is_empty();
     let refresh = if due.is_empty() { Button::normal(&word) } else { Button::primary(&word) };
-    let refresh = refresh.icon(Icon::Refresh).locked(!can);
-    let add = Button::normal("Add a source").icon(Icon::Plus);
+    let refresh = refresh.icon(Icon::Refresh).locked(!has_sources).locked_by(lock);
+    let add = Button::normal("Add a source").icon(Icon::Plus).locked_by(replay::lock(model));
     let word = if state.inspector_is_open { "Close details" } else { "Details" };
     let details = has_drawer.then(|| Button::normal(word));
     let mut right = inner.right_center();
@@ -74,9 +75,10 @@ pub(super) fn show(
     );
     search(ui, place, state);
     add_source(&add.show(ui, "add a source", of_add), model, state, commands);
+    let is_free = !refresh.is_locked();
     let refresh = refresh.show(ui, "refresh", of_refresh);
     let refresh = match next_due(model) {
-        Some(next) if due.is_empty() => refresh.on_hover_text(format!(
+        Some(next) if due.is_empty() && is_free => refresh.on_hover_text(format!(
             "Reads all files and folders. No server is due before {}.",
             format::moment(next, model.now)
         )),

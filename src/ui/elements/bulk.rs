@@ -9,6 +9,7 @@ use crate::{
     station::Priority,
     ui::{
         icons::Icon,
+        replay,
         text::{self, Weight},
         theme,
         upload::Choice,
@@ -22,12 +23,12 @@ use crate::{
 
 pub(super) const HEIGHT: f32 = 40.0;
 
-/// Draws the bar. `can_mark`: favourites may change now.
+/// Draws the bar. `lock`: why favourites may not change now.
 pub(super) fn show(
     ui: &Ui,
     rect: Rect,
     model: &Model,
-    can_mark: bool,
+    lock: Option<&'static str>,
     state: &mut ElementsState,
     commands: &mut Vec<UiCommand>,
 ) {
@@ -40,12 +41,13 @@ pub(super) fn show(
     let are_all = marked.iter().all(|number| favourites.contains(*number));
     let word = if are_all { "Unfavourite" } else { "Favourite" };
     let star = Button::normal(word).icon(if are_all { Icon::OpenStar } else { Icon::Star });
+    let star = star.locked_by(lock);
     let priorities = DropDown {
-        button: Button::normal("Priority"),
+        button: Button::normal("Priority").locked_by(lock),
         salt: "priority of marked",
         name: "Priority of the marked",
     };
-    let upload = Button::normal("Upload…").icon(Icon::Upload).locked(model.replay.is_some());
+    let upload = Button::normal("Upload…").icon(Icon::Upload).locked_by(replay::lock(model));
     let forms =
         DropDown { button: Button::normal("Copy"), salt: "copy marked", name: "Copy the marked" };
     let clear = Button::quiet("Clear");
@@ -56,22 +58,20 @@ pub(super) fn show(
     let upload_at =
         can_upload.then(|| button::row_before(&mut right, SMALL_HEIGHT, [upload.width(ui)]));
     let widths = [star.width(ui), priorities.width(ui)];
-    let mark_at = can_mark.then(|| button::row_before(&mut right, SMALL_HEIGHT, widths));
-    if let Some([star_at, priorities_at]) = mark_at {
-        if star.show(ui, "star marked", star_at).clicked() {
-            table::favour(marked.clone(), !are_all, commands);
-        }
-        priorities.show(ui, priorities_at, |ui| {
-            for priority in Priority::ALL {
-                let word = words::priority(priority);
-                if ui.button(word).clicked() {
-                    let numbers = marked.clone();
-                    let command = engine::Command::SetPriority { numbers, priority };
-                    commands.push(UiCommand::Station(command));
-                }
-            }
-        });
+    let [star_at, priorities_at] = button::row_before(&mut right, SMALL_HEIGHT, widths);
+    if star.show(ui, "star marked", star_at).clicked() {
+        table::favour(marked.clone(), !are_all, commands);
     }
+    priorities.show(ui, priorities_at, |ui| {
+        for priority in Priority::ALL {
+            let word = words::priority(priority);
+            if ui.button(word).clicked() {
+                let numbers = marked.clone();
+                let command = engine::Command::SetPriority { numbers, priority };
+                commands.push(UiCommand::Station(command));
+            }
+        }
+    });
     if let Some([upload_at]) = upload_at
         && upload.show(ui, "upload marked", upload_at).clicked()
     {
@@ -98,7 +98,7 @@ pub(super) fn show(
         }
         CatalogState::Loading | CatalogState::Failed => 0,
     };
-    let more = words::marked(old, can_mark);
+    let more = words::marked(old, lock);
     let room = room.with_min_x(first.right() + 12.0);
     paint::text_in(ui, room, Align2::LEFT_CENTER, &more, text::small(), t.t2);
     let spoken = format!("{count}. {more}");

@@ -16,7 +16,7 @@ use crate::{
         export::{ElementForm, Export},
     },
     ui::{
-        format, text, theme,
+        format, replay, text, theme,
         widgets::{
             button::{self, Button},
             close_key,
@@ -100,6 +100,7 @@ fn groups(ui: &Ui, inner: Rect, chips: &[(Among, usize)], state: &mut ElementsSt
 struct Exported {
     numbers: Vec<u32>,
     name: String,
+    lock: Option<&'static str>,
 }
 
 impl Exported {
@@ -113,12 +114,12 @@ impl Exported {
             (marked.iter().copied().collect(), "marked")
         };
         let name = format!("Export the {} {which}", words::plain(numbers.len()));
-        Self { numbers, name }
+        Self { numbers, name, lock: replay::lock(model) }
     }
 
     fn list(&self) -> DropDown<'_> {
         DropDown {
-            button: Button::quiet("Export").locked(self.numbers.is_empty()),
+            button: Button::quiet("Export").locked(self.numbers.is_empty()).locked_by(self.lock),
             salt: "export elements",
             name: &self.name,
         }

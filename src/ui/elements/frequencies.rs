@@ -20,12 +20,12 @@ pub(super) struct Edit {
     text: String,
 }
 
-/// Shows the frequencies. `can_change`: the station's settings may change now.
+/// Shows the frequencies. `lock`: why the station's settings may not change now.
 pub(super) fn show(
     ui: &mut Ui,
     model: &Model,
     number: u32,
-    can_change: bool,
+    lock: Option<&'static str>,
     state: &mut ElementsState,
     commands: &mut Vec<UiCommand>,
 ) {
@@ -39,7 +39,11 @@ pub(super) fn show(
         ui.label(title.color(t.t1));
         // Beside the title: below the lines the foot of the inspector would cut it.
         ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
-            is_asked = can_change && !is_edited && ui.button("Edit frequencies").clicked();
+            if !is_edited {
+                let button = egui::Button::new("Edit frequencies");
+                let button = ui.add_enabled(lock.is_none(), button);
+                is_asked = button.on_disabled_hover_text(lock.unwrap_or_default()).clicked();
+            }
         });
     });
     let Some(edit) = state.frequencies.as_mut().filter(|edit| edit.number == number) else {
@@ -73,7 +77,7 @@ pub(super) fn show(
     let mut is_over = false;
     ui.horizontal(|ui| {
         let save = egui::Button::new("Save frequencies");
-        if ui.add_enabled(read.is_ok() && can_change, save).clicked()
+        if ui.add_enabled(read.is_ok() && lock.is_none(), save).clicked()
             && let Ok(frequencies) = &read
         {
             let frequencies = frequencies.clone();

@@ -14,7 +14,7 @@ use crate::{
         confirm::Question,
         format,
         icons::{self, Icon},
-        pass_limits,
+        pass_limits, replay,
         text::{self, Weight},
         theme,
         upload::Choice,
@@ -36,7 +36,7 @@ pub(super) fn show(
     ui: &mut Ui,
     rect: Rect,
     model: &Model,
-    can_mark: bool,
+    lock: Option<&'static str>,
     state: &mut ElementsState,
     question: &mut Option<Question>,
     commands: &mut Vec<UiCommand>,
@@ -60,18 +60,18 @@ pub(super) fn show(
     };
     let (top, rest) = rect.split_top_bottom_at_y(rect.top() + HEAD);
     let (body, foot) = rest.split_top_bottom_at_y(rest.bottom() - FOOT);
-    head(ui, top, model, elements, can_mark, commands);
+    head(ui, top, model, elements, lock, commands);
     ui.scope_builder(UiBuilder::new().id_salt("element inspector").max_rect(body), |ui| {
         ui.set_clip_rect(body.intersect(ui.clip_rect()));
         ui.spacing_mut().item_spacing = vec2(0.0, 0.0);
         let area = ScrollArea::vertical().id_salt("element details").auto_shrink(false);
         area.show(ui, |ui| {
-            let object = Object { model, elements, catalog, can_mark };
+            let object = Object { model, elements, catalog, lock };
             object.parts(ui, body.width(), state, question, commands);
             paint::follow_focus(ui);
         });
     });
-    show_foot(ui, foot, model, elements, can_mark, state, commands);
+    show_foot(ui, foot, model, elements, lock, state, commands);
 }
 
 /// The object that is shown.
@@ -79,7 +79,7 @@ struct Object<'a> {
     model: &'a Model,
     elements: &'a Elements,
     catalog: &'a Catalog,
-    can_mark: bool,
+    lock: Option<&'static str>,
 }
 
 impl Object<'_> {
@@ -91,7 +91,7 @@ impl Object<'_> {
         question: &mut Option<Question>,
         commands: &mut Vec<UiCommand>,
     ) {
-        let Self { model, elements, catalog, can_mark } = *self;
+        let Self { model, elements, catalog, lock } = *self;
         let number = elements.catalog_number();
         let place = |ui: &mut Ui, height: f32| {
             let (rect, _) = ui.allocate_exact_size(vec2(width, height), Sense::hover());
@@ -111,10 +111,10 @@ impl Object<'_> {
         ui.painter().hline(part.x_range(), part.bottom() - 0.5, (1.0, t.line));
         Frame::new().inner_margin(Margin::symmetric(PADDING as i8, 8)).show(ui, |ui| {
             ui.set_width(width - 2.0 * PADDING);
-            frequencies::show(ui, model, number, can_mark, state, commands);
+            frequencies::show(ui, model, number, lock, state, commands);
             ui.add_space(8.0);
             let room = width - 2.0 * PADDING;
-            pass_limits::show(ui, room, model, number, can_mark, commands);
+            pass_limits::show(ui, room, model, number, lock, commands);
         });
     }
 }
@@ -125,7 +125,7 @@ fn head(
     rect: Rect,
     model: &Model,
     elements: &Elements,
-    can_mark: bool,
+    lock: Option<&'static str>,
     commands: &mut Vec<UiCommand>,
 ) {
     let t = theme::tokens(ui);
@@ -138,11 +138,11 @@ fn head(
     let is_favourite = model.station.favourites.contains(number);
     let name = if is_favourite { "Remove from favourites" } else { "Add to favourites" };
     let place = paint::square(pos2(inner.left() + 9.0, rect.top() + 17.0), 22.0);
-    let response = paint::control(ui, "inspector star", place, Role::Button, can_mark, name);
+    let response = paint::control(ui, "inspector star", place, Role::Button, lock.is_none(), name);
     let (icon, colour) = if is_favourite { (Icon::Star, t.sat) } else { (Icon::OpenStar, t.t3) };
     icons::paint(ui.painter(), place.shrink(2.0), icon, colour);
     paint::focus_ring(ui, &response, 4);
-    if response.on_hover_text(name).clicked() {
+    if response.on_hover_text(lock.unwrap_or(name)).clicked() {
         table::favour(vec![number], !is_favourite, commands);
     }
     let next = model.catalog_table.next.as_ref().and_then(|next| next.get(number, model.now));
@@ -181,7 +181,7 @@ fn show_foot(
     rect: Rect,
     model: &Model,
     elements: &Elements,
-    can_mark: bool,
+    lock: Option<&'static str>,
     state: &mut ElementsState,
     commands: &mut Vec<UiCommand>,
 ) {
@@ -197,8 +197,8 @@ fn show_foot(
     if let Some(antenna) = model.antenna() {
         let word = format!("Upload to {}", antenna.config.name);
         let takes = antenna.spec().element_files.is_some();
-        let upload =
-            Button::primary(&word).icon(Icon::Upload).locked(!takes || model.replay.is_some());
+        let upload = Button::primary(&word).icon(Icon::Upload);
+        let upload = upload.locked(!takes).locked_by(replay::lock(model));
         let place = first(inner.left(), inner.left() + half);
         if upload.show(ui, "upload selected", place).clicked() {
             state.upload(Choice::Also(number));
@@ -224,8 +224,8 @@ fn show_foot(
             copy(ui, model, &[number], form);
         }
     }
-    if let (Some(priority), true) = (model.station.priority(number), can_mark) {
-        show_priority(ui, second(inner.right() - 150.0, 150.0), number, priority, commands);
+    if let Some(priority) = model.station.priority(number) {
+        show_priority(ui, second(inner.right() - 150.0, 150.0), number, priority, lock, commands);
     }
 }
 
@@ -235,6 +235,7 @@ fn show_priority(
     rect: Rect,
     number: u32,
     priority: Priority,
+    lock: Option<&'static str>,
     commands: &mut Vec<UiCommand>,
 ) {
     let t = theme::tokens(ui);
@@ -247,9 +248,11 @@ fn show_priority(
     for (x, word, name, by) in [(80.0, "−", "More important", -1), (24.0, "+", "Less important", 1)]
     {
         let other = place.checked_add_signed(by).and_then(|place| Priority::ALL.get(place));
-        let response = Button::normal(word).locked(other.is_none()).show(ui, name, at(x));
-        response.widget_info(|| egui::WidgetInfo::labeled(Role::Button, other.is_some(), name));
-        if let (true, Some(priority)) = (response.on_hover_text(name).clicked(), other) {
+        let is_free = other.is_some() && lock.is_none();
+        let response = Button::normal(word).locked(!is_free).show(ui, name, at(x));
+        response.widget_info(|| egui::WidgetInfo::labeled(Role::Button, is_free, name));
+        let response = response.on_hover_text(lock.unwrap_or(name));
+        if let (true, Some(priority)) = (response.clicked(), other) {
             let numbers = vec![number];
             let command = engine::Command::SetPriority { numbers, priority: *priority };
             commands.push(UiCommand::Station(command));

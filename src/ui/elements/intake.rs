@@ -224,18 +224,19 @@ impl Shown<'_> {
             paint::text_in(ui, room, Align2::RIGHT_CENTER, "taken", text::small(), t.ok);
             return;
         }
-        let is_free = self.model.sources.is_free();
+        let lock = words::sources_lock(self.model);
         let name = self.offer.name();
         let mut button = |word: &str| {
-            let button = Button::normal(word).locked(!is_free);
+            let button = Button::normal(word).locked_by(lock);
             let width = button.width(ui);
             let min = pos2(right - width, row.center().y - SMALL_HEIGHT / 2.0);
             right = min.x - 8.0;
             let place = Rect::from_min_size(min, vec2(width, SMALL_HEIGHT));
             let response = button.show(ui, (word, self.index), place);
             let spoken = format!("{word}: {name}");
-            response
-                .widget_info(|| egui::WidgetInfo::labeled(egui::Role::Button, is_free, &spoken));
+            response.widget_info(|| {
+                egui::WidgetInfo::labeled(egui::Role::Button, lock.is_none(), &spoken)
+            });
             response.clicked()
         };
         let source = free_name(self.offer, self.model);

@@ -67,14 +67,14 @@ impl Menu<'_> {
                 ui.end_row();
             }
         });
-        let is_free = self.model.sources.is_free();
+        let lock = words::sources_lock(self.model);
         let word = if self.is_newest(elements.epoch()) {
             "Use the newest set\u{2026}"
         } else {
             "Use this set\u{2026}"
         };
-        let entry = ui.add_enabled(is_free, egui::Button::new(word));
-        let entry = entry.on_disabled_hover_text("The sources are being read.");
+        let entry = ui.add_enabled(lock.is_none(), egui::Button::new(word));
+        let entry = entry.on_disabled_hover_text(lock.unwrap_or_default());
         if entry.clicked() {
             *question = Some(self.ask(elements.epoch()));
         }

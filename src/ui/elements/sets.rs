@@ -3,7 +3,7 @@
 use egui::{Align2, Color32, Rect, Response, Role, Sense, Ui, WidgetInfo, pos2, vec2};
 use jiff::Timestamp;
 
-use super::{PADDING, set_menu};
+use super::{PADDING, set_menu, words};
 use crate::{
     model::{
         Model,
@@ -116,7 +116,8 @@ fn aside(
     question: &mut Option<Question>,
 ) {
     let t = theme::tokens(ui);
-    let button = Button::normal("Use the newest").locked(!menu.model.sources.is_free());
+    let lock = words::sources_lock(menu.model);
+    let button = Button::normal("Use the newest").locked_by(lock);
     let size = vec2(button.width(ui), SMALL_HEIGHT);
     let place = Rect::from_center_size(line.right_center() - vec2(size.x / 2.0, 0.0), size);
     let newest_epoch = format::minute(newest.epoch(), menu.model.now);

@@ -251,20 +251,21 @@ impl Row<'_> {
         commands: &mut Vec<UiCommand>,
     ) {
         let name = &self.source.name;
-        let is_free = model.sources.is_free();
+        let lock = words::sources_lock(model);
+        let is_free = lock.is_none();
         let scale = self.place.width() / WIDTH;
         let at = |x: f32, width: f32| {
             let min = pos2(self.place.left() + x * scale, self.place.center().y - 10.0);
             Rect::from_min_size(min, vec2(width, 20.0))
         };
-        if matches!(self.source.place, SourcePlace::Web(_)) && is_free {
-            self.refresh(ui, commands);
+        if matches!(self.source.place, SourcePlace::Web(_)) {
+            self.refresh(ui, lock, commands);
         }
         let (word, spoken) = match self.source.place {
             SourcePlace::Web(_) => ("Fetch", format!("Fetch {name}")),
             SourcePlace::File(_) | SourcePlace::Folder(_) => ("Read", format!("Read {name} again")),
         };
-        if small_button(ui, at(ASK, 48.0), is_free, word, &spoken) {
+        if small_button(ui, at(ASK, 48.0), lock, word, &spoken) {
             let again = words::ask_again(name, self.report, model.now);
             let forced = again.is_some();
             let command = UiCommand::Station(engine::Command::RefreshSources {
@@ -283,7 +284,7 @@ impl Row<'_> {
         let colour = if response.hovered() && is_free { t.t1 } else { t.t3 };
         icons::paint(ui.painter(), paint::square(place.center(), 12.0), Icon::Cross, colour);
         paint::focus_ring(ui, &response, 3);
-        if response.on_hover_text(&spoken).clicked() {
+        if response.on_hover_text(lock.unwrap_or(&spoken)).clicked() {
             *question = Some(Question {
                 text: format!("Remove the source {name}? Its elements will no longer be used."),
                 yes: "Remove",
@@ -295,19 +296,26 @@ impl Row<'_> {
 
 impl Row<'_> {
     /// A click on when the server is asked next offers to ask it regularly.
-    fn refresh(&self, ui: &Ui, commands: &mut Vec<UiCommand>) {
+    fn refresh(&self, ui: &Ui, lock: Option<&str>, commands: &mut Vec<UiCommand>) {
         let Source { name, refresh, .. } = self.source;
         let place = between(self.place, NEXT - 4.0, ASK - 4.0).shrink2(vec2(0.0, 2.0));
         let spoken = format!("Refresh of {name}: {}", words::refresh(*refresh));
-        let response = paint::control(ui, ("refresh", name), place, Role::ComboBox, true, &spoken);
+        let is_free = lock.is_none();
+        let response =
+            paint::control(ui, ("refresh", name), place, Role::ComboBox, is_free, &spoken);
         let t = theme::tokens(ui);
-        if response.hovered() {
+        if response.hovered() && is_free {
             let stroke = Stroke::new(1.0, t.edge);
             ui.painter().rect_stroke(place, 4, stroke, StrokeKind::Inside);
         }
         let at = pos2(place.right() - 8.0, place.center().y);
-        icons::paint(ui.painter(), paint::square(at, 10.0), Icon::ChevronDown, t.t2);
+        let colour = if is_free { t.t2 } else { t.t3 };
+        icons::paint(ui.painter(), paint::square(at, 10.0), Icon::ChevronDown, colour);
         paint::focus_ring(ui, &response, 4);
+        let response = match lock {
+            Some(why) => response.on_hover_text(why),
+            None => response,
+        };
         menu::show(&response, Popup::menu(&response).accessible_name(&spoken), |ui| {
             let hours = REFRESH_HOURS.map(|hours| Some(RefreshHours::from(hours)));
             for hours in [None].into_iter().chain(hours) {
@@ -395,8 +403,8 @@ fn bundled(ui: &Ui, row: Rect, in_use: usize, model: &Model) {
     cells.show(ui, row, BUNDLED_SOURCE, &spoken, model);
 }
 
-fn small_button(ui: &Ui, place: Rect, is_enabled: bool, word: &str, name: &str) -> bool {
-    let response = Button::normal(word).locked(!is_enabled).show(ui, name, place);
-    response.widget_info(|| egui::WidgetInfo::labeled(Role::Button, is_enabled, name));
+fn small_button(ui: &Ui, place: Rect, lock: Option<&str>, word: &str, name: &str) -> bool {
+    let response = Button::normal(word).locked_by(lock).show(ui, name, place);
+    response.widget_info(|| egui::WidgetInfo::labeled(Role::Button, lock.is_none(), name));
     response.clicked()
 }

@@ -41,7 +41,7 @@ pub(super) fn show(
     ui: &mut Ui,
     rect: Rect,
     model: &Model,
-    can_mark: bool,
+    lock: Option<&'static str>,
     state: &mut ElementsState,
     commands: &mut Vec<UiCommand>,
 ) {
@@ -52,7 +52,7 @@ pub(super) fn show(
     let id = ui.make_persistent_id("catalogue");
     let list = ui.interact(body, id, Sense::CLICK | Sense::FOCUSABLE);
     list.widget_info(|| WidgetInfo::labeled(Role::ListBox, true, "Catalogue"));
-    keys(ui, &list, body.height(), &rows, model, can_mark, state, commands);
+    keys(ui, &list, body.height(), &rows, model, lock, state, commands);
     let CatalogState::Ready(catalog) = &model.catalog else {
         return nothing(ui, body, "There is nothing to search.");
     };
@@ -75,7 +75,7 @@ pub(super) fn show(
             for (place, number) in rows.get(range).unwrap_or_default().iter().enumerate() {
                 let min = pos2(body.left(), top + place as f32 * ROW);
                 let place = Rect::from_min_size(min, vec2(body.width(), ROW));
-                let draws = Draws { id, model, catalog, rows: &rows, can_mark };
+                let draws = Draws { id, model, catalog, rows: &rows, lock };
                 draws.row(ui, place, *number, state, commands);
             }
         });
@@ -175,7 +175,7 @@ struct Draws<'a> {
     model: &'a Model,
     catalog: &'a Catalog,
     rows: &'a [u32],
-    can_mark: bool,
+    lock: Option<&'static str>,
 }
 
 impl Draws<'_> {
@@ -263,11 +263,12 @@ impl Draws<'_> {
         } else {
             format!("Add {label} to the favourites")
         };
-        let sense = if self.can_mark { Sense::CLICK } else { Sense::hover() };
+        let is_free = self.lock.is_none();
+        let sense = if is_free { Sense::CLICK } else { Sense::hover() };
         let response = ui.interact(place, self.id.with(("star", number)), sense);
-        response.widget_info(|| WidgetInfo::labeled(Role::Button, self.can_mark, &name));
+        response.widget_info(|| WidgetInfo::labeled(Role::Button, is_free, &name));
         let at = paint::square(place.center() - vec2(2.0, 0.0), 15.0);
-        let (icon, colour) = match (priority, response.hovered() && self.can_mark) {
+        let (icon, colour) = match (priority, response.hovered() && is_free) {
             (Some(_), _) => (Icon::Star, t.sat),
             (None, true) => (Icon::OpenStar, t.t1),
             (None, false) => (Icon::OpenStar, t.t3),
@@ -278,7 +279,7 @@ impl Draws<'_> {
             let words = priority.number();
             paint::text(ui, at, Align2::LEFT_CENTER, words, text::caption(), t.t1);
         }
-        if response.on_hover_text(&name).clicked() {
+        if response.on_hover_text(self.lock.unwrap_or(&name)).clicked() {
             favour(vec![number], priority.is_none(), commands);
         }
     }
@@ -349,7 +350,7 @@ fn keys(
     height: f32,
     rows: &[u32],
     model: &Model,
-    can_mark: bool,
+    lock: Option<&'static str>,
     state: &mut ElementsState,
     commands: &mut Vec<UiCommand>,
 ) {
@@ -401,7 +402,7 @@ fn keys(
         state.selection.toggle(rows);
     }
     let chosen = state.selection.chosen();
-    if chosen.is_empty() || !can_mark {
+    if chosen.is_empty() || lock.is_some() {
         return;
     }
     if pressed(Modifiers::NONE, Key::F) {

@@ -6,8 +6,9 @@ use jiff::Timestamp;
 use super::columns::Next;
 use crate::{
     astro::time::{DAY_S, seconds_between},
+    engine::sources::{SourceWork, Sources},
     model::{
-        DistanceUnit,
+        DistanceUnit, Model,
         catalog_table::{Among, NEXT_PASSES_H, Question},
     },
     orbit::{
@@ -18,6 +19,7 @@ use crate::{
     ui::{
         format,
         icons::Icon,
+        replay,
         tokens::Tokens,
         widgets::told::Tone,
         words::{OLD_ELEMENTS_S, sentence},
@@ -49,18 +51,26 @@ pub(super) fn plain(count: usize) -> String {
     format::number(count as f64, 0)
 }
 
+/// The reason why favourites may not change while the preferences are edited.
+pub(super) const EDITED: &str = "Save or revert the preferences before you change favourites.";
+
+/// Why no source and no set in use may change now.
+pub(super) fn sources_lock(model: &Model) -> Option<&'static str> {
+    replay::lock(model).or_else(|| match *model.sources {
+        Sources { is_locked: true, .. } => Some("The list of sources cannot be read."),
+        Sources { work: SourceWork::Nothing, .. } => None,
+        Sources { .. } => Some("The sources are being read."),
+    })
+}
+
 /// More about the marked objects, of which `old` have old elements.
-pub(super) fn marked(old: usize, can_mark: bool) -> String {
+pub(super) fn marked(old: usize, lock: Option<&str>) -> String {
     let age = match old {
         0 => String::new(),
         1 => "1 is older than 7 d.".to_owned(),
         old => format!("{} are older than 7 d.", plain(old)),
     };
-    if can_mark {
-        return age;
-    }
-    let words = "Save or revert the preferences before you change favourites.";
-    format!("{age} {words}").trim().to_owned()
+    [&*age, lock.unwrap_or_default()].join(" ").trim().to_owned()
 }
 
 /// A catalog number, in groups from six digits on.

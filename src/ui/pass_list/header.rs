@@ -69,7 +69,11 @@ pub(super) fn show(
     let count_place = paint::text_in(ui, left, Align2::LEFT_CENTER, words, text::small(), t.t3);
     paint::name_text(ui, "title", title | count_place, &format!("Next passes, {count}"));
 
-    let segment = |scope| if scope == model.scope { Segment::Chosen } else { Segment::Free };
+    let segment = |scope| match model.lock {
+        _ if scope == model.scope => Segment::Chosen,
+        Some(_) => Segment::Locked(model.lock),
+        None => Segment::Free,
+    };
     let scopes = [(Scope::Favourites, "Favourites"), (Scope::All, "All")];
     let place = second.with_max_x(second.left() + SCOPES);
     let words = scopes.map(|(scope, word)| (word, segment(scope)));
@@ -96,7 +100,8 @@ fn floors(ui: &Ui, line: Rect, model: &PassListModel<'_>, commands: &mut Vec<UiC
     let angle = |floor_deg: f64| format::degrees(floor_deg, 0);
     let words = |floor_deg: f64| format!("Floor {}", angle(floor_deg));
     let name = format!("Elevation floor: {}", angle(model.floor_deg));
-    let menu = Menu { salt: "floor", name, chosen: words(model.floor_deg), about: FLOOR };
+    let (chosen, lock) = (words(model.floor_deg), model.lock);
+    let menu = Menu { salt: "floor", name, chosen, about: FLOOR, lock };
     let place = line.with_min_x(line.right() - menu.width(ui));
     menu.show(ui, place, |ui| {
         for floor_deg in FLOORS_DEG {
@@ -115,7 +120,8 @@ fn hours(span_h: u32) -> String {
 
 fn span_menu(model: &PassListModel<'_>) -> Menu {
     let chosen = hours(model.span_h);
-    Menu { salt: "span", name: format!("How far ahead: {chosen}"), chosen, about: SPAN }
+    let name = format!("How far ahead: {chosen}");
+    Menu { salt: "span", name, chosen, about: SPAN, lock: None }
 }
 
 fn spans(ui: &Ui, place: Rect, model: &PassListModel<'_>, commands: &mut Vec<UiCommand>) {
@@ -147,14 +153,21 @@ fn search(ui: &Ui, place: Rect, filter: &mut Filter) {
 /// Shows the button that saves the listed passes, or the look angles of the selected one.
 fn save(ui: &Ui, place: Rect, model: &PassListModel<'_>, commands: &mut Vec<UiCommand>) {
     let t = theme::tokens(ui);
-    let response = paint::control(ui, "save", place, Role::Button, true, "Save passes to a file");
-    let border = if response.hovered() { t.t2 } else { t.line };
-    let stroke = Stroke::new(1.0, border);
-    ui.painter().rect(place, RADIUS, Color32::TRANSPARENT, stroke, StrokeKind::Inside);
-    icons::paint(ui.painter(), paint::square(place.center(), 14.0), Icon::Download, t.t1);
+    let (name, is_free) = ("Save passes to a file", model.lock.is_none());
+    let response = paint::control(ui, "save", place, Role::Button, is_free, name);
+    let colour = if is_free {
+        let border = if response.hovered() { t.t2 } else { t.line };
+        let stroke = Stroke::new(1.0, border);
+        ui.painter().rect(place, RADIUS, Color32::TRANSPARENT, stroke, StrokeKind::Inside);
+        t.t1
+    } else {
+        paint::dashed_border(ui, place, f32::from(RADIUS), (1.0, t.edge));
+        t.t3
+    };
+    icons::paint(ui.painter(), paint::square(place.center(), 14.0), Icon::Download, colour);
     paint::focus_ring(ui, &response, RADIUS);
-    let response = response.on_hover_text("Save passes to a file");
-    menu::show(&response, Popup::menu(&response).accessible_name("Save passes to a file"), |ui| {
+    let response = response.on_hover_text(model.lock.unwrap_or(name));
+    menu::show(&response, Popup::menu(&response).accessible_name(name), |ui| {
         ui.style_mut().wrap_mode = Some(TextWrapMode::Extend);
         let forms = [
             ("Listed passes as CSV…", PassFormat::Csv),
@@ -188,11 +201,14 @@ struct Menu {
     chosen: String,
     /// The hover text.
     about: &'static str,
+    /// What stands in its place where nothing can be chosen.
+    lock: Option<&'static str>,
 }
 
 impl Menu {
     fn list(&self) -> DropDown<'_> {
-        DropDown { button: Button::quiet(&self.chosen), salt: self.salt, name: &self.name }
+        let button = Button::quiet(&self.chosen).locked_by(self.lock);
+        DropDown { button, salt: self.salt, name: &self.name }
     }
 
     fn width(&self, ui: &Ui) -> f32 {
@@ -200,6 +216,9 @@ impl Menu {
     }
 
     fn show(&self, ui: &Ui, place: Rect, choices: impl FnOnce(&mut Ui)) {
-        self.list().show(ui, place, choices).on_hover_text(self.about);
+        let shown = self.list().show(ui, place, choices);
+        if self.lock.is_none() {
+            shown.on_hover_text(self.about);
+        }
     }
 }

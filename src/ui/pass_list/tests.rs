@@ -114,6 +114,7 @@ fn window(fixture: Fixture) -> Harness<'static, Fixture> {
             made: fixture.made,
             selected: fixture.selected,
             floor_deg: fixture.floor_deg,
+            lock: None,
             thumbnails: fixture.thumbnails,
             empty: "No pass above 10° in the next 48 hours.",
             menu: &|_, _, _, _| {},

@@ -9,7 +9,7 @@ use crate::{
     plan::schedule_export::ScheduleFormat,
     station::{ChooseBy, Scheduling},
     ui::{
-        format, text, theme,
+        format, replay, text, theme,
         widgets::{
             button::{self, Button, HEIGHT as BUTTON},
             drop_down::DropDown,
@@ -40,13 +40,15 @@ pub(super) fn show(
     ui.painter().hline(rect.x_range(), rect.bottom() - 0.5, (1.0, t.line));
     let inner = rect.shrink2(vec2(PADDING, 0.0));
     let (words, rehearse) = rehearsal(model);
-    let can_rehearse = model.schedule.made_at.is_some() && model.replay.is_none();
-    let of_rehearsal = Button::normal(&words).locked(!can_rehearse);
+    let lock = replay::lock(model);
+    let is_planned = model.schedule.made_at.is_some();
+    let of_rehearsal = Button::normal(&words).locked(!is_planned).locked_by(lock);
     let word = words::schedule::choose_by(model.station.scheduling.choose_by);
     let name = format!("Choose by, {word}");
-    let rules = DropDown { button: Button::normal(word), salt: "choose by", name: &name };
-    let forms =
-        DropDown { button: Button::normal("Export"), salt: "export plan", name: "Export the plan" };
+    let button = Button::normal(word).locked_by(lock);
+    let rules = DropDown { button, salt: "choose by", name: &name };
+    let button = Button::normal("Export").locked_by(lock);
+    let forms = DropDown { button, salt: "export plan", name: "Export the plan" };
     let word = if state.inspector_is_open { "Close details" } else { "Details" };
     let details = Button::normal(word);
     let mut right = inner.right_center();
@@ -118,8 +120,14 @@ fn spans(
 ) {
     let scheduling = model.station.scheduling;
     let is_chosen = |hours: f64| (scheduling.span_h - hours).abs() < 0.5;
+    let lock = replay::lock(model);
     let segments = SPANS_H.map(|(hours, word)| {
-        (word, if is_chosen(hours) { Segment::Chosen } else { Segment::Free })
+        let state = match lock {
+            _ if is_chosen(hours) => Segment::Chosen,
+            Some(why) => Segment::Locked(Some(why)),
+            None => Segment::Free,
+        };
+        (word, state)
     });
     let clicked = segmented::show(ui, "plan span", place, "Planned period", &segments);
     if let Some((hours, _)) = clicked.and_then(|index| SPANS_H.get(index)) {

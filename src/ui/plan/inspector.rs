@@ -13,7 +13,7 @@ use crate::{
     ui::{
         format,
         icons::{self, Icon},
-        pass_limits, small_sky,
+        pass_limits, replay, small_sky,
         text::{self, Weight},
         theme,
         widgets::{
@@ -148,7 +148,8 @@ fn parts(
     controls(ui, width, model, planned, state, commands);
     Frame::new().inner_margin(Margin::symmetric(PADDING as i8, 8)).show(ui, |ui| {
         let number = planned.predicted.number();
-        pass_limits::show(ui, width - 2.0 * PADDING, model, number, true, commands);
+        let lock = replay::lock(model);
+        pass_limits::show(ui, width - 2.0 * PADDING, model, number, lock, commands);
     });
 }
 
@@ -177,7 +178,8 @@ fn rehearsal(
     }
     let (row, _) = ui.allocate_exact_size(vec2(width, BUTTON + GAP), Sense::hover());
     let is_free = !matches!(model.rehearsal, RehearsalState::UnderWay(_));
-    let button = Button::quiet("Rehearse this pass").locked(!is_free || model.replay.is_some());
+    let lock = replay::lock(model);
+    let button = Button::quiet("Rehearse this pass").locked(!is_free).locked_by(lock);
     let at = row.min + vec2(PADDING, GAP / 2.0);
     let place = Rect::from_min_size(at, vec2(button.width(ui), BUTTON));
     if button.show(ui, "rehearse pass", place).clicked() {
@@ -278,6 +280,9 @@ fn price(
             Some(_) => format!("If it is always taken: {}", words::schedule::price(model, swap)),
             None => "Always is not available: no antenna can track enough of this pass.".to_owned(),
         }
+    } else if model.replay.is_some() {
+        // Nobody works out what nobody asked then.
+        return;
     } else {
         let ask = UiCommand::Station(engine::Command::PriceSwap(key));
         // Asked once a pass and schedule; the answer wakes the window.
@@ -318,14 +323,15 @@ fn controls(
     let (row, _) = ui.allocate_exact_size(vec2(width, 44.0), Sense::hover());
     let row = row.shrink2(vec2(PADDING, 6.0));
     paint::text_in(ui, row, Align2::LEFT_CENTER, "This pass", text::small(), t.t2);
+    let lock = replay::lock(model);
     let choices = [(None, "By plan"), (Some(Take::Always), "Always"), (Some(Take::Never), "Never")];
     let present = planned.choice.map(|choice| choice.take);
     let cannot = model.swap_of(planned.predicted.key()).is_some_and(|swap| swap.changes.is_none());
     let segments = choices.map(|(take, word)| {
         let state = match take {
             take if take == present => Segment::Chosen,
-            _ if model.replay.is_some() => Segment::Locked,
-            Some(Take::Always) if cannot => Segment::Locked,
+            _ if lock.is_some() => Segment::Locked(lock),
+            Some(Take::Always) if cannot => Segment::Locked(None),
             _ => Segment::Free,
         };
         (word, state)
@@ -344,9 +350,9 @@ fn controls(
         .iter()
         .zip(&words)
         .map(|(priority, word)| {
-            let state = match model.replay {
+            let state = match lock {
                 _ if *priority == planned.priority => Segment::Chosen,
-                Some(_) => Segment::Locked,
+                Some(_) => Segment::Locked(lock),
                 None => Segment::Free,
             };
             (word.as_str(), state)

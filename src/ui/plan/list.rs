@@ -14,6 +14,7 @@ use crate::{
     ui::{
         format,
         icons::{self, Icon},
+        replay,
         text::{self, Weight},
         theme,
         tokens::Tokens,
@@ -312,8 +313,7 @@ fn reason(model: &Model, listed: &ListedPass<'_>) -> (String, bool) {
 }
 
 fn cannot_swap(model: &Model, pass: PassKey) -> bool {
-    let is_impossible = model.swap_of(pass).is_some_and(|swap| swap.changes.is_none());
-    is_impossible || model.replay.is_some()
+    model.swap_of(pass).is_some_and(|swap| swap.changes.is_none())
 }
 
 #[allow(clippy::too_many_arguments)]
@@ -399,12 +399,12 @@ fn show_row(
     if let (true, Some(planned)) = (can_swap, &listed.planned) {
         // Known as soon as the inspector has shown the price.
         let cannot = cannot_swap(model, listed.key);
-        let button = Button::normal("Swap").locked(cannot);
+        let button = Button::normal("Swap").locked(cannot).locked_by(replay::lock(model));
         let width = button.width(ui);
         let place = Rect::from_min_size(pos2(end - width, row.top() + 2.0), vec2(width, ROW - 4.0));
         let response = button.show(ui, ("swap", listed.key), place);
         let named = format!("Swap for {}, {aos}", listed.name);
-        response.widget_info(|| WidgetInfo::labeled(Role::Button, !cannot, &named));
+        response.widget_info(|| WidgetInfo::labeled(Role::Button, !button.is_locked(), &named));
         if response.clicked() {
             plan.choose_for(model, planned, Some(Take::Always), commands);
         }

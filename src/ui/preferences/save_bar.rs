@@ -11,7 +11,7 @@ use crate::{
     ui::{
         format,
         icons::{self, Icon},
-        text, theme,
+        replay, text, theme,
         tokens::Tokens,
         widgets::{
             button::{Button, HEIGHT},
@@ -53,10 +53,12 @@ pub(super) fn show(
     let checks = Checks::of(model, station, read.as_ref(), (draft, before));
     // The demo station can be replaced as it is proposed, where the page is about the station.
     let replaces_demo = model.demo && !state.page.is_used_at_once();
-    let can_save = read.is_some() && (is_edited || replaces_demo) && checks.busy.is_none();
+    let lock = replay::lock(model);
+    let is_free = checks.busy.is_none() && lock.is_none();
+    let can_save = read.is_some() && (is_edited || replaces_demo) && is_free;
     let holds = can_save && checks.inside.is_some();
     let save = if is_edited { Button::primary } else { Button::normal };
-    let save = save("Save and use").locked(!can_save);
+    let save = save("Save and use").locked(!can_save).locked_by(lock);
     let revert = Button::normal("Revert").locked(!is_edited);
     let place = |right: f32, width: f32| {
         let min = pos2(right - width, rect.center().y - HEIGHT / 2.0);
@@ -73,11 +75,12 @@ pub(super) fn show(
     let is_pressed = if holds {
         hold_button::show(ui, saving, "Hold 1 s to save", &mut state.confirming)
     } else {
-        let clicked = save.show(ui, "save", saving).on_hover_text("Ctrl Enter").clicked();
+        let shown = save.show(ui, "save", saving);
+        let shown = if lock.is_none() { shown.on_hover_text("Ctrl Enter") } else { shown };
         // Enter in a dialog belongs to the dialog.
         let is_free = ui.memory(|memory| memory.top_modal_layer().is_none());
         let enter = || ui.input_mut(|input| input.consume_key(Modifiers::COMMAND, Key::Enter));
-        clicked || (is_free && enter() && can_save)
+        shown.clicked() || (is_free && enter() && can_save)
     };
     if is_pressed && let Some(station) = read {
         commands.push(UiCommand::Station(engine::Command::SaveStation(Box::new(station))));

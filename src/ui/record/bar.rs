@@ -2,7 +2,7 @@
 
 use egui::{Align2, Rect, RichText, Role, TextEdit, Ui, WidgetInfo, pos2, vec2};
 
-use super::{PADDING, RecordState, days::DaysDialog, report};
+use super::{PADDING, RecordState, days::DaysDialog};
 use crate::{
     astro::time::add_seconds,
     engine::antenna::AntennaModel,
@@ -36,7 +36,6 @@ const WIDE: f32 = 1150.0;
 const ANTENNA: f32 = 84.0;
 /// The last hour is shown again from so long ago on, seconds.
 const LAST_S: f64 = 60.0;
-const NOTHING: &str = "Nothing is recorded.";
 const KINDS: [ListedKind; 4] = [
     ListedKind::Tracked(PassVerdict::Good),
     ListedKind::Tracked(PassVerdict::Fair),
@@ -184,31 +183,31 @@ fn verdicts(ui: &Ui, place: &mut impl FnMut(f32) -> Rect, state: &mut RecordStat
     });
 }
 
+/// Why nothing can be taken from the record.
+fn lock(model: &Model) -> Option<&'static str> {
+    replay::lock(model).or(model.record.is_none().then_some("Nothing is recorded."))
+}
+
 /// Opens the dialog for the passes of several days. Returns the room at the left of its button.
 fn export_days(ui: &Ui, room: Rect, model: &Model, state: &mut RecordState) -> Rect {
-    let lock = match (model.replay.is_some(), model.record.is_some()) {
-        (true, _) => Some(replay::LOCKED),
-        (_, false) => Some(NOTHING),
-        _ if state.query.kind == Some(ListedKind::NotTracked) => {
-            Some("A pass that was not tracked has no report.")
-        }
-        _ => None,
-    };
-    let button = Button::normal("Export days").locked(lock.is_some());
+    let is_of_reports = state.query.kind != Some(ListedKind::NotTracked);
+    let has_none = (!is_of_reports).then_some("A pass that was not tracked has no report.");
+    let button = Button::normal("Export days").locked_by(lock(model).or(has_none));
     let size = vec2(button.width(ui), BUTTON);
     let min = pos2(room.right() - size.x, room.center().y - BUTTON / 2.0);
     let response = button.show(ui, "export days", Rect::from_min_size(min, size));
     if response.clicked() {
         state.days = Some(DaysDialog::new(model));
     }
-    response.on_hover_text(lock.unwrap_or("The passes of several days in one file"));
+    if !button.is_locked() {
+        response.on_hover_text("The passes of several days in one file");
+    }
     room.with_max_x(min.x - GAP)
 }
 
 /// Shows the last hour again. Returns the room at the left of its button.
 fn last_hour(ui: &Ui, room: Rect, model: &Model, commands: &mut Vec<UiCommand>) -> Rect {
-    let is_possible = report::can_replay(model);
-    let button = Button::normal("Replay the last hour").locked(!is_possible);
+    let button = Button::normal("Replay the last hour").locked_by(lock(model));
     let size = vec2(button.width(ui), BUTTON);
     let min = pos2(room.right() - size.x, room.center().y - BUTTON / 2.0);
     let response = button.show(ui, "replay the last hour", Rect::from_min_size(min, size));
@@ -219,12 +218,9 @@ fn last_hour(ui: &Ui, room: Rect, model: &Model, commands: &mut Vec<UiCommand>) 
         let at = add_seconds(model.now, -LAST_S);
         commands.push(UiCommand::Replay(ReplayCommand::Begin(stretch, at)));
     }
-    let why = match (model.replay.is_some(), model.record.is_some()) {
-        (true, _) => replay::LOCKED,
-        (_, false) => NOTHING,
-        _ => "The replay begins a minute before the end.",
-    };
-    response.on_hover_text(why);
+    if !button.is_locked() {
+        response.on_hover_text("The replay begins a minute before the end.");
+    }
     room.with_max_x(min.x - 2.0 * GAP)
 }
 

@@ -14,7 +14,7 @@ use crate::{
     record::RecordedPass,
     ui::{
         format,
-        replay::LOCKED,
+        replay::lock,
         text, theme,
         widgets::{
             button::{Button, HEIGHT as BUTTON},
@@ -44,15 +44,11 @@ pub(super) fn head(
     ui.painter().rect_filled(rect, 0.0, t.bg1);
     ui.painter().hline(rect.x_range(), rect.bottom() - 0.5, (1.0, t.line));
     let inner = rect.shrink2(vec2(PADDING, 0.0));
-    let is_replayed = model.replay.is_some();
-    let button = Button::normal("Export report").chevron().locked(is_replayed);
+    let button = Button::normal("Export report").chevron().locked_by(lock(model));
     let size = vec2(button.width(ui), BUTTON);
     let at =
         Rect::from_min_size(pos2(inner.right() - size.x, rect.center().y - BUTTON / 2.0), size);
-    let mut response = button.show(ui, "export report", at);
-    if is_replayed {
-        response = response.on_hover_text(LOCKED);
-    }
+    let response = button.show(ui, "export report", at);
     menu::show(&response, Popup::menu(&response).accessible_name("Export report"), |ui| {
         for (format, word) in FORMATS {
             if ui.button(word).clicked() {
@@ -60,7 +56,8 @@ pub(super) fn head(
             }
         }
     });
-    let button = Button::primary("Replay").locked(!can_replay(model));
+    let is_possible = can_replay(model);
+    let button = Button::primary("Replay").locked(!is_possible).locked_by(lock(model));
     let size = vec2(button.width(ui), BUTTON);
     let at =
         Rect::from_min_size(pos2(at.left() - 8.0 - size.x, rect.center().y - BUTTON / 2.0), size);

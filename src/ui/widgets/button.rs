@@ -32,13 +32,14 @@ pub struct Button<'a> {
     text: &'a str,
     weight: Weight,
     locked: bool,
+    why: Option<&'a str>,
     chevron: bool,
     icon: Option<Icon>,
 }
 
 impl<'a> Button<'a> {
     pub fn normal(text: &'a str) -> Self {
-        Self { text, weight: Weight::Normal, locked: false, chevron: false, icon: None }
+        Self { text, weight: Weight::Normal, locked: false, why: None, chevron: false, icon: None }
     }
 
     /// The main action of its place.
@@ -55,6 +56,16 @@ impl<'a> Button<'a> {
     #[must_use]
     pub fn locked(self, locked: bool) -> Self {
         Self { locked, ..self }
+    }
+
+    /// The same where there is a reason, which whoever points at the button reads.
+    #[must_use]
+    pub fn locked_by(self, why: Option<&'a str>) -> Self {
+        Self { locked: self.locked || why.is_some(), why, ..self }
+    }
+
+    pub fn is_locked(&self) -> bool {
+        self.locked
     }
 
     /// Adds a chevron, for a button that opens something below it.
@@ -114,7 +125,10 @@ impl<'a> Button<'a> {
             }
         }
         paint::focus_ring(ui, &response, RADIUS);
-        response
+        match self.why {
+            Some(why) => response.on_hover_text(why),
+            None => response,
+        }
     }
 }
 

@@ -1,7 +1,7 @@
 //! The menu of what is shown: by the secondary mouse button, and with the focus by the menu key
 //! or Shift F10.
 
-use egui::{Id, Key, Modifiers, Popup, Response, SetOpenCommand, Ui};
+use egui::{Button, Id, Key, Modifiers, Popup, Response, SetOpenCommand, Ui};
 
 use super::{close_key, menu};
 
@@ -45,8 +45,16 @@ pub fn show(ui: &Ui, response: &Response, contents: impl FnOnce(&mut Ui)) {
 
 /// Shows an entry of the menu of `response`; returns `true` if it was chosen.
 pub fn entry(ui: &mut Ui, response: Id, words: &str) -> bool {
-    let entry = ui.button(words);
-    if ui.data_mut(|data| data.remove_temp(wants_focus(response)).unwrap_or(false)) {
+    entry_locked_by(ui, response, words, None)
+}
+
+/// The same for an entry that cannot be chosen where there is a reason, which whoever points at it
+/// reads.
+pub fn entry_locked_by(ui: &mut Ui, response: Id, words: &str, why: Option<&str>) -> bool {
+    let entry = ui.add_enabled(why.is_none(), Button::new(words));
+    let entry = entry.on_disabled_hover_text(why.unwrap_or_default());
+    if why.is_none() && ui.data_mut(|data| data.remove_temp(wants_focus(response)).unwrap_or(false))
+    {
         entry.request_focus();
     }
     entry.clicked()

@@ -27,7 +27,8 @@ impl DropDown<'_> {
     /// closes it.
     pub fn show(self, ui: &Ui, rect: Rect, choices: impl FnOnce(&mut Ui)) -> Response {
         let response = self.button.chevron().show(ui, self.salt, rect);
-        response.widget_info(|| WidgetInfo::labeled(Role::ComboBox, true, self.name));
+        let is_free = !self.button.is_locked();
+        response.widget_info(|| WidgetInfo::labeled(Role::ComboBox, is_free, self.name));
         menu::show(
             &response,
             Popup::menu(&response).width(rect.width()).accessible_name(self.name),

@@ -40,7 +40,7 @@ pub fn show(ui: &Ui, rect: Rect, model: &ModeModel<'_>) -> Option<Intent> {
         .iter()
         .map(|mode| {
             let state = if model.is_locked {
-                Segment::Locked
+                Segment::Locked(None)
             } else if model.pending == Some(*mode) {
                 Segment::Pending
             } else if model.current == Some(*mode) {

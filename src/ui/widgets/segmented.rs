@@ -20,8 +20,14 @@ pub enum Segment {
     Foreign,
     /// Requested, but not confirmed yet.
     Pending,
-    /// Cannot be chosen now.
-    Locked,
+    /// Cannot be chosen now. Whoever points at it reads why, unless that stands beside it.
+    Locked(Option<&'static str>),
+}
+
+impl Segment {
+    fn is_locked(self) -> bool {
+        matches!(self, Self::Locked(_))
+    }
 }
 
 /// Shows segments in `rect`, each as wide as its text needs, with the remaining width shared
@@ -48,7 +54,7 @@ pub fn show(
         let right = (x + width + spare).min(rect.right());
         let cell = Rect::from_min_max(pos2(x, rect.top()), pos2(right, rect.bottom()));
         let id = ui.make_persistent_id((salt, *word));
-        let is_free = *state != Segment::Locked;
+        let is_free = !state.is_locked();
         let sense = if is_free { egui::Sense::click() } else { egui::Sense::hover() };
         let response = cells.interact(cell, id, sense);
         let chosen = matches!(state, Segment::Chosen | Segment::Foreign);
@@ -62,7 +68,7 @@ pub fn show(
                 ui.painter().rect_filled(cell, radius, t.sat);
                 t.onsat
             }
-            Segment::Locked => t.t3,
+            Segment::Locked(_) => t.t3,
             _ if response.hovered() => {
                 ui.painter().rect_filled(cell, radius, t.bg3);
                 t.t1
@@ -80,7 +86,7 @@ pub fn show(
         over_border.push((*state, radius, response));
         x = right;
     }
-    if segments.iter().all(|(_, state)| *state == Segment::Locked) {
+    if segments.iter().all(|(_, state)| state.is_locked()) {
         paint::dashed_border(ui, rect, f32::from(RADIUS), Stroke::new(1.0, t.edge));
     } else {
         ui.painter().rect_stroke(rect, RADIUS, Stroke::new(1.0, t.edge), StrokeKind::Inside);
@@ -94,6 +100,9 @@ pub fn show(
             let inside = response.rect.shrink(1.0);
             paint::dashed_border(ui, inside, f32::from(RADIUS), Stroke::new(2.0, t.sat));
             response.clone().on_hover_text("Not by this console");
+        }
+        if let Segment::Locked(Some(why)) = state {
+            response.clone().on_hover_text(why);
         }
         paint::focus_ring(ui, &response, RADIUS);
     }

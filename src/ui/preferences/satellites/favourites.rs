@@ -142,7 +142,7 @@ pub(super) fn limits_form<'a>(ui: &Ui, around: &'a Around<'_>) -> LimitsForm<'a>
         width: ui.available_width(),
         label_width: form::LABEL + form::GAP,
         antennas: &around.antennas,
-        can_change: true,
+        lock: None,
     }
 }
 
