@@ -183,8 +183,15 @@ impl Engine {
             .filter(|_| !matches!(self.station_claim, super::StationClaim::Theirs(_)));
         match (path, &self.recording.recorder) {
             (Some(path), Some((at, recorder))) if path == *at => recorder.keep(station.record),
-            (Some(path), _) => self.recording.begin(path, &self.clock, station.record),
-            (None, _) => self.recording.recorder = None,
+            (path, before) => {
+                if before.is_some() {
+                    self.report_last_passes();
+                }
+                match path {
+                    Some(path) => self.recording.begin(path, &self.clock, station.record),
+                    None => self.recording.recorder = None,
+                }
+            }
         }
         self.record_has_grown();
         self.read_peaks();

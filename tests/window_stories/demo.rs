@@ -1,6 +1,6 @@
 //! Demo station: a simulated unit of each make, behind real links.
 
-use std::{collections::BTreeMap, fs, net::TcpStream};
+use std::{collections::BTreeMap, fs, net::TcpStream, sync::Arc};
 
 use azel::{
     app::App,
@@ -8,18 +8,20 @@ use azel::{
     clock::Clock,
     device::{Measured, panel::Act, settings::Value},
     driver::{Command, LinkState, StopState},
-    engine::{self, alarms::AlarmKind},
+    engine::{self, Handle, Settings, alarms::AlarmKind},
     makes,
     model::{Model, UiCommand, View},
+    record::{Query, Record, Row, RowKind},
     station,
 };
 use egui::{Key, Role};
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
+use jiff::ToSpan as _;
 
 use crate::window_stories::{
     rig,
     settings_rig::says,
-    unit::{RealWindow, open_as, open_demo, step_until, wait_until},
+    unit::{RealWindow, clock_from, open_as, open_demo, step_until, wait_until},
 };
 
 const SATRAK: usize = 0;
@@ -166,6 +168,49 @@ fn a_station_of_somebody_else_is_not_overwritten_by_the_set_up() {
     });
     assert!(window.state().model().demo, "it goes on");
     assert_eq!(fs::read_to_string(&path).unwrap(), theirs);
+}
+
+#[test]
+fn a_pass_under_way_is_reported_before_a_station_of_ones_own_comes_into_use() {
+    let folder = tempfile::tempdir().unwrap();
+    let records = folder.path().join("records");
+    let settings = Settings {
+        path: Some(folder.path().join("station.toml")),
+        library: Some(folder.path().join("elements")),
+        records: Some(records.clone()),
+        dead_man: Some(env!("CARGO_BIN_EXE_azel").into()),
+        ..Settings::default()
+    };
+    let running = Handle::start(settings, clock_from(rig::now()), Arc::new(|| ())).unwrap();
+    let client = running.client();
+    wait_until("an antenna and a pass to track", || {
+        let shown = client.snapshot();
+        let now = client.now().utc;
+        let satrak = shown.antennas.get(SATRAK);
+        let satrak = satrak.filter(|satrak| satrak.snapshot.state.measured.is_some());
+        let passes = shown.pass_lists.favourites.upcoming(now);
+        let pass = passes.iter().find(|pass| pass.in_progress(now));
+        let Some((satrak, pass)) = satrak.zip(pass) else { return false };
+        let (antenna, pass) = (satrak.id(), pass.key());
+        client.send(engine::Command::ProgramTrackPass { antenna, pass }).is_ok()
+    });
+    wait_until("the track", || client.snapshot().antennas[SATRAK].tracks());
+    let tracked_at = client.now().utc;
+    // It is taken up within a second.
+    wait_until("the pass", || client.now().utc > tracked_at + 2.seconds());
+    let own = station::Station { antennas: Vec::new(), ..station::Station::default() };
+    client.send(engine::Command::SaveStation(Box::new(own))).unwrap();
+    wait_until("the station of one's own", || !client.snapshot().demo);
+    let query = Query { what: vec![RowKind::Pass], ..Query::default() };
+    let mut passes = Vec::new();
+    let mut record = Record::open(&engine::demo_record_path(&records)).unwrap();
+    let mut take = |row: Row| {
+        passes.push(row.data);
+        true
+    };
+    record.read(&query, &mut take).unwrap();
+    let [pass] = &passes[..] else { panic!("{passes:?}") };
+    assert_eq!(pass["report"]["tracked_by"], "program_track", "{pass}");
 }
 
 #[test]

@@ -32,7 +32,7 @@ const REACH_S: f64 = 6.0 * 3600.0;
 const AFTER_S: f64 = 3.0;
 /// A pass that is not there is looked for again after this time, seconds.
 const SOUGHT_AGAIN_S: f64 = 60.0;
-/// Time for the reports that are not ready when the program ends.
+/// Time for the reports that are not ready when the record ends.
 const LAST_WITHIN: Duration = Duration::from_secs(1);
 /// Time between two samples for the trackability, seconds.
 const STEP_S: f64 = 2.0;
@@ -89,7 +89,8 @@ impl Engine {
         self.begin_reports(|pass| seconds_between(pass.until, now) > AFTER_S);
     }
 
-    /// The program ends: what is known of the passes under way is written as well.
+    /// The record ends, with the program or because another one begins: what is known of the passes under
+    /// way is written as well.
     pub(in crate::engine) fn report_last_passes(&mut self) {
         let now = self.now;
         self.look_at_passes();
@@ -104,7 +105,7 @@ impl Engine {
                 &self.recording.recorder,
             ) {
                 (Some(note), Some((_, recorder))) => recorder.note_pass(note),
-                (None, _) => tracing::error!("a pass without a report: the program ended"),
+                (None, _) => tracing::error!("a pass without a report: its record ended"),
                 (Some(_), None) => {}
             }
         }
