@@ -1,10 +1,12 @@
 //! The strip over a replay: what is shown, and how it goes on.
 
+mod end;
 mod scrubber;
 
 use egui::{Align2, Color32, Rect, Response, Role, Shape, Stroke, StrokeKind, Ui, pos2, vec2};
 use jiff::Timestamp;
 
+pub use self::end::show as show_end;
 use self::scrubber::scrubber;
 
 use super::{
@@ -21,7 +23,7 @@ use crate::{
     astro::time::seconds_between,
     model::{
         Model, UiCommand,
-        replay::{JumpNews, ReplayCommand, ReplayEnd, ReplayProblem, Replayed, SPEEDS},
+        replay::{JumpNews, ReplayCommand, ReplayProblem, Replayed, SPEEDS},
     },
 };
 
@@ -70,46 +72,6 @@ pub fn locked(antenna: &str) -> String {
 /// Whether the keys of a replay work: no control has the focus that takes some of them itself.
 pub fn takes_keys(ui: &Ui) -> bool {
     ui.memory(egui::Memory::focused).is_none_or(|focused| focused == scrubber::id())
-}
-
-/// Shows in place of the strip why a replay has ended by itself. It stands until the operator closes
-/// it or opens another view: without it every control would move under the pointer.
-pub fn show_end(
-    ui: &Ui,
-    rect: Rect,
-    why: &ReplayEnd,
-    now: Timestamp,
-    commands: &mut Vec<UiCommand>,
-) {
-    let t = theme::tokens(ui);
-    ui.painter().rect_filled(rect, 0.0, t.warnbg);
-    ui.painter().hline(rect.x_range(), rect.top() + 0.5, (1.0, t.warn));
-    let close = Button::normal("Close");
-    let at = at_the_end(ui, rect, close);
-    let words = ended(why, now);
-    let room = rect.shrink2(vec2(2.0 * GAP, 0.0)).with_max_x(at.left() - GAP);
-    let font = if rect.height() >= HEIGHT { text::value() } else { text::body_medium() };
-    paint::text_in(ui, room, Align2::LEFT_CENTER, &words, font, t.warn);
-    paint::name_text(ui, "end of the replay", room, &words);
-    if close.show(ui, "close the end", at).clicked() {
-        commands.push(UiCommand::Replay(ReplayCommand::Leave));
-    }
-}
-
-/// Why a replay ended by itself, in a sentence.
-fn ended(why: &ReplayEnd, now: Timestamp) -> String {
-    match why {
-        ReplayEnd::Stop => "Replay ended: STOP was pressed.".to_owned(),
-        ReplayEnd::Alarm => "Replay ended: a top-priority alarm came.".to_owned(),
-        ReplayEnd::Pass { antenna, satellite, from } if *from > now => {
-            let left = format::time_left(now, *from);
-            format!("Replay ended: {antenna} is to track {satellite} in {left}.")
-        }
-        ReplayEnd::Pass { antenna, satellite, from } => {
-            let at = format::moment(*from, now);
-            format!("Replay ended: {antenna} was to track {satellite} from {at} on.")
-        }
-    }
 }
 
 /// Shows the strip.
