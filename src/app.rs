@@ -10,6 +10,7 @@ mod change;
 mod effects;
 mod export;
 mod folder;
+pub mod frames;
 mod intake;
 mod known;
 mod log_file;

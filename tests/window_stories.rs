@@ -14,6 +14,7 @@ mod every_view;
 mod extremes;
 mod following;
 mod fourth_make;
+mod frames;
 mod ghost;
 mod holds;
 mod horizon;

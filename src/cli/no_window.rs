@@ -17,16 +17,23 @@ const OF_X11: [(&[&str], &str); 7] = [
     (&["libEGL.so.1", "libGL.so.1"], "libgl1"),
 ];
 
+/// The sentence for a display that takes windows and offers nothing to paint them with.
+pub(super) fn nothing_paints() -> String {
+    let (missing, cure) = if cfg!(feature = "wgpu") {
+        ("Vulkan", "A build without `--features wgpu` uses OpenGL instead.")
+    } else {
+        ("OpenGL", "A build with `--features wgpu` uses Vulkan instead.")
+    };
+    let why = || {
+        format!("The window could not be opened, because this display offers no {missing}. {cure}")
+    };
+    no_library().unwrap_or_else(why)
+}
+
 /// The sentence for `error`, as the window toolkit says it.
 pub(super) fn reason(error: &str) -> String {
-    let missing = if cfg!(target_os = "linux") { missing(&folders()) } else { Vec::new() };
-    if let [(library, _), ..] = missing[..] {
-        let packages: Vec<&str> = missing.iter().map(|(_, package)| *package).collect();
-        return format!(
-            "The window could not be opened, because {library} is missing. \
-             On Debian and Ubuntu: apt install {}",
-            packages.join(" ")
-        );
+    if let Some(sentence) = no_library() {
+        return sentence;
     }
     if error.contains("Failed to open connection to X server") {
         let display = env::var("DISPLAY").unwrap_or_default();
@@ -34,12 +41,19 @@ pub(super) fn reason(error: &str) -> String {
             "The window could not be opened, because no X server answers at DISPLAY={display}."
         );
     }
-    if error.contains("glutin") {
-        return "The window could not be opened, because this display offers no OpenGL. \
-                A build with `--features wgpu` uses Vulkan instead."
-            .to_owned();
-    }
     format!("The window could not be opened: {}", without_place(error))
+}
+
+/// The sentence for a system without a library that the window needs.
+fn no_library() -> Option<String> {
+    let missing = if cfg!(target_os = "linux") { missing(&folders()) } else { Vec::new() };
+    let (library, _) = missing.first()?;
+    let packages: Vec<&str> = missing.iter().map(|(_, package)| *package).collect();
+    Some(format!(
+        "The window could not be opened, because {library} is missing. \
+         On Debian and Ubuntu: apt install {}",
+        packages.join(" ")
+    ))
 }
 
 /// The text without the place in the source of a library that stands before it, as in

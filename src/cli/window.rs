@@ -1,15 +1,21 @@
 //! Start of the window, or one sentence why it cannot open.
 
 use std::{
+    cell::RefCell,
+    io,
     panic::{self, AssertUnwindSafe},
     path::{Path, PathBuf},
+    sync::{Mutex, PoisonError},
+    time::Instant,
 };
 
 use anyhow::{anyhow, bail};
-use egui::{Vec2, vec2};
+use eframe::UserEvent;
+use egui::{Context, Vec2, vec2};
+use winit::event_loop::EventLoop;
 
 use crate::{
-    app::App,
+    app::{App, frames},
     cli::{marks, no_window, this_program, work_area::WorkArea},
     clock::Clock,
     engine::{
@@ -66,28 +72,21 @@ pub(super) fn run(station: Option<PathBuf>, demo: bool) -> anyhow::Result<()> {
             tracing::error!("{panic}");
         }
     }));
-    let outcome = panic::catch_unwind(AssertUnwindSafe(|| {
-        eframe::run_native(
-            "Azel",
-            options,
-            Box::new(move |cc| {
-                if let Some(area) = work_area {
-                    let points = area.points(cc.egui_ctx.native_pixels_per_point().unwrap_or(1.0));
-                    let size = fitting(points);
-                    cc.egui_ctx.send_viewport_cmd(egui::ViewportCommand::InnerSize(size));
-                }
-                let mut app =
-                    App::new(&cc.egui_ctx, &settings, Clock::system())?.with_notifier()?;
-                if let Some(folder) = folder {
-                    app = app.with_stations_in(folder);
-                }
-                Ok(Box::new(if demo { app.without_set_up() } else { app }))
-            }),
-        )
-    }));
+    let create = |ctx: &Context| {
+        if let Some(area) = work_area {
+            let points = area.points(ctx.native_pixels_per_point().unwrap_or(1.0));
+            ctx.send_viewport_cmd(egui::ViewportCommand::InnerSize(fitting(points)));
+        }
+        let mut app = App::new(ctx, &settings, Clock::system())?.with_notifier()?;
+        if let Some(folder) = folder {
+            app = app.with_stations_in(folder);
+        }
+        Ok(if demo { app.without_set_up() } else { app })
+    };
+    let outcome = panic::catch_unwind(AssertUnwindSafe(|| show(options, create)));
     panic::set_hook(hook);
     match outcome {
-        Ok(result) => result.map_err(|error| anyhow!(no_window::reason(&error.to_string()))),
+        Ok(result) => result.map_err(|why| anyhow!(why)),
         Err(panic) => {
             let why = panic
                 .downcast_ref::<String>()
@@ -100,6 +99,42 @@ pub(super) fn run(station: Option<PathBuf>, demo: bool) -> anyhow::Result<()> {
             bail!("The window broke down: {why}")
         }
     }
+}
+
+/// Shows the app that `create` makes until its window is closed, or says why there is none.
+fn show(
+    options: eframe::NativeOptions,
+    create: impl FnOnce(&Context) -> io::Result<App>,
+) -> Result<(), String> {
+    let events = EventLoop::<UserEvent>::with_user_event().build();
+    let events = events.map_err(|error| no_window::reason(&error.to_string()))?;
+    let draws = Mutex::new(events.create_proxy());
+    let draw = move |asked: egui::RequestRepaintInfo| {
+        let event = UserEvent::RequestRepaint {
+            viewport_id: asked.viewport_id,
+            when: Instant::now() + asked.delay,
+            cumulative_pass_nr: asked.current_cumulative_pass_nr,
+        };
+        // Without its loop the window is gone.
+        let _ = draws.lock().unwrap_or_else(PoisonError::into_inner).send_event(event);
+    };
+    // The toolkit keeps its errors to itself: what would paint the window is missing unless the
+    // app says otherwise.
+    let made = RefCell::new(Err(no_window::nothing_paints()));
+    let create: eframe::AppCreator<'_> = Box::new(|cc| {
+        frames::draw_once(&cc.egui_ctx, draw);
+        let app = create(&cc.egui_ctx);
+        *made.borrow_mut() = match &app {
+            Ok(_) => Ok(()),
+            Err(error) => Err(no_window::reason(&error.to_string())),
+        };
+        Ok(Box::new(app?))
+    });
+    let mut window = eframe::create_native("Azel", options, create, &events);
+    let ended = events.run_app(&mut window);
+    drop(window);
+    made.into_inner()?;
+    ended.map_err(|error| no_window::reason(&error.to_string()))
 }
 
 /// Size of a window that stays clear of the panels of a desktop with `room` points for it.

@@ -1,0 +1,45 @@
+//! One frame for each request.
+//!
+//! The toolkit draws two frames for each request, and asks for one after every input, so that
+//! whatever comes a frame late is shown. Where the processor paints the window, most of the price
+//! of a key is that last frame. What would come later still comes with the frame of the full
+//! second.
+
+use std::sync::{
+    Arc,
+    atomic::{AtomicBool, Ordering},
+};
+
+use egui::{Context, Event, Plugin, RawInput, RequestRepaintInfo};
+
+/// Calls `draw` for each frame that is requested of `ctx`, in place of what was told before.
+pub fn draw_once(ctx: &Context, draw: impl Fn(RequestRepaintInfo) + Send + Sync + 'static) {
+    let only_lets_go = Arc::<AtomicBool>::default();
+    ctx.add_plugin(LetsGo(Arc::clone(&only_lets_go)));
+    ctx.set_request_repaint_callback(|_| {});
+    ctx.set_repaint_observer(move |asked| {
+        // The first request of a frame with input is for the frame after that input.
+        if !(asked.delay.is_zero() && only_lets_go.swap(false, Ordering::Relaxed)) {
+            draw(asked);
+        }
+    });
+}
+
+/// Notes whether the input of a frame only lets go of keys. Nothing comes of that a frame late.
+struct LetsGo(Arc<AtomicBool>);
+
+impl Plugin for LetsGo {
+    fn debug_name(&self) -> &'static str {
+        "frames"
+    }
+
+    fn input_hook(&mut self, ctx: &Context, input: &mut RawInput) {
+        let lets_go = |event: &Event| {
+            matches!(event, Event::Key { pressed: false, .. } | Event::ModifiersChanged(_))
+        };
+        let only = !input.events.is_empty() && input.events.iter().all(lets_go);
+        // A list still glides after the wheel.
+        let glides = ctx.input(egui::InputState::is_scrolling);
+        self.0.store(only && !glides, Ordering::Relaxed);
+    }
+}
