@@ -33,8 +33,14 @@ pub(super) fn show(
         ui.ctx().accesskit_node_builder(ui.unique_id(), |node| node.set_role(Role::ListBox));
         ui.spacing_mut().item_spacing = vec2(0.0, 0.0);
         let mut area = ScrollArea::vertical().id_salt("passes").auto_shrink(false);
-        if gone != 0.0 {
-            area = area.vertical_scroll_offset((state.offset - gone * row::HEIGHT).max(0.0));
+        let mut offset = (state.offset - gone * row::HEIGHT).max(0.0);
+        if let Some(index) = selected {
+            // Before the rows are placed: afterwards it would take one more frame.
+            let top = index as f32 * row::HEIGHT;
+            offset = offset.min(top).max(top + row::HEIGHT - rect.height());
+        }
+        if gone != 0.0 || selected.is_some() {
+            area = area.vertical_scroll_offset(offset);
         }
         let shown = area.show_rows(ui, row::HEIGHT, model.rows, |ui, range| {
             let top = ui.max_rect().top();
@@ -43,9 +49,6 @@ pub(super) fn show(
                 let min = pos2(rect.left(), top + down);
                 Rect::from_min_size(min, vec2(rect.width(), row::HEIGHT))
             };
-            if let Some(index) = selected {
-                into_view(ui, place(index));
-            }
             // One more row above those in view, so that the focus can reach it; below there is one
             // already.
             for index in range.start.saturating_sub(1)..range.end {
