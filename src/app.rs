@@ -415,5 +415,7 @@ impl eframe::App for App {
         for command in commands {
             self.carry_out(command, ui.ctx());
         }
+        // The answer is there for the next frame.
+        self.look();
     }
 }

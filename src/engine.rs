@@ -340,6 +340,8 @@ impl Engine {
     async fn run(mut self, mut inbox: mpsc::Receiver<Request>) {
         let woken = Arc::clone(&self.woken);
         loop {
+            // A look at another pass is answered in the next frame, which follows in any case.
+            let mut is_look_alone = true;
             let mut request = tokio::select! {
                 biased;
                 request = inbox.recv() => match request {
@@ -347,6 +349,7 @@ impl Engine {
                     None => break,
                 },
                 () = woken.notified() => {
+                    is_look_alone = false;
                     // More may come in at the same moment; a request does not have to wait
                     // for it.
                     match self.clock.timeout(BREATH, inbox.recv()).await {
@@ -370,6 +373,7 @@ impl Engine {
             let mut is_jog_alone = request.is_some();
             while let Some(next) = request {
                 is_jog_alone &= next.is_jog();
+                is_look_alone &= next.is_look(self.attention.list);
                 self.take_request(next);
                 request = inbox.try_recv().ok();
             }
@@ -380,14 +384,16 @@ impl Engine {
             // Wakes until now are handled by this turn.
             tokio::select! {
                 biased;
-                () = woken.notified() => {}
+                () = woken.notified() => is_look_alone = false,
                 () = std::future::ready(()) => {}
             }
             self.turn(turn);
             // A STOP pressed meanwhile has not reached a session that was opened meanwhile.
             self.take_urgent();
             self.publish();
-            (self.outbox.wake)();
+            if !is_look_alone {
+                (self.outbox.wake)();
+            }
         }
         self.take_urgent();
         self.set_time();

@@ -12,7 +12,7 @@ use std::{
 use serde::{Deserialize, Serialize};
 use tokio::sync::{Notify, mpsc, watch};
 
-use super::{Command, Engine, Settings, Snapshot, claim::HolderKind};
+use super::{Command, Engine, Settings, Snapshot, claim::HolderKind, passes::ListChoice};
 use crate::{
     clock::{Clock, Instant, Moment},
     driver::{self, Orders, Outside, Stopper, WireLog},
@@ -44,6 +44,11 @@ impl Request {
     /// Returns `true` for a held jog key.
     pub(super) fn is_jog(&self) -> bool {
         matches!(self.command, Command::Antenna(_, driver::Command::Jog { .. }))
+    }
+
+    /// Returns `true` for a look at another pass, with the pass list as it was.
+    pub(super) fn is_look(&self, list: ListChoice) -> bool {
+        matches!(self.command, Command::Look(attention) if attention.list == list)
     }
 }
 
