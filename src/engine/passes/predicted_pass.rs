@@ -158,7 +158,13 @@ impl PredictedPass {
 
     /// Trackability of the pass with this antenna; `None` without one.
     pub fn trackability(&self, antenna: usize) -> Option<Trackability> {
+        self.observer.antennas.get(antenna)?;
         self.outline().trackability.get(antenna).copied()
+    }
+
+    /// Returns `true` once its outline is worked out, which takes a tenth of a millisecond.
+    pub fn has_outline(&self) -> bool {
+        self.outline.get().is_some()
     }
 
     /// Like [`Self::trackability`], without keeping what was computed: for looking through a

@@ -134,11 +134,5 @@ pub(super) fn search(
     passes.par_sort_by_key(|predicted| {
         (predicted.is_always_up(), predicted.pass.aos.time, predicted.number())
     });
-    if key.scope != SearchScope::All {
-        // The strip shows all of them from the first frame on.
-        passes.par_iter().for_each(|predicted| {
-            predicted.path();
-        });
-    }
     Found { satellites, passes }
 }

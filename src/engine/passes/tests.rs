@@ -5,6 +5,7 @@ use std::{
 
 use super::*;
 use crate::{
+    astro::Site,
     makes::DemoAddresses,
     orbit::{bundled, read_element_bytes, write_omm_json},
 };
@@ -97,6 +98,17 @@ fn all_satellites_are_listed_and_found_and_the_followed_ones_stay_apart() {
     assert!(
         fixture.pass_lists.satellite(ISS).is_some() && fixture.pass_lists.satellite(7).is_none()
     );
+}
+
+#[test]
+fn no_pass_is_outlined_before_somebody_looks_at_it() {
+    let mut fixture = Fixture::new();
+    fixture.finish();
+    let listed = || fixture.pass_lists.favourites.passes.iter().chain(&*fixture.all().passes);
+    assert!(listed().next().is_some() && !listed().any(PredictedPass::has_outline));
+    let pass = &fixture.pass_lists.favourites.passes[0];
+    assert!(pass.trackability(99).is_none() && !pass.has_outline(), "no such antenna");
+    assert!(pass.trackability(0).is_some() && pass.has_outline());
 }
 
 #[test]

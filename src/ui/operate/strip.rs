@@ -19,6 +19,11 @@ use crate::{
     },
 };
 
+/// Maximum number of passes in one frame of which it is worked out what the mount can do, some
+/// milliseconds of work. The schedule is there sooner than that of many favourites, and needs none
+/// of it.
+const NEW_OUTLINES: usize = 48;
+
 /// A strip of this width shows a whole day.
 const LONG_FROM: f32 = 1000.0;
 
@@ -71,12 +76,16 @@ pub(super) fn show(
     timeline::show(ui, rect, &strip, commands);
 }
 
-/// The passes to come with what the mount can do of them.
+/// The passes to come with what the mount can do of them. Until that is worked out, a pass is shown
+/// as one that can be tracked.
 fn bars_of_mount(model: &Model, antenna: usize, end: Timestamp) -> Vec<Bar<'_>> {
+    let mut left = NEW_OUTLINES;
     let ahead = model.pass_lists.favourites.upcoming(model.now);
     let shown = ahead.iter().filter(|it| !it.is_always_up() && it.pass.aos.time < end);
     let bars = shown.map(|predicted| {
-        let trackability = predicted.trackability(antenna);
+        let is_new = !predicted.has_outline();
+        let trackability = if is_new && left == 0 { None } else { predicted.trackability(antenna) };
+        left = left.saturating_sub(usize::from(is_new));
         let impossible = matches!(trackability, Some(Trackability::Nothing | Trackability::TooLow));
         let loses = matches!(trackability, Some(Trackability::Loses { .. }));
         bar(predicted, State::Mount { can_track: !impossible }, loses)
