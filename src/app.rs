@@ -4,6 +4,7 @@
 //! Invariants: this thread never blocks and never does I/O; views change nothing, they
 //! queue [`UiCommand`]s.
 
+mod begun;
 mod carry_out;
 mod catalog_table;
 mod change;
@@ -25,12 +26,13 @@ use std::{
     io,
     path::{Path, PathBuf},
     sync::{
-        Arc, Mutex, PoisonError,
+        Arc, Mutex,
         atomic::{AtomicBool, Ordering},
     },
     time::Duration,
 };
 
+pub use self::begun::Begun;
 use self::{
     catalog_table::CatalogWork,
     change::{Change, FileDialog},
@@ -52,7 +54,7 @@ use crate::{
     desktop::Desktop,
     device::AxisMotion,
     driver::Outside,
-    engine::{self, By, Client, Handle, Settings, antenna::AntennaModel, signals},
+    engine::{self, Client, Handle, Settings, antenna::AntennaModel},
     job::Wake,
     model::{Appearance, Model, UiCommand, View},
     ui,
@@ -117,14 +119,18 @@ impl App {
         settings: &Settings,
         outside: impl Into<Outside>,
     ) -> io::Result<Self> {
-        let outside = outside.into();
+        Ok(Self::on(Begun::start(settings.clone(), outside)?, ctx))
+    }
+
+    /// The same on a station that has begun before.
+    pub fn on(begun: Begun, ctx: &egui::Context) -> Self {
+        begun.show_in(ctx);
+        let Begun { station, settings, outside, wake, client, may_close, told_to_end, .. } = begun;
         let clock = outside.clock.clone();
         let keeper = Keeper::beside(settings.station_path().as_deref());
         ui::theme::install(ctx, keeper.memory.appearance.theme);
-        let wake = wake(ctx.clone());
         let library = settings.library_path();
         let (log_work, mask_work) = (LogWork::beside(library.clone()), MaskWork::beside(library));
-        let station = Handle::start(settings.clone(), outside.clone(), Arc::clone(&wake))?;
         let mut model = Model::before_anything(clock.now());
         (model.list, model.view) = (keeper.memory.list, keeper.memory.view);
         // The list outlives the folder that the program was started in.
@@ -133,15 +139,11 @@ impl App {
         let folder = model.stations.open.as_deref().and_then(Path::parent).map(Path::to_path_buf);
         let known_work;
         (known_work, model.stations.known) = KnownWork::beside(folder.as_deref());
-        let client = Arc::new(Mutex::new(station.client().clone()));
-        let (may_close, told_to_end) = (Arc::default(), Arc::default());
-        let flags = [Arc::clone(&may_close), Arc::clone(&told_to_end)];
-        close_on_signals(Arc::clone(&client), flags, ctx.clone())?;
-        Ok(Self {
+        Self {
             model,
             views: ui::Views::with(keeper.memory.views.clone()),
             station,
-            settings: settings.clone(),
+            settings,
             stations_folder: folder,
             outside,
             client,
@@ -168,7 +170,7 @@ impl App {
             may_close,
             told_to_end,
             drawn: false,
-        })
+        }
     }
 
     /// Tells alarms and reminders to the desktop of this session, too.
@@ -327,36 +329,6 @@ impl Drop for App {
         self.remember();
         self.keeper.finish(&self.wake);
     }
-}
-
-/// Makes a log-out or Ctrl C in the terminal close the window in order, so that a jog ends
-/// with STOP.
-fn close_on_signals(
-    station: Arc<Mutex<Client>>,
-    flags: [Arc<AtomicBool>; 2],
-    ctx: egui::Context,
-) -> io::Result<()> {
-    // No code panics while it holds the lock.
-    let stop = move || {
-        let station = station.lock().unwrap_or_else(PoisonError::into_inner).clone();
-        station.acting_for(By::Signal).stop_all()
-    };
-    let end = move || {
-        for flag in flags {
-            flag.store(true, Ordering::Relaxed);
-        }
-        ctx.send_viewport_cmd_to(egui::ViewportId::ROOT, egui::ViewportCommand::Close);
-        ctx.request_repaint_after_for(Duration::from_millis(1), egui::ViewportId::ROOT);
-    };
-    signals::watch(stop, end)
-}
-
-/// A waker that requests a frame soon. A non-zero delay gives one frame instead of two and
-/// merges all requests in between.
-fn wake(ctx: egui::Context) -> Wake {
-    Arc::new(move || {
-        ctx.request_repaint_after_for(Duration::from_millis(30), egui::ViewportId::ROOT);
-    })
 }
 
 impl eframe::App for App {

@@ -15,7 +15,7 @@ use egui::{Context, Vec2, vec2};
 use winit::event_loop::EventLoop;
 
 use crate::{
-    app::{App, frames},
+    app::{App, Begun, frames},
     cli::{marks, no_window, this_program, work_area::WorkArea},
     clock::Clock,
     engine::{
@@ -58,7 +58,9 @@ pub(super) fn run(station: Option<PathBuf>, demo: bool) -> anyhow::Result<()> {
         viewport: egui::ViewportBuilder::default()
             .with_app_id("azel")
             .with_inner_size(USUAL)
-            .with_min_inner_size(SMALLEST),
+            .with_min_inner_size(SMALLEST)
+            // The toolkit would unpack its own, a megabyte.
+            .with_icon(egui::IconData::default()),
         // Off: flat colours do not need it, and a software renderer pays for it in every pixel.
         dithering: false,
         ..Default::default()
@@ -72,18 +74,19 @@ pub(super) fn run(station: Option<PathBuf>, demo: bool) -> anyhow::Result<()> {
             tracing::error!("{panic}");
         }
     }));
-    let create = |ctx: &Context| {
+    let begin = || Begun::start(settings, Clock::system());
+    let create = |begun: Begun, ctx: &Context| {
         if let Some(area) = work_area {
             let points = area.points(ctx.native_pixels_per_point().unwrap_or(1.0));
             ctx.send_viewport_cmd(egui::ViewportCommand::InnerSize(fitting(points)));
         }
-        let mut app = App::new(ctx, &settings, Clock::system())?.with_notifier()?;
+        let mut app = App::on(begun, ctx).with_notifier()?;
         if let Some(folder) = folder {
             app = app.with_stations_in(folder);
         }
         Ok(if demo { app.without_set_up() } else { app })
     };
-    let outcome = panic::catch_unwind(AssertUnwindSafe(|| show(options, create)));
+    let outcome = panic::catch_unwind(AssertUnwindSafe(|| show(options, begin, create)));
     panic::set_hook(hook);
     match outcome {
         Ok(result) => result.map_err(|why| anyhow!(why)),
@@ -101,13 +104,17 @@ pub(super) fn run(station: Option<PathBuf>, demo: bool) -> anyhow::Result<()> {
     }
 }
 
-/// Shows the app that `create` makes until its window is closed, or says why there is none.
+/// Shows the app that `create` makes of what has begun until its window is closed, or says why there
+/// is none.
 fn show(
     options: eframe::NativeOptions,
-    create: impl FnOnce(&Context) -> io::Result<App>,
+    begin: impl FnOnce() -> io::Result<Begun>,
+    create: impl FnOnce(Begun, &Context) -> io::Result<App>,
 ) -> Result<(), String> {
     let events = EventLoop::<UserEvent>::with_user_event().build();
     let events = events.map_err(|error| no_window::reason(&error.to_string()))?;
+    // There is a display: while the system makes the window, elements are read and passes searched.
+    let begun = begin().map_err(|error| no_window::reason(&error.to_string()))?;
     let draws = Mutex::new(events.create_proxy());
     let draw = move |asked: egui::RequestRepaintInfo| {
         let event = UserEvent::RequestRepaint {
@@ -123,7 +130,7 @@ fn show(
     let made = RefCell::new(Err(no_window::nothing_paints()));
     let create: eframe::AppCreator<'_> = Box::new(|cc| {
         frames::draw_once(&cc.egui_ctx, draw);
-        let app = create(&cc.egui_ctx);
+        let app = create(begun, &cc.egui_ctx);
         *made.borrow_mut() = match &app {
             Ok(_) => Ok(()),
             Err(error) => Err(no_window::reason(&error.to_string())),

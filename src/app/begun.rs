@@ -1,0 +1,91 @@
+//! A station that begins before its window: elements are read and units are asked while the
+//! system makes the window.
+
+use std::{
+    io,
+    sync::{
+        Arc, Mutex, OnceLock, PoisonError,
+        atomic::{AtomicBool, Ordering},
+    },
+    time::Duration,
+};
+
+use egui::{Context, ViewportCommand, ViewportId};
+
+use crate::{
+    driver::Outside,
+    engine::{By, Client, Handle, Settings, signals},
+    job::Wake,
+};
+
+/// A running station without a window.
+pub struct Begun {
+    pub(super) station: Handle,
+    pub(super) settings: Settings,
+    pub(super) outside: Outside,
+    pub(super) wake: Wake,
+    /// The station in the window, for the signals of the operating system.
+    pub(super) client: Arc<Mutex<Client>>,
+    /// The operator or the operating system has decided to close: no question is asked.
+    pub(super) may_close: Arc<AtomicBool>,
+    /// The operating system ends the program: nobody can be asked.
+    pub(super) told_to_end: Arc<AtomicBool>,
+    window: Arc<OnceLock<Context>>,
+}
+
+impl Begun {
+    /// Starts the station that `settings` name.
+    pub fn start(settings: Settings, outside: impl Into<Outside>) -> io::Result<Self> {
+        let outside = outside.into();
+        let window = Arc::default();
+        let wake = wake(Arc::clone(&window));
+        let station = Handle::start(settings.clone(), outside.clone(), Arc::clone(&wake))?;
+        let client = Arc::new(Mutex::new(station.client().clone()));
+        let (may_close, told_to_end) = (Arc::default(), Arc::default());
+        let flags = [Arc::clone(&may_close), Arc::clone(&told_to_end)];
+        close_on_signals(Arc::clone(&client), flags, Arc::clone(&window))?;
+        Ok(Self { station, settings, outside, wake, client, may_close, told_to_end, window })
+    }
+
+    /// Its window is there now.
+    pub(super) fn show_in(&self, ctx: &Context) {
+        // There is one window.
+        let _ = self.window.set(ctx.clone());
+        if self.told_to_end.load(Ordering::SeqCst) {
+            ctx.send_viewport_cmd_to(ViewportId::ROOT, ViewportCommand::Close);
+        }
+    }
+}
+
+/// Makes a log-out or Ctrl C in the terminal close the window in order, so that a jog ends
+/// with STOP.
+fn close_on_signals(
+    station: Arc<Mutex<Client>>,
+    flags: [Arc<AtomicBool>; 2],
+    window: Arc<OnceLock<Context>>,
+) -> io::Result<()> {
+    // No code panics while it holds the lock.
+    let stop = move || {
+        let station = station.lock().unwrap_or_else(PoisonError::into_inner).clone();
+        station.acting_for(By::Signal).stop_all()
+    };
+    let end = move || {
+        for flag in flags {
+            flag.store(true, Ordering::SeqCst);
+        }
+        if let Some(ctx) = window.get() {
+            ctx.send_viewport_cmd_to(ViewportId::ROOT, ViewportCommand::Close);
+            ctx.request_repaint_after_for(Duration::from_millis(1), ViewportId::ROOT);
+        }
+    };
+    signals::watch(stop, end)
+}
+
+/// A waker that requests a frame soon: the delay merges all requests in between.
+fn wake(window: Arc<OnceLock<Context>>) -> Wake {
+    Arc::new(move || {
+        if let Some(ctx) = window.get() {
+            ctx.request_repaint_after_for(Duration::from_millis(30), ViewportId::ROOT);
+        }
+    })
+}
