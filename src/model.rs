@@ -31,7 +31,7 @@ pub use self::{
     appearance::{Appearance, DistanceUnit},
     command::UiCommand,
     line::{ConsoleLine, Piece, pieces},
-    sky::{Seen, Selected, Sky},
+    sky::{CROWD, Seen, Selected, Sky},
     stations::{KnownStation, NextStation, Stations},
     theme_name::ThemeName,
 };

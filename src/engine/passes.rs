@@ -23,7 +23,7 @@ use self::{
     search::{SearchKey, SearchScope},
 };
 use crate::{
-    astro::{AzEl, Site, time::add_seconds},
+    astro::{AzEl, frames::SiteFrame, time::add_seconds},
     job::Wake,
     orbit::{Catalog, Elements},
     station::Station,
@@ -145,13 +145,18 @@ impl PassLists {
 }
 
 /// Directions of a satellite while it is up in the next `span_s`, in steps of 30 s.
-pub fn ahead(satellite: &ListedSatellite, site: Site, now: Timestamp, span_s: f64) -> Vec<AzEl> {
+pub fn ahead(
+    satellite: &ListedSatellite,
+    site: &SiteFrame,
+    now: Timestamp,
+    span_s: f64,
+) -> Vec<AzEl> {
     let steps = (span_s / 30.0) as usize;
-    (0..=steps)
-        .map_while(|step| {
-            let look = satellite.propagator.look_from(site, add_seconds(now, step as f64 * 30.0));
-            look.ok().map(|look| look.direction)
-        })
-        .take_while(|direction| direction.elevation_deg() > 0.0)
-        .collect()
+    let times: Vec<_> = (0..=steps).map(|step| add_seconds(now, step as f64 * 30.0)).collect();
+    let states = satellite.propagator.states_at(&times);
+    let places_km = states.into_iter().zip(times).map_while(|(state, at)| {
+        let place_km = state?.local(site, at).position_km;
+        (place_km.z > 0.0).then_some(place_km)
+    });
+    places_km.map(AzEl::from_enu).collect()
 }

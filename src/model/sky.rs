@@ -6,11 +6,13 @@ use jiff::Timestamp;
 
 use super::daylight::{self, SunSpan};
 use crate::{
-    astro::{AzEl, Site, sun_moon},
+    astro::{AzEl, Site, frames::SiteFrame, sun_moon},
     engine::passes::{ListedSatellite, ahead},
-    orbit::{LookAngles, is_sunlit},
+    orbit::{LookAngles, Propagator, is_sunlit},
 };
 
+/// Maximum number of satellites in the sky of which names and paths can be told apart.
+pub const CROWD: usize = 150;
 /// Length of the drawn path of a satellite that is not selected.
 const AHEAD_S: f64 = 300.0;
 /// Least time ahead of day and night.
@@ -36,7 +38,7 @@ pub struct Sky {
 pub struct Seen {
     pub satellite: Arc<ListedSatellite>,
     pub direction: AzEl,
-    /// Path of the next minutes.
+    /// Path of the next minutes; empty in a crowd.
     pub ahead: Vec<AzEl>,
 }
 
@@ -83,16 +85,25 @@ impl Sky {
         site: Site,
         at: Timestamp,
     ) -> Self {
-        let up = satellites.iter().filter_map(|satellite| {
-            let look = satellite.propagator.look_from(site, at).ok()?;
-            (look.direction.elevation_deg() > 0.0).then(|| Seen {
+        let frame = SiteFrame::from(site);
+        let wanted: Vec<_> = satellites.iter().map(|of| (&of.propagator, at)).collect();
+        let states = Propagator::states_of(&wanted).into_iter();
+        let up = satellites.iter().zip(states).filter_map(|(satellite, state)| {
+            let place_km = state?.local(&frame, at).position_km;
+            (place_km.z > 0.0).then(|| Seen {
                 satellite: Arc::clone(satellite),
-                direction: look.direction,
-                ahead: ahead(satellite, site, at, AHEAD_S),
+                direction: AzEl::from_enu(place_km),
+                ahead: Vec::new(),
             })
         });
+        let mut satellites: Vec<Seen> = up.collect();
+        if satellites.len() <= CROWD {
+            for seen in &mut satellites {
+                seen.ahead = ahead(&seen.satellite, &frame, at, AHEAD_S);
+            }
+        }
         Self {
-            satellites: up.collect(),
+            satellites,
             selected: selected.and_then(|satellite| Selected::at(satellite, site, at)),
             sun: Some(sun_moon::sun(site, at)),
             moon: Some(sun_moon::moon(site, at)),
@@ -108,5 +119,29 @@ impl Sky {
         }
         self.sun_spans_of = Some(made_of);
         self.sun_spans = daylight::spans(site, now, span_s.max(SUN_AHEAD_S));
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::orbit::bundled;
+
+    #[test]
+    fn a_satellite_stands_where_its_look_angles_are_and_has_a_path_unless_there_is_a_crowd() {
+        let at: Timestamp = "2026-08-12T11:15:30Z".parse().unwrap();
+        let site = Site::new(41.02, 29.17, 100.0).unwrap();
+        let elements = bundled().unwrap().get(54_743).unwrap().clone();
+        let propagator = Propagator::new(&elements).unwrap();
+        let look = propagator.look_from(site, at).unwrap();
+        let satellite = Arc::new(ListedSatellite { elements, propagator });
+        let sky = |count| Sky::at(&vec![Arc::clone(&satellite); count], None, site, at).satellites;
+        let few = sky(CROWD);
+        assert_eq!(few.len(), CROWD);
+        assert!(few.iter().all(|seen| seen.ahead.len() == 11));
+        assert!(few[0].direction.separation(look.direction).degrees() < 1e-9);
+        let many = sky(CROWD + 1);
+        assert_eq!(many.len(), CROWD + 1);
+        assert!(many.iter().all(|seen| seen.ahead.is_empty()));
     }
 }

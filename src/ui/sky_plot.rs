@@ -43,7 +43,7 @@ use super::{
     tokens::Tokens,
     widgets::{context_menu, paint},
 };
-use crate::astro::AzEl;
+use crate::{astro::AzEl, model::CROWD};
 
 pub(in crate::ui) use corners::LEGEND_FOOT;
 pub use scene::{
@@ -300,7 +300,7 @@ fn paint_sky(
     grid::label_rings(&mut labels, dome);
     track::label_minutes(&mut labels, &ticks, &events, scene.now, t);
     other_antennas::label(&mut labels, dome, scene, t);
-    if layers.others && layers.names {
+    if layers.others && layers.names && scene.others.len() <= CROWD {
         bodies::label_others(&mut labels, dome, scene, t);
     }
     state.labels = labels.finish();

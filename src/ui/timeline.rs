@@ -181,7 +181,7 @@ fn all_lanes(
         }
         lane_name(ui, rect.left() + MARGIN, place, lane.name, index == model.main);
         let heights = bars::fitting(&grown(place), place);
-        let bars = bars::stand(&lane.bars, |_| true, scale, place, &heights);
+        let bars = bars::stand(&lane.bars, |_| true, model.selected, scale, place, &heights);
         let of = LaneOf { antenna: lane.name, is_one_of_several: true };
         bars::show(ui, &bars, of, model, commands);
         standing.push((place, bars));
@@ -222,13 +222,20 @@ fn full(
     let of = LaneOf { antenna: shown.name, is_one_of_several: false };
     let heights = bars::fitting(&grown(lane), lane);
     let wanted = |bar: &Bar<'_>| bar.is_taken() || !two_lanes;
-    let main = bars::stand(&shown.bars, wanted, scale, lane, &heights);
+    let main = bars::stand(&shown.bars, wanted, model.selected, scale, lane, &heights);
     bars::show(ui, &main, of, model, commands);
     if two_lanes {
         ui.painter().hline(x, out.top(), (1.0, theme::tokens(ui).line));
         let name = if model.is_planned { "Left out" } else { "Out of reach" };
         lane_name(ui, rect.left() + MARGIN, out, name, false);
-        let others = bars::stand(&shown.bars, |bar| !bar.is_taken(), scale, out, &OUT_HEIGHTS);
+        let others = bars::stand(
+            &shown.bars,
+            |bar| !bar.is_taken(),
+            model.selected,
+            scale,
+            out,
+            &OUT_HEIGHTS,
+        );
         bars::show(ui, &others, of, model, commands);
     }
     lane_name(ui, rect.left() + MARGIN, sun, "Sun", false);
@@ -253,7 +260,7 @@ fn small(
     lane_name(ui, rect.left() + SMALL_MARGIN, lane, shown.name, true);
     let of = LaneOf { antenna: shown.name, is_one_of_several: false };
     let heights = bars::fitting(&HEIGHTS, lane);
-    let standing = bars::stand(&shown.bars, |_| true, scale, lane, &heights);
+    let standing = bars::stand(&shown.bars, |_| true, model.selected, scale, lane, &heights);
     bars::show(ui, &standing, of, model, commands);
     axis::time_lines(ui, scale, model, Rangef::new(lane.top() - 4.0, lane.bottom()));
     let room = lane.with_min_x(lane.left() - REACH);

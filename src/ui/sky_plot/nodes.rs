@@ -65,9 +65,10 @@ pub(super) fn satellites(
         let Some(at) = at else { continue };
         let place = Rect::from_center_size(at, Vec2::splat(TARGET));
         let response = ui.interact(place, canvas.with(("satellite", number)), Sense::click());
-        let label = spoken(name, direction);
-        response
-            .widget_info(|| WidgetInfo::selected(Role::ListBoxOption, true, is_selected, &label));
+        response.widget_info(|| {
+            let name = spoken(name, direction);
+            WidgetInfo::selected(Role::ListBoxOption, true, is_selected, name)
+        });
         ui.accesskit_node_builder(response.id, |node| node.set_selected(is_selected));
         if response.has_focus() {
             let radius = TARGET / 2.0 + 2.0;
@@ -78,7 +79,9 @@ pub(super) fn satellites(
         }
         let of = MenuOf::Satellite(number, direction);
         context_menu::show(ui, &response, |ui| menu(ui, response.id, of));
-        response.on_hover_text(tip(name, direction));
+        if response.hovered() {
+            response.on_hover_text(tip(name, direction));
+        }
     }
     chosen
 }

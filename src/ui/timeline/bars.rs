@@ -39,6 +39,10 @@ pub(super) fn fitting(wanted: &RangeInclusive<f32>, lane: Rect) -> RangeInclusiv
     wanted.start().min(highest)..=highest
 }
 
+/// From this number of bars on, one stands for all that begin within as many points.
+const MANY: usize = 400;
+const APART: f32 = 2.0;
+
 /// The antenna of a lane.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct LaneOf<'a> {
@@ -53,10 +57,11 @@ pub(super) struct Standing<'a> {
 }
 
 /// Places the wanted bars of the window in `lane`, in the order of AOS, with heights that
-/// grow with the maximum elevation from 0° to 90°.
+/// grow with the maximum elevation from 0° to 90°. Of very many, those that can be told apart.
 pub(super) fn stand<'a>(
     bars: &'a [Bar<'a>],
     wanted: impl Fn(&Bar<'_>) -> bool,
+    selected: Option<(u32, Timestamp)>,
     scale: &Scale,
     lane: Rect,
     heights: &RangeInclusive<f32>,
@@ -72,7 +77,27 @@ pub(super) fn stand<'a>(
         })
         .collect();
     standing.sort_by_key(|one| (one.bar.aos, one.bar.key));
-    standing
+    if standing.len() > MANY { told_apart(standing, selected) } else { standing }
+}
+
+/// One of all bars that begin at the same place: the selected one, else one that is taken, else the
+/// highest.
+fn told_apart(
+    standing: Vec<Standing<'_>>,
+    selected: Option<(u32, Timestamp)>,
+) -> Vec<Standing<'_>> {
+    let column = |one: &Standing<'_>| (one.rect.left() / APART).floor();
+    let rank =
+        |one: &Standing<'_>| (selected == Some(one.bar.key), one.bar.is_taken(), one.rect.height());
+    let mut apart: Vec<Standing<'_>> = Vec::new();
+    for one in standing {
+        match apart.last_mut().filter(|last| column(last) == column(&one)) {
+            Some(last) if rank(last) < rank(&one) => *last = one,
+            Some(_) => {}
+            None => apart.push(one),
+        }
+    }
+    apart
 }
 
 /// Paints the bars of an antenna, later ones above earlier ones.
@@ -247,6 +272,7 @@ fn max_elevation(bar: &Bar<'_>, separator: &str) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::astro::time::add_seconds;
 
     #[test]
     fn bars_leave_room_for_names_in_a_low_lane() {
@@ -254,5 +280,32 @@ mod tests {
         assert_eq!(fitting(&(14.0..=44.0), lane(80.0)), 14.0..=44.0);
         assert_eq!(fitting(&(14.0..=44.0), lane(59.0)), 14.0..=30.0);
         assert_eq!(fitting(&(14.0..=44.0), lane(10.0)), 8.0..=8.0);
+    }
+
+    #[test]
+    fn of_very_many_bars_the_selected_taken_and_highest_stand_for_those_beside_them() {
+        let now: Timestamp = "2026-08-12T11:15:30Z".parse().unwrap();
+        let bar = |number: u32| Bar {
+            key: (number, now),
+            name: "NOAA 20",
+            aos: add_seconds(now, f64::from(number) * 20.0),
+            los: add_seconds(now, f64::from(number) * 20.0 + 600.0),
+            max_elevation_deg: Some(f64::from(number % 7) * 10.0),
+            loses: false,
+            state: State::Mount { can_track: number % 7 < 3 },
+        };
+        let lane = Rect::from_min_size(egui::Pos2::ZERO, vec2(1000.0, 80.0));
+        let scale = Scale::new(now, 24.0, lane.x_range());
+        let shown = |count, selected| {
+            let bars: Vec<Bar<'_>> = (0..count).map(bar).collect();
+            let standing = stand(&bars, |_| true, selected, &scale, lane, &(14.0..=44.0));
+            standing.iter().map(|one| one.bar.key.0).collect::<Vec<_>>()
+        };
+        assert_eq!(shown(MANY as u32, None).len(), MANY);
+        let few = shown(4000, None);
+        assert!((400..=500).contains(&few.len()), "{}", few.len());
+        assert!(few.iter().filter(|number| *number % 7 == 2).count() > few.len() / 2);
+        let unseen = (0..4000).find(|number| !few.contains(number)).unwrap();
+        assert!(shown(4000, Some((unseen, now))).contains(&unseen));
     }
 }
