@@ -86,7 +86,7 @@ fn told_apart(
     standing: Vec<Standing<'_>>,
     selected: Option<(u32, Timestamp)>,
 ) -> Vec<Standing<'_>> {
-    let column = |one: &Standing<'_>| (one.rect.left() / APART).floor();
+    let column = |one: &Standing<'_>| (one.rect.left() / APART).floor() as i32;
     let rank =
         |one: &Standing<'_>| (selected == Some(one.bar.key), one.bar.is_taken(), one.rect.height());
     let mut apart: Vec<Standing<'_>> = Vec::new();
