@@ -384,6 +384,9 @@ impl eframe::App for App {
         if !std::mem::replace(&mut self.drawn, true) {
             tracing::info!("first frame");
         }
+        if !commands.is_empty() && !frames::is_followed(ui.ctx()) {
+            (self.wake)();
+        }
         for command in commands {
             self.carry_out(command, ui.ctx());
         }

@@ -108,7 +108,6 @@ impl App {
             UiCommand::ExportMask(mask) => self.export_mask(&mask),
             UiCommand::Station(command) => self.send(command),
         }
-        (self.wake)();
     }
 
     pub(super) fn show_view(&mut self, view: View) {

@@ -25,6 +25,15 @@ pub fn draw_once(ctx: &Context, draw: impl Fn(RequestRepaintInfo) + Send + Sync 
     });
 }
 
+/// Returns `true` if another frame follows the input of this one in any case.
+pub(super) fn is_followed(ctx: &Context) -> bool {
+    ctx.input(|input| !input.raw.events.iter().all(lets_go))
+}
+
+fn lets_go(event: &Event) -> bool {
+    matches!(event, Event::Key { pressed: false, .. } | Event::ModifiersChanged(_))
+}
+
 /// Notes whether the input of a frame only lets go of keys. Nothing comes of that a frame late.
 struct LetsGo(Arc<AtomicBool>);
 
@@ -34,9 +43,6 @@ impl Plugin for LetsGo {
     }
 
     fn input_hook(&mut self, ctx: &Context, input: &mut RawInput) {
-        let lets_go = |event: &Event| {
-            matches!(event, Event::Key { pressed: false, .. } | Event::ModifiersChanged(_))
-        };
         let only = !input.events.is_empty() && input.events.iter().all(lets_go);
         // A list still glides after the wheel.
         let glides = ctx.input(egui::InputState::is_scrolling);
