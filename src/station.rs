@@ -50,7 +50,7 @@ pub use setting::{Setting, Table};
 pub use track_settings::{AfterPass, TrackSettings};
 pub use watch::{DEFAULT_RESUME_AFTER_S, DEFAULT_SWAY_DEG, Monitor, OnClose, Resume};
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 
 use serde::{Serialize, Serializer};
 
@@ -142,9 +142,19 @@ impl Station {
     /// The priority of a favourite: its own, else that of the first group with one that it is
     /// in, else the default. `None` where it is no favourite.
     pub fn priority(&self, satellite: u32) -> Option<Priority> {
-        let own = self.favourites.get(satellite)?.priority;
-        let mut groups = self.groups_of(satellite);
-        Some(own.or_else(|| groups.find_map(|group| group.priority)).unwrap_or_default())
+        Some(self.priority_of(self.favourites.get(satellite)?))
+    }
+
+    /// The priorities of all favourites, by catalog number.
+    pub fn priorities(&self) -> BTreeMap<u32, Priority> {
+        let favourites = self.favourites.iter();
+        favourites.map(|favourite| (favourite.satellite, self.priority_of(favourite))).collect()
+    }
+
+    fn priority_of(&self, favourite: &Favourite) -> Priority {
+        let mut groups = self.groups_of(favourite.satellite);
+        let of_group = || groups.find_map(|group| group.priority);
+        favourite.priority.or_else(of_group).unwrap_or_default()
     }
 
     /// The satellites of all groups with this name.

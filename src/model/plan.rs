@@ -111,12 +111,14 @@ impl Model {
         for of in schedule.left_out.iter().filter(|of| of.pass.aos < last) {
             left_out.entry(of.pass.satellite).or_default().push(of);
         }
+        let priorities = self.station.priorities();
         let ahead = self.pass_lists.favourites.upcoming(self.now);
         let passes = ahead.iter().filter(|it| !it.is_always_up() && it.pass.aos.time < end);
         let planned = passes.map(|predicted| {
+            let priority = priorities.get(&predicted.number()).copied();
             let entries = entries.get(&predicted.number()).into_iter().flatten().copied();
             let out = left_out.get(&predicted.number()).into_iter().flatten().copied();
-            self.planned(predicted, entries, out)
+            self.planned(predicted, priority, entries, out)
         });
         planned.collect()
     }
@@ -124,12 +126,14 @@ impl Model {
     /// A pass with what the schedule says of it.
     pub fn planned_pass<'a>(&'a self, predicted: &'a PredictedPass) -> PlannedPass<'a> {
         let schedule = &self.schedule.schedule;
-        self.planned(predicted, schedule.entries.iter(), schedule.left_out.iter())
+        let priority = self.station.priority(predicted.number());
+        self.planned(predicted, priority, schedule.entries.iter(), schedule.left_out.iter())
     }
 
     fn planned<'a>(
         &'a self,
         predicted: &'a PredictedPass,
+        priority: Option<Priority>,
         entries: impl Iterator<Item = &'a Entry>,
         mut left_out: impl Iterator<Item = &'a LeftOut>,
     ) -> PlannedPass<'a> {
@@ -137,7 +141,7 @@ impl Model {
         let (number, pass) = (key.0, &predicted.pass);
         PlannedPass {
             predicted,
-            priority: self.station.priority(number).unwrap_or_default(),
+            priority: priority.unwrap_or_default(),
             entries: entries
                 .filter(|entry| is_same((entry.pass.satellite, entry.pass.aos), key))
                 .collect(),
@@ -152,6 +156,7 @@ impl Model {
         for planned in self.planned_passes() {
             by_number.entry(planned.predicted.number()).or_default().push(planned);
         }
+        let priorities = self.station.priorities();
         let known = &self.pass_lists.favourites.satellites;
         let mut satellites: Vec<PlannedSatellite<'_>> = known
             .iter()
@@ -161,7 +166,7 @@ impl Model {
                 PlannedSatellite {
                     number,
                     name: satellite.short_name(),
-                    priority: self.station.priority(number).unwrap_or_default(),
+                    priority: priorities.get(&number).copied().unwrap_or_default(),
                     passes: by_number.remove(&number).unwrap_or_default(),
                 }
             })

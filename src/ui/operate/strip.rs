@@ -44,7 +44,7 @@ pub(super) fn show(
     let end = add_seconds(model.now, hours * 3600.0);
     let is_planned = model.schedule.made_at.is_some();
     let antennas = model.antennas.iter();
-    let mut lanes: Vec<Lane<'_>> = if is_planned {
+    let mut lanes: Vec<Lane<'_>> = if is_planned && !model.antennas.is_empty() {
         let planned = model.planned_passes_until(end);
         let lanes = antennas.map(|antenna| Lane {
             name: &antenna.config.name,
