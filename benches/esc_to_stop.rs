@@ -111,6 +111,8 @@ fn main() {
 fn screen(display: u32) -> Running {
     let screen = Command::new("Xvfb")
         .args([&format!(":{display}"), "-screen", "0", "1440x900x24", "-nolisten", "tcp"])
+        // Without this it restarts whenever its last client leaves, and drops a new one.
+        .arg("-noreset")
         .stderr(Stdio::null())
         .spawn();
     let screen = Running(screen.expect("Xvfb is installed"));

@@ -1,5 +1,6 @@
 //! Errors of known causes in simulated units, and what the reports of their passes make of them.
-//! `AZEL_EXPLAIN_CASES=200 cargo test --test azel rehearsed::explained -- --nocapture` takes an hour.
+//! `AZEL_EXPLAIN_CASES=200 cargo test --release --test azel rehearsed::explained -- --nocapture` is the
+//! long form.
 
 use std::{collections::BTreeMap, time::Duration};
 
