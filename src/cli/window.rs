@@ -53,7 +53,6 @@ pub(super) fn run(station: Option<PathBuf>, demo: bool) -> anyhow::Result<()> {
         claims: claims_folder().map(|folder| (folder, HolderKind::Window)),
         ..Settings::default()
     };
-    let work_area = WorkArea::of_the_desktop();
     let options = eframe::NativeOptions {
         viewport: egui::ViewportBuilder::default()
             .with_app_id("azel")
@@ -76,7 +75,8 @@ pub(super) fn run(station: Option<PathBuf>, demo: bool) -> anyhow::Result<()> {
     }));
     let begin = || Begun::start(settings, Clock::system());
     let create = |begun: Begun, ctx: &Context| {
-        if let Some(area) = work_area {
+        // Not before: an X server without another client drops everybody when this one leaves.
+        if let Some(area) = WorkArea::of_the_desktop() {
             let points = area.points(ctx.native_pixels_per_point().unwrap_or(1.0));
             ctx.send_viewport_cmd(egui::ViewportCommand::InnerSize(fitting(points)));
         }
