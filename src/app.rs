@@ -4,7 +4,6 @@
 //! Invariants: this thread never blocks and never does I/O; views change nothing, they
 //! queue [`UiCommand`]s.
 
-mod begun;
 mod carry_out;
 mod catalog_table;
 mod change;
@@ -21,6 +20,7 @@ pub mod notifier;
 mod place;
 mod rehearsal;
 mod replay;
+mod running_station;
 
 use std::{
     io,
@@ -32,7 +32,7 @@ use std::{
     time::Duration,
 };
 
-pub use self::begun::Begun;
+pub use self::running_station::RunningStation;
 use self::{
     catalog_table::CatalogWork,
     change::{Change, FileDialog},
@@ -119,13 +119,15 @@ impl App {
         settings: &Settings,
         outside: impl Into<Outside>,
     ) -> io::Result<Self> {
-        Ok(Self::on(Begun::start(settings.clone(), outside)?, ctx))
+        Ok(Self::on(RunningStation::start(settings.clone(), outside)?, ctx))
     }
 
     /// The same on a station that has begun before.
-    pub fn on(begun: Begun, ctx: &egui::Context) -> Self {
+    pub fn on(begun: RunningStation, ctx: &egui::Context) -> Self {
         begun.show_in(ctx);
-        let Begun { station, settings, outside, wake, client, may_close, told_to_end, .. } = begun;
+        let RunningStation {
+            station, settings, outside, wake, client, may_close, told_to_end, ..
+        } = begun;
         let clock = outside.clock.clone();
         let keeper = Keeper::beside(settings.station_path().as_deref());
         ui::theme::install(ctx, keeper.memory.appearance.theme);
@@ -384,7 +386,7 @@ impl eframe::App for App {
         if !std::mem::replace(&mut self.drawn, true) {
             tracing::info!("first frame");
         }
-        if !commands.is_empty() && !frames::is_followed(ui.ctx()) {
+        if !commands.is_empty() && !frames::one_follows(ui.ctx()) {
             (self.wake)();
         }
         for command in commands {

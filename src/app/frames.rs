@@ -14,36 +14,36 @@ use egui::{Context, Event, Plugin, RawInput, RequestRepaintInfo};
 
 /// Calls `draw` for each frame that is requested of `ctx`, in place of what was told before.
 pub fn draw_once(ctx: &Context, draw: impl Fn(RequestRepaintInfo) + Send + Sync + 'static) {
-    let only_lets_go = Arc::<AtomicBool>::default();
-    ctx.add_plugin(LetsGo(Arc::clone(&only_lets_go)));
+    let only_releases = Arc::<AtomicBool>::default();
+    ctx.add_plugin(KeyReleases(Arc::clone(&only_releases)));
     ctx.set_request_repaint_callback(|_| {});
     ctx.set_repaint_observer(move |asked| {
         // The first request of a frame with input is for the frame after that input.
-        if !(asked.delay.is_zero() && only_lets_go.swap(false, Ordering::Relaxed)) {
+        if !(asked.delay.is_zero() && only_releases.swap(false, Ordering::Relaxed)) {
             draw(asked);
         }
     });
 }
 
 /// Returns `true` if another frame follows the input of this one in any case.
-pub(super) fn is_followed(ctx: &Context) -> bool {
-    ctx.input(|input| !input.raw.events.iter().all(lets_go))
+pub(super) fn one_follows(ctx: &Context) -> bool {
+    ctx.input(|input| !input.raw.events.iter().all(is_release))
 }
 
-fn lets_go(event: &Event) -> bool {
+fn is_release(event: &Event) -> bool {
     matches!(event, Event::Key { pressed: false, .. } | Event::ModifiersChanged(_))
 }
 
-/// Notes whether the input of a frame only lets go of keys. Nothing comes of that a frame late.
-struct LetsGo(Arc<AtomicBool>);
+/// Notes whether the input of a frame only releases keys: nothing comes of that a frame late.
+struct KeyReleases(Arc<AtomicBool>);
 
-impl Plugin for LetsGo {
+impl Plugin for KeyReleases {
     fn debug_name(&self) -> &'static str {
         "frames"
     }
 
     fn input_hook(&mut self, ctx: &Context, input: &mut RawInput) {
-        let only = !input.events.is_empty() && input.events.iter().all(lets_go);
+        let only = !input.events.is_empty() && input.events.iter().all(is_release);
         // A list still glides after the wheel.
         let glides = ctx.input(egui::InputState::is_scrolling);
         self.0.store(only && !glides, Ordering::Relaxed);

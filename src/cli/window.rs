@@ -15,7 +15,7 @@ use egui::{Context, Vec2, vec2};
 use winit::event_loop::EventLoop;
 
 use crate::{
-    app::{App, Begun, frames},
+    app::{App, RunningStation, frames},
     cli::{marks, no_window, this_program, work_area::WorkArea},
     clock::Clock,
     engine::{
@@ -73,8 +73,8 @@ pub(super) fn run(station: Option<PathBuf>, demo: bool) -> anyhow::Result<()> {
             tracing::error!("{panic}");
         }
     }));
-    let begin = || Begun::start(settings, Clock::system());
-    let create = |begun: Begun, ctx: &Context| {
+    let begin = || RunningStation::start(settings, Clock::system());
+    let create = |begun: RunningStation, ctx: &Context| {
         // Not before: an X server without another client drops everybody when this one leaves.
         if let Some(area) = WorkArea::of_the_desktop() {
             let points = area.points(ctx.native_pixels_per_point().unwrap_or(1.0));
@@ -108,8 +108,8 @@ pub(super) fn run(station: Option<PathBuf>, demo: bool) -> anyhow::Result<()> {
 /// is none.
 fn show(
     options: eframe::NativeOptions,
-    begin: impl FnOnce() -> io::Result<Begun>,
-    create: impl FnOnce(Begun, &Context) -> io::Result<App>,
+    begin: impl FnOnce() -> io::Result<RunningStation>,
+    create: impl FnOnce(RunningStation, &Context) -> io::Result<App>,
 ) -> Result<(), String> {
     let events = EventLoop::<UserEvent>::with_user_event().build();
     let events = events.map_err(|error| no_window::reason(&error.to_string()))?;

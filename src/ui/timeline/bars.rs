@@ -77,15 +77,12 @@ pub(super) fn stand<'a>(
         })
         .collect();
     standing.sort_by_key(|one| (one.bar.aos, one.bar.key));
-    if standing.len() > MANY { told_apart(standing, selected) } else { standing }
+    if standing.len() > MANY { thinned(standing, selected) } else { standing }
 }
 
 /// One of all bars that begin at the same place: the selected one, else one that is taken, else the
 /// highest.
-fn told_apart(
-    standing: Vec<Standing<'_>>,
-    selected: Option<(u32, Timestamp)>,
-) -> Vec<Standing<'_>> {
+fn thinned(standing: Vec<Standing<'_>>, selected: Option<(u32, Timestamp)>) -> Vec<Standing<'_>> {
     let column = |one: &Standing<'_>| (one.rect.left() / APART).floor() as i32;
     let rank =
         |one: &Standing<'_>| (selected == Some(one.bar.key), one.bar.is_taken(), one.rect.height());

@@ -7,13 +7,16 @@ use crate::ui::tokens;
 /// Padding of the box.
 const PADDING: i8 = 16;
 
-/// A box with a veil over the rest of the window. The press of Enter that opened it is no answer, however long the
-/// key is held.
+/// A box with a veil over the rest of the window. The press of Enter that opened it is no answer,
+/// however long the key is held.
 pub fn modal(ui: &Ui, id: &str) -> Modal {
     let id = Id::unique(id);
     let layer = LayerId::new(Order::Foreground, id);
     let is_new = !ui.memory(|memory| memory.areas().visible_last_frame(&layer));
-    let opened_it = |event: &Event| matches!(event, Event::Key { key: Key::Enter, pressed: true, repeat, .. } if is_new || *repeat);
+    let opened_it = |event: &Event| match event {
+        Event::Key { key: Key::Enter, pressed: true, repeat, .. } => is_new || *repeat,
+        _ => false,
+    };
     ui.input_mut(|input| input.events.retain(|event| !opened_it(event)));
     Modal::new(id)
         .backdrop_color(tokens::VEIL)

@@ -19,7 +19,7 @@ use crate::{
 };
 
 /// A running station without a window.
-pub struct Begun {
+pub struct RunningStation {
     pub(super) station: Handle,
     pub(super) settings: Settings,
     pub(super) outside: Outside,
@@ -33,7 +33,7 @@ pub struct Begun {
     window: Arc<OnceLock<Context>>,
 }
 
-impl Begun {
+impl RunningStation {
     /// Starts the station that `settings` name.
     pub fn start(settings: Settings, outside: impl Into<Outside>) -> io::Result<Self> {
         let outside = outside.into();
