@@ -122,7 +122,7 @@ impl App {
         Ok(Self::on(RunningStation::start(settings.clone(), outside)?, ctx))
     }
 
-    /// The same on a station that has begun before.
+    /// The same on a station that runs already.
     pub fn on(begun: RunningStation, ctx: &egui::Context) -> Self {
         begun.show_in(ctx);
         let RunningStation {
@@ -392,7 +392,7 @@ impl eframe::App for App {
         for command in commands {
             self.carry_out(command, ui.ctx());
         }
-        // The answer is there for the next frame.
+        // Asked now, the station answers before the next frame.
         self.look();
     }
 }

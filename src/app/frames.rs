@@ -12,7 +12,7 @@ use std::sync::{
 
 use egui::{Context, Event, Plugin, RawInput, RequestRepaintInfo};
 
-/// Calls `draw` for each frame that is requested of `ctx`, in place of what was told before.
+/// Calls `draw` once for each frame that is requested of `ctx`, in place of the callback set before.
 pub fn draw_once(ctx: &Context, draw: impl Fn(RequestRepaintInfo) + Send + Sync + 'static) {
     let only_releases = Arc::<AtomicBool>::default();
     ctx.add_plugin(KeyReleases(Arc::clone(&only_releases)));
@@ -34,7 +34,7 @@ fn is_release(event: &Event) -> bool {
     matches!(event, Event::Key { pressed: false, .. } | Event::ModifiersChanged(_))
 }
 
-/// Notes whether the input of a frame only releases keys: nothing comes of that a frame late.
+/// Notes whether the input of a frame only releases keys, whose effects never come a frame late.
 struct KeyReleases(Arc<AtomicBool>);
 
 impl Plugin for KeyReleases {

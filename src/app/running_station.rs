@@ -1,5 +1,5 @@
-//! A station that begins before its window: elements are read and units are asked while the
-//! system makes the window.
+//! A station that runs before its window is there: elements are read and units are asked while
+//! the system makes the window.
 
 use std::{
     io,

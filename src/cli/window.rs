@@ -104,8 +104,8 @@ pub(super) fn run(station: Option<PathBuf>, demo: bool) -> anyhow::Result<()> {
     }
 }
 
-/// Shows the app that `create` makes of what has begun until its window is closed, or says why there
-/// is none.
+/// Starts a station by `begin`, and shows the app that `create` makes of it until its window is
+/// closed. Returns the sentence that says why there is none.
 fn show(
     options: eframe::NativeOptions,
     begin: impl FnOnce() -> io::Result<RunningStation>,

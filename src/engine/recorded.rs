@@ -155,7 +155,7 @@ impl Engine {
         let Some(opened) = found.and_then(|found| found.opened.as_ref()) else { return };
         let (antenna, until) = (opened.pass.antenna, opened.pass.report.until);
         let configured = self.station.antennas.iter().find(|of| of.id == antenna);
-        // What left the station has no mount to explain it by.
+        // An antenna that has left the station has no known mount.
         let (Some(of), Some(path)) = (configured, self.record_file()) else { return };
         let (mount, site) = (of.mount, self.station.site);
         let job = Job::start("azel-explain-passes", Arc::clone(&self.wake), move |_| {

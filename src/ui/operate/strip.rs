@@ -19,9 +19,8 @@ use crate::{
     },
 };
 
-/// Maximum number of passes in one frame of which it is worked out what the mount can do, some
-/// milliseconds of work. The schedule is there sooner than that of many favourites, and needs none
-/// of it.
+/// Maximum number of outlines that are worked out in one frame, some milliseconds of work. With many
+/// favourites the schedule is there before all of them are, and the strip then needs none.
 const NEW_OUTLINES: usize = 48;
 
 /// A strip of this width shows a whole day.

@@ -58,7 +58,7 @@ impl<'a> Button<'a> {
         Self { locked, ..self }
     }
 
-    /// The same where there is a reason, which whoever points at the button reads.
+    /// Locked where there is a reason, which is its tooltip.
     #[must_use]
     pub fn locked_by(self, why: Option<&'a str>) -> Self {
         Self { locked: self.locked || why.is_some(), why, ..self }
