@@ -144,6 +144,8 @@ async fn explained(wrong: Wrong, flight: &Flight) -> Vec<Explanation> {
     let number = flight.elements.catalog_number();
     let mut station = Station { favourites: [number].into(), ..units::station() };
     station.antennas.retain(|antenna| antenna.name == "Dish");
+    // A unit that misreads a rising satellite stands no lower than that.
+    station.antennas[0].limits.minimum_elevation_deg = 0.0;
     // Slow drives take some minutes to the place where the satellite rises.
     let is_slow = matches!(wrong, Wrong::Unit(Trouble::SlowDrives(_)));
     let start = flight.pass.aos.time - if is_slow { 8.minutes() } else { 2.minutes() };
