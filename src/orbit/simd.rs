@@ -3,19 +3,22 @@
 //! Passes are computed for eight satellites at a time: a processor takes two or more numbers
 //! through one operation as fast as one, and has something to do while others wait for the result
 //! of the previous step. Code that serves both is written once, for any [`Number`].
+//!
+//! How many numbers a register holds is known only where the program runs ([`widest`]). What is to
+//! use those registers has to be inlined up to there, and is marked so.
 
+mod lanes;
 mod trig;
 mod vector;
 
 use std::ops::{Add, BitAnd, BitOr, Div, Mul, Neg, Sub};
 
-use wide::f64x8;
+use fearless_simd::{Level, Simd as _};
 
-pub(super) use self::vector::Vector;
-
-/// Numbers that go through the same operations.
-pub(super) type Lanes = f64x8;
-pub(super) const LANES: usize = 8;
+pub(super) use self::{
+    lanes::{Answers, LANES, Lanes},
+    vector::Vector,
+};
 
 /// From here on, a number of this type has no digits after the point.
 const WHOLE_ABOVE: f64 = 6_755_399_441_055_744.0;
@@ -41,11 +44,13 @@ pub(super) trait Number:
     fn sqrt(self) -> Self;
     fn abs(self) -> Self;
     /// The nearest whole number, for numbers below 2^51.
+    #[inline]
     fn nearest(self) -> Self {
         self + WHOLE_ABOVE - WHOLE_ABOVE
     }
     /// Accurate to 1e-13 for angles up to a thousand; beyond that, as accurate as the remaining
     /// digits of the angle.
+    #[inline(always)]
     fn sin_cos(self) -> (Self, Self) {
         trig::sin_cos(self)
     }
@@ -84,32 +89,8 @@ impl Number for f64 {
     }
 }
 
-impl Number for Lanes {
-    type Answer = Self;
-    fn of(value: f64) -> Self {
-        Self::splat(value)
-    }
-    fn sqrt(self) -> Self {
-        self.sqrt()
-    }
-    fn abs(self) -> Self {
-        self.abs()
-    }
-    fn atan2(self, x: Self) -> Self {
-        trig::atan2(self, x)
-    }
-    fn within(self, low: f64, high: f64) -> Self {
-        self.clamp(Self::splat(low), Self::splat(high))
-    }
-    fn is_less(self, than: Self) -> Self {
-        self.simd_lt(than)
-    }
-    fn any_reaches(self, limit: f64) -> bool {
-        self.simd_ge(Self::splat(limit)).any()
-    }
-}
-
 /// The value of a polynomial, constant term first. Its coefficients may differ from lane to lane.
+#[inline(always)]
 pub(super) fn series<N, C, const COUNT: usize>(polynomial: &[C; COUNT], at: N) -> N
 where
     N: Number + Add<C, Output = N>,
@@ -120,30 +101,23 @@ where
     })
 }
 
-/// Puts a number into a lane; has no effect beyond the last lane.
-pub(super) fn set(numbers: &mut Lanes, lane: usize, number: f64) {
-    if let Some(place) = numbers.as_mut_array().get_mut(lane) {
-        *place = number;
-    }
-}
-
-/// Puts each number into a lane of its own vector.
+/// Puts each number into a lane of its own.
 pub(super) fn set_all<const COUNT: usize>(
     all: &mut [Lanes; COUNT],
     lane: usize,
     numbers: &[f64; COUNT],
 ) {
     for (lanes, number) in all.iter_mut().zip(numbers) {
-        set(lanes, lane, *number);
+        lanes.set(lane, *number);
     }
 }
 
-/// The number in one lane; NaN beyond the last lane.
-pub(super) fn lane_of(numbers: &Lanes, lane: usize) -> f64 {
-    numbers.as_array().get(lane).copied().unwrap_or(f64::NAN)
-}
-
-/// The answer for one lane.
-pub(super) fn holds_in(answers: Lanes, lane: usize) -> bool {
-    answers.to_bitmask() >> lane & 1 == 1
+/// Does `work` with registers of four numbers if the processor has them, else of two. The results
+/// are the same to the last bit. `work` has to be inlined, as a closure marked so is.
+#[inline(always)]
+pub(super) fn widest<R>(work: impl FnOnce() -> R) -> R {
+    match Level::new().as_avx2() {
+        Some(avx2) => avx2.vectorize(work),
+        None => work(),
+    }
 }

@@ -17,7 +17,7 @@ use crate::{
     astro::frames::EARTH_RATE_RAD_S,
     orbit::{
         propagator::WGS72_RADIUS_KM,
-        simd::{Lanes, Number, Vector, lane_of},
+        simd::{Lanes, Number, Vector},
     },
 };
 
@@ -74,6 +74,7 @@ pub(super) enum Bend {
 }
 
 impl Bend {
+    #[inline(always)]
     fn fits<N: Number>(self, curve: N) -> N::Answer {
         match self {
             Self::Crest => curve.is_less(N::of(0.0)),
@@ -101,18 +102,21 @@ impl<N: Number> LocalState<N> {
     }
 
     /// Whether the height turns here in the sense of `bend`.
+    #[inline(always)]
     pub(super) fn turns(&self, bend: Bend) -> N::Answer {
         let Height { rate, curve, .. } = self.height;
         bend.fits(curve) & rate.abs().is_less(curve.abs() * LAST_STEP_S)
     }
 
     /// Whether the height is `sine` here, within a millisecond.
+    #[inline(always)]
     pub(super) fn crosses(&self, sine: f64) -> N::Answer {
         (self.height.sine - sine).abs().is_less(self.height.rate.abs() * 1e-3)
     }
 
     /// The state after a small `step_s`: less than [`LAST_STEP_S`], or less than [`LAST_SHARE`] of
     /// the time to an extreme.
+    #[inline(always)]
     fn moved(self, step_s: N) -> Self {
         let Height { sine, rate, curve } = self.height;
         let height = Height {
@@ -128,6 +132,7 @@ impl<N: Number> LocalState<N> {
 impl<N: Number> Height<N> {
     /// The height of a satellite at `q`, at the distance `range`, with velocity `v` and
     /// acceleration `a`.
+    #[inline(always)]
     pub(super) fn new(q: Vector<N>, range: N, v: Vector<N>, a: Vector<N>) -> Self {
         let inverse_range = N::of(1.0) / range;
         let range_rate = q.dot(v) * inverse_range;
@@ -141,6 +146,7 @@ impl<N: Number> Height<N> {
 
 impl<N: Number> LocalSeries<N> {
     /// The series around `at_s` from the state there.
+    #[inline(always)]
     pub(super) fn new(window: &Window, at_s: N, state: EarthFixed<N>) -> Self {
         let EarthFixed { position_km, velocity_km_s } = state;
         let over_ground = velocity_km_s + turned(position_km);
@@ -166,6 +172,7 @@ impl<N: Number> LocalSeries<N> {
     }
 
     /// The place `tau` seconds after the instant of the series.
+    #[inline(always)]
     pub(super) fn place(&self, tau: N) -> LocalState<N> {
         let half = tau * 0.5;
         let acceleration = self.acceleration + self.jerk * tau;
@@ -179,6 +186,7 @@ impl<N: Number> LocalSeries<N> {
 
     /// Where the height is greatest or least, by Newton's method from the instant of the series. If
     /// the method does not converge, [`LocalState::turns`] does not hold for the place.
+    #[inline(always)]
     pub(super) fn turning(&self) -> LocalState<N> {
         let mut place = self.place(N::of(0.0));
         for _ in 0..MAX_STEPS {
@@ -193,6 +201,7 @@ impl<N: Number> LocalSeries<N> {
 
     /// Where the height is `sine`, by Halley's method from `tau`. If the method does not converge,
     /// [`LocalState::crosses`] does not hold for the place.
+    #[inline(always)]
     pub(super) fn crossing(&self, sine: f64, tau: N) -> LocalState<N> {
         let mut place = self.place(tau);
         for _ in 0..MAX_STEPS {
@@ -222,7 +231,7 @@ impl LocalSeries {
 impl LocalSeries<Lanes> {
     pub(super) fn lane(&self, lane: usize) -> LocalSeries {
         LocalSeries {
-            at_s: lane_of(&self.at_s, lane),
+            at_s: self.at_s.lane(lane),
             state: EarthFixed {
                 position_km: self.state.position_km.lane(lane),
                 velocity_km_s: self.state.velocity_km_s.lane(lane),
@@ -238,7 +247,7 @@ impl LocalSeries<Lanes> {
 impl LocalState<Lanes> {
     pub(super) fn lane(&self, lane: usize) -> LocalState {
         let Height { sine, rate, curve } = &self.height;
-        let of = |numbers| lane_of(numbers, lane);
+        let of = |numbers: &Lanes| numbers.lane(lane);
         LocalState {
             at_s: of(&self.at_s),
             enu_km: self.enu_km.lane(lane),
@@ -251,12 +260,14 @@ impl LocalState<Lanes> {
 }
 
 /// The cross product of the vector with the Earth's rotation: `v × omega`.
+#[inline(always)]
 fn turned<N: Number>(v: Vector<N>) -> Vector<N> {
     Vector::new(v.y * EARTH_RATE_RAD_S, v.x * -EARTH_RATE_RAD_S, N::of(0.0))
 }
 
 /// The acceleration due to the Earth's mass and flattening at `r`, and its change for a body that
 /// moves with `v`. The change is that of the mass alone, which is a thousand times larger.
+#[inline(always)]
 fn gravity<N: Number>(r: Vector<N>, v: Vector<N>) -> (Vector<N>, Vector<N>) {
     let inverse2 = N::of(1.0) / r.length_squared();
     let mass = inverse2 * inverse2.sqrt() * -GRAVITY_KM3_S2;

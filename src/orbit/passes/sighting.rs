@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 use super::{compact::CompactPoint, local_series::LocalState, window::Window};
 use crate::{
     astro::{Angle, AzEl},
-    orbit::simd::{Lanes, Number, Vector, lane_of},
+    orbit::simd::{Lanes, Number, Vector},
 };
 
 #[derive(Debug, Clone, Copy)]
@@ -17,6 +17,7 @@ pub(super) struct Sighting<N = f64> {
 }
 
 impl<N: Number> Sighting<N> {
+    #[inline(always)]
     pub(super) fn new(place: &LocalState<N>) -> Self {
         let Vector { x, y, z } = place.enu_km;
         let elevation = z.atan2((x * x + y * y).sqrt());
@@ -24,6 +25,7 @@ impl<N: Number> Sighting<N> {
     }
 
     /// The sighting of a place whose elevation is known.
+    #[inline(always)]
     pub(super) fn at_elevation(place: &LocalState<N>, elevation: f64) -> Self {
         let Vector { x, y, .. } = place.enu_km;
         Self { at_s: place.at_s, azimuth: x.atan2(y), elevation: N::of(elevation) }
@@ -40,7 +42,7 @@ impl Sighting {
 
 impl Sighting<Lanes> {
     pub(super) fn lane(&self, lane: usize) -> Sighting {
-        let of = |numbers| lane_of(numbers, lane);
+        let of = |numbers: &Lanes| numbers.lane(lane);
         Sighting {
             at_s: of(&self.at_s),
             azimuth: of(&self.azimuth),

@@ -39,6 +39,7 @@ pub(super) struct Exactness<N = f64> {
 
 impl<N: Number> Exactness<N> {
     /// Whether an extreme `tau` seconds from the state it follows from is as exact as required.
+    #[inline(always)]
     pub(super) fn is_crest(&self, tau: N, place: &LocalState<N>) -> N::Answer {
         let (tau, range_km) = (tau.abs(), place.range_km);
         tau.is_less(N::of(LONGEST_STEP_S))
@@ -48,6 +49,7 @@ impl<N: Number> Exactness<N> {
 
     /// Whether a place `tau` seconds from the state it follows from is where the height passes
     /// `sine`, as exactly as required.
+    #[inline(always)]
     pub(super) fn is_crossing(&self, sine: f64, tau: N, place: &LocalState<N>) -> N::Answer {
         let tau = tau.abs();
         let rise_km_s = place.height.rate.abs() * place.range_km;

@@ -29,6 +29,7 @@ pub(super) struct TwoBody<N> {
 
 impl<N: Number> TwoBody<N> {
     /// The ellipse of a series whose crest is at `crest`.
+    #[inline(always)]
     pub(super) fn new(window: &Window, series: &LocalSeries<N>, crest: &LocalState<N>) -> Self {
         let (r, v) = (series.state.position_km, series.state.velocity_km_s);
         let inverse_r0 = N::of(1.0) / r.length();
@@ -55,6 +56,7 @@ impl<N: Number> TwoBody<N> {
 
     /// Time, in seconds from the state, at which the satellite crosses the horizon: before the
     /// crest for a `side` of -1, after it for 1. NaN if the ellipse does not tell.
+    #[inline(always)]
     pub(super) fn crossing_tau(&self, side: f64) -> N {
         let e = self.crest + self.half * side;
         let (sin_e, cos_e) = e.sin_cos();

@@ -83,17 +83,20 @@ impl Window {
     }
 
     /// Greenwich sidereal time in radians, not wrapped.
+    #[inline(always)]
     pub(super) fn sidereal_at<N: Number>(&self, at_s: N) -> N {
         at_s * frames::EARTH_RATE_RAD_S + self.sidereal
     }
 
     /// Turns a vector from Earth-fixed axes to east, north, up.
+    #[inline(always)]
     pub(super) fn to_enu<N: Number>(&self, ecef: Vector<N>) -> Vector<N> {
         let [east, north, up] = self.axes;
         Vector::new(ecef.dot(east.into()), ecef.dot(north.into()), ecef.dot(up.into()))
     }
 
     /// The vector from the site to an Earth-fixed position, east, north, up.
+    #[inline(always)]
     pub(super) fn seen_from_site<N: Number>(&self, ecef_km: Vector<N>) -> Vector<N> {
         self.to_enu(ecef_km) - self.site_enu_km.into()
     }

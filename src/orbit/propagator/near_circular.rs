@@ -11,7 +11,7 @@
 use sgp4::WGS72;
 
 use super::{State, secular::Secular};
-use crate::orbit::simd::{LANES, Lanes, Number, Vector, series, set};
+use crate::orbit::simd::{LANES, Lanes, Number, Vector, series, widest};
 
 /// Smallest eccentricity in the theory; rounder orbits get this one.
 const MIN_ECCENTRICITY: f64 = 1e-6;
@@ -23,6 +23,7 @@ impl<N: Number> Secular<N> {
     /// The states `minutes` after the epoch, in axes turned about the pole by `turn`
     /// radians from those of TEME. Valid where the orbit
     /// [is near-circular](Secular::is_near_circular_at).
+    #[inline(always)]
     pub(in crate::orbit) fn motion(&self, minutes: N, turn: N) -> Motion<N> {
         motion(self, minutes, turn)
     }
@@ -35,7 +36,7 @@ impl Secular {
         (0..LANES).for_each(|lane| lanes.set(lane, self));
         minutes.chunks(LANES).flat_map(move |chunk| {
             let mut at = Lanes::ZERO;
-            chunk.iter().enumerate().for_each(|(lane, minutes)| set(&mut at, lane, *minutes));
+            chunk.iter().enumerate().for_each(|(lane, minutes)| at.set(lane, *minutes));
             lanes.states_at(at).take(chunk.len())
         })
     }
@@ -44,7 +45,10 @@ impl Secular {
 impl Secular<Lanes> {
     /// The state of each lane at its minutes after its epoch, in TEME; valid like [`Self::motion`].
     pub(super) fn states_at(&self, minutes: Lanes) -> impl Iterator<Item = State> + use<> {
-        let (positions, velocities) = self.motion(minutes, Lanes::ZERO);
+        let (positions, velocities) = widest(
+            #[inline(always)]
+            || self.motion(minutes, Lanes::ZERO),
+        );
         (0..LANES).map(move |lane| State {
             position_km: positions.lane(lane).into(),
             velocity_km_s: velocities.lane(lane).into(),
@@ -52,6 +56,7 @@ impl Secular<Lanes> {
     }
 }
 
+#[inline(always)]
 fn motion<N: Number>(secular: &Secular<N>, minutes: N, turn: N) -> Motion<N> {
     let Secular { plane, waves, drag_wave, .. } = secular;
 
@@ -131,6 +136,7 @@ fn motion<N: Number>(secular: &Secular<N>, minutes: N, turn: N) -> Motion<N> {
 ///
 /// From E = mean, one step of Halley's method and one of Newton's leave less than 1e-12 for the
 /// eccentricities in question.
+#[inline(always)]
 fn eccentric_angle<N: Number>(mean: N, along: N, across: N) -> (N, N) {
     let (sine, cosine) = mean.sin_cos();
     let missing = along * sine - across * cosine;
@@ -144,6 +150,7 @@ fn eccentric_angle<N: Number>(mean: N, along: N, across: N) -> (N, N) {
 }
 
 /// Sine and cosine of an angle that is increased by `turn`, at most 0.06 radians.
+#[inline(always)]
 fn turned<N: Number>(sine: N, cosine: N, turn: N) -> (N, N) {
     let square = turn * turn;
     let sin_turn = turn
@@ -189,6 +196,31 @@ mod tests {
         }
         assert!(compared > 580_000, "{compared}");
         assert!(worst.0 < 2e-8 && worst.1 < 2e-11, "{worst:?}");
+    }
+
+    #[test]
+    fn wide_registers_change_no_bit() {
+        let catalog = bundled().unwrap();
+        let mut compared = 0;
+        for elements in catalog.iter().step_by(50) {
+            let propagator = Propagator::new(elements).unwrap();
+            let Some(secular) = propagator.secular() else { continue };
+            let mut lanes = Secular::default();
+            (0..LANES).for_each(|lane| lanes.set(lane, secular));
+            let minutes = Lanes::from([0.0, 11.0, 23.0, 355.0, 1447.0, -59.0, 71.0, 10_083.0]);
+            let plain = motion(&lanes, minutes, Lanes::of(1.2));
+            let wide = widest(
+                #[inline(always)]
+                || motion(&lanes, minutes, Lanes::of(1.2)),
+            );
+            let bits = |(position, velocity): Motion<Lanes>| {
+                [position, velocity]
+                    .map(|Vector { x, y, z }| [x, y, z].map(|it| it.as_array().map(f64::to_bits)))
+            };
+            assert_eq!(bits(plain), bits(wide));
+            compared += 1;
+        }
+        assert!(compared > 200, "{compared}");
     }
 
     #[test]

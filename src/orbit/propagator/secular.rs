@@ -12,7 +12,7 @@ use std::f64::consts::TAU;
 use sgp4::WGS72;
 
 use super::waves::{DragWave, Waves};
-use crate::orbit::simd::{Lanes, series, set, set_all};
+use crate::orbit::simd::{Lanes, series, set_all};
 
 /// Orbits with this period in minutes or a longer one follow other equations.
 const DEEP_SPACE_PERIOD_MIN: f64 = 225.0;
@@ -243,8 +243,8 @@ impl Secular<Lanes> {
 impl Plane<Lanes> {
     /// Puts the plane of an orbit into a lane.
     pub(in crate::orbit) fn set(&mut self, lane: usize, plane: &Plane) {
-        set(&mut self.sin_inclination, lane, plane.sin_inclination);
-        set(&mut self.cos_inclination, lane, plane.cos_inclination);
+        self.sin_inclination.set(lane, plane.sin_inclination);
+        self.cos_inclination.set(lane, plane.cos_inclination);
         set_all(&mut self.node, lane, &plane.node);
         set_all(&mut self.argument, lane, &plane.argument);
         set_all(&mut self.perigee, lane, &plane.perigee);

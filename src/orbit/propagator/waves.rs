@@ -3,7 +3,7 @@
 
 use sgp4::WGS72;
 
-use crate::orbit::simd::{Lanes, set, set_all};
+use crate::orbit::simd::{Lanes, set_all};
 
 /// Coefficients of the periodic terms of the gravity field.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -51,7 +51,7 @@ pub(super) struct DragWave<N = f64> {
 impl DragWave<Lanes> {
     pub(super) fn set(&mut self, lane: usize, drag: &DragWave) {
         set_all(&mut self.anomaly, lane, &drag.anomaly);
-        set(&mut self.eta, lane, drag.eta);
+        self.eta.set(lane, drag.eta);
         set_all(&mut self.angle, lane, &drag.angle);
         set_all(&mut self.eccentricity, lane, &drag.eccentricity);
     }
@@ -59,10 +59,10 @@ impl DragWave<Lanes> {
 
 impl Waves<Lanes> {
     pub(super) fn set(&mut self, lane: usize, waves: &Waves) {
-        set(&mut self.square, lane, waves.square);
-        set(&mut self.seven, lane, waves.seven);
-        set(&mut self.three, lane, waves.three);
-        set(&mut self.odd_vector, lane, waves.odd_vector);
-        set(&mut self.odd_angle, lane, waves.odd_angle);
+        self.square.set(lane, waves.square);
+        self.seven.set(lane, waves.seven);
+        self.three.set(lane, waves.three);
+        self.odd_vector.set(lane, waves.odd_vector);
+        self.odd_angle.set(lane, waves.odd_angle);
     }
 }

@@ -13,6 +13,7 @@ const STEEP: f64 = 1.0 + std::f64::consts::SQRT_2;
 
 /// Sine and cosine from those of a quarter of the angle, for which the power series are short,
 /// doubled twice.
+#[inline(always)]
 pub(super) fn sin_cos<N: Number>(angle: N) -> (N, N) {
     let turns = (angle * (1.0 / TAU)).nearest();
     let quarter = (angle - turns * TURN_HIGH - turns * TURN_LOW) * 0.25;
@@ -29,20 +30,21 @@ pub(super) fn sin_cos<N: Number>(angle: N) -> (N, N) {
 
 /// The angle from the nearest axis or line midway between two axes, which is at most a sixteenth of
 /// a turn, plus the angle of that axis or line.
+#[inline(always)]
 pub(super) fn atan2(y: Lanes, x: Lanes) -> Lanes {
     let (width, height) = (x.abs(), y.abs());
-    let is_upright = width.simd_lt(height);
+    let is_upright = width.is_less(height);
     let less = is_upright.select(width, height);
     // Added so that the zero vector has the angle 0.
     let more = is_upright.select(height, width) + f64::MIN_POSITIVE;
-    let is_midway = more.simd_lt(less * STEEP);
+    let is_midway = more.is_less(less * STEEP);
     let tangent = is_midway.select(less - more, less) / is_midway.select(less + more, more);
     let square = tangent * tangent;
     let from_nearest = tangent + tangent * square * series(&TANGENT, square);
-    let angle = from_nearest + (is_midway & Lanes::splat(FRAC_PI_4));
+    let angle = from_nearest + is_midway.select(Lanes::of(FRAC_PI_4), Lanes::ZERO);
     let angle = is_upright.select(-angle + FRAC_PI_2, angle);
-    let angle = x.simd_lt(Lanes::ZERO).select(-angle + PI, angle);
-    y.simd_lt(Lanes::ZERO).select(-angle, angle)
+    let angle = x.is_less(Lanes::ZERO).select(-angle + PI, angle);
+    y.is_less(Lanes::ZERO).select(-angle, angle)
 }
 
 /// Polynomials that interpolate (sin x / x - 1) / x² and ((1 - cos x) / x² - 1/2) / x², by powers

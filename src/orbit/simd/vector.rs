@@ -4,7 +4,7 @@ use std::ops::{Add, Mul, Sub};
 
 use glam::DVec3;
 
-use super::{Lanes, Number, lane_of};
+use super::{Lanes, Number};
 
 /// A vector in three dimensions.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -15,14 +15,17 @@ pub(in crate::orbit) struct Vector<N> {
 }
 
 impl<N: Number> Vector<N> {
+    #[inline]
     pub(in crate::orbit) fn new(x: N, y: N, z: N) -> Self {
         Self { x, y, z }
     }
 
+    #[inline]
     pub(in crate::orbit) fn dot(self, other: Self) -> N {
         self.x * other.x + self.y * other.y + self.z * other.z
     }
 
+    #[inline]
     pub(in crate::orbit) fn cross(self, other: Self) -> Self {
         Self::new(
             self.y * other.z - self.z * other.y,
@@ -31,10 +34,12 @@ impl<N: Number> Vector<N> {
         )
     }
 
+    #[inline]
     pub(in crate::orbit) fn length_squared(self) -> N {
         self.dot(self)
     }
 
+    #[inline]
     pub(in crate::orbit) fn length(self) -> N {
         self.length_squared().sqrt()
     }
@@ -42,18 +47,20 @@ impl<N: Number> Vector<N> {
 
 impl Vector<Lanes> {
     pub(in crate::orbit) fn lane(&self, lane: usize) -> Vector<f64> {
-        let [x, y, z] = [&self.x, &self.y, &self.z].map(|numbers| lane_of(numbers, lane));
+        let [x, y, z] = [&self.x, &self.y, &self.z].map(|numbers| numbers.lane(lane));
         Vector { x, y, z }
     }
 }
 
 impl<N: Number> From<DVec3> for Vector<N> {
+    #[inline]
     fn from(vector: DVec3) -> Self {
         Self::new(N::of(vector.x), N::of(vector.y), N::of(vector.z))
     }
 }
 
 impl From<Vector<f64>> for DVec3 {
+    #[inline]
     fn from(Vector { x, y, z }: Vector<f64>) -> Self {
         Self::new(x, y, z)
     }
@@ -61,6 +68,7 @@ impl From<Vector<f64>> for DVec3 {
 
 impl<N: Number> Add for Vector<N> {
     type Output = Self;
+    #[inline]
     fn add(self, other: Self) -> Self {
         Self::new(self.x + other.x, self.y + other.y, self.z + other.z)
     }
@@ -68,6 +76,7 @@ impl<N: Number> Add for Vector<N> {
 
 impl<N: Number> Sub for Vector<N> {
     type Output = Self;
+    #[inline]
     fn sub(self, other: Self) -> Self {
         Self::new(self.x - other.x, self.y - other.y, self.z - other.z)
     }
@@ -75,6 +84,7 @@ impl<N: Number> Sub for Vector<N> {
 
 impl<N: Number> Mul<N> for Vector<N> {
     type Output = Self;
+    #[inline]
     fn mul(self, factor: N) -> Self {
         Self::new(self.x * factor, self.y * factor, self.z * factor)
     }

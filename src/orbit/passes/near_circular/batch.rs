@@ -8,7 +8,7 @@ use crate::orbit::{
         window::Window,
     },
     propagator::Secular,
-    simd::{LANES, Lanes, set},
+    simd::{LANES, Lanes},
 };
 
 #[derive(Clone, Copy)]
@@ -29,16 +29,18 @@ pub(super) struct Batch {
 impl Batch {
     /// Loads up to [`LANES`] satellites and returns their instants. The last satellite fills the
     /// remaining lanes.
+    #[inline(always)]
     pub(super) fn take(&mut self, satellites: &[SatelliteAt<'_>]) -> Lanes {
         for (lane, SatelliteAt { satellite, .. }) in in_lanes(satellites) {
             self.secular.set(lane, satellite.secular);
-            set(&mut self.half_pass_s, lane, satellite.half_pass_s);
-            set(&mut self.exactness.drift_km_s, lane, satellite.track.exactness.drift_km_s);
+            self.half_pass_s.set(lane, satellite.half_pass_s);
+            self.exactness.drift_km_s.set(lane, satellite.track.exactness.drift_km_s);
         }
         self.instants(satellites)
     }
 
     /// Loads only the orbit planes.
+    #[inline(always)]
     pub(super) fn take_planes(&mut self, satellites: &[SatelliteAt<'_>]) -> Lanes {
         for (lane, SatelliteAt { satellite, .. }) in in_lanes(satellites) {
             self.secular.plane.set(lane, &satellite.secular.plane);
@@ -46,22 +48,25 @@ impl Batch {
         self.instants(satellites)
     }
 
+    #[inline(always)]
     fn instants(&mut self, satellites: &[SatelliteAt<'_>]) -> Lanes {
         let mut instants = Lanes::ZERO;
         for (lane, SatelliteAt { satellite, at_s }) in in_lanes(satellites) {
-            set(&mut self.start_since_epoch_s, lane, satellite.track.start_since_epoch_s);
-            set(&mut instants, lane, *at_s);
+            self.start_since_epoch_s.set(lane, satellite.track.start_since_epoch_s);
+            instants.set(lane, *at_s);
         }
         instants
     }
 
     /// Minutes since the epochs.
+    #[inline(always)]
     pub(super) fn minutes(&self, at_s: Lanes) -> Lanes {
         (at_s + self.start_since_epoch_s) * (1.0 / 60.0)
     }
 
     /// The series around exact states. The caller
     /// [counts](crate::orbit::passes::track::Track::count) them.
+    #[inline(always)]
     pub(super) fn series(&self, window: &Window, at_s: Lanes) -> LocalSeries<Lanes> {
         let turn = window.sidereal_at(at_s);
         let (position_km, velocity_km_s) = self.secular.motion(self.minutes(at_s), turn);

@@ -46,6 +46,7 @@ struct InPlane {
 
 /// Approximate times at which satellites go by near the window, ordered by satellite, then by time.
 /// Where pieces touch, one fly-by may be guessed twice.
+#[inline(always)]
 pub(super) fn guesses<'a>(
     window: &Window,
     satellites: impl Iterator<Item = &'a NearCircular<'a>>,
@@ -103,12 +104,13 @@ fn guess<'a>(ends: &[SatelliteAt<'a>], in_plane: &InPlane, guesses: &mut Vec<Sat
 
 impl Batch {
     /// The instants of the fly-bys, accurate to some seconds, by Newton's method.
+    #[inline(always)]
     pub(super) fn refined(&self, window: &Window, guesses_s: Lanes) -> Lanes {
         let mut at_s = guesses_s;
         for _ in 0..MAX_STEPS {
             let InPlane { satellite, site, rate } = self.in_plane(window, at_s);
             let ahead = wrapped(satellite - site);
-            at_s -= ahead / rate;
+            at_s = at_s - ahead / rate;
             if !Number::abs(ahead).any_reaches(LAST_STEP_RAD) {
                 break;
             }
@@ -116,6 +118,7 @@ impl Batch {
         at_s
     }
 
+    #[inline(always)]
     fn in_plane(&self, window: &Window, at_s: Lanes) -> InPlane {
         let Plane { sin_inclination, cos_inclination, node, argument, perigee, eccentricity } =
             &self.secular.plane;
@@ -156,6 +159,7 @@ impl Batch {
 }
 
 /// The angle minus whole turns, -pi to pi.
+#[inline(always)]
 fn wrapped<N: Number>(angle: N) -> N {
     angle - (angle * (1.0 / TAU)).nearest() * TAU
 }

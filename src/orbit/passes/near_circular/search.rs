@@ -20,7 +20,7 @@ use crate::orbit::{
         two_body::TwoBody,
         window::Window,
     },
-    simd::{LANES, Lanes, Number, holds_in, lane_of},
+    simd::{Answers, LANES, Lanes, Number, widest},
 };
 
 /// AOS and LOS are searched for within this many half passes of the crest.
@@ -34,12 +34,24 @@ struct Edges {
     guess_tau: Lanes,
     /// The result of one step from the exact states at the guesses, and whether it has converged.
     places: LocalState<Lanes>,
-    are_settled: Lanes,
+    are_settled: Answers,
     sightings: Sighting<Lanes>,
 }
 
 /// The passes of near-circular orbits, cut to the window, ordered by satellite, then by time.
 pub(in crate::orbit::passes) fn passes<'a>(
+    window: &Window,
+    satellites: impl Iterator<Item = &'a NearCircular<'a>>,
+    cancelled: &dyn Fn() -> bool,
+) -> Vec<CompactPass> {
+    widest(
+        #[inline(always)]
+        || passes_of(window, satellites, cancelled),
+    )
+}
+
+#[inline(always)]
+fn passes_of<'a>(
     window: &Window,
     satellites: impl Iterator<Item = &'a NearCircular<'a>>,
     cancelled: &dyn Fn() -> bool,
@@ -65,6 +77,7 @@ pub(in crate::orbit::passes) fn passes<'a>(
 
 /// Adds the passes whose middles are near these fly-bys, one per lane; `last` is the
 /// fly-by before them.
+#[inline(always)]
 fn passes_at(
     window: &Window,
     batch: &Batch,
@@ -95,22 +108,23 @@ fn passes_at(
         let satellite = fly_by.satellite;
         let track = satellite.track;
         track.count(1);
-        if holds_in(is_low, lane) {
+        if is_low.holds_in(lane) {
             continue;
         }
-        let pass = if holds_in(is_settled, lane) {
+        let pass = if is_settled.holds_in(lane) {
             track.count(2);
             let points = [&rising.sightings, &tops, &setting.sightings];
             let points = points.map(|sightings| sightings.lane(lane));
             Some(track.pass(points.each_ref(), [false, false]))
         } else {
-            let crest = holds_in(is_crest, lane).then(|| crests.lane(lane));
+            let crest = is_crest.holds_in(lane).then(|| crests.lane(lane));
             alone(satellite, &series, crest, [&rising, &setting], lane)
         };
         found.extend(pass);
     }
 }
 
+#[inline(always)]
 fn edges(
     window: &Window,
     batch: &Batch,
@@ -129,6 +143,7 @@ fn edges(
     Edges { side, guess_tau, places, are_settled, sightings }
 }
 
+#[inline(always)]
 fn is_beside<N: Number>(
     half_pass_s: N,
     crest: &LocalState<N>,
@@ -158,7 +173,7 @@ fn alone(
     }
     let [aos, los] = [rising, setting].map(|edges| {
         let place = edges.places.lane(lane);
-        if holds_in(edges.are_settled, lane) {
+        if edges.are_settled.holds_in(lane) {
             track.count(1);
             return Some(place);
         }
@@ -179,7 +194,7 @@ fn edge_alone(
     let near = places.lane(lane);
     let is_near = is_beside(half_pass_s, crest, &near, *side);
     track.count(usize::from(is_near));
-    let guess_s = if is_near { near.at_s } else { series.at_s + lane_of(guess_tau, lane) };
+    let guess_s = if is_near { near.at_s } else { series.at_s + guess_tau.lane(lane) };
     let outside_s = crest.at_s + side * MAX_HALF_PASSES * half_pass_s;
     track.crossing(outside_s, guess_s, crest.at_s)
 }
