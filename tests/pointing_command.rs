@@ -14,7 +14,7 @@ use azel::{
     orbit::{PassSearch, Propagator, bundled, passes},
     plan::{
         MountLimits, Trackability,
-        pass_report::{FlownOffsets, MeasuredPosition, TrackedPass},
+        pass_report::{Breaks, FlownOffsets, MeasuredPosition, TrackedPass},
     },
     record::{
         AboutTrack, Entry, Kind, PassNote, Peak, PeakChange, PeakOf, RecordedReport, Recorder,
@@ -66,6 +66,7 @@ fn fly(recorder: &Recorder, antenna: &Antenna, site: Site, number: u32, seed: &m
             })
             .collect();
         let half_beam = Angle::from_degrees(0.5);
+        let breaks = Breaks::default();
         let tracked = TrackedPass {
             propagator: &propagator,
             site,
@@ -80,6 +81,7 @@ fn fly(recorder: &Recorder, antenna: &Antenna, site: Site, number: u32, seed: &m
             },
             trackability: Trackability::Whole,
             ended: None,
+            breaks: &breaks,
         };
         recorder.note_pass(PassNote {
             antenna: antenna.id,

@@ -1,11 +1,13 @@
 //! Report of a pass that an antenna tracked: where it pointed, beside where the satellite was.
 
+mod breaks;
 mod explain;
 mod flown_offsets;
 mod losses;
 #[cfg(test)]
 mod tests;
 
+pub use breaks::Breaks;
 pub use explain::{Cause, Evidence, Explained, Explanation, below_their_parts};
 pub use flown_offsets::FlownOffsets;
 pub use losses::{LossCause, LostStretch};
@@ -51,6 +53,7 @@ pub struct TrackedPass<'a> {
     pub trackability: Trackability,
     /// When the program ended, if that was before the pass was over.
     pub ended: Option<Timestamp>,
+    pub breaks: &'a Breaks,
 }
 
 /// A measured position.
@@ -194,14 +197,16 @@ impl TrackedPass<'_> {
         let worst = reached.iter().max_by(|a, b| a.error.off_deg.total_cmp(&b.error.off_deg));
         let worst = worst.map(|worst| WorstError { at: worst.time, error: worst.error });
         let is_planned = |loss: &&LostStretch| {
-            matches!(loss.cause, LossCause::OutOfReach | LossCause::RateOfMount | LossCause::Slew)
+            use LossCause::{Keyhole, OutOfReach, RateOfMount, Slew};
+            matches!(loss.cause, OutOfReach | Keyhole | RateOfMount | Slew)
         };
         let planned_s: f64 = losses.iter().filter(is_planned).map(LostStretch::seconds).sum();
         let excused_s = if planned_s <= self.allowed_s() { planned_s } else { 0.0 };
         let could_not_be_had =
             losses.iter().all(|loss| is_planned(&loss)) && excused_s >= planned_s;
         let is_unknown = |loss: &&LostStretch| {
-            matches!(loss.cause, LossCause::NotMeasured | LossCause::ProgramEnded)
+            use LossCause::{LinkLost, NotMeasured, ProgramEnded};
+            matches!(loss.cause, NotMeasured | LinkLost | ProgramEnded)
         };
         let not_known_s: f64 = losses.iter().filter(is_unknown).map(LostStretch::seconds).sum();
         let could_s = counted_s - excused_s;
@@ -233,10 +238,6 @@ impl TrackedPass<'_> {
     /// Returns `true` if the mount can point at the satellite then.
     pub fn is_in_reach(&self, at: Timestamp) -> bool {
         is_in_reach(self.propagator, self.site, self.limits.mount, at)
-    }
-
-    fn direction(&self, at: Timestamp) -> Option<AzEl> {
-        self.propagator.look_from(self.site, at).ok().map(|look| look.direction)
     }
 
     fn compare(&self, flown: MeasuredPosition) -> Option<TrackPoint> {

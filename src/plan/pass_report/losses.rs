@@ -3,7 +3,7 @@
 use jiff::Timestamp;
 use serde::{Deserialize, Serialize};
 
-use super::{APART_S, TrackPoint, TrackedPass};
+use super::{APART_S, COMES_BACK_S, TrackPoint, TrackedPass};
 use crate::{
     astro::time::{add_seconds, seconds_between},
     plan::trackability::{Loss, Trackability},
@@ -29,11 +29,15 @@ impl LostStretch {
 pub enum LossCause {
     /// No positions came in.
     NotMeasured,
+    /// There was no link to the unit.
+    LinkLost,
     /// The program ended: nothing is known of what came after.
     ProgramEnded,
     /// The mount cannot point there.
     OutOfReach,
-    /// An axis would have had to turn faster than it can: near a keyhole or overhead.
+    /// An axis would have had to turn faster than it can near a keyhole of its mount.
+    Keyhole,
+    /// An axis would have had to turn faster than it can: overhead.
     RateOfMount,
     /// The axis had to slew a whole turn.
     Slew,
@@ -41,6 +45,8 @@ pub enum LossCause {
     LateStart,
     /// The antenna had left the satellite before its end.
     EarlyEnd,
+    /// The antenna had been stopped.
+    Stopped,
     NotExplained,
 }
 
@@ -50,24 +56,19 @@ impl TrackedPass<'_> {
         let mut seen_to = self.from;
         let mut out_since: Option<Timestamp> = None;
         let mut has_arrived = false;
-        let end =
-            |since: Timestamp, until: Timestamp, has_arrived: bool, is_over: bool| LostStretch {
-                from: since,
-                until,
-                cause: self.cause(since, until, has_arrived, is_over),
-            };
+        let lost = |since: Timestamp, until: Timestamp, has_arrived: bool, is_over: bool| {
+            self.in_parts(since, until, self.cause(since, until, has_arrived, is_over))
+        };
         for position in compared {
             if seconds_between(seen_to, position.time) > APART_S {
-                losses
-                    .extend(out_since.take().map(|since| end(since, seen_to, has_arrived, false)));
-                let (from, until) = (seen_to, position.time);
-                losses.extend(self.not_known(from, until, LossCause::NotMeasured));
+                let off = out_since.take().into_iter();
+                losses.extend(off.flat_map(|since| lost(since, seen_to, has_arrived, false)));
+                losses.extend(self.not_measured(seen_to, position.time));
                 seen_to = position.time;
             }
             if self.is_in_beam(position) {
-                losses.extend(
-                    out_since.take().map(|since| end(since, position.time, has_arrived, false)),
-                );
+                let off = out_since.take().into_iter();
+                losses.extend(off.flat_map(|since| lost(since, position.time, has_arrived, false)));
                 has_arrived = true;
             } else if out_since.is_none() {
                 out_since = Some(seen_to);
@@ -77,19 +78,25 @@ impl TrackedPass<'_> {
         let last = self.ended.unwrap_or(self.until);
         let is_measured = seconds_between(seen_to, last) <= APART_S;
         let until = if is_measured { last } else { seen_to };
-        losses.extend(out_since.map(|since| end(since, until, has_arrived, self.ended.is_none())));
+        let off = out_since.into_iter();
+        losses.extend(off.flat_map(|since| lost(since, until, has_arrived, self.ended.is_none())));
         if !is_measured {
-            let (from, until) = (seen_to, last);
-            losses.extend(self.not_known(from, until, LossCause::NotMeasured));
+            losses.extend(self.not_measured(seen_to, last));
         }
         let ended = self.ended.into_iter();
         losses.extend(
-            ended.flat_map(|from| self.not_known(from, self.until, LossCause::ProgramEnded)),
+            ended.flat_map(|from| self.in_parts(from, self.until, LossCause::ProgramEnded)),
         );
         losses
     }
 
-    /// Why the beam was off the satellite between two times.
+    fn not_measured(&self, from: Timestamp, until: Timestamp) -> Vec<LostStretch> {
+        let lacks_link = self.breaks.lacks_link(from, until);
+        let why = if lacks_link { LossCause::LinkLost } else { LossCause::NotMeasured };
+        self.in_parts(from, until, why)
+    }
+
+    /// Why the beam was off a satellite within reach between two times.
     fn cause(
         &self,
         from: Timestamp,
@@ -97,11 +104,8 @@ impl TrackedPass<'_> {
         has_arrived: bool,
         is_over: bool,
     ) -> LossCause {
-        let middle = add_seconds(from, seconds_between(from, until) / 2.0);
-        let times = [from, middle, until];
-        let mut directions = times.iter().filter_map(|at| self.direction(*at));
-        if directions.any(|direction| !self.limits.mount.reaches(direction)) {
-            return LossCause::OutOfReach;
+        if self.breaks.has_stop(from, until) {
+            return LossCause::Stopped;
         }
         if let Trackability::Loses { at, .. } = self.trackability
             && has_arrived
@@ -109,9 +113,13 @@ impl TrackedPass<'_> {
             && seconds_between(from, until) <= self.allowed_s()
         {
             return match at {
-                Loss::Keyhole(_) | Loss::Overhead => LossCause::RateOfMount,
+                Loss::Keyhole(_) => LossCause::Keyhole,
+                Loss::Overhead => LossCause::RateOfMount,
                 Loss::Slew => LossCause::Slew,
-                Loss::OutOfReach => LossCause::OutOfReach,
+                Loss::OutOfReach if self.reached_s(from, until) <= COMES_BACK_S => {
+                    LossCause::OutOfReach
+                }
+                Loss::OutOfReach => LossCause::NotExplained,
             };
         }
         match (has_arrived, is_over) {
@@ -121,9 +129,16 @@ impl TrackedPass<'_> {
         }
     }
 
-    /// A stretch of which no direction is known, for this reason. What is out of reach of the mount
-    /// is lost whatever was measured: an axis at its limit may tell no angle.
-    fn not_known(&self, from: Timestamp, until: Timestamp, why: LossCause) -> Vec<LostStretch> {
+    /// Seconds in which the satellite was within reach of the mount.
+    fn reached_s(&self, from: Timestamp, until: Timestamp) -> f64 {
+        let seconds = 0..seconds_between(from, until).ceil().max(0.0) as u32;
+        let at = |second: &u32| add_seconds(from, f64::from(*second));
+        seconds.filter(|second| self.is_in_reach(at(second))).count() as f64
+    }
+
+    /// A stretch that is lost for this reason, but where the satellite was out of reach of the mount:
+    /// that is lost whatever was measured, since an axis at its limit may tell no angle.
+    fn in_parts(&self, from: Timestamp, until: Timestamp, why: LossCause) -> Vec<LostStretch> {
         let mut found: Vec<LostStretch> = Vec::new();
         let seconds = seconds_between(from, until).ceil().max(0.0) as u32;
         for second in 0..seconds {

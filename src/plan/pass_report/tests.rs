@@ -3,7 +3,8 @@
 use jiff::{SignedDuration, Timestamp};
 
 use super::{
-    FlownOffsets, LossCause, LostStretch, MeasuredPosition, PassReport, PassVerdict, TrackedPass,
+    Breaks, FlownOffsets, LossCause, LostStretch, MeasuredPosition, PassReport, PassVerdict,
+    TrackedPass,
 };
 use crate::{
     astro::{
@@ -22,6 +23,7 @@ struct Scene {
     propagator: Propagator,
     site: Site,
     pass: Pass,
+    breaks: Breaks,
 }
 
 impl Scene {
@@ -36,7 +38,7 @@ impl Scene {
             ..PassSearch::new(site, start, add_seconds(start, 3.0 * 86_400.0))
         };
         let pass = passes(&propagator, &search, &|| false)[0];
-        Self { propagator, site, pass }
+        Self { propagator, site, pass, breaks: Breaks::default() }
     }
 
     fn flown_pass(&self) -> TrackedPass<'_> {
@@ -59,6 +61,7 @@ impl Scene {
             },
             trackability: Trackability::Whole,
             ended: None,
+            breaks: &self.breaks,
         }
     }
 
@@ -212,6 +215,18 @@ fn what_is_out_of_reach_is_no_fault_whatever_was_measured_there() {
         let worst = report.worst.unwrap().error.off_deg;
         assert!(worst < 0.1, "{worst}: what is out of reach says nothing of the pointing");
     }
+    // A pointing error that goes on to the end of the reach is none of the mount's.
+    let wanders = tracked.report(&scene.flown(|second, at| match second {
+        second if second < middle_s - 60.0 => Some(scene.direction(at)),
+        second if second < middle_s => {
+            let mut direction = scene.direction(at);
+            direction.elevation = direction.elevation + Angle::from_degrees(20.0);
+            Some(direction)
+        }
+        _ => Some(at_its_end),
+    }));
+    assert_eq!(wanders.verdict, PassVerdict::Poor);
+    assert_eq!(causes(&wanders), [LossCause::NotExplained, LossCause::OutOfReach]);
     // What could be had and was not is a loss as ever.
     let idle = tracked
         .report(&scene.flown(|second, at| (second < middle_s / 2.0).then(|| scene.direction(at))));
@@ -285,6 +300,34 @@ fn what_comes_late_leaves_early_or_wanders_is_told_apart() {
     let unmeasured = scene.report(|_, _| None);
     assert_eq!((unmeasured.verdict, unmeasured.known_s), (PassVerdict::Poor, 0.0));
     assert_eq!(causes(&unmeasured), [LossCause::NotMeasured]);
+}
+
+#[test]
+fn a_lost_link_and_a_stop_are_told_as_what_they_are() {
+    let mut scene = Scene::new();
+    let at = |second: u32| add_seconds(scene.pass.aos.time, f64::from(second));
+    let looks = (0..400).map(|second| {
+        let (is_down, is_stopped) = (103..130, 200..260);
+        (at(second), !is_down.contains(&second), is_stopped.contains(&second))
+    });
+    let looks: Vec<_> = looks.collect();
+    let flown = |scene: &Scene| {
+        let left = scene.direction(add_seconds(scene.pass.aos.time, 201.0));
+        scene.report(|second, at| match second {
+            _ if (100.0..130.0).contains(&second) => None,
+            _ if second >= 201.0 => Some(left),
+            _ => Some(scene.direction(at)),
+        })
+    };
+    let unknown = flown(&scene);
+    assert_eq!(causes(&unknown), [LossCause::NotMeasured, LossCause::EarlyEnd]);
+    for (now, has_link, is_stopped) in looks {
+        scene.breaks.note(now, has_link, is_stopped);
+    }
+    let told = flown(&scene);
+    assert_eq!(causes(&told), [LossCause::LinkLost, LossCause::Stopped]);
+    assert!(is_close(told.losses[0].seconds(), 30.0, 2.0 * STEP_S), "{:?}", told.losses);
+    assert_eq!(told.verdict, PassVerdict::Poor);
 }
 
 #[test]

@@ -125,8 +125,7 @@ fn events(model: &Model, opened: &OpenedPass) -> [Vec<Moment>; 4] {
             lane.push(Moment { at: row.time, words, colour });
         }
     }
-    let is_told =
-        |cause: LossCause, seconds: f64| cause != LossCause::NotMeasured && seconds >= LEAST_S;
+    let is_told = |cause: LossCause, seconds: f64| has_positions(cause) && seconds >= LEAST_S;
     let longest = report.report.losses.iter();
     let longest = longest.filter(|lost| is_told(lost.cause, lost.seconds()));
     if let Some(alarms) = lanes.last_mut() {
@@ -183,6 +182,10 @@ fn variant(value: &serde_json::Value) -> Option<String> {
     Some(words)
 }
 
+fn has_positions(cause: LossCause) -> bool {
+    !matches!(cause, LossCause::NotMeasured | LossCause::LinkLost)
+}
+
 /// Where positions came in, and where none did.
 fn link(ui: &Ui, lane: Rect, axis: &TimeAxis, opened: &OpenedPass) {
     let t = theme::tokens(ui);
@@ -195,7 +198,7 @@ fn link(ui: &Ui, lane: Rect, axis: &TimeAxis, opened: &OpenedPass) {
     };
     bar(report.from, report.until, t.ok);
     for lost in &report.report.losses {
-        if lost.cause == LossCause::NotMeasured {
+        if !has_positions(lost.cause) {
             bar(lost.from, lost.until, t.bad);
         }
     }

@@ -6,7 +6,7 @@ use crate::{
     orbit::{PassSearch, Propagator, bundled, passes},
     plan::{
         MountLimits, Sample, Trackability,
-        pass_report::{Evidence, FlownOffsets, MeasuredPosition, TrackPoint, TrackedPass},
+        pass_report::{Breaks, Evidence, FlownOffsets, MeasuredPosition, TrackPoint, TrackedPass},
     },
     record::{AboutTrack, RecordedPass, RecordedReport, TrackedBy},
     station::{AntennaId, Mount},
@@ -53,6 +53,7 @@ fn opened(late_s: f64, is_measured: impl Fn(u32) -> bool) -> OpenedPass {
         min_elevation: Angle::from_degrees(0.0),
     };
     let trackability = Trackability::Whole;
+    let breaks = Breaks::default();
     let tracked = TrackedPass {
         propagator: &propagator,
         site,
@@ -61,6 +62,7 @@ fn opened(late_s: f64, is_measured: impl Fn(u32) -> bool) -> OpenedPass {
         limits,
         trackability,
         ended: None,
+        breaks: &breaks,
     };
     let points = positions.iter().map(|at| TrackPoint::new(&propagator, site, true, *at));
     let track: Vec<TrackPoint> = points.flatten().collect();
