@@ -164,8 +164,10 @@ fn table(Told { antenna, fit, causes }: &Told<'_>, out: &mut impl Write) -> io::
         write!(out, "{:<20}", pointing_term(of.term))?;
         // As in the fields of Preferences.
         let (unit, digits) = if of.term == Term::ElevationScale { ("°/°", 6) } else { ("°", 4) };
-        if let (Some(value), Some(half)) = (of.value, of.half_of_95_percent) {
-            writeln!(out, "  {value:>+10.digits$}{unit}  ±{half:.digits$}{unit}")?;
+        if let Some(value) = of.value {
+            let half = of.half_of_95_percent.map(|half| format!("±{half:.digits$}{unit}"));
+            let half = half.unwrap_or_else(|| "not known".to_owned());
+            writeln!(out, "  {value:>+10.digits$}{unit}  {half}")?;
         } else {
             let with: Vec<&str> =
                 of.not_told_from.iter().map(|term| pointing_term(*term)).collect();

@@ -50,7 +50,8 @@ pub struct FittedTerm {
     /// Degrees; for the scale, degrees a degree. `None` where the points cannot tell it, and where it
     /// was not to be fitted.
     pub value: Option<f64>,
-    /// Half of the width of the interval that holds it in 95 of 100 cases.
+    /// Half of the width of the interval that holds it in 95 of 100 cases; `None` also where the
+    /// value holds a part of terms that the points cannot tell.
     pub half_of_95_percent: Option<f64>,
     /// Terms that the points cannot tell it from.
     pub not_told_from: Vec<Term>,
@@ -109,7 +110,7 @@ impl PointingFit {
             let alike = fit.alike.iter().find(|alike| alike.term == term);
             FittedTerm {
                 term,
-                value: interval.map(|interval| interval.value),
+                value: fit.kept.contains(&term).then(|| fit.model.term(term)),
                 half_of_95_percent: interval.map(|interval| interval.half),
                 not_told_from: alike.map(|alike| alike.with.clone()).unwrap_or_default(),
             }

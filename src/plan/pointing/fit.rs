@@ -3,7 +3,7 @@
 use jiff::Timestamp;
 use serde::{Deserialize, Serialize};
 
-use super::least_squares::{Normal, Square};
+use super::least_squares::{LeftOut, Normal, Square};
 use crate::astro::{AzEl, PointingModel, Site, Term, sun_moon};
 
 /// Rounds of a fit: each leaves less than a tenth of what was there, and terms of some degrees are
@@ -15,6 +15,13 @@ const FEWEST: usize = 8;
 const HIGHEST_DEG: f64 = 88.0;
 /// No point is more exact, degrees: more would be lost in the arithmetic.
 const LEAST_NOISE_DEG: f64 = 1e-7;
+/// Share of its standard deviation by which a term that is left out may change another, and the
+/// interval of that one still holds.
+const HIDDEN: f64 = 0.3;
+/// Fewer points of a kind tell nothing of its noise, which is then taken to be at least that of a peak
+/// that is found by hand, degrees.
+const FEW: u32 = 5;
+const BY_HAND_DEG: f64 = 0.1;
 /// Quantile of the normal distribution that holds 95 % on both sides.
 const NORMAL_95: f64 = 1.959_963_985;
 
@@ -104,6 +111,9 @@ pub struct Fit {
     /// Terms that were fitted.
     pub kept: Vec<Term>,
     pub alike: Vec<Alike>,
+    /// Terms of `kept` that a term of `alike`, of any size that is usual, would change by more than
+    /// a part of what the noise does: nothing tells how well they are known.
+    pub shared: Vec<Term>,
     pub noise: Vec<Found>,
     covariance: Square<{ Term::COUNT }>,
     /// Equations beyond the unknowns.
@@ -111,9 +121,9 @@ pub struct Fit {
 }
 
 impl Fit {
-    /// `None` for a term that was not fitted.
+    /// `None` for a term that was not fitted, or that holds a part of one that was not.
     pub fn interval(&self, term: Term) -> Option<Interval> {
-        let is_kept = self.kept.contains(&term);
+        let is_kept = self.kept.contains(&term) && !self.shared.contains(&term);
         let variance = is_kept.then(|| self.covariance(term, term))?;
         let half = student_95(self.freedom as f64) * variance.sqrt();
         Some(Interval { value: self.model.term(term), half })
@@ -159,26 +169,28 @@ pub fn fit(points: &[Point], terms: &[Term]) -> Result<Fit, CannotFit> {
                 normal.add(&row, rest_deg, weight);
             }
         }
-        let (kept, alike) = normal.told_apart(&wanted);
+        let (kept, left_out) = normal.told_apart(&wanted);
         let (steps, covariance) = normal.solve(&kept);
         for (index, (term, step)) in Term::ALL.into_iter().zip(steps).enumerate() {
             let place = model.place(term);
             *place = if kept.contains(&index) { *place + step } else { 0.0 };
         }
         noise = noise_of(&usable, &model, kept.len());
-        solved = Solved { kept, alike, covariance };
+        solved = Solved { kept, left_out, covariance };
     }
     // The last round weighs by the noise that it finds, so that the variance of its sums is one.
     let named = |places: &[usize]| -> Vec<Term> {
         places.iter().filter_map(|place| Term::ALL.get(*place).copied()).collect()
     };
-    let alike = solved.alike.iter().filter_map(|(place, with)| {
-        Some(Alike { term: *Term::ALL.get(*place)?, with: named(with) })
+    let alike = solved.left_out.iter().filter_map(|out| {
+        Some(Alike { term: *Term::ALL.get(out.unknown)?, with: named(&out.named) })
     });
+    let shared: Vec<usize> = solved.kept.iter().copied().filter(|it| solved.shares(*it)).collect();
     Ok(Fit {
         model,
         kept: named(&solved.kept),
         alike: alike.collect(),
+        shared: named(&shared),
         noise,
         covariance: solved.covariance,
         freedom: (2 * usable.len()).saturating_sub(solved.kept.len()),
@@ -188,8 +200,27 @@ pub fn fit(points: &[Point], terms: &[Term]) -> Result<Fit, CannotFit> {
 #[derive(Default)]
 struct Solved {
     kept: Vec<usize>,
-    alike: Vec<super::least_squares::Alike>,
+    left_out: Vec<LeftOut>,
     covariance: Square<{ Term::COUNT }>,
+}
+
+impl Solved {
+    /// Whether a term that is left out may well change the unknown `of` more than noise hides.
+    fn shares(&self, of: usize) -> bool {
+        let variance = self.covariance.get(of).and_then(|row| row.get(of)).copied();
+        let hidden = HIDDEN * variance.unwrap_or_default().sqrt();
+        let moved = |out: &LeftOut| {
+            let usual = Term::ALL.get(out.unknown).map_or(0.0, |term| usual(*term));
+            let share = out.moves.iter().find(|(unknown, _)| *unknown == of);
+            share.is_some_and(|(_, share)| (share * usual).abs() > hidden)
+        };
+        self.left_out.iter().any(moved)
+    }
+}
+
+/// Size of a term that is not unusual, in its unit.
+fn usual(term: Term) -> f64 {
+    if term == Term::ElevationScale { 0.005 } else { 0.5 }
 }
 
 /// The noise of each kind, with its part of the unknowns.
@@ -202,6 +233,7 @@ fn noise_of(points: &[Point], model: &PointingModel, unknowns: usize) -> Vec<Fou
         let (count, sum) = squares.fold((0, 0.0), |(count, sum), it| (count + 1, sum + it));
         let free = 2.0 * f64::from(count) * free_share;
         let noise_deg = (sum / free.max(1.0)).sqrt();
+        let noise_deg = if count < FEW { noise_deg.max(BY_HAND_DEG) } else { noise_deg };
         (count > 0).then_some(Found { kind, points: count as usize, noise_deg })
     };
     [Kind::Satellite, Kind::Sun, Kind::Moon].into_iter().filter_map(of).collect()

@@ -15,8 +15,15 @@ pub(super) struct Normal<const N: usize> {
     right: [f64; N],
 }
 
-/// What is left out, with those unknowns that make it up.
-pub(super) type Alike = (usize, Vec<usize>);
+/// An unknown that is left out.
+#[derive(Debug, Clone, Default)]
+pub(super) struct LeftOut {
+    pub(super) unknown: usize,
+    /// Unknowns that largely make it up.
+    pub(super) named: Vec<usize>,
+    /// Each unknown that is kept, and by how much one unit of what is left out changes it.
+    pub(super) moves: Vec<(usize, f64)>,
+}
 
 impl<const N: usize> Normal<N> {
     pub(super) fn new() -> Self {
@@ -38,8 +45,8 @@ impl<const N: usize> Normal<N> {
     }
 
     /// Those of `wanted` that can be told apart, the first ones first, and the others.
-    pub(super) fn told_apart(&self, wanted: &[usize]) -> (Vec<usize>, Vec<Alike>) {
-        let (mut kept, mut alike): (Vec<usize>, Vec<Alike>) = (Vec::new(), Vec::new());
+    pub(super) fn told_apart(&self, wanted: &[usize]) -> (Vec<usize>, Vec<LeftOut>) {
+        let (mut kept, mut left_out): (Vec<usize>, Vec<LeftOut>) = (Vec::new(), Vec::new());
         for unknown in wanted.iter().copied() {
             let own = self.product(unknown, unknown);
             let shares = self.solved(&kept, |other| self.product(other, unknown));
@@ -53,9 +60,14 @@ impl<const N: usize> Normal<N> {
                 share.powi(2) * self.product(**other, **other) > NAMED_SHARE.powi(2) * own
             };
             let named = kept.iter().zip(&shares).filter(is_large).map(|(other, _)| *other);
-            alike.push((unknown, if own > 0.0 { named.collect() } else { Vec::new() }));
+            let named = if own > 0.0 { named.collect() } else { Vec::new() };
+            left_out.push(LeftOut { unknown, named, moves: Vec::new() });
         }
-        (kept, alike)
+        for out in &mut left_out {
+            let shares = self.solved(&kept, |other| self.product(other, out.unknown));
+            out.moves = kept.iter().copied().zip(shares).collect();
+        }
+        (kept, left_out)
     }
 
     /// The unknowns `kept`, and their covariance for a variance of one.

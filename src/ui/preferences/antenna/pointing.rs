@@ -107,6 +107,18 @@ fn terms(ui: &mut Ui, antenna: &Antenna, fit: &PointingFit, can_fit: bool) -> Op
     for words in fit.terms.iter().filter(is_fitted).filter_map(not_told) {
         line(ui, &words);
     }
+    let of_unknown = |of: &&FittedTerm| of.value.is_some() && of.half_of_95_percent.is_none();
+    let shared = fit.terms.iter().filter(of_unknown).map(|of| pointing_term(of.term));
+    let shared: Vec<&str> = shared.collect();
+    if !shared.is_empty() {
+        let terms = format::list(&shared);
+        line(
+            ui,
+            &format!(
+                "{terms}: may hold a part of what is left at 0, so nothing tells how well they are known."
+            ),
+        );
+    }
     if !fit.without.is_empty() {
         let terms: Vec<&str> = fit.without.iter().map(|term| pointing_term(*term)).collect();
         line(ui, &format!("Left at 0, as you wanted: {}.", format::list(&terms).to_lowercase()));
