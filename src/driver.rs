@@ -41,7 +41,7 @@ pub use link::{Dial, Stream, dial_line, dial_tcp};
 pub use link_test::{LinkFault, LinkFinding, test_link};
 pub use position_log::PositionLog;
 pub use safety::{Mover, Response, Safety, Unlike};
-pub use session::{Command, JOG_LEASE, OffsetChange, Session, Wires};
+pub use session::{Command, JOG_LEASE, OffsetChange, Session, Wires, is_ticket_of_session};
 pub use snapshot::{
     Event, Found, Inside, LeftOffsets, LinkLoss, LinkState, OnBoardView, Snapshot, StopState,
     StoppingWay, TrackProblem, TrackView, UnitOffsetsView,

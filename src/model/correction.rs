@@ -1,9 +1,12 @@
 //! What would correct the error of a recorded pass. Nothing is changed here.
 
+use std::sync::Arc;
+
 use super::Model;
 use crate::{
     astro::{Angle, Offset, TrackOffsets},
-    device::settings::Value,
+    device::settings::{Value, Written},
+    driver,
     engine::antenna::AntennaModel,
     plan::pass_report::{Cause, Explanation},
     record::{RecordedPass, TrackedBy},
@@ -20,7 +23,12 @@ pub struct Correction {
 #[derive(Debug, Clone, PartialEq)]
 pub enum How {
     /// Values for settings of the unit, by their keys and that of their group.
-    Settings { group: &'static str, values: Vec<(&'static str, Value)> },
+    Settings {
+        group: &'static str,
+        values: Vec<(&'static str, Value)>,
+        /// One of them is a time, whose sign no document gives.
+        has_time: bool,
+    },
     /// Offsets with which the antenna begins its tracks, in place of those that are remembered.
     Remembered(TrackOffsets),
 }
@@ -70,7 +78,11 @@ const LEAST_DEG: f64 = 0.005;
 fn settings(antenna: &AntennaModel, pass: &RecordedPass, explanation: &Explanation) -> Option<How> {
     let fields = antenna.variant().track_offsets?;
     let state = antenna.snapshot.state.held.get(fields.group)?;
-    if state.written.as_ref().is_some_and(|written| written.at > pass.report.from) {
+    // A session takes back what it adds for a pass.
+    let is_later = |written: &Arc<Written>| {
+        written.at > pass.report.from && !driver::is_ticket_of_session(written.change.ticket)
+    };
+    if state.written.as_ref().is_some_and(is_later) {
         return None;
     }
     let held = &state.held.as_ref()?.values;
@@ -93,5 +105,6 @@ fn settings(antenna: &AntennaModel, pass: &RecordedPass, explanation: &Explanati
         _ => None,
     };
     let values: Vec<_> = explanation.causes().filter_map(value).collect();
-    (!values.is_empty()).then_some(How::Settings { group: fields.group, values })
+    let has_time = values.iter().any(|(field, _)| *field == fields.time_ms);
+    (!values.is_empty()).then_some(How::Settings { group: fields.group, values, has_time })
 }

@@ -30,7 +30,7 @@ pub struct ExplainedPasses {
 }
 
 /// What explains the newest passes of `antenna`, on this mount, in the record at `path` that end
-/// `within` a time. Reports without a site are of an antenna at `site`.
+/// `within` a time. Other elements, which are each satellite's own, are left to the single passes. Reports without a site are of an antenna at `site`.
 pub fn explain_passes(
     path: &Path,
     antenna: AntennaId,

@@ -22,6 +22,13 @@ use crate::{
 
 /// Tickets from here on are those of sessions.
 const TICKETS: u64 = 1 << 62;
+
+/// Returns `true` for the ticket of a change that a session makes by itself, as it does to add offsets
+/// for a pass and to take them back.
+pub fn is_ticket_of_session(ticket: u64) -> bool {
+    ticket >= TICKETS
+}
+
 /// Interval at which the write of a record is checked.
 const LOOK: Duration = Duration::from_millis(2);
 

@@ -1,12 +1,16 @@
 //! What explains the error of a pass while an antenna tracks it.
 
+use std::path::Path;
+
 use jiff::Timestamp;
 
-use super::reports::{Followed, directions};
+use super::reports::{Followed, directions, others_of};
 use crate::{
     astro::time::{add_seconds, seconds_between},
     engine::Engine,
     job::{Job, Wake},
+    library::History,
+    orbit::Propagator,
     plan::pass_report::{Evidence, Explained, MeasuredPosition, is_in_reach},
 };
 
@@ -17,10 +21,15 @@ const SINCE_S: f64 = 180.0;
 /// An error below this share of half the beamwidth needs no cause.
 const LEAST_SHARE: f64 = 0.2;
 
+/// Other elements of the satellite, with their epochs.
+type Others = Vec<(Timestamp, Propagator)>;
+
 /// The search for a cause, again and again.
 #[derive(Default)]
 pub(super) struct Live {
-    job: Option<Job<Option<Explained>>>,
+    job: Option<Job<(Option<Explained>, Others)>>,
+    /// `None` before the first look, which reads them.
+    others: Option<Others>,
     begun: Option<Timestamp>,
     found: Option<Explained>,
 }
@@ -33,8 +42,9 @@ impl Engine {
             return;
         }
         let (now, wake) = (self.now, &self.wake);
+        let library = self.places.library();
         for pass in &mut self.recording.followed {
-            pass.explain(now, wake);
+            pass.explain(now, library, wake);
         }
         for antenna in &mut self.antennas {
             let shown = &mut antenna.shown;
@@ -46,9 +56,11 @@ impl Engine {
 }
 
 impl Followed {
-    fn explain(&mut self, now: Timestamp, wake: &Wake) {
+    fn explain(&mut self, now: Timestamp, library: Option<&Path>, wake: &Wake) {
         if let Some(end) = Job::take(&mut self.live.job) {
-            self.live.found = end.ok().flatten();
+            let end = end.ok();
+            self.live.found = end.as_ref().and_then(|(found, _)| *found);
+            self.live.others = end.map(|(_, others)| others);
         }
         let is_due = self.live.begun.is_none_or(|at| seconds_between(at, now) >= EVERY_S);
         if !is_due || self.live.job.is_some() || now > self.until {
@@ -63,15 +75,18 @@ impl Followed {
         let about = self.about.clone();
         let (has_elevation, mount) = (self.limits.has_elevation, self.limits.mount);
         let least_deg = self.limits.half_beam.degrees() * LEAST_SHARE;
+        let (elements, others) = (self.elements.clone(), self.live.others.take());
+        let history = library.map(History::beside);
         let started = Job::start("azel-explain", Wake::clone(wake), move |_| {
             young.retain(|flown| is_in_reach(&propagator, site, mount, flown.time));
             for flown in &mut young {
                 *flown = about.offsets.taken_off(&propagator, site, about.on_the_sky(*flown));
             }
             let measured = directions(&young, has_elevation);
-            Evidence::new(mount, has_elevation)
-                .with_pass(&propagator, site, measured)
-                .explained(least_deg)
+            let others = others.unwrap_or_else(|| others_of(&elements, history.as_ref()));
+            let evidence =
+                Evidence::new(mount, has_elevation).with_pass(&propagator, site, measured);
+            (evidence.explained(least_deg, &others), others)
         });
         self.live.job =
             started.inspect_err(|error| tracing::error!(%error, "an error is not explained")).ok();

@@ -11,14 +11,17 @@ use crate::{
         Angle, AzEl, PointingModel, Site,
         time::{add_seconds, apart, seconds_between},
     },
-    driver::{PositionLog, TimeSync, TrackView},
-    engine::{Antenna, CatalogState, Engine, antenna::AntennaModel, passes::mount_limits},
+    driver::{PositionLog, StopState, TimeSync, TrackView},
+    engine::{
+        Antenna, CatalogState, Engine, antenna::AntennaModel, passes::mount_limits,
+        status::LinkStatus,
+    },
     job::{Job, Wake},
     library::History,
     orbit::{Elements, PassSearch, Propagator, passes},
     plan::{
         MountLimits, Sample, TrackPhase, Trackability,
-        pass_report::{Evidence, FlownOffsets, MeasuredPosition, TrackedPass},
+        pass_report::{Breaks, Evidence, FlownOffsets, MeasuredPosition, TrackedPass},
         trackability,
     },
     record::{AboutTrack, PassNote, RecordedReport, TrackedBy},
@@ -42,7 +45,7 @@ const POINT_S: f64 = 0.95;
 /// A pass that an antenna tracks, or has tracked, until it is over.
 pub(super) struct Followed {
     pub(super) antenna: AntennaId,
-    elements: Elements,
+    pub(super) elements: Elements,
     pub(super) propagator: Propagator,
     pub(super) site: Site,
     /// What counts, above the antenna's own minimum elevation.
@@ -53,6 +56,7 @@ pub(super) struct Followed {
     ended: Option<Timestamp>,
     pub(super) limits: MountLimits,
     pub(super) about: AboutTrack,
+    breaks: Breaks,
     positions: PositionLog,
     next_position: u64,
     pub(super) flown: Vec<MeasuredPosition>,
@@ -180,6 +184,7 @@ impl Engine {
             ended: None,
             limits,
             about: about(shown, now, self.time_sync),
+            breaks: Breaks::default(),
             positions: antenna.handle.positions().clone(),
             next_position: 0,
             flown: Vec::new(),
@@ -187,6 +192,18 @@ impl Engine {
         };
         self.recording.followed.push(followed);
     }
+}
+
+/// The sets in `history` of the satellite of `elements`, with their epochs, but that one.
+pub(super) fn others_of(
+    elements: &Elements,
+    history: Option<&History>,
+) -> Vec<(Timestamp, Propagator)> {
+    let sets = history.map_or_else(Vec::new, |of| of.of(elements.catalog_number()));
+    let others = sets.iter().filter(|set| set.elements.epoch() != elements.epoch());
+    let others =
+        others.filter_map(|set| Some((set.elements.epoch(), Propagator::new(&set.elements).ok()?)));
+    others.collect()
 }
 
 /// The measured directions.
@@ -229,6 +246,8 @@ impl Followed {
                 (self.positions, self.next_position) = (positions.clone(), 0);
             }
             let snapshot = &antenna.shown.snapshot;
+            let has_link = LinkStatus::of(&antenna.shown) == LinkStatus::Up;
+            self.breaks.note(now, has_link, snapshot.stop != StopState::Ready);
             let view = snapshot.program_track.as_ref();
             let number = self.elements.catalog_number();
             // Before AOS and after LOS it counts for other passes.
@@ -276,6 +295,7 @@ impl Followed {
             limits: self.limits,
             trackability: self.trackability(),
             ended: self.ended,
+            breaks: &self.breaks,
         };
         let report = tracked.report(&flown);
         let has_elevation = self.limits.has_elevation;
@@ -287,11 +307,7 @@ impl Followed {
             self.site,
             measured,
         );
-        let sets = history.map_or_else(Vec::new, |of| of.of(self.elements.catalog_number()));
-        let others = sets.iter().filter(|set| set.elements.epoch() != self.elements.epoch());
-        let others = others
-            .filter_map(|set| Some((set.elements.epoch(), Propagator::new(&set.elements).ok()?)));
-        let explanations = evidence.explanations(&others.collect::<Vec<_>>());
+        let explanations = evidence.explanations(&others_of(&self.elements, history));
         let middle = add_seconds(self.from, seconds_between(self.from, self.until) / 2.0);
         let points = apart(self.flown.iter().copied(), POINT_S, |flown| flown.time).collect();
         let report = RecordedReport {

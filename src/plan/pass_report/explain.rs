@@ -124,6 +124,9 @@ pub fn below_their_parts(explanations: &[Explanation]) -> Vec<(usize, &Explanati
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Explained {
     pub by: Explanation,
+    /// A cause that the positions so far do not tell from it.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub or: Option<Cause>,
     /// The error, root mean square, degrees.
     pub error_deg: f64,
 }
@@ -261,23 +264,33 @@ impl<'a> Evidence<'a> {
     }
 
     /// What explains an error of at least `least_deg` well, if the positions tell it from all
-    /// else. Where they leave several pairs open, it is the cause that all of these share.
-    pub fn explained(&self, least_deg: f64) -> Option<Explained> {
+    /// else, or from all but one. Where they leave several pairs open, it is the cause that all of
+    /// these share. `others` as for [`Self::explanations`].
+    pub fn explained(
+        &self,
+        least_deg: f64,
+        others: &[(Timestamp, Propagator)],
+    ) -> Option<Explained> {
         let square = self.sum(|point| Some(point.satellite)) / self.points().count().max(1) as f64;
         let error_deg = square.sqrt().to_degrees();
         if error_deg < least_deg {
             return None;
         }
-        let found = self.explanations(&[]);
+        let found = self.explanations(others);
         let alike: Vec<&Explanation> = found.iter().filter(|it| it.is_alike).collect();
+        let mut or = None;
         let by = match alike[..] {
             [one] => one,
+            [one, other] if one.with.is_none() && other.with.is_none() => {
+                or = Some(other.cause);
+                one
+            }
             _ => found.iter().find(|it| {
                 let is_same = |other: &Cause| discriminant(other) == discriminant(&it.cause);
                 it.with.is_none() && alike.iter().all(|alike| alike.causes().any(is_same))
             })?,
         };
-        (by.share >= WELL).then_some(Explained { by: *by, error_deg })
+        (by.share >= WELL).then_some(Explained { by: *by, or, error_deg })
     }
 
     /// Sum of the squares of what differs from one position to the next: an error that lasts

@@ -20,7 +20,7 @@ pub fn take_over(
 ) {
     let Some(place) = model.place(antenna) else { return };
     match how {
-        How::Settings { group, values } => {
+        How::Settings { group, values, .. } => {
             for (field, value) in values {
                 antennas.type_in(model, place, Taken { group, field, value });
             }

@@ -75,7 +75,7 @@ pub fn cause_in_short(pass: &RecordedPass) -> Option<String> {
         return Some(format!("{} {}", loss(lost.cause), format::duration(lost.seconds())));
     }
     match pass.report.explanations.first() {
-        Some(explanation) => Some(causes(explanation)),
+        Some(explanation) => Some(causes(explanation) + &or_alike(&pass.report.explanations)),
         None if report.verdict == PassVerdict::Good => None,
         None => Some("Not explained".to_owned()),
     }
@@ -85,12 +85,15 @@ pub fn cause_in_short(pass: &RecordedPass) -> Option<String> {
 pub fn loss(cause: LossCause) -> &'static str {
     match cause {
         LossCause::NotMeasured => "No positions",
+        LossCause::LinkLost => "Link lost",
         LossCause::ProgramEnded => "Azel ended",
         LossCause::OutOfReach => "Out of the mount's reach",
+        LossCause::Keyhole => "Keyhole",
         LossCause::RateOfMount => "Mount too slow",
         LossCause::Slew => "Azimuth unwrap",
         LossCause::LateStart => "Late start",
         LossCause::EarlyEnd => "Early end",
+        LossCause::Stopped => "Stopped",
         LossCause::NotExplained => "Pointing error",
     }
 }
@@ -209,8 +212,9 @@ fn explains(by: &Explanation) -> String {
 /// What explains the error of a pass under way.
 pub fn explained(explained: &Explained) -> String {
     let causes = together(explained.by.causes().map(cause_now));
-    let explains = explains(&explained.by);
-    format!("{causes}: {explains} of the error of {}.", format::degrees(explained.error_deg, 2))
+    let or = explained.or.map(|of| format!(", or {}", cause(&of).to_lowercase()));
+    let (or, explains) = (or.unwrap_or_default(), explains(&explained.by));
+    format!("{causes}{or}: {explains} of the error of {}.", format::degrees(explained.error_deg, 2))
 }
 
 /// A cause of a pass under way as the subject of a sentence.
@@ -246,7 +250,9 @@ pub fn verdict_sentence(pass: &RecordedReport, now: Timestamp) -> String {
     );
     let explained = pass.explanations.first().map(|best| {
         let causes = together(best.causes().map(cause_as_subject));
-        format!(" {causes}; {} of the error.", explains(best))
+        let or = or_alike(&pass.explanations);
+        let or = if or.is_empty() { or } else { format!(",{or}") };
+        format!(" {causes}{or}; {} of the error.", explains(best))
     });
     inside + &explained.unwrap_or_default() + &losses_sentence(&report.losses)
 }
@@ -272,12 +278,15 @@ fn losses_sentence(losses: &[LostStretch]) -> String {
 fn loss_in_sentence(cause: LossCause) -> &'static str {
     match cause {
         LossCause::NotMeasured => "for lack of positions",
+        LossCause::LinkLost => "while the link was lost",
         LossCause::ProgramEnded => "after Azel ended",
         LossCause::OutOfReach => "out of the mount's reach",
+        LossCause::Keyhole => "in a keyhole of the mount",
         LossCause::RateOfMount => "where the mount is too slow",
         LossCause::Slew => "at the azimuth unwrap",
         LossCause::LateStart => "before the antenna arrived",
         LossCause::EarlyEnd => "after the antenna left",
+        LossCause::Stopped => "after the antenna was stopped",
         LossCause::NotExplained => "to pointing errors",
     }
 }
@@ -291,11 +300,19 @@ pub fn whole_share(share: f64) -> String {
 pub fn correction(how: &How, is_best: bool) -> String {
     let key = if is_best { " (C)" } else { "" };
     match how {
-        How::Settings { values, .. } => format!(
-            "Enters the {} in the settings of the unit{key}. Nothing is sent until you apply \
-             it there.",
-            if values.len() == 1 { "value" } else { "values" }
-        ),
+        How::Settings { values, has_time, .. } => {
+            let values = if values.len() == 1 { "value" } else { "values" };
+            let sign = if *has_time {
+                " The manual does not say whether a larger time is ahead or behind: if the next \
+                 pass is worse, change its sign."
+            } else {
+                ""
+            };
+            format!(
+                "Enters the {values} in the settings of the unit{key}. Nothing is sent until you \
+                 apply it there.{sign}"
+            )
+        }
         How::Remembered(offsets) => {
             format!("Asks whether to remember {} for this antenna{key}", super::offsets(*offsets))
         }
@@ -347,10 +364,32 @@ pub fn alike(explanations: &[Explanation]) -> Option<String> {
             told.push(alike);
         }
     }
+    let alike = || explanations.iter().filter(|it| it.is_alike).flat_map(Explanation::causes);
+    let has = |is_so: fn(&Cause) -> bool| alike().any(is_so);
+    let tells = if has(|it| matches!(it, Cause::SlowDrives { .. })) {
+        "A slower pass"
+    } else if has(|it| matches!(it, Cause::Late { .. }))
+        && has(|it| matches!(it, Cause::OtherElements { .. }))
+    {
+        "The clock of the unit, or a pass of another satellite,"
+    } else {
+        "A pass in another part of the sky"
+    };
     (told.len() > 1).then(|| {
-        format!(
-            "This pass cannot tell these apart: {}. A pass in another part of the sky can.",
-            format::list(&told)
-        )
+        let told = format::list(&told);
+        format!("This pass cannot tell these apart: {told}. {tells} can.")
     })
+}
+
+/// The names of causes that these data do not tell from the best one, after it: empty where there are
+/// none.
+fn or_alike(explanations: &[Explanation]) -> String {
+    let others = explanations.iter().skip(1).filter(|it| it.is_alike);
+    let mut names: Vec<String> = others.map(|of| names(of).to_lowercase()).collect();
+    names.dedup();
+    match &names[..] {
+        [] => String::new(),
+        [one] => format!(" or {one}"),
+        several => format!(" or one of {} others", several.len()),
+    }
 }

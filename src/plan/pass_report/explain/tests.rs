@@ -409,7 +409,7 @@ fn a_late_antenna_is_explained_while_its_pass_goes_on_and_a_small_error_is_not()
         let seen = noisy(&exact.collect::<Vec<_>>(), &mut random);
         let evidence =
             Evidence::new(AZ_EL, true).with_pass(&flight.propagator, flight.site, seen.into_iter());
-        let found = evidence.explained(0.05);
+        let found = evidence.explained(0.05, &[]);
         if late_s < 0.1 {
             assert_eq!(found, None);
             continue;
@@ -417,7 +417,7 @@ fn a_late_antenna_is_explained_while_its_pass_goes_on_and_a_small_error_is_not()
         let found = found.unwrap();
         let Cause::Late { late_s: told_s } = found.by.cause else { panic!("{found:?}") };
         assert!((told_s - late_s).abs() < 0.1 && found.by.share > 0.8, "{found:?}");
-        assert_eq!(evidence.explained(found.error_deg + 0.01), None, "too small to be told");
+        assert_eq!(evidence.explained(found.error_deg + 0.01, &[]), None, "too small to be told");
     }
 }
 
