@@ -89,13 +89,18 @@ impl<T: Send + 'static> Job<T> {
         self.result.recv_timeout(most).ok()
     }
 
-    /// The end of the work, once, which leaves no job; `None` while it goes on.
+    /// The end of the work, once; `None` while it goes on.
+    pub fn end(&self) -> Option<Result<T, BrokeOff>> {
+        match self.result.try_recv() {
+            Ok(result) => Some(Ok(result)),
+            Err(mpsc::TryRecvError::Empty) => None,
+            Err(mpsc::TryRecvError::Disconnected) => Some(Err(BrokeOff)),
+        }
+    }
+
+    /// The end of the work, which leaves no job; `None` while it goes on.
     pub fn take(job: &mut Option<Self>) -> Option<Result<T, BrokeOff>> {
-        let end = match job.as_ref()?.result.try_recv() {
-            Ok(result) => Ok(result),
-            Err(mpsc::TryRecvError::Empty) => return None,
-            Err(mpsc::TryRecvError::Disconnected) => Err(BrokeOff),
-        };
+        let end = job.as_ref()?.end()?;
         *job = None;
         Some(end)
     }

@@ -1,6 +1,6 @@
 //! The fit of a pointing model that a client asked for, and the peaks that count in it.
 
-use std::{path::PathBuf, sync::Arc, time::Duration};
+use std::{io, path::PathBuf, sync::Arc, time::Duration};
 
 use jiff::Timestamp;
 use serde::{Deserialize, Serialize};
@@ -30,17 +30,75 @@ pub struct PointingFitted {
 pub(super) struct PointingWork {
     pub(super) fitted: Option<Arc<PointingFitted>>,
     job: Option<Job<PointingFitted>>,
+    /// A fit that begins when the peaks have been read.
+    waiting: Option<(AntennaId, Vec<Term>)>,
     pub(super) peaks: Arc<Peaks>,
-    /// The record that they are of, and the work of reading it.
+    /// The record that they are of.
     peaks_of: Option<PathBuf>,
-    reading: Option<Job<Result<Peaks, RecordError>>>,
-    /// Why they are not known, and when they are read again.
-    unread: Option<(Instant, String)>,
+    peaks_state: PeaksState,
+}
+
+/// How far the peaks of the record are known.
+#[derive(Default)]
+enum PeaksState {
+    /// There is no record.
+    #[default]
+    None,
+    Reading(Job<Result<Peaks, RecordError>>),
+    Unread {
+        again: Instant,
+        why: String,
+    },
+    Known,
+}
+
+/// The peaks that count in a fit.
+#[derive(Debug, PartialEq)]
+enum Counting {
+    Peaks(Vec<Peak>),
+    /// They are being read.
+    NotYet,
+    Unread(String),
 }
 
 impl PointingWork {
     fn tell(&mut self, antenna: AntennaId, found: Option<Result<PointingFit, String>>) {
         self.fitted = Some(Arc::new(PointingFitted { antenna, found }));
+    }
+
+    fn counting(&self, antenna: AntennaId) -> Counting {
+        match &self.peaks_state {
+            PeaksState::None | PeaksState::Known => {
+                Counting::Peaks(self.peaks.of(antenna).copied().collect())
+            }
+            PeaksState::Reading(_) => Counting::NotYet,
+            PeaksState::Unread { why, .. } => Counting::Unread(why.clone()),
+        }
+    }
+
+    fn read_by(&mut self, job: io::Result<Job<Result<Peaks, RecordError>>>, again: Instant) {
+        self.peaks_state = match job {
+            Ok(job) => PeaksState::Reading(job),
+            Err(error) => PeaksState::Unread { again, why: error.to_string() },
+        };
+    }
+
+    fn take_peaks(&mut self, again: Instant) {
+        let PeaksState::Reading(job) = &self.peaks_state else { return };
+        let why = match job.end() {
+            None => return,
+            Some(Ok(Ok(mut read))) => {
+                // What was entered while it was read.
+                read.extend(&self.peaks);
+                self.peaks = Arc::new(read);
+                self.peaks_state = PeaksState::Known;
+                return;
+            }
+            // The record may just be made.
+            Some(Ok(Err(error))) => error.to_string(),
+            Some(Err(error)) => error.to_string(),
+        };
+        self.peaks_state = PeaksState::Unread { again, why };
     }
 }
 
@@ -48,20 +106,21 @@ impl Engine {
     /// Reads the peaks of the record in use, where that is another one.
     pub(super) fn read_peaks(&mut self) {
         let path = self.record_file();
+        let again = self.steady + AGAIN;
         let work = &mut self.pointing_work;
-        let is_due = work.unread.as_ref().is_some_and(|(due, _)| *due <= self.steady);
+        let is_due =
+            matches!(&work.peaks_state, PeaksState::Unread { again, .. } if *again <= self.steady);
         if path == work.peaks_of && !is_due {
             return;
         }
         if path != work.peaks_of {
             work.peaks = Arc::default();
         }
-        (work.reading, work.unread) = (None, None);
+        work.peaks_state = PeaksState::None;
         work.peaks_of.clone_from(&path);
         let Some(path) = path else { return };
         let job = Job::start("azel-peaks", Arc::clone(&self.wake), move |_| Peaks::read(&path));
-        self.pointing_work.reading =
-            job.inspect_err(|error| tracing::error!(%error, "no thread to read the peaks")).ok();
+        work.read_by(job, again);
     }
 
     /// Records a change of the peaks, from which on clients and fits see it.
@@ -74,44 +133,46 @@ impl Engine {
     /// Publishes the pointing model that fits the recorded passes and the peaks of `antenna` best,
     /// `without` some terms.
     pub(super) fn fit_pointing(&mut self, antenna: AntennaId, without: Vec<Term>) {
-        self.pointing_work.job = None;
-        let Some(path) = self.record_file() else {
+        let path = self.record_file();
+        let work = &mut self.pointing_work;
+        (work.job, work.waiting) = (None, None);
+        let Some(path) = path else {
             let found = Err("this user has no folder for records".to_owned());
-            return self.pointing_work.tell(antenna, Some(found));
+            return work.tell(antenna, Some(found));
         };
-        if let Some((_, why)) = &self.pointing_work.unread {
-            let found = Err(format!("the peaks of the Sun and the Moon cannot be read: {why}"));
-            return self.pointing_work.tell(antenna, Some(found));
-        }
+        let peaks = match work.counting(antenna) {
+            Counting::Peaks(peaks) => peaks,
+            Counting::NotYet => {
+                work.waiting = Some((antenna, without));
+                return work.tell(antenna, None);
+            }
+            Counting::Unread(why) => {
+                let found = Err(format!("the peaks of the Sun and the Moon cannot be read: {why}"));
+                return work.tell(antenna, Some(found));
+            }
+        };
         let site = self.station.site;
-        let peaks: Vec<Peak> = self.pointing_work.peaks.of(antenna).copied().collect();
         let job = Job::start("azel-fit-pointing", Arc::clone(&self.wake), move |_| {
             let all = Timestamp::MIN..Timestamp::MAX;
             let fit = record::fit_pointing(&path, antenna, site, all, &peaks, without);
             PointingFitted { antenna, found: Some(fit.map_err(|error| error.to_string())) }
         });
         let found = job.as_ref().err().map(|error| Err(error.to_string()));
-        self.pointing_work.job = job.ok();
-        self.pointing_work.tell(antenna, found);
+        work.job = job.ok();
+        work.tell(antenna, found);
     }
 
     pub(super) fn take_pointing_fit(&mut self) {
-        if self.pointing_work.unread.is_some() {
+        if matches!(self.pointing_work.peaks_state, PeaksState::Unread { .. }) {
             self.read_peaks();
         }
-        let again = self.steady + AGAIN;
-        let work = &mut self.pointing_work;
-        match Job::take(&mut work.reading) {
-            None => {}
-            Some(Ok(Ok(mut read))) => {
-                // What was entered while it was read.
-                read.extend(&work.peaks);
-                work.peaks = Arc::new(read);
-            }
-            // The record may just be made.
-            Some(Ok(Err(error))) => work.unread = Some((again, error.to_string())),
-            Some(Err(error)) => work.unread = Some((again, error.to_string())),
+        self.pointing_work.take_peaks(self.steady + AGAIN);
+        if !matches!(self.pointing_work.peaks_state, PeaksState::Reading(_))
+            && let Some((antenna, without)) = self.pointing_work.waiting.take()
+        {
+            self.fit_pointing(antenna, without);
         }
+        let work = &mut self.pointing_work;
         match Job::take(&mut work.job) {
             None => {}
             Some(Ok(fitted)) => work.fitted = Some(Arc::new(fitted)),
@@ -121,5 +182,54 @@ impl Engine {
                 }
             }
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::sync::mpsc;
+
+    use super::*;
+    use crate::{clock::Clock, record::PeakOf};
+
+    const ANTENNA: AntennaId = AntennaId(3);
+
+    fn peaks() -> (Peak, Peaks) {
+        let at = Timestamp::UNIX_EPOCH;
+        let peak = Peak { of: PeakOf::Sun, at, azimuth_deg: 100.0, elevation_deg: 20.0 };
+        let mut peaks = Peaks::default();
+        peaks.change(ANTENNA, PeakChange::Added(peak));
+        (peak, peaks)
+    }
+
+    #[test]
+    fn a_fit_leaves_out_no_peak_that_is_still_being_read() {
+        let again = Clock::new(Timestamp::now).now().steady;
+        let (peak, peaks) = peaks();
+        let mut work = PointingWork::default();
+        assert_eq!(work.counting(ANTENNA), Counting::Peaks(Vec::new()), "there is no record");
+        let (go_on, waits) = mpsc::sync_channel(1);
+        let (woken, wakes) = mpsc::sync_channel(1);
+        let wake: crate::job::Wake = Arc::new(move || woken.send(()).unwrap());
+        let job = Job::start("peaks", wake, move |_| {
+            waits.recv().unwrap();
+            Ok(peaks)
+        });
+        work.read_by(job, again);
+        work.take_peaks(again);
+        assert_eq!(work.counting(ANTENNA), Counting::NotYet);
+        go_on.send(()).unwrap();
+        wakes.recv().unwrap();
+        work.take_peaks(again);
+        assert_eq!(work.counting(ANTENNA), Counting::Peaks(vec![peak]));
+    }
+
+    #[test]
+    fn peaks_without_a_thread_to_read_them_are_unread() {
+        let again = Clock::new(Timestamp::now).now().steady;
+        let mut work = PointingWork::default();
+        work.read_by(Err(io::Error::other("no thread")), again);
+        work.take_peaks(again);
+        assert_eq!(work.counting(ANTENNA), Counting::Unread("no thread".to_owned()));
     }
 }
