@@ -114,7 +114,7 @@ fn show(
     let events = EventLoop::<UserEvent>::with_user_event().build();
     let events = events.map_err(|error| no_window::reason(&error.to_string()))?;
     // There is a display: while the system makes the window, elements are read and passes searched.
-    let begun = begin().map_err(|error| no_window::reason(&error.to_string()))?;
+    let begun = begin().map_err(|error| not_started(&error))?;
     let draws = Mutex::new(events.create_proxy());
     let draw = move |asked: egui::RequestRepaintInfo| {
         let event = UserEvent::RequestRepaint {
@@ -133,7 +133,7 @@ fn show(
         let app = create(begun, &cc.egui_ctx);
         *made.borrow_mut() = match &app {
             Ok(_) => Ok(()),
-            Err(error) => Err(no_window::reason(&error.to_string())),
+            Err(error) => Err(not_started(error)),
         };
         Ok(Box::new(app?))
     });
@@ -142,6 +142,11 @@ fn show(
     drop(window);
     made.into_inner()?;
     ended.map_err(|error| no_window::reason(&error.to_string()))
+}
+
+/// The sentence for a station that cannot start: no fault of the window.
+fn not_started(error: &io::Error) -> String {
+    format!("The station could not be started: {error}")
 }
 
 /// Size of a window that stays clear of the panels of a desktop with `room` points for it.
