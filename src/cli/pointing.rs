@@ -99,11 +99,11 @@ pub(super) fn run(station: Option<&Path>, options: &Options) -> anyhow::Result<E
         Some(file) => file.clone(),
         None => record_of(Some(path.to_owned()))?,
     };
-    let within = options.from.unwrap_or(Timestamp::MIN)..options.to.unwrap_or(Timestamp::MAX);
+    let within = options.from.unwrap_or(Timestamp::MIN)..=options.to.unwrap_or(Timestamp::MAX);
     let entered = Peaks::read(&record).context("The peaks in the record cannot be read")?;
     let entered = entered.of(antenna.id).filter(|peak| within.contains(&peak.at));
     let peaks: Vec<Peak> = entered.chain(&options.sun).chain(&options.moon).copied().collect();
-    let fit = fit_pointing(&record, antenna.id, of.site, within.clone(), &peaks, Vec::new())
+    let fit = fit_pointing(&record, antenna.id, of.site, &within, &peaks, Vec::new())
         .with_context(|| format!("{} has no pointing model", antenna.name))?;
     let causes = explain_passes(&record, antenna.id, antenna.mount, of.site, &within)
         .with_context(|| format!("The passes of {} cannot be read", antenna.name))?;

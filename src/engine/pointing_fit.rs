@@ -153,8 +153,8 @@ impl Engine {
         };
         let site = self.station.site;
         let job = Job::start("azel-fit-pointing", Arc::clone(&self.wake), move |_| {
-            let all = Timestamp::MIN..Timestamp::MAX;
-            let fit = record::fit_pointing(&path, antenna, site, all, &peaks, without);
+            let all = Timestamp::MIN..=Timestamp::MAX;
+            let fit = record::fit_pointing(&path, antenna, site, &all, &peaks, without);
             PointingFitted { antenna, found: Some(fit.map_err(|error| error.to_string())) }
         });
         let found = job.as_ref().err().map(|error| Err(error.to_string()));

@@ -160,7 +160,7 @@ impl Engine {
         let (mount, site) = (of.mount, self.station.site);
         let job = Job::start("azel-explain-passes", Arc::clone(&self.wake), move |_| {
             let explained =
-                record::explain_passes(&path, antenna, mount, site, &(Timestamp::MIN..until));
+                record::explain_passes(&path, antenna, mount, site, &(Timestamp::MIN..=until));
             explained.inspect_err(|error| tracing::error!(%error, "passes not explained")).ok()
         });
         self.record_reading.explaining =

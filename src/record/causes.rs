@@ -1,6 +1,6 @@
 //! What explains the errors of several passes together.
 
-use std::{ops::Range, path::Path};
+use std::{ops::RangeInclusive, path::Path};
 
 use jiff::Timestamp;
 use serde::{Deserialize, Serialize};
@@ -36,7 +36,7 @@ pub fn explain_passes(
     antenna: AntennaId,
     mount: Mount,
     site: Site,
-    within: &Range<Timestamp>,
+    within: &RangeInclusive<Timestamp>,
 ) -> Result<ExplainedPasses, RecordError> {
     if !path.exists() {
         return Ok(ExplainedPasses { passes: 0, since: None, explanations: Vec::new() });

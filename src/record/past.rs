@@ -1,6 +1,9 @@
 //! Passes of a record, as somebody looks back at them.
 
-use std::{ops::Range, path::Path};
+use std::{
+    ops::{Range, RangeInclusive},
+    path::Path,
+};
 
 use jiff::{SignedDuration, Timestamp};
 use rusqlite::{Connection, Row as SqlRow, named_params};
@@ -209,14 +212,14 @@ impl Passes {
     pub(super) fn newest(
         &self,
         antenna: AntennaId,
-        within: &Range<Timestamp>,
+        within: &RangeInclusive<Timestamp>,
         count: u32,
     ) -> Result<Vec<RecordedPass>, RecordError> {
         let mut statement = self.db.prepare(&format!(
             "SELECT {COLUMNS} FROM pass WHERE antenna = ?1 AND until_us BETWEEN ?2 AND ?3 \
              ORDER BY until_us DESC LIMIT ?4"
         ))?;
-        let (from, to) = (within.start.as_microsecond(), within.end.as_microsecond());
+        let (from, to) = (within.start().as_microsecond(), within.end().as_microsecond());
         let mut rows = statement.query((antenna.0, from, to, count))?;
         let mut passes = Vec::new();
         while let Some(row) = rows.next()? {

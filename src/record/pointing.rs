@@ -1,6 +1,6 @@
 //! The pointing model of an antenna, fitted to the passes that its record holds.
 
-use std::{ops::Range, path::Path};
+use std::{ops::RangeInclusive, path::Path};
 
 use jiff::Timestamp;
 use serde::{Deserialize, Serialize};
@@ -71,7 +71,7 @@ pub fn fit_pointing(
     path: &Path,
     antenna: AntennaId,
     site: Site,
-    within: Range<Timestamp>,
+    within: &RangeInclusive<Timestamp>,
     peaks: &[Peak],
     without: Vec<Term>,
 ) -> Result<PointingFit, CannotFitPointing> {

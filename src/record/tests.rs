@@ -2,6 +2,7 @@
 
 mod along;
 mod film;
+mod passes;
 
 use std::{fs, path::Path, time::Duration};
 
