@@ -15,7 +15,10 @@ mod state;
 
 use egui::{Rect, RichText, ScrollArea, Ui, UiBuilder, vec2};
 
-pub use self::{correct::take_over, state::RecordState};
+pub use self::{
+    correct::take_over,
+    state::{RecordState, lock},
+};
 use super::{text, theme};
 use crate::model::{Model, UiCommand};
 

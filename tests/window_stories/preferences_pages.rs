@@ -626,6 +626,7 @@ fn a_peak_is_entered_as_measured_now_or_as_typed_and_removed() {
         let mut window = rig::window(size, model);
         open(&mut window, &name);
         assert!(says(&window, "Nothing is recorded: no peak can be kept."));
+        says_why(&mut window, "Add peak", "Nothing is recorded.");
         window.state_mut().model.record = Some(Arc::default());
         settle(&mut window);
         press(&mut window, Role::Button, "Add peak");
@@ -658,5 +659,22 @@ fn a_peak_is_entered_as_measured_now_or_as_typed_and_removed() {
         assert!(says(&window, &row), "{row}");
         press(&mut window, Role::Button, &format!("Remove the peak of {row}"));
         assert_eq!(asked(&mut window), [change(PeakChange::Removed(typed))]);
+        let replay = super::replay::model().replay;
+        window.state_mut().model.replay = replay;
+        settle(&mut window);
+        for button in ["Add peak", &format!("Remove the peak of {row}"), "Fit to recorded passes"] {
+            says_why(&mut window, button, "Replay. Leave it first.");
+        }
     }
+}
+
+/// A locked button says its reason under the pointer.
+fn says_why(window: &mut Window, button: &str, why: &str) {
+    window.get_by_role_and_label(Role::Button, button).scroll_to_me();
+    settle(window);
+    window.get_by_role_and_label(Role::Button, button).hover();
+    settle(window);
+    assert!(says(window, why), "{button}");
+    window.hover_at(egui::pos2(1.0, 1.0));
+    settle(window);
 }

@@ -360,6 +360,18 @@ fn a_pass_that_was_not_tracked_stands_in_the_list_and_says_why() {
 }
 
 #[test]
+fn a_report_says_why_it_is_not_replayed_where_nothing_is_recorded() {
+    for size in SIZES {
+        let mut window = rig::window(size, model().0);
+        let button = window.get_by_role_and_label(Role::Button, "Replay");
+        assert!(button.accesskit_node().is_disabled());
+        button.hover();
+        settle(&mut window);
+        window.get_by_label("Nothing is recorded.");
+    }
+}
+
+#[test]
 fn the_passes_of_chosen_days_are_exported_as_the_list_is_filtered() {
     for size in SIZES {
         let (mut model, _) = model();

@@ -2,7 +2,7 @@
 
 use egui::{Align2, Rect, RichText, Role, TextEdit, Ui, WidgetInfo, pos2, vec2};
 
-use super::{PADDING, RecordState, days::DaysDialog};
+use super::{PADDING, RecordState, days::DaysDialog, lock};
 use crate::{
     astro::time::add_seconds,
     engine::antenna::AntennaModel,
@@ -15,7 +15,7 @@ use crate::{
     ui::{
         format,
         icons::{self, Icon},
-        replay, text, theme,
+        text, theme,
         widgets::{
             button::{Button, HEIGHT as BUTTON},
             drop_down::DropDown,
@@ -181,11 +181,6 @@ fn verdicts(ui: &Ui, place: &mut impl FnMut(f32) -> Rect, state: &mut RecordStat
             ui.selectable_value(&mut state.query.kind, Some(kind), words::listed_kind(kind));
         }
     });
-}
-
-/// Why nothing can be taken from the record.
-fn lock(model: &Model) -> Option<&'static str> {
-    replay::lock(model).or(model.record.is_none().then_some("Nothing is recorded."))
 }
 
 /// Opens the dialog for the passes of several days. Returns the room at the left of its button.

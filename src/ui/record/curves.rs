@@ -3,7 +3,7 @@
 use egui::{Align2, Color32, Rect, Role, Sense, Stroke, Ui, WidgetInfo, pos2, vec2};
 use jiff::{SignedDuration, Timestamp};
 
-use super::{PADDING, RecordState, cursor, events, report};
+use super::{PADDING, RecordState, cursor, events, lock, report};
 use crate::{
     astro::time::{add_seconds, seconds_between},
     model::{Model, UiCommand},
@@ -82,8 +82,8 @@ pub(super) fn show(
     let replays = follow_pointer(ui, whole, &axis, opened, model.now, state);
     events::show(ui, lanes, plots, &axis, model, opened, state);
 
-    if replays && model.replay.is_none() {
-        commands.push(report::replay(&opened.pass, state.cursor));
+    if replays && lock(model).is_none() {
+        commands.push(report::replay_of(&opened.pass, state.cursor));
     }
     let point = cursor::point(opened, state);
     if let Some(at) = state.cursor.or(point.map(|point| point.time)) {

@@ -4,7 +4,7 @@ use egui::{Align2, Popup, Rect, Ui, pos2, vec2};
 
 use jiff::Timestamp;
 
-use super::{PADDING, list};
+use super::{PADDING, list, lock};
 use crate::{
     model::{
         Model, UiCommand,
@@ -13,9 +13,7 @@ use crate::{
     },
     record::RecordedPass,
     ui::{
-        format,
-        replay::lock,
-        text, theme,
+        format, replay, text, theme,
         widgets::{
             button::{Button, HEIGHT as BUTTON},
             menu, paint,
@@ -44,7 +42,7 @@ pub(super) fn head(
     ui.painter().rect_filled(rect, 0.0, t.bg1);
     ui.painter().hline(rect.x_range(), rect.bottom() - 0.5, (1.0, t.line));
     let inner = rect.shrink2(vec2(PADDING, 0.0));
-    let button = Button::normal("Export report").chevron().locked_by(lock(model));
+    let button = Button::normal("Export report").chevron().locked_by(replay::lock(model));
     let size = vec2(button.width(ui), BUTTON);
     let at =
         Rect::from_min_size(pos2(inner.right() - size.x, rect.center().y - BUTTON / 2.0), size);
@@ -56,13 +54,12 @@ pub(super) fn head(
             }
         }
     });
-    let is_possible = can_replay(model);
-    let button = Button::primary("Replay").locked(!is_possible).locked_by(lock(model));
+    let button = Button::primary("Replay").locked_by(lock(model));
     let size = vec2(button.width(ui), BUTTON);
     let at =
         Rect::from_min_size(pos2(at.left() - 8.0 - size.x, rect.center().y - BUTTON / 2.0), size);
     if button.show(ui, "replay", at).clicked() {
-        commands.push(replay(pass, None));
+        commands.push(replay_of(pass, None));
     }
     let room = inner.with_max_x(at.left() - PADDING);
     let line = |y: f32| {
@@ -91,15 +88,10 @@ pub(super) fn head(
 }
 
 /// Shows the pass again, from `at` on or from shortly before its track.
-pub(super) fn replay(pass: &RecordedPass, at: Option<Timestamp>) -> UiCommand {
+pub(super) fn replay_of(pass: &RecordedPass, at: Option<Timestamp>) -> UiCommand {
     let stretch = Stretch::of(pass);
     let at = at.unwrap_or(stretch.from);
     UiCommand::Replay(ReplayCommand::Begin(stretch, at))
-}
-
-/// Whether a pass can be shown again.
-pub(super) fn can_replay(model: &Model) -> bool {
-    model.replay.is_none() && model.record.is_some()
 }
 
 pub(super) fn verdict_height(ui: &Ui, width: f32, model: &Model, pass: &RecordedPass) -> f32 {

@@ -130,8 +130,8 @@ impl RecordState {
 
     /// Shows the pass of the report again, if that is possible.
     pub fn replay(&self, model: &Model) -> Option<UiCommand> {
-        let opened = self.opened(model).filter(|_| report::can_replay(model))?;
-        Some(report::replay(&opened.pass, None))
+        let opened = self.opened(model).filter(|_| lock(model).is_none())?;
+        Some(report::replay_of(&opened.pass, None))
     }
 
     /// Saves the page of the report, if one is shown.
@@ -205,6 +205,11 @@ impl RecordState {
             Ok(_) => ("Record", "The pass is being read.".to_owned()),
         }
     }
+}
+
+/// The reason why controls are locked that show or change what is recorded.
+pub fn lock(model: &Model) -> Option<&'static str> {
+    replay::lock(model).or(model.record.is_none().then_some("Nothing is recorded."))
 }
 
 pub(super) fn found(model: &Model) -> Option<&Found> {

@@ -1,7 +1,7 @@
 //! Peaks of the noise of the Sun and the Moon, entered by hand: points for the fit of a pointing
 //! model.
 
-use egui::{Label, RichText, TextEdit, Ui};
+use egui::{Label, Response, RichText, TextEdit, Ui};
 use jiff::Timestamp;
 
 use crate::{
@@ -10,7 +10,7 @@ use crate::{
     record::{Peak, PeakChange, PeakOf},
     station::AntennaId,
     ui::{
-        format, text, theme,
+        format, record, text, theme,
         widgets::told::{self, Tone},
         words::pointing::peak_of,
     },
@@ -93,7 +93,7 @@ pub(super) fn show(
     ui.add_space(6.0);
     let head = "Peaks of the noise of the Sun and the Moon count in the fit.";
     ui.add(Label::new(RichText::new(head).font(text::small()).color(t.t2)).wrap());
-    let is_recorded = model.record.is_some() && model.replay.is_none();
+    let lock = record::lock(model);
     let mut change = |change| {
         commands.push(UiCommand::Station(engine::Command::ChangePeaks(id, change)));
     };
@@ -101,12 +101,12 @@ pub(super) fn show(
         ui.horizontal(|ui| {
             let words = in_words(peak, model);
             ui.label(RichText::new(&words).font(text::small()).color(t.t1));
-            let remove = ui.add_enabled(is_recorded, egui::Button::new("Remove").small());
+            let remove = ui.add_enabled(lock.is_none(), egui::Button::new("Remove").small());
             remove.widget_info(|| {
                 let name = format!("Remove the peak of {words}");
-                egui::WidgetInfo::labeled(egui::Role::Button, is_recorded, name)
+                egui::WidgetInfo::labeled(egui::Role::Button, lock.is_none(), name)
             });
-            if remove.clicked() {
+            if with_reason(remove, lock).clicked() {
                 change(PeakChange::Removed(*peak));
             }
         });
@@ -131,7 +131,8 @@ pub(super) fn show(
             ui.add(edit).accessible_name(name).on_hover_text(name);
         }
         let read = typed.read(model.now, measured);
-        let add = ui.add_enabled(is_recorded && read.is_ok(), egui::Button::new("Add peak"));
+        let can_add = lock.is_none() && read.is_ok();
+        let add = with_reason(ui.add_enabled(can_add, egui::Button::new("Add peak")), lock);
         if let Ok(peak) = read
             && add.clicked()
         {
@@ -141,7 +142,7 @@ pub(super) fn show(
     });
     match typed.read(model.now, measured) {
         _ if model.replay.is_some() => {}
-        _ if !is_recorded => {
+        _ if lock.is_some() => {
             told::line(ui, Tone::Plain, "Nothing is recorded: no peak can be kept.");
         }
         Err(why) => told::line(ui, Tone::Plain, &why),
@@ -150,6 +151,14 @@ pub(super) fn show(
                 told::line(ui, Tone::Caution, &far);
             }
         }
+    }
+}
+
+/// A button whose tooltip is the reason why it is locked.
+fn with_reason(button: Response, lock: Option<&'static str>) -> Response {
+    match lock {
+        Some(why) => button.on_disabled_hover_text(why),
+        None => button,
     }
 }
 

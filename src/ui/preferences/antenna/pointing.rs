@@ -12,6 +12,7 @@ use crate::{
     ui::{
         format,
         preferences::fields::Typed,
+        replay::LOCKED,
         text, theme,
         widgets::told::{self, Tone},
         words::pointing::{fitted_to, pointing_term},
@@ -73,7 +74,7 @@ enum Wish {
 }
 
 fn why_not(is_at_work: bool) -> &'static str {
-    if is_at_work { "The record is being read." } else { "Not while a replay is shown." }
+    if is_at_work { "The record is being read." } else { LOCKED }
 }
 
 fn terms(ui: &mut Ui, antenna: &Antenna, fit: &PointingFit, can_fit: bool) -> Option<Wish> {
@@ -131,7 +132,8 @@ fn terms(ui: &mut Ui, antenna: &Antenna, fit: &PointingFit, can_fit: bool) -> Op
         let fill_in = ui.button("Fill in").on_hover_text("Nothing is used before you save.");
         let again = may_go.filter(|_| {
             let button = ui.add_enabled(can_fit, egui::Button::new("Fit without them"));
-            button.on_hover_text("Fits again with only the terms that are not zero.").clicked()
+            let button = button.on_hover_text("Fits again with only the terms that are not zero.");
+            button.on_disabled_hover_text(LOCKED).clicked()
         });
         let fill_in = fill_in.clicked().then_some(Wish::FillIn);
         fill_in.or(again.map(Wish::FitWithout))
