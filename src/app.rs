@@ -122,7 +122,7 @@ impl App {
         Ok(Self::on(RunningStation::start(settings.clone(), outside)?, ctx))
     }
 
-    /// The same on a station that runs already.
+    /// Creates the app in a new window, on a station that is already running.
     pub fn on(begun: RunningStation, ctx: &egui::Context) -> Self {
         begun.show_in(ctx);
         let RunningStation {

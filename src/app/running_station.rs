@@ -47,7 +47,8 @@ impl RunningStation {
         Ok(Self { station, settings, outside, wake, client, may_close, told_to_end, window })
     }
 
-    /// Its window is there now.
+    /// Hands the window to the station's waker; closes it at once if the operating system has ended the
+    /// program.
     pub(super) fn show_in(&self, ctx: &Context) {
         // There is one window.
         let _ = self.window.set(ctx.clone());

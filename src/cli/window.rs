@@ -68,7 +68,7 @@ pub(super) fn run(station: Option<PathBuf>, demo: bool) -> anyhow::Result<()> {
     // The operator needs a sentence, not a back-trace.
     let hook = panic::take_hook();
     panic::set_hook(Box::new(|panic| {
-        // That one becomes a sentence.
+        // A missing library is reported as a sentence below.
         if !panic.payload_as_str().is_some_and(|why| why.contains(NO_LIBRARY)) {
             tracing::error!("{panic}");
         }

@@ -25,9 +25,9 @@ use crate::{
     station::AntennaId,
 };
 
-/// Entries are told from this long before a track began, which may have led to it,
+/// Entries are shown from this long before the track began.
 const BEFORE: SignedDuration = SignedDuration::from_secs(300);
-/// to this long after its pass.
+/// Entries are shown to this long after LOS.
 const AFTER: SignedDuration = SignedDuration::from_secs(60);
 /// Time between two directions of the predicted path, seconds.
 const STEP_S: f64 = 2.0;
@@ -56,7 +56,8 @@ pub enum ListedKind {
 }
 
 impl ListedKind {
-    /// As in the column of the verdict, which no pass that was not tracked has.
+    /// The value of the column `verdict`; an empty text, which no row has, for passes that were not
+    /// tracked.
     fn word(self) -> &'static str {
         match self {
             Self::Tracked(verdict) => verdict.word(),

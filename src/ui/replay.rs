@@ -39,9 +39,9 @@ const STOP_IN_SHORT: &str = "STOP is live";
 /// Least width of the bar of the stretch, beside words.
 const LEAST_BAR: f32 = 80.0;
 
-/// In a strip of this width there is room for everything,
+/// From this width on the strip has room for everything.
 const WIDE: f32 = 1360.0;
-/// and from this width on for the keys of passes.
+/// From this width on it has the keys of passes.
 const PASS_KEYS_FROM: f32 = 720.0;
 const HATCHED: f32 = 72.0;
 const GAP: f32 = 8.0;

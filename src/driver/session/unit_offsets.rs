@@ -38,9 +38,10 @@ pub(super) struct UnitOffsets {
     step: Step,
     /// What the operator wants to be added, until it is.
     wanted: Option<TrackOffsets>,
-    /// Those before each change, the oldest first.
+    /// Earlier values of `wanted`, for undo, the oldest first.
     earlier: Vec<TrackOffsets>,
-    /// After a change that was not read back, the unit has to be read again: when it was read last.
+    /// Time of the last read when a change failed to read back: the offsets are unknown until a later
+    /// read.
     unread_since: Option<Timestamp>,
     /// The track to which something was added: the satellite, and when the unit ends it by its own
     /// clock.

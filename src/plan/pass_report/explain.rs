@@ -30,13 +30,13 @@ const FEWEST: usize = 20;
 const ARRIVES_DEG_S: f64 = 0.1;
 /// A cause that explains less is none.
 const LEAST_SHARE: f64 = 0.3;
-/// A cause that explains as much is told while a pass goes on.
+/// A cause is shown during a pass from this share on.
 const WELL: f64 = 0.8;
 /// Two causes whose sums of squares differ by less than this many times the square of the noise
 /// are not told apart: one in a hundred by chance (chi-squared, two degrees of freedom).
 const ALIKE: f64 = 9.2;
-/// A cause that improves the sum of squares by less than this many times the square of the noise may
-/// be chance, of which there are several causes' worth.
+/// An improvement of the sum of squares by less than this many times the variance of the noise may be
+/// chance, since the best of several causes is taken.
 const SURE: f64 = 30.0;
 /// A second cause is offered where it makes what is left smaller by this share of the error.
 const LEAST_MORE: f64 = 0.03;

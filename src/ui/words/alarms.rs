@@ -33,13 +33,13 @@ pub fn alarm_state(state: AlarmState, now: Timestamp) -> String {
     }
 }
 
-/// An alarm in words. `antenna` is the name of its antenna, if it has one.
-// One arm a kind.
 /// The cause in kilometres, in the window too: the desktop and the record have the same words.
 fn cause_of(ranked: &Ranked) -> String {
     super::cause(ranked, DistanceUnit::Kilometres)
 }
 
+/// An alarm in words. `antenna` is the name of its antenna, if it has one.
+// One arm a kind.
 #[allow(clippy::too_many_lines)]
 pub fn alarm(kind: &AlarmKind, antenna: &str, now: Timestamp) -> String {
     match kind {
