@@ -59,12 +59,11 @@ pub struct MissedPass {
 }
 
 impl MissedPass {
-    /// `None` for what an older program wrote in another way, and for a pass that was tracked while
-    /// nothing could be recorded.
+    /// `None` where the entry has another form, as an older program wrote it.
     fn of(entry: MissedEntry) -> Option<Self> {
         let MissedEntry { id, at, antenna, antenna_name, flown } = entry;
-        let flown: Flown = serde_json::from_value(flown).ok()?;
-        (flown.in_beam_s <= 0.0).then_some(Self { id, at, antenna, antenna_name, flown })
+        let flown = serde_json::from_value(flown).ok()?;
+        Some(Self { id, at, antenna, antenna_name, flown })
     }
 }
 

@@ -39,6 +39,7 @@ pub fn missed(
     let is_whole = page.matching <= query.count;
     let since = page.passes.last().filter(|_| !is_whole).map(|pass| pass.report.until);
     let db = file::open_to_read(path)?;
+    // A pass with time in the beam and no report was tracked while nothing could be recorded.
     let mut statement = db.prepare(
         "SELECT id, utc_us, antenna, (SELECT name FROM antenna AS a WHERE a.id = e.antenna \
          ORDER BY since_us > e.utc_us, abs(since_us - e.utc_us) LIMIT 1), flown FROM \
