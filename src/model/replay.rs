@@ -11,6 +11,9 @@ use crate::{
 const BEFORE_S: f64 = 30.0;
 const AFTER_S: f64 = 60.0;
 
+/// A replay ends by itself this long before an antenna is to track a pass, seconds.
+pub const ENDS_BEFORE_PASS_S: f64 = 120.0;
+
 /// A stretch of the record that is shown again.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Stretch {

@@ -8,13 +8,13 @@ use jiff::Timestamp;
 use crate::{
     astro::time::add_seconds,
     engine::alarms::{Alarm, Priority},
-    model::{Model, replay::ReplayEnd},
+    model::{
+        Model,
+        replay::{ENDS_BEFORE_PASS_S, ReplayEnd},
+    },
     plan::schedule::Entry,
     ui::words,
 };
-
-/// A replay ends so long before an antenna is to track a pass, seconds.
-const BEFORE_PASS_S: f64 = 120.0;
 
 /// Why a replay that began at `begun_at` ends by itself.
 pub(super) fn why_over(begun_at: Timestamp, live: &Model) -> Option<ReplayEnd> {
@@ -24,7 +24,7 @@ pub(super) fn why_over(begun_at: Timestamp, live: &Model) -> Option<ReplayEnd> {
         return Some(ReplayEnd::Alarm);
     }
     let is_near = |entry: &&Entry| {
-        let ends_at = add_seconds(entry.from, -BEFORE_PASS_S);
+        let ends_at = add_seconds(entry.from, -ENDS_BEFORE_PASS_S);
         begun_at < ends_at && ends_at <= live.now && live.now < entry.from
     };
     let entry = live.schedule.schedule.entries.iter().find(is_near)?;

@@ -3,10 +3,13 @@
 use egui::{Align2, Rect, StrokeKind, Ui, pos2, vec2};
 
 use super::Cursor;
-use crate::ui::{
-    icons::{self, Icon},
-    text, theme,
-    widgets::{link_chip::LinkGlyph, paint},
+use crate::{
+    model::replay::ENDS_BEFORE_PASS_S,
+    ui::{
+        icons::{self, Icon},
+        text, theme,
+        widgets::{link_chip::LinkGlyph, paint},
+    },
 };
 
 /// Height of a line.
@@ -16,8 +19,6 @@ const TAG: f32 = 44.0;
 const GAP: f32 = 6.0;
 /// Most antennas that are listed; the bar at the top has them all.
 const MOST: usize = 4;
-const ENDS: &str = "The replay ends by itself 2 min before the next planned pass, on a top-priority alarm \
-     and on STOP.";
 
 /// The live station while the record is shown.
 #[derive(Debug, Clone, PartialEq)]
@@ -58,11 +59,21 @@ pub(super) fn show(ui: &Ui, at: &mut Cursor, live: &LiveNow, short: bool) {
     line(ui, at.take(ROW), (Icon::Clock, t.t2), "Next", &live.next);
     if !short {
         let width = at.width();
-        let place = paint::paragraph(ui, at.at(), width, ENDS, text::small(), t.t2);
-        paint::name_text(ui, "the end of the replay", place, ENDS);
+        let words = ends();
+        let place = paint::paragraph(ui, at.at(), width, &words, text::small(), t.t2);
+        paint::name_text(ui, "the end of the replay", place, &words);
         at.skip(place.height());
     }
     at.skip(GAP);
+}
+
+/// When a replay ends by itself.
+fn ends() -> String {
+    let minutes = ENDS_BEFORE_PASS_S / 60.0;
+    format!(
+        "The replay ends by itself {minutes} min before the next planned pass, on a top-priority \
+         alarm and on STOP."
+    )
 }
 
 fn line(ui: &Ui, row: Rect, (icon, colour): (Icon, egui::Color32), name: &str, words: &str) {
