@@ -28,9 +28,7 @@ pub(super) fn why_over(begun_at: Timestamp, live: &Model) -> Option<ReplayEnd> {
         begun_at < ends_at && ends_at <= live.now && live.now < entry.from
     };
     let entry = live.schedule.schedule.entries.iter().find(is_near)?;
-    let number = entry.pass.satellite;
-    let satellite = live.pass_lists.satellite(number);
-    let satellite = satellite.map_or_else(|| number.to_string(), |of| of.short_name().to_owned());
+    let satellite = words::schedule::satellite_name(live, entry.pass.satellite);
     let antenna = words::schedule::antenna_name(live, entry.antenna).to_owned();
     Some(ReplayEnd::Pass { antenna, satellite, from: entry.from })
 }

@@ -161,8 +161,13 @@ pub fn doing(model: &Model, doing: PlannedActivity) -> String {
 
 /// Short name of the satellite of a pass.
 pub fn pass_name(model: &Model, pass: PassKey) -> String {
-    let found = model.pass_lists.satellite(pass.0);
-    found.map_or_else(|| pass.0.to_string(), |of| of.short_name().to_owned())
+    satellite_name(model, pass.0)
+}
+
+/// Short name of a satellite, or its catalog number where no pass of it is known.
+pub fn satellite_name(model: &Model, number: u32) -> String {
+    let found = model.pass_lists.satellite(number);
+    found.map_or_else(|| number.to_string(), |of| of.short_name().to_owned())
 }
 
 /// What it costs to take a pass, as a sentence.

@@ -7,6 +7,7 @@ use crate::{
         antenna_card::{LiveAntenna, LiveNow},
         bar, format,
         widgets::link_chip,
+        words,
     },
 };
 
@@ -36,9 +37,7 @@ fn next(live: &Model) -> String {
     let entries = live.schedule.schedule.entries.iter();
     let next = entries.filter(|entry| entry.from > live.now).min_by_key(|entry| entry.from);
     let Some(next) = next else { return "no pass is planned".to_owned() };
-    let satellite = live.pass_lists.satellite(next.pass.satellite);
-    let name =
-        satellite.map_or_else(|| next.pass.satellite.to_string(), |of| of.short_name().to_owned());
+    let name = words::schedule::satellite_name(live, next.pass.satellite);
     let at = format::moment(next.from, live.now);
     format!("{name} at {at}, in {}", format::time_left(live.now, next.from))
 }
