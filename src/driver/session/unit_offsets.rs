@@ -160,9 +160,9 @@ impl Session {
             Ok(Some(ticket)) => self.unit_offsets.step = Step::Writing { ticket },
             Ok(None) => self.unit_offsets.wanted = None,
             Err(refusal) => {
-                let was_taken_back = self.unit_offsets.wanted.is_some_and(TrackOffsets::is_none);
+                let is_taking_back = self.is_taking_back();
                 self.forget_wanted();
-                if was_taken_back && self.added_track_is_over(now) {
+                if is_taking_back && self.added_track_is_over(now) {
                     self.unit_offsets.left = Some(LeftOffsets::Refused(refusal));
                 } else {
                     self.tell(Event::OffsetRefused(refusal));
@@ -229,8 +229,7 @@ impl Session {
         };
         self.unit_offsets.step = Step::None;
         // In mid-track the operator may try again, and the end of the track takes it back.
-        let was_taken_back = self.added_track_is_over(now)
-            && self.unit_offsets.wanted.is_some_and(TrackOffsets::is_none);
+        let was_at_the_end = self.is_taking_back() && self.added_track_is_over(now);
         match &written.result {
             Ok(()) if self.unit_offsets.wanted == self.added_offsets() => {
                 self.unit_offsets.wanted = None;
@@ -249,8 +248,8 @@ impl Session {
                 match error {
                     // It was not sent, and is owed as before.
                     WriteError::Stopped => {}
-                    WriteError::ChangedMeanwhile if was_taken_back => {}
-                    error if was_taken_back => {
+                    WriteError::ChangedMeanwhile if was_at_the_end => {}
+                    error if was_at_the_end => {
                         self.unit_offsets.left = Some(LeftOffsets::Failed(error.clone()));
                     }
                     error => self.tell(Event::OffsetNotTaken(error.clone())),
@@ -264,11 +263,11 @@ impl Session {
         if matches!(std::mem::take(&mut self.unit_offsets.step), Step::None) {
             return;
         }
-        let was_taken_back = self.unit_offsets.wanted.is_some_and(TrackOffsets::is_none);
+        let is_taking_back = self.is_taking_back();
         self.unit_offsets.unread_since = self.read_at();
         self.forget_wanted();
         // What is to be taken back is owed as before.
-        if !was_taken_back {
+        if !is_taking_back {
             self.tell(Event::OffsetNotTaken(WriteError::LinkLost));
         }
     }
@@ -335,6 +334,12 @@ impl Session {
                 })
             }));
         }
+    }
+
+    /// Returns `true` while all that was added is to be taken back, by the operator or at the end of the
+    /// track.
+    fn is_taking_back(&self) -> bool {
+        self.unit_offsets.wanted.is_some_and(TrackOffsets::is_none)
     }
 
     /// What was wanted does not come about.
