@@ -2,6 +2,7 @@
 //! back once the track is over.
 
 mod added;
+mod program;
 
 use std::{io, time::Duration};
 

@@ -7,11 +7,8 @@ use super::Step;
 use crate::{
     astro::{TrackOffsets, time::add_seconds},
     clock::Moment,
-    device::{OnBoard, Phase},
-    driver::{
-        LeftOffsets, UnitOffsetsView,
-        session::{Session, activity::OnBoardStage},
-    },
+    device::OnBoard,
+    driver::{LeftOffsets, UnitOffsetsView, session::Session},
 };
 
 /// Ends of windows that are further apart are those of two passes, seconds.
@@ -20,7 +17,7 @@ const APART_S: f64 = 30.0;
 impl Session {
     /// What is added to what the unit held before, as it was read last; `None` while that is not
     /// known.
-    pub(in crate::driver::session) fn added_offsets(&self) -> Option<TrackOffsets> {
+    pub(super) fn added_offsets(&self) -> Option<TrackOffsets> {
         let held = self.held_offsets()?;
         match self.owed.debts.shifted(&self.owed.unit) {
             Some(shifted) => shifted.added(held),
@@ -29,13 +26,13 @@ impl Session {
     }
 
     /// What the unit adds in azimuth and elevation, as it was read last.
-    pub(in crate::driver::session) fn held_offsets(&self) -> Option<TrackOffsets> {
+    pub(super) fn held_offsets(&self) -> Option<TrackOffsets> {
         let read = self.unit_offsets.unread_since.is_none_or(|last| self.read_at() != Some(last));
         self.gate.state().on_board.offsets.filter(|_| read)?.of_the_axes()
     }
 
     /// When the offsets of the unit were read last.
-    pub(in crate::driver::session) fn read_at(&self) -> Option<Timestamp> {
+    pub(super) fn read_at(&self) -> Option<Timestamp> {
         let group = self.gate.state().held.get(self.variant.track_offsets?.group)?;
         Some(group.held.as_ref()?.read_at)
     }
@@ -77,24 +74,6 @@ impl Session {
         })
     }
 
-    /// Returns `true` while the unit tracks by itself, or is about to, and it is known what.
-    pub(in crate::driver::session) fn on_board_is_running(&self) -> bool {
-        self.program_is_on() && !self.activity.is_pending() && self.on_board_watch().is_some()
-    }
-
-    pub(in crate::driver::session) fn program_is_on(&self) -> bool {
-        let program = self.gate.state().program.filter(|_| !self.contact.unread);
-        program.is_some_and(|program| program.enabled && program.phase != Phase::Completed)
-    }
-
-    /// Returns `true` unless it is known that the unit does not track: other offsets would move
-    /// the antenna.
-    pub(in crate::driver::session) fn may_track(&self) -> bool {
-        let stage = self.activity.on_board().map(|track| track.stage);
-        let is_starting = matches!(stage, Some(OnBoardStage::Starting { .. }));
-        self.contact.unread || self.program_is_on() || is_starting
-    }
-
     /// Returns `true` once the unit does not track any more, or goes on with another pass than the
     /// one to whose track something was added.
     pub(super) fn added_track_is_over(&self, now: Moment) -> bool {
@@ -108,12 +87,6 @@ impl Session {
         !self.may_track() || is_another && self.program_is_on() && !self.activity.is_pending()
     }
 
-    /// The satellite that the unit says it tracks, and when it ends that by its own clock.
-    pub(super) fn told_track(&self) -> Option<(u32, Timestamp)> {
-        let told = &self.gate.state().on_board;
-        Some((told.satellite.as_ref()?.catalog_number, told.window?.1))
-    }
-
     /// Returns `true` unless taking back has failed. What the gate refused on the next track is tried
     /// again at its end.
     pub(super) fn may_take_back(&self) -> bool {
@@ -122,12 +95,6 @@ impl Session {
             Some(LeftOffsets::Refused(_)) => !self.may_track(),
             Some(LeftOffsets::Failed(_) | LeftOffsets::Found { .. }) => false,
         }
-    }
-
-    /// UTC by the clock of the unit.
-    pub(super) fn unit_time(&self, now: Moment) -> Timestamp {
-        let clock = self.gate.state().on_board.clock;
-        add_seconds(now.utc, clock.map_or(0.0, |clock| clock.ahead_s))
     }
 
     /// Returns `true` if the track is over and what was added for it is still on the unit.

@@ -1,0 +1,42 @@
+//! Whether the unit runs a program of its own, and on what.
+
+use jiff::Timestamp;
+
+use crate::{
+    astro::time::add_seconds,
+    clock::Moment,
+    device::Phase,
+    driver::session::{Session, activity::OnBoardStage},
+};
+
+impl Session {
+    /// Returns `true` while the unit tracks by itself, or is about to, and it is known what.
+    pub(super) fn on_board_is_running(&self) -> bool {
+        self.program_is_on() && !self.activity.is_pending() && self.on_board_watch().is_some()
+    }
+
+    pub(super) fn program_is_on(&self) -> bool {
+        let program = self.gate.state().program.filter(|_| !self.contact.unread);
+        program.is_some_and(|program| program.enabled && program.phase != Phase::Completed)
+    }
+
+    /// Returns `true` unless it is known that the unit does not track: other offsets would move
+    /// the antenna.
+    pub(super) fn may_track(&self) -> bool {
+        let stage = self.activity.on_board().map(|track| track.stage);
+        let is_starting = matches!(stage, Some(OnBoardStage::Starting { .. }));
+        self.contact.unread || self.program_is_on() || is_starting
+    }
+
+    /// The satellite that the unit says it tracks, and when it ends that by its own clock.
+    pub(super) fn told_track(&self) -> Option<(u32, Timestamp)> {
+        let told = &self.gate.state().on_board;
+        Some((told.satellite.as_ref()?.catalog_number, told.window?.1))
+    }
+
+    /// UTC by the clock of the unit.
+    pub(super) fn unit_time(&self, now: Moment) -> Timestamp {
+        let clock = self.gate.state().on_board.clock;
+        add_seconds(now.utc, clock.map_or(0.0, |clock| clock.ahead_s))
+    }
+}
