@@ -6,10 +6,7 @@ use super::App;
 use crate::{
     driver,
     engine::{Command, Stopped, passes::PredictedPass},
-    model::{
-        Appearance, UiCommand, View,
-        replay::{ReplayCommand, ReplayEnd},
-    },
+    model::{Appearance, UiCommand, View, replay::ReplayEnd},
     station::AntennaId,
 };
 
@@ -46,10 +43,10 @@ impl App {
                 ctx.send_viewport_cmd(egui::ViewportCommand::Close);
             }
             UiCommand::SelectPass(key) => model.selected = Some(key),
-            UiCommand::Replay(ReplayCommand::Begin(stretch, at)) => self.begin_replay(stretch, at),
-            UiCommand::Replay(ReplayCommand::Leave) => model.replay_end = None,
-            // The views have asked, or there is nothing to track it with; there is no replay to change.
-            UiCommand::AskToTrack(_) | UiCommand::Replay(_) => {}
+            UiCommand::BeginReplay(stretch, at) => self.begin_replay(stretch, at),
+            UiCommand::CloseReplayEnd => model.replay_end = None,
+            // The views have asked, or there is nothing to track it with; there is no replay.
+            UiCommand::AskToTrack(_) | UiCommand::Replay(_) | UiCommand::LeaveReplay => {}
             UiCommand::SelectSatellite(number) => {
                 model.selected = model.pass_of(number).map(PredictedPass::key).or(model.selected);
             }

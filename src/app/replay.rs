@@ -188,7 +188,7 @@ impl Replay {
         match command {
             UiCommand::Stop => return Some(Beyond::Stop),
             UiCommand::StopAntenna(antenna) => return Some(Beyond::StopAntenna(antenna)),
-            UiCommand::Replay(ReplayCommand::Leave) => return Some(Beyond::Leave),
+            UiCommand::LeaveReplay => return Some(Beyond::Leave),
             UiCommand::Replay(command) => self.change(command),
             // The set-up is of the live station.
             UiCommand::Show(View::Setup) => {}
@@ -232,11 +232,6 @@ impl Replay {
         let Some(replay) = &mut self.model.replay else { return };
         replay.news = None;
         match command {
-            ReplayCommand::Begin(stretch, at) => {
-                *replay = Replayed { speed: replay.speed, ..Replayed::begin(stretch, at) };
-                self.model.selected = None;
-                self.wanted = Some(Wanted::At(at));
-            }
             ReplayCommand::Pass { is_next } => {
                 let pass = replay.stretch.pass.map(|pass| Beside::Pass(pass.id));
                 let of = pass.unwrap_or(Beside::Moment(replay.at));
@@ -263,7 +258,6 @@ impl Replay {
                 let at = at.clamp(replay.stretch.from, replay.stretch.until);
                 self.wanted = Some(Wanted::At(at));
             }
-            ReplayCommand::Leave => {}
         }
     }
 

@@ -2,12 +2,14 @@
 
 use std::{path::PathBuf, sync::Arc};
 
+use jiff::Timestamp;
+
 use super::{
     Appearance, ConsoleLine, Model, NextStation, ThemeName, View, catalog_table,
     effects::{mounts, obstacles, sites},
     export::Export,
     intake::Offer,
-    replay::ReplayCommand,
+    replay::{ReplayCommand, Stretch},
 };
 use crate::{
     astro::HorizonMask,
@@ -83,8 +85,14 @@ pub enum UiCommand {
     Rehearse(Option<PassKey>),
     /// Cancel the rehearsal, or forget the last one.
     EndRehearsal,
-    /// Show the record again, or change how it is shown.
+    /// Show a stretch of the record again, from this moment on.
+    BeginReplay(Stretch, Timestamp),
+    /// Change the replay that is shown.
     Replay(ReplayCommand),
+    /// Show the present again.
+    LeaveReplay,
+    /// Show no more why a replay has ended.
+    CloseReplayEnd,
     /// Show this folder in the file manager of the desktop.
     OpenFolder(PathBuf),
     /// Read a horizon mask from this file into the form.

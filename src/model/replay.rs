@@ -62,11 +62,9 @@ impl Stretch {
     }
 }
 
-/// What the operator wants of a replay.
-#[derive(Debug, Clone, PartialEq)]
+/// What the operator wants of a running replay.
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub enum ReplayCommand {
-    /// Show a stretch of the record again, from this moment on.
-    Begin(Stretch, Timestamp),
     PlayOrPause,
     /// Play at this speed, in multiples of real time; below zero backward.
     Speed(i32),
@@ -80,8 +78,6 @@ pub enum ReplayCommand {
     },
     /// Go to this moment.
     To(Timestamp),
-    /// Show the present again, and not why a replay has ended.
-    Leave,
 }
 
 /// Speeds of a replay, forward or backward, in multiples of real time.

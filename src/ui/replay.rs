@@ -142,7 +142,7 @@ pub fn show(
         scrubber(ui, bar, replay, commands);
     }
     if leave.show(ui, "leave replay", at).clicked() {
-        commands.push(UiCommand::Replay(ReplayCommand::Leave));
+        commands.push(UiCommand::LeaveReplay);
     }
 }
 

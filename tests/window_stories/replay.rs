@@ -105,7 +105,7 @@ fn a_replay_is_marked_in_every_view_and_its_strip_plays_it() {
             let back = [replayed(ReplayCommand::Speed(-10))];
             assert_eq!(click(&mut window, "Play backward"), back);
             let leave = if size == SMALL { "Leave (Q)" } else { "Leave replay (Q)" };
-            assert_eq!(click(&mut window, leave), [replayed(ReplayCommand::Leave)]);
+            assert_eq!(click(&mut window, leave), [UiCommand::LeaveReplay]);
         }
     }
 }
@@ -308,7 +308,7 @@ fn why_a_replay_has_ended_stands_until_the_operator_closes_it() {
             assert_eq!(place(&window), before, "nothing moves by itself");
             nothing_is_cut(&window, size);
             nothing_overlaps(&window);
-            assert_eq!(click(&mut window, "Close"), [replayed(ReplayCommand::Leave)]);
+            assert_eq!(click(&mut window, "Close"), [UiCommand::CloseReplayEnd]);
             window.state_mut().model.replay_end = None;
             settle(&mut window);
             assert!(window.query_by_label_contains("Replay ended").is_none());
@@ -338,7 +338,7 @@ fn the_keys_of_a_replay_come_before_those_of_the_view() {
             (Modifiers::NONE, Key::Space, replayed(ReplayCommand::PlayOrPause)),
             (Modifiers::NONE, Key::Comma, replayed(ReplayCommand::Event { is_next: false })),
             (Modifiers::NONE, Key::Period, replayed(ReplayCommand::Event { is_next: true })),
-            (Modifiers::NONE, Key::Q, replayed(ReplayCommand::Leave)),
+            (Modifiers::NONE, Key::Q, UiCommand::LeaveReplay),
         ];
         for (modifiers, key, command) in keys {
             window.key_press_modifiers(modifiers, key);

@@ -134,7 +134,7 @@ impl Act {
                 ui.memory_mut(|memory| memory.move_focus(FocusDirection::None));
                 commands.extend(targets.operate.neighbour(model, down).map(UiCommand::SelectPass));
             }
-            Self::Replay(key) => commands.extend(key.command(model).map(UiCommand::Replay)),
+            Self::Replay(key) => commands.extend(key.command(model)),
             Self::Correct => targets.record.correct(model),
             Self::ExportReport => commands.extend(targets.record.export(model)),
             Self::ReplayReport => commands.extend(targets.record.replay(model)),
@@ -240,16 +240,16 @@ pub(super) enum ReplayKey {
 }
 
 impl ReplayKey {
-    fn command(self, model: &Model) -> Option<ReplayCommand> {
+    fn command(self, model: &Model) -> Option<UiCommand> {
         let Replayed { at, stretch, .. } = model.replay.as_ref()?;
-        Some(match self {
+        Some(UiCommand::Replay(match self {
             Self::Play => ReplayCommand::PlayOrPause,
             Self::Event { is_next } => ReplayCommand::Event { is_next },
             Self::By(seconds) => ReplayCommand::To(add_seconds(*at, seconds)),
             Self::To { end: false } => ReplayCommand::To(stretch.from),
             Self::To { end: true } => ReplayCommand::To(stretch.until),
-            Self::Leave => ReplayCommand::Leave,
-        })
+            Self::Leave => return Some(UiCommand::LeaveReplay),
+        }))
     }
 }
 

@@ -6,10 +6,7 @@ use super::{PADDING, RecordState, days::DaysDialog, lock};
 use crate::{
     astro::time::add_seconds,
     engine::antenna::AntennaModel,
-    model::{
-        Model, UiCommand,
-        replay::{ReplayCommand, Stretch},
-    },
+    model::{Model, UiCommand, replay::Stretch},
     plan::pass_report::PassVerdict,
     record::ListedKind,
     ui::{
@@ -211,7 +208,7 @@ fn last_hour(ui: &Ui, room: Rect, model: &Model, commands: &mut Vec<UiCommand>) 
         let name = "the last hour".to_owned();
         let stretch = Stretch { name, pass: None, from, until: model.now };
         let at = add_seconds(model.now, -LAST_S);
-        commands.push(UiCommand::Replay(ReplayCommand::Begin(stretch, at)));
+        commands.push(UiCommand::BeginReplay(stretch, at));
     }
     if !button.is_locked() {
         response.on_hover_text("The replay begins a minute before the end.");

@@ -9,7 +9,7 @@ use crate::{
     model::{
         Model, UiCommand,
         export::{Export, ReportFormat},
-        replay::{ReplayCommand, Stretch},
+        replay::Stretch,
     },
     record::RecordedPass,
     ui::{
@@ -91,7 +91,7 @@ pub(super) fn head(
 pub(super) fn replay_of(pass: &RecordedPass, at: Option<Timestamp>) -> UiCommand {
     let stretch = Stretch::of(pass);
     let at = at.unwrap_or(stretch.from);
-    UiCommand::Replay(ReplayCommand::Begin(stretch, at))
+    UiCommand::BeginReplay(stretch, at)
 }
 
 pub(super) fn verdict_height(ui: &Ui, width: f32, model: &Model, pass: &RecordedPass) -> f32 {

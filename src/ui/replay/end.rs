@@ -5,10 +5,7 @@ use jiff::Timestamp;
 
 use super::{GAP, HEIGHT, at_the_end};
 use crate::{
-    model::{
-        UiCommand,
-        replay::{ReplayCommand, ReplayEnd},
-    },
+    model::{UiCommand, replay::ReplayEnd},
     ui::{
         format, text, theme,
         widgets::{button::Button, paint},
@@ -29,7 +26,7 @@ pub fn show(ui: &Ui, rect: Rect, why: &ReplayEnd, now: Timestamp, commands: &mut
     paint::text_in(ui, room, Align2::LEFT_CENTER, &words, font, t.warn);
     paint::name_text(ui, "end of the replay", room, &words);
     if close.show(ui, "close the end", at).clicked() {
-        commands.push(UiCommand::Replay(ReplayCommand::Leave));
+        commands.push(UiCommand::CloseReplayEnd);
     }
 }
 
