@@ -34,7 +34,6 @@ pub use missed::{MissedEntry, missed};
 pub use pass::{AboutTrack, PassNote, RecordedReport, TrackedBy};
 pub use past::{
     ListedKind, OpenedPass, PassPage, PassQuery, RecordedPass, open_pass, passes, passes_within,
-    track,
 };
 pub use peaks::{Peak, PeakChange, PeakOf, Peaks};
 pub use pointing::{CannotFitPointing, FittedTerm, NoiseOf, PointingFit, fit_pointing};

@@ -33,7 +33,7 @@ use crate::{
         schedule::LeftOut,
         schedule_export::{ScheduleFormat, ScheduleList},
     },
-    record::{self, OpenedPass, RecordedPass},
+    record::{self, OpenedPass},
     station::Station,
     ui::{hand_over_sheet::HandOverSheet, report_sheet, words},
     whole_file,
@@ -223,18 +223,12 @@ impl Order {
         let within = begins(first)
             .and_then(|from| Ok(from..begins(last.tomorrow()?)?))
             .map_err(|error| error.to_string())?;
-        let passes = record::passes_within(path, query, &within);
+        let passes = record::passes_within(path, query, &within, self.station.site);
         let passes = passes.map_err(|error| error.to_string())?;
-        let open = |pass: &RecordedPass| record::open_pass(path, pass.id, self.station.site);
-        let opened: Vec<OpenedPass> = passes
-            .iter()
-            .filter_map(|pass| open(pass).transpose())
-            .collect::<Result<_, _>>()
-            .map_err(|error| error.to_string())?;
-        if opened.is_empty() {
+        if passes.is_empty() {
             return Err("no pass was recorded on these days".to_owned());
         }
-        Ok(opened)
+        Ok(passes)
     }
 
     /// Returns the number of objects that the form cannot hold.

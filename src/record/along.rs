@@ -65,7 +65,7 @@ pub fn marks_between(
 
 /// The marks of the pass with this number.
 pub fn marks_of_pass(path: &Path, id: i64, site: Site) -> Result<Option<PassMarks>, RecordError> {
-    let passes = Passes { db: file::open_to_read(path)? };
+    let passes = Passes::open(path, site)?;
     Ok(passes.pass(id)?.map(|pass| marks_of(&pass, site)))
 }
 

@@ -41,12 +41,12 @@ pub fn explain_passes(
     if !path.exists() {
         return Ok(ExplainedPasses { passes: 0, since: None, explanations: Vec::new() });
     }
-    let record = Passes::open(path)?;
+    let record = Passes::open(path, site)?;
     let mut flown: Vec<(Propagator, Site, Vec<MeasuredPosition>)> = Vec::new();
     let mut since = None;
     for RecordedPass { id, report, .. } in record.newest(antenna, within, PASSES)? {
         let Ok(propagator) = Propagator::new(&report.elements) else { continue };
-        let site = report.site.unwrap_or(site);
+        let site = record.site_of(&report);
         let points = thinned(&report, &record.points(id)?);
         let points = points.into_iter().map(|flown| {
             let flown = report.about.on_the_sky(flown);

@@ -10,9 +10,10 @@ use rusqlite::{Connection, Row as SqlRow, named_params};
 use serde::{Deserialize, Serialize};
 
 use super::{
-    AboutTrack, Kind, Query, Record, RecordError, RecordedReport, Row, RowKind,
+    AboutTrack, Kind, Query, RecordError, RecordedReport, Row, RowKind,
     along::LONGEST,
     file::{self, PER_DEGREE},
+    read,
 };
 use crate::{
     astro::{Angle, Site, time::seconds_between},
@@ -105,54 +106,26 @@ pub struct OpenedPass {
 
 /// The passes that `query` finds in the record at `path`.
 pub fn passes(path: &Path, query: &PassQuery) -> Result<PassPage, RecordError> {
-    Passes::open(path)?.page(query)
+    page(&file::open_to_read(path)?, query)
 }
 
 /// The passes that `query` finds in the record at `path` with their AOS `within` a time, all that can
-/// be read, in order of AOS.
+/// be read, in order of AOS. Reports without a site are of an antenna at `site`.
 pub fn passes_within(
     path: &Path,
     query: &PassQuery,
     within: &Range<Timestamp>,
-) -> Result<Vec<RecordedPass>, RecordError> {
-    Passes::open(path)?.within(query, within)
+    site: Site,
+) -> Result<Vec<OpenedPass>, RecordError> {
+    let passes = Passes::open(path, site)?;
+    passes.within(query, within)?.into_iter().map(|pass| passes.opened(pass)).collect()
 }
 
 /// The pass with this number, if the record at `path` has it. Reports without a site are of an
 /// antenna at `site`.
 pub fn open_pass(path: &Path, id: i64, site: Site) -> Result<Option<OpenedPass>, RecordError> {
-    let passes = Passes::open(path)?;
-    let Some(pass) = passes.pass(id)? else { return Ok(None) };
-    let report = &pass.report;
-    let site = report.site.unwrap_or(site);
-    let (track, predicted) = match Propagator::new(&report.elements) {
-        Ok(propagator) => {
-            let track = track_of(&passes.points(id)?, &propagator, site, &report.about);
-            (track, path_of(&propagator, site, report))
-        }
-        Err(_) => (Vec::new(), Vec::new()),
-    };
-    let mut entries = Vec::new();
-    let query = Query {
-        from: report.from.min(report.about.begun).checked_sub(BEFORE).ok(),
-        to: report.until.checked_add(AFTER).ok(),
-        antenna: Some(pass.antenna_name.clone()),
-        what: TOLD.into_iter().map(RowKind::Entry).collect(),
-    };
-    Record::open(path)?.read(&query, &mut |row| {
-        entries.push(row);
-        true
-    })?;
-    Ok(Some(OpenedPass { pass, track, path: predicted, entries }))
-}
-
-/// The measured track of a pass beside the predicted one, from the record at `path`; `site` as for
-/// [`open_pass`]. Elements that cannot be propagated give none.
-pub fn track(path: &Path, pass: &RecordedPass, site: Site) -> Result<Vec<TrackPoint>, RecordError> {
-    let passes = Passes::open(path)?;
-    let Ok(propagator) = Propagator::new(&pass.report.elements) else { return Ok(Vec::new()) };
-    let (points, site) = (passes.points(pass.id)?, pass.report.site.unwrap_or(site));
-    Ok(track_of(&points, &propagator, site, &pass.report.about))
+    let passes = Passes::open(path, site)?;
+    passes.pass(id)?.map(|pass| passes.opened(pass)).transpose()
 }
 
 /// Where the antenna pointed, with its error from where it should have pointed.
@@ -192,6 +165,8 @@ pub(super) fn path_of(propagator: &Propagator, site: Site, report: &RecordedRepo
 /// The passes of an open record.
 pub(super) struct Passes {
     pub(super) db: Connection,
+    /// Where the antennas of reports without a site stand.
+    site: Site,
 }
 
 /// Columns of a pass.
@@ -205,8 +180,13 @@ const WANTED: &str = "(:antenna IS NULL OR antenna = :antenna) \
          OR instr(strftime('%Y-%m-%d', from_us / 1000000, 'unixepoch'), :text) = 1)";
 
 impl Passes {
-    pub(super) fn open(path: &Path) -> Result<Self, RecordError> {
-        Ok(Self { db: file::open_to_read(path)? })
+    pub(super) fn open(path: &Path, site: Site) -> Result<Self, RecordError> {
+        Ok(Self { db: file::open_to_read(path)?, site })
+    }
+
+    /// Where the antenna of a report stands.
+    pub(super) fn site_of(&self, report: &RecordedReport) -> Site {
+        report.site.unwrap_or(self.site)
     }
 
     /// The newest passes of an antenna that end `within` a time and can be read, the newest first.
@@ -255,45 +235,42 @@ impl Passes {
         Ok(passes)
     }
 
-    fn page(&self, query: &PassQuery) -> Result<PassPage, RecordError> {
-        let antenna = query.antenna.map(|antenna| antenna.0);
-        let kind = query.kind.map(ListedKind::word);
-        let text = query.text.trim();
-        let of_query = named_params! { ":antenna": antenna, ":kind": kind, ":text": text };
-        let matching = self.db.query_row(
-            &format!("SELECT count(*) FROM pass WHERE {WANTED}"),
-            of_query,
-            |row| row.get(0),
-        )?;
-        let (all, since_us): (u32, Option<i64>) =
-            self.db.query_row("SELECT count(*), min(until_us) FROM pass", [], |row| {
-                Ok((row.get(0)?, row.get(1)?))
-            })?;
-        let mut page = PassPage {
-            matching,
-            all,
-            since: since_us.and_then(|us| Timestamp::from_microsecond(us).ok()),
-            ..PassPage::default()
-        };
-        let mut statement = self.db.prepare(&format!(
-            "SELECT {COLUMNS} FROM pass WHERE {WANTED} ORDER BY until_us DESC LIMIT {}",
-            query.count
-        ))?;
-        let mut rows = statement.query(of_query)?;
-        while let Some(row) = rows.next()? {
-            match read_pass(row)? {
-                Some(pass) => page.passes.push(pass),
-                None => page.unreadable += 1,
-            }
-        }
-        Ok(page)
-    }
-
     pub(super) fn pass(&self, id: i64) -> Result<Option<RecordedPass>, RecordError> {
         let mut statement =
             self.db.prepare(&format!("SELECT {COLUMNS} FROM pass WHERE id = ?1"))?;
         let mut rows = statement.query([id])?;
         rows.next()?.map_or(Ok(None), read_pass)
+    }
+
+    /// A pass with its track and what happened in it.
+    fn opened(&self, pass: RecordedPass) -> Result<OpenedPass, RecordError> {
+        let report = &pass.report;
+        let site = self.site_of(report);
+        let (track, path) = match Propagator::new(&report.elements) {
+            Ok(propagator) => {
+                let points = self.points(pass.id)?;
+                let track = track_of(&points, &propagator, site, &report.about);
+                (track, path_of(&propagator, site, report))
+            }
+            Err(_) => (Vec::new(), Vec::new()),
+        };
+        let query = Query {
+            from: report.from.min(report.about.begun).checked_sub(BEFORE).ok(),
+            to: report.until.checked_add(AFTER).ok(),
+            antenna: Some(pass.antenna_name.clone()),
+            what: TOLD.into_iter().map(RowKind::Entry).collect(),
+        };
+        let entries = read::entries(&self.db, &query)?;
+        Ok(OpenedPass { pass, track, path, entries })
+    }
+
+    /// The measured track of a pass beside the predicted one. Elements that cannot be propagated give
+    /// none.
+    pub(super) fn track(&self, pass: &RecordedPass) -> Result<Vec<TrackPoint>, RecordError> {
+        let report = &pass.report;
+        let Ok(propagator) = Propagator::new(&report.elements) else { return Ok(Vec::new()) };
+        let points = self.points(pass.id)?;
+        Ok(track_of(&points, &propagator, self.site_of(report), &report.about))
     }
 
     pub(super) fn points(&self, id: i64) -> Result<Vec<MeasuredPosition>, RecordError> {
@@ -312,6 +289,40 @@ impl Passes {
         })?;
         Ok(points.collect::<Result<_, _>>()?)
     }
+}
+
+/// The newest passes that `query` finds.
+fn page(db: &Connection, query: &PassQuery) -> Result<PassPage, RecordError> {
+    let antenna = query.antenna.map(|antenna| antenna.0);
+    let kind = query.kind.map(ListedKind::word);
+    let text = query.text.trim();
+    let of_query = named_params! { ":antenna": antenna, ":kind": kind, ":text": text };
+    let matching =
+        db.query_row(&format!("SELECT count(*) FROM pass WHERE {WANTED}"), of_query, |row| {
+            row.get(0)
+        })?;
+    let (all, since_us): (u32, Option<i64>) =
+        db.query_row("SELECT count(*), min(until_us) FROM pass", [], |row| {
+            Ok((row.get(0)?, row.get(1)?))
+        })?;
+    let mut page = PassPage {
+        matching,
+        all,
+        since: since_us.and_then(|us| Timestamp::from_microsecond(us).ok()),
+        ..PassPage::default()
+    };
+    let mut statement = db.prepare(&format!(
+        "SELECT {COLUMNS} FROM pass WHERE {WANTED} ORDER BY until_us DESC LIMIT {}",
+        query.count
+    ))?;
+    let mut rows = statement.query(of_query)?;
+    while let Some(row) = rows.next()? {
+        match read_pass(row)? {
+            Some(pass) => page.passes.push(pass),
+            None => page.unreadable += 1,
+        }
+    }
+    Ok(page)
 }
 
 /// The pass of a row; `None` where its report cannot be read.

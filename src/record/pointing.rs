@@ -5,7 +5,7 @@ use std::{ops::RangeInclusive, path::Path};
 use jiff::Timestamp;
 use serde::{Deserialize, Serialize};
 
-use super::{PassQuery, Peak, RecordError, passes, track};
+use super::{Peak, RecordError, past::Passes};
 use crate::{
     astro::{PointingModel, Site, Term, time::apart},
     plan::{
@@ -77,13 +77,13 @@ pub fn fit_pointing(
 ) -> Result<PointingFit, CannotFitPointing> {
     let (mut count, mut points) =
         (0, peaks.iter().map(|peak| peak.point(site)).collect::<Vec<_>>());
-    let query = PassQuery { antenna: Some(antenna), count: u32::MAX, ..PassQuery::default() };
-    let recorded = if path.exists() { passes(path, &query)?.passes } else { Vec::new() };
-    for pass in recorded.iter().filter(|pass| within.contains(&pass.report.until)) {
-        let before = points.len();
-        let model = &pass.report.about.pointing_model;
-        points.extend(thinned(&track(path, pass, site)?, model));
-        count += usize::from(points.len() > before);
+    if path.exists() {
+        let record = Passes::open(path, site)?;
+        for pass in record.newest(antenna, within, u32::MAX)? {
+            let before = points.len();
+            points.extend(thinned(&record.track(&pass)?, &pass.report.about.pointing_model));
+            count += usize::from(points.len() > before);
+        }
     }
     let terms: Vec<Term> = Term::ALL.into_iter().filter(|term| !without.contains(term)).collect();
     let fit = pointing::fit(&points, &terms)

@@ -112,7 +112,7 @@ impl Record {
         let _state = self.db.unchecked_transaction()?;
         let place = self.place()?;
         if place != self.read_to {
-            self.rows(query, &place, take)?;
+            rows(&self.db, query, (&self.read_to, &place), take)?;
         }
         self.read_to = place;
         Ok(())
@@ -140,82 +140,90 @@ impl Record {
             frame_us: latest("frame")?,
         })
     }
+}
 
-    /// Hands the rows from the last place up to `now` to `take`.
-    fn rows(
-        &self,
-        query: &Query,
-        now: &Place,
-        take: &mut dyn FnMut(Row) -> bool,
-    ) -> Result<(), RecordError> {
-        let before = &self.read_to;
-        let from_us = query.from.map_or(EARLIEST_US, Timestamp::as_microsecond);
-        let to_us = query.to.map_or(LATEST_US, Timestamp::as_microsecond);
-        let mut parts = Vec::new();
-        let is_entry = |what: &&RowKind| matches!(what, RowKind::Entry(_));
-        let kinds: Vec<&str> = query.what.iter().filter(is_entry).map(|what| what.word()).collect();
-        if !kinds.is_empty() {
-            parts.push(format!(
-                "SELECT utc_us, run, steady_us, antenna, kind, data, NULL AS b, NULL AS c, \
+/// The entries that `query` wants, in order of time.
+pub(super) fn entries(db: &Connection, query: &Query) -> Result<Vec<Row>, RecordError> {
+    let mut found = Vec::new();
+    let all = Place::default();
+    rows(db, query, (&all, &all), &mut |row| {
+        found.push(row);
+        true
+    })?;
+    Ok(found)
+}
+
+/// Hands the rows from one place up to another to `take`.
+fn rows(
+    db: &Connection,
+    query: &Query,
+    (before, now): (&Place, &Place),
+    take: &mut dyn FnMut(Row) -> bool,
+) -> Result<(), RecordError> {
+    let from_us = query.from.map_or(EARLIEST_US, Timestamp::as_microsecond);
+    let to_us = query.to.map_or(LATEST_US, Timestamp::as_microsecond);
+    let mut parts = Vec::new();
+    let is_entry = |what: &&RowKind| matches!(what, RowKind::Entry(_));
+    let kinds: Vec<&str> = query.what.iter().filter(is_entry).map(|what| what.word()).collect();
+    if !kinds.is_empty() {
+        parts.push(format!(
+            "SELECT utc_us, run, steady_us, antenna, kind, data, NULL AS b, NULL AS c, \
                  NULL AS d, NULL AS e, NULL AS f, NULL AS g FROM event \
                  WHERE utc_us >= {from_us} AND utc_us < {to_us} AND id > {} AND kind IN ('{}')",
-                before.event,
-                kinds.join("', '")
-            ));
-        }
-        if query.what.contains(&RowKind::Pass) {
-            parts.push(format!(
-                "SELECT until_us AS utc_us, run, NULL AS steady_us, antenna, 'pass' AS kind, \
+            before.event,
+            kinds.join("', '")
+        ));
+    }
+    if query.what.contains(&RowKind::Pass) {
+        parts.push(format!(
+            "SELECT until_us AS utc_us, run, NULL AS steady_us, antenna, 'pass' AS kind, \
                  report, satellite, name, NULL, NULL, NULL, NULL FROM pass \
                  WHERE until_us >= {from_us} AND until_us < {to_us} AND id > {}",
-                before.pass
-            ));
-        }
-        let mut of_antennas =
-            |select: &str, now: &BTreeMap<i64, i64>, read: &BTreeMap<i64, i64>| {
-                for (antenna, newest_us) in now {
-                    let after_us =
-                        read.get(antenna).map_or(from_us, |read_us| from_us.max(read_us + 1));
-                    if after_us <= *newest_us {
-                        parts.push(format!(
-                            "{select} WHERE antenna = {antenna} \
+            before.pass
+        ));
+    }
+    let mut of_antennas = |select: &str, now: &BTreeMap<i64, i64>, read: &BTreeMap<i64, i64>| {
+        for (antenna, newest_us) in now {
+            let after_us = read.get(antenna).map_or(from_us, |read_us| from_us.max(read_us + 1));
+            if after_us <= *newest_us {
+                parts.push(format!(
+                    "{select} WHERE antenna = {antenna} \
                          AND utc_us >= {after_us} AND utc_us < {to_us}"
-                        ));
-                    }
-                }
-            };
-        if query.what.contains(&RowKind::Position) {
-            let select = "SELECT utc_us, run, steady_us, antenna, 'position' AS kind, azimuth, \
-                          elevation, axis_1, axis_2, motion_1, motion_2, limits FROM position";
-            of_antennas(select, &now.position_us, &before.position_us);
-        }
-        if query.what.contains(&RowKind::Frame) {
-            let select = "SELECT utc_us, run, NULL AS steady_us, antenna, 'frame' AS kind, \
-                          is_sent, bytes, length, fault, meaning, reply_us, NULL FROM frame";
-            of_antennas(select, &now.frame_us, &before.frame_us);
-        }
-        if parts.is_empty() {
-            return Ok(());
-        }
-        let of_antenna = match &query.antenna {
-            Some(_) => "WHERE antenna IN (SELECT id FROM antenna AS named WHERE named.name = ?1)",
-            None => "",
-        };
-        let sql = format!(
-            "SELECT *, (SELECT name FROM antenna AS a WHERE a.id = antenna ORDER BY \
-             since_us > all_rows.utc_us, abs(since_us - all_rows.utc_us) LIMIT 1) AS antenna_name \
-             FROM ({}) AS all_rows {of_antenna} ORDER BY utc_us",
-            parts.join(" UNION ALL ")
-        );
-        let mut statement = self.db.prepare(&sql)?;
-        let mut rows = statement.query(params_from_iter(&query.antenna))?;
-        while let Some(row) = rows.next()? {
-            if !take(read_row(row)?) {
-                break;
+                ));
             }
         }
-        Ok(())
+    };
+    if query.what.contains(&RowKind::Position) {
+        let select = "SELECT utc_us, run, steady_us, antenna, 'position' AS kind, azimuth, \
+                          elevation, axis_1, axis_2, motion_1, motion_2, limits FROM position";
+        of_antennas(select, &now.position_us, &before.position_us);
     }
+    if query.what.contains(&RowKind::Frame) {
+        let select = "SELECT utc_us, run, NULL AS steady_us, antenna, 'frame' AS kind, \
+                          is_sent, bytes, length, fault, meaning, reply_us, NULL FROM frame";
+        of_antennas(select, &now.frame_us, &before.frame_us);
+    }
+    if parts.is_empty() {
+        return Ok(());
+    }
+    let of_antenna = match &query.antenna {
+        Some(_) => "WHERE antenna IN (SELECT id FROM antenna AS named WHERE named.name = ?1)",
+        None => "",
+    };
+    let sql = format!(
+        "SELECT *, (SELECT name FROM antenna AS a WHERE a.id = antenna ORDER BY \
+             since_us > all_rows.utc_us, abs(since_us - all_rows.utc_us) LIMIT 1) AS antenna_name \
+             FROM ({}) AS all_rows {of_antenna} ORDER BY utc_us",
+        parts.join(" UNION ALL ")
+    );
+    let mut statement = db.prepare(&sql)?;
+    let mut rows = statement.query(params_from_iter(&query.antenna))?;
+    while let Some(row) = rows.next()? {
+        if !take(read_row(row)?) {
+            break;
+        }
+    }
+    Ok(())
 }
 
 fn read_row(row: &SqlRow<'_>) -> Result<Row, RecordError> {

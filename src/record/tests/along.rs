@@ -133,8 +133,8 @@ fn the_passes_within_a_time_are_found_by_their_aos_however_many() {
     }
     recorder.flush();
     let found = |query: PassQuery| {
-        let passes = passes_within(&path, &query, &(at(0)..at(1000))).unwrap();
-        passes.iter().map(|pass| pass.report.from).collect::<Vec<_>>()
+        let passes = passes_within(&path, &query, &(at(0)..at(1000)), Site::default()).unwrap();
+        passes.iter().map(|opened| opened.pass.report.from).collect::<Vec<_>>()
     };
     let all = PassQuery { count: 1, ..PassQuery::default() };
     assert_eq!(found(all.clone()), [at(0), at(300), at(900)], "in order, and not the newest alone");
