@@ -48,11 +48,8 @@ pub fn explain_passes(
         let Ok(propagator) = Propagator::new(&report.elements) else { continue };
         let site = record.site_of(&report);
         let points = thinned(&report, &record.points(id)?);
-        let points = points.into_iter().map(|flown| {
-            let flown = report.about.on_the_sky(flown);
-            report.about.offsets.taken_off(&propagator, site, flown)
-        });
-        let points: Vec<MeasuredPosition> = points.collect();
+        let compared = |flown| report.about.compared(&propagator, site, flown);
+        let points: Vec<MeasuredPosition> = points.into_iter().map(compared).collect();
         if !points.is_empty() {
             since = Some(report.until);
             flown.push((propagator, site, points));

@@ -7,7 +7,7 @@ use crate::{
     astro::{Angle, AzEl, PointingModel, Site},
     device::Pointing,
     driver::TimeSync,
-    orbit::Elements,
+    orbit::{Elements, Propagator},
     plan::pass_report::{Explanation, FlownOffsets, MeasuredPosition, PassReport},
     station::AntennaId,
 };
@@ -64,6 +64,17 @@ pub struct AboutTrack {
 }
 
 impl AboutTrack {
+    /// The position as it is compared with the satellite: pointing model and offsets taken off.
+    #[must_use]
+    pub fn compared(
+        &self,
+        propagator: &Propagator,
+        site: Site,
+        flown: MeasuredPosition,
+    ) -> MeasuredPosition {
+        self.offsets.taken_off(propagator, site, self.on_the_sky(flown))
+    }
+
     /// Where the antenna pointed on the sky at a position of its axes.
     #[must_use]
     pub fn on_the_sky(&self, flown: MeasuredPosition) -> MeasuredPosition {

@@ -137,14 +137,13 @@ fn track_of(
 ) -> Vec<TrackPoint> {
     let has_elevation = flown.iter().any(|flown| flown.pointing.elevation.is_some());
     let point = |flown: &MeasuredPosition| {
-        let compared = |flown| TrackPoint::new(propagator, site, has_elevation, flown);
-        let flown = about.on_the_sky(*flown);
+        let point = |flown| TrackPoint::new(propagator, site, has_elevation, flown);
+        let compared = point(about.compared(propagator, site, *flown))?;
         if about.offsets.changes().is_empty() {
-            return compared(flown);
+            return Some(compared);
         }
-        let TrackPoint { antenna, .. } = compared(flown)?;
-        let beside = compared(about.offsets.taken_off(propagator, site, flown))?;
-        Some(TrackPoint { antenna, ..beside })
+        let TrackPoint { antenna, .. } = point(about.on_the_sky(*flown))?;
+        Some(TrackPoint { antenna, ..compared })
     };
     flown.iter().filter_map(point).collect()
 }

@@ -80,7 +80,7 @@ impl Followed {
         let started = Job::start("azel-explain", Wake::clone(wake), move |_| {
             young.retain(|flown| is_in_reach(&propagator, site, mount, flown.time));
             for flown in &mut young {
-                *flown = about.offsets.taken_off(&propagator, site, about.on_the_sky(*flown));
+                *flown = about.compared(&propagator, site, *flown);
             }
             let measured = directions(&young, has_elevation);
             let others = others.unwrap_or_else(|| others_of(&elements, history.as_ref()));

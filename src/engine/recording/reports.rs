@@ -283,10 +283,8 @@ impl Followed {
     }
 
     fn note(self, history: Option<&History>) -> PassNote {
-        let (of, site) = (&self.propagator, self.site);
-        let taken_off =
-            |flown| self.about.offsets.taken_off(of, site, self.about.on_the_sky(flown));
-        let flown: Vec<MeasuredPosition> = self.flown.iter().copied().map(taken_off).collect();
+        let compared = |flown| self.about.compared(&self.propagator, self.site, flown);
+        let flown: Vec<MeasuredPosition> = self.flown.iter().copied().map(compared).collect();
         let tracked = TrackedPass {
             propagator: &self.propagator,
             site: self.site,
