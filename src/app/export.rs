@@ -1,5 +1,4 @@
-//! Saves elements, passes, look angles and the plan to files that the operator names in the dialog
-//! of the desktop, on a thread.
+//! Saves what the operator exports to a file named in the dialog of the desktop, on a thread.
 
 #[cfg(test)]
 mod tests;
@@ -165,26 +164,20 @@ impl Order {
     fn text(&self) -> Result<(Vec<u8>, usize), String> {
         let mut text = Vec::new();
         let mut left_out = 0;
-        let written = match &self.export {
+        match &self.export {
             Export::Elements { numbers, form } => {
-                self.write_elements(numbers, *form, &mut text).map(|count| left_out = count)
+                left_out = self.write_elements(numbers, *form, &mut text)?;
             }
             Export::Passes { keys, format } => self.write_passes(keys, *format, &mut text)?,
             Export::Looks { pass, format } => self.write_looks(*pass, *format, &mut text)?,
-            Export::Schedule { format } => self.write_schedule(*format, &mut text),
-            Export::HandOverSheet => self.write_sheet(&mut text),
+            Export::Schedule { format } => self.write_schedule(*format, &mut text)?,
+            Export::HandOverSheet => self.write_sheet(&mut text)?,
             Export::Report { format } => self.write_report(*format, &mut text)?,
             Export::Days { query, first, last, format } => {
                 let passes = self.passes_of(query, *first, *last)?;
-                let written = match format {
-                    DaysFormat::Csv => Ok(record::csv_of(&passes)),
-                    DaysFormat::Json => record::json_of(&passes),
-                };
-                text = written.map_err(|error| error.to_string())?.into_bytes();
-                Ok(())
+                write_days(&passes, *format, &mut text)?;
             }
-        };
-        written.map_err(|error| error.to_string())?;
+        }
         if left_out > 0 && text.is_empty() {
             return Err("a TLE can hold none of these objects".to_owned());
         }
@@ -196,11 +189,7 @@ impl Order {
         self.recorded.as_ref()?.found.as_ref().ok()?.opened.as_ref()
     }
 
-    fn write_report(
-        &self,
-        format: ReportFormat,
-        out: &mut Vec<u8>,
-    ) -> Result<io::Result<()>, String> {
+    fn write_report(&self, format: ReportFormat, out: &mut Vec<u8>) -> Result<(), String> {
         let opened = self.opened().ok_or("no pass of the record is shown any more")?;
         let text = match format {
             ReportFormat::Csv => opened.csv(),
@@ -208,7 +197,7 @@ impl Order {
             ReportFormat::Svg => report_sheet::svg(opened, self.now),
         };
         out.extend(text.into_bytes());
-        Ok(Ok(()))
+        Ok(())
     }
 
     /// The recorded passes that `query` finds of these days, in order of time.
@@ -237,14 +226,15 @@ impl Order {
         numbers: &[u32],
         form: ElementForm,
         out: &mut Vec<u8>,
-    ) -> io::Result<usize> {
+    ) -> Result<usize, String> {
         let CatalogState::Ready(catalog) = &self.catalog else { return Ok(0) };
         let elements = numbers.iter().filter_map(|number| catalog.get(*number));
-        match form {
+        let written = match form {
             ElementForm::Tle => write_tle(elements, out).map(|refused| refused.len()),
             ElementForm::OmmJson => write_omm_json(elements, out).map(|()| 0),
             ElementForm::OmmCsv => write_omm_csv(elements, out).map(|()| 0),
-        }
+        };
+        in_words(written)
     }
 
     fn write_passes(
@@ -252,7 +242,7 @@ impl Order {
         keys: &[PassKey],
         format: PassFormat,
         out: &mut Vec<u8>,
-    ) -> Result<io::Result<()>, String> {
+    ) -> Result<(), String> {
         let found: Vec<&PredictedPass> =
             keys.iter().filter_map(|key| self.lists.find(*key)).collect();
         let mut satellites = BTreeMap::new();
@@ -281,7 +271,7 @@ impl Order {
             alarm_before_s: None,
             now: self.now,
         };
-        Ok(list.write(out, format, rows))
+        in_words(list.write(out, format, rows))
     }
 
     fn write_looks(
@@ -289,7 +279,7 @@ impl Order {
         pass: PassKey,
         format: LookFormat,
         out: &mut Vec<u8>,
-    ) -> Result<io::Result<()>, String> {
+    ) -> Result<(), String> {
         let gone = || "the pass is not in the list any more".to_owned();
         let predicted = self.lists.find(pass).ok_or_else(gone)?;
         let satellite = satellite(predicted)?;
@@ -313,10 +303,10 @@ impl Order {
             step_s,
             carrier_hz,
         };
-        Ok(list.write(out, format))
+        in_words(list.write(out, format))
     }
 
-    fn write_schedule(&self, format: ScheduleFormat, out: &mut Vec<u8>) -> io::Result<()> {
+    fn write_schedule(&self, format: ScheduleFormat, out: &mut Vec<u8>) -> Result<(), String> {
         let name = |number: u32| {
             let found = self.lists.satellite(number);
             found.map_or_else(|| number.to_string(), |of| of.elements.name().to_owned())
@@ -333,10 +323,10 @@ impl Order {
             reason: &|left: &LeftOut| words::schedule::why(&|(number, _)| name(number), &left.why),
             now: self.now,
         };
-        list.write(out, format)
+        in_words(list.write(out, format))
     }
 
-    fn write_sheet(&self, out: &mut Vec<u8>) -> io::Result<()> {
+    fn write_sheet(&self, out: &mut Vec<u8>) -> Result<(), String> {
         let schedule = &self.schedule.schedule;
         let taken = schedule.entries.iter().map(|entry| entry.pass.satellite);
         let left_out = schedule.left_out.iter().map(|left| left.pass.satellite);
@@ -347,8 +337,22 @@ impl Order {
         let until = self.schedule.until.unwrap_or(self.now);
         let span = (self.now, until);
         let sheet = HandOverSheet::new(&self.station, schedule, &satellites, span, self.now);
-        out.write_all(sheet.svg().as_bytes())
+        in_words(out.write_all(sheet.svg().as_bytes()))
     }
+}
+
+fn write_days(passes: &[OpenedPass], format: DaysFormat, out: &mut Vec<u8>) -> Result<(), String> {
+    let text = match format {
+        DaysFormat::Csv => record::csv_of(passes),
+        DaysFormat::Json => record::json_of(passes).map_err(|error| error.to_string())?,
+    };
+    out.extend(text.into_bytes());
+    Ok(())
+}
+
+/// The reason of a failure in the words of the system.
+fn in_words<T>(written: io::Result<T>) -> Result<T, String> {
+    written.map_err(|error| error.to_string())
 }
 
 fn satellite(predicted: &PredictedPass) -> Result<Satellite, String> {
