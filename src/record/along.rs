@@ -2,17 +2,14 @@
 
 use std::path::Path;
 
-use jiff::{SignedDuration, Timestamp};
+use jiff::Timestamp;
 use rusqlite::{OptionalExtension as _, named_params};
 
 use super::{
     RecordError, RecordedPass, file,
-    past::{COLUMNS, Passes, path_of, read_pass},
+    past::{COLUMNS, LONGEST, Passes, path_of, read_pass, read_passes},
 };
 use crate::{astro::Site, orbit::Propagator};
-
-/// No pass is sought that ends later than this after a stretch: the table is in order of LOS.
-pub(super) const LONGEST: SignedDuration = SignedDuration::from_hours(24);
 
 /// What is marked of a pass on a time line.
 #[derive(Debug, Clone, PartialEq)]
@@ -51,16 +48,12 @@ pub fn marks_between(
          ORDER BY until_us"
     );
     let mut statement = db.prepare(&sql)?;
-    let mut rows = statement.query(named_params! {
+    let found = read_passes(statement.query(named_params! {
         ":from": from.as_microsecond(),
         ":until": until.as_microsecond(),
         ":latest": latest.as_microsecond(),
-    })?;
-    let mut found = Vec::new();
-    while let Some(row) = rows.next()? {
-        found.extend(read_pass(row)?.map(|pass| marks_of(&pass, site)));
-    }
-    Ok(found)
+    })?)?;
+    Ok(found.iter().map(|pass| marks_of(pass, site)).collect())
 }
 
 /// The marks of the pass with this number.

@@ -6,12 +6,11 @@ use std::{
 };
 
 use jiff::{SignedDuration, Timestamp};
-use rusqlite::{Connection, Row as SqlRow, named_params};
+use rusqlite::{Connection, Row as SqlRow, Rows, named_params};
 use serde::{Deserialize, Serialize};
 
 use super::{
     AboutTrack, Kind, Query, RecordError, RecordedReport, Row, RowKind,
-    along::LONGEST,
     file::{self, PER_DEGREE},
     read,
 };
@@ -30,6 +29,9 @@ use crate::{
 const BEFORE: SignedDuration = SignedDuration::from_secs(300);
 /// Entries are shown to this long after LOS.
 const AFTER: SignedDuration = SignedDuration::from_secs(60);
+/// Longest pass that is looked for: rows are in order of LOS, so a search by AOS reads this much
+/// further.
+pub(super) const LONGEST: SignedDuration = SignedDuration::from_hours(24);
 /// Time between two directions of the predicted path, seconds.
 const STEP_S: f64 = 2.0;
 /// Kinds of entries that tell what happened in a pass.
@@ -163,7 +165,7 @@ pub(super) fn path_of(propagator: &Propagator, site: Site, report: &RecordedRepo
 
 /// The passes of an open record.
 pub(super) struct Passes {
-    pub(super) db: Connection,
+    db: Connection,
     /// Where the antennas of reports without a site stand.
     site: Site,
 }
@@ -200,12 +202,7 @@ impl Passes {
              ORDER BY until_us DESC LIMIT ?4"
         ))?;
         let (from, to) = (within.start().as_microsecond(), within.end().as_microsecond());
-        let mut rows = statement.query((antenna.0, from, to, count))?;
-        let mut passes = Vec::new();
-        while let Some(row) = rows.next()? {
-            passes.extend(read_pass(row)?);
-        }
-        Ok(passes)
+        read_passes(statement.query((antenna.0, from, to, count))?)
     }
 
     fn within(
@@ -213,25 +210,19 @@ impl Passes {
         query: &PassQuery,
         within: &Range<Timestamp>,
     ) -> Result<Vec<RecordedPass>, RecordError> {
-        // The table is in order of LOS.
         let latest = within.end.checked_add(LONGEST).unwrap_or(Timestamp::MAX);
         let mut statement = self.db.prepare(&format!(
             "SELECT {COLUMNS} FROM pass WHERE until_us BETWEEN :from AND :latest \
              AND from_us >= :from AND from_us < :to AND {WANTED} ORDER BY from_us"
         ))?;
-        let mut rows = statement.query(named_params! {
+        read_passes(statement.query(named_params! {
             ":from": within.start.as_microsecond(),
             ":to": within.end.as_microsecond(),
             ":latest": latest.as_microsecond(),
             ":antenna": query.antenna.map(|antenna| antenna.0),
             ":kind": query.kind.map(ListedKind::word),
             ":text": query.text.trim(),
-        })?;
-        let mut passes = Vec::new();
-        while let Some(row) = rows.next()? {
-            passes.extend(read_pass(row)?);
-        }
-        Ok(passes)
+        })?)
     }
 
     pub(super) fn pass(&self, id: i64) -> Result<Option<RecordedPass>, RecordError> {
@@ -322,6 +313,15 @@ fn page(db: &Connection, query: &PassQuery) -> Result<PassPage, RecordError> {
         }
     }
     Ok(page)
+}
+
+/// The passes of the rows whose report can be read.
+pub(super) fn read_passes(mut rows: Rows<'_>) -> Result<Vec<RecordedPass>, RecordError> {
+    let mut passes = Vec::new();
+    while let Some(row) = rows.next()? {
+        passes.extend(read_pass(row)?);
+    }
+    Ok(passes)
 }
 
 /// The pass of a row; `None` where its report cannot be read.
