@@ -8,6 +8,7 @@
 mod along;
 mod causes;
 mod entry;
+mod export;
 mod file;
 mod film;
 mod keeping;
@@ -23,12 +24,12 @@ mod tables;
 pub(crate) mod testing;
 #[cfg(test)]
 mod tests;
-mod way_out;
 mod writer;
 
 pub use along::{Beside, PassMarks, marks_between, marks_of_pass, neighbour};
 pub use causes::{ExplainedPasses, explain_passes};
 pub use entry::{Entry, Kind};
+pub use export::{csv_of_several, json_of_several};
 pub use film::{Film, FilmError, Parts, Picture, Shown};
 pub use missed::{MissedEntry, missed};
 pub use pass::{AboutTrack, PassNote, RecordedReport, TrackedBy};
@@ -39,7 +40,6 @@ pub use peaks::{Peak, PeakChange, PeakOf, Peaks};
 pub use pointing::{CannotFitPointing, FittedTerm, NoiseOf, PointingFit, fit_pointing};
 pub use read::{Query, Record, Row, RowKind};
 pub use recorder::{Failing, RecordedSession, Recorder, Status};
-pub use way_out::{csv_of, json_of};
 
 /// Why a record cannot be written or read.
 #[derive(Debug, thiserror::Error)]

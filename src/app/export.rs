@@ -343,8 +343,8 @@ impl Order {
 
 fn write_days(passes: &[OpenedPass], format: DaysFormat, out: &mut Vec<u8>) -> Result<(), String> {
     let text = match format {
-        DaysFormat::Csv => record::csv_of(passes),
-        DaysFormat::Json => record::json_of(passes).map_err(|error| error.to_string())?,
+        DaysFormat::Csv => record::csv_of_several(passes),
+        DaysFormat::Json => record::json_of_several(passes).map_err(|error| error.to_string())?,
     };
     out.extend(text.into_bytes());
     Ok(())

@@ -17,7 +17,7 @@ use std::{
 
 use jiff::{Timestamp, tz::TimeZone};
 
-pub(crate) use self::csv::{io_error, plain};
+pub(crate) use self::csv::{io_error, plain, quoted};
 use self::digits::parts;
 pub use self::looks::{LookFormat, LookList};
 use crate::{

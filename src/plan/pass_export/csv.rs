@@ -111,14 +111,9 @@ fn push_flag(text: &mut Vec<u8>, flag: bool) {
     text.extend_from_slice(if flag { b"true" } else { b"false" });
 }
 
-/// Appends a field that others wrote, in quotation marks where it needs them.
+/// Appends a field that others wrote.
 fn push_text(text: &mut Vec<u8>, field: &str) {
-    let field = plain(field);
-    if field.bytes().any(|byte| matches!(byte, b'"' | b',' | b'\r' | b'\n')) {
-        text.extend_from_slice(format!("\"{}\"", field.replace('"', "\"\"")).as_bytes());
-    } else {
-        text.extend_from_slice(field.as_bytes());
-    }
+    text.extend_from_slice(quoted(field).as_bytes());
 }
 
 /// The original error of the output: its kind distinguishes a reader that has stopped
@@ -143,6 +138,16 @@ pub(crate) fn plain(text: &str) -> Cow<'_, str> {
         Cow::Owned(format!("'{text}"))
     } else {
         Cow::Borrowed(text)
+    }
+}
+
+/// The same as a field of comma-separated values, in quotation marks where it needs them.
+pub(crate) fn quoted(text: &str) -> Cow<'_, str> {
+    let text = plain(text);
+    if text.bytes().any(|byte| matches!(byte, b'"' | b',' | b'\r' | b'\n')) {
+        Cow::Owned(format!("\"{}\"", text.replace('"', "\"\"")))
+    } else {
+        text
     }
 }
 

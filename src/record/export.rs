@@ -5,7 +5,7 @@ use std::fmt::Write as _;
 use serde::Serialize;
 
 use super::{OpenedPass, RecordedReport, Row};
-use crate::plan::{pass_export::plain, pass_report::TrackPoint};
+use crate::plan::{pass_export::quoted, pass_report::TrackPoint};
 
 /// Columns of the points. New ones stand at the end.
 const COLUMNS: &str = "time,azimuth_deg,elevation_deg,satellite_azimuth_deg,\
@@ -67,7 +67,7 @@ impl OpenedPass {
 }
 
 /// [`OpenedPass::csv`] of several passes, with what each point is of before it.
-pub fn csv_of(passes: &[OpenedPass]) -> String {
+pub fn csv_of_several(passes: &[OpenedPass]) -> String {
     let mut text = format!("{SEVERAL},{COLUMNS}\n");
     for pass in passes {
         let Told { antenna, satellite, name, .. } = pass.told();
@@ -81,7 +81,7 @@ pub fn csv_of(passes: &[OpenedPass]) -> String {
 }
 
 /// [`OpenedPass::json`] of several passes.
-pub fn json_of(passes: &[OpenedPass]) -> serde_json::Result<String> {
+pub fn json_of_several(passes: &[OpenedPass]) -> serde_json::Result<String> {
     let passes = passes.iter().map(OpenedPass::told).collect();
     serde_json::to_string_pretty(&Several { program: PROGRAM, passes })
 }
@@ -102,13 +102,4 @@ fn push_point(text: &mut String, point: &TrackPoint) {
         error.along_deg,
         error.across_deg,
     );
-}
-
-/// A text as a field of comma-separated values.
-fn quoted(text: &str) -> String {
-    let text = &*plain(text);
-    if text.contains([',', '"', '\n', '\r']) {
-        return format!("\"{}\"", text.replace('"', "\"\""));
-    }
-    text.to_owned()
 }
