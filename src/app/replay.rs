@@ -96,7 +96,10 @@ pub(super) struct Replay {
     views: ui::Views,
     /// UTC of the live station when it began.
     begun_at: Timestamp,
-    projection: Projection,
+    /// What reads the film, while it is at rest.
+    room: Option<Box<Room>>,
+    /// Its work, which gives it back unless it breaks off.
+    job: Option<Job<(Box<Room>, Answer)>>,
     /// The moment to show next.
     wanted: Option<Wanted>,
     /// The stretch whose passes are marked.
@@ -108,13 +111,6 @@ pub(super) struct Replay {
     catalog_work: CatalogWork,
     effects_jobs: EffectsJobs,
     wake: Wake,
-}
-
-/// The projector, on the thread that uses it or at rest.
-enum Projection {
-    Idle(Box<Room>),
-    Busy(Job<(Box<Room>, Answer)>),
-    BrokeDown,
 }
 
 impl Replay {
@@ -138,7 +134,8 @@ impl Replay {
             model,
             views,
             begun_at: live.now,
-            projection: Projection::Idle(Box::new(Room::new(path))),
+            room: Some(Box::new(Room::new(path))),
+            job: None,
             wanted: Some(Wanted::At(at)),
             marked: None,
             moved_at: live.steady,
@@ -169,7 +166,7 @@ impl Replay {
 
     /// Ends it. The file is closed elsewhere: that takes a disk.
     fn end(self) {
-        if let Projection::Idle(room) = self.projection {
+        if let Some(room) = self.room {
             let closed = Job::start("azel-replay", self.wake, move |_| drop(room));
             if let Err(error) = closed {
                 tracing::error!(%error, "no thread to close the film");
@@ -262,32 +259,12 @@ impl Replay {
     }
 
     fn take_answer(&mut self) {
-        let idle = Projection::BrokeDown;
-        let answer = match std::mem::replace(&mut self.projection, idle) {
-            Projection::Busy(job) => {
-                let mut job = Some(job);
-                match Job::take(&mut job) {
-                    None => {
-                        if let Some(job) = job {
-                            self.projection = Projection::Busy(job);
-                        }
-                        return;
-                    }
-                    Some(Ok((room, answer))) => {
-                        self.projection = Projection::Idle(room);
-                        answer
-                    }
-                    Some(Err(broke_off)) => {
-                        return self.tell(ReplayProblem::Failed(broke_off.to_string()));
-                    }
-                }
-            }
-            projection => {
-                self.projection = projection;
-                return;
-            }
+        let Some(end) = Job::take(&mut self.job) else { return };
+        let (room, Answer { found, recorded, marks }) = match end {
+            Ok(end) => end,
+            Err(broke_off) => return self.tell(ReplayProblem::Failed(broke_off.to_string())),
         };
-        let Answer { found, recorded, marks } = answer;
+        self.room = Some(room);
         if recorded.is_some() {
             self.model.recorded = recorded.map(Arc::new);
         }
@@ -374,7 +351,7 @@ impl Replay {
             self.moved_at = now;
             return;
         }
-        if passed_s < STEP_S || !matches!(self.projection, Projection::Idle(_)) {
+        if passed_s < STEP_S || self.room.is_none() {
             return;
         }
         self.moved_at = now;
@@ -387,7 +364,7 @@ impl Replay {
         self.wanted = Some(Wanted::At(at));
     }
 
-    /// Hands the projector what is wanted, if it has nothing to do.
+    /// Begins to read what is wanted, unless something is being read.
     fn ask(&mut self) {
         let is_read =
             |of: &RecordLook| self.model.recorded.as_ref().is_some_and(|it| it.look == *of);
@@ -397,21 +374,16 @@ impl Replay {
         if self.wanted.is_none() && look.is_none() && unmarked.is_none() {
             return;
         }
-        let Projection::Idle(_) = self.projection else { return };
-        let Projection::Idle(room) = std::mem::replace(&mut self.projection, Projection::BrokeDown)
-        else {
-            return;
-        };
+        let Some(mut room) = self.room.take() else { return };
         self.marked = unmarked.clone().or(self.marked.take());
         let asked = Asked { wanted: self.wanted.take(), look, unmarked };
         let site = self.model.station.site;
         let job = Job::start("azel-replay", Arc::clone(&self.wake), move |_| {
-            let mut room = room;
             let answer = room.answer(asked, site);
             (room, answer)
         });
         match job {
-            Ok(job) => self.projection = Projection::Busy(job),
+            Ok(job) => self.job = Some(job),
             Err(error) => self.tell(ReplayProblem::Failed(error.to_string())),
         }
     }
