@@ -26,7 +26,7 @@ pub(crate) mod testing;
 mod tests;
 mod writer;
 
-pub use along::{Beside, PassMarks, marks_between, marks_of_pass, neighbour};
+pub use along::{Beside, PassTimes, neighbour, times_between, times_of_pass};
 pub use causes::{ExplainedPasses, explain_passes};
 pub use entry::{Entry, Kind};
 pub use export::{csv_of_several, json_of_several};

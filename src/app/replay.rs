@@ -260,7 +260,7 @@ impl Replay {
 
     fn take_answer(&mut self) {
         let Some(end) = Job::take(&mut self.job) else { return };
-        let (room, Answer { found, recorded, marks }) = match end {
+        let (room, Answer { found, recorded, passes }) = match end {
             Ok(end) => end,
             Err(broke_off) => return self.tell(ReplayProblem::Failed(broke_off.to_string())),
         };
@@ -269,10 +269,10 @@ impl Replay {
             self.model.recorded = recorded.map(Arc::new);
         }
         if let Some(replay) = &mut self.model.replay
-            && let Some((stretch, marks)) = marks
+            && let Some((stretch, passes)) = passes
             && replay.stretch == stretch
         {
-            replay.marks = marks;
+            replay.passes = passes;
         }
         match found {
             None => {}

@@ -4,7 +4,7 @@ use jiff::Timestamp;
 
 use crate::{
     astro::time::{add_seconds, seconds_between},
-    record::{PassMarks, RecordedPass},
+    record::{PassTimes, RecordedPass},
 };
 
 /// A replay of a pass shows so much before and after it, seconds.
@@ -93,7 +93,7 @@ pub struct Replayed {
     pub speed: i32,
     pub plays: bool,
     /// The passes in the stretch.
-    pub marks: Vec<PassMarks>,
+    pub passes: Vec<PassTimes>,
     /// What came of the last jump besides the moment that is shown.
     pub news: Option<JumpNews>,
     /// Why this moment is not shown.
@@ -143,7 +143,7 @@ pub enum ReplayEnd {
 impl Replayed {
     /// A replay that begins to play.
     pub fn begin(stretch: Stretch, at: Timestamp) -> Self {
-        Self { stretch, at, speed: 1, plays: true, marks: Vec::new(), news: None, problem: None }
+        Self { stretch, at, speed: 1, plays: true, passes: Vec::new(), news: None, problem: None }
     }
 
     /// Whether it would not move on if it played.

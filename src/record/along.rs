@@ -1,4 +1,4 @@
-//! The passes of a record along the time: their marks, and the way from one to the next.
+//! The passes of a record along the time: their times, and the way from one to the next.
 
 use std::path::Path;
 
@@ -11,9 +11,9 @@ use super::{
 };
 use crate::{astro::Site, orbit::Propagator};
 
-/// What is marked of a pass on a time line.
+/// The times of a pass that are marked on a time line.
 #[derive(Debug, Clone, PartialEq)]
-pub struct PassMarks {
+pub struct PassTimes {
     /// Short name of the satellite.
     pub name: String,
     pub aos: Timestamp,
@@ -33,14 +33,14 @@ pub enum Beside {
     Moment(Timestamp),
 }
 
-/// The marks of the passes of the record at `path` between two times. Reports without a site are of
+/// The times of the passes of the record at `path` between two times. Reports without a site are of
 /// an antenna at `site`.
-pub fn marks_between(
+pub fn times_between(
     path: &Path,
     from: Timestamp,
     until: Timestamp,
     site: Site,
-) -> Result<Vec<PassMarks>, RecordError> {
+) -> Result<Vec<PassTimes>, RecordError> {
     let db = file::open_to_read(path)?;
     let latest = until.checked_add(LONGEST).unwrap_or(Timestamp::MAX);
     let sql = format!(
@@ -53,13 +53,13 @@ pub fn marks_between(
         ":until": until.as_microsecond(),
         ":latest": latest.as_microsecond(),
     })?)?;
-    Ok(found.iter().map(|pass| marks_of(pass, site)).collect())
+    Ok(found.iter().map(|pass| times_of(pass, site)).collect())
 }
 
-/// The marks of the pass with this number.
-pub fn marks_of_pass(path: &Path, id: i64, site: Site) -> Result<Option<PassMarks>, RecordError> {
+/// The times of the pass with this number.
+pub fn times_of_pass(path: &Path, id: i64, site: Site) -> Result<Option<PassTimes>, RecordError> {
     let passes = Passes::open(path, site)?;
-    Ok(passes.pass(id)?.map(|pass| marks_of(&pass, site)))
+    Ok(passes.pass(id)?.map(|pass| times_of(&pass, site)))
 }
 
 /// The pass after `of`, or before it, of any antenna.
@@ -90,7 +90,7 @@ pub fn neighbour(
     rows.next()?.map_or(Ok(None), read_pass)
 }
 
-fn marks_of(pass: &RecordedPass, site: Site) -> PassMarks {
+fn times_of(pass: &RecordedPass, site: Site) -> PassTimes {
     let report = &pass.report;
     let site = report.site.unwrap_or(site);
     let path = Propagator::new(&report.elements)
@@ -99,7 +99,7 @@ fn marks_of(pass: &RecordedPass, site: Site) -> PassMarks {
     let highest = path
         .iter()
         .max_by(|a, b| a.direction.elevation.radians().total_cmp(&b.direction.elevation.radians()));
-    PassMarks {
+    PassTimes {
         name: report.elements.short_name().to_owned(),
         aos: report.from,
         tca: highest.map(|sample| sample.time),

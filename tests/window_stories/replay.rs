@@ -14,7 +14,7 @@ use azel::{
             JumpNews, ReplayCommand, ReplayEnd, ReplayProblem, Replayed, Stretch, StretchPass,
         },
     },
-    record::PassMarks,
+    record::PassTimes,
     station,
 };
 use egui::{Key, Modifiers, Role};
@@ -41,15 +41,15 @@ pub(crate) fn model() -> Model {
         from: add_seconds(at, -300.0),
         until: add_seconds(at, 600.0),
     };
-    let marks = vec![marks(&model, "NOAA 20", -200.0)];
-    model.replay = Some(Replayed { speed: 10, marks, ..Replayed::begin(stretch, at) });
+    let passes = vec![times(&model, "NOAA 20", -200.0)];
+    model.replay = Some(Replayed { speed: 10, passes, ..Replayed::begin(stretch, at) });
     model
 }
 
 /// A pass of ten minutes that begins so long after the moment that is shown.
-fn marks(model: &Model, name: &str, begins_s: f64) -> PassMarks {
+fn times(model: &Model, name: &str, begins_s: f64) -> PassTimes {
     let at = |second: f64| add_seconds(model.now, begins_s + second);
-    PassMarks {
+    PassTimes {
         name: name.to_owned(),
         aos: at(0.0),
         tca: Some(at(290.0)),
@@ -237,8 +237,8 @@ fn several_passes_are_named_below_the_bar_and_one_has_its_events() {
         assert!(has(&window, words), "{words}");
     }
     let model = &mut window.state_mut().model;
-    let second = marks(model, "METOP-B", 400.0);
-    model.replay.as_mut().unwrap().marks.push(second);
+    let second = times(model, "METOP-B", 400.0);
+    model.replay.as_mut().unwrap().passes.push(second);
     settle(&mut window);
     assert!(has(&window, "METOP-B") && !has(&window, "TCA"));
 }

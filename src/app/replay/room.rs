@@ -13,7 +13,7 @@ use crate::{
         recorded::{RecordLook, Recorded},
     },
     model::replay::{JumpNews, Stretch},
-    record::{self, Beside, FilmError, PassMarks},
+    record::{self, Beside, FilmError, PassTimes},
     station::AntennaId,
 };
 
@@ -58,7 +58,7 @@ pub(super) struct Answer {
     /// The moment that was found, or why there is none.
     pub(super) found: Option<Result<Found, JumpNews>>,
     pub(super) recorded: Option<Recorded>,
-    pub(super) marks: Option<(Stretch, Vec<PassMarks>)>,
+    pub(super) passes: Option<(Stretch, Vec<PassTimes>)>,
 }
 
 /// A moment.
@@ -89,21 +89,21 @@ impl Room {
         Answer {
             recorded: look.map(|look| Recorded::read(&self.path, look, site)),
             found: wanted.map(|wanted| self.find(wanted)),
-            marks: unmarked.map(|stretch| {
-                let marks = self.marks(&stretch, site);
-                (stretch, marks)
+            passes: unmarked.map(|stretch| {
+                let passes = self.passes(&stretch, site);
+                (stretch, passes)
             }),
         }
     }
 
     /// The passes of a stretch. Without them it can be shown as well.
-    fn marks(&self, stretch: &Stretch, site: Site) -> Vec<PassMarks> {
-        let marks = match stretch.pass {
-            Some(pass) => record::marks_of_pass(&self.path, pass.id, site)
-                .map(|marks| marks.into_iter().collect()),
-            None => record::marks_between(&self.path, stretch.from, stretch.until, site),
+    fn passes(&self, stretch: &Stretch, site: Site) -> Vec<PassTimes> {
+        let passes = match stretch.pass {
+            Some(pass) => record::times_of_pass(&self.path, pass.id, site)
+                .map(|times| times.into_iter().collect()),
+            None => record::times_between(&self.path, stretch.from, stretch.until, site),
         };
-        marks.unwrap_or_else(|error| {
+        passes.unwrap_or_else(|error| {
             tracing::warn!(%error, "the passes of a replay are not marked");
             Vec::new()
         })

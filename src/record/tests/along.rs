@@ -9,8 +9,8 @@ use crate::{
     clock::{Instant, Moment},
     plan::pass_report::PassVerdict,
     record::{
-        Beside, Entry, Kind, ListedKind, PassNote, PassQuery, marks_between, marks_of_pass, missed,
-        neighbour, passes, passes_within, testing,
+        Beside, Entry, Kind, ListedKind, PassNote, PassQuery, missed, neighbour, passes,
+        passes_within, testing, times_between, times_of_pass,
     },
     station::AntennaId,
 };
@@ -56,21 +56,21 @@ fn each_pass_is_the_neighbour_of_the_next_and_other_antennas_count_once() {
 }
 
 #[test]
-fn a_stretch_has_the_marks_of_the_passes_in_it() {
+fn a_stretch_has_the_times_of_the_passes_in_it() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("record.sqlite");
     testing::record(&path, [note(DISH, ISS, 0), note(DISH, NOAA_20, 60), note(DISH, ISS, 95)]);
     let site = Site::default();
-    let marks = marks_between(&path, at(5), at(65), site).unwrap();
+    let marks = times_between(&path, at(5), at(65), site).unwrap();
     let [iss, noaa] = &marks[..] else { panic!("{marks:?}") };
     assert_eq!((&*iss.name, iss.aos, iss.los), ("ISS", at(0), at(10)));
     assert_eq!(noaa.aos, at(60));
     assert_eq!(noaa.lost, [(at(61), at(62))]);
     let tca = noaa.tca.unwrap();
     assert!((at(60)..=at(70)).contains(&tca), "{tca}");
-    assert_eq!(marks_between(&path, at(20), at(50), site).unwrap(), []);
-    assert_eq!(marks_of_pass(&path, 2, site).unwrap().as_ref(), Some(noaa));
-    assert_eq!(marks_of_pass(&path, 9, site).unwrap(), None);
+    assert_eq!(times_between(&path, at(20), at(50), site).unwrap(), []);
+    assert_eq!(times_of_pass(&path, 2, site).unwrap().as_ref(), Some(noaa));
+    assert_eq!(times_of_pass(&path, 9, site).unwrap(), None);
 }
 
 /// What became of a pass that began at `minute`, told eleven minutes later.

@@ -12,7 +12,7 @@ use crate::{
         UiCommand,
         replay::{ReplayCommand, Replayed, Stretch},
     },
-    record::PassMarks,
+    record::PassTimes,
     ui::{format, text, theme, widgets::paint},
 };
 
@@ -42,11 +42,11 @@ pub(super) fn scrubber(ui: &Ui, rect: Rect, replay: &Replayed, commands: &mut Ve
     ui.painter().rect(line.bar, 0.0, t.bg0, (1.0, t.edge), StrokeKind::Inside);
     let x = line.x(replay.at);
     ui.painter().rect_filled(line.bar.with_max_x(x), 0.0, t.warn);
-    for (place, marks) in replay.marks.iter().enumerate() {
-        pass(ui, &line, place, marks, replay.at);
+    for (place, times) in replay.passes.iter().enumerate() {
+        pass(ui, &line, place, times, replay.at);
     }
     if is_high {
-        below(ui, rect, &line, &replay.marks);
+        below(ui, rect, &line, &replay.passes);
         let times = Rect::from_x_y_ranges(rect.x_range(), rect.top() + 2.0..=rect.top() + 18.0);
         let (font, colour) = (text::caption(), t.t2);
         let [from, until] = [replay.stretch.from, replay.stretch.until].map(format::clock);
@@ -59,8 +59,8 @@ pub(super) fn scrubber(ui: &Ui, rect: Rect, replay: &Replayed, commands: &mut Ve
     let handle = Rect::from_center_size(pos2(x, line.bar.center().y), vec2(6.0, 22.0));
     ui.painter().rect_filled(handle, 1.0, t.ant);
     paint::focus_ring(ui, &response, 2);
-    if !replay.marks.is_empty() {
-        let told: Vec<String> = replay.marks.iter().map(|of| in_words(of, replay.at)).collect();
+    if !replay.passes.is_empty() {
+        let told: Vec<String> = replay.passes.iter().map(|of| in_words(of, replay.at)).collect();
         response.on_hover_text(told.join("\n"));
     }
 }
@@ -94,38 +94,38 @@ impl Line {
 }
 
 /// A box from AOS to LOS, a tick at TCA, and in red where the beam was lost.
-fn pass(ui: &Ui, line: &Line, place: usize, marks: &PassMarks, now: Timestamp) {
+fn pass(ui: &Ui, line: &Line, place: usize, times: &PassTimes, now: Timestamp) {
     let t = theme::tokens(ui);
     let y = line.bar.center().y;
-    let (from, until) = (line.x(marks.aos), line.x(marks.los));
+    let (from, until) = (line.x(times.aos), line.x(times.los));
     let within = Rect::from_x_y_ranges(from..=until, y - HALF_BOX..=y + HALF_BOX);
-    for (from, until) in &marks.lost {
+    for (from, until) in &times.lost {
         let (from, until) = (line.x(*from), line.x(*until));
         let lost = within.with_min_x(from).with_max_x(until.max(from + LEAST_LOST));
         ui.painter().rect_filled(lost, 0.0, t.bad);
     }
     ui.painter().rect_stroke(within, 0.0, (1.0, t.sat), StrokeKind::Inside);
-    if let Some(tca) = marks.tca {
+    if let Some(tca) = times.tca {
         ui.painter().vline(line.x(tca), within.y_range(), (1.0, t.sat));
     }
-    paint::name_text(ui, ("marks", place), within, &in_words(marks, now));
+    paint::name_text(ui, ("pass", place), within, &in_words(times, now));
 }
 
-fn in_words(marks: &PassMarks, now: Timestamp) -> String {
+fn in_words(pass: &PassTimes, now: Timestamp) -> String {
     let at = |word: &str, time| format!("{word} {}", format::moment(time, now));
-    let lost_s: f64 = marks.lost.iter().map(|(from, until)| seconds_between(*from, *until)).sum();
-    let lost = if marks.lost.is_empty() {
+    let lost_s: f64 = pass.lost.iter().map(|(from, until)| seconds_between(*from, *until)).sum();
+    let lost = if pass.lost.is_empty() {
         "nothing lost".to_owned()
     } else {
         format!("{} lost", format::duration(lost_s))
     };
-    let times = [Some(at("AOS", marks.aos)), marks.tca.map(|tca| at("TCA", tca))];
-    let times: Vec<String> = times.into_iter().flatten().chain([at("LOS", marks.los)]).collect();
-    format!("{}: {}, {lost}", marks.name, times.join(", "))
+    let times = [Some(at("AOS", pass.aos)), pass.tca.map(|tca| at("TCA", tca))];
+    let times: Vec<String> = times.into_iter().flatten().chain([at("LOS", pass.los)]).collect();
+    format!("{}: {}, {lost}", pass.name, times.join(", "))
 }
 
 /// Below the bar: the events of a single pass, or the names of several, as far as there is room.
-fn below(ui: &Ui, rect: Rect, line: &Line, passes: &[PassMarks]) {
+fn below(ui: &Ui, rect: Rect, line: &Line, passes: &[PassTimes]) {
     let t = theme::tokens(ui);
     let words: Vec<(&str, Timestamp)> = match passes {
         [only] => {
