@@ -131,6 +131,14 @@ CREATE INDEX part_time ON part (until_us);
 const FEW: &str = "
 CREATE INDEX IF NOT EXISTS event_day ON event (utc_us) WHERE kind = 'day';
 CREATE INDEX IF NOT EXISTS event_peak ON event (utc_us) WHERE kind = 'peak';
+CREATE INDEX IF NOT EXISTS event_gap ON event (utc_us) WHERE kind = 'gap';
+";
+
+/// The clock of the computer when it was trusted last to tell what is old. A record of an older program
+/// gets this as well, with the time of its newest entry.
+const CLOCK: &str = "
+CREATE TABLE clock (trusted_us INTEGER NOT NULL);
+INSERT INTO clock SELECT utc_us FROM event ORDER BY utc_us DESC LIMIT 1;
 ";
 
 /// Opens the record at `path` to write to it; makes it where there is none.

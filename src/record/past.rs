@@ -102,7 +102,8 @@ pub struct OpenedPass {
     pub track: Vec<TrackPoint>,
     /// The predicted path from AOS to LOS.
     pub path: Vec<Sample>,
-    /// Entries of the antenna, from five minutes before its track began to a minute after LOS.
+    /// Entries of the antenna, from five minutes before its track began to a minute after LOS; a gap
+    /// in that time has its own time at its end, which may be later.
     pub entries: Vec<Row>,
 }
 
@@ -250,8 +251,20 @@ impl Passes {
             antenna: Some(pass.antenna_name.clone()),
             what: TOLD.into_iter().map(RowKind::Entry).collect(),
         };
-        let entries = read::entries(&self.db, &query)?;
+        let mut entries = read::entries(&self.db, &query)?;
+        if let Some(to) = query.to {
+            entries.extend(self.gap_across(to)?);
+        }
         Ok(OpenedPass { pass, track, path, entries })
+    }
+
+    /// The gap that had begun by `at` and ended later. A gap is noted at its end, and no two of them
+    /// overlap.
+    fn gap_across(&self, at: Timestamp) -> Result<Option<Row>, RecordError> {
+        let what = vec![RowKind::Entry(Kind::Gap)];
+        let query = Query { from: Some(at), what, ..Query::default() };
+        let next = read::entries(&self.db, &query)?.into_iter().next();
+        Ok(next.filter(|gap| gap.gap_since().is_some_and(|since| since < at)))
     }
 
     /// The measured track of a pass beside the predicted one. Elements that cannot be propagated give

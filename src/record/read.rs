@@ -53,10 +53,21 @@ pub struct Query {
     pub from: Option<Timestamp>,
     /// Before this time.
     pub to: Option<Timestamp>,
-    /// Name of the antenna, now or at the time.
+    /// Name of the antenna, now or at the time. Gaps, and STOPs that were pressed for it, count
+    /// among its entries.
     pub antenna: Option<String>,
     pub what: Vec<RowKind>,
 }
+
+/// Rows of the antenna of a query.
+const OF_ANTENNA: &str = "WHERE antenna IN (SELECT id FROM antenna AS named WHERE named.name = ?1)";
+
+/// Entries that concern it beside others are noted without one.
+const OR_OF_SEVERAL: &str = "OR antenna IS NULL AND CASE kind WHEN 'gap' THEN 1 WHEN 'stop' THEN EXISTS \
+        (SELECT 1 FROM (SELECT value FROM json_each(data, '$.antennas') \
+            UNION ALL SELECT value FROM json_each(data, '$.elsewhere')) AS pressed \
+        WHERE pressed.value IN (SELECT id FROM antenna AS named WHERE named.name = ?1)) \
+    ELSE 0 END";
 
 /// A row of the record.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -74,6 +85,13 @@ pub struct Row {
     pub kind: String,
     /// What the kind tells; see `docs/record.md`.
     pub data: Value,
+}
+
+impl Row {
+    /// When something was written last before a gap.
+    pub fn gap_since(&self) -> Option<Timestamp> {
+        self.data.get("since")?.as_str()?.parse().ok()
+    }
 }
 
 /// Up to where a reader has read. Each antenna has a place of its own: one may answer later than
@@ -207,14 +225,16 @@ fn rows(
         return Ok(());
     }
     let of_antenna = match &query.antenna {
-        Some(_) => "WHERE antenna IN (SELECT id FROM antenna AS named WHERE named.name = ?1)",
-        None => "",
+        Some(_) if kinds.is_empty() => [OF_ANTENNA, ""],
+        Some(_) => [OF_ANTENNA, OR_OF_SEVERAL],
+        None => ["", ""],
     };
     let sql = format!(
         "SELECT *, (SELECT name FROM antenna AS a WHERE a.id = antenna ORDER BY \
              since_us > all_rows.utc_us, abs(since_us - all_rows.utc_us) LIMIT 1) AS antenna_name \
              FROM ({}) AS all_rows {of_antenna} ORDER BY utc_us",
-        parts.join(" UNION ALL ")
+        parts.join(" UNION ALL "),
+        of_antenna = of_antenna.join(" ")
     );
     let mut statement = db.prepare(&sql)?;
     let mut rows = statement.query(params_from_iter(&query.antenna))?;

@@ -3,6 +3,7 @@
 mod along;
 mod film;
 mod passes;
+mod past;
 
 use std::{fs, path::Path, time::Duration};
 
@@ -144,11 +145,13 @@ fn entries_positions_and_lines_are_read_as_they_were_noted() {
     assert_eq!(told("fault"), [&Value::Null, &Value::Null, &json!("Unfinished")]);
     assert_eq!(events(&path), [7]);
     // Antenna and time choose.
-    let of = |antenna: &str, from: Option<Timestamp>| {
-        let what = RowKind::all().collect();
+    let of_kinds = |antenna: &str, from: Option<Timestamp>, what: Vec<RowKind>| {
         rows_of(&path, &Query { antenna: Some(antenna.to_owned()), from, what, to: None }).len()
     };
+    let of = |antenna: &str, from| of_kinds(antenna, from, RowKind::all().collect());
+    let raw = || vec![RowKind::Position, RowKind::Frame];
     assert_eq!((of("Dish", None), of("Mast", None)), (5, 0));
+    assert_eq!((of_kinds("Dish", None, raw()), of_kinds("Mast", None, raw())), (4, 0));
     assert_eq!(of("Dish", Some(start() + Duration::from_secs(1))), 0);
 }
 

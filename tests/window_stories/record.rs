@@ -588,6 +588,36 @@ fn the_bar_of_the_link_runs_below_its_words_and_a_loss_of_no_length_is_not_told(
 }
 
 #[test]
+fn a_gap_is_told_from_its_beginning_and_a_stop_with_who_pressed_it() {
+    let (mut model, mut flown) = model();
+    let from = flown[0].pass.report.from;
+    let row = |kind: &str, time, data| Row {
+        time,
+        run: 1,
+        steady_s: None,
+        antenna: None,
+        kind: kind.to_owned(),
+        data,
+    };
+    let pressed = serde_json::json!({"by": "window", "antennas": [1], "is_for_all": true});
+    let gap = serde_json::json!({"since": from + 2.minutes(), "positions": 3});
+    flown[0].entries = vec![
+        row("stop", from + 1.minutes(), pressed),
+        row("stop", from + 61.seconds(), "Stopped".into()),
+        row("gap", flown[0].pass.report.until + 1.hour(), gap),
+    ];
+    let lasted_s = flown[0].pass.report.until.duration_since(from + 2.minutes()).as_secs_f64();
+    model.recorded = Some(Arc::new(recorded(&flown, 0)));
+    let mut window = rig::window(LARGE, model);
+    settle(&mut window);
+    let at = |minutes: i64| (from + minutes.minutes()).strftime("%H:%M:%SZ").to_string();
+    window.get_by_label(&format!("{}: STOP (from the window)", at(1)));
+    window.get_by_label_contains(": Stopped");
+    let lasted = format::duration(lasted_s + 3600.0);
+    window.get_by_label(&format!("{}: Not recorded for {lasted}", at(2)));
+}
+
+#[test]
 fn what_stood_in_the_way_is_on_the_path_where_it_is_known() {
     let named = |has_mask: bool, site: Site| {
         let (mut model, flown) = model();

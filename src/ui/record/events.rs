@@ -5,6 +5,7 @@ use jiff::Timestamp;
 
 use super::{PADDING, RecordState, curves};
 use crate::{
+    astro::time::seconds_between,
     engine::{By, alarms::Alarm},
     model::Model,
     plan::pass_report::LossCause,
@@ -57,7 +58,7 @@ pub(super) fn show(
         paint::text(ui, at, Align2::CENTER_CENTER, words, text::caption(), t.t3);
     }
     link(ui, lane(2), axis, opened);
-    for (index, of_lane) in events(model, opened).into_iter().enumerate() {
+    for (index, of_lane) in events(model, axis, opened).into_iter().enumerate() {
         controls(ui, (index, lane(index)), axis, &of_lane, model.now, state);
         marks(ui, lane(index), axis, &of_lane);
     }
@@ -90,7 +91,7 @@ impl Colour {
     }
 }
 
-fn events(model: &Model, opened: &OpenedPass) -> [Vec<Moment>; 4] {
+fn events(model: &Model, axis: &TimeAxis, opened: &OpenedPass) -> [Vec<Moment>; 4] {
     let report = &opened.pass.report;
     let highest = opened
         .path
@@ -108,7 +109,7 @@ fn events(model: &Model, opened: &OpenedPass) -> [Vec<Moment>; 4] {
     for row in &opened.entries {
         let (lane, words, colour) = match &*row.kind {
             "command" => (1, command(row), Colour::Sent),
-            "stop" => (1, "STOP".to_owned(), Colour::Fault),
+            "stop" => (1, stop(row), Colour::Fault),
             "refusal" => (1, "Refused".to_owned(), Colour::Caution),
             "link" => (2, variant(&row.data).unwrap_or_default(), Colour::Caution),
             "alarm" => match serde_json::from_value::<Alarm>(row.data.clone()) {
@@ -118,11 +119,13 @@ fn events(model: &Model, opened: &OpenedPass) -> [Vec<Moment>; 4] {
                 }
                 Err(_) => continue,
             },
-            "gap" => (2, "Not recorded".to_owned(), Colour::Caution),
+            "gap" => (2, not_recorded(row), Colour::Caution),
             _ => continue,
         };
+        // A gap is noted at its end.
+        let at = row.gap_since().map_or(row.time, |since| since.max(axis.start()));
         if let Some(lane) = lanes.get_mut(lane) {
-            lane.push(Moment { at: row.time, words, colour });
+            lane.push(Moment { at, words, colour });
         }
     }
     let is_told = |cause: LossCause, seconds: f64| has_positions(cause) && seconds >= LEAST_S;
@@ -138,18 +141,41 @@ fn events(model: &Model, opened: &OpenedPass) -> [Vec<Moment>; 4] {
             ),
             colour: Colour::Fault,
         }));
-        alarms.sort_by_key(|moment| moment.at);
+    }
+    for lane in &mut lanes {
+        lane.sort_by_key(|moment| moment.at);
     }
     lanes
 }
 
+/// A STOP with who pressed it, or what became of it.
+fn stop(row: &Row) -> String {
+    match by(row) {
+        Some(by) => format!("STOP (from {})", given_by(by)),
+        None => variant(&row.data).unwrap_or_else(|| "STOP".to_owned()),
+    }
+}
+
+fn not_recorded(row: &Row) -> String {
+    match row.gap_since() {
+        Some(since) => {
+            let lasted_s = seconds_between(since, row.time);
+            format!("Not recorded for {}", format::duration(lasted_s))
+        }
+        None => "Not recorded".to_owned(),
+    }
+}
+
+fn by(row: &Row) -> Option<By> {
+    row.data.get("by").cloned().and_then(|by| serde_json::from_value(by).ok())
+}
+
 /// A command in words: what, and who gave it.
 fn command(row: &Row) -> String {
-    let by = row.data.get("by").cloned().and_then(|by| serde_json::from_value(by).ok());
     let command = row.data.get("command");
     let of_antenna = command.and_then(|command| command.get("Antenna")).and_then(|of| of.get(1));
     let what = of_antenna.or(command).and_then(variant).unwrap_or_default();
-    match by.map(given_by) {
+    match by(row).map(given_by) {
         Some(by) => format!("{what} (from {by})"),
         None => what,
     }
