@@ -5,7 +5,7 @@ use std::{
     path::PathBuf,
     sync::{
         Arc, Mutex, MutexGuard, PoisonError,
-        atomic::{AtomicU64, Ordering},
+        atomic::{AtomicBool, AtomicU64, Ordering},
         mpsc,
     },
     thread,
@@ -52,7 +52,11 @@ pub struct Failing {
 pub(super) enum Order {
     Entry(Box<Entry>),
     Pass(Box<PassNote>),
-    Picture(Arc<dyn Picture>),
+    Picture {
+        picture: Arc<dyn Picture>,
+        /// There was no room for the one before.
+        is_after_cut: bool,
+    },
     /// Write at once, then answer.
     Flush(mpsc::SyncSender<()>),
 }
@@ -93,6 +97,8 @@ pub struct Recorder {
     orders: Option<mpsc::SyncSender<Order>>,
     shared: Arc<Shared>,
     ended: mpsc::Receiver<()>,
+    /// There was no room for the last picture.
+    is_cut: AtomicBool,
     /// The time of the station stands while something is written.
     is_in_place: bool,
 }
@@ -119,7 +125,7 @@ impl Recorder {
             let _ = tell_ended.send(());
         })?;
         let is_in_place = job::is_in_place();
-        Ok(Self { orders: Some(orders), shared, ended, is_in_place })
+        Ok(Self { orders: Some(orders), shared, ended, is_cut: AtomicBool::default(), is_in_place })
     }
 
     /// Records an entry. One that the writer has no room for is counted.
@@ -134,21 +140,24 @@ impl Recorder {
 
     /// Films a picture. One that the writer has no room for is counted.
     pub fn film(&self, picture: Arc<dyn Picture>) {
-        self.order(Order::Picture(picture));
+        let is_after_cut = self.is_cut.load(Ordering::Relaxed);
+        let has_room = self.order(Order::Picture { picture, is_after_cut });
+        self.is_cut.store(!has_room, Ordering::Relaxed);
         if self.is_in_place {
             self.flush();
         }
     }
 
-    fn order(&self, order: Order) {
-        let Some(orders) = &self.orders else { return };
-        if let Err(mpsc::TrySendError::Full(order)) = orders.try_send(order) {
-            let missed = match order {
-                Order::Picture(_) => &self.shared.not_filmed,
-                _ => &self.shared.turned_away,
-            };
-            missed.fetch_add(1, Ordering::Relaxed);
-        }
+    /// Returns `false` if there is no room for it.
+    fn order(&self, order: Order) -> bool {
+        let Some(orders) = &self.orders else { return false };
+        let Err(mpsc::TrySendError::Full(order)) = orders.try_send(order) else { return true };
+        let missed = match order {
+            Order::Picture { .. } => &self.shared.not_filmed,
+            _ => &self.shared.turned_away,
+        };
+        missed.fetch_add(1, Ordering::Relaxed);
+        false
     }
 
     /// Records a session from its beginning: its lines and measured positions.

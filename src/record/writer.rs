@@ -132,7 +132,12 @@ impl Writer {
                 Ok(Order::Entry(entry)) => self.queue(*entry),
                 // There are some dozens a day: they need no limit.
                 Ok(Order::Pass(pass)) => self.passes.push(*pass),
-                Ok(Order::Picture(picture)) => self.camera.take(&*picture),
+                Ok(Order::Picture { picture, is_after_cut }) => {
+                    if is_after_cut {
+                        self.camera.cut();
+                    }
+                    self.camera.take(&*picture);
+                }
                 Ok(Order::Flush(done)) => {
                     self.write();
                     // Nobody may be waiting any more.

@@ -20,7 +20,7 @@ pub(in crate::record) struct Camera {
     parts: Parts,
     /// The last picture; null before the first of a reel.
     last: Value,
-    /// Number of the reel in this run.
+    /// Number of the reel in this run. It skips one where pictures are missing.
     reel: i64,
     /// Number of the next piece of the reel.
     piece: i64,
@@ -94,10 +94,18 @@ impl Camera {
     pub(in crate::record) fn begin_anew(&mut self) {
         *self = Self {
             parts: Parts { last: self.parts.last, ..Parts::default() },
-            reel: self.reel + 1,
+            reel: self.reel + 2,
             dropped: self.dropped,
             ..Self::default()
         };
+    }
+
+    /// Pictures are missing before the next one.
+    pub(in crate::record) fn cut(&mut self) {
+        if !self.last.is_null() {
+            self.end_reel();
+        }
+        self.reel += 1;
     }
 
     fn end_reel(&mut self) {

@@ -4,7 +4,7 @@ use std::{io::Read as _, path::Path, time::Duration};
 
 use flate2::read::DeflateDecoder;
 use jiff::Timestamp;
-use rusqlite::{Connection, OptionalExtension as _, Row as SqlRow, params};
+use rusqlite::{Connection, OptionalExtension as _, params};
 use serde_json::Value;
 
 use super::patch::{Misfit, Patch};
@@ -44,6 +44,10 @@ impl From<Misfit> for FilmError {
     }
 }
 
+/// The reel goes on where another one of its run ends. Others follow on a stretch without film.
+const FOLLOWS: &str = "EXISTS (SELECT 1 FROM reel AS before WHERE before.run = reel.run \
+    AND before.number = reel.number - 1)";
+
 /// A film to be read.
 pub struct Film {
     db: Connection,
@@ -54,8 +58,8 @@ pub struct Film {
 struct Reel {
     run: i64,
     number: i64,
-    /// Number of pieces that were read of it.
-    pieces: i64,
+    /// Number of pieces that were read of it, and the time of the last picture in them.
+    pieces: (i64, i64),
     /// The pictures with their times, nanoseconds of UTC.
     pictures: Vec<(i64, Patch)>,
     /// How many of them have made `picture`.
@@ -109,12 +113,16 @@ impl Film {
     /// Takes the reel of a moment, or what was added to it since.
     fn load(&mut self, at: Timestamp) -> Result<(), FilmError> {
         // A clock that was read to the nanosecond is a little before its microsecond.
-        let sql = "SELECT run, number, (SELECT count(*) FROM reel AS of WHERE of.run = reel.run AND \
-                   of.number = reel.number) FROM reel WHERE from_us <= ?1 ORDER BY from_us DESC LIMIT 1";
+        // The same reel may be written again as fewer pieces that hold more.
+        let sql = "SELECT run, number, count(*), max(until_us) FROM reel JOIN (SELECT run, number FROM reel \
+                   WHERE from_us <= ?1 ORDER BY from_us DESC LIMIT 1) USING (run, number) \
+                   GROUP BY run, number";
         let found = self
             .db
             .prepare_cached(sql)?
-            .query_row([at.as_microsecond()], |row| Ok((row.get(0)?, row.get(1)?, row.get(2)?)))
+            .query_row([at.as_microsecond()], |row| {
+                Ok((row.get(0)?, row.get(1)?, (row.get(2)?, row.get(3)?)))
+            })
             .optional()?;
         let Some((run, number, pieces)) = found else {
             self.reel = None;
@@ -182,51 +190,57 @@ impl Film {
         Ok(next.and_then(|us| Timestamp::from_microsecond(us + 1).ok()).unwrap_or(at))
     }
 
-    /// The last stretch between two moments of which there is no film: the program did not run, or the
-    /// film of that run is not kept any more.
+    /// The last stretch between two moments of which there is no film: the program did not run, pictures
+    /// were lost, or the film is not kept any more.
     pub fn hole(
         &self,
         from: Timestamp,
         until: Timestamp,
     ) -> Result<Option<(Timestamp, Timestamp)>, FilmError> {
-        let us = |sql: &str, at: i64| -> Result<Option<i64>, FilmError> {
-            Ok(self.db.prepare_cached(sql)?.query_row([at], |row| row.get(0)).optional()?)
-        };
-        let last_run = "SELECT run FROM reel WHERE from_us <= ?1 ORDER BY from_us DESC LIMIT 1";
-        let Some(run) = us(last_run, until.as_microsecond())? else { return Ok(None) };
-        let begin = "SELECT from_us FROM reel WHERE run = ?1 ORDER BY number, piece LIMIT 1";
-        let Some(begin) = us(begin, run)?.filter(|begin| *begin > from.as_microsecond()) else {
-            return Ok(None);
-        };
+        let (from_us, until_us) = (from.as_microsecond(), until.as_microsecond());
+        let begin = format!(
+            "SELECT from_us FROM reel WHERE from_us > ?1 AND from_us <= ?2 AND NOT {FOLLOWS} \
+             ORDER BY from_us DESC LIMIT 1"
+        );
+        let begin: Option<i64> = self
+            .db
+            .prepare_cached(&begin)?
+            .query_row([from_us, until_us], |row| row.get(0))
+            .optional()?;
+        let Some(begin) = begin else { return Ok(None) };
         let end = "SELECT until_us FROM reel WHERE from_us < ?1 ORDER BY from_us DESC, piece DESC \
                    LIMIT 1";
-        let end =
-            us(end, begin)?.map_or(from.as_microsecond(), |end| end.max(from.as_microsecond()));
+        let end: Option<i64> =
+            self.db.prepare_cached(end)?.query_row([begin], |row| row.get(0)).optional()?;
+        let end = end.map_or(from_us, |end| end.max(from_us));
         let time = |us| Timestamp::from_microsecond(us).ok();
         Ok(time(end).zip(time(begin)))
     }
 
-    /// The stretch around `at` of which there is no film, between two runs.
+    /// The stretch around `at` of which there is no film.
     pub fn hole_at(&self, at: Timestamp) -> Result<Option<(Timestamp, Timestamp)>, FilmError> {
         let at_us = at.as_microsecond();
-        let before = "SELECT of.run, max(of.until_us) FROM reel AS of JOIN (SELECT run, number FROM reel \
+        let before = "SELECT max(of.until_us) FROM reel AS of JOIN (SELECT run, number FROM reel \
                       WHERE from_us <= ?1 ORDER BY from_us DESC LIMIT 1) AS last \
                       ON of.run = last.run AND of.number = last.number";
-        let after = "SELECT run, from_us FROM reel WHERE from_us > ?1 ORDER BY from_us LIMIT 1";
-        let found = |sql: &str| -> Result<Option<(i64, i64)>, FilmError> {
-            let mut statement = self.db.prepare_cached(sql)?;
-            let row = |row: &SqlRow<'_>| Ok((row.get::<_, Option<i64>>(0)?, row.get(1)?));
-            let (run, us) = statement.query_row([at_us], row).optional()?.unwrap_or_default();
-            Ok(run.zip(us))
-        };
+        let after = format!(
+            "SELECT from_us, {FOLLOWS} FROM reel WHERE from_us > ?1 ORDER BY from_us LIMIT 1"
+        );
+        let ended_us: Option<i64> =
+            self.db.prepare_cached(before)?.query_row([at_us], |row| row.get(0))?;
+        let next: Option<(i64, bool)> = self
+            .db
+            .prepare_cached(&after)?
+            .query_row([at_us], |row| Ok((row.get(0)?, row.get(1)?)))
+            .optional()?;
         let time = |us| Timestamp::from_microsecond(us).ok();
-        let (run, ended_us, next, begun_us) = match (found(before)?, found(after)?) {
-            (Some((run, ended_us)), Some((next, begun_us))) => (run, ended_us, next, begun_us),
+        let (ended_us, begun_us, follows) = match (ended_us, next) {
+            (Some(ended_us), Some((begun_us, follows))) => (ended_us, begun_us, follows),
             // Before all film that is kept.
-            (None, Some((_, begun_us))) => return Ok(Some(at).zip(time(begun_us + 1))),
+            (None, Some((begun_us, _))) => return Ok(Some(at).zip(time(begun_us + 1))),
             (_, None) => return Ok(None),
         };
-        let is_between = run != next && ended_us < at_us;
+        let is_between = !follows && ended_us < at_us;
         // The first picture of a run is within this microsecond.
         Ok(time(ended_us).zip(time(begun_us + 1)).filter(|_| is_between))
     }

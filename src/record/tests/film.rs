@@ -1,14 +1,14 @@
 //! The film as it is written and read.
 
-use std::{path::Path, sync::Arc};
+use std::{fs, path::Path, sync::Arc};
 
 use jiff::ToSpan as _;
 use serde_json::{Value, json};
 
-use super::{recorder, start};
+use super::{recorder, rows, start};
 use crate::{
     clock::{Instant, Moment},
-    record::{Film, Parts, Picture, file, keeping},
+    record::{Film, Kind, Parts, Picture, RowKind, file, film::Camera, keeping},
     station::Retention,
 };
 
@@ -65,6 +65,11 @@ fn seen(film: &mut Film, second: f64) -> Option<(f64, i64, String)> {
     Some((picture["second"].as_f64()?, picture["value"].as_i64()?, part))
 }
 
+/// The picture of `of` is shown at `second`.
+fn shows(film: &mut Film, second: f64, of: f64) -> bool {
+    seen(film, second).is_some_and(|(shown, ..)| (shown - of).abs() < 1e-9)
+}
+
 #[test]
 fn every_moment_is_shown_again_whichever_way_it_is_come_by() {
     let folder = tempfile::tempdir().unwrap();
@@ -106,6 +111,93 @@ fn a_hole_in_the_film_is_told() {
     for second in [0.5, 59.7, 199.0, 300.0, 300.5, 419.0, 500.0] {
         assert_eq!(around(second), None, "{second}");
     }
+}
+
+#[test]
+fn pictures_that_were_lost_within_a_run_are_told_as_a_hole() {
+    let folder = tempfile::tempdir().unwrap();
+    let blocked = folder.path().join("records");
+    let path = blocked.join("record.sqlite");
+    let recorder = recorder(&path);
+    // So large that some of them do not fit into what waits for a disk.
+    let take = |second: u32, size: usize| {
+        let (second, value) = (f64::from(second), i64::from(second / 10));
+        let part = Arc::new("x".repeat(size));
+        recorder.film(Arc::new(Figures { second, value, part, stands: Arc::new(value) }));
+    };
+    (0..30).for_each(|second| take(second, 10));
+    recorder.flush();
+    // A file where the folder has to be.
+    let aside = folder.path().join("aside");
+    fs::rename(&blocked, &aside).unwrap();
+    fs::write(&blocked, "").unwrap();
+    for second in 30..70 {
+        take(second, 1 << 20);
+    }
+    recorder.flush();
+    fs::remove_file(&blocked).unwrap();
+    fs::rename(&aside, &blocked).unwrap();
+    (70..90).for_each(|second| take(second, 10));
+    recorder.flush();
+
+    let mut film = Film::open(&path).unwrap();
+    let (until, from) = film.hole_at(at(40.0)).unwrap().expect("a hole");
+    let gaps = rows(&path, RowKind::Entry(Kind::Gap));
+    let lost: u64 = gaps.iter().map(|gap| gap.data["pictures"].as_u64().unwrap()).sum();
+    assert_eq!(until, at(29.0));
+    assert_eq!(from, at(30.0 + lost as f64) + 1.microsecond(), "{gaps:?}");
+    assert!((16..40).contains(&lost), "{lost}");
+    assert_eq!(film.hole(at(10.0), at(80.0)).unwrap(), Some((until, from - 1.microsecond())));
+    assert_eq!(film.hole(at(10.0), at(29.0)).unwrap(), None);
+    let again = 30.0 + lost as f64;
+    for second in [10.0, 28.0, again, again + 1.0, 80.0] {
+        assert_eq!(film.hole_at(at(second + 0.5)).unwrap(), None);
+        assert!(shows(&mut film, second + 0.5, second));
+    }
+}
+
+#[test]
+fn a_picture_for_which_there_was_no_room_is_told_as_a_hole() {
+    let mut camera = Camera::default();
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("record.sqlite");
+    let part = Arc::new(String::new());
+    for second in (0..10).chain(20..30) {
+        let (second, value) = (f64::from(second), i64::from(second));
+        if value == 20 {
+            camera.cut();
+        }
+        let (part, stands) = (Arc::clone(&part), Arc::new(value));
+        camera.take(&Figures { second, value, part, stands });
+    }
+    let mut db = file::open(&path).unwrap();
+    let tx = db.transaction().unwrap();
+    camera.write(&tx, 1).unwrap();
+    tx.commit().unwrap();
+    let mut film = Film::open(&path).unwrap();
+    assert_eq!(film.hole_at(at(15.0)).unwrap(), Some((at(9.0), at(20.0) + 1.microsecond())));
+    assert_eq!(film.hole_at(at(25.5)).unwrap(), None);
+    assert!(shows(&mut film, 25.5, 25.0));
+}
+
+#[test]
+fn a_reel_that_is_written_again_as_one_piece_is_read_again() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("record.sqlite");
+    let recorder = recorder(&path);
+    let take = |second: f64| {
+        let (value, part) = (second as i64, Arc::default());
+        recorder.film(Arc::new(Figures { second, value, part, stands: Arc::new(value) }));
+    };
+    take(0.0);
+    recorder.flush();
+    let mut film = Film::open(&path).unwrap();
+    assert!(shows(&mut film, 5.0, 0.0));
+    for second in [1.0, 2.0, 90.0] {
+        take(second);
+    }
+    recorder.flush();
+    assert!(shows(&mut film, 5.0, 2.0));
 }
 
 #[test]
