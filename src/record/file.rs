@@ -137,8 +137,8 @@ CREATE INDEX IF NOT EXISTS event_gap ON event (utc_us) WHERE kind = 'gap';
 /// The clock of the computer when it was trusted last to tell what is old. A record of an older program
 /// gets this as well, with the time of its newest entry.
 const CLOCK: &str = "
-CREATE TABLE clock (trusted_us INTEGER NOT NULL);
-INSERT INTO clock SELECT utc_us FROM event ORDER BY utc_us DESC LIMIT 1;
+CREATE TABLE clock (id INTEGER PRIMARY KEY CHECK (id = 0), trusted_us INTEGER NOT NULL);
+INSERT INTO clock SELECT 0, utc_us FROM event ORDER BY utc_us DESC LIMIT 1;
 ";
 
 /// Opens the record at `path` to write to it; makes it where there is none.
@@ -176,6 +176,11 @@ pub(super) fn open(path: &Path) -> Result<Connection, RecordError> {
         newer => return Err(RecordError::Newer(newer)),
     }
     db.execute_batch(FEW)?;
+    if !db.table_exists(None, "clock")? {
+        let of_old = db.transaction()?;
+        of_old.execute_batch(CLOCK)?;
+        of_old.commit()?;
+    }
     // A reader disturbs no writer, and what was committed outlasts a loss of power.
     db.pragma_update(None, "journal_mode", "WAL")?;
     db.pragma_update(None, "synchronous", "FULL")?;

@@ -1,5 +1,7 @@
 //! How long the parts of the record are kept.
 
+use std::time::Duration;
+
 use rusqlite::{Connection, OptionalExtension as _, params};
 
 use super::RecordError;
@@ -20,6 +22,32 @@ const MINUTE_US: i64 = 60_000_000;
 const SPARE: i64 = 256;
 /// Pages that are given back to the disk at once.
 const PAGES: i64 = 200;
+
+/// A start that comes later than this after what is known of the clock may have a wrong one.
+const LONGEST_PAUSE_US: i64 = 30 * 86_400_000_000;
+/// The clock is noted again once it has gone on for so long.
+const NOTED_EVERY_US: i64 = 3_600_000_000;
+/// A clock that was set, or that may be wrong, is trusted once the program has gone on for so long with
+/// it: a wrong one does not stay unseen.
+pub(super) const TRUSTED_AFTER: Duration = Duration::from_hours(24);
+
+/// Returns `true` if the clock may tell what is old: it goes on from where it was trusted last, or this
+/// run has lasted `ran`. By a wrong clock everything could be old.
+pub(super) fn trusts(db: &Connection, now_us: i64, ran: Duration) -> Result<bool, RecordError> {
+    let noted: Option<i64> =
+        db.query_row("SELECT trusted_us FROM clock", [], |row| row.get(0)).optional()?;
+    let (ahead_us, is_long) =
+        (noted.map(|noted| now_us.saturating_sub(noted)), ran >= TRUSTED_AFTER);
+    if ahead_us.is_some_and(|ahead_us| ahead_us > LONGEST_PAUSE_US) && !is_long {
+        return Ok(false);
+    }
+    // One that is behind removes too little at worst, but must not make the right one look wrong.
+    let is_due = |ahead_us| ahead_us > NOTED_EVERY_US || is_long && ahead_us < -NOTED_EVERY_US;
+    if ahead_us.is_none_or(is_due) {
+        db.execute("INSERT OR REPLACE INTO clock VALUES (0, ?1)", [now_us])?;
+    }
+    Ok(true)
+}
 
 /// Removes a slice of what is older than it is kept. Returns `true` if more may be left.
 pub(super) fn remove_old(

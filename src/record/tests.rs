@@ -5,12 +5,20 @@ mod film;
 mod passes;
 mod past;
 
-use std::{fs, path::Path, time::Duration};
+use std::{
+    fs,
+    path::Path,
+    sync::atomic::{AtomicBool, Ordering},
+    time::Duration,
+};
 
-use jiff::Timestamp;
+use jiff::{Timestamp, ToSpan as _};
 use serde_json::{Value, json};
 
-use super::{Entry, Kind, Query, Record, RecordError, RecordedSession, Recorder, Row, RowKind};
+use super::{
+    Entry, Kind, Query, Record, RecordError, RecordedSession, Recorder, Row, RowKind, file,
+    keeping, testing,
+};
 use crate::{
     astro::Angle,
     clock::{Clock, Instant, Moment},
@@ -332,10 +340,48 @@ fn old_positions_and_lines_go_and_entries_stay() {
     assert_eq!(rows(&path, RowKind::Frame), []);
     assert_eq!(events(&path), [1]);
     drop(recorder);
-    let much_later = || start() + Duration::from_hours(400 * 24);
-    let recorder = Recorder::start(path.clone(), Clock::new(much_later), keeping).unwrap();
-    recorder.flush();
+    for day in (36..=400).step_by(28) {
+        start_on_day(&path, day, keeping);
+    }
     assert_eq!(events(&path), [0; 0]);
+}
+
+/// Records for a moment, so many days later.
+fn start_on_day(path: &Path, day: u64, keeping: Retention) {
+    let clock = Clock::new(move || start() + Duration::from_hours(24 * day));
+    let recorder = Recorder::start(path.to_owned(), clock, keeping).unwrap();
+    recorder.flush();
+    recorder.flush();
+}
+
+#[test]
+fn a_clock_that_is_years_ahead_at_the_start_removes_nothing() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("a.sqlite");
+    testing::record(&path, [testing::note(DISH, 43013, start())]);
+    let wrong = || start() + Duration::from_hours(30 * 365 * 24);
+    let recorder = recorder(&path);
+    let mut logs = Logs::followed_by(&recorder);
+    logs.position(1.0);
+    recorder.note(entry(1));
+    recorder.flush();
+    drop(recorder);
+    let count = || {
+        let kinds = [RowKind::Position, RowKind::Pass, RowKind::Entry(Kind::Event)];
+        kinds.map(|kind| rows(&path, kind).len())
+    };
+    // What the first start wrote by the wrong clock does not vouch for it.
+    for _ in 0..2 {
+        let recorder =
+            Recorder::start(path.clone(), Clock::new(wrong), Retention::default()).unwrap();
+        recorder.flush();
+        recorder.flush();
+        assert_eq!(count(), [1, 1, 1]);
+    }
+    let right = || start() + Duration::from_hours(8 * 24);
+    let recorder = Recorder::start(path.clone(), Clock::new(right), Retention::default()).unwrap();
+    recorder.flush();
+    assert_eq!(count(), [0, 1, 1]);
 }
 
 #[test]
@@ -362,8 +408,24 @@ fn the_file_gives_its_space_back() {
 }
 
 #[test]
+fn a_clock_that_may_be_wrong_is_trusted_after_a_day() {
+    let folder = tempfile::tempdir().unwrap();
+    let db = file::open(&folder.path().join("a.sqlite")).unwrap();
+    let us = |days: i64| (start() + (24 * days).hours()).as_microsecond();
+    let trusts = |days, hours| keeping::trusts(&db, us(days), Duration::from_hours(hours)).unwrap();
+    assert!(trusts(0, 0), "of a new record");
+    assert!(trusts(29, 0), "after a pause");
+    assert!(!trusts(60, 0) && !trusts(60, 23));
+    assert!(trusts(58, 0), "the last time was not noted");
+    assert!(trusts(90, 24));
+    assert!(trusts(91, 0));
+    assert!(trusts(40, 0) && trusts(91, 0), "a clock that is behind changes nothing");
+    assert!(trusts(40, 24), "it was ahead before");
+    assert!(!trusts(91, 0));
+}
+
+#[test]
 fn a_clock_that_jumps_removes_nothing() {
-    use std::sync::atomic::{AtomicBool, Ordering};
     static JUMPED: AtomicBool = AtomicBool::new(false);
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("a.sqlite");

@@ -36,9 +36,6 @@ const LOOK: Duration = Duration::from_secs(10);
 const WAITING: usize = 20_000;
 /// Beyond this the clock of the computer has been set, seconds.
 const CLOCK_SET_S: f64 = 60.0;
-/// Nothing is removed by a clock that was set until it has gone on for so long: a wrong one does
-/// not stay unseen.
-const TRUSTED_AFTER: Duration = Duration::from_hours(24);
 
 /// A session, and how far it is recorded.
 struct Source {
@@ -312,23 +309,26 @@ impl Writer {
         if (seconds_between(before.utc, now.utc) - expected_s).abs() > CLOCK_SET_S {
             self.clock_set_at = Some(now.steady);
         }
-        // By a clock that was set wrongly, everything could be old.
-        let is_trusted = self
-            .clock_set_at
-            .is_none_or(|at| now.steady.saturating_duration_since(at) >= TRUSTED_AFTER);
-        let Some((db, _)) = self.open.as_ref().filter(|_| is_trusted) else {
-            self.looked_at = Some(Instant::now());
-            return;
-        };
-        let keeping = *locked(&self.shared.keeping);
-        let is_more =
-            keeping::remove_old(db, keeping, now.utc.as_microsecond()).unwrap_or_else(|error| {
-                tracing::warn!(%error, "old parts of the record stay");
-                false
-            });
+        let is_more = self.remove_old(now).unwrap_or_else(|error| {
+            tracing::warn!(%error, "old parts of the record stay");
+            false
+        });
         if !is_more {
             self.looked_at = Some(Instant::now());
         }
+    }
+
+    /// Removes what is older than it is kept, as far as the clock can be trusted. Returns `true` if
+    /// more may be left.
+    fn remove_old(&self, now: Moment) -> Result<bool, RecordError> {
+        let Some((db, _)) = &self.open else { return Ok(false) };
+        let since = |at| now.steady.saturating_duration_since(at);
+        let is_set = self.clock_set_at.is_some_and(|at| since(at) < keeping::TRUSTED_AFTER);
+        let now_us = now.utc.as_microsecond();
+        if is_set || !keeping::trusts(db, now_us, since(self.begun.steady))? {
+            return Ok(false);
+        }
+        keeping::remove_old(db, *locked(&self.shared.keeping), now_us)
     }
 }
 
