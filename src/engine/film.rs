@@ -36,6 +36,9 @@ struct Drawn {
     satellites: i64,
     sources: i64,
     older_sets: Option<i64>,
+    // Older films have neither of the next two.
+    pointing_fitted: Option<i64>,
+    peaks: Option<i64>,
     reminders: i64,
     schedule: i64,
     swap: Option<i64>,
@@ -61,59 +64,86 @@ impl Picture for Snapshot {
     }
 
     fn draw(&self, parts: &mut Parts) -> serde_json::Result<Value> {
-        let satellites = &self.pass_lists.favourites.satellites;
+        // All fields by name: a new one has to be drawn as well.
+        let Self {
+            at,
+            time_sync,
+            station,
+            station_saved_at,
+            demo,
+            catalog,
+            catalog_revision,
+            sources,
+            older_sets,
+            // A client looks at the record, which holds the film itself.
+            recorded: _,
+            pointing_fitted,
+            peaks,
+            antennas,
+            pass_lists,
+            reminders,
+            schedule,
+            swap,
+            day,
+            uploads,
+            source_tests,
+            link_tests,
+            alarms,
+            copies,
+            record,
+            closing,
+        } = self;
         let drawn = Drawn {
-            antennas: (self.antennas.iter())
+            antennas: (antennas.iter())
                 .map(|antenna| DrawnAntenna::of(antenna, parts))
                 .collect::<Result<_, _>>()?,
-            station: parts.number(&self.station)?,
-            satellites: parts.number_with(satellites, |satellites| {
+            station: parts.number(station)?,
+            satellites: parts.number_with(&pass_lists.favourites.satellites, |satellites| {
                 let elements: Vec<&Elements> =
                     satellites.iter().map(|satellite| &satellite.elements).collect();
                 serde_json::to_vec(&elements)
             })?,
-            sources: parts.number(&self.sources)?,
-            older_sets: self.older_sets.as_ref().map(|part| parts.number(part)).transpose()?,
-            reminders: parts.number(&self.reminders)?,
-            schedule: parts.number(&self.schedule)?,
-            swap: self.swap.as_ref().map(|part| parts.number(part)).transpose()?,
-            day: parts.number(&self.day)?,
-            uploads: parts.number(&self.uploads)?,
-            source_tests: parts.number(&self.source_tests)?,
-            link_tests: parts.number(&self.link_tests)?,
-            copies: parts.number(&self.copies)?,
-            shown: self.without_parts(parts),
+            sources: parts.number(sources)?,
+            older_sets: older_sets.as_ref().map(|part| parts.number(part)).transpose()?,
+            pointing_fitted: pointing_fitted.as_ref().map(|part| parts.number(part)).transpose()?,
+            peaks: Some(parts.number(peaks)?),
+            reminders: parts.number(reminders)?,
+            schedule: parts.number(schedule)?,
+            swap: swap.as_ref().map(|part| parts.number(part)).transpose()?,
+            day: parts.number(day)?,
+            uploads: parts.number(uploads)?,
+            source_tests: parts.number(source_tests)?,
+            link_tests: parts.number(link_tests)?,
+            copies: parts.number(copies)?,
+            shown: Self {
+                antennas: without_parts(antennas, parts),
+                time_sync: *time_sync,
+                station_saved_at: *station_saved_at,
+                demo: *demo,
+                catalog: catalog.clone(),
+                catalog_revision: *catalog_revision,
+                pass_lists: pass_lists.clone(),
+                alarms: alarms.clone(),
+                record: record.clone(),
+                closing: closing.clone(),
+                ..Self::before_anything(*at)
+            },
         };
         serde_json::to_value(drawn)
     }
 }
 
-impl Snapshot {
-    /// Without its large parts and what of its antennas stands in the last picture; and without what
-    /// a client looks at of the record, which is in there already.
-    fn without_parts(&self, parts: &mut Parts) -> Self {
-        let mut antennas = self.antennas.clone();
-        for (index, antenna) in antennas.iter_mut().enumerate() {
-            if parts.is_same(format!("/shown/antennas/{index}/snapshot"), &antenna.snapshot) {
-                antenna.snapshot = Arc::new(driver::Snapshot::before_anything(LinkState::Off));
-            }
-            antenna.errors = Errors::default();
-            antenna.past_tracks = PastTracks::default();
+/// The antennas without their large parts and what of them stands in the last picture.
+fn without_parts(antennas: &[AntennaModel], parts: &mut Parts) -> Vec<AntennaModel> {
+    let mut antennas = antennas.to_vec();
+    for (index, antenna) in antennas.iter_mut().enumerate() {
+        if parts.is_same(format!("/shown/antennas/{index}/snapshot"), &antenna.snapshot) {
+            antenna.snapshot = Arc::new(driver::Snapshot::before_anything(LinkState::Off));
         }
-        Self {
-            antennas,
-            time_sync: self.time_sync,
-            station_saved_at: self.station_saved_at,
-            demo: self.demo,
-            catalog: self.catalog.clone(),
-            catalog_revision: self.catalog_revision,
-            pass_lists: self.pass_lists.clone(),
-            alarms: self.alarms.clone(),
-            record: self.record.clone(),
-            closing: self.closing.clone(),
-            ..Self::before_anything(self.at)
-        }
+        antenna.errors = Errors::default();
+        antenna.past_tracks = PastTracks::default();
     }
+    antennas
 }
 
 impl DrawnAntenna {
@@ -178,14 +208,30 @@ impl Projector {
     pub fn at(&mut self, at: Timestamp) -> Result<Option<Snapshot>, FilmError> {
         let Some(shown) = self.film.at(at)? else { return Ok(None) };
         let run = shown.run;
-        let drawn = Drawn::deserialize(shown.picture)?;
-        let station = self.part_with(run, drawn.station, |content| {
+        let Drawn {
+            mut shown,
+            antennas,
+            station,
+            satellites,
+            sources,
+            older_sets,
+            pointing_fitted,
+            peaks,
+            reminders,
+            schedule,
+            swap,
+            day,
+            uploads,
+            source_tests,
+            link_tests,
+            copies,
+        } = Drawn::deserialize(shown.picture)?;
+        let station = self.part_with(run, station, |content| {
             let mut from = serde_json::Deserializer::from_slice(content);
             written::station::deserialize::<_, Station>(&mut from)
         })?;
-        let elements = self.part(run, drawn.satellites)?;
-        let mut shown = drawn.shown;
-        for (antenna, drawn) in shown.antennas.iter_mut().zip(drawn.antennas) {
+        let elements = self.part(run, satellites)?;
+        for (antenna, drawn) in shown.antennas.iter_mut().zip(antennas) {
             let chunks: Vec<_> =
                 drawn.chunks.iter().map(|of| self.part(run, *of)).collect::<Result<_, _>>()?;
             antenna.errors = Errors::of_chunks(chunks, drawn.newest);
@@ -193,16 +239,18 @@ impl Projector {
                 drawn.past_tracks.iter().map(|of| self.part(run, *of)).collect::<Result<_, _>>()?;
             antenna.past_tracks = tracks.into_iter().collect();
         }
-        shown.sources = self.part(run, drawn.sources)?;
-        shown.older_sets = drawn.older_sets.map(|of| self.part(run, of)).transpose()?;
-        shown.reminders = self.part(run, drawn.reminders)?;
-        shown.schedule = self.part(run, drawn.schedule)?;
-        shown.swap = drawn.swap.map(|of| self.part(run, of)).transpose()?;
-        shown.day = self.part(run, drawn.day)?;
-        shown.uploads = self.part(run, drawn.uploads)?;
-        shown.source_tests = self.part(run, drawn.source_tests)?;
-        shown.link_tests = self.part(run, drawn.link_tests)?;
-        shown.copies = self.part(run, drawn.copies)?;
+        shown.sources = self.part(run, sources)?;
+        shown.older_sets = older_sets.map(|of| self.part(run, of)).transpose()?;
+        shown.pointing_fitted = pointing_fitted.map(|of| self.part(run, of)).transpose()?;
+        shown.peaks = peaks.map(|of| self.part(run, of)).transpose()?.unwrap_or_default();
+        shown.reminders = self.part(run, reminders)?;
+        shown.schedule = self.part(run, schedule)?;
+        shown.swap = swap.map(|of| self.part(run, of)).transpose()?;
+        shown.day = self.part(run, day)?;
+        shown.uploads = self.part(run, uploads)?;
+        shown.source_tests = self.part(run, source_tests)?;
+        shown.link_tests = self.part(run, link_tests)?;
+        shown.copies = self.part(run, copies)?;
         self.predict(&mut shown, &station, elements);
         shown.station = station;
         self.parts.retain(|_, kept| std::mem::take(&mut kept.is_shown));

@@ -1,11 +1,13 @@
 //! A pass of a station in memory, shown again from its record.
 
-use std::sync::Arc;
+use std::{sync::Arc, time::Duration};
 
 use azel::{
-    engine::{Client, Snapshot, film::Projector},
-    record::{Kind, RowKind},
-    station::Station,
+    clock::{Instant, Moment},
+    engine::{Client, Command, Snapshot, film::Projector, passes::PredictedPass},
+    model::Model,
+    record::{Kind, Peak, PeakChange, PeakOf, RowKind},
+    station::{AntennaId, Station},
 };
 use jiff::{Timestamp, ToSpan as _};
 use serde_json::{Value, json};
@@ -14,7 +16,7 @@ use super::{
     recorded::{ISS, next_pass, path_in, reports, rows_in, track},
     scene::Scene,
 };
-use crate::common::units::station;
+use crate::common::units::{antenna, measured, station, until};
 
 /// Every how many snapshots one without an event is compared.
 const BETWEEN: usize = 20;
@@ -42,6 +44,55 @@ fn told(shown: &Snapshot) -> Value {
     })
 }
 
+/// What the window makes of a snapshot at `at`, and how old things are there.
+fn modelled(at: Timestamp, shown: &Snapshot) -> Value {
+    let passed = Duration::try_from(at.duration_since(shown.at.utc)).unwrap();
+    let mut model = Model::before_anything(Moment { utc: at, steady: shown.at.steady + passed });
+    model.take(shown, |_| None);
+    let age_s = |of: Instant| model.steady.saturating_duration_since(of).as_secs_f64();
+    let antennas = model.antennas.iter().map(|antenna| {
+        let measured = antenna.snapshot.state.measured;
+        json!({
+            "measured_s": measured.map(|measured| age_s(measured.received)),
+            "stop_s": antenna.last_stop.map(age_s),
+            "error": antenna.error().map(|error| error.off_beam.degrees()),
+        })
+    });
+    json!({
+        "antennas": antennas.collect::<Vec<_>>(),
+        "next": model.next_pass().map(PredictedPass::key),
+        "peaks": model.peaks,
+        "pointing_fitted": model.pointing_fitted,
+    })
+}
+
+/// The Satrak tracks the pass on board.
+async fn track_on_board(client: &Client) {
+    let dish = measured(client, "Dish").await;
+    let pass = until("the pass", || {
+        let lists = client.snapshot().pass_lists.clone();
+        lists.favourites.passes.iter().find(|pass| pass.number() == ISS).map(PredictedPass::key)
+    })
+    .await;
+    client.send(Command::Track { antenna: dish, pass, is_agreed: true }).unwrap();
+    until("the track", || antenna(client, "Dish")?.1.tracks).await;
+}
+
+/// A peak is entered, and a pointing model fitted to what is recorded.
+async fn fit_pointing(client: &Client) {
+    let mast = measured(client, "Mast").await;
+    let at = client.now().utc;
+    let peak = Peak { of: PeakOf::Sun, at, azimuth_deg: 100.0, elevation_deg: 20.0 };
+    client.send(Command::ChangePeaks(mast, PeakChange::Added(peak))).unwrap();
+    client.send(Command::FitPointing(mast, Vec::new())).unwrap();
+    let fitted = until("the fit", || {
+        let fitted = client.snapshot().pointing_fitted.clone()?;
+        fitted.found.clone()
+    })
+    .await;
+    assert!(fitted.is_ok(), "{fitted:?}");
+}
+
 #[tokio::test(start_paused = true)]
 async fn a_pass_is_shown_again_as_it_was_at_every_recorded_event() {
     let station = Station { favourites: [ISS].into(), ..station() };
@@ -50,7 +101,11 @@ async fn a_pass_is_shown_again_as_it_was_at_every_recorded_event() {
     let client = scene.client();
     let watching = tokio::spawn(watch(client.clone()));
     track(&client, "Mast").await;
+    track_on_board(&client).await;
     reports(&scene).await;
+    fit_pointing(&client).await;
+    until("both reports", || (rows_in(scene.folder(), RowKind::Pass).len() == 2).then_some(()))
+        .await;
     drop(client);
     let ended = scene.ended().await;
     let (folder, file) = (ended.path(), path_in(ended.path()));
@@ -62,6 +117,7 @@ async fn a_pass_is_shown_again_as_it_was_at_every_recorded_event() {
         .map(|row| row.time)
         .collect();
     let mut projector = Projector::open(&file).unwrap();
+    let (filmed_from, _) = projector.film().span().unwrap().unwrap();
     let mut compared = 0;
     let mut compare = |at: Timestamp, live: &Snapshot| {
         let again = projector.at(at).unwrap().unwrap();
@@ -76,10 +132,20 @@ async fn a_pass_is_shown_again_as_it_was_at_every_recorded_event() {
         let from = film.film().shown_from(*event).unwrap();
         assert_eq!(from, shown.at.utc, "the first that shows it");
         compare(from, shown);
+        // What stood in the window when it happened.
+        let Some(before) = place.checked_sub(1).and_then(|place| live.get(place)) else { continue };
+        if *event <= filmed_from {
+            continue;
+        }
+        let again = film.at(*event).unwrap().unwrap();
+        assert_eq!(told(&again), told(before), "before {event}");
+        assert_eq!(modelled(*event, &again), modelled(*event, before), "at {event}");
     }
     for shown in live.iter().step_by(BETWEEN).rev() {
         compare(shown.at.utc, shown);
     }
+    let last = live.last().unwrap();
+    assert!(last.peaks.of(AntennaId(2)).count() == 1 && last.pointing_fitted.is_some());
     println!("{compared} moments of {} snapshots, {} events", live.len(), events.len());
     assert!(compared > 100, "{compared}");
 }

@@ -9,6 +9,7 @@ use serde_json::Value;
 
 use super::patch::{Misfit, Patch};
 use crate::{
+    astro::time::add_seconds,
     device::{Direction, Finding, Meaning, WireLine, panel::Tone},
     record::{RecordError, file},
     station::AntennaId,
@@ -104,6 +105,11 @@ impl Film {
         };
         if !self.reel.as_ref().is_some_and(holds) {
             self.load(at)?;
+            // The first picture of a reel may be later in the same microsecond.
+            let first = self.reel.as_ref().and_then(|reel| reel.pictures.first());
+            if first.is_some_and(|(first, _)| *first > at_ns) {
+                self.load(add_seconds(at, -1e-6))?;
+            }
         }
         let Some(reel) = &mut self.reel else { return Ok(None) };
         reel.wind_to(at_ns)?;
