@@ -4,6 +4,7 @@
 
 mod automatic;
 mod explained;
+mod full_disk;
 mod prices;
 mod recorded;
 mod rehearsal;
