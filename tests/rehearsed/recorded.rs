@@ -370,4 +370,17 @@ async fn what_automatic_operation_does_is_in_the_record() {
     .await;
     let day = rows(&scene, RowKind::Entry(Kind::Day));
     assert_eq!(day[0].data["what"], "switched_on", "{day:?}");
+
+    until("the middle of the pass", || (client.now().utc > pass.tca.time).then_some(())).await;
+    let states = rows(&scene, RowKind::Entry(Kind::State)).into_iter();
+    let mut states =
+        states.filter(|row| row.antenna.as_deref() == Some("Mast")).map(|row| row.data);
+    let mut before = states.next().unwrap();
+    for mut state in states {
+        if let Some(on) = state.pointer_mut("/operation/on") {
+            on["moved_at"] = serde_json::Value::Null;
+        }
+        assert_ne!(before, state, "nothing has changed but the time");
+        before = state;
+    }
 }

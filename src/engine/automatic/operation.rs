@@ -192,6 +192,14 @@ impl Operation {
         Self::On(On { doing: Doing::Rests, failures: 0, moved_at: None, moves_since: None })
     }
 
+    /// Without the time that goes on for as long as the antenna moves.
+    pub(in crate::engine) fn without_motion(mut self) -> Self {
+        if let Self::On(on) = &mut self {
+            on.moved_at = None;
+        }
+        self
+    }
+
     pub fn is_on(&self) -> bool {
         matches!(self, Self::On(_))
     }

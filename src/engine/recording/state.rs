@@ -71,7 +71,7 @@ impl State {
             left_moving: snapshot.left_moving,
             inside: snapshot.inside.clone(),
             lock_out: snapshot.lock_out.clone(),
-            operation: antenna.operation.clone(),
+            operation: antenna.operation.clone().without_motion(),
             faults: checks.map(|check| check.name.to_string()).collect(),
             held_by: antenna.held_by.as_ref().map(ToString::to_string),
         }
