@@ -10,7 +10,7 @@ use std::{
 
 use azel::{
     engine::record_path,
-    record::{Query, Record, Row, RowKind},
+    record::{Kind, Query, Record, Row, RowKind},
 };
 use jiff::{SignedDuration, Timestamp};
 use serde_json::Value;
@@ -21,7 +21,8 @@ use super::{PATIENCE, Served, Units, program, says, wait_for};
 const KILLS: u32 = 3;
 /// What a crash may cost.
 const LOST: SignedDuration = SignedDuration::from_secs(1);
-/// Longest time from one measured position to the next at two questions a second.
+/// Longest time from one measured position to the next at two questions a second. What was measured
+/// up to [`LOST`] before a crash is kept, and the last of that can be so much older.
 const BETWEEN: SignedDuration = SignedDuration::from_millis(700);
 
 fn place(units: &Units) -> PathBuf {
@@ -102,6 +103,12 @@ fn the_log_tells_what_was_asked_of_a_station_and_what_was_measured() {
     assert_eq!(unknown.status.code(), Some(2));
 }
 
+/// Number of STOPs in a run that another program pressed.
+fn stops_in_run(path: &Path, run: u32) -> usize {
+    let stops = rows(path, RowKind::Entry(Kind::Stop)).into_iter();
+    stops.filter(|row| row.run == i64::from(run) && row.data["by"] == "program").count()
+}
+
 #[test]
 fn a_program_that_is_killed_loses_less_than_a_second_of_its_record() {
     let kills = std::env::var("AZEL_KILLS").map_or(KILLS, |kills| kills.parse().unwrap());
@@ -109,6 +116,7 @@ fn a_program_that_is_killed_loses_less_than_a_second_of_its_record() {
     let path = place(&units);
     let mut worst = SignedDuration::ZERO;
     let mut before = 0;
+    let mut entries = (0, 0);
     for kill in 1..=kills {
         let begun = Timestamp::now();
         let served = Served::start(&units);
@@ -117,8 +125,15 @@ fn a_program_that_is_killed_loses_less_than_a_second_of_its_record() {
             let rows = rows(&path, RowKind::Position);
             rows.iter().any(|row| row.run == i64::from(kill) && row.time > begun).then_some(())
         });
+        let mut pressed = Vec::new();
+        let until = Instant::now() + Duration::from_millis(1500);
+        while Instant::now() < until {
+            let stop = program(&units).args(["stop", "--antenna", "Mast"]).output().unwrap();
+            assert!(stop.status.success(), "{}", String::from_utf8_lossy(&stop.stderr));
+            pressed.push(Timestamp::now());
+        }
         // Somewhere between two writes.
-        let until = Instant::now() + Duration::from_millis(1000 + u64::from(kill * 137 % 500));
+        let until = Instant::now() + Duration::from_millis(u64::from(kill * 137 % 500));
         wait_for("the moment", || (Instant::now() >= until).then_some(()));
         let killed = Timestamp::now();
         served.signal("KILL");
@@ -128,13 +143,21 @@ fn a_program_that_is_killed_loses_less_than_a_second_of_its_record() {
         let lost = killed.duration_since(newest);
         assert!(lost <= LOST + BETWEEN, "kill {kill}: {lost:?}");
         worst = worst.max(lost);
+        let stops = stops_in_run(&path, kill);
+        let kept = pressed.iter().filter(|pressed| killed.duration_since(**pressed) >= LOST);
+        let (kept, all) = (kept.count(), pressed.len());
+        assert!((kept..=all).contains(&stops), "kill {kill}: {kept} of {all} STOPs, {stops} found");
+        entries = (entries.0 + stops, entries.1 + all);
         assert!(rows.len() > before, "what was there stays");
         before = rows.len();
         let db = rusqlite::Connection::open(&path).unwrap();
         let found: String = db.query_row("PRAGMA integrity_check", [], |row| row.get(0)).unwrap();
         assert_eq!(found, "ok");
     }
-    println!("{kills} kills, {before} positions; newest position at most {worst:?} old");
+    println!(
+        "{kills} kills, {before} positions, the newest at most {worst:?} old; {} of {} pressed STOPs",
+        entries.0, entries.1
+    );
 }
 
 /// A disk of one megabyte, until it is dropped.
@@ -185,7 +208,13 @@ fn a_full_disk_costs_nothing_that_was_written_and_the_record_goes_on_when_there_
         (count() > before).then_some(())
     });
     served.until(|told| told["about"] == "alarm_over");
+    // Nobody waited for the disk.
+    let positions = rows(&path, RowKind::Position);
+    let of_dish = positions.iter().filter(|row| row.antenna.as_deref() == Some("Dish"));
+    let times: Vec<Timestamp> = of_dish.map(|row| row.time).collect();
+    let longest = times.windows(2).map(|pair| pair[1].duration_since(pair[0])).max().unwrap();
+    assert!(longest <= BETWEEN, "{longest:?}");
     // The logs of the sessions held what did not fit on the disk.
-    assert_eq!(rows(&path, RowKind::Entry(azel::record::Kind::Gap)), []);
+    assert_eq!(rows(&path, RowKind::Entry(Kind::Gap)), []);
     drop(served);
 }
