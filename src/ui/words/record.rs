@@ -393,3 +393,38 @@ fn or_alike(explanations: &[Explanation]) -> String {
         several => format!(" or one of {} others", several.len()),
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn explanation(cause: Cause, is_alike: bool) -> Explanation {
+        Explanation { cause, with: None, left_deg: 0.03, share: 0.97, is_alike }
+    }
+
+    #[test]
+    fn what_the_positions_leave_open_is_told_with_what_would_tell_it() {
+        let late = explanation(Cause::Late { late_s: 0.4 }, true);
+        let set = explanation(Cause::OtherElements { epoch: Timestamp::UNIX_EPOCH }, true);
+        let slow = explanation(Cause::SlowDrives { rate_deg_s: 1.5 }, true);
+        let azimuth = explanation(Cause::AzimuthOffset { offset_deg: 0.3 }, true);
+        let excluded = explanation(Cause::ElevationOffset { offset_deg: 0.3 }, false);
+        let told = |of: &[Explanation]| alike(of).unwrap_or_default();
+        assert_eq!(told(&[late, excluded]), "");
+        assert_eq!(or_alike(&[late, excluded]), "");
+        assert_eq!(
+            told(&[late, set, excluded]),
+            "This pass cannot tell these apart: Time offset and Other elements. The clock of the \
+             unit, or a pass of another satellite, can."
+        );
+        assert_eq!(or_alike(&[late, set, excluded]), " or other elements");
+        assert!(told(&[late, slow]).ends_with("A slower pass can."));
+        assert!(told(&[late, azimuth]).ends_with("A pass in another part of the sky can."));
+        assert_eq!(or_alike(&[late, set, azimuth]), " or one of 2 others");
+        let now = Explained { by: late, or: Some(set.cause), error_deg: 0.5 };
+        assert_eq!(
+            explained(&now),
+            "The antenna is 0.40 s late, or other elements: that explains 97 % of the error of 0.50°."
+        );
+    }
+}
