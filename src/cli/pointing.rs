@@ -27,10 +27,10 @@ pub(super) struct Options {
     /// The antenna [default: the only one]
     #[arg(long, value_name = "NAME")]
     antenna: Option<String>,
-    /// Only passes that end after this, and peaks that were entered: `now`, a date (0 h UTC), or a time with Z or an offset
+    /// Only passes that end at this time or later, and peaks that were entered: `now`, a date (0 h UTC), or a time with Z or an offset
     #[arg(long, value_name = "TIME", value_parser = input::instant)]
     from: Option<Timestamp>,
-    /// Only those before this, in the same forms
+    /// Only those up to this time, in the same forms
     #[arg(long, value_name = "TIME", value_parser = input::instant)]
     to: Option<Timestamp>,
     /// A peak of the Sun's noise besides those entered in Preferences: when it was, and the angles of

@@ -248,7 +248,13 @@ impl Engine {
         self.recording.recorder.is_some()
     }
 
-    pub(super) fn note_pressed_stop(&self, stopped: &Stopped) {
+    pub(super) fn note_pressed_stop(&mut self, stopped: &Stopped) {
+        let now = self.now;
+        for pass in &mut self.recording.followed {
+            if stopped.antennas.contains(&pass.antenna) {
+                pass.breaks.note_stop(now);
+            }
+        }
         let at = Moment { steady: stopped.at, utc: self.now };
         let data = json!({
             "by": stopped.by,

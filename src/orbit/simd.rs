@@ -13,8 +13,6 @@ mod vector;
 
 use std::ops::{Add, BitAnd, BitOr, Div, Mul, Neg, Sub};
 
-use fearless_simd::{Level, Simd as _};
-
 pub(super) use self::{
     lanes::{Answers, LANES, Lanes},
     vector::Vector,
@@ -116,8 +114,9 @@ pub(super) fn set_all<const COUNT: usize>(
 /// are the same to the last bit. `work` has to be inlined, as a closure marked so is.
 #[inline(always)]
 pub(super) fn widest<R>(work: impl FnOnce() -> R) -> R {
-    match Level::new().as_avx2() {
-        Some(avx2) => avx2.vectorize(work),
-        None => work(),
+    #[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
+    if let Some(avx2) = fearless_simd::Level::new().as_avx2() {
+        return fearless_simd::Simd::vectorize(avx2, work);
     }
+    work()
 }

@@ -137,8 +137,10 @@ CREATE INDEX IF NOT EXISTS event_gap ON event (utc_us) WHERE kind = 'gap';
 /// The clock of the computer when it was trusted last to tell what is old. A record of an older program
 /// gets this as well, with the time of its newest entry.
 const CLOCK: &str = "
-CREATE TABLE clock (id INTEGER PRIMARY KEY CHECK (id = 0), trusted_us INTEGER NOT NULL);
-INSERT INTO clock SELECT 0, utc_us FROM event ORDER BY utc_us DESC LIMIT 1;
+CREATE TABLE clock (
+    id INTEGER PRIMARY KEY CHECK (id = 0), trusted_us INTEGER NOT NULL, doubted_us INTEGER
+);
+INSERT INTO clock SELECT 0, utc_us, NULL FROM event ORDER BY utc_us DESC LIMIT 1;
 ";
 
 /// Opens the record at `path` to write to it; makes it where there is none.

@@ -7,7 +7,8 @@ use rusqlite::{Connection, OptionalExtension as _, params};
 use super::RecordError;
 use crate::station::Retention;
 
-const DAY_US: f64 = 86_400e6;
+const DAY: i64 = 86_400_000_000;
+const DAY_US: f64 = DAY as f64;
 /// The Julian year.
 const YEAR_D: f64 = 365.25;
 /// Span of one antenna's positions or frames that is removed at once, so that the writer goes on
@@ -24,27 +25,42 @@ const SPARE: i64 = 256;
 const PAGES: i64 = 200;
 
 /// A start that comes later than this after what is known of the clock may have a wrong one.
-const LONGEST_PAUSE_US: i64 = 30 * 86_400_000_000;
+const LONGEST_PAUSE_US: i64 = 30 * DAY;
 /// The clock is noted again once it has gone on for so long.
 const NOTED_EVERY_US: i64 = 3_600_000_000;
 /// A clock that was set, or that may be wrong, is trusted once the program has gone on for so long with
 /// it: a wrong one does not stay unseen.
 pub(super) const TRUSTED_AFTER: Duration = Duration::from_hours(24);
 
-/// Returns `true` if the clock may tell what is old: it goes on from where it was trusted last, or this
-/// run has lasted `ran`. By a wrong clock everything could be old.
+/// Returns `true` if the clock may tell what is old: it goes on from where it was trusted last, it has
+/// gone on for a day since it was doubted, from run to run, or this run has lasted `ran`. By a wrong
+/// clock everything could be old.
 pub(super) fn trusts(db: &Connection, now_us: i64, ran: Duration) -> Result<bool, RecordError> {
-    let noted: Option<i64> =
-        db.query_row("SELECT trusted_us FROM clock", [], |row| row.get(0)).optional()?;
+    let known = db
+        .query_row("SELECT trusted_us, doubted_us FROM clock", [], |row| {
+            Ok((row.get(0)?, row.get(1)?))
+        })
+        .optional()?;
+    let (noted, doubted): (Option<i64>, Option<i64>) =
+        known.map_or((None, None), |(trusted, doubted)| (Some(trusted), doubted));
     let (ahead_us, is_long) =
         (noted.map(|noted| now_us.saturating_sub(noted)), ran >= TRUSTED_AFTER);
     if ahead_us.is_some_and(|ahead_us| ahead_us > LONGEST_PAUSE_US) && !is_long {
-        return Ok(false);
+        let since_us = doubted.map(|doubted| now_us.saturating_sub(doubted));
+        if !since_us.is_some_and(|since_us| (0..=LONGEST_PAUSE_US).contains(&since_us)) {
+            tracing::warn!("nothing of the record is removed for a day: the clock may be wrong");
+            db.execute("UPDATE clock SET doubted_us = ?1", [now_us])?;
+        }
+        let is_steady =
+            since_us.is_some_and(|since_us| (DAY..=LONGEST_PAUSE_US).contains(&since_us));
+        if !is_steady {
+            return Ok(false);
+        }
     }
     // One that is behind removes too little at worst, but must not make the right one look wrong.
     let is_due = |ahead_us| ahead_us > NOTED_EVERY_US || is_long && ahead_us < -NOTED_EVERY_US;
     if ahead_us.is_none_or(is_due) {
-        db.execute("INSERT OR REPLACE INTO clock VALUES (0, ?1)", [now_us])?;
+        db.execute("INSERT OR REPLACE INTO clock VALUES (0, ?1, NULL)", [now_us])?;
     }
     Ok(true)
 }

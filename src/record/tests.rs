@@ -422,6 +422,11 @@ fn a_clock_that_may_be_wrong_is_trusted_after_a_day() {
     assert!(trusts(40, 0) && trusts(91, 0), "a clock that is behind changes nothing");
     assert!(trusts(40, 24), "it was ahead before");
     assert!(!trusts(91, 0));
+    // A station that is closed every evening: its clock goes on from day to day.
+    assert!(trusts(93, 2), "a pause of 50 days");
+    assert!(!trusts(900, 2) && !trusts(900, 3), "each start has the same wrong clock");
+    assert!(!trusts(1_900, 2), "another one");
+    assert!(trusts(94, 2));
 }
 
 #[test]

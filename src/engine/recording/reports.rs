@@ -11,7 +11,7 @@ use crate::{
         Angle, AzEl, PointingModel, Site,
         time::{add_seconds, apart, seconds_between},
     },
-    driver::{PositionLog, StopState, TimeSync, TrackView},
+    driver::{PositionLog, TimeSync, TrackView},
     engine::{
         Antenna, CatalogState, Engine, antenna::AntennaModel, passes::mount_limits,
         status::LinkStatus,
@@ -56,7 +56,7 @@ pub(super) struct Followed {
     ended: Option<Timestamp>,
     pub(super) limits: MountLimits,
     pub(super) about: AboutTrack,
-    breaks: Breaks,
+    pub(super) breaks: Breaks,
     positions: PositionLog,
     next_position: u64,
     pub(super) flown: Vec<MeasuredPosition>,
@@ -246,8 +246,9 @@ impl Followed {
                 (self.positions, self.next_position) = (positions.clone(), 0);
             }
             let snapshot = &antenna.shown.snapshot;
-            let has_link = LinkStatus::of(&antenna.shown) == LinkStatus::Up;
-            self.breaks.note(now, has_link, snapshot.stop != StopState::Ready);
+            let link = LinkStatus::of(&antenna.shown);
+            let is_lost = matches!(link, LinkStatus::Lost | LinkStatus::Stale);
+            self.breaks.note_link(now, is_lost);
             let view = snapshot.program_track.as_ref();
             let number = self.elements.catalog_number();
             // Before AOS and after LOS it counts for other passes.

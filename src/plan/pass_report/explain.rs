@@ -277,7 +277,17 @@ impl<'a> Evidence<'a> {
             return None;
         }
         let found = self.explanations(others);
-        let alike: Vec<&Explanation> = found.iter().filter(|it| it.is_alike).collect();
+        let mut alike: Vec<&Explanation> = Vec::new();
+        for it in found.iter().filter(|it| it.is_alike) {
+            // Of several other sets the best one counts.
+            let is_same = |of: &&Explanation| {
+                [of.with, it.with] == [None; 2]
+                    && discriminant(&of.cause) == discriminant(&it.cause)
+            };
+            if !alike.iter().any(is_same) {
+                alike.push(it);
+            }
+        }
         let mut or = None;
         let by = match alike[..] {
             [one] => one,

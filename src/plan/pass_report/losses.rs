@@ -29,7 +29,7 @@ impl LostStretch {
 pub enum LossCause {
     /// No positions came in.
     NotMeasured,
-    /// There was no link to the unit.
+    /// The link to the unit was lost.
     LinkLost,
     /// The program ended: nothing is known of what came after.
     ProgramEnded,
@@ -37,7 +37,7 @@ pub enum LossCause {
     OutOfReach,
     /// An axis would have had to turn faster than it can near a keyhole of its mount.
     Keyhole,
-    /// An axis would have had to turn faster than it can: overhead.
+    /// An axis would have had to turn faster than it can: overhead, or on the way back to what it reaches.
     RateOfMount,
     /// The axis had to slew a whole turn.
     Slew,
@@ -45,7 +45,7 @@ pub enum LossCause {
     LateStart,
     /// The antenna had left the satellite before its end.
     EarlyEnd,
-    /// The antenna had been stopped.
+    /// STOP had been pressed.
     Stopped,
     NotExplained,
 }
@@ -57,7 +57,18 @@ impl TrackedPass<'_> {
         let mut out_since: Option<Timestamp> = None;
         let mut has_arrived = false;
         let lost = |since: Timestamp, until: Timestamp, has_arrived: bool, is_over: bool| {
-            self.in_parts(since, until, self.cause(since, until, has_arrived, is_over))
+            let stop = self.breaks.stopped(since, until);
+            let before = stop.unwrap_or(until);
+            let is_over = is_over && stop.is_none();
+            let mut lost = Vec::new();
+            if since < before {
+                let cause = self.cause(since, before, has_arrived, is_over);
+                lost = self.in_parts(since, before, cause);
+            }
+            lost.extend(
+                stop.into_iter().flat_map(|at| self.in_parts(at, until, LossCause::Stopped)),
+            );
+            lost
         };
         for position in compared {
             if seconds_between(seen_to, position.time) > APART_S {
@@ -91,8 +102,8 @@ impl TrackedPass<'_> {
     }
 
     fn not_measured(&self, from: Timestamp, until: Timestamp) -> Vec<LostStretch> {
-        let lacks_link = self.breaks.lacks_link(from, until);
-        let why = if lacks_link { LossCause::LinkLost } else { LossCause::NotMeasured };
+        let is_lost = self.breaks.lost_link(from, until);
+        let why = if is_lost { LossCause::LinkLost } else { LossCause::NotMeasured };
         self.in_parts(from, until, why)
     }
 
@@ -104,9 +115,6 @@ impl TrackedPass<'_> {
         has_arrived: bool,
         is_over: bool,
     ) -> LossCause {
-        if self.breaks.has_stop(from, until) {
-            return LossCause::Stopped;
-        }
         if let Trackability::Loses { at, .. } = self.trackability
             && has_arrived
             && !is_over
@@ -119,6 +127,12 @@ impl TrackedPass<'_> {
                 Loss::OutOfReach if self.reached_s(from, until) <= COMES_BACK_S => {
                     LossCause::OutOfReach
                 }
+                // An axis is too slow, or on its way back to what it reaches.
+                Loss::OutOfReach
+                    if self.is_reached() || !self.is_in_reach(add_seconds(from, 1.0)) =>
+                {
+                    LossCause::RateOfMount
+                }
                 Loss::OutOfReach => LossCause::NotExplained,
             };
         }
@@ -127,6 +141,11 @@ impl TrackedPass<'_> {
             (true, true) => LossCause::EarlyEnd,
             (true, false) => LossCause::NotExplained,
         }
+    }
+
+    /// Whether all of the pass is within reach of the mount.
+    fn is_reached(&self) -> bool {
+        self.reached_s(self.from, self.until) >= seconds_between(self.from, self.until)
     }
 
     /// Seconds in which the satellite was within reach of the mount.

@@ -305,12 +305,7 @@ fn what_comes_late_leaves_early_or_wanders_is_told_apart() {
 #[test]
 fn a_lost_link_and_a_stop_are_told_as_what_they_are() {
     let mut scene = Scene::new();
-    let at = |second: u32| add_seconds(scene.pass.aos.time, f64::from(second));
-    let looks = (0..400).map(|second| {
-        let (is_down, is_stopped) = (103..130, 200..260);
-        (at(second), !is_down.contains(&second), is_stopped.contains(&second))
-    });
-    let looks: Vec<_> = looks.collect();
+    let at = |scene: &Scene, second: u32| add_seconds(scene.pass.aos.time, f64::from(second));
     let flown = |scene: &Scene| {
         let left = scene.direction(add_seconds(scene.pass.aos.time, 201.0));
         scene.report(|second, at| match second {
@@ -321,13 +316,22 @@ fn a_lost_link_and_a_stop_are_told_as_what_they_are() {
     };
     let unknown = flown(&scene);
     assert_eq!(causes(&unknown), [LossCause::NotMeasured, LossCause::EarlyEnd]);
-    for (now, has_link, is_stopped) in looks {
-        scene.breaks.note(now, has_link, is_stopped);
+    for second in 0..400 {
+        scene.breaks.note_link(at(&scene, second), (103..130).contains(&second));
     }
+    let mut late = scene.breaks.clone();
+    scene.breaks.note_stop(at(&scene, 200));
     let told = flown(&scene);
     assert_eq!(causes(&told), [LossCause::LinkLost, LossCause::Stopped]);
     assert!(is_close(told.losses[0].seconds(), 30.0, 2.0 * STEP_S), "{:?}", told.losses);
     assert_eq!(told.verdict, PassVerdict::Poor);
+    // What was lost before a STOP is none of its.
+    late.note_stop(at(&scene, 260));
+    scene.breaks = late;
+    let told = flown(&scene);
+    let all = [LossCause::LinkLost, LossCause::NotExplained, LossCause::Stopped];
+    assert_eq!(causes(&told), all);
+    assert!(is_close(told.losses[1].seconds(), 58.0, 2.0), "{:?}", told.losses);
 }
 
 #[test]

@@ -18,9 +18,8 @@ const LEAST_NOISE_DEG: f64 = 1e-7;
 /// Share of its standard deviation by which a term that is left out may change another, and the
 /// interval of that one still holds.
 const HIDDEN: f64 = 0.3;
-/// Fewer points of a kind tell nothing of its noise, which is then taken to be at least that of a peak
-/// that is found by hand, degrees.
-const FEW: u32 = 5;
+/// Fewer peaks count for no more exact than one that is found by hand, degrees.
+const FEW: usize = 5;
 const BY_HAND_DEG: f64 = 0.1;
 /// Quantile of the normal distribution that holds 95 % on both sides.
 const NORMAL_95: f64 = 1.959_963_985;
@@ -104,6 +103,14 @@ pub struct Found {
     pub noise_deg: f64,
 }
 
+impl Found {
+    /// No point counts for more exact, degrees. A few peaks tell nothing of their noise.
+    fn least_deg(&self) -> f64 {
+        let are_few_peaks = self.kind != Kind::Satellite && self.points < FEW;
+        if are_few_peaks { BY_HAND_DEG } else { LEAST_NOISE_DEG }
+    }
+}
+
 /// The model that fits best, and how well it is known.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Fit {
@@ -157,7 +164,7 @@ pub fn fit(points: &[Point], terms: &[Term]) -> Result<Fit, CannotFit> {
     for _ in 0..ROUNDS {
         let variance = |kind: Kind| {
             let found = noise.iter().find(|found| found.kind == kind);
-            found.map_or(1.0, |found| found.noise_deg.max(LEAST_NOISE_DEG).powi(2))
+            found.map_or(1.0, |found| found.noise_deg.max(found.least_deg()).powi(2))
         };
         let mut normal = Normal::new();
         for point in &usable {
@@ -233,7 +240,6 @@ fn noise_of(points: &[Point], model: &PointingModel, unknowns: usize) -> Vec<Fou
         let (count, sum) = squares.fold((0, 0.0), |(count, sum), it| (count + 1, sum + it));
         let free = 2.0 * f64::from(count) * free_share;
         let noise_deg = (sum / free.max(1.0)).sqrt();
-        let noise_deg = if count < FEW { noise_deg.max(BY_HAND_DEG) } else { noise_deg };
         (count > 0).then_some(Found { kind, points: count as usize, noise_deg })
     };
     [Kind::Satellite, Kind::Sun, Kind::Moon].into_iter().filter_map(of).collect()

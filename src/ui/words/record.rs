@@ -384,10 +384,14 @@ pub fn alike(explanations: &[Explanation]) -> Option<String> {
 /// The names of causes that these data do not tell from the best one, after it: empty where there are
 /// none.
 fn or_alike(explanations: &[Explanation]) -> String {
-    let others = explanations.iter().skip(1).filter(|it| it.is_alike);
-    let mut names: Vec<String> = others.map(|of| names(of).to_lowercase()).collect();
-    names.dedup();
-    match &names[..] {
+    let mut told: Vec<String> = explanations.first().map(names).into_iter().collect();
+    for alike in explanations.iter().filter(|it| it.is_alike).map(names) {
+        if !told.contains(&alike) {
+            told.push(alike);
+        }
+    }
+    let others: Vec<String> = told.iter().skip(1).map(|name| name.to_lowercase()).collect();
+    match &others[..] {
         [] => String::new(),
         [one] => format!(" or {one}"),
         several => format!(" or one of {} others", several.len()),
@@ -418,6 +422,8 @@ mod tests {
              unit, or a pass of another satellite, can."
         );
         assert_eq!(or_alike(&[late, set, excluded]), " or other elements");
+        assert_eq!(or_alike(&[late, set, set]), " or other elements");
+        assert_eq!(or_alike(&[set, set]), "");
         assert!(told(&[late, slow]).ends_with("A slower pass can."));
         assert!(told(&[late, azimuth]).ends_with("A pass in another part of the sky can."));
         assert_eq!(or_alike(&[late, set, azimuth]), " or one of 2 others");
