@@ -10,6 +10,7 @@ mod recorded;
 mod rehearsal;
 mod replay;
 mod scene;
+mod size;
 mod trouble;
 mod unattended;
 
