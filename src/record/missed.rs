@@ -8,7 +8,7 @@ use serde_json::Value;
 
 use super::{
     RecordError, file,
-    past::{ListedKind, PassPage, PassQuery},
+    past::{LONGEST, ListedKind, PassPage, PassQuery},
 };
 use crate::station::AntennaId;
 
@@ -53,7 +53,7 @@ pub fn missed(
          AND NOT EXISTS (SELECT 1 FROM pass WHERE pass.antenna = e.antenna \
              AND satellite = flown ->> '$.pass[0]' AND from_us < e.utc_us \
              AND until_us BETWEEN unixepoch(flown ->> '$.pass[1]') * 1000000 \
-                 AND e.utc_us + 86400000000) \
+                 AND e.utc_us + :longest_s * 1000000) \
          ORDER BY utc_us DESC LIMIT :count",
     )?;
     let mut rows = statement.query(named_params! {
@@ -61,6 +61,7 @@ pub fn missed(
         ":antenna": query.antenna.map(|antenna| antenna.0),
         ":text": query.text.trim(),
         ":count": query.count,
+        ":longest_s": LONGEST.as_secs(),
     })?;
     let mut found = Vec::new();
     while let Some(row) = rows.next()? {
