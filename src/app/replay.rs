@@ -5,8 +5,10 @@
 
 mod ending;
 mod room;
+#[cfg(test)]
+mod tests;
 
-use std::{path::PathBuf, sync::Arc};
+use std::{io, path::PathBuf, sync::Arc};
 
 use jiff::Timestamp;
 
@@ -228,6 +230,9 @@ impl Replay {
     fn change(&mut self, command: ReplayCommand) {
         let Some(replay) = &mut self.model.replay else { return };
         replay.news = None;
+        if matches!(replay.problem, Some(ReplayProblem::NotRead(_))) {
+            return;
+        }
         match command {
             ReplayCommand::Pass { is_next } => {
                 let pass = replay.stretch.pass.map(|pass| Beside::Pass(pass.id));
@@ -262,7 +267,7 @@ impl Replay {
         let Some(end) = Job::take(&mut self.job) else { return };
         let (room, Answer { found, recorded, passes }) = match end {
             Ok(end) => end,
-            Err(broke_off) => return self.tell(ReplayProblem::Failed(broke_off.to_string())),
+            Err(broke_off) => return self.tell(ReplayProblem::NotRead(broke_off.to_string())),
         };
         self.room = Some(room);
         if recorded.is_some() {
@@ -382,9 +387,13 @@ impl Replay {
             let answer = room.answer(asked, site);
             (room, answer)
         });
+        self.take_job(job);
+    }
+
+    fn take_job(&mut self, job: io::Result<Job<(Box<Room>, Answer)>>) {
         match job {
             Ok(job) => self.job = Some(job),
-            Err(error) => self.tell(ReplayProblem::Failed(error.to_string())),
+            Err(error) => self.tell(ReplayProblem::NotRead(error.to_string())),
         }
     }
 }

@@ -124,6 +124,9 @@ pub enum ReplayProblem {
         until: Timestamp,
     },
     Failed(String),
+    /// The thread that reads the film cannot be started or broke off, for this reason. From then on
+    /// nothing is read.
+    NotRead(String),
 }
 
 /// Why a replay ended by itself.

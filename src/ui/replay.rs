@@ -197,6 +197,7 @@ fn news(replay: &Replayed) -> Option<String> {
     let age = |from, until| format::age(seconds_between(from, until));
     Some(match (&replay.news, &replay.problem) {
         (None, None) => return None,
+        (_, Some(ReplayProblem::NotRead(_))) => "Reading failed: leave it (Q).".to_owned(),
         (Some(JumpNews::NoEvent { is_next }), _) => {
             format!("No {} event is recorded.", side(*is_next))
         }
@@ -220,6 +221,12 @@ fn whole_news(replay: &Replayed) -> Option<String> {
     let (from, until) = match (&replay.news, &replay.problem) {
         (None | Some(JumpNews::Skipped { .. }), Some(ReplayProblem::NoFilm { from, until }))
         | (Some(JumpNews::Skipped { from, until }), None) => (*from, *until),
+        (_, Some(ReplayProblem::NotRead(why))) => {
+            let why = words::sentence(why);
+            return Some(format!(
+                "Nothing more of the record is read. {why} Leave the replay (Q) and begin it again."
+            ));
+        }
         _ => return news(replay),
     };
     let stretch = format::stretch(from, until, replay.at);

@@ -266,6 +266,24 @@ fn a_jump_over_what_was_not_filmed_is_told() {
 }
 
 #[test]
+fn a_replay_that_reads_no_more_says_why_and_what_to_do() {
+    for size in SIZES {
+        let mut model = model();
+        let replay = model.replay.as_mut().unwrap();
+        let why = "the work failed inside Azel".to_owned();
+        (replay.plays, replay.problem) = (false, Some(ReplayProblem::NotRead(why)));
+        model.view = View::Plan;
+        let window = rig::window(size, model);
+        window.get_by_label(
+            "Nothing more of the record is read. The work failed inside Azel. Leave the replay (Q) \
+             and begin it again.",
+        );
+        let texts = painted::texts(&window);
+        assert!(texts.iter().any(|of| of == "Reading failed: leave it (Q)."), "{texts:?}");
+    }
+}
+
+#[test]
 fn where_there_is_nothing_to_go_to_that_is_told() {
     for size in SIZES {
         for view in [View::Operate, View::Plan] {
