@@ -126,7 +126,7 @@ fn a_fault_costs_what_it_covers_and_names_its_cause() {
     assert!((50.0..90.0).contains(&lost_s), "{lost_s}");
     assert_eq!(after.flown.as_ref().unwrap().cause, Some(MissCause::LinkLost));
     let losses = &after.report.as_ref().unwrap().report.losses;
-    assert!(losses.iter().any(|lost| lost.cause == LossCause::NotMeasured), "{losses:?}");
+    assert!(losses.iter().any(|lost| lost.cause == LossCause::LinkLost), "{losses:?}");
     // A Genius refuses to be sent anywhere.
     let refused = first(&faulty, GENIUS);
     assert!(refused.got_s() < 0.1 * refused.promised_s, "{refused:?}");
