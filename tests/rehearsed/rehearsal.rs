@@ -1,6 +1,6 @@
 //! A rehearsal beside what then happens with the same station, in paused time here.
-//! `AZEL_REAL_TIME=1 cargo test --test azel rehearsed::rehearsal -- --nocapture` takes 40 minutes of
-//! real time, with a station on threads of its own.
+//! `AZEL_REAL_TIME=1 cargo test --test azel rehearsed::rehearsal -- --nocapture` takes half an hour
+//! of real time, with a station on threads of its own.
 
 use std::{num::NonZeroU32, path::Path, sync::Arc};
 
