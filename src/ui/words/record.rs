@@ -356,14 +356,20 @@ fn names(of: &Explanation) -> String {
     together(of.causes().map(|of| cause(of).to_owned()))
 }
 
-/// What the data cannot tell apart, as a sentence; `None` where the best cause stands alone.
-pub fn alike(explanations: &[Explanation]) -> Option<String> {
-    let mut told = vec![names(explanations.first()?)];
+/// The names of the best explanation and of those that these data do not tell from it, each once.
+fn names_alike(explanations: &[Explanation]) -> Vec<String> {
+    let mut told: Vec<String> = explanations.first().map(names).into_iter().collect();
     for alike in explanations.iter().filter(|explanation| explanation.is_alike).map(names) {
         if !told.contains(&alike) {
             told.push(alike);
         }
     }
+    told
+}
+
+/// What the data cannot tell apart, as a sentence; `None` where the best cause stands alone.
+pub fn alike(explanations: &[Explanation]) -> Option<String> {
+    let told = names_alike(explanations);
     let alike = || explanations.iter().filter(|it| it.is_alike).flat_map(Explanation::causes);
     let has = |is_so: fn(&Cause) -> bool| alike().any(is_so);
     let tells = if has(|it| matches!(it, Cause::SlowDrives { .. })) {
@@ -381,16 +387,10 @@ pub fn alike(explanations: &[Explanation]) -> Option<String> {
     })
 }
 
-/// The names of causes that these data do not tell from the best one, after it: empty where there are
-/// none.
+/// What follows the best explanation where these data leave others open, else nothing.
 fn or_alike(explanations: &[Explanation]) -> String {
-    let mut told: Vec<String> = explanations.first().map(names).into_iter().collect();
-    for alike in explanations.iter().filter(|it| it.is_alike).map(names) {
-        if !told.contains(&alike) {
-            told.push(alike);
-        }
-    }
-    let others: Vec<String> = told.iter().skip(1).map(|name| name.to_lowercase()).collect();
+    let others = names_alike(explanations).into_iter().skip(1);
+    let others: Vec<String> = others.map(|name| name.to_lowercase()).collect();
     match &others[..] {
         [] => String::new(),
         [one] => format!(" or {one}"),
