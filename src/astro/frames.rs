@@ -71,6 +71,13 @@ pub struct SiteFrame {
     pub to_enu: DMat3,
 }
 
+impl SiteFrame {
+    /// An Earth-fixed position as seen from the site: east, north, up.
+    pub fn enu_km(&self, ecef_km: DVec3) -> DVec3 {
+        self.to_enu * (ecef_km - self.ecef_km)
+    }
+}
+
 impl From<Site> for SiteFrame {
     fn from(site: Site) -> Self {
         Self { ecef_km: site_ecef_km(site), to_enu: ecef_to_enu(site) }

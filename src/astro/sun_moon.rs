@@ -53,7 +53,7 @@ pub fn night(at: Timestamp) -> Cap {
 }
 
 fn seen_from(site: &SiteFrame, at: Timestamp, teme_km: DVec3) -> DVec3 {
-    site.to_enu * (frames::teme_to_ecef(at) * teme_km - site.ecef_km)
+    site.enu_km(frames::teme_to_ecef(at) * teme_km)
 }
 
 fn sun_teme_km(at: Timestamp) -> DVec3 {

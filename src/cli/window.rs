@@ -32,6 +32,8 @@ const USUAL: Vec2 = vec2(1440.0, 900.0);
 const SMALLEST: Vec2 = vec2(1024.0, 640.0);
 /// Height left for the title bar, in points; X11 tells it only once the window is there.
 const TITLE_BAR: f32 = 40.0;
+/// Size of the block that tells the allocator to keep free memory, in bytes.
+const KEPT: usize = 4 << 20;
 /// Part of the panic of the window toolkit without a library.
 const NO_LIBRARY: &str = "could not be loaded";
 
@@ -53,6 +55,7 @@ pub(super) fn run(station: Option<PathBuf>, demo: bool) -> anyhow::Result<()> {
         claims: claims_folder().map(|folder| (folder, HolderKind::Window)),
         ..Settings::default()
     };
+    keep_freed_memory();
     let options = eframe::NativeOptions {
         viewport: egui::ViewportBuilder::default()
             .with_app_id("azel")
@@ -142,6 +145,14 @@ fn show(
     drop(window);
     made.into_inner()?;
     ended.map_err(|error| no_window::reason(&error.to_string()))
+}
+
+/// Tells the allocator of the GNU C library that large blocks come and go. From the start it gives
+/// whatever is free at the end of the heap back to the system; a frame takes it again, and every
+/// page of it costs a fault. The first large block that is freed raises that limit to twice its
+/// size (`M_MMAP_THRESHOLD` in mallopt(3)). Other allocators are not changed by it.
+fn keep_freed_memory() {
+    drop(std::hint::black_box(Vec::<u8>::with_capacity(KEPT)));
 }
 
 /// The sentence for a station that cannot start: no fault of the window.

@@ -6,7 +6,11 @@ use jiff::Timestamp;
 
 use super::daylight::{self, SunSpan};
 use crate::{
-    astro::{AzEl, Site, frames::SiteFrame, sun_moon},
+    astro::{
+        AzEl, Site,
+        frames::{self, SiteFrame},
+        sun_moon,
+    },
     engine::passes::{ListedSatellite, ahead},
     orbit::{LookAngles, Propagator, is_sunlit},
 };
@@ -88,8 +92,9 @@ impl Sky {
         let frame = SiteFrame::from(site);
         let wanted: Vec<_> = satellites.iter().map(|of| (&of.propagator, at)).collect();
         let states = Propagator::states_of(&wanted).into_iter();
+        let to_ecef = frames::teme_to_ecef(at);
         let up = satellites.iter().zip(states).filter_map(|(satellite, state)| {
-            let place_km = state?.local(&frame, at).position_km;
+            let place_km = frame.enu_km(to_ecef * state?.position_km);
             (place_km.z > 0.0).then(|| Seen {
                 satellite: Arc::clone(satellite),
                 direction: AzEl::from_enu(place_km),

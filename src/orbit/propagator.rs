@@ -6,7 +6,11 @@ mod waves;
 
 use std::{
     f64::consts::TAU,
-    sync::atomic::{AtomicU32, Ordering},
+    fmt,
+    sync::{
+        Mutex, PoisonError,
+        atomic::{AtomicU32, Ordering},
+    },
 };
 
 use glam::DVec3;
@@ -37,6 +41,9 @@ const LOW_PERIGEE_KM: f64 = 120.0;
 /// over ten weeks: a near-earth orbit that touches the atmosphere decays in days.
 const DOWN_STEP_MIN: f64 = 5.0;
 const MAX_DOWN_LOOKS: u32 = 20_000;
+/// A state that is asked for no later than this after where an integration is resumed from leaves
+/// it there, for whoever asks for an earlier one: twenty of its steps.
+const RESUMED_MIN: f64 = 14_400.0;
 
 /// From this mean motion on, Sun and Moon are left out of the orbit: periods below 225 minutes.
 const CLOSE_REV_DAY: f64 = 6.5;
@@ -77,6 +84,7 @@ pub struct Propagator {
     /// The orbit may have met the ground from this time on, minutes after the epoch.
     low_after_min: f64,
     descent: Descent,
+    resonance: Resonance,
 }
 
 /// How far it is known that an orbit that may have met the ground has not: the number of looks, in
@@ -96,6 +104,45 @@ impl Clone for Descent {
 #[derive(Clone, Copy, Default)]
 pub(super) struct Resumable(Option<sgp4::ResonanceState>);
 
+impl fmt::Debug for Resumable {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_tuple("Resumable").field(&self.0.map(|state| state.t())).finish()
+    }
+}
+
+/// Where the integration of a resonant orbit is resumed from: near the times that are asked for. Its
+/// steps are the same from wherever it is resumed, and so are the states.
+#[derive(Debug, Default)]
+struct Resonance(Mutex<Resumable>);
+
+impl Clone for Resonance {
+    fn clone(&self) -> Self {
+        Self(Mutex::new(self.get()))
+    }
+}
+
+impl Resonance {
+    fn get(&self) -> Resumable {
+        *self.0.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    fn reach(&self, reached: Resumable) {
+        let mut kept = self.0.lock().unwrap_or_else(PoisonError::into_inner);
+        let is_near = kept.ahead_min(reached).is_some_and(|min| (0.0..=RESUMED_MIN).contains(&min));
+        if !is_near {
+            *kept = reached;
+        }
+    }
+}
+
+impl Resumable {
+    /// How much further from the epoch `later` is, in minutes; `None` if it is on the other side.
+    fn ahead_min(self, later: Self) -> Option<f64> {
+        let (from_min, to_min) = (self.0?.t(), later.0?.t());
+        (from_min * to_min >= 0.0).then_some(to_min.abs() - from_min.abs())
+    }
+}
+
 impl Propagator {
     /// Prepares the propagation of `elements` with WGS72 and AFSPC sidereal time, with which the
     /// elements were fitted.
@@ -112,7 +159,8 @@ impl Propagator {
             None => f64::INFINITY,
         };
         let (epoch, descent) = (elements.epoch(), Descent::default());
-        Ok(Self { constants, epoch, secular, drift_km_s, low_after_min, descent })
+        let resonance = Resonance::default();
+        Ok(Self { constants, epoch, secular, drift_km_s, low_after_min, descent, resonance })
     }
 
     /// Whether SGP4 finds the object above the ground at the epoch of `elements`.
@@ -128,7 +176,17 @@ impl Propagator {
 
     /// The state at `at`, in TEME.
     pub fn state_at(&self, at: Timestamp) -> Result<State, PropagationError> {
-        self.state_after(time::seconds_between(self.epoch, at), &mut Resumable::default())
+        let mut resumable = self.resumable();
+        let state = self.state_after(time::seconds_between(self.epoch, at), &mut resumable);
+        if self.secular.is_none() {
+            self.resonance.reach(resumable);
+        }
+        state
+    }
+
+    /// Where a series of states begins.
+    pub(super) fn resumable(&self) -> Resumable {
+        if self.secular.is_some() { Resumable::default() } else { self.resonance.get() }
     }
 
     /// The states at several times, each later than the one before. Those of near-circular orbits
@@ -376,6 +434,42 @@ mod tests {
                 // One set in five hundred drifts faster than `said_km_s`.
                 assert!(drift_km_s < 2.5 * said_km_s, "{elements:?}: {drift_km_s} {said_km_s}");
             }
+        }
+    }
+
+    #[test]
+    fn states_of_a_resonant_orbit_do_not_depend_on_what_was_asked_before() {
+        let catalog = bundled().unwrap();
+        let numbers = [24_876, 54_743, 44_334, 25_867];
+        let days = proptest::collection::vec(-400.0..400.0_f64, 1..30);
+        proptest!(|(days in days, number in 0..numbers.len())| {
+            let elements = catalog.get(numbers[number]).unwrap();
+            let asked = Propagator::new(elements).unwrap();
+            for day in days {
+                let at = time::add_seconds(asked.epoch, day * time::DAY_S);
+                let fresh = Propagator::new(elements).unwrap();
+                prop_assert_eq!(asked.state_at(at), fresh.state_at(at), "{}", day);
+            }
+        });
+    }
+
+    #[test]
+    fn an_integration_is_resumed_near_what_is_asked_for() {
+        let elements = bundled().unwrap().get(44_334).unwrap().clone();
+        let propagator = Propagator::new(&elements).unwrap();
+        let resumed_after = |day: f64| {
+            propagator.state_at(time::add_seconds(propagator.epoch, day * time::DAY_S)).unwrap();
+            propagator.resonance.get().0.unwrap().t() / 1440.0
+        };
+        for (day, from_day) in [
+            (100.2, 100.0),
+            (107.0, 100.0),
+            (101.0, 100.0),
+            (130.0, 130.0),
+            (99.7, 99.5),
+            (-3.2, -3.0),
+        ] {
+            assert_eq!(resumed_after(day), from_day, "{day}");
         }
     }
 

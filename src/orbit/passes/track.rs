@@ -87,7 +87,7 @@ impl<'a> Track<'a> {
                     propagator.drift_km_s(start_since_epoch_s + window.length_s),
                 ),
             },
-            resumable: Cell::default(),
+            resumable: Cell::new(propagator.resumable()),
             propagations: Cell::new(0),
         }
     }
