@@ -108,6 +108,8 @@ pub struct App {
     may_close: Arc<AtomicBool>,
     /// The operating system ends the program: nobody can be asked.
     told_to_end: Arc<AtomicBool>,
+    /// Tells the station's waker that frames come at the pace of [`MOVING_FRAME`].
+    is_lively: Arc<AtomicBool>,
     drawn: bool,
 }
 
@@ -126,7 +128,15 @@ impl App {
     pub fn on(begun: RunningStation, ctx: &egui::Context) -> Self {
         begun.show_in(ctx);
         let RunningStation {
-            station, settings, outside, wake, client, may_close, told_to_end, ..
+            station,
+            settings,
+            outside,
+            wake,
+            client,
+            may_close,
+            told_to_end,
+            is_lively,
+            ..
         } = begun;
         let clock = outside.clock.clone();
         let keeper = Keeper::beside(settings.station_path().as_deref());
@@ -171,6 +181,7 @@ impl App {
             closes: false,
             may_close,
             told_to_end,
+            is_lively,
             drawn: false,
         }
     }
@@ -310,6 +321,7 @@ impl App {
         });
         let into_second = self.model.now.subsec_nanosecond();
         let to_next = Duration::from_nanos(1_000_000_000 - u64::from(into_second.unsigned_abs()));
+        self.is_lively.store(lively, Ordering::Relaxed);
         let wait = if lively { MOVING_FRAME.min(to_next) } else { to_next };
         let plays = self.replay.as_ref().is_some_and(Replay::plays);
         let wait = if plays { REPLAY_FRAME.min(wait) } else { wait };

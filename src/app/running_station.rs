@@ -18,6 +18,11 @@ use crate::{
     job::Wake,
 };
 
+use super::MOVING_FRAME;
+
+/// News of this time are shown by one frame.
+const MERGED: Duration = Duration::from_millis(30);
+
 /// A running station without a window.
 pub struct RunningStation {
     pub(super) station: Handle,
@@ -30,6 +35,8 @@ pub struct RunningStation {
     pub(super) may_close: Arc<AtomicBool>,
     /// The operating system ends the program: nobody can be asked.
     pub(super) told_to_end: Arc<AtomicBool>,
+    /// Metal moves, and frames come at the pace of [`MOVING_FRAME`].
+    pub(super) is_lively: Arc<AtomicBool>,
     window: Arc<OnceLock<Context>>,
 }
 
@@ -38,13 +45,24 @@ impl RunningStation {
     pub fn start(settings: Settings, outside: impl Into<Outside>) -> io::Result<Self> {
         let outside = outside.into();
         let window = Arc::default();
-        let wake = wake(Arc::clone(&window));
+        let is_lively = Arc::default();
+        let wake = wake(Arc::clone(&window), Arc::clone(&is_lively));
         let station = Handle::start(settings.clone(), outside.clone(), Arc::clone(&wake))?;
         let client = Arc::new(Mutex::new(station.client().clone()));
         let (may_close, told_to_end) = (Arc::default(), Arc::default());
         let flags = [Arc::clone(&may_close), Arc::clone(&told_to_end)];
         close_on_signals(Arc::clone(&client), flags, Arc::clone(&window))?;
-        Ok(Self { station, settings, outside, wake, client, may_close, told_to_end, window })
+        Ok(Self {
+            station,
+            settings,
+            outside,
+            wake,
+            client,
+            may_close,
+            told_to_end,
+            is_lively,
+            window,
+        })
     }
 
     /// Hands the window to the station's waker; closes it at once if the operating system has ended the
@@ -82,11 +100,37 @@ fn close_on_signals(
     signals::watch(stop, end)
 }
 
-/// A waker that requests a frame soon: the delay merges all requests in between.
-fn wake(window: Arc<OnceLock<Context>>) -> Wake {
+/// A waker that requests a frame soon: the delay merges all requests in between. While metal moves,
+/// news come with the next of the frames that come anyway; each position of each antenna would have
+/// one of its own, and a key that comes while a frame is painted has to wait.
+fn wake(window: Arc<OnceLock<Context>>, is_lively: Arc<AtomicBool>) -> Wake {
     Arc::new(move || {
         if let Some(ctx) = window.get() {
-            ctx.request_repaint_after_for(Duration::from_millis(30), ViewportId::ROOT);
+            let soon = if is_lively.load(Ordering::Relaxed) { MOVING_FRAME } else { MERGED };
+            ctx.request_repaint_after_for(soon, ViewportId::ROOT);
         }
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn news_of_moving_metal_come_with_its_next_frame() {
+        for (is_lively, soon) in [(false, MERGED), (true, MOVING_FRAME)] {
+            let window = Arc::<OnceLock<Context>>::default();
+            let wake = wake(Arc::clone(&window), Arc::new(is_lively.into()));
+            // Before there is a window, nothing is to be drawn.
+            wake();
+            let (ctx, asked) = (Context::default(), Arc::<Mutex<Vec<_>>>::default());
+            let told = Arc::clone(&asked);
+            ctx.set_request_repaint_callback(move |request| {
+                told.lock().unwrap().push(request.delay);
+            });
+            window.set(ctx).unwrap();
+            wake();
+            assert_eq!(*asked.lock().unwrap(), [soon]);
+        }
+    }
 }
