@@ -17,7 +17,7 @@ pub use bundled::{BUNDLED_NEWEST, BUNDLED_SOURCE, BundledError, bundled};
 pub use catalog::{Catalog, MergeSummary};
 pub use elements::{EPOCH_YEARS, Elements, ElementsError, Heights};
 pub use ground::{SubPoint, TrackPoint};
-pub use look::{Distance, Local, LookAngles};
+pub use look::{Distance, Local, LookAngles, OverGround};
 pub use passes::{
     FoundPasses, Pass, PassPoint, PassSearch, clear_stretches, found_passes, passes,
     passes_and_effort, passes_of_all,
@@ -27,7 +27,7 @@ pub use reader::{
     MAX_ELEMENT_BYTES, Note, NoteKind, Nothing, ReadReport, Refusal, RefusalReason,
     read_element_bytes, read_elements,
 };
-pub use shadow::is_sunlit;
+pub use shadow::{is_lit, is_sunlit};
 pub use sources::{
     FETCH_PAUSE, FetchProblem, FileReport, RefreshHours, Source, SourcePlace, SourceReport,
     may_fetch,

@@ -36,14 +36,9 @@ pub fn moon(site: Site, at: Timestamp) -> AzEl {
     AzEl::from_enu(seen_from(&site.into(), at, moon_teme_km(at)))
 }
 
-/// Unit vector from the centre of the Earth to the Sun, in TEME.
-pub fn sun_direction_teme(at: Timestamp) -> DVec3 {
-    sun_teme_km(at).normalize()
-}
-
 /// The point of the ground at which the Sun is in the zenith.
 pub fn subsolar_point(at: Timestamp) -> GroundPoint {
-    GroundPoint::below(frames::teme_to_ecef(at) * sun_teme_km(at))
+    GroundPoint::below(sun_ecef_km(at))
 }
 
 /// The part of the ground where it is night: the Sun is below [`RISE_DEG`].
@@ -56,7 +51,13 @@ fn seen_from(site: &SiteFrame, at: Timestamp, teme_km: DVec3) -> DVec3 {
     site.enu_km(frames::teme_to_ecef(at) * teme_km)
 }
 
-fn sun_teme_km(at: Timestamp) -> DVec3 {
+/// From the centre of the Earth to the Sun, in Earth-fixed axes.
+pub fn sun_ecef_km(at: Timestamp) -> DVec3 {
+    frames::teme_to_ecef(at) * sun_teme_km(at)
+}
+
+/// From the centre of the Earth to the Sun, in TEME.
+pub fn sun_teme_km(at: Timestamp) -> DVec3 {
     let days = days_tt(at);
     let mean_longitude_deg = 280.460 + 0.985_647_4 * days;
     let anomaly = (357.528 + 0.985_600_3 * days).to_radians();

@@ -6,11 +6,7 @@ use jiff::Timestamp;
 
 use super::daylight::{self, SunSpan};
 use crate::{
-    astro::{
-        AzEl, Site,
-        frames::{self, SiteFrame},
-        sun_moon,
-    },
+    astro::{AzEl, Site, frames::SiteFrame, sun_moon},
     engine::passes::{ListedSatellite, ahead},
     orbit::{LookAngles, Propagator, is_sunlit},
 };
@@ -91,10 +87,9 @@ impl Sky {
     ) -> Self {
         let frame = SiteFrame::from(site);
         let wanted: Vec<_> = satellites.iter().map(|of| (&of.propagator, at)).collect();
-        let states = Propagator::states_of(&wanted).into_iter();
-        let to_ecef = frames::teme_to_ecef(at);
-        let up = satellites.iter().zip(states).filter_map(|(satellite, state)| {
-            let place_km = frame.enu_km(to_ecef * state?.position_km);
+        let places = Propagator::over_ground(&wanted).into_iter();
+        let up = satellites.iter().zip(places).filter_map(|(satellite, place)| {
+            let place_km = frame.enu_km(place?.position_km);
             (place_km.z > 0.0).then(|| Seen {
                 satellite: Arc::clone(satellite),
                 direction: AzEl::from_enu(place_km),

@@ -65,6 +65,14 @@ impl Distance {
     }
 }
 
+/// Where a satellite is in Earth-fixed axes, and how it moves there.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct OverGround {
+    pub position_km: DVec3,
+    /// Over the ground.
+    pub velocity_km_s: DVec3,
+}
+
 /// Where a satellite is from a site, and how it moves there: east, north, up.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Local {
@@ -76,33 +84,36 @@ pub struct Local {
 impl State {
     /// Look angles from `site` at `at`, the time of this state.
     pub fn look_from(&self, site: Site, at: Timestamp) -> LookAngles {
-        let (line_km, velocity_km_s) = self.line_from(frames::site_ecef_km(site), at);
-        let direction = AzEl::from_enu(frames::ecef_to_enu(site) * line_km);
-        let Distance { range_km, range_rate_km_s } = Distance::of(line_km, velocity_km_s);
+        let site = SiteFrame::from(site);
+        let place = self.over_ground(at);
+        let direction = AzEl::from_enu(site.enu_km(place.position_km));
+        let Distance { range_km, range_rate_km_s } = place.distance_from(site.ecef_km);
         LookAngles { direction, range_km, range_rate_km_s }
-    }
-
-    /// Distance from a site, given in Earth-fixed axes, at `at`, the time of this state. Takes half
-    /// the time of [`Self::look_from`].
-    pub fn distance_from(&self, site_ecef_km: DVec3, at: Timestamp) -> Distance {
-        let (line_km, velocity_km_s) = self.line_from(site_ecef_km, at);
-        Distance::of(line_km, velocity_km_s)
     }
 
     /// As seen from a site at `at`, the time of this state.
     pub fn local(&self, site: &SiteFrame, at: Timestamp) -> Local {
-        let (line_km, velocity_km_s) = self.line_from(site.ecef_km, at);
-        let [position_km, velocity_km_s] = [line_km, velocity_km_s].map(|it| site.to_enu * it);
-        Local { position_km, velocity_km_s }
+        let OverGround { position_km, velocity_km_s } = self.over_ground(at);
+        Local { position_km: site.enu_km(position_km), velocity_km_s: site.to_enu * velocity_km_s }
     }
 
-    /// The Earth-fixed vector from a site to the satellite, and its change.
-    fn line_from(&self, site_ecef_km: DVec3, at: Timestamp) -> (DVec3, DVec3) {
+    /// In Earth-fixed axes at `at`, the time of this state.
+    pub fn over_ground(&self, at: Timestamp) -> OverGround {
         let to_ecef = frames::teme_to_ecef(at);
-        let position_km = to_ecef * self.position_km;
-        let velocity_km_s =
-            frames::velocity_over_ground_km_s(position_km, to_ecef * self.velocity_km_s);
-        (position_km - site_ecef_km, velocity_km_s)
+        OverGround::of_inertial(to_ecef * self.position_km, to_ecef * self.velocity_km_s)
+    }
+}
+
+impl OverGround {
+    /// `velocity_km_s` is the inertial velocity, turned into the Earth-fixed axes.
+    pub(super) fn of_inertial(position_km: DVec3, velocity_km_s: DVec3) -> Self {
+        let velocity_km_s = frames::velocity_over_ground_km_s(position_km, velocity_km_s);
+        Self { position_km, velocity_km_s }
+    }
+
+    /// Distance from a site, given in Earth-fixed axes.
+    pub fn distance_from(&self, site_ecef_km: DVec3) -> Distance {
+        Distance::of(self.position_km - site_ecef_km, self.velocity_km_s)
     }
 }
 

@@ -19,7 +19,7 @@ use serde::{Deserialize, Serialize};
 
 pub(super) use self::secular::{Plane, Secular, expand};
 use super::{
-    Elements,
+    Elements, OverGround,
     simd::{LANES, Lanes},
 };
 use crate::astro::time;
@@ -204,29 +204,31 @@ impl Propagator {
         }
     }
 
-    /// The states of several satellites, each at a time of its own. Those of near-circular orbits
+    /// The places of several satellites, each at a time of its own. Those of near-circular orbits
     /// are computed eight at once, within 2e-8 km of [`Self::state_at`].
-    pub fn states_of(wanted: &[(&Self, Timestamp)]) -> Vec<Option<State>> {
-        let mut states = vec![None; wanted.len()];
+    pub fn over_ground(wanted: &[(&Self, Timestamp)]) -> Vec<Option<OverGround>> {
+        let mut places = vec![None; wanted.len()];
         let mut near_circular = Vec::with_capacity(wanted.len());
-        for ((propagator, at), state) in wanted.iter().zip(&mut states) {
+        for ((propagator, at), place) in wanted.iter().zip(&mut places) {
             match propagator.near_circular_at(*at) {
-                Some((secular, minutes)) => near_circular.push((secular, minutes, state)),
-                None => *state = propagator.state_at(*at).ok(),
+                Some((secular, minutes)) => near_circular.push((secular, minutes, *at, place)),
+                None => *place = propagator.state_at(*at).ok().map(|state| state.over_ground(*at)),
             }
         }
         let mut lanes = Secular::default();
         for chunk in near_circular.chunks_mut(LANES) {
-            let mut minutes = Lanes::ZERO;
-            for (lane, (secular, at, _)) in chunk.iter().enumerate() {
+            let (mut minutes, mut turn) = (Lanes::ZERO, Lanes::ZERO);
+            for (lane, (secular, at_min, at, _)) in chunk.iter().enumerate() {
                 lanes.set(lane, secular);
-                minutes.set(lane, *at);
+                minutes.set(lane, *at_min);
+                turn.set(lane, time::gmst(*at).radians());
             }
-            for ((_, _, state), of_lane) in chunk.iter_mut().zip(lanes.states_at(minutes)) {
-                **state = Some(of_lane);
+            for ((.., place), of_lane) in chunk.iter_mut().zip(lanes.motions(minutes, turn)) {
+                let (position_km, velocity_km_s) = of_lane;
+                **place = Some(OverGround::of_inertial(position_km, velocity_km_s));
             }
         }
-        states
+        places
     }
 
     /// The long-term motion, and the minutes since the epoch, if the orbit is near-circular at `at`.
@@ -508,7 +510,7 @@ mod tests {
     }
 
     #[test]
-    fn states_of_several_satellites_are_those_of_each() {
+    fn places_of_several_satellites_are_those_of_each() {
         let catalog = bundled().unwrap();
         let propagators: Vec<Propagator> = [25_544, 43_881, 24_876, 54_743, 25_867]
             .into_iter()
@@ -519,13 +521,16 @@ mod tests {
             (propagator, time::add_seconds(propagator.epoch, 5000.0 * f64::from(hour)))
         });
         let wanted: Vec<_> = near.chain([(&propagators[0], Timestamp::MAX)]).collect();
-        let states = Propagator::states_of(&wanted);
-        assert_eq!(states.len(), wanted.len());
-        for ((propagator, at), found) in wanted.into_iter().zip(states) {
-            let one = propagator.state_at(at).ok();
+        let places = Propagator::over_ground(&wanted);
+        assert_eq!(places.len(), wanted.len());
+        for ((propagator, at), found) in wanted.into_iter().zip(places) {
+            let one = propagator.state_at(at).ok().map(|state| state.over_ground(at));
             assert_eq!(found.is_some(), one.is_some(), "{at}");
-            let off_km = found.zip(one).map(|(a, b)| a.position_km - b.position_km);
-            assert!(off_km.is_none_or(|off| off.length() < 2e-8), "{at}");
+            let Some((found, one)) = found.zip(one) else { continue };
+            let off_km = (found.position_km - one.position_km).length();
+            assert!(off_km < 2e-8, "{at} {off_km}");
+            let off_km_s = (found.velocity_km_s - one.velocity_km_s).length();
+            assert!(off_km_s < 1e-10, "{at} {off_km_s}");
         }
     }
 

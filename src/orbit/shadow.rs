@@ -1,32 +1,38 @@
 //! Whether the Sun shines on a satellite.
 
+use glam::DVec3;
 use jiff::Timestamp;
 
 use super::State;
 use crate::astro::{frames, sun_moon};
 
-/// Returns `true` if a satellite in `state` (TEME, valid at `at`) is in sunlight.
+/// Returns `true` if a satellite in `state` (TEME, valid at `at`) is in sunlight, as [`is_lit`] has
+/// it.
+pub fn is_sunlit(state: &State, at: Timestamp) -> bool {
+    is_lit(state.position_km, sun_moon::sun_teme_km(at))
+}
+
+/// Returns `true` if a satellite is in sunlight. Its position and that of the Sun are from the centre
+/// of the Earth, both in any one set of axes.
 ///
 /// The shadow is a cylinder as wide as the equator. At its edge, half of the Sun's disc is hidden:
 /// the middle of the penumbra, which a low satellite crosses in about 8 s. Flattening and
 /// refraction are neglected.
-pub fn is_sunlit(state: &State, at: Timestamp) -> bool {
-    let sun = sun_moon::sun_direction_teme(at);
-    let along_km = state.position_km.dot(sun);
-    let across_km = (state.position_km - sun * along_km).length();
+pub fn is_lit(position_km: DVec3, sun_km: DVec3) -> bool {
+    let sun = sun_km.normalize();
+    let along_km = position_km.dot(sun);
+    let across_km = (position_km - sun * along_km).length();
     along_km > 0.0 || across_km > frames::WGS84_RADIUS_KM
 }
 
 #[cfg(test)]
 mod tests {
-    use glam::DVec3;
-
     use super::*;
 
     #[test]
     fn the_shadow_lies_behind_the_earth_only() {
         let at: Timestamp = "2026-08-12T00:00:00Z".parse().unwrap();
-        let sun = sun_moon::sun_direction_teme(at);
+        let sun = sun_moon::sun_teme_km(at).normalize();
         let side = sun.any_orthonormal_vector();
         let lit = |position_km| is_sunlit(&State { position_km, velocity_km_s: DVec3::ZERO }, at);
         assert!(lit(sun * 7000.0));

@@ -15,16 +15,16 @@ use std::{
     io::{self, Write},
 };
 
+use glam::DVec3;
 use jiff::{Timestamp, tz::TimeZone};
 
 pub(crate) use self::csv::{io_error, plain, quoted};
-use self::digits::parts;
 pub use self::looks::{LookFormat, LookList};
 use crate::{
-    astro::{HorizonMask, Site, frames::SiteFrame, sun_moon, time},
+    astro::{HorizonMask, Site, frames::SiteFrame, time},
     orbit::{
-        Distance, Elements, Pass, PassSearch, PropagationError, Propagator, State, clear_stretches,
-        passes,
+        Distance, Elements, OverGround, Pass, PassSearch, PropagationError, Propagator,
+        clear_stretches, passes,
     },
 };
 
@@ -50,7 +50,7 @@ impl Satellite {
     }
 }
 
-/// Range and range rate from states of [`Propagator::states_of`] are nearer than this to those from
+/// Range and range rate from [`Propagator::over_ground`] are nearer than this to those from
 /// [`Propagator::state_at`], at 70 km and beyond.
 const NEAR_KM: f64 = 1e-6;
 const NEAR_KM_S: f64 = 1e-8;
@@ -64,33 +64,30 @@ struct View {
 
 impl View {
     /// The distance that follows from the state that [`Propagator::state_at`] gives, to the last
-    /// digit that is written; `near` is almost that state, and nearly always enough.
-    fn distance(&self, satellite: &Satellite, near: &State, at: Timestamp) -> Distance {
-        let distance = near.distance_from(self.site.ecef_km, at);
-        if self.is_written_alike(distance) {
+    /// digit of what `written` makes of it; `near` is almost there, and nearly always enough.
+    fn distance<T: PartialEq>(
+        &self,
+        satellite: &Satellite,
+        near: &OverGround,
+        at: Timestamp,
+        written: impl Fn(Distance) -> T,
+    ) -> Distance {
+        let distance = near.distance_from(self.site.ecef_km);
+        let beside = |side: f64| Distance {
+            range_km: distance.range_km + side * NEAR_KM,
+            range_rate_km_s: distance.range_rate_km_s + side * NEAR_KM_S,
+        };
+        if written(beside(-1.0)) == written(beside(1.0)) {
             return distance;
         }
         let exact = satellite.propagator.state_at(at);
-        exact.map_or(distance, |exact| exact.distance_from(self.site.ecef_km, at))
+        exact.map_or(distance, |exact| exact.over_ground(at).distance_from(self.site.ecef_km))
     }
 
     /// Returns `true` if the sky over the site is dark enough to see a satellite in sunlight.
-    fn is_dark(&self, at: Timestamp) -> bool {
-        let sun_km = sun_moon::sun_enu_km(&self.site, at);
+    fn is_dark(&self, sun_ecef_km: DVec3) -> bool {
+        let sun_km = self.site.enu_km(sun_ecef_km);
         sun_km.z < sun_km.length() * DARK_SUN_DEG.to_radians().sin()
-    }
-
-    /// Whether rounding for export gives the same for all that is as near as [`NEAR_KM`] and
-    /// [`NEAR_KM_S`].
-    fn is_written_alike(&self, distance: Distance) -> bool {
-        let written = |side: f64| {
-            let range_km = distance.range_km + side * NEAR_KM;
-            let range_rate_km_s = distance.range_rate_km_s + side * NEAR_KM_S;
-            let near = Distance { range_km, range_rate_km_s };
-            let doppler_hz = self.carrier_hz.map(|carrier_hz| near.doppler_hz(carrier_hz));
-            (parts::<3>(range_km), parts::<6>(range_rate_km_s), doppler_hz.map(parts::<1>))
-        };
-        written(-1.0) == written(1.0)
     }
 }
 

@@ -8,6 +8,7 @@
 //! "Revisiting Spacetrack Report #3" (AIAA 2006-6753). Lengths are in Earth radii and times in
 //! minutes, as there.
 
+use glam::DVec3;
 use sgp4::WGS72;
 
 use super::{State, secular::Secular};
@@ -37,22 +38,24 @@ impl Secular {
         minutes.chunks(LANES).flat_map(move |chunk| {
             let mut at = Lanes::ZERO;
             chunk.iter().enumerate().for_each(|(lane, minutes)| at.set(lane, *minutes));
-            lanes.states_at(at).take(chunk.len())
+            let motions = lanes.motions(at, Lanes::ZERO).take(chunk.len());
+            motions.map(|(position_km, velocity_km_s)| State { position_km, velocity_km_s })
         })
     }
 }
 
 impl Secular<Lanes> {
-    /// The state of each lane at its minutes after its epoch, in TEME; valid like [`Self::motion`].
-    pub(super) fn states_at(&self, minutes: Lanes) -> impl Iterator<Item = State> + use<> {
+    /// [`Self::motion`] of each lane.
+    pub(super) fn motions(
+        &self,
+        minutes: Lanes,
+        turn: Lanes,
+    ) -> impl Iterator<Item = (DVec3, DVec3)> + use<> {
         let (positions, velocities) = widest(
             #[inline(always)]
-            || self.motion(minutes, Lanes::ZERO),
+            || self.motion(minutes, turn),
         );
-        (0..LANES).map(move |lane| State {
-            position_km: positions.lane(lane).into(),
-            velocity_km_s: velocities.lane(lane).into(),
-        })
+        (0..LANES).map(move |lane| (positions.lane(lane).into(), velocities.lane(lane).into()))
     }
 }
 

@@ -7,11 +7,14 @@ use std::{
 
 use super::{
     ExportedPass, PassList, View,
-    digits::{push_fixed, push_shortest, push_time, push_time_us, push_whole},
+    digits::{parts, push_fixed, push_shortest, push_time, push_time_us, push_whole},
     rows::write_rows,
     times,
 };
-use crate::orbit::{Pass, State, is_sunlit};
+use crate::{
+    astro::sun_moon,
+    orbit::{Distance, OverGround, Pass, is_lit},
+};
 
 /// New columns are added at the end, so that programs that count columns keep working.
 const HEADER: [&str; 20] = [
@@ -48,7 +51,7 @@ pub(super) fn write<'a>(
     writeln!(out, "{}", names.join(","))?;
     let view = list.view();
     if view.carrier_hz.is_some() {
-        write_rows(out, rows, times, |text, row, states| push_row(text, &view, row, states))
+        write_rows(out, rows, times, |text, row, places| push_row(text, &view, row, places))
     } else {
         let at_tca = |pass: &Pass| [pass.tca.time];
         write_rows(out, rows, at_tca, |text, row, [tca]| {
@@ -57,13 +60,13 @@ pub(super) fn write<'a>(
     }
 }
 
-/// Appends a row, with the states at AOS, TCA and LOS; those at AOS and LOS are for their Doppler
+/// Appends a row, with the places at AOS, TCA and LOS; those at AOS and LOS are for their Doppler
 /// shifts.
 fn push_row(
     text: &mut Vec<u8>,
     view: &View,
     row: &ExportedPass<'_>,
-    [aos, tca, los]: [Option<State>; 3],
+    [aos, tca, los]: [Option<OverGround>; 3],
 ) {
     let ExportedPass { satellite, pass } = row;
     let elements = &satellite.elements;
@@ -81,20 +84,24 @@ fn push_row(
     push_time_us(next(text), elements.epoch());
     push_shortest::<4>(next(text), satellite.age_days(pass.aos.time));
     next(text);
-    if let Some(state) = &tca {
-        push_shortest::<3>(text, view.distance(satellite, state, pass.tca.time).range_km);
+    if let Some(place) = &tca {
+        let written = |distance: Distance| parts::<3>(distance.range_km);
+        let distance = view.distance(satellite, place, pass.tca.time, written);
+        push_shortest::<3>(text, distance.range_km);
     }
     next(text);
-    if let Some(state) = &tca {
-        push_flag(text, is_sunlit(state, pass.tca.time));
+    if let Some(place) = &tca {
+        push_flag(text, is_lit(place.position_km, sun_moon::sun_ecef_km(pass.tca.time)));
     }
     push_text(next(text), elements.international_designator().unwrap_or_default());
     if let Some(carrier_hz) = view.carrier_hz {
-        for (state, at) in [aos, tca, los].iter().zip(times(pass)) {
+        let doppler_hz = |distance: Distance| distance.doppler_hz(carrier_hz);
+        let written = |distance| parts::<1>(doppler_hz(distance));
+        for (place, at) in [aos, tca, los].iter().zip(times(pass)) {
             next(text);
-            if let Some(state) = state {
-                let distance = view.distance(satellite, state, at);
-                push_shortest::<1>(text, distance.doppler_hz(carrier_hz));
+            if let Some(place) = place {
+                let distance = view.distance(satellite, place, at, written);
+                push_shortest::<1>(text, doppler_hz(distance));
             }
         }
     }

@@ -10,7 +10,10 @@ use super::{
     rows::write_rows,
     times,
 };
-use crate::orbit::{PassPoint, State, is_sunlit};
+use crate::{
+    astro::sun_moon,
+    orbit::{Distance, OverGround, PassPoint, is_lit},
+};
 
 /// Writes one object per line, so that the list can also be compared and cut by lines.
 pub(super) fn write<'a>(
@@ -22,9 +25,9 @@ pub(super) fn write<'a>(
     write!(out, "[")?;
     // No comma stands before the first.
     for (before, count) in [(&b"\n"[..], 1), (b",\n", usize::MAX)] {
-        write_rows(out, rows.by_ref().take(count), times, |text, row, states| {
+        write_rows(out, rows.by_ref().take(count), times, |text, row, places| {
             text.extend_from_slice(before);
-            push_row(text, &view, row, states);
+            push_row(text, &view, row, places);
         })?;
     }
     writeln!(out, "\n]")
@@ -34,7 +37,7 @@ fn push_row(
     text: &mut Vec<u8>,
     view: &View,
     row: &ExportedPass<'_>,
-    [aos, tca, los]: [Option<State>; 3],
+    [aos, tca, los]: [Option<OverGround>; 3],
 ) {
     let ExportedPass { satellite, pass } = row;
     let elements = &satellite.elements;
@@ -63,9 +66,10 @@ fn push_row(
     text.extend_from_slice(br#","designator":"#);
     push_text(text, elements.international_designator());
     text.extend_from_slice(br#","sunlit":"#);
-    push_flag(text, tca.map(|state| is_sunlit(&state, pass.tca.time)));
+    let sun_km = sun_moon::sun_ecef_km(pass.tca.time);
+    push_flag(text, tca.map(|place| is_lit(place.position_km, sun_km)));
     text.extend_from_slice(br#","dark_at_site":"#);
-    push_flag(text, Some(view.is_dark(pass.tca.time)));
+    push_flag(text, Some(view.is_dark(sun_km)));
     text.push(b'}');
 }
 
@@ -74,9 +78,14 @@ fn push_point(
     view: &View,
     satellite: &Satellite,
     point: PassPoint,
-    state: Option<State>,
+    place: Option<OverGround>,
 ) {
-    let distance = state.map(|state| view.distance(satellite, &state, point.time));
+    let written = |distance: Distance| {
+        let doppler_hz = view.carrier_hz.map(|carrier_hz| distance.doppler_hz(carrier_hz));
+        let Distance { range_km, range_rate_km_s } = distance;
+        (parts::<3>(range_km), parts::<6>(range_rate_km_s), doppler_hz.map(parts::<1>))
+    };
+    let distance = place.map(|place| view.distance(satellite, &place, point.time, written));
     text.extend_from_slice(br#"{"time":""#);
     push_time(text, point.time);
     text.extend_from_slice(br#"","azimuth_deg":"#);

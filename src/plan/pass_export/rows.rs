@@ -9,7 +9,7 @@ use jiff::Timestamp;
 use rayon::prelude::*;
 
 use super::ExportedPass;
-use crate::orbit::{Pass, Propagator, State};
+use crate::orbit::{OverGround, Pass, Propagator};
 
 /// Number of rows that are made while as many before them are written, some 0.7 MB of CSV.
 const AT_ONCE: usize = 1 << 12;
@@ -43,11 +43,11 @@ impl Text {
 impl Made {
     /// Makes these rows in place of those before. The memory of those is used again, so that the
     /// allocator need not ask the operating system each time.
-    fn make<const STATES: usize>(
+    fn make<const PLACES: usize>(
         &mut self,
         rows: &[ExportedPass<'_>],
-        times: &(impl Fn(&Pass) -> [Timestamp; STATES] + Sync),
-        push: &(impl Fn(&mut Vec<u8>, &ExportedPass<'_>, [Option<State>; STATES]) + Sync),
+        times: &(impl Fn(&Pass) -> [Timestamp; PLACES] + Sync),
+        push: &(impl Fn(&mut Vec<u8>, &ExportedPass<'_>, [Option<OverGround>; PLACES]) + Sync),
     ) {
         let Self { places, texts } = self;
         places.clear();
@@ -58,13 +58,13 @@ impl Made {
             text.bytes.clear();
             text.ends.clear();
             let rows = || places.iter().filter_map(|(_, index)| rows.get(*index as usize));
-            let mut wanted = Vec::with_capacity(STATES * places.len());
+            let mut wanted = Vec::with_capacity(PLACES * places.len());
             for ExportedPass { satellite, pass } in rows() {
                 wanted.extend(times(pass).map(|at| (&satellite.propagator, at)));
             }
-            let states = Propagator::states_of(&wanted);
-            for (row, states) in rows().zip(states.as_chunks().0) {
-                push(&mut text.bytes, row, *states);
+            let places = Propagator::over_ground(&wanted);
+            for (row, places) in rows().zip(places.as_chunks().0) {
+                push(&mut text.bytes, row, *places);
                 text.ends.push(text.bytes.len());
             }
         });
@@ -81,14 +81,14 @@ impl Made {
     }
 }
 
-/// Writes `rows` in their order, each as `push` appends it to a buffer, given the states of its
-/// satellite at its `times` (see [`Propagator::states_of`]). The work is shared by the threads of
+/// Writes `rows` in their order, each as `push` appends it to a buffer, given the places of its
+/// satellite at its `times` (see [`Propagator::over_ground`]). The work is shared by the threads of
 /// the rayon pool in which this is called; some rows at a time are held as text.
-pub(super) fn write_rows<'a, const STATES: usize>(
+pub(super) fn write_rows<'a, const PLACES: usize>(
     out: &mut impl Write,
     mut rows: impl Iterator<Item = ExportedPass<'a>>,
-    times: impl Fn(&Pass) -> [Timestamp; STATES] + Sync,
-    push: impl Fn(&mut Vec<u8>, &ExportedPass<'_>, [Option<State>; STATES]) + Sync,
+    times: impl Fn(&Pass) -> [Timestamp; PLACES] + Sync,
+    push: impl Fn(&mut Vec<u8>, &ExportedPass<'_>, [Option<OverGround>; PLACES]) + Sync,
 ) -> io::Result<()> {
     let mut take = || rows.by_ref().take(AT_ONCE).collect::<Vec<_>>();
     let (mut made, mut next) = (Made::default(), Made::default());
@@ -127,10 +127,11 @@ mod tests {
             });
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
         let times = |pass: &Pass| [pass.aos.time, pass.los.time];
-        let push = |text: &mut Vec<u8>, row: &ExportedPass<'_>, states: [Option<State>; 2]| {
+        let push = |text: &mut Vec<u8>, row: &ExportedPass<'_>, places: [Option<OverGround>; 2]| {
             let propagator = &row.satellite.propagator;
-            for (at, state) in times(&row.pass).into_iter().zip(states) {
-                let off = state.unwrap().position_km - propagator.state_at(at).unwrap().position_km;
+            for (at, place) in times(&row.pass).into_iter().zip(places) {
+                let exact = propagator.state_at(at).unwrap().over_ground(at);
+                let off = place.unwrap().position_km - exact.position_km;
                 assert!(off.length() < 2e-8, "{off}");
             }
             writeln!(text, "{}", row.pass.aos.time.as_second()).unwrap();
