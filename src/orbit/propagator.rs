@@ -461,17 +461,12 @@ mod tests {
         let propagator = Propagator::new(&elements).unwrap();
         let resumed_after = |day: f64| {
             propagator.state_at(time::add_seconds(propagator.epoch, day * time::DAY_S)).unwrap();
-            propagator.resonance.get().0.unwrap().t() / 1440.0
+            propagator.resonance.get().0.unwrap().t() as i32 / 720
         };
-        for (day, from_day) in [
-            (100.2, 100.0),
-            (107.0, 100.0),
-            (101.0, 100.0),
-            (130.0, 130.0),
-            (99.7, 99.5),
-            (-3.2, -3.0),
-        ] {
-            assert_eq!(resumed_after(day), from_day, "{day}");
+        let halves =
+            [(100.2, 200), (107.0, 200), (101.0, 200), (130.0, 260), (99.7, 199), (-3.2, -6)];
+        for (day, half_days) in halves {
+            assert_eq!(resumed_after(day), half_days, "{day}");
         }
     }
 
