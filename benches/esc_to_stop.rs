@@ -13,6 +13,7 @@ use std::{
     io::{BufRead as _, BufReader, Write as _},
     net::SocketAddr,
     process::{Child, ChildStdin, Command, Stdio},
+    sync::mpsc,
     thread::sleep,
     time::Duration,
 };
@@ -21,7 +22,7 @@ use azel::{
     clock::Instant,
     orbit::bundled,
     protocol::satrak::encode,
-    sim::satrak::{BUNDLED_FILE, Control, Options, Simulator},
+    sim::satrak::{BUNDLED_FILE, Options, Simulator},
     station::Station,
 };
 use jiff::{SignedDuration, Timestamp, tz::TimeZone};
@@ -67,7 +68,8 @@ enum Doing {
 struct Bench {
     name: String,
     keys: ChildStdin,
-    control: Control,
+    /// Of the first antenna.
+    arrivals: mpsc::Receiver<(Instant, &'static str)>,
     unit: SocketAddr,
     times: Vec<Duration>,
     _folder: tempfile::TempDir,
@@ -126,8 +128,16 @@ fn screen(display: u32) -> Running {
     screen
 }
 
-/// A relay to the unit that delays every reply by `stall` and no request.
-async fn stalling_way(unit: SocketAddr, stall: Duration) -> SocketAddr {
+/// Words that a request may begin with, whose arrival is told.
+const TOLD: [&str; 2] = ["MOVE=", "STOP="];
+
+/// A relay to the unit that delays every reply by `stall` and no request, and tells when which of
+/// [`TOLD`] arrives.
+async fn stalling_way(
+    unit: SocketAddr,
+    stall: Duration,
+    tell: mpsc::SyncSender<(Instant, &'static str)>,
+) -> SocketAddr {
     let listener = TcpListener::bind(("127.0.0.1", 0)).await.expect("a port");
     let address = listener.local_addr().expect("an address");
     tokio::spawn(async move {
@@ -135,8 +145,19 @@ async fn stalling_way(unit: SocketAddr, stall: Duration) -> SocketAddr {
             let unit = TcpStream::connect(unit).await.expect("the unit");
             let (mut from_console, mut to_console) = console.into_split();
             let (mut from_unit, mut to_unit) = unit.into_split();
+            let tell = tell.clone();
             tokio::spawn(async move {
-                tokio::io::copy(&mut from_console, &mut to_unit).await.ok();
+                let mut buffer = [0; 4096];
+                while let Ok(count @ 1..) = from_console.read(&mut buffer).await {
+                    let (arrived, bytes) = (Instant::now(), &buffer[..count]);
+                    let text = String::from_utf8_lossy(bytes);
+                    for word in TOLD.into_iter().filter(|word| text.contains(word)) {
+                        tell.try_send((arrived, word)).ok();
+                    }
+                    if to_unit.write_all(bytes).await.is_err() {
+                        break;
+                    }
+                }
             });
             let (send, mut replies) =
                 tokio::sync::mpsc::channel::<(std::time::Instant, Vec<u8>)>(10_000);
@@ -179,14 +200,15 @@ impl Bench {
             ..Options::new(Station::default().site, Timestamp::now())
         };
         let mut text = String::new();
-        let mut units = Vec::new();
+        let mut first = None;
         for number in 1..=ANTENNAS {
             let bound = Simulator::bind(([127, 0, 0, 1], 0).into(), options.clone());
             let simulator = runtime.block_on(bound).expect("a port");
             let unit = simulator.local_addr().expect("an address");
-            units.push((unit, simulator.control()));
             runtime.spawn(simulator.run());
-            let address = runtime.block_on(stalling_way(unit, stall));
+            let (tell, arrivals) = mpsc::sync_channel(1000);
+            let address = runtime.block_on(stalling_way(unit, stall, tell));
+            first.get_or_insert((unit, arrivals));
             write!(
                 text,
                 "[[antenna]]\nname = \"Dish {number}\"\n\
@@ -195,7 +217,7 @@ impl Bench {
             )
             .expect("a text takes all");
         }
-        let (unit, control) = units.swap_remove(0);
+        let (unit, arrivals) = first.expect("an antenna");
         let folder = tempfile::tempdir().expect("a folder");
         let station = folder.path().join("station.toml");
         fs::write(&station, text).expect("a station file");
@@ -212,7 +234,7 @@ impl Bench {
         Self {
             name: name.to_owned(),
             keys,
-            control,
+            arrivals,
             unit,
             times: Vec::new(),
             _folder: folder,
@@ -226,11 +248,10 @@ impl Bench {
         if doing == Doing::Jogging {
             // Manual is unavailable before standstill is proved.
             sleep(Duration::from_millis(2500));
-            let before = self.arrived("MOVE=").len();
             self.type_in("key m");
             sleep(Duration::from_millis(500));
             self.type_in("keydown Right");
-            self.next("MOVE=", before);
+            self.next("MOVE=", Instant::now());
             sleep(HELD);
         }
         if doing == Doing::Tracking {
@@ -240,10 +261,9 @@ impl Bench {
         }
         // Not in step with the polling.
         sleep(Duration::from_millis(280 + (press * 37) % 90));
-        let before = self.arrived("STOP=").len();
         let pressed = Instant::now();
         self.type_in("key Escape");
-        let arrived = self.next("STOP=", before);
+        let arrived = self.next("STOP=", pressed);
         self.times.push(arrived.saturating_duration_since(pressed));
         if doing == Doing::Jogging {
             self.type_in("keyup Right");
@@ -276,26 +296,15 @@ impl Bench {
         writeln!(self.keys, "{line}").expect("xdotool takes keys");
     }
 
-    /// Arrival of the next frame with `word` after the first `before`.
-    fn next(&self, word: &str, before: usize) -> Instant {
-        let start = Instant::now();
+    /// Arrival of the first request with `word` after `from`.
+    fn next(&self, word: &str, from: Instant) -> Instant {
         loop {
-            if let Some(arrived) = self.arrived(word).get(before) {
-                return *arrived;
+            let told = self.arrivals.recv_timeout(Duration::from_secs(5));
+            let (arrived, told) = told.expect("the request arrives");
+            if told == word && arrived >= from {
+                return arrived;
             }
-            assert!(
-                (Instant::now() - start) < Duration::from_secs(5),
-                "no {word} of {}",
-                self.name
-            );
-            sleep(Duration::from_micros(200));
         }
-    }
-
-    /// Arrivals of all frames that begin with `word`.
-    fn arrived(&self, word: &str) -> Vec<Instant> {
-        let received = self.control.received().into_iter();
-        received.filter(|(_, payload)| payload.starts_with(word)).map(|(at, _)| at).collect()
     }
 
     fn report(mut self, what: &str) {
