@@ -52,8 +52,7 @@ use self::{
 use crate::{
     clock::Clock,
     desktop::Desktop,
-    device::AxisMotion,
-    driver::Outside,
+    driver::{Outside, Snapshot},
     engine::{self, Client, Handle, Settings, antenna::AntennaModel},
     job::Wake,
     model::{Appearance, Model, UiCommand, View},
@@ -110,6 +109,8 @@ pub struct App {
     told_to_end: Arc<AtomicBool>,
     /// Tells the station's waker that frames come at the pace of [`MOVING_FRAME`].
     is_lively: Arc<AtomicBool>,
+    /// Tells the event loop that a held key moves an antenna.
+    is_jogging: Arc<AtomicBool>,
     drawn: bool,
 }
 
@@ -136,6 +137,7 @@ impl App {
             may_close,
             told_to_end,
             is_lively,
+            is_jogging,
             ..
         } = begun;
         let clock = outside.clock.clone();
@@ -182,6 +184,7 @@ impl App {
             may_close,
             told_to_end,
             is_lively,
+            is_jogging,
             drawn: false,
         }
     }
@@ -313,12 +316,13 @@ impl App {
     /// Schedules the next frame: ten per second while metal moves or a key is held, otherwise on
     /// the full second. News request a frame of their own.
     fn schedule_repaint(&self, ctx: &egui::Context) {
-        let lively = self.model.antennas.iter().any(|antenna| {
-            let snapshot = &antenna.snapshot;
-            let axes = snapshot.state.measured.map(|measured| measured.axes);
-            snapshot.jog.is_some()
-                || axes.is_some_and(|axes| axes.iter().any(|axis| axis.motion != AxisMotion::Still))
-        });
+        let shown = || self.model.antennas.iter().map(|antenna| &antenna.snapshot);
+        let jogs = shown().any(|snapshot| snapshot.jog.is_some());
+        self.is_jogging.store(jogs, Ordering::Relaxed);
+        let moves = |snapshot: &Arc<Snapshot>| {
+            snapshot.state.measured.is_some_and(|measured| measured.moving())
+        };
+        let lively = jogs || shown().any(moves);
         let into_second = self.model.now.subsec_nanosecond();
         let to_next = Duration::from_nanos(1_000_000_000 - u64::from(into_second.unsigned_abs()));
         self.is_lively.store(lively, Ordering::Relaxed);

@@ -1,5 +1,6 @@
 //! Command line of the program.
 
+mod held_keys;
 mod input;
 pub mod log;
 mod look;

@@ -37,6 +37,8 @@ pub struct RunningStation {
     pub(super) told_to_end: Arc<AtomicBool>,
     /// Metal moves, and frames come at the pace of [`MOVING_FRAME`].
     pub(super) is_lively: Arc<AtomicBool>,
+    /// A held key moves an antenna.
+    pub(super) is_jogging: Arc<AtomicBool>,
     window: Arc<OnceLock<Context>>,
 }
 
@@ -45,7 +47,7 @@ impl RunningStation {
     pub fn start(settings: Settings, outside: impl Into<Outside>) -> io::Result<Self> {
         let outside = outside.into();
         let window = Arc::default();
-        let is_lively = Arc::default();
+        let (is_lively, is_jogging) = (Arc::default(), Arc::default());
         let wake = wake(Arc::clone(&window), Arc::clone(&is_lively));
         let station = Handle::start(settings.clone(), outside.clone(), Arc::clone(&wake))?;
         let client = Arc::new(Mutex::new(station.client().clone()));
@@ -61,8 +63,14 @@ impl RunningStation {
             may_close,
             told_to_end,
             is_lively,
+            is_jogging,
             window,
         })
+    }
+
+    /// A flag that says, once there is a window, whether a held key moves an antenna.
+    pub fn is_jogging(&self) -> Arc<AtomicBool> {
+        Arc::clone(&self.is_jogging)
     }
 
     /// Hands the window to the station's waker; closes it at once if the operating system has ended the

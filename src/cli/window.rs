@@ -16,7 +16,7 @@ use winit::event_loop::EventLoop;
 
 use crate::{
     app::{App, RunningStation, frames},
-    cli::{marks, no_window, this_program, work_area::WorkArea},
+    cli::{held_keys::WithoutRepeats, marks, no_window, this_program, work_area::WorkArea},
     clock::Clock,
     engine::{
         Settings,
@@ -118,6 +118,7 @@ fn show(
     let events = events.map_err(|error| no_window::reason(&error.to_string()))?;
     // There is a display: while the system makes the window, elements are read and passes searched.
     let begun = begin().map_err(|error| not_started(&error))?;
+    let is_jogging = begun.is_jogging();
     let draws = Mutex::new(events.create_proxy());
     let draw = move |asked: egui::RequestRepaintInfo| {
         let event = UserEvent::RequestRepaint {
@@ -140,7 +141,8 @@ fn show(
         };
         Ok(Box::new(app?))
     });
-    let mut window = eframe::create_native("Azel", options, create, &events);
+    let window = eframe::create_native("Azel", options, create, &events);
+    let mut window = WithoutRepeats { window, is_jogging };
     let ended = events.run_app(&mut window);
     drop(window);
     made.into_inner()?;
