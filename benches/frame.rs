@@ -1,16 +1,20 @@
-//! Cost of a frame without painting: logic, layout and tessellation of the Operate view on
-//! the demo station while the antenna stands, and on stations without antennas and with 1,000
-//! favourites or the whole catalogue as favourites. Each frame is of the next second, so that
-//! everything that moves has moved.
+//! Cost of a frame of the Operate view without painting: logic, layout and tessellation, each by
+//! the clock on the wall and, in brackets, of the processor for this thread. On the demo
+//! station while the antenna stands, on stations without antennas and with 1,000 favourites or
+//! the whole catalogue as favourites, and with 1,000 favourites in the plan of three antennas,
+//! whose units are switched off. The window is drawn as eframe draws it for nobody with a screen
+//! reader. Each frame is of the next second, so that everything that moves has moved.
 
 // A bench prints to its user, and may panic.
 #![allow(clippy::print_stdout, clippy::unwrap_used, clippy::expect_used)]
 
 use std::{
+    ops::{AddAssign, Sub},
     sync::{
         Arc,
         atomic::{AtomicI64, Ordering},
     },
+    thread,
     time::{Duration, Instant},
 };
 
@@ -18,8 +22,14 @@ use azel::{
     app::App,
     clock::Clock,
     engine::Settings,
+    makes::DemoAddresses,
     orbit::{Elements, bundled},
-    station::{self, Station},
+    station::{self, Favourites, Station},
+};
+use eframe::App as _;
+use egui::{
+    RawInput, Rect, Vec2,
+    epaint::{ClippedShape, Primitive},
 };
 use jiff::{SignedDuration, Timestamp};
 
@@ -37,13 +47,24 @@ fn main() {
         frames("demo", size, 500, &settings("none.toml"), is_measured);
     }
     let catalog = bundled().expect("a catalogue");
-    for (name, count, drawn) in [("1,000 favourites", 1000, 300), ("all favourites", 20_000, 100)] {
-        let numbers = catalog.iter().map(Elements::catalog_number).take(count);
-        let station =
-            Station { antennas: Vec::new(), favourites: numbers.collect(), ..Station::default() };
-        let file = format!("{count}.toml");
+    let first = |count: usize| -> Favourites {
+        catalog.iter().map(Elements::catalog_number).take(count).collect()
+    };
+    let nowhere = || "127.0.0.1:1".to_owned();
+    let demo =
+        Station::demo(&DemoAddresses { satrak: nowhere(), genius: nowhere(), rc2000c: nowhere() });
+    let alone = Station { antennas: Vec::new(), ..Station::default() };
+    for (name, count, station, drawn) in [
+        ("1,000 favourites", 1000, &alone, 300),
+        ("all favourites", 20_000, &alone, 100),
+        ("1,000 favourites, three antennas", 1000, &demo, 300),
+    ] {
+        let station = Station { favourites: first(count), ..station.clone() };
+        let file = format!("{name}.toml");
         station::save(&station, &folder.path().join(&file)).expect("a station file");
-        frames(name, [1440.0, 900.0], drawn, &settings(&file), |_| true);
+        let is_planned =
+            |app: &App| app.model().antennas.is_empty() || app.model().schedule.made_at.is_some();
+        frames(name, [1440.0, 900.0], drawn, &settings(&file), is_planned);
     }
 }
 
@@ -51,6 +72,41 @@ fn main() {
 fn clock(seconds: &Arc<AtomicI64>) -> Clock {
     let (begun, seconds) = (Timestamp::now(), Arc::clone(seconds));
     Clock::new(move || begun + SignedDuration::from_secs(seconds.load(Ordering::Relaxed)))
+}
+
+/// The window, without a painter.
+struct Window {
+    ctx: egui::Context,
+    app: App,
+    frame: eframe::Frame,
+    screen: Rect,
+    drawn: u32,
+}
+
+impl Window {
+    /// Draws a frame, a second after the last one.
+    fn draw(&mut self) -> Drawn {
+        self.drawn += 1;
+        let (screen_rect, time) = (Some(self.screen), Some(f64::from(self.drawn)));
+        let input = RawInput { screen_rect, time, focused: true, ..RawInput::default() };
+        let mut logic = Spent::default();
+        let (all, mut output) = timed(|| {
+            self.ctx.run_ui(input, |ui| {
+                logic += timed(|| self.app.logic(ui.ctx(), &mut self.frame)).0;
+                self.app.ui(ui, &mut self.frame);
+            })
+        });
+        // Nobody paints with them.
+        output.textures_delta.clear();
+        Drawn { logic, layout: all - logic, shapes: output.shapes }
+    }
+}
+
+/// A frame with what it cost.
+struct Drawn {
+    logic: Spent,
+    layout: Spent,
+    shapes: Vec<ClippedShape>,
 }
 
 fn frames(
@@ -61,41 +117,93 @@ fn frames(
     is_ready: impl Fn(&App) -> bool,
 ) {
     let seconds = Arc::new(AtomicI64::new(0));
-    let mut harness = egui_kittest::Harness::builder().with_size(size).build_eframe(|cc| {
-        let app = App::new(&cc.egui_ctx, settings, clock(&seconds)).expect("the app starts");
-        app.without_set_up()
-    });
+    let ctx = egui::Context::default();
+    let app = App::new(&ctx, settings, clock(&seconds)).expect("the app starts");
+    let mut window = Window {
+        ctx,
+        app: app.without_set_up(),
+        frame: eframe::Frame::_new_kittest(),
+        screen: Rect::from_min_size(egui::Pos2::ZERO, Vec2::from(size)),
+        drawn: 0,
+    };
     let start = Instant::now();
-    while !is_ready(harness.state())
-        || harness.state().model().pass_lists.favourites.passes.is_empty()
-    {
+    while !is_ready(&window.app) || window.app.model().pass_lists.favourites.passes.is_empty() {
         assert!(start.elapsed() < Duration::from_mins(2), "the station does not start");
-        harness.step();
+        window.draw();
+        thread::sleep(Duration::from_millis(5));
     }
-    let mut frames = Duration::ZERO;
-    let mut tessellation = Duration::ZERO;
+    let [mut logic, mut layout, mut tessellation] = [Spent::default(); 3];
     let mut vertices = 0;
     for _ in 0..count {
         seconds.fetch_add(1, Ordering::Relaxed);
-        let start = Instant::now();
-        harness.step();
-        frames += start.elapsed();
-        let shapes = harness.output().shapes.clone();
-        let start = Instant::now();
-        let primitives = harness.ctx.tessellate(shapes, 1.0);
-        tessellation += start.elapsed();
+        let drawn = window.draw();
+        logic += drawn.logic;
+        layout += drawn.layout;
+        let (spent, primitives) = timed(|| window.ctx.tessellate(drawn.shapes, 1.0));
+        tessellation += spent;
         vertices = primitives
             .iter()
             .map(|clipped| match &clipped.primitive {
-                egui::epaint::Primitive::Mesh(mesh) => mesh.vertices.len(),
-                egui::epaint::Primitive::Callback(_) => 0,
+                Primitive::Mesh(mesh) => mesh.vertices.len(),
+                Primitive::Callback(_) => 0,
             })
             .sum::<usize>();
     }
     let [width, height] = size;
     println!(
-        "{name}, {width} x {height}: logic and layout {:?}, tessellation {:?}, {vertices} vertices",
-        frames / count,
-        tessellation / count
+        "{name}, {width} x {height}: logic {}, layout {}, tessellation {}, {vertices} vertices",
+        logic.told(count),
+        layout.told(count),
+        tessellation.told(count)
     );
+}
+
+/// Time by the clock on the wall, and of the processor for this thread, which other work on the
+/// machine does not lengthen.
+#[derive(Clone, Copy, Default)]
+struct Spent {
+    wall_s: f64,
+    cpu_s: f64,
+}
+
+impl AddAssign for Spent {
+    fn add_assign(&mut self, other: Self) {
+        self.wall_s += other.wall_s;
+        self.cpu_s += other.cpu_s;
+    }
+}
+
+impl Sub for Spent {
+    type Output = Self;
+
+    fn sub(self, other: Self) -> Self {
+        Self { wall_s: self.wall_s - other.wall_s, cpu_s: self.cpu_s - other.cpu_s }
+    }
+}
+
+impl Spent {
+    fn told(self, count: u32) -> String {
+        let ms = |of_all_s: f64| of_all_s * 1e3 / f64::from(count);
+        format!("{:.3} ms ({:.3})", ms(self.wall_s), ms(self.cpu_s))
+    }
+}
+
+fn timed<T>(run: impl FnOnce() -> T) -> (Spent, T) {
+    let (start, start_cpu_s) = (Instant::now(), cpu_s());
+    let result = run();
+    let cpu_s = cpu_s() - start_cpu_s;
+    (Spent { wall_s: start.elapsed().as_secs_f64(), cpu_s }, result)
+}
+
+/// Processor time of this thread.
+#[cfg(unix)]
+fn cpu_s() -> f64 {
+    let clock = nix::time::ClockId::CLOCK_THREAD_CPUTIME_ID;
+    Duration::from(clock.now().expect("a clock")).as_secs_f64()
+}
+
+/// Elsewhere it is not measured.
+#[cfg(not(unix))]
+fn cpu_s() -> f64 {
+    f64::NAN
 }
