@@ -47,7 +47,7 @@ pub use snapshot::{
     StoppingWay, TrackProblem, TrackView, UnitOffsetsView,
 };
 pub use time_sync::{TimeSync, time_sync};
-pub use wire_log::{Awaited, MAX_LINES, Recorded, WireLog};
+pub use wire_log::{IsAwaited, MAX_LINES, Recorded, WireLog};
 
 use self::{before_sleep::BeforeSleep, pulse::Pulse};
 use crate::{

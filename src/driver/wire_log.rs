@@ -3,6 +3,7 @@
 
 use std::{
     collections::VecDeque,
+    fmt,
     sync::{Arc, Mutex, MutexGuard, PoisonError},
 };
 
@@ -26,24 +27,19 @@ pub struct Recorded {
 }
 
 /// The log of one antenna, shared by its session and the window.
-#[derive(Debug, Clone, Default)]
+#[derive(Clone, Default)]
 pub struct WireLog(Arc<Mutex<Ring>>);
 
-#[derive(Debug, Default)]
+/// Returns `true` for a line that a reader waits for.
+pub type IsAwaited = Arc<dyn Fn(&Arc<Recorded>) -> bool + Send + Sync>;
+
+#[derive(Default)]
 struct Ring {
     lines: VecDeque<Arc<Recorded>>,
     bytes: usize,
     next: u64,
     /// Somebody has read everything and waits for such lines.
-    awaited: Option<Awaited>,
-}
-
-/// The lines that a reader waits for.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Awaited {
-    Any,
-    /// All but [usual polls](WireLine::is_usual_poll).
-    Unusual,
+    is_awaited: Option<IsAwaited>,
 }
 
 impl Ring {
@@ -60,23 +56,26 @@ impl WireLog {
     pub fn push(&self, line: WireLine) -> bool {
         let mut ring = self.ring();
         ring.bytes += line.bytes.len();
-        let is_usual_poll = line.is_usual_poll();
-        let number = ring.next;
+        let recorded = Arc::new(Recorded { number: ring.next, line });
         ring.next += 1;
-        ring.lines.push_back(Arc::new(Recorded { number, line }));
+        ring.lines.push_back(Arc::clone(&recorded));
         while ring.lines.len() > MAX_LINES || ring.bytes > MAX_BYTES {
             let Some(oldest) = ring.lines.pop_front() else { break };
             ring.bytes -= oldest.line.bytes.len();
         }
-        ring.awaited.take_if(|awaited| *awaited == Awaited::Any || !is_usual_poll).is_some()
+        let Some(is_awaited) = ring.is_awaited.clone() else { return false };
+        drop(ring);
+        // A reader who has come back meanwhile has the line.
+        is_awaited(&recorded)
+            && self.ring().is_awaited.take_if(|now| Arc::ptr_eq(now, &is_awaited)).is_some()
     }
 
     /// The lines from `number` on, oldest first, at most 1,000; empty when there are no newer
-    /// ones. The next `awaited` line wakes the station.
-    pub fn read_from(&self, number: u64, awaited: Awaited) -> Vec<Arc<Recorded>> {
+    /// ones. The next line that `is_awaited` wakes the station.
+    pub fn read_from(&self, number: u64, is_awaited: IsAwaited) -> Vec<Arc<Recorded>> {
         let mut ring = self.ring();
         let lines = ring.from(number);
-        ring.awaited = (lines.len() < MAX_READ).then_some(awaited);
+        ring.is_awaited = (lines.len() < MAX_READ).then_some(is_awaited);
         lines
     }
 
@@ -103,6 +102,12 @@ impl WireLog {
     fn ring(&self) -> MutexGuard<'_, Ring> {
         // A line is whole or absent, whichever thread broke off.
         self.0.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+}
+
+impl fmt::Debug for WireLog {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("WireLog").field("next", &self.next_number()).finish_non_exhaustive()
     }
 }
 
@@ -173,22 +178,30 @@ mod tests {
     fn only_a_reader_who_has_read_everything_is_woken_and_once() {
         let log = WireLog::default();
         assert!(!log.push(line(1)), "nobody looks");
-        log.read_from(0, Awaited::Any);
+        log.read_from(0, Arc::new(|_| true));
         assert!(log.push(line(1)));
         assert!(!log.push(line(1)));
     }
 
     #[test]
-    fn a_reader_who_hides_usual_polls_is_woken_by_what_he_shows() {
+    fn a_reader_is_woken_by_a_line_that_he_waits_for() {
         let log = WireLog::default();
-        let poll = || WireLine { is_poll: true, ..line(1) };
-        log.read_from(0, Awaited::Unusual);
-        assert!(!log.push(poll()));
-        assert!(log.push(WireLine { finding: Finding::NoChecksum, ..poll() }));
-        log.read_from(0, Awaited::Unusual);
-        assert!(!log.push(poll()));
+        log.read_from(0, Arc::new(|recorded| recorded.line.length > 1));
+        assert!(!log.push(line(1)));
+        assert!(log.push(line(2)));
+        assert!(!log.push(line(2)));
+    }
+
+    #[test]
+    fn a_reader_who_comes_back_while_a_line_is_judged_is_not_woken_by_it() {
+        let log = WireLog::default();
+        let reads = log.clone();
+        let meanwhile = move |_: &Arc<Recorded>| {
+            assert_eq!(reads.read_from(0, Arc::new(|_| true)).len(), 1);
+            true
+        };
+        log.read_from(0, Arc::new(meanwhile));
+        assert!(!log.push(line(1)));
         assert!(log.push(line(1)));
-        log.read_from(0, Awaited::Any);
-        assert!(log.push(poll()));
     }
 }

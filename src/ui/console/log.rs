@@ -3,7 +3,7 @@
 use std::{collections::VecDeque, sync::Arc};
 
 use crate::device::Direction;
-use crate::driver::{Awaited, MAX_LINES, WireLog};
+use crate::driver::{IsAwaited, MAX_LINES, WireLog};
 use crate::model::ConsoleLine;
 
 /// The filter of the log.
@@ -46,6 +46,15 @@ enum LineVerdict {
     Other,
 }
 
+/// The lines of an antenna that the filter shows.
+fn is_shown(filter: &Filter, needle: &str, antenna: &Arc<str>) -> IsAwaited {
+    let (filter, needle, antenna) = (filter.clone(), needle.to_owned(), Arc::clone(antenna));
+    Arc::new(move |recorded| {
+        let line = ConsoleLine::new(0, Arc::clone(&antenna), Arc::clone(recorded));
+        matches!(filter.judge(&line, &needle), LineVerdict::Shown)
+    })
+}
+
 /// All lines, and the positions of those shown.
 #[derive(Debug, Default)]
 pub(super) struct Log {
@@ -76,9 +85,10 @@ impl Log {
     pub(super) fn pull<'a>(&mut self, logs: impl Iterator<Item = (&'a str, &'a WireLog)>) -> bool {
         self.take_up(logs);
         let mut batch = Vec::new();
-        let awaited = if self.filter.hides_polls { Awaited::Unusual } else { Awaited::Any };
+        let needle = self.filter.needle.to_lowercase();
         for source in &mut self.sources {
-            for recorded in source.log.read_from(source.next, awaited) {
+            let is_awaited = is_shown(&self.filter, &needle, &source.antenna);
+            for recorded in source.log.read_from(source.next, is_awaited) {
                 source.next = recorded.number + 1;
                 batch.push((Arc::clone(&source.antenna), recorded));
             }
@@ -89,7 +99,7 @@ impl Log {
         for (antenna, recorded) in batch {
             let position = self.first + self.lines.len() as u64;
             let line = ConsoleLine::new(position, antenna, recorded);
-            self.list(&line, &self.filter.needle.to_lowercase());
+            self.list(&line, &needle);
             self.lines.push_back(Arc::new(line));
         }
         self.drop_oldest(MAX_LINES * self.sources.len().max(1));
@@ -244,6 +254,30 @@ mod tests {
         wires.push(sent(11, "$TIME?*2A"));
         log.pull([("Dish", &wires)].into_iter());
         assert_eq!(log.shown().len(), 2, "the filter holds for new lines");
+    }
+
+    #[test]
+    fn a_hidden_line_asks_for_no_frame() {
+        let (dish, mast) = (WireLog::default(), WireLog::default());
+        let mut log = Log::default();
+        let mut asks = |filter: &Filter, (wires, line): (&WireLog, WireLine)| {
+            log.set_filter(filter);
+            log.pull([("Dish", &dish), ("Mast", &mast)].into_iter());
+            wires.push(line)
+        };
+        let (stop, poll) = (|| sent(1, "$STOP=*25"), || poll(1));
+        assert!(!asks(&Filter::default(), (&dish, poll())));
+        assert!(asks(&Filter::default(), (&dish, stop())));
+        assert!(asks(&filter("", false), (&dish, poll())));
+        assert!(!asks(&filter("all motion", false), (&dish, poll())));
+        assert!(asks(&filter("all motion", false), (&dish, stop())));
+        assert!(asks(&filter("mast", true), (&mast, stop())));
+        let only = Filter { antenna: Some("Mast".to_owned()), ..Filter::default() };
+        assert!(!asks(&only, (&dish, stop())));
+        assert!(asks(&only, (&mast, stop())));
+        let received = Filter { direction: Some(Direction::Received), ..Filter::default() };
+        assert!(!asks(&received, (&dish, stop())));
+        assert!(asks(&received, (&dish, wire(1, Direction::Received, "$STOP=,OK*0D"))));
     }
 
     #[test]
