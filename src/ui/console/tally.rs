@@ -38,7 +38,7 @@ impl Tallies {
         let second = Some(now.as_second());
         if self.second != second {
             self.second = second;
-            self.all = log.antennas().map(|antenna| tally(antenna, now, log)).collect();
+            self.all = tallies(now, log);
         }
     }
 
@@ -48,22 +48,31 @@ impl Tallies {
     }
 }
 
-fn tally(antenna: &Arc<str>, now: Timestamp, log: &Log) -> Tally {
+fn tallies(now: Timestamp, log: &Log) -> Vec<Tally> {
+    let nothing = |antenna: &Arc<str>| {
+        let antenna = Arc::clone(antenna);
+        (Tally { antenna, lines: 0, bad: 0, missing: 0, median: None }, Vec::new())
+    };
+    let mut all: Vec<(Tally, Vec<Duration>)> = log.antennas().map(nothing).collect();
     let is_recent = |line: &&Arc<ConsoleLine>| now.duration_since(line.wire().at) <= SPAN;
-    let recent = log.newest_first().take_while(is_recent).filter(|line| line.antenna == *antenna);
-    let (mut lines, mut bad, mut missing, mut waits) = (0, 0, 0, Vec::new());
-    for line in recent {
+    for line in log.newest_first().take_while(is_recent) {
+        let own = all.iter_mut().find(|(tally, _)| tally.antenna == line.antenna);
+        let Some((tally, waits)) = own else { continue };
         waits.extend(line.wire().reply_after);
         if matches!(line.wire().finding, Finding::NoReply { .. }) {
-            missing += 1;
+            tally.missing += 1;
             continue;
         }
-        lines += 1;
-        bad += usize::from(!line.wire().finding.is_good() || line.meaning.tone == Tone::Bad);
+        let is_bad = !line.wire().finding.is_good() || line.meaning.tone == Tone::Bad;
+        tally.lines += 1;
+        tally.bad += usize::from(is_bad);
     }
-    let middle = waits.len() / 2;
-    let median = (!waits.is_empty()).then(|| *waits.select_nth_unstable(middle).1);
-    Tally { antenna: Arc::clone(antenna), lines, bad, missing, median }
+    let with_median = |(tally, mut waits): (Tally, Vec<Duration>)| {
+        let middle = waits.len() / 2;
+        let median = (!waits.is_empty()).then(|| *waits.select_nth_unstable(middle).1);
+        Tally { median, ..tally }
+    };
+    all.into_iter().map(with_median).collect()
 }
 
 #[cfg(test)]
@@ -90,13 +99,15 @@ mod tests {
         let waited = Duration::from_secs(2);
         let finding = Finding::NoReply { waited, is_repeated: false };
         dish.push(WireLine { finding, ..wire(105, Direction::Received, "") });
+        mast.push(reply(104, 70));
         let mut log = Log::default();
         log.pull([("Dish", &dish), ("Mast", &mast)].into_iter());
         let now = Timestamp::from_second(700).unwrap();
         let mut tallies = Tallies::default();
         let (antenna, median) = ("Dish".into(), Some(Duration::from_millis(20)));
         let of_dish = Tally { antenna, lines: 4, bad: 1, missing: 1, median };
-        let of_mast = Tally { antenna: "Mast".into(), lines: 0, bad: 0, missing: 0, median: None };
+        let (antenna, median) = ("Mast".into(), Some(Duration::from_millis(70)));
+        let of_mast = Tally { antenna, lines: 1, bad: 0, missing: 0, median };
         tallies.refresh(now, &log);
         assert_eq!(tallies.all(), [of_dish, of_mast]);
     }
