@@ -50,6 +50,8 @@ pub struct PassLists {
 pub(in crate::engine) struct Searches {
     favourites: Search,
     all: Search,
+    /// The key of the favourites, with the station that it is of.
+    key: Option<(Arc<Station>, SearchKey)>,
 }
 
 impl Searches {
@@ -57,18 +59,31 @@ impl Searches {
     pub(in crate::engine) fn refresh(
         &mut self,
         catalog: &Arc<Catalog>,
-        station: &Station,
+        station: &Arc<Station>,
         choice: ListChoice,
         now: Timestamp,
         wake: &Wake,
     ) {
-        let key = SearchKey::of_favourites(catalog, station);
+        let key = self.key_of_favourites(catalog, station);
         self.favourites.refresh(&key, now, wake);
         let key = SearchKey { scope: SearchScope::All, span_h: choice.all_h, ..key };
         match choice.scope {
             Scope::All => self.all.refresh(&key, now, wake),
             Scope::Favourites => self.all.keep_only_from(&key),
         }
+    }
+
+    /// Made anew where the catalog or the station is another.
+    fn key_of_favourites(&mut self, catalog: &Arc<Catalog>, station: &Arc<Station>) -> SearchKey {
+        let is_of = |(of, key): &(Arc<Station>, SearchKey)| {
+            Arc::ptr_eq(of, station) && Arc::ptr_eq(&key.catalog, catalog)
+        };
+        let known = self.key.take().filter(is_of);
+        let known = known
+            .unwrap_or_else(|| (Arc::clone(station), SearchKey::of_favourites(catalog, station)));
+        let key = known.1.clone();
+        self.key = Some(known);
+        key
     }
 
     pub(in crate::engine) fn shown(&self) -> PassLists {
@@ -92,7 +107,7 @@ impl SearchKey {
     fn of_favourites(catalog: &Arc<Catalog>, station: &Station) -> Self {
         Self {
             catalog: Arc::clone(catalog),
-            scope: SearchScope::Favourites(station.favourites.numbers()),
+            scope: SearchScope::Favourites(station.favourites.numbers().into()),
             observer: Arc::new(Observer::of(station)),
             floor: station.elevation_floor(),
             span_h: FAVOURITES_H.max(station.scheduling.span_h.ceil() as u32),

@@ -26,7 +26,7 @@ const STEPS: usize = 100;
 #[derive(Debug, Clone, PartialEq)]
 pub(super) enum SearchScope {
     /// These catalog numbers, in this order.
-    Favourites(Vec<u32>),
+    Favourites(Arc<[u32]>),
     /// All satellites of the catalog.
     All,
 }
@@ -44,7 +44,7 @@ pub(super) struct SearchKey {
 impl PartialEq for SearchKey {
     fn eq(&self, other: &Self) -> bool {
         self.has_satellites_of(other)
-            && self.observer == other.observer
+            && (Arc::ptr_eq(&self.observer, &other.observer) || self.observer == other.observer)
             && self.floor == other.floor
             && self.span_h == other.span_h
     }

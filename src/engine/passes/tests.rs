@@ -23,7 +23,7 @@ struct Fixture {
     searches: Searches,
     pass_lists: PassLists,
     catalog: Arc<Catalog>,
-    station: Station,
+    station: Arc<Station>,
     choice: ListChoice,
     now: Timestamp,
     wake: Wake,
@@ -43,10 +43,10 @@ impl Fixture {
             searches: Searches::default(),
             pass_lists: PassLists::default(),
             catalog: Arc::new(catalog),
-            station: Station {
+            station: Arc::new(Station {
                 favourites: [NOAA_20].into(),
                 ..Station::demo(&DemoAddresses::default())
-            },
+            }),
             choice: ListChoice { scope: Scope::All, ..ListChoice::default() },
             now: now(),
             wake: Arc::new(move || {
@@ -54,6 +54,11 @@ impl Fixture {
             }),
             woken,
         }
+    }
+
+    /// The station, as a new one.
+    fn station(&mut self) -> &mut Station {
+        Arc::make_mut(&mut self.station)
     }
 
     fn refresh(&mut self) {
@@ -123,7 +128,7 @@ fn what_never_sets_stands_behind_the_passes_of_all_satellites() {
 #[test]
 fn what_never_sets_stands_behind_the_passes_of_favourites_whatever_the_span() {
     let mut fixture = Fixture::new();
-    fixture.station.favourites = [METEOSAT_12, ISS].into();
+    fixture.station().favourites = [METEOSAT_12, ISS].into();
     fixture.finish();
     let favourites = &fixture.pass_lists.favourites;
     for (span_h, is_cut) in [(1, true), (12, true), (48, false)] {
@@ -144,9 +149,9 @@ fn another_floor_span_or_site_searches_again_and_keeps_what_is_prepared() {
     fixture.finish();
     let prepared = Arc::clone(&fixture.all().satellites[0]);
     let changes: [fn(&mut Fixture); 3] = [
-        |fixture| fixture.station.elevation_floor_deg = 30.0,
+        |fixture| fixture.station().elevation_floor_deg = 30.0,
         |fixture| fixture.choice.set_span_h(48),
-        |fixture| fixture.station.site = Site::new(60.0, 10.0, 0.0).unwrap(),
+        |fixture| fixture.station().site = Site::new(60.0, 10.0, 0.0).unwrap(),
     ];
     for change in changes {
         let (revision, before) = (fixture.all().revision, fixture.all().passes.len());
@@ -187,7 +192,7 @@ fn a_cancelled_search_stays_cancelled_until_something_else_is_asked_for() {
         if resume {
             fixture.searches.of_mut(Scope::All).resume();
         } else {
-            fixture.station.elevation_floor_deg = 20.0;
+            fixture.station().elevation_floor_deg = 20.0;
         }
         fixture.refresh();
         assert!(matches!(fixture.all().work, Work::UnderWay { .. }), "{resume}");
@@ -228,7 +233,7 @@ fn the_list_of_another_place_is_not_kept_behind_the_favourites() {
     fixture.choice.scope = Scope::Favourites;
     fixture.finish();
     assert!(!fixture.all().passes.is_empty(), "what was selected in it stays");
-    fixture.station.site = Site::new(60.0, 10.0, 0.0).unwrap();
+    fixture.station().site = Site::new(60.0, 10.0, 0.0).unwrap();
     fixture.finish();
     assert!(fixture.all().passes.is_empty());
 }
