@@ -74,7 +74,7 @@ fn orbits() -> &'static Orbits {
             .iter()
             .flat_map(|satellite| predicted_passes(satellite, &station(), now()))
             .collect();
-        passes.sort_by_key(|predicted| predicted.pass.aos.time);
+        passes.sort_by_key(|predicted| (predicted.pass.aos.time, predicted.number()));
         // Shared by all stories, together with their drawings.
         for predicted in &passes {
             predicted.path();

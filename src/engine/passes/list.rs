@@ -2,6 +2,7 @@
 //! next one is complete.
 
 use std::{
+    iter,
     ops::Range,
     sync::{Arc, atomic::Ordering},
 };
@@ -31,8 +32,8 @@ pub struct PassList {
     /// The satellites, in the order of the station or by catalog number.
     #[serde(skip)]
     pub satellites: Arc<Vec<Arc<ListedSatellite>>>,
-    /// Passes by AOS, then by catalog number. In a list of all satellites, those that are
-    /// always up come last. Some passes may be over.
+    /// Passes by AOS, then by catalog number; those that are always up come last. Some passes may
+    /// be over.
     #[serde(skip)]
     pub passes: Arc<Vec<PredictedPass>>,
     /// Changes with every new list.
@@ -229,27 +230,30 @@ impl PassList {
     /// Place of the pass of `key` in the list. Its AOS may differ a little in a new list.
     fn place(&self, (number, aos): PassKey) -> Option<usize> {
         let (dated, always_up) = self.parts();
-        let is_its = |predicted: &PredictedPass| predicted.number() == number;
-        // The first passes of a list are those cut at its start.
-        let cut = dated.iter().take_while(|predicted| predicted.pass.starts_before).enumerate();
-        let standing = (dated.len()..).zip(always_up);
-        let mut early = cut.chain(standing);
-        if let Some((place, _)) =
-            early.find(|(_, predicted)| is_its(predicted) && aos < predicted.pass.los.time)
-        {
-            return Some(place);
+        // Passes cut at the start of a list all have that for AOS, and so are by number.
+        let start = dated.first().map(|predicted| predicted.pass.aos.time);
+        let cut = dated.partition_point(|predicted| Some(predicted.pass.aos.time) <= start);
+        let early = [(0, dated.get(..cut).unwrap_or_default()), (dated.len(), always_up)];
+        for (first, passes) in early {
+            let Ok(at) = passes.binary_search_by_key(&number, PredictedPass::number) else {
+                continue;
+            };
+            let is_it = |of: &PredictedPass| of.pass.starts_before && aos < of.pass.los.time;
+            if passes.get(at).is_some_and(is_it) {
+                return Some(first + at);
+            }
         }
         let (from, to) = (add_seconds(aos, -SAME_AOS_S), add_seconds(aos, SAME_AOS_S));
         let first = dated.partition_point(|predicted| predicted.pass.aos.time <= from);
         let near = dated.iter().enumerate().skip(first);
         near.take_while(|(_, predicted)| predicted.pass.aos.time < to)
-            .find_map(|(place, predicted)| is_its(predicted).then_some(place))
+            .find_map(|(place, predicted)| (predicted.number() == number).then_some(place))
     }
 
     /// The passes by AOS, and the always-up passes behind them.
     fn parts(&self) -> (&[PredictedPass], &[PredictedPass]) {
-        let behind = self.passes.iter().rev().take_while(|predicted| predicted.is_always_up());
-        self.passes.split_at(self.passes.len() - behind.count())
+        let dated = self.passes.partition_point(|predicted| !predicted.is_always_up());
+        self.passes.split_at(dated)
     }
 
     pub fn find(&self, key: PassKey) -> Option<&PredictedPass> {
@@ -261,8 +265,8 @@ impl PassList {
 #[derive(Debug, Clone)]
 pub struct UpcomingPasses<'a> {
     list: &'a PassList,
-    /// Places of the passes that are over or begin too late, in order.
-    left_out: Vec<usize>,
+    /// Places of the passes that are over, and of those that begin too late, in order.
+    left_out: Vec<Range<usize>>,
     /// Place of the first pass that begins too late.
     late: usize,
 }
@@ -273,7 +277,7 @@ impl<'a> UpcomingPasses<'a> {
         let over = |passes: &[PredictedPass], first: usize| {
             let passes = passes.iter().enumerate();
             let over = passes.filter(|(_, predicted)| predicted.pass.los.time <= now);
-            over.map(|(place, _)| first + place).collect::<Vec<_>>()
+            over.map(|(place, _)| first + place..first + place + 1).collect::<Vec<_>>()
         };
         // A pass that is over has begun: the rest of a long list need not be searched.
         let begun = dated.partition_point(|predicted| predicted.pass.aos.time <= now);
@@ -281,13 +285,13 @@ impl<'a> UpcomingPasses<'a> {
             dated.partition_point(|predicted| predicted.pass.aos.time < end).max(begun)
         });
         let mut left_out = over(dated.get(..begun).unwrap_or_default(), 0);
-        left_out.extend(late..dated.len());
+        left_out.push(late..dated.len());
         left_out.extend(over(standing, dated.len()));
         Self { list, left_out, late }
     }
 
     pub fn len(&self) -> usize {
-        self.list.passes.len() - self.left_out.len()
+        self.list.passes.len() - self.left_out.iter().map(ExactSizeIterator::len).sum::<usize>()
     }
 
     /// Changes whenever the rows change within one revision of the list.
@@ -303,25 +307,38 @@ impl<'a> UpcomingPasses<'a> {
     pub fn get(&self, row: usize) -> Option<&'a PredictedPass> {
         let mut place = row;
         for left_out in &self.left_out {
-            if *left_out > place {
+            if left_out.start > place {
                 break;
             }
-            place += 1;
+            place += left_out.len();
         }
         self.list.passes.get(place)
     }
 
     pub fn iter(&self) -> impl Iterator<Item = &'a PredictedPass> {
-        let mut left_out = self.left_out.iter().peekable();
-        self.list.passes.iter().enumerate().filter_map(move |(place, predicted)| {
-            left_out.next_if_eq(&&place).is_none().then_some(predicted)
-        })
+        let passes = &self.list.passes;
+        let starts = iter::once(0).chain(self.left_out.iter().map(|of| of.end));
+        let ends = self.left_out.iter().map(|of| of.start).chain(iter::once(passes.len()));
+        starts.zip(ends).flat_map(|(start, end)| passes.get(start..end).unwrap_or_default())
+    }
+
+    /// The passes with AOS before `end`, by AOS, but those that are always up.
+    pub fn until(&self, end: Timestamp) -> impl Iterator<Item = &'a PredictedPass> {
+        let passes = self.iter().take_while(move |predicted| predicted.pass.aos.time < end);
+        passes.filter(|predicted| !predicted.is_always_up())
     }
 
     /// Row of the pass of `key`. Its AOS may differ a little in a new list.
     pub fn row(&self, key: PassKey) -> Option<usize> {
         let place = self.list.place(key)?;
-        let before = self.left_out.binary_search(&place).err()?;
-        Some(place - before)
+        let before = self.left_out.iter().take_while(|left_out| left_out.start <= place);
+        let mut row = place;
+        for left_out in before {
+            if left_out.contains(&place) {
+                return None;
+            }
+            row -= left_out.len();
+        }
+        Some(row)
     }
 }

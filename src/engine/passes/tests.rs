@@ -248,3 +248,52 @@ fn a_shorter_span_shows_the_beginning_of_the_list() {
     let end = add_seconds(now(), 6.0 * 3600.0);
     assert!(short.iter().all(|pass| pass.pass.aos.time < end));
 }
+
+#[test]
+fn the_rows_are_the_passes_that_are_neither_over_nor_too_late() {
+    let mut fixture = Fixture::new();
+    fixture.station().favourites = [METEOSAT_12, ISS, NOAA_20].into();
+    fixture.finish();
+    let favourites = &fixture.pass_lists.favourites;
+    for (after_h, span_h) in [(0, 6), (5, 12), (20, 48), (47, 1), (49, 6)] {
+        let from = add_seconds(now(), f64::from(after_h) * 3600.0);
+        let end = add_seconds(from, f64::from(span_h) * 3600.0);
+        let begins_in_time = |of: &PredictedPass| of.is_always_up() || of.pass.aos.time < end;
+        let is_listed = |of: &&PredictedPass| of.pass.los.time > from && begins_in_time(of);
+        let expected: Vec<PassKey> =
+            favourites.passes.iter().filter(is_listed).map(PredictedPass::key).collect();
+        let listed = favourites.within(from, span_h);
+        assert_eq!(listed.iter().map(PredictedPass::key).collect::<Vec<_>>(), expected);
+        let rows: Vec<PassKey> =
+            (0..listed.len()).filter_map(|row| listed.get(row)).map(PredictedPass::key).collect();
+        assert_eq!(rows, expected);
+        for predicted in &*favourites.passes {
+            let key = predicted.key();
+            assert_eq!(listed.row(key), expected.iter().position(|of| *of == key), "{after_h} h");
+        }
+        let dated = favourites.passes.iter().filter(|of| !of.is_always_up() && is_listed(of));
+        let until = favourites.upcoming(from);
+        assert!(until.until(end).map(PredictedPass::key).eq(dated.map(PredictedPass::key)));
+    }
+}
+
+#[test]
+fn a_pass_cut_at_the_start_of_the_list_is_found_whenever_it_began_in_an_older_one() {
+    let bundled = bundled().unwrap();
+    let half_a_day = |of: &&Elements| (11.0..13.0).contains(&(of.period_s() / 3600.0));
+    let elements: Vec<Elements> = bundled.iter().filter(half_a_day).cloned().collect();
+    let fixture = Fixture::new();
+    let key = SearchKey::of_favourites(&fixture.catalog, &fixture.station);
+    let list = PassList::again(&key, &elements, Some(now()));
+    let mut cut = 0;
+    for predicted in &*list.passes {
+        let (number, aos) = predicted.key();
+        let found = |aos| list.find((number, aos)).map(PredictedPass::key);
+        assert_eq!(found(aos), Some(predicted.key()));
+        if predicted.pass.starts_before {
+            assert_eq!(found(add_seconds(aos, -1000.0)), Some(predicted.key()));
+            cut += 1;
+        }
+    }
+    assert!((10..list.passes.len() - 10).contains(&cut), "{cut} of {}", list.passes.len());
+}
