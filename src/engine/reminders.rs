@@ -59,11 +59,14 @@ fn refresh(known: &mut Vec<Reminder>, station: &Station, passes: &PassList, now:
     let is_marked =
         |number: u32| station.favourites.contains(number) && notices.reminders.contains(&number);
     known.retain(|reminder| reminder.los > now && is_marked(reminder.pass.0));
-    let before_s = notices.reminder_min * 60.0;
-    for predicted in passes.upcoming(now).iter() {
+    if notices.reminders.is_empty() {
+        return;
+    }
+    let is_near = |aos| seconds_between(now, aos) <= notices.reminder_min * 60.0;
+    let ahead = passes.upcoming(now);
+    for predicted in ahead.iter().take_while(|predicted| is_near(predicted.pass.aos.time)) {
         let (number, aos) = predicted.key();
-        let until_s = seconds_between(now, aos);
-        let is_due = 0.0 < until_s && until_s <= before_s;
+        let is_due = now < aos;
         // A new list may have the pass at a slightly different time.
         let is_it = |reminder: &Reminder| reminder.pass.0 == number && aos < reminder.los;
         if is_due && is_marked(number) && !known.iter().any(is_it) {
