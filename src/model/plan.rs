@@ -28,7 +28,6 @@ const SAME_AOS_S: f64 = 60.0;
 #[derive(Debug, Clone)]
 pub struct PlannedPass<'a> {
     pub predicted: &'a PredictedPass,
-    pub priority: Priority,
     /// Two where one antenna hands it over to another.
     pub entries: Vec<&'a Entry>,
     /// `None` also while no schedule knows of the pass.
@@ -103,51 +102,54 @@ impl Model {
     pub fn planned_passes_until(&self, end: Timestamp) -> Vec<PlannedPass<'_>> {
         let schedule = &self.schedule.schedule;
         let last = add_seconds(end, SAME_AOS_S);
+        let ahead = self.pass_lists.favourites.upcoming(self.now);
         let mut entries: BTreeMap<u32, Vec<&Entry>> = BTreeMap::new();
         for entry in schedule.entries.iter().filter(|entry| entry.pass.aos < last) {
             entries.entry(entry.pass.satellite).or_default().push(entry);
         }
-        let mut left_out: BTreeMap<u32, Vec<&LeftOut>> = BTreeMap::new();
-        for of in schedule.left_out.iter().filter(|of| of.pass.aos < last) {
-            left_out.entry(of.pass.satellite).or_default().push(of);
-        }
-        let priorities = self.station.priorities();
-        let ahead = self.pass_lists.favourites.upcoming(self.now);
-        let passes = ahead.iter().filter(|it| !it.is_always_up() && it.pass.aos.time < end);
-        let planned = passes.map(|predicted| {
-            let priority = priorities.get(&predicted.number()).copied();
-            let entries = entries.get(&predicted.number()).into_iter().flatten().copied();
-            let out = left_out.get(&predicted.number()).into_iter().flatten().copied();
-            self.planned(predicted, priority, entries, out)
+        let planned = ahead.until(end).map(|predicted| {
+            let own = entries.get(&predicted.number()).into_iter().flatten();
+            self.planned(predicted, own.copied())
         });
         planned.collect()
     }
 
     /// A pass with what the schedule says of it.
     pub fn planned_pass<'a>(&'a self, predicted: &'a PredictedPass) -> PlannedPass<'a> {
-        let schedule = &self.schedule.schedule;
-        let priority = self.station.priority(predicted.number());
-        self.planned(predicted, priority, schedule.entries.iter(), schedule.left_out.iter())
+        self.planned(predicted, self.schedule.schedule.entries.iter())
+    }
+
+    /// The selected pass, as far as it is planned.
+    pub fn selected_planned(&self) -> Option<PlannedPass<'_>> {
+        let predicted = self.pass_lists.favourites.find(self.selected_pass()?.key())?;
+        let is_planned = !predicted.is_always_up() && predicted.pass.aos.time < self.plan_until();
+        is_planned.then(|| self.planned_pass(predicted))
     }
 
     fn planned<'a>(
         &'a self,
         predicted: &'a PredictedPass,
-        priority: Option<Priority>,
         entries: impl Iterator<Item = &'a Entry>,
-        mut left_out: impl Iterator<Item = &'a LeftOut>,
     ) -> PlannedPass<'a> {
         let key = predicted.key();
         let (number, pass) = (key.0, &predicted.pass);
         PlannedPass {
             predicted,
-            priority: priority.unwrap_or_default(),
             entries: entries
                 .filter(|entry| is_same((entry.pass.satellite, entry.pass.aos), key))
                 .collect(),
-            left_out: left_out.find(|of| is_same((of.pass.satellite, of.pass.aos), key)),
+            left_out: self.left_out(key),
             choice: self.station.pass_choice(number, (pass.aos.time, pass.los.time)),
         }
+    }
+
+    /// What the schedule says of a pass that it leaves out.
+    fn left_out(&self, key: PassKey) -> Option<&LeftOut> {
+        let all = &self.schedule.schedule.left_out;
+        let (from, to) = (add_seconds(key.1, -SAME_AOS_S), add_seconds(key.1, SAME_AOS_S));
+        let near = all.iter().skip(all.partition_point(|of| of.pass.aos <= from));
+        let mut near = near.take_while(|of| of.pass.aos < to);
+        near.find(|of| is_same((of.pass.satellite, of.pass.aos), key))
     }
 
     /// The satellites of the plan by priority, then in the order of the favourites.
@@ -184,19 +186,16 @@ impl Model {
         })
     }
 
-    /// How a pass that has not set stands on an antenna.
-    pub fn standing_on<'a>(
-        &'a self,
-        planned: &PlannedPass<'a>,
-        antenna: &AntennaModel,
-    ) -> Standing<'a> {
-        let (id, key) = (antenna.id(), planned.predicted.key());
-        // What is over for the antenna may not have set yet.
-        if let Some(flown) = self.flown_by(id).find(|flown| is_same(flown.pass, key)) {
-            return Standing::Flown(flown);
+    /// How passes that have not set stand on an antenna.
+    pub fn standings_on(&self, antenna: &AntennaModel) -> Standings<'_> {
+        let mut flown: Vec<&Flown> = self.flown_by(antenna.id()).collect();
+        flown.sort_by_key(|flown| flown.pass.0);
+        Standings {
+            antenna: antenna.id(),
+            flown,
+            taking: antenna.operation.taking().copied(),
+            now: self.now,
         }
-        let entry = planned.entries.iter().copied().find(|entry| entry.antenna == id);
-        standing(planned, entry, id, antenna.operation.taking().copied(), self.now)
     }
 
     /// What the list of an antenna shows: the passes of this day that are over, then those to
@@ -212,54 +211,70 @@ impl Model {
             standing: Standing::Flown(flown),
             planned: None,
         });
-        let taking = antenna.operation.taking().copied();
-        // What is over for the antenna may not have set yet.
-        let is_over = |planned: &PlannedPass<'_>| {
-            let key = planned.predicted.key();
-            over.clone().any(|listed| is_same(listed.key, key))
-        };
-        let ahead = self.planned_passes().into_iter().filter(|planned| !is_over(planned));
-        let ahead = ahead.map(|planned| {
+        let standings = self.standings_on(antenna);
+        let ahead = self.planned_passes().into_iter().filter_map(|planned| {
             let predicted = planned.predicted;
-            let entry = planned.entries.iter().copied().find(|entry| entry.antenna == id);
-            ListedPass {
+            if standings.flown(predicted.key()).is_some() {
+                return None;
+            }
+            Some(ListedPass {
                 key: predicted.key(),
                 name: predicted.satellite.short_name(),
                 los: predicted.pass.los.time,
                 max_elevation_deg: Some(predicted.pass.max_elevation().degrees()),
-                entry,
-                standing: standing(&planned, entry, id, taking, self.now),
+                entry: standings.entry(&planned),
+                standing: standings.ahead(&planned),
                 planned: Some(planned),
-            }
+            })
         });
-        let ahead: Vec<ListedPass<'_>> = ahead.collect();
         over.chain(ahead).collect()
     }
 }
 
-/// How a pass to come stands on an antenna.
-fn standing<'a>(
-    planned: &PlannedPass<'a>,
-    entry: Option<&'a Entry>,
+/// How passes stand on an antenna.
+pub struct Standings<'a> {
     antenna: AntennaId,
+    /// What is over for it, by satellite.
+    flown: Vec<&'a Flown>,
     taking: Option<Taking>,
     now: Timestamp,
-) -> Standing<'a> {
-    let Some(entry) = entry else {
-        if let Some(other) = planned.entries.first() {
-            return Standing::TakenBy(other.antenna);
+}
+
+impl<'a> Standings<'a> {
+    pub fn of(&self, planned: &PlannedPass<'a>) -> Standing<'a> {
+        // What is over for the antenna may not have set yet.
+        let flown = self.flown(planned.predicted.key());
+        flown.map_or_else(|| self.ahead(planned), Standing::Flown)
+    }
+
+    fn flown(&self, key: PassKey) -> Option<&'a Flown> {
+        let first = self.flown.partition_point(|flown| flown.pass.0 < key.0);
+        let own = self.flown.iter().skip(first).take_while(|flown| flown.pass.0 == key.0);
+        own.copied().find(|flown| is_same(flown.pass, key))
+    }
+
+    fn entry(&self, planned: &PlannedPass<'a>) -> Option<&'a Entry> {
+        planned.entries.iter().copied().find(|entry| entry.antenna == self.antenna)
+    }
+
+    /// How a pass that is not over for the antenna stands.
+    fn ahead(&self, planned: &PlannedPass<'a>) -> Standing<'a> {
+        let Some(entry) = self.entry(planned) else {
+            if let Some(other) = planned.entries.first() {
+                return Standing::TakenBy(other.antenna);
+            }
+            let Some(left_out) = planned.left_out else { return Standing::NotKnown };
+            let own = left_out.by_antenna.iter().find(|(of, _)| *of == self.antenna);
+            return Standing::LeftOut(own.map_or(&left_out.why, |(_, why)| why));
+        };
+        let key = planned.predicted.key();
+        let Some(taking) = self.taking.filter(|taking| is_same(taking.pass, key)) else {
+            return Standing::Planned(entry);
+        };
+        match taking.proved_at {
+            Some(_) if taking.from <= self.now => Standing::Running,
+            Some(at) => Standing::Proved(at),
+            None => Standing::Sent(taking.asked_at),
         }
-        let Some(left_out) = planned.left_out else { return Standing::NotKnown };
-        let own = left_out.by_antenna.iter().find(|(of, _)| *of == antenna);
-        return Standing::LeftOut(own.map_or(&left_out.why, |(_, why)| why));
-    };
-    let key = planned.predicted.key();
-    let Some(taking) = taking.filter(|taking| is_same(taking.pass, key)) else {
-        return Standing::Planned(entry);
-    };
-    match taking.proved_at {
-        Some(_) if taking.from <= now => Standing::Running,
-        Some(at) => Standing::Proved(at),
-        None => Standing::Sent(taking.asked_at),
     }
 }

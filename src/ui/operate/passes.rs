@@ -162,12 +162,12 @@ fn left_out<'a>(
     antenna: &AntennaModel,
     predicted: &'a PredictedPass,
 ) -> Option<LeftOut<'a>> {
-    let planned = model.planned_pass(predicted);
+    let (planned, standings) = (model.planned_pass(predicted), model.standings_on(antenna));
     let name = |conflict: &Conflict| {
         let found = model.pass_lists.satellite(conflict.with.satellite);
         found.map_or("another pass", |of| of.short_name())
     };
-    let why = match model.standing_on(&planned, antenna) {
+    let why = match standings.of(&planned) {
         Standing::TakenBy(other) => {
             return Some(LeftOut::TakenBy(words::schedule::antenna_name(model, other)));
         }

@@ -80,8 +80,7 @@ pub(super) fn show(
 fn bars_of_mount(model: &Model, antenna: usize, end: Timestamp) -> Vec<Bar<'_>> {
     let mut left = NEW_OUTLINES;
     let ahead = model.pass_lists.favourites.upcoming(model.now);
-    let shown = ahead.iter().filter(|it| !it.is_always_up() && it.pass.aos.time < end);
-    let bars = shown.map(|predicted| {
+    let bars = ahead.until(end).map(|predicted| {
         let is_new = !predicted.has_outline();
         let trackability = if is_new && left == 0 { None } else { predicted.trackability(antenna) };
         left = left.saturating_sub(usize::from(is_new));
@@ -98,8 +97,9 @@ fn bars_of_plan<'a>(
     antenna: &AntennaModel,
     planned: &[PlannedPass<'a>],
 ) -> Vec<Bar<'a>> {
+    let standings = model.standings_on(antenna);
     let ahead = planned.iter().map(|planned| {
-        let standing = model.standing_on(planned, antenna);
+        let standing = standings.of(planned);
         let mut own = planned.entries.iter().filter(|entry| entry.antenna == antenna.id());
         let loses = own.any(|entry| entry.lost.is_some());
         bar(planned.predicted, State::Plan(standing), loses)

@@ -5,7 +5,7 @@ use egui::{Align2, Frame, Margin, Rect, RichText, ScrollArea, Sense, Ui, UiBuild
 use super::{PADDING, PlanState};
 use crate::{
     driver::LinkState,
-    engine::{self, antenna::AntennaModel, automatic::Operation, passes::PredictedPass},
+    engine::{self, antenna::AntennaModel, automatic::Operation},
     model::{Model, UiCommand, View, plan::PlannedPass, rehearsal::RehearsalState},
     orbit::PassPoint,
     plan::schedule::{Entry, Off, Why},
@@ -42,9 +42,7 @@ pub(super) fn show(
     let t = theme::tokens(ui);
     ui.painter().rect_filled(rect, 0.0, t.bg1);
     ui.painter().vline(rect.left() + 0.5, rect.y_range(), (1.0, t.line));
-    let key = model.selected_pass().map(PredictedPass::key);
-    let planned = model.planned_passes().into_iter().find(|of| Some(of.predicted.key()) == key);
-    let Some(planned) = planned else {
+    let Some(planned) = model.selected_planned() else {
         let inner = rect.shrink(PADDING);
         ui.scope_builder(UiBuilder::new().id_salt("plan inspector").max_rect(inner), |ui| {
             ui.label(RichText::new("No pass selected").font(text::value()));
@@ -345,13 +343,14 @@ fn controls(
     let row = row.shrink2(vec2(PADDING, 4.0));
     paint::text_in(ui, row, Align2::LEFT_CENTER, "Priority", text::small(), t.t2);
     let number = planned.predicted.number();
+    let present = model.station.priority(number).unwrap_or_default();
     let words = Priority::ALL.map(|priority| priority.number().to_string());
     let segments: Vec<(&str, Segment)> = Priority::ALL
         .iter()
         .zip(&words)
         .map(|(priority, word)| {
             let state = match lock {
-                _ if *priority == planned.priority => Segment::Chosen,
+                _ if *priority == present => Segment::Chosen,
                 Some(_) => Segment::Locked(lock),
                 None => Segment::Free,
             };
@@ -363,7 +362,7 @@ fn controls(
     let clicked = segmented::show(ui, "plan priority", place, name, &segments);
     if let Some(priority) = clicked.and_then(|index| Priority::ALL.get(index)) {
         let set = |priority| engine::Command::SetPriority { numbers: vec![number], priority };
-        let (to, back) = (set(*priority), set(planned.priority));
+        let (to, back) = (set(*priority), set(present));
         state.change(model, to, back, "Another priority", commands);
     }
 }

@@ -102,7 +102,7 @@ impl PlanState {
 
     /// Chooses the selected pass for the schedule, or against it.
     pub fn choose(&mut self, model: &Model, take: Option<Take>, commands: &mut Vec<UiCommand>) {
-        if let Some(planned) = selected(model) {
+        if let Some(planned) = model.selected_planned() {
             self.choose_for(model, &planned, take, commands);
         }
     }
@@ -123,7 +123,7 @@ impl PlanState {
 
     /// The question whether the selected pass, which is left out, is to be taken.
     pub fn ask_to_swap(&self, model: &Model) -> Option<Question> {
-        let planned = selected(model).filter(|planned| planned.entries.is_empty())?;
+        let planned = model.selected_planned().filter(|planned| planned.entries.is_empty())?;
         let key = planned.predicted.key();
         let name = planned.predicted.satellite.short_name();
         let aos = format::moment(key.1, model.now);
@@ -151,10 +151,4 @@ impl PlanState {
     pub(super) fn hold(&mut self, antenna: AntennaId) -> &mut HoldState {
         self.holds.entry(antenna).or_default()
     }
-}
-
-/// The selected pass, as far as it is planned.
-fn selected(model: &Model) -> Option<PlannedPass<'_>> {
-    let key = model.selected_pass()?.key();
-    model.planned_passes().into_iter().find(|planned| planned.predicted.key() == key)
 }
