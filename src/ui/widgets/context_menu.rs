@@ -34,6 +34,9 @@ pub fn show(ui: &Ui, response: &Response, contents: impl FnOnce(&mut Ui)) {
         (false, true) => Some(SetOpenCommand::Bool(false)),
         (false, false) => None,
     };
+    if opens.is_none() && !Popup::is_id_open(ui, Popup::default_response_id(response)) {
+        return;
+    }
     let by_key = ui.data(|data| data.get_temp(opened_by_key(id)).unwrap_or(false));
     let popup = Popup::menu(response).open_memory(opens);
     let popup = if by_key { popup } else { popup.at_pointer_fixed() };
