@@ -34,6 +34,7 @@ use egui::{Id, PointerButton, Popup, Pos2, Rect, Response, Ui};
 use jiff::Timestamp;
 
 use self::{
+    bodies::Dot,
     geometry::Dome,
     labels::{Key, Label, Labels},
     placement::{Memory, Side},
@@ -156,11 +157,12 @@ pub fn show(
         state.zoom.reset();
     }
     let dome = state.zoom.of(whole);
-    paint_sky(ui, rect, dome, scene, state, t);
+    let others: &[_] = if state.layers.others { scene.others } else { &[] };
+    let others = bodies::dots(dome, others);
+    paint_sky(ui, rect, dome, scene, &others, state, t);
     beam_view::paint(ui.painter(), rect, scene, t);
     let marks = &paint::marks_of(ui, &canvas);
-    let others = state.layers.others;
-    let chosen = nodes::satellites(marks, canvas.id, rect, dome, scene, others, t, menu);
+    let chosen = nodes::satellites(marks, canvas.id, rect, dome, scene, &others, t, menu);
     let antenna = other_antennas::nodes(marks, canvas.id, rect, dome, scene, t);
     let events = scene.track.map(|track| track::events(&track)).unwrap_or_default();
     planned::nodes(marks, canvas.id, dome, scene);
@@ -233,6 +235,7 @@ fn paint_sky(
     rect: Rect,
     dome: Dome,
     scene: &SkyScene<'_>,
+    others: &[Dot<'_>],
     state: &mut SkyPlotState,
     t: &Tokens,
 ) {
@@ -255,9 +258,7 @@ fn paint_sky(
     let whole = Dome::fitted(rect);
     reserved.extend(corners::reserved(rect, whole, scene, state));
     reserved.extend(readout::reserved(painter, rect, whole, scene, t));
-    if layers.others {
-        bodies::paths(painter, dome, scene.others, t);
-    }
+    bodies::paths(painter, others, t);
     let drawn = scene.track.map(|track| {
         let parts = track::parts(dome, &track, scene.now);
         let ticks = track::ticks(dome, &track);
@@ -279,9 +280,7 @@ fn paint_sky(
     if layers.sun_and_moon {
         bodies::sun_and_moon(painter, dome, scene, &mut labels, t);
     }
-    if layers.others {
-        bodies::others(painter, dome, scene.others, &mut labels, t);
-    }
+    bodies::others(painter, others, &mut labels, t);
     antenna::reserve(dome, scene, &mut labels);
     other_antennas::reserve(&mut labels, dome, scene);
     bearing::label(&mut labels, dome, scene, t);
@@ -300,8 +299,8 @@ fn paint_sky(
     grid::label_rings(&mut labels, dome);
     track::label_minutes(&mut labels, &ticks, &events, scene.now, t);
     other_antennas::label(&mut labels, dome, scene, t);
-    if layers.others && layers.names && scene.others.len() <= CROWD {
-        bodies::label_others(&mut labels, dome, scene, t);
+    if layers.names && scene.others.len() <= CROWD {
+        bodies::label_others(&mut labels, dome, scene, others, t);
     }
     state.labels = labels.finish();
 

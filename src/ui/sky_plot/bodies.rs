@@ -1,6 +1,6 @@
 //! The Sun, the Moon and the satellites that are not selected.
 
-use egui::{Painter, Stroke};
+use egui::{Painter, Pos2, Stroke};
 
 use super::{
     antenna,
@@ -73,44 +73,56 @@ pub(super) fn label_sun_and_moon(
     }
 }
 
+/// A satellite above the horizon that is not selected, in the plot.
+pub(super) struct Dot<'a> {
+    pub(super) satellite: &'a OtherSatellite<'a>,
+    pub(super) at: Pos2,
+    /// Its path of the next minutes.
+    ahead: Vec<Pos2>,
+}
+
+/// The satellites that are not selected.
+pub(super) fn dots<'a>(dome: Dome, others: &'a [OtherSatellite<'a>]) -> Vec<Dot<'a>> {
+    let dots = others.iter().filter_map(|satellite| {
+        let at = dome.visible(satellite.direction)?;
+        Some(Dot { satellite, at, ahead: dome.path(satellite.ahead.iter().copied()) })
+    });
+    dots.collect()
+}
+
 /// Paints the paths of the other satellites.
-pub(super) fn paths(painter: &Painter, dome: Dome, others: &[OtherSatellite<'_>], t: &Tokens) {
-    let visible = others.iter().filter(|of| dome.visible(of.direction).is_some());
-    for satellite in visible {
-        let path = dome.path(satellite.ahead.iter().copied());
-        painter.extend(dashed(&path, 1.5, 4.0, Stroke::new(1.25, t.other)));
+pub(super) fn paths(painter: &Painter, dots: &[Dot<'_>], t: &Tokens) {
+    for Dot { ahead, .. } in dots.iter().filter(|dot| !dot.ahead.is_empty()) {
+        painter.extend(dashed(ahead, 1.5, 4.0, Stroke::new(1.25, t.other)));
     }
 }
 
 /// Paints the other satellites, and keeps labels away from them and their paths.
-pub(super) fn others(
-    painter: &Painter,
-    dome: Dome,
-    others: &[OtherSatellite<'_>],
-    labels: &mut Labels<'_>,
-    t: &Tokens,
-) {
-    for satellite in others {
-        let Some(at) = dome.visible(satellite.direction) else { continue };
-        let path = dome.path(satellite.ahead.iter().copied());
-        labels.reserve_path(&path, 3.0);
-        marks::other(painter, at, satellite.geostationary, t);
-        labels.reserve(paint::square(at, 8.0));
+pub(super) fn others(painter: &Painter, dots: &[Dot<'_>], labels: &mut Labels<'_>, t: &Tokens) {
+    for Dot { satellite, at, ahead } in dots {
+        labels.reserve_path(ahead, 3.0);
+        marks::other(painter, *at, satellite.geostationary, t);
+        labels.reserve(paint::square(*at, 8.0));
     }
 }
 
 /// Labels the other satellites as far as there is room.
-pub(super) fn label_others(labels: &mut Labels<'_>, dome: Dome, scene: &SkyScene<'_>, t: &Tokens) {
-    for satellite in scene.others {
+pub(super) fn label_others(
+    labels: &mut Labels<'_>,
+    dome: Dome,
+    scene: &SkyScene<'_>,
+    dots: &[Dot<'_>],
+    t: &Tokens,
+) {
+    for Dot { satellite, at, .. } in dots {
         if satellite.direction.elevation_deg() < LOWEST_NAME_DEG {
             continue;
         }
-        let Some(mark) = dome.visible(satellite.direction) else { continue };
         labels.add(&Label {
             key: Key::Other(satellite.catalog_number),
             lines: &[(satellite.name, text::small(), t.t2)],
-            mark,
-            clearance: antenna::clearance(dome, scene, mark, 6.0),
+            mark: *at,
+            clearance: antenna::clearance(dome, scene, *at, 6.0),
             order: &Side::ORDER,
             tolerance: 0.4,
         });

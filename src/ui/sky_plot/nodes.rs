@@ -2,7 +2,10 @@
 
 use egui::{Id, Pos2, Rect, Response, Role, Sense, Stroke, Ui, Vec2, WidgetInfo};
 
-use super::{MenuOf, ShowMenu, bearing, geometry::Dome, scene::SkyScene, track::Event, zoom::Zoom};
+use super::{
+    MenuOf, ShowMenu, bearing, bodies::Dot, geometry::Dome, scene::SkyScene, track::Event,
+    zoom::Zoom,
+};
 use crate::{
     astro::AzEl,
     ui::{format, tokens::Tokens, widgets::context_menu},
@@ -49,20 +52,21 @@ pub(super) fn satellites(
     rect: Rect,
     dome: Dome,
     scene: &SkyScene<'_>,
-    show_others: bool,
+    others: &[Dot<'_>],
     t: &Tokens,
     menu: &mut ShowMenu<'_>,
 ) -> Option<u32> {
     let selected = scene.track.and_then(|track| {
-        track.position.map(|position| (track.catalog_number, track.name, position, true))
+        let (number, direction) = (track.catalog_number, track.position?);
+        Some((number, track.name, direction, dome.visible(direction)?, true))
     });
-    let others = scene.others.iter().filter(|_| show_others);
-    let others = others.map(|other| (other.catalog_number, other.name, other.direction, false));
+    let others = others.iter().map(|Dot { satellite: of, at, .. }| {
+        (of.catalog_number, of.name, of.direction, *at, false)
+    });
     let mut chosen = None;
     // The selected satellite comes last, so that it takes the pointer where two overlap.
-    for (number, name, direction, is_selected) in others.chain(selected) {
-        let at = dome.visible(direction).filter(|at| rect.contains(*at));
-        let Some(at) = at else { continue };
+    let inside = others.chain(selected).filter(|(_, _, _, at, _)| rect.contains(*at));
+    for (number, name, direction, at, is_selected) in inside {
         let place = Rect::from_center_size(at, Vec2::splat(TARGET));
         let response = ui.interact(place, canvas.with(("satellite", number)), Sense::click());
         response.widget_info(|| {
