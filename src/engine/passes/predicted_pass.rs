@@ -61,6 +61,8 @@ impl Observer {
 pub struct PredictedPass {
     pub satellite: Arc<ListedSatellite>,
     pub pass: Pass,
+    /// Kept here: a long list is looked through by it, and its satellites lie apart in memory.
+    number: u32,
     observer: Arc<Observer>,
     outline: OnceLock<Box<Outline>>,
 }
@@ -79,7 +81,8 @@ struct Outline {
 impl PredictedPass {
     /// A pass of `satellite` seen from `observer`.
     pub fn new(satellite: Arc<ListedSatellite>, pass: Pass, observer: Arc<Observer>) -> Self {
-        Self { satellite, pass, observer, outline: OnceLock::new() }
+        let number = satellite.elements.catalog_number();
+        Self { satellite, pass, number, observer, outline: OnceLock::new() }
     }
 
     pub fn key(&self) -> PassKey {
@@ -121,7 +124,7 @@ impl PredictedPass {
 
     /// Catalog number of its satellite.
     pub fn number(&self) -> u32 {
-        self.satellite.elements.catalog_number()
+        self.number
     }
 
     /// Returns `true` if the satellite neither rises nor sets within the list.
