@@ -104,6 +104,36 @@ fn the_spare_time_runs_down_with_the_countdown() {
     }
 }
 
+#[test]
+fn a_pass_is_known_in_the_schedule_also_where_a_new_list_has_it_earlier_or_later() {
+    for shift_s in [0.0, -20.0, 20.0, 59.0] {
+        let mut model = rig::model(states::holding());
+        let mut planned = planned(&model);
+        let schedule = &mut planned.schedule;
+        let of_entries = schedule.entries.iter_mut().map(|entry| &mut entry.pass);
+        for pass in of_entries.chain(schedule.left_out.iter_mut().map(|left| &mut left.pass)) {
+            pass.aos = add_seconds(pass.aos, shift_s);
+        }
+        model.schedule = Arc::new(planned);
+        let keys: Vec<PassKey> =
+            model.planned_passes().iter().map(|planned| planned.predicted.key()).collect();
+        assert!(keys.len() > 4);
+        for (index, key) in keys.into_iter().enumerate() {
+            model.selected = Some(key);
+            let all = model.planned_passes();
+            for planned in [&all[index], &model.selected_planned().unwrap()] {
+                assert_eq!(planned.predicted.key(), key);
+                let takes: Vec<u32> =
+                    planned.entries.iter().map(|entry| entry.pass.satellite).collect();
+                let leaves = planned.left_out.map(|left| left.pass.satellite);
+                let expected =
+                    if index % 2 == 0 { (vec![key.0], None) } else { (vec![], Some(key.0)) };
+                assert_eq!((takes, leaves), expected, "{shift_s} s");
+            }
+        }
+    }
+}
+
 fn commands(window: &mut Window) -> Vec<Command> {
     settle(window);
     let commands = std::mem::take(&mut window.state_mut().commands);
