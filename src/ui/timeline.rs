@@ -14,18 +14,21 @@ use std::ops::RangeInclusive;
 use egui::{Align2, Rangef, Rect, Role, Sense, Ui, Vec2, WidgetInfo, vec2};
 use jiff::Timestamp;
 
-use crate::model::{UiCommand, daylight::SunSpan, plan::Standing};
+use crate::{
+    engine::passes::ListedSatellite,
+    model::{UiCommand, daylight::SunSpan, plan::Standing},
+};
 
 use super::{format, menus::PassMenu, text, theme, widgets::paint};
 use bars::LaneOf;
 use scale::Scale;
 pub use zoom::Zoom;
 
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy)]
 pub struct Bar<'a> {
     /// Identifies the pass: catalog number and a time that does not change.
     pub key: (u32, Timestamp),
-    pub name: &'a str,
+    pub name: BarName<'a>,
     pub aos: Timestamp,
     pub los: Timestamp,
     /// Maximum elevation, 0 to 90; `None` for a pass of which it is not known any more.
@@ -33,6 +36,13 @@ pub struct Bar<'a> {
     /// The mount loses part of the pass, such as at its keyhole.
     pub loses: bool,
     pub state: State<'a>,
+}
+
+/// The short name of a satellite, looked up where its bar is shown: of very many, few are.
+#[derive(Debug, Clone, Copy)]
+pub enum BarName<'a> {
+    Of(&'a ListedSatellite),
+    Known(&'a str),
 }
 
 /// What is known of a pass on the antenna of its lane.
@@ -43,6 +53,15 @@ pub enum State<'a> {
         can_track: bool,
     },
     Plan(Standing<'a>),
+}
+
+impl<'a> BarName<'a> {
+    fn text(self) -> &'a str {
+        match self {
+            Self::Of(satellite) => satellite.short_name(),
+            Self::Known(name) => name,
+        }
+    }
 }
 
 impl Bar<'_> {
@@ -63,7 +82,7 @@ impl Bar<'_> {
 }
 
 /// The passes of one antenna.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone)]
 pub struct Lane<'a> {
     pub name: &'a str,
     /// Passes in any order, without satellites that never set.

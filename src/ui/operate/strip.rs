@@ -14,7 +14,7 @@ use crate::{
     plan::Trackability,
     ui::{
         menus,
-        timeline::{self, Bar, Lane, State, TimelineModel, Zoom},
+        timeline::{self, Bar, BarName, Lane, State, TimelineModel, Zoom},
         words,
     },
 };
@@ -115,7 +115,7 @@ fn bars_of_plan<'a>(
 fn bar<'a>(predicted: &'a PredictedPass, state: State<'a>, loses: bool) -> Bar<'a> {
     Bar {
         key: predicted.key(),
-        name: predicted.satellite.short_name(),
+        name: BarName::Of(&predicted.satellite),
         aos: predicted.pass.aos.time,
         los: predicted.pass.los.time,
         max_elevation_deg: Some(predicted.pass.max_elevation().degrees()),
@@ -130,7 +130,7 @@ fn flown_bar<'a>(flown: &'a Flown, predicted: Option<&PredictedPass>) -> Bar<'a>
     let max = predicted.map(|of| of.pass.max_elevation().degrees());
     Bar {
         key: flown.pass,
-        name: &flown.name,
+        name: BarName::Known(&flown.name),
         aos: flown.pass.1,
         los: los.unwrap_or_else(|| add_seconds(flown.pass.1, flown.of_s)),
         max_elevation_deg: max,

@@ -167,7 +167,8 @@ pub(super) fn show_names(
     let t = theme::tokens(ui);
     let mut order: Vec<&Standing<'_>> = standing.iter().collect();
     order.sort_by_key(|one| (selected != Some(one.bar.key), !one.bar.is_taken()));
-    let shorts: Vec<String> = order.iter().map(|one| labels::short_name(one.bar.name)).collect();
+    let shorts: Vec<String> =
+        order.iter().map(|one| labels::short_name(one.bar.name.text())).collect();
     let mut obstacles: Vec<Rect> = standing.iter().map(|one| one.rect).collect();
     obstacles.extend(standing.iter().filter_map(Standing::triangle));
     let wishes: Vec<Wish> = order
@@ -175,7 +176,7 @@ pub(super) fn show_names(
         .zip(&shorts)
         .map(|(one, short)| Wish {
             short: one.name_rect(ui, short, room),
-            full: one.name_rect(ui, one.bar.name, room),
+            full: one.name_rect(ui, one.bar.name.text(), room),
         })
         .collect();
     let placed = labels::place(&wishes, &obstacles, room);
@@ -183,7 +184,7 @@ pub(super) fn show_names(
         let (name, rect) = match placed {
             Placed::Out => continue,
             Placed::Short(rect) => (short.as_str(), rect),
-            Placed::Full(rect) => (one.bar.name, rect),
+            Placed::Full(rect) => (one.bar.name.text(), rect),
         };
         // Covers the now-line and the grid behind the letters.
         ui.painter().rect_filled(rect, 0, t.bg0);
@@ -252,12 +253,12 @@ fn remarks(bar: &Bar<'_>, antenna: &str, model: &TimelineModel<'_>) -> String {
 
 fn accessible_name(bar: &Bar<'_>, now: Timestamp, remarks: &str) -> String {
     let times = format::minutes(bar.aos, bar.los, now);
-    format!("{}, {times}{}{remarks}", bar.name, max_elevation(bar, ", "))
+    format!("{}, {times}{}{remarks}", bar.name.text(), max_elevation(bar, ", "))
 }
 
 fn tool_tip(bar: &Bar<'_>, now: Timestamp, remarks: &str) -> String {
     let times = format::stretch(bar.aos, bar.los, now);
-    format!("{}\n{times}{}{remarks}", bar.name, max_elevation(bar, "\n"))
+    format!("{}\n{times}{}{remarks}", bar.name.text(), max_elevation(bar, "\n"))
 }
 
 /// The maximum elevation after `separator`; empty where it is not known any more.
@@ -270,6 +271,7 @@ fn max_elevation(bar: &Bar<'_>, separator: &str) -> String {
 mod tests {
     use super::*;
     use crate::astro::time::add_seconds;
+    use crate::ui::timeline::BarName;
 
     #[test]
     fn bars_leave_room_for_names_in_a_low_lane() {
@@ -284,7 +286,7 @@ mod tests {
         let now: Timestamp = "2026-08-12T11:15:30Z".parse().unwrap();
         let bar = |number: u32| Bar {
             key: (number, now),
-            name: "NOAA 20",
+            name: BarName::Known("NOAA 20"),
             aos: add_seconds(now, f64::from(number) * 20.0),
             los: add_seconds(now, f64::from(number) * 20.0 + 600.0),
             max_elevation_deg: Some(f64::from(number % 7) * 10.0),

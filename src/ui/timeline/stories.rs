@@ -7,7 +7,7 @@ use egui_kittest::{
 };
 use jiff::Timestamp;
 
-use super::{Bar, Lane, State, SunSpan, TimelineModel, show};
+use super::{Bar, BarName, Lane, State, SunSpan, TimelineModel, show};
 use crate::{model::UiCommand, ui::widgets::testing};
 
 const FULL: egui::Vec2 = vec2(632.0, 208.0);
@@ -20,7 +20,7 @@ fn at(time: &str) -> Timestamp {
 fn bar(number: u32, name: &'static str, aos: &str, los: &str, max: f64) -> Bar<'static> {
     Bar {
         key: (number, at(aos)),
-        name,
+        name: BarName::Known(name),
         aos: at(aos),
         los: at(los),
         max_elevation_deg: Some(max),
