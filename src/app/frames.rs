@@ -14,12 +14,12 @@ use egui::{Context, Event, Plugin, RawInput, RequestRepaintInfo};
 
 /// Calls `draw` once for each frame that is requested of `ctx`, in place of the callback set before.
 pub fn draw_once(ctx: &Context, draw: impl Fn(RequestRepaintInfo) + Send + Sync + 'static) {
-    let at_once = Arc::<AtomicBool>::default();
-    ctx.add_plugin(ShownAtOnce(Arc::clone(&at_once)));
+    let only_releases = Arc::<AtomicBool>::default();
+    ctx.add_plugin(KeyReleases(Arc::clone(&only_releases)));
     ctx.set_request_repaint_callback(|_| {});
     ctx.set_repaint_observer(move |asked| {
         // The first request of a frame with input is for the frame after that input.
-        if !(asked.delay.is_zero() && at_once.swap(false, Ordering::Relaxed)) {
+        if !(asked.delay.is_zero() && only_releases.swap(false, Ordering::Relaxed)) {
             draw(asked);
         }
     });
@@ -27,32 +27,25 @@ pub fn draw_once(ctx: &Context, draw: impl Fn(RequestRepaintInfo) + Send + Sync 
 
 /// Returns `true` if another frame follows the input of this one in any case.
 pub(super) fn one_follows(ctx: &Context) -> bool {
-    ctx.input(|input| !input.raw.events.iter().all(is_shown_at_once))
+    ctx.input(|input| !input.raw.events.iter().all(is_release))
 }
 
-/// Whether no frame has to follow this input: the effects of a release never come a frame late, and
-/// what comes late of the repeat of a held key is there with its next repeat or its release.
-fn is_shown_at_once(event: &Event) -> bool {
-    matches!(
-        event,
-        Event::Key { pressed: false, .. }
-            | Event::Key { repeat: true, .. }
-            | Event::ModifiersChanged(_)
-    )
+fn is_release(event: &Event) -> bool {
+    matches!(event, Event::Key { pressed: false, .. } | Event::ModifiersChanged(_))
 }
 
-/// Notes whether the input of a frame is all shown at once.
-struct ShownAtOnce(Arc<AtomicBool>);
+/// Notes whether the input of a frame only releases keys, whose effects never come a frame late.
+struct KeyReleases(Arc<AtomicBool>);
 
-impl Plugin for ShownAtOnce {
+impl Plugin for KeyReleases {
     fn debug_name(&self) -> &'static str {
         "frames"
     }
 
     fn input_hook(&mut self, ctx: &Context, input: &mut RawInput) {
-        let at_once = !input.events.is_empty() && input.events.iter().all(is_shown_at_once);
+        let only = !input.events.is_empty() && input.events.iter().all(is_release);
         // A list still glides after the wheel.
         let glides = ctx.input(egui::InputState::is_scrolling);
-        self.0.store(at_once && !glides, Ordering::Relaxed);
+        self.0.store(only && !glides, Ordering::Relaxed);
     }
 }

@@ -49,11 +49,6 @@ fn key(key: Key, pressed: bool) -> Event {
     Event::Key { key, physical_key: None, pressed, repeat: false, modifiers: Modifiers::NONE }
 }
 
-fn repeat(key: Key) -> Event {
-    let modifiers = Modifiers::NONE;
-    Event::Key { key, physical_key: None, pressed: true, repeat: true, modifiers }
-}
-
 fn button(pos: Pos2, pressed: bool) -> Event {
     Event::PointerButton {
         pos,
@@ -67,12 +62,11 @@ fn button(pos: Pos2, pressed: bool) -> Event {
 fn a_key_costs_the_frame_that_takes_it_and_the_one_that_shows_what_came_of_it() {
     let mut counted = counted();
     assert_eq!(drawn(&mut counted, &[&[]]), 1);
-    // F9 means nothing here. A key that is held repeats.
+    // F9 means nothing here.
     for quick in [Key::F9, Key::ArrowDown] {
         assert_eq!(drawn(&mut counted, &[&[key(quick, true), key(quick, false)]]), 2);
         assert_eq!(drawn(&mut counted, &[&[key(quick, true)], &[key(quick, false)]]), 2);
         assert_eq!(drawn(&mut counted, &[&[key(quick, true)]]), 2);
-        assert_eq!(drawn(&mut counted, &[&[repeat(quick)]]), 1);
         assert_eq!(drawn(&mut counted, &[&[key(quick, false)]]), 1);
     }
     let (window, _) = &mut counted;
