@@ -1,6 +1,6 @@
 //! Time from Esc pressed to `STOP=` on the wire to the first of three antennas, in the real window
-//! on a virtual screen. Needs Xvfb and xdotool. With the path of another build of the program in `AZEL_BESIDE`
-//! both are measured in turn. An argument chooses the rows whose name holds it.
+//! on a virtual screen. Needs Xvfb and xdotool. With the path of another build of the program in
+//! `AZEL_BESIDE` both are measured in turn. An argument chooses the rows whose name holds it.
 
 // A bench prints to its user, and may panic.
 #![allow(clippy::print_stdout, clippy::unwrap_used, clippy::expect_used, clippy::indexing_slicing)]
@@ -250,8 +250,9 @@ impl Bench {
             sleep(Duration::from_millis(2500));
             self.type_in("key m");
             sleep(Duration::from_millis(500));
+            let pressed = Instant::now();
             self.type_in("keydown Right");
-            self.next("MOVE=", Instant::now());
+            self.next("MOVE=", pressed);
             sleep(HELD);
         }
         if doing == Doing::Tracking {

@@ -109,7 +109,7 @@ pub struct App {
     told_to_end: Arc<AtomicBool>,
     /// Tells the station's waker that frames come at the pace of [`MOVING_FRAME`].
     is_lively: Arc<AtomicBool>,
-    /// Tells the event loop that a held key moves an antenna.
+    /// Tells the event loop that an antenna is jogged.
     is_jogging: Arc<AtomicBool>,
     drawn: bool,
 }

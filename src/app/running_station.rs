@@ -37,7 +37,7 @@ pub struct RunningStation {
     pub(super) told_to_end: Arc<AtomicBool>,
     /// Metal moves, and frames come at the pace of [`MOVING_FRAME`].
     pub(super) is_lively: Arc<AtomicBool>,
-    /// A held key moves an antenna.
+    /// An antenna is jogged.
     pub(super) is_jogging: Arc<AtomicBool>,
     window: Arc<OnceLock<Context>>,
 }
@@ -68,7 +68,7 @@ impl RunningStation {
         })
     }
 
-    /// A flag that says, once there is a window, whether a held key moves an antenna.
+    /// A flag that says, once there is a window, whether an antenna is jogged.
     pub fn is_jogging(&self) -> Arc<AtomicBool> {
         Arc::clone(&self.is_jogging)
     }

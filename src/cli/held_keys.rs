@@ -1,4 +1,4 @@
-//! Repeats of a held key, which are nothing new while the key moves an antenna.
+//! Repeats of a held key, which are nothing new while an antenna is jogged.
 
 use std::sync::{
     Arc,
@@ -10,22 +10,31 @@ use winit::{
     application::ApplicationHandler,
     event::{DeviceEvent, DeviceId, StartCause, WindowEvent},
     event_loop::ActiveEventLoop,
+    keyboard::{Key, NamedKey},
     window::WindowId,
 };
 
-/// A window to which repeats of keys are not passed on while one of them moves an antenna. The
-/// toolkit draws a frame for each, 25 a second, and Esc would have to wait for many of them.
+/// A window to which repeats of keys are not passed on while an antenna is jogged. The toolkit draws
+/// two frames for each, of 25 a second, and Esc would have to wait for many of them.
 pub(super) struct WithoutRepeats<'app> {
     pub(super) window: EframeWinitApplication<'app>,
     pub(super) is_jogging: Arc<AtomicBool>,
 }
 
+/// Never Esc, which stops whatever came before it.
+fn is_left_out(key: &Key, repeats: bool, is_jogging: bool) -> bool {
+    repeats && is_jogging && *key != Key::Named(NamedKey::Escape)
+}
+
 impl ApplicationHandler<UserEvent> for WithoutRepeats<'_> {
     fn window_event(&mut self, events: &ActiveEventLoop, id: WindowId, event: WindowEvent) {
-        let repeats = matches!(&event, WindowEvent::KeyboardInput { event, .. } if event.repeat);
-        if !(repeats && self.is_jogging.load(Ordering::Relaxed)) {
-            self.window.window_event(events, id, event);
+        let is_jogging = self.is_jogging.load(Ordering::Relaxed);
+        if let WindowEvent::KeyboardInput { event: key, .. } = &event
+            && is_left_out(&key.logical_key, key.repeat, is_jogging)
+        {
+            return;
         }
+        self.window.window_event(events, id, event);
     }
 
     fn new_events(&mut self, events: &ActiveEventLoop, cause: StartCause) {
@@ -58,5 +67,19 @@ impl ApplicationHandler<UserEvent> for WithoutRepeats<'_> {
 
     fn memory_warning(&mut self, events: &ActiveEventLoop) {
         self.window.memory_warning(events);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_held_key_is_left_out_while_an_antenna_is_jogged_but_no_press_and_never_esc() {
+        let arrow = Key::Named(NamedKey::ArrowRight);
+        assert!(is_left_out(&arrow, true, true));
+        assert!(!is_left_out(&arrow, false, true));
+        assert!(!is_left_out(&arrow, true, false));
+        assert!(!is_left_out(&Key::Named(NamedKey::Escape), true, true));
     }
 }

@@ -152,7 +152,8 @@ fn show(
 /// Tells the allocator of the GNU C library that large blocks come and go. From the start it gives
 /// whatever is free at the end of the heap back to the system; a frame takes it again, and every
 /// page of it costs a fault. The first large block that is freed raises that limit to twice its
-/// size (`M_MMAP_THRESHOLD` in mallopt(3)). Other allocators are not changed by it.
+/// size (`M_MMAP_THRESHOLD` in mallopt(3)). The price is that blocks of up to that size come from the
+/// heap then, and are not given back one by one. Other allocators are not changed by it.
 fn keep_freed_memory() {
     drop(std::hint::black_box(Vec::<u8>::with_capacity(KEPT)));
 }

@@ -41,8 +41,8 @@ const LOW_PERIGEE_KM: f64 = 120.0;
 /// over ten weeks: a near-earth orbit that touches the atmosphere decays in days.
 const DOWN_STEP_MIN: f64 = 5.0;
 const MAX_DOWN_LOOKS: u32 = 20_000;
-/// A state that is asked for no later than this after where an integration is resumed from leaves
-/// it there, for whoever asks for an earlier one: twenty of its steps.
+/// The place from which an integration is resumed stays where it is for a state up to this much
+/// later, so that whoever asks for an earlier one need not begin at the epoch: twenty steps.
 const RESUMED_MIN: f64 = 14_400.0;
 
 /// From this mean motion on, Sun and Moon are left out of the orbit: periods below 225 minutes.

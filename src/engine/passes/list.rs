@@ -32,8 +32,8 @@ pub struct PassList {
     /// The satellites, in the order of the station or by catalog number.
     #[serde(skip)]
     pub satellites: Arc<Vec<Arc<ListedSatellite>>>,
-    /// Passes by AOS, then by catalog number; those that are always up come last. Some passes may
-    /// be over.
+    /// Passes by AOS, then by catalog number; those that are always up come last, by number. Some
+    /// passes may be over.
     #[serde(skip)]
     pub passes: Arc<Vec<PredictedPass>>,
     /// Changes with every new list.

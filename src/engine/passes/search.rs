@@ -132,7 +132,9 @@ pub(super) fn search(
         .collect();
     // Satellites that never set would hide the first pass.
     passes.par_sort_by_key(|predicted| {
-        (predicted.is_always_up(), predicted.pass.aos.time, predicted.number())
+        let is_always_up = predicted.is_always_up();
+        let aos = (!is_always_up).then_some(predicted.pass.aos.time);
+        (is_always_up, aos, predicted.number())
     });
     Found { satellites, passes }
 }

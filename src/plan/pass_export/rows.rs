@@ -21,7 +21,7 @@ const CHUNK: usize = 256;
 #[derive(Default)]
 struct Made {
     /// Where a satellite lies, and the place of its row in the order of time.
-    places: Vec<(usize, u32)>,
+    order: Vec<(usize, u32)>,
     texts: Vec<Text>,
 }
 
@@ -49,16 +49,16 @@ impl Made {
         times: &(impl Fn(&Pass) -> [Timestamp; PLACES] + Sync),
         push: &(impl Fn(&mut Vec<u8>, &ExportedPass<'_>, [Option<OverGround>; PLACES]) + Sync),
     ) {
-        let Self { places, texts } = self;
-        places.clear();
-        places.extend(rows.iter().map(|row| ptr::from_ref(row.satellite).addr()).zip(0..));
-        places.sort_unstable();
-        texts.resize_with(places.len().div_ceil(CHUNK), Text::default);
-        texts.par_iter_mut().zip(places.par_chunks(CHUNK)).for_each(|(text, places)| {
+        let Self { order, texts } = self;
+        order.clear();
+        order.extend(rows.iter().map(|row| ptr::from_ref(row.satellite).addr()).zip(0..));
+        order.sort_unstable();
+        texts.resize_with(order.len().div_ceil(CHUNK), Text::default);
+        texts.par_iter_mut().zip(order.par_chunks(CHUNK)).for_each(|(text, order)| {
             text.bytes.clear();
             text.ends.clear();
-            let rows = || places.iter().filter_map(|(_, index)| rows.get(*index as usize));
-            let mut wanted = Vec::with_capacity(PLACES * places.len());
+            let rows = || order.iter().filter_map(|(_, index)| rows.get(*index as usize));
+            let mut wanted = Vec::with_capacity(PLACES * order.len());
             for ExportedPass { satellite, pass } in rows() {
                 wanted.extend(times(pass).map(|at| (&satellite.propagator, at)));
             }
@@ -71,8 +71,8 @@ impl Made {
     }
 
     fn write(&self, out: &mut impl Write) -> io::Result<()> {
-        let mut in_order: Vec<&[u8]> = vec![&[]; self.places.len()];
-        for ((_, index), text) in self.places.iter().zip(self.texts.iter().flat_map(Text::rows)) {
+        let mut in_order: Vec<&[u8]> = vec![&[]; self.order.len()];
+        for ((_, index), text) in self.order.iter().zip(self.texts.iter().flat_map(Text::rows)) {
             if let Some(place) = in_order.get_mut(*index as usize) {
                 *place = text;
             }

@@ -2,7 +2,7 @@
 
 use std::{collections::VecDeque, sync::Arc};
 
-use crate::device::Direction;
+use crate::device::{Direction, WireLine};
 use crate::driver::{IsAwaited, MAX_LINES, WireLog};
 use crate::model::ConsoleLine;
 
@@ -26,13 +26,19 @@ impl Default for Filter {
 }
 
 impl Filter {
-    /// Decides whether the line is shown, left out, or left out only as a poll.
-    fn judge(&self, line: &ConsoleLine, needle: &str) -> LineVerdict {
-        let is_other = self.antenna.as_ref().is_some_and(|name| **name != *line.antenna);
-        let is_other_way = self.direction.is_some_and(|way| way != line.wire().direction);
-        if is_other || is_other_way || !(needle.is_empty() || line.has(needle)) {
+    /// Decides whether a line of `antenna` is shown, left out, or left out only as a poll;
+    /// `has_text` says whether the text is in it.
+    fn judge(
+        &self,
+        antenna: &str,
+        wire: &WireLine,
+        has_text: impl FnOnce() -> bool,
+    ) -> LineVerdict {
+        let is_other = self.antenna.as_ref().is_some_and(|name| **name != *antenna);
+        let is_other_way = self.direction.is_some_and(|way| way != wire.direction);
+        if is_other || is_other_way || !has_text() {
             LineVerdict::Other
-        } else if self.hides_polls && line.wire().is_usual_poll() {
+        } else if self.hides_polls && wire.is_usual_poll() {
             LineVerdict::Poll
         } else {
             LineVerdict::Shown
@@ -50,8 +56,12 @@ enum LineVerdict {
 fn is_shown(filter: &Filter, needle: &str, antenna: &Arc<str>) -> IsAwaited {
     let (filter, needle, antenna) = (filter.clone(), needle.to_owned(), Arc::clone(antenna));
     Arc::new(move |recorded| {
-        let line = ConsoleLine::new(0, Arc::clone(&antenna), Arc::clone(recorded));
-        matches!(filter.judge(&line, &needle), LineVerdict::Shown)
+        // The antenna's session waits for this.
+        let has_text = || {
+            let line = || ConsoleLine::new(0, Arc::clone(&antenna), Arc::clone(recorded));
+            needle.is_empty() || line().has(&needle)
+        };
+        matches!(filter.judge(&antenna, &recorded.line, has_text), LineVerdict::Shown)
     })
 }
 
@@ -117,7 +127,8 @@ impl Log {
     }
 
     fn list(&mut self, line: &ConsoleLine, needle: &str) {
-        match self.filter.judge(line, needle) {
+        let has_text = || needle.is_empty() || line.has(needle);
+        match self.filter.judge(&line.antenna, line.wire(), has_text) {
             LineVerdict::Shown => self.shown.push_back(line.position),
             LineVerdict::Poll => self.polls.push_back(line.position),
             LineVerdict::Other => {}
