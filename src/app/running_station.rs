@@ -20,7 +20,7 @@ use crate::{
 
 use super::MOVING_FRAME;
 
-/// News of this time are shown by one frame.
+/// News that come within this time are shown by one frame.
 const MERGED: Duration = Duration::from_millis(30);
 
 /// A running station without a window.

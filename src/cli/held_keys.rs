@@ -21,7 +21,7 @@ pub(super) struct WithoutRepeats<'app> {
     pub(super) is_jogging: Arc<AtomicBool>,
 }
 
-/// Never Esc, which stops whatever came before it.
+/// Returns `true` for a key event that the window does not get. It gets every Esc: each asks for STOP.
 fn is_left_out(key: &Key, repeats: bool, is_jogging: bool) -> bool {
     repeats && is_jogging && *key != Key::Named(NamedKey::Escape)
 }

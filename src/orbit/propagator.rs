@@ -184,7 +184,7 @@ impl Propagator {
         state
     }
 
-    /// Where a series of states begins.
+    /// Where the integration for a series of states is resumed.
     pub(super) fn resumable(&self) -> Resumable {
         if self.secular.is_some() { Resumable::default() } else { self.resonance.get() }
     }

@@ -322,7 +322,7 @@ impl<'a> UpcomingPasses<'a> {
         starts.zip(ends).flat_map(|(start, end)| passes.get(start..end).unwrap_or_default())
     }
 
-    /// The passes with AOS before `end`, by AOS, but those that are always up.
+    /// The passes with AOS before `end`, by AOS, without those that are always up.
     pub fn until(&self, end: Timestamp) -> impl Iterator<Item = &'a PredictedPass> {
         let passes = self.iter().take_while(move |predicted| predicted.pass.aos.time < end);
         passes.filter(|predicted| !predicted.is_always_up())
