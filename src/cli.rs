@@ -26,6 +26,7 @@ use std::{
 use anyhow::Context as _;
 use clap::{CommandFactory as _, Parser, Subcommand, error::ErrorKind};
 use clap_complete::Shell;
+use tracing_subscriber::filter::{LevelFilter, Targets};
 
 #[cfg(unix)]
 use crate::driver::dead_man;
@@ -105,10 +106,11 @@ enum Command {
 impl Cli {
     /// Filter of the log unless `AZEL_LOG` sets another: warnings and errors; for a simulator
     /// also its address and every frame.
-    pub fn log_filter(&self) -> &'static str {
+    pub fn log_filter(&self) -> Targets {
+        let warnings = Targets::new().with_default(LevelFilter::WARN);
         match self.command {
-            Some(Command::Simulate { .. }) => "warn,azel::sim=info",
-            _ => "warn",
+            Some(Command::Simulate { .. }) => warnings.with_target("azel::sim", LevelFilter::INFO),
+            _ => warnings,
         }
     }
 

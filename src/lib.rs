@@ -1,33 +1,17 @@
 //! Azel: the console of a satellite ground station.
 //!
-//! The folders are layers; a lower one never names a higher one. From the
-//! bottom: [`astro`], [`orbit`], [`library`], [`protocol`], [`device`], [`transfer`], [`station`],
-//! [`controller`], [`plan`], [`driver`], [`record`], [`sim`], [`makes`], [`engine`], [`rehearsal`], [`model`], [`ui`],
-//! [`app`]; [`desktop`], [`secret`] and `whole_file` stand below them all. `docs/architecture.md`
-//! holds the picture and the invariants.
+//! This package holds the window and the command line. From the bottom: [`desktop`], [`model`], [`ui`], [`app`], [`cli`];
+//! a lower folder never names a higher one. The packages below stand in `src/orbit`, `src/units` and
+//! `src/station`, and their parts can be named from here too. `docs/architecture.md` holds the
+//! picture and the invariants.
 
 pub mod app;
-pub mod astro;
 pub mod cli;
-pub mod clock;
-pub mod controller;
 pub mod desktop;
-pub mod device;
-pub mod driver;
-pub mod engine;
-pub mod job;
-pub mod library;
-pub mod makes;
 pub mod model;
-pub mod name;
-pub mod orbit;
-pub mod plan;
-pub mod protocol;
-pub mod record;
-pub mod rehearsal;
-pub mod secret;
-pub mod sim;
-pub mod station;
-pub mod transfer;
 pub mod ui;
-mod whole_file;
+
+pub use azel_orbit::{self as orbit, astro, name};
+pub use azel_station::{driver, engine, job, library, makes, record, rehearsal, sim, transfer};
+use azel_units::whole_file;
+pub use azel_units::{clock, controller, device, plan, protocol, secret, station};

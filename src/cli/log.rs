@@ -9,6 +9,7 @@
 
 use std::{
     env,
+    ffi::OsStr,
     io::{self, IsTerminal as _, Write},
     mem,
     sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError},
@@ -17,12 +18,19 @@ use std::{
 };
 
 use jiff::Timestamp;
-use tracing_subscriber::{EnvFilter, fmt::MakeWriter};
+use tracing_subscriber::{
+    filter::Targets, fmt::MakeWriter, layer::SubscriberExt as _, util::SubscriberInitExt as _,
+};
 
 /// Size limit of the queue in bytes: some thousand lines.
 const MAX_BYTES: usize = 1 << 20;
 /// Time that the end of the program waits for a reader.
 const FAREWELL: Duration = Duration::from_secs(1);
+
+/// Variable of the environment that sets the filter of the log.
+const FILTER: &str = "AZEL_LOG";
+const INVALID_FILTER: &str = "AZEL_LOG is not a valid filter, so the default applies. \
+                              Write levels and parts of the program, such as “warn,azel=info”.";
 
 /// Log of this process.
 #[derive(Clone)]
@@ -57,17 +65,24 @@ struct Waiting {
 }
 
 impl Log {
-    /// Starts the log of this process, filtered by `AZEL_LOG`, or by `filter` if that is
-    /// missing or wrong.
-    pub fn start(filter: &str) -> io::Result<Self> {
+    /// Starts the log of this process, filtered by `AZEL_LOG`, or by `default` if that is
+    /// missing, empty or invalid. The log reports an invalid filter.
+    pub fn start(default: Targets) -> io::Result<Self> {
         let log = Self { lines: Lines::to(standard(io::stderr())?, of_dropped_in_log)? };
-        let filter = EnvFilter::try_from_env("AZEL_LOG").unwrap_or_else(|_| EnvFilter::new(filter));
+        let chosen = env::var_os(FILTER).filter(|filter| !filter.is_empty());
+        let (filter, is_invalid) = match chosen.as_deref().map(parse) {
+            Some(Some(filter)) => (filter, false),
+            Some(None) => (default, true),
+            None => (default, false),
+        };
         let wants_plain = env::var_os("NO_COLOR").is_some_and(|value| !value.is_empty());
-        tracing_subscriber::fmt()
-            .with_env_filter(filter)
+        let lines = tracing_subscriber::fmt::layer()
             .with_ansi(io::stderr().is_terminal() && !wants_plain)
-            .with_writer(log.clone())
-            .init();
+            .with_writer(log.clone());
+        tracing_subscriber::registry().with(filter).with(lines).init();
+        if is_invalid {
+            log.say(INVALID_FILTER);
+        }
         Ok(log)
     }
 
@@ -80,6 +95,11 @@ impl Log {
     pub fn finish(&self) {
         self.lines.finish();
     }
+}
+
+/// Returns `None` if `filter` is not a list of levels and targets.
+fn parse(filter: &OsStr) -> Option<Targets> {
+    filter.to_str()?.parse().ok()
 }
 
 fn of_dropped_in_log(dropped: u64) -> String {

@@ -286,7 +286,7 @@ fn search<'a>(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::orbit::read_elements;
+    use crate::read_elements;
 
     /// An OMM list of objects given as number, name and day of August 2026.
     fn report(objects: &[(u32, &str, u32)]) -> ReadReport {

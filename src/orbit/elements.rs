@@ -335,7 +335,7 @@ mod tests {
     use proptest::prelude::*;
 
     use super::*;
-    use crate::orbit::{Propagator, RefusalReason, bundled, read_elements};
+    use crate::{Propagator, RefusalReason, bundled, read_elements};
 
     #[test]
     fn geosynchronous_is_what_goes_around_once_a_day_on_a_round_orbit() {

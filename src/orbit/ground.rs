@@ -55,7 +55,7 @@ impl Propagator {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{astro::Site, orbit::bundled};
+    use crate::{astro::Site, bundled};
 
     const AT: &str = "2026-08-12T11:15:30Z";
 

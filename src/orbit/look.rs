@@ -127,7 +127,7 @@ impl Propagator {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{astro::time, orbit::bundled};
+    use crate::{astro::time, bundled};
 
     #[test]
     fn the_range_rate_is_the_change_of_the_range_and_shifts_the_carrier() {

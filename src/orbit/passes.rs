@@ -179,7 +179,7 @@ mod tests {
     use std::cell::Cell;
 
     use super::*;
-    use crate::orbit::{PropagationError, bundled, read_elements};
+    use crate::{PropagationError, bundled, read_elements};
 
     const ISS: u32 = 25_544;
     const METEOSAT_12: u32 = 54_743;

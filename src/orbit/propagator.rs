@@ -366,7 +366,7 @@ mod tests {
     use proptest::prelude::*;
 
     use super::*;
-    use crate::orbit::bundled;
+    use crate::bundled;
 
     #[test]
     fn any_time_gives_a_state_or_a_reason() {

@@ -182,7 +182,7 @@ mod tests {
     use std::io::Write as _;
 
     use super::*;
-    use crate::orbit::Elements;
+    use crate::Elements;
 
     proptest! {
         #[test]

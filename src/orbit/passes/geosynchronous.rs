@@ -4,10 +4,7 @@
 use std::f64::consts::PI;
 
 use super::track::Track;
-use crate::{
-    astro::frames::EARTH_RATE_RAD_S,
-    orbit::{propagator::WGS72_RADIUS_KM, simd::Vector},
-};
+use crate::{astro::frames::EARTH_RATE_RAD_S, propagator::WGS72_RADIUS_KM, simd::Vector};
 
 use super::local_series::GRAVITY_KM3_S2;
 

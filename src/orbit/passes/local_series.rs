@@ -15,10 +15,8 @@
 use super::window::Window;
 use crate::{
     astro::frames::EARTH_RATE_RAD_S,
-    orbit::{
-        propagator::WGS72_RADIUS_KM,
-        simd::{Lanes, Number, Vector},
-    },
+    propagator::WGS72_RADIUS_KM,
+    simd::{Lanes, Number, Vector},
 };
 
 /// Gravitational parameter of the Earth in WGS72, km³/s².

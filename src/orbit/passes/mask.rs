@@ -13,8 +13,8 @@ use super::{
     window::Window,
 };
 use crate::{
+    Propagator,
     astro::{Angle, AzEl, HorizonMask, Site},
-    orbit::Propagator,
 };
 
 /// Smallest step, near the mask, and largest step, in radians across the sky.

@@ -16,7 +16,7 @@ pub(super) use self::search::passes;
 use super::track::Track;
 use crate::{
     astro::{frames::EARTH_RATE_RAD_S, time},
-    orbit::propagator::{Plane, Secular, WGS72_RADIUS_KM, expand},
+    propagator::{Plane, Secular, WGS72_RADIUS_KM, expand},
 };
 
 /// Largest share by which the mean distance may change within a window; more is a decay.

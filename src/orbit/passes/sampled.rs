@@ -13,7 +13,7 @@ use super::{
     sighting::Sighting,
     track::Track,
 };
-use crate::{astro::frames::EARTH_RATE_RAD_S, orbit::simd::Vector};
+use crate::{astro::frames::EARTH_RATE_RAD_S, simd::Vector};
 
 /// Step in units of sqrt(r³/mu), the time in which a circular orbit advances by a radian.
 const STEP: f64 = 1.1;
@@ -319,8 +319,9 @@ mod tests {
     use jiff::Timestamp;
 
     use crate::{
+        PassSearch, Propagator,
         astro::{Angle, Site, time},
-        orbit::{PassSearch, Propagator, bundled, passes, passes_and_effort, read_elements},
+        bundled, passes, passes_and_effort, read_elements,
     };
 
     /// Orbits whose perigee passes a site more closely than their states are apart, and the passes

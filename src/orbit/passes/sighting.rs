@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 use super::{compact::CompactPoint, local_series::LocalState, window::Window};
 use crate::{
     astro::{Angle, AzEl},
-    orbit::simd::{Lanes, Number, Vector},
+    simd::{Lanes, Number, Vector},
 };
 
 #[derive(Debug, Clone, Copy)]

@@ -11,12 +11,10 @@ use super::{
     window::Window,
 };
 use crate::{
+    PropagationError, Propagator, State,
     astro::time,
-    orbit::{
-        PropagationError, Propagator, State,
-        propagator::Resumable,
-        simd::{Number, Vector},
-    },
+    propagator::Resumable,
+    simd::{Number, Vector},
 };
 
 /// Longest time from its state for which a series is used, in seconds.

@@ -14,7 +14,7 @@ use super::{
     local_series::{GRAVITY_KM3_S2, LocalSeries, LocalState},
     window::Window,
 };
-use crate::orbit::simd::Number;
+use crate::simd::Number;
 
 /// The ellipse of a state near a crest.
 pub(super) struct TwoBody<N> {

@@ -11,7 +11,7 @@ use jiff::Timestamp;
 use super::PassSearch;
 use crate::{
     astro::{frames, time},
-    orbit::simd::{Number, Vector},
+    simd::{Number, Vector},
 };
 
 /// A site and a span of time, prepared for computation.

@@ -12,20 +12,20 @@ use glam::DVec3;
 use sgp4::WGS72;
 
 use super::{State, secular::Secular};
-use crate::orbit::simd::{LANES, Lanes, Number, Vector, series, widest};
+use crate::simd::{LANES, Lanes, Number, Vector, series, widest};
 
 /// Smallest eccentricity in the theory; rounder orbits get this one.
 const MIN_ECCENTRICITY: f64 = 1e-6;
 
 /// Position in km and inertial velocity in km/s.
-pub(in crate::orbit) type Motion<N> = (Vector<N>, Vector<N>);
+pub(crate) type Motion<N> = (Vector<N>, Vector<N>);
 
 impl<N: Number> Secular<N> {
     /// The states `minutes` after the epoch, in axes turned about the pole by `turn`
     /// radians from those of TEME. Valid where the orbit
     /// [is near-circular](Secular::is_near_circular_at).
     #[inline(always)]
-    pub(in crate::orbit) fn motion(&self, minutes: N, turn: N) -> Motion<N> {
+    pub(crate) fn motion(&self, minutes: N, turn: N) -> Motion<N> {
         motion(self, minutes, turn)
     }
 }
@@ -168,7 +168,7 @@ fn turned<N: Number>(sine: N, cosine: N, turn: N) -> (N, N) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::orbit::{Propagator, bundled, propagator::Resumable};
+    use crate::{Propagator, bundled, propagator::Resumable};
 
     #[test]
     fn states_agree_with_the_library_over_the_whole_catalog() {

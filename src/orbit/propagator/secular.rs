@@ -12,7 +12,7 @@ use std::f64::consts::TAU;
 use sgp4::WGS72;
 
 use super::waves::{DragWave, Waves};
-use crate::orbit::simd::{Lanes, series, set_all};
+use crate::simd::{Lanes, series, set_all};
 
 /// Orbits with this period in minutes or a longer one follow other equations.
 const DEEP_SPACE_PERIOD_MIN: f64 = 225.0;
@@ -33,26 +33,26 @@ const LOW_PERIGEE: f64 = 220.0 / 6_378.135;
 /// The slow motion of an orbit, or of several side by side, as polynomials of the minutes since the
 /// epoch, constant term first.
 #[derive(Debug, Clone, PartialEq, Default)]
-pub(in crate::orbit) struct Secular<N = f64> {
-    pub(in crate::orbit) plane: Plane<N>,
+pub(crate) struct Secular<N = f64> {
+    pub(crate) plane: Plane<N>,
     /// Square root of the semi-major axis, in square roots of Earth radii.
-    pub(in crate::orbit) root_axis: [N; 5],
+    pub(crate) root_axis: [N; 5],
     pub(super) drag_wave: DragWave<N>,
     pub(super) waves: Waves<N>,
 }
 
 /// The plane of the orbit, and the mean position of the satellite in it.
 #[derive(Debug, Clone, PartialEq, Default)]
-pub(in crate::orbit) struct Plane<N = f64> {
-    pub(in crate::orbit) sin_inclination: N,
-    pub(in crate::orbit) cos_inclination: N,
+pub(crate) struct Plane<N = f64> {
+    pub(crate) sin_inclination: N,
+    pub(crate) cos_inclination: N,
     /// Right ascension of the ascending node, radians.
-    pub(in crate::orbit) node: [N; 3],
+    pub(crate) node: [N; 3],
     /// Argument of perigee plus mean anomaly, radians.
-    pub(in crate::orbit) argument: [N; 6],
+    pub(crate) argument: [N; 6],
     /// Argument of perigee, radians.
-    pub(in crate::orbit) perigee: [N; 2],
-    pub(in crate::orbit) eccentricity: [N; 2],
+    pub(crate) perigee: [N; 2],
+    pub(crate) eccentricity: [N; 2],
 }
 
 impl Secular {
@@ -63,7 +63,7 @@ impl Secular {
     }
 
     /// Semi-major axis in Earth radii, and eccentricity, `minutes` after the epoch.
-    pub(in crate::orbit) fn size(&self, minutes: f64) -> (f64, f64) {
+    pub(crate) fn size(&self, minutes: f64) -> (f64, f64) {
         let root_axis = series(&self.root_axis, minutes);
         (root_axis * root_axis, series(&self.plane.eccentricity, minutes))
     }
@@ -101,12 +101,12 @@ impl Secular {
     }
 
     /// How far the eccentricity swings around its polynomial, once a revolution.
-    pub(in crate::orbit) fn eccentricity_wave(&self) -> f64 {
+    pub(crate) fn eccentricity_wave(&self) -> f64 {
         self.drag_wave.eccentricity[0].abs()
     }
 
     /// Returns `true` if [`Self::motion`] is valid `minutes` after the epoch.
-    pub(in crate::orbit) fn is_near_circular_at(&self, minutes: f64) -> bool {
+    pub(crate) fn is_near_circular_at(&self, minutes: f64) -> bool {
         let (axis, eccentricity) = self.size(minutes);
         let wave = self.eccentricity_wave();
         // Written so that NaN is refused too.
@@ -231,7 +231,7 @@ impl Secular {
 
 impl Secular<Lanes> {
     /// Puts an orbit into a lane.
-    pub(in crate::orbit) fn set(&mut self, lane: usize, orbit: &Secular) {
+    pub(crate) fn set(&mut self, lane: usize, orbit: &Secular) {
         let Self { plane, root_axis, drag_wave, waves } = self;
         plane.set(lane, &orbit.plane);
         set_all(root_axis, lane, &orbit.root_axis);
@@ -242,7 +242,7 @@ impl Secular<Lanes> {
 
 impl Plane<Lanes> {
     /// Puts the plane of an orbit into a lane.
-    pub(in crate::orbit) fn set(&mut self, lane: usize, plane: &Plane) {
+    pub(crate) fn set(&mut self, lane: usize, plane: &Plane) {
         self.sin_inclination.set(lane, plane.sin_inclination);
         self.cos_inclination.set(lane, plane.cos_inclination);
         set_all(&mut self.node, lane, &plane.node);
@@ -299,7 +299,7 @@ impl Precession {
 }
 
 /// The value of a polynomial at `t`, its first derivative and half its second derivative.
-pub(in crate::orbit) fn expand<const N: usize>(polynomial: &[f64; N], t: f64) -> [f64; 3] {
+pub(crate) fn expand<const N: usize>(polynomial: &[f64; N], t: f64) -> [f64; 3] {
     let start = [0.0; 3];
     polynomial.iter().rev().fold(start, |[value, slope, half_curve], coefficient| {
         [value * t + coefficient, slope * t + value, half_curve * t + slope]

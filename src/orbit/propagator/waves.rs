@@ -3,7 +3,7 @@
 
 use sgp4::WGS72;
 
-use crate::orbit::simd::{Lanes, set_all};
+use crate::simd::{Lanes, set_all};
 
 /// Coefficients of the periodic terms of the gravity field.
 #[derive(Debug, Clone, PartialEq, Default)]

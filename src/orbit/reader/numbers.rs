@@ -16,7 +16,7 @@ pub(super) fn alpha_5(text: &str) -> Option<u64> {
 }
 
 /// The letters of Alpha-5, which stand for the numbers from 10 on.
-pub(in crate::orbit) const ALPHA_5: &str = "ABCDEFGHJKLMNPQRSTUVWXYZ";
+pub(crate) const ALPHA_5: &str = "ABCDEFGHJKLMNPQRSTUVWXYZ";
 
 /// A number with a point and without an exponent, such as `-.00002182`.
 pub(super) fn with_point(text: &str) -> Option<f64> {

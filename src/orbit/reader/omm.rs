@@ -16,7 +16,7 @@ use std::borrow::Cow;
 use jiff::{Timestamp, civil, tz::TimeZone};
 
 use super::{ReadReport, RefusalReason, clean, numbers};
-use crate::orbit::{
+use crate::{
     Elements,
     elements::{Classification, ElementsError, catalog_number},
 };

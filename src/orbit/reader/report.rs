@@ -4,8 +4,9 @@ use serde::{Deserialize, Serialize};
 
 use super::clean;
 use crate::{
+    Elements,
+    elements::ElementsError,
     name::{self, Name},
-    orbit::{Elements, elements::ElementsError},
 };
 
 /// Maximum number of refusals and of notes that are listed one by one. A text that is wrong

@@ -4,10 +4,10 @@ mod columns;
 
 use rayon::prelude::*;
 
-pub(in crate::orbit) use self::columns::checksum;
+pub(crate) use self::columns::checksum;
 use self::columns::{Columns, elements};
 use super::{ReadReport, RefusalReason, report::NoteKind};
-use crate::orbit::Elements;
+use crate::Elements;
 
 /// A line with its number in the text, from 1.
 #[derive(Clone, Copy)]
@@ -118,7 +118,7 @@ mod tests {
     use std::ops::RangeInclusive;
 
     use super::*;
-    use crate::orbit::{ElementsError, reader::Refusal};
+    use crate::{ElementsError, reader::Refusal};
 
     const LINE_1: &str = "1 25544U 98067A   08264.51782528 -.00002182  00000-0 -11606-4 0  2927";
     const LINE_2: &str = "2 25544  51.6416 247.4627 0006703 130.5360 325.0288 15.72125391563537";

@@ -7,16 +7,16 @@ use std::ops::{Add, BitAnd, BitOr, Div, Mul, Neg, Sub};
 
 use super::{Number, trig};
 
-pub(in crate::orbit) const LANES: usize = 8;
+pub(crate) const LANES: usize = 8;
 
 /// Numbers side by side.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 #[repr(align(64))]
-pub(in crate::orbit) struct Lanes([f64; LANES]);
+pub(crate) struct Lanes([f64; LANES]);
 
 /// A yes or no for every lane.
 #[derive(Debug, Clone, Copy)]
-pub(in crate::orbit) struct Answers([u64; LANES]);
+pub(crate) struct Answers([u64; LANES]);
 
 /// What `op` makes of each lane of two.
 #[inline]
@@ -31,21 +31,21 @@ fn by_lane<A: Copy, B: Copy, C>(
 }
 
 impl Lanes {
-    pub(in crate::orbit) const ZERO: Self = Self([0.0; LANES]);
+    pub(crate) const ZERO: Self = Self([0.0; LANES]);
 
-    pub(in crate::orbit) fn as_array(&self) -> &[f64; LANES] {
+    pub(crate) fn as_array(&self) -> &[f64; LANES] {
         &self.0
     }
 
     /// The number in one lane; NaN beyond the last lane.
     #[inline]
-    pub(in crate::orbit) fn lane(&self, lane: usize) -> f64 {
+    pub(crate) fn lane(&self, lane: usize) -> f64 {
         self.0.get(lane).copied().unwrap_or(f64::NAN)
     }
 
     /// Puts a number into a lane; has no effect beyond the last lane.
     #[inline]
-    pub(in crate::orbit) fn set(&mut self, lane: usize, number: f64) {
+    pub(crate) fn set(&mut self, lane: usize, number: f64) {
         if let Some(place) = self.0.get_mut(lane) {
             *place = number;
         }
@@ -60,7 +60,7 @@ impl Lanes {
 impl Answers {
     /// The answer for one lane; no beyond the last lane.
     #[inline]
-    pub(in crate::orbit) fn holds_in(self, lane: usize) -> bool {
+    pub(crate) fn holds_in(self, lane: usize) -> bool {
         self.0.get(lane).is_some_and(|answer| *answer != 0)
     }
 

@@ -8,25 +8,25 @@ use super::{Lanes, Number};
 
 /// A vector in three dimensions.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(in crate::orbit) struct Vector<N> {
-    pub(in crate::orbit) x: N,
-    pub(in crate::orbit) y: N,
-    pub(in crate::orbit) z: N,
+pub(crate) struct Vector<N> {
+    pub(crate) x: N,
+    pub(crate) y: N,
+    pub(crate) z: N,
 }
 
 impl<N: Number> Vector<N> {
     #[inline]
-    pub(in crate::orbit) fn new(x: N, y: N, z: N) -> Self {
+    pub(crate) fn new(x: N, y: N, z: N) -> Self {
         Self { x, y, z }
     }
 
     #[inline]
-    pub(in crate::orbit) fn dot(self, other: Self) -> N {
+    pub(crate) fn dot(self, other: Self) -> N {
         self.x * other.x + self.y * other.y + self.z * other.z
     }
 
     #[inline]
-    pub(in crate::orbit) fn cross(self, other: Self) -> Self {
+    pub(crate) fn cross(self, other: Self) -> Self {
         Self::new(
             self.y * other.z - self.z * other.y,
             self.z * other.x - self.x * other.z,
@@ -35,18 +35,18 @@ impl<N: Number> Vector<N> {
     }
 
     #[inline]
-    pub(in crate::orbit) fn length_squared(self) -> N {
+    pub(crate) fn length_squared(self) -> N {
         self.dot(self)
     }
 
     #[inline]
-    pub(in crate::orbit) fn length(self) -> N {
+    pub(crate) fn length(self) -> N {
         self.length_squared().sqrt()
     }
 }
 
 impl Vector<Lanes> {
-    pub(in crate::orbit) fn lane(&self, lane: usize) -> Vector<f64> {
+    pub(crate) fn lane(&self, lane: usize) -> Vector<f64> {
         let [x, y, z] = [&self.x, &self.y, &self.z].map(|numbers| numbers.lane(lane));
         Vector { x, y, z }
     }

@@ -6,7 +6,7 @@ use std::io::{self, Write};
 
 use jiff::{Timestamp, civil, tz::TimeZone};
 
-use crate::orbit::{
+use crate::{
     Elements,
     reader::{ALPHA_5, checksum},
 };

@@ -123,9 +123,13 @@ pub(in crate::ui) fn place(
     obstacles: &[Obstacle],
     before: Option<Memory>,
 ) -> Option<Placement> {
+    // No side reaches farther, so that each has only a few obstacles to be measured against.
+    let reach = Rect::from_center_size(mark, 2.0 * (size + Vec2::splat(clearance)));
+    let is_near = |other: &&Obstacle| other.rect.intersects(reach);
+    let near: Vec<Obstacle> = obstacles.iter().filter(is_near).copied().collect();
     let on = |side: Side| {
         let rect = side.rect(mark, size, clearance);
-        Placement { side, rect, covered: covered(rect, bounds, obstacles) }
+        Placement { side, rect, covered: covered(rect, bounds, &near) }
     };
     // The first of equals wins: `order` decides between free sides.
     let best = order

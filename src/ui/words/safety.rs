@@ -219,3 +219,17 @@ pub fn safety(matter: &Safety, antenna: &str, now: Timestamp) -> String {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_unit_of_no_antenna_is_named_by_its_make_and_address() {
+        let unit = |make: &str| Unit { make: make.to_owned(), address: "10.0.0.7:9".to_owned() };
+        assert!(owed(&unit("genius")).starts_with("The 4O3A Rotator Genius at 10.0.0.7:9"));
+        assert!(auto_track_owed(&unit("satrak")).starts_with("The SVS Satrak at 10.0.0.7:9 may"));
+        let offsets = offsets_owed(&unit("satrak"));
+        assert!(offsets.starts_with("The SVS Satrak at 10.0.0.7:9 may still add"), "{offsets}");
+    }
+}

@@ -1,7 +1,7 @@
 //! A batch of satellites, each at an instant of its own, one per lane.
 
 use super::NearCircular;
-use crate::orbit::{
+use crate::{
     passes::{
         local_series::{EarthFixed, LocalSeries},
         track::Exactness,
@@ -65,7 +65,7 @@ impl Batch {
     }
 
     /// The series around exact states. The caller
-    /// [counts](crate::orbit::passes::track::Track::count) them.
+    /// [counts](crate::passes::track::Track::count) them.
     #[inline(always)]
     pub(super) fn series(&self, window: &Window, at_s: Lanes) -> LocalSeries<Lanes> {
         let turn = window.sidereal_at(at_s);

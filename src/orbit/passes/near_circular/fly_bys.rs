@@ -14,11 +14,9 @@ use super::{
 };
 use crate::{
     astro::frames::EARTH_RATE_RAD_S,
-    orbit::{
-        passes::window::Window,
-        propagator::Plane,
-        simd::{LANES, Lanes, Number, series},
-    },
+    passes::window::Window,
+    propagator::Plane,
+    simd::{LANES, Lanes, Number, series},
 };
 
 /// Newton's method squares its error: after a step this small, in radians, the remaining error is

@@ -3,7 +3,7 @@
 //! All satellites take the same steps: an exact state near the middle, the crest from its series,
 //! AOS and LOS guessed from the ellipse of that state, an exact state at each of the two and the
 //! crossing from its series. The few that do not converge in this way are handled one by one by
-//! [`Track`](crate::orbit::passes::track::Track).
+//! [`Track`](crate::passes::track::Track).
 
 use std::iter;
 
@@ -12,7 +12,7 @@ use super::{
     batch::{Batch, SatelliteAt},
     fly_bys,
 };
-use crate::orbit::{
+use crate::{
     passes::{
         compact::CompactPass,
         local_series::{Bend, LocalSeries, LocalState},
@@ -39,7 +39,7 @@ struct Edges {
 }
 
 /// The passes of near-circular orbits, cut to the window, ordered by satellite, then by time.
-pub(in crate::orbit::passes) fn passes<'a>(
+pub(in crate::passes) fn passes<'a>(
     window: &Window,
     satellites: impl Iterator<Item = &'a NearCircular<'a>>,
     cancelled: &dyn Fn() -> bool,

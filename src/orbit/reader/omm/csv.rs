@@ -5,7 +5,7 @@ use std::borrow::Cow;
 use csv_core::{ReadRecordResult, Reader};
 
 use super::{Field, Message, Value};
-use crate::orbit::reader::{ReadReport, RefusalReason};
+use crate::reader::{ReadReport, RefusalReason};
 
 /// Maximum number of fields of a row that are read; real rows have some forty. A line without an
 /// end must not take many times its length in memory.
@@ -15,7 +15,7 @@ const MAX_FIELDS: usize = 1000;
 const MIN_NAMES: usize = 4;
 
 /// Returns `true` if `line` is a header.
-pub(in crate::orbit::reader) fn is_header(line: &str) -> bool {
+pub(in crate::reader) fn is_header(line: &str) -> bool {
     let mut row = Row::new();
     row.split(line);
     row.is_header()
@@ -25,7 +25,7 @@ pub(in crate::orbit::reader) fn is_header(line: &str) -> bool {
 ///
 /// Every line is read by itself, because no field of an OMM spans lines: a stray quotation mark
 /// costs one row and not the rest of the text.
-pub(in crate::orbit::reader) fn read(text: &str) -> ReadReport {
+pub(in crate::reader) fn read(text: &str) -> ReadReport {
     let mut report = ReadReport::default();
     let mut row = Row::new();
     let mut header: Vec<Option<Field>> = Vec::new();
@@ -116,7 +116,7 @@ impl Row {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::orbit::{Elements, reader::Refusal};
+    use crate::{Elements, reader::Refusal};
 
     const HEADER: &str = "OBJECT_NAME,OBJECT_ID,EPOCH,MEAN_MOTION,ECCENTRICITY,INCLINATION,\
         RA_OF_ASC_NODE,ARG_OF_PERICENTER,MEAN_ANOMALY,EPHEMERIS_TYPE,CLASSIFICATION_TYPE,\

@@ -8,9 +8,9 @@ use serde::de::{DeserializeSeed, Deserializer, IgnoredAny, MapAccess, SeqAccess,
 
 use self::split::{Part, parts};
 use super::{Field, Message, Value};
-use crate::orbit::reader::{ReadReport, RefusalReason};
+use crate::reader::{ReadReport, RefusalReason};
 
-pub(in crate::orbit::reader) fn read(text: &str) -> ReadReport {
+pub(in crate::reader) fn read(text: &str) -> ReadReport {
     let mut report = ReadReport::default();
     // Some servers put an object around the list.
     let mut is_wrapped = false;
@@ -157,7 +157,7 @@ mod tests {
     use serde_json::{Value as Json, json};
 
     use super::*;
-    use crate::orbit::{ElementsError, reader::Refusal};
+    use crate::{ElementsError, reader::Refusal};
 
     /// A message as `CelesTrak` writes it, with a number that no TLE can carry.
     fn celestrak() -> Json {

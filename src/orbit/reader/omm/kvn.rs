@@ -3,13 +3,13 @@
 use std::borrow::Cow;
 
 use super::{Field, Message, Value};
-use crate::orbit::reader::ReadReport;
+use crate::reader::ReadReport;
 
 /// Starts every message; a source that omits it is also read.
 const START: &str = "CCSDS_OMM_VERS";
 
 /// Returns `true` if `line` may be the first line of a KVN text.
-pub(in crate::orbit::reader) fn is_first(line: &str) -> bool {
+pub(in crate::reader) fn is_first(line: &str) -> bool {
     line.split_once('=').is_some_and(|(key, _)| {
         let key = key.trim();
         key.eq_ignore_ascii_case(START)
@@ -19,11 +19,11 @@ pub(in crate::orbit::reader) fn is_first(line: &str) -> bool {
 }
 
 /// Returns `true` if `line` says nothing about an object.
-pub(in crate::orbit::reader) fn is_comment(line: &str) -> bool {
+pub(in crate::reader) fn is_comment(line: &str) -> bool {
     line.split_whitespace().next() == Some("COMMENT")
 }
 
-pub(in crate::orbit::reader) fn read(text: &str) -> ReadReport {
+pub(in crate::reader) fn read(text: &str) -> ReadReport {
     let mut report = ReadReport::default();
     let (mut message, mut start) = (Message::default(), 1);
     for (index, line) in text.lines().enumerate() {
@@ -57,7 +57,7 @@ fn without_unit(field: Field, value: &str) -> &str {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::orbit::{Elements, RefusalReason};
+    use crate::{Elements, RefusalReason};
 
     const MESSAGE: &str = "\
 CCSDS_OMM_VERS = 2.0

@@ -5,20 +5,20 @@ use std::borrow::Cow;
 use quick_xml::{Reader, escape::resolve_predefined_entity, events::Event};
 
 use super::{Field, Message, Value};
-use crate::orbit::reader::{ReadReport, RefusalReason};
+use crate::reader::{ReadReport, RefusalReason};
 
 /// Maximum number of bytes examined to find the name of a tag and its prefix.
 const MAX_NAME: usize = 40;
 
 /// Returns `true` if `line` opens a message or an NDM, with or without a prefix.
-pub(in crate::orbit::reader) fn is_first(line: &str) -> bool {
+pub(in crate::reader) fn is_first(line: &str) -> bool {
     line.starts_with('<') && [*b"omm", *b"ndm"].iter().any(|tag| is_start(line, 0, *tag))
 }
 
 /// Reads all messages of `text`.
 ///
 /// Every message is cut out first and read by itself, so that a bad one does not affect the others.
-pub(in crate::orbit::reader) fn read(text: &str) -> ReadReport {
+pub(in crate::reader) fn read(text: &str) -> ReadReport {
     let mut report = ReadReport::default();
     for (line, text) in messages(text) {
         let mut message = Message::default();
@@ -99,7 +99,7 @@ fn fill<'a>(message: &mut Message<'a>, text: &'a str) -> Option<()> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::orbit::{Elements, reader::Refusal};
+    use crate::{Elements, reader::Refusal};
 
     /// A message with the name and number of the object, and `more` in its data.
     fn message(name: &str, number: u32, more: &str) -> String {

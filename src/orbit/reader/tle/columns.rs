@@ -8,7 +8,7 @@ use jiff::{SignedDuration, Timestamp, civil, tz::Offset};
 use smol_str::{SmolStr, format_smolstr};
 
 use super::super::{RefusalReason, clean, numbers};
-use crate::orbit::{
+use crate::{
     Elements,
     elements::{Classification, catalog_number},
 };
@@ -185,7 +185,7 @@ fn decimal(digits: u64, exponent: i8) -> f64 {
 
 /// The checksum of the columns before it: the sum of all digits modulo 10, in which a minus
 /// counts as one.
-pub(in crate::orbit) fn checksum(content: &[u8]) -> u8 {
+pub(crate) fn checksum(content: &[u8]) -> u8 {
     let sum: u32 = content
         .iter()
         .map(|byte| match byte {

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use serde::de::IgnoredAny;
 use serde_json::Deserializer;
 
-use crate::orbit::reader::omm::Field;
+use crate::reader::omm::Field;
 
 /// One entry, which may not be valid JSON.
 #[derive(Debug, PartialEq)]

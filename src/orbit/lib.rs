@@ -1,0 +1,39 @@
+//! Elements, propagation, look angles, passes. Pure functions; the time is an argument.
+
+pub mod astro;
+mod bundled;
+mod catalog;
+mod elements;
+mod ground;
+mod look;
+pub mod name;
+mod passes;
+mod propagator;
+mod reader;
+mod shadow;
+mod simd;
+mod sources;
+mod writer;
+
+pub use bundled::{BUNDLED_NEWEST, BUNDLED_SOURCE, BundledError, bundled};
+pub use catalog::{Catalog, MergeSummary};
+pub use elements::{EPOCH_YEARS, Elements, ElementsError, Heights};
+pub use ground::{SubPoint, TrackPoint};
+pub use look::{Distance, Local, LookAngles, OverGround};
+pub use passes::{
+    FoundPasses, Pass, PassPoint, PassSearch, clear_stretches, found_passes, passes,
+    passes_and_effort, passes_of_all,
+};
+pub use propagator::{PropagationError, Propagator, State};
+pub use reader::{
+    MAX_ELEMENT_BYTES, Note, NoteKind, Nothing, ReadReport, Refusal, RefusalReason,
+    read_element_bytes, read_elements,
+};
+pub use shadow::{is_lit, is_sunlit};
+pub use sources::{
+    FETCH_PAUSE, FetchProblem, FileReport, RefreshHours, Source, SourcePlace, SourceReport,
+    may_fetch,
+};
+pub use writer::{
+    TleRefusal, TleRefusalReason, tle_lines, write_omm_csv, write_omm_json, write_tle,
+};

@@ -1,0 +1,344 @@
+//! The snapshots of a station as pictures of its film, and the way back.
+
+use std::{any::Any, collections::HashMap, path::Path, sync::Arc};
+
+use jiff::Timestamp;
+use serde::{Deserialize, Serialize, de::DeserializeOwned};
+use serde_json::Value;
+
+use super::{
+    CatalogState, Snapshot,
+    antenna::{AntennaModel, ErrorSample, Errors, PastTrack, PastTracks},
+    passes::PassLists,
+    written,
+};
+use crate::{
+    astro::time::{add_seconds, seconds_between},
+    clock::Moment,
+    driver::{self, LinkState, WireLog},
+    orbit::{Catalog, Elements, ReadReport},
+    record::{Film, FilmError, Parts, Picture},
+    station::{AntennaId, Station},
+};
+
+/// Source of the elements of a film.
+const RECORDED_SOURCE: &str = "record";
+
+/// Lines are shown from this long before the moment that is gone to, seconds.
+const WIRE_S: f64 = 300.0;
+
+/// A snapshot with numbers instead of its large parts.
+#[derive(Serialize, Deserialize)]
+struct Drawn {
+    shown: Snapshot,
+    antennas: Vec<DrawnAntenna>,
+    station: i64,
+    satellites: i64,
+    sources: i64,
+    older_sets: Option<i64>,
+    // Older films have neither of the next two.
+    pointing_fitted: Option<i64>,
+    peaks: Option<i64>,
+    reminders: i64,
+    schedule: i64,
+    swap: Option<i64>,
+    day: i64,
+    uploads: i64,
+    source_tests: i64,
+    link_tests: i64,
+    copies: i64,
+}
+
+/// The errors of an antenna: those of the present track in whole chunks and the newest ones, and
+/// those of past tracks.
+#[derive(Serialize, Deserialize)]
+struct DrawnAntenna {
+    chunks: Vec<i64>,
+    newest: Vec<ErrorSample>,
+    past_tracks: Vec<i64>,
+}
+
+impl Picture for Snapshot {
+    fn at(&self) -> Moment {
+        self.at
+    }
+
+    fn draw(&self, parts: &mut Parts) -> serde_json::Result<Value> {
+        // All fields by name: a new one has to be drawn as well.
+        let Self {
+            at,
+            time_sync,
+            station,
+            station_saved_at,
+            demo,
+            catalog,
+            catalog_revision,
+            sources,
+            older_sets,
+            // A client looks at the record, which holds the film itself.
+            recorded: _,
+            pointing_fitted,
+            peaks,
+            antennas,
+            pass_lists,
+            reminders,
+            schedule,
+            swap,
+            day,
+            uploads,
+            source_tests,
+            link_tests,
+            alarms,
+            copies,
+            record,
+            closing,
+        } = self;
+        let drawn = Drawn {
+            antennas: (antennas.iter())
+                .map(|antenna| DrawnAntenna::of(antenna, parts))
+                .collect::<Result<_, _>>()?,
+            station: parts.number(station)?,
+            satellites: parts.number_with(&pass_lists.favourites.satellites, |satellites| {
+                let elements: Vec<&Elements> =
+                    satellites.iter().map(|satellite| &satellite.elements).collect();
+                serde_json::to_vec(&elements)
+            })?,
+            sources: parts.number(sources)?,
+            older_sets: older_sets.as_ref().map(|part| parts.number(part)).transpose()?,
+            pointing_fitted: pointing_fitted.as_ref().map(|part| parts.number(part)).transpose()?,
+            peaks: Some(parts.number(peaks)?),
+            reminders: parts.number(reminders)?,
+            schedule: parts.number(schedule)?,
+            swap: swap.as_ref().map(|part| parts.number(part)).transpose()?,
+            day: parts.number(day)?,
+            uploads: parts.number(uploads)?,
+            source_tests: parts.number(source_tests)?,
+            link_tests: parts.number(link_tests)?,
+            copies: parts.number(copies)?,
+            shown: Self {
+                antennas: without_parts(antennas, parts),
+                time_sync: *time_sync,
+                station_saved_at: *station_saved_at,
+                demo: *demo,
+                catalog: catalog.clone(),
+                catalog_revision: *catalog_revision,
+                pass_lists: pass_lists.clone(),
+                alarms: alarms.clone(),
+                record: record.clone(),
+                closing: closing.clone(),
+                ..Self::before_anything(*at)
+            },
+        };
+        serde_json::to_value(drawn)
+    }
+}
+
+/// Reads a picture by way of its text: read straight from the tree, each type in it would be
+/// compiled a second time, and a picture is small.
+fn drawn(picture: &serde_json::Value) -> serde_json::Result<Drawn> {
+    serde_json::from_slice(&serde_json::to_vec(picture)?)
+}
+
+/// The antennas without their large parts and what of them stands in the last picture.
+fn without_parts(antennas: &[AntennaModel], parts: &mut Parts) -> Vec<AntennaModel> {
+    let mut antennas = antennas.to_vec();
+    for (index, antenna) in antennas.iter_mut().enumerate() {
+        if parts.is_same(format!("/shown/antennas/{index}/snapshot"), &antenna.snapshot) {
+            antenna.snapshot = Arc::new(driver::Snapshot::before_anything(LinkState::Off));
+        }
+        antenna.errors = Errors::default();
+        antenna.past_tracks = PastTracks::default();
+    }
+    antennas
+}
+
+impl DrawnAntenna {
+    fn of(antenna: &AntennaModel, parts: &mut Parts) -> serde_json::Result<Self> {
+        let (whole, newest) = antenna.errors.chunks();
+        Ok(Self {
+            chunks: whole.map(|chunk| parts.number(chunk)).collect::<Result<_, _>>()?,
+            newest: newest.to_vec(),
+            past_tracks: (antenna.past_tracks.iter())
+                .map(|track| parts.number(track))
+                .collect::<Result<_, _>>()?,
+        })
+    }
+}
+
+/// Shows the film of a station again.
+pub struct Projector {
+    film: Film,
+    /// Parts of the last pictures by run and number.
+    parts: HashMap<(i64, i64), Kept>,
+    lists: Option<PredictedAgain>,
+    wires: Wires,
+}
+
+/// The lines on the links of the last minutes.
+#[derive(Default)]
+struct Wires {
+    logs: Vec<(AntennaId, WireLog)>,
+    until: Timestamp,
+}
+
+struct Kept {
+    part: Arc<dyn Any + Send + Sync>,
+    is_shown: bool,
+}
+
+/// Pass lists that were predicted anew, and what they follow from.
+struct PredictedAgain {
+    station: Arc<Station>,
+    elements: Arc<Vec<Elements>>,
+    made_at: Option<Timestamp>,
+    catalog: Arc<Catalog>,
+    lists: PassLists,
+}
+
+impl Projector {
+    /// Opens the film in the record at `path`.
+    pub fn open(path: &Path) -> Result<Self, FilmError> {
+        Ok(Self {
+            film: Film::open(path)?,
+            parts: HashMap::new(),
+            lists: None,
+            wires: Wires::default(),
+        })
+    }
+
+    pub fn film(&mut self) -> &mut Film {
+        &mut self.film
+    }
+
+    /// The snapshot that the station showed at `at`; `None` before the first.
+    pub fn at(&mut self, at: Timestamp) -> Result<Option<Snapshot>, FilmError> {
+        let Some(shown) = self.film.at(at)? else { return Ok(None) };
+        let run = shown.run;
+        let Drawn {
+            mut shown,
+            antennas,
+            station,
+            satellites,
+            sources,
+            older_sets,
+            pointing_fitted,
+            peaks,
+            reminders,
+            schedule,
+            swap,
+            day,
+            uploads,
+            source_tests,
+            link_tests,
+            copies,
+        } = drawn(shown.picture)?;
+        let station = self.part_with(run, station, |content| {
+            let mut from = serde_json::Deserializer::from_slice(content);
+            written::station::deserialize::<_, Station>(&mut from)
+        })?;
+        let elements = self.part(run, satellites)?;
+        for (antenna, drawn) in shown.antennas.iter_mut().zip(antennas) {
+            let chunks: Vec<_> =
+                drawn.chunks.iter().map(|of| self.part(run, *of)).collect::<Result<_, _>>()?;
+            antenna.errors = Errors::of_chunks(chunks, drawn.newest);
+            let tracks: Vec<Arc<PastTrack>> =
+                drawn.past_tracks.iter().map(|of| self.part(run, *of)).collect::<Result<_, _>>()?;
+            antenna.past_tracks = tracks.into_iter().collect();
+        }
+        shown.sources = self.part(run, sources)?;
+        shown.older_sets = older_sets.map(|of| self.part(run, of)).transpose()?;
+        shown.pointing_fitted = pointing_fitted.map(|of| self.part(run, of)).transpose()?;
+        shown.peaks = peaks.map(|of| self.part(run, of)).transpose()?.unwrap_or_default();
+        shown.reminders = self.part(run, reminders)?;
+        shown.schedule = self.part(run, schedule)?;
+        shown.swap = swap.map(|of| self.part(run, of)).transpose()?;
+        shown.day = self.part(run, day)?;
+        shown.uploads = self.part(run, uploads)?;
+        shown.source_tests = self.part(run, source_tests)?;
+        shown.link_tests = self.part(run, link_tests)?;
+        shown.copies = self.part(run, copies)?;
+        self.predict(&mut shown, &station, elements);
+        shown.station = station;
+        self.parts.retain(|_, kept| std::mem::take(&mut kept.is_shown));
+        Ok(Some(shown))
+    }
+
+    /// The lines on the links of the antennas of `shown`, of some minutes up to `at`.
+    pub fn wires(
+        &mut self,
+        shown: &Snapshot,
+        at: Timestamp,
+    ) -> Result<Vec<(AntennaId, WireLog)>, FilmError> {
+        let wires = &mut self.wires;
+        let passed_s = seconds_between(wires.until, at);
+        let antennas = shown.antennas.iter().map(AntennaModel::id);
+        let goes_on = (0.0..WIRE_S).contains(&passed_s)
+            && antennas.clone().eq(wires.logs.iter().map(|(antenna, _)| *antenna));
+        if !goes_on {
+            wires.logs = antennas.map(|antenna| (antenna, WireLog::default())).collect();
+            wires.until = add_seconds(at, -WIRE_S);
+        }
+        for (antenna, log) in &wires.logs {
+            for line in self.film.lines(*antenna, wires.until, at)? {
+                log.push(line);
+            }
+        }
+        wires.until = at;
+        Ok(wires.logs.clone())
+    }
+
+    fn part<T>(&mut self, run: i64, number: i64) -> Result<Arc<T>, FilmError>
+    where
+        T: DeserializeOwned + Send + Sync + 'static,
+    {
+        self.part_with(run, number, |content| serde_json::from_slice(content))
+    }
+
+    fn part_with<T: Send + Sync + 'static>(
+        &mut self,
+        run: i64,
+        number: i64,
+        read: impl FnOnce(&[u8]) -> serde_json::Result<T>,
+    ) -> Result<Arc<T>, FilmError> {
+        if let Some(kept) = self.parts.get_mut(&(run, number))
+            && let Ok(part) = Arc::clone(&kept.part).downcast()
+        {
+            kept.is_shown = true;
+            return Ok(part);
+        }
+        let part = Arc::new(read(&self.film.part(run, number)?)?);
+        self.parts.insert((run, number), Kept { part: part.clone(), is_shown: true });
+        Ok(part)
+    }
+
+    /// Puts the passes that the station showed into `shown`, from its elements.
+    fn predict(
+        &mut self,
+        shown: &mut Snapshot,
+        station: &Arc<Station>,
+        elements: Arc<Vec<Elements>>,
+    ) {
+        let made_at = shown.pass_lists.favourites.made_at;
+        let is_same = |again: &PredictedAgain| {
+            Arc::ptr_eq(&again.station, station)
+                && Arc::ptr_eq(&again.elements, &elements)
+                && again.made_at == made_at
+        };
+        if !self.lists.as_ref().is_some_and(is_same) {
+            let mut catalog = Catalog::default();
+            let read = ReadReport { elements: elements.to_vec(), ..ReadReport::default() };
+            catalog.merge(read, RECORDED_SOURCE);
+            let catalog = Arc::new(catalog);
+            let lists = PassLists::again(&catalog, &elements, station, made_at);
+            let station = Arc::clone(station);
+            self.lists = Some(PredictedAgain { station, elements, made_at, catalog, lists });
+        }
+        let Some(again) = &self.lists else { return };
+        let favourites = &mut shown.pass_lists.favourites;
+        favourites.satellites = Arc::clone(&again.lists.favourites.satellites);
+        favourites.passes = Arc::clone(&again.lists.favourites.passes);
+        if let CatalogState::Ready(catalog) = &mut shown.catalog {
+            *catalog = Arc::clone(&again.catalog);
+        }
+    }
+}

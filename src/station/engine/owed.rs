@@ -1,0 +1,120 @@
+//! STOPs, ends of auto-track and offsets that are owed to units that no antenna of the station has:
+//! the antenna was deleted, or given another address, while it moved or tracked by itself.
+
+use jiff::Timestamp;
+
+use super::{
+    Engine,
+    alarms::{AlarmKind, Alarms},
+};
+use crate::{
+    driver::{Debts, Unit},
+    makes,
+    plan::Bounds,
+    station::Antenna,
+};
+
+impl Engine {
+    /// Switches auto-track off at the units that an earlier run owes that and no antenna has: each
+    /// has a session that ends once it is paid.
+    pub(super) fn pay_left_auto_track(&mut self) {
+        let debts = self.driver.debts();
+        let has_it = |unit: &Unit| self.station.antennas.iter().any(|of| Unit::of(of) == *unit);
+        for unit in debts.with_auto_track().into_iter().filter(|unit| !has_it(unit)) {
+            let spec = makes::SPECS.iter().find(|spec| spec.key == unit.make);
+            // A unit of a make that this version does not know stays an alarm.
+            let Some(spec) = spec else { continue };
+            let antenna = spec.antenna(&unit.address, &unit.address);
+            match self.claim_unit(&antenna) {
+                Ok(claim) => {
+                    let (bounds, until_the_end) = (Bounds::of_antenna(&antenna), Box::new(claim));
+                    drop(self.driver.open(&antenna, bounds, None, until_the_end));
+                }
+                // Whoever drives it looks after it.
+                Err(_) => drop(debts.settle_auto_track(&unit)),
+            }
+        }
+    }
+}
+
+/// The alarms about units to which something is owed and that none of `antennas` has.
+pub(super) fn strangers<'a>(
+    debts: &Debts,
+    antennas: impl Iterator<Item = &'a Antenna>,
+) -> Vec<AlarmKind> {
+    let known: Vec<Unit> = antennas.map(Unit::of).collect();
+    let is_strange = |unit: &Unit| !known.contains(unit);
+    let stops = debts.units().into_iter().filter(is_strange).map(AlarmKind::Owed);
+    let auto_track = debts.with_auto_track().into_iter().filter(is_strange);
+    let offsets = debts.with_offsets().into_iter().filter(is_strange);
+    let owed = stops.chain(auto_track.map(AlarmKind::AutoTrackOwed));
+    owed.chain(offsets.map(AlarmKind::OffsetsOwed)).collect()
+}
+
+/// Raises these alarms, and clears those whose debt is paid.
+pub(super) fn tell(alarms: &mut Alarms, strangers: Vec<AlarmKind>, now: Timestamp) {
+    alarms.clear(None, now, |kind| {
+        let is_that = matches!(
+            kind,
+            AlarmKind::Owed(_) | AlarmKind::AutoTrackOwed(_) | AlarmKind::OffsetsOwed(_)
+        );
+        is_that && !strangers.contains(kind)
+    });
+    for kind in strangers {
+        alarms.raise(None, kind, now);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn standing(alarms: &Alarms) -> Vec<&AlarmKind> {
+        let list = alarms.list().iter().filter(|alarm| !alarm.is_over());
+        list.map(|alarm| &alarm.kind).collect()
+    }
+
+    #[test]
+    fn a_unit_of_no_antenna_is_named_until_its_debts_are_paid() {
+        let kept = Antenna::satrak("Dish", "10.0.0.5:4001");
+        let gone = Antenna::genius("Mast", "10.0.0.6:9006");
+        let left = Antenna::satrak("Dish", "10.0.0.7:4001");
+        let debts = Debts::default();
+        for antenna in [&kept, &left] {
+            debts.owe_auto_track_off(&Unit::of(antenna));
+        }
+        for antenna in [&kept, &gone] {
+            debts.owe(&Unit::of(antenna));
+        }
+        let mut alarms = Alarms::default();
+        for _ in 0..3 {
+            let strangers = strangers(&debts, std::iter::once(&kept));
+            tell(&mut alarms, strangers, Timestamp::UNIX_EPOCH);
+        }
+        let wanted = [AlarmKind::Owed(Unit::of(&gone)), AlarmKind::AutoTrackOwed(Unit::of(&left))];
+        assert_eq!(standing(&alarms), wanted.iter().collect::<Vec<_>>());
+        tell(&mut alarms, Vec::new(), Timestamp::UNIX_EPOCH);
+        assert!(standing(&alarms).is_empty());
+    }
+
+    #[test]
+    fn a_unit_of_no_antenna_that_may_hold_offsets_of_a_pass_is_named() {
+        let folder = tempfile::tempdir().unwrap();
+        let left = |address: &str| {
+            let text = format!(
+                "make = 'satrak'\naddress = '{address}'\nsince = '2026-08-12T01:02:03Z'\n\
+                 put = [{{ azimuth_deg = 0.2 }}]\nbefore = {{}}\n"
+            );
+            std::fs::write(folder.path().join(format!("{}.offsets.toml", &address[7..8])), text)
+        };
+        left("10.0.0.5:4001").unwrap();
+        left("10.0.0.7:4001").unwrap();
+        let debts = Debts::marked_in(Some(folder.path().to_owned()));
+        let kept = Antenna::satrak("Dish", "10.0.0.5:4001");
+        let mut alarms = Alarms::default();
+        let strangers = strangers(&debts, std::iter::once(&kept));
+        tell(&mut alarms, strangers, Timestamp::UNIX_EPOCH);
+        let stranger = Antenna::satrak("Dish", "10.0.0.7:4001");
+        assert_eq!(standing(&alarms), [&AlarmKind::OffsetsOwed(Unit::of(&stranger))]);
+    }
+}

@@ -1,0 +1,18 @@
+//! A station at work: the sessions with its units, the engine that decides, the record, transfers of
+//! elements, simulators instead of units, and rehearsals of a plan.
+//!
+//! From the bottom: [`job`], [`library`], [`transfer`], [`driver`], [`record`], [`sim`], [`makes`],
+//! [`engine`], [`rehearsal`]; a lower one never names a higher one.
+
+pub mod driver;
+pub mod engine;
+pub mod job;
+pub mod library;
+pub mod makes;
+pub mod record;
+pub mod rehearsal;
+pub mod sim;
+pub mod transfer;
+
+use azel_orbit::{self as orbit, astro, name};
+use azel_units::{clock, controller, device, plan, protocol, secret, station, whole_file};

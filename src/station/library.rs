@@ -1,0 +1,274 @@
+//! Library: elements of all sources on this computer, and the only place that asks servers
+//! for new ones.
+//!
+//! Answers of servers are kept unchanged, one file for each source, beside an index. Being
+//! offline is a normal state: the elements held stay and their age is shown. All calls
+//! wait for disks and servers: make them on a worker thread.
+
+pub mod disk;
+mod exceptions;
+mod fetch;
+mod history;
+mod index;
+mod list;
+mod unfinished;
+
+use std::{
+    io,
+    path::{Path, PathBuf},
+};
+
+use jiff::Timestamp;
+use rustls::pki_types::CertificateDer;
+use ureq::tls::{Certificate, RootCerts};
+
+pub use self::{
+    exceptions::Exceptions,
+    fetch::Limits,
+    history::{History, OlderSet},
+    index::IndexError,
+    list::{SourceProblem, SourcesError, check_source, load_sources, save_sources},
+};
+use self::{
+    fetch::{ServerAnswer, fetch, host},
+    index::{Index, Record},
+    unfinished::Unfinished,
+};
+use crate::{
+    orbit::{
+        Catalog, Elements, FETCH_PAUSE, FetchProblem, FileReport, MergeSummary, Source,
+        SourcePlace, SourceReport, may_fetch, read_element_bytes,
+    },
+    whole_file,
+};
+
+/// Extensions of element files in a folder.
+const ENDINGS: [&str; 9] = ["tle", "2le", "3le", "txt", "json", "csv", "xml", "kvn", "omm"];
+
+/// Element files in `folder`, sorted by name, without those of its subfolders.
+pub fn element_files(folder: &Path) -> io::Result<Vec<PathBuf>> {
+    disk::files(folder, &ENDINGS)
+}
+
+/// The server of a source, for sources that have one.
+pub fn server_of(source: &Source) -> Option<String> {
+    match &source.place {
+        SourcePlace::Web(url) => Some(host(url)),
+        SourcePlace::File(_) | SourcePlace::Folder(_) => None,
+    }
+}
+
+/// The bytes of a file of elements, as far as the default limits allow.
+pub fn read_element_file(path: &Path) -> io::Result<Vec<u8>> {
+    Ok(disk::read(path, Limits::default().bytes)?.bytes)
+}
+
+/// Library of elements on disk.
+#[derive(Debug)]
+pub struct Library {
+    folder: PathBuf,
+    index: Index,
+    limits: Limits,
+    authorities: RootCerts,
+}
+
+/// Folder for the elements of this user; `None` on a machine without a home.
+pub fn library_folder() -> Option<PathBuf> {
+    directories::ProjectDirs::from("", "", "azel").map(|dirs| dirs.data_dir().join("elements"))
+}
+
+impl Library {
+    /// Opens the library in `folder`, which need not exist yet.
+    pub fn open(folder: &Path, limits: Limits) -> Result<Self, IndexError> {
+        let (folder, index) = (folder.to_owned(), Index::load(folder)?);
+        Ok(Self { folder, index, limits, authorities: RootCerts::WebPki })
+    }
+
+    /// Trusts these certificate authorities, in DER, in place of the public ones.
+    #[must_use]
+    pub fn trusting_only(self, authorities: &[CertificateDer<'static>]) -> Self {
+        let own = authorities.iter().map(|own| Certificate::from_der(own).to_owned());
+        Self { authorities: own.into(), ..self }
+    }
+
+    /// Reads all `sources` from disk, without asking a server.
+    pub fn load(&self, sources: &[Source]) -> (Catalog, Vec<SourceReport>) {
+        let mut catalog = Catalog::default();
+        let reports = self.load_into(sources, &mut catalog);
+        (catalog, reports)
+    }
+
+    /// Reads all `sources` into a catalog that has elements already.
+    ///
+    /// A source whose reading ended the program is set aside: it is not read, and its report
+    /// says so, until [`Self::read_again`] names it.
+    pub fn load_into(&self, sources: &[Source], catalog: &mut Catalog) -> Vec<SourceReport> {
+        let mut unfinished = Unfinished::load(&self.folder);
+        let of = |source: &Source| {
+            if unfinished.holds(source) {
+                return SourceReport { is_set_aside: true, ..no_report(source) };
+            }
+            unfinished.during(source, || self.load_one(source, catalog))
+        };
+        sources.iter().map(of).collect()
+    }
+
+    /// Stops setting aside the sources in `names`, and those that are no longer in `sources`.
+    pub fn read_again(&self, sources: &[Source], names: &[String]) {
+        Unfinished::load(&self.folder).keep(sources, names);
+    }
+
+    fn load_one(&self, source: &Source, catalog: &mut Catalog) -> SourceReport {
+        let mut report = no_report(source);
+        if let SourcePlace::Web(url) = &source.place
+            && let Some(record) = self.index.get(url)
+        {
+            report.fetch_problem.clone_from(&record.problem);
+            report.failures = record.failures;
+            report.next_fetch = record.attempted_at.checked_add(FETCH_PAUSE).ok();
+            report.as_of = record.confirmed_at;
+        }
+        let paths = match self.files_of(source) {
+            Ok(paths) => paths,
+            Err((path, error)) => {
+                report.files.push(unread(&path, &error));
+                return report;
+            }
+        };
+        for path in paths {
+            match disk::read(&path, self.limits.bytes) {
+                Ok(file) => {
+                    let read = read_element_bytes(&file.bytes);
+                    drop(file.bytes);
+                    let newest = read.elements.iter().map(Elements::epoch).max();
+                    report.newest_epoch = report.newest_epoch.max(newest);
+                    if !matches!(source.place, SourcePlace::Web(_)) {
+                        report.as_of = report.as_of.max(file.modified);
+                    }
+                    let objects = read.elements.len();
+                    let merge = catalog.merge(read, &source.name);
+                    report.files.push(FileReport { path, objects, merge, problem: None });
+                }
+                Err(error) => report.files.push(unread(&path, &error)),
+            }
+        }
+        report
+    }
+
+    /// Files with the elements of a source, which need not exist; empty if its server never
+    /// answered. An error names the folder that cannot be listed.
+    pub fn files_of(&self, source: &Source) -> Result<Vec<PathBuf>, (PathBuf, io::Error)> {
+        match &source.place {
+            SourcePlace::File(path) => Ok(vec![path.clone()]),
+            SourcePlace::Folder(path) => element_files(path).map_err(|error| (path.clone(), error)),
+            SourcePlace::Web(url) => {
+                let kept = self.index.get(url).filter(|record| record.confirmed_at.is_some());
+                Ok(kept.map(|record| self.folder.join(&record.file)).into_iter().collect())
+            }
+        }
+    }
+
+    /// Asks the servers of `sources` for new elements at `now`: every server that may be asked
+    /// again, or all if the operator demands it (`forced`). Returns the number of sources with
+    /// new elements; [`Library::load`] then reports the result of each.
+    ///
+    /// A server that gives an answer other than 200 or 304, or none, is not asked for its
+    /// other sources.
+    pub fn refresh(
+        &mut self,
+        sources: &[Source],
+        now: Timestamp,
+        forced: bool,
+        cancelled: &dyn Fn() -> bool,
+    ) -> Result<usize, IndexError> {
+        let mut renewed = 0;
+        let mut silent_hosts: Vec<String> = Vec::new();
+        for source in sources {
+            let SourcePlace::Web(url) = &source.place else { continue };
+            let last = self.index.get(url).map(|record| record.attempted_at);
+            if cancelled() {
+                break;
+            }
+            let host = host(url);
+            if silent_hosts.contains(&host) || !may_fetch(last, now, forced) {
+                continue;
+            }
+            let problem = match self.refresh_one(&source.name, url, now) {
+                Ok(is_new) => {
+                    renewed += usize::from(is_new);
+                    None
+                }
+                Err(problem) => Some(problem),
+            };
+            let is_silent = matches!(
+                problem,
+                Some(
+                    FetchProblem::Answer(_)
+                        | FetchProblem::Unreachable(_)
+                        | FetchProblem::Certificate(_)
+                )
+            );
+            if is_silent {
+                silent_hosts.push(host);
+            }
+            let record = self.index.entry(url, &source.name, now);
+            record.failures = if problem.is_some() { record.failures.saturating_add(1) } else { 0 };
+            record.problem = problem;
+            self.index.save(&self.folder)?;
+        }
+        Ok(renewed)
+    }
+
+    /// Requests one source; returns whether something new came.
+    fn refresh_one(&mut self, name: &str, url: &str, now: Timestamp) -> Result<bool, FetchProblem> {
+        let record = self.index.entry(url, name, now);
+        record.attempted_at = now;
+        let record = record.clone();
+        let path = self.folder.join(&record.file);
+        let held = disk::read(&path, self.limits.bytes).ok();
+        let known = held.as_ref().map(|_| &record);
+        match fetch(url, known, self.limits, &self.authorities)? {
+            ServerAnswer::NotModified => {
+                self.index.entry(url, name, now).confirmed_at = Some(now);
+                Ok(false)
+            }
+            ServerAnswer::New { body, etag, last_modified } => {
+                let newest = newest_epoch(&body)?;
+                if held
+                    .is_some_and(|held| newest_epoch(&held.bytes).is_ok_and(|held| held > newest))
+                {
+                    return Err(FetchProblem::Older);
+                }
+                whole_file::replace_and_keep_old(&path, &body)
+                    .map_err(|error| FetchProblem::Disk(error.to_string()))?;
+                *self.index.entry(url, name, now) =
+                    Record { etag, last_modified, confirmed_at: Some(now), ..record };
+                Ok(true)
+            }
+        }
+    }
+}
+
+fn newest_epoch(bytes: &[u8]) -> Result<Timestamp, FetchProblem> {
+    let report = read_element_bytes(bytes);
+    let newest = report.elements.iter().map(Elements::epoch).max();
+    newest.ok_or(report.nothing.map_or(FetchProblem::NoElements, FetchProblem::Nothing))
+}
+
+fn no_report(source: &Source) -> SourceReport {
+    SourceReport {
+        source: source.name.clone(),
+        files: Vec::new(),
+        as_of: None,
+        newest_epoch: None,
+        fetch_problem: None,
+        failures: 0,
+        next_fetch: None,
+        is_set_aside: false,
+    }
+}
+
+fn unread(path: &Path, error: &io::Error) -> FileReport {
+    let problem = Some(error.to_string());
+    FileReport { path: path.to_owned(), objects: 0, merge: MergeSummary::default(), problem }
+}

@@ -1,0 +1,76 @@
+//! The record of a station: what was measured, sent, received, asked and decided, in one SQLite
+//! file (`docs/record.md` tells its schema).
+//!
+//! Invariant: nobody waits for the record. Sessions keep their last lines and positions in logs of
+//! their own, the station queues its entries, and one thread writes both. What it could not keep
+//! is counted and marked in the record itself.
+
+mod along;
+mod causes;
+mod entry;
+mod export;
+mod file;
+mod film;
+mod keeping;
+mod missed;
+mod pass;
+mod past;
+mod peaks;
+mod pointing;
+mod read;
+mod recorder;
+mod tables;
+#[cfg(any(test, feature = "testing"))]
+pub mod testing;
+#[cfg(test)]
+mod tests;
+mod writer;
+
+pub use along::{Beside, PassTimes, neighbour, times_between, times_of_pass};
+pub use causes::{ExplainedPasses, explain_passes};
+pub use entry::{Entry, Kind};
+pub use export::{csv_of_several, json_of_several};
+pub use film::{Film, FilmError, Parts, Picture, Shown};
+pub use missed::{MissedEntry, missed};
+pub use pass::{AboutTrack, PassNote, RecordedReport, TrackedBy};
+pub use past::{
+    ListedKind, OpenedPass, PassPage, PassQuery, RecordedPass, open_pass, passes, passes_within,
+};
+pub use peaks::{Peak, PeakChange, PeakOf, Peaks};
+pub use pointing::{CannotFitPointing, FittedTerm, NoiseOf, PointingFit, fit_pointing};
+pub use read::{Query, Record, Row, RowKind};
+pub use recorder::{Failing, RecordedSession, Recorder, Status};
+
+/// Why a record cannot be written or read.
+#[derive(Debug, thiserror::Error)]
+pub enum RecordError {
+    #[error("the disk is full")]
+    DiskFull,
+    /// Written by a newer program.
+    #[error(
+        "the record was written by a newer Azel (schema {0}; this one reads {known}): update Azel, or \
+         move the file away",
+        known = file::VERSION
+    )]
+    Newer(i64),
+    /// Not a record, or damaged.
+    #[error("the file is not a record of Azel, or it is damaged")]
+    NoRecord,
+    #[error("{0}")]
+    Database(rusqlite::Error),
+    #[error("a report cannot be written as JSON: {0}")]
+    Report(#[from] serde_json::Error),
+    #[error("{0}")]
+    Io(#[from] std::io::Error),
+}
+
+impl From<rusqlite::Error> for RecordError {
+    fn from(error: rusqlite::Error) -> Self {
+        use rusqlite::ErrorCode;
+        match error.sqlite_error_code() {
+            Some(ErrorCode::DiskFull) => Self::DiskFull,
+            Some(ErrorCode::NotADatabase | ErrorCode::DatabaseCorrupt) => Self::NoRecord,
+            _ => Self::Database(error),
+        }
+    }
+}

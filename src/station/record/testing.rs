@@ -1,0 +1,85 @@
+//! Records for tests, also for the packages above.
+
+#![allow(clippy::unwrap_used, reason = "test data; a test may end here")]
+
+use std::path::Path;
+
+use jiff::{Timestamp, ToSpan as _};
+
+use super::{AboutTrack, PassNote, RecordedReport, RecordedSession, Recorder, TrackedBy};
+use crate::{
+    astro::{PointingModel, time::add_seconds},
+    clock::Clock,
+    device::Pointing,
+    driver::{PositionLog, TimeSync, WireLog},
+    orbit::{Propagator, bundled},
+    plan::pass_report::{
+        FlownOffsets, LossCause, LostStretch, MeasuredPosition, PassReport, PassVerdict,
+    },
+    station::{AntennaId, Retention},
+};
+
+/// Points of a pass.
+pub const POINTS: usize = 60;
+
+/// A pass of ten minutes, of which the second minute was lost.
+pub fn note(antenna: AntennaId, satellite: u32, from: Timestamp) -> PassNote {
+    let elements = bundled().unwrap().get(satellite).unwrap().clone();
+    let propagator = Propagator::new(&elements).unwrap();
+    let point = |second| {
+        let time = add_seconds(from, second);
+        let direction =
+            propagator.look_from(crate::astro::Site::default(), time).unwrap().direction;
+        MeasuredPosition { time, pointing: Pointing::from(direction) }
+    };
+    let points = (0..POINTS).map(|second| point(second as f64)).collect();
+    let lost =
+        LostStretch { from: from + 1.minutes(), until: from + 2.minutes(), cause: LossCause::Slew };
+    let report = RecordedReport {
+        from,
+        until: from + 10.minutes(),
+        max_elevation_deg: 50.0,
+        age_days: 0.5,
+        elements,
+        site: None,
+        half_beam_deg: 0.5,
+        about: AboutTrack {
+            begun: from,
+            tracked_by: TrackedBy::ProgramTrack,
+            sent: None,
+            offsets: FlownOffsets::default(),
+            pointing_model: PointingModel::default(),
+            unit_clock_ahead_s: None,
+            sync: TimeSync::NotKnown,
+        },
+        report: PassReport {
+            verdict: PassVerdict::Poor,
+            counted_s: 600.0,
+            known_s: 600.0,
+            in_beam_s: 540.0,
+            rms: None,
+            worst: None,
+            losses: vec![lost],
+        },
+        explanations: Vec::new(),
+    };
+    PassNote { antenna, report, points }
+}
+
+/// Writes passes of the antenna "Dish" into the record at `path`.
+pub fn record(path: &Path, notes: impl IntoIterator<Item = PassNote>) {
+    let clock = Clock::new(Timestamp::now);
+    let recorder = Recorder::start(path.to_owned(), clock.clone(), Retention::default()).unwrap();
+    for note in notes {
+        recorder.follow(RecordedSession {
+            at: clock.now(),
+            antenna: note.antenna,
+            name: "Dish".to_owned(),
+            make: "satrak",
+            wire: WireLog::default(),
+            positions: PositionLog::default(),
+        });
+        recorder.note_pass(note);
+    }
+    recorder.flush();
+}

@@ -1,0 +1,21 @@
+//! What a mount can follow and how it follows it, how its axes read otherwise than it points, and
+//! lists of passes for other programs and people to read. Pure functions over passes.
+
+mod az_el;
+mod azimuth_wrap;
+pub mod bounds;
+pub mod detour;
+pub mod on_board;
+pub mod pass_export;
+pub mod pass_report;
+pub mod pointing;
+pub mod program_track;
+mod rate_limited;
+pub mod schedule;
+pub mod schedule_export;
+mod trackability;
+
+pub use bounds::{Barrier, Bounds, BoundsAt, Clearance, Sweep};
+pub use on_board::{OnBoardPass, Supervision};
+pub use program_track::{ProgramTrack, Target, TrackPhase, TrackStats};
+pub use trackability::{Loss, MountLimits, Sample, Trackability, trackability};

@@ -1,0 +1,203 @@
+//! Judges the on-board track of a pass: where the antenna will point according to what the unit
+//! reports, how far that is from the satellite, and why. Pure functions; the reports are arguments.
+
+mod cause;
+mod clear;
+mod path;
+
+use jiff::Timestamp;
+use serde::{Deserialize, Serialize};
+
+pub use cause::{Cause, Ranked, Unknown};
+pub use clear::ALONG_DEG;
+pub use clear::{OffLimits, Trespass, path_is_clear};
+
+use crate::{
+    astro::{Angle, AzEl, Site, time::seconds_between},
+    device::{OnBoard, TrackTarget},
+    orbit::{Elements, PropagationError, Propagator},
+    plan::{Bounds, Sample},
+    station::{Antenna, Mount},
+};
+use path::{UnitPath, spread};
+
+/// A pass that a unit tracks by itself.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct OnBoardPass {
+    /// The target sent to the unit.
+    pub target: TrackTarget,
+    /// The best known orbit.
+    pub elements: Elements,
+    pub site: Site,
+    /// The operator has agreed that the antenna may miss the satellite.
+    pub is_agreed: bool,
+}
+
+/// The best known orbit, and the site.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct KnownOrbit {
+    pub elements: Elements,
+    pub site: Site,
+}
+
+impl KnownOrbit {
+    /// The pass that a unit with the report `told` tracks, in its own window; `None` if the unit
+    /// holds another satellite or reports no window.
+    pub fn pass_of(&self, told: &OnBoard) -> Option<OnBoardPass> {
+        let held = told.satellite.as_ref()?;
+        let (from, until) = told.window?;
+        let is_this = held.catalog_number == self.elements.catalog_number();
+        is_this.then(|| OnBoardPass {
+            target: TrackTarget {
+                catalog_number: held.catalog_number,
+                name: held.name.clone(),
+                from,
+                until,
+            },
+            elements: self.elements.clone(),
+            site: self.site,
+            is_agreed: true,
+        })
+    }
+}
+
+/// The abilities and limits of an antenna whose unit tracks by itself.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Ability {
+    /// Arrangement and travel of the axes.
+    pub mount: Mount,
+    pub minimum_elevation: Angle,
+    /// Half the beam width.
+    pub half_beam: Angle,
+    /// Maximum rate of the axes, degrees per second.
+    pub maximum_rate_deg_s: f64,
+}
+
+impl Ability {
+    pub fn of(antenna: &Antenna) -> Self {
+        Self {
+            mount: antenna.mount,
+            minimum_elevation: Angle::from_degrees(antenna.limits.minimum_elevation_deg),
+            half_beam: Angle::from_degrees(antenna.beam_width_deg / 2.0),
+            maximum_rate_deg_s: antenna.limits.maximum_rate_deg_s,
+        }
+    }
+}
+
+/// The judgement of an on-board track.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Supervision {
+    pub worst: Error,
+    /// The largest error is within the beam.
+    pub is_within_beam: bool,
+    /// Causes, the most likely first.
+    pub causes: Vec<Ranked>,
+    /// Values that the unit does not report, or has not been asked for yet.
+    pub unknown: Vec<Unknown>,
+    /// The minimum elevation of the unit, if it is below that of the station.
+    pub lower_minimum_deg: Option<f64>,
+}
+
+/// A pointing error and its time.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct Error {
+    /// Angle between the beam axis and the satellite.
+    pub off: Angle,
+    pub at: Timestamp,
+}
+
+/// A pass, prepared for repeated comparison with a unit.
+#[derive(Debug, Clone)]
+pub struct Judge {
+    pass: OnBoardPass,
+    propagator: Propagator,
+    ability: Ability,
+    /// Directions of the satellite along the window.
+    truth: Vec<Sample>,
+}
+
+impl Judge {
+    /// Fails if the elements do not describe an orbit.
+    pub fn new(pass: OnBoardPass, ability: Ability) -> Result<Self, PropagationError> {
+        let propagator = Propagator::new(&pass.elements)?;
+        let truth = spread(pass.target.from, pass.target.until)
+            .map_while(|time| {
+                let look = propagator.look_from(pass.site, time).ok()?;
+                Some(Sample { time, direction: look.direction })
+            })
+            .collect();
+        Ok(Self { pass, propagator, ability, truth })
+    }
+
+    pub fn pass(&self) -> &OnBoardPass {
+        &self.pass
+    }
+
+    /// Direction of the satellite at `at`.
+    pub fn direction(&self, at: Timestamp) -> Option<AzEl> {
+        Some(self.propagator.look_from(self.pass.site, at).ok()?.direction)
+    }
+
+    /// Judges a unit by its report `unit`. `holds_target` says that the target was sent to the
+    /// unit: the satellite that it held before means nothing.
+    pub fn supervise(&self, unit: &OnBoard, holds_target: bool) -> Supervision {
+        let all = UnitPath::of(unit, self);
+        let worst = all.either_way().map(|unit| self.worst(&unit)).reduce(worse);
+        let worst = worst.unwrap_or(Error { off: Angle::ZERO, at: self.pass.target.from });
+        let lowest_deg = self.ability.minimum_elevation.degrees();
+        let lower = |offsets: &crate::device::Offsets| {
+            (offsets.minimum_elevation_deg < lowest_deg).then_some(offsets.minimum_elevation_deg)
+        };
+        Supervision {
+            worst,
+            is_within_beam: worst.off <= self.ability.half_beam,
+            causes: cause::ranked(self, unit, holds_target),
+            unknown: cause::unknown(unit),
+            lower_minimum_deg: unit.offsets.as_ref().and_then(lower),
+        }
+    }
+
+    /// Checks the real track against the limits of the antenna. The error is the first
+    /// position outside them.
+    pub fn is_clear(&self, unit: &OnBoard, bounds: &Bounds) -> Result<(), Trespass> {
+        let unit = UnitPath::of(unit, self);
+        unit.either_way().try_for_each(|unit| path_is_clear(self.path(unit), &self.ability, bounds))
+    }
+
+    /// Where the unit goes if it is started at `at`: to where it waits for the window, or to the
+    /// satellite within it.
+    pub fn start(&self, unit: &OnBoard, at: Timestamp) -> Option<AzEl> {
+        UnitPath::of(unit, self).direction(at)
+    }
+
+    /// The real track according to the report of the unit, from where the unit waits to where it
+    /// ends: samples are at most a second or half a degree apart.
+    fn path<'a>(&'a self, unit: UnitPath<'a>) -> impl Iterator<Item = Sample> + 'a {
+        path::samples(unit, (self.pass.target.from, self.pass.target.until))
+    }
+
+    fn worst(&self, unit: &UnitPath<'_>) -> Error {
+        let errors = self.truth.iter().filter_map(|truth| {
+            let off = unit.direction(truth.time)?.separation(truth.direction);
+            Some(Error { off, at: truth.time })
+        });
+        errors.reduce(worse).unwrap_or(Error { off: Angle::ZERO, at: self.pass.target.from })
+    }
+
+    /// The maximum elevation that the unit will compute for the window.
+    fn highest(&self, unit: &UnitPath<'_>) -> Option<Angle> {
+        let elevations = self.truth.iter().filter_map(|at| unit.computed(at.time));
+        elevations.map(|direction| direction.elevation).reduce(|a, b| if b > a { b } else { a })
+    }
+
+    fn span_s(&self) -> f64 {
+        seconds_between(self.pass.target.from, self.pass.target.until)
+    }
+}
+
+fn worse(a: Error, b: Error) -> Error {
+    if b.off > a.off { b } else { a }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,65 @@
+//! Checks a path against the limits of an antenna.
+
+use jiff::Timestamp;
+use serde::{Deserialize, Serialize};
+
+use super::Ability;
+use crate::{
+    astro::{Angle, AzEl, xy_mount},
+    plan::{Barrier, Bounds, Sample},
+    station::Mount,
+};
+
+/// The clock, location and whole seconds of a unit shift its path by about this much, degrees: a
+/// path that exceeds a bound by less counts as running along it.
+pub const ALONG_DEG: f64 = 0.5;
+
+/// The first position at which a path leaves the limits.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Trespass {
+    pub at: Timestamp,
+    pub direction: AzEl,
+    pub limit: OffLimits,
+}
+
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub enum OffLimits {
+    /// Below the minimum elevation, degrees.
+    Elevation { lowest_deg: f64 },
+    /// Beyond the travel of the axes.
+    Travel,
+    /// Inside a keep-out or the surroundings of the Sun.
+    Forbidden(Barrier),
+}
+
+/// Checks that every sample of `path` is above the minimum elevation, within travel and outside
+/// keep-outs.
+pub fn path_is_clear(
+    mut path: impl Iterator<Item = Sample>,
+    ability: &Ability,
+    bounds: &Bounds,
+) -> Result<(), Trespass> {
+    path.try_for_each(|Sample { time, direction }| {
+        let forbidden = || bounds.at(time).forbids(direction).map(OffLimits::Forbidden);
+        let limit = off_limits(direction, ability).or_else(forbidden);
+        limit.map_or(Ok(()), |limit| Err(Trespass { at: time, direction, limit }))
+    })
+}
+
+fn off_limits(direction: AzEl, ability: &Ability) -> Option<OffLimits> {
+    let lowest_deg = ability.minimum_elevation.degrees();
+    if direction.elevation_deg() < lowest_deg - ALONG_DEG {
+        return Some(OffLimits::Elevation { lowest_deg });
+    }
+    (!is_within_travel(direction, ability.mount)).then_some(OffLimits::Travel)
+}
+
+fn is_within_travel(direction: AzEl, mount: Mount) -> bool {
+    let Mount::Xy { lower_axis_azimuth_deg, .. } = mount else { return mount.reaches(direction) };
+    let axes = xy_mount::axes_from_azel(direction, Angle::from_degrees(lower_axis_azimuth_deg));
+    // The controller counts 90 degrees at the zenith.
+    let axes_deg = [axes.lower, axes.upper].map(|axis| axis.degrees() + 90.0);
+    axes_deg.into_iter().zip(mount.travel_deg()).all(|(axis_deg, (from_deg, to_deg))| {
+        (from_deg - ALONG_DEG..=to_deg + ALONG_DEG).contains(&axis_deg)
+    })
+}

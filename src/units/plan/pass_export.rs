@@ -1,0 +1,237 @@
+//! Writes lists of passes as a table, CSV, JSON or iCalendar, and look angles in the
+//! first three forms.
+
+mod calendar;
+mod csv;
+mod digits;
+mod event_ids;
+mod json;
+mod looks;
+mod rows;
+mod table;
+
+use std::{
+    borrow::Borrow,
+    io::{self, Write},
+};
+
+use glam::DVec3;
+use jiff::{Timestamp, tz::TimeZone};
+
+pub use self::csv::{io_error, plain, quoted};
+pub use self::looks::{LookFormat, LookList};
+use crate::{
+    astro::{HorizonMask, Site, frames::SiteFrame, time},
+    orbit::{
+        Distance, Elements, OverGround, Pass, PassSearch, PropagationError, Propagator,
+        clear_stretches, passes,
+    },
+};
+
+/// Below this elevation of the Sun a sunlit satellite can be seen from the ground, degrees.
+const DARK_SUN_DEG: f64 = -6.0;
+
+/// A satellite, ready for computation and for export.
+#[derive(Debug, Clone)]
+pub struct Satellite {
+    pub elements: Elements,
+    pub propagator: Propagator,
+}
+
+impl Satellite {
+    pub fn new(elements: Elements) -> Result<Self, PropagationError> {
+        let propagator = Propagator::new(&elements)?;
+        Ok(Self { elements, propagator })
+    }
+
+    /// Age of the elements at `time` in days, negative before their epoch.
+    fn age_days(&self, time: Timestamp) -> f64 {
+        rounded(self.elements.age_s(time) / time::DAY_S, 1e4)
+    }
+}
+
+/// Range and range rate from [`Propagator::over_ground`] are nearer than this to those from
+/// [`Propagator::state_at`], at 70 km and beyond.
+const NEAR_KM: f64 = 1e-6;
+const NEAR_KM_S: f64 = 1e-8;
+
+/// What a satellite is seen from.
+#[derive(Debug, Clone, Copy)]
+struct View {
+    site: SiteFrame,
+    carrier_hz: Option<f64>,
+}
+
+impl View {
+    /// The distance that follows from the state that [`Propagator::state_at`] gives, to the last
+    /// digit of what `written` makes of it; `near` is almost there, and nearly always enough.
+    fn distance<T: PartialEq>(
+        &self,
+        satellite: &Satellite,
+        near: &OverGround,
+        at: Timestamp,
+        written: impl Fn(Distance) -> T,
+    ) -> Distance {
+        let distance = near.distance_from(self.site.ecef_km);
+        let beside = |side: f64| Distance {
+            range_km: distance.range_km + side * NEAR_KM,
+            range_rate_km_s: distance.range_rate_km_s + side * NEAR_KM_S,
+        };
+        if written(beside(-1.0)) == written(beside(1.0)) {
+            return distance;
+        }
+        let exact = satellite.propagator.state_at(at);
+        exact.map_or(distance, |exact| exact.over_ground(at).distance_from(self.site.ecef_km))
+    }
+
+    /// Returns `true` if the sky over the site is dark enough to see a satellite in sunlight.
+    fn is_dark(&self, sun_ecef_km: DVec3) -> bool {
+        let sun_km = self.site.enu_km(sun_ecef_km);
+        sun_km.z < sun_km.length() * DARK_SUN_DEG.to_radians().sin()
+    }
+}
+
+impl Borrow<Propagator> for Satellite {
+    fn borrow(&self) -> &Propagator {
+        &self.propagator
+    }
+}
+
+/// Distance and Doppler shift of a satellite at one instant, rounded for export.
+#[derive(Debug, Clone, Copy)]
+struct Seen {
+    range_km: f64,
+    range_rate_km_s: f64,
+    doppler_hz: Option<f64>,
+}
+
+impl Seen {
+    fn new(distance: Distance, carrier_hz: Option<f64>) -> Self {
+        Self {
+            range_km: rounded(distance.range_km, 1e3),
+            range_rate_km_s: rounded(distance.range_rate_km_s, 1e6),
+            doppler_hz: carrier_hz.map(|carrier_hz| rounded(distance.doppler_hz(carrier_hz), 10.0)),
+        }
+    }
+}
+
+/// A search for passes, and the mask that cuts them.
+#[derive(Debug, Clone)]
+pub struct PassQuery {
+    pub search: PassSearch,
+    /// Each stretch of a pass above the mask counts as a pass.
+    pub mask: Option<HorizonMask>,
+}
+
+impl PassQuery {
+    /// The parts of `pass` that belong to the query.
+    pub fn parts(&self, propagator: &Propagator, pass: Pass) -> Vec<Pass> {
+        let Some(mask) = &self.mask else { return vec![pass] };
+        let mut stretches = clear_stretches(propagator, self.search.site, mask, &pass);
+        stretches.retain(|stretch| stretch.max_elevation() >= self.search.floor);
+        stretches
+    }
+
+    /// The passes of one satellite that belong to the query, in another window.
+    fn passes_between(&self, propagator: &Propagator, from: Timestamp, to: Timestamp) -> Vec<Pass> {
+        let search = PassSearch { from, to, ..self.search };
+        let found = passes(propagator, &search, &|| false);
+        found.into_iter().flat_map(|pass| self.parts(propagator, pass)).collect()
+    }
+}
+
+#[derive(Debug, Clone, Copy)]
+pub struct ExportedPass<'a> {
+    pub satellite: &'a Satellite,
+    pub pass: Pass,
+}
+
+/// What belongs to a list of passes besides the passes.
+#[derive(Debug, Clone, Copy)]
+pub struct PassList<'a> {
+    pub query: &'a PassQuery,
+    /// Name of the site, for calendars.
+    pub place: Option<&'a str>,
+    /// Frequency for which the Doppler shift is written.
+    pub carrier_hz: Option<f64>,
+    /// How long before AOS an event of a calendar has its alarm.
+    pub alarm_before_s: Option<f64>,
+    /// Time stamp of the events of a calendar.
+    pub now: Timestamp,
+}
+
+/// The form of a list.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, clap::ValueEnum)]
+pub enum PassFormat {
+    /// Columns to read
+    Table,
+    /// A header and one row per pass
+    Csv,
+    /// A list of objects
+    Json,
+    /// iCalendar (RFC 5545), one event per pass
+    Ics,
+}
+
+impl PassList<'_> {
+    /// Writes the list of `rows`, in their order. All times are UTC. Rows of CSV and JSON are made by
+    /// the threads of the rayon pool in which this is called, some thousand at a time.
+    pub fn write<'a>(
+        &self,
+        out: &mut impl Write,
+        format: PassFormat,
+        rows: impl Iterator<Item = ExportedPass<'a>>,
+    ) -> io::Result<()> {
+        match format {
+            PassFormat::Table => table::write(out, &rows.collect::<Vec<_>>()),
+            PassFormat::Csv => csv::write(out, self, rows),
+            PassFormat::Json => json::write(out, self, rows),
+            PassFormat::Ics => calendar::write(out, self, &rows.collect::<Vec<_>>()),
+        }
+    }
+
+    fn site(&self) -> Site {
+        self.query.search.site
+    }
+
+    fn view(&self) -> View {
+        View { site: self.site().into(), carrier_hz: self.carrier_hz }
+    }
+}
+
+/// The times of AOS, TCA and LOS.
+fn times(pass: &Pass) -> [Timestamp; 3] {
+    [pass.aos.time, pass.tca.time, pass.los.time]
+}
+
+/// RFC 3339, UTC, with milliseconds.
+pub fn rfc3339(time: Timestamp) -> String {
+    let mut text = Vec::new();
+    digits::push_time(&mut text, time);
+    String::from_utf8(text).unwrap_or_default()
+}
+
+/// To the nearest second, in UTC.
+pub fn civil(time: Timestamp, format: &str) -> String {
+    let rounded = time.round(jiff::Unit::Second).unwrap_or(time);
+    rounded.to_zoned(TimeZone::UTC).strftime(format).to_string()
+}
+
+/// An azimuth that is never written as 360.0.
+fn turn(azimuth_deg: f64) -> f64 {
+    if azimuth_deg >= 359.95 { 0.0 } else { azimuth_deg }
+}
+
+/// An angle in degrees without the noise beyond the sixth decimal.
+fn degrees(value: f64) -> f64 {
+    rounded(value, 1e6)
+}
+
+/// Rounds to the nearest multiple of one divided by `parts`.
+fn rounded(value: f64, parts: f64) -> f64 {
+    // Adding zero makes a negative zero positive.
+    (value * parts).round() / parts + 0.0
+}
+
+#[cfg(test)]
+mod testing;

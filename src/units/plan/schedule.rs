@@ -1,0 +1,129 @@
+//! The schedule: which antenna takes which pass, and why the other passes are left out.
+//!
+//! [`Reach`] judges what one antenna can take of one pass: where its axes stand, and which seconds
+//! count. `solve` chooses among these takes, and knows only spans, rows and slews. What it
+//! maximises is a row of numbers, one a class: passes that are always taken, then priority 1 to 5.
+//! A class is never given up for those after it. Among equal rows the previous schedule, then
+//! fewer seconds of slew, then earlier passes come first.
+
+mod board;
+mod changes;
+mod joining;
+mod legs;
+mod of_station;
+mod outcome;
+mod reach;
+mod request;
+mod row;
+mod sight;
+mod solve;
+#[cfg(any(test, feature = "testing"))]
+pub mod testing;
+#[cfg(test)]
+mod tests;
+mod under_way;
+mod way;
+mod why;
+
+pub use changes::{Cause, Change, Changed, changes};
+pub use joining::Joining;
+pub use of_station::{deciding_rule, sun_is};
+pub use outcome::{ClassWorth, Conflict, Entry, LeftOut, Proof, Schedule, Why};
+pub use reach::Reach;
+pub use request::{
+    Candidate, Choice, Common, Off, Partial, PassKey, PlannedAntenna, Refusal, Request, Rule,
+    Steadiness, Wanted,
+};
+pub use row::Class;
+pub use sight::Sight;
+pub use way::{Impossible, Lost, Verdict, Way};
+
+use board::{Board, Fact};
+use solve::{Slews as _, Solution, Take};
+use way::at_ms;
+
+/// The best schedule.
+pub fn plan(request: &Request<'_>) -> Schedule {
+    let board = Board::new(request);
+    board.schedule(&board.solve())
+}
+
+impl Board<'_> {
+    fn schedule(&self, solution: &Solution) -> Schedule {
+        let mut entries = Vec::new();
+        let mut slew_s = 0.0;
+        for takes in &solution.takes {
+            let mut before = None;
+            for take in takes {
+                let entry = self.entry(before, *take, &solution.takes);
+                slew_s += entry.as_ref().map_or(0.0, |entry| entry.slew_s);
+                entries.extend(entry);
+                before = Some(*take);
+            }
+        }
+        entries.sort_by_key(|entry| (entry.from, entry.antenna));
+        let left_out = self.left_out(solution);
+        let worth = self.worth(&entries, solution);
+        Schedule { entries, left_out, worth, slew_s }
+    }
+
+    fn at(&self, take: u32) -> Option<(&Take, &Fact)> {
+        self.takes.get(take as usize).zip(self.facts.get(take as usize))
+    }
+
+    fn entry(&self, before: Option<u32>, take: u32, all: &[Vec<u32>]) -> Option<Entry> {
+        let (it, fact) = self.at(take)?;
+        let antenna = self.request.antennas.get(it.antenna as usize)?;
+        let set_up_ms = legs::set_up_ms(antenna);
+        let earlier = before.and_then(|before| self.at(before));
+        let (slew_ms, spare_ms) = if let Some((before, (earlier, _))) = before.zip(earlier) {
+            let leg = self.legs.between(before as usize, take as usize);
+            (leg.slew_ms, Some(it.from_ms - earlier.to_ms - leg.slew_ms - set_up_ms))
+        } else {
+            let slew_ms = self.legs.first_ms(take as usize).unwrap_or_default();
+            let spare_ms = it.from_ms - way::ms(antenna.free_from) - slew_ms - set_up_ms;
+            (slew_ms, antenna.stands_deg.map(|_| spare_ms))
+        };
+        let parts = all.iter().flatten().filter(|other| **other != take);
+        let mut parts = parts.filter_map(|other| self.at(*other));
+        let shared_with = parts.find(|(_, other)| other.pass == fact.pass);
+        let seconds = |ms: i64| ms as f64 / 1000.0;
+        Some(Entry {
+            pass: fact.pass,
+            antenna: fact.antenna,
+            class: fact.class,
+            from: at_ms(it.from_ms),
+            to: at_ms(it.to_ms),
+            late_s: seconds(fact.late_ms),
+            early_s: seconds(fact.early_ms),
+            counted_s: seconds(fact.counted_ms),
+            worth: fact.worth,
+            lost: fact.lost,
+            axes_deg: fact.ends_deg,
+            after: earlier.map(|(_, fact)| fact.pass),
+            slew_s: seconds(slew_ms),
+            set_up_s: seconds(set_up_ms),
+            spare_s: spare_ms.map(seconds),
+            shared_with: shared_with.map(|(_, fact)| fact.antenna),
+            is_fixed: fact.is_fixed,
+        })
+    }
+
+    /// Steadiness may have held a class below what is proved to be the best.
+    fn worth(&self, entries: &[Entry], solution: &Solution) -> Vec<ClassWorth> {
+        let mut is_open = false;
+        let with_worth = |class: Class| {
+            let own = entries.iter().filter(|entry| entry.class == class);
+            let worth = own.map(|entry| entry.worth).sum();
+            let bound = solution.bound.number(class.index());
+            let proof = match (is_open, bound == worth) {
+                (true, _) => Proof::Open,
+                (false, true) => Proof::Best,
+                (false, false) => Proof::AtMost(bound),
+            };
+            is_open |= bound != worth;
+            ClassWorth { class, worth, proof }
+        };
+        Class::shown(self.request.choose_by).into_iter().map(with_worth).collect()
+    }
+}

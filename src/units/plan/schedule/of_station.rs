@@ -1,0 +1,193 @@
+//! What a schedule is made from, as a station has it: its antennas, limits, choices and rules.
+
+use jiff::Timestamp;
+
+use super::{Candidate, Common, Partial, PlannedAntenna, Reach, Sight, Wanted};
+use crate::{
+    astro::sun_moon,
+    orbit::{Elements, Pass, Propagator},
+    station::{Antenna, AntennaId, RuleOf, Scheduling, Station, SunIs, Then},
+};
+
+/// A pass that is taken in part starts late, or ends early, by a multiple of this, seconds.
+const STEP_S: f64 = 15.0;
+
+impl PlannedAntenna {
+    /// An antenna of a station that is free from `free_from` on, wherever it stands then.
+    pub fn of(station: &Station, antenna: &Antenna, free_from: Timestamp) -> Self {
+        Self {
+            id: antenna.id,
+            reach: Reach::of(station, antenna, None),
+            set_up_s: antenna.set_up_s(),
+            between: antenna.automatic.between,
+            free_from,
+            stands_deg: None,
+            off: None,
+        }
+    }
+}
+
+impl Candidate {
+    /// Judges a pass of a satellite by what the station file says of it.
+    pub fn of(
+        station: &Station,
+        elements: &Elements,
+        propagator: &Propagator,
+        pass: &Pass,
+        common: Common<'_>,
+    ) -> Self {
+        let number = elements.catalog_number();
+        let choice = station.pass_choice(number, (pass.aos.time, pass.los.time));
+        let wanted = Wanted {
+            priority: station.priority(number).unwrap_or_default(),
+            take: choice.map(|choice| choice.take),
+            limits: &station.pass_limits(number),
+            by_rule: &|antenna| by_rule(station, number, pass.tca.time, antenna),
+        };
+        let mask = station.horizon_mask.as_ref();
+        let mut sight = Sight::new(propagator, station.site, mask, pass);
+        let age_s = elements.age_s(pass.aos.time);
+        Self::new(number, age_s, (pass, propagator), wanted, &mut sight, common)
+    }
+}
+
+impl Partial {
+    /// How a station takes passes in part; `None` where it takes them whole.
+    pub fn of(scheduling: &Scheduling) -> Option<Self> {
+        let partly = scheduling.partly?;
+        Some(Self {
+            min_share: partly.least_percent / 100.0,
+            min_s: partly.least_s,
+            step_s: STEP_S,
+            hand_over: scheduling.hand_over,
+        })
+    }
+}
+
+/// What the first automation rule says that fits a satellite and an antenna at a time.
+fn by_rule(station: &Station, satellite: u32, at: Timestamp, antenna: AntennaId) -> Option<Then> {
+    station.rules.iter().find(|rule| rule.is_for(antenna))?;
+    let place = deciding_rule(station, satellite, (at, sun_is(station, at)), antenna)?;
+    station.rules.get(place).map(|rule| rule.then)
+}
+
+/// Place of the first automation rule that fits a satellite and an antenna at a time, where the
+/// Sun stands as given.
+pub fn deciding_rule(
+    station: &Station,
+    satellite: u32,
+    (at, sun): (Timestamp, SunIs),
+    antenna: AntennaId,
+) -> Option<usize> {
+    let is_of = |of: &RuleOf| match of {
+        RuleOf::Satellite(number) => *number == satellite,
+        RuleOf::Group(name) => station.groups_of(satellite).any(|group| group.name == *name),
+    };
+    station.rules.iter().position(|rule| {
+        rule.is_for(antenna) && rule.of.as_ref().is_none_or(is_of) && rule.holds_at(at, sun)
+    })
+}
+
+/// Whether the Sun is up at the site of a station.
+pub fn sun_is(station: &Station, at: Timestamp) -> SunIs {
+    let is_up = sun_moon::sun(station.site, at).elevation_deg() > 0.0;
+    if is_up { SunIs::Up } else { SunIs::Down }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{
+        demo::DemoAddresses,
+        orbit::{PassSearch, bundled, passes},
+        plan::schedule::{Choice, Refusal},
+        station::{AutomationRule, PassLimits, SatelliteGroup},
+    };
+
+    const ISS: u32 = 25_544;
+
+    /// The first pass of the ISS, judged at a station that was changed like this.
+    fn judged(change: impl FnOnce(&mut Station)) -> (Candidate, Vec<AntennaId>) {
+        let mut station = Station::demo(&DemoAddresses::default());
+        change(&mut station);
+        let catalog = bundled().unwrap();
+        let elements = catalog.get(ISS).unwrap();
+        let propagator = Propagator::new(elements).unwrap();
+        let from: Timestamp = "2026-08-12T00:00:00Z".parse().unwrap();
+        let search = PassSearch {
+            aos_elevation: station.aos_elevation(),
+            floor: station.elevation_floor(),
+            ..PassSearch::new(station.site, from, crate::astro::time::add_seconds(from, 86_400.0))
+        };
+        let pass = passes(&propagator, &search, &|| false)[0];
+        let planned: Vec<PlannedAntenna> =
+            station.antennas.iter().map(|of| PlannedAntenna::of(&station, of, from)).collect();
+        let common = Common {
+            site: station.site,
+            floor: station.elevation_floor(),
+            antennas: &planned,
+            max_age_s: None,
+        };
+        let candidate = Candidate::of(&station, elements, &propagator, &pass, common);
+        let may =
+            |(id, choice): &(AntennaId, Choice)| matches!(choice, Choice::Judged(_)).then_some(*id);
+        let allowed = candidate.options.iter().filter_map(may).collect();
+        (candidate, allowed)
+    }
+
+    fn ids(numbers: &[u32]) -> Vec<AntennaId> {
+        numbers.iter().copied().map(AntennaId).collect()
+    }
+
+    fn rule(antenna: Option<u32>, of: Option<RuleOf>, then: Then) -> AutomationRule {
+        let antenna = antenna.map(AntennaId);
+        AutomationRule { is_on: true, antenna, of, sun: None, hours: None, then }
+    }
+
+    #[test]
+    fn the_first_rule_that_fits_decides() {
+        assert_eq!(judged(|_| ()).1, ids(&[1, 2, 3]));
+        let leave = rule(Some(2), None, Then::Leave);
+        assert_eq!(judged(|of| of.rules = vec![leave.clone()]).1, ids(&[1, 3]));
+        let take = rule(Some(2), Some(RuleOf::Satellite(ISS)), Then::Take);
+        assert_eq!(judged(|of| of.rules = vec![take.clone(), leave.clone()]).1, ids(&[1, 2, 3]));
+        assert_eq!(judged(|of| of.rules = vec![leave, take]).1, ids(&[1, 3]));
+        let group = || RuleOf::Group("Stations".to_owned());
+        let of_group = rule(None, Some(group()), Then::Park);
+        assert_eq!(judged(|of| of.rules = vec![of_group.clone()]).1, ids(&[1, 2, 3]));
+        let with_group = |of: &mut Station| {
+            of.groups = vec![SatelliteGroup {
+                name: "Stations".to_owned(),
+                satellites: vec![ISS],
+                priority: None,
+                limits: PassLimits::default(),
+            }];
+            of.rules = vec![of_group];
+        };
+        assert_eq!(judged(with_group).1, []);
+    }
+
+    #[test]
+    fn limits_leave_a_pass_out_unless_a_rule_takes_it() {
+        let limit = |of: &mut Station| {
+            let limits = PassLimits { min_max_elevation_deg: Some(89.9), ..PassLimits::default() };
+            of.favourites.set_limits(ISS, limits);
+        };
+        let (candidate, _) = judged(limit);
+        assert!(matches!(candidate.refusal, Some(Refusal::Rule(_))), "{:?}", candidate.refusal);
+        let (candidate, allowed) = judged(|of| {
+            limit(of);
+            of.rules = vec![rule(Some(2), None, Then::Take)];
+        });
+        assert_eq!((candidate.refusal, allowed), (None, ids(&[2])));
+    }
+
+    #[test]
+    fn the_antennas_of_a_satellite_are_those_of_its_limits() {
+        let (_, allowed) = judged(|of| {
+            let limits = PassLimits { antennas: Some(ids(&[3])), ..PassLimits::default() };
+            of.favourites.set_limits(ISS, limits);
+        });
+        assert_eq!(allowed, ids(&[3]));
+    }
+}

@@ -1,0 +1,201 @@
+//! Random numbers and real satellites for tests: the same everywhere.
+
+use jiff::Timestamp;
+
+use crate::plan::schedule::{
+    Candidate, Common, PlannedAntenna, Reach, Request, Sight, Steadiness, Wanted,
+};
+use crate::{
+    astro::time::add_seconds,
+    orbit::{Catalog, Elements, Pass, PassSearch, Propagator, bundled, passes},
+    station::{
+        Antenna, AntennaId, BetweenPasses, ChooseBy, Entered, KeepOut, Mount, PassLimits, Priority,
+        Station, SunAvoidance,
+    },
+};
+
+/// Splitmix64.
+pub(in crate::plan) struct Random(u64);
+
+impl Random {
+    pub(in crate::plan) fn new(seed: u64) -> Self {
+        Self(seed)
+    }
+
+    pub(in crate::plan) fn next(&mut self) -> u64 {
+        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
+        let mut mixed = self.0;
+        mixed = (mixed ^ (mixed >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+        mixed = (mixed ^ (mixed >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+        mixed ^ (mixed >> 31)
+    }
+
+    /// A number from 0 to below `end`.
+    pub(in crate::plan) fn below(&mut self, end: u32) -> u32 {
+        (self.next() % u64::from(end)) as u32
+    }
+}
+
+/// The antennas of the demo station: crossed axes, a rotator over the whole circle, and one over
+/// half of it.
+pub(in crate::plan) fn three_antennas() -> Station {
+    let mut antennas = vec![
+        Antenna::satrak("Satrak", ""),
+        Antenna::genius("Genius", ""),
+        Antenna::rc2000c("Dish", ""),
+    ];
+    for (antenna, number) in antennas.iter_mut().zip(1..) {
+        antenna.id = AntennaId(number);
+    }
+    antennas[2].mount = Mount::AzEl {
+        azimuth_from_deg: 90.0,
+        azimuth_to_deg: 270.0,
+        elevation_from_deg: 0.0,
+        elevation_to_deg: 90.0,
+    };
+    Station { antennas, ..Station::default() }
+}
+
+/// The same antennas with other travels, rates and beams.
+pub(in crate::plan) fn any_three_antennas(random: &mut Random) -> Station {
+    let mut station = three_antennas();
+    let mut between =
+        |from: f64, to: f64| from + (to - from) * f64::from(random.below(1_000)) / 1e3;
+    for antenna in &mut station.antennas {
+        antenna.limits.maximum_rate_deg_s = between(1.0, 8.0);
+        antenna.beam_width_deg = between(1.0, 12.0);
+        match &mut antenna.mount {
+            Mount::Xy { lower_axis_azimuth_deg, .. } => {
+                *lower_axis_azimuth_deg = between(0.0, 180.0);
+            }
+            Mount::AzEl { azimuth_from_deg, azimuth_to_deg, .. } => {
+                let travel_deg = *azimuth_to_deg - *azimuth_from_deg;
+                *azimuth_from_deg = between(-180.0, 180.0);
+                // Of the one that turns all round, some directions are there twice.
+                let more_deg = if travel_deg < 360.0 { 0.0 } else { between(0.0, 300.0) };
+                *azimuth_to_deg = *azimuth_from_deg + travel_deg + more_deg;
+            }
+        }
+    }
+    station
+}
+
+/// Adds two zones that no antenna may point into, and the Sun.
+pub(in crate::plan) fn add_barriers(station: &mut Station, random: &mut Random) {
+    for (name, entered) in [("Mast", Entered::GoRound), ("Yard", Entered::Hard)] {
+        let from_deg = f64::from(random.below(360));
+        let to_deg = from_deg + 10.0 + f64::from(random.below(40));
+        let top_deg = 10.0 + f64::from(random.below(30));
+        let corners = [(from_deg, 0.0), (to_deg, 0.0), (to_deg, top_deg), (from_deg, top_deg)];
+        station.keep_outs.push(KeepOut {
+            name: name.to_owned(),
+            reason: String::new(),
+            entered,
+            antenna: None,
+            margin_deg: 1.0,
+            zone: KeepOut::zone_of(&corners).unwrap(),
+        });
+    }
+    let radius_deg = 3.0 + f64::from(random.below(10));
+    station.sun_avoidance = Some(SunAvoidance { radius_deg, ahead_min: 10.0 });
+}
+
+pub(in crate::plan) fn planned(station: &Station, from: Timestamp) -> Vec<PlannedAntenna> {
+    let of = |antenna: &Antenna| PlannedAntenna {
+        id: antenna.id,
+        reach: Reach::of(station, antenna, None),
+        set_up_s: if antenna.name == "Satrak" { 20.0 } else { 2.0 },
+        between: BetweenPasses::Wait,
+        free_from: from,
+        stands_deg: Some([180.0, 45.0]),
+        off: None,
+    };
+    station.antennas.iter().map(of).collect()
+}
+
+/// Satellites with a priority and what is wanted of them.
+pub(in crate::plan) struct Satellite {
+    pub(in crate::plan) elements: Elements,
+    pub(in crate::plan) priority: Priority,
+    pub(in crate::plan) limits: PassLimits,
+}
+
+/// So many satellites in low orbits, each with a priority.
+pub(in crate::plan) fn low_satellites(random: &mut Random, count: usize) -> Vec<Satellite> {
+    let catalog: Catalog = bundled().unwrap();
+    let low: Vec<&Elements> =
+        catalog.iter().filter(|it| (5_400.0..6_900.0).contains(&it.period_s())).collect();
+    let mut chosen = Vec::new();
+    while chosen.len() < count {
+        let it = low[random.below(low.len() as u32) as usize];
+        let number = it.catalog_number();
+        if chosen.iter().all(|other: &Satellite| other.elements.catalog_number() != number) {
+            let priority = Priority::try_from(1 + random.below(5) as i64).unwrap();
+            chosen.push(Satellite {
+                elements: it.clone(),
+                priority,
+                limits: PassLimits::default(),
+            });
+        }
+    }
+    chosen
+}
+
+pub(in crate::plan) fn candidates(
+    station: &Station,
+    antennas: &[PlannedAntenna],
+    satellites: &[Satellite],
+    from: Timestamp,
+    hours: f64,
+) -> Vec<Candidate> {
+    let common =
+        Common { site: station.site, floor: station.elevation_floor(), antennas, max_age_s: None };
+    let search = PassSearch {
+        aos_elevation: station.aos_elevation(),
+        floor: station.elevation_floor(),
+        ..PassSearch::new(station.site, from, add_seconds(from, hours * 3600.0))
+    };
+    let mut found = Vec::new();
+    for satellite in satellites {
+        let propagator = Propagator::new(&satellite.elements).unwrap();
+        for pass in passes(&propagator, &search, &|| false) {
+            found.push(candidate(station, satellite, &propagator, &pass, common));
+        }
+    }
+    found
+}
+
+fn candidate(
+    station: &Station,
+    satellite: &Satellite,
+    propagator: &Propagator,
+    pass: &Pass,
+    common: Common<'_>,
+) -> Candidate {
+    let mask = station.horizon_mask.as_ref();
+    let mut sight = Sight::new(propagator, station.site, mask, pass);
+    let (priority, limits) = (satellite.priority, &satellite.limits);
+    let wanted = Wanted { priority, take: None, limits, by_rule: &|_| None };
+    let number = satellite.elements.catalog_number();
+    let age_s = satellite.elements.age_s(pass.aos.time);
+    Candidate::new(number, age_s, (pass, propagator), wanted, &mut sight, common)
+}
+
+pub(in crate::plan) fn request<'a>(
+    antennas: &'a [PlannedAntenna],
+    candidates: &'a [Candidate],
+) -> Request<'a> {
+    Request {
+        antennas,
+        candidates,
+        choose_by: ChooseBy::default(),
+        partial: None,
+        previous: None,
+        steadiness: Steadiness::default(),
+        fixed: &[],
+    }
+}
+
+pub(in crate::plan) fn noon() -> Timestamp {
+    "2026-08-12T12:00:00Z".parse().unwrap()
+}

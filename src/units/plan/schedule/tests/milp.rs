@@ -1,0 +1,124 @@
+//! Fifty random days, and after them ten times some hours in which passes are taken in part and
+//! handed over, against a MILP of the same data, solved by `HiGHS`: its results stand in
+//! `tests/data/schedule_milp.csv`. `cargo test` looks at every tenth day; all of them, and how they
+//! are solved again:
+//!
+//! ```text
+//! AZEL_SCHEDULE_EVERY=1 cargo test --release --lib days_are_as_good -- --nocapture
+//! AZEL_SCHEDULE_DAYS=/tmp/days.json cargo test --release --lib days_are_as_good
+//! python3 -m venv /tmp/highs && /tmp/highs/bin/pip install highspy
+//! /tmp/highs/bin/python tests/schedule/milp.py /tmp/days.json tests/data/schedule_milp.csv
+//! ```
+
+use super::*;
+use crate::plan::schedule::{
+    board::Board,
+    solve::{Part, Slews as _},
+};
+
+const DAYS: u64 = 50;
+const DAYS_IN_PARTS: u64 = 10;
+const RESULTS: &str = include_str!("../../../../../tests/data/schedule_milp.csv");
+
+/// A day, or some hours in parts, with so many satellites that each antenna has to choose, every
+/// fifth time with a limit of passes for some of them.
+fn day(day: u64, check: impl FnOnce(&Request<'_>)) {
+    let station = three_antennas();
+    let mut random = Random::new(SEED + 100 + day);
+    let from = add_seconds(noon(), day as f64 * 86_400.0);
+    let in_parts = day >= DAYS;
+    let (count, hours) = if in_parts { (14, 4.0) } else { (45, 24.0) };
+    let mut satellites = low_satellites(&mut random, count);
+    for satellite in satellites.iter_mut().step_by(9).filter(|_| day.is_multiple_of(5)) {
+        satellite.limits.max_per_day = Some(if in_parts { 1 } else { 3 });
+    }
+    let antennas = planned(&station, from);
+    let list = candidates(&station, &antennas, &satellites, from, hours);
+    let partial = Partial { min_share: 0.4, min_s: 90.0, step_s: 120.0, hand_over: true };
+    check(&Request { partial: in_parts.then_some(partial), ..request(&antennas, &list) });
+}
+
+fn written(day: u64, request: &Request<'_>) -> serde_json::Value {
+    let board = Board::new(request);
+    let all = 0..board.takes.len();
+    let fits = |a: usize, b: usize| {
+        let needs_ms = board.legs.between(a, b).needs_ms;
+        board.takes[a].to_ms + needs_ms <= board.takes[b].from_ms
+    };
+    // The second part of a pass goes on, on another antenna, when the first has ended.
+    let go_on = |a: usize, b: usize| {
+        let (first, second) = (&board.takes[a], &board.takes[b]);
+        first.antenna != second.antenna && first.to_ms <= second.from_ms
+    };
+    let excludes = |a: usize, b: usize| {
+        let (one, other) = (&board.takes[a], &board.takes[b]);
+        match (one.part, other.part) {
+            (Part::First, Part::Second) if one.pass == other.pass => !go_on(a, b),
+            (Part::Second, Part::First) if one.pass == other.pass => !go_on(b, a),
+            _ => one.antenna == other.antenna && !fits(a, b) && !fits(b, a),
+        }
+    };
+    let pairs = all.clone().flat_map(|a| (a + 1..board.takes.len()).map(move |b| (a, b)));
+    let conflicts: Vec<(usize, usize)> = pairs.filter(|(a, b)| excludes(*a, *b)).collect();
+    let takes: Vec<_> = all
+        .map(|index| {
+            let (take, fact) = (&board.takes[index], &board.facts[index]);
+            serde_json::json!({
+                "pass": take.pass,
+                "part": match take.part {
+                    Part::Alone => "alone",
+                    Part::First => "first",
+                    Part::Second => "second",
+                },
+                "limit": take.limit,
+                "class": fact.class.index(),
+                "worth": fact.worth,
+                "possible": board.legs.first_ms(index).is_some(),
+            })
+        })
+        .collect();
+    serde_json::json!({
+        "day": day, "takes": takes, "limits": board.limits, "conflicts": conflicts,
+    })
+}
+
+#[test]
+fn days_are_as_good_as_a_general_solver_makes_them() {
+    if let Some(path) = std::env::var_os("AZEL_SCHEDULE_DAYS") {
+        let mut days = Vec::new();
+        for number in 0..DAYS + DAYS_IN_PARTS {
+            day(number, |request| days.push(written(number, request)));
+        }
+        std::fs::write(path, serde_json::to_vec(&days).unwrap()).unwrap();
+        return;
+    }
+    let every = std::env::var("AZEL_SCHEDULE_EVERY").ok();
+    let every: usize = every.and_then(|text| text.parse().ok()).unwrap_or(10);
+    let rows: Vec<Vec<i64>> = RESULTS
+        .lines()
+        .filter(|line| !line.starts_with('#'))
+        .map(|line| line.split(',').map(|cell| cell.parse().unwrap()).collect())
+        .collect();
+    assert_eq!(rows.len() as u64, DAYS + DAYS_IN_PARTS);
+    let (mut optimal, mut days, mut count) = (0, 0, 0);
+    for numbers in rows.iter().step_by(every) {
+        let (number, best) = (numbers[0], &numbers[1..]);
+        days += 1;
+        day(number as u64, |request| {
+            let schedule = plan(request);
+            let reached = worth(&schedule);
+            assert!(reached[..] <= best[..], "day {number}: {reached:?} {best:?}");
+            for (class, best) in schedule.worth.iter().zip(best) {
+                match class.proof {
+                    Proof::Best => assert_eq!(class.worth, *best, "day {number} {class:?}"),
+                    Proof::AtMost(bound) => assert!(*best <= bound, "day {number} {class:?}"),
+                    Proof::Open => {}
+                }
+            }
+            count += schedule.entries.len();
+            optimal += u64::from(reached[..] == best[..]);
+        });
+    }
+    println!("{days} days with {count} entries: the best in {optimal}");
+    assert!(optimal * 10 >= days * 9, "{optimal} of {days}");
+}

@@ -1,0 +1,159 @@
+//! Connection of an antenna: make, address and settings of the make.
+
+use serde::{Serialize, Serializer, ser::SerializeMap};
+
+use super::{
+    ControllerSpec, Setting,
+    setting::{Spelled, is_empty},
+};
+use crate::device::{
+    CountPoint, Variant,
+    settings::{Unfit, Value},
+};
+
+/// Make, address and the settings that the make has.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Connection {
+    spec: &'static ControllerSpec,
+    /// A host and a port such as `192.168.10.21:4001`, or a serial port such as
+    /// `/dev/ttyUSB0` or `COM3`.
+    pub address: String,
+    /// In the order of the make's settings.
+    values: Vec<Value>,
+}
+
+impl Connection {
+    /// A connection to `address` with default settings.
+    pub(super) fn new(spec: &'static ControllerSpec, address: &str) -> Self {
+        let values = spec.settings.iter().map(|setting| (setting.default)()).collect();
+        Self { spec, address: address.to_owned(), values }
+    }
+
+    pub fn spec(&self) -> &'static ControllerSpec {
+        self.spec
+    }
+
+    /// The unit's variant with these settings.
+    pub fn variant(&self) -> &'static Variant {
+        (self.spec.variant)(self)
+    }
+
+    /// The value of a setting; `None` where the make does not have the setting.
+    pub fn value(&self, setting: &Setting) -> Option<&Value> {
+        self.place(setting).and_then(|place| self.values.get(place))
+    }
+
+    /// The text or word of a setting; empty where it holds neither.
+    pub fn text(&self, setting: &Setting) -> &str {
+        match self.value(setting) {
+            Some(Value::Text(text)) => text,
+            _ => "",
+        }
+    }
+
+    /// The whole number or the code of a setting; 0 where it holds neither, or none that fits.
+    pub fn whole(&self, setting: &Setting) -> u32 {
+        match self.value(setting) {
+            Some(Value::Integer(number) | Value::Choice(number)) => {
+                u32::try_from(*number).unwrap_or(0)
+            }
+            _ => 0,
+        }
+    }
+
+    /// The points of a setting; empty where it holds none.
+    pub fn points(&self, setting: &Setting) -> &[CountPoint] {
+        let Some(Value::Points(points)) = self.value(setting) else { return &[] };
+        points
+    }
+
+    /// Sets a value. If the setting cannot hold it, or the make does not have the setting,
+    /// nothing changes. The reason is worded to follow the name of the setting.
+    pub fn put(&mut self, setting: &Setting, value: impl Into<Value>) -> Result<(), Unfit> {
+        let value = value.into();
+        setting.field.kind.check(&value)?;
+        let place = self.place(setting).and_then(|place| self.values.get_mut(place));
+        *place.ok_or_else(|| Unfit::Text(format!("is no setting of {:?}", self.spec.key)))? = value;
+        Ok(())
+    }
+
+    fn place(&self, setting: &Setting) -> Option<usize> {
+        let is_it = |of: &&Setting| (of.field.key, of.table) == (setting.field.key, setting.table);
+        self.spec.settings.iter().position(is_it)
+    }
+}
+
+impl Serialize for Connection {
+    fn serialize<S: Serializer>(&self, out: S) -> Result<S::Ok, S::Error> {
+        let all: Vec<Held<'_>> = self.spec.settings.iter().copied().zip(&self.values).collect();
+        let mut map = out.serialize_map(None)?;
+        map.serialize_entry("controller", self.spec.key)?;
+        map.serialize_entry("address", &self.address)?;
+        for held in all.chunk_by(|(a, _), (b, _)| a.table == b.table) {
+            match held.first().and_then(|(setting, _)| setting.table) {
+                Some(table) => map.serialize_entry(table.key, &OfTable(held))?,
+                None => write(held, &mut map)?,
+            }
+        }
+        map.end()
+    }
+}
+
+type Held<'a> = (&'static Setting, &'a Value);
+
+/// The settings of one table and their values.
+struct OfTable<'a>(&'a [Held<'a>]);
+
+impl Serialize for OfTable<'_> {
+    fn serialize<S: Serializer>(&self, out: S) -> Result<S::Ok, S::Error> {
+        let mut map = out.serialize_map(None)?;
+        write(self.0, &mut map)?;
+        map.end()
+    }
+}
+
+fn write<M: SerializeMap>(held: &[Held<'_>], map: &mut M) -> Result<(), M::Error> {
+    held.iter().filter(|(_, value)| !is_empty(value)).try_for_each(|(setting, value)| {
+        map.serialize_entry(setting.field.key, &Spelled(setting, value))
+    })
+}
+
+/// Checks that `address` is a host and a port; returns the reason if it is not.
+pub fn check_address(address: &str) -> Result<(), &'static str> {
+    let Some((host, port)) = address.rsplit_once(':') else {
+        return Err("must be a host and a port, such as 192.168.10.21:4001");
+    };
+    if host.is_empty() || host.contains(|c: char| c.is_whitespace() || c == '/') {
+        return Err("must have a host without blanks and slashes before the port");
+    }
+    match port.parse::<u16>() {
+        Ok(1..) => Ok(()),
+        _ => Err("must have a port from 1 to 65535 after the host"),
+    }
+}
+
+/// Checks that `address` is a serial port, or a host and a port; returns the reason if it
+/// is neither.
+pub(crate) fn check_line(address: &str) -> Result<(), &'static str> {
+    if address.is_empty() {
+        return Err("must be a serial port, such as /dev/ttyUSB0 or COM3, or a host and a port");
+    }
+    // Port names by their place on the machine hold colons too.
+    let is_port = address.starts_with(['/', '\\']) || !address.contains(':');
+    if is_port { Ok(()) } else { check_address(address) }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_line_is_a_serial_port_or_a_host_and_a_port() {
+        for good in ["/dev/ttyUSB0", "COM3", "/dev/serial/by-path/pci-0000:00:14.0-port0", "h:1"] {
+            assert_eq!(check_line(good), Ok(()), "{good}");
+        }
+        for bad in ["", "host:", "host:0", "host:70000", ":4001"] {
+            assert!(check_line(bad).is_err(), "{bad}");
+        }
+    }
+}
