@@ -122,7 +122,7 @@ fn alarms_are_told_in_words_with_their_antenna() {
 
 #[test]
 fn an_alarm_is_opened_acknowledged_and_stays_until_it_is_over() {
-    for size in SIZES {
+    for size in rig::sizes() {
         let mut model = rig::model(states::holding());
         let (now, kind) = (model.now, AlarmKind::LinkLost(LinkLoss::Closed));
         model.alarms.raise(Some(AntennaId::FIRST), kind.clone(), now);
@@ -148,7 +148,7 @@ fn an_alarm_is_opened_acknowledged_and_stays_until_it_is_over() {
 
 #[test]
 fn an_alarm_that_is_over_and_new_says_so_with_its_times_and_repeats() {
-    for size in SIZES {
+    for size in rig::sizes() {
         let mut model = rig::model(states::holding());
         let (now, kind) = (model.now, AlarmKind::LinkLost(LinkLoss::Closed));
         let of = Some(AntennaId::FIRST);
@@ -170,7 +170,7 @@ fn an_alarm_that_is_over_and_new_says_so_with_its_times_and_repeats() {
 
 #[test]
 fn all_alarms_are_acknowledged_at_once() {
-    for size in SIZES {
+    for size in rig::sizes() {
         let mut model = rig::model(states::holding());
         for kind in [AlarmKind::ClockNotSet, AlarmKind::AutoStaysOn] {
             model.alarms.raise(Some(AntennaId::FIRST), kind, model.now);
@@ -188,7 +188,7 @@ fn all_alarms_are_acknowledged_at_once() {
 
 #[test]
 fn a_seen_alarm_is_shelved_and_taken_back_but_no_top_priority_one() {
-    for size in SIZES {
+    for size in rig::sizes() {
         let mut model = rig::model(states::holding());
         let of = Some(AntennaId::FIRST);
         for kind in [AlarmKind::ClockNotSet, AlarmKind::StopNotConfirmed] {
@@ -216,7 +216,7 @@ fn a_seen_alarm_is_shelved_and_taken_back_but_no_top_priority_one() {
 
 #[test]
 fn a_acknowledges_the_newest_alarm_in_every_view() {
-    for size in SIZES {
+    for size in rig::sizes() {
         for view in [azel::model::View::Operate, azel::model::View::Preferences] {
             let mut model = rig::model(states::holding());
             model.view = view;
@@ -241,7 +241,7 @@ fn a_acknowledges_the_newest_alarm_in_every_view() {
 fn a_chip_says_in_words_how_its_link_stands() {
     let now = Instant::now();
     let lost = LinkState::Lost { since: now, reason: LinkLoss::Silent, retry_at: now };
-    for size in SIZES {
+    for size in rig::sizes() {
         for (link, wanted) in [
             (LinkState::Off, "Satrak: Not connected, link off"),
             (LinkState::Connecting { since: now }, "Satrak: Connecting, link off"),
@@ -274,7 +274,7 @@ fn a_chip_says_what_its_antenna_does() {
 
 #[test]
 fn chips_and_function_keys_select_antennas() {
-    for size in SIZES {
+    for size in rig::sizes() {
         let mut model = rig::model(states::holding());
         let mut second = model.station.antennas[0].clone();
         second.name = "Mast".to_owned();
@@ -312,7 +312,7 @@ fn ctrl_l_goes_round_the_themes_and_moves_nothing() {
 fn the_table_says_whether_it_compares_with_a_command_or_a_prediction() {
     let aim = Some(azel::astro::AzEl::from_degrees(136.0, 20.0).into());
     let going = Snapshot { intent: Intent::Position, aim, ..states::moving() };
-    for size in SIZES {
+    for size in rig::sizes() {
         for (snapshot, wanted) in [
             (going.clone(), "Az: Command 136.00, actual 120.00, error −16.00"),
             (going.clone(), "El: Command 20.00, actual 30.00, error +10.00"),

@@ -47,7 +47,7 @@ fn a_clock_that_nobody_keeps_is_told_in_every_window() {
 
 #[test]
 fn the_tool_tip_says_what_it_means() {
-    for size in SIZES {
+    for size in rig::sizes() {
         let mut window = with(size, TimeSync::NotSynchronised);
         window.get_by_label("Clock: not synchronised").hover();
         rig::settle(&mut window);

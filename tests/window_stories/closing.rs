@@ -17,7 +17,7 @@ use egui_kittest::kittest::Queryable as _;
 use crate::window_stories::{
     makes,
     preferences::write,
-    rig::{self, LARGE, NOAA_20, SIZES, Window},
+    rig::{self, LARGE, NOAA_20, Window},
     settings_rig::{press, says},
     states,
     unit::{RealWindow, Unit, clock_from, open, step_until, wait_until},
@@ -98,7 +98,7 @@ const ANSWERS: [(&str, CloseHow); 3] = [
 
 #[test]
 fn antennas_that_move_or_are_tracked_are_asked_about_by_name() {
-    for size in SIZES {
+    for size in rig::sizes() {
         let model = || {
             let mut model = rig::model(states::tracking(0.1));
             let moved = Snapshot { unproved: true, ..makes::rc2000c_off() };
@@ -156,7 +156,7 @@ fn what_the_station_says_of_closing_is_done_unasked_unless_something_else_is_los
 
 #[test]
 fn an_answer_that_means_nothing_is_not_offered() {
-    for size in SIZES {
+    for size in rig::sizes() {
         let window = asked_about(size, rig::model(states::moving()));
         assert!(rig::says(&window, "Satrak moves."));
         window.get_by_role_and_label(Role::Button, "Close and park");

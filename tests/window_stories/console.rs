@@ -120,7 +120,7 @@ pub(crate) fn is_disabled(window: &Window, button: &str) -> bool {
 
 #[test]
 fn the_view_opens_from_rail_and_key() {
-    for size in SIZES {
+    for size in rig::sizes() {
         let mut window = rig::window(size, rig::model(states::holding()));
         window.get_by_role_and_label(Role::Tab, "Console").click();
         assert_eq!(asked(&mut window), [UiCommand::Show(View::Console)]);
@@ -131,7 +131,7 @@ fn the_view_opens_from_rail_and_key() {
 
 #[test]
 fn each_line_says_when_which_way_and_what_it_means() {
-    for size in SIZES {
+    for size in rig::sizes() {
         let mut window = view(size);
         assert_eq!(
             rows(&window),
@@ -163,7 +163,7 @@ fn each_link_is_summed_up() {
 
 #[test]
 fn a_filter_shows_what_has_its_text() {
-    for size in SIZES {
+    for size in rig::sizes() {
         let mut window = view(size);
         window.key_press_modifiers(Modifiers::COMMAND, Key::F);
         settle(&mut window);
@@ -180,7 +180,7 @@ fn a_filter_shows_what_has_its_text() {
 
 #[test]
 fn one_way_of_the_link_can_be_read_alone() {
-    for size in SIZES {
+    for size in rig::sizes() {
         let mut window = view(size);
         let all = rows(&window).len();
         let mut choose = |from: &str, to: &str| {
@@ -199,7 +199,7 @@ fn one_way_of_the_link_can_be_read_alone() {
 
 #[test]
 fn a_pause_freezes_what_is_shown_and_the_rest_comes_afterwards() {
-    for size in SIZES {
+    for size in rig::sizes() {
         let mut window = view(size);
         click(&mut window, "Pause");
         log(&window).push(wire(9.0, Direction::Sent, "VERSION?"));
@@ -214,7 +214,7 @@ fn a_pause_freezes_what_is_shown_and_the_rest_comes_afterwards() {
 
 #[test]
 fn the_newest_line_is_followed_until_the_operator_scrolls_away() {
-    for size in SIZES {
+    for size in rig::sizes() {
         let mut window = view(size);
         let many = |log: &WireLog, from: u32| {
             for second in from..from + 200 {
@@ -249,7 +249,7 @@ fn lines_are_selected_with_mouse_and_keys_and_copied() {
     let sent = "2026-08-12T11:15:32.000Z\tSatrak\tsent\t$MOVE=,-3.5,0*19<CR><LF>\t\t\
                 Moves X by \u{2212}3.5 °/s";
     let answer = "2026-08-12T11:15:32.100Z\tSatrak\treceived\t$MOVE=,ERR,7*5E<CR><LF>\t34 ms\tRefused: ERR,7";
-    for size in SIZES {
+    for size in rig::sizes() {
         let mut window = view(size);
         assert!(is_disabled(&window, "Copy"));
         row(&mut window, "$MOVE=,-3.5", Modifiers::NONE);
@@ -325,7 +325,7 @@ fn hidden_values_are_said_to_be_hidden() {
 
 #[test]
 fn the_log_of_one_antenna_can_be_chosen() {
-    for size in SIZES {
+    for size in rig::sizes() {
         let mut window = view(size);
         let mut config = window.state().model.station.antennas[0].clone();
         config.name = "Mast".to_owned();

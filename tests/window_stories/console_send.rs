@@ -24,7 +24,7 @@ use crate::window_stories::{
 
 #[test]
 fn the_shown_lines_are_saved_and_it_is_said_where() {
-    for size in SIZES {
+    for size in rig::sizes() {
         let mut window = view(size);
         click(&mut window, "Save");
         let commands = asked(&mut window);
@@ -42,7 +42,7 @@ fn the_shown_lines_are_saved_and_it_is_said_where() {
 #[test]
 fn a_query_is_sent_once_its_frame_stands_there() {
     let ask = |question: &str| UiCommand::antenna(AntennaId(1), Command::Ask(question.into()));
-    for size in SIZES {
+    for size in rig::sizes() {
         let mut window = view(size);
         assert!(is_disabled(&window, "Send"));
         assert!(says(&window, "can be sent. Change settings"));
@@ -70,7 +70,7 @@ fn a_query_is_sent_once_its_frame_stands_there() {
 
 #[test]
 fn the_field_keeps_the_focus_after_enter() {
-    for size in SIZES {
+    for size in rig::sizes() {
         let mut window = view(size);
         write(&mut window, "Query to send", "TPOS?");
         for _ in 0..2 {
@@ -102,7 +102,7 @@ fn earlier_queries_come_back_with_the_arrow_keys() {
 
 #[test]
 fn nothing_but_queries_is_sent_and_the_reason_stands_there() {
-    for size in SIZES {
+    for size in rig::sizes() {
         let mut window = view(size);
         for (typed, reason) in [
             ("TRACK=,1", "Not sent. This moves the antenna"),

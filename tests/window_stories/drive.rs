@@ -30,7 +30,7 @@ fn type_into(window: &mut Window, field: &str, words: &str) {
 
 #[test]
 fn the_track_button_tracks_the_selected_pass() {
-    for size in SIZES {
+    for size in rig::sizes() {
         let mut window = rig::window(size, rig::model(states::holding()));
         window.get_by_role_and_label(Role::Button, "Track NOAA 20").click();
         assert_eq!(asked(&mut window), [rig::track_noaa_20()]);
@@ -39,7 +39,7 @@ fn the_track_button_tracks_the_selected_pass() {
 
 #[test]
 fn while_it_is_tracked_there_is_nothing_to_ask_for() {
-    for size in SIZES {
+    for size in rig::sizes() {
         let window = rig::window(size, rig::model(states::tracking(0.0)));
         window.get_by_label("On the unit: NOAA 20");
         window.get_by_label("Selected and tracked: NOAA 20");
@@ -62,7 +62,7 @@ fn needs(window: &Window, words: &str) -> String {
 fn t_asks_and_only_enter_tracks() {
     // From where it stands to where it meets the satellite, and how long that takes.
     let question = "Track NOAA 20 with Satrak? The antenna moves from 343.1°, 5.0° to ";
-    for size in SIZES {
+    for size in rig::sizes() {
         let mut window = rig::window(size, rig::model(states::holding()));
         let header = needs(&window, "eeds ");
         window.key_press(Key::T);
@@ -83,7 +83,7 @@ fn t_asks_and_only_enter_tracks() {
 
 #[test]
 fn m_asks_while_tracking_and_only_then() {
-    for size in SIZES {
+    for size in rig::sizes() {
         let mut window = rig::window(size, rig::model(states::holding()));
         window.key_press(Key::M);
         assert_eq!(asked(&mut window), [antenna(Command::Manual)]);
@@ -101,7 +101,7 @@ fn m_asks_while_tracking_and_only_then() {
 #[test]
 fn m_gives_the_arrows_to_the_jog_pad_and_moves_nothing_itself() {
     let pad = "Jog with the arrow keys";
-    for size in SIZES {
+    for size in rig::sizes() {
         for (before, answers) in
             [(states::holding(), false), (states::manual(), false), (states::tracking(0.0), true)]
         {
@@ -149,7 +149,7 @@ fn m_waits_for_manual_only_until_something_else_is_done() {
 
 #[test]
 fn g_chooses_position_and_asks_while_tracking() {
-    for size in SIZES {
+    for size in rig::sizes() {
         let mut window = rig::window(size, rig::model(states::holding()));
         window.key_press(Key::G);
         assert_eq!(asked(&mut window), [antenna(Command::Hold)]);
@@ -170,7 +170,7 @@ fn g_chooses_position_and_asks_while_tracking() {
 
 #[test]
 fn enter_answers_the_question_and_nothing_that_had_the_focus() {
-    for size in SIZES {
+    for size in rig::sizes() {
         let mut window = rig::window(size, rig::model(states::holding()));
         window.get_by_role_and_label(Role::RadioButton, "Position").focus();
         settle(&mut window);
@@ -183,7 +183,7 @@ fn enter_answers_the_question_and_nothing_that_had_the_focus() {
 
 #[test]
 fn a_mode_is_one_click_but_for_park_which_is_held() {
-    for size in SIZES {
+    for size in rig::sizes() {
         let mut window = rig::window(size, rig::model(states::manual()));
         for (word, command) in [
             ("Standby", antenna(Command::Standby)),
@@ -206,7 +206,7 @@ fn a_mode_is_one_click_but_for_park_which_is_held() {
 
 #[test]
 fn a_jog_lasts_as_long_as_its_key_is_held() {
-    for size in SIZES {
+    for size in rig::sizes() {
         let mut window = rig::window(size, rig::model(states::manual()));
         let key = window.get_by_label("Jog X+").rect().center();
         window.drag_at(key);
@@ -220,7 +220,7 @@ fn a_jog_lasts_as_long_as_its_key_is_held() {
 
 #[test]
 fn another_view_and_another_antenna_end_the_jog() {
-    for size in SIZES {
+    for size in rig::sizes() {
         for other in [UiCommand::SelectAntenna(1), UiCommand::Show(azel::model::View::Preferences)]
         {
             let mut model = rig::model(states::manual());
@@ -244,7 +244,7 @@ fn another_view_and_another_antenna_end_the_jog() {
 
 #[test]
 fn outside_manual_a_jog_key_does_nothing_and_says_why() {
-    for size in SIZES {
+    for size in rig::sizes() {
         for (snapshot, reason) in [
             (states::holding(), "Locked in Standby. Choose Manual or Position."),
             (states::tracking(0.0), "Locked while tracking. Choose Manual or Position."),
@@ -262,7 +262,7 @@ fn outside_manual_a_jog_key_does_nothing_and_says_why() {
 
 #[test]
 fn g_leads_to_the_fields_and_what_is_typed_goes_out() {
-    for size in SIZES {
+    for size in rig::sizes() {
         let snapshot = Snapshot { intent: Intent::Position, ..states::holding() };
         let mut window = rig::window(size, rig::model(snapshot));
         // A real key comes with its letter.
@@ -293,7 +293,7 @@ fn g_leads_to_the_fields_and_what_is_typed_goes_out() {
 
 #[test]
 fn a_bad_number_stays_as_typed_and_nothing_goes_out() {
-    for size in SIZES {
+    for size in rig::sizes() {
         let snapshot = Snapshot { intent: Intent::Position, ..states::holding() };
         let mut window = rig::window(size, rig::model(snapshot));
         type_into(&mut window, AZIMUTH, "12..5");
@@ -311,7 +311,7 @@ fn a_fault_that_locks_motion_locks_the_card_and_not_stop() {
     let mut snapshot = states::manual();
     states::report(&mut snapshot, &[8], rig::now());
     snapshot.state.motion_lock = Some(true);
-    for size in SIZES {
+    for size in rig::sizes() {
         let mut window = rig::window(size, rig::model(snapshot.clone()));
         assert!(says(&window, "Locked by a fault. See Faults."));
         window.drag_at(window.get_by_label("Jog X+").rect().center());

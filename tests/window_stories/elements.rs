@@ -25,7 +25,7 @@ use egui_kittest::{
 };
 
 use crate::window_stories::{
-    rig::{self, SIZES, Window, asked, says, settle},
+    rig::{self, Window, asked, says, settle},
     states,
 };
 
@@ -110,7 +110,7 @@ fn refresh(names: &[&str], forced: bool) -> UiCommand {
 
 #[test]
 fn the_view_opens_from_rail_and_key() {
-    for size in SIZES {
+    for size in rig::sizes() {
         let mut window = rig::window(size, rig::model(states::holding()));
         window.get_by_role_and_label(Role::Tab, "Elements").click();
         assert_eq!(asked(&mut window), [UiCommand::Show(View::Elements)]);
@@ -121,7 +121,7 @@ fn the_view_opens_from_rail_and_key() {
 
 #[test]
 fn a_source_says_what_it_holds_and_how_old_it_is() {
-    for size in SIZES {
+    for size in rig::sizes() {
         let own = file_source();
         let held = report(&own, 12);
         let window = view(size, vec![(own, held), server(1.0)]);
@@ -136,7 +136,7 @@ fn a_source_says_what_it_holds_and_how_old_it_is() {
 
 #[test]
 fn a_source_says_what_is_wrong_and_what_is_true_meanwhile() {
-    for size in SIZES {
+    for size in rig::sizes() {
         let own = file_source();
         let mut lost = report(&own, 0);
         lost.files[0].problem = Some("No such file".to_owned());
@@ -160,7 +160,7 @@ fn a_source_says_what_is_wrong_and_what_is_true_meanwhile() {
 
 #[test]
 fn a_server_is_asked_at_once_when_it_may_be_and_else_after_a_question() {
-    for size in SIZES {
+    for size in rig::sizes() {
         let mut window = view(size, vec![server(3.0)]);
         click(&mut window, "Fetch weather");
         assert_eq!(asked(&mut window), [refresh(&["weather"], false)]);
@@ -185,7 +185,7 @@ fn a_server_is_asked_at_once_when_it_may_be_and_else_after_a_question() {
 
 #[test]
 fn a_server_is_set_to_be_asked_by_itself() {
-    for size in SIZES {
+    for size in rig::sizes() {
         let mut window = view(size, vec![server(1.0)]);
         let name = "Refresh of weather: Only when you ask";
         window.get_by_role_and_label(Role::ComboBox, name).click();
@@ -202,7 +202,7 @@ fn a_server_is_set_to_be_asked_by_itself() {
 
 #[test]
 fn a_source_is_removed_after_a_question() {
-    for size in SIZES {
+    for size in rig::sizes() {
         let own = file_source();
         let held = report(&own, 12);
         let mut window = view(size, vec![(own, held)]);
@@ -220,7 +220,7 @@ fn a_source_is_removed_after_a_question() {
 
 #[test]
 fn a_typed_source_is_added_once_it_is_right_and_stays_typed_until_it_is_there() {
-    for size in SIZES {
+    for size in rig::sizes() {
         let mut window = view(size, Vec::new());
         assert!(is_disabled(&window, "Read again"));
         click(&mut window, "Add a source");
@@ -250,7 +250,7 @@ fn a_typed_source_is_added_once_it_is_right_and_stays_typed_until_it_is_there() 
 
 #[test]
 fn a_group_of_celestrak_is_filled_in_and_a_plain_address_is_refused() {
-    for size in SIZES {
+    for size in rig::sizes() {
         let mut window = view(size, vec![server(3.0)]);
         click(&mut window, "Add a source");
         assert!(is_disabled(&window, "CelesTrak weather"), "it is there");
@@ -282,7 +282,7 @@ fn nothing_is_taken_while_servers_are_asked_or_the_list_is_unreadable() {
             "The list cannot be read.",
         ),
     ];
-    for size in SIZES {
+    for size in rig::sizes() {
         for (lock, words) in locks {
             let mut window = view(size, vec![server(3.0)]);
             lock(Arc::make_mut(&mut window.state_mut().model.sources));

@@ -13,22 +13,24 @@ mod units;
 
 pub(crate) use days::words;
 
-use std::sync::Arc;
+use std::{collections::BTreeMap, sync::Arc};
 
 use azel::{
+    astro::time::add_seconds,
     driver::{Intent, LinkLoss, LinkState, Snapshot},
     engine::{self, alarms::AlarmKind},
-    model::{Model, UiCommand, View},
+    model::{DistanceUnit, Model, UiCommand, View},
     station::AntennaId,
 };
 use egui::{Event, HoveredFile, Key, Role};
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
+use jiff::Timestamp;
 
 use crate::window_stories::{
     closing, console, elements, horizon, maintenance, makes, plan,
     preferences::{self, write},
     preferences_rules, record,
-    rig::{self, Window, asked, settle},
+    rig::{self, LARGE, SMALL, Window, asked, settle},
     settings_rig, setup, states, wide,
 };
 
@@ -194,6 +196,120 @@ pub(crate) const SCENES: [Scene; 49] = [
     named("Set-up, elements", |size| at_step(size, 3)),
     named("Set-up, check and finish", |size| at_step(size, 4)),
 ];
+
+/// The faults that the checks have found, and how much each of them has looked at.
+#[derive(Default)]
+struct Findings {
+    scene: &'static str,
+    check: &'static str,
+    faults: Vec<String>,
+    counts: BTreeMap<&'static str, usize>,
+}
+
+impl Findings {
+    /// Files what comes next under this scene and check.
+    fn begin(&mut self, scene: &Scene, check: &'static str) -> &mut Self {
+        (self.scene, self.check) = (scene.name, check);
+        self
+    }
+
+    fn add(&mut self, fault: String) {
+        self.faults.push(format!("{}, {}: {fault}", self.scene, self.check));
+    }
+
+    fn count(&mut self, number: usize) {
+        *self.counts.entry(self.check).or_default() += number;
+    }
+
+    /// Fails if there was a fault, or if a check had no more than so much to look at.
+    fn end(self, minima: &[(&str, usize)]) {
+        assert!(self.faults.is_empty(), "{} faults\n{}", self.faults.len(), self.faults.join("\n"));
+        for (check, min) in minima {
+            let count = self.counts.get(check).copied().unwrap_or_default();
+            assert!(count > *min, "{check}: only {count} to look at");
+        }
+    }
+}
+
+/// Times of the scenes are of another day then, and those of the next hours stand out.
+const BACK_S: f64 = 36.0 * 3600.0;
+/// Most times of the next hours carry a day then, and are longer.
+const LONG_TIMES_BACK_S: f64 = 12.0 * 3600.0;
+
+/// Sets the present of the scene.
+fn set_now(window: &mut Window, now: Timestamp) {
+    window.state_mut().model.now = now;
+    settle(window);
+}
+
+/// Opens each scene once and makes all checks in it, those first that leave it as it is. The
+/// smallest window is also looked at with the pixels of 200 %.
+fn check_all(size: [f32; 2], minima: &[(&str, usize)]) {
+    let mut findings = Findings::default();
+    for scene in &SCENES {
+        let mut window = scene.open(size);
+        cut::check(&window, findings.begin(scene, "cut texts"));
+        // A drawer lies over the plot, and is read after it.
+        if size != SMALL || scene.name != "Operate, drawer of passes" {
+            order::check(&window, findings.begin(scene, "reading order"));
+        }
+        overlaps::check(&window, findings.begin(scene, "overlaps"));
+        tree::check(&window, size, findings.begin(scene, "tree"));
+        if size == LARGE {
+            contrast::check(&mut window, findings.begin(scene, "contrast"));
+        }
+        let now = window.state().model.now;
+        set_now(&mut window, add_seconds(now, -LONG_TIMES_BACK_S));
+        overlaps::check(&window, findings.begin(scene, "overlaps on another day"));
+        // A question keeps the words of the time at which it was asked.
+        if scene.name != "Question" {
+            set_now(&mut window, add_seconds(now, -BACK_S));
+            days::check(&window, findings.begin(scene, "days of times"));
+        }
+        window.state_mut().model.appearance.distances = DistanceUnit::NauticalMiles;
+        set_now(&mut window, now);
+        units::check(&window, findings.begin(scene, "units"));
+        if size == SMALL {
+            window.state_mut().model.appearance.distances = DistanceUnit::default();
+            scale::check(scene, size, &mut window, findings.begin(scene, "200 %"));
+        }
+    }
+    findings.end(minima);
+}
+
+#[test]
+fn in_the_usual_window_every_view_holds_what_all_of_them_must() {
+    check_all(
+        LARGE,
+        &[
+            ("cut texts", 1000),
+            ("reading order", 1500),
+            ("overlaps", 1000),
+            ("overlaps on another day", 1000),
+            ("tree", 15),
+            ("contrast", 10_000),
+            ("days of times", 100),
+            ("units", 40),
+        ],
+    );
+}
+
+#[test]
+fn in_the_smallest_window_every_view_holds_what_all_of_them_must() {
+    check_all(
+        SMALL,
+        &[
+            ("cut texts", 1000),
+            ("reading order", 1500),
+            ("overlaps", 1000),
+            ("overlaps on another day", 1000),
+            ("tree", 15),
+            ("days of times", 100),
+            ("units", 5),
+            ("200 %", 10),
+        ],
+    );
+}
 
 fn press(window: &mut Window, key: Key) {
     window.key_press(key);

@@ -214,7 +214,7 @@ fn followed(size: [f32; 2], antenna: Antenna, entry: &str) -> ProgramTrack {
 #[test]
 fn sun_moon_and_a_direction_are_followed_by_one_click() {
     let genius = || Antenna::genius("Mast", "192.168.1.250:9006");
-    for size in rig::SIZES {
+    for size in rig::sizes() {
         let site = rig::station().site;
         let always = |target| ProgramTrack::new(target, site, Vec::new());
         assert_eq!(followed(size, genius(), "Follow the Sun"), always(Target::Sun));

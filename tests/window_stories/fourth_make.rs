@@ -80,7 +80,7 @@ fn its_antenna_is_read_from_the_station_file_and_comes_back_as_it_was_saved() {
 
 #[test]
 fn its_own_settings_are_fields_of_the_form() {
-    for size in SIZES {
+    for size in rig::sizes() {
         let antenna = SPEC.antenna("Lever", SPEC.default_address);
         let mut model = model(antenna.clone(), rig::quiet());
         (model.view, Arc::make_mut(&mut model.station).antennas) =
@@ -113,7 +113,7 @@ fn on_one_shaft_it_shows_and_turns_the_azimuth_alone() {
     let mut antenna = SPEC.antenna("Lever", SPEC.default_address);
     antenna.connection.put(&SHAFTS, 1).unwrap();
     antenna.mount = alone().mount;
-    for size in SIZES {
+    for size in rig::sizes() {
         let snapshot = alone_at(Intent::Manual, false);
         let mut window = rig::window(size, model(antenna.clone(), snapshot));
         assert!(window.query_by_label("Jog clockwise").is_some());

@@ -13,7 +13,7 @@ use egui::{Key, Role, vec2};
 use egui_kittest::kittest::Queryable as _;
 
 use crate::window_stories::{
-    rig::{self, LARGE, SIZES, Window, asked, settle},
+    rig::{self, LARGE, Window, asked, settle},
     sky::zenith,
     states,
 };
@@ -57,7 +57,7 @@ fn note(window: &Window) -> Option<String> {
 
 #[test]
 fn a_click_in_the_sky_is_judged_told_and_only_then_sent() {
-    for size in SIZES {
+    for size in rig::sizes() {
         for before in [states::holding(), states::manual(), rig::quiet()] {
             let mut window = rig::window(size, rig::model(before));
             let to = click_the_south(&mut window);
@@ -98,7 +98,7 @@ fn enter_sends_what_was_clicked_and_esc_drops_it() {
 
 #[test]
 fn a_limit_in_the_way_is_named_and_nothing_is_sent() {
-    for size in SIZES {
+    for size in rig::sizes() {
         let mut window = rig::window(size, rig::model(states::holding()));
         let to = click_the_south(&mut window);
         let limit = Refusal::Travel { axis: "Y", asked_deg: 171.0, from_deg: 10.0, to_deg: 170.0 };
@@ -147,7 +147,7 @@ fn without_a_link_a_click_says_so_and_asks_nobody() {
 
 #[test]
 fn what_is_typed_is_judged_as_it_stands_until_it_is_sent() {
-    for size in SIZES {
+    for size in rig::sizes() {
         let snapshot = Snapshot { intent: Intent::Position, ..states::holding() };
         let mut window = rig::window(size, rig::model(snapshot));
         for (field, words) in

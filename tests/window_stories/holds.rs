@@ -16,7 +16,7 @@ use azel::{
 use egui_kittest::kittest::Queryable as _;
 
 use crate::window_stories::{
-    rig::{self, LARGE, SIZES, Window, asked, says},
+    rig::{self, LARGE, Window, asked, says},
     settings_rig::hold,
     states,
 };
@@ -53,7 +53,7 @@ fn a_jog_without_a_dead_man_is_allowed_by_holding_only() {
 
 #[test]
 fn who_sees_an_antenna_stand_says_so_by_holding() {
-    for size in SIZES {
+    for size in rig::sizes() {
         let since = states::moving().state.measured.unwrap().received;
         let not_confirmed =
             Snapshot { stop: StopState::NotConfirmed { since }, ..states::moving() };
@@ -85,7 +85,7 @@ fn inside(barrier: Barrier, may_leave: bool) -> Snapshot {
 #[test]
 fn the_way_out_of_a_keep_out_is_allowed_by_holding_only() {
     let mast = || Barrier::KeepOut("mast".into());
-    for size in SIZES {
+    for size in rig::sizes() {
         let words = "Satrak is inside “mast” now. It can be moved out by hand once you allow it.";
         let mut window = rig::window(size, shows(inside(mast(), false)));
         assert!(says(&window, words));
@@ -104,7 +104,7 @@ fn the_way_out_of_a_keep_out_is_allowed_by_holding_only() {
 
 #[test]
 fn the_sun_is_followed_at_once_or_by_a_hold_that_names_its_avoidance() {
-    for size in SIZES {
+    for size in rig::sizes() {
         let choose_the_sun = |model: Model| {
             let mut window = rig::window(size, model);
             window.get_by_label("Follow something else").click();
@@ -153,7 +153,7 @@ fn an_alarm_about_the_sun_offers_to_move_away_in_one_step() {
         driver: Mover::Somebody,
         response: Response::Reported,
     };
-    for size in SIZES {
+    for size in rig::sizes() {
         let alarmed = |snapshot: Snapshot| {
             let mut model = shows(snapshot);
             model.alarms.raise(Some(AntennaId::FIRST), AlarmKind::Safety(told.clone()), rig::now());
@@ -201,7 +201,7 @@ fn an_action_whose_end_nobody_here_knows_is_started_by_holding_only() {
     let dish = Antenna::rc2000c("Dish", "in memory");
     let action = dish.connection.variant().actions.iter().find(|action| action.moves).unwrap();
     let act = Act { action: action.key, values: Values::default() };
-    for size in SIZES {
+    for size in rig::sizes() {
         let mut model = shows(states::holding());
         model.antennas = vec![rig::antenna(dish.clone(), states::holding())];
         assert!(rig::window(size, model).query_by_label(UNSEEN).is_none());

@@ -20,7 +20,7 @@ use egui_kittest::kittest::{NodeT as _, Queryable as _};
 
 use crate::window_stories::{
     preferences::saved,
-    rig::{self, LARGE, SIZES, SMALL, Window, settle},
+    rig::{self, LARGE, SMALL, Window, settle},
     states,
 };
 
@@ -129,7 +129,7 @@ fn field(window: &mut Window, name: &str, words: &str) {
 
 #[test]
 fn a_zone_is_added_named_and_saved_to_the_file() {
-    for size in SIZES {
+    for size in rig::sizes() {
         let mut window = page_of(size, rig::model(states::holding()));
         show_table(&mut window);
         window.get_by_role_and_label(Role::Button, "Add zone").click();
@@ -156,7 +156,7 @@ fn a_zone_is_added_named_and_saved_to_the_file() {
 
 #[test]
 fn a_corner_is_dragged_and_the_drag_is_undone_and_done_again() {
-    for size in SIZES {
+    for size in rig::sizes() {
         let mut window = page(size);
         choose(&mut window, "mast");
         show_plot(&mut window);
@@ -267,7 +267,7 @@ fn a_rectangle_and_a_polygon_are_drawn() {
 
 #[test]
 fn a_wrong_cell_says_its_range_and_locks_saving() {
-    for size in SIZES {
+    for size in rig::sizes() {
         let mut window = page(size);
         choose(&mut window, "mast");
         field(&mut window, "Elevation of corner 3", "97");
@@ -298,7 +298,7 @@ fn edges_that_cross_are_named_and_not_saved() {
 
 #[test]
 fn the_sun_is_kept_away_from_once_that_is_set() {
-    for size in SIZES {
+    for size in rig::sizes() {
         let mut window = page(size);
         choose(&mut window, "Sun");
         window.get_by_label("Keep antennas away from the Sun").click();
@@ -348,13 +348,13 @@ fn a_keep_out_around_an_antenna_is_saved_by_a_hold() {
     window.get_by_label(words);
     let button = window.get_by_role_and_label(Role::Button, "Hold 1 s to save").rect().center();
     window.drag_at(button);
-    window.run_steps(2);
+    window.run_steps(6);
     assert_eq!(asked(&mut window).len(), 1, "held to the end");
 }
 
 #[test]
 fn the_effect_on_the_passes_stands_below_the_plot() {
-    for size in SIZES {
+    for size in rig::sizes() {
         let mut window = page(size);
         let commands = rig::asked(&mut window);
         let question = commands.into_iter().find_map(|command| match command {
@@ -459,7 +459,7 @@ fn a_mask_is_read_from_a_file_and_written_to_one() {
 fn what_holds_is_drawn_in_the_sky_plot() {
     // Drawn without a missing glyph or a panic, also around the zenith.
     let cap = KeepOut::zone_of(&[(0.0, 80.0), (180.0, 80.0), (360.0, 80.0)]).unwrap();
-    for size in SIZES {
+    for size in rig::sizes() {
         let mut model = rig::model(states::holding());
         let overhead = KeepOut { name: "overhead".to_owned(), zone: cap.clone(), ..mast() };
         assert!(overhead.zone.clearance(azel::astro::AzEl::from_degrees(0.0, 90.0)) < Angle::ZERO);

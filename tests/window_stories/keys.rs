@@ -63,7 +63,7 @@ fn line(binding: &Binding) -> String {
 
 #[test]
 fn k_asks_whether_to_park_and_says_where() {
-    for size in SIZES {
+    for size in rig::sizes() {
         let mut window = rig::window(size, rig::model(states::holding()));
         window.key_press(Key::K);
         assert_eq!(asked(&mut window), []);
@@ -83,7 +83,7 @@ fn k_asks_whether_to_park_and_says_where() {
 
 #[test]
 fn enter_on_cancel_says_no() {
-    for size in SIZES {
+    for size in rig::sizes() {
         let mut window = rig::window(size, rig::model(states::holding()));
         window.key_press(Key::K);
         settle(&mut window);
@@ -371,7 +371,7 @@ fn the_question_mark_opens_the_whole_list_and_it_closes_in_every_way() {
 
 #[test]
 fn while_the_list_is_open_only_stop_works_below_it() {
-    for size in SIZES {
+    for size in rig::sizes() {
         let mut window = opened(size);
         window.key_press(Key::Questionmark);
         settle(&mut window);
@@ -386,7 +386,7 @@ fn while_the_list_is_open_only_stop_works_below_it() {
 
 #[test]
 fn a_question_mark_that_is_typed_opens_nothing() {
-    for size in SIZES {
+    for size in rig::sizes() {
         let mut window = opened(size);
         window.get_by_label("Go to azimuth, degrees").focus();
         settle(&mut window);
@@ -425,7 +425,7 @@ fn plus_minus_and_zero_zoom_the_strip() {
 
 #[test]
 fn up_and_down_lead_from_pass_to_pass_wherever_no_control_has_the_focus() {
-    for size in SIZES {
+    for size in rig::sizes() {
         let mut window = rig::window(size, rig::model(states::holding()));
         let keys: Vec<_> = window
             .state()

@@ -55,7 +55,7 @@ fn ask_for_lock_out<S>(window: &mut Harness<'_, S>, antenna: &str) {
 
 #[test]
 fn a_name_and_a_reason_are_needed_and_then_a_second() {
-    for size in SIZES {
+    for size in rig::sizes() {
         for snapshot in [states::holding(), makes::rc2000c_off()] {
             let mut window = rig::window(size, rig::model(snapshot));
             ask_for_lock_out(&mut window, "Satrak");
@@ -78,7 +78,7 @@ fn a_name_and_a_reason_are_needed_and_then_a_second() {
 
 #[test]
 fn what_ends_is_named_and_asked_about() {
-    for size in SIZES {
+    for size in rig::sizes() {
         let mut window = rig::window(size, rig::model(states::tracking(0.1)));
         ask_for_lock_out(&mut window, "Satrak");
         let what = "Satrak tracks NOAA 20 by itself. STOP is sent first and ends that.";
@@ -144,7 +144,7 @@ fn it_is_shown_on_chip_card_and_lists_and_taken_off_by_a_hold() {
 
 #[test]
 fn until_it_is_read_back_it_is_being_locked_out() {
-    for size in SIZES {
+    for size in rig::sizes() {
         let locking = Snapshot { locking: true, ..locked(states::holding()) };
         let window = rig::window(size, rig::model(locking));
         window.get_by_label_contains("Satrak: Being locked out");

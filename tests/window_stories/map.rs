@@ -426,7 +426,7 @@ fn the_place_under_the_pointer_is_told() {
 
 #[test]
 fn layers_are_shown_and_hidden_and_kept() {
-    for size in SIZES {
+    for size in rig::sizes() {
         let mut window = view(size);
         assert!(window.query_by_label("Grid").is_none());
         window.key_press(Key::L);
@@ -493,7 +493,7 @@ fn a_map_without_satellites_says_why() {
 
 #[test]
 fn stop_is_where_it_always_is() {
-    for size in SIZES {
+    for size in rig::sizes() {
         let mut window = view(size);
         window.get_by_role_and_label(Role::Button, "STOP").click();
         assert_eq!(asked(&mut window), [UiCommand::Stop]);

@@ -13,7 +13,7 @@ use egui_kittest::kittest::Queryable as _;
 use crate::window_stories::{
     horizon,
     preferences::{form, saved, write},
-    rig::{self, LARGE, SIZES, Window, asked},
+    rig::{self, LARGE, Window, asked},
     states,
 };
 
@@ -45,7 +45,7 @@ fn select_next(model: &mut Model) {
 
 #[test]
 fn a_mask_is_typed_and_saved() {
-    for size in SIZES {
+    for size in rig::sizes() {
         let mut window = page(size);
         write(&mut window, "Horizon mask", HILLS);
         window.get_by_role_and_label(Role::Button, "Save and use").click();
@@ -56,7 +56,7 @@ fn a_mask_is_typed_and_saved() {
 
 #[test]
 fn a_wrong_line_is_named_and_nothing_typed_is_lost() {
-    for size in SIZES {
+    for size in rig::sizes() {
         let mut window = page(size);
         write(&mut window, "Horizon mask", "0 2\n\n90;fourteen");
         let why = "Line 3 does not hold an azimuth and an elevation in degrees.";
@@ -85,7 +85,7 @@ fn a_mask_that_is_not_touched_stays_when_the_form_is_saved() {
 
 #[test]
 fn the_header_says_when_a_cut_pass_is_clear() {
-    for size in SIZES {
+    for size in rig::sizes() {
         let window = with_mask(size, "0 20");
         window.get_by_label_contains("lear of the mask 11:11:12Z to 11:18:46Z · ");
         let window = with_mask(size, "0 1");

@@ -11,7 +11,7 @@ use egui::{Event, Key, Modifiers, PointerButton, Role, vec2};
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
 
 use crate::window_stories::{
-    rig::{self, LARGE, SIZES, Window, asked, settle},
+    rig::{self, LARGE, Window, asked, settle},
     sky::zenith,
     states,
 };
@@ -94,7 +94,7 @@ fn a_track_that_runs_is_named_before_another_begins() {
 
 #[test]
 fn a_satellite_of_the_sky_is_selected_tracked_or_pointed_at_from_its_menu() {
-    for size in SIZES {
+    for size in rig::sizes() {
         let mut window = window(size);
         let satellite = "EUTELSAT 7C, azimuth 211.8°";
         window.get_by_label_contains(satellite).click_secondary();

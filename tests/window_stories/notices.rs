@@ -50,7 +50,7 @@ fn save(window: &mut Window) -> Station {
 
 #[test]
 fn notifications_sounds_and_quiet_hours_are_set() {
-    for size in SIZES {
+    for size in rig::sizes() {
         let mut window = page(size);
         assert!(!says(&window, "By the local time"), "nothing is quiet");
         choose(&mut window, "Sounds", "Off");
@@ -67,7 +67,7 @@ fn notifications_sounds_and_quiet_hours_are_set() {
 
 #[test]
 fn each_kind_of_notice_gets_a_sound_or_none() {
-    for size in SIZES {
+    for size in rig::sizes() {
         let mut window = page(size);
         choose(&mut window, "Cautions", "None");
         choose(&mut window, "Reminders before passes", "Falling");
@@ -103,7 +103,7 @@ fn a_wrong_time_says_why_and_cannot_be_saved() {
 
 #[test]
 fn a_favourite_is_marked_for_a_reminder() {
-    for size in SIZES {
+    for size in rig::sizes() {
         let mut window = page(size);
         write(&mut window, "Remind before AOS", "10");
         mark_iss(&mut window);
@@ -142,7 +142,7 @@ fn what_the_desktop_lacks_is_said_where_it_is_set() {
 
 #[test]
 fn the_desktop_is_tried_without_saving() {
-    for size in SIZES {
+    for size in rig::sizes() {
         let mut window = page(size);
         for (word, sound) in
             [("Try falling tones", Sound::Falling), ("Try rising tones", Sound::Rising)]
@@ -194,7 +194,7 @@ fn a_reminder_is_a_note_in_every_view_that_covers_neither_stop_nor_the_antenna()
 
 #[test]
 fn the_note_leads_to_its_pass_and_can_be_closed() {
-    for size in SIZES {
+    for size in rig::sizes() {
         let (mut window, reminder) = reminded(size, View::Console);
         window.get_by_label("Show the pass of ISS").click();
         let wanted = [UiCommand::SelectPass(reminder.pass), UiCommand::Show(View::Operate)];

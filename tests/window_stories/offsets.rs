@@ -60,7 +60,7 @@ fn click(window: &mut Window, name: &str) -> Vec<UiCommand> {
 #[test]
 fn each_offset_has_its_value_and_keys_for_less_and_more() {
     let on = with(&[Offset::Time(SignedDuration::from_millis(-300)), Offset::Across(deg(0.25))]);
-    for size in SIZES {
+    for size in rig::sizes() {
         let line = "Offsets: time −0.30 s, across +0.25°";
         let mut window = opened(size, on, line);
         let said = "position by position with offsets.";
@@ -110,7 +110,7 @@ fn a_low_card_has_its_folded_lines_in_sight_while_it_tracks() {
 #[test]
 fn they_are_remembered_of_the_satellite_or_the_antenna() {
     let on = with(&[Offset::Along(deg(0.2)), Offset::Elevation(deg(0.3))]);
-    for size in SIZES {
+    for size in rig::sizes() {
         let mut window = opened(size, on, "Offsets: along +0.20°, el +0.30°");
         let keep = |of| UiCommand::Station(engine::Command::KeepOffsets { of, offsets: on });
         let of_satellite = "Remember time, along and across the track for NOAA 20";
@@ -126,7 +126,7 @@ fn they_are_remembered_of_the_satellite_or_the_antenna() {
 
 #[test]
 fn without_offsets_there_is_nothing_to_undo_or_to_set_to_zero() {
-    for size in SIZES {
+    for size in rig::sizes() {
         let mut window = opened(size, TrackOffsets::NONE, "Offsets: none");
         assert_eq!(click(&mut window, "All offsets to zero"), []);
         assert_eq!(click(&mut window, "Undo the last offset"), []);
@@ -155,7 +155,7 @@ fn brackets_change_the_time_and_backspace_ends_it() {
 
 #[test]
 fn while_nothing_is_tracked_there_are_none_and_their_keys_are_left_alone() {
-    for size in SIZES {
+    for size in rig::sizes() {
         let mut window = rig::window(size, rig::model(states::manual()));
         assert!(window.query_by_label_contains("Offsets:").is_none());
         window.key_press(Key::CloseBracket);
@@ -203,7 +203,7 @@ fn unfold(window: &mut Window, line: &str) {
 #[test]
 fn a_unit_that_tracks_by_itself_has_a_pad_of_what_it_can_hold() {
     let added = with(&[Offset::Azimuth(deg(0.2))]);
-    for size in SIZES {
+    for size in rig::sizes() {
         let mut window = rig::window(size, rig::model(on_board(added, None)));
         assert!(rig::says(&window, "stored on the unit, and with offsets."));
         unfold(&mut window, "Offsets: az +0.20°");
@@ -255,7 +255,7 @@ fn offsets_that_were_left_on_the_unit_are_taken_back_with_one_click() {
         LeftOffsets::Failed(WriteError::Refused("ERR,4".to_owned())),
         LeftOffsets::Refused(Refusal::PassUnknown),
     ] {
-        for size in SIZES {
+        for size in rig::sizes() {
             let mut window = rig::window(size, rig::model(at_rest(left.clone())));
             assert!(rig::says(&window, "Left on the unit: az +0.20°."));
             assert_eq!(click(&mut window, "Take back az +0.20°"), [change(OffsetChange::Zero)]);

@@ -59,7 +59,7 @@ fn rc2000c(intent: Intent) -> Model {
 
 #[test]
 fn nothing_is_asked_of_an_rc2000c_before_connect() {
-    for size in SIZES {
+    for size in rig::sizes() {
         let mut window = rig::window(size, makes::model(makes::rc2000c(), makes::rc2000c_off()));
         assert!(says(&window, "Azel sends it nothing until you press Connect"));
         assert!(says(&window, "may lock out somebody at its panel"));
@@ -81,7 +81,7 @@ fn nothing_is_asked_of_an_rc2000c_before_connect() {
 
 #[test]
 fn every_antenna_can_be_let_go_of_with_the_keyboard() {
-    for size in SIZES {
+    for size in rig::sizes() {
         for model in
             [rig::model(states::holding()), genius(Intent::Standby), rc2000c(Intent::Manual)]
         {
@@ -101,7 +101,7 @@ fn every_antenna_can_be_let_go_of_with_the_keyboard() {
 
 #[test]
 fn letting_go_of_what_moves_is_asked_about() {
-    for size in SIZES {
+    for size in rig::sizes() {
         let mut window = rig::window(size, rig::model(states::moving()));
         window.get_by_label("Link of Satrak").click();
         settle(&mut window);
@@ -115,7 +115,7 @@ fn letting_go_of_what_moves_is_asked_about() {
 
 #[test]
 fn after_letting_go_of_a_satrak_it_can_be_taken_up_again() {
-    for size in SIZES {
+    for size in rig::sizes() {
         let mut window = rig::window(size, rig::model(makes::rc2000c_off()));
         assert!(says(
             &window,
@@ -128,7 +128,7 @@ fn after_letting_go_of_a_satrak_it_can_be_taken_up_again() {
 
 #[test]
 fn the_keys_of_a_pair_turn_one_rotator_each_at_its_one_speed() {
-    for size in SIZES {
+    for size in rig::sizes() {
         let mut window = rig::window(size, genius(Intent::Manual));
         for (key, commands) in [
             ("Jog clockwise", jog(4.0, 0.0)),
@@ -147,7 +147,7 @@ fn the_keys_of_a_pair_turn_one_rotator_each_at_its_one_speed() {
 
 #[test]
 fn a_rotator_alone_has_a_second_pair_of_keys_and_no_elevation() {
-    for size in SIZES {
+    for size in rig::sizes() {
         let snapshot = makes::alone_at(Intent::Manual, true);
         let mut window = rig::window(size, makes::model(makes::alone(), snapshot));
         assert_eq!(hold(&mut window, "Jog Other +"), jog(0.0, 4.0));
@@ -165,7 +165,7 @@ fn a_rotator_alone_has_a_second_pair_of_keys_and_no_elevation() {
 
 #[test]
 fn what_nobody_would_see_turn_is_not_turned() {
-    for size in SIZES {
+    for size in rig::sizes() {
         let snapshot = makes::alone_at(Intent::Manual, false);
         let mut window = rig::window(size, makes::model(makes::alone(), snapshot));
         assert!(says(&window, "The other rotator has no known angle"));
@@ -176,7 +176,7 @@ fn what_nobody_would_see_turn_is_not_turned() {
 
 #[test]
 fn slow_and_fast_are_chosen_by_name() {
-    for size in SIZES {
+    for size in rig::sizes() {
         let mut window = rig::window(size, rc2000c(Intent::Manual));
         assert_eq!(hold(&mut window, "Jog up"), jog(0.0, 0.5), "slow to begin with");
         window.get_by_role_and_label(Role::RadioButton, "Fast").click();
@@ -202,7 +202,7 @@ fn the_sentence_tells_a_jog_by_its_speed() {
 
 #[test]
 fn an_axis_of_more_than_a_turn_takes_what_lies_beyond_it() {
-    for size in SIZES {
+    for size in rig::sizes() {
         let mut window = rig::window(size, rc2000c(Intent::Position));
         type_into(&mut window, AZIMUTH, "400");
         type_into(&mut window, ELEVATION, "42");
@@ -221,7 +221,7 @@ fn an_axis_of_more_than_a_turn_takes_what_lies_beyond_it() {
 
 #[test]
 fn without_a_calibration_it_is_turned_by_hand_and_sent_nowhere() {
-    for size in SIZES {
+    for size in rig::sizes() {
         let snapshot = makes::rc2000c_uncalibrated(Intent::Manual);
         let mut window = rig::window(size, makes::model(makes::rc2000c(), snapshot));
         assert!(says(&window, "No directions: azimuth and elevation are not calibrated."));
@@ -237,7 +237,7 @@ fn without_a_calibration_it_is_turned_by_hand_and_sent_nowhere() {
 fn a_set_limit_blocks_its_own_key_and_the_sentence_names_the_way_back() {
     let mut snapshot = makes::rc2000c_at(Intent::Manual);
     snapshot.state.measured.as_mut().unwrap().axes[0].plus_limit = true;
-    for size in SIZES {
+    for size in rig::sizes() {
         let model = makes::model(makes::rc2000c(), snapshot.clone());
         let words = "Stopped: CW limit switch is set. Jog CCW to leave the limit.";
         assert_eq!(states::sentence(&model), words);
@@ -249,7 +249,7 @@ fn a_set_limit_blocks_its_own_key_and_the_sentence_names_the_way_back() {
 
 #[test]
 fn alarms_lock_what_moves_and_say_what_to_do() {
-    for size in SIZES {
+    for size in rig::sizes() {
         let snapshot = makes::rc2000c_alarmed(Intent::Manual);
         let mut window = rig::window(size, makes::model(makes::rc2000c(), snapshot));
         assert!(says(&window, "Motion is locked by a fault: Elevation drive. The sensor did not"));
@@ -269,7 +269,7 @@ fn alarms_lock_what_moves_and_say_what_to_do() {
 
 #[test]
 fn what_the_unit_tells_is_listed_and_folds_to_the_gravest() {
-    for size in SIZES {
+    for size in rig::sizes() {
         let snapshot = makes::rc2000c_alarmed(Intent::Standby);
         let mut window = rig::window(size, makes::model(makes::rc2000c(), snapshot));
         if let Some(folded) = window.query_by_label("Readings: Alarm 3, elevation jammed") {
@@ -284,7 +284,7 @@ fn what_the_unit_tells_is_listed_and_folds_to_the_gravest() {
 
 #[test]
 fn the_modes_are_those_of_the_unit_and_each_is_asked_for() {
-    for size in SIZES {
+    for size in rig::sizes() {
         for model in [genius(Intent::Manual), rc2000c(Intent::Manual)] {
             let mut window = rig::window(size, model);
             for (word, command) in [
@@ -318,7 +318,7 @@ fn what_was_typed_for_one_antenna_is_not_for_the_next() {
 
 #[test]
 fn no_other_view_shows_what_only_a_satrak_has() {
-    for size in SIZES {
+    for size in rig::sizes() {
         for mut model in [genius(Intent::Standby), rc2000c(Intent::Standby)] {
             model.view = View::Antennas;
             let mut window = rig::window(size, model);
@@ -375,7 +375,7 @@ fn a_motion_by_somebody_else_shows_on_the_chip() {
 
 #[test]
 fn the_other_antennas_stand_below_and_a_click_shows_one() {
-    for size in rig::SIZES {
+    for size in rig::sizes() {
         let mut model = rig::model(states::holding());
         let genius = Antenna::genius("Mast", "192.168.1.250:9006");
         let mut snapshot = states::holding();

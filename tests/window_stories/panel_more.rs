@@ -15,7 +15,7 @@ use egui_kittest::kittest::{NodeT as _, Queryable as _};
 
 use crate::window_stories::{
     makes,
-    rig::{self, SIZES, Window, asked, says, settle},
+    rig::{self, Window, asked, says, settle},
     states,
 };
 
@@ -60,7 +60,7 @@ fn act(action: &Action, values: Values) -> UiCommand {
 
 #[test]
 fn every_action_goes_out_with_its_values_and_after_its_question() {
-    for size in SIZES {
+    for size in rig::sizes() {
         for model in models(Intent::Manual) {
             let actions = variant(&model).actions;
             assert!(!actions.is_empty());
@@ -89,7 +89,7 @@ fn every_action_goes_out_with_its_values_and_after_its_question() {
 
 #[test]
 fn a_question_that_is_not_agreed_to_brings_nothing_about() {
-    for size in SIZES {
+    for size in rig::sizes() {
         for model in models(Intent::Manual) {
             let asking = variant(&model).actions.iter().find(|action| action.question.is_some());
             let Some(action) = asking else { continue };
@@ -105,7 +105,7 @@ fn a_question_that_is_not_agreed_to_brings_nothing_about() {
 
 #[test]
 fn what_moves_metal_is_locked_outside_of_its_modes_and_the_rest_is_not() {
-    for size in SIZES {
+    for size in rig::sizes() {
         for model in models(Intent::Standby) {
             let actions = variant(&model).actions;
             let plain = |action: &&Action| action.fields.is_empty() && action.question.is_none();
@@ -128,7 +128,7 @@ fn what_moves_metal_is_locked_outside_of_its_modes_and_the_rest_is_not() {
 
 #[test]
 fn nothing_can_be_asked_for_without_a_link() {
-    for size in SIZES {
+    for size in rig::sizes() {
         let model = makes::model(makes::rc2000c(), makes::rc2000c_off());
         let actions = variant(&model).actions;
         let mut window = unfolded(size, model);

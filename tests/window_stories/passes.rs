@@ -19,7 +19,7 @@ use egui::{Event, Key, Modifiers, PointerButton, Rect, Role, Shape, epaint::Vert
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
 
 use crate::window_stories::{
-    rig::{self, LARGE, NOAA_20, SIZES, SMALL, Window, asked, says, settle},
+    rig::{self, LARGE, NOAA_20, SMALL, Window, asked, says, settle},
     states,
 };
 
@@ -87,7 +87,7 @@ fn a_pass_under_way_looks_selected_only_if_it_is() {
 
 #[test]
 fn a_click_on_a_satellite_of_the_sky_selects_it() {
-    for size in SIZES {
+    for size in rig::sizes() {
         let mut window = window(size);
         window.get_by_label_contains("EUTELSAT 7C, azimuth 211.8°").click();
         assert_eq!(asked(&mut window), [UiCommand::SelectSatellite(EUTELSAT_7C)]);
@@ -96,7 +96,7 @@ fn a_click_on_a_satellite_of_the_sky_selects_it() {
 
 #[test]
 fn a_click_on_a_bar_of_the_strip_selects_its_pass() {
-    for size in SIZES {
+    for size in rig::sizes() {
         let mut window = window(size);
         let wanted = coming(&window.state().model, METEOR_M2_4).key();
         window.get_by_label("METEOR-M2 4, 12:44Z to 12:56Z, max 49°").click();
@@ -181,7 +181,7 @@ fn a_click_in_the_open_drawer_never_reaches_the_sky_below() {
 
 #[test]
 fn n_jumps_to_the_pass_under_way_and_not_to_what_never_sets() {
-    for size in SIZES {
+    for size in rig::sizes() {
         let mut window = window(size);
         window.key_press(Key::N);
         let under_way = window.state().model.next_pass().unwrap().key();
@@ -203,7 +203,7 @@ fn the_lowest_elevation_is_chosen_above_the_list() {
 
 #[test]
 fn satellites_and_span_are_chosen_in_list_and_drawer() {
-    for size in SIZES {
+    for size in rig::sizes() {
         let mut window = window(size);
         open_list(&mut window);
         window.get_by_role_and_label(Role::RadioButton, "All").click();
@@ -217,7 +217,7 @@ fn satellites_and_span_are_chosen_in_list_and_drawer() {
 
 #[test]
 fn a_pass_of_any_satellite_is_listed_selected_drawn_and_tracked() {
-    for size in SIZES {
+    for size in rig::sizes() {
         let mut model = rig::model(states::holding());
         let favourites = std::mem::take(&mut model.pass_lists.favourites.passes);
         // The same passes, as if their satellites were not favourites.
@@ -270,7 +270,7 @@ fn the_span_cuts_the_list_and_leaves_strip_and_next_pass_alone() {
 
 #[test]
 fn the_list_is_filtered_by_name_and_number() {
-    for size in SIZES {
+    for size in rig::sizes() {
         let mut window = window(size);
         window.key_press_modifiers(Modifiers::COMMAND, Key::F);
         settle(&mut window);
@@ -326,7 +326,7 @@ fn rows(window: &Window) -> Vec<String> {
 
 #[test]
 fn chips_filter_and_sort_the_list_and_stay_when_it_is_closed() {
-    for size in SIZES {
+    for size in rig::sizes() {
         let mut window = window(size);
         open_list(&mut window);
         window.key_press_modifiers(Modifiers::COMMAND, Key::F);
@@ -408,7 +408,7 @@ fn open_list(window: &mut Window) {
 
 #[test]
 fn the_header_counts_to_los_while_the_satellite_is_up_and_to_aos_before() {
-    for size in SIZES {
+    for size in rig::sizes() {
         let mut model = rig::model(states::holding());
         let window = rig::window(size, rig::model(states::holding()));
         assert!(says(&window, "LOS T−05:56"));
@@ -422,7 +422,7 @@ fn the_header_counts_to_los_while_the_satellite_is_up_and_to_aos_before() {
 
 #[test]
 fn a_pass_that_is_over_leaves_nothing_selected() {
-    for size in SIZES {
+    for size in rig::sizes() {
         let mut model = rig::model(states::holding());
         model.now = add_seconds(states::los(), 1.0);
         Arc::make_mut(&mut model.pass_lists.favourites.passes)

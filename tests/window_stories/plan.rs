@@ -465,7 +465,7 @@ fn limits_of_a_satellite_are_changed_where_it_is_shown() {
 
 #[test]
 fn the_plan_is_saved_to_a_file() {
-    for size in SIZES {
+    for size in rig::sizes() {
         let mut window = view(size);
         window.get_by_role_and_label(Role::ComboBox, "Export the plan").click();
         settle(&mut window);
@@ -508,7 +508,7 @@ fn the_arrows_lead_through_a_menu_and_not_through_the_list_behind_it() {
 
 #[test]
 fn the_hand_over_sheet_is_saved_to_a_file() {
-    for size in SIZES {
+    for size in rig::sizes() {
         let mut window = view(size);
         window.get_by_role_and_label(Role::ComboBox, "Export the plan").click();
         settle(&mut window);
@@ -519,7 +519,7 @@ fn the_hand_over_sheet_is_saved_to_a_file() {
 
 #[test]
 fn the_plan_is_rehearsed_and_what_came_of_it_stands_beside_the_pass_as_a_rehearsal() {
-    for size in SIZES {
+    for size in rig::sizes() {
         let mut window = view(size);
         window.get_by_role_and_label(Role::Button, "Rehearse").click();
         assert_eq!(rig::asked(&mut window), [UiCommand::Rehearse(None)]);

@@ -32,7 +32,7 @@ fn click_outside(window: &mut Window) {
 /// Menus close by a click outside and by the key that opened them.
 #[test]
 fn menus_close_by_a_click_outside_and_by_their_own_key() {
-    for size in SIZES {
+    for size in rig::sizes() {
         for (key, inside) in [
             ("Station Şile 1", "Night theme"),
             ("Link of Satrak", "Disconnect"),
@@ -112,7 +112,7 @@ fn questions_and_dialogs_close_by_a_click_outside_and_by_a_key() {
 
 #[test]
 fn a_drop_down_closes_by_a_click_outside_and_by_its_own_key() {
-    for size in SIZES {
+    for size in rig::sizes() {
         let mut model = rig::model(states::holding());
         model.view = View::Console;
         let mut window = rig::window(size, model);

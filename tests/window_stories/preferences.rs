@@ -109,7 +109,7 @@ pub(crate) fn saved(commands: Vec<UiCommand>) -> Station {
 
 #[test]
 fn the_form_opens_from_rail_menu_and_key() {
-    for size in SIZES {
+    for size in rig::sizes() {
         let mut window = rig::window(size, rig::model(states::holding()));
         window.get_by_role_and_label(Role::Tab, "Preferences").click();
         assert_eq!(asked(&mut window), [UiCommand::Show(View::Preferences)]);
@@ -126,7 +126,7 @@ fn the_form_opens_from_rail_menu_and_key() {
 
 #[test]
 fn a_wrong_field_says_why_and_cannot_be_saved() {
-    for size in SIZES {
+    for size in rig::sizes() {
         let mut window = form(size);
         assert!(is_disabled(&window, "Save and use"), "nothing is edited");
         write(&mut window, "Latitude", "91");
@@ -140,7 +140,7 @@ fn a_wrong_field_says_why_and_cannot_be_saved() {
 
 #[test]
 fn right_fields_are_saved_as_typed() {
-    for size in SIZES {
+    for size in rig::sizes() {
         let mut window = form(size);
         write(&mut window, "Latitude", "91");
         write(&mut window, "Latitude", "−33,5");
@@ -158,7 +158,7 @@ fn right_fields_are_saved_as_typed() {
 
 #[test]
 fn revert_brings_back_what_is_used() {
-    for size in SIZES {
+    for size in rig::sizes() {
         let mut window = form(size);
         assert!(is_disabled(&window, "Revert"));
         write(&mut window, "Latitude", "x");
@@ -172,7 +172,7 @@ fn revert_brings_back_what_is_used() {
 
 #[test]
 fn what_was_typed_survives_another_view() {
-    for size in SIZES {
+    for size in rig::sizes() {
         let mut window = form(size);
         write(&mut window, "Latitude", "91");
         for view in [View::Operate, View::Preferences] {
@@ -185,7 +185,7 @@ fn what_was_typed_survives_another_view() {
 
 #[test]
 fn an_antenna_is_added_and_removed() {
-    for size in SIZES {
+    for size in rig::sizes() {
         let mut window = form(size);
         add(&mut window, "Add SVS Satrak");
         assert!(says(&window, "Satrak 2. SVS Satrak, X/Y"), "its page is shown");
@@ -236,7 +236,7 @@ fn press(window: &mut Window, button: &str) {
 
 #[test]
 fn a_duplicate_has_all_but_the_name_and_the_address() {
-    for size in SIZES {
+    for size in rig::sizes() {
         let mut window = antenna_form(size);
         write(&mut window, "Beamwidth", "1.7");
         press(&mut window, "Duplicate");
@@ -252,7 +252,7 @@ fn a_duplicate_has_all_but_the_name_and_the_address() {
 
 #[test]
 fn a_link_is_tested_as_it_is_typed() {
-    for size in SIZES {
+    for size in rig::sizes() {
         let mut window = antenna_form(size);
         write(&mut window, "Address of the Satrak", "nowhere");
         assert!(is_disabled(&window, "Test link"));
@@ -281,7 +281,7 @@ fn a_link_is_tested_as_it_is_typed() {
 
 #[test]
 fn it_says_what_came_of_saving() {
-    for size in SIZES {
+    for size in rig::sizes() {
         let mut window = form(size);
         window.state_mut().views.saved(Err("the disk is full".to_owned()));
         settle(&mut window);
@@ -295,7 +295,7 @@ fn it_says_what_came_of_saving() {
 
 #[test]
 fn the_demo_station_is_taken_over_without_its_antennas() {
-    for size in SIZES {
+    for size in rig::sizes() {
         let mut model: Model = rig::model(states::holding());
         (model.demo, model.view) = (true, View::Preferences);
         let before = Station::clone(&model.station);
@@ -348,7 +348,7 @@ fn a_page_that_is_used_at_once_has_nothing_to_save() {
 
 #[test]
 fn a_letter_that_is_typed_is_no_command() {
-    for size in SIZES {
+    for size in rig::sizes() {
         let mut window = form(size);
         window.get_by_role_and_label(Role::TextInput, "Latitude").focus();
         settle(&mut window);
@@ -388,7 +388,7 @@ fn every_field_and_the_bar_below_are_whole_in_every_window() {
 
 #[test]
 fn two_antennas_of_one_name_are_not_saved_and_a_free_one_is_offered() {
-    for size in SIZES {
+    for size in rig::sizes() {
         let mut window = form(size);
         add(&mut window, "Add SVS Satrak");
         write(&mut window, "Name", "satrak ");

@@ -17,7 +17,7 @@ use egui_kittest::kittest::{NodeT as _, Queryable as _};
 
 use crate::window_stories::{
     preferences::{add, antenna_form, asked, open, saved, write},
-    rig::{self, SIZES, Window, says, settle},
+    rig::{self, Window, says, settle},
     states,
 };
 
@@ -75,7 +75,7 @@ fn the_antenna(station: &Station) -> &Antenna {
 
 #[test]
 fn every_make_is_added_as_it_stands_and_comes_back_from_its_file() {
-    for size in SIZES {
+    for size in rig::sizes() {
         let mut window = bare(size);
         for button in [SATRAK, GENIUS, RC2000C] {
             add(&mut window, button);
@@ -100,7 +100,7 @@ fn every_make_is_added_as_it_stands_and_comes_back_from_its_file() {
 
 #[test]
 fn a_genius_is_set_up() {
-    for size in SIZES {
+    for size in rig::sizes() {
         let mut window = bare(size);
         add(&mut window, GENIUS);
         write(&mut window, "Address of the Genius", "tower:9006");
@@ -121,7 +121,7 @@ fn a_genius_is_set_up() {
 
 #[test]
 fn one_rotator_asks_for_no_elevation() {
-    for size in SIZES {
+    for size in rig::sizes() {
         let mut window = bare(size);
         add(&mut window, GENIUS);
         assert!(has_field(&window, "Elevation to") && has_field(&window, "Park elevation"));
@@ -139,7 +139,7 @@ fn one_rotator_asks_for_no_elevation() {
 
 #[test]
 fn ends_that_cross_are_named_at_the_field() {
-    for size in SIZES {
+    for size in rig::sizes() {
         let mut window = bare(size);
         add(&mut window, GENIUS);
         write(&mut window, "Azimuth from", "200");
@@ -155,7 +155,7 @@ fn ends_that_cross_are_named_at_the_field() {
 
 #[test]
 fn an_rc2000c_is_set_up() {
-    for size in SIZES {
+    for size in rig::sizes() {
         let mut window = bare(size);
         add(&mut window, RC2000C);
         assert!(says(&window, "A serial port, such as /dev/ttyUSB0 or COM3"));
@@ -180,7 +180,7 @@ fn an_rc2000c_is_set_up() {
 #[test]
 fn wrong_fields_of_an_rc2000c_are_named_and_its_table_is_kept_as_typed() {
     const TABLE: &str = "30 90\n\n1830 180 x";
-    for size in SIZES {
+    for size in rig::sizes() {
         let mut window = bare(size);
         add(&mut window, RC2000C);
         write(&mut window, "Port or address", "host:x");
@@ -213,7 +213,7 @@ fn wrong_fields_of_an_rc2000c_are_named_and_its_table_is_kept_as_typed() {
 
 #[test]
 fn points_that_do_not_fit_are_seen_beside_the_table() {
-    for size in SIZES {
+    for size in rig::sizes() {
         let mut window = bare(size);
         add(&mut window, RC2000C);
         write(&mut window, "Elevation counts", "1000 0\n2000 46\n3000 90");
@@ -226,7 +226,7 @@ fn points_that_do_not_fit_are_seen_beside_the_table() {
 
 #[test]
 fn how_a_satrak_is_tracked_from_here_can_be_set() {
-    for size in SIZES {
+    for size in rig::sizes() {
         let mut window = antenna_form(size);
         write(&mut window, "Latency", "61");
         assert!(says(&window, "Latency must be a number from 0 to 60 s."));

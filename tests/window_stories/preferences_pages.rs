@@ -79,7 +79,7 @@ fn ctrl_f_finds_a_setting_on_another_page_and_enter_goes_to_its_field() {
 
 #[test]
 fn the_results_of_a_search_are_gone_through_with_arrows_or_clicked() {
-    for size in SIZES {
+    for size in rig::sizes() {
         let mut window = form(size);
         press(&mut window, Role::TextInput, FIND);
         type_words(&mut window, "poll");
@@ -107,7 +107,7 @@ fn the_results_of_a_search_are_gone_through_with_arrows_or_clicked() {
 
 #[test]
 fn ctrl_tab_goes_through_all_pages_and_round() {
-    for size in SIZES {
+    for size in rig::sizes() {
         let mut window = form(size);
         let mut pages = Vec::new();
         for _ in 0..9 {
@@ -132,7 +132,7 @@ fn ctrl_tab_goes_through_all_pages_and_round() {
 
 #[test]
 fn edits_and_unusable_fields_of_each_page_are_counted_and_ctrl_enter_saves_them_all() {
-    for size in SIZES {
+    for size in rig::sizes() {
         let mut window = form(size);
         write(&mut window, "Altitude", "12");
         open(&mut window, "Satrak");
@@ -182,7 +182,7 @@ fn unfold(window: &mut Window) {
 
 #[test]
 fn what_an_edit_changes_of_the_passes_is_asked_for_and_shown_beside_what_was() {
-    for size in SIZES {
+    for size in rig::sizes() {
         let mut model: Model = rig::model(states::holding());
         let config = Antenna { id: AntennaId(1), ..Antenna::genius("Genius", "tower:9006") };
         model.antennas = vec![rig::antenna(config.clone(), rig::quiet())];
@@ -264,7 +264,7 @@ fn enter_in_a_field_of_the_page_is_not_meant_for_the_search() {
 
 #[test]
 fn the_settings_of_a_unit_lead_to_the_page_of_its_antenna() {
-    for size in SIZES {
+    for size in rig::sizes() {
         let mut model = rig::model(states::holding());
         model.view = View::Antennas;
         let mut window = rig::window(size, model);
@@ -289,7 +289,7 @@ fn a_station_without_an_antenna_says_how_to_add_one() {
 
 #[test]
 fn all_keys_are_listed_with_what_they_do() {
-    for size in SIZES {
+    for size in rig::sizes() {
         let mut window = form(size);
         open(&mut window, "Keys");
         for binding in &ALL {
@@ -490,7 +490,7 @@ fn a_station_without_a_record_says_whether_another_azel_keeps_it() {
 
 #[test]
 fn a_moved_site_shows_its_passes_beside_those_of_the_saved_one() {
-    for size in SIZES {
+    for size in rig::sizes() {
         let mut window = form(size);
         window.state_mut().model.pass_lists.favourites.made_at = Some(rig::now());
         unfold(&mut window);
@@ -518,7 +518,7 @@ fn a_moved_site_shows_its_passes_beside_those_of_the_saved_one() {
 
 #[test]
 fn the_station_file_is_told_with_its_age_and_its_folder_opened() {
-    for size in SIZES {
+    for size in rig::sizes() {
         let mut model = rig::model(states::holding());
         model.view = View::Preferences;
         model.stations.open = Some("/home/ops/.config/azel/station.toml".into());
@@ -539,7 +539,7 @@ fn the_station_file_is_told_with_its_age_and_its_folder_opened() {
 
 #[test]
 fn each_word_of_elevation_is_explained_at_its_field() {
-    for size in SIZES {
+    for size in rig::sizes() {
         let mut window = form(size);
         assert!(says(&window, "A pass begins and ends there."));
         assert!(says(&window, "A pass whose maximum stays below it is not listed."));
@@ -550,7 +550,7 @@ fn each_word_of_elevation_is_explained_at_its_field() {
 
 #[test]
 fn a_pointing_model_is_fitted_to_the_record_and_filled_in_and_used_only_once_saved() {
-    for size in SIZES {
+    for size in rig::sizes() {
         let mut model = makes::model(makes::pair(), makes::pair_at(Intent::Standby));
         let mut station = Station::clone(&model.station);
         let antenna = model.antennas[0].config.clone();
@@ -613,7 +613,7 @@ fn a_pointing_model_is_fitted_to_the_record_and_filled_in_and_used_only_once_sav
 
 #[test]
 fn a_peak_is_entered_as_measured_now_or_as_typed_and_removed() {
-    for size in SIZES {
+    for size in rig::sizes() {
         let mut model = makes::model(makes::pair(), makes::pair_at(Intent::Standby));
         let mut station = Station::clone(&model.station);
         let antenna = model.antennas[0].config.clone();

@@ -93,7 +93,7 @@ fn save(window: &mut Window) -> Station {
 
 #[test]
 fn a_favourite_gets_a_priority_and_limits() {
-    for size in SIZES {
+    for size in rig::sizes() {
         let mut window = page(size, SATELLITES, Vec::new());
         assert!(says(&window, "Priority of NOAA 20: 2, Weather"));
         assert!(says(&window, "Priority of ISS: 3, default"));
@@ -123,7 +123,7 @@ fn a_favourite_gives_its_priority_back_to_its_group() {
 
 #[test]
 fn a_group_is_made_with_satellites_from_the_favourites_and_from_the_catalogue() {
-    for size in SIZES {
+    for size in rig::sizes() {
         let mut window = page(size, SATELLITES, Vec::new());
         press(&mut window, Role::Button, "Add a group");
         write(&mut window, "Name", "Stations");
@@ -155,7 +155,7 @@ fn a_group_is_made_with_satellites_from_the_favourites_and_from_the_catalogue() 
 
 #[test]
 fn a_group_needs_a_name_of_its_own() {
-    for size in SIZES {
+    for size in rig::sizes() {
         let mut window = page(size, SATELLITES, Vec::new());
         press(&mut window, Role::Button, "Add a group");
         write(&mut window, "Name", "weather");
@@ -172,7 +172,7 @@ fn a_group_needs_a_name_of_its_own() {
 
 #[test]
 fn a_removed_group_can_be_kept_and_a_rule_that_names_it_cannot_be_saved() {
-    for size in SIZES {
+    for size in rig::sizes() {
         let mut window = page(size, SATELLITES, vec![of_weather()]);
         press(&mut window, Role::Button, "Remove: group Weather");
         assert!(says(&window, "Automation rules: 1 not valid"));
@@ -188,7 +188,7 @@ fn a_removed_group_can_be_kept_and_a_rule_that_names_it_cannot_be_saved() {
 
 #[test]
 fn the_rules_of_the_file_are_shown_in_their_order_with_what_hinders_them() {
-    for size in SIZES {
+    for size in rig::sizes() {
         let mut window = page(size, RULES, vec![of_iss(), of_weather(), rule(), of_iss()]);
         let sentences = [
             "Rule 1: While the Sun is down, any antenna may take passes of ISS, whatever their \
@@ -211,7 +211,7 @@ fn the_rules_of_the_file_are_shown_in_their_order_with_what_hinders_them() {
 
 #[test]
 fn a_rule_is_made_by_mouse() {
-    for size in SIZES {
+    for size in rig::sizes() {
         let mut window = page(size, RULES, Vec::new());
         assert!(says(&window, "There are no rules: only priorities and limits decide."));
         press(&mut window, Role::Button, "Add rule");
@@ -235,7 +235,7 @@ fn a_rule_is_made_by_mouse() {
 
 #[test]
 fn hours_that_are_empty_or_no_times_are_explained_and_not_saved() {
-    for size in SIZES {
+    for size in rig::sizes() {
         let mut window = page(size, RULES, vec![of_weather()]);
         write(&mut window, "To", "22:00");
         assert!(says(&window, "To must differ from From."));
@@ -269,7 +269,7 @@ fn a_rule_of_a_satellite_finds_it_by_name_and_says_if_it_is_not_planned() {
 
 #[test]
 fn rules_are_chosen_moved_and_removed_by_keys() {
-    for size in SIZES {
+    for size in rig::sizes() {
         let mut window = page(size, RULES, vec![of_iss(), of_weather(), rule()]);
         let rows = |window: &Window| {
             let rows = window.query_all_by_role(Role::RadioButton);

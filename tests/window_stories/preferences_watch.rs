@@ -9,7 +9,7 @@ use egui_kittest::kittest::Queryable as _;
 
 use crate::window_stories::{
     preferences::{asked, form, open, saved, write},
-    rig::{self, SIZES, Window, says, settle},
+    rig::{self, Window, says, settle},
     settings_rig::press,
     states,
 };
@@ -22,7 +22,7 @@ fn choose(window: &mut Window, word: &str) {
 
 #[test]
 fn what_is_done_by_itself_is_chosen_and_saved() {
-    for size in SIZES {
+    for size in rig::sizes() {
         let mut window = form(size);
         choose(&mut window, "Stop and hold");
         open(&mut window, "Satrak");

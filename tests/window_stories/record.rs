@@ -187,7 +187,7 @@ fn looks(asked: &[UiCommand]) -> Vec<Option<RecordLook>> {
 
 #[test]
 fn the_record_is_asked_for_while_it_is_shown() {
-    for size in SIZES {
+    for size in rig::sizes() {
         let mut window = rig::window(size, rig::model(states::holding()));
         window.get_by_role_and_label(Role::Tab, "Record").click();
         assert_eq!(asked(&mut window), [UiCommand::Show(View::Record)]);
@@ -207,7 +207,7 @@ fn the_record_is_asked_for_while_it_is_shown() {
 
 #[test]
 fn the_newest_pass_is_told_in_a_sentence_and_what_explains_its_error_first() {
-    for size in SIZES {
+    for size in rig::sizes() {
         let (model, flown) = model();
         let newest = &flown[0].pass.report;
         let mut window = rig::window(size, model);
@@ -361,7 +361,7 @@ fn a_pass_that_was_not_tracked_stands_in_the_list_and_says_why() {
 
 #[test]
 fn a_report_says_why_it_is_not_replayed_where_nothing_is_recorded() {
-    for size in SIZES {
+    for size in rig::sizes() {
         let mut window = rig::window(size, model().0);
         let button = window.get_by_role_and_label(Role::Button, "Replay");
         assert!(button.accesskit_node().is_disabled());
@@ -373,7 +373,7 @@ fn a_report_says_why_it_is_not_replayed_where_nothing_is_recorded() {
 
 #[test]
 fn the_passes_of_chosen_days_are_exported_as_the_list_is_filtered() {
-    for size in SIZES {
+    for size in rig::sizes() {
         let (mut model, _) = model();
         model.record = Some(Arc::default());
         let mut window = rig::window(size, model);
@@ -441,7 +441,7 @@ fn without_a_report_there_is_nothing_to_export() {
 
 #[test]
 fn a_correction_of_a_unit_is_typed_into_its_form_and_nothing_is_sent() {
-    for size in SIZES {
+    for size in rig::sizes() {
         let model = explained_by(Cause::AzimuthOffset { offset_deg: 0.25 }, |_| ());
         let held = &model.antennas[0].snapshot.state.held["general"].held;
         let Value::Decimal(held_deg) = held.as_ref().unwrap().values["azimuth_offset_deg"] else {

@@ -112,7 +112,7 @@ fn a_replay_is_marked_in_every_view_and_its_strip_plays_it() {
 
 #[test]
 fn stop_is_there_and_all_that_would_act_is_locked_or_refused() {
-    for size in SIZES {
+    for size in rig::sizes() {
         let mut window = rig::window(size, model());
         for mode in ["Standby", "Manual", "Position", "Track"] {
             let node = window.get_by_role_and_label(Role::RadioButton, mode);

@@ -27,7 +27,8 @@ use azel::{
     ui::{Views, theme},
 };
 use egui::{
-    Event, Modifiers, MouseWheelSource, MouseWheelUnit, Pos2, Role, TouchPhase, UiBuilder, vec2,
+    Event, Modifiers, MouseWheelSource, MouseWheelUnit, Pos2, Role, TouchPhase, UiBuilder,
+    ViewportId, vec2,
 };
 use egui_kittest::{
     Harness,
@@ -39,6 +40,13 @@ use jiff::Timestamp;
 pub(crate) const SIZES: [[f32; 2]; 2] = [LARGE, SMALL];
 pub(crate) const LARGE: [f32; 2] = [1440.0, 900.0];
 pub(crate) const SMALL: [f32; 2] = [1024.0, 640.0];
+
+/// The sizes for a story that goes the same way in each: the usual one, or all with
+/// `AZEL_SIZES=all` in the environment. Layout is checked at all [`SIZES`] every time.
+pub(crate) fn sizes() -> impl Iterator<Item = [f32; 2]> {
+    let is_long = std::env::var("AZEL_SIZES").is_ok_and(|sizes| sizes == "all");
+    SIZES.into_iter().take(if is_long { SIZES.len() } else { 1 })
+}
 
 pub(crate) const NOAA_20: u32 = 43_013;
 const FOLLOWED: [u32; 5] = [NOAA_20, 25_544, 59_051, 37_849, 44_334];
@@ -244,9 +252,17 @@ fn arrange_catalog(story: &mut Story) {
     }
 }
 
-/// Runs some frames; a blinking bell would never let `run` end.
+/// Runs frames until nothing changes: at least two, since a story may answer a command after its
+/// frame, and at most four, since a bell blinks for ever.
 pub(crate) fn settle(window: &mut Window) {
-    window.run_steps(4);
+    window.step();
+    for _ in 0..3 {
+        window.step();
+        let root = &window.output().viewport_output[&ViewportId::ROOT];
+        if root.repaint_delay > Duration::ZERO {
+            break;
+        }
+    }
 }
 
 /// Turns the wheel over `at`, by `points` towards the top.

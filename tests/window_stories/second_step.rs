@@ -9,7 +9,7 @@ use egui::{Key, Role};
 use egui_kittest::kittest::Queryable as _;
 
 use crate::window_stories::{
-    rig::{self, SIZES, asked, settle},
+    rig::{self, asked, settle},
     states,
 };
 
@@ -32,7 +32,7 @@ fn with_another_selected(size: [f32; 2], snapshot: Snapshot) -> rig::Window {
 
 #[test]
 fn a_click_on_a_mode_asks_while_a_track_runs_and_only_then() {
-    for size in SIZES {
+    for size in rig::sizes() {
         for (mode, command, what) in [
             ("Manual", Command::Manual, "Moving by hand ends that."),
             ("Position", Command::Hold, "Position ends that."),
@@ -61,7 +61,7 @@ fn a_click_on_a_mode_asks_while_a_track_runs_and_only_then() {
 
 #[test]
 fn the_press_of_enter_that_asks_is_no_answer_however_long_it_lasts() {
-    for size in SIZES {
+    for size in rig::sizes() {
         let mut window = rig::window(size, rig::model(states::tracking(0.0)));
         window.get_by_role_and_label(Role::RadioButton, "Manual").focus();
         settle(&mut window);
@@ -79,7 +79,7 @@ fn the_press_of_enter_that_asks_is_no_answer_however_long_it_lasts() {
 
 #[test]
 fn another_track_names_the_one_that_it_ends() {
-    for size in SIZES {
+    for size in rig::sizes() {
         for by_key in [false, true] {
             let mut window = with_another_selected(size, states::tracking(0.0));
             if by_key {

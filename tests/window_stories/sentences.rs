@@ -102,7 +102,7 @@ fn only_while_it_tracks_it_is_compared_with_the_satellite() {
         (Phase::Completed, "– (half beam 0.44°), not known"),
         (Phase::Tracking, "20.00° (half beam 0.44°), outside the beam"),
     ] {
-        for size in rig::SIZES {
+        for size in rig::sizes() {
             // NOAA 20 is up all the time.
             let mut snapshot = wrong_elevation.clone();
             snapshot.state.program.as_mut().unwrap().phase = phase;

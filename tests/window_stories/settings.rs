@@ -51,7 +51,7 @@ fn end(window: &mut Window, change: &Change, result: Result<(), WriteError>) {
 
 #[test]
 fn the_view_opens_from_rail_and_key_and_leads_to_the_preferences() {
-    for size in SIZES {
+    for size in rig::sizes() {
         let mut window = rig::window(size, rig::model(states::holding()));
         window.get_by_role_and_label(Role::Tab, "Antennas").click();
         assert_eq!(asked(&mut window), [UiCommand::Show(View::Antennas)]);
@@ -65,7 +65,7 @@ fn the_view_opens_from_rail_and_key_and_leads_to_the_preferences() {
 
 #[test]
 fn a_setting_that_the_unit_never_tells_says_so() {
-    for size in SIZES {
+    for size in rig::sizes() {
         let window = every_view::scene("Antennas, a Rotator Genius", size);
         assert!(says(&window, "Stop offset, on the unit: not reported"));
     }
@@ -96,7 +96,7 @@ fn what_is_not_read_is_asked_for_once_and_says_so() {
 
 #[test]
 fn a_wrong_value_is_refused_at_its_field_and_the_typing_stays() {
-    for size in SIZES {
+    for size in rig::sizes() {
         let mut window = opened(size, read());
         for (typed, why) in [
             ("91", "Minimum elevation must be a number from 0 to 90°."),
@@ -174,7 +174,7 @@ fn apply_waits_with_a_setting_that_points_until_the_antenna_may_be_pointed() {
 
 #[test]
 fn apply_sends_what_was_changed_with_what_was_seen_and_proves_it() {
-    for size in SIZES {
+    for size in rig::sizes() {
         let mut window = opened(size, read());
         write(&mut window, "Minimum elevation", "5");
         write(&mut window, "Latitude", "41.02N");
@@ -215,7 +215,7 @@ fn apply_sends_what_was_changed_with_what_was_seen_and_proves_it() {
 
 #[test]
 fn a_value_that_radiates_is_confirmed_by_holding() {
-    for size in SIZES {
+    for size in rig::sizes() {
         let mut window = opened(size, read());
         choose(&mut window, "Transmitter (SSPA)", "Auto");
         assert_eq!(state_of(&window, "Transmitter (SSPA)"), "Confirm first");
@@ -232,7 +232,7 @@ fn a_value_that_radiates_is_confirmed_by_holding() {
 
 #[test]
 fn revert_drops_the_edits_and_sends_nothing() {
-    for size in SIZES {
+    for size in rig::sizes() {
         let mut window = opened(size, read());
         write(&mut window, "Minimum elevation", "5");
         write(&mut window, "Latitude", "1N");
@@ -246,7 +246,7 @@ fn revert_drops_the_edits_and_sends_nothing() {
 
 #[test]
 fn leaving_with_edits_asks_nothing_and_keeps_them_counted_on_the_rail() {
-    for size in SIZES {
+    for size in rig::sizes() {
         let mut model = rig::model(read());
         model.view = View::Antennas;
         let mut config = model.station.antennas[0].clone();
@@ -276,7 +276,7 @@ fn leaving_with_edits_asks_nothing_and_keeps_them_counted_on_the_rail() {
 
 #[test]
 fn without_a_link_the_old_values_stand_hollow_and_the_edits_stay() {
-    for size in SIZES {
+    for size in rig::sizes() {
         let mut window = opened(size, read());
         write(&mut window, "Minimum elevation", "5");
         change(&mut window, 0, |snapshot| {
@@ -295,7 +295,7 @@ fn without_a_link_the_old_values_stand_hollow_and_the_edits_stay() {
 
 #[test]
 fn no_text_ever_has_a_password() {
-    for size in SIZES {
+    for size in rig::sizes() {
         let mut window = opened(size, read());
         window.get_by_role_and_label(Role::RadioButton, "FTP").click_accesskit();
         settle(&mut window);
@@ -319,7 +319,7 @@ fn no_text_ever_has_a_password() {
 
 #[test]
 fn a_password_that_was_sent_or_dropped_does_not_come_back_by_undo() {
-    for size in SIZES {
+    for size in rig::sizes() {
         for is_sent in [true, false] {
             let mut window = opened(size, read());
             window.get_by_role_and_label(Role::RadioButton, "FTP").click_accesskit();
@@ -390,7 +390,7 @@ fn every_field_has_a_name_and_the_bar_is_whole() {
 
 #[test]
 fn a_unit_without_settings_offers_nothing_to_do_with_them() {
-    for size in SIZES {
+    for size in rig::sizes() {
         let mut model = makes::model(makes::rc2000c(), makes::rc2000c_at(Intent::Manual));
         model.view = View::Antennas;
         let mut window = rig::window(size, model);

@@ -10,7 +10,7 @@ use azel::{
 use egui::Key;
 
 use crate::window_stories::{
-    rig::{self, LARGE, SIZES, Window, asked},
+    rig::{self, LARGE, Window, asked},
     settings::{group, settles},
     settings_rig::{apply, change, opened, press, read, says, state_of, texts},
     states,
@@ -31,7 +31,7 @@ fn the_window_of_the_selected_pass_is_filled_in_to_be_applied() {
 
 #[test]
 fn automatic_tracking_is_switched_on_after_a_question_and_off_at_once() {
-    for size in SIZES {
+    for size in rig::sizes() {
         let mut window = opened(size, read());
         press(&mut window, "Switch on…");
         assert_eq!(asked(&mut window), []);

@@ -10,7 +10,7 @@ use egui::{Event, Key, Role};
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
 
 use crate::window_stories::{
-    rig::{self, LARGE, SIZES, Window, asked, settle},
+    rig::{self, LARGE, Window, asked, settle},
     settings_rig::{
         apply, change, choose, hold, opened, press, read, says, state_of, unlock, write,
     },
@@ -33,7 +33,7 @@ fn is_locked(window: &Window) -> bool {
 
 #[test]
 fn it_opens_by_the_name_of_the_station_while_the_antenna_stands() {
-    for size in SIZES {
+    for size in rig::sizes() {
         let mut window = opened(size, read());
         assert!(is_locked(&window));
         press(&mut window, "Unlock");
@@ -60,7 +60,7 @@ fn it_opens_by_the_name_of_the_station_while_the_antenna_stands() {
 
 #[test]
 fn a_change_that_is_not_heard_of_may_be_tried_again() {
-    for size in SIZES {
+    for size in rig::sizes() {
         let mut window = open(size);
         for ratio in ["4100", "4200"] {
             write(&mut window, "X reduction", ratio);

@@ -91,7 +91,7 @@ pub(crate) fn reached() -> LinkFinding {
 
 #[test]
 fn four_steps_make_a_station_without_anything_of_the_demo() {
-    for size in SIZES {
+    for size in rig::sizes() {
         let mut window = window(size);
         let demo = Station::clone(&window.state().model.station);
         assert!(is_at(&window, "Site") && is_locked(&window, NEXT[0]));
@@ -124,7 +124,7 @@ fn four_steps_make_a_station_without_anything_of_the_demo() {
 
 #[test]
 fn enter_goes_on_alt_left_goes_back_and_a_skipped_step_says_so() {
-    for size in SIZES {
+    for size in rig::sizes() {
         let mut window = window(size);
         window.key_press(Key::Enter);
         settle(&mut window);
@@ -157,7 +157,7 @@ fn enter_goes_on_alt_left_goes_back_and_a_skipped_step_says_so() {
 
 #[test]
 fn the_set_up_is_found_again_where_it_was_left() {
-    for size in SIZES {
+    for size in rig::sizes() {
         let mut window = window(size);
         write_site(&mut window);
         press(&mut window, NEXT[0]);
@@ -237,7 +237,7 @@ fn the_place_of_a_reached_unit_can_be_taken() {
 
 #[test]
 fn each_outcome_of_a_test_says_what_to_check() {
-    for size in SIZES {
+    for size in rig::sizes() {
         let mut window = window(size);
         write_site(&mut window);
         press(&mut window, NEXT[0]);

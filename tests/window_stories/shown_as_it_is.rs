@@ -13,7 +13,7 @@ use egui_kittest::kittest::{NodeT as _, Queryable as _};
 
 use crate::window_stories::{
     on_board::found,
-    rig::{self, LARGE, SIZES, asked},
+    rig::{self, LARGE, asked},
     states,
 };
 
@@ -25,7 +25,7 @@ fn lost(snapshot: Snapshot, model: &Model) -> Snapshot {
 
 #[test]
 fn without_a_fresh_measurement_there_is_no_error_and_no_rate() {
-    for size in SIZES {
+    for size in rig::sizes() {
         let live = rig::window(size, rig::model(states::tracking(0.1)));
         live.get_by_label_contains("Az: Predicted 296.51, actual 296.51, error +0.00");
         live.get_by_label_contains("Off beam axis 0.10°");
@@ -48,7 +48,7 @@ fn by_itself() -> Snapshot {
 
 #[test]
 fn the_mode_is_that_of_the_antenna_also_when_the_unit_tracks_by_itself() {
-    for size in SIZES {
+    for size in rig::sizes() {
         let mut snapshot = by_itself();
         let window = rig::window(size, rig::model(snapshot.clone()));
         let track = window.get_by_role_and_label(Role::RadioButton, "Track, not by this console");
@@ -102,7 +102,7 @@ fn a_header_that_is_cut_keeps_what_matters_and_loses_the_age_of_the_elements_fir
         held.catalog_number = 25_544;
         "ISS (ZARYA)".clone_into(&mut held.name);
     }
-    for size in SIZES {
+    for size in rig::sizes() {
         let window = rig::window(size, rig::model(snapshot.clone()));
         let header = window.get_by_label_contains("JPSS-1 43013").accesskit_node();
         let header = header.value().or_else(|| header.label()).unwrap();
@@ -115,7 +115,7 @@ fn a_header_that_is_cut_keeps_what_matters_and_loses_the_age_of_the_elements_fir
 
 #[test]
 fn the_head_of_a_card_has_the_name_that_the_unit_gives_itself() {
-    for size in SIZES {
+    for size in rig::sizes() {
         let mut snapshot = states::holding();
         snapshot.state.unit_name = Some("ROOF 2".to_owned());
         let window = rig::window(size, rig::model(snapshot));

@@ -102,7 +102,7 @@ fn a_time_of_the_profile_is_marked_in_the_sky() {
 
 #[test]
 fn the_wheel_brings_the_sky_closer_and_a_double_click_brings_it_back() {
-    for size in SIZES {
+    for size in rig::sizes() {
         let mut window = window(size);
         let reads = |window: &Window| label(window, "Pointer at azimuth").unwrap();
         // Between zenith and east, away from marks.

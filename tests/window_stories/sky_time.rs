@@ -19,7 +19,7 @@ use jiff::Timestamp;
 
 use crate::window_stories::{
     plan,
-    rig::{self, LARGE, SIZES, Window, asked, settle},
+    rig::{self, LARGE, Window, asked, settle},
     sky::zenith,
     states,
 };
@@ -81,7 +81,7 @@ fn noaa_20(window: &Window) -> Option<String> {
 
 #[test]
 fn keys_move_the_sky_on_and_home_is_now() {
-    for size in SIZES {
+    for size in rig::sizes() {
         let mut window = window(size);
         let now = noaa_20(&window).expect("NOAA 20 is up");
         assert!(says(&window, "Sky now."));
@@ -106,7 +106,7 @@ fn keys_move_the_sky_on_and_home_is_now() {
 
 #[test]
 fn the_slider_is_dragged_and_its_button_returns_to_now() {
-    for size in SIZES {
+    for size in rig::sizes() {
         let mut window = window(size);
         drag(&mut window);
         assert!(says(&window, ". The slider moves no antenna."));
@@ -129,7 +129,7 @@ fn the_slider_is_dragged_and_its_button_returns_to_now() {
 
 #[test]
 fn no_click_and_no_menu_of_another_time_points_an_antenna() {
-    for size in SIZES {
+    for size in rig::sizes() {
         let mut window = window(size);
         drag(&mut window);
         let at = zenith(&window) + vec2(0.0, 60.0);
@@ -175,7 +175,7 @@ fn what_was_clicked_now_is_dropped_with_the_sky_of_now() {
 
 #[test]
 fn stop_and_the_card_stay_live() {
-    for size in SIZES {
+    for size in rig::sizes() {
         let mut window = window(size);
         drag(&mut window);
         window.get_by_role_and_label(Role::Button, "STOP").click();

@@ -64,7 +64,7 @@ fn the_menu_of_every_station_leads_to_the_others_and_to_the_demo() {
 
 #[test]
 fn the_menu_works_with_the_keyboard_alone() {
-    for size in SIZES {
+    for size in rig::sizes() {
         let mut window = rig::window(size, rig::model(rig::quiet()));
         window.get_by_label("Station Şile 1").focus();
         settle(&mut window);
@@ -89,7 +89,7 @@ fn the_menu_works_with_the_keyboard_alone() {
 
 #[test]
 fn a_station_that_is_not_opened_says_why_and_goes_with_enter() {
-    for size in SIZES {
+    for size in rig::sizes() {
         let mut model = rig::model(rig::quiet());
         model.stations.refused = Some("the file is gone: /a.toml".to_owned());
         let mut window = rig::window(size, model);

@@ -36,7 +36,7 @@ fn press_with_shift(window: &mut Window, key: Key) {
 
 #[test]
 fn a_step_key_steps_once_by_the_size_in_the_field() {
-    for size in SIZES {
+    for size in rig::sizes() {
         let mut window = rig::window(size, rig::model(states::manual()));
         for (key, wanted) in [
             ("Step X+", step(0.5, 0.0)),
@@ -57,7 +57,7 @@ fn a_step_key_steps_once_by_the_size_in_the_field() {
 
 #[test]
 fn shift_and_an_arrow_step_once_with_the_pad_or_a_step_key_focused() {
-    for size in SIZES {
+    for size in rig::sizes() {
         for focus in ["Jog Y+", "Step X−"] {
             let mut window = rig::window(size, rig::model(states::manual()));
             press_with_shift(&mut window, Key::ArrowRight);
@@ -80,7 +80,7 @@ fn shift_and_an_arrow_step_once_with_the_pad_or_a_step_key_focused() {
 
 #[test]
 fn outside_manual_there_is_no_step() {
-    for size in SIZES {
+    for size in rig::sizes() {
         for snapshot in [states::holding(), states::tracking(0.0)] {
             let mut window = rig::window(size, rig::model(snapshot));
             assert!(window.query_by_label("Step X+").is_none());
@@ -114,7 +114,7 @@ fn a_step_that_cannot_be_is_refused_in_its_place() {
 
 #[test]
 fn a_held_jog_takes_no_step_and_a_limit_blocks_only_its_own() {
-    for size in SIZES {
+    for size in rig::sizes() {
         let mut snapshot = states::manual();
         snapshot.state.measured.as_mut().unwrap().axes[0].plus_limit = true;
         let mut window = rig::window(size, rig::model(snapshot));
@@ -136,7 +136,7 @@ fn a_held_jog_takes_no_step_and_a_limit_blocks_only_its_own() {
 fn page_up_and_down_change_the_rate_in_manual_and_not_while_typing() {
     let rate =
         |window: &Window| window.get_by_label_contains("Jog rate").accesskit_node().numeric_value();
-    for size in SIZES {
+    for size in rig::sizes() {
         let mut window = rig::window(size, rig::model(states::manual()));
         window.key_press(Key::PageUp);
         settle(&mut window);

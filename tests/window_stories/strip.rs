@@ -55,7 +55,7 @@ fn each_pass_of_the_strip_is_planned_or_left_out_with_the_reason() {
 
 #[test]
 fn before_the_first_schedule_the_strip_shows_what_the_mount_can_track() {
-    for size in SIZES {
+    for size in rig::sizes() {
         let window = rig::window(size, rig::model(states::holding()));
         let bars = bars(&window);
         assert!(!bars.is_empty());
@@ -97,7 +97,7 @@ fn after_two_passes(model: &mut Model) {
 
 #[test]
 fn passes_that_are_over_are_done_or_missed() {
-    for size in SIZES {
+    for size in rig::sizes() {
         let mut window = with_plan(size);
         after_two_passes(&mut window.state_mut().model);
         settle(&mut window);

@@ -24,7 +24,7 @@ use super::{METEOR_M2_3, click, refresh, server, view};
 use crate::{
     elements_library::{Server, ok},
     window_stories::{
-        rig::{self, NOAA_20, SIZES, asked, says, settle},
+        rig::{self, NOAA_20, asked, says, settle},
         unit::{Unit, clock_from, open, step_until},
     },
 };
@@ -49,7 +49,7 @@ fn a_held_file_says_what_it_holds_and_is_kept_or_read_once_after_its_release() {
     let own = newer_elements(&folder);
     let notes = folder.path().join("notes.txt");
     fs::write(&notes, "hello\nworld\n").unwrap();
-    for size in SIZES {
+    for size in rig::sizes() {
         let mut window = view(size, Vec::new());
         let files = [own.clone(), notes.clone()];
         window.input_mut().hovered_files = files
@@ -83,7 +83,7 @@ fn a_held_file_says_what_it_holds_and_is_kept_or_read_once_after_its_release() {
 
 #[test]
 fn pasted_elements_are_told_with_their_refusals_and_taken_once() {
-    for size in SIZES {
+    for size in rig::sizes() {
         let mut window = view(size, Vec::new());
         let text = "[{\"OBJECT_NAME\":\"OBJECT M\"},{\"OBJECT_NAME\":\"NEW\",\"NORAD_CAT_ID\":999999,\
                     \"EPOCH\":\"2026-08-12T00:00:00\",\"MEAN_MOTION\":14.19,\"ECCENTRICITY\":0.0001,\
@@ -108,7 +108,7 @@ fn pasted_elements_are_told_with_their_refusals_and_taken_once() {
 
 #[test]
 fn esc_closes_what_is_to_be_imported_after_what_is_open_above_it() {
-    for size in SIZES {
+    for size in rig::sizes() {
         let mut window = view(size, Vec::new());
         window.event(Event::Paste("hello".to_owned()));
         settle(&mut window);

@@ -30,7 +30,7 @@ fn rows(window: &Window) -> Vec<String> {
 
 #[test]
 fn the_catalog_is_searched_by_name_number_and_designator() {
-    for size in SIZES {
+    for size in rig::sizes() {
         let mut window = view(size, Vec::new());
         window.key_press_modifiers(Modifiers::COMMAND, Key::F);
         settle(&mut window);
@@ -49,7 +49,7 @@ fn the_catalog_is_searched_by_name_number_and_designator() {
 
 #[test]
 fn groups_choose_what_is_shown() {
-    for size in SIZES {
+    for size in rig::sizes() {
         let mut window = view(size, Vec::new());
         let chip = |window: &mut Window, name: &str| {
             window.get_by_role_and_label(Role::RadioButton, name).click();
@@ -66,7 +66,7 @@ fn groups_choose_what_is_shown() {
 
 #[test]
 fn a_click_on_a_head_sorts_and_the_next_one_turns_the_order() {
-    for size in SIZES {
+    for size in rig::sizes() {
         let mut window = view(size, Vec::new());
         write(&mut window, "Search the catalogue", "meteor");
         click(&mut window, "Sort by number");
@@ -85,7 +85,7 @@ fn a_click_on_a_head_sorts_and_the_next_one_turns_the_order() {
 
 #[test]
 fn only_rows_in_view_are_built() {
-    for size in SIZES {
+    for size in rig::sizes() {
         let window = view(size, Vec::new());
         assert!((5..40).contains(&rows(&window).len()), "{}", rows(&window).len());
     }
@@ -98,7 +98,7 @@ fn favour(number: u32, is_favourite: bool) -> UiCommand {
 
 #[test]
 fn satellites_are_followed_and_unfollowed_by_their_star() {
-    for size in SIZES {
+    for size in rig::sizes() {
         let mut window = view(size, Vec::new());
         write(&mut window, "Search the catalogue", "57166");
         click(&mut window, "Add METEOR-M2 3 to the favourites");
@@ -111,7 +111,7 @@ fn satellites_are_followed_and_unfollowed_by_their_star() {
 
 #[test]
 fn rows_are_marked_by_mouse_and_keys_and_changed_together() {
-    for size in SIZES {
+    for size in rig::sizes() {
         let mut window = view(size, Vec::new());
         write(&mut window, "Search the catalogue", "meteor-m2");
         click(&mut window, "Sort by number");
@@ -195,7 +195,7 @@ fn what_is_typed_in_the_preferences_is_not_overtaken() {
 
 #[test]
 fn without_elements_there_is_still_a_way_to_add_some() {
-    for size in SIZES {
+    for size in rig::sizes() {
         let mut window = view(size, Vec::new());
         window.state_mut().model.catalog = CatalogState::Failed;
         settle(&mut window);
@@ -278,7 +278,7 @@ fn columns_are_chosen_and_ordered_and_a_hidden_one_sorts_no_more() {
 
 #[test]
 fn what_is_listed_or_marked_is_exported() {
-    for size in SIZES {
+    for size in rig::sizes() {
         let mut window = view(size, Vec::new());
         let export = |window: &mut Window, list: &str, form: &str| {
             window.get_by_role_and_label(Role::ComboBox, list).click();

@@ -43,7 +43,7 @@ pub(super) fn detail(window: &mut Window, size: [f32; 2]) {
 
 #[test]
 fn the_detail_says_what_each_antenna_holds() {
-    for size in SIZES {
+    for size in rig::sizes() {
         let mut window = view(size, Vec::new());
         detail(&mut window, size);
         assert!(says(&window, "Satrak: What it holds has not been read yet."));
@@ -71,7 +71,7 @@ fn the_detail_says_what_each_antenna_holds() {
 
 #[test]
 fn the_detail_lists_the_next_passes_and_opens_one_on_the_sky_plot() {
-    for size in SIZES {
+    for size in rig::sizes() {
         let mut window = view(size, Vec::new());
         detail(&mut window, size);
         assert!(says(&window, "Next passes, floor 10°"));
@@ -115,7 +115,7 @@ fn frequencies_are_changed_beside_the_elements() {
 
 #[test]
 fn the_elements_are_copied_as_tle_and_omm() {
-    for size in SIZES {
+    for size in rig::sizes() {
         let mut window = view(size, Vec::new());
         detail(&mut window, size);
         for (button, start) in

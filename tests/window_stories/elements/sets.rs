@@ -25,7 +25,7 @@ use super::{
     view, write,
 };
 use crate::window_stories::{
-    rig::{self, NOAA_20, SIZES, Window, asked, says, settle},
+    rig::{self, NOAA_20, Window, asked, says, settle},
     unit::{RealWindow, Unit, clock_from, open, step_until},
 };
 
@@ -64,7 +64,7 @@ fn use_set(choice: SetChoice) -> UiCommand {
 
 #[test]
 fn an_older_set_stands_against_the_one_in_use_and_is_used_after_a_question() {
-    for size in SIZES {
+    for size in rig::sizes() {
         let mut window = view(size, Vec::new());
         detail(&mut window, size);
         assert!(says(&window, "Stored sets, differences from the one in use at "));
@@ -89,7 +89,7 @@ fn an_older_set_stands_against_the_one_in_use_and_is_used_after_a_question() {
 
 #[test]
 fn while_an_older_set_is_in_use_it_is_told_and_the_newest_is_one_click_away() {
-    for size in SIZES {
+    for size in rig::sizes() {
         let mut window = view(size, Vec::new());
         let model = &mut window.state_mut().model;
         let older = with_epoch(model, "2026-08-10T02:04:00");
@@ -120,7 +120,7 @@ fn while_an_older_set_is_in_use_it_is_told_and_the_newest_is_one_click_away() {
 
 #[test]
 fn a_set_between_the_older_one_in_use_and_the_newest_is_not_called_the_newest() {
-    for size in SIZES {
+    for size in rig::sizes() {
         let mut window = view(size, Vec::new());
         let model = &mut window.state_mut().model;
         let in_use = with_epoch(model, "2026-08-03T02:04:00");
