@@ -136,7 +136,8 @@ pub fn found_passes<P: Borrow<Propagator> + Sync>(
     let done = AtomicUsize::new(0);
     let of_batch = |window: &Window, batch: usize, propagators: &[P]| {
         let first = (batch * BATCH) as u32;
-        let (found, _) = passes_in(window, propagators, first, cancelled);
+        let propagators: Vec<&Propagator> = propagators.iter().map(Borrow::borrow).collect();
+        let (found, _) = passes_in(window, &propagators, first, cancelled);
         progress(done.fetch_add(propagators.len(), Ordering::Relaxed) + propagators.len());
         found
     };
@@ -148,10 +149,10 @@ pub fn found_passes<P: Borrow<Propagator> + Sync>(
 }
 
 /// The passes of a few satellites, of which the first has the index `first`, and the number of
-/// states computed.
-fn passes_in<P: Borrow<Propagator>>(
+/// states computed. Not generic, so that the search is compiled and optimised in this package.
+fn passes_in(
     window: &Window,
-    propagators: &[P],
+    propagators: &[&Propagator],
     first: u32,
     cancelled: &dyn Fn() -> bool,
 ) -> (Vec<CompactPass>, u64) {
@@ -160,7 +161,7 @@ fn passes_in<P: Borrow<Propagator>>(
     }
     let indexed = propagators.iter().zip(first..);
     let tracks: Vec<Track<'_>> =
-        indexed.map(|(propagator, index)| Track::new(window, index, propagator.borrow())).collect();
+        indexed.map(|(propagator, index)| Track::new(window, index, propagator)).collect();
     let near_circular: Vec<Option<NearCircular<'_>>> =
         tracks.iter().map(NearCircular::new).collect();
     let mut found = near_circular::passes(window, near_circular.iter().flatten(), cancelled);

@@ -2,7 +2,7 @@
 //! the schedule, and each difference has its cause in the list of the day. An hour and a half here;
 //! `AZEL_HOURS=24 cargo test --test azel rehearsed::automatic` takes a day.
 
-use std::sync::Arc;
+use std::{sync::Arc, time::Duration};
 
 use azel::{
     astro::time::seconds_between,
@@ -22,7 +22,7 @@ use super::{
     flown,
     scene::{Scene, operation, set_automatic},
 };
-use crate::common::units::{self, LOOK, measured, start, until};
+use crate::common::units::{self, measured, start, until};
 
 /// The station with its antennas on the way to little rest and no long warning.
 fn station() -> Station {
@@ -67,11 +67,11 @@ impl Witness {
         self.flown.iter().any(|(id, of)| *id == antenna && is_same(of.pass, pass))
     }
 
-    /// Looks until the clock of the station shows a time.
+    /// Looks each second until the clock of the station shows a time; a pass lasts for minutes.
     async fn until_time(&mut self, client: &Client, at: Timestamp) {
         while client.now().utc < at {
             self.look(client);
-            tokio::time::sleep(LOOK).await;
+            tokio::time::sleep(Duration::from_secs(1)).await;
         }
     }
 }

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use azel::ui::theme;
 use egui::{
-    Event, Key, LayerId, Modifiers, Rect, Role,
+    Color32, Event, Key, LayerId, Modifiers, Rect, Role,
     accesskit::{Action, NodeId},
     emath::Rangef,
 };
@@ -106,7 +106,18 @@ fn press_tab(window: &mut Window, modifiers: Modifiers) {
         key(false),
         Event::ModifiersChanged(Modifiers::NONE),
     ]);
-    settle(window);
+    window.run_steps(2);
+}
+
+/// Whether a ring stands around the control with the focus, around the row that has it, or inside of
+/// a drawing.
+fn is_ringed(window: &Window, ring: Color32) -> bool {
+    focused(window).is_some_and(|(place, _)| {
+        (0..8).any(|off| {
+            let place = place.expand(4.0 - off as f32);
+            painted::around(window, place, 1.5).contains(&ring)
+        })
+    })
 }
 
 /// The stops of one way round with Tab, from STOP on, and what is wrong with them.
@@ -115,7 +126,7 @@ fn stops(window: &mut Window, modifiers: Modifiers, faults: &mut Vec<String>) ->
     let mut stops: Vec<Stop> = Vec::new();
     while stops.len() < 400 {
         press_tab(window, modifiers);
-        let Some((place, now)) = focused(window) else {
+        let Some((_, now)) = focused(window) else {
             faults.push(format!("nothing has the focus after {:?}", stops.last()));
             break;
         };
@@ -125,12 +136,11 @@ fn stops(window: &mut Window, modifiers: Modifiers, faults: &mut Vec<String>) ->
             }
             break;
         }
-        // A ring stands around the control, around the row that has it, or inside of a drawing.
-        let is_ringed = (0..8).any(|off| {
-            let place = place.expand(4.0 - off as f32);
-            painted::around(window, place, 1.5).contains(&ring)
-        });
-        if !is_ringed {
+        if !is_ringed(window, ring) {
+            // It is being scrolled into view.
+            settle(window);
+        }
+        if !is_ringed(window, ring) {
             faults.push(format!("no ring around {:?}", now.1));
         }
         if modifiers == Modifiers::NONE {
