@@ -14,7 +14,7 @@ mod size;
 mod trouble;
 mod unattended;
 
-use std::sync::Arc;
+use std::{sync::Arc, time::Duration};
 
 use azel::{
     astro::time::seconds_between,
@@ -30,6 +30,11 @@ use jiff::ToSpan as _;
 
 use self::scene::Scene;
 use crate::common::units::{self, antenna, measured, start, until};
+
+/// Waits for something in a record; each look reads its file.
+async fn until_recorded<T>(what: &str, found: impl FnMut() -> Option<T>) -> T {
+    units::until_looking(Duration::from_secs(5), what, found).await
+}
 
 /// The passes of the schedule that are over, with what became of them.
 fn flown(client: &Client) -> Vec<(AntennaId, Flown)> {

@@ -31,8 +31,6 @@ static FAVOURITES: LazyLock<Vec<Elements>> = LazyLock::new(|| {
 const PATIENCE: Duration = Duration::from_hours(6);
 /// Interval of looks by that clock.
 pub(crate) const LOOK: Duration = Duration::from_millis(50);
-/// Time between two looks at a record, each of which reads its file.
-const LOOK_AT_RECORD: Duration = Duration::from_secs(5);
 
 pub(crate) fn start() -> Timestamp {
     "2026-08-12T11:15:30Z".parse().unwrap()
@@ -124,12 +122,12 @@ pub(crate) async fn until<T>(what: &str, found: impl FnMut() -> Option<T>) -> T 
     until_looking(LOOK, what, found).await
 }
 
-/// Like [`until`], for what is read from the file of a record.
-pub(crate) async fn until_recorded<T>(what: &str, found: impl FnMut() -> Option<T>) -> T {
-    until_looking(LOOK_AT_RECORD, what, found).await
-}
-
-async fn until_looking<T>(pause: Duration, what: &str, mut found: impl FnMut() -> Option<T>) -> T {
+/// Like [`until`], with another time between two looks.
+pub(crate) async fn until_looking<T>(
+    pause: Duration,
+    what: &str,
+    mut found: impl FnMut() -> Option<T>,
+) -> T {
     let end = time::Instant::now() + PATIENCE;
     loop {
         if let Some(found) = found() {

@@ -31,7 +31,7 @@ use jiff::{SignedDuration, ToSpan as _};
 use tokio::time::sleep;
 
 use super::scene::{Scene, operation, set_automatic};
-use crate::common::units::{self, antenna, measured, start, until, until_recorded};
+use crate::common::units::{self, antenna, measured, start, until};
 
 pub(super) const ISS: u32 = 25_544;
 
@@ -363,7 +363,7 @@ async fn what_automatic_operation_does_is_in_the_record() {
         let what = &data["command"]["Antenna"][1];
         data["by"] == "station" && what["ProgramTrack"]["target"]["Satellite"].is_object()
     };
-    until_recorded("its command", || {
+    super::until_recorded("its command", || {
         let commands = rows(&scene, RowKind::Entry(Kind::Command));
         commands.iter().any(is_track).then_some(())
     })

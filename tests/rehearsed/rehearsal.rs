@@ -19,7 +19,7 @@ use super::{
     recorded::rows_in,
     scene::{Scene, set_automatic},
 };
-use crate::common::units::{self, Units, measured, until, until_recorded};
+use crate::common::units::{self, Units, measured, until};
 
 /// Difference from which two errors are not the same, degrees.
 const ALIKE_DEG: f64 = 0.02;
@@ -118,7 +118,7 @@ async fn compare(rehearsed: &Rehearsed, client: &Client, folder: &Path, names: &
     let last = rehearsed.passes.iter().map(|pass| pass.los).max().unwrap();
     until("the last pass", || (client.now().utc > last).then_some(())).await;
     for pass in &rehearsed.passes {
-        let report = until_recorded("the report", || {
+        let report = super::until_recorded("the report", || {
             let mut reports = rows_in(folder, RowKind::Pass).into_iter();
             reports.find(|row| {
                 row.antenna.as_deref() == Some(&pass.antenna_name)

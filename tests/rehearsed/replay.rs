@@ -16,7 +16,7 @@ use super::{
     recorded::{ISS, next_pass, path_in, reports, rows_in, track},
     scene::Scene,
 };
-use crate::common::units::{antenna, measured, station, until, until_recorded};
+use crate::common::units::{antenna, measured, station, until};
 
 /// Every how many snapshots one without an event is compared.
 const BETWEEN: usize = 20;
@@ -104,7 +104,7 @@ async fn a_pass_is_shown_again_as_it_was_at_every_recorded_event() {
     track_on_board(&client).await;
     reports(&scene).await;
     fit_pointing(&client).await;
-    until_recorded("both reports", || {
+    super::until_recorded("both reports", || {
         (rows_in(scene.folder(), RowKind::Pass).len() == 2).then_some(())
     })
     .await;

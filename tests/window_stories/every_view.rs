@@ -213,7 +213,7 @@ impl Findings {
         self
     }
 
-    fn add(&mut self, fault: String) {
+    fn add(&mut self, fault: &str) {
         self.faults.push(format!("{}, {}: {fault}", self.scene, self.check));
     }
 

@@ -1,6 +1,6 @@
 //! Records for tests, also for the packages above.
 
-#![allow(clippy::unwrap_used, reason = "test data; a test may end here")]
+#![allow(clippy::unwrap_used, clippy::missing_panics_doc, reason = "a test may end here")]
 
 use std::path::Path;
 

@@ -75,7 +75,7 @@ pub(super) fn check(window: &mut Window, findings: &mut Findings) {
             }
             let ratio = tokens::contrast(run.colour, run.ground);
             if ratio < needed(&run, &safety_data) {
-                findings.add(format!(
+                findings.add(&format!(
                     "{name:?} {:?} on {:?}: {ratio:.2}, {:?} at {:?}",
                     run.colour.to_hex(),
                     run.ground.to_hex(),

@@ -124,6 +124,6 @@ pub(super) fn check(window: &Window, findings: &mut Findings) {
     findings.count(painted::texts(window).len());
     let may_be_cut = |words: &&String| MAY_BE_CUT.iter().any(|start| words.starts_with(start));
     for words in cut.iter().filter(|words| !may_be_cut(words)) {
-        findings.add(format!("{words:?} is cut"));
+        findings.add(&format!("{words:?} is cut"));
     }
 }

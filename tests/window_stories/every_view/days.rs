@@ -63,7 +63,7 @@ pub(super) fn check(window: &Window, findings: &mut Findings) {
             if has_day(before) {
                 findings.count(1);
             } else if !is_span(before) && !HOURS.contains(&&time[..3]) {
-                findings.add(format!("{time} has no day in {words:?}"));
+                findings.add(&format!("{time} has no day in {words:?}"));
             }
         }
     }

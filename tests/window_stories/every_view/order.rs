@@ -80,7 +80,7 @@ pub(super) fn check(window: &Window, findings: &mut Findings) {
     findings.count(read.len());
     for (index, later) in read.iter().enumerate() {
         if let Some(earlier) = read[..index].iter().find(|earlier| goes_back(earlier, later)) {
-            findings.add(format!(
+            findings.add(&format!(
                 "{:?} {:?} is read before {:?} {:?}",
                 earlier.name, earlier.place, later.name, later.place
             ));

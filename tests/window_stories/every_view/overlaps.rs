@@ -9,6 +9,6 @@ use crate::window_stories::{
 pub(super) fn check(window: &Window, findings: &mut Findings) {
     findings.count(painted::texts(window).len());
     for [below, above] in painted::on_each_other(window) {
-        findings.add(format!("{above:?} on {below:?}"));
+        findings.add(&format!("{above:?} on {below:?}"));
     }
 }

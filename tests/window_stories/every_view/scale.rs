@@ -116,19 +116,19 @@ pub(super) fn check(scene: &Scene, size: [f32; 2], window: &mut Window, findings
     };
     for (part, is_it) in ALWAYS.iter().chain(of_antenna) {
         if !is_there(window, whole, *is_it) {
-            findings.add(format!("{part} is not there"));
+            findings.add(&format!("{part} is not there"));
         }
     }
     for run in painted::runs(window) {
         let seen = run.clip.intersect(whole).expand(1.0);
         if run.rect.left() < seen.left() || run.rect.right() > seen.right() {
-            findings.add(format!("{:?} is cut at {:?}", run.text, run.rect));
+            findings.add(&format!("{:?} is cut at {:?}", run.text, run.rect));
         }
     }
     let (count, lost) = unreachable(window, whole);
     findings.count(count);
     for fault in lost {
-        findings.add(fault);
+        findings.add(&fault);
     }
 }
 

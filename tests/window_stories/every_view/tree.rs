@@ -102,6 +102,6 @@ pub(super) fn check(window: &Window, size: [f32; 2], findings: &mut Findings) {
     faults.extend(out_of_order(window, size));
     findings.count(window.query_all_by_role(Role::Canvas).count());
     for fault in faults {
-        findings.add(fault);
+        findings.add(&fault);
     }
 }

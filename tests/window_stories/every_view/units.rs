@@ -17,7 +17,7 @@ pub(super) fn check(window: &Window, findings: &mut Findings) {
     for words in words(window) {
         findings.count(usize::from(has_unit(&words, "nmi")));
         if has_unit(&words, "km") {
-            findings.add(format!("kilometres in {words:?}"));
+            findings.add(&format!("kilometres in {words:?}"));
         }
     }
 }
