@@ -1,5 +1,5 @@
-//! Antenna controllers and all that is decided without a socket: what their bytes mean, what they
-//! can do, how a station is set up, and which antenna takes which pass.
+//! Antenna controllers without sockets: their protocols, capabilities and settings, the station
+//! file, and the plan that assigns passes to antennas.
 //!
 //! From the bottom: [`clock`], [`secret`], [`whole_file`], [`protocol`], [`device`], [`station`],
 //! [`controller`], [`demo`], [`plan`]; a lower one never names a higher one.

@@ -207,7 +207,7 @@ struct Findings {
 }
 
 impl Findings {
-    /// Files what comes next under this scene and check.
+    /// Assigns the following faults and counts to this scene and check.
     fn begin(&mut self, scene: &Scene, check: &'static str) -> &mut Self {
         (self.scene, self.check) = (scene.name, check);
         self
@@ -221,7 +221,7 @@ impl Findings {
         *self.counts.entry(self.check).or_default() += number;
     }
 
-    /// Fails if there was a fault, or if a check had no more than so much to look at.
+    /// Fails on any fault, and on a check that looked at no more than its minimum.
     fn end(self, minima: &[(&str, usize)]) {
         assert!(self.faults.is_empty(), "{} faults\n{}", self.faults.len(), self.faults.join("\n"));
         for (check, min) in minima {

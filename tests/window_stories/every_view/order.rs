@@ -109,8 +109,8 @@ fn press_tab(window: &mut Window, modifiers: Modifiers) {
     window.run_steps(2);
 }
 
-/// Whether a ring stands around the control with the focus, around the row that has it, or inside of
-/// a drawing.
+/// Returns true if a focus ring is painted around the focused control or its row, or inside its
+/// drawing.
 fn is_ringed(window: &Window, ring: Color32) -> bool {
     focused(window).is_some_and(|(place, _)| {
         (0..8).any(|off| {
