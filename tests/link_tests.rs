@@ -192,20 +192,29 @@ fn a_unit_that_knows_its_place_tells_it() {
 
 #[test]
 fn what_is_no_unit_is_told_apart() {
-    let mut bench = Bench::new(Vec::new());
-    let text = "SSH-2.0-OpenSSH_9.2p1 Debian".to_owned();
-    for spec in makes::SPECS {
-        for (address, wanted) in [
-            ("refused:1", LinkFinding::NotOpened(LinkFault::Refused)),
-            ("far:1", LinkFinding::NotOpened(LinkFault::NobodyThere)),
-            ("busy:1", LinkFinding::NotOpened(LinkFault::Busy)),
-            ("closed:1", LinkFinding::Closed),
-            ("silent:1", LinkFinding::Silent),
-            ("ssh:22", LinkFinding::SomethingElse { text: text.clone() }),
-        ] {
-            assert_eq!(bench.finding(&antenna(spec, address)), wanted, "{spec:?} {address}");
+    // Each make at once: what is silent is waited for.
+    std::thread::scope(|scope| {
+        for spec in makes::SPECS {
+            scope.spawn(move || {
+                let mut bench = Bench::new(Vec::new());
+                let text = "SSH-2.0-OpenSSH_9.2p1 Debian".to_owned();
+                for (address, wanted) in [
+                    ("refused:1", LinkFinding::NotOpened(LinkFault::Refused)),
+                    ("far:1", LinkFinding::NotOpened(LinkFault::NobodyThere)),
+                    ("busy:1", LinkFinding::NotOpened(LinkFault::Busy)),
+                    ("closed:1", LinkFinding::Closed),
+                    ("silent:1", LinkFinding::Silent),
+                    ("ssh:22", LinkFinding::SomethingElse { text }),
+                ] {
+                    assert_eq!(
+                        bench.finding(&antenna(spec, address)),
+                        wanted,
+                        "{spec:?} {address}"
+                    );
+                }
+            });
         }
-    }
+    });
 }
 
 #[test]

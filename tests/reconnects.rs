@@ -28,8 +28,8 @@ use tokio::runtime::Runtime;
 
 /// Longer than any step here takes on a slow machine.
 const PATIENCE: Duration = Duration::from_secs(30);
-const UNITS: usize = 5;
-const ROUNDS: usize = 20;
+const UNITS: usize = 10;
+const ROUNDS: usize = 10;
 /// A key is held in one of so many rounds.
 const HELD_EACH: usize = 3;
 /// Interval of renewals; a lease lasts 300 ms.

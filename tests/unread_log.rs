@@ -11,7 +11,7 @@ use std::{
 use azel::protocol::satrak::encode;
 
 /// Number of questions that log more than a pipe holds (64 kB).
-const FLOOD: usize = 300;
+const FLOOD: usize = 130;
 
 struct Simulator {
     process: Child,
@@ -51,7 +51,7 @@ impl Simulator {
 
     /// Reply to a long command that does not exist.
     fn ask(&mut self) -> String {
-        let command = encode(&format!("HELLO=,{}", "x".repeat(400)));
+        let command = encode(&format!("HELLO=,{}", "x".repeat(900)));
         self.client.get_mut().write_all(&command).expect("the unit takes a command");
         let mut reply = String::new();
         self.client.read_line(&mut reply).expect("the unit answers");

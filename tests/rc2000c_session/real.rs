@@ -101,8 +101,13 @@ impl Fixture {
     }
 }
 
+/// Both at once, because they wait for the line most of the time.
 #[tokio::test]
-async fn over_a_serial_server() {
+async fn over_a_serial_server_with_and_without_parity_of_its_own() {
+    tokio::join!(with_parity(), with_eight_bits_it_is_understood_at_the_second_try());
+}
+
+async fn with_parity() {
     let simulator = Simulator::bind(([127, 0, 0, 1], 0).into(), &options()).await.unwrap();
     let address = simulator.local_addr().unwrap().to_string();
     let control = simulator.control();
@@ -110,8 +115,7 @@ async fn over_a_serial_server() {
     Fixture::at(&address).tour(&control).await;
 }
 
-#[tokio::test]
-async fn a_serial_server_with_eight_bits_is_understood_at_the_second_try() {
+async fn with_eight_bits_it_is_understood_at_the_second_try() {
     let options = Options { quirks: [Quirk::ParityBit].into_iter().collect(), ..options() };
     let simulator = Simulator::bind(([127, 0, 0, 1], 0).into(), &options).await.unwrap();
     let address = simulator.local_addr().unwrap().to_string();

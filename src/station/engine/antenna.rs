@@ -87,7 +87,8 @@ pub struct AntennaModel {
     pub operation: Operation,
     /// Orbit by which its session judges on-board track.
     pub orbit: Option<Arc<KnownOrbit>>,
-    recent: VecDeque<Measured>,
+    /// Measurements of which the rates are made.
+    pub(super) recent: VecDeque<Measured>,
 }
 
 impl AntennaModel {

@@ -143,13 +143,46 @@ fn drawn(picture: &serde_json::Value) -> serde_json::Result<Drawn> {
 fn without_parts(antennas: &[AntennaModel], parts: &mut Parts) -> Vec<AntennaModel> {
     let mut antennas = antennas.to_vec();
     for (index, antenna) in antennas.iter_mut().enumerate() {
-        if parts.is_same(format!("/shown/antennas/{index}/snapshot"), &antenna.snapshot) {
-            antenna.snapshot = Arc::new(driver::Snapshot::before_anything(LinkState::Off));
-        }
+        antenna.snapshot =
+            without_same(format!("/shown/antennas/{index}/snapshot"), &antenna.snapshot, parts);
         antenna.errors = Errors::default();
         antenna.past_tracks = PastTracks::default();
+        // Their rates are shown, they are not.
+        antenna.recent.clear();
     }
     antennas
+}
+
+/// A snapshot at `place` without what stands in the last picture.
+fn without_same(
+    place: String,
+    snapshot: &Arc<driver::Snapshot>,
+    parts: &mut Parts,
+) -> Arc<driver::Snapshot> {
+    let of_state = |field| format!("{place}/state/{field}");
+    let state = &snapshot.state;
+    let readings = parts.is_same(of_state("readings"), &state.readings);
+    let checks = parts.is_same(of_state("checks"), &state.checks);
+    let questions = parts.is_same(of_state("questions"), &state.questions);
+    let held = parts.is_same(of_state("held"), &state.held);
+    // After its parts: what the parts of a place are is kept for when the place changes.
+    if parts.is_same(place, snapshot) {
+        return Arc::new(driver::Snapshot::before_anything(LinkState::Off));
+    }
+    let mut snapshot = driver::Snapshot::clone(snapshot);
+    if readings {
+        snapshot.state.readings = Arc::default();
+    }
+    if checks {
+        snapshot.state.checks = Arc::default();
+    }
+    if questions {
+        snapshot.state.questions = Arc::default();
+    }
+    if held {
+        snapshot.state.held = Arc::default();
+    }
+    Arc::new(snapshot)
 }
 
 impl DrawnAntenna {

@@ -47,8 +47,10 @@ struct Known {
 
 /// What stands at a place of the last picture.
 struct Placed {
-    what: Arc<dyn Any + Send + Sync>,
+    address: usize,
     is_shown: bool,
+    /// Nothing else has the address while this is held.
+    _held: Box<dyn Any + Send + Sync>,
 }
 
 impl Parts {
@@ -81,14 +83,17 @@ impl Parts {
 
     /// Whether the last picture of the reel had the same at this place (a JSON pointer): then it need
     /// not be drawn, and anything may stand there.
-    pub fn is_same<T: Send + Sync + 'static>(&mut self, place: String, what: &Arc<T>) -> bool {
+    pub fn is_same<T>(&mut self, place: String, what: &Arc<T>) -> bool
+    where
+        T: ?Sized + Send + Sync + 'static,
+    {
         let address = Arc::as_ptr(what).addr();
-        let before = self.placed.get(&place);
-        let is_same = before.is_some_and(|of| Arc::as_ptr(&of.what).addr() == address);
+        let is_same = self.placed.get(&place).is_some_and(|before| before.address == address);
         if is_same {
             self.same.push(place.clone());
         }
-        self.placed.insert(place, Placed { what: what.clone(), is_shown: true });
+        let placed = Placed { address, is_shown: true, _held: Box::new(Arc::clone(what)) };
+        self.placed.insert(place, placed);
         is_same
     }
 

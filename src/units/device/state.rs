@@ -63,6 +63,20 @@ impl AntennaState {
         Arc::make_mut(&mut self.held).entry(key).or_default()
     }
 
+    /// Shows `readings`. A list that stays the same stays shared.
+    pub(crate) fn show_readings(&mut self, readings: Vec<Reading>) {
+        if *self.readings != readings {
+            self.readings = readings.into();
+        }
+    }
+
+    /// Shows `checks`. A list that stays the same stays shared.
+    pub(crate) fn show_checks(&mut self, checks: Vec<Check>) {
+        if *self.checks != checks {
+            self.checks = checks.into();
+        }
+    }
+
     /// Records the end of a change. `is_followed`: another change of its group waits.
     pub(crate) fn end_change(
         &mut self,

@@ -10,7 +10,7 @@ use crate::astro::{Angle, time::seconds_between};
 /// Time for which errors are kept, for the profile of a pass.
 const KEPT_S: f64 = 3600.0;
 /// Samples in a chunk; clones share chunks.
-const CHUNK: usize = 256;
+const CHUNK: usize = 64;
 
 /// Error of a measured direction against the predicted one.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]

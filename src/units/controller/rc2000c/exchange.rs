@@ -292,8 +292,8 @@ impl Rc2000c {
     pub(super) fn refresh_panel(&mut self) {
         let (status, device) = (self.status.as_ref(), self.device);
         let readings = status.map(|status| readings::readings(status, device, &self.names));
-        self.state.readings = readings.unwrap_or_default().into();
+        self.state.show_readings(readings.unwrap_or_default());
         let checks = checks::checks(status, device, self.is_offline, self.axes.are_calibrated());
-        self.state.checks = checks.into();
+        self.state.show_checks(checks);
     }
 }

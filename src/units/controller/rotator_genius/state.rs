@@ -50,8 +50,8 @@ impl Genius {
         }
         let rescue_left =
             self.rescue_until.map(|until| until.saturating_duration_since(now.steady));
-        self.state.readings = panel::readings(&status, roles, rescue_left).into();
-        self.state.checks = panel::checks(&status, roles).into();
+        self.state.show_readings(panel::readings(&status, roles, rescue_left));
+        self.state.show_checks(panel::checks(&status, roles));
         self.state.checked_at = Some(now.utc);
         self.status = Some(status);
     }

@@ -43,7 +43,7 @@ impl Satrak {
             }
             Reply::Status(status) => self.take_status(&status, measured_at, asked, now),
             Reply::Faults(faults) => {
-                state.checks = checks(Some(&faults)).into();
+                state.show_checks(checks(Some(&faults)));
                 state.checked_at = Some(now.utc);
                 state.motion_lock = Some(faults.lock_motion());
             }
