@@ -182,6 +182,42 @@ fn rows_say_what_is_taken_and_why_others_are_left_out() {
     }
 }
 
+#[test]
+fn the_switch_counts_the_rows_that_each_of_its_choices_shows() {
+    let mut window = view(LARGE);
+    let model = &mut window.state_mut().model;
+    let mut planned = planned(model);
+    planned.schedule.entries.pop();
+    model.schedule = Arc::new(planned);
+    settle(&mut window);
+    let counts = ["All ", "Taken ", "Left out "].map(|choice| {
+        let is_choice = |label: &str| {
+            label.strip_prefix(choice).is_some_and(|rest| rest.parse::<usize>().is_ok())
+        };
+        let node = window
+            .query_all_by(|node| node.label().is_some_and(|label| is_choice(&label)))
+            .next()
+            .unwrap();
+        let label = node.accesskit_node().label().unwrap();
+        node.click();
+        settle(&mut window);
+        let count: usize = label[choice.len()..].parse().unwrap();
+        // The diagram above has options of its own.
+        let name = &window.state().model.antennas[0].config.name;
+        let list = window
+            .query_all_by_role(Role::ListBox)
+            .find(|list| list.accesskit_node().label().is_some_and(|it| it.starts_with(name)))
+            .unwrap()
+            .rect();
+        let options = window.query_all_by_role(Role::ListBoxOption);
+        let rows = options.filter(|option| list.contains(option.rect().center())).count();
+        assert_eq!(rows, count, "{label}");
+        count
+    });
+    assert_eq!(counts[0], counts[1] + counts[2]);
+    assert!(counts[1] != counts[2], "{counts:?}");
+}
+
 /// Times after midnight would lack their day.
 #[test]
 fn shortly_before_midnight_the_day_that_begins_is_named() {
