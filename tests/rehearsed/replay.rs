@@ -34,6 +34,10 @@ async fn watch(mut client: Client) -> Vec<Arc<Snapshot>> {
 fn told(shown: &Snapshot) -> Value {
     let mut told = serde_json::to_value(shown).unwrap();
     told["recorded"] = Value::Null;
+    // The film has the rates that are made of these, and nothing else shows them.
+    for antenna in told["antennas"].as_array_mut().unwrap() {
+        antenna["recent"] = Value::Null;
+    }
     let favourites = &shown.pass_lists.favourites;
     let satellites = favourites.satellites.iter().map(|satellite| &satellite.elements);
     let passes = favourites.range(0..favourites.passes.len());
