@@ -23,7 +23,9 @@ use smol_str::SmolStr;
 pub use calibration::{CalibrationError, CountLine, CountPoint};
 pub use capabilities::{Capabilities, JogSpeed, JogSpeeds, SecondAxis, Standstill};
 pub use element_files::ElementFiles;
-pub use on_board::{HeldSatellite, Offsets, OnBoard, Place, TrackOffsetFields, UnitClock};
+pub use on_board::{
+    HeldSatellite, LONGEST_WINDOW_S, Offsets, OnBoard, Place, TrackOffsetFields, UnitClock,
+};
 pub use state::{AntennaState, Axis, AxisMotion, Measured, Phase, Pointing, Program, Traffic};
 pub use variant::Variant;
 pub use wire::{Direction, Explained, ExplainedValue, Finding, Meaning, WireLine};

@@ -331,6 +331,61 @@ async fn a_clock_that_is_set_stops_the_following_until_the_operators_word() {
     }
 }
 
+/// The antenna, and the usual pass with one a day later, while the first is tracked.
+async fn tracking_the_first_of_two(after: AfterPass) -> (Rig, Control) {
+    let mut antenna = antenna();
+    antenna.follow.after = after;
+    let scene = sky::usual();
+    let day = SignedDuration::from_hours(24);
+    let mut follow = scene.follow();
+    follow.passes.push((scene.pass.aos.time + day, scene.pass.los.time + day));
+    let (mut rig, control) = connected(&antenna, &scene, 60.0).await;
+    rig.send(Command::ProgramTrack(Box::new(follow)));
+    rig.until_utc(add_seconds(scene.pass.aos.time, 150.0)).await;
+    (rig, control)
+}
+
+#[tokio::test(start_paused = true)]
+async fn a_question_that_nobody_answers_keeps_it_still_after_the_pass_too() {
+    for after in [AfterPass::Next, AfterPass::Park] {
+        let (mut rig, control) = tracking_the_first_of_two(after).await;
+        rig.set_off(true);
+        rig.seconds(40.0).await;
+        rig.set_off(false);
+        rig.until_event(20, asks).await;
+        rig.seconds(5.0).await;
+        let (sent, at) = (gotos(&control), direction(&control));
+        rig.until_over().await;
+        rig.seconds(300.0).await;
+        assert_eq!(gotos(&control), sent, "{after:?}");
+        assert!(direction(&control).separation(at).degrees() < 0.01, "{after:?}");
+        if after == AfterPass::Next {
+            assert!(rig.shown().program_track.as_ref().unwrap().awaits_operator);
+            rig.send(Command::Resume);
+            rig.seconds(60.0).await;
+            assert!(gotos(&control) > sent, "it goes to where the next pass begins");
+        }
+    }
+}
+
+#[tokio::test(start_paused = true)]
+async fn a_clock_that_is_set_past_the_pass_stops_it_before_anything_else() {
+    for after in [AfterPass::Hold, AfterPass::Next, AfterPass::Park] {
+        let (mut rig, control) = tracking_the_first_of_two(after).await;
+        let before = control.received().len();
+        rig.clock.set(3600);
+        rig.seconds(60.0).await;
+        let orders: Vec<String> = (control.received().into_iter().skip(before))
+            .map(|(_, payload)| payload)
+            .filter(|payload| payload.contains('='))
+            .collect();
+        // The last position before the clock was set may be on its way.
+        let first = orders.iter().position(|order| order.starts_with("STOP=")).expect("a STOP");
+        assert!(orders[first..].iter().all(|order| !order.starts_with("GOTO=")), "{orders:?}");
+        assert!(first <= 1 && !control.state().is_moving, "{after:?} {orders:?}");
+    }
+}
+
 #[tokio::test(start_paused = true)]
 async fn after_a_sleep_positions_are_read_anew_and_nothing_moves_by_itself() {
     let (mut rig, control, _) = following(&antenna()).await;

@@ -295,6 +295,16 @@ async fn auto_track_of_a_satellite_that_is_not_known_here_is_refused_by_its_name
     assert_eq!(told, Refusal::OrbitUnknown { name: "TWIN".to_owned() });
 }
 
+/// Judging it takes a minute and more, in which no antenna gets a byte.
+#[tokio::test(start_paused = true)]
+async fn a_window_of_years_is_refused_before_it_is_judged() {
+    let mut rig = read().await;
+    let years = TrackTarget { until: "2099-12-31T00:00:00Z".parse().unwrap(), ..iss() };
+    chosen_by_another(&mut rig, &years).await;
+    let told = auto_track_refused(&mut rig).await.to_string();
+    assert!(told.contains("window") && told.contains("hours"), "{told}");
+}
+
 #[tokio::test(start_paused = true)]
 async fn a_window_that_is_over_leads_nowhere() {
     let mut rig = read().await;

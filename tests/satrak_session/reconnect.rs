@@ -88,6 +88,34 @@ async fn tracking_that_ended_meanwhile_is_not_started_again() {
     assert_eq!(rig.sent("TRACK=,1").len(), 1);
 }
 
+/// The metal goes on while the link is down, until the STOP for the motion that was left.
+#[tokio::test(start_paused = true)]
+async fn a_motion_that_is_left_while_the_link_is_down_is_stopped_first_when_it_is_back() {
+    for command in [Command::Standby, Command::Manual, Command::Hold, Command::Park, track(iss())] {
+        let mut rig = Rig::usual().await;
+        rig.send(position());
+        rig.seconds(1.0).await;
+        rig.set_off(true);
+        rig.seconds(1.0).await;
+        assert!(rig.control.state().is_moving, "{command:?}");
+        let before = rig.orders().len();
+        rig.send(command.clone());
+        rig.seconds(1.0).await;
+        rig.set_off(false);
+        rig.until_event(20, |event| matches!(event, Event::Back { .. })).await;
+        rig.seconds(10.0).await;
+        let orders = rig.orders().split_off(before);
+        assert_eq!(orders.first().map(String::as_str), Some("STOP="), "{command:?} {orders:?}");
+        assert!(!rig.control.state().is_moving, "{command:?} {orders:?}");
+        assert_eq!(rig.shown().intent, Intent::Standby, "{command:?}");
+    }
+}
+
+fn position() -> Command {
+    let degrees = |degrees| Some(Angle::from_degrees(degrees));
+    Command::Position { azimuth: degrees(200.0), elevation: degrees(40.0) }
+}
+
 /// Another client sends this to the unit.
 async fn elsewhere(rig: &Rig, request: Request) {
     let (mut near, far) = tokio::io::duplex(4096);

@@ -130,6 +130,16 @@ pub fn refusal(refusal: &Refusal, now: Timestamp) -> String {
             "Not sent: the unit holds {name}, and Azel has no elements of it: where it would point \
              is not known. Load its elements, or choose another satellite."
         ),
+        Refusal::WindowTooLong { hours } => format!(
+            "Not sent: the unit's tracking window is {} days long, and no more than 24 hours are \
+             judged. Set a shorter window under Antennas.",
+            format::number(hours / 24.0, 1)
+        ),
+        Refusal::NoDirection { at } => format!(
+            "Not sent: the elements give no direction at {}, so where the unit would point is not \
+             known. Load newer elements, or set a shorter window under Antennas.",
+            format::moment(*at, now)
+        ),
         Refusal::TooLow { highest_deg, lowest_deg } => format!(
             "Not sent: the rest of the pass is not above the {} of this antenna; the pass \
              reaches {}.",

@@ -10,7 +10,8 @@ use serde::{Deserialize, Serialize};
 
 pub use cause::{Cause, Ranked, Unknown};
 pub use clear::ALONG_DEG;
-pub use clear::{OffLimits, Trespass, path_is_clear};
+use clear::path_is_clear;
+pub use clear::{NotClear, OffLimits, Trespass};
 
 use crate::{
     astro::{Angle, AzEl, Site, time::seconds_between},
@@ -19,7 +20,7 @@ use crate::{
     plan::{Bounds, Sample},
     station::{Antenna, Mount},
 };
-use path::{UnitPath, spread};
+use path::{NoDirection, UnitPath, spread};
 
 /// A pass that a unit tracks by itself.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -158,8 +159,8 @@ impl Judge {
     }
 
     /// Checks the real track against the limits of the antenna. The error is the first
-    /// position outside them.
-    pub fn is_clear(&self, unit: &OnBoard, bounds: &Bounds) -> Result<(), Trespass> {
+    /// position outside them, or the first one that is not known.
+    pub fn is_clear(&self, unit: &OnBoard, bounds: &Bounds) -> Result<(), NotClear> {
         let unit = UnitPath::of(unit, self);
         unit.either_way().try_for_each(|unit| path_is_clear(self.path(unit), &self.ability, bounds))
     }
@@ -172,7 +173,10 @@ impl Judge {
 
     /// The real track according to the report of the unit, from where the unit waits to where it
     /// ends: samples are at most a second or half a degree apart.
-    fn path<'a>(&'a self, unit: UnitPath<'a>) -> impl Iterator<Item = Sample> + 'a {
+    fn path<'a>(
+        &'a self,
+        unit: UnitPath<'a>,
+    ) -> impl Iterator<Item = Result<Sample, NoDirection>> + 'a {
         path::samples(unit, (self.pass.target.from, self.pass.target.until))
     }
 

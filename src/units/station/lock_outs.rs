@@ -6,7 +6,7 @@
 use std::{collections::BTreeMap, fs, io, path::Path};
 
 use jiff::Timestamp;
-use serde::{Deserialize, Serialize};
+use serde::{Deserialize, Deserializer, Serialize};
 
 use super::{Antenna, Connection, SaveError};
 use crate::whole_file;
@@ -20,9 +20,18 @@ const VERSION: i64 = 1;
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct LockOut {
     /// Who locked it out.
+    #[serde(deserialize_with = "one_line")]
     pub by: String,
+    #[serde(deserialize_with = "one_line")]
     pub reason: String,
     pub since: Timestamp,
+}
+
+/// Reads a text for a terminal or a row: control characters become spaces, so that it neither acts
+/// on the terminal nor looks like a line of its own.
+fn one_line<'de, D: Deserializer<'de>>(from: D) -> Result<String, D::Error> {
+    let text = String::deserialize(from)?;
+    Ok(text.replace(char::is_control, " "))
 }
 
 /// The unit at an address, whatever the name of its antenna.
@@ -60,7 +69,9 @@ struct File {
 struct Entry {
     make: String,
     address: String,
+    #[serde(deserialize_with = "one_line")]
     by: String,
+    #[serde(deserialize_with = "one_line")]
     reason: String,
     since: Timestamp,
 }
@@ -170,6 +181,24 @@ mod tests {
 
     fn now() -> Timestamp {
         "2026-11-22T11:00:00Z".parse().unwrap()
+    }
+
+    /// The texts reach terminals and logs.
+    #[test]
+    fn a_text_of_another_program_is_one_line_without_control_characters() {
+        let told = r#"{"by": "Ada\u001b[2J", "reason": "belts\nMast: stands\u009b1m",
+            "since": "2026-11-22T10:00:00Z"}"#;
+        let read: LockOut = serde_json::from_str(told).unwrap();
+        assert_eq!((&*read.by, &*read.reason), ("Ada [2J", "belts Mast: stands 1m"));
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join(LOCK_OUTS_FILE);
+        let dish = Antenna::satrak("Dish", "unit:1").connection;
+        let file = "version = 1\n[[lock_out]]\nmake = \"satrak\"\naddress = \"unit:1\"\n\
+                    by = \"Ada\"\nreason = \"belts\\u001B[2J\"\nsince = \"2026-11-22T10:00:00Z\"\n";
+        fs::write(&path, file).unwrap();
+        let (lock_outs, trouble) = LockOuts::load(&path, now());
+        assert_eq!(trouble, None);
+        assert_eq!(lock_outs.of(&dish).unwrap().reason, "belts [2J");
     }
 
     #[test]

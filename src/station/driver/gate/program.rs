@@ -20,6 +20,8 @@ pub(in crate::driver) enum Held {
     Nothing,
     /// This pass, from now on.
     Pass(Arc<Judge>),
+    /// Something in a window that is too long to be judged.
+    TooLong { hours: f64 },
     /// A satellite whose orbit is unknown here.
     Unknown { name: String },
 }
@@ -36,6 +38,7 @@ impl Gate {
             Held::Nothing => Ok(()),
             Held::Pass(judge) => self.path_is_clear(judge, now),
             Held::Unread => Err(Refusal::PassUnknown),
+            Held::TooLong { hours } => Err(Refusal::WindowTooLong { hours: *hours }),
             Held::Unknown { name } => Err(Refusal::OrbitUnknown { name: name.clone() }),
         }
     }
@@ -97,7 +100,8 @@ impl Gate {
         unit: &OnBoard,
         now: Moment,
     ) -> Result<(), Refusal> {
-        judge.is_clear(unit, &self.bounds).map_err(Refusal::Path)?;
-        judge.start(unit, now.utc).map_or(Ok(()), |start| self.slew_is_clear(start, now))
+        judge.is_clear(unit, &self.bounds)?;
+        let start = judge.start(unit, now.utc).ok_or(Refusal::NoDirection { at: now.utc })?;
+        self.slew_is_clear(start, now)
     }
 }

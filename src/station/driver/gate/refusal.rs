@@ -2,6 +2,7 @@
 
 use std::time::Duration;
 
+use jiff::Timestamp;
 use serde::{Deserialize, Serialize};
 
 use crate::{
@@ -9,7 +10,10 @@ use crate::{
     device::{panel::Act, settings::Hindrance},
     driver::Intent,
     name::{self, Name},
-    plan::{Barrier, on_board::Trespass},
+    plan::{
+        Barrier,
+        on_board::{NotClear, Trespass},
+    },
     station::LockOut,
 };
 
@@ -131,6 +135,12 @@ pub enum Refusal {
         /// As the unit reports it.
         name: String,
     },
+    /// The unit's window is too long to be judged.
+    #[error("the window of the unit is {hours:.0} hours long")]
+    WindowTooLong { hours: f64 },
+    /// Where the unit's own program leads is not known from this time on.
+    #[error("the elements give no direction at {at}")]
+    NoDirection { at: Timestamp },
     /// The pass does not reach the antenna's minimum elevation.
     #[error(
         "the pass reaches {highest_deg} degrees, the antenna points no lower than {lowest_deg}"
@@ -151,6 +161,15 @@ pub enum Refusal {
         field: Name,
         why: Hindrance,
     },
+}
+
+impl From<NotClear> for Refusal {
+    fn from(not_clear: NotClear) -> Self {
+        match not_clear {
+            NotClear::Leads(trespass) => Self::Path(trespass),
+            NotClear::NoDirection(at) => Self::NoDirection { at },
+        }
+    }
 }
 
 impl Refusal {

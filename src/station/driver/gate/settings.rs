@@ -39,7 +39,7 @@ impl Gate {
             _ => Ok(()),
         })?;
         self.path_of_is_clear(&shift.judge, &shift.axes, now)?;
-        shift.judge.is_clear(&shift.sky, &self.bounds).map_err(Refusal::Path)
+        Ok(shift.judge.is_clear(&shift.sky, &self.bounds)?)
     }
 
     /// Writes offsets of the unit's own track, or returns the reason not to. `shift` is what comes

@@ -311,8 +311,8 @@ impl Session {
                 self.gate.device().refuse_change(change, WriteError::NoLink, now);
             }
             // A group is read once the link is back and somebody looks. The link itself shows
-            // that nothing can be asked.
-            Command::ReadGroup(_) | Command::Ask(_) => {}
+            // that nothing can be asked. The loop disconnects.
+            Command::ReadGroup(_) | Command::Ask(_) | Command::Disconnect => {}
             Command::Preview(to) => self.previewed = to,
             Command::Connect => self.contact.wanted = Wanted::Yes,
             Command::LockOut(lock_out) => self.lock_out(lock_out, now),
@@ -324,16 +324,27 @@ impl Session {
             Command::AllowWayOut => self.allow_way_out(now),
             Command::SeenStanding => self.take_word_for_standstill(),
             Command::Resume => self.resume(),
-            Command::Standby => self.activity = Activity::Standby,
+            Command::Standby => self.leave_for(Activity::Standby, now),
             Command::AutoTrack(false) => self.end_auto_track(),
             Command::FirstOffsets(offsets) => self.begin_with(offsets),
             // The track goes on with the offsets that it has.
             Command::Offset(_) => self.tell(Event::OffsetRefused(Refusal::PositionUnknown)),
-            _ => {
-                // An operator who wants something else does not want this to go on.
-                if self.activity.program().is_some() {
-                    self.activity = Activity::Standby;
-                }
+            // What runs ends for another motion, and the STOP for it is the first word on the next
+            // link. The motion itself is refused.
+            Command::Manual
+            | Command::Hold
+            | Command::MoveAway
+            | Command::Step { .. }
+            | Command::Position { .. }
+            | Command::Park
+            | Command::Track(_)
+            | Command::TakeOver
+            | Command::ProgramTrack(_)
+            | Command::ProgramTrackIntoSun(_) => {
+                self.leave_for(Activity::Standby, now);
+                self.tell(Event::NotSent(Refusal::PositionUnknown));
+            }
+            Command::Act(_) | Command::ActUnseen(_) | Command::AutoTrack(true) => {
                 self.tell(Event::NotSent(Refusal::PositionUnknown));
             }
         }

@@ -232,10 +232,12 @@ impl Session {
                 return Some(loss);
             }
             let now = self.now();
+            // A clock that was set is seen before anything acts on its time.
+            if let Some(loss) = self.watch_clocks(now) {
+                return Some(loss);
+            }
             self.supervise(now);
-            if let Some(loss) =
-                self.watch_clocks(now).or_else(|| self.watch_link(now, start.steady))
-            {
+            if let Some(loss) = self.watch_link(now, start.steady) {
                 return Some(loss);
             }
             if self.contact.wanted == Wanted::ForStop && self.disconnect_after_stop() {

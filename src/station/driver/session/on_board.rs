@@ -5,9 +5,12 @@ use std::{sync::Arc, time::Duration};
 
 use super::{Event, Session, activity::Slew};
 use crate::{
-    astro::{Angle, time::add_seconds},
+    astro::{
+        Angle,
+        time::{add_seconds, seconds_between},
+    },
     clock::{Instant, Moment},
-    device::OnBoard,
+    device::{LONGEST_WINDOW_S, OnBoard},
     driver::{Intent, OnBoardView, TrackProblem, gate::Held},
     plan::{OnBoardPass, Supervision, on_board::Judge},
 };
@@ -126,7 +129,12 @@ impl Session {
         if own_now >= stop {
             return Held::Nothing;
         }
-        let from_now_on = OnBoard { window: Some((start.max(own_now), stop)), ..unit.clone() };
+        let start = start.max(own_now);
+        let span_s = seconds_between(start, stop);
+        if span_s > LONGEST_WINDOW_S as f64 {
+            return Held::TooLong { hours: span_s / 3600.0 };
+        }
+        let from_now_on = OnBoard { window: Some((start, stop)), ..unit.clone() };
         let orbit = self.wires.orbit.borrow().clone();
         let pass = orbit.and_then(|orbit| orbit.pass_of(&from_now_on));
         let judge = pass.and_then(|pass| Judge::new(pass, self.setup.ability).ok());

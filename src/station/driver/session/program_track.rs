@@ -136,8 +136,6 @@ impl Session {
         let Some(track) = self.activity.program_mut() else { return };
         let name = track.name();
         let before = std::mem::replace(&mut track.phase, phase);
-        // No answer means no for the pass that is over.
-        track.awaits_operator &= before != TrackPhase::Tracking;
         let mut over = None;
         if before == TrackPhase::Tracking {
             track.predicted = None;
@@ -160,13 +158,15 @@ impl Session {
         }
     }
 
-    /// The last pass is over.
+    /// The last pass is over. An antenna that waits for the operator's word is not parked either.
     fn end_program(&mut self, now: Moment) {
+        let awaits = (self.activity.program())
+            .is_some_and(|track| track.awaits_operator || track.recheck.is_some());
         self.activity = match std::mem::replace(&mut self.activity, Activity::Standby) {
             Activity::ProgramTrack(track) => Activity::Hold(Some(track)),
             activity => activity,
         };
-        if self.setup.track_config.settings.after == AfterPass::Park {
+        if self.setup.track_config.settings.after == AfterPass::Park && !awaits {
             self.carry_out(Command::Park, now);
         }
     }

@@ -3,7 +3,7 @@
 use jiff::Timestamp;
 use serde::{Deserialize, Serialize};
 
-use super::Ability;
+use super::{Ability, path::NoDirection};
 use crate::{
     astro::{Angle, AzEl, xy_mount},
     plan::{Barrier, Bounds, Sample},
@@ -22,6 +22,14 @@ pub struct Trespass {
     pub limit: OffLimits,
 }
 
+/// Why a unit may not track a path by itself.
+#[derive(Debug, Clone, PartialEq)]
+pub enum NotClear {
+    Leads(Trespass),
+    /// The elements give no direction at this time, so that nobody knows where it leads.
+    NoDirection(Timestamp),
+}
+
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub enum OffLimits {
     /// Below the minimum elevation, degrees.
@@ -34,15 +42,18 @@ pub enum OffLimits {
 
 /// Checks that every sample of `path` is above the minimum elevation, within travel and outside
 /// keep-outs.
-pub fn path_is_clear(
-    mut path: impl Iterator<Item = Sample>,
+pub(super) fn path_is_clear(
+    mut path: impl Iterator<Item = Result<Sample, NoDirection>>,
     ability: &Ability,
     bounds: &Bounds,
-) -> Result<(), Trespass> {
-    path.try_for_each(|Sample { time, direction }| {
+) -> Result<(), NotClear> {
+    path.try_for_each(|sample| {
+        let Sample { time, direction } =
+            sample.map_err(|NoDirection(at)| NotClear::NoDirection(at))?;
         let forbidden = || bounds.at(time).forbids(direction).map(OffLimits::Forbidden);
         let limit = off_limits(direction, ability).or_else(forbidden);
-        limit.map_or(Ok(()), |limit| Err(Trespass { at: time, direction, limit }))
+        let leads = |limit| NotClear::Leads(Trespass { at: time, direction, limit });
+        limit.map_or(Ok(()), |limit| Err(leads(limit)))
     })
 }
 

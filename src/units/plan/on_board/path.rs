@@ -125,31 +125,39 @@ pub(super) fn turned(north_deg: f64, mount: Mount) -> Angle {
     ends.into_iter().fold(told, |least, off| if off.abs() < least.abs() { off } else { least })
 }
 
-/// The path of `unit` while its clock runs through `window`.
+/// The elements give no direction at this time.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct NoDirection(pub(super) Timestamp);
+
+/// The path of `unit` while its clock runs through `window`. It ends with the first sample that has
+/// no direction.
 pub(super) fn samples(
     unit: UnitPath<'_>,
     (start, stop): (Timestamp, Timestamp),
-) -> impl Iterator<Item = Sample> + '_ {
+) -> impl Iterator<Item = Result<Sample, NoDirection>> + '_ {
     let ours = |own: Timestamp| add_seconds(own, -unit.ahead_s);
     let (from, to) = (ours(start), ours(stop));
     let span_s = seconds_between(from, to).max(0.0);
     let at = move |after_s: f64| {
         let time = add_seconds(from, after_s);
-        Some(Sample { time, direction: unit.direction(time)? })
+        let direction = unit.direction(time).ok_or(NoDirection(time))?;
+        Ok(Sample { time, direction })
     };
-    let (mut last, mut after_s, mut step_s) = (None::<Sample>, 0.0, STEP_S);
+    let (mut last, mut after_s, mut step_s) = (None::<Result<Sample, _>>, 0.0, STEP_S);
     std::iter::from_fn(move || {
-        let Some(before) = last else {
-            last = at(0.0);
-            return last;
+        let before = match last {
+            None => {
+                last = Some(at(0.0));
+                return last;
+            }
+            Some(Ok(before)) if after_s < span_s => before,
+            Some(_) => return None,
         };
-        if after_s >= span_s {
-            return None;
-        }
         loop {
             let next_s = (after_s + step_s).min(span_s);
-            let next = at(next_s)?;
-            let way_deg = before.direction.separation(next.direction).degrees();
+            let next = at(next_s);
+            let way_deg =
+                next.map_or(0.0, |next| before.direction.separation(next.direction).degrees());
             if way_deg > STEP_DEG && step_s > STEP_S {
                 step_s = (step_s / 2.0).max(STEP_S);
                 continue;

@@ -237,7 +237,7 @@ fn a_lower_minimum_of_the_unit_is_told_beside() {
 fn a_path_is_finely_sampled_to_its_end() {
     let judge = judge();
     let unit = UnitPath::of(&OnBoard { clock: Some(clock(7.0)), ..right() }, &judge);
-    let path: Vec<Sample> = judge.path(unit).collect();
+    let path: Vec<Sample> = judge.path(unit).collect::<Result<_, _>>().unwrap();
     let first = path.first().unwrap();
     assert!((seconds_between(first.time, pass().aos.time) - 7.0).abs() < 1e-6);
     assert!(first.direction.separation(pass().aos.direction).degrees() < 1e-6, "as it waits");
@@ -249,20 +249,41 @@ fn a_path_is_finely_sampled_to_its_end() {
 }
 
 #[test]
+fn a_path_that_nobody_knows_is_not_clear() {
+    let gone = |days: u32| {
+        let at = add_seconds(ELEMENTS.epoch(), f64::from(days) * 86_400.0);
+        PROPAGATOR.look_from(site(), at).is_err().then_some(at)
+    };
+    let gone = (0..100_000).step_by(50).find_map(gone).expect("elements that end");
+    let mut judge = judge();
+    for until_s in [0.0, 3600.0] {
+        judge.pass.target.from = add_seconds(gone, until_s - 3600.0);
+        judge.pass.target.until = add_seconds(gone, until_s);
+        // The rest of the path may be clear.
+        judge.ability.minimum_elevation = Angle::from_degrees(-90.0);
+        assert!(judge.is_clear(&right(), &open_sky()).is_err(), "{until_s}");
+    }
+}
+
+#[test]
 fn a_path_below_the_limit_or_beyond_the_travel_says_where_first() {
     assert_eq!(judge().is_clear(&right(), &open_sky()), Ok(()));
-    let low = judge_above(45.0).is_clear(&right(), &open_sky()).unwrap_err();
+    let leads = |judge: &Judge, unit: &OnBoard| match judge.is_clear(unit, &open_sky()) {
+        Err(NotClear::Leads(trespass)) => trespass,
+        other => panic!("{other:?}"),
+    };
+    let low = leads(&judge_above(45.0), &right());
     assert_eq!(low.limit, OffLimits::Elevation { lowest_deg: 45.0 });
     assert_eq!(low.at, pass().aos.time);
     // With an offset that lowers the path, the end of the pass is as low as its beginning.
-    let sunk = judge_above(10.0).is_clear(
+    let sunk = leads(
+        &judge_above(10.0),
         &with(|offsets| {
             offsets.elevation_deg = -3.0;
             offsets.minimum_elevation_deg = 0.0;
         }),
-        &open_sky(),
     );
-    assert!(matches!(sunk.unwrap_err().limit, OffLimits::Elevation { .. }));
+    assert!(matches!(sunk.limit, OffLimits::Elevation { .. }));
     // Late by the time offset, whichever way the unit applies it.
     let late = with(|offsets| {
         (offsets.time_s, offsets.minimum_elevation_deg) = (120.0, 0.0);
@@ -271,5 +292,5 @@ fn a_path_below_the_limit_or_beyond_the_travel_says_where_first() {
     let mut narrow = judge();
     narrow.ability.mount =
         Mount::Xy { lower_axis_azimuth_deg: 0.0, travel_from_deg: 60.0, travel_to_deg: 120.0 };
-    assert_eq!(narrow.is_clear(&right(), &open_sky()).unwrap_err().limit, OffLimits::Travel);
+    assert_eq!(leads(&narrow, &right()).limit, OffLimits::Travel);
 }

@@ -9,14 +9,12 @@ use super::{
 use crate::{
     astro::time::add_seconds,
     device::{
-        UnitClock,
+        LONGEST_WINDOW_S, UnitClock,
         settings::{Field, Group, Key, Unfit, Value, Values, WriteError},
     },
     protocol::satrak::{ClockTime, Reply, Setting, TrackWindow},
 };
 
-/// No pass of a satellite that moves is longer, seconds.
-const LONGEST_S: i64 = 86_400;
 /// Accuracy of the unit's clock, seconds: the command has no parts of a second, and the answer
 /// takes its way.
 const CLOCK_RIGHT_S: f64 = 2.0;
@@ -90,7 +88,7 @@ pub(super) fn write_window(desired: &Desired<'_>) -> Result<Setting, WriteError>
     if stop <= desired.utc {
         return refuse("is over already");
     }
-    if stop.as_second() - start.as_second() > LONGEST_S {
+    if stop.as_second() - start.as_second() > LONGEST_WINDOW_S {
         return refuse("is more than a day after the start");
     }
     TrackWindow::new(start, stop).map(Setting::StartStopTime).map_err(cannot(STOP.name))
