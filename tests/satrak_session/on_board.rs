@@ -3,14 +3,14 @@
 use azel::{
     astro::{Angle, AzEl, time},
     device::{Phase, TrackTarget, settings::Value},
-    driver::{Command, Event, Intent, Refusal},
+    driver::{Command, Event, Intent, Refusal, Response, Safety},
     orbit::{PassSearch, Propagator, passes},
     plan::{
         Bounds, OnBoardPass, Supervision,
         on_board::{Cause, OffLimits, Trespass},
     },
     protocol::satrak::encode,
-    station::Station,
+    station::{Antenna, Monitor, Station},
 };
 use tokio::io::AsyncWriteExt as _;
 
@@ -262,6 +262,26 @@ fn in_the_way() -> Bounds {
     let mast = crate::common::mast(&corners_deg);
     let station = Station { keep_outs: vec![mast], ..Station::default() };
     Bounds::of(&station, &antenna())
+}
+
+/// The mast stands up while the unit tracks what it was asked to from here.
+#[tokio::test(start_paused = true)]
+async fn a_track_from_here_is_stopped_before_a_keep_out_whatever_the_station_wants_of_others() {
+    let alarm_alone = Antenna { monitor: Monitor::Alarm, ..antenna() };
+    let mut rig = Rig::connected(&options(), &alarm_alone).await;
+    rig.send(track(iss()));
+    rig.until_event(10, |event| matches!(event, Event::Tracking(_))).await;
+    rig.handle().keep_within(in_the_way());
+    let forbidden = |event: &Event| matches!(event, Event::Safety(Safety::Forbidden { .. }));
+    let told = rig.until_event(1000, forbidden).await;
+    let Event::Safety(Safety::Forbidden { response, .. }) = told else { panic!("{told:?}") };
+    assert_eq!(response, Response::Stopped);
+    rig.seconds(5.0).await;
+    let state = rig.control.state();
+    assert!(!state.is_moving && !state.is_tracking);
+    let bounds = in_the_way();
+    let at = AzEl::from_degrees(state.az_deg, state.el_deg);
+    assert_eq!(bounds.at(iss().from).forbids(at), None, "{at:?}");
 }
 
 async fn auto_track_refused(rig: &mut Rig) -> Refusal {

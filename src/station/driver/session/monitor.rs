@@ -99,10 +99,12 @@ impl Session {
             self.seen.watch.told.retain(|barrier| *barrier != here.barrier);
             return;
         }
-        // Motions from here are stopped in any case: the gate has let them through.
+        // What was asked for from here is stopped in any case, also where the unit carries it out by
+        // itself: the gate has let it through.
+        let is_asked = driver == Mover::Azel || (self.activity.on_board().is_some() && !is_floor);
         let stops = (enters || goes_deeper)
             && !here.warns_only
-            && (driver == Mover::Azel || self.setup.monitor == Monitor::Stop);
+            && (is_asked || self.setup.monitor == Monitor::Stop);
         if stops && !self.stop.is_under_way() {
             self.halt(now);
         } else if is_told {

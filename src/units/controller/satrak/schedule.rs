@@ -15,7 +15,7 @@ const SLOW: [(Query, Duration); 7] = [
     (Query::GpsSettings, Duration::from_secs(30)),
 ];
 /// Interval for the list of faults while the fault flag is set.
-const FAULTS_WHILE_SET: Duration = Duration::from_secs(5);
+const FAULTS_WHILE_SET: Duration = Duration::from_secs(1);
 /// Interval for a question that the unit does not know.
 const UNKNOWN: Duration = Duration::from_mins(5);
 
