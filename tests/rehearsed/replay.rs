@@ -34,7 +34,7 @@ async fn watch(mut client: Client) -> Vec<Arc<Snapshot>> {
 fn told(shown: &Snapshot) -> Value {
     let mut told = serde_json::to_value(shown).unwrap();
     told["recorded"] = Value::Null;
-    // The film has the rates that are made of these, and nothing else shows them.
+    // The film keeps only the rates that Azel computes from these measurements.
     for antenna in told["antennas"].as_array_mut().unwrap() {
         antenna["recent"] = Value::Null;
     }

@@ -264,17 +264,17 @@ fn in_the_way() -> Bounds {
     Bounds::of(&station, &antenna())
 }
 
-/// The mast stands up while the unit tracks what it was asked to from here.
+/// The keep-out is added while the unit tracks a pass that Azel requested.
 #[tokio::test(start_paused = true)]
-async fn a_track_from_here_is_stopped_before_a_keep_out_whatever_the_station_wants_of_others() {
+async fn an_on_board_track_that_azel_started_stops_before_a_keep_out() {
     let alarm_alone = Antenna { monitor: Monitor::Alarm, ..antenna() };
     let mut rig = Rig::connected(&options(), &alarm_alone).await;
     rig.send(track(iss()));
     rig.until_event(10, |event| matches!(event, Event::Tracking(_))).await;
     rig.handle().keep_within(in_the_way());
     let forbidden = |event: &Event| matches!(event, Event::Safety(Safety::Forbidden { .. }));
-    let told = rig.until_event(1000, forbidden).await;
-    let Event::Safety(Safety::Forbidden { response, .. }) = told else { panic!("{told:?}") };
+    let event = rig.until_event(1000, forbidden).await;
+    let Event::Safety(Safety::Forbidden { response, .. }) = event else { panic!("{event:?}") };
     assert_eq!(response, Response::Stopped);
     rig.seconds(5.0).await;
     let state = rig.control.state();
@@ -315,14 +315,14 @@ async fn auto_track_of_a_satellite_that_is_not_known_here_is_refused_by_its_name
     assert_eq!(told, Refusal::OrbitUnknown { name: "TWIN".to_owned() });
 }
 
-/// Judging it takes a minute and more, in which no antenna gets a byte.
+/// Checking the whole window would block the driver of all antennas for more than a minute.
 #[tokio::test(start_paused = true)]
 async fn a_window_of_years_is_refused_before_it_is_judged() {
     let mut rig = read().await;
     let years = TrackTarget { until: "2099-12-31T00:00:00Z".parse().unwrap(), ..iss() };
     chosen_by_another(&mut rig, &years).await;
-    let told = auto_track_refused(&mut rig).await.to_string();
-    assert!(told.contains("window") && told.contains("hours"), "{told}");
+    let refusal = auto_track_refused(&mut rig).await.to_string();
+    assert!(refusal.contains("window") && refusal.contains("hours"), "{refusal}");
 }
 
 #[tokio::test(start_paused = true)]

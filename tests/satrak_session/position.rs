@@ -159,7 +159,7 @@ async fn a_motion_that_ends_elsewhere_is_told() {
     assert!(!rig.shown().pending);
 }
 
-/// A warning keeps the fault flag up, so that the flag does not tell of a second fault.
+/// A warning keeps the fault flag set, so the flag cannot announce a second fault.
 #[tokio::test(start_paused = true)]
 async fn a_fault_that_joins_a_warning_locks_motion_within_two_seconds() {
     let mut rig = Rig::usual().await;

@@ -88,7 +88,7 @@ async fn tracking_that_ended_meanwhile_is_not_started_again() {
     assert_eq!(rig.sent("TRACK=,1").len(), 1);
 }
 
-/// The metal goes on while the link is down, until the STOP for the motion that was left.
+/// The antenna keeps moving while the link is down, until it receives STOP.
 #[tokio::test(start_paused = true)]
 async fn a_motion_that_is_left_while_the_link_is_down_is_stopped_first_when_it_is_back() {
     for command in [Command::Standby, Command::Manual, Command::Hold, Command::Park, track(iss())] {

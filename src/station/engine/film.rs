@@ -139,47 +139,50 @@ fn drawn(picture: &serde_json::Value) -> serde_json::Result<Drawn> {
     serde_json::from_slice(&serde_json::to_vec(picture)?)
 }
 
-/// The antennas without their large parts and what of them stands in the last picture.
+/// Returns the antennas without their large parts and without values that the previous picture has.
 fn without_parts(antennas: &[AntennaModel], parts: &mut Parts) -> Vec<AntennaModel> {
     let mut antennas = antennas.to_vec();
     for (index, antenna) in antennas.iter_mut().enumerate() {
-        antenna.snapshot =
-            without_same(format!("/shown/antennas/{index}/snapshot"), &antenna.snapshot, parts);
+        antenna.snapshot = without_unchanged(
+            format!("/shown/antennas/{index}/snapshot"),
+            &antenna.snapshot,
+            parts,
+        );
         antenna.errors = Errors::default();
         antenna.past_tracks = PastTracks::default();
-        // Their rates are shown, they are not.
+        // The film keeps the rates computed from these measurements.
         antenna.recent.clear();
     }
     antennas
 }
 
-/// A snapshot at `place` without what stands in the last picture.
-fn without_same(
+/// Returns the snapshot at `place` without values that the previous picture has.
+fn without_unchanged(
     place: String,
     snapshot: &Arc<driver::Snapshot>,
     parts: &mut Parts,
 ) -> Arc<driver::Snapshot> {
-    let of_state = |field| format!("{place}/state/{field}");
+    let state_field = |field| format!("{place}/state/{field}");
     let state = &snapshot.state;
-    let readings = parts.is_same(of_state("readings"), &state.readings);
-    let checks = parts.is_same(of_state("checks"), &state.checks);
-    let questions = parts.is_same(of_state("questions"), &state.questions);
-    let held = parts.is_same(of_state("held"), &state.held);
-    // After its parts: what the parts of a place are is kept for when the place changes.
+    let same_readings = parts.is_same(state_field("readings"), &state.readings);
+    let same_checks = parts.is_same(state_field("checks"), &state.checks);
+    let same_questions = parts.is_same(state_field("questions"), &state.questions);
+    let same_held = parts.is_same(state_field("held"), &state.held);
+    // Compare the fields first, so that they stay known while the whole snapshot is unchanged.
     if parts.is_same(place, snapshot) {
         return Arc::new(driver::Snapshot::before_anything(LinkState::Off));
     }
     let mut snapshot = driver::Snapshot::clone(snapshot);
-    if readings {
+    if same_readings {
         snapshot.state.readings = Arc::default();
     }
-    if checks {
+    if same_checks {
         snapshot.state.checks = Arc::default();
     }
-    if questions {
+    if same_questions {
         snapshot.state.questions = Arc::default();
     }
-    if held {
+    if same_held {
         snapshot.state.held = Arc::default();
     }
     Arc::new(snapshot)

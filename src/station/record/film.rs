@@ -49,7 +49,7 @@ struct Known {
 struct Placed {
     address: usize,
     is_shown: bool,
-    /// Nothing else has the address while this is held.
+    /// Keeps the address from being reused.
     _held: Box<dyn Any + Send + Sync>,
 }
 

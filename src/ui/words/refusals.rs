@@ -131,13 +131,13 @@ pub fn refusal(refusal: &Refusal, now: Timestamp) -> String {
              is not known. Load its elements, or choose another satellite."
         ),
         Refusal::WindowTooLong { hours } => format!(
-            "Not sent: the unit's tracking window is {} days long, and no more than 24 hours are \
-             judged. Set a shorter window under Antennas.",
+            "Not sent: the unit's tracking window is {} days long, and Azel checks 24 hours at most. \
+             Set a shorter window under Antennas.",
             format::number(hours / 24.0, 1)
         ),
         Refusal::NoDirection { at } => format!(
-            "Not sent: the elements give no direction at {}, so where the unit would point is not \
-             known. Load newer elements, or set a shorter window under Antennas.",
+            "Not sent: the elements give no direction at {}, so Azel cannot check where the unit would \
+             point. Load newer elements or set a shorter window under Antennas.",
             format::moment(*at, now)
         ),
         Refusal::TooLow { highest_deg, lowest_deg } => format!(

@@ -6,8 +6,8 @@ use serde::{Deserialize, Serialize};
 use super::settings::{Value, Values};
 use crate::astro::{Angle, GroundPoint, Offset, Site, TrackOffsets, frames::MEAN_RADIUS_KM};
 
-/// Longest window of a unit's own track that is written or judged, seconds: no pass of a satellite
-/// that moves is longer, and what is judged is judged step by step.
+/// Maximum tracking window that Azel writes to a unit or checks, seconds. No pass of a moving
+/// satellite is longer, and the check takes time in proportion to the window.
 pub const LONGEST_WINDOW_S: i64 = 86_400;
 
 /// On-board track of a unit, each part as last read. `None` means not read, or not

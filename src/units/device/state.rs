@@ -63,14 +63,14 @@ impl AntennaState {
         Arc::make_mut(&mut self.held).entry(key).or_default()
     }
 
-    /// Shows `readings`. A list that stays the same stays shared.
+    /// Replaces the readings if they changed; an unchanged list keeps its address for comparisons.
     pub(crate) fn show_readings(&mut self, readings: Vec<Reading>) {
         if *self.readings != readings {
             self.readings = readings.into();
         }
     }
 
-    /// Shows `checks`. A list that stays the same stays shared.
+    /// Replaces the checks if they changed; an unchanged list keeps its address for comparisons.
     pub(crate) fn show_checks(&mut self, checks: Vec<Check>) {
         if *self.checks != checks {
             self.checks = checks.into();

@@ -159,7 +159,7 @@ impl Judge {
     }
 
     /// Checks the real track against the limits of the antenna. The error is the first
-    /// position outside them, or the first one that is not known.
+    /// position outside them, or the first unknown position.
     pub fn is_clear(&self, unit: &OnBoard, bounds: &Bounds) -> Result<(), NotClear> {
         let unit = UnitPath::of(unit, self);
         unit.either_way().try_for_each(|unit| path_is_clear(self.path(unit), &self.ability, bounds))

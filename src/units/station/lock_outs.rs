@@ -27,8 +27,8 @@ pub struct LockOut {
     pub since: Timestamp,
 }
 
-/// Reads a text for a terminal or a row: control characters become spaces, so that it neither acts
-/// on the terminal nor looks like a line of its own.
+/// Reads a text and replaces control characters with spaces, so that it can neither send escape
+/// sequences to a terminal nor forge a line.
 fn one_line<'de, D: Deserializer<'de>>(from: D) -> Result<String, D::Error> {
     let text = String::deserialize(from)?;
     Ok(text.replace(char::is_control, " "))
@@ -183,7 +183,6 @@ mod tests {
         "2026-11-22T11:00:00Z".parse().unwrap()
     }
 
-    /// The texts reach terminals and logs.
     #[test]
     fn a_text_of_another_program_is_one_line_without_control_characters() {
         let told = r#"{"by": "Ada\u001b[2J", "reason": "belts\nMast: stands\u009b1m",

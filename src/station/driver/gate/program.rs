@@ -20,7 +20,7 @@ pub(in crate::driver) enum Held {
     Nothing,
     /// This pass, from now on.
     Pass(Arc<Judge>),
-    /// Something in a window that is too long to be judged.
+    /// A satellite in a tracking window that is too long to check.
     TooLong { hours: f64 },
     /// A satellite whose orbit is unknown here.
     Unknown { name: String },

@@ -135,10 +135,10 @@ pub enum Refusal {
         /// As the unit reports it.
         name: String,
     },
-    /// The unit's window is too long to be judged.
+    /// The unit's tracking window is too long to check.
     #[error("the window of the unit is {hours:.0} hours long")]
     WindowTooLong { hours: f64 },
-    /// Where the unit's own program leads is not known from this time on.
+    /// The elements yield no direction at this time, so the unit's path is unknown.
     #[error("the elements give no direction at {at}")]
     NoDirection { at: Timestamp },
     /// The pass does not reach the antenna's minimum elevation.

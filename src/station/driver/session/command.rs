@@ -311,7 +311,7 @@ impl Session {
                 self.gate.device().refuse_change(change, WriteError::NoLink, now);
             }
             // A group is read once the link is back and somebody looks. The link itself shows
-            // that nothing can be asked. The loop disconnects.
+            // that nothing can be asked. The I/O loop handles a disconnect.
             Command::ReadGroup(_) | Command::Ask(_) | Command::Disconnect => {}
             Command::Preview(to) => self.previewed = to,
             Command::Connect => self.contact.wanted = Wanted::Yes,
@@ -329,8 +329,8 @@ impl Session {
             Command::FirstOffsets(offsets) => self.begin_with(offsets),
             // The track goes on with the offsets that it has.
             Command::Offset(_) => self.tell(Event::OffsetRefused(Refusal::PositionUnknown)),
-            // What runs ends for another motion, and the STOP for it is the first word on the next
-            // link. The motion itself is refused.
+            // Another motion ends the current one, so Azel owes it a STOP as soon as the link is back.
+            // Azel refuses the new motion, because the unit's position is unknown.
             Command::Manual
             | Command::Hold
             | Command::MoveAway

@@ -232,7 +232,7 @@ impl Session {
                 return Some(loss);
             }
             let now = self.now();
-            // A clock that was set is seen before anything acts on its time.
+            // Detect a clock step first, because supervision acts on UTC.
             if let Some(loss) = self.watch_clocks(now) {
                 return Some(loss);
             }

@@ -99,12 +99,13 @@ impl Session {
             self.seen.watch.told.retain(|barrier| *barrier != here.barrier);
             return;
         }
-        // What was asked for from here is stopped in any case, also where the unit carries it out by
-        // itself: the gate has let it through.
-        let is_asked = driver == Mover::Azel || (self.activity.on_board().is_some() && !is_floor);
+        // Azel always stops its own requests, including on-board tracks: it started them, so the
+        // station's setting for other people's motions does not apply.
+        let is_requested =
+            driver == Mover::Azel || (self.activity.on_board().is_some() && !is_floor);
         let stops = (enters || goes_deeper)
             && !here.warns_only
-            && (is_asked || self.setup.monitor == Monitor::Stop);
+            && (is_requested || self.setup.monitor == Monitor::Stop);
         if stops && !self.stop.is_under_way() {
             self.halt(now);
         } else if is_told {

@@ -158,7 +158,7 @@ impl Session {
         }
     }
 
-    /// The last pass is over. An antenna that waits for the operator's word is not parked either.
+    /// Ends the track after its last pass. Does not park an antenna that waits for the operator.
     fn end_program(&mut self, now: Moment) {
         let awaits = (self.activity.program())
             .is_some_and(|track| track.awaits_operator || track.recheck.is_some());

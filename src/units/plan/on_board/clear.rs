@@ -26,7 +26,7 @@ pub struct Trespass {
 #[derive(Debug, Clone, PartialEq)]
 pub enum NotClear {
     Leads(Trespass),
-    /// The elements give no direction at this time, so that nobody knows where it leads.
+    /// The elements yield no direction at this time, so the path is unknown.
     NoDirection(Timestamp),
 }
 

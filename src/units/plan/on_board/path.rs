@@ -125,12 +125,12 @@ pub(super) fn turned(north_deg: f64, mount: Mount) -> Angle {
     ends.into_iter().fold(told, |least, off| if off.abs() < least.abs() { off } else { least })
 }
 
-/// The elements give no direction at this time.
+/// Time at which the elements yield no direction.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct NoDirection(pub(super) Timestamp);
 
-/// The path of `unit` while its clock runs through `window`. It ends with the first sample that has
-/// no direction.
+/// Samples the path of `unit` while its clock runs through `window`. Ends at the first sample without
+/// a direction.
 pub(super) fn samples(
     unit: UnitPath<'_>,
     (start, stop): (Timestamp, Timestamp),
