@@ -10,7 +10,7 @@
 use std::{hint::black_box, time::Instant};
 
 use azel::{
-    plan::Bounds,
+    plan::{Bounds, Sweep},
     station::{Antenna, Entered, KeepOut, Station, SunAvoidance},
 };
 
@@ -56,7 +56,7 @@ fn main() {
             for look in 0..LOOKS {
                 let ahead = f64::from(look);
                 let axes_deg = [from_deg[0] + ahead * by_deg[0], from_deg[1] + ahead * by_deg[1]];
-                black_box(now.way_out_deg(black_box(axes_deg)));
+                black_box(now.way_out_deg(black_box(Sweep::at(axes_deg))));
             }
             started.elapsed().as_secs_f64() * 1e3
         });

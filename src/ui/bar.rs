@@ -144,7 +144,10 @@ fn barrier_of(kind: &AlarmKind) -> Option<&Barrier> {
 fn is_left_to_the_sun(kind: &AlarmKind, antenna: &AntennaModel) -> bool {
     let is_about = barrier_of(kind) == Some(&Barrier::Sun);
     let snapshot = &antenna.snapshot;
-    let is_there = snapshot.inside.as_ref().is_some_and(|inside| inside.barrier == Barrier::Sun);
+    let is_there = snapshot
+        .inside
+        .as_ref()
+        .is_some_and(|inside| inside.barrier == Barrier::Sun && inside.unknown_axis.is_none());
     is_about && is_there && antenna.can_park() && !antenna.is_busy()
 }
 

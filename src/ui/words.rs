@@ -26,8 +26,8 @@ pub use offsets::{
 };
 pub use on_board::{cause, lower_minimum, not_known, trespass, within_beam, would_miss};
 pub use refusals::{
-    HOLD_UNGUARDED, HOLD_UNSEEN, HOLD_WAY_OUT, hindrance, link_loss, not_possible, prepare_error,
-    refusal, track_problem,
+    HOLD_UNCHECKED, HOLD_UNGUARDED, HOLD_UNSEEN, HOLD_WAY_OUT, hindrance, link_loss, not_possible,
+    prepare_error, refusal, track_problem,
 };
 pub use safety::{
     SUN_IS_LIFTED, UNGUARDED, asks_standing, auto_track_owed, forbidden, inside, offsets_owed,

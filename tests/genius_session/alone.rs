@@ -4,12 +4,15 @@ use azel::{
     astro::Angle,
     controller::rotator_genius::{ALONE, OTHER, Rotators},
     device::{Asked, panel::Act, settings::Value},
-    driver::{Command, Event, Refusal},
-    protocol::rotator_genius::RotatorNumber,
+    driver::{Command, Event, Refusal, Safety},
+    plan::Bounds,
+    protocol::rotator_genius::{RotatorNumber, WholeDegrees},
     sim::rotator_genius::{Fault, Options, RotatorOptions},
+    station::Station,
 };
+use tokio::io::AsyncWriteExt as _;
 
-use super::rig::{Rig, azimuth, pair, to};
+use super::rig::{Rig, antenna, azimuth, pair, to};
 
 fn two_azimuths() -> Options {
     Options { rotators: [azimuth("Mast", 90), azimuth("Tower", 300)], ..pair() }
@@ -167,4 +170,66 @@ async fn an_elevation_rotator_is_no_azimuth() {
     rig.seconds(0.1).await;
     let events = rig.events();
     assert!(matches!(events[..], [Event::NotSent(Refusal::Controller(_))]), "{events:?}");
+}
+
+/// Only the azimuth turns; a mast 20 degrees high stands in the way.
+fn before_a_mast(from_deg: f64, to_deg: f64) -> Bounds {
+    let corners = [(from_deg, 5.0), (to_deg, 5.0), (to_deg, 20.0), (from_deg, 20.0)];
+    let mast = crate::common::mast(&corners);
+    let station = Station { keep_outs: vec![mast], ..Station::default() };
+    Bounds::of(&station, &antenna(Rotators::First))
+}
+
+#[tokio::test(start_paused = true)]
+async fn a_keep_out_above_the_horizon_is_one_for_an_azimuth_alone() {
+    let options = Options { max_clients: 2, ..two_azimuths() };
+    let mut rig = Rig::connected(&options, Rotators::First).await;
+    rig.handle().keep_within(before_a_mast(110.0, 130.0));
+    rig.seconds(1.0).await;
+    // Another program turns it clockwise.
+    let mut other = crate::common::network::link(&rig.control);
+    other.write_all(b"|P1").await.unwrap();
+    let is_told = |event: &Event| matches!(event, Event::Safety(Safety::Forbidden { .. }));
+    rig.until_event(30, is_told).await;
+    rig.seconds(5.0).await;
+    let azimuth_deg = rig.axes_deg()[0].unwrap();
+    assert!(azimuth_deg < 109.0, "{azimuth_deg}");
+}
+
+#[tokio::test(start_paused = true)]
+async fn an_azimuth_inside_a_keep_out_is_jogged_out() {
+    let mut rig = Rig::connected(&two_azimuths(), Rotators::First).await;
+    rig.handle().keep_within(before_a_mast(80.0, 130.0));
+    rig.send(Command::Manual);
+    rig.until("inside", 5, |shown| shown.inside.is_some()).await;
+    rig.send(Command::AllowWayOut);
+    rig.seconds(0.1).await;
+    rig.hold([4.0, 0.0], 0.5).await;
+    rig.send(Command::EndJog);
+    rig.seconds(3.0).await;
+    assert_eq!(rig.axes_deg()[0], Some(90.0), "deeper");
+    for _ in 0..20 {
+        rig.hold([-1.0, 0.0], 1.0).await;
+        rig.send(Command::EndJog);
+        rig.seconds(1.0).await;
+    }
+    assert!(rig.axes_deg()[0].unwrap() < 80.0);
+    assert_eq!(rig.shown().inside, None);
+}
+
+#[tokio::test(start_paused = true)]
+async fn a_rotator_that_may_turn_over_north_is_judged_both_ways_round() {
+    let mut rotators = [azimuth("Mast", 320), azimuth("Tower", 300)];
+    let at = |degrees| WholeDegrees::new(degrees).unwrap();
+    (rotators[0].limit_ccw, rotators[0].limit_cw) = (at(190), at(170));
+    let mut rig = Rig::connected(&Options { rotators, ..pair() }, Rotators::First).await;
+    rig.handle().keep_within(before_a_mast(358.0, 362.0));
+    rig.seconds(1.0).await;
+    rig.send(to(Some(40.0), None));
+    rig.seconds(0.5).await;
+    let events = rig.events();
+    assert!(
+        matches!(events[..], [Event::NotSent(Refusal::Forbidden { .. })]),
+        "the unit goes from 320 to 40 degrees over north: {events:?}"
+    );
 }

@@ -156,7 +156,8 @@ async fn a_sensor_that_is_lost_in_a_jog_ends_it() {
     }
     assert_eq!(device.orders()[..2], ["|P1", "|S"]);
     let unknown = Event::NotSent(Refusal::AngleUnknown { axis: "Az" });
-    assert!(device.events().contains(&unknown));
+    let events = device.events();
+    assert!(events.contains(&unknown), "{events:?}");
 }
 
 #[tokio::test(start_paused = true)]

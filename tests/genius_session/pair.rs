@@ -4,9 +4,11 @@ use azel::{
     astro::AzEl,
     controller::rotator_genius::Rotators,
     device::panel::CheckState,
-    driver::{Event, Intent, Refusal},
-    protocol::rotator_genius::WholeDegrees,
+    driver::{Command, Event, Intent, Refusal},
+    plan::{Barrier, Bounds},
+    protocol::rotator_genius::{RotatorNumber, WholeDegrees},
     sim::rotator_genius::{Fault, Options, RotatorOptions},
+    station::Station,
 };
 
 use super::rig::{Rig, azimuth, pair, to};
@@ -125,4 +127,72 @@ async fn both_rotators_are_shown_with_all_that_they_tell() {
     // After 5 s at 4 degrees a second, with a ramp of a second.
     assert!((0.3..0.6).contains(&share), "{share}");
     assert!(rig.reading("Heading 1").ends_with("°, turning clockwise"));
+}
+
+/// A pair whose azimuth has lost its sensor, in Manual, 60 degrees up, with these bounds.
+async fn without_an_azimuth(station: &Station, minimum_elevation_deg: f64) -> Rig {
+    let mut elevation = RotatorOptions::elevation();
+    elevation.position = WholeDegrees::new(60).unwrap();
+    let options = Options { rotators: [RotatorOptions::default(), elevation], ..pair() };
+    let mut rig = Rig::connected(&options, Rotators::Pair).await;
+    let mut antenna = super::rig::antenna(Rotators::Pair);
+    antenna.limits.minimum_elevation_deg = minimum_elevation_deg;
+    rig.handle().keep_within(Bounds::of(station, &antenna));
+    rig.control.set_fault(Fault::NoSensor(RotatorNumber::One), true);
+    // The mast may be anywhere within its travel by now.
+    rig.seconds(100.0).await;
+    rig.send(Command::Manual);
+    rig.events();
+    rig
+}
+
+fn elevation_deg(rig: &Rig) -> f64 {
+    rig.axes_deg()[1].unwrap()
+}
+
+#[tokio::test(start_paused = true)]
+async fn an_azimuth_without_a_sensor_does_not_lift_the_minimum_elevation() {
+    let mut rig = without_an_azimuth(&Station::default(), 40.0).await;
+    rig.hold([0.0, -4.0], 15.0).await;
+    rig.seconds(3.0).await;
+    assert!(elevation_deg(&rig) >= 39.0, "{}", elevation_deg(&rig));
+    let events = rig.events();
+    let is_refused = |event: &Event| {
+        matches!(event, Event::NotSent(Refusal::Forbidden { barrier, .. })
+            if *barrier == Barrier::MinimumElevation)
+    };
+    assert!(events.iter().any(is_refused), "{events:?}");
+}
+
+#[tokio::test(start_paused = true)]
+async fn while_the_azimuth_is_unknown_a_keep_out_may_be_anywhere_below() {
+    let mast = crate::common::mast(&[(10.0, -5.0), (30.0, -5.0), (30.0, 20.0), (10.0, 20.0)]);
+    let station = Station { keep_outs: vec![mast], ..Station::default() };
+    let mut rig = without_an_azimuth(&station, 0.0).await;
+    rig.hold([0.0, -4.0], 20.0).await;
+    rig.seconds(3.0).await;
+    let at_deg = elevation_deg(&rig);
+    assert!((21.0..40.0).contains(&at_deg), "{at_deg}");
+    let barrier = || Barrier::KeepOut("mast".into());
+    let is_refused = |event: &Event| matches!(event, Event::NotSent(Refusal::Forbidden { barrier: hit, .. }) if *hit == barrier());
+    assert!(rig.events().iter().any(is_refused));
+    rig.send(Command::EndJog);
+}
+
+#[tokio::test(start_paused = true)]
+async fn below_a_keep_out_that_may_be_anywhere_it_moves_by_the_operators_hold_alone() {
+    let mast = crate::common::mast(&[(10.0, -5.0), (30.0, -5.0), (30.0, 70.0), (10.0, 70.0)]);
+    let station = Station { keep_outs: vec![mast], ..Station::default() };
+    let mut rig = without_an_azimuth(&station, 0.0).await;
+    rig.hold([0.0, -4.0], 1.0).await;
+    let unchecked = Refusal::Unchecked { axis: "Az", barrier: Barrier::KeepOut("mast".into()) };
+    assert_eq!(rig.events(), [Event::NotSent(unchecked)]);
+    let inside = rig.shown().inside.clone().unwrap();
+    assert_eq!((inside.unknown_axis, inside.may_leave), (Some("Az"), false));
+    rig.send(Command::EndJog);
+    rig.send(Command::AllowWayOut);
+    rig.seconds(0.1).await;
+    rig.hold([0.0, -4.0], 3.0).await;
+    assert!(elevation_deg(&rig) < 58.0);
+    assert_eq!(rig.events(), []);
 }

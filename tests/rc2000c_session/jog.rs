@@ -8,7 +8,7 @@ use azel::{
     device::{Asked, Motion},
     driver::{Command, Event, LinkState, Refusal},
     plan::Barrier,
-    sim::rc2000c::{Fault, Options, Quirk},
+    sim::rc2000c::{AxisOptions, Fault, Options, Quirk},
 };
 
 use super::rig::{Rig, antenna, uncalibrated};
@@ -238,4 +238,39 @@ async fn an_alarm_during_a_held_jog_ends_it() {
     assert!(later.len() <= 2, "{later:?}");
     assert!(rig.times("3X")[0] - since < Duration::from_millis(700));
     assert!(rig.events().contains(&Event::NotSent(Refusal::Fault)));
+}
+
+/// An antenna with a minimum elevation of 30 degrees, 36 degrees up, whose azimuth stands at its
+/// limit and reports no angle.
+async fn at_the_limit_of_its_azimuth() -> Rig {
+    let azimuth = AxisOptions { travel: 1524..=3630, ..AxisOptions::AZIMUTH };
+    let mut antenna = antenna();
+    antenna.limits.minimum_elevation_deg = 30.0;
+    let mut rig = Rig::connected(&Options { azimuth, ..Options::default() }, &antenna).await;
+    rig.send(Command::Manual);
+    rig.hold([-SLOW, 0.0], 2.0).await;
+    rig.send(Command::EndJog);
+    rig.seconds(3.0).await;
+    let [azimuth, _] = rig.shown().state.measured.unwrap().axes;
+    assert_eq!((azimuth.angle_deg, azimuth.minus_limit), (None, true));
+    rig.events();
+    rig
+}
+
+#[tokio::test(start_paused = true)]
+async fn an_azimuth_at_its_limit_does_not_lift_the_minimum_elevation() {
+    let mut rig = at_the_limit_of_its_azimuth().await;
+    rig.hold([0.0, -FAST], 15.0).await;
+    rig.seconds(3.0).await;
+    let elevation_deg = f64::from(rig.counts()[1] - 30) / 20.0;
+    assert!(elevation_deg >= 29.5, "{elevation_deg}");
+    let refused = |event: &Event| {
+        matches!(event, Event::NotSent(Refusal::Forbidden { barrier, .. })
+            if *barrier == Barrier::MinimumElevation)
+    };
+    assert!(rig.events().iter().any(refused));
+    // Nothing else is in the way.
+    rig.send(Command::EndJog);
+    rig.hold([0.0, FAST], 2.0).await;
+    assert!(f64::from(rig.counts()[1] - 30) / 20.0 > elevation_deg + 2.0);
 }

@@ -54,7 +54,7 @@ fn go_to(at: AzEl) -> Command {
 }
 
 fn mast(may_leave: bool) -> Inside {
-    Inside { barrier: Barrier::KeepOut("mast".into()), may_leave }
+    Inside { barrier: Barrier::KeepOut("mast".into()), unknown_axis: None, may_leave }
 }
 
 /// In Manual, in the middle of a mast that has just been drawn.

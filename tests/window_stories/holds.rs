@@ -79,7 +79,29 @@ const OUT: &str = "Hold 1 s to move out by hand";
 const INTO_SUN: &str = "Hold 1 s to follow the Sun";
 
 fn inside(barrier: Barrier, may_leave: bool) -> Snapshot {
-    Snapshot { inside: Some(Inside { barrier, may_leave }), ..states::manual() }
+    Snapshot { inside: Some(Inside { barrier, unknown_axis: None, may_leave }), ..states::manual() }
+}
+
+#[test]
+fn a_motion_that_cannot_be_checked_is_allowed_by_holding_only() {
+    let unknown = |may_leave| {
+        let barrier = Barrier::KeepOut("mast".into());
+        let inside = Some(Inside { barrier, unknown_axis: Some("Az"), may_leave });
+        Snapshot { inside, ..states::manual() }
+    };
+    let hold_unchecked = "Hold 1 s to move unchecked";
+    for size in rig::sizes() {
+        let mut window = rig::window(size, shows(unknown(false)));
+        assert!(says(&window, "The angle of Az is not known: Satrak may be inside “mast”."));
+        window.get_by_label(hold_unchecked).click();
+        assert_eq!(asked(&mut window), [], "a click is no hold");
+        hold(&mut window, hold_unchecked);
+        assert_eq!(asked(&mut window), [UiCommand::antenna(AntennaId(1), Command::AllowWayOut)]);
+
+        let window = rig::window(size, shows(unknown(true)));
+        assert!(says(&window, "Azel does not check where it leads"));
+        assert!(window.query_by_label(hold_unchecked).is_none());
+    }
 }
 
 #[test]

@@ -207,7 +207,11 @@ fn unguarded() -> Model {
 fn around_the_jog_keys() -> Vec<(&'static str, Model)> {
     let since = states::moving().state.measured.unwrap().received;
     let stop = StopState::NotConfirmed { since };
-    let inside = Some(Inside { barrier: Barrier::KeepOut("mast".into()), may_leave: false });
+    let inside = Some(Inside {
+        barrier: Barrier::KeepOut("mast".into()),
+        unknown_axis: None,
+        may_leave: false,
+    });
     let barrier = Barrier::KeepOut("the mast of the neighbours".into());
     let at = AzEl::from_degrees(103.0, 24.0);
     vec![

@@ -4,6 +4,7 @@
 //! code can start a motion. A new rule is one more entry of [`RULES`], and one more case of
 //! the table that proves it necessary (`tests/each_rule.rs`).
 
+mod intervals;
 mod offsets;
 mod preview;
 mod program;
@@ -28,6 +29,8 @@ use crate::{
     plan::{Bounds, Sweep, on_board::Judge},
     station::{Antenna, LockOut, MotionLimits, Mount},
 };
+use intervals::LastAngles;
+pub(super) use intervals::{Interval, Intervals};
 pub(super) use offsets::Demand;
 pub use preview::{Preview, Way};
 pub(super) use program::Held;
@@ -52,6 +55,8 @@ struct Situation<'a> {
     limits: MotionLimits,
     mount: Mount,
     bounds: &'a Bounds,
+    /// Where the axes were at the last position.
+    intervals: Option<Intervals>,
     /// From where the axes point to where that is on the sky, if the two differ.
     to_sky: Option<DQuat>,
     /// How far ahead of the last position a jog is judged, seconds.
@@ -72,8 +77,11 @@ pub(super) struct Gate {
     /// Where the last motion sent each axis, degrees as the mount counts; `None` where that is
     /// nowhere or not known.
     to_deg: [Option<f64>; 2],
+    /// The axes that the last motion turns.
+    turns: [bool; 2],
     /// Angles of the axes when the last motion passed, degrees as the mount counts.
     started_from_deg: Option<[f64; 2]>,
+    last_angles: LastAngles,
     /// Only questions and halts go to the unit.
     lock_out: Option<LockOut>,
     /// When the last motion passed that is not known to be over.
@@ -101,7 +109,9 @@ impl Gate {
             bounds,
             overrun_s: variant.capabilities.standstill.overrun_s,
             to_deg: [None; 2],
+            turns: [false; 2],
             started_from_deg: None,
+            last_angles: LastAngles::default(),
             lock_out: None,
             unproved_since: None,
             program: None,
@@ -149,6 +159,23 @@ impl Gate {
         self.started_from_deg
     }
 
+    /// The axes that the last motion from here turns.
+    pub(super) fn turns(&self) -> [bool; 2] {
+        self.turns
+    }
+
+    fn turned_by(&self, motion: Motion) -> [bool; 2] {
+        match motion {
+            Motion::Jog { x_deg_s: x, y_deg_s: y } | Motion::Step { x_deg: x, y_deg: y } => {
+                [x, y].map(|turn| turn != 0.0)
+            }
+            Motion::Position { azimuth, elevation } if matches!(self.mount, Mount::AzEl { .. }) => {
+                [azimuth.is_some(), elevation.is_some()]
+            }
+            Motion::Position { .. } | Motion::StartProgram | Motion::EnableAuto => [true; 2],
+        }
+    }
+
     /// Last measured angles of the axes, degrees as the mount counts.
     pub(super) fn axes_deg(&self) -> Option<[f64; 2]> {
         self.state().measured?.axes_deg(self.variant.capabilities.has_elevation())
@@ -177,7 +204,8 @@ impl Gate {
     /// position, the time until the next one arrives, and the overrun.
     pub(super) fn ahead_s(&self, now: Moment) -> f64 {
         let Some(measured) = self.state().measured else { return self.overrun_s };
-        let age = now.steady.saturating_duration_since(measured.asked);
+        let asked = self.angles_asked().unwrap_or(measured.asked);
+        let age = now.steady.saturating_duration_since(asked);
         let reply = measured.received.saturating_duration_since(measured.asked);
         (age + reply + self.controller.poll_period()).as_secs_f64() + self.overrun_s
     }
@@ -206,6 +234,7 @@ impl Gate {
     ) -> Result<(), Refusal> {
         self.examine(motion.into(), intent, stopping, now)?;
         self.to_deg = self.sent_to(motion, now);
+        self.turns = self.turned_by(motion);
         self.started_from_deg = self.axes_deg();
         self.unproved_since = Some(now.steady);
         self.controller.start(motion);
@@ -248,6 +277,7 @@ impl Gate {
             limits: self.limits,
             mount: self.mount,
             bounds: self.bounds_in(intent),
+            intervals: self.intervals(),
             to_sky: self.to_sky.filter(|_| intent == Intent::Track),
             ahead_s: self.ahead_s(now),
             lock_out: self.lock_out.as_ref(),
@@ -278,6 +308,7 @@ impl Gate {
                 _ => Ok(()),
             })?;
             self.to_deg = self.end_of(&act);
+            self.turns = [true; 2];
             self.unproved_since = Some(now.steady);
             self.started_from_deg = self.axes_deg();
         }

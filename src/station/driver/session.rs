@@ -454,6 +454,7 @@ impl Session {
         if let Some(measured) = self.gate.state().measured {
             self.wires.positions.push(measured);
         }
+        self.gate.remember_angles();
         let mut is_awaited = false;
         while let Some(line) = self.gate.device().next_wire_line() {
             is_awaited |= self.wires.wire_log.push(line);

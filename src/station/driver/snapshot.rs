@@ -13,6 +13,7 @@ use crate::{
         AntennaState, Asked, Capabilities, Pointing, PrepareError, TrackTarget,
         settings::{GroupState, Held, Hindrance, WriteError},
     },
+    name::{self, Name},
     orbit::PropagationError,
     plan::{Barrier, Sample, Supervision, TrackPhase, TrackStats},
     station::LockOut,
@@ -185,11 +186,15 @@ impl StoppingWay {
     pub const ENOUGH: u32 = 3;
 }
 
-/// The barrier that an antenna is inside of.
+/// The barrier that an antenna is, or may be, inside of.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Inside {
     pub barrier: Barrier,
-    /// By the operator's permission it may be moved out by hand now.
+    /// The axis whose angle is unknown: the antenna may be inside. `None` if it surely is.
+    #[serde(default, deserialize_with = "name::option")]
+    pub unknown_axis: Option<Name>,
+    /// By the operator's permission it may be moved by hand now: out, or anywhere if the position
+    /// is not known.
     pub may_leave: bool,
 }
 

@@ -16,13 +16,13 @@ use crate::ui::{
 /// Confirms that the antenna stands still.
 pub(super) const SEEN_STANDING: &str = "Hold 1 s: I have seen it at rest";
 
-/// An antenna that points where it must not.
+/// An antenna that points, or may point, where it must not.
 #[derive(Debug, Clone, Copy)]
 pub struct WayOutModel<'a> {
     /// The zone, and the motions that are allowed.
     pub words: &'a str,
-    /// The operator has allowed moving out.
-    pub is_allowed: bool,
+    /// Label of the button that allows the motions; `None` once the operator has allowed them.
+    pub hold: Option<&'static str>,
 }
 
 /// Shows `why` and the button below it. Returns `true` once, when the hold is complete.

@@ -130,11 +130,13 @@ fn asked(
     {
         actions.push(CardAction::SeenStanding);
     }
-    if let Some(WayOutModel { words, is_allowed }) = model.way_out {
-        if is_allowed {
-            holds::note(ui, at, words);
-        } else if holds::show(ui, at, words, words::HOLD_WAY_OUT, &mut state.way_out) {
-            actions.push(CardAction::AllowWayOut);
+    if let Some(WayOutModel { words, hold }) = model.way_out {
+        match hold {
+            None => holds::note(ui, at, words),
+            Some(hold) if holds::show(ui, at, words, hold, &mut state.way_out) => {
+                actions.push(CardAction::AllowWayOut);
+            }
+            Some(_) => {}
         }
     }
     if let Some(about) = model.asks_unseen

@@ -148,9 +148,7 @@ pub(super) fn show(
             lock_out: lock_out(snapshot),
             asks_standing: asks_standing.as_deref(),
             asks_unseen: asks_unseen.map(|action| action.about),
-            way_out: way_out
-                .as_ref()
-                .map(|(words, is_allowed)| WayOutModel { words, is_allowed: *is_allowed }),
+            way_out: way_out.as_ref().map(|(words, hold)| WayOutModel { words, hold: *hold }),
             others: &others,
         };
         let mut handler = CardHandler { model, antenna, question, commands };
@@ -287,14 +285,17 @@ fn drive<'a>(
     }
 }
 
-/// For an antenna that points where it must not: the allowed motions in words, and `true` if
-/// the operator has allowed them.
-fn way_out(antenna: &AntennaModel) -> Option<(String, bool)> {
+/// For an antenna that points, or may point, where it must not: the allowed motions in words, and
+/// the label of the button that allows them, `None` once the operator has.
+fn way_out(antenna: &AntennaModel) -> Option<(String, Option<&'static str>)> {
     let snapshot = &antenna.snapshot;
     let can_be_asked =
         snapshot.link.is_open() && snapshot.lock_out.is_none() && snapshot.intent != Intent::Track;
     let inside = snapshot.inside.as_ref().filter(|_| can_be_asked)?;
-    Some((words::way_out(&antenna.config.name, inside), inside.may_leave))
+    let hold =
+        if inside.unknown_axis.is_some() { words::HOLD_UNCHECKED } else { words::HOLD_WAY_OUT };
+    let words = words::way_out(&antenna.config.name, inside);
+    Some((words, (!inside.may_leave).then_some(hold)))
 }
 
 /// The tracked and the selected satellite.

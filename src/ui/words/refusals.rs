@@ -12,6 +12,8 @@ use crate::{
 pub const HOLD_UNSEEN: &str = "Hold 1 s to start it without knowing where it ends";
 /// Text of the button that allows moving an antenna out of a forbidden zone.
 pub const HOLD_WAY_OUT: &str = "Hold 1 s to move out by hand";
+/// Label of the hold button that permits a motion by hand while the angle of an axis is unknown.
+pub const HOLD_UNCHECKED: &str = "Hold 1 s to move unchecked";
 /// Text of the button that allows motion without a dead-man.
 pub const HOLD_UNGUARDED: &str = "Hold 1 s to move without the dead-man timer";
 
@@ -82,6 +84,11 @@ pub fn refusal(refusal: &Refusal, now: Timestamp) -> String {
             "Not sent: the antenna is {}. Use \u{201c}{HOLD_WAY_OUT}\u{201d} on its card to allow it for a \
              minute.",
             super::inside(barrier)
+        ),
+        Refusal::Unchecked { axis, barrier } => format!(
+            "Not sent: the angle of {axis} is not known, so the path may lead {}. Use \
+             \u{201c}{HOLD_UNCHECKED}\u{201d} on the card to allow it for a minute.",
+            super::forbidden(barrier)
         ),
         Refusal::NoRefuge => "Not sent: no clear direction with a clear path to it was found. \
                               Move the antenna by hand."

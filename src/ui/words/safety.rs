@@ -27,10 +27,21 @@ pub fn inside(barrier: &Barrier) -> String {
     }
 }
 
-/// The motions allowed to an antenna inside a barrier; `may_leave`: the operator has allowed
-/// it to leave.
-pub fn way_out(antenna: &str, Inside { barrier, may_leave }: &Inside) -> String {
+/// The motions allowed to an antenna that is, or may be, inside a barrier; `may_leave`: the
+/// operator has allowed them.
+pub fn way_out(antenna: &str, Inside { barrier, unknown_axis, may_leave }: &Inside) -> String {
     let place = inside(barrier);
+    if let Some(axis) = unknown_axis {
+        let unknown = format!("The angle of {axis} is not known: {antenna} may be {place}.");
+        return if *may_leave {
+            format!(
+                "{unknown} You have allowed slow motion by hand for a minute. Azel does not check \
+                 where it leads, so watch the antenna."
+            )
+        } else {
+            format!("{unknown} It can be moved by hand, unchecked, once you allow it.")
+        };
+    }
     match (may_leave, barrier) {
         (false, Barrier::Sun) => {
             format!("{antenna} is {place} now. It may move away from it, not nearer.")

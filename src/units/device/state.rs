@@ -30,6 +30,9 @@ pub struct AntennaState {
     /// Lower and upper end of each axis by the unit's own limits, degrees as the mount
     /// counts; `None` where it reports none.
     pub travel_deg: [Option<(f64, f64)>; 2],
+    /// The azimuth axis may reach a position either way round: clockwise or counter-clockwise.
+    #[serde(default)]
+    pub may_turn_either_way: bool,
     /// When the present link came up. Older readings are from an earlier link.
     pub link_since: Option<Instant>,
     /// Further readings for the panel, line by line.

@@ -21,6 +21,11 @@ use crate::{
 /// widened by the same angle.
 pub(super) const FINEST_DEG: f64 = 0.05;
 
+/// Distance between two positions at which a range of positions is sampled, degrees.
+const SAMPLE_DEG: f64 = 1.0;
+/// Maximum number of samples along one axis. No mount travels further than this many samples.
+const MAX_SAMPLES: f64 = 1000.0;
+
 /// One of the bounds: minimum elevation, a keep-out or the Sun.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Barrier {
@@ -54,8 +59,43 @@ impl Sweep {
         Self([(a.min(b), a.max(b)), (c.min(d), c.max(d))])
     }
 
-    fn middle(self) -> [f64; 2] {
+    /// The single position `axes_deg`.
+    pub fn at(axes_deg: [f64; 2]) -> Self {
+        Self(axes_deg.map(|deg| (deg, deg)))
+    }
+
+    /// The smallest sweep that contains both.
+    #[must_use]
+    pub fn with(self, other: Self) -> Self {
+        let [(a, b), (c, d)] = self.0;
+        let [(e, f), (g, h)] = other.0;
+        Self([(a.min(e), b.max(f)), (c.min(g), d.max(h))])
+    }
+
+    /// The sweep after each axis has turned by `by_deg`.
+    #[must_use]
+    pub fn turned(self, by_deg: [f64; 2]) -> Self {
+        let [(a, b), (c, d)] = self.0;
+        Self([(a + by_deg[0], b + by_deg[0]), (c + by_deg[1], d + by_deg[1])])
+    }
+
+    pub fn middle(self) -> [f64; 2] {
         self.0.map(|(from, to)| f64::midpoint(from, to))
+    }
+
+    fn corners(self) -> [[f64; 2]; 4] {
+        let [(a, b), (c, d)] = self.0;
+        [[a, c], [a, d], [b, c], [b, d]]
+    }
+
+    /// Positions no further apart than [`SAMPLE_DEG`] on each axis, with both ends.
+    fn samples(self) -> impl Iterator<Item = [f64; 2]> {
+        let [first, second] = self.0.map(|(from, to)| {
+            let parts = ((to - from) / SAMPLE_DEG).ceil().clamp(0.0, MAX_SAMPLES) as u32;
+            let share = f64::from(parts.max(1)).recip();
+            (0..=parts).map(move |part| (to - from).mul_add(f64::from(part) * share, from))
+        });
+        first.flat_map(move |first| second.clone().map(move |second| [first, second]))
     }
 
     /// Largest angle between a direction of the sweep and the direction of its middle, degrees.
@@ -159,6 +199,34 @@ pub struct BoundsAt<'a> {
 }
 
 impl BoundsAt<'_> {
+    /// The least clearance from every barrier among the positions in `place`: exact where that is
+    /// one position, else taken from samples, and negative where [`Self::blocks`] finds a way in.
+    pub fn least_clearances(&self, place: Sweep) -> Vec<Clearance> {
+        let is_range = place.0.iter().any(|(from, to)| from < to);
+        let each = self.each_in(place).into_iter().enumerate();
+        each.map(|(index, (barrier, angle, warns_only))| {
+            let may_hide = is_range && (0.0..SAMPLE_DEG).contains(&angle.degrees());
+            let hides = may_hide && self.blocks_from(place, Some(index)).is_some();
+            let angle = if hides { Angle::from_degrees(-FINEST_DEG) } else { angle };
+            Clearance { barrier: barrier.clone_of(), angle, warns_only }
+        })
+        .collect()
+    }
+
+    /// For each barrier, in the order of [`Self::clearances`], whether all samples of `place` are
+    /// inside it.
+    pub fn holds_all_of(&self, place: Sweep) -> Vec<bool> {
+        let mut samples = place.samples().map(|sample| self.bounds.direction(sample));
+        let first = samples.next().into_iter().flat_map(|at| self.each(at));
+        let mut inside: Vec<_> = first.map(|(_, angle, _)| angle < Angle::ZERO).collect();
+        for direction in samples {
+            for (inside, (_, angle, _)) in inside.iter_mut().zip(self.each(direction)) {
+                *inside &= angle < Angle::ZERO;
+            }
+        }
+        inside
+    }
+
     /// The clearance of a direction from every barrier.
     pub fn clearances(&self, direction: AzEl) -> Vec<Clearance> {
         let each = self.each(direction);
@@ -177,19 +245,26 @@ impl BoundsAt<'_> {
     }
 
     fn nearest_of(&self, direction: AzEl) -> Option<(Named<'_>, Angle)> {
+        self.nearest_among(direction, None)
+    }
+
+    /// Without an index: among the barriers that refuse motion.
+    fn nearest_among(&self, direction: AzEl, index: Option<usize>) -> Option<(Named<'_>, Angle)> {
         self.each(direction)
-            .filter(|(_, _, warns_only)| !warns_only)
-            .map(|(barrier, angle, _)| (barrier, angle))
+            .enumerate()
+            .filter(|(at, (_, _, warns_only))| index.map_or(!warns_only, |index| *at == index))
+            .map(|(_, (barrier, angle, _))| (barrier, angle))
             .min_by(|a, b| a.1.degrees().total_cmp(&b.1.degrees()))
     }
 
     /// The keep-out or the surroundings of the Sun that `direction` is in.
     pub fn forbids(&self, direction: AzEl) -> Option<Barrier> {
-        let entered = self.each(direction).filter(|(barrier, angle, warns_only)| {
-            !warns_only && *angle < Angle::ZERO && !matches!(barrier, Named::MinimumElevation)
-        });
-        let deepest = entered.min_by(|a, b| a.1.degrees().total_cmp(&b.1.degrees()));
-        deepest.map(|(barrier, ..)| barrier.clone_of())
+        deepest(self.clearances(direction))
+    }
+
+    /// The keep-out or the surroundings of the Sun that a position in `place` is in.
+    pub fn may_forbid(&self, place: Sweep) -> Option<Barrier> {
+        deepest(self.least_clearances(place))
     }
 
     /// The same bounds without the minimum elevation, for a unit that enforces its own.
@@ -212,9 +287,9 @@ impl BoundsAt<'_> {
         Self { to_sky: Some(to_sky), ..self.above_the_floor() }
     }
 
-    /// The bounds without the barriers that the axes are inside of.
-    pub fn without_entered(&self, axes_deg: [f64; 2]) -> Bounds {
-        let clearances = self.clearances(self.bounds.direction(axes_deg));
+    /// The bounds without the barriers that the axes may be inside of.
+    pub fn without_entered(&self, place: Sweep) -> Bounds {
+        let clearances = self.least_clearances(place);
         let is_outside = |barrier: &Barrier| {
             let found = clearances.iter().find(|it| it.barrier == *barrier);
             found.is_none_or(|it| it.warns_only || it.angle >= Angle::ZERO)
@@ -228,22 +303,48 @@ impl BoundsAt<'_> {
     }
 
     /// The first barrier that the axes may enter within `sweep`, and a direction inside it. From
-    /// below the minimum elevation, no motion may lead lower.
-    pub fn blocks(&self, sweep: Sweep, start_deg: [f64; 2]) -> Option<(Barrier, AzEl)> {
-        let start = self.bounds.direction(start_deg);
-        if self.minimum_elevation.is_some_and(|minimum| start.elevation < minimum) {
-            let minimum_elevation = Some(start.elevation);
-            return Self { minimum_elevation, ..self.clone() }.blocks_from(sweep);
+    /// below the minimum elevation, no motion may lead lower than `start` may be.
+    pub fn blocks(&self, sweep: Sweep, start: Sweep) -> Option<(Barrier, AzEl)> {
+        let lowest = self.lowest(start);
+        if self.minimum_elevation.is_some_and(|minimum| lowest < minimum) {
+            let minimum_elevation = Some(lowest);
+            return Self { minimum_elevation, ..self.clone() }.blocks_from(sweep, None);
         }
-        self.blocks_from(sweep)
+        self.blocks_from(sweep, None)
     }
 
-    fn blocks_from(&self, sweep: Sweep) -> Option<(Barrier, AzEl)> {
+    /// As [`Self::blocks`], wherever in `start` the axes are: what leads lower may lead below the
+    /// minimum elevation even if `start` reaches below it.
+    pub fn blocks_unseen(&self, sweep: Sweep, start: Sweep) -> Option<(Barrier, AzEl)> {
+        if self.lowest(sweep) < self.lowest(start) {
+            self.blocks_from(sweep, None)
+        } else {
+            self.blocks(sweep, start)
+        }
+    }
+
+    /// Returns `true` if `sweep` leads below the minimum elevation, or lower than a `start` below
+    /// it.
+    pub fn leads_below_the_floor(&self, sweep: Sweep, start: Sweep) -> bool {
+        let lowest = self.lowest(sweep);
+        let is_below = |minimum: Angle| lowest.degrees() < minimum.degrees() - FINEST_DEG;
+        self.minimum_elevation.is_some_and(is_below) && is_below(self.lowest(start))
+    }
+
+    /// The lowest elevation of the corners of `place`, which is the lowest of all its positions.
+    fn lowest(&self, place: Sweep) -> Angle {
+        let elevations = place.corners().map(|corner| self.bounds.direction(corner).elevation);
+        elevations.into_iter().fold(Angle::from_degrees(90.0), |lowest, elevation| {
+            if elevation < lowest { elevation } else { lowest }
+        })
+    }
+
+    fn blocks_from(&self, sweep: Sweep, index: Option<usize>) -> Option<(Barrier, AzEl)> {
         let mut open = vec![sweep];
         while let Some(sweep) = open.pop() {
             let direction = self.bounds.direction(sweep.middle());
             let radius_deg = sweep.radius_deg();
-            let (barrier, angle) = self.nearest_of(direction)?;
+            let (barrier, angle) = self.nearest_among(direction, index)?;
             // Positions on the edge are free, even where the edge is a whole side of the sweep.
             let clear_deg = angle.degrees() + FINEST_DEG;
             if clear_deg >= radius_deg {
@@ -269,6 +370,18 @@ impl BoundsAt<'_> {
         })
     }
 
+    /// As [`Self::each`], with the least clearance among the positions in `place`, from samples.
+    fn each_in(&self, place: Sweep) -> Vec<(Named<'_>, Angle, bool)> {
+        let mut samples = place.samples().map(|sample| self.bounds.direction(sample));
+        let mut least: Vec<_> = samples.next().into_iter().flat_map(|at| self.each(at)).collect();
+        for direction in samples {
+            for ((_, least, _), (_, angle, _)) in least.iter_mut().zip(self.each(direction)) {
+                *least = if angle < *least { angle } else { *least };
+            }
+        }
+        least
+    }
+
     fn each(&self, direction: AzEl) -> impl Iterator<Item = (Named<'_>, Angle, bool)> {
         let on_sky = |to_sky: DQuat| AzEl::from_enu(to_sky * direction.to_enu());
         let direction = self.to_sky.map_or(direction, on_sky);
@@ -292,6 +405,14 @@ impl BoundsAt<'_> {
         let radius = Angle::from_degrees(sun::around_each_deg(sun));
         Some((Named::Sun, separation - radius, false))
     }
+}
+
+/// The keep-out, or the Sun, that is entered furthest.
+fn deepest(clearances: Vec<Clearance>) -> Option<Barrier> {
+    let entered = clearances.into_iter().filter(|it| {
+        !it.warns_only && it.angle < Angle::ZERO && it.barrier != Barrier::MinimumElevation
+    });
+    entered.min_by(|a, b| a.angle.degrees().total_cmp(&b.angle.degrees())).map(|it| it.barrier)
 }
 
 /// A barrier with a borrowed name.
@@ -340,13 +461,17 @@ mod tests {
         "2026-08-12T10:00:00Z".parse().unwrap()
     }
 
-    const HIGH_DEG: [f64; 2] = [0.0, 89.0];
+    fn high() -> Sweep {
+        Sweep::at([0.0, 89.0])
+    }
 
     #[test]
     fn from_below_the_minimum_elevation_nothing_leads_lower() {
         let bounds = bounds(Vec::new());
         let start_deg = [10.0, -3.0];
-        let way = |to_deg| bounds.at(noon()).blocks(Sweep::between(start_deg, to_deg), start_deg);
+        let way = |to_deg| {
+            bounds.at(noon()).blocks(Sweep::between(start_deg, to_deg), Sweep::at(start_deg))
+        };
         assert_eq!(way([90.0, 30.0]), None);
         assert_eq!(way([90.0, -4.0]).map(|(barrier, _)| barrier), Some(Barrier::MinimumElevation));
     }
@@ -358,8 +483,7 @@ mod tests {
     #[test]
     fn a_way_round_a_corner_is_free_and_the_box_of_both_axes_is_not() {
         let bounds = bounds(vec![mast()]);
-        let free =
-            |from, to| bounds.at(noon()).blocks(Sweep::between(from, to), HIGH_DEG).is_none();
+        let free = |from, to| bounds.at(noon()).blocks(Sweep::between(from, to), high()).is_none();
         let (from, to) = ([60.0, 20.0], [160.0, 70.0]);
         assert!(!free(from, to), "both axes at once may sweep through");
         assert!(free(from, [60.0, 70.0]) && free([60.0, 70.0], to), "elevation first");
@@ -370,12 +494,12 @@ mod tests {
     fn a_keep_out_of_one_antenna_holds_for_no_other() {
         let other = KeepOut { antenna: Some("Dish".to_owned()), ..mast() };
         let inside = Sweep([(110.0, 110.0), (20.0, 20.0)]);
-        assert_eq!(bounds(vec![other]).at(noon()).blocks(inside, HIGH_DEG), None);
-        let (barrier, _) = bounds(vec![mast()]).at(noon()).blocks(inside, HIGH_DEG).unwrap();
+        assert_eq!(bounds(vec![other]).at(noon()).blocks(inside, high()), None);
+        let (barrier, _) = bounds(vec![mast()]).at(noon()).blocks(inside, high()).unwrap();
         assert_eq!(barrier, Barrier::KeepOut("mast".into()));
         let warns = KeepOut { entered: Entered::Warn, ..mast() };
         assert_eq!(
-            bounds(vec![warns]).at(noon()).blocks(inside, HIGH_DEG),
+            bounds(vec![warns]).at(noon()).blocks(inside, high()),
             None,
             "told, not refused"
         );
@@ -399,7 +523,7 @@ mod tests {
             let zone = KeepOut { zone: zone.unwrap(), ..mast() };
             let bounds = bounds(vec![zone]);
             let to: [f64; 2] = [az + daz, f64::min(el + del, 90.0)];
-            let blocked = bounds.at(noon()).blocks(Sweep::between([az, el], to), HIGH_DEG);
+            let blocked = bounds.at(noon()).blocks(Sweep::between([az, el], to), high());
             if let Some((_, direction)) = &blocked {
                 let nearest = bounds.at(noon()).nearest(*direction).unwrap();
                 prop_assert!(nearest.angle.degrees() < 0.0, "{nearest:?}");

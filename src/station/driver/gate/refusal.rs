@@ -88,6 +88,14 @@ pub enum Refusal {
     /// The antenna is inside a barrier, and its way out needs the operator's permission.
     #[error("inside of {0:?}")]
     Inside(Barrier),
+    /// The angle of an axis is unknown, so a motion by hand may lead into a barrier. It needs the
+    /// operator's permission.
+    #[error("the angle of {axis} is not known, so {barrier:?} may be in the way")]
+    Unchecked {
+        #[serde(deserialize_with = "name::one")]
+        axis: Name,
+        barrier: Barrier,
+    },
     /// No clear direction to go to was found.
     #[error("there is no clear direction to go to")]
     NoRefuge,

@@ -2,7 +2,7 @@
 
 use std::time::Duration;
 
-use super::{Refusal, Situation, way};
+use super::{Intervals, Refusal, Situation, way};
 use crate::{
     astro::{Angle, xy_mount},
     device::{
@@ -200,9 +200,9 @@ fn no_blind_jog(motion: &Motion, situation: &Situation<'_>) -> Result<(), Refusa
     else {
         return Ok(());
     };
-    let measured = situation.state.measured.ok_or(Refusal::PositionUnknown)?;
-    for ((asked, axis), name) in [x, y].into_iter().zip(measured.axes).zip(situation.can.axes) {
-        if asked != 0.0 && axis.angle_deg.is_none() && !situation.can.ends_jogs {
+    let Intervals(axes) = situation.intervals.ok_or(Refusal::PositionUnknown)?;
+    for ((asked, axis), name) in [x, y].into_iter().zip(axes).zip(situation.can.axes) {
+        if asked != 0.0 && !axis.is_known && !situation.can.ends_jogs {
             return Err(Refusal::AngleUnknown { axis: name });
         }
     }
@@ -219,12 +219,15 @@ fn within_travel(motion: &Motion, situation: &Situation<'_>) -> Result<(), Refus
         Motion::Step { x_deg, y_deg } => [x_deg, y_deg],
         Motion::Position { .. } | Motion::StartProgram | Motion::EnableAuto => return Ok(()),
     };
-    let measured = situation.state.measured.ok_or(Refusal::PositionUnknown)?;
-    let axes = measured.axes.into_iter().zip(situation.mount.travel_deg()).zip(situation.can.axes);
+    let Intervals(axes) = situation.intervals.ok_or(Refusal::PositionUnknown)?;
+    let axes = axes.into_iter().zip(situation.mount.travel_deg()).zip(situation.can.axes);
     let axes = axes.take(situation.can.axis_count());
     for (ahead_deg, ((axis, (from_deg, to_deg)), name)) in ahead_deg.into_iter().zip(axes) {
-        let Some(angle_deg) = axis.angle_deg else { continue };
-        let asked_deg = angle_deg + ahead_deg;
+        // An axis that the unit itself stops at its limits may be turned unseen.
+        if !axis.is_known {
+            continue;
+        }
+        let asked_deg = axis.from_deg + ahead_deg;
         let outward =
             (ahead_deg > 0.0 && asked_deg > to_deg) || (ahead_deg < 0.0 && asked_deg < from_deg);
         if outward {
@@ -312,7 +315,7 @@ fn the_operator_answers_for_an_unseen_end(
 ) -> Result<(), Refusal> {
     match situation.gate.controller.lead_of(act) {
         Lead::Unseen(why) if !situation.is_agreed => {
-            let is_watched = way::axes(situation).is_some();
+            let is_watched = situation.intervals.is_some_and(|axes| axes.unknown().is_none());
             Err(Refusal::Unseen { act: act.clone(), why, is_watched })
         }
         _ => Ok(()),
@@ -325,23 +328,19 @@ fn an_unseen_way_is_watched(act: &Act, situation: &Situation<'_>) -> Result<(), 
     if !is_unseen || !situation.bounds.forbid_anything() {
         return Ok(());
     }
-    let measured = situation.state.measured.ok_or(Refusal::PositionUnknown)?;
-    let axes = measured.axes.into_iter().zip(situation.can.axes).take(situation.can.axis_count());
-    for (axis, name) in axes {
-        if axis.angle_deg.is_none() {
-            return Err(Refusal::AngleUnknown { axis: name });
-        }
-    }
-    Ok(())
+    let intervals = situation.intervals.ok_or(Refusal::PositionUnknown)?;
+    let Some(unknown) = intervals.unknown() else { return Ok(()) };
+    let axis = situation.can.axes.get(unknown).copied().unwrap_or_default();
+    Err(Refusal::AngleUnknown { axis })
 }
 
 fn end_of_the_action_is_within_reach(act: &Act, situation: &Situation<'_>) -> Result<(), Refusal> {
-    let motion = situation.gate.motion_of(act);
+    let motion = situation.gate.motion_of(act)?;
     motion.map_or(Ok(()), |motion| within_reach(&motion, situation))
 }
 
 fn way_of_the_action_is_clear(act: &Act, situation: &Situation<'_>) -> Result<(), Refusal> {
-    let motion = situation.gate.motion_of(act);
+    let motion = situation.gate.motion_of(act)?;
     motion.map_or(Ok(()), |motion| way::is_clear(&motion, situation))
 }
 

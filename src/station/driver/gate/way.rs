@@ -1,6 +1,6 @@
 //! Checks the way of a motion against the bounds of the antenna.
 
-use super::{Angle, Gate, Intent, Moment, Motion, Mount, Refusal, Situation, Sweep};
+use super::{Angle, Gate, Intent, Intervals, Moment, Motion, Mount, Refusal, Situation, Sweep};
 use crate::{
     astro::{AzEl, xy_mount},
     device::{
@@ -40,48 +40,45 @@ pub(super) fn is_clear(motion: &Motion, situation: &Situation<'_>) -> Result<(),
     if let Motion::Position { azimuth, elevation } = *motion {
         return to_position(azimuth, elevation, situation);
     }
-    let Some(axes_deg) = axes(situation) else { return Ok(()) };
+    let intervals = situation.intervals.ok_or(Refusal::PositionUnknown)?;
     match *motion {
         Motion::Jog { x_deg_s, y_deg_s } => {
             let rates = situation.turning([x_deg_s, y_deg_s]);
             let ahead_deg = rates.map(|rate| rate * situation.ahead_s);
-            by_hand(axes_deg, ahead_deg, Some(rates), situation)
+            by_hand(intervals, ahead_deg, Some(rates), situation)
         }
-        Motion::Step { x_deg, y_deg } => by_hand(axes_deg, [x_deg, y_deg], None, situation),
+        Motion::Step { x_deg, y_deg } => by_hand(intervals, [x_deg, y_deg], None, situation),
         // The way of the unit's own program is judged elsewhere.
         Motion::Position { .. } | Motion::StartProgram | Motion::EnableAuto => Ok(()),
     }
 }
 
-/// An axis without an angle, such as one at its limit, may come from anywhere in its travel.
 fn to_position(
     azimuth: Option<Angle>,
     elevation: Option<Angle>,
     situation: &Situation<'_>,
 ) -> Result<(), Refusal> {
-    if let Some(axes_deg) = axes(situation) {
-        let Some(to_deg) = target(azimuth, elevation, axes_deg, situation) else {
-            return Ok(());
-        };
-        let sweep = sweep_between(axes_deg, to_deg, situation);
-        on_the_sky(sweep, axes_deg, situation)?;
-        return away_from_the_sun(sweep, axes_deg, to_deg, situation)
-            .unwrap_or_else(|| blocked(sweep, axes_deg, &situation.bounds_now()));
+    let intervals = situation.intervals.ok_or(Refusal::PositionUnknown)?;
+    let start = intervals.sweep();
+    let end = target(azimuth, elevation, start, situation).ok_or(Refusal::PositionUnknown)?;
+    let sweep = start.with(end);
+    for sweep in std::iter::once(sweep).chain(other_way_round(azimuth, sweep, situation)) {
+        on_the_sky(sweep, start, situation)?;
+        away_from_the_sun(sweep, intervals, end, situation)
+            .unwrap_or_else(|| blocked(sweep, start, &situation.bounds_now()))?;
     }
-    let Some(measured) = situation.state.measured else { return Ok(()) };
-    let [first, second] = [0, 1].map(|axis| {
-        let angle_deg = measured.axes.get(axis).and_then(|axis| axis.angle_deg);
-        let whole = situation.mount.travel_deg().get(axis).copied();
-        angle_deg.map(|deg| (deg, deg)).or(whole).unwrap_or_default()
-    });
-    let lowest_deg = [first.0, second.0];
-    let Some(to_deg) = target(azimuth, elevation, lowest_deg, situation) else { return Ok(()) };
-    let reach = |(from, to): (f64, f64), end: f64| (from.min(end), to.max(end));
-    let second = if situation.can.has_elevation() { reach(second, to_deg[1]) } else { (0.0, 90.0) };
-    let sweep = Sweep([reach(first, to_deg[0]), second]);
-    on_the_sky(sweep, to_deg, situation)?;
-    // The end is judged by its reach; the start may be below the floor.
-    blocked(sweep, to_deg, &situation.bounds_now().above_the_floor())
+    Ok(())
+}
+
+/// The way that the azimuth axis takes over north, if the unit may choose that one.
+fn other_way_round(
+    azimuth: Option<Angle>,
+    sweep: Sweep,
+    situation: &Situation<'_>,
+) -> Option<Sweep> {
+    let Sweep([(from_deg, to_deg), second]) = sweep;
+    let may_turn = azimuth.is_some() && situation.state.may_turn_either_way;
+    may_turn.then_some(Sweep([(to_deg, from_deg + 360.0), second]))
 }
 
 impl Situation<'_> {
@@ -103,62 +100,103 @@ impl Situation<'_> {
 
 /// Refuses a way of the axes during which the antenna may point into a barrier on the sky, if its
 /// axes point elsewhere than they count.
-fn on_the_sky(sweep: Sweep, from_deg: [f64; 2], situation: &Situation<'_>) -> Result<(), Refusal> {
+fn on_the_sky(sweep: Sweep, start: Sweep, situation: &Situation<'_>) -> Result<(), Refusal> {
     let Some(to_sky) = situation.to_sky else { return Ok(()) };
-    blocked(sweep, from_deg, &situation.bounds_now().on_the_sky(to_sky))
+    blocked(sweep, start, &situation.bounds_now().on_the_sky(to_sky))
 }
 
 /// The operator may leave the surroundings of the Sun by a go-to that comes no nearer to it
 /// and ends outside. `None` where the motion does not start there.
 fn away_from_the_sun(
     sweep: Sweep,
-    from_deg: [f64; 2],
-    to_deg: [f64; 2],
+    start: Intervals,
+    end: Sweep,
     situation: &Situation<'_>,
 ) -> Option<Result<(), Refusal>> {
     let (bounds, utc) = (situation.bounds, situation.now.utc);
     let is_sent = matches!(situation.intent, Intent::Position | Intent::Park);
     let leaving = bounds
-        .away_from_the_sun(bounds.direction(from_deg), utc)
-        .filter(|_| is_sent && bounds.at(utc).forbids(bounds.direction(to_deg)).is_none())?;
-    Some(blocked(sweep, from_deg, &leaving.at(utc)))
+        .away_from_the_sun(bounds.direction(start.angles_deg()?), utc)
+        .filter(|_| is_sent && bounds.at(utc).may_forbid(end).is_none())?;
+    Some(blocked(sweep, start.sweep(), &leaving.at(utc)))
 }
 
+/// A motion by hand whose end may not be known: the operator holds it.
 fn by_hand(
-    axes_deg: [f64; 2],
+    intervals: Intervals,
     ahead_deg: [f64; 2],
     rates_deg_s: Option<[f64; 2]>,
     situation: &Situation<'_>,
 ) -> Result<(), Refusal> {
-    let (bounds, bounds_now) = (situation.bounds, situation.bounds_now());
-    let at = |share: f64| [axes_deg[0] + ahead_deg[0] * share, axes_deg[1] + ahead_deg[1] * share];
-    let sweep = sweep_between(axes_deg, at(1.0), situation);
-    let clearances = bounds_now.clearances(bounds.direction(axes_deg));
+    let bounds_now = situation.bounds_now();
+    let start = intervals.sweep();
+    let sweep = start.with(start.turned(ahead_deg));
+    if intervals.unknown().is_some() {
+        return by_hand_unseen(intervals, ahead_deg, rates_deg_s, situation);
+    }
+    let clearances = bounds_now.least_clearances(start);
     let inside = clearances.iter().find(|clearance| {
         !clearance.warns_only
             && clearance.barrier != Barrier::MinimumElevation
             && clearance.angle < Angle::ZERO
     });
     let Some(inside) = inside else {
-        return blocked(sweep, axes_deg, &bounds_now);
+        return blocked(sweep, start, &bounds_now);
     };
-    let outside_of = bounds_now.without_entered(axes_deg);
-    blocked(sweep, axes_deg, &outside_of.at(situation.now.utc))?;
-    let here = Depth::of(&bounds_now, axes_deg);
+    let outside_of = bounds_now.without_entered(start);
+    blocked(sweep, start, &outside_of.at(situation.now.utc))?;
+    let here = Depth::of(&bounds_now, start);
     let looks = (ahead_deg[0].abs().max(ahead_deg[1].abs()) / LOOK_OUT_DEG).ceil().max(1.0) as u32;
     let mut was_out = false;
     for look in 1..=looks {
-        let to_deg = at(f64::from(look) / f64::from(looks));
-        let there = Depth::of(&bounds_now, to_deg);
+        let share = f64::from(look) / f64::from(looks);
+        let place = start.turned(ahead_deg.map(|deg| deg * share));
+        let there = Depth::of(&bounds_now, place);
         // On the way it may lead along an edge, or past a point where the way out is shorter.
         let gain_deg = if look == looks { OUT_GAIN_DEG } else { -OUT_GAIN_DEG };
         let enters_again = was_out && !there.is_out();
         was_out = there.is_out();
         if enters_again || !here.is_left_for(&there, gain_deg) {
-            let at = bounds.direction(to_deg);
+            let at = situation.bounds.direction(place.middle());
             return Err(Refusal::Forbidden { barrier: inside.barrier.clone(), at });
         }
     }
+    slowly_by_permission(rates_deg_s, Refusal::Inside(inside.barrier.clone()), situation)
+}
+
+/// A motion by hand while the angle of an axis is unknown: free where nothing is in the way from
+/// anywhere that the axes may be, else by permission.
+fn by_hand_unseen(
+    intervals: Intervals,
+    ahead_deg: [f64; 2],
+    rates_deg_s: Option<[f64; 2]>,
+    situation: &Situation<'_>,
+) -> Result<(), Refusal> {
+    let bounds_now = situation.bounds_now();
+    let start = intervals.sweep();
+    let sweep = start.with(intervals.after(ahead_deg, situation.mount.travel_deg()));
+    let Some((barrier, at)) = bounds_now.blocks_unseen(sweep, start) else { return Ok(()) };
+    // What the known angle alone forbids stays forbidden, and so do barriers that the axes are
+    // surely outside of.
+    let Intervals([_, second]) = intervals;
+    let knows_elevation = matches!(situation.mount, Mount::AzEl { .. }) && second.is_known;
+    if knows_elevation && bounds_now.leads_below_the_floor(sweep, start) {
+        return Err(Refusal::Forbidden { barrier: Barrier::MinimumElevation, at });
+    }
+    let outside_of = bounds_now.without_entered(start);
+    blocked(sweep, start, &outside_of.at(situation.now.utc))?;
+    let axis = intervals.unknown().and_then(|axis| situation.can.axes.get(axis));
+    let refusal = Refusal::Unchecked { axis: axis.copied().unwrap_or_default(), barrier };
+    slowly_by_permission(rates_deg_s, refusal, situation)
+}
+
+/// Allows a motion by hand that the operator answers for, no faster than a share of the highest
+/// rate; returns `refusal` without that permission.
+fn slowly_by_permission(
+    rates_deg_s: Option<[f64; 2]>,
+    refusal: Refusal,
+    situation: &Situation<'_>,
+) -> Result<(), Refusal> {
     let fastest = rates_deg_s.into_iter().flatten().map(f64::abs).fold(0.0, f64::max);
     let slowest_share = match situation.can.jog {
         JogSpeeds::Named(speeds) => speeds.first().map_or(0.0, |slowest| slowest.share),
@@ -168,10 +206,7 @@ fn by_hand(
     if fastest > allowed_deg_s {
         return Err(Refusal::TooFast { asked_deg_s: fastest, allowed_deg_s });
     }
-    if situation.gate.lets_out(situation.now) {
-        return Ok(());
-    }
-    Err(Refusal::Inside(inside.barrier.clone()))
+    if situation.gate.lets_out(situation.now) { Ok(()) } else { Err(refusal) }
 }
 
 /// How deep the axes stand inside barriers.
@@ -186,9 +221,9 @@ struct Depth {
 }
 
 impl Depth {
-    fn of(bounds: &BoundsAt<'_>, axes_deg: [f64; 2]) -> Self {
-        let (below_deg, inside_deg) = bounds.depths_deg(axes_deg);
-        Self { way_out_deg: bounds.way_out_deg(axes_deg), below_deg, inside_deg }
+    fn of(bounds: &BoundsAt<'_>, place: Sweep) -> Self {
+        let (below_deg, inside_deg) = bounds.depths_deg(place);
+        Self { way_out_deg: bounds.way_out_deg(place), below_deg, inside_deg }
     }
 
     fn is_out(&self) -> bool {
@@ -216,39 +251,29 @@ impl Depth {
     }
 }
 
-/// Angles of the axes, as the mount counts.
-pub(super) fn axes(situation: &Situation<'_>) -> Option<[f64; 2]> {
-    situation.state.measured?.axes_deg(situation.can.has_elevation())
-}
-
-fn sweep_between(from_deg: [f64; 2], to_deg: [f64; 2], situation: &Situation<'_>) -> Sweep {
-    let Sweep([first, second]) = Sweep::between(from_deg, to_deg);
-    let second = if situation.can.has_elevation() { second } else { (0.0, 90.0) };
-    Sweep([first, second])
-}
-
-fn blocked(sweep: Sweep, from_deg: [f64; 2], bounds: &BoundsAt<'_>) -> Result<(), Refusal> {
+fn blocked(sweep: Sweep, start: Sweep, bounds: &BoundsAt<'_>) -> Result<(), Refusal> {
     bounds
-        .blocks(sweep, from_deg)
+        .blocks(sweep, start)
         .map_or(Ok(()), |(barrier, at)| Err(Refusal::Forbidden { barrier, at }))
 }
 
-/// Angles of the axes at the end of a motion to a position, degrees as the mount counts.
+/// Where the axes may be at the end of a motion to a position; `None` where that is not known.
 fn target(
     azimuth: Option<Angle>,
     elevation: Option<Angle>,
-    axes_deg: [f64; 2],
+    start: Sweep,
     situation: &Situation<'_>,
-) -> Option<[f64; 2]> {
-    let degrees = |angle: Option<Angle>, stays: f64| angle.map_or(stays, Angle::degrees);
+) -> Option<Sweep> {
+    let Sweep([first, second]) = start;
+    let end = |angle: Option<Angle>, stays: (f64, f64)| {
+        angle.map_or(stays, |angle| (angle.degrees(), angle.degrees()))
+    };
     match situation.mount {
-        Mount::AzEl { .. } => {
-            Some([degrees(azimuth, axes_deg[0]), degrees(elevation, axes_deg[1])])
-        }
+        Mount::AzEl { .. } => Some(Sweep([end(azimuth, first), end(elevation, second)])),
         Mount::Xy { lower_axis_azimuth_deg, .. } => {
             let measured = situation.state.measured.map(|measured| measured.pointing);
             let direction = aimed(azimuth, elevation, measured).direction()?;
-            Some(crossed(direction, lower_axis_azimuth_deg))
+            Some(Sweep::at(crossed(direction, lower_axis_azimuth_deg)))
         }
     }
 }
@@ -280,7 +305,7 @@ impl Gate {
         for corner_deg in corners_deg {
             let first = self.to_axes(corner_deg);
             let second = Sweep::between(corner_deg, to_deg);
-            let is_free = bounds.at(now.utc).blocks(second, corner_deg).is_none()
+            let is_free = bounds.at(now.utc).blocks(second, Sweep::at(corner_deg)).is_none()
                 && self.check(first, intent, now).is_ok();
             if is_free {
                 return Ok(Route { first, then: Some(motion) });
@@ -332,8 +357,11 @@ impl Gate {
             return None;
         };
         let situation = self.situation(Intent::Position, false, now);
-        let from_deg = axes(&situation).filter(|_| situation.can.has_elevation())?;
-        Some((from_deg, target(azimuth, elevation, from_deg, &situation)?))
+        let start = situation.intervals.filter(|_| situation.can.has_elevation())?;
+        let from_deg = start.angles_deg()?;
+        let Sweep([(first_deg, _), (second_deg, _)]) =
+            target(azimuth, elevation, start.sweep(), &situation)?;
+        Some((from_deg, [first_deg, second_deg]))
     }
 
     /// Where each axis will stand after a motion to a position. An axis that is sent somewhere
@@ -366,26 +394,26 @@ impl Gate {
     /// turn, the antenna may dip.
     pub(super) fn slew_is_clear(&self, to: AzEl, now: Moment) -> Result<(), Refusal> {
         let situation = self.situation(Intent::Track, false, now);
-        let Some(from_deg) = axes(&situation) else { return Ok(()) };
-        let to_deg = target(Some(to.azimuth), Some(to.elevation), from_deg, &situation);
-        let Some(to_deg) = to_deg else { return Ok(()) };
-        let sweep = sweep_between(from_deg, to_deg, &situation);
+        let start = situation.intervals.ok_or(Refusal::PositionUnknown)?.sweep();
+        let end = target(Some(to.azimuth), Some(to.elevation), start, &situation)
+            .ok_or(Refusal::PositionUnknown)?;
         let along = Angle::from_degrees(ALONG_DEG);
-        blocked(sweep, from_deg, &self.bounds.at(now.utc).with_floor_lower_by(along))
+        blocked(start.with(end), start, &self.bounds.at(now.utc).with_floor_lower_by(along))
     }
 
     /// The lead of an action as a motion to a position; `None` where it leads nowhere or is
     /// unknown.
-    pub(super) fn motion_of(&self, act: &Act) -> Option<Motion> {
-        let Lead::To(to_deg) = self.controller.lead_of(act) else { return None };
+    pub(super) fn motion_of(&self, act: &Act) -> Result<Option<Motion>, Refusal> {
+        let Lead::To(to_deg) = self.controller.lead_of(act) else { return Ok(None) };
+        let [first, second] = to_deg;
         if let Mount::AzEl { .. } = self.mount {
             let [azimuth, elevation] = to_deg.map(|deg| deg.map(Angle::from_degrees));
-            return Some(Motion::Position { azimuth, elevation });
+            return Ok(Some(Motion::Position { azimuth, elevation }));
         }
-        let stands = self.state().measured.map(|measured| measured.axes);
-        let angle_deg = |axis: usize| stands.and_then(|axes| axes.get(axis)?.angle_deg);
-        let [first, second] = to_deg;
-        Some(self.to_axes([first.or(angle_deg(0))?, second.or(angle_deg(1))?]))
+        let [first_stays, second_stays] =
+            self.intervals().and_then(Intervals::angles_deg).ok_or(Refusal::PositionUnknown)?;
+        let axes_deg = [first.unwrap_or(first_stays), second.unwrap_or(second_stays)];
+        Ok(Some(self.to_axes(axes_deg)))
     }
 
     /// Angles of the axes at the end of an action, as far as they are known.

@@ -5,7 +5,7 @@ use std::time::Duration;
 
 use super::{Event, Intent, Session};
 use crate::{
-    astro::AzEl,
+    astro::{Angle, AzEl},
     clock::{Instant, Moment},
     device::Motion,
     driver::{Inside, Refusal},
@@ -17,11 +17,13 @@ const ALLOWED: Duration = Duration::from_mins(1);
 /// Maximum number of ways to a refuge that are tried.
 const MAX_REFUGES: usize = 64;
 
-/// The barrier that the antenna is inside of, by the last position.
+/// The barrier that the antenna is, or may be, inside of by the last position.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub(super) struct Place {
     looked: Option<Instant>,
     barrier: Option<Barrier>,
+    /// The axis without an angle; with one, the antenna may only be inside.
+    unknown_axis: Option<usize>,
 }
 
 impl Session {
@@ -31,8 +33,18 @@ impl Session {
         if self.seen.place.looked.replace(look.received) == Some(look.received) {
             return;
         }
-        let Some(at) = self.direction() else { return };
-        self.seen.place.barrier = self.bounds_now().at(now.utc).forbids(at);
+        let Some(intervals) = self.gate.intervals() else { return };
+        let axis = intervals.unknown();
+        let bounds = self.bounds_now().at(now.utc);
+        let clearances = bounds.least_clearances(intervals.sweep()).into_iter();
+        // Above the minimum elevation a known angle needs no permission to go on.
+        let entered = clearances.filter(|it| {
+            let is_known_floor = axis.is_none() && it.barrier == Barrier::MinimumElevation;
+            !it.warns_only && it.angle < Angle::ZERO && !is_known_floor
+        });
+        let deepest = entered.min_by(|a, b| a.angle.degrees().total_cmp(&b.angle.degrees()));
+        self.seen.place.barrier = deepest.map(|it| it.barrier);
+        self.seen.place.unknown_axis = axis;
         if self.seen.place.barrier.is_none() {
             self.gate.let_out(None);
         }
@@ -41,7 +53,9 @@ impl Session {
     /// For the snapshot.
     pub(super) fn inside(&self, now: Moment) -> Option<Inside> {
         let barrier = self.seen.place.barrier.clone()?;
-        Some(Inside { barrier, may_leave: self.gate.lets_out(now) })
+        let axes = self.variant.capabilities.axes;
+        let unknown_axis = self.seen.place.unknown_axis.and_then(|axis| axes.get(axis)).copied();
+        Some(Inside { barrier, unknown_axis, may_leave: self.gate.lets_out(now) })
     }
 
     /// The bounds that apply to the present activity.

@@ -9,12 +9,13 @@ use super::{
 use crate::{
     astro::Angle,
     clock::{Instant, Moment},
-    device::Measured,
+    device::{Axis, AxisMotion, Measured},
     driver::{
         Safety, StoppingWay,
+        gate::{Interval, Intervals},
         safety::{Mover, Response},
     },
-    plan::{Barrier, Clearance},
+    plan::{Barrier, Clearance, Sweep},
     station::Monitor,
 };
 
@@ -38,6 +39,20 @@ pub(super) struct Watch {
     told: Vec<Barrier>,
 }
 
+/// Knowledge of whether the antenna is inside a barrier.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Certainty {
+    /// Its position tells.
+    Known,
+    /// It is, wherever the axis without an angle may be.
+    Inside,
+    Unknown,
+}
+
+fn is_at_limit(axis: Axis) -> bool {
+    axis.plus_limit != axis.minus_limit
+}
+
 impl Session {
     /// Checks whether the antenna enters, or is inside, a forbidden zone.
     pub(super) fn watch_bounds(&mut self, now: Moment) {
@@ -46,39 +61,97 @@ impl Session {
         if before.is_some_and(|before| before.received == look.received) || self.contact.unread {
             return;
         }
-        let Some(axes_deg) = self.gate.axes_deg() else { return };
-        let [first, second] = before.map_or([0.0; 2], |before| rates_deg_s(&before, &look));
-        // A second axis other than elevation does not belong to the antenna.
-        let rates = [first, if self.variant.capabilities.has_elevation() { second } else { 0.0 }];
+        let Some(intervals) = self.gate.intervals() else { return };
+        let here = intervals.sweep();
+        let rates = self.rates(before.as_ref(), &look, intervals);
         self.seen.watch.rates_deg_s = rates;
-        let is_moving = rates.iter().any(|rate| rate.abs() > SLOWEST_DEG_S);
+        let turns_unseen = self.turns_unseen(&look, intervals);
+        let is_moving = rates.iter().any(|rate| rate.abs() > SLOWEST_DEG_S) || turns_unseen;
         let ahead_s = self.gate.ahead_s(now);
+        let there = self.reached(intervals, rates, turns_unseen, ahead_s);
         let bounds = self.bounds_now().at(now.utc);
-        let ahead_deg = self.gate.ahead_of(axes_deg, rates.map(|rate| rate * ahead_s));
         let on_sky = self.gate.to_sky().map(|to_sky| bounds.clone().on_the_sky(to_sky));
-        let [here, there] = [axes_deg, ahead_deg].map(|axes_deg| {
-            let direction = self.gate.bounds().direction(axes_deg);
-            let by_axes = bounds.clearances(direction);
-            let on_sky = on_sky.as_ref().map(|bounds| bounds.clearances(direction));
+        let [from, to] = [here, there].map(|place| {
+            let by_axes = bounds.least_clearances(place);
+            let on_sky = on_sky.as_ref().map(|bounds| bounds.least_clearances(place));
             lesser(by_axes, &on_sky.unwrap_or_default())
         });
-        let way_deg = |axes_deg| bounds.way_out_deg(axes_deg).filter(|_| on_sky.is_none());
-        let ways_deg = [axes_deg, ahead_deg].map(way_deg);
-        for (here, there) in here.into_iter().zip(there) {
+        let is_known = intervals.unknown().is_none();
+        // An unknown angle is inside a barrier only if it is so wherever the axis may be.
+        let surely = (!is_known).then(|| bounds.holds_all_of(here));
+        let way_deg = |place| bounds.way_out_deg(place).filter(|_| on_sky.is_none() && is_known);
+        let ways_deg = [here, there].map(way_deg);
+        for (index, (from, to)) in from.into_iter().zip(to).enumerate() {
             // Where no axis leads out by itself, the depth inside each barrier counts.
             let deeper_deg = match ways_deg {
                 [Some(here_deg), Some(there_deg)] => there_deg - here_deg,
-                _ => here.angle.degrees() - there.angle.degrees(),
+                _ => from.angle.degrees() - to.angle.degrees(),
             };
             let goes_deeper = is_moving && deeper_deg > NOISE_DEG;
-            self.judge(here, &there, is_moving, goes_deeper, now);
+            let certainty = match &surely {
+                None => Certainty::Known,
+                Some(surely) if surely.get(index) == Some(&true) => Certainty::Inside,
+                Some(_) => Certainty::Unknown,
+            };
+            self.judge(from, &to, certainty, is_moving, goes_deeper, now);
         }
+    }
+
+    /// Rates of the axes, degrees a second. One that reports no angle for a moment keeps its last
+    /// rate.
+    fn rates(&self, before: Option<&Measured>, look: &Measured, intervals: Intervals) -> [f64; 2] {
+        let mut rates = before.map_or([0.0; 2], |before| rates_deg_s(before, look));
+        let last = self.seen.watch.rates_deg_s.into_iter().zip(intervals.0);
+        for ((rate, axis), (last, interval)) in rates.iter_mut().zip(look.axes).zip(last) {
+            if axis.angle_deg.is_none() && interval.is_known && !is_at_limit(axis) {
+                *rate = last;
+            }
+        }
+        // A second axis other than elevation does not belong to the antenna.
+        let [first, second] = rates;
+        [first, if self.variant.capabilities.has_elevation() { second } else { 0.0 }]
+    }
+
+    /// Returns `true` if an axis whose angle is unknown may turn.
+    fn turns_unseen(&self, look: &Measured, intervals: Intervals) -> bool {
+        let is_ours = self.mover() == Mover::Azel;
+        let axes = look.axes.iter().zip(intervals.0).zip(self.gate.turns());
+        let mut unknown = axes.filter(|((_, interval), _)| !interval.is_known);
+        unknown.any(|((axis, _), is_turned)| {
+            axis.motion != AxisMotion::Still || (is_ours && is_turned)
+        })
+    }
+
+    /// Where the axes may be after `ahead_s` seconds at these rates.
+    fn reached(
+        &self,
+        intervals: Intervals,
+        rates: [f64; 2],
+        turns_unseen: bool,
+        ahead_s: f64,
+    ) -> Sweep {
+        let ahead_deg = rates.map(|rate| rate * ahead_s);
+        if let Some(axes_deg) = intervals.angles_deg() {
+            let Sweep([first, second]) = Sweep::at(self.gate.ahead_of(axes_deg, ahead_deg));
+            let has_elevation = self.variant.capabilities.has_elevation();
+            let Sweep([_, column]) = intervals.sweep();
+            return Sweep([first, if has_elevation { second } else { column }]);
+        }
+        let here = intervals.sweep().turned(ahead_deg);
+        let unseen_deg =
+            if turns_unseen { self.setup.track_config.fastest_deg_s() * ahead_s } else { 0.0 };
+        let widen = |(from, to): (f64, f64), axis: Interval| {
+            if axis.is_known { (from, to) } else { (from - unseen_deg, to + unseen_deg) }
+        };
+        let (Sweep([first, second]), Intervals([first_axis, second_axis])) = (here, intervals);
+        Sweep([widen(first, first_axis), widen(second, second_axis)])
     }
 
     fn judge(
         &mut self,
         here: Clearance,
         there: &Clearance,
+        certainty: Certainty,
         is_moving: bool,
         goes_deeper: bool,
         now: Moment,
@@ -89,7 +162,13 @@ impl Session {
         let (here_deg, there_deg) =
             (here.angle.degrees() + dip_deg, there.angle.degrees() + dip_deg);
         let driver = self.mover();
-        let is_inside = here_deg < 0.0;
+        let is_inside = match certainty {
+            Certainty::Known => here_deg < 0.0,
+            Certainty::Inside => true,
+            // Where it may be inside already, the gate alone forbids or permits.
+            Certainty::Unknown if here_deg < 0.0 => return,
+            Certainty::Unknown => false,
+        };
         // A program slows down where its pass begins; the readings show whether it does.
         let ends_there = driver == Mover::Program && here.barrier == Barrier::MinimumElevation;
         let enters = is_moving && !is_inside && there_deg < 0.0 && !ends_there;

@@ -54,12 +54,12 @@ impl Genius {
                     return Some(OTHER_TURNS);
                 }
                 let rotator = status.rotator(number);
-                without_position(rotator).or(match rotator.is_outside_limits {
+                match rotator.is_outside_limits {
                     Some(false) => None,
                     _ if self.is_rescue_armed(now.steady) => None,
                     Some(true) => Some(OUTSIDE),
                     None => Some(OUTSIDE_UNKNOWN),
-                })
+                }
             }
             Asked::Motion(Motion::Position { azimuth, elevation }) => {
                 if !is_clear {

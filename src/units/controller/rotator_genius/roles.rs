@@ -57,6 +57,23 @@ impl Roles {
         })
     }
 
+    /// Returns `true` if the azimuth rotator may reach a position over north: its limits do not
+    /// tell that it travels clockwise from the counter-clockwise one, short of north.
+    pub(super) fn may_turn_over_north(self, status: &Status) -> bool {
+        let ours = self.axes.iter().filter(|number| self.is_ours(**number));
+        let azimuth = ours
+            .map(|number| status.rotator(*number))
+            .find(|rotator| rotator.kind == RotatorKind::Azimuth);
+        let Some(rotator) = azimuth else { return true };
+        let (Some(ccw), Some(cw)) = (rotator.limit_ccw, rotator.limit_cw) else { return true };
+        let (ccw, cw) = (ccw.degrees(), cw.degrees());
+        let ends_at_north = (ccw == 0 && cw >= 359) || (cw == 0 && ccw >= 359);
+        // Inside both arcs between the limits, a position does not tell which one is meant.
+        let is_between = rotator.position.is_ok_and(|at| (ccw..=cw).contains(&at.degrees()));
+        let is_told = is_between && rotator.is_outside_limits == Some(false);
+        !ends_at_north && !is_told
+    }
+
     /// Position of a rotator as its axis counts, degrees. An elevation a little below the
     /// horizon is reported as almost a whole turn.
     pub(super) fn axis_deg(rotator: &Rotator) -> Option<f64> {

@@ -100,7 +100,9 @@ mod tests {
         "2026-08-12T10:00:00Z".parse().unwrap()
     }
 
-    const HIGH_DEG: [f64; 2] = [0.0, 89.0];
+    fn high() -> Sweep {
+        Sweep::at([0.0, 89.0])
+    }
 
     #[test]
     fn the_sun_is_avoided_where_it_will_be_too() {
@@ -112,12 +114,12 @@ mod tests {
         let place_deg = [ahead.azimuth_deg(), ahead.elevation_deg()];
         let there = Sweep::between(place_deg, place_deg);
         assert_eq!(
-            bounds.at(noon()).blocks(there, HIGH_DEG).map(|(barrier, _)| barrier),
+            bounds.at(noon()).blocks(there, high()).map(|(barrier, _)| barrier),
             Some(Barrier::Sun)
         );
         station.sun_avoidance = None;
         let bounds = Bounds::of(&station, &Antenna::genius("Yagi", "memory:1"));
-        assert_eq!(bounds.at(noon()).blocks(there, HIGH_DEG), None);
+        assert_eq!(bounds.at(noon()).blocks(there, high()), None);
     }
 
     #[test]

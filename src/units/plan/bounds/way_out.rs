@@ -4,7 +4,7 @@
 //! barrier lies behind it. Depth is therefore measured along what an axis can really do: turn one
 //! way until the antenna points in an allowed direction.
 
-use super::{AzEl, Bounds, BoundsAt, Named};
+use super::{Bounds, BoundsAt, Named, Sweep};
 use crate::station::Mount;
 
 /// Finest step along a turn, degrees.
@@ -32,8 +32,10 @@ enum Spot {
 impl BoundsAt<'_> {
     /// The shortest turn of one axis that leads out, within its travel and through no other
     /// barrier, in degrees of the sky; zero outside all barriers. `None` if there is no such turn.
-    pub fn way_out_deg(&self, axes_deg: [f64; 2]) -> Option<f64> {
-        let left = self.entered(self.bounds.direction(axes_deg));
+    ///
+    /// Where the position of an axis is a range, the whole range has to get out.
+    pub fn way_out_deg(&self, place: Sweep) -> Option<f64> {
+        let left = self.entered(place);
         if !left.contains(&true) {
             return Some(0.0);
         }
@@ -43,10 +45,10 @@ impl BoundsAt<'_> {
             if axis == 1 && !self.bounds.has_elevation {
                 continue;
             }
-            let turn = self.turn(axes_deg, axis, way);
+            let turn = self.turn(place, axis, way);
             let max_deg = shortest_deg.map_or(FURTHEST_DEG, |deg: f64| deg / turn.speed);
-            let place = |turn_deg| self.place(&turn, turn_deg, &left);
-            if let Some(turn_deg) = turn.out_deg(max_deg, place) {
+            let spot = |turn_deg| self.spot(&turn, turn_deg, &left);
+            if let Some(turn_deg) = turn.out_deg(max_deg, spot) {
                 let way_deg = turn_deg * turn.speed;
                 shortest_deg = Some(shortest_deg.map_or(way_deg, |deg| deg.min(way_deg)));
             }
@@ -56,10 +58,10 @@ impl BoundsAt<'_> {
 
     /// Depth below the minimum elevation, and depth inside each other barrier to its nearest edge,
     /// degrees; zero outside.
-    pub fn depths_deg(&self, axes_deg: [f64; 2]) -> (f64, Vec<f64>) {
+    pub fn depths_deg(&self, place: Sweep) -> (f64, Vec<f64>) {
         let (mut below_deg, mut inside_deg) = (0.0, Vec::new());
-        let each = self.each(self.bounds.direction(axes_deg));
-        for (barrier, angle, _) in each.filter(|(_, _, warns_only)| !warns_only) {
+        let each = self.each_in(place);
+        for (barrier, angle, _) in each.into_iter().filter(|(_, _, warns_only)| !warns_only) {
             let deep_deg = (-angle.degrees()).max(0.0);
             if let Named::MinimumElevation = barrier {
                 below_deg = deep_deg;
@@ -70,22 +72,23 @@ impl BoundsAt<'_> {
         (below_deg, inside_deg)
     }
 
-    /// For each barrier, in order, whether `direction` is inside it.
-    fn entered(&self, direction: AzEl) -> Vec<bool> {
-        let each = self.each(direction);
+    /// For each barrier, in order, whether a position in `place` is inside it.
+    fn entered(&self, place: Sweep) -> Vec<bool> {
+        let each = self.each_in(place).into_iter();
         each.map(|(_, angle, warns_only)| !warns_only && angle.degrees() < 0.0).collect()
     }
 
-    fn turn(&self, axes_deg: [f64; 2], axis: usize, way: f64) -> Turn {
+    fn turn(&self, place: Sweep, axis: usize, way: f64) -> Turn {
         let Bounds { mount, .. } = *self.bounds;
+        let axes_deg = place.middle();
         let [first, second] = mount.travel_deg();
         let ((from_deg, to_deg), at_deg) =
             if axis == 0 { (first, axes_deg[0]) } else { (second, axes_deg[1]) };
         let end_deg = if way > 0.0 { to_deg - at_deg } else { at_deg - from_deg };
-        let stretched_deg = Turn::turned(axes_deg, axis, STRETCH_DEG);
-        let [here, on] = [axes_deg, stretched_deg].map(|at| self.bounds.direction(at));
+        let stretched = Turn::turned(place, axis, STRETCH_DEG);
+        let [here, on] = [place, stretched].map(|at| self.bounds.direction(at.middle()));
         Turn {
-            axes_deg,
+            start: place,
             axis,
             way,
             end_deg: end_deg.min(FURTHEST_DEG),
@@ -94,11 +97,11 @@ impl BoundsAt<'_> {
         }
     }
 
-    fn place(&self, turn: &Turn, turn_deg: f64, left: &[bool]) -> Spot {
-        let axes_deg = Turn::turned(turn.axes_deg, turn.axis, turn.way * turn_deg);
+    fn spot(&self, turn: &Turn, turn_deg: f64, left: &[bool]) -> Spot {
+        let place = Turn::turned(turn.start, turn.axis, turn.way * turn_deg);
         let mut deepest_deg = 0.0;
         let mut room_deg = f64::INFINITY;
-        let each = self.each(self.bounds.direction(axes_deg)).zip(left);
+        let each = self.each_in(place).into_iter().zip(left);
         for ((barrier, angle, warns_only), is_left) in each {
             let clear_deg = angle.degrees();
             let is_level = turn.keeps_elevation && matches!(barrier, Named::MinimumElevation);
@@ -121,8 +124,8 @@ impl BoundsAt<'_> {
 
 /// A turn of one axis in one direction.
 struct Turn {
-    /// Positions of the axes at the start of the turn.
-    axes_deg: [f64; 2],
+    /// Where the axes may be at the start of the turn.
+    start: Sweep,
     axis: usize,
     /// 1 or -1.
     way: f64,
@@ -134,17 +137,16 @@ struct Turn {
 }
 
 impl Turn {
-    fn turned(axes_deg: [f64; 2], axis: usize, by_deg: f64) -> [f64; 2] {
-        let [first, second] = axes_deg;
-        if axis == 0 { [first + by_deg, second] } else { [first, second + by_deg] }
+    fn turned(place: Sweep, axis: usize, by_deg: f64) -> Sweep {
+        place.turned(if axis == 0 { [by_deg, 0.0] } else { [0.0, by_deg] })
     }
 
-    /// Turn after which `place` is free, at most `max_deg`, degrees.
-    fn out_deg(&self, max_deg: f64, mut place: impl FnMut(f64) -> Spot) -> Option<f64> {
+    /// Turn after which `spot` is free, at most `max_deg`, degrees.
+    fn out_deg(&self, max_deg: f64, mut spot: impl FnMut(f64) -> Spot) -> Option<f64> {
         let last_deg = self.end_deg.min(max_deg);
         let (mut inside_deg, mut turn_deg) = (0.0, 0.0);
         loop {
-            match place(turn_deg) {
+            match spot(turn_deg) {
                 Spot::Inside(_) if turn_deg >= last_deg => return None,
                 Spot::Inside(step_deg) => {
                     inside_deg = turn_deg;
@@ -157,13 +159,13 @@ impl Turn {
                     let (mut beyond, mut beyond_deg) = (beyond, turn_deg);
                     while beyond_deg - inside_deg > EDGE_DEG {
                         let middle_deg = f64::midpoint(inside_deg, beyond_deg);
-                        match place(middle_deg) {
+                        match spot(middle_deg) {
                             Spot::Inside(_) => inside_deg = middle_deg,
                             nearer => (beyond, beyond_deg) = (nearer, middle_deg),
                         }
                     }
                     let far_deg = beyond_deg + GAP_DEG;
-                    let has_room = far_deg <= self.end_deg && matches!(place(far_deg), Spot::Free);
+                    let has_room = far_deg <= self.end_deg && matches!(spot(far_deg), Spot::Free);
                     return (matches!(beyond, Spot::Free) && has_room).then_some(beyond_deg);
                 }
             }
@@ -213,7 +215,7 @@ mod tests {
     }
 
     fn way_out_deg(axes_deg: [f64; 2]) -> Option<f64> {
-        bounds().at(morning()).way_out_deg(axes_deg)
+        bounds().at(morning()).way_out_deg(Sweep::at(axes_deg))
     }
 
     #[test]
@@ -226,9 +228,9 @@ mod tests {
 
     #[test]
     fn an_edge_before_the_end_of_the_travel_is_a_way_out_where_there_is_room() {
-        let at_deg = bounds_to(161.08).at(morning()).way_out_deg([155.0, 30.0]).unwrap();
+        let at_deg = bounds_to(161.08).at(morning()).way_out_deg(Sweep::at([155.0, 30.0])).unwrap();
         assert!((4.0..5.0).contains(&at_deg), "{at_deg}");
-        let at_deg = bounds_to(161.02).at(morning()).way_out_deg([155.0, 30.0]).unwrap();
+        let at_deg = bounds_to(161.02).at(morning()).way_out_deg(Sweep::at([155.0, 30.0])).unwrap();
         assert!(at_deg > 20.0, "too narrow: {at_deg}");
     }
 
@@ -238,7 +240,7 @@ mod tests {
         // The lower edge is at 2 degrees.
         for (floor_deg, is_open) in [(0.94, true), (0.96, false)] {
             bounds.minimum_elevation = Some(Angle::from_degrees(floor_deg));
-            let at_deg = bounds.at(morning()).way_out_deg([130.0, 3.0]);
+            let at_deg = bounds.at(morning()).way_out_deg(Sweep::at([130.0, 3.0]));
             assert_eq!(at_deg.unwrap() < 1.1, is_open, "{at_deg:?}");
         }
     }
@@ -246,7 +248,7 @@ mod tests {
     #[test]
     fn an_antenna_without_an_elevation_axis_gets_out_by_its_azimuth() {
         let bounds = Bounds { has_elevation: false, minimum_elevation: None, ..bounds() };
-        let at_deg = bounds.at(morning()).way_out_deg([130.0, 58.0]).unwrap();
+        let at_deg = bounds.at(morning()).way_out_deg(Sweep::at([130.0, 58.0])).unwrap();
         assert!((15.0..17.0).contains(&at_deg), "{at_deg}");
     }
 
@@ -263,12 +265,12 @@ mod tests {
         for axes_deg in [[130.0, 5.0], [130.0, 5.01], [130.0, 4.99]] {
             let bounds = bounds();
             let now = bounds.at(morning());
-            let left = now.entered(bounds.direction(axes_deg));
-            let turn = now.turn(axes_deg, 0, 1.0);
+            let left = now.entered(Sweep::at(axes_deg));
+            let turn = now.turn(Sweep::at(axes_deg), 0, 1.0);
             let mut looks = 0;
             let turn_deg = turn.out_deg(FURTHEST_DEG, |turn_deg| {
                 looks += 1;
-                now.place(&turn, turn_deg, &left)
+                now.spot(&turn, turn_deg, &left)
             });
             assert_eq!(turn_deg.is_some(), axes_deg[1] >= 5.0, "{axes_deg:?}");
             assert!(looks < 100, "{looks} from {axes_deg:?}");

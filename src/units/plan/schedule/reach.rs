@@ -397,7 +397,7 @@ impl Reach {
             return Some(if dips { self.by_corner_ms(from_deg, to_deg) } else { straight_ms });
         }
         let (at, sweep) = (at_ms(at), Sweep::between(from_deg, to_deg));
-        if self.bounds.at(at).blocks(sweep, from_deg).is_none() {
+        if self.bounds.at(at).blocks(sweep, Sweep::at(from_deg)).is_none() {
             return Some(straight_ms);
         }
         let limits = self.drives.axis_limits();

@@ -211,10 +211,9 @@ fn a_motion_over_the_zenith_ends_on_the_other_side() {
 }
 
 #[test]
-fn an_axis_at_its_limit_may_come_from_anywhere_in_its_travel() {
+fn an_axis_without_an_angle_may_come_from_anywhere_in_its_travel() {
     let mut case = each_rule::beside_a_mast(rc2000c(Intent::Position));
     assert_eq!(case.ask(position(60.0, 20.0)), Ok(()));
-    // It tells its end by a word instead of an angle.
     case.axes()[0].angle_deg = None;
     assert!(matches!(case.ask(position(60.0, 20.0)), Err(Refusal::Forbidden { .. })));
     case.axes()[1].angle_deg = Some(60.0);

@@ -1,0 +1,216 @@
+//! Where each axis may be: an interval of angles, because an angle may be missing.
+
+use std::time::Duration;
+
+use super::Gate;
+use crate::{
+    clock::Instant,
+    device::{Axis, Measured},
+    plan::Sweep,
+};
+
+/// A reading without an angle counts as no reading for this long, which is also how old a position
+/// may be for a jog.
+const GAP: Duration = Duration::from_secs(1);
+/// Every direction at one azimuth, for an antenna that does not turn in elevation, degrees.
+const COLUMN_DEG: (f64, f64) = (0.0, 90.0);
+
+/// Where one axis may be, degrees as the mount counts.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(in crate::driver) struct Interval {
+    pub(in crate::driver) from_deg: f64,
+    pub(in crate::driver) to_deg: f64,
+    /// The unit reports the angle, or the limit that the axis stands at.
+    pub(in crate::driver) is_known: bool,
+}
+
+impl Interval {
+    fn at(deg: f64) -> Self {
+        Self { from_deg: deg, to_deg: deg, is_known: true }
+    }
+
+    /// The range `ahead` as far as this axis can get there.
+    fn within(self, (from_deg, to_deg): (f64, f64), travel_deg: (f64, f64)) -> (f64, f64) {
+        if self.is_known {
+            return (from_deg, to_deg);
+        }
+        let lowest_deg = travel_deg.0.min(self.from_deg);
+        let highest_deg = travel_deg.1.max(self.to_deg);
+        (from_deg.max(lowest_deg), to_deg.min(highest_deg))
+    }
+
+    /// Of an axis that has turned from `last` for `since`, at no more than its highest rate.
+    fn since(last: LastAngle, since: Duration, rate_deg_s: f64, travel_deg: (f64, f64)) -> Self {
+        let turned_deg = rate_deg_s * since.as_secs_f64();
+        // An axis beyond its travel may still be there.
+        let (lowest_deg, highest_deg) = (travel_deg.0.min(last.deg), travel_deg.1.max(last.deg));
+        Self {
+            from_deg: (last.deg - turned_deg).max(lowest_deg),
+            to_deg: (last.deg + turned_deg).min(highest_deg),
+            is_known: false,
+        }
+    }
+}
+
+/// Where both axes may be.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(in crate::driver) struct Intervals(pub(in crate::driver) [Interval; 2]);
+
+impl Intervals {
+    pub(in crate::driver) fn sweep(self) -> Sweep {
+        Sweep(self.0.map(|axis| (axis.from_deg, axis.to_deg)))
+    }
+
+    /// Where the axes may be after turning by `ahead_deg`. One whose angle is not known stays within
+    /// its travel.
+    pub(super) fn after(self, ahead_deg: [f64; 2], travel_deg: [(f64, f64); 2]) -> Sweep {
+        let Sweep(ahead) = self.sweep().turned(ahead_deg);
+        let [first, second] = self.0;
+        let [first_ahead, second_ahead] = ahead;
+        let [first_travel, second_travel] = travel_deg;
+        Sweep([first.within(first_ahead, first_travel), second.within(second_ahead, second_travel)])
+    }
+
+    /// The first axis whose angle is not known.
+    pub(in crate::driver) fn unknown(self) -> Option<usize> {
+        self.0.iter().position(|axis| !axis.is_known)
+    }
+
+    /// The angles of both axes; `None` where one is not known.
+    pub(in crate::driver) fn angles_deg(self) -> Option<[f64; 2]> {
+        self.unknown().is_none().then(|| self.0.map(|axis| axis.from_deg))
+    }
+}
+
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct LastAngle {
+    deg: f64,
+    asked: Instant,
+}
+
+/// The last angle that each axis reported.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub(super) struct LastAngles([Option<LastAngle>; 2]);
+
+impl LastAngles {
+    fn take(&mut self, measured: &Measured) {
+        for (last, axis) in self.0.iter_mut().zip(measured.axes) {
+            if let Some(deg) = angle_deg(axis) {
+                *last = Some(LastAngle { deg, asked: measured.asked });
+            }
+        }
+    }
+}
+
+impl Gate {
+    /// Remembers the angles of the present position.
+    pub(in crate::driver) fn remember_angles(&mut self) {
+        if let Some(measured) = self.controller.state().measured {
+            self.last_angles.take(&measured);
+        }
+    }
+
+    /// Where the axes were at the last position; `None` before the first one.
+    pub(in crate::driver) fn intervals(&self) -> Option<Intervals> {
+        let measured = self.state().measured?;
+        let [first, second] = measured.axes;
+        let [first_travel_deg, second_travel_deg] = self.mount.travel_deg();
+        let [first_last, second_last] = self.last_angles.0;
+        let rate_deg_s = self.limits.maximum_rate_deg_s;
+        let interval =
+            |axis, travel_deg, last| interval(axis, travel_deg, last, measured.asked, rate_deg_s);
+        let (from_deg, to_deg) = COLUMN_DEG;
+        Some(Intervals([
+            interval(first, first_travel_deg, first_last),
+            if self.variant.capabilities.has_elevation() {
+                interval(second, second_travel_deg, second_last)
+            } else {
+                Interval { from_deg, to_deg, is_known: true }
+            },
+        ]))
+    }
+
+    /// When the oldest of the angles was asked for by which the axes are known.
+    pub(super) fn angles_asked(&self) -> Option<Instant> {
+        let measured = self.state().measured?;
+        let count = self.variant.capabilities.axis_count();
+        let axes = measured.axes.into_iter().zip(self.last_angles.0).take(count);
+        let bridged =
+            axes.filter(|(axis, _)| angle_deg(*axis).is_none()).filter_map(|(_, last)| {
+                last.map(|last| last.asked).filter(|asked| is_bridged(*asked, measured.asked))
+            });
+        bridged.chain([measured.asked]).min()
+    }
+}
+
+/// `asked`: when the reading of the axis was asked for.
+fn interval(
+    axis: Axis,
+    travel_deg: (f64, f64),
+    last: Option<LastAngle>,
+    asked: Instant,
+    rate_deg_s: f64,
+) -> Interval {
+    if let Some(deg) = angle_deg(axis) {
+        return Interval::at(deg);
+    }
+    match (axis.minus_limit, axis.plus_limit, last) {
+        (true, false, _) => Interval::at(travel_deg.0),
+        (false, true, _) => Interval::at(travel_deg.1),
+        (_, _, Some(last)) if is_bridged(last.asked, asked) => Interval::at(last.deg),
+        (_, _, Some(last)) => {
+            let since = asked.saturating_duration_since(last.asked);
+            Interval::since(last, since, rate_deg_s, travel_deg)
+        }
+        (_, _, None) => {
+            let (from_deg, to_deg) = travel_deg;
+            Interval { from_deg, to_deg, is_known: false }
+        }
+    }
+}
+
+fn is_bridged(last: Instant, asked: Instant) -> bool {
+    asked.saturating_duration_since(last) < GAP
+}
+
+fn angle_deg(axis: Axis) -> Option<f64> {
+    axis.angle_deg.filter(|deg| deg.is_finite())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::device::AxisMotion;
+
+    fn axis(angle_deg: Option<f64>, [minus_limit, plus_limit]: [bool; 2]) -> Axis {
+        Axis { angle_deg, motion: AxisMotion::Still, plus_limit, minus_limit }
+    }
+
+    /// The interval, in degrees, of an axis that travels from -5 to 100 degrees at up to 2 degrees
+    /// a second and stood at 10 degrees `seconds` ago.
+    fn after(seconds: u64, axis: Axis) -> (f64, f64, bool) {
+        let asked = Instant::now();
+        let now = asked + Duration::from_secs(seconds);
+        let last = Some(LastAngle { deg: 10.0, asked });
+        let Interval { from_deg, to_deg, is_known } = interval(axis, (-5.0, 100.0), last, now, 2.0);
+        (from_deg, to_deg, is_known)
+    }
+
+    #[test]
+    fn without_an_angle_it_widens_from_the_last_one_up_to_the_travel() {
+        let blank = axis(None, [false; 2]);
+        assert_eq!(after(3, axis(Some(30.0), [false; 2])), (30.0, 30.0, true));
+        assert_eq!(after(0, blank), (10.0, 10.0, true), "one blank reading is no news");
+        assert_eq!(after(2, blank), (6.0, 14.0, false));
+        assert_eq!(after(10, blank), (-5.0, 30.0, false));
+        assert_eq!(after(1000, blank), (-5.0, 100.0, false));
+        assert_eq!(after(2, axis(Some(f64::NAN), [false; 2])), (6.0, 14.0, false));
+    }
+
+    #[test]
+    fn a_limit_switch_means_that_end_of_the_travel() {
+        assert_eq!(after(5, axis(None, [true, false])), (-5.0, -5.0, true));
+        assert_eq!(after(5, axis(None, [false, true])), (100.0, 100.0, true));
+        assert_eq!(after(2, axis(None, [true, true])), (6.0, 14.0, false), "they contradict");
+    }
+}
