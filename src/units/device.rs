@@ -21,7 +21,7 @@ use serde::{Deserialize, Serialize};
 use smol_str::SmolStr;
 
 pub use calibration::{CalibrationError, CountLine, CountPoint};
-pub use capabilities::{Capabilities, JogSpeed, JogSpeeds, SecondAxis, Standstill};
+pub use capabilities::{Capabilities, Effect, JogSpeed, JogSpeeds, SecondAxis, Standstill};
 pub use element_files::ElementFiles;
 pub use on_board::{
     HeldSatellite, LONGEST_WINDOW_S, Offsets, OnBoard, Place, TrackOffsetFields, UnitClock,

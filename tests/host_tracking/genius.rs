@@ -3,10 +3,10 @@
 use azel::{
     astro::{AzEl, time::add_seconds},
     controller::rotator_genius::{ROTATORS, Rotators},
-    driver::{Command, Event, Intent},
-    plan::{ProgramTrack, Target, TrackStats},
-    protocol::rotator_genius::WholeDegrees,
-    sim::rotator_genius::{Control, Options, RotatorOptions},
+    driver::{Command, Event, Intent, Safety},
+    plan::{ProgramTrack, Target, TrackPhase, TrackStats},
+    protocol::rotator_genius::{RotatorNumber, WholeDegrees},
+    sim::rotator_genius::{Control, Fault, Options, RotatorOptions},
     station::{Antenna, Mount},
 };
 
@@ -204,4 +204,21 @@ async fn a_refusal_of_the_device_ends_it_with_its_reason() {
     rig.until_event(5, |event| matches!(event, Event::Refused(..))).await;
     rig.seconds(1.0).await;
     assert_eq!((rig.phase(), rig.shown().intent), (None, Intent::Standby));
+}
+
+#[tokio::test(start_paused = true)]
+async fn a_rotator_that_takes_the_commands_and_does_nothing_is_stopped_and_told() {
+    let scene = sky::usual();
+    let (mut rig, control) = connected(&options(1), &antenna(Rotators::Pair), &scene).await;
+    rig.send(Command::ProgramTrack(Box::new(scene.follow())));
+    rig.until("up", 1000, |shown| {
+        shown.program_track.as_ref().is_some_and(|track| track.phase == TrackPhase::Tracking)
+    })
+    .await;
+    rig.events();
+    control.set_fault(Fault::Stuck(RotatorNumber::One), true);
+    control.set_fault(Fault::Stuck(RotatorNumber::Two), true);
+    let is_told = |event: &Event| matches!(event, Event::Safety(Safety::NoEffect { .. }));
+    rig.until_event(400, is_told).await;
+    assert_eq!(rig.shown().intent, Intent::Standby);
 }

@@ -3,6 +3,7 @@
 use std::time::Duration;
 
 use azel::{
+    astro::Angle,
     clock::Instant,
     driver::{Command, Event, Safety},
 };
@@ -84,6 +85,15 @@ fn is_contradiction(event: &Event) -> bool {
     matches!(event, Event::Safety(Safety::FlagsContradict { .. }))
 }
 
+/// When a jog whose angles froze is stopped at the latest.
+const JOG_ENDS_WITHIN: Duration = Duration::from_secs(6);
+/// The same for a motion to a position.
+const GO_TO_ENDS_WITHIN: Duration = Duration::from_secs(10);
+
+fn is_without_effect(event: &Event) -> bool {
+    matches!(event, Event::Safety(Safety::NoEffect { .. }))
+}
+
 async fn angles_freeze(mut dice: Dice) {
     let mut scene = scene(&mut dice, false).await;
     let axis = dice.below(2);
@@ -94,25 +104,49 @@ async fn angles_freeze(mut dice: Dice) {
     rates_deg_s[axis] = way * share * fastest_deg_s;
     scene.send(Command::Manual);
     scene.seconds(2.0).await;
-    scene.world.unit.tell(Lie::FrozenAngles);
-    scene.seconds(1.0).await;
     let began = Instant::now();
-    while Instant::now() < began + Duration::from_millis(6500) {
+    // Before the jog, or in the middle of it.
+    let freezes_at = began + Duration::try_from_secs_f64(dice.between(-1.0, 3.0).max(0.0)).unwrap();
+    let mut frozen = None;
+    while frozen.is_none_or(|at| Instant::now() < at + JOG_ENDS_WITHIN) {
+        if frozen.is_none() && Instant::now() >= freezes_at {
+            scene.world.unit.tell(Lie::FrozenAngles);
+            frozen = Some(Instant::now());
+        }
         scene.send(Command::Jog { rates_deg_s });
         scene.seconds(0.1).await;
     }
-    scene.send(Command::EndJog);
-    let is_it = |event: &Event| matches!(event, Event::Safety(Safety::JogWithoutEffect));
-    let is_refused = |event: &Event| matches!(event, Event::NotSent(_));
-    if scene.told(began, is_refused).is_some() {
+    let case = format!("{rates_deg_s:?} {:?}", freezes_at - began);
+    let told = scene.told(began, is_without_effect).is_some();
+    // A jog that a barrier or a limit ended moves nothing either.
+    let is_refused = scene.told(began, |event| matches!(event, Event::NotSent(_))).is_some();
+    assert!(told || is_refused, "not told: {case}\n{}", scene.report());
+    scene.seconds(3.0).await;
+    assert!(!scene.world.unit.is_turning(), "turns on: {case}\n{}", scene.report());
+}
+
+async fn angles_freeze_on_the_way(mut dice: Dice) {
+    let mut scene = scene(&mut dice, false).await;
+    let at = scene.world.direction();
+    let azimuth = at.azimuth + Angle::from_degrees(dice.between(60.0, 120.0));
+    scene.send(Command::Position { azimuth: Some(azimuth.wrapped_360()), elevation: None });
+    let began = Instant::now();
+    scene.seconds(dice.between(0.0, 6.0)).await;
+    if scene.told(began, |event| matches!(event, Event::NotSent(_))).is_some() {
         return;
     }
-    let told = scene.told(began, is_it);
-    assert!(
-        told.is_some_and(|at| at <= began + Duration::from_secs(6)),
-        "not told: {rates_deg_s:?}\n{}",
-        scene.report()
-    );
+    scene.world.unit.tell(Lie::FrozenAngles);
+    let frozen = Instant::now();
+    let mut was_stopped = false;
+    while Instant::now() < frozen + GO_TO_ENDS_WITHIN {
+        scene.seconds(0.1).await;
+        was_stopped |= scene.told(frozen, is_without_effect).is_some();
+    }
+    let has_ended = |event: &Event| matches!(event, Event::Arrived(_) | Event::EndedShort { .. });
+    let ended = scene.told(began, has_ended).is_some();
+    assert!(was_stopped || ended, "{azimuth:?}\n{}", scene.report());
+    scene.seconds(4.0).await;
+    assert!(!scene.world.unit.is_turning(), "turns on: {azimuth:?}\n{}", scene.report());
 }
 
 #[test]
@@ -121,6 +155,11 @@ fn any_flags_that_lie_prove_no_standstill_and_are_told() {
 }
 
 #[test]
-fn any_jog_without_effect_is_told() {
+fn any_jog_without_effect_is_stopped_and_told() {
     for_each_case("angles freeze", 50, angles_freeze);
+}
+
+#[test]
+fn any_go_to_without_effect_is_stopped_and_told() {
+    for_each_case("angles freeze on the way", 50, angles_freeze_on_the_way);
 }

@@ -10,6 +10,7 @@ use azel::{
         on_board::{Cause, OffLimits, Trespass},
     },
     protocol::satrak::encode,
+    sim::satrak::Fault,
     station::{Antenna, Monitor, Station},
 };
 use tokio::io::AsyncWriteExt as _;
@@ -282,6 +283,24 @@ async fn an_on_board_track_that_azel_started_stops_before_a_keep_out() {
     let bounds = in_the_way();
     let at = AzEl::from_degrees(state.az_deg, state.el_deg);
     assert_eq!(bounds.at(iss().from).forbids(at), None, "{at:?}");
+}
+
+#[tokio::test(start_paused = true)]
+async fn an_on_board_track_whose_angles_freeze_is_stopped() {
+    let mut rig = Rig::connected(&options(), &antenna()).await;
+    rig.send(track(iss()));
+    rig.until_event(10, |event| matches!(event, Event::Tracking(_))).await;
+    let aos = iss().from;
+    rig.until("up", 2000, |shown| {
+        shown.state.measured.is_some_and(|it| time::seconds_between(aos, it.at) > 120.0)
+    })
+    .await;
+    rig.control.set_fault(Fault::FrozenAngles, true);
+    let is_told = |event: &Event| matches!(event, Event::Safety(Safety::NoEffect { .. }));
+    rig.until_event(60, is_told).await;
+    rig.seconds(5.0).await;
+    let state = rig.control.state();
+    assert!(!state.is_moving && !state.is_tracking);
 }
 
 async fn auto_track_refused(rig: &mut Rig) -> Refusal {

@@ -159,6 +159,19 @@ impl Gate {
         self.started_from_deg
     }
 
+    /// Where the last motion sent each axis, degrees as the mount counts; `None` for an axis that
+    /// it does not turn, and after a halt.
+    pub(super) fn sent_to_deg(&self) -> [Option<f64>; 2] {
+        let [first, second] = self.to_deg;
+        let [turns_first, turns_second] = self.turns;
+        [first.filter(|_| turns_first), second.filter(|_| turns_second)]
+    }
+
+    /// A halt ends what the last motion turns.
+    pub(super) fn halted(&mut self) {
+        self.turns = [false; 2];
+    }
+
     /// The axes that the last motion from here turns.
     pub(super) fn turns(&self) -> [bool; 2] {
         self.turns

@@ -39,8 +39,12 @@ pub enum Safety {
     /// It does not answer while it moves on this program's word, or before STOP is proved to
     /// have ended that. The snapshot says until when.
     SilentInMotion,
-    /// A held jog does not turn the axis.
-    JogWithoutEffect,
+    /// A motion that the unit accepted does not turn this axis (`None`: either axis), or the sensor
+    /// does not show it. Azel has sent STOP.
+    NoEffect {
+        #[serde(deserialize_with = "name::option")]
+        axis: Option<Name>,
+    },
     /// The clock of this computer was set.
     ClockStepped {
         /// By this much, seconds; positive ahead.

@@ -6,6 +6,7 @@ mod activity;
 mod auto_track;
 mod clocks;
 mod command;
+mod effect;
 mod guard;
 mod inside;
 mod io_loop;
@@ -63,6 +64,7 @@ use crate::{
 };
 use activity::Activity;
 use clocks::Clocks;
+use effect::Effects;
 use guard::Guard;
 use jog::JogKey;
 use likeness::Likeness;
@@ -259,6 +261,7 @@ struct LastSeen {
     place: inside::Place,
     overrun: Overrun,
     rest: Rest,
+    effects: Effects,
     /// When the last position that was judged came in.
     looked: Option<Instant>,
 }

@@ -189,8 +189,12 @@ pub fn safety(matter: &Safety, antenna: &str, now: Timestamp) -> String {
              known. Look at it. STOP reaches it as soon as the link does; before that use the \
              local panel."
         ),
-        Safety::JogWithoutEffect => {
-            format!("{antenna} took the jog, but its angle does not change.")
+        Safety::NoEffect { axis } => {
+            let angle = axis.map_or("its angles".to_owned(), |axis| format!("the angle of {axis}"));
+            format!(
+                "{antenna} was stopped: it took the command, but {angle} did not change. Check \
+                 drive, brake and sensor before you move it again."
+            )
         }
         Safety::Forbidden { barrier, driver, response } => {
             let driver = match driver {

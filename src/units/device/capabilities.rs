@@ -27,6 +27,7 @@ pub struct Capabilities {
     /// so it is left alone until the operator connects to it.
     pub waits_for_word: bool,
     pub standstill: Standstill,
+    pub effect: Effect,
     /// A further effect of STOP, beyond stopping this antenna, as a sentence.
     pub stop_note: Option<&'static str>,
 }
@@ -68,6 +69,16 @@ pub struct Standstill {
     /// Usual overrun after STOP, in seconds at the rate of the axis: half of the time in
     /// which the axis slows down.
     pub overrun_s: f64,
+}
+
+/// How to tell a motion without effect.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Effect {
+    /// Longest time from a command to a position until the angle begins to change, or until it
+    /// goes on changing, seconds.
+    pub shows_after_s: f64,
+    /// The unit may ignore a command to a position that is nearer than this, degrees.
+    pub ignores_deg: f64,
 }
 
 /// Jog speeds of a controller.

@@ -14,8 +14,8 @@ use azel::{
     clock::{Instant, Moment},
     controller::satrak,
     device::{
-        AntennaState, Axis, AxisMotion, Capabilities, Controller, ControllerEvent, Device, Extent,
-        JogSpeeds, Measured, Motion, SecondAxis, Standstill, Variant,
+        AntennaState, Axis, AxisMotion, Capabilities, Controller, ControllerEvent, Device, Effect,
+        Extent, JogSpeeds, Measured, Motion, SecondAxis, Standstill, Variant,
         settings::{Field, Key},
     },
     station::{Connection, ControllerSpec, Link, Setting, Table, Usual},
@@ -67,6 +67,7 @@ static VARIANT: Variant = Variant {
         ends_jogs: false,
         waits_for_word: false,
         standstill: Standstill { resolution_deg: 0.1, slowest_deg_s: 0.5, overrun_s: 0.5 },
+        effect: Effect { shows_after_s: 4.0, ignores_deg: 0.0 },
         stop_note: None,
     },
     groups: &[],

@@ -30,6 +30,14 @@ impl Gate {
         self.to_sky
     }
 
+    /// Returns `true` if the antenna can point there.
+    pub(in crate::driver) fn reaches(&self, direction: AzEl, now: Moment) -> bool {
+        let AzEl { azimuth, elevation } = direction;
+        let to = Motion::Position { azimuth: Some(azimuth), elevation: Some(elevation) };
+        let situation = self.situation(Intent::Track, false, now);
+        self.nearest(to).is_ok_and(|to| rules::within_reach(&to, &situation).is_ok())
+    }
+
     pub(in crate::driver) fn set_to_sky(&mut self, to_sky: Option<DQuat>) {
         self.to_sky = to_sky;
     }

@@ -42,7 +42,7 @@ pub(super) struct Slew {
 pub(super) enum SlewStage {
     /// Will be sent as soon as the antenna stands.
     Queued { motion: Motion, leg: Option<Leg> },
-    /// Under way; `since` is when it was sent, or last seen to turn.
+    /// Under way; `since` is when it was sent, or found under way.
     UnderWay { since: Instant, leg: Option<Leg> },
     /// Has arrived, or ended short.
     Over,
@@ -244,24 +244,22 @@ pub(super) enum Arrival {
 }
 
 impl Slew {
-    /// Compares the motion under way with a position. The time limit for its first effect starts
-    /// anew while the antenna `turns`.
+    /// Compares the motion under way with a position. `turns`: the unit's flags say so; `turned`:
+    /// when its angles last changed.
     pub(super) fn watch(
         &mut self,
         measured: &Measured,
         turns: bool,
+        turned: Option<Instant>,
         within: Angle,
         now: Instant,
     ) -> Option<Arrival> {
         let SlewStage::UnderWay { since, leg } = self.stage else { return None };
         let aim = leg.map(|leg| leg.aim).or(self.aim)?;
-        if turns {
-            self.stage = SlewStage::UnderWay { since: now, leg };
+        if turns || measured.asked <= since {
             return None;
         }
-        if measured.asked <= since {
-            return None;
-        }
+        let since = turned.map_or(since, |turned| turned.max(since));
         let is_near = measured.pointing.separation(aim).is_some_and(|off| off <= within);
         let arrival = match leg {
             Some(leg) if is_near => Arrival::Leg(leg.then),

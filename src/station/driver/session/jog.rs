@@ -5,17 +5,13 @@ use std::time::Duration;
 use super::{Event, Session};
 use crate::{
     clock::{Instant, Moment},
-    device::{Measured, Motion},
-    driver::Safety,
+    device::Motion,
 };
 
 /// A jog that was not renewed for this long is over.
 pub const LEASE: Duration = Duration::from_millis(300);
 /// A jog needs a position younger than this.
 const FRESH: Duration = Duration::from_secs(1);
-
-/// Longest time that a motor takes to start turning.
-const EFFECT: Duration = Duration::from_millis(1500);
 
 /// A held jog key.
 #[derive(Debug, Clone, PartialEq)]
@@ -28,8 +24,6 @@ pub(super) struct Jog {
     pub(super) started: bool,
     /// The gate refused it, and the operator was told.
     pub(super) refused: bool,
-    /// The position before it began, until the antenna is seen to turn.
-    pub(super) unseen: Option<Measured>,
 }
 
 impl Jog {
@@ -96,13 +90,7 @@ impl Session {
                 if key.started().is_some() {
                     self.halt_quietly(now);
                 }
-                self.key = JogKey::Down(Jog {
-                    rates_deg_s,
-                    until,
-                    started: false,
-                    refused: false,
-                    unseen: None,
-                });
+                self.key = JogKey::Down(Jog { rates_deg_s, until, started: false, refused: false });
             }
         }
         self.start_jog(now);
@@ -131,12 +119,10 @@ impl Session {
             .check(motion, intent, now)
             .and_then(|()| self.arm_dead_man(now))
             .and_then(|()| self.gate.start(motion, intent, false, now));
-        let before = self.gate.state().measured;
         let Some(jog) = self.key.held_mut() else { return };
         match started {
             Ok(()) => {
                 jog.started = true;
-                jog.unseen = before;
                 self.stop.forget();
             }
             // A key that stays down tries again, but the reason is reported once.
@@ -148,28 +134,8 @@ impl Session {
         }
     }
 
-    /// Reports a jog that the unit accepted and that turns nothing.
-    fn watch_effect(&mut self) {
-        let Some(jog) = self.key.held_mut() else { return };
-        let Some((before, look)) = jog.unseen.zip(self.gate.state().measured) else { return };
-        let turned = self.setup.figures.turned(&before, &look).is_some();
-        let waited = look.asked.saturating_duration_since(before.asked);
-        // Even the slowest jog must have had time to show.
-        let rate_deg_s = jog.rates_deg_s.into_iter().map(f64::abs).fold(0.0, f64::max);
-        let expected_deg = rate_deg_s * waited.saturating_sub(EFFECT).as_secs_f64();
-        let is_due = expected_deg > 4.0 * self.setup.figures.tolerance_deg();
-        let has_angles = look.axes.iter().any(|axis| axis.angle_deg.is_some());
-        if turned || is_due || !has_angles {
-            jog.unseen = None;
-        }
-        if is_due && !turned && has_angles {
-            self.tell(Event::Safety(Safety::JogWithoutEffect));
-        }
-    }
-
     /// Ends a jog that is no longer renewed, or whose position is too old.
     pub(super) fn watch_jog(&mut self, now: Moment) {
-        self.watch_effect();
         let Some(jog) = self.key.held() else { return };
         let over = now.steady >= jog.until;
         if !jog.started {

@@ -6,11 +6,11 @@ use std::{sync::Arc, time::Duration};
 use super::{Event, Session, activity::Slew};
 use crate::{
     astro::{
-        Angle,
+        Angle, AzEl,
         time::{add_seconds, seconds_between},
     },
     clock::{Instant, Moment},
-    device::{LONGEST_WINDOW_S, OnBoard},
+    device::{LONGEST_WINDOW_S, Measured, OnBoard},
     driver::{Intent, OnBoardView, TrackProblem, gate::Held},
     plan::{OnBoardPass, Supervision, on_board::Judge},
 };
@@ -34,6 +34,8 @@ pub(super) struct Watch {
     off_since: Option<(Instant, Duration)>,
     /// The angle off target, once that has lasted too long.
     missing: Option<Angle>,
+    /// The position when the axes last turned, and where the satellite was then.
+    turned: Option<(Measured, AzEl)>,
 }
 
 impl Watch {
@@ -47,6 +49,7 @@ impl Watch {
             was_on_target: false,
             off_since: None,
             missing: None,
+            turned: None,
         }
     }
 
@@ -171,6 +174,32 @@ impl Session {
         self.unasked = judge.map(|judge| Watch::new(Arc::new(judge), &state.on_board));
     }
 
+    /// Returns `true` if neither axis has turned while the satellite, at `to` now, went on.
+    fn stands_while_it_should_track(&mut self, measured: &Measured, to: AzEl, now: Moment) -> bool {
+        let (figures, can) = (self.setup.figures, self.variant.capabilities);
+        let can_point = self.gate.reaches(to, now);
+        let Some(track) = self.activity.on_board_mut() else { return false };
+        let turned = &mut track.watch.turned;
+        let known = turned.filter(|(before, _)| {
+            can_point
+                && figures.turned(before, measured).is_none()
+                && measured.direction().is_some()
+        });
+        let Some((before, from)) = known else {
+            *turned = Some((*measured, to));
+            return false;
+        };
+        let shows_after = Duration::try_from_secs_f64(can.effect.shows_after_s).unwrap_or_default();
+        let finest_deg = can.arrives_within_deg
+            + can.effect.ignores_deg
+            + 2.0 * can.standstill.resolution_deg
+            + 4.0 * figures.tolerance_deg();
+        let off = measured.pointing.separation(to.into());
+        from.separation(to).degrees() > finest_deg
+            && off.is_some_and(|off| off.degrees() > finest_deg)
+            && measured.asked.saturating_duration_since(before.asked) >= shows_after
+    }
+
     /// Checks whether the unit points where it should.
     pub(super) fn watch_on_board(&mut self, now: Moment) {
         if self.activity.on_board().is_none() {
@@ -193,6 +222,11 @@ impl Session {
         }
         watch.compared = Some(measured.received);
         let predicted = meant.demanded(measured.at, |at| watch.judge.direction(at));
+        if predicted.is_some_and(|to| self.stands_while_it_should_track(&measured, to, now)) {
+            return self.end_without_effect(None, now);
+        }
+        let asked = self.activity.on_board_mut().map(|track| &mut track.watch);
+        let Some(watch) = asked.or(self.unasked.as_mut()) else { return };
         let off = predicted.and_then(|predicted| measured.pointing.separation(predicted.into()));
         let Some(off) = off else { return };
         if off <= self.setup.ability.half_beam {

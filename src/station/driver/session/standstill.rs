@@ -39,6 +39,11 @@ impl Figures {
         self.tolerance_deg
     }
 
+    /// Returns `true` if an axis may stand and read both angles, degrees.
+    pub(super) fn are_same_deg(self, before_deg: f64, after_deg: f64) -> bool {
+        wrapped_deg(after_deg - before_deg).abs() <= self.tolerance_deg
+    }
+
     /// The axis that has turned most between two positions, and by how many degrees. `None` if
     /// none has turned by more than a standing axis may.
     pub(super) fn turned(self, before: &Measured, after: &Measured) -> Option<(usize, f64)> {

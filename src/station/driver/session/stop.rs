@@ -115,6 +115,7 @@ impl Session {
         self.stepping = None;
         self.doubt = None;
         self.void_shift();
+        self.gate.halted();
         self.activity.halt();
         if pressed {
             self.end_auto_track();

@@ -38,6 +38,7 @@ impl Session {
         self.watch_program();
         self.resolve_doubt(now);
         self.watch_jog(now);
+        self.watch_effect(now);
         self.watch_step();
         self.watch_halt(now);
         self.let_sleep();
@@ -266,10 +267,13 @@ impl Session {
     /// Sends the next motion of a slew, or reports how it has ended.
     fn watch_slew(&mut self, now: Moment) {
         let (turns, within_deg) = (self.turns(), self.variant.capabilities.arrives_within_deg);
+        let turned = self.seen.effects.last_change();
         let Some(measured) = self.gate.state().measured else { return };
         let Some(slew) = self.activity.slew_mut() else { return };
         let within = Angle::from_degrees(within_deg);
-        let Some(arrival) = slew.watch(&measured, turns, within, now.steady) else { return };
+        let Some(arrival) = slew.watch(&measured, turns, turned, within, now.steady) else {
+            return;
+        };
         match arrival {
             Arrival::Leg(then) => match self.slew(then, self.activity.intent(), now) {
                 Ok(next) => {

@@ -369,7 +369,7 @@ fn every_matter_of_safety() -> Vec<Safety> {
         Safety::StoppedByFlags { axis: "X" },
         Safety::FlagsContradict { axis: "X", turned_deg: 2.0 },
         Safety::SilentInMotion,
-        Safety::JogWithoutEffect,
+        Safety::NoEffect { axis: Some("X") },
         Safety::ClockStepped { by_s: 2.0 },
         Safety::EndedForSleep,
         Safety::Slept { lasted: Duration::from_mins(1) },
@@ -389,7 +389,7 @@ fn every_matter_of_safety() -> Vec<Safety> {
             | Safety::StoppedByFlags { .. }
             | Safety::FlagsContradict { .. }
             | Safety::SilentInMotion
-            | Safety::JogWithoutEffect
+            | Safety::NoEffect { .. }
             | Safety::ClockStepped { .. }
             | Safety::EndedForSleep
             | Safety::Slept { .. }

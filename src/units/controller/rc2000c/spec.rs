@@ -3,7 +3,7 @@
 use super::{Rc2000c, actions};
 use crate::{
     device::{
-        Capabilities, CountPoint, JogSpeed, JogSpeeds, SecondAxis, Standstill, Variant,
+        Capabilities, CountPoint, Effect, JogSpeed, JogSpeeds, SecondAxis, Standstill, Variant,
         settings::{Field, Key, Unfit, Value},
     },
     station::{
@@ -71,6 +71,7 @@ pub static VARIANT: Variant = Variant {
         waits_for_word: true,
         // A count is some hundredths of a degree; slow speed is a few tenths.
         standstill: Standstill { resolution_deg: 0.1, slowest_deg_s: 0.3, overrun_s: 0.6 },
+        effect: Effect { shows_after_s: 5.0, ignores_deg: 0.0 },
         stop_note: None,
     },
     track_offsets: None,

@@ -3,7 +3,7 @@
 use super::{GROUPS, Genius, actions};
 use crate::{
     device::{
-        Capabilities, JogSpeed, JogSpeeds, SecondAxis, Standstill, Variant,
+        Capabilities, Effect, JogSpeed, JogSpeeds, SecondAxis, Standstill, Variant,
         settings::{Field, Key, Value},
     },
     station::{
@@ -74,6 +74,7 @@ pub static PAIR: Variant = Variant {
         waits_for_word: false,
         // Whole degrees; the slowest rotators it drives take two minutes a turn.
         standstill: Standstill { resolution_deg: 1.0, slowest_deg_s: 3.0, overrun_s: 0.8 },
+        effect: Effect { shows_after_s: 5.0, ignores_deg: 10.0 },
         stop_note: Some("STOP stops both rotators."),
     },
     groups: GROUPS,

@@ -3,7 +3,7 @@
 use super::{ELEMENT_FILES, GROUPS, Satrak, TRACK_OFFSETS, words};
 use crate::{
     device::{
-        Capabilities, JogSpeeds, SecondAxis, Standstill, Variant,
+        Capabilities, Effect, JogSpeeds, SecondAxis, Standstill, Variant,
         settings::{Field, Key, Value},
     },
     station::{
@@ -71,6 +71,7 @@ pub static VARIANT: Variant = Variant {
         // Tenths of a degree. A motion slower than half a degree a second, such as tracking,
         // shows later, while the antenna is watched at rest.
         standstill: Standstill { resolution_deg: 0.1, slowest_deg_s: 0.5, overrun_s: 0.4 },
+        effect: Effect { shows_after_s: 4.0, ignores_deg: 0.0 },
         stop_note: None,
     },
     groups: GROUPS,
