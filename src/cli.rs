@@ -1,5 +1,6 @@
 //! Command line of the program.
 
+mod check;
 mod held_keys;
 mod input;
 pub mod log;
@@ -61,6 +62,8 @@ enum Command {
     Rehearse(Box<rehearse::Options>),
     /// Run the station without a window, until SIGTERM or Ctrl C
     Serve(serve::Options),
+    /// Name the entries of a station file that cannot be used
+    Check(check::Options),
     /// Write the record of the station as lines of JSON
     Log(record::Options),
     /// Fit a pointing model to the recorded passes of an antenna
@@ -124,6 +127,9 @@ impl Cli {
             None => window::run(self.station, self.demo)?,
             Some(Command::Passes(options)) => {
                 return told(passes::run(self.station.as_deref(), &options));
+            }
+            Some(Command::Check(options)) => {
+                return check::run(self.station.as_deref(), &options);
             }
             Some(Command::Look(options)) => {
                 return told(look::run(self.station.as_deref(), &options));

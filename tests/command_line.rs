@@ -99,3 +99,31 @@ fn completions_and_man_pages_tell_the_commands_but_not_those_of_the_program_itse
     assert_eq!(nowhere.status.code(), Some(1));
     assert!(text(&nowhere.stderr).contains("/nowhere/at/all"), "{}", text(&nowhere.stderr));
 }
+
+#[test]
+fn a_check_names_what_cannot_be_used_in_a_station_file_with_its_line() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("station.toml");
+    let antenna = "[[antenna]]\nname = 'Dish'\n[antenna.connection]\ncontroller = 'satrak'\n\
+                   address = 'h:4001'\n";
+    let check = |text: &str| {
+        std::fs::write(&path, text).unwrap();
+        let output = azel(&["check", path.to_str().unwrap()]);
+        (output.status.code(), text_of(&output))
+    };
+    let (code, said) = check(antenna);
+    assert_eq!(code, Some(0), "{said}");
+    let (code, said) = check(&format!("[[keep_out]]\nname = 'mast'\ncorner = []\n{antenna}"));
+    assert_eq!(code, Some(3), "{said}");
+    for words in ["keep_out[0].corner (line 3)", "mast does not apply", "Dish will not move"] {
+        assert!(said.contains(words), "{words}: {said}");
+    }
+    let (code, _) = check("[[keep_out]");
+    assert_eq!(code, Some(1));
+    let missing = azel(&["check", folder.path().join("none.toml").to_str().unwrap()]);
+    assert_eq!(missing.status.code(), Some(1));
+}
+
+fn text_of(output: &Output) -> String {
+    text(&output.stdout)
+}

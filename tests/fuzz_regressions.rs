@@ -7,6 +7,8 @@ use std::{
     path::{Path, PathBuf},
 };
 
+use crate::common::dice::Dice;
+
 #[path = "fuzz/entry/all.rs"]
 mod entry;
 
@@ -50,4 +52,37 @@ fn what_was_found_once_stays_mended() {
 #[test]
 fn what_fuzzing_starts_from_is_harmless() {
     harmless("seeds");
+}
+
+/// Values that hardly any setting takes.
+const ODD: [&str; 8] =
+    ["'five'", "-1e9", "[]", "[1, 'x']", "{ a = 1 }", "true", "''", "[{ b = 2 }]"];
+
+/// The station files from which fuzzing starts, with odd values and names in random places.
+#[test]
+fn any_damaged_station_file_keeps_what_it_cannot_use() {
+    let (_, run) = entry::ALL.into_iter().find(|(target, _)| *target == "station").unwrap();
+    let number = |name| std::env::var(name).ok().and_then(|text| text.parse::<u64>().ok());
+    let seed = number("AZEL_SEED").unwrap_or(20_261_128);
+    let cases = number("AZEL_CASES").unwrap_or(200);
+    println!("damaged station files: {cases} cases from seed {seed}");
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/fuzz/seeds/station");
+    let texts: Vec<String> =
+        entries(&folder).into_iter().map(|(file, _)| fs::read_to_string(file).unwrap()).collect();
+    for seed in seed..seed + cases {
+        let mut dice = Dice::new(seed);
+        let mut lines: Vec<String> =
+            texts[dice.below(texts.len())].lines().map(str::to_owned).collect();
+        for _ in 0..=dice.below(4) {
+            let line = dice.below(lines.len());
+            let Some((key, value)) = lines[line].split_once('=') else { continue };
+            lines[line] = if dice.chance(0.3) {
+                format!("{}x ={value}", key.trim_end())
+            } else {
+                format!("{key}= {}", ODD[dice.below(ODD.len())])
+            };
+        }
+        let text = lines.join("\n");
+        assert!(catch_unwind(|| run(text.as_bytes())).is_ok(), "seed {seed}:\n{text}");
+    }
 }

@@ -106,7 +106,8 @@ impl Bench {
     fn claiming_in(claims: Option<&Path>, antennas: Vec<Antenna>) -> Self {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("station.toml");
-        station::save(&Station { antennas, ..Station::default() }, &path).unwrap();
+        station::save(&Station { antennas, ..Station::default() }, &path, azel::makes::SPECS)
+            .unwrap();
         let settings = Settings {
             path: Some(path),
             library: Some(folder.path().join("elements")),

@@ -36,7 +36,7 @@ fn begun(speed: NonZeroU32, wake: azel::job::Wake) -> (Live, tempfile::TempDir) 
     let units = Units::new(&clock);
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("station.toml");
-    station::save(&station(), &path).unwrap();
+    station::save(&station(), &path, azel::makes::SPECS).unwrap();
     let library = Some(folder.path().join("elements"));
     let settings = Settings { path: Some(path), library, ..Settings::default() };
     let station = Handle::start(settings, units.outside(&clock), wake).unwrap();

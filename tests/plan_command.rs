@@ -30,7 +30,7 @@ pub(super) fn folder() -> tempfile::TempDir {
     let addresses =
         DemoAddresses { satrak: address(4001), genius: address(9006), rc2000c: address(4002) };
     let station = Station::demo(&addresses);
-    save(&station, &folder.path().join("station.toml")).unwrap();
+    save(&station, &folder.path().join("station.toml"), azel::makes::SPECS).unwrap();
     let catalog = bundled().unwrap();
     let numbers = station.favourites.numbers();
     let sets = numbers.iter().filter_map(|number| catalog.get(*number));

@@ -99,7 +99,8 @@ impl Units {
         };
         change(&mut station);
         let folder = tempfile::tempdir().expect("a folder");
-        station::save(&station, &folder.path().join("station.toml")).expect("a station file");
+        station::save(&station, &folder.path().join("station.toml"), azel::makes::SPECS)
+            .expect("a station file");
         let controls = (dish.control(), mast.control(), horn.control());
         runtime.spawn(dish.run());
         runtime.spawn(mast.run());
@@ -350,7 +351,7 @@ fn a_unit_of_two_station_files_is_driven_from_the_first_and_stopped_from_both() 
     let mut station = station::load(&units.path(), makes::SPECS).unwrap().station;
     station.antennas.retain(|antenna| antenna.name == "Mast");
     station.antennas[0].name = "Tower".to_owned();
-    station::save(&station, &other).unwrap();
+    station::save(&station, &other, azel::makes::SPECS).unwrap();
     let (first, _end, _woken) = units.open();
     lead_to_the_sun(first.client());
     let (second, _end, _woken) = units.open_file(other);

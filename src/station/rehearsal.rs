@@ -98,7 +98,7 @@ pub fn run(
             units.suffer(fault, what.from, &clock)?;
         }
         let path = folder.path().join("station.toml");
-        station::save(&station, &path)?;
+        station::save(&station, &path, crate::makes::SPECS)?;
         let (reports, told) = mpsc::channel(REPORTS);
         let settings = Settings {
             path: Some(path),

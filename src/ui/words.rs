@@ -17,7 +17,7 @@ pub mod schedule;
 mod site;
 mod way_there;
 
-pub use alarms::{alarm, alarm_state, alarm_times};
+pub use alarms::{alarm, alarm_state, alarm_times, setting_note};
 pub use link_tests::{link_test, link_test_state, place};
 pub use notices::{missing_outlets, notice, reminder, trial};
 pub use offsets::{

@@ -43,7 +43,7 @@ pub use mount::Mount;
 pub use notices::{Notices, Tones};
 pub use pass_choice::{PassChoice, Take};
 pub use pass_limits::{Light, PassLimits};
-pub use read::{Note, NoteReason, from_toml};
+pub use read::{Note, NoteReason, Unread, from_toml};
 pub use satellite_group::SatelliteGroup;
 pub use scheduling::{Automatic, BetweenPasses, ChooseBy, Partly, Scheduling};
 pub use setting::{Setting, Table};
@@ -118,6 +118,10 @@ pub struct Station {
     /// The antennas, in the order of their chips.
     #[serde(rename = "antenna")]
     pub antennas: Vec<Antenna>,
+    /// Settings on which safety depends and which could not be read: the antennas that they concern
+    /// do not move by themselves until they are repaired in the file.
+    #[serde(skip)]
+    pub unread: Vec<Unread>,
 }
 
 fn is_default<T: Default + PartialEq>(value: &T) -> bool {
@@ -208,6 +212,7 @@ impl Station {
 impl Default for Station {
     fn default() -> Self {
         Self {
+            unread: Vec::new(),
             name: "Station".to_owned(),
             site: Site::default(),
             horizon_mask: None,

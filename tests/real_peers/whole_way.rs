@@ -57,7 +57,7 @@ impl Fixture {
         let favourites = favourites.into_iter().collect();
         let station = Station { antennas: vec![antenna], favourites, ..Station::default() };
         let path = folder.path().join("station.toml");
-        station::save(&station, &path).unwrap();
+        station::save(&station, &path, azel::makes::SPECS).unwrap();
         let keyring = Arc::new(MemoryKeyring::default());
         let places = Places {
             known_hosts: files.known.clone(),

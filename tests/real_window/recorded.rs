@@ -37,7 +37,7 @@ impl Tracked {
         let records = folder.path().join("records");
         let record = record_path(&records, &file);
         let station = Station { favourites: [ISS].into(), ..station() };
-        station::save(&station, &file).expect("a station file");
+        station::save(&station, &file, azel::makes::SPECS).expect("a station file");
         let settings = Settings {
             path: Some(file),
             library: Some(folder.path().join("elements")),

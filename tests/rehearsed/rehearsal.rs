@@ -97,7 +97,7 @@ fn check(names: &[&str], hours: f64, least: usize) {
 fn live(start: Timestamp, folder: &Path, station: &Station) -> Handle {
     let clock = Clock::at_speed(start, NonZeroU32::MIN);
     let path = folder.join("station.toml");
-    station::save(station, &path).unwrap();
+    station::save(station, &path, azel::makes::SPECS).unwrap();
     let settings = Settings {
         path: Some(path),
         library: Some(folder.join("elements")),

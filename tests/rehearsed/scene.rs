@@ -110,7 +110,7 @@ impl Scene {
 /// A folder with the file of the station.
 fn folder_of(station: &Station) -> tempfile::TempDir {
     let folder = tempfile::tempdir().unwrap();
-    station::save(station, &folder.path().join("station.toml")).unwrap();
+    station::save(station, &folder.path().join("station.toml"), azel::makes::SPECS).unwrap();
     folder
 }
 

@@ -5,7 +5,7 @@ use azel::{
     driver::{Command, Event, Inside, Refusal, Safety, TrackProblem},
     plan::{Barrier, Bounds, ProgramTrack, Target},
     sim::satrak::Options,
-    station::{Station, SunAvoidance},
+    station::{Station, SunAvoidance, Unread},
 };
 use jiff::Timestamp;
 
@@ -204,4 +204,31 @@ async fn the_sun_is_followed_by_the_operators_word_and_the_avoidance_lifted_for_
     rig.until("inside", 10, |shown| shown.inside.is_some() && !shown.sun_lifted).await;
     rig.send(Command::ProgramTrack(Box::new(follow())));
     rig.until_event(5, |event| matches!(event, Event::CannotProgramTrack(..))).await;
+}
+
+#[tokio::test(start_paused = true)]
+async fn while_a_keep_out_is_unread_it_moves_slowly_by_hand_and_by_a_hold_alone() {
+    let mut rig = Rig::connected(&Options::new(site(), morning()), &antenna()).await;
+    let unread = vec![Unread { place: "keep_out[0]".to_owned(), antenna: None }];
+    rig.handle().keep_within(within(&Station { unread, ..sunny() }));
+    rig.seconds(1.0).await;
+    let place = "keep_out[0]".into();
+    let refused = Refusal::SettingsUnread { place };
+    rig.send(go_to(AzEl::from_degrees(200.0, 45.0)));
+    rig.send(Command::Park);
+    rig.send(Command::AutoTrack(true));
+    rig.send(Command::Manual);
+    rig.hold([SLOW_DEG_S, 0.0], 0.5).await;
+    rig.send(Command::EndJog);
+    rig.seconds(1.0).await;
+    let not_sent = || Event::NotSent(refused.clone());
+    assert_eq!(rig.events(), [not_sent(), not_sent(), not_sent(), not_sent()]);
+    let inside = rig.shown().inside.clone().unwrap();
+    assert_eq!(inside.barrier, Barrier::Unread("keep_out[0]".into()));
+    rig.send(Command::AllowWayOut);
+    rig.seconds(0.1).await;
+    let before = direction(&rig);
+    rig.hold([SLOW_DEG_S, 0.0], 4.0).await;
+    assert!(before.separation(direction(&rig)).degrees() > 1.0);
+    assert_eq!(rig.events(), []);
 }

@@ -108,7 +108,7 @@ fn the_window_turns_light_while_the_sun_is_up_and_keeps_its_scale() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("station.toml");
     let unit = Unit::start(rig::now());
-    station::save(&unit.station(), &path).unwrap();
+    station::save(&unit.station(), &path, azel::makes::SPECS).unwrap();
     let kept = "theme = 'night'\nlight_by_day = true\nscale_percent = 125\n";
     fs::write(folder.path().join("window.toml"), kept).unwrap();
     for (utc, wanted) in

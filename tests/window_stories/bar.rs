@@ -69,7 +69,8 @@ fn the_alarm_list_leaves_the_countdown_of_the_pass_free() {
 
 #[test]
 fn alarms_are_told_in_words_with_their_antenna() {
-    let note = |reason| AlarmKind::Setting(Note { place: "antenna.park".to_owned(), reason });
+    let note =
+        |reason| AlarmKind::Setting(Note { place: "antenna.park".to_owned(), line: None, reason });
     for (kind, wanted) in [
         (AlarmKind::LinkLost(LinkLoss::Closed), "Satrak does not reply: the unit closed"),
         (

@@ -70,7 +70,7 @@ fn its_antenna_is_read_from_the_station_file_and_comes_back_as_it_was_saved() {
 
     let mut station = loaded.station.clone();
     station.antennas[0].connection.put(&GEAR, "high").unwrap();
-    station::save(&station, &path).unwrap();
+    station::save(&station, &path, azel::makes::SPECS).unwrap();
     let again = station::load(&path, &all_specs()).unwrap();
     assert_eq!((again.station, again.notes), (station, Vec::new()));
 

@@ -147,7 +147,7 @@ fn a_zone_is_added_named_and_saved_to_the_file() {
         assert_eq!(corners(&station, 0).len(), 4);
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("station.toml");
-        station::save(&station, &path).unwrap();
+        station::save(&station, &path, azel::makes::SPECS).unwrap();
         let loaded = station::load(&path, makes::SPECS).unwrap();
         assert_eq!((loaded.station, loaded.notes), (station, Vec::new()));
         assert!(fs::read_to_string(&path).unwrap().contains("[[keep_out]]"));

@@ -55,7 +55,7 @@ fn a_window_drives_a_station_through_its_handle_alone() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("station.toml");
     let antennas = vec![Antenna::satrak("Dish", "in-memory:1")];
-    station::save(&Station { antennas, ..rig::station() }, &path).unwrap();
+    station::save(&Station { antennas, ..rig::station() }, &path, azel::makes::SPECS).unwrap();
     let (unit, outside) = unit();
     let mut window = open(&path, outside);
     step_until(&mut window, "a measured angle", |model| measured(model).is_some());

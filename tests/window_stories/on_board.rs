@@ -135,7 +135,7 @@ fn what_the_unit_tracks_unasked_is_compared_by_the_elements_of_the_station() {
     let utc: Timestamp = "2026-08-12T11:14:30Z".parse().unwrap();
     let (unit, folder) = (Unit::start(utc), tempfile::tempdir().unwrap());
     let path = folder.path().join("station.toml");
-    station::save(&unit.station(), &path).unwrap();
+    station::save(&unit.station(), &path, azel::makes::SPECS).unwrap();
     let catalog = bundled().unwrap();
     let held = catalog.get(rig::station().favourites.numbers()[0]).unwrap().name().to_owned();
     track_by_another(&unit, &held, utc);
@@ -158,7 +158,7 @@ fn what_the_unit_tracks_that_the_station_has_no_elements_of_is_an_alarm() {
     let folder = tempfile::tempdir().unwrap();
     let unit = Unit::of_elements(read_elements(UNKNOWN).elements, utc);
     let path = folder.path().join("station.toml");
-    station::save(&unit.station(), &path).unwrap();
+    station::save(&unit.station(), &path, azel::makes::SPECS).unwrap();
     track_by_another(&unit, "HOMEMADE", utc);
     let mut window = open(&path, clock_from(utc));
     let not_compared = AlarmKind::NotCompared { satellite: Some("HOMEMADE".to_owned()) };

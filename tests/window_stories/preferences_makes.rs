@@ -62,7 +62,7 @@ fn typed(window: &Window, label: &str) -> String {
 fn reloaded(station: &Station) -> Station {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("station.toml");
-    station::save(station, &path).unwrap();
+    station::save(station, &path, azel::makes::SPECS).unwrap();
     let loaded = station::load(&path, makes::SPECS).unwrap();
     assert_eq!(loaded.notes, []);
     loaded.station

@@ -406,7 +406,7 @@ fn the_moment_is_moved_by_the_bar_and_the_keys() {
 /// The real window on a station with a unit, and a record.
 fn open(folder: &tempfile::TempDir, unit: &Unit) -> RealWindow {
     let path = folder.path().join("station.toml");
-    station::save(&unit.station(), &path).unwrap();
+    station::save(&unit.station(), &path, azel::makes::SPECS).unwrap();
     let settings = Settings {
         path: Some(path),
         library: Some(folder.path().join("elements")),

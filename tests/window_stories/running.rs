@@ -188,7 +188,7 @@ fn a_satellite_that_is_up_is_tracked_within_the_beam() {
     let utc = "2026-08-12T11:14:30Z".parse().unwrap();
     let (unit, folder) = (Unit::start(utc), tempfile::tempdir().unwrap());
     let path = folder.path().join("station.toml");
-    station::save(&unit.station(), &path).unwrap();
+    station::save(&unit.station(), &path, azel::makes::SPECS).unwrap();
     let mut window = open(&path, clock_from(utc));
     step_until(&mut window, "the antenna is measured", stands);
     step_until(&mut window, "the passes are planned", |model| {
@@ -221,7 +221,7 @@ fn closing_the_window_during_a_jog_stops_the_antenna() {
     let utc = "2026-08-12T11:14:30Z".parse().unwrap();
     let (unit, folder) = (Unit::start(utc), tempfile::tempdir().unwrap());
     let path = folder.path().join("station.toml");
-    station::save(&unit.station(), &path).unwrap();
+    station::save(&unit.station(), &path, azel::makes::SPECS).unwrap();
     let mut window = open(&path, clock_from(utc));
     step_until(&mut window, "the antenna is measured", stands);
     hold_jog_until(&mut window, "it moves", moves);
@@ -273,7 +273,8 @@ fn what_was_chosen_is_there_again_after_the_next_start() {
     let first = station::Antenna::satrak("First", "127.0.0.1:9");
     let second = station::Antenna { name: "Second".to_owned(), ..first.clone() };
     let antennas = vec![first, second];
-    station::save(&station::Station { antennas, ..Default::default() }, &path).unwrap();
+    station::save(&station::Station { antennas, ..Default::default() }, &path, azel::makes::SPECS)
+        .unwrap();
 
     let mut window = open(&path, clock_from(utc));
     window.run_steps(3);

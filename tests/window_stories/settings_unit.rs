@@ -45,7 +45,7 @@ impl Scene {
         let utc = "2026-08-12T11:14:30Z".parse().unwrap();
         let (unit, folder) = (Unit::start(utc), tempfile::tempdir().unwrap());
         let path = folder.path().join("station.toml");
-        station::save(&unit.station(), &path).unwrap();
+        station::save(&unit.station(), &path, azel::makes::SPECS).unwrap();
         let mut window = open(&path, clock_from(utc));
         window.run_steps(2);
         window.key_press_modifiers(Modifiers::COMMAND, Key::Num4);

@@ -141,7 +141,7 @@ impl Two {
         for ((unit, name), file) in units.iter().zip(NAMES).zip(FILES) {
             let path = folder.path().join(file);
             let station = Station { name: name.to_owned(), ..unit.station() };
-            station::save(&station, &path).unwrap();
+            station::save(&station, &path, azel::makes::SPECS).unwrap();
             writeln!(list, "[[station]]\nname = '{name}'\npath = '{}'", path.display()).unwrap();
         }
         fs::write(folder.path().join("stations.toml"), list).unwrap();

@@ -103,7 +103,8 @@ impl Engine {
             let config = &antenna.shown.config;
             let is_free = antenna.shown.held_by.is_none()
                 && self.lock_outs.of(&config.connection).is_none()
-                && self.driver.debts().units().is_empty();
+                && self.driver.debts().units().is_empty()
+                && !self.station.unread.iter().any(|unread| unread.concerns(config.id));
             let (id, is_on_at_start) = (config.id, config.automatic.is_on_at_start);
             if is_on_at_start && is_free && last.allows(id) {
                 self.set_automatic(index, true);

@@ -350,11 +350,14 @@ impl Engine {
             && !matches!(self.station_claim, StationClaim::Theirs(_))
             && let Some(path) = &self.settings_path
         {
-            if let Err(error) = station::save(&station, path) {
-                let text = error.to_string();
-                tracing::error!("{text}");
-                self.alarms.raise(None, AlarmKind::Settings(text), self.now);
-                return;
+            match station::save(&station, path, crate::makes::SPECS) {
+                Ok(saved) => station.unread = saved.unread,
+                Err(error) => {
+                    let text = error.to_string();
+                    tracing::error!("{text}");
+                    self.alarms.raise(None, AlarmKind::Settings(text), self.now);
+                    return;
+                }
             }
             self.station_saved_at = Some(self.now);
         }
@@ -364,7 +367,7 @@ impl Engine {
     }
 
     /// Saves a station, and uses it once it is safe on disk.
-    fn save_station(&mut self, station: station::Station) {
+    fn save_station(&mut self, mut station: station::Station) {
         let now = self.now;
         let was_theirs = matches!(self.station_claim, StationClaim::Theirs(_));
         if was_theirs && self.demo.is_none() && self.take_over_station() {
@@ -381,14 +384,21 @@ impl Engine {
                 "a station has been set up elsewhere meanwhile: open it in the station menu: {}",
                 path.display()
             )),
-            Some(path) => station::save(&station, path).map_err(|error| error.to_string()),
+            Some(path) => {
+                let saved = station::save(&station, path, crate::makes::SPECS);
+                saved.map_err(|error| error.to_string())
+            }
             None => Err("this user has no folder for settings".to_owned()),
         };
         match saved {
-            Ok(()) => {
+            Ok(saved) => {
+                station.unread = saved.unread;
                 self.alarms.clear(None, self.now, |kind| {
                     matches!(kind, AlarmKind::Settings(_) | AlarmKind::Setting(_))
                 });
+                for note in saved.notes {
+                    self.alarms.raise(None, AlarmKind::Setting(note), now);
+                }
                 let demo = self.demo.take();
                 if demo.is_some() {
                     self.load_lock_outs();

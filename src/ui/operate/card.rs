@@ -23,6 +23,7 @@ use crate::{
     driver::{Intent, LinkState, Snapshot},
     engine::{CatalogState, antenna::AntennaModel},
     model::{Model, UiCommand, View},
+    plan::Barrier,
     station::{AntennaId, Mount},
     ui::{
         bar,
@@ -292,8 +293,11 @@ fn way_out(antenna: &AntennaModel) -> Option<(String, Option<&'static str>)> {
     let can_be_asked =
         snapshot.link.is_open() && snapshot.lock_out.is_none() && snapshot.intent != Intent::Track;
     let inside = snapshot.inside.as_ref().filter(|_| can_be_asked)?;
-    let hold =
-        if inside.unknown_axis.is_some() { words::HOLD_UNCHECKED } else { words::HOLD_WAY_OUT };
+    let hold = if inside.unknown_axis.is_some() || matches!(inside.barrier, Barrier::Unread(_)) {
+        words::HOLD_UNCHECKED
+    } else {
+        words::HOLD_WAY_OUT
+    };
     let words = words::way_out(&antenna.config.name, inside);
     Some((words, (!inside.may_leave).then_some(hold)))
 }

@@ -7,7 +7,7 @@ use crate::{
     engine::alarms::{Alarm, AlarmKind, AlarmState, Work},
     model::DistanceUnit,
     plan::on_board::Ranked,
-    station::NoteReason,
+    station::{Note, NoteReason},
     ui::format,
 };
 
@@ -201,17 +201,22 @@ pub fn alarm(kind: &AlarmKind, antenna: &str, now: Timestamp) -> String {
             format!("{antenna}: its position cannot be read. {why}")
         }
         AlarmKind::ClockNotSet => format!("The clock of {antenna} was never set."),
-        AlarmKind::Setting(note) => match &note.reason {
-            NoteReason::Invalid(why) => {
-                format!("Setting {} is not used: {why}.", note.place)
-            }
-            NoteReason::Unknown => format!("Setting {} is not known.", note.place),
-            NoteReason::DoesNotHold { name, why } => {
-                format!("{name} does not apply: {why}. It is {} in the settings.", note.place)
-            }
-        },
+        AlarmKind::Setting(note) => setting_note(note),
         AlarmKind::Settings(text) | AlarmKind::Elements(text) | AlarmKind::LockOuts(text) => {
             super::capitalised(text)
+        }
+    }
+}
+
+/// A note on an entry of the station file, as a sentence.
+pub fn setting_note(note: &Note) -> String {
+    let line = note.line.map_or_else(String::new, |line| format!(" (line {line})"));
+    let place = format!("{}{line}", note.place);
+    match &note.reason {
+        NoteReason::Invalid(why) => format!("Setting {place} is not used: {why}."),
+        NoteReason::Unknown => format!("Setting {place} is not known."),
+        NoteReason::DoesNotHold { name, why } => {
+            format!("{name} does not apply: {why}. It is {place} in the settings.")
         }
     }
 }

@@ -90,6 +90,10 @@ pub fn refusal(refusal: &Refusal, now: Timestamp) -> String {
              \u{201c}{HOLD_UNCHECKED}\u{201d} on the card to allow it for a minute.",
             super::forbidden(barrier)
         ),
+        Refusal::SettingsUnread { place } => format!(
+            "Not sent: the setting {place} could not be read. Repair it in the station file; until \
+             then use \u{201c}{HOLD_UNCHECKED}\u{201d} on the card for a motion by hand."
+        ),
         Refusal::NoRefuge => "Not sent: no clear direction with a clear path to it was found. \
                               Move the antenna by hand."
             .to_owned(),

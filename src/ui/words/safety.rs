@@ -16,6 +16,9 @@ pub fn forbidden(barrier: &Barrier) -> String {
         Barrier::MinimumElevation => "below its minimum elevation".to_owned(),
         Barrier::KeepOut(name) => format!("into the keep-out \u{201c}{name}\u{201d}"),
         Barrier::Sun => "too close to the Sun".to_owned(),
+        Barrier::Unread(place) => {
+            format!("where it may be forbidden: the setting {place} could not be read")
+        }
     }
 }
 
@@ -23,13 +26,25 @@ pub fn forbidden(barrier: &Barrier) -> String {
 pub fn inside(barrier: &Barrier) -> String {
     match barrier {
         Barrier::KeepOut(name) => format!("inside \u{201c}{name}\u{201d}"),
-        Barrier::MinimumElevation | Barrier::Sun => forbidden(barrier),
+        Barrier::MinimumElevation | Barrier::Sun | Barrier::Unread(_) => forbidden(barrier),
     }
 }
 
 /// The motions allowed to an antenna that is, or may be, inside a barrier; `may_leave`: the
 /// operator has allowed them.
 pub fn way_out(antenna: &str, Inside { barrier, unknown_axis, may_leave }: &Inside) -> String {
+    if let Barrier::Unread(setting) = barrier {
+        let unread = format!(
+            "The setting {setting} could not be read, so {antenna} does not move by itself."
+        );
+        return if *may_leave {
+            format!("{unread} You have allowed slow motion by hand for a minute, unchecked.")
+        } else {
+            format!(
+                "{unread} Repair it in the station file. It can be moved by hand once you allow it."
+            )
+        };
+    }
     let place = inside(barrier);
     if let Some(axis) = unknown_axis {
         let unknown = format!("The angle of {axis} is not known: {antenna} may be {place}.");

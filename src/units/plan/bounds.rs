@@ -35,6 +35,8 @@ pub enum Barrier {
     KeepOut(SmolStr),
     /// The surroundings of the Sun.
     Sun,
+    /// Bounds that are not known, because this setting of the station file could not be read.
+    Unread(SmolStr),
 }
 
 /// A barrier and the clearance of a direction from it.
@@ -127,6 +129,8 @@ pub struct Bounds {
     /// The keep-outs of the antenna, each with its whole margin.
     keep_outs: Vec<(KeepOut, Angle)>,
     sun: Option<SunAvoidance>,
+    /// Place of a setting that could not be read, so the bounds are not known.
+    unread: Option<SmolStr>,
 }
 
 impl Bounds {
@@ -134,6 +138,7 @@ impl Bounds {
         let finest = Angle::from_degrees(FINEST_DEG);
         let half_beam = antenna.beam_width() * 0.5;
         let holds = station.keep_outs.iter().filter(|zone| zone.holds_for(&antenna.name));
+        let unread = station.unread.iter().find(|unread| unread.concerns(antenna.id));
         let has_elevation = antenna.connection.variant().capabilities.has_elevation();
         let minimum = Angle::from_degrees(antenna.limits.minimum_elevation_deg);
         Self {
@@ -145,7 +150,14 @@ impl Bounds {
                 .map(|zone| (zone.clone(), half_beam + zone.margin() + finest))
                 .collect(),
             sun: station.sun_avoidance,
+            unread: unread.map(|unread| SmolStr::new(&unread.place)),
         }
+    }
+
+    /// Place in the station file of a setting on which safety depends and which could not be read.
+    /// Until it is repaired, the bounds are not known.
+    pub fn unread(&self) -> Option<&SmolStr> {
+        self.unread.as_ref()
     }
 
     /// The bounds of an antenna without a station: only its minimum elevation.

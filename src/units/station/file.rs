@@ -8,7 +8,11 @@ use std::{
 use jiff::Timestamp;
 use serde::Serialize;
 
-use super::{ControllerSpec, Note, Station, from_toml, rewrite::rewritten};
+use super::{
+    ControllerSpec, Note, Station,
+    read::{Read, read},
+    rewrite::{Unread, rewritten, rewritten_with},
+};
 use crate::whole_file;
 
 /// Version that this program writes. A file of a later one is left alone.
@@ -23,6 +27,14 @@ pub struct Loaded {
     pub station: Station,
     /// Entries that were not taken over as they stand in the file.
     pub notes: Vec<Note>,
+}
+
+/// What a saved station file still holds that cannot be read.
+#[derive(Debug, Default)]
+pub struct Saved {
+    pub notes: Vec<Note>,
+    /// Settings on which safety depends.
+    pub unread: Vec<super::Unread>,
 }
 
 /// Why the station file was not read. It stays as it is on disk.
@@ -56,6 +68,13 @@ pub enum SaveError {
     /// The operating system refused.
     #[error("the settings were not saved, the old ones stay: {source}: {}", path.display())]
     Write { source: io::Error, path: PathBuf },
+    /// An entry that could not be read would be lost.
+    #[error(
+        "the settings were not saved, the old ones stay: {place} could not be read and would be \
+         lost. Repair it first: {}",
+        path.display()
+    )]
+    WouldDrop { place: String, path: PathBuf },
 }
 
 /// Path of this user's station file; `None` on a machine without a home.
@@ -83,8 +102,36 @@ pub fn load(path: &Path, specs: &[&'static ControllerSpec]) -> Result<Loaded, Lo
     if version > VERSION {
         return Err(LoadError::Newer { found: version, path: path.to_owned() });
     }
-    let (station, notes) = from_toml(table, specs);
+    let Read { station, mut notes, .. } = read(table, specs);
+    for note in &mut notes {
+        note.line = line_of(&text, &note.place);
+    }
     Ok(Loaded { station, notes })
+}
+
+/// Line of the entry at `place` in `text`, from 1.
+fn line_of(text: &str, place: &str) -> Option<usize> {
+    let document = toml_edit::Document::parse(text).ok()?;
+    let mut item = document.as_item();
+    let mut at = None;
+    for part in place.split('.') {
+        let (key, index) = match part.split_once('[') {
+            Some((key, rest)) => (key, rest.trim_end_matches(']').parse::<usize>().ok()),
+            None => (part, None),
+        };
+        let table = item.as_table_like();
+        let named = table.and_then(|table| table.get_key_value(key));
+        let Some((name, inner)) = named else { break };
+        at = name.span().or_else(|| inner.span()).or(at);
+        item = inner;
+        if let Some(index) = index {
+            let Some(entry) = item.get(index) else { break };
+            at = entry.span().or(at);
+            item = entry;
+        }
+    }
+    let before = text.get(..at?.start)?;
+    Some(before.matches('\n').count() + 1)
 }
 
 /// When the file at `path` was written last.
@@ -94,22 +141,75 @@ pub fn saved_at(path: &Path) -> Option<Timestamp> {
 }
 
 /// Writes the station to `path`, into the text that stands there: the operator's comments
-/// stay. A failure at any moment leaves the old file whole. The previous file is kept beside
-/// it with the ending `.old`, because reading forgives more than it can carry over.
-pub fn save(station: &Station, path: &Path) -> Result<(), SaveError> {
+/// stay, and so does every entry that could not be read. A failure at any moment leaves the old
+/// file whole. The previous file is kept beside it with the ending `.old`.
+pub fn save(
+    station: &Station,
+    path: &Path,
+    specs: &[&'static ControllerSpec],
+) -> Result<Saved, SaveError> {
+    let text = written(station)?;
+    let text = match fs::read_to_string(path) {
+        Ok(old) => merged(&old, &text, path, specs)?,
+        Err(_) => text,
+    };
+    whole_file::replace_and_keep_old(path, text.as_bytes())
+        .map_err(|source| SaveError::Write { source, path: path.to_owned() })?;
+    let Some(Read { station: read, mut notes, .. }) = read_text(&text, specs) else {
+        return Ok(Saved::default());
+    };
+    for note in &mut notes {
+        note.line = line_of(&text, &note.place);
+    }
+    Ok(Saved { notes, unread: read.unread })
+}
+
+fn written(station: &Station) -> Result<String, SaveError> {
     #[derive(Serialize)]
     struct Versioned<'a> {
         version: i64,
         #[serde(flatten)]
         station: &'a Station,
     }
-    let text = toml::to_string_pretty(&Versioned { version: VERSION, station })?;
-    let text = match fs::read_to_string(path) {
-        Ok(old) => rewritten(&old, &text),
-        Err(_) => text,
+    Ok(toml::to_string_pretty(&Versioned { version: VERSION, station })?)
+}
+
+fn read_text(text: &str, specs: &[&'static ControllerSpec]) -> Option<Read> {
+    toml::from_str(text).ok().map(|table| read(table, specs))
+}
+
+/// The text `new` of a station in the text `old` that stands at `path`.
+fn merged(
+    old: &str,
+    new: &str,
+    path: &Path,
+    specs: &[&'static ControllerSpec],
+) -> Result<String, SaveError> {
+    // A text that is no TOML was not read either, and stays as the previous file.
+    let Some(Read { station, notes, left_out }) = read_text(old, specs) else {
+        return Ok(rewritten(old, new));
     };
-    whole_file::replace_and_keep_old(path, text.as_bytes())
-        .map_err(|source| SaveError::Write { source, path: path.to_owned() })
+    let places = notes.iter().map(|note| note.place.as_str());
+    let unread = Unread::at(places, left_out.iter().map(String::as_str));
+    if unread.is_empty() {
+        return Ok(rewritten(old, new));
+    }
+    let means_the_same = |text: &str| {
+        let found = read_text(text, specs);
+        found.is_some_and(|found| {
+            found.left_out.len() == left_out.len()
+                && written(&found.station).is_ok_and(|text| same_settings(&text, new))
+        })
+    };
+    rewritten_with(old, &written(&station)?, new, &unread, means_the_same).ok_or_else(|| {
+        let place = notes.first().map(|note| note.place.clone()).unwrap_or_default();
+        SaveError::WouldDrop { place, path: path.to_owned() }
+    })
+}
+
+fn same_settings(one: &str, other: &str) -> bool {
+    let [one, other] = [one, other].map(|text| toml::from_str::<toml::Table>(text).ok());
+    one.is_some() && one == other
 }
 
 #[cfg(test)]

@@ -8,11 +8,13 @@ mod keeping;
 mod notices;
 mod offsets;
 mod schedule;
+mod unread;
 
 use std::ops::RangeInclusive;
 
 use serde::{Deserialize, Serialize, de::DeserializeOwned};
 use toml::{Table, Value};
+pub use unread::Unread;
 
 use super::{Antenna, AntennaId, ControllerSpec, Favourites, Frequency, OnClose, Station, ranges};
 use crate::astro::{HorizonMask, Site};
@@ -22,6 +24,9 @@ use crate::astro::{HorizonMask, Site};
 pub struct Note {
     /// Place in the file, such as `antenna[0].beam_width_deg`.
     pub place: String,
+    /// Its line in the file, from 1; `None` if it was not read from a file.
+    #[serde(default)]
+    pub line: Option<usize>,
     pub reason: NoteReason,
 }
 
@@ -42,9 +47,22 @@ pub enum NoteReason {
 
 /// The station of a parsed station file with controllers of these makes, and notes on
 /// entries that were not taken over.
+pub fn from_toml(table: Table, specs: &[&'static ControllerSpec]) -> (Station, Vec<Note>) {
+    let Read { station, notes, .. } = read(table, specs);
+    (station, notes)
+}
+
+/// A station, and what was not taken over from its file.
+pub(super) struct Read {
+    pub(super) station: Station,
+    pub(super) notes: Vec<Note>,
+    /// Places of the list entries that were left out.
+    pub(super) left_out: Vec<String>,
+}
+
 #[expect(clippy::redundant_closure_for_method_calls, reason = "a path names one lifetime")]
-pub fn from_toml(mut table: Table, specs: &[&'static ControllerSpec]) -> (Station, Vec<Note>) {
-    let mut fields = Fields { notes: Vec::new(), path: String::new(), table: &mut table };
+pub(super) fn read(mut table: Table, specs: &[&'static ControllerSpec]) -> Read {
+    let mut fields = Fields::of(&mut table, String::new());
     let default = Station::default();
     // Checked in `file`, which refuses files of a newer program.
     fields.table.remove("version");
@@ -71,6 +89,7 @@ pub fn from_toml(mut table: Table, specs: &[&'static ControllerSpec]) -> (Statio
         keep_outs: Vec::new(),
         sun_avoidance: fields.sun_avoidance(),
         antennas: fields.antennas(specs),
+        unread: Vec::new(),
     };
     // Before a station had its own, its first antenna set it.
     let of_first = station.antennas.first().map(|antenna| antenna.limits.minimum_elevation_deg);
@@ -88,18 +107,40 @@ pub fn from_toml(mut table: Table, specs: &[&'static ControllerSpec]) -> (Statio
     let groups: Vec<&str> = station.groups.iter().map(|group| &*group.name).collect();
     station.rules = fields.list("rule", |rule| rule.automation_rule(&antennas, &groups));
     fields.name_the_unknown();
-    (station, fields.notes)
+    let Fields { notes, left_out, antenna_places, .. } = fields;
+    station.unread = unread::found(&notes, &antenna_places);
+    Read { station, notes, left_out }
 }
 
 struct Fields<'a> {
     table: &'a mut Table,
     path: String,
     notes: Vec<Note>,
+    left_out: Vec<String>,
+    /// Beginning of the places of each antenna.
+    antenna_places: Vec<(String, AntennaId)>,
+}
+
+impl<'a> Fields<'a> {
+    fn of(table: &'a mut Table, path: String) -> Self {
+        let (notes, left_out, antenna_places) = (Vec::new(), Vec::new(), Vec::new());
+        Self { table, path, notes, left_out, antenna_places }
+    }
 }
 
 impl Fields<'_> {
     fn note(&mut self, key: &str, reason: NoteReason) {
-        self.notes.push(Note { place: format!("{}{key}", self.path), reason });
+        self.notes.push(Note { place: format!("{}{key}", self.path), line: None, reason });
+    }
+
+    fn leave_out(&mut self, place: &str) {
+        self.left_out.push(format!("{}{place}", self.path));
+    }
+
+    /// Takes over what was noted of a part.
+    fn note_all_of(&mut self, mut part: Fields<'_>) {
+        self.notes.append(&mut part.notes);
+        self.left_out.append(&mut part.left_out);
     }
 
     fn invalid(&mut self, key: &str, why: impl Into<String>) {
@@ -209,10 +250,16 @@ impl Fields<'_> {
         let mut found = Vec::new();
         for (index, value) in tables.into_iter().enumerate() {
             let place = format!("{key}[{index}]");
-            match value {
-                Value::Table(table) => found.extend(self.entry(&place, table, &mut read)),
-                _ => self.invalid(&place, "must be a table"),
+            let entry = if let Value::Table(table) = value {
+                self.entry(&place, table, &mut read)
+            } else {
+                self.invalid(&place, "must be a table");
+                None
+            };
+            if entry.is_none() {
+                self.leave_out(&place);
             }
+            found.extend(entry);
         }
         found
     }
@@ -225,10 +272,10 @@ impl Fields<'_> {
         read: impl FnOnce(&mut Fields<'_>) -> T,
     ) -> T {
         let path = format!("{}{place}.", self.path);
-        let mut fields = Fields { table: &mut table, path, notes: Vec::new() };
+        let mut fields = Fields::of(&mut table, path);
         let value = read(&mut fields);
         fields.name_the_unknown();
-        self.notes.append(&mut fields.notes);
+        self.note_all_of(fields);
         value
     }
 
@@ -244,12 +291,14 @@ impl Fields<'_> {
         let given: Vec<Option<AntennaId>> = tables.iter().map(given_id).collect();
         let mut antennas: Vec<Antenna> = Vec::new();
         for (index, value) in tables.into_iter().enumerate() {
-            let path = format!("antenna[{index}].");
+            let place = format!("antenna[{index}]");
             let Value::Table(mut table) = value else {
-                self.invalid("antenna", format!("number {index} must be a table"));
+                self.invalid(&place, "must be a table");
+                self.leave_out(&place);
                 continue;
             };
-            let mut fields = Fields { table: &mut table, path, notes: Vec::new() };
+            let path = format!("{place}.");
+            let mut fields = Fields::of(&mut table, path.clone());
             // Ids given later in the file are taken before a missing one is filled in.
             let later = given.iter().skip(index + 1).flatten().copied();
             let taken: Vec<AntennaId> =
@@ -262,10 +311,13 @@ impl Fields<'_> {
                     fields.invalid("name", why);
                     antenna.name = name;
                 }
+                self.antenna_places.push((path, antenna.id));
                 antennas.push(antenna);
                 fields.name_the_unknown();
+            } else {
+                self.left_out.push(place);
             }
-            self.notes.append(&mut fields.notes);
+            self.note_all_of(fields);
         }
         antennas
     }

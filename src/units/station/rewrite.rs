@@ -1,6 +1,8 @@
 //! Writes new settings into the text of a station file that the operator may have edited: the
 //! comments, the order and the spelling of what has not changed stay.
 
+use std::collections::BTreeMap;
+
 use toml_edit::{Array, ArrayOfTables, DocumentMut, Item, Table, TableLike, Value};
 
 /// Key by which the tables of an array are recognised, such as antennas. Tables without it are
@@ -12,44 +14,180 @@ const NAME: &str = "name";
 /// is gone goes with it. Text that holds anything else than `new` is never returned: where the
 /// two cannot be brought together, it is `new` as it stands.
 pub(super) fn rewritten(old: &str, new: &str) -> String {
-    merged(old, new).unwrap_or_else(|| new.to_owned())
+    let is_right = |merged: &str| is_same_text(merged, new);
+    merged(old, old, new, &Unread::default(), is_right).unwrap_or_else(|| new.to_owned())
 }
 
-fn merged(old: &str, new: &str) -> Option<String> {
+/// Like [`rewritten`], with the entries of `old` that could not be read: they stay as they are
+/// written, unless the operator has changed what was taken in their place. `read` is the text of
+/// what was read of `old`. `None` if an entry would be lost, or `is_right` says so.
+pub(super) fn rewritten_with(
+    old: &str,
+    read: &str,
+    new: &str,
+    unread: &Unread,
+    is_right: impl Fn(&str) -> bool,
+) -> Option<String> {
+    merged(old, read, new, unread, is_right)
+}
+
+/// Entries of a text that could not be read.
+#[derive(Debug, Clone, PartialEq, Eq, Default)]
+pub(super) struct Unread {
+    /// The whole entry.
+    is_whole: bool,
+    /// The entry of a list was left out.
+    is_left_out: bool,
+    keys: BTreeMap<String, Unread>,
+    indices: BTreeMap<usize, Unread>,
+}
+
+impl Unread {
+    /// The entries at places such as `antenna[0].limits`, and those that were left out of a list.
+    pub(super) fn at<'a>(
+        places: impl IntoIterator<Item = &'a str>,
+        left_out: impl IntoIterator<Item = &'a str>,
+    ) -> Self {
+        let mut all = Self::default();
+        for place in places {
+            all.entry(place).is_whole = true;
+        }
+        for place in left_out {
+            all.entry(place).is_left_out = true;
+        }
+        all
+    }
+
+    pub(super) fn is_empty(&self) -> bool {
+        *self == Self::default()
+    }
+
+    fn entry(&mut self, place: &str) -> &mut Self {
+        let mut here = self;
+        for part in place.split('.') {
+            let (key, index) = match part.split_once('[') {
+                Some((key, rest)) => (key, rest.trim_end_matches(']').parse().ok()),
+                None => (part, None),
+            };
+            here = here.keys.entry(key.to_owned()).or_default();
+            if let Some(index) = index {
+                here = here.indices.entry(index).or_default();
+            }
+        }
+        here
+    }
+}
+
+static NOTHING: Unread =
+    Unread { is_whole: false, is_left_out: false, keys: BTreeMap::new(), indices: BTreeMap::new() };
+
+fn merged(
+    old: &str,
+    read: &str,
+    new: &str,
+    unread: &Unread,
+    is_right: impl Fn(&str) -> bool,
+) -> Option<String> {
     let [mut text, wanted] = [old.parse::<DocumentMut>().ok()?, new.parse::<DocumentMut>().ok()?];
-    merge(text.as_table_mut(), wanted.into_table());
+    let read = read.parse::<DocumentMut>().ok()?;
+    merge(text.as_table_mut(), Some(read.as_table()), wanted.into_table(), unread);
     unplace(text.as_table_mut());
     let text = text.to_string();
-    let [merged, wanted] = [&text, new].map(|text| toml::from_str::<toml::Table>(text).ok());
-    (merged? == wanted?).then_some(text)
+    is_right(&text).then_some(text)
 }
 
-fn merge(old: &mut dyn TableLike, new: Table) {
+fn is_same_text(one: &str, other: &str) -> bool {
+    let [one, other] = [one, other].map(|text| toml::from_str::<toml::Table>(text).ok());
+    one.is_some() && one == other
+}
+
+/// `read`: what was read of `old`.
+fn merge(old: &mut dyn TableLike, read: Option<&dyn TableLike>, new: Table, unread: &Unread) {
     let gone: Vec<String> =
         old.iter().map(|(key, _)| key.to_owned()).filter(|key| !new.contains_key(key)).collect();
     for key in gone {
-        old.remove(&key);
+        let unread = unread.keys.get(&key).unwrap_or(&NOTHING);
+        let was_read = read.is_some_and(|read| read.contains_key(&key));
+        if unread.is_whole && !was_read {
+            continue;
+        }
+        if unread.is_empty() {
+            old.remove(&key);
+        } else if let Some(old) = old.get_mut(&key) {
+            let read = read.and_then(|read| read.get(&key));
+            keep_unread(old, read, unread);
+        }
     }
     for (key, new) in new {
+        let unread = unread.keys.get(&key).unwrap_or(&NOTHING);
+        let read = read.and_then(|read| read.get(&key));
         match old.get_mut(&key) {
-            Some(old) => merge_item(old, new),
+            Some(_) if unread.is_whole && read.is_some_and(|read| is_same_item(read, &new)) => {}
+            Some(old) => merge_item(old, read, new, unread),
             None => drop(old.insert(&key, new)),
         }
     }
 }
 
-fn merge_item(old: &mut Item, new: Item) {
+/// Leaves nothing of `old` but what could not be read.
+fn keep_unread(old: &mut Item, read: Option<&Item>, unread: &Unread) {
+    let empty = match old {
+        Item::ArrayOfTables(_) | Item::Value(Value::Array(_)) => {
+            Item::ArrayOfTables(ArrayOfTables::new())
+        }
+        _ => Item::Table(Table::new()),
+    };
+    merge_item(old, read, empty, unread);
+}
+
+fn merge_item(old: &mut Item, read: Option<&Item>, new: Item, unread: &Unread) {
+    let mut new = new;
+    // An empty list of tables is written as `antenna = []`.
+    if new.as_array().is_some_and(Array::is_empty) && !unread.indices.is_empty() {
+        new = Item::ArrayOfTables(ArrayOfTables::new());
+    }
+    if old.is_value() && !unread.indices.is_empty() {
+        // A list such as `keep_out = [{ name = "mast" }]`, perhaps with something else in it.
+        match std::mem::take(old).into_array_of_tables() {
+            Ok(tables) if new.is_array_of_tables() => *old = Item::ArrayOfTables(tables),
+            Ok(tables) => {
+                *old = Item::ArrayOfTables(tables).into_value().map_or_else(|it| it, Item::Value);
+            }
+            Err(as_it_was) => {
+                *old = as_it_was;
+                new = new.into_value().map_or_else(|it| it, Item::Value);
+            }
+        }
+    }
+    let read_table = read.and_then(Item::as_table_like);
     match (&mut *old, new) {
+        (Item::Value(Value::Array(old)), Item::Value(Value::Array(new))) => {
+            let unread = old.iter().enumerate().filter(|(index, _)| {
+                unread.indices.get(index).is_some_and(|unread| unread.is_left_out)
+            });
+            let unread: Vec<_> = unread.map(|(index, value)| (index, value.clone())).collect();
+            if unread.is_empty() && is_same_array(old, &new) {
+                return;
+            }
+            merge_array(old, new);
+            for (index, value) in unread {
+                old.insert_formatted(index.min(old.len()), value);
+            }
+        }
         (Item::Value(old), Item::Value(new)) => merge_value(old, new),
         (Item::Table(old), Item::Table(new)) => {
             // Without a header or a dotted key, an empty table would not be written.
             old.set_implicit(old.is_implicit() && !new.is_empty());
             old.set_dotted(old.is_dotted() && !new.is_empty());
-            merge(old, new);
+            merge(old, read_table, new, unread);
         }
-        (Item::ArrayOfTables(old), Item::ArrayOfTables(new)) => merge_tables(old, new),
+        (Item::ArrayOfTables(old), Item::ArrayOfTables(new)) => {
+            merge_tables(old, read.and_then(Item::as_array_of_tables), new, unread);
+        }
         // Such as `site = { latitude_deg = 41.0, longitude_deg = 29.0 }`.
-        (Item::Value(Value::InlineTable(old)), Item::Table(new)) => merge(old, new),
+        (Item::Value(Value::InlineTable(old)), Item::Table(new)) => {
+            merge(old, read_table, new, unread);
+        }
         (old, new) => *old = new,
     }
 }
@@ -61,7 +199,9 @@ fn merge_value(old: &mut Value, new: Value) {
     let decor = old.decor().clone();
     match (&mut *old, new) {
         (Value::Array(old), Value::Array(new)) => merge_array(old, new),
-        (Value::InlineTable(old), Value::InlineTable(new)) => merge(old, new.into_table()),
+        (Value::InlineTable(old), Value::InlineTable(new)) => {
+            merge(old, None, new.into_table(), &NOTHING);
+        }
         (old, new) => *old = new,
     }
     *old.decor_mut() = decor;
@@ -77,23 +217,62 @@ fn merge_array(old: &mut Array, new: Array) {
     }
 }
 
-fn merge_tables(old: &mut ArrayOfTables, new: ArrayOfTables) {
-    let mut rest: Vec<Option<Table>> = old.iter().cloned().map(Some).collect();
-    let mut known: Vec<Option<Table>> = new.iter().map(|_| None).collect();
+/// A table of the old text.
+#[derive(Default)]
+struct OldTable<'a> {
+    table: Table,
+    read: Option<&'a Table>,
+    unread: Option<&'a Unread>,
+}
+
+impl OldTable<'_> {
+    /// Returns `true` if this table, or what was read of it, is `new` in this sense.
+    fn is(&self, is_known: fn(&Table, &Table) -> bool, new: &Table) -> bool {
+        is_known(&self.table, new) || self.read.is_some_and(|read| is_known(read, new))
+    }
+}
+
+fn merge_tables(
+    old: &mut ArrayOfTables,
+    read: Option<&ArrayOfTables>,
+    new: ArrayOfTables,
+    unread: &Unread,
+) {
+    let mut read = read.into_iter().flat_map(ArrayOfTables::iter);
+    let mut left_out: Vec<(usize, Table)> = Vec::new();
+    let mut rest: Vec<Option<OldTable<'_>>> = Vec::new();
+    for (index, table) in old.iter().cloned().enumerate() {
+        let unread = unread.indices.get(&index);
+        if unread.is_some_and(|unread| unread.is_left_out) {
+            left_out.push((index, table));
+        } else {
+            rest.push(Some(OldTable { table, read: read.next(), unread }));
+        }
+    }
+    let mut known: Vec<Option<OldTable<'_>>> = new.iter().map(|_| None).collect();
     // What is sure takes its table before what only stands in its place.
     for is_known in [is_of_same_id, is_unchanged, is_of_same_name] {
         for (known, new) in known.iter_mut().zip(new.iter()).filter(|(known, _)| known.is_none()) {
             let found =
-                rest.iter_mut().find(|rest| rest.as_ref().is_some_and(|old| is_known(old, new)));
+                rest.iter_mut().find(|rest| rest.as_ref().is_some_and(|old| old.is(is_known, new)));
             *known = found.and_then(Option::take);
         }
     }
-    old.clear();
+    let mut tables = Vec::new();
     for (index, (known, new)) in known.into_iter().zip(new).enumerate() {
         let has_id = new.contains_key(ID);
         let mut in_its_place = || rest.get_mut(index).filter(|_| !has_id).and_then(Option::take);
-        let mut table = known.or_else(&mut in_its_place).unwrap_or_default();
-        merge(&mut table, new);
+        let OldTable { mut table, read, unread } =
+            known.or_else(&mut in_its_place).unwrap_or_default();
+        let read = read.map(|read| read as &dyn TableLike);
+        merge(&mut table, read, new, unread.unwrap_or(&NOTHING));
+        tables.push(table);
+    }
+    for (index, table) in left_out {
+        tables.insert(index.min(tables.len()), table);
+    }
+    old.clear();
+    for table in tables {
         old.push(table);
     }
 }
@@ -116,14 +295,20 @@ fn has_same(old: &Table, new: &Table, key: &str) -> bool {
 }
 
 fn is_same_table(old: &dyn TableLike, new: &dyn TableLike) -> bool {
-    let is_same_item = |(key, new): (&str, &Item)| {
-        let Some(old) = old.get(key) else { return false };
-        match (old.as_table_like(), new.as_table_like()) {
-            (Some(old), Some(new)) => is_same_table(old, new),
-            _ => old.as_value().zip(new.as_value()).is_some_and(|(old, new)| is_same(old, new)),
-        }
-    };
-    old.len() == new.len() && new.iter().all(is_same_item)
+    let is_same =
+        |(key, new): (&str, &Item)| old.get(key).is_some_and(|old| is_same_item(old, new));
+    old.len() == new.len() && new.iter().all(is_same)
+}
+
+fn is_same_item(old: &Item, new: &Item) -> bool {
+    if let (Some(old), Some(new)) = (old.as_table_like(), new.as_table_like()) {
+        return is_same_table(old, new);
+    }
+    if let (Some(old), Some(new)) = (old.as_array_of_tables(), new.as_array_of_tables()) {
+        let mut pairs = old.iter().zip(new.iter());
+        return old.len() == new.len() && pairs.all(|(old, new)| is_same_table(old, new));
+    }
+    old.as_value().zip(new.as_value()).is_some_and(|(old, new)| is_same(old, new))
 }
 
 /// Whether both mean the same, however they are spelled.
@@ -134,15 +319,17 @@ fn is_same(old: &Value, new: &Value) -> bool {
         (Value::Float(old), Value::Float(new)) => old.value().to_bits() == new.value().to_bits(),
         (Value::Boolean(old), Value::Boolean(new)) => old.value() == new.value(),
         (Value::Datetime(old), Value::Datetime(new)) => old.value() == new.value(),
-        (Value::Array(old), Value::Array(new)) => {
-            old.len() == new.len() && old.iter().zip(new).all(|(old, new)| is_same(old, new))
-        }
+        (Value::Array(old), Value::Array(new)) => is_same_array(old, new),
         (Value::InlineTable(old), Value::InlineTable(new)) => {
             old.len() == new.len()
                 && old.iter().all(|(key, old)| new.get(key).is_some_and(|new| is_same(old, new)))
         }
         _ => false,
     }
+}
+
+fn is_same_array(old: &Array, new: &Array) -> bool {
+    old.len() == new.len() && old.iter().zip(new).all(|(old, new)| is_same(old, new))
 }
 
 /// Forgets at which place of their texts the tables stood: those of a moved antenna would be
@@ -332,7 +519,8 @@ to = "06:00"
         fn any_settings_go_into_any_text(old in any_table(), new in any_table(), is_long: bool) {
             let write = if is_long { toml::to_string_pretty } else { toml::to_string };
             let [old, new] = [&old, &new].map(|table| write(table).unwrap());
-            prop_assert!(merged(&old, &new).is_some(), "{old}\n---\n{new}");
+            let is_right = |text: &str| is_same_text(text, &new);
+            prop_assert!(merged(&old, &old, &new, &NOTHING, is_right).is_some(), "{old}\n---\n{new}");
         }
     }
 

@@ -158,7 +158,7 @@ fn an_older_set_is_used_over_the_next_start_until_a_newer_one_comes() {
     let folder = tempfile::tempdir().unwrap();
     let settings = folder.path().join("station.toml");
     let unit = Unit::start(rig::now());
-    station::save(&unit.station(), &settings).unwrap();
+    station::save(&unit.station(), &settings, azel::makes::SPECS).unwrap();
     let mut window = open(&settings, clock_from(rig::now()));
     step_until(&mut window, "the elements", |model| epoch_of_noaa_20(model).is_some());
     let bundled = epoch_of_noaa_20(window.state().model());

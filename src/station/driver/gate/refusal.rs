@@ -4,6 +4,7 @@ use std::time::Duration;
 
 use jiff::Timestamp;
 use serde::{Deserialize, Serialize};
+use smol_str::SmolStr;
 
 use crate::{
     astro::{AzEl, Offset},
@@ -95,6 +96,13 @@ pub enum Refusal {
         #[serde(deserialize_with = "name::one")]
         axis: Name,
         barrier: Barrier,
+    },
+    /// A setting on which safety depends could not be read. A motion by hand needs the operator's
+    /// permission, and no other one is possible.
+    #[error("the setting {place} could not be read")]
+    SettingsUnread {
+        /// Place in the station file.
+        place: SmolStr,
     },
     /// No clear direction to go to was found.
     #[error("there is no clear direction to go to")]

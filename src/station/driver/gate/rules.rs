@@ -50,6 +50,7 @@ macro_rules! rules {
 pub(super) const RULES: &[Rule] = rules![
     Moving(unit_is_not_locked_out),
     Motion(something_is_asked_for),
+    Moving(safety_settings_are_read),
     Motion(controller_offers_it),
     Moving(position_is_fresh),
     Moving(no_stop_under_way),
@@ -92,6 +93,20 @@ fn something_is_asked_for(motion: &Motion, _: &Situation<'_>) -> Result<(), Refu
         Motion::StartProgram | Motion::EnableAuto => true,
     };
     if sound { Ok(()) } else { Err(Refusal::Nothing) }
+}
+
+/// Only the operator can answer for bounds that are not known, and only for a motion by hand.
+fn safety_settings_are_read(asked: &Asked, situation: &Situation<'_>) -> Result<(), Refusal> {
+    let Some(place) = situation.bounds.unread() else { return Ok(()) };
+    let refusal = Refusal::SettingsUnread { place: place.clone() };
+    let rates_deg_s = match *asked {
+        Asked::Motion(Motion::Jog { x_deg_s, y_deg_s }) => {
+            Some(situation.turning([x_deg_s, y_deg_s]))
+        }
+        Asked::Motion(Motion::Step { .. }) => None,
+        _ => return Err(refusal),
+    };
+    way::slowly_by_permission(rates_deg_s, refusal, situation)
 }
 
 fn controller_offers_it(motion: &Motion, situation: &Situation<'_>) -> Result<(), Refusal> {

@@ -21,7 +21,7 @@ use crate::{
     },
     orbit::{PassSearch, Propagator, passes},
     plan::{OnBoardPass, on_board::Ability},
-    station::{KeepOut, Station},
+    station::{KeepOut, Station, Unread},
 };
 
 /// A controller that remembers what was started.
@@ -115,6 +115,7 @@ struct Case {
     age: Duration,
     antenna: Antenna,
     keep_outs: Vec<KeepOut>,
+    unread: Vec<Unread>,
     /// The unit's program is started on [`PROGRAM`].
     pass_is_known: bool,
     /// What the unit would follow by itself.
@@ -154,6 +155,7 @@ impl Case {
             age: Duration::from_millis(100),
             antenna: Antenna::satrak("Dish", ""),
             keep_outs: Vec::new(),
+            unread: Vec::new(),
             pass_is_known: true,
             held: Held::Nothing,
             lock_out: None,
@@ -184,7 +186,11 @@ impl Case {
 
     fn gate(&self, started: &Arc<Mutex<Vec<Motion>>>) -> Gate {
         let metal = Metal::of(self, Arc::clone(started));
-        let station = Station { keep_outs: self.keep_outs.clone(), ..Station::default() };
+        let station = Station {
+            keep_outs: self.keep_outs.clone(),
+            unread: self.unread.clone(),
+            ..Station::default()
+        };
         let bounds = Bounds::of(&station, &self.antenna);
         let mut gate = Gate::new(Box::new(metal), &self.antenna, bounds);
         gate.held = self.held.clone();
@@ -415,4 +421,33 @@ fn an_azimuth_beyond_the_sky_is_meant_as_the_axis_counts() {
     for (asked_deg, meant_deg) in [(10.0, 10.0), (370.0, 370.0), (360.0, 360.0), (-10.0, 350.0)] {
         assert_eq!(gate.nearest(position(asked_deg, 45.0)), Ok(position(meant_deg, 45.0)));
     }
+}
+
+#[test]
+fn while_a_safety_setting_is_unread_only_slow_motion_by_hand_is_permitted() {
+    let place = "keep_out[0]".into();
+    let unread = Refusal::SettingsUnread { place };
+    for (intent, motion) in [
+        (Intent::Position, position(10.0, 40.0)),
+        (Intent::Track, Motion::StartProgram),
+        (Intent::Standby, Motion::EnableAuto),
+        (Intent::Manual, jog(0.5, 0.0)),
+        (Intent::Manual, step(0.0, 1.0)),
+    ] {
+        let case = each_rule::unread(Case::new(intent));
+        assert_eq!(case.ask(motion), Err(unread.clone()), "{motion:?}");
+        let mut gate = case.gate(&Arc::default());
+        gate.let_out(Some(case.now().steady + Duration::from_mins(1)));
+        let by_hand = intent == Intent::Manual;
+        let wanted = if by_hand { Ok(()) } else { Err(unread.clone()) };
+        assert_eq!(gate.check(motion, intent, case.now()), wanted, "{motion:?}");
+    }
+    let case = each_rule::unread(Case::new(Intent::Manual));
+    let mut gate = case.gate(&Arc::default());
+    gate.let_out(Some(case.now().steady + Duration::from_mins(1)));
+    let fast = gate.check(jog(3.0, 0.0), Intent::Manual, case.now());
+    assert!(matches!(fast, Err(Refusal::TooFast { .. })), "{fast:?}");
+    let mut case = case;
+    case.unread[0].antenna = Some(crate::station::AntennaId(case.antenna.id.0 + 1));
+    assert_eq!(case.ask(jog(3.0, 0.0)), Ok(()), "it concerns another antenna");
 }

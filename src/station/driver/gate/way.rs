@@ -192,7 +192,7 @@ fn by_hand_unseen(
 
 /// Allows a motion by hand that the operator answers for, no faster than a share of the highest
 /// rate; returns `refusal` without that permission.
-fn slowly_by_permission(
+pub(super) fn slowly_by_permission(
     rates_deg_s: Option<[f64; 2]>,
     refusal: Refusal,
     situation: &Situation<'_>,

@@ -35,6 +35,11 @@ impl Session {
         }
         let Some(intervals) = self.gate.intervals() else { return };
         let axis = intervals.unknown();
+        if let Some(place) = self.bounds_now().unread().cloned() {
+            self.seen.place.barrier = Some(Barrier::Unread(place));
+            self.seen.place.unknown_axis = None;
+            return;
+        }
         let bounds = self.bounds_now().at(now.utc);
         let clearances = bounds.least_clearances(intervals.sweep()).into_iter();
         // Above the minimum elevation a known angle needs no permission to go on.

@@ -179,6 +179,7 @@ impl AlarmKind {
                 | Safety::LeftMoving { .. }
                 | Safety::SilentInMotion
                 | Safety::FlagsContradict { .. }
+                | Safety::NoEffect { .. }
                 | Safety::Forbidden { .. },
             )
             | Self::Setting(Note { reason: NoteReason::DoesNotHold { .. }, .. }) => Priority::First,

@@ -19,7 +19,7 @@ fn station(folder: &std::path::Path) -> (Engine, PathBuf) {
     config.automatic.is_on_at_start = true;
     let station = Station { antennas: vec![config], ..Station::default() };
     let path = folder.join("station.toml");
-    station::save(&station, &path).unwrap();
+    station::save(&station, &path, crate::makes::SPECS).unwrap();
     let left = path.with_extension(at_start::EXTENSION);
     std::fs::write(&left, "is_orderly = true").unwrap();
     let settings = Settings { path: Some(path), ..Settings::default() };

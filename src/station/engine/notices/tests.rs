@@ -248,7 +248,7 @@ fn every_kind() -> Vec<AlarmKind> {
     let target =
         TrackTarget { catalog_number: 25_544, name: "ISS".to_owned(), from: time(), until: time() };
     let text = || "text".to_owned();
-    let note = |reason| Note { place: text(), reason };
+    let note = |reason| Note { place: text(), line: None, reason };
     let mut all = vec![
         LOST,
         STOP,

@@ -4,8 +4,8 @@ use std::fs;
 
 use super::file::{load, written};
 use crate::station::{
-    Antenna, Entered, KeepOut, Loaded, Monitor, Note, NoteReason, OnClose, Resume, Station,
-    SunAvoidance, save,
+    Antenna, AntennaId, Entered, KeepOut, Loaded, Monitor, Note, NoteReason, OnClose, Priority,
+    Resume, Station, SunAvoidance, save,
 };
 
 fn mast() -> KeepOut {
@@ -44,7 +44,7 @@ fn keep_outs_and_what_is_done_by_itself_come_back_as_they_were_saved() {
     };
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("station.toml");
-    save(&station, &path).unwrap();
+    save(&station, &path, crate::makes::SPECS).unwrap();
     let loaded = load(&path).unwrap();
     assert_eq!(loaded.notes, []);
     assert_eq!(loaded.station, station);
@@ -77,7 +77,7 @@ fn a_keep_out_that_cannot_be_read_is_said_not_to_hold() {
         assert_eq!(station.keep_outs.len(), 1);
         assert_eq!(station.keep_outs[0].name, "roof");
         let reason = NoteReason::DoesNotHold { name: "mast".to_owned(), why: expected.to_owned() };
-        assert_eq!(notes, [Note { place: "keep_out[0]".to_owned(), reason }]);
+        assert_eq!(notes, [Note { place: "keep_out[0]".to_owned(), line: Some(1), reason }]);
     }
     for (text, name) in [
         ("keep_out = 'mast'", "keep_out"),
@@ -135,4 +135,107 @@ fn a_keep_out_with_a_wrong_value_holds_all_the_more() {
     );
     assert!(mast().holds_for(" SATRAK") && !mast().holds_for("Genius"));
     assert!(strict("x", 0.0).holds_for("Genius"));
+}
+
+/// A station file with three settings that safety depends on and that cannot be read, and others.
+const UNREAD: &str = "# The roof.
+nickname = 'west' # not known
+favourites = [25544, 'NOAA 15']
+
+[sun_avoidance]
+radius_deg = 'five' # as on the door
+
+[[keep_out]]
+name = 'mast' # of steel
+corner = [[0, 0], [10, 0], [10, 20]]
+
+[[keep_out]]
+name = 'roof'
+corners = [[100, 0], [120, 0], [120, 20]]
+
+[[pass]]
+satellite = 'ISS'
+
+[[antenna]]
+id = 1
+name = 'Satrak'
+[antenna.connection]
+controller = 'satrak'
+address = 'h:4001'
+[antenna.limits]
+minimum_elevation_deg = '25' # the neighbour's roof
+
+[[antenna]]
+id = 2
+[antenna.connection]
+controller = 'unheard of'
+address = 'h:4002'
+";
+
+#[test]
+fn a_save_keeps_what_could_not_be_read() {
+    let (_folder, path) = written(UNREAD);
+    let Loaded { mut station, notes } = load(&path).unwrap();
+    station.favourites.set_priority(25_544, Priority::ALL[0]);
+    station.antennas[0].beam_width_deg = 3.5;
+    save(&station, &path, crate::makes::SPECS).unwrap();
+    let text = fs::read_to_string(&path).unwrap();
+    for line in [
+        "nickname = 'west' # not known",
+        "radius_deg = 'five' # as on the door",
+        "name = 'mast' # of steel",
+        "corner = [[0, 0], [10, 0], [10, 20]]",
+        "satellite = 'ISS'",
+        "minimum_elevation_deg = '25' # the neighbour's roof",
+        "controller = 'unheard of'",
+    ] {
+        assert!(text.lines().any(|found| found == line), "{line}\n{text}");
+    }
+    assert!(text.contains("'NOAA 15'"), "{text}");
+    let again = load(&path).unwrap();
+    assert_eq!(again.station, station);
+    let places = |notes: Vec<Note>| notes.into_iter().map(|note| note.place).collect::<Vec<_>>();
+    assert_eq!(places(again.notes), places(notes));
+}
+
+#[test]
+fn what_could_not_be_read_is_named_with_its_line() {
+    let (_folder, path) = written(UNREAD);
+    let Loaded { station, notes } = load(&path).unwrap();
+    let line = |place: &str| notes.iter().find(|note| note.place == place).unwrap().line;
+    for (place, expected) in [
+        ("nickname", 2),
+        ("favourites[1]", 3),
+        ("sun_avoidance.radius_deg", 6),
+        ("keep_out[0]", 8),
+        ("keep_out[0].corner", 10),
+        ("antenna[0].limits.minimum_elevation_deg", 26),
+    ] {
+        assert_eq!(line(place), Some(expected), "{place}");
+    }
+    let unread = station.unread.iter().map(|unread| (unread.place.as_str(), unread.antenna));
+    assert_eq!(
+        unread.collect::<Vec<_>>(),
+        [
+            ("sun_avoidance.radius_deg", None),
+            ("sun_avoidance", None),
+            ("antenna[0].limits.minimum_elevation_deg", Some(AntennaId(1))),
+            ("keep_out[0].corner", None),
+            ("keep_out[0]", None),
+        ]
+    );
+}
+
+#[test]
+fn a_setting_that_the_operator_repairs_is_saved() {
+    let (_folder, path) = written(UNREAD);
+    let Loaded { mut station, .. } = load(&path).unwrap();
+    station.antennas[0].limits.minimum_elevation_deg = 25.0;
+    station.sun_avoidance = Some(SunAvoidance { radius_deg: 5.0, ahead_min: 0.0 });
+    let saved = save(&station, &path, crate::makes::SPECS).unwrap();
+    let places: Vec<&str> = saved.unread.iter().map(|unread| unread.place.as_str()).collect();
+    assert_eq!(places, ["keep_out[0].corner", "keep_out[0]"], "the mast is still unknown");
+    let again = load(&path).unwrap().station;
+    assert_eq!(again.sun_avoidance, station.sun_avoidance);
+    assert!((again.antennas[0].limits.minimum_elevation_deg - 25.0).abs() < 1e-9);
 }

@@ -75,7 +75,7 @@ fn everything_about_the_schedule_comes_back_as_it_was_saved() {
         uses_auto_track: true,
         set_up_s: Some(20.0),
     };
-    station::save(&station, &path).unwrap();
+    station::save(&station, &path, crate::makes::SPECS).unwrap();
     let text = std::fs::read_to_string(&path).unwrap();
     assert!(text.contains("automatic_operation_at_start = true"), "{text}");
     let Loaded { station: read, notes } = load(&path).unwrap();

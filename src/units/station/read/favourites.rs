@@ -23,14 +23,19 @@ impl Fields<'_> {
             match entry {
                 Value::Table(table) => {
                     let read = self.entry(&place, table, |fields| fields.favourite(antennas));
-                    if let Some(favourite) = read {
-                        favourites.put(favourite);
+                    match read {
+                        Some(favourite) => favourites.put(favourite),
+                        None => self.leave_out(&place),
                     }
                 }
-                number => match catalog_number(&number) {
-                    Some(satellite) => favourites.mark(satellite, true),
-                    None => self.invalid(&place, "must be a catalogue number"),
-                },
+                number => {
+                    if let Some(satellite) = catalog_number(&number) {
+                        favourites.mark(satellite, true);
+                    } else {
+                        self.invalid(&place, "must be a catalogue number");
+                        self.leave_out(&place);
+                    }
+                }
             }
         }
         favourites

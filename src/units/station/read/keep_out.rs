@@ -23,18 +23,22 @@ impl Fields<'_> {
             let place = format!("keep_out[{index}]");
             let Value::Table(mut table) = value else {
                 self.does_not_hold(&place, &place, "must be a table");
+                self.leave_out(&place);
                 continue;
             };
             let path = format!("{place}.");
-            let mut fields = Fields { table: &mut table, path, notes: Vec::new() };
+            let mut fields = Fields::of(&mut table, path);
             let others: Vec<&str> = keep_outs.iter().map(|other| &*other.name).collect();
             let name = fields.keep_out_name(index + 1, &others);
             let keep_out = fields.keep_out(name.clone(), antennas);
             fields.name_the_unknown();
-            self.notes.append(&mut fields.notes);
+            self.note_all_of(fields);
             match keep_out {
                 Ok(keep_out) => keep_outs.push(keep_out),
-                Err(why) => self.does_not_hold(&place, &name, why),
+                Err(why) => {
+                    self.does_not_hold(&place, &name, why);
+                    self.leave_out(&place);
+                }
             }
         }
         keep_outs

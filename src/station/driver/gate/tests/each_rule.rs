@@ -83,6 +83,12 @@ pub(super) fn beside_a_mast(case: Case) -> Case {
     Case { keep_outs: vec![mast], ..case }
 }
 
+/// A keep-out of the station could not be read.
+pub(super) fn unread(case: Case) -> Case {
+    let unread = Unread { place: "keep_out[0]".to_owned(), antenna: None };
+    Case { unread: vec![unread], ..case }
+}
+
 fn changed(mut case: Case, change: fn(&mut Case)) -> Case {
     change(&mut case);
     case
@@ -119,6 +125,9 @@ fn motions() -> Vec<Needed> {
         }),
         needed("something_is_asked_for", manual(), Asked::Motion(jog(0.0, 0.0)), |it| {
             *it == Refusal::Nothing
+        }),
+        needed("safety_settings_are_read", unread(manual()), Asked::Motion(jog(0.5, 0.0)), |it| {
+            matches!(it, Refusal::SettingsUnread { .. })
         }),
         needed("controller_offers_it", genius(Manual), Asked::Motion(jog(1.0, 1.0)), |it| {
             *it == Refusal::OneAxis
