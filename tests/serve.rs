@@ -482,3 +482,41 @@ fn output_that_nobody_reads_holds_up_nothing() {
     served.signal("TERM");
     assert_eq!(served.process.wait().expect("it ends").code(), Some(0));
 }
+
+/// Returns `true` if a finished file below `folder` has a name that starts with `name`.
+fn find(folder: &Path, name: &str) -> bool {
+    let entries = std::fs::read_dir(folder).into_iter().flatten().flatten();
+    entries.into_iter().any(|entry| {
+        let file_name = entry.file_name().to_string_lossy().into_owned();
+        let is_it = file_name.starts_with(name) && file_name.ends_with(".toml");
+        is_it || (entry.path().is_dir() && find(&entry.path(), name))
+    })
+}
+
+#[test]
+fn a_stop_that_is_owed_outlives_a_program_that_is_killed() {
+    let units = Units::start(|station| station.antennas.truncate(1));
+    let mut served = Served::start(&units);
+    wait_for("it is read", || {
+        let status = program(&units).arg("status").output().expect("it runs");
+        says(&status).contains("azimuth").then_some(())
+    });
+    units.dish.set_fault(satrak::Fault::Silence, true);
+    served.signal("USR1");
+    served.until(|told| told["antenna"] == "Dish" && told["text"] != "STOP is confirmed.");
+    wait_for("STOP is not proved", || {
+        let status = program(&units).arg("status").output().expect("it runs");
+        says(&status).contains("STOP IS NOT PROVED").then_some(())
+    });
+    wait_for("its record on disk", || find(units.folder.path(), "satrak-").then_some(()));
+    served.signal("KILL");
+    served.process.wait().expect("it ends");
+    units.dish.set_fault(satrak::Fault::Silence, false);
+
+    let before = units.dish.received().len();
+    let _served = Served::start(&units);
+    let first = wait_for("its first word", || {
+        units.dish.received().get(before).map(|(_, payload)| payload.clone())
+    });
+    assert_eq!(first, "STOP=");
+}

@@ -28,6 +28,7 @@ const AUTO_TRACK: &str = ".auto-track.toml";
 pub struct Unit {
     /// Key of its make, as in the station file.
     pub make: String,
+    /// As in the station file, in small letters: a host has one name, however it is written.
     pub address: String,
 }
 
@@ -35,7 +36,7 @@ impl Unit {
     pub fn of(antenna: &Antenna) -> Self {
         Self {
             make: antenna.connection.spec().key.to_owned(),
-            address: antenna.connection.address.trim().to_owned(),
+            address: antenna.connection.address.trim().to_lowercase(),
         }
     }
 
@@ -105,6 +106,9 @@ impl Debts {
     /// With records in `folder`, and what an earlier run recorded there of auto-track and offsets.
     pub fn marked_in(folder: Option<PathBuf>) -> Self {
         let debts = Self { folder: folder.map(Arc::from), ..Self::default() };
+        if let Some(folder) = debts.folder.as_deref() {
+            rename_to_small_letters(folder);
+        }
         let found = debts.folder.as_deref().map_or_else(Vec::new, with_auto_track);
         debts.ledger().auto_track.extend(found);
         let shifted = debts.folder.as_deref().map_or_else(Vec::new, shifted_track::found);
@@ -261,6 +265,42 @@ impl Debts {
     }
 }
 
+/// Puts the records of units whose address was written with capitals under the names by which they
+/// are looked for. One that cannot be read or renamed stays, and the log says so.
+fn rename_to_small_letters(folder: &Path) {
+    let Ok(files) = fs::read_dir(folder) else { return };
+    for path in files.filter_map(|file| Some(file.ok()?.path())) {
+        let renamed = in_small_letters(&path).and_then(|renamed| {
+            let Some((name, text)) = renamed else { return Ok(()) };
+            whole_file::replace(&folder.join(name), text.as_bytes())?;
+            fs::remove_file(&path)
+        });
+        if let Err(error) = renamed {
+            tracing::error!(%error, path = %path.display(), "a record is not found by its unit");
+        }
+    }
+}
+
+/// Name and text of a record under the small letters of its address, if it has others.
+fn in_small_letters(path: &Path) -> io::Result<Option<(String, String)>> {
+    let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
+    let endings = [AUTO_TRACK, shifted_track::SHIFTED, ".toml"];
+    let Some(ending) = endings.into_iter().find(|ending| name.ends_with(ending)) else {
+        return Ok(None);
+    };
+    let text = fs::read_to_string(path)?;
+    // What is no record is named where it is read.
+    let Ok(mut table) = toml::from_str::<toml::Table>(&text) else { return Ok(None) };
+    let Ok(unit) = toml::Value::Table(table.clone()).try_into::<Unit>() else { return Ok(None) };
+    let address = unit.address.to_lowercase();
+    if address == unit.address {
+        return Ok(None);
+    }
+    table.insert("address".to_owned(), toml::Value::String(address.clone()));
+    let name = format!("{}{ending}", Unit { address, ..unit }.stem());
+    Ok(Some((name, toml::to_string(&table).map_err(io::Error::other)?)))
+}
+
 /// The units with records of auto-track in `folder`. One that cannot be read names no unit: it
 /// stays, and the log says so.
 fn with_auto_track(folder: &Path) -> Vec<Unit> {
@@ -298,6 +338,28 @@ mod tests {
         debts().unmark(&one);
         assert_eq!(debts().marked(&one), None);
         debts().unmark(&one);
+    }
+
+    #[test]
+    fn records_of_an_address_with_capitals_are_found_in_small_letters() {
+        let folder = tempfile::tempdir().unwrap();
+        let since: Timestamp = "2026-08-12T01:02:03Z".parse().unwrap();
+        let debts = || Debts::marked_in(Some(folder.path().to_owned()));
+        // As an earlier version wrote them.
+        debts().mark(&unit("Dish.Local:4001"), since).unwrap();
+        debts().mark_auto_track_off(&unit("Mast.Local:4001"), since).unwrap();
+        let written = unit("DISH.local:4001");
+        let antenna = Antenna::satrak("Dish", &written.address);
+        assert_eq!(Unit::of(&antenna), unit("dish.local:4001"));
+        let debts = debts();
+        assert_eq!(debts.marked(&Unit::of(&antenna)), Some(since));
+        assert_eq!(debts.with_auto_track(), [unit("mast.local:4001")]);
+        debts.unmark(&Unit::of(&antenna));
+        assert_eq!(
+            Debts::marked_in(debts.folder.as_deref().map(Path::to_owned))
+                .marked(&Unit::of(&antenna)),
+            None
+        );
     }
 
     #[test]

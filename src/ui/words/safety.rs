@@ -187,8 +187,8 @@ pub fn safety(matter: &Safety, antenna: &str, now: Timestamp) -> String {
             format::moment(*since, now)
         ),
         Safety::NoMark => format!(
-            "It could not be written to disk that {antenna} is moved by hand: if Azel ended now, \
-             its next start would not know. Check the free space and permissions of the disk."
+            "It could not be written to disk that {antenna} is moved by hand or is owed a STOP: if \
+             Azel ended now, its next start would not know. Check the free space and permissions of the disk."
         ),
         Safety::StoppedByFlags { axis } => format!(
             "{antenna} reports that it is at rest. {axis} reports no angle, so nothing else \

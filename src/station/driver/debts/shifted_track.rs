@@ -13,7 +13,7 @@ use super::{Debts, Unit};
 use crate::{astro::TrackOffsets, whole_file};
 
 /// End of the names of these records.
-const SHIFTED: &str = ".offsets.toml";
+pub(super) const SHIFTED: &str = ".offsets.toml";
 
 /// A unit whose own track was shifted from here.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]

@@ -159,7 +159,8 @@ impl Session {
             if now.steady >= retry_at {
                 return Some(());
             }
-            let until = self.halt_due().into_iter().chain([retry_at]).min().unwrap_or(retry_at);
+            let due = self.halt_due().into_iter().chain(self.marking_due(now.steady));
+            let until = due.chain([retry_at]).min().unwrap_or(retry_at);
             tokio::select! {
                 biased;
                 turn = next_input(&mut self.wires) => {

@@ -1,5 +1,5 @@
-//! The record on disk that an antenna is moved by hand: if this program ends before standstill
-//! is proved, the next start sends STOP first.
+//! The record on disk that an antenna is moved by hand, or is owed a STOP: if this program ends
+//! before standstill is proved, the next start sends STOP first.
 
 use std::{io, time::Duration};
 
@@ -38,6 +38,21 @@ impl Session {
         if self.variant.capabilities.ends_jogs || !self.owed.debts.has_marks() {
             return true;
         }
+        self.follow_marking(now)
+    }
+
+    /// Records on disk that a STOP is owed. It comes after the bytes of the STOP, which wait for no
+    /// disk.
+    pub(super) fn record_debt(&mut self, now: Moment) {
+        let is_out_of_reach = self.stop.is_under_way() && !self.contact.link.is_open();
+        if self.owed.debts.has_marks() && (self.stop.is_pressed() || is_out_of_reach) {
+            self.follow_marking(now);
+        }
+    }
+
+    /// Returns `true` if the record is on the disk or could not be written; else begins to write
+    /// it, or waits for that.
+    fn follow_marking(&mut self, now: Moment) -> bool {
         match &mut self.owed.marking {
             Marking::Marked | Marking::Failed => true,
             Marking::Writing { since, writing } => {

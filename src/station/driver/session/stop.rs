@@ -56,6 +56,11 @@ impl Stop {
         matches!(self, Self::UnderWay(_))
     }
 
+    /// Returns `true` while a STOP that the operator pressed is not proved.
+    pub(super) fn is_pressed(&self) -> bool {
+        self.halting().is_some_and(|halting| halting.pressed)
+    }
+
     /// What a halt that is sent again ends.
     pub(super) fn extent(&self) -> Option<Extent> {
         self.halting().map(Halting::extent_again)
@@ -140,6 +145,10 @@ impl Session {
                 }));
             }
         }
+        // Its bytes go out first, if there is a link.
+        if !self.contact.link.is_open() {
+            self.record_debt(now);
+        }
     }
 
     /// The bytes of a halt are the next to be written.
@@ -152,6 +161,9 @@ impl Session {
 
     /// Checks whether the antenna stands, and repeats the halt while it does not.
     pub(super) fn watch_halt(&mut self, now: Moment) {
+        if self.stop_bytes.is_empty() || !self.contact.link.is_open() {
+            self.record_debt(now);
+        }
         let figures = self.setup.figures;
         let proof_after = PROOF.max(figures.gap() + BEYOND_PROOF);
         let is_at_rest = self.is_at_rest();

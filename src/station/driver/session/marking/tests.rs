@@ -137,3 +137,30 @@ async fn advance(milliseconds: u64) {
         tokio::time::advance(Duration::from_millis(10)).await;
     }
 }
+
+#[tokio::test(start_paused = true)]
+async fn a_stop_that_is_owed_is_on_disk_until_it_is_proved() {
+    let folder = tempfile::tempdir().unwrap();
+    let (control, handle, debts) = start(folder.path());
+    let is_marked = || debts.marked(&Unit::of(&antenna())).is_some();
+    seconds(5).await;
+    control.set_fault(Fault::Silence, true);
+    handle.stop();
+    until("it is on disk", is_marked).await;
+    seconds(20).await;
+    assert!(is_marked(), "the unit does not answer");
+    control.set_fault(Fault::Silence, false);
+    until("standstill is proved", || !is_marked()).await;
+}
+
+/// Lets real time go on as well, for the disk.
+async fn until(what: &str, is_it: impl Fn() -> bool) {
+    for _ in 0..2_000 {
+        if is_it() {
+            return;
+        }
+        sleep(Duration::from_millis(10)).await;
+        std::thread::yield_now();
+    }
+    panic!("{what}: never");
+}
