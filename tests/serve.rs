@@ -455,6 +455,16 @@ fn the_program_serves_is_asked_from_a_second_shell_and_ends_by_a_signal() {
     let locked = program(&units).args(lock).output().expect("it runs");
     assert_eq!(says(&locked), "Dish is locked out and stands.\n");
     served.until(|told| told["antenna"] == "Dish" && told["about"] == "lock_out");
+    let unlock = ["lock-out", "--antenna", "Dish", "--off"];
+    let refused = program(&units).args(unlock).output().expect("it runs");
+    assert_ne!(refused.status.code(), Some(0));
+    let why = String::from_utf8_lossy(&refused.stderr).into_owned();
+    assert!(why.contains("by Ada: belts") && why.contains("--locked-by"), "{why}");
+    let unlocked =
+        program(&units).args(unlock).args(["--locked-by", "Ada"]).output().expect("it runs");
+    assert_eq!(says(&unlocked), "Dish is not locked out any more.\n");
+    let again = program(&units).args(lock).output().expect("it runs");
+    assert_eq!(again.status.code(), Some(0));
 
     served.signal("USR1");
     served.until(|told| told["antenna"] == "Mast" && told["text"] == "STOP is confirmed.");
@@ -488,7 +498,8 @@ fn find(folder: &Path, name: &str) -> bool {
     let entries = std::fs::read_dir(folder).into_iter().flatten().flatten();
     entries.into_iter().any(|entry| {
         let file_name = entry.file_name().to_string_lossy().into_owned();
-        let is_it = file_name.starts_with(name) && file_name.ends_with(".toml");
+        let ends_so = entry.path().extension().is_some_and(|extension| extension == "toml");
+        let is_it = file_name.starts_with(name) && ends_so;
         is_it || (entry.path().is_dir() && find(&entry.path(), name))
     })
 }
@@ -519,4 +530,26 @@ fn a_stop_that_is_owed_outlives_a_program_that_is_killed() {
         units.dish.received().get(before).map(|(_, payload)| payload.clone())
     });
     assert_eq!(first, "STOP=");
+}
+
+#[test]
+fn lock_outs_that_the_disk_does_not_take_hold_and_are_acknowledged_as_such() {
+    let units = Units::start(|station| station.antennas.truncate(2));
+    // The list can be read, and a save fails: a folder stands where it keeps the old list.
+    let list = units.folder.path().join(station::LOCK_OUTS_FILE);
+    std::fs::write(&list, "version = 1\n").unwrap();
+    std::fs::create_dir(list.with_added_extension("old")).unwrap();
+    let served = Served::start(&units);
+    served.until(|told| told["antenna"] == "Mast" && told["about"] == "motion");
+    let lock = |name: &str| {
+        let arguments = ["lock-out", "--antenna", name, "--reason", "belts", "--by", "Ada"];
+        program(&units).args(arguments).output().expect("it runs")
+    };
+    for name in ["Dish", "Mast"] {
+        let locked = lock(name);
+        assert!(says(&locked).contains("It is NOT on disk"), "{}", says(&locked));
+        assert_eq!(locked.status.code(), Some(4));
+    }
+    let status = says(&program(&units).arg("status").output().expect("it runs"));
+    assert_eq!(status.matches("locked out by Ada").count(), 2, "{status}");
 }

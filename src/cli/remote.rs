@@ -68,6 +68,9 @@ pub(super) struct LockOutOptions {
     /// Take the lock-out off
     #[arg(long, conflicts_with_all = ["reason", "by"])]
     off: bool,
+    /// With --off: who locked it out, as `azel status` says
+    #[arg(long, value_name = "WHO", requires = "off")]
+    locked_by: Option<String>,
 }
 
 pub(super) fn stop(station: Option<PathBuf>, options: &StopOptions) -> anyhow::Result<ExitCode> {
@@ -156,8 +159,9 @@ pub(super) fn lock_out(
     });
     let antenna = options.antenna.clone();
     let is_off = lock_out.is_none();
-    match ask(station, &Ask::LockOut { antenna: antenna.clone(), lock_out })? {
-        Answer::LockOut { proved } => {
+    let locked_by = options.locked_by.clone();
+    match ask(station, &Ask::LockOut { antenna: antenna.clone(), lock_out, locked_by })? {
+        Answer::LockOut { proved, not_on_disk } => {
             match (is_off, proved) {
                 (true, _) => say(&format!("{antenna} is not locked out any more."))?,
                 (false, true) => say(&format!("{antenna} is locked out and stands."))?,
@@ -166,7 +170,11 @@ pub(super) fn lock_out(
                      start by itself."
                 ))?,
             }
-            Ok(if proved { ExitCode::SUCCESS } else { ExitCode::from(NOT_PROVED) })
+            if let Some(why) = &not_on_disk {
+                say(&format!("It is NOT on disk: {why}"))?;
+            }
+            let is_good = proved && not_on_disk.is_none();
+            Ok(if is_good { ExitCode::SUCCESS } else { ExitCode::from(NOT_PROVED) })
         }
         other => Err(unexpected(other)),
     }

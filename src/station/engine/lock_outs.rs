@@ -5,7 +5,7 @@ use std::{path::Path, sync::Arc};
 use super::{Engine, alarms::AlarmKind, uploads::Ask};
 use crate::{
     driver::Command,
-    station::{Antenna, LOCK_OUTS_FILE, LockOut, LockOuts},
+    station::{Antenna, LOCK_OUTS_FILE, LockOut},
 };
 
 impl Engine {
@@ -13,9 +13,10 @@ impl Engine {
     pub(super) fn load_lock_outs(&mut self) {
         let folder = self.settings_path.as_deref().and_then(Path::parent);
         let path = folder.map(|folder| folder.join(LOCK_OUTS_FILE));
-        let loaded = path.map(|path| LockOuts::load(&path, self.now));
-        let (lock_outs, problem) = loaded.unwrap_or_default();
-        self.lock_outs = lock_outs;
+        let problem = match path {
+            Some(path) => self.lock_outs.reload(&path, self.now),
+            None => None,
+        };
         if let Some(problem) = problem {
             tracing::error!("{LOCK_OUTS_FILE} cannot be read: {problem}");
             let text = format!(

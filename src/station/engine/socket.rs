@@ -11,7 +11,9 @@ use tokio::{
     time::{Instant, timeout, timeout_at},
 };
 
-use super::{By, Client, Command, antenna::AntennaModel, status::AntennaStatus};
+use super::{
+    By, Client, Command, Snapshot, alarms::AlarmKind, antenna::AntennaModel, status::AntennaStatus,
+};
 use crate::{
     driver::{self, StopState},
     station::{AntennaId, LockOut},
@@ -49,6 +51,10 @@ pub enum Ask {
         antenna: String,
         /// Holder and reason of the lock-out; `None` to remove it.
         lock_out: Option<LockOut>,
+        /// To remove it: who locked it out, so that nobody removes another lock-out than the one
+        /// that is meant.
+        #[serde(default)]
+        locked_by: Option<String>,
     },
 }
 
@@ -66,6 +72,9 @@ pub enum Answer {
     LockOut {
         /// Read back from the unit.
         proved: bool,
+        /// Why the next start would not know of it.
+        #[serde(default)]
+        not_on_disk: Option<String>,
     },
     /// The question cannot be carried out, for this reason.
     Refused(String),
@@ -163,9 +172,9 @@ async fn answer(ask: Ask, station: Client) -> Answer {
             let Some(id) = named(&station, &antenna) else { return unknown(&antenna) };
             set_automatic(id, is_on, station).await
         }
-        Ask::LockOut { antenna, lock_out } => {
+        Ask::LockOut { antenna, lock_out, locked_by } => {
             let Some(id) = named(&station, &antenna) else { return unknown(&antenna) };
-            set_lock_out(id, lock_out, station).await
+            set_lock_out(id, lock_out, locked_by.as_deref(), station).await
         }
     }
 }
@@ -211,12 +220,26 @@ async fn stop(antenna: Option<&str>, mut station: Client) -> Answer {
     Answer::Stopped(told.into_iter().map(stopped).collect())
 }
 
-async fn set_lock_out(id: AntennaId, lock_out: Option<LockOut>, mut station: Client) -> Answer {
+async fn set_lock_out(
+    id: AntennaId,
+    lock_out: Option<LockOut>,
+    locked_by: Option<&str>,
+    mut station: Client,
+) -> Answer {
     let snapshot = station.snapshot();
     let antenna = snapshot.antennas.iter().find(|antenna| antenna.id() == id);
     let standing = antenna.and_then(|antenna| antenna.snapshot.lock_out.clone());
-    if let Some(LockOut { by, reason, .. }) = standing.filter(|_| lock_out.is_some()) {
-        return Answer::Refused(format!("it is locked out already by {by}: {reason}"));
+    match standing {
+        Some(LockOut { by, reason, .. }) if lock_out.is_some() => {
+            return Answer::Refused(format!("it is locked out already by {by}: {reason}"));
+        }
+        Some(LockOut { by, reason, .. }) if locked_by != Some(by.as_str()) => {
+            return Answer::Refused(format!(
+                "it is locked out by {by}: {reason}. Ask {by}, then repeat the command with \
+                 --locked-by \"{by}\""
+            ));
+        }
+        _ => {}
     }
     let command = lock_out.clone().map_or(driver::Command::Unlock, driver::Command::LockOut);
     if station.send(Command::Antenna(id, command)).is_err() {
@@ -239,16 +262,24 @@ async fn set_lock_out(id: AntennaId, lock_out: Option<LockOut>, mut station: Cli
             shown.link.is_open() && measured.asked >= asked.steady && !measured.moving()
         });
         if is_so && (lock_out.is_none() || !shown.locking && stands) {
-            return Answer::LockOut { proved: true };
+            return Answer::LockOut { proved: true, not_on_disk: not_on_disk(&snapshot) };
         }
         if !timeout_at(end, station.changed()).await.unwrap_or_default() {
             return if is_so {
-                Answer::LockOut { proved: false }
+                Answer::LockOut { proved: false, not_on_disk: not_on_disk(&snapshot) }
             } else {
                 Answer::Refused("the session did not take it".to_owned())
             };
         }
     }
+}
+
+/// Why the next start would not know the present lock-outs.
+fn not_on_disk(snapshot: &Snapshot) -> Option<String> {
+    snapshot.alarms.list().iter().find_map(|alarm| match &alarm.kind {
+        AlarmKind::LockOuts(why) => Some(why.clone()),
+        _ => None,
+    })
 }
 
 async fn set_automatic(antenna: AntennaId, is_on: bool, mut station: Client) -> Answer {
@@ -301,7 +332,7 @@ mod tests {
             Ask::Status,
             Ask::Stop { antenna: None },
             Ask::Stop { antenna: Some("Dish \"1\"\n".to_owned()) },
-            Ask::LockOut { antenna: "Dish".to_owned(), lock_out: Some(lock_out) },
+            Ask::LockOut { antenna: "Dish".to_owned(), lock_out: Some(lock_out), locked_by: None },
             Ask::Automatic { antenna: "Dish".to_owned(), is_on: true },
         ] {
             let text = serde_json::to_string(&ask).unwrap();

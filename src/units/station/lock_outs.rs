@@ -54,6 +54,8 @@ pub struct LockOuts {
     units: BTreeMap<UnitKey, LockOut>,
     /// Lock-out of all other units, because the file could not be read.
     others: Option<LockOut>,
+    /// Changes that are not on the disk; `None` removes a lock-out.
+    unsaved: BTreeMap<UnitKey, Option<LockOut>>,
 }
 
 #[derive(Serialize, Deserialize)]
@@ -86,16 +88,35 @@ impl LockOuts {
             Ok(text) => Self::parse(&text),
         };
         match read {
-            Ok(units) => (Self { units, others: None }, None),
+            Ok(units) => (Self { units, ..Self::default() }, None),
             Err(why) => {
                 let others = LockOut {
                     by: "Azel".to_owned(),
                     reason: format!("{LOCK_OUTS_FILE} cannot be read"),
                     since: now,
                 };
-                let lock_outs = Self { units: BTreeMap::new(), others: Some(others) };
+                let lock_outs = Self { others: Some(others), ..Self::default() };
                 (lock_outs, Some(format!("{}: {}", why.trim(), path.display())))
             }
+        }
+    }
+
+    /// Reads the file anew, as [`Self::load`] does. Changes that could not be saved stay.
+    pub fn reload(&mut self, path: &Path, now: Timestamp) -> Option<String> {
+        let (loaded, problem) = Self::load(path, now);
+        let unsaved = std::mem::take(&mut self.unsaved);
+        *self = loaded;
+        for (unit, lock_out) in &unsaved {
+            self.put(unit.clone(), lock_out.clone());
+        }
+        self.unsaved = unsaved;
+        problem
+    }
+
+    fn put(&mut self, unit: UnitKey, lock_out: Option<LockOut>) {
+        match lock_out {
+            Some(lock_out) => drop(self.units.insert(unit, lock_out)),
+            None => drop(self.units.remove(&unit)),
         }
     }
 
@@ -126,14 +147,16 @@ impl LockOuts {
     ) {
         if let Some(others) = self.others.take() {
             for connection in station {
-                self.units.entry(UnitKey::of(connection)).or_insert_with(|| others.clone());
+                let unit = UnitKey::of(connection);
+                if !self.units.contains_key(&unit) {
+                    self.unsaved.insert(unit.clone(), Some(others.clone()));
+                    self.put(unit, Some(others.clone()));
+                }
             }
         }
         let unit = UnitKey::of(connection);
-        match lock_out {
-            Some(lock_out) => drop(self.units.insert(unit, lock_out)),
-            None => drop(self.units.remove(&unit)),
-        }
+        self.unsaved.insert(unit.clone(), lock_out.clone());
+        self.put(unit, lock_out);
     }
 
     /// Carries lock-outs over to changed antennas. A locked-out unit stays so, and its
@@ -145,15 +168,19 @@ impl LockOuts {
             let Some(lock_out) = self.units.get(&UnitKey::of(&old.connection)).cloned() else {
                 continue;
             };
-            if let Some(antenna) = after.iter().find(|antenna| antenna.id == old.id) {
-                self.units.entry(UnitKey::of(&antenna.connection)).or_insert(lock_out);
+            let antenna = after.iter().find(|antenna| antenna.id == old.id);
+            let unit = antenna.map(|antenna| UnitKey::of(&antenna.connection));
+            if let Some(unit) = unit.filter(|unit| !self.units.contains_key(unit)) {
+                self.unsaved.insert(unit.clone(), Some(lock_out.clone()));
+                self.put(unit, Some(lock_out));
             }
         }
         self.units.len() > known
     }
 
-    /// Replaces the file at `path` as a whole and keeps the previous one.
-    pub fn save(&self, path: &Path) -> Result<(), SaveError> {
+    /// Replaces the file at `path` as a whole and keeps the previous one. After a failure the changes
+    /// hold all the same, and the next save writes them.
+    pub fn save(&mut self, path: &Path) -> Result<(), SaveError> {
         let line = |(unit, lock_out): (&UnitKey, &LockOut)| {
             let (UnitKey { make, address }, LockOut { by, reason, since }) =
                 (unit.clone(), lock_out.clone());
@@ -162,7 +189,9 @@ impl LockOuts {
         let lock_outs = self.units.iter().map(line).collect();
         let text = toml::to_string_pretty(&File { version: VERSION, lock_outs })?;
         whole_file::replace_and_keep_old(path, text.as_bytes())
-            .map_err(|source| SaveError::Write { source, path: path.to_owned() })
+            .map_err(|source| SaveError::Write { source, path: path.to_owned() })?;
+        self.unsaved.clear();
+        Ok(())
     }
 }
 
@@ -220,6 +249,26 @@ mod tests {
         again.set(&renamed, None, std::iter::empty());
         again.save(&path).unwrap();
         assert_eq!(LockOuts::load(&path, now()), (LockOuts::default(), None));
+    }
+
+    #[test]
+    fn a_lock_out_that_could_not_be_saved_stays_when_the_file_is_read_again() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join(LOCK_OUTS_FILE);
+        let dish = Antenna::satrak("Dish", "10.0.0.1:4001").connection;
+        let mast = Antenna::genius("Mast", "10.0.0.2:9006").connection;
+        let mut lock_outs = LockOuts::default();
+        lock_outs.set(&dish, Some(lock_out("gear")), std::iter::empty());
+        // A folder stands where the file would be written.
+        fs::create_dir(&path).unwrap();
+        lock_outs.save(&path).unwrap_err();
+        fs::remove_dir(&path).unwrap();
+        assert_eq!(lock_outs.reload(&path, now()), None);
+        lock_outs.set(&mast, Some(lock_out("belts")), std::iter::empty());
+        assert!(lock_outs.of(&dish).is_some() && lock_outs.of(&mast).is_some());
+        lock_outs.save(&path).unwrap();
+        let (again, _) = LockOuts::load(&path, now());
+        assert!(again.of(&dish).is_some() && again.of(&mast).is_some());
     }
 
     #[test]
