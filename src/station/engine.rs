@@ -138,6 +138,8 @@ struct Engine {
     demo: Option<DemoStation>,
     clock: Clock,
     clock_watch: ClockWatch,
+    /// The clock was set, and whether it is right now is not known yet: nothing acts on UTC.
+    is_clock_in_doubt: bool,
     wake: Wake,
     woken: Arc<Notify>,
     settings_path: Option<PathBuf>,
@@ -301,6 +303,7 @@ impl Engine {
             driver,
             clock,
             clock_watch: ClockWatch::default(),
+            is_clock_in_doubt: false,
             wake,
             woken,
             copy_work: CopyWork::beside(settings_path.as_deref()),

@@ -65,6 +65,12 @@ impl Scene {
         Self::begun(units, clock, folder_of(station), keeps)
     }
 
+    /// One whose clock a test sets.
+    pub(super) fn by(clock: Clock, station: &Station) -> Self {
+        let units = Units::new(&clock);
+        Self::begun(units, clock, folder_of(station), Keeps::default())
+    }
+
     fn begun(units: Units, clock: Clock, folder: tempfile::TempDir, keeps: Keeps) -> Self {
         let jobs = job::InPlace::begin();
         let place = |name: &str| Some(folder.path().join(name));

@@ -1,7 +1,16 @@
 //! What ends automatic operation, and what does not: one antenna, some minutes before a pass.
 
+use std::{
+    sync::{
+        Arc,
+        atomic::{AtomicI64, Ordering},
+    },
+    time::Duration,
+};
+
 use azel::{
     astro::time::{add_seconds, seconds_between},
+    clock::{Clock, Instant},
     device::{Measured, Phase},
     driver::{self, LinkState},
     engine::{
@@ -199,14 +208,18 @@ async fn an_antenna_that_another_program_moves_is_left_to_it_until_the_operator_
         is_that(operation(&client, id)).then_some(())
     })
     .await;
-    until("the alarm", || stands(&client, |of| *of == AlarmKind::AutomaticSuspended).then_some(()))
-        .await;
+    until("the alarm", || {
+        stands(&client, |of| *of == AlarmKind::AutomaticSuspended(Interruption::Elsewhere))
+            .then_some(())
+    })
+    .await;
     until("standstill", || scene.units.all_stand().then_some(())).await;
     assert!(!operation(&client, id).is_on(), "its end ends no suspension");
     let _ = client.send(Command::GoOn(id));
     until("it to go on", || operation(&client, id).is_on().then_some(())).await;
     until("the end", || {
-        (!stands(&client, |of| *of == AlarmKind::AutomaticSuspended)).then_some(())
+        (!stands(&client, |of| *of == AlarmKind::AutomaticSuspended(Interruption::Elsewhere)))
+            .then_some(())
     })
     .await;
 }
@@ -299,7 +312,10 @@ async fn an_antenna_that_is_turned_while_it_tracks_or_waits_is_left_to_whoever_d
             is_that(operation(&client, id)).then_some(())
         })
         .await;
-        assert!(stands(&client, |kind| *kind == AlarmKind::AutomaticSuspended), "{name}");
+        assert!(
+            stands(&client, |kind| *kind == AlarmKind::AutomaticSuspended(Interruption::Elsewhere)),
+            "{name}"
+        );
         until("standstill", || scene.units.all_stand().then_some(())).await;
         let at = client.now().utc;
         until("a minute", || (seconds_between(at, client.now().utc) > 60.0).then_some(())).await;
@@ -563,4 +579,41 @@ async fn parking_for_the_end_is_not_taken_over_by_the_pass() {
     until("standstill", || scene.units.all_stand().then_some(())).await;
     until("LOS", || (client.now().utc > taken.until).then_some(())).await;
     assert!(is_suspended() && scene.units.all_stand());
+}
+
+/// Between two passes: nothing moves, and the step is not noticed by a track.
+#[tokio::test(start_paused = true)]
+async fn a_clock_that_is_set_suspends_it_before_anything_else_is_done() {
+    for by_s in [-86_400, 300, 86_400 * 365] {
+        let (begun, at) = (Instant::now(), before_a_pass());
+        let ahead_s: Arc<AtomicI64> = Arc::default();
+        let set = Arc::clone(&ahead_s);
+        let clock = Clock::new(move || {
+            let elapsed_s = (Instant::now() - begun).as_secs_f64();
+            add_seconds(at, elapsed_s + set.load(Ordering::Relaxed) as f64)
+        });
+        let scene = Scene::by(clock, &station("Dish", |_| {}));
+        let client = scene.client();
+        let id = measured(&client, "Dish").await;
+        until("the schedule", || client.snapshot().schedule.made_at).await;
+        set_automatic(&client, id, true).await;
+        ahead_s.store(by_s, Ordering::Relaxed);
+        let sent = sent_to_dish(&scene);
+        until("the suspension", || {
+            let by = Interruption::Clock;
+            let is_that = |of| matches!(of, Operation::Suspended { by: found, .. } if found == by);
+            is_that(operation(&client, id)).then_some(())
+        })
+        .await;
+        let alarm = AlarmKind::AutomaticSuspended(Interruption::Clock);
+        until("the alarm", || stands(&client, |of| *of == alarm).then_some(())).await;
+        tokio::time::sleep(Duration::from_secs(600)).await;
+        let moved = |payload: &String| payload.starts_with("GOTO=") || payload.starts_with("TRACK");
+        let after = sent_to_dish(&scene);
+        assert!(!after[sent.len()..].iter().any(moved), "{by_s}: {after:?}");
+    }
+}
+
+fn sent_to_dish(scene: &Scene) -> Vec<String> {
+    scene.units.dish.received().into_iter().map(|(_, payload)| payload).collect()
 }

@@ -270,7 +270,7 @@ impl Engine {
         let Some(antenna) = self.antennas.get_mut(index) else { return };
         // The antennas come to their end by the word of the operator who closes the station.
         // Before the first schedule nothing tells what a unit that moves is at.
-        if self.closing.is_some() || self.schedule.made_at.is_none() {
+        if self.closing.is_some() || self.schedule.made_at.is_none() || self.is_clock_in_doubt {
             return;
         }
         let operation = &mut antenna.shown.operation;
@@ -391,7 +391,7 @@ impl Engine {
             self.alarms.raise(Some(id), AlarmKind::AutomaticMoves { at, name }, self.now);
         }
         if !matches!(operation, Operation::Suspended { .. }) {
-            let is_that = |kind: &AlarmKind| *kind == AlarmKind::AutomaticSuspended;
+            let is_that = |kind: &AlarmKind| matches!(kind, AlarmKind::AutomaticSuspended(_));
             self.alarms.clear(Some(id), self.now, is_that);
         }
         let Some(before) = before else { return };
@@ -401,8 +401,8 @@ impl Engine {
             (Operation::Suspended { .. }, Operation::On(_)) => DayEvent::WentOn,
             (_, Operation::On(_)) => DayEvent::SwitchedOn,
             (_, Operation::Suspended { by, .. }) => {
-                if *by == Interruption::Elsewhere {
-                    self.alarms.raise(Some(id), AlarmKind::AutomaticSuspended, self.now);
+                if *by != Interruption::ByHand {
+                    self.alarms.raise(Some(id), AlarmKind::AutomaticSuspended(*by), self.now);
                 }
                 DayEvent::Suspended(*by)
             }

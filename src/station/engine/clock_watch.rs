@@ -1,24 +1,44 @@
-//! Checks periodically that the clock of this computer is synchronised.
+//! Checks periodically that the clock of this computer is synchronised, and notices each turn whether
+//! it was set.
 
 use std::time::Duration;
 
-use crate::{clock::Instant, job::Job};
 use crate::{
+    astro::time::seconds_between,
+    clock::{Instant, Moment},
     driver::{TimeSync, time_sync},
-    job::Wake,
+    job::{Job, Wake},
 };
 
 /// Time between two checks: an unsynchronised clock drifts by some milliseconds in it.
 const PERIOD: Duration = Duration::from_mins(2);
+
+/// A clock that is set by less stays plausible, seconds.
+const STEP_S: f64 = 1.0;
 
 /// The check under way, and the time of the last one.
 #[derive(Default)]
 pub(super) struct ClockWatch {
     asked: Option<Instant>,
     job: Option<Job<TimeSync>>,
+    /// Both clocks at the last turn, and how long the computer had slept.
+    last: Option<(Moment, Duration)>,
 }
 
 impl ClockWatch {
+    /// Returns `true` if the clock was set since the last call, so that UTC is not plausible.
+    pub(super) fn was_set(&mut self, now: Moment, asleep: Duration) -> bool {
+        let Some((before, slept)) = self.last.replace((now, asleep)) else { return false };
+        let steady = now.steady.saturating_duration_since(before.steady);
+        let expected_s = (steady + asleep.saturating_sub(slept)).as_secs_f64();
+        (seconds_between(before.utc, now.utc) - expected_s).abs() >= STEP_S
+    }
+
+    /// Asks at once, whatever an earlier check says.
+    pub(super) fn ask_again(&mut self) {
+        (self.asked, self.job) = (None, None);
+    }
+
     /// Returns a new answer once it has come, and starts the next check when it is due.
     pub(super) fn poll(&mut self, now: Instant, wake: &Wake) -> Option<TimeSync> {
         let answer = Job::take(&mut self.job).map(|end| end.unwrap_or(TimeSync::NotKnown));

@@ -5,13 +5,15 @@ use std::sync::Arc;
 use super::{
     Antenna, CatalogState, DemoStation, Engine,
     alarms::{AlarmKind, Work, alarm_of, is_over},
+    automatic::Interruption,
     demo::Demo,
     owed,
     sources::{SourceWork, Task},
 };
 use crate::{
+    clock::Moment,
     device::panel::CheckState,
-    driver::{Event, LinkState, Refusal, Safety, StopState},
+    driver::{Event, LinkState, Refusal, Safety, StopState, TimeSync},
     job::Job,
     station::Station,
 };
@@ -24,10 +26,7 @@ impl Engine {
     /// station asks for by itself, drawn before the last look for a STOP.
     pub(super) fn turn(&mut self, turn: u64) {
         self.set_time();
-        if self.clock.is_of_system() {
-            let time_sync = self.clock_watch.poll(self.steady, &self.wake);
-            self.time_sync = time_sync.unwrap_or(self.time_sync);
-        }
+        self.watch_clock();
         self.watch_driver();
         self.watch_claims();
         self.take_catalog();
@@ -53,6 +52,28 @@ impl Engine {
         self.source_test_runner.poll(&mut self.source_tests);
         self.link_test_runner.poll(&mut self.link_tests);
         self.record_turn();
+    }
+
+    /// Looks at the clock before anything acts on it. After a step automatic operation waits until a
+    /// time service is known to keep the clock, and else is suspended.
+    fn watch_clock(&mut self) {
+        let now = Moment { utc: self.now, steady: self.steady };
+        if self.clock_watch.was_set(now, self.clock.asleep()) {
+            self.is_clock_in_doubt = true;
+            self.clock_watch.ask_again();
+        }
+        let answer = if self.clock.is_of_system() {
+            self.clock_watch.poll(self.steady, &self.wake)
+        } else {
+            Some(TimeSync::NotKnown)
+        };
+        let Some(answer) = answer else { return };
+        self.time_sync = answer;
+        if std::mem::take(&mut self.is_clock_in_doubt) && answer != TimeSync::Synchronised {
+            for antenna in &mut self.antennas {
+                antenna.shown.operation.suspend(Interruption::Clock, self.now);
+            }
+        }
     }
 
     fn look_for_passes(&mut self) {

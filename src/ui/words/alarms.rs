@@ -145,9 +145,9 @@ pub fn alarm(kind: &AlarmKind, antenna: &str, now: Timestamp) -> String {
             "{antenna} will move by itself at {}, for {name}. STOP or Standby prevents it.",
             format::moment(*at, now)
         ),
-        AlarmKind::AutomaticSuspended => format!(
-            "Automatic operation of {antenna} is suspended: the antenna was moved by its panel or \
-             by another program. Resume it in Plan."
+        AlarmKind::AutomaticSuspended(by) => format!(
+            "Automatic operation of {antenna} is suspended. {} Resume it in Plan.",
+            super::automatic::interruption(*by)
         ),
         AlarmKind::AutomaticOff(because) => format!(
             "Automatic operation of {antenna} is off. {} Switch it on again in Plan.",

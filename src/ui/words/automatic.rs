@@ -28,6 +28,9 @@ pub fn interruption(by: Interruption) -> &'static str {
     match by {
         Interruption::ByHand => "The antenna was commanded by hand.",
         Interruption::Elsewhere => "The antenna was moved by its panel or by another program.",
+        Interruption::Clock => {
+            "The clock of this computer was set, and no time service is known to keep it."
+        }
     }
 }
 

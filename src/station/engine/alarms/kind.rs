@@ -13,7 +13,11 @@ use crate::{
         settings::WriteError,
     },
     driver::{Event, Found, LeftOffsets, LinkLoss, Safety, TrackProblem, Unit},
-    engine::{automatic::OffBecause, claim::HeldBy, passes::PassKey},
+    engine::{
+        automatic::{Interruption, OffBecause},
+        claim::HeldBy,
+        passes::PassKey,
+    },
     name::{self, Name},
     plan::on_board::Ranked,
     station::{Note, NoteReason},
@@ -106,7 +110,7 @@ pub enum AlarmKind {
     /// Automatic operation of the antenna has ended, and not by the operator.
     AutomaticOff(OffBecause),
     /// Somebody else moves the antenna, so automatic operation waits for the operator.
-    AutomaticSuspended,
+    AutomaticSuspended(Interruption),
     /// No antenna is on its way to a pass that the operator wanted to be reminded of.
     NoAntennaFor {
         pass: PassKey,
@@ -199,7 +203,7 @@ impl AlarmKind {
             | Self::NotOnItsWay { .. }
             | Self::AutomaticMoves { .. }
             | Self::AutomaticOff(_)
-            | Self::AutomaticSuspended
+            | Self::AutomaticSuspended(_)
             | Self::Check(Check { state: CheckState::Fault, .. }) => Priority::Warning,
             _ => Priority::Caution,
         }
@@ -233,7 +237,7 @@ impl AlarmKind {
                 | Self::NotOnItsWay { .. }
                 | Self::AutomaticMoves { .. }
                 | Self::AutomaticOff(_)
-                | Self::AutomaticSuspended
+                | Self::AutomaticSuspended(_)
                 | Self::ClockNotSet
                 | Self::Unreadable(_)
                 | Self::Setting(_)

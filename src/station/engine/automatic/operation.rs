@@ -64,6 +64,8 @@ pub enum Interruption {
     ByHand,
     /// By the panel of the unit, or by another program.
     Elsewhere,
+    /// The clock of this computer was set, and no time service is known to keep it.
+    Clock,
 }
 
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]

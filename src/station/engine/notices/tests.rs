@@ -275,7 +275,7 @@ fn every_kind() -> Vec<AlarmKind> {
         K::NotOnItsWay { pass: (25_544, time()), name: text() },
         K::AutomaticMoves { at: time(), name: text() },
         K::AutomaticOff(OffBecause::Failures),
-        K::AutomaticSuspended,
+        K::AutomaticSuspended(crate::engine::automatic::Interruption::Elsewhere),
         K::TrackingEnded,
         K::EndedShort,
         K::StartedByItself,
@@ -334,7 +334,7 @@ fn is_listed(kind: &AlarmKind) {
         | K::NotOnItsWay { .. }
         | K::AutomaticMoves { .. }
         | K::AutomaticOff(_)
-        | K::AutomaticSuspended
+        | K::AutomaticSuspended(_)
         | K::TrackingEnded
         | K::EndedShort
         | K::StartedByItself
