@@ -24,7 +24,7 @@ use azel::{
         Client, Command, Handle, Settings, Snapshot,
         alarms::{Alarm, AlarmKind},
         antenna::AntennaModel,
-        claim::HolderKind,
+        claim::{HeldBy, HolderKind},
         passes::PredictedPass,
         status::{AntennaStatus, LinkStatus},
     },
@@ -552,4 +552,25 @@ fn lock_outs_that_the_disk_does_not_take_hold_and_are_acknowledged_as_such() {
     }
     let status = says(&program(&units).arg("status").output().expect("it runs"));
     assert_eq!(status.matches("locked out by Ada").count(), 2, "{status}");
+}
+
+#[test]
+fn a_unit_that_cannot_be_locked_is_left_alone_until_it_can() {
+    let units = Units::start(|station| station.antennas.truncate(2));
+    let locks = units.folder.path().join("run");
+    // No folder can be made where a file stands.
+    std::fs::write(&locks, "").unwrap();
+    let (station, _end, _woken) = units.open();
+    let client = station.client();
+    let alarm = |snapshot: &Snapshot| {
+        let is_it = |alarm: &Alarm| {
+            matches!(&alarm.kind, AlarmKind::UnitElsewhere(HeldBy::Unknown(_))) && !alarm.is_over()
+        };
+        snapshot.alarms.list().iter().any(is_it)
+    };
+    wait_for("the alarm", || alarm(&client.snapshot()).then_some(()));
+    assert!(units.dish.received().is_empty() && units.mast.received().is_empty());
+    std::fs::remove_file(&locks).unwrap();
+    wait_for("the link", || is_measured(client, "Dish"));
+    wait_for("the end of the alarm", || (!alarm(&client.snapshot())).then_some(()));
 }

@@ -55,6 +55,7 @@ use self::{
     antenna::AntennaModel,
     automatic::{AtWork, DayLine, LastRun},
     claim::{Claim, Claims, HeldBy},
+    claims::NoClaims,
     clock_watch::ClockWatch,
     closing::Closing,
     copies::{Copies, CopyWork},
@@ -138,8 +139,6 @@ struct Engine {
     demo: Option<DemoStation>,
     clock: Clock,
     clock_watch: ClockWatch,
-    /// The clock was set, and whether it is right now is not known yet: nothing acts on UTC.
-    is_clock_in_doubt: bool,
     wake: Wake,
     woken: Arc<Notify>,
     settings_path: Option<PathBuf>,
@@ -158,7 +157,8 @@ struct Engine {
     source_test_runner: source_tests::Runner,
     link_test_runner: link_tests::Runner,
     lock_outs: LockOuts,
-    claims: Option<Claims>,
+    /// `None` if nothing is to be claimed.
+    claims: Option<Result<Claims, NoClaims>>,
     /// Where this station takes STOP from other programs, once it has claimed the station
     /// file.
     socket: Option<PathBuf>,
@@ -303,7 +303,6 @@ impl Engine {
             driver,
             clock,
             clock_watch: ClockWatch::default(),
-            is_clock_in_doubt: false,
             wake,
             woken,
             copy_work: CopyWork::beside(settings_path.as_deref()),

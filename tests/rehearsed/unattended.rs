@@ -607,7 +607,7 @@ async fn a_clock_that_is_set_suspends_it_before_anything_else_is_done() {
         .await;
         let alarm = AlarmKind::AutomaticSuspended(Interruption::Clock);
         until("the alarm", || stands(&client, |of| *of == alarm).then_some(())).await;
-        tokio::time::sleep(Duration::from_secs(600)).await;
+        tokio::time::sleep(Duration::from_mins(10)).await;
         let moved = |payload: &String| payload.starts_with("GOTO=") || payload.starts_with("TRACK");
         let after = sent_to_dish(&scene);
         assert!(!after[sent.len()..].iter().any(moved), "{by_s}: {after:?}");

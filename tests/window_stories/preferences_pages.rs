@@ -482,7 +482,7 @@ fn a_station_without_a_record_says_whether_another_azel_keeps_it() {
     let mut window = form(LARGE);
     assert!(says(&window, "Nothing is recorded: this user has no folder for records."));
     let model = &mut window.state_mut().model;
-    model.alarms.raise(None, AlarmKind::StationElsewhere(HeldBy(None)), model.now);
+    model.alarms.raise(None, AlarmKind::StationElsewhere(HeldBy::Azel(None)), model.now);
     settle(&mut window);
     let kept = "Nothing is recorded from here: the Azel that has this station open records it.";
     assert!(says(&window, kept));

@@ -350,7 +350,7 @@ fn an_antenna_that_another_azel_drives_names_it() {
     let since = "2026-08-12T09:00:00Z".parse().unwrap();
     let (socket, antenna) = (None, None);
     let holder = Holder { kind: HolderKind::Serve, process: 4242, since, socket, antenna };
-    model.antennas[0].held_by = Some(HeldBy(Some(holder)));
+    model.antennas[0].held_by = Some(HeldBy::Azel(Some(holder)));
     assert_eq!(
         states::sentence(&model),
         "Satrak is driven by azel serve (process 4242, since 2026-08-12 09:00Z). Nothing goes to \

@@ -250,6 +250,11 @@ impl Debts {
         fs::remove_file(folder.join(unit.file_name())).ok();
     }
 
+    /// Returns `true` if an earlier run may have left `unit` moving. Blocks.
+    pub fn is_marked(&self, unit: &Unit) -> bool {
+        self.marked(unit).is_some()
+    }
+
     /// Since when `unit` may be moving, by the record of an earlier run. An unreadable record
     /// counts from the beginning of time.
     pub(super) fn marked(&self, unit: &Unit) -> Option<Timestamp> {

@@ -32,7 +32,7 @@ use super::{
 use crate::{
     astro::time::{add_seconds, seconds_between},
     device::{Asked, Motion},
-    driver::{self, Event, Found, Refusal, Response, Safety, StopState},
+    driver::{self, Event, Found, Refusal, Response, Safety, StopState, Unit},
     plan::schedule::{Entry, sun_is},
     station::{self, AntennaId, AutomationRule, BetweenPasses, Station, Then},
 };
@@ -104,6 +104,7 @@ impl Engine {
             let is_free = antenna.shown.held_by.is_none()
                 && self.lock_outs.of(&config.connection).is_none()
                 && self.driver.debts().units().is_empty()
+                && !self.driver.debts().is_marked(&Unit::of(config))
                 && !self.station.unread.iter().any(|unread| unread.concerns(config.id));
             let (id, is_on_at_start) = (config.id, config.automatic.is_on_at_start);
             if is_on_at_start && is_free && last.allows(id) {
@@ -270,7 +271,8 @@ impl Engine {
         let Some(antenna) = self.antennas.get_mut(index) else { return };
         // The antennas come to their end by the word of the operator who closes the station.
         // Before the first schedule nothing tells what a unit that moves is at.
-        if self.closing.is_some() || self.schedule.made_at.is_none() || self.is_clock_in_doubt {
+        if self.closing.is_some() || self.schedule.made_at.is_none() || self.clock_watch.is_in_doubt
+        {
             return;
         }
         let operation = &mut antenna.shown.operation;

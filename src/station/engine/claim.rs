@@ -41,13 +41,24 @@ pub enum HolderKind {
     Serve,
 }
 
-/// Another Azel of this machine that holds a claim; `None` where it does not say who it is.
+/// Why something is not claimed here.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
-pub struct HeldBy(pub Option<Holder>);
+pub enum HeldBy {
+    /// Another Azel of this machine holds it; `None` where it does not say who it is.
+    Azel(Option<Holder>),
+    /// No lock can be made, for this reason, so nobody knows whether another program has it.
+    Unknown(String),
+}
 
 impl std::fmt::Display for HeldBy {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        let Some(Holder { kind, process, since, .. }) = &self.0 else {
+        let holder = match self {
+            Self::Azel(holder) => holder,
+            Self::Unknown(why) => {
+                return write!(f, "an unknown program, because no lock can be made ({why})");
+            }
+        };
+        let Some(Holder { kind, process, since, .. }) = holder else {
             return write!(f, "another Azel");
         };
         let kind = match kind {
@@ -94,6 +105,9 @@ impl Claims {
         #[cfg(unix)]
         std::os::unix::fs::DirBuilderExt::mode(&mut builder, 0o700);
         builder.create(&folder)?;
+        // A folder that was there may be open to others.
+        #[cfg(unix)]
+        fs::set_permissions(&folder, std::os::unix::fs::PermissionsExt::from_mode(0o700))?;
         Ok(Self { folder, kind, socket, held: Mutex::default() })
     }
 
@@ -154,7 +168,7 @@ fn held_by(file: &mut File) -> HeldBy {
     let mut text = String::new();
     // The claim is held even if the holder's text cannot be read.
     let _ = file.read_to_string(&mut text);
-    HeldBy(serde_json::from_str(&text).ok())
+    HeldBy::Azel(serde_json::from_str(&text).ok())
 }
 
 /// Socket of the holder of the station file at `path`. It has a name in a folder of its
@@ -214,12 +228,12 @@ mod tests {
         let (first, second) = (claims(folder.path()), claims(folder.path()));
         let path = folder.path().join("station.toml");
         let held = first.station(&path).ok().unwrap();
-        let Err(Unclaimed::Held(HeldBy(Some(holder)))) = second.station(&path) else {
+        let Err(Unclaimed::Held(HeldBy::Azel(Some(holder)))) = second.station(&path) else {
             panic!("free")
         };
         assert_eq!((holder.kind, holder.process), (HolderKind::Serve, std::process::id()));
         let run = folder.path().join("run");
-        assert_eq!(holder_of_station(&run, &path), Some(HeldBy(Some(holder))));
+        assert_eq!(holder_of_station(&run, &path), Some(HeldBy::Azel(Some(holder))));
         assert_eq!(holder_of_station(&run, &folder.path().join("other.toml")), None);
         // The holder may claim again, and holds it until the last clone is gone.
         let again = first.station(&path).ok().unwrap();
@@ -237,7 +251,7 @@ mod tests {
         let dish = Antenna::satrak("Dish", "Unit.Local:4001");
         let other = Antenna::satrak("Other", "unit.local:4001 ");
         let held = first.unit(&dish).ok().unwrap();
-        let Err(Unclaimed::Held(HeldBy(Some(holder)))) = second.unit(&other) else {
+        let Err(Unclaimed::Held(HeldBy::Azel(Some(holder)))) = second.unit(&other) else {
             panic!("free")
         };
         assert_eq!(holder.antenna.as_deref(), Some("Dish"));

@@ -18,6 +18,13 @@ use crate::{
     station::{self, AntennaId},
 };
 
+/// Locks that could not be made.
+pub(super) struct NoClaims {
+    folder: PathBuf,
+    kind: HolderKind,
+    why: String,
+}
+
 impl Engine {
     /// Sets up the claims and claims the station file before it is read.
     pub(super) fn take_claims(&mut self, wanted: Option<(PathBuf, HolderKind)>) {
@@ -26,11 +33,14 @@ impl Engine {
         let socket = self.settings_path.as_deref().map(|path| socket_path(&folder, path));
         #[cfg(not(unix))]
         let socket = None;
-        match Claims::new(folder, kind, socket.clone()) {
-            Ok(claims) => (self.claims, self.socket) = (Some(claims), socket),
+        match Claims::new(folder.clone(), kind, socket.clone()) {
+            Ok(claims) => (self.claims, self.socket) = (Some(Ok(claims)), socket),
             Err(error) => {
-                // A lone Azel needs no claim and must not stand still for it.
-                self.tell_unclaimed("other programs cannot be kept off the units", &error);
+                let no_claims = NoClaims { folder, kind, why: error.to_string() };
+                let is_news = self.claims.replace(Err(no_claims)).is_none();
+                if is_news {
+                    self.tell_unclaimed("no unit can be kept for this program alone", &error);
+                }
             }
         }
         if self.settings_path.as_deref().is_some_and(Path::exists) {
@@ -43,7 +53,7 @@ impl Engine {
         if matches!(self.station_claim, StationClaim::Ours { .. }) {
             return;
         }
-        let (Some(claims), Some(path)) = (&self.claims, &self.settings_path) else { return };
+        let (Some(Ok(claims)), Some(path)) = (&self.claims, &self.settings_path) else { return };
         match claims.station(path) {
             Ok(claim) => {
                 #[cfg(unix)]
@@ -79,13 +89,16 @@ impl Engine {
         if let StationClaim::Theirs(by) = &self.station_claim {
             return Err(by.clone());
         }
-        match self.claims.as_ref().map(|claims| claims.unit(antenna)).transpose() {
-            Ok(claim) => Ok(claim),
+        let claims = match &self.claims {
+            None => return Ok(None),
+            Some(Err(NoClaims { why, .. })) => return Err(HeldBy::Unknown(why.clone())),
+            Some(Ok(claims)) => claims,
+        };
+        match claims.unit(antenna) {
+            Ok(claim) => Ok(Some(claim)),
             Err(Unclaimed::Held(by)) => Err(by),
-            Err(Unclaimed::Io(error)) => {
-                tracing::warn!(%error, "a unit is not kept from other programs");
-                Ok(None)
-            }
+            // Another program may drive the unit as well.
+            Err(Unclaimed::Io(error)) => Err(HeldBy::Unknown(error.to_string())),
         }
     }
 
@@ -93,7 +106,7 @@ impl Engine {
     pub(super) fn stop_elsewhere(&self, antennas: &[AntennaId]) {
         let held = self.antennas.iter().map(|antenna| &antenna.shown);
         for antenna in held.filter(|antenna| antennas.contains(&antenna.id())) {
-            let Some(HeldBy(holder)) = &antenna.held_by else { continue };
+            let Some(HeldBy::Azel(holder)) = &antenna.held_by else { continue };
             let holder = holder.clone();
             // The holder's name of the antenna.
             let name = holder.as_ref().and_then(|holder| holder.antenna.clone());
@@ -119,6 +132,10 @@ impl Engine {
             return;
         }
         self.claims_looked_at = self.now.as_second();
+        if let Some(Err(NoClaims { folder, kind, .. })) = &self.claims {
+            let wanted = (folder.clone(), *kind);
+            self.take_claims(Some(wanted));
+        }
         if matches!(self.station_claim, StationClaim::Theirs(_)) {
             self.take_over_station();
             return;

@@ -21,6 +21,8 @@ const STEP_S: f64 = 1.0;
 pub(super) struct ClockWatch {
     asked: Option<Instant>,
     job: Option<Job<TimeSync>>,
+    /// The clock was set, and whether it is right now is not known yet: nothing acts on UTC.
+    pub(super) is_in_doubt: bool,
     /// Both clocks at the last turn, and how long the computer had slept.
     last: Option<(Moment, Duration)>,
 }

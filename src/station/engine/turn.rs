@@ -59,7 +59,7 @@ impl Engine {
     fn watch_clock(&mut self) {
         let now = Moment { utc: self.now, steady: self.steady };
         if self.clock_watch.was_set(now, self.clock.asleep()) {
-            self.is_clock_in_doubt = true;
+            self.clock_watch.is_in_doubt = true;
             self.clock_watch.ask_again();
         }
         let answer = if self.clock.is_of_system() {
@@ -69,7 +69,7 @@ impl Engine {
         };
         let Some(answer) = answer else { return };
         self.time_sync = answer;
-        if std::mem::take(&mut self.is_clock_in_doubt) && answer != TimeSync::Synchronised {
+        if std::mem::take(&mut self.clock_watch.is_in_doubt) && answer != TimeSync::Synchronised {
             for antenna in &mut self.antennas {
                 antenna.shown.operation.suspend(Interruption::Clock, self.now);
             }

@@ -3,7 +3,7 @@
 use super::{Spoken, short};
 use crate::{
     driver::{LinkLoss, LinkState, StopState},
-    engine::antenna::AntennaModel,
+    engine::{antenna::AntennaModel, claim::HeldBy},
     model::Model,
     ui::{format, widgets::sentence::SentenceKind, words},
 };
@@ -52,6 +52,12 @@ pub(super) fn sentence(model: &Model, antenna: &AntennaModel) -> Option<Spoken> 
 /// The sentence for a link that is off: the reason, and how to connect.
 fn off(antenna: &AntennaModel) -> String {
     let name = &antenna.config.name;
+    if let Some(HeldBy::Unknown(why)) = &antenna.held_by {
+        return format!(
+            "{name} is not connected: another program may drive it, because no lock can be made \
+             ({why})."
+        );
+    }
     if let Some(by) = &antenna.held_by {
         return format!("{name} is driven by {by}. Nothing goes to it from here.");
     }

@@ -4,7 +4,10 @@ use jiff::Timestamp;
 
 use crate::{
     driver::LinkLoss,
-    engine::alarms::{Alarm, AlarmKind, AlarmState, Work},
+    engine::{
+        alarms::{Alarm, AlarmKind, AlarmState, Work},
+        claim::HeldBy,
+    },
     model::DistanceUnit,
     plan::on_board::Ranked,
     station::{Note, NoteReason},
@@ -57,6 +60,10 @@ pub fn alarm(kind: &AlarmKind, antenna: &str, now: Timestamp) -> String {
              panel."
                 .to_owned()
         }
+        AlarmKind::UnitElsewhere(HeldBy::Unknown(why)) => format!(
+            "{antenna} is not connected: another program may drive it, because no lock can be made \
+             ({why}). Free space or set the permissions of the folder for locks."
+        ),
         AlarmKind::UnitElsewhere(by) => {
             format!("{antenna} is driven by {by}: nothing goes to it from here.")
         }

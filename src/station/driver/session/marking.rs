@@ -161,8 +161,21 @@ impl Session {
         if !debts.has_marks() {
             return;
         }
-        let mark = spawn_blocking(move || debts.mark(&unit, since));
-        if matches!(self.clock.timeout(MAX, mark).await, Ok(Ok(Ok(())))) {
+        let before = match std::mem::replace(&mut self.owed.marking, Marking::None) {
+            Marking::Removing(before) => Some(before),
+            Marking::Writing { writing, .. } => Some(tokio::spawn(async move {
+                writing.await.ok();
+            })),
+            Marking::None | Marking::Marked | Marking::Failed => None,
+        };
+        let mark = tokio::spawn(async move {
+            // One after the other, or the older removal would remove the newer record.
+            if let Some(before) = before {
+                before.await.ok();
+            }
+            spawn_blocking(move || debts.mark(&unit, since)).await
+        });
+        if matches!(self.clock.timeout(MAX, mark).await, Ok(Ok(Ok(Ok(()))))) {
             self.owed.marking = Marking::Marked;
         }
     }

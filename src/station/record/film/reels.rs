@@ -307,8 +307,16 @@ impl Reel {
     }
 }
 
+/// Largest part of a film, bytes. What Azel writes is a hundredth of it; what another program has
+/// put into the file may be without end.
+const MAX_INFLATED: u64 = 64 << 20;
+
 fn inflated(bytes: &[u8]) -> Result<Vec<u8>, FilmError> {
     let mut content = Vec::new();
-    DeflateDecoder::new(bytes).read_to_end(&mut content).map_err(|_| FilmError::Damaged)?;
+    let mut limited = DeflateDecoder::new(bytes).take(MAX_INFLATED + 1);
+    limited.read_to_end(&mut content).map_err(|_| FilmError::Damaged)?;
+    if content.len() as u64 > MAX_INFLATED {
+        return Err(FilmError::Damaged);
+    }
     Ok(content)
 }
