@@ -547,7 +547,7 @@ fn lock_outs_that_the_disk_does_not_take_hold_and_are_acknowledged_as_such() {
     };
     for name in ["Dish", "Mast"] {
         let locked = lock(name);
-        assert!(says(&locked).contains("It is NOT on disk"), "{}", says(&locked));
+        assert!(says(&locked).contains("NOT on disk"), "{}", says(&locked));
         assert_eq!(locked.status.code(), Some(4));
     }
     let status = says(&program(&units).arg("status").output().expect("it runs"));

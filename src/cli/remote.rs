@@ -171,7 +171,7 @@ pub(super) fn lock_out(
                 ))?,
             }
             if let Some(why) = &not_on_disk {
-                say(&format!("It is NOT on disk: {why}"))?;
+                say(&format!("This change is NOT on disk and is lost when Azel ends: {why}"))?;
             }
             let is_good = proved && not_on_disk.is_none();
             Ok(if is_good { ExitCode::SUCCESS } else { ExitCode::from(NOT_PROVED) })

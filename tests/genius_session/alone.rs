@@ -181,7 +181,7 @@ fn before_a_mast(from_deg: f64, to_deg: f64) -> Bounds {
 }
 
 #[tokio::test(start_paused = true)]
-async fn a_keep_out_above_the_horizon_is_one_for_an_azimuth_alone() {
+async fn a_keep_out_applies_to_an_azimuth_alone_at_any_elevation() {
     let options = Options { max_clients: 2, ..two_azimuths() };
     let mut rig = Rig::connected(&options, Rotators::First).await;
     rig.handle().keep_within(before_a_mast(110.0, 130.0));

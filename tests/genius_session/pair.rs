@@ -180,7 +180,7 @@ async fn while_the_azimuth_is_unknown_a_keep_out_may_be_anywhere_below() {
 }
 
 #[tokio::test(start_paused = true)]
-async fn below_a_keep_out_that_may_be_anywhere_it_moves_by_the_operators_hold_alone() {
+async fn a_motion_below_a_keep_out_that_may_be_anywhere_needs_the_operators_hold() {
     let mast = crate::common::mast(&[(10.0, -5.0), (30.0, -5.0), (30.0, 70.0), (10.0, 70.0)]);
     let station = Station { keep_outs: vec![mast], ..Station::default() };
     let mut rig = without_an_azimuth(&station, 0.0).await;

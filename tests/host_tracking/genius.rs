@@ -207,7 +207,7 @@ async fn a_refusal_of_the_device_ends_it_with_its_reason() {
 }
 
 #[tokio::test(start_paused = true)]
-async fn a_rotator_that_takes_the_commands_and_does_nothing_is_stopped_and_told() {
+async fn a_rotator_that_takes_the_commands_and_does_nothing_is_stopped() {
     let scene = sky::usual();
     let (mut rig, control) = connected(&options(1), &antenna(Rotators::Pair), &scene).await;
     rig.send(Command::ProgramTrack(Box::new(scene.follow())));

@@ -583,7 +583,7 @@ async fn parking_for_the_end_is_not_taken_over_by_the_pass() {
 
 /// Between two passes: nothing moves, and the step is not noticed by a track.
 #[tokio::test(start_paused = true)]
-async fn a_clock_that_is_set_suspends_it_before_anything_else_is_done() {
+async fn a_clock_step_suspends_automatic_operation_first() {
     for by_s in [-86_400, 300, 86_400 * 365] {
         let (begun, at) = (Instant::now(), before_a_pass());
         let ahead_s: Arc<AtomicI64> = Arc::default();
@@ -616,4 +616,21 @@ async fn a_clock_that_is_set_suspends_it_before_anything_else_is_done() {
 
 fn sent_to_dish(scene: &Scene) -> Vec<String> {
     scene.units.dish.received().into_iter().map(|(_, payload)| payload).collect()
+}
+
+#[tokio::test(start_paused = true)]
+async fn a_track_whose_angles_freeze_ends_it() {
+    let (scene, client, id) = scene_of("Dish", |_| {}).await;
+    proved(&client, id).await;
+    let taken = operation(&client, id).taking().copied().unwrap();
+    until("the pass", || (client.snapshot().at.utc > add_seconds(taken.from, 60.0)).then_some(()))
+        .await;
+    scene.units.dish.set_fault(satrak::Fault::FrozenAngles, true);
+    until("the end", || {
+        let is_off = |of| matches!(of, Operation::Off(OffBecause::Safety));
+        is_off(operation(&client, id)).then_some(())
+    })
+    .await;
+    tokio::time::sleep(Duration::from_mins(2)).await;
+    assert!(scene.units.all_stand(), "nothing takes the pass again");
 }

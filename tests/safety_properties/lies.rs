@@ -155,11 +155,11 @@ fn any_flags_that_lie_prove_no_standstill_and_are_told() {
 }
 
 #[test]
-fn any_jog_without_effect_is_stopped_and_told() {
+fn any_jog_without_effect_is_stopped_and_reported() {
     for_each_case("angles freeze", 50, angles_freeze);
 }
 
 #[test]
-fn any_go_to_without_effect_is_stopped_and_told() {
+fn any_go_to_without_effect_is_stopped_and_reported() {
     for_each_case("angles freeze on the way", 50, angles_freeze_on_the_way);
 }

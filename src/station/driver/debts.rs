@@ -28,7 +28,7 @@ const AUTO_TRACK: &str = ".auto-track.toml";
 pub struct Unit {
     /// Key of its make, as in the station file.
     pub make: String,
-    /// As in the station file, in small letters: a host has one name, however it is written.
+    /// Address in lower case, because host names ignore case.
     pub address: String,
 }
 
@@ -107,7 +107,7 @@ impl Debts {
     pub fn marked_in(folder: Option<PathBuf>) -> Self {
         let debts = Self { folder: folder.map(Arc::from), ..Self::default() };
         if let Some(folder) = debts.folder.as_deref() {
-            rename_to_small_letters(folder);
+            lowercase_record_names(folder);
         }
         let found = debts.folder.as_deref().map_or_else(Vec::new, with_auto_track);
         debts.ledger().auto_track.extend(found);
@@ -270,31 +270,32 @@ impl Debts {
     }
 }
 
-/// Puts the records of units whose address was written with capitals under the names by which they
-/// are looked for. One that cannot be read or renamed stays, and the log says so.
-fn rename_to_small_letters(folder: &Path) {
+/// Renames the records of addresses with capitals, so that their units find them. A record that
+/// cannot be read or renamed stays, and the log says so.
+fn lowercase_record_names(folder: &Path) {
     let Ok(files) = fs::read_dir(folder) else { return };
     for path in files.filter_map(|file| Some(file.ok()?.path())) {
-        let renamed = in_small_letters(&path).and_then(|renamed| {
+        let renamed = with_lowercase_address(&path).and_then(|renamed| {
             let Some((name, text)) = renamed else { return Ok(()) };
             whole_file::replace(&folder.join(name), text.as_bytes())?;
             fs::remove_file(&path)
         });
         if let Err(error) = renamed {
-            tracing::error!(%error, path = %path.display(), "a record is not found by its unit");
+            tracing::error!(%error, path = %path.display(), "could not rename a record, so its unit does not find it");
         }
     }
 }
 
-/// Name and text of a record under the small letters of its address, if it has others.
-fn in_small_letters(path: &Path) -> io::Result<Option<(String, String)>> {
+/// Returns the name and text of a record with its address in lower case, if the address has
+/// capitals.
+fn with_lowercase_address(path: &Path) -> io::Result<Option<(String, String)>> {
     let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
     let endings = [AUTO_TRACK, shifted_track::SHIFTED, ".toml"];
     let Some(ending) = endings.into_iter().find(|ending| name.ends_with(ending)) else {
         return Ok(None);
     };
     let text = fs::read_to_string(path)?;
-    // What is no record is named where it is read.
+    // The reader reports other files.
     let Ok(mut table) = toml::from_str::<toml::Table>(&text) else { return Ok(None) };
     let Ok(unit) = toml::Value::Table(table.clone()).try_into::<Unit>() else { return Ok(None) };
     let address = unit.address.to_lowercase();
@@ -346,7 +347,7 @@ mod tests {
     }
 
     #[test]
-    fn records_of_an_address_with_capitals_are_found_in_small_letters() {
+    fn records_of_an_address_with_capitals_are_found_with_lowercase_address() {
         let folder = tempfile::tempdir().unwrap();
         let since: Timestamp = "2026-08-12T01:02:03Z".parse().unwrap();
         let debts = || Debts::marked_in(Some(folder.path().to_owned()));

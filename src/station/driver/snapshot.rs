@@ -193,8 +193,8 @@ pub struct Inside {
     /// The axis whose angle is unknown: the antenna may be inside. `None` if it surely is.
     #[serde(default, deserialize_with = "name::option")]
     pub unknown_axis: Option<Name>,
-    /// By the operator's permission it may be moved by hand now: out, or anywhere if the position
-    /// is not known.
+    /// The operator allows manual motion at present: outwards only, or in any direction while the
+    /// position is unknown.
     pub may_leave: bool,
 }
 

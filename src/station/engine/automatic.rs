@@ -231,6 +231,7 @@ impl Engine {
             Event::Safety(
                 Safety::DeadManFired
                 | Safety::SessionBroke
+                | Safety::NoEffect { .. }
                 | Safety::Forbidden { response: Response::Stopped, .. },
             ) => operation.switch_off(OffBecause::Safety),
             // Auto-track starts what the unit holds by itself.

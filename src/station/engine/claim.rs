@@ -55,7 +55,7 @@ impl std::fmt::Display for HeldBy {
         let holder = match self {
             Self::Azel(holder) => holder,
             Self::Unknown(why) => {
-                return write!(f, "an unknown program, because no lock can be made ({why})");
+                return write!(f, "perhaps another program (Azel could not lock it: {why})");
             }
         };
         let Some(Holder { kind, process, since, .. }) = holder else {

@@ -39,7 +39,7 @@ impl Engine {
                 let no_claims = NoClaims { folder, kind, why: error.to_string() };
                 let is_news = self.claims.replace(Err(no_claims)).is_none();
                 if is_news {
-                    self.tell_unclaimed("no unit can be kept for this program alone", &error);
+                    self.tell_unclaimed("Azel can lock no unit, so it connects to none; check the disk and the folder of locks", &error);
                 }
             }
         }
@@ -79,8 +79,13 @@ impl Engine {
 
     fn tell_unclaimed(&mut self, what: &str, error: &io::Error) {
         let text = format!("{what}: {error}");
+        let kind = AlarmKind::Settings(text.clone());
+        // Each attempt fails for the same reason.
+        if self.alarms.list().iter().any(|alarm| alarm.kind == kind && !alarm.is_over()) {
+            return;
+        }
         tracing::error!("{text}");
-        self.alarms.raise(None, AlarmKind::Settings(text), self.now);
+        self.alarms.raise(None, kind, self.now);
     }
 
     /// Claims the unit of an antenna. `None` where no claim is made; an error names the
@@ -106,8 +111,15 @@ impl Engine {
     pub(super) fn stop_elsewhere(&self, antennas: &[AntennaId]) {
         let held = self.antennas.iter().map(|antenna| &antenna.shown);
         for antenna in held.filter(|antenna| antennas.contains(&antenna.id())) {
-            let Some(HeldBy::Azel(holder)) = &antenna.held_by else { continue };
-            let holder = holder.clone();
+            let holder = match &antenna.held_by {
+                None => continue,
+                Some(HeldBy::Azel(holder)) => holder.clone(),
+                // Nobody is known who could stop it.
+                Some(HeldBy::Unknown(_)) => {
+                    self.client.urgent().is_stop_lost = true;
+                    continue;
+                }
+            };
             // The holder's name of the antenna.
             let name = holder.as_ref().and_then(|holder| holder.antenna.clone());
             let name = name.unwrap_or_else(|| antenna.config.name.clone());
@@ -135,6 +147,11 @@ impl Engine {
         if let Some(Err(NoClaims { folder, kind, .. })) = &self.claims {
             let wanted = (folder.clone(), *kind);
             self.take_claims(Some(wanted));
+        } else if matches!(self.station_claim, StationClaim::None)
+            && self.demo.is_none()
+            && self.settings_path.as_deref().is_some_and(Path::exists)
+        {
+            self.claim_station();
         }
         if matches!(self.station_claim, StationClaim::Theirs(_)) {
             self.take_over_station();

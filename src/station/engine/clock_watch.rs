@@ -1,5 +1,5 @@
-//! Checks periodically that the clock of this computer is synchronised, and notices each turn whether
-//! it was set.
+//! Checks periodically that the clock of this computer is synchronised, and detects clock steps at
+//! each turn.
 
 use std::time::Duration;
 
@@ -21,22 +21,22 @@ const STEP_S: f64 = 1.0;
 pub(super) struct ClockWatch {
     asked: Option<Instant>,
     job: Option<Job<TimeSync>>,
-    /// The clock was set, and whether it is right now is not known yet: nothing acts on UTC.
+    /// Set from a clock step until the time service answers: automatic operation waits.
     pub(super) is_in_doubt: bool,
-    /// Both clocks at the last turn, and how long the computer had slept.
-    last: Option<(Moment, Duration)>,
+    /// Both clocks and the total sleep time at the previous turn.
+    previous: Option<(Moment, Duration)>,
 }
 
 impl ClockWatch {
     /// Returns `true` if the clock was set since the last call, so that UTC is not plausible.
     pub(super) fn was_set(&mut self, now: Moment, asleep: Duration) -> bool {
-        let Some((before, slept)) = self.last.replace((now, asleep)) else { return false };
+        let Some((before, slept)) = self.previous.replace((now, asleep)) else { return false };
         let steady = now.steady.saturating_duration_since(before.steady);
         let expected_s = (steady + asleep.saturating_sub(slept)).as_secs_f64();
         (seconds_between(before.utc, now.utc) - expected_s).abs() >= STEP_S
     }
 
-    /// Asks at once, whatever an earlier check says.
+    /// Discards the earlier check, so that the next poll starts a new one.
     pub(super) fn ask_again(&mut self) {
         (self.asked, self.job) = (None, None);
     }

@@ -51,8 +51,8 @@ pub enum Ask {
         antenna: String,
         /// Holder and reason of the lock-out; `None` to remove it.
         lock_out: Option<LockOut>,
-        /// To remove it: who locked it out, so that nobody removes another lock-out than the one
-        /// that is meant.
+        /// To remove it: who locked it out. This prevents removing a lock-out that somebody else has
+        /// set in the meantime.
         #[serde(default)]
         locked_by: Option<String>,
     },
@@ -239,7 +239,7 @@ async fn set_lock_out(
                  --locked-by \"{by}\""
             ));
         }
-        _ => {}
+        Some(_) | None => {}
     }
     let command = lock_out.clone().map_or(driver::Command::Unlock, driver::Command::LockOut);
     if station.send(Command::Antenna(id, command)).is_err() {

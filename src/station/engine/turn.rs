@@ -54,8 +54,8 @@ impl Engine {
         self.record_turn();
     }
 
-    /// Looks at the clock before anything acts on it. After a step automatic operation waits until a
-    /// time service is known to keep the clock, and else is suspended.
+    /// Checks the clock before anything acts on UTC. After a step, automatic operation waits for the
+    /// time service. It is suspended unless the service keeps the clock.
     fn watch_clock(&mut self) {
         let now = Moment { utc: self.now, steady: self.steady };
         if self.clock_watch.was_set(now, self.clock.asleep()) {

@@ -54,8 +54,8 @@ fn off(antenna: &AntennaModel) -> String {
     let name = &antenna.config.name;
     if let Some(HeldBy::Unknown(why)) = &antenna.held_by {
         return format!(
-            "{name} is not connected: another program may drive it, because no lock can be made \
-             ({why})."
+            "{name} is not connected: Azel could not lock it ({why}), so another program may be driving \
+             it. Free disk space or fix the permissions of the folder of locks."
         );
     }
     if let Some(by) = &antenna.held_by {

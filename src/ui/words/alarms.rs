@@ -61,8 +61,9 @@ pub fn alarm(kind: &AlarmKind, antenna: &str, now: Timestamp) -> String {
                 .to_owned()
         }
         AlarmKind::UnitElsewhere(HeldBy::Unknown(why)) => format!(
-            "{antenna} is not connected: another program may drive it, because no lock can be made \
-             ({why}). Free space or set the permissions of the folder for locks."
+            "{antenna} is not connected: Azel could not lock it ({why}), so another program may be \
+             driving it. Free disk space or fix the permissions of the folder of locks; Azel tries \
+             again each second."
         ),
         AlarmKind::UnitElsewhere(by) => {
             format!("{antenna} is driven by {by}: nothing goes to it from here.")

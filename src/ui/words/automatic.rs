@@ -29,7 +29,8 @@ pub fn interruption(by: Interruption) -> &'static str {
         Interruption::ByHand => "The antenna was commanded by hand.",
         Interruption::Elsewhere => "The antenna was moved by its panel or by another program.",
         Interruption::Clock => {
-            "The clock of this computer was set, and no time service is known to keep it."
+            "The clock of this computer jumped, and no time service is known to keep it: check the \
+             clock first."
         }
     }
 }

@@ -86,13 +86,13 @@ pub fn refusal(refusal: &Refusal, now: Timestamp) -> String {
             super::inside(barrier)
         ),
         Refusal::Unchecked { axis, barrier } => format!(
-            "Not sent: the angle of {axis} is not known, so the path may lead {}. Use \
-             \u{201c}{HOLD_UNCHECKED}\u{201d} on the card to allow it for a minute.",
+            "Not sent: {axis} reports no angle, so the motion may lead {}. Hold \
+             \u{201c}{HOLD_UNCHECKED}\u{201d} on the card to allow slow motion by hand for a minute.",
             super::forbidden(barrier)
         ),
         Refusal::SettingsUnread { place } => format!(
-            "Not sent: the setting {place} could not be read. Repair it in the station file; until \
-             then use \u{201c}{HOLD_UNCHECKED}\u{201d} on the card for a motion by hand."
+            "Not sent: Azel could not read the setting {place}. Repair it in the station file. Until \
+             then, hold \u{201c}{HOLD_UNCHECKED}\u{201d} on the card to move slowly by hand."
         ),
         Refusal::NoRefuge => "Not sent: no clear direction with a clear path to it was found. \
                               Move the antenna by hand."

@@ -17,7 +17,7 @@ pub fn forbidden(barrier: &Barrier) -> String {
         Barrier::KeepOut(name) => format!("into the keep-out \u{201c}{name}\u{201d}"),
         Barrier::Sun => "too close to the Sun".to_owned(),
         Barrier::Unread(place) => {
-            format!("where it may be forbidden: the setting {place} could not be read")
+            format!("where only the unreadable setting {place} would tell whether it may point")
         }
     }
 }
@@ -41,7 +41,7 @@ pub fn way_out(antenna: &str, Inside { barrier, unknown_axis, may_leave }: &Insi
             format!("{unread} You have allowed slow motion by hand for a minute, unchecked.")
         } else {
             format!(
-                "{unread} Repair it in the station file. It can be moved by hand once you allow it."
+                "{unread} Repair it in the station file, or hold the button to move it slowly by hand for a minute."
             )
         };
     }
@@ -54,7 +54,7 @@ pub fn way_out(antenna: &str, Inside { barrier, unknown_axis, may_leave }: &Insi
                  where it leads, so watch the antenna."
             )
         } else {
-            format!("{unknown} It can be moved by hand, unchecked, once you allow it.")
+            format!("{unknown} Hold the button to move it slowly by hand for a minute, unchecked.")
         };
     }
     match (may_leave, barrier) {
@@ -187,8 +187,9 @@ pub fn safety(matter: &Safety, antenna: &str, now: Timestamp) -> String {
             format::moment(*since, now)
         ),
         Safety::NoMark => format!(
-            "It could not be written to disk that {antenna} is moved by hand or is owed a STOP: if \
-             Azel ended now, its next start would not know. Check the free space and permissions of the disk."
+            "Azel could not record on disk that {antenna} is moving by hand or still needs a STOP. If \
+             Azel ends now, it will not send that STOP at its next start. Check the free space and \
+             the permissions of the disk."
         ),
         Safety::StoppedByFlags { axis } => format!(
             "{antenna} reports that it is at rest. {axis} reports no angle, so nothing else \

@@ -33,6 +33,10 @@ pub struct AntennaState {
     /// The azimuth axis may reach a position either way round: clockwise or counter-clockwise.
     #[serde(default)]
     pub may_turn_either_way: bool,
+    /// Limits of the azimuth axis, degrees from 0 to 360, which it does not cross; `None` for one that
+    /// is not known.
+    #[serde(default)]
+    pub azimuth_limits_deg: [Option<f64>; 2],
     /// When the present link came up. Older readings are from an earlier link.
     pub link_since: Option<Instant>,
     /// Further readings for the panel, line by line.

@@ -21,10 +21,12 @@ use crate::{
 /// widened by the same angle.
 pub(super) const FINEST_DEG: f64 = 0.05;
 
-/// Distance between two positions at which a range of positions is sampled, degrees.
+/// Smallest distance between two positions at which a range of positions is sampled, degrees.
 const SAMPLE_DEG: f64 = 1.0;
-/// Maximum number of samples along one axis. No mount travels further than this many samples.
-const MAX_SAMPLES: f64 = 1000.0;
+/// Maximum number of steps along an axis whose range alone is sampled.
+const STEPS_OF_ONE: f64 = 128.0;
+/// Maximum number of steps along each axis where both are sampled.
+const STEPS_OF_BOTH: f64 = 32.0;
 
 /// One of the bounds: minimum elevation, a keep-out or the Sun.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
@@ -90,10 +92,24 @@ impl Sweep {
         [[a, c], [a, d], [b, c], [b, d]]
     }
 
-    /// Positions no further apart than [`SAMPLE_DEG`] on each axis, with both ends.
+    /// Number of steps in which each axis is sampled.
+    fn steps(self) -> [f64; 2] {
+        let is_range = self.0.map(|(from, to)| from < to);
+        let most = if is_range == [true; 2] { STEPS_OF_BOTH } else { STEPS_OF_ONE };
+        self.0.map(|(from, to)| ((to - from) / SAMPLE_DEG).ceil().clamp(0.0, most))
+    }
+
+    /// Largest angle between a direction of the sweep and that of its nearest sample, degrees.
+    fn sampled_within_deg(self) -> f64 {
+        let widths = self.0.iter().map(|(from, to)| to - from);
+        widths.zip(self.steps()).map(|(width, steps)| width / steps.max(1.0) / 2.0).sum()
+    }
+
+    /// Evenly spaced positions, with both ends of each axis.
     fn samples(self) -> impl Iterator<Item = [f64; 2]> {
+        let mut steps = self.steps().into_iter();
         let [first, second] = self.0.map(|(from, to)| {
-            let parts = ((to - from) / SAMPLE_DEG).ceil().clamp(0.0, MAX_SAMPLES) as u32;
+            let parts = steps.next().unwrap_or_default() as u32;
             let share = f64::from(parts.max(1)).recip();
             (0..=parts).map(move |part| (to - from).mul_add(f64::from(part) * share, from))
         });
@@ -214,10 +230,10 @@ impl BoundsAt<'_> {
     /// The least clearance from every barrier among the positions in `place`: exact where that is
     /// one position, else taken from samples, and negative where [`Self::blocks`] finds a way in.
     pub fn least_clearances(&self, place: Sweep) -> Vec<Clearance> {
-        let is_range = place.0.iter().any(|(from, to)| from < to);
+        let within_deg = place.sampled_within_deg();
         let each = self.each_in(place).into_iter().enumerate();
         each.map(|(index, (barrier, angle, warns_only))| {
-            let may_hide = is_range && (0.0..SAMPLE_DEG).contains(&angle.degrees());
+            let may_hide = (0.0..within_deg).contains(&angle.degrees());
             let hides = may_hide && self.blocks_from(place, Some(index)).is_some();
             let angle = if hides { Angle::from_degrees(-FINEST_DEG) } else { angle };
             Clearance { barrier: barrier.clone_of(), angle, warns_only }
@@ -260,7 +276,7 @@ impl BoundsAt<'_> {
         self.nearest_among(direction, None)
     }
 
-    /// Without an index: among the barriers that refuse motion.
+    /// Returns the nearest barrier: that at `index`, or of all that refuse motion if it is `None`.
     fn nearest_among(&self, direction: AzEl, index: Option<usize>) -> Option<(Named<'_>, Angle)> {
         self.each(direction)
             .enumerate()
@@ -274,7 +290,7 @@ impl BoundsAt<'_> {
         deepest(self.clearances(direction))
     }
 
-    /// The keep-out or the surroundings of the Sun that a position in `place` is in.
+    /// The keep-out, or the surroundings of the Sun, that `place` may be inside.
     pub fn may_forbid(&self, place: Sweep) -> Option<Barrier> {
         deepest(self.least_clearances(place))
     }
@@ -325,8 +341,8 @@ impl BoundsAt<'_> {
         self.blocks_from(sweep, None)
     }
 
-    /// As [`Self::blocks`], wherever in `start` the axes are: what leads lower may lead below the
-    /// minimum elevation even if `start` reaches below it.
+    /// Like [`Self::blocks`], for an unknown position within `start`: any descent counts as one below
+    /// the minimum elevation if it may lead there.
     pub fn blocks_unseen(&self, sweep: Sweep, start: Sweep) -> Option<(Barrier, AzEl)> {
         if self.lowest(sweep) < self.lowest(start) {
             self.blocks_from(sweep, None)
@@ -419,7 +435,7 @@ impl BoundsAt<'_> {
     }
 }
 
-/// The keep-out, or the Sun, that is entered furthest.
+/// The keep-out or the Sun that is entered deepest.
 fn deepest(clearances: Vec<Clearance>) -> Option<Barrier> {
     let entered = clearances.into_iter().filter(|it| {
         !it.warns_only && it.angle < Angle::ZERO && it.barrier != Barrier::MinimumElevation

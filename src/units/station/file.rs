@@ -11,7 +11,7 @@ use serde::Serialize;
 use super::{
     ControllerSpec, Note, Station,
     read::{Read, read},
-    rewrite::{Unread, rewritten, rewritten_with},
+    rewrite::{UnreadTree, rewritten, rewritten_with},
 };
 use crate::whole_file;
 
@@ -29,7 +29,7 @@ pub struct Loaded {
     pub notes: Vec<Note>,
 }
 
-/// What a saved station file still holds that cannot be read.
+/// Entries that are still unreadable in a saved station file.
 #[derive(Debug, Default)]
 pub struct Saved {
     pub notes: Vec<Note>,
@@ -70,8 +70,8 @@ pub enum SaveError {
     Write { source: io::Error, path: PathBuf },
     /// An entry that could not be read would be lost.
     #[error(
-        "the settings were not saved, the old ones stay: {place} could not be read and would be \
-         lost. Repair it first: {}",
+        "the settings were not saved: that would delete {place}, which could not be read. The old \
+         file is unchanged. Repair the entry, then save again: {}",
         path.display()
     )]
     WouldDrop { place: String, path: PathBuf },
@@ -190,7 +190,7 @@ fn merged(
         return Ok(rewritten(old, new));
     };
     let places = notes.iter().map(|note| note.place.as_str());
-    let unread = Unread::at(places, left_out.iter().map(String::as_str));
+    let unread = UnreadTree::at(places, left_out.iter().map(String::as_str));
     if unread.is_empty() {
         return Ok(rewritten(old, new));
     }

@@ -52,7 +52,7 @@ pub fn from_toml(table: Table, specs: &[&'static ControllerSpec]) -> (Station, V
     (station, notes)
 }
 
-/// A station, and what was not taken over from its file.
+/// A station, with notes on the entries of its file that could not be used.
 pub(super) struct Read {
     pub(super) station: Station,
     pub(super) notes: Vec<Note>,
@@ -108,7 +108,7 @@ pub(super) fn read(mut table: Table, specs: &[&'static ControllerSpec]) -> Read 
     station.rules = fields.list("rule", |rule| rule.automation_rule(&antennas, &groups));
     fields.name_the_unknown();
     let Fields { notes, left_out, antenna_places, .. } = fields;
-    station.unread = unread::found(&notes, &antenna_places);
+    station.unread = unread::safety_entries(&notes, &antenna_places);
     Read { station, notes, left_out }
 }
 
@@ -137,7 +137,7 @@ impl Fields<'_> {
         self.left_out.push(format!("{}{place}", self.path));
     }
 
-    /// Takes over what was noted of a part.
+    /// Adds the notes of a nested table.
     fn note_all_of(&mut self, mut part: Fields<'_>) {
         self.notes.append(&mut part.notes);
         self.left_out.append(&mut part.left_out);

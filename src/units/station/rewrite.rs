@@ -14,35 +14,34 @@ const NAME: &str = "name";
 /// is gone goes with it. Text that holds anything else than `new` is never returned: where the
 /// two cannot be brought together, it is `new` as it stands.
 pub(super) fn rewritten(old: &str, new: &str) -> String {
-    let is_right = |merged: &str| is_same_text(merged, new);
-    merged(old, old, new, &Unread::default(), is_right).unwrap_or_else(|| new.to_owned())
+    let is_valid = |merged: &str| is_same_text(merged, new);
+    merged(old, old, new, &UnreadTree::default(), is_valid).unwrap_or_else(|| new.to_owned())
 }
 
-/// Like [`rewritten`], with the entries of `old` that could not be read: they stay as they are
-/// written, unless the operator has changed what was taken in their place. `read` is the text of
-/// what was read of `old`. `None` if an entry would be lost, or `is_right` says so.
+/// Like [`rewritten`], but keeps each unreadable entry of `old` unless the operator has changed that
+/// setting. `read` is the readable part of `old`. Returns `None` if `is_valid` rejects the text.
 pub(super) fn rewritten_with(
     old: &str,
     read: &str,
     new: &str,
-    unread: &Unread,
-    is_right: impl Fn(&str) -> bool,
+    unread: &UnreadTree,
+    is_valid: impl Fn(&str) -> bool,
 ) -> Option<String> {
-    merged(old, read, new, unread, is_right)
+    merged(old, read, new, unread, is_valid)
 }
 
 /// Entries of a text that could not be read.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
-pub(super) struct Unread {
+pub(super) struct UnreadTree {
     /// The whole entry.
     is_whole: bool,
     /// The entry of a list was left out.
     is_left_out: bool,
-    keys: BTreeMap<String, Unread>,
-    indices: BTreeMap<usize, Unread>,
+    keys: BTreeMap<String, UnreadTree>,
+    indices: BTreeMap<usize, UnreadTree>,
 }
 
-impl Unread {
+impl UnreadTree {
     /// The entries at places such as `antenna[0].limits`, and those that were left out of a list.
     pub(super) fn at<'a>(
         places: impl IntoIterator<Item = &'a str>,
@@ -78,22 +77,26 @@ impl Unread {
     }
 }
 
-static NOTHING: Unread =
-    Unread { is_whole: false, is_left_out: false, keys: BTreeMap::new(), indices: BTreeMap::new() };
+static ALL_READ: UnreadTree = UnreadTree {
+    is_whole: false,
+    is_left_out: false,
+    keys: BTreeMap::new(),
+    indices: BTreeMap::new(),
+};
 
 fn merged(
     old: &str,
     read: &str,
     new: &str,
-    unread: &Unread,
-    is_right: impl Fn(&str) -> bool,
+    unread: &UnreadTree,
+    is_valid: impl Fn(&str) -> bool,
 ) -> Option<String> {
     let [mut text, wanted] = [old.parse::<DocumentMut>().ok()?, new.parse::<DocumentMut>().ok()?];
     let read = read.parse::<DocumentMut>().ok()?;
     merge(text.as_table_mut(), Some(read.as_table()), wanted.into_table(), unread);
     unplace(text.as_table_mut());
     let text = text.to_string();
-    is_right(&text).then_some(text)
+    is_valid(&text).then_some(text)
 }
 
 fn is_same_text(one: &str, other: &str) -> bool {
@@ -102,11 +105,11 @@ fn is_same_text(one: &str, other: &str) -> bool {
 }
 
 /// `read`: what was read of `old`.
-fn merge(old: &mut dyn TableLike, read: Option<&dyn TableLike>, new: Table, unread: &Unread) {
+fn merge(old: &mut dyn TableLike, read: Option<&dyn TableLike>, new: Table, unread: &UnreadTree) {
     let gone: Vec<String> =
         old.iter().map(|(key, _)| key.to_owned()).filter(|key| !new.contains_key(key)).collect();
     for key in gone {
-        let unread = unread.keys.get(&key).unwrap_or(&NOTHING);
+        let unread = unread.keys.get(&key).unwrap_or(&ALL_READ);
         let was_read = read.is_some_and(|read| read.contains_key(&key));
         if unread.is_whole && !was_read {
             continue;
@@ -119,7 +122,7 @@ fn merge(old: &mut dyn TableLike, read: Option<&dyn TableLike>, new: Table, unre
         }
     }
     for (key, new) in new {
-        let unread = unread.keys.get(&key).unwrap_or(&NOTHING);
+        let unread = unread.keys.get(&key).unwrap_or(&ALL_READ);
         let read = read.and_then(|read| read.get(&key));
         match old.get_mut(&key) {
             Some(_) if unread.is_whole && read.is_some_and(|read| is_same_item(read, &new)) => {}
@@ -130,7 +133,7 @@ fn merge(old: &mut dyn TableLike, read: Option<&dyn TableLike>, new: Table, unre
 }
 
 /// Leaves nothing of `old` but what could not be read.
-fn keep_unread(old: &mut Item, read: Option<&Item>, unread: &Unread) {
+fn keep_unread(old: &mut Item, read: Option<&Item>, unread: &UnreadTree) {
     let empty = match old {
         Item::ArrayOfTables(_) | Item::Value(Value::Array(_)) => {
             Item::ArrayOfTables(ArrayOfTables::new())
@@ -140,7 +143,7 @@ fn keep_unread(old: &mut Item, read: Option<&Item>, unread: &Unread) {
     merge_item(old, read, empty, unread);
 }
 
-fn merge_item(old: &mut Item, read: Option<&Item>, new: Item, unread: &Unread) {
+fn merge_item(old: &mut Item, read: Option<&Item>, new: Item, unread: &UnreadTree) {
     let mut new = new;
     // An empty list of tables is written as `antenna = []`.
     if new.as_array().is_some_and(Array::is_empty) && !unread.indices.is_empty() {
@@ -153,8 +156,8 @@ fn merge_item(old: &mut Item, read: Option<&Item>, new: Item, unread: &Unread) {
             Ok(tables) => {
                 *old = Item::ArrayOfTables(tables).into_value().map_or_else(|it| it, Item::Value);
             }
-            Err(as_it_was) => {
-                *old = as_it_was;
+            Err(unchanged) => {
+                *old = unchanged;
                 new = new.into_value().map_or_else(|it| it, Item::Value);
             }
         }
@@ -200,7 +203,7 @@ fn merge_value(old: &mut Value, new: Value) {
     match (&mut *old, new) {
         (Value::Array(old), Value::Array(new)) => merge_array(old, new),
         (Value::InlineTable(old), Value::InlineTable(new)) => {
-            merge(old, None, new.into_table(), &NOTHING);
+            merge(old, None, new.into_table(), &ALL_READ);
         }
         (old, new) => *old = new,
     }
@@ -222,12 +225,12 @@ fn merge_array(old: &mut Array, new: Array) {
 struct OldTable<'a> {
     table: Table,
     read: Option<&'a Table>,
-    unread: Option<&'a Unread>,
+    unread: Option<&'a UnreadTree>,
 }
 
 impl OldTable<'_> {
     /// Returns `true` if this table, or what was read of it, is `new` in this sense.
-    fn is(&self, is_known: fn(&Table, &Table) -> bool, new: &Table) -> bool {
+    fn matches(&self, is_known: fn(&Table, &Table) -> bool, new: &Table) -> bool {
         is_known(&self.table, new) || self.read.is_some_and(|read| is_known(read, new))
     }
 }
@@ -236,7 +239,7 @@ fn merge_tables(
     old: &mut ArrayOfTables,
     read: Option<&ArrayOfTables>,
     new: ArrayOfTables,
-    unread: &Unread,
+    unread: &UnreadTree,
 ) {
     let mut read = read.into_iter().flat_map(ArrayOfTables::iter);
     let mut left_out: Vec<(usize, Table)> = Vec::new();
@@ -253,19 +256,20 @@ fn merge_tables(
     // What is sure takes its table before what only stands in its place.
     for is_known in [is_of_same_id, is_unchanged, is_of_same_name] {
         for (known, new) in known.iter_mut().zip(new.iter()).filter(|(known, _)| known.is_none()) {
-            let found =
-                rest.iter_mut().find(|rest| rest.as_ref().is_some_and(|old| old.is(is_known, new)));
+            let found = rest
+                .iter_mut()
+                .find(|rest| rest.as_ref().is_some_and(|old| old.matches(is_known, new)));
             *known = found.and_then(Option::take);
         }
     }
     let mut tables = Vec::new();
     for (index, (known, new)) in known.into_iter().zip(new).enumerate() {
         let has_id = new.contains_key(ID);
-        let mut in_its_place = || rest.get_mut(index).filter(|_| !has_id).and_then(Option::take);
+        let mut take_same_index = || rest.get_mut(index).filter(|_| !has_id).and_then(Option::take);
         let OldTable { mut table, read, unread } =
-            known.or_else(&mut in_its_place).unwrap_or_default();
+            known.or_else(&mut take_same_index).unwrap_or_default();
         let read = read.map(|read| read as &dyn TableLike);
-        merge(&mut table, read, new, unread.unwrap_or(&NOTHING));
+        merge(&mut table, read, new, unread.unwrap_or(&ALL_READ));
         tables.push(table);
     }
     for (index, table) in left_out {
@@ -385,7 +389,7 @@ name = "Mast"
     }
 
     #[test]
-    fn what_has_not_changed_stays_as_it_was_written() {
+    fn what_has_not_changed_stays_unchanged_written() {
         let new = r#"
 version = 1
 name = "Tower"
@@ -519,8 +523,8 @@ to = "06:00"
         fn any_settings_go_into_any_text(old in any_table(), new in any_table(), is_long: bool) {
             let write = if is_long { toml::to_string_pretty } else { toml::to_string };
             let [old, new] = [&old, &new].map(|table| write(table).unwrap());
-            let is_right = |text: &str| is_same_text(text, &new);
-            prop_assert!(merged(&old, &old, &new, &NOTHING, is_right).is_some(), "{old}\n---\n{new}");
+            let is_valid = |text: &str| is_same_text(text, &new);
+            prop_assert!(merged(&old, &old, &new, &ALL_READ, is_valid).is_some(), "{old}\n---\n{new}");
         }
     }
 

@@ -9,11 +9,12 @@ use crate::{
     plan::Sweep,
 };
 
-/// A reading without an angle counts as no reading for this long, which is also how old a position
-/// may be for a jog.
-const GAP: Duration = Duration::from_secs(1);
+/// Longest gap that the last angle bridges: the maximum age of a position for a jog.
+const MAX_ANGLE_GAP: Duration = Duration::from_secs(1);
+/// A limit switch may stand this far from the end of the travel in the settings, degrees.
+const AT_LIMIT_DEG: f64 = 5.0;
 /// Every direction at one azimuth, for an antenna that does not turn in elevation, degrees.
-const COLUMN_DEG: (f64, f64) = (0.0, 90.0);
+const ALL_ELEVATIONS_DEG: (f64, f64) = (0.0, 90.0);
 
 /// Where one axis may be, degrees as the mount counts.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -39,9 +40,14 @@ impl Interval {
         (from_deg.max(lowest_deg), to_deg.min(highest_deg))
     }
 
-    /// Of an axis that has turned from `last` for `since`, at no more than its highest rate.
-    fn since(last: LastAngle, since: Duration, rate_deg_s: f64, travel_deg: (f64, f64)) -> Self {
-        let turned_deg = rate_deg_s * since.as_secs_f64();
+    /// Returns the range of an axis that may have turned at up to its maximum rate since `last`.
+    fn widened(
+        last: LastAngle,
+        elapsed: Duration,
+        rate_deg_s: f64,
+        travel_deg: (f64, f64),
+    ) -> Self {
+        let turned_deg = rate_deg_s * elapsed.as_secs_f64();
         // An axis beyond its travel may still be there.
         let (lowest_deg, highest_deg) = (travel_deg.0.min(last.deg), travel_deg.1.max(last.deg));
         Self {
@@ -86,6 +92,8 @@ impl Intervals {
 struct LastAngle {
     deg: f64,
     asked: Instant,
+    /// When a limit switch was first reported after it.
+    at_limit: Option<Instant>,
 }
 
 /// The last angle that each axis reported.
@@ -95,8 +103,12 @@ pub(super) struct LastAngles([Option<LastAngle>; 2]);
 impl LastAngles {
     fn take(&mut self, measured: &Measured) {
         for (last, axis) in self.0.iter_mut().zip(measured.axes) {
+            let asked = measured.asked;
             if let Some(deg) = angle_deg(axis) {
-                *last = Some(LastAngle { deg, asked: measured.asked });
+                *last = Some(LastAngle { deg, asked, at_limit: None });
+            } else if let Some(last) = last.as_mut().filter(|_| axis.plus_limit != axis.minus_limit)
+            {
+                last.at_limit.get_or_insert(asked);
             }
         }
     }
@@ -110,6 +122,12 @@ impl Gate {
         }
     }
 
+    /// Forgets the angles: without a link anybody may turn the axes, and the steady clock stands while
+    /// the computer sleeps.
+    pub(in crate::driver) fn forget_angles(&mut self) {
+        self.last_angles = LastAngles::default();
+    }
+
     /// Where the axes were at the last position; `None` before the first one.
     pub(in crate::driver) fn intervals(&self) -> Option<Intervals> {
         let measured = self.state().measured?;
@@ -119,7 +137,7 @@ impl Gate {
         let rate_deg_s = self.limits.maximum_rate_deg_s;
         let interval =
             |axis, travel_deg, last| interval(axis, travel_deg, last, measured.asked, rate_deg_s);
-        let (from_deg, to_deg) = COLUMN_DEG;
+        let (from_deg, to_deg) = ALL_ELEVATIONS_DEG;
         Some(Intervals([
             interval(first, first_travel_deg, first_last),
             if self.variant.capabilities.has_elevation() {
@@ -130,7 +148,7 @@ impl Gate {
         ]))
     }
 
-    /// When the oldest of the angles was asked for by which the axes are known.
+    /// Request time of the oldest angle in use.
     pub(super) fn angles_asked(&self) -> Option<Instant> {
         let measured = self.state().measured?;
         let count = self.variant.capabilities.axis_count();
@@ -155,12 +173,12 @@ fn interval(
         return Interval::at(deg);
     }
     match (axis.minus_limit, axis.plus_limit, last) {
-        (true, false, _) => Interval::at(travel_deg.0),
-        (false, true, _) => Interval::at(travel_deg.1),
+        (true, false, last) => at_limit(travel_deg.0, last, asked, rate_deg_s),
+        (false, true, last) => at_limit(travel_deg.1, last, asked, rate_deg_s),
         (_, _, Some(last)) if is_bridged(last.asked, asked) => Interval::at(last.deg),
         (_, _, Some(last)) => {
-            let since = asked.saturating_duration_since(last.asked);
-            Interval::since(last, since, rate_deg_s, travel_deg)
+            let elapsed = asked.saturating_duration_since(last.asked);
+            Interval::widened(last, elapsed, rate_deg_s, travel_deg)
         }
         (_, _, None) => {
             let (from_deg, to_deg) = travel_deg;
@@ -169,8 +187,20 @@ fn interval(
     }
 }
 
+/// Interval of an axis at the limit switch at an end of its travel. If the axis cannot have got there
+/// since its last angle, the switch stands elsewhere: somewhere between the two.
+fn at_limit(end_deg: f64, last: Option<LastAngle>, asked: Instant, rate_deg_s: f64) -> Interval {
+    let Some(last) = last else { return Interval::at(end_deg) };
+    let elapsed = last.at_limit.unwrap_or(asked).saturating_duration_since(last.asked);
+    let reached_deg = rate_deg_s * elapsed.as_secs_f64() + AT_LIMIT_DEG;
+    if (end_deg - last.deg).abs() <= reached_deg {
+        return Interval::at(end_deg);
+    }
+    Interval { from_deg: end_deg.min(last.deg), to_deg: end_deg.max(last.deg), is_known: false }
+}
+
 fn is_bridged(last: Instant, asked: Instant) -> bool {
-    asked.saturating_duration_since(last) < GAP
+    asked.saturating_duration_since(last) < MAX_ANGLE_GAP
 }
 
 fn angle_deg(axis: Axis) -> Option<f64> {
@@ -191,7 +221,7 @@ mod tests {
     fn after(seconds: u64, axis: Axis) -> (f64, f64, bool) {
         let asked = Instant::now();
         let now = asked + Duration::from_secs(seconds);
-        let last = Some(LastAngle { deg: 10.0, asked });
+        let last = Some(LastAngle { deg: 10.0, asked, at_limit: None });
         let Interval { from_deg, to_deg, is_known } = interval(axis, (-5.0, 100.0), last, now, 2.0);
         (from_deg, to_deg, is_known)
     }
@@ -210,7 +240,8 @@ mod tests {
     #[test]
     fn a_limit_switch_means_that_end_of_the_travel() {
         assert_eq!(after(5, axis(None, [true, false])), (-5.0, -5.0, true));
-        assert_eq!(after(5, axis(None, [false, true])), (100.0, 100.0, true));
+        assert_eq!(after(50, axis(None, [false, true])), (100.0, 100.0, true));
+        assert_eq!(after(1, axis(None, [false, true])), (10.0, 100.0, false), "it is elsewhere");
         assert_eq!(after(2, axis(None, [true, true])), (6.0, 14.0, false), "they contradict");
     }
 }

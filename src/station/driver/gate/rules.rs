@@ -104,7 +104,8 @@ fn safety_settings_are_read(asked: &Asked, situation: &Situation<'_>) -> Result<
             Some(situation.turning([x_deg_s, y_deg_s]))
         }
         Asked::Motion(Motion::Step { .. }) => None,
-        _ => return Err(refusal),
+        Asked::Motion(Motion::Position { .. } | Motion::StartProgram | Motion::EnableAuto)
+        | Asked::Action(_) => return Err(refusal),
     };
     way::slowly_by_permission(rates_deg_s, refusal, situation)
 }

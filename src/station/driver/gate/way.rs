@@ -61,8 +61,7 @@ fn to_position(
     let intervals = situation.intervals.ok_or(Refusal::PositionUnknown)?;
     let start = intervals.sweep();
     let end = target(azimuth, elevation, start, situation).ok_or(Refusal::PositionUnknown)?;
-    let sweep = start.with(end);
-    for sweep in std::iter::once(sweep).chain(other_way_round(azimuth, sweep, situation)) {
+    for sweep in ways_round(azimuth, start.with(end), situation).into_iter().flatten() {
         on_the_sky(sweep, start, situation)?;
         away_from_the_sun(sweep, intervals, end, situation)
             .unwrap_or_else(|| blocked(sweep, start, &situation.bounds_now()))?;
@@ -70,15 +69,28 @@ fn to_position(
     Ok(())
 }
 
-/// The way that the azimuth axis takes over north, if the unit may choose that one.
-fn other_way_round(
+/// The ways that the azimuth axis may take: as it counts, or over north. It does not cross its
+/// limits, so a way across one is left out if the other way crosses none.
+fn ways_round(
     azimuth: Option<Angle>,
-    sweep: Sweep,
+    counted: Sweep,
     situation: &Situation<'_>,
-) -> Option<Sweep> {
-    let Sweep([(from_deg, to_deg), second]) = sweep;
-    let may_turn = azimuth.is_some() && situation.state.may_turn_either_way;
-    may_turn.then_some(Sweep([(to_deg, from_deg + 360.0), second]))
+) -> [Option<Sweep>; 2] {
+    if azimuth.is_none() || !situation.state.may_turn_either_way {
+        return [Some(counted), None];
+    }
+    let Sweep([(from_deg, to_deg), second]) = counted;
+    let over_north = Sweep([(to_deg, from_deg + 360.0), second]);
+    let crosses_limit = |Sweep([(from_deg, to_deg), _]): Sweep| {
+        let limits = situation.state.azimuth_limits_deg.into_iter().flatten();
+        let mut turns = limits.flat_map(|limit_deg| [limit_deg, limit_deg + 360.0]);
+        turns.any(|limit_deg| from_deg < limit_deg && limit_deg < to_deg)
+    };
+    match [counted, over_north].map(crosses_limit) {
+        [false, true] => [Some(counted), None],
+        [true, false] => [Some(over_north), None],
+        _ => [Some(counted), Some(over_north)],
+    }
 }
 
 impl Situation<'_> {
@@ -176,8 +188,8 @@ fn by_hand_unseen(
     let start = intervals.sweep();
     let sweep = start.with(intervals.after(ahead_deg, situation.mount.travel_deg()));
     let Some((barrier, at)) = bounds_now.blocks_unseen(sweep, start) else { return Ok(()) };
-    // What the known angle alone forbids stays forbidden, and so do barriers that the axes are
-    // surely outside of.
+    // The operator's permission overrides neither what the known angle alone forbids nor barriers
+    // that the axes are definitely outside.
     let Intervals([_, second]) = intervals;
     let knows_elevation = matches!(situation.mount, Mount::AzEl { .. }) && second.is_known;
     if knows_elevation && bounds_now.leads_below_the_floor(sweep, start) {

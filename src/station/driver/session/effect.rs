@@ -22,7 +22,7 @@ const JOG_SHOWS_AFTER: Duration = Duration::from_millis(1500);
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub(super) struct Effects {
     axes: [Effect; 2],
-    looked: Option<Instant>,
+    last_reading: Option<Instant>,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -30,11 +30,11 @@ struct Effect {
     /// The last angle that differs from those before it, degrees, and when it was asked for.
     changed: Option<(f64, Instant)>,
     expected_since: Option<Instant>,
-    /// The angle has changed since a motion is expected.
+    /// The angle has changed since a motion became expected.
     has_turned: bool,
 }
 
-/// What an axis that obeys does.
+/// Motion expected of a working axis.
 #[derive(Debug, Clone, Copy, PartialEq)]
 enum Expected {
     /// It turns at this rate, degrees a second.
@@ -54,7 +54,7 @@ impl Effect {
         }
     }
 
-    /// Returns `true` if the axis has not done for too long what is expected of it.
+    /// Returns `true` once the axis has failed to move as expected for too long.
     fn is_missing(
         &mut self,
         expected: Option<Expected>,
@@ -87,10 +87,10 @@ impl Effects {
 }
 
 impl Session {
-    /// Stops a motion that turns nothing.
+    /// Stops a motion that has no effect.
     pub(super) fn watch_effect(&mut self, now: Moment) {
         let Some(look) = self.gate.state().measured else { return };
-        if self.seen.effects.looked.replace(look.received) == Some(look.received) {
+        if self.seen.effects.last_reading.replace(look.received) == Some(look.received) {
             return;
         }
         let figures = self.setup.figures;
@@ -110,7 +110,7 @@ impl Session {
         self.end_without_effect(can.axes.get(missing).copied(), now);
     }
 
-    /// Stops what turns nothing, and reports it.
+    /// Stops a motion that has no effect, and reports it.
     pub(super) fn end_without_effect(&mut self, axis: Option<Name>, now: Moment) {
         if self.key.held().is_some() {
             self.key.spend();
@@ -128,8 +128,14 @@ impl Session {
         if let Some(jog) = self.key.started() {
             let rates = jog.rates_deg_s.into_iter().zip(self.is_at_own_end(look, jog.rates_deg_s));
             let mut expected = [None; 2];
-            for (expected, (rate, is_at_end)) in expected.iter_mut().zip(rates) {
-                *expected = (rate != 0.0 && !is_at_end).then_some(Expected::Rate(rate));
+            let axes = look.axes.iter().zip(self.seen.effects.axes);
+            for ((expected, (rate, is_at_end)), (axis, effect)) in
+                expected.iter_mut().zip(rates).zip(axes)
+            {
+                // The unit itself ends a jog at its limits, which not every unit reports.
+                let is_ended = effect.has_turned && axis.motion == AxisMotion::Still;
+                let is_due = rate != 0.0 && !is_at_end && !is_ended;
+                *expected = is_due.then_some(Expected::Rate(rate));
             }
             return expected;
         }

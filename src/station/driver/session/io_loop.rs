@@ -101,6 +101,7 @@ impl Session {
         self.gate.device().link_down(now);
         self.lose_shift();
         self.record();
+        self.gate.forget_angles();
         end
     }
 

@@ -33,20 +33,31 @@ const NOISE_DEG: f64 = 0.02;
 #[derive(Debug, Clone, PartialEq, Default)]
 pub(super) struct Watch {
     last: Option<Measured>,
+    /// The last angle of each axis, degrees, and when it was asked for.
+    angles: [Option<(f64, Instant)>; 2],
     /// Rates of the axes between the last two positions, degrees a second.
     rates_deg_s: [f64; 2],
     /// Barriers that were reported and have not been left since.
     told: Vec<Barrier>,
 }
 
-/// Knowledge of whether the antenna is inside a barrier.
+/// How certain it is that the antenna is inside a barrier.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Certainty {
-    /// Its position tells.
+    /// Both angles are known.
     Known,
-    /// It is, wherever the axis without an angle may be.
+    /// It is inside at every possible angle.
     Inside,
     Unknown,
+}
+
+/// Rate since an angle before readings without one, degrees a second.
+fn bridged_rate_deg_s(turned_deg: f64, now: Instant, asked: Instant) -> f64 {
+    let span = now.saturating_duration_since(asked);
+    if span.is_zero() || span > SPAN {
+        return 0.0;
+    }
+    Angle::from_degrees(turned_deg).wrapped_180().degrees() / span.as_secs_f64()
 }
 
 fn is_at_limit(axis: Axis) -> bool {
@@ -99,12 +110,30 @@ impl Session {
 
     /// Rates of the axes, degrees a second. One that reports no angle for a moment keeps its last
     /// rate.
-    fn rates(&self, before: Option<&Measured>, look: &Measured, intervals: Intervals) -> [f64; 2] {
+    fn rates(
+        &mut self,
+        before: Option<&Measured>,
+        look: &Measured,
+        intervals: Intervals,
+    ) -> [f64; 2] {
         let mut rates = before.map_or([0.0; 2], |before| rates_deg_s(before, look));
-        let last = self.seen.watch.rates_deg_s.into_iter().zip(intervals.0);
-        for ((rate, axis), (last, interval)) in rates.iter_mut().zip(look.axes).zip(last) {
-            if axis.angle_deg.is_none() && interval.is_known && !is_at_limit(axis) {
-                *rate = last;
+        let Watch { rates_deg_s: last_rates, angles, .. } = &mut self.seen.watch;
+        let last = last_rates.iter().zip(angles).zip(intervals.0);
+        for ((rate, axis), ((last_rate, last), interval)) in
+            rates.iter_mut().zip(look.axes).zip(last)
+        {
+            let Some(angle_deg) = axis.angle_deg else {
+                if interval.is_known && !is_at_limit(axis) {
+                    *rate = *last_rate;
+                }
+                continue;
+            };
+            let bridged = before.is_some_and(|before| before.asked < look.asked);
+            if let Some((last_deg, asked)) = last.replace((angle_deg, look.asked))
+                && bridged
+                && *rate == 0.0
+            {
+                *rate = bridged_rate_deg_s(angle_deg - last_deg, look.asked, asked);
             }
         }
         // A second axis other than elevation does not belong to the antenna.

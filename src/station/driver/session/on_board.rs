@@ -10,7 +10,7 @@ use crate::{
         time::{add_seconds, seconds_between},
     },
     clock::{Instant, Moment},
-    device::{LONGEST_WINDOW_S, Measured, OnBoard},
+    device::{LONGEST_WINDOW_S, Measured, OnBoard, Phase},
     driver::{Intent, OnBoardView, TrackProblem, gate::Held},
     plan::{OnBoardPass, Supervision, on_board::Judge},
 };
@@ -174,10 +174,11 @@ impl Session {
         self.unasked = judge.map(|judge| Watch::new(Arc::new(judge), &state.on_board));
     }
 
-    /// Returns `true` if neither axis has turned while the satellite, at `to` now, went on.
+    /// Returns `true` if neither axis has turned while the path of the unit, at `to` now, went on.
     fn stands_while_it_should_track(&mut self, measured: &Measured, to: AzEl, now: Moment) -> bool {
         let (figures, can) = (self.setup.figures, self.variant.capabilities);
-        let can_point = self.gate.reaches(to, now);
+        let tracks = self.gate.state().program.is_some_and(|it| it.phase == Phase::Tracking);
+        let can_point = tracks && self.gate.reaches(to, now);
         let Some(track) = self.activity.on_board_mut() else { return false };
         let turned = &mut track.watch.turned;
         let known = turned.filter(|(before, _)| {
@@ -222,7 +223,9 @@ impl Session {
         }
         watch.compared = Some(measured.received);
         let predicted = meant.demanded(measured.at, |at| watch.judge.direction(at));
-        if predicted.is_some_and(|to| self.stands_while_it_should_track(&measured, to, now)) {
+        // Where this unit goes, by its own minimum elevation, clock and window.
+        let own = watch.judge.start(&unit, measured.at);
+        if own.is_some_and(|to| self.stands_while_it_should_track(&measured, to, now)) {
             return self.end_without_effect(None, now);
         }
         let asked = self.activity.on_board_mut().map(|track| &mut track.watch);

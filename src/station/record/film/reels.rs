@@ -307,8 +307,8 @@ impl Reel {
     }
 }
 
-/// Largest part of a film, bytes. What Azel writes is a hundredth of it; what another program has
-/// put into the file may be without end.
+/// Maximum inflated size of a part of a film, bytes: far more than Azel writes. It guards against a
+/// file that another program made.
 const MAX_INFLATED: u64 = 64 << 20;
 
 fn inflated(bytes: &[u8]) -> Result<Vec<u8>, FilmError> {

@@ -57,21 +57,28 @@ impl Roles {
         })
     }
 
-    /// Returns `true` if the azimuth rotator may reach a position over north: its limits do not
-    /// tell that it travels clockwise from the counter-clockwise one, short of north.
+    /// Returns `true` unless the limits show that the azimuth rotator cannot turn across north.
     pub(super) fn may_turn_over_north(self, status: &Status) -> bool {
-        let ours = self.axes.iter().filter(|number| self.is_ours(**number));
-        let azimuth = ours
-            .map(|number| status.rotator(*number))
-            .find(|rotator| rotator.kind == RotatorKind::Azimuth);
-        let Some(rotator) = azimuth else { return true };
+        let Some(rotator) = self.azimuth_rotator(status) else { return true };
         let (Some(ccw), Some(cw)) = (rotator.limit_ccw, rotator.limit_cw) else { return true };
         let (ccw, cw) = (ccw.degrees(), cw.degrees());
         let ends_at_north = (ccw == 0 && cw >= 359) || (cw == 0 && ccw >= 359);
         // Inside both arcs between the limits, a position does not tell which one is meant.
         let is_between = rotator.position.is_ok_and(|at| (ccw..=cw).contains(&at.degrees()));
-        let is_told = is_between && rotator.is_outside_limits == Some(false);
-        !ends_at_north && !is_told
+        let is_ruled_out = is_between && rotator.is_outside_limits == Some(false);
+        !ends_at_north && !is_ruled_out
+    }
+
+    /// Limits of the azimuth rotator, degrees.
+    pub(super) fn azimuth_limits_deg(self, status: &Status) -> [Option<f64>; 2] {
+        let Some(rotator) = self.azimuth_rotator(status) else { return [None; 2] };
+        [rotator.limit_ccw, rotator.limit_cw].map(|limit| Some(f64::from(limit?.degrees())))
+    }
+
+    fn azimuth_rotator(self, status: &Status) -> Option<&Rotator> {
+        let ours = self.axes.into_iter().filter(|number| self.is_ours(*number));
+        let mut rotators = ours.map(|number| status.rotator(number));
+        rotators.find(|rotator| rotator.kind == RotatorKind::Azimuth)
     }
 
     /// Position of a rotator as its axis counts, degrees. An elevation a little below the

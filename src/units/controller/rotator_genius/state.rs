@@ -41,6 +41,7 @@ impl Genius {
         });
         self.state.travel_deg = roles.travel_deg(&status);
         self.state.may_turn_either_way = roles.may_turn_over_north(&status);
+        self.state.azimuth_limits_deg = roles.azimuth_limits_deg(&status);
         self.state.motion_lock = Some(false);
         let names = RotatorNumber::ALL.map(|number| status.rotator(number).name.as_str());
         self.state.identity = Some(names.join(", "));

@@ -2,16 +2,17 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::Note;
+use super::{Note, NoteReason};
 use crate::station::AntennaId;
 
 /// Settings of the whole station on which the safety of each antenna depends.
-const OF_STATION: [&str; 3] = ["keep_out", "sun_avoidance", "site"];
+const STATION_KEYS: [&str; 3] = ["keep_out", "sun_avoidance", "site"];
 /// Settings of an antenna on which its safety depends.
-const OF_ANTENNA: [&str; 2] = ["limits", "mount"];
+const ANTENNA_KEYS: [&str; 2] = ["limits", "mount"];
 
-/// Parts of them that are only words.
-const WORDS: [&str; 2] = [".name", ".reason"];
+/// Fields of these settings that do not affect safety: texts, and an unknown antenna of a keep-out,
+/// which then holds for all.
+const HARMLESS: [&str; 3] = [".name", ".reason", ".antenna"];
 
 /// A setting on which safety depends, and which could not be read.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
@@ -29,20 +30,24 @@ impl Unread {
     }
 }
 
-pub(super) fn found(notes: &[Note], antennas: &[(String, AntennaId)]) -> Vec<Unread> {
+pub(super) fn safety_entries(notes: &[Note], antennas: &[(String, AntennaId)]) -> Vec<Unread> {
     let unread = |note: &Note| {
         let place = || note.place.clone();
-        // Words decide nothing.
-        if WORDS.iter().any(|word| note.place.ends_with(word)) {
+        if HARMLESS.iter().any(|field| note.place.ends_with(field)) {
             return None;
         }
-        if OF_STATION.iter().any(|key| is_part_of(&note.place, key)) {
+        let is_unknown_of_site =
+            note.reason == NoteReason::Unknown && is_part_of(&note.place, "site");
+        if is_unknown_of_site {
+            return None;
+        }
+        if STATION_KEYS.iter().any(|key| is_part_of(&note.place, key)) {
             return Some(Unread { place: place(), antenna: None });
         }
-        let (of_antenna, id) = antennas
+        let (relative_place, id) = antennas
             .iter()
             .find_map(|(path, id)| Some((note.place.strip_prefix(path.as_str())?, *id)))?;
-        let counts = OF_ANTENNA.iter().any(|key| is_part_of(of_antenna, key));
+        let counts = ANTENNA_KEYS.iter().any(|key| is_part_of(relative_place, key));
         counts.then(|| Unread { place: place(), antenna: Some(id) })
     };
     notes.iter().filter_map(unread).collect()
