@@ -15,19 +15,8 @@ const NAME: &str = "name";
 /// two cannot be brought together, it is `new` as it stands.
 pub(super) fn rewritten(old: &str, new: &str) -> String {
     let is_valid = |merged: &str| is_same_text(merged, new);
-    merged(old, old, new, &UnreadTree::default(), is_valid).unwrap_or_else(|| new.to_owned())
-}
-
-/// Like [`rewritten`], but keeps each unreadable entry of `old` unless the operator has changed that
-/// setting. `read` is the readable part of `old`. Returns `None` if `is_valid` rejects the text.
-pub(super) fn rewritten_with(
-    old: &str,
-    read: &str,
-    new: &str,
-    unread: &UnreadTree,
-    is_valid: impl Fn(&str) -> bool,
-) -> Option<String> {
-    merged(old, read, new, unread, is_valid)
+    rewritten_with(old, old, new, &UnreadTree::default(), is_valid)
+        .unwrap_or_else(|| new.to_owned())
 }
 
 /// Entries of a text that could not be read.
@@ -84,7 +73,9 @@ static ALL_READ: UnreadTree = UnreadTree {
     indices: BTreeMap::new(),
 };
 
-fn merged(
+/// Like [`rewritten`], but keeps each unreadable entry of `old` unless the operator has changed that
+/// setting. `read` is the readable part of `old`. Returns `None` if `is_valid` rejects the text.
+pub(super) fn rewritten_with(
     old: &str,
     read: &str,
     new: &str,
@@ -524,7 +515,7 @@ to = "06:00"
             let write = if is_long { toml::to_string_pretty } else { toml::to_string };
             let [old, new] = [&old, &new].map(|table| write(table).unwrap());
             let is_valid = |text: &str| is_same_text(text, &new);
-            prop_assert!(merged(&old, &old, &new, &ALL_READ, is_valid).is_some(), "{old}\n---\n{new}");
+            prop_assert!(rewritten_with(&old, &old, &new, &ALL_READ, is_valid).is_some(), "{old}\n---\n{new}");
         }
     }
 
