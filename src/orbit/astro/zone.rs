@@ -1,11 +1,14 @@
 //! A region of the sky of a site, bounded by edges between corners.
 
+mod cap;
 mod crossing;
 mod edge;
 
+use std::f64::consts::PI;
+
 use glam::DVec3;
 
-use self::edge::Edge;
+use self::{cap::Cap, edge::Edge};
 use super::{Angle, AzEl};
 
 pub const MIN_CORNERS: usize = 3;
@@ -25,6 +28,7 @@ const SAME: f64 = 1e-9;
 pub struct Zone {
     corners: Vec<AzEl>,
     edges: Vec<Edge>,
+    cap: Cap,
 }
 
 /// The reason why corners do not make a zone. Corners and edges are counted from 1; edge 1 leads
@@ -87,7 +91,8 @@ impl Zone {
             }
         }
         crossing::check(&edges)?;
-        Ok(Self { corners, edges })
+        let cap = Cap::around(&edges);
+        Ok(Self { corners, edges, cap })
     }
 
     /// The corners as given.
@@ -98,7 +103,18 @@ impl Zone {
     /// The angle from `direction` to the nearest edge: positive outside, negative inside. The
     /// clearances of two directions differ by no more than the angle between the directions.
     pub fn clearance(&self, direction: AzEl) -> Angle {
-        let at = direction.to_enu();
+        self.clearance_of(direction.to_enu())
+    }
+
+    /// An angle that [`Self::clearance_of`] the unit vector `at` is not less than, at a fraction of
+    /// the cost: good enough where the zone is far away.
+    pub fn clearance_is_at_least(&self, at: DVec3) -> Angle {
+        let clearance = self.cap.clearance(at);
+        Angle::from_radians(if clearance > 0.0 { clearance } else { -PI })
+    }
+
+    /// As [`Self::clearance`], of a unit vector (east, north, up).
+    pub fn clearance_of(&self, at: DVec3) -> Angle {
         let elevation = at.z.atan2(at.x.hypot(at.y));
         let azimuth = at.x.atan2(at.y);
         let mut nearest = f64::INFINITY;

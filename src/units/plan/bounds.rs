@@ -13,7 +13,7 @@ use serde::{Deserialize, Serialize};
 use smol_str::SmolStr;
 
 use crate::{
-    astro::{Angle, AzEl, Site},
+    astro::{Angle, AzEl, Site, Zone},
     station::{Antenna, Entered, KeepOut, Mount, Station, SunAvoidance},
 };
 
@@ -211,7 +211,12 @@ impl Bounds {
     pub(super) fn is_gone_round(&self, direction: AzEl, room_deg: f64) -> bool {
         let room = Angle::from_degrees(room_deg);
         let mut rounded = self.keep_outs.iter().filter(|(it, _)| it.entered == Entered::GoRound);
-        rounded.any(|(it, margin)| it.zone.clearance(direction) < *margin + room)
+        let at = direction.to_enu();
+        rounded.any(|(it, margin)| {
+            let zone = &it.zone;
+            let near = *margin + room;
+            zone.clearance_is_at_least(at) < near && zone.clearance_of(at) < near
+        })
     }
 }
 
@@ -248,8 +253,8 @@ impl BoundsAt<'_> {
         let first = samples.next().into_iter().flat_map(|at| self.each(at));
         let mut inside: Vec<_> = first.map(|(_, angle, _)| angle < Angle::ZERO).collect();
         for direction in samples {
-            for (inside, (_, angle, _)) in inside.iter_mut().zip(self.each(direction)) {
-                *inside &= angle < Angle::ZERO;
+            for (inside, barrier) in inside.iter_mut().zip(self.barriers(direction)) {
+                *inside = *inside && barrier.angle_below(Angle::ZERO).is_some();
             }
         }
         inside
@@ -278,16 +283,31 @@ impl BoundsAt<'_> {
 
     /// Returns the nearest barrier: that at `index`, or of all that refuse motion if it is `None`.
     fn nearest_among(&self, direction: AzEl, index: Option<usize>) -> Option<(Named<'_>, Angle)> {
-        self.each(direction)
-            .enumerate()
-            .filter(|(at, (_, _, warns_only))| index.map_or(!warns_only, |index| *at == index))
-            .map(|(_, (barrier, angle, _))| (barrier, angle))
-            .min_by(|a, b| a.1.degrees().total_cmp(&b.1.degrees()))
+        let mut nearest: Option<(Named<'_>, Angle)> = None;
+        for (at, barrier) in self.barriers(direction).enumerate() {
+            if !index.map_or(!barrier.warns_only, |index| at == index) {
+                continue;
+            }
+            match nearest {
+                Some((_, least)) => {
+                    if let Some(angle) = barrier.angle_below(least) {
+                        nearest = Some((barrier.name, angle));
+                    }
+                }
+                None => nearest = Some((barrier.name, barrier.angle())),
+            }
+        }
+        nearest
     }
 
     /// The keep-out or the surroundings of the Sun that `direction` is in.
     pub fn forbids(&self, direction: AzEl) -> Option<Barrier> {
-        deepest(self.clearances(direction))
+        let entered = self.barriers(direction).filter_map(|barrier| {
+            let angle = barrier.angle_below(Angle::ZERO).filter(|_| !barrier.warns_only)?;
+            let barrier = barrier.name.clone_of();
+            Some(Clearance { barrier, angle, warns_only: false })
+        });
+        deepest(entered.collect())
     }
 
     /// The keep-out, or the surroundings of the Sun, that `place` may be inside.
@@ -389,12 +409,12 @@ impl BoundsAt<'_> {
     /// Returns `true` if `direction` is `room_deg` outside every barrier that refuses motion. The
     /// minimum elevation needs no room.
     pub(super) fn has_room(&self, direction: AzEl, room_deg: f64) -> bool {
-        self.each(direction).all(|(barrier, angle, warns_only)| {
-            let room_deg = match barrier {
+        self.barriers(direction).all(|barrier| {
+            let room_deg = match barrier.name {
                 Named::MinimumElevation => -FINEST_DEG,
                 Named::KeepOut(_) | Named::Sun => room_deg,
             };
-            warns_only || angle.degrees() >= room_deg
+            barrier.warns_only || barrier.angle_below(Angle::from_degrees(room_deg)).is_none()
         })
     }
 
@@ -403,35 +423,85 @@ impl BoundsAt<'_> {
         let mut samples = place.samples().map(|sample| self.bounds.direction(sample));
         let mut least: Vec<_> = samples.next().into_iter().flat_map(|at| self.each(at)).collect();
         for direction in samples {
-            for ((_, least, _), (_, angle, _)) in least.iter_mut().zip(self.each(direction)) {
-                *least = if angle < *least { angle } else { *least };
+            for ((_, least, _), barrier) in least.iter_mut().zip(self.barriers(direction)) {
+                *least = barrier.angle_below(*least).unwrap_or(*least);
             }
         }
         least
     }
 
     fn each(&self, direction: AzEl) -> impl Iterator<Item = (Named<'_>, Angle, bool)> {
-        let on_sky = |to_sky: DQuat| AzEl::from_enu(to_sky * direction.to_enu());
-        let direction = self.to_sky.map_or(direction, on_sky);
-        let floor = self
-            .minimum_elevation
-            .map(|minimum| (Named::MinimumElevation, direction.elevation - minimum, false));
-        let zones = self.bounds.keep_outs.iter().map(move |(zone, margin)| {
-            let angle = zone.zone.clearance(direction) - *margin;
-            (Named::KeepOut(&zone.name), angle, zone.entered == Entered::Warn)
-        });
-        floor.into_iter().chain(zones).chain(self.sun_clearance(direction))
+        self.barriers(direction).map(|barrier| (barrier.name, barrier.angle(), barrier.warns_only))
     }
 
-    fn sun_clearance(&self, direction: AzEl) -> Option<(Named<'_>, Angle, bool)> {
-        let sun = self.bounds.sun.filter(|_| !self.suns.is_empty())?;
+    fn barriers(&self, direction: AzEl) -> impl Iterator<Item = Near<'_>> {
+        let on_sky = |to_sky: DQuat| AzEl::from_enu(to_sky * direction.to_enu());
+        let direction = self.to_sky.map_or(direction, on_sky);
         let at = direction.to_enu();
+        let floor = self.minimum_elevation.map(|minimum| Near {
+            name: Named::MinimumElevation,
+            warns_only: false,
+            angle: Clear::Known(direction.elevation - minimum),
+        });
+        let zones = self.bounds.keep_outs.iter().map(move |(zone, margin)| Near {
+            name: Named::KeepOut(&zone.name),
+            warns_only: zone.entered == Entered::Warn,
+            angle: Clear::OfZone { zone: &zone.zone, margin: *margin, at },
+        });
+        let sun = self.sun_clearance(at).map(|angle| Near {
+            name: Named::Sun,
+            warns_only: false,
+            angle: Clear::Known(angle),
+        });
+        floor.into_iter().chain(zones).chain(sun)
+    }
+
+    fn sun_clearance(&self, at: DVec3) -> Option<Angle> {
+        let sun = self.bounds.sun.filter(|_| !self.suns.is_empty())?;
         let chord_squared =
             self.suns.iter().map(|sun| sun.distance_squared(at)).fold(4.0, f64::min);
         // The chord stays precise near zero, where the cosine does not.
         let separation = Angle::from_radians(2.0 * (chord_squared.sqrt() / 2.0).asin());
         let radius = Angle::from_degrees(sun::around_each_deg(sun));
-        Some((Named::Sun, separation - radius, false))
+        Some(separation - radius)
+    }
+}
+
+/// A barrier, and how near it is to a direction.
+struct Near<'a> {
+    name: Named<'a>,
+    warns_only: bool,
+    angle: Clear<'a>,
+}
+
+/// The clearance from a barrier. That from a zone costs time, so it is computed on demand.
+enum Clear<'a> {
+    Known(Angle),
+    OfZone { zone: &'a Zone, margin: Angle, at: DVec3 },
+}
+
+impl Near<'_> {
+    fn angle(&self) -> Angle {
+        match self.angle {
+            Clear::Known(angle) => angle,
+            Clear::OfZone { zone, margin, at } => zone.clearance_of(at) - margin,
+        }
+    }
+
+    /// The clearance; where that is clearly no less than `limit`, an angle from `limit` up to it.
+    fn angle_unless_from(&self, limit: Angle) -> Angle {
+        if let Clear::OfZone { zone, margin, at } = self.angle {
+            let at_least = zone.clearance_is_at_least(at) - margin;
+            if at_least >= limit {
+                return at_least;
+            }
+        }
+        self.angle()
+    }
+
+    /// The clearance if it is less than `limit`.
+    fn angle_below(&self, limit: Angle) -> Option<Angle> {
+        Some(self.angle_unless_from(limit)).filter(|angle| *angle < limit)
     }
 }
 

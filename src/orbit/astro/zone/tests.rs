@@ -232,6 +232,21 @@ fn any_box() -> impl Strategy<Value = (i32, i32, i32, i32)> {
         .prop_map(|(from, turn, low, high)| (from, from + turn, low, (low + high).min(90)))
 }
 
+#[test]
+fn a_zone_that_is_far_away_is_known_to_be_far_at_once() {
+    let mast = zone(&[(100.0, 0.0), (100.0, 30.0), (140.0, 30.0), (140.0, 0.0)]).unwrap();
+    let at_least = |azimuth_deg, elevation_deg| {
+        let at = AzEl::from_degrees(azimuth_deg, elevation_deg).to_enu();
+        mast.clearance_is_at_least(at).degrees()
+    };
+    assert!((120.0..160.0).contains(&at_least(300.0, 15.0)), "{}", at_least(300.0, 15.0));
+    assert!(at_least(120.0, 15.0) < -90.0, "within the cap it says nothing");
+    // The inside is the side without the nadir, so nothing is far from this one.
+    let all_above = zone(&[(0.0, -80.0), (120.0, -80.0), (240.0, -80.0), (360.0, -80.0)]).unwrap();
+    let at = AzEl::from_degrees(0.0, 90.0).to_enu();
+    assert!(all_above.clearance_is_at_least(at).degrees() < -90.0);
+}
+
 proptest! {
     #[test]
     fn great_circles_around_a_middle_agree_with_the_plane_and_with_their_points(
@@ -251,6 +266,8 @@ proptest! {
                 .map(|point| point.separation(at).degrees())
                 .fold(f64::INFINITY, f64::min);
             prop_assert!(clearance.abs() <= sampled + 1e-9);
+            let at_least = zone.clearance_is_at_least(at.to_enu()).degrees();
+            prop_assert!(at_least <= clearance, "{at_least} {clearance}");
             prop_assert!(sampled <= clearance.abs() + step / 2.0 + 1e-9);
             if clearance.abs() > 1e-6 {
                 let inside = is_inside_in_the_plane(middle, &corners, at);

@@ -157,23 +157,42 @@ fn by_hand(
     };
     let outside_of = bounds_now.without_entered(start);
     blocked(sweep, start, &outside_of.at(situation.now.utc))?;
-    let here = Depth::of(&bounds_now, start);
+    let is_left = if situation.can.has_elevation() {
+        is_left_on_the_way(start, ahead_deg, &bounds_now)
+    } else {
+        is_left_by_azimuth(start, ahead_deg, &bounds_now)
+    };
+    if !is_left {
+        let at = situation.bounds.direction(sweep.middle());
+        return Err(Refusal::Forbidden { barrier: inside.barrier.clone(), at });
+    }
+    slowly_by_permission(rates_deg_s, Refusal::Inside(inside.barrier.clone()), situation)
+}
+
+/// Returns `true` if a motion of both axes from `start` leads out of barriers, and nowhere deeper.
+fn is_left_on_the_way(start: Sweep, ahead_deg: [f64; 2], bounds: &BoundsAt<'_>) -> bool {
+    let here = Depth::of(bounds, start);
     let looks = (ahead_deg[0].abs().max(ahead_deg[1].abs()) / LOOK_OUT_DEG).ceil().max(1.0) as u32;
     let mut was_out = false;
-    for look in 1..=looks {
+    (1..=looks).all(|look| {
         let share = f64::from(look) / f64::from(looks);
-        let place = start.turned(ahead_deg.map(|deg| deg * share));
-        let there = Depth::of(&bounds_now, place);
+        let there = Depth::of(bounds, start.turned(ahead_deg.map(|deg| deg * share)));
         // On the way it may lead along an edge, or past a point where the way out is shorter.
         let gain_deg = if look == looks { OUT_GAIN_DEG } else { -OUT_GAIN_DEG };
         let enters_again = was_out && !there.is_out();
         was_out = there.is_out();
-        if enters_again || !here.is_left_for(&there, gain_deg) {
-            let at = situation.bounds.direction(place.middle());
-            return Err(Refusal::Forbidden { barrier: inside.barrier.clone(), at });
-        }
-    }
-    slowly_by_permission(rates_deg_s, Refusal::Inside(inside.barrier.clone()), situation)
+        !enters_again && here.is_left_for(&there, gain_deg)
+    })
+}
+
+/// Returns `true` if an antenna without an elevation axis turns out of barriers the shorter way.
+fn is_left_by_azimuth(start: Sweep, [ahead_deg, _]: [f64; 2], bounds: &BoundsAt<'_>) -> bool {
+    let out_deg = |way: f64| bounds.azimuth_out_deg(start, way);
+    let Some(out) = out_deg(ahead_deg) else { return false };
+    let is_shorter = out_deg(-ahead_deg).is_none_or(|other| out <= other);
+    let past_the_edge = |deg: f64| start.turned([deg.copysign(ahead_deg), 0.0]);
+    let beyond = past_the_edge(out).with(past_the_edge(out.max(ahead_deg.abs())));
+    is_shorter && bounds.blocks(beyond, start).is_none()
 }
 
 /// A motion by hand while the angle of an axis is unknown: free where nothing is in the way from

@@ -5,12 +5,15 @@
 //! way until the antenna points in an allowed direction.
 
 use super::{Bounds, BoundsAt, Named, Sweep};
-use crate::station::Mount;
+use crate::{astro::Angle, station::Mount};
 
 /// Finest step along a turn, degrees.
 const STEP_DEG: f64 = 0.1;
-/// Accuracy of an edge, degrees.
+/// Accuracy of an edge, degrees. Depths at neighbouring positions are compared.
 const EDGE_DEG: f64 = 1e-9;
+/// Accuracy of an edge for an antenna without an elevation axis, whose every look costs as much as
+/// a hundred others, degrees. Only ways out are compared.
+const EDGE_OF_AZIMUTH_DEG: f64 = 0.01;
 /// Widest gap that does not count as a way out, degrees of the axis: a motion that is judged ahead
 /// never gets into it.
 const GAP_DEG: f64 = 1.0;
@@ -48,12 +51,22 @@ impl BoundsAt<'_> {
             let turn = self.turn(place, axis, way);
             let max_deg = shortest_deg.map_or(FURTHEST_DEG, |deg: f64| deg / turn.speed);
             let spot = |turn_deg| self.spot(&turn, turn_deg, &left);
-            if let Some(turn_deg) = turn.out_deg(max_deg, spot) {
+            if let Some(turn_deg) = turn.out_deg(max_deg, EDGE_DEG, spot) {
                 let way_deg = turn_deg * turn.speed;
                 shortest_deg = Some(shortest_deg.map_or(way_deg, |deg| deg.min(way_deg)));
             }
         }
         shortest_deg
+    }
+
+    /// How far the azimuth has to turn to lead out through no other barrier, upwards if `way` is
+    /// positive, degrees; `None` if it does not lead out within its travel.
+    pub fn azimuth_out_deg(&self, place: Sweep, way: f64) -> Option<f64> {
+        let left = self.entered(place);
+        let turn = self.turn(place, 0, way.signum());
+        turn.out_deg(FURTHEST_DEG, EDGE_OF_AZIMUTH_DEG, |turn_deg| {
+            self.spot(&turn, turn_deg, &left)
+        })
     }
 
     /// Depth below the minimum elevation, and depth inside each other barrier to its nearest edge,
@@ -99,23 +112,24 @@ impl BoundsAt<'_> {
 
     fn spot(&self, turn: &Turn, turn_deg: f64, left: &[bool]) -> Spot {
         let place = Turn::turned(turn.start, turn.axis, turn.way * turn_deg);
-        let mut deepest_deg = 0.0;
-        let mut room_deg = f64::INFINITY;
-        let each = self.each_in(place).into_iter().zip(left);
-        for ((barrier, angle, warns_only), is_left) in each {
-            let clear_deg = angle.degrees();
-            let is_level = turn.keeps_elevation && matches!(barrier, Named::MinimumElevation);
-            if warns_only {
-                continue;
-            }
-            if *is_left {
+        let (mut deepest_deg, mut room_deg) = (0.0, f64::INFINITY);
+        for sample in place.samples() {
+            let each = self.barriers(self.bounds.direction(sample)).zip(left);
+            for (barrier, is_left) in each.filter(|(barrier, _)| !barrier.warns_only) {
                 // A turn that keeps the elevation never reaches the edge of the minimum elevation.
-                let deep_deg = if is_level { f64::INFINITY } else { -clear_deg };
-                deepest_deg = f64::max(deepest_deg, deep_deg);
-            } else if clear_deg < 0.0 {
-                return Spot::Barred;
-            } else if !is_level {
-                room_deg = f64::min(room_deg, clear_deg);
+                let is_level =
+                    turn.keeps_elevation && matches!(barrier.name, Named::MinimumElevation);
+                let least = Angle::from_degrees(if *is_left { -deepest_deg } else { 0.0 });
+                let clear_deg = barrier.angle_unless_from(least).degrees();
+                if *is_left {
+                    let is_inside = clear_deg < 0.0;
+                    let deep_deg = if is_level && is_inside { f64::INFINITY } else { -clear_deg };
+                    deepest_deg = f64::max(deepest_deg, deep_deg);
+                } else if clear_deg < 0.0 {
+                    return Spot::Barred;
+                } else if !is_level {
+                    room_deg = f64::min(room_deg, clear_deg);
+                }
             }
         }
         if deepest_deg > 0.0 { Spot::Inside(deepest_deg.min(room_deg)) } else { Spot::Free }
@@ -141,8 +155,13 @@ impl Turn {
         place.turned(if axis == 0 { [by_deg, 0.0] } else { [0.0, by_deg] })
     }
 
-    /// Turn after which `spot` is free, at most `max_deg`, degrees.
-    fn out_deg(&self, max_deg: f64, mut spot: impl FnMut(f64) -> Spot) -> Option<f64> {
+    /// Turn after which `spot` is free, at most `max_deg` and accurate to `edge_deg`, degrees.
+    fn out_deg(
+        &self,
+        max_deg: f64,
+        edge_deg: f64,
+        mut spot: impl FnMut(f64) -> Spot,
+    ) -> Option<f64> {
         let last_deg = self.end_deg.min(max_deg);
         let (mut inside_deg, mut turn_deg) = (0.0, 0.0);
         loop {
@@ -157,7 +176,7 @@ impl Turn {
                 // The edge may also lie just before another barrier.
                 beyond @ (Spot::Free | Spot::Barred) => {
                     let (mut beyond, mut beyond_deg) = (beyond, turn_deg);
-                    while beyond_deg - inside_deg > EDGE_DEG {
+                    while beyond_deg - inside_deg > edge_deg {
                         let middle_deg = f64::midpoint(inside_deg, beyond_deg);
                         match spot(middle_deg) {
                             Spot::Inside(_) => inside_deg = middle_deg,
@@ -268,7 +287,7 @@ mod tests {
             let left = now.entered(Sweep::at(axes_deg));
             let turn = now.turn(Sweep::at(axes_deg), 0, 1.0);
             let mut looks = 0;
-            let turn_deg = turn.out_deg(FURTHEST_DEG, |turn_deg| {
+            let turn_deg = turn.out_deg(FURTHEST_DEG, EDGE_DEG, |turn_deg| {
                 looks += 1;
                 now.spot(&turn, turn_deg, &left)
             });

@@ -1,0 +1,41 @@
+//! The cap around a zone, which settles cheaply that a direction is far from it.
+
+use std::f64::consts::{FRAC_PI_2, PI};
+
+use glam::DVec3;
+
+use super::{AzEl, edge::Edge};
+
+/// Distance between the points of the edges that the cap is fitted to, radians.
+const STEP: f64 = 0.02;
+
+/// A spherical cap that contains the zone.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Cap {
+    centre: DVec3,
+    /// Radians.
+    radius: f64,
+}
+
+impl Cap {
+    /// A cap that contains all `edges` and their inside. It is the whole sphere where the edges
+    /// span a hemisphere or the cap would contain the nadir, because then the inside may be the
+    /// side of the edges that a smaller cap leaves out.
+    pub(super) fn around(edges: &[Edge]) -> Self {
+        let whole = Self { centre: DVec3::Z, radius: PI };
+        let points = || edges.iter().flat_map(|edge| edge.points(STEP)).map(AzEl::to_enu);
+        let Some(centre) = points().sum::<DVec3>().try_normalize() else { return whole };
+        let away = |point: DVec3| centre.cross(point).length().atan2(centre.dot(point));
+        // Between two points an edge is no further away than the nearer of them plus half a step.
+        let furthest = points().map(away).fold(0.0, f64::max);
+        let radius = furthest + STEP;
+        let is_small = radius < FRAC_PI_2 && away(DVec3::NEG_Z) > radius;
+        if is_small { Self { centre, radius } } else { whole }
+    }
+
+    /// The least angle between the unit vector `at` and the zone, radians; zero or negative within
+    /// the cap.
+    pub(super) fn clearance(self, at: DVec3) -> f64 {
+        self.centre.dot(at).clamp(-1.0, 1.0).acos() - self.radius
+    }
+}
