@@ -397,7 +397,7 @@ impl eframe::App for App {
         let stops =
             |command: &UiCommand| matches!(command, UiCommand::Stop | UiCommand::StopAntenna(_));
         if stop || commands.iter().any(stops) {
-            commands.retain(|command| !command.may_move());
+            commands.retain(|command| !command.is_void_after_stop());
         }
         if !std::mem::replace(&mut self.drawn, true) {
             tracing::info!("first frame");

@@ -128,7 +128,7 @@ impl Bench {
 
     fn test(&mut self, antenna: &Antenna) -> LinkTestStage {
         let command = Command::TestLink(Box::new(antenna.clone()));
-        assert!(!command.may_move());
+        assert!(!command.row().void_after_stop);
         assert!(self.station.client().send(command).is_ok());
         loop {
             self.station.take();

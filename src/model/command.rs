@@ -114,8 +114,52 @@ impl UiCommand {
         Some(Self::Station(engine::Command::Track { antenna, pass, is_agreed: false }))
     }
 
-    /// Whether the command may move an antenna. A stop in the same frame voids it.
-    pub fn may_move(&self) -> bool {
-        matches!(self, Self::Station(command) if command.may_move())
+    /// Returns `true` if a STOP in the same frame voids the command.
+    pub fn is_void_after_stop(&self) -> bool {
+        matches!(self, Self::Station(command) if command.row().void_after_stop)
+    }
+
+    /// Returns `true` if a replay takes the command, because it changes nothing outside the window.
+    pub fn is_for_replay(&self) -> bool {
+        match self {
+            Self::Station(command) => command.row().in_replay,
+            // STOP goes to the live station.
+            Self::Stop
+            | Self::StopAntenna(_)
+            | Self::Close
+            | Self::ChangeNow
+            | Self::KeepStation
+            | Self::SelectPass(_)
+            | Self::SelectSatellite(_)
+            | Self::SelectAntenna(_)
+            | Self::SetSpan(_)
+            | Self::Show(_)
+            | Self::SetTheme(_)
+            | Self::SetAppearance(_)
+            | Self::ShowCatalog(_)
+            | Self::OfferElements { .. }
+            | Self::LeaveElements
+            | Self::InspectObject(_)
+            | Self::ShowEffects(_)
+            | Self::ShowTracked(_)
+            | Self::ShowMoved(_)
+            | Self::EndRehearsal
+            | Self::BeginReplay(..)
+            | Self::Replay(_)
+            | Self::LeaveReplay
+            | Self::CloseReplayEnd => true,
+            Self::AskToTrack(_)
+            | Self::Rehearse(_)
+            | Self::ChooseStation(_)
+            | Self::ChooseStationFile
+            | Self::ChooseElementFiles
+            | Self::Save(_)
+            | Self::SaveLog(_)
+            | Self::OpenFolder(_)
+            | Self::ImportMask(_)
+            | Self::ExportMask(_)
+            | Self::TryNotice(_)
+            | Self::SetScope(_) => false,
+        }
     }
 }

@@ -2,6 +2,7 @@
 //! station sends commands and reads snapshots; neither side waits for the other.
 
 mod before_sleep;
+mod command_row;
 pub mod dead_man;
 mod debts;
 mod gate;
@@ -34,6 +35,7 @@ use std::{
 use tokio::sync::{Notify, mpsc, watch};
 
 pub use crate::{clock::Clock, job::Wake};
+pub use command_row::{Effect, LockedOut, Offline, Row};
 pub use debts::{Debts, Unit};
 pub use gate::{Preview, Refusal, Way};
 pub use intent::Intent;

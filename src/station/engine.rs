@@ -429,7 +429,7 @@ impl Engine {
             // The key may be up by now; its release comes next.
             return;
         }
-        if command.may_move() && age > TOO_LATE {
+        if command.row().void_after_stop && age > TOO_LATE {
             tracing::error!(?command, ?age, "too late to be carried out");
             return self.alarms.raise(None, AlarmKind::NotTaken, self.now);
         }

@@ -284,22 +284,7 @@ impl Views {
     /// Takes what would act out of the commands since `before`, and the question before it. Returns
     /// `true` if the operator has to be told.
     fn refuse_in_replay(&mut self, commands: &mut Vec<UiCommand>, before: usize) -> bool {
-        let acts = |command: &UiCommand| match command {
-            UiCommand::Station(command) => !command.is_unasked(),
-            UiCommand::AskToTrack(_)
-            | UiCommand::Rehearse(_)
-            | UiCommand::ChooseStation(_)
-            | UiCommand::ChooseStationFile
-            | UiCommand::ChooseElementFiles
-            | UiCommand::Save(_)
-            | UiCommand::SaveLog(_)
-            | UiCommand::OpenFolder(_)
-            | UiCommand::ImportMask(_)
-            | UiCommand::ExportMask(_)
-            | UiCommand::TryNotice(_)
-            | UiCommand::SetScope(_) => true,
-            _ => false,
-        };
+        let acts = |command: &UiCommand| !command.is_for_replay();
         let asked = self.question.take_if(|question| acts(&question.command)).is_some();
         commands.extract_if(before.., |command| acts(command)).count() > 0 || asked
     }

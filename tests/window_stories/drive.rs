@@ -281,7 +281,10 @@ fn g_leads_to_the_fields_and_what_is_typed_goes_out() {
         type_into(&mut window, ELEVATION, "8");
         window.key_press(Key::Enter);
         let commands = asked(&mut window);
-        assert!(commands.iter().all(|command| !command.may_move()), "Enter shows the way first");
+        assert!(
+            commands.iter().all(|command| !command.is_void_after_stop()),
+            "Enter shows the way first"
+        );
         window.key_press(Key::Enter);
         let target = Command::Position {
             azimuth: Some(Angle::from_degrees(121.5)),

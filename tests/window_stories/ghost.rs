@@ -161,7 +161,7 @@ fn what_is_typed_is_judged_as_it_stands_until_it_is_sent() {
         let to: Pointing = AzEl::from_degrees(180.0, 60.0).into();
         let commands = asked(&mut window);
         assert_eq!(commands.last(), Some(&antenna(Command::Preview(Some(to)))), "{commands:?}");
-        assert!(commands.iter().all(|command| !command.may_move()), "{commands:?}");
+        assert!(commands.iter().all(|command| !command.is_void_after_stop()), "{commands:?}");
         answer(&mut window, to, Ok(clear()));
         assert!(note(&window).unwrap().ends_with("Arrives in about 0:34. The path is clear."));
         assert!(window.query_by_label("Point here").is_none(), "Enter twice goes");

@@ -5,6 +5,7 @@
 //! the table that proves it necessary (`tests/each_rule.rs`).
 
 mod intervals;
+mod judged;
 mod offsets;
 mod preview;
 mod program;
@@ -31,6 +32,8 @@ use crate::{
 };
 use intervals::LastAngles;
 pub(super) use intervals::{Interval, Intervals};
+use judged::Judged;
+pub(super) use judged::PathQuestion;
 pub(super) use offsets::Demand;
 pub use preview::{Preview, Way};
 pub(super) use program::Held;
@@ -90,6 +93,7 @@ pub(super) struct Gate {
     program: Option<Arc<Judge>>,
     /// What the unit would track by itself.
     held: Held,
+    judged: Judged,
     /// The operator's permissions.
     word: Word,
     /// From where the axes of an antenna in program track point to where that is on the sky, if
@@ -116,6 +120,7 @@ impl Gate {
             unproved_since: None,
             program: None,
             held: Held::Unread,
+            judged: Judged::default(),
             word: Word::default(),
             to_sky: None,
         }

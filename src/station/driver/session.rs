@@ -11,6 +11,7 @@ mod guard;
 mod inside;
 mod io_loop;
 mod jog;
+mod judging;
 mod likeness;
 mod liveness;
 mod lock_out;
@@ -67,6 +68,7 @@ use clocks::Clocks;
 use effect::Effects;
 use guard::Guard;
 use jog::JogKey;
+use judging::Judging;
 use likeness::Likeness;
 use lock_out::Locking;
 use marking::Marking;
@@ -76,7 +78,7 @@ use silence::Silence;
 use standstill::{Figures, Rest};
 use step::Stepping;
 use stop::Stop;
-use supervise::Doubt;
+use supervise::{CHECKS, Check, Doubt};
 use unit_offsets::UnitOffsets;
 pub use unit_offsets::is_ticket_of_session;
 use wanted::Wanted;
@@ -280,6 +282,9 @@ pub struct Session {
     activity: Activity,
     /// Watch over a track that nobody asked for from here.
     unasked: Option<on_board::Watch>,
+    judging: Judging,
+    /// Of [`Session::supervise`].
+    checks: &'static [Check],
     key: JogKey,
     guard: Guard,
     /// Delays the computer's sleep while a motion is out that only STOP ends.
@@ -377,6 +382,8 @@ impl Session {
             gate,
             activity: Activity::Standby,
             unasked: None,
+            judging: Judging::default(),
+            checks: CHECKS,
             key: JogKey::Up,
             guard: Guard::new(None),
             awake: None,
@@ -410,6 +417,7 @@ impl Session {
             silent: self.is_silent(),
             intent: self.activity.intent(),
             pending: self.activity.is_pending(),
+            being_judged: self.judging.is_under_way(),
             aim: self.activity.aim(),
             target: self.activity.on_board().map(|track| track.target.clone()),
             on_board: self.on_board_watch().map(on_board::Watch::view),

@@ -28,6 +28,9 @@ pub struct Snapshot {
     pub intent: Intent,
     /// The intent is requested, but not yet proved by the unit.
     pub pending: bool,
+    /// The path of the unit's own program is being judged; the antenna waits for that.
+    #[serde(default)]
+    pub being_judged: bool,
     /// End of a motion to a position.
     pub aim: Option<Pointing>,
     /// Target of an on-board track.
@@ -76,6 +79,7 @@ impl Snapshot {
             silent: false,
             intent: Intent::Standby,
             pending: false,
+            being_judged: false,
             aim: None,
             target: None,
             on_board: None,

@@ -152,29 +152,10 @@ impl Engine {
 
     /// A client commands an antenna: automatic operation leaves it to the operator.
     pub(super) fn leave_to_operator(&mut self, command: &Command) {
-        let is_motion = match command {
-            Command::Antenna(_, command) => !matches!(
-                command,
-                driver::Command::Connect
-                    | driver::Command::Offset(_)
-                    | driver::Command::ReadGroup(_)
-                    | driver::Command::Preview(_)
-                    | driver::Command::Ask(_)
-                    | driver::Command::LockOut(_)
-                    | driver::Command::Unlock
-                    | driver::Command::AllowUnguarded
-                    | driver::Command::AllowWayOut
-                    | driver::Command::EndJog
-                    | driver::Command::AutoTrack(_)
-                    | driver::Command::WriteSettings(_)
-            ),
-            Command::Track { .. } | Command::ProgramTrackPass { .. } => true,
-            _ => false,
-        };
         let now = self.now;
         let place = command.antenna().and_then(|id| self.place(id));
         let Some(antenna) = place.and_then(|place| self.antennas.get_mut(place)) else { return };
-        if is_motion {
+        if command.row().ends_automatic {
             antenna.shown.operation.suspend(Interruption::ByHand, now);
         }
         if matches!(command, Command::Antenna(_, driver::Command::AutoTrack(_))) {

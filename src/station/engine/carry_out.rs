@@ -28,7 +28,7 @@ const REFRESH_PAUSE_S: f64 = 600.0;
 impl Engine {
     #[expect(clippy::too_many_lines, reason = "one arm a command")]
     pub(super) fn carry_out(&mut self, command: Command) {
-        if self.is_elsewhere(&command) || self.is_void(&command) {
+        if self.is_elsewhere(&command) || self.is_void(&command) || self.is_too_late(&command) {
             return;
         }
         self.note_track(&command);
@@ -160,7 +160,7 @@ impl Engine {
         let antenna = antenna.and_then(|place| self.antennas.get(place));
         let is_void =
             |number| antenna.is_some_and(|antenna| antenna.handle.stopper().is_void(number));
-        command.may_move() && self.asked.is_some_and(|asked| is_void(asked.number))
+        command.row().void_after_stop && self.asked.is_some_and(|asked| is_void(asked.number))
     }
 
     /// Returns `true` if another Azel drives the antenna, and then shows the refusal on it.
@@ -176,6 +176,20 @@ impl Engine {
         let Some(by) = &antenna.shown.held_by else { return false };
         let refusal = driver::Refusal::Elsewhere(by.to_string());
         antenna.shown.news = Some((driver::Event::NotSent(refusal), self.now));
+        true
+    }
+
+    /// Returns `true` if the station is closing and takes no such command any more, and then shows
+    /// the refusal on the antenna.
+    fn is_too_late(&mut self, command: &Command) -> bool {
+        if self.closing.is_none() || command.row().while_closing {
+            return false;
+        }
+        let place = command.antenna().and_then(|id| self.place(id));
+        if let Some(antenna) = place.and_then(|place| self.antennas.get_mut(place)) {
+            let refusal = driver::Event::NotSent(driver::Refusal::Closing);
+            antenna.shown.news = Some((refusal, self.now));
+        }
         true
     }
 
@@ -209,10 +223,8 @@ impl Engine {
         let number = self.number();
         let Some(antenna) = self.antennas.get_mut(index) else { return };
         let of = Some(antenna.shown.id());
-        if !matches!(
-            command,
-            driver::Command::ReadGroup(_) | driver::Command::EndJog | driver::Command::Preview(_)
-        ) {
+        // Another command is the operator's answer to the question.
+        if !command.row().in_replay {
             antenna.shown.asks_unseen = None;
         }
         match command {

@@ -17,7 +17,7 @@ use super::{
 };
 use crate::{
     astro::{Term, TrackOffsets},
-    driver,
+    driver::{self, Effect, Row},
     orbit::{RefreshHours, Source},
     record::PeakChange,
     station::{
@@ -175,7 +175,7 @@ pub struct Attention {
 }
 
 impl Command {
-    /// The antenna of the command, for commands to one antenna.
+    /// The antenna of a command that goes to the session of one.
     pub fn antenna(&self) -> Option<AntennaId> {
         match self {
             Self::Antenna(antenna, _)
@@ -183,7 +183,105 @@ impl Command {
             | Self::ProgramTrackPass { antenna, .. }
             | Self::SetAutomatic { antenna, .. }
             | Self::GoOn(antenna) => Some(*antenna),
-            _ => None,
+            // They read, save and compare what is known here.
+            Self::SaveSettings(_)
+            | Self::CompareSettings(_)
+            | Self::ReadCopy { .. }
+            | Self::FitPointing(..)
+            | Self::ChangePeaks(..) => None,
+            Self::ChoosePass { .. }
+            | Self::PriceSwap(_)
+            | Self::SetPassLimits { .. }
+            | Self::SetScheduling(_)
+            | Self::SetElevationFloor(_)
+            | Self::CancelSearch(_)
+            | Self::ResumeSearch(_)
+            | Self::SetFavourites { .. }
+            | Self::SetPriority { .. }
+            | Self::SetFrequencies { .. }
+            | Self::KeepOffsets { .. }
+            | Self::AddSource(_)
+            | Self::RemoveSource(_)
+            | Self::SetRefresh { .. }
+            | Self::CopyElements { .. }
+            | Self::ListOlderSets(_)
+            | Self::LookAtRecord(_)
+            | Self::UseSet(_)
+            | Self::RefreshSources { .. }
+            | Self::OpenedAlarms
+            | Self::AcknowledgeAlarm(_)
+            | Self::AcknowledgeAlarms { .. }
+            | Self::ShelveAlarm { .. }
+            | Self::UnshelveAlarm(_)
+            | Self::CloseCopy
+            | Self::SaveStation(_)
+            | Self::Upload(_)
+            | Self::TestSource(_)
+            | Self::TestLink(_)
+            | Self::CloseAfter(_)
+            | Self::StayOpen
+            | Self::Look(_) => None,
+        }
+    }
+
+    /// The row of the command in the table of commands.
+    pub fn row(&self) -> Row {
+        match self {
+            Self::Antenna(_, command) => command.row(),
+            Self::Track { .. } | Self::ProgramTrackPass { .. } => Row::STATION_MOVES,
+            Self::SetAutomatic { is_on: true, .. } | Self::GoOn(_) => {
+                Row { ends_automatic: false, ..Row::STATION_MOVES }
+            }
+            Self::SetAutomatic { is_on: false, .. } => {
+                Row { effect: Effect::Stops, ..Row::OF_STATION }
+            }
+            // The operator may choose again while it closes.
+            Self::CloseAfter(CloseHow::Park) => {
+                Row { ends_automatic: false, while_closing: true, ..Row::STATION_MOVES }
+            }
+            Self::CloseAfter(CloseHow::Hold | CloseHow::Leave) => {
+                Row { effect: Effect::Stops, ..Row::OF_STATION }
+            }
+            // The unit tracks again once the file is in place.
+            Self::Upload(uploads::Ask::AgreeToTracking) => {
+                Row { ends_automatic: false, ..Row::STATION_MOVES }
+            }
+            Self::SaveStation(_) => Row { effect: Effect::ChangesSafety, ..Row::OF_STATION },
+            Self::Look(_)
+            | Self::LookAtRecord(_)
+            | Self::FitPointing(..)
+            | Self::OpenedAlarms
+            | Self::ListOlderSets(_)
+            | Self::PriceSwap(_) => Row::STATION_LOOKS,
+            Self::ChoosePass { .. }
+            | Self::SetPassLimits { .. }
+            | Self::SetScheduling(_)
+            | Self::SetElevationFloor(_)
+            | Self::CancelSearch(_)
+            | Self::ResumeSearch(_)
+            | Self::SetFavourites { .. }
+            | Self::SetPriority { .. }
+            | Self::SetFrequencies { .. }
+            | Self::KeepOffsets { .. }
+            | Self::AddSource(_)
+            | Self::RemoveSource(_)
+            | Self::SetRefresh { .. }
+            | Self::CopyElements { .. }
+            | Self::ChangePeaks(..)
+            | Self::UseSet(_)
+            | Self::RefreshSources { .. }
+            | Self::AcknowledgeAlarm(_)
+            | Self::AcknowledgeAlarms { .. }
+            | Self::ShelveAlarm { .. }
+            | Self::UnshelveAlarm(_)
+            | Self::SaveSettings(_)
+            | Self::CompareSettings(_)
+            | Self::ReadCopy { .. }
+            | Self::CloseCopy
+            | Self::Upload(_)
+            | Self::TestSource(_)
+            | Self::TestLink(_)
+            | Self::StayOpen => Row::OF_STATION,
         }
     }
 
@@ -201,42 +299,9 @@ impl Command {
         )
     }
 
-    /// Returns `true` if a view may give the command by itself, without a wish of the operator.
-    pub fn is_unasked(&self) -> bool {
-        use driver::Command::{EndJog, ReadGroup};
-        let is_read = matches!(self, Self::ListOlderSets(_) | Self::PriceSwap(_));
-        is_read || self.only_looks() || matches!(self, Self::Antenna(_, EndJog | ReadGroup(_)))
-    }
-
     /// Returns `true` if the command asks to be shown something, and changes nothing.
     pub fn only_looks(&self) -> bool {
-        use driver::Command::Preview;
-        matches!(
-            self,
-            Self::Look(_)
-                | Self::LookAtRecord(_)
-                | Self::FitPointing(..)
-                | Self::OpenedAlarms
-                | Self::Antenna(_, Preview(_))
-        )
-    }
-
-    /// Returns `true` if the command may move an antenna. A later STOP voids it.
-    pub fn may_move(&self) -> bool {
-        match self {
-            Self::Antenna(_, command) => !matches!(
-                command,
-                driver::Command::ReadGroup(_)
-                    | driver::Command::LockOut(_)
-                    | driver::Command::Preview(_)
-            ),
-            Self::Track { .. }
-            | Self::ProgramTrackPass { .. }
-            | Self::SetAutomatic { is_on: true, .. }
-            | Self::GoOn(_)
-            | Self::CloseAfter(CloseHow::Park)
-            | Self::Upload(uploads::Ask::AgreeToTracking) => true,
-            _ => false,
-        }
+        let Row { effect, in_replay, .. } = self.row();
+        effect == Effect::Looks && in_replay
     }
 }

@@ -141,6 +141,10 @@ pub fn refusal(refusal: &Refusal, now: Timestamp) -> String {
             "Not sent: the unit holds {name}, and Azel has no elements of it: where it would point \
              is not known. Load its elements, or choose another satellite."
         ),
+        Refusal::Closing => "Not sent: Azel is closing. Choose to stay open first.".to_owned(),
+        Refusal::BeingJudged => "Not sent: what the unit reports changes while Azel judges where it would \
+                                 point. Try again."
+            .to_owned(),
         Refusal::WindowTooLong { hours } => format!(
             "Not sent: the unit's tracking window is {} days long, and Azel checks 24 hours at most. \
              Set a shorter window under Antennas.",

@@ -134,6 +134,10 @@ impl Judge {
         &self.pass
     }
 
+    pub fn ability(&self) -> Ability {
+        self.ability
+    }
+
     /// Direction of the satellite at `at`.
     pub fn direction(&self, at: Timestamp) -> Option<AzEl> {
         Some(self.propagator.look_from(self.pass.site, at).ok()?.direction)

@@ -89,18 +89,18 @@ impl Gate {
         self.path_is_clear(self.program.as_ref().ok_or(Refusal::PassUnknown)?, now)
     }
 
-    fn path_is_clear(&self, judge: &Judge, now: Moment) -> Result<(), Refusal> {
+    fn path_is_clear(&self, judge: &Arc<Judge>, now: Moment) -> Result<(), Refusal> {
         self.path_of_is_clear(judge, &self.state().on_board, now)
     }
 
     /// [`Self::path_is_clear`] of a unit that would report `unit`.
     pub(super) fn path_of_is_clear(
         &self,
-        judge: &Judge,
+        judge: &Arc<Judge>,
         unit: &OnBoard,
         now: Moment,
     ) -> Result<(), Refusal> {
-        judge.is_clear(unit, &self.bounds)?;
+        self.whole_path_is_clear(judge, unit)?;
         let start = judge.start(unit, now.utc).ok_or(Refusal::NoDirection { at: now.utc })?;
         self.slew_is_clear(start, now)
     }

@@ -126,11 +126,17 @@ pub enum Refusal {
     StillMoving,
     #[error("a stop is under way")]
     Stopping,
+    /// The station is about to end.
+    #[error("the station is closing")]
+    Closing,
     /// No dead-man can be had, so nothing would end the motion if this program ended.
     #[error("nothing would stop it if this program ended")]
     Unguarded,
     #[error("the pass is not known")]
     PassUnknown,
+    /// The unit's own path has not been judged yet.
+    #[error("the path of the unit is still being judged")]
+    BeingJudged,
     /// An offset needs a track.
     #[error("nothing is tracked")]
     NoTrack,

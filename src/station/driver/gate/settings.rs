@@ -1,5 +1,7 @@
 //! Settings that decide where the antenna points, and targets, on their way to the controller.
 
+use std::sync::Arc;
+
 use super::{Check, Gate, Refusal, Situation};
 use crate::{
     clock::Moment,
@@ -15,7 +17,7 @@ use crate::{
 #[derive(Debug, Clone)]
 pub(in crate::driver) struct Shift {
     /// The pass, from now on.
-    pub(in crate::driver) judge: Judge,
+    pub(in crate::driver) judge: Arc<Judge>,
     /// What it would report.
     pub(in crate::driver) axes: OnBoard,
     /// The same without the offsets that were added from here: where the beam points, if they make
@@ -39,7 +41,7 @@ impl Gate {
             _ => Ok(()),
         })?;
         self.path_of_is_clear(&shift.judge, &shift.axes, now)?;
-        Ok(shift.judge.is_clear(&shift.sky, &self.bounds)?)
+        self.whole_path_is_clear(&shift.judge, &shift.sky)
     }
 
     /// Writes offsets of the unit's own track, or returns the reason not to. `shift` is what comes

@@ -84,6 +84,18 @@ pub(super) enum Queued {
     Load(TrackTarget),
 }
 
+impl OnBoardStage {
+    /// Returns `true` if the next thing sent is the target or the start of the unit's program.
+    pub(super) fn starts_program(self) -> bool {
+        match self {
+            Self::LoadQueued | Self::StartQueued => true,
+            Self::Slewing(_) | Self::Loading { .. } | Self::Starting { .. } | Self::Tracking => {
+                false
+            }
+        }
+    }
+}
+
 impl Activity {
     pub(super) fn intent(&self) -> Intent {
         match self {

@@ -30,11 +30,11 @@ impl Session {
             self.tell(Event::Safety(Safety::EndedForSleep));
         }
         self.awake = Some(awake);
-        self.let_sleep();
+        self.let_sleep(now);
     }
 
     /// Lets the computer sleep once no halt is under way.
-    pub(super) fn let_sleep(&mut self) {
+    pub(super) fn let_sleep(&mut self, _: Moment) {
         if !self.stop.is_under_way() {
             self.awake = None;
         }

@@ -1,5 +1,7 @@
 //! The operator's commands to an antenna, and how the session carries them out.
 
+use std::sync::Arc;
+
 use serde::{Deserialize, Serialize};
 use smol_str::SmolStr;
 
@@ -18,7 +20,7 @@ use crate::{
         panel::Act,
         settings::{Change, WriteError},
     },
-    driver::{Intent, Refusal},
+    driver::{Effect, Intent, Refusal, gate::Held},
     name::{self, Name},
     plan::{OnBoardPass, ProgramTrack},
     station::LockOut,
@@ -104,7 +106,15 @@ pub enum Command {
 }
 
 impl Session {
+    /// Carries out a command. One that waits for a judgement gives way to it.
     pub(super) fn carry_out(&mut self, command: Command, now: Moment) {
+        if command.row().effect != Effect::Looks {
+            self.judging.drop_waiting();
+        }
+        self.carry_out_now(command, now);
+    }
+
+    pub(super) fn carry_out_now(&mut self, command: Command, now: Moment) {
         // A jog is renewed many times a second and not logged. Settings are logged where they
         // are written, without their values; a target by its name.
         let quiet = matches!(
@@ -154,6 +164,12 @@ impl Session {
             Command::ProgramTrackIntoSun(follow) => self.follow_as_agreed(*follow, true, now),
             Command::AutoTrack(true) => {
                 let held = self.held(now);
+                if let Held::Pass(judge) = &held {
+                    let unit = self.gate.state().on_board.clone();
+                    if !self.is_judged(judge, &[unit]) {
+                        return self.wait_for_judgement(Command::AutoTrack(true));
+                    }
+                }
                 self.gate.will_hold(held);
                 if self.start(Motion::EnableAuto, now) {
                     self.allow_auto_track();
@@ -243,8 +259,9 @@ impl Session {
     fn track(&mut self, pass: OnBoardPass, now: Moment) {
         let target = pass.target.clone();
         tracing::info!(antenna = self.name, ?target, is_agreed = pass.is_agreed, "track");
-        let (watch, slew) = match self.examine_pass(pass, now) {
-            Ok(examined) => examined,
+        let (watch, slew) = match self.examine_pass(pass.clone(), now) {
+            Ok(Some(examined)) => examined,
+            Ok(None) => return self.wait_for_judgement(Command::Track(Box::new(pass))),
             Err(event) => return self.tell(event),
         };
         if self.may_move() {
@@ -260,6 +277,11 @@ impl Session {
         let Some(watch) = self.unasked.take().filter(|_| is_on) else {
             return self.tell(Event::NotSent(Refusal::PassUnknown));
         };
+        let unit = self.gate.state().on_board.clone();
+        if !self.is_judged(watch.judge(), &[unit]) {
+            self.unasked = Some(watch);
+            return self.wait_for_judgement(Command::TakeOver);
+        }
         let checked = match watch.would_miss() {
             None => self.gate.check_pass(watch.judge(), now).map_err(Event::NotSent),
             Some(event) => Err(event),
@@ -279,6 +301,13 @@ impl Session {
     pub(super) fn start_queued(&mut self, now: Moment) {
         if self.stop.is_under_way() || self.takes_offsets_back() {
             return;
+        }
+        if let Some(track) = self.activity.on_board().filter(|track| track.stage.starts_program()) {
+            let (judge, unit) =
+                (Arc::clone(track.watch.judge()), self.gate.state().on_board.clone());
+            if !self.is_judged(&judge, &[unit]) {
+                return;
+            }
         }
         let intent = self.activity.intent();
         let started = match self.activity.take_queued(now.steady) {

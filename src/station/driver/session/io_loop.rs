@@ -141,6 +141,7 @@ impl Session {
             self.halt_quietly(now);
         }
         self.activity.drop_queued(now.steady);
+        self.judging.drop_waiting();
         let clock = self.clock.clone();
         let mut retry_at = now.steady + wait;
         self.lose(loss, retry_at);
@@ -154,7 +155,7 @@ impl Session {
                 }
             }
             self.watch_halt(now);
-            self.let_sleep();
+            self.let_sleep(now);
             self.forget_old_stop(now);
             self.publish(now);
             if now.steady >= retry_at {
@@ -186,7 +187,7 @@ impl Session {
             Input::Sleep(awake) => self.before_sleep(awake, now),
             Input::Bytes(_) | Input::Lost(_) | Input::Time => {}
         }
-        self.let_sleep();
+        self.let_sleep(now);
         // The link was wanted for a STOP only, and none is owed any more.
         if self.contact.wanted == Wanted::ForStop && self.disconnect_after_stop() {
             return false;
@@ -323,7 +324,7 @@ impl Session {
             .chain(self.silence_due())
             .chain([due])
             .min();
-        let clock = self.clock.clone();
+        let (clock, judged) = (self.clock.clone(), self.judging.done());
         // A deadline without effect must not spin.
         let until = until.unwrap_or(due).max(now.steady + MIN_WAIT);
         tokio::select! {
@@ -334,6 +335,7 @@ impl Session {
                 Ok(count) => Input::Bytes(count),
                 Err(error) => Input::Lost(LinkLoss::Broken(in_words(&error))),
             },
+            () = judged.notified() => Input::Time,
             () = clock.sleep_until(until) => Input::Time,
         }
     }
@@ -378,8 +380,7 @@ async fn next_command(
         if commands.is_closed() {
             return None;
         }
-        // A lock-out forbids; a STOP does not take that back.
-        if matches!(command, Command::LockOut(_)) || !stopper.is_void(number) {
+        if !command.row().void_after_stop || !stopper.is_void(number) {
             return Some(command);
         }
     }

@@ -4,7 +4,11 @@
 use std::{sync::Arc, time::Duration};
 
 use super::{Command, Event, Session, activity::Activity, wanted::Wanted};
-use crate::{clock::Instant, clock::Moment, driver::Refusal, station::LockOut};
+use crate::{
+    clock::{Instant, Moment},
+    driver::{LockedOut, Offline, Refusal},
+    station::LockOut,
+};
 
 /// Time limit until auto-track is read back as off.
 const READ_BACK: Duration = Duration::from_secs(10);
@@ -93,55 +97,27 @@ impl Session {
         self.locking.is_some() && self.stop.is_under_way()
     }
 
-    /// Returns `true` if the lock-out forbids the command. Jogs and actions of the make are
-    /// refused by the gate, settings by the controller, each where its refusal is shown.
+    /// Returns `true` if the lock-out forbids the command, and tells the operator.
     pub(super) fn lock_out_forbids(&mut self, command: &Command) -> bool {
         let Some(lock_out) = self.gate.lock_out() else { return false };
-        if *command == Command::Connect {
-            let takes_panel = self.variant.capabilities.waits_for_word;
-            if takes_panel {
-                let refusal = Refusal::PanelLockedOut { by: lock_out.by.clone() };
-                self.tell(Event::NotSent(refusal));
+        let refusal = match command.row().locked_out {
+            LockedOut::Taken => None,
+            LockedOut::Refused => Some(Refusal::from(lock_out)),
+            // Without a link nothing gets that far.
+            LockedOut::RefusedAtTheGate => {
+                let is_refused_here =
+                    command.row().offline == Offline::Refused && !self.contact.link.is_open();
+                is_refused_here.then(|| Refusal::from(lock_out))
             }
-            return takes_panel;
-        }
-        let is_refused = match command {
-            Command::Manual
-            | Command::Hold
-            | Command::Step { .. }
-            | Command::Position { .. }
-            | Command::Track(_)
-            | Command::ProgramTrack(_)
-            | Command::ProgramTrackIntoSun(_)
-            | Command::MoveAway
-            | Command::Offset(_)
-            | Command::Park
-            | Command::TakeOver
-            | Command::AutoTrack(_) => true,
-            // With a link the gate refuses these.
-            Command::Act(_) | Command::ActUnseen(_) => !self.contact.link.is_open(),
-            Command::Standby
-            | Command::Connect
-            | Command::Jog { .. }
-            | Command::EndJog
-            | Command::AllowUnguarded
-            | Command::AllowWayOut
-            | Command::SeenStanding
-            | Command::Resume
-            | Command::FirstOffsets(_)
-            | Command::WriteSettings(_)
-            | Command::Disconnect
-            | Command::Preview(_)
-            | Command::ReadGroup(_)
-            | Command::Ask(_)
-            | Command::LockOut(_)
-            | Command::Unlock => false,
+            LockedOut::TakesPanel => {
+                let by = lock_out.by.clone();
+                let takes_panel = self.variant.capabilities.waits_for_word;
+                takes_panel.then_some(Refusal::PanelLockedOut { by })
+            }
         };
-        if is_refused {
-            let refusal = Refusal::from(lock_out);
-            self.tell(Event::NotSent(refusal));
-        }
-        is_refused
+        let Some(refusal) = refusal else { return false };
+        self.tell(Event::NotSent(refusal));
+        true
     }
 
     /// Keeps the unit from starting by itself and checks it: once on each link, and not again

@@ -92,12 +92,13 @@ impl Watch {
 
 impl Session {
     /// Checks a pass before the unit is started on it, and finds the way to where it begins if the
-    /// antenna has to be taken there. The error is the event to report.
+    /// antenna has to be taken there. Returns `None` until the path is judged. The error is the event
+    /// to report.
     pub(super) fn examine_pass(
         &mut self,
         pass: OnBoardPass,
         now: Moment,
-    ) -> Result<(Watch, Option<Slew>), Event> {
+    ) -> Result<Option<(Watch, Option<Slew>)>, Event> {
         let name = pass.target.name.clone();
         let judge = Judge::new(pass, self.setup.ability)
             .map_err(|error| Event::CannotProgramTrack(name, TrackProblem::Orbit(error)))?;
@@ -106,9 +107,13 @@ impl Session {
         if let Some(event) = watch.objection() {
             return Err(event);
         }
+        let unit = self.gate.state().on_board.clone();
+        if !self.is_judged(&watch.judge, &[unit]) {
+            return Ok(None);
+        }
         let to = self.gate.way_to_pass(&watch.judge, now).map_err(Event::NotSent)?;
         let slew = to.map(|to| self.slew(to, Intent::Track, now)).transpose();
-        Ok((watch, slew.map_err(Event::NotSent)?))
+        Ok(Some((watch, slew.map_err(Event::NotSent)?)))
     }
 
     /// The objection to the pass now that the unit holds it and has been read again.

@@ -24,7 +24,7 @@ impl Session {
     }
 
     /// A step is over when a state that was asked for after it shows standstill.
-    pub(super) fn watch_step(&mut self) {
+    pub(super) fn watch_step(&mut self, _: Moment) {
         let Some(stepping) = self.stepping else { return };
         let waits = self.gate.device().motion_under_way();
         let stands = self

@@ -119,6 +119,7 @@ impl Session {
         self.key.end();
         self.stepping = None;
         self.doubt = None;
+        self.judging.drop_waiting();
         self.void_shift();
         self.gate.halted();
         self.activity.halt();
@@ -235,7 +236,7 @@ impl Session {
     }
 
     /// Reports an antenna that turns although its unit says that it stands.
-    pub(super) fn watch_rest(&mut self) {
+    pub(super) fn watch_rest(&mut self, _: Moment) {
         let is_at_rest =
             self.is_at_rest() && self.stop.halting().is_none_or(|halting| halting.told);
         let Some(look) = self.gate.state().measured else { return };

@@ -19,6 +19,60 @@ const TRACK_EFFECT: Duration = Duration::from_secs(15);
 /// An axis that has turned by less may not have been moved at all, degrees.
 const TURNED_DEG: f64 = 0.05;
 
+/// One check of [`Session::supervise`].
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Check {
+    #[cfg(test)]
+    name: &'static str,
+    look: fn(&mut Session, Moment),
+}
+
+/// A list of checks, each named after its function.
+macro_rules! checks {
+    ($($check:ident,)*) => {
+        &[$(Check {
+            #[cfg(test)]
+            name: stringify!($check),
+            look: |session, now| session.$check(now),
+        },)*]
+    };
+}
+
+/// All checks, in their order: first what the unit has said, then what has to end, then what begins.
+/// A check may rely on those above it; none may be left out (`supervise/tests.rs`).
+pub(super) const CHECKS: &[Check] = checks![
+    watch_judging,
+    take_events,
+    // A unit that is found after an outage is compared before anything goes on.
+    report_found,
+    watch_likeness,
+    watch_program,
+    resolve_doubt,
+    // Motions that have to end.
+    watch_jog,
+    watch_effect,
+    watch_step,
+    watch_halt,
+    let_sleep,
+    watch_rest,
+    watch_place,
+    // The gate and the monitor judge by where the axes point on the sky.
+    watch_offsets,
+    watch_bounds,
+    watch_standstill,
+    // What is owed to the unit.
+    watch_lock_out,
+    watch_auto_track,
+    watch_unit_offsets,
+    forget_old_stop,
+    // What begins, after everything that may forbid it.
+    start_queued,
+    watch_slew,
+    watch_tracking,
+    watch_on_board,
+    watch_silence,
+];
+
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Doubt {
     asked: Asked,
@@ -28,38 +82,27 @@ pub(super) struct Doubt {
 }
 
 impl Session {
-    /// Looks at everything once; called after every byte, command and timer.
+    /// Carries out every check once; called after every byte, command and timer.
     pub(super) fn supervise(&mut self, now: Moment) {
+        for check in self.checks {
+            (check.look)(self, now);
+        }
+    }
+
+    /// Takes what the controller has found in the answers of the unit.
+    fn take_events(&mut self, now: Moment) {
         while let Some(event) = self.gate.device().next_event() {
             self.take(event, now);
         }
-        self.report_found(now);
-        self.watch_likeness(now);
-        self.watch_program();
-        self.resolve_doubt(now);
-        self.watch_jog(now);
-        self.watch_effect(now);
-        self.watch_step();
-        self.watch_halt(now);
-        self.let_sleep();
-        self.watch_rest();
-        self.watch_place(now);
-        self.watch_offsets(now);
-        self.watch_bounds(now);
-        self.watch_standstill();
-        self.watch_lock_out(now);
-        self.watch_auto_track(now);
-        self.watch_unit_offsets(now);
-        self.forget_old_stop(now);
-        self.start_queued(now);
-        self.watch_slew(now);
+    }
+
+    /// Keeps a track going.
+    fn watch_tracking(&mut self, now: Moment) {
         match self.activity {
             Activity::ProgramTrack(_) => self.watch_follow(now),
             Activity::OnBoardTrack(_) => self.watch_track(now),
             Activity::Standby | Activity::Manual | Activity::Hold(_) | Activity::GoTo(_) => {}
         }
-        self.watch_on_board(now);
-        self.watch_silence(now);
     }
 
     /// The latest time for the next call of [`Self::supervise`].
@@ -254,7 +297,7 @@ impl Session {
     }
 
     /// A unit that starts to track by itself surprises anyone standing beside it.
-    fn watch_program(&mut self) {
+    fn watch_program(&mut self, _: Moment) {
         let Some(program) = self.gate.state().program.filter(|_| !self.contact.unread) else {
             return;
         };

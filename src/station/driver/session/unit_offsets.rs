@@ -4,12 +4,12 @@
 mod added;
 mod program;
 
-use std::{io, time::Duration};
+use std::{io, sync::Arc, time::Duration};
 
 use jiff::Timestamp;
 use tokio::task::{JoinHandle, spawn_blocking};
 
-use super::{Event, OffsetChange, Session, marking::take_now, offsets::most};
+use super::{Command, Event, OffsetChange, Session, marking::take_now, offsets::most};
 use crate::{
     astro::{Offset, TrackOffsets},
     clock::{Instant, Moment},
@@ -89,6 +89,10 @@ impl Session {
             }
         };
         if let Some(shift) = self.shift(wanted, now)? {
+            if !self.is_judged(&shift.judge, &[shift.axes.clone(), shift.sky.clone()]) {
+                self.wait_for_judgement(Command::Offset(change));
+                return Ok(());
+            }
             self.gate.shift_is_clear(&shift, self.stop.is_under_way(), now)?;
         }
         match change {
@@ -125,6 +129,7 @@ impl Session {
         // The unit runs through the window by its own clock.
         pass.target.from = pass.target.from.max(self.unit_time(now)).min(pass.target.until);
         let judge = Judge::new(pass, self.setup.ability).map_err(|_| Refusal::PassUnknown)?;
+        let judge = Arc::new(judge);
         Ok(Some(Shift { judge, axes: with(after), sky: with(before) }))
     }
 
@@ -299,6 +304,12 @@ impl Session {
         }
         let waits = self.stop.is_under_way() || self.gate.lock_out().is_some();
         if is_over && !waits && !shifted.is_found && self.may_take_back() {
+            // With auto-track on, the unit may begin its next track meanwhile.
+            if let Ok(Some(shift)) = self.shift(TrackOffsets::NONE, now)
+                && !self.is_judged(&shift.judge, &[shift.axes, shift.sky])
+            {
+                return;
+            }
             self.unit_offsets.left = None;
             self.unit_offsets.wanted = Some(TrackOffsets::NONE);
             self.begin_shift(fields, now);

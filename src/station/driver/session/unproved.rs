@@ -3,6 +3,7 @@
 use std::time::Duration;
 
 use super::Session;
+use crate::clock::Moment;
 
 /// An antenna that has not moved this long after a motion was sent no longer will.
 const SETTLED: Duration = Duration::from_secs(5);
@@ -33,7 +34,7 @@ impl Session {
     }
 
     /// Checks whether a motion that nobody stopped is over.
-    pub(super) fn watch_standstill(&mut self) {
+    pub(super) fn watch_standstill(&mut self, _: Moment) {
         let Some(since) = self.gate.unproved_since() else { return };
         let state = self.gate.state();
         let seen = state.measured.is_some_and(|measured| {

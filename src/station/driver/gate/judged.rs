@@ -1,0 +1,101 @@
+//! Judgements of the paths of units that track by themselves. Each takes up to a second, so a worker
+//! makes them, and the gate refuses what has not been judged yet.
+
+use std::sync::Arc;
+
+use super::{Gate, Refusal};
+use crate::{
+    device::OnBoard,
+    plan::{
+        Bounds,
+        on_board::{Judge, NotClear},
+    },
+};
+
+/// A change of the unit's clock by less does not change where it points on its way, and hardly
+/// where the Sun is then, seconds.
+const SAME_CLOCK_S: f64 = 10.0;
+/// Number of judgements that are kept: those of a pass, and of its next offsets by the axes and on
+/// the sky.
+const MAX_KEPT: usize = 6;
+
+/// A path to be judged: that of a unit with the report `unit` on a pass, within these bounds.
+#[derive(Debug, Clone)]
+pub(in crate::driver) struct PathQuestion {
+    judge: Arc<Judge>,
+    unit: OnBoard,
+    bounds: Bounds,
+}
+
+impl PathQuestion {
+    /// Walks the whole path; takes up to a second.
+    pub(in crate::driver) fn judge(&self) -> Result<(), NotClear> {
+        self.judge.is_clear(&self.unit, &self.bounds)
+    }
+
+    /// Returns `true` if a judgement of this path holds for `other`, which may begin later on it.
+    fn covers(&self, other: &Self) -> bool {
+        let (mine, others) = (self.judge.pass(), other.judge.pass());
+        let is_part = Arc::ptr_eq(&self.judge, &other.judge)
+            || (mine.elements == others.elements
+                && mine.site == others.site
+                && mine.target.until == others.target.until
+                && mine.target.from <= others.target.from
+                && self.judge.ability() == other.judge.ability());
+        let is_same_clock = match (self.unit.clock, other.unit.clock) {
+            (Some(mine), Some(other)) => (mine.ahead_s - other.ahead_s).abs() < SAME_CLOCK_S,
+            (mine, other) => mine.is_none() && other.is_none(),
+        };
+        is_part
+            && is_same_clock
+            && self.unit.place == other.unit.place
+            && self.unit.offsets == other.unit.offsets
+            && self.bounds == other.bounds
+    }
+}
+
+/// The newest judgements.
+#[derive(Debug, Default)]
+pub(super) struct Judged(Vec<(PathQuestion, Result<(), NotClear>)>);
+
+impl Gate {
+    fn question(&self, judge: &Arc<Judge>, unit: &OnBoard) -> PathQuestion {
+        let (judge, unit, bounds) = (Arc::clone(judge), unit.clone(), self.bounds.clone());
+        PathQuestion { judge, unit, bounds }
+    }
+
+    /// Those of the paths of `judge` by these reports that have not been judged yet.
+    pub(in crate::driver) fn open_questions(
+        &self,
+        judge: &Arc<Judge>,
+        units: &[OnBoard],
+    ) -> Vec<PathQuestion> {
+        let questions = units.iter().map(|unit| self.question(judge, unit));
+        questions.filter(|question| self.verdict(question).is_none()).collect()
+    }
+
+    pub(in crate::driver) fn take_judgements(
+        &mut self,
+        judgements: Vec<(PathQuestion, Result<(), NotClear>)>,
+    ) {
+        let Judged(kept) = &mut self.judged;
+        kept.extend(judgements);
+        kept.drain(..kept.len().saturating_sub(MAX_KEPT));
+    }
+
+    fn verdict(&self, question: &PathQuestion) -> Option<&Result<(), NotClear>> {
+        let Judged(kept) = &self.judged;
+        let fitting = kept.iter().rev().find(|(judged, _)| judged.covers(question));
+        fitting.map(|(_, verdict)| verdict)
+    }
+
+    /// The judgement of a whole path of the unit; an error also if there is none yet.
+    pub(super) fn whole_path_is_clear(
+        &self,
+        judge: &Arc<Judge>,
+        unit: &OnBoard,
+    ) -> Result<(), Refusal> {
+        let verdict = self.verdict(&self.question(judge, unit)).ok_or(Refusal::BeingJudged)?;
+        Ok(verdict.clone()?)
+    }
+}
