@@ -6,7 +6,15 @@ use azel::{
     sim::rc2000c::Quirk,
 };
 
-use super::rig::{Rig, reading};
+use super::{
+    rig::{Rig, reading},
+    track::tracking,
+};
+
+async fn until_commands_are(rig: &mut Rig, text: &str) {
+    rig.until(text, 40, |shown| reading(shown, "Polarization commands").as_deref() == Some(text))
+        .await;
+}
 
 async fn refused(rig: &mut Rig) -> String {
     let event = rig.until_event(2, |event| matches!(event, Event::Refused(..))).await;
@@ -75,6 +83,33 @@ async fn automatic_polarization_is_switched_shown_and_refuses_the_rest() {
     let settings: Vec<String> =
         rig.orders().into_iter().filter(|text| text.starts_with('6')).collect();
     assert_eq!(settings, ["6PN", "6PF"]);
+}
+
+#[tokio::test(start_paused = true)]
+async fn a_turn_that_track_does_not_allow_is_refused_before_it_is_sent() {
+    let mut rig = tracking().await;
+    until_commands_are(&mut rig, "not now").await;
+    rig.events();
+    rig.act("polarization_cw", []);
+    rig.act("to_polarization", [("units", Value::Integer(500))]);
+    rig.seconds(0.5).await;
+    let is_explained = |event: &Event| match event {
+        Event::NotSent(Refusal::Controller(why)) => why.contains("in this phase of TRACK"),
+        _ => false,
+    };
+    let events = rig.events();
+    assert!(events.len() == 2 && events.iter().all(is_explained), "{events:?}");
+    assert!(rig.times("4").is_empty() && rig.times("2P").is_empty());
+    rig.act("polarity_v", []);
+    rig.seconds(0.5).await;
+    assert_eq!(rig.times("4").len(), 1, "the unit carries it out after the peak-up");
+    until_commands_are(&mut rig, "allowed").await;
+    rig.act("polarization_cw", []);
+    rig.seconds(0.5).await;
+    assert_eq!(rig.times("4").len(), 2);
+    rig.stop();
+    rig.until_event(5, |event| *event == Event::Stopped).await;
+    rig.until("off", 5, |shown| reading(shown, "Polarization commands").is_none()).await;
 }
 
 #[tokio::test(start_paused = true)]

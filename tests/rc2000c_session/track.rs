@@ -13,7 +13,7 @@ fn named(name: &str) -> [(&'static str, Value); 1] {
 }
 
 /// A unit that tracks an inclined satellite, searching or peaking.
-async fn tracking() -> Rig {
+pub(super) async fn tracking() -> Rig {
     let mut rig = Rig::in_manual().await;
     rig.act_unseen("to_satellite", named("GSTAR 3"));
     rig.until("TRACK", 30, |shown| {

@@ -7,9 +7,10 @@ use azel::{
     device::settings::{Access, Change, Secret, Value, Values, WriteError},
     driver::Command,
     protocol::satrak::encode,
+    sim::satrak::Options,
 };
 
-use super::rig::Rig;
+use super::rig::{Rig, antenna, options};
 
 /// Reads a whole group and returns its values.
 pub(super) async fn read(rig: &mut Rig, group: &'static str) -> Values {
@@ -208,6 +209,19 @@ async fn the_clock_is_set_just_after_a_full_second() {
     assert_eq!(sent.len(), 1, "{sent:?}");
     let ahead: f64 = shown(&rig, "clock", "ahead_s").parse().unwrap();
     assert!(ahead.abs() <= 0.2, "{ahead}");
+}
+
+#[tokio::test(start_paused = true)]
+async fn an_update_of_the_clock_from_gps_is_shown_with_the_lock_delay() {
+    let unset = Options { clock_is_unset: true, ..options() };
+    let mut rig = Rig::connected(&unset, &antenna()).await;
+    read(&mut rig, "clock").await;
+    assert_eq!(shown(&rig, "clock", "is_from_gps"), "Off");
+    rig.seconds(unset.gps_lock_after.as_secs_f64()).await;
+    rig.seconds(1.0).await;
+    assert_eq!(shown(&rig, "clock", "is_from_gps"), "On");
+    read(&mut rig, "receiver").await;
+    assert_eq!(shown(&rig, "receiver", "lock_delay_s"), "8");
 }
 
 #[tokio::test(start_paused = true)]

@@ -48,6 +48,9 @@ const OWN_SEARCH: &str = "the unit searches for the signal by itself, so only th
 const NOT_CALIBRATED: &str = "the meaning of these counts is not known, so nobody can tell where \
                               the antenna would point: enter two points or more for azimuth and \
                               elevation in Preferences";
+const NOT_NOW: &str = "the unit takes no such command in this phase of TRACK: choose H or V, which \
+                       it carries out later, or wait";
+pub(super) const AUTOMATIC: &str = "automatic polarization is on";
 const UNHEARD_OF: &str = "where this leads is not known";
 
 /// In the order of the panel.
@@ -184,6 +187,17 @@ impl Rc2000c {
             TRACK_K_BAND => in_track(Request::Setting(Setting::Band(Band::K))),
             _ => Err("the controller cannot do this".to_owned()),
         }
+    }
+
+    /// The reason for which the unit would refuse to turn the polarization now. It accepts H and
+    /// V in every phase of TRACK.
+    pub(super) fn objection_to(&self, asked: &Asked) -> Option<&'static str> {
+        let Asked::Action(TO_POLARIZATION | POLARIZATION_CW | POLARIZATION_CCW) = asked else {
+            return None;
+        };
+        let status = self.status.as_ref().filter(|it| it.allows_polarization() == Some(false))?;
+        let is_automatic = status.polarization_mode.is_some_and(|mode| mode.is_automatic);
+        Some(if is_automatic { AUTOMATIC } else { NOT_NOW })
     }
 
     pub(super) fn lead(&self, act: &Act) -> Lead {

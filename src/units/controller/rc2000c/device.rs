@@ -10,8 +10,8 @@ use super::{
 use crate::{
     clock::{Instant, Moment},
     device::{
-        AntennaState, Controller, ControllerEvent, Device, Extent, Finding, Motion, PrepareError,
-        TrackTarget, WireLine,
+        AntennaState, Asked, Controller, ControllerEvent, Device, Extent, Finding, Motion,
+        PrepareError, TrackTarget, WireLine,
         panel::{Act, Lead},
     },
     protocol::rc2000c::{
@@ -183,6 +183,10 @@ impl Rc2000c {
 }
 
 impl Controller for Rc2000c {
+    fn objection(&self, asked: &Asked, _now: Moment) -> Option<&'static str> {
+        self.objection_to(asked)
+    }
+
     fn lead_of(&self, act: &Act) -> Lead {
         self.lead(act)
     }

@@ -27,6 +27,7 @@ pub(super) fn readings(status: &Status, device: Option<DeviceType>, names: &Name
     }
     lines.extend(status.receiver.map(signal));
     lines.extend(status.track.map(track));
+    lines.extend(status.allows_polarization().map(polarization_commands));
     let alarm = checks::alarm(status.alarm);
     lines.push(match alarm {
         Some(alarm) => Reading::new("Alarm", alarm.name).in_tone(Tone::Bad),
@@ -133,6 +134,12 @@ fn track(Track { band, submode }: Track) -> Reading {
         _ => Tone::Caution,
     };
     Reading::new("TRACK", format!("{doing}, {band}")).in_tone(tone)
+}
+
+fn polarization_commands(are_allowed: bool) -> Reading {
+    let (text, tone) =
+        if are_allowed { ("allowed", Tone::Plain) } else { ("not now", Tone::Caution) };
+    Reading::new("Polarization commands", text).in_tone(tone)
 }
 
 fn stored(names: &Names) -> Option<Reading> {

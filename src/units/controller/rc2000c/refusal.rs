@@ -1,6 +1,7 @@
 //! Why the unit has refused a command. It does not say; its known state and the causes in its
 //! manual make a sentence.
 
+use super::actions::AUTOMATIC;
 use crate::protocol::rc2000c::{
     AutoMove, DriveReset, Motion, PolarizationDevice, PolarizationMove, Position, Request, Setting,
     Status,
@@ -15,7 +16,7 @@ pub(super) fn likely_reason(request: &Request, status: Option<&Status>) -> Strin
         Request::Motion(Motion::AutoMove(target)) => auto_move(target, is_automatic),
         Request::Motion(Motion::Jog(_)) if tracks => "TRACK is peaking or searching",
         Request::Motion(Motion::Jog(_)) if is_at_limit(status) => "the axis is at its limit",
-        Request::Motion(Motion::Polarization(_)) if is_automatic => "automatic polarization is on",
+        Request::Motion(Motion::Polarization(_)) if is_automatic => AUTOMATIC,
         Request::Motion(Motion::Polarization(PolarizationMove::ToStored(_))) => {
             "no satellite is stored near this azimuth"
         }
@@ -44,7 +45,7 @@ pub(super) fn is_tracking(status: &Status) -> bool {
 
 fn auto_move(target: &AutoMove, is_automatic: bool) -> &'static str {
     match (target.to_satellite(), target.to_polarization()) {
-        (Some((_, Some(_))), _) | (_, Some(_)) if is_automatic => "automatic polarization is on",
+        (Some((_, Some(_))), _) | (_, Some(_)) if is_automatic => AUTOMATIC,
         (Some(_), _) => "no satellite of this name is stored, or it lies beyond a limit",
         (_, Some(_)) => "the polarization does not reach so far",
         _ => "the position lies beyond a limit of the unit",

@@ -28,6 +28,7 @@ impl Device for Satrak {
         // The unit may use other data than on the last link.
         let unit = &mut self.reported;
         (unit.clock, unit.gps, unit.gps_settings) = (None, None, None);
+        (unit.clock_is_from_gps, unit.gps_lock_delay_s) = (None, None);
         (unit.settings, unit.satellite, unit.window) = (None, None, None);
         self.state.on_board = unit.on_board();
         self.schedule = Some(Schedule::new(now.steady));

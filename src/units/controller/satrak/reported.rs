@@ -11,6 +11,8 @@ pub(super) struct Reported {
     /// A fault or warning exists.
     pub(super) fault_flag: bool,
     pub(super) clock: Option<UnitClock>,
+    pub(super) clock_is_from_gps: Option<bool>,
+    pub(super) gps_lock_delay_s: Option<f64>,
     pub(super) gps: Option<GpsData>,
     /// Says whether the unit uses the place of its receiver.
     pub(super) gps_settings: Option<GpsSettings>,

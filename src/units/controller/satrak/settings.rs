@@ -18,6 +18,7 @@ use crate::{
 };
 pub(super) use desired::Desired;
 pub use general::{GENERAL, MINIMUM_ELEVATION_DEG, TLE_SOURCE, TRACK_OFFSETS};
+pub(super) use place::lock_delay;
 pub use place::{GPS, IS_AUTOMATIC, IS_VALID, LATITUDE_DEG, LONGITUDE_DEG, RECEIVER};
 pub(super) use proof::{Differing, Judge, Proof};
 pub use report::{POSITION, VERSIONS};
@@ -26,8 +27,8 @@ pub use source::{
     ADDRESS, CATALOG_NUMBER, CONTINUE_TRACKING, FILE, FILE_NAME, FTP, PASSWORD, PERIOD, PORT,
     SATELLITE, SATELLITE_NAME, URL, USER, WEB,
 };
-pub(super) use times::ahead;
 pub use times::{AHEAD_S, CLOCK, FROM_GPS, FROM_THIS_PC, SET_FROM, START, STOP, WINDOW};
+pub(super) use times::{ahead, is_from_gps};
 
 /// All groups in the order of the forms, with how each is read and written.
 static PLANS: [Plan; 13] = [

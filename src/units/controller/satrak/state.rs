@@ -4,7 +4,7 @@ use jiff::Timestamp;
 
 use super::{
     Satrak, checks,
-    settings::{CLOCK, ahead, group_of, values_of},
+    settings::{CLOCK, RECEIVER, ahead, group_of, is_from_gps, lock_delay, values_of},
 };
 use crate::{
     astro::{AzEl, time::seconds_between},
@@ -72,6 +72,26 @@ impl Satrak {
         let state = self.state.group(group.key);
         state.held = Some(HeldGroup { values, read_at: now.utc });
         state.failure = None;
+        self.show_gps_state();
+    }
+
+    /// Adds what the status tells about GPS to the groups where the operator looks for it.
+    fn show_gps_state(&mut self) {
+        let unit = &self.reported;
+        let added = [
+            (CLOCK.key, unit.clock_is_from_gps.map(is_from_gps)),
+            (RECEIVER.key, unit.gps_lock_delay_s.map(lock_delay)),
+        ];
+        for (group, entry) in added {
+            let Some((key, value)) = entry else { continue };
+            let shown = self.state.held.get(group).and_then(|state| state.held.as_ref());
+            // An unchanged group stays shared.
+            if shown.is_some_and(|held| held.values.get(key) != Some(&value))
+                && let Some(held) = &mut self.state.group(group).held
+            {
+                held.values.insert(key, value);
+            }
+        }
     }
 
     /// A question was refused or not answered; earlier readings stay.
@@ -110,6 +130,9 @@ impl Satrak {
             self.state.motion_lock = None;
         }
         self.reported.fault_flag = status.fault;
+        self.reported.clock_is_from_gps = Some(status.rtc_from_gps);
+        self.reported.gps_lock_delay_s = Some(status.gps_lock_delay_s);
+        self.show_gps_state();
     }
 }
 

@@ -78,6 +78,13 @@ impl NameDisplay {
 }
 
 impl Status {
+    /// Returns `true` if the track mode, which is on, lets commands turn the polarization; `None`
+    /// while it is off, when the flag means nothing.
+    pub fn allows_polarization(&self) -> Option<bool> {
+        self.track.filter(|track| track.submode.is_active())?;
+        self.receiver.map(|receiver| receiver.allows_polarization)
+    }
+
     /// Reads the characters between code and ETX; `None` unless there are 33.
     pub(super) fn parse(data: &[u8]) -> Option<Self> {
         let (name, rest) = data.split_at_checked(10)?;

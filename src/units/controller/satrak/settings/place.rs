@@ -4,7 +4,7 @@ use jiff::Timestamp;
 
 use super::desired::{Desired, cannot};
 use crate::{
-    device::settings::{Field, Group, Key, Values, WriteError},
+    device::settings::{Field, Group, Key, Value, Values, WriteError},
     protocol::satrak::{GpsSettingsChange, Position, Reply, Setting},
 };
 
@@ -14,6 +14,7 @@ pub const LONGITUDE_DEG: Key<f64> = Key::place("longitude_deg", 180.0, ['E', 'W'
 pub const IS_VALID: Key<bool> = Key::flag("is_valid");
 const PLACE: &str = "place";
 const TIME: Key<Timestamp> = Key::time("time");
+const LOCK_DELAY_S: Key<f64> = Key::decimal("lock_delay_s", f64::MIN, f64::MAX, 0);
 
 pub static GPS: Group = Group {
     key: "gps",
@@ -43,6 +44,7 @@ pub static RECEIVER: Group = Group {
         Field::read(LATITUDE_DEG, "Latitude"),
         Field::read(LONGITUDE_DEG, "Longitude"),
         Field::read(TIME, "Time"),
+        Field::read(LOCK_DELAY_S, "Lock delay").in_unit("s"),
     ],
 };
 
@@ -53,12 +55,18 @@ pub(super) fn values(reply: &Reply) -> Option<Values> {
     Some(values)
 }
 
+/// The value [`lock_delay`] comes from elsewhere.
 pub(super) fn receiver(reply: &Reply) -> Option<Values> {
     let Reply::GpsData(data) = reply else { return None };
     let mut values = place(data.position);
     values.extend([IS_VALID.with(data.valid)]);
     values.extend(data.time.map(|time| TIME.with(time)));
     Some(values)
+}
+
+/// STATUS tells the delay; GPS_DATA does not.
+pub(in crate::controller::satrak) fn lock_delay(delay_s: f64) -> (&'static str, Value) {
+    LOCK_DELAY_S.with(delay_s)
 }
 
 fn place(position: Option<Position>) -> Values {

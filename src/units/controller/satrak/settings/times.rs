@@ -49,6 +49,7 @@ pub const FROM_GPS: i64 = 1;
 
 const TIME: Key<Timestamp> = Key::time("time");
 pub const AHEAD_S: Key<f64> = Key::decimal("ahead_s", f64::MIN, f64::MAX, 1);
+const IS_FROM_GPS: Key<bool> = Key::flag("is_from_gps");
 pub const SET_FROM: Key<i64> =
     Key::choice("set_from", &[(FROM_THIS_PC, "This PC"), (FROM_GPS, "GPS")]);
 
@@ -59,6 +60,7 @@ pub static CLOCK: Group = Group {
     fields: &[
         Field::read(TIME, "Unit clock"),
         Field::read(AHEAD_S, "Ahead of this PC").in_unit("s"),
+        Field::read(IS_FROM_GPS, "Updated from GPS"),
         Field::write(SET_FROM, "Set from").moving().about("The unit tracks by its clock."),
     ],
 };
@@ -68,7 +70,7 @@ pub(super) fn window(reply: &Reply) -> Option<Values> {
     Some(Values::from([START.with(window.start), STOP.with(window.stop)]))
 }
 
-/// How far the clock is ahead is not among them: that is known when the reply is taken over.
+/// The values [`ahead`] and [`is_from_gps`] come from elsewhere.
 pub(super) fn clock(reply: &Reply) -> Option<Values> {
     let Reply::Clock(clock) = reply else { return None };
     Some(Values::from([TIME.with(clock.time)]))
@@ -77,6 +79,11 @@ pub(super) fn clock(reply: &Reply) -> Option<Values> {
 /// How far the unit's clock is ahead of the computer's, as it is shown.
 pub(in crate::controller::satrak) fn ahead(clock: &UnitClock) -> (&'static str, Value) {
     AHEAD_S.with((clock.ahead_s * 10.0).round() / 10.0)
+}
+
+/// STATUS tells whether the unit has updated its clock from GPS; TIME does not.
+pub(in crate::controller::satrak) fn is_from_gps(is_from_gps: bool) -> (&'static str, Value) {
+    IS_FROM_GPS.with(is_from_gps)
 }
 
 pub(super) fn write_window(desired: &Desired<'_>) -> Result<Setting, WriteError> {

@@ -130,7 +130,7 @@ pub struct Receiver {
     /// Level of the channel, 0 to 1023, without unit.
     pub agc: u16,
     /// The unit accepts commands for the polarization; meaningful only while the track mode is
-    /// on.
+    /// on. See [`Status::allows_polarization`](super::Status::allows_polarization).
     pub allows_polarization: bool,
 }
 
