@@ -8,6 +8,7 @@ mod script;
 mod connect;
 mod doubt;
 mod every_command;
+mod faults;
 mod idle;
 mod inside;
 mod jog;

@@ -158,20 +158,3 @@ async fn a_motion_that_ends_elsewhere_is_told() {
     assert!(aim.separation(at).unwrap().degrees() > 10.0);
     assert!(!rig.shown().pending);
 }
-
-/// A warning keeps the fault flag set, so the flag cannot announce a second fault.
-#[tokio::test(start_paused = true)]
-async fn a_fault_that_joins_a_warning_locks_motion_within_two_seconds() {
-    let mut rig = Rig::usual().await;
-    rig.control.set_fault(Fault::Unit(FaultKind::GpsLink), true);
-    rig.seconds(10.0).await;
-    assert_eq!(rig.shown().state.motion_lock, Some(false));
-    for _ in 0..5 {
-        rig.control.set_fault(Fault::Unit(FaultKind::XMotor), true);
-        rig.until("locked", 2, |shown| shown.state.motion_lock == Some(true)).await;
-        rig.control.set_fault(Fault::Unit(FaultKind::XMotor), false);
-        // At another point of the interval each time.
-        rig.seconds(2.3).await;
-        assert_eq!(rig.shown().state.motion_lock, Some(false));
-    }
-}

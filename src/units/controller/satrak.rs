@@ -15,6 +15,7 @@ pub mod settings;
 mod settings_plan;
 mod spec;
 mod state;
+mod waiting_motion;
 mod words;
 
 use std::{collections::VecDeque, time::Duration};
@@ -27,16 +28,15 @@ pub use words::meaning;
 
 use crate::{
     clock::{Instant, Moment},
-    device::{
-        AntennaState, ControllerEvent, Motion, PrepareError, settings::ChangeQueue, wire::WireQueue,
-    },
+    device::{AntennaState, ControllerEvent, PrepareError, settings::ChangeQueue, wire::WireQueue},
     protocol::satrak::{Decoder, Halt, Query, Request},
     station::PollRates,
 };
-use exchange::{Outstanding, Purpose, unit_motion};
+use exchange::{Outstanding, Purpose};
 use prepare::Preparation;
 use reported::Reported;
 use schedule::Schedule;
+use waiting_motion::WaitingMotion;
 
 /// Time limit for an answer.
 const REPLY: Duration = Duration::from_secs(2);
@@ -66,7 +66,7 @@ pub struct Satrak {
     program_switched_on: Option<Instant>,
     /// Halts sent past the queue and not answered yet.
     halts: VecDeque<(Halt, Instant)>,
-    motions: VecDeque<Motion>,
+    motion: Option<WaitingMotion>,
     calm: VecDeque<Halt>,
     preparation: Option<Preparation>,
     /// Questions of the operator.
@@ -102,7 +102,7 @@ impl Satrak {
             is_watched: false,
             program_switched_on: None,
             halts: VecDeque::new(),
-            motions: VecDeque::new(),
+            motion: None,
             calm: VecDeque::new(),
             preparation: None,
             wanted: VecDeque::new(),
@@ -121,7 +121,7 @@ impl Satrak {
     }
 
     fn motion_waits(&self) -> bool {
-        !self.motions.is_empty() || self.outstanding.as_ref().is_some_and(Outstanding::is_motion)
+        self.motion.is_some() || self.outstanding.as_ref().is_some_and(Outstanding::is_motion)
     }
 
     /// Returns `true` if the tracking program is on, or may be because nothing was read since
@@ -135,18 +135,8 @@ impl Satrak {
 
     /// The next request, the most urgent first.
     fn next_request(&mut self, now: Moment) -> Option<(Request, Purpose)> {
-        if let Some(motion) = self.motions.pop_front() {
-            if matches!(motion, Motion::StartProgram | Motion::EnableAuto) {
-                self.program_switched_on = Some(now.steady);
-            }
-            return match unit_motion(motion) {
-                Ok(request) => Some((Request::Motion(request), Purpose::Motion(motion))),
-                Err(error) => {
-                    self.events
-                        .push_back(ControllerEvent::Refused(motion.into(), error.to_string()));
-                    None
-                }
-            };
+        if self.motion.is_some() {
+            return self.motion_request(now);
         }
         if let Some(halt) = self.calm.pop_front() {
             return Some((Request::Halt(halt), Purpose::Calm(halt)));

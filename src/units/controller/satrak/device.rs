@@ -4,7 +4,7 @@ use std::time::Duration;
 
 use super::{
     DRAIN, REPLY, Satrak, checks, exchange::Outstanding, prepare::Preparation, schedule::Schedule,
-    settings::Plan, words,
+    settings::Plan, waiting_motion::WaitingMotion, words,
 };
 use crate::{
     clock::{Instant, Moment},
@@ -44,7 +44,7 @@ impl Device for Satrak {
         self.probe = None;
         self.missing_since = None;
         self.halts.clear();
-        self.motions.clear();
+        self.motion = None;
         self.calm.clear();
         self.fail_preparation(PrepareError::Unanswered);
         self.wanted.clear();
@@ -99,7 +99,7 @@ impl Device for Satrak {
         let slow = self.slow.as_ref().map(Outstanding::deadline);
         let far = now.steady + Duration::from_hours(1);
         let Some(schedule) = &self.schedule else { return far };
-        let waits = !self.motions.is_empty()
+        let waits = self.motion.is_some()
             || !self.calm.is_empty()
             || !self.wanted.is_empty()
             || self.preparation.is_some();
@@ -113,7 +113,7 @@ impl Device for Satrak {
     fn halt(&mut self, extent: Extent, now: Moment) -> Vec<u8> {
         let ends_track = extent != Extent::Motion || self.program_may_run();
         let ends_auto_track = extent == Extent::Everything;
-        self.motions.clear();
+        self.motion = None;
         let is_sent = self.outstanding.as_ref().is_some_and(Outstanding::is_setting);
         let is_void = self.changes.void_judged(is_sent, &mut self.state, now);
         self.fail_preparation(PrepareError::Stopped);
@@ -218,8 +218,7 @@ impl Controller for Satrak {
 
     fn start(&mut self, motion: Motion) {
         // A newer request replaces one that has not gone out yet.
-        self.motions.clear();
-        self.motions.push_back(motion);
+        self.motion = Some(WaitingMotion::new(motion));
     }
 }
 

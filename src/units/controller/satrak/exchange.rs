@@ -23,6 +23,8 @@ pub(super) enum Purpose {
     Prepare,
     /// A step of changing a group of settings.
     WriteSettings,
+    /// Reads the faults for the motion that waits.
+    BeforeMotion,
     /// Starts a motion.
     Motion(Motion),
     /// Switches a program off, without hurry.
@@ -210,6 +212,12 @@ impl Satrak {
                 self.take_report(reply, outstanding.clock.first_sent, now);
                 self.polled(query, fault_before, now);
             }
+            (reply, Purpose::BeforeMotion) => {
+                let fault_before = self.reported.fault_flag;
+                self.take_report(reply, outstanding.clock.first_sent, now);
+                self.polled(Query::Faults, fault_before, now);
+                self.judge_waiting_motion();
+            }
             (reply, Purpose::Prepare) => {
                 self.advance_preparation(&reply);
                 self.take_report(reply, outstanding.clock.first_sent, now);
@@ -240,14 +248,21 @@ impl Satrak {
     /// The unit does not know the question, or does not answer it.
     fn poll_failed(&mut self, query: Query, failure: ReadFailure, now: Moment) {
         self.take_read_failure(query, failure);
-        if query == Query::Faults && self.state.motion_lock.is_none() {
+        let fault = self.reported.fault_flag;
+        if query == Query::Faults {
             // A unit that cannot name its faults still reports that it has some.
-            self.state.motion_lock = Some(self.reported.fault_flag);
+            let was_locked = self.state.motion_lock == Some(true);
+            self.state.motion_lock = Some(fault || was_locked);
         }
         let period = self.rates.period(self.moving());
         if let Some(schedule) = &mut self.schedule {
-            schedule.unknown(query, now.steady, period);
+            schedule.unknown(query, now.steady, period, fault);
         }
+    }
+
+    fn no_faults_before_motion(&mut self, failure: ReadFailure, now: Moment) {
+        self.poll_failed(Query::Faults, failure, now);
+        self.drop_waiting_motion("nothing about its faults");
     }
 
     fn advance_preparation(&mut self, reply: &Reply) {
@@ -267,6 +282,9 @@ impl Satrak {
         match purpose {
             Purpose::Poll(query) | Purpose::Asked(query) => {
                 self.poll_failed(query, ReadFailure::Refused(answer), now);
+            }
+            Purpose::BeforeMotion => {
+                self.no_faults_before_motion(ReadFailure::Refused(answer), now);
             }
             Purpose::Prepare => self.fail_preparation(PrepareError::Refused(answer)),
             Purpose::WriteSettings => self.change_refused(answer, now),
@@ -307,7 +325,10 @@ impl Satrak {
             self.slow = Some(late);
             return None;
         }
-        let is_repeated = late.request.verb() == Verb::Query && !late.clock.is_repeated();
+        let is_repeated = late.request.verb() == Verb::Query
+            && !late.clock.is_repeated()
+            // The motion would go out long after it was judged.
+            && late.purpose != Purpose::BeforeMotion;
         self.missed(&late, is_repeated, now);
         if is_repeated {
             late.clock.repeat(now);
@@ -384,6 +405,7 @@ impl Satrak {
             Purpose::Poll(query) | Purpose::Asked(query) => {
                 self.poll_failed(query, ReadFailure::Unanswered, now);
             }
+            Purpose::BeforeMotion => self.no_faults_before_motion(ReadFailure::Unanswered, now),
             Purpose::Prepare => self.fail_preparation(PrepareError::Unanswered),
             Purpose::WriteSettings => self.change_unanswered(now),
             Purpose::Motion(motion) => {

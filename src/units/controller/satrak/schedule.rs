@@ -18,6 +18,9 @@ const SLOW: [(Query, Duration); 7] = [
 const FAULTS_WHILE_SET: Duration = Duration::from_secs(1);
 /// Interval for a question that the unit does not know.
 const UNKNOWN: Duration = Duration::from_mins(5);
+/// Interval for the list of faults that the unit did not answer while the fault flag is set, when
+/// the missing list forbids motion. Each unanswered question takes up to 4 s of the link.
+const FAULTS_RETRY: Duration = Duration::from_secs(10);
 
 /// The questions, each with the time at which it is due.
 #[derive(Debug)]
@@ -75,9 +78,10 @@ impl Schedule {
     }
 
     /// The unit did not answer even the second time, or does not know the question.
-    pub(super) fn unknown(&mut self, query: Query, now: Instant, status: Duration) {
+    pub(super) fn unknown(&mut self, query: Query, now: Instant, status: Duration, fault: bool) {
         match query {
             Query::Status => self.set(query, now + status),
+            Query::Faults if fault => self.set(query, now + FAULTS_RETRY),
             _ => self.set(query, now + UNKNOWN),
         }
     }
