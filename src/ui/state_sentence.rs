@@ -63,6 +63,7 @@ pub fn state_sentence(model: &Model, antenna: &AntennaModel) -> Spoken {
         .or_else(|| stop(model, antenna))
         .or_else(|| news::sentence(model, antenna))
         .or_else(|| fault_or_limit(antenna))
+        .or_else(|| being_judged(antenna))
         .or_else(|| preparing(antenna))
         .or_else(|| program_track::sentence(model, antenna))
         .or_else(|| program(model, antenna))
@@ -118,6 +119,16 @@ fn fault_or_limit(antenna: &AntennaModel) -> Option<Spoken> {
         );
     }
     None
+}
+
+/// What was asked for waits until its path is judged.
+fn being_judged(antenna: &AntennaModel) -> Option<Spoken> {
+    antenna.snapshot.being_judged.then(|| {
+        Spoken::new(SentenceKind::Commanded).plain(
+            "Being judged: Azel checks the unit's whole way against keep-outs, the Sun and the limits \
+             before it starts.",
+        )
+    })
 }
 
 fn preparing(antenna: &AntennaModel) -> Option<Spoken> {

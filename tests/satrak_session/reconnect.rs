@@ -4,13 +4,18 @@ use azel::{
     astro::Angle,
     clock::Instant,
     device::PrepareError,
-    driver::{Command, Event, Found, Intent, LinkLoss, LinkState, Refusal, Safety, StopState},
+    driver::{
+        Command, Event, Found, Intent, LinkLoss, LinkState, Refusal, Safety, StopState, Unlike,
+    },
     protocol::satrak::{Goto, Halt, Motion, Request},
     sim::satrak::Fault,
 };
 use tokio::io::AsyncWriteExt as _;
 
-use super::rig::{Rig, antenna, iss, options, track};
+use super::{
+    on_board::by_another,
+    rig::{Rig, antenna, iss, options, track},
+};
 
 async fn tracking() -> Rig {
     let mut rig = Rig::usual().await;
@@ -185,6 +190,26 @@ async fn a_motion_that_was_stopped_on_its_way_while_out_of_reach_is_not_as_it_wa
         let stop = stops.then_some(Request::Halt(Halt::Stop));
         let (_, is_as_left) = after_an_outage(&mut rig, stop, 1.0).await;
         assert_eq!(is_as_left, !stops);
+    }
+}
+
+/// Another unit at the same address, or one that somebody has set anew.
+#[tokio::test(start_paused = true)]
+async fn a_unit_that_differs_after_an_outage_is_told_and_compared_before_anything_is_sent() {
+    for (is_other, changes) in [(false, ""), (true, "SETTINGS=,?,?,?,8.0,?,?,?,?,?,?,?")] {
+        let mut rig = Rig::usual().await;
+        rig.seconds(30.0).await;
+        rig.events();
+        rig.set_off(true);
+        rig.seconds(1.0).await;
+        if is_other {
+            by_another(&rig, changes).await;
+        }
+        rig.set_off(false);
+        rig.until("it is back", 20, |shown| shown.being_compared).await;
+        rig.until("it is compared", 20, |shown| !shown.being_compared).await;
+        let differs = Event::Safety(Safety::UnitDiffers { unlike: Unlike::Offsets });
+        assert_eq!(rig.events().contains(&differs), is_other);
     }
 }
 

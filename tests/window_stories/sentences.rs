@@ -42,6 +42,16 @@ fn lost(model: &mut Model, snapshot: &mut Snapshot) {
 }
 
 #[test]
+fn a_path_that_is_being_judged_is_told_before_anything_begins() {
+    let judged = Snapshot { being_judged: true, ..states::tracking(0.04) };
+    assert_eq!(
+        told(judged, unchanged),
+        "Being judged: Azel checks the unit's whole way against keep-outs, the Sun and the limits \
+         before it starts."
+    );
+}
+
+#[test]
 fn tracking_says_how_far_off_and_when_it_ends() {
     for (off_deg, wanted) in [
         (

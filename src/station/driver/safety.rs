@@ -63,6 +63,10 @@ pub enum Safety {
         /// How its unit differs from before; `None` where that is not the reason to ask.
         unlike: Option<Unlike>,
     },
+    /// After an outage the unit is not as it was before, or does not say so.
+    UnitDiffers {
+        unlike: Unlike,
+    },
     /// The antenna was about to enter a barrier, or is inside one.
     Forbidden {
         barrier: Barrier,

@@ -69,7 +69,7 @@ use effect::Effects;
 use guard::Guard;
 use jog::JogKey;
 use judging::Judging;
-use likeness::Likeness;
+use likeness::{Likeness, Recheck};
 use lock_out::Locking;
 use marking::Marking;
 use monitor::{Overrun, Watch};
@@ -227,6 +227,8 @@ struct Contact {
     left_at: Option<Pointing>,
     /// What the unit looked like then.
     left_as: Likeness,
+    /// The unit must still prove to be as before; a program track keeps this itself.
+    recheck: Option<Recheck>,
     /// When a link that had been up was lost.
     away_since: Option<Instant>,
     /// The operator has been told of the lost link.
@@ -362,6 +364,7 @@ impl Session {
                 slept: Duration::ZERO,
                 left_at: None,
                 left_as: Likeness::default(),
+                recheck: None,
                 away_since: None,
                 loss_is_told: false,
                 unread: true,
@@ -418,6 +421,7 @@ impl Session {
             intent: self.activity.intent(),
             pending: self.activity.is_pending(),
             being_judged: self.judging.is_under_way(),
+            being_compared: self.recheck().is_some(),
             aim: self.activity.aim(),
             target: self.activity.on_board().map(|track| track.target.clone()),
             on_board: self.on_board_watch().map(on_board::Watch::view),

@@ -31,6 +31,9 @@ pub struct Snapshot {
     /// The path of the unit's own program is being judged; the antenna waits for that.
     #[serde(default)]
     pub being_judged: bool,
+    /// After an outage, the unit has not proved yet to be as it was before.
+    #[serde(default)]
+    pub being_compared: bool,
     /// End of a motion to a position.
     pub aim: Option<Pointing>,
     /// Target of an on-board track.
@@ -80,6 +83,7 @@ impl Snapshot {
             intent: Intent::Standby,
             pending: false,
             being_judged: false,
+            being_compared: false,
             aim: None,
             target: None,
             on_board: None,

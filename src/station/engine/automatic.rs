@@ -217,7 +217,9 @@ impl Engine {
             ) => operation.switch_off(OffBecause::Safety),
             // Auto-track starts what the unit holds by itself.
             Event::Back { found: Found::Tracking, .. } if uses_auto_track => {}
-            Event::Safety(Safety::AsksToResume { unlike: Some(_), .. })
+            Event::Safety(
+                Safety::AsksToResume { unlike: Some(_), .. } | Safety::UnitDiffers { .. },
+            )
             | Event::Back { is_as_left: false, .. } => {
                 operation.switch_off(OffBecause::NotAsLeft);
             }

@@ -245,6 +245,10 @@ pub fn safety(matter: &Safety, antenna: &str, now: Timestamp) -> String {
             format::age(lost.as_secs_f64()),
             unlike.map(self::unlike).unwrap_or_default()
         ),
+        Safety::UnitDiffers { unlike } => format!(
+            "{antenna} was out of reach.{} Check it before you move it.",
+            self::unlike(*unlike)
+        ),
         Safety::SessionBroke => {
             format!("The connection to {antenna} failed inside Azel and was restarted with STOP.")
         }

@@ -3,11 +3,11 @@
 
 use std::time::Duration;
 
-use super::Session;
+use super::{Event, Session};
 use crate::{
     clock::{Instant, Moment},
     device::{AntennaState, Offsets, Place},
-    driver::Unlike,
+    driver::{Safety, Unlike},
 };
 
 /// How long a unit may take to report again what it reported before.
@@ -84,30 +84,36 @@ impl Session {
     /// The link goes: remembers what the unit was like, unless a comparison with an earlier
     /// state is still pending.
     pub(super) fn remember_likeness(&mut self) {
-        if !self.contact.unread && self.activity.program().is_none_or(|it| it.recheck.is_none()) {
+        if !self.contact.unread && self.recheck().is_none() {
             self.contact.left_as = Likeness::of(self.gate.state());
         }
     }
 
-    /// Lets a track resume once the unit has proved to be as before; otherwise asks the
-    /// operator.
+    /// The comparison that is pending.
+    pub(super) fn recheck(&self) -> Option<Recheck> {
+        self.activity.program().and_then(|track| track.recheck).or(self.contact.recheck)
+    }
+
+    /// Compares the unit after an outage. A track resumes once it has proved to be as before;
+    /// otherwise the operator is asked.
     pub(super) fn watch_likeness(&mut self, now: Moment) {
-        let Some(track) = self.activity.program_mut() else { return };
-        let Some(Recheck { since, lost }) = track.recheck.filter(|_| !self.contact.unread) else {
+        let Some(Recheck { since, lost }) = self.recheck().filter(|_| !self.contact.unread) else {
             return;
         };
         let told = Likeness::of(self.gate.state());
         let is_late = now.steady.saturating_duration_since(since) >= READ_AGAIN;
         let unlike = match self.contact.left_as.differs(&told) {
-            None if self.contact.left_as.is_told(&told) => {
-                track.recheck = None;
-                return;
-            }
-            None if is_late => Unlike::Unread,
+            None if self.contact.left_as.is_told(&told) => None,
+            None if is_late => Some(Unlike::Unread),
             None => return,
-            Some(unlike) => unlike,
+            Some(unlike) => Some(unlike),
         };
-        track.recheck = None;
-        self.await_word(lost, Some(unlike));
+        self.contact.recheck = None;
+        let track = self.activity.program_mut().and_then(|track| track.recheck.take());
+        match (unlike, track) {
+            (None, _) => {}
+            (Some(unlike), Some(_)) => self.await_word(lost, Some(unlike)),
+            (Some(unlike), None) => self.tell(Event::Safety(Safety::UnitDiffers { unlike })),
+        }
     }
 }

@@ -6,6 +6,7 @@ use std::time::Duration;
 use super::{
     Event, Session,
     activity::{Activity, Arrival, GoTo, OnBoardStage, OnBoardTrack, Slew, SlewStage},
+    likeness::Recheck,
 };
 use crate::{
     astro::Angle,
@@ -235,7 +236,12 @@ impl Session {
             .away_since
             .map_or(Duration::ZERO, |since| now.steady.saturating_duration_since(since));
         let lost = away + std::mem::take(&mut self.contact.slept);
-        let is_as_left = self.is_as_left(found, measured.pointing, now);
+        // What is owed is sent first, and ends what would go on.
+        let is_as_left =
+            !self.stop.is_under_way() && self.is_as_left(found, measured.pointing, now);
+        if self.contact.away_since.is_some() && self.activity.program().is_none() {
+            self.contact.recheck = Some(Recheck { since: now.steady, lost });
+        }
         self.follow_on(lost, measured.pointing, now);
         // A slew is watched further; its outcome is still to be reported.
         if let Some(Slew { stage: SlewStage::UnderWay { since, .. }, .. }) =

@@ -22,7 +22,10 @@ pub(super) fn seen(antenna: &AntennaModel) -> Seen {
     Seen {
         is_live: antenna.is_live(),
         is_locked_out: snapshot.lock_out.is_some(),
-        can_be_sent: !stops && snapshot.left_moving.is_none() && antenna.held_by.is_none(),
+        can_be_sent: !stops
+            && !snapshot.being_compared
+            && snapshot.left_moving.is_none()
+            && antenna.held_by.is_none(),
         takes: takes.filter(|number| antenna.takes(*number)),
         is_proved: !snapshot.pending,
         awaits_operator: snapshot.program_track.as_ref().is_some_and(|view| view.awaits_operator),

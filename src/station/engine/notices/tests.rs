@@ -11,7 +11,7 @@ use crate::{
         panel::{Check, CheckState},
         settings::WriteError,
     },
-    driver::{LeftOffsets, LinkLoss, Mover, Response, Safety, TrackProblem, Unit},
+    driver::{LeftOffsets, LinkLoss, Mover, Response, Safety, TrackProblem, Unit, Unlike},
     engine::{
         alarms::{AlarmKind, Alarms, ShelveTime, Work},
         automatic::OffBecause,
@@ -374,6 +374,7 @@ fn every_matter_of_safety() -> Vec<Safety> {
         Safety::EndedForSleep,
         Safety::Slept { lasted: Duration::from_mins(1) },
         Safety::AsksToResume { name: "ISS".to_owned(), lost: Duration::from_mins(1), unlike: None },
+        Safety::UnitDiffers { unlike: Unlike::Identity },
         Safety::Forbidden {
             barrier: Barrier::Sun,
             driver: Mover::Somebody,
@@ -394,6 +395,7 @@ fn every_matter_of_safety() -> Vec<Safety> {
             | Safety::EndedForSleep
             | Safety::Slept { .. }
             | Safety::AsksToResume { .. }
+            | Safety::UnitDiffers { .. }
             | Safety::Forbidden { .. } => {}
         }
     }

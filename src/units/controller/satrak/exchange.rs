@@ -247,6 +247,7 @@ impl Satrak {
 
     /// The unit does not know the question, or does not answer it.
     fn poll_failed(&mut self, query: Query, failure: ReadFailure, now: Moment) {
+        let is_unanswered = matches!(failure, ReadFailure::Unanswered);
         self.take_read_failure(query, failure);
         let fault = self.reported.fault_flag;
         if query == Query::Faults {
@@ -257,6 +258,9 @@ impl Satrak {
         let period = self.rates.period(self.moving());
         if let Some(schedule) = &mut self.schedule {
             schedule.unknown(query, now.steady, period, fault);
+            if is_unanswered {
+                schedule.missed(query, now.steady);
+            }
         }
     }
 

@@ -18,6 +18,8 @@ const SLOW: [(Query, Duration); 7] = [
 const FAULTS_WHILE_SET: Duration = Duration::from_secs(1);
 /// Interval for a question that the unit does not know.
 const UNKNOWN: Duration = Duration::from_mins(5);
+/// Interval for a question that the unit did not answer for the first time.
+const RETRY: Duration = Duration::from_secs(5);
 /// Interval for the list of faults that the unit did not answer while the fault flag is set, when
 /// the missing list forbids motion. Each unanswered question takes up to 4 s of the link.
 const FAULTS_RETRY: Duration = Duration::from_secs(10);
@@ -26,6 +28,8 @@ const FAULTS_RETRY: Duration = Duration::from_secs(10);
 #[derive(Debug)]
 pub(super) struct Schedule {
     due: Vec<(Query, Instant)>,
+    /// The questions that the unit did not answer the last time.
+    missed: Vec<Query>,
 }
 
 impl Schedule {
@@ -33,7 +37,7 @@ impl Schedule {
     pub(super) fn new(now: Instant) -> Self {
         let probe = [Query::Version, Query::Status];
         let due = probe.into_iter().chain(SLOW.map(|(query, _)| query));
-        Self { due: due.map(|query| (query, now)).collect() }
+        Self { due: due.map(|query| (query, now)).collect(), missed: Vec::new() }
     }
 
     /// The question that has been due longest. Once a new link has been probed, the position
@@ -64,6 +68,7 @@ impl Schedule {
 
     /// The question was answered or given up.
     pub(super) fn done(&mut self, query: Query, now: Instant, status: Duration, fault: bool) {
+        self.missed.retain(|missed| *missed != query);
         let wait = match query {
             Query::Status => status,
             Query::Faults if fault => FAULTS_WHILE_SET,
@@ -83,6 +88,15 @@ impl Schedule {
             Query::Status => self.set(query, now + status),
             Query::Faults if fault => self.set(query, now + FAULTS_RETRY),
             _ => self.set(query, now + UNKNOWN),
+        }
+    }
+
+    /// The unit did not answer the question. It may have been silent, so the question comes again
+    /// soon, once.
+    pub(super) fn missed(&mut self, query: Query, now: Instant) {
+        if !self.missed.contains(&query) {
+            self.missed.push(query);
+            self.set(query, now + RETRY);
         }
     }
 
@@ -111,6 +125,23 @@ mod tests {
         assert_eq!(schedule.next(now), Some(Query::Faults), "the first hurry is kept");
         schedule.done(Query::Faults, now, Duration::from_millis(500), false);
         assert_eq!(schedule.next(now), Some(Query::Version));
+    }
+
+    #[test]
+    fn a_question_without_an_answer_comes_again_soon_and_then_seldom() {
+        let start = Instant::now();
+        let period = Duration::from_millis(500);
+        let mut schedule = Schedule::new(start);
+        let due = |schedule: &Schedule| {
+            schedule.due.iter().find(|(query, _)| *query == Query::Version).unwrap().1
+        };
+        schedule.unknown(Query::Version, start, period, false);
+        schedule.missed(Query::Version, start);
+        assert_eq!(due(&schedule), start + Duration::from_secs(5));
+        let again = start + Duration::from_secs(9);
+        schedule.unknown(Query::Version, again, period, false);
+        schedule.missed(Query::Version, again);
+        assert_eq!(due(&schedule), again + Duration::from_mins(5), "it does not know the question");
     }
 
     #[test]
