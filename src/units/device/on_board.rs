@@ -121,7 +121,9 @@ impl TrackOffsetFields {
             (self.elevation_deg, from.elevation(), to.elevation()),
         ];
         let changed = each.into_iter().filter(|(_, from, to)| from != to);
-        changed.map(|(key, _, to)| (key, Value::Decimal(to.degrees()))).collect()
+        // Thousandths without the rounding error of radians, so that the read-back is the same.
+        let decimal = |angle: Angle| Value::Decimal((angle.degrees() * 1000.0).round() / 1000.0);
+        changed.map(|(key, _, to)| (key, decimal(to))).collect()
     }
 }
 
