@@ -1,6 +1,7 @@
 //! Station without a window: real sockets to simulated units, and the program itself as a
 //! process beside others.
 
+pub(crate) mod promises;
 pub(crate) mod record;
 
 use std::{
@@ -491,67 +492,6 @@ fn output_that_nobody_reads_holds_up_nothing() {
     });
     served.signal("TERM");
     assert_eq!(served.process.wait().expect("it ends").code(), Some(0));
-}
-
-/// Returns `true` if a finished file below `folder` has a name that starts with `name`.
-fn find(folder: &Path, name: &str) -> bool {
-    let entries = std::fs::read_dir(folder).into_iter().flatten().flatten();
-    entries.into_iter().any(|entry| {
-        let file_name = entry.file_name().to_string_lossy().into_owned();
-        let ends_so = entry.path().extension().is_some_and(|extension| extension == "toml");
-        let is_it = file_name.starts_with(name) && ends_so;
-        is_it || (entry.path().is_dir() && find(&entry.path(), name))
-    })
-}
-
-#[test]
-fn a_stop_that_is_owed_outlives_a_program_that_is_killed() {
-    let units = Units::start(|station| station.antennas.truncate(1));
-    let mut served = Served::start(&units);
-    wait_for("it is read", || {
-        let status = program(&units).arg("status").output().expect("it runs");
-        says(&status).contains("azimuth").then_some(())
-    });
-    units.dish.set_fault(satrak::Fault::Silence, true);
-    served.signal("USR1");
-    served.until(|told| told["antenna"] == "Dish" && told["text"] != "STOP is confirmed.");
-    wait_for("STOP is not proved", || {
-        let status = program(&units).arg("status").output().expect("it runs");
-        says(&status).contains("STOP IS NOT PROVED").then_some(())
-    });
-    wait_for("its record on disk", || find(units.folder.path(), "satrak-").then_some(()));
-    served.signal("KILL");
-    served.process.wait().expect("it ends");
-    units.dish.set_fault(satrak::Fault::Silence, false);
-
-    let before = units.dish.received().len();
-    let _served = Served::start(&units);
-    let first = wait_for("its first word", || {
-        units.dish.received().get(before).map(|(_, payload)| payload.clone())
-    });
-    assert_eq!(first, "STOP=");
-}
-
-#[test]
-fn lock_outs_that_the_disk_does_not_take_hold_and_are_acknowledged_as_such() {
-    let units = Units::start(|station| station.antennas.truncate(2));
-    // The list can be read, and a save fails: a folder stands where it keeps the old list.
-    let list = units.folder.path().join(station::LOCK_OUTS_FILE);
-    std::fs::write(&list, "version = 1\n").unwrap();
-    std::fs::create_dir(list.with_added_extension("old")).unwrap();
-    let served = Served::start(&units);
-    served.until(|told| told["antenna"] == "Mast" && told["about"] == "motion");
-    let lock = |name: &str| {
-        let arguments = ["lock-out", "--antenna", name, "--reason", "belts", "--by", "Ada"];
-        program(&units).args(arguments).output().expect("it runs")
-    };
-    for name in ["Dish", "Mast"] {
-        let locked = lock(name);
-        assert!(says(&locked).contains("NOT on disk"), "{}", says(&locked));
-        assert_eq!(locked.status.code(), Some(4));
-    }
-    let status = says(&program(&units).arg("status").output().expect("it runs"));
-    assert_eq!(status.matches("locked out by Ada").count(), 2, "{status}");
 }
 
 #[test]

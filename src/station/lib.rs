@@ -1,14 +1,15 @@
 //! A station at work: the sessions with its units, the engine that decides, the record, transfers of
 //! elements, simulators instead of units, and rehearsals of a plan.
 //!
-//! From the bottom: [`job`], [`library`], [`transfer`], [`driver`], [`record`], [`sim`], [`makes`],
-//! [`engine`], [`rehearsal`]; a lower one never names a higher one.
+//! From the bottom: [`promises`], [`job`], [`library`], [`transfer`], [`driver`], [`record`],
+//! [`sim`], [`makes`], [`engine`], [`rehearsal`]; a lower one never names a higher one.
 
 pub mod driver;
 pub mod engine;
 pub mod job;
 pub mod library;
 pub mod makes;
+pub mod promises;
 pub mod record;
 pub mod rehearsal;
 pub mod sim;

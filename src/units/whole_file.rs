@@ -34,6 +34,16 @@ pub fn replace_and_keep_old(path: &Path, bytes: &[u8]) -> io::Result<()> {
     persist(file, &target)
 }
 
+/// Removes the file at `path`. A missing file is no error.
+pub fn remove(path: &Path) -> io::Result<()> {
+    match fs::remove_file(path) {
+        Err(error) if error.kind() == io::ErrorKind::NotFound => return Ok(()),
+        removed => removed?,
+    }
+    sync_folder(path);
+    Ok(())
+}
+
 /// The path with the ending `.old` added.
 pub fn old(path: &Path) -> PathBuf {
     path.with_added_extension("old")
@@ -72,13 +82,19 @@ fn beside(path: &Path, bytes: &[u8], readers: Readers) -> io::Result<NamedTempFi
 
 fn persist(file: NamedTempFile, path: &Path) -> io::Result<()> {
     file.persist(path).map_err(|error| error.error)?;
-    // The file is whole and in its place; a folder that cannot be synced could only
-    // bring back the old one after a loss of power.
+    sync_folder(path);
+    Ok(())
+}
+
+/// Ignores an error: the change is in place, and a folder that cannot be synced could only bring
+/// back the old state after a loss of power.
+fn sync_folder(path: &Path) {
     #[cfg(unix)]
     if let Some(Ok(folder)) = path.parent().map(fs::File::open) {
         let _ = folder.sync_all();
     }
-    Ok(())
+    #[cfg(not(unix))]
+    let _ = path;
 }
 
 #[cfg(test)]

@@ -130,7 +130,7 @@ async fn a_setting_without_a_reply_is_not_sent_again() {
 
 #[tokio::test(start_paused = true)]
 async fn a_late_reply_is_not_taken_for_that_of_another_question() {
-    // The version comes so late that the question was given up twice.
+    // The version comes so late that the question is given up each time.
     let mut unit = Scripted::start(Box::new(|payload| match payload {
         "VERSION?" => vec![(4300, "VERSION?,LATE,LATE".to_owned())],
         other => plain(other),
@@ -141,7 +141,7 @@ async fn a_late_reply_is_not_taken_for_that_of_another_question() {
     let shown = unit.handle.snapshot();
     assert!(shown.link.is_open(), "{:?}", shown.link);
     assert_eq!(shown.state.identity, None);
-    assert_eq!(shown.state.traffic.unsolicited, 2);
+    assert_eq!(shown.state.traffic.unsolicited, 3);
     assert_eq!(shown.state.traffic.unreadable, 0);
     let measured = shown.state.measured.unwrap();
     assert!((measured.direction().unwrap().azimuth_deg() - 299.49).abs() < 1e-9);

@@ -200,6 +200,7 @@ async fn a_step_is_judged_by_the_direction_on_the_sky_too() {
     let mut rig = in_a_pass().await;
     offset(&rig, OffsetChange::Step(elevation(6.0)));
     until_added(&mut rig, with(&[elevation(6.0)])).await;
+    assert_eq!(rig.events(), [], "it reads back as written");
     // The axes keep clear of it, and the beam does not if the offset makes up for their error.
     rig.handle().keep_within(keep_out([-2.0, 2.0]));
     offset(&rig, OffsetChange::Step(azimuth(0.1)));
@@ -225,7 +226,7 @@ async fn back_to_what_was_there_before_is_judged_too_while_the_unit_tracks() {
 }
 
 #[tokio::test(start_paused = true)]
-async fn what_cannot_be_taken_back_is_told_until_it_is() {
+async fn what_cannot_be_taken_back_is_told_and_tried_again_until_it_is() {
     let mut rig = in_a_pass().await;
     offset(&rig, OffsetChange::Step(azimuth(0.2)));
     until_added(&mut rig, with(&[azimuth(0.2)])).await;
@@ -237,12 +238,26 @@ async fn what_cannot_be_taken_back_is_told_until_it_is() {
     })
     .await;
     let tries = rig.sent("SETTINGS=").len();
-    rig.seconds(60.0).await;
-    assert_eq!(rig.sent("SETTINGS=").len(), tries, "not sent again by itself");
+    rig.seconds(65.0).await;
+    // After 10 and 20 s; the next try comes after 40 s more.
+    assert_eq!(rig.sent("SETTINGS=").len(), tries + 2);
     assert_eq!(added(&rig), with(&[azimuth(0.2)]));
     rig.control.set_fault(Fault::RefuseSettings, false);
-    offset(&rig, OffsetChange::Zero);
     rig.until("taken back", 20, |shown| shown.unit_offsets.is_none()).await;
+    assert_eq!(held(&rig), (-0.1, 0.0));
+}
+
+#[tokio::test(start_paused = true)]
+async fn the_operator_takes_back_at_once_what_is_tried_again_later() {
+    let mut rig = in_a_pass().await;
+    offset(&rig, OffsetChange::Step(azimuth(0.2)));
+    until_added(&mut rig, with(&[azimuth(0.2)])).await;
+    rig.control.set_fault(Fault::RefuseSettings, true);
+    rig.send(Command::Standby);
+    rig.seconds(200.0).await;
+    rig.control.set_fault(Fault::RefuseSettings, false);
+    offset(&rig, OffsetChange::Zero);
+    rig.until("taken back", 5, |shown| shown.unit_offsets.is_none()).await;
     assert_eq!(held(&rig), (-0.1, 0.0));
 }
 

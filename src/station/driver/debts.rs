@@ -1,7 +1,10 @@
 //! STOPs that are owed, auto-track that is to be off, and offsets of shifted tracks. A debt belongs
 //! to a unit, not to a row of the settings: it outlives the session, the name and the address of its
-//! antenna and, as a record on disk, this program. Auto-track has such a record only where no antenna
+//! antenna and, as a promise on disk, this program. Auto-track has such a record only where no antenna
 //! is left that would be looked after at the next start.
+//!
+//! Every request to the store of promises is made under the lock of the ledger, so that both agree
+//! on the order. A worker of the store writes the files.
 
 mod shifted_track;
 
@@ -13,15 +16,21 @@ use std::{
 };
 
 use jiff::Timestamp;
-use serde::{Deserialize, Serialize};
+use serde::{Deserialize, Serialize, de::DeserializeOwned};
 use sha2::{Digest as _, Sha256};
 use tokio::sync::Notify;
 
-use crate::{clock::Instant, station::Antenna, whole_file};
-pub(super) use shifted_track::ShiftedTrack;
+use crate::{
+    clock::Instant,
+    promises::{FileState, Kept, Promises},
+    station::Antenna,
+};
+pub(super) use shifted_track::{AddedTo, ShiftedTrack};
 
-/// End of the names of records of auto-track.
+/// Ends of the names of the files: of a STOP, of auto-track, and of offsets.
+const STOP: &str = ".toml";
 const AUTO_TRACK: &str = ".auto-track.toml";
+const OFFSETS: &str = ".offsets.toml";
 
 /// A unit, by what does not change when the operator renames its antenna.
 #[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
@@ -40,31 +49,46 @@ impl Unit {
         }
     }
 
-    /// Name of the record of a STOP: readable, and unique to the unit.
-    fn file_name(&self) -> String {
-        format!("{}.toml", self.stem())
-    }
-
-    /// Name of the record that auto-track is to be off.
-    fn auto_track_file_name(&self) -> String {
-        format!("{}{AUTO_TRACK}", self.stem())
-    }
-
-    fn stem(&self) -> String {
+    /// Name of a file, readable, and unique to the unit.
+    fn file_name(&self, ending: &str) -> String {
         let plain = |letter: char| if letter.is_ascii_alphanumeric() { letter } else { '-' };
         let readable: String = self.address.chars().map(plain).take(40).collect();
         let hash = Sha256::digest(format!("{}\n{}", self.make, self.address));
         let [a, b, c, d, ..] = *hash.first_chunk::<4>().unwrap_or(&[0; 4]);
-        format!("{}-{readable}-{a:02x}{b:02x}{c:02x}{d:02x}", self.make)
+        format!("{}-{readable}-{a:02x}{b:02x}{c:02x}{d:02x}{ending}", self.make)
     }
 }
 
-/// Content of a record on disk.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
-struct Mark {
+/// A unit that may be moving.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+pub(in crate::driver) struct Mark {
+    /// When the motion by hand began, or the STOP was pressed.
+    pub(in crate::driver) since: Timestamp,
+    /// When a session last recorded that it still tried to stop the unit. Earlier versions did not
+    /// record that.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub(in crate::driver) tried: Option<Timestamp>,
+}
+
+impl Mark {
+    /// The last time at which the unit was known to be attended to.
+    pub(in crate::driver) fn last_tried(self) -> Timestamp {
+        self.tried.map_or(self.since, |tried| tried.max(self.since))
+    }
+}
+
+/// Content of a file.
+#[derive(Debug, Serialize, Deserialize)]
+struct Record<T> {
     #[serde(flatten)]
     unit: Unit,
-    /// When the motion by hand began.
+    #[serde(flatten)]
+    debt: T,
+}
+
+/// Content of the file of auto-track, beside the unit.
+#[derive(Debug, Serialize, Deserialize)]
+struct AutoTrack {
     since: Timestamp,
 }
 
@@ -79,12 +103,10 @@ impl Ledger {
 /// All debts of this program. Clones share them.
 #[derive(Debug, Clone, Default)]
 pub struct Debts {
-    /// Folder of the records; `None` for none.
+    /// Folder of the files; `None` for none.
     folder: Option<Arc<Path>>,
+    promises: Promises,
     ledger: Arc<Mutex<Ledger>>,
-    /// Held while records of auto-track and offsets are written or removed. The ledger is taken
-    /// after it, and never before.
-    files: Arc<Mutex<()>>,
 }
 
 #[derive(Debug, Default)]
@@ -94,6 +116,10 @@ struct Ledger {
     /// The newest session of each unit, and its STOP.
     sessions: BTreeMap<Unit, (u64, Arc<Notify>)>,
     owed: BTreeSet<Unit>,
+    /// Units that an earlier run may have left moving, until a session has proved standstill.
+    left: BTreeSet<Unit>,
+    /// The session that marked a unit last.
+    marked_by: BTreeMap<Unit, u64>,
     /// Units whose auto-track is to be off and was not read back as off since.
     auto_track: BTreeSet<Unit>,
     /// Units that were moved from here since then and are not known to stand.
@@ -103,16 +129,24 @@ struct Ledger {
 }
 
 impl Debts {
-    /// With records in `folder`, and what an earlier run recorded there of auto-track and offsets.
+    /// With files in `folder`, and the debts that an earlier run left there.
     pub fn marked_in(folder: Option<PathBuf>) -> Self {
-        let debts = Self { folder: folder.map(Arc::from), ..Self::default() };
+        Self::over(folder, Promises::default())
+    }
+
+    /// The same with these promises.
+    pub(in crate::driver) fn over(folder: Option<PathBuf>, promises: Promises) -> Self {
+        let debts = Self { folder: folder.map(Arc::from), promises, ..Self::default() };
         if let Some(folder) = debts.folder.as_deref() {
-            lowercase_record_names(folder);
+            lowercase_names(folder, &debts.promises);
+            let mut ledger = debts.ledger();
+            let stops = found::<Mark>(folder, STOP, "a unit may still move");
+            ledger.left.extend(stops.into_iter().map(|(unit, _)| unit));
+            let auto_track = found::<AutoTrack>(folder, AUTO_TRACK, "a unit may track by itself");
+            ledger.auto_track.extend(auto_track.into_iter().map(|(unit, _)| unit));
+            let shifted = found(folder, OFFSETS, "a unit may still hold offsets of a pass");
+            ledger.shifted.extend(shifted.into_iter().map(ShiftedTrack::left));
         }
-        let found = debts.folder.as_deref().map_or_else(Vec::new, with_auto_track);
-        debts.ledger().auto_track.extend(found);
-        let shifted = debts.folder.as_deref().map_or_else(Vec::new, shifted_track::found);
-        debts.ledger().shifted.extend(shifted);
         debts
     }
 
@@ -121,8 +155,20 @@ impl Debts {
         self.ledger.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    fn files(&self) -> MutexGuard<'_, ()> {
-        self.files.lock().unwrap_or_else(PoisonError::into_inner)
+    fn path(&self, unit: &Unit, ending: &str) -> Option<PathBuf> {
+        Some(self.folder.as_ref()?.join(unit.file_name(ending)))
+    }
+
+    /// The store of all promises of this program.
+    pub fn promises(&self) -> &Promises {
+        &self.promises
+    }
+
+    /// Waits until every file of `unit` is as requested last, or the disk has refused it.
+    pub(super) async fn settled(&self, unit: &Unit) {
+        let paths = [STOP, AUTO_TRACK, OFFSETS].map(|ending| self.path(unit, ending));
+        let paths: Vec<PathBuf> = paths.into_iter().flatten().collect();
+        self.promises.settled(&paths).await;
     }
 
     /// A session of `unit` begins; `stop` stops it, at once if a STOP is owed. Returns its
@@ -169,30 +215,31 @@ impl Debts {
     }
 
     /// Like [`Self::owe_auto_track_off`], also for the next start: no antenna is left that has this
-    /// unit. Blocks until it is on the disk.
-    pub fn mark_auto_track_off(&self, unit: &Unit, since: Timestamp) -> io::Result<()> {
-        self.owe_auto_track_off(unit);
-        let Some(folder) = &self.folder else { return Ok(()) };
-        let mark = Mark { unit: unit.clone(), since };
-        let text = toml::to_string(&mark).map_err(io::Error::other)?;
-        let _files = self.files();
-        whole_file::replace(&folder.join(unit.auto_track_file_name()), text.as_bytes())
+    /// unit. Blocks until it is on the disk; the error says why it is not.
+    pub fn mark_auto_track_off(&self, unit: &Unit, since: Timestamp) -> Result<(), String> {
+        let mut ledger = self.ledger();
+        ledger.auto_track.insert(unit.clone());
+        let Some(path) = self.path(unit, AUTO_TRACK) else { return Ok(()) };
+        let work = self.promises.request(&path, file(unit, AutoTrack { since })?);
+        drop(ledger);
+        self.promises.finish(&path, work)
     }
 
-    /// The unit does not track by itself any more, is to do so again, or is another's. Returns
-    /// `true` if it was to be off; then [`Self::unmark_auto_track`] removes the record.
-    pub fn settle_auto_track(&self, unit: &Unit) -> bool {
-        self.ledger().auto_track.remove(unit)
-    }
-
-    /// Removes the record of a debt that is settled and has not arisen anew. Blocks.
-    pub(super) fn unmark_auto_track(&self, unit: &Unit) {
-        let Some(folder) = &self.folder else { return };
-        let _files = self.files();
-        if !self.owes_auto_track_off(unit) {
-            // A missing file needs no removal; one that stays switches auto-track off once more.
-            fs::remove_file(folder.join(unit.auto_track_file_name())).ok();
+    /// The unit does not track by itself any more, or is to do so again.
+    pub(super) fn settle_auto_track(&self, unit: &Unit) {
+        let mut ledger = self.ledger();
+        if ledger.auto_track.remove(unit)
+            && let Some(path) = self.path(unit, AUTO_TRACK)
+        {
+            self.promises.put(&path, FileState::Absent);
         }
+    }
+
+    /// Leaves what an earlier run owed a unit to the Azel that drives it now, and the files with it.
+    pub fn leave(&self, unit: &Unit) {
+        let mut ledger = self.ledger();
+        ledger.auto_track.remove(unit);
+        ledger.left.remove(unit);
     }
 
     pub(super) fn owes_auto_track_off(&self, unit: &Unit) -> bool {
@@ -231,23 +278,47 @@ impl Debts {
         self.ledger().owed.iter().cloned().collect()
     }
 
-    /// Returns `true` if there is a folder for records.
+    /// The units that an earlier run may have left moving, and whose standstill no session has
+    /// proved since.
+    pub fn left_moving(&self) -> Vec<Unit> {
+        self.ledger().left.iter().cloned().collect()
+    }
+
+    /// Returns `true` if there is a folder for files.
     pub(super) fn has_marks(&self) -> bool {
         self.folder.is_some()
     }
 
-    /// Records on disk that `unit` is moved by hand. Blocks until it is on the disk.
-    pub(super) fn mark(&self, unit: &Unit, since: Timestamp) -> io::Result<()> {
-        let Some(folder) = &self.folder else { return Ok(()) };
-        let text =
-            toml::to_string(&Mark { unit: unit.clone(), since }).map_err(io::Error::other)?;
-        whole_file::replace(&folder.join(unit.file_name()), text.as_bytes())
+    /// Requests a file that says that `unit` may be moving. A worker writes it.
+    pub(super) fn mark(&self, unit: &Unit, session: u64, mark: Mark) {
+        let mut ledger = self.ledger();
+        let newest = ledger.marked_by.entry(unit.clone()).or_default();
+        *newest = session.max(*newest);
+        if let Some(path) = self.path(unit, STOP) {
+            match file(unit, mark) {
+                Ok(state) => self.promises.put(&path, state),
+                Err(error) => tracing::error!(error, "a mark is not on the disk"),
+            }
+        }
     }
 
-    pub(super) fn unmark(&self, unit: &Unit) {
-        let Some(folder) = &self.folder else { return };
-        // A missing file needs no removal; one that stays costs a STOP.
-        fs::remove_file(folder.join(unit.file_name())).ok();
+    /// Standstill of `unit` is proved by `session`: requests the removal of its file, unless a
+    /// newer session has marked it.
+    pub(super) fn unmark(&self, unit: &Unit, session: u64) {
+        let mut ledger = self.ledger();
+        if ledger.marked_by.get(unit).is_some_and(|newest| *newest > session) {
+            return;
+        }
+        ledger.marked_by.remove(unit);
+        ledger.left.remove(unit);
+        if let Some(path) = self.path(unit, STOP) {
+            self.promises.put(&path, FileState::Absent);
+        }
+    }
+
+    /// Progress of the file that says that `unit` may be moving.
+    pub(super) fn mark_kept(&self, unit: &Unit) -> Kept {
+        self.path(unit, STOP).map_or(Kept::OnDisk, |path| self.promises.kept(&path))
     }
 
     /// Returns `true` if an earlier run may have left `unit` moving. Blocks.
@@ -255,45 +326,83 @@ impl Debts {
         self.marked(unit).is_some()
     }
 
-    /// Since when `unit` may be moving, by the record of an earlier run. An unreadable record
-    /// counts from the beginning of time.
-    pub(super) fn marked(&self, unit: &Unit) -> Option<Timestamp> {
-        let path = self.folder.as_ref()?.join(unit.file_name());
-        match fs::read_to_string(path) {
-            Ok(text) => {
-                let mark = toml::from_str::<Mark>(&text);
-                Some(mark.map_or(Timestamp::UNIX_EPOCH, |mark| mark.since))
-            }
-            Err(error) if error.kind() == io::ErrorKind::NotFound => None,
-            Err(_) => Some(Timestamp::UNIX_EPOCH),
+    /// The mark of `unit` on disk. An unreadable one counts from the beginning of time. Blocks.
+    pub(super) fn marked(&self, unit: &Unit) -> Option<Mark> {
+        let unreadable = Mark { since: Timestamp::UNIX_EPOCH, tried: None };
+        match self.promises.read(&self.path(unit, STOP)?) {
+            Ok(text) => Some(toml::from_str(&text?).unwrap_or(unreadable)),
+            Err(_) => Some(unreadable),
         }
+    }
+
+    /// The mark of `unit` that `session` found on disk is its to remove. Blocks.
+    pub(super) fn take_over_mark(&self, unit: &Unit, session: u64) -> Option<Mark> {
+        let mark = self.marked(unit)?;
+        let mut ledger = self.ledger();
+        let newest = ledger.marked_by.entry(unit.clone()).or_default();
+        *newest = session.max(*newest);
+        Some(mark)
     }
 }
 
-/// Renames the records of addresses with capitals, so that their units find them. A record that
-/// cannot be read or renamed stays, and the log says so.
-fn lowercase_record_names(folder: &Path) {
-    let Ok(files) = fs::read_dir(folder) else { return };
-    for path in files.filter_map(|file| Some(file.ok()?.path())) {
-        let renamed = with_lowercase_address(&path).and_then(|renamed| {
+/// The file of a debt to `unit`.
+fn file<T: Serialize>(unit: &Unit, debt: T) -> Result<FileState, String> {
+    let record = Record { unit: unit.clone(), debt };
+    toml::to_string(&record).map(FileState::Holds).map_err(|error| error.to_string())
+}
+
+/// Reads the files of `folder` whose names end so. One that cannot be read names no unit: it stays,
+/// and the log says what that means.
+fn found<T: DeserializeOwned>(folder: &Path, ending: &str, meaning: &str) -> Vec<(Unit, T)> {
+    let read = |path: PathBuf| {
+        let text = fs::read_to_string(&path).map_err(io::Error::other);
+        let record = text.and_then(|text| toml::from_str(&text).map_err(io::Error::other));
+        let Record { unit, debt } = record
+            .inspect_err(|error| tracing::error!(%error, path = %path.display(), "{meaning}"))
+            .ok()?;
+        Some((unit, debt))
+    };
+    files(folder).filter(|path| ending_of(path) == Some(ending)).filter_map(read).collect()
+}
+
+fn files(folder: &Path) -> impl Iterator<Item = PathBuf> {
+    let files = fs::read_dir(folder).into_iter().flatten();
+    files.filter_map(|file| Some(file.ok()?.path()))
+}
+
+/// The kind of a file by its name; the longest ending counts.
+fn ending_of(path: &Path) -> Option<&'static str> {
+    let name = path.file_name()?.to_string_lossy();
+    [AUTO_TRACK, OFFSETS, STOP].into_iter().find(|ending| name.ends_with(ending))
+}
+
+/// Renames the files of addresses with capitals, as earlier versions wrote them, so that their units
+/// find them. A file that cannot be read or renamed stays, and the log says so.
+fn lowercase_names(folder: &Path, promises: &Promises) {
+    for path in files(folder) {
+        let renamed = with_lowercase_address(&path).map_err(|error| error.to_string());
+        let renamed = renamed.and_then(|renamed| {
             let Some((name, text)) = renamed else { return Ok(()) };
-            whole_file::replace(&folder.join(name), text.as_bytes())?;
-            fs::remove_file(&path)
+            let target = folder.join(name);
+            // This version wrote the other one, which is newer.
+            if !target.exists() {
+                promises.put_and_wait(&target, FileState::Holds(text))?;
+            }
+            promises.put_and_wait(&path, FileState::Absent)
         });
         if let Err(error) = renamed {
-            tracing::error!(%error, path = %path.display(), "could not rename a record, so its unit does not find it");
+            tracing::error!(
+                error,
+                path = %path.display(),
+                "could not rename a promise, so its unit does not find it"
+            );
         }
     }
 }
 
-/// Returns the name and text of a record with its address in lower case, if the address has
-/// capitals.
+/// Returns the name and text of a file with its address in lower case, if the address has capitals.
 fn with_lowercase_address(path: &Path) -> io::Result<Option<(String, String)>> {
-    let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
-    let endings = [AUTO_TRACK, shifted_track::SHIFTED, ".toml"];
-    let Some(ending) = endings.into_iter().find(|ending| name.ends_with(ending)) else {
-        return Ok(None);
-    };
+    let Some(ending) = ending_of(path) else { return Ok(None) };
     let text = fs::read_to_string(path)?;
     // The reader reports other files.
     let Ok(mut table) = toml::from_str::<toml::Table>(&text) else { return Ok(None) };
@@ -303,158 +412,9 @@ fn with_lowercase_address(path: &Path) -> io::Result<Option<(String, String)>> {
         return Ok(None);
     }
     table.insert("address".to_owned(), toml::Value::String(address.clone()));
-    let name = format!("{}{ending}", Unit { address, ..unit }.stem());
+    let name = Unit { address, ..unit }.file_name(ending);
     Ok(Some((name, toml::to_string(&table).map_err(io::Error::other)?)))
 }
 
-/// The units with records of auto-track in `folder`. One that cannot be read names no unit: it
-/// stays, and the log says so.
-fn with_auto_track(folder: &Path) -> Vec<Unit> {
-    let Ok(files) = fs::read_dir(folder) else { return Vec::new() };
-    let paths = files.filter_map(|file| Some(file.ok()?.path()));
-    let is_one = |path: &PathBuf| path.to_string_lossy().ends_with(AUTO_TRACK);
-    let unit = |path: PathBuf| {
-        let text = fs::read_to_string(&path).map_err(io::Error::other);
-        let mark = text.and_then(|text| toml::from_str::<Mark>(&text).map_err(io::Error::other));
-        let told = mark.inspect_err(|error| {
-            tracing::error!(%error, path = %path.display(), "a unit may still track by itself");
-        });
-        told.ok().map(|mark| mark.unit)
-    };
-    paths.filter(is_one).filter_map(unit).collect()
-}
-
 #[cfg(test)]
-mod tests {
-    use super::*;
-
-    fn unit(address: &str) -> Unit {
-        Unit { make: "satrak".to_owned(), address: address.to_owned() }
-    }
-
-    #[test]
-    fn a_mark_outlives_the_program_until_it_is_taken_away() {
-        let folder = tempfile::tempdir().unwrap();
-        let since: Timestamp = "2026-08-12T01:02:03Z".parse().unwrap();
-        let (one, other) = (unit("10.0.0.5:4001"), unit("10.0.0.5_4001"));
-        let debts = || Debts::marked_in(Some(folder.path().join("marks")));
-        debts().mark(&one, since).unwrap();
-        assert_eq!(debts().marked(&one), Some(since));
-        assert_eq!(debts().marked(&other), None, "another address");
-        debts().unmark(&one);
-        assert_eq!(debts().marked(&one), None);
-        debts().unmark(&one);
-    }
-
-    #[test]
-    fn records_of_an_address_with_capitals_are_found_with_lowercase_address() {
-        let folder = tempfile::tempdir().unwrap();
-        let since: Timestamp = "2026-08-12T01:02:03Z".parse().unwrap();
-        let debts = || Debts::marked_in(Some(folder.path().to_owned()));
-        // As an earlier version wrote them.
-        debts().mark(&unit("Dish.Local:4001"), since).unwrap();
-        debts().mark_auto_track_off(&unit("Mast.Local:4001"), since).unwrap();
-        let written = unit("DISH.local:4001");
-        let antenna = Antenna::satrak("Dish", &written.address);
-        assert_eq!(Unit::of(&antenna), unit("dish.local:4001"));
-        let debts = debts();
-        assert_eq!(debts.marked(&Unit::of(&antenna)), Some(since));
-        assert_eq!(debts.with_auto_track(), [unit("mast.local:4001")]);
-        debts.unmark(&Unit::of(&antenna));
-        assert_eq!(
-            Debts::marked_in(debts.folder.as_deref().map(Path::to_owned))
-                .marked(&Unit::of(&antenna)),
-            None
-        );
-    }
-
-    #[test]
-    fn a_mark_that_cannot_be_read_still_warns() {
-        let folder = tempfile::tempdir().unwrap();
-        let debts = Debts::marked_in(Some(folder.path().to_owned()));
-        fs::write(folder.path().join(unit("a:1").file_name()), "since = ").unwrap();
-        assert_eq!(debts.marked(&unit("a:1")), Some(Timestamp::UNIX_EPOCH));
-    }
-
-    #[test]
-    fn a_debt_goes_to_the_newest_session_of_its_unit() {
-        let (debts, unit) = (Debts::default(), unit("a:1"));
-        let (old, new) = (Arc::new(Notify::new()), Arc::new(Notify::new()));
-        let first = debts.begin(&unit, old);
-        debts.owe(&unit);
-        assert!(!debts.hand_over(&unit, first), "nobody else is there");
-        let second = debts.begin(&unit, Arc::clone(&new));
-        assert!(second > first && debts.hand_over(&unit, first));
-        assert!(is_notified(&new), "STOP is its first word");
-        debts.settle(&unit);
-        assert_eq!(debts.units(), []);
-    }
-
-    #[test]
-    fn auto_track_that_is_to_be_off_hands_no_stop_to_the_next_session() {
-        let (debts, unit) = (Debts::default(), unit("a:1"));
-        let first = debts.begin(&unit, Arc::default());
-        debts.owe_auto_track_off(&unit);
-        assert!(!debts.is_followed(&unit, first));
-        let stop = Arc::new(Notify::new());
-        debts.begin(&unit, Arc::clone(&stop));
-        assert!(debts.is_followed(&unit, first) && !is_notified(&stop));
-        assert_eq!(debts.with_auto_track(), std::slice::from_ref(&unit));
-        debts.settle_auto_track(&unit);
-        assert!(!debts.owes_auto_track_off(&unit));
-    }
-
-    #[test]
-    fn auto_track_that_is_to_be_off_outlives_the_program_until_it_is_settled() {
-        let folder = tempfile::tempdir().unwrap();
-        let debts = || Debts::marked_in(Some(folder.path().join("marks")));
-        let (one, other) = (unit("10.0.0.5:4001"), unit("10.0.0.6:4001"));
-        let first = debts();
-        first.mark(&other, Timestamp::UNIX_EPOCH).unwrap();
-        first.mark_auto_track_off(&one, Timestamp::UNIX_EPOCH).unwrap();
-        first.owe_auto_track_off(&other);
-        assert_eq!(first.with_auto_track(), [one.clone(), other.clone()]);
-        assert_eq!(debts().marked(&one), None, "it is no STOP");
-        let second = debts();
-        assert_eq!(second.with_auto_track(), std::slice::from_ref(&one));
-        second.unmark_auto_track(&one);
-        assert_eq!(debts().with_auto_track(), std::slice::from_ref(&one), "it is not settled");
-        assert!(second.settle_auto_track(&one) && !second.settle_auto_track(&one));
-        second.unmark_auto_track(&one);
-        assert_eq!(debts().with_auto_track(), []);
-        assert!(debts().marked(&other).is_some());
-    }
-
-    #[test]
-    fn a_record_of_auto_track_that_cannot_be_read_stays() {
-        let folder = tempfile::tempdir().unwrap();
-        let path = folder.path().join(unit("a:1").auto_track_file_name());
-        fs::write(&path, "since = ").unwrap();
-        assert_eq!(Debts::marked_in(Some(folder.path().to_owned())).with_auto_track(), []);
-        assert!(path.exists());
-    }
-
-    #[test]
-    fn that_a_unit_is_not_known_to_stand_outlives_its_session() {
-        let (debts, unit) = (Debts::default(), unit("a:1"));
-        let first = debts.begin(&unit, Arc::default());
-        let since = Instant::now();
-        debts.keep_unproved(&unit, first, Some(since));
-        let second = debts.begin(&unit, Arc::default());
-        assert_eq!(debts.unproved_since(&unit), Some(since));
-        debts.keep_unproved(&unit, first, None);
-        assert_eq!(debts.unproved_since(&unit), Some(since), "the older one knows no better");
-        debts.keep_unproved(&unit, second, None);
-        assert_eq!(debts.unproved_since(&unit), None);
-    }
-
-    /// Whether a permit waits.
-    fn is_notified(notify: &Notify) -> bool {
-        use std::{
-            future::Future as _,
-            task::{Context, Waker},
-        };
-        let mut notified = Box::pin(notify.notified());
-        notified.as_mut().poll(&mut Context::from_waker(Waker::noop())).is_ready()
-    }
-}
+mod tests;

@@ -40,10 +40,7 @@ use std::{
 };
 
 use jiff::Timestamp;
-use tokio::{
-    sync::{Mutex as AsyncMutex, Notify, mpsc, watch},
-    task::JoinHandle,
-};
+use tokio::sync::{Mutex as AsyncMutex, Notify, mpsc, watch};
 
 pub use command::Command;
 pub(super) use io_loop::{CONNECT, MIN_WAIT, WRITE, in_words};
@@ -252,8 +249,6 @@ struct Owed {
     /// Since when a record is kept that the unit was moved and has not been proved to stand.
     kept_unproved: Option<Instant>,
     marking: Marking,
-    /// The record of auto-track is being removed.
-    unmarking: Option<JoinHandle<()>>,
     /// An earlier run may have left the unit moving, since then; the operator is being asked.
     left_moving: Option<Timestamp>,
 }
@@ -378,7 +373,6 @@ impl Session {
                 number,
                 kept_unproved: gate.unproved_since(),
                 marking: Marking::None,
-                unmarking: None,
                 left_moving: None,
             },
             seen: LastSeen::default(),
@@ -437,6 +431,7 @@ impl Session {
             inside: self.inside(now),
             sun_lifted: self.activity.program().is_some() && self.gate.lifts_sun(),
             left_moving: self.owed.left_moving,
+            not_on_disk: self.not_on_disk(now),
             jog: self.key.started().map(|jog| jog.rates_deg_s),
             stopping_way: self.stopping_way(),
             step: self.stepping.map(|stepping| stepping.steps_deg),

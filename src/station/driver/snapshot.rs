@@ -62,6 +62,9 @@ pub struct Snapshot {
     pub sun_lifted: bool,
     /// An earlier run may have left it moving, since then: the operator is asked.
     pub left_moving: Option<Timestamp>,
+    /// Why the next start would not send the STOP that is owed.
+    #[serde(default)]
+    pub not_on_disk: Option<String>,
     /// Signed rates of a held jog, degrees a second.
     pub jog: Option<[f64; 2]>,
     pub stopping_way: StoppingWay,
@@ -99,6 +102,7 @@ impl Snapshot {
             inside: None,
             sun_lifted: false,
             left_moving: None,
+            not_on_disk: None,
             jog: None,
             stopping_way: StoppingWay::default(),
             step: None,

@@ -34,6 +34,7 @@ use crate::{
     device::{Asked, Motion},
     driver::{self, Event, Found, Refusal, Response, Safety, StopState, Unit},
     plan::schedule::{Entry, sun_is},
+    promises::FileState,
     station::{self, AntennaId, AutomationRule, BetweenPasses, Station, Then},
 };
 
@@ -145,8 +146,11 @@ impl Engine {
 
     fn keep_last_run(&self) {
         let Some(path) = self.last_run_path() else { return };
-        if let Err(error) = self.last_run.save(&path) {
-            tracing::error!(%error, "automatic operation will be off at the next start");
+        let text = self.last_run.text().map_err(|error| error.to_string());
+        let promises = self.driver.debts().promises();
+        let kept = text.and_then(|text| promises.put_and_wait(&path, FileState::Holds(text)));
+        if let Err(error) = kept {
+            tracing::error!(error, "automatic operation will be off at the next start");
         }
     }
 

@@ -5,6 +5,7 @@ use std::{path::Path, sync::Arc};
 use super::{Engine, alarms::AlarmKind, uploads::Ask};
 use crate::{
     driver::Command,
+    promises::FileState,
     station::{Antenna, LOCK_OUTS_FILE, LockOut},
 };
 
@@ -66,10 +67,16 @@ impl Engine {
         let folder = self.settings_path.as_deref().and_then(Path::parent);
         let saved = match folder {
             Some(folder) => {
-                self.lock_outs.save(&folder.join(LOCK_OUTS_FILE)).map_err(|error| error.to_string())
+                self.lock_outs.text().map_err(|error| error.to_string()).and_then(|text| {
+                    let state = FileState::HoldsAndKeepsOld(text);
+                    self.driver.debts().promises().put_and_wait(&folder.join(LOCK_OUTS_FILE), state)
+                })
             }
             None => Err("this user has no folder for settings".to_owned()),
         };
+        if saved.is_ok() {
+            self.lock_outs.saved();
+        }
         let now = self.now;
         self.alarms.clear(None, self.now, |kind| matches!(kind, AlarmKind::LockOuts(_)));
         if let Err(why) = saved {

@@ -1,6 +1,8 @@
 //! STOPs, ends of auto-track and offsets that are owed to units that no antenna of the station has:
 //! the antenna was deleted, or given another address, while it moved or tracked by itself.
 
+use std::collections::BTreeSet;
+
 use jiff::Timestamp;
 
 use super::{
@@ -15,12 +17,14 @@ use crate::{
 };
 
 impl Engine {
-    /// Switches auto-track off at the units that an earlier run owes that and no antenna has: each
-    /// has a session that ends once it is paid.
-    pub(super) fn pay_left_auto_track(&mut self) {
+    /// Sends STOP to the units that an earlier run may have left moving, and switches auto-track off
+    /// where it owes that, if no antenna has the unit: each has a session that ends once it is paid.
+    pub(super) fn pay_left_debts(&mut self) {
         let debts = self.driver.debts();
         let has_it = |unit: &Unit| self.station.antennas.iter().any(|of| Unit::of(of) == *unit);
-        for unit in debts.with_auto_track().into_iter().filter(|unit| !has_it(unit)) {
+        let left: BTreeSet<Unit> =
+            debts.with_auto_track().into_iter().chain(debts.left_moving()).collect();
+        for unit in left.into_iter().filter(|unit| !has_it(unit)) {
             let spec = makes::SPECS.iter().find(|spec| spec.key == unit.make);
             // A unit of a make that this version does not know stays an alarm.
             let Some(spec) = spec else { continue };
@@ -31,7 +35,7 @@ impl Engine {
                     drop(self.driver.open(&antenna, bounds, None, until_the_end));
                 }
                 // Whoever drives it looks after it.
-                Err(_) => drop(debts.settle_auto_track(&unit)),
+                Err(_) => debts.leave(&unit),
             }
         }
     }
@@ -44,7 +48,8 @@ pub(super) fn strangers<'a>(
 ) -> Vec<AlarmKind> {
     let known: Vec<Unit> = antennas.map(Unit::of).collect();
     let is_strange = |unit: &Unit| !known.contains(unit);
-    let stops = debts.units().into_iter().filter(is_strange).map(AlarmKind::Owed);
+    let stops: BTreeSet<Unit> = debts.units().into_iter().chain(debts.left_moving()).collect();
+    let stops = stops.into_iter().filter(is_strange).map(AlarmKind::Owed);
     let auto_track = debts.with_auto_track().into_iter().filter(is_strange);
     let offsets = debts.with_offsets().into_iter().filter(is_strange);
     let owed = stops.chain(auto_track.map(AlarmKind::AutoTrackOwed));

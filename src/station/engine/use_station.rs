@@ -40,7 +40,7 @@ impl Engine {
                     self.alarms.raise(None, AlarmKind::Setting(note), self.now);
                 }
                 self.use_station(loaded.station);
-                self.pay_left_auto_track();
+                self.pay_left_debts();
             }
             Err(LoadError::Missing) => {
                 self.station_claim = StationClaim::None;

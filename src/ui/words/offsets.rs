@@ -50,17 +50,17 @@ pub fn offsets_left(
     let added = offsets(added);
     match why {
         LeftOffsets::Found { since } => format!(
-            "The unit of {antenna} still adds {added} to its tracks, written for a pass at {}. Take \
-             it back.",
+            "The unit of {antenna} still adds {added} to its tracks, written for a pass at {}. Azel \
+             takes it back once the unit neither tracks nor is locked out.",
             format::moment(*since, now)
         ),
         LeftOffsets::Failed(error) => format!(
             "The unit of {antenna} may still add {added} to its tracks: it was not taken back, since \
-             {error}. Take it back, or set it under Antennas."
+             {error}. Azel tries again. To try at once, take it back, or set it under Antennas."
         ),
         LeftOffsets::Refused(refusal) => format!(
             "The unit of {antenna} has gone on to its next pass and still adds {added}: taking it back \
-             there is refused. {} It is taken back at the end of this pass.",
+             there is refused. {} Azel tries again, and takes it back at the end of this pass.",
             super::refusal(refusal, now)
         ),
     }

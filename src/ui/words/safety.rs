@@ -126,8 +126,8 @@ pub fn asks_standing(snapshot: &Snapshot, now: Timestamp) -> Option<String> {
 /// The sentence about a STOP owed to a unit that belongs to no antenna any more.
 pub fn owed(unit: &Unit) -> String {
     format!(
-        "{} may still move: STOP is not confirmed, and no antenna of this station uses this unit \
-         any more. Azel keeps trying. Look at the antenna.",
+        "{} may still move: STOP is not confirmed, and no antenna of this station uses this unit. \
+         Look at the antenna. If Azel does not reach it, add it to the station and press STOP.",
         at_its_address(unit)
     )
 }

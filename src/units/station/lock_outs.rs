@@ -8,8 +8,7 @@ use std::{collections::BTreeMap, fs, io, path::Path};
 use jiff::Timestamp;
 use serde::{Deserialize, Deserializer, Serialize};
 
-use super::{Antenna, Connection, SaveError};
-use crate::whole_file;
+use super::{Antenna, Connection};
 
 /// Name of the file beside the station file.
 pub const LOCK_OUTS_FILE: &str = "lock-outs.toml";
@@ -178,20 +177,21 @@ impl LockOuts {
         self.units.len() > known
     }
 
-    /// Replaces the file at `path` as a whole and keeps the previous one. After a failure the changes
-    /// hold all the same, and the next save writes them.
-    pub fn save(&mut self, path: &Path) -> Result<(), SaveError> {
+    /// Content of the file with all lock-outs.
+    pub fn text(&self) -> Result<String, toml::ser::Error> {
         let line = |(unit, lock_out): (&UnitKey, &LockOut)| {
             let (UnitKey { make, address }, LockOut { by, reason, since }) =
                 (unit.clone(), lock_out.clone());
             Entry { make, address, by, reason, since }
         };
         let lock_outs = self.units.iter().map(line).collect();
-        let text = toml::to_string_pretty(&File { version: VERSION, lock_outs })?;
-        whole_file::replace_and_keep_old(path, text.as_bytes())
-            .map_err(|source| SaveError::Write { source, path: path.to_owned() })?;
+        toml::to_string_pretty(&File { version: VERSION, lock_outs })
+    }
+
+    /// The file holds all lock-outs. Until then the changes hold in memory, also when the file is
+    /// read again.
+    pub fn saved(&mut self) {
         self.unsaved.clear();
-        Ok(())
     }
 }
 
@@ -210,6 +210,11 @@ mod tests {
 
     fn now() -> Timestamp {
         "2026-11-22T11:00:00Z".parse().unwrap()
+    }
+
+    fn save(lock_outs: &mut LockOuts, path: &Path) {
+        fs::write(path, lock_outs.text().unwrap()).unwrap();
+        lock_outs.saved();
     }
 
     #[test]
@@ -240,15 +245,30 @@ mod tests {
         assert_eq!(LockOuts::load(&path, now()), (LockOuts::default(), None), "no file");
         let mut lock_outs = LockOuts::default();
         lock_outs.set(&dish, Some(lock_out("gear")), std::iter::empty());
-        lock_outs.save(&path).unwrap();
+        save(&mut lock_outs, &path);
 
         let (mut again, problem) = LockOuts::load(&path, now());
         assert_eq!((&again, problem), (&lock_outs, None));
         assert_eq!(again.of(&renamed), Some(&lock_out("gear")));
         assert_eq!((again.of(&other), again.of(&make)), (None, None));
         again.set(&renamed, None, std::iter::empty());
-        again.save(&path).unwrap();
+        save(&mut again, &path);
         assert_eq!(LockOuts::load(&path, now()), (LockOuts::default(), None));
+    }
+
+    /// A file as version f93e9bd5 wrote it.
+    #[test]
+    fn a_list_of_an_earlier_version_means_the_same() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join(LOCK_OUTS_FILE);
+        let text = "version = 1\n\n[[lock_out]]\nmake = \"satrak\"\naddress = \"unit.local:4001\"\n\
+                    by = \"Ada\"\nreason = \"gear\"\nsince = \"2026-11-22T10:00:00Z\"\n";
+        fs::write(&path, text).unwrap();
+        let (lock_outs, problem) = LockOuts::load(&path, now());
+        assert_eq!(problem, None);
+        let dish = Antenna::satrak("Dish", "Unit.local:4001").connection;
+        assert_eq!(lock_outs.of(&dish), Some(&lock_out("gear")));
+        assert_eq!(lock_outs.text().unwrap(), text, "it is written the same");
     }
 
     #[test]
@@ -259,14 +279,11 @@ mod tests {
         let mast = Antenna::genius("Mast", "10.0.0.2:9006").connection;
         let mut lock_outs = LockOuts::default();
         lock_outs.set(&dish, Some(lock_out("gear")), std::iter::empty());
-        // A folder stands where the file would be written.
-        fs::create_dir(&path).unwrap();
-        lock_outs.save(&path).unwrap_err();
-        fs::remove_dir(&path).unwrap();
+        // The disk does not take it.
         assert_eq!(lock_outs.reload(&path, now()), None);
         lock_outs.set(&mast, Some(lock_out("belts")), std::iter::empty());
         assert!(lock_outs.of(&dish).is_some() && lock_outs.of(&mast).is_some());
-        lock_outs.save(&path).unwrap();
+        save(&mut lock_outs, &path);
         let (again, _) = LockOuts::load(&path, now());
         assert!(again.of(&dish).is_some() && again.of(&mast).is_some());
     }
@@ -299,7 +316,7 @@ mod tests {
                 assert_eq!((lock_out.by.as_str(), lock_out.since), ("Azel", now()));
             }
             lock_outs.set(&dish, None, [&dish, &mast].into_iter());
-            lock_outs.save(&path).unwrap();
+            save(&mut lock_outs, &path);
             let (again, problem) = LockOuts::load(&path, now());
             assert_eq!(problem, None);
             assert_eq!(again.of(&dish), None);

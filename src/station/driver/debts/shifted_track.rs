@@ -1,19 +1,17 @@
 //! Offsets that were written to a unit for a track of its own, and what it held before: kept on
 //! disk until they are taken back, so that a program that breaks off does not lose them.
 
-use std::{
-    fs, io,
-    path::{Path, PathBuf},
-};
-
 use jiff::Timestamp;
 use serde::{Deserialize, Serialize};
 
-use super::{Debts, Unit};
-use crate::{astro::TrackOffsets, whole_file};
+use super::{Debts, OFFSETS, Record, Unit, file};
+use crate::{
+    astro::{Angle, Offset, TrackOffsets},
+    promises::{FileState, Kept},
+};
 
-/// End of the names of these records.
-pub(super) const SHIFTED: &str = ".offsets.toml";
+/// Maximum number of values that a unit may hold from here.
+const MAX_PUT: usize = 64;
 
 /// A unit whose own track was shifted from here.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -24,26 +22,63 @@ pub(in crate::driver) struct ShiftedTrack {
     pub(in crate::driver) before: TrackOffsets,
     /// What it may hold by now: the last that was read back, and what was written after it.
     pub(in crate::driver) put: Vec<TrackOffsets>,
+    /// The track to which they were added. Earlier versions did not record it.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub(in crate::driver) track: Option<AddedTo>,
     /// An earlier run left it so.
     #[serde(skip)]
     pub(in crate::driver) is_found: bool,
 }
 
-/// Content of a record on disk.
-#[derive(Debug, Serialize, Deserialize)]
-struct Mark {
-    #[serde(flatten)]
-    unit: Unit,
-    #[serde(flatten)]
-    shifted: ShiftedTrack,
+/// A track of a unit.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+pub(in crate::driver) struct AddedTo {
+    pub(in crate::driver) catalog_number: u32,
+    /// When the unit ends it, by its own clock.
+    pub(in crate::driver) until: Timestamp,
 }
 
 impl ShiftedTrack {
-    /// What is added to what the unit held before, where it reports `held`; `None` if that is not
-    /// from here.
+    /// As an earlier run left it.
+    pub(super) fn left((unit, shifted): (Unit, Self)) -> (Unit, Self) {
+        (unit, Self { is_found: true, ..shifted })
+    }
+
+    /// What is added to what the unit held before, where it reports `held`; `None` if any of that
+    /// is not from here.
     pub(in crate::driver) fn added(&self, held: TrackOffsets) -> Option<TrackOffsets> {
-        let is_known = held == self.before || self.put.contains(&held);
-        is_known.then(|| held.less(self.before)).flatten()
+        let is_ours = [TrackOffsets::azimuth, TrackOffsets::elevation]
+            .into_iter()
+            .all(|component| self.may_hold(component, held));
+        is_ours.then(|| held.less(self.before)).flatten()
+    }
+
+    /// Returns `true` if the unit held this component before, or may hold it from here. The
+    /// components of one write may take effect one after the other.
+    fn may_hold(&self, component: fn(TrackOffsets) -> Angle, held: TrackOffsets) -> bool {
+        let mut known = self.put.iter().chain([&self.before]);
+        known.any(|known| component(*known) == component(held))
+    }
+
+    /// The same where somebody else has set a component that `held` reports: that one is not to be
+    /// taken back.
+    pub(in crate::driver) fn without_foreign(self, held: TrackOffsets) -> Option<Self> {
+        let restored = |component: fn(TrackOffsets) -> Angle| {
+            component(if self.may_hold(component, held) { self.before } else { held })
+        };
+        let before = TrackOffsets::NONE
+            .plus(Offset::Azimuth(restored(TrackOffsets::azimuth)))?
+            .plus(Offset::Elevation(restored(TrackOffsets::elevation)))?;
+        Some(Self { before, ..self })
+    }
+
+    /// Notes that the unit may hold `offsets` from here on.
+    pub(in crate::driver) fn may_be(&mut self, offsets: TrackOffsets) {
+        self.put.retain(|known| *known != offsets);
+        if self.put.len() >= MAX_PUT {
+            self.put.remove(0);
+        }
+        self.put.push(offsets);
     }
 }
 
@@ -57,146 +92,133 @@ impl Debts {
         self.ledger().shifted.keys().cloned().collect()
     }
 
-    /// What was written to the unit, or is about to be; `None` once it is taken back. It is on the
-    /// disk after [`Self::keep_shifted`].
+    /// Requests a file that says what was written to the unit, or is about to be; `None` once it is
+    /// taken back. A worker writes it.
     pub(in crate::driver) fn set_shifted(&self, unit: &Unit, shifted: Option<ShiftedTrack>) {
         let mut ledger = self.ledger();
+        let state = match &shifted {
+            Some(shifted) => file(unit, shifted),
+            None => Ok(FileState::Absent),
+        };
         match shifted {
             Some(shifted) => drop(ledger.shifted.insert(unit.clone(), shifted)),
             None => drop(ledger.shifted.remove(unit)),
         }
-    }
-
-    /// Makes the record on disk say what is known now. Blocks.
-    pub(in crate::driver) fn keep_shifted(&self, unit: &Unit) -> io::Result<()> {
-        let Some(folder) = &self.folder else { return Ok(()) };
-        let _files = self.files();
-        let path = path_in(folder, unit);
-        match self.shifted(unit) {
-            Some(shifted) => {
-                let mark = Mark { unit: unit.clone(), shifted };
-                let text = toml::to_string(&mark).map_err(io::Error::other)?;
-                whole_file::replace(&path, text.as_bytes())
+        if let Some(path) = self.path(unit, OFFSETS) {
+            match state {
+                Ok(state) => self.promises.put(&path, state),
+                Err(error) => tracing::error!(error, "the file of offsets is out of date"),
             }
-            None => match fs::remove_file(path) {
-                Err(error) if error.kind() != io::ErrorKind::NotFound => Err(error),
-                _ => Ok(()),
-            },
         }
     }
-}
 
-impl Debts {
+    /// Progress of the file of offsets.
+    pub(in crate::driver) fn shifted_kept(&self, unit: &Unit) -> Kept {
+        self.path(unit, OFFSETS).map_or(Kept::OnDisk, |path| self.promises.kept(&path))
+    }
+
     /// Looks again for what an earlier run left, since another Azel may have driven the unit
     /// meanwhile; what was written from here is known better. Blocks.
     pub(in crate::driver) fn find_shifted(&self, unit: &Unit) {
-        let Some(folder) = &self.folder else { return };
-        let _files = self.files();
-        let path = path_in(folder, unit);
-        let found = match fs::exists(&path) {
-            Ok(false) => None,
-            // One that cannot be read says nothing new.
-            _ => match read(&path) {
-                Some((_, shifted)) => Some(shifted),
-                None => return,
-            },
-        };
-        if self.shifted(unit).is_none_or(|shifted| shifted.is_found) {
-            self.set_shifted(unit, found);
+        let Some(path) = self.path(unit, OFFSETS) else { return };
+        let found =
+            match self.promises.read(&path).map(|text| text.map(|text| toml::from_str(&text))) {
+                Ok(None) => None,
+                Ok(Some(Ok(Record { unit, debt }))) => Some(ShiftedTrack::left((unit, debt)).1),
+                // A file that cannot be read says nothing new.
+                Ok(Some(Err(_))) | Err(_) => return,
+            };
+        let mut ledger = self.ledger();
+        if ledger.shifted.get(unit).is_none_or(|shifted| shifted.is_found) {
+            match found {
+                Some(shifted) => drop(ledger.shifted.insert(unit.clone(), shifted)),
+                None => drop(ledger.shifted.remove(unit)),
+            }
         }
     }
-}
-
-fn path_in(folder: &Path, unit: &Unit) -> PathBuf {
-    folder.join(format!("{}{SHIFTED}", unit.stem()))
-}
-
-/// What earlier runs left in `folder`. A record that cannot be read names no unit: it stays, and
-/// the log says so.
-pub(super) fn found(folder: &Path) -> Vec<(Unit, ShiftedTrack)> {
-    let Ok(files) = fs::read_dir(folder) else { return Vec::new() };
-    let paths = files.filter_map(|file| Some(file.ok()?.path()));
-    let is_one = |path: &PathBuf| path.to_string_lossy().ends_with(SHIFTED);
-    paths.filter(is_one).filter_map(|path| read(&path)).collect()
-}
-
-fn read(path: &Path) -> Option<(Unit, ShiftedTrack)> {
-    let text = fs::read_to_string(path).map_err(io::Error::other);
-    let mark = text.and_then(|text| toml::from_str::<Mark>(&text).map_err(io::Error::other));
-    let told = mark.inspect_err(|error| {
-        tracing::error!(%error, path = %path.display(), "a unit may still hold offsets of a pass");
-    });
-    let Mark { unit, shifted } = told.ok()?;
-    Some((unit, ShiftedTrack { is_found: true, ..shifted }))
 }
 
 #[cfg(test)]
 mod tests {
+    use std::fs;
+
     use super::*;
-    use crate::astro::{Angle, Offset};
 
     fn azimuth(degrees: f64) -> TrackOffsets {
         TrackOffsets::NONE.plus(Offset::Azimuth(Angle::from_degrees(degrees))).unwrap()
+    }
+
+    fn both(azimuth_deg: f64, elevation_deg: f64) -> TrackOffsets {
+        let elevation = Offset::Elevation(Angle::from_degrees(elevation_deg));
+        azimuth(azimuth_deg).plus(elevation).unwrap()
+    }
+
+    fn put(before: TrackOffsets, put: &[TrackOffsets]) -> ShiftedTrack {
+        let since = Timestamp::UNIX_EPOCH;
+        ShiftedTrack { since, before, put: put.to_vec(), track: None, is_found: false }
+    }
+
+    fn unit() -> Unit {
+        Unit { make: "satrak".to_owned(), address: "10.0.0.5:4001".to_owned() }
     }
 
     #[test]
     fn what_was_written_outlives_the_program_until_it_is_taken_back() {
         let folder = tempfile::tempdir().unwrap();
         let debts = || Debts::marked_in(Some(folder.path().join("marks")));
-        let unit = Unit { make: "satrak".to_owned(), address: "10.0.0.5:4001".to_owned() };
-        let shifted = ShiftedTrack {
-            since: Timestamp::UNIX_EPOCH,
-            before: azimuth(-0.1),
-            put: vec![azimuth(0.1), azimuth(0.2)],
-            is_found: false,
-        };
+        let track = Some(AddedTo { catalog_number: 25_544, until: Timestamp::UNIX_EPOCH });
+        let shifted = ShiftedTrack { track, ..put(azimuth(-0.1), &[azimuth(0.1), azimuth(0.2)]) };
         let first = debts();
-        first.set_shifted(&unit, Some(shifted.clone()));
-        first.keep_shifted(&unit).unwrap();
+        first.set_shifted(&unit(), Some(shifted.clone()));
+        assert_eq!(first.shifted_kept(&unit()), Kept::OnDisk);
         let second = debts();
         let found = ShiftedTrack { is_found: true, ..shifted };
-        assert_eq!(second.shifted(&unit), Some(found.clone()));
-        assert_eq!(second.with_offsets(), std::slice::from_ref(&unit));
+        assert_eq!(second.shifted(&unit()), Some(found.clone()));
+        assert_eq!(second.with_offsets(), [unit()]);
         assert_eq!(found.added(azimuth(0.2)), Some(azimuth(0.3)));
         assert_eq!(found.added(azimuth(-0.1)), Some(TrackOffsets::NONE));
         assert_eq!(found.added(azimuth(0.5)), None, "somebody else's");
-        second.set_shifted(&unit, None);
-        second.keep_shifted(&unit).unwrap();
-        second.keep_shifted(&unit).unwrap();
-        assert_eq!(debts().shifted(&unit), None);
+        for _ in 0..2 {
+            second.set_shifted(&unit(), None);
+        }
+        assert_eq!(debts().shifted(&unit()), None);
+    }
+
+    #[test]
+    fn each_component_is_taken_back_by_itself() {
+        let shifted = put(both(0.25, -0.1), &[both(0.25, -0.1), both(0.45, 0.0)]);
+        // The azimuth is restored, and the elevation is not yet.
+        assert_eq!(shifted.added(both(0.25, 0.0)), Some(both(0.0, 0.1)));
+        assert_eq!(shifted.clone().without_foreign(both(0.25, 0.0)), Some(shifted.clone()));
+        // Somebody else has set the azimuth.
+        assert_eq!(shifted.added(both(0.7, 0.0)), None);
+        let left = shifted.without_foreign(both(0.7, 0.0)).unwrap();
+        assert_eq!(left.added(both(0.7, 0.0)), Some(both(0.0, 0.1)));
     }
 
     #[test]
     fn what_another_azel_has_recorded_or_taken_back_meanwhile_is_found() {
         let folder = tempfile::tempdir().unwrap();
         let [here, there] = [(); 2].map(|()| Debts::marked_in(Some(folder.path().to_owned())));
-        let unit = Unit { make: "satrak".to_owned(), address: "a:1".to_owned() };
-        let put = |degrees| ShiftedTrack {
-            since: Timestamp::UNIX_EPOCH,
-            before: TrackOffsets::NONE,
-            put: vec![azimuth(degrees)],
-            is_found: false,
-        };
-        there.set_shifted(&unit, Some(put(0.1)));
-        there.keep_shifted(&unit).unwrap();
-        here.find_shifted(&unit);
-        assert_eq!(here.shifted(&unit), Some(ShiftedTrack { is_found: true, ..put(0.1) }));
-        there.set_shifted(&unit, None);
-        there.keep_shifted(&unit).unwrap();
-        here.find_shifted(&unit);
-        assert_eq!(here.shifted(&unit), None);
-        here.set_shifted(&unit, Some(put(0.2)));
-        here.find_shifted(&unit);
-        assert_eq!(here.shifted(&unit), Some(put(0.2)), "it is about to be recorded");
+        let shifted = |degrees| put(TrackOffsets::NONE, &[azimuth(degrees)]);
+        there.set_shifted(&unit(), Some(shifted(0.1)));
+        here.find_shifted(&unit());
+        let found = ShiftedTrack { is_found: true, ..shifted(0.1) };
+        assert_eq!(here.shifted(&unit()), Some(found));
+        there.set_shifted(&unit(), None);
+        here.find_shifted(&unit());
+        assert_eq!(here.shifted(&unit()), None);
+        here.set_shifted(&unit(), Some(shifted(0.2)));
+        here.find_shifted(&unit());
+        assert_eq!(here.shifted(&unit()), Some(shifted(0.2)), "it is about to be recorded");
     }
 
     #[test]
     fn a_record_that_cannot_be_read_stays() {
         let folder = tempfile::tempdir().unwrap();
-        let path = folder.path().join(format!("satrak-a{SHIFTED}"));
+        let path = folder.path().join(unit().file_name(OFFSETS));
         fs::write(&path, "since = ").unwrap();
-        let unit = Unit { make: "satrak".to_owned(), address: "a".to_owned() };
-        assert_eq!(Debts::marked_in(Some(folder.path().to_owned())).shifted(&unit), None);
+        assert_eq!(Debts::marked_in(Some(folder.path().to_owned())).shifted(&unit()), None);
         assert!(path.exists());
     }
 }

@@ -3,8 +3,6 @@
 
 use std::time::Duration;
 
-use tokio::task::spawn_blocking;
-
 use super::Session;
 use crate::{clock::Instant, clock::Moment, driver::Event};
 
@@ -32,10 +30,7 @@ impl Session {
 
     /// The operator, or automatic operation, wants the unit to start by itself.
     pub(super) fn allow_auto_track(&mut self) {
-        let (debts, unit) = (self.owed.debts.clone(), self.owed.unit.clone());
-        if debts.settle_auto_track(&unit) && debts.has_marks() {
-            self.owed.unmarking = Some(spawn_blocking(move || debts.unmark_auto_track(&unit)));
-        }
+        self.owed.debts.settle_auto_track(&self.owed.unit);
     }
 
     pub(super) fn owes_auto_track_off(&self) -> bool {

@@ -20,7 +20,7 @@ use crate::{
         panel::Act,
         settings::{Change, WriteError},
     },
-    driver::{Effect, Intent, Refusal, gate::Held},
+    driver::{Intent, Refusal, gate::Held},
     name::{self, Name},
     plan::{OnBoardPass, ProgramTrack},
     station::LockOut,
@@ -106,12 +106,10 @@ pub enum Command {
 }
 
 impl Session {
-    /// Carries out a command. One that waits for a judgement gives way to it.
     pub(super) fn carry_out(&mut self, command: Command, now: Moment) {
-        if command.row().effect != Effect::Looks {
-            self.judging.drop_waiting();
+        if let Some(command) = self.take_turn(command) {
+            self.carry_out_now(command, now);
         }
-        self.carry_out_now(command, now);
     }
 
     pub(super) fn carry_out_now(&mut self, command: Command, now: Moment) {

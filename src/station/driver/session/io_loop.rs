@@ -99,7 +99,7 @@ impl Session {
         let now = self.now();
         self.contact.left_at = self.gate.state().measured.map(|measured| measured.pointing);
         self.gate.device().link_down(now);
-        self.lose_shift();
+        self.lose_shift(now);
         self.record();
         self.gate.forget_angles();
         end

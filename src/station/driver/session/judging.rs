@@ -1,7 +1,7 @@
 //! Judges the paths of the unit's own program off the driver's thread, which must never be held up:
 //! it serves all antennas, and STOP. The antenna waits until the judgement is there.
 
-use std::sync::Arc;
+use std::{collections::VecDeque, sync::Arc};
 
 use tokio::{
     sync::{Notify, oneshot},
@@ -12,7 +12,7 @@ use super::{Command, Event, Session};
 use crate::{
     clock::Moment,
     device::OnBoard,
-    driver::{Refusal, gate::PathQuestion},
+    driver::{Effect, Refusal, gate::PathQuestion},
     job::is_in_place,
     plan::on_board::{Judge, NotClear},
 };
@@ -20,6 +20,9 @@ use crate::{
 /// Number of judgements after which a command is refused whose unit keeps reporting something
 /// else.
 const MAX_TRIES: u8 = 3;
+
+/// Number of steps of an offset that wait; a key repeats them.
+const MAX_WAITING: usize = 32;
 
 type Judgements = Vec<(PathQuestion, Result<(), NotClear>)>;
 
@@ -29,10 +32,9 @@ pub(super) struct Judging {
     running: Option<oneshot::Receiver<Judgements>>,
     /// A judgement is there.
     is_done: Arc<Notify>,
-    /// The command that waits for it, and how often it has waited. A halt and the next command end
-    /// the wait.
-    waiting: Option<(Command, u8)>,
-    /// How often the command that is being carried out has waited.
+    /// What waits for it. A halt and the next command that is no further offset end the wait.
+    waiting: VecDeque<Command>,
+    /// How often the first of them has waited.
     tries: u8,
 }
 
@@ -45,9 +47,10 @@ impl Judging {
         Arc::clone(&self.is_done)
     }
 
-    /// The command that waits is not to be carried out any more.
+    /// What waits is not to be carried out any more.
     pub(super) fn drop_waiting(&mut self) {
-        self.waiting = None;
+        self.waiting.clear();
+        self.tries = 0;
     }
 
     fn begin(&mut self, questions: Vec<PathQuestion>) {
@@ -91,7 +94,23 @@ impl Session {
         if self.judging.tries >= MAX_TRIES {
             return self.tell(Event::NotSent(Refusal::BeingJudged));
         }
-        self.judging.waiting = Some((command, self.judging.tries + 1));
+        self.judging.tries += 1;
+        self.judging.waiting.push_front(command);
+    }
+
+    /// Returns the command unless it has to wait behind others: steps of an offset add up. Any other
+    /// command takes the place of what waits.
+    pub(super) fn take_turn(&mut self, command: Command) -> Option<Command> {
+        let waiting = &mut self.judging.waiting;
+        let adds_up = matches!(command, Command::Offset(_)) && !waiting.is_empty();
+        if adds_up && waiting.len() < MAX_WAITING {
+            waiting.push_back(command);
+            return None;
+        }
+        if command.row().effect != Effect::Looks {
+            self.judging.drop_waiting();
+        }
+        Some(command)
     }
 
     /// Takes a judgement that is there, and carries out what has waited for it.
@@ -106,10 +125,13 @@ impl Session {
             }
         }
         self.judging.running = None;
-        if let Some((command, tries)) = self.judging.waiting.take() {
-            self.judging.tries = tries;
+        while !self.judging.is_under_way()
+            && let Some(command) = self.judging.waiting.pop_front()
+        {
             self.carry_out_now(command, now);
-            self.judging.tries = 0;
+            if !self.judging.is_under_way() {
+                self.judging.tries = 0;
+            }
         }
     }
 }

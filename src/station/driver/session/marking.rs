@@ -1,12 +1,18 @@
-//! The record on disk that an antenna is moved by hand, or is owed a STOP: if this program ends
+//! The promise on disk that an antenna is moved by hand, or is owed a STOP: if this program ends
 //! before standstill is proved, the next start sends STOP first.
 
-use std::{io, time::Duration};
+use std::time::Duration;
 
-use tokio::task::{JoinHandle, spawn_blocking};
+use jiff::Timestamp;
+use tokio::task::spawn_blocking;
 
 use super::{Event, Session};
-use crate::{astro::time::seconds_between, clock::Instant, clock::Moment, driver::Safety};
+use crate::{
+    astro::time::seconds_between,
+    clock::{Instant, Moment},
+    driver::{Safety, debts::Mark},
+    promises::Kept,
+};
 
 /// A slower disk must not keep the operator from moving the antenna.
 const MAX: Duration = Duration::from_millis(300);
@@ -14,26 +20,33 @@ const MAX: Duration = Duration::from_millis(300);
 const LOOK: Duration = Duration::from_millis(2);
 /// Above this age the operator is asked: much may have been done at the antenna since.
 const OLD_S: f64 = 600.0;
+/// Interval at which a session that still tries says so in its mark. The age of a mark counts from
+/// then.
+const REFRESH: Duration = Duration::from_mins(1);
+/// Interval at which a mark that the disk did not take is written again.
+const AGAIN: Duration = Duration::from_secs(10);
 
-/// The record of one antenna.
-#[derive(Debug)]
+/// The mark of one antenna.
+#[derive(Debug, Clone, Copy)]
 pub(super) enum Marking {
     None,
-    /// Being written.
-    Writing {
-        since: Instant,
-        writing: JoinHandle<io::Result<()>>,
+    /// An earlier run left it.
+    Found {
+        since: Timestamp,
     },
-    /// On the disk.
-    Marked,
-    /// Could not be written, and the operator was told.
-    Failed,
-    /// Being removed.
-    Removing(JoinHandle<()>),
+    /// Requested by this session.
+    Put {
+        since: Timestamp,
+        first: Instant,
+        /// The last request.
+        last: Instant,
+        /// The operator knows that it is not on the disk.
+        is_told: bool,
+    },
 }
 
 impl Session {
-    /// Returns `true` if the record is on the disk or cannot be had; begins to write it.
+    /// Returns `true` if the mark is on the disk or cannot be had; requests it.
     pub(super) fn is_marked(&mut self, now: Moment) -> bool {
         if self.variant.capabilities.ends_jogs || !self.owed.debts.has_marks() {
             return true;
@@ -44,88 +57,109 @@ impl Session {
     /// Records on disk that a STOP is owed. It comes after the bytes of the STOP, which wait for no
     /// disk.
     pub(super) fn record_debt(&mut self, now: Moment) {
+        if !self.owed.debts.has_marks() {
+            return;
+        }
         let is_out_of_reach = self.stop.is_under_way() && !self.contact.link.is_open();
-        if self.owed.debts.has_marks() && (self.stop.is_pressed() || is_out_of_reach) {
+        if self.stop.is_pressed() || is_out_of_reach {
             self.follow_marking(now);
         }
+        self.refresh_mark(now);
     }
 
-    /// Returns `true` if the record is on the disk or could not be written; else begins to write
-    /// it, or waits for that.
+    /// Returns `true` if the mark is on the disk, or the disk has refused it or is slow. Requests
+    /// it if this session has not yet.
     fn follow_marking(&mut self, now: Moment) -> bool {
-        match &mut self.owed.marking {
-            Marking::Marked | Marking::Failed => true,
-            Marking::Writing { since, writing } => {
-                let is_late = now.steady.saturating_duration_since(*since) >= MAX;
-                if !writing.is_finished() && !is_late {
-                    return false;
-                }
-                // Finished or given up: no wait either way.
-                let written = if writing.is_finished() { take_now(writing) } else { None };
-                if written.is_some_and(|written| written.is_ok()) {
-                    self.owed.marking = Marking::Marked;
-                } else {
-                    self.owed.marking = Marking::Failed;
+        let Marking::Put { first, is_told, .. } = &mut self.owed.marking else {
+            self.put_mark(now);
+            return false;
+        };
+        let is_late = now.steady.saturating_duration_since(*first) >= MAX;
+        match self.owed.debts.mark_kept(&self.owed.unit) {
+            Kept::OnDisk => {
+                *is_told = false;
+                true
+            }
+            Kept::Pending if !is_late => false,
+            Kept::Pending | Kept::Failed(_) => {
+                if !std::mem::replace(is_told, true) {
                     self.tell(Event::Safety(Safety::NoMark));
                 }
                 true
             }
-            Marking::None | Marking::Removing(_) => {
-                let before = match std::mem::replace(&mut self.owed.marking, Marking::None) {
-                    Marking::Removing(before) => Some(before),
-                    _ => None,
-                };
-                let (debts, unit) = (self.owed.debts.clone(), self.owed.unit.clone());
-                let writing = tokio::spawn(async move {
-                    // One after the other, or the older removal would remove the newer record.
-                    if let Some(before) = before {
-                        before.await.ok();
-                    }
-                    let marked = spawn_blocking(move || debts.mark(&unit, now.utc)).await;
-                    marked.unwrap_or_else(|error| Err(io::Error::other(error)))
-                });
-                self.owed.marking = Marking::Writing { since: now.steady, writing };
-                false
-            }
         }
     }
 
-    /// When to check again whether the record is on the disk.
+    /// Requests the mark, as of now.
+    fn put_mark(&mut self, now: Moment) {
+        let (since, first, is_told) = match self.owed.marking {
+            Marking::None => (now.utc, now.steady, false),
+            Marking::Found { since } => (since, now.steady, false),
+            Marking::Put { since, first, is_told, .. } => (since, first, is_told),
+        };
+        let mark = Mark { since, tried: Some(now.utc) };
+        self.owed.debts.mark(&self.owed.unit, self.owed.number, mark);
+        self.owed.marking = Marking::Put { since, first, last: now.steady, is_told };
+    }
+
+    /// Records that a unit that may be moving is still attended to.
+    fn refresh_mark(&mut self, now: Moment) {
+        let Marking::Put { last, .. } = self.owed.marking else { return };
+        if !self.stop.is_under_way() && self.key.started().is_none() {
+            return;
+        }
+        let after = match self.owed.debts.mark_kept(&self.owed.unit) {
+            Kept::OnDisk => REFRESH,
+            Kept::Failed(_) => AGAIN,
+            Kept::Pending => return,
+        };
+        if now.steady.saturating_duration_since(last) >= after {
+            self.put_mark(now);
+        }
+    }
+
+    /// Why the next start would not know that a STOP is owed.
+    pub(super) fn not_on_disk(&self, now: Moment) -> Option<String> {
+        if !self.stop.is_pressed() {
+            return None;
+        }
+        if !self.owed.debts.has_marks() {
+            return Some("this user has no folder for it".to_owned());
+        }
+        let Marking::Put { first, .. } = self.owed.marking else { return None };
+        let is_late = now.steady.saturating_duration_since(first) >= MAX;
+        match self.owed.debts.mark_kept(&self.owed.unit) {
+            Kept::OnDisk => None,
+            Kept::Pending => is_late.then(|| "the disk has not taken it yet".to_owned()),
+            Kept::Failed(why) => Some(why),
+        }
+    }
+
+    /// When to check again whether the mark is on the disk.
     pub(super) fn marking_due(&self, now: Instant) -> Option<Instant> {
-        matches!(self.owed.marking, Marking::Writing { .. }).then_some(now + LOOK)
+        let Marking::Put { first, .. } = self.owed.marking else { return None };
+        let is_awaited = now.saturating_duration_since(first) < MAX
+            && self.owed.debts.mark_kept(&self.owed.unit) == Kept::Pending;
+        is_awaited.then_some(now + LOOK)
     }
 
     /// Standstill is proved: nothing is owed to the unit any more.
     pub(super) fn settle_debt(&mut self) {
         self.owed.debts.settle(&self.owed.unit);
         self.owed.left_moving = None;
-        let before = match std::mem::replace(&mut self.owed.marking, Marking::None) {
-            Marking::None => return,
-            removing @ Marking::Removing(_) => {
-                self.owed.marking = removing;
-                return;
+        match std::mem::replace(&mut self.owed.marking, Marking::None) {
+            Marking::None => {}
+            Marking::Found { .. } | Marking::Put { .. } => {
+                self.owed.debts.unmark(&self.owed.unit, self.owed.number);
             }
-            Marking::Writing { writing, .. } => Some(writing),
-            Marking::Marked | Marking::Failed => None,
-        };
-        let (debts, unit) = (self.owed.debts.clone(), self.owed.unit.clone());
-        self.owed.marking = Marking::Removing(tokio::spawn(async move {
-            if let Some(before) = before {
-                before.await.ok();
-            }
-            spawn_blocking(move || debts.unmark(&unit)).await.ok();
-        }));
+        }
     }
 
-    /// Waits a moment until records are removed, which the end of the program would cut off.
+    /// Waits a moment until the disk has taken all requests, which the end of the program would
+    /// cut off.
     pub(super) async fn end_marking(&mut self) {
-        if let Marking::Removing(removing) = &mut self.owed.marking {
-            // A record that stays costs no more than a STOP at the next start.
-            let _ = self.clock.timeout(MAX, removing).await;
-        }
-        if let Some(removing) = &mut self.owed.unmarking {
-            let _ = self.clock.timeout(MAX, removing).await;
-        }
+        // A file that stays costs no more than a STOP at the next start.
+        let _ = self.clock.timeout(MAX, self.owed.debts.settled(&self.owed.unit)).await;
     }
 
     /// Checks what an earlier run left on the unit. If that may be moving, STOP is sent first,
@@ -134,16 +168,20 @@ impl Session {
         if !self.owed.debts.has_marks() {
             return;
         }
-        let (debts, unit) = (self.owed.debts.clone(), self.owed.unit.clone());
+        let (debts, unit, number) =
+            (self.owed.debts.clone(), self.owed.unit.clone(), self.owed.number);
         let looking = spawn_blocking(move || {
             debts.find_shifted(&unit);
-            debts.marked(&unit)
+            debts.take_over_mark(&unit, number)
         });
-        let Ok(Some(since)) = looking.await else { return };
+        let found = looking.await;
         let now = self.now();
+        self.doubt_found_offsets(now);
+        let Ok(Some(mark)) = found else { return };
+        let since = mark.since;
         let asks = self.variant.capabilities.waits_for_word
-            || seconds_between(since, now.utc).abs() > OLD_S;
-        self.owed.marking = Marking::Marked;
+            || seconds_between(mark.last_tried(), now.utc).abs() > OLD_S;
+        self.owed.marking = Marking::Found { since };
         if asks {
             self.owed.left_moving = Some(since);
             self.publish(now);
@@ -154,43 +192,13 @@ impl Session {
     }
 
     /// Records on disk that a STOP is owed, for a program that ends before it is proved. A slow
-    /// disk holds the STOP up only for a moment; the record is written meanwhile.
+    /// disk holds the STOP up only for a moment; the mark is written meanwhile.
     pub(super) async fn mark_debt(&mut self) {
-        let (debts, unit, since) =
-            (self.owed.debts.clone(), self.owed.unit.clone(), self.now().utc);
-        if !debts.has_marks() {
-            return;
+        if self.owed.debts.has_marks() {
+            let now = self.now();
+            self.put_mark(now);
+            self.end_marking().await;
         }
-        let before = match std::mem::replace(&mut self.owed.marking, Marking::None) {
-            Marking::Removing(before) => Some(before),
-            Marking::Writing { writing, .. } => Some(tokio::spawn(async move {
-                writing.await.ok();
-            })),
-            Marking::None | Marking::Marked | Marking::Failed => None,
-        };
-        let mark = tokio::spawn(async move {
-            // One after the other, or the older removal would remove the newer record.
-            if let Some(before) = before {
-                before.await.ok();
-            }
-            spawn_blocking(move || debts.mark(&unit, since)).await
-        });
-        if matches!(self.clock.timeout(MAX, mark).await, Ok(Ok(Ok(Ok(()))))) {
-            self.owed.marking = Marking::Marked;
-        }
-    }
-}
-
-/// The outcome of a task that has ended.
-pub(super) fn take_now(ended: &mut JoinHandle<io::Result<()>>) -> Option<io::Result<()>> {
-    use std::{
-        future::Future as _,
-        pin::Pin,
-        task::{Context, Poll, Waker},
-    };
-    match Pin::new(ended).poll(&mut Context::from_waker(Waker::noop())) {
-        Poll::Ready(outcome) => outcome.ok(),
-        Poll::Pending => None,
     }
 }
 

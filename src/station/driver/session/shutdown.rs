@@ -94,6 +94,8 @@ impl Session {
                 self.gate.device().link_down(now);
             }
             if self.is_in_debt() {
+                let now = self.now();
+                self.record_debt(now);
                 self.clock.sleep(STOP_RETRY).await;
             }
         }

@@ -30,6 +30,13 @@ pub(in crate::driver) fn start(
     (control, handle)
 }
 
+/// Starts a session with a new unit at `now`; returns the unit and the handle.
+pub(in crate::driver) fn start_at(now: Timestamp, debts: Debts) -> (Control, AntennaHandle) {
+    let control = Control::new(&Options::new(Station::default().site, now));
+    let handle = over(control.clone(), now, debts, |wires| wires);
+    (control, handle)
+}
+
 /// Starts a session with a unit that runs already, whose time is `now`.
 pub(in crate::driver) fn over(
     control: Control,

@@ -4,12 +4,11 @@
 mod added;
 mod program;
 
-use std::{io, sync::Arc, time::Duration};
+use std::{sync::Arc, time::Duration};
 
 use jiff::Timestamp;
-use tokio::task::{JoinHandle, spawn_blocking};
 
-use super::{Command, Event, OffsetChange, Session, marking::take_now, offsets::most};
+use super::{Command, Event, OffsetChange, Session, offsets::most};
 use crate::{
     astro::{Offset, TrackOffsets},
     clock::{Instant, Moment},
@@ -19,6 +18,7 @@ use crate::{
     },
     driver::{LeftOffsets, Refusal, debts::ShiftedTrack, gate::Shift},
     plan::{OnBoardPass, on_board::Judge},
+    promises::Kept,
 };
 
 /// Tickets from here on are those of sessions.
@@ -32,6 +32,11 @@ pub fn is_ticket_of_session(ticket: u64) -> bool {
 
 /// Interval at which the write of a record is checked.
 const LOOK: Duration = Duration::from_millis(2);
+/// Azel's own assumption: a unit applies a setting within this time, or not at all.
+const APPLIED: Duration = Duration::from_mins(1);
+/// First and longest wait before offsets that were not taken back are written again.
+const AGAIN: Duration = Duration::from_secs(10);
+const MAX_AGAIN: Duration = Duration::from_mins(10);
 
 /// What is under way.
 #[derive(Default)]
@@ -44,11 +49,12 @@ pub(super) struct UnitOffsets {
     /// Time of the last read when a change failed to read back: the offsets are unknown until a later
     /// read.
     unread_since: Option<Timestamp>,
-    /// The track to which something was added: the satellite, and when the unit ends it by its own
-    /// clock.
-    added_to: Option<(u32, Timestamp)>,
+    /// Until then the unit may still apply a change that did not read back.
+    unsure_until: Option<Instant>,
     /// Why what was written is still there.
     left: Option<LeftOffsets>,
+    /// When taking back is tried again, and the wait before that.
+    again: Option<(Instant, Duration)>,
     tickets: u64,
 }
 
@@ -57,7 +63,7 @@ enum Step {
     #[default]
     None,
     /// What the unit held before, and what it will hold with `wanted`, is being recorded on disk.
-    Marking { wanted: TrackOffsets, writing: JoinHandle<io::Result<()>> },
+    Marking { wanted: TrackOffsets },
     /// On its way to the unit.
     Writing { ticket: u64 },
 }
@@ -100,7 +106,7 @@ impl Session {
             _ if wanted == before => return Ok(()),
             _ => self.unit_offsets.earlier.push(before),
         }
-        self.unit_offsets.left = None;
+        (self.unit_offsets.left, self.unit_offsets.again) = (None, None);
         self.unit_offsets.wanted = Some(wanted);
         if let Some(shifted) = self.owed.debts.shifted(&self.owed.unit) {
             let shifted = ShiftedTrack { is_found: false, ..shifted };
@@ -140,19 +146,29 @@ impl Session {
             return;
         }
         let Some(held) = self.held_offsets() else { return self.forget_wanted() };
-        let (debts, unit) = (self.owed.debts.clone(), self.owed.unit.clone());
-        let before = debts.shifted(&unit).map(|shifted| (shifted.since, shifted.before));
-        let (since, before) = before.unwrap_or((now.utc, held));
         if wanted.is_none() {
             return self.write_shift(fields, now);
         }
-        let Some(after) = before.and(wanted) else { return self.forget_wanted() };
-        self.unit_offsets.added_to = self.told_track();
-        let put = vec![held, after];
-        debts.set_shifted(&unit, Some(ShiftedTrack { since, before, put, is_found: false }));
-        if debts.has_marks() {
-            let writing = spawn_blocking(move || debts.keep_shifted(&unit));
-            self.unit_offsets.step = Step::Marking { wanted, writing };
+        let known = self.owed.debts.shifted(&self.owed.unit);
+        let new = ShiftedTrack {
+            since: now.utc,
+            before: held,
+            put: Vec::new(),
+            track: None,
+            is_found: false,
+        };
+        let mut shifted = known.unwrap_or(new);
+        let Some(after) = shifted.before.and(wanted) else { return self.forget_wanted() };
+        shifted.track = self.told_track();
+        if self.unit_offsets.unsure_until.is_none() {
+            // The unit holds what was read back, and nothing older.
+            shifted.put.clear();
+        }
+        shifted.may_be(held);
+        shifted.may_be(after);
+        self.owed.debts.set_shifted(&self.owed.unit, Some(shifted));
+        if self.owed.debts.has_marks() {
+            self.unit_offsets.step = Step::Marking { wanted };
         } else {
             self.write_shift(fields, now);
         }
@@ -170,6 +186,7 @@ impl Session {
                 self.forget_wanted();
                 if is_taking_back && self.added_track_is_over(now) {
                     self.unit_offsets.left = Some(LeftOffsets::Refused(refusal));
+                    self.try_again_later(now);
                 } else {
                     self.tell(Event::OffsetRefused(refusal));
                 }
@@ -204,23 +221,26 @@ impl Session {
     /// Follows a change to its end, and takes back what is added once the track is over.
     pub(super) fn watch_unit_offsets(&mut self, now: Moment) {
         let Some(fields) = self.variant.track_offsets else { return };
-        match &mut self.unit_offsets.step {
+        match self.unit_offsets.step {
             Step::None => {}
-            Step::Marking { writing, .. } if !writing.is_finished() => return,
-            Step::Marking { wanted, writing } => {
-                let (marked, is_marked) = (*wanted, matches!(take_now(writing), Some(Ok(()))));
-                self.unit_offsets.step = Step::None;
-                if !is_marked {
+            Step::Marking { wanted } => match self.owed.debts.shifted_kept(&self.owed.unit) {
+                Kept::Pending => return,
+                Kept::Failed(_) => {
+                    self.unit_offsets.step = Step::None;
                     self.forget_wanted();
                     self.tell(Event::OffsetRefused(Refusal::NoOffsetsRecord));
-                } else if self.unit_offsets.wanted == Some(marked) {
-                    self.write_shift(fields, now);
-                } else {
-                    // Another step has come meanwhile.
-                    self.begin_shift(fields, now);
                 }
-            }
-            &mut Step::Writing { ticket } => self.watch_write(fields, ticket, now),
+                Kept::OnDisk => {
+                    self.unit_offsets.step = Step::None;
+                    if self.unit_offsets.wanted == Some(wanted) {
+                        self.write_shift(fields, now);
+                    } else {
+                        // Another step has come meanwhile.
+                        self.begin_shift(fields, now);
+                    }
+                }
+            },
+            Step::Writing { ticket } => self.watch_write(fields, ticket, now),
         }
         if matches!(self.unit_offsets.step, Step::None) {
             self.watch_shifted(fields, now);
@@ -246,10 +266,12 @@ impl Session {
                 if let WriteError::Differs(_) = error {
                     self.own_read_back();
                 }
+                if may_apply_late(error) {
+                    self.unit_offsets.unsure_until = Some(now.steady + APPLIED);
+                }
                 self.forget_wanted();
                 if !matches!(error, WriteError::Stopped | WriteError::ChangedMeanwhile) {
-                    self.unit_offsets.unread_since = self.read_at();
-                    self.gate.device().read_group(fields.group);
+                    self.read_offsets_again(fields);
                 }
                 match error {
                     // It was not sent, and is owed as before.
@@ -257,6 +279,7 @@ impl Session {
                     WriteError::ChangedMeanwhile if was_at_the_end => {}
                     error if was_at_the_end => {
                         self.unit_offsets.left = Some(LeftOffsets::Failed(error.clone()));
+                        self.try_again_later(now);
                     }
                     error => self.tell(Event::OffsetNotTaken(error.clone())),
                 }
@@ -264,10 +287,34 @@ impl Session {
         }
     }
 
+    /// The offsets are unknown until the unit is read again.
+    fn read_offsets_again(&mut self, fields: &TrackOffsetFields) {
+        self.unit_offsets.unread_since = self.read_at();
+        self.gate.device().read_group(fields.group);
+    }
+
+    /// Each failure to take offsets back doubles the wait before the next try.
+    fn try_again_later(&mut self, now: Moment) {
+        let wait = self.unit_offsets.again.map_or(AGAIN, |(_, wait)| MAX_AGAIN.min(wait * 2));
+        self.unit_offsets.again = Some((now.steady + wait, wait));
+    }
+
+    /// An earlier run may have written offsets just before it ended.
+    pub(super) fn doubt_found_offsets(&mut self, now: Moment) {
+        let shifted = self.owed.debts.shifted(&self.owed.unit);
+        if shifted.is_some_and(|shifted| shifted.is_found) {
+            self.unit_offsets.unsure_until = Some(now.steady + APPLIED);
+        }
+    }
+
     /// The link is lost: what became of a change shows when the unit is read again.
-    pub(super) fn lose_shift(&mut self) {
-        if matches!(std::mem::take(&mut self.unit_offsets.step), Step::None) {
-            return;
+    pub(super) fn lose_shift(&mut self, now: Moment) {
+        match std::mem::take(&mut self.unit_offsets.step) {
+            Step::None => return,
+            Step::Marking { .. } => {}
+            Step::Writing { .. } => {
+                self.unit_offsets.unsure_until = Some(now.steady + APPLIED);
+            }
         }
         let is_taking_back = self.is_taking_back();
         self.unit_offsets.unread_since = self.read_at();
@@ -290,30 +337,55 @@ impl Session {
         };
         let Some(held) = self.held_offsets() else { return };
         let Some(added) = shifted.added(held) else {
-            tracing::warn!(antenna = self.name, "somebody else has set the offsets of the unit");
-            if !shifted.is_found {
-                self.tell(Event::OffsetNotTaken(WriteError::ChangedMeanwhile));
-            }
-            return self.forget_shifted();
+            return self.leave_foreign(shifted, held, now);
         };
         if added.is_none() {
-            if is_over || shifted.is_found {
-                self.forget_shifted();
+            let is_done = is_over || shifted.is_found;
+            if is_done {
+                self.unit_offsets.earlier.clear();
+                (self.unit_offsets.left, self.unit_offsets.again) = (None, None);
+                if self.is_sure(fields, now) {
+                    self.forget_shifted();
+                }
             }
             return;
         }
         let waits = self.stop.is_under_way() || self.gate.lock_out().is_some();
-        if is_over && !waits && !shifted.is_found && self.may_take_back() {
+        if is_over && !waits && self.may_take_back(now) {
             // With auto-track on, the unit may begin its next track meanwhile.
             if let Ok(Some(shift)) = self.shift(TrackOffsets::NONE, now)
                 && !self.is_judged(&shift.judge, &[shift.axes, shift.sky])
             {
                 return;
             }
-            self.unit_offsets.left = None;
             self.unit_offsets.wanted = Some(TrackOffsets::NONE);
             self.begin_shift(fields, now);
         }
+    }
+
+    /// Somebody else has set an offset of the unit: only the others are still to be taken back.
+    fn leave_foreign(&mut self, shifted: ShiftedTrack, held: TrackOffsets, now: Moment) {
+        tracing::warn!(antenna = self.name, "somebody else has set offsets of the unit");
+        if !shifted.is_found {
+            self.tell(Event::OffsetNotTaken(WriteError::ChangedMeanwhile));
+        }
+        let is_sure = self.unit_offsets.unsure_until.is_none_or(|until| until <= now.steady);
+        match shifted.without_foreign(held) {
+            Some(left) if left.before != held || !is_sure => {
+                self.owed.debts.set_shifted(&self.owed.unit, Some(left));
+            }
+            _ => self.forget_shifted(),
+        }
+    }
+
+    /// Returns `true` if the unit was read after the time in which it may apply a change late.
+    fn is_sure(&mut self, fields: &TrackOffsetFields, now: Moment) -> bool {
+        let Some(until) = self.unit_offsets.unsure_until else { return true };
+        if until <= now.steady {
+            self.unit_offsets.unsure_until = None;
+            self.read_offsets_again(fields);
+        }
+        false
     }
 
     /// What the unit has made of what was written is from here too.
@@ -322,9 +394,8 @@ impl Session {
         let held = self.held_offsets();
         let Some((mut shifted, held)) = debts.shifted(unit).zip(held) else { return };
         if shifted.added(held).is_none() {
-            shifted.put.push(held);
+            shifted.may_be(held);
             debts.set_shifted(unit, Some(shifted));
-            self.keep_shifted();
         }
     }
 
@@ -333,19 +404,6 @@ impl Session {
         self.owed.debts.set_shifted(&self.owed.unit, None);
         let tickets = self.unit_offsets.tickets;
         self.unit_offsets = UnitOffsets { tickets, ..UnitOffsets::default() };
-        self.keep_shifted();
-    }
-
-    /// Makes the record on disk say what is known now.
-    fn keep_shifted(&self) {
-        let (debts, unit) = (self.owed.debts.clone(), self.owed.unit.clone());
-        if debts.has_marks() {
-            drop(spawn_blocking(move || {
-                debts.keep_shifted(&unit).inspect_err(|error| {
-                    tracing::error!(%error, "the record of offsets on the disk is out of date");
-                })
-            }));
-        }
     }
 
     /// Returns `true` while all that was added is to be taken back, by the operator or at the end of the
@@ -381,6 +439,28 @@ impl Session {
     /// When to check again whether the record is on the disk.
     pub(super) fn shift_due(&self, now: Instant) -> Option<Instant> {
         matches!(self.unit_offsets.step, Step::Marking { .. }).then_some(now + LOOK)
+    }
+}
+
+/// Returns `true` if the unit may apply a change although it did not read back.
+fn may_apply_late(error: &WriteError) -> bool {
+    match error {
+        WriteError::LinkLost
+        | WriteError::Unanswered
+        | WriteError::NotReadBack(_)
+        | WriteError::Differs(_) => true,
+        WriteError::NoLink
+        | WriteError::NoSuchSetting
+        | WriteError::Locked
+        | WriteError::LockedOut
+        | WriteError::Moving
+        | WriteError::Stopped
+        | WriteError::Hindered { .. }
+        | WriteError::Unread(_)
+        | WriteError::ChangedMeanwhile
+        | WriteError::CannotBeSent { .. }
+        | WriteError::Refused(_)
+        | WriteError::Useless(_) => false,
     }
 }
 

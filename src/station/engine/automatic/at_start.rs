@@ -6,7 +6,7 @@ use std::{fs, io, path::Path};
 use jiff::Timestamp;
 use serde::{Deserialize, Serialize};
 
-use crate::{engine::passes::PassKey, station::AntennaId, whole_file};
+use crate::{engine::passes::PassKey, station::AntennaId};
 
 /// The file is named like the station file, but for this.
 pub(super) const EXTENSION: &str = "automatic.toml";
@@ -50,9 +50,9 @@ impl LastRun {
         }
     }
 
-    pub(super) fn save(&self, path: &Path) -> io::Result<()> {
-        let text = toml::to_string(self).map_err(io::Error::other)?;
-        whole_file::replace(path, text.as_bytes())
+    /// Content of the file.
+    pub(super) fn text(&self) -> Result<String, toml::ser::Error> {
+        toml::to_string(self)
     }
 
     /// What the next start has to know of the run that begins now, unless it ends in order.
@@ -88,11 +88,26 @@ mod tests {
         let mut last =
             LastRun { is_orderly: true, switched_off: vec![AntennaId(2)], ..LastRun::default() };
         last.holds(AntennaId(1), (7, Timestamp::UNIX_EPOCH));
-        last.save(&path).unwrap();
+        fs::write(&path, last.text().unwrap()).unwrap();
         let read = LastRun::load(&path);
         assert_eq!(read, last);
         assert!(read.allows(AntennaId(1)) && !read.allows(AntennaId(2)));
         fs::write(&path, "is_orderly = 7").unwrap();
         assert!(!LastRun::load(&path).allows(AntennaId(1)));
+    }
+
+    /// A file as version f93e9bd5 wrote it.
+    #[test]
+    fn a_file_of_an_earlier_version_means_the_same() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("station.automatic.toml");
+        let text = "is_orderly = true\nswitched_off = [2]\n\n[[held]]\nantenna = 1\n\
+                    satellite = 25544\naos = \"2026-08-12T01:02:03Z\"\n";
+        fs::write(&path, text).unwrap();
+        let last = LastRun::load(&path);
+        assert!(last.allows(AntennaId(1)) && !last.allows(AntennaId(2)));
+        let aos = "2026-08-12T01:02:03Z".parse().unwrap();
+        assert_eq!(last.held_by(AntennaId(1)), Some((25_544, aos)));
+        assert_eq!(last.text().unwrap(), text, "it is written the same");
     }
 }

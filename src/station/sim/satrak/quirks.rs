@@ -59,6 +59,9 @@ pub enum Fault {
     BadChecksum,
     /// Every setting is refused.
     RefuseSettings,
+    /// A change of the general settings takes effect late: its azimuth offset after 5 s, the rest
+    /// after 40 s. What is late when this fault ends is lost.
+    LateSettings,
     /// A command ends the connection instead of being answered; it was carried out.
     HangUp,
     /// The reported angles stay as they were.
@@ -70,7 +73,7 @@ pub enum Fault {
 }
 
 impl Fault {
-    pub const ALL: [(Self, &'static str); 23] = [
+    pub const ALL: [(Self, &'static str); 24] = [
         (Self::Unsolicited, "unsolicited"),
         (Self::DropReply, "drop_reply"),
         (Self::Garbage, "garbage"),
@@ -79,6 +82,7 @@ impl Fault {
         (Self::Silence, "silence"),
         (Self::BadChecksum, "bad_checksum"),
         (Self::RefuseSettings, "refuse_settings"),
+        (Self::LateSettings, "late_settings"),
         (Self::HangUp, "hang_up"),
         (Self::FrozenAngles, "frozen_angles"),
         (Self::FalseRest, "false_rest"),

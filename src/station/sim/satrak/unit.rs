@@ -17,7 +17,7 @@ use super::tracking::Tracking;
 use super::{Fault, Options, Quirk};
 use crate::astro::{Angle, AzEl, Site};
 use crate::orbit::Elements;
-use crate::protocol::satrak::{Decoder, FaultKind};
+use crate::protocol::satrak::{Decoder, FaultKind, SettingsChange};
 use crate::sim::harness::{self, Misreading, Switches};
 use crate::sim::prng::Prng;
 
@@ -25,6 +25,10 @@ use crate::sim::prng::Prng;
 const STEP: Duration = Duration::from_millis(50);
 /// Longest absence that is caught up with; a longer one is skipped.
 const LONGEST_CATCH_UP: Duration = Duration::from_mins(10);
+
+/// How late [`Fault::LateSettings`] makes the azimuth offset, and all other settings.
+const AZIMUTH_LATE: Duration = Duration::from_secs(5);
+const REST_LATE: Duration = Duration::from_secs(40);
 
 /// Beliefs and activity of the unit, for tests and displays.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -70,6 +74,9 @@ pub struct Satrak {
     memory: Memory,
     injected: BTreeSet<FaultKind>,
     refuses_settings: bool,
+    applies_late: bool,
+    /// Changes that take effect at these times since the start of the unit.
+    late_changes: Vec<(Duration, SettingsChange)>,
     has_frozen_angles: bool,
     rests_falsely: bool,
     /// Faults that the unit has detected itself.
@@ -107,6 +114,8 @@ impl Satrak {
             noise: Prng::new(1),
             injected: BTreeSet::new(),
             refuses_settings: false,
+            applies_late: false,
+            late_changes: Vec::new(),
             has_frozen_angles: false,
             rests_falsely: false,
             found: BTreeSet::new(),
@@ -128,6 +137,10 @@ impl Satrak {
             self.set_clock_from_gps();
         }
         self.had_gps_lock = is_gps_locked;
+        let elapsed = self.elapsed;
+        for (_, change) in self.late_changes.extract_if(.., |(due, _)| *due <= elapsed) {
+            self.memory.settings = self.memory.settings.after(&change);
+        }
         let rtc = self.rtc();
         let settings = self.memory.settings;
         if self.tracking.update(rtc, settings.lead_ms) {
@@ -153,6 +166,19 @@ impl Satrak {
             if !self.injected.contains(&sensor) && !self.has_frozen_angles {
                 *last = now;
             }
+        }
+    }
+
+    fn change_settings(&mut self, change: SettingsChange) {
+        if !self.applies_late {
+            self.memory.settings = self.memory.settings.after(&change);
+            return;
+        }
+        let azimuth =
+            SettingsChange { az_offset_deg: change.az_offset_deg, ..SettingsChange::default() };
+        let rest = SettingsChange { az_offset_deg: None, ..change };
+        for (late, change) in [(AZIMUTH_LATE, azimuth), (REST_LATE, rest)] {
+            self.late_changes.push((self.elapsed + late, change));
         }
     }
 
@@ -268,6 +294,10 @@ impl harness::Unit for Satrak {
             .filter_map(|fault| if let Fault::Unit(kind) = fault { Some(*kind) } else { None })
             .collect();
         self.refuses_settings = faults.contains(&Fault::RefuseSettings);
+        self.applies_late = faults.contains(&Fault::LateSettings);
+        if !self.applies_late {
+            self.late_changes.clear();
+        }
         self.has_frozen_angles = faults.contains(&Fault::FrozenAngles);
         self.rests_falsely = faults.contains(&Fault::FalseRest);
         let has = |kind| self.injected.contains(&kind);

@@ -1,6 +1,12 @@
 //! What an earlier run has left behind.
 
-use std::path::Path;
+use std::{
+    path::Path,
+    sync::{
+        Arc,
+        atomic::{AtomicBool, Ordering},
+    },
+};
 
 use jiff::{SignedDuration, Timestamp};
 use tokio::time::sleep;
@@ -10,6 +16,10 @@ use crate::{
     driver::{
         AntennaHandle, Command, Debts, Unit,
         session::testing::{self, START, antenna},
+    },
+    promises::{
+        FileState,
+        tests::{SlowDisk, full_disk},
     },
     sim::satrak::{Control, Fault},
 };
@@ -21,11 +31,23 @@ fn start(folder: &Path) -> (Control, AntennaHandle, Debts) {
     (control, handle, debts)
 }
 
-/// Leaves a mark of that age, as an earlier run.
+/// Leaves a mark of that age, as an earlier run that has tried to stop the unit until then.
+fn leave_tried_mark(folder: &Path, age_s: i64, tried: Option<i64>) -> Timestamp {
+    let ago = |age_s| START - SignedDuration::from_secs(age_s);
+    let (debts, mark) = (
+        Debts::marked_in(Some(folder.to_owned())),
+        Mark { since: ago(age_s), tried: tried.map(ago) },
+    );
+    debts.mark(&Unit::of(&antenna()), 0, mark);
+    // The worker writes it.
+    while debts.mark_kept(&Unit::of(&antenna())) == Kept::Pending {
+        std::thread::yield_now();
+    }
+    mark.since
+}
+
 fn leave_mark(folder: &Path, age_s: i64) -> Timestamp {
-    let since = START - SignedDuration::from_secs(age_s);
-    Debts::marked_in(Some(folder.to_owned())).mark(&Unit::of(&antenna()), since).unwrap();
-    since
+    leave_tried_mark(folder, age_s, None)
 }
 
 fn stops(control: &Control) -> usize {
@@ -67,12 +89,51 @@ async fn an_old_mark_asks_and_stays_until_the_operator_has_seen_it_stand() {
     assert_eq!(stops(&control), 0);
     assert_eq!(told(&mut handle), [Safety::LeftMoving { since, asks: true }]);
     assert_eq!(handle.snapshot().left_moving, Some(since));
-    assert_eq!(debts.marked(&Unit::of(&antenna())), Some(since));
+    let mark = Mark { since, tried: None };
+    assert_eq!(debts.marked(&Unit::of(&antenna())), Some(mark), "nothing is tried");
     handle.send(Command::SeenStanding).unwrap();
     seconds(1).await;
     assert_eq!(handle.snapshot().left_moving, None);
     assert_eq!(debts.marked(&Unit::of(&antenna())), None);
     assert_eq!(stops(&control), 0);
+}
+
+#[tokio::test(start_paused = true)]
+async fn the_age_of_a_mark_counts_from_the_last_try() {
+    let folder = tempfile::tempdir().unwrap();
+    let since = leave_tried_mark(folder.path(), 3600, Some(90));
+    let (control, mut handle, _) = start(folder.path());
+    seconds(5).await;
+    assert_eq!(control.received()[0].1, "STOP=");
+    assert_eq!(told(&mut handle), [Safety::LeftMoving { since, asks: false }]);
+}
+
+#[tokio::test(start_paused = true)]
+async fn a_unit_out_of_reach_for_an_hour_gets_its_stop_first_after_a_kill() {
+    for is_old in [false, true] {
+        let folder = tempfile::tempdir().unwrap();
+        if is_old {
+            leave_mark(folder.path(), 3600);
+        }
+        let (control, handle, debts) = start(folder.path());
+        seconds(5).await;
+        control.set_fault(Fault::Silence, true);
+        handle.stop();
+        seconds(3600).await;
+        // As if the program were killed here: its file is all that is left.
+        let mark = debts.marked(&Unit::of(&antenna())).unwrap();
+        let now = START + SignedDuration::from_secs(3605);
+        assert!(seconds_between(mark.last_tried(), now).abs() <= 90.0, "{mark:?}");
+        let killed = tempfile::tempdir().unwrap();
+        Debts::marked_in(Some(killed.path().to_owned())).mark(&Unit::of(&antenna()), 0, mark);
+        let debts = Debts::marked_in(Some(killed.path().to_owned()));
+        while debts.marked(&Unit::of(&antenna())).is_none() {
+            sleep(Duration::from_millis(1)).await;
+        }
+        let (next, _handle) = testing::start_at(now, debts);
+        seconds(5).await;
+        assert_eq!(next.received()[0].1, "STOP=");
+    }
 }
 
 #[tokio::test(start_paused = true)]
@@ -129,6 +190,53 @@ fn a_disk_that_hangs_does_not_hold_up_the_stop_that_is_owed_at_the_end() {
         assert!(!debts.owes(&Unit::of(&antenna())), "standstill is proved");
         drop(disk);
     });
+}
+
+/// A motion that the slow disk holds up for 300 ms, and that is over when the disk comes back.
+#[tokio::test(start_paused = true)]
+async fn a_mark_that_the_disk_takes_late_does_not_outlive_standstill() {
+    let folder = tempfile::tempdir().unwrap();
+    let (promises, disk) = SlowDisk::new();
+    let debts = Debts::over(Some(folder.path().to_owned()), promises);
+    let (control, mut handle) = testing::start(debts.clone(), |wires| wires);
+    seconds(5).await;
+    handle.send(Command::Manual).unwrap();
+    for _ in 0..20 {
+        handle.send(Command::Jog { rates_deg_s: [0.5, 0.0] }).unwrap();
+        advance(50).await;
+    }
+    assert!(matches!(disk.begun(), FileState::Holds(_)));
+    assert_eq!(told(&mut handle), [Safety::NoMark]);
+    assert!(control.received().iter().any(|(_, payload)| payload.starts_with("MOVE=")));
+    handle.send(Command::EndJog).unwrap();
+    advance(10_000).await;
+    assert!(!debts.owes(&Unit::of(&antenna())), "standstill is proved");
+    disk.go_on();
+    assert_eq!(disk.begun(), FileState::Absent);
+    disk.go_on();
+    debts.settled(&Unit::of(&antenna())).await;
+    assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 0);
+}
+
+#[tokio::test(start_paused = true)]
+async fn a_stop_that_the_disk_does_not_take_says_why_until_it_does() {
+    let folder = tempfile::tempdir().unwrap();
+    let is_full = Arc::new(AtomicBool::new(true));
+    let debts = Debts::over(Some(folder.path().to_owned()), full_disk(&is_full));
+    let (control, mut handle) = testing::start(debts.clone(), |wires| wires);
+    seconds(5).await;
+    control.set_fault(Fault::Silence, true);
+    handle.stop();
+    seconds(4).await;
+    let why = handle.snapshot().not_on_disk.clone().expect("a reason");
+    assert!(why.contains("no storage space"), "{why}");
+    assert_eq!(told(&mut handle), [Safety::NoMark, Safety::SilentInMotion]);
+    is_full.store(false, Ordering::Relaxed);
+    seconds(20).await;
+    assert_eq!(handle.snapshot().not_on_disk, None);
+    assert_eq!(told(&mut handle), [], "it is told once");
+    let next = Debts::marked_in(Some(folder.path().to_owned()));
+    assert!(next.is_marked(&Unit::of(&antenna())));
 }
 
 /// Lets time go on, which it does not by itself while the disk hangs.

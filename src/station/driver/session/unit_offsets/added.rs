@@ -63,45 +63,49 @@ impl Session {
         let pad = &self.unit_offsets;
         let offsets = self.added_offsets().unwrap_or_default();
         let is_changing = pad.wanted.is_some() || !matches!(pad.step, Step::None);
-        let found = shifted.filter(|shifted| shifted.is_found && !offsets.is_none());
-        let found = found.map(|shifted| LeftOffsets::Found { since: shifted.since });
+        let found = || {
+            let shifted = shifted.filter(|shifted| shifted.is_found && !offsets.is_none())?;
+            Some(LeftOffsets::Found { since: shifted.since })
+        };
         let is_told = is_changing || !offsets.is_none() || !pad.earlier.is_empty();
         is_told.then(|| UnitOffsetsView {
             offsets,
             is_changing,
             can_undo: !pad.earlier.is_empty(),
-            left: found.or(pad.left.clone()),
+            left: pad.left.clone().or_else(found),
         })
     }
 
     /// Returns `true` once the unit does not track any more, or goes on with another pass than the
     /// one to whose track something was added.
     pub(super) fn added_track_is_over(&self, now: Moment) -> bool {
-        let is_another = self.told_track().zip(self.unit_offsets.added_to).is_some_and(
-            |((number, until), (number_then, until_then))| {
-                // The unit may report the window of a pass a little otherwise.
-                let is_later = add_seconds(until_then, APART_S) < until;
-                number != number_then || is_later && until_then < self.unit_time(now)
-            },
-        );
+        let added_to = self.owed.debts.shifted(&self.owed.unit).and_then(|shifted| shifted.track);
+        let is_another = self.told_track().zip(added_to).is_some_and(|(track, then)| {
+            // The unit may report the window of a pass a little otherwise.
+            let is_later = add_seconds(then.until, APART_S) < track.until;
+            track.catalog_number != then.catalog_number
+                || is_later && then.until < self.unit_time(now)
+        });
         !self.may_track() || is_another && self.program_is_on() && !self.activity.is_pending()
     }
 
-    /// Returns `true` unless taking back has failed. What the gate refused on the next track is tried
-    /// again at its end.
-    pub(super) fn may_take_back(&self) -> bool {
+    /// Returns `true` if taking back has not failed just before. What the gate refused on the next
+    /// track is tried again at its end.
+    pub(super) fn may_take_back(&self, now: Moment) -> bool {
         match &self.unit_offsets.left {
             None => true,
-            Some(LeftOffsets::Refused(_)) => !self.may_track(),
-            Some(LeftOffsets::Failed(_) | LeftOffsets::Found { .. }) => false,
+            Some(LeftOffsets::Refused(_)) if !self.may_track() => true,
+            Some(LeftOffsets::Refused(_) | LeftOffsets::Failed(_) | LeftOffsets::Found { .. }) => {
+                self.unit_offsets.again.is_none_or(|(at, _)| at <= now.steady)
+            }
         }
     }
 
     /// Returns `true` if the track is over and what was added for it is still on the unit.
     pub(in crate::driver::session) fn owes_offsets(&self) -> bool {
-        let shifted = self.owed.debts.shifted(&self.owed.unit);
-        let is_owed = shifted.is_some_and(|shifted| !shifted.is_found)
-            && self.may_take_back()
+        let now = self.now();
+        let is_owed = self.owed.debts.shifted(&self.owed.unit).is_some()
+            && self.may_take_back(now)
             && !self.may_track();
         is_owed && self.added_offsets().is_some_and(|added| !added.is_none())
     }

@@ -6,7 +6,10 @@ use crate::{
     astro::time::add_seconds,
     clock::Moment,
     device::Phase,
-    driver::session::{Session, activity::OnBoardStage},
+    driver::{
+        debts::AddedTo,
+        session::{Session, activity::OnBoardStage},
+    },
 };
 
 impl Session {
@@ -29,9 +32,10 @@ impl Session {
     }
 
     /// The satellite that the unit says it tracks, and when it ends that by its own clock.
-    pub(super) fn told_track(&self) -> Option<(u32, Timestamp)> {
+    pub(super) fn told_track(&self) -> Option<AddedTo> {
         let told = &self.gate.state().on_board;
-        Some((told.satellite.as_ref()?.catalog_number, told.window?.1))
+        let catalog_number = told.satellite.as_ref()?.catalog_number;
+        Some(AddedTo { catalog_number, until: told.window?.1 })
     }
 
     /// UTC by the clock of the unit.

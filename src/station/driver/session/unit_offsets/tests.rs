@@ -15,7 +15,7 @@ use crate::{
     orbit::{PassSearch, Propagator, passes, read_elements},
     plan::on_board::KnownOrbit,
     protocol::satrak::encode,
-    sim::satrak::{Control, Options},
+    sim::satrak::{Control, Fault, Options},
 };
 
 /// The ISS in 2008, a published example.
@@ -74,7 +74,7 @@ fn azimuth(degrees: f64) -> TrackOffsets {
 }
 
 async fn until(handle: &AntennaHandle, what: &str, is_so: impl Fn(&Snapshot) -> bool) {
-    for _ in 0..6000 {
+    for _ in 0..12_000 {
         if is_so(&handle.snapshot()) {
             return;
         }
@@ -138,23 +138,172 @@ async fn left_in_a_pass(folder: &Path) -> (Control, Timestamp) {
     (control, add_seconds(now, 60.0))
 }
 
+/// Waits until the record is removed.
+async fn forgotten(folder: &Path) {
+    for _ in 0..300 {
+        if mark(folder).is_none() {
+            return;
+        }
+        sleep(Duration::from_secs(1)).await;
+    }
+    panic!("the record stays: {:?}", mark(folder));
+}
+
+fn is_found(shown: &Snapshot) -> bool {
+    let unit = shown.unit_offsets.as_ref().filter(|unit| unit.offsets == azimuth(0.2));
+    unit.is_some_and(|unit| matches!(unit.left, Some(LeftOffsets::Found { .. })))
+}
+
 #[tokio::test(start_paused = true)]
-async fn what_an_earlier_run_left_is_shown_and_taken_back_on_the_operators_word() {
+async fn what_an_earlier_run_left_is_taken_back_once_the_unit_does_not_track() {
     let folder = tempfile::tempdir().unwrap();
     let (control, now) = left_in_a_pass(folder.path()).await;
     by_another(&control, "TRACK=,0").await;
     let handle = run(&control, now, folder.path());
+    until(&handle, "taken back", |shown| shown.unit_offsets.is_none() && holds(shown, 0.0)).await;
+    assert_eq!(sent(&control).len(), 2, "one to add them, one to take them back");
+    forgotten(folder.path()).await;
+}
+
+#[tokio::test(start_paused = true)]
+async fn in_the_pass_that_goes_on_what_an_earlier_run_left_waits_for_its_end() {
+    let folder = tempfile::tempdir().unwrap();
+    let (control, now) = left_in_a_pass(folder.path()).await;
+    let handle = run(&control, now, folder.path());
+    until(&handle, "told", is_found).await;
+    sleep(Duration::from_mins(2)).await;
+    assert!(is_found(&handle.snapshot()) && control.state().is_tracking);
+    assert_eq!(sent(&control).len(), 1, "it would move the antenna");
+    by_another(&control, "TRACK=,0").await;
+    until(&handle, "taken back", |shown| shown.unit_offsets.is_none() && holds(shown, 0.0)).await;
+    forgotten(folder.path()).await;
+}
+
+#[tokio::test(start_paused = true)]
+async fn what_an_earlier_run_left_waits_while_the_unit_is_locked_out() {
+    let folder = tempfile::tempdir().unwrap();
+    let (control, now) = left_in_a_pass(folder.path()).await;
+    by_another(&control, "TRACK=,0").await;
+    let handle = run(&control, now, folder.path());
+    let (by, reason) = ("Ada".to_owned(), "belts".to_owned());
+    handle.send(Command::LockOut(crate::station::LockOut { by, reason, since: now })).unwrap();
+    until(&handle, "told", is_found).await;
+    sleep(Duration::from_mins(1)).await;
+    assert_eq!(sent(&control).len(), 1);
+    handle.send(Command::Unlock).unwrap();
+    until(&handle, "taken back", |shown| shown.unit_offsets.is_none() && holds(shown, 0.0)).await;
+}
+
+#[tokio::test(start_paused = true)]
+async fn a_unit_that_refuses_is_asked_again_by_the_next_start_too() {
+    let folder = tempfile::tempdir().unwrap();
+    let (control, now) = left_in_a_pass(folder.path()).await;
+    by_another(&control, "TRACK=,0").await;
+    control.set_fault(Fault::RefuseSettings, true);
+    let handle = run(&control, now, folder.path());
     until(&handle, "told", |shown| {
         let unit = shown.unit_offsets.as_ref().filter(|unit| unit.offsets == azimuth(0.2));
-        unit.is_some_and(|unit| matches!(unit.left, Some(LeftOffsets::Found { .. })))
+        unit.is_some_and(|unit| matches!(unit.left, Some(LeftOffsets::Failed(_))))
     })
     .await;
-    sleep(Duration::from_mins(1)).await;
-    assert_eq!(sent(&control).len(), 1, "nothing by itself");
-    handle.send(Command::Offset(OffsetChange::Zero)).unwrap();
+    drop(handle);
+    sleep(Duration::from_secs(5)).await;
+    assert!(mark(folder.path()).is_some());
+    control.set_fault(Fault::RefuseSettings, false);
+    let handle = run(&control, add_seconds(now, 60.0), folder.path());
     until(&handle, "taken back", |shown| shown.unit_offsets.is_none() && holds(shown, 0.0)).await;
+    forgotten(folder.path()).await;
+}
+
+#[tokio::test(start_paused = true)]
+async fn a_unit_that_applies_settings_late_is_watched_until_both_are_restored() {
+    let folder = tempfile::tempdir().unwrap();
+    let (control, now) = unit(30.0);
+    let handle = tracking(&control, now, folder.path()).await;
+    let steps =
+        [Offset::Azimuth(Angle::from_degrees(0.2)), Offset::Elevation(Angle::from_degrees(0.1))];
+    let both = steps.into_iter().try_fold(TrackOffsets::NONE, TrackOffsets::plus).unwrap();
+    for step in steps {
+        handle.send(Command::Offset(OffsetChange::Step(step))).unwrap();
+    }
+    until(&handle, "in force", |shown| {
+        shown.unit_offsets.as_ref().is_some_and(|unit| unit.offsets == both && !unit.is_changing)
+    })
+    .await;
+    control.set_fault(Fault::LateSettings, true);
+    handle.stop();
+    let half = |shown: &Snapshot| {
+        let held = shown.state.on_board.offsets;
+        holds(shown, 0.0) && held.is_some_and(|unit| (unit.elevation_deg - 0.1).abs() < 1e-9)
+    };
+    until(&handle, "the azimuth alone is restored", half).await;
     sleep(Duration::from_secs(1)).await;
-    assert_eq!(mark(folder.path()), None);
+    assert!(mark(folder.path()).is_some(), "the elevation is still owed");
+    let shown = handle.snapshot();
+    let left = shown.unit_offsets.clone().expect("the elevation is told");
+    assert_eq!(left.offsets.elevation(), Angle::from_degrees(0.1));
+    // What was late is lost.
+    control.set_fault(Fault::LateSettings, false);
+    let restored = |shown: &Snapshot| {
+        let held = shown.state.on_board.offsets;
+        holds(shown, 0.0) && held.is_some_and(|unit| unit.elevation_deg.abs() < 1e-9)
+    };
+    until(&handle, "both are restored", restored).await;
+    forgotten(folder.path()).await;
+}
+
+#[tokio::test(start_paused = true)]
+async fn an_offset_that_the_unit_applies_after_the_track_is_taken_back_too() {
+    let folder = tempfile::tempdir().unwrap();
+    let (control, now) = unit(30.0);
+    let handle = tracking(&control, now, folder.path()).await;
+    control.set_fault(Fault::LateSettings, true);
+    let step = Offset::Elevation(Angle::from_degrees(0.2));
+    handle.send(Command::Offset(OffsetChange::Step(step))).unwrap();
+    while sent(&control).is_empty() {
+        sleep(Duration::from_millis(1)).await;
+    }
+    handle.stop();
+    let elevation = |shown: &Snapshot, degrees: f64| {
+        let held = shown.state.on_board.offsets;
+        held.is_some_and(|unit| (unit.elevation_deg - degrees).abs() < 1e-9)
+    };
+    until(&handle, "applied", |shown| elevation(shown, 0.2)).await;
+    for _ in 0..4 {
+        sleep(Duration::from_secs(40)).await;
+    }
+    assert!(elevation(&handle.snapshot(), 0.0), "{:?}", handle.snapshot().state.on_board.offsets);
+    forgotten(folder.path()).await;
+}
+
+/// Wherever the program is killed, the unit ends without the offset.
+#[tokio::test(start_paused = true)]
+async fn killed_at_any_step_of_an_offset_the_next_start_leaves_none_on_the_unit() {
+    let folder = tempfile::tempdir().unwrap();
+    let (control, now) = left_in_a_pass(folder.path()).await;
+    by_another(&control, "TRACK=,0").await;
+    let copies: Vec<_> = std::fs::read_dir(folder.path()).unwrap().map(Result::unwrap).collect();
+    let [file] = &copies[..] else { panic!("{copies:?}") };
+    let text = std::fs::read(file.path()).unwrap();
+    for (step, is_recorded, held_deg) in [
+        ("before the record", false, "0.0"),
+        ("recorded, not written", true, "0.0"),
+        ("written", true, "0.2"),
+        ("taken back, before the removal", true, "0.0"),
+        ("after the removal", false, "0.0"),
+    ] {
+        let killed = tempfile::tempdir().unwrap();
+        std::fs::write(killed.path().join(".tmpAbCdEf"), &text[..20]).unwrap();
+        if is_recorded {
+            std::fs::write(killed.path().join(file.file_name()), &text).unwrap();
+        }
+        by_another(&control, &format!("SETTINGS=,?,?,{held_deg},?,?,?,?,?,?,?,?")).await;
+        let handle = run(&control, now, killed.path());
+        until(&handle, step, |shown| holds(shown, 0.0) && shown.unit_offsets.is_none()).await;
+        forgotten(killed.path()).await;
+        drop(handle);
+        sleep(Duration::from_secs(5)).await;
+    }
 }
 
 #[tokio::test(start_paused = true)]
@@ -234,8 +383,8 @@ async fn what_the_unit_does_not_hold_any_more_is_not_offered() {
         let handle = run(&control, now, folder.path());
         until(&handle, "read", |shown| holds(shown, azimuth_deg)).await;
         sleep(Duration::from_secs(1)).await;
-        assert_eq!(handle.snapshot().unit_offsets, None);
-        assert_eq!(mark(folder.path()), None, "{azimuth_deg}");
+        assert_eq!(handle.snapshot().unit_offsets, None, "{azimuth_deg}");
+        forgotten(folder.path()).await;
     }
 }
 

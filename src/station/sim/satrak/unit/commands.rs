@@ -98,9 +98,7 @@ impl Satrak {
                 self.is_clock_from_gps = false;
             }
             Setting::StartStopTime(window) => self.tracking.set_window(window),
-            Setting::Settings(request) => {
-                self.memory.settings = self.memory.settings.after(request.change());
-            }
+            Setting::Settings(request) => self.change_settings(*request.change()),
             Setting::AngleSettings(change) => {
                 let mechanical = [self.mount.x.angle_deg(), self.mount.y.angle_deg()];
                 self.memory.calibrate(change, mechanical);

@@ -1,0 +1,270 @@
+//! The files that the next start must find: STOPs that are owed, auto-track to switch off, offsets
+//! to take back, lock-outs, and how automatic operation was left. Each is a small TOML file, and
+//! only this module writes them.
+//!
+//! Invariant: a file ends as its newest request demands, however slow the disk is. At most one
+//! worker writes a file at a time, and it always takes the newest request.
+
+use std::{
+    collections::BTreeMap,
+    fmt, fs, io,
+    path::{Path, PathBuf},
+    sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError},
+};
+
+use tokio::{runtime::Handle, sync::Notify, task::spawn_blocking};
+
+use crate::whole_file;
+
+/// Requested state of a file.
+#[derive(Debug, Clone, PartialEq, Eq, Default)]
+pub enum FileState {
+    #[default]
+    Absent,
+    Holds(String),
+    /// As [`Self::Holds`]; the previous content stays beside it, for the operator.
+    HoldsAndKeepsOld(String),
+}
+
+/// Progress of the newest request for a file.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum Kept {
+    OnDisk,
+    Pending,
+    /// The disk did not take it, for this reason.
+    Failed(String),
+}
+
+type Disk = dyn Fn(&Path, &FileState) -> io::Result<()> + Send + Sync;
+
+/// All promises of this program. Clones share them.
+#[derive(Clone)]
+pub struct Promises {
+    shared: Arc<Shared>,
+}
+
+struct Shared {
+    /// Brings a file into a state; blocks.
+    disk: Box<Disk>,
+    /// Files whose newest request is not on the disk.
+    files: Mutex<BTreeMap<PathBuf, Requested>>,
+    /// Wakes threads that wait for a file.
+    written: Condvar,
+    /// Wakes tasks that wait for a file.
+    changed: Notify,
+}
+
+#[derive(Default)]
+struct Requested {
+    state: FileState,
+    /// Number of the newest request.
+    newest: u64,
+    /// Number of the newest request that was tried.
+    tried: u64,
+    /// Why the request tried last is not on the disk.
+    failure: Option<String>,
+    /// A worker has this file.
+    is_busy: bool,
+}
+
+impl Default for Promises {
+    fn default() -> Self {
+        Self::over(to_disk)
+    }
+}
+
+impl fmt::Debug for Promises {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        formatter.debug_struct("Promises").finish_non_exhaustive()
+    }
+}
+
+impl Promises {
+    /// Promises that `disk` writes.
+    pub(crate) fn over(
+        disk: impl Fn(&Path, &FileState) -> io::Result<()> + Send + Sync + 'static,
+    ) -> Self {
+        let shared = Shared {
+            disk: Box::new(disk),
+            files: Mutex::default(),
+            written: Condvar::new(),
+            changed: Notify::new(),
+        };
+        Self { shared: Arc::new(shared) }
+    }
+
+    /// Requests a state of the file at `path`. A worker writes it; outside of a runtime this
+    /// blocks until that is done.
+    pub fn put(&self, path: &Path, state: FileState) {
+        let Some(work) = self.request(path, state) else { return };
+        let (promises, path) = (self.clone(), path.to_owned());
+        let run = move || {
+            work.run();
+            if let Kept::Failed(why) = promises.kept(&path) {
+                tracing::error!(why, "a promise is not on the disk");
+            }
+        };
+        match Handle::try_current() {
+            Ok(_) => drop(spawn_blocking(run)),
+            Err(_) => run(),
+        }
+    }
+
+    /// Requests a state of the file at `path`, and blocks until it is on the disk. The error says
+    /// why it is not.
+    pub fn put_and_wait(&self, path: &Path, state: FileState) -> Result<(), String> {
+        self.finish(path, self.request(path, state))
+    }
+
+    /// Puts a request in order; returns the work to do for it, unless a worker is at this file.
+    /// Never blocks on the disk.
+    pub(crate) fn request(&self, path: &Path, state: FileState) -> Option<Work> {
+        let mut files = self.files();
+        let file = files.entry(path.to_owned()).or_default();
+        file.newest += 1;
+        file.state = state;
+        let is_busy = std::mem::replace(&mut file.is_busy, true);
+        (!is_busy).then(|| Work { promises: self.clone(), path: path.to_owned(), is_over: false })
+    }
+
+    /// Blocks until the newest request for the file at `path` is on the disk.
+    pub(crate) fn finish(&self, path: &Path, work: Option<Work>) -> Result<(), String> {
+        if let Some(work) = work {
+            work.run();
+        }
+        let mut files = self.files();
+        loop {
+            match kept(&files, path) {
+                Kept::OnDisk => return Ok(()),
+                Kept::Failed(why) => return Err(why),
+                Kept::Pending => {
+                    let woken = self.shared.written.wait(files);
+                    files = woken.unwrap_or_else(PoisonError::into_inner);
+                }
+            }
+        }
+    }
+
+    pub fn kept(&self, path: &Path) -> Kept {
+        kept(&self.files(), path)
+    }
+
+    /// Waits until no request for these files is pending.
+    pub async fn settled(&self, paths: &[PathBuf]) {
+        loop {
+            let changed = self.shared.changed.notified();
+            tokio::pin!(changed);
+            changed.as_mut().enable();
+            if paths.iter().all(|path| self.kept(path) != Kept::Pending) {
+                return;
+            }
+            changed.await;
+        }
+    }
+
+    /// Returns the content of the file at `path`, as requested last by this program or else as the
+    /// disk has it; `None` if there is no such file. Blocks.
+    pub fn read(&self, path: &Path) -> io::Result<Option<String>> {
+        if let Some(file) = self.files().get(path) {
+            return Ok(match &file.state {
+                FileState::Absent => None,
+                FileState::Holds(text) | FileState::HoldsAndKeepsOld(text) => Some(text.clone()),
+            });
+        }
+        match fs::read_to_string(path) {
+            Ok(text) => Ok(Some(text)),
+            Err(error) if error.kind() == io::ErrorKind::NotFound => Ok(None),
+            Err(error) => Err(error),
+        }
+    }
+
+    fn files(&self) -> MutexGuard<'_, BTreeMap<PathBuf, Requested>> {
+        // No code panics while it holds the lock.
+        self.shared.files.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+}
+
+fn kept(files: &BTreeMap<PathBuf, Requested>, path: &Path) -> Kept {
+    let Some(file) = files.get(path) else { return Kept::OnDisk };
+    match &file.failure {
+        _ if file.is_busy => Kept::Pending,
+        Some(why) => Kept::Failed(why.clone()),
+        None => Kept::Pending,
+    }
+}
+
+/// The right to write one file. Dropped without [`Self::run`], it counts as a failure.
+#[must_use]
+pub(crate) struct Work {
+    promises: Promises,
+    path: PathBuf,
+    is_over: bool,
+}
+
+impl Work {
+    /// Writes until no newer request waits. Blocks.
+    pub(crate) fn run(mut self) {
+        while let Some((number, state)) = self.next() {
+            let result = (self.promises.shared.disk)(&self.path, &state);
+            let failure = result.err().map(|error| format!("{error}: {}", self.path.display()));
+            self.with_file(|file| {
+                file.tried = number;
+                file.failure = failure;
+            });
+        }
+    }
+
+    /// The newest request, unless it was tried; then this work is over.
+    fn next(&mut self) -> Option<(u64, FileState)> {
+        let request = self.with_file(|file| {
+            let is_new = file.tried != file.newest;
+            file.is_busy = is_new;
+            is_new.then(|| (file.newest, file.state.clone()))
+        });
+        self.is_over = request.is_none();
+        if self.is_over {
+            self.tell();
+        }
+        request
+    }
+
+    fn with_file<T: Default>(&self, change: impl FnOnce(&mut Requested) -> T) -> T {
+        let mut files = self.promises.files();
+        let Some(file) = files.get_mut(&self.path) else { return T::default() };
+        let result = change(file);
+        if !file.is_busy && file.failure.is_none() {
+            files.remove(&self.path);
+        }
+        result
+    }
+
+    fn tell(&self) {
+        self.promises.shared.written.notify_all();
+        self.promises.shared.changed.notify_waiters();
+    }
+}
+
+impl Drop for Work {
+    fn drop(&mut self) {
+        if !self.is_over {
+            self.with_file(|file| {
+                file.is_busy = false;
+                file.failure = Some("Azel ended before the disk took it".to_owned());
+            });
+            self.tell();
+        }
+    }
+}
+
+fn to_disk(path: &Path, state: &FileState) -> io::Result<()> {
+    match state {
+        FileState::Absent => whole_file::remove(path),
+        FileState::Holds(text) => whole_file::replace(path, text.as_bytes()),
+        FileState::HoldsAndKeepsOld(text) => {
+            whole_file::replace_and_keep_old(path, text.as_bytes())
+        }
+    }
+}
+
+#[cfg(test)]
+pub(crate) mod tests;
