@@ -83,6 +83,12 @@ pub(super) fn stop(station: Option<PathBuf>, options: &StopOptions) -> anyhow::R
             for antenna in &antennas {
                 let word = if antenna.proved { "stands" } else { "NOT known to stand" };
                 say(&format!("{}: {word}", antenna.antenna))?;
+                if let Some(why) = &antenna.not_on_disk {
+                    say(&format!(
+                        "STOP of {} is sent, NOT on disk, and lost when Azel ends: {why}",
+                        antenna.antenna
+                    ))?;
+                }
             }
             let all = antennas.iter().all(|antenna| antenna.proved);
             Ok(if all { ExitCode::SUCCESS } else { ExitCode::from(NOT_PROVED) })

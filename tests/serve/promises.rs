@@ -69,6 +69,33 @@ fn a_stop_that_is_owed_to_a_unit_of_no_antenna_outlives_a_kill() {
 }
 
 #[test]
+fn a_stop_that_the_disk_does_not_take_is_acknowledged_as_such() {
+    let units = Units::start(|station| station.antennas.truncate(1));
+    // A file stands where the folder of marks would be made.
+    let data = units.folder.path().join("data/azel");
+    std::fs::create_dir_all(&data).unwrap();
+    std::fs::write(data.join("marks"), "").unwrap();
+    let served = Served::start(&units);
+    wait_for("it is read", || {
+        let status = program(&units).arg("status").output().expect("it runs");
+        says(&status).contains("azimuth").then_some(())
+    });
+    units.dish.set_fault(satrak::Fault::Silence, true);
+    let stop = program(&units).arg("stop").output().expect("it runs");
+    assert!(says(&stop).contains("Dish: NOT known to stand"), "{}", says(&stop));
+    assert!(says(&stop).contains("STOP of Dish is sent, NOT on disk"), "{}", says(&stop));
+    assert_eq!(stop.status.code(), Some(4));
+    served.until(|told| {
+        told["about"] == "alarm" && told["text"].as_str().is_some_and(|it| it.contains("on disk"))
+    });
+    // The disk takes it later.
+    std::fs::remove_file(data.join("marks")).unwrap();
+    wait_for("it is on disk", || find(&data, "satrak-").then_some(()));
+    let stop = program(&units).arg("stop").output().expect("it runs");
+    assert!(!says(&stop).contains("on disk"), "{}", says(&stop));
+}
+
+#[test]
 fn lock_outs_that_the_disk_does_not_take_hold_and_are_acknowledged_as_such() {
     let units = Units::start(|station| station.antennas.truncate(2));
     // The list can be read, and a save fails: a folder stands where it keeps the old list.

@@ -87,6 +87,9 @@ pub struct Stopped {
     pub antenna: String,
     /// The unit has reported standstill since.
     pub proved: bool,
+    /// Why the next start would not send it, although it is not proved.
+    #[serde(default)]
+    pub not_on_disk: Option<String>,
 }
 
 /// Sends `ask` to the process that serves the socket at `path`, and waits for the answer.
@@ -207,15 +210,15 @@ async fn stop(antenna: Option<&str>, mut station: Client) -> Answer {
             break snapshot;
         }
     };
-    let name = |id: AntennaId| {
-        let antenna = snapshot.antennas.iter().find(|antenna| antenna.id() == id);
-        antenna.map_or_else(String::new, |antenna| antenna.config.name.clone())
-    };
+    let antenna = |id| snapshot.antennas.iter().find(|antenna| antenna.id() == id);
+    let name = |id| antenna(id).map_or_else(String::new, |antenna| antenna.config.name.clone());
+    let not_on_disk = |id| antenna(id)?.snapshot.not_on_disk.clone();
     // STOP was passed on to the Azel that drives these; its outcome is not known here.
     told.extend(elsewhere.into_iter().map(|id| (id, Some(false))));
     let stopped = |(id, proved): (AntennaId, Option<bool>)| Stopped {
         antenna: name(id),
         proved: proved.unwrap_or_default(),
+        not_on_disk: not_on_disk(id),
     };
     Answer::Stopped(told.into_iter().map(stopped).collect())
 }
