@@ -21,7 +21,7 @@ use crate::{
     },
     orbit::{PassSearch, Propagator, passes},
     plan::{OnBoardPass, on_board::Ability},
-    station::{KeepOut, Station, Unread},
+    station::{KeepOut, Station, SunAvoidance, Unread},
 };
 
 /// A controller that remembers what was started.
@@ -196,6 +196,7 @@ impl Case {
         gate.held = self.held.clone();
         gate.program = self.pass_is_known.then(|| Arc::clone(&PROGRAM));
         gate.set_lock_out(self.lock_out.clone());
+        judge(&mut gate);
         gate
     }
 
@@ -203,6 +204,37 @@ impl Case {
         let received = self.state.measured.map_or_else(Instant::now, |read| read.received);
         Moment { steady: received + self.age, utc: Timestamp::UNIX_EPOCH }
     }
+}
+
+/// Judges the path of the pass, as the worker does.
+fn judge(gate: &mut Gate) {
+    let unit = gate.state().on_board.clone();
+    let Some(program) = gate.program.clone() else { return };
+    let open = gate.open_questions(&program, &[unit]);
+    let judged = open.into_iter().map(|question| {
+        let verdict = question.judge();
+        (question, verdict)
+    });
+    gate.take_judgements(judged.collect());
+}
+
+#[test]
+fn a_path_has_to_be_judged_by_what_the_unit_reports_now_and_within_the_present_bounds() {
+    let case = Case::new(Intent::Track);
+    let mut gate = case.gate(&Arc::default());
+    let start =
+        |gate: &mut Gate| gate.start(Motion::StartProgram, Intent::Track, false, case.now());
+    let bounds = Bounds::of(
+        &Station {
+            sun_avoidance: Some(SunAvoidance { radius_deg: 5.0, ahead_min: 0.0 }),
+            ..Station::default()
+        },
+        &case.antenna,
+    );
+    gate.keep_within(bounds);
+    assert_eq!(start(&mut gate), Err(Refusal::BeingJudged));
+    judge(&mut gate);
+    assert_ne!(start(&mut gate), Err(Refusal::BeingJudged));
 }
 
 fn jog(x_deg_s: f64, y_deg_s: f64) -> Motion {

@@ -92,6 +92,7 @@ impl Session {
     /// Carries `command` out again when the judgement is there that it needs.
     pub(super) fn wait_for_judgement(&mut self, command: Command) {
         if self.judging.tries >= MAX_TRIES {
+            self.judging.tries = 0;
             return self.tell(Event::NotSent(Refusal::BeingJudged));
         }
         self.judging.tries += 1;
