@@ -183,13 +183,13 @@ impl Command {
             | Self::ProgramTrackPass { antenna, .. }
             | Self::SetAutomatic { antenna, .. }
             | Self::GoOn(antenna) => Some(*antenna),
-            // They read, save and compare what is known here.
+            // Those of an antenna among these read, save and compare what is known here.
             Self::SaveSettings(_)
             | Self::CompareSettings(_)
             | Self::ReadCopy { .. }
             | Self::FitPointing(..)
-            | Self::ChangePeaks(..) => None,
-            Self::ChoosePass { .. }
+            | Self::ChangePeaks(..)
+            | Self::ChoosePass { .. }
             | Self::PriceSwap(_)
             | Self::SetPassLimits { .. }
             | Self::SetScheduling(_)
@@ -229,22 +229,19 @@ impl Command {
         match self {
             Self::Antenna(_, command) => command.row(),
             Self::Track { .. } | Self::ProgramTrackPass { .. } => Row::STATION_MOVES,
-            Self::SetAutomatic { is_on: true, .. } | Self::GoOn(_) => {
+            // After an upload the unit tracks again, once the file is in place.
+            Self::SetAutomatic { is_on: true, .. }
+            | Self::GoOn(_)
+            | Self::Upload(uploads::Ask::AgreeToTracking) => {
                 Row { ends_automatic: false, ..Row::STATION_MOVES }
             }
-            Self::SetAutomatic { is_on: false, .. } => {
+            Self::SetAutomatic { is_on: false, .. }
+            | Self::CloseAfter(CloseHow::Hold | CloseHow::Leave) => {
                 Row { effect: Effect::Stops, ..Row::OF_STATION }
             }
             // The operator may choose again while it closes.
             Self::CloseAfter(CloseHow::Park) => {
                 Row { ends_automatic: false, while_closing: true, ..Row::STATION_MOVES }
-            }
-            Self::CloseAfter(CloseHow::Hold | CloseHow::Leave) => {
-                Row { effect: Effect::Stops, ..Row::OF_STATION }
-            }
-            // The unit tracks again once the file is in place.
-            Self::Upload(uploads::Ask::AgreeToTracking) => {
-                Row { ends_automatic: false, ..Row::STATION_MOVES }
             }
             Self::SaveStation(_) => Row { effect: Effect::ChangesSafety, ..Row::OF_STATION },
             Self::Look(_)

@@ -64,7 +64,7 @@ pub(super) fn receiver(reply: &Reply) -> Option<Values> {
     Some(values)
 }
 
-/// STATUS tells the delay; GPS_DATA does not.
+/// STATUS tells the delay; `GPS_DATA` does not.
 pub(in crate::controller::satrak) fn lock_delay(delay_s: f64) -> (&'static str, Value) {
     LOCK_DELAY_S.with(delay_s)
 }
