@@ -154,13 +154,16 @@ impl Engine {
         }
     }
 
-    /// Returns `true` if a STOP came after the motion was asked for.
+    /// Returns `true` if STOP voids the command: a later one of its antenna, or of any antenna for a
+    /// command that concerns them all.
     fn is_void(&self, command: &Command) -> bool {
-        let antenna = command.antenna().and_then(|id| self.place(id));
-        let antenna = antenna.and_then(|place| self.antennas.get(place));
-        let is_void =
-            |number| antenna.is_some_and(|antenna| antenna.handle.stopper().is_void(number));
-        command.row().void_after_stop && self.asked.is_some_and(|asked| is_void(asked.number))
+        let Some(asked) = self.asked.filter(|_| command.row().void_after_stop) else {
+            return false;
+        };
+        let one = command.antenna();
+        let mut concerned =
+            self.antennas.iter().filter(|antenna| one.is_none_or(|one| antenna.shown.id() == one));
+        concerned.any(|antenna| antenna.handle.stopper().is_void(asked.number))
     }
 
     /// Returns `true` if another Azel drives the antenna, and then shows the refusal on it.
