@@ -16,6 +16,7 @@ mod documents;
 mod elements_any;
 mod elements_forms;
 mod elements_library;
+mod every_command;
 mod fuzz_regressions;
 mod genius_session;
 mod host_tracking;

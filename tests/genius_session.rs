@@ -1,7 +1,7 @@
 //! Session of an antenna against a simulated Rotator Genius, in paused time: the
 //! operator's view, and the unit's commands byte for byte.
 
-mod rig;
+pub(crate) mod rig;
 mod script;
 
 mod alone;

@@ -1,7 +1,7 @@
 //! Session of an antenna against a simulated RC2000C: the operator's view, and the unit's
 //! commands.
 
-mod rig;
+pub(crate) mod rig;
 
 mod actions;
 mod alarms;

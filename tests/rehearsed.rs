@@ -9,7 +9,7 @@ mod prices;
 mod recorded;
 mod rehearsal;
 mod replay;
-mod scene;
+pub(crate) mod scene;
 mod size;
 mod trouble;
 mod unattended;

@@ -2,7 +2,7 @@
 //! and the unit's commands.
 
 mod rig;
-mod scene;
+pub(crate) mod scene;
 mod script;
 
 mod connect;

@@ -14,14 +14,14 @@ use jiff::Timestamp;
 use crate::common::rig;
 
 /// An antenna whose unit has these rotators.
-pub(super) fn antenna(rotators: Rotators) -> Antenna {
+pub(crate) fn antenna(rotators: Rotators) -> Antenna {
     let mut antenna = Antenna::genius("Mast", "in memory");
     antenna.connection.put(&ROTATORS, rotators).unwrap();
     antenna
 }
 
 /// Options of an azimuth rotator at 173 degrees and an elevation rotator at the horizon.
-pub(super) fn pair() -> Options {
+pub(crate) fn pair() -> Options {
     Options {
         rotators: [RotatorOptions::default(), RotatorOptions::elevation()],
         ..Options::default()
@@ -60,7 +60,7 @@ impl Rig {
     }
 
     /// A session that has read its unit.
-    pub(super) async fn connected(options: &Options, rotators: Rotators) -> Self {
+    pub(crate) async fn connected(options: &Options, rotators: Rotators) -> Self {
         let mut rig = Self::start(options, &antenna(rotators));
         rig.until("it is read", 5, |shown| shown.state.measured.is_some()).await;
         rig.seconds(0.1).await;

@@ -21,7 +21,7 @@ pub(super) type Rig = rig::Rig<Control>;
 
 /// An antenna of twenty counts a degree, like the simulated one: azimuth 90 to 270
 /// degrees, elevation 0 to 90.
-pub(super) fn antenna() -> Antenna {
+pub(crate) fn antenna() -> Antenna {
     let point = |counts, degrees| CountPoint { counts, degrees };
     let calibration = Calibration {
         azimuth: vec![point(30, 90.0), point(3630, 270.0)],
@@ -58,7 +58,7 @@ impl Rig {
     }
 
     /// A session that has read its unit and the list of satellites, at standstill.
-    pub(super) async fn connected(options: &Options, antenna: &Antenna) -> Self {
+    pub(crate) async fn connected(options: &Options, antenna: &Antenna) -> Self {
         let mut rig = Self::start(options, antenna);
         rig.send(Command::Connect);
         let is_read = |shown: &Snapshot| {

@@ -16,8 +16,8 @@ use tokio::task::JoinHandle;
 use crate::common::units::{Units, until};
 
 /// A station, its units, and the folder of its files.
-pub(super) struct Scene {
-    pub(super) units: Units,
+pub(crate) struct Scene {
+    pub(crate) units: Units,
     station: InPlace,
     run: JoinHandle<()>,
     clock: Clock,
@@ -35,7 +35,7 @@ struct Keeps {
 }
 
 impl Scene {
-    pub(super) fn new(start: Timestamp, station: &Station) -> Self {
+    pub(crate) fn new(start: Timestamp, station: &Station) -> Self {
         Self::keeping(start, station, Keeps::default())
     }
 
@@ -108,7 +108,7 @@ impl Scene {
         self.folder.path()
     }
 
-    pub(super) fn client(&self) -> Client {
+    pub(crate) fn client(&self) -> Client {
         self.station.client().clone()
     }
 }
@@ -120,12 +120,12 @@ fn folder_of(station: &Station) -> tempfile::TempDir {
     folder
 }
 
-pub(super) fn operation(client: &Client, antenna: AntennaId) -> Operation {
+pub(crate) fn operation(client: &Client, antenna: AntennaId) -> Operation {
     let snapshot = client.snapshot();
     snapshot.antennas.iter().find(|of| of.id() == antenna).unwrap().operation.clone()
 }
 
-pub(super) async fn set_automatic(client: &Client, antenna: AntennaId, is_on: bool) {
+pub(crate) async fn set_automatic(client: &Client, antenna: AntennaId, is_on: bool) {
     let is_set = || {
         let _ = client.send(Command::SetAutomatic { antenna, is_on });
         (operation(client, antenna).is_on() == is_on).then_some(())

@@ -57,7 +57,7 @@ impl Rig {
     }
 
     /// A session with the usual unit and antenna.
-    pub(super) async fn usual() -> Self {
+    pub(crate) async fn usual() -> Self {
         Self::connected(&options(), &antenna()).await
     }
 

@@ -25,7 +25,7 @@ TWIN
 /// Name of the element file on the unit.
 pub(super) const FILE: &str = "stations.txt";
 
-pub(super) fn site() -> Site {
+pub(crate) fn site() -> Site {
     Site::new(41.01, 29.17, 100.0).unwrap()
 }
 
@@ -50,7 +50,7 @@ fn first_pass(aos_elevation_deg: f64, is_wanted: impl Fn(&Pass) -> bool) -> Pass
 }
 
 /// The ISS for the whole of [`pass`].
-pub(super) fn iss() -> TrackTarget {
+pub(crate) fn iss() -> TrackTarget {
     whole(&pass())
 }
 
@@ -74,7 +74,7 @@ pub(super) fn track(target: TrackTarget) -> Command {
     Command::Track(Box::new(on_board(target)))
 }
 
-pub(super) fn on_board(target: TrackTarget) -> OnBoardPass {
+pub(crate) fn on_board(target: TrackTarget) -> OnBoardPass {
     let elements = elements().swap_remove(usize::from(target.catalog_number == 25_545));
     OnBoardPass { target, elements, site: site(), is_agreed: false }
 }
@@ -98,7 +98,7 @@ pub(super) fn options() -> Options {
     }
 }
 
-pub(super) fn antenna() -> Antenna {
+pub(crate) fn antenna() -> Antenna {
     Antenna::satrak("Dish", "in memory")
 }
 

@@ -1,0 +1,204 @@
+//! One sample of every command to an antenna and to a station.
+
+use std::path::PathBuf;
+
+use azel::{
+    astro::{Angle, AzEl, Offset, Site, TrackOffsets},
+    device::{Pointing, panel::Act, settings::Change},
+    driver::{Command, OffsetChange},
+    engine::{
+        self, Attention,
+        alarms::ShelveTime,
+        closing::CloseHow,
+        older_sets::SetChoice,
+        passes::{PassKey, Scope},
+        source_tests::TestAsk,
+        sources::Copied,
+        uploads::Ask,
+    },
+    orbit::{Source, SourcePlace},
+    plan::{OnBoardPass, ProgramTrack, Target},
+    record::{Peak, PeakChange, PeakOf},
+    station::{AntennaId, LockOut, OffsetsOf, PassLimits, Priority, Station},
+};
+use jiff::Timestamp;
+
+/// Samples in place of the values that depend on the make.
+pub(super) struct Values {
+    pub(super) pass: OnBoardPass,
+    pub(super) site: Site,
+    pub(super) act: &'static str,
+    pub(super) change: Change,
+    /// A settings group that a session does not read by itself.
+    pub(super) group: &'static str,
+    pub(super) question: &'static str,
+}
+
+/// A list of samples by their patterns. A new variant does not compile before it has one.
+macro_rules! samples {
+    ($($pattern:pat => $sample:expr,)*) => {{
+        let samples = vec![$({
+            let sample = $sample;
+            assert!(matches!(sample, $pattern), "{sample:?} is no sample of its pattern");
+            sample
+        }),*];
+        for sample in &samples {
+            match sample {
+                $($pattern => {})*
+            }
+        }
+        samples
+    }};
+}
+
+/// Name of the variant of a command.
+pub(super) fn name(command: &Command) -> String {
+    let text = format!("{command:?}");
+    let end = text.find(['(', ' ']).filter(|_| !text.starts_with("AutoTrack"));
+    text[..end.unwrap_or(text.len())].to_owned()
+}
+
+/// A lock-out by the person who works on the unit.
+pub(super) fn lock_out() -> LockOut {
+    LockOut {
+        by: "Ada".to_owned(),
+        since: "2026-08-12T10:00:00Z".parse().unwrap(),
+        reason: "gear box open".to_owned(),
+    }
+}
+
+/// A direction that every simulated unit reaches, away from where it starts.
+pub(super) fn elsewhere() -> Pointing {
+    Pointing {
+        azimuth: Some(Angle::from_degrees(100.0)),
+        elevation: Some(Angle::from_degrees(30.0)),
+    }
+}
+
+/// Goes to [`elsewhere`], which takes some time.
+pub(super) fn go_elsewhere() -> Command {
+    let Pointing { azimuth, elevation } = elsewhere();
+    Command::Position { azimuth, elevation }
+}
+
+/// One of each, in the order of [`Command`].
+pub(super) fn commands(values: &Values) -> Vec<Command> {
+    use Command as C;
+    let target = Target::Fixed(AzEl::from_degrees(110.0, 40.0));
+    let track = || {
+        let passes = vec![(Timestamp::MIN, Timestamp::MAX)];
+        Box::new(ProgramTrack::new(target.clone(), values.site, passes))
+    };
+    let act = || Act { action: values.act, values: [].into() };
+    let tenth = Angle::from_degrees(0.1);
+    samples! {
+        C::Standby => C::Standby,
+        C::Manual => C::Manual,
+        C::Hold => C::Hold,
+        C::Jog { .. } => C::Jog { rates_deg_s: [1.0, 0.0] },
+        C::EndJog => C::EndJog,
+        C::AllowUnguarded => C::AllowUnguarded,
+        C::AllowWayOut => C::AllowWayOut,
+        C::MoveAway => C::MoveAway,
+        C::Step { .. } => C::Step { steps_deg: [1.0, 0.0] },
+        C::Position { .. } => go_elsewhere(),
+        C::Track(_) => C::Track(Box::new(values.pass.clone())),
+        C::TakeOver => C::TakeOver,
+        C::ProgramTrack(_) => C::ProgramTrack(track()),
+        C::ProgramTrackIntoSun(_) => C::ProgramTrackIntoSun(track()),
+        C::Offset(_) => C::Offset(OffsetChange::Step(Offset::Azimuth(tenth))),
+        C::FirstOffsets(_) => {
+            C::FirstOffsets(TrackOffsets::NONE.plus(Offset::Azimuth(tenth)).unwrap())
+        },
+        C::Resume => C::Resume,
+        C::SeenStanding => C::SeenStanding,
+        C::Park => C::Park,
+        C::Preview(_) => C::Preview(Some(elsewhere())),
+        C::Connect => C::Connect,
+        C::Disconnect => C::Disconnect,
+        C::Act(_) => C::Act(act()),
+        C::ActUnseen(_) => C::ActUnseen(act()),
+        C::AutoTrack(true) => C::AutoTrack(true),
+        C::AutoTrack(false) => C::AutoTrack(false),
+        C::ReadGroup(_) => C::ReadGroup(values.group),
+        C::WriteSettings(_) => C::WriteSettings(values.change.clone()),
+        C::LockOut(_) => C::LockOut(lock_out()),
+        C::Unlock => C::Unlock,
+        C::Ask(_) => C::Ask(values.question.into()),
+    }
+}
+
+/// One of each command to a station, in the order of [`engine::Command`], without those to an antenna.
+/// None of them reaches a network.
+pub(super) fn commands_of_stations(
+    antenna: AntennaId,
+    pass: PassKey,
+    station: Station,
+) -> Vec<engine::Command> {
+    use engine::Command as C;
+    let (number, aos) = pass;
+    let numbers = || vec![number];
+    let unit = station.antennas.first().unwrap().clone();
+    let nowhere = || PathBuf::from("nowhere");
+    let source =
+        Source { name: "own".to_owned(), place: SourcePlace::File(nowhere()), refresh: None };
+    let peak = Peak { of: PeakOf::Sun, at: aos, azimuth_deg: 100.0, elevation_deg: 20.0 };
+    samples! {
+        C::Antenna(..) => C::Antenna(antenna, Command::Standby),
+        C::Track { .. } => C::Track { antenna, pass, is_agreed: true },
+        C::ProgramTrackPass { .. } => C::ProgramTrackPass { antenna, pass },
+        C::SetAutomatic { is_on: true, .. } => C::SetAutomatic { antenna, is_on: true },
+        C::SetAutomatic { is_on: false, .. } => C::SetAutomatic { antenna, is_on: false },
+        C::GoOn(_) => C::GoOn(antenna),
+        C::ChoosePass { .. } => C::ChoosePass { satellite: number, tca: aos, take: None },
+        C::PriceSwap(_) => C::PriceSwap(pass),
+        C::SetPassLimits { .. } => {
+            C::SetPassLimits { numbers: numbers(), limits: PassLimits::default() }
+        },
+        C::SetScheduling(_) => C::SetScheduling(station.scheduling),
+        C::SetElevationFloor(_) => C::SetElevationFloor(station.elevation_floor_deg),
+        C::CancelSearch(_) => C::CancelSearch(Scope::All),
+        C::ResumeSearch(_) => C::ResumeSearch(Scope::Favourites),
+        C::SetFavourites { .. } => C::SetFavourites { numbers: numbers(), is_favourite: true },
+        C::SetPriority { .. } => {
+            C::SetPriority { numbers: numbers(), priority: Priority::default() }
+        },
+        C::SetFrequencies { .. } => {
+            C::SetFrequencies { satellite: number, frequencies: Vec::new() }
+        },
+        C::KeepOffsets { .. } => {
+            C::KeepOffsets { of: OffsetsOf::Antenna(antenna), offsets: TrackOffsets::NONE }
+        },
+        C::AddSource(_) => C::AddSource(source),
+        C::RemoveSource(_) => C::RemoveSource("own".to_owned()),
+        C::SetRefresh { .. } => C::SetRefresh { name: "own".to_owned(), hours: None },
+        C::CopyElements { .. } => {
+            C::CopyElements { name: "copy".to_owned(), from: Copied::File(nowhere()) }
+        },
+        C::ListOlderSets(_) => C::ListOlderSets(number),
+        C::LookAtRecord(_) => C::LookAtRecord(None),
+        C::FitPointing(..) => C::FitPointing(antenna, Vec::new()),
+        C::ChangePeaks(..) => C::ChangePeaks(antenna, PeakChange::Added(peak)),
+        C::UseSet(_) => C::UseSet(SetChoice::Newest { catalog_number: number }),
+        C::RefreshSources { .. } => C::RefreshSources { names: Vec::new(), forced: false },
+        C::OpenedAlarms => C::OpenedAlarms,
+        C::AcknowledgeAlarm(_) => C::AcknowledgeAlarm(1),
+        C::AcknowledgeAlarms { .. } => C::AcknowledgeAlarms { newest: 1 },
+        C::ShelveAlarm { .. } => C::ShelveAlarm { id: 1, time: ShelveTime::OneHour },
+        C::UnshelveAlarm(_) => C::UnshelveAlarm(1),
+        C::SaveSettings(_) => C::SaveSettings(antenna),
+        C::CompareSettings(_) => C::CompareSettings(antenna),
+        C::ReadCopy { .. } => C::ReadCopy { antenna, path: nowhere() },
+        C::CloseCopy => C::CloseCopy,
+        C::SaveStation(_) => C::SaveStation(Box::new(station)),
+        C::Upload(Ask::AgreeToTracking) => C::Upload(Ask::AgreeToTracking),
+        C::Upload(_) => C::Upload(Ask::Cancel),
+        C::TestSource(_) => C::TestSource(TestAsk::Cancel),
+        C::TestLink(_) => C::TestLink(Box::new(unit)),
+        C::CloseAfter(CloseHow::Park) => C::CloseAfter(CloseHow::Park),
+        C::CloseAfter(CloseHow::Hold) => C::CloseAfter(CloseHow::Hold),
+        C::CloseAfter(CloseHow::Leave) => C::CloseAfter(CloseHow::Leave),
+        C::StayOpen => C::StayOpen,
+        C::Look(_) => C::Look(Attention::default()),
+    }
+}
