@@ -1,7 +1,7 @@
-//! A replay whose thread cannot be started or breaks off.
+//! A replay whose thread cannot be started or breaks off, and commands given in one.
 
 use super::*;
-use crate::job::InPlace;
+use crate::{driver, engine::closing::CloseHow, job::InPlace};
 
 fn replay() -> Replay {
     let at: Timestamp = "2026-11-14T19:00:00Z".parse().unwrap();
@@ -39,4 +39,28 @@ fn a_replay_whose_thread_cannot_be_started_says_so_and_stands() {
     replay.room = None;
     replay.take_job(Err(io::Error::other("no thread is left")));
     is_not_read(replay, "no thread is left");
+}
+
+#[test]
+fn a_command_given_in_a_replay_ends_there() {
+    use driver::Command as C;
+    let mut replay = replay();
+    let antenna = AntennaId(1);
+    let moving = [C::Manual, C::Park, C::MoveAway, C::TakeOver, C::Resume, C::AutoTrack(true)];
+    let other = [C::Standby, C::Unlock, C::SeenStanding, C::AllowWayOut, C::Ask("STATUS?".into())];
+    let of_antenna =
+        moving.into_iter().chain(other).map(|command| Command::Antenna(antenna, command));
+    let pass = (25_544, replay.begun_at);
+    let of_station = [
+        Command::Track { antenna, pass, is_agreed: true },
+        Command::ProgramTrackPass { antenna, pass },
+        Command::SetAutomatic { antenna, is_on: true },
+        Command::GoOn(antenna),
+        Command::CloseAfter(CloseHow::Park),
+        Command::SaveStation(Box::default()),
+    ];
+    for command in of_antenna.chain(of_station) {
+        assert!(!command.row().in_replay, "{command:?}");
+        assert!(replay.carry_out(UiCommand::Station(command.clone())).is_none(), "{command:?}");
+    }
 }
