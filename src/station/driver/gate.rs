@@ -80,7 +80,7 @@ pub(super) struct Gate {
     /// Where the last motion sent each axis, degrees as the mount counts; `None` where that is
     /// nowhere or not known.
     to_deg: [Option<f64>; 2],
-    /// The axes that the last motion turns.
+    /// The axes that the last motion turns; in a program track, all axes that it has turned.
     turns: [bool; 2],
     /// Angles of the axes when the last motion passed, degrees as the mount counts.
     started_from_deg: Option<[f64; 2]>,
@@ -165,7 +165,7 @@ impl Gate {
     }
 
     /// Where the last motion sent each axis, degrees as the mount counts; `None` for an axis that
-    /// it does not turn, and after a halt.
+    /// it does not turn, and after a halt. In a program track the last motion of each axis counts.
     pub(super) fn sent_to_deg(&self) -> [Option<f64>; 2] {
         let [first, second] = self.to_deg;
         let [turns_first, turns_second] = self.turns;
@@ -180,6 +180,23 @@ impl Gate {
     /// The axes that the last motion from here turns.
     pub(super) fn turns(&self) -> [bool; 2] {
         self.turns
+    }
+
+    /// A track begins: what was sent before does not count as a part of it.
+    pub(super) fn begin_track(&mut self) {
+        self.turns = [false; 2];
+    }
+
+    /// A program track commands one axis while the other one is still on its way.
+    fn remember_target(&mut self, motion: Motion, intent: Intent, now: Moment) {
+        let (sent_to_deg, turned) = (self.sent_to(motion, now), self.turned_by(motion));
+        let goes_on = intent == Intent::Track && matches!(motion, Motion::Position { .. });
+        let axes = self.to_deg.iter_mut().zip(&mut self.turns).zip(sent_to_deg).zip(turned);
+        for (((to_deg, turns), sent_to_deg), is_turned) in axes {
+            if is_turned || !(goes_on && *turns) {
+                (*to_deg, *turns) = (sent_to_deg, is_turned);
+            }
+        }
     }
 
     fn turned_by(&self, motion: Motion) -> [bool; 2] {
@@ -251,8 +268,7 @@ impl Gate {
         now: Moment,
     ) -> Result<(), Refusal> {
         self.examine(motion.into(), intent, stopping, now)?;
-        self.to_deg = self.sent_to(motion, now);
-        self.turns = self.turned_by(motion);
+        self.remember_target(motion, intent, now);
         self.started_from_deg = self.axes_deg();
         self.unproved_since = Some(now.steady);
         self.controller.start(motion);

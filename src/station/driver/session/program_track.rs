@@ -80,6 +80,7 @@ impl Session {
         if self.activity.last_program().is_none() && self.may_move() {
             self.halt_quietly(now);
         }
+        self.gate.begin_track();
         let track = Tracking::new(planner, phase, now.steady);
         self.activity = Activity::ProgramTrack(Box::new(track));
         self.tell_phase(phase, name);

@@ -325,3 +325,21 @@ fn an_azimuth_alone_is_asked_of_the_other_side_at_the_upper_limit_of_a_mount_tha
     let aim = gate.aim(&motion).unwrap();
     assert_eq!((aim.azimuth.map(Angle::degrees), aim.elevation), (Some(347.0), None));
 }
+
+#[test]
+fn an_axis_that_a_program_track_sent_somewhere_is_still_on_its_way_when_the_other_one_is_sent() {
+    let case = rc2000c(Intent::Track);
+    let started = |intent| {
+        let mut gate = case.gate(&Arc::default());
+        gate.start(position(60.0, None), intent, false, case.now()).unwrap();
+        gate.start(position(None, 70.0), intent, false, case.now()).unwrap();
+        gate
+    };
+    let rounded = |gate: &Gate| gate.sent_to_deg().map(|to_deg| to_deg.map(f64::round));
+    let mut gate = started(Intent::Track);
+    assert_eq!(rounded(&gate), [Some(60.0), Some(70.0)]);
+    gate.halted();
+    assert_eq!(rounded(&gate), [None; 2]);
+    // A motion to a position replaces the one before it.
+    assert_eq!(rounded(&started(Intent::Position)), [None, Some(70.0)]);
+}
