@@ -7,8 +7,9 @@ use crate::station::AntennaId;
 
 /// Settings of the whole station on which the safety of each antenna depends.
 const STATION_KEYS: [&str; 3] = ["keep_out", "sun_avoidance", "site"];
-/// Settings of an antenna on which its safety depends.
-const ANTENNA_KEYS: [&str; 2] = ["limits", "mount"];
+/// Settings of an antenna on which its safety depends. Half the beam width is a part of the margin of
+/// each keep-out.
+const ANTENNA_KEYS: [&str; 3] = ["limits", "mount", "beam_width_deg"];
 
 /// Fields of these settings that do not affect safety: texts, and an unknown antenna of a keep-out,
 /// which then holds for all.
@@ -41,14 +42,18 @@ pub(super) fn safety_entries(notes: &[Note], antennas: &[(String, AntennaId)]) -
         if is_unknown_of_site {
             return None;
         }
-        if STATION_KEYS.iter().any(|key| is_part_of(&note.place, key)) {
+        let is_unknown = note.reason == NoteReason::Unknown;
+        let is_meant = |place: &str, keys: &[&str]| {
+            keys.iter().any(|key| is_part_of(place, key) || is_unknown && is_mistyped(place, key))
+        };
+        if is_meant(&note.place, &STATION_KEYS) {
             return Some(Unread { place: place(), antenna: None });
         }
         let (relative_place, id) = antennas
             .iter()
             .find_map(|(path, id)| Some((note.place.strip_prefix(path.as_str())?, *id)))?;
-        let counts = ANTENNA_KEYS.iter().any(|key| is_part_of(relative_place, key));
-        counts.then(|| Unread { place: place(), antenna: Some(id) })
+        is_meant(relative_place, &ANTENNA_KEYS)
+            .then(|| Unread { place: place(), antenna: Some(id) })
     };
     notes.iter().filter_map(unread).collect()
 }
@@ -57,4 +62,71 @@ pub(super) fn safety_entries(notes: &[Note], antennas: &[(String, AntennaId)]) -
 fn is_part_of(place: &str, key: &str) -> bool {
     let rest = place.strip_prefix(key);
     rest.is_some_and(|rest| rest.is_empty() || rest.starts_with(['.', '[']))
+}
+
+/// Returns `true` if `written` differs from `key` by one or two letters that were left out, added,
+/// changed or swapped, or only in case and separators.
+fn is_mistyped(written: &str, key: &str) -> bool {
+    let letters = |text: &str| -> Vec<char> {
+        text.chars()
+            .filter(|letter| letter.is_alphanumeric())
+            .flat_map(char::to_lowercase)
+            .collect()
+    };
+    let (written, key) = (letters(written), letters(key));
+    // Two changes would make one short word of almost any other.
+    let max = if key.len() > 6 { 2 } else { 1 };
+    differs_within(&written, &key, max)
+}
+
+/// Returns `true` if at most `max` changes of a letter make `key` of `written`.
+fn differs_within(written: &[char], key: &[char], max: usize) -> bool {
+    match (written, key) {
+        ([a, written @ ..], [b, key @ ..]) if a == b => differs_within(written, key, max),
+        ([], []) => true,
+        _ if max == 0 => false,
+        _ => {
+            let max = max - 1;
+            let (short_written, short_key) = (written.get(1..), key.get(1..));
+            let is_swapped = || match (written, key) {
+                ([a, b, written @ ..], [c, d, key @ ..]) => {
+                    (a, b) == (d, c) && differs_within(written, key, max)
+                }
+                _ => false,
+            };
+            short_written.is_some_and(|written| differs_within(written, key, max))
+                || short_key.is_some_and(|key| differs_within(written, key, max))
+                || short_written
+                    .zip(short_key)
+                    .is_some_and(|(written, key)| differs_within(written, key, max))
+                || is_swapped()
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_name_with_a_typing_error_is_known_and_other_names_are_not() {
+        for (written, key) in [
+            ("keep_outs", "keep_out"),
+            ("keepout", "keep_out"),
+            ("kepe_out", "keep_out"),
+            ("KeepOut", "keep_out"),
+            ("sun_avoidence", "sun_avoidance"),
+            ("sites", "site"),
+            ("limit", "limits"),
+            ("mont", "mount"),
+        ] {
+            assert!(is_mistyped(written, key), "{written}");
+        }
+        let others = ["name", "rule", "offsets", "notes", "size_of_dish", "list", "group", "time"];
+        for other in others {
+            for key in STATION_KEYS.into_iter().chain(ANTENNA_KEYS) {
+                assert!(!is_mistyped(other, key), "{other} {key}");
+            }
+        }
+    }
 }
