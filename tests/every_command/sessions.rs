@@ -222,7 +222,6 @@ async fn locked_out<U: Unit>(
     let is_refused_here = outcome.events == [Event::NotSent(locked.clone())];
     let is_taken = !outcome.refusals().contains(&&locked);
     let is_as_said = match row.locked_out {
-        LockedOut::Taken => is_taken,
         LockedOut::Refused => is_refused_here,
         LockedOut::RefusedAtTheGate if outcome.shown.link.is_open() => {
             let refusals = outcome.refusals();
@@ -236,7 +235,7 @@ async fn locked_out<U: Unit>(
             Offline::CarriedOut | Offline::EndsMotion => false,
         },
         LockedOut::TakesPanel if make.waits_for_word => outcome.events == panel,
-        LockedOut::TakesPanel => is_taken,
+        LockedOut::Taken | LockedOut::TakesPanel => is_taken,
     };
     let state = if has_link { "locked out" } else { "locked out, without a link" };
     faults.check(is_as_said, command, state, &outcome);
