@@ -1,15 +1,18 @@
 //! A session with a simulated Satrak at the other end of a stream in memory.
 
-use std::{num::NonZeroU32, sync::Arc};
+use std::{collections::BTreeMap, num::NonZeroU32, sync::Arc};
 
 use jiff::Timestamp;
 
 use super::{Session, Wires};
 use crate::{
+    astro::{Angle, Site, time::add_seconds},
     clock::Clock,
     controller::satrak::Satrak,
+    device::TrackTarget,
     driver::{AntennaHandle, Debts, Dial, Orders, Stream},
-    plan::Bounds,
+    orbit::{Pass, PassSearch, Propagator, passes, read_elements},
+    plan::{Bounds, OnBoardPass, on_board::KnownOrbit},
     sim::satrak::{Control, Options},
     station::{Antenna, Station},
 };
@@ -60,4 +63,48 @@ pub(in crate::driver) fn over(
     let session = Session::over(satrak, &antenna, dial, clock, wired(wires), debts);
     tokio::spawn(session.run());
     handle
+}
+
+/// The ISS in 2008, a published example.
+const ELEMENTS: &str = "ISS (ZARYA)
+1 25544U 98067A   08264.51782528 -.00002182  00000-0 -11606-4 0  2927
+2 25544  51.6416 247.4627 0006703 130.5360 325.0288 15.72125391563537
+";
+
+fn site() -> Site {
+    Site::new(41.01, 29.17, 100.0).unwrap()
+}
+
+/// A high pass of it.
+pub(in crate::driver) fn pass() -> OnBoardPass {
+    let elements = read_elements(ELEMENTS).elements.swap_remove(0);
+    let (propagator, from) = (Propagator::new(&elements).unwrap(), elements.epoch());
+    let aos_elevation = Angle::from_degrees(10.0);
+    let search = PassSearch {
+        aos_elevation,
+        ..PassSearch::new(site(), from, add_seconds(from, 3.0 * 86_400.0))
+    };
+    let is_high = |pass: &Pass| pass.max_elevation().degrees() > 40.0;
+    let pass = passes(&propagator, &search, &|| false).into_iter().find(is_high).unwrap();
+    let target = TrackTarget {
+        catalog_number: 25_544,
+        name: "ISS (ZARYA)".into(),
+        from: pass.aos.time,
+        until: pass.los.time,
+    };
+    OnBoardPass { target, elements, site: site(), is_agreed: false }
+}
+
+/// A unit that comes to life this long after AOS.
+pub(in crate::driver) fn unit(after_s: f64) -> (Control, Timestamp) {
+    let pass = pass();
+    let now = add_seconds(pass.target.from, after_s);
+    let elements = BTreeMap::from([("stations.txt".to_owned(), vec![pass.elements])]);
+    (Control::new(&Options { elements, ..Options::new(site(), now) }), now)
+}
+
+/// Its orbit.
+pub(in crate::driver) fn orbit() -> Arc<KnownOrbit> {
+    let OnBoardPass { elements, site, .. } = pass();
+    Arc::new(KnownOrbit { elements, site })
 }

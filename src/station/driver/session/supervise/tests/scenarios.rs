@@ -1,0 +1,272 @@
+//! One scenario for each check. Each returns `true` if it ends as it should.
+
+use std::time::Duration;
+
+use tokio::time::{Instant, timeout};
+
+use super::{
+    Checks,
+    scene::{genius, satrak, satrak_after},
+};
+use crate::{
+    astro::{Angle, AzEl, Offset, TrackOffsets},
+    driver::{Command, Event, Intent, LinkState, OffsetChange, Safety, Snapshot, session::testing},
+    plan::{OnBoardPass, ProgramTrack, Target},
+    sim::{rotator_genius, satrak},
+    station::{LockOut, Station},
+};
+
+fn turn_to(azimuth_deg: f64) -> Command {
+    Command::Position { azimuth: Some(Angle::from_degrees(azimuth_deg)), elevation: None }
+}
+
+/// Tracks a direction that stands, with the azimuth beside it, degrees.
+fn fixed(azimuth_deg: f64, elevation_deg: f64, beside_deg: f64) -> Command {
+    let target = Target::Fixed(AzEl::from_degrees(azimuth_deg, elevation_deg));
+    let track = ProgramTrack::new(target, Station::default().site, Vec::new());
+    Command::ProgramTrack(Box::new(ProgramTrack { offsets: azimuth(beside_deg), ..track }))
+}
+
+fn azimuth(degrees: f64) -> TrackOffsets {
+    TrackOffsets::NONE.plus(Offset::Azimuth(Angle::from_degrees(degrees))).unwrap()
+}
+
+fn is_moving(shown: &Snapshot) -> bool {
+    shown.state.measured.is_some_and(|measured| measured.moving())
+}
+
+fn is_forbidden(event: &Event) -> bool {
+    matches!(event, Event::Safety(Safety::Forbidden { .. }))
+}
+
+/// The path of the pass is judged, and the command taken.
+pub(super) async fn watch_judging(checks: Checks) -> bool {
+    let scene = satrak(checks).read().await;
+    scene.send(Command::Track(Box::new(testing::pass())));
+    scene.shows(5.0, |shown| shown.intent == Intent::Track).await
+}
+
+/// The unit holds the pass, and its program is started.
+pub(super) async fn take_events(checks: Checks) -> bool {
+    let scene = satrak(checks).read().await;
+    scene.send(Command::Track(Box::new(testing::pass())));
+    scene.seconds(30.0).await;
+    scene.sent("TRACK=,1") == 1
+}
+
+pub(super) async fn report_found(checks: Checks) -> bool {
+    genius(checks).tells(5.0, |event| matches!(event, Event::Connected(_))).await
+}
+
+/// After an outage the unit is as before, and the track goes on.
+pub(super) async fn watch_likeness(checks: Checks) -> bool {
+    let scene = satrak_after(30.0, checks).read().await;
+    let OnBoardPass { target, elements, site, .. } = testing::pass();
+    let satellite = Target::Satellite(Box::new(elements));
+    let track = ProgramTrack::new(satellite, site, vec![(target.from, target.until)]);
+    scene.send(Command::ProgramTrack(Box::new(track)));
+    scene.seconds(20.0).await;
+    scene.set_off(true);
+    scene.seconds(30.0).await;
+    let before = scene.sent("GOTO=");
+    scene.set_off(false);
+    scene.seconds(30.0).await;
+    before > 0 && scene.sent("GOTO=") > before
+}
+
+pub(super) async fn watch_program(checks: Checks) -> bool {
+    let mut scene = satrak_after(30.0, checks).read().await;
+    scene.starts_by_itself().await;
+    scene.tells(5.0, |event| *event == Event::StartedByItself).await
+}
+
+/// The reply to a motion is lost, and nothing moves: the antenna is there already.
+pub(super) async fn resolve_doubt(checks: Checks) -> bool {
+    let mut scene = genius(checks).read().await;
+    scene.send(Command::Hold);
+    scene.unit.set_fault(rotator_genius::Fault::Silence, true);
+    scene.send(turn_to(173.0));
+    scene.seconds(0.3).await;
+    scene.unit.set_fault(rotator_genius::Fault::Silence, false);
+    scene.tells(6.0, |event| matches!(event, Event::Unanswered(_))).await
+}
+
+/// A jog ends whose lease ran out while the link took no bytes: the next one came too late for it.
+pub(super) async fn watch_jog(checks: Checks) -> bool {
+    let mut scene = satrak(checks).read().await;
+    let jog = || scene.send(Command::Jog { rates_deg_s: [1.0, 0.0] });
+    scene.send(Command::Manual);
+    for _ in 0..10 {
+        jog();
+        scene.seconds(0.1).await;
+    }
+    jog();
+    scene.stall(true);
+    scene.seconds(0.35).await;
+    jog();
+    scene.stall(false);
+    scene.seconds(0.1).await;
+    scene.tells(0.0, |event| *event == Event::JogLeaseOver).await
+}
+
+/// A rotator does not turn.
+pub(super) async fn watch_effect(checks: Checks) -> bool {
+    let mut scene = genius(checks).read().await;
+    let stuck = rotator_genius::Fault::Stuck(crate::protocol::rotator_genius::RotatorNumber::One);
+    scene.unit.set_fault(stuck, true);
+    scene.send(turn_to(100.0));
+    scene.tells(20.0, |event| matches!(event, Event::Safety(Safety::NoEffect { .. }))).await
+}
+
+/// The second step is not refused.
+pub(super) async fn watch_step(checks: Checks) -> bool {
+    let scene = satrak(checks).read().await;
+    scene.send(Command::Manual);
+    for _ in 0..2 {
+        scene.send(Command::Step { steps_deg: [1.0, 0.0] });
+        scene.seconds(5.0).await;
+    }
+    scene.sent("STEP=") == 2
+}
+
+pub(super) async fn watch_halt(checks: Checks) -> bool {
+    let mut scene = genius(checks).read().await;
+    scene.handle.stop();
+    scene.tells(5.0, |event| *event == Event::Stopped).await
+}
+
+/// The computer may sleep once a jog has been ended for it.
+pub(super) async fn let_sleep(checks: Checks) -> bool {
+    let scene = satrak(checks).read().await;
+    scene.send(Command::Manual);
+    scene.send(Command::Jog { rates_deg_s: [1.0, 0.0] });
+    scene.seconds(0.1).await;
+    timeout(Duration::from_millis(2900), scene.sleeps.all_quiet()).await.is_ok()
+}
+
+/// Somebody turns the antenna by hand, while its drives stand.
+pub(super) async fn watch_rest(checks: Checks) -> bool {
+    let mut scene = satrak(checks).read().await;
+    scene.seconds(5.0).await;
+    scene.unit.place([80.0, 80.0]);
+    scene.tells(5.0, |event| matches!(event, Event::Safety(Safety::FlagsContradict { .. }))).await
+}
+
+pub(super) async fn watch_place(checks: Checks) -> bool {
+    let scene = genius(checks).read().await;
+    scene.put_mast(&[(160.0, -5.0), (190.0, -5.0), (190.0, 30.0), (160.0, 30.0)]);
+    scene.shows(5.0, |shown| shown.inside.is_some()).await
+}
+
+/// After a track with an offset the antenna points where its axes do, not at the target.
+pub(super) async fn watch_offsets(checks: Checks) -> bool {
+    let mut scene = satrak(checks).read().await;
+    scene.send(fixed(110.0, 40.0, 8.0));
+    scene.seconds(60.0).await;
+    scene.send(Command::Standby);
+    scene.seconds(5.0).await;
+    scene.put_mast(&[(108.0, 35.0), (112.0, 35.0), (112.0, 45.0), (108.0, 45.0)]);
+    !scene.tells(5.0, is_forbidden).await
+}
+
+pub(super) async fn watch_bounds(checks: Checks) -> bool {
+    let mut scene = genius(checks).read().await;
+    scene.put_mast(&[(160.0, -5.0), (190.0, -5.0), (190.0, 30.0), (160.0, 30.0)]);
+    scene.tells(5.0, is_forbidden).await
+}
+
+/// A motion that nobody has stopped is over.
+pub(super) async fn watch_standstill(checks: Checks) -> bool {
+    let scene = genius(checks).read().await;
+    scene.send(turn_to(160.0));
+    scene.shows(5.0, is_moving).await && scene.shows(30.0, |shown| !shown.unproved).await
+}
+
+pub(super) async fn watch_lock_out(checks: Checks) -> bool {
+    let scene = satrak(checks).read().await;
+    let since = testing::START;
+    let (by, reason) = ("Ada".to_owned(), "gear".to_owned());
+    scene.send(Command::LockOut(LockOut { by, since, reason }));
+    scene.seconds(0.1).await;
+    scene.shows(10.0, |shown| !shown.locking).await
+}
+
+pub(super) async fn watch_auto_track(checks: Checks) -> bool {
+    let scene = satrak(checks).read().await;
+    scene.send(Command::AutoTrack(false));
+    scene.seconds(5.0).await;
+    scene.sent("TRACK_AUTO_ENABLE=,0") > 0
+}
+
+/// An offset of the unit's own track comes into force.
+pub(super) async fn watch_unit_offsets(checks: Checks) -> bool {
+    let scene = satrak_after(30.0, checks).read().await;
+    if !scene.tracks().await {
+        return false;
+    }
+    scene.send(Command::Offset(OffsetChange::Step(Offset::Azimuth(Angle::from_degrees(1.0)))));
+    let is_on = |shown: &Snapshot| shown.unit_offsets.as_ref().is_some_and(|it| !it.is_changing);
+    scene.shows(20.0, is_on).await
+}
+
+/// A STOP that is long over gives the session nothing to do.
+pub(super) async fn forget_old_stop(checks: Checks) -> bool {
+    let scene = genius(checks).read().await;
+    let start = scene.readings();
+    scene.seconds(10.0).await;
+    let idle = scene.readings() - start;
+    scene.handle.stop();
+    scene.seconds(20.0).await;
+    let start = scene.readings();
+    scene.seconds(10.0).await;
+    scene.readings() - start < idle * 2
+}
+
+pub(super) async fn start_queued(checks: Checks) -> bool {
+    let scene = genius(checks).read().await;
+    scene.send(turn_to(160.0));
+    scene.shows(5.0, is_moving).await
+}
+
+pub(super) async fn watch_slew(checks: Checks) -> bool {
+    let mut scene = genius(checks).read().await;
+    scene.send(turn_to(160.0));
+    scene.tells(20.0, |event| matches!(event, Event::Arrived(_))).await
+}
+
+pub(super) async fn watch_tracking(checks: Checks) -> bool {
+    let scene = genius(checks).read().await;
+    scene.send(fixed(160.0, 20.0, 0.0));
+    scene.shows(5.0, is_moving).await
+}
+
+/// The unit tracks by itself what is known here.
+pub(super) async fn watch_on_board(checks: Checks) -> bool {
+    let scene = satrak_after(30.0, checks).read().await;
+    scene.starts_by_itself().await;
+    scene.shows(20.0, |shown| shown.on_board.is_some()).await
+}
+
+pub(super) async fn watch_silence(checks: Checks) -> bool {
+    let mut scene = satrak_after(-90.0, checks).read().await;
+    let [azimuth, elevation] = [100.0, 30.0].map(|deg| Some(Angle::from_degrees(deg)));
+    scene.send(Command::Position { azimuth, elevation });
+    assert!(scene.shows(5.0, is_moving).await);
+    scene.unit.set_fault(satrak::Fault::Silence, true);
+    let is_told = scene.tells(2.0, |event| *event == Event::Safety(Safety::SilentInMotion)).await;
+    is_told && !matches!(scene.shown().link, LinkState::Lost { .. })
+}
+
+/// Time from the command of a second motion until it is sent, which the first one delays.
+pub(super) async fn start_after_halt(checks: Checks) -> Duration {
+    let scene = genius(checks).read().await;
+    scene.send(turn_to(100.0));
+    assert!(scene.shows(5.0, is_moving).await);
+    let (sent, asked) = (scene.sent("|A"), Instant::now());
+    scene.send(turn_to(200.0));
+    while scene.sent("|A") == sent {
+        scene.seconds(0.001).await;
+        assert!(asked.elapsed() < Duration::from_secs(30));
+    }
+    asked.elapsed()
+}

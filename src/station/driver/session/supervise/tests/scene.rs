@@ -1,0 +1,238 @@
+//! A session with a simulated unit, which may lack a check.
+
+use std::{
+    io,
+    num::NonZeroU32,
+    sync::{
+        Arc,
+        atomic::{AtomicBool, AtomicUsize, Ordering},
+    },
+    time::Duration,
+};
+
+use jiff::Timestamp;
+use tokio::{
+    io::{AsyncReadExt as _, AsyncWriteExt as _, DuplexStream},
+    time::sleep,
+};
+
+use super::Checks;
+use crate::{
+    clock::Clock,
+    controller::{
+        rotator_genius::{ROTATORS, Rotators},
+        satrak::ELEMENT_FILE,
+    },
+    driver::{
+        AntennaHandle, Command, Debts, Dial, Event, Intent, Orders, Snapshot, Stream,
+        before_sleep::BeforeSleep,
+        session::{Session, Wires, testing},
+    },
+    plan::Bounds,
+    protocol::satrak::encode,
+    sim::{Control, Unit, rotator_genius, satrak},
+    station::{Antenna, KeepOut, Resume, Station},
+};
+
+/// Interval of looks.
+const LOOK: Duration = Duration::from_millis(20);
+
+/// Twice as many bytes, as many as a stalled link still takes, are less than any request has.
+const LINK_BYTES: usize = 4;
+
+/// Carries the bytes of a link to the unit, unless it is stalled, and those of the unit back.
+async fn relay<U: Unit>(link: DuplexStream, unit: Control<U>, is_stalled: Arc<AtomicBool>) {
+    let (near, far) = tokio::io::duplex(4096);
+    tokio::spawn(async move { unit.serve(far).await });
+    let (mut replies, mut to_unit) = tokio::io::split(near);
+    let (mut requests, mut to_session) = tokio::io::split(link);
+    tokio::spawn(async move { tokio::io::copy(&mut replies, &mut to_session).await });
+    let mut bytes = [0; LINK_BYTES];
+    loop {
+        while is_stalled.load(Ordering::Relaxed) {
+            sleep(LOOK).await;
+        }
+        match requests.read(&mut bytes).await {
+            Ok(count @ 1..) if to_unit.write_all(&bytes[..count]).await.is_ok() => {}
+            _ => return,
+        }
+    }
+}
+
+pub(super) struct Scene<U: Unit> {
+    pub(super) unit: Control<U>,
+    pub(super) handle: AntennaHandle,
+    pub(super) sleeps: BeforeSleep,
+    antenna: Antenna,
+    network_is_off: Arc<AtomicBool>,
+    link_is_stalled: Arc<AtomicBool>,
+    /// How often the session has read its clock.
+    readings: Arc<AtomicUsize>,
+}
+
+/// A Satrak 90 s before the pass that it holds elements of.
+pub(super) fn satrak(checks: Checks) -> Scene<impl Unit<Request = String, Place = [f64; 2]>> {
+    satrak_after(-90.0, checks)
+}
+
+/// A Satrak this long after the beginning of the pass, seconds.
+pub(super) fn satrak_after(
+    after_s: f64,
+    checks: Checks,
+) -> Scene<impl Unit<Request = String, Place = [f64; 2], Fault = satrak::Fault>> {
+    let (unit, now) = testing::unit(after_s);
+    let mut antenna = testing::antenna();
+    antenna.connection.put(&ELEMENT_FILE, "stations.txt").unwrap();
+    (antenna.resume, antenna.resume_after_s) = (Resume::Continue, 10.0);
+    let scene = Scene::new(unit, antenna, now, checks);
+    scene.handle.know_orbit(Some(testing::orbit()));
+    scene
+}
+
+/// A Rotator Genius at 173 degrees, and at the horizon.
+pub(super) fn genius(
+    checks: Checks,
+) -> Scene<impl Unit<Request = String, Fault = rotator_genius::Fault>> {
+    use rotator_genius::{Control, Options, RotatorOptions};
+    let rotators = [RotatorOptions::default(), RotatorOptions::elevation()];
+    let unit = Control::new(&Options { rotators, ..Options::default() });
+    let mut antenna = Antenna::genius("Mast", "in memory");
+    antenna.connection.put(&ROTATORS, Rotators::Pair).unwrap();
+    Scene::new(unit, antenna, testing::START, checks)
+}
+
+impl<U: Unit> Scene<U> {
+    fn new(unit: Control<U>, antenna: Antenna, now: Timestamp, checks: Checks) -> Self {
+        let (network_is_off, readings) =
+            (Arc::<AtomicBool>::default(), Arc::<AtomicUsize>::default());
+        let link_is_stalled = Arc::<AtomicBool>::default();
+        let (serve, is_off) = (unit.clone(), Arc::clone(&network_is_off));
+        let stalls = Arc::clone(&link_is_stalled);
+        let dial: Dial = Box::new(move || {
+            if is_off.load(Ordering::Relaxed) {
+                return Box::pin(async { Err(io::ErrorKind::ConnectionRefused.into()) });
+            }
+            let (near, far) = tokio::io::duplex(LINK_BYTES);
+            tokio::spawn(relay(far, serve.clone(), Arc::clone(&stalls)));
+            Box::pin(async { Ok(Box::new(near) as Box<dyn Stream>) })
+        });
+        let (true_clock, count) = (Clock::at_speed(now, NonZeroU32::MIN), Arc::clone(&readings));
+        let clock = Clock::new(move || {
+            count.fetch_add(1, Ordering::Relaxed);
+            true_clock.utc()
+        });
+        let (bounds, sleeps) = (Bounds::of_antenna(&antenna), BeforeSleep::default());
+        let steady = clock.now().steady;
+        let (wires, handle) =
+            Wires::new(&antenna, bounds, steady, Arc::new(|| {}), &Orders::default());
+        let wires = wires.hearing(sleeps.hear());
+        let controller = antenna.controller();
+        let session = Session::over(controller, &antenna, dial, clock, wires, Debts::default());
+        tokio::spawn(session.with_checks(checks).run());
+        Self { unit, handle, sleeps, antenna, network_is_off, link_is_stalled, readings }
+    }
+
+    pub(super) fn send(&self, command: Command) {
+        self.handle.send(command).unwrap();
+    }
+
+    pub(super) fn shown(&self) -> Arc<Snapshot> {
+        self.handle.snapshot()
+    }
+
+    pub(super) async fn seconds(&self, seconds: f64) {
+        sleep(Duration::try_from_secs_f64(seconds).unwrap()).await;
+    }
+
+    /// Returns `true` once the snapshot is so, within these seconds.
+    pub(super) async fn shows(&self, within_s: f64, is_so: impl Fn(&Snapshot) -> bool) -> bool {
+        let end = tokio::time::Instant::now() + Duration::try_from_secs_f64(within_s).unwrap();
+        while !is_so(&self.shown()) {
+            if tokio::time::Instant::now() >= end {
+                return false;
+            }
+            sleep(LOOK).await;
+        }
+        true
+    }
+
+    /// Waits until the unit was read.
+    pub(super) async fn read(self) -> Self {
+        assert!(self.shows(10.0, |shown| shown.state.measured.is_some()).await, "it is not read");
+        self.seconds(8.0).await;
+        self
+    }
+
+    /// Returns `true` once this was told, within these seconds.
+    pub(super) async fn tells(&mut self, within_s: f64, is_it: impl Fn(&Event) -> bool) -> bool {
+        let end = tokio::time::Instant::now() + Duration::try_from_secs_f64(within_s).unwrap();
+        loop {
+            while let Some(event) = self.handle.next_event() {
+                if is_it(&event) {
+                    return true;
+                }
+            }
+            if tokio::time::Instant::now() >= end {
+                return false;
+            }
+            sleep(LOOK).await;
+        }
+    }
+
+    /// Switches the network off or on; the antenna goes on.
+    pub(super) fn set_off(&self, is_off: bool) {
+        self.network_is_off.store(is_off, Ordering::Relaxed);
+        if is_off {
+            self.unit.drop_clients();
+        }
+    }
+
+    /// Lets the link take no bytes, or take them again.
+    pub(super) fn stall(&self, is_stalled: bool) {
+        self.link_is_stalled.store(is_stalled, Ordering::Relaxed);
+    }
+
+    /// Puts a mast in the way, by its corners in azimuth and elevation, degrees.
+    pub(super) fn put_mast(&self, corners_deg: &[(f64, f64)]) {
+        let mast = KeepOut {
+            name: "mast".to_owned(),
+            reason: String::new(),
+            entered: crate::station::Entered::Hard,
+            antenna: None,
+            margin_deg: 1.0,
+            zone: KeepOut::zone_of(corners_deg).unwrap(),
+        };
+        let station = Station { keep_outs: vec![mast], ..Station::default() };
+        self.handle.keep_within(Bounds::of(&station, &self.antenna));
+    }
+
+    pub(super) fn readings(&self) -> usize {
+        self.readings.load(Ordering::Relaxed)
+    }
+
+    /// Lets the unit track the pass on board. Returns `true` once it does.
+    pub(super) async fn tracks(&self) -> bool {
+        self.send(Command::Track(Box::new(testing::pass())));
+        self.shows(60.0, |shown| shown.intent == Intent::Track && !shown.pending).await
+    }
+
+    /// Another program starts the unit on the pass that it holds.
+    pub(super) async fn starts_by_itself(&self) {
+        self.tracks().await;
+        self.send(Command::Standby);
+        self.seconds(5.0).await;
+        let (mut near, far) = tokio::io::duplex(4096);
+        let unit = self.unit.clone();
+        tokio::spawn(async move { unit.serve(far).await });
+        near.write_all(&encode("TRACK=,1")).await.unwrap();
+        self.seconds(1.0).await;
+    }
+}
+
+impl<U: Unit<Request = String>> Scene<U> {
+    /// Number of requests that begin like this.
+    pub(super) fn sent(&self, start: &str) -> usize {
+        let received = self.unit.received();
+        received.iter().filter(|(_, request)| request.starts_with(start)).count()
+    }
+}
