@@ -31,7 +31,7 @@ use tracing_subscriber::filter::{LevelFilter, Targets};
 
 #[cfg(unix)]
 use crate::driver::dead_man;
-use crate::engine::claim::claims_folder;
+use crate::engine::claim::LockFolders;
 
 /// Console for the operator of a satellite ground station.
 ///
@@ -146,7 +146,7 @@ impl Cli {
                     &options,
                     this_program(),
                     marks(),
-                    claims_folder(),
+                    LockFolders::of_user(),
                 );
             }
             Some(Command::Log(options)) => return record::run(self.station, &options),

@@ -3,6 +3,7 @@
 use std::{
     io::{Read as _, Write as _},
     net::{SocketAddr, TcpListener},
+    sync::Arc,
     thread,
 };
 
@@ -25,7 +26,7 @@ fn runtime() -> tokio::runtime::Runtime {
 
 fn test(address: &str) -> LinkFinding {
     let antenna = makes::SPECS[0].antenna("Dish", address);
-    runtime().block_on(test_link(&antenna, &Outside::from(Clock::system())))
+    runtime().block_on(test_link(&antenna, &Outside::from(Clock::system()), Arc::new(())))
 }
 
 #[test]
@@ -71,6 +72,7 @@ fn a_serial_port_that_is_not_there_is_told() {
     let is_line = |link| matches!(link, Link::Line { .. });
     let spec = makes::SPECS.iter().find(|spec| is_line(spec.link)).unwrap();
     let antenna = spec.antenna("Horn", "/dev/no-such-port-as-this");
-    let finding = runtime().block_on(test_link(&antenna, &Outside::from(Clock::system())));
+    let finding =
+        runtime().block_on(test_link(&antenna, &Outside::from(Clock::system()), Arc::new(())));
     assert_eq!(finding, LinkFinding::NotOpened(LinkFault::NoSuchPort));
 }

@@ -111,13 +111,13 @@ impl Bench {
         let settings = Settings {
             path: Some(path),
             library: Some(folder.path().join("elements")),
-            claims: claims.map(|folder| (folder.to_owned(), HolderKind::Serve)),
+            claims: claims.map(|folder| (folder.to_owned().into(), HolderKind::Serve)),
             ..Settings::default()
         };
         let clock = Clock::system();
         let units = Units::new(&clock);
         let served = units.clone();
-        let outside = Outside { clock, dial: Arc::new(move |antenna| served.dial(antenna)) };
+        let outside = Outside { clock, dial: Arc::new(move |antenna, _| served.dial(antenna)) };
         let (woken, wakes) = mpsc::sync_channel(1);
         let wake = Arc::new(move || {
             let _ = woken.try_send(());
@@ -229,19 +229,17 @@ fn a_unit_of_this_station_is_not_dialled_a_second_time() {
 fn a_unit_of_another_azel_is_not_dialled() {
     let claims = tempfile::tempdir().unwrap();
     let spec = makes::SPECS[0];
-    let holder = Bench::claiming_in(Some(claims.path()), vec![spec.antenna("Dish", "unit:1")]);
+    // Locks are of the whole machine, on which other tests run.
+    let [one, two] = ["one", "two"].map(|unit| format!("{unit}-{}:1", std::process::id()));
+    let holder = Bench::claiming_in(Some(claims.path()), vec![spec.antenna("Dish", &one)]);
     let mut bench = Bench::claiming_in(Some(claims.path()), Vec::new());
-    let LinkTestStage::Elsewhere(by) = bench.test(&antenna(spec, "unit:1")) else {
-        panic!("not held")
-    };
+    let LinkTestStage::Elsewhere(by) = bench.test(&antenna(spec, &one)) else { panic!("not held") };
     assert!(by.to_string().starts_with("azel serve"), "{by}");
     assert!(bench.units.dish.received().is_empty());
     // After a test the unit is free for others.
-    let LinkTestStage::Done { .. } = bench.test(&antenna(spec, "unit:2")) else {
-        panic!("not tested")
-    };
+    let LinkTestStage::Done { .. } = bench.test(&antenna(spec, &two)) else { panic!("not tested") };
     let mut other = Bench::claiming_in(Some(claims.path()), Vec::new());
-    let LinkTestStage::Done { .. } = other.test(&antenna(spec, "unit:2")) else {
+    let LinkTestStage::Done { .. } = other.test(&antenna(spec, &two)) else {
         panic!("still claimed")
     };
     drop(holder);

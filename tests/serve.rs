@@ -1,6 +1,7 @@
 //! Station without a window: real sockets to simulated units, and the program itself as a
 //! process beside others.
 
+mod locks;
 pub(crate) mod promises;
 pub(crate) mod record;
 
@@ -123,7 +124,7 @@ impl Units {
             path: Some(path),
             library: Some(self.folder.path().join("elements")),
             dead_man: Some(env!("CARGO_BIN_EXE_azel").into()),
-            claims: Some((self.folder.path().join("run"), HolderKind::Serve)),
+            claims: Some((self.folder.path().join("run").into(), HolderKind::Serve)),
             ..Settings::default()
         };
         let (wake, woken) = mpsc::sync_channel(1);
@@ -393,11 +394,16 @@ fn program(units: &Units) -> Process {
 
 impl Served {
     fn start(units: &Units) -> Self {
-        let mut process = program(units)
-            .args(["serve", "--format", "json"])
-            .stdout(Stdio::piped())
-            .spawn()
-            .expect("the program starts");
+        Self::started(program(units))
+    }
+
+    fn started(mut program: Process) -> Self {
+        program.args(["serve", "--format", "json"]);
+        Self::spawned(program)
+    }
+
+    fn spawned(mut program: Process) -> Self {
+        let mut process = program.stdout(Stdio::piped()).spawn().expect("the program starts");
         let output = process.stdout.take().expect("its output");
         let (send, lines) = mpsc::sync_channel(1000);
         named_thread("reads", move || {

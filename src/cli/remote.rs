@@ -13,11 +13,13 @@ use jiff::Timestamp;
 use crate::{
     engine::{
         Settings,
-        claim::{claims_folder, socket_path},
-        socket::{self, Answer, Ask},
+        claim::LockFolders,
+        reach::{self, Outcome, Reached},
+        socket::{Answer, Ask},
         status::{AntennaStatus, AutomaticStatus},
     },
-    station::LockOut,
+    makes,
+    station::{self, Antenna, LockOut},
 };
 
 /// Exit code when an antenna is not known to stand.
@@ -74,27 +76,66 @@ pub(super) struct LockOutOptions {
 }
 
 pub(super) fn stop(station: Option<PathBuf>, options: &StopOptions) -> anyhow::Result<ExitCode> {
-    match ask(station, &Ask::Stop { antenna: options.antenna.clone() })? {
-        Answer::Stopped(antennas) if antennas.is_empty() => {
-            say("No antenna is connected or was moved from there.")?;
-            Ok(ExitCode::SUCCESS)
-        }
-        Answer::Stopped(antennas) => {
-            for antenna in &antennas {
-                let word = if antenna.proved { "stands" } else { "NOT known to stand" };
-                say(&format!("{}: {word}", antenna.antenna))?;
-                if let Some(why) = &antenna.not_on_disk {
-                    say(&format!(
-                        "STOP of {} is sent, NOT on disk, and lost when Azel ends: {why}",
-                        antenna.antenna
-                    ))?;
-                }
-            }
-            let all = antennas.iter().all(|antenna| antenna.proved);
-            Ok(if all { ExitCode::SUCCESS } else { ExitCode::from(NOT_PROVED) })
-        }
-        other => Err(unexpected(other)),
+    let (folders, path) = places(station)?;
+    let ask = Ask::Stop { antenna: options.antenna.clone() };
+    let mut reached = reach::ask_station(&folders, &path, &ask)?;
+    if reached.is_empty() {
+        // Another station file may have the units of this one.
+        reached = reach::stop_units(&folders, &antennas(&path, options.antenna.as_deref()))?;
     }
+    if reached.is_empty() {
+        return Err(nobody(&path));
+    }
+    let (mut are_proved, mut stopped, mut refused) = (true, 0, None);
+    for Reached { holder, outcome } in reached {
+        let holder = holder.map_or_else(|| "another Azel".to_owned(), |holder| holder.to_string());
+        match outcome {
+            Outcome::Answered(Answer::Stopped(antennas)) => {
+                for antenna in &antennas {
+                    let word = if antenna.proved { "stands" } else { "NOT known to stand" };
+                    say(&format!("{}: {word}", antenna.antenna))?;
+                    if let Some(why) = &antenna.not_on_disk {
+                        say(&format!(
+                            "STOP of {} is sent, NOT on disk, and lost when Azel ends: {why}",
+                            antenna.antenna
+                        ))?;
+                    }
+                }
+                stopped += antennas.len();
+                are_proved &= antennas.iter().all(|antenna| antenna.proved);
+            }
+            Outcome::Answered(other) => refused = Some(unexpected(other)),
+            Outcome::Signalled => {
+                say(&format!(
+                    "STOP went to {holder} as a signal, for all its antennas: NOT known to stand"
+                ))?;
+                are_proved = false;
+                stopped += 1;
+            }
+            Outcome::NotReached(why) => {
+                say(&format!("NOT reached: {holder} has the station or a unit of it ({why})"))?;
+                are_proved = false;
+                stopped += 1;
+            }
+        }
+    }
+    if !are_proved {
+        return Ok(ExitCode::from(NOT_PROVED));
+    }
+    if let Some(refused) = refused {
+        return Err(refused);
+    }
+    if stopped == 0 {
+        say("No antenna is connected or was moved from there.")?;
+    }
+    Ok(ExitCode::SUCCESS)
+}
+
+/// The antennas of the station file at `path`, or the one called `name`.
+fn antennas(path: &Path, name: Option<&str>) -> Vec<Antenna> {
+    let Ok(loaded) = station::load(path, makes::SPECS) else { return Vec::new() };
+    let antennas = loaded.station.antennas.into_iter();
+    antennas.filter(|antenna| name.is_none_or(|name| antenna.name == name)).collect()
 }
 
 pub(super) fn status(
@@ -186,22 +227,36 @@ pub(super) fn lock_out(
     }
 }
 
+/// Asks the Azel that has the station open.
 fn ask(station: Option<PathBuf>, ask: &Ask) -> anyhow::Result<Answer> {
-    let path = Settings { path: station, ..Settings::default() }.station_path();
-    let path = path.context("this user has no folder for settings")?;
-    let folder = claims_folder().context("this user has no folder for sockets")?;
-    let answer = socket::ask(&socket_path(&folder, &path), ask);
-    answer.map_err(|error| nobody(&error, &path))
+    let (folders, path) = places(station)?;
+    let reached = reach::ask_station(&folders, &path, ask)?;
+    let mut silent = None;
+    for Reached { holder, outcome } in reached {
+        match outcome {
+            Outcome::Answered(answer) => return Ok(answer),
+            Outcome::Signalled => {}
+            Outcome::NotReached(why) => silent = Some((holder, why)),
+        }
+    }
+    let Some((holder, why)) = silent else { return Err(nobody(&path)) };
+    let holder = holder.map_or_else(|| "another Azel".to_owned(), |holder| holder.to_string());
+    bail!("{holder} has {} open and did not answer: {why}", path.display())
 }
 
-fn nobody(error: &io::Error, path: &Path) -> anyhow::Error {
-    match error.kind() {
-        io::ErrorKind::NotFound | io::ErrorKind::ConnectionRefused => anyhow!(
-            "No Azel of this user has the station {} open: nothing was asked of any antenna.",
-            path.display()
-        ),
-        _ => anyhow!("The Azel that has {} open did not answer: {error}", path.display()),
-    }
+/// Folders of locks and sockets, and the station file.
+fn places(station: Option<PathBuf>) -> anyhow::Result<(LockFolders, PathBuf)> {
+    let path = Settings { path: station, ..Settings::default() }.station_path();
+    let path = path.context("this user has no folder for settings")?;
+    let folders = LockFolders::of_user().context("this user has no folder for sockets")?;
+    Ok((folders, path))
+}
+
+fn nobody(path: &Path) -> anyhow::Error {
+    anyhow!(
+        "No Azel of this machine has the station {} open: nothing was asked of any antenna.",
+        path.display()
+    )
 }
 
 fn expected(answer: Answer) -> anyhow::Result<Answer> {

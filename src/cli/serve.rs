@@ -22,7 +22,7 @@ use crate::{
     engine::{
         By, Command, Event, Handle, Settings, Snapshot,
         antenna::{AntennaModel, Stake},
-        claim::HolderKind,
+        claim::{HolderKind, LockFolders},
         closing::CloseHow,
         records_folder, signals,
         status::{AntennaStatus, LinkStatus},
@@ -41,6 +41,11 @@ pub(super) struct Options {
     /// Form of the lines on standard output
     #[arg(long, value_enum, default_value_t = Format::Text)]
     format: Format,
+    /// Let the members of this group stop antennas and read their status: puts the socket into the
+    /// folder that systemd makes for the service, or into /run/azel
+    #[cfg(unix)]
+    #[arg(long, value_name = "NAME")]
+    group: Option<String>,
 }
 
 /// How a line is written.
@@ -103,9 +108,17 @@ pub(super) fn run(
     options: &Options,
     dead_man: Option<PathBuf>,
     marks: Option<PathBuf>,
-    claims: Option<PathBuf>,
+    folders: Option<LockFolders>,
 ) -> anyhow::Result<ExitCode> {
-    let claims = claims.map(|folder| (folder, HolderKind::Serve));
+    #[cfg(unix)]
+    let folders = match &options.group {
+        Some(name) => {
+            let group = group_to_open(name)?;
+            folders.map(|folders| folders.open_to(group))
+        }
+        None => folders,
+    };
+    let claims = folders.map(|folders| (folders, HolderKind::Serve));
     let records = records_folder();
     let settings =
         Settings { path: station, dead_man, marks, records, claims, ..Settings::default() };
@@ -156,6 +169,18 @@ pub(super) fn run(
     let antennas = ended.not_proved.join(", ");
     tracing::error!("not known to stand at the end: {antennas}");
     Ok(ExitCode::from(NOT_PROVED))
+}
+
+/// Number of the group called `name`, to which this process can open its socket.
+#[cfg(unix)]
+fn group_to_open(name: &str) -> anyhow::Result<u32> {
+    use nix::unistd::{Group, getegid, geteuid, getgroups};
+    let group = Group::from_name(name)?.with_context(|| format!("there is no group {name}"))?.gid;
+    let is_member = geteuid().is_root() || group == getegid() || getgroups()?.contains(&group);
+    if !is_member {
+        bail!("The user of this service is no member of the group {name}.");
+    }
+    Ok(group.as_raw())
 }
 
 /// Reason why the main loop goes on.

@@ -20,7 +20,7 @@ use crate::{
     clock::Clock,
     engine::{
         Settings,
-        claim::{HolderKind, claims_folder},
+        claim::{HolderKind, LockFolders},
         records_folder,
     },
     station,
@@ -52,7 +52,7 @@ pub(super) fn run(station: Option<PathBuf>, demo: bool) -> anyhow::Result<()> {
         dead_man: this_program(),
         marks: marks(),
         records: records_folder(),
-        claims: claims_folder().map(|folder| (folder, HolderKind::Window)),
+        claims: LockFolders::of_user().map(|folders| (folders, HolderKind::Window)),
         ..Settings::default()
     };
     keep_freed_memory();

@@ -39,7 +39,7 @@ pub use command_row::{Effect, LockedOut, Offline, Row};
 pub use debts::{Debts, Unit};
 pub use gate::{Preview, Refusal, Way};
 pub use intent::Intent;
-pub use link::{Dial, Stream, dial_line, dial_tcp};
+pub use link::{Dial, Endpoint, Stream, UnitLock, dial_line, endpoints, known_endpoints};
 pub use link_test::{LinkFault, LinkFinding, test_link};
 pub use position_log::PositionLog;
 pub use safety::{Mover, Response, Safety, Unlike};
@@ -55,7 +55,7 @@ use self::{before_sleep::BeforeSleep, pulse::Pulse};
 use crate::{
     clock::Instant,
     plan::{Bounds, on_board::KnownOrbit},
-    station::{Antenna, Link, LockOut},
+    station::{Antenna, LockOut},
 };
 
 /// Maximum number of waiting commands. The station sends at most a few at a time.
@@ -219,13 +219,16 @@ pub async fn told_to_end() -> io::Result<()> {
 pub struct Outside {
     /// Used by the sessions and the code that runs them.
     pub clock: Clock,
-    pub dial: Arc<dyn Fn(&Antenna) -> Dial + Send + Sync>,
+    pub dial: Arc<Dialler>,
 }
+
+/// Prepares the links of an antenna to places that the lock has.
+pub type Dialler = dyn Fn(&Antenna, Arc<dyn UnitLock>) -> Dial + Send + Sync;
 
 impl From<Clock> for Outside {
     /// With real links.
     fn from(clock: Clock) -> Self {
-        Self { clock, dial: Arc::new(dial) }
+        Self { clock, dial: Arc::new(link::dial) }
     }
 }
 
@@ -301,14 +304,14 @@ impl Driver {
         &self.runtime
     }
 
-    /// Starts the session of an antenna, whose unit may be locked out. `until_the_end` is
-    /// dropped when the session has ended.
+    /// Starts the session of an antenna, whose unit may be locked out. `lock` is dropped when the
+    /// session has ended.
     pub fn open(
         &self,
         antenna: &Antenna,
         bounds: Bounds,
         lock_out: Option<LockOut>,
-        until_the_end: Box<dyn Send>,
+        lock: Box<dyn UnitLock>,
     ) -> AntennaHandle {
         let (wires, handle) = Wires::new(
             antenna,
@@ -323,9 +326,11 @@ impl Driver {
         };
         let Outside { clock, dial } = self.outside.clone();
         let (antenna, debts) = (antenna.clone(), self.debts.clone());
+        let lock: Arc<dyn UnitLock> = lock.into();
+        let until_the_end = Arc::clone(&lock);
         let (dead_man, ends) = (self.dead_man.clone(), wires.clone());
         let open = move || {
-            let (controller, dial) = (antenna.controller(), dial(&antenna));
+            let (controller, dial) = (antenna.controller(), dial(&antenna, Arc::clone(&lock)));
             let (wires, debts) = (ends.clone(), debts.clone());
             let session = Session::over(controller, &antenna, dial, clock.clone(), wires, debts)
                 .locked_out(lock_out.clone());
@@ -385,14 +390,6 @@ impl DriverThread {
         })?;
         let thread = Self { end: Some(end), ended, before_sleep, pulse, _watchdog: watchdog };
         Ok((handle, thread))
-    }
-}
-
-fn dial(antenna: &Antenna) -> Dial {
-    let connection = &antenna.connection;
-    match connection.spec().link {
-        Link::Tcp => dial_tcp(connection.address.clone()),
-        Link::Line { baud } => dial_line(&connection.address, connection.whole(baud)),
     }
 }
 

@@ -26,6 +26,8 @@ mod opening;
 mod owed;
 pub mod passes;
 pub mod pointing_fit;
+#[cfg(unix)]
+pub mod reach;
 pub mod recorded;
 mod recording;
 pub mod reminders;
@@ -38,6 +40,8 @@ pub mod socket;
 pub mod source_tests;
 pub mod sources;
 pub mod status;
+#[cfg(unix)]
+mod stop_elsewhere;
 pub mod track_again;
 mod turn;
 pub mod uploads;
@@ -45,7 +49,12 @@ mod use_station;
 mod write_settings;
 mod written;
 
-use std::{io, path::PathBuf, sync::Arc, time::Duration};
+use std::{
+    io,
+    path::PathBuf,
+    sync::{Arc, Weak},
+    time::Duration,
+};
 
 use jiff::Timestamp;
 use tokio::sync::{Notify, mpsc, watch};
@@ -54,8 +63,8 @@ use self::{
     alarms::{AlarmKind, Alarms},
     antenna::AntennaModel,
     automatic::{AtWork, DayLine, LastRun},
-    claim::{Claim, Claims, HeldBy},
-    claims::NoClaims,
+    claim::{Claim, HeldBy, UnitClaim, lock::Lock},
+    claims::{ClaimsInUse, NoClaims},
     clock_watch::ClockWatch,
     closing::Closing,
     copies::{Copies, CopyWork},
@@ -83,7 +92,7 @@ pub use self::{
 };
 use crate::{
     clock::{Clock, Instant},
-    driver::{AntennaHandle, Driver, JOG_LEASE, Outside, TimeSync},
+    driver::{AntennaHandle, Driver, JOG_LEASE, Outside, TimeSync, Unit},
     job::{Job, Wake},
     station::{LockOuts, Station},
 };
@@ -158,11 +167,10 @@ struct Engine {
     link_test_runner: link_tests::Runner,
     lock_outs: LockOuts,
     /// `None` if nothing is to be claimed.
-    claims: Option<Result<Claims, NoClaims>>,
-    /// Where this station takes STOP from other programs, once it has claimed the station
-    /// file.
-    socket: Option<PathBuf>,
+    claims: Option<Result<ClaimsInUse, NoClaims>>,
     station_claim: StationClaim,
+    /// Sessions that only pay debts, with the claims on their units.
+    left_units: Vec<(Unit, Weak<UnitClaim>)>,
     /// The second of the clock in which the claims were last checked.
     claims_looked_at: i64,
     /// The station file could not be read: only the operator may replace it.
@@ -191,6 +199,15 @@ struct Antenna {
     session: u64,
     handle: AntennaHandle,
     at_work: AtWork,
+    hold: Hold,
+}
+
+/// The process that has the unit of an antenna.
+enum Hold {
+    /// This one; without a claim where other processes are ignored.
+    Ours(Option<Claim>),
+    /// Another one, with the lock that it has; `None` where no lock could be tried.
+    Elsewhere(Option<String>),
 }
 
 /// Claim on the station file.
@@ -198,7 +215,11 @@ enum StationClaim {
     /// There is no file yet, or claims are switched off.
     None,
     /// Held by this station.
-    Ours { _claim: Claim },
+    Ours {
+        claim: Arc<Lock>,
+        #[cfg(unix)]
+        _served: Option<socket::Served>,
+    },
     /// Held by another Azel of this machine.
     Theirs(HeldBy),
 }
@@ -320,8 +341,8 @@ impl Engine {
             link_test_runner,
             lock_outs: LockOuts::default(),
             claims: None,
-            socket: None,
             station_claim: StationClaim::None,
+            left_units: Vec::new(),
             claims_looked_at: 0,
             settings_unread: false,
             asked: None,

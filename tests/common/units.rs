@@ -8,7 +8,7 @@ use std::{
 use azel::{
     clock::Clock,
     controller::satrak::ELEMENT_FILE,
-    driver::{self, Dial, Outside, Stream},
+    driver::{self, Dial, Outside, Stream, UnitLock},
     engine::{
         Client, Command,
         status::{AntennaStatus, LinkStatus},
@@ -89,7 +89,7 @@ impl Units {
 
     pub(crate) fn outside(&self, clock: &Clock) -> Outside {
         let units = self.clone();
-        let dial = Arc::new(move |antenna: &Antenna| units.dial(antenna));
+        let dial = Arc::new(move |antenna: &Antenna, _: Arc<dyn UnitLock>| units.dial(antenna));
         Outside { clock: clock.clone(), dial }
     }
 

@@ -1,7 +1,7 @@
 //! The whole path in real time: through a serial server on TCP, with and without parity of
 //! its own, and through a pseudo-terminal.
 
-use std::time::Duration;
+use std::{sync::Arc, time::Duration};
 
 use azel::{
     clock::Instant,
@@ -31,7 +31,7 @@ impl Fixture {
     fn at(address: &str) -> Self {
         let (session, handle) = session(
             &antenna(),
-            dial_line(address, 9600),
+            dial_line(address, 9600, Arc::new(())),
             TestClock::new(Timestamp::UNIX_EPOCH).clock(),
         );
         tokio::spawn(session.run());

@@ -6,7 +6,7 @@ use std::sync::Arc;
 use azel::{
     clock::Clock,
     device::Measured,
-    driver::{Dial, Intent, LinkState, Outside, StopState, Stream},
+    driver::{Dial, Intent, LinkState, Outside, StopState, Stream, UnitLock},
     model::{Model, View},
     sim::satrak::{Control, Options},
     station::{self, Antenna, Station},
@@ -24,7 +24,7 @@ fn unit() -> (Control, Outside) {
     let clock = Clock::system();
     let control = Control::on_clock(&Options::new(rig::station().site, clock.utc()), clock.clone());
     let served = control.clone();
-    let dial = move |_: &Antenna| -> Dial {
+    let dial = move |_: &Antenna, _: Arc<dyn UnitLock>| -> Dial {
         let served = served.clone();
         Box::new(move || {
             let (near, far) = tokio::io::duplex(4096);

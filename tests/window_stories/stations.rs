@@ -116,7 +116,7 @@ fn settings(path: &Path) -> Settings {
     Settings {
         path: Some(path.to_owned()),
         library: Some(path.with_file_name("elements")),
-        claims: Some((path.with_file_name("run"), HolderKind::Window)),
+        claims: Some((path.with_file_name("run").into(), HolderKind::Window)),
         ..Settings::default()
     }
 }

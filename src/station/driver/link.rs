@@ -1,16 +1,17 @@
 //! Opens links.
 
+mod endpoint;
 mod parity;
 mod serial;
 mod tcp;
 
-use std::{future::Future, io, pin::Pin};
+use std::{future::Future, io, pin::Pin, sync::Arc};
 
 use tokio::io::{AsyncRead, AsyncWrite, DuplexStream};
 
-pub use tcp::dial_tcp;
+pub use endpoint::{Endpoint, UnitLock, endpoints, known_endpoints};
 
-use crate::station::check_address;
+use crate::station::{Antenna, Link, check_address};
 
 /// A second handle of an open link, for the dead-man.
 #[cfg(unix)]
@@ -51,13 +52,22 @@ fn duplicate_of<T>(_: &T) -> io::Result<Option<Duplicate>> {
 pub type Dial =
     Box<dyn FnMut() -> Pin<Box<dyn Future<Output = io::Result<Box<dyn Stream>>> + Send>> + Send>;
 
+/// Opens the links of an antenna, to places that `lock` has.
+pub(super) fn dial(antenna: &Antenna, lock: Arc<dyn UnitLock>) -> Dial {
+    let connection = &antenna.connection;
+    match connection.spec().link {
+        Link::Tcp => tcp::dial_tcp(&connection.address, lock),
+        Link::Line { baud } => dial_line(&connection.address, connection.whole(baud), lock),
+    }
+}
+
 /// Opens a serial line of seven bits and even parity: through a serial server if `address` is
 /// a host and a port, otherwise as a serial port of this computer at `baud` bits a second.
 /// Callers read and write bytes of seven bits.
-pub fn dial_line(address: &str, baud: u32) -> Dial {
+pub fn dial_line(address: &str, baud: u32, lock: Arc<dyn UnitLock>) -> Dial {
     if check_address(address).is_ok() {
-        tcp::dial_line_server(address.to_owned())
+        tcp::dial_line_server(address, lock)
     } else {
-        serial::dial_serial(address.to_owned(), baud)
+        serial::dial_serial(address, baud, lock)
     }
 }

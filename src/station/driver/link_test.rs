@@ -1,12 +1,12 @@
 //! Tests a link: asks a unit the questions that its controller asks first, and hangs up.
 
-use std::{io, time::Duration};
+use std::{io, sync::Arc, time::Duration};
 
 use serde::{Deserialize, Serialize};
 use tokio::io::{AsyncReadExt as _, AsyncWriteExt as _};
 
 use super::{
-    Outside, Stream,
+    Outside, Stream, UnitLock,
     session::{CONNECT, MIN_WAIT, WRITE, in_words},
 };
 use crate::{
@@ -62,10 +62,14 @@ pub enum LinkFault {
 }
 
 /// Asks the unit of `antenna` for two seconds at most, and sends nothing but questions.
-pub async fn test_link(antenna: &Antenna, outside: &Outside) -> LinkFinding {
+pub async fn test_link(
+    antenna: &Antenna,
+    outside: &Outside,
+    lock: Arc<dyn UnitLock>,
+) -> LinkFinding {
     // This side of a controller can neither start a motion nor write a setting by itself.
     let mut device: Box<dyn Device> = antenna.controller();
-    let mut dial = (outside.dial)(antenna);
+    let mut dial = (outside.dial)(antenna, lock);
     let connection = &antenna.connection;
     let is_line = matches!(connection.spec().link, Link::Line { .. });
     // The dial of a serial server guesses anew where the parity is made after a link on which

@@ -1,21 +1,29 @@
 //! Claims: a station file and each unit may be held by one Azel of this machine at a time.
-//! A claim is a locked file; the operating system frees it with the process, however that
-//! ends.
+//! A claim consists of locks: of a station by its path, of a unit by its address as it is written
+//! and by every place that the address leads to.
+
+mod folders;
+pub(super) mod lock;
 
 use std::{
     collections::BTreeMap,
     fmt::Write as _,
-    fs::{self, File, OpenOptions, TryLockError},
-    io::{self, Read as _, Write as _},
+    fs::File,
+    io::{self, Read as _},
     path::{Path, PathBuf},
-    sync::{Arc, Mutex, PoisonError, Weak},
+    sync::{Arc, Mutex, MutexGuard, PoisonError, Weak},
 };
 
 use jiff::Timestamp;
 use serde::{Deserialize, Serialize};
 use sha2::{Digest as _, Sha256};
 
-use crate::station::Antenna;
+pub use self::folders::{LockFolder, LockFolders};
+use self::lock::{Lock, NotLocked};
+use crate::{
+    driver::{Endpoint, UnitLock, known_endpoints},
+    station::Antenna,
+};
 
 /// The process that holds a claim.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
@@ -69,121 +77,203 @@ impl std::fmt::Display for HeldBy {
     }
 }
 
-/// A claim lasts as long as this or a clone of it lives: a session keeps one until it has
-/// ended.
-pub(super) type Claim = Arc<File>;
+/// A lock that another process has.
+#[derive(Debug, Clone)]
+pub(super) struct Elsewhere {
+    pub(super) by: HeldBy,
+    /// Name of the lock; `None` where no lock could be tried.
+    pub(super) lock: Option<String>,
+}
 
 /// Why a claim failed.
+#[derive(Debug)]
 pub(super) enum Unclaimed {
-    /// Another Azel holds it.
-    Held(HeldBy),
-    /// The lock file cannot be opened, locked or written.
+    /// Another Azel has one of the locks.
+    Held(Elsewhere),
+    /// A lock cannot be made.
     Io(io::Error),
 }
 
-/// Folder of the claims, and the holder in whose name they are made.
+/// Folders of the locks, and the holder in whose name they are made.
 #[derive(Debug)]
 pub(super) struct Claims {
-    folder: PathBuf,
+    folders: LockFolders,
     kind: HolderKind,
     /// Socket on which STOP is taken.
     socket: Option<PathBuf>,
-    /// Claims held here, by the names of their files: two antennas on one line share a
-    /// claim, and a new session of a unit has it before the old one has ended.
-    held: Mutex<BTreeMap<String, Weak<File>>>,
+    /// Locks held here, by their names: two antennas on one line share a lock, and a new session
+    /// of a unit has it before the old one has ended.
+    locks: Mutex<BTreeMap<String, Weak<Lock>>>,
 }
 
 impl Claims {
-    /// Creates the folder; on Unix nobody else may look into it.
+    /// Creates the first folder.
     pub(super) fn new(
-        folder: PathBuf,
+        folders: LockFolders,
         kind: HolderKind,
         socket: Option<PathBuf>,
     ) -> io::Result<Self> {
-        let mut builder = fs::DirBuilder::new();
-        builder.recursive(true);
-        #[cfg(unix)]
-        std::os::unix::fs::DirBuilderExt::mode(&mut builder, 0o700);
-        builder.create(&folder)?;
-        // A folder that was there may be open to others.
-        #[cfg(unix)]
-        fs::set_permissions(&folder, std::os::unix::fs::PermissionsExt::from_mode(0o700))?;
-        Ok(Self { folder, kind, socket, held: Mutex::default() })
+        folders.own.iter().take(1).try_for_each(LockFolder::make)?;
+        Ok(Self { folders, kind, socket, locks: Mutex::default() })
+    }
+
+    /// Folder and path of the socket on which STOP is taken.
+    #[cfg(unix)]
+    pub(super) fn socket(&self) -> Option<(LockFolder, PathBuf)> {
+        self.folders.own.first().cloned().zip(self.socket.clone())
     }
 
     /// Claims the station file at `path`.
-    pub(super) fn station(&self, path: &Path) -> Result<Claim, Unclaimed> {
-        self.claim(station_lock(path), None)
+    pub(super) fn station(&self, path: &Path) -> Result<Arc<Lock>, Unclaimed> {
+        self.lock(&station_lock(path), None)
     }
 
-    /// Claims the unit of `antenna`.
-    pub(super) fn unit(&self, antenna: &Antenna) -> Result<Claim, Unclaimed> {
-        let connection = &antenna.connection;
-        let address = connection.address.trim().to_lowercase();
-        let unit = format!("{} {address}", connection.spec().key);
-        self.claim(lock_name("unit", unit.as_bytes()), Some(antenna.name.clone()))
-    }
-
-    fn claim(&self, name: String, antenna: Option<String>) -> Result<Claim, Unclaimed> {
-        // No code panics while it holds the lock.
-        let mut held = self.held.lock().unwrap_or_else(PoisonError::into_inner);
-        if let Some(claim) = held.get(&name).and_then(Weak::upgrade) {
-            return Ok(claim);
+    /// Claims the unit of `antenna`: takes the locks that need no name service, and `also` the lock
+    /// that another process had before.
+    pub(super) fn unit(
+        self: &Arc<Self>,
+        antenna: &Antenna,
+        also: Option<&str>,
+    ) -> Result<Claim, Unclaimed> {
+        let name = antenna.name.as_str();
+        let written = self.lock(&written_lock(antenna), Some(name))?;
+        let also = also.map(|lock| self.lock(lock, Some(name))).transpose()?;
+        let claim = UnitClaim {
+            claims: Arc::clone(self),
+            antenna: name.to_owned(),
+            written,
+            places: Mutex::new(also.into_iter().collect()),
+            elsewhere: Mutex::default(),
+        };
+        if let Some(endpoints) = known_endpoints(&antenna.connection) {
+            claim.lock_places(&endpoints)?;
         }
-        let mut options = OpenOptions::new();
-        options.read(true).write(true).create(true).truncate(false);
-        let mut file = options.open(self.folder.join(&name)).map_err(Unclaimed::Io)?;
-        match file.try_lock() {
-            Ok(()) => {}
-            Err(TryLockError::WouldBlock) => return Err(Unclaimed::Held(held_by(&mut file))),
-            Err(TryLockError::Error(error)) => return Err(Unclaimed::Io(error)),
+        Ok(Arc::new(claim))
+    }
+
+    /// Renews the locks whose files were removed.
+    pub(super) fn renew(&self) {
+        let locks: Vec<Arc<Lock>> = {
+            let mut locks = unpoisoned(&self.locks);
+            locks.retain(|_, lock| lock.strong_count() > 0);
+            locks.values().filter_map(Weak::upgrade).collect()
+        };
+        for lock in locks {
+            lock.renew();
+        }
+    }
+
+    fn lock(&self, name: &str, antenna: Option<&str>) -> Result<Arc<Lock>, Unclaimed> {
+        let mut locks = unpoisoned(&self.locks);
+        if let Some(lock) = locks.get(name).and_then(Weak::upgrade) {
+            return match taken(&lock) {
+                Some(elsewhere) => Err(Unclaimed::Held(elsewhere)),
+                None => Ok(lock),
+            };
         }
         let me = Holder {
             kind: self.kind,
             process: std::process::id(),
             since: Timestamp::now(),
             socket: self.socket.clone(),
-            antenna,
+            antenna: antenna.map(str::to_owned),
         };
         let text = serde_json::to_string(&me).map_err(|error| Unclaimed::Io(error.into()))?;
-        let written = file.set_len(0).and_then(|()| file.write_all(text.as_bytes()));
-        written.map_err(Unclaimed::Io)?;
-        let claim = Arc::new(file);
-        held.insert(name, Arc::downgrade(&claim));
-        Ok(claim)
+        let lock = Lock::take(name, text, &self.folders).map_err(|error| match error {
+            NotLocked::Held(by) => Unclaimed::Held(Elsewhere { by, lock: Some(name.to_owned()) }),
+            NotLocked::Io(error) => Unclaimed::Io(error),
+        })?;
+        let lock = Arc::new(lock);
+        locks.insert(name.to_owned(), Arc::downgrade(&lock));
+        Ok(lock)
     }
+}
+
+/// A claim on a unit lasts as long as this or a clone of it lives: a session keeps one until it
+/// has ended.
+pub(super) type Claim = Arc<UnitClaim>;
+
+#[derive(Debug)]
+pub(super) struct UnitClaim {
+    claims: Arc<Claims>,
+    /// Name of the antenna.
+    antenna: String,
+    /// The lock of the address as it is written, which is all that older versions know.
+    written: Arc<Lock>,
+    /// Locks of the places that the address leads to.
+    places: Mutex<Vec<Arc<Lock>>>,
+    /// A lock that another process had when the link was to be opened.
+    elsewhere: Mutex<Option<Elsewhere>>,
+}
+
+impl UnitClaim {
+    /// The lock of this claim that another process has, if any has one.
+    pub(super) fn elsewhere(&self) -> Option<Elsewhere> {
+        let refused = unpoisoned(&self.elsewhere).clone();
+        refused.or_else(|| {
+            let places = unpoisoned(&self.places);
+            let mut locks = std::iter::once(&self.written).chain(places.iter());
+            locks.find_map(|lock| taken(lock))
+        })
+    }
+
+    fn lock_places(&self, endpoints: &[Endpoint]) -> Result<(), Unclaimed> {
+        if let Some(elsewhere) = taken(&self.written) {
+            return Err(Unclaimed::Held(elsewhere));
+        }
+        let mut names: Vec<String> = endpoints.iter().map(place_lock).collect();
+        // Of two processes that begin at once, the first one to have the first lock has all.
+        names.sort_unstable();
+        names.dedup();
+        let locks = names.iter().map(|name| self.claims.lock(name, Some(&self.antenna)));
+        *unpoisoned(&self.places) = locks.collect::<Result<_, _>>()?;
+        Ok(())
+    }
+}
+
+/// `None` where no locks are wanted.
+impl UnitLock for Option<Claim> {
+    fn lock(&self, endpoints: &[Endpoint]) -> io::Result<()> {
+        let Some(claim) = self else { return Ok(()) };
+        claim.lock_places(endpoints).map_err(|error| match error {
+            Unclaimed::Held(elsewhere) => {
+                let text = format!("{} has the unit", elsewhere.by);
+                *unpoisoned(&claim.elsewhere) = Some(elsewhere);
+                io::Error::other(text)
+            }
+            Unclaimed::Io(error) => io::Error::other(format!("the unit cannot be locked: {error}")),
+        })
+    }
+}
+
+/// A lock that another process took when its file was removed.
+pub(super) fn taken(lock: &Lock) -> Option<Elsewhere> {
+    let by = lock.taken_by()?;
+    Some(Elsewhere { by, lock: Some(lock.name().to_owned()) })
 }
 
 /// The other Azel that holds the station file at `path`, if any does.
-pub(super) fn holder_of_station(folder: &Path, path: &Path) -> Option<HeldBy> {
-    let mut file = File::open(folder.join(station_lock(path))).ok()?;
-    match file.try_lock_shared() {
-        Err(TryLockError::WouldBlock) => Some(held_by(&mut file)),
-        Ok(()) | Err(TryLockError::Error(_)) => None,
-    }
+pub(super) fn holder_of_station(folders: &LockFolders, path: &Path) -> Option<HeldBy> {
+    lock::holder_of_name(&station_lock(path), folders)
 }
 
-/// The holder that `file` tells of.
-fn held_by(file: &mut File) -> HeldBy {
+/// The holder that the file of a lock names. The lock is held even if its file cannot be read.
+fn read_holder(file: &mut File) -> Option<Holder> {
     let mut text = String::new();
-    // The claim is held even if the holder's text cannot be read.
-    let _ = file.read_to_string(&mut text);
-    HeldBy::Azel(serde_json::from_str(&text).ok())
+    file.read_to_string(&mut text).ok()?;
+    serde_json::from_str(&text).ok()
+}
+
+/// No code panics while it holds one of these.
+fn unpoisoned<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
+    mutex.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
 /// Socket of the holder of the station file at `path`. It has a name in a folder of its
 /// own, because the path of a socket must be short.
 #[cfg(unix)]
-pub fn socket_path(folder: &Path, path: &Path) -> PathBuf {
-    let path = whole_path(path);
-    folder.join(format!("{}.sock", digest("station", path.to_string_lossy().as_bytes())))
-}
-
-/// Folder of this user's claims and sockets; `None` on a machine without a home.
-pub fn claims_folder() -> Option<PathBuf> {
-    let dirs = directories::ProjectDirs::from("", "", "azel")?;
-    let own = dirs.runtime_dir().map(Path::to_path_buf);
-    Some(own.unwrap_or_else(|| dirs.data_dir().join("run")))
+pub(super) fn socket_path(folder: &Path, path: &Path) -> PathBuf {
+    folder.join(format!("{}.sock", station_lock(path)))
 }
 
 /// The canonical path of a station file, even where the file does not exist yet.
@@ -197,12 +287,20 @@ pub(super) fn whole_path(path: &Path) -> PathBuf {
     whole.unwrap_or_else(|_| path.to_owned())
 }
 
-fn station_lock(path: &Path) -> String {
-    lock_name("station", whole_path(path).to_string_lossy().as_bytes())
+pub(super) fn station_lock(path: &Path) -> String {
+    digest("station", whole_path(path).to_string_lossy().as_bytes())
 }
 
-fn lock_name(kind: &str, of: &[u8]) -> String {
-    format!("{}.lock", digest(kind, of))
+/// Lock of a unit by its address as it is written.
+pub(super) fn written_lock(antenna: &Antenna) -> String {
+    let connection = &antenna.connection;
+    let address = connection.address.trim().to_lowercase();
+    digest("unit", format!("{} {address}", connection.spec().key).as_bytes())
+}
+
+/// Lock of a place where a unit can be reached.
+pub(super) fn place_lock(endpoint: &Endpoint) -> String {
+    digest("unit", endpoint.key().as_bytes())
 }
 
 pub(super) fn digest(kind: &str, of: &[u8]) -> String {
@@ -218,8 +316,16 @@ pub(super) fn digest(kind: &str, of: &[u8]) -> String {
 mod tests {
     use super::*;
 
-    fn claims(folder: &Path) -> Claims {
-        Claims::new(folder.join("run"), HolderKind::Serve, None).unwrap()
+    fn claims(folder: &Path) -> Arc<Claims> {
+        let folders = folder.join("run").into();
+        Arc::new(Claims::new(folders, HolderKind::Serve, None).unwrap())
+    }
+
+    /// A port of this machine that nobody else uses while the test holds it.
+    fn port() -> (std::net::TcpListener, u16) {
+        let listener = std::net::TcpListener::bind(("127.0.0.1", 0)).unwrap();
+        let port = listener.local_addr().unwrap().port();
+        (listener, port)
     }
 
     #[test]
@@ -228,11 +334,13 @@ mod tests {
         let (first, second) = (claims(folder.path()), claims(folder.path()));
         let path = folder.path().join("station.toml");
         let held = first.station(&path).ok().unwrap();
-        let Err(Unclaimed::Held(HeldBy::Azel(Some(holder)))) = second.station(&path) else {
+        let Err(Unclaimed::Held(Elsewhere { by: HeldBy::Azel(Some(holder)), .. })) =
+            second.station(&path)
+        else {
             panic!("free")
         };
         assert_eq!((holder.kind, holder.process), (HolderKind::Serve, std::process::id()));
-        let run = folder.path().join("run");
+        let run = folder.path().join("run").into();
         assert_eq!(holder_of_station(&run, &path), Some(HeldBy::Azel(Some(holder))));
         assert_eq!(holder_of_station(&run, &folder.path().join("other.toml")), None);
         // The holder may claim again, and holds it until the last clone is gone.
@@ -248,15 +356,54 @@ mod tests {
     fn a_unit_is_one_whatever_its_antenna_is_called() {
         let folder = tempfile::tempdir().unwrap();
         let (first, second) = (claims(folder.path()), claims(folder.path()));
-        let dish = Antenna::satrak("Dish", "Unit.Local:4001");
-        let other = Antenna::satrak("Other", "unit.local:4001 ");
-        let held = first.unit(&dish).ok().unwrap();
-        let Err(Unclaimed::Held(HeldBy::Azel(Some(holder)))) = second.unit(&other) else {
+        let me = std::process::id();
+        let dish = Antenna::satrak("Dish", &format!("Unit-{me}.Invalid:4001"));
+        let other = Antenna::satrak("Other", &format!("unit-{me}.invalid:4001 "));
+        let held = first.unit(&dish, None).ok().unwrap();
+        let Err(Unclaimed::Held(Elsewhere { by: HeldBy::Azel(Some(holder)), .. })) =
+            second.unit(&other, None)
+        else {
             panic!("free")
         };
         assert_eq!(holder.antenna.as_deref(), Some("Dish"));
-        assert!(second.unit(&Antenna::satrak("Dish", "unit.local:4002")).is_ok());
+        assert!(
+            second.unit(&Antenna::satrak("Dish", &format!("unit-{me}.invalid:1")), None).is_ok()
+        );
         drop(held);
+    }
+
+    #[test]
+    fn a_unit_is_one_whatever_its_make_and_address_are_called() {
+        let folder = tempfile::tempdir().unwrap();
+        let (first, second) = (claims(folder.path()), claims(folder.path()));
+        let (_listener, port) = port();
+        let held = first.unit(&Antenna::satrak("Dish", &format!("127.0.0.1:{port}")), None);
+        assert!(held.is_ok());
+        let other = Antenna::genius("Mast", &format!("[::1]:{port}"));
+        assert!(matches!(second.unit(&other, None), Err(Unclaimed::Held(_))));
+    }
+
+    #[test]
+    fn a_name_is_locked_by_where_it_leads_and_the_lock_in_the_way_is_kept_in_mind() {
+        let folder = tempfile::tempdir().unwrap();
+        let (first, second) = (claims(folder.path()), claims(folder.path()));
+        let (_listener, port) = port();
+        let dish = Antenna::satrak("Dish", &format!("127.0.0.1:{port}"));
+        let held = first.unit(&dish, None).ok().unwrap();
+        // Nothing is known of the name before it is looked up.
+        let other = Antenna::satrak("Dish", &format!("name-{port}.invalid:4001"));
+        let claim = second.unit(&other, None).ok().unwrap();
+        assert!(claim.elsewhere().is_none());
+        let endpoints = known_endpoints(&dish.connection).unwrap();
+        let error = Some(Arc::clone(&claim)).lock(&endpoints).unwrap_err().to_string();
+        assert!(error.contains("azel serve"), "{error}");
+        let lock = claim.elsewhere().unwrap().lock;
+        drop(claim);
+        assert!(second.unit(&other, lock.as_deref()).is_err(), "it is still held");
+        drop(held);
+        let claim = second.unit(&other, lock.as_deref()).ok().unwrap();
+        assert!(first.unit(&dish, None).is_err());
+        assert!(Some(claim).lock(&endpoints).is_ok());
     }
 
     #[test]
@@ -265,7 +412,7 @@ mod tests {
         let path = folder.path().join("station.toml");
         let spelled = folder.path().join(".").join("station.toml");
         assert_eq!(whole_path(&path), whole_path(&spelled), "before it is there");
-        fs::write(&path, "").unwrap();
+        std::fs::write(&path, "").unwrap();
         assert_eq!(whole_path(&path), whole_path(&spelled));
     }
 }

@@ -1,42 +1,73 @@
 //! Uses the claims: the second Azel of this machine on a station or unit shows the station
 //! and drives nothing until the first has ended.
 
-use std::{
-    io,
-    path::{Path, PathBuf},
-};
+use std::{io, path::Path, sync::Arc};
 
 use super::{
-    Engine, Event, StationClaim,
+    Engine, Event, Hold, StationClaim,
     alarms::AlarmKind,
-    claim::{Claim, Claims, HeldBy, HolderKind, Unclaimed},
+    claim::{
+        Claim, Claims, Elsewhere, HeldBy, HolderKind, LockFolders, Unclaimed, station_lock, taken,
+    },
 };
 #[cfg(unix)]
-use super::{claim::socket_path, socket::Answer};
+use super::{
+    claim::socket_path,
+    stop_elsewhere::{Courier, Press},
+};
 use crate::{
+    driver::Unit,
     plan::Bounds,
     station::{self, AntennaId},
 };
 
 /// Locks that could not be made.
 pub(super) struct NoClaims {
-    folder: PathBuf,
+    folders: LockFolders,
     kind: HolderKind,
     why: String,
 }
 
+/// Locks that can be made, and the courier that takes STOP to the processes that have others.
+pub(super) struct ClaimsInUse {
+    claims: Arc<Claims>,
+    #[cfg(unix)]
+    courier: Option<Courier>,
+}
+
+/// The holder by the name that it gave before, where its files are gone for a moment.
+fn with_name(by: HeldBy, known: Option<&HeldBy>) -> HeldBy {
+    match (by, known) {
+        (HeldBy::Azel(None), Some(known @ HeldBy::Azel(_))) => known.clone(),
+        (by, _) => by,
+    }
+}
+
 impl Engine {
     /// Sets up the claims and claims the station file before it is read.
-    pub(super) fn take_claims(&mut self, wanted: Option<(PathBuf, HolderKind)>) {
-        let Some((folder, kind)) = wanted else { return };
+    pub(super) fn take_claims(&mut self, wanted: Option<(LockFolders, HolderKind)>) {
+        let Some((folders, kind)) = wanted else { return };
         #[cfg(unix)]
-        let socket = self.settings_path.as_deref().map(|path| socket_path(&folder, path));
+        let socket = {
+            let path = self.settings_path.as_deref();
+            folders.own.first().zip(path).map(|(first, path)| socket_path(&first.path, path))
+        };
         #[cfg(not(unix))]
         let socket = None;
-        match Claims::new(folder.clone(), kind, socket.clone()) {
-            Ok(claims) => (self.claims, self.socket) = (Some(Ok(claims)), socket),
+        match Claims::new(folders.clone(), kind, socket) {
+            Ok(claims) => {
+                self.claims = Some(Ok(ClaimsInUse {
+                    claims: Arc::new(claims),
+                    #[cfg(unix)]
+                    courier: Courier::start(folders, self.client.clone())
+                        .inspect_err(|error| {
+                            tracing::error!(%error, "no thread for STOP to other Azels");
+                        })
+                        .ok(),
+                }));
+            }
             Err(error) => {
-                let no_claims = NoClaims { folder, kind, why: error.to_string() };
+                let no_claims = NoClaims { folders, kind, why: error.to_string() };
                 let is_news = self.claims.replace(Err(no_claims)).is_none();
                 if is_news {
                     self.tell_unclaimed("Azel can lock no unit, so it connects to none; check the disk and the folder of locks", &error);
@@ -53,28 +84,39 @@ impl Engine {
         if matches!(self.station_claim, StationClaim::Ours { .. }) {
             return;
         }
-        let (Some(Ok(claims)), Some(path)) = (&self.claims, &self.settings_path) else { return };
-        match claims.station(path) {
+        let (Some(Ok(in_use)), Some(path)) = (&self.claims, &self.settings_path) else { return };
+        match in_use.claims.station(path) {
             Ok(claim) => {
                 #[cfg(unix)]
-                if let Some(socket) = &self.socket
-                    && let Err(error) = super::socket::serve(socket, self.client.clone())
-                {
-                    let what = "other programs cannot reach this one, also not with STOP";
-                    self.tell_unclaimed(what, &error);
-                }
-                self.station_claim = StationClaim::Ours { _claim: claim };
+                let served = in_use.claims.socket().and_then(|(folder, socket)| {
+                    let served = super::socket::serve(folder, socket, self.client.clone());
+                    let what = "other programs reach this one by signals only";
+                    served.inspect_err(|error| self.tell_unclaimed(what, error)).ok()
+                });
+                self.station_claim = StationClaim::Ours {
+                    claim,
+                    #[cfg(unix)]
+                    _served: served,
+                };
                 self.alarms
                     .clear(None, self.now, |kind| matches!(kind, AlarmKind::StationElsewhere(_)));
             }
-            Err(Unclaimed::Held(by)) => {
-                self.alarms.raise(None, AlarmKind::StationElsewhere(by.clone()), self.now);
-                self.station_claim = StationClaim::Theirs(by);
-            }
+            Err(Unclaimed::Held(Elsewhere { by, .. })) => self.leave_station(by),
             Err(Unclaimed::Io(error)) => {
                 self.tell_unclaimed("the station file is not kept from other programs", &error);
             }
         }
+    }
+
+    /// Leaves the station to another process.
+    fn leave_station(&mut self, by: HeldBy) {
+        let known = match &self.station_claim {
+            StationClaim::Theirs(known) => Some(known),
+            StationClaim::None | StationClaim::Ours { .. } => None,
+        };
+        let by = with_name(by, known);
+        self.alarms.raise(None, AlarmKind::StationElsewhere(by.clone()), self.now);
+        self.station_claim = StationClaim::Theirs(by);
     }
 
     fn tell_unclaimed(&mut self, what: &str, error: &io::Error) {
@@ -88,52 +130,50 @@ impl Engine {
         self.alarms.raise(None, kind, self.now);
     }
 
-    /// Claims the unit of an antenna. `None` where no claim is made; an error names the
-    /// holder.
-    pub(super) fn claim_unit(&self, antenna: &station::Antenna) -> Result<Option<Claim>, HeldBy> {
+    /// Claims the unit of an antenna, and `also` the lock that another process had before. `None`
+    /// where no claim is made; an error names the holder.
+    pub(super) fn claim_unit(
+        &self,
+        antenna: &station::Antenna,
+        also: Option<&str>,
+    ) -> Result<Option<Claim>, Elsewhere> {
         if let StationClaim::Theirs(by) = &self.station_claim {
-            return Err(by.clone());
+            let lock = self.settings_path.as_deref().map(station_lock);
+            return Err(Elsewhere { by: by.clone(), lock });
         }
+        let unknown = |why: String| Elsewhere { by: HeldBy::Unknown(why), lock: None };
         let claims = match &self.claims {
             None => return Ok(None),
-            Some(Err(NoClaims { why, .. })) => return Err(HeldBy::Unknown(why.clone())),
-            Some(Ok(claims)) => claims,
+            Some(Err(NoClaims { why, .. })) => return Err(unknown(why.clone())),
+            Some(Ok(in_use)) => &in_use.claims,
         };
-        match claims.unit(antenna) {
+        match claims.unit(antenna, also) {
             Ok(claim) => Ok(Some(claim)),
-            Err(Unclaimed::Held(by)) => Err(by),
+            Err(Unclaimed::Held(elsewhere)) => Err(elsewhere),
             // Another program may drive the unit as well.
-            Err(Unclaimed::Io(error)) => Err(HeldBy::Unknown(error.to_string())),
+            Err(Unclaimed::Io(error)) => Err(unknown(error.to_string())),
         }
     }
 
     /// Sends STOP to the Azels that drive these antennas.
-    pub(super) fn stop_elsewhere(&self, antennas: &[AntennaId]) {
-        let held = self.antennas.iter().map(|antenna| &antenna.shown);
-        for antenna in held.filter(|antenna| antennas.contains(&antenna.id())) {
-            let holder = match &antenna.held_by {
-                None => continue,
-                Some(HeldBy::Azel(holder)) => holder.clone(),
-                // Nobody is known who could stop it.
-                Some(HeldBy::Unknown(_)) => {
-                    self.client.urgent().is_stop_lost = true;
-                    continue;
-                }
-            };
-            // The holder's name of the antenna.
-            let name = holder.as_ref().and_then(|holder| holder.antenna.clone());
-            let name = name.unwrap_or_else(|| antenna.config.name.clone());
-            let client = self.client.clone();
-            let stop = move || {
-                if !stop_there(holder.and_then(|holder| holder.socket).as_deref(), name) {
-                    client.urgent().is_stop_lost = true;
-                }
-            };
-            let thread = std::thread::Builder::new().name("azel-stop-elsewhere".to_owned());
-            if let Err(error) = thread.spawn(stop) {
-                tracing::error!(%error, "no thread for STOP to the other Azel");
-                self.client.urgent().is_stop_lost = true;
+    pub(super) fn stop_elsewhere(&mut self, antennas: &[AntennaId]) {
+        for antenna in &self.antennas {
+            let Hold::Elsewhere(lock) = &antenna.hold else { continue };
+            if !antennas.contains(&antenna.shown.id()) {
+                continue;
             }
+            #[cfg(unix)]
+            if let (Some(lock), Some(Ok(ClaimsInUse { courier: Some(courier), .. }))) =
+                (lock, &mut self.claims)
+            {
+                let antenna = &antenna.shown;
+                let press = Press { lock: lock.clone(), antenna: antenna.config.name.clone() };
+                courier.press(antenna.id(), press);
+                continue;
+            }
+            // Nobody is known who could stop it.
+            let _ = lock;
+            self.client.urgent().is_stop_lost = true;
         }
     }
 
@@ -144,8 +184,8 @@ impl Engine {
             return;
         }
         self.claims_looked_at = self.now.as_second();
-        if let Some(Err(NoClaims { folder, kind, .. })) = &self.claims {
-            let wanted = (folder.clone(), *kind);
+        if let Some(Err(NoClaims { folders, kind, .. })) = &self.claims {
+            let wanted = (folders.clone(), *kind);
             self.take_claims(Some(wanted));
         } else if matches!(self.station_claim, StationClaim::None)
             && self.demo.is_none()
@@ -153,37 +193,91 @@ impl Engine {
         {
             self.claim_station();
         }
+        if let Some(Ok(in_use)) = &self.claims {
+            in_use.claims.renew();
+        }
+        if let StationClaim::Ours { claim, .. } = &self.station_claim
+            && let Some(Elsewhere { by, .. }) = taken(claim)
+        {
+            self.leave_station(by);
+            for index in 0..self.antennas.len() {
+                self.leave_unit(index, None);
+            }
+        }
         if matches!(self.station_claim, StationClaim::Theirs(_)) {
             self.take_over_station();
             return;
         }
+        self.settle_left_units();
         for index in 0..self.antennas.len() {
-            let Some(antenna) = self.antennas.get(index) else { continue };
-            if antenna.shown.held_by.is_none() {
-                continue;
-            }
-            let config = antenna.shown.config.clone();
-            let of = Some(config.id);
-            let claim = match self.claim_unit(&config) {
-                Ok(claim) => claim,
-                Err(by) => {
-                    self.alarms.raise(of, AlarmKind::UnitElsewhere(by.clone()), self.now);
-                    if let Some(antenna) = self.antennas.get_mut(index) {
-                        antenna.shown.held_by = Some(by);
+            match self.antennas.get(index).map(|antenna| &antenna.hold) {
+                None | Some(Hold::Ours(None)) => {}
+                Some(Hold::Ours(Some(claim))) => {
+                    if let Some(elsewhere) = claim.elsewhere() {
+                        self.leave_unit(index, Some(elsewhere));
                     }
-                    continue;
                 }
-            };
-            // The previous holder may have locked the unit out.
-            self.load_lock_outs();
-            let bounds = Bounds::of(&self.station, &config);
-            let opened = self.open_claimed(config, bounds, Ok(claim));
-            if let Some(antenna) = self.antennas.get_mut(index) {
-                *antenna = opened;
+                Some(Hold::Elsewhere(_)) => self.try_unit(index),
             }
-            self.alarms.clear(of, self.now, |kind| matches!(kind, AlarmKind::UnitElsewhere(_)));
-            self.publish();
         }
+    }
+
+    /// Opens an antenna if the process that had its unit has ended.
+    fn try_unit(&mut self, index: usize) {
+        let Some(antenna) = self.antennas.get_mut(index) else { return };
+        let Hold::Elsewhere(lock) = &antenna.hold else { return };
+        let (config, lock) = (antenna.shown.config.clone(), lock.clone());
+        let of = Some(config.id);
+        match self.claim_unit(&config, lock.as_deref()) {
+            Ok(claim) => {
+                // The previous holder may have locked the unit out.
+                self.load_lock_outs();
+                self.reopen(index, Ok(claim));
+                self.alarms.clear(of, self.now, |kind| matches!(kind, AlarmKind::UnitElsewhere(_)));
+            }
+            Err(Elsewhere { by, lock }) => {
+                let antenna = self.antennas.get(index);
+                let by = with_name(by, antenna.and_then(|antenna| antenna.shown.held_by.as_ref()));
+                self.alarms.raise(of, AlarmKind::UnitElsewhere(by.clone()), self.now);
+                if let Some(antenna) = self.antennas.get_mut(index) {
+                    antenna.shown.held_by = Some(by);
+                    antenna.hold = Hold::Elsewhere(lock);
+                }
+            }
+        }
+    }
+
+    /// Leaves a unit to the process that has one of its locks, or to the one that has the station.
+    /// A STOP that the unit is owed goes there.
+    fn leave_unit(&mut self, index: usize, elsewhere: Option<Elsewhere>) {
+        let Some(antenna) = self.antennas.get(index) else { return };
+        let config = antenna.shown.config.clone();
+        let owes_stop = self.driver.debts().owes(&Unit::of(&config));
+        let claim = match elsewhere {
+            Some(elsewhere) => {
+                let kind = AlarmKind::UnitElsewhere(elsewhere.by.clone());
+                self.alarms.raise(Some(config.id), kind, self.now);
+                Err(elsewhere)
+            }
+            None => self.claim_unit(&config, None),
+        };
+        self.reopen(index, claim);
+        if owes_stop {
+            self.stop_elsewhere(&[config.id]);
+        }
+    }
+
+    /// Replaces the session of an antenna, or the lack of one.
+    fn reopen(&mut self, index: usize, claim: Result<Option<Claim>, Elsewhere>) {
+        let Some(antenna) = self.antennas.get(index) else { return };
+        let config = antenna.shown.config.clone();
+        let bounds = Bounds::of(&self.station, &config);
+        let opened = self.open_claimed(config, bounds, claim);
+        if let Some(antenna) = self.antennas.get_mut(index) {
+            *antenna = opened;
+        }
+        // From now on STOP goes the new way.
+        self.publish();
     }
 
     /// Takes over and reloads the station file if its holder has ended, as the holder may
@@ -200,25 +294,4 @@ impl Engine {
         self.tell(Event::Changed);
         true
     }
-}
-
-/// Returns `true` if the Azel behind `socket` stopped its antenna of this name, with proof.
-fn stop_there(socket: Option<&Path>, antenna: String) -> bool {
-    #[cfg(unix)]
-    if let Some(socket) = socket {
-        let ask = super::socket::Ask::Stop { antenna: Some(antenna) };
-        return match super::socket::ask(socket, &ask) {
-            Ok(Answer::Stopped(stopped)) => stopped.iter().all(|stopped| stopped.proved),
-            Ok(answer) => {
-                tracing::error!(?answer, "STOP was not taken by the other Azel");
-                false
-            }
-            Err(error) => {
-                tracing::error!(%error, "STOP did not get to the other Azel");
-                false
-            }
-        };
-    }
-    let _ = (socket, antenna);
-    false
 }

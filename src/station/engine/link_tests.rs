@@ -5,13 +5,9 @@ use std::sync::Arc;
 use jiff::Timestamp;
 use serde::{Deserialize, Serialize};
 
-use super::{
-    Engine,
-    claim::{Claim, HeldBy},
-    written,
-};
+use super::{Engine, claim::HeldBy, written};
 use crate::{
-    driver::{LinkFault, LinkFinding, Outside, Unit, test_link},
+    driver::{LinkFault, LinkFinding, Outside, Unit, UnitLock, test_link},
     job::{Job, Wake},
     station::{Antenna, AntennaId},
 };
@@ -53,14 +49,13 @@ impl Runner {
         Self { outside, wake, under_way: Vec::new() }
     }
 
-    /// Starts a test; `claim` keeps other programs off the unit until it ends.
-    fn begin(&mut self, antenna: &Antenna, claim: Option<Claim>) -> LinkTestStage {
+    /// Starts a test; `lock` keeps other programs off the unit until it ends.
+    fn begin(&mut self, antenna: &Antenna, lock: Arc<dyn UnitLock>) -> LinkTestStage {
         let (of, outside) = (antenna.clone(), self.outside.clone());
         let work = move |_: &(dyn Fn() -> bool + Sync)| {
-            let _claim = claim;
             let runtime = tokio::runtime::Builder::new_current_thread().enable_all().build();
             let Ok(runtime) = runtime else { return not_begun() };
-            let finding = runtime.block_on(test_link(&of, &outside));
+            let finding = runtime.block_on(test_link(&of, &outside, lock));
             // A port that does not open, or a name that is not found, holds up nothing.
             runtime.shutdown_background();
             finding
@@ -116,9 +111,9 @@ impl Engine {
         let stage = if is_ours {
             LinkTestStage::InUse
         } else {
-            match self.claim_unit(&antenna) {
-                Ok(claim) => self.link_test_runner.begin(&antenna, claim),
-                Err(by) => LinkTestStage::Elsewhere(by),
+            match self.claim_unit(&antenna, None) {
+                Ok(claim) => self.link_test_runner.begin(&antenna, Arc::new(claim)),
+                Err(elsewhere) => LinkTestStage::Elsewhere(elsewhere.by),
             }
         };
         if let Some(place) = place {

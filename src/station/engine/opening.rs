@@ -29,8 +29,8 @@ pub fn look_at(settings: &Settings) -> Result<String, CannotOpen> {
         LoadError::Missing => CannotOpen::Missing(path.clone()),
         error => CannotOpen::Unread(error),
     })?;
-    let claims = settings.claims.as_ref().map(|(folder, _)| folder);
-    if let Some(by) = claims.and_then(|folder| holder_of_station(folder, &path)) {
+    let folders = settings.claims.as_ref().map(|(folders, _)| folders);
+    if let Some(by) = folders.and_then(|folders| holder_of_station(folders, &path)) {
         return Err(CannotOpen::Held { by, path });
     }
     Ok(loaded.station.name)

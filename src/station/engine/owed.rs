@@ -1,7 +1,7 @@
 //! STOPs, ends of auto-track and offsets that are owed to units that no antenna of the station has:
 //! the antenna was deleted, or given another address, while it moved or tracked by itself.
 
-use std::collections::BTreeSet;
+use std::{collections::BTreeSet, sync::Arc};
 
 use jiff::Timestamp;
 
@@ -29,15 +29,31 @@ impl Engine {
             // A unit of a make that this version does not know stays an alarm.
             let Some(spec) = spec else { continue };
             let antenna = spec.antenna(&unit.address, &unit.address);
-            match self.claim_unit(&antenna) {
+            match self.claim_unit(&antenna, None) {
                 Ok(claim) => {
-                    let (bounds, until_the_end) = (Bounds::of_antenna(&antenna), Box::new(claim));
-                    drop(self.driver.open(&antenna, bounds, None, until_the_end));
+                    let bounds = Bounds::of_antenna(&antenna);
+                    self.left_units
+                        .extend(claim.as_ref().map(|claim| (unit, Arc::downgrade(claim))));
+                    drop(self.driver.open(&antenna, bounds, None, Box::new(claim)));
                 }
                 // Whoever drives it looks after it.
                 Err(_) => debts.leave(&unit),
             }
         }
+    }
+
+    /// Leaves what is owed to a unit that turned out to be driven by another process, when its name
+    /// was looked up, to that process.
+    pub(super) fn settle_left_units(&mut self) {
+        let debts = self.driver.debts();
+        self.left_units.retain(|(unit, claim)| {
+            let Some(claim) = claim.upgrade() else { return false };
+            let is_ours = claim.elsewhere().is_none();
+            if !is_ours {
+                debts.leave(unit);
+            }
+            is_ours
+        });
     }
 }
 

@@ -7,7 +7,11 @@ use std::{
 
 use tokio::sync::mpsc;
 
-use super::{claim::HolderKind, sources::Places, uploads};
+use super::{
+    claim::{HolderKind, LockFolders},
+    sources::Places,
+    uploads,
+};
 use crate::{orbit::Catalog, record::PassNote, station};
 
 /// Places of a station's files and its role among the Azels of this machine.
@@ -29,9 +33,9 @@ pub struct Settings {
     pub elements: Option<Arc<Catalog>>,
     /// Who takes the reports of passes besides the record.
     pub reports: Option<mpsc::Sender<PassNote>>,
-    /// Folder for claims of the station and its units, and the role of this process; `None`
+    /// Folders for claims of the station and its units, and the role of this process; `None`
     /// to ignore other Azels.
-    pub claims: Option<(PathBuf, HolderKind)>,
+    pub claims: Option<(LockFolders, HolderKind)>,
 }
 
 impl Settings {

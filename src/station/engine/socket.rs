@@ -1,18 +1,26 @@
 //! The socket of a station, by which other programs of the same user stop its antennas,
-//! lock them out and ask for their status. A question is one line of JSON, and so is its
-//! answer.
+//! lock them out and ask for their status. Members of a group that the socket is open to may stop
+//! antennas and ask for their status. A question is one line of JSON, and so is its answer.
 
-use std::{io, os::unix::fs::PermissionsExt as _, path::Path, thread, time::Duration};
+use std::{
+    io,
+    os::unix::fs::{MetadataExt as _, PermissionsExt as _, chown},
+    path::{Path, PathBuf},
+    thread,
+    time::Duration,
+};
 
 use serde::{Deserialize, Serialize};
 use tokio::{
     io::{AsyncBufReadExt as _, AsyncReadExt as _, AsyncWriteExt as _, BufReader},
     net::{UnixListener, UnixStream},
-    time::{Instant, timeout, timeout_at},
+    sync::oneshot,
+    time::{Instant, MissedTickBehavior, timeout, timeout_at},
 };
 
 use super::{
-    By, Client, Command, Snapshot, alarms::AlarmKind, antenna::AntennaModel, status::AntennaStatus,
+    By, Client, Command, Snapshot, alarms::AlarmKind, antenna::AntennaModel, claim::LockFolder,
+    status::AntennaStatus,
 };
 use crate::{
     driver::{self, StopState},
@@ -27,6 +35,8 @@ const ASKS_WITHIN: Duration = Duration::from_secs(5);
 const PROVED_WITHIN: Duration = Duration::from_secs(12);
 /// Time for a lock-out: the unit is stopped and its own program switched off first.
 const LOCKED_WITHIN: Duration = Duration::from_secs(15);
+/// Interval at which a station looks whether its socket is still in its place.
+const REPAIRED_WITHIN: Duration = Duration::from_millis(500);
 
 /// A question.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -92,48 +102,132 @@ pub struct Stopped {
     pub not_on_disk: Option<String>,
 }
 
-/// Sends `ask` to the process that serves the socket at `path`, and waits for the answer.
-pub fn ask(path: &Path, ask: &Ask) -> io::Result<Answer> {
-    use std::io::{BufRead as _, Write as _};
-    let mut stream = std::os::unix::net::UnixStream::connect(path)?;
-    stream.set_write_timeout(Some(ASKS_WITHIN))?;
-    stream.set_read_timeout(Some(LOCKED_WITHIN + ASKS_WITHIN))?;
+/// A question that was sent.
+pub(super) struct Asked {
+    /// Process behind the socket, where the system tells it.
+    pub(super) process: Option<u32>,
+    stream: UnixStream,
+}
+
+/// Sends `ask` to the process that serves the socket at `path`.
+pub(super) async fn send(path: &Path, ask: &Ask) -> io::Result<Asked> {
     let mut text = serde_json::to_string(ask)?;
     text.push('\n');
-    stream.write_all(text.as_bytes())?;
-    let mut line = String::new();
-    io::BufReader::new(stream).read_line(&mut line)?;
-    Ok(serde_json::from_str(&line)?)
+    timeout(ASKS_WITHIN, async {
+        let mut stream = UnixStream::connect(path).await?;
+        let process = stream.peer_cred()?.pid().and_then(|process| u32::try_from(process).ok());
+        stream.write_all(text.as_bytes()).await?;
+        Ok(Asked { process, stream })
+    })
+    .await?
 }
 
-/// Serves the socket at `path` on a thread of its own until the station ends.
-pub(super) fn serve(path: &Path, station: Client) -> io::Result<()> {
-    let station = station.acting_for(By::Program);
-    // A socket left there belongs to a process that has ended, because the station is
-    // claimed.
-    match std::fs::remove_file(path) {
-        Err(error) if error.kind() != io::ErrorKind::NotFound => return Err(error),
-        _ => {}
+impl Asked {
+    pub(super) async fn answer(self) -> io::Result<Answer> {
+        let mut line = String::new();
+        let mut reader = BufReader::new(self.stream);
+        timeout(LOCKED_WITHIN + ASKS_WITHIN, reader.read_line(&mut line)).await??;
+        Ok(serde_json::from_str(&line)?)
     }
-    let runtime = tokio::runtime::Builder::new_current_thread().enable_all().build()?;
-    let listener = {
-        let _within = runtime.enter();
-        UnixListener::bind(path)?
-    };
-    std::fs::set_permissions(path, std::fs::Permissions::from_mode(0o600))?;
-    thread::Builder::new().name("azel-socket".to_owned()).spawn(move || {
-        runtime.block_on(accept(listener, station));
-    })?;
-    Ok(())
 }
 
-async fn accept(listener: UnixListener, mut station: Client) {
+/// The socket of a station. Dropping this closes it.
+pub(super) struct Served {
+    _close: oneshot::Sender<()>,
+}
+
+/// Serves the socket called `name` in `folder` on a thread of its own until the station ends.
+pub(super) fn serve(folder: LockFolder, name: PathBuf, station: Client) -> io::Result<Served> {
+    let station = station.acting_for(By::Program);
+    let runtime = tokio::runtime::Builder::new_current_thread().enable_all().build()?;
+    let door = {
+        let _within = runtime.enter();
+        Door::open(folder, name)?
+    };
+    let (close, closed) = oneshot::channel();
+    thread::Builder::new().name("azel-socket".to_owned()).spawn(move || {
+        runtime.block_on(accept(door, station, closed));
+    })?;
+    Ok(Served { _close: close })
+}
+
+/// A listening socket and its place in the file system.
+struct Door {
+    folder: LockFolder,
+    path: PathBuf,
+    listener: UnixListener,
+    /// Device and inode of the socket.
+    file: (u64, u64),
+    /// A loss that cannot be repaired was logged.
+    is_loss_told: bool,
+}
+
+impl Door {
+    /// Binds the socket in a folder that is closed to others, and moves it to its place when its
+    /// mode is set: at no time is it open wider.
+    fn open(folder: LockFolder, path: PathBuf) -> io::Result<Self> {
+        folder.make()?;
+        let closed = std::fs::Permissions::from_mode(0o700);
+        let private =
+            tempfile::Builder::new().prefix(".").permissions(closed).tempdir_in(&folder.path)?;
+        let made = private.path().join("s");
+        let listener = UnixListener::bind(&made)?;
+        let mode = if folder.group.is_some() { 0o660 } else { 0o600 };
+        if folder.group.is_some() {
+            chown(&made, None, folder.group)?;
+        }
+        std::fs::set_permissions(&made, std::fs::Permissions::from_mode(mode))?;
+        if path.is_dir() {
+            // A folder gives way only if it is empty.
+            std::fs::remove_dir(&path)?;
+        }
+        std::fs::rename(&made, &path)?;
+        let file = file_id(&path)?;
+        Ok(Self { folder, path, listener, file, is_loss_told: false })
+    }
+
+    /// Makes the socket again if it was removed or replaced, other than by one on which another
+    /// process listens.
+    async fn repair(&mut self) {
+        if file_id(&self.path).is_ok_and(|file| file == self.file)
+            || UnixStream::connect(&self.path).await.is_ok()
+        {
+            return;
+        }
+        match Self::open(self.folder.clone(), self.path.clone()) {
+            Ok(door) => *self = door,
+            Err(error) if !self.is_loss_told => {
+                tracing::error!(%error, "the socket is gone; only signals reach this process");
+                self.is_loss_told = true;
+            }
+            Err(_) => {}
+        }
+    }
+}
+
+fn file_id(path: &Path) -> io::Result<(u64, u64)> {
+    let metadata = std::fs::symlink_metadata(path)?;
+    Ok((metadata.dev(), metadata.ino()))
+}
+
+async fn accept(mut door: Door, mut station: Client, closed: oneshot::Receiver<()>) {
     let asked = station.clone();
-    let ended = async { while station.changed().await {} };
+    let ended = async {
+        tokio::select! {
+            () = async { while station.changed().await {} } => {}
+            _ = closed => {}
+        }
+    };
     tokio::pin!(ended);
+    let mut look = tokio::time::interval(REPAIRED_WITHIN);
+    look.set_missed_tick_behavior(MissedTickBehavior::Delay);
     loop {
         let accepted = tokio::select! {
-            accepted = listener.accept() => accepted,
+            accepted = door.listener.accept() => accepted,
+            _ = look.tick() => {
+                door.repair().await;
+                continue;
+            }
             () = &mut ended => return,
         };
         match accepted {
@@ -153,13 +247,28 @@ async fn accept(listener: UnixListener, mut station: Client) {
     }
 }
 
+/// Returns `true` if a process of `user` may ask this of a station that runs as user `own`. The
+/// system lets other users than `own` and root in by their group only.
+fn may_ask(user: u32, own: u32, ask: &Ask) -> bool {
+    match ask {
+        Ask::Stop { .. } | Ask::Status => true,
+        Ask::Automatic { .. } | Ask::LockOut { .. } => user == own || user == 0,
+    }
+}
+
 async fn converse(stream: UnixStream, station: Client) -> io::Result<()> {
+    let user = stream.peer_cred()?.uid();
     let (reader, mut writer) = stream.into_split();
     let mut line = String::new();
     let mut reader = BufReader::new(reader.take(MAX_BYTES));
     timeout(ASKS_WITHIN, reader.read_line(&mut line)).await??;
     let answer = match serde_json::from_str(&line) {
-        Ok(ask) => answer(ask, station).await,
+        Ok(ask) if may_ask(user, nix::unistd::geteuid().as_raw(), &ask) => {
+            answer(ask, station).await
+        }
+        Ok(_) => Answer::Refused(
+            "members of the group may stop antennas and read their status, nothing else".to_owned(),
+        ),
         Err(error) => Answer::Refused(format!("the question is not understood: {error}")),
     };
     let mut text = serde_json::to_string(&answer)?;
@@ -323,6 +432,19 @@ fn unknown(name: &str) -> Answer {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_member_of_the_group_may_stop_and_look_and_no_more() {
+        let lock_out = Ask::LockOut { antenna: "Dish".to_owned(), lock_out: None, locked_by: None };
+        let automatic = Ask::Automatic { antenna: "Dish".to_owned(), is_on: true };
+        let (own, member) = (1000, 1001);
+        for ask in [&lock_out, &automatic] {
+            assert!(may_ask(own, own, ask) && may_ask(0, own, ask) && !may_ask(member, own, ask));
+        }
+        for ask in [Ask::Stop { antenna: None }, Ask::Status] {
+            assert!(may_ask(member, own, &ask));
+        }
+    }
 
     #[test]
     fn questions_and_answers_come_back_as_they_went() {

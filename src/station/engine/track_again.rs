@@ -3,7 +3,7 @@
 use jiff::Timestamp;
 use serde::{Deserialize, Serialize};
 
-use super::{Command, Engine, antenna::AntennaModel, closing::CloseHow, handle::Stopped};
+use super::{Command, Engine, Hold, antenna::AntennaModel, closing::CloseHow, handle::Stopped};
 use crate::{
     astro::time::add_seconds,
     driver::{self, Intent},
@@ -67,7 +67,9 @@ impl Engine {
     pub(super) fn note_stop(&mut self, stopped: &Stopped) {
         self.note_pressed_stop(stopped);
         self.upload_runner.stopped();
-        self.stop_elsewhere(&stopped.elsewhere);
+        let mut elsewhere = stopped.elsewhere.clone();
+        elsewhere.extend(self.antennas_left_since(stopped));
+        self.stop_elsewhere(&elsewhere);
         self.drop_waiting_settings();
         self.end_automatic_by_stop(stopped);
         // STOP while the antennas are parked for the end: the operator is needed here.
@@ -97,6 +99,19 @@ impl Engine {
                 TrackAgain { until, ..ordered }
             });
         }
+    }
+
+    /// The antennas that this STOP was meant for and that were left to another process after it was
+    /// pressed.
+    fn antennas_left_since(&self, stopped: &Stopped) -> impl Iterator<Item = AntennaId> {
+        let left = self.antennas.iter().filter(|antenna| match antenna.hold {
+            Hold::Ours(_) => false,
+            Hold::Elsewhere(_) => antenna.session > stopped.newest_session,
+        });
+        left.map(|antenna| antenna.shown.id()).filter(|id| {
+            let is_meant = stopped.is_for_all || stopped.antennas.contains(id);
+            is_meant && !stopped.elsewhere.contains(id)
+        })
     }
 
     /// Drops offers that are no longer valid.

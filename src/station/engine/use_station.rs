@@ -4,11 +4,11 @@
 use std::sync::Arc;
 
 use super::{
-    Antenna, DemoStation, Engine, StationClaim,
+    Antenna, DemoStation, Engine, Hold, StationClaim,
     alarms::AlarmKind,
     antenna::AntennaModel,
     automatic::{AtWork, OffBecause, Operation},
-    claim::{Claim, HeldBy},
+    claim::{Claim, Elsewhere},
 };
 use crate::{
     driver::{Driver, Unit},
@@ -130,7 +130,7 @@ impl Engine {
     }
 
     pub(super) fn open_antenna(&mut self, config: station::Antenna, bounds: Bounds) -> Antenna {
-        let claim = self.claim_unit(&config);
+        let claim = self.claim_unit(&config, None);
         self.open_claimed(config, bounds, claim)
     }
 
@@ -139,22 +139,24 @@ impl Engine {
         &mut self,
         config: station::Antenna,
         bounds: Bounds,
-        claim: Result<Option<Claim>, HeldBy>,
+        claim: Result<Option<Claim>, Elsewhere>,
     ) -> Antenna {
         self.sessions += 1;
-        let (handle, held_by) = match claim {
+        let (handle, held_by, hold) = match claim {
             Ok(claim) => {
                 let lock_out = self.lock_outs.of(&config.connection).cloned();
                 // The claim lasts until the session has ended.
-                let until_the_end = Box::new(claim);
-                (self.driver.open(&config, bounds, lock_out, until_the_end), None)
+                let lock = Box::new(claim.clone());
+                (self.driver.open(&config, bounds, lock_out, lock), None, Hold::Ours(claim))
             }
-            Err(held_by) => (Driver::leave_alone(&config), Some(held_by)),
+            Err(Elsewhere { by, lock }) => {
+                (Driver::leave_alone(&config), Some(by), Hold::Elsewhere(lock))
+            }
         };
         self.recording.follow(&config, &handle, self.clock.now());
         let mut shown = AntennaModel::new(config, handle.snapshot());
         shown.held_by = held_by;
-        Antenna { shown, session: self.sessions, handle, at_work: AtWork::default() }
+        Antenna { shown, session: self.sessions, handle, at_work: AtWork::default(), hold }
     }
 
     /// Index of an antenna, if the station still has it.

@@ -14,7 +14,7 @@ use super::{Fault, FaultKind, RehearsalError};
 use crate::{
     astro::time::{add_seconds, seconds_between},
     clock::Clock,
-    driver::{Dial, Outside, Stream},
+    driver::{Dial, Outside, Stream, UnitLock},
     makes::{self, Surroundings},
     orbit::{Catalog, Elements},
     sim::InMemory,
@@ -73,7 +73,7 @@ impl Units {
     /// What the sessions of the rehearsed station take from outside: these units alone.
     pub(super) fn outside(self: &Arc<Self>, clock: &Clock) -> Outside {
         let units = Arc::clone(self);
-        let dial = Arc::new(move |antenna: &Antenna| {
+        let dial = Arc::new(move |antenna: &Antenna, _: Arc<dyn UnitLock>| {
             let linked = units.0.iter().find(|linked| linked.id == antenna.id).cloned();
             let dial: Dial = Box::new(move || {
                 let linked = linked.clone().filter(|it| !it.is_down.load(Ordering::Relaxed));

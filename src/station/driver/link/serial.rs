@@ -4,7 +4,7 @@ use std::{io, sync::Arc};
 
 use serial2_tokio::{CharSize, FlowControl, SerialPort, Settings, StopBits};
 
-use super::{Dial, Duplicate, Stream, parity::WithParity};
+use super::{Dial, Duplicate, Endpoint, Stream, UnitLock, endpoint::device, parity::WithParity};
 use crate::protocol::Parity;
 
 impl Stream for SerialPort {
@@ -14,17 +14,31 @@ impl Stream for SerialPort {
     }
 }
 
-/// Opens the serial port `name` at `baud` bits a second, with seven bits and even parity.
-pub(super) fn dial_serial(name: String, baud: u32) -> Dial {
+/// Opens the serial port `name` at `baud` bits a second, with seven bits and even parity, once
+/// `lock` has its device.
+pub(super) fn dial_serial(name: &str, baud: u32, lock: Arc<dyn UnitLock>) -> Dial {
+    let name: Arc<str> = name.trim().into();
     Box::new(move || {
-        let name = name.clone();
+        let (name, lock) = (Arc::clone(&name), Arc::clone(&lock));
         Box::pin(async move {
             // Some drivers wait for their hardware while they open it.
-            let opened = tokio::task::spawn_blocking(move || open(name.trim(), baud)).await;
+            let open = move || open_locked(&name, baud, lock.as_ref());
+            let opened = tokio::task::spawn_blocking(open).await;
             let (port, parity) = opened.map_err(io::Error::other)?.map_err(in_words)?;
             Ok(Box::new(WithParity::new(port, parity, Arc::default())) as Box<dyn Stream>)
         })
     })
+}
+
+fn open_locked(name: &str, baud: u32, lock: &dyn UnitLock) -> io::Result<(SerialPort, Parity)> {
+    let locked = device(name)?;
+    lock.lock(&[Endpoint::Port(locked.clone())])?;
+    let opened = open(name, baud)?;
+    // A plug that was changed meanwhile may have brought another device.
+    if device(name)? != locked {
+        return Err(io::Error::other("the serial port was replaced while it was opened"));
+    }
+    Ok(opened)
 }
 
 /// A port without parity, such as a pseudo-terminal, is opened with eight bits, and this end
@@ -78,7 +92,7 @@ mod tests {
     #[tokio::test]
     async fn what_is_no_port_is_told_in_words() {
         let missing = "/dev/no-such-port-as-this";
-        let Err(error) = dial_serial(missing.to_owned(), 9600)().await else { panic!("opened") };
+        let Err(error) = dial_serial(missing, 9600, Arc::new(()))().await else { panic!("opened") };
         assert_eq!(error.to_string(), "no such serial port");
         let denied = in_words(io::ErrorKind::PermissionDenied.into()).to_string();
         assert!(denied.contains("dialout"), "{denied}");

@@ -7,7 +7,7 @@ use tokio::sync::mpsc;
 use super::*;
 use crate::{
     clock::Clock,
-    driver::{Dial, Outside},
+    driver::{Dial, Outside, UnitLock},
     engine::{By, Outbox, Settings},
     station::Antenna as Config,
 };
@@ -23,7 +23,9 @@ fn station(folder: &std::path::Path) -> (Engine, PathBuf) {
     let left = path.with_extension(at_start::EXTENSION);
     std::fs::write(&left, "is_orderly = true").unwrap();
     let settings = Settings { path: Some(path), ..Settings::default() };
-    let dial = Arc::new(|_: &Config| -> Dial { Box::new(|| Box::pin(std::future::pending())) });
+    let dial = Arc::new(|_: &Config, _: Arc<dyn UnitLock>| -> Dial {
+        Box::new(|| Box::pin(std::future::pending()))
+    });
     let clock = Clock::at_speed(Timestamp::UNIX_EPOCH, NonZeroU32::MIN);
     let (events, _) = mpsc::channel(1);
     let (requests, _) = mpsc::channel(1);
