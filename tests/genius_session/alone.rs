@@ -8,7 +8,7 @@ use azel::{
     plan::Bounds,
     protocol::rotator_genius::{RotatorNumber, WholeDegrees},
     sim::rotator_genius::{Fault, Options, RotatorOptions},
-    station::Station,
+    station::{Antenna, Station},
 };
 use tokio::io::AsyncWriteExt as _;
 
@@ -174,10 +174,14 @@ async fn an_elevation_rotator_is_no_azimuth() {
 
 /// Only the azimuth turns; a mast 20 degrees high stands in the way.
 fn before_a_mast(from_deg: f64, to_deg: f64) -> Bounds {
+    before_a_mast_with(&antenna(Rotators::First), from_deg, to_deg)
+}
+
+fn before_a_mast_with(antenna: &Antenna, from_deg: f64, to_deg: f64) -> Bounds {
     let corners = [(from_deg, 5.0), (to_deg, 5.0), (to_deg, 20.0), (from_deg, 20.0)];
     let mast = crate::common::mast(&corners);
     let station = Station { keep_outs: vec![mast], ..Station::default() };
-    Bounds::of(&station, &antenna(Rotators::First))
+    Bounds::of(&station, antenna)
 }
 
 #[tokio::test(start_paused = true)]
@@ -194,6 +198,26 @@ async fn a_keep_out_applies_to_an_azimuth_alone_at_any_elevation() {
     rig.seconds(5.0).await;
     let azimuth_deg = rig.axes_deg()[0].unwrap();
     assert!(azimuth_deg < 109.0, "{azimuth_deg}");
+}
+
+#[tokio::test(start_paused = true)]
+async fn a_foreign_motion_is_stopped_before_the_beam_enters_a_keep_out() {
+    let mut antenna = antenna(Rotators::First);
+    // The beam is 5 degrees further clockwise than the axis reads.
+    antenna.pointing_model.azimuth_offset_deg = -5.0;
+    let options = Options { max_clients: 2, ..two_azimuths() };
+    let mut rig = Rig::start(&options, &antenna);
+    rig.until("it is read", 5, |shown| shown.state.measured.is_some()).await;
+    rig.handle().keep_within(before_a_mast_with(&antenna, 110.0, 130.0));
+    rig.seconds(1.0).await;
+    let mut other = crate::common::network::link(&rig.control);
+    other.write_all(b"|P1").await.unwrap();
+    let is_told = |event: &Event| matches!(event, Event::Safety(Safety::Forbidden { .. }));
+    rig.until_event(30, is_told).await;
+    rig.seconds(5.0).await;
+    let azimuth_deg = rig.axes_deg()[0].unwrap();
+    // By what the axis reads it would be stopped 5 degrees later.
+    assert!((91.0..96.0).contains(&azimuth_deg), "{azimuth_deg}");
 }
 
 #[tokio::test(start_paused = true)]

@@ -145,6 +145,16 @@ impl PointingModel {
         AzEl::from_enu(sky)
     }
 
+    /// Upper bound of the angle by which the beam turns for each degree of an axis.
+    ///
+    /// The other terms are rotations, and an offset along each axis: none of them lets the beam turn
+    /// faster than an axis.
+    pub fn max_beam_turn(&self) -> f64 {
+        let min_reading = 1.0 - self.elevation_scale.abs() - self.sag_deg.abs().to_radians();
+        // The ranges of the station file leave more than three quarters.
+        1.0 / min_reading.max(0.5)
+    }
+
     fn elevation_reading_deg(&self, elevation_deg: f64) -> f64 {
         elevation_deg * (1.0 + self.elevation_scale)
             + self.elevation_offset_deg
@@ -159,5 +169,42 @@ impl PointingModel {
         let about = lean.cross(DVec3::NEG_Z).normalize_or_zero();
         let turn = if angle > 0.0 { DMat3::from_axis_angle(about, angle) } else { DMat3::IDENTITY };
         [turn.x_axis, turn.y_axis, turn.z_axis]
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use proptest::prelude::*;
+
+    use super::*;
+
+    proptest! {
+        /// The terms are those that a station file may have, and positions those of an axis that
+        /// tips over, too.
+        #[test]
+        fn the_beam_turns_no_further_than_its_bound(
+            terms in proptest::array::uniform8(-10.0..=10.0_f64),
+            from_deg in (0.0..360.0, -90.0..180.0), turned_deg in (-2.0..2.0_f64, -2.0..2.0_f64),
+        ) {
+            let mut model = PointingModel::default();
+            for (term, value) in Term::ALL.into_iter().zip(terms) {
+                let unit = if term == Term::ElevationScale { 0.005 } else { 1.0 };
+                *model.place(term) = value * unit;
+            }
+            let (azimuth_deg, elevation_deg) = from_deg;
+            let to_deg = (azimuth_deg + turned_deg.0, elevation_deg + turned_deg.1);
+            let beam = |(azimuth, elevation)| model.direction(AzEl::from_degrees(azimuth, elevation));
+            let by_deg = beam(from_deg).separation(beam(to_deg)).degrees();
+            let axes_deg = turned_deg.0.abs() + turned_deg.1.abs();
+            prop_assert!(by_deg <= axes_deg * model.max_beam_turn() + 1e-6, "{model:?}: {by_deg}");
+        }
+    }
+
+    #[test]
+    fn the_beam_turns_further_than_an_axis_that_reads_too_little() {
+        let model = PointingModel { elevation_scale: -0.05, sag_deg: 10.0, ..Default::default() };
+        let beam = |elevation_deg| model.direction(AzEl::from_degrees(0.0, elevation_deg));
+        let by_deg = beam(85.0).separation(beam(86.0)).degrees();
+        assert!((1.28..=model.max_beam_turn()).contains(&by_deg), "{by_deg}");
     }
 }

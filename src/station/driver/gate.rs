@@ -60,7 +60,8 @@ struct Situation<'a> {
     bounds: &'a Bounds,
     /// Where the axes were at the last position.
     intervals: Option<Intervals>,
-    /// From where the axes point to where that is on the sky, if the two differ.
+    /// From where the pointing model has the beam to where it is on the sky, if offsets of the axes
+    /// are on.
     to_sky: Option<DQuat>,
     /// How far ahead of the last position a jog is judged, seconds.
     ahead_s: f64,
@@ -96,8 +97,8 @@ pub(super) struct Gate {
     judged: Judged,
     /// The operator's permissions.
     word: Word,
-    /// From where the axes of an antenna in program track point to where that is on the sky, if
-    /// offsets of its axes are on.
+    /// From where the pointing model has the beam of an antenna that tracks to where it is on the sky,
+    /// if offsets of its axes are on.
     to_sky: Option<DQuat>,
 }
 
@@ -312,7 +313,7 @@ impl Gate {
             mount: self.mount,
             bounds: self.bounds_in(intent),
             intervals: self.intervals(),
-            to_sky: self.to_sky.filter(|_| intent == Intent::Track),
+            to_sky: self.to_sky_in(intent),
             ahead_s: self.ahead_s(now),
             lock_out: self.lock_out.as_ref(),
             now,

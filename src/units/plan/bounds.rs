@@ -3,8 +3,14 @@
 //! A direction has a *clearance* from each barrier: the angle to its edge, negative inside. The
 //! clearance changes by no more than the direction does, so checking the middle of a range of axis
 //! angles either settles the whole range or shows that its halves have to be checked.
+//!
+//! With a pointing model, or while offsets of the axes are on, a position of the axes has two
+//! directions: what the axes count, and that of the beam. The lesser clearance counts.
 
+mod aim;
+mod near;
 mod sun;
+mod sweep;
 mod way_out;
 
 use glam::{DQuat, DVec3};
@@ -13,20 +19,16 @@ use serde::{Deserialize, Serialize};
 use smol_str::SmolStr;
 
 use crate::{
-    astro::{Angle, AzEl, Site, Zone},
+    astro::{Angle, AzEl, PointingModel, Site},
     station::{Antenna, Entered, KeepOut, Mount, Station, SunAvoidance},
 };
+use aim::{Aim, Towards};
+use near::{Clear, Named, Near};
+pub use sweep::Sweep;
 
 /// How far a motion may go beyond an edge, degrees; the margins of keep-outs and of the Sun are
 /// widened by the same angle.
 pub(super) const FINEST_DEG: f64 = 0.05;
-
-/// Smallest distance between two positions at which a range of positions is sampled, degrees.
-const SAMPLE_DEG: f64 = 1.0;
-/// Maximum number of steps along an axis whose range alone is sampled.
-const STEPS_OF_ONE: f64 = 128.0;
-/// Maximum number of steps along each axis where both are sampled.
-const STEPS_OF_BOTH: f64 = 32.0;
 
 /// One of the bounds: minimum elevation, a keep-out or the Sun.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
@@ -51,95 +53,14 @@ pub struct Clearance {
     pub warns_only: bool,
 }
 
-/// Ranges of both axes, degrees as the mount counts, each from the lower to the
-/// upper end.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Sweep(pub [(f64, f64); 2]);
-
-impl Sweep {
-    /// The ranges that both axes sweep between two positions.
-    pub fn between(from_deg: [f64; 2], to_deg: [f64; 2]) -> Self {
-        let [(a, b), (c, d)] = [(from_deg[0], to_deg[0]), (from_deg[1], to_deg[1])];
-        Self([(a.min(b), a.max(b)), (c.min(d), c.max(d))])
-    }
-
-    /// The single position `axes_deg`.
-    pub fn at(axes_deg: [f64; 2]) -> Self {
-        Self(axes_deg.map(|deg| (deg, deg)))
-    }
-
-    /// The smallest sweep that contains both.
-    #[must_use]
-    pub fn with(self, other: Self) -> Self {
-        let [(a, b), (c, d)] = self.0;
-        let [(e, f), (g, h)] = other.0;
-        Self([(a.min(e), b.max(f)), (c.min(g), d.max(h))])
-    }
-
-    /// The sweep after each axis has turned by `by_deg`.
-    #[must_use]
-    pub fn turned(self, by_deg: [f64; 2]) -> Self {
-        let [(a, b), (c, d)] = self.0;
-        Self([(a + by_deg[0], b + by_deg[0]), (c + by_deg[1], d + by_deg[1])])
-    }
-
-    pub fn middle(self) -> [f64; 2] {
-        self.0.map(|(from, to)| f64::midpoint(from, to))
-    }
-
-    fn corners(self) -> [[f64; 2]; 4] {
-        let [(a, b), (c, d)] = self.0;
-        [[a, c], [a, d], [b, c], [b, d]]
-    }
-
-    /// Number of steps in which each axis is sampled.
-    fn steps(self) -> [f64; 2] {
-        let is_range = self.0.map(|(from, to)| from < to);
-        let most = if is_range == [true; 2] { STEPS_OF_BOTH } else { STEPS_OF_ONE };
-        self.0.map(|(from, to)| ((to - from) / SAMPLE_DEG).ceil().clamp(0.0, most))
-    }
-
-    /// Largest angle between a direction of the sweep and that of its nearest sample, degrees.
-    fn sampled_within_deg(self) -> f64 {
-        let widths = self.0.iter().map(|(from, to)| to - from);
-        widths.zip(self.steps()).map(|(width, steps)| width / steps.max(1.0) / 2.0).sum()
-    }
-
-    /// Evenly spaced positions, with both ends of each axis.
-    fn samples(self) -> impl Iterator<Item = [f64; 2]> {
-        let mut steps = self.steps().into_iter();
-        let [first, second] = self.0.map(|(from, to)| {
-            let parts = steps.next().unwrap_or_default() as u32;
-            let share = f64::from(parts.max(1)).recip();
-            (0..=parts).map(move |part| (to - from).mul_add(f64::from(part) * share, from))
-        });
-        first.flat_map(move |first| second.clone().map(move |second| [first, second]))
-    }
-
-    /// Largest angle between a direction of the sweep and the direction of its middle, degrees.
-    fn radius_deg(self) -> f64 {
-        self.0.iter().map(|(from, to)| (to - from) / 2.0).sum()
-    }
-
-    /// The sweep, cut in half across its longer side.
-    fn halves(self) -> [Self; 2] {
-        let [(a, b), (c, d)] = self.0;
-        if b - a >= d - c {
-            let middle = f64::midpoint(a, b);
-            [Self([(a, middle), (c, d)]), Self([(middle, b), (c, d)])]
-        } else {
-            let middle = f64::midpoint(c, d);
-            [Self([(a, b), (c, middle)]), Self([(a, b), (middle, d)])]
-        }
-    }
-}
-
 /// The bounds of one antenna.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Bounds {
     site: Site,
     mount: Mount,
     has_elevation: bool,
+    /// `None` for an antenna whose axes read what they point to.
+    model: Option<PointingModel>,
     /// `None` for an antenna without an elevation axis.
     minimum_elevation: Option<Angle>,
     /// The keep-outs of the antenna, each with its whole margin.
@@ -161,6 +82,7 @@ impl Bounds {
             site: station.site,
             mount: antenna.mount,
             has_elevation,
+            model: Some(antenna.track_model()).filter(|model| !model.is_none()),
             minimum_elevation: has_elevation.then_some(minimum),
             keep_outs: holds
                 .map(|zone| (zone.clone(), half_beam + zone.margin() + finest))
@@ -185,7 +107,7 @@ impl Bounds {
         self.mount
     }
 
-    /// The direction in which the axes point at `axes_deg`, degrees as the mount counts.
+    /// The direction that the axes count at `axes_deg`, degrees as the mount counts.
     pub fn direction(&self, axes_deg: [f64; 2]) -> AzEl {
         self.mount.direction(axes_deg)
     }
@@ -193,7 +115,7 @@ impl Bounds {
     pub fn at(&self, utc: Timestamp) -> BoundsAt<'_> {
         let suns = self.suns(utc).into_iter().map(AzEl::to_enu).collect();
         let minimum_elevation = self.minimum_elevation;
-        BoundsAt { bounds: self, minimum_elevation, suns, to_sky: None }
+        BoundsAt { bounds: self, minimum_elevation, suns, model: self.model, to_sky: None }
     }
 
     /// Returns `true` if any keep-out or the Sun refuses motion.
@@ -206,16 +128,16 @@ impl Bounds {
         self.keep_outs.iter().any(|(zone, _)| zone.entered == Entered::GoRound)
     }
 
-    /// Returns `true` if `direction` is in a keep-out that is to be gone round, or less than
-    /// `room_deg` outside its margin.
-    pub(super) fn is_gone_round(&self, direction: AzEl, room_deg: f64) -> bool {
-        let room = Angle::from_degrees(room_deg);
+    /// Returns `true` if the antenna, with its axes at `axes_deg`, points into a keep-out that is to
+    /// be gone round, or less than `room_deg` outside its margin.
+    pub(super) fn is_gone_round(&self, axes_deg: [f64; 2], room_deg: f64) -> bool {
+        let (aim, room) = (self.aim(axes_deg), Angle::from_degrees(room_deg));
         let mut rounded = self.keep_outs.iter().filter(|(it, _)| it.entered == Entered::GoRound);
-        let at = direction.to_enu();
         rounded.any(|(it, margin)| {
-            let zone = &it.zone;
-            let near = *margin + room;
-            zone.clearance_is_at_least(at) < near && zone.clearance_of(at) < near
+            let (zone, near) = (&it.zone, *margin + room);
+            let is_near =
+                |at: DVec3| zone.clearance_is_at_least(at) < near && zone.clearance_of(at) < near;
+            aim.each().map(AzEl::to_enu).any(is_near)
         })
     }
 }
@@ -227,7 +149,9 @@ pub struct BoundsAt<'a> {
     minimum_elevation: Option<Angle>,
     /// Unit vectors to the Sun, from this time to the end of the time ahead.
     suns: Vec<DVec3>,
-    /// From where the axes point to where that is on the sky, if the two differ.
+    model: Option<PointingModel>,
+    /// From where the beam is by the model to where it is on the sky, while offsets of the axes make
+    /// up for errors of the mount.
     to_sky: Option<DQuat>,
 }
 
@@ -235,7 +159,7 @@ impl BoundsAt<'_> {
     /// The least clearance from every barrier among the positions in `place`: exact where that is
     /// one position, else taken from samples, and negative where [`Self::blocks`] finds a way in.
     pub fn least_clearances(&self, place: Sweep) -> Vec<Clearance> {
-        let within_deg = place.sampled_within_deg();
+        let within_deg = place.sampled_within_deg() * self.max_beam_turn();
         let each = self.each_in(place).into_iter().enumerate();
         each.map(|(index, (barrier, angle, warns_only))| {
             let may_hide = (0.0..within_deg).contains(&angle.degrees());
@@ -249,20 +173,20 @@ impl BoundsAt<'_> {
     /// For each barrier, in the order of [`Self::clearances`], whether all samples of `place` are
     /// inside it.
     pub fn holds_all_of(&self, place: Sweep) -> Vec<bool> {
-        let mut samples = place.samples().map(|sample| self.bounds.direction(sample));
+        let mut samples = place.samples().map(|sample| self.aim(sample));
         let first = samples.next().into_iter().flat_map(|at| self.each(at));
         let mut inside: Vec<_> = first.map(|(_, angle, _)| angle < Angle::ZERO).collect();
-        for direction in samples {
-            for (inside, barrier) in inside.iter_mut().zip(self.barriers(direction)) {
+        for aim in samples {
+            for (inside, barrier) in inside.iter_mut().zip(self.barriers(aim)) {
                 *inside = *inside && barrier.angle_below(Angle::ZERO).is_some();
             }
         }
         inside
     }
 
-    /// The clearance of a direction from every barrier.
+    /// The clearance from every barrier of axes that count `direction`.
     pub fn clearances(&self, direction: AzEl) -> Vec<Clearance> {
-        let each = self.each(direction);
+        let each = self.each(self.aim_at(direction));
         each.map(|(barrier, angle, warns_only)| Clearance {
             barrier: barrier.clone_of(),
             angle,
@@ -271,20 +195,17 @@ impl BoundsAt<'_> {
         .collect()
     }
 
-    /// The nearest barrier that refuses motion; `None` if there is none.
+    /// The nearest barrier that refuses motion, of axes that count `direction`; `None` if there is
+    /// none.
     pub fn nearest(&self, direction: AzEl) -> Option<Clearance> {
-        let (barrier, angle) = self.nearest_of(direction)?;
+        let (barrier, angle) = self.nearest_among(self.aim_at(direction), None)?;
         Some(Clearance { barrier: barrier.clone_of(), angle, warns_only: false })
     }
 
-    fn nearest_of(&self, direction: AzEl) -> Option<(Named<'_>, Angle)> {
-        self.nearest_among(direction, None)
-    }
-
     /// Returns the nearest barrier: that at `index`, or of all that refuse motion if it is `None`.
-    fn nearest_among(&self, direction: AzEl, index: Option<usize>) -> Option<(Named<'_>, Angle)> {
+    fn nearest_among(&self, aim: Aim, index: Option<usize>) -> Option<(Named<'_>, Angle)> {
         let mut nearest: Option<(Named<'_>, Angle)> = None;
-        for (at, barrier) in self.barriers(direction).enumerate() {
+        for (at, barrier) in self.barriers(aim).enumerate() {
             if !index.map_or(!barrier.warns_only, |index| at == index) {
                 continue;
             }
@@ -300,9 +221,10 @@ impl BoundsAt<'_> {
         nearest
     }
 
-    /// The keep-out or the surroundings of the Sun that `direction` is in.
+    /// The keep-out or the surroundings of the Sun that the antenna is in with axes that count
+    /// `direction`.
     pub fn forbids(&self, direction: AzEl) -> Option<Barrier> {
-        let entered = self.barriers(direction).filter_map(|barrier| {
+        let entered = self.barriers(self.aim_at(direction)).filter_map(|barrier| {
             let angle = barrier.angle_below(Angle::ZERO).filter(|_| !barrier.warns_only)?;
             let barrier = barrier.name.clone_of();
             Some(Clearance { barrier, angle, warns_only: false })
@@ -310,7 +232,7 @@ impl BoundsAt<'_> {
         deepest(entered.collect())
     }
 
-    /// The keep-out, or the surroundings of the Sun, that `place` may be inside.
+    /// The keep-out, or the surroundings of the Sun, that the antenna may be in within `place`.
     pub fn may_forbid(&self, place: Sweep) -> Option<Barrier> {
         deepest(self.least_clearances(place))
     }
@@ -328,11 +250,22 @@ impl BoundsAt<'_> {
         Self { minimum_elevation, ..self }
     }
 
-    /// The same barriers on the sky, for axes that point elsewhere by `to_sky`. The minimum
-    /// elevation is left out: it holds for the axes.
+    /// The same bounds for a beam that is elsewhere by `to_sky`, if it is given, than the model has
+    /// it.
     #[must_use]
-    pub fn on_the_sky(self, to_sky: DQuat) -> Self {
-        Self { to_sky: Some(to_sky), ..self.above_the_floor() }
+    pub fn turned_by(self, to_sky: Option<DQuat>) -> Self {
+        Self { to_sky, ..self }
+    }
+
+    /// The same bounds for a direction that is the one on the sky.
+    #[must_use]
+    pub fn without_model(self) -> Self {
+        Self { model: None, ..self }
+    }
+
+    /// Largest angle by which the beam turns for each degree of an axis.
+    pub(super) fn max_beam_turn(&self) -> f64 {
+        self.model.map_or(1.0, |model| model.max_beam_turn())
     }
 
     /// The bounds without the barriers that the axes may be inside of.
@@ -390,26 +323,35 @@ impl BoundsAt<'_> {
     fn blocks_from(&self, sweep: Sweep, index: Option<usize>) -> Option<(Barrier, AzEl)> {
         let mut open = vec![sweep];
         while let Some(sweep) = open.pop() {
-            let direction = self.bounds.direction(sweep.middle());
-            let radius_deg = sweep.radius_deg();
-            let (barrier, angle) = self.nearest_among(direction, index)?;
+            let aim = self.aim(sweep.middle());
+            let radius_deg = sweep.radius_deg() * self.max_beam_turn();
+            let (barrier, angle) = self.nearest_among(aim, index)?;
             // Positions on the edge are free, even where the edge is a whole side of the sweep.
             let clear_deg = angle.degrees() + FINEST_DEG;
             if clear_deg >= radius_deg {
                 continue;
             }
             if clear_deg < 0.0 || radius_deg < FINEST_DEG / 100.0 {
-                return Some((barrier.clone_of(), direction));
+                let is_nearest = |at: &AzEl| {
+                    let only = Aim { axes: *at, sky: None };
+                    self.nearest_among(only, index).is_some_and(|(_, own)| own <= angle)
+                };
+                let at = aim.each().find(is_nearest).unwrap_or(aim.axes);
+                return Some((barrier.clone_of(), at));
             }
             open.extend(sweep.halves());
         }
         None
     }
 
-    /// Returns `true` if `direction` is `room_deg` outside every barrier that refuses motion. The
-    /// minimum elevation needs no room.
-    pub(super) fn has_room(&self, direction: AzEl, room_deg: f64) -> bool {
-        self.barriers(direction).all(|barrier| {
+    /// Returns `true` if the antenna, with its axes at `axes_deg`, is `room_deg` outside every barrier
+    /// that refuses motion. The minimum elevation needs no room.
+    pub(super) fn has_room(&self, axes_deg: [f64; 2], room_deg: f64) -> bool {
+        self.has_room_at(self.aim(axes_deg), room_deg)
+    }
+
+    fn has_room_at(&self, aim: Aim, room_deg: f64) -> bool {
+        self.barriers(aim).all(|barrier| {
             let room_deg = match barrier.name {
                 Named::MinimumElevation => -FINEST_DEG,
                 Named::KeepOut(_) | Named::Sun => room_deg,
@@ -420,28 +362,26 @@ impl BoundsAt<'_> {
 
     /// As [`Self::each`], with the least clearance among the positions in `place`, from samples.
     fn each_in(&self, place: Sweep) -> Vec<(Named<'_>, Angle, bool)> {
-        let mut samples = place.samples().map(|sample| self.bounds.direction(sample));
+        let mut samples = place.samples().map(|sample| self.aim(sample));
         let mut least: Vec<_> = samples.next().into_iter().flat_map(|at| self.each(at)).collect();
-        for direction in samples {
-            for ((_, least, _), barrier) in least.iter_mut().zip(self.barriers(direction)) {
+        for aim in samples {
+            for ((_, least, _), barrier) in least.iter_mut().zip(self.barriers(aim)) {
                 *least = barrier.angle_below(*least).unwrap_or(*least);
             }
         }
         least
     }
 
-    fn each(&self, direction: AzEl) -> impl Iterator<Item = (Named<'_>, Angle, bool)> {
-        self.barriers(direction).map(|barrier| (barrier.name, barrier.angle(), barrier.warns_only))
+    fn each(&self, aim: Aim) -> impl Iterator<Item = (Named<'_>, Angle, bool)> {
+        self.barriers(aim).map(|barrier| (barrier.name, barrier.angle(), barrier.warns_only))
     }
 
-    fn barriers(&self, direction: AzEl) -> impl Iterator<Item = Near<'_>> {
-        let on_sky = |to_sky: DQuat| AzEl::from_enu(to_sky * direction.to_enu());
-        let direction = self.to_sky.map_or(direction, on_sky);
-        let at = direction.to_enu();
+    fn barriers(&self, aim: Aim) -> impl Iterator<Item = Near<'_>> {
+        let at = aim.to_enu();
         let floor = self.minimum_elevation.map(|minimum| Near {
             name: Named::MinimumElevation,
             warns_only: false,
-            angle: Clear::Known(direction.elevation - minimum),
+            angle: Clear::Known(aim.axes.elevation - minimum),
         });
         let zones = self.bounds.keep_outs.iter().map(move |(zone, margin)| Near {
             name: Named::KeepOut(&zone.name),
@@ -456,52 +396,16 @@ impl BoundsAt<'_> {
         floor.into_iter().chain(zones).chain(sun)
     }
 
-    fn sun_clearance(&self, at: DVec3) -> Option<Angle> {
+    fn sun_clearance(&self, at: Towards) -> Option<Angle> {
         let sun = self.bounds.sun.filter(|_| !self.suns.is_empty())?;
-        let chord_squared =
-            self.suns.iter().map(|sun| sun.distance_squared(at)).fold(4.0, f64::min);
-        // The chord stays precise near zero, where the cosine does not.
-        let separation = Angle::from_radians(2.0 * (chord_squared.sqrt() / 2.0).asin());
+        let separation = at.least(|at| {
+            let chord_squared =
+                self.suns.iter().map(|sun| sun.distance_squared(at)).fold(4.0, f64::min);
+            // The chord stays precise near zero, where the cosine does not.
+            Angle::from_radians(2.0 * (chord_squared.sqrt() / 2.0).asin())
+        });
         let radius = Angle::from_degrees(sun::around_each_deg(sun));
         Some(separation - radius)
-    }
-}
-
-/// A barrier, and how near it is to a direction.
-struct Near<'a> {
-    name: Named<'a>,
-    warns_only: bool,
-    angle: Clear<'a>,
-}
-
-/// The clearance from a barrier. That from a zone costs time, so it is computed on demand.
-enum Clear<'a> {
-    Known(Angle),
-    OfZone { zone: &'a Zone, margin: Angle, at: DVec3 },
-}
-
-impl Near<'_> {
-    fn angle(&self) -> Angle {
-        match self.angle {
-            Clear::Known(angle) => angle,
-            Clear::OfZone { zone, margin, at } => zone.clearance_of(at) - margin,
-        }
-    }
-
-    /// The clearance; where that is clearly no less than `limit`, an angle from `limit` up to it.
-    fn angle_unless_from(&self, limit: Angle) -> Angle {
-        if let Clear::OfZone { zone, margin, at } = self.angle {
-            let at_least = zone.clearance_is_at_least(at) - margin;
-            if at_least >= limit {
-                return at_least;
-            }
-        }
-        self.angle()
-    }
-
-    /// The clearance if it is less than `limit`.
-    fn angle_below(&self, limit: Angle) -> Option<Angle> {
-        Some(self.angle_unless_from(limit)).filter(|angle| *angle < limit)
     }
 }
 
@@ -511,24 +415,6 @@ fn deepest(clearances: Vec<Clearance>) -> Option<Barrier> {
         !it.warns_only && it.angle < Angle::ZERO && it.barrier != Barrier::MinimumElevation
     });
     entered.min_by(|a, b| a.angle.degrees().total_cmp(&b.angle.degrees())).map(|it| it.barrier)
-}
-
-/// A barrier with a borrowed name.
-#[derive(Debug, Clone, Copy)]
-enum Named<'a> {
-    MinimumElevation,
-    KeepOut(&'a str),
-    Sun,
-}
-
-impl Named<'_> {
-    fn clone_of(self) -> Barrier {
-        match self {
-            Self::MinimumElevation => Barrier::MinimumElevation,
-            Self::KeepOut(name) => Barrier::KeepOut(name.into()),
-            Self::Sun => Barrier::Sun,
-        }
-    }
 }
 
 #[cfg(test)]

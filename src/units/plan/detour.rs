@@ -65,7 +65,9 @@ pub fn between(
     to_deg: [f64; 2],
     at: Timestamp,
 ) -> Option<Vec<[f64; 2]>> {
-    let search = Search { bounds, now: bounds.at(at), limits, from_deg, to_deg };
+    let now = bounds.at(at);
+    let room_deg = limits.room_deg * now.max_beam_turn();
+    let search = Search { now, limits, room_deg, from_deg, to_deg };
     let way = search.way()?;
     Some(search.pulled_straight(&way))
 }
@@ -87,9 +89,10 @@ pub fn in_steps(turns_deg: &[[f64; 2]], step_deg: f64) -> Vec<[f64; 2]> {
 }
 
 struct Search<'a> {
-    bounds: &'a Bounds,
     now: BoundsAt<'a>,
     limits: &'a AxisLimits,
+    /// Distance from all margins, degrees, also of a beam that turns by more than the axes.
+    room_deg: f64,
     from_deg: [f64; 2],
     to_deg: [f64; 2],
 }
@@ -101,7 +104,7 @@ impl Search<'_> {
     }
 
     fn is_free(&self, axes_deg: [f64; 2], room_deg: f64) -> bool {
-        self.limits.holds(axes_deg) && self.now.has_room(self.bounds.direction(axes_deg), room_deg)
+        self.limits.holds(axes_deg) && self.now.has_room(axes_deg, room_deg)
     }
 
     /// In microseconds, because integers are ordered.
@@ -111,7 +114,7 @@ impl Search<'_> {
     }
 
     fn way(&self) -> Option<Vec<[f64; 2]>> {
-        let room_deg = self.limits.room_deg;
+        let room_deg = self.room_deg;
         // Both ends may touch the edge of the room.
         let ends = [self.from_deg, self.to_deg];
         if !ends.into_iter().all(|end| self.is_free(end, room_deg - CELL_DEG / 2.0)) {
@@ -181,7 +184,7 @@ impl Search<'_> {
 
     fn is_straight(&self, from_deg: [f64; 2], to_deg: [f64; 2]) -> bool {
         let places = in_steps(&[from_deg, to_deg], CELL_DEG / 2.0);
-        let room_deg = self.limits.room_deg - CELL_DEG / 2.0;
+        let room_deg = self.room_deg - CELL_DEG / 2.0;
         places.into_iter().all(|place| self.is_free(place, room_deg))
     }
 }

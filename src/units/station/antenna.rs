@@ -51,7 +51,7 @@ pub struct Antenna {
     pub poll: PollRates,
     /// Settings for program track.
     pub follow: TrackSettings,
-    /// Pointing model of an az/el mount, for program track.
+    /// Pointing model of an az/el mount, for program track and for the bounds.
     #[serde(skip_serializing_if = "PointingModel::is_none")]
     pub pointing_model: PointingModel,
     /// Reaction of the monitor when somebody else drives the antenna into a forbidden
@@ -135,7 +135,7 @@ impl Antenna {
         self.mount.within([None, Some(ends_deg)])
     }
 
-    /// The pointing model that program track applies.
+    /// The pointing model that program track and the bounds apply.
     pub fn track_model(&self) -> PointingModel {
         match self.mount {
             Mount::AzEl { .. } if self.connection.variant().capabilities.has_elevation() => {

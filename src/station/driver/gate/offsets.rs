@@ -25,9 +25,15 @@ pub(in crate::driver) struct Demand {
 }
 
 impl Gate {
-    /// From where the axes of an antenna in program track point to where that is on the sky.
+    /// From where the pointing model has the beam of an antenna that tracks to where it is on the
+    /// sky, if offsets of its axes are on.
     pub(in crate::driver) fn to_sky(&self) -> Option<DQuat> {
         self.to_sky
+    }
+
+    /// [`Self::to_sky`] of a motion with this intent: only a track has offsets.
+    pub(super) fn to_sky_in(&self, intent: Intent) -> Option<DQuat> {
+        self.to_sky.filter(|_| intent == Intent::Track)
     }
 
     /// Returns `true` if the antenna can point there.
@@ -50,9 +56,10 @@ impl Gate {
         now: Moment,
     ) -> Result<(), Refusal> {
         let Demand { at, axes, sky, plain } = demand;
-        let bounds = self.bounds_in(Intent::Track);
+        // The demand names both directions.
+        let bounds = self.bounds_in(Intent::Track).at(at).without_model();
         for direction in [axes, sky] {
-            if let Some(barrier) = bounds.at(at).forbids(direction) {
+            if let Some(barrier) = bounds.forbids(direction) {
                 return Err(Refusal::Forbidden { barrier, at: direction });
             }
         }

@@ -3,6 +3,7 @@
 mod any;
 mod each_rule;
 mod makes;
+mod pointing;
 
 use std::{
     sync::{Arc, LazyLock, Mutex},

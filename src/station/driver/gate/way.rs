@@ -8,7 +8,7 @@ use crate::{
         panel::{Act, Lead},
     },
     plan::{
-        Barrier, BoundsAt,
+        Barrier, Bounds, BoundsAt,
         detour::{self, AxisLimits},
         on_board::ALONG_DEG,
     },
@@ -62,7 +62,6 @@ fn to_position(
     let start = intervals.sweep();
     let end = target(azimuth, elevation, start, situation).ok_or(Refusal::PositionUnknown)?;
     for sweep in ways_round(azimuth, start.with(end), situation).into_iter().flatten() {
-        on_the_sky(sweep, start, situation)?;
         away_from_the_sun(sweep, intervals, end, situation)
             .unwrap_or_else(|| blocked(sweep, start, &situation.bounds_now()))?;
     }
@@ -95,7 +94,12 @@ fn ways_round(
 
 impl Situation<'_> {
     fn bounds_now(&self) -> BoundsAt<'_> {
-        self.bounds.at(self.now.utc)
+        self.at_present(self.bounds)
+    }
+
+    /// These bounds at present, with the offsets of the axes.
+    fn at_present<'b>(&self, bounds: &'b Bounds) -> BoundsAt<'b> {
+        bounds.at(self.now.utc).turned_by(self.to_sky)
     }
 
     /// The rates at which the axes really turn in a jog: a controller with named speeds has no
@@ -110,13 +114,6 @@ impl Situation<'_> {
     }
 }
 
-/// Refuses a way of the axes during which the antenna may point into a barrier on the sky, if its
-/// axes point elsewhere than they count.
-fn on_the_sky(sweep: Sweep, start: Sweep, situation: &Situation<'_>) -> Result<(), Refusal> {
-    let Some(to_sky) = situation.to_sky else { return Ok(()) };
-    blocked(sweep, start, &situation.bounds_now().on_the_sky(to_sky))
-}
-
 /// The operator may leave the surroundings of the Sun by a go-to that comes no nearer to it
 /// and ends outside. `None` where the motion does not start there.
 fn away_from_the_sun(
@@ -125,12 +122,12 @@ fn away_from_the_sun(
     end: Sweep,
     situation: &Situation<'_>,
 ) -> Option<Result<(), Refusal>> {
-    let (bounds, utc) = (situation.bounds, situation.now.utc);
     let is_sent = matches!(situation.intent, Intent::Position | Intent::Park);
-    let leaving = bounds
-        .away_from_the_sun(bounds.direction(start.angles_deg()?), utc)
-        .filter(|_| is_sent && bounds.at(utc).may_forbid(end).is_none())?;
-    Some(blocked(sweep, start.sweep(), &leaving.at(utc)))
+    let leaving = situation
+        .bounds
+        .away_from_the_sun(start.angles_deg()?, situation.now.utc)
+        .filter(|_| is_sent && situation.bounds_now().may_forbid(end).is_none())?;
+    Some(blocked(sweep, start.sweep(), &situation.at_present(&leaving)))
 }
 
 /// A motion by hand whose end may not be known: the operator holds it.
@@ -156,7 +153,7 @@ fn by_hand(
         return blocked(sweep, start, &bounds_now);
     };
     let outside_of = bounds_now.without_entered(start);
-    blocked(sweep, start, &outside_of.at(situation.now.utc))?;
+    blocked(sweep, start, &situation.at_present(&outside_of))?;
     let is_left = if situation.can.has_elevation() {
         is_left_on_the_way(start, ahead_deg, &bounds_now)
     } else {
@@ -215,7 +212,7 @@ fn by_hand_unseen(
         return Err(Refusal::Forbidden { barrier: Barrier::MinimumElevation, at });
     }
     let outside_of = bounds_now.without_entered(start);
-    blocked(sweep, start, &outside_of.at(situation.now.utc))?;
+    blocked(sweep, start, &situation.at_present(&outside_of))?;
     let axis = intervals.unknown().and_then(|axis| situation.can.axes.get(axis));
     let refusal = Refusal::Unchecked { axis: axis.copied().unwrap_or_default(), barrier };
     slowly_by_permission(rates_deg_s, refusal, situation)
@@ -333,10 +330,11 @@ impl Gate {
         let Some((from_deg, to_deg)) = self.ends(motion, now) else { return Err(refusal) };
         let corners_deg = [[to_deg[0], from_deg[1]], [from_deg[0], to_deg[1]]];
         let bounds = self.bounds_in(intent);
+        let bounds_now = bounds.at(now.utc).turned_by(self.to_sky_in(intent));
         for corner_deg in corners_deg {
             let first = self.to_axes(corner_deg);
             let second = Sweep::between(corner_deg, to_deg);
-            let is_free = bounds.at(now.utc).blocks(second, Sweep::at(corner_deg)).is_none()
+            let is_free = bounds_now.blocks(second, Sweep::at(corner_deg)).is_none()
                 && self.check(first, intent, now).is_ok();
             if is_free {
                 return Ok(Route { first, then: Some(motion) });

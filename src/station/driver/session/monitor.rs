@@ -80,17 +80,12 @@ impl Session {
         let is_moving = rates.iter().any(|rate| rate.abs() > SLOWEST_DEG_S) || turns_unseen;
         let ahead_s = self.gate.ahead_s(now);
         let there = self.reached(intervals, rates, turns_unseen, ahead_s);
-        let bounds = self.bounds_now().at(now.utc);
-        let on_sky = self.gate.to_sky().map(|to_sky| bounds.clone().on_the_sky(to_sky));
-        let [from, to] = [here, there].map(|place| {
-            let by_axes = bounds.least_clearances(place);
-            let on_sky = on_sky.as_ref().map(|bounds| bounds.least_clearances(place));
-            lesser(by_axes, &on_sky.unwrap_or_default())
-        });
+        let bounds = self.bounds_now().at(now.utc).turned_by(self.gate.to_sky());
+        let [from, to] = [here, there].map(|place| bounds.least_clearances(place));
         let is_known = intervals.unknown().is_none();
         // An unknown angle is inside a barrier only if it is so wherever the axis may be.
         let surely = (!is_known).then(|| bounds.holds_all_of(here));
-        let way_deg = |place| bounds.way_out_deg(place).filter(|_| on_sky.is_none() && is_known);
+        let way_deg = |place| bounds.way_out_deg(place).filter(|_| is_known);
         let ways_deg = [here, there].map(way_deg);
         for (index, (from, to)) in from.into_iter().zip(to).enumerate() {
             // Where no axis leads out by itself, the depth inside each barrier counts.
@@ -241,17 +236,6 @@ impl Session {
             Mover::Somebody
         }
     }
-}
-
-/// The clearance from each barrier by the axes, or on the sky where that is less.
-fn lesser(mut by_axes: Vec<Clearance>, on_sky: &[Clearance]) -> Vec<Clearance> {
-    for clearance in &mut by_axes {
-        let other = on_sky.iter().find(|other| other.barrier == clearance.barrier);
-        if let Some(other) = other.filter(|other| other.angle < clearance.angle) {
-            clearance.angle = other.angle;
-        }
-    }
-    by_axes
 }
 
 /// Rates of the axes, degrees a second; zero between positions that cannot be compared.

@@ -27,20 +27,25 @@ impl Bounds {
     }
 
     /// The bounds for a way out of the surroundings of the Sun that leads no nearer to the Sun than
-    /// `start`; `None` if `start` is outside.
-    pub fn away_from_the_sun(&self, start: AzEl, at: Timestamp) -> Option<Self> {
+    /// the antenna is with its axes at `start_deg`; `None` if it is outside. Of its directions by
+    /// the axes and on the sky, the one nearer to the Sun counts.
+    pub fn away_from_the_sun(&self, start_deg: [f64; 2], at: Timestamp) -> Option<Self> {
         let sun = self.sun?;
-        let separations = self.suns(at).into_iter().map(|sun| start.separation(sun).degrees());
+        let suns = self.suns(at);
+        let separations = self
+            .aim(start_deg)
+            .each()
+            .flat_map(|start| suns.iter().map(move |sun| start.separation(*sun).degrees()));
         let nearest_deg = separations.min_by(f64::total_cmp)?;
         let is_inside = nearest_deg < around_each_deg(sun);
         let radius_deg = nearest_deg - (around_each_deg(sun) - sun.radius_deg);
         is_inside.then(|| Self { sun: Some(SunAvoidance { radius_deg, ..sun }), ..self.clone() })
     }
 
-    /// Returns `true` if `direction` is clear of all barriers, and of the Sun throughout
-    /// the time ahead.
+    /// Returns `true` if an antenna with axes that count `direction` is clear of all barriers, and of
+    /// the Sun throughout the time ahead.
     pub fn stays_clear(&self, direction: AzEl, at: Timestamp) -> bool {
-        self.now_and_later(at).iter().all(|bounds| bounds.has_room(direction, 0.0))
+        are_clear(&self.now_and_later(at), direction)
     }
 
     fn now_and_later(&self, at: Timestamp) -> Vec<BoundsAt<'_>> {
@@ -49,7 +54,7 @@ impl Bounds {
         std::iter::once(at).chain(later).map(|at| self.at(at)).collect()
     }
 
-    /// Directions that stay clear, the nearest to `from` first.
+    /// Directions of the axes that stay clear, the nearest to `from` first.
     pub fn refuges(&self, from: AzEl, at: Timestamp) -> impl Iterator<Item = AzEl> + '_ {
         let furthest_deg = self.sun.map_or(0.0, |sun| 2.0 * sun.radius_deg + BEYOND_DEG);
         let rings = (1..).map(f64::from).take_while(move |ring| ring * RING_DEG <= furthest_deg);
@@ -58,7 +63,7 @@ impl Bounds {
             bearings.map(move |bearing_deg| from.towards(bearing_deg, ring * RING_DEG))
         });
         let all = self.now_and_later(at);
-        around.filter(move |direction| all.iter().all(|bounds| bounds.has_room(*direction, 0.0)))
+        around.filter(move |direction| are_clear(&all, *direction))
     }
 
     /// Directions of the Sun from `at` to the end of the time ahead.
@@ -71,6 +76,10 @@ impl Bounds {
             .map(|at| sun_moon::sun(self.site, at))
             .collect()
     }
+}
+
+fn are_clear(all: &[BoundsAt<'_>], direction: AzEl) -> bool {
+    all.iter().all(|bounds| bounds.has_room_at(bounds.aim_at(direction), 0.0))
 }
 
 fn seconds(seconds: f64) -> SignedDuration {
@@ -135,7 +144,10 @@ mod tests {
                 let sun = sun_moon::sun(station.site, later);
                 for bearing_deg in [0.0, 45.0, 90.0, 180.0, 300.0] {
                     let beside = sun.towards(bearing_deg, radius_deg * 0.999);
-                    assert!(!bounds.has_room(beside, 0.0), "{radius_deg} {second} {bearing_deg}");
+                    assert!(
+                        !are_clear(std::slice::from_ref(&bounds), beside),
+                        "{radius_deg} {second} {bearing_deg}"
+                    );
                 }
             }
         }

@@ -4,7 +4,7 @@
 //! barrier lies behind it. Depth is therefore measured along what an axis can really do: turn one
 //! way until the antenna points in an allowed direction.
 
-use super::{Bounds, BoundsAt, Named, Sweep};
+use super::{AzEl, Bounds, BoundsAt, Named, Sweep};
 use crate::{astro::Angle, station::Mount};
 
 /// Finest step along a turn, degrees.
@@ -99,13 +99,16 @@ impl BoundsAt<'_> {
             if axis == 0 { (first, axes_deg[0]) } else { (second, axes_deg[1]) };
         let end_deg = if way > 0.0 { to_deg - at_deg } else { at_deg - from_deg };
         let stretched = Turn::turned(place, axis, STRETCH_DEG);
-        let [here, on] = [place, stretched].map(|at| self.bounds.direction(at.middle()));
+        let [here, on] = [place, stretched].map(|at| self.aim(at.middle()));
+        let speed = |here: AzEl, on: AzEl| here.separation(on).degrees() / STRETCH_DEG;
+        let fastest = here.each().zip(on.each()).map(|(here, on)| speed(here, on));
         Turn {
             start: place,
             axis,
             way,
             end_deg: end_deg.min(FURTHEST_DEG),
-            speed: here.separation(on).degrees() / STRETCH_DEG,
+            speed: speed(here.axes, on.axes),
+            max_speed: fastest.fold(0.0, f64::max) * self.max_beam_turn(),
             keeps_elevation: axis == 0 && matches!(mount, Mount::AzEl { .. }),
         }
     }
@@ -114,7 +117,7 @@ impl BoundsAt<'_> {
         let place = Turn::turned(turn.start, turn.axis, turn.way * turn_deg);
         let (mut deepest_deg, mut room_deg) = (0.0, f64::INFINITY);
         for sample in place.samples() {
-            let each = self.barriers(self.bounds.direction(sample)).zip(left);
+            let each = self.barriers(self.aim(sample)).zip(left);
             for (barrier, is_left) in each.filter(|(barrier, _)| !barrier.warns_only) {
                 // A turn that keeps the elevation never reaches the edge of the minimum elevation.
                 let is_level =
@@ -145,8 +148,10 @@ struct Turn {
     way: f64,
     /// Largest turn within the travel; an axis beyond its opposite end may come back.
     end_deg: f64,
-    /// Degrees of the sky per degree of the axis, constant throughout the turn.
+    /// Degrees by the axes per degree of the axis, constant throughout the turn.
     speed: f64,
+    /// The same for the faster of the axes and the beam, throughout the turn.
+    max_speed: f64,
     keeps_elevation: bool,
 }
 
@@ -169,7 +174,7 @@ impl Turn {
                 Spot::Inside(_) if turn_deg >= last_deg => return None,
                 Spot::Inside(step_deg) => {
                     inside_deg = turn_deg;
-                    let step_deg = (step_deg / self.speed).max(STEP_DEG);
+                    let step_deg = (step_deg / self.max_speed).max(STEP_DEG);
                     // The edge may lie just before the end of the travel.
                     turn_deg = f64::min(turn_deg + step_deg, last_deg);
                 }

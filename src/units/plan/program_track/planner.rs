@@ -109,15 +109,16 @@ impl Planner {
         self.course.on_the_sky(at, offsets)
     }
 
-    /// From where the axes point with these offsets at `at` to where that is on the sky, if the
-    /// offsets of the axes and the pointing model make up for errors of the mount; `None` without
-    /// such offsets and without a model.
+    /// From where the pointing model has the beam with these offsets at `at` to where that is on the
+    /// sky, if the offsets of the axes make up for further errors of the mount; `None` without such
+    /// offsets.
     pub fn to_sky(&self, at: Timestamp, offsets: TrackOffsets) -> Option<DQuat> {
-        if !self.course.reads_otherwise(offsets) {
+        if offsets.on_the_sky() == offsets {
             return None;
         }
-        let (axes, sky) = (self.demanded(at, offsets)?, self.on_the_sky(at, offsets)?);
-        Some(DQuat::from_rotation_arc(axes.to_enu(), sky.to_enu()))
+        let beam = self.course.beam(self.demanded(at, offsets)?);
+        let sky = self.on_the_sky(at, offsets)?;
+        Some(DQuat::from_rotation_arc(beam.to_enu(), sky.to_enu()))
     }
 
     /// What the axes have to read at `at`, offsets included, unless it is below the minimum elevation

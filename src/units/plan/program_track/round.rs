@@ -32,9 +32,8 @@ pub(super) fn round(
     bounds: &Bounds,
 ) -> [Vec<f64>; 2] {
     let places_deg = || axes_deg[0].iter().zip(&axes_deg[1]).map(|(a, b)| [*a, *b]);
-    let is_behind: Vec<bool> = places_deg()
-        .map(|axes_deg| bounds.is_gone_round(bounds.direction(axes_deg), limits.room_deg))
-        .collect();
+    let is_behind: Vec<bool> =
+        places_deg().map(|axes_deg| bounds.is_gone_round(axes_deg, limits.room_deg)).collect();
     if !is_behind.contains(&true) {
         return axes_deg;
     }
@@ -43,7 +42,7 @@ pub(super) fn round(
     if let (Some(true), [Some(first), Some(second)]) = (is_behind.first(), start.axes_deg) {
         // The axes may already be in the middle of a detour; before a pass they wait at its end.
         let stands = [first, second];
-        let is_outside = !bounds.is_gone_round(bounds.direction(stands), 0.0);
+        let is_outside = !bounds.is_gone_round(stands, 0.0);
         if start.lead_s <= 0.0 && is_outside {
             line.begin(stands);
         }

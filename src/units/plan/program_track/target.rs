@@ -107,9 +107,9 @@ impl Course {
         offsets.on_the_sky().demanded(at, |at| self.direction(at))
     }
 
-    /// Returns `true` if the axes do not read where that is on the sky.
-    pub fn reads_otherwise(&self, offsets: TrackOffsets) -> bool {
-        !self.model.is_none() || offsets.on_the_sky() != offsets
+    /// Direction of the beam by the pointing model when the axes read `reading`.
+    pub fn beam(&self, reading: AzEl) -> AzEl {
+        self.model.direction(reading)
     }
 }
 

@@ -3,6 +3,8 @@
 
 mod travel;
 
+use std::borrow::Cow;
+
 use jiff::Timestamp;
 
 use super::{
@@ -10,7 +12,7 @@ use super::{
     way::{Impossible, Lost, Span, Verdict, Way, at_ms, ms},
 };
 use crate::{
-    astro::{Angle, AzEl, time::seconds_between},
+    astro::{Angle, AzEl, PointingModel, time::seconds_between},
     device::Pointing,
     plan::{
         Barrier, Bounds, Loss, Sample, Sweep,
@@ -42,6 +44,9 @@ const CLEAR_DEG: f64 = 5.0;
 pub struct Reach {
     drives: Drives,
     bounds: Bounds,
+    /// What program track applies; `None` where the axes read what they point to, and for a unit
+    /// that follows a pass by itself.
+    model: Option<PointingModel>,
     half_beam: Angle,
     park_deg: [f64; 2],
     /// Its unit follows a pass by itself, and refuses one that leads through a keep-out.
@@ -76,6 +81,7 @@ impl Reach {
         Self {
             drives,
             bounds,
+            model: Some(antenna.track_model()).filter(|it| !it.is_none() && !can.has_program),
             half_beam: antenna.beam_width() * 0.5,
             park_deg: parked.map(|axis| axis.first().copied().unwrap_or_default()),
             on_board: can.has_program,
@@ -121,7 +127,8 @@ impl Reach {
         };
         let first = samples.iter().position(|sample| is_ahead(&sample))?;
         let last = samples.iter().rposition(|sample| is_ahead(&sample))?;
-        let list = samples.get(first..=last).unwrap_or_default().to_vec();
+        let list = samples.get(first..=last).unwrap_or_default();
+        let list: Vec<_> = list.iter().map(|sample| self.as_read(*sample)).collect();
         let [from, second, ..] = list.as_slice() else { return None };
         let step_s = seconds_between(from.time, second.time);
         let span = Span { from_ms: ms(from.time), to_ms: ms(list.last()?.time) };
@@ -134,6 +141,20 @@ impl Reach {
         way.filter(|_| entered.is_none() || !self.on_board)
     }
 
+    /// The sample as the axes read it in program track.
+    fn as_read(&self, sample: Sample) -> Sample {
+        let reading = self.model.and_then(|model| model.reading(sample.direction));
+        Sample { direction: reading.unwrap_or(sample.direction), ..sample }
+    }
+
+    fn all_as_read<'s>(&self, samples: &'s Samples) -> Cow<'s, Samples> {
+        if self.model.is_none() {
+            return Cow::Borrowed(samples);
+        }
+        let list = samples.list.iter().map(|sample| self.as_read(*sample)).collect();
+        Cow::Owned(Samples { list, ..*samples })
+    }
+
     /// How the antenna can take what is in sight.
     pub fn judge(&self, sight: &mut Sight<'_>) -> Verdict {
         let Some(span) = sight.above(self.min_elevation()) else {
@@ -143,15 +164,16 @@ impl Reach {
         if clear.is_empty() {
             return Verdict::Impossible(Impossible::Hidden);
         }
-        let coarse = sight.coarse(span);
-        if let Some(ways) = self.easy_ways(coarse, &clear) {
+        let coarse = self.all_as_read(sight.coarse(span));
+        if let Some(ways) = self.easy_ways(&coarse, &clear) {
             return Verdict::Possible(ways);
         }
-        let Some(part) = self.within_travel(coarse, span) else {
+        let Some(part) = self.within_travel(&coarse, span) else {
             let seconds = Span::total_ms(&clear) as f64 / 1000.0;
             return Verdict::Impossible(Impossible::Lost(Lost { seconds, at: Loss::OutOfReach }));
         };
-        self.ways(sight.fine(span, part), &clear)
+        drop(coarse);
+        self.ways(&self.all_as_read(sight.fine(span, part)), &clear)
     }
 
     /// The ways of a pass that the axes follow without effort; `None` for one that has to be

@@ -8,8 +8,8 @@ use crate::station::AntennaId;
 /// Settings of the whole station on which the safety of each antenna depends.
 const STATION_KEYS: [&str; 3] = ["keep_out", "sun_avoidance", "site"];
 /// Settings of an antenna on which its safety depends. Half the beam width is a part of the margin of
-/// each keep-out.
-const ANTENNA_KEYS: [&str; 3] = ["limits", "mount", "beam_width_deg"];
+/// each keep-out, and the pointing model decides where the beam is.
+const ANTENNA_KEYS: [&str; 4] = ["limits", "mount", "beam_width_deg", "pointing_model"];
 
 /// Fields of these settings that do not affect safety: texts, and an unknown antenna of a keep-out,
 /// which then holds for all.
@@ -107,6 +107,23 @@ fn differs_within(written: &[char], key: &[char], max: usize) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn an_unread_pointing_model_concerns_its_antenna() {
+        let id = AntennaId::FIRST;
+        let antennas = [("antenna[0].".to_owned(), id)];
+        let invalid = NoteReason::Invalid("must be a number".to_owned());
+        for (place, reason) in [
+            ("antenna[0].pointing_model", invalid.clone()),
+            ("antenna[0].pointing_model.sag_deg", invalid),
+            ("antenna[0].pointing_model.tilt_deg", NoteReason::Unknown),
+            ("antenna[0].pointing_modell", NoteReason::Unknown),
+        ] {
+            let note = Note { place: place.to_owned(), line: None, reason };
+            let unread = Unread { place: place.to_owned(), antenna: Some(id) };
+            assert_eq!(safety_entries(&[note], &antennas), [unread]);
+        }
+    }
 
     #[test]
     fn a_name_with_a_typing_error_is_known_and_other_names_are_not() {

@@ -19,7 +19,7 @@ use crate::{
 pub(in crate::driver::session) struct TrackConfig {
     pub(super) drives: Drives,
     pub(super) settings: station::TrackSettings,
-    pub(super) model: PointingModel,
+    pub(in crate::driver::session) model: PointingModel,
 }
 
 impl TrackConfig {

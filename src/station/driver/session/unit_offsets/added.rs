@@ -49,13 +49,14 @@ impl Session {
         self.gate.state().on_board.without(self.meant_offsets())
     }
 
-    /// From where the unit points to where that is on the sky, if what was added makes up for
-    /// errors of the mount.
+    /// From where the pointing model has the beam of the unit to where it is on the sky, if what was
+    /// added makes up for errors of the mount.
     pub(in crate::driver::session) fn unit_to_sky(&self, now: Moment) -> Option<DQuat> {
         let meant = Some(self.meant_offsets()).filter(|meant| !meant.is_none())?;
         let judge = self.on_board_watch().filter(|_| self.program_is_on())?.judge();
         let axes = meant.demanded(now.utc, |at| judge.direction(at))?;
-        Some(DQuat::from_rotation_arc(axes.to_enu(), judge.direction(now.utc)?.to_enu()))
+        let beam = self.setup.track_config.model.direction(axes);
+        Some(DQuat::from_rotation_arc(beam.to_enu(), judge.direction(now.utc)?.to_enu()))
     }
 
     pub(in crate::driver::session) fn unit_offsets_view(&self) -> Option<UnitOffsetsView> {

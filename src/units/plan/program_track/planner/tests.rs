@@ -344,7 +344,6 @@ fn with_a_pointing_model_the_axes_are_sent_to_what_they_have_to_read() {
     };
     let drives = azel((0.0, 360.0), 4.0, 0.0);
     let planner = Planner::new(follow, drives, settings(1.0, 0.2), free()).unwrap();
-    assert_eq!(planner.to_sky(pass.tca.time, TrackOffsets::NONE), None);
     let mut planner = planner.with_model(model);
     let now = pass.tca.time;
     let course = Course::new(&target, site()).unwrap();
@@ -363,11 +362,16 @@ fn with_a_pointing_model_the_axes_are_sent_to_what_they_have_to_read() {
     };
     // A command leads over the time to the next look.
     assert!(off_deg(reading) < 0.3, "{} beside {reading:?}", off_deg(reading));
-    let to_sky = planner.to_sky(now, TrackOffsets::NONE).unwrap();
-    let demanded = planner.demanded(now, TrackOffsets::NONE).unwrap();
-    let sky = AzEl::from_enu(to_sky * demanded.to_enu());
-    assert!(sky.separation(course.direction(now).unwrap()).degrees() < 1e-9);
-    assert!(demanded.separation(sky).degrees() > 1.0);
+    let on_satellite = course.direction(now).unwrap();
+    let beam = model.direction(planner.demanded(now, TrackOffsets::NONE).unwrap());
+    assert!(beam.separation(on_satellite).degrees() < 1e-6);
+    assert_eq!(planner.to_sky(now, TrackOffsets::NONE), None, "the model alone tells it");
+    let step = Offset::Azimuth(Angle::from_degrees(2.0));
+    let aside = TrackOffsets::NONE.plus(step).unwrap();
+    let beam = model.direction(planner.demanded(now, aside).unwrap());
+    let sky = AzEl::from_enu(planner.to_sky(now, aside).unwrap() * beam.to_enu());
+    assert!(sky.separation(on_satellite).degrees() < 1e-6);
+    assert!(beam.separation(sky).degrees() > 1.0);
 }
 
 #[test]

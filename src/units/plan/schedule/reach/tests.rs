@@ -196,6 +196,51 @@ fn with_keep_outs_or_the_sun_few_samples_decide_nothing() {
     assert!(judged.iter().all(|count| *count > 10) && entered > 10, "{judged:?} {entered}");
 }
 
+/// The gate judges both directions too, so it refuses no planned way for the model.
+#[test]
+fn with_a_pointing_model_a_way_has_the_beam_on_the_satellite_and_both_directions_outside() {
+    let (mut looks, mut random) = ([0; 3], Random::new(SEED + 4));
+    for case in 0..2 {
+        let mut station = any_three_antennas(&mut random);
+        add_barriers(&mut station, &mut random);
+        for antenna in &mut station.antennas {
+            antenna.pointing_model = PointingModel {
+                azimuth_offset_deg: 4.0,
+                elevation_offset_deg: -2.0,
+                tilt_north_deg: 2.0,
+                sag_deg: 1.0,
+                ..PointingModel::default()
+            };
+        }
+        each_pass(&station, &mut random, 2, |place, reach, sight| {
+            let Verdict::Possible(ways) = reach.judge(sight) else { return };
+            let what = format!("seed {}, case {case}, antenna {place}", SEED + 4);
+            let samples = sight.above(reach.min_elevation()).map(|span| sight.fine(span, span));
+            for way in ways {
+                assert_outside(reach, &way, &what);
+                let model = station.antennas[place].track_model();
+                if reach.on_board || !reach.drives.has_elevation || model.is_none() {
+                    continue;
+                }
+                for sample in samples.iter().flat_map(|samples| &samples.list) {
+                    let at = ms(sample.time);
+                    let around = Span { from_ms: at - 2_000, to_ms: at + 2_000 };
+                    if way.counted_ms(around) < around.length_ms() {
+                        continue;
+                    }
+                    let [azimuth_deg, elevation_deg] = way.axes_deg(at);
+                    let beam = model.direction(AzEl::from_degrees(azimuth_deg, elevation_deg));
+                    let off = beam.separation(sample.direction);
+                    assert!(off < reach.half_beam + Angle::from_degrees(0.3), "{what}: {off:?}");
+                    looks[place] += 1;
+                }
+            }
+        });
+    }
+    println!("seed {}: {looks:?} directions compared", SEED + 4);
+    assert!(looks.iter().filter(|count| **count > 100).count() >= 2, "{looks:?}");
+}
+
 /// What counts of a way lies in no barrier, and both ends can be reached from the park position.
 fn assert_outside(reach: &Reach, way: &Way, what: &str) {
     let Span { from_ms, to_ms } = way.span();

@@ -1,0 +1,74 @@
+//! Where an antenna points: by its axes, and on the sky.
+//!
+//! Keep-outs and the Sun apply to both directions, because the pointing model may be wrong. The
+//! minimum elevation applies to the axes alone.
+
+use glam::DVec3;
+
+use super::{Angle, AzEl, Bounds, BoundsAt};
+use crate::astro::PointingModel;
+
+/// The directions of one position of the axes.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Aim {
+    /// By the axes.
+    pub(super) axes: AzEl,
+    /// Of the beam; `None` without a pointing model and without offsets of the axes.
+    pub(super) sky: Option<AzEl>,
+}
+
+impl Aim {
+    pub(super) fn each(self) -> impl Iterator<Item = AzEl> {
+        std::iter::once(self.axes).chain(self.sky)
+    }
+
+    pub(super) fn to_enu(self) -> Towards {
+        Towards { axes: self.axes.to_enu(), sky: self.sky.map(AzEl::to_enu) }
+    }
+}
+
+/// An [`Aim`] as unit vectors.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Towards {
+    axes: DVec3,
+    sky: Option<DVec3>,
+}
+
+impl Towards {
+    /// The lesser clearance of both directions.
+    pub(super) fn least(self, clearance: impl Fn(DVec3) -> Angle) -> Angle {
+        let by_axes = clearance(self.axes);
+        self.sky.map(clearance).filter(|on_sky| *on_sky < by_axes).unwrap_or(by_axes)
+    }
+}
+
+/// Takes the angles of the axes: past the zenith, their direction has another azimuth and elevation,
+/// for which the model does not hold.
+fn on_the_sky(model: &PointingModel, [first_deg, second_deg]: [f64; 2]) -> AzEl {
+    model.direction(AzEl::from_degrees(first_deg, second_deg))
+}
+
+impl Bounds {
+    pub(super) fn aim(&self, axes_deg: [f64; 2]) -> Aim {
+        let sky = self.model.as_ref().map(|model| on_the_sky(model, axes_deg));
+        Aim { axes: self.direction(axes_deg), sky }
+    }
+}
+
+impl BoundsAt<'_> {
+    pub(super) fn aim(&self, axes_deg: [f64; 2]) -> Aim {
+        let sky = self.model.as_ref().map(|model| on_the_sky(model, axes_deg));
+        self.shifted(self.bounds.direction(axes_deg), sky)
+    }
+
+    /// The aim of axes on this side of the zenith that count `direction`.
+    pub(super) fn aim_at(&self, direction: AzEl) -> Aim {
+        self.shifted(direction, self.model.as_ref().map(|model| model.direction(direction)))
+    }
+
+    fn shifted(&self, axes: AzEl, sky: Option<AzEl>) -> Aim {
+        let Some(to_sky) = self.to_sky else { return Aim { axes, sky } };
+        let sky = to_sky * sky.unwrap_or(axes).to_enu();
+        Aim { axes, sky: Some(AzEl::from_enu(sky)) }
+    }
+}

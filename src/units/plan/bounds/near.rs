@@ -1,0 +1,60 @@
+//! Clearances from barriers, computed no further than a check needs them.
+
+use super::{Angle, Barrier, aim::Towards};
+use crate::astro::Zone;
+
+/// A barrier, and how near it is to where the antenna points.
+pub(super) struct Near<'a> {
+    pub(super) name: Named<'a>,
+    pub(super) warns_only: bool,
+    pub(super) angle: Clear<'a>,
+}
+
+/// The clearance from a barrier. That from a zone costs time, so it is computed on demand.
+pub(super) enum Clear<'a> {
+    Known(Angle),
+    OfZone { zone: &'a Zone, margin: Angle, at: Towards },
+}
+
+impl Near<'_> {
+    pub(super) fn angle(&self) -> Angle {
+        match self.angle {
+            Clear::Known(angle) => angle,
+            Clear::OfZone { zone, margin, at } => at.least(|at| zone.clearance_of(at)) - margin,
+        }
+    }
+
+    /// The clearance; where that is clearly no less than `limit`, an angle from `limit` up to it.
+    pub(super) fn angle_unless_from(&self, limit: Angle) -> Angle {
+        match self.angle {
+            Clear::Known(angle) => angle,
+            Clear::OfZone { zone, margin, at } => at.least(|at| {
+                let at_least = zone.clearance_is_at_least(at) - margin;
+                if at_least >= limit { at_least } else { zone.clearance_of(at) - margin }
+            }),
+        }
+    }
+
+    /// The clearance if it is less than `limit`.
+    pub(super) fn angle_below(&self, limit: Angle) -> Option<Angle> {
+        Some(self.angle_unless_from(limit)).filter(|angle| *angle < limit)
+    }
+}
+
+/// A barrier with a borrowed name.
+#[derive(Debug, Clone, Copy)]
+pub(super) enum Named<'a> {
+    MinimumElevation,
+    KeepOut(&'a str),
+    Sun,
+}
+
+impl Named<'_> {
+    pub(super) fn clone_of(self) -> Barrier {
+        match self {
+            Self::MinimumElevation => Barrier::MinimumElevation,
+            Self::KeepOut(name) => Barrier::KeepOut(name.into()),
+            Self::Sun => Barrier::Sun,
+        }
+    }
+}

@@ -1,0 +1,92 @@
+//! Ranges of the axes.
+
+/// Smallest distance between two positions at which a range of positions is sampled, degrees.
+const SAMPLE_DEG: f64 = 1.0;
+/// Maximum number of steps along an axis whose range alone is sampled.
+const STEPS_OF_ONE: f64 = 128.0;
+/// Maximum number of steps along each axis where both are sampled.
+const STEPS_OF_BOTH: f64 = 32.0;
+
+/// Ranges of both axes, degrees as the mount counts, each from the lower to the
+/// upper end.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Sweep(pub [(f64, f64); 2]);
+
+impl Sweep {
+    /// The ranges that both axes sweep between two positions.
+    pub fn between(from_deg: [f64; 2], to_deg: [f64; 2]) -> Self {
+        let [(a, b), (c, d)] = [(from_deg[0], to_deg[0]), (from_deg[1], to_deg[1])];
+        Self([(a.min(b), a.max(b)), (c.min(d), c.max(d))])
+    }
+
+    /// The single position `axes_deg`.
+    pub fn at(axes_deg: [f64; 2]) -> Self {
+        Self(axes_deg.map(|deg| (deg, deg)))
+    }
+
+    /// The smallest sweep that contains both.
+    #[must_use]
+    pub fn with(self, other: Self) -> Self {
+        let [(a, b), (c, d)] = self.0;
+        let [(e, f), (g, h)] = other.0;
+        Self([(a.min(e), b.max(f)), (c.min(g), d.max(h))])
+    }
+
+    /// The sweep after each axis has turned by `by_deg`.
+    #[must_use]
+    pub fn turned(self, by_deg: [f64; 2]) -> Self {
+        let [(a, b), (c, d)] = self.0;
+        Self([(a + by_deg[0], b + by_deg[0]), (c + by_deg[1], d + by_deg[1])])
+    }
+
+    pub fn middle(self) -> [f64; 2] {
+        self.0.map(|(from, to)| f64::midpoint(from, to))
+    }
+
+    pub(super) fn corners(self) -> [[f64; 2]; 4] {
+        let [(a, b), (c, d)] = self.0;
+        [[a, c], [a, d], [b, c], [b, d]]
+    }
+
+    /// Number of steps in which each axis is sampled.
+    fn steps(self) -> [f64; 2] {
+        let is_range = self.0.map(|(from, to)| from < to);
+        let most = if is_range == [true; 2] { STEPS_OF_BOTH } else { STEPS_OF_ONE };
+        self.0.map(|(from, to)| ((to - from) / SAMPLE_DEG).ceil().clamp(0.0, most))
+    }
+
+    /// Largest angle between a direction of the axes in the sweep and that of its nearest sample,
+    /// degrees.
+    pub(super) fn sampled_within_deg(self) -> f64 {
+        let widths = self.0.iter().map(|(from, to)| to - from);
+        widths.zip(self.steps()).map(|(width, steps)| width / steps.max(1.0) / 2.0).sum()
+    }
+
+    /// Evenly spaced positions, with both ends of each axis.
+    pub(super) fn samples(self) -> impl Iterator<Item = [f64; 2]> {
+        let mut steps = self.steps().into_iter();
+        let [first, second] = self.0.map(|(from, to)| {
+            let parts = steps.next().unwrap_or_default() as u32;
+            let share = f64::from(parts.max(1)).recip();
+            (0..=parts).map(move |part| (to - from).mul_add(f64::from(part) * share, from))
+        });
+        first.flat_map(move |first| second.clone().map(move |second| [first, second]))
+    }
+
+    /// Largest angle between a direction of the axes in the sweep and that of its middle, degrees.
+    pub(super) fn radius_deg(self) -> f64 {
+        self.0.iter().map(|(from, to)| (to - from) / 2.0).sum()
+    }
+
+    /// The sweep, cut in half across its longer side.
+    pub(super) fn halves(self) -> [Self; 2] {
+        let [(a, b), (c, d)] = self.0;
+        if b - a >= d - c {
+            let middle = f64::midpoint(a, b);
+            [Self([(a, middle), (c, d)]), Self([(middle, b), (c, d)])]
+        } else {
+            let middle = f64::midpoint(c, d);
+            [Self([(a, b), (c, middle)]), Self([(a, b), (middle, d)])]
+        }
+    }
+}
