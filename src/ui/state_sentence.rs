@@ -125,8 +125,8 @@ fn fault_or_limit(antenna: &AntennaModel) -> Option<Spoken> {
 fn being_judged(antenna: &AntennaModel) -> Option<Spoken> {
     antenna.snapshot.being_judged.then(|| {
         Spoken::new(SentenceKind::Commanded).plain(
-            "Being judged: Azel checks the unit's whole way against keep-outs, the Sun and the limits \
-             before it starts.",
+            "Being judged: Azel checks the whole way against keep-outs, the Sun and the limits before \
+             the antenna goes on.",
         )
     })
 }

@@ -118,3 +118,30 @@ async fn by_a_satrak_on_crossed_axes() {
     // The antenna stays above its minimum elevation of five degrees.
     assert!(off_deg < 5.5, "{off_deg}");
 }
+
+#[tokio::test(start_paused = true)]
+async fn stop_waits_for_no_path_and_ends_what_waits_for_it() {
+    let scene = sky::usual();
+    let antenna = satrak::antenna();
+    let (mut rig, control) = satrak::connected(&antenna, &scene, 120.0).await;
+    let keep_outs = vec![halfway(&scene, 1.0)];
+    let station = Station { site: sky::site(), keep_outs, ..Station::default() };
+    rig.handle().keep_within(Bounds::of(&station, &antenna));
+    let sent = |word: &str| {
+        let received = control.received().into_iter();
+        received.filter(|(_, payload)| payload.starts_with(word)).count()
+    };
+    let before = sent("STOP=");
+    rig.send(Command::ProgramTrack(Box::new(scene.follow())));
+    while !rig.shown().being_judged {
+        tokio::task::yield_now().await;
+    }
+    rig.stop();
+    while sent("STOP=") == before {
+        tokio::task::yield_now().await;
+    }
+    assert!(rig.shown().being_judged, "STOP did not wait");
+    rig.seconds(20.0).await;
+    assert!(!rig.shown().being_judged);
+    assert!(rig.shown().program_track.is_none(), "nothing is begun after STOP");
+}

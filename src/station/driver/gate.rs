@@ -4,6 +4,7 @@
 //! code can start a motion. A new rule is one more entry of [`RULES`], and one more case of
 //! the table that proves it necessary (`tests/each_rule.rs`).
 
+mod detours;
 mod intervals;
 mod judged;
 mod offsets;
@@ -30,6 +31,7 @@ use crate::{
     plan::{Bounds, Sweep, on_board::Judge},
     station::{Antenna, LockOut, MotionLimits, Mount},
 };
+pub(super) use detours::{Detour, DetourQuestion, NoRoute};
 use intervals::LastAngles;
 pub(super) use intervals::{Interval, Intervals};
 use judged::Judged;
@@ -40,6 +42,7 @@ pub(super) use program::Held;
 pub use refusal::Refusal;
 use rules::{Check, RULES, Rule};
 pub(super) use settings::Shift;
+pub(super) use way::Route;
 use word::Word;
 
 const HALF_TURN: Angle = Angle::from_degrees(180.0);
@@ -95,6 +98,8 @@ pub(super) struct Gate {
     /// What the unit would track by itself.
     held: Held,
     judged: Judged,
+    /// The last detour that was looked for.
+    detour: Option<Detour>,
     /// The operator's permissions.
     word: Word,
     /// From where the pointing model has the beam of an antenna that tracks to where it is on the sky,
@@ -122,6 +127,7 @@ impl Gate {
             program: None,
             held: Held::Unread,
             judged: Judged::default(),
+            detour: None,
             word: Word::default(),
             to_sky: None,
         }

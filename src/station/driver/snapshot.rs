@@ -28,7 +28,8 @@ pub struct Snapshot {
     pub intent: Intent,
     /// The intent is requested, but not yet proved by the unit.
     pub pending: bool,
-    /// The path of the unit's own program is being judged; the antenna waits for that.
+    /// A way is being judged: the path of the unit's own program, the path of a program track or a
+    /// detour of one. The antenna waits for that.
     #[serde(default)]
     pub being_judged: bool,
     /// After an outage, the unit has not proved yet to be as it was before.

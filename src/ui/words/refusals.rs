@@ -142,8 +142,8 @@ pub fn refusal(refusal: &Refusal, now: Timestamp) -> String {
              is not known. Load its elements, or choose another satellite."
         ),
         Refusal::Closing => "Not sent: Azel is closing. Choose to stay open first.".to_owned(),
-        Refusal::BeingJudged => "Not sent: what the unit reports changes while Azel judges where it would \
-                                 point. Try again."
+        Refusal::BeingJudged => "Not sent: what the unit reports changes while Azel judges the way. Try \
+                                 again."
             .to_owned(),
         Refusal::WindowTooLong { hours } => format!(
             "Not sent: the unit's tracking window is {} days long, and Azel checks 24 hours at most. \

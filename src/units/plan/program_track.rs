@@ -15,7 +15,7 @@ use serde::{Deserialize, Serialize};
 
 pub use axis::AxisNow;
 pub use drives::{Drives, SetPoint};
-pub use planner::{Next, Planner};
+pub use planner::{Next, PathOrder, PlannedPath, Planner};
 pub use stats::TrackStats;
 pub use target::{Course, Target};
 

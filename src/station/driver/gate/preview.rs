@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::{Gate, Moment, Motion, Refusal};
+use super::{Gate, Moment, Motion, NoRoute, Refusal};
 use crate::{astro::AzEl, device::Pointing, driver::intent::Intent};
 
 /// Distance between two points of a way, degrees of the axis that turns further.
@@ -32,7 +32,7 @@ impl Gate {
     pub(in crate::driver) fn way_to(&self, to: Pointing, now: Moment) -> Result<Way, Refusal> {
         let Pointing { azimuth, elevation } = to;
         let motion = self.nearest(Motion::Position { azimuth, elevation })?;
-        let route = self.route(motion, Intent::Position, now)?;
+        let route = self.route(motion, Intent::Position, now).map_err(NoRoute::refusal)?;
         let is_round_a_corner = route.then.is_some();
         let legs = std::iter::once(route.first).chain(route.then);
         let ends: Option<Vec<_>> = legs.map(|leg| self.ends(leg, now)).collect();

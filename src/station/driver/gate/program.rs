@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use super::{Gate, Refusal};
+use super::{Gate, NoRoute, Refusal};
 use crate::{
     astro::Angle,
     clock::Moment,
@@ -64,20 +64,23 @@ impl Gate {
         &mut self,
         judge: &Arc<Judge>,
         now: Moment,
-    ) -> Result<Option<Motion>, Refusal> {
+    ) -> Result<Option<Motion>, NoRoute> {
         let refusal = match self.check_pass(judge, now) {
             Ok(()) => return Ok(None),
             Err(refusal @ Refusal::Forbidden { .. }) => refusal,
-            Err(other) => return Err(other),
+            Err(other) => return Err(other.into()),
         };
         let Some(start) = judge.start(&self.state().on_board, now.utc) else {
-            return Err(refusal);
+            return Err(refusal.into());
         };
         let lowest = Angle::from_degrees(self.limits.minimum_elevation_deg);
         let elevation = if start.elevation < lowest { lowest } else { start.elevation };
         let to = Motion::Position { azimuth: Some(start.azimuth), elevation: Some(elevation) };
-        let route = self.nearest(to).and_then(|to| self.route(to, Intent::Track, now));
-        route.map_err(|_| refusal)?;
+        let nearest = self.nearest(to).map_err(|_| refusal.clone())?;
+        self.route(nearest, Intent::Track, now).map_err(|no_route| match no_route {
+            NoRoute::Refused(_) => refusal.into(),
+            open @ NoRoute::Open(_) => open,
+        })?;
         self.program = Some(Arc::clone(judge));
         Ok(Some(to))
     }

@@ -134,8 +134,8 @@ pub enum Refusal {
     Unguarded,
     #[error("the pass is not known")]
     PassUnknown,
-    /// The unit's own path has not been judged yet.
-    #[error("the path of the unit is still being judged")]
+    /// The way has not been judged yet: the unit's own path, a path of Azel or a detour.
+    #[error("the way is still being judged")]
     BeingJudged,
     /// An offset needs a track.
     #[error("nothing is tracked")]

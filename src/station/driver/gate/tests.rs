@@ -1,6 +1,7 @@
 //! Each rule refuses and allows.
 
 mod any;
+mod detours;
 mod each_rule;
 mod makes;
 mod pointing;

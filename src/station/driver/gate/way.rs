@@ -1,17 +1,15 @@
 //! Checks the way of a motion against the bounds of the antenna.
 
-use super::{Angle, Gate, Intent, Intervals, Moment, Motion, Mount, Refusal, Situation, Sweep};
+use super::{
+    Angle, Gate, Intent, Intervals, Moment, Motion, Mount, NoRoute, Refusal, Situation, Sweep,
+};
 use crate::{
     astro::{AzEl, xy_mount},
     device::{
         JogSpeeds, aimed,
         panel::{Act, Lead},
     },
-    plan::{
-        Barrier, Bounds, BoundsAt,
-        detour::{self, AxisLimits},
-        on_board::ALONG_DEG,
-    },
+    plan::{Barrier, Bounds, BoundsAt, detour::AxisLimits, on_board::ALONG_DEG},
 };
 
 /// An antenna leaves a barrier only by hand, at no more than this share of the fastest rate,
@@ -23,9 +21,6 @@ const OUT_GAIN_DEG: f64 = 1e-6;
 /// Distance between the places at which a way out is checked, lest it leads in deeper between
 /// its ends: degrees of the axis that turns further.
 const LOOK_OUT_DEG: f64 = 0.5;
-
-/// Distance between two places of a detour that are tried as the next position, degrees.
-const DETOUR_STEP_DEG: f64 = 4.0;
 
 /// The way of a motion to a position.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -321,13 +316,13 @@ impl Gate {
         motion: Motion,
         intent: Intent,
         now: Moment,
-    ) -> Result<Route, Refusal> {
+    ) -> Result<Route, NoRoute> {
         let refusal = match self.check(motion, intent, now) {
             Ok(()) => return Ok(Route { first: motion, then: None }),
             Err(refusal @ Refusal::Forbidden { .. }) => refusal,
-            Err(other) => return Err(other),
+            Err(other) => return Err(other.into()),
         };
-        let Some((from_deg, to_deg)) = self.ends(motion, now) else { return Err(refusal) };
+        let Some((from_deg, to_deg)) = self.ends(motion, now) else { return Err(refusal.into()) };
         let corners_deg = [[to_deg[0], from_deg[1]], [from_deg[0], to_deg[1]]];
         let bounds = self.bounds_in(intent);
         let bounds_now = bounds.at(now.utc).turned_by(self.to_sky_in(intent));
@@ -341,14 +336,13 @@ impl Gate {
             }
         }
         if intent != Intent::Track {
-            return Err(refusal);
+            return Err(refusal.into());
         }
         // A sequence of positions may follow any way.
-        let detour = detour::between(bounds, &self.axis_limits(), from_deg, to_deg, now.utc);
-        let places_deg = detour::in_steps(&detour.unwrap_or_default(), DETOUR_STEP_DEG);
-        let farthest = places_deg.into_iter().rev().map(|place| self.to_axes(place));
-        let first = farthest.into_iter().find(|first| self.check(*first, intent, now).is_ok());
-        first.map(|first| Route { first, then: Some(motion) }).ok_or(refusal)
+        let places_deg = self.detour_places_deg(from_deg, to_deg, now)?;
+        let mut farthest = places_deg.iter().rev().map(|place_deg| self.to_axes(*place_deg));
+        let first = farthest.find(|first| self.check(*first, intent, now).is_ok());
+        first.map(|first| Route { first, then: Some(motion) }).ok_or(NoRoute::Refused(refusal))
     }
 
     pub(super) fn axis_limits(&self) -> AxisLimits {

@@ -20,7 +20,10 @@ use crate::{
         panel::Act,
         settings::{Change, WriteError},
     },
-    driver::{Intent, Refusal, gate::Held},
+    driver::{
+        Intent, Refusal,
+        gate::{Held, NoRoute},
+    },
     name::{self, Name},
     plan::{OnBoardPass, ProgramTrack},
     station::LockOut,
@@ -247,7 +250,7 @@ impl Session {
         now: Moment,
     ) -> Result<Slew, Refusal> {
         let motion = self.gate.nearest(motion)?;
-        let route = self.gate.route(motion, intent, now)?;
+        let route = self.gate.route(motion, intent, now).map_err(NoRoute::refusal)?;
         let first_aim = self.gate.aim(&route.first);
         let leg = first_aim.zip(route.then).map(|(aim, then)| Leg { aim, then });
         let stage = SlewStage::Queued { motion: route.first, leg };

@@ -3,7 +3,7 @@
 
 use std::time::Duration;
 
-use super::{Event, Intent, Session};
+use super::{Command, Event, Intent, Session, program_track::NotFollowed};
 use crate::{
     astro::{Angle, AzEl},
     clock::{Instant, Moment},
@@ -89,9 +89,16 @@ impl Session {
         now: Moment,
     ) {
         let before = self.gate.lift_sun(leads_to_sun);
-        if !self.follow(follow, now) {
-            // The present track goes on as it was agreed.
-            self.gate.lift_sun(before);
+        let Err(not_followed) = self.follow(follow.clone(), now) else { return };
+        // The present track goes on as it was agreed.
+        self.gate.lift_sun(before);
+        if let NotFollowed::Waits = not_followed {
+            let follow = Box::new(follow);
+            self.wait_for_judgement(if leads_to_sun {
+                Command::ProgramTrackIntoSun(follow)
+            } else {
+                Command::ProgramTrack(follow)
+            });
         }
     }
 
@@ -110,7 +117,7 @@ impl Session {
         // The direction must be reached, and on a way without a corner.
         let way = |direction: AzEl, intent: Intent| {
             let motion = self.gate.nearest(to(direction));
-            let route = motion.and_then(|motion| self.gate.route(motion, intent, now)).ok()?;
+            let route = self.gate.route(motion.ok()?, intent, now).ok()?;
             Some((direction, route.then.is_none()))
         };
         // Without an elevation axis it reaches only its own elevation.

@@ -3,13 +3,13 @@
 use serde::{Deserialize, Serialize};
 
 use super::{
-    Event, Session,
+    Command, Event, Session,
     program_track::{Tracking, motion},
 };
 use crate::{
     astro::{MAX_ANGLE_OFFSET, MAX_TIME_OFFSET, Offset, TrackOffsets},
     clock::Moment,
-    driver::{Intent, Refusal, gate::Demand},
+    driver::{Refusal, gate::Demand},
 };
 
 /// So many changes can be undone.
@@ -57,21 +57,20 @@ impl Session {
             OffsetChange::Zero => TrackOffsets::NONE,
             OffsetChange::Undo => track.earlier.last().copied().ok_or(Refusal::Nothing)?,
         };
-        let axes = Tracking::turning(self.gate.state().measured);
         let demand = demand(track, offsets, now).ok_or(Refusal::PassUnknown)?;
         // Without offsets the track goes on as it was asked for, and waits at an edge.
         if !offsets.is_none() {
             self.gate.demand_is_clear(demand, now)?;
         }
         self.take_offsets(offsets, now);
-        let Some(track) = self.activity.program_mut() else { return Ok(()) };
-        let sent = track.planner.update(now.utc, axes).map_err(|_| Refusal::PassUnknown);
-        let route = |next| self.gate.route(motion(next), Intent::Track, now);
-        let passed = sent.and_then(|next| next.map(route).transpose());
-        if let Err(refusal) = passed
+        if let Err(refusal) = self.check_next(now)
             && !offsets.is_none()
         {
             self.take_offsets(before, now);
+            if let Refusal::BeingJudged = refusal {
+                self.wait_for_judgement(Command::Offset(change));
+                return Ok(());
+            }
             return Err(refusal);
         }
         let Some(track) = self.activity.program_mut() else { return Ok(()) };
@@ -87,6 +86,19 @@ impl Session {
         }
         track.next_update = now.steady;
         Ok(())
+    }
+
+    /// Checks the way to the next position of the track.
+    fn check_next(&mut self, now: Moment) -> Result<(), Refusal> {
+        let axes = Tracking::turning(self.gate.state().measured);
+        let Some(track) = self.activity.program_mut() else { return Ok(()) };
+        let order = self.judging.open_order(&mut track.planner, axes, now);
+        if let Some(order) = order.map_err(|_| Refusal::PassUnknown)? {
+            self.plan(order);
+            return Err(Refusal::BeingJudged);
+        }
+        let next = track.planner.update(now.utc, axes).map_err(|_| Refusal::PassUnknown)?;
+        next.map_or(Ok(()), |next| self.route(motion(next), now).map(drop))
     }
 
     /// Checks whether the track can have an offset of this kind.

@@ -11,7 +11,10 @@ use crate::{
     },
     clock::{Instant, Moment},
     device::{LONGEST_WINDOW_S, Measured, OnBoard, Phase},
-    driver::{Intent, OnBoardView, TrackProblem, gate::Held},
+    driver::{
+        Intent, OnBoardView, TrackProblem,
+        gate::{Held, NoRoute},
+    },
     plan::{OnBoardPass, Supervision, on_board::Judge},
 };
 
@@ -111,7 +114,14 @@ impl Session {
         if !self.is_judged(&watch.judge, &[unit]) {
             return Ok(None);
         }
-        let to = self.gate.way_to_pass(&watch.judge, now).map_err(Event::NotSent)?;
+        let to = match self.gate.way_to_pass(&watch.judge, now) {
+            Ok(to) => to,
+            Err(NoRoute::Refused(refusal)) => return Err(Event::NotSent(refusal)),
+            Err(NoRoute::Open(question)) => {
+                self.look_for(question);
+                return Ok(None);
+            }
+        };
         let slew = to.map(|to| self.slew(to, Intent::Track, now)).transpose();
         Ok(Some((watch, slew.map_err(Event::NotSent)?)))
     }

@@ -15,7 +15,7 @@ use crate::{
     driver::{Intent, Refusal, Safety, TrackProblem, Unlike},
     plan::{
         Bounds, ProgramTrack, TrackPhase,
-        program_track::{Next, Planner},
+        program_track::{Next, PathOrder, Planner},
     },
     station::{AfterPass, Antenna, Resume},
 };
@@ -45,10 +45,16 @@ impl ResumeRule {
     }
 }
 
+/// Why a program track has not begun.
+pub(super) enum NotFollowed {
+    Refused,
+    /// Its way is being judged.
+    Waits,
+}
+
 impl Session {
-    /// Begins program track of a target. Other motions are stopped first. Returns `false`
-    /// after reporting why it was refused.
-    pub(super) fn follow(&mut self, follow: ProgramTrack, now: Moment) -> bool {
+    /// Begins program track of a target. Other motions are stopped first. An error is reported already.
+    pub(super) fn follow(&mut self, follow: ProgramTrack, now: Moment) -> Result<(), NotFollowed> {
         let name = follow.target.name().into_owned();
         tracing::info!(antenna = self.name, name, passes = follow.passes.len(), "follow");
         let TrackConfig { mut drives, settings, model } = self.setup.track_config;
@@ -63,6 +69,7 @@ impl Session {
             let planner = Planner::new(follow, drives, settings, bounds);
             planner.map(|planner| planner.with_model(model)).map_err(TrackProblem::Orbit)
         };
+        let sky_before = self.gate.to_sky();
         if let Ok(planner) = &planned {
             let to_sky = planner.to_sky(phase.begins(now.utc), planner.offsets());
             self.gate.set_to_sky(to_sky);
@@ -72,8 +79,12 @@ impl Session {
         let planner = match checked {
             Ok(planner) => planner,
             Err(problem) => {
+                self.gate.set_to_sky(sky_before);
+                if matches!(problem, TrackProblem::Refused(Refusal::BeingJudged)) {
+                    return Err(NotFollowed::Waits);
+                }
                 self.tell(Event::CannotProgramTrack(name, problem));
-                return false;
+                return Err(NotFollowed::Refused);
             }
         };
         // From one target to another no stop is needed.
@@ -84,14 +95,18 @@ impl Session {
         let track = Tracking::new(planner, phase, now.steady);
         self.activity = Activity::ProgramTrack(Box::new(track));
         self.tell_phase(phase, name);
-        true
+        Ok(())
     }
 
     /// Checks whether the first position may be sent.
-    fn check_first(&self, mut planner: Planner, now: Moment) -> Result<Planner, TrackProblem> {
+    fn check_first(&mut self, mut planner: Planner, now: Moment) -> Result<Planner, TrackProblem> {
         let axes = Tracking::turning(self.gate.state().measured);
+        if let Some(order) = self.judging.open_order(&mut planner, axes, now)? {
+            self.plan(order);
+            return Err(Refusal::BeingJudged.into());
+        }
         if let Some(next) = planner.update(now.utc, axes)? {
-            self.gate.route(motion(next), Intent::Track, now)?;
+            self.route(motion(next), now)?;
         }
         Ok(planner)
     }
@@ -193,6 +208,10 @@ impl Session {
         track.next_update = now.steady + settings.period();
         let latency = Duration::try_from_secs_f64(settings.latency_s).unwrap_or_default();
         let axes = track.axes(measured, latency);
+        // The answer brings the next look.
+        if let Some(order) = track.planner.path_order(now.utc, axes).filter(PathOrder::may_detour) {
+            return self.plan(order);
+        }
         match track.planner.update(now.utc, axes) {
             Ok(None) => {}
             Ok(Some(next)) => self.send_next(next, now),
@@ -202,7 +221,7 @@ impl Session {
 
     fn send_next(&mut self, next: Next, now: Moment) {
         let motion = motion(next);
-        let routed = self.gate.route(motion, Intent::Track, now);
+        let routed = self.route(motion, now);
         let started = routed.and_then(|route| {
             self.gate.start(route.first, Intent::Track, self.stop.is_under_way(), now)?;
             Ok(route)
@@ -235,7 +254,8 @@ impl Session {
             }
             // It will be known later.
             Err(
-                Refusal::PositionUnknown
+                Refusal::BeingJudged
+                | Refusal::PositionUnknown
                 | Refusal::PositionOld(_)
                 | Refusal::FaultsUnknown
                 | Refusal::Stopping,
@@ -244,7 +264,7 @@ impl Session {
         }
     }
 
-    fn end_follow(&mut self, problem: TrackProblem, now: Moment) {
+    pub(super) fn end_follow(&mut self, problem: TrackProblem, now: Moment) {
         let Some(name) = self.activity.program().map(Tracking::name) else { return };
         self.give_up(Event::CannotProgramTrack(name, problem), now);
     }

@@ -29,6 +29,50 @@ const PATH_S: f64 = 3.0 * 3600.0;
 /// Time before its end at which a path is extended, beyond the look-ahead of a command, seconds.
 const MARGIN_S: f64 = 60.0;
 
+/// A path that a target needs, with all that it depends on.
+#[derive(Debug, Clone)]
+pub struct PathOrder {
+    follow: ProgramTrack,
+    course: Course,
+    offsets: TrackOffsets,
+    drives: Drives,
+    bounds: Bounds,
+    from: Timestamp,
+    to: Timestamp,
+    /// End of the pass.
+    ends: Timestamp,
+    start: Start,
+    choice: Choice,
+}
+
+impl PathOrder {
+    /// Returns `true` if the path may need detours, for which a search takes long.
+    pub fn may_detour(&self) -> bool {
+        self.bounds.has_way_round()
+    }
+
+    /// Plans the path. With detours that takes up to a tenth of a second.
+    pub fn plan(self) -> PlannedPath {
+        let path = Path::along(
+            (&self.course, self.offsets),
+            &self.drives,
+            &self.bounds,
+            (self.from, self.to),
+            self.start,
+            self.choice,
+        );
+        PlannedPath { order: self, path }
+    }
+}
+
+/// The answer to a [`PathOrder`].
+#[derive(Debug, Clone)]
+pub struct PlannedPath {
+    order: PathOrder,
+    /// `None` if the target has decayed.
+    path: Option<Path>,
+}
+
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Next {
     pub set_point: SetPoint,
@@ -135,10 +179,8 @@ impl Planner {
         axes: [AxisNow; 2],
     ) -> Result<Option<Next>, PropagationError> {
         let [first_now, second_now] = axes;
-        if !self.has_path(now) {
-            let found = self.new_path(now, axes.map(|axis| axis.position_deg));
-            self.path = Some(found.ok_or(PropagationError::Decayed)?);
-            self.is_stale = false;
+        if let Some(order) = self.path_order(now, axes) {
+            self.take_path(order.plan())?;
         }
         let Some((path, _)) = &self.path else { return Ok(None) };
         let now_s = path.seconds(now);
@@ -220,23 +262,43 @@ impl Planner {
         }
     }
 
-    fn new_path(&self, now: Timestamp, axes_deg: [Option<f64>; 2]) -> Option<(Path, Timestamp)> {
+    /// The path that has to be planned before the next command; `None` while there is one.
+    pub fn path_order(&self, now: Timestamp, axes: [AxisNow; 2]) -> Option<PathOrder> {
+        if self.has_path(now) {
+            return None;
+        }
         let always = (now, Timestamp::MAX);
         let (aos, los) = self.follow.pass(now).unwrap_or(always);
         let from = aos.max(now);
-        let to = los.min(add_seconds(from, PATH_S));
-        let start = Start { axes_deg, lead_s: seconds_between(now, from) };
-        Some((
-            Path::along(
-                (&self.course, self.offsets),
-                &self.drives,
-                &self.bounds,
-                (from, to),
-                start,
-                self.choice(now),
-            )?,
-            los,
-        ))
+        let axes_deg = axes.map(|axis| axis.position_deg);
+        Some(PathOrder {
+            follow: self.follow.clone(),
+            course: self.course.clone(),
+            offsets: self.offsets,
+            drives: self.drives,
+            bounds: self.bounds.clone(),
+            from,
+            to: los.min(add_seconds(from, PATH_S)),
+            ends: los,
+            start: Start { axes_deg, lead_s: seconds_between(now, from) },
+            choice: self.choice(now),
+        })
+    }
+
+    /// Takes a path that was ordered by this planner, or by another one for the same track, unless
+    /// the order has changed since. Fails if the target has decayed.
+    pub fn take_path(&mut self, planned: PlannedPath) -> Result<(), PropagationError> {
+        let PlannedPath { order, path } = planned;
+        let is_up_to_date = order.follow == self.follow
+            && order.course.model == self.course.model
+            && order.offsets == self.offsets
+            && order.drives.mount == self.drives.mount
+            && order.bounds == self.bounds;
+        if is_up_to_date {
+            self.path = Some((path.ok_or(PropagationError::Decayed)?, order.ends));
+            self.is_stale = false;
+        }
+        Ok(())
     }
 }
 

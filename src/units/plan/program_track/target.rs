@@ -50,7 +50,7 @@ impl Target {
 pub struct Course {
     site: Site,
     body: Body,
-    model: PointingModel,
+    pub(super) model: PointingModel,
 }
 
 #[derive(Debug, Clone)]

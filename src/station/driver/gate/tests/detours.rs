@@ -1,0 +1,84 @@
+//! A detour of a program track is looked for outside the gate.
+
+use super::*;
+use crate::{
+    driver::gate::{NoRoute, Route},
+    station::Entered,
+};
+
+/// An antenna at 20 degrees of elevation beside a mast between 100 and 120 degrees, which blocks the
+/// straight way to the other side and both ways of one axis after the other.
+fn beside_a_mast() -> Case {
+    let mut case = Case::new(Intent::Track);
+    case.antenna.mount = Mount::AzEl {
+        azimuth_from_deg: 0.0,
+        azimuth_to_deg: 360.0,
+        elevation_from_deg: 0.0,
+        elevation_to_deg: 90.0,
+    };
+    let corners_deg = [(100.0, 0.0), (120.0, 0.0), (120.0, 40.0), (100.0, 40.0)];
+    case.keep_outs = vec![KeepOut {
+        name: "mast".to_owned(),
+        reason: String::new(),
+        entered: Entered::GoRound,
+        antenna: None,
+        margin_deg: 1.0,
+        zone: KeepOut::zone_of(&corners_deg).unwrap(),
+    }];
+    let measured = case.state.measured.as_mut().unwrap();
+    measured.pointing = AzEl::from_degrees(80.0, 20.0).into();
+    for (axis, deg) in measured.axes.iter_mut().zip([80.0, 20.0]) {
+        axis.angle_deg = Some(deg);
+    }
+    case
+}
+
+fn open(routed: Result<Route, NoRoute>) -> Option<Box<DetourQuestion>> {
+    match routed {
+        Err(NoRoute::Open(question)) => Some(question),
+        Ok(_) | Err(NoRoute::Refused(_)) => None,
+    }
+}
+
+#[test]
+fn there_is_no_route_until_a_detour_has_been_looked_for_and_it_grows_old() {
+    let case = beside_a_mast();
+    let mut gate = case.gate(&Arc::default());
+    let now = case.now();
+    let behind = position(140.0, 20.0);
+    let question = open(gate.route(behind, Intent::Track, now)).expect("nobody has looked");
+    gate.take_detour(question.search());
+    let route = gate.route(behind, Intent::Track, now).unwrap();
+    assert_eq!(route.then, Some(behind));
+    assert_eq!(gate.check(route.first, Intent::Track, now), Ok(()));
+    let Motion::Position { elevation: Some(elevation), .. } = route.first else { panic!() };
+    assert!(elevation.degrees() > 20.0, "it leads over the mast: {elevation:?}");
+    // The track moves on slowly.
+    assert!(gate.route(position(141.0, 20.5), Intent::Track, now).is_ok());
+    assert!(open(gate.route(position(150.0, 20.0), Intent::Track, now)).is_some(), "another end");
+    let later = Moment { steady: now.steady + Duration::from_secs(3), ..now };
+    assert!(open(gate.route(behind, Intent::Track, later)).is_some(), "old");
+}
+
+#[test]
+fn a_detour_within_other_bounds_is_looked_for_anew() {
+    let case = beside_a_mast();
+    let mut gate = case.gate(&Arc::default());
+    let (now, behind) = (case.now(), position(140.0, 20.0));
+    let question = open(gate.route(behind, Intent::Track, now)).expect("nobody has looked");
+    gate.take_detour(question.search());
+    let keep_outs =
+        case.keep_outs.iter().map(|keep_out| KeepOut { margin_deg: 3.0, ..keep_out.clone() });
+    let wider = Station { keep_outs: keep_outs.collect(), ..Station::default() };
+    gate.keep_within(Bounds::of(&wider, &case.antenna));
+    assert!(open(gate.route(behind, Intent::Track, now)).is_some());
+}
+
+/// Only program track can follow a detour.
+#[test]
+fn a_slew_has_no_detour() {
+    let case = beside_a_mast();
+    let gate = case.gate(&Arc::default());
+    let routed = gate.route(position(140.0, 20.0), Intent::Position, case.now());
+    assert!(matches!(routed, Err(NoRoute::Refused(Refusal::Forbidden { .. }))), "{routed:?}");
+}
