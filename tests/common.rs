@@ -5,6 +5,7 @@ pub(crate) mod dice;
 mod mast;
 pub(crate) mod network;
 pub(crate) mod rig;
+pub(crate) mod turns;
 pub(crate) mod units;
 mod written;
 

@@ -4,7 +4,9 @@ use std::{sync::Arc, time::Duration};
 
 use azel::{
     clock::{Clock, Instant},
-    driver::{AntennaHandle, Command, Dial, Event, LinkState, Session, Snapshot, Stream, WireLog},
+    driver::{
+        AntennaHandle, Command, Debts, Dial, Event, LinkState, Session, Snapshot, Stream, WireLog,
+    },
     sim::{Control, Unit},
     station::Antenna,
 };
@@ -22,7 +24,17 @@ const LOOK: Duration = Duration::from_millis(10);
 
 /// A session with the controller of `antenna`, and its handle.
 pub(crate) fn session(antenna: &Antenna, dial: Dial, clock: Clock) -> (Session, AntennaHandle) {
-    Session::new(antenna.controller(), antenna, dial, clock, Arc::new(|| {}))
+    indebted_session(antenna, dial, clock, Debts::default())
+}
+
+/// Like [`session`], with records of owed STOPs in `debts`.
+pub(crate) fn indebted_session(
+    antenna: &Antenna,
+    dial: Dial,
+    clock: Clock,
+    debts: Debts,
+) -> (Session, AntennaHandle) {
+    Session::new(antenna.controller(), antenna, dial, clock, Arc::new(|| {}), debts)
 }
 
 /// An operator in front of a running session. The tests of each make add the start of

@@ -5,7 +5,7 @@ use std::{sync::Arc, time::Duration};
 use azel::{
     astro::{AzEl, time::add_seconds},
     controller::satrak::Satrak,
-    driver::{Command, Event, Intent, Refusal, Safety, Session, TrackProblem, Unlike},
+    driver::{Command, Debts, Event, Intent, Refusal, Safety, Session, TrackProblem, Unlike},
     plan::{ProgramTrack, Target, TrackPhase},
     protocol::satrak::{FaultKind, Goto, Halt, Motion, Request, encode},
     sim::satrak::{Control, Fault, Options},
@@ -24,7 +24,7 @@ type Rig = rig::Rig<Control>;
 fn start(control: Control, antenna: &Antenna, utc_origin: Timestamp) -> Rig {
     Rig::new(control, utc_origin, |dial, clock| {
         let satrak = Satrak::new(antenna.poll, String::new());
-        Session::new(Box::new(satrak), antenna, dial, clock, Arc::new(|| {}))
+        Session::new(Box::new(satrak), antenna, dial, clock, Arc::new(|| {}), Debts::default())
     })
     .looking_every(rig::LOOK)
 }

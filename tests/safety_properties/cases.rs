@@ -2,7 +2,7 @@
 
 use std::{future::Future, panic::AssertUnwindSafe};
 
-use crate::common::dice::Dice;
+use crate::common::{dice::Dice, turns};
 
 /// Runs `case` in paused time with successive seeds, `usual` times unless `AZEL_CASES`
 /// sets another number.
@@ -15,6 +15,7 @@ pub(super) fn for_each_case<Ran: Future<Output = ()>>(
     let seed = number("AZEL_SEED").unwrap_or(20_261_122);
     let cases = number("AZEL_CASES").unwrap_or(usual);
     println!("{class}: {cases} cases from seed {seed}");
+    turns::take_measured();
     let mut failed = Vec::new();
     for seed in seed..seed + cases {
         let run = AssertUnwindSafe(|| {
@@ -28,5 +29,6 @@ pub(super) fn for_each_case<Ran: Future<Output = ()>>(
             assert!(failed.len() < 10, "{class}: seeds {failed:?} failed");
         }
     }
+    println!("{class}: {}", turns::take_measured());
     assert!(failed.is_empty(), "{class}: of {cases} cases seeds {failed:?} failed");
 }

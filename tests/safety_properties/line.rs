@@ -33,6 +33,42 @@ pub(super) struct Line {
     pub(super) is_mute: bool,
     /// A STOP never gets through.
     pub(super) ignores_stop: bool,
+    /// Axes whose angle is missing in every reply, and the text in its place.
+    pub(super) blank: [bool; 2],
+    pub(super) blank_text: usize,
+    /// Share of the replies whose other figures are wrong.
+    pub(super) falsified: f64,
+    pub(super) cut: Option<Cut>,
+    /// The cut has been made.
+    pub(super) was_cut: bool,
+}
+
+/// End of a link at something that the session writes.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Cut {
+    /// Number of writes that get through before it.
+    pub(super) after: usize,
+    /// Only orders count, not questions.
+    pub(super) at_order: bool,
+    /// Share of the bytes that still get through: 0 before the write, 1 after it.
+    pub(super) share: f64,
+}
+
+impl Line {
+    /// Bytes that still get through if the link ends at this write.
+    fn cut_at(&mut self, bytes: &[u8], unit: &dyn Unit) -> Option<usize> {
+        let cut = self.cut.as_mut()?;
+        if cut.at_order && !unit.holds_order(bytes) {
+            return None;
+        }
+        if cut.after > 0 {
+            cut.after -= 1;
+            return None;
+        }
+        let share = cut.share;
+        (self.cut, self.was_cut) = (None, true);
+        Some((share * bytes.len() as f64).round() as usize)
+    }
 }
 
 /// Carries the bytes of both ends, with the troubles of the line.
@@ -51,7 +87,15 @@ pub(super) async fn carry(
                 if bytes.is_empty() {
                     return Ok(());
                 }
-                let line = line.lock().unwrap().clone();
+                let (line, cut_at) = {
+                    let mut line = line.lock().unwrap();
+                    let cut_at = line.cut_at(bytes, &*unit);
+                    (line.clone(), cut_at)
+                };
+                if let Some(at) = cut_at {
+                    there.write_all(&bytes[..at]).await?;
+                    return there.shutdown().await;
+                }
                 let vanishes = line.is_deaf || line.ignores_stop && unit.holds_stop(bytes);
                 if !vanishes {
                     there.write_all(bytes).await?;
@@ -77,6 +121,12 @@ pub(super) async fn carry(
                     sleep(Duration::try_from_secs_f64(late_s).unwrap()).await;
                 }
                 let mut sent = bytes.to_vec();
+                for axis in (0..2).filter(|axis| line.blank[*axis]) {
+                    sent = unit.without_angle(&sent, axis, line.blank_text);
+                }
+                if dice.chance(line.falsified) {
+                    sent = unit.falsified(&sent, &mut dice);
+                }
                 if dice.chance(line.damaged) {
                     let at = dice.below(sent.len());
                     if line.is_unchecked {

@@ -157,7 +157,7 @@ async fn drives(mut dice: Dice) {
 }
 
 /// Distance of a motion by others from the look before it began to standstill.
-fn room_deg(world: &World) -> f64 {
+pub(super) fn room_deg(world: &World) -> f64 {
     const POLL_AND_REPLY_S: f64 = 0.6;
     const RUN_OUT_S: f64 = 1.0;
     world.fastest_deg_s * (POLL_AND_REPLY_S + RUN_OUT_S) + world.coarse_deg

@@ -1,24 +1,27 @@
 //! An operator, a session and its unit in a random world.
 
 use std::{
+    path::PathBuf,
     sync::{Arc, Mutex},
     time::Duration,
 };
 
 use azel::{
     clock::Instant,
-    driver::{AntennaHandle, Command, Dial, Event, Snapshot, Stream},
-    plan::Barrier,
+    driver::{AntennaHandle, Command, Debts, Dial, Event, Snapshot, Stream},
+    plan::{Barrier, on_board::KnownOrbit},
     station::KeepOut,
 };
-use tokio::time::sleep;
+use tokio::{task::JoinHandle, time::sleep};
 
 use super::{
     line::{Line, carry},
     unit::Unit,
     world::World,
 };
-use crate::common::{clock::TestClock, dice::Dice, network::Network, rig::session};
+use crate::common::{
+    clock::TestClock, dice::Dice, network::Network, rig::indebted_session, turns::measured,
+};
 
 /// Interval of looks at the metal.
 pub(super) const LOOK: Duration = Duration::from_millis(50);
@@ -26,7 +29,13 @@ pub(super) const LOOK: Duration = Duration::from_millis(50);
 /// An operator in front of a session, and the metal.
 pub(super) struct Scene {
     pub(super) world: World,
+    pub(super) clock: TestClock,
     handle: AntennaHandle,
+    session: JoinHandle<()>,
+    /// Folder of the records of owed STOPs.
+    marks: Option<PathBuf>,
+    /// Seed of the troubles of the next session's line.
+    seed: u64,
     pub(super) line: Arc<Mutex<Line>>,
     network: Network,
     last_dial: Arc<Mutex<Option<Instant>>>,
@@ -37,23 +46,83 @@ pub(super) struct Scene {
 impl Scene {
     /// A session that has read its unit and knows its bounds.
     pub(super) async fn start(world: World, dice: &mut Dice) -> Self {
-        let line =
-            Arc::new(Mutex::new(Line { is_unchecked: world.make.is_unchecked, ..Line::default() }));
-        let (network, last_dial) = (Network::default(), Arc::default());
-        let dial = dial(&network, &world.unit, &line, &last_dial, dice.next());
-        let clock = TestClock::new(world.utc_origin).clock();
-        let (session, handle) = session(&world.antenna, dial, clock);
-        tokio::spawn(session.run());
-        handle.keep_within(world.bounds.clone());
-        handle.send(Command::Connect).unwrap();
-        let mut scene = Self { world, handle, line, network, last_dial, events: Vec::new() };
-        let end = Instant::now() + Duration::from_secs(20);
-        while scene.shown().state.measured.is_none() || scene.shown().state.motion_lock.is_none() {
-            assert!(Instant::now() < end, "never read: {:?}", scene.shown());
-            scene.look().await;
-        }
-        scene.seconds(1.5).await;
+        let mut scene = Self::begin(world, dice, None, Line::default());
+        scene.until_read().await;
         scene
+    }
+
+    /// A session that begins, with its marks in this folder, over a line with these troubles.
+    pub(super) fn begin(
+        world: World,
+        dice: &mut Dice,
+        marks: Option<PathBuf>,
+        mut line: Line,
+    ) -> Self {
+        line.is_unchecked = world.make.is_unchecked;
+        let line = Arc::new(Mutex::new(line));
+        let (network, last_dial) = (Network::default(), Arc::default());
+        let clock = TestClock::new(world.utc_origin);
+        let seed = dice.next();
+        let ends = (&network, &line, &last_dial);
+        let (handle, session) = open(&world, ends, &clock, marks.clone(), seed);
+        let events = Vec::new();
+        let seed = seed.wrapping_add(1);
+        Self { world, clock, handle, session, marks, seed, line, network, last_dial, events }
+    }
+
+    /// Waits until the unit has been read.
+    pub(super) async fn until_read(&mut self) {
+        let end = Instant::now() + Duration::from_secs(20);
+        while self.shown().state.measured.is_none() || self.shown().state.motion_lock.is_none() {
+            assert!(Instant::now() < end, "never read: {:?}", self.shown());
+            self.look().await;
+        }
+        self.seconds(1.5).await;
+    }
+
+    /// Waits until what the unit's own program goes by has been read.
+    pub(super) async fn until_placed(&mut self) {
+        let end = Instant::now() + Duration::from_secs(90);
+        let is_read = |shown: &Snapshot| {
+            let on_board = &shown.state.on_board;
+            on_board.place.is_some() && on_board.clock.is_some() && on_board.offsets.is_some()
+        };
+        while !is_read(&self.shown()) {
+            assert!(Instant::now() < end, "never read: {:?}", self.shown());
+            self.look().await;
+        }
+    }
+
+    /// Ends the session at once, as when its process is killed. The unit goes on.
+    pub(super) async fn kill(&mut self) {
+        self.session.abort();
+        while !self.session.is_finished() {
+            tokio::task::yield_now().await;
+        }
+        self.world.unit.drop_clients();
+    }
+
+    /// A new session of the same unit, as after a start of the program.
+    pub(super) fn restart(&mut self) {
+        let ends = (&self.network, &self.line, &self.last_dial);
+        self.seed = self.seed.wrapping_add(1);
+        (self.handle, self.session) =
+            open(&self.world, ends, &self.clock, self.marks.clone(), self.seed);
+    }
+
+    /// Whether the cut of the line has been made.
+    pub(super) fn was_cut(&self) -> bool {
+        self.line.lock().unwrap().was_cut
+    }
+
+    /// Whether the session has ended, which it does only if it is killed or breaks down.
+    pub(super) fn has_ended(&self) -> bool {
+        self.session.is_finished()
+    }
+
+    /// Orbit by which the session judges the unit's own program.
+    pub(super) fn know_orbit(&self, orbit: Arc<KnownOrbit>) {
+        self.handle.know_orbit(Some(orbit));
     }
 
     pub(super) fn shown(&self) -> Arc<Snapshot> {
@@ -89,6 +158,11 @@ impl Scene {
     /// Waits for the time between two looks, and collects the events.
     pub(super) async fn look(&mut self) {
         sleep(LOOK).await;
+        self.collect();
+    }
+
+    /// Collects the events.
+    pub(super) fn collect(&mut self) {
         let now = Instant::now();
         while let Some(event) = self.handle.next_event() {
             self.events.push((now, event));
@@ -142,13 +216,26 @@ impl Scene {
     }
 }
 
-fn dial(
-    network: &Network,
-    unit: &Arc<dyn Unit>,
-    line: &Arc<Mutex<Line>>,
-    last_dial: &Arc<Mutex<Option<Instant>>>,
+type Ends<'a> = (&'a Network, &'a Arc<Mutex<Line>>, &'a Arc<Mutex<Option<Instant>>>);
+
+/// Starts a session that knows its bounds and wants a link.
+fn open(
+    world: &World,
+    ends: Ends<'_>,
+    clock: &TestClock,
+    marks: Option<PathBuf>,
     seed: u64,
-) -> Dial {
+) -> (AntennaHandle, JoinHandle<()>) {
+    let debts = Debts::marked_in(marks);
+    let dial = dial(&world.unit, ends, seed);
+    let (session, handle) = indebted_session(&world.antenna, dial, clock.clock(), debts);
+    let session = tokio::spawn(measured(session.run()));
+    handle.keep_within(world.bounds.clone());
+    handle.send(Command::Connect).unwrap();
+    (handle, session)
+}
+
+fn dial(unit: &Arc<dyn Unit>, (network, line, last_dial): Ends<'_>, seed: u64) -> Dial {
     let (unit, line, last_dial) = (Arc::clone(unit), Arc::clone(line), Arc::clone(last_dial));
     let mut dice = Dice::new(seed);
     network.dial(move || {

@@ -2,6 +2,8 @@
 
 use azel::{clock::Instant, driver::Stream};
 
+use crate::common::dice::Dice;
+
 /// A simulated unit.
 pub(super) trait Unit: Send + Sync {
     /// True positions of both axes, degrees as the mount counts.
@@ -19,6 +21,9 @@ pub(super) trait Unit: Send + Sync {
 
     fn tell(&self, lie: Lie);
 
+    /// From now on every reading is noisy by half of its last figure.
+    fn add_noise(&self);
+
     /// Link that the unit serves.
     fn link(&self) -> Box<dyn Stream>;
 
@@ -30,6 +35,16 @@ pub(super) trait Unit: Send + Sync {
 
     /// Whether a STOP is among bytes that were written at once.
     fn holds_stop(&self, bytes: &[u8]) -> bool;
+
+    /// Whether bytes that were written at once are more than a question.
+    fn holds_order(&self, bytes: &[u8]) -> bool;
+
+    /// A reply with this text, one of several, in place of the angle of an axis; the reply itself
+    /// if it tells no angle.
+    fn without_angle(&self, reply: &[u8], axis: usize, text: usize) -> Vec<u8>;
+
+    /// A reply with other figures in it, and a correct checksum; angles and flags of motion stay.
+    fn falsified(&self, reply: &[u8], dice: &mut Dice) -> Vec<u8>;
 }
 
 /// Falsehood in the reports of a unit.

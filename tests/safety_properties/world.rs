@@ -7,13 +7,15 @@ use azel::{
     clock::Instant,
     device::JogSpeeds,
     plan::Bounds,
-    station::{Antenna, Entered, KeepOut, Station, SunAvoidance},
+    station::{Antenna, Direction, Entered, KeepOut, Station, SunAvoidance},
 };
 use jiff::Timestamp;
 use tokio::io::{AsyncReadExt, AsyncWriteExt};
 
 use super::{
     makes::{MAKES, Make},
+    sky::Overflight,
+    truth::{self, Outline},
     unit::{Unit, Word},
 };
 use crate::common::dice::Dice;
@@ -25,7 +27,11 @@ pub(super) struct World {
     pub(super) antenna: Antenna,
     pub(super) station: Station,
     pub(super) bounds: Bounds,
+    /// The keep-outs of the station with their margins in degrees, computed apart from the program.
+    pub(super) outlines: Vec<(Outline, f64)>,
     pub(super) utc_origin: Timestamp,
+    /// Satellite that is up at the start or rises soon.
+    pub(super) overflight: Option<&'static Overflight>,
     /// Fastest motion of the unit, degrees per second.
     pub(super) fastest_deg_s: f64,
     /// Half a step of the reported figures plus the overshoot of the drive, degrees.
@@ -41,6 +47,19 @@ pub(super) struct Wish {
     pub(super) starts_inside: bool,
     /// Other clients can turn the axes.
     pub(super) others_jog: bool,
+    pub(super) overflight: Overhead,
+    /// `None` for any make.
+    pub(super) make: Option<&'static str>,
+}
+
+/// What is in the sky at the start.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Overhead {
+    Nothing,
+    /// A satellite that is up or rises within a minute.
+    Satellite,
+    /// A satellite shortly before its culmination.
+    Culmination,
 }
 
 impl Default for Wish {
@@ -51,6 +70,8 @@ impl Default for Wish {
             has_sun: false,
             starts_inside: false,
             others_jog: false,
+            overflight: Overhead::Nothing,
+            make: None,
         }
     }
 }
@@ -58,10 +79,27 @@ impl Default for Wish {
 impl World {
     /// A random world, with its axes in a free direction, or inside a keep-out.
     pub(super) fn random(dice: &mut Dice, wish: &Wish) -> Self {
-        let can = |make: &&Make| make.others_jog.is_some() || !wish.others_jog;
+        let can = |make: &&Make| {
+            (make.others_jog.is_some() || !wish.others_jog)
+                && wish.make.is_none_or(|name| make.name == name)
+        };
         let makes: Vec<_> = MAKES.iter().copied().filter(can).collect();
         loop {
-            let mut world = (makes[dice.below(makes.len())].random)(dice);
+            let make = makes[dice.below(makes.len())];
+            let (overflight, utc) = match wish.overflight {
+                Overhead::Nothing => (None, some_time(dice)),
+                Overhead::Satellite => {
+                    let overflight = Overflight::any(dice);
+                    (Some(overflight), overflight.some_time(dice))
+                }
+                Overhead::Culmination => {
+                    let overflight = Overflight::any(dice);
+                    (Some(overflight), time::add_seconds(overflight.culmination, -150.0))
+                }
+            };
+            let mut world = Self { overflight, ..(make.random)(dice, utc) };
+            let (azimuth_deg, elevation_deg) = (dice.between(0.0, 360.0), dice.between(20.0, 70.0));
+            world.antenna.park = Direction { azimuth_deg, elevation_deg };
             if wish.has_sun && dice.chance(0.4) {
                 let radius_deg = dice.between(1.0, 25.0);
                 let ahead_min = dice.between(0.0, 30.0);
@@ -70,7 +108,10 @@ impl World {
             let min_deg = (wish.min_margin_deg)(&world);
             for number in 0..wish.keep_outs {
                 let margin_deg = f64::min(min_deg + dice.between(0.0, 4.0), 30.0);
-                world.station.keep_outs.extend(keep_out(dice, number, margin_deg));
+                if let Some((zone, outline)) = keep_out(dice, number, margin_deg) {
+                    world.station.keep_outs.push(zone);
+                    world.outlines.push((outline, margin_deg));
+                }
             }
             world.bounds = Bounds::of(&world.station, &world.antenna);
             for _ in 0..200 {
@@ -91,7 +132,18 @@ impl World {
     ) -> Self {
         let (unit, station) = (Arc::new(unit), Station::default());
         let bounds = Bounds::of(&station, &antenna);
-        Self { make, unit, antenna, station, bounds, utc_origin, fastest_deg_s, coarse_deg }
+        Self {
+            make,
+            unit,
+            antenna,
+            station,
+            bounds,
+            outlines: Vec::new(),
+            utc_origin,
+            overflight: None,
+            fastest_deg_s,
+            coarse_deg,
+        }
     }
 
     /// Puts the axes somewhere; returns `false` if that does not fulfil the wish.
@@ -142,6 +194,20 @@ impl World {
         clear_deg.fold(f64::INFINITY, f64::min)
     }
 
+    /// Distance of the true direction from the margin of the nearest keep-out, degrees, by formulas
+    /// of the tests alone.
+    pub(super) fn margin_clearance_deg(&self) -> f64 {
+        self.margin_clearance_at_deg(self.unit.axes_deg())
+    }
+
+    /// The same with the axes at `axes_deg`.
+    pub(super) fn margin_clearance_at_deg(&self, axes_deg: [f64; 2]) -> f64 {
+        let direction = truth::direction(&self.antenna.mount, axes_deg);
+        let outlines = self.outlines.iter();
+        let clear_deg = outlines.map(|(zone, margin)| zone.clearance_deg(direction) - margin);
+        clear_deg.fold(f64::INFINITY, f64::min)
+    }
+
     /// Height of the true direction above the minimum elevation, degrees.
     pub(super) fn floor_clearance_deg(&self) -> f64 {
         self.direction().elevation_deg() - self.antenna.limits.minimum_elevation_deg
@@ -166,13 +232,13 @@ impl World {
     }
 }
 
-pub(super) fn some_time(dice: &mut Dice) -> Timestamp {
+fn some_time(dice: &mut Dice) -> Timestamp {
     let noon: Timestamp = "2026-06-21T10:00:00Z".parse().unwrap();
     time::add_seconds(noon, dice.between(0.0, 365.0).floor() * time::DAY_S)
 }
 
 /// A convex quadrilateral.
-fn keep_out(dice: &mut Dice, number: usize, margin_deg: f64) -> Option<KeepOut> {
+fn keep_out(dice: &mut Dice, number: usize, margin_deg: f64) -> Option<(KeepOut, Outline)> {
     let (width_deg, height_deg) = (dice.between(5.0, 60.0), dice.between(5.0, 60.0));
     let (az_deg, el_deg) = (dice.between(0.0, 360.0), dice.between(-10.0, 60.0));
     let top_deg = f64::min(el_deg + height_deg, 88.0);
@@ -186,5 +252,6 @@ fn keep_out(dice: &mut Dice, number: usize, margin_deg: f64) -> Option<KeepOut> 
     let zone = KeepOut::zone_of(&corners_deg).ok()?;
     let name = format!("zone {number}");
     let (reason, entered) = (String::new(), Entered::Hard);
-    Some(KeepOut { name, reason, entered, antenna: None, margin_deg, zone })
+    let outline = Outline::new(corners_deg);
+    Some((KeepOut { name, reason, entered, antenna: None, margin_deg, zone }, outline))
 }

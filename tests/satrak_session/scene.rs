@@ -7,7 +7,7 @@ use azel::{
     clock::Clock,
     controller::satrak::Satrak,
     device::TrackTarget,
-    driver::{AntennaHandle, Command, Dial, Session},
+    driver::{AntennaHandle, Command, Debts, Dial, Session},
     orbit::{Elements, Pass, PassSearch, Propagator, passes, read_elements},
     plan::{OnBoardPass, on_board::KnownOrbit},
     sim::satrak::Options,
@@ -105,5 +105,5 @@ pub(crate) fn antenna() -> Antenna {
 /// A session of `antenna` over links from `dial`, and its handle.
 pub(super) fn session(antenna: &Antenna, dial: Dial, clock: Clock) -> (Session, AntennaHandle) {
     let satrak = Satrak::new(antenna.poll, FILE.to_owned());
-    Session::new(Box::new(satrak), antenna, dial, clock, Arc::new(|| {}))
+    Session::new(Box::new(satrak), antenna, dial, clock, Arc::new(|| {}), Debts::default())
 }

@@ -305,19 +305,20 @@ pub struct Session {
 }
 
 impl Session {
-    /// Creates a session of `antenna`, and the handle to it. Nothing happens before
-    /// [`Self::run`].
+    /// Creates a session of `antenna` that records owed STOPs in `debts`, and the handle to it.
+    /// Nothing happens before [`Self::run`].
     pub fn new(
         controller: Box<dyn Controller>,
         antenna: &Antenna,
         dial: Dial,
         clock: Clock,
         wake: Wake,
+        debts: Debts,
     ) -> (Self, AntennaHandle) {
         let bounds = Bounds::of_antenna(antenna);
         let now = clock.now().steady;
         let (wires, handle) = Wires::new(antenna, bounds, now, wake, &Orders::default());
-        (Self::over(controller, antenna, dial, clock, wires, Debts::default()), handle)
+        (Self::over(controller, antenna, dial, clock, wires, debts), handle)
     }
 
     /// Creates a session of `antenna` on these channels, which records owed STOPs in `debts`.

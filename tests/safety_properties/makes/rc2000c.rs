@@ -7,15 +7,18 @@ use azel::{
     driver::Stream,
     protocol::rc2000c::Frame,
     sim::rc2000c::{Control, Fault, Options},
+    sim::{InMemory as _, Misreading, Trouble},
     station::{Antenna, Mount},
 };
+
+use jiff::Timestamp;
 
 use super::Make;
 use crate::{
     common::{dice::Dice, network},
     safety_properties::{
         unit::{Lie, Unit, Word},
-        world::{World, some_time},
+        world::World,
     },
 };
 
@@ -26,13 +29,16 @@ pub(super) static MAKE: Make = Make {
     jogs_run_on: false,
     is_unchecked: false,
     doubts_flags: false,
+    tracks_on_board: false,
+    ignores_deg: 0.0,
+    waits_for_word: true,
     words_of_a_go_to: 1,
 };
 
 /// Unit that reports sensor counts, with the lines that convert them to angles.
 struct Counting(Control, [CountLine; 2]);
 
-fn random(dice: &mut Dice) -> World {
+fn random(dice: &mut Dice, utc_origin: Timestamp) -> World {
     let point = |counts, degrees| CountPoint { counts, degrees };
     let (from_deg, span_deg) = (dice.between(-90.0, 180.0).round(), dice.between(120.0, 420.0));
     let to_deg = from_deg + span_deg.round();
@@ -56,7 +62,7 @@ fn random(dice: &mut Dice) -> World {
     antenna.limits.minimum_elevation_deg = dice.between(0.0, 10.0);
     antenna.beam_width_deg = dice.between(0.1, 3.0);
     let unit = Counting(Control::new(&Options::default()), lines);
-    World::new(&MAKE, unit, antenna, some_time(dice), fastest_deg_s, 0.3)
+    World::new(&MAKE, unit, antenna, utc_origin, fastest_deg_s, 0.3)
 }
 
 impl Unit for Counting {
@@ -86,6 +92,11 @@ impl Unit for Counting {
         self.0.set_fault(fault, true);
     }
 
+    fn add_noise(&self) {
+        let misreading = Misreading { noise_deg: 0.025, ..Misreading::default() };
+        self.0.set_trouble(Trouble::Misreads(misreading), true);
+    }
+
     fn link(&self) -> Box<dyn Stream> {
         network::link(&self.0)
     }
@@ -102,6 +113,31 @@ impl Unit for Counting {
         // The code follows the start and the address.
         bytes.get(2..4) == Some(b"3X")
     }
+
+    fn holds_order(&self, bytes: &[u8]) -> bool {
+        !matches!(bytes.get(2), Some(b'0' | b'1' | b'5'))
+    }
+
+    fn without_angle(&self, reply: &[u8], axis: usize, text: usize) -> Vec<u8> {
+        let mut reply = reply.to_vec();
+        if is_status(&reply) {
+            let from = AZIMUTH_AT + axis * POSITION_BYTES;
+            reply[from..from + POSITION_BYTES].copy_from_slice(NO_ANGLE[text % NO_ANGLE.len()]);
+            seal(&mut reply);
+        }
+        reply
+    }
+
+    fn falsified(&self, reply: &[u8], dice: &mut Dice) -> Vec<u8> {
+        let mut reply = reply.to_vec();
+        if is_status(&reply) {
+            // The name of the satellite, or the feed.
+            let at = if dice.chance(0.5) { 3 + dice.below(11) } else { 24 + dice.below(3) };
+            reply[at] = b' ' + dice.below(95) as u8;
+            seal(&mut reply);
+        }
+        reply
+    }
 }
 
 fn word(frame: &Frame) -> Word {
@@ -110,5 +146,23 @@ fn word(frame: &Frame) -> Word {
         b'0' | b'1' | b'5' => Word::Question,
         b'2' | b'3' => Word::Motion,
         _ => Word::Other,
+    }
+}
+
+/// First byte of the azimuth in a status, and bytes of a position.
+const AZIMUTH_AT: usize = 14;
+const POSITION_BYTES: usize = 5;
+/// Texts in place of an angle.
+const NO_ANGLE: [&[u8; 5]; 4] = [b"     ", b"ERROR", b"-----", b"  NaN"];
+
+/// Whether a reply is one whole status.
+fn is_status(reply: &[u8]) -> bool {
+    reply.first() == Some(&0x06) && reply.get(2) == Some(&b'1') && reply.len() > 30
+}
+
+/// Makes the checksum correct: exclusive or of all bytes before it.
+fn seal(reply: &mut [u8]) {
+    if let Some((sum, bytes)) = reply.split_last_mut() {
+        *sum = bytes.iter().fold(0, |sum, byte| sum ^ byte);
     }
 }

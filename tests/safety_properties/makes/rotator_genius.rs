@@ -6,15 +6,18 @@ use azel::{
     driver::Stream,
     protocol::rotator_genius::WholeDegrees,
     sim::rotator_genius::{Control, Fault, Options, RotatorOptions},
+    sim::{InMemory as _, Misreading, Trouble},
     station::{Antenna, Mount},
 };
+
+use jiff::Timestamp;
 
 use super::Make;
 use crate::{
     common::{dice::Dice, network},
     safety_properties::{
         unit::{Lie, Unit, Word, holds},
-        world::{World, some_time},
+        world::World,
     },
 };
 
@@ -28,11 +31,14 @@ pub(super) static MAKE: Make = Make {
     jogs_run_on: true,
     is_unchecked: true,
     doubts_flags: true,
+    tracks_on_board: false,
+    ignores_deg: 15.0,
+    waits_for_word: false,
     // One axis after the other.
     words_of_a_go_to: 2,
 };
 
-fn random(dice: &mut Dice) -> World {
+fn random(dice: &mut Dice, utc_origin: Timestamp) -> World {
     let highest_deg = if dice.chance(0.3) { 180.0 } else { 90.0 };
     let options = Options {
         rotators: [
@@ -56,7 +62,7 @@ fn random(dice: &mut Dice) -> World {
     };
     antenna.beam_width_deg = dice.between(1.0, 20.0);
     antenna.limits.minimum_elevation_deg = dice.between(0.0, 10.0);
-    World::new(&MAKE, Control::new(&options), antenna, some_time(dice), 4.0, 2.6)
+    World::new(&MAKE, Control::new(&options), antenna, utc_origin, 4.0, 2.6)
 }
 
 impl Unit for Control {
@@ -85,6 +91,11 @@ impl Unit for Control {
         self.set_fault(fault, true);
     }
 
+    fn add_noise(&self) {
+        let misreading = Misreading { noise_deg: 0.5, ..Misreading::default() };
+        self.set_trouble(Trouble::Misreads(misreading), true);
+    }
+
     fn link(&self) -> Box<dyn Stream> {
         network::link(self)
     }
@@ -100,6 +111,30 @@ impl Unit for Control {
     fn holds_stop(&self, bytes: &[u8]) -> bool {
         holds(bytes, b"|S")
     }
+
+    fn holds_order(&self, bytes: &[u8]) -> bool {
+        bytes != b"|h"
+    }
+
+    fn without_angle(&self, reply: &[u8], axis: usize, text: usize) -> Vec<u8> {
+        let mut reply = reply.to_vec();
+        if is_status(&reply) {
+            let from = HEADER_BYTES + axis * ROTATOR_BYTES;
+            reply[from..from + 3].copy_from_slice(NO_ANGLE[text % NO_ANGLE.len()]);
+        }
+        reply
+    }
+
+    fn falsified(&self, reply: &[u8], dice: &mut Dice) -> Vec<u8> {
+        let mut reply = reply.to_vec();
+        if is_status(&reply) {
+            let rotator = HEADER_BYTES + dice.below(2) * ROTATOR_BYTES;
+            // Limits, offset, target and start; not the position, its kind and its motion.
+            let from = rotator + [3, 6, 11, 15, 18][dice.below(5)];
+            reply[from..from + 3].copy_from_slice(ODD[dice.below(ODD.len())]);
+        }
+        reply
+    }
 }
 
 fn word(text: &str) -> Word {
@@ -109,4 +144,17 @@ fn word(text: &str) -> Word {
         _ if ["|A", "|P", "|M"].iter().any(|word| text.starts_with(word)) => Word::Motion,
         _ => Word::Other,
     }
+}
+
+/// Bytes of a status before the rotators, and of each rotator.
+const HEADER_BYTES: usize = 4;
+const ROTATOR_BYTES: usize = 34;
+/// Texts in place of an angle.
+const NO_ANGLE: [&[u8; 3]; 4] = [b"999", b"   ", b"NaN", b"361"];
+/// Figures that a unit with a fault might tell.
+const ODD: [&[u8; 3]; 8] = [b"999", b"  0", b"359", b"360", b" -1", b"   ", b"NaN", b"180"];
+
+/// Whether a reply is one whole status.
+fn is_status(reply: &[u8]) -> bool {
+    reply.starts_with(b"|h") && reply.len() == HEADER_BYTES + 2 * ROTATOR_BYTES
 }

@@ -1,20 +1,27 @@
 //! A Satrak on an X/Y mount.
 
+use std::collections::BTreeMap;
+
 use azel::{
     astro::Angle,
     clock::Instant,
+    controller::satrak::ELEMENT_FILE,
     driver::Stream,
     protocol::satrak::encode,
     sim::satrak::{Control, Fault, Options},
+    sim::{InMemory as _, Misreading, Trouble},
     station::{Antenna, Mount, Station},
 };
+
+use jiff::Timestamp;
 
 use super::Make;
 use crate::{
     common::{dice::Dice, network},
     safety_properties::{
+        sky,
         unit::{Lie, Unit, Word, holds},
-        world::{World, some_time},
+        world::World,
     },
 };
 
@@ -29,17 +36,25 @@ pub(super) static MAKE: Make = Make {
     jogs_run_on: true,
     is_unchecked: false,
     doubts_flags: false,
+    tracks_on_board: true,
+    ignores_deg: 0.0,
+    waits_for_word: false,
     words_of_a_go_to: 1,
 };
 
-fn random(dice: &mut Dice) -> World {
-    let utc_origin = some_time(dice);
+/// Name of the element file on the unit.
+const FILE: &str = "stations.txt";
+
+fn random(dice: &mut Dice, utc_origin: Timestamp) -> World {
     let station = Station::default();
     let lower_axis_deg = dice.between(0.0, 180.0);
+    let minimum_elevation_deg = dice.between(0.0, 15.0);
     let options = Options {
         lower_axis: Angle::from_degrees(lower_axis_deg),
         seed: dice.next(),
         max_clients: 2,
+        elements: BTreeMap::from([(FILE.to_owned(), sky::all_elements().to_vec())]),
+        minimum_elevation_deg,
         ..Options::new(station.site, utc_origin)
     };
     let mut antenna = Antenna::satrak("Dish", "in memory");
@@ -49,7 +64,8 @@ fn random(dice: &mut Dice) -> World {
         travel_to_deg: dice.between(150.0, 175.0),
     };
     antenna.limits.maximum_rate_deg_s = dice.between(0.5, 5.0);
-    antenna.limits.minimum_elevation_deg = dice.between(0.0, 15.0);
+    antenna.limits.minimum_elevation_deg = minimum_elevation_deg;
+    antenna.connection.put(&ELEMENT_FILE, FILE).unwrap();
     antenna.beam_width_deg = dice.between(0.1, 3.0);
     World::new(&MAKE, Control::new(&options), antenna, utc_origin, 5.0, 0.15)
 }
@@ -76,6 +92,11 @@ impl Unit for Control {
         self.set_fault(fault, true);
     }
 
+    fn add_noise(&self) {
+        let misreading = Misreading { noise_deg: 0.05, ..Misreading::default() };
+        self.set_trouble(Trouble::Misreads(misreading), true);
+    }
+
     fn link(&self) -> Box<dyn Stream> {
         network::link(self)
     }
@@ -91,6 +112,18 @@ impl Unit for Control {
     fn holds_stop(&self, bytes: &[u8]) -> bool {
         holds(bytes, b"STOP=") || holds(bytes, b"STOP =")
     }
+
+    fn holds_order(&self, bytes: &[u8]) -> bool {
+        bytes.contains(&b'=')
+    }
+
+    fn without_angle(&self, reply: &[u8], axis: usize, text: usize) -> Vec<u8> {
+        without_angle(reply, axis, text).unwrap_or_else(|| reply.to_vec())
+    }
+
+    fn falsified(&self, reply: &[u8], dice: &mut Dice) -> Vec<u8> {
+        falsified(reply, dice).unwrap_or_else(|| reply.to_vec())
+    }
 }
 
 fn word(text: &str) -> Word {
@@ -104,4 +137,71 @@ fn word(text: &str) -> Word {
     } else {
         Word::Other
     }
+}
+
+/// Texts in place of an angle.
+const NO_ANGLE: [&str; 6] = ["", "NaN", "inf", "-", "1e999", "---"];
+/// Figures that a unit with a fault might tell.
+const ODD: [&str; 14] = [
+    "0",
+    "1",
+    "-1",
+    "255",
+    "65535",
+    "-32768",
+    "4294967296",
+    "99999999999999999999",
+    "1e308",
+    "NaN",
+    "-inf",
+    "",
+    "0.0000001",
+    "360.01",
+];
+/// Number of values in a status, the first of which is a flag.
+const STATUS_VALUES: usize = 16;
+
+/// The payload of a reply, if it is one whole frame.
+fn payload(reply: &[u8]) -> Option<&str> {
+    std::str::from_utf8(reply).ok()?.strip_prefix('$')?.split_once('*').map(|(payload, _)| payload)
+}
+
+fn without_angle(reply: &[u8], axis: usize, text: usize) -> Option<Vec<u8>> {
+    let mut values: Vec<&str> = payload(reply)?.split(',').collect();
+    let first = values.len().checked_sub(STATUS_VALUES)?;
+    if !values[0].starts_with("STATUS?") {
+        return None;
+    }
+    *values.get_mut(first + 13 + axis)? = NO_ANGLE[text % NO_ANGLE.len()];
+    Some(encode(&values.join(",")))
+}
+
+/// A time as the unit writes it, far from now in one of three cases.
+fn some_time(dice: &mut Dice) -> [String; 6] {
+    let year = [1970, 1999, 2000, 2026, 2027, 2038, 2099, 2100, 9999, 0][dice.below(10)];
+    let month = 1 + dice.below(12);
+    let parts = [year, month, 1 + dice.below(31), dice.below(24), dice.below(60), dice.below(60)];
+    parts.map(|part| part.to_string())
+}
+
+fn falsified(reply: &[u8], dice: &mut Dice) -> Option<Vec<u8>> {
+    let payload = payload(reply)?;
+    let (word, values) = payload.split_once(',')?;
+    let mut values: Vec<String> = values.split(',').map(str::to_owned).collect();
+    match word.split(['?', '=']).next()? {
+        "STATUS" | "VERSION" | "ERRSTATUS" => return None,
+        word if word.contains("TIME") && dice.chance(0.7) => {
+            // Whole times: clocks and windows, also reversed ones.
+            for time in values.chunks_mut(6).filter(|time| time.len() == 6) {
+                if dice.chance(0.6) {
+                    time.clone_from_slice(&some_time(dice));
+                }
+            }
+        }
+        _ => {
+            let at = dice.below(values.len());
+            ODD[dice.below(ODD.len())].clone_into(&mut values[at]);
+        }
+    }
+    Some(encode(&format!("{word},{}", values.join(","))))
 }

@@ -1,0 +1,211 @@
+//! Processor time of each turn of the sessions of three antennas. Nothing else runs on the
+//! driver's thread in a turn, not even a STOP of another antenna. A measurement:
+//!
+//! ```text
+//! AZEL_HOURS=24 cargo test --release --test azel driver_turns -- --nocapture
+//! ```
+
+use std::{cell::RefCell, num::NonZeroU32, rc::Rc, time::Duration};
+
+use azel::{
+    astro::{Angle, time::add_seconds},
+    clock::Clock,
+    controller::{
+        rc2000c::Calibration,
+        rotator_genius::{ROTATORS, Rotators},
+        satrak::ELEMENT_FILE,
+    },
+    device::{CountPoint, TrackTarget},
+    driver::{AntennaHandle, Command, Debts},
+    orbit::{Elements, PassSearch, Propagator, bundled, passes},
+    plan::{Bounds, OnBoardPass, ProgramTrack, Target},
+    sim::{Control, Unit, rc2000c, rotator_genius, satrak},
+    station::{Antenna, Mount, Station, SunAvoidance},
+};
+use jiff::Timestamp;
+use tokio::task::LocalSet;
+
+use crate::common::{
+    mast,
+    network::{Network, link},
+    rig::indebted_session,
+    turns::{Turns, timed},
+};
+
+/// Name of the element file on the Satrak.
+const FILE: &str = "stations.txt";
+/// Satellites on low orbits.
+const NUMBERS: [u32; 6] = [43013, 25544, 37849, 25994, 27424, 49260];
+/// Elevation of AOS and LOS, degrees.
+const AOS_DEG: f64 = 10.0;
+const LOOK: Duration = Duration::from_millis(100);
+
+/// An antenna with its session, and the processor time of its turns.
+struct Measured {
+    name: &'static str,
+    handle: AntennaHandle,
+    turns: Rc<RefCell<Turns>>,
+}
+
+fn open<U: Unit>(
+    name: &'static str,
+    antenna: &Antenna,
+    control: Control<U>,
+    station: &Station,
+    clock: &Clock,
+) -> Measured {
+    let dial = Network::default().dial(move || link(&control));
+    let (session, handle) = indebted_session(antenna, dial, clock.clone(), Debts::default());
+    handle.keep_within(Bounds::of(station, antenna));
+    handle.send(Command::Connect).unwrap();
+    let turns = Rc::<RefCell<Turns>>::default();
+    let taken = Rc::clone(&turns);
+    tokio::task::spawn_local(timed(session.run(), move |turn| taken.borrow_mut().add(turn)));
+    Measured { name, handle, turns }
+}
+
+/// A pass of one of the satellites.
+struct Event {
+    elements: Elements,
+    aos: Timestamp,
+    los: Timestamp,
+}
+
+/// All passes from `from` on, one after the other without overlap.
+fn timetable(from: Timestamp, hours: f64) -> Vec<Event> {
+    let catalog = bundled().unwrap();
+    let site = Station::default().site;
+    let mut found = Vec::new();
+    for number in NUMBERS {
+        let elements = catalog.get(number).unwrap();
+        let to = add_seconds(from, hours * 3600.0);
+        let aos_elevation = Angle::from_degrees(AOS_DEG);
+        let search = PassSearch { aos_elevation, ..PassSearch::new(site, from, to) };
+        let propagator = Propagator::new(elements).unwrap();
+        found.extend(passes(&propagator, &search, &|| false).into_iter().map(|pass| Event {
+            elements: elements.clone(),
+            aos: pass.aos.time,
+            los: pass.los.time,
+        }));
+    }
+    found.sort_by_key(|event| event.aos);
+    let mut free = from;
+    found.retain(|event| {
+        let is_free = event.aos > add_seconds(free, 180.0);
+        if is_free {
+            free = event.los;
+        }
+        is_free
+    });
+    found
+}
+
+fn antennas(from: Timestamp, station: &Station, clock: &Clock) -> [Measured; 3] {
+    let catalog = bundled().unwrap();
+    let elements = NUMBERS.map(|number| catalog.get(number).unwrap().clone()).to_vec();
+    let mut options = satrak::Options::new(station.site, from);
+    options.elements.insert(FILE.to_owned(), elements);
+    let mut dish = Antenna::satrak("Dish", "in memory");
+    dish.connection.put(&ELEMENT_FILE, FILE).unwrap();
+
+    let pair = rotator_genius::Options {
+        rotators: [
+            rotator_genius::RotatorOptions::default(),
+            rotator_genius::RotatorOptions::elevation(),
+        ],
+        ..rotator_genius::Options::default()
+    };
+    let mut tower = Antenna::genius("Mast", "in memory");
+    tower.connection.put(&ROTATORS, Rotators::Pair).unwrap();
+
+    let point = |counts, degrees| CountPoint { counts, degrees };
+    let calibration = Calibration {
+        azimuth: vec![point(30, 0.0), point(3630, 400.0)],
+        elevation: vec![point(30, 0.0), point(1830, 90.0)],
+    };
+    let mut horn = Antenna::rc2000c("Horn", "in memory");
+    calibration.put_into(&mut horn.connection).unwrap();
+    horn.mount = Mount::AzEl {
+        azimuth_from_deg: 0.0,
+        azimuth_to_deg: 400.0,
+        elevation_from_deg: 0.0,
+        elevation_to_deg: 90.0,
+    };
+    [
+        open("Satrak", &dish, satrak::Control::new(&options), station, clock),
+        open("Genius", &tower, rotator_genius::Control::new(&pair), station, clock),
+        open("RC2000C", &horn, rc2000c::Control::new(&rc2000c::Options::default()), station, clock),
+    ]
+}
+
+/// The antennas' work at one pass.
+fn begin(antennas: &[Measured], event: &Event, station: &Station) {
+    let target = Target::Satellite(Box::new(event.elements.clone()));
+    let track = ProgramTrack::new(target, station.site, vec![(event.aos, event.los)]);
+    let pass = OnBoardPass {
+        target: TrackTarget {
+            catalog_number: event.elements.catalog_number(),
+            name: event.elements.name().into(),
+            from: event.aos,
+            until: event.los,
+        },
+        elements: event.elements.clone(),
+        site: station.site,
+        is_agreed: true,
+    };
+    for antenna in antennas {
+        let command = match antenna.name {
+            "Satrak" => Command::Track(Box::new(pass.clone())),
+            _ => Command::ProgramTrack(Box::new(track.clone())),
+        };
+        antenna.handle.send(command).unwrap();
+    }
+}
+
+async fn until(antennas: &mut [Measured], clock: &Clock, at: Timestamp) {
+    while clock.utc() < at {
+        tokio::time::sleep(LOOK).await;
+        for antenna in antennas.iter_mut() {
+            while antenna.handle.next_event().is_some() {}
+        }
+    }
+}
+
+async fn day(hours: f64) {
+    let from: Timestamp = "2026-08-12T11:03:00Z".parse().unwrap();
+    let clock = Clock::at_speed(from, NonZeroU32::MIN);
+    let keep_outs = vec![
+        mast(&[(80.0, 0.0), (100.0, 0.0), (100.0, 35.0), (80.0, 35.0)]),
+        mast(&[(200.0, 0.0), (215.0, 0.0), (215.0, 25.0), (200.0, 25.0)]),
+    ];
+    let sun_avoidance = Some(SunAvoidance { radius_deg: 5.0, ahead_min: 10.0 });
+    let station = Station { keep_outs, sun_avoidance, ..Station::default() };
+    let mut antennas = antennas(from, &station, &clock);
+    let end = add_seconds(from, hours * 3600.0);
+    let timetable = timetable(from, hours);
+    for event in &timetable {
+        until(&mut antennas, &clock, add_seconds(event.aos, -90.0)).await;
+        begin(&antennas, event, &station);
+        until(&mut antennas, &clock, add_seconds(event.los, 10.0)).await;
+        for antenna in &antennas {
+            antenna.handle.send(Command::Park).unwrap();
+        }
+    }
+    until(&mut antennas, &clock, end).await;
+    println!("{hours} hours of three antennas, {} passes", timetable.len());
+    let mut all = Turns::default();
+    for antenna in &antennas {
+        let turns = antenna.turns.borrow();
+        println!("{:8} {turns}", antenna.name);
+        all.add_all(&turns);
+    }
+    println!("all      {all}");
+}
+
+#[test]
+fn the_turns_of_three_sessions_are_measured() {
+    let hours = std::env::var("AZEL_HOURS").ok().and_then(|hours| hours.parse().ok());
+    let mut builder = tokio::runtime::Builder::new_current_thread();
+    let runtime = builder.enable_time().start_paused(true).build().unwrap();
+    LocalSet::new().block_on(&runtime, day(hours.unwrap_or(0.05)));
+}

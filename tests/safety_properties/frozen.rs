@@ -1,0 +1,66 @@
+//! Angles that freeze at a random moment of any motion.
+
+use super::{
+    cases::for_each_case,
+    deeds::Deed,
+    judge::Judge,
+    scene::Scene,
+    unit::Lie,
+    world::{Overhead, Wish, World},
+};
+use crate::common::dice::Dice;
+
+/// Time within which a motion ends whose angles froze, seconds.
+fn ends_within_s(deed: &Deed) -> f64 {
+    match deed {
+        Deed::Jog(_) => 6.0,
+        Deed::GoTo(..) | Deed::Park => 10.0,
+        // The target moves slowly near AOS and LOS.
+        Deed::Point(..) | Deed::Follow | Deed::OnBoard => 120.0,
+    }
+}
+
+/// How far the shown angles are behind the true ones, degrees.
+fn behind_deg(scene: &Scene) -> f64 {
+    let shown = scene.shown().state.measured;
+    let axes = shown.into_iter().flat_map(|look| look.axes).zip(scene.world.unit.axes_deg());
+    let off_deg = axes.filter_map(|(axis, true_deg)| {
+        Some((axis.angle_deg? - true_deg + 180.0).rem_euclid(360.0) - 180.0)
+    });
+    off_deg.map(f64::abs).fold(0.0, f64::max)
+}
+
+async fn freezes(mut dice: Dice) {
+    let wish =
+        Wish { keep_outs: dice.below(3), overflight: Overhead::Satellite, ..Wish::default() };
+    let world = World::random(&mut dice, &wish);
+    let mut scene = Scene::start(world, &mut dice).await;
+    let deed = Deed::any(&mut dice, &scene.world);
+    let before_s = dice.between(0.0, 20.0);
+    let case = format!("{} {deed:?} freezes after {before_s}", scene.world.make.name);
+    let mut judge = Judge::new(&scene, case);
+    if matches!(deed, Deed::OnBoard) {
+        scene.until_placed().await;
+    }
+    deed.begin(&mut scene, &mut judge).await;
+    deed.go_on(&mut scene, &judge, before_s).await;
+    scene.world.unit.tell(Lie::FrozenAngles);
+    // Only a jog is led by the angles alone.
+    judge.is_lost = deed.is_jog();
+    deed.go_on(&mut scene, &judge, ends_within_s(&deed)).await;
+    for _ in 0..60 {
+        deed.go_on(&mut scene, &judge, 0.05).await;
+        let is_hidden = behind_deg(&scene) < scene.world.make.ignores_deg;
+        assert!(
+            is_hidden || !scene.world.unit.is_turning(),
+            "turns on: {judge}\n{}",
+            scene.report()
+        );
+    }
+    judge.end(&scene);
+}
+
+#[test]
+fn any_motion_whose_angles_freeze_ends() {
+    for_each_case("angles freeze at any moment", 40, freezes);
+}
