@@ -245,3 +245,27 @@ fn an_ordinary_day_has_no_false_stop() {
     let accepted = (hours / HOURS_PER_FALSE_STOP).floor();
     assert!(number as f64 <= accepted, "{number} in {hours:.1} antenna-hours");
 }
+
+/// The reply to the first order is lost; a unit may take one order for each axis.
+async fn loses_its_first_reply(mut dice: Dice) {
+    let world = world(&mut dice, Kind::Geostationary);
+    let mut scene = Scene::start(world, &mut dice).await;
+    let deed = Deed::Point(dice.between(30.0, 330.0), dice.between(20.0, 70.0));
+    let case = format!("{} {deed:?}", scene.world.make.name);
+    let mut judge = Judge::new(&scene, case);
+    let began = Instant::now();
+    scene.trouble(|line| line.loses_next = true);
+    deed.begin(&mut scene, &mut judge).await;
+    deed.go_on(&mut scene, &judge, 150.0).await;
+    let Deed::Point(az_deg, el_deg) = deed else { return };
+    let off = scene.world.direction().separation(AzEl::from_degrees(az_deg, el_deg));
+    let near_deg = scene.world.coarse_deg + 1.0;
+    assert!(off.degrees() <= near_deg, "{off:?} off: {judge}\n{}", scene.report());
+    let wrong = scene.told(began, |event| is_false(event, 0.0));
+    assert!(wrong.is_none(), "{judge}\n{}", scene.report());
+}
+
+#[test]
+fn a_lost_reply_to_its_first_order_ends_no_track() {
+    for_each_case("the first reply is lost", 12, loses_its_first_reply);
+}

@@ -277,6 +277,13 @@ impl Session {
         track.lost < MAX_LOST
     }
 
+    /// The next position is planned from where the axes are, whatever was sent before.
+    pub(super) fn plan_anew(&mut self) {
+        if let Some(track) = self.activity.last_program_mut() {
+            track.planner.forget_sent();
+        }
+    }
+
     /// The unit accepted a position.
     pub(super) fn position_taken(&mut self) {
         if let Some(track) = self.activity.last_program_mut() {

@@ -205,7 +205,10 @@ impl Session {
         let turned = before_deg.zip(self.gate.axes_deg()).is_some_and(|(before, after)| {
             before.iter().zip(after).any(|(before, after)| (after - before).abs() > TURNED_DEG)
         });
-        if !self.active() && !turned && !self.may_send_another() {
+        if self.active() || turned {
+            // A controller that sends an order for each axis may have sent only the first.
+            self.plan_anew();
+        } else if !self.may_send_another() {
             self.forget(asked, Event::Unanswered(asked), now);
         }
     }
