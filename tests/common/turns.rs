@@ -13,7 +13,7 @@ use nix::time::ClockId;
 
 /// A task that takes longer in one turn keeps the other antennas from being served, even where the
 /// tests are not optimised.
-const MAX_TURN: Duration = Duration::from_secs(2);
+const MAX_TURN: Duration = Duration::from_millis(500);
 
 /// Processor time of this thread.
 fn spent() -> Duration {

@@ -89,5 +89,5 @@ async fn is_full(mut dice: Dice) {
 
 #[test]
 fn any_full_disk_holds_up_no_motion_and_no_stop() {
-    for_each_case("the disk is full", 40, is_full);
+    for_each_case("the disk is full", 25, is_full);
 }

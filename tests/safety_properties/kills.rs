@@ -90,5 +90,5 @@ async fn is_killed(mut dice: Dice) {
 
 #[test]
 fn any_session_that_is_killed_leaves_its_stop_to_the_next_which_moves_nothing_by_itself() {
-    for_each_case("sessions are killed", 40, is_killed);
+    for_each_case("sessions are killed", 25, is_killed);
 }

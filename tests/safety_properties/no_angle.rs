@@ -61,5 +61,20 @@ async fn loses_an_angle(mut dice: Dice) {
 
 #[test]
 fn any_axis_without_an_angle_enters_no_keep_out() {
-    for_each_case("an angle is missing", 4, loses_an_angle);
+    for_each_case("an angle is missing", 10, loses_an_angle);
+}
+
+/// Every turn of the session is measured: one thread serves all antennas of a station.
+async fn loses_both_angles(mut dice: Dice) {
+    let world = World::random(&mut dice, &Wish { keep_outs: 5, ..Wish::default() });
+    let first = Line { blank: [true; 2], ..Line::default() };
+    let mut scene = Scene::begin(world, &mut dice, None, first);
+    scene.seconds(5.0).await;
+    let mut judge = Judge::new(&scene, scene.world.make.name.to_owned());
+    judge.stop(&mut scene, 5.0).await;
+}
+
+#[test]
+fn a_unit_without_angles_holds_up_no_other_antenna() {
+    for_each_case("both angles are missing", 5, loses_both_angles);
 }

@@ -234,7 +234,7 @@ async fn ordinary(mut dice: Dice, tally: Tally) {
 #[test]
 fn an_ordinary_day_has_no_false_stop() {
     let tally = Tally::default();
-    for_each_case("ordinary hours", 15, |dice| ordinary(dice, Rc::clone(&tally)));
+    for_each_case("ordinary hours", 10, |dice| ordinary(dice, Rc::clone(&tally)));
     let tally = tally.borrow();
     for ((kind, make), (hours, wrong)) in tally.iter() {
         println!("{make:8} {kind:?}: {} false in {hours:.1} antenna-hours", wrong.len());
@@ -267,5 +267,5 @@ async fn loses_its_first_reply(mut dice: Dice) {
 
 #[test]
 fn a_lost_reply_to_its_first_order_ends_no_track() {
-    for_each_case("the first reply is lost", 12, loses_its_first_reply);
+    for_each_case("the first reply is lost", 6, loses_its_first_reply);
 }

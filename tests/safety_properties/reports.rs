@@ -54,5 +54,5 @@ async fn reports(mut dice: Dice) {
 
 #[test]
 fn any_reports_of_a_unit_are_harmless() {
-    for_each_case("reports are wrong", 60, reports);
+    for_each_case("reports are wrong", 40, reports);
 }

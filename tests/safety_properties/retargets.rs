@@ -50,5 +50,5 @@ async fn is_retargeted(mut dice: Dice) {
 
 #[test]
 fn any_other_target_on_the_way_leads_into_no_keep_out() {
-    for_each_case("targets change on the way", 40, is_retargeted);
+    for_each_case("targets change on the way", 25, is_retargeted);
 }

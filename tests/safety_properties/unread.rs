@@ -142,5 +142,5 @@ async fn cannot_be_read(mut dice: Dice) {
 
 #[test]
 fn any_safety_setting_that_cannot_be_read_forbids_motion() {
-    for_each_case("a safety setting is damaged", 60, cannot_be_read);
+    for_each_case("a safety setting is damaged", 40, cannot_be_read);
 }

@@ -85,7 +85,8 @@ impl Session {
         let is_known = intervals.unknown().is_none();
         // An unknown angle is inside a barrier only if it is so wherever the axis may be.
         let surely = (!is_known).then(|| bounds.holds_all_of(here));
-        let way_deg = |place| bounds.way_out_deg(place).filter(|_| is_known);
+        // From anywhere in a range the search would hold up the other antennas of this thread.
+        let way_deg = |place| is_known.then(|| bounds.way_out_deg(place)).flatten();
         let ways_deg = [here, there].map(way_deg);
         for (index, (from, to)) in from.into_iter().zip(to).enumerate() {
             // Where no axis leads out by itself, the depth inside each barrier counts.
