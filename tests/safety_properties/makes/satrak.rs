@@ -93,7 +93,9 @@ impl Unit for Control {
     }
 
     fn add_noise(&self) {
-        let misreading = Misreading { noise_deg: 0.05, ..Misreading::default() };
+        // The axes of the mount near its poles turn further than the direction on the sky. Four
+        // standard deviations are half of the last figure; more would be an antenna that sways.
+        let misreading = Misreading { noise_deg: 0.0125, ..Misreading::default() };
         self.set_trouble(Trouble::Misreads(misreading), true);
     }
 
