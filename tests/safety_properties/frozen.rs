@@ -11,12 +11,12 @@ use super::{
 use crate::common::dice::Dice;
 
 /// Time within which a motion ends whose angles froze, seconds.
-fn ends_within_s(deed: &Deed) -> f64 {
+fn ends_within_s(deed: &Deed) -> u32 {
     match deed {
-        Deed::Jog(_) => 6.0,
-        Deed::GoTo(..) | Deed::Park => 10.0,
+        Deed::Jog(_) => 6,
+        Deed::GoTo(..) | Deed::Park => 10,
         // The target moves slowly near AOS and LOS.
-        Deed::Point(..) | Deed::Follow | Deed::OnBoard => 120.0,
+        Deed::Point(..) | Deed::Follow | Deed::OnBoard => 120,
     }
 }
 
@@ -47,12 +47,19 @@ async fn freezes(mut dice: Dice) {
     scene.world.unit.tell(Lie::FrozenAngles);
     // Only a jog is led by the angles alone.
     judge.is_lost = deed.is_jog();
-    deed.go_on(&mut scene, &judge, ends_within_s(&deed)).await;
+    let mut shows_s = 0.0;
+    for _ in 0..ends_within_s(&deed) {
+        deed.go_on(&mut scene, &judge, 1.0).await;
+        let is_hidden = behind_deg(&scene) < scene.world.make.ignores_deg;
+        shows_s = if is_hidden { 0.0 } else { shows_s + 1.0 };
+    }
+    // A unit begins to turn to a position late.
+    let shows_within_s = if deed.is_jog() { 0.0 } else { 8.0 };
     for _ in 0..60 {
         deed.go_on(&mut scene, &judge, 0.05).await;
         let is_hidden = behind_deg(&scene) < scene.world.make.ignores_deg;
         assert!(
-            is_hidden || !scene.world.unit.is_turning(),
+            is_hidden || shows_s < shows_within_s || !scene.world.unit.is_turning(),
             "turns on: {judge}\n{}",
             scene.report()
         );

@@ -8,6 +8,7 @@
 //! directions: what the axes count, and that of the beam. The lesser clearance counts.
 
 mod aim;
+mod least;
 mod near;
 mod sun;
 mod sweep;
@@ -177,6 +178,9 @@ impl BoundsAt<'_> {
         let first = samples.next().into_iter().flat_map(|at| self.each(at));
         let mut inside: Vec<_> = first.map(|(_, angle, _)| angle < Angle::ZERO).collect();
         for aim in samples {
+            if !inside.contains(&true) {
+                break;
+            }
             for (inside, barrier) in inside.iter_mut().zip(self.barriers(aim)) {
                 *inside = *inside && barrier.angle_below(Angle::ZERO).is_some();
             }
@@ -362,14 +366,12 @@ impl BoundsAt<'_> {
 
     /// As [`Self::each`], with the least clearance among the positions in `place`, from samples.
     fn each_in(&self, place: Sweep) -> Vec<(Named<'_>, Angle, bool)> {
-        let mut samples = place.samples().map(|sample| self.aim(sample));
-        let mut least: Vec<_> = samples.next().into_iter().flat_map(|at| self.each(at)).collect();
-        for aim in samples {
-            for ((_, least, _), barrier) in least.iter_mut().zip(self.barriers(aim)) {
-                *least = barrier.angle_below(*least).unwrap_or(*least);
-            }
-        }
-        least
+        let barriers: Vec<_> = self.barriers(self.aim(place.middle())).collect();
+        let groups: Vec<_> = (0..barriers.len()).map(Some).collect();
+        let mut least = vec![Angle::from_degrees(f64::INFINITY); barriers.len()];
+        self.lower_to_least(place, &groups, &mut least);
+        let each = barriers.iter().zip(least);
+        each.map(|(barrier, least)| (barrier.name, least, barrier.warns_only)).collect()
     }
 
     fn each(&self, aim: Aim) -> impl Iterator<Item = (Named<'_>, Angle, bool)> {

@@ -256,6 +256,18 @@ pub(super) enum Arrival {
 }
 
 impl Slew {
+    /// Returns `false` if its first motion leads to where the antenna stands.
+    pub(super) fn leads_on(&self, at: Pointing, within: Angle) -> bool {
+        match self.stage {
+            SlewStage::Queued { leg: Some(Leg { aim, .. }), .. } => {
+                aim.separation(at).is_none_or(|off| off > within)
+            }
+            SlewStage::Queued { leg: None, .. } | SlewStage::UnderWay { .. } | SlewStage::Over => {
+                true
+            }
+        }
+    }
+
     /// Compares the motion under way with a position. `turns`: the unit's flags say so; `turned`:
     /// when its angles last changed.
     pub(super) fn watch(
@@ -281,5 +293,26 @@ impl Slew {
         };
         self.stage = SlewStage::Over;
         Some(arrival)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::astro::AzEl;
+
+    #[test]
+    fn a_way_that_begins_at_the_corner_where_the_antenna_stands_leads_on_nowhere() {
+        let aimed = |azimuth_deg| Pointing::from(AzEl::from_degrees(azimuth_deg, 20.0));
+        let then = Motion::Position { azimuth: Some(Angle::from_degrees(200.0)), elevation: None };
+        let slew = |leg| Slew {
+            aim: Some(aimed(200.0)),
+            stage: SlewStage::Queued { motion: then, leg },
+        };
+        let round_a_corner = slew(Some(Leg { aim: aimed(100.0), then }));
+        let within = Angle::from_degrees(0.5);
+        assert!(!round_a_corner.leads_on(aimed(100.2), within));
+        assert!(round_a_corner.leads_on(aimed(99.0), within));
+        assert!(slew(None).leads_on(aimed(199.9), within), "the last motion may be a short one");
     }
 }

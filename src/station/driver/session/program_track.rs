@@ -277,10 +277,10 @@ impl Session {
         track.lost < MAX_LOST
     }
 
-    /// The next position is planned from where the axes are, whatever was sent before.
-    pub(super) fn plan_anew(&mut self) {
+    /// Plans the next position of these axes from where they are, whatever was sent before.
+    pub(super) fn plan_anew(&mut self, axes: [bool; 2]) {
         if let Some(track) = self.activity.last_program_mut() {
-            track.planner.forget_sent();
+            track.planner.forget_sent_of(axes);
         }
     }
 

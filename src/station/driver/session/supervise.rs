@@ -11,8 +11,8 @@ use super::{
 use crate::{
     astro::Angle,
     clock::{Instant, Moment},
-    device::{Asked, ControllerEvent, Motion, Phase, Pointing, TrackTarget},
-    driver::{Found, Intent},
+    device::{Asked, AxisMotion, ControllerEvent, Motion, Phase, Pointing, TrackTarget},
+    driver::{Found, Intent, Refusal},
 };
 
 /// Time within which an accepted command to track must show in the unit's state.
@@ -202,12 +202,15 @@ impl Session {
         }
         self.doubt = None;
         // A short motion may be over before it was in doubt.
-        let turned = before_deg.zip(self.gate.axes_deg()).is_some_and(|(before, after)| {
-            before.iter().zip(after).any(|(before, after)| (after - before).abs() > TURNED_DEG)
+        let turned = before_deg.zip(self.gate.axes_deg()).map_or([false; 2], |(before, after)| {
+            [0, 1].map(|axis| (after[axis] - before[axis]).abs() > TURNED_DEG)
         });
-        if self.active() || turned {
+        if self.active() || turned.contains(&true) {
             // A controller that sends an order for each axis may have sent only the first.
-            self.plan_anew();
+            let axes = self.gate.state().measured.map(|measured| measured.axes);
+            let stands =
+                axes.map_or([true; 2], |axes| axes.map(|axis| axis.motion == AxisMotion::Still));
+            self.plan_anew([0, 1].map(|axis| stands[axis] && !turned[axis]));
         } else if !self.may_send_another() {
             self.forget(asked, Event::Unanswered(asked), now);
         }
@@ -316,6 +319,23 @@ impl Session {
         }
     }
 
+    /// The rest of a way round a corner. From beside the corner the rest may be blocked: a way that
+    /// leads to the same corner again would have no end.
+    fn next_leg(
+        &self,
+        then: Motion,
+        at: Pointing,
+        within: Angle,
+        now: Moment,
+    ) -> Result<Slew, Refusal> {
+        let intent = self.activity.intent();
+        let next = self.slew(then, intent, now)?;
+        if !next.leads_on(at, within) {
+            self.gate.check(then, intent, now)?;
+        }
+        Ok(next)
+    }
+
     /// Sends the next motion of a slew, or reports how it has ended.
     fn watch_slew(&mut self, now: Moment) {
         let (turns, within_deg) = (self.turns(), self.variant.capabilities.arrives_within_deg);
@@ -327,7 +347,7 @@ impl Session {
             return;
         };
         match arrival {
-            Arrival::Leg(then) => match self.slew(then, self.activity.intent(), now) {
+            Arrival::Leg(then) => match self.next_leg(then, measured.pointing, within, now) {
                 Ok(next) => {
                     if let Some(slew) = self.activity.slew_mut() {
                         *slew = next;

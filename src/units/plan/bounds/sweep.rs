@@ -63,14 +63,14 @@ impl Sweep {
     }
 
     /// Evenly spaced positions, with both ends of each axis.
+    pub(super) fn sampled(self) -> Samples {
+        Samples { sweep: self, steps: self.steps().map(|steps| steps as usize) }
+    }
+
     pub(super) fn samples(self) -> impl Iterator<Item = [f64; 2]> {
-        let mut steps = self.steps().into_iter();
-        let [first, second] = self.0.map(|(from, to)| {
-            let parts = steps.next().unwrap_or_default() as u32;
-            let share = f64::from(parts.max(1)).recip();
-            (0..=parts).map(move |part| (to - from).mul_add(f64::from(part) * share, from))
-        });
-        first.flat_map(move |first| second.clone().map(move |second| [first, second]))
+        let samples = self.sampled();
+        let [first, second] = samples.steps.map(|steps| 0..=steps);
+        first.flat_map(move |first| second.clone().map(move |second| samples.at([first, second])))
     }
 
     /// Largest angle between a direction of the axes in the sweep and that of its middle, degrees.
@@ -88,5 +88,24 @@ impl Sweep {
             let middle = f64::midpoint(c, d);
             [Self([(a, b), (c, middle)]), Self([(a, b), (middle, d)])]
         }
+    }
+}
+
+/// Evenly spaced positions of a sweep.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Samples {
+    sweep: Sweep,
+    /// Number of steps along each axis.
+    pub(super) steps: [usize; 2],
+}
+
+impl Samples {
+    /// The sample after this number of steps along each axis.
+    pub(super) fn at(self, steps: [usize; 2]) -> [f64; 2] {
+        let place = |axis: usize| {
+            let ((from, to), all) = (self.sweep.0[axis], self.steps[axis]);
+            (to - from).mul_add(steps[axis] as f64 / (all.max(1) as f64), from)
+        };
+        [place(0), place(1)]
     }
 }

@@ -22,6 +22,13 @@ const STRETCH_DEG: f64 = 0.01;
 /// Largest turn of an axis to get out, degrees.
 const FURTHEST_DEG: f64 = 360.0;
 
+/// Groups of barriers: those to get out of and those not to enter, in each case without the minimum
+/// elevation of a turn that keeps the elevation, and that minimum elevation itself.
+const LEFT: usize = 0;
+const OTHERS: usize = 1;
+const LEFT_BELOW: usize = 2;
+const ABOVE: usize = 3;
+
 /// A position along a turn.
 enum Spot {
     /// Outside all barriers.
@@ -51,7 +58,8 @@ impl BoundsAt<'_> {
             let turn = self.turn(place, axis, way);
             let max_deg = shortest_deg.map_or(FURTHEST_DEG, |deg: f64| deg / turn.speed);
             let spot = |turn_deg| self.spot(&turn, turn_deg, &left);
-            if let Some(turn_deg) = turn.out_deg(max_deg, EDGE_DEG, spot) {
+            let edge_deg = if self.bounds.has_elevation { EDGE_DEG } else { EDGE_OF_AZIMUTH_DEG };
+            if let Some(turn_deg) = turn.out_deg(max_deg, edge_deg, spot) {
                 let way_deg = turn_deg * turn.speed;
                 shortest_deg = Some(shortest_deg.map_or(way_deg, |deg| deg.min(way_deg)));
             }
@@ -115,27 +123,31 @@ impl BoundsAt<'_> {
 
     fn spot(&self, turn: &Turn, turn_deg: f64, left: &[bool]) -> Spot {
         let place = Turn::turned(turn.start, turn.axis, turn.way * turn_deg);
-        let (mut deepest_deg, mut room_deg) = (0.0, f64::INFINITY);
-        for sample in place.samples() {
-            let each = self.barriers(self.aim(sample)).zip(left);
-            for (barrier, is_left) in each.filter(|(barrier, _)| !barrier.warns_only) {
+        let each = self.barriers(self.aim(place.middle())).zip(left);
+        let groups: Vec<_> = each
+            .map(|(barrier, is_left)| {
                 // A turn that keeps the elevation never reaches the edge of the minimum elevation.
                 let is_level =
                     turn.keeps_elevation && matches!(barrier.name, Named::MinimumElevation);
-                let least = Angle::from_degrees(if *is_left { -deepest_deg } else { 0.0 });
-                let clear_deg = barrier.angle_unless_from(least).degrees();
-                if *is_left {
-                    let is_inside = clear_deg < 0.0;
-                    let deep_deg = if is_level && is_inside { f64::INFINITY } else { -clear_deg };
-                    deepest_deg = f64::max(deepest_deg, deep_deg);
-                } else if clear_deg < 0.0 {
-                    return Spot::Barred;
-                } else if !is_level {
-                    room_deg = f64::min(room_deg, clear_deg);
-                }
-            }
+                let group = match (is_left, is_level) {
+                    (true, false) => LEFT,
+                    (true, true) => LEFT_BELOW,
+                    (false, false) => OTHERS,
+                    (false, true) => ABOVE,
+                };
+                (!barrier.warns_only).then_some(group)
+            })
+            .collect();
+        let least = self.least_in_groups::<4>(place, &groups).map(Angle::degrees);
+        if least[OTHERS].min(least[ABOVE]) < 0.0 {
+            Spot::Barred
+        } else if least[LEFT_BELOW] < 0.0 {
+            Spot::Inside(least[OTHERS])
+        } else if least[LEFT] < 0.0 {
+            Spot::Inside((-least[LEFT]).min(least[OTHERS]))
+        } else {
+            Spot::Free
         }
-        if deepest_deg > 0.0 { Spot::Inside(deepest_deg.min(room_deg)) } else { Spot::Free }
     }
 }
 

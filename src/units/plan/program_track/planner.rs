@@ -233,7 +233,12 @@ impl Planner {
 
     /// Forgets the last command, since it is unknown whether it still holds.
     pub fn forget_sent(&mut self) {
-        for axis in &mut self.axes {
+        self.forget_sent_of([true; 2]);
+    }
+
+    /// [`Self::forget_sent`] of the chosen axes.
+    pub fn forget_sent_of(&mut self, chosen: [bool; 2]) {
+        for (axis, _) in self.axes.iter_mut().zip(chosen).filter(|(_, is_chosen)| *is_chosen) {
             axis.last_command = LastCommand::default();
         }
     }
