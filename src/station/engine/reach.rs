@@ -239,6 +239,9 @@ mod linux {
         lock::{holder_of, machine},
     };
 
+    /// Number of looks at the list of locks: it lacks a line now and then while other processes lock
+    /// files.
+    const LOOKS: u32 = 10;
     /// Bit of SIGUSR1 in a set of signals.
     const STOP: u64 = 1 << (nix::libc::SIGUSR1 - 1);
 
@@ -267,8 +270,16 @@ mod linux {
             Some(HeldBy::Azel(None) | HeldBy::Unknown(_)) | None => return Ok(false),
         };
         let file = fs::metadata(path)?.ino();
-        let locks = fs::read_to_string("/proc/locks")?;
-        Ok(holder.process == process && locks.lines().any(|line| is_lock(line, process, file)))
+        if holder.process != process {
+            return Ok(false);
+        }
+        for _ in 0..LOOKS {
+            let locks = fs::read_to_string("/proc/locks")?;
+            if locks.lines().any(|line| is_lock(line, process, file)) {
+                return Ok(true);
+            }
+        }
+        Ok(false)
     }
 
     /// Returns `true` if a line of `/proc/locks` says that `process` has a lock of its own on the
