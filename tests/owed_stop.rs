@@ -184,6 +184,7 @@ fn that_a_unit_is_not_known_to_stand_outlives_a_change_of_its_settings() {
     drop(handle);
     let handle = scene.open(&Antenna { beam_width_deg: 0.9, ..scene.antenna() });
     scene.until(&handle, "it is known to the next session", |shown| shown.unproved);
+    assert!(handle.stopper().is_wanted(), "STOP of the station is for it too");
 }
 
 #[test]

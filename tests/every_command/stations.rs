@@ -8,6 +8,7 @@ use azel::{
     driver::{self, Effect, Event, Intent, Refusal, StopState},
     engine::{
         Client, Command,
+        alarms::AlarmKind,
         automatic::{Interruption, Operation},
         closing::CloseHow,
         passes::PassKey,
@@ -181,6 +182,27 @@ async fn a_station_that_closes_takes_only_what_the_table_says() {
         }
     }
     assert!(faults.is_empty(), "{faults:#?}");
+}
+
+/// The thread of a station was held up, and nobody may expect the motion any more.
+#[tokio::test(start_paused = true)]
+async fn a_motion_that_the_station_takes_up_late_is_not_carried_out() {
+    for (late_ms, is_moved) in [(1900, true), (2100, false)] {
+        let stage = Stage::new("Dish").await;
+        until("the checks of the unit", || {
+            stage.shown().state.motion_lock.filter(|is_locked| !is_locked)
+        })
+        .await;
+        let before = stage.motions();
+        let Pointing { azimuth, elevation } = samples::elsewhere();
+        stage.order(driver::Command::Position { azimuth, elevation });
+        tokio::time::advance(Duration::from_millis(late_ms)).await;
+        sleep(Duration::from_secs(3)).await;
+        assert_eq!(stage.motions() > before, is_moved, "{late_ms} ms");
+        let snapshot = stage.client.snapshot();
+        let mut alarms = snapshot.alarms.list().iter();
+        assert_ne!(alarms.any(|alarm| alarm.kind == AlarmKind::NotTaken), is_moved, "{late_ms} ms");
+    }
 }
 
 #[tokio::test(start_paused = true)]

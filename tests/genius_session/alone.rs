@@ -4,11 +4,11 @@ use azel::{
     astro::Angle,
     controller::rotator_genius::{ALONE, OTHER, Rotators},
     device::{Asked, panel::Act, settings::Value},
-    driver::{Command, Event, Refusal, Safety},
+    driver::{Command, Event, Refusal, Response, Safety},
     plan::Bounds,
     protocol::rotator_genius::{RotatorNumber, WholeDegrees},
     sim::rotator_genius::{Fault, Options, RotatorOptions},
-    station::{Antenna, Station},
+    station::{Antenna, Monitor, Station},
 };
 use tokio::io::AsyncWriteExt as _;
 
@@ -186,18 +186,27 @@ fn before_a_mast_with(antenna: &Antenna, from_deg: f64, to_deg: f64) -> Bounds {
 
 #[tokio::test(start_paused = true)]
 async fn a_keep_out_applies_to_an_azimuth_alone_at_any_elevation() {
-    let options = Options { max_clients: 2, ..two_azimuths() };
-    let mut rig = Rig::connected(&options, Rotators::First).await;
-    rig.handle().keep_within(before_a_mast(110.0, 130.0));
-    rig.seconds(1.0).await;
-    // Another program turns it clockwise.
-    let mut other = crate::common::network::link(&rig.control);
-    other.write_all(b"|P1").await.unwrap();
-    let is_told = |event: &Event| matches!(event, Event::Safety(Safety::Forbidden { .. }));
-    rig.until_event(30, is_told).await;
-    rig.seconds(5.0).await;
-    let azimuth_deg = rig.axes_deg()[0].unwrap();
-    assert!(azimuth_deg < 109.0, "{azimuth_deg}");
+    for (monitor, response) in
+        [(Monitor::Stop, Response::Stopped), (Monitor::Alarm, Response::Reported)]
+    {
+        let options = Options { max_clients: 2, ..two_azimuths() };
+        let mut rig = Rig::start(&options, &Antenna { monitor, ..antenna(Rotators::First) });
+        rig.until("it is read", 5, |shown| shown.state.measured.is_some()).await;
+        rig.handle().keep_within(before_a_mast(110.0, 130.0));
+        rig.seconds(1.0).await;
+        // Another program turns it clockwise.
+        let mut other = crate::common::network::link(&rig.control);
+        other.write_all(b"|P1").await.unwrap();
+        let is_told = |event: &Event| matches!(event, Event::Safety(Safety::Forbidden { .. }));
+        let told = rig.until_event(30, is_told).await;
+        let Event::Safety(Safety::Forbidden { response: made, .. }) = told else {
+            panic!("{told:?}")
+        };
+        assert_eq!(made, response);
+        rig.seconds(5.0).await;
+        let azimuth_deg = rig.axes_deg()[0].unwrap();
+        assert_eq!(azimuth_deg < 109.0, monitor == Monitor::Stop, "{azimuth_deg}");
+    }
 }
 
 #[tokio::test(start_paused = true)]
@@ -243,17 +252,25 @@ async fn an_azimuth_inside_a_keep_out_is_jogged_out() {
 
 #[tokio::test(start_paused = true)]
 async fn a_rotator_that_may_turn_over_north_is_judged_both_ways_round() {
-    let mut rotators = [azimuth("Mast", 320), azimuth("Tower", 300)];
-    let at = |degrees| WholeDegrees::new(degrees).unwrap();
-    (rotators[0].limit_ccw, rotators[0].limit_cw) = (at(190), at(170));
-    let mut rig = Rig::connected(&Options { rotators, ..pair() }, Rotators::First).await;
-    rig.handle().keep_within(before_a_mast(358.0, 362.0));
-    rig.seconds(1.0).await;
-    rig.send(to(Some(40.0), None));
-    rig.seconds(0.5).await;
-    let events = rig.events();
-    assert!(
-        matches!(events[..], [Event::NotSent(Refusal::Forbidden { .. })]),
-        "the unit goes from 320 to 40 degrees over north: {events:?}"
-    );
+    let (north, south) = ((358.0, 362.0), (200.0, 210.0));
+    // From 320 to 40 degrees, with limits on one way round or on both.
+    for (limits, mast, is_refused) in [
+        ([190, 170], north, true),
+        ([190, 170], south, false),
+        ([350, 170], north, true),
+        ([350, 170], south, true),
+    ] {
+        let mut rotators = [azimuth("Mast", 320), azimuth("Tower", 300)];
+        let [ccw, cw] = limits.map(|degrees| WholeDegrees::new(degrees).unwrap());
+        (rotators[0].limit_ccw, rotators[0].limit_cw) = (ccw, cw);
+        let mut rig = Rig::connected(&Options { rotators, ..pair() }, Rotators::First).await;
+        rig.handle().keep_within(before_a_mast(mast.0, mast.1));
+        rig.seconds(1.0).await;
+        rig.send(to(Some(40.0), None));
+        rig.seconds(0.5).await;
+        let events = rig.events();
+        let forbidden = matches!(events[..], [Event::NotSent(Refusal::Forbidden { .. })]);
+        assert_eq!(forbidden, is_refused, "{limits:?} {mast:?}: {events:?}");
+        assert_eq!(rig.orders().is_empty(), is_refused, "{limits:?} {mast:?}");
+    }
 }

@@ -51,10 +51,13 @@ async fn one_that_accepts_and_stays_silent_is_stale_then_lost_and_comes_back() {
     let mut rig = Rig::pair().await;
     rig.control.set_fault(Fault::Silence, true);
     rig.until("stale", 2, |shown| matches!(shown.link, LinkState::Stale { .. })).await;
+    let last_reply = rig.shown().state.traffic.last_reply.unwrap();
     let asked = rig.times("|h").len();
     rig.seconds(3.0).await;
     assert_eq!(rig.times("|h").len() - asked, 3, "a reply is waited for a second");
     rig.until_event(9, |event| *event == Event::LinkLost(LinkLoss::Silent)).await;
+    let waited_s = (Instant::now() - last_reply).as_secs_f64();
+    assert!((8.0..8.1).contains(&waited_s), "{waited_s}");
     rig.control.set_fault(Fault::Silence, false);
     rig.until_event(
         10,

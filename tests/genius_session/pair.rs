@@ -4,7 +4,7 @@ use azel::{
     astro::AzEl,
     controller::rotator_genius::Rotators,
     device::panel::CheckState,
-    driver::{Command, Event, Intent, Refusal},
+    driver::{Command, Event, Intent, Refusal, Safety},
     plan::{Barrier, Bounds},
     protocol::rotator_genius::{RotatorNumber, WholeDegrees},
     sim::rotator_genius::{Fault, Options, RotatorOptions},
@@ -185,8 +185,9 @@ async fn a_motion_below_a_keep_out_that_may_be_anywhere_needs_the_operators_hold
     let station = Station { keep_outs: vec![mast], ..Station::default() };
     let mut rig = without_an_azimuth(&station, 0.0).await;
     rig.hold([0.0, -4.0], 1.0).await;
-    let unchecked = Refusal::Unchecked { axis: "Az", barrier: Barrier::KeepOut("mast".into()) };
-    assert_eq!(rig.events(), [Event::NotSent(unchecked)]);
+    let barrier = Barrier::KeepOut("mast".into());
+    let unchecked = Event::NotSent(Refusal::Unchecked { axis: "Az", barrier });
+    assert_eq!(rig.events(), std::slice::from_ref(&unchecked));
     let inside = rig.shown().inside.clone().unwrap();
     assert_eq!((inside.unknown_axis, inside.may_leave), (Some("Az"), false));
     rig.send(Command::EndJog);
@@ -195,4 +196,13 @@ async fn a_motion_below_a_keep_out_that_may_be_anywhere_needs_the_operators_hold
     rig.hold([0.0, -4.0], 3.0).await;
     assert!(elevation_deg(&rig) < 58.0);
     assert_eq!(rig.events(), []);
+    rig.send(Command::EndJog);
+    rig.seconds(60.0).await;
+    rig.hold([0.0, -4.0], 1.0).await;
+    assert_eq!(rig.events(), [unchecked], "the minute is over");
+    rig.send(Command::EndJog);
+    rig.stop();
+    let by_flags = Event::Safety(Safety::StoppedByFlags { axis: "Az" });
+    rig.until_event(5, |event| *event == by_flags).await;
+    assert_eq!(rig.events(), [Event::Stopped]);
 }

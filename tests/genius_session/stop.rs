@@ -104,6 +104,29 @@ async fn a_refused_stop_is_told_and_sent_again() {
 }
 
 #[tokio::test(start_paused = true)]
+async fn flags_of_motion_keep_the_stop_owed_until_the_operator_has_seen_it_stand() {
+    // The angle stays.
+    let script = |command: &str| match command {
+        "|h" => vec![(10, status(100, 10, ['1', '0'], '\0'))],
+        other => plain(other),
+    };
+    let mut device = Scripted::start(Rotators::Pair, Box::new(script));
+    device.seconds(0.5).await;
+    device.handle.stop();
+    device.seconds(30.0).await;
+    let events = device.events();
+    assert!(!events.contains(&Event::Stopped), "{events:?}");
+    let shown = device.handle.snapshot();
+    assert!(matches!(shown.stop, StopState::NotConfirmed { .. }) && shown.unproved, "{shown:?}");
+    let stops = device.times("|S").len();
+    device.handle.send(Command::SeenStanding).unwrap();
+    device.seconds(10.0).await;
+    let shown = device.handle.snapshot();
+    assert_eq!((shown.stop, shown.unproved), (StopState::Ready, false));
+    assert_eq!(device.times("|S").len(), stops);
+}
+
+#[tokio::test(start_paused = true)]
 async fn a_stop_without_a_link_is_the_first_thing_sent_when_it_is_back() {
     let mut rig = Rig::pair().await;
     rig.send(to(Some(350.0), None));

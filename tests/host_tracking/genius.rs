@@ -218,7 +218,13 @@ async fn a_rotator_that_takes_the_commands_and_does_nothing_is_stopped() {
     rig.events();
     control.set_fault(Fault::Stuck(RotatorNumber::One), true);
     control.set_fault(Fault::Stuck(RotatorNumber::Two), true);
-    let is_told = |event: &Event| matches!(event, Event::Safety(Safety::NoEffect { .. }));
-    rig.until_event(400, is_told).await;
+    let before = control.received().len();
+    let names_axis = |event: &Event| {
+        matches!(event, Event::Safety(Safety::NoEffect { axis: Some("Az" | "El") }))
+    };
+    rig.until_event(400, names_axis).await;
     assert_eq!(rig.shown().intent, Intent::Standby);
+    rig.seconds(0.1).await;
+    let received = control.received().split_off(before);
+    assert!(received.iter().any(|(_, command)| command == "|S"), "{received:?}");
 }

@@ -153,19 +153,23 @@ fn asks(event: &Event) -> bool {
 
 #[tokio::test(start_paused = true)]
 async fn after_a_long_outage_it_asks_and_goes_on_at_the_operators_word() {
-    let (mut rig, control, _) = following(&antenna()).await;
-    rig.set_off(true);
-    rig.seconds(40.0).await;
-    let sent = gotos(&control);
-    rig.set_off(false);
-    rig.until_event(20, asks).await;
-    rig.seconds(20.0).await;
-    assert_eq!(gotos(&control), sent, "nothing moves without a word");
-    assert!(rig.shown().program_track.as_ref().unwrap().awaits_operator);
-    rig.send(Command::Resume);
-    rig.seconds(20.0).await;
-    assert_eq!(rig.phase(), Some(TrackPhase::Tracking));
-    assert!(gotos(&control) > sent && is_followed(&rig, &control));
+    let impatient = Antenna { resume_after_s: 0.5, ..antenna() };
+    for (antenna, outage_s) in [(antenna(), 6.0), (impatient, 2.0)] {
+        let (mut rig, control, _) = following(&antenna).await;
+        rig.set_off(true);
+        rig.seconds(outage_s).await;
+        assert!(!control.state().is_moving, "it stands at the last position");
+        let sent = gotos(&control);
+        rig.set_off(false);
+        rig.until_event(20, asks).await;
+        rig.seconds(20.0).await;
+        assert_eq!(gotos(&control), sent, "nothing moves without a word");
+        assert!(rig.shown().program_track.as_ref().unwrap().awaits_operator);
+        rig.send(Command::Resume);
+        rig.seconds(20.0).await;
+        assert_eq!(rig.phase(), Some(TrackPhase::Tracking));
+        assert!(gotos(&control) > sent && is_followed(&rig, &control));
+    }
 }
 
 #[tokio::test(start_paused = true)]
@@ -188,7 +192,7 @@ async fn after_a_restart_in_mid_pass_nothing_moves_until_the_operator_asks() {
 async fn after_a_short_outage_it_goes_on() {
     let (mut rig, control, _) = following(&antenna()).await;
     rig.set_off(true);
-    rig.seconds(1.0).await;
+    rig.seconds(3.0).await;
     rig.set_off(false);
     rig.until_event(20, |event| matches!(event, Event::Back { .. })).await;
     let sent = gotos(&control);

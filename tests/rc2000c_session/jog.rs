@@ -172,12 +172,18 @@ async fn after_a_missed_reply_the_jog_is_not_renewed_and_the_unit_ends_it() {
 async fn a_link_lost_in_a_jog_leaves_it_to_the_timer_and_comes_back_with_a_stop() {
     let mut rig = Rig::in_manual().await;
     rig.hold([FAST, 0.0], 1.0).await;
-    let before = rig.received().len();
+    let (before, dials) = (rig.received().len(), rig.dials().len());
     rig.set_off(true);
-    rig.seconds(2.0).await;
+    // The time of the last renewal, and the run-out of the axis.
+    rig.seconds(1.5).await;
     assert!(matches!(rig.shown().link, LinkState::Lost { .. }));
     assert!(!rig.control.state().is_turning, "nobody had to say stop");
+    rig.seconds(0.5).await;
     assert_eq!(rig.received().len(), before);
+    let tries = rig.dials().split_off(dials);
+    let waits: Vec<_> = tries.windows(2).map(|pair| pair[1] - pair[0]).collect();
+    let quarter = Duration::from_millis(240)..Duration::from_millis(260);
+    assert!(waits.len() >= 5 && waits.iter().all(|wait| quarter.contains(wait)), "{waits:?}");
     rig.set_off(false);
     rig.seconds(2.0).await;
     assert_eq!(rig.received()[before], "3XS0000");

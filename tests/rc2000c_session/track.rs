@@ -2,7 +2,8 @@
 
 use azel::{
     device::{Asked, panel::CheckState, settings::Value},
-    driver::{Command, Event, Found, LinkState},
+    driver::{Command, Event, Found, LinkState, Refusal},
+    engine::alarms::{AlarmKind, alarm_of},
     sim::rc2000c::{Fault, Mode, Options, Quirk},
 };
 
@@ -76,7 +77,8 @@ async fn a_unit_found_tracking_is_left_to_it() {
     rig.events();
     let before = rig.orders().len();
     rig.send(Command::Connect);
-    rig.until_event(5, |event| *event == Event::Connected(Found::Tracking)).await;
+    let found = rig.until_event(5, |event| *event == Event::Connected(Found::Tracking)).await;
+    assert_eq!(alarm_of(&found), Some(AlarmKind::StartedByItself));
     rig.seconds(5.0).await;
     assert_eq!(rig.orders().len(), before);
     assert_eq!(rig.control.state().mode, Mode::Track);
@@ -95,6 +97,9 @@ async fn the_band_and_the_reset_go_out_only_while_track_is_active() {
     rig.act("track_c_band", []);
     rig.seconds(1.0).await;
     assert!(reading(&rig.shown(), "TRACK").unwrap().ends_with("C band"));
+    rig.act("restart_track", []);
+    let told = rig.until_event(2, |event| matches!(event, Event::NotSent(_))).await;
+    assert!(matches!(told, Event::NotSent(Refusal::Unseen { .. })), "{told:?}");
     rig.control.set_fault(Fault::PeakLimit, true);
     rig.seconds(10.0).await;
     assert_eq!(check(&rig.shown(), "TRACK"), Some(CheckState::Fault));

@@ -157,6 +157,10 @@ impl Scene {
         let heard = self.unit.heard_since(thawed);
         assert!(!self.unit.is_told_to_move_since(thawed), "{what}: {heard:?}");
         assert!(!self.unit.is_moving());
+        wait_for("the alarm", || {
+            let log = fs::read_to_string(log_file(&self.screen)).expect("the log");
+            log.contains("DeadManFired").then_some(())
+        });
         self.wait_until_unwatched();
         self.screen.release_key();
         self.hold();

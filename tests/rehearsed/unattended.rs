@@ -111,10 +111,9 @@ async fn until_lost(client: &Client, id: AntennaId) {
     .await;
 }
 
-/// Another program sends the unit of the dish elsewhere.
-async fn send_elsewhere(scene: &Scene) {
-    let goto = Goto::new(Some(200.0), Some(60.0)).unwrap();
-    by_another(scene, &Request::Motion(Motion::Goto(goto)).to_bytes()).await;
+/// Go-to away from where the dish starts.
+fn elsewhere() -> Vec<u8> {
+    Request::Motion(Motion::Goto(Goto::new(Some(200.0), Some(60.0)).unwrap())).to_bytes()
 }
 
 /// Another program sends this to the unit of the dish.
@@ -201,7 +200,7 @@ async fn what_the_operator_then_makes_of_auto_track_stays() {
 async fn an_antenna_that_another_program_moves_is_left_to_it_until_the_operator_comes() {
     let (scene, client, id) = scene_of("Dish", |_| {}).await;
     set_automatic(&client, id, true).await;
-    send_elsewhere(&scene).await;
+    by_another(&scene, &elsewhere()).await;
     let by = Interruption::Elsewhere;
     until("the suspension", || {
         let is_that = |of| matches!(of, Operation::Suspended { by: found, .. } if found == by);
@@ -247,6 +246,8 @@ async fn a_unit_that_is_given_another_satellite_is_left_to_whoever_did_it() {
             is_that(operation(&client, id)).then_some(())
         })
         .await;
+        let alarm = AlarmKind::AutomaticSuspended(by);
+        until("the alarm", || stands(&client, |of| *of == alarm).then_some(())).await;
     }
 }
 
@@ -265,6 +266,8 @@ async fn an_antenna_that_is_nudged_at_its_panel_is_left_to_whoever_did_it() {
         is_that(operation(&client, id)).then_some(())
     })
     .await;
+    let alarm = AlarmKind::AutomaticSuspended(by);
+    until("the alarm", || stands(&client, |of| *of == alarm).then_some(())).await;
     let _ = client.send(Command::GoOn(id));
     proved(&client, id).await;
 }
@@ -384,17 +387,18 @@ async fn an_antenna_that_is_turned_on_its_way_to_a_pass_is_left_to_whoever_did_i
 
 #[tokio::test(start_paused = true)]
 async fn after_an_outage_it_goes_on_only_with_a_unit_that_is_as_it_was_left() {
-    for is_moved in [false, true] {
+    let offsets = encode("SETTINGS=,?,?,?,8.0,?,?,?,?,?,?,?");
+    for change in [None, Some(elsewhere()), Some(offsets)] {
         let (scene, client, id) = scene_of("Dish", |_| {}).await;
         set_automatic(&client, id, true).await;
         scene.units.dish.set_fault(satrak::Fault::Silence, true);
         until_lost(&client, id).await;
-        if is_moved {
-            send_elsewhere(&scene).await;
+        if let Some(change) = &change {
+            by_another(&scene, change).await;
             until("standstill", || scene.units.all_stand().then_some(())).await;
         }
         scene.units.dish.set_fault(satrak::Fault::Silence, false);
-        if is_moved {
+        if change.is_some() {
             until_off(&client, id, OffBecause::NotAsLeft).await;
             let is_that = |of: &AlarmKind| *of == AlarmKind::AutomaticOff(OffBecause::NotAsLeft);
             until("the alarm", || stands(&client, is_that).then_some(())).await;
@@ -451,8 +455,14 @@ async fn it_is_on_at_the_start_only_after_an_end_in_order_and_where_nothing_had_
     let (scene, client, is_on) = again(scene, false).await;
     assert!(!is_on, "the operator had not let it go on");
     set_automatic(&client, id, true).await;
-    let (_scene, _, is_on) = again(scene, false).await;
+    let (scene, client, is_on) = again(scene, false).await;
     assert!(is_on, "the operator had switched it on again");
+    drop(client);
+    let path = scene.folder().join("station.toml");
+    let text = std::fs::read_to_string(&path).unwrap();
+    std::fs::write(&path, format!("{text}\n[[keep_out]]\nname = 'mast'\n")).unwrap();
+    let (_scene, _, is_on) = again(scene, false).await;
+    assert!(!is_on, "a keep-out cannot be read");
 }
 
 #[tokio::test(start_paused = true)]

@@ -149,38 +149,48 @@ async fn a_late_reply_is_not_taken_for_that_of_another_question() {
 
 #[tokio::test(start_paused = true)]
 async fn a_late_refusal_of_a_goto_does_not_end_a_track_that_came_after() {
-    let mut unit = Scripted::start(Box::new(|payload| match payload {
-        order if order.starts_with("GOTO=") => vec![(2500, "GOTO=,ERR,9".to_owned())],
-        other => plain(other),
+    let unit_with_pass = with_pass();
+    let mut unit = Scripted::start(Box::new(move |payload| match payload {
+        order if order.starts_with("GOTO=") => vec![(4000, "GOTO=,ERR,9".to_owned())],
+        other => unit_with_pass(other),
     }));
     unit.seconds(1.0).await;
     unit.events();
     unit.handle.send(goto()).unwrap();
-    unit.seconds(4.0).await;
+    // The reply is given up by then.
+    unit.seconds(2.7).await;
+    unit.handle.send(track(iss())).unwrap();
+    unit.seconds(3.0).await;
     let events = unit.events();
     let refused = events.iter().any(|event| matches!(event, Event::Refused(..)));
     assert!(!refused, "{events:?}");
-    assert_eq!(unit.handle.snapshot().state.traffic.unsolicited, 1);
+    let shown = unit.handle.snapshot();
+    assert_eq!(shown.state.traffic.unsolicited, 1);
+    assert_eq!((shown.intent, unit.sent("TRACK=")), (Intent::Track, vec!["TRACK=,1".to_owned()]));
 }
 
-#[tokio::test(start_paused = true)]
-async fn a_program_that_is_accepted_and_never_starts_is_told() {
-    let target = iss();
+/// Answers of a unit that reads back the pass of the ISS.
+fn with_pass() -> impl Fn(&str) -> Vec<(u64, String)> + Send {
     let window = {
         let text = |time| {
             let civil = jiff::tz::TimeZone::UTC.to_datetime(time);
             civil.strftime("%-H,%-M,%-S,%-d,%-m,%Y").to_string()
         };
-        format!("START_STOP_TIME?,{},{}", text(target.from), text(target.until))
+        format!("START_STOP_TIME?,{},{}", text(iss().from), text(iss().until))
     };
-    let mut unit = Scripted::start(Box::new(move |payload| match payload {
+    move |payload| match payload {
         "SATELLITE?" => vec![(10, "SATELLITE?,stations.txt,ISS (ZARYA),1,25544,50.0".to_owned())],
         "START_STOP_TIME?" => vec![(10, window.clone())],
         other => plain(other),
-    }));
+    }
+}
+
+#[tokio::test(start_paused = true)]
+async fn a_program_that_is_accepted_and_never_starts_is_told() {
+    let mut unit = Scripted::start(Box::new(with_pass()));
     unit.seconds(1.0).await;
     unit.events();
-    unit.handle.send(track(target)).unwrap();
+    unit.handle.send(track(iss())).unwrap();
     unit.seconds(14.0).await;
     let shown = unit.handle.snapshot();
     assert_eq!((shown.intent, shown.pending), (Intent::Track, true));

@@ -101,8 +101,15 @@ async fn out_of_a_keep_out_it_goes_by_hand_slowly_and_by_the_operators_word_alon
     assert_eq!(rig.sent("MOVE="), Vec::<String>::new(), "slowly");
     rig.send(go_to(AzEl::from_degrees(200.0, 80.0)));
     rig.seconds(1.0).await;
+    let fixed = Target::Fixed(AzEl::from_degrees(200.0, 80.0));
+    let follow = ProgramTrack::new(fixed, site(), Vec::new());
+    rig.send(Command::ProgramTrack(Box::new(follow)));
+    rig.until_event(2, |event| matches!(event, Event::CannotProgramTrack(..))).await;
+    rig.seconds(1.0).await;
     assert_eq!(rig.sent("GOTO=").len(), 1, "by hand");
 
+    rig.send(Command::Manual);
+    rig.seconds(3.0).await;
     rig.events();
     let refused = try_all_keys(&mut rig, SLOW_DEG_S).await;
     assert!(!rig.sent("MOVE=").is_empty() && refused.len() < 4, "{refused:?}");

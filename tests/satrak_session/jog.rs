@@ -69,7 +69,10 @@ async fn how_long_it_runs_on_is_learned_from_three_fast_jogs() {
 #[tokio::test(start_paused = true)]
 async fn a_lease_that_is_not_renewed_ends_the_jog() {
     let mut rig = in_manual().await;
-    rig.hold([0.0, -1.5], 1.0).await;
+    rig.hold([0.0, -1.5], 0.5).await;
+    // A lease goes by the steady clock.
+    rig.clock.set(-3600);
+    rig.hold([0.0, -1.5], 0.5).await;
     let renewed = rig.times("MOVE=")[0];
     assert_eq!(rig.orders(), ["MOVE=,0,-1.5"]);
     rig.until_event(1, |event| *event == Event::JogLeaseOver).await;
@@ -184,14 +187,17 @@ async fn after_a_link_lost_in_a_jog_the_first_frame_is_a_stop() {
     assert!(matches!(rig.shown().link, LinkState::Lost { .. }));
     assert!(rig.control.state().is_moving, "the unit goes on by itself");
     assert_eq!(rig.shown().jog, None);
+    // The key stays down.
+    rig.hold([1.0, 1.0], 3.0).await;
     rig.until_up(2).await;
-    rig.seconds(0.05).await;
     assert_eq!(rig.payloads()[before], "STOP=");
     let gap = rig.times("STOP=")[0].saturating_duration_since(lost).as_secs_f64();
     assert!(gap < 0.3, "soon, not after the usual wait: {gap}");
-    rig.seconds(2.0).await;
     assert!(!rig.control.state().is_moving);
     assert_eq!(rig.sent("MOVE=").len(), 1, "it does not start again");
+    rig.send(Command::EndJog);
+    rig.hold([1.0, 1.0], 0.5).await;
+    assert_eq!(rig.sent("MOVE=").len(), 2, "a new press starts it");
 }
 
 #[tokio::test(start_paused = true)]

@@ -395,6 +395,8 @@ async fn what_the_unit_tracks_unasked_is_watched_like_what_it_was_asked_to() {
     assert_eq!(shown.target, None, "nobody asked for it from here");
 
     by_another(&rig, "SETTINGS=,?,?,?,8.0,?,?,?,?,?,?,?").await;
+    rig.seconds(8.0).await;
+    assert_eq!(rig.shown().on_board.as_ref().unwrap().missing, None, "within its ten seconds");
     rig.until("missed", 45, |shown| {
         shown.on_board.as_ref().is_some_and(|view| view.missing.is_some())
     })

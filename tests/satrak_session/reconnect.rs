@@ -49,6 +49,7 @@ async fn a_unit_that_is_off_is_tried_again_less_and_less_often() {
 #[tokio::test(start_paused = true)]
 async fn the_first_try_comes_after_half_a_second() {
     let mut rig = Rig::usual().await;
+    let before = rig.payloads().len();
     rig.control.drop_clients();
     let lost = azel::clock::Instant::now();
     rig.seconds(1.0).await;
@@ -56,6 +57,15 @@ async fn the_first_try_comes_after_half_a_second() {
     assert!((0.49..0.52).contains(&wait), "{wait}");
     let back = rig.until_event(1, |event| matches!(event, Event::Back { .. })).await;
     assert!(matches!(back, Event::Back { found: Found::Still, .. }), "{back:?}");
+    assert_eq!(rig.events(), [Event::LinkLost(LinkLoss::Closed)]);
+    rig.seconds(5.0).await;
+    let asked = rig.payloads().split_off(before);
+    for question in
+        ["VERSION?", "STATUS?", "TIME?", "SATELLITE?", "START_STOP_TIME?", "GPS_DATA?", "SETTINGS?"]
+    {
+        assert!(asked.iter().any(|payload| payload == question), "{question} in {asked:?}");
+    }
+    assert_eq!(rig.orders(), [""; 0], "nothing is sent again or started");
 }
 
 #[tokio::test(start_paused = true)]
@@ -93,16 +103,39 @@ async fn tracking_that_ended_meanwhile_is_not_started_again() {
     assert_eq!(rig.sent("TRACK=,1").len(), 1);
 }
 
+/// Motion during which the link is lost.
+#[derive(Debug, Clone, Copy, PartialEq)]
+enum Begun {
+    GoTo,
+    Park,
+    Track,
+}
+
+async fn moving(begun: Begun) -> Rig {
+    if begun == Begun::Track {
+        return tracking().await;
+    }
+    let mut rig = Rig::usual().await;
+    rig.send(position());
+    if begun == Begun::Park {
+        rig.until_event(60, |event| matches!(event, Event::Arrived(_))).await;
+        rig.send(Command::Park);
+    }
+    rig.seconds(1.0).await;
+    rig
+}
+
 /// The antenna keeps moving while the link is down, until it receives STOP.
 #[tokio::test(start_paused = true)]
 async fn a_motion_that_is_left_while_the_link_is_down_is_stopped_first_when_it_is_back() {
-    for command in [Command::Standby, Command::Manual, Command::Hold, Command::Park, track(iss())] {
-        let mut rig = Rig::usual().await;
-        rig.send(position());
-        rig.seconds(1.0).await;
+    let commands = [Command::Standby, Command::Manual, Command::Hold, Command::Park, track(iss())];
+    let go_tos = commands.map(|command| (Begun::GoTo, command));
+    let others = [Begun::Park, Begun::Track].map(|begun| (begun, Command::Standby));
+    for (begun, command) in go_tos.into_iter().chain(others) {
+        let mut rig = moving(begun).await;
         rig.set_off(true);
         rig.seconds(1.0).await;
-        assert!(rig.control.state().is_moving, "{command:?}");
+        assert!(rig.control.state().is_moving, "{begun:?} {command:?}");
         let before = rig.orders().len();
         rig.send(command.clone());
         rig.seconds(1.0).await;
@@ -110,9 +143,11 @@ async fn a_motion_that_is_left_while_the_link_is_down_is_stopped_first_when_it_i
         rig.until_event(20, |event| matches!(event, Event::Back { .. })).await;
         rig.seconds(10.0).await;
         let orders = rig.orders().split_off(before);
-        assert_eq!(orders.first().map(String::as_str), Some("STOP="), "{command:?} {orders:?}");
-        assert!(!rig.control.state().is_moving, "{command:?} {orders:?}");
-        assert_eq!(rig.shown().intent, Intent::Standby, "{command:?}");
+        let case = format!("{begun:?} {command:?} {orders:?}");
+        assert_eq!(orders.first().map(String::as_str), Some("STOP="), "{case}");
+        let state = rig.control.state();
+        assert!(!state.is_moving && !state.is_tracking, "{case}");
+        assert_eq!(rig.shown().intent, Intent::Standby, "{case}");
     }
 }
 
@@ -165,6 +200,12 @@ async fn a_unit_at_rest_that_was_turned_while_out_of_reach_is_not_as_it_was_left
             assert_eq!(after_an_outage(&mut rig, request, waits_s).await, wanted);
         }
     }
+    // An owed STOP goes out first and may change where the antenna points.
+    let mut rig = Rig::usual().await;
+    rig.set_off(true);
+    rig.seconds(1.0).await;
+    rig.stop();
+    assert_eq!(after_an_outage(&mut rig, None, 5.0).await, (Found::Still, false));
 }
 
 #[tokio::test(start_paused = true)]
@@ -236,6 +277,8 @@ async fn silence_is_stale_first_and_lost_after_five_and_a_half_seconds() {
     rig.control.set_fault(Fault::Silence, true);
     rig.until("stale", 2, |shown| matches!(shown.link, LinkState::Stale { .. })).await;
     let last_reply = rig.shown().state.traffic.last_reply.unwrap();
+    let periods = (Instant::now() - last_reply).div_duration_f64(rig.shown().poll_period);
+    assert!((2.0..2.1).contains(&periods), "{periods}");
     rig.until("lost", 6, |shown| matches!(shown.link, LinkState::Lost { .. })).await;
     let waited = Instant::now() - last_reply;
     assert!((5.5..5.6).contains(&waited.as_secs_f64()), "{waited:?}");

@@ -71,6 +71,7 @@ async fn a_write_that_is_not_taken_ends_the_link_and_stop_is_first_on_the_next()
     rig.until_event(3, told).await;
     let lost = rig.until_event(3, |event| matches!(event, Event::LinkLost(_))).await;
     assert!(matches!(lost, Event::LinkLost(LinkLoss::Broken(_))), "{lost:?}");
+    assert!(rig.times("STOP=").is_empty(), "it does not reach the unit on that link");
     let received = rig.payloads().len();
     rig.until_up(3).await;
     rig.seconds(4.0).await;

@@ -161,6 +161,7 @@ async fn auto_track_that_leaves_no_window_alone_does_not_undo_a_stop() {
     rig.until("stopped", 3, |shown| matches!(shown.stop, StopState::Stopped { .. })).await;
     rig.seconds(30.0).await;
     assert!(!rig.control.state().is_tracking && !rig.control.state().is_moving);
+    assert_eq!(rig.shown().state.program.unwrap().auto, Some(false), "read back");
     assert_eq!(rig.events(), [Event::Stopped]);
 }
 
@@ -268,13 +269,17 @@ async fn pressing_again_does_not_put_off_the_warning() {
     let mut rig = Rig::usual().await;
     rig.control.set_fault(Fault::Silence, true);
     let since = azel::clock::Instant::now();
-    for _ in 0..8 {
+    for _ in 0..5 {
         rig.stop();
         rig.seconds(0.5).await;
     }
-    assert!(rig.events().contains(&Event::StopNotConfirmed));
+    rig.stop();
+    assert!(is_stopping(rig.shown().stop));
+    rig.until_event(1, |event| *event == Event::StopNotConfirmed).await;
+    let waited_s = (Instant::now() - since).as_secs_f64();
+    assert!((3.0..3.1).contains(&waited_s), "{waited_s}");
     assert_eq!(rig.shown().stop, StopState::NotConfirmed { since });
-    assert!(rig.sent("STOP=").len() >= 8);
+    assert!(rig.sent("STOP=").len() >= 6);
 }
 
 #[tokio::test(start_paused = true)]

@@ -242,8 +242,11 @@ async fn what_cannot_be_taken_back_is_told_and_tried_again_until_it_is() {
     // After 10 and 20 s; the next try comes after 40 s more.
     assert_eq!(rig.sent("SETTINGS=").len(), tries + 2);
     assert_eq!(added(&rig), with(&[azimuth(0.2)]));
+    rig.seconds(1190.0).await;
+    // After 70, 150, 310, 630 and 1,230 s: no wait is longer than 600 s.
+    assert_eq!(rig.sent("SETTINGS=").len(), tries + 7);
     rig.control.set_fault(Fault::RefuseSettings, false);
-    rig.until("taken back", 20, |shown| shown.unit_offsets.is_none()).await;
+    rig.until("taken back", 620, |shown| shown.unit_offsets.is_none()).await;
     assert_eq!(held(&rig), (-0.1, 0.0));
 }
 

@@ -75,7 +75,7 @@ fn a_stop_that_the_disk_does_not_take_is_acknowledged_as_such() {
     let data = units.folder.path().join("data/azel");
     std::fs::create_dir_all(&data).unwrap();
     std::fs::write(data.join("marks"), "").unwrap();
-    let served = Served::start(&units);
+    let mut served = Served::start(&units);
     wait_for("it is read", || {
         let status = program(&units).arg("status").output().expect("it runs");
         says(&status).contains("azimuth").then_some(())
@@ -93,6 +93,8 @@ fn a_stop_that_the_disk_does_not_take_is_acknowledged_as_such() {
     wait_for("it is on disk", || find(&data, "satrak-").then_some(()));
     let stop = program(&units).arg("stop").output().expect("it runs");
     assert!(!says(&stop).contains("on disk"), "{}", says(&stop));
+    served.signal("TERM");
+    assert_eq!(served.process.wait().expect("it ends").code(), Some(4), "it is not proved");
 }
 
 #[test]
@@ -115,4 +117,9 @@ fn lock_outs_that_the_disk_does_not_take_hold_and_are_acknowledged_as_such() {
     }
     let status = says(&program(&units).arg("status").output().expect("it runs"));
     assert_eq!(status.matches("locked out by Ada").count(), 2, "{status}");
+    served.until(|told| {
+        let text = told["text"].as_str();
+        told["about"] == "alarm"
+            && text.is_some_and(|it| it.contains("not kept for the next start"))
+    });
 }

@@ -226,6 +226,7 @@ fn closing_the_window_during_a_jog_stops_the_antenna() {
     step_until(&mut window, "the antenna is measured", stands);
     hold_jog_until(&mut window, "it moves", moves);
     drop(window);
+    assert!(!unit.control.state().is_moving, "standstill is waited for");
     let mut status = None;
     wait_until("another client is taken", || {
         status = unit.status();

@@ -248,7 +248,9 @@ fn a_change_asks_what_closing_asks_and_waits_for_proved_standstill() {
     assert!(!two.units[0].control.state().is_tracking);
     let received = two.units[0].control.received();
     assert!(received.iter().any(|(_, frame)| frame == "STOP="), "{received:?}");
-    assert!(!two.units[1].control.received().iter().any(|(_, frame)| frame == "STOP="));
+    let next = two.units[1].control.received();
+    assert!(!next.iter().any(|(_, frame)| frame == "STOP="));
+    assert!(received.last().unwrap().0 < next[0].0, "the old station ends first");
 }
 
 #[test]

@@ -45,6 +45,8 @@ fn stop_goes_out_in_every_state_of_the_last_one() {
 
 #[test]
 fn a_stop_that_is_not_proved_says_what_to_do_and_can_be_repeated() {
+    let alarm = words::alarm(&AlarmKind::StopNotConfirmed, "Satrak", rig::now());
+    assert!(alarm.ends_with("Use the local panel."), "{alarm}");
     for size in SIZES {
         let mut model = rig::model(states::moving());
         let since = rig::ago(&model, 4);

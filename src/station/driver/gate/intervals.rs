@@ -231,6 +231,7 @@ mod tests {
         let blank = axis(None, [false; 2]);
         assert_eq!(after(3, axis(Some(30.0), [false; 2])), (30.0, 30.0, true));
         assert_eq!(after(0, blank), (10.0, 10.0, true), "one blank reading is no news");
+        assert_eq!(after(1, blank), (8.0, 12.0, false));
         assert_eq!(after(2, blank), (6.0, 14.0, false));
         assert_eq!(after(10, blank), (-5.0, 30.0, false));
         assert_eq!(after(1000, blank), (-5.0, 100.0, false));

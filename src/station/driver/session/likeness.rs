@@ -117,3 +117,44 @@ impl Session {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn known() -> Likeness {
+        let offsets = Offsets { azimuth_deg: 0.5, ..Offsets::default() };
+        Likeness {
+            identity: Some("CU 1.2".to_owned()),
+            place: Some(Place { latitude_deg: 41.0, longitude_deg: 29.2, step_deg: 0.01 }),
+            offsets: Some(offsets),
+            travel_deg: [Some((0.0, 359.0)), None],
+        }
+    }
+
+    #[test]
+    fn a_unit_differs_by_its_identity_limits_place_or_offsets() {
+        let identity = Some("CU 1.3".to_owned());
+        let place = known().place.map(|place| Place { latitude_deg: 41.1, ..place });
+        let offsets = known().offsets.map(|offsets| Offsets { azimuth_deg: 0.6, ..offsets });
+        for (now, unlike) in [
+            (known(), None),
+            (Likeness { identity, ..known() }, Some(Unlike::Identity)),
+            (Likeness { travel_deg: [Some((0.0, 180.0)), None], ..known() }, Some(Unlike::Limits)),
+            (Likeness { place, ..known() }, Some(Unlike::Place)),
+            (Likeness { offsets, ..known() }, Some(Unlike::Offsets)),
+        ] {
+            assert_eq!(known().differs(&now), unlike, "{now:?}");
+            assert!(known().is_told(&now), "{now:?}");
+        }
+        for now in [
+            Likeness { identity: None, ..known() },
+            Likeness { travel_deg: [None; 2], ..known() },
+            Likeness { place: None, ..known() },
+            Likeness { offsets: None, ..known() },
+        ] {
+            assert_eq!(known().differs(&now), None, "{now:?}");
+            assert!(!known().is_told(&now), "{now:?}");
+        }
+    }
+}

@@ -1,6 +1,7 @@
 //! What an earlier run has left behind.
 
 use std::{
+    num::NonZeroU32,
     path::Path,
     sync::{
         Arc,
@@ -13,15 +14,21 @@ use tokio::time::sleep;
 
 use super::*;
 use crate::{
+    clock::Clock,
     driver::{
-        AntennaHandle, Command, Debts, Unit,
-        session::testing::{self, START, antenna},
+        AntennaHandle, Command, Debts, Dial, Orders, Unit,
+        session::{
+            Wires,
+            testing::{self, START, antenna},
+        },
     },
+    plan::Bounds,
     promises::{
         FileState,
         tests::{SlowDisk, full_disk},
     },
     sim::satrak::{Control, Fault},
+    station::Antenna,
 };
 
 /// A session with its marks in `folder`, and its unit.
@@ -72,7 +79,7 @@ fn told(handle: &mut AntennaHandle) -> Vec<Safety> {
 #[tokio::test(start_paused = true)]
 async fn after_a_restart_stop_is_the_first_word_to_what_was_moved_by_hand() {
     let folder = tempfile::tempdir().unwrap();
-    let since = leave_mark(folder.path(), 20);
+    let since = leave_mark(folder.path(), 590);
     let (control, mut handle, debts) = start(folder.path());
     seconds(5).await;
     assert_eq!(control.received()[0].1, "STOP=");
@@ -83,7 +90,7 @@ async fn after_a_restart_stop_is_the_first_word_to_what_was_moved_by_hand() {
 #[tokio::test(start_paused = true)]
 async fn an_old_mark_asks_and_stays_until_the_operator_has_seen_it_stand() {
     let folder = tempfile::tempdir().unwrap();
-    let since = leave_mark(folder.path(), 3600);
+    let since = leave_mark(folder.path(), 610);
     let (control, mut handle, debts) = start(folder.path());
     seconds(20).await;
     assert_eq!(stops(&control), 0);
@@ -96,6 +103,32 @@ async fn an_old_mark_asks_and_stays_until_the_operator_has_seen_it_stand() {
     assert_eq!(handle.snapshot().left_moving, None);
     assert_eq!(debts.marked(&Unit::of(&antenna())), None);
     assert_eq!(stops(&control), 0);
+}
+
+/// STOP would take the panel from the person who works there.
+#[tokio::test(start_paused = true)]
+async fn where_another_may_have_the_panel_a_mark_asks_however_young_it_is() {
+    let (horn, folder) = (Antenna::rc2000c("Horn", "in memory"), tempfile::tempdir().unwrap());
+    let debts = Debts::marked_in(Some(folder.path().to_owned()));
+    let since = START - SignedDuration::from_secs(20);
+    debts.mark(&Unit::of(&horn), 0, Mark { since, tried: None });
+    while debts.mark_kept(&Unit::of(&horn)) == Kept::Pending {
+        std::thread::yield_now();
+    }
+    let clock = Clock::at_speed(START, NonZeroU32::MIN);
+    let (bounds, now) = (Bounds::of_antenna(&horn), clock.now().steady);
+    let (wires, mut handle) = Wires::new(&horn, bounds, now, Arc::new(|| {}), &Orders::default());
+    let dials = Arc::new(AtomicBool::new(false));
+    let dialled = Arc::clone(&dials);
+    let dial: Dial = Box::new(move || {
+        dialled.store(true, Ordering::Relaxed);
+        Box::pin(async { Err(std::io::ErrorKind::ConnectionRefused.into()) })
+    });
+    let session = Session::over(horn.controller(), &horn, dial, clock, wires, debts);
+    tokio::spawn(session.run());
+    seconds(5).await;
+    assert_eq!(told(&mut handle), [Safety::LeftMoving { since, asks: true }]);
+    assert!(!dials.load(Ordering::Relaxed));
 }
 
 #[tokio::test(start_paused = true)]
@@ -201,13 +234,17 @@ async fn a_mark_that_the_disk_takes_late_does_not_outlive_standstill() {
     let (control, mut handle) = testing::start(debts.clone(), |wires| wires);
     seconds(5).await;
     handle.send(Command::Manual).unwrap();
+    let pressed = Instant::now();
     for _ in 0..20 {
         handle.send(Command::Jog { rates_deg_s: [0.5, 0.0] }).unwrap();
         advance(50).await;
     }
     assert!(matches!(disk.begun(), FileState::Holds(_)));
     assert_eq!(told(&mut handle), [Safety::NoMark]);
-    assert!(control.received().iter().any(|(_, payload)| payload.starts_with("MOVE=")));
+    let received = control.received();
+    let (moved, _) = received.iter().find(|(_, payload)| payload.starts_with("MOVE=")).unwrap();
+    let held_up = *moved - pressed;
+    assert!((MAX..MAX + Duration::from_millis(100)).contains(&held_up), "{held_up:?}");
     handle.send(Command::EndJog).unwrap();
     advance(10_000).await;
     assert!(!debts.owes(&Unit::of(&antenna())), "standstill is proved");
@@ -232,7 +269,7 @@ async fn a_stop_that_the_disk_does_not_take_says_why_until_it_does() {
     assert!(why.contains("no storage space"), "{why}");
     assert_eq!(told(&mut handle), [Safety::NoMark, Safety::SilentInMotion]);
     is_full.store(false, Ordering::Relaxed);
-    seconds(20).await;
+    seconds(12).await;
     assert_eq!(handle.snapshot().not_on_disk, None);
     assert_eq!(told(&mut handle), [], "it is told once");
     let next = Debts::marked_in(Some(folder.path().to_owned()));
