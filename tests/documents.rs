@@ -38,6 +38,26 @@ fn every_test_that_the_fault_matrix_names_is_there() {
     assert!(!matrix.contains("not tested"), "a fault is not tested");
 }
 
+#[test]
+fn every_figure_of_the_fault_matrix_is_a_constant() {
+    let top = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let matrix = fs::read_to_string(top.join("docs/reliability.md")).unwrap();
+    let figures = matrix.split_once("## Figures").unwrap().1;
+    let mut read = 0;
+    for row in figures.lines().filter(|row| row.starts_with('|')) {
+        let mut text = String::new();
+        for words in row.split('`').skip(1).step_by(2) {
+            if words.starts_with("src/") {
+                text = fs::read_to_string(top.join(words)).unwrap();
+                continue;
+            }
+            assert!(text.contains(&format!("const {words}: ")), "{row}");
+            read += 1;
+        }
+    }
+    assert!(read > 50, "{read}");
+}
+
 /// Part of a file above its tests.
 fn product(text: &str) -> &str {
     const HEAD: &str = "#[cfg(test)]\n";
