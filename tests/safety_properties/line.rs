@@ -22,6 +22,8 @@ pub(super) struct Line {
     pub(super) lost: f64,
     /// The next reply is lost.
     pub(super) loses_next: bool,
+    /// The next reading of the position is lost.
+    pub(super) loses_next_reading: bool,
     pub(super) doubled: f64,
     pub(super) damaged: f64,
     pub(super) is_split: bool,
@@ -109,6 +111,10 @@ pub(super) async fn carry(
                 let line = {
                     let mut line = line.lock().unwrap();
                     if std::mem::take(&mut line.loses_next) {
+                        continue;
+                    }
+                    if line.loses_next_reading && unit.is_reading(bytes) {
+                        line.loses_next_reading = false;
                         continue;
                     }
                     line.clone()

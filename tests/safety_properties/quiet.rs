@@ -22,6 +22,7 @@ use super::{
     cases::for_each_case,
     deeds::Deed,
     judge::Judge,
+    makes::MAKES,
     scene::Scene,
     unit::Word,
     world::{Overhead, Wish, World},
@@ -100,26 +101,31 @@ fn is_false(event: &Event, near_deg: f64) -> bool {
 /// The mount reaches every direction above the minimum elevation.
 fn reaches_all(world: &World) -> bool {
     let [(first_from, first_to), (second_from, second_to)] = world.antenna.mount.travel_deg();
-    match world.make.name {
-        "Satrak" => first_from < 8.0 && second_to > 172.0,
-        _ => first_to - first_from >= 359.0 && second_from <= 0.0,
+    match world.antenna.mount {
+        Mount::Xy { .. } => first_from < 8.0 && second_to > 172.0,
+        Mount::AzEl { .. } => first_to - first_from >= 359.0 && second_from <= 0.0,
     }
 }
 
+/// A world of any make, each as often as the others.
 fn world(dice: &mut Dice, kind: Kind) -> World {
-    let make = (kind == Kind::OnBoard).then_some("Satrak");
+    let make = if kind == Kind::OnBoard { "Satrak" } else { MAKES[dice.below(MAKES.len())].name };
     let is_high = kind == Kind::Culmination;
     let overflight = if is_high { Overhead::Culmination } else { Overhead::Satellite };
-    let wish = Wish { overflight, make, ..Wish::default() };
+    let wish = Wish { overflight, make: Some(make), ..Wish::default() };
     loop {
         let mut world = World::random(dice, &wish);
-        if world.make.name == "Genius"
-            && let Mount::AzEl { azimuth_from_deg, azimuth_to_deg, .. } = &mut world.antenna.mount
-        {
+        match (make, &mut world.antenna.mount) {
+            ("Satrak", Mount::Xy { travel_from_deg, travel_to_deg, .. }) => {
+                (*travel_from_deg, *travel_to_deg) = (5.0, 175.0);
+            }
             // The unit takes no other azimuths.
-            (*azimuth_from_deg, *azimuth_to_deg) = (0.0, 360.0);
-            world.bounds = Bounds::of(&world.station, &world.antenna);
+            ("Genius", Mount::AzEl { azimuth_from_deg, azimuth_to_deg, .. }) => {
+                (*azimuth_from_deg, *azimuth_to_deg) = (0.0, 360.0);
+            }
+            _ => {}
         }
+        world.bounds = Bounds::of(&world.station, &world.antenna);
         if reaches_all(&world) {
             return world;
         }
@@ -138,7 +144,7 @@ impl Run {
         let end = Instant::now() + Duration::try_from_secs_f64(seconds).unwrap();
         while Instant::now() < end {
             if self.loses_readings && Instant::now() >= self.next_loss {
-                self.scene.trouble(|line| line.loses_next = true);
+                self.scene.trouble(|line| line.loses_next_reading = true);
                 let pause_s = self.dice.between(10.0, 120.0);
                 self.next_loss += Duration::try_from_secs_f64(pause_s).unwrap();
             }
@@ -169,6 +175,7 @@ impl Run {
 }
 
 async fn ordinary(mut dice: Dice, tally: Tally) {
+    let seed = dice.seed();
     let kind = KINDS[dice.below(KINDS.len())];
     let world = world(&mut dice, kind);
     let (make, overflight) = (world.make, world.overflight.unwrap());
@@ -223,7 +230,7 @@ async fn ordinary(mut dice: Dice, tally: Tally) {
     }
     let hours = (Instant::now() - began).as_secs_f64() / 3600.0;
     for text in &wrong {
-        println!("{kind:?} {} trouble {trouble}: {text}", make.name);
+        println!("seed {seed}, {kind:?} {} trouble {trouble}: {text}", make.name);
     }
     let mut tally = tally.borrow_mut();
     let (sum, all) = tally.entry((kind, make.name)).or_default();

@@ -39,6 +39,9 @@ pub(super) trait Unit: Send + Sync {
     /// Whether bytes that were written at once are more than a question.
     fn holds_order(&self, bytes: &[u8]) -> bool;
 
+    /// Whether a reply tells the position and answers a question, not an order.
+    fn is_reading(&self, reply: &[u8]) -> bool;
+
     /// A reply with this text, one of several, in place of the angle of an axis; the reply itself
     /// if it tells no angle.
     fn without_angle(&self, reply: &[u8], axis: usize, text: usize) -> Vec<u8>;

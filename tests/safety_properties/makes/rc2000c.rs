@@ -118,6 +118,10 @@ impl Unit for Counting {
         !matches!(bytes.get(2), Some(b'0' | b'1' | b'5'))
     }
 
+    fn is_reading(&self, reply: &[u8]) -> bool {
+        is_status(reply)
+    }
+
     fn without_angle(&self, reply: &[u8], axis: usize, text: usize) -> Vec<u8> {
         let mut reply = reply.to_vec();
         if is_status(&reply) {

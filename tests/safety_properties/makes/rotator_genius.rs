@@ -116,6 +116,10 @@ impl Unit for Control {
         bytes != b"|h"
     }
 
+    fn is_reading(&self, reply: &[u8]) -> bool {
+        is_status(reply)
+    }
+
     fn without_angle(&self, reply: &[u8], axis: usize, text: usize) -> Vec<u8> {
         let mut reply = reply.to_vec();
         if is_status(&reply) {

@@ -93,9 +93,9 @@ impl Unit for Control {
     }
 
     fn add_noise(&self) {
-        // The axes of the mount near its poles turn further than the direction on the sky. Four
-        // standard deviations are half of the last figure; more would be an antenna that sways.
-        let misreading = Misreading { noise_deg: 0.0125, ..Misreading::default() };
+        // The axes of the mount near its poles turn up to ten times further than the direction on
+        // the sky. More noise would be an antenna that sways.
+        let misreading = Misreading { noise_deg: 0.0025, ..Misreading::default() };
         self.set_trouble(Trouble::Misreads(misreading), true);
     }
 
@@ -117,6 +117,10 @@ impl Unit for Control {
 
     fn holds_order(&self, bytes: &[u8]) -> bool {
         bytes.contains(&b'=')
+    }
+
+    fn is_reading(&self, reply: &[u8]) -> bool {
+        payload(reply).is_some_and(|payload| payload.starts_with("STATUS?"))
     }
 
     fn without_angle(&self, reply: &[u8], axis: usize, text: usize) -> Vec<u8> {
