@@ -178,6 +178,11 @@ impl Rc2000c {
             return Some(jog);
         }
         let poll_at = self.poll_at?;
+        // The reply to each renewal is a status. A question in between could hold up the next
+        // renewal until the unit has ended the jog.
+        if self.jog.is_some() {
+            return None;
+        }
         if self.wants_device {
             return Some((Request::Query(Query::DeviceType), Purpose::Question));
         }

@@ -171,13 +171,16 @@ impl Rc2000c {
     /// When there is something to send, with nothing outstanding.
     fn next_due(&self, now: Moment) -> Option<Instant> {
         let poll_at = self.poll_at?;
-        let jog_at = self.jog.map(|jog| jog.sent.map_or(now.steady, |sent| sent + RENEWAL));
-        let is_asked = !self.orders.is_empty()
-            || self.wants_device
+        let is_asked = self.wants_device
             || self.is_status_asked
             || self.may_ask_device()
             || self.next_name().is_some();
-        let at = [poll_at].into_iter().chain(jog_at).chain(is_asked.then_some(now.steady)).min()?;
+        let at = match self.jog {
+            _ if !self.orders.is_empty() => now.steady,
+            Some(jog) => jog.sent.map_or(now.steady, |sent| sent + RENEWAL),
+            None if is_asked => now.steady,
+            None => poll_at,
+        };
         Some(at.max(self.quiet_until.unwrap_or(at)))
     }
 }
