@@ -305,10 +305,8 @@ mod tests {
     fn a_way_that_begins_at_the_corner_where_the_antenna_stands_leads_on_nowhere() {
         let aimed = |azimuth_deg| Pointing::from(AzEl::from_degrees(azimuth_deg, 20.0));
         let then = Motion::Position { azimuth: Some(Angle::from_degrees(200.0)), elevation: None };
-        let slew = |leg| Slew {
-            aim: Some(aimed(200.0)),
-            stage: SlewStage::Queued { motion: then, leg },
-        };
+        let slew =
+            |leg| Slew { aim: Some(aimed(200.0)), stage: SlewStage::Queued { motion: then, leg } };
         let round_a_corner = slew(Some(Leg { aim: aimed(100.0), then }));
         let within = Angle::from_degrees(0.5);
         assert!(!round_a_corner.leads_on(aimed(100.2), within));
