@@ -203,14 +203,18 @@ impl Session {
         self.doubt = None;
         // A short motion may be over before it was in doubt.
         let turned = before_deg.zip(self.gate.axes_deg()).map_or([false; 2], |(before, after)| {
-            [0, 1].map(|axis| (after[axis] - before[axis]).abs() > TURNED_DEG)
+            let [first, second] = before;
+            let [first_now, second_now] = after;
+            [first_now - first, second_now - second].map(|deg| deg.abs() > TURNED_DEG)
         });
         if self.active() || turned.contains(&true) {
             // A controller that sends an order for each axis may have sent only the first.
-            let axes = self.gate.state().measured.map(|measured| measured.axes);
-            let stands =
-                axes.map_or([true; 2], |axes| axes.map(|axis| axis.motion == AxisMotion::Still));
-            self.plan_anew([0, 1].map(|axis| stands[axis] && !turned[axis]));
+            let mut is_open = turned.map(|turned| !turned);
+            let axes = self.gate.state().measured.into_iter().flat_map(|measured| measured.axes);
+            for (is_open, axis) in is_open.iter_mut().zip(axes) {
+                *is_open &= axis.motion == AxisMotion::Still;
+            }
+            self.plan_anew(is_open);
         } else if !self.may_send_another() {
             self.forget(asked, Event::Unanswered(asked), now);
         }

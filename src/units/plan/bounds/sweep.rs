@@ -101,11 +101,11 @@ pub(super) struct Samples {
 
 impl Samples {
     /// The sample after this number of steps along each axis.
-    pub(super) fn at(self, steps: [usize; 2]) -> [f64; 2] {
-        let place = |axis: usize| {
-            let ((from, to), all) = (self.sweep.0[axis], self.steps[axis]);
-            (to - from).mul_add(steps[axis] as f64 / (all.max(1) as f64), from)
+    pub(super) fn at(self, [first, second]: [usize; 2]) -> [f64; 2] {
+        let (Sweep([firsts, seconds]), [all_first, all_second]) = (self.sweep, self.steps);
+        let place = |(from, to): (f64, f64), step: usize, all: usize| {
+            (to - from).mul_add(step as f64 / (all.max(1) as f64), from)
         };
-        [place(0), place(1)]
+        [place(firsts, first, all_first), place(seconds, second, all_second)]
     }
 }
