@@ -46,8 +46,8 @@ fn a_path_that_is_being_judged_is_told_before_anything_begins() {
     let judged = Snapshot { being_judged: true, ..states::tracking(0.04) };
     assert_eq!(
         told(judged, unchanged),
-        "Being judged: Azel checks the unit's whole way against keep-outs, the Sun and the limits \
-         before it starts."
+        "Being judged: Azel checks the whole way against keep-outs, the Sun and the limits before \
+         the antenna goes on."
     );
 }
 

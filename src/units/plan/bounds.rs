@@ -31,6 +31,10 @@ pub use sweep::Sweep;
 /// widened by the same angle.
 pub(super) const FINEST_DEG: f64 = 0.05;
 
+/// A part of a range that is smaller than this counts as inside a barrier that may reach into it,
+/// degrees. A motion that goes no further than half of [`FINEST_DEG`] beyond an edge is free.
+const SMALLEST_PART_DEG: f64 = FINEST_DEG / 2.0;
+
 /// One of the bounds: minimum elevation, a keep-out or the Sun.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Barrier {
@@ -290,7 +294,7 @@ impl BoundsAt<'_> {
     /// The first barrier that the axes may enter within `sweep`, and a direction inside it. From
     /// below the minimum elevation, no motion may lead lower than `start` may be.
     pub fn blocks(&self, sweep: Sweep, start: Sweep) -> Option<(Barrier, AzEl)> {
-        let lowest = self.lowest(start);
+        let lowest = self.lowest(start).elevation;
         if self.minimum_elevation.is_some_and(|minimum| lowest < minimum) {
             let minimum_elevation = Some(lowest);
             return Self { minimum_elevation, ..self.clone() }.blocks_from(sweep, None);
@@ -301,7 +305,7 @@ impl BoundsAt<'_> {
     /// Like [`Self::blocks`], for an unknown position within `start`: any descent counts as one below
     /// the minimum elevation if it may lead there.
     pub fn blocks_unseen(&self, sweep: Sweep, start: Sweep) -> Option<(Barrier, AzEl)> {
-        if self.lowest(sweep) < self.lowest(start) {
+        if self.lowest(sweep).elevation < self.lowest(start).elevation {
             self.blocks_from(sweep, None)
         } else {
             self.blocks(sweep, start)
@@ -311,20 +315,34 @@ impl BoundsAt<'_> {
     /// Returns `true` if `sweep` leads below the minimum elevation, or lower than a `start` below
     /// it.
     pub fn leads_below_the_floor(&self, sweep: Sweep, start: Sweep) -> bool {
-        let lowest = self.lowest(sweep);
+        let lowest = self.lowest(sweep).elevation;
         let is_below = |minimum: Angle| lowest.degrees() < minimum.degrees() - FINEST_DEG;
-        self.minimum_elevation.is_some_and(is_below) && is_below(self.lowest(start))
+        self.minimum_elevation.is_some_and(is_below) && is_below(self.lowest(start).elevation)
     }
 
-    /// The lowest elevation of the corners of `place`, which is the lowest of all its positions.
-    fn lowest(&self, place: Sweep) -> Angle {
-        let elevations = place.corners().map(|corner| self.bounds.direction(corner).elevation);
-        elevations.into_iter().fold(Angle::from_degrees(90.0), |lowest, elevation| {
-            if elevation < lowest { elevation } else { lowest }
+    /// The lowest corner of `place`, which is the lowest of all its positions.
+    fn lowest(&self, place: Sweep) -> AzEl {
+        let corners = place.corners().map(|corner| self.bounds.direction(corner));
+        corners.into_iter().fold(AzEl::from_degrees(0.0, 90.0), |lowest, corner| {
+            if corner.elevation < lowest.elevation { corner } else { lowest }
         })
     }
 
     fn blocks_from(&self, sweep: Sweep, index: Option<usize>) -> Option<(Barrier, AzEl)> {
+        // The floor is level, and so may be a side of the sweep: halves would never settle it.
+        if let Some(minimum) = self.minimum_elevation {
+            let is_asked = index.is_none_or(|index| index == 0);
+            let lowest = self.lowest(sweep);
+            if is_asked && lowest.elevation.degrees() < minimum.degrees() - FINEST_DEG {
+                return Some((Barrier::MinimumElevation, lowest));
+            }
+            let rest = match index {
+                Some(0) => return None,
+                Some(index) => Some(index - 1),
+                None => None,
+            };
+            return self.clone().above_the_floor().blocks_from(sweep, rest);
+        }
         let mut open = vec![sweep];
         while let Some(sweep) = open.pop() {
             let aim = self.aim(sweep.middle());
@@ -335,7 +353,7 @@ impl BoundsAt<'_> {
             if clear_deg >= radius_deg {
                 continue;
             }
-            if clear_deg < 0.0 || radius_deg < FINEST_DEG / 100.0 {
+            if clear_deg < 0.0 || radius_deg < SMALLEST_PART_DEG {
                 let is_nearest = |at: &AzEl| {
                     let only = Aim { axes: *at, sky: None };
                     self.nearest_among(only, index).is_some_and(|(_, own)| own <= angle)

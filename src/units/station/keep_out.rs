@@ -53,6 +53,9 @@ impl SunAvoidance {
 }
 
 impl KeepOut {
+    /// Maximum number of keep-outs of a station: each costs time whenever a motion is judged.
+    pub const MAX_NUMBER: usize = 32;
+
     /// Default of [`Self::margin_deg`], degrees.
     pub const DEFAULT_MARGIN_DEG: f64 = 1.0;
 

@@ -95,6 +95,23 @@ fn a_keep_out_that_cannot_be_read_is_said_not_to_hold() {
 }
 
 #[test]
+fn keep_outs_beyond_the_largest_number_do_not_hold_and_forbid_motion() {
+    let zone = "corners = [[0, 0], [0, 5], [7, 5]]";
+    let number = KeepOut::MAX_NUMBER + 1;
+    let text: String =
+        (1..=number).map(|one| format!("[[keep_out]]\nname = 'mast {one}'\n{zone}\n")).collect();
+    let (_folder, path) = written(&format!("{text}{SATRAK}"));
+    let Loaded { station, notes } = load(&path).unwrap();
+    assert_eq!(station.keep_outs.len(), KeepOut::MAX_NUMBER);
+    let [note] = notes.as_slice() else { panic!("{notes:?}") };
+    let NoteReason::DoesNotHold { name, why } = &note.reason else { panic!("{note:?}") };
+    assert_eq!((name.as_str(), why.as_str()), ("mast 33", "a station has 32 keep-outs at most"));
+    assert_eq!(station.unread.len(), 1, "it forbids motion");
+    save(&station, &path, crate::makes::SPECS).unwrap();
+    assert!(fs::read_to_string(&path).unwrap().contains("mast 33"), "nothing is lost");
+}
+
+#[test]
 fn a_keep_out_with_a_wrong_value_holds_all_the_more() {
     let corners = "corners = [[350, 0], [350, 16.3], [370.1, 24], [370, -0.2]]";
     let (_folder, path) = written(&format!(

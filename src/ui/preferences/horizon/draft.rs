@@ -291,6 +291,9 @@ impl Skies {
         if let Some(name) = zone.antenna.as_ref().filter(|name| !is_there(name)) {
             return Some(format!("No antenna is called {name}."));
         }
+        if index >= KeepOut::MAX_NUMBER {
+            return Some(format!("A station has {} keep-outs at most.", KeepOut::MAX_NUMBER));
+        }
         zone.zone().err().map(|why| format!("{why}."))
     }
 
@@ -434,6 +437,20 @@ mod tests {
         assert_eq!(renamed.keep_outs[0].antenna.as_deref(), Some("Big dish"));
         assert_eq!(skies.put_into(&mut renamed, &[]), None);
         assert_eq!(skies.problems(&["Big dish".to_owned()]), ["mast"]);
+    }
+
+    #[test]
+    fn a_station_has_no_more_keep_outs_than_can_be_judged_in_time() {
+        let mut skies = Skies::of(&station());
+        while skies.zones.len() < KeepOut::MAX_NUMBER {
+            let name = skies.free_name("mast");
+            let copy = skies.zones[0].copied(name);
+            skies.zones.push(copy);
+        }
+        assert_eq!(skies.problems(&[]), Vec::<String>::new());
+        let copy = skies.zones[0].copied("one more".to_owned());
+        skies.zones.push(copy);
+        assert_eq!(skies.problems(&[]), ["one more"]);
     }
 
     #[test]

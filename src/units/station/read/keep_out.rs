@@ -34,6 +34,11 @@ impl Fields<'_> {
             fields.name_the_unknown();
             self.note_all_of(fields);
             match keep_out {
+                Ok(_) if keep_outs.len() >= KeepOut::MAX_NUMBER => {
+                    let why = format!("a station has {} keep-outs at most", KeepOut::MAX_NUMBER);
+                    self.does_not_hold(&place, &name, why);
+                    self.leave_out(&place);
+                }
                 Ok(keep_out) => keep_outs.push(keep_out),
                 Err(why) => {
                     self.does_not_hold(&place, &name, why);
