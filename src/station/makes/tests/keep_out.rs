@@ -98,8 +98,8 @@ fn a_keep_out_that_cannot_be_read_is_said_not_to_hold() {
 fn keep_outs_beyond_the_largest_number_do_not_hold_and_forbid_motion() {
     let zone = "corners = [[0, 0], [0, 5], [7, 5]]";
     let number = KeepOut::MAX_NUMBER + 1;
-    let text: String =
-        (1..=number).map(|one| format!("[[keep_out]]\nname = 'mast {one}'\n{zone}\n")).collect();
+    let entries = (1..=number).map(|one| format!("[[keep_out]]\nname = 'mast {one}'\n{zone}\n"));
+    let text = entries.collect::<Vec<_>>().concat();
     let (_folder, path) = written(&format!("{text}{SATRAK}"));
     let Loaded { station, notes } = load(&path).unwrap();
     assert_eq!(station.keep_outs.len(), KeepOut::MAX_NUMBER);
