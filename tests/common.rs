@@ -7,6 +7,7 @@ pub(crate) mod network;
 pub(crate) mod rig;
 pub(crate) mod turns;
 pub(crate) mod units;
+pub(crate) mod workers;
 mod written;
 
 pub(crate) use mast::mast;

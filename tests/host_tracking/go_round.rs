@@ -16,6 +16,7 @@ use super::{
     satrak,
     sky::{self, Scene},
 };
+use crate::common::workers::{hold_up_workers, with_one_worker};
 
 /// A keep-out at the middle of the pass: from the ground to 8 degrees above the pass, 8
 /// degrees to both sides.
@@ -119,29 +120,33 @@ async fn by_a_satrak_on_crossed_axes() {
     assert!(off_deg < 5.5, "{off_deg}");
 }
 
-#[tokio::test(start_paused = true)]
-async fn stop_waits_for_no_path_and_ends_what_waits_for_it() {
-    let scene = sky::usual();
-    let antenna = satrak::antenna();
-    let (mut rig, control) = satrak::connected(&antenna, &scene, 120.0).await;
-    let keep_outs = vec![halfway(&scene, 1.0)];
-    let station = Station { site: sky::site(), keep_outs, ..Station::default() };
-    rig.handle().keep_within(Bounds::of(&station, &antenna));
-    let sent = |word: &str| {
-        let received = control.received().into_iter();
-        received.filter(|(_, payload)| payload.starts_with(word)).count()
-    };
-    let before = sent("STOP=");
-    rig.send(Command::ProgramTrack(Box::new(scene.follow())));
-    while !rig.shown().being_judged {
-        tokio::task::yield_now().await;
-    }
-    rig.stop();
-    while sent("STOP=") == before {
-        tokio::task::yield_now().await;
-    }
-    assert!(rig.shown().being_judged, "STOP did not wait");
-    rig.seconds(20.0).await;
-    assert!(!rig.shown().being_judged);
-    assert!(rig.shown().program_track.is_none(), "nothing is begun after STOP");
+#[test]
+fn stop_waits_for_no_path_and_ends_what_waits_for_it() {
+    with_one_worker(async {
+        let scene = sky::usual();
+        let antenna = satrak::antenna();
+        let (mut rig, control) = satrak::connected(&antenna, &scene, 120.0).await;
+        let keep_outs = vec![halfway(&scene, 1.0)];
+        let station = Station { site: sky::site(), keep_outs, ..Station::default() };
+        rig.handle().keep_within(Bounds::of(&station, &antenna));
+        let sent = |word: &str| {
+            let received = control.received().into_iter();
+            received.filter(|(_, payload)| payload.starts_with(word)).count()
+        };
+        let before = sent("STOP=");
+        let held_up = hold_up_workers();
+        rig.send(Command::ProgramTrack(Box::new(scene.follow())));
+        while !rig.shown().being_judged {
+            tokio::task::yield_now().await;
+        }
+        rig.stop();
+        while sent("STOP=") == before {
+            tokio::task::yield_now().await;
+        }
+        assert!(rig.shown().being_judged, "STOP did not wait");
+        drop(held_up);
+        rig.seconds(20.0).await;
+        assert!(!rig.shown().being_judged);
+        assert!(rig.shown().program_track.is_none(), "nothing is begun after STOP");
+    });
 }

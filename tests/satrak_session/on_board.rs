@@ -20,6 +20,7 @@ use super::{
     scene,
     settings::{change, write_settings},
 };
+use crate::common::workers::{hold_up_workers, with_one_worker};
 
 /// Far enough south-east to see the pass differently: 1,596 km away.
 const ELSEWHERE: [(&str, f64); 2] = [("latitude_deg", 28.94), ("longitude_deg", 38.57)];
@@ -345,25 +346,30 @@ async fn a_window_of_years_is_refused_before_it_is_judged() {
 }
 
 /// Time stands still here while the path is judged, so whatever happens meanwhile waits for nothing.
-#[tokio::test(start_paused = true)]
-async fn stop_waits_for_no_judgement_of_a_path_and_ends_what_waits_for_it() {
-    let mut rig = read().await;
-    let hours = TrackTarget { until: iss().from + jiff::SignedDuration::from_hours(23), ..iss() };
-    chosen_by_another(&mut rig, &hours).await;
-    let before = rig.sent("STOP=").len();
-    rig.send(Command::AutoTrack(true));
-    while !rig.shown().being_judged {
-        tokio::task::yield_now().await;
-    }
-    rig.stop();
-    while rig.sent("STOP=").len() == before {
-        tokio::task::yield_now().await;
-    }
-    assert!(rig.shown().being_judged, "STOP did not wait");
-    rig.seconds(20.0).await;
-    assert!(!rig.shown().being_judged);
-    assert_eq!(rig.shown().state.program.unwrap().auto, Some(false));
-    assert!(rig.sent("TRACK_AUTO_ENABLE=,1").is_empty(), "nothing is begun after STOP");
+#[test]
+fn stop_waits_for_no_judgement_of_a_path_and_ends_what_waits_for_it() {
+    with_one_worker(async {
+        let mut rig = read().await;
+        let hours =
+            TrackTarget { until: iss().from + jiff::SignedDuration::from_hours(23), ..iss() };
+        chosen_by_another(&mut rig, &hours).await;
+        let before = rig.sent("STOP=").len();
+        let held_up = hold_up_workers();
+        rig.send(Command::AutoTrack(true));
+        while !rig.shown().being_judged {
+            tokio::task::yield_now().await;
+        }
+        rig.stop();
+        while rig.sent("STOP=").len() == before {
+            tokio::task::yield_now().await;
+        }
+        assert!(rig.shown().being_judged, "STOP did not wait");
+        drop(held_up);
+        rig.seconds(20.0).await;
+        assert!(!rig.shown().being_judged);
+        assert_eq!(rig.shown().state.program.unwrap().auto, Some(false));
+        assert!(rig.sent("TRACK_AUTO_ENABLE=,1").is_empty(), "nothing is begun after STOP");
+    });
 }
 
 #[tokio::test(start_paused = true)]
