@@ -222,7 +222,8 @@ impl UnitClaim {
             return Err(Unclaimed::Held(elsewhere));
         }
         let mut names: Vec<String> = endpoints.iter().map(place_lock).collect();
-        // Of two processes that begin at once, the first one to have the first lock has all.
+        // All processes take the locks in one order, so that two that begin at once do not each get
+        // some of them.
         names.sort_unstable();
         names.dedup();
         let locks = names.iter().map(|name| self.claims.lock(name, Some(&self.antenna)));

@@ -72,9 +72,10 @@ pub(super) struct Judging {
     is_done: Arc<Notify>,
     /// A path for the command that waits for it.
     planned: Option<PlannedPath>,
-    /// What waits for an answer. A halt and the next command that is no further offset end the wait.
+    /// Commands that wait for an answer. A halt ends the wait, and so does the next command that is
+    /// no further offset.
     waiting: VecDeque<Command>,
-    /// How often the first of them has waited.
+    /// Number of times that the first of them has waited.
     tries: u8,
 }
 
@@ -87,7 +88,7 @@ impl Judging {
         Arc::clone(&self.is_done)
     }
 
-    /// What waits is not to be carried out any more.
+    /// Drops the commands that wait.
     pub(super) fn drop_waiting(&mut self) {
         self.waiting.clear();
         self.planned = None;
@@ -108,7 +109,7 @@ impl Judging {
         Ok(planner.path_order(now.utc, axes).filter(PathOrder::may_detour))
     }
 
-    /// Begins with the answer, unless another one is awaited.
+    /// Begins to work on the answer, unless the session awaits another one.
     fn begin(&mut self, question: Question) {
         if self.is_under_way() {
             return;
