@@ -65,8 +65,8 @@ pub struct Genius {
     /// When the status is asked for next; `None` without a link.
     next_poll: Option<Instant>,
     outstanding: Option<Outstanding>,
-    /// When the first of the missing statuses was asked for.
-    missing_since: Option<Instant>,
+    /// When the questions went out whose answers may still come, oldest first.
+    missing: VecDeque<Instant>,
     drain_until: Option<Instant>,
     /// Azel has the antenna moving.
     is_watched: bool,
@@ -107,7 +107,7 @@ impl Genius {
             turning: Default::default(),
             next_poll: None,
             outstanding: None,
-            missing_since: None,
+            missing: VecDeque::new(),
             drain_until: None,
             is_watched: false,
             halts: VecDeque::new(),

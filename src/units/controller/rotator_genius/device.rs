@@ -16,7 +16,7 @@ use crate::{
         panel::{Act, Lead},
         settings::{Change, WriteError},
     },
-    protocol::rotator_genius::Decoder,
+    protocol::rotator_genius::{Decoder, Request},
 };
 
 impl Device for Genius {
@@ -37,7 +37,7 @@ impl Device for Genius {
         self.turning = Default::default();
         self.next_poll = None;
         self.outstanding = None;
-        self.missing_since = None;
+        self.missing.clear();
         self.drain_until = None;
         self.halts.clear();
         self.orders.clear();
@@ -67,11 +67,18 @@ impl Device for Genius {
         if let Some(stop) = self.expire(now) {
             return Some(stop);
         }
-        if self.outstanding.is_some() || self.drain_until.is_some_and(|until| now.steady < until) {
+        if self.drain_until.take_if(|until| now.steady >= *until).is_some() {
+            self.missing.clear();
+        }
+        if self.outstanding.is_some() || self.drains_until().is_some() {
             return None;
         }
-        self.drain_until = None;
         let (request, purpose) = self.next_request(now)?;
+        self.drain_until = None;
+        if request == Request::Read {
+            // Whoever needs a position sooner may say so before the answer comes.
+            self.next_poll = Some(now.steady + self.period(now.steady));
+        }
         let bytes = request.to_bytes();
         let is_rescue = self.is_rescue_armed(now.steady);
         self.outstanding = Some(Outstanding::new(request, purpose, now, is_rescue));
@@ -79,7 +86,7 @@ impl Device for Genius {
     }
 
     fn due(&self, now: Moment) -> Instant {
-        let next = match (&self.outstanding, self.drain_until) {
+        let next = match (&self.outstanding, self.drains_until()) {
             (Some(outstanding), _) => Some(self.deadline(outstanding)),
             (None, Some(until)) => Some(until),
             (None, None) if self.has_something_to_send() => Some(now.steady),

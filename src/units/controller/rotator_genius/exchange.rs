@@ -149,28 +149,35 @@ impl Genius {
         self.state.traffic.last_reply = Some(now.steady);
     }
 
+    /// The unit answers each question at most once, and its answers come in the order in which
+    /// they were made. So each is at least as young as the oldest question that may still be
+    /// unanswered.
     fn take_answer(&mut self, status: Status, now: Moment) {
         let read = self.outstanding.take_if(|sent| sent.is_read());
-        let missing = self.missing_since.take();
-        let asked = missing.or(read.as_ref().map(Outstanding::sent));
-        let Some(asked) = asked else {
+        self.missing.extend(read.as_ref().map(Outstanding::sent));
+        let Some(asked) = self.missing.pop_front() else {
             self.state.traffic.unsolicited += 1;
-            if let Some(until) = &mut self.drain_until {
-                *until = now.steady + DRAIN;
-            }
             return;
         };
         self.count_reply(now);
-        if let (Some(_), Some(_)) = (missing, &read) {
-            // It may answer either question, and the other answer may still come.
-            self.drain_until = Some(now.steady + DRAIN);
-        }
+        let is_behind = self.drain_until.is_some();
+        self.drain_until = (!self.missing.is_empty()).then(|| now.steady + DRAIN);
         let sent = read.as_ref().map_or(asked, Outstanding::sent);
         self.take_status(status, asked, sent, now);
-        self.next_poll = Some(sent + self.period(now.steady));
+        let next = sent + self.period(now.steady);
+        self.next_poll = self.next_poll.map(|due| due.min(next));
+        if self.drain_until.is_some() && !is_behind {
+            self.look_soon(now);
+        }
         if read.is_some_and(|read| read.purpose == Purpose::WriteSettings) {
             self.change_read(now);
         }
+    }
+
+    /// Until when nothing is asked, so that a surplus answer shows as such. While the antenna
+    /// moves, the position goes on by one question behind instead.
+    pub(super) fn drains_until(&self) -> Option<Instant> {
+        self.drain_until.filter(|_| !self.is_watched || self.missing.len() > 1)
     }
 
     fn take_halt_answer(&mut self, is_accepted: bool, now: Moment) {
@@ -217,7 +224,7 @@ impl Genius {
         self.state.traffic.unanswered += 1;
         self.wire.no_reply(late.clock.waited(now), late.is_read(), now);
         if late.is_read() {
-            self.missing_since.get_or_insert(late.sent());
+            self.missing.push_back(late.sent());
         }
         match late.purpose {
             Purpose::Motion(asked) => {

@@ -30,7 +30,7 @@ impl Genius {
             Received::LayoutChanged(_) | Received::OtherProtocol => return,
             Received::Reply(Reply::Status(_)) => {
                 let is_poll = self.outstanding.as_ref().is_some_and(Outstanding::is_poll);
-                let asked = self.missing_since.or_else(|| asked(&Outstanding::is_read));
+                let asked = self.missing.front().copied().or_else(|| asked(&Outstanding::is_read));
                 (Meaning::plain("Status"), asked, is_poll)
             }
             Received::Reply(Reply::Acknowledgement { to, is_accepted }) => {

@@ -108,3 +108,55 @@ proptest! {
         }
     }
 }
+
+/// A pair that is read once and asked again at the returned time.
+fn asked_again(is_watched: bool) -> (Genius, Moment) {
+    let mut now = Moment { steady: Instant::now(), utc: Timestamp::UNIX_EPOCH };
+    let mut unit = Genius::new(PollRates { idle_hz: 2.0, moving_hz: 4.0 }, Rotators::Pair);
+    unit.link_up(now);
+    unit.watch_closely(is_watched);
+    assert_eq!(unit.poll(now).as_deref(), Some(&b"|h"[..]));
+    unit.receive(STATUS, now);
+    now.steady += Duration::from_millis(500);
+    assert_eq!(unit.poll(now).as_deref(), Some(&b"|h"[..]));
+    (unit, now)
+}
+
+#[test]
+fn a_lost_status_leaves_the_position_of_a_moving_antenna_young() {
+    let (mut unit, mut now) = asked_again(true);
+    let lost = now.steady;
+    now.steady += Duration::from_millis(600);
+    assert_eq!(unit.poll(now).as_deref(), Some(&b"|h"[..]));
+    let repeated = now.steady;
+    unit.receive(STATUS, now);
+    assert_eq!(unit.state().measured.unwrap().asked, lost, "it may answer either question");
+    assert_eq!(unit.poll(now).as_deref(), Some(&b"|h"[..]), "without a pause");
+    now.steady += Duration::from_millis(30);
+    unit.receive(STATUS, now);
+    assert_eq!(unit.state().measured.unwrap().asked, repeated);
+}
+
+#[test]
+fn a_surplus_status_is_waited_for_while_the_antenna_stands() {
+    let (mut unit, mut now) = asked_again(false);
+    now.steady += Duration::from_secs(1);
+    assert_eq!(unit.poll(now).as_deref(), Some(&b"|h"[..]));
+    unit.receive(STATUS, now);
+    now.steady += DRAIN - Duration::from_millis(1);
+    assert_eq!(unit.poll(now), None);
+    now.steady += Duration::from_millis(1);
+    assert_eq!(unit.poll(now).as_deref(), Some(&b"|h"[..]));
+    unit.receive(STATUS, now);
+    assert_eq!(unit.state().measured.unwrap().asked, now.steady);
+}
+
+#[test]
+fn a_position_wanted_while_an_older_one_is_waited_for_is_asked_for_after_it() {
+    let (mut unit, mut now) = asked_again(true);
+    now.steady += Duration::from_millis(100);
+    unit.ask_position(now);
+    assert_eq!(unit.poll(now), None);
+    unit.receive(STATUS, now);
+    assert_eq!(unit.poll(now).as_deref(), Some(&b"|h"[..]));
+}
