@@ -103,8 +103,10 @@ async fn a_jog_without_a_reply_is_sent_once_and_stopped_when_the_position_is_old
         unit.seconds(0.1).await;
     }
     assert_eq!(unit.sent("MOVE="), ["MOVE=,1,0"]);
-    unit.handle.send(Command::Jog { rates_deg_s: [1.0, 0.0] }).unwrap();
-    unit.seconds(0.2).await;
+    for _ in 0..3 {
+        unit.handle.send(Command::Jog { rates_deg_s: [1.0, 0.0] }).unwrap();
+        unit.seconds(0.1).await;
+    }
     assert_eq!(unit.sent("STOP=")[0], "STOP=");
     assert_eq!(unit.events(), [Event::JogPositionOld]);
     unit.seconds(5.0).await;

@@ -12,12 +12,21 @@ use crate::{
 pub const LEASE: Duration = Duration::from_millis(300);
 /// A jog needs a position younger than this.
 const FRESH: Duration = Duration::from_secs(1);
+/// A jog starts at a position younger than this, or at one that was asked for after the key went
+/// down: the command and the next position may each be late by 300 ms before this one is too old.
+const YOUNG: Duration = Duration::from_millis(300);
+/// So long a jog waits for its position: one reply may be lost, and the units that could send it
+/// late are then asked nothing for a second.
+const PATIENCE: Duration = Duration::from_secs(3);
 
 /// A held jog key.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Jog {
     /// Signed rates of the two axes, degrees a second.
     pub(super) rates_deg_s: [f64; 2],
+    pressed_at: Instant,
+    /// A younger position has been asked for.
+    asked: bool,
     /// When the jog ends unless renewed.
     pub(super) until: Instant,
     /// The motion went through the gate.
@@ -90,7 +99,14 @@ impl Session {
                 if key.started().is_some() {
                     self.halt_quietly(now);
                 }
-                self.key = JogKey::Down(Jog { rates_deg_s, until, started: false, refused: false });
+                self.key = JogKey::Down(Jog {
+                    rates_deg_s,
+                    pressed_at: now.steady,
+                    asked: false,
+                    until,
+                    started: false,
+                    refused: false,
+                });
             }
         }
         self.start_jog(now);
@@ -108,7 +124,7 @@ impl Session {
         if self.stop.is_under_way() || self.key.held().is_none_or(|jog| jog.started) {
             return;
         }
-        if !self.is_marked(now) {
+        if !self.is_marked(now) || self.awaits_young_position(now) {
             return;
         }
         let Some(jog) = self.key.held() else { return };
@@ -132,6 +148,22 @@ impl Session {
                 }
             }
         }
+    }
+
+    /// Returns `true` while the jog waits for a position that lasts until the next one comes. The
+    /// gate judges the age of a position that does not come.
+    fn awaits_young_position(&mut self, now: Moment) -> bool {
+        let Some(look) = self.gate.state().measured else { return false };
+        let Some(jog) = self.key.held_mut() else { return false };
+        let age = now.steady.saturating_duration_since(look.asked);
+        let waited = now.steady.saturating_duration_since(jog.pressed_at);
+        if age < YOUNG || look.asked >= jog.pressed_at || waited >= PATIENCE {
+            return false;
+        }
+        if !std::mem::replace(&mut jog.asked, true) {
+            self.gate.device().ask_position(now);
+        }
+        true
     }
 
     /// Ends a jog that is no longer renewed, or whose position is too old.

@@ -84,7 +84,8 @@ impl Session {
         self.contact.silence.heard(self.gate.state().traffic.replies);
         let is_watched = self.is_in_motion();
         self.contact.silence.watch(is_watched, now.steady);
-        self.gate.device().watch_closely(self.contact.silence.is_watched);
+        // A jog that has not begun waits for its position.
+        self.gate.device().watch_closely(is_watched || self.key.held().is_some());
         if self.silence_due().is_some_and(|at| now.steady >= at) {
             self.tell_silence();
         }
