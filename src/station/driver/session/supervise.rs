@@ -181,6 +181,8 @@ impl Session {
                 self.give_up(event, now);
             }
             Motion::Jog { .. } => {
+                // The key that is still down must not send it again.
+                self.key.spend();
                 self.halt_quietly(now);
                 self.tell(event);
             }
