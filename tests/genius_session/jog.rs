@@ -1,6 +1,9 @@
 //! Jogging: press turns, release stops, and nothing outlives the key.
 
+use std::time::Duration;
+
 use azel::{
+    clock::Instant,
     controller::rotator_genius::Rotators,
     driver::{Command, Event, Intent, LinkState, Refusal},
     protocol::rotator_genius::{Moving, RotatorNumber},
@@ -189,4 +192,40 @@ async fn the_second_rotator_is_not_jogged_while_the_first_turns() {
     device.handle.send(Command::Jog { rates_deg_s: [0.0, 4.0] }).unwrap();
     device.seconds(0.2).await;
     assert_eq!(device.orders(), ["|S"]);
+}
+
+#[tokio::test(start_paused = true)]
+async fn one_degree_between_two_questions_is_no_great_rate() {
+    let (mut is_turning, mut elevation_deg) = (false, 40);
+    let script = move |command: &str| {
+        is_turning = (is_turning || command == "|M2") && command != "|S";
+        // A drive at 4 degrees a second may show its next degree at any moment, also just then.
+        if is_turning && command == "|h" || command == "|S" {
+            elevation_deg -= 1;
+        }
+        let moving = ['0', if is_turning { '2' } else { '0' }];
+        match command {
+            "|h" => vec![(10, status(100, elevation_deg, moving, '\0'))],
+            other => plain(other),
+        }
+    };
+    let mut device = Scripted::start(Rotators::Pair, Box::new(script));
+    device.seconds(0.5).await;
+    device.handle.send(Command::Manual).unwrap();
+    device.seconds(1.5).await;
+    device.events();
+    let asked_ago = |device: &Scripted| Instant::now() - *device.times("|h").last().unwrap();
+    for _ in 0..100 {
+        device.handle.send(Command::Jog { rates_deg_s: [0.0, -4.0] }).unwrap();
+        device.seconds(0.01).await;
+    }
+    let just = Duration::from_millis(15)..Duration::from_millis(40);
+    while !just.contains(&asked_ago(&device)) {
+        device.handle.send(Command::Jog { rates_deg_s: [0.0, -4.0] }).unwrap();
+        device.seconds(0.01).await;
+    }
+    device.handle.send(Command::EndJog).unwrap();
+    device.seconds(3.0).await;
+    assert_eq!(device.orders()[..2], ["|M2", "|S"]);
+    assert_eq!(device.events(), []);
 }

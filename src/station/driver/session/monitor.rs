@@ -21,6 +21,9 @@ use crate::{
 
 /// Rates are taken between positions no further apart than this.
 const SPAN: Duration = Duration::from_secs(5);
+/// Rates are taken between positions at least this far apart: one step of a unit that counts whole
+/// degrees would be a great rate between two that follow at once.
+const APART: Duration = Duration::from_millis(150);
 /// An antenna that dips below its minimum elevation by no more than this, beyond its pointing
 /// tolerance, is left alone: a program ends there, and readings are rounded.
 const DIP_DEG: f64 = 0.5;
@@ -32,6 +35,9 @@ const NOISE_DEG: f64 = 0.02;
 /// What was measured and reported last.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub(super) struct Watch {
+    /// When the last position came in that was looked at.
+    looked: Option<Instant>,
+    /// The position that the rates end at.
     last: Option<Measured>,
     /// The last angle of each axis, degrees, and when it was asked for.
     angles: [Option<(f64, Instant)>; 2],
@@ -68,14 +74,13 @@ impl Session {
     /// Checks whether the antenna enters, or is inside, a forbidden zone.
     pub(super) fn watch_bounds(&mut self, now: Moment) {
         let Some(look) = self.gate.state().measured else { return };
-        let before = self.seen.watch.last.replace(look);
-        if before.is_some_and(|before| before.received == look.received) || self.contact.unread {
+        let is_old = self.seen.watch.looked.replace(look.received) == Some(look.received);
+        if is_old || self.contact.unread {
             return;
         }
         let Some(intervals) = self.gate.intervals() else { return };
         let here = intervals.sweep();
-        let rates = self.rates(before.as_ref(), &look, intervals);
-        self.seen.watch.rates_deg_s = rates;
+        let rates = self.rates(&look, intervals);
         let turns_unseen = self.turns_unseen(&look, intervals);
         let is_moving = rates.iter().any(|rate| rate.abs() > SLOWEST_DEG_S) || turns_unseen;
         let ahead_s = self.gate.ahead_s(now);
@@ -106,13 +111,13 @@ impl Session {
 
     /// Rates of the axes, degrees a second. One that reports no angle for a moment keeps its last
     /// rate.
-    fn rates(
-        &mut self,
-        before: Option<&Measured>,
-        look: &Measured,
-        intervals: Intervals,
-    ) -> [f64; 2] {
-        let mut rates = before.map_or([0.0; 2], |before| rates_deg_s(before, look));
+    fn rates(&mut self, look: &Measured, intervals: Intervals) -> [f64; 2] {
+        let before = self.seen.watch.last;
+        if before.is_some_and(|before| span(&before, look) < APART) {
+            return self.seen.watch.rates_deg_s;
+        }
+        self.seen.watch.last = Some(*look);
+        let mut rates = before.map_or([0.0; 2], |before| rates_deg_s(&before, look));
         let Watch { rates_deg_s: last_rates, angles, .. } = &mut self.seen.watch;
         let last = last_rates.iter().zip(angles).zip(intervals.0);
         for ((rate, axis), ((last_rate, last), interval)) in
@@ -134,7 +139,9 @@ impl Session {
         }
         // A second axis other than elevation does not belong to the antenna.
         let [first, second] = rates;
-        [first, if self.variant.capabilities.has_elevation() { second } else { 0.0 }]
+        let rates = [first, if self.variant.capabilities.has_elevation() { second } else { 0.0 }];
+        self.seen.watch.rates_deg_s = rates;
+        rates
     }
 
     /// Returns `true` if an axis whose angle is unknown may turn.
@@ -239,11 +246,16 @@ impl Session {
     }
 }
 
+/// Longest time between two measurements. The reply to a repeated question may have been measured
+/// at any time since the first.
+fn span(before: &Measured, after: &Measured) -> Duration {
+    let asked = after.asked.saturating_duration_since(before.asked);
+    asked.max(after.received.saturating_duration_since(before.received))
+}
+
 /// Rates of the axes, degrees a second; zero between positions that cannot be compared.
 fn rates_deg_s(before: &Measured, after: &Measured) -> [f64; 2] {
-    // The reply to a repeated question may have been measured at any time since the first.
-    let asked = after.asked.saturating_duration_since(before.asked);
-    let span = asked.max(after.received.saturating_duration_since(before.received));
+    let span = span(before, after);
     if span.is_zero() || span > SPAN {
         return [0.0; 2];
     }
