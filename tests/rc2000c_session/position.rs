@@ -218,3 +218,29 @@ async fn a_direction_that_is_only_looked_at_is_judged_like_a_motion_and_moves_no
     rig.seconds(0.1).await;
     assert_eq!(rig.shown().preview, None);
 }
+
+#[tokio::test(start_paused = true)]
+async fn after_a_lost_link_a_way_ends_at_its_corner() {
+    let mut rig = in_position().await;
+    let corners_deg = [(190.0, -5.0), (200.0, -5.0), (200.0, 60.0), (190.0, 60.0)];
+    let station =
+        Station { keep_outs: vec![crate::common::mast(&corners_deg)], ..Station::default() };
+    rig.handle().keep_within(Bounds::of(&station, &antenna()));
+    rig.send(to(220.0, 75.0));
+    rig.until("it moves", 5, |shown| shown.state.measured.unwrap().moving()).await;
+    let sent = rig.orders();
+    rig.set_off(true);
+    rig.seconds(60.0).await;
+    assert!(rig.shown().state.measured.is_some_and(|it| it.moving()), "nothing has been read");
+    rig.events();
+    rig.set_off(false);
+    // It stands where it was sent.
+    rig.until_event(30, |event| matches!(event, Event::Back { is_as_left: true, .. })).await;
+    let is_short = |event: &Event| matches!(event, Event::EndedShort { .. });
+    let short = rig.until_event(60, is_short).await;
+    rig.seconds(60.0).await;
+    assert_eq!(rig.orders(), sent, "the next leg needs the operator");
+    let Event::EndedShort { aim, at } = short else { unreachable!() };
+    assert!(aim.separation(AzEl::from_degrees(220.0, 75.0).into()).unwrap().degrees() < 0.1);
+    assert!(at.separation(aim).unwrap().degrees() > 10.0, "{at:?}");
+}

@@ -48,11 +48,12 @@ pub(super) enum SlewStage {
     Over,
 }
 
-/// A motion to a position that is followed by another one, such as the other axis.
+/// A motion to a position on the way.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Leg {
     pub(super) aim: Pointing,
-    pub(super) then: Motion,
+    /// The next motion; `None` once a lost link has ended the way there.
+    pub(super) then: Option<Motion>,
 }
 
 pub(super) struct OnBoardTrack {
@@ -240,6 +241,11 @@ impl Activity {
     /// reported.
     pub(super) fn drop_queued(&mut self, now: Instant) {
         self.take_queued(now);
+        if let Some(Slew { stage: SlewStage::UnderWay { leg: Some(leg), .. }, .. }) =
+            self.slew_mut()
+        {
+            leg.then = None;
+        }
     }
 }
 
@@ -256,6 +262,14 @@ pub(super) enum Arrival {
 }
 
 impl Slew {
+    /// Where the motion that was sent last leads to, if one was sent.
+    pub(super) fn aim_under_way(&self) -> Option<Pointing> {
+        match self.stage {
+            SlewStage::UnderWay { leg, .. } => leg.map(|leg| leg.aim).or(self.aim),
+            SlewStage::Queued { .. } | SlewStage::Over => None,
+        }
+    }
+
     /// Returns `false` if its first motion leads to where the antenna stands.
     pub(super) fn leads_on(&self, at: Pointing, within: Angle) -> bool {
         match self.stage {
@@ -279,16 +293,17 @@ impl Slew {
         now: Instant,
     ) -> Option<Arrival> {
         let SlewStage::UnderWay { since, leg } = self.stage else { return None };
-        let aim = leg.map(|leg| leg.aim).or(self.aim)?;
+        let (aim, end) = (self.aim_under_way()?, self.aim?);
         if turns || measured.asked <= since {
             return None;
         }
         let since = turned.map_or(since, |turned| turned.max(since));
         let is_near = measured.pointing.separation(aim).is_some_and(|off| off <= within);
         let arrival = match leg {
-            Some(leg) if is_near => Arrival::Leg(leg.then),
+            Some(Leg { then: Some(then), .. }) if is_near => Arrival::Leg(then),
+            Some(Leg { then: None, .. }) if is_near => Arrival::Short { aim: end },
             None if is_near => Arrival::At(aim),
-            _ if now.saturating_duration_since(since) >= EFFECT => Arrival::Short { aim },
+            _ if now.saturating_duration_since(since) >= EFFECT => Arrival::Short { aim: end },
             _ => return None,
         };
         self.stage = SlewStage::Over;
@@ -307,7 +322,7 @@ mod tests {
         let then = Motion::Position { azimuth: Some(Angle::from_degrees(200.0)), elevation: None };
         let slew =
             |leg| Slew { aim: Some(aimed(200.0)), stage: SlewStage::Queued { motion: then, leg } };
-        let round_a_corner = slew(Some(Leg { aim: aimed(100.0), then }));
+        let round_a_corner = slew(Some(Leg { aim: aimed(100.0), then: Some(then) }));
         let within = Angle::from_degrees(0.5);
         assert!(!round_a_corner.leads_on(aimed(100.2), within));
         assert!(round_a_corner.leads_on(aimed(99.0), within));

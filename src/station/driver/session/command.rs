@@ -252,7 +252,8 @@ impl Session {
         let motion = self.gate.nearest(motion)?;
         let route = self.gate.route(motion, intent, now).map_err(NoRoute::refusal)?;
         let first_aim = self.gate.aim(&route.first);
-        let leg = first_aim.zip(route.then).map(|(aim, then)| Leg { aim, then });
+        let leg = first_aim.filter(|_| route.then.is_some());
+        let leg = leg.map(|aim| Leg { aim, then: route.then });
         let stage = SlewStage::Queued { motion: route.first, leg };
         Ok(Slew { aim: self.gate.aim(&motion), stage })
     }

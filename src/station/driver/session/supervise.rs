@@ -287,12 +287,13 @@ impl Session {
         let left = self.contact.left_at;
         let is_at = |place: Option<Pointing>| place.is_none_or(|place| self.is_near(place, at));
         let stands_as_left = found == Found::Still && is_at(left);
-        if let Some(Slew { aim, stage: SlewStage::UnderWay { .. } }) = self.activity.slew() {
+        if let Some(slew @ Slew { stage: SlewStage::UnderWay { .. }, .. }) = self.activity.slew() {
+            let aim = slew.aim_under_way();
             return match found {
                 Found::Tracking => false,
-                Found::Still => stands_as_left || is_at(*aim),
+                Found::Still => stands_as_left || is_at(aim),
                 Found::Moving => {
-                    let way = left.zip(*aim);
+                    let way = left.zip(aim);
                     way.is_none_or(|(left, aim)| self.is_between(left, aim, at))
                 }
             };
