@@ -53,11 +53,25 @@ impl SunAvoidance {
 }
 
 impl KeepOut {
-    /// Maximum number of keep-outs of a station: each costs time whenever a motion is judged.
+    /// Maximum number of keep-outs of a station: each costs time whenever a position is judged.
     pub const MAX_NUMBER: usize = 32;
+    /// Maximum number of corners of all keep-outs of a station, for the same reason.
+    pub const MAX_CORNERS_IN_ALL: usize = 800;
 
     /// Default of [`Self::margin_deg`], degrees.
     pub const DEFAULT_MARGIN_DEG: f64 = 1.0;
+
+    /// Returns why a keep-out of this many corners is one too many after those before it, given by
+    /// their numbers of corners.
+    pub fn excess(before: impl Iterator<Item = usize>, corners: usize) -> Option<String> {
+        let (number, all) =
+            before.fold((1, corners), |(number, all), corners| (number + 1, all + corners));
+        if number > Self::MAX_NUMBER {
+            return Some(format!("a station has {} keep-outs at most", Self::MAX_NUMBER));
+        }
+        (all > Self::MAX_CORNERS_IN_ALL)
+            .then(|| format!("all keep-outs have {} corners at most", Self::MAX_CORNERS_IN_ALL))
+    }
 
     /// Returns `true` if the keep-out holds for the antenna of that name.
     pub fn holds_for(&self, antenna: &str) -> bool {

@@ -112,6 +112,28 @@ fn keep_outs_beyond_the_largest_number_do_not_hold_and_forbid_motion() {
 }
 
 #[test]
+fn keep_outs_have_no_more_corners_than_can_be_judged_in_time() {
+    let corners: Vec<String> = (0..100)
+        .map(|corner| {
+            let angle_rad = f64::from(corner) / 100.0 * std::f64::consts::TAU;
+            format!("[{}, {}]", 40.0 + 9.0 * angle_rad.sin(), 40.0 + 9.0 * angle_rad.cos())
+        })
+        .collect();
+    let corners = corners.join(", ");
+    let entries =
+        (1..=9).map(|one| format!("[[keep_out]]\nname = 'mast {one}'\ncorners = [{corners}]\n"));
+    let text = entries.collect::<Vec<_>>().concat();
+    let (_folder, path) = written(&format!("{text}{SATRAK}"));
+    let Loaded { station, notes } = load(&path).unwrap();
+    assert_eq!(station.keep_outs.len(), 8);
+    let [note] = notes.as_slice() else { panic!("{notes:?}") };
+    let NoteReason::DoesNotHold { name, why } = &note.reason else { panic!("{note:?}") };
+    let limit = "all keep-outs have 800 corners at most";
+    assert_eq!((name.as_str(), why.as_str()), ("mast 9", limit));
+    assert_eq!(station.unread.len(), 1, "it forbids motion");
+}
+
+#[test]
 fn a_keep_out_with_a_wrong_value_holds_all_the_more() {
     let corners = "corners = [[350, 0], [350, 16.3], [370.1, 24], [370, -0.2]]";
     let (_folder, path) = written(&format!(

@@ -291,8 +291,9 @@ impl Skies {
         if let Some(name) = zone.antenna.as_ref().filter(|name| !is_there(name)) {
             return Some(format!("No antenna is called {name}."));
         }
-        if index >= KeepOut::MAX_NUMBER {
-            return Some(format!("A station has {} keep-outs at most.", KeepOut::MAX_NUMBER));
+        let before = self.zones.iter().take(index).map(|other| other.corners.len());
+        if let Some(why) = KeepOut::excess(before, zone.corners.len()) {
+            return Some(words::sentence(&why));
         }
         zone.zone().err().map(|why| format!("{why}."))
     }
@@ -451,6 +452,17 @@ mod tests {
         let copy = skies.zones[0].copied("one more".to_owned());
         skies.zones.push(copy);
         assert_eq!(skies.problems(&[]), ["one more"]);
+        skies.zones.truncate(KeepOut::MAX_NUMBER);
+        let all: usize = skies.zones.iter().map(|zone| zone.corners.len()).sum();
+        for _ in all..KeepOut::MAX_CORNERS_IN_ALL {
+            let fewest = skies.zones.iter().position(|zone| zone.corners.len() < 100).unwrap();
+            skies.zones[fewest].split(0).unwrap();
+        }
+        let limit = "All keep-outs have 800 corners at most.";
+        let last = skies.zones.len() - 1;
+        assert_ne!(skies.problem_of(last, &[]).as_deref(), Some(limit));
+        skies.zones[last].split(0).unwrap();
+        assert_eq!(skies.problem_of(last, &[]).as_deref(), Some(limit));
     }
 
     #[test]

@@ -33,12 +33,12 @@ impl Fields<'_> {
             let keep_out = fields.keep_out(name.clone(), antennas);
             fields.name_the_unknown();
             self.note_all_of(fields);
+            let keep_out = keep_out.and_then(|keep_out| {
+                let before = keep_outs.iter().map(|other| other.zone.corners().len());
+                let excess = KeepOut::excess(before, keep_out.zone.corners().len());
+                excess.map_or(Ok(keep_out), Err)
+            });
             match keep_out {
-                Ok(_) if keep_outs.len() >= KeepOut::MAX_NUMBER => {
-                    let why = format!("a station has {} keep-outs at most", KeepOut::MAX_NUMBER);
-                    self.does_not_hold(&place, &name, why);
-                    self.leave_out(&place);
-                }
                 Ok(keep_out) => keep_outs.push(keep_out),
                 Err(why) => {
                     self.does_not_hold(&place, &name, why);
