@@ -421,7 +421,8 @@ impl Gate {
         let end = target(Some(to.azimuth), Some(to.elevation), start, &situation)
             .ok_or(Refusal::PositionUnknown)?;
         let along = Angle::from_degrees(ALONG_DEG);
-        blocked(start.with(end), start, &self.bounds.at(now.utc).with_floor_lower_by(along))
+        let bounds = situation.at_present(&self.bounds).with_floor_lower_by(along);
+        blocked(start.with(end), start, &bounds)
     }
 
     /// The lead of an action as a motion to a position; `None` where it leads nowhere or is

@@ -40,7 +40,7 @@ impl Session {
             self.seen.place.unknown_axis = None;
             return;
         }
-        let bounds = self.bounds_now().at(now.utc);
+        let bounds = self.bounds_now().at(now.utc).turned_by(self.gate.to_sky());
         let clearances = bounds.least_clearances(intervals.sweep()).into_iter();
         // Above the minimum elevation a known angle needs no permission to go on.
         let entered = clearances.filter(|it| {
