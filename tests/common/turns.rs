@@ -51,6 +51,10 @@ impl Turns {
         self.0.values().sum()
     }
 
+    pub(crate) fn longest_ms(&self) -> f64 {
+        self.exceeded_by_ms(0.0)
+    }
+
     /// Time that no more than a share of the turns exceeds, milliseconds.
     fn exceeded_by_ms(&self, share: f64) -> f64 {
         let mut left = ((1.0 - share) * self.count() as f64).ceil() as u64;
@@ -64,7 +68,8 @@ impl Turns {
 
 impl fmt::Display for Turns {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let [p50, p9999, max] = [0.5, 1e-4, 0.0].map(|share| self.exceeded_by_ms(share));
+        let [p50, p9999] = [0.5, 1e-4].map(|share| self.exceeded_by_ms(share));
+        let max = self.longest_ms();
         write!(f, "{} turns: p50 {p50} ms, p99.99 {p9999} ms, max {max} ms", self.count())
     }
 }

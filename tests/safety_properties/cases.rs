@@ -2,7 +2,10 @@
 
 use std::{future::Future, panic::AssertUnwindSafe};
 
-use crate::common::{dice::Dice, turns};
+use crate::common::{
+    dice::Dice,
+    turns::{self, Turns},
+};
 
 /// Runs `case` in paused time with successive seeds, `usual` times unless `AZEL_CASES`
 /// sets another number.
@@ -16,6 +19,8 @@ pub(super) fn for_each_case<Ran: Future<Output = ()>>(
     let cases = number("AZEL_CASES").unwrap_or(usual);
     println!("{class}: {cases} cases from seed {seed}");
     turns::take_measured();
+    let mut turns = Turns::default();
+    let mut slowest = (0.0, seed);
     let mut failed = Vec::new();
     for seed in seed..seed + cases {
         let run = AssertUnwindSafe(|| {
@@ -28,7 +33,12 @@ pub(super) fn for_each_case<Ran: Future<Output = ()>>(
             failed.push(seed);
             assert!(failed.len() < 10, "{class}: seeds {failed:?} failed");
         }
+        let measured = turns::take_measured();
+        if measured.longest_ms() > slowest.0 {
+            slowest = (measured.longest_ms(), seed);
+        }
+        turns.add_all(&measured);
     }
-    println!("{class}: {}", turns::take_measured());
+    println!("{class}: {turns}, that of seed {}", slowest.1);
     assert!(failed.is_empty(), "{class}: of {cases} cases seeds {failed:?} failed");
 }
