@@ -4,11 +4,13 @@
 //! ```text
 //! AZEL_HOURS=24 cargo test --release --test azel driver_turns -- --nocapture
 //! ```
+//!
+//! Once at a usual station, and once with as many keep-outs and corners as a station may have.
 
-use std::{cell::RefCell, num::NonZeroU32, rc::Rc, time::Duration};
+use std::{cell::RefCell, f64::consts::TAU, num::NonZeroU32, rc::Rc, time::Duration};
 
 use azel::{
-    astro::{Angle, time::add_seconds},
+    astro::{Angle, AzEl, time::add_seconds},
     clock::Clock,
     controller::{
         rc2000c::Calibration,
@@ -20,7 +22,7 @@ use azel::{
     orbit::{Elements, PassSearch, Propagator, bundled, passes},
     plan::{Bounds, OnBoardPass, ProgramTrack, Target},
     sim::{Control, Unit, rc2000c, rotator_genius, satrak},
-    station::{Antenna, Mount, Station, SunAvoidance},
+    station::{Antenna, Entered, KeepOut, Mount, Station, SunAvoidance},
 };
 use jiff::Timestamp;
 use tokio::task::LocalSet;
@@ -171,13 +173,48 @@ async fn until(antennas: &mut [Measured], clock: &Clock, at: Timestamp) {
     }
 }
 
-async fn day(hours: f64) {
-    let from: Timestamp = "2026-08-12T11:03:00Z".parse().unwrap();
-    let clock = Clock::at_speed(from, NonZeroU32::MIN);
-    let keep_outs = vec![
+/// Two masts.
+fn usual() -> Vec<KeepOut> {
+    vec![
         mast(&[(80.0, 0.0), (100.0, 0.0), (100.0, 35.0), (80.0, 35.0)]),
         mast(&[(200.0, 0.0), (215.0, 0.0), (215.0, 25.0), (200.0, 25.0)]),
-    ];
+    ]
+}
+
+/// A ring of as many discs as a station may have; every other one is gone round.
+fn most() -> Vec<KeepOut> {
+    let corners = KeepOut::MAX_CORNERS_IN_ALL / KeepOut::MAX_NUMBER;
+    let disc = |number: usize| {
+        let corner = |corner: usize| {
+            let (sin, cos) = (corner as f64 / corners as f64 * TAU).sin_cos();
+            let middle_deg = (number as f64 + 0.5) / KeepOut::MAX_NUMBER as f64 * 360.0;
+            (middle_deg + 3.0 * sin, 25.0 + 9.0 * cos)
+        };
+        let corners: Vec<_> = (0..corners).map(corner).collect();
+        let entered = if number.is_multiple_of(2) { Entered::Hard } else { Entered::GoRound };
+        KeepOut { name: format!("disc {number}"), entered, ..mast(&corners) }
+    };
+    (0..KeepOut::MAX_NUMBER).map(disc).collect()
+}
+
+/// Looks at the ways to directions all round, as a pointer on the sky plot does.
+async fn preview(antennas: &mut [Measured], clock: &Clock) {
+    for azimuth_deg in (0..360).step_by(15) {
+        let to = AzEl::from_degrees(f64::from(azimuth_deg), 30.0);
+        for antenna in antennas.iter() {
+            antenna.handle.send(Command::Preview(Some(to.into()))).unwrap();
+        }
+        until(antennas, clock, add_seconds(clock.utc(), 0.2)).await;
+    }
+    for antenna in antennas {
+        antenna.handle.send(Command::Preview(None)).unwrap();
+    }
+}
+
+async fn day(hours: f64, keep_outs: Vec<KeepOut>) {
+    let from: Timestamp = "2026-08-12T11:03:00Z".parse().unwrap();
+    let clock = Clock::at_speed(from, NonZeroU32::MIN);
+    let number = keep_outs.len();
     let sun_avoidance = Some(SunAvoidance { radius_deg: 5.0, ahead_min: 10.0 });
     let station = Station { keep_outs, sun_avoidance, ..Station::default() };
     let mut antennas = antennas(from, &station, &clock);
@@ -188,11 +225,17 @@ async fn day(hours: f64) {
         begin(&antennas, event, &station);
         until(&mut antennas, &clock, add_seconds(event.los, 10.0)).await;
         for antenna in &antennas {
+            antenna.handle.send(Command::MoveAway).unwrap();
+        }
+        until(&mut antennas, &clock, add_seconds(event.los, 20.0)).await;
+        preview(&mut antennas, &clock).await;
+        for antenna in &antennas {
             antenna.handle.send(Command::Park).unwrap();
         }
     }
     until(&mut antennas, &clock, end).await;
-    println!("{hours} hours of three antennas, {} passes", timetable.len());
+    let passes = timetable.len();
+    println!("{hours} hours of three antennas, {number} keep-outs, {passes} passes");
     let mut all = Turns::default();
     for antenna in &antennas {
         let turns = antenna.turns.borrow();
@@ -207,5 +250,7 @@ fn the_turns_of_three_sessions_are_measured() {
     let hours = std::env::var("AZEL_HOURS").ok().and_then(|hours| hours.parse().ok());
     let mut builder = tokio::runtime::Builder::new_current_thread();
     let runtime = builder.enable_time().start_paused(true).build().unwrap();
-    LocalSet::new().block_on(&runtime, day(hours.unwrap_or(0.05)));
+    for keep_outs in [usual(), most()] {
+        LocalSet::new().block_on(&runtime, day(hours.unwrap_or(0.05), keep_outs));
+    }
 }
