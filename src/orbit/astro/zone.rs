@@ -3,12 +3,13 @@
 mod cap;
 mod crossing;
 mod edge;
+mod extent;
 
 use std::f64::consts::PI;
 
 use glam::DVec3;
 
-use self::{cap::Cap, edge::Edge};
+use self::{cap::Cap, edge::Edge, extent::Extent};
 use super::{Angle, AzEl};
 
 pub const MIN_CORNERS: usize = 3;
@@ -29,6 +30,7 @@ pub struct Zone {
     corners: Vec<AzEl>,
     edges: Vec<Edge>,
     cap: Cap,
+    extent: Option<Extent>,
 }
 
 /// The reason why corners do not make a zone. Corners and edges are counted from 1; edge 1 leads
@@ -92,7 +94,8 @@ impl Zone {
         }
         crossing::check(&edges)?;
         let cap = Cap::around(&edges);
-        Ok(Self { corners, edges, cap })
+        let extent = Extent::of(&edges);
+        Ok(Self { corners, edges, cap, extent })
     }
 
     /// The corners as given.
@@ -111,6 +114,19 @@ impl Zone {
     pub fn clearance_is_at_least(&self, at: DVec3) -> Angle {
         let clearance = self.cap.clearance(at);
         Angle::from_radians(if clearance > 0.0 { clearance } else { -PI })
+    }
+
+    /// An angle that the clearance of no direction in a box of azimuths and elevations, each from the
+    /// lower to the upper end, is less than. It is exact where the box stands above, below or beside
+    /// the zone, and says nothing where it may reach into it.
+    pub fn clearance_of_box_is_at_least(
+        &self,
+        azimuths: (Angle, Angle),
+        elevations: (Angle, Angle),
+    ) -> Angle {
+        let radians = |(from, to): (Angle, Angle)| (from.radians(), to.radians());
+        let clearance = self.extent.map(|it| it.clearance(radians(azimuths), radians(elevations)));
+        Angle::from_radians(clearance.filter(|clearance| *clearance > 0.0).unwrap_or(-PI))
     }
 
     /// As [`Self::clearance`], of a unit vector (east, north, up).

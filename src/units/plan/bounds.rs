@@ -8,6 +8,7 @@
 //! directions: what the axes count, and that of the beam. The lesser clearance counts.
 
 mod aim;
+mod blocks;
 mod least;
 mod near;
 mod sun;
@@ -30,10 +31,6 @@ pub use sweep::Sweep;
 /// How far a motion may go beyond an edge, degrees; the margins of keep-outs and of the Sun are
 /// widened by the same angle.
 pub(super) const FINEST_DEG: f64 = 0.05;
-
-/// A part of a range that is smaller than this counts as inside a barrier that may reach into it,
-/// degrees. A motion that goes no further than half of [`FINEST_DEG`] beyond an edge is free.
-const SMALLEST_PART_DEG: f64 = FINEST_DEG / 2.0;
 
 /// One of the bounds: minimum elevation, a keep-out or the Sun.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
@@ -206,27 +203,15 @@ impl BoundsAt<'_> {
     /// The nearest barrier that refuses motion, of axes that count `direction`; `None` if there is
     /// none.
     pub fn nearest(&self, direction: AzEl) -> Option<Clearance> {
-        let (barrier, angle) = self.nearest_among(self.aim_at(direction), None)?;
-        Some(Clearance { barrier: barrier.clone_of(), angle, warns_only: false })
-    }
-
-    /// Returns the nearest barrier: that at `index`, or of all that refuse motion if it is `None`.
-    fn nearest_among(&self, aim: Aim, index: Option<usize>) -> Option<(Named<'_>, Angle)> {
         let mut nearest: Option<(Named<'_>, Angle)> = None;
-        for (at, barrier) in self.barriers(aim).enumerate() {
-            if !index.map_or(!barrier.warns_only, |index| at == index) {
-                continue;
-            }
-            match nearest {
-                Some((_, least)) => {
-                    if let Some(angle) = barrier.angle_below(least) {
-                        nearest = Some((barrier.name, angle));
-                    }
-                }
-                None => nearest = Some((barrier.name, barrier.angle())),
+        for barrier in self.barriers(self.aim_at(direction)).filter(|it| !it.warns_only) {
+            let least = nearest.map_or(Angle::from_degrees(f64::INFINITY), |(_, least)| least);
+            if let Some(angle) = barrier.angle_below(least) {
+                nearest = Some((barrier.name, angle));
             }
         }
-        nearest
+        let (name, angle) = nearest?;
+        Some(Clearance { barrier: name.clone_of(), angle, warns_only: false })
     }
 
     /// The keep-out or the surroundings of the Sun that the antenna is in with axes that count
@@ -328,44 +313,6 @@ impl BoundsAt<'_> {
         })
     }
 
-    fn blocks_from(&self, sweep: Sweep, index: Option<usize>) -> Option<(Barrier, AzEl)> {
-        // The floor is level, and so may be a side of the sweep: halves would never settle it.
-        if let Some(minimum) = self.minimum_elevation {
-            let is_asked = index.is_none_or(|index| index == 0);
-            let lowest = self.lowest(sweep);
-            if is_asked && lowest.elevation.degrees() < minimum.degrees() - FINEST_DEG {
-                return Some((Barrier::MinimumElevation, lowest));
-            }
-            let rest = match index {
-                Some(0) => return None,
-                Some(index) => Some(index - 1),
-                None => None,
-            };
-            return self.clone().above_the_floor().blocks_from(sweep, rest);
-        }
-        let mut open = vec![sweep];
-        while let Some(sweep) = open.pop() {
-            let aim = self.aim(sweep.middle());
-            let radius_deg = sweep.radius_deg() * self.max_beam_turn();
-            let (barrier, angle) = self.nearest_among(aim, index)?;
-            // Positions on the edge are free, even where the edge is a whole side of the sweep.
-            let clear_deg = angle.degrees() + FINEST_DEG;
-            if clear_deg >= radius_deg {
-                continue;
-            }
-            if clear_deg < 0.0 || radius_deg < SMALLEST_PART_DEG {
-                let is_nearest = |at: &AzEl| {
-                    let only = Aim { axes: *at, sky: None };
-                    self.nearest_among(only, index).is_some_and(|(_, own)| own <= angle)
-                };
-                let at = aim.each().find(is_nearest).unwrap_or(aim.axes);
-                return Some((barrier.clone_of(), at));
-            }
-            open.extend(sweep.halves());
-        }
-        None
-    }
-
     /// Returns `true` if the antenna, with its axes at `axes_deg`, is `room_deg` outside every barrier
     /// that refuses motion. The minimum elevation needs no room.
     pub(super) fn has_room(&self, axes_deg: [f64; 2], room_deg: f64) -> bool {
@@ -398,22 +345,38 @@ impl BoundsAt<'_> {
 
     fn barriers(&self, aim: Aim) -> impl Iterator<Item = Near<'_>> {
         let at = aim.to_enu();
-        let floor = self.minimum_elevation.map(|minimum| Near {
-            name: Named::MinimumElevation,
-            warns_only: false,
-            angle: Clear::Known(aim.axes.elevation - minimum),
-        });
-        let zones = self.bounds.keep_outs.iter().map(move |(zone, margin)| Near {
-            name: Named::KeepOut(&zone.name),
-            warns_only: zone.entered == Entered::Warn,
-            angle: Clear::OfZone { zone: &zone.zone, margin: *margin, at },
-        });
-        let sun = self.sun_clearance(at).map(|angle| Near {
-            name: Named::Sun,
-            warns_only: false,
-            angle: Clear::Known(angle),
-        });
-        floor.into_iter().chain(zones).chain(sun)
+        (0..self.number()).filter_map(move |index| self.barrier(index, aim, at))
+    }
+
+    fn number(&self) -> usize {
+        usize::from(self.minimum_elevation.is_some())
+            + self.bounds.keep_outs.len()
+            + usize::from(self.avoids_sun())
+    }
+
+    /// The barrier at `index`: first the minimum elevation, then the keep-outs, then the Sun.
+    fn barrier(&self, index: usize, aim: Aim, at: Towards) -> Option<Near<'_>> {
+        let zone_index = match self.minimum_elevation {
+            Some(minimum) if index == 0 => {
+                let angle = Clear::Known(aim.axes.elevation - minimum);
+                return Some(Near { name: Named::MinimumElevation, warns_only: false, angle });
+            }
+            Some(_) => index - 1,
+            None => index,
+        };
+        if let Some((zone, margin)) = self.bounds.keep_outs.get(zone_index) {
+            return Some(Near {
+                name: Named::KeepOut(&zone.name),
+                warns_only: zone.entered == Entered::Warn,
+                angle: Clear::OfZone { zone: &zone.zone, margin: *margin, at },
+            });
+        }
+        let angle = self.sun_clearance(at).filter(|_| index < self.number())?;
+        Some(Near { name: Named::Sun, warns_only: false, angle: Clear::Known(angle) })
+    }
+
+    fn avoids_sun(&self) -> bool {
+        self.bounds.sun.is_some() && !self.suns.is_empty()
     }
 
     fn sun_clearance(&self, at: Towards) -> Option<Angle> {

@@ -11,10 +11,10 @@ use crate::astro::{Angle, AzEl};
 pub(super) struct Edge {
     pub(super) from: DVec3,
     pub(super) to: DVec3,
-    from_azimuth: f64,
+    pub(super) from_azimuth: f64,
     to_azimuth: f64,
     /// Change of azimuth from one end to the other, radians, signed.
-    turn: f64,
+    pub(super) turn: f64,
     pub(super) shape: Shape,
 }
 

@@ -247,6 +247,24 @@ fn a_zone_that_is_far_away_is_known_to_be_far_at_once() {
     assert!(all_above.clearance_is_at_least(at).degrees() < -90.0);
 }
 
+#[test]
+fn a_box_above_or_beside_a_zone_is_known_to_be_so_far_away() {
+    let mast = zone(&[(350.0, 0.0), (350.0, 30.0), (370.0, 30.0), (370.0, 0.0)]).unwrap();
+    let at_least = |az: [f64; 2], el: [f64; 2]| {
+        let [azimuths, elevations] =
+            [az, el].map(|[from, to]| (Angle::from_degrees(from), Angle::from_degrees(to)));
+        mast.clearance_of_box_is_at_least(azimuths, elevations).degrees()
+    };
+    let above = at_least([0.0, 360.0], [32.0, 90.0]);
+    assert!((above - 2.0).abs() < 1e-9, "{above}");
+    let east = at_least([12.0, 100.0], [0.0, 60.0]);
+    assert!((east - (0.5 * 2.0_f64.to_radians().sin()).asin().to_degrees()).abs() < 1e-9, "{east}");
+    let west = at_least([-100.0, -12.0], [0.0, 0.0]);
+    assert!((west - 2.0).abs() < 1e-9, "{west}");
+    assert!(at_least([5.0, 100.0], [0.0, 60.0]) < -90.0, "it reaches into the zone");
+    assert!(at_least([12.0, 200.0], [0.0, 60.0]) < -90.0, "it goes round more than a half");
+}
+
 proptest! {
     #[test]
     fn great_circles_around_a_middle_agree_with_the_plane_and_with_their_points(
@@ -272,6 +290,27 @@ proptest! {
             if clearance.abs() > 1e-6 {
                 let inside = is_inside_in_the_plane(middle, &corners, at);
                 prop_assert_eq!(clearance < 0.0, inside, "{}", clearance);
+            }
+        }
+    }
+
+    #[test]
+    fn a_box_is_no_nearer_than_any_of_its_directions(
+        (_, corners) in star(), (az, el) in (-360.0..720.0_f64, -89.0..89.0_f64),
+        (width, height) in (0.0..90.0_f64, 0.0..60.0_f64), beside in any_box(),
+        inside in proptest::collection::vec((0.0..1.0_f64, 0.0..1.0_f64), 20),
+    ) {
+        let (from, to, low, high) = beside;
+        let [from, to, low, high] = [from, to, low, high].map(f64::from);
+        let boxed = zone(&[(from, low), (from, high), (to, high), (to, low)]);
+        let top = (el + height).min(90.0);
+        let ends = |from, to| (Angle::from_degrees(from), Angle::from_degrees(to));
+        for zone in [Zone::new(corners), boxed].into_iter().flatten() {
+            let at_least =
+                zone.clearance_of_box_is_at_least(ends(az, az + width), ends(el, top)).degrees();
+            for (across, up) in &inside {
+                let clearance = clearance_deg(&zone, az + across * width, el + up * (top - el));
+                prop_assert!(at_least <= clearance + 1e-9, "{at_least} {clearance}");
             }
         }
     }

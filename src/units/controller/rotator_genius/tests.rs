@@ -143,7 +143,7 @@ fn a_surplus_status_is_waited_for_while_the_antenna_stands() {
     now.steady += Duration::from_secs(1);
     assert_eq!(unit.poll(now).as_deref(), Some(&b"|h"[..]));
     unit.receive(STATUS, now);
-    now.steady += DRAIN - Duration::from_millis(1);
+    now.steady += DRAIN.checked_sub(Duration::from_millis(1)).unwrap();
     assert_eq!(unit.poll(now), None);
     now.steady += Duration::from_millis(1);
     assert_eq!(unit.poll(now).as_deref(), Some(&b"|h"[..]));

@@ -35,6 +35,28 @@ impl Near<'_> {
         }
     }
 
+    /// A clearance that no direction in a box falls below, as far as that is known at once.
+    pub(super) fn of_box_at_least(
+        &self,
+        azimuths: (Angle, Angle),
+        elevations: (Angle, Angle),
+    ) -> Option<Angle> {
+        match self.angle {
+            Clear::Known(_) => None,
+            Clear::OfZone { zone, margin, .. } => {
+                Some(zone.clearance_of_box_is_at_least(azimuths, elevations) - margin)
+            }
+        }
+    }
+
+    /// Number of edges that a look at the clearance goes through.
+    pub(super) fn cost(&self) -> usize {
+        match self.angle {
+            Clear::Known(_) => 1,
+            Clear::OfZone { zone, .. } => zone.corners().len(),
+        }
+    }
+
     /// The clearance if it is less than `limit`.
     pub(super) fn angle_below(&self, limit: Angle) -> Option<Angle> {
         Some(self.angle_unless_from(limit)).filter(|angle| *angle < limit)

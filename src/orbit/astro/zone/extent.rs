@@ -1,0 +1,70 @@
+//! The azimuths and elevations of a zone, which settle cheaply that a whole box of directions is
+//! beside it.
+
+use std::f64::consts::{FRAC_PI_2, PI, TAU};
+
+use glam::DVec3;
+
+use super::edge::{Edge, Shape};
+
+/// Ranges of azimuth and elevation that contain a zone, radians.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Extent {
+    azimuths: (f64, f64),
+    elevations: (f64, f64),
+}
+
+impl Extent {
+    /// `None` for a zone that contains the zenith or is wider than half a turn.
+    pub(super) fn of(edges: &[Edge]) -> Option<Self> {
+        let start = edges.first()?.from_azimuth;
+        let mut azimuth = start;
+        let (mut azimuths, mut elevations) = ((start, start), (FRAC_PI_2, -FRAC_PI_2));
+        for edge in edges {
+            azimuth += edge.turn;
+            azimuths = (azimuths.0.min(azimuth), azimuths.1.max(azimuth));
+            for elevation in [edge.from, edge.to].into_iter().chain(furthest(edge)).map(elevation) {
+                elevations = (elevations.0.min(elevation), elevations.1.max(elevation));
+            }
+        }
+        let is_closed = (azimuth - start).abs() < 1.0;
+        let is_narrow = azimuths.1 - azimuths.0 < PI;
+        (is_closed && is_narrow).then_some(Self { azimuths, elevations })
+    }
+
+    /// An angle, radians, that the distance of the zone from all directions in a box is not less than;
+    /// zero or negative where the box may reach into the zone.
+    pub(super) fn clearance(self, azimuths: (f64, f64), elevations: (f64, f64)) -> f64 {
+        let (lowest, highest) = self.elevations;
+        let level = (elevations.0 - highest).max(lowest - elevations.1);
+        // No direction of the box is nearer to a side than at the smallest cosine.
+        let cos = elevations.0.cos().min(elevations.1.cos()).max(0.0);
+        let beside = |nearest: f64| {
+            let nearest = nearest.rem_euclid(TAU);
+            let furthest = nearest + (azimuths.1 - azimuths.0);
+            if furthest > PI {
+                return f64::NEG_INFINITY;
+            }
+            (cos * nearest.sin().min(furthest.sin())).asin()
+        };
+        let (first, last) = self.azimuths;
+        level.max(beside(first - azimuths.1)).max(beside(azimuths.0 - last))
+    }
+}
+
+fn elevation(at: DVec3) -> f64 {
+    at.z.atan2(at.x.hypot(at.y))
+}
+
+/// The highest and the lowest point of a great circle where they lie on the edge.
+fn furthest(edge: &Edge) -> impl Iterator<Item = DVec3> {
+    let points = match edge.shape {
+        Shape::GreatCircle { normal } => {
+            let top = (DVec3::Z - normal * normal.z).try_normalize();
+            let points = [top, top.map(|top| -top)].into_iter().flatten();
+            Some(points.filter(move |at| edge.spans(*at, normal)))
+        }
+        Shape::Arc { .. } => None,
+    };
+    points.into_iter().flatten()
+}

@@ -1,0 +1,141 @@
+//! The first barrier that a range of positions reaches into.
+//!
+//! One look at the middle of a part of the range settles the part for each barrier that is further
+//! away than the rest of the part. The others are looked at in its halves.
+
+use std::rc::Rc;
+
+use super::{Angle, AzEl, Barrier, BoundsAt, FINEST_DEG, Mount, Sweep, aim::Aim, near::Named};
+
+/// A part of a range that is smaller than this counts as inside a barrier that may reach into it,
+/// degrees. A motion that goes no further than half of [`FINEST_DEG`] beyond an edge is free.
+const SMALLEST_PART_DEG: f64 = FINEST_DEG / 2.0;
+
+/// Number of edges that are looked at before the barrier counts as entered that is being looked at:
+/// the thread that serves all antennas must not be held up by a way along a ragged edge.
+const MAX_COST: usize = 40_000;
+
+impl BoundsAt<'_> {
+    /// The first barrier that `sweep` reaches into, and a direction inside it: the barrier at `index`,
+    /// or any that refuses motion if it is `None`.
+    pub(super) fn blocks_from(
+        &self,
+        sweep: Sweep,
+        index: Option<usize>,
+    ) -> Option<(Barrier, AzEl)> {
+        // The floor is level, and so may be a side of the sweep: halves would never settle it.
+        if let Some(minimum) = self.minimum_elevation
+            && index.is_none_or(|index| index == 0)
+        {
+            let lowest = self.lowest(sweep);
+            if lowest.elevation.degrees() < minimum.degrees() - FINEST_DEG {
+                return Some((Barrier::MinimumElevation, lowest));
+            }
+        }
+        let all = self.barriers(self.aim(sweep.middle())).enumerate();
+        let asked = all.filter(|(at, barrier)| {
+            let is_floor = matches!(barrier.name, Named::MinimumElevation);
+            !is_floor && index.map_or(!barrier.warns_only, |index| *at == index)
+        });
+        let asked: Rc<[usize]> = asked.map(|(at, _)| at).collect();
+        let mut open = vec![(sweep, asked)];
+        let mut left = MAX_COST;
+        while let Some((part, barriers)) = open.pop() {
+            let aim = self.aim(part.middle());
+            let at = aim.to_enu();
+            let radius_deg = part.radius_deg() * self.max_beam_turn();
+            // Positions on the edge are free, even where the edge is a whole side of the sweep.
+            let limit = Angle::from_degrees(radius_deg - FINEST_DEG);
+            let as_box = self.box_of(part).filter(|_| aim.sky.is_none());
+            let mut near = Vec::new();
+            let mut nearest: Option<(usize, Named<'_>, Angle)> = None;
+            for index in barriers.iter().copied() {
+                let Some(barrier) = self.barrier(index, aim, at) else { continue };
+                let Some(angle) = barrier.angle_below(limit) else { continue };
+                left = left.saturating_sub(barrier.cost());
+                let of_box = as_box.and_then(|(az, el)| barrier.of_box_at_least(az, el));
+                if of_box.is_some_and(|of_box| of_box.degrees() >= -FINEST_DEG) {
+                    continue;
+                }
+                near.push(index);
+                if nearest.is_none_or(|(_, _, least)| angle < least) {
+                    nearest = Some((index, barrier.name, angle));
+                }
+            }
+            let Some((index, name, angle)) = nearest else { continue };
+            if angle.degrees() < -FINEST_DEG || radius_deg < SMALLEST_PART_DEG || left == 0 {
+                return Some((name.clone_of(), self.nearest_of(aim, index, angle)));
+            }
+            let near: Rc<[usize]> = near.into();
+            open.extend(part.halves().map(|half| (half, Rc::clone(&near))));
+        }
+        None
+    }
+
+    /// Azimuths and elevations of the directions that the axes count in `part`, unless they go past
+    /// the zenith or the mount is another one.
+    fn box_of(&self, part: Sweep) -> Option<((Angle, Angle), (Angle, Angle))> {
+        let Sweep([azimuths, elevations]) = part;
+        let is_plain = matches!(self.bounds.mount, Mount::AzEl { .. }) && elevations.1 <= 90.0;
+        let angles = |(from, to): (f64, f64)| (Angle::from_degrees(from), Angle::from_degrees(to));
+        is_plain.then(|| (angles(azimuths), angles(elevations)))
+    }
+
+    /// The direction of `aim` whose clearance from the barrier at `index` is `least`.
+    fn nearest_of(&self, aim: Aim, index: usize, least: Angle) -> AzEl {
+        let is_nearest = |at: &AzEl| {
+            let only = Aim { axes: *at, sky: None };
+            self.barrier(index, only, only.to_enu()).is_some_and(|own| own.angle() <= least)
+        };
+        aim.each().find(is_nearest).unwrap_or(aim.axes)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::{
+        plan::{Bounds, Sweep},
+        station::{Antenna, Entered, KeepOut, Station},
+    };
+
+    /// Eight keep-outs all round, each with 49 teeth up to 20 degrees.
+    fn saws() -> Vec<KeepOut> {
+        let saw = |number: u32| {
+            let from_deg = 45.0 * f64::from(number);
+            let tooth = |corner: u32| {
+                let elevation_deg = if corner.is_multiple_of(2) { 20.0 } else { 19.0 };
+                (from_deg + 44.0 - 44.0 * f64::from(corner) / 97.0, elevation_deg)
+            };
+            let mut corners_deg = vec![(from_deg, 0.0), (from_deg + 44.0, 0.0)];
+            corners_deg.extend((0..98).map(tooth));
+            KeepOut {
+                name: format!("saw {number}"),
+                reason: String::new(),
+                entered: Entered::Hard,
+                antenna: None,
+                margin_deg: 1.0,
+                zone: KeepOut::zone_of(&corners_deg).unwrap(),
+            }
+        };
+        (0..8).map(saw).collect()
+    }
+
+    #[test]
+    fn a_way_along_ragged_edges_is_free_by_its_axes_and_counts_as_blocked_by_a_tilted_beam() {
+        let station = Station { keep_outs: saws(), ..Station::default() };
+        let is_free = |tilt_deg: f64, above_deg: f64| {
+            let mut antenna = Antenna::genius("Mast", "memory:1");
+            antenna.pointing_model.tilt_east_deg = tilt_deg;
+            let bounds = Bounds::of(&station, &antenna);
+            let now = bounds.at("2026-08-12T22:00:00Z".parse().unwrap());
+            let half_beam_deg = antenna.beam_width().degrees() / 2.0;
+            let lowest_deg = 21.0 + half_beam_deg + tilt_deg + above_deg;
+            let sweep = Sweep([(0.0, 360.0), (lowest_deg, 89.0)]);
+            now.blocks(sweep, Sweep::at([0.0, 89.0])).is_none()
+        };
+        assert!(is_free(0.0, 0.1));
+        assert!(is_free(2.0, 3.0));
+        // It is free, but to settle that would take too long.
+        assert!(!is_free(2.0, 0.1));
+    }
+}
