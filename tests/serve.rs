@@ -487,6 +487,34 @@ fn the_program_serves_is_asked_from_a_second_shell_and_ends_by_a_signal() {
 }
 
 #[test]
+fn who_locks_out_an_antenna_writes_no_line_of_another_one() {
+    let units = Units::start(|station| station.antennas.truncate(2));
+    let served = Served::start(&units);
+    served.until(|told| told["antenna"] == "Mast" && told["about"] == "motion");
+    let by = "Ada\u{1b}[2J\nMast: link up, stands";
+    let lock = ["lock-out", "--antenna", "Dish", "--reason", "belts", "--by", by];
+    program(&units).args(lock).output().expect("it runs");
+    let status = says(&program(&units).arg("status").output().expect("it runs"));
+    assert!(status.contains("locked out by Ada"), "{status}");
+    assert!(!status.contains('\u{1b}'), "{status:?}");
+    assert_eq!(status.lines().filter(|line| line.starts_with("Mast:")).count(), 1, "{status:?}");
+}
+
+#[test]
+fn a_runtime_folder_that_is_open_to_others_is_closed() {
+    use std::os::unix::fs::PermissionsExt as _;
+
+    let units = Units::start(|station| station.antennas.truncate(2));
+    let folder = units.folder.path().join("runtime/azel");
+    std::fs::create_dir_all(&folder).unwrap();
+    std::fs::set_permissions(&folder, std::fs::Permissions::from_mode(0o777)).unwrap();
+    let served = Served::start(&units);
+    served.until(|told| told["antenna"] == "Mast" && told["about"] == "motion");
+    let mode = std::fs::metadata(&folder).unwrap().permissions().mode();
+    assert_eq!(mode & 0o077, 0, "mode {mode:o}");
+}
+
+#[test]
 fn output_that_nobody_reads_holds_up_nothing() {
     let units = Units::start(|_| {});
     let process = program(&units).arg("serve").stdout(Stdio::piped()).spawn();

@@ -178,7 +178,22 @@ fn before_a_mast(from_deg: f64, to_deg: f64) -> Bounds {
 }
 
 fn before_a_mast_with(antenna: &Antenna, from_deg: f64, to_deg: f64) -> Bounds {
-    let corners = [(from_deg, 5.0), (to_deg, 5.0), (to_deg, 20.0), (from_deg, 20.0)];
+    before_a_mast_between(antenna, (from_deg, to_deg), (5.0, 20.0))
+}
+
+/// One that a beam at the horizon does not touch.
+fn before_a_high_mast(from_deg: f64, to_deg: f64) -> Bounds {
+    let antenna = Antenna { beam_width_deg: 1.0, ..antenna(Rotators::First) };
+    before_a_mast_between(&antenna, (from_deg, to_deg), (50.0, 70.0))
+}
+
+fn before_a_mast_between(
+    antenna: &Antenna,
+    (from_deg, to_deg): (f64, f64),
+    (low_deg, high_deg): (f64, f64),
+) -> Bounds {
+    let corners =
+        [(from_deg, low_deg), (to_deg, low_deg), (to_deg, high_deg), (from_deg, high_deg)];
     let mast = crate::common::mast(&corners);
     let station = Station { keep_outs: vec![mast], ..Station::default() };
     Bounds::of(&station, antenna)
@@ -192,7 +207,7 @@ async fn a_keep_out_applies_to_an_azimuth_alone_at_any_elevation() {
         let options = Options { max_clients: 2, ..two_azimuths() };
         let mut rig = Rig::start(&options, &Antenna { monitor, ..antenna(Rotators::First) });
         rig.until("it is read", 5, |shown| shown.state.measured.is_some()).await;
-        rig.handle().keep_within(before_a_mast(110.0, 130.0));
+        rig.handle().keep_within(before_a_high_mast(110.0, 130.0));
         rig.seconds(1.0).await;
         // Another program turns it clockwise.
         let mut other = crate::common::network::link(&rig.control);
@@ -232,7 +247,7 @@ async fn a_foreign_motion_is_stopped_before_the_beam_enters_a_keep_out() {
 #[tokio::test(start_paused = true)]
 async fn an_azimuth_inside_a_keep_out_is_jogged_out() {
     let mut rig = Rig::connected(&two_azimuths(), Rotators::First).await;
-    rig.handle().keep_within(before_a_mast(80.0, 130.0));
+    rig.handle().keep_within(before_a_high_mast(80.0, 130.0));
     rig.send(Command::Manual);
     rig.until("inside", 5, |shown| shown.inside.is_some()).await;
     rig.send(Command::AllowWayOut);

@@ -644,3 +644,25 @@ async fn a_track_whose_angles_freeze_ends_it() {
     tokio::time::sleep(Duration::from_mins(2)).await;
     assert!(scene.units.all_stand(), "nothing takes the pass again");
 }
+
+#[tokio::test(start_paused = true)]
+async fn it_is_off_at_the_start_while_a_stop_is_owed_on_disk() {
+    let set = |dish: &mut Antenna| dish.automatic.is_on_at_start = true;
+    let scene = Scene::marking(before_a_pass(), &station("Dish", set));
+    let client = scene.client();
+    let id = measured(&client, "Dish").await;
+    set_automatic(&client, id, true).await;
+    drop(client);
+    let marks = scene.folder().join("marks");
+    std::fs::create_dir_all(&marks).unwrap();
+    let since = before_a_pass();
+    let mark = format!("make = \"satrak\"\naddress = \"dish:1\"\nsince = \"{since}\"\n");
+    std::fs::write(marks.join("satrak-dish-1-6ec784e4.toml"), mark).unwrap();
+    let before = scene.units.dish.received().len();
+    let scene = scene.started_again(false).await;
+    let client = scene.client();
+    let first_word = || Some(scene.units.dish.received().get(before)?.1.clone());
+    assert_eq!(until("its first word", first_word).await, "STOP=");
+    measured(&client, "Dish").await;
+    assert!(!operation(&client, id).is_on());
+}

@@ -320,3 +320,23 @@ fn inflated(bytes: &[u8]) -> Result<Vec<u8>, FilmError> {
     }
     Ok(content)
 }
+
+#[cfg(test)]
+mod tests {
+    use std::io::Write as _;
+
+    use flate2::{Compression, write::DeflateEncoder};
+
+    use super::{FilmError, inflated};
+
+    #[test]
+    fn a_part_of_a_film_is_inflated_to_a_limit() {
+        let mut small = DeflateEncoder::new(Vec::new(), Compression::best());
+        let megabyte = vec![0; 1_000_000];
+        for _ in 0..300 {
+            small.write_all(&megabyte).unwrap();
+        }
+        let small = small.finish().unwrap();
+        assert!(matches!(inflated(&small), Err(FilmError::Damaged)), "{} bytes", small.len());
+    }
+}
