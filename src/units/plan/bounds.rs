@@ -263,17 +263,31 @@ impl BoundsAt<'_> {
 
     /// The bounds without the barriers that the axes may be inside of.
     pub fn without_entered(&self, place: Sweep) -> Bounds {
-        let clearances = self.least_clearances(place);
-        let is_outside = |barrier: &Barrier| {
-            let found = clearances.iter().find(|it| it.barrier == *barrier);
-            found.is_none_or(|it| it.warns_only || it.angle >= Angle::ZERO)
-        };
+        let mut outside = self.are_outside(place).into_iter();
+        let mut is_outside = || outside.next().unwrap_or(true);
         let mut rest = self.bounds.clone();
-        rest.minimum_elevation =
-            self.minimum_elevation.filter(|_| is_outside(&Barrier::MinimumElevation));
-        rest.keep_outs.retain(|(zone, _)| is_outside(&Barrier::KeepOut(zone.name.as_str().into())));
-        rest.sun = rest.sun.filter(|_| is_outside(&Barrier::Sun));
+        rest.minimum_elevation = self.minimum_elevation.filter(|_| is_outside());
+        rest.keep_outs.retain(|_| is_outside());
+        rest.sun = rest.sun.filter(|_| is_outside());
         rest
+    }
+
+    /// For each barrier, in the order of [`Self::clearances`], whether it only warns or the axes are
+    /// outside it wherever they may be in `place`.
+    fn are_outside(&self, place: Sweep) -> Vec<bool> {
+        let is_one = place.radius_deg() <= 0.0;
+        let each = self.barriers(self.aim(place.middle())).enumerate();
+        let is_outside = |(index, barrier): (usize, Near<'_>)| {
+            let is_free = || {
+                if is_one {
+                    barrier.angle_below(Angle::ZERO).is_none()
+                } else {
+                    self.blocks_from(place, Some(index)).is_none()
+                }
+            };
+            barrier.warns_only || is_free()
+        };
+        each.map(is_outside).collect()
     }
 
     /// The first barrier that the axes may enter within `sweep`, and a direction inside it. From
