@@ -137,14 +137,15 @@ fn fill(ui: &mut Ui, rect: Rect, model: &TopBarModel<'_>, commands: &mut Vec<UiC
     );
     let free = rect.with_max_x(chips_left - 8.0);
     if let StopLook::NotConfirmed { text } = model.stop {
-        clock::not_confirmed(ui, free.with_min_x(clock.utc.right() + 10.0), text);
+        clock::not_confirmed(ui, rect, free.with_min_x(clock.utc.right() + 10.0), text);
     }
     let said_left_out = match model.stop {
         StopLook::Stopping | StopLook::AllStopped => model.stop_left_out,
         StopLook::Ready | StopLook::NotConfirmed { .. } => None,
     };
     if let Some(left_out) = said_left_out {
-        clock::left_out(ui, free.with_min_x(clock.utc.right() + 10.0), left_out.sentence);
+        let beside = free.with_min_x(clock.utc.right() + 10.0);
+        clock::left_out(ui, rect, beside, left_out.sentence);
     }
     let has_date = rect.width() >= DATE_FROM
         && said_left_out.is_none()

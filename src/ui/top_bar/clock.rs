@@ -1,6 +1,6 @@
 //! The clock: UTC, with date and local time beside it or in a tool-tip.
 
-use egui::{Align2, Color32, Rect, Ui, accesskit::Live, pos2, vec2};
+use egui::{Align2, Color32, Id, LayerId, Order, Rect, Ui, accesskit::Live, pos2, vec2};
 
 use crate::ui::{
     icons::{self, Icon},
@@ -17,6 +17,8 @@ const HEALTH_GAP: f32 = 10.0;
 const LINE: f32 = 8.0;
 /// Minimum width for a sentence in two lines; below it the sentence takes three.
 const TWO_LINES: f32 = 180.0;
+/// Below this width, words would break.
+const NARROWEST: f32 = 110.0;
 
 /// Formatted times.
 #[derive(Debug, Clone, Copy, Default)]
@@ -125,27 +127,45 @@ fn name_health(ui: &Ui, place: Rect, health: &ClockHealth<'_>) {
     paint::name_text(ui, "clock health", place, &name).on_hover_text(health.sentence);
 }
 
-/// Shows in `rect` that STOP is not confirmed.
-pub(super) fn not_confirmed(ui: &Ui, rect: Rect, sentence: &str) {
+/// Shows in `rect` of `bar` that STOP is not confirmed.
+pub(super) fn not_confirmed(ui: &Ui, bar: Rect, rect: Rect, sentence: &str) {
     let t = theme::tokens(ui);
-    about_stop(ui, rect, sentence, (t.badbg, t.bad), Live::Assertive);
+    about_stop(ui, (bar, rect), sentence, (t.badbg, t.bad), Live::Assertive);
 }
 
-/// Shows in `rect` which antennas STOP left alone.
-pub(super) fn left_out(ui: &Ui, rect: Rect, sentence: &str) {
+/// Shows in `rect` of `bar` which antennas STOP left alone.
+pub(super) fn left_out(ui: &Ui, bar: Rect, rect: Rect, sentence: &str) {
     let t = theme::tokens(ui);
-    about_stop(ui, rect, sentence, (t.warnbg, t.warn), Live::Polite);
+    about_stop(ui, (bar, rect), sentence, (t.warnbg, t.warn), Live::Polite);
 }
 
-fn about_stop(ui: &Ui, rect: Rect, sentence: &str, colours: (Color32, Color32), live: Live) {
-    let (ground, colour) = colours;
-    ui.painter().rect_filled(rect.shrink2(vec2(0.0, 1.0)), 4.0, ground);
+/// A sentence that does not fit between the clock and the chips stands below the bar, over
+/// everything else.
+fn about_stop(
+    ui: &Ui,
+    (bar, rect): (Rect, Rect),
+    sentence: &str,
+    (ground, colour): (Color32, Color32),
+    live: Live,
+) {
     let size = if rect.width() < TWO_LINES { 11.0 } else { 12.0 };
     let font = text::sized(size, Weight::SemiBold);
-    let room = rect.shrink2(vec2(6.0, 0.0));
-    let galley = ui.painter().layout(sentence.to_owned(), font, colour, room.width());
-    let place = Align2::LEFT_CENTER.align_size_within_rect(galley.size(), room);
-    ui.painter().galley(place.min, galley, colour);
+    let laid_out =
+        |room: Rect| ui.painter().layout(sentence.to_owned(), font.clone(), colour, room.width());
+    let inner = |rect: Rect| rect.shrink2(vec2(6.0, 0.0));
+    let fits = rect.width() > NARROWEST && laid_out(inner(rect)).size().y <= rect.height();
+    let (painter, rect) = if fits {
+        (ui.painter().clone(), rect)
+    } else {
+        let layer = LayerId::new(Order::Foreground, Id::unique("about stop"));
+        let below = bar.translate(vec2(0.0, bar.height()));
+        let height = laid_out(inner(below)).size().y + 12.0;
+        (ui.ctx().layer_painter(layer), below.with_max_y(below.top() + height))
+    };
+    painter.rect_filled(rect.shrink2(vec2(0.0, 1.0)), 4.0, ground);
+    let galley = laid_out(inner(rect));
+    let place = Align2::LEFT_CENTER.align_size_within_rect(galley.size(), inner(rect));
+    painter.galley(place.min, galley, colour);
     let node = paint::name_text(ui, "about stop", rect, sentence);
     ui.ctx().accesskit_node_builder(node.id, |node| node.set_live(live));
 }

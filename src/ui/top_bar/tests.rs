@@ -122,7 +122,8 @@ fn a_stop_that_is_not_proved_says_so_in_words() {
         let window = testing::window(size, (), move |ui, ()| {
             show_bar(ui, StopLook::NotConfirmed { text });
         });
-        window.get_by_label(text);
+        let place = window.get_by_label(text).rect();
+        assert!(place.width() >= 110.0, "one word stands in a line: {place:?}");
         window.get_by_label(&format!("STOP, not confirmed: {text}"));
     }
 }
