@@ -24,7 +24,7 @@ use azel::{
     driver::{self, Event, LinkLoss, Refusal},
     engine::{
         Client, Command, Handle, Settings, Snapshot,
-        alarms::{Alarm, AlarmKind},
+        alarms::{Alarm, AlarmKind, Priority},
         antenna::AntennaModel,
         claim::{HeldBy, HolderKind},
         passes::PredictedPass,
@@ -35,6 +35,7 @@ use azel::{
     plan::{ProgramTrack, Target},
     sim::{rc2000c, rotator_genius, satrak},
     station::{self, Antenna, AntennaId, OnClose, Station},
+    ui::words,
 };
 use jiff::Timestamp;
 use tokio::runtime::Runtime;
@@ -512,6 +513,29 @@ fn a_runtime_folder_that_is_open_to_others_is_closed() {
     served.until(|told| told["antenna"] == "Mast" && told["about"] == "motion");
     let mode = std::fs::metadata(&folder).unwrap().permissions().mode();
     assert_eq!(mode & 0o077, 0, "mode {mode:o}");
+}
+
+#[test]
+fn an_alarm_says_which_antennas_a_setting_that_cannot_be_read_keeps_still() {
+    let units = Units::start(|station| station.antennas.truncate(2));
+    let text = std::fs::read_to_string(units.path()).unwrap();
+    let text = text.replacen("[antenna.limits]", "[antenna.limits]\nminimum_elevation = 5", 1);
+    let damaged = format!("{text}\n[[keep_out]]\nname = 'mast'\ncorners = []\n");
+    std::fs::write(units.path(), damaged).unwrap();
+    let (running, _end, _woken) = units.open();
+    let told = wait_for("the alarms", || {
+        let snapshot = running.client().snapshot();
+        let alarms = snapshot.alarms.list().iter();
+        let told: Vec<_> = alarms
+            .filter(|alarm| matches!(alarm.kind, AlarmKind::SafetySetting { .. }))
+            .map(|alarm| (alarm.kind.priority(), words::alarm(&alarm.kind, "", start())))
+            .collect();
+        (!told.is_empty()).then_some(told)
+    });
+    let says = |words: &str| told.iter().any(|(_, told)| told.contains(words));
+    assert!(says("Until it is repaired, the antennas do not move by themselves."), "{told:?}");
+    assert!(says("Until it is repaired, Dish does not move by itself."), "{told:?}");
+    assert!(told.iter().all(|(priority, _)| *priority == Priority::First), "{told:?}");
 }
 
 #[test]

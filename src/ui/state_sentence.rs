@@ -282,6 +282,10 @@ fn standing(model: &Model, antenna: &AntennaModel) -> Spoken {
              stop.",
         );
     }
+    if let Some(inside) = &antenna.snapshot.inside {
+        let words = words::kept_still(&antenna.config.name, inside);
+        return Spoken::new(SentenceKind::Caution).plain(words);
+    }
     let next = next_words(
         model.selected_pass().map(|predicted| {
             (&*predicted.satellite, predicted.pass.aos.time, predicted.pass.los.time)

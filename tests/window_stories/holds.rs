@@ -111,6 +111,7 @@ fn the_way_out_of_a_keep_out_is_allowed_by_holding_only() {
         let words = "Satrak is inside “mast” now. It can be moved out by hand once you allow it.";
         let mut window = rig::window(size, shows(inside(mast(), false)));
         assert!(says(&window, words));
+        assert!(says(&window, "Satrak stands inside “mast” and leaves it by hand alone."));
         window.get_by_label(OUT).click();
         assert_eq!(asked(&mut window), [], "a click is no hold");
         hold(&mut window, OUT);

@@ -409,11 +409,14 @@ impl Engine {
             Ok(saved) => {
                 station.unread = saved.unread;
                 self.alarms.clear(None, self.now, |kind| {
-                    matches!(kind, AlarmKind::Settings(_) | AlarmKind::Setting(_))
+                    matches!(
+                        kind,
+                        AlarmKind::Settings(_)
+                            | AlarmKind::Setting(_)
+                            | AlarmKind::SafetySetting { .. }
+                    )
                 });
-                for note in saved.notes {
-                    self.alarms.raise(None, AlarmKind::Setting(note), now);
-                }
+                self.raise_notes(saved.notes, &station);
                 let demo = self.demo.take();
                 if demo.is_some() {
                     self.load_lock_outs();

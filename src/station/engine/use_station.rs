@@ -14,7 +14,7 @@ use crate::{
     driver::{Driver, Unit},
     makes::{self, DemoAddresses},
     plan::Bounds,
-    station::{self, AntennaId, LoadError, Station},
+    station::{self, AntennaId, LoadError, Note, Station},
 };
 
 /// What outlasts the session of an antenna whose settings change.
@@ -26,6 +26,23 @@ struct Changed {
 }
 
 impl Engine {
+    /// Raises an alarm for each entry of the station file that could not be used.
+    pub(super) fn raise_notes(&mut self, notes: Vec<Note>, station: &Station) {
+        for note in notes {
+            let unread = station.unread.iter().find(|unread| unread.place == note.place);
+            let kind = match unread {
+                None => AlarmKind::Setting(note),
+                Some(unread) => {
+                    let mut antennas = station.antennas.iter();
+                    let antenna = antennas.find(|antenna| Some(antenna.id) == unread.antenna);
+                    let antenna = antenna.map(|antenna| antenna.name.clone());
+                    AlarmKind::SafetySetting { note, antenna }
+                }
+            };
+            self.alarms.raise(None, kind, self.now);
+        }
+    }
+
     pub(super) fn load_station(&mut self) {
         // The running demo ends once another station is in use.
         let _demo = self.demo.take();
@@ -36,9 +53,7 @@ impl Engine {
         match loaded {
             Ok(loaded) => {
                 self.station_saved_at = self.settings_path.as_deref().and_then(station::saved_at);
-                for note in loaded.notes {
-                    self.alarms.raise(None, AlarmKind::Setting(note), self.now);
-                }
+                self.raise_notes(loaded.notes, &loaded.station);
                 self.use_station(loaded.station);
                 self.pay_left_debts();
             }

@@ -210,6 +210,17 @@ pub fn alarm(kind: &AlarmKind, antenna: &str, now: Timestamp) -> String {
         }
         AlarmKind::ClockNotSet => format!("The clock of {antenna} was never set."),
         AlarmKind::Setting(note) => setting_note(note),
+        AlarmKind::SafetySetting { note, antenna } => {
+            let note = setting_note(note);
+            match antenna {
+                Some(antenna) => {
+                    format!("{note} Until it is repaired, {antenna} does not move by itself.")
+                }
+                None => {
+                    format!("{note} Until it is repaired, the antennas do not move by themselves.")
+                }
+            }
+        }
         AlarmKind::Settings(text) | AlarmKind::Elements(text) | AlarmKind::LockOuts(text) => {
             super::capitalised(text)
         }

@@ -30,6 +30,23 @@ pub fn inside(barrier: &Barrier) -> String {
     }
 }
 
+/// Why an antenna that is, or may be, inside a barrier stands.
+pub fn kept_still(antenna: &str, Inside { barrier, unknown_axis, .. }: &Inside) -> String {
+    if let Barrier::Unread(setting) = barrier {
+        return format!(
+            "{antenna} does not move by itself: the setting {setting} could not be read."
+        );
+    }
+    let place = inside(barrier);
+    match (unknown_axis, barrier) {
+        (Some(axis), _) => {
+            format!("{antenna} may be {place}: the angle of {axis} is not known.")
+        }
+        (None, Barrier::Sun) => format!("{antenna} points {place}."),
+        (None, _) => format!("{antenna} stands {place} and leaves it by hand alone."),
+    }
+}
+
 /// The motions allowed to an antenna that is, or may be, inside a barrier; `may_leave`: the
 /// operator has allowed them.
 pub fn way_out(antenna: &str, Inside { barrier, unknown_axis, may_leave }: &Inside) -> String {

@@ -20,7 +20,7 @@ use crate::{
     },
     name::{self, Name},
     plan::on_board::Ranked,
-    station::{Note, NoteReason},
+    station::Note,
 };
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
@@ -152,6 +152,12 @@ pub enum AlarmKind {
     Unreadable(#[serde(deserialize_with = "name::one")] Name),
     /// An entry of the station file was not taken over.
     Setting(Note),
+    /// A setting on which safety depends could not be read, so this antenna, or all of them if it is
+    /// `None`, do not move by themselves.
+    SafetySetting {
+        note: Note,
+        antenna: Option<String>,
+    },
     /// Settings could not be read, written or sent; in words.
     Settings(String),
     /// The elements could not be read; in words.
@@ -186,7 +192,7 @@ impl AlarmKind {
                 | Safety::NoEffect { .. }
                 | Safety::Forbidden { .. },
             )
-            | Self::Setting(Note { reason: NoteReason::DoesNotHold { .. }, .. }) => Priority::First,
+            | Self::SafetySetting { .. } => Priority::First,
             Self::LinkLost(_)
             | Self::Safety(_)
             | Self::StationStands(_)
@@ -241,6 +247,7 @@ impl AlarmKind {
                 | Self::ClockNotSet
                 | Self::Unreadable(_)
                 | Self::Setting(_)
+                | Self::SafetySetting { .. }
                 | Self::Settings(_)
                 | Self::Elements(_)
                 | Self::NoRecord(_)

@@ -295,7 +295,10 @@ fn every_kind() -> Vec<AlarmKind> {
         K::ClockNotSet,
         K::Unreadable("Decimal commas."),
         K::Setting(note(NoteReason::Unknown)),
-        K::Setting(note(NoteReason::DoesNotHold { name: text(), why: text() })),
+        K::SafetySetting {
+            note: note(NoteReason::DoesNotHold { name: text(), why: text() }),
+            antenna: None,
+        },
         K::Settings(text()),
         K::Elements(text()),
         K::NoRecord(text()),
@@ -354,6 +357,7 @@ fn is_listed(kind: &AlarmKind) {
         | K::ClockNotSet
         | K::Unreadable(_)
         | K::Setting(_)
+        | K::SafetySetting { .. }
         | K::Settings(_)
         | K::Elements(_)
         | K::NoRecord(_) => {}
