@@ -43,7 +43,7 @@ async fn is_killed(mut dice: Dice) {
             format!("{} {deed:?} killed after {before_s} for {down_s} owes {owes}", make.name);
         deed.begin(&mut scene, &mut judge).await;
         deed.go_on(&mut scene, &judge, before_s).await;
-        let is_held = deed.is_jog() && scene.shown().jog.is_some();
+        let was_held = deed.is_jog() && scene.shown().jog.is_some();
         if owes {
             scene.trouble(|line| line.ignores_stop = true);
             // Nothing but STOP ends a jog of which the bytes of the end are lost.
@@ -52,6 +52,8 @@ async fn is_killed(mut dice: Dice) {
             scene.seconds(ON_DISK.as_secs_f64() + dice.between(0.0, 1.0)).await;
         }
         let is_owed = owes && scene.shown().runs_out;
+        // At the end of its travel it stands without STOP.
+        let runs_on = was_held && make.jogs_run_on && scene.world.unit.is_turning();
         judge.is_lost = deed.is_jog() || judge.is_lost;
         judge.forbid();
         scene.kill().await;
@@ -65,7 +67,7 @@ async fn is_killed(mut dice: Dice) {
         scene.seconds(12.0).await;
         let words = scene.world.words_since(begun);
         let first = words.iter().map(|(_, word)| *word).find(|word| *word != Word::Question);
-        let is_marked = is_owed || is_held && make.jogs_run_on;
+        let is_marked = is_owed || runs_on;
         if is_marked && !make.waits_for_word {
             assert_eq!(first, Some(Word::Stop), "{judge}\n{words:?}\n{}", scene.report());
             assert!(!scene.world.unit.is_turning(), "still turns: {judge}\n{}", scene.report());

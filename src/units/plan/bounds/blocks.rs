@@ -13,7 +13,9 @@ const SMALLEST_PART_DEG: f64 = FINEST_DEG / 2.0;
 
 /// Number of edges that are looked at before the barrier counts as entered that is being looked at:
 /// the thread that serves all antennas must not be held up by a way along a ragged edge.
-const MAX_COST: usize = 20_000;
+const MAX_EDGES: usize = 20_000;
+/// A part of a range costs as much as so many edges, before any is looked at.
+const EDGES_OF_PART: usize = 20;
 
 impl BoundsAt<'_> {
     /// The first barrier that `sweep` reaches into, and a direction inside it: the barrier at `index`,
@@ -39,8 +41,9 @@ impl BoundsAt<'_> {
         });
         let asked: Rc<[usize]> = asked.map(|(at, _)| at).collect();
         let mut open = vec![(sweep, asked)];
-        let mut left = MAX_COST;
+        let mut left = MAX_EDGES;
         while let Some((part, barriers)) = open.pop() {
+            left = left.saturating_sub(EDGES_OF_PART);
             let aim = self.aim(part.middle());
             let at = aim.to_enu();
             let radius_deg = part.radius_deg() * self.max_beam_turn();
