@@ -230,6 +230,14 @@ impl BoundsAt<'_> {
         deepest(self.least_clearances(place))
     }
 
+    /// The first barrier that refuses motion and that the axes may be inside of in `place`.
+    pub fn may_be_inside(&self, place: Sweep) -> Option<Barrier> {
+        let each = self.barriers(self.aim(place.middle())).zip(self.are_outside(place));
+        each.filter(|(_, is_outside)| !is_outside)
+            .map(|(barrier, _)| barrier.name.clone_of())
+            .next()
+    }
+
     /// The same bounds without the minimum elevation, for a unit that enforces its own.
     #[must_use]
     pub fn above_the_floor(self) -> Self {

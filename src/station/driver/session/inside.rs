@@ -5,7 +5,7 @@ use std::time::Duration;
 
 use super::{Command, Event, Intent, Session, program_track::NotFollowed};
 use crate::{
-    astro::{Angle, AzEl},
+    astro::AzEl,
     clock::{Instant, Moment},
     device::Motion,
     driver::{Inside, Refusal},
@@ -41,14 +41,12 @@ impl Session {
             return;
         }
         let bounds = self.bounds_now().at(now.utc).turned_by(self.gate.to_sky());
-        let clearances = bounds.least_clearances(intervals.sweep()).into_iter();
-        // Above the minimum elevation a known angle needs no permission to go on.
-        let entered = clearances.filter(|it| {
-            let is_known_floor = axis.is_none() && it.barrier == Barrier::MinimumElevation;
-            !it.warns_only && it.angle < Angle::ZERO && !is_known_floor
-        });
-        let deepest = entered.min_by(|a, b| a.angle.degrees().total_cmp(&b.angle.degrees()));
-        self.seen.place.barrier = deepest.map(|it| it.barrier);
+        let place = intervals.sweep();
+        self.seen.place.barrier = match axis {
+            // Above the minimum elevation a known angle needs no permission to go on.
+            None => bounds.may_forbid(place),
+            Some(_) => bounds.may_be_inside(place),
+        };
         self.seen.place.unknown_axis = axis;
         if self.seen.place.barrier.is_none() {
             self.gate.let_out(None);

@@ -5,7 +5,7 @@ const SAMPLE_DEG: f64 = 1.0;
 /// Maximum number of steps along an axis whose range alone is sampled.
 const STEPS_OF_ONE: f64 = 128.0;
 /// Maximum number of steps along each axis where both are sampled.
-const STEPS_OF_BOTH: f64 = 32.0;
+const STEPS_OF_BOTH: f64 = 16.0;
 
 /// Ranges of both axes, degrees as the mount counts, each from the lower to the
 /// upper end.
