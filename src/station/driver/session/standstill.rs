@@ -76,6 +76,9 @@ pub(super) enum Proof {
     Flags { axis: usize },
 }
 
+/// Replies to two questions take no more unequal times on an ordinary line.
+const UNEVEN: Duration = Duration::from_millis(100);
+
 /// The positions measured since a halt.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub(super) struct Looks {
@@ -128,7 +131,10 @@ impl Looks {
             return None;
         }
         let first = *self.first.insert(first.unwrap_or(look));
-        if look.asked.saturating_duration_since(first.asked) < figures.gap {
+        // The reply to a repeated question may have been measured at any time since the first one.
+        let asked = look.asked.saturating_duration_since(first.asked);
+        let received = look.received.saturating_duration_since(first.received);
+        if asked < figures.gap || received + UNEVEN < figures.gap {
             return None;
         }
         Some(match figures.blind_axis(&first, &look) {
@@ -219,6 +225,21 @@ mod tests {
         let (at_s, by) = proof(|_| [Some(10.0), Some(20.0)]).unwrap();
         assert_eq!(by, Proof::Angles);
         assert!(at_s >= figures().gap().as_secs_f64(), "{at_s}");
+    }
+
+    #[test]
+    fn the_reply_to_a_repeated_question_is_no_older_than_it_came_in() {
+        let start = Instant::now();
+        let mut looks = Looks::default();
+        let mut take = |asked_s: f64, received_s: f64| {
+            let received = start + Duration::try_from_secs_f64(received_s).unwrap();
+            let look = Measured { received, ..look(start, asked_s, [Some(10.0), Some(69.0)]) };
+            looks.take(look, true, Some(start), figures())
+        };
+        let gap_s = figures().gap().as_secs_f64();
+        assert_eq!(take(0.0, gap_s), None);
+        assert_eq!(take(gap_s + 0.01, gap_s + 0.02), None, "measured at once after the first");
+        assert_eq!(take(gap_s * 2.0, gap_s * 2.0 + 0.01), Some(Proof::Angles));
     }
 
     #[test]
