@@ -144,8 +144,8 @@ fn fill(ui: &mut Ui, rect: Rect, model: &TopBarModel<'_>, commands: &mut Vec<UiC
         StopLook::Ready | StopLook::NotConfirmed { .. } => None,
     };
     if let Some(left_out) = said_left_out {
-        let beside = free.with_min_x(clock.utc.right() + 10.0);
-        clock::left_out(ui, rect, beside, left_out.sentence);
+        let room = free.with_min_x(clock.utc.right() + 10.0);
+        clock::left_out(ui, rect, room, left_out.sentence);
     }
     let has_date = rect.width() >= DATE_FROM
         && said_left_out.is_none()

@@ -94,7 +94,7 @@ impl Zone {
         }
         crossing::check(&edges)?;
         let cap = Cap::around(&edges);
-        let extent = Extent::of(&edges);
+        let extent = Extent::around(&edges);
         Ok(Self { corners, edges, cap, extent })
     }
 
@@ -116,16 +116,17 @@ impl Zone {
         Angle::from_radians(if clearance > 0.0 { clearance } else { -PI })
     }
 
-    /// An angle that the clearance of no direction in a box of azimuths and elevations, each from the
-    /// lower to the upper end, is less than. It is exact where the box stands above, below or beside
-    /// the zone, and says nothing where it may reach into it.
+    /// A lower bound of the clearance of every direction in a box of azimuths and elevations, each
+    /// given from the lower to the upper end. The bound is useful where the box stands above, below
+    /// or beside the zone; elsewhere it is -180 degrees.
     pub fn clearance_of_box_is_at_least(
         &self,
         azimuths: (Angle, Angle),
         elevations: (Angle, Angle),
     ) -> Angle {
         let radians = |(from, to): (Angle, Angle)| (from.radians(), to.radians());
-        let clearance = self.extent.map(|it| it.clearance(radians(azimuths), radians(elevations)));
+        let clearance =
+            self.extent.map(|extent| extent.clearance(radians(azimuths), radians(elevations)));
         Angle::from_radians(clearance.filter(|clearance| *clearance > 0.0).unwrap_or(-PI))
     }
 

@@ -65,7 +65,7 @@ pub struct Genius {
     /// When the status is asked for next; `None` without a link.
     next_poll: Option<Instant>,
     outstanding: Option<Outstanding>,
-    /// When the questions went out whose answers may still come, oldest first.
+    /// Times of the questions whose answers may still come, oldest first.
     missing: VecDeque<Instant>,
     drain_until: Option<Instant>,
     /// Azel has the antenna moving.

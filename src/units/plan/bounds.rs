@@ -204,7 +204,7 @@ impl BoundsAt<'_> {
     /// none.
     pub fn nearest(&self, direction: AzEl) -> Option<Clearance> {
         let mut nearest: Option<(Named<'_>, Angle)> = None;
-        for barrier in self.barriers(self.aim_at(direction)).filter(|it| !it.warns_only) {
+        for barrier in self.barriers(self.aim_at(direction)).filter(|barrier| !barrier.warns_only) {
             let least = nearest.map_or(Angle::from_degrees(f64::INFINITY), |(_, least)| least);
             if let Some(angle) = barrier.angle_below(least) {
                 nearest = Some((barrier.name, angle));

@@ -16,7 +16,7 @@ pub(super) struct Extent {
 
 impl Extent {
     /// `None` for a zone that contains the zenith or is wider than half a turn.
-    pub(super) fn of(edges: &[Edge]) -> Option<Self> {
+    pub(super) fn around(edges: &[Edge]) -> Option<Self> {
         let start = edges.first()?.from_azimuth;
         let mut azimuth = start;
         let (mut azimuths, mut elevations) = ((start, start), (FRAC_PI_2, -FRAC_PI_2));
@@ -32,14 +32,14 @@ impl Extent {
         (is_closed && is_narrow).then_some(Self { azimuths, elevations })
     }
 
-    /// An angle, radians, that the distance of the zone from all directions in a box is not less than;
-    /// zero or negative where the box may reach into the zone.
+    /// A lower bound of the distance between the zone and any direction in a box, radians; zero or
+    /// negative where the box may reach into the zone.
     pub(super) fn clearance(self, azimuths: (f64, f64), elevations: (f64, f64)) -> f64 {
         let (lowest, highest) = self.elevations;
         let level = (elevations.0 - highest).max(lowest - elevations.1);
-        // No direction of the box is nearer to a side than at the smallest cosine.
+        // The meridians of the sides come closest where the cosine of the elevation is smallest.
         let cos = elevations.0.cos().min(elevations.1.cos()).max(0.0);
-        let beside = |nearest: f64| {
+        let side_clearance = |nearest: f64| {
             let nearest = nearest.rem_euclid(TAU);
             let furthest = nearest + (azimuths.1 - azimuths.0);
             if furthest > PI {
@@ -48,7 +48,7 @@ impl Extent {
             (cos * nearest.sin().min(furthest.sin())).asin()
         };
         let (first, last) = self.azimuths;
-        level.max(beside(first - azimuths.1)).max(beside(azimuths.0 - last))
+        level.max(side_clearance(first - azimuths.1)).max(side_clearance(azimuths.0 - last))
     }
 }
 

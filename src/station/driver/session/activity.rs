@@ -262,7 +262,7 @@ pub(super) enum Arrival {
 }
 
 impl Slew {
-    /// Where the motion that was sent last leads to, if one was sent.
+    /// End of the motion that is under way, if one is.
     pub(super) fn aim_under_way(&self) -> Option<Pointing> {
         match self.stage {
             SlewStage::UnderWay { leg, .. } => leg.map(|leg| leg.aim).or(self.aim),

@@ -15,8 +15,8 @@ const FRESH: Duration = Duration::from_secs(1);
 /// A jog starts at a position younger than this, or at one that was asked for after the key went
 /// down: the command and the next position may each be late by 300 ms before this one is too old.
 const YOUNG: Duration = Duration::from_millis(300);
-/// So long a jog waits for its position: one reply may be lost, and the units that could send it
-/// late are then asked nothing for a second.
+/// Longest time that a jog waits for its position. One reply may be lost, and Azel asks some units
+/// nothing for a second after that.
 const PATIENCE: Duration = Duration::from_secs(3);
 
 /// A held jog key.

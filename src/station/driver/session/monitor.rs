@@ -35,9 +35,9 @@ const NOISE_DEG: f64 = 0.02;
 /// What was measured and reported last.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub(super) struct Watch {
-    /// When the last position came in that was looked at.
+    /// When the position that was judged last came in.
     looked: Option<Instant>,
-    /// The position that the rates end at.
+    /// The later of the two positions that the rates were taken between.
     last: Option<Measured>,
     /// The last angle of each axis, degrees, and when it was asked for.
     angles: [Option<(f64, Instant)>; 2],

@@ -76,7 +76,7 @@ pub(super) enum Proof {
     Flags { axis: usize },
 }
 
-/// Replies to two questions take no more unequal times on an ordinary line.
+/// Largest difference between the times that two replies take on an ordinary line.
 const UNEVEN: Duration = Duration::from_millis(100);
 
 /// The positions measured since a halt.

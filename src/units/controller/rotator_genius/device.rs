@@ -76,7 +76,7 @@ impl Device for Genius {
         let (request, purpose) = self.next_request(now)?;
         self.drain_until = None;
         if request == Request::Read {
-            // Whoever needs a position sooner may say so before the answer comes.
+            // A session may ask for a position sooner before the answer comes.
             self.next_poll = Some(now.steady + self.period(now.steady));
         }
         let bytes = request.to_bytes();

@@ -174,8 +174,8 @@ impl Genius {
         }
     }
 
-    /// Until when nothing is asked, so that a surplus answer shows as such. While the antenna
-    /// moves, the position goes on by one question behind instead.
+    /// End of the pause in which Azel asks nothing, so that a surplus answer shows as such. While
+    /// the antenna moves, Azel asks on, and each answer counts as asked one question earlier.
     pub(super) fn drains_until(&self) -> Option<Instant> {
         self.drain_until.filter(|_| !self.is_watched || self.missing.len() > 1)
     }

@@ -11,10 +11,10 @@ use super::{Angle, AzEl, Barrier, BoundsAt, FINEST_DEG, Mount, Sweep, aim::Aim, 
 /// degrees. A motion that goes no further than half of [`FINEST_DEG`] beyond an edge is free.
 const SMALLEST_PART_DEG: f64 = FINEST_DEG / 2.0;
 
-/// Number of edges that are looked at before the barrier counts as entered that is being looked at:
-/// the thread that serves all antennas must not be held up by a way along a ragged edge.
+/// Number of edges that one search may look at. Beyond it, the nearest barrier counts as entered: a
+/// way along a ragged edge must not hold up the thread that serves all antennas.
 const MAX_EDGES: usize = 20_000;
-/// A part of a range costs as much as so many edges, before any is looked at.
+/// Work for a part of a range before any edge, in edges.
 const EDGES_OF_PART: usize = 20;
 
 impl BoundsAt<'_> {
