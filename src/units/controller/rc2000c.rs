@@ -67,11 +67,13 @@ pub struct Rc2000c {
     names: Names,
     /// When the next status is due; `None` without a link.
     poll_at: Option<Instant>,
-    /// Until then only a halt may go out.
-    quiet_until: Option<Instant>,
+    /// End of the gap after a reply, in which only a halt may go out.
+    gap_until: Option<Instant>,
     outstanding: Option<Outstanding>,
-    /// When the first of the missing statuses was asked for.
-    missing_since: Option<Moment>,
+    /// When the questions for the status went out whose answers may still come, oldest first.
+    missing: VecDeque<Moment>,
+    /// By then the surplus answers have come.
+    drain_until: Option<Instant>,
     /// Azel has the antenna moving.
     is_watched: bool,
     /// A halt sent past the queue and not answered yet.
@@ -145,9 +147,10 @@ impl Rc2000c {
             is_offline: false,
             names: Names::default(),
             poll_at: None,
-            quiet_until: None,
+            gap_until: None,
             outstanding: None,
-            missing_since: None,
+            missing: VecDeque::new(),
+            drain_until: None,
             is_watched: false,
             halt: None,
             orders: VecDeque::new(),

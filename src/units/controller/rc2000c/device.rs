@@ -43,9 +43,10 @@ impl Device for Rc2000c {
         self.heard_at = None;
         self.decoder = Decoder::new(self.address);
         self.poll_at = None;
-        self.quiet_until = None;
+        self.gap_until = None;
         self.outstanding = None;
-        self.missing_since = None;
+        self.missing.clear();
+        self.drain_until = None;
         self.halt = None;
         self.orders.clear();
         self.jog = None;
@@ -81,12 +82,15 @@ impl Device for Rc2000c {
         if let Some(again) = self.expire(now) {
             return Some(again);
         }
-        if !self.is_free() || self.quiet_until.is_some_and(|until| now.steady < until) {
+        if self.drain_until.take_if(|until| now.steady >= *until).is_some() {
+            self.missing.clear();
+        }
+        if !self.is_free() || self.quiet_until().is_some_and(|until| now.steady < until) {
             return None;
         }
-        self.quiet_until = None;
         let (request, purpose) = self.next_request(now)?;
-        self.outstanding = Some(self.outstanding_of(request, purpose, now));
+        (self.gap_until, self.drain_until) = (None, None);
+        self.outstanding = Some(Outstanding::new(request, purpose, self.line, now));
         Some(request.to_bytes(self.address))
     }
 
@@ -181,7 +185,7 @@ impl Rc2000c {
             None if is_asked => now.steady,
             None => poll_at,
         };
-        Some(at.max(self.quiet_until.unwrap_or(at)))
+        Some(at.max(self.quiet_until().unwrap_or(at)))
     }
 }
 

@@ -12,7 +12,7 @@ use crate::{
 };
 
 /// Maximum number of times a question is asked; other commands are sent once.
-const MAX_TRIES: u8 = 3;
+const MAX_TRIES: usize = 3;
 const REMOTE_DISABLED: &str = "remote mode is disabled on the unit";
 
 /// Reason for a command.
@@ -96,24 +96,56 @@ impl Rc2000c {
             .outstanding
             .take_if(|sent| sent.is_answered_by(reply))
             .or_else(|| self.halt.take_if(|sent| sent.is_answered_by(reply)));
-        let Some(answered) = answered else {
-            self.state.traffic.unsolicited += 1;
-            return tracing::debug!(?reply, "nobody asked for this");
-        };
-        self.state.traffic.replies += 1;
-        self.state.traffic.last_reply = Some(now.steady);
-        // All outstanding answers may come. Each is waited for, or the next question would be
-        // taken for answered by an older state.
-        if answered.purpose == Purpose::Poll {
-            self.missing_since = None;
+        let Some(answered) = answered else { return self.take_surplus(reply, now) };
+        self.count_reply(now);
+        let asked = self.asked(&answered);
+        if !self.missing.is_empty() || answered.clock.is_repeated() {
+            self.drain_until = Some(now.steady + self.line.longest_wait());
         }
-        let quiet = if answered.clock.is_repeated() { self.line.longest_wait() } else { GAP };
-        self.quiet_until = Some(now.steady + quiet);
-        self.take_reply(&answered, reply, now);
+        self.take_reply(&answered, reply, asked, now);
         self.refresh_panel();
     }
 
-    fn take_reply(&mut self, answered: &Outstanding, reply: &Reply, now: Moment) {
+    /// Takes the answer to a question that has been given up or was answered for.
+    fn take_surplus(&mut self, reply: &Reply, now: Moment) {
+        if let Reply::Status { command: Command::Status, status } = reply
+            && let Some(asked) = self.missing.pop_front()
+        {
+            self.count_reply(now);
+            self.take_status(*status, asked, asked, now);
+            return self.refresh_panel();
+        }
+        self.state.traffic.unsolicited += 1;
+        tracing::debug!(?reply, "nobody asked for this");
+    }
+
+    fn count_reply(&mut self, now: Moment) {
+        self.state.traffic.replies += 1;
+        self.state.traffic.last_reply = Some(now.steady);
+        self.gap_until = Some(now.steady + GAP);
+    }
+
+    /// When the question went out that `answered` answers at the earliest. The unit answers each
+    /// question at most once and in order, so a status is at least as young as the oldest
+    /// question that may still be unanswered.
+    fn asked(&mut self, answered: &Outstanding) -> Moment {
+        let sent = answered.clock.sent;
+        if answered.purpose != Purpose::Poll {
+            return sent;
+        }
+        self.missing.push_back(sent);
+        self.missing.pop_front().unwrap_or(sent)
+    }
+
+    /// Until when only a halt may go out. Surplus answers are waited for, so that they show as
+    /// such; but while the antenna moves, Azel asks on, and each answer counts as asked one
+    /// question earlier.
+    pub(super) fn quiet_until(&self) -> Option<Instant> {
+        let drain = self.drain_until.filter(|_| !self.is_watched || self.missing.len() > 1);
+        self.gap_until.max(drain)
+    }
+
+    fn take_reply(&mut self, answered: &Outstanding, reply: &Reply, asked: Moment, now: Moment) {
         match reply {
             Reply::Offline { .. } => {
                 self.is_offline = true;
@@ -132,7 +164,10 @@ impl Rc2000c {
             }
             Reply::SatelliteName(entry) => self.names.take(entry),
             Reply::Status { status, .. } => {
-                self.take_status(*status, answered, now);
+                self.take_status(*status, asked, answered.clock.sent, now);
+                // From question to question, so that a slow line is not made slower.
+                let period = self.rates.period(self.moving());
+                self.poll_at = Some(answered.clock.sent.steady + period);
                 if let Purpose::Order(asked) = answered.purpose {
                     self.events.extend(asked.map(ControllerEvent::Accepted));
                 }
@@ -144,16 +179,18 @@ impl Rc2000c {
         }
     }
 
-    fn take_status(&mut self, status: Status, answered: &Outstanding, now: Moment) {
+    /// Takes a status. `asked`: when its question went out at the earliest; `sent`: at the
+    /// latest.
+    fn take_status(&mut self, status: Status, asked: Moment, sent: Moment, now: Moment) {
         // A unit that was not allowed to answer is asked for its type once it is.
         self.wants_device |= std::mem::take(&mut self.is_offline) && self.device.is_none();
         let axes = self.axes.read(&status, self.past.before(now.steady));
         self.past.push(status, now.steady);
         self.status = Some(status);
-        let way = now.steady.saturating_duration_since(answered.clock.sent.steady) / 2;
+        let way = now.steady.saturating_duration_since(sent.steady) / 2;
         self.state.measured = Some(Measured {
             at: now.utc.checked_sub(way).unwrap_or(now.utc),
-            asked: answered.clock.first_sent.steady,
+            asked: asked.steady,
             received: now.steady,
             pointing: Axes::pointing(axes, &self.mount),
             axes,
@@ -167,8 +204,6 @@ impl Rc2000c {
         });
         self.state.turns_besides = status.polarization_motion != PolarizationMotion::Still;
         self.hold_polarization(&status);
-        // From question to question, so that a slow line is not made slower.
-        self.poll_at = Some(answered.clock.sent.steady + self.rates.period(self.moving()));
     }
 
     /// A stop of the axes leaves the polarization turning. It is sent to its present position;
@@ -234,8 +269,15 @@ impl Rc2000c {
         }
         let is_late = self.outstanding.as_ref().is_some_and(|it| now.steady >= self.deadline(it));
         let mut late = self.outstanding.take_if(|_| is_late)?;
-        let is_repeated = matches!(late.purpose, Purpose::Poll | Purpose::Question)
-            && late.clock.tries < MAX_TRIES;
+        let tries = match late.purpose {
+            Purpose::Poll => {
+                self.missing.push_back(late.clock.sent);
+                self.missing.len()
+            }
+            Purpose::Question => late.clock.tries.into(),
+            Purpose::Order(_) | Purpose::Halt | Purpose::Disowned => MAX_TRIES,
+        };
+        let is_repeated = tries < MAX_TRIES;
         self.miss(&late, is_repeated, now);
         if is_repeated {
             late.clock.repeat(now);
@@ -244,11 +286,7 @@ impl Rc2000c {
             return Some(bytes);
         }
         match late.purpose {
-            Purpose::Poll => {
-                self.missing_since.get_or_insert(late.clock.first_sent);
-                self.question_failed(&late.request, now);
-            }
-            Purpose::Question => self.question_failed(&late.request, now),
+            Purpose::Poll | Purpose::Question => self.question_failed(&late.request, now),
             Purpose::Order(asked) => {
                 self.orders.clear();
                 self.events.extend(asked.map(ControllerEvent::Unanswered));
@@ -267,20 +305,6 @@ impl Rc2000c {
         } else {
             sent.clock.deadline()
         }
-    }
-
-    /// A status may answer an earlier question.
-    pub(super) fn outstanding_of(
-        &self,
-        request: Request,
-        purpose: Purpose,
-        now: Moment,
-    ) -> Outstanding {
-        let mut outstanding = Outstanding::new(request, purpose, self.line, now);
-        if let Some(missing) = self.missing_since.filter(|_| purpose == Purpose::Poll) {
-            outstanding.clock = outstanding.clock.standing_for(missing);
-        }
-        outstanding
     }
 
     fn miss(&mut self, late: &Outstanding, is_repeated: bool, now: Moment) {

@@ -102,8 +102,42 @@ fn after_a_repeated_question_the_surplus_answer_is_waited_for() {
     assert_eq!(measured.asked, asked, "it may answer the first of the two");
     assert_eq!(bench.poll_after(800), None);
     bench.hear(IDLE);
-    assert_eq!(bench.unit.state().traffic.unsolicited, 1);
     assert_eq!(bench.poll_after(400).as_deref(), Some(STATUS));
+    bench.hear(IDLE);
+    assert_eq!(bench.unit.state().measured.unwrap().asked, bench.now.steady);
+    bench.hear(IDLE);
+    assert_eq!(bench.unit.state().traffic.unsolicited, 1, "a third answer to two questions");
+}
+
+#[test]
+fn a_lost_status_leaves_the_position_of_a_moving_antenna_young() {
+    let mut bench = Bench::idle();
+    bench.unit.watch_closely(true);
+    assert_eq!(bench.poll_after(500).as_deref(), Some(STATUS));
+    let lost = bench.now.steady;
+    assert_eq!(bench.poll_after(700).as_deref(), Some(STATUS));
+    let repeated = bench.now.steady;
+    bench.hear(IDLE);
+    let asked = |bench: &Bench| bench.unit.state().measured.unwrap().asked;
+    assert_eq!(asked(&bench), lost, "it may answer either question");
+    assert_eq!(bench.poll_after(500).as_deref(), Some(STATUS), "without a pause");
+    bench.hear(IDLE);
+    assert_eq!(asked(&bench), repeated);
+}
+
+#[test]
+fn answers_that_come_late_and_together_are_taken_for_no_younger_than_they_are() {
+    let mut bench = Bench::idle();
+    bench.unit.watch_closely(true);
+    let mut questions = Vec::new();
+    for wait_ms in [500, 700, 700] {
+        assert_eq!(bench.poll_after(wait_ms).as_deref(), Some(STATUS));
+        questions.push(bench.now.steady);
+    }
+    for asked in questions {
+        bench.hear(IDLE);
+        assert_eq!(bench.unit.state().measured.unwrap().asked, asked);
+    }
 }
 
 #[test]
