@@ -80,7 +80,7 @@ pub(crate) fn tell(window: &mut Window, antenna: &Antenna, finding: LinkFinding)
 
 pub(crate) fn reached() -> LinkFinding {
     let place = Place { latitude_deg: 41.176, longitude_deg: 29.613, step_deg: 1e-4 };
-    let clock = UnitClock { ahead_s: -0.02, is_set: true, read_at: rig::now() };
+    let clock = UnitClock { ahead_s: -0.02, error_s: 0.0, is_set: true, read_at: rig::now() };
     let state = AntennaState {
         identity: Some("SATRAK CU V1.2".to_owned()),
         on_board: OnBoard { place: Some(place), clock: Some(clock), ..OnBoard::default() },

@@ -235,6 +235,7 @@ fn rounded(unit: &OnBoard) -> OnBoard {
     OnBoard {
         clock: unit.clock.map(|clock| UnitClock {
             ahead_s: tenths(clock.ahead_s),
+            error_s: tenths(clock.error_s),
             read_at: Timestamp::UNIX_EPOCH,
             ..clock
         }),

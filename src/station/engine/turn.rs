@@ -267,7 +267,7 @@ impl Engine {
             alarms.clear(of, now, |kind| matches!(kind, AlarmKind::Unreadable(_)));
         }
         if let Some(clock) = snapshot.state.on_board.clock {
-            let off = clock.is_set && clock.ahead_s.abs() > CLOCK_OFF_S;
+            let off = clock.is_set && clock.surely_ahead_s().abs() > CLOCK_OFF_S;
             if off {
                 alarms.raise(of, AlarmKind::ClockOff(clock.ahead_s), now);
             } else {

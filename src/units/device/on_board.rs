@@ -30,10 +30,21 @@ pub struct UnitClock {
     /// Seconds by which the unit is ahead of us, corrected by half the round trip over the
     /// link.
     pub ahead_s: f64,
+    /// Maximum error of `ahead_s`: half the round trip, seconds.
+    #[serde(default)]
+    pub error_s: f64,
     /// Somebody has set the clock.
     pub is_set: bool,
     /// Time of the reading, by our clock.
     pub read_at: Timestamp,
+}
+
+impl UnitClock {
+    /// The least by which the unit is ahead of us, seconds: negative if it is surely behind, zero
+    /// if it may be right.
+    pub fn surely_ahead_s(self) -> f64 {
+        (self.ahead_s.abs() - self.error_s).max(0.0).copysign(self.ahead_s)
+    }
 }
 
 /// A location as a unit reports it, without altitude.

@@ -146,7 +146,7 @@ impl Judge {
     /// Judges a unit by its report `unit`. `holds_target` says that the target was sent to the
     /// unit: the satellite that it held before means nothing.
     pub fn supervise(&self, unit: &OnBoard, holds_target: bool) -> Supervision {
-        let all = UnitPath::of(unit, self);
+        let all = UnitPath::surely(unit, self);
         let worst = all.either_way().map(|unit| self.worst(&unit)).reduce(worse);
         let worst = worst.unwrap_or(Error { off: Angle::ZERO, at: self.pass.target.from });
         let lowest_deg = self.ability.minimum_elevation.degrees();

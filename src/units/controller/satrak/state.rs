@@ -27,6 +27,7 @@ impl Satrak {
         if let Reply::Clock(clock) = &reply {
             self.reported.clock = Some(UnitClock {
                 ahead_s: seconds_between(measured_at, clock.time),
+                error_s: way.as_secs_f64(),
                 is_set: clock.is_set(),
                 read_at: now.utc,
             });

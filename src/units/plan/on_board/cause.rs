@@ -8,7 +8,7 @@ use super::{
 };
 use crate::{
     astro::{Angle, frames},
-    device::{Offsets, OnBoard, Place, UnitClock},
+    device::{Offsets, OnBoard, Place},
 };
 
 /// Smallest error that is listed as a cause, degrees.
@@ -107,8 +107,9 @@ pub(super) fn ranked(judge: &Judge, told: &OnBoard, holds_target: bool) -> Vec<R
         let away_km = frames::site_ecef_km(site).distance(frames::site_ecef_km(ours));
         add(Cause::Place { place, away_km }, UnitPath { site, ..right });
     }
-    if let Some(UnitClock { ahead_s, .. }) = told.clock {
-        add(Cause::Clock { ahead_s }, UnitPath { ahead_s, ..right });
+    if let Some(clock) = told.clock {
+        let unit = UnitPath { ahead_s: clock.surely_ahead_s(), ..right };
+        add(Cause::Clock { ahead_s: clock.ahead_s }, unit);
     }
     if let Some(offsets) = told.offsets {
         let with = |offsets| UnitPath { offsets, ..right };

@@ -8,7 +8,7 @@ use crate::{
         Angle, AzEl, Site,
         time::{add_seconds, seconds_between},
     },
-    device::{Offsets, OnBoard},
+    device::{Offsets, OnBoard, UnitClock},
     orbit::Propagator,
     plan::Sample,
     station::Mount,
@@ -68,6 +68,13 @@ impl<'a> UnitPath<'a> {
             turned: turned(offsets.north_deg, judge.ability.mount),
             ..right
         }
+    }
+
+    /// The unit with a clock that is off only by what is certain: late replies make no error of
+    /// pointing.
+    pub(super) fn surely(told: &OnBoard, judge: &'a Judge) -> Self {
+        let ahead_s = told.clock.map_or(0.0, UnitClock::surely_ahead_s);
+        Self { ahead_s, ..Self::of(told, judge) }
     }
 
     /// The unit with either sign of the time offset, since it is not known which way the

@@ -52,7 +52,7 @@ fn judge() -> Judge {
 }
 
 fn clock(ahead_s: f64) -> UnitClock {
-    UnitClock { ahead_s, is_set: true, read_at: pass().aos.time }
+    UnitClock { ahead_s, error_s: 0.0, is_set: true, read_at: pass().aos.time }
 }
 
 fn right() -> OnBoard {
@@ -148,6 +148,19 @@ fn a_clock_ahead_and_a_time_offset_are_so_much_along_the_track() {
     let (cause, off_deg) = only(&with(|offsets| offsets.time_s = 3.0));
     assert_eq!(cause, Cause::TimeOffset { offset_s: 3.0 });
     assert_near(off_deg, both[0].max(both[1]));
+}
+
+#[test]
+fn a_clock_is_off_by_no_more_than_its_reading_proves() {
+    let judged = |ahead_s, error_s| {
+        let clock = UnitClock { error_s, ..clock(ahead_s) };
+        let found = judge().supervise(&OnBoard { clock: Some(clock), ..right() }, true);
+        (found.worst.off.degrees(), found.causes)
+    };
+    assert_eq!(judged(-0.15, 0.15), judged(0.0, 0.0), "the reply alone may have been late");
+    let (off_deg, causes) = judged(-5.0, 2.0);
+    assert_near(off_deg, judged(-3.0, 0.0).0);
+    assert!(matches!(causes[0].cause, Cause::Clock { ahead_s: -5.0 }), "{causes:?}");
 }
 
 #[test]
