@@ -1,5 +1,11 @@
 //! An axis without an angle, at the start or from a random moment on.
 
+use azel::{
+    astro::{Angle, AzEl},
+    clock::Instant,
+    driver::{Command, Event},
+};
+
 use super::{
     cases::for_each_case,
     deeds::{Deed, rates_into_a_zone},
@@ -62,6 +68,26 @@ async fn loses_an_angle(mut dice: Dice) {
 #[test]
 fn any_axis_without_an_angle_enters_no_keep_out() {
     for_each_case("an angle is missing", 10, loses_an_angle);
+}
+
+/// The elevation goes missing on a short way, so nobody can know where it has led.
+async fn loses_its_elevation_on_the_way(mut dice: Dice) {
+    let mut scene = Scene::start(World::random(&mut dice, &Wish::default()), &mut dice).await;
+    let began = Instant::now();
+    let AzEl { azimuth, elevation } = scene.world.direction();
+    let azimuth = (azimuth + Angle::from_degrees(dice.between(3.0, 6.0))).wrapped_360();
+    scene.send(Command::Position { azimuth: Some(azimuth), elevation: Some(elevation) });
+    scene.seconds(0.5).await;
+    scene.trouble(|line| line.blank = [false, true]);
+    scene.seconds(60.0).await;
+    let arrived = scene.told(began, |event| matches!(event, Event::Arrived(_))).is_some();
+    let has_elevation = scene.world.antenna.connection.variant().capabilities.has_elevation();
+    assert!(!arrived || !has_elevation, "{}\n{}", scene.world.make.name, scene.report());
+}
+
+#[test]
+fn a_go_to_without_an_elevation_is_not_said_to_arrive() {
+    for_each_case("the elevation is missing", 10, loses_its_elevation_on_the_way);
 }
 
 /// Every turn of the session is measured: one thread serves all antennas of a station.

@@ -391,12 +391,11 @@ impl Gate {
     pub(super) fn aim(&self, motion: &Motion) -> Option<Pointing> {
         let motion = self.controller.as_sent(*motion);
         let Motion::Position { azimuth, elevation } = motion else { return None };
-        let measured = self.state().measured;
         if !self.mount.can_flip() {
-            let measured = measured.map(|measured| measured.pointing);
-            return Some(aimed(azimuth.map(Angle::wrapped_360), elevation, measured));
+            return Some(aimed(azimuth.map(Angle::wrapped_360), elevation, self.pointing()));
         }
         let elevation_now = self.elevation_axis_deg().map(Angle::from_degrees);
+        let measured = self.state().measured;
         let azimuth_now = measured.and_then(|measured| measured.axes[0].angle_deg);
         let azimuth = azimuth.or(azimuth_now.map(Angle::from_degrees));
         let elevation = elevation.or(elevation_now);
@@ -405,6 +404,20 @@ impl Gate {
             return Some(Pointing { azimuth, elevation });
         }
         Some(Pointing::of_axes(azimuth, elevation))
+    }
+
+    /// Where the antenna points. An axis without an angle counts as where its limit switch says
+    /// that it stands.
+    pub(super) fn pointing(&self) -> Option<Pointing> {
+        let reported = self.state().measured?.pointing;
+        let has_elevation = self.variant.capabilities.has_elevation();
+        let is_whole =
+            reported.azimuth.is_some() && (reported.elevation.is_some() || !has_elevation);
+        if is_whole {
+            return Some(reported);
+        }
+        let axes_deg = self.intervals().and_then(Intervals::angles_deg);
+        Some(axes_deg.map_or(reported, |axes_deg| self.mount.direction(axes_deg).into()))
     }
 
     /// Measured angle of the elevation axis, degrees; `None` without one.

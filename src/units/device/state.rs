@@ -160,6 +160,23 @@ impl Pointing {
         }
         Some((self.azimuth? - other.azimuth?).wrapped_180().abs())
     }
+
+    /// Angle from here to `aim` in the angles that `aim` has; `None` while one of them is missing
+    /// here.
+    pub fn off(self, aim: Self) -> Option<Angle> {
+        match aim {
+            Self { azimuth: Some(azimuth), elevation: Some(elevation) } => {
+                Some(self.direction()?.separation(AzEl { azimuth, elevation }))
+            }
+            Self { azimuth: Some(azimuth), elevation: None } => {
+                Some((self.azimuth? - azimuth).wrapped_180().abs())
+            }
+            Self { azimuth: None, elevation: Some(elevation) } => {
+                Some((self.elevation? - elevation).abs())
+            }
+            Self { azimuth: None, elevation: None } => None,
+        }
+    }
 }
 
 impl From<AzEl> for Pointing {

@@ -6,7 +6,7 @@ use super::{on_board::Watch, program_track::Tracking};
 use crate::{
     astro::Angle,
     clock::Instant,
-    device::{Measured, Motion, Pointing, TrackTarget},
+    device::{Motion, Pointing, TrackTarget},
     driver::Intent,
 };
 
@@ -274,7 +274,7 @@ impl Slew {
     pub(super) fn leads_on(&self, at: Pointing, within: Angle) -> bool {
         match self.stage {
             SlewStage::Queued { leg: Some(Leg { aim, .. }), .. } => {
-                aim.separation(at).is_none_or(|off| off > within)
+                at.off(aim).is_none_or(|off| off > within)
             }
             SlewStage::Queued { leg: None, .. } | SlewStage::UnderWay { .. } | SlewStage::Over => {
                 true
@@ -282,23 +282,23 @@ impl Slew {
         }
     }
 
-    /// Compares the motion under way with a position. `turns`: the unit's flags say so; `turned`:
-    /// when its angles last changed.
+    /// Compares the motion under way with a position that was asked for at `asked`, at which the
+    /// unit's flags said that the axes stand. `turned`: when the angles last changed.
     pub(super) fn watch(
         &mut self,
-        measured: &Measured,
-        turns: bool,
+        at: Pointing,
+        asked: Instant,
         turned: Option<Instant>,
         within: Angle,
         now: Instant,
     ) -> Option<Arrival> {
         let SlewStage::UnderWay { since, leg } = self.stage else { return None };
         let (aim, end) = (self.aim_under_way()?, self.aim?);
-        if turns || measured.asked <= since {
+        if asked <= since {
             return None;
         }
         let since = turned.map_or(since, |turned| turned.max(since));
-        let is_near = measured.pointing.separation(aim).is_some_and(|off| off <= within);
+        let is_near = at.off(aim).is_some_and(|off| off <= within);
         let arrival = match leg {
             Some(Leg { then: Some(then), .. }) if is_near => Arrival::Leg(then),
             Some(Leg { then: None, .. }) if is_near => Arrival::Short { aim: end },

@@ -348,13 +348,16 @@ impl Session {
         let (turns, within_deg) = (self.turns(), self.variant.capabilities.arrives_within_deg);
         let turned = self.seen.effects.last_change();
         let Some(measured) = self.gate.state().measured else { return };
+        let Some(at) = self.gate.pointing() else { return };
         let Some(slew) = self.activity.slew_mut() else { return };
         let within = Angle::from_degrees(within_deg);
-        let Some(arrival) = slew.watch(&measured, turns, turned, within, now.steady) else {
+        if turns {
             return;
-        };
+        }
+        let arrival = slew.watch(at, measured.asked, turned, within, now.steady);
+        let Some(arrival) = arrival else { return };
         match arrival {
-            Arrival::Leg(then) => match self.next_leg(then, measured.pointing, within, now) {
+            Arrival::Leg(then) => match self.next_leg(then, at, within, now) {
                 Ok(next) => {
                     if let Some(slew) = self.activity.slew_mut() {
                         *slew = next;
@@ -367,7 +370,7 @@ impl Session {
                 None => self.tell(Event::Arrived(aim)),
             },
             Arrival::Short { aim } => {
-                let event = Event::EndedShort { aim, at: measured.pointing };
+                let event = Event::EndedShort { aim, at };
                 match self.activity.on_board() {
                     Some(_) => self.give_up(event, now),
                     None => self.tell(event),
