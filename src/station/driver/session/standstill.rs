@@ -149,6 +149,8 @@ impl Looks {
 pub(super) struct Rest {
     /// Since when the flags say so, and the first position that counts.
     since: Option<(Instant, Option<Measured>)>,
+    /// The last motion of Azel that has shown in the flags or the angles.
+    shown: Option<Instant>,
     told: bool,
 }
 
@@ -156,16 +158,17 @@ impl Rest {
     /// How long axes may run on after their flags have come to rest.
     const RUN_OUT: Duration = Duration::from_secs(3);
 
-    /// Takes a position. Returns the axis that turns although the flags say that it stands,
-    /// and by how many degrees; once for each rest.
+    /// Takes a position. `began`: when Azel last started a motion. Returns the axis that turns
+    /// although the flags say that it stands, and by how many degrees; once for each rest.
     pub(super) fn take(
         &mut self,
         look: Measured,
         is_at_rest: bool,
+        began: Option<Instant>,
         figures: Figures,
     ) -> Option<(usize, f64)> {
         if !is_at_rest {
-            *self = Self::default();
+            *self = Self { shown: began, ..Self::default() };
             return None;
         }
         let (since, anchor) = self.since.get_or_insert((look.asked, None));
@@ -174,6 +177,14 @@ impl Rest {
         }
         let anchor = anchor.get_or_insert(look);
         let turned = figures.turned(anchor, &look)?;
+        // A short motion may begin and end between two positions, and so change the angles once.
+        let is_new = began.is_some_and(|began| {
+            self.shown < Some(began) && look.asked.saturating_duration_since(began) < Self::RUN_OUT
+        });
+        if is_new {
+            (*anchor, self.shown) = (look, began);
+            return None;
+        }
         (!std::mem::replace(&mut self.told, true)).then_some(turned)
     }
 }
@@ -269,10 +280,44 @@ mod tests {
             .filter_map(|step| {
                 let at_s = f64::from(step) * 0.1;
                 let look = look(start, at_s, [Some(10.0 + 0.05 * at_s), Some(20.0)]);
-                rest.take(look, true, figures()).map(|turned| (at_s, turned))
+                rest.take(look, true, None, figures()).map(|turned| (at_s, turned))
             })
             .collect();
         let [(at_s, (0, _))] = told[..] else { panic!("{told:?}") };
         assert!((3.0..8.0).contains(&at_s), "{at_s}");
+    }
+
+    /// Times at which an axis that starts to turn after 10 s is said to turn at rest, where Azel
+    /// starts a motion at 9.95 s. Positions come every 0.1 s.
+    fn contradictions_s(first_deg: impl Fn(f64) -> f64) -> Vec<f64> {
+        let start = Instant::now();
+        let began = start + Duration::from_millis(9950);
+        let mut rest = Rest::default();
+        (0..200)
+            .filter_map(|step| {
+                let at_s = f64::from(step) * 0.1;
+                let look = look(start, at_s, [Some(first_deg(at_s)), Some(20.0)]);
+                let begun = Some(began).filter(|began| *began <= look.asked);
+                rest.take(look, true, begun, figures()).map(|_| at_s)
+            })
+            .collect()
+    }
+
+    #[test]
+    fn a_step_between_two_positions_is_no_contradiction() {
+        let once = contradictions_s(|at_s| 10.0 + f64::from(at_s > 10.15));
+        assert!(once.is_empty(), "{once:?}");
+        let twice =
+            contradictions_s(|at_s| 10.0 + f64::from(at_s > 10.15) + f64::from(at_s > 11.0));
+        assert_eq!(twice.len(), 1, "one motion makes one change: {twice:?}");
+        let late = contradictions_s(|at_s| 10.0 + f64::from(at_s > 15.05));
+        assert_eq!(late.len(), 1, "the motion was over: {late:?}");
+    }
+
+    #[test]
+    fn a_motion_that_the_flags_hide_is_told() {
+        let told = contradictions_s(|at_s| 10.0 + 2.0 * (at_s - 10.0).max(0.0));
+        let [at_s] = told[..] else { panic!("{told:?}") };
+        assert!((10.0..10.5).contains(&at_s), "{at_s}");
     }
 }

@@ -244,8 +244,9 @@ impl Session {
             return;
         }
         self.seen.looked = Some(look.received);
-        if let Some((axis, turned_deg)) = self.seen.rest.take(look, is_at_rest, self.setup.figures)
-        {
+        let (began, figures) = (self.gate.unproved_since(), self.setup.figures);
+        let turned = self.seen.rest.take(look, is_at_rest, began, figures);
+        if let Some((axis, turned_deg)) = turned {
             let axis = self.variant.capabilities.axes.get(axis).copied().unwrap_or_default();
             self.tell(Event::Safety(Safety::FlagsContradict { axis, turned_deg }));
         }
