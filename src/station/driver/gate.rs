@@ -28,7 +28,7 @@ use crate::{
         AntennaState, Asked, Capabilities, Controller, Device, Motion, Pointing, Variant, aimed,
         panel::{Act, Action},
     },
-    plan::{Bounds, Sweep, on_board::Judge},
+    plan::{Bounds, Sweep, bounds::Budget, on_board::Judge},
     station::{Antenna, LockOut, MotionLimits, Mount},
 };
 pub(super) use detours::{Detour, DetourQuestion, NoRoute};
@@ -105,6 +105,8 @@ pub(super) struct Gate {
     /// From where the pointing model has the beam of an antenna that tracks to where it is on the sky,
     /// if offsets of its axes are on.
     to_sky: Option<DQuat>,
+    /// The work of looks at ways that is left for this turn.
+    budget: Budget,
 }
 
 impl Gate {
@@ -130,6 +132,7 @@ impl Gate {
             detour: None,
             word: Word::default(),
             to_sky: None,
+            budget: Budget::default(),
         }
     }
 
@@ -259,6 +262,11 @@ impl Gate {
 
     pub(super) fn state(&self) -> &AntennaState {
         self.controller.state()
+    }
+
+    /// A turn of the thread that serves all antennas begins.
+    pub(super) fn begin_turn(&self) {
+        self.budget.renew();
     }
 
     /// Checks whether `motion` could start if the antenna were at rest.

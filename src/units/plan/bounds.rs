@@ -25,6 +25,7 @@ use crate::{
     station::{Antenna, Entered, KeepOut, Mount, Station, SunAvoidance},
 };
 use aim::{Aim, Towards};
+pub use blocks::Budget;
 use near::{Clear, Named, Near};
 pub use sweep::Sweep;
 
@@ -117,7 +118,14 @@ impl Bounds {
     pub fn at(&self, utc: Timestamp) -> BoundsAt<'_> {
         let suns = self.suns(utc).into_iter().map(AzEl::to_enu).collect();
         let minimum_elevation = self.minimum_elevation;
-        BoundsAt { bounds: self, minimum_elevation, suns, model: self.model, to_sky: None }
+        BoundsAt {
+            bounds: self,
+            minimum_elevation,
+            suns,
+            model: self.model,
+            to_sky: None,
+            budget: None,
+        }
     }
 
     /// Returns `true` if any keep-out or the Sun refuses motion.
@@ -155,9 +163,17 @@ pub struct BoundsAt<'a> {
     /// From where the beam is by the model to where it is on the sky, while offsets of the axes make
     /// up for errors of the mount.
     to_sky: Option<DQuat>,
+    /// `None` where each look may do its most.
+    budget: Option<&'a Budget>,
 }
 
-impl BoundsAt<'_> {
+impl<'a> BoundsAt<'a> {
+    /// The same where [`Self::blocks`] shares `budget` with other looks.
+    #[must_use]
+    pub fn within(self, budget: &'a Budget) -> Self {
+        Self { budget: Some(budget), ..self }
+    }
+
     /// The least clearance from every barrier among the positions in `place`: exact where that is
     /// one position, else taken from samples, and negative where [`Self::blocks`] finds a way in.
     pub fn least_clearances(&self, place: Sweep) -> Vec<Clearance> {

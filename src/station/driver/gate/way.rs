@@ -93,8 +93,8 @@ impl Situation<'_> {
     }
 
     /// These bounds at present, with the offsets of the axes.
-    fn at_present<'b>(&self, bounds: &'b Bounds) -> BoundsAt<'b> {
-        bounds.at(self.now.utc).turned_by(self.to_sky)
+    fn at_present<'b>(&'b self, bounds: &'b Bounds) -> BoundsAt<'b> {
+        bounds.at(self.now.utc).turned_by(self.to_sky).within(&self.gate.budget)
     }
 
     /// The rates at which the axes really turn in a jog: a controller with named speeds has no
@@ -325,7 +325,7 @@ impl Gate {
         let Some((from_deg, to_deg)) = self.ends(motion, now) else { return Err(refusal.into()) };
         let corners_deg = [[to_deg[0], from_deg[1]], [from_deg[0], to_deg[1]]];
         let bounds = self.bounds_in(intent);
-        let bounds_now = bounds.at(now.utc).turned_by(self.to_sky_in(intent));
+        let bounds_now = bounds.at(now.utc).turned_by(self.to_sky_in(intent)).within(&self.budget);
         for corner_deg in corners_deg {
             let first = self.to_axes(corner_deg);
             let second = Sweep::between(corner_deg, to_deg);
@@ -340,9 +340,15 @@ impl Gate {
         }
         // A sequence of positions may follow any way.
         let places_deg = self.detour_places_deg(from_deg, to_deg, now)?;
-        let mut farthest = places_deg.iter().rev().map(|place_deg| self.to_axes(*place_deg));
-        let first = farthest.find(|first| self.check(*first, intent, now).is_ok());
-        first.map(|first| Route { first, then: Some(motion) }).ok_or(NoRoute::Refused(refusal))
+        // By halves, because there may be many places and each look takes time.
+        let is_reached =
+            |place_deg: &[f64; 2]| self.check(self.to_axes(*place_deg), intent, now).is_ok();
+        let reached = places_deg.partition_point(is_reached);
+        let farthest = places_deg.iter().take(reached).next_back();
+        let first = farthest.filter(|place_deg| is_reached(place_deg));
+        first
+            .map(|place_deg| Route { first: self.to_axes(*place_deg), then: Some(motion) })
+            .ok_or(NoRoute::Refused(refusal))
     }
 
     pub(super) fn axis_limits(&self) -> AxisLimits {

@@ -255,7 +255,9 @@ impl Session {
             if hurries || !self.stop_bytes.is_empty() {
                 continue;
             }
-            match self.wait(&mut reader, &mut buffer).await {
+            let input = self.wait(&mut reader, &mut buffer).await;
+            self.gate.begin_turn();
+            match input {
                 Input::Over => {
                     self.shut_down(&mut reader, &mut writer).await;
                     return None;

@@ -3,7 +3,7 @@
 //! One look at the middle of a part of the range settles the part for each barrier that is further
 //! away than the rest of the part. The others are looked at in its halves.
 
-use std::rc::Rc;
+use std::{cell::Cell, rc::Rc};
 
 use super::{Angle, AzEl, Barrier, BoundsAt, FINEST_DEG, Mount, Sweep, aim::Aim, near::Named};
 
@@ -11,11 +11,42 @@ use super::{Angle, AzEl, Barrier, BoundsAt, FINEST_DEG, Mount, Sweep, aim::Aim, 
 /// degrees. A motion that goes no further than half of [`FINEST_DEG`] beyond an edge is free.
 const SMALLEST_PART_DEG: f64 = FINEST_DEG / 2.0;
 
-/// Number of edges that one search may look at. Beyond it, the nearest barrier counts as entered: a
+/// Number of edges that one look may examine. Beyond it, the nearest barrier counts as entered: a
 /// way along a ragged edge must not hold up the thread that serves all antennas.
 const MAX_EDGES: usize = 20_000;
+/// The same of all looks that share a [`Budget`].
+const MAX_EDGES_IN_ALL: usize = 60_000;
+/// Share of what is left that one look may use, so that something is left for every later one.
+const LOOKS_PER_BUDGET: usize = 3;
 /// Work for a part of a range before any edge, in edges.
 const EDGES_OF_PART: usize = 20;
+
+/// The work left for several looks of one turn of the thread that serves all antennas.
+#[derive(Debug, Clone)]
+pub struct Budget {
+    edges: Cell<usize>,
+}
+
+impl Default for Budget {
+    fn default() -> Self {
+        Self { edges: Cell::new(MAX_EDGES_IN_ALL) }
+    }
+}
+
+impl Budget {
+    /// Another turn begins.
+    pub fn renew(&self) {
+        self.edges.set(MAX_EDGES_IN_ALL);
+    }
+
+    fn of_one_look(&self) -> usize {
+        self.edges.get() / LOOKS_PER_BUDGET
+    }
+
+    fn spend(&self, edges: usize) {
+        self.edges.set(self.edges.get().saturating_sub(edges));
+    }
+}
 
 impl BoundsAt<'_> {
     /// The first barrier that `sweep` reaches into, and a direction inside it: the barrier at `index`,
@@ -40,10 +71,26 @@ impl BoundsAt<'_> {
             !is_floor && index.map_or(!barrier.warns_only, |index| *at == index)
         });
         let asked: Rc<[usize]> = asked.map(|(at, _)| at).collect();
+        let allowed = self.budget.map_or(MAX_EDGES, Budget::of_one_look);
+        let mut left = allowed;
+        let entered = self.first_entered(sweep, asked, &mut left);
+        if let Some(budget) = self.budget {
+            budget.spend(allowed - left);
+        }
+        entered
+    }
+
+    /// The first of these barriers that `sweep` reaches into. `left`: the number of edges that may
+    /// be examined.
+    fn first_entered(
+        &self,
+        sweep: Sweep,
+        asked: Rc<[usize]>,
+        left: &mut usize,
+    ) -> Option<(Barrier, AzEl)> {
         let mut open = vec![(sweep, asked)];
-        let mut left = MAX_EDGES;
         while let Some((part, barriers)) = open.pop() {
-            left = left.saturating_sub(EDGES_OF_PART);
+            *left = left.saturating_sub(EDGES_OF_PART);
             let aim = self.aim(part.middle());
             let at = aim.to_enu();
             let radius_deg = part.radius_deg() * self.max_beam_turn();
@@ -55,7 +102,7 @@ impl BoundsAt<'_> {
             for index in barriers.iter().copied() {
                 let Some(barrier) = self.barrier(index, aim, at) else { continue };
                 let Some(angle) = barrier.angle_below(limit) else { continue };
-                left = left.saturating_sub(barrier.cost());
+                *left = left.saturating_sub(barrier.cost());
                 let of_box = as_box.and_then(|(az, el)| barrier.of_box_at_least(az, el));
                 if of_box.is_some_and(|of_box| of_box.degrees() >= -FINEST_DEG) {
                     continue;
@@ -66,7 +113,7 @@ impl BoundsAt<'_> {
                 }
             }
             let Some((index, name, angle)) = nearest else { continue };
-            if angle.degrees() < -FINEST_DEG || radius_deg < SMALLEST_PART_DEG || left == 0 {
+            if angle.degrees() < -FINEST_DEG || radius_deg < SMALLEST_PART_DEG || *left == 0 {
                 return Some((name.clone_of(), self.nearest_of(aim, index, angle)));
             }
             let near: Rc<[usize]> = near.into();
@@ -96,6 +143,7 @@ impl BoundsAt<'_> {
 
 #[cfg(test)]
 mod tests {
+    use super::Budget;
     use crate::{
         plan::{Bounds, Sweep},
         station::{Antenna, Entered, KeepOut, Station},
@@ -123,19 +171,40 @@ mod tests {
         (0..8).map(saw).collect()
     }
 
+    /// Returns `true` if a turn just above the saws is free.
+    fn is_free_above_saws(tilt_deg: f64, turn_deg: f64, budget: Option<&Budget>) -> bool {
+        let station = Station { keep_outs: saws(), ..Station::default() };
+        let mut antenna = Antenna::genius("Mast", "memory:1");
+        antenna.pointing_model.tilt_east_deg = tilt_deg;
+        let bounds = Bounds::of(&station, &antenna);
+        let now = bounds.at("2026-08-12T22:00:00Z".parse().unwrap());
+        let half_beam_deg = antenna.beam_width().degrees() / 2.0;
+        let lowest_deg = 21.0 + half_beam_deg + tilt_deg + 1.0;
+        let sweep = Sweep([(0.0, turn_deg), (lowest_deg, 89.0)]);
+        let now = match budget {
+            Some(budget) => now.within(budget),
+            None => now,
+        };
+        now.blocks(sweep, Sweep::at([0.0, 89.0])).is_none()
+    }
+
+    #[test]
+    fn many_looks_of_one_turn_do_less_and_less_work() {
+        let budget = Budget::default();
+        let is_free = |turn_deg| is_free_above_saws(2.0, turn_deg, Some(&budget));
+        assert!(is_free(20.0));
+        for _ in 0..10 {
+            assert!(!is_free(360.0));
+        }
+        assert!(!is_free(20.0), "the work of this turn is done");
+        assert!(is_free(0.1), "a short way needs little");
+        budget.renew();
+        assert!(is_free(20.0));
+    }
+
     #[test]
     fn a_way_along_ragged_edges_is_free_by_its_axes_and_counts_as_blocked_by_a_tilted_beam() {
-        let station = Station { keep_outs: saws(), ..Station::default() };
-        let is_free = |tilt_deg: f64, turn_deg: f64| {
-            let mut antenna = Antenna::genius("Mast", "memory:1");
-            antenna.pointing_model.tilt_east_deg = tilt_deg;
-            let bounds = Bounds::of(&station, &antenna);
-            let now = bounds.at("2026-08-12T22:00:00Z".parse().unwrap());
-            let half_beam_deg = antenna.beam_width().degrees() / 2.0;
-            let lowest_deg = 21.0 + half_beam_deg + tilt_deg + 1.0;
-            let sweep = Sweep([(0.0, turn_deg), (lowest_deg, 89.0)]);
-            now.blocks(sweep, Sweep::at([0.0, 89.0])).is_none()
-        };
+        let is_free = |tilt_deg, turn_deg| is_free_above_saws(tilt_deg, turn_deg, None);
         assert!(is_free(0.0, 360.0));
         assert!(is_free(2.0, 20.0));
         // It is free, but to settle that would take too long.
