@@ -90,9 +90,10 @@ pub(super) struct Looks {
 }
 
 impl Looks {
-    /// When a position that agrees with the first one proves standstill.
+    /// When to ask for a position that proves standstill if it agrees with the first one.
     pub(super) fn next(&self, figures: Figures) -> Option<Instant> {
-        self.first.map(|first| first.asked + figures.gap)
+        let received = |first: &Measured| first.received + figures.gap.saturating_sub(UNEVEN);
+        self.first.map(|first| (first.asked + figures.gap).max(received(&first)))
     }
 
     /// Whether another STOP could tell the unit something: not while all positions agree.
@@ -177,12 +178,14 @@ impl Rest {
         }
         let anchor = anchor.get_or_insert(look);
         let turned = figures.turned(anchor, &look)?;
-        // A short motion may begin and end between two positions, and so change the angles once.
+        // A short motion may begin and end between two positions. The axes may run on after it.
         let is_new = began.is_some_and(|began| {
-            self.shown < Some(began) && look.asked.saturating_duration_since(began) < Self::RUN_OUT
+            self.shown < Some(began)
+                && look.received > began
+                && look.asked.saturating_duration_since(began) < Self::RUN_OUT
         });
         if is_new {
-            (*anchor, self.shown) = (look, began);
+            (self.since, self.shown) = (Some((look.asked, None)), began);
             return None;
         }
         (!std::mem::replace(&mut self.told, true)).then_some(turned)
@@ -254,6 +257,23 @@ mod tests {
     }
 
     #[test]
+    fn the_next_position_is_asked_for_so_that_it_can_prove_standstill() {
+        let start = Instant::now();
+        let (gap, far) = (figures().gap(), start + Duration::from_mins(1));
+        for late in [20, 90, 300, 900].map(Duration::from_millis) {
+            let mut looks = Looks::default();
+            let late_by = |look: Measured| Measured { received: look.asked + late, ..look };
+            let first = late_by(look(start, 0.0, [Some(10.0), Some(69.0)]));
+            assert_eq!(looks.take(first, true, Some(start), figures()), None);
+            let asked = looks.next(figures()).unwrap();
+            assert!(asked >= start + gap && looks.is_due(figures(), far));
+            // This reply comes at once.
+            let next = Measured { asked, received: asked, ..first };
+            assert_eq!(looks.take(next, true, Some(start), figures()), Some(Proof::Angles));
+        }
+    }
+
+    #[test]
     fn an_axis_that_turns_is_never_proved_still() {
         assert_eq!(proof(|at_s| [Some(10.0 + 0.5 * at_s), Some(20.0)]), None);
         assert_eq!(proof(|at_s| [Some(10.0), Some(20.0 - 0.3 * at_s)]), None);
@@ -308,8 +328,10 @@ mod tests {
         let once = contradictions_s(|at_s| 10.0 + f64::from(at_s > 10.15));
         assert!(once.is_empty(), "{once:?}");
         let twice =
-            contradictions_s(|at_s| 10.0 + f64::from(at_s > 10.15) + f64::from(at_s > 11.0));
+            contradictions_s(|at_s| 10.0 + f64::from(at_s > 10.15) + f64::from(at_s > 14.05));
         assert_eq!(twice.len(), 1, "one motion makes one change: {twice:?}");
+        let early = contradictions_s(|at_s| 10.0 + f64::from(at_s > 9.85));
+        assert_eq!(early.len(), 1, "before the motion: {early:?}");
         let late = contradictions_s(|at_s| 10.0 + f64::from(at_s > 15.05));
         assert_eq!(late.len(), 1, "the motion was over: {late:?}");
     }
@@ -318,6 +340,6 @@ mod tests {
     fn a_motion_that_the_flags_hide_is_told() {
         let told = contradictions_s(|at_s| 10.0 + 2.0 * (at_s - 10.0).max(0.0));
         let [at_s] = told[..] else { panic!("{told:?}") };
-        assert!((10.0..10.5).contains(&at_s), "{at_s}");
+        assert!((13.0..13.5).contains(&at_s), "{at_s}");
     }
 }
