@@ -11,7 +11,7 @@ use crate::{
     },
 };
 
-/// Maximum number of times a question is asked; other commands are sent once.
+/// Maximum number of times that a question is asked in a row; other commands are sent once.
 const MAX_TRIES: usize = 3;
 const REMOTE_DISABLED: &str = "remote mode is disabled on the unit";
 
@@ -99,14 +99,18 @@ impl Rc2000c {
         let Some(answered) = answered else { return self.take_surplus(reply, now) };
         self.count_reply(now);
         let asked = self.asked(&answered);
-        if !self.missing.is_empty() || answered.clock.is_repeated() {
+        let has_surplus = match answered.purpose {
+            Purpose::Poll => !self.missing.is_empty(),
+            _ => answered.clock.is_repeated(),
+        };
+        if has_surplus {
             self.drain_until = Some(now.steady + self.line.longest_wait());
         }
         self.take_reply(&answered, reply, asked, now);
         self.refresh_panel();
     }
 
-    /// Takes the answer to a question that has been given up or was answered for.
+    /// Takes a reply that no open request waits for: a status may answer a missing question.
     fn take_surplus(&mut self, reply: &Reply, now: Moment) {
         if let Reply::Status { command: Command::Status, status } = reply
             && let Some(asked) = self.missing.pop_front()
@@ -131,6 +135,8 @@ impl Rc2000c {
     fn asked(&mut self, answered: &Outstanding) -> Moment {
         let sent = answered.clock.sent;
         if answered.purpose != Purpose::Poll {
+            // The unit answers in order: the answers to earlier questions have come or are lost.
+            self.missing.retain(|question| question.steady >= sent.steady);
             return sent;
         }
         self.missing.push_back(sent);
@@ -138,10 +144,10 @@ impl Rc2000c {
     }
 
     /// Until when only a halt may go out. Surplus answers are waited for, so that they show as
-    /// such; but while the antenna moves, Azel asks on, and each answer counts as asked one
-    /// question earlier.
+    /// such; but while the antenna moves and one status is missing, Azel asks on, and each answer
+    /// counts as asked one question earlier.
     pub(super) fn quiet_until(&self) -> Option<Instant> {
-        let drain = self.drain_until.filter(|_| !self.is_watched || self.missing.len() > 1);
+        let drain = self.drain_until.filter(|_| !self.is_watched || self.missing.len() != 1);
         self.gap_until.max(drain)
     }
 

@@ -126,6 +126,21 @@ fn a_lost_status_leaves_the_position_of_a_moving_antenna_young() {
 }
 
 #[test]
+fn the_reply_to_a_halt_ends_the_wait_for_earlier_answers() {
+    let mut bench = Bench::idle();
+    bench.unit.watch_closely(true);
+    assert_eq!(bench.poll_after(500).as_deref(), Some(STATUS));
+    assert_eq!(bench.poll_after(700).as_deref(), Some(STATUS));
+    bench.hear(IDLE);
+    bench.now.steady += Duration::from_secs(10);
+    bench.unit.halt(Extent::Motion, bench.now);
+    bench.hear(&idle_reply_to(b'3'));
+    assert_eq!(bench.poll_after(50).as_deref(), Some(STATUS));
+    bench.hear(IDLE);
+    assert_eq!(bench.unit.state().measured.unwrap().asked, bench.now.steady);
+}
+
+#[test]
 fn answers_that_come_late_and_together_are_taken_for_no_younger_than_they_are() {
     let mut bench = Bench::idle();
     bench.unit.watch_closely(true);

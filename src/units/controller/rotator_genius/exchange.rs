@@ -181,10 +181,12 @@ impl Genius {
     }
 
     fn take_halt_answer(&mut self, is_accepted: bool, now: Moment) {
-        if self.halts.pop_front().is_none() {
+        let Some(until) = self.halts.pop_front() else {
             self.state.traffic.unsolicited += 1;
             return;
-        }
+        };
+        // The unit answers in order: the answers to earlier questions have come or are lost.
+        self.missing.retain(|asked| *asked + REPLY >= until);
         self.count_reply(now);
         if !is_accepted {
             self.events.push_back(ControllerEvent::HaltRefused("F".to_owned()));
