@@ -22,7 +22,7 @@ use glam::DQuat;
 
 use super::intent::Intent;
 use crate::{
-    astro::Angle,
+    astro::{Angle, AzEl},
     clock::{Instant, Moment},
     device::{
         AntennaState, Asked, Capabilities, Controller, Device, Motion, Pointing, Variant, aimed,
@@ -69,6 +69,8 @@ struct Situation<'a> {
     /// How far ahead of the last position a jog is judged, seconds.
     ahead_s: f64,
     lock_out: Option<&'a LockOut>,
+    /// Limits the looks at ways of one search; `None` where a single motion is judged.
+    budget: Option<&'a Budget>,
     now: Moment,
 }
 
@@ -105,8 +107,6 @@ pub(super) struct Gate {
     /// From where the pointing model has the beam of an antenna that tracks to where it is on the sky,
     /// if offsets of its axes are on.
     to_sky: Option<DQuat>,
-    /// The work of looks at ways that is left for this turn.
-    budget: Budget,
 }
 
 impl Gate {
@@ -132,7 +132,6 @@ impl Gate {
             detour: None,
             word: Word::default(),
             to_sky: None,
-            budget: Budget::default(),
         }
     }
 
@@ -264,14 +263,20 @@ impl Gate {
         self.controller.state()
     }
 
-    /// A turn of the thread that serves all antennas begins.
-    pub(super) fn begin_turn(&self) {
-        self.budget.renew();
-    }
-
     /// Checks whether `motion` could start if the antenna were at rest.
     pub(super) fn check(&self, motion: Motion, intent: Intent, now: Moment) -> Result<(), Refusal> {
-        self.examine(motion.into(), intent, false, now)
+        self.check_within(motion, intent, None, now)
+    }
+
+    fn check_within(
+        &self,
+        motion: Motion,
+        intent: Intent,
+        budget: Option<&Budget>,
+        now: Moment,
+    ) -> Result<(), Refusal> {
+        let situation = Situation { budget, ..self.situation(intent, false, now) };
+        self.examine(motion.into(), &situation)
     }
 
     /// Starts `motion`, or returns the reason not to. This is the only way to move an antenna.
@@ -282,7 +287,7 @@ impl Gate {
         stopping: bool,
         now: Moment,
     ) -> Result<(), Refusal> {
-        self.examine(motion.into(), intent, stopping, now)?;
+        self.examine(motion.into(), &self.situation(intent, stopping, now))?;
         self.remember_target(motion, intent, now);
         self.started_from_deg = self.axes_deg();
         self.unproved_since = Some(now.steady);
@@ -290,17 +295,10 @@ impl Gate {
         Ok(())
     }
 
-    fn examine(
-        &self,
-        asked: Asked,
-        intent: Intent,
-        stopping: bool,
-        now: Moment,
-    ) -> Result<(), Refusal> {
-        let situation = self.situation(intent, stopping, now);
+    fn examine(&self, asked: Asked, situation: &Situation<'_>) -> Result<(), Refusal> {
         self.ask_rules(|check| match (check, &asked) {
-            (Check::Moving(check), asked) => check(asked, &situation),
-            (Check::Motion(check), Asked::Motion(motion)) => check(motion, &situation),
+            (Check::Moving(check), asked) => check(asked, situation),
+            (Check::Motion(check), Asked::Motion(motion)) => check(motion, situation),
             _ => Ok(()),
         })
     }
@@ -330,6 +328,7 @@ impl Gate {
             to_sky: self.to_sky_in(intent),
             ahead_s: self.ahead_s(now),
             lock_out: self.lock_out.as_ref(),
+            budget: None,
             now,
         }
     }
@@ -351,7 +350,7 @@ impl Gate {
             _ => Ok(()),
         })?;
         if action.moves {
-            self.examine(Asked::Action(act.action), intent, stopping, now)?;
+            self.examine(Asked::Action(act.action), &self.situation(intent, stopping, now))?;
             self.ask_rules(|check| match check {
                 Check::MovingAct(check) => check(&act, &situation),
                 _ => Ok(()),
@@ -414,8 +413,8 @@ impl Gate {
         Some(Pointing::of_axes(azimuth, elevation))
     }
 
-    /// Where the antenna points. An axis without an angle counts as where its limit switch says
-    /// that it stands.
+    /// Where the antenna points. An axis without an angle counts as where its limit switch, or an
+    /// angle less than a second old, says that it stands.
     pub(super) fn pointing(&self) -> Option<Pointing> {
         let reported = self.state().measured?.pointing;
         let has_elevation = self.variant.capabilities.has_elevation();
@@ -424,8 +423,12 @@ impl Gate {
         if is_whole {
             return Some(reported);
         }
-        let axes_deg = self.intervals().and_then(Intervals::angles_deg);
-        Some(axes_deg.map_or(reported, |axes_deg| self.mount.direction(axes_deg).into()))
+        let Some(axes_deg) = self.intervals().and_then(Intervals::angles_deg) else {
+            return Some(reported);
+        };
+        let AzEl { azimuth, elevation } = self.mount.direction(axes_deg);
+        let elevation = has_elevation.then_some(elevation);
+        Some(Pointing { azimuth: Some(azimuth), elevation })
     }
 
     /// Measured angle of the elevation axis, degrees; `None` without one.

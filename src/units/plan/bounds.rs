@@ -26,6 +26,7 @@ use crate::{
 };
 use aim::{Aim, Towards};
 pub use blocks::Budget;
+use blocks::Reached;
 use near::{Clear, Named, Near};
 pub use sweep::Sweep;
 
@@ -54,6 +55,15 @@ pub struct Clearance {
     pub angle: Angle,
     /// The operator is warned; motion is neither refused nor stopped.
     pub warns_only: bool,
+}
+
+/// Where the axes stand with regard to a barrier that refuses motion.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Stands {
+    Outside,
+    MayBeInside,
+    /// To find out would take too long.
+    Unsettled,
 }
 
 /// The bounds of one antenna.
@@ -168,10 +178,10 @@ pub struct BoundsAt<'a> {
 }
 
 impl<'a> BoundsAt<'a> {
-    /// The same where [`Self::blocks`] shares `budget` with other looks.
+    /// The same for one of many looks that share `budget`.
     #[must_use]
-    pub fn within(self, budget: &'a Budget) -> Self {
-        Self { budget: Some(budget), ..self }
+    pub fn within(self, budget: Option<&'a Budget>) -> Self {
+        Self { budget, ..self }
     }
 
     /// The least clearance from every barrier among the positions in `place`: exact where that is
@@ -248,8 +258,8 @@ impl<'a> BoundsAt<'a> {
 
     /// The first barrier that refuses motion and that the axes may be inside of in `place`.
     pub fn may_be_inside(&self, place: Sweep) -> Option<Barrier> {
-        let each = self.barriers(self.aim(place.middle())).zip(self.are_outside(place));
-        each.filter(|(_, is_outside)| !is_outside)
+        let each = self.barriers(self.aim(place.middle())).zip(self.stands(place));
+        each.filter(|(_, stands)| *stands != Stands::Outside)
             .map(|(barrier, _)| barrier.name.clone_of())
             .next()
     }
@@ -285,33 +295,38 @@ impl<'a> BoundsAt<'a> {
         self.model.map_or(1.0, |model| model.max_beam_turn())
     }
 
-    /// The bounds without the barriers that the axes may be inside of.
+    /// The bounds without the barriers that the axes may be inside of. Those for which that is not
+    /// settled stay.
     pub fn without_entered(&self, place: Sweep) -> Bounds {
-        let mut outside = self.are_outside(place).into_iter();
-        let mut is_outside = || outside.next().unwrap_or(true);
+        let mut each = self.stands(place).into_iter();
+        let mut is_kept = || each.next() != Some(Stands::MayBeInside);
         let mut rest = self.bounds.clone();
-        rest.minimum_elevation = self.minimum_elevation.filter(|_| is_outside());
-        rest.keep_outs.retain(|_| is_outside());
-        rest.sun = rest.sun.filter(|_| is_outside());
+        rest.minimum_elevation = self.minimum_elevation.filter(|_| is_kept());
+        rest.keep_outs.retain(|_| is_kept());
+        rest.sun = rest.sun.filter(|_| is_kept());
         rest
     }
 
-    /// For each barrier, in the order of [`Self::clearances`], whether it only warns or the axes are
-    /// outside it wherever they may be in `place`.
-    fn are_outside(&self, place: Sweep) -> Vec<bool> {
+    /// For each barrier, in the order of [`Self::clearances`], where the axes stand, which may be
+    /// anywhere in `place`.
+    fn stands(&self, place: Sweep) -> Vec<Stands> {
         let is_one = place.radius_deg() <= 0.0;
         let each = self.barriers(self.aim(place.middle())).enumerate();
-        let is_outside = |(index, barrier): (usize, Near<'_>)| {
-            let is_free = || {
-                if is_one {
-                    barrier.angle_below(Angle::ZERO).is_none()
-                } else {
-                    self.blocks_from(place, Some(index)).is_none()
+        each.map(|(index, barrier)| {
+            if barrier.warns_only {
+                Stands::Outside
+            } else if is_one {
+                let entered = barrier.angle_below(Angle::ZERO);
+                entered.map_or(Stands::Outside, |_| Stands::MayBeInside)
+            } else {
+                match self.blocks_from(place, Some(index)) {
+                    None => Stands::Outside,
+                    Some(Reached { is_settled: true, .. }) => Stands::MayBeInside,
+                    Some(Reached { is_settled: false, .. }) => Stands::Unsettled,
                 }
-            };
-            barrier.warns_only || is_free()
-        };
-        each.map(is_outside).collect()
+            }
+        })
+        .collect()
     }
 
     /// The first barrier that the axes may enter within `sweep`, and a direction inside it. From
@@ -320,16 +335,20 @@ impl<'a> BoundsAt<'a> {
         let lowest = self.lowest(start).elevation;
         if self.minimum_elevation.is_some_and(|minimum| lowest < minimum) {
             let minimum_elevation = Some(lowest);
-            return Self { minimum_elevation, ..self.clone() }.blocks_from(sweep, None);
+            return Self { minimum_elevation, ..self.clone() }.blocks_all(sweep);
         }
-        self.blocks_from(sweep, None)
+        self.blocks_all(sweep)
+    }
+
+    fn blocks_all(&self, sweep: Sweep) -> Option<(Barrier, AzEl)> {
+        self.blocks_from(sweep, None).map(|reached| (reached.barrier, reached.at))
     }
 
     /// Like [`Self::blocks`], for an unknown position within `start`: any descent counts as one below
     /// the minimum elevation if it may lead there.
     pub fn blocks_unseen(&self, sweep: Sweep, start: Sweep) -> Option<(Barrier, AzEl)> {
         if self.lowest(sweep).elevation < self.lowest(start).elevation {
-            self.blocks_from(sweep, None)
+            self.blocks_all(sweep)
         } else {
             self.blocks(sweep, start)
         }

@@ -9,7 +9,7 @@ use crate::{
         JogSpeeds, aimed,
         panel::{Act, Lead},
     },
-    plan::{Barrier, Bounds, BoundsAt, detour::AxisLimits, on_board::ALONG_DEG},
+    plan::{Barrier, Bounds, BoundsAt, bounds::Budget, detour::AxisLimits, on_board::ALONG_DEG},
 };
 
 /// An antenna leaves a barrier only by hand, at no more than this share of the fastest rate,
@@ -94,7 +94,7 @@ impl Situation<'_> {
 
     /// These bounds at present, with the offsets of the axes.
     fn at_present<'b>(&'b self, bounds: &'b Bounds) -> BoundsAt<'b> {
-        bounds.at(self.now.utc).turned_by(self.to_sky).within(&self.gate.budget)
+        bounds.at(self.now.utc).turned_by(self.to_sky).within(self.budget)
     }
 
     /// The rates at which the axes really turn in a jog: a controller with named speeds has no
@@ -308,6 +308,20 @@ fn crossed(direction: AzEl, lower_axis_azimuth_deg: f64) -> [f64; 2] {
     [axes.lower, axes.upper].map(|angle| angle.degrees() + 90.0)
 }
 
+/// The farthest place that is reached if all nearer ones are, found in few looks; another one that is
+/// reached, or none, where the antenna has passed some of them.
+fn farthest_reached<T>(places: &[T], is_reached: impl Fn(&T) -> bool) -> Option<&T> {
+    let (mut reached, mut open) = (None, places);
+    while let Some((middle, beyond)) = open.get(open.len() / 2..).and_then(<[T]>::split_first) {
+        if is_reached(middle) {
+            (reached, open) = (Some(middle), beyond);
+        } else {
+            open = open.get(..open.len() / 2).unwrap_or_default();
+        }
+    }
+    reached
+}
+
 impl Gate {
     /// The way of `motion` to its position: direct, or one axis after the other where both
     /// together may sweep through a barrier.
@@ -317,20 +331,33 @@ impl Gate {
         intent: Intent,
         now: Moment,
     ) -> Result<Route, NoRoute> {
-        let refusal = match self.check(motion, intent, now) {
+        self.route_within(motion, intent, &Budget::default(), now)
+    }
+
+    /// The same where many ways are looked at in one turn: what the search may still do is up to
+    /// `budget`.
+    pub(in crate::driver) fn route_within(
+        &self,
+        motion: Motion,
+        intent: Intent,
+        budget: &Budget,
+        now: Moment,
+    ) -> Result<Route, NoRoute> {
+        let check = |motion| self.check_within(motion, intent, Some(budget), now);
+        let refusal = match check(motion) {
             Ok(()) => return Ok(Route { first: motion, then: None }),
             Err(refusal @ Refusal::Forbidden { .. }) => refusal,
             Err(other) => return Err(other.into()),
         };
         let Some((from_deg, to_deg)) = self.ends(motion, now) else { return Err(refusal.into()) };
         let corners_deg = [[to_deg[0], from_deg[1]], [from_deg[0], to_deg[1]]];
-        let bounds = self.bounds_in(intent);
-        let bounds_now = bounds.at(now.utc).turned_by(self.to_sky_in(intent)).within(&self.budget);
+        let bounds = self.bounds_in(intent).at(now.utc);
+        let bounds_now = bounds.turned_by(self.to_sky_in(intent)).within(Some(budget));
         for corner_deg in corners_deg {
             let first = self.to_axes(corner_deg);
             let second = Sweep::between(corner_deg, to_deg);
-            let is_free = bounds_now.blocks(second, Sweep::at(corner_deg)).is_none()
-                && self.check(first, intent, now).is_ok();
+            let is_free =
+                bounds_now.blocks(second, Sweep::at(corner_deg)).is_none() && check(first).is_ok();
             if is_free {
                 return Ok(Route { first, then: Some(motion) });
             }
@@ -340,13 +367,10 @@ impl Gate {
         }
         // A sequence of positions may follow any way.
         let places_deg = self.detour_places_deg(from_deg, to_deg, now)?;
-        // By halves, because there may be many places and each look takes time.
-        let is_reached =
-            |place_deg: &[f64; 2]| self.check(self.to_axes(*place_deg), intent, now).is_ok();
-        let reached = places_deg.partition_point(is_reached);
-        let farthest = places_deg.iter().take(reached).next_back();
-        let first = farthest.filter(|place_deg| is_reached(place_deg));
-        first
+        let is_reached = |place_deg: &[f64; 2]| check(self.to_axes(*place_deg)).is_ok();
+        let farthest = farthest_reached(places_deg, is_reached)
+            .or_else(|| places_deg.iter().rev().find(|place_deg| is_reached(place_deg)));
+        farthest
             .map(|place_deg| Route { first: self.to_axes(*place_deg), then: Some(motion) })
             .ok_or(NoRoute::Refused(refusal))
     }

@@ -9,7 +9,7 @@ use crate::{
     clock::{Instant, Moment},
     device::Motion,
     driver::{Inside, Refusal},
-    plan::{Barrier, Bounds, ProgramTrack},
+    plan::{Barrier, Bounds, ProgramTrack, bounds::Budget},
 };
 
 /// How long the operator's permission lets it out.
@@ -113,18 +113,19 @@ impl Session {
         };
         let bounds = self.gate.bounds();
         // The direction must be reached, and on a way without a corner.
-        let way = |direction: AzEl, intent: Intent| {
-            let motion = self.gate.nearest(to(direction));
-            let route = self.gate.route(motion.ok()?, intent, now).ok()?;
+        let way = |direction: AzEl, intent: Intent, budget: &Budget| {
+            let motion = self.gate.nearest(to(direction)).ok()?;
+            let route = self.gate.route_within(motion, intent, budget, now).ok()?;
             Some((direction, route.then.is_none()))
         };
+        let budget = Budget::default();
         // Without an elevation axis it reaches only its own elevation.
         let is_reached =
             |at: &AzEl| has_elevation || (at.elevation - here.elevation).degrees().abs() < 1e-6;
         let refuges = bounds.refuges(here, now.utc).filter(is_reached).take(MAX_REFUGES);
         let mut round_a_corner = None;
         let refuge = refuges
-            .filter_map(|refuge| way(refuge, Intent::Position))
+            .filter_map(|refuge| way(refuge, Intent::Position, &budget))
             .find(|(refuge, is_direct)| {
                 round_a_corner = round_a_corner.or(Some(*refuge));
                 *is_direct
@@ -134,7 +135,9 @@ impl Session {
         let park = self.setup.park.direction().filter(|park| {
             let is_nearer =
                 refuge.is_none_or(|refuge| here.separation(*park) <= here.separation(refuge));
-            is_nearer && bounds.stays_clear(*park, now.utc) && way(*park, Intent::Park).is_some()
+            is_nearer
+                && bounds.stays_clear(*park, now.utc)
+                && way(*park, Intent::Park, &Budget::default()).is_some()
         });
         match (park, refuge) {
             (Some(park), _) => self.go_to(to(park), Intent::Park, now),

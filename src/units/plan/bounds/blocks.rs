@@ -21,7 +21,8 @@ const LOOKS_PER_BUDGET: usize = 3;
 /// Work for a part of a range before any edge, in edges.
 const EDGES_OF_PART: usize = 20;
 
-/// The work left for several looks of one turn of the thread that serves all antennas.
+/// The work left for the looks of one search, which must not hold up the thread that serves all
+/// antennas.
 #[derive(Debug, Clone)]
 pub struct Budget {
     edges: Cell<usize>,
@@ -34,11 +35,6 @@ impl Default for Budget {
 }
 
 impl Budget {
-    /// Another turn begins.
-    pub fn renew(&self) {
-        self.edges.set(MAX_EDGES_IN_ALL);
-    }
-
     fn of_one_look(&self) -> usize {
         self.edges.get() / LOOKS_PER_BUDGET
     }
@@ -48,21 +44,28 @@ impl Budget {
     }
 }
 
+/// A barrier that a range of positions reaches into.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Reached {
+    pub(super) barrier: Barrier,
+    /// A direction inside it.
+    pub(super) at: AzEl,
+    /// `false` if the work ended first, so the barrier only counts as reached.
+    pub(super) is_settled: bool,
+}
+
 impl BoundsAt<'_> {
-    /// The first barrier that `sweep` reaches into, and a direction inside it: the barrier at `index`,
-    /// or any that refuses motion if it is `None`.
-    pub(super) fn blocks_from(
-        &self,
-        sweep: Sweep,
-        index: Option<usize>,
-    ) -> Option<(Barrier, AzEl)> {
+    /// The first barrier that `sweep` reaches into: the barrier at `index`, or any that refuses motion
+    /// if it is `None`.
+    pub(super) fn blocks_from(&self, sweep: Sweep, index: Option<usize>) -> Option<Reached> {
         // The floor is level, and so may be a side of the sweep: halves would never settle it.
         if let Some(minimum) = self.minimum_elevation
             && index.is_none_or(|index| index == 0)
         {
             let lowest = self.lowest(sweep);
             if lowest.elevation.degrees() < minimum.degrees() - FINEST_DEG {
-                return Some((Barrier::MinimumElevation, lowest));
+                let barrier = Barrier::MinimumElevation;
+                return Some(Reached { barrier, at: lowest, is_settled: true });
             }
         }
         let all = self.barriers(self.aim(sweep.middle())).enumerate();
@@ -82,12 +85,7 @@ impl BoundsAt<'_> {
 
     /// The first of these barriers that `sweep` reaches into. `left`: the number of edges that may
     /// be examined.
-    fn first_entered(
-        &self,
-        sweep: Sweep,
-        asked: Rc<[usize]>,
-        left: &mut usize,
-    ) -> Option<(Barrier, AzEl)> {
+    fn first_entered(&self, sweep: Sweep, asked: Rc<[usize]>, left: &mut usize) -> Option<Reached> {
         let mut open = vec![(sweep, asked)];
         while let Some((part, barriers)) = open.pop() {
             *left = left.saturating_sub(EDGES_OF_PART);
@@ -113,8 +111,10 @@ impl BoundsAt<'_> {
                 }
             }
             let Some((index, name, angle)) = nearest else { continue };
-            if angle.degrees() < -FINEST_DEG || radius_deg < SMALLEST_PART_DEG || *left == 0 {
-                return Some((name.clone_of(), self.nearest_of(aim, index, angle)));
+            let is_settled = angle.degrees() < -FINEST_DEG || radius_deg < SMALLEST_PART_DEG;
+            if is_settled || *left == 0 {
+                let at = self.nearest_of(aim, index, angle);
+                return Some(Reached { barrier: name.clone_of(), at, is_settled });
             }
             let near: Rc<[usize]> = near.into();
             open.extend(part.halves().map(|half| (half, Rc::clone(&near))));
@@ -171,35 +171,44 @@ mod tests {
         (0..8).map(saw).collect()
     }
 
-    /// Returns `true` if a turn just above the saws is free.
-    fn is_free_above_saws(tilt_deg: f64, turn_deg: f64, budget: Option<&Budget>) -> bool {
+    /// The bounds of an antenna amid the saws, and a turn just above them.
+    fn above_saws(tilt_deg: f64, turn_deg: f64) -> (Bounds, Sweep) {
         let station = Station { keep_outs: saws(), ..Station::default() };
         let mut antenna = Antenna::genius("Mast", "memory:1");
         antenna.pointing_model.tilt_east_deg = tilt_deg;
-        let bounds = Bounds::of(&station, &antenna);
-        let now = bounds.at("2026-08-12T22:00:00Z".parse().unwrap());
         let half_beam_deg = antenna.beam_width().degrees() / 2.0;
         let lowest_deg = 21.0 + half_beam_deg + tilt_deg + 1.0;
-        let sweep = Sweep([(0.0, turn_deg), (lowest_deg, 89.0)]);
-        let now = match budget {
-            Some(budget) => now.within(budget),
-            None => now,
-        };
-        now.blocks(sweep, Sweep::at([0.0, 89.0])).is_none()
+        (Bounds::of(&station, &antenna), Sweep([(0.0, turn_deg), (lowest_deg, 89.0)]))
+    }
+
+    fn is_free_above_saws(tilt_deg: f64, turn_deg: f64, budget: Option<&Budget>) -> bool {
+        let (bounds, sweep) = above_saws(tilt_deg, turn_deg);
+        let now = bounds.at("2026-08-12T22:00:00Z".parse().unwrap());
+        now.within(budget).blocks(sweep, Sweep::at([0.0, 89.0])).is_none()
     }
 
     #[test]
-    fn many_looks_of_one_turn_do_less_and_less_work() {
+    fn many_looks_of_one_search_do_less_and_less_work() {
         let budget = Budget::default();
         let is_free = |turn_deg| is_free_above_saws(2.0, turn_deg, Some(&budget));
         assert!(is_free(20.0));
         for _ in 0..10 {
             assert!(!is_free(360.0));
         }
-        assert!(!is_free(20.0), "the work of this turn is done");
+        assert!(!is_free(20.0), "the work is done");
         assert!(is_free(0.1), "a short way needs little");
-        budget.renew();
-        assert!(is_free(20.0));
+    }
+
+    #[test]
+    fn a_barrier_for_which_the_work_ends_too_early_stays_among_the_bounds() {
+        let (bounds, place) = above_saws(2.0, 360.0);
+        let now = bounds.at("2026-08-12T22:00:00Z".parse().unwrap());
+        assert_eq!(now.without_entered(place), bounds, "it is outside of each");
+        let budget = Budget::default();
+        for _ in 0..40 {
+            is_free_above_saws(2.0, 360.0, Some(&budget));
+        }
+        assert_eq!(now.within(Some(&budget)).without_entered(place), bounds);
     }
 
     #[test]
