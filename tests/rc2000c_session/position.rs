@@ -222,6 +222,21 @@ async fn a_direction_that_is_only_looked_at_is_judged_like_a_motion_and_moves_no
 }
 
 #[tokio::test(start_paused = true)]
+async fn an_axis_that_turns_beside_one_at_its_limit_is_found_as_left() {
+    let mut rig = in_position().await;
+    go_to_the_limit(&mut rig).await;
+    rig.send(Command::Position { azimuth: None, elevation: Some(Angle::from_degrees(80.0)) });
+    rig.until("it moves", 5, |shown| shown.state.measured.unwrap().moving()).await;
+    rig.set_off(true);
+    rig.seconds(4.0).await;
+    rig.events();
+    rig.set_off(false);
+    let is_back = |event: &Event| matches!(event, Event::Back { .. });
+    let back = rig.until_event(30, is_back).await;
+    assert!(matches!(back, Event::Back { is_as_left: true, .. }), "{back:?}");
+}
+
+#[tokio::test(start_paused = true)]
 async fn after_a_lost_link_a_way_ends_at_its_corner() {
     let mut rig = in_position().await;
     let corners_deg = [(190.0, -5.0), (200.0, -5.0), (200.0, 60.0), (190.0, 60.0)];

@@ -267,10 +267,11 @@ impl Engine {
             alarms.clear(of, now, |kind| matches!(kind, AlarmKind::Unreadable(_)));
         }
         if let Some(clock) = snapshot.state.on_board.clock {
-            let off = clock.is_set && clock.surely_ahead_s().abs() > CLOCK_OFF_S;
-            if off {
+            let is_surely_off = clock.surely_ahead_s().abs() > CLOCK_OFF_S;
+            let may_be_off = clock.ahead_s.abs() + clock.error_s > CLOCK_OFF_S;
+            if clock.is_set && is_surely_off {
                 alarms.raise(of, AlarmKind::ClockOff(clock.ahead_s), now);
-            } else {
+            } else if !clock.is_set || !may_be_off {
                 alarms.clear(of, now, |kind| matches!(kind, AlarmKind::ClockOff(_)));
             }
             if clock.is_set {

@@ -97,7 +97,7 @@ impl Session {
         }
         self.remember_likeness();
         let now = self.now();
-        self.contact.left_at = self.gate.state().measured.map(|measured| measured.pointing);
+        self.contact.left_at = self.gate.pointing();
         self.gate.device().link_down(now);
         self.lose_shift(now);
         self.record();
@@ -256,7 +256,6 @@ impl Session {
                 continue;
             }
             let input = self.wait(&mut reader, &mut buffer).await;
-            self.gate.begin_turn();
             match input {
                 Input::Over => {
                     self.shut_down(&mut reader, &mut writer).await;

@@ -67,7 +67,11 @@ impl Watch {
     /// Judges again if the unit reports something else.
     fn judge_again(&mut self, unit: &OnBoard, holds_target: bool) {
         let same_clock = match (unit.clock, self.found_by.clock) {
-            (Some(now), Some(then)) => (now.ahead_s - then.ahead_s).abs() < SAME_CLOCK_S,
+            (Some(now), Some(then)) => {
+                let changes_s =
+                    [now.ahead_s - then.ahead_s, now.surely_ahead_s() - then.surely_ahead_s()];
+                changes_s.iter().all(|change_s| change_s.abs() < SAME_CLOCK_S)
+            }
             (now, then) => now.is_some() == then.is_some(),
         };
         let with_clock = OnBoard { clock: self.found_by.clock, ..unit.clone() };

@@ -249,12 +249,12 @@ impl Session {
             .map_or(Duration::ZERO, |since| now.steady.saturating_duration_since(since));
         let lost = away + std::mem::take(&mut self.contact.slept);
         // What is owed is sent first, and ends what would go on.
-        let is_as_left =
-            !self.stop.is_under_way() && self.is_as_left(found, measured.pointing, now);
+        let at = self.gate.pointing().unwrap_or(measured.pointing);
+        let is_as_left = !self.stop.is_under_way() && self.is_as_left(found, at, now);
         if self.contact.away_since.is_some() && self.activity.program().is_none() {
             self.contact.recheck = Some(Recheck { since: now.steady, lost });
         }
-        self.follow_on(lost, measured.pointing, now);
+        self.follow_on(lost, at, now);
         // A slew is watched further; its outcome is still to be reported.
         if let Some(Slew { stage: SlewStage::UnderWay { since, .. }, .. }) =
             self.activity.slew_mut()
