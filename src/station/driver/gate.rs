@@ -413,8 +413,8 @@ impl Gate {
         Some(Pointing::of_axes(azimuth, elevation))
     }
 
-    /// Where the antenna points. An axis without an angle counts as where its limit switch, or an
-    /// angle less than a second old, says that it stands.
+    /// Where the antenna points. For an axis without an angle, uses its limit switch or an angle less
+    /// than a second old.
     pub(super) fn pointing(&self) -> Option<Pointing> {
         let reported = self.state().measured?.pointing;
         let has_elevation = self.variant.capabilities.has_elevation();

@@ -43,6 +43,9 @@ const RESCUE_POLL: Duration = Duration::from_millis(250);
 /// After a repeated question both answers may come. Nothing is asked until the surplus one
 /// must have come.
 const DRAIN: Duration = Duration::from_millis(1100);
+/// Number of missing answers that are kept count of: a unit that answers everything else but no
+/// question is of no use.
+const MAX_MISSING: usize = 1000;
 /// After this long without a byte, an unfinished reply is given up.
 const QUIET: Duration = Duration::from_millis(250);
 /// After this long without a good reply, the link is given up.

@@ -59,10 +59,10 @@ pub struct Clearance {
 
 /// Where the axes stand with regard to a barrier that refuses motion.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Stands {
+enum Standing {
     Outside,
     MayBeInside,
-    /// To find out would take too long.
+    /// The work of the search ended first.
     Unsettled,
 }
 
@@ -184,14 +184,21 @@ impl<'a> BoundsAt<'a> {
         Self { budget, ..self }
     }
 
+    /// The same for several looks, which share `budget` unless they share one already.
+    fn sharing<'b>(&'b self, budget: &'b Budget) -> BoundsAt<'b> {
+        BoundsAt { budget: Some(self.budget.unwrap_or(budget)), ..self.clone() }
+    }
+
     /// The least clearance from every barrier among the positions in `place`: exact where that is
     /// one position, else taken from samples, and negative where [`Self::blocks`] finds a way in.
     pub fn least_clearances(&self, place: Sweep) -> Vec<Clearance> {
         let within_deg = place.sampled_within_deg() * self.max_beam_turn();
         let each = self.each_in(place).into_iter().enumerate();
+        let shared = Budget::default();
+        let sharing = self.sharing(&shared);
         each.map(|(index, (barrier, angle, warns_only))| {
             let may_hide = (0.0..within_deg).contains(&angle.degrees());
-            let hides = may_hide && self.blocks_from(place, Some(index)).is_some();
+            let hides = may_hide && sharing.blocks_from(place, Some(index)).is_some();
             let angle = if hides { Angle::from_degrees(-FINEST_DEG) } else { angle };
             Clearance { barrier: barrier.clone_of(), angle, warns_only }
         })
@@ -259,7 +266,7 @@ impl<'a> BoundsAt<'a> {
     /// The first barrier that refuses motion and that the axes may be inside of in `place`.
     pub fn may_be_inside(&self, place: Sweep) -> Option<Barrier> {
         let each = self.barriers(self.aim(place.middle())).zip(self.stands(place));
-        each.filter(|(_, stands)| *stands != Stands::Outside)
+        each.filter(|(_, stands)| *stands != Standing::Outside)
             .map(|(barrier, _)| barrier.name.clone_of())
             .next()
     }
@@ -299,7 +306,7 @@ impl<'a> BoundsAt<'a> {
     /// settled stay.
     pub fn without_entered(&self, place: Sweep) -> Bounds {
         let mut each = self.stands(place).into_iter();
-        let mut is_kept = || each.next() != Some(Stands::MayBeInside);
+        let mut is_kept = || each.next() != Some(Standing::MayBeInside);
         let mut rest = self.bounds.clone();
         rest.minimum_elevation = self.minimum_elevation.filter(|_| is_kept());
         rest.keep_outs.retain(|_| is_kept());
@@ -309,20 +316,22 @@ impl<'a> BoundsAt<'a> {
 
     /// For each barrier, in the order of [`Self::clearances`], where the axes stand, which may be
     /// anywhere in `place`.
-    fn stands(&self, place: Sweep) -> Vec<Stands> {
+    fn stands(&self, place: Sweep) -> Vec<Standing> {
         let is_one = place.radius_deg() <= 0.0;
+        let shared = Budget::default();
+        let sharing = self.sharing(&shared);
         let each = self.barriers(self.aim(place.middle())).enumerate();
         each.map(|(index, barrier)| {
             if barrier.warns_only {
-                Stands::Outside
+                Standing::Outside
             } else if is_one {
                 let entered = barrier.angle_below(Angle::ZERO);
-                entered.map_or(Stands::Outside, |_| Stands::MayBeInside)
+                entered.map_or(Standing::Outside, |_| Standing::MayBeInside)
             } else {
-                match self.blocks_from(place, Some(index)) {
-                    None => Stands::Outside,
-                    Some(Reached { is_settled: true, .. }) => Stands::MayBeInside,
-                    Some(Reached { is_settled: false, .. }) => Stands::Unsettled,
+                match sharing.blocks_from(place, Some(index)) {
+                    None => Standing::Outside,
+                    Some(Reached { is_settled: true, .. }) => Standing::MayBeInside,
+                    Some(Reached { is_settled: false, .. }) => Standing::Unsettled,
                 }
             }
         })

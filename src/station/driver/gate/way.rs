@@ -22,6 +22,9 @@ const OUT_GAIN_DEG: f64 = 1e-6;
 /// its ends: degrees of the axis that turns further.
 const LOOK_OUT_DEG: f64 = 0.5;
 
+/// Number of places of a detour that are tried first, evenly from its end.
+const FIRST_PLACES: usize = 6;
+
 /// The way of a motion to a position.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(in crate::driver) struct Route {
@@ -308,20 +311,6 @@ fn crossed(direction: AzEl, lower_axis_azimuth_deg: f64) -> [f64; 2] {
     [axes.lower, axes.upper].map(|angle| angle.degrees() + 90.0)
 }
 
-/// The farthest place that is reached if all nearer ones are, found in few looks; another one that is
-/// reached, or none, where the antenna has passed some of them.
-fn farthest_reached<T>(places: &[T], is_reached: impl Fn(&T) -> bool) -> Option<&T> {
-    let (mut reached, mut open) = (None, places);
-    while let Some((middle, beyond)) = open.get(open.len() / 2..).and_then(<[T]>::split_first) {
-        if is_reached(middle) {
-            (reached, open) = (Some(middle), beyond);
-        } else {
-            open = open.get(..open.len() / 2).unwrap_or_default();
-        }
-    }
-    reached
-}
-
 impl Gate {
     /// The way of `motion` to its position: direct, or one axis after the other where both
     /// together may sweep through a barrier.
@@ -334,8 +323,7 @@ impl Gate {
         self.route_within(motion, intent, &Budget::default(), now)
     }
 
-    /// The same where many ways are looked at in one turn: what the search may still do is up to
-    /// `budget`.
+    /// The same for one of many searches that share `budget`.
     pub(in crate::driver) fn route_within(
         &self,
         motion: Motion,
@@ -367,9 +355,15 @@ impl Gate {
         }
         // A sequence of positions may follow any way.
         let places_deg = self.detour_places_deg(from_deg, to_deg, now)?;
-        let is_reached = |place_deg: &[f64; 2]| check(self.to_axes(*place_deg)).is_ok();
-        let farthest = farthest_reached(places_deg, is_reached)
-            .or_else(|| places_deg.iter().rev().find(|place_deg| is_reached(place_deg)));
+        let is_reached = |place_deg: &&[f64; 2]| check(self.to_axes(**place_deg)).is_ok();
+        // A few first, because each look takes time.
+        let step = places_deg.len().div_ceil(FIRST_PLACES).max(1);
+        let from_the_end = || places_deg.iter().rev();
+        let farthest = from_the_end()
+            .step_by(step)
+            .chain(from_the_end())
+            .take_while(|_| !budget.is_spent())
+            .find(is_reached);
         farthest
             .map(|place_deg| Route { first: self.to_axes(*place_deg), then: Some(motion) })
             .ok_or(NoRoute::Refused(refusal))

@@ -123,6 +123,7 @@ impl Session {
         let is_reached =
             |at: &AzEl| has_elevation || (at.elevation - here.elevation).degrees().abs() < 1e-6;
         let refuges = bounds.refuges(here, now.utc).filter(is_reached).take(MAX_REFUGES);
+        let refuges = refuges.take_while(|_| !budget.is_spent());
         let mut round_a_corner = None;
         let refuge = refuges
             .filter_map(|refuge| way(refuge, Intent::Position, &budget))

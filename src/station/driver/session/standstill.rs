@@ -76,7 +76,7 @@ pub(super) enum Proof {
     Flags { axis: usize },
 }
 
-/// Largest difference between the times that two replies take on an ordinary line.
+/// Longest time that a reply takes on an ordinary line.
 const UNEVEN: Duration = Duration::from_millis(100);
 
 /// The positions measured since a halt.
@@ -132,10 +132,10 @@ impl Looks {
             return None;
         }
         let first = *self.first.insert(first.unwrap_or(look));
-        // The reply to a repeated question may have been measured at any time since the first one.
+        // Each may have been measured at any time between its question and its reply.
         let asked = look.asked.saturating_duration_since(first.asked);
-        let received = look.received.saturating_duration_since(first.received);
-        if asked < figures.gap || received + UNEVEN < figures.gap {
+        let apart = look.asked.saturating_duration_since(first.received);
+        if asked < figures.gap || apart + UNEVEN < figures.gap {
             return None;
         }
         Some(match figures.blind_axis(&first, &look) {

@@ -98,6 +98,13 @@ impl Rc2000c {
             .or_else(|| self.halt.take_if(|sent| sent.is_answered_by(reply)));
         let Some(answered) = answered else { return self.take_surplus(reply, now) };
         self.count_reply(now);
+        if answered.purpose == Purpose::Halt {
+            // The unit answers in order, so nothing comes any more to a question before it.
+            let overtaken = self.outstanding.take_if(|sent| sent.purpose == Purpose::Poll);
+            if let Some(lost) = overtaken {
+                self.miss(&lost, false, now);
+            }
+        }
         let asked = self.asked(&answered);
         let has_surplus = match answered.purpose {
             Purpose::Poll => !self.missing.is_empty(),
@@ -116,6 +123,7 @@ impl Rc2000c {
             && let Some(asked) = self.missing.pop_front()
         {
             self.count_reply(now);
+            self.end_drain();
             self.take_status(*status, asked, asked, now);
             return self.refresh_panel();
         }
@@ -137,10 +145,16 @@ impl Rc2000c {
         if answered.purpose != Purpose::Poll {
             // The unit answers in order: the answers to earlier questions have come or are lost.
             self.missing.retain(|question| question.steady >= sent.steady);
+            self.end_drain();
             return sent;
         }
         self.missing.push_back(sent);
         self.missing.pop_front().unwrap_or(sent)
+    }
+
+    /// Waits no longer for surplus answers once none can come.
+    fn end_drain(&mut self) {
+        self.drain_until.take_if(|_| self.missing.is_empty());
     }
 
     /// Until when only a halt may go out. Surplus answers are waited for, so that they show as

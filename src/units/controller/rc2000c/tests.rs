@@ -132,12 +132,29 @@ fn the_reply_to_a_halt_ends_the_wait_for_earlier_answers() {
     assert_eq!(bench.poll_after(500).as_deref(), Some(STATUS));
     assert_eq!(bench.poll_after(700).as_deref(), Some(STATUS));
     bench.hear(IDLE);
-    bench.now.steady += Duration::from_secs(10);
-    bench.unit.halt(Extent::Motion, bench.now);
-    bench.hear(&idle_reply_to(b'3'));
-    assert_eq!(bench.poll_after(50).as_deref(), Some(STATUS));
+    for (wait_ms, is_asked) in [(10_000, false), (60, false), (300, true)] {
+        bench.now.steady += Duration::from_millis(wait_ms);
+        if is_asked {
+            bench.unit.ask_position(bench.now);
+            assert_eq!(bench.poll().as_deref(), Some(STATUS));
+        }
+        bench.unit.halt(Extent::Motion, bench.now);
+        bench.hear(&idle_reply_to(b'3'));
+        assert_eq!(bench.poll_after(50).as_deref(), Some(STATUS), "after {wait_ms} ms");
+        bench.hear(IDLE);
+        assert_eq!(bench.unit.state().measured.unwrap().asked, bench.now.steady);
+    }
+}
+
+#[test]
+fn once_each_answer_has_come_nothing_more_is_waited_for() {
+    let mut bench = Bench::idle();
+    bench.unit.watch_closely(true);
+    assert_eq!(bench.poll_after(500).as_deref(), Some(STATUS));
+    assert_eq!(bench.poll_after(700).as_deref(), Some(STATUS));
     bench.hear(IDLE);
-    assert_eq!(bench.unit.state().measured.unwrap().asked, bench.now.steady);
+    bench.hear(IDLE);
+    assert_eq!(bench.poll_after(500).as_deref(), Some(STATUS));
 }
 
 #[test]
@@ -195,7 +212,7 @@ fn a_question_that_a_halt_has_overtaken_waits_for_it_before_it_is_repeated() {
     assert_eq!(bench.poll_after(200), None);
     assert!(bench.unit.due(bench.now) > bench.now.steady, "it never spins");
     bench.hear(&idle_reply_to(b'3'));
-    assert_eq!(bench.poll().as_deref(), Some(STATUS));
+    assert_eq!(bench.poll_after(50).as_deref(), Some(STATUS));
 }
 
 #[test]

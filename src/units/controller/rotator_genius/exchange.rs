@@ -1,6 +1,6 @@
 //! One request and its reply: matching, time-outs, effects.
 
-use super::{DRAIN, Genius, QUIET, REPLY, RESCUE_REPLY};
+use super::{DRAIN, Genius, MAX_MISSING, QUIET, REPLY, RESCUE_REPLY};
 use crate::{
     clock::{Instant, Moment},
     controller::reply_clock::ReplyClock,
@@ -181,12 +181,10 @@ impl Genius {
     }
 
     fn take_halt_answer(&mut self, is_accepted: bool, now: Moment) {
-        let Some(until) = self.halts.pop_front() else {
+        if self.halts.pop_front().is_none() {
             self.state.traffic.unsolicited += 1;
             return;
-        };
-        // The unit answers in order: the answers to earlier questions have come or are lost.
-        self.missing.retain(|asked| *asked + REPLY >= until);
+        }
         self.count_reply(now);
         if !is_accepted {
             self.events.push_back(ControllerEvent::HaltRefused("F".to_owned()));
@@ -225,7 +223,7 @@ impl Genius {
         let late = self.outstanding.take_if(|_| is_late)?;
         self.state.traffic.unanswered += 1;
         self.wire.no_reply(late.clock.waited(now), late.is_read(), now);
-        if late.is_read() {
+        if late.is_read() && self.missing.len() < MAX_MISSING {
             self.missing.push_back(late.sent());
         }
         match late.purpose {

@@ -18,6 +18,8 @@ const MAX_EDGES: usize = 20_000;
 const MAX_EDGES_IN_ALL: usize = 60_000;
 /// Share of what is left that one look may use, so that something is left for every later one.
 const LOOKS_PER_BUDGET: usize = 3;
+/// A search ends with fewer edges left: even a look that may examine none looks once at each barrier.
+const SPENT: usize = 2_000;
 /// Work for a part of a range before any edge, in edges.
 const EDGES_OF_PART: usize = 20;
 
@@ -35,6 +37,11 @@ impl Default for Budget {
 }
 
 impl Budget {
+    /// Returns `true` if too little is left for a search to go on.
+    pub fn is_spent(&self) -> bool {
+        self.edges.get() < SPENT
+    }
+
     fn of_one_look(&self) -> usize {
         self.edges.get() / LOOKS_PER_BUDGET
     }
@@ -75,20 +82,26 @@ impl BoundsAt<'_> {
         });
         let asked: Rc<[usize]> = asked.map(|(at, _)| at).collect();
         let allowed = self.budget.map_or(MAX_EDGES, Budget::of_one_look);
-        let mut left = allowed;
-        let entered = self.first_entered(sweep, asked, &mut left);
+        let mut used = 0;
+        let reached = self.first_reached(sweep, asked, allowed, &mut used);
         if let Some(budget) = self.budget {
-            budget.spend(allowed - left);
+            budget.spend(used);
         }
-        entered
+        reached
     }
 
-    /// The first of these barriers that `sweep` reaches into. `left`: the number of edges that may
-    /// be examined.
-    fn first_entered(&self, sweep: Sweep, asked: Rc<[usize]>, left: &mut usize) -> Option<Reached> {
+    /// The first of these barriers that `sweep` reaches into. `allowed`: the number of edges that it
+    /// may examine before it gives up; `used`: the number that it has examined.
+    fn first_reached(
+        &self,
+        sweep: Sweep,
+        asked: Rc<[usize]>,
+        allowed: usize,
+        used: &mut usize,
+    ) -> Option<Reached> {
         let mut open = vec![(sweep, asked)];
         while let Some((part, barriers)) = open.pop() {
-            *left = left.saturating_sub(EDGES_OF_PART);
+            *used += EDGES_OF_PART;
             let aim = self.aim(part.middle());
             let at = aim.to_enu();
             let radius_deg = part.radius_deg() * self.max_beam_turn();
@@ -100,7 +113,7 @@ impl BoundsAt<'_> {
             for index in barriers.iter().copied() {
                 let Some(barrier) = self.barrier(index, aim, at) else { continue };
                 let Some(angle) = barrier.angle_below(limit) else { continue };
-                *left = left.saturating_sub(barrier.cost());
+                *used += barrier.cost();
                 let of_box = as_box.and_then(|(az, el)| barrier.of_box_at_least(az, el));
                 if of_box.is_some_and(|of_box| of_box.degrees() >= -FINEST_DEG) {
                     continue;
@@ -112,7 +125,7 @@ impl BoundsAt<'_> {
             }
             let Some((index, name, angle)) = nearest else { continue };
             let is_settled = angle.degrees() < -FINEST_DEG || radius_deg < SMALLEST_PART_DEG;
-            if is_settled || *left == 0 {
+            if is_settled || *used >= allowed {
                 let at = self.nearest_of(aim, index, angle);
                 return Some(Reached { barrier: name.clone_of(), at, is_settled });
             }
