@@ -30,6 +30,12 @@ fn behind_deg(scene: &Scene) -> f64 {
     off_deg.map(f64::abs).fold(0.0, f64::max)
 }
 
+/// Angles that are behind by less show nothing, degrees: the antenna may stand, or the unit ignores
+/// the way.
+fn hidden_deg(scene: &Scene) -> f64 {
+    scene.world.make.ignores_deg.max(scene.world.coarse_deg)
+}
+
 async fn freezes(mut dice: Dice) {
     let wish =
         Wish { keep_outs: dice.below(3), overflight: Overhead::Satellite, ..Wish::default() };
@@ -50,14 +56,14 @@ async fn freezes(mut dice: Dice) {
     let mut shows_s = 0.0;
     for _ in 0..ends_within_s(&deed) {
         deed.go_on(&mut scene, &judge, 1.0).await;
-        let is_hidden = behind_deg(&scene) < scene.world.make.ignores_deg;
+        let is_hidden = behind_deg(&scene) < hidden_deg(&scene);
         shows_s = if is_hidden { 0.0 } else { shows_s + 1.0 };
     }
     // A unit begins to turn to a position late.
     let shows_within_s = if deed.is_jog() { 0.0 } else { 8.0 };
     for _ in 0..60 {
         deed.go_on(&mut scene, &judge, 0.05).await;
-        let is_hidden = behind_deg(&scene) < scene.world.make.ignores_deg;
+        let is_hidden = behind_deg(&scene) < hidden_deg(&scene);
         assert!(
             is_hidden || shows_s < shows_within_s || !scene.world.unit.is_turning(),
             "turns on: {judge}\n{}",

@@ -45,6 +45,8 @@ const SLOW_REPLY: Duration = Duration::from_secs(15);
 /// After a repeated question both answers may come. Nothing is asked until the surplus one
 /// must have come, or every later answer would be taken for the one after it.
 const DRAIN: Duration = Duration::from_secs(1);
+/// Number of missing statuses that are kept count of.
+const MAX_MISSING: usize = 1000;
 
 #[derive(Debug)]
 pub struct Satrak {
@@ -58,8 +60,8 @@ pub struct Satrak {
     drain_until: Option<Instant>,
     /// Asks for the position while another request waits for its reply.
     probe: Option<Outstanding>,
-    /// When the first of the missing statuses was asked for.
-    missing_since: Option<Moment>,
+    /// When the questions for the status went out whose answers may still come, oldest first.
+    missing: VecDeque<Moment>,
     /// Azel has the antenna moving.
     is_watched: bool,
     /// When Azel last switched tracking or auto-track on.
@@ -98,7 +100,7 @@ impl Satrak {
             outstanding: None,
             drain_until: None,
             probe: None,
-            missing_since: None,
+            missing: VecDeque::new(),
             is_watched: false,
             program_switched_on: None,
             halts: VecDeque::new(),

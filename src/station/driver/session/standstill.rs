@@ -83,7 +83,9 @@ const UNEVEN: Duration = Duration::from_millis(100);
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub(super) struct Looks {
     first: Option<Measured>,
-    /// The first position for which the next one has been requested.
+    /// When the last position was asked for.
+    last: Option<Instant>,
+    /// The last position after which another one was requested.
     asked_after: Option<Instant>,
     /// Two positions differed, whatever the flags say.
     turned: bool,
@@ -101,16 +103,17 @@ impl Looks {
         self.first.is_none() || self.turned
     }
 
-    /// Returns `true` while the next position has not been requested.
+    /// Returns `true` while no position has been requested since the last one came in: a question
+    /// that was already out may have been asked too early to prove anything.
     pub(super) fn awaits_look(&self) -> bool {
-        self.first.map(|first| first.asked) != self.asked_after
+        self.last != self.asked_after
     }
 
-    /// Returns `true`, once, when the next position must be requested.
+    /// Returns `true`, once for each position, when the next one must be requested.
     pub(super) fn is_due(&mut self, figures: Figures, now: Instant) -> bool {
         let is_due = self.awaits_look() && self.next(figures).is_some_and(|at| now >= at);
         if is_due {
-            self.asked_after = self.first.map(|first| first.asked);
+            self.asked_after = self.last;
         }
         is_due
     }
@@ -124,6 +127,7 @@ impl Looks {
         link_since: Option<Instant>,
         figures: Figures,
     ) -> Option<Proof> {
+        self.last = Some(look.asked);
         let known = self.first.filter(|first| link_since.is_some_and(|since| first.asked >= since));
         let first = known.filter(|first| figures.turned(first, &look).is_none());
         self.turned |= known.is_some() && first.is_none();
@@ -267,6 +271,11 @@ mod tests {
             assert_eq!(looks.take(first, true, Some(start), figures()), None);
             let asked = looks.next(figures()).unwrap();
             assert!(asked >= start + gap && looks.is_due(figures(), far));
+            assert!(!looks.is_due(figures(), far), "it has been requested");
+            // This question was out already.
+            let early = late_by(look(start, 0.1, [Some(10.0), Some(69.0)]));
+            assert_eq!(looks.take(early, true, Some(start), figures()), None);
+            assert!(looks.is_due(figures(), far), "another one is needed");
             // This reply comes at once.
             let next = Measured { asked, received: asked, ..first };
             assert_eq!(looks.take(next, true, Some(start), figures()), Some(Proof::Angles));

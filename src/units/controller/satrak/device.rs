@@ -42,7 +42,7 @@ impl Device for Satrak {
         self.outstanding = None;
         self.drain_until = None;
         self.probe = None;
-        self.missing_since = None;
+        self.missing.clear();
         self.halts.clear();
         self.motion = None;
         self.calm.clear();
@@ -79,13 +79,16 @@ impl Device for Satrak {
         if let Some(probe) = self.begin_probe(now) {
             return Some(probe);
         }
-        if self.is_waiting() || self.drain_until.is_some_and(|until| now.steady < until) {
+        if self.drain_until.take_if(|until| now.steady >= *until).is_some() {
+            self.missing.clear();
+        }
+        if self.is_waiting() || self.drains_until().is_some() {
             return None;
         }
-        self.drain_until = None;
         let (request, purpose) = self.next_request(now)?;
+        self.drain_until = None;
         let bytes = request.to_bytes();
-        self.outstanding = Some(self.outstanding_of(request, purpose, now));
+        self.outstanding = Some(Outstanding::new(request, purpose, now));
         Some(bytes)
     }
 
@@ -93,7 +96,7 @@ impl Device for Satrak {
         if let Some(deadline) = self.reply_due() {
             return deadline;
         }
-        if let Some(until) = self.drain_until {
+        if let Some(until) = self.drains_until() {
             return until;
         }
         let slow = self.slow.as_ref().map(Outstanding::deadline);
@@ -253,7 +256,7 @@ mod tests {
         assert_eq!(written.result, Err(WriteError::Stopped));
         let mut satrak = about_to_shift(now);
         let request = satrak.write_request(now).unwrap();
-        satrak.outstanding = Some(satrak.outstanding_of(request, Purpose::WriteSettings, now));
+        satrak.outstanding = Some(Outstanding::new(request, Purpose::WriteSettings, now));
         satrak.halt(Extent::Motion, now);
         assert!(satrak.changes.under_way().is_some(), "it is read back");
     }
