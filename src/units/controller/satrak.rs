@@ -57,7 +57,10 @@ pub struct Satrak {
     reported: Reported,
     schedule: Option<Schedule>,
     outstanding: Option<Outstanding>,
+    /// By then the surplus statuses have come.
     drain_until: Option<Instant>,
+    /// By then the surplus answer to another question has come.
+    pause_until: Option<Instant>,
     /// Asks for the position while another request waits for its reply.
     probe: Option<Outstanding>,
     /// When the questions for the status went out whose answers may still come, oldest first.
@@ -99,6 +102,7 @@ impl Satrak {
             schedule: None,
             outstanding: None,
             drain_until: None,
+            pause_until: None,
             probe: None,
             missing: VecDeque::new(),
             is_watched: false,

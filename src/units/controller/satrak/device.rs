@@ -40,7 +40,7 @@ impl Device for Satrak {
         self.decoder = Decoder::new();
         self.schedule = None;
         self.outstanding = None;
-        self.drain_until = None;
+        (self.drain_until, self.pause_until) = (None, None);
         self.probe = None;
         self.missing.clear();
         self.halts.clear();
@@ -76,11 +76,12 @@ impl Device for Satrak {
         }
         self.expire_slow(now);
         self.changes.begin(&mut self.state, now);
-        if let Some(probe) = self.begin_probe(now) {
-            return Some(probe);
-        }
         if self.drain_until.take_if(|until| now.steady >= *until).is_some() {
             self.missing.clear();
+        }
+        self.pause_until.take_if(|until| now.steady >= *until);
+        if let Some(probe) = self.begin_probe(now) {
+            return Some(probe);
         }
         if self.is_waiting() || self.drains_until().is_some() {
             return None;

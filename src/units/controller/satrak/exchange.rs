@@ -143,6 +143,9 @@ impl Satrak {
         } else if let Some(halt) = self.answered_halt(command) {
             self.take_halt_reply(halt, &frame, now);
         } else {
+            if command == Some((Word::Status, Verb::Query)) && self.missing.pop_front().is_some() {
+                self.drain(now);
+            }
             self.state.traffic.unsolicited += 1;
             tracing::debug!(line = %frame.redacted(), "nobody asked for this");
         }
@@ -200,9 +203,10 @@ impl Satrak {
             }
         };
         self.count_reply(now);
-        if outstanding.clock.is_repeated() || (outstanding.is_status() && !self.missing.is_empty())
-        {
-            self.drain_until = Some(now.steady + DRAIN);
+        if outstanding.is_status() {
+            self.drain(now);
+        } else if outstanding.clock.is_repeated() {
+            self.pause_until = Some(now.steady + DRAIN);
         }
         if !parsed.notes.is_empty() {
             self.state.traffic.odd += 1;
@@ -247,11 +251,17 @@ impl Satrak {
         self.missing.pop_front().unwrap_or(answered.clock.sent)
     }
 
+    /// Waits for surplus statuses, if any may come.
+    fn drain(&mut self, now: Moment) {
+        self.drain_until = (!self.missing.is_empty()).then(|| now.steady + DRAIN);
+    }
+
     /// End of the pause in which Azel asks nothing, so that a surplus answer shows as such. While
-    /// the antenna moves and one status is missing, Azel asks on, and each answer counts as asked one
-    /// question earlier.
+    /// the antenna moves and one status is missing, Azel asks on, and each status counts as asked
+    /// one question earlier.
     pub(super) fn drains_until(&self) -> Option<Instant> {
-        self.drain_until.filter(|_| !self.is_watched || self.missing.len() != 1)
+        let drain = self.drain_until.filter(|_| !self.is_watched || self.missing.len() != 1);
+        drain.max(self.pause_until)
     }
 
     fn polled(&mut self, query: Query, fault_before: bool, now: Moment) {
@@ -381,6 +391,7 @@ impl Satrak {
         }
         let request = Request::Query(Query::Status);
         let bytes = request.to_bytes();
+        self.drain_until = None;
         self.probe = Some(Outstanding::new(request, Purpose::Poll(Query::Status), now));
         Some(bytes)
     }
