@@ -137,7 +137,8 @@ async fn a_stop_is_proved_on_the_slowest_lines_too() {
         rig.until("it moves", 5, |shown| shown.state.measured.unwrap().moving()).await;
         rig.seconds(2.0).await;
         rig.stop();
-        rig.until_event(8, |event| *event == Event::Stopped).await;
+        // At 300 baud a question and its reply take two seconds behind a halt.
+        rig.until_event(10, |event| *event == Event::Stopped).await;
         assert!(!rig.control.state().is_turning, "{baud}");
         assert!(rig.times("3X").len() <= 2, "{baud}: {:?}", rig.orders());
     }

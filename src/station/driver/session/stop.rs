@@ -5,7 +5,7 @@ use std::time::Duration;
 use super::{
     Event, Session,
     activity::Activity,
-    standstill::{Looks, Proof},
+    standstill::{Figures, Looks, Proof},
 };
 use crate::{
     clock::{Instant, Moment},
@@ -37,6 +37,13 @@ pub(super) struct Halting {
 impl Halting {
     fn extent_again(&self) -> Extent {
         if self.pressed { Extent::Everything } else { Extent::Track }
+    }
+
+    /// Time from STOP until the operator is told that standstill is not proved. While all positions
+    /// agree, only late replies delay the proof.
+    fn told_after(&self, figures: Figures) -> Duration {
+        let usual = PROOF.max(figures.gap() + BEYOND_PROOF);
+        if self.looks.want_stop() { usual } else { usual + BEYOND_PROOF }
     }
 }
 
@@ -166,7 +173,6 @@ impl Session {
             self.record_debt(now);
         }
         let figures = self.setup.figures;
-        let proof_after = PROOF.max(figures.gap() + BEYOND_PROOF);
         let is_at_rest = self.is_at_rest();
         let Stop::UnderWay(halting) = &mut self.stop else { return };
         let state = self.gate.state();
@@ -179,7 +185,8 @@ impl Session {
         if let Some(proof) = proof {
             return self.end_halt(proof, now);
         }
-        let unproved = now.steady.saturating_duration_since(halting.since) >= proof_after;
+        let waited = now.steady.saturating_duration_since(halting.since);
+        let unproved = waited >= halting.told_after(figures);
         let newly_unproved = unproved && !std::mem::replace(&mut halting.told, unproved);
         let again = now.steady >= halting.again_at && halting.looks.want_stop();
         let looks_again = halting.looks.is_due(figures, now.steady);
@@ -254,9 +261,9 @@ impl Session {
 
     /// When the halt must be looked at again.
     pub(super) fn halt_due(&self) -> Option<Instant> {
-        let proof_after = PROOF.max(self.setup.figures.gap() + BEYOND_PROOF);
         if let Some(halting) = self.stop.halting() {
-            let proof = (!halting.told).then_some(halting.since + proof_after);
+            let told_at = halting.since + halting.told_after(self.setup.figures);
+            let proof = (!halting.told).then_some(told_at);
             let (looks, is_open) = (&halting.looks, self.contact.link.is_open());
             let look = looks.next(self.setup.figures).filter(|_| looks.awaits_look() && is_open);
             let again = (looks.want_stop() && is_open).then_some(halting.again_at);
