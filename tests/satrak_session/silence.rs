@@ -41,22 +41,6 @@ async fn it_is_told_once_within_a_second_of_the_first_missing_reply_until_it_ans
 }
 
 #[tokio::test(start_paused = true)]
-async fn one_lost_reply_leaves_its_position_young() {
-    let mut rig = on_its_way().await;
-    rig.control.set_fault(Fault::Silence, true);
-    rig.seconds(0.4).await;
-    rig.control.set_fault(Fault::Silence, false);
-    let mut oldest_s = 0.0_f64;
-    for _ in 0..60 {
-        rig.seconds(0.05).await;
-        let asked = rig.shown().state.measured.unwrap().asked;
-        oldest_s = oldest_s.max((Instant::now() - asked).as_secs_f64());
-    }
-    // The question after the last answer is repeated after 0.6 s, and its answer may be to it.
-    assert!((0.8..1.3).contains(&oldest_s), "{oldest_s}");
-}
-
-#[tokio::test(start_paused = true)]
 async fn of_one_that_stands_the_link_alone_is_told() {
     let mut rig = Rig::usual().await;
     rig.control.set_fault(Fault::Silence, true);

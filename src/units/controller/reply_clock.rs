@@ -12,7 +12,7 @@ pub(super) struct ReplyClock {
     pub(super) sent: Moment,
     /// When a question is repeated, its answer may be to the first one.
     pub(super) first_sent: Moment,
-    /// How often.
+    /// How often, with those that it stands for.
     pub(super) tries: u8,
     /// How long the reply may take.
     pub(super) patience: Duration,
@@ -21,6 +21,12 @@ pub(super) struct ReplyClock {
 impl ReplyClock {
     pub(super) fn new(sent: Moment, patience: Duration) -> Self {
         Self { sent, first_sent: sent, tries: 1, patience }
+    }
+
+    /// Of a question that stands for one that was asked at `missing` and given up: their
+    /// answers cannot be told apart, so it is not repeated.
+    pub(super) fn standing_for(self, missing: Moment) -> Self {
+        Self { first_sent: missing, tries: u8::MAX, ..self }
     }
 
     pub(super) fn deadline(&self) -> Instant {

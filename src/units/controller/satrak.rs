@@ -45,8 +45,6 @@ const SLOW_REPLY: Duration = Duration::from_secs(15);
 /// After a repeated question both answers may come. Nothing is asked until the surplus one
 /// must have come, or every later answer would be taken for the one after it.
 const DRAIN: Duration = Duration::from_secs(1);
-/// Number of missing statuses that are kept count of.
-const MAX_MISSING: usize = 1000;
 
 #[derive(Debug)]
 pub struct Satrak {
@@ -57,14 +55,11 @@ pub struct Satrak {
     reported: Reported,
     schedule: Option<Schedule>,
     outstanding: Option<Outstanding>,
-    /// By then the surplus statuses have come.
     drain_until: Option<Instant>,
-    /// By then the surplus answer to another question has come.
-    pause_until: Option<Instant>,
     /// Asks for the position while another request waits for its reply.
     probe: Option<Outstanding>,
-    /// When the questions for the status went out whose answers may still come, oldest first.
-    missing: VecDeque<Moment>,
+    /// When the first of the missing statuses was asked for.
+    missing_since: Option<Moment>,
     /// Azel has the antenna moving.
     is_watched: bool,
     /// When Azel last switched tracking or auto-track on.
@@ -102,9 +97,8 @@ impl Satrak {
             schedule: None,
             outstanding: None,
             drain_until: None,
-            pause_until: None,
             probe: None,
-            missing: VecDeque::new(),
+            missing_since: None,
             is_watched: false,
             program_switched_on: None,
             halts: VecDeque::new(),

@@ -40,9 +40,9 @@ impl Device for Satrak {
         self.decoder = Decoder::new();
         self.schedule = None;
         self.outstanding = None;
-        (self.drain_until, self.pause_until) = (None, None);
+        self.drain_until = None;
         self.probe = None;
-        self.missing.clear();
+        self.missing_since = None;
         self.halts.clear();
         self.motion = None;
         self.calm.clear();
@@ -76,20 +76,16 @@ impl Device for Satrak {
         }
         self.expire_slow(now);
         self.changes.begin(&mut self.state, now);
-        if self.drain_until.take_if(|until| now.steady >= *until).is_some() {
-            self.missing.clear();
-        }
-        self.pause_until.take_if(|until| now.steady >= *until);
         if let Some(probe) = self.begin_probe(now) {
             return Some(probe);
         }
-        if self.is_waiting() || self.drains_until().is_some() {
+        if self.is_waiting() || self.drain_until.is_some_and(|until| now.steady < until) {
             return None;
         }
-        let (request, purpose) = self.next_request(now)?;
         self.drain_until = None;
+        let (request, purpose) = self.next_request(now)?;
         let bytes = request.to_bytes();
-        self.outstanding = Some(Outstanding::new(request, purpose, now));
+        self.outstanding = Some(self.outstanding_of(request, purpose, now));
         Some(bytes)
     }
 
@@ -97,7 +93,7 @@ impl Device for Satrak {
         if let Some(deadline) = self.reply_due() {
             return deadline;
         }
-        if let Some(until) = self.drains_until() {
+        if let Some(until) = self.drain_until {
             return until;
         }
         let slow = self.slow.as_ref().map(Outstanding::deadline);
@@ -257,7 +253,7 @@ mod tests {
         assert_eq!(written.result, Err(WriteError::Stopped));
         let mut satrak = about_to_shift(now);
         let request = satrak.write_request(now).unwrap();
-        satrak.outstanding = Some(Outstanding::new(request, Purpose::WriteSettings, now));
+        satrak.outstanding = Some(satrak.outstanding_of(request, Purpose::WriteSettings, now));
         satrak.halt(Extent::Motion, now);
         assert!(satrak.changes.under_way().is_some(), "it is read back");
     }

@@ -1,8 +1,6 @@
 //! One request and its reply: matching, time-outs, effects.
 
-use super::{
-    DRAIN, MAX_MISSING, REPLY, SLOW_REPLY, Satrak, prepare::Outcome, state::DECIMAL_COMMAS,
-};
+use super::{DRAIN, REPLY, SLOW_REPLY, Satrak, prepare::Outcome, state::DECIMAL_COMMAS};
 use crate::{
     astro::Angle,
     clock::{Instant, Moment},
@@ -143,9 +141,6 @@ impl Satrak {
         } else if let Some(halt) = self.answered_halt(command) {
             self.take_halt_reply(halt, &frame, now);
         } else {
-            if command == Some((Word::Status, Verb::Query)) && self.missing.pop_front().is_some() {
-                self.drain(now);
-            }
             self.state.traffic.unsolicited += 1;
             tracing::debug!(line = %frame.redacted(), "nobody asked for this");
         }
@@ -186,8 +181,6 @@ impl Satrak {
         parsed: Result<unit::ParsedReply, ReplyError>,
         now: Moment,
     ) {
-        let asked = self.asked(outstanding);
-        let sent = if outstanding.is_status() { outstanding.clock.sent } else { asked };
         let parsed = match parsed {
             Ok(parsed) => parsed,
             Err(error) => {
@@ -203,10 +196,11 @@ impl Satrak {
             }
         };
         self.count_reply(now);
+        if outstanding.clock.is_repeated() {
+            self.drain_until = Some(now.steady + DRAIN);
+        }
         if outstanding.is_status() {
-            self.drain(now);
-        } else if outstanding.clock.is_repeated() {
-            self.pause_until = Some(now.steady + DRAIN);
+            self.missing_since = None;
         }
         if !parsed.notes.is_empty() {
             self.state.traffic.odd += 1;
@@ -215,21 +209,21 @@ impl Satrak {
             (Reply::Refused { code }, purpose) => self.take_refusal(refusal(&code), purpose, now),
             (reply, Purpose::Poll(query) | Purpose::Asked(query)) => {
                 let fault_before = self.reported.fault_flag;
-                self.take_report(reply, asked, sent, now);
+                self.take_report(reply, outstanding.clock.first_sent, now);
                 self.polled(query, fault_before, now);
             }
             (reply, Purpose::BeforeMotion) => {
                 let fault_before = self.reported.fault_flag;
-                self.take_report(reply, asked, sent, now);
+                self.take_report(reply, outstanding.clock.first_sent, now);
                 self.polled(Query::Faults, fault_before, now);
                 self.judge_waiting_motion();
             }
             (reply, Purpose::Prepare) => {
                 self.advance_preparation(&reply);
-                self.take_report(reply, asked, sent, now);
+                self.take_report(reply, outstanding.clock.first_sent, now);
             }
             (reply, Purpose::WriteSettings) => {
-                self.take_report(reply.clone(), asked, sent, now);
+                self.take_report(reply.clone(), outstanding.clock.first_sent, now);
                 self.change_answered(&reply, now);
             }
             (_, Purpose::Motion(motion)) => {
@@ -238,30 +232,6 @@ impl Satrak {
             }
             (_, Purpose::Calm(_) | Purpose::Disowned) => self.look_soon(now),
         }
-    }
-
-    /// When the question went out that `answered` answers at the earliest. The unit answers each
-    /// question at most once and in order, so a status is at least as young as the oldest
-    /// question that may still be unanswered.
-    fn asked(&mut self, answered: &Outstanding) -> Moment {
-        if !answered.is_status() {
-            return answered.clock.first_sent;
-        }
-        self.missing.push_back(answered.clock.sent);
-        self.missing.pop_front().unwrap_or(answered.clock.sent)
-    }
-
-    /// Waits for surplus statuses, if any may come.
-    fn drain(&mut self, now: Moment) {
-        self.drain_until = (!self.missing.is_empty()).then(|| now.steady + DRAIN);
-    }
-
-    /// End of the pause in which Azel asks nothing, so that a surplus answer shows as such. While
-    /// the antenna moves and one status is missing, Azel asks on, and each status counts as asked
-    /// one question earlier.
-    pub(super) fn drains_until(&self) -> Option<Instant> {
-        let drain = self.drain_until.filter(|_| !self.is_watched || self.missing.len() != 1);
-        drain.max(self.pause_until)
     }
 
     fn polled(&mut self, query: Query, fault_before: bool, now: Moment) {
@@ -377,22 +347,35 @@ impl Satrak {
     fn missed(&mut self, late: &Outstanding, is_repeated: bool, now: Moment) {
         self.state.traffic.unanswered += 1;
         self.wire.no_reply(late.clock.waited(now), is_repeated, now);
-        if late.is_status() && self.missing.len() < MAX_MISSING {
-            self.missing.push_back(late.clock.sent);
+        if late.is_status() && !is_repeated {
+            self.missing_since.get_or_insert(late.clock.first_sent);
         }
+    }
+
+    /// A status may answer an earlier question.
+    pub(super) fn outstanding_of(
+        &self,
+        request: Request,
+        purpose: Purpose,
+        now: Moment,
+    ) -> Outstanding {
+        let mut outstanding = Outstanding::new(request, purpose, now);
+        if let Some(missing) = self.missing_since.filter(|_| outstanding.is_status()) {
+            outstanding.clock = outstanding.clock.standing_for(missing);
+        }
+        outstanding
     }
 
     /// During a motion a slow reply must not delay the next position question.
     pub(super) fn begin_probe(&mut self, now: Moment) -> Option<Vec<u8>> {
         let waits = self.probe_due().is_some_and(|at| now.steady >= at);
-        let drains = self.drains_until().is_some_and(|until| now.steady < until);
+        let drains = self.drain_until.is_some_and(|until| now.steady < until);
         if !waits || drains || self.probe.is_some() {
             return None;
         }
         let request = Request::Query(Query::Status);
         let bytes = request.to_bytes();
-        self.drain_until = None;
-        self.probe = Some(Outstanding::new(request, Purpose::Poll(Query::Status), now));
+        self.probe = Some(self.outstanding_of(request, Purpose::Poll(Query::Status), now));
         Some(bytes)
     }
 
@@ -416,9 +399,7 @@ impl Satrak {
         let deadline = self.outstanding.as_ref().map(|sent| self.deadline(sent));
         let probe = match &self.probe {
             Some(probe) => Some(probe.prompt_deadline()),
-            None => {
-                self.probe_due().map(|at| self.drains_until().map_or(at, |until| at.max(until)))
-            }
+            None => self.probe_due().map(|at| self.drain_until.map_or(at, |until| at.max(until))),
         };
         deadline.into_iter().chain(probe).min()
     }

@@ -20,10 +20,9 @@ use crate::{
 pub(super) const DECIMAL_COMMAS: &str = "The unit seems to write decimal commas. Set it to points.";
 
 impl Satrak {
-    /// Takes a reply. `asked`: when its question went out at the earliest; `sent`: when it probably
-    /// did.
-    pub(super) fn take_report(&mut self, reply: Reply, asked: Moment, sent: Moment, now: Moment) {
-        let way = now.steady.saturating_duration_since(sent.steady) / 2;
+    /// Takes a reply. `asked`: when the question went out.
+    pub(super) fn take_report(&mut self, reply: Reply, asked: Moment, now: Moment) {
+        let way = now.steady.saturating_duration_since(asked.steady) / 2;
         let measured_at = now.utc.checked_sub(way).unwrap_or(now.utc);
         if let Reply::Clock(clock) = &reply {
             self.reported.clock = Some(UnitClock {
