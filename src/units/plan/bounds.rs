@@ -173,7 +173,7 @@ pub struct BoundsAt<'a> {
     /// From where the beam is by the model to where it is on the sky, while offsets of the axes make
     /// up for errors of the mount.
     to_sky: Option<DQuat>,
-    /// `None` where each look may do its most.
+    /// `None` if each look may examine as many edges as a single one.
     budget: Option<&'a Budget>,
 }
 
@@ -302,8 +302,8 @@ impl<'a> BoundsAt<'a> {
         self.model.map_or(1.0, |model| model.max_beam_turn())
     }
 
-    /// The bounds without the barriers that the axes may be inside of. Those for which that is not
-    /// settled stay.
+    /// The bounds without the barriers that the axes may be inside of. Keeps a barrier if the search
+    /// ended before it settled that.
     pub fn without_entered(&self, place: Sweep) -> Bounds {
         let mut each = self.stands(place).into_iter();
         let mut is_kept = || each.next() != Some(Standing::MayBeInside);

@@ -99,7 +99,7 @@ impl Rc2000c {
         let Some(answered) = answered else { return self.take_surplus(reply, now) };
         self.count_reply(now);
         if answered.purpose == Purpose::Halt {
-            // The unit answers in order, so nothing comes any more to a question before it.
+            // The unit answers in order, so the answer to a question before the halt is lost.
             let overtaken = self.outstanding.take_if(|sent| sent.purpose == Purpose::Poll);
             if let Some(lost) = overtaken {
                 self.miss(&lost, false, now);
@@ -152,7 +152,7 @@ impl Rc2000c {
         self.missing.pop_front().unwrap_or(sent)
     }
 
-    /// Waits no longer for surplus answers once none can come.
+    /// Ends the wait for surplus answers once none can come.
     fn end_drain(&mut self) {
         self.drain_until.take_if(|_| self.missing.is_empty());
     }

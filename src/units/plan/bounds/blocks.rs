@@ -14,9 +14,9 @@ const SMALLEST_PART_DEG: f64 = FINEST_DEG / 2.0;
 /// Number of edges that one look may examine. Beyond it, the nearest barrier counts as entered: a
 /// way along a ragged edge must not hold up the thread that serves all antennas.
 const MAX_EDGES: usize = 20_000;
-/// The same of all looks that share a [`Budget`].
+/// Number of edges that all looks that share a [`Budget`] may examine.
 const MAX_EDGES_IN_ALL: usize = 60_000;
-/// Share of what is left that one look may use, so that something is left for every later one.
+/// One look may use one part in this many of the edges left, so that every later look has some.
 const LOOKS_PER_BUDGET: usize = 3;
 /// A search ends with fewer edges left: even a look that may examine none looks once at each barrier.
 const SPENT: usize = 2_000;
