@@ -59,7 +59,8 @@ fn to_position(
     let intervals = situation.intervals.ok_or(Refusal::PositionUnknown)?;
     let start = intervals.sweep();
     let end = target(azimuth, elevation, start, situation).ok_or(Refusal::PositionUnknown)?;
-    for sweep in ways_round(azimuth, start.with(end), situation).into_iter().flatten() {
+    let gone_on = situation.gate.gone_on(start, situation.ahead_s);
+    for sweep in ways_round(azimuth, start.with(end), gone_on, situation).into_iter().flatten() {
         away_from_the_sun(sweep, intervals, end, situation)
             .unwrap_or_else(|| blocked(sweep, start, &situation.bounds_now()))?;
     }
@@ -67,14 +68,16 @@ fn to_position(
 }
 
 /// The ways that the azimuth axis may take: as it counts, or over north. It does not cross its
-/// limits, so a way across one is left out if the other way crosses none.
+/// limits, so a way across one is left out if the other way crosses none. Each begins wherever the
+/// axes have `gone_on` to.
 fn ways_round(
     azimuth: Option<Angle>,
     counted: Sweep,
+    gone_on: Sweep,
     situation: &Situation<'_>,
 ) -> [Option<Sweep>; 2] {
     if azimuth.is_none() || !situation.state.may_turn_either_way {
-        return [Some(counted), None];
+        return [Some(counted.with(gone_on)), None];
     }
     let Sweep([(from_deg, to_deg), second]) = counted;
     let over_north = Sweep([(to_deg, from_deg + 360.0), second]);
@@ -83,7 +86,12 @@ fn ways_round(
         let mut turns = limits.flat_map(|limit_deg| [limit_deg, limit_deg + 360.0]);
         turns.any(|limit_deg| from_deg < limit_deg && limit_deg < to_deg)
     };
-    match [counted, over_north].map(crosses_limit) {
+    let crosses = [counted, over_north].map(crosses_limit);
+    let Sweep([(begins_deg, _), _]) = gone_on;
+    let turn_deg = if begins_deg <= from_deg { 360.0 } else { 0.0 };
+    let counted = counted.with(gone_on);
+    let over_north = over_north.with(gone_on.turned([turn_deg, 0.0]));
+    match crosses {
         [false, true] => [Some(counted), None],
         [true, false] => [Some(over_north), None],
         _ => [Some(counted), Some(over_north)],
@@ -367,6 +375,21 @@ impl Gate {
         farthest
             .map(|place_deg| Route { first: self.to_axes(*place_deg), then: Some(motion) })
             .ok_or(NoRoute::Refused(refusal))
+    }
+
+    /// From where the axes were read to where their last motion may have taken them within `ahead_s`
+    /// seconds.
+    fn gone_on(&self, start: Sweep, ahead_s: f64) -> Sweep {
+        let gone_deg = self.limits.maximum_rate_deg_s * ahead_s;
+        let mut gone_on = start;
+        let axes = gone_on.0.iter_mut().zip(self.turns).zip(self.to_deg);
+        for (((from_deg, to_deg), _), end_deg) in axes.filter(|((_, turns), _)| *turns) {
+            let ends_deg = end_deg.map_or((f64::NEG_INFINITY, f64::INFINITY), |deg| (deg, deg));
+            let lowest_deg = ends_deg.0.max(*from_deg - gone_deg);
+            let highest_deg = ends_deg.1.min(*to_deg + gone_deg);
+            (*from_deg, *to_deg) = (from_deg.min(lowest_deg), to_deg.max(highest_deg));
+        }
+        gone_on
     }
 
     pub(super) fn axis_limits(&self) -> AxisLimits {

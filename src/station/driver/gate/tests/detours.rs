@@ -82,3 +82,28 @@ fn a_slew_has_no_detour() {
     let routed = gate.route(position(140.0, 20.0), Intent::Position, case.now());
     assert!(matches!(routed, Err(NoRoute::Refused(Refusal::Forbidden { .. }))), "{routed:?}");
 }
+
+/// The axes have gone on since they were read, and turn on until the unit obeys.
+#[test]
+fn a_motion_begins_wherever_the_last_one_has_led_by_then() {
+    let mut case = beside_a_mast();
+    let measured = case.state.measured.as_mut().unwrap();
+    measured.pointing = AzEl::from_degrees(130.0, 45.0).into();
+    for (axis, deg) in measured.axes.iter_mut().zip([130.0, 45.0]) {
+        axis.angle_deg = Some(deg);
+    }
+    let started_s = |ago_s: f64| {
+        let mut gate = case.gate(&Arc::default());
+        let now = case.now();
+        assert_eq!(gate.start(position(130.0, 10.0), Intent::Track, false, now), Ok(()));
+        let later = Duration::try_from_secs_f64(ago_s).unwrap();
+        let now = Moment { steady: now.steady + later, ..now };
+        let over_the_mast = position(80.0, 45.0);
+        let asked = gate.check(over_the_mast, Intent::Track, now);
+        gate.halted();
+        assert_eq!(gate.check(over_the_mast, Intent::Track, now), Ok(()), "it stands");
+        asked
+    };
+    assert_eq!(started_s(0.0), Ok(()));
+    assert!(matches!(started_s(0.9), Err(Refusal::Forbidden { .. })));
+}
