@@ -16,6 +16,9 @@ use crate::{
 };
 
 const ZENITH_DEG: f64 = 90.0;
+/// An X/Y mount is sent no closer to an end of its travel, or to its minimum elevation, than this,
+/// degrees: it is told a rounded direction, and refuses one that lies beyond.
+const BESIDE_END_DEG: f64 = 0.01;
 
 /// The abilities of the drives for position commands.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -116,7 +119,11 @@ impl Drives {
             _ => (from_deg, to_deg),
         };
         // An X/Y mount is commanded by direction, in which no axis has a step.
-        if self.step_deg <= 0.0 || matches!(self.mount, Mount::Xy { .. }) {
+        if matches!(self.mount, Mount::Xy { .. }) {
+            let (from_deg, to_deg) = beside_ends((from_deg, to_deg));
+            return position_deg.max(from_deg).min(to_deg);
+        }
+        if self.step_deg <= 0.0 {
             return position_deg.clamp(from_deg, to_deg);
         }
         let (first, last) = ((from_deg / self.step_deg).ceil(), (to_deg / self.step_deg).floor());
@@ -136,6 +143,7 @@ impl Drives {
                 let lower_axis = Angle::from_degrees(lower_axis_azimuth_deg);
                 let direction = xy_mount::azel_from_axes(AxisAngles { lower, upper }, lower_axis);
                 let (lowest_deg, highest_deg) = self.elevations_deg();
+                let lowest_deg = highest_deg.min(lowest_deg + BESIDE_END_DEG);
                 let elevation = direction.elevation_deg().clamp(lowest_deg, highest_deg);
                 SetPoint {
                     azimuth: Some(direction.azimuth),
@@ -180,17 +188,49 @@ impl Drives {
         (lowest_deg, highest_deg.max(lowest_deg))
     }
 
+    /// Positions of an X/Y mount.
     fn within_travel(&self, axes_deg: [f64; 2]) -> [f64; 2] {
-        let [(a, b), (c, d)] = self.mount.travel_deg();
+        let [(a, b), (c, d)] = self.mount.travel_deg().map(beside_ends);
         let [first, second] = axes_deg;
         [first.max(a).min(b), second.max(c).min(d)]
     }
+}
+
+/// The travel of a crossed axis as far as it can be told by a direction, degrees.
+fn beside_ends((from_deg, to_deg): (f64, f64)) -> (f64, f64) {
+    (from_deg + BESIDE_END_DEG, to_deg - BESIDE_END_DEG)
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::station::Antenna;
+
+    #[test]
+    fn a_crossed_mount_at_the_end_of_its_reach_can_be_told_its_direction_in_thousandths() {
+        let mut antenna = Antenna::satrak("", "");
+        let ends_deg = (22.5, 151.3);
+        if let Mount::Xy { travel_from_deg, travel_to_deg, .. } = &mut antenna.mount {
+            (*travel_from_deg, *travel_to_deg) = ends_deg;
+        }
+        antenna.limits.minimum_elevation_deg = 5.964_4;
+        let drives = drives(&antenna, 0.0);
+        let thousandths = |angle: Angle| (angle.degrees() * 1000.0).round() / 1000.0;
+        for azimuth_deg in 0..360 {
+            let axes_deg = positions(&drives, at(f64::from(azimuth_deg), 5.0));
+            let told_deg = [0, 1].map(|axis| drives.tellable_deg(axis, axes_deg[axis]));
+            let point = drives.set_point(told_deg.map(Some));
+            let [azimuth, elevation] = [point.azimuth, point.elevation].map(Option::unwrap);
+            let sent = at(thousandths(azimuth), thousandths(elevation));
+            assert!(sent.direction.elevation_deg() >= 5.964_4, "at {azimuth_deg}");
+            let Mount::Xy { lower_axis_azimuth_deg, .. } = antenna.mount else { panic!() };
+            let lower_axis = Angle::from_degrees(lower_axis_azimuth_deg);
+            let axes = xy_mount::axes_from_azel(sent.direction, lower_axis);
+            for deg in [axes.lower, axes.upper].map(|axis| axis.degrees() + 90.0) {
+                assert!((ends_deg.0..=ends_deg.1).contains(&deg), "{deg} at {azimuth_deg}");
+            }
+        }
+    }
 
     fn drives(antenna: &Antenna, step_deg: f64) -> Drives {
         Drives {
@@ -232,7 +272,8 @@ mod tests {
             let drives = drives(&antenna, 0.0);
             let [first, second] = positions(&drives, at(90.0, 1.0));
             let point = drives.set_point([Some(first), Some(second)]);
-            assert!((point.elevation.unwrap().degrees() - 5.0).abs() < 1e-9);
+            // A crossed axis keeps off its end, and off the floor.
+            assert!((0.0..0.02).contains(&(point.elevation.unwrap().degrees() - 5.0)));
             assert!((point.azimuth.unwrap().degrees() - 90.0).abs() < 1e-9);
             assert!(!drives.may_reach(AzEl::from_degrees(90.0, 1.0)));
         }
