@@ -5,10 +5,13 @@ mod before_sleep;
 mod command_row;
 pub mod dead_man;
 mod debts;
+#[cfg(test)]
+mod dice;
 mod gate;
 mod intent;
 mod link;
 mod link_test;
+mod motion_watch;
 mod position_log;
 mod pulse;
 mod safety;

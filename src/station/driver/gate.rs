@@ -5,6 +5,7 @@
 //! the table that proves it necessary (`tests/each_rule.rs`).
 
 mod detours;
+mod hands;
 mod intervals;
 mod judged;
 mod offsets;
@@ -20,7 +21,7 @@ use std::sync::Arc;
 
 use glam::DQuat;
 
-use super::intent::Intent;
+use super::{intent::Intent, motion_watch::MotionWatch};
 use crate::{
     astro::{Angle, AzEl},
     clock::{Instant, Moment},
@@ -91,6 +92,9 @@ pub(super) struct Gate {
     /// Angles of the axes when the last motion passed, degrees as the mount counts.
     started_from_deg: Option<[f64; 2]>,
     last_angles: LastAngles,
+    watch: MotionWatch,
+    /// When the position that the watch took last came in.
+    looked: Option<Instant>,
     /// Only questions and halts go to the unit.
     lock_out: Option<LockOut>,
     /// When the last motion passed that is not known to be over.
@@ -112,18 +116,21 @@ pub(super) struct Gate {
 impl Gate {
     pub(super) fn new(controller: Box<dyn Controller>, antenna: &Antenna, bounds: Bounds) -> Self {
         let variant = antenna.connection.variant();
+        let mount = bounds.mount();
         Self {
             controller,
             variant,
             rules: RULES.to_vec(),
             limits: antenna.limits,
-            mount: bounds.mount(),
+            mount,
             bounds,
             overrun_s: variant.capabilities.standstill.overrun_s,
             to_deg: [None; 2],
             turns: [false; 2],
             started_from_deg: None,
             last_angles: LastAngles::default(),
+            watch: hands::watch(variant.capabilities, mount, antenna.sway_deg),
+            looked: None,
             lock_out: None,
             unproved_since: None,
             program: None,
@@ -291,6 +298,7 @@ impl Gate {
         self.remember_target(motion, intent, now);
         self.started_from_deg = self.axes_deg();
         self.unproved_since = Some(now.steady);
+        self.watch_motion(motion, now);
         self.controller.start(motion);
         Ok(())
     }
@@ -356,6 +364,7 @@ impl Gate {
                 _ => Ok(()),
             })?;
             self.to_deg = self.end_of(&act);
+            self.watch_act(self.to_deg, now);
             self.turns = [true; 2];
             self.unproved_since = Some(now.steady);
             self.started_from_deg = self.axes_deg();

@@ -36,6 +36,14 @@ pub enum Safety {
         axis: Name,
         turned_deg: f64,
     },
+    /// Somebody else has moved an axis, by the unit's panel, by another program or by hand: it is
+    /// read where no command of this program leads. Azel has ended its own motion.
+    ForeignHands {
+        #[serde(deserialize_with = "name::one")]
+        axis: Name,
+        /// How far from there, degrees, positive clockwise or up.
+        off_deg: f64,
+    },
     /// It does not answer while it moves on this program's word, or before STOP is proved to
     /// have ended that. The snapshot says until when.
     SilentInMotion,

@@ -8,6 +8,7 @@ mod clocks;
 mod command;
 mod effect;
 mod guard;
+mod hands;
 mod inside;
 mod io_loop;
 mod jog;

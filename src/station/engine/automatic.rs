@@ -2,12 +2,9 @@
 
 mod at_start;
 mod auto_track;
-mod course;
 mod day;
 mod operation;
 mod seen;
-mod stance;
-mod way;
 
 use std::path::PathBuf;
 
@@ -15,11 +12,9 @@ use jiff::Timestamp;
 
 pub(super) use self::{at_start::LastRun, operation::is_same_pass};
 use self::{
-    course::Course,
     day::Flight,
     operation::{Act, LATE_S, Outcome, Seen, WINDOW_STEP_S, Wishes},
     seen::seen,
-    stance::Stance,
 };
 pub use self::{
     day::{DayEvent, DayLine, Flown, MissCause},
@@ -51,19 +46,12 @@ pub(super) struct AtWork {
     told: Option<Operation>,
     /// Auto-track was switched on for a pass that the unit holds, and nobody has touched it since.
     has_auto_track_on: bool,
-    stance: Stance,
-    course: Course,
 }
 
 impl AtWork {
     /// What remains of it when the antenna is given another unit.
     pub(super) fn without_unit(self) -> Self {
-        Self {
-            has_auto_track_on: false,
-            stance: Stance::default(),
-            course: Course::default(),
-            ..self
-        }
+        Self { has_auto_track_on: false, ..self }
     }
 }
 
@@ -213,6 +201,9 @@ impl Engine {
             Event::StartedByItself if !uses_auto_track => {
                 operation.suspend(Interruption::Elsewhere, now);
             }
+            Event::Safety(Safety::ForeignHands { .. }) => {
+                operation.suspend(Interruption::Elsewhere, now);
+            }
             Event::Safety(
                 Safety::DeadManFired
                 | Safety::SessionBroke
@@ -244,15 +235,10 @@ impl Engine {
     }
 
     fn run_automatic_of(&mut self, index: usize) {
-        let Some(antenna) = self.antennas.get_mut(index) else { return };
-        let at_work = &mut antenna.at_work;
-        let is_turned_at_rest = at_work.stance.look(&antenna.shown);
-        let is_turned_away = at_work.course.look(&antenna.shown);
         let Some(antenna) = self.antennas.get(index) else { return };
         let duties = self.duties(&antenna.shown);
         let wishes = self.wishes(&antenna.shown);
         let mut seen = seen(&antenna.shown);
-        seen.is_turned = is_turned_at_rest || is_turned_away;
         seen.may_be_planned = seen.offers.is_some() && self.scheduler.is_at_work();
         self.fly(index, &duties, seen);
         let now = self.now;
@@ -274,7 +260,6 @@ impl Engine {
             Some(Act::Take(duty)) => self.take_pass(index, &duty),
             Some(Act::TakeOver(_)) => self.send(index, driver::Command::TakeOver),
             Some(Act::Park) => self.send(index, driver::Command::Park),
-            Some(Act::EndTrack) => self.send(index, driver::Command::Standby),
             None => {}
         }
         // Only now does the unit hold the pass that it may start by itself.

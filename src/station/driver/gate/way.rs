@@ -60,7 +60,8 @@ fn to_position(
     let start = intervals.sweep();
     let end = target(azimuth, elevation, start, situation).ok_or(Refusal::PositionUnknown)?;
     let gone_on = situation.gate.gone_on(start, situation.ahead_s);
-    for sweep in ways_round(azimuth, start.with(end), gone_on, situation).into_iter().flatten() {
+    let ways = ways_round(azimuth.is_some(), start.with(end), gone_on, situation);
+    for sweep in ways.into_iter().flatten() {
         away_from_the_sun(sweep, intervals, end, situation)
             .unwrap_or_else(|| blocked(sweep, start, &situation.bounds_now()))?;
     }
@@ -70,13 +71,13 @@ fn to_position(
 /// The ways that the azimuth axis may take: as it counts, or over north. It does not cross its
 /// limits, so a way across one is left out if the other way crosses none. Each begins wherever the
 /// axes have `gone_on` to.
-fn ways_round(
-    azimuth: Option<Angle>,
+pub(super) fn ways_round(
+    turns_azimuth: bool,
     counted: Sweep,
     gone_on: Sweep,
     situation: &Situation<'_>,
 ) -> [Option<Sweep>; 2] {
-    if azimuth.is_none() || !situation.state.may_turn_either_way {
+    if !turns_azimuth || !situation.state.may_turn_either_way {
         return [Some(counted.with(gone_on)), None];
     }
     let Sweep([(from_deg, to_deg), second]) = counted;

@@ -58,6 +58,7 @@ impl Session {
         }
         self.tell(Event::Safety(Safety::Slept { lasted }));
         self.contact.slept += lasted;
+        self.gate.watch_anew();
         self.contact.link.is_open().then_some(LinkLoss::Slept)
     }
 }

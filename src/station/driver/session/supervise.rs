@@ -48,6 +48,7 @@ pub(super) const CHECKS: &[Check] = checks![
     report_found,
     watch_likeness,
     watch_program,
+    watch_hands,
     resolve_doubt,
     // Motions that have to end.
     watch_jog,
@@ -136,14 +137,18 @@ impl Session {
                     self.give_up(Event::CannotTrack(target, reason), now);
                 }
             }
-            ControllerEvent::Accepted(Asked::Motion(Motion::Position { .. })) => {
-                self.position_taken();
+            ControllerEvent::Accepted(asked) => {
+                self.gate.motion_accepted(now);
+                if let Asked::Motion(Motion::Position { .. }) = asked {
+                    self.position_taken();
+                }
             }
-            ControllerEvent::Accepted(_) => {}
             ControllerEvent::Refused(asked, code) => {
+                self.gate.motion_not_accepted();
                 self.forget(asked, Event::Refused(asked, code), now);
             }
             ControllerEvent::Unanswered(asked) => {
+                self.gate.motion_not_accepted();
                 let before_deg = self.gate.started_from_deg();
                 self.doubt = Some(Doubt { asked, since: now.steady, before_deg });
             }

@@ -145,8 +145,6 @@ pub(super) struct Seen {
     pub(super) moves: bool,
     /// It moves or tracks, and not by this station.
     pub(super) is_moved_elsewhere: bool,
-    /// Its angles show that somebody else has turned it, at rest or while it tracked.
-    pub(super) is_turned: bool,
 }
 
 /// How the operator wants it.
@@ -169,8 +167,6 @@ pub(super) enum Act {
     /// The unit tracks the pass already, and nothing moves.
     TakeOver(Duty),
     Park,
-    /// Somebody else has a hand on the antenna, which must not work against them.
-    EndTrack,
 }
 
 /// What became of a request for a pass, as the session tells it.
@@ -289,10 +285,6 @@ impl Operation {
         if let Some(duty) = on.found_at_work(duties, seen, wishes, now) {
             on.take(duty, 1, now);
             return Some(Act::TakeOver(duty));
-        }
-        if seen.is_turned {
-            self.suspend(Interruption::Elsewhere, now);
-            return seen.takes.map(|_| Act::EndTrack);
         }
         if seen.is_moved_elsewhere {
             if on.is_moved_for_long(now) && !seen.may_be_planned {

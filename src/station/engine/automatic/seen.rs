@@ -2,7 +2,7 @@
 
 use super::operation::Seen;
 use crate::{
-    driver::{Intent, Snapshot, StopState},
+    driver::{Intent, StopState},
     engine::antenna::AntennaModel,
 };
 
@@ -33,18 +33,7 @@ pub(super) fn seen(antenna: &AntennaModel) -> Seen {
             .tracked_number()
             .filter(|_| antenna.tracks_unasked() && snapshot.on_board.is_some()),
         may_be_planned: false,
-        is_turned: false,
         moves,
-        is_moved_elsewhere: is_replaced
-            || antenna.is_live() && (antenna.tracks_unasked() || moves && !is_asked(snapshot)),
+        is_moved_elsewhere: is_replaced || antenna.is_live() && antenna.tracks_unasked(),
     }
-}
-
-/// Something is asked of the antenna from here that may still move it.
-pub(super) fn is_asked(snapshot: &Snapshot) -> bool {
-    snapshot.intent == Intent::Track
-        || snapshot.pending
-        || snapshot.runs_out
-        || snapshot.jog.is_some()
-        || snapshot.step.is_some()
 }

@@ -374,6 +374,7 @@ fn every_matter_of_safety() -> Vec<Safety> {
         Safety::FlagsContradict { axis: "X", turned_deg: 2.0 },
         Safety::SilentInMotion,
         Safety::NoEffect { axis: Some("X") },
+        Safety::ForeignHands { axis: "X", off_deg: 8.0 },
         Safety::ClockStepped { by_s: 2.0 },
         Safety::EndedForSleep,
         Safety::Slept { lasted: Duration::from_mins(1) },
@@ -395,6 +396,7 @@ fn every_matter_of_safety() -> Vec<Safety> {
             | Safety::FlagsContradict { .. }
             | Safety::SilentInMotion
             | Safety::NoEffect { .. }
+            | Safety::ForeignHands { .. }
             | Safety::ClockStepped { .. }
             | Safety::EndedForSleep
             | Safety::Slept { .. }

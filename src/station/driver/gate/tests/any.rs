@@ -2,14 +2,10 @@
 //! positions and motions. `AZEL_CASES` and `AZEL_SEED` as in
 //! `tests/safety_properties.rs`.
 
-use proptest::{
-    prelude::Rng as _,
-    test_runner::{RngAlgorithm, TestRng},
-};
-
 use super::*;
 use crate::{
     astro::{PointingModel, Term},
+    driver::dice::Dice,
     plan::Barrier,
     station::{Entered, KeepOut, Station},
 };
@@ -22,24 +18,6 @@ const GAP_DEG: f64 = 1.0;
 
 /// The step in which a way out is looked for, degrees.
 const FINE_DEG: f64 = 0.1;
-
-struct Dice(TestRng);
-
-impl Dice {
-    fn new(seed: u64) -> Self {
-        let mut bytes = [0; 32];
-        bytes[..8].copy_from_slice(&seed.to_le_bytes());
-        Self(TestRng::from_seed(RngAlgorithm::ChaCha, &bytes))
-    }
-
-    fn between(&mut self, from: f64, to: f64) -> f64 {
-        from + (to - from) * (self.0.next_u64() >> 11) as f64 / (1_u64 << 53) as f64
-    }
-
-    fn chance(&mut self, share: f64) -> bool {
-        self.between(0.0, 1.0) < share
-    }
-}
 
 fn antenna(dice: &mut Dice) -> Antenna {
     let mut antenna = match dice.between(0.0, 3.0) as u8 {

@@ -30,7 +30,6 @@ const STANDS: Seen = Seen {
     may_be_planned: false,
     moves: false,
     is_moved_elsewhere: false,
-    is_turned: false,
 };
 
 fn taking(number: u32) -> Seen {
@@ -135,14 +134,6 @@ fn an_antenna_that_somebody_moves_is_left_to_them_and_one_that_coasts_is_not() {
     fixture.until(200.0, moved(110.0, 130.0));
     let since = at(115.0);
     let suspended = Operation::Suspended { by: Interruption::Elsewhere, since };
-    assert_eq!(fixture.operation, suspended);
-}
-
-#[test]
-fn one_that_was_turned_is_left_to_whoever_did_it_at_once() {
-    let mut fixture = Fixture::new(&[duty(1, 500.0)]);
-    fixture.until(100.0, |now_s| Seen { is_turned: now_s >= 50.0, ..STANDS });
-    let suspended = Operation::Suspended { by: Interruption::Elsewhere, since: at(50.0) };
     assert_eq!(fixture.operation, suspended);
 }
 

@@ -1,0 +1,167 @@
+//! Feeds the watch with the motions that pass the gate and with the readings of the unit.
+
+use super::{Capabilities, Gate, Motion, Mount, Sweep, way};
+use crate::{
+    clock::Moment,
+    device::{Axis, Measured},
+    driver::{
+        Intent,
+        motion_watch::{AxisFigures, AxisReading, Foreign, Lead, MotionWatch},
+    },
+};
+
+/// Where the unit's azimuth and elevation and the angles of an X/Y mount differ by more, degrees, the
+/// geometry of the station does not describe the unit.
+const FITS_DEG: f64 = 1.0;
+/// The axes of an X/Y mount turn by many times as much as the direction near the ends of the lower
+/// axis, degrees from the zenith.
+const STEEP_DEG: f64 = 80.0;
+/// A reading so near to north may be on either side of it, degrees.
+const NEAR_NORTH_DEG: f64 = 3.0;
+const TURN_DEG: f64 = 360.0;
+
+pub(super) fn watch(can: Capabilities, mount: Mount, sway_deg: f64) -> MotionWatch {
+    let is_azel = matches!(mount, Mount::AzEl { .. });
+    let slack_deg = if is_azel { 0.0 } else { FITS_DEG };
+    let figures = |wraps| AxisFigures {
+        resolution_deg: can.standstill.resolution_deg,
+        sway_deg,
+        arrives_within_deg: can.arrives_within_deg + slack_deg,
+        wraps,
+    };
+    MotionWatch::new([figures(is_azel), figures(false)])
+}
+
+impl Gate {
+    /// A motion goes out.
+    pub(super) fn watch_motion(&mut self, motion: Motion, now: Moment) {
+        let leads = match motion {
+            Motion::Jog { x_deg_s, y_deg_s } => [x_deg_s, y_deg_s]
+                .map(|rate| (rate != 0.0).then_some(Lead::ToEnd { is_up: rate > 0.0 })),
+            Motion::Step { x_deg, y_deg } => {
+                [x_deg, y_deg].map(|by_deg| (by_deg != 0.0).then_some(Lead::By(by_deg)))
+            }
+            Motion::Position { .. } => self.leads_of_position(motion, now),
+            // The unit's own words tell whether its program moves it.
+            Motion::StartProgram | Motion::EnableAuto => [None; 2],
+        };
+        self.watch.commanded(leads, now.steady);
+    }
+
+    fn leads_of_position(&self, motion: Motion, now: Moment) -> [Option<Lead>; 2] {
+        let sent_to_deg = self.sent_to(motion, now);
+        let [first, second] = sent_to_deg.map(|deg| match deg {
+            Some(deg) => Lead::Between(deg, deg),
+            None => Lead::Anywhere,
+        });
+        let [turns_first, turns_second] = self.turned_by(motion);
+        let Motion::Position { azimuth, .. } = self.controller.as_sent(motion) else {
+            return [Some(Lead::Anywhere); 2];
+        };
+        let first = match (first, azimuth) {
+            (Lead::Between(deg, _), Some(_)) => self.ways_to(deg, now),
+            (first, _) => first,
+        };
+        [turns_first.then_some(first), turns_second.then_some(second)]
+    }
+
+    /// The ways of the azimuth axis to an angle, degrees as the mount counts: as it counts, over
+    /// north, or either.
+    fn ways_to(&self, deg: f64, now: Moment) -> Lead {
+        let at_deg = self.state().measured.and_then(|measured| measured.axes[0].angle_deg);
+        let is_azel = matches!(self.mount, Mount::AzEl { .. });
+        let Some(at_deg) = at_deg.filter(|_| is_azel) else { return Lead::Between(deg, deg) };
+        let north_deg = (at_deg + TURN_DEG / 2.0).rem_euclid(TURN_DEG) - TURN_DEG / 2.0;
+        if north_deg.abs() < NEAR_NORTH_DEG {
+            return Lead::EitherWay(deg);
+        }
+        let counted = Sweep([(at_deg.min(deg), at_deg.max(deg)), (0.0, 0.0)]);
+        let start = Sweep::at([at_deg, 0.0]);
+        let situation = self.situation(Intent::Position, false, now);
+        let over_north_deg = if deg > at_deg { deg - TURN_DEG } else { deg + TURN_DEG };
+        let ways = way::ways_round(true, counted, start, &situation);
+        match ways {
+            [Some(_), Some(_)] => Lead::EitherWay(deg),
+            [Some(way), None] if way != counted => Lead::Between(over_north_deg, over_north_deg),
+            _ => Lead::Between(deg, deg),
+        }
+    }
+
+    /// An action of the make that moves the antenna goes out; it leads each axis there, degrees as
+    /// the mount counts, or nobody knows where.
+    pub(super) fn watch_act(&mut self, to_deg: [Option<f64>; 2], now: Moment) {
+        let leads = to_deg.map(|deg| match deg {
+            Some(deg) => Some(Lead::Between(deg, deg)),
+            None => Some(Lead::Anywhere),
+        });
+        self.watch.commanded(leads, now.steady);
+    }
+
+    /// The unit accepted the oldest motion that was not answered.
+    pub(in crate::driver) fn motion_accepted(&mut self, now: Moment) {
+        self.watch.accepted(now.steady);
+    }
+
+    /// The unit refused the oldest motion that was not answered, or nobody knows what became of it.
+    pub(in crate::driver) fn motion_not_accepted(&mut self) {
+        self.watch.not_accepted();
+    }
+
+    /// The axes were proved to stand after a halt.
+    pub(in crate::driver) fn motions_over(&mut self) {
+        self.watch.proved_still();
+    }
+
+    /// Nobody has watched the axes for a while.
+    pub(in crate::driver) fn watch_anew(&mut self) {
+        self.watch.start_anew();
+    }
+
+    /// A setting is written that may change the meaning of the readings.
+    pub(in crate::driver) fn readings_change(&mut self, now: Moment) {
+        self.watch.opened(now.steady);
+    }
+
+    /// Looks at the last position. Returns an axis that somebody else has moved.
+    pub(in crate::driver) fn look_for_hands(&mut self, now: Moment) -> Option<Foreign> {
+        if self.state().program.is_some_and(|program| program.enabled) {
+            self.watch.opened(now.steady);
+        }
+        let received = self.state().measured?.received;
+        if self.looked.replace(received) == Some(received) {
+            return None;
+        }
+        let readings = self.readings()?;
+        self.watch.take(readings)
+    }
+
+    /// The last position by axis; `None` while it does not describe the axes.
+    fn readings(&self) -> Option<[Option<AxisReading>; 2]> {
+        let measured = self.state().measured?;
+        if !self.geometry_fits(&measured) {
+            return None;
+        }
+        let reading = |axis: Axis| {
+            let angle_deg = axis.angle_deg.filter(|deg| deg.is_finite())?;
+            let Measured { asked, received, .. } = measured;
+            Some(AxisReading { angle_deg, motion: axis.motion, asked, received })
+        };
+        let [first, second] = measured.axes.map(reading);
+        Some([first, second.filter(|_| self.variant.capabilities.has_elevation())])
+    }
+
+    /// Returns `true` if the mount of the station turns these angles into the direction that the unit
+    /// reports.
+    fn geometry_fits(&self, measured: &Measured) -> bool {
+        if matches!(self.mount, Mount::AzEl { .. }) {
+            return true;
+        }
+        let axes_deg = measured.axes_deg(self.variant.capabilities.has_elevation());
+        let (Some(axes_deg), Some(direction)) = (axes_deg, measured.direction()) else {
+            return false;
+        };
+        let [_, upper_deg] = axes_deg;
+        let off = self.mount.direction(axes_deg).separation(direction);
+        off.degrees() <= FITS_DEG && (upper_deg - 90.0).abs() <= STEEP_DEG
+    }
+}

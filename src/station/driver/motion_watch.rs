@@ -1,0 +1,125 @@
+//! The watch: where each axis can be if nothing moves it but what Azel has commanded and the unit's
+//! own program. Somebody else has moved an axis that is read elsewhere.
+//!
+//! It has no clock and no link, and its memory is bounded.
+
+mod axis;
+mod lessons;
+mod range;
+
+use std::time::Duration;
+
+use axis::AxisWatch;
+pub(super) use axis::Lead;
+
+use crate::{clock::Instant, device::AxisMotion};
+
+/// Two readings outside the interval, at least this far apart, make a verdict: one alone may be
+/// misread.
+const APART: Duration = Duration::from_millis(500);
+/// A standing axis that a gust has pushed out swings back within this time.
+const SWINGS_BACK: Duration = Duration::from_secs(9);
+
+/// Properties of an axis that are known beforehand.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct AxisFigures {
+    /// Step of the reported angle, degrees.
+    pub(super) resolution_deg: f64,
+    /// Largest difference between two angles of an axis that stands in the wind, degrees.
+    pub(super) sway_deg: f64,
+    /// The unit ends a motion to a position this near to it, degrees.
+    pub(super) arrives_within_deg: f64,
+    /// The reported angle jumps by a turn somewhere.
+    pub(super) wraps: bool,
+}
+
+/// A reading of one axis.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct AxisReading {
+    /// Degrees as the mount counts.
+    pub(super) angle_deg: f64,
+    pub(super) motion: AxisMotion,
+    pub(super) asked: Instant,
+    pub(super) received: Instant,
+}
+
+/// An axis that somebody else has moved.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Foreign {
+    pub(super) axis: usize,
+    /// How far outside its interval, degrees, positive clockwise or up.
+    pub(super) by_deg: f64,
+}
+
+/// The watch over both axes of an antenna.
+#[derive(Debug)]
+pub(super) struct MotionWatch {
+    axes: [AxisWatch; 2],
+    /// Number of motions that were sent, and the newest that was answered.
+    sent: u64,
+    answered: u64,
+}
+
+impl MotionWatch {
+    pub(super) fn new(figures: [AxisFigures; 2]) -> Self {
+        Self { axes: figures.map(AxisWatch::new), sent: 0, answered: 0 }
+    }
+
+    /// A motion goes out that leads each axis there; an axis with `None` keeps what it has.
+    pub(super) fn commanded(&mut self, leads: [Option<Lead>; 2], now: Instant) {
+        self.sent += 1;
+        for (axis, lead) in self.axes.iter_mut().zip(leads) {
+            if let Some(lead) = lead {
+                axis.commanded(lead, self.sent, now);
+            }
+        }
+    }
+
+    /// The unit accepted the oldest motion that was not answered: it ends those before.
+    pub(super) fn accepted(&mut self, now: Instant) {
+        self.answered = (self.answered + 1).min(self.sent);
+        for axis in &mut self.axes {
+            axis.accepted(self.answered, now);
+        }
+    }
+
+    /// The oldest motion that was not answered was refused, or nobody knows what became of it.
+    pub(super) fn not_accepted(&mut self) {
+        self.answered = (self.answered + 1).min(self.sent);
+    }
+
+    /// Both axes were proved to stand after a halt: no motion leads on.
+    pub(super) fn proved_still(&mut self) {
+        self.answered = self.sent;
+        for axis in &mut self.axes {
+            axis.proved_still();
+        }
+    }
+
+    /// Nobody has watched for a while: the next reading begins anew.
+    pub(super) fn start_anew(&mut self) {
+        for axis in &mut self.axes {
+            axis.start_anew();
+        }
+    }
+
+    /// The unit's own program may move both axes.
+    pub(super) fn opened(&mut self, now: Instant) {
+        for axis in &mut self.axes {
+            axis.opened(now);
+        }
+    }
+
+    /// Takes a reading of each axis that has an angle. Returns an axis that somebody else has moved.
+    pub(super) fn take(&mut self, readings: [Option<AxisReading>; 2]) -> Option<Foreign> {
+        let mut foreign = None;
+        for (index, (axis, reading)) in self.axes.iter_mut().zip(readings).enumerate() {
+            let by_deg = reading.and_then(|reading| axis.take(reading));
+            foreign = foreign.or(by_deg.map(|by_deg| Foreign { axis: index, by_deg }));
+        }
+        foreign
+    }
+}
+
+#[cfg(test)]
+mod tests;

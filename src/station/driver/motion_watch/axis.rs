@@ -1,0 +1,462 @@
+//! The watch over one axis.
+
+use std::time::Duration;
+
+use super::{
+    APART, AxisFigures, AxisReading, SWINGS_BACK,
+    lessons::{DEAD_TIME, DeadTime, FASTEST_DEG_S, RunsPast, Spread},
+    range::Range,
+};
+use crate::{clock::Instant, device::AxisMotion};
+
+/// An axis on its way turns no slower, degrees a second.
+const SLOWEST_DEG_S: f64 = 0.25;
+/// Longest time that an axis coasts.
+const COASTS: Duration = Duration::from_secs(3);
+/// A standing axis may creep by 0.3 degrees a minute.
+const CREEPS_DEG_S: f64 = 0.3 / 60.0;
+/// Number of motions that are kept. A further one joins the oldest two.
+const MOST_MOTIONS: usize = 24;
+/// Readings may show so much later what an axis does.
+const LATE: Duration = Duration::from_secs(2);
+/// An axis that was not read for longer may have turned and come to rest.
+const UNSEEN: Duration = Duration::from_secs(2);
+/// Motions that follow each other within this time are steps.
+const STEPS: Duration = Duration::from_secs(5);
+const TURN_DEG: f64 = 360.0;
+
+/// Where a motion leads an axis.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(in crate::driver) enum Lead {
+    /// Somewhere between these angles, degrees as the mount counts.
+    Between(f64, f64),
+    /// To this angle by either way round, degrees as the mount counts.
+    EitherWay(f64),
+    /// By this many degrees from where the axis is.
+    By(f64),
+    /// Up to an end of the travel: up or clockwise, or the other way.
+    ToEnd {
+        is_up: bool,
+    },
+    Anywhere,
+}
+
+/// A motion that may still turn the axis.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Live {
+    number: u64,
+    /// The axis turns no further down, or counter-clockwise, than this; infinite where it does not
+    /// turn that way at all.
+    down_to_deg: f64,
+    up_to_deg: f64,
+    /// Its end is a position.
+    ends: bool,
+    /// It may lead there either way round.
+    either_way: bool,
+    /// It led up, or down, when it was sent: the axis may coast on that way.
+    led: [bool; 2],
+    /// When the axis was last not below its end, and not above: only then may it run past it downwards,
+    /// and upwards.
+    passed: [Option<Instant>; 2],
+    /// A newer motion is obeyed by then.
+    until: Option<Instant>,
+}
+
+impl Live {
+    /// Returns it as it is at `at`; `None` if it has come to rest by then.
+    fn at(self, at: Instant) -> Option<Self> {
+        let Some(until) = self.until.filter(|until| *until < at) else { return Some(self) };
+        if until + COASTS < at {
+            return None;
+        }
+        let [down, up] = self.led;
+        Some(Self {
+            down_to_deg: if down { self.down_to_deg } else { f64::INFINITY },
+            up_to_deg: if up { self.up_to_deg } else { f64::NEG_INFINITY },
+            ..self
+        })
+    }
+
+    /// Notes on which side of its end the axis is; `range`: `None` where that is not known.
+    fn look(&mut self, range: Option<Range>, arrives_deg: f64, at: Instant) {
+        let [from_above, from_below] = &mut self.passed;
+        if range.is_none_or(|range| range.to_deg >= self.down_to_deg - arrives_deg) {
+            *from_above = Some(at);
+        }
+        if range.is_none_or(|range| range.from_deg <= self.up_to_deg + arrives_deg) {
+            *from_below = Some(at);
+        }
+    }
+
+    fn joined(self, newer: Self) -> Self {
+        let [down, up] = self.led;
+        let [newer_down, newer_up] = newer.led;
+        Self {
+            number: newer.number,
+            down_to_deg: self.down_to_deg.min(newer.down_to_deg),
+            up_to_deg: self.up_to_deg.max(newer.up_to_deg),
+            ends: self.ends && newer.ends,
+            either_way: self.either_way || newer.either_way,
+            led: [down || newer_down, up || newer_up],
+            passed: newer.passed,
+            until: self.until.zip(newer.until).map(|(one, other)| one.max(other)),
+        }
+    }
+}
+
+/// Where the axis can be, at the time of the last reading inside.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Known {
+    range: Range,
+    at: Instant,
+    /// Turns to add to a reading that wraps, degrees.
+    turns_deg: f64,
+}
+
+/// When the axis was last seen to turn.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Turned {
+    /// The reading that later ones are compared with, degrees, and when it was asked for.
+    from_deg: f64,
+    from: Instant,
+    at: Option<Instant>,
+    is_up: bool,
+}
+
+/// Readings outside the interval.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Outside {
+    since: Instant,
+    /// The unit has said that the axis turns.
+    is_driven: bool,
+}
+
+#[derive(Debug)]
+pub(super) struct AxisWatch {
+    figures: AxisFigures,
+    known: Option<Known>,
+    motions: Vec<Live>,
+    /// When the last motion was sent, and whether the axis has not turned since then although it
+    /// stood before.
+    sent: Option<Instant>,
+    starts: bool,
+    turned: Option<Turned>,
+    /// It came to rest after the last motion that was sent.
+    has_settled: bool,
+    outside: Option<Outside>,
+    open_until: Option<Instant>,
+    spread: Spread,
+    runs_past: RunsPast,
+    dead_time: DeadTime,
+}
+
+impl AxisWatch {
+    pub(super) fn new(figures: AxisFigures) -> Self {
+        Self {
+            figures,
+            known: None,
+            motions: Vec::with_capacity(MOST_MOTIONS + 1),
+            sent: None,
+            starts: false,
+            turned: None,
+            has_settled: false,
+            outside: None,
+            open_until: None,
+            spread: Spread::default(),
+            runs_past: RunsPast::default(),
+            dead_time: DeadTime::default(),
+        }
+    }
+
+    pub(super) fn commanded(&mut self, lead: Lead, number: u64, now: Instant) {
+        let here = self.reachable(now);
+        let turns_deg = self.known.map_or(0.0, |known| known.turns_deg);
+        let everywhere = (f64::NEG_INFINITY, f64::INFINITY);
+        let (down_to_deg, up_to_deg) = match lead {
+            Lead::Between(from_deg, to_deg) => (from_deg + turns_deg, to_deg + turns_deg),
+            Lead::EitherWay(deg) => (deg + turns_deg - TURN_DEG, deg + turns_deg + TURN_DEG),
+            Lead::By(by_deg) => {
+                here.map_or(everywhere, |here| (here.from_deg + by_deg, here.to_deg + by_deg))
+            }
+            Lead::ToEnd { is_up: true } => (f64::INFINITY, f64::INFINITY),
+            Lead::ToEnd { is_up: false } => (f64::NEG_INFINITY, f64::NEG_INFINITY),
+            Lead::Anywhere => everywhere,
+        };
+        let ends = matches!(lead, Lead::Between(..) | Lead::EitherWay(_) | Lead::By(_));
+        let either_way = matches!(lead, Lead::EitherWay(_));
+        let led =
+            here.map_or([true; 2], |here| [down_to_deg < here.to_deg, up_to_deg > here.from_deg]);
+        self.starts = self.is_settled(now);
+        let are_steps = self.sent.is_some_and(|sent| now < sent + STEPS);
+        let end = Range { from_deg: down_to_deg, to_deg: up_to_deg };
+        self.runs_past.commanded(self.way_deg(end, here), are_steps);
+        (self.sent, self.has_settled) = (Some(now), false);
+        let until = None;
+        let passed = [None; 2];
+        let mut motion =
+            Live { number, down_to_deg, up_to_deg, ends, either_way, led, passed, until };
+        motion.look(here, self.figures.arrives_within_deg, now);
+        self.motions.push(motion);
+        if self.motions.len() > MOST_MOTIONS {
+            let oldest = self.motions.remove(0);
+            if let Some(next) = self.motions.first_mut() {
+                *next = oldest.joined(*next);
+            }
+        }
+    }
+
+    /// Length of a motion to `end`: from that of the motion before, because somebody else may have moved
+    /// the axis away from there.
+    fn way_deg(&self, end: Range, here: Option<Range>) -> f64 {
+        let last = self.motions.last().filter(|last| last.ends);
+        let from = last.map(|last| Range { from_deg: last.down_to_deg, to_deg: last.up_to_deg });
+        let Some(from) = from.or(here) else { return f64::INFINITY };
+        let way_deg = end.middle_deg() - from.middle_deg();
+        let way_deg = if way_deg.is_nan() { f64::INFINITY } else { way_deg };
+        self.turned_deg(way_deg).abs()
+    }
+
+    /// The shorter way round, where the reading wraps.
+    fn turned_deg(&self, deg: f64) -> f64 {
+        if !self.figures.wraps || !deg.is_finite() {
+            return deg;
+        }
+        (deg + TURN_DEG / 2.0).rem_euclid(TURN_DEG) - TURN_DEG / 2.0
+    }
+
+    /// The motion with this number ends those before it.
+    pub(super) fn accepted(&mut self, number: u64, now: Instant) {
+        // A motion that does not concern this axis ends nothing of it.
+        if !self.motions.iter().any(|motion| motion.number == number) {
+            return;
+        }
+        let until = now + self.dead_time.most();
+        for motion in self.motions.iter_mut().filter(|motion| motion.number < number) {
+            motion.until.get_or_insert(until);
+        }
+    }
+
+    pub(super) fn proved_still(&mut self) {
+        self.motions.clear();
+    }
+
+    /// The unit's own program may turn the axis until now, and it may coast.
+    pub(super) fn opened(&mut self, now: Instant) {
+        self.open_until = Some(now + DEAD_TIME + COASTS);
+    }
+
+    pub(super) fn start_anew(&mut self) {
+        self.known = None;
+        self.outside = None;
+        self.turned = None;
+        self.has_settled = false;
+        self.spread.turns();
+    }
+
+    /// Takes a reading. Returns how far outside its interval somebody else has moved the axis,
+    /// degrees.
+    pub(super) fn take(&mut self, reading: AxisReading) -> Option<f64> {
+        let AxisReading { angle_deg, motion, asked, received } = reading;
+        let error_deg = self.error_deg();
+        let since = self.known.map_or(asked, |known| known.at);
+        self.motions.retain(|motion| motion.at(since).is_some());
+        let is_open = self.open_until.is_some_and(|until| asked <= until);
+        let reachable = self.reachable(received).filter(|_| !is_open);
+        let (Some(known), Some(reachable)) = (self.known, reachable) else {
+            self.outside = None;
+            self.know(angle_deg, 0.0, Range::about(angle_deg, error_deg), asked);
+            return None;
+        };
+        let turns_deg = self.turns_deg(angle_deg, known, reachable);
+        let deg = angle_deg + turns_deg;
+        if self.figures.wraps && reachable.to_deg - reachable.from_deg > TURN_DEG - error_deg * 2.0
+        {
+            self.lose_turns();
+        }
+        let here = Range::about(deg, error_deg);
+        let Some(range) = here.within(reachable) else {
+            let is_driven = motion != AxisMotion::Still || !self.is_settled(asked);
+            let outside = self.outside.get_or_insert(Outside { since: asked, is_driven });
+            outside.is_driven |= is_driven;
+            let lasted = asked.saturating_duration_since(outside.since);
+            let may_swing_back = !outside.is_driven && lasted < SWINGS_BACK;
+            if lasted < APART || may_swing_back {
+                return None;
+            }
+            self.outside = None;
+            self.runs_past.forget();
+            self.know(angle_deg, turns_deg, here, asked);
+            return Some(reachable.off_deg(deg));
+        };
+        self.outside = None;
+        self.know(angle_deg, turns_deg, range, asked);
+        self.learn(deg, asked);
+        None
+    }
+
+    fn know(&mut self, angle_deg: f64, turns_deg: f64, range: Range, at: Instant) {
+        let before = self.known.replace(Known { range, at, turns_deg });
+        let gap = before.map(|before| at.saturating_duration_since(before.at));
+        let deg = angle_deg + turns_deg;
+        // Between two readings it may have been further.
+        let went_deg = gap.map_or(0.0, |gap| self.runs_past.most_deg_s() * gap.as_secs_f64() / 2.0);
+        for motion in &mut self.motions {
+            motion.look(Some(range.widened(went_deg)), self.figures.arrives_within_deg, at);
+        }
+        // Nobody knows what it did meanwhile.
+        if let Some(turned) = self.turned.as_mut().filter(|_| gap.is_some_and(|gap| gap > UNSEEN)) {
+            (turned.from_deg, turned.from, turned.at) = (deg, at, Some(at));
+            self.has_settled = false;
+            for motion in &mut self.motions {
+                (motion.led, motion.passed) = ([true; 2], [Some(at); 2]);
+            }
+        }
+        let first = Turned { from_deg: deg, from: at, at: Some(at), is_up: false };
+        let Turned { from_deg, from, .. } = *self.turned.get_or_insert(first);
+        if (deg - from_deg).abs() > self.error_deg_of_two() {
+            let is_up = deg > from_deg;
+            // Only towards an end do its drives turn it for certain.
+            let mut live = self.motions.iter().filter_map(|motion| motion.at(at));
+            let is_led = |motion: Live| {
+                if is_up { motion.up_to_deg > deg } else { motion.down_to_deg < deg }
+            };
+            if live.any(is_led) {
+                self.runs_past.turned((deg - from_deg).abs(), at.saturating_duration_since(from));
+            }
+            if std::mem::take(&mut self.starts)
+                && let Some(sent) = self.sent
+            {
+                self.dead_time.seen(at.saturating_duration_since(sent));
+            }
+            self.turned = Some(Turned { from_deg: deg, from: at, at: Some(at), is_up });
+            // It hunts.
+            for motion in self
+                .motions
+                .iter_mut()
+                .filter(|motion| motion.until.is_none_or(|until| at <= until + LATE))
+            {
+                let [down, up] = &mut motion.led;
+                *if is_up { up } else { down } = true;
+            }
+        }
+    }
+
+    /// Learns from a reading inside the interval.
+    fn learn(&mut self, deg: f64, at: Instant) {
+        if self.is_settled(at) {
+            self.has_settled = true;
+            if let Some(turned) = &mut self.turned {
+                (turned.from_deg, turned.from) = (deg, at);
+            }
+            self.has_arrived(deg);
+            return self.spread.stands(deg);
+        }
+        self.spread.turns();
+        if !self.motions.last().is_some_and(|newest| newest.ends) {
+            return;
+        }
+        // A drive that obeys late is still on its way to an earlier end.
+        let live = || self.motions.iter().filter_map(|motion| motion.at(at));
+        let up_to_deg = live().map(|motion| motion.up_to_deg).fold(f64::NEG_INFINITY, f64::max);
+        let down_to_deg = live().map(|motion| motion.down_to_deg).fold(f64::INFINITY, f64::min);
+        let ends = live().flat_map(|motion| [motion.up_to_deg, motion.down_to_deg]);
+        let off = ends.map(|end_deg| self.turned_deg(deg - end_deg).abs());
+        let is_between =
+            (down_to_deg..=up_to_deg).contains(&deg) && up_to_deg - down_to_deg < TURN_DEG / 2.0;
+        let off_deg = if is_between { 0.0 } else { off.fold(f64::INFINITY, f64::min) };
+        let turns =
+            self.turned.and_then(|turned| turned.at).is_some_and(|turned| at <= turned + UNSEEN);
+        let is_there = turns && off_deg <= self.figures.arrives_within_deg + self.error_deg();
+        self.runs_past.look(is_there, at);
+        let Some(Turned { at: Some(turned_at), is_up, .. }) = self.turned else { return };
+        let past_deg = if is_up { deg - up_to_deg } else { down_to_deg - deg };
+        if turned_at == at && past_deg > 0.0 && past_deg.is_finite() {
+            self.runs_past.past(past_deg);
+        }
+    }
+
+    /// The axis may have gone round since it was read.
+    fn lose_turns(&mut self) {
+        for motion in &mut self.motions {
+            motion.down_to_deg -= TURN_DEG;
+            motion.up_to_deg += TURN_DEG;
+            motion.either_way = motion.ends;
+        }
+    }
+
+    /// An axis that stands where the newest motion ends has obeyed it, and gone one of two ways.
+    fn has_arrived(&mut self, deg: f64) {
+        let Some(newest) = self.motions.last_mut().filter(|newest| newest.ends) else { return };
+        if newest.either_way {
+            let turns = ((deg - newest.up_to_deg) / TURN_DEG).round();
+            let end_deg = newest.up_to_deg + turns * TURN_DEG;
+            (newest.down_to_deg, newest.up_to_deg, newest.either_way) = (end_deg, end_deg, false);
+        }
+        let (number, end) =
+            (newest.number, Range { from_deg: newest.down_to_deg, to_deg: newest.up_to_deg });
+        let near_deg = self.figures.arrives_within_deg + self.error_deg();
+        if end.off_deg(deg).abs() <= near_deg {
+            self.motions.retain(|motion| motion.number == number);
+        }
+    }
+
+    /// Returns `true` if the axis has come to rest after its last motion.
+    fn is_settled(&self, at: Instant) -> bool {
+        let last = self.sent.max(self.turned.and_then(|turned| turned.at));
+        let shows_s = self.error_deg_of_two() / SLOWEST_DEG_S;
+        let shows = Duration::try_from_secs_f64(shows_s).unwrap_or(DEAD_TIME);
+        self.has_settled || last.is_none_or(|last| last + DEAD_TIME + COASTS + shows < at)
+    }
+
+    /// Largest error of a reading, with half of the sway, degrees.
+    fn error_deg(&self) -> f64 {
+        self.spread.error_deg(self.figures.resolution_deg) + self.figures.sway_deg / 2.0
+    }
+
+    fn error_deg_of_two(&self) -> f64 {
+        self.error_deg() * 2.0
+    }
+
+    /// The turns to add to a reading so that it fits best.
+    fn turns_deg(&self, angle_deg: f64, known: Known, reachable: Range) -> f64 {
+        if !self.figures.wraps {
+            return known.turns_deg;
+        }
+        if reachable.off_deg(angle_deg + known.turns_deg) == 0.0 {
+            return known.turns_deg;
+        }
+        ((known.range.middle_deg() - angle_deg) / TURN_DEG).round() * TURN_DEG
+    }
+
+    /// Where the axis can be at `at`.
+    fn reachable(&self, at: Instant) -> Option<Range> {
+        let Known { range, at: since, .. } = self.known?;
+        let elapsed_s = at.saturating_duration_since(since).as_secs_f64();
+        let reach_deg = FASTEST_DEG_S * elapsed_s;
+        let mut reachable = range.widened(CREEPS_DEG_S * elapsed_s);
+        let is_unseen = at.saturating_duration_since(since) > UNSEEN;
+        let is_settled = self.is_settled(since) && !(is_unseen && self.sent > Some(since));
+        for motion in self.motions.iter().filter_map(|motion| motion.at(since)) {
+            let Live { mut down_to_deg, mut up_to_deg, passed: [from_above, from_below], .. } =
+                motion;
+            let arrives_deg = self.figures.arrives_within_deg;
+            let past_deg = arrives_deg + self.runs_past.most_deg() + self.error_deg();
+            let may_pass = |passed: Option<Instant>| {
+                let passed = passed.is_some_and(|passed| since <= passed + COASTS + LATE);
+                !is_settled && (passed || is_unseen)
+            };
+            if may_pass(from_above) {
+                down_to_deg -= past_deg;
+            }
+            if may_pass(from_below) {
+                up_to_deg += past_deg;
+            }
+            let Range { from_deg, to_deg } = range;
+            let from_deg = from_deg.min(down_to_deg.max(from_deg - reach_deg));
+            let to_deg = to_deg.max(up_to_deg.min(to_deg + reach_deg));
+            reachable.from_deg = reachable.from_deg.min(from_deg);
+            reachable.to_deg = reachable.to_deg.max(to_deg);
+        }
+        Some(reachable)
+    }
+}

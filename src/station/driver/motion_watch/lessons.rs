@@ -1,0 +1,206 @@
+//! Properties of an axis that are learned from its motions, as long as nobody else moves it.
+
+use std::time::Duration;
+
+use crate::clock::Instant;
+
+/// Longest time from a command until the drive obeys it.
+pub(super) const DEAD_TIME: Duration = Duration::from_secs(2);
+/// An axis may run this far past the end of a motion until it has been seen to do better, degrees.
+const RUNS_PAST_DEG: f64 = 60.0;
+/// Number of windows after which what was seen in them counts.
+const ENOUGH: u8 = 8;
+/// A drive may run for so long at least, seconds.
+const RUNS_S: f64 = 0.3;
+/// No axis turns faster, degrees a second.
+pub(super) const FASTEST_DEG_S: f64 = 30.0;
+/// Without lessons: seconds at the fastest rate that an axis runs past the end of a motion.
+const COASTS_S: f64 = 2.7;
+/// A rate is taken between readings this far apart at least.
+const APART: Duration = Duration::from_millis(250);
+/// A motion may run past its end by this many times as much as those before.
+const MARGIN: f64 = 2.5;
+/// Motions count together up to these lengths, degrees: an axis runs further past the end of a longer
+/// one, because it turns faster.
+const LENGTHS_DEG: [f64; 4] = [1.0, 4.0, 16.0, f64::INFINITY];
+const CLASSES: usize = LENGTHS_DEG.len() * 2;
+/// The length of a motion counts for as long as this, and up to twice as long.
+const WINDOW: Duration = Duration::from_secs(10);
+/// Number of starts after which the dead time counts.
+const STARTS: u8 = 3;
+/// Further starts may take this much longer, besides a quarter.
+const SPARE: Duration = Duration::from_millis(200);
+/// Noise beyond half a step is no more than this until the readings have shown less, and at most,
+/// degrees.
+const NOISE_DEG: f64 = 0.35;
+const MAX_NOISE_DEG: f64 = 1.0;
+/// Places at which it must have been seen to stand.
+const PLACES: u8 = 6;
+/// Readings of a standing axis that show its noise.
+const READINGS: u16 = 20;
+/// Further readings may differ by this many times as much.
+const SPREADS: f64 = 1.3;
+
+/// How far an axis runs past the end of a motion, by the length of the motion.
+#[derive(Debug, Clone, Copy, Default)]
+pub(super) struct RunsPast {
+    seen_deg: [f64; CLASSES],
+    /// Number of windows in which the end of a motion was watched.
+    windows: [u8; CLASSES],
+    /// Each motion replaces the one before on its way.
+    are_steps: bool,
+    /// How far it has run past the present end, degrees.
+    past_deg: f64,
+    /// Length of the longest motion whose end was not reached yet, degrees.
+    way_deg: f64,
+    /// The longest such way in this window and in the one before, degrees.
+    left_deg: [f64; 2],
+    since: Option<Instant>,
+    /// The fastest turn that was seen, degrees a second.
+    fastest_deg_s: f64,
+    /// Number of readings between which the axis has turned.
+    turns: u8,
+    /// An end was reached in this window.
+    has_reached: bool,
+}
+
+impl RunsPast {
+    /// Takes a reading; `is_there`: near the end of the motion.
+    pub(super) fn look(&mut self, is_there: bool, at: Instant) {
+        let left_deg = self.way_deg;
+        if is_there {
+            self.way_deg = 0.0;
+            // Only an axis that comes back has run past the end by itself.
+            let (class, past_deg) = (self.class(), std::mem::take(&mut self.past_deg));
+            if let Some(seen_deg) = self.seen_deg.get_mut(class) {
+                *seen_deg = seen_deg.max(past_deg);
+            }
+        }
+        let since = *self.since.get_or_insert(at);
+        self.has_reached |= is_there;
+        if at.saturating_duration_since(since) > WINDOW {
+            let class = self.class();
+            let has_reached = std::mem::take(&mut self.has_reached);
+            if let Some(windows) = self.windows.get_mut(class).filter(|_| has_reached) {
+                *windows = windows.saturating_add(1);
+            }
+            self.since = Some(at);
+            let [now_deg, _] = self.left_deg;
+            self.left_deg = [0.0, now_deg];
+        }
+        let [now_deg, before_deg] = self.left_deg;
+        self.left_deg = [now_deg.max(left_deg), before_deg];
+    }
+
+    /// A motion of this length goes out; `are_steps`: right after another one.
+    pub(super) fn commanded(&mut self, way_deg: f64, are_steps: bool) {
+        self.are_steps = are_steps;
+        // As long as the end was not reached, the axis may turn as fast as it does on a long way.
+        self.way_deg = self.way_deg.max(way_deg);
+        let [now_deg, before_deg] = self.left_deg;
+        self.left_deg = [now_deg.max(self.way_deg), before_deg];
+    }
+
+    fn class(&self) -> usize {
+        let longest_deg = self.left_deg.into_iter().fold(0.0, f64::max);
+        let longest_deg = if self.since.is_some() { longest_deg } else { f64::INFINITY };
+        let class = LENGTHS_DEG.iter().position(|most| longest_deg <= *most).unwrap_or_default();
+        if self.are_steps { class + LENGTHS_DEG.len() } else { class }
+    }
+
+    /// The axis has turned by so much between two readings.
+    pub(super) fn turned(&mut self, by_deg: f64, lasted: Duration) {
+        if lasted >= APART {
+            self.fastest_deg_s = self.fastest_deg_s.max(by_deg / lasted.as_secs_f64());
+            self.turns = self.turns.saturating_add(1);
+        }
+    }
+
+    /// The fastest that it turns, degrees a second.
+    pub(super) fn most_deg_s(&self) -> f64 {
+        if self.turns < ENOUGH { FASTEST_DEG_S } else { self.fastest_deg_s.min(FASTEST_DEG_S) }
+    }
+
+    /// The axis was read this far past the end, degrees.
+    pub(super) fn past(&mut self, by_deg: f64) {
+        self.past_deg = self.past_deg.max(by_deg);
+    }
+
+    /// Somebody else has moved the axis.
+    pub(super) fn forget(&mut self) {
+        self.past_deg = 0.0;
+    }
+
+    /// How far it may run past the end of the present motion, degrees.
+    pub(super) fn most_deg(&self) -> f64 {
+        let class = self.class();
+        if self.windows.get(class).is_none_or(|windows| *windows < ENOUGH) {
+            return (self.most_deg_s() * COASTS_S).min(RUNS_PAST_DEG);
+        }
+        let seen_deg = self.seen_deg.into_iter().filter(|deg| *deg <= RUNS_PAST_DEG / 2.0);
+        let seen_deg = seen_deg.fold(0.0, f64::max);
+        (seen_deg * MARGIN).max(self.fastest_deg_s * RUNS_S).min(RUNS_PAST_DEG)
+    }
+}
+
+/// The time from a command to a standing axis until it turns.
+#[derive(Debug, Clone, Copy, Default)]
+pub(super) struct DeadTime {
+    longest: Duration,
+    starts: u8,
+}
+
+impl DeadTime {
+    pub(super) fn seen(&mut self, lasted: Duration) {
+        self.longest = self.longest.max(lasted);
+        self.starts = self.starts.saturating_add(1);
+    }
+
+    pub(super) fn most(&self) -> Duration {
+        let seen = self.longest * 5 / 4 + SPARE;
+        if self.starts < STARTS { DEAD_TIME } else { seen.min(DEAD_TIME) }
+    }
+}
+
+/// By how much readings of a standing axis differ.
+#[derive(Debug, Clone, Copy, Default)]
+pub(super) struct Spread {
+    /// Lowest and highest reading since it stands, degrees, and their number.
+    now: Option<(f64, f64, u16)>,
+    /// The largest difference that was seen, degrees.
+    widest_deg: Option<f64>,
+    /// Number of places where the axis stood.
+    places: u8,
+    has_turned: bool,
+}
+
+impl Spread {
+    /// Takes a reading of an axis that stands.
+    pub(super) fn stands(&mut self, deg: f64) {
+        let (from_deg, to_deg, readings) = self.now.unwrap_or((deg, deg, 0));
+        let (from_deg, to_deg) = (from_deg.min(deg), to_deg.max(deg));
+        self.now = Some((from_deg, to_deg, readings + 1));
+        if readings + 1 >= READINGS {
+            let spread_deg = to_deg - from_deg;
+            self.widest_deg = Some(self.widest_deg.map_or(spread_deg, |deg| deg.max(spread_deg)));
+            self.now = None;
+            if std::mem::take(&mut self.has_turned) {
+                self.places = self.places.saturating_add(1);
+            }
+        }
+    }
+
+    pub(super) fn turns(&mut self) {
+        (self.now, self.has_turned) = (None, true);
+    }
+
+    /// Largest error of a reading, degrees, where the unit reports steps of `resolution_deg`.
+    pub(super) fn error_deg(&self, resolution_deg: f64) -> f64 {
+        let half_step_deg = resolution_deg / 2.0;
+        // Elsewhere the noise may reach one more step.
+        let step_deg = if self.places < PLACES { half_step_deg } else { 0.0 };
+        let seen_deg = self.widest_deg.map(|deg| (deg / 2.0 * SPREADS).max(deg / 2.0 + step_deg));
+        let error_deg = seen_deg.unwrap_or(half_step_deg + NOISE_DEG);
+        error_deg.clamp(half_step_deg, half_step_deg + MAX_NOISE_DEG) + resolution_deg * 0.05
+    }
+}

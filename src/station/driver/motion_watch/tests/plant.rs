@@ -1,0 +1,210 @@
+//! An axis with a drive that starts late, coasts, runs for a while at least, and is read with noise in
+//! whole steps. It knows nothing of the watch.
+
+use std::collections::VecDeque;
+
+use crate::driver::dice::Dice;
+
+/// Step of the simulation, seconds.
+pub(super) const STEP_S: f64 = 0.02;
+
+/// Properties of an axis and of its unit.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Kind {
+    pub(super) travel_deg: (f64, f64),
+    pub(super) rate_deg_s: f64,
+    pub(super) starts_after_s: f64,
+    /// Time in which it comes to rest from its full rate.
+    pub(super) coasts_s: f64,
+    /// The drive runs no shorter than this.
+    pub(super) runs_s: f64,
+    /// The drive is switched off this share of the coasting before the target.
+    pub(super) anticipates: f64,
+    /// A target within this is left alone, degrees.
+    pub(super) leaves_deg: f64,
+    pub(super) noise_deg: f64,
+    pub(super) step_deg: f64,
+    pub(super) sway_deg: f64,
+    pub(super) wraps: bool,
+    pub(super) poll_s: f64,
+}
+
+impl Kind {
+    pub(super) fn any(dice: &mut Dice) -> Self {
+        let travels_deg = [
+            (0.0, 360.0),
+            (0.0, 450.0),
+            (0.0, 540.0),
+            (-180.0, 180.0),
+            (-270.0, 270.0),
+            (5.0, 175.0),
+        ];
+        let travel_deg = travels_deg[dice.below(travels_deg.len())];
+        let fast =
+            |dice: &mut Dice, from: f64, to: f64| from * (to / from).powf(dice.between(0.0, 1.0));
+        Self {
+            travel_deg,
+            rate_deg_s: fast(dice, 0.3, 20.0),
+            starts_after_s: dice.between(0.0, 2.0),
+            coasts_s: if dice.chance(0.3) { 0.0 } else { dice.between(0.0, 3.0) },
+            runs_s: if dice.chance(0.5) { 0.0 } else { dice.between(0.0, 0.2) },
+            anticipates: dice.between(0.8, 1.1),
+            leaves_deg: [0.1, 0.3, 0.5, 1.5][dice.below(4)],
+            noise_deg: if dice.chance(0.3) { 0.0 } else { dice.between(0.0, 0.3) },
+            step_deg: [0.01, 0.1, 1.0][dice.below(3)],
+            sway_deg: if dice.chance(0.6) { 0.0 } else { dice.between(0.1, 1.0) },
+            wraps: travel_deg.1 - travel_deg.0 >= 360.0 && dice.chance(0.3),
+            poll_s: 1.0 / dice.between(2.0, 10.0),
+        }
+    }
+}
+
+impl Kind {
+    /// Without the coasting that makes a drive hunt for a target that moves.
+    pub(super) fn follows_well(&mut self) {
+        (self.coasts_s, self.runs_s, self.anticipates) = (self.coasts_s.min(0.3), 0.0, 1.0);
+        self.wraps = false;
+    }
+}
+
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) enum Order {
+    To(f64),
+    /// Runs at a share of its rate, signed, until it is stopped or at an end.
+    Run(f64),
+    Stop,
+}
+
+#[derive(Debug, Clone)]
+pub(super) struct Plant {
+    pub(super) kind: Kind,
+    pub(super) now_s: f64,
+    pub(super) deg: f64,
+    rate_deg_s: f64,
+    waiting: VecDeque<(f64, Order)>,
+    order: Order,
+    /// The drive is on, in this direction, since then.
+    drive: Option<(f64, f64)>,
+    /// Number of times that the drive was switched on for this order.
+    starts: u8,
+    /// Somebody turns the axis with this force, degrees from where they took it.
+    pub(super) held_deg: Option<f64>,
+    gust_deg: f64,
+}
+
+impl Plant {
+    pub(super) fn new(kind: Kind, deg: f64) -> Self {
+        Self {
+            kind,
+            now_s: 0.0,
+            deg,
+            rate_deg_s: 0.0,
+            waiting: VecDeque::new(),
+            order: Order::Stop,
+            drive: None,
+            starts: 0,
+            held_deg: None,
+            gust_deg: 0.0,
+        }
+    }
+
+    pub(super) fn send(&mut self, order: Order) {
+        self.waiting.push_back((self.now_s + self.kind.starts_after_s, order));
+    }
+
+    pub(super) fn is_still(&self) -> bool {
+        self.rate_deg_s == 0.0 && self.drive.is_none() && self.waiting.is_empty()
+    }
+
+    pub(super) fn is_driven(&self) -> bool {
+        self.drive.is_some()
+    }
+
+    /// Positions that the drive goes to, now or soon.
+    pub(super) fn targets_deg(&self) -> Vec<f64> {
+        let orders =
+            std::iter::once(self.order).chain(self.waiting.iter().map(|(_, order)| *order));
+        orders
+            .filter_map(|order| if let Order::To(deg) = order { Some(deg) } else { None })
+            .collect()
+    }
+
+    pub(super) fn step(&mut self, dice: &mut Dice) {
+        self.now_s += STEP_S;
+        while self.waiting.front().is_some_and(|(at_s, _)| *at_s <= self.now_s) {
+            if let Some((_, order)) = self.waiting.pop_front() {
+                (self.order, self.starts) = (order, 0);
+            }
+        }
+        let slows_deg_s2 = if self.kind.coasts_s > 0.0 {
+            self.kind.rate_deg_s / self.kind.coasts_s
+        } else {
+            f64::INFINITY
+        };
+        let coasts_deg = if slows_deg_s2.is_finite() {
+            self.rate_deg_s.powi(2) / 2.0 / slows_deg_s2
+        } else {
+            0.0
+        };
+        let wanted = match self.order {
+            Order::Stop => None,
+            Order::Run(share) => Some(share),
+            Order::To(to_deg) => {
+                let left_deg = to_deg - self.deg;
+                let goes_there = self.rate_deg_s * left_deg > 0.0;
+                let stops_deg = if goes_there { coasts_deg * self.kind.anticipates } else { 0.0 };
+                let is_far = left_deg.abs()
+                    > stops_deg.max(self.kind.leaves_deg * 0.5)
+                        + if self.drive.is_some() { 0.0 } else { self.kind.leaves_deg * 0.5 };
+                // It does not reverse before it has come to rest.
+                let may = self.rate_deg_s == 0.0 || goes_there;
+                (is_far && may).then(|| left_deg.signum())
+            }
+        };
+        let runs_on = self.drive.filter(|(_, since_s)| {
+            self.now_s - since_s < self.kind.runs_s && self.order != Order::Stop
+        });
+        // The unit leaves it at that after a few attempts.
+        let wanted = wanted.filter(|_| self.drive.is_some() || self.starts < 3);
+        let before = self.drive;
+        self.drive = match (wanted, runs_on, self.drive) {
+            (_, Some(runs_on), _) => Some(runs_on),
+            (Some(way), _, Some((before, since_s))) if way * before > 0.0 => Some((way, since_s)),
+            (Some(way), ..) => Some((way, self.now_s)),
+            (None, ..) => None,
+        };
+        self.starts += u8::from(before.is_none() && self.drive.is_some());
+        if let Some((way, _)) = self.drive {
+            let gains = self.kind.rate_deg_s / 0.3 * STEP_S;
+            let wanted_deg_s = way * self.kind.rate_deg_s;
+            self.rate_deg_s += (wanted_deg_s - self.rate_deg_s).clamp(-gains, gains);
+        } else {
+            let loses = (slows_deg_s2 * STEP_S).min(self.rate_deg_s.abs());
+            self.rate_deg_s -= loses.copysign(self.rate_deg_s);
+        }
+        let (from_deg, to_deg) = self.kind.travel_deg;
+        let next_deg = self.deg + self.rate_deg_s * STEP_S;
+        if !(from_deg..=to_deg).contains(&next_deg) {
+            self.rate_deg_s = 0.0;
+            if matches!(self.order, Order::Run(_)) {
+                self.order = Order::Stop;
+            }
+        }
+        self.deg = next_deg.clamp(from_deg, to_deg);
+        if let Some(held_deg) = self.held_deg {
+            self.deg = held_deg;
+            self.rate_deg_s = 0.0;
+        }
+        if self.kind.sway_deg > 0.0 && dice.chance(0.02) {
+            self.gust_deg = dice.between(-0.5, 0.5) * self.kind.sway_deg;
+        }
+    }
+
+    /// What the unit reports of the axis now.
+    pub(super) fn read(&self, dice: &mut Dice) -> f64 {
+        let noise_deg = dice.between(-1.0, 1.0) * self.kind.noise_deg;
+        let deg = self.deg + self.gust_deg + noise_deg;
+        let deg = (deg / self.kind.step_deg).round() * self.kind.step_deg;
+        if self.kind.wraps { deg.rem_euclid(360.0) } else { deg }
+    }
+}
