@@ -342,9 +342,9 @@ async fn an_antenna_that_is_turned_on_its_way_to_a_pass_is_left_to_whoever_did_i
         let now = turned_deg()?;
         let turned = now.into_iter().zip(began).map(|(now, began)| Some(now? - began?));
         let turned_deg = turned.map(Option::unwrap_or_default).collect::<Vec<_>>();
-        turned_deg.iter().any(|turned| turned.abs() > 15.0).then_some(turned_deg)
+        turned_deg.iter().any(|turned| turned.abs() > 5.0).then_some(turned_deg)
     };
-    let way_deg = until("15 deg of the way", changed).await;
+    let way_deg = until("5 deg of the way", changed).await;
     assert!(operation(&client, id).is_on());
     // Back, the axis that has turned most.
     let back = |at_deg: [f64; 2]| {

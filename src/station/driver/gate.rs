@@ -21,7 +21,10 @@ use std::sync::Arc;
 
 use glam::DQuat;
 
-use super::{intent::Intent, motion_watch::MotionWatch};
+use super::{
+    intent::Intent,
+    motion_watch::{Lead, MotionWatch},
+};
 use crate::{
     astro::{Angle, AzEl},
     clock::{Instant, Moment},
@@ -169,10 +172,14 @@ impl Gate {
     /// Another session moved the antenna at this time and did not prove that it stands.
     pub(super) fn was_moved(&mut self, since: Option<Instant>) {
         self.unproved_since = since;
+        if let Some(since) = since {
+            self.watch.commanded([Some(Lead::Anywhere); 2], since);
+        }
     }
 
     pub(super) fn proved_still(&mut self) {
         self.unproved_since = None;
+        self.watch.stands();
     }
 
     /// Angles of the axes when the last motion passed, degrees as the mount counts.
@@ -364,7 +371,7 @@ impl Gate {
                 _ => Ok(()),
             })?;
             self.to_deg = self.end_of(&act);
-            self.watch_act(self.to_deg, now);
+            self.watch_act(&act, now);
             self.turns = [true; 2];
             self.unproved_since = Some(now.steady);
             self.started_from_deg = self.axes_deg();

@@ -88,6 +88,18 @@ impl MotionWatch {
         self.answered = (self.answered + 1).min(self.sent);
     }
 
+    /// The link is gone: no answer comes any more.
+    pub(super) fn not_answered(&mut self) {
+        self.answered = self.sent;
+    }
+
+    /// Both axes stand: a motion without a known end is over.
+    pub(super) fn stands(&mut self) {
+        for axis in &mut self.axes {
+            axis.stands();
+        }
+    }
+
     /// Both axes were proved to stand after a halt: no motion leads on.
     pub(super) fn proved_still(&mut self) {
         self.answered = self.sent;

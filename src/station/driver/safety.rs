@@ -37,7 +37,7 @@ pub enum Safety {
         turned_deg: f64,
     },
     /// Somebody else has moved an axis, by the unit's panel, by another program or by hand: it is
-    /// read where no command of this program leads. Azel has ended its own motion.
+    /// read where no command of this program leads. A motion of this program ends.
     ForeignHands {
         #[serde(deserialize_with = "name::one")]
         axis: Name,

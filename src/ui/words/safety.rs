@@ -231,8 +231,8 @@ pub fn safety(matter: &Safety, antenna: &str, now: Timestamp) -> String {
         }
         Safety::ForeignHands { axis, off_deg } => format!(
             "Somebody else moved {antenna}, by its panel, by another program or by hand: {axis} \
-             reads {} away from where Azel's commands lead. Azel has ended its own motion. Find out \
-             who moves it before you move it again.",
+             reads {} away from where Azel's commands lead. Azel does not move it on. Find out who moves \
+             it before you move it again.",
             format::degrees(off_deg.abs(), 1)
         ),
         Safety::Forbidden { barrier, driver, response } => {

@@ -1,9 +1,14 @@
 //! Feeds the watch with the motions that pass the gate and with the readings of the unit.
 
+use std::time::Duration;
+
 use super::{Capabilities, Gate, Motion, Mount, Sweep, way};
 use crate::{
     clock::Moment,
-    device::{Axis, Measured},
+    device::{
+        Axis, Measured,
+        panel::{self, Act},
+    },
     driver::{
         Intent,
         motion_watch::{AxisFigures, AxisReading, Foreign, Lead, MotionWatch},
@@ -19,6 +24,8 @@ const STEEP_DEG: f64 = 80.0;
 /// A reading so near to north may be on either side of it, degrees.
 const NEAR_NORTH_DEG: f64 = 3.0;
 const TURN_DEG: f64 = 360.0;
+/// A unit applies a setting within this time.
+const APPLIES_WITHIN: Duration = Duration::from_mins(1);
 
 pub(super) fn watch(can: Capabilities, mount: Mount, sway_deg: f64) -> MotionWatch {
     let is_azel = matches!(mount, Mount::AzEl { .. });
@@ -51,7 +58,7 @@ impl Gate {
     fn leads_of_position(&self, motion: Motion, now: Moment) -> [Option<Lead>; 2] {
         let sent_to_deg = self.sent_to(motion, now);
         let [first, second] = sent_to_deg.map(|deg| match deg {
-            Some(deg) => Lead::Between(deg, deg),
+            Some(deg) => Lead::To(deg),
             None => Lead::Anywhere,
         });
         let [turns_first, turns_second] = self.turned_by(motion);
@@ -59,7 +66,7 @@ impl Gate {
             return [Some(Lead::Anywhere); 2];
         };
         let first = match (first, azimuth) {
-            (Lead::Between(deg, _), Some(_)) => self.ways_to(deg, now),
+            (Lead::To(deg), Some(_)) => self.ways_to(deg, now),
             (first, _) => first,
         };
         [turns_first.then_some(first), turns_second.then_some(second)]
@@ -70,7 +77,7 @@ impl Gate {
     fn ways_to(&self, deg: f64, now: Moment) -> Lead {
         let at_deg = self.state().measured.and_then(|measured| measured.axes[0].angle_deg);
         let is_azel = matches!(self.mount, Mount::AzEl { .. });
-        let Some(at_deg) = at_deg.filter(|_| is_azel) else { return Lead::Between(deg, deg) };
+        let Some(at_deg) = at_deg.filter(|_| is_azel) else { return Lead::To(deg) };
         let north_deg = (at_deg + TURN_DEG / 2.0).rem_euclid(TURN_DEG) - TURN_DEG / 2.0;
         if north_deg.abs() < NEAR_NORTH_DEG {
             return Lead::EitherWay(deg);
@@ -82,18 +89,18 @@ impl Gate {
         let ways = way::ways_round(true, counted, start, &situation);
         match ways {
             [Some(_), Some(_)] => Lead::EitherWay(deg),
-            [Some(way), None] if way != counted => Lead::Between(over_north_deg, over_north_deg),
-            _ => Lead::Between(deg, deg),
+            [Some(way), None] if way != counted => Lead::To(over_north_deg),
+            _ => Lead::To(deg),
         }
     }
 
-    /// An action of the make that moves the antenna goes out; it leads each axis there, degrees as
-    /// the mount counts, or nobody knows where.
-    pub(super) fn watch_act(&mut self, to_deg: [Option<f64>; 2], now: Moment) {
-        let leads = to_deg.map(|deg| match deg {
-            Some(deg) => Some(Lead::Between(deg, deg)),
-            None => Some(Lead::Anywhere),
-        });
+    /// An action of the make that moves something goes out.
+    pub(super) fn watch_act(&mut self, act: &Act, now: Moment) {
+        let leads = match self.controller.lead_of(act) {
+            panel::Lead::Nowhere => [None; 2],
+            panel::Lead::To(to_deg) => to_deg.map(|deg| deg.map(Lead::To)),
+            panel::Lead::Unseen(_) | panel::Lead::Unknown(_) => [Some(Lead::Anywhere); 2],
+        };
         self.watch.commanded(leads, now.steady);
     }
 
@@ -105,6 +112,11 @@ impl Gate {
     /// The unit refused the oldest motion that was not answered, or nobody knows what became of it.
     pub(in crate::driver) fn motion_not_accepted(&mut self) {
         self.watch.not_accepted();
+    }
+
+    /// No motion that is out will be answered.
+    pub(in crate::driver) fn motions_unanswered(&mut self) {
+        self.watch.not_answered();
     }
 
     /// The axes were proved to stand after a halt.
@@ -119,7 +131,7 @@ impl Gate {
 
     /// A setting is written that may change the meaning of the readings.
     pub(in crate::driver) fn readings_change(&mut self, now: Moment) {
-        self.watch.opened(now.steady);
+        self.watch.opened(now.steady + APPLIES_WITHIN);
     }
 
     /// Looks at the last position. Returns an axis that somebody else has moved.
@@ -131,7 +143,10 @@ impl Gate {
         if self.looked.replace(received) == Some(received) {
             return None;
         }
-        let readings = self.readings()?;
+        let Some(readings) = self.readings() else {
+            self.watch.start_anew();
+            return None;
+        };
         self.watch.take(readings)
     }
 

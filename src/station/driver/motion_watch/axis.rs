@@ -21,6 +21,8 @@ const MOST_MOTIONS: usize = 24;
 const LATE: Duration = Duration::from_secs(2);
 /// An axis that was not read for longer may have turned and come to rest.
 const UNSEEN: Duration = Duration::from_secs(2);
+/// An axis that may have gone either way round, and stands this near to the end, has arrived, degrees.
+const NEAR_DEG: f64 = 10.0;
 /// Motions that follow each other within this time are steps.
 const STEPS: Duration = Duration::from_secs(5);
 const TURN_DEG: f64 = 360.0;
@@ -28,8 +30,8 @@ const TURN_DEG: f64 = 360.0;
 /// Where a motion leads an axis.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(in crate::driver) enum Lead {
-    /// Somewhere between these angles, degrees as the mount counts.
-    Between(f64, f64),
+    /// To this angle, degrees as the mount counts.
+    To(f64),
     /// To this angle by either way round, degrees as the mount counts.
     EitherWay(f64),
     /// By this many degrees from where the axis is.
@@ -141,6 +143,10 @@ pub(super) struct AxisWatch {
     sent: Option<Instant>,
     starts: bool,
     turned: Option<Turned>,
+    /// The unit said that it turned when it was read first.
+    was_found_turning: bool,
+    /// Somebody else moves it, and that was told.
+    is_told: bool,
     /// It came to rest after the last motion that was sent.
     has_settled: bool,
     outside: Option<Outside>,
@@ -159,6 +165,8 @@ impl AxisWatch {
             sent: None,
             starts: false,
             turned: None,
+            was_found_turning: false,
+            is_told: false,
             has_settled: false,
             outside: None,
             open_until: None,
@@ -173,7 +181,7 @@ impl AxisWatch {
         let turns_deg = self.known.map_or(0.0, |known| known.turns_deg);
         let everywhere = (f64::NEG_INFINITY, f64::INFINITY);
         let (down_to_deg, up_to_deg) = match lead {
-            Lead::Between(from_deg, to_deg) => (from_deg + turns_deg, to_deg + turns_deg),
+            Lead::To(deg) => (deg + turns_deg, deg + turns_deg),
             Lead::EitherWay(deg) => (deg + turns_deg - TURN_DEG, deg + turns_deg + TURN_DEG),
             Lead::By(by_deg) => {
                 here.map_or(everywhere, |here| (here.from_deg + by_deg, here.to_deg + by_deg))
@@ -182,7 +190,7 @@ impl AxisWatch {
             Lead::ToEnd { is_up: false } => (f64::NEG_INFINITY, f64::NEG_INFINITY),
             Lead::Anywhere => everywhere,
         };
-        let ends = matches!(lead, Lead::Between(..) | Lead::EitherWay(_) | Lead::By(_));
+        let ends = matches!(lead, Lead::To(_) | Lead::EitherWay(_) | Lead::By(_));
         let either_way = matches!(lead, Lead::EitherWay(_));
         let led =
             here.map_or([true; 2], |here| [down_to_deg < here.to_deg, up_to_deg > here.from_deg]);
@@ -236,13 +244,17 @@ impl AxisWatch {
         }
     }
 
+    pub(super) fn stands(&mut self) {
+        self.motions.retain(|motion| motion.ends);
+    }
+
     pub(super) fn proved_still(&mut self) {
         self.motions.clear();
     }
 
     /// The unit's own program may turn the axis until now, and it may coast.
     pub(super) fn opened(&mut self, now: Instant) {
-        self.open_until = Some(now + DEAD_TIME + COASTS);
+        self.open_until = self.open_until.max(Some(now + DEAD_TIME + COASTS));
     }
 
     pub(super) fn start_anew(&mut self) {
@@ -260,11 +272,17 @@ impl AxisWatch {
         let error_deg = self.error_deg();
         let since = self.known.map_or(asked, |known| known.at);
         self.motions.retain(|motion| motion.at(since).is_some());
+        self.was_found_turning &= motion != AxisMotion::Still;
+        if self.known.is_none() {
+            self.was_found_turning = motion != AxisMotion::Still;
+        }
+        if self.was_found_turning {
+            self.opened(received);
+        }
         let is_open = self.open_until.is_some_and(|until| asked <= until);
         let reachable = self.reachable(received).filter(|_| !is_open);
         let (Some(known), Some(reachable)) = (self.known, reachable) else {
-            self.outside = None;
-            self.know(angle_deg, 0.0, Range::about(angle_deg, error_deg), asked);
+            self.begin(angle_deg, 0.0, asked);
             return None;
         };
         let turns_deg = self.turns_deg(angle_deg, known, reachable);
@@ -283,15 +301,24 @@ impl AxisWatch {
             if lasted < APART || may_swing_back {
                 return None;
             }
-            self.outside = None;
-            self.runs_past.forget();
-            self.know(angle_deg, turns_deg, here, asked);
-            return Some(reachable.off_deg(deg));
+            self.begin(angle_deg, turns_deg, asked);
+            // Once for each motion of somebody else.
+            return (!std::mem::replace(&mut self.is_told, true)).then(|| reachable.off_deg(deg));
         };
         self.outside = None;
         self.know(angle_deg, turns_deg, range, asked);
         self.learn(deg, asked);
         None
+    }
+
+    /// Begins anew at a reading, whatever was known before.
+    fn begin(&mut self, angle_deg: f64, turns_deg: f64, at: Instant) {
+        let deg = angle_deg + turns_deg;
+        self.known = Some(Known { range: Range::about(deg, self.error_deg()), at, turns_deg });
+        self.turned = Some(Turned { from_deg: deg, from: at, at: Some(at), is_up: false });
+        (self.outside, self.has_settled, self.starts) = (None, false, false);
+        self.spread.turns();
+        self.runs_past.forget();
     }
 
     fn know(&mut self, angle_deg: f64, turns_deg: f64, range: Range, at: Instant) {
@@ -322,6 +349,8 @@ impl AxisWatch {
             };
             if live.any(is_led) {
                 self.runs_past.turned((deg - from_deg).abs(), at.saturating_duration_since(from));
+                // A drive may start late.
+                self.has_settled = false;
             }
             if std::mem::take(&mut self.starts)
                 && let Some(sent) = self.sent
@@ -344,7 +373,7 @@ impl AxisWatch {
     /// Learns from a reading inside the interval.
     fn learn(&mut self, deg: f64, at: Instant) {
         if self.is_settled(at) {
-            self.has_settled = true;
+            (self.has_settled, self.is_told) = (true, false);
             if let Some(turned) = &mut self.turned {
                 (turned.from_deg, turned.from) = (deg, at);
             }
@@ -387,9 +416,9 @@ impl AxisWatch {
     /// An axis that stands where the newest motion ends has obeyed it, and gone one of two ways.
     fn has_arrived(&mut self, deg: f64) {
         let Some(newest) = self.motions.last_mut().filter(|newest| newest.ends) else { return };
-        if newest.either_way {
-            let turns = ((deg - newest.up_to_deg) / TURN_DEG).round();
-            let end_deg = newest.up_to_deg + turns * TURN_DEG;
+        let turns = ((deg - newest.up_to_deg) / TURN_DEG).round();
+        let end_deg = newest.up_to_deg + turns * TURN_DEG;
+        if newest.either_way && (deg - end_deg).abs() <= NEAR_DEG {
             (newest.down_to_deg, newest.up_to_deg, newest.either_way) = (end_deg, end_deg, false);
         }
         let (number, end) =
@@ -425,7 +454,12 @@ impl AxisWatch {
         if reachable.off_deg(angle_deg + known.turns_deg) == 0.0 {
             return known.turns_deg;
         }
-        ((known.range.middle_deg() - angle_deg) / TURN_DEG).round() * TURN_DEG
+        let near = ((known.range.middle_deg() - angle_deg) / TURN_DEG).round();
+        let turns_deg = [near, near - 1.0, near + 1.0].map(|turns| turns * TURN_DEG);
+        let off_deg = |turns_deg: f64| reachable.off_deg(angle_deg + turns_deg).abs();
+        let best_deg =
+            turns_deg.into_iter().min_by(|one, other| off_deg(*one).total_cmp(&off_deg(*other)));
+        best_deg.unwrap_or(known.turns_deg)
     }
 
     /// Where the axis can be at `at`.

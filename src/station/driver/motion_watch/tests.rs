@@ -84,7 +84,7 @@ impl Scene {
                 let deg = deg - (self.plant.deg - reads_deg);
                 Some(Lead::EitherWay(deg))
             }
-            Order::To(deg) => Some(Lead::Between(deg, deg)),
+            Order::To(deg) => Some(Lead::To(deg)),
             Order::Run(share) => Some(Lead::ToEnd { is_up: share > 0.0 }),
             Order::Stop => None,
         };

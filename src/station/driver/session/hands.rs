@@ -1,12 +1,16 @@
 //! Ends motions of Azel when somebody else moves the antenna.
 
-use super::{Event, Session};
+use super::{Event, Session, program_track::Tracking};
 use crate::{
     clock::Moment,
     driver::{Safety, motion_watch::Foreign},
 };
 
 impl Session {
+    fn asks_to_resume(&self) -> bool {
+        self.activity.program().is_some_and(Tracking::asks)
+    }
+
     /// Ends a motion of Azel on an antenna that somebody else has moved: two must not work against
     /// each other.
     pub(super) fn watch_hands(&mut self, now: Moment) {
@@ -16,6 +20,9 @@ impl Session {
         if self.key.held().is_some() {
             self.key.spend();
             self.halt_quietly(now);
+            self.tell(event);
+        } else if self.asks_to_resume() {
+            // The operator's answer still counts.
             self.tell(event);
         } else if self.activity.may_move() || self.stepping.is_some() {
             self.give_up(event, now);

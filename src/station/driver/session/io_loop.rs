@@ -102,6 +102,7 @@ impl Session {
         self.lose_shift(now);
         self.record();
         self.gate.forget_angles();
+        self.gate.motions_unanswered();
         end
     }
 

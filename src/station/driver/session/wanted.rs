@@ -20,6 +20,7 @@ impl Session {
     pub(super) async fn wait_until_wanted(&mut self) -> bool {
         self.contact.link = LinkState::Off;
         self.contact.away_since = None;
+        self.gate.watch_anew();
         self.contact.loss_is_told = false;
         let clock = self.clock.clone();
         while self.contact.wanted == Wanted::No {

@@ -7,10 +7,10 @@ impl Session {
     /// Writes `change`. If it is not sent, the reason also appears among the outcomes of the
     /// settings.
     pub(super) fn write_settings(&mut self, change: Change, now: Moment) {
-        self.gate.readings_change(now);
         let (may_move, stopping) = (self.may_move(), self.stop.is_under_way());
-        if let Err(refusal) = self.gate.write_settings(change, may_move, stopping, now) {
-            self.tell(Event::NotSent(refusal));
+        match self.gate.write_settings(change, may_move, stopping, now) {
+            Ok(()) => self.gate.readings_change(now),
+            Err(refusal) => self.tell(Event::NotSent(refusal)),
         }
     }
 }

@@ -266,6 +266,10 @@ pub(super) fn same_matter(a: &AlarmKind, b: &AlarmKind) -> bool {
         | (AlarmKind::StationElsewhere(_), AlarmKind::StationElsewhere(_))
         | (AlarmKind::UnitElsewhere(_), AlarmKind::UnitElsewhere(_))
         | (AlarmKind::OffTarget { .. }, AlarmKind::OffTarget { .. }) => true,
+        (
+            AlarmKind::Safety(Safety::ForeignHands { axis: a, .. }),
+            AlarmKind::Safety(Safety::ForeignHands { axis: b, .. }),
+        ) => a == b,
         (AlarmKind::Check(a), AlarmKind::Check(b)) => a.name == b.name && a.state == b.state,
         (AlarmKind::UnitDiffers(a), AlarmKind::UnitDiffers(b)) => {
             std::mem::discriminant(&a.cause) == std::mem::discriminant(&b.cause)

@@ -17,7 +17,7 @@ const REQUESTS: u8 = 2;
 const WORTH_S: f64 = 10.0;
 /// Largest difference in AOS of one pass between two schedules, seconds.
 const SAME_AOS_S: f64 = 60.0;
-/// An antenna that nobody here moves may coast for this long, seconds.
+/// A unit that tracks unasked is left to whoever did it after this time, seconds.
 const COASTS_S: f64 = 5.0;
 /// An antenna that is not on its way this many seconds before its pass raises an alarm. Also the
 /// least time between two requests for one pass.
@@ -74,7 +74,7 @@ pub struct On {
     failures: u8,
     /// When the antenna was last moved by automatic operation, or seen to be.
     moved_at: Option<Timestamp>,
-    /// Since when the antenna moves although nothing is asked of it.
+    /// Since when its unit tracks although nothing is asked of it.
     moves_since: Option<Timestamp>,
 }
 
@@ -143,7 +143,10 @@ pub(super) struct Seen {
     /// The schedule that is being made may give the antenna what its unit tracks.
     pub(super) may_be_planned: bool,
     pub(super) moves: bool,
-    /// It moves or tracks, and not by this station.
+    /// It turns, and nothing is asked of it: it may end an earlier motion. Until it stands, nothing is
+    /// sent.
+    pub(super) turns_unasked: bool,
+    /// Its unit tracks by itself, or another satellite than it was asked to.
     pub(super) is_moved_elsewhere: bool,
 }
 
@@ -290,6 +293,9 @@ impl Operation {
             if on.is_moved_for_long(now) && !seen.may_be_planned {
                 self.suspend(Interruption::Elsewhere, now);
             }
+            return None;
+        }
+        if seen.turns_unasked {
             return None;
         }
         let act = on.step(duties, seen, wishes, now);

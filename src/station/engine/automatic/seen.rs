@@ -1,8 +1,8 @@
-//! What automatic operation has to know of an antenna at one moment, taken from its snapshot.
+//! State of an antenna that automatic operation looks at, taken from its snapshot.
 
 use super::operation::Seen;
 use crate::{
-    driver::{Intent, StopState},
+    driver::{Intent, Snapshot, StopState},
     engine::antenna::AntennaModel,
 };
 
@@ -34,6 +34,16 @@ pub(super) fn seen(antenna: &AntennaModel) -> Seen {
             .filter(|_| antenna.tracks_unasked() && snapshot.on_board.is_some()),
         may_be_planned: false,
         moves,
+        turns_unasked: antenna.is_live() && moves && !is_asked(snapshot),
         is_moved_elsewhere: is_replaced || antenna.is_live() && antenna.tracks_unasked(),
     }
+}
+
+/// Something is asked of the antenna from here that may still move it.
+fn is_asked(snapshot: &Snapshot) -> bool {
+    snapshot.intent == Intent::Track
+        || snapshot.pending
+        || snapshot.runs_out
+        || snapshot.jog.is_some()
+        || snapshot.step.is_some()
 }

@@ -113,6 +113,11 @@ impl Tracking {
         }
     }
 
+    /// It goes on only by the word of the operator, or once the unit has proved to be as before.
+    pub(in crate::driver::session) fn asks(&self) -> bool {
+        self.awaits_operator || self.recheck.is_some()
+    }
+
     pub(super) fn name(&self) -> String {
         self.planner.follow().target.name().into_owned()
     }

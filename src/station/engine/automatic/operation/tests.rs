@@ -30,6 +30,7 @@ const STANDS: Seen = Seen {
     may_be_planned: false,
     moves: false,
     is_moved_elsewhere: false,
+    turns_unasked: false,
 };
 
 fn taking(number: u32) -> Seen {
