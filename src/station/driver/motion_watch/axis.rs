@@ -319,6 +319,14 @@ impl AxisWatch {
         (self.outside, self.has_settled, self.starts) = (None, false, false);
         self.spread.turns();
         self.runs_past.forget();
+        self.may_have_passed(at);
+    }
+
+    /// Unseen, the axis may have gone past any end.
+    fn may_have_passed(&mut self, at: Instant) {
+        for motion in &mut self.motions {
+            (motion.led, motion.passed) = ([true; 2], [Some(at); 2]);
+        }
     }
 
     fn know(&mut self, angle_deg: f64, turns_deg: f64, range: Range, at: Instant) {
@@ -334,9 +342,7 @@ impl AxisWatch {
         if let Some(turned) = self.turned.as_mut().filter(|_| gap.is_some_and(|gap| gap > UNSEEN)) {
             (turned.from_deg, turned.from, turned.at) = (deg, at, Some(at));
             self.has_settled = false;
-            for motion in &mut self.motions {
-                (motion.led, motion.passed) = ([true; 2], [Some(at); 2]);
-            }
+            self.may_have_passed(at);
         }
         let first = Turned { from_deg: deg, from: at, at: Some(at), is_up: false };
         let Turned { from_deg, from, .. } = *self.turned.get_or_insert(first);
