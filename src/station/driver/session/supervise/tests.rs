@@ -50,6 +50,7 @@ const TABLE: &[(&str, Scenario)] = &scenarios![
     report_found,
     watch_likeness,
     watch_program,
+    watch_hands,
     resolve_doubt,
     watch_jog,
     watch_effect,

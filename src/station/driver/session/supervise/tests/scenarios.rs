@@ -80,6 +80,14 @@ pub(super) async fn watch_program(checks: Checks) -> bool {
     scene.tells(5.0, |event| *event == Event::StartedByItself).await
 }
 
+/// Somebody turns the antenna and leaves it there.
+pub(super) async fn watch_hands(checks: Checks) -> bool {
+    let mut scene = satrak(checks).read().await;
+    scene.seconds(5.0).await;
+    scene.unit.place([80.0, 80.0]);
+    scene.tells(15.0, |event| matches!(event, Event::Safety(Safety::ForeignHands { .. }))).await
+}
+
 /// The reply to a motion is lost, and nothing moves: the antenna is there already.
 pub(super) async fn resolve_doubt(checks: Checks) -> bool {
     let mut scene = genius(checks).read().await;
