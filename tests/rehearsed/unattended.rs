@@ -279,7 +279,7 @@ async fn an_antenna_that_is_turned_while_it_tracks_or_waits_is_left_to_whoever_d
         proved(&client, id).await;
         let is_on_its_path = || {
             let snapshot = client.snapshot();
-            let antenna = snapshot.antennas.iter().find(|of| of.id() == id)?;
+            let antenna = snapshot.antennas.iter().find(|antenna| antenna.id() == id)?;
             if waits {
                 let measured = antenna.snapshot.state.measured?;
                 let view = antenna.snapshot.program_track.as_ref();
@@ -304,10 +304,11 @@ async fn an_antenna_that_is_turned_while_it_tracks_or_waits_is_left_to_whoever_d
         let turned_deg = azimuth_deg + if azimuth_deg > 180.0 { -30.0 } else { 30.0 };
         let place = [turned_deg, elevation_deg].map(|deg| WholeDegrees::nearest(deg).unwrap());
         scene.units.mast.place(place);
-        let by = Interruption::Elsewhere;
         until("the suspension", || {
-            let is_that = |of| matches!(of, Operation::Suspended { by: found, .. } if found == by);
-            is_that(operation(&client, id)).then_some(())
+            let operation = operation(&client, id);
+            let is_suspended =
+                matches!(operation, Operation::Suspended { by: Interruption::Elsewhere, .. });
+            is_suspended.then_some(())
         })
         .await;
         assert!(
@@ -333,7 +334,7 @@ async fn an_antenna_that_is_turned_on_its_way_to_a_pass_is_left_to_whoever_did_i
     set_automatic(&client, id, true).await;
     let turned_deg = || {
         let snapshot = client.snapshot();
-        let antenna = snapshot.antennas.iter().find(|of| of.id() == id)?;
+        let antenna = snapshot.antennas.iter().find(|antenna| antenna.id() == id)?;
         let measured = antenna.snapshot.state.measured.filter(Measured::moving)?;
         Some(measured.axes.map(|axis| axis.angle_deg))
     };
@@ -355,14 +356,15 @@ async fn an_antenna_that_is_turned_on_its_way_to_a_pass_is_left_to_whoever_did_i
     };
     let angles = scene.units.mast.state().rotators.map(|rotator| rotator.angle_deg);
     scene.units.mast.place(back(angles).map(|deg| WholeDegrees::nearest(deg).unwrap()));
-    let by = Interruption::Elsewhere;
     until("the suspension", || {
-        let is_that = |of| matches!(of, Operation::Suspended { by: found, .. } if found == by);
-        is_that(operation(&client, id)).then_some(())
+        let operation = operation(&client, id);
+        let is_suspended =
+            matches!(operation, Operation::Suspended { by: Interruption::Elsewhere, .. });
+        is_suspended.then_some(())
     })
     .await;
     let duty = client.snapshot();
-    let antenna = duty.antennas.iter().find(|of| of.id() == id).unwrap();
+    let antenna = duty.antennas.iter().find(|antenna| antenna.id() == id).unwrap();
     assert!(!antenna.tracks(), "on the way");
     until("standstill", || scene.units.all_stand().then_some(())).await;
     let at = client.now().utc;

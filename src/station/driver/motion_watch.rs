@@ -4,13 +4,14 @@
 //! It has no clock and no link, and its memory is bounded.
 
 mod axis;
+mod lead;
 mod lessons;
 mod range;
 
 use std::time::Duration;
 
 use axis::AxisWatch;
-pub(super) use axis::Lead;
+pub(super) use lead::Lead;
 
 use crate::{clock::Instant, device::AxisMotion};
 

@@ -90,7 +90,7 @@ impl Gate {
         match ways {
             [Some(_), Some(_)] => Lead::EitherWay(deg),
             [Some(way), None] if way != counted => Lead::To(over_north_deg),
-            _ => Lead::To(deg),
+            [Some(_) | None, None] | [None, Some(_)] => Lead::To(deg),
         }
     }
 

@@ -4,6 +4,7 @@ use std::time::Duration;
 
 use super::{
     APART, AxisFigures, AxisReading, SWINGS_BACK,
+    lead::{COASTS, Lead, Live},
     lessons::{DEAD_TIME, DeadTime, FASTEST_DEG_S, RunsPast, Spread},
     range::Range,
 };
@@ -11,8 +12,6 @@ use crate::{clock::Instant, device::AxisMotion};
 
 /// An axis on its way turns no slower, degrees a second.
 const SLOWEST_DEG_S: f64 = 0.25;
-/// Longest time that an axis coasts.
-const COASTS: Duration = Duration::from_secs(3);
 /// A standing axis may creep by 0.3 degrees a minute.
 const CREEPS_DEG_S: f64 = 0.3 / 60.0;
 /// Number of motions that are kept. A further one joins the oldest two.
@@ -26,85 +25,6 @@ const NEAR_DEG: f64 = 10.0;
 /// Motions that follow each other within this time are steps.
 const STEPS: Duration = Duration::from_secs(5);
 const TURN_DEG: f64 = 360.0;
-
-/// Where a motion leads an axis.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(in crate::driver) enum Lead {
-    /// To this angle, degrees as the mount counts.
-    To(f64),
-    /// To this angle by either way round, degrees as the mount counts.
-    EitherWay(f64),
-    /// By this many degrees from where the axis is.
-    By(f64),
-    /// Up to an end of the travel: up or clockwise, or the other way.
-    ToEnd {
-        is_up: bool,
-    },
-    Anywhere,
-}
-
-/// A motion that may still turn the axis.
-#[derive(Debug, Clone, Copy, PartialEq)]
-struct Live {
-    number: u64,
-    /// The axis turns no further down, or counter-clockwise, than this; infinite where it does not
-    /// turn that way at all.
-    down_to_deg: f64,
-    up_to_deg: f64,
-    /// Its end is a position.
-    ends: bool,
-    /// It may lead there either way round.
-    either_way: bool,
-    /// It led up, or down, when it was sent: the axis may coast on that way.
-    led: [bool; 2],
-    /// When the axis was last not below its end, and not above: only then may it run past it downwards,
-    /// and upwards.
-    passed: [Option<Instant>; 2],
-    /// A newer motion is obeyed by then.
-    until: Option<Instant>,
-}
-
-impl Live {
-    /// Returns it as it is at `at`; `None` if it has come to rest by then.
-    fn at(self, at: Instant) -> Option<Self> {
-        let Some(until) = self.until.filter(|until| *until < at) else { return Some(self) };
-        if until + COASTS < at {
-            return None;
-        }
-        let [down, up] = self.led;
-        Some(Self {
-            down_to_deg: if down { self.down_to_deg } else { f64::INFINITY },
-            up_to_deg: if up { self.up_to_deg } else { f64::NEG_INFINITY },
-            ..self
-        })
-    }
-
-    /// Notes on which side of its end the axis is; `range`: `None` where that is not known.
-    fn look(&mut self, range: Option<Range>, arrives_deg: f64, at: Instant) {
-        let [from_above, from_below] = &mut self.passed;
-        if range.is_none_or(|range| range.to_deg >= self.down_to_deg - arrives_deg) {
-            *from_above = Some(at);
-        }
-        if range.is_none_or(|range| range.from_deg <= self.up_to_deg + arrives_deg) {
-            *from_below = Some(at);
-        }
-    }
-
-    fn joined(self, newer: Self) -> Self {
-        let [down, up] = self.led;
-        let [newer_down, newer_up] = newer.led;
-        Self {
-            number: newer.number,
-            down_to_deg: self.down_to_deg.min(newer.down_to_deg),
-            up_to_deg: self.up_to_deg.max(newer.up_to_deg),
-            ends: self.ends && newer.ends,
-            either_way: self.either_way || newer.either_way,
-            led: [down || newer_down, up || newer_up],
-            passed: newer.passed,
-            until: self.until.zip(newer.until).map(|(one, other)| one.max(other)),
-        }
-    }
-}
 
 /// Where the axis can be, at the time of the last reading inside.
 #[derive(Debug, Clone, Copy, PartialEq)]

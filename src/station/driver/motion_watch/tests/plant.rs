@@ -200,7 +200,7 @@ impl Plant {
         }
     }
 
-    /// What the unit reports of the axis now.
+    /// The angle that the unit reports now, degrees.
     pub(super) fn read(&self, dice: &mut Dice) -> f64 {
         let noise_deg = dice.between(-1.0, 1.0) * self.kind.noise_deg;
         let deg = self.deg + self.gust_deg + noise_deg;
