@@ -14,6 +14,7 @@ use azel::{
     orbit::{Catalog, ReadReport, bundled},
     plan::pass_report::LossCause,
     rehearsal::{Fault, Rehearsal, RehearsalError, Rehearsed, RehearsedPass, run},
+    sim::Mechanics,
     station::{AntennaId, Station},
 };
 use jiff::Timestamp;
@@ -45,6 +46,7 @@ fn rehearsal(hours: f64, faults: &[&str]) -> Rehearsal {
         from: "2026-08-12T11:03:00Z".parse().unwrap(),
         hours,
         seed: 1,
+        mechanics: Mechanics::default(),
         faults: faults.iter().map(|text| text.parse().unwrap()).collect::<Vec<Fault>>(),
         speed: None,
     }

@@ -14,6 +14,7 @@ use crate::{
     job::Job,
     model::rehearsal::RehearsalState,
     rehearsal::{Rehearsal, RehearsalError, Rehearsed, run},
+    sim::Mechanics,
     station::Station,
 };
 
@@ -53,6 +54,7 @@ impl App {
             from,
             hours,
             seed: SEED,
+            mechanics: Mechanics::default(),
             faults: Vec::new(),
             speed: None,
         };

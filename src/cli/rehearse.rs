@@ -22,6 +22,7 @@ use crate::{
     orbit::{Catalog, ReadReport},
     plan::pass_export::{civil, io_error, plain, rfc3339},
     rehearsal::{self, Fault, Rehearsal, Rehearsed, RehearsedPass},
+    sim::Mechanics,
     station::{self, Station},
     ui::words::rehearsal::{outcome, verdict},
 };
@@ -51,6 +52,8 @@ pub(super) struct Options {
     /// after=MIN from the start and for=S (or to the end)
     #[arg(long = "fault", value_name = "FAULT")]
     faults: Vec<Fault>,
+    #[command(flatten, next_help_heading = "Drives and sensors of all antennas")]
+    mechanics: Mechanics,
     /// How the passes are written
     #[arg(long, value_enum, default_value_t = Format::Table)]
     format: Format,
@@ -95,6 +98,7 @@ pub(super) fn run(station: Option<&Path>, options: &Options) -> anyhow::Result<E
             from: options.from,
             hours: options.hours,
             seed: options.seed,
+            mechanics: options.mechanics,
             faults: options.faults.clone(),
             speed: options.speed.0,
         },

@@ -33,6 +33,7 @@ use crate::{
     job,
     orbit::Catalog,
     record::PassNote,
+    sim::Mechanics,
     station::{self, Antenna, SaveError, Station},
     transfer::{KeptFiles, KnownHosts, Limits, MemoryKeyring},
 };
@@ -53,6 +54,8 @@ pub struct Rehearsal {
     pub from: Timestamp,
     pub hours: f64,
     pub seed: u64,
+    /// Imperfections of all axes.
+    pub mechanics: Mechanics,
     pub faults: Vec<Fault>,
     /// In multiples of real time; `None` for as fast as it can. The result is the same.
     pub speed: Option<NonZeroU32>,
@@ -92,7 +95,8 @@ pub fn run(
         let start = add_seconds(what.from, -LEAD_S);
         let clock = Clock::at_speed(start, NonZeroU32::MIN);
         let mut station = what.station.clone();
-        let (units, left_out) = Units::of(&mut station, &what.elements, what.seed, &clock)?;
+        let (units, left_out) =
+            Units::of(&mut station, &what.elements, what.mechanics, what.seed, &clock)?;
         let units = Arc::new(units);
         for fault in &what.faults {
             units.suffer(fault, what.from, &clock)?;

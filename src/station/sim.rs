@@ -2,6 +2,7 @@
 
 mod command_line;
 mod harness;
+mod mechanics;
 mod names;
 mod prng;
 pub mod rc2000c;
@@ -10,4 +11,5 @@ pub mod satrak;
 
 pub use command_line::{Command, Serving, StartError, Starting};
 pub use harness::{Control, InMemory, Misreading, Simulator, Trouble, Unit};
+pub use mechanics::Mechanics;
 pub use names::UnknownName;

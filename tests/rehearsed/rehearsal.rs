@@ -11,6 +11,7 @@ use azel::{
     orbit::bundled,
     record::RowKind,
     rehearsal::{Rehearsal, Rehearsed, run},
+    sim::Mechanics,
     station::{self, Station},
 };
 use jiff::{SignedDuration, Timestamp, ToSpan as _};
@@ -72,6 +73,7 @@ fn check(names: &[&str], hours: f64, least: usize) {
         from,
         hours,
         seed: 7,
+        mechanics: Mechanics::default(),
         faults: Vec::new(),
         speed: None,
     };

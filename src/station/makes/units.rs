@@ -17,7 +17,7 @@ use crate::{
         rotator_genius::{RotatorKind, WholeDegrees},
     },
     sim::{
-        InMemory, rc2000c,
+        InMemory, Mechanics, rc2000c,
         rotator_genius::{self, RotatorOptions},
         satrak,
     },
@@ -30,6 +30,8 @@ pub struct Surroundings<'a> {
     pub clock: Clock,
     /// What a unit that tracks by itself holds.
     pub elements: &'a [Elements],
+    /// Imperfections of all axes.
+    pub mechanics: Mechanics,
     /// Seed of all randomness.
     pub seed: u64,
 }
@@ -57,6 +59,7 @@ pub(super) fn satrak(antenna: &mut Antenna, around: &Surroundings<'_>) -> Arc<dy
         ends_deg,
         full_rate_deg_s: antenna.limits.maximum_rate_deg_s,
         minimum_elevation_deg: antenna.limits.minimum_elevation_deg,
+        mechanics: around.mechanics,
         seed: around.seed,
         ..usual
     };
@@ -94,6 +97,7 @@ pub(super) fn genius(antenna: &mut Antenna, around: &Surroundings<'_>) -> Arc<dy
     };
     let options = rotator_genius::Options {
         rotators,
+        mechanics: around.mechanics,
         seed: around.seed,
         ..rotator_genius::Options::default()
     };
@@ -127,6 +131,8 @@ pub(super) fn rc2000c(antenna: &mut Antenna, around: &Surroundings<'_>) -> Arc<d
         baud: connection.whole(&BAUD),
         azimuth: azimuth.unwrap_or(usual.azimuth),
         elevation: elevation.unwrap_or(usual.elevation),
+        mechanics: around.mechanics,
+        seed: around.seed,
         ..usual
     };
     let unit = rc2000c::Control::on_clock(&options, around.clock.clone());
@@ -150,5 +156,6 @@ fn counted(
     let (from, to) = (line.counts(from_deg)?, line.counts(to_deg)?);
     let travel: RangeInclusive<u16> = from.min(to)..=from.max(to);
     let counts_per_deg = f64::from(from.abs_diff(to)) / (to_deg - from_deg);
-    Some(rc2000c::AxisOptions { travel, full_rate_counts_s: rate_deg_s * counts_per_deg })
+    let full_rate_counts_s = rate_deg_s * counts_per_deg;
+    Some(rc2000c::AxisOptions { travel, full_rate_counts_s, counts_per_deg })
 }

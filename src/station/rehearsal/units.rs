@@ -17,7 +17,7 @@ use crate::{
     driver::{Dial, Outside, Stream, UnitLock},
     makes::{self, Surroundings},
     orbit::{Catalog, Elements},
-    sim::InMemory,
+    sim::{InMemory, Mechanics},
     station::{Antenna, AntennaId, Station},
 };
 
@@ -41,6 +41,7 @@ impl Units {
     pub(super) fn of(
         station: &mut Station,
         catalog: &Catalog,
+        mechanics: Mechanics,
         seed: u64,
         clock: &Clock,
     ) -> Result<(Self, Vec<String>), RehearsalError> {
@@ -52,7 +53,8 @@ impl Units {
         station.antennas.retain_mut(|antenna| {
             // Each has other numbers than its neighbour.
             let seed = seed.rotate_left(16) ^ u64::from(antenna.id.0);
-            let around = Surroundings { site, clock: clock.clone(), elements: &elements, seed };
+            let clock = clock.clone();
+            let around = Surroundings { site, clock, elements: &elements, mechanics, seed };
             let unit = makes::unit_in_memory(antenna, &around);
             let (id, name) = (antenna.id, antenna.name.clone());
             let has_unit = unit.is_some();

@@ -23,6 +23,11 @@ impl Prng {
         least.saturating_add(self.next() % span)
     }
 
+    /// Evenly distributed from -1 to 1.
+    pub(super) fn even(&mut self) -> f64 {
+        self.between(0, 2_000_000) as f64 / 1e6 - 1.0
+    }
+
     /// From the normal distribution of standard deviation 1, nearly: the sum of twelve even ones.
     pub(super) fn normal(&mut self) -> f64 {
         let even = |_| self.between(0, 1_000_000) as f64 / 1e6;

@@ -4,7 +4,10 @@
 use std::ops::RangeInclusive;
 
 use super::AxisOptions;
-use crate::protocol::rc2000c::{AxisDrive, Sense, Speed};
+use crate::{
+    protocol::rc2000c::{AxisDrive, Sense, Speed},
+    sim::mechanics::{DeadTime, Gear, Mechanics, MinimumRun, Sensor},
+};
 
 /// Share of slow speed in the full rate.
 const SLOW: f64 = 0.2;
@@ -44,7 +47,17 @@ pub(super) struct Trouble {
 pub(super) struct Axis {
     counts: f64,
     rate_counts_s: f64,
+    /// Goal that the unit has and reports.
     goal: Goal,
+    /// Goal that the drive obeys by now.
+    obeyed: Goal,
+    dead_time: DeadTime<Goal>,
+    minimum_run: MinimumRun,
+    gear: Gear,
+    sensor: Sensor,
+    counts_per_deg: f64,
+    /// Time from full rate to rest without power, seconds.
+    coasting_s: f64,
     travel: RangeInclusive<f64>,
     full_rate_counts_s: f64,
     /// What is left of the full rate, 0 to 1.
@@ -57,14 +70,27 @@ pub(super) struct Axis {
 }
 
 impl Axis {
-    pub(super) fn new(counts: u16, of: &AxisOptions, has_limit_alarm: bool) -> Self {
-        let [least, most] = [*of.travel.start(), *of.travel.end()].map(f64::from);
+    pub(super) fn new(
+        counts: u16,
+        options: &AxisOptions,
+        mechanics: &Mechanics,
+        seed: u64,
+        has_limit_alarm: bool,
+    ) -> Self {
+        let [least, most] = [*options.travel.start(), *options.travel.end()].map(f64::from);
         Self {
             counts: f64::from(counts).max(least).min(most),
             rate_counts_s: 0.0,
             goal: Goal::Still,
+            obeyed: Goal::Still,
+            dead_time: DeadTime::new(mechanics),
+            minimum_run: MinimumRun::new(mechanics),
+            gear: Gear::new(mechanics),
+            sensor: Sensor::new(mechanics, seed),
+            counts_per_deg: options.counts_per_deg,
+            coasting_s: mechanics.coasting_s(COAST_S),
             travel: least..=most,
-            full_rate_counts_s: of.full_rate_counts_s,
+            full_rate_counts_s: options.full_rate_counts_s,
             strength: 1.0,
             has_limit_alarm,
             trouble: Trouble::default(),
@@ -92,12 +118,12 @@ impl Axis {
 
     /// Deceleration of an axis without power.
     fn coast_counts_s2(&self) -> f64 {
-        self.full_rate_counts_s / COAST_S
+        self.full_rate_counts_s / self.coasting_s
     }
 
     /// Reading of the sensor.
     pub(super) fn counts(&self) -> u16 {
-        self.counts.round() as u16
+        (self.counts + self.sensor.error_deg() * self.counts_per_deg).round() as u16
     }
 
     /// Limit at which the axis stands.
@@ -144,7 +170,21 @@ impl Axis {
     }
 
     pub(super) fn stop(&mut self) {
-        self.goal = Goal::Still;
+        self.set_goal(Goal::Still);
+    }
+
+    /// The drive obeys after its dead time.
+    fn set_goal(&mut self, goal: Goal) {
+        self.goal = goal;
+        self.dead_time.command(goal);
+    }
+
+    /// The drive has reached its goal.
+    fn end(&mut self) {
+        self.obeyed = Goal::Still;
+        if self.dead_time.is_idle() {
+            self.goal = Goal::Still;
+        }
     }
 
     pub(super) fn jog(&mut self, sense: Sense, speed: Speed, duration_s: f64) {
@@ -165,7 +205,7 @@ impl Axis {
             self.alarm = None;
         }
         if self.alarm.is_none() {
-            self.goal = goal;
+            self.set_goal(goal);
             self.stalled_s = 0.0;
         }
     }
@@ -178,10 +218,16 @@ impl Axis {
 
     fn fail(&mut self, alarm: AxisDrive) {
         self.alarm = Some(alarm);
-        self.goal = Goal::Still;
+        self.dead_time.clear();
+        self.end();
     }
 
     pub(super) fn advance(&mut self, step_s: f64) {
+        self.sensor.advance(step_s);
+        if let Some(obeyed) = self.dead_time.advance(step_s) {
+            self.obeyed = obeyed;
+        }
+        self.minimum_run.advance(self.obeyed != Goal::Still, step_s);
         let is_commanded = self.goal != Goal::Still;
         if self.trouble.runs_away {
             self.fail(AxisDrive::Runaway);
@@ -199,8 +245,11 @@ impl Axis {
             }
             return;
         }
-        let (wanted_counts_s, powered_s) = match &mut self.goal {
+        let must_run_on = self.must_run_on();
+        let runs_on_counts_s = self.fast_counts_s().copysign(self.rate_counts_s);
+        let (wanted_counts_s, powered_s) = match &mut self.obeyed {
             Goal::Still => (0.0, step_s),
+            Goal::AutoMove(_) if must_run_on => (runs_on_counts_s, step_s),
             Goal::AutoMove(target) => {
                 let target = *target;
                 (self.approach(target, step_s), step_s)
@@ -212,18 +261,24 @@ impl Axis {
             }
         };
         self.turn(wanted_counts_s, powered_s);
-        if matches!(self.goal, Goal::Jog { left_s, .. } if left_s <= 0.0) {
-            self.goal = Goal::Still;
+        if matches!(self.obeyed, Goal::Jog { left_s, .. } if left_s <= 0.0) {
+            self.end();
             self.turn(0.0, step_s - powered_s);
         }
-        if let Goal::AutoMove(target) = self.goal
+        if let Goal::AutoMove(target) = self.obeyed
+            && !self.must_run_on()
             && (target - self.counts).abs() < ARRIVED_COUNTS
             && self.rate_counts_s.abs() <= self.coast_counts_s2() * step_s
         {
             self.counts = target;
             self.rate_counts_s = 0.0;
-            self.goal = Goal::Still;
+            self.end();
         }
+    }
+
+    /// The drive cannot be switched off yet.
+    fn must_run_on(&self) -> bool {
+        self.is_turning() && self.minimum_run.holds()
     }
 
     /// Turns for `step_s` while the rate approaches `wanted_counts_s`.
@@ -234,14 +289,15 @@ impl Axis {
         let max_change = step_s * ramp;
         let change = wanted_counts_s - self.rate_counts_s;
         self.rate_counts_s += change.clamp(-max_change, max_change);
-        self.counts += self.rate_counts_s * step_s;
+        let turned_deg = self.rate_counts_s * step_s / self.counts_per_deg;
+        self.counts += self.gear.turn(turned_deg) * self.counts_per_deg;
         let end = if self.rate_counts_s < 0.0 { *self.travel.start() } else { *self.travel.end() };
         let is_beyond = (self.counts - end) * self.rate_counts_s >= 0.0;
         if is_beyond && self.rate_counts_s != 0.0 {
             self.counts = end;
             self.rate_counts_s = 0.0;
-            if matches!(self.goal, Goal::Jog { .. }) {
-                self.goal = Goal::Still;
+            if matches!(self.obeyed, Goal::Jog { .. }) {
+                self.end();
                 if self.has_limit_alarm {
                     self.alarm = Some(AxisDrive::Limit);
                 }

@@ -3,7 +3,10 @@
 use std::net::SocketAddr;
 
 use super::{Fault, Options, Quirk, Simulator};
-use crate::sim::command_line::{Command, Serving, Simulated, StartError, serving};
+use crate::sim::{
+    Mechanics,
+    command_line::{Command, Serving, Simulated, StartError, serving},
+};
 
 /// `azel simulate rc2000`.
 pub const COMMAND: Command = Command::of::<Arguments>("rc2000");
@@ -24,11 +27,14 @@ struct Arguments {
     /// Trouble to make; may be repeated
     #[arg(long = "fault", value_name = "FAULT")]
     faults: Vec<Fault>,
+    #[command(flatten)]
+    mechanics: Mechanics,
 }
 
 impl Simulated for Arguments {
     async fn start(self) -> Result<Serving, StartError> {
         let options = Options {
+            mechanics: self.mechanics,
             quirks: self.quirks.into_iter().collect(),
             faults: self.faults.into_iter().collect(),
             ..Options::default()

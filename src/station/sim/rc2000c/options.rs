@@ -7,11 +7,8 @@ use std::ops::RangeInclusive;
 use std::time::Duration;
 
 use super::{Control, Fault, Quirk, Simulator, StoredSatellite, unit::Rc2000c};
-use crate::sim::harness::Switches;
+use crate::sim::{Mechanics, harness::Switches};
 use crate::{clock::Clock, protocol::rc2000c::Address};
-
-/// Seed without effect: nothing in this unit is random.
-const SEED: u64 = 1;
 
 /// Options of a simulated unit.
 #[derive(Debug, Clone)]
@@ -22,6 +19,8 @@ pub struct Options {
     pub satellites: Vec<StoredSatellite>,
     pub azimuth: AxisOptions,
     pub elevation: AxisOptions,
+    /// Imperfections of both axes.
+    pub mechanics: Mechanics,
     /// Oddities of firmware and wiring.
     pub quirks: BTreeSet<Quirk>,
     /// Failures.
@@ -32,6 +31,8 @@ pub struct Options {
     pub baud: u32,
     /// Maximum number of clients; more are closed at once.
     pub max_clients: usize,
+    /// Seed of all randomness.
+    pub seed: u64,
 }
 
 /// An axis, in counts of its sensor.
@@ -40,13 +41,16 @@ pub struct AxisOptions {
     pub travel: RangeInclusive<u16>,
     /// Full rate, counts a second.
     pub full_rate_counts_s: f64,
+    pub counts_per_deg: f64,
 }
 
 impl AxisOptions {
     /// From the counter-clockwise to the clockwise limit, half a turn; 20 counts are one degree.
-    pub const AZIMUTH: Self = Self { travel: 30..=3630, full_rate_counts_s: 40.0 };
+    pub const AZIMUTH: Self =
+        Self { travel: 30..=3630, full_rate_counts_s: 40.0, counts_per_deg: 20.0 };
     /// From the horizon to the zenith.
-    pub const ELEVATION: Self = Self { travel: 30..=1830, full_rate_counts_s: 40.0 };
+    pub const ELEVATION: Self =
+        Self { travel: 30..=1830, full_rate_counts_s: 40.0, counts_per_deg: 20.0 };
 }
 
 impl Default for Options {
@@ -58,11 +62,13 @@ impl Default for Options {
             satellites: StoredSatellite::demo(),
             azimuth: AxisOptions::AZIMUTH,
             elevation: AxisOptions::ELEVATION,
+            mechanics: Mechanics::default(),
             quirks: BTreeSet::new(),
             faults: BTreeSet::new(),
             latency: Duration::from_millis(15),
             baud: 9600,
             max_clients: 1,
+            seed: 1,
         }
     }
 }
@@ -75,9 +81,9 @@ impl Control {
 
     /// Like [`Self::new`], running by `clock`.
     pub fn on_clock(options: &Options, clock: Clock) -> Self {
-        let Options { quirks, faults, latency, .. } = options;
+        let Options { quirks, faults, latency, seed, .. } = options;
         let switches = Switches { quirks: quirks.clone(), faults: faults.clone() };
-        Self::start(Rc2000c::new(options), switches, *latency..=*latency, SEED, clock)
+        Self::start(Rc2000c::new(options), switches, *latency..=*latency, *seed, clock)
     }
 
     /// The local operator presses MODE: the line has no command any more, and the motion it

@@ -13,7 +13,10 @@ use super::satellites::StoredSatellite;
 use super::tracking::Tracking;
 use super::{AxisOptions, Fault, Options, Quirk, connection::Line};
 use crate::protocol::rc2000c::{Address, AxisDrive, Frame, PolarizationMotion, Submode};
-use crate::sim::harness::{self, Switches};
+use crate::sim::{
+    Mechanics,
+    harness::{self, Switches},
+};
 
 /// Time between two steps of the mount.
 const STEP: Duration = Duration::from_millis(50);
@@ -60,6 +63,8 @@ pub struct Rc2000c {
     elapsed: Duration,
     mode: Mode,
     axes: [AxisOptions; 2],
+    mechanics: Mechanics,
+    seed: u64,
     azimuth: Axis,
     elevation: Axis,
     /// Counts on a frozen display.
@@ -73,7 +78,8 @@ pub struct Rc2000c {
 
 impl Rc2000c {
     pub(super) fn new(options: &Options) -> Self {
-        let [az_counts, el_counts] = START_COUNTS;
+        let axes = [options.azimuth.clone(), options.elevation.clone()];
+        let [azimuth, elevation] = stand(START_COUNTS, &axes, &options.mechanics, options.seed);
         let mut unit = Self {
             address: options.address,
             baud: options.baud.max(1),
@@ -82,9 +88,11 @@ impl Rc2000c {
             faults: options.faults.clone(),
             elapsed: Duration::ZERO,
             mode: Mode::Manual,
-            axes: [options.azimuth.clone(), options.elevation.clone()],
-            azimuth: Axis::new(az_counts, &options.azimuth, false),
-            elevation: Axis::new(el_counts, &options.elevation, true),
+            axes,
+            mechanics: options.mechanics,
+            seed: options.seed,
+            azimuth,
+            elevation,
             frozen: None,
             feed: Feed::new(START_POLARIZATION),
             is_auto_polarization: false,
@@ -184,6 +192,20 @@ impl Rc2000c {
     }
 }
 
+/// Both axes at rest at these counts.
+fn stand(
+    [az_counts, el_counts]: [u16; 2],
+    [azimuth, elevation]: &[AxisOptions; 2],
+    mechanics: &Mechanics,
+    seed: u64,
+) -> [Axis; 2] {
+    let seed = seed.rotate_left(1);
+    [
+        Axis::new(az_counts, azimuth, mechanics, seed, false),
+        Axis::new(el_counts, elevation, mechanics, seed ^ 1, true),
+    ]
+}
+
 impl harness::Unit for Rc2000c {
     type Quirk = Quirk;
     type Fault = Fault;
@@ -220,10 +242,8 @@ impl harness::Unit for Rc2000c {
         self.elevation.set_strength(share);
     }
 
-    fn place(&mut self, [azimuth, elevation]: [u16; 2]) {
-        let [of_azimuth, of_elevation] = &self.axes;
-        self.azimuth = Axis::new(azimuth, of_azimuth, false);
-        self.elevation = Axis::new(elevation, of_elevation, true);
+    fn place(&mut self, counts: [u16; 2]) {
+        [self.azimuth, self.elevation] = stand(counts, &self.axes, &self.mechanics, self.seed);
         self.suffer();
     }
 

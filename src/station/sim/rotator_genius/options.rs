@@ -7,7 +7,7 @@ use std::ops::RangeInclusive;
 use std::time::Duration;
 
 use super::{Control, Fault, Quirk, Simulator, unit::RotatorGenius};
-use crate::sim::harness::Switches;
+use crate::sim::{Mechanics, harness::Switches};
 use crate::{
     clock::Clock,
     protocol::rotator_genius::{RotatorKind, WholeDegrees},
@@ -17,6 +17,8 @@ use crate::{
 #[derive(Debug, Clone)]
 pub struct Options {
     pub rotators: [RotatorOptions; 2],
+    /// Imperfections of both rotators.
+    pub mechanics: Mechanics,
     /// Oddities of the unit.
     pub quirks: BTreeSet<Quirk>,
     /// Failures.
@@ -60,6 +62,7 @@ impl Default for Options {
         let second = RotatorOptions { name, has_sensor: false, ..RotatorOptions::default() };
         Self {
             rotators: [RotatorOptions::default(), second],
+            mechanics: Mechanics::default(),
             quirks: BTreeSet::new(),
             faults: BTreeSet::new(),
             reply_delay: Duration::from_millis(5)..=Duration::from_millis(30),

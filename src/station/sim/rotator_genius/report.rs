@@ -88,7 +88,7 @@ mod tests {
     }
 
     fn rotor(position: Option<u16>, offset_deg: i16, name: &str) -> Rotor {
-        Rotor::new(&RotatorOptions {
+        Rotor::perfect(&RotatorOptions {
             name: name.to_owned(),
             position: angle(position.unwrap_or(0)),
             has_sensor: position.is_some(),
@@ -121,8 +121,8 @@ mod tests {
         };
         let one = documented("TOW1", [5, 350], RotatorKind::Azimuth);
         let two = documented("", [10, 60], RotatorKind::Elevation);
-        let mut one = Rotor::new(&RotatorOptions { stop_offset_deg: 0, ..one });
-        let two = Rotor::new(&RotatorOptions { stop_offset_deg: 1, has_sensor: false, ..two });
+        let mut one = Rotor::perfect(&RotatorOptions { stop_offset_deg: 0, ..one });
+        let two = Rotor::perfect(&RotatorOptions { stop_offset_deg: 1, has_sensor: false, ..two });
         one.rotate(Direction::Clockwise);
         let quirks = [Quirk::Narrow, Quirk::Active0, Quirk::LimitAscii].into();
         // The example says "inside", but by its own limits 100 degrees are outside.

@@ -5,6 +5,7 @@ use super::travel::Travel;
 use crate::protocol::rotator_genius::{
     Configuration, Direction, Moving, RotatorKind, WholeDegrees,
 };
+use crate::sim::mechanics::{DeadTime, Gear, Mechanics, MinimumRun, Sensor};
 
 /// Way that the rotator coasts from its full rate, degrees: the default stop offset.
 const COAST_DEG: f64 = 2.0;
@@ -47,10 +48,17 @@ pub(super) struct Rotor {
     place_deg: f64,
     rate_deg_s: f64,
     drive: Drive,
+    /// Direction in which the motor has power.
+    powered: Moving,
+    mechanics: Mechanics,
+    dead_time: DeadTime<Moving>,
+    minimum_run: MinimumRun,
+    gear: Gear,
+    sensor: Sensor,
 }
 
 impl Rotor {
-    pub(super) fn new(options: &RotatorOptions) -> Self {
+    pub(super) fn new(options: &RotatorOptions, mechanics: &Mechanics, seed: u64) -> Self {
         let travel = travel(options.limit_cw, options.limit_ccw);
         Self {
             name: options.name.clone(),
@@ -70,6 +78,12 @@ impl Rotor {
             place_deg: travel.place(degrees(options.position)),
             rate_deg_s: 0.0,
             drive: Drive::Off,
+            powered: Moving::Stopped,
+            mechanics: *mechanics,
+            dead_time: DeadTime::new(mechanics),
+            minimum_run: MinimumRun::new(mechanics),
+            gear: Gear::new(mechanics),
+            sensor: Sensor::new(mechanics, seed),
         }
     }
 
@@ -80,7 +94,7 @@ impl Rotor {
 
     /// Reading of the sensor.
     pub(super) fn measured(&self) -> Option<WholeDegrees> {
-        self.can_measure().then(|| self.frozen.unwrap_or_else(|| self.angle()))
+        self.can_measure().then(|| self.frozen.unwrap_or_else(|| self.sensed()))
     }
 
     /// By the sensor; `false` without one.
@@ -119,10 +133,22 @@ impl Rotor {
         self.place_deg = self.travel.place(degrees(angle));
         self.rate_deg_s = 0.0;
         self.drive = Drive::Off;
+        self.cut_power();
     }
 
     pub(super) fn stop(&mut self) {
-        self.drive = Drive::Off;
+        self.switch(Drive::Off);
+    }
+
+    /// Switches the drive; the motor obeys after the dead time.
+    fn switch(&mut self, drive: Drive) {
+        self.drive = drive;
+        self.dead_time.command(self.moving());
+    }
+
+    fn cut_power(&mut self) {
+        self.dead_time.clear();
+        self.powered = Moving::Stopped;
     }
 
     /// Returns `false`, and does nothing, without a sensor or beyond the limits.
@@ -144,7 +170,7 @@ impl Rotor {
             return false;
         }
         if self.is_outside_limits() {
-            self.drive = Drive::Free(direction);
+            self.switch(Drive::Free(direction));
         } else {
             let limit = match direction {
                 Direction::Clockwise => self.limit_cw,
@@ -157,7 +183,7 @@ impl Rotor {
 
     fn set_out(&mut self, target: WholeDegrees, direction: Direction) {
         self.place_deg = self.travel.nearest(self.place_deg);
-        self.drive = Drive::To { target, start: self.angle(), direction };
+        self.switch(Drive::To { target, start: self.angle(), direction });
     }
 
     /// Adopts all of a configuration but the name, and stops the drive.
@@ -169,7 +195,7 @@ impl Rotor {
         self.stop_offset_deg = configuration.stop_offset_deg();
         self.travel = travel(self.limit_cw, self.limit_ccw);
         self.place_deg = self.travel.place(angle_deg);
-        self.drive = Drive::Off;
+        self.stop();
     }
 
     /// Sets the faults. The drive of a rotator that loses its sensor stops.
@@ -177,7 +203,7 @@ impl Rotor {
         self.is_sensor_broken = is_sensor_broken;
         self.is_stuck = is_stuck;
         if !self.can_measure() {
-            self.drive = Drive::Off;
+            self.stop();
         }
     }
 
@@ -187,32 +213,37 @@ impl Rotor {
 
     /// Sets the errors of the status.
     pub(super) fn set_lies(&mut self, is_frozen: bool, rests_falsely: bool) {
-        let angle = self.frozen.unwrap_or_else(|| self.angle());
+        let angle = self.frozen.unwrap_or_else(|| self.sensed());
         self.frozen = is_frozen.then_some(angle);
         self.rests_falsely = rests_falsely;
     }
 
     pub(super) fn advance(&mut self, step_s: f64) {
-        if self.has_arrived() {
+        if let Some(powered) = self.dead_time.advance(step_s) {
+            self.powered = powered;
+        }
+        self.minimum_run.advance(self.powered != Moving::Stopped, step_s);
+        let may_end = self.powered == Moving::Stopped || !self.minimum_run.holds();
+        if self.has_arrived() && may_end {
             self.drive = Drive::Off;
+            self.cut_power();
         }
         let rate = self.full_rate_deg_s * self.strength;
-        let wanted = match self.moving() {
+        let wanted = match self.powered {
             Moving::Stopped => 0.0,
             Moving::Clockwise => rate,
             Moving::CounterClockwise => -rate,
         };
-        let ramp = self.ramp_deg_s2() * step_s;
+        let own_s = 2.0 * COAST_DEG / self.full_rate_deg_s;
+        let is_coasting = self.powered == Moving::Stopped;
+        let ramp_s = if is_coasting { self.mechanics.coasting_s(own_s) } else { own_s };
+        let ramp = self.full_rate_deg_s / ramp_s * step_s;
         self.rate_deg_s += (wanted - self.rate_deg_s).clamp(-ramp, ramp);
         if self.is_stuck {
             self.rate_deg_s = 0.0;
         }
-        self.place_deg += self.rate_deg_s * step_s;
-    }
-
-    /// Ramp up and coasting down.
-    fn ramp_deg_s2(&self) -> f64 {
-        self.full_rate_deg_s * self.full_rate_deg_s / (2.0 * COAST_DEG)
+        self.place_deg += self.gear.turn(self.rate_deg_s * step_s);
+        self.sensor.advance(step_s);
     }
 
     /// Whether the target is within the stop offset, or passed.
@@ -232,6 +263,16 @@ impl Rotor {
 
     fn angle(&self) -> WholeDegrees {
         WholeDegrees::nearest(self.angle_deg()).unwrap_or(WholeDegrees::MAX)
+    }
+
+    fn sensed(&self) -> WholeDegrees {
+        let sensed_deg = self.angle_deg() + self.sensor.error_deg();
+        // An elevation below the horizon is reported as 0.
+        let sensed_deg = match self.kind {
+            RotatorKind::Elevation => sensed_deg.max(0.0),
+            RotatorKind::Azimuth => sensed_deg.rem_euclid(360.0),
+        };
+        WholeDegrees::nearest(sensed_deg).unwrap_or(WholeDegrees::MAX)
     }
 }
 

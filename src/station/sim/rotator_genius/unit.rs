@@ -57,8 +57,12 @@ pub struct RotatorGenius {
 
 impl RotatorGenius {
     pub(super) fn new(options: &Options) -> Self {
+        let [first, second] = &options.rotators;
+        let rotor = |rotator, number| {
+            Rotor::new(rotator, &options.mechanics, options.seed.rotate_left(1) ^ number)
+        };
         Self {
-            rotors: options.rotators.each_ref().map(Rotor::new),
+            rotors: [rotor(first, 0), rotor(second, 1)],
             panic: 0,
             refuses: false,
             elapsed: Duration::ZERO,

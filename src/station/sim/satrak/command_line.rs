@@ -8,7 +8,10 @@ use super::{BUNDLED_FILE, Fault, Options, Quirk, Simulator};
 use crate::{
     astro::Site,
     orbit,
-    sim::command_line::{Command, Serving, Simulated, StartError, serving},
+    sim::{
+        Mechanics,
+        command_line::{Command, Serving, Simulated, StartError, serving},
+    },
 };
 
 /// `azel simulate satrak`.
@@ -30,6 +33,8 @@ struct Arguments {
     /// Trouble to make; may be repeated
     #[arg(long = "fault", value_name = "FAULT")]
     faults: Vec<Fault>,
+    #[command(flatten)]
+    mechanics: Mechanics,
 }
 
 /// Starts at the usual site, with the bundled elements.
@@ -39,6 +44,7 @@ impl Simulated for Arguments {
         let options = Options {
             elements: [(BUNDLED_FILE.to_owned(), elements)].into(),
             element_folder: self.element_folder,
+            mechanics: self.mechanics,
             quirks: self.quirks.into_iter().collect(),
             faults: self.faults.into_iter().collect(),
             ..Options::new(Site::default(), Timestamp::now())

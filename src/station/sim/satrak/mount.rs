@@ -5,6 +5,7 @@ mod axis;
 
 use crate::astro::xy_mount::{AxisAngles, axes_from_azel, azel_from_axes};
 use crate::astro::{Angle, AzEl};
+use crate::sim::Mechanics;
 
 use self::axis::{Axis, ZENITH_DEG};
 
@@ -16,11 +17,17 @@ pub(super) struct Mount {
 }
 
 impl Mount {
-    /// A mount parked at the zenith, with these ends of the travel and this full rate of both
-    /// axes.
-    pub(super) fn new(ends_deg: [f64; 2], full_rate_deg_s: f64) -> Self {
-        let axis = Axis::parked(ends_deg, full_rate_deg_s);
-        Self { x: axis, y: axis }
+    /// A mount parked at the zenith, with these ends of the travel, full rate and imperfections of
+    /// both axes.
+    pub(super) fn new(
+        ends_deg: [f64; 2],
+        full_rate_deg_s: f64,
+        mechanics: &Mechanics,
+        seed: u64,
+    ) -> Self {
+        let seed = seed.rotate_left(1);
+        let axis = |number| Axis::parked(ends_deg, full_rate_deg_s, mechanics, seed ^ number);
+        Self { x: axis(0), y: axis(1) }
     }
 
     /// Puts both axes there at once.
@@ -60,6 +67,11 @@ impl Mount {
         self.y.advance(step_s);
     }
 
+    /// Readings of the sensors minus the angles, degrees.
+    pub(super) fn errors_deg(&self) -> [f64; 2] {
+        [self.x.error_deg(), self.y.error_deg()]
+    }
+
     pub(super) fn set_drive_scales(&mut self, x: f64, y: f64) {
         self.x.set_drive_scale(x);
         self.y.set_drive_scale(y);
@@ -93,6 +105,8 @@ pub(super) fn azel_from_xy([x_deg, y_deg]: [f64; 2], lower_axis: Angle) -> AzEl 
 
 #[cfg(test)]
 mod tests {
+    use std::time::Duration;
+
     use super::axis::RAMP_S;
     use super::*;
     use crate::protocol::satrak::AxisMotion;
@@ -101,7 +115,7 @@ mod tests {
     const MAX_RATE_DEG_S: f64 = 5.0;
 
     fn mount() -> Mount {
-        Mount::new([5.0, 175.0], MAX_RATE_DEG_S)
+        Mount::new([5.0, 175.0], MAX_RATE_DEG_S, &Mechanics::default(), 1)
     }
 
     fn run(mount: &mut Mount, seconds: f64) -> Vec<f64> {
@@ -179,7 +193,7 @@ mod tests {
 
     #[test]
     fn a_weak_drive_is_slower_and_the_travel_is_that_of_the_mount() {
-        let mut mount = Mount::new([20.0, 160.0], 3.0);
+        let mut mount = Mount::new([20.0, 160.0], 3.0, &Mechanics::default(), 1);
         assert!(!mount.go_to([170.0, 90.0]));
         mount.set_strength(0.5);
         mount.x.run(5.0);
@@ -199,5 +213,69 @@ mod tests {
         run(&mut mount, 1.0);
         assert_eq!(mount.x.motion(), AxisMotion::Still);
         assert_eq!(mount.y.motion(), AxisMotion::Positive);
+    }
+
+    fn imperfect(mechanics: Mechanics) -> Mount {
+        Mount::new([5.0, 175.0], MAX_RATE_DEG_S, &mechanics, 7)
+    }
+
+    #[test]
+    fn a_late_drive_starts_and_stops_late_and_then_follows_without_lag() {
+        let dead_time = Duration::from_millis(500);
+        let mut mount = imperfect(Mechanics { dead_time, ..Mechanics::default() });
+        assert!(mount.go_to([130.0, 90.0]));
+        assert!(run(&mut mount, 0.5).iter().all(|deg| *deg == 90.0));
+        run(&mut mount, 2.0);
+        let deg = mount.x.angle_deg();
+        mount.stop();
+        run(&mut mount, 0.5);
+        assert!((mount.x.angle_deg() - deg - 2.5).abs() < 0.2, "at full rate");
+        run(&mut mount, 5.0);
+        assert!(!mount.is_moving());
+        let from = mount.x.angle_deg();
+        for step in 0..200 {
+            let target = from + 2.0 * f64::from(step) * STEP_S;
+            mount.follow([target, 90.0], STEP_S);
+            mount.advance(STEP_S);
+            let off = target - mount.x.angle_deg();
+            match step {
+                0..10 => assert_eq!(mount.x.angle_deg(), from, "{step}"),
+                100.. => assert!(off.abs() < 0.01, "{step} {off}"),
+                _ => {}
+            }
+        }
+    }
+
+    #[test]
+    fn coasting_minimum_run_play_and_noise_are_as_told() {
+        let coasting = Some(Duration::from_secs(3));
+        let mut mount = imperfect(Mechanics { coasting, ..Mechanics::default() });
+        mount.x.run(5.0);
+        run(&mut mount, 3.0);
+        let deg = mount.x.angle_deg();
+        mount.stop();
+        run(&mut mount, 3.5);
+        assert!((mount.x.angle_deg() - deg - 7.5).abs() < 0.3 && !mount.is_moving());
+
+        let minimum_run = Duration::from_secs(1);
+        let mut mount = imperfect(Mechanics { minimum_run, ..Mechanics::default() });
+        assert!(mount.go_to([90.2, 90.0]));
+        let farthest = run(&mut mount, 10.0).into_iter().fold(0.0, f64::max);
+        assert!(farthest > 91.0 && (mount.x.angle_deg() - 90.2).abs() < 1e-9, "{farthest}");
+
+        let mut mount = imperfect(Mechanics { backlash_deg: 1.0, ..Mechanics::default() });
+        assert!(mount.go_to([90.2, 90.0]));
+        // Half a degree of play first.
+        assert!(run(&mut mount, 0.4).iter().all(|deg| *deg == 90.0));
+        run(&mut mount, 5.0);
+        assert!((mount.x.angle_deg() - 90.2).abs() < 1e-9 && !mount.is_moving());
+
+        let mut mount = imperfect(Mechanics { noise_deg: 0.3, ..Mechanics::default() });
+        let errors = (0..1000).map(|_| {
+            mount.advance(STEP_S);
+            mount.errors_deg()[0]
+        });
+        let widest = errors.map(f64::abs).fold(0.0, f64::max);
+        assert!((0.25..=0.3).contains(&widest), "{widest}");
     }
 }

@@ -11,7 +11,7 @@ use jiff::{SignedDuration, Timestamp};
 
 use super::{Control, Fault, Quirk, Simulator, unit::Satrak};
 use crate::orbit::Elements;
-use crate::sim::harness::Switches;
+use crate::sim::{Mechanics, harness::Switches};
 use crate::{
     astro::{Angle, Site},
     clock::Clock,
@@ -48,6 +48,8 @@ pub struct Options {
     pub ends_deg: [f64; 2],
     /// Full rate of both axes, degrees a second.
     pub full_rate_deg_s: f64,
+    /// Imperfections of both axes.
+    pub mechanics: Mechanics,
     /// Lowest elevation that the unit is set to, degrees.
     pub minimum_elevation_deg: f64,
     /// Time from the start until GPS is locked.
@@ -76,6 +78,7 @@ impl Options {
             lower_axis: Angle::ZERO,
             ends_deg: [5.0, 175.0],
             full_rate_deg_s: 5.0,
+            mechanics: Mechanics::default(),
             minimum_elevation_deg: 3.0,
             gps_lock_after: Duration::from_secs(8),
             clock_is_unset: false,

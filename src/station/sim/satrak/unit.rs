@@ -106,7 +106,12 @@ impl Satrak {
             clock_error,
             is_clock_from_gps: false,
             had_gps_lock: false,
-            mount: Mount::new(options.ends_deg, options.full_rate_deg_s),
+            mount: Mount::new(
+                options.ends_deg,
+                options.full_rate_deg_s,
+                &options.mechanics,
+                options.seed,
+            ),
             tracking: Tracking::default(),
             memory: Memory::default(),
             late: Duration::ZERO,
@@ -159,7 +164,9 @@ impl Satrak {
             None => {}
         }
         self.mount.advance(step_s);
-        let measured = self.misread_xy_deg(self.measured_xy_deg());
+        let [x_deg, y_deg] = self.misread_xy_deg(self.measured_xy_deg());
+        let [x_error_deg, y_error_deg] = self.mount.errors_deg();
+        let measured = [x_deg + x_error_deg, y_deg + y_error_deg];
         for ((last, now), sensor) in
             self.last_xy_deg.iter_mut().zip(measured).zip([FaultKind::XSensor, FaultKind::YSensor])
         {

@@ -1,9 +1,15 @@
+use std::time::Duration;
+
 use super::*;
 
 const STEP_S: f64 = 0.05;
 
 fn axis() -> Axis {
-    Axis::new(1000, &AxisOptions::ELEVATION, true)
+    imperfect(Mechanics::default())
+}
+
+fn imperfect(mechanics: Mechanics) -> Axis {
+    Axis::new(1000, &AxisOptions::ELEVATION, &mechanics, 7, true)
 }
 
 fn run(axis: &mut Axis, seconds: f64) -> Vec<f64> {
@@ -110,4 +116,59 @@ fn current_and_runaway_are_alarms_too() {
     run(&mut axis, 2.0);
     assert_eq!(axis.drive(), AxisDrive::Runaway);
     assert!(axis.counts() > 1010 && axis.is_turning());
+}
+
+#[test]
+fn a_late_drive_starts_and_stops_late_but_says_at_once_what_it_does() {
+    let dead_time = Duration::from_millis(500);
+    let mut axis = imperfect(Mechanics { dead_time, ..Mechanics::default() });
+    axis.auto_move(1400);
+    assert_eq!(axis.drive(), AxisDrive::AutoMove);
+    assert!(run(&mut axis, 0.5).iter().all(|counts| *counts == 1000.0));
+    run(&mut axis, 2.0);
+    let counts = axis.counts;
+    axis.stop();
+    assert_eq!(axis.drive(), AxisDrive::Still);
+    run(&mut axis, 0.5);
+    assert!((axis.counts - counts - 20.0).abs() < 1.0, "at full rate");
+    // A jog whose time begins when the drive obeys.
+    run(&mut axis, 5.0);
+    axis.jog(Sense::Positive, Speed::Fast, 1.0);
+    run(&mut axis, 1.4);
+    assert_eq!(axis.drive(), AxisDrive::Moving(Sense::Positive));
+    run(&mut axis, 0.2);
+    assert_eq!(axis.drive(), AxisDrive::Still);
+}
+
+#[test]
+fn coasting_minimum_run_play_and_noise_are_as_told() {
+    let coasting = Some(Duration::from_secs(3));
+    let mut axis = imperfect(Mechanics { coasting, ..Mechanics::default() });
+    axis.jog(Sense::Positive, Speed::Fast, 1.0);
+    run(&mut axis, 1.0);
+    let counts = axis.counts;
+    run(&mut axis, 3.5);
+    // Half of 3 s at 40 counts a second.
+    assert!((axis.counts - counts - 60.0).abs() < 2.0 && !axis.is_turning());
+
+    let minimum_run = Duration::from_secs(1);
+    let mut axis = imperfect(Mechanics { minimum_run, ..Mechanics::default() });
+    axis.auto_move(1002);
+    let farthest = run(&mut axis, 10.0).into_iter().fold(0.0, f64::max);
+    assert!(farthest > 1020.0 && axis.counts() == 1002, "{farthest}");
+
+    let mut axis = imperfect(Mechanics { backlash_deg: 1.0, ..Mechanics::default() });
+    axis.auto_move(1005);
+    // Ten counts of play first.
+    assert!(run(&mut axis, 0.4).iter().all(|counts| *counts == 1000.0));
+    run(&mut axis, 5.0);
+    assert_eq!((axis.counts(), axis.drive()), (1005, AxisDrive::Still));
+
+    let mut axis = imperfect(Mechanics { noise_deg: 0.1, ..Mechanics::default() });
+    let mut readings = std::collections::BTreeSet::new();
+    for _ in 0..1000 {
+        axis.advance(STEP_S);
+        readings.insert(axis.counts());
+    }
+    assert_eq!(readings, (998..=1002).collect());
 }

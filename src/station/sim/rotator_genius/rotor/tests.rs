@@ -1,5 +1,7 @@
 //! Turns in steps of 50 ms.
 
+use std::time::Duration;
+
 use super::*;
 use crate::protocol::rotator_genius::{RotatorName, RotatorNumber};
 
@@ -10,12 +12,18 @@ fn angle(degrees: u16) -> WholeDegrees {
 }
 
 fn rotor(position: u16, [cw, ccw]: [u16; 2]) -> Rotor {
-    Rotor::new(&RotatorOptions {
+    Rotor::perfect(&RotatorOptions {
         position: angle(position),
         limit_cw: angle(cw),
         limit_ccw: angle(ccw),
         ..RotatorOptions::default()
     })
+}
+
+impl Rotor {
+    pub(in crate::sim::rotator_genius) fn perfect(options: &RotatorOptions) -> Self {
+        Self::new(options, &Mechanics::default(), 1)
+    }
 }
 
 /// Turns for a time and returns all angles on the way.
@@ -103,7 +111,10 @@ fn rate_and_ramp_stay_within_their_bounds() {
     let rates: Vec<f64> = angles.windows(2).map(|pair| (pair[1] - pair[0]) / STEP_S).collect();
     assert!(rates.iter().all(|rate| rate.abs() <= rotor.full_rate_deg_s + 1e-6));
     let ramps = rates.windows(2).map(|pair| (pair[1] - pair[0]) / STEP_S);
-    assert!(ramps.into_iter().all(|ramp| ramp.abs() <= rotor.ramp_deg_s2() + 1e-6));
+    assert!(
+        ramps.into_iter().all(|ramp| ramp.abs() <= 4.0 + 1e-6),
+        "from 4 degrees a second in 2 degrees"
+    );
 }
 
 #[test]
@@ -129,4 +140,63 @@ fn new_limits_leave_it_where_it_is() {
     rotor.configure(&configuration.unwrap());
     assert_eq!(rotor.measured(), Some(angle(100)));
     assert!(rotor.is_outside_limits());
+}
+
+fn imperfect(mechanics: Mechanics) -> Rotor {
+    Rotor::new(&RotatorOptions { position: angle(100), ..RotatorOptions::default() }, &mechanics, 7)
+}
+
+#[test]
+fn a_late_drive_starts_and_stops_late_but_says_at_once_what_it_does() {
+    let mut rotor =
+        imperfect(Mechanics { dead_time: Duration::from_millis(500), ..Mechanics::default() });
+    assert!(rotor.go_to(angle(200)));
+    assert_eq!(rotor.moving(), Moving::Clockwise);
+    assert!(run(&mut rotor, 0.5).iter().all(|deg| *deg == 100.0));
+    run(&mut rotor, 3.0);
+    let at_stop_deg = rotor.angle_deg();
+    rotor.stop();
+    assert_eq!(rotor.moving(), Moving::Stopped);
+    run(&mut rotor, 0.5);
+    assert!((rotor.angle_deg() - at_stop_deg - 2.0).abs() < 0.1, "at full rate");
+    run(&mut rotor, 5.0);
+    assert!((rotor.angle_deg() - at_stop_deg - 4.0).abs() < 0.3 && !rotor.is_turning());
+}
+
+#[test]
+fn it_coasts_and_runs_on_as_long_as_it_is_told() {
+    let coasting = Some(Duration::from_secs(3));
+    let mut rotor = imperfect(Mechanics { coasting, ..Mechanics::default() });
+    assert!(rotor.go_to(angle(200)));
+    run(&mut rotor, 60.0);
+    // Half of 3 s at 4 degrees a second, from 2 degrees before the target.
+    assert!((rotor.angle_deg() - 204.0).abs() < 0.3, "{}", rotor.angle_deg());
+
+    let minimum_run = Duration::from_secs(2);
+    let mut rotor = imperfect(Mechanics { minimum_run, ..Mechanics::default() });
+    assert!(rotor.go_to(angle(101)));
+    run(&mut rotor, 30.0);
+    assert!(rotor.angle_deg() > 105.0, "{}", rotor.angle_deg());
+}
+
+#[test]
+fn play_and_noise_show_in_the_readings() {
+    let mut rotor = imperfect(Mechanics { backlash_deg: 3.0, ..Mechanics::default() });
+    assert!(rotor.go_to(angle(120)));
+    run(&mut rotor, 20.0);
+    assert!(rotor.go_to(angle(100)));
+    let deg = rotor.angle_deg();
+    // At 4 degrees a second it would have turned by more.
+    run(&mut rotor, 1.0);
+    assert_eq!(rotor.angle_deg(), deg);
+    run(&mut rotor, 20.0);
+    assert_eq!(rotor.measured(), Some(angle(100)));
+
+    let mut rotor = imperfect(Mechanics { noise_deg: 1.0, ..Mechanics::default() });
+    let mut readings = std::collections::BTreeSet::new();
+    for _ in 0..1000 {
+        rotor.advance(STEP_S);
+        readings.extend(rotor.measured());
+    }
+    assert_eq!(readings, [99, 100, 101].map(angle).into());
 }

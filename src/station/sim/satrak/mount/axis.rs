@@ -1,6 +1,9 @@
 //! A driven axis. The ramp is the simulator's own choice.
 
-use crate::protocol::satrak::AxisMotion;
+use crate::{
+    protocol::satrak::AxisMotion,
+    sim::mechanics::{DeadTime, Gear, Mechanics, MinimumRun, Sensor},
+};
 
 /// Reading at the zenith, degrees.
 pub(super) const ZENITH_DEG: f64 = 90.0;
@@ -23,11 +26,18 @@ enum Goal {
 }
 
 /// A driven axis.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone)]
 pub(in crate::sim::satrak) struct Axis {
     angle_deg: f64,
     rate_deg_s: f64,
+    /// Goal that the drive obeys by now.
     goal: Goal,
+    dead_time: DeadTime<Goal>,
+    minimum_run: MinimumRun,
+    gear: Gear,
+    sensor: Sensor,
+    /// Time from full rate to rest without power, seconds.
+    coasting_s: f64,
     /// Both ends of the travel.
     ends_deg: [f64; 2],
     full_rate_deg_s: f64,
@@ -40,12 +50,22 @@ pub(in crate::sim::satrak) struct Axis {
 
 impl Axis {
     /// At the zenith, or as near to it as its travel goes.
-    pub(super) fn parked([lower_deg, upper_deg]: [f64; 2], full_rate_deg_s: f64) -> Self {
+    pub(super) fn parked(
+        [lower_deg, upper_deg]: [f64; 2],
+        full_rate_deg_s: f64,
+        mechanics: &Mechanics,
+        seed: u64,
+    ) -> Self {
         let ends_deg = [lower_deg.min(upper_deg), upper_deg.max(lower_deg)];
         Self {
             angle_deg: within(ends_deg, ZENITH_DEG),
             rate_deg_s: 0.0,
             goal: Goal::Still,
+            dead_time: DeadTime::new(mechanics),
+            minimum_run: MinimumRun::new(mechanics),
+            gear: Gear::new(mechanics),
+            sensor: Sensor::new(mechanics, seed),
+            coasting_s: mechanics.coasting_s(RAMP_S),
             ends_deg,
             full_rate_deg_s,
             strength: 1.0,
@@ -58,6 +78,7 @@ impl Axis {
         self.angle_deg = within(self.ends_deg, angle_deg);
         self.rate_deg_s = 0.0;
         self.goal = Goal::Still;
+        self.dead_time.clear();
     }
 
     pub(super) fn reaches(&self, angle_deg: f64) -> bool {
@@ -90,6 +111,11 @@ impl Axis {
         self.angle_deg
     }
 
+    /// Reading of the sensor minus the angle, degrees.
+    pub(super) fn error_deg(&self) -> f64 {
+        self.sensor.error_deg()
+    }
+
     pub(in crate::sim::satrak) fn motion(&self) -> AxisMotion {
         if self.rate_deg_s > 0.0 {
             AxisMotion::Positive
@@ -109,14 +135,14 @@ impl Axis {
     }
 
     pub(in crate::sim::satrak) fn stop(&mut self) {
-        self.goal = Goal::Still;
+        self.dead_time.command(Goal::Still);
     }
 
     /// Runs until told otherwise, or to the end of the travel.
     pub(in crate::sim::satrak) fn run(&mut self, rate_deg_s: f64) {
         let max_rate = self.max_rate_deg_s();
         let rate = (rate_deg_s * self.drive_scale).clamp(-max_rate, max_rate);
-        self.goal = if rate == 0.0 { Goal::Still } else { Goal::Rate(rate) };
+        self.dead_time.command(if rate == 0.0 { Goal::Still } else { Goal::Rate(rate) });
     }
 
     pub(in crate::sim::satrak) fn step(&mut self, by_deg: f64) {
@@ -126,35 +152,50 @@ impl Axis {
     }
 
     pub(super) fn go_to(&mut self, angle_deg: f64) {
-        self.goal = Goal::Angle(within(self.ends_deg, angle_deg));
+        self.dead_time.command(Goal::Angle(within(self.ends_deg, angle_deg)));
     }
 
     pub(super) fn follow(&mut self, angle_deg: f64, step_s: f64) {
         let angle = within(self.ends_deg, angle_deg);
-        let rate = match self.goal {
-            Goal::Follow(before, _) => (angle - before) / step_s,
-            _ => 0.0,
+        let newest = match self.dead_time.newest_mut() {
+            Some(newest) => newest,
+            None => &mut self.goal,
         };
-        self.goal = Goal::Follow(angle, rate);
+        if let Goal::Follow(before, _) = *newest {
+            *newest = Goal::Follow(angle, (angle - before) / step_s);
+        } else {
+            self.dead_time.command(Goal::Follow(angle, 0.0));
+        }
     }
 
     pub(super) fn advance(&mut self, step_s: f64) {
+        self.sensor.advance(step_s);
+        if let Some(goal) = self.dead_time.advance(step_s) {
+            self.goal = goal;
+        }
+        self.minimum_run.advance(self.goal != Goal::Still, step_s);
         if self.is_motor_dead {
             self.rate_deg_s = 0.0;
             return;
         }
+        let max_rate = self.max_rate_deg_s();
         let wanted = match self.goal {
             Goal::Still => 0.0,
             Goal::Rate(rate) => rate,
+            Goal::Angle(_) if self.must_run_on() => max_rate.copysign(self.rate_deg_s),
             Goal::Angle(angle) => self.approach(angle, step_s),
             Goal::Follow(angle, rate) => rate + self.approach(angle - rate * step_s, step_s),
         };
-        let ramp = self.ramp_deg_s2() * step_s;
-        let max_rate = self.max_rate_deg_s();
+        let ramp_deg_s2 = match self.goal {
+            Goal::Still => self.full_rate_deg_s / self.coasting_s,
+            Goal::Rate(_) | Goal::Angle(_) | Goal::Follow(..) => self.ramp_deg_s2(),
+        };
+        let ramp = ramp_deg_s2 * step_s;
         let wanted = wanted.clamp(-max_rate, max_rate);
         self.rate_deg_s += (wanted - self.rate_deg_s).clamp(-ramp, ramp);
-        self.angle_deg += self.rate_deg_s * step_s;
+        self.angle_deg += self.gear.turn(self.rate_deg_s * step_s);
         if let Goal::Angle(angle) = self.goal
+            && !self.must_run_on()
             && (self.angle_deg - angle).abs() < ARRIVED_DEG
             && self.rate_deg_s.abs() <= ramp
         {
@@ -169,6 +210,11 @@ impl Axis {
                 self.goal = Goal::Still;
             }
         }
+    }
+
+    /// The drive cannot be switched off yet.
+    fn must_run_on(&self) -> bool {
+        self.rate_deg_s != 0.0 && self.minimum_run.holds()
     }
 
     /// Fastest rate from which the axis can still halt at `angle_deg`.
