@@ -13,6 +13,7 @@
 mod common;
 mod declared;
 mod documents;
+mod drawn_rehearsals;
 mod driver_turns;
 mod elements_any;
 mod elements_forms;

@@ -24,7 +24,10 @@ use crate::{
     rehearsal::{self, Fault, Rehearsal, Rehearsed, RehearsedPass},
     sim::Mechanics,
     station::{self, Station},
-    ui::words::rehearsal::{outcome, verdict},
+    ui::words::{
+        automatic::day_line,
+        rehearsal::{outcome, verdict},
+    },
 };
 
 /// Highest speed besides the highest possible, in multiples of real time.
@@ -48,7 +51,7 @@ pub(super) struct Options {
     #[arg(long, value_name = "SPEED", default_value = "max", value_parser = speed)]
     speed: Speed,
     /// Fault to add; may be repeated. Its kind first: link-lost, silence, noise, refusal,
-    /// slow-drives=SHARE or clock-late=MS; then, each after a comma, antenna=NAME (or all),
+    /// slow-drives=SHARE, clock-late=MS or late-replies=MS; then, each after a comma, antenna=NAME (or all),
     /// after=MIN from the start and for=S (or to the end)
     #[arg(long = "fault", value_name = "FAULT")]
     faults: Vec<Fault>,
@@ -91,6 +94,8 @@ pub(super) fn run(station: Option<&Path>, options: &Options) -> anyhow::Result<E
     let mut elements = Catalog::default();
     let read = list.into_iter().map(|satellite| satellite.elements).collect();
     elements.merge(ReadReport { elements: read, ..ReadReport::default() }, "rehearsal");
+    let names: Vec<_> =
+        station.antennas.iter().map(|antenna| (antenna.id, antenna.name.clone())).collect();
     let rehearsed = rehearsal::run(
         &Rehearsal {
             station: Station { site: place.site, ..station },
@@ -109,6 +114,11 @@ pub(super) fn run(station: Option<&Path>, options: &Options) -> anyhow::Result<E
     input::note("Rehearsal against simulated units: no antenna has moved.");
     for name in &rehearsed.left_out {
         input::note(&format!("{name} is left out: there is no simulated unit of its make."));
+    }
+    for line in &rehearsed.interruptions {
+        let name = names.iter().find(|(id, _)| *id == line.antenna).map(|(_, name)| name.as_str());
+        let (at, words) = (rfc3339(line.at), day_line(line, line.at));
+        input::note(&format!("{}, {at}: {words}", name.unwrap_or_default()));
     }
     let written = match options.format {
         Format::Table => written(|out| table(&rehearsed, out)),

@@ -599,6 +599,7 @@ fn the_plan_is_rehearsed_and_what_came_of_it_stands_beside_the_pass_as_a_rehears
         hours: 24.0,
         seed: 1,
         passes: vec![rehearsed],
+        interruptions: Vec::new(),
         left_out: Vec::new(),
     };
     window.state_mut().model.rehearsal =

@@ -27,8 +27,8 @@ pub enum FaultKind {
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 pub enum WrongFault {
     #[error(
-        "{0} is no fault; there are link-lost, silence, noise, refusal, slow-drives=SHARE and \
-         clock-late=MS"
+        "{0} is no fault; there are link-lost, silence, noise, refusal, slow-drives=SHARE, \
+         clock-late=MS and late-replies=MS"
     )]
     Kind(String),
     #[error("{0} says nothing of a fault; there are antenna=NAME, after=MIN and for=S")]
@@ -69,6 +69,7 @@ fn kind(word: &str) -> Result<FaultKind, WrongFault> {
             Trouble::SlowDrives(number)
         }
         Some(("clock-late", ms)) => Trouble::ClockLate(span(ms, 0.001)?),
+        Some(("late-replies", ms)) => Trouble::LateReplies(span(ms, 0.001)?),
         None if word == "link-lost" => return Ok(FaultKind::LinkLost),
         None if word == "silence" => Trouble::Silence,
         None if word == "noise" => Trouble::Noise,
@@ -109,6 +110,8 @@ mod tests {
         let kind = |text: &str| text.parse::<Fault>().map(|fault| fault.kind);
         let late = Trouble::ClockLate(Duration::from_millis(250));
         assert_eq!(kind("clock-late=250"), Ok(FaultKind::OfUnit(late)));
+        let late = Trouble::LateReplies(Duration::from_millis(250));
+        assert_eq!(kind("late-replies=250"), Ok(FaultKind::OfUnit(late)));
         assert_eq!(kind("slow-drives=0.5"), Ok(FaultKind::OfUnit(Trouble::SlowDrives(0.5))));
         for (text, trouble) in [
             ("silence", Trouble::Silence),

@@ -28,6 +28,8 @@ pub struct Rehearsed {
     pub seed: u64,
     /// By start, then by antenna.
     pub passes: Vec<RehearsedPass>,
+    /// When automatic operation of an antenna ended or was suspended, and why.
+    pub interruptions: Vec<DayLine>,
     /// Names of the antennas whose make has no simulator.
     pub left_out: Vec<String>,
 }
@@ -88,15 +90,22 @@ pub(super) struct Passes {
     list: Vec<RehearsedPass>,
     /// Revision of the plan that was looked at last.
     revision: u64,
-    /// When automatic operation of an antenna went off, and why.
-    off: Vec<(AntennaId, Timestamp, OffBecause)>,
+    /// When automatic operation of an antenna ended or was suspended.
+    interruptions: Vec<DayLine>,
     /// When the last line of the day that was looked at was written.
     day_until: Option<Timestamp>,
 }
 
 impl Passes {
     pub(super) fn new(from: Timestamp, until: Timestamp) -> Self {
-        Self { from, until, list: Vec::new(), revision: 0, off: Vec::new(), day_until: None }
+        Self {
+            from,
+            until,
+            list: Vec::new(),
+            revision: 0,
+            interruptions: Vec::new(),
+            day_until: None,
+        }
     }
 
     pub(super) fn until(&self) -> Timestamp {
@@ -140,17 +149,22 @@ impl Passes {
         let since = self.day_until;
         let news = day.iter().filter(|line| since.is_none_or(|since| line.at > since));
         for line in news {
-            if let DayEvent::SwitchedOff(because) = line.what {
-                self.off.push((line.antenna, line.at, because));
-            }
-            let DayEvent::Flown(flown) = &line.what else { continue };
-            let (satellite, aos) = flown.pass;
-            if let Some(pass) = self.list.iter_mut().find(|it| it.is(line.antenna, satellite, aos))
-            {
-                pass.flown = Some(flown.clone());
+            match &line.what {
+                DayEvent::SwitchedOff(_) | DayEvent::Suspended(_) => {
+                    self.interruptions.push(line.clone());
+                }
+                DayEvent::SwitchedOn | DayEvent::WentOn => {}
+                DayEvent::Flown(flown) => self.take_flown(line.antenna, flown),
             }
         }
         self.day_until = day.last().map(|line| line.at).or(since);
+    }
+
+    fn take_flown(&mut self, antenna: AntennaId, flown: &Flown) {
+        let (satellite, aos) = flown.pass;
+        if let Some(pass) = self.list.iter_mut().find(|it| it.is(antenna, satellite, aos)) {
+            pass.flown = Some(flown.clone());
+        }
     }
 
     pub(super) fn take_report(&mut self, note: PassNote) {
@@ -172,17 +186,26 @@ impl Passes {
         station: &Station,
         left_out: Vec<String>,
     ) -> Rehearsed {
-        let Self { list: mut passes, off, .. } = self;
+        let Self { list: mut passes, interruptions, .. } = self;
         for pass in &mut passes {
             let antenna = station.antennas.iter().find(|antenna| antenna.id == pass.antenna);
-            let is_its =
-                |of: &&(AntennaId, Timestamp, OffBecause)| of.0 == pass.antenna && of.1 <= pass.to;
-            let last = off.iter().rfind(is_its).map(|(_, _, because)| *because);
-            pass.off = last.filter(|_| pass.flown.is_none());
+            let off = interruptions.iter().filter(|line| line.antenna == pass.antenna);
+            let off = off.filter(|line| line.at <= pass.to).filter_map(|line| match line.what {
+                DayEvent::SwitchedOff(because) => Some(because),
+                _ => None,
+            });
+            pass.off = off.last().filter(|_| pass.flown.is_none());
             pass.antenna_name = antenna.map(|antenna| antenna.name.clone()).unwrap_or_default();
         }
         passes.sort_by_key(|pass| (pass.from, pass.antenna, pass.satellite));
-        Rehearsed { from: what.from, hours: what.hours, seed: what.seed, passes, left_out }
+        Rehearsed {
+            from: what.from,
+            hours: what.hours,
+            seed: what.seed,
+            passes,
+            interruptions,
+            left_out,
+        }
     }
 }
 

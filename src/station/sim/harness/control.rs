@@ -39,6 +39,8 @@ struct Inner<U: Unit> {
     unit: U,
     switches: Switches<U::Quirk, U::Fault>,
     prng: Prng,
+    /// Replies take up to this much longer.
+    lateness: Duration,
     received: VecDeque<(Instant, U::Request)>,
 }
 
@@ -59,7 +61,13 @@ impl<U: Unit> Control<U> {
         clock: Clock,
     ) -> Self {
         unit.set_switches(&switches);
-        let inner = Inner { unit, switches, prng: Prng::new(seed), received: VecDeque::new() };
+        let inner = Inner {
+            unit,
+            switches,
+            prng: Prng::new(seed),
+            lateness: Duration::ZERO,
+            received: VecDeque::new(),
+        };
         let shared = Shared {
             started: clock.now().steady,
             clock,
@@ -152,8 +160,15 @@ impl<U: Unit> Control<U> {
     /// Random delay for the next reply.
     pub(in crate::sim) fn reply_delay(&self) -> Duration {
         let micros = |delay: &Duration| u64::try_from(delay.as_micros()).unwrap_or(u64::MAX);
-        let [least, most] = [self.shared.reply_delay.start(), self.shared.reply_delay.end()];
-        Duration::from_micros(self.random(&(micros(least)..=micros(most))))
+        let max = *self.shared.reply_delay.end() + self.lock().lateness;
+        Duration::from_micros(
+            self.random(&(micros(self.shared.reply_delay.start())..=micros(&max))),
+        )
+    }
+
+    /// Lets replies take up to `lateness` longer.
+    pub(super) fn set_lateness(&self, lateness: Duration) {
+        self.lock().lateness = lateness;
     }
 
     /// Random number in `range`.

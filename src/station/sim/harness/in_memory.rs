@@ -20,6 +20,8 @@ pub enum Trouble {
     SlowDrives(f64),
     /// The unit's own clock is late.
     ClockLate(Duration),
+    /// Replies take up to this much longer.
+    LateReplies(Duration),
     /// The sensors of the axes read something else.
     Misreads(Misreading),
 }
@@ -73,6 +75,9 @@ where
             Trouble::ClockLate(late) => {
                 let late = if is_on { late } else { Duration::ZERO };
                 return self.with_unit(|unit| unit.set_clock_late(late));
+            }
+            Trouble::LateReplies(lateness) => {
+                self.set_lateness(if is_on { lateness } else { Duration::ZERO });
             }
             Trouble::Misreads(misreading) => {
                 let misreading = if is_on { misreading } else { Misreading::default() };
