@@ -5,7 +5,7 @@ use std::time::Duration;
 use super::{
     APART, AxisFigures, AxisReading, SWINGS_BACK,
     lead::{COASTS, Lead, Live},
-    lessons::{DEAD_TIME, DeadTime, FASTEST_DEG_S, RunsPast, Spread},
+    lessons::{DEAD_TIME, DeadTime, FASTEST_DEG_S, RATE_APART, RunsPast, Spread},
     range::Range,
 };
 use crate::{clock::Instant, device::AxisMotion};
@@ -38,9 +38,8 @@ struct Known {
 /// When the axis was last seen to turn.
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct Turned {
-    /// The reading that later ones are compared with, degrees, and when it was asked for.
+    /// The reading that later ones are compared with, degrees.
     from_deg: f64,
-    from: Instant,
     at: Option<Instant>,
     is_up: bool,
 }
@@ -63,6 +62,8 @@ pub(super) struct AxisWatch {
     sent: Option<Instant>,
     starts: bool,
     turned: Option<Turned>,
+    /// The reading from which the rate is measured, degrees.
+    rate_from: Option<(f64, Instant)>,
     /// The unit said that it turned when it was read first.
     was_found_turning: bool,
     /// Somebody else moves it, and that was told.
@@ -85,6 +86,7 @@ impl AxisWatch {
             sent: None,
             starts: false,
             turned: None,
+            rate_from: None,
             was_found_turning: false,
             is_told: false,
             has_settled: false,
@@ -181,6 +183,7 @@ impl AxisWatch {
         self.known = None;
         self.outside = None;
         self.turned = None;
+        self.rate_from = None;
         self.has_settled = false;
         self.spread.turns();
     }
@@ -235,8 +238,9 @@ impl AxisWatch {
     fn begin(&mut self, angle_deg: f64, turns_deg: f64, at: Instant) {
         let deg = angle_deg + turns_deg;
         self.known = Some(Known { range: Range::about(deg, self.error_deg()), at, turns_deg });
-        self.turned = Some(Turned { from_deg: deg, from: at, at: Some(at), is_up: false });
+        self.turned = Some(Turned { from_deg: deg, at: Some(at), is_up: false });
         (self.outside, self.has_settled, self.starts) = (None, false, false);
+        self.rate_from = Some((deg, at));
         self.spread.turns();
         self.runs_past.forget();
         self.may_have_passed(at);
@@ -260,21 +264,17 @@ impl AxisWatch {
         }
         // Nobody knows what it did meanwhile.
         if let Some(turned) = self.turned.as_mut().filter(|_| gap.is_some_and(|gap| gap > UNSEEN)) {
-            (turned.from_deg, turned.from, turned.at) = (deg, at, Some(at));
+            (turned.from_deg, turned.at) = (deg, Some(at));
+            self.rate_from = Some((deg, at));
             self.has_settled = false;
             self.may_have_passed(at);
         }
-        let first = Turned { from_deg: deg, from: at, at: Some(at), is_up: false };
-        let Turned { from_deg, from, .. } = *self.turned.get_or_insert(first);
+        let first = Turned { from_deg: deg, at: Some(at), is_up: false };
+        let Turned { from_deg, .. } = *self.turned.get_or_insert(first);
+        self.measure_rate(deg, at);
         if (deg - from_deg).abs() > self.error_deg_of_two() {
             let is_up = deg > from_deg;
-            // Only towards an end do its drives turn it for certain.
-            let mut live = self.motions.iter().filter_map(|motion| motion.at(at));
-            let is_led = |motion: Live| {
-                if is_up { motion.up_to_deg > deg } else { motion.down_to_deg < deg }
-            };
-            if live.any(is_led) {
-                self.runs_past.turned((deg - from_deg).abs(), at.saturating_duration_since(from));
+            if self.is_led(is_up, deg, at) {
                 // A drive may start late.
                 self.has_settled = false;
             }
@@ -283,7 +283,7 @@ impl AxisWatch {
             {
                 self.dead_time.seen(at.saturating_duration_since(sent));
             }
-            self.turned = Some(Turned { from_deg: deg, from: at, at: Some(at), is_up });
+            self.turned = Some(Turned { from_deg: deg, at: Some(at), is_up });
             // It hunts.
             for motion in self
                 .motions
@@ -296,13 +296,35 @@ impl AxisWatch {
         }
     }
 
+    /// Returns `true` if a motion turns the axis up, or down, at `deg`. Only towards an end do its
+    /// drives turn it for certain.
+    fn is_led(&self, is_up: bool, deg: f64, at: Instant) -> bool {
+        let mut live = self.motions.iter().filter_map(|motion| motion.at(at));
+        live.any(|motion| if is_up { motion.up_to_deg > deg } else { motion.down_to_deg < deg })
+    }
+
+    /// Learns the rate between readings that are far enough apart, however often the axis is read.
+    fn measure_rate(&mut self, deg: f64, at: Instant) {
+        let (from_deg, from) = *self.rate_from.get_or_insert((deg, at));
+        let lasted = at.saturating_duration_since(from);
+        let turned_deg = (deg - from_deg).abs();
+        if lasted < RATE_APART || turned_deg <= self.error_deg_of_two() {
+            return;
+        }
+        if self.is_led(deg > from_deg, deg, at) {
+            self.runs_past.turned(turned_deg / lasted.as_secs_f64());
+        }
+        self.rate_from = Some((deg, at));
+    }
+
     /// Learns from a reading inside the interval.
     fn learn(&mut self, deg: f64, at: Instant) {
         if self.is_settled(at) {
             (self.has_settled, self.is_told) = (true, false);
             if let Some(turned) = &mut self.turned {
-                (turned.from_deg, turned.from) = (deg, at);
+                turned.from_deg = deg;
             }
+            self.rate_from = Some((deg, at));
             self.has_arrived(deg);
             return self.spread.stands(deg);
         }

@@ -17,7 +17,7 @@ pub(super) const FASTEST_DEG_S: f64 = 30.0;
 /// Without lessons: seconds at the fastest rate that an axis runs past the end of a motion.
 const COASTS_S: f64 = 2.7;
 /// A rate is taken between readings this far apart at least.
-const RATE_APART: Duration = Duration::from_millis(250);
+pub(super) const RATE_APART: Duration = Duration::from_millis(250);
 /// A motion may run past its end by this many times as much as those before.
 const MARGIN: f64 = 2.5;
 /// Motions count together up to these lengths, degrees: an axis runs further past the end of a longer
@@ -108,12 +108,10 @@ impl RunsPast {
         if self.are_steps { class + LENGTHS_DEG.len() } else { class }
     }
 
-    /// The axis has turned by so much between two readings.
-    pub(super) fn turned(&mut self, by_deg: f64, lasted: Duration) {
-        if lasted >= RATE_APART {
-            self.fastest_deg_s = self.fastest_deg_s.max(by_deg / lasted.as_secs_f64());
-            self.turns = self.turns.saturating_add(1);
-        }
+    /// The axis has turned at this rate between two readings, degrees a second.
+    pub(super) fn turned(&mut self, rate_deg_s: f64) {
+        self.fastest_deg_s = self.fastest_deg_s.max(rate_deg_s);
+        self.turns = self.turns.saturating_add(1);
     }
 
     /// The fastest that it turns, degrees a second.
